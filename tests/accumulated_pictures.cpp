@@ -1,8 +1,4 @@
 // view.accumulate: means of pictures with sub-pixel offsets.
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "accuracy/ground_truth.hpp"
 #include "frame/picture_offset.hpp"
 #include "frame/picture_tiles.hpp"
@@ -10,18 +6,17 @@
 #include "picture_support.hpp"
 #include "sampling.hpp"
 #include "scene_text.hpp"
+#include "test_headers.hpp"
 
 namespace speculum {
 namespace {
 
 using namespace testing_support;
 
-constexpr PictureSize size{64, 36};
+constexpr PictureSize size{48, 27};
 
 Options shipped(const std::string& scene, int pictures) {
-  Options options = headless(sourceFile("scenes/" + scene + ".toml"), size);
-  set(options, {{"view.accumulate", std::to_string(pictures)}});
-  return options;
+  return headless(sourceFile("scenes/" + scene + ".toml"), size, {{"view.accumulate", std::to_string(pictures)}});
 }
 
 Image8 shown(Session& session, int pictures) {
@@ -153,9 +148,8 @@ void drawTiles(Session& session, int number, size_t step, size_t end = SIZE_MAX)
 }
 
 Options inTiles(const std::string& scene) {
-  Options options = headless(sourceFile("scenes/" + scene + ".toml"), {130, 70});
-  set(options, {{"view.accumulate", "16"}, {"debug.check_finite", "false"}});
-  return options;
+  return headless(sourceFile("scenes/" + scene + ".toml"), {130, 70},
+                  {{"view.accumulate", "16"}, {"debug.check_finite", "false"}});
 }
 
 class Tiles : public testing::TestWithParam<const char*> {};
@@ -184,7 +178,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Tiles,
                                                : std::vector{"facing_mirrors", "mirror_ball"}));
 
 TEST(UnfinishedTiles, AreNotShownAndCanBeDropped) {
-  QuietSession session(inTiles("gallery"));
+  QuietSession session(inTiles("facing_mirrors"));
   set(session, {{"view.accumulate", "1"}});
   const LinearImage draft = drawRadiance(session, 1.0);
   set(session, {{"view.accumulate", "16"}});
@@ -225,9 +219,8 @@ TEST(MultisampledTiles, ChangeNoByte) {
 
 // A small rough mirror whose rays would be too many for one draw if it filled the picture.
 TEST(LongDraws, AreDividedWithoutATrace) {
-  Options options = headless(writeScene("small_rough", wallScene + "roughness = 0.3\n"), {64, 36});
-  set(options, {{"effects.rough_samples", "4096"}, {"view.scale", "1"}});
-  QuietSession session(options);
+  QuietSession session(headless(writeScene("small_rough", wallScene + "roughness = 0.3\n"), {64, 36},
+                                {{"effects.rough_samples", "4096"}, {"view.scale", "1"}}));
   session.setCamera(lookAt({0.0, 0.0, 60.0}, {0.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, 30.0, 0.1));
   const Image8 whole = draw(session);
   const std::vector<TimedPass> passes = session.lastFrame().passes();
@@ -247,9 +240,8 @@ TEST(LongDraws, AreDividedWithoutATrace) {
 // Rough mirrors trace other rays in each picture, so that the mean is as smooth as with more rays a pixel.
 TEST(Accumulation, RoughMirrorsDrawNewRandomNumbers) {
   for (const char* lookup : {"traced", "image"}) {
-    Options options = headless(writeScene("rough", wallScene + "roughness = 0.3\n"), {32, 18});
-    set(options, {{"effects.rough_lookup", lookup}, {"effects.rough_samples", "16"}});
-    QuietSession session(options);
+    QuietSession session(headless(writeScene("rough", wallScene + "roughness = 0.3\n"), {32, 18},
+                                  {{"effects.rough_lookup", lookup}, {"effects.rough_samples", "16"}}));
     shown(session, 16);  // 256 rays a pixel
     const LinearImage truth = session.radiance();
     const auto error = [&](int rays, int pictures) {

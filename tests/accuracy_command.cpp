@@ -1,9 +1,4 @@
 // `speculum accuracy` and what uses its results, as scripts call them.
-#include <gtest/gtest.h>
-
-#include <fstream>
-#include <memory>
-
 #include "accuracy/sweep_json.hpp"
 #include "command_support.hpp"
 #include "picture_support.hpp"
@@ -76,7 +71,7 @@ TEST_F(AccuracyCommand, ReportsErrorsOfItsPictures) {
   EXPECT_NEAR(readJson(out("c.json"))["rmse"].get<double>(), point.whole.rmse, 1e-9);
   EXPECT_EQ(readText(out("report/results.csv")).substr(0, 22), "name,settings,on_front");
   const std::string html = readText(out("report/index.html"));
-  EXPECT_NE(html.find("half \\u003cscale>"), std::string::npos);
+  EXPECT_TRUE(contains(html, "half \\u003cscale>"));
 }
 
 TEST_F(AccuracyCommand, SecondRunMeasuresNothing) {
@@ -92,7 +87,7 @@ TEST_F(AccuracyCommand, StoredSweepMeetsABudget) {
   const auto chosen = [&](const std::string& bound) {
     const ProcessResult result = render({"--set", bound});
     EXPECT_EQ(result.exitCode, 0) << result.output;
-    EXPECT_NE(result.output.find("quality: '"), std::string::npos) << result.output;
+    EXPECT_TRUE(contains(result.output, "quality: '"));
     return readJson(out("s.json"));
   };
   double bestFlip = 1.0;
@@ -116,28 +111,24 @@ TEST_F(AccuracyCommand, StoredSweepMeetsABudget) {
 }
 
 TEST_F(AccuracyCommand, MistakesAreOneLineAndExitTwo) {
-  EXPECT_NE(mistake({"accuracy", "--scene", scene_, "--out", out("r"), "--sweep", out("absent.toml")})
-                .find("absent.toml:1: file:"),
-            std::string::npos);
+  EXPECT_TRUE(contains(mistake({"accuracy", "--scene", scene_, "--out", out("r"), "--sweep", out("absent.toml")}),
+                       "absent.toml:1: file:"));
   std::ofstream(out("bad.toml")) << "[[configuration]]\nsettings = { \"reflection.scle\" = 1 }\n";
-  EXPECT_NE(mistake({"accuracy", "--scene", scene_, "--out", out("r"), "--sweep", out("bad.toml")})
-                .find("did you mean 'reflection.scale'?"),
-            std::string::npos);
+  EXPECT_TRUE(contains(mistake({"accuracy", "--scene", scene_, "--out", out("r"), "--sweep", out("bad.toml")}),
+                       "did you mean 'reflection.scale'?"));
   EXPECT_FALSE(fs::exists(out("r"))) << "bad input leaves nothing behind";
   std::ofstream(out("file")) << "x";
   mistake({"accuracy", "--scene", scene_, "--out", out("file"), "--sweep", out("sweep.toml")});
-  EXPECT_NE(mistake({"render", "--scene", scene_, "--out", out("p.png"), "--set", "quality.budget_ms=3"})
-                .find("--sweep-results"),
-            std::string::npos);
-  EXPECT_NE(mistake({"render", "--scene", scene_, "--out", out("p.png"), "--set", "quality.budget_ms=3",
-                     "--sweep-results", out("bad.toml")})
-                .find("not JSON"),
-            std::string::npos);
+  EXPECT_TRUE(contains(mistake({"render", "--scene", scene_, "--out", out("p.png"), "--set", "quality.budget_ms=3"}),
+                       "--sweep-results"));
+  EXPECT_TRUE(contains(mistake({"render", "--scene", scene_, "--out", out("p.png"), "--set", "quality.budget_ms=3",
+                                "--sweep-results", out("bad.toml")}),
+                       "not JSON"));
 }
 
 TEST_F(AccuracyCommand, BenchesTheReference) {
   const std::string output = succeed({"bench", "--reference", "--json", out("b.json")});
-  EXPECT_NE(output.find("million rays per second"), std::string::npos) << output;
+  EXPECT_TRUE(contains(output, "million rays per second"));
   const nlohmann::json json = readJson(out("b.json"));
   EXPECT_GT(json["triangles"], 90000);
   EXPECT_GT(json["rays_per_second"], 0.0);

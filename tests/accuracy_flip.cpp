@@ -1,8 +1,5 @@
-#include <gtest/gtest.h>
-
-#include <numeric>
-
 #include "accuracy/flip.hpp"
+#include "test_headers.hpp"
 
 namespace speculum {
 namespace {

@@ -1,12 +1,9 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "accuracy/image_metrics.hpp"
 #include "error_message.hpp"
 #include "image/color.hpp"
+#include "test_headers.hpp"
 
 namespace speculum {
 namespace {
@@ -113,14 +110,14 @@ TEST(ImageMetrics, LinearPicturesAreClampedAndEncoded) {
 
 TEST(ImageMetrics, RefusesPicturesThatCannotBeCompared) {
   const std::string sizes = messageOf([] { compare(gray(4, 4, 0), gray(4, 5, 0)); });
-  EXPECT_NE(sizes.find("b.png"), std::string::npos);
-  EXPECT_NE(sizes.find("4x5"), std::string::npos);
-  EXPECT_NE(sizes.find("4x4"), std::string::npos);
+  EXPECT_TRUE(contains(sizes, "b.png"));
+  EXPECT_TRUE(contains(sizes, "4x5"));
+  EXPECT_TRUE(contains(sizes, "4x4"));
   LinearImage broken(3, 2);
   broken.at(2, 1).g = std::numeric_limits<float>::quiet_NaN();
   const std::string nan = messageOf([&] { comparedImage(broken, "broken.exr"); });
-  EXPECT_NE(nan.find("broken.exr"), std::string::npos);
-  EXPECT_NE(nan.find("(2, 1)"), std::string::npos);
+  EXPECT_TRUE(contains(nan, "broken.exr"));
+  EXPECT_TRUE(contains(nan, "(2, 1)"));
   EXPECT_THROW(compare(Image8(), Image8()), std::runtime_error);
   const PixelMask mask{2, 2, std::vector<uint8_t>(4, 1)};
   EXPECT_THROW(compare(gray(4, 4, 0), gray(4, 4, 0), {.mask = &mask}), std::runtime_error);
@@ -145,7 +142,7 @@ TEST(ImageMetrics, JsonHasFixedKeysAndNullInfinity) {
 TEST(ImageMetrics, TableNamesEveryMetric) {
   const std::string table = comparisonTable(compare(gray(16, 16, 90), gray(16, 16, 95)), 2.0);
   for (const char* word : {"RMSE", "relative", "PSNR", "SSIM", "FLIP", "largest", "99th", "pixels over 2/255", "256"}) {
-    EXPECT_NE(table.find(word), std::string::npos) << word << " in\n" << table;
+    EXPECT_TRUE(contains(table, word)) << word << " in\n" << table;
   }
 }
 

@@ -1,7 +1,6 @@
-#include <gtest/gtest.h>
-
 #include "accuracy/heat_map.hpp"
 #include "image/color.hpp"
+#include "test_headers.hpp"
 
 namespace speculum {
 namespace {

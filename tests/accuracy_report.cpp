@@ -2,16 +2,14 @@
 #include "accuracy/html_page.hpp"
 #include "accuracy/report.hpp"
 
-#include <gtest/gtest.h>
-
 #include <nlohmann/json.hpp>
-#include <set>
 
 #include "accuracy/heat_map.hpp"
 #include "accuracy/pareto.hpp"
 #include "image/picture_files.hpp"
 #include "report_example.hpp"
 #include "temporary_folder.hpp"
+#include "test_headers.hpp"
 
 namespace speculum {
 namespace {
@@ -56,23 +54,23 @@ TEST(AccuracyReport, EmbedsItsJsonInThePage) {
   const std::string begin = "<script type=\"application/json\" id=\"data\">";
   const size_t at = html.find(begin) + begin.size();
   const std::string text = html.substr(at, html.find("</script>", at) - at);
-  EXPECT_EQ(text.find('<'), std::string::npos) << "no name can end the script element";
+  EXPECT_FALSE(contains(text, "<")) << "no name can end the script element";
   EXPECT_EQ(ordered_json::parse(text), reportJson(results, folder / ""));
-  EXPECT_EQ(html.find("@STYLE@"), std::string::npos);
-  EXPECT_EQ(html.find("@SCRIPT@"), std::string::npos);
+  EXPECT_FALSE(contains(html, "@STYLE@"));
+  EXPECT_FALSE(contains(html, "@SCRIPT@"));
 }
 
 TEST(AccuracyReport, PageNamesNoOtherFile) {
   const std::string html = reportHtml(exampleResults(), "nowhere");
   for (const char* reference : {"https:", "@import", "url(", "src=\"", "href="}) {
-    EXPECT_EQ(html.find(reference), std::string::npos) << reference;
+    EXPECT_FALSE(contains(html, reference)) << reference;
   }
 }
 
 TEST(AccuracyReport, BrokenUtf8BecomesReplacementCharacters) {
   SweepResults results = exampleResults();
   results.title = "a\xff\xc3(";
-  EXPECT_NE(reportHtml(results, "nowhere").find("\"title\":\"a\uFFFD\uFFFD(\""), std::string::npos);
+  EXPECT_TRUE(contains(reportHtml(results, "nowhere"), "\"title\":\"a\uFFFD\uFFFD(\""));
 }
 
 TEST(AccuracyReport, EmbeddedPicturesKeepTheirSize) {

@@ -1,9 +1,5 @@
 // Sweeps without a GPU: statistics, the front, plans, and a run over a renderer that is the ray tracer itself.
-#include <gtest/gtest.h>
-
-#include <cmath>
 #include <ctime>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "accuracy/fingerprint.hpp"
@@ -16,6 +12,7 @@
 #include "reference/ray_tracer.hpp"
 #include "scene/scene_loader.hpp"
 #include "temporary_folder.hpp"
+#include "test_headers.hpp"
 
 namespace speculum {
 namespace {
@@ -85,12 +82,11 @@ TEST(QualityBudget, ChoosesPointsWithAReason) {
   const auto chosen = [&](const QualityBudget& budget) { return chooseForBudget(results, budget).value(); };
   EXPECT_EQ(chosen({.ms = 3.5}).point, 1);
   EXPECT_TRUE(chosen({.ms = 3.5}).met);
-  EXPECT_NE(chosen({.ms = 3.5}).why.find("the most accurate is '4' with 0.1 in 4 ms"), std::string::npos)
-      << chosen({.ms = 3.5}).why;
+  EXPECT_TRUE(contains(chosen({.ms = 3.5}).why, "the most accurate is '4' with 0.1 in 4 ms"));
   EXPECT_EQ(chosen({.ms = 100.0}).point, 3);
-  EXPECT_NE(chosen({.ms = 100.0}).why.find("the most accurate of"), std::string::npos);
+  EXPECT_TRUE(contains(chosen({.ms = 100.0}).why, "the most accurate of"));
   results.points[3].gpuMs.median = 10400.0;
-  EXPECT_NE(chosen({.ms = 3.5}).why.find("in 10.4 s"), std::string::npos) << chosen({.ms = 3.5}).why;
+  EXPECT_TRUE(contains(chosen({.ms = 3.5}).why, "in 10.4 s"));
   results.points[3].gpuMs.median = 4.0;
   EXPECT_EQ(chosen({.ms = 0.5}).point, 0);
   EXPECT_FALSE(chosen({.ms = 0.5}).met);
@@ -175,21 +171,15 @@ theory = -1.5
 
 TEST_F(SweepFiles, MistakesNameTheLine) {
   EXPECT_EQ(problem("repeats = 3"), "sweep.toml:1: repeats: is 3 (an integer 15 .. 1000 is needed)");
-  EXPECT_NE(
-      problem("[[configuraton]]").find("sweep.toml:1: configuraton: is not a known key (did you mean 'configuration'?"),
-      std::string::npos)
-      << problem("[[configuraton]]");
-  EXPECT_NE(problem("[[configuration]]\nsettings = { \"reflection.scale\" = 9 }").find("(0.125 .. 4)"),
-            std::string::npos);
-  EXPECT_NE(problem("[[configuration]]\nsettings = { \"reflection.scale\" = [1, 2] }").find("several values"),
-            std::string::npos);
-  EXPECT_NE(problem("[[configuration]]\nsettings = { \"quality.budget_ms\" = 1 }").find("cannot be swept"),
-            std::string::npos);
-  EXPECT_NE(problem("[[grid]]\nsettings = { \"reflection.scale\" = [] }").find("is empty"), std::string::npos);
-  EXPECT_NE(problem("[[series]]\nkey = \"reflection.scale\"\nvalues = [1, 0.5]").find("sweep.toml:3"),
-            std::string::npos);
-  EXPECT_NE(problem("[[series]]\nvalues = [1, 2]").find("key"), std::string::npos);
-  EXPECT_NE(problem("nonsense").find("sweep.toml:1: toml"), std::string::npos);
+  EXPECT_TRUE(contains(problem("[[configuraton]]"),
+                       "sweep.toml:1: configuraton: is not a known key (did you mean 'configuration'?"));
+  EXPECT_TRUE(contains(problem("[[configuration]]\nsettings = { \"reflection.scale\" = 9 }"), "(0.125 .. 4)"));
+  EXPECT_TRUE(contains(problem("[[configuration]]\nsettings = { \"reflection.scale\" = [1, 2] }"), "several values"));
+  EXPECT_TRUE(contains(problem("[[configuration]]\nsettings = { \"quality.budget_ms\" = 1 }"), "cannot be swept"));
+  EXPECT_TRUE(contains(problem("[[grid]]\nsettings = { \"reflection.scale\" = [] }"), "is empty"));
+  EXPECT_TRUE(contains(problem("[[series]]\nkey = \"reflection.scale\"\nvalues = [1, 0.5]"), "sweep.toml:3"));
+  EXPECT_TRUE(contains(problem("[[series]]\nvalues = [1, 2]"), "key"));
+  EXPECT_TRUE(contains(problem("nonsense"), "sweep.toml:1: toml"));
   EXPECT_THROW(readSweepPlan(folder_ / "absent.toml", SweepContext()), InputError);
 }
 
@@ -221,7 +211,7 @@ TEST(SweepPlans, BuiltInPlansFitDeviceAndScene) {
   }
   const SweepPlan still = sweepPlan("quick", contextOf(false, false));
   for (const SweepConfiguration& configuration : still.configurations) {
-    EXPECT_EQ(settingsText(configuration.changes).find("max_depth"), std::string::npos)
+    EXPECT_FALSE(contains(settingsText(configuration.changes), "max_depth"))
         << "no mirror, nothing to vary: " << configuration.name;
   }
 }
@@ -408,7 +398,7 @@ TEST_F(SweepFiles, ManyKeysAreRefusedInShortTime) {
   const std::clock_t start = std::clock();
   EXPECT_EQ(readProblem(json + "\"a\": 1}}]}"),
             "an object has more than 10000 members (a results.json of speculum accuracy is needed)");
-  EXPECT_NE(problem(toml).find("has 100000 keys"), std::string::npos) << problem(toml).substr(0, 200);
+  EXPECT_TRUE(contains(problem(toml), "has 100000 keys")) << problem(toml).substr(0, 200);
   EXPECT_LT(std::clock() - start, 5 * CLOCKS_PER_SEC);
 }
 

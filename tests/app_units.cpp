@@ -1,8 +1,5 @@
 // Parts of the window that stand alone.
-#include <gtest/gtest.h>
-
 #include <atomic>
-#include <cmath>
 #include <thread>
 
 #include "app/background_job.hpp"
@@ -14,6 +11,7 @@
 #include "platform/gamepad.hpp"
 #include "scene/scene_loader.hpp"
 #include "temporary_folder.hpp"
+#include "test_headers.hpp"
 
 namespace speculum {
 namespace {

@@ -1,9 +1,4 @@
 // scripts/speculum-completion.bash offers what the program takes, no more and no less.
-#include <gtest/gtest.h>
-
-#include <set>
-#include <sstream>
-
 #include "command_support.hpp"
 #include "frame/setting_fields.hpp"
 #include "picture_support.hpp"
@@ -89,7 +84,7 @@ TEST(Completion, OffersTheScenesAndTheChoices) {
     const Words choices = completions({program, "info", option, ""});
     EXPECT_GE(choices.size(), 3u);
     for (const std::string& choice : choices) {
-      EXPECT_EQ(speculum({"info", option, choice}).exitCode, 0) << option << " " << choice;
+      EXPECT_NO_THROW(parseOptions(4, std::array{"speculum", "info", option, choice.c_str()}.data())) << choice;
     }
   }
 }
@@ -132,7 +127,7 @@ TEST(Output, HasNoColors) {
     const ProcessResult result =
         runProcess({"script", "-qec", program + " " + arguments + " --out x.jpg", "/dev/null"});
     EXPECT_FALSE(result.output.empty());
-    EXPECT_EQ(result.output.find('\x1b'), std::string::npos) << result.output;
+    EXPECT_FALSE(contains(result.output, "\x1b"));
   }
 }
 

@@ -33,7 +33,7 @@ class Barrier : public testing::TestWithParam<BarrierKind> {
 TEST_P(Barrier, IsMissedWhenLeftOut) {
   const std::vector<std::string> messages = messagesWithout(GetParam(), 4);
   ASSERT_FALSE(messages.empty()) << "no message without " << barrierName(GetParam());
-  EXPECT_NE(messages.front().find("SYNC-HAZARD"), std::string::npos) << messages.front();
+  EXPECT_TRUE(contains(messages.front(), "SYNC-HAZARD"));
 }
 
 // The other kinds are tested where they occur: presenting in core_window.cpp, those of compute shaders in

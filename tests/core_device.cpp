@@ -1,6 +1,4 @@
-#include <array>
 #include <cctype>
-#include <cstdlib>
 
 #include "core_fixture.hpp"
 #include "error_message.hpp"
@@ -36,15 +34,15 @@ TEST(Device, IsChosenByIndexOrName) {
     for (char& c : part) {
       c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
     }
-    EXPECT_NE(Device({.gpu = part}).info().name.find(gpu.name.substr(0, 8)), std::string::npos);
+    EXPECT_TRUE(contains(Device({.gpu = part}).info().name, gpu.name.substr(0, 8)));
   }
 }
 
 TEST(Device, UnknownGpuIsRefusedWithAList) {
   for (const char* wanted : {"99", "no such card", "-1"}) {
     const std::string error = errorOf({.gpu = wanted});
-    EXPECT_NE(error.find(std::string("'") + wanted + "'"), std::string::npos) << error;
-    EXPECT_NE(error.find(Device::list().front().name), std::string::npos) << error;
+    EXPECT_TRUE(contains(error, std::string("'") + wanted + "'"));
+    EXPECT_TRUE(contains(error, Device::list().front().name));
   }
 }
 
@@ -95,7 +93,7 @@ TEST(Device, MissingDriverSaysHowToMendIt) {
   setEnvironment("VK_DRIVER_FILES", "/nonexistent.json");
   const std::string error = errorOf({});
   old.empty() ? static_cast<void>(unsetenv("VK_DRIVER_FILES")) : setEnvironment("VK_DRIVER_FILES", old);
-  EXPECT_NE(error.find("install"), std::string::npos) << error;
+  EXPECT_TRUE(contains(error, "install"));
 }
 
 TEST_F(GpuTest, UploadedFloatsAreReadBack) {

@@ -1,7 +1,5 @@
 #include "core_fixture.hpp"
 
-#include <array>
-
 #include "driver.hpp"
 #include "test_paths.hpp"
 

@@ -1,12 +1,8 @@
 #pragma once
 
-#include <gtest/gtest.h>
-
-#include <memory>
-#include <optional>
-
 #include "core/renderer.hpp"
 #include "sampling.hpp"
+#include "test_headers.hpp"
 
 namespace speculum::test {
 

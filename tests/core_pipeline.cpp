@@ -1,8 +1,5 @@
-#include <array>
 #include <bit>
 #include <cstring>
-#include <fstream>
-#include <functional>
 
 #include "core_fixture.hpp"
 #include "error_message.hpp"
@@ -172,7 +169,7 @@ TEST_F(HotReload, UnchangedSpirvRebuildsNothing) {
 TEST_F(HotReload, CompileErrorKeepsTheOldPipeline) {
   edit("copy.frag", "result = ", "result = nonsense + ");
   EXPECT_FALSE(renderer_->reloadShaders());
-  EXPECT_NE(renderer_->pipelines().errors().find("nonsense"), std::string::npos) << renderer_->pipelines().errors();
+  EXPECT_TRUE(contains(renderer_->pipelines().errors(), "nonsense"));
   EXPECT_EQ(cornerColor(), unedited);
   edit("copy.frag", "nonsense + ", "0.5 * ");
   EXPECT_TRUE(renderer_->reloadShaders());
@@ -184,7 +181,7 @@ TEST(ShaderLibrary, ErrorsNameTheFileOrDirectory) {
   Device device({});
   ShaderLibrary library(device, binaryDir() / "tests" / "shaders");
   const std::string error = messageOf([&] { library.module("missing.frag"); });
-  EXPECT_NE(error.find("missing.frag.spv"), std::string::npos) << error;
+  EXPECT_TRUE(contains(error, "missing.frag.spv"));
   EXPECT_THROW(ShaderLibrary(device, "", "/no/such/directory"), std::runtime_error);
   const TemporaryDirectory directory;
   replaceFile(directory.path() / "bad.frag.spv", std::vector<uint8_t>(64, 7));

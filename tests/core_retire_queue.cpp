@@ -1,8 +1,5 @@
 #include "core/retire_queue.hpp"
-
-#include <gtest/gtest.h>
-
-#include <utility>
+#include "test_headers.hpp"
 
 namespace speculum::test {
 namespace {

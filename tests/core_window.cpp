@@ -2,8 +2,6 @@
 #include <spdlog/spdlog.h>
 
 #include <chrono>
-#include <cstdlib>
-#include <functional>
 
 #include "core_fixture.hpp"
 #include "error_message.hpp"
@@ -127,7 +125,7 @@ TEST(WindowBarriers, MissingPresentBarrierIsReported) {
   spdlog::set_level(spdlog::level::info);
   const std::vector<std::string> messages = device.lastValidationMessages();
   ASSERT_FALSE(messages.empty());
-  EXPECT_NE(messages.front().find("SYNC-HAZARD"), std::string::npos) << messages.front();
+  EXPECT_TRUE(contains(messages.front(), "SYNC-HAZARD"));
 }
 
 TEST(WindowCapture, NeedsNoCopyableSwapchain) {
@@ -220,7 +218,7 @@ TEST(WindowKeys, ShortcutsAvoidFlyKeysOnEveryLayout) {
       }
     }
     for (const char shortcut : shortcuts) {
-      EXPECT_NE(reached.find(shortcut), std::string::npos) << layout.name << ": " << shortcut;
+      EXPECT_TRUE(contains(reached, std::string(1, shortcut))) << layout.name << ": " << shortcut;
     }
   }
 }
@@ -274,7 +272,7 @@ TEST(WindowErrors, NoDisplaySaysWhatToDo) {
   unsetenv("DISPLAY");
   unsetenv("WAYLAND_DISPLAY");
   const std::string error = messageOf([] { const Window window(WindowOptions{}); });
-  EXPECT_NE(error.find("render command"), std::string::npos) << error;
+  EXPECT_TRUE(contains(error, "render command"));
 }
 
 }  // namespace

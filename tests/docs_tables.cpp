@@ -1,16 +1,10 @@
 // The lists of settings and scene keys in docs/ follow from their descriptions. UPDATE_DOCS=1 in the environment
 // rewrites them.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cstdlib>
-#include <fstream>
-#include <set>
-#include <sstream>
-
 #include "frame/setting_fields.hpp"
+#include "platform/files.hpp"
 #include "scene/scene_fields.hpp"
 #include "scene/toml_text.hpp"
+#include "test_headers.hpp"
 #include "test_paths.hpp"
 
 namespace speculum {
@@ -143,10 +137,7 @@ std::string fieldsList() {
 void expectPart(const std::filesystem::path& name, const std::string& first, const std::string& last,
                 const std::string& expected) {
   const std::filesystem::path file = sourceDir() / name;
-  std::ifstream stream(file);
-  std::stringstream content;
-  content << stream.rdbuf();
-  std::string text = content.str();
+  std::string text = readText(file);
   const size_t mark = text.find(first + "\n");
   const size_t end = text.find(last, mark);
   ASSERT_TRUE(mark != std::string::npos && end != std::string::npos) << name << " lacks " << first;

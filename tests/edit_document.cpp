@@ -1,6 +1,3 @@
-#include <functional>
-#include <stdexcept>
-
 #include "edit_support.hpp"
 
 namespace speculum {
@@ -266,17 +263,6 @@ TEST_F(SceneDocumentTest, DuplicatesGetNamesAndPositions) {
   EXPECT_GT(scene.lights[1].position.x, 0);
   EXPECT_EQ(scene.lights[1].orbit->center - scene.lights[1].position, glm::dvec3(1, 0, 0));
   EXPECT_EQ(document.undoLabel(), "duplicate light 'lamp'");
-}
-
-TEST_F(SceneDocumentTest, UndoOfRemovalSelectsAgain) {
-  document.remove(kFloor);
-  EXPECT_TRUE(scene.mirrors.empty());
-  EXPECT_EQ(document.selection(), Selection());
-  EXPECT_EQ(document.undoLabel(), "remove mirror 'floor'");
-  document.undo();
-  EXPECT_EQ(document.selection(), kFloor);
-  EXPECT_EQ(scene.mirrors.size(), 1u);
-  EXPECT_FALSE(document.modified());
 }
 
 TEST_F(SceneDocumentTest, SeveralNodesAreOneStep) {

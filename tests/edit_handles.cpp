@@ -1,5 +1,4 @@
 // The gizmo's handles, drags of them, and outlines.
-#include <gtest/gtest.h>
 #include <rapidcheck.h>
 
 #include "edit/gizmo.hpp"
@@ -7,6 +6,7 @@
 #include "edit/transform.hpp"
 #include "geometry/affine.hpp"
 #include "geometry/reflection.hpp"
+#include "test_headers.hpp"
 #include "triangles.hpp"
 
 namespace speculum {

@@ -1,8 +1,6 @@
 // The node that a ray finds at a pixel, against the color that the rasteriser drew there.
 #include "edit/pick.hpp"
 
-#include <gtest/gtest.h>
-
 #include "random.hpp"
 #include "scene_text.hpp"
 #include "studio.hpp"
@@ -134,9 +132,12 @@ TEST_P(PickedScene, IsWhatThePixelShows) {
   EXPECT_TRUE(std::string(GetParam()) == "no_mirror" || byDepth[1] > 20);
 }
 
-TEST_P(PickedScene, LiesWhereItIsSeen) {
-  const Scene& scene = studio_.scene;
-  const SceneState state = evaluate(scene, studio_.time);
+class PickedPoint : public testing::TestWithParam<const char*> {};
+
+TEST_P(PickedPoint, LiesWhereItIsSeen) {
+  Scene scene = loadScene(sourceFile("scenes/" + std::string(GetParam()) + ".toml"));
+  makeFlat(scene);
+  const SceneState state = evaluate(scene, 1.0);
   const PictureView picture(state.camera, width, height);
   Picker picker(scene);
   Random random(5);
@@ -157,26 +158,17 @@ TEST_P(PickedScene, LiesWhereItIsSeen) {
   EXPECT_GT(checked, 100);
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, PickedScene,
-                         testing::Values("gallery", "facing_mirrors", "many_mirrors", "mirror_maze", "outdoors",
-                                         "no_mirror", "single_plane", "shadows", "pool"),
-                         [](const auto& info) { return std::string(info.param); });
+const auto scenes = testing::Values("gallery", "facing_mirrors", "many_mirrors", "mirror_maze", "outdoors", "no_mirror",
+                                    "single_plane", "shadows", "pool");
+INSTANTIATE_TEST_SUITE_P(Scenes, PickedScene, scenes);
+INSTANTIATE_TEST_SUITE_P(Scenes, PickedPoint, scenes);
 
 // A column of two balls, a light that is seen and one that is not.
 const std::string nodes = R"(
-[[object]]
-name = "ball"
-model = "MODELS/sphere.obj"
-position = [0.6, 1, 0.5]
-scale = 0.2
-copies = { count = 2, step = [0, 5, 0] }
-[[light]]
-position = [-0.5, 1.5, 0]
-radius = 0.1
-[[light]]
-position = [-0.5, 0.7, 0]
-radius = 0.1
-glow = 0
+[[object]] name = "ball", model = "MODELS/sphere.obj", position = [0.6, 1, 0.5], scale = 0.2
+  copies = { count = 2, step = [0, 5, 0] }
+[[light]] position = [-0.5, 1.5, 0], radius = 0.1
+[[light]] position = [-0.5, 0.7, 0], radius = 0.1, glow = 0
 )";
 
 class Corridor : public testing::Test {

@@ -2,8 +2,6 @@
 // restores the file.
 #include <rapidcheck.h>
 
-#include <cmath>
-
 #include "edit_support.hpp"
 #include "scene/scene_fields.hpp"
 

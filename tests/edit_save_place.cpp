@@ -1,11 +1,8 @@
 // The file that a scene is saved to when the user types a name.
-#include <gtest/gtest.h>
-
-#include <fstream>
-
 #include "edit/scene_writer.hpp"
 #include "error_message.hpp"
 #include "temporary_folder.hpp"
+#include "test_headers.hpp"
 
 namespace speculum {
 namespace {
@@ -26,7 +23,7 @@ TEST(SavePlace, MissingFolderIsNamed) {
   EXPECT_NO_THROW(requireFolder(folder / "a.toml"));
   EXPECT_NO_THROW(requireFolder("a.toml")) << "the working directory";
   const std::string error = messageOf<SaveError>([&] { requireFolder(folder / "one" / "two" / "a.toml"); });
-  EXPECT_NE(error.find("no folder " + (folder / "one").string() + " ("), std::string::npos) << error;
+  EXPECT_TRUE(contains(error, "no folder " + (folder / "one").string() + " ("));
   std::ofstream(folder / "file") << "no folder";
   EXPECT_THROW(requireFolder(folder / "file" / "a.toml"), SaveError);
   EXPECT_FALSE(fs::exists(folder / "one"));

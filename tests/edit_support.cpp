@@ -1,8 +1,6 @@
 #include "edit_support.hpp"
 #include "test_paths.hpp"
 
-#include <algorithm>
-
 namespace speculum {
 
 namespace fs = std::filesystem;

@@ -1,13 +1,9 @@
 #pragma once
 
-#include <gtest/gtest.h>
-
-#include <string>
-#include <vector>
-
 #include "edit/scene_document.hpp"
 #include "scene/scene_loader.hpp"
 #include "temporary_folder.hpp"
+#include "test_headers.hpp"
 
 namespace speculum {
 

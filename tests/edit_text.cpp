@@ -1,8 +1,5 @@
 // The writer keeps what a user wrote and changes only values.
-#include <array>
 #include <charconv>
-#include <cmath>
-#include <random>
 
 #include "edit_support.hpp"
 #include "random.hpp"
@@ -216,7 +213,7 @@ TEST(EditedText, AddedAndRemovedInBrackets) {
   scene.document.remove({Selection::Kind::mirror, 0});
   scene.document.remove({Selection::Kind::mirror, 0});
   EXPECT_EQ(scene.scene.mirrors.size(), 1u);
-  EXPECT_NE(scene.saved().find("size = [3, 4]"), std::string::npos);
+  EXPECT_TRUE(contains(scene.saved(), "size = [3, 4]"));
 }
 
 TEST(EditedText, EmptiedBracketsLoseTheirComma) {
@@ -225,7 +222,7 @@ TEST(EditedText, EmptiedBracketsLoseTheirComma) {
   scene.document.remove({Selection::Kind::light, 0});
   EXPECT_EQ(scene.saved(), replaced(text, "{position = [0, 1, 0]},", ""));
   scene.document.addLight({1, 2, 3}, {1, 2, 4});
-  EXPECT_NE(scene.saved().find("position = [1, 2, 3], radius = 0.01 }, ] # lamps\n"), std::string::npos);
+  EXPECT_TRUE(contains(scene.saved(), "position = [1, 2, 3], radius = 0.01 }, ] # lamps\n"));
 }
 
 // document.text() throws unless the text reads back as the scene.
@@ -250,7 +247,7 @@ TEST(EditedText, ItemsComeAndGoAroundBlanksAndComments) {
     }
     std::string saved;
     ASSERT_NO_THROW(saved = document.text("scene.toml", {})) << text;
-    EXPECT_NE(saved.find("] # end\n"), std::string::npos) << saved;
+    EXPECT_TRUE(contains(saved, "] # end\n"));
     document.addLight({7, 2, 3}, {7, 2, 4});
     ASSERT_NO_THROW(document.text("scene.toml", {})) << text;
     while (document.canUndo()) {

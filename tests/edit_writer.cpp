@@ -1,7 +1,5 @@
 // Scene files that were edited and saved.
-#include <algorithm>
 #include <cctype>
-#include <limits>
 
 #include "edit_support.hpp"
 #include "error_message.hpp"
@@ -191,8 +189,8 @@ TEST(SaveScene, FileChangedMeanwhileIsNotOverwritten) {
   const std::string theirs = std::string(kText) + "# mine now\n";
   text.folder.write("scene.toml", theirs);
   const std::string message = messageOf<SaveError>([&] { text.document.save(text.file, {}); });
-  EXPECT_NE(message.find("another program has changed the file"), std::string::npos) << message;
-  EXPECT_NE(message.find("save under another name, or overwrite"), std::string::npos) << message;
+  EXPECT_TRUE(contains(message, "another program has changed the file"));
+  EXPECT_TRUE(contains(message, "save under another name, or overwrite"));
   EXPECT_EQ(readText(text.file), theirs);
   EXPECT_TRUE(text.document.modified());
   text.document.save(text.file, {}, true);
@@ -206,10 +204,10 @@ TEST(SaveScene, AnotherFileIsNotOverwritten) {
   TextScene text(kText);
   const fs::path other = text.folder.write("other.toml", "important");
   const std::string message = messageOf<SaveError>([&] { text.document.save(other, {}); });
-  EXPECT_NE(message.find("there is such a file already"), std::string::npos) << message;
+  EXPECT_TRUE(contains(message, "there is such a file already"));
   EXPECT_EQ(readText(other), "important");
   const std::string model = messageOf<SaveError>([&] { text.document.save(text.model, {}, true); });
-  EXPECT_NE(model.find("name of a model"), std::string::npos) << model;
+  EXPECT_TRUE(contains(model, "name of a model"));
   EXPECT_EQ(readText(text.model), kTriangle);
 }
 
@@ -224,24 +222,24 @@ TEST(SaveScene, UnreadableSceneIsNotWritten) {
   TextScene text(kText);
   text.document.change("break", {}, [](Scene& scene) { scene.camera.target = scene.camera.position; });
   const std::string camera = messageOf<SaveError>([&] { text.document.save(text.file, {}); });
-  EXPECT_NE(camera.find("camera.target: has no direction"), std::string::npos) << camera;
-  EXPECT_EQ(camera.find('\n'), std::string::npos);
+  EXPECT_TRUE(contains(camera, "camera.target: has no direction"));
+  EXPECT_FALSE(contains(camera, "\n"));
   text.document.undo();
   const double nan = std::numeric_limits<double>::quiet_NaN();
   text.document.change("break", {}, [&](Scene& scene) { scene.objects[0].scale = glm::dvec3(nan); });
-  EXPECT_NE(messageOf<SaveError>([&] { text.document.save(text.file, {}); }).find("not saved"), std::string::npos);
+  EXPECT_TRUE(contains(messageOf<SaveError>([&] { text.document.save(text.file, {}); }), "not saved"));
   EXPECT_EQ(readText(text.file), kText);
   text.document.undo();
   const std::string setting = messageOf<SaveError>([&] {
     text.document.save(text.file, {{{"view.exposure", "bright"}}});
   });
-  EXPECT_NE(setting.find("view.exposure"), std::string::npos) << setting;
+  EXPECT_TRUE(contains(setting, "view.exposure"));
 }
 
 TEST(SaveScene, MissingFolderIsAnError) {
   TextScene text(kText);
   const std::string message = messageOf<SaveError>([&] { text.document.save(text.folder / "none/scene.toml", {}); });
-  EXPECT_NE(message.find("there is no folder"), std::string::npos) << message;
+  EXPECT_TRUE(contains(message, "there is no folder"));
   EXPECT_EQ(text.scene.file, text.file);
 }
 
@@ -249,7 +247,7 @@ TEST(SaveScene, EverySettingReadsBack) {
   Settings other;
   for (const SettingField& field : settingFields()) {
     for (const char* value : {"true", "false", "0.123456789", "0.5", "1e-3", "2", "32", "512", "oblique", "aces",
-                              "trilinear", "image", "environment", "map", "software", "rays", "1,0,0.25", "x"}) {
+                              "trilinear", "image", "environment", "map", "software", "rays", "1, 0,0.25", "x"}) {
       if (sameSetting(field, other, Settings())) {
         setSetting(other, field.key, value);
       }
@@ -264,7 +262,7 @@ TEST(SaveScene, EverySettingReadsBack) {
   }
   text.document.save(text.file, changes);
   EXPECT_EQ(settingsKey(settingsOf(loadScene(text.file))), settingsKey(other));
-  EXPECT_NE(readText(text.file).find("\"view.exposure\" = 0.123456789 # bright\n"), std::string::npos);
+  EXPECT_TRUE(contains(readText(text.file), "\"view.exposure\" = 0.123456789 # bright\n"));
   text.document.save(text.file, {});
   EXPECT_EQ(readText(text.file), before);
 }

@@ -1,13 +1,9 @@
 // An effect that nothing calls for costs nothing. Objects and draws are counted where the program calls Vulkan, by
 // linking those calls through functions of this file.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <map>
-
 #include "app/stats.hpp"
 #include "picture_support.hpp"
 #include "sampling.hpp"
+#include "test_headers.hpp"
 
 namespace {
 
@@ -86,14 +82,14 @@ namespace {
 
 using namespace testing_support;
 
-constexpr PictureSize size{64, 36};
+constexpr PictureSize size{48, 27};
 
 // Two scenes with an effect: nothing visible needs it in `uncalled`, something does in `called`. That takes more Vulkan
 // objects of these kinds.
 struct Case {
   const char* effect;
-  const char* uncalled;
-  const char* called;
+  std::string uncalled;
+  std::string called;
   std::vector<std::string> objects{"Buffer", "Pipeline"};
 
   bool needs(const std::string& kind) const { return std::find(objects.begin(), objects.end(), kind) != objects.end(); }
@@ -105,14 +101,9 @@ void PrintTo(const Case& c, std::ostream* out) {
 
 std::filesystem::path sceneWith(const std::string& name, const std::string& rest) {
   return writeScene("ledger_" + name, R"(
-[environment]
-background = [0.3, 0.4, 0.5]
-ambient = [0.1, 0.1, 0.1]
-[camera]
-position = [0, 1, 3]
-target = [0, 0.5, 0]
-[[object]]
-model = "MODELS/teapot.obj"
+[environment] background = [0.3, 0.4, 0.5], ambient = [0.1, 0.1, 0.1]
+[camera] position = [0, 1, 3], target = [0, 0.5, 0]
+[[object]] model = "MODELS/teapot.obj"
 )" + rest);
 }
 
@@ -219,32 +210,30 @@ std::string effectName(const testing::TestParamInfo<Case>& info) {
   return info.param.effect;
 }
 
+const std::string away = "[[mirror]] position = [0, 1, 5], size = [2, 2], ";     // behind the eye
+const std::string before = "[[mirror]] position = [0, 1, -1], size = [2, 2], ";  // in view
+
 const std::vector<Case> cases = {
-    Case{"shadows", "[[light]]\nposition = [1, 2, 1]\nintensity = 0\ncasts_shadow = true\n",
-         "[[light]]\nposition = [1, 2, 1]\nintensity = 9\ncasts_shadow = true\n"},
-    Case{"roughness", "[[mirror]]\nposition = [0, 1, 5]\nsize = [2, 2]\nroughness = 0.3\n",
-         "[[mirror]]\nposition = [0, 1, -1]\nsize = [2, 2]\nroughness = 0.3\n"},
-    Case{"ripple", "[[mirror]]\nposition = [0, 1, 5]\nsize = [2, 2]\nripple = { amplitude = 0.02 }\n",
-         "[[mirror]]\nposition = [0, 1, -1]\nsize = [2, 2]\nripple = { amplitude = 0.02 }\n"},
-    Case{"casts_light",
-         "[[light]]\nposition = [0, 2, -3]\nintensity = 9\n[[mirror]]\nposition = [0, 1, -1]\nsize = [2, 2]\n"
-         "casts_light = true\n",
-         "[[light]]\nposition = [0, 2, 1]\nintensity = 9\n[[mirror]]\nposition = [0, 1, -1]\nsize = [2, 2]\n"
-         "casts_light = true\n"},
-    Case{"curved", "[[object]]\nmodel = \"MODELS/sphere.obj\"\nposition = [0, 1, 5]\nmirror = {}\n",
-         "[[object]]\nmodel = \"MODELS/sphere.obj\"\nposition = [0.8, 1, 0]\nmirror = {}\n"},
+    Case{"shadows", "[[light]] position = [1, 2, 1], intensity = 0, casts_shadow = true\n",
+         "[[light]] position = [1, 2, 1], intensity = 9, casts_shadow = true\n"},
+    Case{"roughness", away + "roughness = 0.3\n", before + "roughness = 0.3\n"},
+    Case{"ripple", away + "ripple = { amplitude = 0.02 }\n", before + "ripple = { amplitude = 0.02 }\n"},
+    Case{"casts_light", "[[light]] position = [0, 2, -3], intensity = 9\n" + before + "casts_light = true\n",
+         "[[light]] position = [0, 2, 1], intensity = 9\n" + before + "casts_light = true\n"},
+    Case{"curved", "[[object]] model = 'MODELS/sphere.obj', position = [0, 1, 5], mirror = {}\n",
+         "[[object]] model = 'MODELS/sphere.obj', position = [0.8, 1, 0], mirror = {}\n"},
     Case{"fresnel",
-         "[[mirror]]\nposition = [0, 1, 5]\nsize = [2, 2]\nfresnel = \"schlick\"\n",
-         "[[mirror]]\nposition = [0, 0.1, 0]\nrotation = [-90, 0, 0]\nsize = [4, 4]\nfresnel = \"schlick\"\n"
+         away + "fresnel = 'schlick'\n",
+         "[[mirror]] position = [0, 0.1, 0], rotation = [-90, 0, 0], size = [4, 4], fresnel = 'schlick', "
          "reflectance = [0.3, 0.3, 0.3]\n",
          {}},
     Case{"textures",
-         "[[object]]\nmodel = \"MODELS/chequer.obj\"\nposition = [0, 0, 9]\n",
-         "[[object]]\nmodel = \"MODELS/chequer.obj\"\n",
+         "[[object]] model = 'MODELS/chequer.obj', position = [0, 0, 9]\n",
+         "[[object]] model = 'MODELS/chequer.obj'\n",
          {"Image", "Pipeline"}},
     Case{"glyphs",
-         "[[light]]\nposition = [0, 1, 5]\nradius = 0.2\nglow = 2\n",
-         "[[light]]\nposition = [0, 1, 1]\nradius = 0.2\nglow = 2\n",
+         "[[light]] position = [0, 1, 5], radius = 0.2, glow = 2\n",
+         "[[light]] position = [0, 1, 1], radius = 0.2, glow = 2\n",
          {"Pipeline"}}};
 
 INSTANTIATE_TEST_SUITE_P(Effects, Ledger, testing::ValuesIn(cases), effectName);

@@ -1,12 +1,5 @@
 // Curved mirrors that look up environment maps, against the ray tracer: larger faces and the correction by a box lower
 // the error. effects_ledger.cpp tests their cost and its release.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <fstream>
-#include <map>
-
 #include "reuse_support.hpp"
 #include "truth_support.hpp"
 
@@ -30,25 +23,12 @@ std::filesystem::path room(const std::string& name, const std::string& rest = ""
   return writeScene(
       "environment_" + name,
       R"(
-[environment]
-background = [0.25, 0.3, 0.4]
-ambient = [0.2, 0.2, 0.2]
-[camera]
-position = [-0.6, 1.3, 2.4]
-target = [0.3, 1.1, 0.2]
-vertical_fov = 36
-[settings]
-"reflection.max_depth" = 1
-[[object]]
-name = "ball"
-model = "MODELS/sphere.obj"
-position = [0.3, 1.1, 0.2]
-scale = 1.2
-mirror = { reflectance = [0.9, 0.9, 0.9] }
-[[light]]
-position = [-1, 2.6, 1]
-intensity = 18
-glow = 0
+[environment] background = [0.25, 0.3, 0.4], ambient = [0.2, 0.2, 0.2]
+[camera] position = [-0.6, 1.3, 2.4], target = [0.3, 1.1, 0.2], vertical_fov = 36
+[settings] "reflection.max_depth" = 1
+[[object]] name = "ball", model = "MODELS/sphere.obj", position = [0.3, 1.1, 0.2], scale = 1.2
+  mirror = { reflectance = [0.9, 0.9, 0.9] }
+[[light]] position = [-1, 2.6, 1], intensity = 18, glow = 0
 )" + block("[0, -0.2, 0]", "[6.4, 0.2, 6.4]", "[0.5, 0.5, 0.5]") +
           block("[-2.4, 0, 0]", "[0.4, 0.002, 6]", "[0.05, 0.05, 0.05]", alongX) +
           block("[0, 3, 0]", "[6.4, 0.2, 6.4]", "[0.8, 0.8, 0.7]") +
@@ -61,8 +41,8 @@ glow = 0
 }
 
 Options mapped(const std::filesystem::path& file, std::vector<std::pair<std::string, std::string>> more = {}) {
-  Options options = headless(file, size);
-  set(options, {{"effects.curved_lookup", "environment"}, {"view.samples", "1"}, {"reflection.samples", "1"}});
+  Options options = headless(
+      file, size, {{"effects.curved_lookup", "environment"}, {"view.samples", "1"}, {"reflection.samples", "1"}});
   set(options, more);
   return options;
 }
@@ -101,20 +81,11 @@ TEST(EnvironmentMaps, LargerFacesAndTheBoxReduceError) {
 // A ball before the sky looks up nothing but the background, which is exact.
 TEST(EnvironmentMaps, ShowTheSkyExactly) {
   const std::filesystem::path file = writeScene("environment_sky", R"(
-[environment]
-sky = { zenith = [0.1, 0.2, 0.9], horizon = [0.9, 0.8, 0.6], ground = [0.2, 0.15, 0.1] }
-[camera]
-position = [1e5, 1.2, 3]
-target = [1e5, 1, 0]
-[[object]]
-model = "MODELS/sphere.obj"
-position = [1e5, 1, 0]
-scale = 1.6
-mirror = { reflectance = [0.9, 0.8, 0.7], fresnel = "schlick", base_color = [0.1, 0, 0] }
-[[light]]
-position = [1e5, 4, 3]
-intensity = 9
-glow = 0
+[environment] sky = { zenith = [0.1, 0.2, 0.9], horizon = [0.9, 0.8, 0.6], ground = [0.2, 0.15, 0.1] }
+[camera] position = [1e5, 1.2, 3], target = [1e5, 1, 0]
+[[object]] model = "MODELS/sphere.obj", position = [1e5, 1, 0], scale = 1.6
+  mirror = { reflectance = [0.9, 0.8, 0.7], fresnel = "schlick", base_color = [0.1, 0, 0] }
+[[light]] position = [1e5, 4, 3], intensity = 9, glow = 0
 )");
   expectAlike(draw(mapped(file, {{"effects.environment_size", "16"}})), trace(file, size, 1).picture, 2,
               "environment_sky");
@@ -124,25 +95,14 @@ glow = 0
 // of the floor along the same directions as the ball does, but for its horizon.
 TEST(EnvironmentMaps, ShowPlanarMirrorsBeforeTheSky) {
   const std::filesystem::path file = writeScene("environment_mirror", R"(
-[environment]
-sky = { zenith = [0.1, 0.2, 0.9], horizon = [0.9, 0.8, 0.6], ground = [0.2, 0.15, 0.1] }
-ambient = [1, 1, 1]
-[camera]
-position = [0, 1.6, 4]
-target = [0, 1, 0]
-[settings]
-"reflection.max_depth" = 1
-[[object]]
-model = "MODELS/sphere.obj"
-position = [0, 1, 0]
-scale = 1.6
-mirror = { reflectance = [0.9, 0.8, 0.7] }
-[[mirror]]
-position = [0, -2, 0]
-rotation = [-90, 0, 0]
-size = [4000, 4000]
-reflectance = [0.3, 0.9, 0.5]
-base_color = [0.5, 0.1, 0]
+[environment] sky = { zenith = [0.1, 0.2, 0.9], horizon = [0.9, 0.8, 0.6], ground = [0.2, 0.15, 0.1] }
+  ambient = [1, 1, 1]
+[camera] position = [0, 1.6, 4], target = [0, 1, 0]
+[settings] "reflection.max_depth" = 1
+[[object]] model = "MODELS/sphere.obj", position = [0, 1, 0], scale = 1.6
+  mirror = { reflectance = [0.9, 0.8, 0.7] }
+[[mirror]] position = [0, -2, 0], rotation = [-90, 0, 0], size = [4000, 4000], reflectance = [0.3, 0.9, 0.5]
+  base_color = [0.5, 0.1, 0]
 )");
   const Image8 picture = draw(mapped(file, {{"effects.environment_box", "false"}}));
   const PictureAgreement agreement = difference(picture, trace(file, size, 1).picture, 3);
@@ -155,19 +115,11 @@ TEST(EnvironmentMaps, ReflectionsAreAddedOnce) {
   std::ofstream(sceneDirectory() / "sheet.obj")
       << "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3\nf 1 3 4\nf 3 2 1\nf 4 3 1\n";
   const std::filesystem::path file = writeScene("environment_sheet", R"(
-[environment]
-sky = { zenith = [0.1, 0.2, 0.6], horizon = [0.5, 0.4, 0.3], ground = [0.1, 0.1, 0.05] }
-[camera]
-position = [0, 1.6, 4]
-target = [0, 0.6, 0]
-[[object]]
-model = "sheet.obj"
-position = [0, 1, 0]
-mirror = { reflectance = [0.5, 0.5, 0.5], base_color = [0.2, 0.2, 0.2] }
-[[light]]
-position = [1, 3, 2]
-intensity = 10
-casts_shadow = true
+[environment] sky = { zenith = [0.1, 0.2, 0.6], horizon = [0.5, 0.4, 0.3], ground = [0.1, 0.1, 0.05] }
+[camera] position = [0, 1.6, 4], target = [0, 0.6, 0]
+[[object]] model = "sheet.obj", position = [0, 1, 0]
+  mirror = { reflectance = [0.5, 0.5, 0.5], base_color = [0.2, 0.2, 0.2] }
+[[light]] position = [1, 3, 2], intensity = 10, casts_shadow = true
 )");
   const Image8 rays = draw(mapped(file, {}));
   const Image8 noRays = draw(mapped(file, {{"effects.shadows", "false"}}));
@@ -206,33 +158,13 @@ TEST(EnvironmentMaps, AreNoParentsOfMirrorPasses) {
 // Draws moving scenes with and without reuse: the bytes are the same.
 TEST(EnvironmentMaps, ReuseChangesNoByte) {
   const std::filesystem::path file = writeScene("environment_skipping", R"(
-[environment]
-background = [0.25, 0.3, 0.4]
-ambient = [0.2, 0.2, 0.2]
-[camera]
-position = [-0.6, 1.3, 2.4]
-target = [0.3, 1.1, 0.2]
-[[object]]
-model = "MODELS/sphere.obj"
-position = [0.3, 1.1, 0.2]
-mirror = {}
-[[object]]
-model = "MODELS/teapot.obj"
-position = [-1.2, 0, 0]
-mirror = { base_color = [0.2, 0, 0] }
-[[object]]
-model = "MODELS/king.obj"
-position = [1.4, 0, 1]
-spin = [0, 90, 0]
-[[light]]
-position = [1, 2, 1.5]
-intensity = 9
-casts_shadow = true
-[[mirror]]
-name = "wall"
-position = [0, 1.4, -2.98]
-size = [4, 2]
-casts_light = true
+[environment] background = [0.25, 0.3, 0.4], ambient = [0.2, 0.2, 0.2]
+[camera] position = [-0.6, 1.3, 2.4], target = [0.3, 1.1, 0.2]
+[[object]] model = "MODELS/sphere.obj", position = [0.3, 1.1, 0.2], mirror = {}
+[[object]] model = "MODELS/teapot.obj", position = [-1.2, 0, 0], mirror = { base_color = [0.2, 0, 0] }
+[[object]] model = "MODELS/king.obj", position = [1.4, 0, 1], spin = [0, 90, 0]
+[[light]] position = [1, 2, 1.5], intensity = 9, casts_shadow = true
+[[mirror]] name = "wall", position = [0, 1.4, -2.98], size = [4, 2], casts_light = true
 )");
   for (const char* interval : {"1", "3"}) {
     Options options = mapped(file, {{"effects.environment_interval", interval}, {"effects.environment_size", "32"}});

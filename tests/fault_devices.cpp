@@ -53,7 +53,7 @@ TEST_F(Devices, OlderLoaderThanDriverDraws) {
 TEST_F(Devices, DepthSampleCountsAreAsked) {
   const Run fewer = run(render, {"SPECULUM_HIDE=sampled_depth_samples=1"}, Place::inner);
   EXPECT_EQ(fewer.exitCode, 0);
-  EXPECT_NE(fewer.output.find("has no 4 samples per pixel: 1 are used"), std::string::npos) << fewer.output;
+  EXPECT_TRUE(contains(fewer.output, "has no 4 samples per pixel: 1 are used"));
 }
 
 TEST_F(Devices, NextOneIsTakenWithoutPresentation) {
@@ -63,7 +63,7 @@ TEST_F(Devices, NextOneIsTakenWithoutPresentation) {
     const std::string two = twoDevices();
     const Run second = run(talkative, {two, lacks}, Place::inner);
     EXPECT_EQ(second.exitCode, 0) << second.output;
-    EXPECT_NE(second.output.find("GPU 1: "), std::string::npos) << second.output;
+    EXPECT_TRUE(contains(second.output, "GPU 1: "));
     std::filesystem::remove(folder_.path() / "second.json");
   }
 }
@@ -88,7 +88,7 @@ TEST_F(Devices, TooLittleIsOneLine) {
     const Run poor = run(kind, {"SPECULUM_HIDE=" + lacks}, Place::inner);
     EXPECT_EQ(poor.exitCode, 2) << lacks;
     EXPECT_EQ(poor.lines, 1) << poor.output;
-    EXPECT_NE(poor.output.find(says), std::string::npos) << poor.output;
+    EXPECT_TRUE(contains(poor.output, says));
     EXPECT_FALSE(poor.picture) << lacks;
   }
 }

@@ -1,7 +1,6 @@
 // Every Vulkan function that can fail fails with every result that the registry lists, over a picture that is rendered
 // and over a window: the program recovers, or ends with one line and exit code 2.
 #include <cstdio>
-#include <map>
 
 #include "core/vulkan_result.hpp"
 #include "fault_layer/failing_functions.hpp"
@@ -108,7 +107,7 @@ class Faults : public FaultTest {
                 ends[End::line], ends[End::wrong]);
   }
 
-  int stride_ = environment("SPECULUM_ALL_FAULTS").empty() ? 31 : 1;
+  int stride_ = environment("SPECULUM_ALL_FAULTS").empty() ? 61 : 1;
   std::optional<std::vector<uint8_t>> picture_;
 };
 

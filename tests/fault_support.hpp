@@ -1,7 +1,5 @@
 #pragma once
 
-#include <gtest/gtest.h>
-
 #include "command_support.hpp"
 #include "picture_support.hpp"
 #include "platform/files.hpp"
@@ -79,20 +77,11 @@ class FaultTest : public testing::Test {
   test::VirtualDisplay display_;
   // A mirror, an object with a texture, rays, and a setting that needs a compute shader.
   std::string scene_ = writeScene("faults", R"(
-[camera]
-position = [0, 1, 4]
-target = [0, 1, 0]
-[settings]
-"debug.check_finite" = true
-[[object]]
-model = "MODELS/column.obj"
-[[light]]
-position = [0, 3, 3]
-intensity = 10
-casts_shadow = true
-[[mirror]]
-position = [0, 1, -2]
-size = [5, 3]
+[camera] position = [0, 1, 4], target = [0, 1, 0]
+[settings] "debug.check_finite" = true
+[[object]] model = "MODELS/column.obj"
+[[light]] position = [0, 3, 3], intensity = 10, casts_shadow = true
+[[mirror]] position = [0, 1, -2], size = [5, 3]
 )")
                            .string();
 };

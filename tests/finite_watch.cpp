@@ -1,13 +1,12 @@
 // debug.check_finite finds and names values that are not finite, and costs nothing when it is off.
-#include <gtest/gtest.h>
 #include <spdlog/spdlog.h>
 
-#include <cmath>
 #include <glm/gtc/packing.hpp>
 
 #include "picture_support.hpp"
 #include "platform/files.hpp"
 #include "sampling.hpp"
+#include "test_headers.hpp"
 
 namespace speculum {
 namespace {
@@ -116,25 +115,15 @@ TEST_F(WatchedImages, OnlyThePartInUseIsChecked) {
 }
 
 // The eye before a mirror, and between two that face each other, under a sky that nothing hides.
-const std::string wall = R"([environment]
-sky = { zenith = [0.1, 0.2, 0.9], horizon = [0.9, 0.8, 0.3], ground = [0.2, 0.5, 0.1] }
-[camera]
-position = [0, 1, 1]
-target = [0.2, 1, -2]
-[settings]
-"reflection.max_depth" = 2
-[[light]]
-position = [0, 3, 0]
-[[mirror]]
-name = "front"
-position = [0, 1, -2]
-size = [2, 2]
+const std::string wall = R"(
+[environment] sky = { zenith = [0.1, 0.2, 0.9], horizon = [0.9, 0.8, 0.3], ground = [0.2, 0.5, 0.1] }
+[camera] position = [0, 1, 1], target = [0.2, 1, -2]
+[settings] "reflection.max_depth" = 2
+[[light]] position = [0, 3, 0]
+[[mirror]] name = "front", position = [0, 1, -2], size = [2, 2]
 )";
-const std::string rear = R"([[mirror]]
-name = "rear"
-position = [0, 1, 4]
-rotation = [0, 180, 0]
-size = [6, 6]
+const std::string rear = R"([[mirror]] name = "rear", position = [0, 1, 4], rotation = [0, 180, 0]
+  size = [6, 6]
 )";
 const std::string hall = wall + rear;
 
@@ -285,9 +274,7 @@ std::map<std::string, int64_t> objectsBesidesModules() {
 }
 
 TEST_F(WatchedFrames, CostNothingWhenTheCheckIsOff) {
-  Options options = headless(writeScene("hall_off", hall), size);
-  set(options, {{"debug.check_finite", "false"}});
-  Session session(options);
+  Session session(headless(writeScene("hall_off", hall), size, {{"debug.check_finite", "false"}}));
   const auto drawFrames = [&](bool checked) {
     set(session, {{"debug.check_finite", checked ? "true" : "false"}});
     for (int i = 0; i < 4; ++i) {
@@ -316,12 +303,8 @@ TEST_F(WatchedFrames, ShowTheSameBytesAsUnwatchedOnes) {
 
 class CheckBarrier : public Watch, public testing::WithParamInterface<BarrierKind> {};
 
-const std::string shadow = R"([[light]]
-position = [1, 3, 0]
-casts_shadow = true
-[[object]]
-model = "MODELS/teapot.obj"
-position = [0, 0, -1]
+const std::string shadow = R"([[light]] position = [1, 3, 0], casts_shadow = true
+[[object]] model = "MODELS/teapot.obj", position = [0, 0, -1]
 )";
 
 // Three frames with images and a main view of `samples`.
@@ -343,7 +326,7 @@ TEST_P(CheckBarrier, IsMissedWhenLeftOut) {
   for (const char* samples : {"1", "4"}) {
     const std::vector<std::string> messages = messagesWithout(kind, scene, samples);
     ASSERT_FALSE(messages.empty()) << samples << " samples";
-    EXPECT_NE(messages.front().find("SYNC-HAZARD"), std::string::npos) << messages.front();
+    EXPECT_TRUE(contains(messages.front(), "SYNC-HAZARD"));
     EXPECT_TRUE(messagesWithout("", scene, samples).empty());
   }
 }

@@ -1,16 +1,11 @@
 // reflection.update_interval: when mirror images are rendered anew, by the planner alone.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <map>
-
 #include "frame/frame_plan.hpp"
 #include "frame/image_reuse.hpp"
 #include "frame/memory_fit.hpp"
 #include "frame_support.hpp"
 #include "geometry/affine.hpp"
 #include "image/color.hpp"
+#include "test_headers.hpp"
 
 namespace speculum {
 namespace {
@@ -34,15 +29,6 @@ PlanSequence withInterval(Scene scene, int interval) {
 std::string firstUnchanged(const FramePlan& plan) {
   const auto it = std::ranges::find(plan.skipped, SkipReason::unchanged, &SkippedMirror::reason);
   return it == plan.skipped.end() ? "" : it->detail;
-}
-
-TEST(CachedImages, IntervalOneCachesNothing) {
-  PlanSequence sequence = withInterval(row(), 1);
-  for (int frame = 0; frame < 3; ++frame) {
-    EXPECT_EQ(sequence.next().passes.size(), 6u);
-    EXPECT_TRUE(sequence.plan.cached.empty());
-    EXPECT_EQ(count(sequence.plan, SkipReason::unchanged), 0);
-  }
 }
 
 TEST(CachedImages, MirrorsTakeTurnsAfterTheFirstFrame) {

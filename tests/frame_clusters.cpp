@@ -1,12 +1,8 @@
 // Clusters: objects that are seen in part are drawn in part, but never less than is seen.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-
 #include "frame_support.hpp"
 #include "geometry/mesh_clusters.hpp"
 #include "random.hpp"
+#include "test_headers.hpp"
 
 namespace speculum {
 namespace {

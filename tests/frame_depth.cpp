@@ -1,10 +1,6 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-
 #include "frame/depth_readout.hpp"
 #include "frame_support.hpp"
+#include "test_headers.hpp"
 
 namespace speculum {
 namespace {

@@ -1,14 +1,10 @@
 // Environment maps: which curved mirrors have one, what is in it, when it is rendered. Without a GPU.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-
 #include "frame/effects.hpp"
 #include "frame/environment_map.hpp"
 #include "frame/memory_fit.hpp"
 #include "frame/traced_effects.hpp"
 #include "frame_support.hpp"
+#include "test_headers.hpp"
 
 namespace speculum {
 namespace {
@@ -193,7 +189,7 @@ TEST(EnvironmentMap, MemoryIncludesItAndLowersIt) {
                                        evaluate(frames.scene, 0.0), frames.settings, width, height);
   EXPECT_LT(fitted.settings.effects.environmentSize, 256);
   EXPECT_LE(targetBytes(fitted.plan, fitted.settings), 1'500'000u);
-  EXPECT_NE(fitted.message.find("effects.environment_size to 128"), std::string::npos) << fitted.message;
+  EXPECT_TRUE(contains(fitted.message, "effects.environment_size to 128"));
 }
 
 }  // namespace

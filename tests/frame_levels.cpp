@@ -1,12 +1,9 @@
 // reflection.mesh_error and view.mesh_error: which objects are drawn with how many triangles, by the planner alone.
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "frame/mesh_level.hpp"
 #include "frame_support.hpp"
 #include "random.hpp"
 #include "reference_scenes.hpp"
+#include "test_headers.hpp"
 
 namespace speculum {
 namespace {

@@ -1,10 +1,6 @@
 // Plans for the largest work that a small scene file can ask for: time and memory stay small, and sizes are checked
 // before the work.
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <ctime>
-#include <functional>
 
 #include "frame/frame_plan.hpp"
 #include "platform/machine.hpp"
@@ -12,6 +8,7 @@
 #include "sampling.hpp"
 #include "scene/scene_loader.hpp"
 #include "temporary_folder.hpp"
+#include "test_headers.hpp"
 
 namespace speculum {
 namespace {

@@ -1,7 +1,6 @@
-#include <gtest/gtest.h>
-
 #include "frame/memory_fit.hpp"
 #include "frame_support.hpp"
+#include "test_headers.hpp"
 
 namespace speculum {
 namespace {
@@ -32,9 +31,7 @@ TEST(MemoryFit, LowersMirrorSamplesViewSamplesScale) {
   EXPECT_EQ(less.settings.view.samples, 2);
   EXPECT_EQ(less.settings.reflection.scale, 1.0);
   EXPECT_LE(targetBytes(less.plan, less.settings), 50'000'000u);
-  EXPECT_NE(less.message.find("lowered reflection.samples to 2, reflection.samples to 1, view.samples to 2"),
-            std::string::npos)
-      << less.message;
+  EXPECT_TRUE(contains(less.message, "lowered reflection.samples to 2, reflection.samples to 1, view.samples to 2"));
   EXPECT_LT(fit(16'000'000).settings.reflection.scale, 1.0);
 }
 
@@ -70,7 +67,7 @@ TEST(MemoryFit, MirrorImagesStayWithinTheLargestSide) {
       planWithin({.budgetBytes = 1ull << 40, .largestSide = 2500}, scene, evaluate(scene, 0.0), settings, 1000, 500);
   EXPECT_EQ(fitted.settings.reflection.scale, 2.5);
   EXPECT_EQ(fitted.plan.passes.at(0).view.pictureSize.x, 2500.0);
-  EXPECT_NE(fitted.message.find("lowered reflection.scale to 2.5"), std::string::npos) << fitted.message;
+  EXPECT_TRUE(contains(fitted.message, "lowered reflection.scale to 2.5"));
 }
 
 // Without rays, a rippled mirror is drawn as a smooth one and has a pass.
@@ -85,7 +82,7 @@ TEST(MemoryFit, TracedEffectsNeedADeviceThatCan) {
   EXPECT_TRUE(plan(true).message.empty());
   EXPECT_TRUE(plan(true).plan.passes.empty());
   const FittedPlan without = plan(false);
-  EXPECT_NE(without.message.find("effects.*"), std::string::npos) << without.message;
+  EXPECT_TRUE(contains(without.message, "effects.*"));
   EXPECT_FALSE(without.settings.effects.ripple);
   EXPECT_EQ(without.plan.passes.size(), 1u);
 }

@@ -1,13 +1,9 @@
 // Mirrors that the plan says are hidden, against rays from the eye to them.
-#include <gtest/gtest.h>
-
-#include <array>
-#include <map>
-
 #include "frame/frame_plan.hpp"
 #include "frame_support.hpp"
 #include "geometry/affine.hpp"
 #include "occluder_shapes.hpp"
+#include "test_headers.hpp"
 
 namespace speculum {
 namespace {

@@ -1,8 +1,7 @@
-#include <gtest/gtest.h>
-
 #include "frame/memory_fit.hpp"
 #include "frame/pass_range.hpp"
 #include "frame_support.hpp"
+#include "test_headers.hpp"
 
 namespace speculum {
 namespace {

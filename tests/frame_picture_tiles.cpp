@@ -1,8 +1,5 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-
 #include "frame/picture_tiles.hpp"
+#include "test_headers.hpp"
 
 namespace speculum {
 namespace {

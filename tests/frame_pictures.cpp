@@ -1,10 +1,7 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "frame/picture_offset.hpp"
 #include "frame_support.hpp"
 #include "support/random.hpp"
+#include "test_headers.hpp"
 
 namespace speculum {
 namespace {

@@ -1,12 +1,9 @@
 #include "frame/frame_plan.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-
 #include "frame/mirror_sight.hpp"
 #include "frame_support.hpp"
 #include "support/random.hpp"
+#include "test_headers.hpp"
 
 namespace speculum {
 namespace {
@@ -210,14 +207,6 @@ TEST(FramePlan, MinPixelsCountsPixelsOfThePicture) {
     EXPECT_EQ(planOf(scene, settings).passes.size(), 1u) << scale;
     settings.reflection.minPixels = 1.01 * pixels;
     EXPECT_EQ(planOf(scene, settings).passes.size(), 0u) << scale;
-  }
-}
-
-TEST(FramePlan, OnePixelPicturesCanBePlanned) {
-  const Scene scene = corridor();
-  const FramePlan p = planFrame(scene, evaluate(scene, 0.0), {}, 1, 1);
-  for (const PlannedPass& pass : p.passes) {
-    EXPECT_EQ(pass.view.rect, (PixelRect{0, 0, 1, 1}));
   }
 }
 

@@ -1,14 +1,11 @@
 // Hidden mirrors, masks of mirror passes and the order of draws, without a GPU.
-#include <gtest/gtest.h>
-
-#include <random>
-
 #include "frame/draw_order.hpp"
 #include "frame/frame_plan.hpp"
 #include "frame/pass_mask.hpp"
 #include "frame_support.hpp"
 #include "geometry/affine.hpp"
 #include "random.hpp"
+#include "test_headers.hpp"
 #include "triangles.hpp"
 
 namespace speculum {

@@ -1,15 +1,10 @@
 // reflection.skip_unchanged: which images are reused, by the planner alone.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <functional>
-#include <set>
-
 #include "frame/effects.hpp"
 #include "frame/image_reuse.hpp"
 #include "frame/memory_fit.hpp"
 #include "frame_support.hpp"
 #include "image/color.hpp"
+#include "test_headers.hpp"
 
 namespace speculum {
 namespace {

@@ -1,5 +1,8 @@
 #if __has_include(<embree4/rtcore.h>)
 #include <embree4/rtcore.h>
+
+#include "test_headers.hpp"
+
 #else
 #include <embree3/rtcore.h>
 #endif

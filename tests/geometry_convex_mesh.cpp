@@ -1,9 +1,5 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-
 #include "geometry/convex_mesh.hpp"
+#include "test_headers.hpp"
 #include "triangles.hpp"
 
 namespace speculum {

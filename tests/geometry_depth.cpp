@@ -1,10 +1,6 @@
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cmath>
-
 #include "geometry/depth_resolution.hpp"
 #include "random.hpp"
+#include "test_headers.hpp"
 
 namespace speculum {
 namespace {

@@ -1,11 +1,8 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
 #include <ctime>
-#include <numeric>
 
 #include "geometry/convex_faces.hpp"
 #include "geometry/polygon.hpp"
+#include "test_headers.hpp"
 #include "triangles.hpp"
 
 namespace speculum {

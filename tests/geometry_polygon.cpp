@@ -1,9 +1,6 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "geometry/affine.hpp"
 #include "geometry/polygon.hpp"
+#include "test_headers.hpp"
 
 namespace speculum {
 namespace {

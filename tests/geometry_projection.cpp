@@ -1,12 +1,7 @@
-#include <gtest/gtest.h>
 #include <rapidcheck.h>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <numbers>
-
 #include "geometry/projection.hpp"
+#include "test_headers.hpp"
 
 namespace speculum {
 namespace {

@@ -1,13 +1,7 @@
 #include "geometry/triangulate.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <numeric>
-#include <random>
-
 #include "geometry/polygon.hpp"
+#include "test_headers.hpp"
 
 namespace speculum {
 namespace {

@@ -1,10 +1,6 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-
 #include "image/color.hpp"
 #include "image/image.hpp"
+#include "test_headers.hpp"
 
 namespace speculum {
 namespace {

@@ -1,9 +1,5 @@
 #include "image/enlarge.hpp"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <random>
+#include "test_headers.hpp"
 
 namespace speculum {
 namespace {

@@ -1,15 +1,11 @@
 // EXR files whose header, table and chunks disagree.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
 #include <climits>
-#include <random>
 
 #include "image/exr.hpp"
 #include "image/image.hpp"
 #include "platform/files.hpp"
 #include "temporary_folder.hpp"
+#include "test_headers.hpp"
 
 namespace speculum {
 namespace {

@@ -1,15 +1,11 @@
-#include <gtest/gtest.h>
 #include <tinyexr.h>
-
-#include <cmath>
-#include <limits>
-#include <string>
 
 #include "image/exr.hpp"
 #include "image/image.hpp"
 #include "image/picture_files.hpp"
 #include "platform/files.hpp"
 #include "temporary_folder.hpp"
+#include "test_headers.hpp"
 
 namespace speculum {
 namespace {
@@ -48,8 +44,8 @@ void expectFault(const Action& action, const fs::path& file, const std::string& 
     ADD_FAILURE() << "nothing was thrown for " << file;
   } catch (const FileError& error) {
     EXPECT_EQ(std::string(error.what()).find(file.string() + ": "), 0u) << error.what();
-    EXPECT_NE(error.problem().find(problem), std::string::npos) << error.what();
-    EXPECT_EQ(error.problem().find('\n'), std::string::npos) << error.what();
+    EXPECT_TRUE(contains(error.problem(), problem)) << error.what();
+    EXPECT_FALSE(contains(error.problem(), "\n")) << error.what();
   }
 }
 

@@ -1,10 +1,7 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "image/image.hpp"
 #include "image/picture_files.hpp"
 #include "temporary_folder.hpp"
+#include "test_headers.hpp"
 
 namespace speculum {
 namespace {

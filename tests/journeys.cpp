@@ -1,7 +1,5 @@
 // The window as a user drives it: real X events under a window manager, pictures compared. Single commands and panels
 // are tested without a display.
-#include <random>
-
 #include "core/handle.hpp"
 #include "image/color.hpp"
 #include "image/picture_files.hpp"
@@ -197,7 +195,7 @@ TEST_F(Journey, ScreenshotsIncludeOrOmitPanels) {
   press("Tab");
   press("F10");
   press("F10");
-  EXPECT_NE(view().status.text.find("Recorded "), std::string::npos);
+  EXPECT_TRUE(contains(view().status.text, "Recorded "));
   // Pictures and recordings of one second share a name, so their order tells nothing.
   const std::vector<std::filesystem::path> files = home_.pictures();
   const auto recording =
@@ -245,11 +243,7 @@ class TwoMirrors : public Journey {
  protected:
   TwoMirrors()
       : Journey(wallScene + R"(
-[[mirror]]
-name = "door"
-position = [1.6, 1.2, 0.5]
-rotation = [0, 200, 0]
-size = [1, 1.6]
+[[mirror]] name = "door", position = [1.6, 1.2, 0.5], rotation = [0, 200, 0], size = [1, 1.6]
 )") {}
 
   void scrollTo(const std::string& name) {

@@ -167,8 +167,8 @@ TEST_F(IdleWindow, GalleryShowsAndOpensScenes) {
   demo_->window().resize(other.width, other.height);
   ASSERT_TRUE(waitFor([&] { return demo_->renderer().displayExtent().width == uint32_t(other.width); }));
   settle();
-  Options options = headless(sourceFile("scenes/facing_mirrors.toml"), other);
-  set(options, {{"view.samples", "1"}, {"reflection.samples", "1"}});
+  Options options =
+      headless(sourceFile("scenes/facing_mirrors.toml"), other, {{"view.samples", "1"}, {"reflection.samples", "1"}});
   EXPECT_TRUE(picture().rgba == draw(options, view().playback.time).rgba);
 }
 
@@ -179,13 +179,13 @@ TEST_F(IdleWindow, StillPicturesConvergeAndMotionIsLowered) {
   demo_->apply(SetSettings{settings});
   pointAt(width - 100, 90);  // wakes the window
   run(2);
-  EXPECT_EQ(view().status.picture.find("5 of"), std::string::npos) << "one picture in each frame";
+  EXPECT_FALSE(contains(view().status.picture, "5 of")) << "one picture in each frame";
   settle();
   EXPECT_EQ(view().status.picture, "5 of 5 pictures");
   const Image8 shown = picture();
   demo_->apply(CopyCommandLine{});
   const std::string command = demo_->window().clipboard();
-  EXPECT_NE(command.find("view.accumulate=5"), std::string::npos) << command;
+  EXPECT_TRUE(contains(command, "view.accumulate=5"));
   const ProcessResult result = runProcess(
       {"bash", "-c", "cd '" + home_.path().string() + "' && PATH=" + binaryDir().string() + ":$PATH && " + command});
   ASSERT_EQ(result.exitCode, 0) << command << "\n" << result.output;
@@ -251,7 +251,7 @@ TEST_F(AccuracyJourney, MeasuresTheViewAndShowsTheDifference) {
   EXPECT_EQ(view().settings.view.samples, 4);
   setSetting("quality.max_error", "0.5");
   run(2);
-  EXPECT_NE(measured.choice.find("mean FLIP"), std::string::npos) << measured.choice;
+  EXPECT_TRUE(contains(measured.choice, "mean FLIP"));
   EXPECT_EQ(measured.current, measured.front.front()) << "the cheapest that keeps the bound";
 
   demo_->apply(SetPaused{true});

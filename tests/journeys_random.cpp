@@ -1,8 +1,6 @@
 // Random input to the window, at least for SPECULUM_SECONDS: no crash, no validation message, and afterwards it still
 // works.
-#include <cstdlib>
 #include <iostream>
-#include <random>
 
 #include "journeys_support.hpp"
 #include "sampling.hpp"

@@ -1,9 +1,6 @@
 #pragma once
 
-#include <gtest/gtest.h>
-
 #include <chrono>
-#include <fstream>
 
 #include "app/demo.hpp"
 #include "driver.hpp"
@@ -12,6 +9,7 @@
 #include "picture_support.hpp"
 #include "platform/process.hpp"
 #include "scene_text.hpp"
+#include "test_headers.hpp"
 #include "user_folders.hpp"
 #include "virtual_display.hpp"
 

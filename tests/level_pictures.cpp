@@ -1,6 +1,4 @@
 // reflection.mesh_error: how many triangles simplified objects in mirrors save, and how much the picture changes.
-#include <gtest/gtest.h>
-
 #include "accuracy/image_metrics.hpp"
 #include "reuse_support.hpp"
 #include "scene_text.hpp"
@@ -16,46 +14,22 @@ constexpr PictureSize small{160, 90};
 // Objects before a mirror wall and a second mirror at its side: knots, objects of several parts, and hard edges.
 std::filesystem::path objectsScene() {
   return writeScene("levels", R"(
-[environment]
-background = [0.3, 0.4, 0.5]
-ambient = [0.1, 0.1, 0.1]
-[camera]
-position = [0.4, 1.4, 4]
-target = [0, 0.9, 0]
-orbit_speed = 20
-[[object]]
-model = "MODELS/torus_knot.obj"
-position = [-0.8, 0.8, 0.5]
-spin = [0, 40, 0]
-copies = { count = 4, step = [0.6, 0, 0.5] }
-[[object]]
-model = "MODELS/queen.obj"
-position = [1.2, 0, -0.6]
-[[object]]
-model = "MODELS/lamp.obj"
-position = [-1.3, 1.9, 0]
-[[object]]
-model = "MODELS/chequer.obj"
-position = [0, 0, 0]
-[[light]]
-position = [1, 3, 3]
-intensity = 20
-[[mirror]]
-name = "wall"
-position = [0, 1, -2]
-size = [3, 2]
-[[mirror]]
-name = "side"
-position = [-2, 1, 0]
-rotation = [0, 90, 0]
-size = [3, 2]
+[environment] background = [0.3, 0.4, 0.5], ambient = [0.1, 0.1, 0.1]
+[camera] position = [0.4, 1.4, 4], target = [0, 0.9, 0], orbit_speed = 20
+[[object]] model = "MODELS/torus_knot.obj", position = [-0.8, 0.8, 0.5], spin = [0, 40, 0]
+  copies = { count = 4, step = [0.6, 0, 0.5] }
+[[object]] model = "MODELS/queen.obj", position = [1.2, 0, -0.6]
+[[object]] model = "MODELS/lamp.obj", position = [-1.3, 1.9, 0]
+[[object]] model = "MODELS/chequer.obj", position = [0, 0, 0]
+[[light]] position = [1, 3, 3], intensity = 20
+[[mirror]] name = "wall", position = [0, 1, -2], size = [3, 2]
+[[mirror]] name = "side", position = [-2, 1, 0], rotation = [0, 90, 0], size = [3, 2]
 )");
 }
 
 Options optionsFor(const std::filesystem::path& file, const std::string& meshError,
                    const std::vector<std::pair<std::string, std::string>>& more = {}) {
-  Options options = headless(file, small);
-  set(options, {{"reflection.mesh_error", meshError}});
+  Options options = headless(file, small, {{"reflection.mesh_error", meshError}});
   set(options, more);
   return options;
 }

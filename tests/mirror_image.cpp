@@ -1,9 +1,4 @@
 // Mirrors are right, not merely unchanged: a mirror image is the direct picture of the mirrored scene.
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <sstream>
-
 #include "geometry/affine.hpp"
 #include "geometry/reflection.hpp"
 #include "picture_support.hpp"
@@ -133,7 +128,7 @@ TEST_P(MirrorImage, EqualsThePictureOfTheMirroredScene) {
   expectAlike(seen, direct, 1, "mirror_image_" + std::to_string(GetParam()), mask);
 }
 
-INSTANTIATE_TEST_SUITE_P(RandomPlanes, MirrorImage, testing::ValuesIn(sampledSeeds(20, 3)),
+INSTANTIATE_TEST_SUITE_P(RandomPlanes, MirrorImage, testing::ValuesIn(sampledSeeds(20, 5)),
                          testing::PrintToStringParamName());
 
 TEST(MirrorImages, HideWhatIsBehindThePlane) {

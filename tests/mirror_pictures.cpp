@@ -1,18 +1,14 @@
 // Images of several mirrors in one frame: overlapping, nested, many; their seams and memory.
-#include <gtest/gtest.h>
 #include <malloc.h>
 
-#include <algorithm>
-#include <array>
 #include <cstdio>
-#include <cstdlib>
-#include <fstream>
 
 #include "image/color.hpp"
 #include "image/enlarge.hpp"
 #include "picture_support.hpp"
 #include "sampling.hpp"
 #include "scene_text.hpp"
+#include "test_headers.hpp"
 
 namespace speculum {
 namespace {
@@ -22,25 +18,13 @@ using namespace testing_support;
 constexpr PictureSize size{320, 180};
 
 const std::string room = R"(
-[environment]
-sky = { zenith = [0.1, 0.2, 0.9], horizon = [0.9, 0.8, 0.3], ground = [0.2, 0.5, 0.1] }
-ambient = [0.2, 0.2, 0.2]
-[camera]
-position = [0, 1, 5]
-target = [0, 1, 0]
-[settings]
-"view.samples" = 1
-"reflection.samples" = 1
-[[object]]
-model = "MODELS/teapot.obj"
-position = [-1.2, 0.3, 6.5]
-[[object]]
-model = "MODELS/torus_knot.obj"
-position = [1.2, 1, 7]
-scale = 0.6
-[[light]]
-position = [0, 3, 5]
-intensity = 20
+[environment] sky = { zenith = [0.1, 0.2, 0.9], horizon = [0.9, 0.8, 0.3], ground = [0.2, 0.5, 0.1] }
+  ambient = [0.2, 0.2, 0.2]
+[camera] position = [0, 1, 5], target = [0, 1, 0]
+[settings] "view.samples" = 1, "reflection.samples" = 1
+[[object]] model = "MODELS/teapot.obj", position = [-1.2, 0.3, 6.5]
+[[object]] model = "MODELS/torus_knot.obj", position = [1.2, 1, 7], scale = 0.6
+[[light]] position = [0, 3, 5], intensity = 20
 )";
 
 std::string mirror(const std::string& name, const std::string& rest) {
@@ -81,27 +65,17 @@ std::string turnedRoom() {
 // The camera looks into a large mirror that shows the two.
 TEST(MirrorPictures, NestedOverlappingMirrorsHaveTheirOwnImages) {
   // Limits the depth: below it the large mirror would show the two in each other.
-  const std::string turned = replaced(turnedRoom(), "[settings]", "[settings]\n\"reflection.max_depth\" = 2");
+  const std::string turned = replaced(turnedRoom(), "[settings]", "[settings] \"reflection.max_depth\" = 2,");
   const std::string behind = mirror("big", "position = [0, 1, 9]\nrotation = [0, 180, 0]\nsize = [12, 8]");
   expectIndependent("nested_overlap", turned, behind);
 }
 
 // A floor that every ray meets sooner or later, so that the background is seen nowhere.
 const std::string floorAllAround = R"(
-[environment]
-background = [4, 0, 0]
-ambient = [0, 0.5, 1]
-[camera]
-position = [0.3, 1.1, 1.4]
-target = [0.05, 0, 0]
-up = [0.06, 1, 0]
-vertical_fov = 45
-[settings]
-"view.samples" = 4
-"reflection.samples" = 4
-[[object]]
-model = "seam_floor.obj"
-color = [0, 1, 0]
+[environment] background = [4, 0, 0], ambient = [0, 0.5, 1]
+[camera] position = [0.3, 1.1, 1.4], target = [0.05, 0, 0], up = [0.06, 1, 0], vertical_fov = 45
+[settings] "view.samples" = 4, "reflection.samples" = 4
+[[object]] model = "seam_floor.obj", color = [0, 1, 0]
 )";
 
 const std::string wallMirror = "polygon = [[-9, -1, 0], [9, -1, 0], [9, 9, 0], [-9, 9, 0]]\n";
@@ -139,9 +113,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Seams,
 
 // The whole picture is one mirror's image, shown over it.
 Image8 drawDebugView(const std::string& samples) {
-  Options options = headless(writeScene("debug_view", room + left), size);
-  set(options, {{"reflection.samples", samples}});
-  QuietSession session(options);
+  QuietSession session(headless(writeScene("debug_view", room + left), size, {{"reflection.samples", samples}}));
   const DrawnFrame first = session.draw(0.0, false);
   recordFrame(session, first.state, session.settings(), first.plan,
               DebugView{.pass = 0, .area = {0, 0, size.width, size.height}});
@@ -162,8 +134,7 @@ using SettingList = std::vector<std::pair<std::string, std::string>>;
 // memory.
 std::vector<std::vector<uint8_t>> picturesInMemoryOf(int fill, const std::string& scene, const SettingList& settings) {
   ::mallopt(M_PERTURB, fill);
-  Options options = headless(sourceFile("scenes/" + scene + ".toml"), {96, 54});
-  set(options, settings);
+  Options options = headless(sourceFile("scenes/" + scene + ".toml"), {96, 54}, settings);
   set(options, {{"reflection.max_passes", "12"}});
   std::vector<std::vector<uint8_t>> pictures;
   {
@@ -203,8 +174,8 @@ TEST(MirrorPictures, DebugViewShowsTheMeanOfSamples) {
 }
 
 TEST(MirrorPictures, ClearColorReachesPictureAndReflections) {
-  Options options = headless(writeScene("clear_color", room + left + "reflectance = [1, 1, 1]\n"), size);
-  set(options, {{"view.clear_color", "0.25,0.5,1"}});
+  Options options = headless(writeScene("clear_color", room + left + "reflectance = [1, 1, 1]\n"), size,
+                             {{"view.clear_color", "0.25,0.5,1"}});
   const Image8 picture = draw(options);
   const std::array<uint8_t, 3> expected{137, 188, 255};
   for (const glm::ivec2 pixel : {glm::ivec2(310, 10), glm::ivec2(120, 72)}) {
@@ -213,9 +184,8 @@ TEST(MirrorPictures, ClearColorReachesPictureAndReflections) {
 }
 
 TEST(MirrorPictures, ManyMirrorsStayWithinTheirMemory) {
-  Options options = headless(sourceFile("scenes/many_mirrors.toml"), {1280, 720});
-  set(options, {{"reflection.max_depth", "4"}, {"reflection.samples", "4"}, {"view.samples", "4"}});
-  QuietSession session(options);
+  QuietSession session(headless(sourceFile("scenes/many_mirrors.toml"), {1280, 720},
+                                {{"reflection.max_depth", "4"}, {"reflection.samples", "4"}, {"view.samples", "4"}}));
   session.draw(0.0, false);
   session.draw(1.0, false);
   session.renderer().waitIdle();
@@ -270,9 +240,7 @@ TEST(MirrorPictures, DriverKeepsNoMemoryOfFrames) {
       {sourceFile("scenes/rough.toml"), {{"effects.rough_lookup", "image"}, {"effects.rough_samples", "4"}}},
       {writeScene("many_lights", manyLights), {{"debug.check_finite", "true"}}}};
   for (const auto& [file, settings] : cases) {
-    Options options = headless(file, {64, 36});
-    set(options, settings);
-    QuietSession session(options);
+    QuietSession session(headless(file, {32, 18}, settings));
     const auto leastOf = [&](int frames) {
       double least = 1e9;
       for (int i = 0; i < frames; ++i) {
@@ -334,18 +302,10 @@ TEST(ViewScale, DrawsTheSmallerPictureEnlarged) {
 // mirror then has that color.
 TEST(MirrorPictures, BlurredImagesAreDrawnBesideTheirMirror) {
   const std::filesystem::path file = writeScene("one_color", R"(
-[environment]
-sky = { zenith = [0.4, 0.5, 0.6], horizon = [0.4, 0.5, 0.6], ground = [0.4, 0.5, 0.6] }
-[camera]
-position = [0, 0, 3]
-target = [0, 0, 0]
-[settings]
-"effects.rough_lookup" = "image"
-[[mirror]]
-rotation = [15, 30, 20]
-size = [1.6, 1]
-roughness = 0.4
-reflectance = [1, 1, 1]
+[environment] sky = { zenith = [0.4, 0.5, 0.6], horizon = [0.4, 0.5, 0.6], ground = [0.4, 0.5, 0.6] }
+[camera] position = [0, 0, 3], target = [0, 0, 0]
+[settings] "effects.rough_lookup" = "image"
+[[mirror]] rotation = [15, 30, 20], size = [1.6, 1], roughness = 0.4, reflectance = [1, 1, 1]
 )");
   const Image8 picture = draw(headless(file, size));
   for (size_t i = 0; i < picture.rgba.size(); ++i) {

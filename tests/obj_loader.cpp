@@ -1,16 +1,11 @@
 #include "scene/obj_loader.hpp"
 
-#include <gtest/gtest.h>
 #include <spdlog/fmt/fmt.h>
 #include <tiny_obj_loader.h>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <random>
-
 #include "geometry/polygon.hpp"
 #include "obj_support.hpp"
+#include "test_headers.hpp"
 
 namespace speculum {
 namespace {
@@ -155,7 +150,7 @@ TEST_F(ObjLoader, ArbitraryBytesAreRefused) {
        {std::string(), bytes, bytes + '\0', std::string(100, '\\'), std::string("\\\n\\\n")}) {
     const std::string fault = faultOf(text);
     EXPECT_TRUE(fault.starts_with("m.obj:")) << fault;
-    EXPECT_EQ(fault.find('\n'), std::string::npos);
+    EXPECT_FALSE(contains(fault, "\n"));
   }
 }
 
@@ -193,8 +188,8 @@ class ObjFaults : public ObjTest, public testing::WithParamInterface<Fault> {};
 TEST_P(ObjFaults, NameTheirLine) {
   const std::string fault = faultOf(GetParam().text);
   EXPECT_TRUE(fault.starts_with("m.obj:" + std::string(GetParam().place) + " ")) << fault;
-  EXPECT_NE(fault.find(GetParam().message), std::string::npos) << fault;
-  EXPECT_EQ(fault.find('\n'), std::string::npos) << fault;
+  EXPECT_TRUE(contains(fault, GetParam().message));
+  EXPECT_FALSE(contains(fault, "\n"));
 }
 
 const std::string kVertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";

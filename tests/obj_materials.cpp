@@ -1,14 +1,12 @@
 #include "scene/obj_materials.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <ctime>
 
 #include "image/color.hpp"
 #include "image/image.hpp"
 #include "image/picture_files.hpp"
 #include "obj_support.hpp"
+#include "test_headers.hpp"
 
 namespace speculum {
 namespace {
@@ -82,8 +80,7 @@ TEST_F(MtlFile, MissingNameIsOneWarning) {
 TEST_F(MtlFile, OpacityIsAWarning) {
   for (const char* opacity : {"d 0.5", "Tr 0.5", "map_d mask.png"}) {
     load(kSquare + "usemtl m\nf 1 2 3\n", std::string("newmtl m\nKd 1 1 1\n") + opacity + "\n");
-    EXPECT_NE(warnings().find("m.mtl:1: material 'm' is not opaque, it is drawn opaque\n"), std::string::npos)
-        << opacity;
+    EXPECT_TRUE(contains(warnings(), "m.mtl:1: material 'm' is not opaque, it is drawn opaque\n")) << opacity;
   }
 }
 

@@ -1,13 +1,11 @@
 #pragma once
 
-#include <gtest/gtest.h>
 #include <imgui.h>
-
-#include <fstream>
 
 #include "image/picture_files.hpp"
 #include "picture_support.hpp"
 #include "scene/scene_loader.hpp"
+#include "test_headers.hpp"
 #include "ui/panel_windows.hpp"
 #include "user_folders.hpp"
 

@@ -1,7 +1,6 @@
 // difference(), on which tests of pictures rely.
-#include <gtest/gtest.h>
-
 #include "picture_support.hpp"
+#include "test_headers.hpp"
 
 namespace speculum {
 namespace {

@@ -1,2 +1,2 @@
-speculum_test(platform_tests SOURCES platform_files.cpp platform_folders.cpp platform_machine.cpp platform_process.cpp
+speculum_test(platform_tests SOURCES platform_files.cpp platform_system.cpp
               LIBRARIES platform ext::glm)

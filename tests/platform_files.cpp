@@ -1,17 +1,14 @@
 #include "platform/files.hpp"
+#include "test_headers.hpp"
 
 #include <fcntl.h>
-#include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <array>
 #include <chrono>
 #include <csignal>
-#include <fstream>
 #include <future>
-#include <string>
 
 namespace speculum::test {
 namespace {

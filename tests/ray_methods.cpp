@@ -1,14 +1,10 @@
 // Rays by ray queries and by shaders: the choice between them, its reason, their needs, and equal pictures of both.
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <sstream>
-
 #include "app/stats.hpp"
 #include "effect_scenes.hpp"
 #include "log_capture.hpp"
 #include "picture_support.hpp"
 #include "scarce_memory.hpp"
+#include "test_headers.hpp"
 
 namespace speculum {
 namespace {
@@ -18,12 +14,8 @@ using namespace testing_support;
 constexpr PictureSize size{160, 90};
 constexpr PictureSize small{48, 27};
 
-const std::string room = effectFloor + R"([[object]]
-name = "pot"
-model = "MODELS/teapot.obj"
-position = [0.6, 0, 0.4]
-scale = [0.6, 0.6, -0.6]
-spin = [0, 40, 0]
+const std::string room = effectFloor + R"([[object]] name = "pot", model = "MODELS/teapot.obj"
+  position = [0.6, 0, 0.4], scale = [0.6, 0.6, -0.6], spin = [0, 40, 0]
 )";
 const std::string brightWall = wall + "casts_light = true\n";
 const std::string brightSide = side + "casts_light = true\n";
@@ -33,9 +25,7 @@ const std::string ball =
     "mirror = { reflectance = [0.9, 0.8, 0.6] }\n";
 
 Options with(const std::filesystem::path& file, const std::string& rays, PictureSize drawn = size) {
-  Options options = headless(file, drawn);
-  set(options, {{"effects.rays", rays}});
-  return options;
+  return headless(file, drawn, {{"effects.rays", rays}});
 }
 
 constexpr const char* withoutRayQueries = "the device has no ray queries (scripts/newer-mesa has a driver with them)";

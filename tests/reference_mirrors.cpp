@@ -1,11 +1,7 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numbers>
-
 #include "geometry/reflection.hpp"
 #include "reference/ray_tracer.hpp"
 #include "reference_scenes.hpp"
+#include "test_headers.hpp"
 
 namespace speculum {
 namespace {

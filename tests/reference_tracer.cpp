@@ -1,11 +1,8 @@
-#include <gtest/gtest.h>
 #include <tbb/task_arena.h>
-
-#include <cmath>
-#include <numbers>
 
 #include "reference/ray_tracer.hpp"
 #include "reference_scenes.hpp"
+#include "test_headers.hpp"
 
 namespace speculum {
 namespace {

@@ -1,6 +1,4 @@
 // Cases of `regress`: the file, expectations of drivers, limits, worker processes.
-#include <gtest/gtest.h>
-
 #include <csignal>
 
 #include "error_message.hpp"
@@ -11,6 +9,7 @@
 #include "regress/worker_pool.hpp"
 #include "scene/input_error.hpp"
 #include "temporary_folder.hpp"
+#include "test_headers.hpp"
 
 namespace speculum {
 namespace {

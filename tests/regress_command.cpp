@@ -1,6 +1,4 @@
 // `speculum regress` as scripts call it.
-#include <gtest/gtest.h>
-
 #include "command_support.hpp"
 #include "image/picture_files.hpp"
 #include "picture_support.hpp"
@@ -13,14 +11,8 @@ namespace {
 using namespace testing_support;
 
 const std::string side = R"(
-[[light]]
-position = [-2, 1, 2]
-intensity = 3
-[[mirror]]
-name = "side"
-position = [2.5, 1, 0]
-rotation = [0, -60, 0]
-size = [2, 2]
+[[light]] position = [-2, 1, 2], intensity = 3
+[[mirror]] name = "side", position = [2.5, 1, 0], rotation = [0, -60, 0], size = [2, 2]
 )";
 
 class RegressCommand : public testing::Test {
@@ -34,11 +26,10 @@ class RegressCommand : public testing::Test {
     folder_.write("cases.toml",
                   "[defaults]\nsize = '320x180'\nsettings = { debug.check_finite = true }\n"
                   "tolerance = { flip = 0.005 }\n" +
-                      text);
+                      tomlOf(text));
   }
   void writeRoom(const std::string& name, const std::string& from = "", const std::string& to = "") {
-    const std::string text = replaced(wallScene + side, "MODELS", sourceFile("models").string());
-    folder_.write(name, replaced(text, from, to));
+    folder_.write(name, replaced(tomlOf(wallScene + side), from, to));
   }
   // Says what became of a case, as the command prints it.
   static std::string lineOf(const std::string& name, const std::string& output) {
@@ -55,20 +46,19 @@ TEST_F(RegressCommand, GoesFromRedToGreen) {
   writeCases("[[case]]\nscene = 'room.toml'\n[[case]]\nname = 'later'\nscene = 'room.toml'\ntime = 1\n");
   ProcessResult result = regress({});
   EXPECT_EQ(result.exitCode, 1);
-  EXPECT_NE(lineOf("room", result.output).find("there is no expected picture"), std::string::npos) << result.output;
-  EXPECT_NE(readText(folder_ / "out/index.html").find(R"("--filter","room","--validation","--update"])"),
-            std::string::npos);
+  EXPECT_TRUE(contains(lineOf("room", result.output), "there is no expected picture")) << result.output;
+  EXPECT_TRUE(contains(readText(folder_ / "out/index.html"), R"("--filter","room","--validation","--update"])"));
   result = regress({"--update", "room"});
   EXPECT_EQ(result.exitCode, 1) << "the other one is still missing: " << result.output;
   EXPECT_TRUE(std::filesystem::exists(folder_ / "room.png"));
   EXPECT_FALSE(std::filesystem::exists(folder_ / "later.png"));
   result = regress({"--update"});
   EXPECT_EQ(result.exitCode, 0) << result.output;
-  EXPECT_NE(result.output.find("2 cases: 1 passed, 1 updated"), std::string::npos) << result.output;
+  EXPECT_TRUE(contains(result.output, "2 cases: 1 passed, 1 updated"));
   result = regress({"--repeat", "3", "--junit", (folder_ / "junit.xml").string()});
   EXPECT_EQ(result.exitCode, 0) << result.output;
-  EXPECT_NE(readText(folder_ / "junit.xml").find("tests=\"2\" failures=\"0\""), std::string::npos);
-  EXPECT_EQ(readText(folder_ / "out/index.html").find("data:image/png"), std::string::npos);
+  EXPECT_TRUE(contains(readText(folder_ / "junit.xml"), "tests=\"2\" failures=\"0\""));
+  EXPECT_FALSE(contains(readText(folder_ / "out/index.html"), "data:image/png"));
 }
 
 TEST_F(RegressCommand, FindsSeededFaults) {
@@ -104,10 +94,10 @@ TEST_F(RegressCommand, FindsSeededFaults) {
   writeCases(cases);
   const ProcessResult result = regress({});
   EXPECT_EQ(result.exitCode, 1);
-  EXPECT_NE(result.output.find("6 cases: 1 passed, 5 failed;"), std::string::npos) << result.output;
-  EXPECT_NE(lineOf("tinted", result.output).find("mean FLIP is"), std::string::npos) << result.output;
+  EXPECT_TRUE(contains(result.output, "6 cases: 1 passed, 5 failed;"));
+  EXPECT_TRUE(contains(lineOf("tinted", result.output), "mean FLIP is")) << result.output;
   for (const char* name : {"shifted", "seam", "dark", "swapped"}) {
-    EXPECT_NE(lineOf(name, result.output).find("differ"), std::string::npos) << result.output;
+    EXPECT_TRUE(contains(lineOf(name, result.output), "differ")) << result.output;
   }
 }
 
@@ -120,8 +110,7 @@ TEST_F(RegressCommand, FindsValuesThatAreNotFinite) {
   writeShaders(shaders, "scene_shading.glsl", "  color.r = gl_FragCoord.x < 160.0 ? color.r : sqrt(-1.0 - color.r);\n");
   const ProcessResult result = regress({"--shader-dir", shaders.string()});
   EXPECT_EQ(result.exitCode, 1);
-  EXPECT_NE(lineOf("room", result.output).find("values that are not finite, first"), std::string::npos)
-      << result.output;
+  EXPECT_TRUE(contains(lineOf("room", result.output), "values that are not finite, first")) << result.output;
   const ProcessResult update = regress({"--shader-dir", shaders.string(), "--update"});
   EXPECT_EQ(update.exitCode, 1) << "such a picture is not taken over: " << update.output;
 }
@@ -129,20 +118,11 @@ TEST_F(RegressCommand, FindsValuesThatAreNotFinite) {
 TEST_F(RegressCommand, KeepsToWhatIsExpectedOfTheDriver) {
   writeRoom("room.toml");
   writePng(folder_ / "wrong.png", Image8(320, 180));
-  writeCases(R"([[case]]
-scene = 'room.toml'
-name = 'known'
-picture = 'wrong.png'
+  writeCases(R"(
+[[case]] scene = 'room.toml', name = 'known', picture = 'wrong.png'
 expect = [{ driver = 'nothing like it', result = 'skip', reason = 'other' }, { driver = '', result = 'fail', reason = 'bug 7' }]
-[[case]]
-scene = 'room.toml'
-name = 'skipped'
-expect = [{ driver = '', result = 'skip', reason = 'too slow' }]
-[[case]]
-scene = 'room.toml'
-name = 'surprise'
-picture = 'wrong.png'
-tolerance = { max_diff = 255, flip = 1 }
+[[case]] scene = 'room.toml', name = 'skipped', expect = [{ driver = '', result = 'skip', reason = 'too slow' }]
+[[case]] scene = 'room.toml', name = 'surprise', picture = 'wrong.png', tolerance = { max_diff = 255, flip = 1 }
 expect = [{ driver = '', result = 'fail', reason = 'bug 8' }]
 )");
   const ProcessResult result = regress({"--update"});
@@ -156,23 +136,17 @@ expect = [{ driver = '', result = 'fail', reason = 'bug 8' }]
 TEST_F(RegressCommand, SceneFaultsAndTimeoutsLeaveTheRest) {
   writeRoom("room.toml");
   folder_.write("broken.toml", "[camera]\nposition = 1\n");
-  writeCases(R"([[case]]
-scene = 'broken.toml'
-[[case]]
-scene = 'room.toml'
-name = 'slow'
-size = '1920x1080'
-settings = { view.accumulate = 1024 }
-timeout = 2
-[[case]]
-scene = 'room.toml'
+  writeCases(R"(
+[[case]] scene = 'broken.toml'
+[[case]] scene = 'room.toml', name = 'slow', size = '1920x1080', settings = { view.accumulate = 1024 }, timeout = 2
+[[case]] scene = 'room.toml'
 )");
   const ProcessResult result = regress({"--update"});
   EXPECT_EQ(result.exitCode, 1);
-  EXPECT_NE(lineOf("broken", result.output).find("broken.toml:2: camera.position"), std::string::npos) << result.output;
+  EXPECT_TRUE(contains(lineOf("broken", result.output), "broken.toml:2: camera.position")) << result.output;
   EXPECT_EQ(lineOf("slow", result.output), "error   slow: no picture within 2 s");
-  EXPECT_NE(readText(folder_ / "out/index.html").find(R"("--set","view.accumulate=1024","--validation","--out")"),
-            std::string::npos)
+  EXPECT_TRUE(
+      contains(readText(folder_ / "out/index.html"), R"("--set","view.accumulate=1024","--validation","--out")"))
       << "the command that draws it";
   EXPECT_EQ(lineOf("room", result.output), "updated room: wrote " + (folder_ / "room.png").string());
 }
@@ -180,15 +154,8 @@ scene = 'room.toml'
 TEST_F(RegressCommand, FirstOfCasesWritesTheirPicture) {
   writeRoom("room.toml");
   writeCases(R"(
-[[case]]
-name = 'first'
-scene = 'room.toml'
-picture = 'same.png'
-[[case]]
-name = 'second'
-scene = 'room.toml'
-settings = { view.exposure = 0.25 }
-picture = 'same.png'
+[[case]] name = 'first', scene = 'room.toml', picture = 'same.png'
+[[case]] name = 'second', scene = 'room.toml', settings = { view.exposure = 0.25 }, picture = 'same.png'
 )");
   const ProcessResult result = regress({"--update"});
   EXPECT_EQ(result.exitCode, 1);
@@ -197,7 +164,7 @@ picture = 'same.png'
   const std::string written = readText(folder_ / "same.png");
   EXPECT_EQ(regress({"--filter", "second", "--update"}).exitCode, 1);
   EXPECT_EQ(readText(folder_ / "same.png"), written) << "the case that writes it is not drawn";
-  EXPECT_EQ(readText(folder_ / "out/index.html").find(R"("--update"],"device)"), std::string::npos);
+  EXPECT_FALSE(contains(readText(folder_ / "out/index.html"), R"("--update"],"device)"));
 }
 
 TEST_F(RegressCommand, MistakesExitTwo) {
@@ -205,7 +172,7 @@ TEST_F(RegressCommand, MistakesExitTwo) {
   writeCases("[[case]]\nscene = 'room.toml'\n");
   const std::string file =
       mistake({"regress", (folder_ / "cases.toml").string(), "--out", (folder_ / "room.toml").string()});
-  EXPECT_NE(file.find("room.toml cannot be made (a folder for the report)"), std::string::npos) << file;
+  EXPECT_TRUE(contains(file, "room.toml cannot be made (a folder for the report)"));
   EXPECT_EQ(regress({"--filter", "hall*"}).exitCode, 2);
   EXPECT_EQ(regress({"--update", "hall*"}).exitCode, 2);
   EXPECT_EQ(speculum({"regress"}).exitCode, 2);

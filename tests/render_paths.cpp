@@ -1,12 +1,9 @@
 // Dynamic rendering and VkRenderPass give the same bytes for golden pictures. Reused images are compared beside
 // their own tests.
-#include <gtest/gtest.h>
-
-#include <map>
-
 #include "app/case_drawer.hpp"
 #include "picture_support.hpp"
 #include "sampling.hpp"
+#include "test_headers.hpp"
 
 namespace speculum {
 namespace {

@@ -1,42 +1,23 @@
 #pragma once
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <nlohmann/json.hpp>
-#include <string>
-#include <vector>
 
 #include "app/stats.hpp"
 #include "picture_support.hpp"
+#include "test_headers.hpp"
 
 namespace speculum::testing_support {
 
 // A mirror with a layer of its own, a mirror in it, and, if `turning`, one that turns while the camera orbits.
 inline std::filesystem::path roomScene(bool turning = true) {
   const std::string room = R"(
-[environment]
-background = [0.3, 0.4, 0.5]
-ambient = [0.2, 0.2, 0.2]
-[[object]]
-model = "MODELS/torus_knot.obj"
-position = [0, 0.7, 0.5]
-[[object]]
-model = "MODELS/queen.obj"
-position = [1.2, 0, -0.6]
-[[light]]
-position = [1, 3, 3]
-intensity = 20
-[[mirror]]
-name = "floor"
-polygon = [[-4, 0, 4], [4, 0, 4], [4, 0, -4], [-4, 0, -4]]
-reflectance = [0.4, 0.4, 0.4]
-base_color = [0.3, 0.2, 0.1]
-fresnel = "schlick"
-[[mirror]]
-name = "wall"
-position = [0, 1, -2]
-size = [3, 2]
+[environment] background = [0.3, 0.4, 0.5], ambient = [0.2, 0.2, 0.2]
+[[object]] model = "MODELS/torus_knot.obj", position = [0, 0.7, 0.5]
+[[object]] model = "MODELS/queen.obj", position = [1.2, 0, -0.6]
+[[light]] position = [1, 3, 3], intensity = 20
+[[mirror]] name = "floor", polygon = [[-4, 0, 4], [4, 0, 4], [4, 0, -4], [-4, 0, -4]]
+  reflectance = [0.4, 0.4, 0.4], base_color = [0.3, 0.2, 0.1], fresnel = "schlick"
+[[mirror]] name = "wall", position = [0, 1, -2], size = [3, 2]
 )";
   const std::string camera = "[camera]\nposition = [0.5, 1.4, 4]\ntarget = [0, 0.8, 0]\n";
   const std::string side =

@@ -1,13 +1,8 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <stdexcept>
-
 #include "geometry/polygon.hpp"
 #include "random.hpp"
 #include "scene/beside_mirrors.hpp"
 #include "scene/scene_state.hpp"
+#include "test_headers.hpp"
 
 namespace speculum {
 namespace {

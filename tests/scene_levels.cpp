@@ -1,15 +1,10 @@
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cmath>
-#include <limits>
-#include <set>
 #include <thread>
 
 #include "geometry/mesh_levels.hpp"
 #include "geometry/surface_distance.hpp"
 #include "random.hpp"
 #include "scene/obj_loader.hpp"
+#include "test_headers.hpp"
 #include "test_paths.hpp"
 
 namespace speculum {

@@ -1,9 +1,8 @@
-#include <gtest/gtest.h>
-
 #include "image/image.hpp"
 #include "image/picture_files.hpp"
 #include "scene/scene_state.hpp"
 #include "scene_support.hpp"
+#include "test_headers.hpp"
 
 namespace speculum {
 namespace {
@@ -33,57 +32,22 @@ TEST(SceneDefaults, RippleWithoutAmplitudeIsNone) {
   EXPECT_FALSE(load(kCamera + "[[mirror]]\nsize = [1, 1]\nripple = { wavelength = 0.1 }\n").mirrors.at(0).ripple);
 }
 
-constexpr const char* kEverything = R"(title = "Gallery"
-[environment]
-background = [0.45, 0.55, 0.60]
-sky = { zenith = [0.2, 0.4, 0.9], horizon = [0.8, 0.85, 0.9], ground = [0.3, 0.28, 0.25] }
-ambient = [0.03, 0.04, 0.05]
-[camera]
-position = [0, 1.6, 4]
-target = [0, 1, 0]
-up = [0, 1, 1]
-vertical_fov = 45
-near = 0.01
-orbit_speed = -3
-[[object]]
-name = "knot"
-model = "triangle.obj"
-position = [0, 1, 0]
-rotation = [0, 30, 0]
-scale = [-1, 2, 3.5]
-spin = [0, 20, 0]
-color = [0.8, 0.2, 0.1]
-specular = [0.04, 0.05, 0.06]
-shininess = 0.5
-emission = [0, 0, 2]
-copies = { count = 100, step = [1, 0, 0] }
-mirror = { reflectance = [0.5, 0.6, 0.7], fresnel = "schlick", base_color = [0, 0.1, 0] }
-[[light]]
-name = "key"
-position = [1, 2, 1]
-color = [1, 0.9, 0.8]
-intensity = 8
-radius = 0.1
-glow = 0
-casts_shadow = true
-orbit = { center = [0, 2, 0], axis = [0, 0, 1], speed = 20 }
-[[mirror]]
-name = "left"
-position = [0, 1, -2]
-rotation = [0, 90, 0]
-spin = [0, 10, 0]
-size = [2, 1.5]
-reflectance = [0.9, 0.8, 0.7]
-fresnel = "schlick"
-base_color = [0.1, 0.2, 0.3]
-roughness = 0.25
-ripple = { amplitude = 0.02, wavelength = 0.4, speed = -0.1 }
-two_sided = true
-back_color = [0, 1, 2]
-casts_light = true
-[[mirror]]
-polygon = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]
-)";
+const std::string kEverything =
+    "title = 'Gallery'\n"
+    "environment = { background = [0.45, 0.55, 0.60], ambient = [0.03, 0.04, 0.05], "
+    "sky = { zenith = [0.2, 0.4, 0.9], horizon = [0.8, 0.85, 0.9], ground = [0.3, 0.28, 0.25] } }\n"
+    "camera = { position = [0, 1.6, 4], target = [0, 1, 0], up = [0, 1, 1], vertical_fov = 45, near = 0.01, "
+    "orbit_speed = -3 }\n"
+    "object = [{ name = 'knot', model = 'triangle.obj', position = [0, 1, 0], rotation = [0, 30, 0], "
+    "scale = [-1, 2, 3.5], spin = [0, 20, 0], color = [0.8, 0.2, 0.1], specular = [0.04, 0.05, 0.06], "
+    "shininess = 0.5, emission = [0, 0, 2], copies = { count = 100, step = [1, 0, 0] }, "
+    "mirror = { reflectance = [0.5, 0.6, 0.7], fresnel = 'schlick', base_color = [0, 0.1, 0] } }]\n"
+    "light = [{ name = 'key', position = [1, 2, 1], color = [1, 0.9, 0.8], intensity = 8, radius = 0.1, glow = 0, "
+    "casts_shadow = true, orbit = { center = [0, 2, 0], axis = [0, 0, 1], speed = 20 } }]\n"
+    "mirror = [{ name = 'left', position = [0, 1, -2], rotation = [0, 90, 0], spin = [0, 10, 0], size = [2, 1.5], "
+    "reflectance = [0.9, 0.8, 0.7], fresnel = 'schlick', base_color = [0.1, 0.2, 0.3], roughness = 0.25, "
+    "ripple = { amplitude = 0.02, wavelength = 0.4, speed = -0.1 }, two_sided = true, back_color = [0, 1, 2], "
+    "casts_light = true }, { polygon = [[0, 0, 0], [1, 0, 0], [0, 1, 0]] }]\n";
 
 TEST(SceneLoader, ReadsEveryField) {
   const Scene scene = load(kEverything);

@@ -1,8 +1,5 @@
-#include <gtest/gtest.h>
-
-#include <string>
-
 #include "scene_support.hpp"
+#include "test_headers.hpp"
 
 namespace speculum {
 namespace {
@@ -10,8 +7,8 @@ namespace {
 void expectFault(const std::string& text, const std::string& place, const std::string& part) {
   const std::string message = sceneFaultOf(text);
   EXPECT_TRUE(message.starts_with(place + " ")) << message << "\nexpected at " << place;
-  EXPECT_NE(message.find(part), std::string::npos) << message << "\nexpected to hold " << part;
-  EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+  EXPECT_TRUE(contains(message, part)) << message << "\nexpected to hold " << part;
+  EXPECT_FALSE(contains(message, "\n"));
   EXPECT_EQ(message.back(), ')') << message;
 }
 
@@ -207,7 +204,7 @@ TEST(SceneFaults, MissingFilesAndFolders) {
   EXPECT_EQ(missing, (folder / "none.toml").string() +
                          ":1: file: cannot be read: No such file or directory (a scene file is needed)");
   const std::string directory = messageOf<InputError>([&] { loadScene(folder / ""); });
-  EXPECT_NE(directory.find(":1: file: is a folder (a scene file is needed)"), std::string::npos) << directory;
+  EXPECT_TRUE(contains(directory, ":1: file: is a folder (a scene file is needed)"));
 }
 
 TEST(SceneFaults, GarbageIsAnError) {

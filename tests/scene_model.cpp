@@ -1,11 +1,7 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <vector>
-
 #include "scene/model_scene.hpp"
 #include "scene/scene_state.hpp"
 #include "scene_support.hpp"
+#include "test_headers.hpp"
 
 namespace speculum {
 namespace {
@@ -81,7 +77,7 @@ TEST(ModelScene, RefusesImpossibleModels) {
   const std::string message = messageOf<InputError>([&] { loadScene(tiny); });
   EXPECT_EQ(message.rfind(tiny.string() + ":1: v: the model's bounding sphere", 0), 0u) << message;
   const std::string missing = messageOf<InputError>([&] { loadScene(folder / "none.obj"); });
-  EXPECT_NE(missing.find("none.obj:1: file: cannot be read"), std::string::npos) << missing;
+  EXPECT_TRUE(contains(missing, "none.obj:1: file: cannot be read"));
 }
 
 constexpr const char* kTwoModels =
@@ -137,7 +133,7 @@ TEST(AddModel, LoadsAFileOnce) {
   for (const fs::path& file : {huge, folder.write("empty.obj", "v 0 0 0\n"), own.parent_path() / "nowhere.obj"}) {
     const std::string error = messageOf<InputError>([&] { addModel(scene, file); });
     EXPECT_EQ(error.find(file.string() + ":"), 0u) << error;
-    EXPECT_EQ(error.find('\n'), std::string::npos) << error;
+    EXPECT_FALSE(contains(error, "\n"));
     EXPECT_EQ(scene.meshes.size(), 2u);
     EXPECT_TRUE(scene.textures.empty());
   }

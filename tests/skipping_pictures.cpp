@@ -1,13 +1,11 @@
 // Skipping hidden mirrors, clusters and unread parts of mirror images does not change pictures.
-#include <gtest/gtest.h>
-
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "app/stats.hpp"
 #include "picture_support.hpp"
 #include "random.hpp"
 #include "sampling.hpp"
+#include "test_headers.hpp"
 
 namespace speculum {
 namespace {
@@ -22,20 +20,11 @@ constexpr double cellSide = 3.0;  // metres
 std::filesystem::path roomsScene() {
   std::ostringstream toml;
   toml << R"(
-[environment]
-sky = { zenith = [0.1, 0.2, 0.5], horizon = [0.6, 0.5, 0.4], ground = [0.1, 0.1, 0.1] }
-ambient = [0.3, 0.3, 0.3]
-[camera]
-position = [1.5, 1.5, 1.5]
-target = [1.5, 1.4, -4]
-vertical_fov = 70
-[settings]
-"reflection.max_passes" = 4000
-[[object]]
-model = "MODELS/tile.obj"
-position = [4.5, -0.02, 4.5]
-scale = [9, 1, 9]
-color = [0.3, 0.25, 0.2]
+[environment] sky = { zenith = [0.1, 0.2, 0.5], horizon = [0.6, 0.5, 0.4], ground = [0.1, 0.1, 0.1] }
+  ambient = [0.3, 0.3, 0.3]
+[camera] position = [1.5, 1.5, 1.5], target = [1.5, 1.4, -4], vertical_fov = 70
+[settings] "reflection.max_passes" = 4000
+[[object]] model = "MODELS/tile.obj", position = [4.5, -0.02, 4.5], scale = [9, 1, 9], color = [0.3, 0.25, 0.2]
 )";
   Random random(3);
   const auto uniform = [&](double low, double high) { return random.uniform(low, high); };
@@ -187,8 +176,7 @@ TEST(Skipping, SmallMirrorsDrawSmallPartsOfObjects) {
 }
 
 TEST(Skipping, MaskDoesNotChangeCachedImages) {
-  Options options = headless(roomsScene(), size);
-  set(options, {{"reflection.update_interval", "3"}});
+  Options options = headless(roomsScene(), size, {{"reflection.update_interval", "3"}});
   std::vector<Image8> pictures;
   for (const bool masked : {true, false}) {
     QuietSession session(options);
@@ -208,29 +196,13 @@ TEST(Skipping, MaskDoesNotChangeCachedImages) {
 // A tilted mirror, in a closed room or under a sky. In the room, walls and floor fill its image.
 std::filesystem::path tiltedScene(bool closed) {
   return writeScene(closed ? "tilted_closed" : "tilted_sky", std::string(R"(
-[environment]
-sky = { zenith = [0.1, 0.2, 0.5], horizon = [0.6, 0.5, 0.4], ground = [0.1, 0.1, 0.1] }
-ambient = [0.3, 0.3, 0.3]
-[camera]
-position = [0, 1.6, 1.5]
-target = [0.2, 1.6, -1.5]
-[[mirror]]
-position = [0.2, 1.6, -1.5]
-rotation = [5, 10, 30]
-size = [3.2, 1.8]
-[[object]]
-model = "MODELS/box.obj"
-position = [-1, 0, 4.2]
-scale = [0.8, 1.6, 0.8]
-color = [0.8, 0.4, 0.2]
-[[light]]
-position = [0, 2.9, 1]
-intensity = 20
-glow = 0
-)") + (closed ? R"([[object]]
-model = "MODELS/room.obj"
-position = [0, 0, 2]
-scale = 1.0
+[environment] sky = { zenith = [0.1, 0.2, 0.5], horizon = [0.6, 0.5, 0.4], ground = [0.1, 0.1, 0.1] }
+  ambient = [0.3, 0.3, 0.3]
+[camera] position = [0, 1.6, 1.5], target = [0.2, 1.6, -1.5]
+[[mirror]] position = [0.2, 1.6, -1.5], rotation = [5, 10, 30], size = [3.2, 1.8]
+[[object]] model = "MODELS/box.obj", position = [-1, 0, 4.2], scale = [0.8, 1.6, 0.8], color = [0.8, 0.4, 0.2]
+[[light]] position = [0, 2.9, 1], intensity = 20, glow = 0
+)") + (closed ? R"([[object]] model = "MODELS/room.obj", position = [0, 0, 2], scale = 1.0
 )"
               : ""));
 }
@@ -256,12 +228,11 @@ TEST(Skipping, MirrorPassesDrawOnlyWhatIsSeen) {
 
 // Rebuilds the tree of passes from their figures alone.
 TEST(Skipping, FiguresOfPassesNameTheParent) {
-  Options options = headless(roomsScene(), size);
-  set(options, {{"reflection.update_interval", "2"},
-                {"reflection.skip_unchanged", "false"},
-                {"reflection.max_depth", "3"},
-                {"debug.skip_hidden", "false"}});
-  QuietSession session(options);
+  QuietSession session(headless(roomsScene(), size,
+                                {{"reflection.update_interval", "2"},
+                                 {"reflection.skip_unchanged", "false"},
+                                 {"reflection.max_depth", "3"},
+                                 {"debug.skip_hidden", "false"}}));
   session.setCamera(lookAt({1.4, 1.5, 1.6}, {1.2, 1.3, 0.0}, {0, 1, 0}, 100, 0.001));
   std::vector<nlohmann::ordered_json> frames;
   std::vector<std::vector<PassId>> passes;

@@ -1,8 +1,7 @@
 // The debug view and the texel probe: right values at the right pixels, and released afterwards.
-#include <gtest/gtest.h>
-
 #include "picture_support.hpp"
 #include "scene_text.hpp"
+#include "test_headers.hpp"
 
 namespace speculum {
 namespace {
@@ -13,12 +12,11 @@ constexpr PictureSize size{160, 120};
 
 // The eye 4 m in front of the sphere's middle and 6 m in front of the mirror, in which the sphere is 8 m away.
 Options hallOptions(const std::string& samples = "1") {
-  Options options = headless(writeScene("hall", replaced(wallScene, "0.9, 1, 0", "0, 1, 0")), size);
-  set(options, {{"view.samples", samples},
-                {"reflection.samples", samples},
-                {"debug.check_finite", "false"},
-                {"reflection.skip_unchanged", "false"}});
-  return options;
+  return headless(writeScene("hall", replaced(wallScene, "0.9, 1, 0", "0, 1, 0")), size,
+                  {{"view.samples", samples},
+                   {"reflection.samples", samples},
+                   {"debug.check_finite", "false"},
+                   {"reflection.skip_unchanged", "false"}});
 }
 
 const DrawnFrame& drawWith(Session& session, const std::optional<DebugView>& debug) {
@@ -180,7 +178,7 @@ TEST(TargetViews, MissTheBarrierOfDepth) {
       EXPECT_TRUE(messages.empty());
     } else {
       ASSERT_FALSE(messages.empty());
-      EXPECT_NE(messages.front().find("SYNC-HAZARD"), std::string::npos) << messages.front();
+      EXPECT_TRUE(contains(messages.front(), "SYNC-HAZARD"));
     }
   }
 }

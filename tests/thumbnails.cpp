@@ -1,10 +1,7 @@
 // The thumbnails of the gallery show their scenes.
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "image/picture_files.hpp"
 #include "picture_support.hpp"
+#include "test_headers.hpp"
 
 namespace speculum {
 namespace {
@@ -46,8 +43,8 @@ TEST(Thumbnails, EveryShippedSceneHasOne) {
 
 TEST(Thumbnails, ShowTheirScenes) {
   for (const std::string name : {"gallery", "many_mirrors", "outdoors"}) {
-    Options options = headless(sourceFile("scenes/" + name + ".toml"), {192, 108});
-    set(options, {{"view.samples", "4"}, {"reflection.samples", "4"}});
+    Options options = headless(sourceFile("scenes/" + name + ".toml"), {192, 108},
+                               {{"view.samples", "4"}, {"reflection.samples", "4"}});
     const Image8 drawn = draw(options, 1.0);
     for (const std::string& scene : sceneNames()) {
       const double d = coarseDifference(drawn, thumbnailOf(scene));

@@ -1,9 +1,5 @@
 // The rasteriser against the ray tracer, which shares no drawing code with it: one sample each, every pixel that is not
 // background.
-#include <gtest/gtest.h>
-
-#include <sstream>
-
 #include "image/color.hpp"
 #include "sampling.hpp"
 #include "scene_text.hpp"
@@ -57,17 +53,9 @@ TEST(Tracing, NearestAllowsPartsOfAPixel) {
 
 TEST(ObjectFields, EmissionReplacesTheMaterials) {
   const std::filesystem::path file = writeScene("emission", R"(
-[camera]
-position = [0, 0, 4]
-target = [0, 0, 0]
-[[object]]
-model = "MODELS/sphere.obj"
-color = [0, 0, 0]
-specular = [0, 0, 0]
-emission = [0.25, 0.5, 1]
-[[mirror]]
-position = [0, 0, -2]
-size = [6, 6]
+[camera] position = [0, 0, 4], target = [0, 0, 0]
+[[object]] model = "MODELS/sphere.obj", color = [0, 0, 0], specular = [0, 0, 0], emission = [0.25, 0.5, 1]
+[[mirror]] position = [0, 0, -2], size = [6, 6]
 )");
   constexpr PictureSize size{160, 90};
   const Truth truth = trace(file, size, 1);

@@ -1,10 +1,7 @@
 // Keys and gamepad buttons, and the list of them.
-#include <gtest/gtest.h>
-
-#include <fstream>
-#include <sstream>
-
 #include "picture_support.hpp"
+#include "platform/files.hpp"
+#include "test_headers.hpp"
 #include "ui/input_map.hpp"
 
 namespace speculum {
@@ -55,16 +52,14 @@ TEST(InputMap, GamepadButtonsMeanTheirCommands) {
 }
 
 TEST(InputMap, ListIsInTheDocs) {
-  std::ifstream file(sourceFile("docs/window.md"));
-  std::stringstream docs;
-  docs << file.rdbuf();
+  const std::string docs = readText(sourceFile("docs/window.md"));
   std::vector<Shortcut> all(gamepadHelp().begin(), gamepadHelp().end());
   for (const ShortcutGroup& group : shortcutGroups()) {
     all.insert(all.end(), group.shortcuts.begin(), group.shortcuts.end());
   }
   for (const Shortcut& shortcut : all) {
     const std::string row = "- `" + std::string(shortcut.keys) + "`: " + shortcut.help + "\n";
-    EXPECT_NE(docs.str().find(row), std::string::npos) << row;
+    EXPECT_TRUE(contains(docs, row)) << row;
   }
 }
 

@@ -1,6 +1,5 @@
 // Input between two frames, and how the next frames receive it.
-#include <gtest/gtest.h>
-
+#include "test_headers.hpp"
 #include "ui/input_queue.hpp"
 
 namespace speculum {

@@ -1,8 +1,5 @@
 // Positions of the panel's windows.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-
+#include "test_headers.hpp"
 #include "ui/panel_layout.hpp"
 
 namespace speculum {

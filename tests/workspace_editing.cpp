@@ -395,8 +395,8 @@ TEST_F(Editing, ModelsAreAddedFromAnyFile) {
   EXPECT_EQ(status(), edit().note);
   std::ofstream(folder / "empty.obj") << "v 0 0 0\n";
   send(AddObject{"empty.obj"});
-  EXPECT_NE(edit().note.find("empty.obj:1: f: the model has no triangle"), std::string::npos) << edit().note;
-  EXPECT_EQ(edit().note.find('\n'), std::string::npos);
+  EXPECT_TRUE(contains(edit().note, "empty.obj:1: f: the model has no triangle"));
+  EXPECT_FALSE(contains(edit().note, "\n"));
   EXPECT_EQ(edit().undo, "add object 'vase'") << "nothing is lost";
   std::ofstream(folder / "flag.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
   host_.failsNext = true;

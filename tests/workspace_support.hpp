@@ -1,9 +1,6 @@
 #pragma once
 
-#include <gtest/gtest.h>
-
 #include <chrono>
-#include <fstream>
 #include <thread>
 
 #include "app/workspace.hpp"
@@ -11,6 +8,7 @@
 #include "picture_support.hpp"
 #include "scene/scene_loader.hpp"
 #include "scene_text.hpp"
+#include "test_headers.hpp"
 #include "user_folders.hpp"
 
 namespace speculum::testing_support {

@@ -122,7 +122,7 @@ class TiltedBookmark : public WorkspaceTest {
 TEST_F(TiltedBookmark, KeepsItsUpAndFieldOfView) {
   send(GoToBookmark{0});
   send(CopyCommandLine{});
-  EXPECT_NE(host_.clipboard.find("--camera 0,1,1:0.3,1,0:1,2,0:30"), std::string::npos) << host_.clipboard;
+  EXPECT_TRUE(contains(host_.clipboard, "--camera 0,1,1:0.3,1,0:1,2,0:30"));
   send(AddBookmark{});
   ASSERT_EQ(scene().bookmarks.size(), 2u);
   EXPECT_EQ(scene().bookmarks[1].up, scene().bookmarks[0].up);
@@ -245,11 +245,11 @@ class BudgetView : public WorkspaceTest {
 
 TEST_F(BudgetView, PointsChosenByHandAreSaid) {
   setBudget(1e-3);
-  EXPECT_NE(choice().find("no measured point fits 0.001 ms"), std::string::npos) << choice();
+  EXPECT_TRUE(contains(choice(), "no measured point fits 0.001 ms"));
   send(ApplyPoint{view().accuracy.front.back()});
   EXPECT_EQ(choice(), "Set by hand. Change a bound to let it choose again.");
   setBudget(2e-3);
-  EXPECT_NE(choice().find("no measured point fits"), std::string::npos) << choice();
+  EXPECT_TRUE(contains(choice(), "no measured point fits"));
   setBudget(0.0);
   EXPECT_EQ(choice(), "");
 }
@@ -341,10 +341,10 @@ TEST_F(Opening, FailureShowsALineAndKeepsScene) {
   drop({"/tmp/notes.txt"});
   EXPECT_EQ(workspace_->problem(), "/tmp/notes.txt: not a scene (a .toml scene or an .obj model is needed)");
   drop({model("none.obj")});
-  EXPECT_NE(workspace_->problem().find("none.obj:1: file: cannot be read"), std::string::npos) << workspace_->problem();
+  EXPECT_TRUE(contains(workspace_->problem(), "none.obj:1: file: cannot be read"));
   host_.failsNext = true;
   drop({model("gem.obj")});
-  EXPECT_NE(workspace_->problem().find("gem.obj: no memory"), std::string::npos) << workspace_->problem();
+  EXPECT_TRUE(contains(workspace_->problem(), "gem.obj: no memory"));
   EXPECT_EQ(host_.scenesUsed, 2) << "the old scene is used again";
   EXPECT_EQ(shownScene(), "workspace");
   drop({model("gem.obj")});

@@ -1,16 +1,11 @@
 // Every input that the fuzzers start from, and every one that they or a reader of the code ever found to crash, hang or
 // take too much memory, goes through what the fuzzers run; without Clang.
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <ctime>
-#include <filesystem>
-#include <fstream>
-#include <sstream>
-#include <vector>
 
 #include "fuzz_checks.hpp"
 #include "heap_watch.hpp"
+#include "platform/files.hpp"
+#include "test_headers.hpp"
 #include "test_paths.hpp"
 
 namespace speculum::fuzz {
@@ -30,12 +25,6 @@ std::vector<fs::path> inputs(const std::string& folder) {
   return files;
 }
 
-std::string content(const fs::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file, std::ios::binary).rdbuf();
-  return text.str();
-}
-
 struct Subject {
   const char* name;
   void (*check)(std::string_view);
@@ -48,7 +37,7 @@ class FuzzInputs : public testing::TestWithParam<Subject> {
     EXPECT_FALSE(files.empty());
     for (const fs::path& file : files) {
       SCOPED_TRACE(file.string());
-      const std::string text = content(file);
+      const std::string text = readText(file);
       EXPECT_LE(text.size(), kLargestInput) << "the fuzzers pass over it";
       restartHeapPeak();
       const size_t before = heapPeak();

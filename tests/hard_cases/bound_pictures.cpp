@@ -1,10 +1,4 @@
 // Settings that leave something out change pictures by no more than its share of the light.
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numbers>
-#include <sstream>
-
 #include "geometry/affine.hpp"
 #include "reference/ray_tracer.hpp"
 #include "scene_text.hpp"

@@ -1,8 +1,4 @@
 // Pictures of hard cases of depth and clipping: the order of two surfaces, and the cut at a mirror's plane.
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "geometry/affine.hpp"
 #include "geometry/reflection.hpp"
 #include "scene_text.hpp"
@@ -123,15 +119,9 @@ TEST(EyeNearerThanTheNearPlane, MirrorCoversTheView) {
 
 TEST(EyeNearerThanTheNearPlane, ReflectionIsRight) {
   const std::filesystem::path file = writeScene("near_plane_truth", nearPlaneScene(0.1, 0.01, R"(
-[[object]]
-model = "MODELS/torus_knot.obj"
-position = [0.3, 1, 2]
-[[object]]
-model = "MODELS/teapot.obj"
-position = [-1.2, 0.6, 4]
-[[light]]
-position = [0, 3, 1]
-intensity = 20
+[[object]] model = "MODELS/torus_knot.obj", position = [0.3, 1, 2]
+[[object]] model = "MODELS/teapot.obj", position = [-1.2, 0.6, 4]
+[[light]] position = [0, 3, 1], intensity = 20
 )"));
   expectTruth(file, size, 2, trace(file, size, 2));
 }

@@ -1,12 +1,5 @@
 // The depth readout of a mirror pass states a gap. Two parallel surfaces that far apart are drawn in the right order on
 // every pixel.
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cmath>
-#include <map>
-#include <sstream>
-
 #include "frame/depth_readout.hpp"
 #include "sampling.hpp"
 #include "scene_text.hpp"

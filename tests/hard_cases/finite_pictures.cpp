@@ -1,12 +1,5 @@
 // Hard cases of shading and of sizes: no value that is drawn is infinite or NaN.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
 #include <chrono>
-#include <cmath>
-#include <optional>
-#include <sstream>
 #include <thread>
 
 #include "app/demo.hpp"
@@ -26,60 +19,20 @@ constexpr PictureSize size{321, 181};  // odd: the middle of a pixel looks at th
 
 // Lights that lie on a surface, and one so small and bright that its irradiance leaves the range of a float; normals
 // that cancel halfway across a face; highlights seen from the mirror direction.
-const std::string litScene = R"([environment]
-background = [0.2, 0.3, 0.4]
-ambient = [0.1, 0.1, 0.1]
-[camera]
-position = [0, 0, 3]
-target = [0, 0, 0]
-[[object]]
-model = "quad.obj"
-color = [0.8, 0, 0]
-specular = [0, 0.5, 0]
-shininess = 1000
-[[object]]
-model = "cancelling.obj"
-position = [0, 0, 0.5]
-scale = 0.1
-color = [0.3, 0.6, 0]
-specular = [0.5, 0, 0]
-[[object]]
-model = "MODELS/sphere.obj"
-position = [-0.9, 0.5, 0.6]
-scale = 0.5
-specular = [0.6, 0.6, 0.6]
-shininess = 20000
-[[light]]
-position = [0.6, 0, 0]
-intensity = 5
-radius = 1e-20
-glow = 0
-[[light]]
-position = [0.6, -0.6, 1e-3]
-intensity = 1e36
-radius = 1e-22
-glow = 0
-[[light]]
-position = [-0.6, -0.6, 1e-12]
-intensity = 1e4
-radius = 1e-3
-color = [0, 0, 1]
-glow = 1e9
-[[light]]
-position = [0, 0, 3]
-intensity = 10
-glow = 0
-[[mirror]]
-position = [0, 0, -2]
-size = [6, 4]
-reflectance = [1, 1, 1]
-base_color = [0.3, 0, 0]
-[[mirror]]
-position = [0, 0, 6]
-rotation = [0, 180, 0]
-size = [9, 6]
-reflectance = [1, 1, 0.5]
-fresnel = "schlick"
+const std::string litScene = R"([environment] background = [0.2, 0.3, 0.4], ambient = [0.1, 0.1, 0.1]
+[camera] position = [0, 0, 3], target = [0, 0, 0]
+[[object]] model = "quad.obj", color = [0.8, 0, 0], specular = [0, 0.5, 0], shininess = 1000
+[[object]] model = "cancelling.obj", position = [0, 0, 0.5], scale = 0.1, color = [0.3, 0.6, 0]
+  specular = [0.5, 0, 0]
+[[object]] model = "MODELS/sphere.obj", position = [-0.9, 0.5, 0.6], scale = 0.5, specular = [0.6, 0.6, 0.6]
+  shininess = 20000
+[[light]] position = [0.6, 0, 0], intensity = 5, radius = 1e-20, glow = 0
+[[light]] position = [0.6, -0.6, 1e-3], intensity = 1e36, radius = 1e-22, glow = 0
+[[light]] position = [-0.6, -0.6, 1e-12], intensity = 1e4, radius = 1e-3, color = [0, 0, 1], glow = 1e9
+[[light]] position = [0, 0, 3], intensity = 10, glow = 0
+[[mirror]] position = [0, 0, -2], size = [6, 4], reflectance = [1, 1, 1], base_color = [0.3, 0, 0]
+[[mirror]] position = [0, 0, 6], rotation = [0, 180, 0], size = [9, 6], reflectance = [1, 1, 0.5]
+  fresnel = "schlick"
 )";
 
 std::filesystem::path writeLitScene() {
@@ -98,9 +51,7 @@ int notStorable(const LinearImage& image) {
 
 TEST(LightOnASurface, EveryPixelIsFinite) {
   for (const char* samples : {"1", "4"}) {
-    Options options = headless(writeLitScene(), size);
-    set(options, {{"view.samples", samples}, {"reflection.samples", samples}});
-    QuietSession session(options);
+    QuietSession session(headless(writeLitScene(), size, {{"view.samples", samples}, {"reflection.samples", samples}}));
     const LinearImage radiance = drawRadiance(session);
     EXPECT_EQ(notStorable(radiance), 0) << samples << " samples";
     const auto brightest = std::max_element(radiance.pixels.begin(), radiance.pixels.end(),
@@ -240,15 +191,10 @@ class AnySize : public testing::TestWithParam<PictureSize> {};
 
 // A mirror over all of the view shows the sky; a body would have edges, and a pixel here is metres wide.
 TEST_P(AnySize, MatchesTheTracer) {
-  const std::filesystem::path file = writeScene("any_size", R"([environment]
-sky = { zenith = [0.1, 0.2, 0.9], horizon = [0.9, 0.8, 0.3], ground = [0.2, 0.5, 0.1] }
-[camera]
-position = [0, 1, 2]
-target = [0.1, 0.3, -2]
-[[mirror]]
-position = [0, 0, -1]
-rotation = [-30, 10, 0]
-size = [1e6, 1e6]
+  const std::filesystem::path file = writeScene("any_size", R"(
+[environment] sky = { zenith = [0.1, 0.2, 0.9], horizon = [0.9, 0.8, 0.3], ground = [0.2, 0.5, 0.1] }
+[camera] position = [0, 1, 2], target = [0.1, 0.3, -2]
+[[mirror]] position = [0, 0, -1], rotation = [-30, 10, 0], size = [1e6, 1e6]
 )");
   const Truth truth = trace(file, GetParam(), 3);
   EXPECT_GT(share(truth.traced.mirrorMask, 1), 0.2);

@@ -1,12 +1,9 @@
 // Errors due to 16-bit floats in targets: of radiance in steps of 8 bits, of disparity in pixels of reprojection.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 #include <glm/gtc/packing.hpp>
 
 #include "image/color.hpp"
 #include "shaders/gpu_data.h"
+#include "test_headers.hpp"
 
 namespace speculum {
 namespace {

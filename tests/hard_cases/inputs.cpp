@@ -1,11 +1,8 @@
 // Hard cases of input: unusable shapes are rejected by name, or dropped with a warning.
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "geometry/affine.hpp"
 #include "scene_support.hpp"
 #include "scene_text.hpp"
+#include "test_headers.hpp"
 
 namespace speculum {
 namespace {
@@ -22,7 +19,7 @@ std::string mirrorFault(const Polygon& polygon) {
 }
 
 void expectRejected(const std::string& text, const std::string& says) {
-  EXPECT_NE(faultOf(text).find(says), std::string::npos) << faultOf(text);
+  EXPECT_TRUE(contains(faultOf(text), says));
 }
 
 TEST(RejectedShapes, ZeroScaleIsNamed) {
@@ -36,15 +33,15 @@ TEST(RejectedShapes, ZeroScaleIsNamed) {
 TEST(RejectedShapes, MirrorsWithoutAreaAreNamed) {
   expectRejected("[[mirror]]\nsize = [0, 1]\n", "size[0]: is 0");
   expectRejected("[[mirror]]\nsize = [1, 1e-9]\n", "size: has no area");
-  EXPECT_NE(mirrorFault({{1, 1, 1}, {1, 1, 1}, {1, 1, 1}}).find("polygon: has no area"), std::string::npos);
-  EXPECT_NE(mirrorFault({{0, 0, 0}, {1, 2, 3}, {2, 4, 6}}).find("polygon: has no area"), std::string::npos);
+  EXPECT_TRUE(contains(mirrorFault({{1, 1, 1}, {1, 1, 1}, {1, 1, 1}}), "polygon: has no area"));
+  EXPECT_TRUE(contains(mirrorFault({{0, 0, 0}, {1, 2, 3}, {2, 4, 6}}), "polygon: has no area"));
 }
 
 // Tests mirrors of diameter 2 and area h: the limit is h = 4e-8.
 TEST(RejectedShapes, AreaLimitIsThatOfTheDiameter) {
   for (const double unit : {1e-6, 1.0, 1e6}) {
     const auto triangle = [&](double h) { return Polygon{{0, 0, 0}, {2 * unit, 0, 0}, {unit, h * unit, 0}}; };
-    EXPECT_NE(mirrorFault(triangle(3.9e-8)).find("has no area"), std::string::npos) << unit;
+    EXPECT_TRUE(contains(mirrorFault(triangle(3.9e-8)), "has no area")) << unit;
     EXPECT_EQ(mirrorFault(triangle(4.1e-8)), "nothing was thrown") << unit;
   }
 }
@@ -55,7 +52,7 @@ TEST(RejectedShapes, NonPlanarMirrorsAreNamed) {
     const auto square = [&](double lift) {
       return Polygon{{0, 0, 0}, {unit, 0, 0}, {unit, unit, lift * unit}, {0, unit, 0}};
     };
-    EXPECT_NE(mirrorFault(square(1e-3)).find("is not planar"), std::string::npos) << unit;
+    EXPECT_TRUE(contains(mirrorFault(square(1e-3)), "is not planar")) << unit;
     EXPECT_EQ(mirrorFault(square(1e-5)), "nothing was thrown") << unit;
   }
 }
@@ -89,14 +86,14 @@ TEST_F(SliverTriangles, AreReportedBelow1e5) {
   EXPECT_EQ(log_.text(), "");
   const Mesh mesh = load(sliver(0.9e-5));
   ASSERT_EQ(mesh.indices.size(), 3u);
-  EXPECT_NE(log_.text().find("1 triangles are slivers"), std::string::npos) << log_.text();
+  EXPECT_TRUE(contains(log_.text(), "1 triangles are slivers"));
   EXPECT_LT(degreesOff(mesh.vertices[0].normal), 0.01);
 }
 
 TEST_F(SliverTriangles, AreDroppedBelow1e10) {
   EXPECT_EQ(load(sliver(1.1e-10)).indices.size(), 3u);
   EXPECT_EQ(load(sliver(0.9e-10) + "v 5 5 5\nv 6 5 5\nv 5 6 5\nf 4 5 6\n").indices.size(), 3u);
-  EXPECT_NE(log_.text().find("dropped 1 degenerate triangles"), std::string::npos) << log_.text();
+  EXPECT_TRUE(contains(log_.text(), "dropped 1 degenerate triangles"));
 }
 
 }  // namespace

@@ -1,9 +1,6 @@
 // Hard cases of planes, rectangles and skipped mirrors, against rays cast at the polygon itself.
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "geometry/reflection.hpp"
+#include "test_headers.hpp"
 #include "transform_support.hpp"
 
 namespace speculum {

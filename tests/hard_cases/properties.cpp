@@ -1,12 +1,9 @@
 // Invariants of the optics, with coordinates log-uniform over 1e-6 .. 1e7 of either sign. RapidCheck prints its seed;
 // RC_PARAMS="seed=N" repeats a run.
-#include <gtest/gtest.h>
 #include <rapidcheck.h>
 
-#include <cmath>
-#include <cstdlib>
-
 #include "geometry/reflection.hpp"
+#include "test_headers.hpp"
 #include "transform_support.hpp"
 
 namespace speculum {

@@ -1,6 +1,4 @@
 // Random scenes that join hard cases: the rasteriser against the tracer, and with each debug switch against itself.
-#include <gtest/gtest.h>
-
 #include "app/session.hpp"
 #include "image/color.hpp"
 #include "random_scene.hpp"

@@ -1,9 +1,4 @@
 // Hard cases of whole pictures: far from the origin, turned inside out, mirrors in mirrors, seams, lights on surfaces.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-
 #include "scene_text.hpp"
 #include "truth_support.hpp"
 
@@ -24,60 +19,20 @@ std::string fullScene(const glm::dvec3& at) {
   }
   writeModel("far_tetrahedron.obj", obj + "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
   const auto p = [&](double x, double y, double z) { return text(at + glm::dvec3(x, y, z)); };
-  return R"([environment]
-sky = { zenith = [0.1, 0.2, 0.9], horizon = [0.9, 0.8, 0.3], ground = [0.2, 0.5, 0.1] }
-ambient = [0.1, 0.1, 0.1]
-[camera]
-position = )" +
-         p(0.2, 1.4, 4) + "\ntarget = " + p(0, 1, -1) + R"(
-orbit_speed = 4
-[[object]]
-model = "MODELS/chequer.obj"
-scale = [2, 1, 2]
-position = )" +
-         p(0, 0, 0) + R"(
-[[object]]
-model = "MODELS/teapot.obj"
-spin = [0, 35, 0]
-specular = [0.5, 0.5, 0.5]
-shininess = 200
-position = )" +
-         p(-1, 0.5, 0.3) + R"(
-[[object]]
-model = "MODELS/box.obj"
-scale = 0.4
-copies = { count = 3, step = [0.6, 0.1, -0.35] }
-position = )" +
-         p(0.4, 0.5, 0.5) + R"(
-[[object]]
-model = "far_tetrahedron.obj"
-color = [0.9, 0.4, 0.1]
-position = )" +
-         p(0.5 - 1e7, 1.5 - 2e7, 1e7) + R"(
-[[light]]
-intensity = 12
-orbit = { center = )" +
-         p(0, 2, 0) + R"(, axis = [0.3, 1, 0], speed = 50 }
-position = )" +
-         p(1, 2.5, 1) + R"(
-[[mirror]]
-name = "back"
-size = [4, 3]
-rotation = [2, 8, 0]
-reflectance = [0.9, 0.95, 0.9]
-base_color = [0.1, 0, 0]
-position = )" +
-         p(0, 1.5, -2) + R"(
-[[mirror]]
-name = "turning"
-size = [1, 1.5]
-spin = [0, 20, 0]
-two_sided = true
-position = )" +
-         p(1.4, 1.2, -0.5) + R"(
-[[mirror]]
-name = "behind the eye"
-polygon = [)" +
+  const std::string object = "[[object]] model = ";
+  return "[environment] ambient = [0.1, 0.1, 0.1], sky = { zenith = [0.1, 0.2, 0.9], horizon = [0.9, 0.8, 0.3], "
+         "ground = [0.2, 0.5, 0.1] }\n[camera] orbit_speed = 4, position = " +
+         p(0.2, 1.4, 4) + ", target = " + p(0, 1, -1) + "\n" + object + "'MODELS/chequer.obj', scale = [2, 1, 2], " +
+         "position = " + p(0, 0, 0) + "\n" + object + "'MODELS/teapot.obj', spin = [0, 35, 0], shininess = 200, " +
+         "specular = [0.5, 0.5, 0.5], position = " + p(-1, 0.5, 0.3) + "\n" + object +
+         "'MODELS/box.obj', scale = 0.4, copies = { count = 3, step = [0.6, 0.1, -0.35] }, position = " +
+         p(0.4, 0.5, 0.5) + "\n" + object +
+         "'far_tetrahedron.obj', color = [0.9, 0.4, 0.1], position = " + p(0.5 - 1e7, 1.5 - 2e7, 1e7) +
+         "\n[[light]] intensity = 12, position = " + p(1, 2.5, 1) + ", orbit = { center = " + p(0, 2, 0) +
+         ", axis = [0.3, 1, 0], speed = 50 }\n" +
+         "[[mirror]] name = 'back', size = [4, 3], rotation = [2, 8, 0], reflectance = [0.9, 0.95, 0.9], " +
+         "base_color = [0.1, 0, 0], position = " + p(0, 1.5, -2) + "\n[[mirror]] name = 'turning', size = [1, 1.5], " +
+         "spin = [0, 20, 0], two_sided = true, position = " + p(1.4, 1.2, -0.5) + "\n[[mirror]] polygon = [" +
          p(-3, 0, 5) + ", " + p(-3, 3, 5) + ", " + p(3, 3, 5.5) + ", " + p(3, 0, 5.5) + "]\n";
 }
 
@@ -94,34 +49,16 @@ TEST(SceneMovedFar, PictureEqualsThatAtTheOrigin) {
 
 // Two facing mirrors, and a body with flat faces whose outside is given by the winding alone.
 std::string turnedBody(const glm::dvec3& scale) {
-  return R"([environment]
-background = [0.1, 0.2, 0.3]
-[camera]
-position = [0.6, 1.3, 2.2]
-target = [-0.3, 1, -2]
-[[object]]
-model = "body.obj"
-position = [-0.7, 0.7, -1.3]
-rotation = [20, 40, 10]
-color = [0.8, 0.7, 0.6]
-copies = { count = 2, step = [0.3, 0.9, 0.2] }
-scale = )" +
-         text(scale) +
-         R"(
-[[light]]
-position = [0.5, 2, 2]
-intensity = 12
-[[light]]
-position = [-1, 1.5, -2]
-intensity = 8
-color = [0.3, 1, 0.5]
-[[mirror]]
-position = [0, 1, -2.5]
-size = [6, 4]
-[[mirror]]
-position = [0, 1, 2.5]
-rotation = [0, 180, 0]
-size = [6, 4]
+  return R"([environment] background = [0.1, 0.2, 0.3]
+[camera] position = [0.6, 1.3, 2.2], target = [-0.3, 1, -2]
+[[object]] model = "body.obj", position = [-0.7, 0.7, -1.3], rotation = [20, 40, 10], color = [0.8, 0.7, 0.6]
+  copies = { count = 2, step = [0.3, 0.9, 0.2] }
+  scale = )" +
+         text(scale) + R"(
+[[light]] position = [0.5, 2, 2], intensity = 12
+[[light]] position = [-1, 1.5, -2], intensity = 8, color = [0.3, 1, 0.5]
+[[mirror]] position = [0, 1, -2.5], size = [6, 4]
+[[mirror]] position = [0, 1, 2.5], rotation = [0, 180, 0], size = [6, 4]
 )";
 }
 
@@ -139,40 +76,25 @@ TEST(NegativeScaleAndBounces, MatchesTheTracer) {
   expectTruths(files, size, 4);
 }
 
-const std::string nestedPrefix = R"([environment]
-sky = { zenith = [0.1, 0.2, 0.9], horizon = [0.9, 0.8, 0.3], ground = [0.2, 0.5, 0.1] }
-ambient = [0.2, 0.2, 0.2]
-[camera]
-position = [0.5, 1.2, 2.6]
-target = [-0.2, 1, -2]
-[settings]
-"reflection.max_depth" = 5
-"reflection.max_passes" = 2000
-"reflection.min_pixels" = 0
-[[light]]
-position = [0, 3, 1]
-intensity = 15
-[[object]]
-model = "MODELS/torus_knot.obj"
-position = [-0.4, 1, -1.9]
-[[object]]
-model = "MODELS/queen.obj"
-position = [1.5, 0.4, 0.3]
-[[object]]
-model = "MODELS/sphere.obj"
-position = [-1.9, 1, 0.5]
-[[object]]
-model = "MODELS/vase.obj"
-position = [0.2, 0.2, 2.9]
+const std::string nestedPrefix = R"(
+[environment] sky = { zenith = [0.1, 0.2, 0.9], horizon = [0.9, 0.8, 0.3], ground = [0.2, 0.5, 0.1] }
+  ambient = [0.2, 0.2, 0.2]
+[camera] position = [0.5, 1.2, 2.6], target = [-0.2, 1, -2]
+[settings] "reflection.max_depth" = 5, "reflection.max_passes" = 2000, "reflection.min_pixels" = 0
+[[light]] position = [0, 3, 1], intensity = 15
+[[object]] model = "MODELS/torus_knot.obj", position = [-0.4, 1, -1.9]
+[[object]] model = "MODELS/queen.obj", position = [1.5, 0.4, 0.3]
+[[object]] model = "MODELS/sphere.obj", position = [-1.9, 1, 0.5]
+[[object]] model = "MODELS/vase.obj", position = [0.2, 0.2, 2.9]
 )";
 
 // A triangle of mirrors around the scene and one inside it; bodies stand across the planes of all of them.
 const std::array<std::string, 4> nestedMirrors = {
-    "[[mirror]]\nname = \"a\"\nposition = [0, 1, -2]\nsize = [5, 3]\n",
-    "[[mirror]]\nname = \"b\"\nposition = [-2, 1, 0.5]\nrotation = [0, 70, 3]\nsize = [5, 3]\nreflectance = [0.9, 0.8, "
+    "[[mirror]] name = 'a', position = [0, 1, -2], size = [5, 3]\n",
+    "[[mirror]] name = 'b', position = [-2, 1, 0.5], rotation = [0, 70, 3], size = [5, 3], reflectance = [0.9, 0.8, "
     "0.7]\n",
-    "[[mirror]]\nname = \"c\"\nposition = [2, 1, 0.5]\nrotation = [-4, -65, 0]\nsize = [5, 3]\n",
-    "[[mirror]]\nname = \"d\"\nposition = [0, 1, 3.2]\nrotation = [0, 180, 0]\nsize = [3, 3]\ntwo_sided = true\n"};
+    "[[mirror]] name = 'c', position = [2, 1, 0.5], rotation = [-4, -65, 0], size = [5, 3]\n",
+    "[[mirror]] name = 'd', position = [0, 1, 3.2], rotation = [0, 180, 0], size = [3, 3], two_sided = true\n"};
 
 std::filesystem::path nestedScene(const std::string& name, const std::array<int, 4>& order) {
   std::string scene = nestedPrefix;
@@ -215,22 +137,14 @@ std::filesystem::path seamScene(unsigned seed) {
   const auto between = [&](double low, double high) { return random.uniform(low, high); };
   const glm::dvec3 eye(between(0.5, 3.5), between(0.3, 2.5), between(0.5, 3.5));
   const glm::dvec3 target(between(-1.0, 0.5), between(0.0, 0.7), between(-1.0, 0.5));
-  return writeScene("seams",
-                    "[environment]\nambient = [1, 1, 1]\n" + cameraText(eye, target, {0.05, 1, 0}) + R"([settings]
-"reflection.max_depth" = 6
-"reflection.max_passes" = 5000
-"reflection.min_pixels" = 0
-[[object]]
-model = "touching.obj"
-color = [1, 1, 1]
-[[mirror]]
-name = "wall"
-polygon = [[-1.5, 0, -1], [30, 0, -1], [30, 20, -1], [-1.5, 20, -1]]
-reflectance = [1, 1, 1]
-[[mirror]]
-name = "side"
-polygon = [[-1.5, 0, 30], [-1.5, 0, -1], [-1.5, 20, -1], [-1.5, 20, 30]]
-reflectance = [1, 1, 1]
+  return writeScene("seams", "[environment]\nambient = [1, 1, 1]\n" + cameraText(eye, target, {0.05, 1, 0}) + R"(
+[settings] "reflection.max_depth" = 6
+  "reflection.max_passes" = 5000, "reflection.min_pixels" = 0
+[[object]] model = "touching.obj", color = [1, 1, 1]
+[[mirror]] name = "wall", polygon = [[-1.5, 0, -1], [30, 0, -1], [30, 20, -1], [-1.5, 20, -1]]
+  reflectance = [1, 1, 1]
+[[mirror]] name = "side", polygon = [[-1.5, 0, 30], [-1.5, 0, -1], [-1.5, 20, -1], [-1.5, 20, 30]]
+  reflectance = [1, 1, 1]
 )");
 }
 

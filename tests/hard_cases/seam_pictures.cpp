@@ -1,10 +1,4 @@
 // Two mirrors that meet on a column of pixel centres: a tie there, which the traced picture cannot settle either.
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numbers>
-#include <optional>
-
 #include "scene_text.hpp"
 #include "truth_support.hpp"
 

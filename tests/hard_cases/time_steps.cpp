@@ -1,13 +1,6 @@
 // Animation after an hour's pause, with a clock that goes backwards, after 1e6 s: every transform finite and exact.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <numbers>
-#include <random>
-
 #include "geometry/affine.hpp"
+#include "test_headers.hpp"
 #include "transform_support.hpp"
 
 namespace speculum {

@@ -1,10 +1,6 @@
 // Hard cases of transforms: the vertex shader's inputs against the scene's own numbers in extended precision.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-
 #include "geometry/reflection.hpp"
+#include "test_headers.hpp"
 #include "transform_support.hpp"
 
 namespace speculum {

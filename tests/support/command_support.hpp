@@ -1,15 +1,9 @@
 #pragma once
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <string>
-#include <vector>
 
 #include "platform/process.hpp"
+#include "test_headers.hpp"
 #include "test_paths.hpp"
 
 // The program called as scripts call it.

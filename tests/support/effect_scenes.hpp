@@ -7,16 +7,9 @@ namespace speculum::testing_support {
 
 // An eye before a floor.
 inline const std::string effectFloor = R"(
-[environment]
-background = [0.25, 0.3, 0.4]
-ambient = [0.05, 0.05, 0.06]
-[camera]
-position = [0.3, 1.7, 3.6]
-target = [0, 0.6, 0]
-[[object]]
-model = "MODELS/block.obj"
-position = [0, -0.1, 0]
-scale = [7, 0.1, 7]
+[environment] background = [0.25, 0.3, 0.4], ambient = [0.05, 0.05, 0.06]
+[camera] position = [0.3, 1.7, 3.6], target = [0, 0.6, 0]
+[[object]] model = "MODELS/block.obj", position = [0, -0.1, 0], scale = [7, 0.1, 7]
 )";
 inline const std::string shadowLight = "[[light]]\nposition = [1.2, 2.6, 1.9]\nintensity = 14\ncasts_shadow = true\n";
 inline const std::string wall = "[[mirror]]\nname = \"wall\"\nposition = [0, 1, -1.6]\nsize = [4, 2]\n";

@@ -1,18 +1,10 @@
 #include "picture_support.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdlib>
-#include <fstream>
-#include <functional>
-#include <map>
-#include <utility>
-
 #include "driver.hpp"
 #include "image/picture_files.hpp"
 #include "platform/files.hpp"
+#include "scene_text.hpp"
+#include "test_headers.hpp"
 #include "test_paths.hpp"
 
 namespace speculum::testing_support {
@@ -52,7 +44,8 @@ std::vector<std::string> sceneNames(const std::string& prefix) {
   return names;
 }
 
-Options headless(const std::filesystem::path& scene, PictureSize size) {
+Options headless(const std::filesystem::path& scene, PictureSize size,
+                 const std::vector<std::pair<std::string, std::string>>& settings) {
   keepDriverLoaded();
   Options options;
   options.scene = scene.string();
@@ -63,6 +56,7 @@ Options headless(const std::filesystem::path& scene, PictureSize size) {
   if (const char* rays = std::getenv("SPECULUM_RAYS")) {
     set(options, {{"effects.rays", rays}});
   }
+  set(options, settings);
   return options;
 }
 
@@ -157,12 +151,7 @@ std::filesystem::path sceneDirectory() {
 
 std::filesystem::path writeScene(const std::string& name, const std::string& toml) {
   const std::filesystem::path file = sceneDirectory() / (name + ".toml");
-  std::string text = toml;
-  const std::string models = sourceFile("models").string() + "/";
-  for (size_t at = text.find("MODELS/"); at != std::string::npos; at = text.find("MODELS/", at)) {
-    text.replace(at, 7, models);
-  }
-  std::ofstream(file) << text;
+  std::ofstream(file) << tomlOf(toml);
   return file;
 }
 

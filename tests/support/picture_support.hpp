@@ -19,8 +19,9 @@ void expectAlike(const Image8& actual, const Image8& expected, int tolerance, co
 // Writes NAME-actual.png, NAME-expected.png and NAME-difference.png below the build tree and says where.
 void writeEvidence(const Image8& actual, const Image8& expected, const std::string& name);
 
-// Options for a headless picture with validation and debug.check_finite on. Tests add to its settings.
-Options headless(const std::filesystem::path& scene, PictureSize size = {640, 360});
+// Options for a headless picture with validation and debug.check_finite on, and further settings.
+Options headless(const std::filesystem::path& scene, PictureSize size = {640, 360},
+                 const std::vector<std::pair<std::string, std::string>>& settings = {});
 
 // Adds to the settings.
 void set(Options& options, const std::vector<std::pair<std::string, std::string>>& settings);
@@ -60,7 +61,7 @@ std::vector<bool> blackPixels(const Image8& image);
 // A temporary directory of the running test's own: tests run side by side and may use the same names.
 std::filesystem::path sceneDirectory();
 
-// Writes a scene file into sceneDirectory(); model paths in it are relative to the project's models/.
+// Writes a scene, as tomlOf() takes it, into sceneDirectory().
 std::filesystem::path writeScene(const std::string& name, const std::string& toml);
 
 // One of the program's shaders with `code` at the end of its main(), and those that include it, for Options::shaderDir.

@@ -6,68 +6,66 @@
 #include <sstream>
 
 #include "picture_support.hpp"
+#include "test_paths.hpp"
 
 namespace speculum::testing_support {
 
 const std::string wallScene = R"(
-[environment]
-background = [0.2, 0.3, 0.4]
-ambient = [0.3, 0.3, 0.3]
-[camera]
-position = [0, 1, 4]
-target = [0, 1, 0]
-[settings]
-"view.samples" = 1
-"reflection.samples" = 1
-[[object]]
-name = "ball"
-model = "MODELS/sphere.obj"
-position = [0.9, 1, 0]
-[[light]]
-position = [0, 3, 3]
-intensity = 10
-[[mirror]]
-name = "wall"
-position = [0, 1, -2]
-size = [5, 3]
+[environment] background = [0.2, 0.3, 0.4], ambient = [0.3, 0.3, 0.3]
+[camera] position = [0, 1, 4], target = [0, 1, 0]
+[settings] "view.samples" = 1, "reflection.samples" = 1
+[[object]] name = "ball", model = "MODELS/sphere.obj", position = [0.9, 1, 0]
+[[light]] position = [0, 3, 3], intensity = 10
+[[mirror]] name = "wall", position = [0, 1, -2], size = [5, 3]
 )";
 
 const std::string corridorNodes = R"(
-[[object]]
-name = "ball"
-model = "MODELS/sphere.obj"
-position = [0.3, 1, 0.5]
-scale = 0.2
-[[light]]
-name = "lamp"
-position = [-0.5, 1.5, 0]
-radius = 0.05
-intensity = 4
+[[object]] name = "ball", model = "MODELS/sphere.obj", position = [0.3, 1, 0.5], scale = 0.2
+[[light]] name = "lamp", position = [-0.5, 1.5, 0], radius = 0.05, intensity = 4
 )";
 
 std::string corridorScene(const std::string& nodes) {
   return R"(
-[environment]
-background = [0.2, 0.3, 0.4]
-ambient = [0.3, 0.3, 0.3]
-[camera]
-position = [0, 1, 1.5]
-target = [0, 1, -2]
-[settings]
-"view.samples" = 1
-"reflection.samples" = 1
+[environment] background = [0.2, 0.3, 0.4], ambient = [0.3, 0.3, 0.3]
+[camera] position = [0, 1, 1.5], target = [0, 1, -2]
+[settings] "view.samples" = 1, "reflection.samples" = 1
 )" + nodes +
          R"(# In front of the eye.
-[[mirror]]
-name = "ahead"
-position = [0, 1, -2]
-size = [3, 2]
-[[mirror]]
-name = "behind"
-position = [0, 1, 2]
-rotation = [0, 180, 0]
-size = [3, 2]
+[[mirror]] name = "ahead", position = [0, 1, -2], size = [3, 2]
+[[mirror]] name = "behind", position = [0, 1, 2], rotation = [0, 180, 0], size = [3, 2]
 )";
+}
+
+// Breaks lines after the header of a table and at commas between its keys.
+static std::string keyPerLine(const std::string& text) {
+  std::string lines;
+  int depth = 0;   // of brackets
+  char until = 0;  // ends the string or comment that is read
+  for (const char c : text) {
+    if (until != 0) {
+      until = c == until ? 0 : until;
+      lines += c;
+      continue;
+    }
+    until = c == '"' || c == '\'' ? c : c == '#' ? '\n' : 0;
+    depth += (c == '[' || c == '{') - (c == ']' || c == '}');
+    const bool afterHeader = c == ' ' && lines.ends_with(']') && lines[lines.rfind('\n') + 1] == '[';
+    if (depth == 0 && (c == ',' || afterHeader)) {
+      lines += '\n';
+    } else if (c != ' ' || !lines.ends_with('\n')) {
+      lines += c;
+    }
+  }
+  return lines;
+}
+
+std::string tomlOf(const std::string& text) {
+  std::string file = keyPerLine(text);
+  const std::string models = (sourceDir() / "models").string() + "/";
+  for (size_t at = file.find("MODELS/"); at != std::string::npos; at = file.find("MODELS/", at)) {
+    file.replace(at, 7, models);
+  }
+  return file;
 }
 
 std::string replaced(std::string text, const std::string& part, const std::string& by) {

@@ -10,6 +10,10 @@
 // Scene files as text, written beside those of writeScene.
 namespace speculum::testing_support {
 
+// Returns the TOML of a text in which a table may stand on one line, as "[[light]] position = [0, 1, 0], glow = 0"
+// does. MODELS/ is the project's models/.
+std::string tomlOf(const std::string& text);
+
 // A ball before the eye, behind it a wall with a mirror.
 extern const std::string wallScene;
 

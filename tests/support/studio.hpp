@@ -1,8 +1,7 @@
 #pragma once
 
-#include <gtest/gtest.h>
-
 #include "picture_support.hpp"
+#include "test_headers.hpp"
 
 namespace speculum::testing_support {
 

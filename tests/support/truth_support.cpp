@@ -1,10 +1,5 @@
 #include "truth_support.hpp"
 
-#include <algorithm>
-#include <cmath>
-
-#include <gtest/gtest.h>
-
 #include "image/color.hpp"
 
 namespace speculum::testing_support {
@@ -85,9 +80,7 @@ std::vector<std::pair<std::string, std::string>> truthSettings(int maxDepth) {
 }
 
 Options truthOptions(const std::filesystem::path& file, PictureSize size, int maxDepth) {
-  Options options = headless(file, size);
-  set(options, truthSettings(maxDepth));
-  return options;
+  return headless(file, size, truthSettings(maxDepth));
 }
 
 void expectTruth(const std::filesystem::path& file, PictureSize size, int maxDepth, const Truth& truth, double time) {

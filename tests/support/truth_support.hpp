@@ -1,8 +1,5 @@
 #pragma once
 
-#include <filesystem>
-#include <vector>
-
 #include "picture_support.hpp"
 #include "reference/ray_tracer.hpp"
 #include "studio.hpp"

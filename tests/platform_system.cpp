@@ -1,20 +1,33 @@
-#include "platform/machine.hpp"
-
-#include <gtest/gtest.h>
+// The user's folders, the machine's memory and other programs.
 #include <malloc.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
 #include <chrono>
-#include <fstream>
-#include <memory>
 #include <thread>
-#include <vector>
 
+#include "error_message.hpp"
+#include "platform/folders.hpp"
+#include "platform/machine.hpp"
 #include "platform/process.hpp"
+#include "test_headers.hpp"
 
 namespace speculum::test {
 namespace {
+
+TEST(Folders, CacheDirectoryFollowsXdg) {
+  setEnvironment("XDG_CACHE_HOME", "/somewhere");
+  EXPECT_EQ(userCacheDir(), "/somewhere/speculum");
+  setEnvironment("XDG_CACHE_HOME", "relative/is/ignored");
+  setEnvironment("HOME", "/home/me");
+  EXPECT_EQ(userCacheDir(), "/home/me/.cache/speculum");
+}
+
+TEST(Folders, MissingDataDirectoryListsWhereItLooked) {
+  const std::string error = messageOf([] { dataDirectory("no-such-data"); });
+  EXPECT_TRUE(contains(error, "share/speculum/no-such-data"));
+  EXPECT_TRUE(std::filesystem::exists(dataDirectory("shaders")));
+}
 
 #if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__)
 // Returns the page faults of a thread that allocates, fills and frees 8 MiB repeatedly, without the first four times.
@@ -88,6 +101,38 @@ TEST(Machine, KnowsWhenTheProcessStarted) {
 TEST(Machine, PeakMemoryIsPlausible) {
   EXPECT_GT(peakResidentBytes(), uint64_t{1} << 20);
   EXPECT_LT(peakResidentBytes(), uint64_t{1} << 40);
+}
+
+TEST(Process, GivesOutputAndExitCode) {
+  const ProcessResult result = runProcess({"sh", "-c", "echo out; echo err >&2; exit 3"});
+  EXPECT_EQ(result.exitCode, 3);
+  EXPECT_EQ(result.output, "out\nerr\n");
+  EXPECT_EQ(runProcess({"a-program-that-does-not-exist"}).exitCode, 127);
+}
+
+TEST(Process, TalksLineByLine) {
+  ChildProcess child({"sh", "-c", "while read line; do echo \"got $line\"; done; printf rest; exit 4"},
+                     ChildProcess::Input::pipe);
+  EXPECT_EQ(child.readLine(0.0), std::nullopt);
+  EXPECT_TRUE(child.running());
+  child.write("one\ntwo\n");
+  EXPECT_EQ(child.readLine(10.0), "got one");
+  EXPECT_EQ(child.readLine(10.0), "got two");
+  child.closeInput();
+  EXPECT_EQ(child.readLine(10.0), std::nullopt);
+  EXPECT_FALSE(child.running());
+  EXPECT_EQ(child.wait().exitCode, 4);
+  EXPECT_EQ(child.wait().output, "rest");
+}
+
+TEST(Process, EndedAndHungChildrenAreHandled) {
+  ChildProcess ended({"true"}, ChildProcess::Input::pipe);
+  EXPECT_EQ(ended.readLine(10.0), std::nullopt);
+  ended.write("nobody reads this\n");
+  ChildProcess hung({"sh", "-c", "trap '' TERM; echo up; while :; do sleep 0.1; done"}, ChildProcess::Input::pipe);
+  EXPECT_EQ(hung.readLine(10.0), "up");
+  hung.kill();
+  EXPECT_EQ(hung.wait().exitCode, 128 + 9);
 }
 
 }  // namespace

@@ -1,0 +1,38 @@
+#pragma once
+
+// What nearly every test needs. It is compiled once, as the precompiled header of the test programs.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <limits>
+#include <map>
+#include <memory>
+#include <numbers>
+#include <numeric>
+#include <optional>
+#include <random>
+#include <set>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace speculum {
+
+// Says whether the text has the part. A failed expectation prints the text.
+inline ::testing::AssertionResult contains(std::string_view text, std::string_view part) {
+  const bool found = text.find(part) != std::string_view::npos;
+  return (found ? ::testing::AssertionSuccess() : ::testing::AssertionFailure()) << "in: " << text.substr(0, 4000);
+}
+
+}  // namespace speculum
