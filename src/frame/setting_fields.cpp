@@ -99,10 +99,12 @@ constexpr SettingField fields[] = {
             {.unit = "frames", .changes = mainView, .slider = SettingSlider{1, 16, "%d", false}}),
     setting("reflection.skip_unchanged", BooleanSetting{at<&R::skipUnchanged>}, "Reuse unchanged images",
             "reuses a cached mirror image that would come out the same", "Saves its pass.", {.changes = mainView}),
-    setting("reflection.mesh_error", NumberSetting{at<&R::meshError>, 0.0, 16.0}, "Mesh error",
-            "largest error of simplified objects in mirror images; 0: all triangles",
-            "Saves vertices; shading shifts a little. Ignored while shadows or curved mirrors are traced.",
-            {.unit = "texels", .slider = SettingSlider{0.0, 16.0}}),
+    setting(
+        "reflection.mesh_error", NumberSetting{at<&R::meshError>, 0.0, 16.0}, "Mesh error",
+        "largest error of simplified objects in mirror images; 0: all triangles",
+        "Saves vertices; shading shifts a little. Ignored while shadows or curved mirrors are traced; with shadow maps "
+        "only together with view.mesh_error.",
+        {.unit = "texels", .slider = SettingSlider{0.0, 16.0}}),
     setting("reflection.clip", choice<&R::clip>(clipMethods), "Clipping", "how geometry behind a mirror is cut",
             "oblique loses depth precision near a mirror; none shows what is behind it."),
 
