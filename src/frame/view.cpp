@@ -13,6 +13,18 @@ namespace {
 // through a shorter edge by more than 1e-7.
 constexpr double shortestEdge = 1e-9;
 
+// Returns the vector times a power of two, exactly, with its largest coordinate between 1 and 2: products of such
+// vectors cannot underflow.
+glm::dvec3 scaledToOne(const glm::dvec3& v) {
+  const glm::dvec3 sizes = glm::abs(v);
+  const double largest = std::max({sizes.x, sizes.y, sizes.z});
+  if (largest == 0.0) {
+    return v;
+  }
+  const int exponent = std::ilogb(largest);
+  return {std::scalbn(v.x, -exponent), std::scalbn(v.y, -exponent), std::scalbn(v.z, -exponent)};
+}
+
 // Returns inward normals of the planes through the eye and the polygon's edges; skips edges that point at the eye.
 std::vector<glm::dvec3> coneThrough(const glm::dvec3& eye, std::span<const glm::dvec3> polygon) {
   glm::dvec3 inside(0.0);
@@ -21,8 +33,8 @@ std::vector<glm::dvec3> coneThrough(const glm::dvec3& eye, std::span<const glm::
   }
   std::vector<glm::dvec3> cone;
   for (size_t i = 0; i < polygon.size(); ++i) {
-    const glm::dvec3 a = polygon[i] - eye;
-    const glm::dvec3 b = polygon[(i + 1) % polygon.size()] - eye;
+    const glm::dvec3 a = scaledToOne(polygon[i] - eye);
+    const glm::dvec3 b = scaledToOne(polygon[(i + 1) % polygon.size()] - eye);
     const glm::dvec3 n = glm::cross(a, b);
     const double length = glm::length(n);
     if (length <= shortestEdge * glm::length(a) * glm::length(b)) {

@@ -158,8 +158,10 @@ void ObjMaterials::readLines(const fs::path& file, std::string_view text) {
     } else if (key == "map_d") {
       entry->hasMask = entry->hasMask || !textureName(line).empty();
     } else if (key == "map_Kd") {
-      entry->diffuseTexture = textureName(line);
-      entry->textureLine = line.number();
+      if (const std::string_view name = textureName(line); !name.empty()) {
+        entry->diffuseTexture = name;
+        entry->textureLine = line.number();
+      }
     }
   }
 }

@@ -53,6 +53,7 @@ Field<Owner, Value> field(Value Owner::*member, std::string_view key, std::strin
 
 // The fields of each type, in the order in which they are saved. A member that is missing here does not compile.
 // Reader, writer, the content of mirror images, the inspector, docs/scene_format.md and the fuzzers' dictionary follow.
+// nullptr: T is a value without fields.
 template <typename T>
 inline constexpr auto fieldsOf = nullptr;
 

@@ -158,7 +158,7 @@ std::string settingText(const TableReader& settings, const toml::node& node, con
   }
   std::vector<double> values;
   for (const toml::node& element : *array) {
-    const std::optional<double> value = element.is_number() ? element.value<double>() : std::nullopt;
+    const std::optional<double> value = numberIn(element);
     if (!value || !std::isfinite(*value)) {
       settings.failAt(element, key, "has an element that is not a finite number", wanted);
     }

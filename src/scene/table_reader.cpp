@@ -91,9 +91,17 @@ const toml::node& TableReader::required(std::string_view key, std::string_view r
   return *node;
 }
 
+std::optional<double> numberIn(const toml::node& node) {
+  // toml++'s value<double>() refuses integers that a double rounds.
+  if (const toml::value<int64_t>* integer = node.as_integer()) {
+    return static_cast<double>(integer->get());
+  }
+  return node.value_exact<double>();
+}
+
 double TableReader::numberOf(const toml::node& node, std::string_view key, const Range& range) const {
   expect(node.is_number(), node, key, range.text());
-  const double value = node.value<double>().value();
+  const double value = numberIn(node).value();
   if (!range.contains(value)) {
     failAt(node, key, fmt::format("is {}", value), range.text());
   }

@@ -65,6 +65,9 @@ class TableReader {
   int line_ = 1;
 };
 
+// The node's number, rounded to a double; nothing if it is no number.
+std::optional<double> numberIn(const toml::node& node);
+
 // "a string", "a table" ...: the name of a value's type in errors.
 std::string_view typeName(const toml::node& node);
 
