@@ -382,6 +382,11 @@ TEST_F(SmallSweep, ResultsRefuseNumbersThatAreNoInt) {
         << value;
   }
   json["ground_truth"]["threads"] = 2;
+  for (const char* axis : {"5", "\"other\""}) {
+    nlohmann::ordered_json wrong = json;
+    wrong["series"][0]["axis"] = nlohmann::ordered_json::parse(axis);
+    EXPECT_EQ(readProblem(wrong.dump()).substr(0, 15), "series[0].axis:") << axis;
+  }
   json["settings"] = "nested";
   std::string text = json.dump();
   text.replace(text.find("\"nested\""), 8, std::string(5000, '[') + std::string(5000, ']'));

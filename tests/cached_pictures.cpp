@@ -158,6 +158,19 @@ TEST(CachedPictures, BothRenderPathsDrawTheSameBytes) {
   expectSameOnBothPaths(withInterval(roomScene(), 3, tiny), {0.0, 0.03, 0.07, 0.1, 0.13});
 }
 
+TEST(CachedPictures, ChangedSettingsShowAtOnce) {
+  QuietSession session(withInterval(roomScene(), 50, tiny));
+  QuietSession fresh(withInterval(roomScene(), 1, tiny));
+  for (const auto& [key, value] : {std::pair("view.clear_color", "0.9,0.1,0.1"), std::pair("reflection.samples", "1"),
+                                   std::pair("reflection.max_depth", "1")}) {
+    session.draw(0.0, false);
+    set(session, {{key, value}});
+    set(fresh, {{key, value}});
+    fresh.restart();
+    EXPECT_EQ(draw(session, 0.0).rgba, draw(fresh, 0.0).rgba) << key;
+  }
+}
+
 TEST(CachedPictures, TimeMayPauseAndRunBackwards) {
   QuietSession session(withInterval(roomScene(), 4));
   QuietSession fresh(withInterval(roomScene(), 1));

@@ -160,8 +160,9 @@ TEST_P(PickedPoint, LiesWhereItIsSeen) {
 
 const auto scenes = testing::Values("gallery", "facing_mirrors", "many_mirrors", "mirror_maze", "outdoors", "no_mirror",
                                     "single_plane", "shadows", "pool");
-INSTANTIATE_TEST_SUITE_P(Scenes, PickedScene, scenes);
-INSTANTIATE_TEST_SUITE_P(Scenes, PickedPoint, scenes);
+const auto sceneName = [](const testing::TestParamInfo<const char*>& info) { return std::string(info.param); };
+INSTANTIATE_TEST_SUITE_P(Scenes, PickedScene, scenes, sceneName);
+INSTANTIATE_TEST_SUITE_P(Scenes, PickedPoint, scenes, sceneName);
 
 // A column of two balls, a light that is seen and one that is not.
 const std::string nodes = R"(

@@ -99,6 +99,16 @@ TEST_F(MtlFile, TextureIsDecodedToLinear) {
   EXPECT_EQ(textures_[0].texels[1], glm::vec3(0.0f, static_cast<float>(srgbDecode(128.0 / 255.0)), 1.0f));
 }
 
+TEST_F(MtlFile, TextureAloneHasItsOwnColor) {
+  writePng(folder_ / "t.png", Image8(1, 1));
+  for (const char* more : {"", "map_Kd\n", "map_Kd -bm 1\n"}) {  // without a name they change nothing
+    const Mesh mesh =
+        load(kSquare + "usemtl m\nf 1 2 3\n", std::string("newmtl black\nKd 0 0 0\nnewmtl m\nmap_Kd t.png\n") + more);
+    EXPECT_EQ(mesh.parts[0].material.diffuse, glm::dvec3(0.6)) << more;
+    EXPECT_EQ(mesh.parts[0].material.diffuseTexture, 0) << more;
+  }
+}
+
 TEST_F(MtlFile, TextureOptionsAreNotItsName) {
   writePng(folder_ / "a wall.png", Image8(1, 1));
   for (const char* options : {"-blendu on ", "-bm 0.5 -clamp off\t", "-o 1 ", "-o 1 2 3 -s 1e2147483648 -mm 0 1 "}) {

@@ -108,6 +108,10 @@ class JsonReader {
       } catch (const nlohmann::json::exception&) {
         fail(key);
       }
+      // A name that the library does not know becomes the first one.
+      if (std::is_enum_v<T> && nlohmann::ordered_json(value) != json) {
+        fail(key);
+      }
     }
   }
   template <typename T>
@@ -122,9 +126,10 @@ class JsonReader {
     if (!json.is_array()) {
       fail(key);
     }
-    values.resize(json.size());
-    for (size_t i = 0; i < values.size(); ++i) {
-      read(HasMembers<T> ? key + "[" + std::to_string(i) + "]" : key, json[i], values[i]);
+    // One by one: the first wrong element ends a hostile file before its others take memory.
+    values.clear();
+    for (size_t i = 0; i < json.size(); ++i) {
+      read(HasMembers<T> ? key + "[" + std::to_string(i) + "]" : key, json[i], values.emplace_back());
     }
   }
   void read(const std::string& key, const nlohmann::ordered_json& json, std::vector<SettingChange>& changes) const;

@@ -24,7 +24,7 @@ struct SweepPoint {
   Spread cpuMs;
   Spread frameMs;
   bool onFront = false;  // front of mean FLIP against gpuMs; see pareto.hpp
-  std::string picture;   // PNG, relative to the results' folder; empty if it was not kept
+  std::string picture;   // PNG, relative to the results' folder
   std::string heatMap;   // PNG of the FLIP error, likewise
 };
 
@@ -73,7 +73,7 @@ struct SweepResults {
   double truthMs = 0.0;  // wall clock
   int truthThreads = 0;
   ErrorFigures floor;        // error of a grid with one more sample a side: smaller errors mean nothing
-  std::string truthPicture;  // PNG, relative to the results' folder; empty if it was not kept
+  std::string truthPicture;  // PNG, relative to the results' folder
 
   std::vector<SweepPoint> points;
   std::vector<SweepSeries> series;

@@ -93,19 +93,20 @@ Effect multisampling(const Settings& settings, const FramePlan& plan) {
 }  // namespace
 
 std::vector<SettingChange> settingsWithout(EffectKind effect) {
-  // By EffectKind.
-  static const std::array<std::vector<SettingChange>, static_cast<size_t>(EffectKind::count)> changes = {
-      {{{"effects.shadows", "false"}},
-       {{"effects.roughness", "false"}},
-       {{"effects.ripple", "false"}},
-       {{"effects.casts_light", "false"}},
-       {{"effects.fresnel", "false"}},
-       {{"effects.textures", "false"}},
-       {{"view.samples", "1"}, {"reflection.samples", "1"}},
-       {{"view.tone_map", "clamp"}},
-       {{"effects.glyphs", "false"}},
-       {{"view.wireframe", "false"}},
-       {{"effects.curved", "false"}}}};
+  using Changes = std::vector<SettingChange>;
+  // In the order of EffectKind.
+  static const auto changes = std::to_array<Changes>({{{"effects.shadows", "false"}},
+                                                      {{"effects.roughness", "false"}},
+                                                      {{"effects.ripple", "false"}},
+                                                      {{"effects.casts_light", "false"}},
+                                                      {{"effects.fresnel", "false"}},
+                                                      {{"effects.textures", "false"}},
+                                                      {{"view.samples", "1"}, {"reflection.samples", "1"}},
+                                                      {{"view.tone_map", "clamp"}},
+                                                      {{"effects.glyphs", "false"}},
+                                                      {{"view.wireframe", "false"}},
+                                                      {{"effects.curved", "false"}}});
+  static_assert(std::tuple_size_v<decltype(changes)> == static_cast<size_t>(EffectKind::count));
   return changes.at(static_cast<size_t>(effect));
 }
 

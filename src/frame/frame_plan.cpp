@@ -140,8 +140,7 @@ void Planner::addMaps(std::vector<SimplifiedPass>& passes) {
     }
   }
   constexpr double softened = 2.0;  // texels that a look-up reads in each direction
-  const double meshError = allSettings_.view.meshError;
-  const double texels = meshError > 0.0 ? std::max(softened, meshError) : 0.0;
+  const double texels = allSettings_.view.meshError > 0.0 ? softened : 0.0;
   for (ShadowMap& map : plan_.shadowMaps) {
     for (ShadowFace& face : map.faces) {
       if (face.read) {

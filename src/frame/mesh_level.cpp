@@ -36,7 +36,7 @@ double nearestDepth(const View& view, double cosine, const InstanceState& instan
   const glm::dvec3 ahead = -glm::row(view.worldToView, 2);
   double depth = leastAlong(ahead);
   const bool isLarge = depth < 0.5 * glm::dot(ahead, center);
-  if (isLarge) {
+  if (isLarge) {  // of a smaller box the planes would raise the bound by less than a factor of 3
     // A point q of the visible cone has n.q >= 0 for each plane, so that its depth is no less than (ahead - w n).q for
     // any w > 0. The box's least of that is largest where one axis of the box has no share in it.
     for (const glm::dvec3& normal : view.cone) {

@@ -71,6 +71,7 @@ struct SettingNeed {
   std::string_view value;
 };
 
+// What a row of settingFields() says besides its member, key, range and texts, by name.
 struct SettingTraits {
   std::string_view unit = {};
   FramePart changes = FramePart::mirrorImages;

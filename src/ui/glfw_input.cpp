@@ -46,8 +46,9 @@ void GlfwInput::give(const InputEvent& event) {
       return;
     case InputEvent::Kind::wheel:
       return ImGui_ImplGlfw_ScrollCallback(window, event.x, event.y);
-    default:
-      return;
+    case InputEvent::Kind::focus:
+    case InputEvent::Kind::enter:
+      return;  // the callbacks gave them at once
   }
 }
 
