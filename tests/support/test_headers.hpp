@@ -1,6 +1,6 @@
 #pragma once
 
-// What nearly every test needs. It is compiled once, as the precompiled header of the test programs.
+// What nearly every test needs.
 #include <gtest/gtest.h>
 
 #include <algorithm>
