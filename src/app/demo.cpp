@@ -121,7 +121,15 @@ void Demo::presentPanels() {
 void Demo::endWithPanels(Frame& frame) {
   { const PassScope black = renderer_.beginPass(frame, fullPass("no picture", renderer_.displayTargets(frame))); }
   ui_->record(renderer_.beginOverlay(frame));
+  endFrame(frame);
+  renderer_.present();
+}
+
+// Asks the window system here, while the GPU draws: after present() an answer would have to wait for the picture that
+// an X server copies.
+void Demo::endFrame(Frame& frame) {
   renderer_.endFrame(frame);
+  ui_->readWindow();
 }
 
 // Ends the frame with the panels alone, after taking back the user's last step, which may have caused the exception.
@@ -180,7 +188,7 @@ void Demo::drawFrame(double seconds, double sinceLastMs) {
   pace_.drawn(frame->number, milliseconds(waits - last_) + cpuMs,
               !timed && !newPipelines && !plan.mainReused && !plan.tiles);
   const uint64_t number = frame->number;
-  renderer_.endFrame(*frame);
+  endFrame(*frame);
   if (std::exchange(compiled_, newPipelines) && !newPipelines) {
     releaseFreedMemory();  // loading and compiling leave much
   }
@@ -197,6 +205,9 @@ void Demo::drawFrame(double seconds, double sinceLastMs) {
                         endsPicture(plan) ? radiance : std::function<Image8()>(), picture ? &*picture : nullptr);
   frameSettings_ = settings;
   message_ = currentMessage();
+  const Clock::time_point presents = Clock::now();
+  renderer_.present();
+  pace_.presented(milliseconds(Clock::now() - presents));
 }
 
 const FittedPlan& Demo::planFrame(Frame& frame, const SceneState& state) {

@@ -78,6 +78,7 @@ class Demo : private WorkspaceHost {
   void updateUi(double seconds);
   void presentPanels();
   void endWithPanels(Frame& frame);
+  void endFrame(Frame& frame);
   void abandonFrame(Frame& frame, const std::string& why);
   void drawFrame(double seconds, double sinceLastMs);
   const FittedPlan& planFrame(Frame& frame, const SceneState& state);

@@ -106,6 +106,7 @@ std::optional<uint32_t> Renderer::acquireImage(Slot& slot) {
 std::optional<Frame> Renderer::beginFrame() {
   const auto index = static_cast<uint32_t>((frameNumber_ + 1) % framesInFlight);
   Slot& slot = slots_[index];
+  present();
   finish(slot);
   const std::optional<uint32_t> image = acquireImage(slot);
   if (!image) {
@@ -153,8 +154,12 @@ void Renderer::endFrame(Frame& frame) {
   slot.number = frame.number;
   recording_ = false;
   unusedImage_ = headless() || presents ? std::nullopt : std::optional(frame.imageIndex);
-  if (presents) {
-    swapChain_->present(frame.imageIndex);
+  submittedImage_ = presents ? std::optional(frame.imageIndex) : std::nullopt;
+}
+
+void Renderer::present() {
+  if (const std::optional<uint32_t> image = std::exchange(submittedImage_, std::nullopt)) {
+    swapChain_->present(*image);
   }
 }
 

@@ -64,7 +64,11 @@ class Renderer {
   PassScope beginPass(Frame& frame, const PassDesc& desc);
   // A pass of its own that loads and stores the display image, within a VkRenderPass on either path.
   PassScope beginOverlay(Frame& frame);
+  // Submits the frame's commands.
   void endFrame(Frame& frame);
+  // Shows the frame submitted last. Mesa's drivers for CPUs draw it and send it to the window system within this call,
+  // so that whatever needs neither its picture nor new events is best done between endFrame() and present().
+  void present();
 
   // The display image as a pass target: UNORM color without depth. Their role is TargetRole::swapchain.
   PassTargets displayTargets(Frame& frame) { return {.color = &displayImage(frame), .role = TargetRole::swapchain}; }
@@ -131,7 +135,8 @@ class Renderer {
   std::optional<SwapChain> swapChain_;
   Image headlessImage_;
   Image asideImage_;
-  std::optional<uint32_t> unusedImage_;  // of the swapchain: acquired for a frame that was drawn aside
+  std::optional<uint32_t> unusedImage_;     // of the swapchain: acquired for a frame that was drawn aside
+  std::optional<uint32_t> submittedImage_;  // of the swapchain: not presented yet
   std::array<Slot, framesInFlight> slots_;
   RetireQueue retired_;
   PipelineFactory pipelines_;

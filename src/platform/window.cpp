@@ -44,6 +44,10 @@ std::string printedWhereFlying() {
   return printed;
 }
 
+VkExtent2D extentOf(int width, int height) {
+  return {static_cast<uint32_t>(width), static_cast<uint32_t>(height)};
+}
+
 bool isCommand(int key, int modifiers) {
   const bool modifier = key >= GLFW_KEY_LEFT_SHIFT && key <= GLFW_KEY_RIGHT_SUPER;
   const bool character = key >= GLFW_KEY_SPACE && key <= GLFW_KEY_WORLD_2;
@@ -164,6 +168,12 @@ Window::Window(const WindowOptions& options) {
   }
   float unused = 1.0f;
   glfwGetWindowContentScale(window_.get(), &contentScale_, &unused);
+  int width = 0;
+  int height = 0;
+  glfwGetFramebufferSize(window_.get(), &width, &height);
+  framebuffer_ = extentOf(width, height);
+  glfwGetWindowSize(window_.get(), &width, &height);
+  size_ = extentOf(width, height);
   installCallbacks();
   openWindows().push_back(this);
 }
@@ -178,13 +188,20 @@ Window* Window::of(GLFWwindow* window) {
 
 void Window::installCallbacks() {
   glfwSetWindowUserPointer(window_.get(), this);
-  glfwSetFramebufferSizeCallback(window_.get(),
-                                 [](GLFWwindow* w, int, int) { of(w)->resized_ = of(w)->active_ = true; });
+  glfwSetFramebufferSizeCallback(window_.get(), [](GLFWwindow* w, int width, int height) {
+    of(w)->framebuffer_ = extentOf(width, height);
+    of(w)->resized_ = of(w)->active_ = true;
+  });
+  glfwSetWindowSizeCallback(window_.get(),
+                            [](GLFWwindow* w, int width, int height) { of(w)->size_ = extentOf(width, height); });
   glfwSetWindowRefreshCallback(window_.get(), [](GLFWwindow* w) { of(w)->active_ = true; });
   glfwSetWindowFocusCallback(window_.get(), [](GLFWwindow* w, int focused) {
     of(w)->tell({.kind = InputEvent::Kind::focus, .down = focused == GLFW_TRUE});
   });
-  glfwSetWindowIconifyCallback(window_.get(), [](GLFWwindow* w, int) { of(w)->active_ = true; });
+  glfwSetWindowIconifyCallback(window_.get(), [](GLFWwindow* w, int iconified) {
+    of(w)->iconified_ = iconified == GLFW_TRUE;
+    of(w)->active_ = true;
+  });
   glfwSetWindowCloseCallback(window_.get(), [](GLFWwindow* w) { of(w)->active_ = true; });
   glfwSetCursorEnterCallback(window_.get(), [](GLFWwindow* w, int entered) {
     of(w)->tell({.kind = InputEvent::Kind::enter, .down = entered == GLFW_TRUE});
@@ -265,20 +282,6 @@ void Window::refuseClose() {
   glfwSetWindowShouldClose(window_.get(), GLFW_FALSE);
 }
 
-VkExtent2D Window::framebufferExtent() const {
-  int width = 0;
-  int height = 0;
-  glfwGetFramebufferSize(window_.get(), &width, &height);
-  return {static_cast<uint32_t>(width), static_cast<uint32_t>(height)};
-}
-
-VkExtent2D Window::size() const {
-  int width = 0;
-  int height = 0;
-  glfwGetWindowSize(window_.get(), &width, &height);
-  return {static_cast<uint32_t>(width), static_cast<uint32_t>(height)};
-}
-
 void Window::resize(int width, int height) {
   glfwSetWindowSize(window_.get(), width, height);
 }
@@ -351,13 +354,8 @@ void Window::restore() {
   glfwRestoreWindow(window_.get());
 }
 
-bool Window::iconified() const {
-  return glfwGetWindowAttrib(window_.get(), GLFW_ICONIFIED);
-}
-
 bool Window::paused() const {
-  const VkExtent2D extent = framebufferExtent();
-  return iconified() || extent.width == 0 || extent.height == 0;
+  return iconified_ || framebuffer_.width == 0 || framebuffer_.height == 0;
 }
 
 bool Window::takeResized() {

@@ -139,9 +139,10 @@ class Window {
   void requestClose();
   void refuseClose();  // takes back a request to close
 
-  VkExtent2D framebufferExtent() const;  // pixels; 0x0 is possible
-  VkExtent2D size() const;               // screen coordinates
-  void resize(int width, int height);    // screen coordinates
+  // As of the events polled last: asking the X server would wait for the picture that it copies.
+  VkExtent2D framebufferExtent() const { return framebuffer_; }  // pixels; 0x0 is possible
+  VkExtent2D size() const { return size_; }                      // screen coordinates
+  void resize(int width, int height);                            // screen coordinates
   // Covers the monitor under the window's centre, or restores position and size. Does nothing while iconified.
   void setFullScreen(bool on);
   bool fullScreen() const;
@@ -149,7 +150,7 @@ class Window {
   void iconify();
   void restore();
   // X11 keeps the size of an iconified window, so the size does not show it.
-  bool iconified() const;
+  bool iconified() const { return iconified_; }
   bool paused() const;  // iconified, or without a pixel
   bool takeResized();   // whether the framebuffer changed its size since the last call
   // Says whether anything happened to the window since the last call: a key, the pointer, focus, size, uncovering.
@@ -195,6 +196,9 @@ class Window {
   ScreenRect windowed_;  // before full screen
   bool covers_ = false;  // covers a monitor as full screen
   float contentScale_ = 1.0f;
+  VkExtent2D framebuffer_{};
+  VkExtent2D size_{};
+  bool iconified_ = false;
   bool resized_ = false;
   bool active_ = true;
 };

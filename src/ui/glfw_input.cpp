@@ -4,9 +4,20 @@
 #include <imgui.h>
 #include <imgui_impl_glfw.h>
 
+#include <algorithm>
 #include <cfloat>
+#include <glm/glm.hpp>
+#include <utility>
 
 namespace speculum {
+
+namespace {
+
+glm::vec2 vectorOf(VkExtent2D extent) {
+  return {static_cast<float>(extent.width), static_cast<float>(extent.height)};
+}
+
+}  // namespace
 
 GlfwInput::GlfwInput(Window& window) : window_(window) {
   window.setListener([this](const InputEvent& event) {
@@ -18,6 +29,7 @@ GlfwInput::GlfwInput(Window& window) : window_(window) {
       queue_.push(event);
     }
   });
+  readWindow();
 }
 
 GlfwInput::~GlfwInput() {
@@ -52,14 +64,26 @@ void GlfwInput::give(const InputEvent& event) {
   }
 }
 
+void GlfwInput::readWindow() {
+  ImGui_ImplGlfw_NewFrame();
+}
+
 void GlfwInput::newFrame() {
   for (const InputEvent& event : queue_.take()) {
     give(event);
   }
-  ImGui_ImplGlfw_NewFrame();
+  // What the backend read of these is as old as the last frame.
+  ImGuiIO& io = ImGui::GetIO();
+  const auto now = std::chrono::steady_clock::now();
+  io.DeltaTime = std::max(std::chrono::duration<float>(now - std::exchange(last_, now)).count(), 1e-6f);
+  const glm::vec2 size = vectorOf(window_.size());
+  io.DisplaySize = {size.x, size.y};
+  if (size.x > 0.0f && size.y > 0.0f) {
+    const glm::vec2 scale = vectorOf(window_.framebufferExtent()) / size;
+    io.DisplayFramebufferScale = {scale.x, scale.y};
+  }
 #if IMGUI_VERSION_NUM < 18700
   // The backend read the pointer from GLFW, which is ahead of the queue.
-  ImGuiIO& io = ImGui::GetIO();
   for (size_t i = 0; i < buttons_.size(); ++i) {
     io.MouseDown[i] = buttons_[i];
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <chrono>
 
 #include "ui/input_queue.hpp"
 
@@ -16,7 +17,9 @@ class GlfwInput {
   GlfwInput(const GlfwInput&) = delete;
   GlfwInput& operator=(const GlfwInput&) = delete;
 
-  // Calls the backend's ImGui_ImplGlfw_NewFrame.
+  // Calls the backend's ImGui_ImplGlfw_NewFrame, which waits for answers of the window system: pointer shape, gamepad.
+  void readWindow();
+  // Gives ImGui the events and what the window knows of itself, without waiting.
   void newFrame();
   bool waiting() const { return !queue_.empty(); }  // events wait for a frame
 
@@ -25,6 +28,7 @@ class GlfwInput {
 
   Window& window_;
   InputQueue queue_;
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
   std::array<bool, 3> buttons_{};
   double x_ = 0.0;
   double y_ = 0.0;

@@ -208,6 +208,10 @@ void SimpleUI::record(const PassScope& scope) {
   ImGui_ImplVulkan_RenderDrawData(&data, scope.commands());
 }
 
+void SimpleUI::readWindow() {
+  backend_->input->readWindow();
+}
+
 // Uses the windows of the last frame, because the pointer may have moved since.
 bool SimpleUI::takesPointer(double x, double y) const {
   const ImGuiContext& context = *ImGui::GetCurrentContext();

@@ -19,6 +19,8 @@ class SimpleUI {
   // Lays out this frame's panels. Call it once a frame, even if nothing is drawn.
   UiOutput build(const UiView& view);
   void record(const PassScope& scope);
+  // Reads what only the window system knows, for the next build(). It may wait for an answer.
+  void readWindow();
   void setThumbnails(std::vector<Image8> pictures);  // of BrowserView::scenes, from the next frame on
   PanelWindows& windows() { return windows_; }
   const PanelWindows& windows() const { return windows_; }
