@@ -273,6 +273,23 @@ TEST(MotionLevels, MeshesStayUntilTheirLevelsAreMade) {
   EXPECT_GE(mostError(true), 1.0);
 }
 
+// Rays need full meshes, in every pass and shadow map.
+TEST(MotionLevels, NoRaysWithSimplifiedMeshes) {
+  Scene scene;
+  scene.mirrors.resize(1);
+  size_t rays = 0;
+  size_t simplified = 0;
+  for (const auto& [settings, error] : motionLevels(scene, {}, {}, 1 + 4, true, true)) {
+    const bool simplifies = settings.view.meshError > 0.0 || settings.reflection.meshError > 0.0;
+    const bool traces = settings.reflection.method != ReflectionMethod::raster;
+    EXPECT_FALSE(simplifies && traces);
+    simplified += simplifies;
+    rays += traces;
+  }
+  EXPECT_GT(simplified, 0u);
+  EXPECT_GT(rays, 0u);
+}
+
 TEST(MotionLevels, MapsReplaceTheRaysOfTheScene) {
   const auto last = [](const Scene& scene, const Settings& chosen = {}) {
     return motionLevels(scene, chosen, {}, 1 + 4, true, false).back().settings.effects;
@@ -303,13 +320,14 @@ TEST(MotionLevels, ImagesReplaceTheRaysOfMirrors) {
   EXPECT_EQ(levels.front().settings.reflection.method, ReflectionMethod::rays);
   EXPECT_EQ(levels.at(1).settings.reflection.method, ReflectionMethod::raster);
   EXPECT_EQ(levels.back().settings.reflection.method, ReflectionMethod::raster);
-  const auto last = [](const Scene& scene, bool cpuDevice) {
-    return motionLevels(scene, {}, {}, 1 + 4, true, cpuDevice).back().settings.reflection.method;
+  const auto last = [](const Scene& scene, bool simplifies, bool cpuDevice) {
+    return motionLevels(scene, {}, {}, 1 + 4, simplifies, cpuDevice).back().settings.reflection.method;
   };
   const Scene scene{{.mirrors = {Mirror()}}};
-  EXPECT_EQ(last(scene, true), ReflectionMethod::automatic);
-  EXPECT_EQ(last(scene, false), ReflectionMethod::raster);
-  EXPECT_EQ(last({}, true), ReflectionMethod::raster);
+  EXPECT_EQ(last(scene, false, true), ReflectionMethod::automatic);
+  EXPECT_EQ(last(scene, true, true), ReflectionMethod::raster);
+  EXPECT_EQ(last(scene, false, false), ReflectionMethod::raster);
+  EXPECT_EQ(last({}, false, true), ReflectionMethod::raster);
 }
 
 TEST(FrameWork, CountsTheRaysOfEffects) {
@@ -451,6 +469,23 @@ TEST_F(PacedScene, LowersOnlyWhatMoves) {
   expectText("Draft: 0.1");
   draw(false);
   EXPECT_TRUE(sameMainView(planned_, {})) << "tiles of the whole picture";
+}
+
+TEST_F(PacedScene, SendingThePictureCounts) {
+  budgetMs_ = budget;
+  side_ = 960;
+  const double gpuMs = 0.6 * budget;
+  const auto scaleAfter = [&](double sendMs, double everyThirdMs) {
+    for (int i = 0; i < 60; ++i) {
+      frame(true);
+      pace_.drawn(++number_, 1.0, true);
+      pace_.presented(gpuMs + (i % 3 == 0 ? everyThirdMs : sendMs));
+      pace_.finished({.frame = number_, .gpuMs = gpuMs});
+    }
+    return planned_.view.scale;
+  };
+  EXPECT_EQ(scaleAfter(0.5 * budget, 0.0), 1.0) << "waiting for the monitor";
+  EXPECT_LT(scaleAfter(0.5 * budget, 0.5 * budget), 1.0);
 }
 
 TEST_F(PacedScene, StillPicturesConvergeOnce) {

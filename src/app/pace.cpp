@@ -19,6 +19,7 @@ constexpr double longestWait = 3.0;  // budgets: slower still pictures come afte
 constexpr double tilesShare = 2.0;   // budgets for a frame with tiles and without input
 constexpr double leastShare = 0.1;   // of such a frame's time is its tiles'
 constexpr size_t mostDrawn = 4;      // frames whose times have not arrived
+constexpr size_t sentFrames = 8;     // frames of which one does not wait for the monitor
 
 Settings withPictures(Settings settings, int pictures) {
   settings.view.accumulate = pictures;
@@ -172,15 +173,19 @@ void Pace::drawn(uint64_t number, double cpuMs, bool usual) {
   }
 }
 
-// Learns the time of a frame. On a CPU device, drawing and the program share the cores, so a frame takes the sum of
-// their times, or less where they overlap; on a GPU it takes the longer of the two, unless the program waits for tiles.
-// Waiting for the monitor does not count.
+// Learns the time of a frame. On a CPU device, drawing, the program and sending the picture to the window system share
+// the cores, so a frame takes the sum of their times, or less where they overlap; on a GPU it takes the longer of the
+// first two, unless the program waits for tiles. Waiting for the monitor does not count.
 void Pace::finished(const FrameTimings& timings) {
   const auto found = std::ranges::find(drawn_, timings.frame, &Drawn::number);
   if (found == drawn_.end()) {
     return;
   }
-  const double sum = found->cpuMs + timings.gpuMs;
+  sendMs_.push_back(std::max(found->presentMs - timings.gpuMs, 0.0));
+  if (sendMs_.size() > sentFrames) {
+    sendMs_.pop_front();
+  }
+  const double sum = found->cpuMs + timings.gpuMs + (cpuDevice_ ? std::ranges::min(sendMs_) : 0.0);
   const double ms = !cpuDevice_ && !drawsTiles() ? std::max(found->cpuMs, timings.gpuMs)
                     : found->frameMs == 0        ? sum
                                                  : std::min(found->frameMs, sum);

@@ -83,6 +83,8 @@ class Pace {
 
   // Call when the frame was recorded: `cpuMs` without waiting; `usual` says that its times are those of such a frame.
   void drawn(uint64_t number, double cpuMs, bool usual);
+  // Call when the frame was presented, which took `ms`.
+  void presented(double ms) { drawn_.back().presentMs = ms; }
   // Call with the GPU's times of an earlier frame.
   void finished(const FrameTimings& timings);
 
@@ -104,6 +106,7 @@ class Pace {
     uint64_t number = 0;
     double cpuMs = 0.0;
     Clock::time_point begun;
+    double presentMs = 0.0;
     double frameMs = 0.0;           // until the next frame began; 0: not yet
     std::optional<FrameWork> work;  // if the times are those of such a frame
   };
@@ -115,8 +118,9 @@ class Pace {
   double seconds_ = 0.0;  // since the last frame
   Clock::time_point begun_;
   std::deque<Drawn> drawn_;
-  FittedPlan fitted_;  // of the frame that was planned last
-  FrameWork work_;     // of fitted_
+  std::deque<double> sendMs_;  // of the last frames, what presenting took beyond drawing
+  FittedPlan fitted_;          // of the frame that was planned last
+  FrameWork work_;             // of fitted_
   std::string text_;
   // Settings and content of the still pictures; nothing while the picture moves.
   std::optional<std::pair<Settings, Shown>> shown_;
