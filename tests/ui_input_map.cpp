@@ -58,7 +58,9 @@ TEST(InputMap, ListIsInTheDocs) {
     all.insert(all.end(), group.shortcuts.begin(), group.shortcuts.end());
   }
   for (const Shortcut& shortcut : all) {
-    const std::string row = "- `" + std::string(shortcut.keys) + "`: " + shortcut.help + "\n";
+    std::string row = "    " + std::string(shortcut.keys);
+    row.resize(26, ' ');
+    row.append(shortcut.help).append("\n");
     EXPECT_TRUE(contains(docs, row)) << row;
   }
 }
