@@ -37,7 +37,7 @@ TraceResult traceSmall(const std::filesystem::path& file, const TraceOptions& sa
 
 // Root of the mean squared error in radiance within the mirrors.
 double mirrorError(const LinearImage& drawn, const TraceResult& traced) {
-  return rootMeanSquare(drawn, traced.image, {traced.mirrorMask.begin(), traced.mirrorMask.end()});
+  return rootMeanSquare(drawn, traced.image, {traced.mirrorDepth.begin(), traced.mirrorDepth.end()});
 }
 
 struct Case {

@@ -106,7 +106,7 @@ TEST(EnvironmentMaps, ShowPlanarMirrorsBeforeTheSky) {
 )");
   const Image8 picture = draw(mapped(file, {{"effects.environment_box", "false"}}));
   const PictureAgreement agreement = difference(picture, trace(file, size, 1).picture, 3);
-  EXPECT_GE(agreement.within(), 0.98) << agreement.over << " pixels, up to " << agreement.largest;
+  EXPECT_LE(agreement.share(), 0.02) << agreement.over << " pixels, up to " << agreement.largest;
 }
 
 // Where rays light the layer under a reflection, the reflection is added to it afterwards: once, though both sides of

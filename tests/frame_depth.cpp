@@ -105,19 +105,19 @@ TEST(DepthReadout, ObliqueDegradesWithTheEyesDistance) {
   double before = 0.0;
   for (const double h : {2.0, 0.2, 0.02}) {
     const auto readout = nearMirrorReadout(h, 45.0);
-    ASSERT_TRUE(readout && readout->oblique && readout->clipDistance);
+    ASSERT_TRUE(readout && readout->oblique && readout->plain);
     EXPECT_NEAR(readout->distance, 50.25, 1e-9);
-    EXPECT_GT(*readout->oblique, 4.0 * *readout->clipDistance);
+    EXPECT_GT(*readout->oblique, 4.0 * *readout->plain);
     EXPECT_GT(*readout->oblique, 8.0 * before);
-    EXPECT_EQ(gapWith(*readout, ClipMethod::clipDistance), readout->clipDistance);
+    EXPECT_EQ(gapWith(*readout, ClipMethod::clipDistance), readout->plain);
     EXPECT_EQ(gapWith(*readout, ClipMethod::oblique), readout->oblique);
-    EXPECT_EQ(gapWith(*readout, ClipMethod::none), readout->none);
+    EXPECT_EQ(gapWith(*readout, ClipMethod::none), readout->plain);
     before = *readout->oblique;
   }
   EXPECT_FALSE(nearMirrorReadout(1e-6, 45.0)->oblique);
-  EXPECT_TRUE(nearMirrorReadout(1e-6, 45.0)->clipDistance);
+  EXPECT_TRUE(nearMirrorReadout(1e-6, 45.0)->plain);
   const auto straight = nearMirrorReadout(1e-3, 0.0);
-  EXPECT_NEAR(*straight->oblique, *straight->clipDistance, 0.1 * *straight->clipDistance);
+  EXPECT_NEAR(*straight->oblique, *straight->plain, 0.1 * *straight->plain);
 }
 
 }  // namespace

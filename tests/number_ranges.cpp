@@ -109,7 +109,7 @@ TEST_F(NumberRanges, NumbersAreRefusedByKeyOrDrawn) {
       const double time = 1.5;
       const Image8 picture = draw(*scene, time);
       const PictureAgreement agreement = difference(picture, trace(file, size, 2, time).picture, 3);
-      EXPECT_GE(agreement.within(), 0.97) << what << ": " << agreement.over << " pixels, up to " << agreement.largest;
+      EXPECT_LE(agreement.share(), 0.03) << what << ": " << agreement.over << " pixels, up to " << agreement.largest;
     }
     node.is_integer() ? void(node.as_integer()->get() = static_cast<int64_t>(value))
                       : void(node.as_floating_point()->get() = value);
@@ -138,7 +138,7 @@ TEST(ScenesOfAnySize, ShowOnePicture) {
   for (const double metres : {1e-18, 1e-16, 1e-14, 1e-10, 1e-5, 1e5, 1e10, 1e14}) {
     studio.show(loadScene(sceneIn(metres)));
     const PictureAgreement agreement = difference(studio.fresh(), usual, 2);
-    EXPECT_GE(agreement.within(), 0.99) << metres << " m: " << agreement.over << " pixels";
+    EXPECT_LE(agreement.share(), 0.01) << metres << " m: " << agreement.over << " pixels";
   }
 }
 
@@ -162,7 +162,7 @@ TEST(ScenesOfAnySize, BlurAlikeWhatIsFar) {
   for (const double metres : {1e6, 1e7, 1e12}) {
     studio.show(loadScene(sceneIn(metres)));
     const PictureAgreement agreement = difference(studio.fresh(), usual, 8);
-    EXPECT_GE(agreement.within(), 0.98) << metres << " m: " << agreement.over << " pixels, up to " << agreement.largest;
+    EXPECT_LE(agreement.share(), 0.02) << metres << " m: " << agreement.over << " pixels, up to " << agreement.largest;
   }
 }
 
@@ -205,7 +205,7 @@ TEST(EyeAtAVertex, FillsNothing) {
                                      objectText("cube.obj", position + 2.0 * corner, {20, 30, 40}, 0.5, {0, 1, 0}));
     const Truth truth = trace(file, {64, 36}, 1);
     const PictureAgreement agreement = difference(draw(truthOptions(file, {64, 36}, 1)), truth.picture, 2);
-    EXPECT_GE(agreement.within(), 0.98) << i << ": " << agreement.over << " pixels";
+    EXPECT_LE(agreement.share(), 0.02) << i << ": " << agreement.over << " pixels";
   }
 }
 

@@ -33,7 +33,7 @@ TEST(PictureAgreement, SmallSolidBlockIsADisagreement) {
       b.at(x, y)[1] = 0;
     }
   }
-  EXPECT_GT(difference(a, b, 2).within(), 0.9999);
+  EXPECT_LT(difference(a, b, 2).share(), 0.0001);
   EXPECT_EQ(difference(a, b, 2).block, glm::ivec2(30, 20));
   EXPECT_FALSE(difference(a, b, 2).holds());
   b.at(31, 21)[1] = 255;

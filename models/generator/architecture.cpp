@@ -1,5 +1,4 @@
 #include <cmath>
-#include <numbers>
 
 #include "models.hpp"
 #include "paints.hpp"
@@ -7,8 +6,6 @@
 
 namespace speculum::generator {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 // Sweeps happen in XY with heights along +Z; this lays such a path down so that heights point up.
 Affine lyingDown(double y) {

@@ -1,5 +1,4 @@
 #include <cmath>
-#include <numbers>
 
 #include "models.hpp"
 #include "profile.hpp"
@@ -7,7 +6,6 @@
 namespace speculum::generator {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr int kSegments = 28;
 
 // The turned foot that all pieces share, up to the waist: a base of `radius`, its moulding scaled with it.

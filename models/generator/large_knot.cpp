@@ -1,7 +1,6 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
-#include <numbers>
 #include <stdexcept>
 
 #include "models.hpp"
@@ -9,7 +8,6 @@
 namespace speculum::generator {
 
 int64_t writeLargeKnot(const std::filesystem::path& file, int64_t triangles) {
-  const double pi = std::numbers::pi;
   const int64_t around = std::max<int64_t>(8, std::llround(std::sqrt(static_cast<double>(triangles) / 2.0 / 9.0)));
   const int64_t along = std::max<int64_t>(24, std::llround(static_cast<double>(triangles) / 2.0 / around));
   const auto spine = [&](double a) {
@@ -17,7 +15,7 @@ int64_t writeLargeKnot(const std::filesystem::path& file, int64_t triangles) {
     return glm::dvec3(r * std::cos(2.0 * a), -1.25 * std::sin(3.0 * a), r * std::sin(2.0 * a));
   };
   const auto point = [&](double u, double v) {
-    const double a = 2.0 * pi * u, w = 2.0 * pi * v;
+    const double a = 2.0 * kPi * u, w = 2.0 * kPi * v;
     const glm::dvec3 tangent = glm::normalize(spine(a + 1e-4) - spine(a - 1e-4));
     const glm::dvec3 side = glm::normalize(glm::cross(tangent, spine(a) * glm::dvec3(1.0, 0.0, 1.0)));
     const double radius = 0.46 + 0.03 * std::sin(90.0 * a + 6.0 * w);

@@ -1,4 +1,4 @@
-#include <CLI/CLI.hpp>
+#include <cstdlib>
 #include <iostream>
 
 #include "models.hpp"
@@ -52,21 +52,18 @@ void writeAll(const std::filesystem::path& directory) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{"Writes the models and textures of the demo, or one large mesh for benchmarks"};
-  std::string out;
-  int64_t large = 0;
-  app.add_option("--out", out, "folder for the models, or the OBJ file of --large")->required();
-  app.add_option("--large", large, "triangles of the large mesh")->check(CLI::Range(int64_t{1000}, int64_t{20000000}));
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
+  const int64_t triangles = argc == 3 ? std::atoll(argv[2]) : 0;
+  if ((argc != 2 && argc != 3) || (argc == 3 && triangles < 1000)) {
+    std::cerr
+        << "speculum_models FOLDER: writes the models and textures of the demo\n"
+           "speculum_models FILE.obj TRIANGLES: writes one large mesh for benchmarks, of 1000 triangles or more\n";
+    return 2;
   }
   try {
-    if (large > 0) {
-      std::cout << writeLargeKnot(out, large) << " triangles\n";
+    if (triangles > 0) {
+      std::cout << writeLargeKnot(argv[1], triangles) << " triangles\n";
     } else {
-      writeAll(out);
+      writeAll(argv[1]);
     }
   } catch (const std::exception& error) {
     std::cerr << error.what() << '\n';

@@ -5,12 +5,15 @@
 #include <filesystem>
 #include <functional>
 #include <glm/glm.hpp>
+#include <numbers>
 #include <string>
 #include <vector>
 
 #include "geometry/affine.hpp"
 
 namespace speculum::generator {
+
+inline constexpr double kPi = std::numbers::pi;
 
 // Metres, model space right-handed with +Y up; normals point outwards; v up.
 struct Corner {

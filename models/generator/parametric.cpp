@@ -1,5 +1,4 @@
 #include <cmath>
-#include <numbers>
 
 #include "models.hpp"
 #include "profile.hpp"
@@ -7,7 +6,6 @@
 namespace speculum::generator {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 using Map = std::function<glm::dvec3(double, double)>;
 
 // Surface normal dP/du x dP/dv by central differences; `sign` turns it outwards.

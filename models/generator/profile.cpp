@@ -1,12 +1,10 @@
 #include "profile.hpp"
 
 #include <cmath>
-#include <numbers>
 
 namespace speculum::generator {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 const double kCreaseCosine = std::cos(35.0 * kPi / 180.0);
 
 glm::dvec2 rightOf(const glm::dvec2& direction) {

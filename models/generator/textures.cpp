@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "image/picture_files.hpp"
 #include "models.hpp"
@@ -26,7 +25,7 @@ double noise(double x, double y, int period, uint32_t seed) {
     const auto wrap = [&](double c) {
       return static_cast<uint32_t>(((static_cast<int>(c) % period) + period) % period);
     };
-    const double angle = hash(wrap(fx + dx), wrap(fy + dy), seed) * (2.0 * std::numbers::pi / 4294967296.0);
+    const double angle = hash(wrap(fx + dx), wrap(fy + dy), seed) * (2.0 * kPi / 4294967296.0);
     return std::cos(angle) * (tx - dx) + std::sin(angle) * (ty - dy);
   };
   const double u = fade(tx), v = fade(ty);
@@ -72,7 +71,7 @@ Colour plaster(double u, double v) {
 
 Colour wood(double u, double v) {
   const double warp = turbulence(u, v, 2, 3, 303);
-  const double rings = 0.5 + 0.5 * std::sin(2.0 * std::numbers::pi * (7.0 * v + 1.6 * warp));
+  const double rings = 0.5 + 0.5 * std::sin(2.0 * kPi * (7.0 * v + 1.6 * warp));
   const double fibre = noise(u * 8.0, v * 128.0, 128, 313);
   const Colour dark(0.30, 0.17, 0.10), light(0.52, 0.33, 0.20);
   return glm::mix(dark, light, std::clamp(0.2 + 0.6 * rings * rings + 0.25 * fibre, 0.0, 1.0));

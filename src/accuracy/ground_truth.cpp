@@ -76,7 +76,7 @@ std::optional<GroundTruth> traceGroundTruth(const Scene& scene, const SceneState
   }
   GroundTruth truth{.ms = milliseconds(start), .threads = tbb::this_task_arena::max_concurrency()};
   truth.throughputBeyond = throughputBeyond(*trace);
-  truth.mirrors = {request.width, request.height, interior(trace->mirrorMask, request.width, request.height)};
+  truth.mirrors = {request.width, request.height, interior(trace->mirrorDepth, request.width, request.height)};
   truth.image = std::move(trace->image);
   if (!request.noiseFloor) {
     return truth;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/gtx/component_wise.hpp>
 #include <numbers>
 #include <string>
 #include <string_view>
@@ -47,7 +48,7 @@ glm::dvec3 linearFromOklab(const glm::dvec3& lab) {
 }
 
 bool inGamut(const glm::dvec3& c) {
-  return std::min({c.r, c.g, c.b}) >= 0.0 && std::max({c.r, c.g, c.b}) <= 1.0;
+  return glm::compMin(c) >= 0.0 && glm::compMax(c) <= 1.0;
 }
 
 void setPixel(Image8& image, int x, int y, const glm::dvec3& color) {

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtx/component_wise.hpp>
+#include <glm/gtx/norm.hpp>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -22,15 +24,6 @@ struct Maps {
   Plane2d flip;
   Plane2d ssim;
 };
-
-double largestDifference(const glm::vec3& a, const glm::vec3& b) {
-  const glm::vec3 d = glm::abs(a - b);
-  return std::max({d.r, d.g, d.b});
-}
-
-double squaredLength(const glm::dvec3& v) {
-  return glm::dot(v, v);
-}
 
 bool nearBorder(size_t pixel, int width, int height) {
   const int x = static_cast<int>(pixel % width);
@@ -62,11 +55,11 @@ ImageMetrics metricsOf(const ComparedImage& reference, const ComparedImage& test
   std::vector<double> differences;
   differences.reserve(pixels.size());
   for (const size_t i : pixels) {
-    linearError += squaredLength(glm::dvec3(reference.linear[i]) - glm::dvec3(test.linear[i]));
-    linearPower += squaredLength(glm::dvec3(reference.linear[i]));
-    displayError += squaredLength((glm::dvec3(reference.display[i]) - glm::dvec3(test.display[i])) / 255.0);
+    linearError += glm::length2(glm::dvec3(reference.linear[i]) - glm::dvec3(test.linear[i]));
+    linearPower += glm::length2(glm::dvec3(reference.linear[i]));
+    displayError += glm::length2((glm::dvec3(reference.display[i]) - glm::dvec3(test.display[i])) / 255.0);
     metrics.flip += maps.flip.values[i];
-    differences.push_back(largestDifference(reference.display[i], test.display[i]));
+    differences.push_back(glm::compMax(glm::abs(reference.display[i] - test.display[i])));
     metrics.pixelsOver += differences.back() > tolerance;
   }
   const double count = static_cast<double>(pixels.size());

@@ -17,8 +17,8 @@ struct PictureAgreement {
   std::vector<bool> isOver;         // of each pixel
   std::optional<glm::ivec2> block;  // top left pixel of the first 3x3 block that lies wholly over: a patch, no edge
 
-  double within() const { return counted == 0 ? 1.0 : 1.0 - static_cast<double>(over) / counted; }
-  bool holds() const { return within() >= 0.999 && !block; }
+  double share() const { return counted == 0 ? 0.0 : static_cast<double>(over) / counted; }  // of `over` in `counted`
+  bool holds() const { return share() <= 0.001 && !block; }
 };
 
 // Compares the pixels whose `counts` is set, all of them if it is empty; the tolerance is in 1/255. Throws

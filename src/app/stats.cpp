@@ -46,9 +46,9 @@ ordered_json depthJson(const Session& session, const std::vector<int>& path) {
   }
   return {{"distance_m", readout->distance},
           {"in_use_m", metres(gapWith(*readout, frame.settings.reflection.clip))},
-          {"clip_distance_m", metres(readout->clipDistance)},
+          {"clip_distance_m", metres(readout->plain)},
           {"oblique_m", metres(readout->oblique)},
-          {"none_m", metres(readout->none)}};
+          {"none_m", metres(readout->plain)}};
 }
 
 // Returns the index of the pass that looks this one's image up; null if none does.

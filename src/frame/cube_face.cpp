@@ -17,21 +17,20 @@ std::span<const FaceAxes> faceAxes() {
   return axes;
 }
 
-std::vector<Bounds> boxesOf(const Scene& scene, const SceneState& state) {
+std::vector<Bounds> boxesOf(const Scene& scene, const SceneState& state, const glm::dvec3& origin) {
   std::vector<Bounds> boxes;
   for (const InstanceState& instance : state.instances) {
-    const glm::dvec3& half = scene.meshes[static_cast<size_t>(instance.mesh)].halfExtent;
+    const glm::dvec3& half = scene.meshes[instance.mesh].halfExtent;
     glm::dvec3 reach(0.0);
     for (int axis = 0; axis < 3; ++axis) {
       reach += glm::abs(instance.worldFromMesh.linear[axis]) * half[axis];
     }
-    Bounds& box = boxes.emplace_back();
-    box.add(instance.worldFromMesh.translation - reach);
-    box.add(instance.worldFromMesh.translation + reach);
+    const glm::dvec3 center = instance.worldFromMesh.translation - origin;
+    boxes.push_back({center - reach, center + reach});
   }
   for (const MirrorState& mirror : state.mirrors) {
     Bounds& box = boxes.emplace_back();
-    std::ranges::for_each(mirror.polygon, [&](const glm::dvec3& p) { box.add(p); });
+    std::ranges::for_each(mirror.polygon, [&](const glm::dvec3& p) { box.add(p - origin); });
   }
   return boxes;
 }
@@ -39,8 +38,8 @@ std::vector<Bounds> boxesOf(const Scene& scene, const SceneState& state) {
 void addVisibleInstances(const View& view, const Scene& scene, const SceneState& state, bool cullClusters, int without,
                          PlannedPass& pass) {
   for (int i = 0; i < static_cast<int>(state.instances.size()); ++i) {
-    const InstanceState& instance = state.instances[static_cast<size_t>(i)];
-    const Mesh& mesh = scene.meshes[static_cast<size_t>(instance.mesh)];
+    const InstanceState& instance = state.instances[i];
+    const Mesh& mesh = scene.meshes[instance.mesh];
     if (i == without || !sphereVisible(view, instance.center, instance.radius) ||
         !boxVisible(view, instance.worldFromMesh, mesh.halfExtent)) {
       continue;

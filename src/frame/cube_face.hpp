@@ -16,8 +16,8 @@ struct FaceAxes {
 };
 std::span<const FaceAxes> faceAxes();
 
-// World-space boxes: one per instance, then one per mirror, in scene order.
-std::vector<Bounds> boxesOf(const Scene& scene, const SceneState& state);
+// Axis-aligned boxes relative to a point in the world: one per instance, then one per mirror, in the state's order.
+std::vector<Bounds> boxesOf(const Scene& scene, const SceneState& state, const glm::dvec3& origin = glm::dvec3(0.0));
 
 // Adds the instances that the view may see, except `without`. With `cullClusters`, adds only their visible clusters.
 void addVisibleInstances(const View& view, const Scene& scene, const SceneState& state, bool cullClusters, int without,

@@ -103,9 +103,7 @@ std::optional<DepthReadout> depthReadout(const PlannedPass& pass, const Projecti
     return resolvableGap(depth, farthest->point, glm::radians(readoutAngle), farthest->extent);
   };
   DepthView depth{.projection = projection, .pictureSize = view.pictureSize};
-  DepthReadout readout{.distance = glm::length(farthest->point)};
-  // A clip distance cuts triangles and leaves depth as it is; the bound holds for cut triangles too.
-  readout.clipDistance = readout.none = gapIn(depth);
+  DepthReadout readout{.distance = glm::length(farthest->point), .oblique = {}, .plain = gapIn(depth)};
   if (view.clip) {
     depth.plane = glm::dvec4(view.worldToView * view.clip->normal, view.clip->distance(view.eye));
     readout.oblique = gapIn(depth);
@@ -114,7 +112,7 @@ std::optional<DepthReadout> depthReadout(const PlannedPass& pass, const Projecti
 }
 
 std::optional<double> gapWith(const DepthReadout& readout, ClipMethod clip) {
-  return clip == ClipMethod::oblique ? readout.oblique : clip == ClipMethod::none ? readout.none : readout.clipDistance;
+  return clip == ClipMethod::oblique ? readout.oblique : readout.plain;
 }
 
 }  // namespace speculum

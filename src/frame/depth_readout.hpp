@@ -11,9 +11,8 @@ namespace speculum {
 struct DepthReadout {
   double distance = 0.0;  // metres from the pass's eye, along the reflected path
   // Metres along the line of sight. Empty if no gap is kept in order, or if the view has no such projection.
-  std::optional<double> clipDistance;
   std::optional<double> oblique;
-  std::optional<double> none;
+  std::optional<double> plain;  // with the other clip methods, which leave depth as it is
 };
 
 // Degrees from facing at which the surfaces of a readout are seen.

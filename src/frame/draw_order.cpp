@@ -28,7 +28,7 @@ std::vector<int> frontToBack(const View& view, std::span<const int> instances, c
   std::vector<Entry> entries;
   entries.reserve(instances.size());
   for (const int i : instances) {
-    const InstanceState& instance = state.instances[static_cast<size_t>(i)];
+    const InstanceState& instance = state.instances[i];
     const double distance = distanceOf(view, instance);
     const auto [it, isNew] = nearest.try_emplace(instance.mesh, distance);
     it->second = std::min(it->second, distance);

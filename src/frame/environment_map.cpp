@@ -57,7 +57,7 @@ std::vector<int> drawnCurved(const Scene& scene, const SceneState& state, std::s
   std::set<int> drawn;
   for (const PlannedPass* pass : passes) {
     for (const int i : pass->instances) {
-      if (scene.objects[static_cast<size_t>(state.instances[static_cast<size_t>(i)].object)].mirror) {
+      if (scene.objects[state.instances[i].object].mirror) {
         drawn.insert(i);
       }
     }
@@ -65,7 +65,7 @@ std::vector<int> drawnCurved(const Scene& scene, const SceneState& state, std::s
   std::vector<int> curved(drawn.begin(), drawn.end());
   if (curved.size() > mostEnvironmentMaps) {
     const auto width = [&](int i) {
-      const InstanceState& instance = state.instances[static_cast<size_t>(i)];
+      const InstanceState& instance = state.instances[i];
       return instance.radius / std::max(1e-9, glm::length(instance.center - state.camera.eye));
     };
     std::ranges::stable_sort(curved, [&](int a, int b) { return width(a) > width(b); });
@@ -76,7 +76,7 @@ std::vector<int> drawnCurved(const Scene& scene, const SceneState& state, std::s
 }
 
 std::string mapName(const Scene& scene, const InstanceState& instance) {
-  const Object& object = scene.objects[static_cast<size_t>(instance.object)];
+  const Object& object = scene.objects[instance.object];
   return nameOf("object", object.name, instance.object) +
          (object.copies.count > 1 ? " copy " + std::to_string(instance.copy) : "");
 }
@@ -91,7 +91,7 @@ std::vector<EnvironmentMap> environmentMaps(const Scene& scene, const SceneState
   }
   const std::vector<Bounds> boxes = boxesOf(scene, state);
   for (const int i : drawnCurved(scene, state, passes)) {
-    const InstanceState& instance = state.instances[static_cast<size_t>(i)];
+    const InstanceState& instance = state.instances[i];
     const Bounds box = boxAround(static_cast<size_t>(i), boxes);
     EnvironmentMap map{.object = instance.object,
                        .copy = instance.copy,

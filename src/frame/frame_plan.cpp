@@ -246,11 +246,10 @@ void Planner::reuseImage(MirrorDraw& draw, const PassNode& node) {
 void Planner::dropSkipsInReused() {
   std::vector<bool> reused(scene_.mirrors.size(), false);
   for (const CachedImage& image : plan_.cached) {
-    reused[static_cast<size_t>(image.mirror)] = image.cacheIndex >= 0;
+    reused[image.mirror] = image.cacheIndex >= 0;
   }
-  std::erase_if(plan_.skipped, [&](const SkippedMirror& skipped) {
-    return skipped.depth > 0 && reused[static_cast<size_t>(skipped.path.front())];
-  });
+  std::erase_if(plan_.skipped,
+                [&](const SkippedMirror& skipped) { return skipped.depth > 0 && reused[skipped.path.front()]; });
 }
 
 // Makes the plan show the complete mean again and draw nothing.

@@ -119,8 +119,7 @@ std::set<int> indices(bool all, size_t count) {
 std::vector<uint64_t> imageContent(const ImageSurroundings& around, const View& main,
                                    std::span<const PlannedPass* const> passes) {
   Numbers numbers;
-  const Environment environment = effectiveEnvironment(around.scene, around.settings);
-  numbers.add(environment);
+  numbers.add(around.scene.environment.cleared(around.settings.view.clearColor));
   numbers.addAll(around.projection.focal, around.projection.aspect, around.projection.near, around.projection.offset);
   addEffects(around, main, numbers);
   const bool all = around.effects.any() || !around.maps.empty();
@@ -151,7 +150,7 @@ std::vector<uint64_t> shadowContent(const SceneState& state, const ShadowFace& f
   Numbers numbers;
   numbers.addAll(face.pass.view, face.low, face.high, face.projection.near, face.pass.instances);
   for (const int i : face.pass.instances) {
-    const InstanceState& instance = state.instances[static_cast<size_t>(i)];
+    const InstanceState& instance = state.instances[i];
     numbers.addAll(instance.mesh, levelOf(face.pass, i), instance.worldFromMesh.linear,
                    instance.worldFromMesh.translation);
   }

@@ -115,6 +115,17 @@ bool raysAreFaster(const FramePlan& plan, const Settings& settings) {
          });
 }
 
+void leaveOutRays(Settings& settings, const Scene& scene) {
+  EffectSettings& effects = settings.effects;
+  effects.shadows =
+      effects.shadows && effects.shadowLookup == ShadowLookup::map && shadowLights(scene).size() <= mostShadowMaps;
+  effects.roughness = effects.roughness && effects.roughLookup == ReflectionSource::image;
+  effects.ripple = effects.ripple && effects.rippleLookup == ReflectionSource::image;
+  effects.castsLight = false;
+  effects.curved = effects.curved && effects.curvedLookup == CurvedLookup::environment;
+  settings.reflection.method = ReflectionMethod::raster;
+}
+
 std::string mebibytes(uint64_t bytes) {
   return std::to_string(bytes >> 20) + " MiB";
 }
@@ -146,18 +157,25 @@ uint64_t targetBytes(const FramePlan& plan, const Settings& settings) {
          environmentBytes(plan) + shadowBytes(plan) + shadedBytes(plan, settings);
 }
 
+uint64_t sampleBytes(const FramePlan& plan, const Settings& settings) {
+  Settings single = settings;
+  single.view.samples = single.reflection.samples = 1;
+  return targetBytes(plan, settings) - targetBytes(plan, single);
+}
+
 FittedPlan planWithin(const TargetLimits& limits, const Scene& scene, const SceneState& state, const Settings& settings,
                       int width, int height, FrameCache cache, int picture) {
   FittedPlan fitted{{}, pictureSettings(settings), {}};
   ReflectionSettings& reflection = fitted.settings.reflection;
   const double margins = reflection.updateInterval > 1 ? 2.0 * largestMargin * height : 0.0;
   const auto plan = [&] { fitted.plan = planFrame(scene, state, fitted.settings, width, height, cache, picture); };
+  const auto say = [&](const std::string& what) { fitted.message += (fitted.message.empty() ? "" : "; ") + what; };
   const double largestScale = limits.largestSide / (settings.view.scale * (std::max(width, height) + margins));
   if (reflection.scale > largestScale) {
     reflection.scale = largestScale;
-    fitted.message = "mirror images of " + settingValue(settings, "reflection.scale") +
-                     " times the main view's size are larger than the device's " + std::to_string(limits.largestSide) +
-                     " pixels: lowered reflection.scale to " + settingValue(fitted.settings, "reflection.scale");
+    say("mirror images of " + settingValue(settings, "reflection.scale") +
+        " times the main view's size are larger than the device's " + std::to_string(limits.largestSide) +
+        " pixels: lowered reflection.scale to " + settingValue(fitted.settings, "reflection.scale"));
   }
   const bool chooses = reflection.method == ReflectionMethod::automatic && !limits.cpu;
   if (reflection.method == ReflectionMethod::automatic && (!limits.cpu || !limits.tracesRays)) {
@@ -169,18 +187,9 @@ FittedPlan planWithin(const TargetLimits& limits, const Scene& scene, const Scen
     plan();
   }
   if (!limits.tracesRays && fitted.plan.effects.any()) {
-    EffectSettings& effects = fitted.settings.effects;
-    effects.shadows =
-        effects.shadows && effects.shadowLookup == ShadowLookup::map && shadowLights(scene).size() <= mostShadowMaps;
-    effects.roughness = effects.roughness && effects.roughLookup == ReflectionSource::image;
-    effects.ripple = effects.ripple && effects.rippleLookup == ReflectionSource::image;
-    effects.castsLight = false;
-    effects.curved = effects.curved && effects.curvedLookup == CurvedLookup::environment;
-    reflection.method = ReflectionMethod::raster;
-    fitted.message += (fitted.message.empty() ? "" : "; ") +
-                      std::string(
-                          "effects.* that trace rays, and reflection.method=rays, are left out: the device lacks "
-                          "geometryShader, storage buffers, or room in them for the scene");
+    leaveOutRays(fitted.settings, scene);
+    say("effects.* that trace rays, and reflection.method=rays, are left out: the device lacks geometryShader, storage "
+        "buffers, or room in them for the scene");
     plan();
   }
   int& shadowMapSize = fitted.settings.effects.shadowMapSize;
@@ -190,9 +199,8 @@ FittedPlan planWithin(const TargetLimits& limits, const Scene& scene, const Scen
     shadowMapSize /= 2;
   }
   if (shadowMapSize < wantedSize) {
-    fitted.message += (fitted.message.empty() ? "" : "; ") +
-                      ("shadow maps exceed the device's " + std::to_string(limits.largestSide)) +
-                      " pixels: lowered effects.shadow_map_size to " + std::to_string(shadowMapSize);
+    say("shadow maps exceed the device's " + std::to_string(limits.largestSide) +
+        " pixels: lowered effects.shadow_map_size to " + std::to_string(shadowMapSize));
     plan();
   }
   // The picture that stays shown was drawn with the samples that were asked for, or as many as fitted.
@@ -217,8 +225,8 @@ FittedPlan planWithin(const TargetLimits& limits, const Scene& scene, const Scen
     plan();
   }
   if (!lowered.empty()) {
-    fitted.message += (fitted.message.empty() ? "" : "; ") + ("targets of " + mebibytes(wanted)) +
-                      " do not fit the device's " + mebibytes(limits.budgetBytes) + ": lowered " + lowered;
+    say("targets of " + mebibytes(wanted) + " do not fit the device's " + mebibytes(limits.budgetBytes) + ": lowered " +
+        lowered);
   }
   return fitted;
 }

@@ -11,6 +11,8 @@ namespace speculum {
 // Device memory of a plan's render targets: the main view and the sum of pictures, environment maps, the cached images
 // that it reuses, and the most mirror images that are alive at one time, with their depth.
 uint64_t targetBytes(const FramePlan& plan, const Settings& settings);
+// The part of it that more than one sample a pixel costs.
+uint64_t sampleBytes(const FramePlan& plan, const Settings& settings);
 
 struct TargetLimits {
   uint64_t budgetBytes = 0;   // for all render targets together

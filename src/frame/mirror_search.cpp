@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtx/component_wise.hpp>
 #include <queue>
 #include <sstream>
 
@@ -32,10 +33,6 @@ struct Candidate {
 // Bounds time and memory of a plan, whatever reflection.max_passes is: 25 000 passes of a few mirrors each, 1 200 of a
 // thousand, or 200 that show 200 others each.
 constexpr size_t mostWork = 2'500'000;
-
-double largest(const glm::dvec3& v) {
-  return std::max({v.x, v.y, v.z});
-}
 
 std::string number(double value) {
   std::ostringstream out;
@@ -183,7 +180,7 @@ void MirrorSearch::propose(int node, Sight sight) {
   const glm::dvec3 throughput =
       pass.channels * reflectanceBound(material, allSettings_.effects, sight.draw.plane, view.eye, sight.visible);
   const bool deep = static_cast<int>(view.path.size()) >= settings_.maxDepth;
-  const bool reflects = !deep && largest(throughput) >= settings_.minThroughput;
+  const bool reflects = !deep && glm::compMax(throughput) >= settings_.minThroughput;
   const glm::dvec2 texels = view.pictureSize / glm::dvec2(plan_.width, plan_.height);
   const int samples = view.path.empty() ? allSettings_.view.samples : settings_.samples;
   const std::string_view rays = whyRays(material, allSettings_, reflects, area * texels.x * texels.y * samples);
@@ -197,13 +194,13 @@ void MirrorSearch::propose(int node, Sight sight) {
   if (rays.empty() && area < settings_.minPixels) {
     return skipMirror(plan_, view, mirror, SkipReason::minPixels, number(area) + " px");
   }
-  if (largest(throughput) < settings_.minThroughput) {
-    return skipMirror(plan_, view, mirror, SkipReason::minThroughput, number(largest(throughput)));
+  if (glm::compMax(throughput) < settings_.minThroughput) {
+    return skipMirror(plan_, view, mirror, SkipReason::minThroughput, number(glm::compMax(throughput)));
   }
   if (!rays.empty()) {
     return skipMirror(plan_, view, mirror, SkipReason::rays, std::string(rays));
   }
-  candidates_.push({area * largest(throughput), node, pass.mirrors.size() - 1, std::move(sight.visible), area,
+  candidates_.push({area * glm::compMax(throughput), node, pass.mirrors.size() - 1, std::move(sight.visible), area,
                     throughput, discovered_++});
 }
 
@@ -237,7 +234,7 @@ void MirrorSearch::expand(const Candidate& candidate) {
   }
   node.pass.depth = static_cast<int>(parent.path.size());
   node.pass.areaPx = candidate.areaPx * (picture.x / plan_.width) * (picture.y / plan_.height);
-  node.pass.throughput = largest(candidate.throughput);
+  node.pass.throughput = glm::compMax(candidate.throughput);
   node.pass.channels = candidate.throughput;
   node.draw = candidate.draw;
   // An image that is read beside a pixel's own texel cannot be reprojected.

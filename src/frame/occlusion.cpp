@@ -134,10 +134,10 @@ BodyOccluder Occlusion::bodyOccluder(const ConvexMesh& mesh, const InstanceState
 }
 
 Occlusion::Body& Occlusion::bodyOf(int instance) {
-  std::optional<Body>& body = bodies_[static_cast<size_t>(instance)];
+  std::optional<Body>& body = bodies_[instance];
   if (!body) {
     body.emplace();
-    const InstanceState& state = state_.instances[static_cast<size_t>(instance)];
+    const InstanceState& state = state_.instances[instance];
     const Mesh& mesh = scene_.meshes[state.mesh];
     if (!mesh.convex.triangles.empty()) {
       body->whole = bodyOccluder(mesh.convex, state);
@@ -206,13 +206,13 @@ Occlusion::Occluders Occlusion::occludersOf(int mirror, std::span<const glm::dve
     return region && found.add(*region, nullptr, of, eye, polygon);
   };
   for (const int i : viewMirrors_) {
-    if (i != mirror && addFace(mirrors_[static_cast<size_t>(i)], {.isMirror = true, .index = i})) {
+    if (i != mirror && addFace(mirrors_[i], {.isMirror = true, .index = i})) {
       return found;
     }
   }
   const bool simplifies = meshErrorIn(*view_, settings_) > 0.0;
   for (const int i : viewInstances_) {
-    const InstanceState& instance = state_.instances[static_cast<size_t>(i)];
+    const InstanceState& instance = state_.instances[i];
     const Mesh& mesh = scene_.meshes[instance.mesh];
     const double widest = mesh.convex.points.empty() ? instance.radius * largestFaces_[instance.mesh] : instance.radius;
     // Levels of a mesh have other outlines.
@@ -222,7 +222,7 @@ Occlusion::Occluders Occlusion::occludersOf(int mirror, std::span<const glm::dve
     }
     Body& body = bodyOf(i);
     if (const BodyRegion* region = body.whole.mesh && regionOf(body) ? &*regionOf(body) : nullptr) {
-      const bool before = isBefore(body.whole, mirrors_[static_cast<size_t>(mirror)].occluder, eye);
+      const bool before = isBefore(body.whole, mirrors_[mirror].occluder, eye);
       if (found.add(region->outline, before ? nullptr : &region->beyond, {.index = i}, eye, polygon)) {
         return found;
       }
@@ -236,10 +236,10 @@ Occlusion::Occluders Occlusion::occludersOf(int mirror, std::span<const glm::dve
 
 std::string Occlusion::nameOfOccluder(const Occluder& occluder) const {
   if (occluder.isMirror) {
-    return nameOf("mirror", scene_.mirrors[static_cast<size_t>(occluder.index)].name, occluder.index);
+    return nameOf("mirror", scene_.mirrors[occluder.index].name, occluder.index);
   }
-  const int object = state_.instances[static_cast<size_t>(occluder.index)].object;
-  return nameOf("object", scene_.objects[static_cast<size_t>(object)].name, object);
+  const int object = state_.instances[occluder.index].object;
+  return nameOf("object", scene_.objects[object].name, object);
 }
 
 bool Occlusion::skips(const View& view) const {

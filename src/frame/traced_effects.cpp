@@ -39,7 +39,7 @@ class Collector {
 
   void add(const PlannedPass& pass) {
     for (const int i : pass.instances) {
-      lit_.instances[static_cast<size_t>(i)] = true;
+      lit_.instances[i] = true;
       lit_.anyInstance = true;
       const int object = state_.instances[i].object;
       if (settings_.curved && scene_.objects[object].mirror && !effects_.curved) {
@@ -83,7 +83,7 @@ class Collector {
     if (lights.empty()) {
       return;
     }
-    effects_.shadows = nameOf("light", scene_.lights[static_cast<size_t>(lights.front())].name, lights.front());
+    effects_.shadows = nameOf("light", scene_.lights[lights.front()].name, lights.front());
     // Light that a mirror reflects is shadowed before and after the mirror, which no map of the light shows.
     effects_.shadowMaps =
         settings_.shadowLookup == ShadowLookup::map && lights.size() <= mostShadowMaps && !effects_.castsLight;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtx/component_wise.hpp>
 
 #include "geometry/reflection.hpp"
 
@@ -16,8 +17,7 @@ constexpr double shortestEdge = 1e-9;
 // Returns the vector times a power of two, exactly, with its largest coordinate between 1 and 2: products of such
 // vectors cannot underflow.
 glm::dvec3 scaledToOne(const glm::dvec3& v) {
-  const glm::dvec3 sizes = glm::abs(v);
-  const double largest = std::max({sizes.x, sizes.y, sizes.z});
+  const double largest = glm::compMax(glm::abs(v));
   if (largest == 0.0) {
     return v;
   }
@@ -175,13 +175,11 @@ bool sphereVisible(const View& view, const glm::dvec3& center, double radius) {
 }
 
 bool boxVisible(const View& view, const Affine& worldFromBox, const glm::dvec3& halfExtent) {
-  const glm::dvec3 axes = glm::dvec3(glm::length(worldFromBox.linear[0]), glm::length(worldFromBox.linear[1]),
-                                     glm::length(worldFromBox.linear[2])) *
-                          halfExtent;
-  const double rounding = 1e-5 * (axes.x + axes.y + axes.z);  // bound of float rounding on the GPU
+  const glm::dvec3 axes(glm::length(worldFromBox.linear[0]), glm::length(worldFromBox.linear[1]),
+                        glm::length(worldFromBox.linear[2]));
+  const double rounding = 1e-5 * glm::dot(axes, halfExtent);  // bound of float rounding on the GPU
   const auto reach = [&](const glm::dvec3& normal) {
-    const glm::dvec3 along = glm::abs(normal * worldFromBox.linear) * halfExtent;
-    return along.x + along.y + along.z + rounding;
+    return glm::dot(glm::abs(normal * worldFromBox.linear), halfExtent) + rounding;
   };
   if (view.clip && view.clip->distance(worldFromBox.translation) < -reach(view.clip->normal)) {
     return false;

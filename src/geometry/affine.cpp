@@ -1,7 +1,7 @@
 #include "geometry/affine.hpp"
 
-#include <algorithm>
 #include <cmath>
+#include <glm/gtx/component_wise.hpp>
 
 namespace speculum {
 
@@ -40,8 +40,7 @@ double productModulo(double a, double b, double m) {
 }
 
 double largestEntry(const glm::dmat3& m) {
-  const glm::dvec3 rows = glm::max(glm::abs(m[0]), glm::max(glm::abs(m[1]), glm::abs(m[2])));
-  return std::max({rows.x, rows.y, rows.z});
+  return glm::compMax(glm::max(glm::abs(m[0]), glm::max(glm::abs(m[1]), glm::abs(m[2]))));
 }
 
 glm::dmat3 normalMatrix(const glm::dmat3& linear) {

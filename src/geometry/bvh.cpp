@@ -1,6 +1,7 @@
 #include "geometry/bvh.hpp"
 
 #include <cmath>
+#include <glm/gtx/component_wise.hpp>
 #include <numeric>
 
 namespace speculum {
@@ -62,8 +63,7 @@ Bounds Bounds::around(std::span<const glm::dvec3> points) {
 }
 
 Bounds Bounds::widened(double share) const {
-  const glm::dvec3 reach = glm::max(glm::abs(low), glm::abs(high));
-  const double margin = share * std::max({reach.x, reach.y, reach.z});
+  const double margin = share * glm::compMax(glm::max(glm::abs(low), glm::abs(high)));
   return {low - margin, high + margin};
 }
 

@@ -1,6 +1,7 @@
 #include "geometry/convex_mesh.hpp"
 
 #include <algorithm>
+#include <glm/gtx/component_wise.hpp>
 #include <map>
 #include <optional>
 
@@ -40,8 +41,7 @@ std::optional<std::vector<ConvexMesh::Edge>> edgesOf(const std::vector<ConvexMes
 // Scales the points so that the longest side of their box is 1; returns none if all points are the same.
 std::vector<glm::dvec3> unitSized(const std::vector<glm::dvec3>& points) {
   const Bounds box = Bounds::around(points);
-  const glm::dvec3 sides = box.high - box.low;
-  const double side = std::max({sides.x, sides.y, sides.z});
+  const double side = glm::compMax(box.high - box.low);
   std::vector<glm::dvec3> scaled;
   if (std::isnormal(side)) {
     for (const glm::dvec3& p : points) {

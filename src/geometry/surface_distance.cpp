@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <glm/gtx/norm.hpp>
 #include <limits>
 #include <span>
 
@@ -12,25 +13,22 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // Distances below are squared.
-double square(const glm::dvec3& v) {
-  return glm::dot(v, v);
-}
 
 double toBox(const glm::dvec3& point, const Bounds& box) {
-  return square(glm::max(glm::max(box.low - point, point - box.high), glm::dvec3(0.0)));
+  return glm::length2(glm::max(glm::max(box.low - point, point - box.high), glm::dvec3(0.0)));
 }
 
 double toSegment(const glm::dvec3& point, const glm::dvec3& a, const glm::dvec3& b) {
   const glm::dvec3 along = b - a;
-  const double length = square(along);
+  const double length = glm::length2(along);
   const double t = length > 0.0 ? std::clamp(glm::dot(point - a, along) / length, 0.0, 1.0) : 0.0;
-  return square(point - (a + t * along));
+  return glm::length2(point - (a + t * along));
 }
 
 // Returns the distance to the plane if the foot of the perpendicular lies inside all edges, else to the nearest edge.
 double toTriangle(const glm::dvec3& point, const glm::dvec3* corner) {
   const glm::dvec3 normal = glm::cross(corner[1] - corner[0], corner[2] - corner[0]);
-  const double area = square(normal);
+  const double area = glm::length2(normal);
   bool inside = area > 0.0;
   double edges = infinity;
   for (int i = 0; i < 3; ++i) {

@@ -20,22 +20,28 @@ ShearedRay::ShearedRay(const Ray& ray) {
   shear_ = {d[kx_] / d[kz_], d[ky_] / d[kz_], 1.0 / d[kz_]};
 }
 
-TriangleMesh::TriangleMesh(const Mesh& mesh) {
-  const size_t count = mesh.indices.size() / 3;
-  std::vector<Bounds> boxes(count);
-  for (size_t i = 0; i < count * 3; ++i) {
+std::vector<Bounds> triangleBounds(const Mesh& mesh) {
+  std::vector<Bounds> boxes(mesh.indices.size() / 3);
+  for (size_t i = 0; i < 3 * boxes.size(); ++i) {
     boxes[i / 3].add(mesh.vertices[mesh.indices[i]].position);
   }
-  bvh_ = Bvh(boxes);
-  triangles_.reserve(count);
+  return boxes;
+}
+
+std::vector<uint32_t> partsOfTriangles(const Mesh& mesh) {
+  std::vector<uint32_t> parts(mesh.indices.size() / 3);
+  for (size_t p = 0; p < mesh.parts.size(); ++p) {
+    const MeshPart& part = mesh.parts[p];
+    std::fill_n(parts.begin() + part.firstIndex / 3, part.indexCount / 3, static_cast<uint32_t>(p));
+  }
+  return parts;
+}
+
+TriangleMesh::TriangleMesh(const Mesh& mesh) : bvh_(triangleBounds(mesh)), parts_(partsOfTriangles(mesh)) {
+  triangles_.reserve(parts_.size());
   for (const uint32_t i : bvh_.order()) {
     const uint32_t* v = &mesh.indices[size_t{i} * 3];
     triangles_.push_back({mesh.vertices[v[0]].position, mesh.vertices[v[1]].position, mesh.vertices[v[2]].position, i});
-  }
-  parts_.assign(count, 0);
-  for (size_t p = 0; p < mesh.parts.size(); ++p) {
-    const MeshPart& part = mesh.parts[p];
-    std::fill_n(parts_.begin() + part.firstIndex / 3, part.indexCount / 3, static_cast<uint32_t>(p));
   }
 }
 

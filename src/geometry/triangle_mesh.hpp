@@ -30,6 +30,9 @@ class ShearedRay {
   int kx_, ky_, kz_;
 };
 
+std::vector<Bounds> triangleBounds(const Mesh& mesh);      // relative to Mesh::center
+std::vector<uint32_t> partsOfTriangles(const Mesh& mesh);  // index into Mesh::parts, by triangle
+
 struct TriangleHit {
   uint32_t triangle = 0;  // three indices from Mesh::indices[3 * triangle] on
   double t = 0.0;

@@ -1,6 +1,7 @@
 #include "geometry/triangulate.hpp"
 
 #include <algorithm>
+#include <glm/gtx/norm.hpp>
 #include <numeric>
 
 #include "geometry/polygon.hpp"
@@ -91,10 +92,6 @@ class EarClipper {
   std::vector<Search> searches_;
 };
 
-double squaredLength(const glm::dvec3& v) {
-  return v.x * v.x + v.y * v.y + v.z * v.z;
-}
-
 // Says whether the triangles' diagonal lies inside the quad, which need not be convex.
 bool isInside(std::span<const glm::dvec3> quad, const std::array<std::array<int, 3>, 2>& triangles) {
   const glm::dvec3 normal = newellVector(quad);
@@ -106,7 +103,7 @@ bool isInside(std::span<const glm::dvec3> quad, const std::array<std::array<int,
 std::vector<std::array<int, 3>> triangulateQuad(std::span<const glm::dvec3> quad) {
   constexpr std::array<std::array<int, 3>, 2> fromFirst{{{0, 1, 2}, {0, 2, 3}}};
   constexpr std::array<std::array<int, 3>, 2> fromSecond{{{0, 1, 3}, {1, 2, 3}}};
-  const bool firstIsShorter = squaredLength(quad[2] - quad[0]) < squaredLength(quad[3] - quad[1]);
+  const bool firstIsShorter = glm::length2(quad[2] - quad[0]) < glm::length2(quad[3] - quad[1]);
   const auto& shorter = firstIsShorter ? fromFirst : fromSecond;
   const auto& other = firstIsShorter ? fromSecond : fromFirst;
   const auto& chosen = !isInside(quad, shorter) && isInside(quad, other) ? other : shorter;

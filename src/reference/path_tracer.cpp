@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtx/component_wise.hpp>
 #include <numbers>
 
 #include "reference/shading.hpp"
@@ -48,10 +49,6 @@ glm::dvec3 microfacet(const glm::dvec3& n, double alpha, const glm::dvec2& u) {
   const glm::dvec3 x = glm::normalize(glm::cross(helper, n));
   const glm::dvec3 y = glm::cross(n, x);
   return sine * std::cos(angle) * x + sine * std::sin(angle) * y + std::sqrt(cosine2) * n;
-}
-
-double largestChannel(const glm::dvec3& c) {
-  return std::max({c.r, c.g, c.b});
 }
 
 }  // namespace
@@ -176,7 +173,7 @@ glm::dvec3 PathTracer::follow(Path path) {
     weight *= bounce.reflectance;
     path.throughput *= bounce.reflectance;
     const Path next = reflected(path, bounce, bounce.base.normal);
-    const double throughput = largestChannel(path.throughput);
+    const double throughput = glm::compMax(path.throughput);
     if (path.depth >= options_.maxDepth || throughput < options_.minThroughput || throughput == 0.0) {
       return sum + weight * background(next.ray.direction);
     }

@@ -35,15 +35,6 @@ void check(const TraceOptions& options) {
   gridSize(options.samples);
 }
 
-Environment environmentOf(const Scene& scene, const TraceOptions& options) {
-  Environment environment = scene.environment;
-  if (options.clearColor) {
-    environment.background = *options.clearColor;
-    environment.sky.reset();
-  }
-  return environment;
-}
-
 }  // namespace
 
 Ray RayTracer::cameraRay(int width, int height, double x, double y) const {
@@ -75,7 +66,6 @@ void RayTracer::tile(const Environment& environment, const TraceOptions& options
       const MirrorChain chain = center.followMirrors(cameraRay(options.width, options.height, x + 0.5, y + 0.5));
       result.mirrorDepth[i] = static_cast<uint8_t>(chain.count);
       result.mirrorThroughput[i] = chain.throughput;
-      result.mirrorMask[i] = chain.count > 0;
       result.backgroundMask[i] = chain.background;
     }
   }
@@ -88,10 +78,10 @@ RayTracer::RayTracer(const Scene& scene, const SceneState& state)
 
 std::optional<TraceResult> RayTracer::render(const TraceOptions& options, const Progress& progress) const {
   check(options);
-  const Environment environment = environmentOf(world_.scene(), options);
+  const Environment environment = world_.scene().environment.cleared(options.clearColor);
   const size_t pixels = static_cast<size_t>(options.width) * options.height;
   TraceResult result{LinearImage(options.width, options.height), std::vector<uint8_t>(pixels),
-                     std::vector<uint8_t>(pixels), std::vector<uint8_t>(pixels), std::vector<double>(pixels)};
+                     std::vector<uint8_t>(pixels), std::vector<double>(pixels)};
   const int columns = (options.width + tileSize - 1) / tileSize;
   const int tiles = columns * ((options.height + tileSize - 1) / tileSize);
   std::atomic<bool> cancelled = false;
@@ -113,7 +103,7 @@ std::optional<TraceResult> RayTracer::render(const TraceOptions& options, const 
 glm::dvec3 RayTracer::radiance(const TraceOptions& options, const glm::dvec3& origin,
                                const glm::dvec3& direction) const {
   check(options);
-  const Environment environment = environmentOf(world_.scene(), options);
+  const Environment environment = world_.scene().environment.cleared(options.clearColor);
   PathTracer tracer(world_, environment, options, time_, MicrofacetSampler(0, 0));
   return tracer.radiance({origin - camera_.eye, glm::normalize(direction)});
 }

@@ -24,7 +24,6 @@ struct TraceOptions {
 struct TraceResult {
   LinearImage image;
   // Per pixel, row 0 at the top, for the ray through its centre:
-  std::vector<uint8_t> mirrorMask;       // 1: it meets the reflecting side of a mirror first
   std::vector<uint8_t> backgroundMask;   // 1: it meets nothing
   std::vector<uint8_t> mirrorDepth;      // reflecting sides in a row, at most maxDepth + 1; roughness is ignored
   std::vector<double> mirrorThroughput;  // product of their reflectances, mean of the channels; 1 without any

@@ -71,7 +71,7 @@ PictureCheck checkPicture(const Image8& expected, const Image8& actual, const Re
     check.figures.push_back(std::move(figure));
   };
   const PictureAgreement& found = check.agreement;
-  const double share = found.counted == 0 ? 0.0 : static_cast<double>(found.over) / found.counted;
+  const double share = found.share();
   const std::string most = percent(limits.share.value_or(0.0));
   add({fmt::format("pixels over {}/255", maxDiff), percent(share), most, share > limits.share.value_or(0.0)},
       fmt::format("{} of the pixels differ by more than {}/255 (limit {})", percent(share), maxDiff, most));

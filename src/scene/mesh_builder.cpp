@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtx/component_wise.hpp>
 
 #include "geometry/bvh.hpp"
 #include "geometry/convex_faces.hpp"
@@ -18,19 +19,15 @@ namespace {
 // distance, and would leave the range of floats.
 constexpr double mostRepeats = 1e9;
 
-double largestComponent(const glm::dvec3& v) {
-  return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-}
-
 // Returns the length of a vector whose square may leave the range of a double.
 double length(const glm::dvec3& v) {
-  const double scale = largestComponent(v);
+  const double scale = glm::compMax(glm::abs(v));
   return scale > 0.0 ? scale * glm::length(v / scale) : 0.0;
 }
 
 // Returns the direction of a vector of any length; zero for zero.
 glm::dvec3 unit(const glm::dvec3& v) {
-  const double scale = largestComponent(v);
+  const double scale = glm::compMax(glm::abs(v));
   return scale > 0.0 ? glm::normalize(v / scale) : glm::dvec3(0.0);
 }
 
@@ -47,7 +44,7 @@ TriangleShape shapeOf(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3
   const glm::dvec3 ab = b - a;
   const glm::dvec3 ac = c - a;
   // Divides by the largest component, so that neither squares nor products leave the range of a double.
-  const double scale = std::max(largestComponent(ab), largestComponent(ac));
+  const double scale = glm::compMax(glm::max(glm::abs(ab), glm::abs(ac)));
   if (!(scale > 0.0) || !std::isfinite(scale)) {
     return {};
   }

@@ -26,6 +26,8 @@ struct Environment {
 
   // Radiance of a ray of unit direction `d` (world) that hits nothing.
   glm::dvec3 radiance(const glm::dvec3& d) const;
+  // Returns the environment with `color`, if there is one, in the place of background and sky.
+  Environment cleared(const std::optional<glm::dvec3>& color) const;
 
   bool operator==(const Environment&) const = default;
 };

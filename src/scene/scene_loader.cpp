@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <glm/gtx/component_wise.hpp>
 #include <set>
 #include <utility>
 
@@ -107,8 +108,8 @@ double largestExtent(const Object& object) {
 }
 
 bool extentInRange(const Object& object, const Mesh& mesh) {
-  const glm::dvec3 farthest = glm::abs(object.scale) * (glm::abs(mesh.center) + mesh.radius * mesh.unit);
-  return std::max({farthest.x, farthest.y, farthest.z}) <= largestExtent(object);
+  return glm::compMax(glm::abs(object.scale) * (glm::abs(mesh.center) + mesh.radius * mesh.unit)) <=
+         largestExtent(object);
 }
 
 std::string extentRemedy(const Object& object) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtx/component_wise.hpp>
 #include <stdexcept>
 
 #include "geometry/bvh.hpp"
@@ -18,7 +19,7 @@ void addInstances(const Scene& scene, int objectIndex, double time, std::vector<
   const glm::dmat3 rotation = rotationFromDegrees(object.rotation + spunBy(object.spin, time));
   const glm::dmat3 linear =
       glm::dmat3(rotation[0] * object.scale.x, rotation[1] * object.scale.y, rotation[2] * object.scale.z);
-  const double largestScale = std::max({std::abs(object.scale.x), std::abs(object.scale.y), std::abs(object.scale.z)});
+  const double largestScale = glm::compMax(glm::abs(object.scale));
   const glm::dvec3 center = linear * mesh.center;
   for (int copy = 0; copy < object.copies.count; ++copy) {
     InstanceState instance{.object = objectIndex, .copy = copy, .mesh = object.mesh};
@@ -135,7 +136,7 @@ bool edgeSeparates(const Placed& a, const Placed& b, double slack) {
 bool overlap(const Placed& a, const Placed& b) {
   const double slack = std::max(a.state->slack, b.state->slack);
   const glm::dvec3 gap = glm::max(a.bounds.low - b.bounds.high, b.bounds.low - a.bounds.high);
-  return std::max({gap.x, gap.y, gap.z}) <= slack && !edgeSeparates(a, b, slack) && !edgeSeparates(b, a, slack);
+  return glm::compMax(gap) <= slack && !edgeSeparates(a, b, slack) && !edgeSeparates(b, a, slack);
 }
 
 // Sets the layers of the mirrors of one plane for an eye on one side of it.
@@ -187,6 +188,10 @@ glm::dvec3 Environment::radiance(const glm::dvec3& d) const {
   }
   return d.y >= 0.0 ? glm::mix(sky->horizon, sky->zenith, std::sqrt(d.y))
                     : glm::mix(sky->horizon, sky->ground, std::min(1.0, -8.0 * d.y));
+}
+
+Environment Environment::cleared(const std::optional<glm::dvec3>& color) const {
+  return color ? Environment{.background = *color, .ambient = ambient} : *this;
 }
 
 glm::dvec3 mirrorReflectance(const glm::dvec3& reflectance, Fresnel fresnel, double cosine) {

@@ -197,7 +197,7 @@ TEST_P(AnySize, MatchesTheTracer) {
 [[mirror]] position = [0, 0, -1], rotation = [-30, 10, 0], size = [1e6, 1e6]
 )");
   const Truth truth = trace(file, GetParam(), 3);
-  EXPECT_GT(share(truth.traced.mirrorMask, 1), 0.2);
+  EXPECT_GT(share(truth.traced.mirrorDepth, 1), 0.2);
   const Image8 picture = draw(truthOptions(file, GetParam(), 3));
   ASSERT_EQ(picture.width, GetParam().width);
   ASSERT_EQ(picture.height, GetParam().height);

@@ -136,7 +136,7 @@ TEST_P(RandomScenes, AreDrawnAsTraced) {
   for (size_t view = 0; view < plain.views() && views < mostViews; ++view) {
     const std::string name = scene.kind + "_" + std::to_string(GetParam()) + "_" + std::to_string(view);
     plain.look(view);
-    if (share(plain.tracing({16, 9}, 1).result().mirrorMask, 1) < 0.02) {
+    if (share(plain.tracing({16, 9}, 1).result().mirrorDepth, 1) < 0.02) {
       continue;
     }
     ++views;

@@ -22,7 +22,7 @@ void writeEvidence(const Image8& actual, const Image8& expected, const std::stri
 void expectAlike(const Image8& actual, const Image8& expected, int tolerance, const std::string& name,
                  const std::vector<bool>& counts) {
   const PictureAgreement d = difference(actual, expected, tolerance, counts);
-  EXPECT_GE(d.within(), 0.999) << name << ": largest difference " << d.largest << "/255";
+  EXPECT_LE(d.share(), 0.001) << name << ": largest difference " << d.largest << "/255";
   EXPECT_FALSE(d.block) << name << ": wholly over " << tolerance << "/255 at " << d.block->x << ", " << d.block->y;
   if (!d.holds()) {
     writeEvidence(actual, expected, name);
