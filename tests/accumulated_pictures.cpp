@@ -35,7 +35,7 @@ LinearImage single(Session& session, const SceneState& state, const Settings& me
 
 TEST(Accumulation, IsTheMeanOfItsPictures) {
   for (const int pictures : {3, 17}) {
-    Options options = shipped(pictures == 3 ? "gallery" : "single_plane", pictures);
+    Options options = shipped(pictures == 3 ? "facing_mirrors" : "single_plane", pictures);
     set(options, {{"view.scale", pictures == 3 ? "1" : "0.5"}});
     QuietSession session(options);
     const SceneState state = evaluate(session.scene(), 0.0);

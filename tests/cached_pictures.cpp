@@ -59,7 +59,7 @@ std::vector<std::tuple<std::string, std::string>> stillScenes() {
     return {{"gallery", "1"},        {"many_mirrors", "1"},     {"facing_mirrors", "1"},         {"gallery", "0.5"},
             {"many_mirrors", "0.5"}, {"facing_mirrors", "0.5"}, {"../tests/golden/effects", "1"}};
   }
-  return {{"gallery", "0.5"}, {"facing_mirrors", "1"}, {"../tests/golden/effects", "1"}};
+  return {{"facing_mirrors", "0.5"}, {"../tests/golden/effects", "1"}};
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, StillScene, testing::ValuesIn(stillScenes()));

@@ -2,6 +2,7 @@
 #include "edit/pick.hpp"
 
 #include "random.hpp"
+#include "sampling.hpp"
 #include "scene_text.hpp"
 #include "studio.hpp"
 
@@ -158,11 +159,12 @@ TEST_P(PickedPoint, LiesWhereItIsSeen) {
   EXPECT_GT(checked, 100);
 }
 
-const auto scenes = testing::Values("gallery", "facing_mirrors", "many_mirrors", "mirror_maze", "outdoors", "no_mirror",
-                                    "single_plane", "shadows", "pool");
+const std::vector<const char*> scenes = {"facing_mirrors", "many_mirrors", "outdoors", "pool",        "gallery",
+                                         "mirror_maze",    "no_mirror",    "shadows",  "single_plane"};
 const auto sceneName = [](const testing::TestParamInfo<const char*>& info) { return std::string(info.param); };
-INSTANTIATE_TEST_SUITE_P(Scenes, PickedScene, scenes, sceneName);
-INSTANTIATE_TEST_SUITE_P(Scenes, PickedPoint, scenes, sceneName);
+INSTANTIATE_TEST_SUITE_P(Scenes, PickedScene,
+                         testing::ValuesIn(scenes.begin(), fullTests() ? scenes.end() : scenes.begin() + 4), sceneName);
+INSTANTIATE_TEST_SUITE_P(Scenes, PickedPoint, testing::ValuesIn(scenes), sceneName);
 
 // A column of two balls, a light that is seen and one that is not.
 const std::string nodes = R"(

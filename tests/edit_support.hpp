@@ -1,13 +1,10 @@
 #pragma once
 
 #include "edit/scene_document.hpp"
-#include "scene/scene_loader.hpp"
-#include "temporary_folder.hpp"
+#include "scene_support.hpp"
 #include "test_headers.hpp"
 
 namespace speculum {
-
-inline constexpr const char* kTriangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
 
 std::vector<std::filesystem::path> shippedScenes();
 
@@ -17,7 +14,7 @@ void expectSameContent(const Scene& actual, const Scene& expected, const std::st
 // A scene read from a text, in a folder of its own with "triangle.obj".
 struct TextScene {
   explicit TextScene(const std::string& text)
-      : model(folder.write("triangle.obj", kTriangle)),
+      : model(folder.write("triangle.obj", kTriangleObj)),
         file(folder.write("scene.toml", text)),
         scene(loadScene(file)),
         document(scene) {}

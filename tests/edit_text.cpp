@@ -8,8 +8,6 @@
 namespace speculum {
 namespace {
 
-constexpr const char* kCamera = "[camera]\nposition = [0, 0, 4]\ntarget = [0, 0, 0]\n";
-
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
   const size_t at = text.find(from);
   EXPECT_NE(at, std::string::npos) << text << "\nlacks " << from;
@@ -48,7 +46,7 @@ TEST(TomlNumbers, ShortTextsReadBackExactly) {
 }
 
 TEST(EditedText, OnlyTheChangedNumberIsRewritten) {
-  const std::string text = std::string(kCamera) +
+  const std::string text = kCamera +
                            "# a light\n[[light]]   # of the hall\n"
                            "position = [ 0x10, +3.50, 1e0 ] # where it hangs\nintensity=2_0\n\n";
   expectEdit(text, "+3.50", "3.25", [](Scene& s) { s.lights[0].position.y = 3.25; });
@@ -58,7 +56,7 @@ TEST(EditedText, OnlyTheChangedNumberIsRewritten) {
 
 TEST(EditedText, PolygonsKeepTheirLines) {
   const std::string text =
-      std::string(kCamera) + "[[mirror]]\npolygon = [\n  [0, 0, 0], # left\n  [1, 0, 0],\n  [1.0, 1, 0], # top\n]\n";
+      kCamera + "[[mirror]]\npolygon = [\n  [0, 0, 0], # left\n  [1, 0, 0],\n  [1.0, 1, 0], # top\n]\n";
   expectEdit(text, "[1.0, 1, 0]", "[1.0, 2, 0]", [](Scene& s) { s.mirrors[0].polygon[2].y = 2; });
   expectEdit(text, "[\n  [0, 0, 0], # left\n  [1, 0, 0],\n  [1.0, 1, 0], # top\n]",
              "[[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]", [](Scene& s) {
@@ -68,7 +66,7 @@ TEST(EditedText, PolygonsKeepTheirLines) {
 
 TEST(EditedText, PolygonBecomesRectangle) {
   const std::string text =
-      std::string(kCamera) + "[[mirror]]\nname = 'a'\npolygon = [[0,0,0],[1,0,0],[1,1,0]]\nroughness = 0.1 # r\n";
+      kCamera + "[[mirror]]\nname = 'a'\npolygon = [[0,0,0],[1,0,0],[1,1,0]]\nroughness = 0.1 # r\n";
   expectEdit(text, "polygon = [[0,0,0],[1,0,0],[1,1,0]]\nroughness = 0.1 # r\n",
              "roughness = 0.1 # r\nposition = [0, 0, -1]\nsize = [2, 1]\n", [](Scene& s) {
                s.mirrors[0].polygon.clear();
@@ -78,7 +76,7 @@ TEST(EditedText, PolygonBecomesRectangle) {
 }
 
 TEST(EditedText, InnerTablesComeAndGo) {
-  const std::string text = std::string(kCamera) + "[[mirror]]\nsize = [1, 1]\nripple = { amplitude = 0.01 } # waves\n" +
+  const std::string text = kCamera + "[[mirror]]\nsize = [1, 1]\nripple = { amplitude = 0.01 } # waves\n" +
                            "[[light]]\nposition = [0, 1, 0]\n";
   expectEdit(text, "0.01", "0.02", [](Scene& s) { s.mirrors[0].ripple->amplitude = 0.02; });
   expectEdit(text, "0.01 }", "0.01, speed = 1.5 }", [](Scene& s) { s.mirrors[0].ripple->speed = 1.5; });
@@ -89,7 +87,7 @@ TEST(EditedText, InnerTablesComeAndGo) {
 TEST(EditedText, InnerTablesInEveryForm) {
   const auto waves = [](Scene& s) { s.mirrors[0].ripple->wavelength = 0.25; };
   const auto still = [](Scene& s) { s.mirrors[0].ripple.reset(); };
-  const std::string mirror = std::string(kCamera) + "[[mirror]]\nsize = [1, 1]\n";
+  const std::string mirror = kCamera + "[[mirror]]\nsize = [1, 1]\n";
   const std::string dotted = mirror + "ripple.amplitude = 0.5\nname = 'x'\n";
   expectEdit(dotted, "0.5\n", "0.5\nripple.wavelength = 0.25\n", waves);
   expectEdit(dotted, "ripple.amplitude = 0.5\n", "", still);
@@ -97,11 +95,10 @@ TEST(EditedText, InnerTablesInEveryForm) {
       mirror + "\n# waves\n[mirror.ripple]\namplitude = 0.5\n\n[[light]]\nposition = [0, 1, 0]\n";
   expectEdit(headed, "0.5\n", "0.5\nwavelength = 0.25\n", waves);
   expectEdit(headed, "\n# waves\n[mirror.ripple]\namplitude = 0.5\n", "", still);
-  const std::string inlined =
-      "mirror = [{size = [1, 1], ripple = {amplitude = 0.5}}, {size = [2, 2]}]\n" + std::string(kCamera);
+  const std::string inlined = "mirror = [{size = [1, 1], ripple = {amplitude = 0.5}}, {size = [2, 2]}]\n" + kCamera;
   expectEdit(inlined, "0.5}", "0.5, wavelength = 0.25}", waves);
   expectEdit(inlined, ", ripple = {amplitude = 0.5}", "", still);
-  const std::string both = "mirror = [{ripple.amplitude = 0.5, size = [1, 1]}]\n" + std::string(kCamera);
+  const std::string both = "mirror = [{ripple.amplitude = 0.5, size = [1, 1]}]\n" + kCamera;
   expectEdit(both, "size = [1, 1]", "size = [1, 1], ripple.wavelength = 0.25", waves);
   expectEdit(both, "ripple.amplitude = 0.5, ", "", still);
   const std::string flat = mirror + "ripple.amplitude = 0\n";
@@ -113,15 +110,14 @@ TEST(EditedText, EnvironmentInEveryForm) {
   const auto dim = [](Scene& s) { s.environment.ambient = glm::dvec3(0.5); };
   const std::string line = "ambient = [0.5, 0.5, 0.5]\n";
   expectEdit(kCamera, "", "\n[environment]\n" + line, dim);
-  expectEdit("[environment] # none\n" + std::string(kCamera), "# none\n", "# none\n" + line, dim);
-  expectEdit("environment = {background = [1, 1, 1]}\n" + std::string(kCamera), "[1, 1, 1]}",
+  expectEdit("[environment] # none\n" + kCamera, "# none\n", "# none\n" + line, dim);
+  expectEdit("environment = {background = [1, 1, 1]}\n" + kCamera, "[1, 1, 1]}",
              "[1, 1, 1], ambient = [0.5, 0.5, 0.5]}", dim);
-  expectEdit("environment.background = [1, 1, 1]\n" + std::string(kCamera), "[1, 1, 1]\n",
-             "[1, 1, 1]\nenvironment." + line, dim);
+  expectEdit("environment.background = [1, 1, 1]\n" + kCamera, "[1, 1, 1]\n", "[1, 1, 1]\nenvironment." + line, dim);
   const std::string sky = "[environment.sky]\nzenith = [1, 1, 1]\nhorizon = [1, 1, 1]\nground = [1, 1, 1]\n";
   expectEdit("title = 'x'\n" + sky + kCamera, "'x'\n", "'x'\nenvironment." + line, dim);
   expectEdit("title = 'x'\n" + sky + kCamera, sky, "", [](Scene& s) { s.environment.sky.reset(); });
-  expectEdit("[environment]\nambient = [0, 0, 0]\n" + std::string(kCamera), "ambient = [0, 0, 0]\n",
+  expectEdit("[environment]\nambient = [0, 0, 0]\n" + kCamera, "ambient = [0, 0, 0]\n",
              "ambient = [0, 0, 0]\nsky = { zenith = [0.25, 0.25, 0.25], horizon = [0.5, 0.5, 0.5], "
              "ground = [1, 1, 1] }\n",
              [](Scene& s) {
@@ -150,7 +146,7 @@ TEST(EditedText, KeepsDosLineBreaksAndMissingLast) {
 }
 
 TEST(EditedText, NamesOfEveryKind) {
-  const std::string text = "\xef\xbb\xbf# Größe: 3 µm, \"quoted\" [not] = a key\n" + std::string(kCamera) +
+  const std::string text = "\xef\xbb\xbf# Größe: 3 µm, \"quoted\" [not] = a key\n" + kCamera +
                            "[[ \"light\" ]]\n\"na\\u006De\" = 'Stehlampe \"grün\"' # ☀\n'position' = [0, 1, 0]\n";
   expectEdit(text, "[0, 1, 0]", "[7, 1, 0]", [](Scene& s) { s.lights[0].position.x = 7; });
   expectEdit(text, "'Stehlampe \"grün\"'", "\"a \\\"b\\\" \\\\ c\\td\\u0001 ☃\"",
@@ -161,20 +157,17 @@ TEST(EditedText, NamesOfEveryKind) {
 // The parser counts columns in code points, the text is edited in bytes.
 TEST(EditedText, CharactersOfSeveralBytesBeforeTheValue) {
   const std::string inlined =
-      "light = [{name = '😀 ä, {', position = [0, 1, 0], orbit.\"speed\" = 3}, {position = [0, 2, 0]}] # ☃\n" +
-      std::string(kCamera);
+      "light = [{name = '😀 ä, {', position = [0, 1, 0], orbit.\"speed\" = 3}, {position = [0, 2, 0]}] # ☃\n" + kCamera;
   expectEdit(inlined, "[0, 1, 0]", "[0, 7, 0]", [](Scene& s) { s.lights[0].position.y = 7; });
   expectEdit(inlined, "= 3}", "= 4}", [](Scene& s) { s.lights[0].orbit->speed = 4; });
   expectEdit(inlined, ", orbit.\"speed\" = 3", "", [](Scene& s) { s.lights[0].orbit.reset(); });
   expectEdit(inlined, "[0, 2, 0]}", "[0, 2, 0], glow = 0}", [](Scene& s) { s.lights[1].glow = 0; });
-  const std::string several =
-      std::string(kCamera) + "[[light]]\nname = \"\"\"Größe\n  😀\"\"\" # ä\nposition = [0, 1, 0]\n";
+  const std::string several = kCamera + "[[light]]\nname = \"\"\"Größe\n  😀\"\"\" # ä\nposition = [0, 1, 0]\n";
   expectEdit(several, "\"\"\"Größe\n  😀\"\"\"", "\"a\"", [](Scene& s) { s.lights[0].name = "a"; });
 }
 
 TEST(EditedText, AlignedKeysStayAligned) {
-  const std::string text =
-      std::string(kCamera) + "[[light]]\n  name     = 'a'\n  position = [0, 1, 0]\n\n# last words\n";
+  const std::string text = kCamera + "[[light]]\n  name     = 'a'\n  position = [0, 1, 0]\n\n# last words\n";
   expectEdit(text, "[0, 1, 0]\n", "[0, 1, 0]\n  glow     = 0\n", [](Scene& s) { s.lights[0].glow = 0; });
   TextScene scene(text);
   scene.document.addBookmark({.name = "door", .position = {1, 2, 3}, .target = {0, 0, 0}, .verticalFov = 40.0});
@@ -184,7 +177,7 @@ TEST(EditedText, AlignedKeysStayAligned) {
 }
 
 TEST(EditedText, RemovedNodesTakeTheirComments) {
-  const std::string head = std::string(kCamera) + "\n# ---- lights ----\n\n";
+  const std::string head = kCamera + "\n# ---- lights ----\n\n";
   const std::string first = "# the first\n# of two\n[[light]]\nname = 'a'\nposition = [0, 1, 0] # up\n";
   const std::string second = "\n# the second\n[[light]]\nname = 'b'\nposition = [0, 2, 0]\n# that was it\n";
   const std::string tail = "\n# mirrors\n\n[[mirror]]\nsize = [1, 1]\n";
@@ -202,7 +195,7 @@ TEST(EditedText, RemovedNodesTakeTheirComments) {
 }
 
 TEST(EditedText, AddedAndRemovedInBrackets) {
-  const std::string text = "mirror = [\n  {size = [1, 1]}, # one\n  {size = [2, 2]},\n]\n" + std::string(kCamera);
+  const std::string text = "mirror = [\n  {size = [1, 1]}, # one\n  {size = [2, 2]},\n]\n" + kCamera;
   TextScene scene(text);
   scene.document.remove({Selection::Kind::mirror, 1});
   EXPECT_EQ(scene.saved(), replaced(text, ", # one\n  {size = [2, 2]},\n]", ",\n]"));
@@ -217,7 +210,7 @@ TEST(EditedText, AddedAndRemovedInBrackets) {
 }
 
 TEST(EditedText, EmptiedBracketsLoseTheirComma) {
-  const std::string text = "light = [ {position = [0, 1, 0]}, ] # lamps\n" + std::string(kCamera);
+  const std::string text = "light = [ {position = [0, 1, 0]}, ] # lamps\n" + kCamera;
   TextScene scene(text);
   scene.document.remove({Selection::Kind::light, 0});
   EXPECT_EQ(scene.saved(), replaced(text, "{position = [0, 1, 0]},", ""));
@@ -261,18 +254,17 @@ TEST(EditedText, SettingsInEveryForm) {
   const auto saved = [](const std::string& text, const std::vector<SettingChange>& changes) {
     return TextScene(text).saved(changes);
   };
-  const std::string quoted = std::string(kCamera) + "[settings]\n\"view.exposure\" = 1.50 # bright\n";
+  const std::string quoted = kCamera + "[settings]\n\"view.exposure\" = 1.50 # bright\n";
   EXPECT_EQ(saved(quoted, {{"view.exposure", "1.5"}}), quoted);
   EXPECT_EQ(saved(quoted, {{"view.exposure", "2.0"}}), replaced(quoted, "1.50", "2.0"));
   EXPECT_EQ(saved(quoted, {{"view.tone_map", "aces"}, {"effects.shadows", "false"}}),
             quoted + "\"view.tone_map\" = \"aces\"\n\"effects.shadows\" = false\n");
   EXPECT_EQ(saved(quoted, {{"view.samples", "4"}}), quoted) << "a default that was not there";
-  const std::string nested = std::string(kCamera) + "[settings.view]\nexposure = 2\nclear_color = [1, 1, 1]\n";
+  const std::string nested = kCamera + "[settings.view]\nexposure = 2\nclear_color = [1, 1, 1]\n";
   EXPECT_EQ(saved(nested, {{"view.exposure", "3.0"}}), replaced(nested, "2", "3.0"));
   EXPECT_EQ(saved(nested, {{"view.clear_color", ""}}), replaced(nested, "clear_color = [1, 1, 1]\n", ""));
-  EXPECT_EQ(saved(std::string(kCamera) + "[[light]]\nposition = [0, 1, 0]\n", {{"view.clear_color", "[0.5,0.0,1.0]"}}),
-            std::string(kCamera) +
-                "\n[settings]\n\"view.clear_color\" = [0.5, 0.0, 1.0]\n\n[[light]]\nposition = [0, 1, 0]\n");
+  EXPECT_EQ(saved(kCamera + "[[light]]\nposition = [0, 1, 0]\n", {{"view.clear_color", "[0.5,0.0,1.0]"}}),
+            kCamera + "\n[settings]\n\"view.clear_color\" = [0.5, 0.0, 1.0]\n\n[[light]]\nposition = [0, 1, 0]\n");
 }
 
 }  // namespace

@@ -172,7 +172,7 @@ TEST(SaveScene, ModelsAreFoundFromAnotherFolder) {
 
 TEST(SaveScene, AbsolutePathsStay) {
   const TemporaryFolder folder;
-  const fs::path model = folder.write("models/triangle.obj", kTriangle);
+  const fs::path model = folder.write("models/triangle.obj", kTriangleObj);
   const fs::path file = folder.write("scene.toml",
                                      "[camera]\nposition = [0, 1, 4]\ntarget = [0, 0, 0]\n[[object]]\n"
                                      "model = '" +
@@ -208,7 +208,7 @@ TEST(SaveScene, AnotherFileIsNotOverwritten) {
   EXPECT_EQ(readText(other), "important");
   const std::string model = messageOf<SaveError>([&] { text.document.save(text.model, {}, true); });
   EXPECT_TRUE(contains(model, "name of a model"));
-  EXPECT_EQ(readText(text.model), kTriangle);
+  EXPECT_EQ(readText(text.model), kTriangleObj);
 }
 
 TEST(SaveScene, DeletedFileIsWrittenAgain) {

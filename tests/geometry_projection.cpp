@@ -37,11 +37,6 @@ TEST(Projection, ObliqueDepthIsOneAtThePlane) {
   EXPECT_LT(front.z, front.w);
 }
 
-TEST(Projection, NoObliqueForEyesOnKeptSide) {
-  EXPECT_FALSE(obliqueProjection(projection, {0, 0, -1, 0.5}));
-  EXPECT_FALSE(obliqueProjection(projection, {0, 0, 1, -0.5}));
-}
-
 TEST(ScreenRect, RoundsOutwardsAndPads) {
   const std::vector<glm::dvec4> clip = {{-0.5, -0.5, 0, 1}, {0.5, -0.5, 0, 1}, {0.5, 0.5, 0, 1}, {-0.5, 0.5, 0, 1}};
   EXPECT_EQ(screenRect(clip, 100, 100, {0, 0, 100, 100}), (PixelRect{24, 24, 52, 52}));

@@ -89,6 +89,7 @@ TEST(LevelPictures, MemoryFollowsTheSetting) {
   const std::string knot = replaced(wallScene, "sphere", "torus_knot");
   Options options = optionsFor(writeScene("knot", knot), "0", {{"debug.check_finite", "false"}});
   options.size = {32, 18};
+  options.validation = false;  // takes longer than the 300 frames themselves
   QuietSession session(options);
   const auto bytesAfter = [&](const char* meshError, int frames) {
     set(session, {{"reflection.mesh_error", meshError}});

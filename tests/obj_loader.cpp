@@ -87,17 +87,6 @@ TEST_F(ObjLoader, ConcavePolygonKeepsItsArea) {
   EXPECT_NEAR(polygonArea(corners(mesh, 0)) + polygonArea(corners(mesh, 1)), 1.0, 1e-12);
 }
 
-TEST_F(ObjLoader, LongPolygonsAreRead) {
-  std::string text;
-  std::string face = "f";
-  for (int i = 0; i < 400; ++i) {
-    const double angle = 2.0 * std::acos(-1.0) * i / 400;
-    text += "v " + std::to_string(std::cos(angle)) + " " + std::to_string(std::sin(angle)) + " 0\n";
-    face += " " + std::to_string(i + 1);
-  }
-  EXPECT_EQ(load(text + face + "\n").indices.size(), 3u * 398u);
-}
-
 TEST_F(ObjLoader, BadNormalsBecomeTheFacesOwn) {
   const Mesh mesh = load(
       "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 0\nvn nan 1 0\nvn 0 -1e-200 0\n"

@@ -63,20 +63,7 @@ std::vector<glm::dvec3> outline(std::mt19937& engine, double z) {
   return ring;
 }
 
-}  // namespace
-
-std::string OccluderShape::obj() const {
-  std::ostringstream text;
-  text.precision(17);
-  for (const glm::dvec3& p : positions) {
-    text << "v " << p.x << ' ' << p.y << ' ' << p.z << '\n';
-  }
-  for (size_t i = 0; i < indices.size(); i += 3) {
-    text << "f " << indices[i] + 1 << ' ' << indices[i + 1] + 1 << ' ' << indices[i + 2] + 1 << '\n';
-  }
-  return text.str();
-}
-
+// One opening, cut coarsely or finely.
 OccluderShape wallWithArch(std::mt19937& engine) {
   Builder wall("arch");
   const int cuts = uniformInt(engine, 2, 900);
@@ -138,6 +125,7 @@ OccluderShape bentSheet(std::mt19937& engine) {
   return sheet;
 }
 
+// A double pyramid over a star, a notched disc or an ellipse.
 OccluderShape star(std::mt19937& engine) {
   Builder star("star");
   const std::vector<glm::dvec3> ring = outline(engine, 0.0);
@@ -147,6 +135,7 @@ OccluderShape star(std::mt19937& engine) {
   return star;
 }
 
+// Two rings of different size, thick or thin.
 OccluderShape tapered(std::mt19937& engine) {
   Builder tapered("tapered");
   const double length = anyScale(engine, 1e-5, 2.0);
@@ -162,6 +151,7 @@ OccluderShape tapered(std::mt19937& engine) {
   return tapered;
 }
 
+// Two sheets with a gap between.
 OccluderShape boards(std::mt19937& engine) {
   Builder boards("boards");
   for (const double z : {0.0, anyScale(engine, 1e-4, 1.0)}) {
@@ -171,6 +161,7 @@ OccluderShape boards(std::mt19937& engine) {
   return boards;
 }
 
+// With coordinates of few decimals.
 OccluderShape ball(std::mt19937& engine) {
   Builder ball("ball");
   const int sides = uniformInt(engine, 4, 40);
@@ -194,6 +185,20 @@ OccluderShape ball(std::mt19937& engine) {
     }
   }
   return ball;
+}
+
+}  // namespace
+
+std::string OccluderShape::obj() const {
+  std::ostringstream text;
+  text.precision(17);
+  for (const glm::dvec3& p : positions) {
+    text << "v " << p.x << ' ' << p.y << ' ' << p.z << '\n';
+  }
+  for (size_t i = 0; i < indices.size(); i += 3) {
+    text << "f " << indices[i] + 1 << ' ' << indices[i + 1] + 1 << ' ' << indices[i + 2] + 1 << '\n';
+  }
+  return text.str();
 }
 
 OccluderShape randomShape(std::mt19937& engine) {

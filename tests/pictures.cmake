@@ -4,7 +4,7 @@ add_test(NAME golden COMMAND speculum regress ${CMAKE_CURRENT_SOURCE_DIR}/golden
 set_tests_properties(golden PROPERTIES COST 1001 LABELS pictures ENVIRONMENT "${SPECULUM_TEST_ENVIRONMENT}")
 speculum_test(render_path_tests SOURCES render_paths.cpp LIBRARIES picture_support LABELS pictures)
 speculum_test(finite_watch_tests SOURCES finite_watch.cpp LIBRARIES picture_support ext::spdlog LABELS pictures)
-speculum_test(mirror_tests SOURCES mirror_image.cpp mirror_pictures.cpp target_views.cpp
+speculum_test(mirror_tests SOURCES mirror_pictures.cpp target_views.cpp
               LIBRARIES picture_support LABELS pictures)
 speculum_test(skipping_tests SOURCES skipping_pictures.cpp LIBRARIES picture_support LABELS pictures)
 speculum_test(command_line_tests SOURCES command_line.cpp completion.cpp LIBRARIES picture_support LABELS command_line)

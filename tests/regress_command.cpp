@@ -138,13 +138,13 @@ TEST_F(RegressCommand, SceneFaultsAndTimeoutsLeaveTheRest) {
   folder_.write("broken.toml", "[camera]\nposition = 1\n");
   writeCases(R"(
 [[case]] scene = 'broken.toml'
-[[case]] scene = 'room.toml', name = 'slow', size = '1920x1080', settings = { view.accumulate = 1024 }, timeout = 2
+[[case]] scene = 'room.toml', name = 'slow', size = '1920x1080', settings = { view.accumulate = 1024 }, timeout = 1
 [[case]] scene = 'room.toml'
 )");
   const ProcessResult result = regress({"--update"});
   EXPECT_EQ(result.exitCode, 1);
   EXPECT_TRUE(contains(lineOf("broken", result.output), "broken.toml:2: camera.position")) << result.output;
-  EXPECT_EQ(lineOf("slow", result.output), "error   slow: no picture within 2 s");
+  EXPECT_EQ(lineOf("slow", result.output), "error   slow: no picture within 1 s");
   EXPECT_TRUE(
       contains(readText(folder_ / "out/index.html"), R"("--set","view.accumulate=1024","--validation","--out")"))
       << "the command that draws it";

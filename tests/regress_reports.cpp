@@ -1,4 +1,4 @@
-// Reports of `regress`: JUnit, GitHub, and the size of the page. tests/regress_page.py opens the page.
+// Reports of `regress`: JUnit, GitHub, and the size of the page. tests/report_page.py opens the page.
 #include "image/picture_files.hpp"
 #include "regress/picture_check.hpp"
 #include "regress/report_page.hpp"

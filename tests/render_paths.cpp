@@ -13,15 +13,14 @@ using namespace testing_support;
 using Cases = std::map<std::string, std::vector<RegressCase>>;
 
 // Golden cases by scene. In the short suite: the main view alone, mirrors side by side with textures, mirrors in
-// mirrors, and the small cases, which test effects.
+// mirrors, all effects at once, environment maps, and rough mirrors that look up images.
 Cases goldenCases() {
+  static const std::set<std::string> sampled{"no_mirror", "gallery",     "facing_mirrors",
+                                             "effects",   "mirror_ball", "rough"};
   Cases cases;
   for (const RegressCase& golden : readCases(sourceFile("tests/golden/cases.toml"))) {
     const std::string scene = golden.scene.stem();
-    const bool small = golden.size.width <= 160;
-    const bool ownPicture = golden.picture.stem() == golden.name;  // others draw a scene with other settings
-    if (fullTests() || (small && ownPicture) || scene == "no_mirror" || scene == "gallery" ||
-        scene == "facing_mirrors") {
+    if (fullTests() || sampled.contains(scene)) {
       cases[scene].push_back(golden);
     }
   }

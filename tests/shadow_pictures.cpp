@@ -1,9 +1,5 @@
 // Shadows that are looked up in maps, against traced ones. frame_shadow_maps.cpp tests which faces are rendered,
 // effects_ledger.cpp their cost and its release.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-
 #include "reuse_support.hpp"
 
 namespace speculum {
@@ -14,56 +10,18 @@ using namespace testing_support;
 // Pieces on a floor between two lamps, before a wall with a mirror; one lamp is far away.
 std::filesystem::path room(const std::string& name, const std::string& rest = "") {
   return writeScene("shadow_maps_" + name, R"(
-[environment]
-background = [0.2, 0.3, 0.4]
-ambient = [0.15, 0.15, 0.15]
-[camera]
-position = [0.4, 1.8, 3.2]
-target = [0, 0.5, 0]
-vertical_fov = 46
-[settings]
-"view.samples" = 1
-"reflection.samples" = 1
-[[object]]
-model = "MODELS/block.obj"
-position = [0, -0.2, 0]
-scale = [8, 0.2, 8]
-color = [0.8, 0.75, 0.7]
-specular = [0, 0, 0]
-[[object]]
-model = "MODELS/king.obj"
-position = [-0.6, 0, 0]
-[[object]]
-model = "MODELS/block.obj"
-position = [0.6, 0, -0.3]
-scale = [0.4, 0.9, 0.4]
-rotation = [0, 30, 0]
-[[object]]
-model = "MODELS/sphere.obj"
-position = [0.1, 0.45, 0.7]
-scale = 0.6
-[[mirror]]
-name = "wall"
-position = [0, 1.1, -1.5]
-size = [3, 1.8]
-base_color = [0.1, 0.1, 0.12]
-[[light]]
-name = "lamp"
-position = [1.2, 2.2, 0.8]
-intensity = 9
-glow = 0
-casts_shadow = true
-[[light]]
-name = "sun"
-position = [-60, 30, 20]
-intensity = 9000
-glow = 0
-casts_shadow = true
-[[light]]
-name = "fill"
-position = [0, 3, 2]
-intensity = 3
-glow = 0
+[environment] background = [0.2, 0.3, 0.4], ambient = [0.15, 0.15, 0.15]
+[camera] position = [0.4, 1.8, 3.2], target = [0, 0.5, 0], vertical_fov = 46
+[settings] "view.samples" = 1, "reflection.samples" = 1
+[[object]] model = "MODELS/block.obj", position = [0, -0.2, 0], scale = [8, 0.2, 8], color = [0.8, 0.75, 0.7]
+  specular = [0, 0, 0]
+[[object]] model = "MODELS/king.obj", position = [-0.6, 0, 0]
+[[object]] model = "MODELS/block.obj", position = [0.6, 0, -0.3], scale = [0.4, 0.9, 0.4], rotation = [0, 30, 0]
+[[object]] model = "MODELS/sphere.obj", position = [0.1, 0.45, 0.7], scale = 0.6
+[[mirror]] name = "wall", position = [0, 1.1, -1.5], size = [3, 1.8], base_color = [0.1, 0.1, 0.12]
+[[light]] name = "lamp", position = [1.2, 2.2, 0.8], intensity = 9, glow = 0, casts_shadow = true
+[[light]] name = "sun", position = [-60, 30, 20], intensity = 9000, glow = 0, casts_shadow = true
+[[light]] name = "fill", position = [0, 3, 2], intensity = 3, glow = 0
 )" + rest);
 }
 
@@ -100,25 +58,12 @@ TEST(ShadowMaps, LargerFacesReduceError) {
 // A lit surface has no shadow of its own, whatever its slope.
 TEST(ShadowMaps, LitSurfacesAreNotShadowed) {
   const std::filesystem::path file = writeScene("shadow_maps_slopes", R"(
-[environment]
-ambient = [0.1, 0.1, 0.1]
-[camera]
-position = [0, 3, 4]
-target = [0, 0, 0]
-[settings]
-"view.samples" = 1
-[[object]]
-model = "MODELS/block.obj"
-position = [0, -0.2, 0]
-scale = [20, 0.2, 20]
-[[object]]
-model = "MODELS/sphere.obj"
-position = [0, 20, 0]
-[[light]]
-position = [0.3, 0.4, 0.2]
-intensity = 6
-glow = 0
-casts_shadow = true
+[environment] ambient = [0.1, 0.1, 0.1]
+[camera] position = [0, 3, 4], target = [0, 0, 0]
+[settings] "view.samples" = 1
+[[object]] model = "MODELS/block.obj", position = [0, -0.2, 0], scale = [20, 0.2, 20]
+[[object]] model = "MODELS/sphere.obj", position = [0, 20, 0]
+[[light]] position = [0.3, 0.4, 0.2], intensity = 6, glow = 0, casts_shadow = true
 )");
   for (const char* samples : {"1", "4"}) {
     QuietSession session(mapped(file, {{"effects.shadows", "false"}, {"view.samples", samples}}));
@@ -133,26 +78,12 @@ casts_shadow = true
 // Shaders know the face if the scene lies in a single one.
 TEST(ShadowMaps, SingleFaceChangesNoByte) {
   const std::string sunny = R"(
-[environment]
-ambient = [0.1, 0.1, 0.1]
-[camera]
-position = [0, 2, 4]
-target = [0, 0.4, 0]
-[[object]]
-model = "MODELS/block.obj"
-position = [0, -0.2, 0]
-scale = [20, 0.2, 20]
-[[object]]
-model = "MODELS/king.obj"
-[[mirror]]
-position = [0, 1, -2]
-size = [3, 2]
-base_color = [0.2, 0.2, 0.2]
-[[light]]
-position = [-60, 30, 20]
-intensity = 9000
-glow = 0
-casts_shadow = true
+[environment] ambient = [0.1, 0.1, 0.1]
+[camera] position = [0, 2, 4], target = [0, 0.4, 0]
+[[object]] model = "MODELS/block.obj", position = [0, -0.2, 0], scale = [20, 0.2, 20]
+[[object]] model = "MODELS/king.obj"
+[[mirror]] position = [0, 1, -2], size = [3, 2], base_color = [0.2, 0.2, 0.2]
+[[light]] position = [-60, 30, 20], intensity = 9000, glow = 0, casts_shadow = true
 )";
   const std::string behindTheSun = "[[object]]\nmodel = \"MODELS/king.obj\"\nposition = [-90, 30, 20]\n";
   const Image8 single = draw(mapped(writeScene("shadow_maps_single_face", sunny)));
@@ -220,17 +151,8 @@ TEST(ShadowMaps, HoldFarFromTheOrigin) {
 // Rays from rough mirrors trace shadows, while drawn surfaces look up maps.
 TEST(ShadowMaps, StandBesideTracedEffects) {
   const std::filesystem::path file = room("rough", R"(
-[[mirror]]
-position = [-1.8, 1, 0]
-rotation = [0, 90, 0]
-size = [2, 1.8]
-roughness = 0.2
-base_color = [0.2, 0.1, 0.1]
-[[object]]
-model = "MODELS/sphere.obj"
-position = [1.4, 0.4, 0.2]
-scale = 0.8
-mirror = { base_color = [0.1, 0, 0] }
+[[mirror]] position = [-1.8, 1, 0], rotation = [0, 90, 0], size = [2, 1.8], roughness = 0.2, base_color = [0.2, 0.1, 0.1]
+[[object]] model = "MODELS/sphere.obj", position = [1.4, 0.4, 0.2], scale = 0.8, mirror = { base_color = [0.1, 0, 0] }
 )");
   Options options = mapped(file, {{"effects.rough_samples", "4"}});
   options.size = {160, 120};
