@@ -8,47 +8,42 @@
 
 namespace speculum {
 
-GlfwInput::GlfwInput(Window& window) : window_(window) {
-  window.setListener([this](const InputEvent& event) {
-    if (event.kind == InputEvent::Kind::focus) {
-      ImGui_ImplGlfw_WindowFocusCallback(window_.native(), event.down);
-    } else if (event.kind == InputEvent::Kind::enter) {
-      ImGui_ImplGlfw_CursorEnterCallback(window_.native(), event.down);
-    } else {
-      queue_.push(event);
-    }
-  });
-}
-
-GlfwInput::~GlfwInput() {
-  window_.setListener({});
+// Tells focus at once. Leaves repeated keys out, because the panels repeat by themselves.
+void GlfwInput::push(const InputEvent& event) {
+  if (event.kind == InputEvent::Kind::focus) {
+    ImGui_ImplGlfw_WindowFocusCallback(window_, event.down);
+  } else if (event.kind == InputEvent::Kind::enter) {
+    ImGui_ImplGlfw_CursorEnterCallback(window_, event.down);
+  } else if (event.kind != InputEvent::Kind::drop && !event.key.repeat) {
+    queue_.push(event);
+  }
 }
 
 void GlfwInput::give(const InputEvent& event) {
-  GLFWwindow* window = window_.native();
   switch (event.kind) {
     case InputEvent::Kind::key:
-      return ImGui_ImplGlfw_KeyCallback(window, event.code, 0, event.down ? GLFW_PRESS : GLFW_RELEASE, 0);
+      return ImGui_ImplGlfw_KeyCallback(window_, event.code, 0, event.down ? GLFW_PRESS : GLFW_RELEASE, 0);
     case InputEvent::Kind::text:
-      return ImGui_ImplGlfw_CharCallback(window, static_cast<unsigned>(event.code));
+      return ImGui_ImplGlfw_CharCallback(window_, static_cast<unsigned>(event.code));
     case InputEvent::Kind::button:
       if (static_cast<size_t>(event.code) < buttons_.size()) {
         buttons_[static_cast<size_t>(event.code)] = event.down;
       }
-      return ImGui_ImplGlfw_MouseButtonCallback(window, event.code, event.down ? GLFW_PRESS : GLFW_RELEASE, 0);
+      return ImGui_ImplGlfw_MouseButtonCallback(window_, event.code, event.down ? GLFW_PRESS : GLFW_RELEASE, 0);
     case InputEvent::Kind::pointer:
       moved_ = true;
       x_ = event.x;
       y_ = event.y;
 #if IMGUI_VERSION_NUM >= 18700
-      ImGui_ImplGlfw_CursorPosCallback(window, event.x, event.y);
+      ImGui_ImplGlfw_CursorPosCallback(window_, event.x, event.y);
 #endif
       return;
     case InputEvent::Kind::wheel:
-      return ImGui_ImplGlfw_ScrollCallback(window, event.x, event.y);
+      return ImGui_ImplGlfw_ScrollCallback(window_, event.x, event.y);
     case InputEvent::Kind::focus:
     case InputEvent::Kind::enter:
-      return;  // the callbacks gave them at once
+    case InputEvent::Kind::drop:
+      return;  // push() queues none
   }
 }
 

@@ -10,12 +10,9 @@ namespace speculum {
 // buttons and pointer only once, when a frame begins. The backend must not install callbacks.
 class GlfwInput {
  public:
-  // The window's callbacks are called first, without waiting for a frame.
-  explicit GlfwInput(Window& window);
-  ~GlfwInput();
-  GlfwInput(const GlfwInput&) = delete;
-  GlfwInput& operator=(const GlfwInput&) = delete;
+  explicit GlfwInput(GLFWwindow* window) : window_(window) {}
 
+  void push(const InputEvent& event);
   // Calls the backend's ImGui_ImplGlfw_NewFrame.
   void newFrame();
   bool waiting() const { return !queue_.empty(); }  // events wait for a frame
@@ -23,7 +20,7 @@ class GlfwInput {
  private:
   void give(const InputEvent& event);
 
-  Window& window_;
+  GLFWwindow* window_;
   InputQueue queue_;
   std::array<bool, 3> buttons_{};
   double x_ = 0.0;
