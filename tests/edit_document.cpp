@@ -221,7 +221,7 @@ TEST_F(SceneDocumentTest, StructureRevisionIgnoresValues) {
   EXPECT_TRUE(rises([&] { document.addLight({0, 1, 0}, {0, 1, 5}); }));
   EXPECT_TRUE(rises([&] { document.undo(); }));
   EXPECT_TRUE(rises([&] { document.redo(); }));
-  EXPECT_TRUE(rises([&] { document.remove(kFloor); }));
+  EXPECT_TRUE(rises([&] { document.remove({kFloor}); }));
   EXPECT_FALSE(rises([&] { document.addBookmark({.position = {1, 1, 1}, .target = {0, 0, 0}}); }));
 }
 

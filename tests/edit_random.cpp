@@ -181,7 +181,9 @@ void step(SceneDocument& document) {
       break;
     case 4:
     case 5:
-      document.remove(anything(scene));
+      if (const Selection node = anything(scene)) {
+        document.remove({node});
+      }
       break;
     case 6:
       document.undo();

@@ -182,13 +182,13 @@ TEST(EditedText, RemovedNodesTakeTheirComments) {
   const std::string second = "\n# the second\n[[light]]\nname = 'b'\nposition = [0, 2, 0]\n# that was it\n";
   const std::string tail = "\n# mirrors\n\n[[mirror]]\nsize = [1, 1]\n";
   TextScene scene(head + first + second + tail);
-  scene.document.remove({Selection::Kind::light, 0});
+  scene.document.remove({{Selection::Kind::light, 0}});
   EXPECT_EQ(scene.saved(), head.substr(0, head.size() - 1) + second + tail);
-  scene.document.remove({Selection::Kind::light, 0});
+  scene.document.remove({{Selection::Kind::light, 0}});
   EXPECT_EQ(scene.saved(), head.substr(0, head.size() - 1) + tail);
   scene.document.undo();
   scene.document.undo();
-  scene.document.remove({Selection::Kind::light, 1});
+  scene.document.remove({{Selection::Kind::light, 1}});
   scene.document.addLight({5, 0, 0}, {5, 0, 1});
   EXPECT_EQ(scene.saved(),
             head + first + "\n[[light]]\nname = \"light\"\nposition = [5, 0, 0]\nradius = 0.01\n" + tail);
@@ -197,14 +197,14 @@ TEST(EditedText, RemovedNodesTakeTheirComments) {
 TEST(EditedText, AddedAndRemovedInBrackets) {
   const std::string text = "mirror = [\n  {size = [1, 1]}, # one\n  {size = [2, 2]},\n]\n" + kCamera;
   TextScene scene(text);
-  scene.document.remove({Selection::Kind::mirror, 1});
+  scene.document.remove({{Selection::Kind::mirror, 1}});
   EXPECT_EQ(scene.saved(), replaced(text, ", # one\n  {size = [2, 2]},\n]", ",\n]"));
   scene.document.undo();
   scene.document.addMirror({0, 0, 0}, {0, 0, 10});
   EXPECT_EQ(scene.saved(),
             replaced(text, "{size = [2, 2]},", "{size = [2, 2]}, { name = \"mirror\", size = [3, 4] },"));
-  scene.document.remove({Selection::Kind::mirror, 0});
-  scene.document.remove({Selection::Kind::mirror, 0});
+  scene.document.remove({{Selection::Kind::mirror, 0}});
+  scene.document.remove({{Selection::Kind::mirror, 0}});
   EXPECT_EQ(scene.scene.mirrors.size(), 1u);
   EXPECT_TRUE(contains(scene.saved(), "size = [3, 4]"));
 }
@@ -212,7 +212,7 @@ TEST(EditedText, AddedAndRemovedInBrackets) {
 TEST(EditedText, EmptiedBracketsLoseTheirComma) {
   const std::string text = "light = [ {position = [0, 1, 0]}, ] # lamps\n" + kCamera;
   TextScene scene(text);
-  scene.document.remove({Selection::Kind::light, 0});
+  scene.document.remove({{Selection::Kind::light, 0}});
   EXPECT_EQ(scene.saved(), replaced(text, "{position = [0, 1, 0]},", ""));
   scene.document.addLight({1, 2, 3}, {1, 2, 4});
   EXPECT_TRUE(contains(scene.saved(), "position = [1, 2, 3], radius = 0.01 }, ] # lamps\n"));
@@ -235,7 +235,7 @@ TEST(EditedText, ItemsComeAndGoAroundBlanksAndComments) {
     SceneDocument document(scene);
     for (int n = count; n-- > 0;) {
       if (i % 5 == 0 || random.chance(0.5)) {
-        document.remove({Selection::Kind::light, n});
+        document.remove({{Selection::Kind::light, n}});
       }
     }
     std::string saved;

@@ -110,15 +110,15 @@ TEST_P(ShippedScene, NodesComeAndGo) {
   for (size_t i = copy.scene.objects.size(); i-- > 0;) {
     document.duplicate({Kind::object, static_cast<int>(i)});
     if (i % 2 == 0) {
-      document.remove({Kind::object, static_cast<int>(i)});
+      document.remove({{Kind::object, static_cast<int>(i)}});
     }
   }
   for (size_t i = copy.scene.mirrors.size(); i-- > 0;) {
     document.duplicate({Kind::mirror, static_cast<int>(i)});
-    document.remove({Kind::mirror, static_cast<int>(i)});
+    document.remove({{Kind::mirror, static_cast<int>(i)}});
   }
   for (size_t i = copy.scene.lights.size(); i-- > 1;) {
-    document.remove({Kind::light, static_cast<int>(i)});
+    document.remove({{Kind::light, static_cast<int>(i)}});
   }
   document.addMirror(viewer + glm::dvec3(0.0, 0.0, -3.0), viewer);
   document.addLight(viewer + glm::dvec3(0.0, 1.0, -3.0), viewer);

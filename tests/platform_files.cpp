@@ -6,7 +6,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <chrono>
 #include <csignal>
 #include <future>
 
@@ -154,16 +153,6 @@ TEST(Files, FoldersDevicesAndHugeFilesAreRefused) {
   fs::resize_file(file, (2u << 20) + 1);
   expectFileError([&] { readFile(file, 2u << 20); }, file, "is larger than 2 MiB");
   EXPECT_EQ(readFile(file).size(), (2u << 20) + 1);
-}
-
-TEST(Files, ModificationTimeGrows) {
-  const TemporaryDirectory directory;
-  const fs::path file = directory.path() / "file";
-  EXPECT_EQ(modificationTime(file), std::nullopt);
-  replaceFile(file, "a");
-  const auto first = modificationTime(file);
-  fs::last_write_time(file, fs::last_write_time(file) + std::chrono::milliseconds(250));
-  EXPECT_NEAR(*modificationTime(file) - *first, 0.25, 1e-3);
 }
 
 }  // namespace

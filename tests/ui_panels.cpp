@@ -372,7 +372,7 @@ TEST_F(PanelTest, PresentModesAreThoseOffered) {
 
 TEST_F(PanelTest, LogIsFilteredCopiedAndCleared) {
   log_.add(LogLevel::info, "the quick brown fox");
-  log_.add(LogLevel::error, "a lazy dog");
+  log_.add(LogLevel::err, "a lazy dog");
   toggle("Log");
   EXPECT_EQ(clickFor<CopyText>("log.copy").text, "info: the quick brown fox\nerror: a lazy dog\n");
   click("log.filter");

@@ -130,12 +130,12 @@ TEST(LogHistory, KeepsTheLatestLines) {
 TEST(LogHistory, FiltersByLevelAndText) {
   LogHistory log;
   log.add(LogLevel::info, "GPU 0");
-  log.add(LogLevel::warning, "Validation: one");
-  log.add(LogLevel::error, "validation: two");
+  log.add(LogLevel::warn, "Validation: one");
+  log.add(LogLevel::err, "validation: two");
   EXPECT_EQ(log.lines().size(), 3u);
-  EXPECT_EQ(log.lines(LogLevel::warning).size(), 2u);
+  EXPECT_EQ(log.lines(LogLevel::warn).size(), 2u);
   EXPECT_EQ(logText(log.lines(LogLevel::info, "VALIDATION")), "warning: Validation: one\nerror: validation: two\n");
-  EXPECT_EQ(logText(log.lines(LogLevel::error, "gpu")), "");
+  EXPECT_EQ(logText(log.lines(LogLevel::err, "gpu")), "");
 }
 
 TEST(PassTree, MirrorsHangBelowTheirParents) {

@@ -21,7 +21,7 @@ class Saving : public WorkspaceTest {
   // Acts as before a failure, and returns the copy that the log names.
   std::string keptCopy() {
     workspace_->keepUnsavedWork();
-    const std::string line = view().log.lines(LogLevel::error).back().text;
+    const std::string line = view().log.lines(LogLevel::err).back().text;
     const std::string start = "unsaved changes are kept in ";
     EXPECT_EQ(line.find(start), 0u) << line;
     return line.substr(start.size());
@@ -317,7 +317,7 @@ TEST_F(CopiedCommand, LeavesSavedSettingsToTheFile) {
 
 TEST_F(Saving, FailuresKeepUnsavedWorkInACopy) {
   workspace_->keepUnsavedWork();
-  EXPECT_TRUE(view().log.lines(LogLevel::error).empty()) << "there is none";
+  EXPECT_TRUE(view().log.lines(LogLevel::err).empty()) << "there is none";
   removeBall();
   EXPECT_TRUE(loadScene(keptCopy()).objects.empty());
 }

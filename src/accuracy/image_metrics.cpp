@@ -13,6 +13,7 @@
 #include "accuracy/flip.hpp"
 #include "accuracy/ssim.hpp"
 #include "accuracy/statistics.hpp"
+#include "accuracy/sweep_json.hpp"
 
 namespace speculum {
 
@@ -93,11 +94,10 @@ std::string tableLine(const std::string& label, const std::string& whole, const 
 }  // namespace
 
 nlohmann::ordered_json metricsJson(const ImageMetrics& m) {
-  const auto number = [](double value) { return std::isfinite(value) ? nlohmann::ordered_json(value) : nullptr; };
-  return {{"rmse", number(m.rmse)},        {"relative_rmse", number(m.relativeRmse)},
-          {"psnr", number(m.psnr)},        {"ssim", number(m.ssim)},
-          {"flip", number(m.flip)},        {"max_diff", number(m.maxDiff)},
-          {"p99_diff", number(m.p99Diff)}, {"pixels_over", m.pixelsOver}};
+  JsonWriter json;
+  members(json, m);
+  json.written.erase("pixels");
+  return std::move(json.written);
 }
 
 Comparison compareImages(const ComparedImage& reference, const ComparedImage& test, const CompareOptions& options) {

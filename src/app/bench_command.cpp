@@ -170,7 +170,7 @@ bool addPrices(nlohmann::ordered_json& merged, Session& session, double time, in
   const DrawnFrame& frame = session.lastFrame();
   const std::vector<Effect> effects = effectsOf(session.scene(), frame.state, frame.settings, frame.plan);
   for (size_t i = 0; i < effects.size(); ++i) {
-    const Settings without = settingsWith(all, settingsWithout(static_cast<EffectKind>(i)));
+    const Settings without = settingsWith(all, settingsWithout(effects[i].kind));
     std::vector<double> price;
     for (int pair = 0; effects[i].calledFor && pair <= pairs && !interruptRequested(); ++pair) {
       const double with = gpuMs(session, all, time);

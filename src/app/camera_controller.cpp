@@ -18,25 +18,26 @@ constexpr double leastLight = 0.25;  // metres around a light that are shown
 constexpr double turnSpeed = 90.0;   // degrees a second, of a stick
 
 Sphere boundsOfAll(const SceneState& state) {
-  Bounds box;
+  std::vector<Sphere> parts;
   for (const InstanceState& instance : state.instances) {
-    box.add(instance.center - instance.radius);
-    box.add(instance.center + instance.radius);
-  }
-  for (const MirrorState& mirror : state.mirrors) {
-    std::ranges::for_each(mirror.polygon, [&](const glm::dvec3& vertex) { box.add(vertex); });
-  }
-  if (box.low.x > box.high.x) {
-    return {};
-  }
-  Sphere sphere{.center = box.center()};
-  for (const InstanceState& instance : state.instances) {
-    sphere.radius = std::max(sphere.radius, glm::distance(sphere.center, instance.center) + instance.radius);
+    parts.push_back({instance.center, instance.radius});
   }
   for (const MirrorState& mirror : state.mirrors) {
     for (const glm::dvec3& vertex : mirror.polygon) {
-      sphere.radius = std::max(sphere.radius, glm::distance(sphere.center, vertex));
+      parts.push_back({vertex});
     }
+  }
+  if (parts.empty()) {
+    return {};
+  }
+  Bounds box;
+  for (const Sphere& part : parts) {
+    box.add(part.center - part.radius);
+    box.add(part.center + part.radius);
+  }
+  Sphere sphere{.center = box.center()};
+  for (const Sphere& part : parts) {
+    sphere.radius = std::max(sphere.radius, glm::distance(sphere.center, part.center) + part.radius);
   }
   return sphere;
 }

@@ -45,8 +45,8 @@ Demo::Demo(const Options& options)
       last_(Clock::now()) {
   applyDebugSettings(workspace_.settings(), device_);
   shownFile_ = workspace_.scene().file;
-  installInput();
   ui_ = std::make_unique<SimpleUI>(renderer_, window_);
+  window_.setListener([this](const InputEvent& event) { takeInput(event); });
   scenesListed();
 }
 
@@ -347,31 +347,31 @@ void Demo::setPresentMode(size_t index) {
   renderer_.setPresentMode(renderer_.presentModes().at(index));
 }
 
-void Demo::installInput() {
-  WindowCallbacks callbacks;
-  callbacks.key = [this](const KeyEvent& event) { handleKey(event); };
-  callbacks.mouseButton = [this](const MouseButtonEvent& event) { workspace_.pointerButton(event, overPanels()); };
-  callbacks.cursor = [this](double x, double y) {
+void Demo::takeInput(const InputEvent& event) {
+  using Kind = InputEvent::Kind;
+  if (event.kind == Kind::key) {
+    handleKey(event.key);
+  } else if (event.kind == Kind::button && event.code <= static_cast<int>(MouseButton::middle)) {
+    workspace_.pointerButton({static_cast<MouseButton>(event.code), event.down, event.shift}, overPanels());
+  } else if (event.kind == Kind::pointer) {
     const VkExtent2D size = window_.size();
-    workspace_.pointerMoved({x, y}, {size.width, size.height}, controlHeld());
-  };
-  callbacks.scroll = [this](double, double dy) {
-    if (!overPanels()) {
-      workspace_.scrolled(dy);
-    }
-  };
-  callbacks.drop = [this](const std::vector<std::filesystem::path>& files) { apply(OpenDropped{files}); };
-  window_.setCallbacks(std::move(callbacks));
+    workspace_.pointerMoved({event.x, event.y}, {size.width, size.height}, controlHeld());
+  } else if (event.kind == Kind::wheel && !overPanels()) {
+    workspace_.scrolled(event.y);
+  } else if (event.kind == Kind::drop) {
+    apply(OpenDropped{event.dropped});
+  }
+  ui_->push(event);
 }
 
 bool Demo::overPanels() const {
   const glm::dvec2& position = workspace_.pointer().position();
-  return !ui_ || ui_->takesPointer(position.x, position.y);
+  return ui_->takesPointer(position.x, position.y);
 }
 
 // Applies the command of a key, unless a prompt or a text field has the keyboard.
 void Demo::handleKey(const KeyEvent& event) {
-  const std::optional<Command> command = event.pressed && ui_ ? commandOf(event) : std::nullopt;
+  const std::optional<Command> command = event.pressed ? commandOf(event) : std::nullopt;
   if (!command) {
     return;
   }

@@ -66,7 +66,7 @@ class Demo : private WorkspaceHost {
   bool inspectorCovers(const glm::dvec2& place) const override { return ui_->windows().inspectorCovers(place); }
   bool closeTopWindow(bool panels) override { return ui_->holdsEscape() || ui_->windows().closeTop(panels); }
 
-  void installInput();
+  void takeInput(const InputEvent& event);
   void handleKey(const KeyEvent& event);
   void takeGamepad();
   glm::dvec3 heldDirection() const;

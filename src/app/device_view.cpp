@@ -3,6 +3,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
+#include <array>
 
 #include "app/session_subject.hpp"
 
@@ -11,18 +12,8 @@ namespace speculum {
 namespace {
 
 std::string kindName(VkPhysicalDeviceType type) {
-  switch (type) {
-    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
-      return "discrete GPU";
-    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
-      return "integrated GPU";
-    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
-      return "virtual GPU";
-    case VK_PHYSICAL_DEVICE_TYPE_CPU:
-      return "CPU";
-    default:
-      return "other";
-  }
+  constexpr std::array names{"other", "integrated GPU", "discrete GPU", "virtual GPU", "CPU"};  // in Vulkan's order
+  return names[static_cast<size_t>(type)];
 }
 
 FeatureView feature(const char* name, bool present, const char* without) {

@@ -226,9 +226,8 @@ void FrameReport::updateEffects(const RecordedFrame& frame, const EffectLedger& 
     view_.rays += std::string(rays.why) + ")";
   }
   for (const Effect& effect : effectsOf(frame.scene, frame.state, frame.settings, frame.plan)) {
-    const auto kind = static_cast<EffectKind>(view_.effects.size());
-    EffectView& view = view_.effects.emplace_back(EffectView{effect, ledger[kind]});
-    view.name = findSettingField(settingsWithout(kind).front().key)->label;  // of its switch
+    EffectView& view = view_.effects.emplace_back(EffectView{effect, ledger[effect.kind]});
+    view.name = findSettingField(settingsWithout(effect.kind).front().key)->label;  // of its switch
   }
 }
 

@@ -35,32 +35,28 @@ size_t triangleCount(const Scene& scene) {
   return indices / 3;
 }
 
+// Lowers each setting to the cheaper one of the two.
 Settings lowered(Settings settings, const Settings& limit) {
-  ViewSettings& view = settings.view;
-  ReflectionSettings& reflection = settings.reflection;
-  view.scale = std::min(view.scale, limit.view.scale);
-  view.samples = std::min(view.samples, limit.view.samples);
-  view.meshError = std::max(view.meshError, limit.view.meshError);
+  const auto least = [](auto& group, const auto& other, auto... members) {
+    ((group.*members = std::min(group.*members, other.*members)), ...);
+  };
+  const auto most = [](auto& group, const auto& other, auto... members) {
+    ((group.*members = std::max(group.*members, other.*members)), ...);
+  };
+  using V = ViewSettings;
+  using R = ReflectionSettings;
+  using E = EffectSettings;
+  least(settings.view, limit.view, &V::scale, &V::samples);
+  most(settings.view, limit.view, &V::meshError);
   if (limit.reflection.method != ReflectionMethod::rays) {
-    reflection.method = limit.reflection.method;
+    settings.reflection.method = limit.reflection.method;
   }
-  reflection.scale = std::min(reflection.scale, limit.reflection.scale);
-  reflection.samples = std::min(reflection.samples, limit.reflection.samples);
-  reflection.maxDepth = std::min(reflection.maxDepth, limit.reflection.maxDepth);
-  reflection.maxPasses = std::min(reflection.maxPasses, limit.reflection.maxPasses);
-  reflection.updateInterval = std::max(reflection.updateInterval, limit.reflection.updateInterval);
-  reflection.meshError = std::max(reflection.meshError, limit.reflection.meshError);
-  EffectSettings& effects = settings.effects;
-  effects.perSample = effects.perSample && limit.effects.perSample;
-  effects.castsLight = effects.castsLight && limit.effects.castsLight;
-  effects.shadowLookup = std::max(effects.shadowLookup, limit.effects.shadowLookup);
-  effects.shadowMapSize = std::min(effects.shadowMapSize, limit.effects.shadowMapSize);
-  effects.rippleLookup = std::max(effects.rippleLookup, limit.effects.rippleLookup);
-  effects.roughLookup = std::max(effects.roughLookup, limit.effects.roughLookup);
-  effects.roughSamples = std::min(effects.roughSamples, limit.effects.roughSamples);
-  effects.curvedLookup = std::max(effects.curvedLookup, limit.effects.curvedLookup);
-  effects.environmentSize = std::min(effects.environmentSize, limit.effects.environmentSize);
-  effects.environmentInterval = std::max(effects.environmentInterval, limit.effects.environmentInterval);
+  least(settings.reflection, limit.reflection, &R::scale, &R::samples, &R::maxDepth, &R::maxPasses);
+  most(settings.reflection, limit.reflection, &R::updateInterval, &R::meshError);
+  least(settings.effects, limit.effects, &E::perSample, &E::castsLight, &E::shadowMapSize, &E::roughSamples,
+        &E::environmentSize);
+  most(settings.effects, limit.effects, &E::shadowLookup, &E::rippleLookup, &E::roughLookup, &E::curvedLookup,
+       &E::environmentInterval);
   return settings;
 }
 

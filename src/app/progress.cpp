@@ -1,11 +1,7 @@
 #include "app/progress.hpp"
 
-#include <spdlog/fmt/fmt.h>
-
 #include <cstdio>
-#include <regex>
 
-#include "app/options.hpp"
 #include "platform/process.hpp"
 
 namespace speculum {
@@ -66,32 +62,6 @@ void Progress::print(double secondsLeft) {
   std::fprintf(stderr, "\r%s [%s%s] %3.0f %%, %.0f s left  ", what_.c_str(), std::string(filled, '#').c_str(),
                std::string(width - filled, '.').c_str(), 100.0 * part, secondsLeft);
   std::fflush(stderr);
-}
-
-PictureFiles::PictureFiles(const std::filesystem::path& pattern, int count) {
-  const std::string extension = pattern.extension().string();
-  if (extension != ".png" && extension != ".exr") {
-    throw UsageError("--out: '" + pattern.string() + "' has no known ending (.png or .exr)");
-  }
-  static const std::regex number("%(0([1-9]))?d");
-  const std::string text = pattern.string();
-  std::smatch match;
-  numbered_ = count > 0 && std::regex_search(text, match, number);
-  if (!numbered_) {
-    if (count > 1) {
-      throw UsageError("--out: '" + text + "' names one file for " + std::to_string(count) +
-                       " pictures (a pattern such as dir/%04d.png)");
-    }
-    before_ = text;
-    return;
-  }
-  before_ = match.prefix();
-  after_ = match.suffix();
-  digits_ = match[2].matched ? std::stoi(match[2]) : 1;
-}
-
-std::filesystem::path PictureFiles::at(int index) const {
-  return numbered_ ? fmt::format("{}{:0{}}{}", before_, index, digits_, after_) : before_;
 }
 
 }  // namespace speculum

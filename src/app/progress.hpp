@@ -1,7 +1,6 @@
 #pragma once
 
 #include <chrono>
-#include <filesystem>
 #include <string>
 
 namespace speculum {
@@ -31,20 +30,6 @@ class Progress {
   Clock::time_point created_;
   Clock::time_point start_;  // of the pace
   Clock::time_point last_;
-};
-
-// Names the file of each picture of a sequence. The pattern has one %d or %0Nd, or none for a single picture. Throws
-// UsageError for endings other than .png and .exr, and for a sequence without a number.
-class PictureFiles {
- public:
-  PictureFiles(const std::filesystem::path& pattern, int count);
-  std::filesystem::path at(int index) const;
-
- private:
-  std::string before_;
-  std::string after_;
-  int digits_ = 0;
-  bool numbered_ = false;
 };
 
 }  // namespace speculum

@@ -15,10 +15,6 @@ namespace speculum {
 
 namespace {
 
-bool contains(const std::vector<std::string>& keys, const std::string& key) {
-  return std::ranges::find(keys, key) != keys.end();
-}
-
 // Says whether a sweep measures the setting. The others choose what is shown, or change no radiance.
 bool isQuality(const std::string& key) {
   const SettingField* field = findSettingField(key);
@@ -58,9 +54,9 @@ bool isAtPoint(const Settings& settings, const std::vector<SettingChange>& point
       point, [&](const SettingChange& change) { return settingValue(settings, change.key) == change.value; });
 }
 
-void applyPoint(const SweepResults& results, int point, const std::vector<std::string>& kept, Settings& settings) {
+void applyPoint(const SweepResults& results, int point, const std::set<std::string>& kept, Settings& settings) {
   for (const SettingChange& change : settingsOfPoint(results, point)) {
-    if (contains(kept, change.key)) {
+    if (kept.contains(change.key)) {
       if (settingValue(settings, change.key) != change.value) {
         spdlog::warn("{} is set by hand: the sweep's figures do not hold for it", change.key);
       }
@@ -76,9 +72,9 @@ std::optional<QualityChoice> chooseQuality(const Options& options, const std::fi
     return std::nullopt;
   }
   const auto keys = std::views::keys(options.settings);
-  const std::vector<std::string> kept(keys.begin(), keys.end());
+  const std::set<std::string> kept(keys.begin(), keys.end());
   if (options.sweepResults.empty()) {
-    const bool byHand = contains(kept, "quality.budget_ms") || contains(kept, "quality.max_error");
+    const bool byHand = kept.contains("quality.budget_ms") || kept.contains("quality.max_error");
     if (byHand && options.command != "demo") {
       throw UsageError(
           "--set: quality.budget_ms and quality.max_error choose from a sweep (--sweep-results F, the results.json of "

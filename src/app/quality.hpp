@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <set>
 #include <string>
 
 #include "accuracy/pareto.hpp"
@@ -33,6 +34,6 @@ bool isAtPoint(const Settings& settings, const std::vector<SettingChange>& point
 
 // Sets settings to those of a point. Keys listed in `kept` stay, with a warning where they differ. Throws InputError
 // with the message of setSetting().
-void applyPoint(const SweepResults& results, int point, const std::vector<std::string>& kept, Settings& settings);
+void applyPoint(const SweepResults& results, int point, const std::set<std::string>& kept, Settings& settings);
 
 }  // namespace speculum

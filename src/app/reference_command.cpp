@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "app/commands.hpp"
+#include "app/picture_sequence.hpp"
 #include "app/progress.hpp"
 #include "app/session.hpp"
 #include "image/color.hpp"
@@ -33,7 +34,7 @@ void checkSamples(int samples) {
 
 int runReference(const Options& options) {
   checkSamples(options.samples);
-  const PictureFiles files(options.out, 0);
+  const PictureSequence files(options.out, 0);
   const LoadedScene loaded = loadSceneWithSettings(options);
   SceneState state = evaluate(loaded.scene, options.time);
   state.camera = cameraOf(options, loaded.scene).value_or(state.camera);

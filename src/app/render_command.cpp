@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "app/commands.hpp"
+#include "app/picture_sequence.hpp"
 #include "app/progress.hpp"
 #include "app/session.hpp"
 #include "app/stats.hpp"
@@ -25,7 +26,7 @@ void savePicture(Session& session, const std::filesystem::path& file) {
 
 int runRender(const Options& options) {
   const int count = std::max(1, options.frames);
-  const PictureFiles files(options.out, options.frames > 0 ? count : 0);
+  const PictureSequence files(options.out, options.frames > 0 ? count : 0);
   Session session(options);
   session.renderer().setTimerDetail(options.stats.empty() ? TimerDetail::frame : TimerDetail::passes);
   installInterruptHandler();

@@ -278,7 +278,7 @@ void SceneEditor::remove() {
   }
   beginChange();
   others_.clear();
-  document_.remove(std::span(nodes));
+  document_.remove(nodes);
   forgetPath();
 }
 

@@ -113,12 +113,11 @@ ordered_json skippedJson(const Scene& scene, const FramePlan& plan) {
 ordered_json effectsJson(Session& session) {
   ordered_json json = ordered_json::array();
   const DrawnFrame& frame = session.lastFrame();
-  const std::vector<Effect> effects = effectsOf(session.scene(), frame.state, frame.settings, frame.plan);
-  for (size_t i = 0; i < effects.size(); ++i) {
-    const EffectCost& cost = frame.ledger[static_cast<EffectKind>(i)];
-    json.push_back({{"name", effects[i].name},
-                    {"called_for", effects[i].calledFor},
-                    {"why", effects[i].why},
+  for (const Effect& effect : effectsOf(session.scene(), frame.state, frame.settings, frame.plan)) {
+    const EffectCost& cost = frame.ledger[effect.kind];
+    json.push_back({{"name", effect.name},
+                    {"called_for", effect.calledFor},
+                    {"why", effect.why},
                     {"gpu_ms", nullptr},
                     {"draws", cost.draws},
                     {"bytes", cost.bytes},

@@ -42,10 +42,8 @@ std::string quoted(const std::string& argument) {
 
 // Returns the name of a scene that comes with the program, else the path.
 std::string sceneText(const std::filesystem::path& file) {
-  std::error_code none;
-  const std::filesystem::path path = std::filesystem::weakly_canonical(wholePath(file), none);
-  const std::filesystem::path name =
-      path.lexically_relative(std::filesystem::weakly_canonical(dataDirectory("scenes"), none));
+  const std::filesystem::path path = canonicalPath(wholePath(file));
+  const std::filesystem::path name = path.lexically_relative(canonicalPath(dataDirectory("scenes")));
   return name.empty() || *name.begin() == ".." ? path.string() : (name.parent_path() / name.stem()).string();
 }
 

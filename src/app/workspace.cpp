@@ -3,8 +3,6 @@
 #include "app/pace.hpp"
 #include "app/view_command.hpp"
 #include "frame/setting_fields.hpp"
-#include "platform/files.hpp"
-#include "platform/folders.hpp"
 
 namespace speculum {
 
@@ -31,13 +29,12 @@ Workspace::Workspace(const Options& options, WorkspaceHost& host)
       logCapture_(captureLog(log_)),
       loaded_(std::make_unique<LoadedScene>(loadSceneWithSettings(options))),
       shippedModels_(SceneBrowser::shippedModels()),
+      opener_(options, settings_),
       accuracy_(options, loaded_->settings, loaded_->quality ? loaded_->quality->why : "") {
-  browser_.list(loaded_->scene.file);
+  browser().list(loaded_->scene.file);
   startDocument();
   if (options.frames == 0) {
-    if (const std::optional<fs::path>& copy = recovery_.findNewest()) {
-      document_->ask(Prompt::recovery, *copy);
-    }
+    opener_.offerRecovery();
   }
 }
 
@@ -45,6 +42,7 @@ void Workspace::startDocument() {
   // A scene that is being traced in the background must not change meanwhile.
   document_ = std::make_unique<DocumentController>(*loaded_, shippedModels_, options_.frames == 0,
                                                    [this] { accuracy_.forgetScene(); });
+  opener_.setDocument(*document_);
   pointer_.cancel();
   camera_.sceneChanged(scene());
   report_.clear();
@@ -60,7 +58,10 @@ void Workspace::apply(const Command& command) {
                  [&](const ToggleCameraMode&) { camera_.toggleMode(); },
                  [&](const SetCameraMode& c) { camera_.setMode(c.mode); },
                  [&](const FrameSelection&) { frame(editor().document().selection()); },
-                 [&](const LookFromMirror& c) { lookFromMirror(c.side); },
+                 [&](const LookFromMirror& c) {
+                   camera_.lookFromMirror(c.side, evaluate(scene(), time()), editor().document().selection(),
+                                          report_.view().passes, aspect());
+                 },
                  [&](const AddBookmark&) {
                    editor().addBookmark(camera_.bookmark(state(time()).camera, scene().camera));
                    camera_.setBookmark(static_cast<int>(scene().bookmarks.size()) - 1);
@@ -81,28 +82,21 @@ void Workspace::apply(const Command& command) {
                  [&](const MultiplyTimeSpeed& c) { playback_.setSpeed(c.factor * playback_.view().speed); },
                  [&](const SetSettings& c) { setSettings(c.settings, c.continued); },
                  [&](const ResetSettings&) { setSettings(loaded_->settings); },
-                 [&](const NewScene&) { open(SceneBrowser::newScene()); },
-                 [&](const AskWhatToOpen&) { askWhatToOpen(); },
-                 [&](const OpenScene& c) { open(c.file); },
-                 [&](const OpenDropped& c) { openDropped(c.files); },
-                 [&](const CancelLoading&) {
-                   browser_.cancelLoading();
-                   document_->forgetDiscard();
-                 },
+                 [&](const NewScene&) { opener_.open(SceneBrowser::newScene()); },
+                 [&](const AskWhatToOpen&) { opener_.ask(); },
+                 [&](const OpenScene& c) { opener_.open(c.file); },
+                 [&](const OpenDropped& c) { opener_.openDropped(c.files); },
+                 [&](const CancelLoading&) { opener_.cancelLoading(); },
                  [&](const Save&) { resume(document_->save(settings_)); },
                  [&](const AskWhereToSave&) { document_->askWhere(); },
                  [&](const SaveAs& c) { resume(document_->saveAs(c.file, settings_)); },
                  [&](const DiscardChanges&) { resume(document_->discard(settings_)); },
-                 [&](const CancelPrompt&) {
-                   if (document_->prompt() == Prompt::recovery) {
-                     recovery_.forget();
-                   }
-                   document_->cancelPrompt();
-                   if (browser_.loaded()) {
-                     browser_.cancelLoading();
+                 [&](const CancelPrompt&) { opener_.cancelPrompt(); },
+                 [&](const Quit&) {
+                   if (opener_.confirmQuit()) {
+                     host_.close();
                    }
                  },
-                 [&](const Quit&) { quit(); },
                  [&](const SelectNode& c) {
                    editor().select(c.node);
                    host_.openInspector();
@@ -116,18 +110,8 @@ void Workspace::apply(const Command& command) {
                  [&](const NextGizmoMode&) { editor().nextMode(); },
                  [&](const EditNode& c) { editor().edit(c.target, c.node, c.continued); },
                  [&](const EndEdit&) { editor().endEdit(); },
-                 [&](const AddMirror&) {
-                   if (const auto view = sceneView(time())) {
-                     editor().addMirror(*view);
-                     reportAdded();
-                   }
-                 },
-                 [&](const AddLight&) {
-                   if (const auto view = sceneView(time())) {
-                     editor().addLight(*view);
-                     reportAdded();
-                   }
-                 },
+                 [&](const AddMirror&) { addNode(&SceneEditor::addMirror); },
+                 [&](const AddLight&) { addNode(&SceneEditor::addLight); },
                  [&](const AddObject& c) { addObject(c.model); },
                  [&](const DuplicateSelected&) {
                    if (const auto view = sceneView(time())) {
@@ -145,12 +129,20 @@ void Workspace::apply(const Command& command) {
                    setSettings(settings);
                  },
                  [&](const TakeScreenshot& c) { capture_.takeScreenshot(c.withPanel); },
-                 [&](const ToggleRecording& c) { toggleRecording(c.withPanel); },
+                 [&](const ToggleRecording& c) {
+                   if (const auto message = capture_.toggleRecording(scene().file.stem().string(), c.withPanel)) {
+                     status_.set(*message);
+                   }
+                 },
                  [&](const CopyCommandLine&) { copyCommandLine(); },
                  [&](const CopyText& c) { host_.setClipboard(c.text); },
                  [&](const SetPresentMode& c) { host_.setPresentMode(c.index); },
                  [&](const ToggleFullScreen&) { host_.toggleFullScreen(); },
-                 [&](const TogglePanel&) { togglePanels(); },
+                 [&](const TogglePanel&) {
+                   if (!host_.togglePanels()) {
+                     status_.show("Panels hidden. Tab shows them again.");
+                   }
+                 },
                  [&](const ToggleHelp&) { host_.toggleHelp(); },
                  [&](const ToggleInspector&) { host_.toggleInspector(); },
                  [&](const Escape&) { escape(); },
@@ -227,7 +219,7 @@ void Workspace::prepareView(double seconds, bool pointerOverPicture) {
 UiView Workspace::view(const DeviceView& device, const std::string& message) const {
   return {.frame = report_.view(),
           .device = device,
-          .browser = browser_.view(),
+          .browser = opener_.browser().view(),
           .settings = settings_,
           .sceneSettings = loaded_->settings,
           .camera = camera_.view(),
@@ -241,18 +233,12 @@ UiView Workspace::view(const DeviceView& device, const std::string& message) con
 
 void Workspace::update() {
   takeSceneChange();
-  // Prompts for changes made while the scene was loading, too.
-  if (browser_.loaded() && document_->confirmDiscard(settings_, std::nullopt)) {
-    showScene(browser_.takeLoaded());
-  } else if (const std::optional<std::string> error = browser_.takeError()) {
-    problem_ = *error;
-    document_->forgetDiscard();
+  if (std::unique_ptr<LoadedScene> loaded = opener_.update()) {
+    showScene(std::move(loaded));
   }
   if (const std::string warning = log_.takeProblem(); !warning.empty()) {
     status_.show(warning);
   }
-  takeChosenFile();
-  browser_.updateView();
   accuracy_.beforeFrame(settings_);
 }
 
@@ -281,57 +267,13 @@ void Workspace::frameDrawn(const ShownPicture& shown, const std::function<Image8
   tookBack_ = false;
 }
 
-// Returns the scene's folder; for a new one that of the scenes that come with the program.
-fs::path Workspace::folderToOpen() const {
-  const fs::path folder = wholePath(scene().file).parent_path();
-  return (SceneBrowser::isNew(scene().file) ? folder.parent_path() : folder) / "";
-}
-
-// The desktop's dialog, if it has one that can be started; else a prompt of the window.
-void Workspace::askWhatToOpen() {
-  if (!fileDialog_.open(folderToOpen())) {
-    document_->ask(Prompt::open, folderToOpen());
-  }
-}
-
-void Workspace::takeChosenFile() {
-  const std::optional<FileDialog::Answer> answer = fileDialog_.poll();
-  if (answer && answer->file) {
-    open(*answer->file);
-  } else if (answer && answer->failed && !document_->prompting()) {
-    document_->ask(Prompt::open, folderToOpen());
-  }
-}
-
-// Opens a scene, after the prompt about unsaved changes if there are any.
-void Workspace::open(const fs::path& file) {
-  if (document_->prompt() == Prompt::recovery) {
-    recovery_.postpone(file);
-  }
-  document_->closeOpenPrompt();
-  if (document_->confirmDiscard(settings_, OpenScene{file})) {
-    Options options = options_;
-    options.sweepResults.clear();  // they belong to the first scene
-    problem_.clear();
-    browser_.open(file, options);
-  }
-}
-
-void Workspace::openDropped(const std::vector<fs::path>& files) {
-  try {
-    open(SceneBrowser::choose(files));
-  } catch (const InputError& error) {
-    problem_ = error.what();
-  }
-}
-
 void Workspace::showScene(std::unique_ptr<LoadedScene> scene) {
   accuracy_.forgetScene();
   std::swap(loaded_, scene);
   try {
     host_.useScene(loaded_->scene);
   } catch (const std::exception& error) {
-    problem_ = loaded_->scene.file.string() + ": " + error.what();
+    opener_.setProblem(loaded_->scene.file.string() + ": " + error.what());
     std::swap(loaded_, scene);
     document_->forgetDiscard();
     return host_.useScene(loaded_->scene);
@@ -341,8 +283,15 @@ void Workspace::showScene(std::unique_ptr<LoadedScene> scene) {
   if (isModelFile(loaded_->scene.file)) {
     frame({.kind = Selection::Kind::object, .index = 0});
   }
-  if (browser_.show(loaded_->scene.file, true)) {
+  if (browser().show(loaded_->scene.file, true)) {
     host_.scenesListed();
+  }
+}
+
+void Workspace::addNode(void (SceneEditor::*add)(const SceneView&)) {
+  if (const std::optional<SceneView> view = sceneView(time())) {
+    (editor().*add)(*view);
+    reportAdded();
   }
 }
 
@@ -389,24 +338,13 @@ void Workspace::useModels() {
 void Workspace::resume(const std::optional<Command>& afterPrompt) {
   if (document_->savedSinceLastCall()) {
     status_.set(document_->note());
-    if (!document_->hasUnsaved(settings_)) {
-      recovery_.forget();
-    }
-    if (browser_.show(scene().file, false)) {
+    opener_.forgetSaved();
+    if (browser().show(scene().file, false)) {
       host_.scenesListed();
     }
   }
   if (afterPrompt) {
     apply(*afterPrompt);
-  }
-}
-
-void Workspace::quit() {
-  if (document_->confirmDiscard(settings_, Quit{})) {
-    if (document_->prompt() != Prompt::recovery) {
-      recovery_.forget();
-    }
-    host_.close();
   }
 }
 
@@ -424,7 +362,7 @@ void Workspace::escape() {
   if (host_.closeTopWindow(true)) {
     return;
   }
-  problem_.clear();
+  opener_.setProblem("");
   status_.clear();
 }
 
@@ -433,12 +371,6 @@ void Workspace::setSettings(const Settings& settings, bool continued) {
   accuracy_.followBudget(chosen);
   editor().document().settingsChanged(settings_, chosen, continued);
   settings_ = chosen;
-}
-
-void Workspace::togglePanels() {
-  if (!host_.togglePanels()) {
-    status_.show("Panels hidden. Tab shows them again.");
-  }
 }
 
 void Workspace::step(UndoWay way) {
@@ -467,11 +399,6 @@ void Workspace::frame(const Selection& node) {
     const glm::dvec2 corner = 2.0 * glm::dvec2(free.x, free.y) / size;
     camera_.frame(bounds, aspect(), {.center = {corner.x + half.x - 1.0, 1.0 - corner.y - half.y}, .half = half});
   }
-}
-
-void Workspace::lookFromMirror(MirrorSide side) {
-  camera_.lookFromMirror(side, evaluate(scene(), time()), editor().document().selection(), report_.view().passes,
-                         aspect());
 }
 
 // Returns the options that draw the present view of the scene in `file`.
@@ -515,12 +442,6 @@ void Workspace::measureAccuracy() {
   }
 }
 
-void Workspace::toggleRecording(bool withPanel) {
-  if (const auto message = capture_.toggleRecording(scene().file.stem().string(), withPanel)) {
-    status_.set(*message);
-  }
-}
-
 bool Workspace::undoFailedChange(const std::string& why) {
   editor().release();
   editor().endEdit();
@@ -534,20 +455,8 @@ bool Workspace::undoFailedChange(const std::string& why) {
     return false;
   }
   step(UndoWay::back);
-  problem_ = "Cannot " + label + ": " + why;
+  opener_.setProblem("Cannot " + label + ": " + why);
   return true;
-}
-
-void Workspace::keepUnsavedWork() noexcept {
-  try {
-    const fs::path file = document_->savedOrCopy(settings());
-    if (file != scene().file) {
-      recovery_.record(file, document_->prompt() == Prompt::recovery);
-      spdlog::error("unsaved changes are kept in {}", file.string());
-    }
-  } catch (const std::exception& error) {
-    spdlog::error("unsaved changes are lost: {}", error.what());
-  }
 }
 
 }  // namespace speculum

@@ -2,13 +2,10 @@
 
 #include "app/accuracy_controller.hpp"
 #include "app/capture.hpp"
-#include "app/document_controller.hpp"
-#include "app/file_dialog.hpp"
 #include "app/frame_report.hpp"
 #include "app/playback.hpp"
 #include "app/pointer_controller.hpp"
-#include "app/recovery.hpp"
-#include "app/scene_browser.hpp"
+#include "app/scene_opener.hpp"
 #include "app/status_line.hpp"
 
 namespace speculum {
@@ -72,10 +69,7 @@ class Workspace {
 
   // Say whether frames are needed although nothing happens.
   bool animates() const { return !playback_.view().paused && moves(scene()); }
-  bool working() const {
-    const bool waitsForAnswer = browser_.loaded() && document_->prompting();
-    return accuracy_.working() || (browser_.busy() && !waitsForAnswer) || fileDialog_.isOpen();
-  }
+  bool working() const { return accuracy_.working() || opener_.working(); }
   uint64_t revision() const { return document_->editor().document().revision(); }
   bool dragging() const { return document_->editor().dragging(); }
   bool statusFades() const { return status_.fades(); }
@@ -85,15 +79,15 @@ class Workspace {
   bool undoFailedChange(const std::string& why);
   // Before the program ends without a prompt: keeps unsaved changes in a copy, logs where, and makes the next start
   // offer it.
-  void keepUnsavedWork() noexcept;
+  void keepUnsavedWork() noexcept { opener_.keepUnsavedWork(); }
 
   const Scene& scene() const { return loaded_->scene; }
   const Settings& settings() const { return settings_; }
   double time() const { return playback_.view().time; }
-  SceneState state(double time);                           // with the camera of the window
-  const std::string& problem() const { return problem_; }  // with the last scene; empty: none
+  SceneState state(double time);  // with the camera of the window
+  const std::string& problem() const { return opener_.problem(); }
   AccuracyController& accuracy() { return accuracy_; }
-  SceneBrowser& browser() { return browser_; }
+  SceneBrowser& browser() { return opener_.browser(); }
   const Capture& capture() const { return capture_; }
   void setPictureText(const std::string& text) { status_.setPicture(text); }
   FrameReport& report() { return report_; }
@@ -102,27 +96,19 @@ class Workspace {
   const DocumentController& document() const { return *document_; }
 
  private:
-  std::filesystem::path folderToOpen() const;
-  void askWhatToOpen();
-  void takeChosenFile();
-  void open(const std::filesystem::path& file);
-  void openDropped(const std::vector<std::filesystem::path>& files);
   void showScene(std::unique_ptr<LoadedScene> scene);
   void startDocument();
+  void addNode(void (SceneEditor::*add)(const SceneView&));
   void addObject(const std::filesystem::path& model);
   void reportAdded();  // the selected node
   void useModels();
   void resume(const std::optional<Command>& afterPrompt);
-  void quit();
   void escape();
   void setSettings(const Settings& settings, bool continued = false);
-  void togglePanels();
   void step(UndoWay way);
   void copyCommandLine();
   void measureAccuracy();
-  void toggleRecording(bool withPanel);
   void frame(const Selection& node);  // none: the whole scene
-  void lookFromMirror(MirrorSide side);
   void takeSceneChange();
   std::optional<SceneView> sceneView(double time);
   Options shownOptions(const std::filesystem::path& file);
@@ -136,8 +122,7 @@ class Workspace {
   std::unique_ptr<LoadedScene> loaded_;
   std::vector<std::filesystem::path> shippedModels_;
   std::unique_ptr<DocumentController> document_;  // of loaded_
-  Recovery recovery_;
-  SceneBrowser browser_;
+  SceneOpener opener_;
   AccuracyController accuracy_;
   CameraController camera_;
   PointerController pointer_;
@@ -147,9 +132,7 @@ class Workspace {
   FrameReport report_;
   Settings settings_;
   EditView edit_;
-  FileDialog fileDialog_;
-  std::string title_;  // of the window
-  std::string problem_;
+  std::string title_;            // of the window
   uint64_t shownStructure_ = 0;  // of the scene, in the last frame
   bool tookBack_ = false;        // a step, and no frame was drawn since
 };

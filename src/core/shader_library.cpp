@@ -38,10 +38,11 @@ std::vector<fs::path> sourcesIn(const fs::path& depfile, const fs::path& folder)
   return sources;
 }
 
-double newest(const std::vector<fs::path>& files) {
-  double time = 0.0;
+fs::file_time_type newest(const std::vector<fs::path>& files) {
+  fs::file_time_type time = fs::file_time_type::min();
   for (const fs::path& file : files) {
-    time = std::max(time, modificationTime(file).value_or(0.0));
+    std::error_code missing;
+    time = std::max(time, fs::last_write_time(file, missing));
   }
   return time;
 }

@@ -33,7 +33,7 @@ class ShaderLibrary {
     ShaderModuleHandle module;
     std::vector<uint8_t> code;
     std::vector<std::filesystem::path> sources;  // GLSL it was made from, includes too; empty: a built one
-    double newest = 0.0;                         // modification time of the newest source seen
+    std::filesystem::file_time_type newest;      // of the newest source seen
     std::string error;                           // why its GLSL does not compile at present
   };
   bool compile(const std::string& name, Entry& entry);  // whether the SPIR-V changed

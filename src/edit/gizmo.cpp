@@ -30,10 +30,6 @@ constexpr std::array scaleAxes = {Grip::scaleX, Grip::scaleY, Grip::scaleZ};
 constexpr std::array movePlanes = {Grip::moveYZ, Grip::moveZX, Grip::moveXY};
 constexpr std::array rings = {Grip::turnX, Grip::turnY, Grip::turnZ};
 
-bool isPlane(Grip handle) {
-  return handle >= Grip::moveYZ && handle <= Grip::moveXY;
-}
-
 bool isRing(Grip handle) {
   return modeOf(handle) == GizmoMode::turn;
 }

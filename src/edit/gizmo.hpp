@@ -28,6 +28,9 @@ enum class Grip {
 // Returns the axis 0, 1 or 2 of a handle, or of a plane's normal; -1 for the view's plane, all axes and none.
 int axisOf(Grip handle);
 GizmoMode modeOf(Grip handle);
+constexpr bool isPlane(Grip handle) {
+  return handle >= Grip::moveYZ && handle <= Grip::moveXY;
+}
 
 // Axes along which a node is scaled.
 struct ScaleAxes {

@@ -39,11 +39,15 @@ std::vector<glm::dvec2> hullOf(std::vector<glm::dvec2> points) {
   return hull;
 }
 
+void add(std::vector<PixelLine>& lines, const std::optional<PixelLine>& line) {
+  if (line) {
+    lines.push_back(*line);
+  }
+}
+
 void addEdges(std::span<const glm::dvec2> closed, const PictureView& picture, std::vector<PixelLine>& lines) {
   for (size_t i = 0; i < closed.size(); ++i) {
-    if (const auto line = picture.clipped({closed[i], closed[(i + 1) % closed.size()]})) {
-      lines.push_back(*line);
-    }
+    add(lines, picture.clipped({closed[i], closed[(i + 1) % closed.size()]}));
   }
 }
 
@@ -54,9 +58,7 @@ std::vector<PixelLine> mirrorOutline(const MirrorState& mirror, const PictureVie
   }
   std::vector<PixelLine> lines;
   for (size_t i = 0; i < polygon.size(); ++i) {
-    if (const auto line = picture.line(polygon[i], polygon[(i + 1) % polygon.size()])) {
-      lines.push_back(*line);
-    }
+    add(lines, picture.line(polygon[i], polygon[(i + 1) % polygon.size()]));
   }
   return lines;
 }
@@ -85,9 +87,7 @@ std::vector<PixelLine> boxOutline(const InstanceState& instance, const glm::dvec
       glm::dvec3 other = at;
       other[axis] = -other[axis];
       if (at[axis] < 0.0) {
-        if (const auto line = picture.line(instance.worldFromMesh.point(at), instance.worldFromMesh.point(other))) {
-          lines.push_back(*line);
-        }
+        add(lines, picture.line(instance.worldFromMesh.point(at), instance.worldFromMesh.point(other)));
       }
     }
   }
@@ -136,11 +136,8 @@ std::optional<std::vector<PixelLine>> silhouette(const InstanceState& instance, 
   const glm::dvec3 eye = glm::inverse(placed.linear) * (picture.eye() - placed.translation);
   std::vector<PixelLine> lines;
   for (const MeshEdge& edge : edges) {
-    if (!edge.outlines(eye)) {
-      continue;
-    }
-    if (const auto line = lineInFront(picture, placed.point(edge.a), placed.point(edge.b))) {
-      lines.push_back(*line);
+    if (edge.outlines(eye)) {
+      add(lines, lineInFront(picture, placed.point(edge.a), placed.point(edge.b)));
     }
     if (lines.size() > mostLines) {
       return std::nullopt;

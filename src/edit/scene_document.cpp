@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "frame/setting_fields.hpp"
+#include "platform/files.hpp"
 #include "scene/input_error.hpp"
 #include "scene/scene_loader.hpp"
 
@@ -14,20 +15,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-size_t bytesOf(const SceneContent& content) {
-  size_t bytes = sizeof(content) + content.objects.size() * (sizeof(Object) + sizeof(int)) +
-                 content.lights.size() * (sizeof(PointLight) + sizeof(int)) +
-                 content.mirrors.size() * (sizeof(Mirror) + sizeof(int)) +
-                 content.bookmarks.size() * (sizeof(Bookmark) + sizeof(int));
-  for (const Object& object : content.objects) {
-    bytes += object.name.size() + object.model.size();
-  }
-  for (const Mirror& mirror : content.mirrors) {
-    bytes += mirror.name.size() + mirror.polygon.size() * sizeof(glm::dvec3);
-  }
-  return bytes;
-}
-
 // Says whether the lists hold the same nodes in the same order.
 bool sameStructure(const SceneContent& a, const SceneContent& b) {
   return a.origins.objects == b.origins.objects && a.origins.lights == b.origins.lights &&
@@ -35,11 +22,6 @@ bool sameStructure(const SceneContent& a, const SceneContent& b) {
          std::ranges::equal(a.objects, b.objects, [](const Object& x, const Object& y) {
            return x.mesh == y.mesh && x.copies.count == y.copies.count;
          });
-}
-
-bool sameFile(const fs::path& a, const fs::path& b) {
-  std::error_code error;
-  return a == b || (!a.empty() && fs::weakly_canonical(a, error) == fs::weakly_canonical(b, error));
 }
 
 }  // namespace
@@ -64,30 +46,63 @@ SceneDocument::SceneDocument(Scene& scene) : scene_(scene) {
   }
 }
 
+size_t SceneDocument::bytesOf(const Step& step) {
+  const Edit* edit = std::get_if<Edit>(&step);
+  if (!edit) {
+    return sizeof(step);
+  }
+  const SceneContent& content = edit->content;
+  size_t bytes = sizeof(step) + content.objects.size() * (sizeof(Object) + sizeof(int)) +
+                 content.lights.size() * (sizeof(PointLight) + sizeof(int)) +
+                 content.mirrors.size() * (sizeof(Mirror) + sizeof(int)) +
+                 content.bookmarks.size() * (sizeof(Bookmark) + sizeof(int));
+  for (const Object& object : content.objects) {
+    bytes += object.name.size() + object.model.size();
+  }
+  for (const Mirror& mirror : content.mirrors) {
+    bytes += mirror.name.size() + mirror.polygon.size() * sizeof(glm::dvec3);
+  }
+  return bytes;
+}
+
+// The label of changed settings is the name of the only one.
+std::string SceneDocument::labelOf(const Step& step) {
+  if (const Edit* edit = std::get_if<Edit>(&step)) {
+    return edit->label;
+  }
+  const SettingsStep& settings = std::get<SettingsStep>(step);
+  std::string label;
+  for (const SettingField& field : settingFields()) {
+    if (!sameSetting(field, settings.before, settings.after)) {
+      label = label.empty() ? std::string("change ") + field.label : "change settings";
+    }
+  }
+  return label;
+}
+
 void SceneDocument::recordChange(const SceneContent& before) {
   ++revision_;
   structureRevision_ += sameStructure(before, content()) ? 0 : 1;
 }
 
-void SceneDocument::record(Step step) {
-  recordChange(step.content);
-  selection_ = step.after;
+void SceneDocument::record(Edit edit) {
+  recordChange(edit.content);
+  selection_ = edit.after;
   if (gesture_) {
-    gesture_->label = std::move(step.label);
-    gesture_->after = step.after;
+    gesture_->label = std::move(edit.label);
+    gesture_->after = edit.after;
     return;
   }
   redo_.clear();
-  push(std::move(step));
+  push(std::move(edit));
 }
 
 void SceneDocument::push(Step step) {
   settingsStepOpen_ = false;
-  step.bytes = bytesOf(step.content);
-  undoBytes_ += step.bytes;
+  undoBytes_ += bytesOf(step);
   undo_.push_back(std::move(step));
   while (undo_.size() > mostSteps || (undo_.size() > 1 && undoBytes_ > mostBytes)) {
-    undoBytes_ -= undo_.front().bytes;
+    undoBytes_ -= bytesOf(undo_.front());
     undo_.pop_front();
   }
 }
@@ -113,7 +128,7 @@ void SceneDocument::change(const std::string& label, const Selection& selection,
 }
 
 Selection SceneDocument::structural(const std::string& label, const std::function<Selection()>& edit) {
-  Step step{.label = label, .content = content(), .before = selection_};
+  Edit step{.label = label, .content = content(), .before = selection_};
   const Selection after = step.after = edit();
   record(std::move(step));
   return after;
@@ -139,7 +154,7 @@ void SceneDocument::erase(const Selection& selection) {
 }
 
 Selection SceneDocument::add(const SceneNode& node) {
-  Step step{.content = content(), .before = selection_};
+  Edit step{.content = content(), .before = selection_};
   const Selection added = step.after = append(node);
   step.label = "add " + describe(scene_, added);
   record(std::move(step));
@@ -163,20 +178,11 @@ std::vector<Selection> SceneDocument::duplicate(std::span<const Selection> nodes
   return copies;
 }
 
-void SceneDocument::remove(const Selection& selection) {
-  if (selection) {
-    select(selection);
-    remove({&selection, 1});
-  }
-}
-
-void SceneDocument::remove(std::span<const Selection> nodes) {
-  std::vector<Selection> fromTheEnd(nodes.begin(), nodes.end());
-  std::ranges::sort(fromTheEnd, [](const Selection& a, const Selection& b) { return a.index > b.index; });
-  structural("remove " + describe(scene_, nodes), [&] {
-    for (const Selection& node : fromTheEnd) {
-      erase(node);
-    }
+void SceneDocument::remove(std::vector<Selection> nodes) {
+  const std::string label = "remove " + describe(scene_, nodes);
+  std::ranges::sort(nodes, std::greater<>(), &Selection::index);  // erasing the last first keeps the other indices
+  structural(label, [&] {
+    std::ranges::for_each(nodes, [&](const Selection& node) { erase(node); });
     return Selection();
   });
 }
@@ -205,60 +211,57 @@ void SceneDocument::settingsChanged(const Settings& before, const Settings& afte
   }
   redo_.clear();
   if (!continued || !settingsStepOpen_) {
-    push({.settings = SettingsStep{.before = before}});
+    push(SettingsStep{.before = before, .after = after});
     settingsStepOpen_ = true;
   }
-  Step& step = undo_.back();
-  step.settings->after = after;
-  if (step.settings->before == after) {
-    undoBytes_ -= step.bytes;
+  auto& step = std::get<SettingsStep>(undo_.back());
+  step.after = after;
+  if (step.before == after) {
+    undoBytes_ -= bytesOf(undo_.back());
     undo_.pop_back();
     settingsStepOpen_ = false;
-    return;
-  }
-  step.label.clear();
-  for (const SettingField& field : settingFields()) {
-    if (!sameSetting(field, step.settings->before, after)) {
-      step.label = step.label.empty() ? std::string("change ") + field.label : "change settings";
-    }
   }
 }
 
 void SceneDocument::beginGesture() {
   endGesture();
-  gesture_ = Step{.content = content(), .before = selection_, .after = selection_};
+  gesture_ = Edit{.content = content(), .before = selection_, .after = selection_};
 }
 
 void SceneDocument::endGesture() {
-  if (!gesture_) {
-    return;
+  if (std::optional<Edit> edit = std::exchange(gesture_, std::nullopt); edit && content() != edit->content) {
+    redo_.clear();
+    push(*std::move(edit));
   }
-  Step step = *std::exchange(gesture_, std::nullopt);
-  if (content() == step.content) {
-    return;
-  }
-  redo_.clear();
-  push(std::move(step));
 }
 
 void SceneDocument::cancelGesture() {
-  if (!gesture_) {
-    return;
-  }
-  Step step = *std::exchange(gesture_, std::nullopt);
-  selection_ = step.before;
-  if (content() != step.content) {
-    swapContent(step);
+  if (std::optional<Edit> edit = std::exchange(gesture_, std::nullopt)) {
+    selection_ = edit->before;
+    if (content() != edit->content) {
+      swapContent(*edit);
+    }
   }
 }
 
-void SceneDocument::swapContent(Step& step) {
-  std::swap(content(), step.content);
-  recordChange(step.content);
+void SceneDocument::swapContent(Edit& edit) {
+  std::swap(content(), edit.content);
+  recordChange(edit.content);
 }
 
 bool SceneDocument::changesScene(UndoWay way) const {
-  return way == UndoWay::back ? canUndo() && !undo_.back().settings : canRedo() && !redo_.back().settings;
+  const std::deque<Step>& steps = way == UndoWay::back ? undo_ : redo_;
+  return !steps.empty() && std::holds_alternative<Edit>(steps.back());
+}
+
+std::optional<SettingsStep> SceneDocument::apply(Step& step, UndoWay way) {
+  if (const auto* settings = std::get_if<SettingsStep>(&step)) {
+    return *settings;
+  }
+  auto& edit = std::get<Edit>(step);
+  swapContent(edit);
+  selection_ = way == UndoWay::back ? edit.before : edit.after;
+  return std::nullopt;
 }
 
 std::optional<SettingsStep> SceneDocument::undo() {
@@ -266,15 +269,11 @@ std::optional<SettingsStep> SceneDocument::undo() {
   if (undo_.empty()) {
     return std::nullopt;
   }
-  Step& step = redo_.emplace_back(std::move(undo_.back()));
+  undoBytes_ -= bytesOf(undo_.back());
+  redo_.push_back(std::move(undo_.back()));
   undo_.pop_back();
-  undoBytes_ -= step.bytes;
   settingsStepOpen_ = false;
-  if (!step.settings) {
-    swapContent(step);
-    selection_ = step.before;
-  }
-  return step.settings;
+  return apply(redo_.back(), UndoWay::back);
 }
 
 std::optional<SettingsStep> SceneDocument::redo() {
@@ -284,12 +283,9 @@ std::optional<SettingsStep> SceneDocument::redo() {
   }
   Step step = std::move(redo_.back());
   redo_.pop_back();
-  if (!step.settings) {
-    swapContent(step);
-    selection_ = step.after;
-  }
+  const std::optional<SettingsStep> settings = apply(step, UndoWay::forward);
   push(std::move(step));
-  return undo_.back().settings;
+  return settings;
 }
 
 bool SceneDocument::modified() const {
@@ -314,7 +310,8 @@ void SceneDocument::save(const fs::path& file, std::span<const SettingChange> se
                             fs::path(file).replace_extension(".toml").filename().string() + ")"));
   }
   std::string text = this->text(file, settings);
-  writeSceneFile(file, text, sameFile(file, savedFile_) ? savedText_ : std::nullopt, overwrite);
+  const bool known = canonicalPath(file) == canonicalPath(savedFile_);
+  writeSceneFile(file, text, known ? savedText_ : std::nullopt, overwrite);
   saved_ = content();
   modified_.reset();
   savedFile_ = file;

@@ -5,6 +5,7 @@
 #include <functional>
 #include <span>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "edit/new_nodes.hpp"
@@ -52,11 +53,10 @@ class SceneDocument {
   Selection addObject(int mesh, const glm::dvec3& position) { return add(newObject(scene_, mesh, position)); }
   // Puts the copy beside the node, on the other side for -1. Throws std::out_of_range if there is no such node.
   Selection duplicate(const Selection& selection, double side = 1.0);
-  void remove(const Selection& selection);  // nothing is selected afterwards
   // Several different nodes in one step. Their copies stay together; the first is selected, all are returned in the
   // order of `nodes`.
   std::vector<Selection> duplicate(std::span<const Selection> nodes);
-  void remove(std::span<const Selection> nodes);
+  void remove(std::vector<Selection> nodes);  // nothing is selected afterwards
 
   // Adds a bookmark under a name that no other has, and returns that name.
   std::string addBookmark(Bookmark bookmark);
@@ -68,8 +68,8 @@ class SceneDocument {
 
   bool canUndo() const { return !undo_.empty(); }
   bool canRedo() const { return !redo_.empty(); }
-  std::string undoLabel() const { return undo_.empty() ? "" : undo_.back().label; }  // "move object 'teapot'"
-  std::string redoLabel() const { return redo_.empty() ? "" : redo_.back().label; }
+  std::string undoLabel() const { return undo_.empty() ? "" : labelOf(undo_.back()); }  // "move object 'teapot'"
+  std::string redoLabel() const { return redo_.empty() ? "" : labelOf(redo_.back()); }
   // Says whether the next step that way changes the scene; false if there is none.
   bool changesScene(UndoWay way) const;
   // Nothing happens if there is no step. A step that changed settings is returned, for the caller to restore them.
@@ -96,22 +96,24 @@ class SceneDocument {
   std::string text(const std::filesystem::path& file, std::span<const SettingChange> settings) const;
 
  private:
-  // Content that undo or redo restores, and the selection before and after the step.
-  struct Step {
+  // Content that undo or redo restores, and the selection before and after the edit.
+  struct Edit {
     std::string label;
     SceneContent content;
     Selection before;
     Selection after;
-    size_t bytes = 0;
-    std::optional<SettingsStep> settings;  // set if the step changed these and not the content
   };
+  using Step = std::variant<Edit, SettingsStep>;
+  static size_t bytesOf(const Step& step);
+  static std::string labelOf(const Step& step);
 
   SceneContent& content() { return scene_; }
   const SceneContent& content() const { return scene_; }
   void recordChange(const SceneContent& before);
-  void swapContent(Step& step);  // exchanges its content with the scene's
-  void record(Step step);
+  void swapContent(Edit& edit);  // exchanges its content with the scene's
+  void record(Edit edit);
   void push(Step step);
+  std::optional<SettingsStep> apply(Step& step, UndoWay way);
   // Records `edit` as a step and selects what it returns.
   Selection structural(const std::string& label, const std::function<Selection()>& edit);
   Selection add(const SceneNode& node);     // as a step
@@ -121,10 +123,10 @@ class SceneDocument {
   Scene& scene_;
   Scene loaded_;  // without meshes and textures
   std::deque<Step> undo_;
-  std::vector<Step> redo_;
+  std::deque<Step> redo_;
   size_t undoBytes_ = 0;
   bool settingsStepOpen_ = false;  // the last of undo_ changes settings, and continued changes belong to it
-  std::optional<Step> gesture_;
+  std::optional<Edit> gesture_;
   Selection selection_;
   SceneContent saved_;
   std::filesystem::path savedFile_;

@@ -18,22 +18,14 @@ namespace {
 
 // Returns a path as it stands in scene files: with '/', and absolute only if no relative path exists.
 std::string pathFrom(const fs::path& folder, const fs::path& target) {
-  std::error_code error;
-  const fs::path from = fs::weakly_canonical(folder.empty() ? fs::path(".") : folder, error);
-  const fs::path to = fs::weakly_canonical(target, error);
-  const fs::path relative = to.lexically_relative(from);
+  const fs::path to = canonicalPath(target);
+  const fs::path relative = to.lexically_relative(canonicalPath(folder.empty() ? fs::path(".") : folder));
   return (relative.empty() ? to : relative).generic_string();
-}
-
-bool sameFolder(const fs::path& a, const fs::path& b) {
-  std::error_code error;
-  return a.parent_path() == b.parent_path() ||
-         fs::weakly_canonical(a, error).parent_path() == fs::weakly_canonical(b, error).parent_path();
 }
 
 // Sets the models' paths for a scene in `file`. Keeps those that are still right as the user wrote them.
 void nameModels(const Scene& loaded, std::span<const Mesh> meshes, const fs::path& file, SceneContent& content) {
-  const bool moved = !sameFolder(loaded.file, file);
+  const bool moved = canonicalPath(loaded.file).parent_path() != canonicalPath(file).parent_path();
   for (size_t i = 0; i < content.objects.size(); ++i) {
     Object& object = content.objects[i];
     const int origin = content.origins.objects[i];

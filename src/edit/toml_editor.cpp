@@ -80,162 +80,10 @@ std::vector<std::string_view> elementsOf(std::string_view value) {
   return elements;
 }
 
-bool isInBraces(const toml::node& node) {
-  return node.is_table() && node.as_table()->is_inline();
-}
-
-bool isArrayOfHeaders(const toml::node& node) {
-  const toml::array* array = node.as_array();
-  return array && array->is_array_of_tables() && array->front().source().begin == array->source().begin;
-}
-
-// Says whether the node stands after an = or in brackets; other tables are made by headers and dotted keys.
-bool isValue(const toml::node& node) {
-  return node.is_table() ? isInBraces(node) : !isArrayOfHeaders(node);
-}
-
-// Says whether only headers of nested tables name the table; it then has the position of the first of them.
-bool isImplicit(const toml::table& table) {
-  return std::ranges::any_of(table, [&](const auto& entry) {
-    const bool headed = entry.second.is_table() || isArrayOfHeaders(entry.second);
-    return headed && entry.second.source().begin == table.source().begin;
-  });
-}
-
-// Calls visit(key, child) for each child; the key is null for elements.
-template <typename Visitor>
-void forEachChild(const toml::node& node, const Visitor& visit) {
-  if (const toml::table* table = node.as_table()) {
-    for (const auto& [key, child] : *table) {
-      visit(&key, child);
-    }
-  } else if (const toml::array* array = node.as_array()) {
-    for (const toml::node& child : *array) {
-      visit(nullptr, child);
-    }
-  }
-}
-
 }  // namespace
 
-TomlEditor::TomlEditor(std::string text) : text_(std::move(text)) {
-  const size_t first = text_.find('\n');
-  lineBreak_ = first != std::string::npos && first > 0 && text_[first - 1] == '\r' ? "\r\n" : "\n";
-  endsInLineBreak_ = text_.empty() || text_.back() == '\n';
-  text_ += endsInLineBreak_ ? "" : lineBreak_;
-  lines_.push_back(text_.starts_with("\xef\xbb\xbf") ? 3 : 0);
-  for (size_t i = 0; i < text_.size(); ++i) {
-    if (text_[i] == '\n') {
-      lines_.push_back(i + 1);
-    }
-  }
-  root_ = toml::parse(text_);
-  recordPlaces(root_, nullptr);
-}
-
-void TomlEditor::recordPlaces(const toml::node& node, const toml::node* list) {
-  forEachChild(node, [&](const toml::key* key, const toml::node& child) {
-    places_[&child] = {&node, key, list};
-    linedUp_ = linedUp_ || (list == nullptr && isValue(child) && statementOf(child).linedUp);
-    recordPlaces(child, isValue(child) ? &child : list);
-  });
-}
-
 const toml::table& TomlEditor::element(std::string_view list, size_t index) const {
-  return *root_.get_as<toml::array>(list)->get_as<toml::table>(index);
-}
-
-// Returns the byte at a line and column. Columns count code points.
-size_t TomlEditor::offset(const toml::source_position& position) const {
-  size_t at = lines_.at(position.line - 1);
-  for (uint32_t column = 1; column < position.column; ++column) {
-    ++at;
-    while (at < text_.size() && (static_cast<unsigned char>(text_[at]) & 0xc0) == 0x80) {
-      ++at;
-    }
-  }
-  return at;
-}
-
-// Returns the whole lines of a region, the last line break included.
-TomlEditor::TextRange TomlEditor::linesOf(const toml::source_region& region) const {
-  return {lines_.at(region.begin.line - 1), std::min(text_.find('\n', offset(region.end)), text_.size() - 1) + 1};
-}
-
-std::string_view TomlEditor::line(size_t begin) const {
-  const size_t end = std::min(text_.find('\n', begin), text_.size());
-  std::string_view line = std::string_view(text_).substr(begin, end - begin);
-  line.remove_prefix(std::min(line.find_first_not_of(" \t\r"), line.size()));
-  return line;
-}
-
-// Says whether dotted keys make the table.
-bool TomlEditor::isDotted(const toml::node& node) const {
-  return node.is_table() && !isInBraces(node) && &node != &root_ && text_[offset(node.source().begin)] != '[';
-}
-
-// Says whether the table has a header of its own, or is the file's.
-bool TomlEditor::hasHeader(const toml::node& node) const {
-  return &node == &root_ || (node.is_table() && !isInBraces(node) && !isDotted(node) && !isImplicit(*node.as_table()));
-}
-
-TomlEditor::Statement TomlEditor::statementOf(const toml::node& value) const {
-  const toml::source_region& key = places_.at(&value).key->source();
-  const TextRange lines{linesOf(key).begin, linesOf(value.source()).end};
-  const size_t keyEnd = offset(key.end);
-  const size_t equals = text_.find('=', keyEnd);
-  return {lines, equals - text_.find_first_not_of(" \t", lines.begin), equals > keyEnd + 1};
-}
-
-// Returns the statements under the table's header, or those whose dotted keys add to it, in the order of the text.
-std::vector<TomlEditor::Statement> TomlEditor::statementsOf(const toml::table& table) const {
-  std::vector<Statement> statements;
-  for (const auto& [key, child] : table) {
-    if (isValue(child)) {
-      statements.push_back(statementOf(child));
-    } else if (isDotted(child)) {
-      const std::vector<Statement> inner = statementsOf(*child.as_table());
-      statements.insert(statements.end(), inner.begin(), inner.end());
-    }
-  }
-  std::ranges::sort(statements, {}, [](const Statement& statement) { return statement.lines.begin; });
-  return statements;
-}
-
-// Returns the lines from the table's header to the last statement under it.
-TomlEditor::TextRange TomlEditor::sectionOf(const toml::table& table) const {
-  const TextRange header = &table == &root_ ? TextRange{lines_.front(), lines_.front()} : linesOf(table.source());
-  const std::vector<Statement> statements = statementsOf(table);
-  return {header.begin, statements.empty() ? header.end : statements.back().lines.end};
-}
-
-// Returns the end of a section, including comments right after it unless they belong to a header right below.
-size_t TomlEditor::contentEnd(const toml::table& table) const {
-  const size_t sectionEnd = sectionOf(table).end;
-  size_t end = sectionEnd;
-  while (end < text_.size() && line(end).starts_with('#')) {
-    end = std::min(text_.find('\n', end), text_.size() - 1) + 1;
-  }
-  return end < text_.size() && line(end).starts_with('[') ? sectionEnd : end;
-}
-
-// Returns the end of the last section in the node; 0 if it has no header.
-size_t TomlEditor::endOfTables(const toml::node& node) const {
-  size_t end = hasHeader(node) ? contentEnd(*node.as_table()) : 0;
-  forEachChild(node, [&](const toml::key*, const toml::node& child) { end = std::max(end, endOfTables(child)); });
-  return end;
-}
-
-// Returns the items of braces or brackets, which commas separate, in the order of the text: the values within, past
-// tables that dotted keys make.
-std::vector<const toml::node*> TomlEditor::itemsOf(const toml::node& list) const {
-  std::vector<const toml::node*> items;
-  forEachChild(list, [&](const toml::key*, const toml::node& child) {
-    const std::vector<const toml::node*> own = isValue(child) ? std::vector{&child} : itemsOf(child);
-    items.insert(items.end(), own.begin(), own.end());
-  });
-  std::ranges::sort(items, std::less<>(), [](const toml::node* item) { return item->source().begin; });
-  return items;
+  return *root().get_as<toml::array>(list)->get_as<toml::table>(index);
 }
 
 void TomlEditor::change(const toml::table& table, const std::vector<KeyText>& base,
@@ -275,7 +123,7 @@ void TomlEditor::changeKey(const toml::table& table, const std::vector<KeyText>&
 }
 
 void TomlEditor::setValue(const toml::node& value, const std::string& text) {
-  edits_.push_back({{offset(value.source().begin), offset(value.source().end)}, text});
+  edits_.push_back({toml_.rangeOf(value), text});
 }
 
 // Leaves the numbers of an array that did not change as they are written.
@@ -300,9 +148,9 @@ std::string TomlEditor::wrappedPoints(std::string_view value, size_t before) con
   if (!value.starts_with("[[") || before + value.size() <= kLongestLine) {
     return std::string(value);
   }
-  std::string text = "[" + lineBreak_;
+  std::string text = "[" + toml_.lineBreak();
   for (const std::string_view point : elementsOf(value)) {
-    text.append("  ").append(point).append(",").append(lineBreak_);
+    text.append("  ").append(point).append(",").append(toml_.lineBreak());
   }
   return text + "]";
 }
@@ -312,37 +160,37 @@ void TomlEditor::addKey(const toml::table& table, const std::string& key, const 
     lists_[&table].added.push_back(keyValue(key, 0, text));
     return;
   }
-  const bool headed = hasHeader(table);
+  const bool headed = toml_.hasHeader(table);
   // The key of a table without a header becomes a dotted one: below the table's others, or else in the table around it.
-  if (!headed && (!isDotted(table) || places_.at(&table).list)) {
-    const Place& place = places_.at(&table);
+  if (!headed && (!toml_.isDotted(table) || toml_.placeOf(table).list)) {
+    const TomlLayout::Place& place = toml_.placeOf(table);
     return addKey(*place.within->as_table(), tomlKey(place.key->str()) + "." + key, text);
   }
   std::string name = key;
-  for (const toml::node* outer = &table; isDotted(*outer); outer = places_.at(outer).within) {
-    name = tomlKey(places_.at(outer).key->str()) + "." + name;
+  for (const toml::node* outer = &table; toml_.isDotted(*outer); outer = toml_.placeOf(*outer).within) {
+    name = tomlKey(toml_.placeOf(*outer).key->str()) + "." + name;
   }
-  const std::vector<Statement> statements = statementsOf(table);
-  const size_t at = headed ? sectionOf(table).end : statements.back().lines.end;
+  const std::vector<TomlLayout::Statement> statements = toml_.statementsOf(table);
+  const size_t at = headed ? toml_.sectionOf(table).end : statements.back().lines.end;
   std::string indent;
   if (!statements.empty()) {
     const size_t begin = statements.back().lines.begin;
-    indent = text_.substr(begin, text_.find_first_not_of(" \t", begin) - begin);
+    indent = toml_.text().substr(begin, toml_.text().find_first_not_of(" \t", begin) - begin);
   }
-  const bool linedUp = headed && std::ranges::any_of(statements, &Statement::linedUp);
+  const bool linedUp = headed && std::ranges::any_of(statements, &TomlLayout::Statement::linedUp);
   const size_t width = linedUp ? statements.back().keyWidth : 0;
   const std::string value = wrappedPoints(text, indent.size() + std::max(width, name.size() + 1) + 2);
-  edits_.push_back({{at, at}, indent + keyValue(name, width, value) + lineBreak_});
+  edits_.push_back({{at, at}, indent + keyValue(name, width, value) + toml_.lineBreak()});
 }
 
 void TomlEditor::remove(const toml::node& node) {
-  const Place& place = places_.at(&node);
+  const TomlLayout::Place& place = toml_.placeOf(node);
   if (isValue(node) && place.list) {
     lists_[place.list].removed.insert(&node);
   } else if (isValue(node)) {
-    edits_.push_back({statementOf(node).lines, ""});
+    edits_.push_back({toml_.statementOf(node).lines, ""});
   } else {
-    const bool headed = hasHeader(node);
+    const bool headed = toml_.hasHeader(node);
     if (headed) {
       removeSection(*node.as_table());
     }
@@ -356,43 +204,43 @@ void TomlEditor::remove(const toml::node& node) {
 }
 
 void TomlEditor::removeSection(const toml::table& table) {
-  const auto lineBefore = [&](size_t at) { return at < 2 ? 0 : text_.rfind('\n', at - 2) + 1; };
-  size_t begin = sectionOf(table).begin;
-  while (begin > 0 && line(lineBefore(begin)).starts_with('#')) {
+  const auto lineBefore = [&](size_t at) { return at < 2 ? 0 : toml_.text().rfind('\n', at - 2) + 1; };
+  size_t begin = toml_.sectionOf(table).begin;
+  while (begin > 0 && toml_.line(lineBefore(begin)).starts_with('#')) {
     begin = lineBefore(begin);
   }
-  while (begin > 0 && line(lineBefore(begin)).empty()) {
+  while (begin > 0 && toml_.line(lineBefore(begin)).empty()) {
     begin = lineBefore(begin);
   }
-  edits_.push_back({{begin, contentEnd(table)}, ""});
+  edits_.push_back({{begin, toml_.contentEnd(table)}, ""});
 }
 
 void TomlEditor::addBlock(size_t at, const std::string& header, const std::vector<KeyText>& keys) {
   const auto lines = statements(keys);
   size_t width = 0;
   for (const auto& [key, value] : lines) {
-    width = std::max(width, linedUp_ ? key.size() + 1 : 0);
+    width = std::max(width, toml_.linedUp() ? key.size() + 1 : 0);
   }
-  std::string text = lineBreak_ + header + lineBreak_;
+  std::string text = toml_.lineBreak() + header + toml_.lineBreak();
   for (const auto& [key, value] : lines) {
-    text += keyValue(key, width, wrappedPoints(value, std::max(width, key.size() + 1) + 2)) + lineBreak_;
+    text += keyValue(key, width, wrappedPoints(value, std::max(width, key.size() + 1) + 2)) + toml_.lineBreak();
   }
-  const bool blankBelow = at == text_.size() || line(at).empty();
-  edits_.push_back({{at, at}, text + (blankBelow ? "" : lineBreak_), true});
+  const bool blankBelow = at == toml_.text().size() || toml_.line(at).empty();
+  edits_.push_back({{at, at}, text + (blankBelow ? "" : toml_.lineBreak()), true});
 }
 
 void TomlEditor::addSection(const std::string& name, const std::vector<std::string>& after,
                             const std::vector<KeyText>& keys) {
-  size_t at = sectionOf(root_).end;
+  size_t at = toml_.sectionOf(root()).end;
   for (const std::string& other : after) {
-    const toml::node* table = root_.get(other);
-    at = std::max(at, table != nullptr ? endOfTables(*table) : 0);
+    const toml::node* table = root().get(other);
+    at = std::max(at, table != nullptr ? toml_.endOfTables(*table) : 0);
   }
   addBlock(at, "[" + name + "]", keys);
 }
 
 void TomlEditor::addElement(const std::string& list, const std::vector<KeyText>& keys) {
-  const toml::node* known = root_.get(list);
+  const toml::node* known = root().get(list);
   if (known != nullptr && isValue(*known)) {
     std::vector<std::string> items;
     for (const auto& [key, value] : statements(keys)) {
@@ -401,29 +249,21 @@ void TomlEditor::addElement(const std::string& list, const std::vector<KeyText>&
     lists_[known].added.push_back(inBraces(items));
     return;
   }
-  addBlock(known != nullptr ? endOfTables(*known) : text_.size(), "[[" + list + "]]", keys);
-}
-
-// Returns the end of the comma behind an item that ends at `at`, past blanks and comments; `at` if there is none.
-size_t TomlEditor::commaEnd(size_t at) const {
-  size_t comma = text_.find_first_not_of(" \t\r\n", at);
-  while (text_[comma] == '#') {
-    comma = text_.find_first_not_of(" \t\r\n", text_.find('\n', comma));
-  }
-  return text_[comma] == ',' ? comma + 1 : at;
+  addBlock(known != nullptr ? toml_.endOfTables(*known) : toml_.text().size(), "[[" + list + "]]", keys);
 }
 
 // Removes a run of items with the comma behind it, or at the end of the list with the comma before it. A list that
 // becomes empty loses all commas, since none may stand there alone.
 void TomlEditor::resolve(const toml::node& list, const ListChange& change, std::vector<Edit>& edits) const {
-  const std::vector<const toml::node*> items = itemsOf(list);
-  std::vector<TextRange> ranges;
-  size_t end = offset(list.source().begin) + 1;
+  const std::vector<const toml::node*> items = toml_.itemsOf(list);
+  std::vector<TomlLayout::TextRange> ranges;
+  size_t end = toml_.rangeOf(list).begin + 1;
   for (const toml::node* item : items) {
     // Keys in braces begin behind the brace or the comma.
-    const size_t begin = list.is_table() ? text_.find_first_not_of(" \t,", end) : offset(item->source().begin);
-    end = offset(item->source().end);
-    ranges.push_back({begin, end});
+    const size_t key = toml_.text().find_first_not_of(" \t,", end);
+    ranges.push_back(toml_.rangeOf(*item));
+    ranges.back().begin = list.is_table() ? key : ranges.back().begin;
+    end = ranges.back().end;
   }
   const auto removed = [&](size_t i) { return change.removed.contains(items[i]); };
   bool kept = false;
@@ -439,14 +279,14 @@ void TomlEditor::resolve(const toml::node& list, const ListChange& change, std::
     const bool last = i + 1 == items.size();
     const bool emptied = last && first == 0 && change.added.empty();
     const size_t begin = last && first > 0 ? ranges[first - 1].end : ranges[first].begin;
-    edits.push_back({{begin, emptied ? commaEnd(end) : last ? end : ranges[i + 1].begin}, ""});
+    edits.push_back({{begin, emptied ? toml_.commaEnd(end) : last ? end : ranges[i + 1].begin}, ""});
   }
   std::string added;
   for (const std::string& item : change.added) {
     added += (kept ? ", " : added.empty() ? " " : ", ") + item;
   }
   if (!added.empty()) {
-    const bool closes = items.empty() && text_[end] != ' ';
+    const bool closes = items.empty() && toml_.text()[end] != ' ';
     edits.push_back({{end, end}, added + (closes ? " " : "")});
   }
 }
@@ -470,14 +310,14 @@ std::string TomlEditor::text() const {
     if (edit.range.begin < at) {
       throw std::logic_error("changes of a text overlap");
     }
-    result.append(text_, at, edit.range.begin - at);
-    const bool blankAbove = result.ends_with(lineBreak_ + lineBreak_);
-    result.append(edit.text, edit.block && blankAbove ? lineBreak_.size() : 0);
+    result.append(toml_.text(), at, edit.range.begin - at);
+    const bool blankAbove = result.ends_with(toml_.lineBreak() + toml_.lineBreak());
+    result.append(edit.text, edit.block && blankAbove ? toml_.lineBreak().size() : 0);
     at = edit.range.end;
   }
-  result.append(text_, at);
-  if (!endsInLineBreak_ && result.ends_with(lineBreak_)) {
-    result.resize(result.size() - lineBreak_.size());
+  result.append(toml_.text(), at);
+  if (!toml_.endsInLineBreak() && result.ends_with(toml_.lineBreak())) {
+    result.resize(result.size() - toml_.lineBreak().size());
   }
   return result;
 }

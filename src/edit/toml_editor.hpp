@@ -1,15 +1,13 @@
 #pragma once
 
-#include <toml++/toml.h>
-
 #include <map>
-#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "edit/scene_keys.hpp"
+#include "edit/toml_layout.hpp"
 
 namespace speculum {
 
@@ -18,9 +16,9 @@ namespace speculum {
 class TomlEditor {
  public:
   // `text` must have been parsed without an error.
-  explicit TomlEditor(std::string text);
+  explicit TomlEditor(std::string text) : toml_(std::move(text)) {}
 
-  const toml::table& root() const { return root_; }
+  const toml::table& root() const { return toml_.root(); }
   // Element of the file's array `list`, which is one of tables.
   const toml::table& element(std::string_view list, size_t index) const;
 
@@ -40,13 +38,8 @@ class TomlEditor {
   std::string text() const;
 
  private:
-  // Bytes of the text, the last one excluded.
-  struct TextRange {
-    size_t begin = 0;
-    size_t end = 0;
-  };
   struct Edit {
-    TextRange range;
+    TomlLayout::TextRange range;
     std::string text;
     bool block = false;  // begins with a blank line
   };
@@ -55,34 +48,6 @@ class TomlEditor {
     std::set<const toml::node*> removed;
     std::vector<std::string> added;
   };
-  // Where the tree has a node.
-  struct Place {
-    const toml::node* within = nullptr;  // table or array
-    const toml::key* key = nullptr;      // in that table
-    const toml::node* list = nullptr;    // the braces or brackets around the node, if there are any
-  };
-  // `key = value` on lines of its own.
-  struct Statement {
-    TextRange lines;
-    size_t keyWidth = 0;   // bytes from the key to its =
-    bool linedUp = false;  // the key is padded, so that the = of several keys stand below each other
-  };
-
-  void recordPlaces(const toml::node& node, const toml::node* list);
-  size_t offset(const toml::source_position& position) const;
-  TextRange linesOf(const toml::source_region& region) const;
-  std::string_view line(size_t begin) const;
-
-  bool isDotted(const toml::node& node) const;
-  bool hasHeader(const toml::node& node) const;
-  Statement statementOf(const toml::node& value) const;
-  std::vector<Statement> statementsOf(const toml::table& table) const;
-  TextRange sectionOf(const toml::table& table) const;
-  size_t contentEnd(const toml::table& table) const;
-  size_t endOfTables(const toml::node& node) const;
-  std::vector<const toml::node*> itemsOf(const toml::node& list) const;
-  size_t commaEnd(size_t at) const;
-
   void changeKey(const toml::table& table, const std::vector<KeyText>& base, const KeyText& key);
   void replaceChangedNumbers(const toml::node& value, std::string_view base, std::string_view edited);
   std::string wrappedPoints(std::string_view value, size_t before) const;
@@ -90,13 +55,7 @@ class TomlEditor {
   void addBlock(size_t at, const std::string& header, const std::vector<KeyText>& keys);
   void resolve(const toml::node& list, const ListChange& change, std::vector<Edit>& edits) const;
 
-  std::string text_;
-  bool endsInLineBreak_ = true;
-  std::string lineBreak_ = "\n";
-  std::vector<size_t> lines_;  // where each begins
-  toml::table root_;
-  std::map<const toml::node*, Place> places_;
-  bool linedUp_ = false;  // some statement is
+  TomlLayout toml_;
   std::vector<Edit> edits_;
   std::map<const toml::node*, ListChange> lists_;
 };

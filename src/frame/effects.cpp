@@ -1,7 +1,7 @@
 #include "frame/effects.hpp"
 
 #include <algorithm>
-#include <array>
+#include <map>
 #include <set>
 
 #include "frame/scene_names.hpp"
@@ -42,19 +42,20 @@ Effect fresnel(const Scene& scene, const SceneState& state, const Settings& sett
     const int object = state.instances[i].object;
     const std::optional<ObjectMirror>& mirror = scene.objects[object].mirror;
     if (settings.effects.curved && mirror && isSchlick(mirror->fresnel, settings.effects)) {
-      return {"fresnel", true, nameOf("object", scene.objects[object].name, object)};
+      return {EffectKind::fresnel, "fresnel", true, nameOf("object", scene.objects[object].name, object)};
     }
   }
   for (const int i : visible.mirrorFronts) {
     if (isSchlick(scene.mirrors[i].fresnel, settings.effects)) {
-      return {"fresnel", true, nameOf("mirror", scene.mirrors[i].name, i)};
+      return {EffectKind::fresnel, "fresnel", true, nameOf("mirror", scene.mirrors[i].name, i)};
     }
   }
-  return {"fresnel", false, "no visible mirror asks for it"};
+  return {EffectKind::fresnel, "fresnel", false, "no visible mirror asks for it"};
 }
 
-Effect tracedEffect(const std::string& name, const std::optional<std::string>& caller, const std::string& otherwise) {
-  return {name, caller.has_value(), caller.value_or(otherwise)};
+Effect tracedEffect(EffectKind kind, const std::string& name, const std::optional<std::string>& caller,
+                    const std::string& otherwise) {
+  return {kind, name, caller.has_value(), caller.value_or(otherwise)};
 }
 
 Effect textures(const Scene& scene, const SceneState& state, const Settings& settings, const Visible& visible) {
@@ -63,51 +64,49 @@ Effect textures(const Scene& scene, const SceneState& state, const Settings& set
     const Mesh& mesh = scene.meshes[instance.mesh];
     for (const MeshPart& part : mesh.parts) {
       if (part.material.diffuseTexture >= 0) {
-        return {"textures", true,
+        return {EffectKind::textures, "textures", true,
                 nameOf("object", scene.objects[instance.object].name, instance.object) + " with " +
                     mesh.source.filename().string()};
       }
     }
   }
-  return {"textures", false, "no visible object has one"};
+  return {EffectKind::textures, "textures", false, "no visible object has one"};
 }
 
 Effect glyphs(const Scene& scene, const Visible& visible) {
   if (visible.lights.empty()) {
-    return {"glyphs", false, "no light's glyph is in view"};
+    return {EffectKind::glyphs, "glyphs", false, "no light's glyph is in view"};
   }
   const int first = *visible.lights.begin();
-  return {"glyphs", true, nameOf("light", scene.lights[first].name, first)};
+  return {EffectKind::glyphs, "glyphs", true, nameOf("light", scene.lights[first].name, first)};
 }
 
 Effect multisampling(const Settings& settings, const FramePlan& plan) {
   if (settings.view.samples > 1) {
-    return {"msaa", true, "view.samples = " + std::to_string(settings.view.samples)};
+    return {EffectKind::msaa, "msaa", true, "view.samples = " + std::to_string(settings.view.samples)};
   }
   if (settings.reflection.samples > 1 && (!plan.passes.empty() || !plan.cached.empty())) {
-    return {"msaa", true, "reflection.samples = " + std::to_string(settings.reflection.samples)};
+    return {EffectKind::msaa, "msaa", true, "reflection.samples = " + std::to_string(settings.reflection.samples)};
   }
-  return {"msaa", false, "one sample a pixel"};
+  return {EffectKind::msaa, "msaa", false, "one sample a pixel"};
 }
 
 }  // namespace
 
-std::vector<SettingChange> settingsWithout(EffectKind effect) {
-  using Changes = std::vector<SettingChange>;
-  // In the order of EffectKind.
-  static const auto changes = std::to_array<Changes>({{{"effects.shadows", "false"}},
-                                                      {{"effects.roughness", "false"}},
-                                                      {{"effects.ripple", "false"}},
-                                                      {{"effects.casts_light", "false"}},
-                                                      {{"effects.fresnel", "false"}},
-                                                      {{"effects.textures", "false"}},
-                                                      {{"view.samples", "1"}, {"reflection.samples", "1"}},
-                                                      {{"view.tone_map", "clamp"}},
-                                                      {{"effects.glyphs", "false"}},
-                                                      {{"view.wireframe", "false"}},
-                                                      {{"effects.curved", "false"}}});
-  static_assert(std::tuple_size_v<decltype(changes)> == static_cast<size_t>(EffectKind::count));
-  return changes.at(static_cast<size_t>(effect));
+const std::vector<SettingChange>& settingsWithout(EffectKind effect) {
+  static const std::map<EffectKind, std::vector<SettingChange>> changes{
+      {EffectKind::shadows, {{"effects.shadows", "false"}}},
+      {EffectKind::roughness, {{"effects.roughness", "false"}}},
+      {EffectKind::ripple, {{"effects.ripple", "false"}}},
+      {EffectKind::castsLight, {{"effects.casts_light", "false"}}},
+      {EffectKind::fresnel, {{"effects.fresnel", "false"}}},
+      {EffectKind::textures, {{"effects.textures", "false"}}},
+      {EffectKind::msaa, {{"view.samples", "1"}, {"reflection.samples", "1"}}},
+      {EffectKind::toneMap, {{"view.tone_map", "clamp"}}},
+      {EffectKind::glyphs, {{"effects.glyphs", "false"}}},
+      {EffectKind::wireframe, {{"view.wireframe", "false"}}},
+      {EffectKind::curved, {{"effects.curved", "false"}}}};
+  return changes.at(effect);
 }
 
 bool drawsTextures(const Scene& scene, const SceneState& state, const Settings& settings, const FramePlan& plan) {
@@ -120,17 +119,18 @@ std::vector<Effect> effectsOf(const Scene& scene, const SceneState& state, const
   const TracedEffects& traced = plan.effects;
   const bool aces = settings.view.toneMap == ToneMap::aces;
   const bool wire = settings.view.wireframe;
-  return {tracedEffect("shadows", traced.shadows, "no light casts them on what is drawn"),
-          tracedEffect("roughness", traced.roughness, "no visible mirror is rough"),
-          tracedEffect("ripple", traced.ripple, "no visible mirror has ripples"),
-          tracedEffect("casts_light", traced.castsLight, "no mirror casts light on what is drawn"),
-          fresnel(scene, state, settings, visible),
-          textures(scene, state, settings, visible),
-          multisampling(settings, plan),
-          {"tone_map", aces, aces ? "view.tone_map = aces" : "view.tone_map = clamp"},
-          glyphs(scene, visible),
-          {"wireframe", wire, wire ? "view.wireframe = true" : "view.wireframe = false"},
-          tracedEffect("curved", traced.curved, "no visible object is a mirror")};
+  return {
+      tracedEffect(EffectKind::shadows, "shadows", traced.shadows, "no light casts them on what is drawn"),
+      tracedEffect(EffectKind::roughness, "roughness", traced.roughness, "no visible mirror is rough"),
+      tracedEffect(EffectKind::ripple, "ripple", traced.ripple, "no visible mirror has ripples"),
+      tracedEffect(EffectKind::castsLight, "casts_light", traced.castsLight, "no mirror casts light on what is drawn"),
+      fresnel(scene, state, settings, visible),
+      textures(scene, state, settings, visible),
+      multisampling(settings, plan),
+      {EffectKind::toneMap, "tone_map", aces, aces ? "view.tone_map = aces" : "view.tone_map = clamp"},
+      glyphs(scene, visible),
+      {EffectKind::wireframe, "wireframe", wire, wire ? "view.wireframe = true" : "view.wireframe = false"},
+      tracedEffect(EffectKind::curved, "curved", traced.curved, "no visible object is a mirror")};
 }
 
 }  // namespace speculum

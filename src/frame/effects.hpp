@@ -25,6 +25,7 @@ enum class EffectKind {
 
 // An effect. `why` names what visible thing calls for it, or says why nothing does.
 struct Effect {
+  EffectKind kind = EffectKind::count;
   std::string name;
   bool calledFor = false;
   std::string why;
@@ -38,12 +39,12 @@ struct EffectCost {
 };
 
 // Returns the settings (at least one) that leave an effect out of the picture.
-std::vector<SettingChange> settingsWithout(EffectKind effect);
+const std::vector<SettingChange>& settingsWithout(EffectKind effect);
 
 // Says whether an object with a texture is drawn, or seen in a cached image.
 bool drawsTextures(const Scene& scene, const SceneState& state, const Settings& settings, const FramePlan& plan);
 
-// Returns all effects, in the order of EffectKind.
+// Returns all effects, in a fixed order.
 std::vector<Effect> effectsOf(const Scene& scene, const SceneState& state, const Settings& settings,
                               const FramePlan& plan);
 

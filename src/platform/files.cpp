@@ -113,39 +113,10 @@ int descriptorNamed(fs::path file) {
   return -1;
 }
 
-}  // namespace
-
-FileError::FileError(const fs::path& file, std::string problem, const std::string& remedy)
-    : std::runtime_error(file.string() + ": " + problem + " (" + remedy + ")"), problem_(std::move(problem)) {}
-
-std::vector<uint8_t> readFile(const fs::path& file, uintmax_t most) {
-  return read<std::vector<uint8_t>>(file, most);
-}
-
-std::string readText(const fs::path& file, uintmax_t most) {
-  return read<std::string>(file, most);
-}
-
-std::optional<std::vector<uint8_t>> readFileIfAny(const fs::path& file) {
-  try {
-    return readFile(file);
-  } catch (const FileError&) {
-    return std::nullopt;
-  }
-}
-
-std::string readTextIfAny(const fs::path& file) {
-  const std::vector<uint8_t> content = readFileIfAny(file).value_or(std::vector<uint8_t>());
-  return {content.begin(), content.end()};
-}
-
-namespace {
-
 void replace(const fs::path& file, std::span<const uint8_t> content, bool lasting) {
   std::error_code error;
   if (const int own = descriptorNamed(file); own >= 0) {
-    writeAndClose(::dup(own), file, content, false);
-    return;
+    return writeAndClose(::dup(own), file, content, false);
   }
   const fs::path target = behindLinks(file);
   const fs::path folder = folderOf(target);
@@ -163,8 +134,7 @@ void replace(const fs::path& file, std::span<const uint8_t> content, bool lastin
     if (descriptor < 0) {
       failToWrite(file, errno);
     }
-    writeAndClose(descriptor, file, content, false);
-    return;
+    return writeAndClose(descriptor, file, content, false);
   }
   fs::path partial;
   int descriptor = -1;
@@ -192,6 +162,30 @@ void replace(const fs::path& file, std::span<const uint8_t> content, bool lastin
 }
 
 }  // namespace
+
+FileError::FileError(const fs::path& file, std::string problem, const std::string& remedy)
+    : std::runtime_error(file.string() + ": " + problem + " (" + remedy + ")"), problem_(std::move(problem)) {}
+
+std::vector<uint8_t> readFile(const fs::path& file, uintmax_t most) {
+  return read<std::vector<uint8_t>>(file, most);
+}
+
+std::string readText(const fs::path& file, uintmax_t most) {
+  return read<std::string>(file, most);
+}
+
+std::optional<std::vector<uint8_t>> readFileIfAny(const fs::path& file) {
+  try {
+    return readFile(file);
+  } catch (const FileError&) {
+    return std::nullopt;
+  }
+}
+
+std::string readTextIfAny(const fs::path& file) {
+  const std::vector<uint8_t> content = readFileIfAny(file).value_or(std::vector<uint8_t>());
+  return {content.begin(), content.end()};
+}
 
 void replaceFile(const fs::path& file, std::span<const uint8_t> content) {
   replace(file, content, true);
@@ -246,17 +240,14 @@ fs::path wholePath(const fs::path& path) {
   return whole.empty() ? path : whole;
 }
 
+fs::path canonicalPath(const fs::path& path) {
+  std::error_code none;
+  return fs::weakly_canonical(path, none);
+}
+
 bool isWritable(const fs::path& file) {
   std::error_code ignored;
   return ::access((fs::exists(file, ignored) ? file : folderOf(file)).c_str(), W_OK) == 0;
-}
-
-std::optional<double> modificationTime(const fs::path& file) {
-  struct stat status {};
-  if (::stat(file.c_str(), &status) != 0) {
-    return std::nullopt;
-  }
-  return static_cast<double>(status.st_mtim.tv_sec) + 1e-9 * static_cast<double>(status.st_mtim.tv_nsec);
 }
 
 TemporaryDirectory::TemporaryDirectory() {

@@ -48,10 +48,9 @@ bool isFile(const std::filesystem::path& path);
 bool isFolder(const std::filesystem::path& path);
 // Returns the path from the root on, or the path itself if the working folder was deleted.
 std::filesystem::path wholePath(const std::filesystem::path& path);
+// Returns the path from the root on with all links followed; empty if that fails.
+std::filesystem::path canonicalPath(const std::filesystem::path& path);
 bool isWritable(const std::filesystem::path& file);  // the folder of a file that does not exist
-
-// Seconds since an arbitrary epoch with sub-second resolution; nothing for a file that does not exist.
-std::optional<double> modificationTime(const std::filesystem::path& file);
 
 // A folder of this process, removed with its content on destruction.
 class TemporaryDirectory {

@@ -179,6 +179,7 @@ Window::Window(const WindowOptions& options) {
 }
 
 Window::~Window() {
+  listener_ = {};  // what it calls may be gone
   std::erase(openWindows(), this);
 }
 
@@ -196,7 +197,7 @@ void Window::installCallbacks() {
                             [](GLFWwindow* w, int width, int height) { of(w)->size_ = extentOf(width, height); });
   glfwSetWindowRefreshCallback(window_.get(), [](GLFWwindow* w) { of(w)->active_ = true; });
   glfwSetWindowFocusCallback(window_.get(), [](GLFWwindow* w, int focused) {
-    of(w)->tell({.kind = InputEvent::Kind::focus, .down = focused == GLFW_TRUE});
+    of(w)->notify({.kind = InputEvent::Kind::focus, .down = focused == GLFW_TRUE});
   });
   glfwSetWindowIconifyCallback(window_.get(), [](GLFWwindow* w, int iconified) {
     of(w)->iconified_ = iconified == GLFW_TRUE;
@@ -204,10 +205,10 @@ void Window::installCallbacks() {
   });
   glfwSetWindowCloseCallback(window_.get(), [](GLFWwindow* w) { of(w)->active_ = true; });
   glfwSetCursorEnterCallback(window_.get(), [](GLFWwindow* w, int entered) {
-    of(w)->tell({.kind = InputEvent::Kind::enter, .down = entered == GLFW_TRUE});
+    of(w)->notify({.kind = InputEvent::Kind::enter, .down = entered == GLFW_TRUE});
   });
   glfwSetCharCallback(window_.get(), [](GLFWwindow* w, unsigned character) {
-    of(w)->tell({.kind = InputEvent::Kind::text, .code = static_cast<int>(character)});
+    of(w)->notify({.kind = InputEvent::Kind::text, .code = static_cast<int>(character)});
   });
   glfwSetWindowContentScaleCallback(window_.get(), [](GLFWwindow* w, float x, float) { of(w)->followContentScale(x); });
   glfwSetMonitorCallback([](GLFWmonitor*, int) {
@@ -216,46 +217,34 @@ void Window::installCallbacks() {
     }
   });
   glfwSetKeyCallback(window_.get(), [](GLFWwindow* w, int code, int scancode, int action, int modifiers) {
-    of(w)->active_ = true;
     // Copies the name, because the next call of glfwGetKeyName may overwrite it.
     const std::string printed(printedOn(code, scancode));
-    if (const auto& key = of(w)->callbacks_.key) {
-      const bool control = (modifiers & GLFW_MOD_CONTROL) != 0;
-      key({meaningOfKey(static_cast<Key>(code), printed, control, printedWhereFlying()), action != GLFW_RELEASE,
-           action == GLFW_REPEAT, (modifiers & GLFW_MOD_SHIFT) != 0, control});
-    }
-    if (action != GLFW_REPEAT) {  // the panels repeat by themselves
-      of(w)->tell({.kind = InputEvent::Kind::key,
+    const bool control = (modifiers & GLFW_MOD_CONTROL) != 0;
+    of(w)->notify({.kind = InputEvent::Kind::key,
                    .code = meantCode(code, printed),
-                   .down = action == GLFW_PRESS,
-                   .command = isCommand(code, modifiers)});
-    }
+                   .down = action != GLFW_RELEASE,
+                   .command = isCommand(code, modifiers),
+                   .key = {meaningOfKey(static_cast<Key>(code), printed, control, printedWhereFlying()),
+                           action != GLFW_RELEASE, action == GLFW_REPEAT, (modifiers & GLFW_MOD_SHIFT) != 0, control}});
   });
   glfwSetMouseButtonCallback(window_.get(), [](GLFWwindow* w, int button, int action, int modifiers) {
-    const auto& mouseButton = of(w)->callbacks_.mouseButton;
-    if (mouseButton && button <= GLFW_MOUSE_BUTTON_MIDDLE) {
-      mouseButton({static_cast<MouseButton>(button), action == GLFW_PRESS, (modifiers & GLFW_MOD_SHIFT) != 0});
-    }
-    of(w)->tell({.kind = InputEvent::Kind::button, .code = button, .down = action == GLFW_PRESS});
+    of(w)->notify({.kind = InputEvent::Kind::button,
+                   .code = button,
+                   .down = action == GLFW_PRESS,
+                   .shift = (modifiers & GLFW_MOD_SHIFT) != 0});
   });
   glfwSetCursorPosCallback(window_.get(), [](GLFWwindow* w, double x, double y) {
-    if (const auto& cursor = of(w)->callbacks_.cursor) {
-      cursor(x, y);
-    }
-    of(w)->tell({.kind = InputEvent::Kind::pointer, .x = x, .y = y});
+    of(w)->notify({.kind = InputEvent::Kind::pointer, .x = x, .y = y});
   });
   glfwSetDropCallback(window_.get(), [](GLFWwindow* w, int count, const char** names) {
     of(w)->dropFiles({names, names + count});
   });
   glfwSetScrollCallback(window_.get(), [](GLFWwindow* w, double dx, double dy) {
-    if (const auto& scroll = of(w)->callbacks_.scroll) {
-      scroll(dx, dy);
-    }
-    of(w)->tell({.kind = InputEvent::Kind::wheel, .x = dx, .y = dy});
+    of(w)->notify({.kind = InputEvent::Kind::wheel, .x = dx, .y = dy});
   });
 }
 
-void Window::tell(const InputEvent& event) {
+void Window::notify(const InputEvent& event) {
   active_ = true;
   if (listener_) {
     listener_(event);
@@ -403,10 +392,7 @@ std::string Window::clipboard() const {
 }
 
 void Window::dropFiles(const std::vector<std::filesystem::path>& files) {
-  active_ = true;
-  if (callbacks_.drop) {
-    callbacks_.drop(files);
-  }
+  notify({.kind = InputEvent::Kind::drop, .dropped = files});
 }
 
 std::vector<const char*> Window::requiredInstanceExtensions() const {

@@ -9,59 +9,15 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "platform/gamepad.hpp"
+#include "platform/keys.hpp"
 
 struct GLFWwindow;
 
 namespace speculum {
-
-// Keys with a meaning in the program, by GLFW's codes; keys that print something have the code of that character.
-enum class Key {
-  unknown = -1,
-  space = ' ',
-  comma = ',',
-  period = '.',
-  a = 'A',
-  b,
-  d = 'D',
-  e,
-  f,
-  g,
-  m = 'M',
-  n,
-  o,
-  q = 'Q',
-  r,
-  s,
-  w = 'W',
-  y = 'Y',
-  z,
-  leftBracket = '[',
-  rightBracket = ']',
-  escape = 256,
-  enter,
-  tab,
-  del = 261,
-  f1 = 290,
-  f2,
-  f10 = 299,
-  f11,
-  f12,
-  leftShift = 340,
-  leftControl,
-  rightShift = 344,
-  rightControl
-};
-// Returns the meaning of the key at `place` of an American keyboard with the character `printed` on it (empty: none or
-// unknown). The six keys that fly are identified by their place; all others, and all keys with Control, by their
-// character, or by their place if the character is not Latin. `printedWhereFlying` are the characters on the six fly
-// keys: a shortcut whose character is one of them has the key that it has on an American keyboard, unless another
-// shortcut is printed on that key.
-Key meaningOfKey(Key place, std::string_view printed, bool control, std::string_view printedWhereFlying);
 
 enum class MouseButton { left, right, middle };
 
@@ -78,25 +34,17 @@ struct MouseButtonEvent {
   bool shift = false;
 };
 
-// An event as the panels take it.
 struct InputEvent {
-  enum class Kind { key, text, button, pointer, wheel, focus, enter };
+  enum class Kind { key, text, button, pointer, wheel, focus, enter, drop };
   Kind kind = Kind::key;
   int code = 0;          // GLFW's of the key, by its printed letter, or of the button; the character
   bool down = false;     // of key and button; the window has the focus, or the pointer is in it
   bool command = false;  // a key without a character that is no modifier, or any key with Control or Alt
-  double x = 0.0;        // of pointer (screen coordinates) and wheel (notches)
+  double x = 0.0;        // of pointer (screen coordinates of the window, origin top left) and wheel (notches)
   double y = 0.0;
-};
-
-// Functions that the window calls on events; empty ones are skipped. Positions are in screen coordinates of the window,
-// origin top left.
-struct WindowCallbacks {
-  std::function<void(const KeyEvent&)> key;
-  std::function<void(const MouseButtonEvent&)> mouseButton;
-  std::function<void(double x, double y)> cursor;
-  std::function<void(double dx, double dy)> scroll;
-  std::function<void(const std::vector<std::filesystem::path>& files)> drop;
+  KeyEvent key;                                // of a key, for shortcuts
+  bool shift = false;                          // of a button: Shift was held
+  std::vector<std::filesystem::path> dropped;  // files
 };
 
 struct WindowOptions {
@@ -165,8 +113,7 @@ class Window {
   void setTitle(const std::string& title);
   void setClipboard(const std::string& text);
   std::string clipboard() const;  // empty if it holds no text
-  void setCallbacks(WindowCallbacks callbacks) { callbacks_ = std::move(callbacks); }
-  // Calls `listener` with every event, after the callbacks; an empty one ends that.
+  // Calls `listener` with every event.
   void setListener(std::function<void(const InputEvent&)> listener) { listener_ = std::move(listener); }
   // Handles files as if they had been dropped on the window.
   void dropFiles(const std::vector<std::filesystem::path>& files);
@@ -185,13 +132,12 @@ class Window {
   };
   static Window* of(GLFWwindow* window);
   void installCallbacks();
-  void tell(const InputEvent& event);
+  void notify(const InputEvent& event);
   ScreenRect place() const;
   void setPlace(const ScreenRect& place);
 
   Library library_;
   std::unique_ptr<GLFWwindow, Destroy> window_;
-  WindowCallbacks callbacks_;
   std::function<void(const InputEvent&)> listener_;
   ScreenRect windowed_;  // before full screen
   bool covers_ = false;  // covers a monitor as full screen

@@ -1,5 +1,7 @@
 #include "regress/report_page.hpp"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -84,11 +86,8 @@ std::string escapedCommand(const std::string& text, bool property) {
 std::string escapedCell(const std::string& text) {
   std::string escaped;
   for (const char c : text) {
-    if (c == '\n' || c == '\r') {
-      escaped += ' ';
-      continue;
-    }
-    escaped += c == '|' || c == '<' || c == '\\' ? std::string{'\\', c} : std::string(1, c);
+    escaped += c == '|' || c == '<' || c == '\\' ? "\\" : "";
+    escaped += c == '\n' || c == '\r' ? ' ' : c;
   }
   return escaped;
 }
@@ -158,31 +157,31 @@ std::string junitXml(const RegressRun& run) {
   for (size_t i = 0; i < run.cases.size(); ++i) {
     const Outcome& outcome = run.outcomes[i];
     seconds += outcome.seconds;
-    cases += "  <testcase classname=\"" + escapedXml(run.file.stem().string()) + "\" name=\"" +
-             escapedXml(run.cases[i].name) + "\" time=\"" + std::to_string(outcome.seconds) + "\"";
-    const std::string message = " message=\"" + escapedXml(outcome.message) + "\"";
+    const std::string message = escapedXml(outcome.message);
     std::string text;
     for (const OutcomeFigure& figure : outcome.figures) {
-      text += figure.label + ": " + figure.value + " (limit " + figure.limit + ")\n";
+      text += fmt::format("{}: {} (limit {})\n", figure.label, figure.value, figure.limit);
     }
     for (const std::string& line : outcome.log) {
       text += line + "\n";
     }
+    std::string result;
     if (outcome.verdict == Verdict::skipped) {
-      cases += "><skipped" + message + "/></testcase>\n";
+      result = fmt::format("<skipped message=\"{}\"/>", message);
     } else if (needsAttention(outcome)) {
-      const std::string element = outcome.verdict == Verdict::failed ? "failure" : "error";
-      cases += ">\n    <" + element + message + ">" + escapedXml(text) + "</" + element + ">\n  </testcase>\n";
-    } else {
-      cases += "/>\n";
+      const char* element = outcome.verdict == Verdict::failed ? "failure" : "error";
+      result = fmt::format("\n    <{0} message=\"{1}\">{2}</{0}>\n  ", element, message, escapedXml(text));
     }
+    cases += fmt::format("  <testcase classname=\"{}\" name=\"{}\" time=\"{:.6f}\">{}</testcase>\n",
+                         escapedXml(run.file.stem().string()), escapedXml(run.cases[i].name), outcome.seconds, result);
   }
-  const auto count = [&](Verdict verdict) { return "\"" + std::to_string(run.count(verdict)) + "\""; };
-  const std::string tests = "tests=\"" + std::to_string(run.cases.size()) + "\" failures=" + count(Verdict::failed);
-  return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites " + tests + " disabled=" + count(Verdict::skipped) +
-         " errors=" + count(Verdict::error) + ">\n<testsuite name=\"speculum regress\" " + tests +
-         " errors=" + count(Verdict::error) + " skipped=" + count(Verdict::skipped) + " time=\"" +
-         std::to_string(seconds) + "\">\n" + cases + "</testsuite>\n</testsuites>\n";
+  constexpr const char* report =
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+      "<testsuites tests=\"{0}\" failures=\"{1}\" disabled=\"{2}\" errors=\"{3}\">\n"
+      "<testsuite name=\"speculum regress\" tests=\"{0}\" failures=\"{1}\" errors=\"{3}\" skipped=\"{2}\" "
+      "time=\"{4:.6f}\">\n{5}</testsuite>\n</testsuites>\n";
+  return fmt::format(report, run.cases.size(), run.count(Verdict::failed), run.count(Verdict::skipped),
+                     run.count(Verdict::error), seconds, cases);
 }
 
 std::string githubErrors(const RegressRun& run) {
@@ -191,9 +190,8 @@ std::string githubErrors(const RegressRun& run) {
   std::string text;
   for (size_t i = 0; i < run.cases.size(); ++i) {
     if (needsAttention(run.outcomes[i])) {
-      text += "::error file=" + file + ",line=" + std::to_string(run.cases[i].line) +
-              ",title=" + escapedCommand(run.cases[i].name, true) +
-              "::" + escapedCommand(run.outcomes[i].message, false) + "\n";
+      text += fmt::format("::error file={},line={},title={}::{}\n", file, run.cases[i].line,
+                          escapedCommand(run.cases[i].name, true), escapedCommand(run.outcomes[i].message, false));
     }
   }
   return text;
@@ -207,8 +205,8 @@ std::string githubSummary(const RegressRun& run) {
   text += "| Case | Result | Why |\n| --- | --- | --- |\n";
   for (size_t i = 0; i < run.cases.size(); ++i) {
     if (needsAttention(run.outcomes[i])) {
-      text += "| " + escapedCell(run.cases[i].name) + " | " + verdictName(run.outcomes[i].verdict) + " | " +
-              escapedCell(run.outcomes[i].message) + " |\n";
+      text += fmt::format("| {} | {} | {} |\n", escapedCell(run.cases[i].name), verdictName(run.outcomes[i].verdict),
+                          escapedCell(run.outcomes[i].message));
     }
   }
   return text + "\n";

@@ -19,21 +19,15 @@ glm::vec2 vectorOf(VkExtent2D extent) {
 
 }  // namespace
 
-GlfwInput::GlfwInput(Window& window) : window_(window) {
-  window.setListener([this](const InputEvent& event) {
-    if (event.kind == InputEvent::Kind::focus) {
-      ImGui_ImplGlfw_WindowFocusCallback(window_.native(), event.down);
-    } else if (event.kind == InputEvent::Kind::enter) {
-      ImGui_ImplGlfw_CursorEnterCallback(window_.native(), event.down);
-    } else {
-      queue_.push(event);
-    }
-  });
-  readWindow();
-}
-
-GlfwInput::~GlfwInput() {
-  window_.setListener({});
+// Tells focus at once. Leaves repeated keys out, because the panels repeat by themselves.
+void GlfwInput::push(const InputEvent& event) {
+  if (event.kind == InputEvent::Kind::focus) {
+    ImGui_ImplGlfw_WindowFocusCallback(window_.native(), event.down);
+  } else if (event.kind == InputEvent::Kind::enter) {
+    ImGui_ImplGlfw_CursorEnterCallback(window_.native(), event.down);
+  } else if (event.kind != InputEvent::Kind::drop && !event.key.repeat) {
+    queue_.push(event);
+  }
 }
 
 void GlfwInput::give(const InputEvent& event) {
@@ -60,7 +54,8 @@ void GlfwInput::give(const InputEvent& event) {
       return ImGui_ImplGlfw_ScrollCallback(window, event.x, event.y);
     case InputEvent::Kind::focus:
     case InputEvent::Kind::enter:
-      return;  // the callbacks gave them at once
+    case InputEvent::Kind::drop:
+      return;  // push() queues none
   }
 }
 

@@ -8,15 +8,13 @@
 namespace speculum {
 
 // Passes the window's events on to Dear ImGui's GLFW backend, one step a frame, because version 1.86 reads keys,
-// buttons and pointer only once, when a frame begins. The backend must not install callbacks.
+// buttons and pointer only once, when a frame begins. The backend must not install callbacks. Call readWindow() before
+// the first frame.
 class GlfwInput {
  public:
-  // The window's callbacks are called first, without waiting for a frame.
-  explicit GlfwInput(Window& window);
-  ~GlfwInput();
-  GlfwInput(const GlfwInput&) = delete;
-  GlfwInput& operator=(const GlfwInput&) = delete;
+  explicit GlfwInput(const Window& window) : window_(window) {}
 
+  void push(const InputEvent& event);
   // Calls the backend's ImGui_ImplGlfw_NewFrame, which waits for answers of the window system: pointer shape, gamepad.
   void readWindow();
   // Gives ImGui the events and what the window knows of itself, without waiting.
@@ -26,7 +24,7 @@ class GlfwInput {
  private:
   void give(const InputEvent& event);
 
-  Window& window_;
+  const Window& window_;
   InputQueue queue_;
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
   std::array<bool, 3> buttons_{};

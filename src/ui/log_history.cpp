@@ -4,7 +4,6 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <utility>
 
@@ -25,10 +24,7 @@ class HistorySink : public spdlog::sinks::base_sink<std::mutex> {
 
  private:
   void sink_it_(const spdlog::details::log_msg& message) override {
-    const LogLevel level = message.level >= spdlog::level::err    ? LogLevel::error
-                           : message.level >= spdlog::level::warn ? LogLevel::warning
-                                                                  : LogLevel::info;
-    history_.add(level, std::string(message.payload.begin(), message.payload.end()));
+    history_.add(message.level, std::string(message.payload.begin(), message.payload.end()));
   }
   void flush_() override {}
 
@@ -39,7 +35,7 @@ class HistorySink : public spdlog::sinks::base_sink<std::mutex> {
 
 void LogHistory::add(LogLevel level, std::string text) {
   const std::lock_guard lock(mutex_);
-  if (level != LogLevel::info) {
+  if (level > LogLevel::info) {
     problem_ = text.substr(0, text.find('\n'));
   }
   lines_.push_back({level, std::move(text)});
@@ -82,15 +78,10 @@ std::shared_ptr<void> captureLog(LogHistory& history) {
           }};
 }
 
-std::string_view logLevelName(LogLevel level) {
-  static constexpr std::array<std::string_view, 3> names{"info", "warning", "error"};
-  return names[static_cast<size_t>(level)];
-}
-
 std::string logText(const std::vector<LogLine>& lines) {
   std::string text;
   for (const LogLine& line : lines) {
-    text += std::string(logLevelName(line.level)) + ": " + line.text + "\n";
+    text += fmt::format("{}: {}\n", spdlog::level::to_string_view(line.level), line.text);
   }
   return text;
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <spdlog/common.h>
+
 #include <cstdint>
 #include <deque>
 #include <memory>
@@ -10,7 +12,7 @@
 
 namespace speculum {
 
-enum class LogLevel { info, warning, error };
+using LogLevel = spdlog::level::level_enum;
 
 struct LogLine {
   LogLevel level = LogLevel::info;
@@ -39,7 +41,6 @@ class LogHistory {
 // of the log keep their level. Begin and end it while no other thread logs.
 [[nodiscard]] std::shared_ptr<void> captureLog(LogHistory& history);
 
-std::string_view logLevelName(LogLevel level);  // info, warning, error
-std::string logText(const std::vector<LogLine>& lines);
+std::string logText(const std::vector<LogLine>& lines);  // "warning: ...", each on a line
 
 }  // namespace speculum

@@ -11,11 +11,11 @@ void log(PanelContext& ui) {
   recordWidget(ui, "log.filter", "Shows only lines that contain this.");
   const float levels = 7.0f * ImGui::GetFontSize();
   continueRow("", levels);
-  int least = static_cast<int>(state.logLevel);
+  int least = state.logLevel - LogLevel::info;
   ImGui::SetNextItemWidth(levels);
   ImGui::Combo("##least", &least, "info\0warning\0error\0");
   tip("Shows only lines of this level and above.");
-  state.logLevel = static_cast<LogLevel>(least);
+  state.logLevel = static_cast<LogLevel>(LogLevel::info + least);
   const std::vector<LogLine> lines = ui.view.log.lines(state.logLevel, state.logFilter.data());
   continueRow("Copy");
   if (button(ui, "Copy", "log.copy", "Copies the lines below.")) {
@@ -26,10 +26,10 @@ void log(PanelContext& ui) {
   ImGui::Separator();
   ImGui::BeginChild("lines");
   for (const LogLine& line : lines) {
-    if (line.level == LogLevel::info) {
+    if (line.level <= LogLevel::info) {
       wrappedText(line.text);
     } else {
-      coloredText(line.level == LogLevel::error ? errorColor : warningColor, line.text);
+      coloredText(line.level >= LogLevel::err ? errorColor : warningColor, line.text);
     }
   }
   // Follows the newest line unless the user has scrolled up.

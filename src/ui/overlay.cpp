@@ -23,10 +23,6 @@ ImU32 withAlpha(ImU32 color, int alpha) {
   return (color & ~IM_COL32_A_MASK) | (static_cast<ImU32>(alpha) << IM_COL32_A_SHIFT);
 }
 
-bool isPlane(Grip handle) {
-  return handle == Grip::moveYZ || handle == Grip::moveZX || handle == Grip::moveXY;
-}
-
 class Painter {
  public:
   Painter() : list_(*ImGui::GetBackgroundDrawList()), pixels_(ImGui::GetIO().DisplayFramebufferScale) {}

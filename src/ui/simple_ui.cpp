@@ -10,7 +10,6 @@
 #include <cmath>
 #include <filesystem>
 #include <mutex>
-#include <optional>
 #include <utility>
 
 #include "platform/files.hpp"
@@ -108,13 +107,12 @@ SimpleUI::Context::~Context() {
 
 // The two halves of the backend, shut down in reverse.
 struct SimpleUI::Backend {
-  explicit Backend(Window& window) {
+  explicit Backend(Window& window) : input(window) {
     ImGui_ImplGlfw_InitForVulkan(window.native(), false);
-    input.emplace(window);
+    input.readWindow();
   }
   ~Backend() {
     shutdownVulkan();
-    input.reset();
     ImGui_ImplGlfw_Shutdown();
   }
   void shutdownVulkan() {
@@ -122,7 +120,7 @@ struct SimpleUI::Backend {
       ImGui_ImplVulkan_Shutdown();
     }
   }
-  std::optional<GlfwInput> input;
+  GlfwInput input;
   bool vulkan = false;
 };
 
@@ -189,10 +187,14 @@ void SimpleUI::initVulkan() {
 #endif
 }
 
+void SimpleUI::push(const InputEvent& event) {
+  backend_->input.push(event);
+}
+
 UiOutput SimpleUI::build(const UiView& view) {
   prepareTheme();
   ImGui_ImplVulkan_NewFrame();
-  backend_->input->newFrame();
+  backend_->input.newFrame();
   ImGui::NewFrame();
   UiOutput output = windows_.build(view);
   ImGui::Render();
@@ -209,7 +211,7 @@ void SimpleUI::record(const PassScope& scope) {
 }
 
 void SimpleUI::readWindow() {
-  backend_->input->readWindow();
+  backend_->input.readWindow();
 }
 
 // Uses the windows of the last frame, because the pointer may have moved since.
@@ -244,7 +246,7 @@ bool SimpleUI::navigating() const {
 }
 
 bool SimpleUI::wantsFrames() const {
-  return wantsKeyboard() || ImGui::IsAnyMouseDown() || backend_->input->waiting();
+  return wantsKeyboard() || ImGui::IsAnyMouseDown() || backend_->input.waiting();
 }
 
 }  // namespace speculum

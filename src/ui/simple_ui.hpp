@@ -10,12 +10,12 @@ namespace speculum {
 // The panels over the picture: Dear ImGui with its GLFW and Vulkan backends. One instance a process.
 class SimpleUI {
  public:
-  // Takes over the window's listener.
   SimpleUI(Renderer& renderer, Window& window);
   ~SimpleUI();
   SimpleUI(const SimpleUI&) = delete;
   SimpleUI& operator=(const SimpleUI&) = delete;
 
+  void push(const InputEvent& event);  // call with each of the window's
   // Lays out this frame's panels. Call it once a frame, even if nothing is drawn.
   UiOutput build(const UiView& view);
   void record(const PassScope& scope);

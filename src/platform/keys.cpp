@@ -1,7 +1,6 @@
-#include <cctype>
-#include <string_view>
+#include "platform/keys.hpp"
 
-#include "platform/window.hpp"
+#include <cctype>
 
 namespace speculum {
 

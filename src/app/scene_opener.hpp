@@ -1,0 +1,54 @@
+#pragma once
+
+#include "app/document_controller.hpp"
+#include "app/file_dialog.hpp"
+#include "app/recovery.hpp"
+#include "app/scene_browser.hpp"
+
+namespace speculum {
+
+// Opens scenes: asks for a file, prompts about unsaved changes first, loads in the background, and offers the copy that
+// a session that failed has kept.
+class SceneOpener {
+ public:
+  // Keeps the reference to the settings in use.
+  SceneOpener(const Options& options, const Settings& settings);
+
+  void setDocument(DocumentController& document) { document_ = &document; }  // call when another scene is shown
+  void offerRecovery();
+
+  // Asks for a file: by the desktop's dialog, if it has one that can be started, else by a prompt.
+  void ask();
+  void open(const std::filesystem::path& file);
+  void openDropped(const std::vector<std::filesystem::path>& files);
+  void cancelLoading();
+  void cancelPrompt();
+  // Call once a frame. Returns a scene to show when it is loaded and no unsaved changes stand against it, else null.
+  std::unique_ptr<LoadedScene> update();
+  bool working() const;  // update() has work left although nothing happens
+
+  bool confirmQuit();  // as DocumentController::confirmDiscard
+  void forgetSaved();  // call after saving: the copy of saved changes is not offered again
+  // Keeps unsaved changes in a copy, logs where, and makes the next start offer it.
+  void keepUnsavedWork() noexcept;
+
+  SceneBrowser& browser() { return browser_; }
+  const SceneBrowser& browser() const { return browser_; }
+  const std::string& problem() const { return problem_; }  // with the last scene; empty: none
+  void setProblem(const std::string& problem) { problem_ = problem; }
+
+ private:
+  const std::filesystem::path& shownFile() const { return document_->editor().document().scene().file; }
+  std::filesystem::path folderToOpen() const;
+  void takeChosenFile();
+
+  Options options_;
+  const Settings& settings_;
+  DocumentController* document_ = nullptr;
+  SceneBrowser browser_;
+  FileDialog dialog_;
+  Recovery recovery_;
+  std::string problem_;
+};
+
+}  // namespace speculum
