@@ -9,6 +9,7 @@
 #include "accuracy/sweep_plan.hpp"
 #include "error_message.hpp"
 #include "image/color.hpp"
+#include "platform/machine.hpp"
 #include "reference/ray_tracer.hpp"
 #include "scene/scene_loader.hpp"
 #include "temporary_folder.hpp"
@@ -405,6 +406,16 @@ TEST_F(SweepFiles, ManyKeysAreRefusedInShortTime) {
             "an object has more than 10000 members (a results.json of speculum accuracy is needed)");
   EXPECT_TRUE(contains(problem(toml), "has 100000 keys")) << problem(toml).substr(0, 200);
   EXPECT_LT(std::clock() - start, 5 * CLOCKS_PER_SEC);
+}
+
+TEST_F(SweepFiles, FirstWrongElementEndsTheFile) {
+  nlohmann::ordered_json json = sweepJson({});
+  json["points"] = std::vector<int>(2'000'000);
+  const std::string text = json.dump();
+  json = {};
+  const uint64_t before = peakResidentBytes();
+  EXPECT_EQ(readProblem(text).substr(0, 15), "points[0].name:");
+  EXPECT_LT(peakResidentBytes() - before, uint64_t{256} << 20);
 }
 
 TEST_F(SweepFiles, OtherFilesAreNoResults) {

@@ -53,7 +53,9 @@ INSTANTIATE_TEST_SUITE_P(
         UsageCase{{"render", "--out", "x.png", "--size", "99999x9"}, "--size: '99999x9' is not a size"},
         UsageCase{{"render", "--out", "x.png", "--time", "soon"}, "--time"},
         UsageCase{{"render", "--out", "x.png", "--time", "nan"}, "--time"},
+        UsageCase{{"render", "--out", "x.png", "--time", "1e300"}, "--time: 1e+300 is out of range (-1e15 .. 1e15"},
         UsageCase{{"render", "--out", "x.png", "--camera", "0,1,4"}, "--camera: '0,1,4' is not a camera"},
+        UsageCase{{"render", "--out", "x.png", "--camera", "1e100,1,4:0,1,0"}, "--camera: 1e+100 is out of range"},
         UsageCase{{"render", "--out", "x.png", "--camera", "0,1,4:0,1,nan"}, "such as 0,1,4:0,1,0"},
         UsageCase{{"render", "--out", "x.png", "--camera", "0,1,4:0,1,0:"}, "is not a camera"},
         UsageCase{{"render", "--out", "x.png", "--camera", "0,1,4:0,1,0:0,1,0:171"}, "is not a camera"},
@@ -88,6 +90,54 @@ INSTANTIATE_TEST_SUITE_P(
         UsageCase{{"bench", "--against-binary", "/nowhere"}, "/nowhere"},
         UsageCase{{"bench", "--against-binary", "/bin/false"}, "/bin/false: bench ended with exit code 1"},
         UsageCase{{"bench", "--against-set", "view.samples=3"}, "--against-set: view.samples: '3'"}));
+
+TEST_F(CommandLine, MessagesCanBeReadWhateverTheyName) {
+  for (const std::string& text : {std::string("\x1b[2J\n\x7f"), std::string(100'000, 'x')}) {
+    const std::string file = out(text + ".toml");
+    for (const std::vector<std::string>& arguments : {std::vector<std::string>{"--size", text},
+                                                      {"--camera", text},
+                                                      {"--set", text},
+                                                      {"--set", text + "=1"},
+                                                      {"--set", "view.exposure=" + text},
+                                                      {"--scene", file},
+                                                      {"--gpu", text},
+                                                      {"--" + text},
+                                                      {"--fps", text}}) {
+      std::vector<std::string> all{"render", "--scene", scene_, "--size", "8x8", "--out", out("x.png")};
+      // An option may stand only once.
+      if (const auto same = std::ranges::find(all, arguments.front()); same != all.end()) {
+        all.erase(same, same + 2);
+      }
+      all.insert(all.end(), arguments.begin(), arguments.end());
+      mistake(all);
+    }
+    mistake({"compare", file, file});
+    mistake({"regress", file});
+    mistake({text});
+  }
+}
+
+TEST_F(CommandLine, WarningsCanBeReadWhateverTheyName) {
+  const std::string model = out("triangle.obj");
+  replaceFile(model, "usemtl a\x1b[2J\nusemtl " + std::string(100'000, 'x') + "\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const std::string warnings = succeed({"reference", "--scene", model, "--size", "2x2", "--out", out("x.png")});
+  EXPECT_TRUE(contains(warnings, "'a?[2J'")) << warnings;
+  EXPECT_LT(warnings.size(), 10'000u);
+}
+
+// Beyond the user's limit of file sizes a signal would end the program.
+TEST_F(CommandLine, FileSizeLimitKeepsTheOldFiles) {
+  replaceFile(out("x.png"), "old");
+  const std::string program = (binaryDir() / "speculum").string();
+  const ProcessResult result =
+      runProcess({"sh", "-c", "ulimit -f 0; exec \"$0\" \"$@\"", program, "reference", "--scene", scene_, "--size",
+                  "2x2", "--samples", "1", "--out", out("x.png")});
+  EXPECT_EQ(result.exitCode, 2);
+  EXPECT_EQ(result.output,
+            out("x.png") + ": cannot be written: File too large (check the folder's permissions and free space)\n");
+  EXPECT_EQ(readText(out("x.png")), "old");
+  EXPECT_FALSE(fs::exists(out("x.png.part0")));
+}
 
 TEST_F(CommandLine, LinkLoopsAreNamedInOneLine) {
   const std::string loop = out("loop");

@@ -1,5 +1,7 @@
 #include <tinyexr.h>
 
+#include <ctime>
+
 #include "image/exr.hpp"
 #include "image/image.hpp"
 #include "image/picture_files.hpp"
@@ -116,6 +118,37 @@ TEST(ImageFiles, HugePicturesAreRefused) {
   expectFault([&] { readImage8(file); }, file, "the picture has 8448x8448 pixels");
   folder.write("a.png", pngHeader(0x20));
   expectFault([&] { readImage8(file); }, file, "is damaged");
+}
+
+// A grey progressive JPEG whose codes are all one bit, with scans that hold no data.
+std::string jpegOfScans(uint8_t highByteOfSides, int scans) {
+  const auto segment = [](char marker, const std::string& data) {
+    return std::string("\xff") + marker + '\0' + static_cast<char>(data.size() + 2) + data;
+  };
+  const auto code = [](char table) { return table + std::string("\1") + std::string(16, '\0'); };
+  const std::string side = static_cast<char>(highByteOfSides) + std::string("\0", 1);
+  std::string file = "\xff\xd8" + segment('\xdb', std::string("\0", 1) + std::string(64, '\1')) +
+                     segment('\xc2', "\x08" + side + side + std::string("\1\1\x11\0", 4)) +
+                     segment('\xc4', code('\x00')) + segment('\xc4', code('\x10'));
+  for (int i = 0; i < scans; ++i) {
+    file += segment('\xda', std::string("\1\1\0\1\x3f\0", 6));
+  }
+  return file + "\xff\xd9";
+}
+
+TEST(Jpeg, ScansAreBoundedByTheirPixels) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(readImage8(folder.write("usual.jpg", jpegOfScans(0x01, 300))).width, 256);
+  const fs::path bomb = folder.write("bomb.jpg", jpegOfScans(0x20, 4000));
+  const std::clock_t start = std::clock();
+  expectFault([&] { readImage8(bomb); }, bomb, "has 4000 scans of 8192x8192 pixels");
+  EXPECT_LT(std::clock() - start, CLOCKS_PER_SEC);
+  // The data of a segment, such as a thumbnail, are no scans.
+  std::string thumbnail = "\xff\xe1\x20\x02";
+  for (int i = 0; i < 0x1000; ++i) {
+    thumbnail += "\xff\xda";
+  }
+  EXPECT_EQ(readImage8(folder.write("thumbnail.jpg", jpegOfScans(0x08, 2).insert(2, thumbnail))).width, 2048);
 }
 
 TEST(Exr, KeepsEveryFloat) {

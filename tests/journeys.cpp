@@ -396,5 +396,41 @@ TEST_F(Journey, SizesFollowTheScaleOfTheMonitor) {
   EXPECT_FALSE(std::filesystem::exists("imgui.ini"));
 }
 
+// The program with a window on a display of its own: an object is deleted, then the script's last part ends the window.
+ProcessResult endEditedWindow(const std::string& end) {
+  const UserFolders home{"XDG_CONFIG_HOME", "XDG_CACHE_HOME"};
+  const std::string start = R"(coproc X { exec Xvfb -displayfd 1 -screen 0 640x480x24 -nolisten tcp 2>/dev/null; }
+    server=$X_PID; read -r number <&${X[0]}; export DISPLAY=:$number
+    "$0" --scene "$1" --size 320x240 --set view.samples=1 --set reflection.samples=1 & pid=$!
+    window=$(xdotool search --sync --onlyvisible --pid $pid | head -1)
+    until xdotool getwindowname $window | grep -q '^window_end\*'; do
+      xdotool key --window $window n; sleep 1; xdotool key --window $window Delete; sleep 1
+    done
+    )";
+  const std::string program = (binaryDir() / "speculum").string();
+  const std::string scene = writeScene("window_end", wallScene).string();
+  return runProcess({"timeout", "300", "bash", "-c",
+                     start + end + "; wait $pid; code=$?; kill $server 2>/dev/null; exit $code", program, scene});
+}
+
+TEST(EndedWindow, KeepsUnsavedWork) {
+  for (const auto& [end, exitCode] :
+       {std::pair("kill -TERM $pid", 0), std::pair("kill -HUP $pid", 0), std::pair("kill $server", 2)}) {
+    const ProcessResult result = endEditedWindow(end);
+    EXPECT_EQ(result.exitCode, exitCode) << end;
+    EXPECT_TRUE(result.output.starts_with("error: unsaved changes are kept in ")) << end << ": " << result.output;
+  }
+}
+
+TEST(EndedWindow, NeedsNoReaderOfItsOutput) {
+  const UserFolders home{"XDG_CONFIG_HOME", "XDG_CACHE_HOME"};
+  const test::VirtualDisplay display;
+  const std::string script =
+      R"({ "$0" --scene no_mirror --size 64x36 --frames 2 --log-level info; echo $? >"$1"; } 2>&1 | true)";
+  const std::filesystem::path code = home.path() / "code";
+  runProcess({"timeout", "300", "bash", "-c", script, (binaryDir() / "speculum").string(), code.string()});
+  EXPECT_EQ(readText(code), "0\n");
+}
+
 }  // namespace
 }  // namespace speculum

@@ -131,6 +131,23 @@ TEST_F(MtlFile, UnreadableTexturesAreRefused) {
   }
 }
 
+TEST_F(MtlFile, ManyTexturesAreReadInShortTime) {
+  constexpr int count = 2000;
+  std::string obj = kSquare;
+  std::string mtl;
+  writePng(folder_ / "pixel.png", Image8(1, 1));
+  const std::string png = readText(folder_ / "pixel.png");
+  for (int i = 0; i < count; ++i) {
+    const std::string name = std::to_string(i);
+    folder_.write(name + ".png", png);
+    obj.append("usemtl ").append(name).append("\nf 1 2 3\n");
+    mtl.append("newmtl ").append(name).append("\nmap_Kd ").append(name).append(".png\n");
+  }
+  const std::clock_t start = std::clock();
+  EXPECT_EQ(load(obj, mtl).parts.back().material.diffuseTexture, count - 1);
+  EXPECT_LT(std::clock() - start, 5 * CLOCKS_PER_SEC);
+}
+
 TEST_F(MtlFile, FilesAreReadOnce) {
   folder_.write("m.mtl", repeated("newmtl a\n", 10'000));
   const std::clock_t start = std::clock();

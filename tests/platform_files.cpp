@@ -84,6 +84,15 @@ TEST(Files, ReplaceKeepsLinksAndModes) {
                   "cannot be written");
 }
 
+TEST(Files, ReplaceTakesTheLongestNames) {
+  const TemporaryDirectory directory;
+  const fs::path file = directory.path() / (std::string(251, 'n') + ".txt");
+  replaceFile(file, "old");
+  replaceFile(file, "new");
+  EXPECT_EQ(readText(file), "new");
+  EXPECT_EQ(std::distance(fs::directory_iterator(directory.path()), fs::directory_iterator()), 1);
+}
+
 TEST(Files, ReplaceLeavesFilesOfOthersAlone) {
   const TemporaryDirectory directory;
   for (const std::string end : {".part", ".part0", ".part1"}) {

@@ -79,6 +79,30 @@ grid = { scene = ["room.toml", "hall.toml"], time = [0, 2.5], "reflection.max_de
   EXPECT_EQ(cases[7].settings, (decltype(cases[0].settings){{"reflection.max_depth", "4"}}));
 }
 
+TEST_F(CaseFile, GridsOfLongCasesAreBounded) {
+  const auto numbers = [](int count) {
+    std::string text;
+    for (int i = 0; i < count; ++i) {
+      text += std::to_string(i) + ", ";
+    }
+    return "[" + text + "]";
+  };
+  const std::string grid = "\ngrid = { time = " + numbers(100) + ", 'view.exposure' = " + numbers(100) + " }\n";
+  std::string expectations;
+  std::string folders;
+  for (int i = 0; i < 1000; ++i) {
+    expectations += "{ driver = 'llvmpipe' }, ";
+    folders += "a/a/a/a/a/a/a/a/a/a/";
+  }
+  const std::string text = "[[case]]\nscene = 'room.toml'\n";
+  for (const std::string& more :
+       {"expect = [" + expectations + "]", "name = '" + std::string(30'000, 'n') + "'",
+        "camera = '" + std::string(30'000, 'c') + "'", "picture = '" + folders + "{name}.png'"}) {
+    EXPECT_TRUE(contains(mistake(text + more + grid), "grid: makes cases of more than 256 MiB")) << more.substr(0, 20);
+  }
+  EXPECT_EQ(read(text + "expect = [" + expectations + "]").size(), 1u);
+}
+
 TEST_F(CaseFile, MistakesNameLineAndKey) {
   EXPECT_EQ(mistake(""), "cases.toml:1: case: is missing (write [[case]] above each case)");
   EXPECT_EQ(mistake("[[case]]\nscen = 'room.toml'"),

@@ -1,3 +1,5 @@
+#include <ctime>
+
 #include "image/image.hpp"
 #include "image/picture_files.hpp"
 #include "scene/scene_state.hpp"
@@ -158,6 +160,21 @@ TEST(SceneLoader, EachModelAndTextureIsLoadedOnce) {
   EXPECT_EQ(scene.objects[2].mesh, 0);
   EXPECT_EQ(scene.textures.size(), 1u);
   EXPECT_EQ(scene.meshes[1].parts[0].material.diffuseTexture, 0);
+}
+
+TEST(SceneLoader, ManyModelsAreReadInShortTime) {
+  constexpr int count = 4000;
+  const TemporaryFolder folder;
+  std::string text = kCamera;
+  for (int i = 0; i < count; ++i) {
+    const std::string name = std::to_string(i) + ".obj";
+    folder.write(name, kTriangleObj);
+    text.append("[[object]]\nmodel = '").append(name).append("'\n");
+  }
+  const auto file = folder.write("scene.toml", text);
+  const std::clock_t start = std::clock();
+  EXPECT_EQ(loadScene(file).meshes.size(), count);
+  EXPECT_LT(std::clock() - start, 5 * CLOCKS_PER_SEC);
 }
 
 }  // namespace

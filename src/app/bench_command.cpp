@@ -60,7 +60,7 @@ std::optional<std::map<std::string, double>> measured(const std::vector<std::str
   }
   if (result.exitCode != 0) {
     throw UsageError(command.front() + ": bench ended with exit code " + std::to_string(result.exitCode) + ": " +
-                     lastLine(result.output));
+                     lastLine(result.output) + " (a speculum that can run this bench is needed)");
   }
   const auto figures = nlohmann::json::parse(readText(json), nullptr, false);
   std::map<std::string, double> medians;

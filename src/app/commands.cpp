@@ -1,8 +1,10 @@
 #include "app/commands.hpp"
 
+#include <spdlog/pattern_formatter.h>
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <iostream>
 #include <map>
@@ -11,17 +13,36 @@
 #include "app/device_view.hpp"
 #include "platform/folders.hpp"
 #include "platform/machine.hpp"
+#include "platform/process.hpp"
 #include "platform/window.hpp"
+#include "scene/input_error.hpp"
 #include "scene/scene_loader.hpp"
 
 namespace speculum {
 
 namespace {
 
+// Formats a log message as oneLine() does, but keeps the line breaks of compilers and validation layers.
+class LogText : public spdlog::custom_flag_formatter {
+ public:
+  void format(const spdlog::details::log_msg& message, const std::tm&, spdlog::memory_buf_t& text) override {
+    std::string_view rest(message.payload.data(), message.payload.size());
+    while (!rest.empty()) {
+      const std::string_view line = rest.substr(0, rest.find('\n'));
+      const std::string readable = oneLine(std::string(line)) + (line.size() < rest.size() ? "\n" : "");
+      text.append(readable.data(), readable.data() + readable.size());
+      rest.remove_prefix(std::min(line.size() + 1, rest.size()));
+    }
+  }
+  std::unique_ptr<spdlog::custom_flag_formatter> clone() const override { return std::make_unique<LogText>(); }
+};
+
 // Sends log lines to stderr, because stdout is for pictures and figures.
 void setUpLog(const std::string& level) {
   const auto logger = std::make_shared<spdlog::logger>("speculum", std::make_shared<spdlog::sinks::stderr_sink_mt>());
-  logger->set_pattern("%l: %v");
+  auto formatter = std::make_unique<spdlog::pattern_formatter>();
+  formatter->add_flag<LogText>('*').set_pattern("%l: %*");
+  logger->set_formatter(std::move(formatter));
   logger->set_level(spdlog::level::from_str(level == "warn" ? "warning" : level));
   spdlog::set_default_logger(logger);
 }
@@ -80,10 +101,16 @@ int runCommand(const Options& options) {
   return command(options);
 }
 
+int fail(const std::string& message) {
+  std::fprintf(stderr, "%s\n", oneLine(message).c_str());
+  return 2;
+}
+
 }  // namespace
 
 int speculumMain(int argc, const char* const* argv) {
   keepFreedMemory();
+  letLargeWritesFail();
   try {
     int result = 0;
     if (const std::optional<Options> options = parseOptions(argc, argv)) {
@@ -96,12 +123,10 @@ int speculumMain(int argc, const char* const* argv) {
     }
     return result;
   } catch (const std::filesystem::filesystem_error& error) {
-    std::fprintf(stderr, "%s: %s (check the path)\n", error.path1().c_str(), error.code().message().c_str());
-    return 2;
+    return fail(error.path1().string() + ": " + error.code().message() + " (check the path)");
   } catch (const std::exception& error) {
     // Bad usage, bad input and a missing GPU end here: nothing was done, and the message says what would help.
-    std::fprintf(stderr, "%s\n", error.what());
-    return 2;
+    return fail(error.what());
   }
 }
 

@@ -3,7 +3,10 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <cstdio>
+#include <cstdlib>
 #include <limits>
+#include <memory>
 #include <utility>
 
 #include "app/device_view.hpp"
@@ -415,9 +418,26 @@ glm::dvec3 Demo::heldDirection() const {
   return {axis(Key::d, Key::a), axis(Key::e, Key::q), axis(Key::s, Key::w)};
 }
 
+namespace {
+
+Demo* shownDemo = nullptr;
+
+void endWithoutDisplay() {
+  if (shownDemo) {
+    shownDemo->keepUnsavedWork();
+  }
+  std::fputs("the window system has ended (start it again)\n", stderr);
+  std::_Exit(2);
+}
+
+}  // namespace
+
 int runDemo(const Options& options) {
   installInterruptHandler();
+  letBrokenPipesFail();
   Demo demo(options);
+  const std::unique_ptr<Demo, void (*)(Demo*)> shown(shownDemo = &demo, [](Demo*) { shownDemo = nullptr; });
+  onDisplayLost(&endWithoutDisplay);
   while (demo.step() && !interruptRequested() && (options.frames == 0 || demo.framesDrawn() < options.frames)) {
   }
   if (interruptRequested()) {

@@ -105,7 +105,7 @@ void SceneBrowser::addSaved(const std::vector<SceneEntry>& scenes) {
 }
 
 size_t SceneBrowser::add(const fs::path& file) {
-  const auto [known, isNew] = indices_.try_emplace(canonicalPath(file), view_.scenes.size());
+  const auto [known, isNew] = indices_.try_emplace(withoutLinks(file), view_.scenes.size());
   if (isNew) {
     const bool model = isModelFile(file);
     view_.scenes.push_back({.name = (model ? file.filename() : file.stem()).string(),

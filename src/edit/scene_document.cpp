@@ -310,7 +310,7 @@ void SceneDocument::save(const fs::path& file, std::span<const SettingChange> se
                             fs::path(file).replace_extension(".toml").filename().string() + ")"));
   }
   std::string text = this->text(file, settings);
-  const bool known = canonicalPath(file) == canonicalPath(savedFile_);
+  const bool known = withoutLinks(file) == withoutLinks(savedFile_);
   writeSceneFile(file, text, known ? savedText_ : std::nullopt, overwrite);
   saved_ = content();
   modified_.reset();

@@ -18,14 +18,14 @@ namespace {
 
 // Returns a path as it stands in scene files: with '/', and absolute only if no relative path exists.
 std::string pathFrom(const fs::path& folder, const fs::path& target) {
-  const fs::path to = canonicalPath(target);
-  const fs::path relative = to.lexically_relative(canonicalPath(folder.empty() ? fs::path(".") : folder));
+  const fs::path to = withoutLinks(target);
+  const fs::path relative = to.lexically_relative(withoutLinks(folder.empty() ? fs::path(".") : folder));
   return (relative.empty() ? to : relative).generic_string();
 }
 
 // Sets the models' paths for a scene in `file`. Keeps those that are still right as the user wrote them.
 void nameModels(const Scene& loaded, std::span<const Mesh> meshes, const fs::path& file, SceneContent& content) {
-  const bool moved = canonicalPath(loaded.file).parent_path() != canonicalPath(file).parent_path();
+  const bool moved = withoutLinks(loaded.file).parent_path() != withoutLinks(file).parent_path();
   for (size_t i = 0; i < content.objects.size(); ++i) {
     Object& object = content.objects[i];
     const int origin = content.origins.objects[i];

@@ -13,7 +13,7 @@ namespace speculum {
 
 // Texels decoded to linear RGB, row 0 at the top of the picture (v = 1).
 struct Texture {
-  std::filesystem::path source;
+  std::filesystem::path source;  // without symbolic links
   int width = 0;
   int height = 0;
   std::vector<glm::vec3> texels;

@@ -25,16 +25,40 @@ bool isPngOrJpeg(const std::vector<uint8_t>& bytes) {
   return startsWith(png) || startsWith(jpeg);
 }
 
-// Checks the size before decoding, because a small file can claim any size.
+// Counts the scans of a JPEG; 0 for a PNG.
+int64_t scansOf(const std::vector<uint8_t>& bytes) {
+  int64_t scans = 0;
+  for (size_t at = bytes[0] == 0xff ? 2 : bytes.size(); at + 4 <= bytes.size();) {
+    const uint8_t marker = bytes[at] == 0xff ? bytes[at + 1] : uint8_t{0};
+    if (marker == 0xd9) {
+      break;
+    }
+    const bool hasLength = marker > 1 && marker != 0xff && (marker < 0xd0 || marker > 0xd7);
+    scans += marker == 0xda ? 1 : 0;
+    at += hasLength ? 2 + size_t{bytes[at + 2]} * 256 + bytes[at + 3] : 1;
+  }
+  return scans;
+}
+
+// Checks the size before decoding, because a small file can claim any size. Each scan of a JPEG, which may be as short
+// as 14 bytes, goes through all pixels.
 void checkSize(const std::filesystem::path& file, const std::vector<uint8_t>& bytes) {
   constexpr int64_t most = int64_t{1} << 26;
+  constexpr int64_t mostInScans = int64_t{1} << 30;
   int width = 0;
   int height = 0;
   int channels = 0;
-  if (stbi_info_from_memory(bytes.data(), static_cast<int>(bytes.size()), &width, &height, &channels) != 0 &&
-      int64_t{width} * height > most) {
-    throw FileError(file, "the picture has " + std::to_string(width) + "x" + std::to_string(height) + " pixels",
-                    "at most 2^26, such as 8192x8192, are read");
+  if (stbi_info_from_memory(bytes.data(), static_cast<int>(bytes.size()), &width, &height, &channels) == 0) {
+    return;
+  }
+  const int64_t pixels = int64_t{width} * height;
+  const std::string size = std::to_string(width) + "x" + std::to_string(height) + " pixels";
+  if (pixels > most) {
+    throw FileError(file, "the picture has " + size, "at most 2^26, such as 8192x8192, are read");
+  }
+  if (const int64_t scans = scansOf(bytes); scans * pixels > mostInScans) {
+    throw FileError(file, "the picture has " + std::to_string(scans) + " scans of " + size,
+                    "at most 2^30 pixels in all scans are read");
   }
 }
 

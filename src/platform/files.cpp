@@ -136,10 +136,12 @@ void replace(const fs::path& file, std::span<const uint8_t> content, bool lastin
     }
     return writeAndClose(descriptor, file, content, false);
   }
+  // Leaves room for the ending, since a file system bounds names to 255 bytes.
+  const std::string name = target.filename().string().substr(0, 200);
   fs::path partial;
   int descriptor = -1;
   for (int number = 0; descriptor < 0; ++number) {
-    partial = target.string() + ".part" + std::to_string(number);
+    partial = folder / (name + ".part" + std::to_string(number));
     descriptor = ::open(partial.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (descriptor < 0 && errno != EEXIST) {
       failToWrite(file, errno);
@@ -240,9 +242,10 @@ fs::path wholePath(const fs::path& path) {
   return whole.empty() ? path : whole;
 }
 
-fs::path canonicalPath(const fs::path& path) {
-  std::error_code none;
-  return fs::weakly_canonical(path, none);
+fs::path withoutLinks(const fs::path& path) {
+  std::error_code error;
+  fs::path target = fs::weakly_canonical(path, error);
+  return error ? path : target;
 }
 
 bool isWritable(const fs::path& file) {

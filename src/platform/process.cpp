@@ -194,6 +194,14 @@ bool interruptRequested() {
   return interruptFlag;
 }
 
+void letLargeWritesFail() {
+  ::signal(SIGXFSZ, SIG_IGN);
+}
+
+void letBrokenPipesFail() {
+  ::signal(SIGPIPE, SIG_IGN);
+}
+
 }  // namespace speculum
 
 #ifdef __SANITIZE_ADDRESS__

@@ -57,4 +57,9 @@ bool isTerminal(int fileDescriptor);
 void installInterruptHandler();
 bool interruptRequested();
 
+// Makes writes beyond the user's limit of file sizes fail, where a signal would end the process.
+void letLargeWritesFail();
+// Makes writes to pipes whose reader is gone fail, where a signal would end the process.
+void letBrokenPipesFail();
+
 }  // namespace speculum

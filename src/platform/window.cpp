@@ -1,6 +1,7 @@
 #include "platform/window.hpp"
 
 #include <GLFW/glfw3.h>
+#include <dlfcn.h>
 
 #include <algorithm>
 #include <array>
@@ -139,6 +140,21 @@ void chooseWindowPlatform(const std::optional<std::string>& platform) {
                              (wayland ? "libglfw3-wayland" : "libglfw3") + " for " + *platform + ")");
   }
 #endif
+}
+
+void onDisplayLost(void (*last)()) {
+  static void (*called)() = nullptr;
+  called = last;
+  using Handler = int (*)(void* display);
+  // GLFW has loaded the library if it is used.
+  if (void* x11 = ::dlopen("libX11.so.6", RTLD_LAZY | RTLD_NOLOAD)) {
+    const auto setHandler = reinterpret_cast<Handler (*)(Handler)>(::dlsym(x11, "XSetIOErrorHandler"));
+    setHandler([](void*) {
+      called();
+      return 0;
+    });
+    ::dlclose(x11);
+  }
 }
 
 Window::Library::Library() {

@@ -58,6 +58,9 @@ struct WindowOptions {
 // before 3.4 is built for only one of them; throws std::runtime_error if that is the other.
 void chooseWindowPlatform(const std::optional<std::string>& platform);
 
+// Calls `last` before the library of X11 ends the process, as it does when the server is gone. Call it with a window.
+void onDisplayLost(void (*last)());
+
 // A rectangle in screen coordinates of the desktop.
 struct ScreenRect {
   int x = 0;

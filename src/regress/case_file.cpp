@@ -23,6 +23,7 @@ namespace fs = std::filesystem;
 using Key = std::string_view;
 
 constexpr size_t mostCases = 10000;
+constexpr size_t mostBytes = 256 << 20;  // of all cases
 constexpr Range share{.low = 0.0, .high = 1.0};
 constexpr Range seconds{.low = 0.0, .high = 86400.0, .aboveLow = true};
 
@@ -54,7 +55,22 @@ class CaseReader {
 
   const fs::path& file_;
   std::set<std::string> names_;
+  size_t bytes_ = 0;  // of the cases
 };
+
+size_t bytesOf(const fs::path& path) {
+  return path.native().size() + static_cast<size_t>(std::distance(path.begin(), path.end())) * sizeof path;
+}
+
+size_t bytesOf(const RegressCase& subject) {
+  size_t bytes = sizeof subject + 2 * subject.name.size() + subject.camera.value_or("").size() +
+                 bytesOf(subject.scene) + bytesOf(subject.picture) + bytesOf(subject.mask.value_or(""));
+  for (const Expectation& entry : subject.expect) {
+    bytes += sizeof entry + entry.driver.size() + entry.version.value_or("").size() + entry.reason.size() +
+             bytesOf(entry.picture.value_or(""));
+  }
+  return bytes;
+}
 
 std::optional<std::string> CaseReader::text(const TableReader& table, Key key) const {
   if (!table.has(key)) {
@@ -242,6 +258,10 @@ void CaseReader::add(const TableReader& table, const Draft& draft, const std::st
     if (expectation.picture) {
       expectation.picture = pictureFile(expectation.picture->string());
     }
+  }
+  bytes_ += bytesOf(made);
+  if (bytes_ > mostBytes) {
+    table.fail("grid", "makes cases of more than 256 MiB", "fewer cases, expectations or shorter texts are needed");
   }
   cases.push_back(std::move(made));
 }

@@ -8,6 +8,20 @@
 namespace speculum {
 
 std::string oneLine(std::string message) {
+  constexpr size_t kLongest = 4000;
+  constexpr size_t kEnd = 1000;
+  const auto isInsideCharacter = [&](size_t at) { return (static_cast<unsigned char>(message[at]) & 0xc0) == 0x80; };
+  if (message.size() > kLongest) {
+    size_t begin = kLongest - kEnd;
+    size_t end = message.size() - kEnd;
+    while (begin > 0 && isInsideCharacter(begin)) {
+      --begin;
+    }
+    while (end < message.size() && isInsideCharacter(end)) {
+      ++end;
+    }
+    message.replace(begin, end - begin, " ... ");
+  }
   std::ranges::replace_if(
       message, [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }, '?');
   return message;

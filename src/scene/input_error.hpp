@@ -14,7 +14,8 @@ class InputError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// Replaces control characters, which names and keys from a file may hold, by '?', so that the message is one line.
+// Makes a message one line that can be read: replaces control characters, which names, keys and arguments may hold, by
+// '?', and leaves out the middle of a message of more than 4000 bytes.
 std::string oneLine(std::string message);
 
 // Throws InputError with `FILE:LINE: key: wrong (right)`, made one line.

@@ -28,10 +28,10 @@ fs::path relativeTo(const fs::path& file, std::string name) {
   return (file.parent_path() / name).lexically_normal();
 }
 
-Texture loadTexture(const fs::path& file) {
+Texture loadTexture(const fs::path& file, const fs::path& source) {
   const std::array<float, 256>& linear = srgbDecoded();
   const Image8 image = readImage8(file);
-  Texture texture{.source = file, .width = image.width, .height = image.height};
+  Texture texture{.source = source, .width = image.width, .height = image.height};
   texture.texels.reserve(image.rgba.size() / 4);
   for (size_t i = 0; i < image.rgba.size(); i += 4) {
     texture.texels.emplace_back(linear[image.rgba[i]], linear[image.rgba[i + 1]], linear[image.rgba[i + 2]]);
@@ -40,15 +40,14 @@ Texture loadTexture(const fs::path& file) {
 }
 
 int textureIndex(const fs::path& file, std::vector<Texture>& textures) {
-  std::error_code ignored;
-  const fs::path canonical = fs::weakly_canonical(file, ignored);
-  for (size_t i = 0; i < textures.size(); ++i) {
-    if (fs::weakly_canonical(textures[i].source, ignored) == canonical) {
-      return static_cast<int>(i);
-    }
+  const fs::path source = withoutLinks(file);
+  const auto known = std::ranges::find_if(
+      textures, [&](const Texture& texture) { return texture.source.native() == source.native(); });
+  const auto index = static_cast<int>(known - textures.begin());
+  if (known == textures.end()) {
+    textures.push_back(loadTexture(file, source));
   }
-  textures.push_back(loadTexture(file));
-  return static_cast<int>(textures.size()) - 1;
+  return index;
 }
 
 // Returns the number of words after an option of a texture, at most 3 for -o, -s and -t; -1 if the word is no option.
@@ -118,8 +117,7 @@ bool ObjMaterials::read(std::string_view name) {
     missingFile_ = true;
     return false;
   }
-  std::error_code ignored;
-  if (!filesRead_.insert(fs::weakly_canonical(file, ignored)).second) {
+  if (!filesRead_.insert(withoutLinks(file)).second) {
     return true;
   }
   readLines(file, readInputText(file, "a Wavefront MTL file is needed"));

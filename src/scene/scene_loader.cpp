@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <glm/gtx/component_wise.hpp>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -79,18 +80,19 @@ std::optional<int> knownMesh(const Scene& scene, const fs::path& file) {
   return std::nullopt;
 }
 
-int meshIndex(const TableReader& object, Scene& scene, ModelProgress& progress) {
+// `known` has the meshes by the paths of their files without symbolic links.
+int meshIndex(const TableReader& object, Scene& scene, std::map<std::string, int>& known, ModelProgress& progress) {
   const std::string model = object.text("model");
   const fs::path file = modelFile(scene, model);
   if (model.empty() || !isFile(file)) {
     object.fail("model", "there is no file '" + file.string() + "'",
                 "name a Wavefront OBJ file, relative to the scene file");
   }
-  if (const std::optional<int> known = knownMesh(scene, file)) {
-    return *known;
+  const auto [entry, isNew] = known.try_emplace(withoutLinks(file).string(), static_cast<int>(scene.meshes.size()));
+  if (isNew) {
+    scene.meshes.push_back(loadObj(file, scene.textures, progress.ofOne(file)));
   }
-  scene.meshes.push_back(loadObj(file, scene.textures, progress.ofOne(file)));
-  return static_cast<int>(scene.meshes.size()) - 1;
+  return entry->second;
 }
 
 // Bounds the memory that copies take in every frame.
@@ -192,10 +194,11 @@ Scene loadScene(const fs::path& file, const LoadProgress& progress) {
   // Reads the file first, so that its errors are reported before models are loaded, which takes long.
   Scene scene = readScene(reader, file, std::move(text));
   ModelProgress models(scene, progress);
+  std::map<std::string, int> known;
   size_t index = 0;
   for (const TableReader& table : reader.tables("object", keysOf<Object>())) {
     Object& object = scene.objects[index++];
-    object.mesh = meshIndex(table, scene, models);
+    object.mesh = meshIndex(table, scene, known, models);
     checkExtent(table, object, scene.meshes[object.mesh]);
   }
   return scene;

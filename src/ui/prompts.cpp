@@ -99,7 +99,7 @@ void recovery(PanelContext& ui) {
 
 void enter(PanelState::Files& files, const std::filesystem::path& folder) {
   std::error_code none;
-  files = {.folder = canonicalPath(folder), .entries = {}, .typed = {}};
+  files = {.folder = withoutLinks(folder), .entries = {}, .typed = {}};
   for (const auto& entry : std::filesystem::directory_iterator(files.folder, none)) {
     const std::filesystem::path& file = entry.path();
     const bool hidden = file.filename().string().starts_with('.');

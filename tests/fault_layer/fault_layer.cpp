@@ -262,6 +262,12 @@ void forward(vkGetDeviceQueue_, VkDevice device, uint32_t family, uint32_t index
     *queue = reinterpret_cast<VkQueue>(&state.presentQueue);
   }
 }
+// Refuses to wait for ever, as a window that is covered would.
+VkResult forward(vkAcquireNextImageKHR_, VkDevice device, VkSwapchainKHR swapchain, uint64_t timeout,
+                 VkSemaphore semaphore, VkFence fence, uint32_t* index) {
+  return timeout == UINT64_MAX ? VK_ERROR_UNKNOWN
+                               : next<vkAcquireNextImageKHR_>(device, swapchain, timeout, semaphore, fence, index);
+}
 VkResult forward(vkQueuePresentKHR_, VkQueue queue, const VkPresentInfoKHR* info) {
   const bool made = queue == reinterpret_cast<VkQueue>(&state.presentQueue);
   return next<vkQueuePresentKHR_>(made ? state.queue : queue, info);

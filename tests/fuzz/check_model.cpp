@@ -37,7 +37,7 @@ void checkMesh(const Mesh& mesh, size_t textureCount) {
 
 }  // namespace
 
-void checkModel(std::string_view text) {
+bool checkModel(std::string_view text) {
   static const TemporaryFolder folder;
   static const bool hasTexture = [] {
     writePng(folder / "t.png", Image8(2, 2));
@@ -50,10 +50,12 @@ void checkModel(std::string_view text) {
   const std::filesystem::path file = folder.write("m.obj", text.substr(0, end));
   std::vector<Texture> textures;
   Mesh mesh;
-  if (accepted([&] { mesh = loadObj(file, textures); })) {
-    require(hasTexture, "the texture is there");
-    checkMesh(mesh, textures.size());
+  if (!accepted([&] { mesh = loadObj(file, textures); })) {
+    return false;
   }
+  require(hasTexture, "the texture is there");
+  checkMesh(mesh, textures.size());
+  return true;
 }
 
 }  // namespace speculum::fuzz

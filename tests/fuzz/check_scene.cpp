@@ -126,7 +126,7 @@ void editScene(Scene scene, std::string_view text, const std::filesystem::path& 
 
 }  // namespace
 
-void checkScene(std::string_view text) {
+bool checkScene(std::string_view text) {
   static const TemporaryFolder folder;
   static const std::array models{
       folder.write("t.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"),
@@ -144,6 +144,7 @@ void checkScene(std::string_view text) {
     editScene(scene, text, file);
     useScene(std::move(scene), settings);
   }
+  return isScene;
 }
 
 }  // namespace speculum::fuzz

@@ -33,18 +33,21 @@ void checkPlan(const SweepPlan& plan) {
 
 }  // namespace
 
-void checkSweep(std::string_view text) {
+bool checkSweep(std::string_view text) {
   static const TemporaryFolder folder;
   SweepResults results;
   const std::filesystem::path json = folder.write("results.json", text);
-  if (accepted([&] { results = readSweepResults(json); })) {
+  const bool isResults = accepted([&] { results = readSweepResults(json); });
+  if (isResults) {
     checkResults(results);
   }
   SweepPlan plan;
   const std::filesystem::path toml = folder.write("sweep.toml", text);
-  if (accepted([&] { plan = readSweepPlan(toml, SweepContext()); })) {
+  const bool isPlan = accepted([&] { plan = readSweepPlan(toml, SweepContext()); });
+  if (isPlan) {
     checkPlan(plan);
   }
+  return isResults || isPlan;
 }
 
 }  // namespace speculum::fuzz

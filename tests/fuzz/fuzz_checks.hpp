@@ -8,7 +8,7 @@ namespace speculum::fuzz {
 
 // Checks of the fuzzers and of the regression test: they read an input as a file that a user names, and use it if it is
 // accepted. An input may only be refused by an InputError of one line. A longer message and a broken invariant throw
-// BrokenPromise; other exceptions pass through.
+// BrokenPromise; other exceptions pass through. They return whether the input was accepted.
 class BrokenPromise : public std::logic_error {
  public:
   using std::logic_error::logic_error;
@@ -18,12 +18,12 @@ inline constexpr size_t kLargestInput = 64u << 10;  // bytes; larger inputs are 
 
 // A scene file. Beside it are t.obj, a triangle, and large.obj, whose vertices are at 1e200. Accepted scenes are
 // evaluated and planned at several times.
-void checkScene(std::string_view text);
+bool checkScene(std::string_view text);
 
 // An OBJ file, behind a line `%mtl` its m.mtl. Beside them is t.png.
-void checkModel(std::string_view text);
+bool checkModel(std::string_view text);
 
 // A sweep's results.json and a sweep file: every input is tried as both.
-void checkSweep(std::string_view text);
+bool checkSweep(std::string_view text);
 
 }  // namespace speculum::fuzz
