@@ -80,6 +80,7 @@ class Demo : private WorkspaceHost {
   void endWithPanels(Frame& frame);
   void abandonFrame(Frame& frame, const std::string& why);
   void drawFrame(double seconds, double sinceLastMs);
+  std::optional<std::pair<std::vector<int>, TargetKind>> targetShown() const;
   const FittedPlan& planFrame(Frame& frame, const SceneState& state);
   bool timesPasses(bool movementEnded);
   Settings settingsOfFrame() const;
