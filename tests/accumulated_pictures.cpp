@@ -217,6 +217,25 @@ TEST(MultisampledTiles, ChangeNoByte) {
   }
 }
 
+// Shadow and environment maps of scenes that move.
+class MapTiles : public testing::TestWithParam<const char*> {};
+
+TEST_P(MapTiles, ChangeNoByteAndAreReusedOnceComplete) {
+  Options options = inTiles(GetParam());
+  set(options, {{"view.accumulate", "1"}, {"view.samples", "1"}, {"reflection.samples", "1"}});
+  set(options, {{"effects.shadow_lookup", "map"}, {"effects.curved_lookup", "environment"}});
+  QuietSession session(options);
+  const LinearImage later = drawRadiance(session, 1.0);
+  const LinearImage early = drawRadiance(session, 0.0);
+  EXPECT_FALSE(later.pixels == early.pixels);
+  drawTiles(session, 0, 2, 4);
+  EXPECT_TRUE(drawRadiance(session, 0.0).pixels == early.pixels) << "maps of two times are not reused";
+  drawTiles(session, 0, 5);
+  EXPECT_TRUE(session.radiance().pixels == later.pixels);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, MapTiles, testing::Values("shadows", "mirror_ball"));
+
 // A small rough mirror whose rays would be too many for one draw if it filled the picture.
 TEST(LongDraws, AreDividedWithoutATrace) {
   QuietSession session(headless(writeScene("small_rough", wallScene + "roughness = 0.3\n"), {64, 36},

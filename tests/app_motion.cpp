@@ -409,10 +409,9 @@ class PacedScene : public testing::Test {
     return pace_.plan({.scene = scene_,
                        .state = state_,
                        .chosen = chosen_,
-                       .shown = {.revision = revision_},
+                       .shown = {.revision = revision_, .target = target_},
                        .budgetMs = budgetMs_,
-                       .input = input_,
-                       .divides = divides_},
+                       .input = input_},
                       [&](const Settings& settings, int picture) {
                         planned_ = settings;
                         picture_ = {settings.view.accumulate, picture};
@@ -438,7 +437,7 @@ class PacedScene : public testing::Test {
   double seconds_ = 0.1;  // between frames
   uint64_t revision_ = 1;
   double budgetMs_ = 0.0;
-  bool divides_ = true;
+  std::optional<std::pair<std::vector<int>, TargetKind>> target_;
   bool input_ = false;
   int side_ = 0;         // of the main view, pixels
   uint64_t number_ = 0;  // of the last frame
@@ -600,9 +599,27 @@ TEST_F(SlowPictures, SingleOneEndsWithItsTiles) {
   EXPECT_EQ(pace_.text(), "");
   EXPECT_TRUE(draw().plan.tiles) << "another event, and the picture cannot be shown again";
   EXPECT_TRUE(pace_.wantsFrame()) << "it is not left unfinished";
-  divides_ = false;
-  EXPECT_FALSE(draw().plan.tiles) << "a target shows a whole pass";
-  EXPECT_EQ(pace_.text(), "");
+  target_.emplace(std::vector<int>{0}, TargetKind::color);
+  EXPECT_FALSE(draw().plan.tiles) << "the target is shown at once";
+  expectText("Draft: ");
+  EXPECT_TRUE(draw().plan.tiles) << "nor does it hold up the panels";
+}
+
+TEST(SlowPicture, FacesOfMapsHaveFramesOfTheirOwn) {
+  SlowPicture picture;
+  picture.begin(5, 100, 1000.0);
+  EXPECT_EQ(picture.next(50.0), (TileRange{0, 1})) << "nothing is known yet";
+  picture.took(12.0);
+  EXPECT_EQ(picture.next(50.0), (TileRange{1, 5})) << "no tile of a pass";
+  picture.took(48.0);
+  EXPECT_EQ(picture.next(50.0), (TileRange{5, 6})) << "a tile takes another time";
+  picture.took(2.0);
+  EXPECT_GT(picture.next(50.0).end, 20u);
+  while (!picture.finished()) {
+    picture.next(50.0);
+  }
+  picture.begin(0, 100, 1000.0);
+  EXPECT_GT(picture.next(50.0).end, 15u) << "known from the picture before";
 }
 
 TEST(Pace, BudgetFollowsDeviceAndMonitor) {

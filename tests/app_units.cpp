@@ -8,6 +8,7 @@
 #include "app/frame_report.hpp"
 #include "app/options.hpp"
 #include "frame/picture_tiles.hpp"
+#include "frame/setting_fields.hpp"
 #include "platform/gamepad.hpp"
 #include "scene/scene_loader.hpp"
 #include "temporary_folder.hpp"
@@ -169,6 +170,49 @@ TEST_F(Report, TilesOfAPictureAreOneFrame) {
   report.updateTimes(frameOf(number + 1, 1.0, 10.0), {.frame = number, .gpuMs = 25.0});
   EXPECT_EQ(report.view().gpuMs, 4 * 25.0);
   EXPECT_EQ(report.view().cpuMs, 4 * 2.0);
+}
+
+TEST_F(Report, TargetsStayWhileTilesAreDrawn) {
+  Settings settings;
+  settings.debug.maskPasses = false;
+  const auto target = [&](const std::vector<int>& path) {
+    report.target({.path = path, .drawn = true}, plan, settings, true);
+    return report.view().target;
+  };
+  plan.main.view.rect = {0, 0, tileSide, tileSide};
+  EXPECT_TRUE(target({}).complete);
+  plan.passes.resize(1);
+  plan.passes[0].view.path = {0};
+  plan.passes[0].view.rect = {0, 0, tileSide, tileSide};
+  plan.main.view.rect = {0, 0, 2 * tileSide, tileSide};
+  plan.tiles = {0, 1};
+  EXPECT_EQ(target({}).size.x, tileSide) << "of the picture before";
+  EXPECT_FALSE(target({0}).complete) << "it has no picture before";
+  plan.tiles = {1, 3};
+  EXPECT_TRUE(target({0}).complete);
+  EXPECT_EQ(target({}).size.x, 2 * tileSide);
+}
+
+TEST_F(Report, ReasonsAreWords) {
+  plan.skipped = {{.path = {}, .reason = SkipReason::backface},
+                  {.path = {}, .reason = SkipReason::outside},
+                  {.path = {}, .reason = SkipReason::maxPasses}};
+  report.updateSkipped(frameOf(1, 1.0, 1.0));
+  const std::vector<SkippedView>& skipped = report.view().skipped;
+  ASSERT_EQ(skipped.size(), 3u);
+  EXPECT_EQ(skipped[0].reason, "seen from behind");
+  EXPECT_EQ(skipped[1].reason, "outside the view");
+  EXPECT_EQ(skipped[2].reason, "above Max. passes") << "the label of the setting";
+}
+
+TEST_F(Report, EffectsAreNamedAsTheirSwitches) {
+  report.updateEffects(frameOf(1, 1.0, 1.0), {});
+  const std::vector<EffectView>& effects = report.view().effects;
+  EXPECT_EQ(std::ranges::count(effects, "Glowing lights", &EffectView::name), 1);
+  for (const EffectView& effect : effects) {
+    EXPECT_TRUE(std::ranges::any_of(settingFields(), [&](const SettingField& f) { return f.label == effect.name; }))
+        << effect.name;
+  }
 }
 
 // The mirror is larger than the picture, so that none of its own edges is in view.

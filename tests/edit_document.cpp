@@ -232,6 +232,9 @@ TEST_F(SceneDocumentTest, AddedNodesFaceTheViewer) {
   EXPECT_EQ(mirror.position, glm::dvec3(1, 2, 3));
   EXPECT_EQ(mirror.rotation, glm::dvec3(0, 90, 0));
   EXPECT_EQ(mirror.size, glm::dvec2(3, 4));
+  document.addMirror({0, 0, 0}, {0, 0, 3.997});
+  EXPECT_EQ(scene.mirrors[2].size, glm::dvec2(1.2, 1.6)) << "numbers that a user would type";
+  document.undo();
   document.addLight({0, 5, 0}, {0, 5, 2});
   EXPECT_EQ(scene.lights[1].intensity, 4);
   EXPECT_EQ(scene.lights[1].radius, 0.02);

@@ -83,5 +83,27 @@ TEST(PictureTiles, PassesFollowEachOther) {
   EXPECT_TRUE(endsPicture(plan));
 }
 
+TEST(PictureTiles, FacesOfMapsComeFirst) {
+  FramePlan plan;
+  plan.main.view.rect = {0, 0, 2 * tileSide, tileSide};
+  plan.shadowMaps.resize(1);
+  plan.shadowMaps[0].faces.resize(6);
+  plan.shadowMaps[0].faces[4].rendered = true;
+  plan.maps.resize(2);
+  plan.maps[0].faces.resize(6);
+  plan.maps[1].faces.resize(6);
+  plan.maps[1].cacheIndex = 0;
+  EXPECT_EQ(faceCount(plan), 1u + 6u) << "without those that are reused";
+  EXPECT_EQ(tileCount(plan), 7u + 2u);
+  EXPECT_EQ(facesOf(plan), (TileRange{0, 7}));
+  plan.tiles = {0, 3};
+  EXPECT_EQ(facesOf(plan), (TileRange{0, 3}));
+  EXPECT_TRUE(tilesOfPasses(plan)[0].empty());
+  plan.tiles = {6, 9};
+  EXPECT_EQ(facesOf(plan), (TileRange{6, 7}));
+  EXPECT_EQ(tilesOfPasses(plan)[0], (TileRange{0, 2}));
+  EXPECT_TRUE(endsPicture(plan));
+}
+
 }  // namespace
 }  // namespace speculum

@@ -1,5 +1,7 @@
 // The window as a user drives it: real X events under a window manager, pictures compared. Single commands and panels
 // are tested without a display.
+#include <imgui_internal.h>
+
 #include "core/handle.hpp"
 #include "image/color.hpp"
 #include "image/picture_files.hpp"
@@ -40,6 +42,12 @@ TEST_F(Journey, KeysAndGamepadDriveTheWindow) {
   EXPECT_NE(with.rgba[at(30, 300)], without.rgba[at(30, 300)]);
   press("Tab");
   EXPECT_EQ(picture().rgba[at(30, 300)], with.rgba[at(30, 300)]);
+  click("panel.Log");
+  const ImGuiWindow* before = ImGui::GetCurrentContext()->NavWindow;
+  press("ctrl+Tab");
+  EXPECT_NE(ImGui::GetCurrentContext()->NavWindow, before) << "it switches windows";
+  EXPECT_EQ(picture().rgba[at(30, 300)], with.rgba[at(30, 300)]) << "and hides none";
+  click("panel.Log");
   press("F1");
   const Image8 help = picture();
   EXPECT_FALSE(
@@ -377,6 +385,39 @@ TEST_F(NegativeLight, IsLocatedUntilItIsGone) {
   std::ofstream(shaders.path() / "scene.frag", std::ios::app) << "\nthis is not GLSL\n";
   touch(shaders.path() / "scene.frag");
   EXPECT_TRUE(waitFor([&] { return view().message.find("scene.frag") != std::string::npos; })) << view().message;
+}
+
+TEST_F(Journey, PanelsComeBeforeTheFirstPicture) {
+  std::vector<std::string> lines;
+  for (const LogLine& line : view().log.lines()) {
+    if (line.text.starts_with("first ")) {
+      lines.push_back(line.text.substr(0, line.text.find(" submitted")));
+    }
+  }
+  EXPECT_EQ(lines, (std::vector<std::string>{"first frame, of the panels,", "first picture"}));
+}
+
+TEST_F(Journey, TextIsReadable) {
+  const ImFont& font = *ImGui::GetFont();
+  EXPECT_EQ(std::string_view(font.GetDebugName()).find("ProggyClean"), std::string_view::npos);
+  for (ImWchar digit = '1'; digit <= '9'; ++digit) {
+    EXPECT_EQ(font.FindGlyph(digit)->AdvanceX, font.FindGlyph('0')->AdvanceX);
+  }
+  const auto luminance = [](ImGuiCol color) {
+    const ImVec4 c = ImGui::GetStyleColorVec4(color);
+    return 0.2126 * srgbDecode(c.x) + 0.7152 * srgbDecode(c.y) + 0.0722 * srgbDecode(c.z);
+  };
+  for (const char* theme : {"theme.dark", "theme.light"}) {
+    click("menu.Window");
+    run(2);
+    click(theme);
+    run(2);
+    for (const ImGuiCol text : {ImGuiCol_Text, ImGuiCol_TextDisabled}) {
+      const double a = luminance(text) + 0.05;
+      const double b = luminance(ImGuiCol_WindowBg) + 0.05;
+      EXPECT_GT(std::max(a, b) / std::min(a, b), 4.5) << theme;
+    }
+  }
 }
 
 TEST_F(Journey, SizesFollowTheScaleOfTheMonitor) {

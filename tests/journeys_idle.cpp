@@ -1,5 +1,6 @@
 // The window draws when something changes, and only then; what it measures meanwhile.
 #include "journeys_support.hpp"
+#include "platform/folders.hpp"
 #include "test_paths.hpp"
 
 namespace speculum {
@@ -254,6 +255,13 @@ TEST_F(AccuracyJourney, MeasuresTheViewAndShowsTheDifference) {
   EXPECT_TRUE(contains(measured.choice, "mean FLIP"));
   EXPECT_EQ(measured.current, measured.front.front()) << "the cheapest that keeps the bound";
 
+  EXPECT_FALSE(std::filesystem::is_empty(userCacheDir() / "sweeps")) << "kept for the next time";
+  EXPECT_FALSE(measured.otherView);
+  press("f");
+  EXPECT_TRUE(measured.otherView) << "the plot is of another view";
+  demo_->apply(ResetCamera{});
+  moveTo(180, 300);  // wakes the window
+  EXPECT_FALSE(measured.otherView) << "nothing moves, though time goes on";
   demo_->apply(SetPaused{true});
   run(1);
   const Image8 plain = picture();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <imgui.h>
+#include <imgui_internal.h>
 
 #include "image/picture_files.hpp"
 #include "picture_support.hpp"
@@ -92,6 +93,39 @@ class PanelTest : public testing::Test {
       }
     }
     return output_;
+  }
+
+  // Says whether the last frame shows the text, whose spaces do not count.
+  static bool shows(std::string text) {
+    std::erase(text, ' ');
+    return contains(shownText(), text);
+  }
+  // Returns the characters that the last frame drew, without spaces, in the order of drawing.
+  static std::string shownText() {
+    std::map<std::pair<float, float>, const ImFontGlyph*> glyphs;  // by the corner of their picture
+    for (const ImFontGlyph& glyph : ImGui::GetFont()->Glyphs) {
+      glyphs[{glyph.U0, glyph.V0}] = &glyph;
+    }
+    std::string text;
+    const ImDrawData& drawn = *ImGui::GetDrawData();
+    for (int i = 0; i < drawn.CmdListsCount; ++i) {
+      const ImVector<ImDrawVert>& vertices = drawn.CmdLists[i]->VtxBuffer;
+      for (int k = 0; k + 3 < vertices.Size; ++k) {
+        const auto glyph = glyphs.find({vertices[k].uv.x, vertices[k].uv.y});
+        if (glyph != glyphs.end() && glyph->second->U1 == vertices[k + 2].uv.x &&
+            glyph->second->V1 == vertices[k + 2].uv.y && glyph->second->U0 != glyph->second->U1) {
+          text += static_cast<char>(glyph->second->Codepoint);
+          k += 3;
+        }
+      }
+    }
+    return text;
+  }
+  static bool showsTooltip() {
+    const auto& windows = ImGui::GetCurrentContext()->Windows;
+    return std::any_of(windows.begin(), windows.end(), [](const ImGuiWindow* window) {
+      return window->Active && (window->Flags & ImGuiWindowFlags_Tooltip) != 0;
+    });
   }
 
   bool has(const std::string& name) const {

@@ -118,6 +118,9 @@ TEST_F(CaseFile, MistakesNameLineAndKey) {
   EXPECT_EQ(mistake(room + "size = '640'").rfind("cases.toml:3: case[0].size: is '640' (", 0), 0u);
   EXPECT_EQ(mistake(room + "camera = '1,2'").rfind("cases.toml:3: case[0].camera: ", 0), 0u);
   EXPECT_EQ(mistake(room + "settings = { view.samples = 3 }").rfind("cases.toml:3: view.samples: ", 0), 0u);
+  EXPECT_EQ(mistake(room + "settings = { quality.budget_ms = 5 }"),
+            "cases.toml:3: case[0].settings: quality.budget_ms and quality.max_error choose from a sweep (cases have "
+            "none)");
   EXPECT_EQ(mistake(room + "grid = { 'view.sample' = [1] }").rfind("cases.toml:3: case[0].grid.view.sample: ", 0), 0u);
   EXPECT_EQ(mistake(room + "tolerance = { share = 2 }"),
             "cases.toml:3: case[0].tolerance.share: is 2 (a number 0 .. 1 is needed)");

@@ -139,12 +139,15 @@ TEST_F(RegressCommand, SceneFaultsAndTimeoutsLeaveTheRest) {
   writeCases(R"(
 [[case]] scene = 'broken.toml'
 [[case]] scene = 'room.toml', name = 'slow', size = '1920x1080', settings = { view.accumulate = 1024 }, timeout = 1
+[[case]] scene = 'room.toml', name = 'typo', settings = { debug.omit_barrier = 'x' }
 [[case]] scene = 'room.toml'
 )");
   const ProcessResult result = regress({"--update"});
   EXPECT_EQ(result.exitCode, 1);
   EXPECT_TRUE(contains(lineOf("broken", result.output), "broken.toml:2: camera.position")) << result.output;
   EXPECT_EQ(lineOf("slow", result.output), "error   slow: no picture within 1 s");
+  EXPECT_TRUE(contains(lineOf("typo", result.output), "typo: debug.omit_barrier: there is no barrier 'x'"))
+      << "nobody typed --set: " << result.output;
   EXPECT_TRUE(
       contains(readText(folder_ / "out/index.html"), R"("--set","view.accumulate=1024","--validation","--out")"))
       << "the command that draws it";

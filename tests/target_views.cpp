@@ -1,4 +1,5 @@
 // The debug view and the texel probe: right values at the right pixels, and released afterwards.
+#include "frame/picture_tiles.hpp"
 #include "picture_support.hpp"
 #include "scene_text.hpp"
 #include "test_headers.hpp"
@@ -137,6 +138,47 @@ TEST(TargetViews, ColorIsThePictureMagnified) {
   magnified.origin = {-8.0, -6.0};
   drawWith(session, magnified);
   EXPECT_TRUE(std::equal(plain.at(22, 12), plain.at(22, 12) + 3, session.picture().at(22, 12)));
+}
+
+// A draft of a picture, whose targets stay while the picture's tiles are drawn.
+TEST(TargetViews, StayUntilTheNextPictureIsComplete) {
+  QuietSession session(hallOptions());
+  const SceneState state = evaluate(session.scene(), 0.0);
+  const auto planOf = [&](const Settings& settings) {
+    return planFrame(session.scene(), state, settings, size.width, size.height);
+  };
+  Settings draft = session.settings();
+  draft.view.scale = 0.5;
+  Settings full = session.settings();
+  full.view.samples = full.reflection.samples = 4;
+  FramePlan plan = planOf(full);
+  const size_t count = tileCount(plan);
+  ASSERT_EQ(plan.passes.size(), 1u);
+  for (const TargetKind kind : {TargetKind::color, TargetKind::depth}) {
+    for (const int pass : {0, 1}) {
+      const DebugView debug{.pass = pass, .area = {20, 10, 100, 80}, .kind = kind, .halfDistance = 5.0};
+      const auto draw = [&](const Settings& settings, const FramePlan& drawn, const DebugView& shown) {
+        recordFrame(session, state, settings, drawn, shown);
+        return session.picture().rgba;
+      };
+      plan.tiles.reset();
+      const auto whole = draw(full, plan, debug);
+      const auto before = draw(draft, planOf(draft), debug);
+      EXPECT_NE(before, whole);
+      DebugView other = debug;
+      other.pass = 1 - pass;
+      for (size_t first = 0; first < count; first += 20) {
+        plan.tiles = {first, std::min(first + 20, count)};
+        const auto now = draw(full, plan, debug);
+        EXPECT_EQ(now == before, !endsPicture(plan)) << pass << " at " << first;
+        EXPECT_EQ(now == whole, endsPicture(plan)) << pass << " at " << first;
+      }
+      plan.tiles = {0, 20};
+      EXPECT_EQ(draw(full, plan, debug), whole) << "of the picture before";
+      plan.tiles = {20, 40};
+      EXPECT_NE(draw(full, plan, other), whole) << "another target was not drawn";
+    }
+  }
 }
 
 TEST(TargetViews, CostNothingWhenOff) {

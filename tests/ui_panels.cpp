@@ -1,6 +1,4 @@
 // Commands that clicks on the panels send, and the state that panels keep.
-#include <imgui_internal.h>
-
 #include "panel_support.hpp"
 
 namespace speculum {
@@ -86,8 +84,55 @@ TEST_F(PanelTest, PanelsOfBothEdgesDoNotOverlap) {
     EXPECT_EQ(static_cast<float>(above) > ImGui::GetTextLineHeight(), width < 900.0f)
         << "beside three numbers there is no room for a label at " << width;
   }
-  resize(360, 700);
-  EXPECT_GT(ImGui::FindWindowByName(panels::inspectorTitle)->Size.x, 320.0f) << "no narrower where they overlap anyway";
+}
+
+// Says which windows that are shown, menus included, lie over each other.
+std::string overlaps() {
+  std::vector<const ImGuiWindow*> shown;
+  for (const ImGuiWindow* window : ImGui::GetCurrentContext()->Windows) {
+    if (window->Active && !window->Hidden && !window->ParentWindow && window->Size.x > 1.0f &&
+        std::string_view(window->Name).find("Debug##") == std::string_view::npos) {
+      shown.push_back(window);
+    }
+  }
+  std::string found;
+  for (size_t i = 0; i < shown.size(); ++i) {
+    for (size_t k = i + 1; k < shown.size(); ++k) {
+      if (shown[i]->Rect().Overlaps(shown[k]->Rect())) {
+        found += std::string(shown[i]->Name) + " and " + shown[k]->Name + "; ";
+      }
+    }
+  }
+  return found;
+}
+
+TEST_F(PanelTest, NoWindowLiesOverAnother) {
+  windows_->toggleInspector();
+  for (const char* window : {"Scenes", "Performance", "Accuracy", "Device", "Log", "Targets"}) {
+    toggle(window);
+    for (const auto& [width, height] : {std::pair(1280.0f, 720.0f), std::pair(640.0f, 480.0f),
+                                        std::pair(495.0f, 700.0f), std::pair(360.0f, 600.0f)}) {
+      resize(width, height);
+      EXPECT_EQ(overlaps(), "") << width << " with " << window;
+    }
+    resize(900, 700);
+  }
+}
+
+TEST_F(PanelTest, NarrowDisplaysHaveOneColumn) {
+  windows_->toggleInspector();
+  resize(495, 700);  // 38 sizes of the font
+  EXPECT_EQ(widget("edit.add_mirror").x, widget("copy").x);
+  const PixelRect add = widget("edit.add_mirror");
+  EXPECT_TRUE(windows_->freeRect().size.x > 100.0f);
+  windows_->toggleInspector();
+  run(2);
+  EXPECT_TRUE(windows_->inspectorCovers({static_cast<float>(add.x), static_cast<float>(add.y)}));
+  EXPECT_FALSE(windows_->inspectorCovers({480.0f, 300.0f}));
+  resize(900, 700);
+  windows_->toggleInspector();
+  run(2);
+  EXPECT_GT(widget("edit.add_mirror").x, 450) << "back at its own edge";
 }
 
 TEST_F(PanelTest, HeldWidgetsStayHeldWhenLabelsMove) {
@@ -401,17 +446,82 @@ TEST_F(PanelTest, PerformanceRowsSelectTheirMirrors) {
 }
 
 TEST_F(PanelTest, TooltipsLeaveDraggedSlidersInSight) {
-  const auto tooltip = [] {
-    const auto& windows = ImGui::GetCurrentContext()->Windows;
-    return std::any_of(windows.begin(), windows.end(), [](const ImGuiWindow* window) {
-      return window->Active && (window->Flags & ImGuiWindowFlags_Tooltip) != 0;
-    });
-  };
   hover("view.exposure", 0.3);
-  EXPECT_TRUE(tooltip());
+  EXPECT_TRUE(showsTooltip());
   hold(true);
-  EXPECT_FALSE(tooltip());
+  EXPECT_FALSE(showsTooltip());
   hold(false);
+}
+
+TEST_F(PanelTest, TooltipsAreThePointersOnly) {
+  click("view.exposure");
+  tap(ImGuiKey_DownArrow);
+  tap(ImGuiKey_UpArrow);
+  run(60);
+  ASSERT_TRUE(ImGui::GetIO().NavVisible);
+  EXPECT_FALSE(showsTooltip()) << "it would cover the next rows";
+}
+
+TEST_F(PanelTest, TooltipsSayWhatWasMeasuredHere) {
+  hover("reflection.scale", 0.3);
+  EXPECT_FALSE(shows("Here mirror images take")) << "not timed";
+  frame_.passes = {{{.path = {0}}, "mirror wall"}, {{.kind = PassKind::main}, "main view"}};
+  frame_.passes[0].gpuMs = 12.0;
+  frame_.passes[1].gpuMs = 30.0;
+  frame_.passes[0].timed = frame_.passes[1].timed = true;
+  frame_.timedGpuMs = 50.0;
+  accuracy_.prices["reflection.scale"] = "\nMeasured in this view:\n1.0: 7 ms";
+  run(2);
+  EXPECT_TRUE(shows("Here mirror images take 12.0 ms of a frame's 50.0 ms on the GPU."));
+  EXPECT_TRUE(shows("1.0: 7 ms"));
+  accuracy_.otherView = true;
+  run(2);
+  EXPECT_FALSE(shows("1.0: 7 ms"));
+  hover("view.samples", 0.3);
+  EXPECT_TRUE(shows("Here the main view takes 30.0 ms of a frame's 50.0 ms on the GPU."));
+}
+
+TEST_F(PanelTest, HeaderShowsTheLastPictureWhilePaused) {
+  frame_.frameMs = 14000.0;
+  frame_.still = true;
+  run(2);
+  EXPECT_TRUE(shows("14.00 s paused"));
+  frame_.frameMs = 20.0;
+  frame_.still = false;
+  run(2);
+  EXPECT_TRUE(shows("20.0 ms 50 FPS"));
+  resize(260, 400);
+  EXPECT_FALSE(shows("50 FPS")) << "it would lie over the menus";
+  EXPECT_TRUE(shows("FileEditViewWindowHelp"));
+}
+
+TEST_F(PanelTest, MenusShowTheirShortcuts) {
+  click("menu.File");
+  run(2);
+  for (const char* entry : {"New Ctrl+N", "Open... Ctrl+O", "Save Ctrl+S", "Save as... Ctrl+Shift+S", "Quit Ctrl+Q"}) {
+    EXPECT_TRUE(shows(entry)) << entry;
+  }
+}
+
+TEST_F(PanelTest, LongNamesAreCutAtTheirEnds) {
+  frame_.passes = {{{.kind = PassKind::main}, "main view"},
+                   {{.path = {0}}, "mirror wall"},
+                   {{.path = {0, 1}}, "mirror wall > door of the long corridor behind the kitchen"}};
+  frame_.passes[1].gpuMs = 1570.0;
+  resize(900, 1800);
+  EXPECT_TRUE(shows("door of the"));
+  EXPECT_FALSE(shows("behind the kitchen"));
+  EXPECT_TRUE(shows("1570")) << "numbers are never cut";
+}
+
+TEST_F(PanelTest, ButtonsSayWhatOtherProgramsSay) {
+  frame_.effects.resize(2);
+  frame_.effects[0].calledFor = true;
+  resize(900, 1800);
+  for (const char* label : {"Reset settings", "Copy command line", "Effects (1 in use)", "Mirror resolution",
+                            "Reuse unchanged images", "Clear color"}) {
+    EXPECT_TRUE(shows(label)) << label;
+  }
 }
 
 TEST_F(PanelTest, EscapeClosesWindowsFromTheTop) {
@@ -429,6 +539,15 @@ TEST_F(PanelTest, EscapeClosesWindowsFromTheTop) {
   windows_->setVisible(false);
   windows_->toggleInspector();
   EXPECT_TRUE(windows_->visible());
+}
+
+TEST_F(PanelTest, KeysFitOnePage) {
+  windows_->toggleHelp();
+  resize(1109, 624);  // in sizes of the font, what 1280x720 pixels are in the window
+  const ImGuiWindow* keys = ImGui::FindWindowByName(panels::helpTitle);
+  ASSERT_TRUE(keys);
+  EXPECT_EQ(keys->ScrollMax.y, 0.0f);
+  EXPECT_TRUE(shows("Walk through the panel's widgets"));
 }
 
 TEST_F(PanelTest, KeysFitNarrowWindows) {
@@ -455,6 +574,7 @@ TEST_F(PanelTest, HandlesAreNotDrawnOverATarget) {
     EXPECT_TRUE(beside || part.ElemCount == 0);
   }
   EXPECT_GT(lines, 0);
+  EXPECT_TRUE(ImGui::GetForegroundDrawList()->VtxBuffer.empty()) << "nothing of it lies over other windows";
 }
 
 class Inspector : public PanelTest {
@@ -565,8 +685,29 @@ TEST_F(Inspector, ClickedNumbersAreTyped) {
   EXPECT_EQ(scene_.mirrors[0].position, glm::dvec3(before.x, 1.75, before.z)) << "what was there is replaced";
 }
 
-TEST_F(Inspector, ReflectanceIsTypedAsInTheFile) {
+TEST_F(Inspector, SphereIsSuggested) {
+  edit_.models = {"/models/frame.obj", "/models/sphere.obj"};
+  const Scene other = scene_;
+  edit_.scene = &other;
+  run(2);
+  EXPECT_EQ(clickFor<AddObject>("edit.add_object").model, "/models/sphere.obj");
+}
+
+TEST_F(Inspector, ColorsHaveASwatch) {
   selectMirror(0);
+  const PixelRect row = widget("edit.reflectance");
+  bool found = false;
+  for (int x = row.x; x < row.x + row.width && !found; x += 4) {
+    moveTo(x, row.y + row.height / 2);
+    found = shows("Opens a picker.");
+  }
+  EXPECT_TRUE(found);
+}
+
+TEST_F(Inspector, ReflectanceIsTypedAsInTheFile) {
+  scene_.mirrors[0].reflectance = glm::dvec3(0.731, 0.5, 0.5);
+  selectMirror(0);
+  EXPECT_TRUE(shows("0.731"));
   typeNumber("edit.reflectance", 0.05, "0.404");
   EXPECT_DOUBLE_EQ(scene_.mirrors[0].reflectance.r, 0.404);
 }
@@ -659,6 +800,33 @@ TEST_F(AccuracyWindow, PointsAndSliderApplySettings) {
   EXPECT_EQ(std::get<ApplyPoint>(commands_.front()).point, 0);
 }
 
+TEST_F(AccuracyWindow, GreyPointsSayWhy) {
+  hover("accuracy.point exact");
+  EXPECT_TRUE(shows("mean FLIP"));
+  EXPECT_FALSE(shows("Grey:"));
+  hover("accuracy.point bad");
+  EXPECT_TRUE(shows("Grey: more accurate points take no longer"));
+}
+
+TEST_F(AccuracyWindow, SaysWhatMeasuringIsForAndHowLongItTakes) {
+  EXPECT_FALSE(shows("The view has changed since."));
+  accuracy_.otherView = true;
+  run(2);
+  EXPECT_TRUE(shows("The view has changed since."));
+  accuracy_ = {};
+  run(2);
+  for (const char* step :
+       {"Finds the settings that are the most accurate within a time", "1. traces", "2. draws", "3. takes the times"}) {
+    EXPECT_TRUE(shows(step)) << step;
+  }
+  accuracy_.measuring = true;
+  accuracy_.stage = "tracing the reference (1 of 3)";
+  accuracy_.secondsLeft = 90.0;
+  run(2);
+  EXPECT_TRUE(shows("tracing the reference (1 of 3)"));
+  EXPECT_TRUE(shows("About 90 s left"));
+}
+
 TEST_F(AccuracyWindow, BoundsBeginWhereSettingsWereMeasured) {
   accuracy_.current = 2;
   run(2);
@@ -694,7 +862,7 @@ class TargetsWindow : public PanelTest {
     const PassView main{{.kind = PassKind::main}, "main view"};
     frame_.passes = {mirror, main};
     frame_.skipped = {{.name = "mirror door", .path = {1}, .reason = "backface"}};
-    frame_.target.size = {900, 700};
+    frame_.target = {.complete = true, .size = {900, 700}};
     resize(900, 1800);  // the passes are in view
   }
   const std::optional<TargetRequest>& target() const { return output_.target; }
@@ -725,6 +893,19 @@ TEST_F(TargetsWindow, ShowsTheMainViewZoomsAndPans) {
   EXPECT_EQ(windows_->state().targets.zoom, 0.0);
   toggle("Targets");
   EXPECT_FALSE(target());
+}
+
+TEST_F(TargetsWindow, IncompleteTargetsAreAnnounced) {
+  frame_.target.complete = false;
+  toggle("Targets");
+  hover("targets.canvas");
+  EXPECT_TRUE(shows("Drawing..."));
+  ASSERT_TRUE(target() && target()->drawn);
+  EXPECT_FALSE(target()->view.probe);
+  frame_.target.complete = true;
+  run(2);
+  EXPECT_FALSE(shows("Drawing..."));
+  EXPECT_TRUE(target()->view.probe);
 }
 
 TEST_F(TargetsWindow, ClickedPassOpensAndClosesIt) {

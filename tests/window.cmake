@@ -6,7 +6,7 @@ speculum_test(thumbnail_tests SOURCES thumbnails.cpp picture_agreement.cpp LIBRA
 
 # Journeys through the window, on a display of their own.
 foreach(name journeys journeys_idle)
-  speculum_test(${name} SOURCES ${name}.cpp LIBRARIES picture_support display_support LABELS window)
+  speculum_test(${name} SOURCES ${name}.cpp LIBRARIES picture_support display_support ext::imgui LABELS window)
   add_dependencies(${name} speculum)
 endforeach()
 speculum_test(journeys_random SOURCES journeys_random.cpp LIBRARIES picture_support display_support LABELS window)

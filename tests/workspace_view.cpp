@@ -254,6 +254,12 @@ TEST_F(BudgetView, PointsChosenByHandAreSaid) {
   EXPECT_EQ(choice(), "");
 }
 
+TEST_F(BudgetView, ChangedScenesSayThatTheResultIsGone) {
+  send(AddLight{});
+  EXPECT_TRUE(view().accuracy.points.empty());
+  EXPECT_EQ(view().accuracy.about, "The scene has changed since it was measured.");
+}
+
 TEST_F(BudgetView, PricesOfSettingsAreListed) {
   const auto& prices = view().accuracy.prices;
   ASSERT_EQ(prices.size(), 1u);
@@ -311,6 +317,14 @@ TEST_F(Opening, ModelTakesThePlaceOfTheScene) {
   EXPECT_EQ(workspace_->time(), 0.0);
 }
 
+TEST_F(Opening, ModelsAreFramedBetweenPanels) {
+  host_.free = PixelRect{width / 2, 0, width / 2, height};
+  drop({model("queen.obj")});
+  const glm::dvec3 seen = camera().worldToView * (workspace_->state(0.0).instances.at(0).center - eye());
+  const double focal = 0.5 * height / std::tan(0.5 * camera().verticalFov);
+  EXPECT_NEAR(focal * seen.x / -seen.z, width / 4.0, 30.0);
+}
+
 TEST_F(Opening, OpenedScenesFolderIsListedFirst) {
   const BrowserView& browser = view().browser;
   EXPECT_EQ(browser.scenes.front().file.parent_path(), fs::path(options_.scene).parent_path());
@@ -338,6 +352,8 @@ TEST_F(Opening, FailureShowsALineAndKeepsScene) {
   std::ofstream(broken) << "[camera]\nposition = [0, 0, 4]\ntarget = [0, 0, 4]\n";
   drop({broken});
   EXPECT_EQ(workspace_->problem().rfind(broken.string() + ":3: camera.target:", 0), 0u) << workspace_->problem();
+  send(Escape{});
+  EXPECT_EQ(workspace_->problem(), "") << "dismissed";
   drop({"/tmp/notes.txt"});
   EXPECT_EQ(workspace_->problem(), "/tmp/notes.txt: not a scene (a .toml scene or an .obj model is needed)");
   drop({model("none.obj")});

@@ -2,7 +2,7 @@
 
 #include "model.hpp"
 
-// The palette of all models; linear RGB. Metals keep some diffuse colour, or they would be black away from highlights.
+// The palette of all models; linear RGB. Metals keep some diffuse color, or they would be black away from highlights.
 namespace speculum::generator::paints {
 
 inline const Paint kGold{"gold", {0.42, 0.26, 0.075}, {0.55, 0.38, 0.13}, 48.0};

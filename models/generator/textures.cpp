@@ -41,7 +41,7 @@ double turbulence(double u, double v, int period, int octaves, uint32_t seed) {
   return sum;
 }
 
-using Colour = glm::dvec3;
+using Color = glm::dvec3;
 
 // Veins along the zero lines of a warped noise.
 double vein(double u, double v, int period, double sharpness, uint32_t seed) {
@@ -49,40 +49,40 @@ double vein(double u, double v, int period, double sharpness, uint32_t seed) {
   return std::exp(-sharpness * std::abs(turbulence(wu, wv, period, 3, seed)));
 }
 
-Colour whiteMarble(double u, double v) {
+Color whiteMarble(double u, double v) {
   const double cloud = turbulence(u, v, 3, 5, 3), grey = 0.75 * vein(u, v, 2, 22.0, 9) + 0.3 * vein(u, v, 4, 34.0, 21);
-  const Colour base = Colour(0.94, 0.93, 0.91) + 0.05 * cloud;
-  return glm::mix(base, Colour(0.60, 0.60, 0.62), std::min(0.8, 0.75 * grey));
+  const Color base = Color(0.94, 0.93, 0.91) + 0.05 * cloud;
+  return glm::mix(base, Color(0.60, 0.60, 0.62), std::min(0.8, 0.75 * grey));
 }
 
-Colour greenMarble(double u, double v) {
+Color greenMarble(double u, double v) {
   const double cloud = 0.5 + 0.5 * turbulence(u, v, 4, 5, 103);
   const double white = 0.7 * vein(u, v, 3, 26.0, 109) + 0.35 * vein(u, v, 6, 40.0, 121);
-  const Colour base = glm::mix(Colour(0.12, 0.22, 0.19), Colour(0.22, 0.36, 0.31), cloud);
-  return glm::mix(base, Colour(0.62, 0.70, 0.64), std::min(0.75, white));
+  const Color base = glm::mix(Color(0.12, 0.22, 0.19), Color(0.22, 0.36, 0.31), cloud);
+  return glm::mix(base, Color(0.62, 0.70, 0.64), std::min(0.75, white));
 }
 
 // v runs once over the height of a wall: the lowest and highest parts are darker, as light reaches corners less.
-Colour plaster(double u, double v) {
+Color plaster(double u, double v) {
   const double grain = 0.022 * turbulence(u, v, 24, 3, 203) + 0.035 * turbulence(u, v, 4, 4, 233);
   const double corner = 0.20 * std::exp(-9.0 * v) + 0.26 * std::exp(-7.0 * (1.0 - v));
-  return Colour(0.93, 0.90, 0.86) * (1.0 - corner) + grain;
+  return Color(0.93, 0.90, 0.86) * (1.0 - corner) + grain;
 }
 
-Colour wood(double u, double v) {
+Color wood(double u, double v) {
   const double warp = turbulence(u, v, 2, 3, 303);
   const double rings = 0.5 + 0.5 * std::sin(2.0 * kPi * (7.0 * v + 1.6 * warp));
   const double fibre = noise(u * 8.0, v * 128.0, 128, 313);
-  const Colour dark(0.30, 0.17, 0.10), light(0.52, 0.33, 0.20);
+  const Color dark(0.30, 0.17, 0.10), light(0.52, 0.33, 0.20);
   return glm::mix(dark, light, std::clamp(0.2 + 0.6 * rings * rings + 0.25 * fibre, 0.0, 1.0));
 }
 
-// Colours are display-referred sRGB. Rounded to multiples of 3/255: a third of the bits would only store grain.
-void write(const std::filesystem::path& file, int size, Colour (*colour)(double, double)) {
+// Colors are display-referred sRGB. Rounded to multiples of 3/255: a third of the bits would only store grain.
+void write(const std::filesystem::path& file, int size, Color (*color)(double, double)) {
   Image8 image(size, size);
   for (int y = 0; y < size; ++y) {
     for (int x = 0; x < size; ++x) {
-      const Colour c = glm::clamp(colour((x + 0.5) / size, 1.0 - (y + 0.5) / size), 0.0, 1.0);
+      const Color c = glm::clamp(color((x + 0.5) / size, 1.0 - (y + 0.5) / size), 0.0, 1.0);
       for (int k = 0; k < 3; ++k) image.at(x, y)[k] = static_cast<uint8_t>(3.0 * std::round(c[k] * 85.0));
     }
   }

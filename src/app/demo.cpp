@@ -213,6 +213,11 @@ void Demo::drawFrame(double seconds, double sinceLastMs) {
   pace_.presented(milliseconds(Clock::now() - presents));
 }
 
+std::optional<std::pair<std::vector<int>, TargetKind>> Demo::targetShown() const {
+  const std::optional<TargetRequest>& target = output_.target;
+  return target ? std::optional(std::pair(target->path, target->view.kind)) : std::nullopt;
+}
+
 const FittedPlan& Demo::planFrame(Frame& frame, const SceneState& state) {
   const bool showsMain = output_.target && output_.target->path.empty();
   const bool settingsMove = ui_->holdsWidget() || pace_.moving();
@@ -224,15 +229,15 @@ const FittedPlan& Demo::planFrame(Frame& frame, const SceneState& state) {
                                         .revision = workspace_.revision(),
                                         .shaders = renderer_.pipelines().revision(),
                                         .time = moves(workspace_.scene()) ? std::optional(state.time) : std::nullopt,
-                                        .size = pictureSize()},
+                                        .size = pictureSize(),
+                                        .target = targetShown()},
                               // Recorded frames have no budget.
                               .budgetMs = workspace_.capture().recording()
                                               ? 0.0
                                               : motionBudget(workspace_.settings(), isCpu(device_), refreshHz_),
                               .front = workspace_.accuracy().front(),
                               .simplifies = levels_.ready(workspace_.scene(), scenes_),
-                              .input = changes_,
-                              .divides = !output_.target};  // it shows a pass of a whole picture
+                              .input = changes_};
   const FittedPlan& fitted = pace_.plan(request, [&](const Settings& lowered, int picture) {
     return planner_.plan(frame, *sceneRenderer_, request.scene, state, lowered, picture, showsMain, settingsMove);
   });

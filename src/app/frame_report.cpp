@@ -25,7 +25,10 @@ TargetView targetOf(const FramePlan& plan, const PlannedPass& pass, const Settin
   const auto texel = [&](const glm::dvec2& device) {
     return glm::vec2((0.5 * device + 0.5) * view.pictureSize - glm::dvec2(view.rect.x, view.rect.y));
   };
-  TargetView target{.size = {view.rect.width, view.rect.height}, .near = plan.projection.near};
+  TargetView target{.path = view.path,
+                    .complete = endsPicture(plan),
+                    .size = {view.rect.width, view.rect.height},
+                    .near = plan.projection.near};
   if (!view.path.empty() && settings.debug.maskPasses) {
     for (const glm::dvec2& p : passMask(view, plan.projection, lookupReach(settings, standardSampleLocations))) {
       target.mask.push_back(texel(p));
@@ -73,6 +76,7 @@ void FrameReport::clear() {
   view_.passes.clear();
   view_.skipped.clear();
   view_.history.clear();
+  view_.target = {};
   view_.timedGpuMs = 0.0;
   skipped_.clear();
 }
@@ -269,9 +273,12 @@ std::optional<DebugView> FrameReport::target(const TargetRequest& request, const
   if (!mirror && !request.path.empty()) {
     return std::nullopt;
   }
-  const std::optional<TexelValue> value = view_.target.value;
-  view_.target = targetOf(plan, mirror ? *mirror : plan.main, settings, standardSampleLocations);
-  view_.target.value = value;
+  // While tiles are drawn, the target of the picture before stays.
+  if (endsPicture(plan) || !view_.target.complete || view_.target.path != request.path) {
+    const std::optional<TexelValue> value = view_.target.value;
+    view_.target = targetOf(plan, mirror ? *mirror : plan.main, settings, standardSampleLocations);
+    view_.target.value = value;
+  }
   if (!request.drawn) {
     return std::nullopt;
   }

@@ -37,6 +37,8 @@ class FrameReport {
   void updatePasses(const RecordedFrame& frame, const FrameTimings& timings, std::span<const RecordedPass> passes,
                     std::span<const RecordedPass> timed);
   void updateOutline(const RecordedFrame& frame, const std::vector<int>& hovered);
+  void updateEffects(const RecordedFrame& frame, const EffectLedger& ledger);
+  void updateSkipped(const RecordedFrame& frame);
 
   FrameHistory& history() { return view_.history; }
   std::span<const SkippedMirror> skipped() const { return skipped_; }  // in the last frame
@@ -44,8 +46,6 @@ class FrameReport {
 
  private:
   bool drewPicture(uint64_t frame) const;  // the whole of one, among the latest frames
-  void updateEffects(const RecordedFrame& frame, const EffectLedger& ledger);
-  void updateSkipped(const RecordedFrame& frame);
   void addFrame(const RecordedFrame& frame, const FrameTimings& timings, std::span<const RecordedPass> timed);
 
   // Frames so far that drew a picture: the whole of it, or tiles.

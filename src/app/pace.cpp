@@ -85,7 +85,7 @@ void Pace::planStill(const Request& request, const Planner& plan) {
     slow_.reset();
     draft_.clear();
   }
-  const bool divides = request.budgetMs > 0.0 && request.divides;
+  const bool divides = request.budgetMs > 0.0;
   if (!divides) {
     slow_.reset();
   }
@@ -123,14 +123,15 @@ bool Pace::planFirst(const Request& request, const Planner& plan) {
 
 // Plans the next picture of the mean or, if it is slow, its next tiles.
 void Pace::planPicture(const Request& request, const Planner& plan) {
-  if (!slow_ && picture_ > 0 && request.budgetMs > 0.0 && request.divides) {
+  if (!slow_ && picture_ > 0 && request.budgetMs > 0.0) {
     slow_.emplace();
   }
   if (!slow_ || slow_->finished()) {
     fitted_ = plan(withPictures(request.chosen, pictures_), pictures_ == 1 ? 0 : picture_);
     const double ms = controller_.predict(work_);
     if (slow_ && ms > longestWait * request.budgetMs && drawnInTiles(fitted_)) {
-      slow_->begin(tileCount(fitted_.plan), ms);
+      const size_t faces = faceCount(fitted_.plan);
+      slow_->begin(faces, tileCount(fitted_.plan) - faces, ms);
       slowWork_ = work_;
     }
   }

@@ -6,6 +6,7 @@
 #include "app/motion_controller.hpp"
 #include "app/slow_picture.hpp"
 #include "core/gpu_timer.hpp"
+#include "frame/debug_view.hpp"
 #include "frame/memory_fit.hpp"
 
 namespace speculum {
@@ -62,6 +63,8 @@ class Pace {
     uint64_t shaders = 0;        // revision of the pipelines
     std::optional<double> time;  // of a scene that moves
     glm::ivec2 size{0};          // pixels of the picture
+    // Pass and kind of the target that is shown beside it; nothing without one.
+    std::optional<std::pair<std::vector<int>, TargetKind>> target;
 
     bool operator==(const Shown&) const = default;
   };
@@ -74,7 +77,6 @@ class Pace {
     std::span<const MotionLevel> front;  // as motionLevels takes it
     bool simplifies = false;             // likewise
     bool input = false;                  // there is some, which a frame with tiles must not hold up
-    bool divides = true;                 // several frames may draw a picture
   };
   // Plans the frame. Calls `plan` a few times, or not at all between tiles of a picture, with settings and the number
   // of a picture in their mean; returns the plan of the last call, valid until the next frame's.

@@ -77,8 +77,9 @@ std::optional<QualityChoice> chooseQuality(const Options& options, const std::fi
     const bool byHand = kept.contains("quality.budget_ms") || kept.contains("quality.max_error");
     if (byHand && options.command != "demo") {
       throw UsageError(
-          "--set: quality.budget_ms and quality.max_error choose from a sweep (--sweep-results F, the results.json of "
-          "speculum accuracy)");
+          "quality.budget_ms and quality.max_error choose from a sweep (--sweep-results F, the results.json of "
+          "speculum "
+          "accuracy)");
     }
     spdlog::warn("GPU budget and Max. mean FLIP wait for a measurement (Accuracy > Measure this view)");
     return std::nullopt;

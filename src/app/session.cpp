@@ -122,7 +122,7 @@ void applyDebugSettings(const Settings& settings, Device& device) {
     for (const BarrierKind known : allBarrierKinds()) {
       names += (names.empty() ? "" : ", ") + std::string(barrierName(known));
     }
-    throw UsageError("--set: debug.omit_barrier: there is no barrier '" + name + "' (" + names + ")");
+    throw UsageError("debug.omit_barrier: there is no barrier '" + name + "' (" + names + ")");
   }
   device.barriers().omit(kind);
 }

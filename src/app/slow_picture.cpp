@@ -1,6 +1,7 @@
 #include "app/slow_picture.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace speculum {
@@ -11,8 +12,10 @@ constexpr double caution = 4.0;  // a tile that was never drawn may take that mu
 
 }  // namespace
 
-void SlowPicture::begin(size_t count, double ms) {
+void SlowPicture::begin(size_t faces, size_t count, double ms) {
   tiles_ = {};
+  faces_ = faces;
+  faceMs_ = std::numeric_limits<double>::infinity();
   totalMs_ = 0.0;
   const std::vector<double> before = std::exchange(tileMs_, std::vector<double>(count));
   if (before.empty()) {
@@ -28,8 +31,11 @@ void SlowPicture::begin(size_t count, double ms) {
 
 TileRange SlowPicture::next(double ms) {
   tiles_ = {tiles_.end, tiles_.end + 1};
-  for (double sum = tileMs_[tiles_.first]; tiles_.end < tileMs_.size(); ++tiles_.end) {
-    sum += tileMs_[tiles_.end];
+  const bool faces = tiles_.first < faces_;
+  const auto expected = [&](size_t tile) { return faces ? faceMs_ : tileMs_[tile - faces_]; };
+  const size_t end = faces ? faces_ : faces_ + tileMs_.size();
+  for (double sum = expected(tiles_.first); tiles_.end < end; ++tiles_.end) {
+    sum += expected(tiles_.end);
     if (sum > ms) {
       break;
     }
@@ -40,8 +46,12 @@ TileRange SlowPicture::next(double ms) {
 void SlowPicture::took(double ms) {
   totalMs_ += ms;
   const double tileMs = ms / static_cast<double>(tiles_.end - tiles_.first);
-  std::fill(tileMs_.data() + tiles_.first, tileMs_.data() + tiles_.end, tileMs);
-  measured_ = std::max(measured_, tiles_.end);
+  if (tiles_.first < faces_) {
+    faceMs_ = tileMs;
+    return;
+  }
+  std::fill(tileMs_.data() + tiles_.first - faces_, tileMs_.data() + tiles_.end - faces_, tileMs);
+  measured_ = std::max(measured_, tiles_.end - faces_);
   dearestMs_ = std::max(dearestMs_, tileMs);
   std::fill(tileMs_.data() + measured_, tileMs_.data() + tileMs_.size(), std::max(tileMs, dearestMs_ / caution));
 }

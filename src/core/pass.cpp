@@ -87,7 +87,7 @@ PassGroup::PassGroup(const Barriers& barriers, VkCommandBuffer commands, std::sp
   if (!any.loadColor && !any.keepsSamples) {
     discard(samples);
   }
-  if (!any.loadDepth) {
+  if (!any.loadDepth && !(any.storeDepth && any.keepsSamples)) {
     discard(depths);
   }
   if (any.targets.role == TargetRole::swapchain && !any.loadColor) {

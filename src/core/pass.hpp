@@ -42,7 +42,8 @@ struct PassDesc {
   std::string name;
   PassTargets targets;
   // Pixels of the target; only these are cleared and written. Outside them a resolved or single-sample offscreen color
-  // is kept, and multisampled color with `keepsSamples` or when loaded; depth and swapchain images only when loaded.
+  // is kept, multisampled color with `keepsSamples` or when loaded, depth when loaded or stored with `keepsSamples`;
+  // swapchain images only when loaded.
   VkRect2D renderArea{};
   PassViewport viewport;
   VkRect2D scissor{};  // pixels of the target, within the render area

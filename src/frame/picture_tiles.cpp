@@ -24,18 +24,35 @@ const PixelRect& rectOf(const FramePlan& plan, size_t pass) {
 
 }  // namespace
 
-size_t tileCount(const FramePlan& plan) {
+size_t faceCount(const FramePlan& plan) {
   size_t count = 0;
+  for (const ShadowMap& map : plan.shadowMaps) {
+    count += static_cast<size_t>(std::ranges::count(map.faces, true, &ShadowFace::rendered));
+  }
+  for (const EnvironmentMap& map : plan.maps) {
+    count += map.cacheIndex < 0 ? map.faces.size() : 0;
+  }
+  return count;
+}
+
+size_t tileCount(const FramePlan& plan) {
+  size_t count = faceCount(plan);
   for (size_t pass = 0; pass <= plan.passes.size(); ++pass) {
     count += tilesIn(rectOf(plan, pass));
   }
   return count;
 }
 
+TileRange facesOf(const FramePlan& plan) {
+  const size_t count = faceCount(plan);
+  return plan.tiles ? TileRange{std::min(plan.tiles->first, count), std::min(plan.tiles->end, count)}
+                    : TileRange{0, count};
+}
+
 std::vector<TileRange> tilesOfPasses(const FramePlan& plan) {
   const TileRange drawn = plan.tiles.value_or(TileRange{0, SIZE_MAX});
   std::vector<TileRange> tiles;
-  size_t before = 0;
+  size_t before = faceCount(plan);
   for (size_t pass = 0; pass <= plan.passes.size(); ++pass) {
     const size_t end = before + tilesIn(rectOf(plan, pass));
     tiles.push_back({std::clamp(drawn.first, before, end) - before, std::clamp(drawn.end, before, end) - before});

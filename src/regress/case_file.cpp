@@ -246,6 +246,13 @@ void CaseReader::add(const TableReader& table, const Draft& draft, const std::st
     table.fail("name", "'" + made.name + "' is already the name of an earlier case", "names must be unique");
   }
   made.settings.assign(draft.settings.begin(), draft.settings.end());
+  Settings settings;
+  for (const auto& [key, value] : made.settings) {
+    setSetting(settings, key, value);
+  }
+  if (settings.quality.budgetMs > 0.0 || settings.quality.maxError > 0.0) {
+    table.fail("settings", "quality.budget_ms and quality.max_error choose from a sweep", "cases have none");
+  }
   const auto pictureFile = [&](std::string path) {
     constexpr std::string_view placeholder = "{name}";
     if (const size_t at = path.find(placeholder); at != std::string::npos) {

@@ -16,21 +16,20 @@ struct Placement {
   glm::vec4 lookup;
 };
 
-std::optional<Placement> placementOf(const FramePlan& plan, const DebugView& debug) {
-  const bool ofMain = debug.pass == static_cast<int>(plan.passes.size());
-  const PixelRect& image = ofMain ? plan.main.view.rect : plan.passes[debug.pass].view.rect;
-  PixelRect area = intersect(debug.area, {0, 0, plan.width, plan.height});
+std::optional<Placement> placementOf(const VkExtent2D& display, const glm::dvec2& image, const DebugView& debug) {
+  const glm::ivec2 end(display.width, display.height);
+  PixelRect area = intersect(debug.area, {0, 0, end.x, end.y});
   glm::dvec2 corner(debug.area.x, debug.area.y);  // of texel 0, 0, in pixels of the display
   double zoom = debug.zoom;
   if (zoom > 0.0) {
     corner -= zoom * debug.origin;
   } else {
-    zoom = std::min(static_cast<double>(area.width) / image.width, static_cast<double>(area.height) / image.height);
+    zoom = std::min(area.width / image.x, area.height / image.y);
     corner = {area.x, area.y};
   }
-  const glm::dvec2 last = corner + zoom * glm::dvec2(image.width, image.height);
+  const glm::dvec2 last = corner + zoom * image;
   const glm::ivec2 low(glm::ceil(glm::max(corner - 0.5, glm::dvec2(-1.0))));
-  const glm::ivec2 high(glm::floor(glm::min(last, glm::dvec2(plan.width, plan.height) + 1.0)));
+  const glm::ivec2 high(glm::floor(glm::min(last, glm::dvec2(end) + 1.0)));
   area = intersect(area, {low.x, low.y, high.x - low.x, high.y - low.y});
   if (area.empty()) {
     return std::nullopt;
@@ -105,9 +104,9 @@ RecordedPass DisplaySystem::record(Frame& frame, const MirrorImage& radiance, Vk
               gpu::DisplayConstants{glm::vec4(scale, 0.0f, 0.0f), 1.0f});
 }
 
-std::optional<RecordedPass> DisplaySystem::recordColor(Frame& frame, const FramePlan& plan, const DebugView& debug,
+std::optional<RecordedPass> DisplaySystem::recordColor(Frame& frame, const glm::ivec2& size, const DebugView& debug,
                                                        const MirrorImage& radiance, const Settings& settings) {
-  const std::optional<Placement> placement = placementOf(plan, debug);
+  const std::optional<Placement> placement = placementOf(frame.extent, size, debug);
   if (!placement) {
     return std::nullopt;
   }
@@ -116,16 +115,15 @@ std::optional<RecordedPass> DisplaySystem::recordColor(Frame& frame, const Frame
               gpu::DisplayConstants{placement->lookup, static_cast<float>(settings.view.exposure)});
 }
 
-std::optional<RecordedPass> DisplaySystem::recordDepth(Frame& frame, const FramePlan& plan, const DebugView& debug,
-                                                       WatchedDepth& depth) {
-  const std::optional<Placement> placement = placementOf(plan, debug);
+std::optional<RecordedPass> DisplaySystem::recordDepth(Frame& frame, const glm::ivec2& size, const DebugView& debug,
+                                                       WatchedDepth& depth, double near) {
+  const std::optional<Placement> placement = placementOf(frame.extent, size, debug);
   if (!placement) {
     return std::nullopt;
   }
-  return draw(
-      frame, viewPass(renderer_.displayTargets(frame), placement->area), PassKind::debugView, depth.pipeline(),
-      depth.descriptor(),
-      gpu::DepthViewConstants{placement->lookup, static_cast<float>(plan.projection.near / debug.halfDistance)});
+  return draw(frame, viewPass(renderer_.displayTargets(frame), placement->area), PassKind::debugView, depth.pipeline(),
+              depth.descriptor(),
+              gpu::DepthViewConstants{placement->lookup, static_cast<float>(near / debug.halfDistance)});
 }
 
 void DisplaySystem::releaseView() {

@@ -29,11 +29,12 @@ class DisplaySystem {
   // sum of `pictures` pictures.
   RecordedPass record(Frame& frame, const MirrorImage& radiance, VkExtent2D size, const Settings& settings,
                       int pictures);
-  // Record a pass that shows the target of debug.pass; nothing if no part of it lies in the area.
-  std::optional<RecordedPass> recordColor(Frame& frame, const FramePlan& plan, const DebugView& debug,
+  // Record a pass that shows a target of `size` texels; nothing if no part of it lies in the area.
+  std::optional<RecordedPass> recordColor(Frame& frame, const glm::ivec2& size, const DebugView& debug,
                                           const MirrorImage& radiance, const Settings& settings);
-  std::optional<RecordedPass> recordDepth(Frame& frame, const FramePlan& plan, const DebugView& debug,
-                                          WatchedDepth& depth);
+  // `near`: metres from the eye to the near plane.
+  std::optional<RecordedPass> recordDepth(Frame& frame, const glm::ivec2& size, const DebugView& debug,
+                                          WatchedDepth& depth, double near);
   // Drops the pipelines that only debug views need.
   void releaseView();
 

@@ -22,6 +22,7 @@ void EnvironmentTargets::release(RetireQueue& retired) {
 }
 
 void EnvironmentTargets::prepare(const FramePlan& plan, RetireQueue& retired) {
+  cached_.clear();  // until all are complete
   std::vector<OffScreen*> targets(plan.maps.size(), nullptr);
   for (size_t i = 0; i < plan.maps.size(); ++i) {
     if (plan.maps[i].cacheIndex >= 0) {

@@ -59,6 +59,13 @@ void ImagePool::release(const OffScreen& target) {
   }
 }
 
+std::unique_ptr<OffScreen> ImagePool::remove(const OffScreen& target) {
+  const auto entry = std::ranges::find_if(entries_, [&](const Entry& e) { return e.target.get() == &target; });
+  std::unique_ptr<OffScreen> removed = std::move(entry->target);
+  entries_.erase(entry);
+  return removed;
+}
+
 void ImagePool::endFrame(RetireQueue& retired) {
   for (Entry& entry : entries_) {
     if (!entry.taken && ++entry.idleFrames > framesKept) {

@@ -21,6 +21,7 @@ class ImagePool {
   // Returns a target that covers `extent` and is taken until release().
   OffScreen& acquire(VkExtent2D extent, RetireQueue& retired);
   void release(const OffScreen& target);
+  std::unique_ptr<OffScreen> remove(const OffScreen& target);  // gives it away
   void endFrame(RetireQueue& retired);
   void clear(RetireQueue& retired);  // drops every target; none may be taken
   bool empty() const { return entries_.empty(); }

@@ -45,9 +45,30 @@ void MirrorTargets::takeCached(const FramePlan& plan) {
   cachedImages_.clear();  // an unfinished picture offers none; end() fills it
 }
 
+// While tiles are drawn the image stays shown; the pool may be cleared meanwhile.
+void MirrorTargets::takeWatched(const FramePlan& plan, RetireQueue& retired) {
+  OffScreen* image = std::exchange(watchedImage_, nullptr);
+  if (!plan.tiles) {
+    releaseEarlier(retired);
+  }
+  if (image && plan.tiles && !earlierWatched_) {
+    earlierWatched_ = pool_->remove(*image);
+  } else if (image) {
+    pool_->release(*image);
+  }
+}
+
+void MirrorTargets::releaseEarlier(RetireQueue& retired) {
+  if (earlierWatched_) {
+    earlierWatched_->retire(retired);
+    earlierWatched_.reset();
+  }
+}
+
 void MirrorTargets::begin(const FramePlan& plan, VkSampleCountFlagBits samples, std::optional<int> watched,
                           RetireQueue& retired) {
   watched_ = watched;
+  takeWatched(plan, retired);
   takeCached(plan);
   const bool needless = plan.passes.empty() && plan.cached.empty();
   if (pool_ && (restart_ || depths_.front().image->samples() != samples || needless)) {
@@ -116,8 +137,9 @@ void MirrorTargets::end(const FramePlan& plan, RetireQueue& retired) {
   }
   if (watched_ &&
       std::find(cachedTargets_.begin(), cachedTargets_.end(), targets_[*watched_]) == cachedTargets_.end()) {
-    pool_->release(*targets_[*watched_]);
+    watchedImage_ = targets_[*watched_];
   }
+  releaseEarlier(retired);
   cachedImages_ = plan.cached;
   if (!pool_) {
     return;

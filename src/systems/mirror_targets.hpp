@@ -18,8 +18,8 @@ class MirrorTargets {
   const std::vector<CachedImage>& cachedImages() const { return cachedImages_; }
   void restart();  // drops the cached images and, in the next frame, every target
 
-  // Begins the plan's frame and takes over the cached images that it reuses. `watched` is the pass that the debug view
-  // shows; its image is not released before the frame ends.
+  // Begins the plan's picture and takes over the cached images that it reuses. `watched` is the pass that the debug
+  // view shows: its image is not released before the next picture begins, or ends if several frames draw that.
   void begin(const FramePlan& plan, VkSampleCountFlagBits samples, std::optional<int> watched, RetireQueue& retired);
   // Returns targets for the passes of a range, in order, each with a depth image of its own. The images that the range
   // looks up stay untouched.
@@ -29,6 +29,8 @@ class MirrorTargets {
   void end(const FramePlan& plan, RetireQueue& retired);
 
   OffScreen& operator[](size_t pass) { return *targets_[pass]; }
+  // Image of the watched pass in the picture before, while tiles of one are drawn; null if there is none.
+  OffScreen* earlierWatched() { return earlierWatched_.get(); }
   std::span<const MirrorImage> images() const { return images_; }  // of plan.passes, by index; set once acquired
   // Parallel to FramePlan::cached; set where an earlier frame rendered the image.
   std::span<const MirrorImage> cached() const { return cachedDescriptors_; }
@@ -42,6 +44,8 @@ class MirrorTargets {
     int frames = 0;           // frames since then
   };
   void takeCached(const FramePlan& plan);
+  void takeWatched(const FramePlan& plan, RetireQueue& retired);
+  void releaseEarlier(RetireQueue& retired);
   bool isNeededLater(const FramePlan& plan, int pass) const;
   SharedDepth& depth(size_t place, VkExtent2D needed);
   void fitDepth(RetireQueue& retired);
@@ -56,6 +60,8 @@ class MirrorTargets {
   std::vector<OffScreen*> cachedTargets_;  // parallel to cachedImages_ between frames, to FramePlan::cached within one
   std::vector<MirrorImage> cachedDescriptors_;
   std::optional<int> watched_;
+  OffScreen* watchedImage_ = nullptr;  // of the last picture, in the pool
+  std::unique_ptr<OffScreen> earlierWatched_;
   bool restart_ = false;
 };
 

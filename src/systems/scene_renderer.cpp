@@ -96,8 +96,8 @@ void SceneRenderer::uploadTextures(Frame& frame, const SceneState& state, const 
 void SceneRenderer::record(Frame& frame, const SceneState& state, const Settings& settings, const FramePlan& plan,
                            const std::optional<DebugView>& debug, bool shown) {
   const Environment environment = effectiveEnvironment(scene_, settings);
-  releaseDebugViews(debug, *frame.retired);
-  prepareTargets(frame, settings, plan, debug, shown);
+  watch(plan, debug, *frame.retired);
+  prepareTargets(frame, settings, plan, shown);
   frameParts_.clear();
   const bool textured = drawsTextures(scene_, state, settings, plan);
   resources_.prepare(frame, settings.effects.textures, textured);
@@ -124,17 +124,18 @@ void SceneRenderer::record(Frame& frame, const SceneState& state, const Settings
     if (!plan.mainReused) {
       ledger_ = {};
     }
-    recordShadows(info);
-    recordMaps(info);
-    environmentTargets_.endFrame(plan, *frame.retired);
-    shadowSystem_.endFrame(plan, *frame.retired);
   }
+  recordFaces(info);
   recordMirrors(info);
   recordMain(info);
   unfinished_ = !endsPicture(plan);
   if (unfinished_) {
     mainImage_ = {};
   } else {
+    if (watched_ && watched_->kind == TargetKind::depth) {
+      watchedDepth_->finish(frame.commands, *frame.retired);
+    }
+    shown_ = watched_;
     releaseEarlierMain(*frame.retired);
     recordSum(info);
   }
@@ -152,10 +153,19 @@ void SceneRenderer::add(RecordedPass pass) {
   recorded_.push_back(std::move(pass));
 }
 
-// Releases what only the debug view needs, once it is off.
-void SceneRenderer::releaseDebugViews(const std::optional<DebugView>& debug, RetireQueue& retired) {
-  depthPass_ = debug && debug->kind == TargetKind::depth ? std::optional(debug->pass) : std::nullopt;
-  if (!depthPass_) {
+SceneRenderer::Watched SceneRenderer::watchedOf(const FramePlan& plan, const DebugView& debug) {
+  const auto pass = static_cast<size_t>(debug.pass);
+  const View& view = (pass < plan.passes.size() ? plan.passes[pass] : plan.main).view;
+  return {debug.pass, view.path, debug.kind, {view.rect.width, view.rect.height}, plan.projection.near};
+}
+
+// Begins to watch the debug view's target with a picture. Releases what only the debug view needs, once it is off.
+void SceneRenderer::watch(const FramePlan& plan, const std::optional<DebugView>& debug, RetireQueue& retired) {
+  if (beginsPicture(plan)) {
+    watched_ = debug ? std::optional(watchedOf(plan, *debug)) : std::nullopt;
+  }
+  if (!debug || debug->kind != TargetKind::depth) {
+    watched_ = watched_ && watched_->kind == TargetKind::depth ? std::nullopt : watched_;
     watchedDepth_->release(retired);
   }
   if (!debug || !debug->probe) {
@@ -166,15 +176,14 @@ void SceneRenderer::releaseDebugViews(const std::optional<DebugView>& debug, Ret
   }
 }
 
-void SceneRenderer::prepareTargets(Frame& frame, const Settings& settings, const FramePlan& plan,
-                                   const std::optional<DebugView>& debug, bool shown) {
-  const bool showsMirror = debug && debug->pass < static_cast<int>(plan.passes.size());
+void SceneRenderer::prepareTargets(Frame& frame, const Settings& settings, const FramePlan& plan, bool shown) {
   if (beginsPicture(plan)) {
+    const bool watchesMirror = watched_ && !watched_->path.empty();
     if (unfinished_) {
       mirrorTargets_.restart();
     }
     mirrorTargets_.begin(plan, device_.sampleCount(settings.reflection.samples),
-                         showsMirror ? std::optional(debug->pass) : std::nullopt, *frame.retired);
+                         watchesMirror ? std::optional(watched_->pass) : std::nullopt, *frame.retired);
     if (shown && plan.tiles && !earlierMain_ && !unfinished_ && accumulated() == 0) {
       earlierMain_ = std::move(main_);
     } else if (!plan.tiles) {
@@ -221,47 +230,70 @@ void SceneRenderer::releaseEarlierMain(RetireQueue& retired) {
   }
 }
 
-void SceneRenderer::recordMaps(const FrameInfo& info) {
-  size_t face = info.plan.passes.size() + 1;  // in info.data, after the main view
-  for (size_t i = 0; i < info.plan.maps.size(); ++i) {
-    if (info.plan.maps[i].cacheIndex < 0) {
-      recordMap(info, i, face);
-      face += info.plan.maps[i].faces.size();
+// Records the frame's faces of shadow and environment maps. The next plan may reuse them once all are drawn.
+void SceneRenderer::recordFaces(const FrameInfo& info) {
+  const FramePlan& plan = info.plan;
+  if (beginsPicture(plan)) {
+    shadowSystem_.restart();
+  }
+  const TileRange faces = facesOf(plan);
+  recordMaps(info, faces, recordShadows(info, faces));
+  const bool last = faces.end == faceCount(plan) && (beginsPicture(plan) || !faces.empty());
+  if (last) {
+    environmentTargets_.endFrame(plan, *info.frame.retired);
+    shadowSystem_.endFrame(plan, *info.frame.retired);
+  }
+}
+
+// `face`: number of the first one among `faces`.
+void SceneRenderer::recordMaps(const FrameInfo& info, const TileRange& faces, size_t face) {
+  size_t index = info.plan.passes.size() + 1;  // in info.data, after the main view
+  for (size_t map = 0; map < info.plan.maps.size(); ++map) {
+    const EnvironmentMap& planned = info.plan.maps[map];
+    for (size_t i = 0; planned.cacheIndex < 0 && i < planned.faces.size(); ++i, ++index, ++face) {
+      if (face >= faces.first && face < faces.end) {
+        recordFace(info, map, i, index);
+      }
+    }
+    const bool whole = planned.cacheIndex < 0 && !info.plan.tiles;
+    if (whole) {
+      checkTarget(info, recorded_.back(), environmentTargets_[map], extentOf(3 * planned.size, 2 * planned.size));
     }
   }
 }
 
-void SceneRenderer::recordMap(const FrameInfo& info, size_t map, size_t firstFace) {
+void SceneRenderer::recordFace(const FrameInfo& info, size_t map, size_t face, size_t index) {
   const EnvironmentMap& planned = info.plan.maps[map];
   OffScreen& target = environmentTargets_[map];
   const VkExtent2D size = extentOf(planned.size, planned.size);
-  for (size_t face = 0; face < planned.faces.size(); ++face) {
-    const glm::ivec2 corner = faceCorner(planned, face);
-    const PassViewport viewport{static_cast<float>(corner.x), static_cast<float>(corner.y),
-                                static_cast<float>(size.width), static_cast<float>(size.height)};
-    const PassDesc desc = scenePass("environment of " + planned.name + " " + faceAxes()[face].name, target.targets(),
-                                    {{corner.x, corner.y}, size}, viewport, planned.faces[face].view, info.environment);
-    const uint32_t drawsBefore = ledger_[EffectKind::curved].draws;
-    const PassId id{.kind = PassKind::environment, .instance = planned.instance, .face = static_cast<int>(face)};
-    RecordedPass pass{id, desc.name};
-    pass.areaPx = planned.faces[face].areaPx;
-    drawScene(info, firstFace + face, desc, std::move(pass));
-    // Counts each draw once: drawScene() has entered the curved mirrors seen in the face.
-    ledger_[EffectKind::curved].draws = drawsBefore + recorded_.back().draws;
-  }
-  checkTarget(info, recorded_.back(), target, {3 * size.width, 2 * size.height});
+  const glm::ivec2 corner = faceCorner(planned, face);
+  const PassViewport viewport{static_cast<float>(corner.x), static_cast<float>(corner.y),
+                              static_cast<float>(size.width), static_cast<float>(size.height)};
+  const PassDesc desc = scenePass("environment of " + planned.name + " " + faceAxes()[face].name, target.targets(),
+                                  {{corner.x, corner.y}, size}, viewport, planned.faces[face].view, info.environment);
+  const uint32_t drawsBefore = ledger_[EffectKind::curved].draws;
+  const PassId id{.kind = PassKind::environment, .instance = planned.instance, .face = static_cast<int>(face)};
+  RecordedPass pass{id, desc.name};
+  pass.areaPx = planned.faces[face].areaPx;
+  drawScene(info, index, desc, std::move(pass));
+  // Counts each draw once: drawScene() has entered the curved mirrors seen in the face.
+  ledger_[EffectKind::curved].draws = drawsBefore + recorded_.back().draws;
 }
 
-void SceneRenderer::recordShadows(const FrameInfo& info) {
+// Returns the number of faces that the picture renders.
+size_t SceneRenderer::recordShadows(const FrameInfo& info, const TileRange& faces) {
   const std::vector<ShadowMap>& maps = info.plan.shadowMaps;
-  size_t index = info.plan.passes.size() + 1;  // in info.data, after the main view and the environment maps
+  size_t index = info.plan.passes.size() + 1;  // of the first in info.data, after the main view and environment maps
   for (const EnvironmentMap& map : info.plan.maps) {
     index += map.cacheIndex < 0 ? map.faces.size() : 0;
   }
+  size_t count = 0;
   for (size_t map = 0; map < maps.size(); ++map) {
     for (size_t i = 0; i < maps[map].faces.size(); ++i) {
       const ShadowFace& face = maps[map].faces[i];
-      if (!face.rendered) {
+      const size_t number = count;
+      count += face.rendered ? 1 : 0;
+      if (!face.rendered || number < faces.first || number >= faces.end) {
         continue;
       }
       const glm::ivec2 corner = shadowCorner(maps, map, i);
@@ -278,11 +310,12 @@ void SceneRenderer::recordShadows(const FrameInfo& info) {
                           .collectStatistics = true};
       PassScope scope = renderer_.beginPass(info.frame, desc);
       scope.countSamples();
-      pass.draws = shadowSystem_.record(scope, info, index++);
+      pass.draws = shadowSystem_.record(scope, info, index + number);
       ledger_[EffectKind::shadows].draws += pass.draws;
       add(std::move(pass));
     }
   }
+  return count;
 }
 
 void SceneRenderer::recordMirrors(const FrameInfo& info) {
@@ -340,7 +373,6 @@ void SceneRenderer::recordMirrorRange(const FrameInfo& info, const PassRange& ra
   }
   for (size_t i = range.first; i < range.end; ++i) {
     const size_t k = i - range.first;
-    finishDepth(info, i);
     checkTarget(info, recorded_[firstRecorded + k], mirrorTargets_[i], descs[k].renderArea.extent);
     mirrorTargets_.releaseShown(info.plan, info.plan.passes[i]);
   }
@@ -355,7 +387,6 @@ void SceneRenderer::recordMain(const FrameInfo& info) {
     desc.storeSamples = info.settings.debug.checkFinite;
     watchDepth(info, index, desc);
     drawTiles(info, index, desc, {{.kind = PassKind::main}, desc.name, -1, 0, main.areaPx});
-    finishDepth(info, index);
     checkTarget(info, recorded_.back(), *main_, main_->extent());
     mirrorTargets_.releaseShown(info.plan, main);
   }
@@ -377,25 +408,32 @@ void SceneRenderer::recordDisplay(const FrameInfo& info, const std::optional<Deb
   const RecordedPass display =
       display_.record(info.frame, {.descriptor = pictures > 0 ? accumulation_.descriptor() : shownMain().descriptor()},
                       shownMain().extent(), info.settings, std::max(pictures, 1));
-  if (unfinished_) {
+  if (!unfinished_) {
+    add(display);
+  }
+  if (debug && shown_ && shown_->shows(watchedOf(info.plan, *debug))) {
+    recordDebug(info, *debug);
+  }
+}
+
+void SceneRenderer::recordDebug(const FrameInfo& info, const DebugView& debug) {
+  OffScreen* target = watchedTarget(info.plan, debug.pass);
+  const bool showsDepth = shown_->kind == TargetKind::depth;
+  if (showsDepth ? !watchedDepth_->exists() : !target) {
     return;
   }
-  add(display);
-  if (!debug) {
-    return;
-  }
-  const bool showsDepth = depthPass_ && watchedDepth_->exists();
-  OffScreen& target = targetOf(info.plan, debug->pass);
-  const auto view = showsDepth ? display_.recordDepth(info.frame, info.plan, *debug, *watchedDepth_)
-                               : display_.recordColor(info.frame, info.plan, *debug,
-                                                      {target.descriptor(), target.color().samples()}, info.settings);
-  if (view) {
+  const auto view = showsDepth ? display_.recordDepth(info.frame, shown_->size, debug, *watchedDepth_, shown_->near)
+                               : display_.recordColor(info.frame, shown_->size, debug,
+                                                      {target->descriptor(), target->color().samples()}, info.settings);
+  if (view && !unfinished_) {
     add(*view);
   }
-  if (debug->probe && showsDepth) {
-    probe_.probe(info.frame, watchedDepth_->image(), watchedDepth_->descriptor(), *debug->probe);
-  } else if (debug->probe) {
-    probe_.probe(info.frame, target.color(), target.descriptor(), *debug->probe);
+  // The picture's earlier target may have been smaller.
+  const bool probes = debug.probe && glm::all(glm::lessThan(*debug.probe, shown_->size));
+  if (probes && showsDepth) {
+    probe_.probe(info.frame, watchedDepth_->image(), watchedDepth_->descriptor(), *debug.probe);
+  } else if (probes) {
+    probe_.probe(info.frame, target->color(), target->descriptor(), *debug.probe);
   }
 }
 
@@ -469,14 +507,8 @@ void SceneRenderer::drawScene(const FrameInfo& info, size_t index, const PassDes
 }
 
 void SceneRenderer::watchDepth(const FrameInfo& info, size_t pass, PassDesc& desc) {
-  if (depthPass_ == static_cast<int>(pass)) {
-    watchedDepth_->prepare(desc, *info.frame.retired);
-  }
-}
-
-void SceneRenderer::finishDepth(const FrameInfo& info, size_t pass) {
-  if (depthPass_ == static_cast<int>(pass)) {
-    watchedDepth_->finish(info.frame.commands);
+  if (watched_ && watched_->kind == TargetKind::depth && watched_->pass == static_cast<int>(pass)) {
+    watchedDepth_->prepare(desc, info.plan.tiles.has_value(), *info.frame.retired);
   }
 }
 
@@ -491,8 +523,10 @@ void SceneRenderer::checkTarget(const FrameInfo& info, const RecordedPass& pass,
   watch_.check(info.frame, pass, false, target.color(), target.descriptor(), used);
 }
 
-OffScreen& SceneRenderer::targetOf(const FramePlan& plan, int pass) {
-  return pass == static_cast<int>(plan.passes.size()) ? *main_ : mirrorTargets_[static_cast<size_t>(pass)];
+OffScreen* SceneRenderer::watchedTarget(const FramePlan& plan, int pass) {
+  return pass == static_cast<int>(plan.passes.size()) ? &shownMain()
+         : unfinished_                                ? mirrorTargets_.earlierWatched()
+                                                      : &mirrorTargets_[static_cast<size_t>(pass)];
 }
 
 // Enters in the ledger the costs that are not entered with each draw.

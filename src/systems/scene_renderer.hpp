@@ -41,7 +41,8 @@ class SceneRenderer {
   // frame again without effects.textures.
   void uploadTextures(Frame& frame, const SceneState& state, const Settings& settings, const FramePlan& plan);
   // Records every pass up to the display pass. `plan` was made with cache(), `settings` are those of FittedPlan. With
-  // view.accumulate above 1, adds the picture to the mean (see Accumulation) and, if `shown`, shows the mean.
+  // view.accumulate above 1, adds the picture to the mean (see Accumulation) and, if `shown`, shows the mean. `debug`
+  // shows the target of the last complete picture, if that was drawn for the same pass and kind.
   void record(Frame& frame, const SceneState& state, const Settings& settings, const FramePlan& plan,
               const std::optional<DebugView>& debug = std::nullopt, bool shown = true);
   // Pictures in the mean that the last recorded frame shows; 0 without one. Until plan.tiles reach the end of a
@@ -68,21 +69,23 @@ class SceneRenderer {
   LinearImage radiance();
 
  private:
-  void releaseDebugViews(const std::optional<DebugView>& debug, RetireQueue& retired);
-  void prepareTargets(Frame& frame, const Settings& settings, const FramePlan& plan,
-                      const std::optional<DebugView>& debug, bool shown);
+  void watch(const FramePlan& plan, const std::optional<DebugView>& debug, RetireQueue& retired);
+  void prepareTargets(Frame& frame, const Settings& settings, const FramePlan& plan, bool shown);
   void prepareMain(const Settings& settings, const FramePlan& plan, RetireQueue& retired);
   void releaseEarlierMain(RetireQueue& retired);
   // Main view that the display pass shows.
   OffScreen& shownMain() { return earlierMain_ ? *earlierMain_ : *main_; }
-  void recordMaps(const FrameInfo& info);
-  void recordMap(const FrameInfo& info, size_t map, size_t firstFace);
-  void recordShadows(const FrameInfo& info);
+  void recordFaces(const FrameInfo& info);
+  size_t recordShadows(const FrameInfo& info, const TileRange& faces);
+  void recordMaps(const FrameInfo& info, const TileRange& faces, size_t face);
+  // Records a face of an environment map, pass `index` of info.data.
+  void recordFace(const FrameInfo& info, size_t map, size_t face, size_t index);
   void recordMirrors(const FrameInfo& info);
   void recordMirrorRange(const FrameInfo& info, const PassRange& range);
   void recordMain(const FrameInfo& info);
   void recordSum(const FrameInfo& info);
   void recordDisplay(const FrameInfo& info, const std::optional<DebugView>& debug);
+  void recordDebug(const FrameInfo& info, const DebugView& debug);
   void endRecord(const FrameInfo& info, bool textured);
   void finishLedger(const FrameInfo& info);
 
@@ -93,12 +96,11 @@ class SceneRenderer {
   // Draws pass `index` of info.data as `desc` says and adds it to the recorded ones.
   void drawScene(const FrameInfo& info, size_t index, const PassDesc& desc, RecordedPass pass);
   void add(RecordedPass pass);  // to those of the picture and of the frame
-  // Keep the depth of the pass that the debug view shows. Call watchDepth() before the pass, finishDepth() after it.
+  // Call before each part of the pass: keeps its depth if the debug view shows that.
   void watchDepth(const FrameInfo& info, size_t pass, PassDesc& desc);
-  void finishDepth(const FrameInfo& info, size_t pass);
   void checkTarget(const FrameInfo& info, const RecordedPass& pass, OffScreen& target, VkExtent2D used);
-  // Returns the target of plan.passes[pass], or of the main view if `pass` is passes.size().
-  OffScreen& targetOf(const FramePlan& plan, int pass);
+  // Returns the image of the last complete picture in which the pass was watched; null if there is none.
+  OffScreen* watchedTarget(const FramePlan& plan, int pass);
 
   Renderer& renderer_;
   Device& device_;
@@ -132,7 +134,19 @@ class SceneRenderer {
   std::vector<RecordedPass> frameParts_;  // passes, or parts of them, of the frame; draws count in a pass's first part
   std::array<std::pair<uint64_t, std::vector<RecordedPass>>, framesInFlight + 1> recordedFrames_;  // by frame number
   EffectLedger ledger_;
-  std::optional<int> depthPass_;  // pass whose depth the debug view shows; passes.size() is the main view
+  // A target that the debug view shows.
+  struct Watched {
+    int pass = 0;  // as DebugView::pass
+    std::vector<int> path;
+    TargetKind kind = TargetKind::color;
+    glm::ivec2 size{0};  // texels
+    double near = 0.0;   // metres from the eye to the near plane
+
+    bool shows(const Watched& other) const { return path == other.path && kind == other.kind; }
+  };
+  static Watched watchedOf(const FramePlan& plan, const DebugView& debug);
+  std::optional<Watched> watched_;  // in the picture that is drawn
+  std::optional<Watched> shown_;    // in the last complete one
   IdleGuard idle_;
 };
 

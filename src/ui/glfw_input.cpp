@@ -34,6 +34,10 @@ void GlfwInput::give(const InputEvent& event) {
   GLFWwindow* window = window_.native();
   switch (event.kind) {
     case InputEvent::Kind::key:
+      // Ctrl+Tab switches windows. Tab alone hides the panels; the arrow keys move the focus.
+      if (event.code == GLFW_KEY_TAB && event.down && !ImGui::GetIO().KeyCtrl) {
+        return;
+      }
       return ImGui_ImplGlfw_KeyCallback(window, event.code, 0, event.down ? GLFW_PRESS : GLFW_RELEASE, 0);
     case InputEvent::Kind::text:
       return ImGui_ImplGlfw_CharCallback(window, static_cast<unsigned>(event.code));

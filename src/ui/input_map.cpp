@@ -46,8 +46,7 @@ std::span<const ShortcutGroup> shortcutGroups() {
         {pointer("drag", "Orbit about the target, or look around in fly mode"), pointer("drag middle or right", "Pan"),
          pointer("wheel", "Zoom"), pointer("W A S D", "Move forward, left, back, right"),
          pointer("Q E", "Move down, up"), key("F", "Frame the selection, or the whole scene", FrameSelection{}),
-         key("B", "Look from behind the selected mirror, or the largest in the picture",
-             LookFromMirror{MirrorSide::back}),
+         key("B", "Look from behind the selected mirror, or the largest", LookFromMirror{MirrorSide::back}),
          key("Shift+B", "Look out of that mirror", LookFromMirror{MirrorSide::front}),
          key("M", "Bookmark the view (saved with the scene)", AddBookmark{}),
          key("Shift+M", "Go to the next bookmark", GoToNextBookmark{})}},
@@ -74,6 +73,7 @@ std::span<const ShortcutGroup> shortcutGroups() {
        {"Window",
         {key("F2", "Show or hide the inspector", ToggleInspector{}), key("F11", "Full screen", ToggleFullScreen{}),
          key("Tab", "Show or hide the panels", TogglePanel{}),
+         pointer("Ctrl+Tab", "Go to another window of the panels"),
          pointer("arrows", "Walk through the panel's widgets; Space presses"),
          key("F1", "Show or hide this list", ToggleHelp{}),
          key("Esc", "Cancel the drag, deselect, close the top window", Escape{}), key("Ctrl+Q", "Quit", Quit{})}}}};

@@ -105,8 +105,10 @@ bool PanelDock::wouldCover(const char* name, Edge edge, const glm::vec2& ems, co
     return glm::all(glm::greaterThanEqual(place, wish.corner)) &&
            glm::all(glm::lessThan(place, wish.corner + wish.size));
   }
-  const float inward = edge == Edge::left ? place.x : displaySize().x - place.x;
-  return inward < widthIn(panel, widths(&panel)[static_cast<size_t>(edge)]) + margin();
+  const Columns columns = this->columns(&panel);
+  const Edge shown = columns.edgeOf(panel);
+  const float inward = shown == Edge::left ? place.x : displaySize().x - place.x;
+  return inward < widthIn(panel, columns.widths[static_cast<size_t>(shown)]) + margin();
 }
 
 WindowRect PanelDock::freeRect() const {
@@ -116,8 +118,8 @@ WindowRect PanelDock::freeRect() const {
   for (const Panel* panel : order_) {
     if (panel->docked && panel->shown) {
       const WindowRect& place = panel->given;
-      panel->edge == Edge::left ? void(left = std::max(left, place.corner.x + place.size.x))
-                                : void(right = std::min(right, place.corner.x));
+      columns_.edgeOf(*panel) == Edge::left ? void(left = std::max(left, place.corner.x + place.size.x))
+                                            : void(right = std::min(right, place.corner.x));
     }
   }
   return {{std::min(left, right), top_}, {std::max(right - left, 0.0f), display.y - top_}};
@@ -163,13 +165,14 @@ float PanelDock::heightOf(const Panel& panel) {
                                   : displaySize().y;
 }
 
-std::array<float, 2> PanelDock::widths(const Panel* further) const {
+PanelDock::Columns PanelDock::columns(const Panel* further) const {
   std::array<Length, 2> widest;
+  const auto merge = [](const Length& a, const Length& b) {
+    return Length{std::max(a.least, b.least), std::max(a.kept, b.kept), std::max(a.wished, b.wished)};
+  };
   const auto add = [&](const Panel& panel) {
     Length& length = widest[static_cast<size_t>(panel.edge)];
-    const Length width = widthOf(panel);
-    length = {std::max(length.least, width.least), std::max(length.kept, width.kept),
-              std::max(length.wished, width.wished)};
+    length = merge(length, widthOf(panel));
   };
   for (const Panel* panel : order_) {
     if (panel->docked) {
@@ -181,16 +184,16 @@ std::array<float, 2> PanelDock::widths(const Panel* further) const {
   }
   const float room = displaySize().x - 3.0f * margin();
   if (widest[0].least + widest[1].least > room) {
-    return {widest[0].wished, widest[1].wished};  // they overlap, however narrow they are
+    return {{merge(widest[0], widest[1]).wished, 0.0f}, true};
   }
   const std::vector<float> shares = shareRoom(widest, room);
-  return {shares[0], shares[1]};
+  return {{shares[0], shares[1]}, false};
 }
 
 void PanelDock::arrange() {
-  const std::array<float, 2> most = widths();
-  arrange(Edge::left, most[0], most[1]);
-  arrange(Edge::right, most[1], most[0]);
+  columns_ = columns();
+  arrange(Edge::left, columns_.widths[0], columns_.widths[1]);
+  arrange(Edge::right, columns_.widths[1], columns_.widths[0]);
 }
 
 void PanelDock::arrange(Edge edge, float width, float taken) {
@@ -202,7 +205,7 @@ void PanelDock::arrange(Edge edge, float width, float taken) {
   std::vector<Panel*> panels;
   std::vector<WindowWish> wishes;
   for (Panel* panel : order_) {
-    if (panel->docked && panel->edge == edge) {
+    if (panel->docked && columns_.edgeOf(*panel) == edge) {
       const float kept = panel->wish.size.y;
       const float wished = panel->collapsed ? room.title : heightOf(*panel);
       const float least = std::min(lowest * em, wished);

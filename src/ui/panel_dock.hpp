@@ -11,8 +11,9 @@ namespace speculum {
 
 // Places windows along the left and right edge of the display, those of an edge below each other, until the user moves
 // them. Moved windows stay where the user put them, as far as the display shows them; the others follow the display's
-// size and each other: they get narrower where both edges have windows, and those opened first are folded to their
-// titles where a column is full. The layout file lists the windows that the user moved, sized or collapsed.
+// size and each other: they get narrower where both edges have windows, share the left edge where both have no room,
+// and those opened first are folded to their titles where a column is full. The layout file lists the windows that the
+// user moved, sized or collapsed.
 class PanelDock {
  public:
   enum class Edge { left, right };
@@ -51,8 +52,13 @@ class PanelDock {
   // Width in a column of width `most`: the column's, unless the user made the window narrower.
   static float widthIn(const Panel& panel, float most);
   static float heightOf(const Panel& panel);
-  // Widths of the windows of both edges at most, `further` included.
-  std::array<float, 2> widths(const Panel* further = nullptr) const;
+  // Widths of the windows of both edges at most, and whether all are at the left edge for want of room.
+  struct Columns {
+    std::array<float, 2> widths{};
+    bool left = false;
+    Edge edgeOf(const Panel& panel) const { return left ? Edge::left : panel.edge; }
+  };
+  Columns columns(const Panel* further = nullptr) const;  // `further` included
   void arrange();
   void arrange(Edge edge, float width, float taken);
   void follow(Panel& panel);
@@ -61,6 +67,7 @@ class PanelDock {
 
   std::map<std::string, Panel> panels_;
   std::vector<Panel*> order_;  // shown windows in the order of opening
+  Columns columns_;
   int lastRank_ = 0;
   float top_ = 0.0f;
   float bottom_ = 0.0f;

@@ -187,7 +187,9 @@ void caption(PanelContext& ui, const ImRect& canvas, bool hovered, const glm::dv
   const TargetView& target = ui.view.frame.target;
   Targets& targets = ui.state.targets;
   ImGui::SetCursorScreenPos({canvas.Min.x, canvas.Min.y - ImGui::GetTextLineHeightWithSpacing()});
-  if (hovered && texel.x >= 0 && texel.y >= 0 && texel.x < target.size.x && texel.y < target.size.y) {
+  if (!target.complete) {
+    ImGui::TextDisabled("Drawing...");
+  } else if (hovered && texel.x >= 0 && texel.y >= 0 && texel.x < target.size.x && texel.y < target.size.y) {
     targets.pointed = glm::ivec2(texel);
     ImGui::Text("%d, %d  %s", targets.pointed->x, targets.pointed->y, valueText(targets, target).c_str());
   } else {
@@ -250,9 +252,10 @@ void targets(PanelContext& ui) {
   const glm::dvec2 corner = vec(canvas.Min) - targets.shownZoom * origin;
   const bool there = shown && target.size.x > 0 && target.size.y > 0;
   const bool isMask = targets.kind == Targets::Kind::mask;
-  if (there) {
-    isMask ? maskImage(target, targets.shownZoom, canvas, corner)
-           : coverAround(canvas, corner, targets.shownZoom * image);
+  if (there && isMask) {
+    maskImage(target, targets.shownZoom, canvas, corner);
+  } else {
+    coverAround(canvas, corner, target.complete ? targets.shownZoom * image : glm::dvec2(0.0));
   }
   caption(ui, canvas, there && hovered, glm::floor(origin + pointer / targets.shownZoom));
   if (shown) {

@@ -38,8 +38,10 @@ struct SkippedView {
 
 struct EffectView : Effect, EffectCost {};
 
-// The target that UiOutput::target requested.
+// The target that UiOutput::target requested, in the last complete picture.
 struct TargetView {
+  std::vector<int> path;                        // of the pass
+  bool complete = false;                        // else it has not been drawn yet
   glm::ivec2 size{0};                           // texels
   std::vector<glm::vec2> mask;                  // texels that the pass shades
   std::vector<std::vector<glm::vec2>> mirrors;  // visible regions of the mirrors seen in it, texels
