@@ -922,6 +922,30 @@ TEST_F(TargetsWindow, ClickedPassOpensAndClosesIt) {
   EXPECT_FALSE(target());
 }
 
+TEST_F(TargetsWindow, RowsAddUpToTheFrame) {
+  EXPECT_FALSE(has("passes.rest"));
+  frame_.passes[1].gpuMs = 20.0;
+  frame_.passes[1].timed = true;
+  frame_.timedGpuMs = 50.0;
+  run(2);
+  EXPECT_TRUE(has("passes.rest"));
+}
+
+TEST_F(TargetsWindow, TooltipsLeaveTheirRowInSight) {
+  for (const char* row : {"pass.mirror wall", "pass.main view"}) {
+    hover(row, 0.3);
+    const auto& windows = ImGui::GetCurrentContext()->Windows;
+    const auto tooltip = std::find_if(windows.begin(), windows.end(), [](const ImGuiWindow* window) {
+      return window->Active && (window->Flags & ImGuiWindowFlags_Tooltip) != 0;
+    });
+    ASSERT_NE(tooltip, windows.end());
+    const PixelRect rect = widget(row);
+    const float top = (*tooltip)->Pos.y;
+    EXPECT_TRUE(top >= static_cast<float>(rect.y + rect.height) ||
+                top + (*tooltip)->Size.y <= static_cast<float>(rect.y));
+  }
+}
+
 TEST_F(TargetsWindow, PointedSkippedMirrorsAreReported) {
   click("skipped in main view", 0.1);
   run(2);

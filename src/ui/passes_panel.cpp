@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "ui/elide.hpp"
 #include "ui/panels.hpp"
@@ -128,6 +129,24 @@ void passRow(PanelContext& ui, const PassBranch& node) {
   ImGui::TreePop();
 }
 
+// Draws what makes the sum of the rows the frame's time.
+void restRow(PanelContext& ui) {
+  const double rest = restOfPasses(ui.view.frame);
+  if (std::isnan(rest)) {
+    return;
+  }
+  ImGui::TableNextRow();
+  ImGui::TableNextColumn();
+  ImGui::SetCursorPosX(ImGui::GetCursorPosX() + ImGui::GetTreeNodeToLabelSpacing());
+  ImGui::TextUnformatted("panels and gaps");
+  recordWidget(
+      ui, "passes.rest",
+      "GPU time of the frame that no pass above took: for the panels, in each of the frames that drew a part of "
+      "the picture, and between passes.");
+  ImGui::TableNextColumn();
+  figure(milliseconds(rest));
+}
+
 void header() {
   static constexpr std::array<const char*, 5> about{
       "The main view and, below the view that each is seen in, the mirror images.",
@@ -160,7 +179,8 @@ void passes(PanelContext& ui) {
   }
   wrappedText("GPU " + duration(frame.timedGpuMs > 0.0 ? frame.timedGpuMs : frame.gpuMs) + "   Memory " +
               mebibytes(frame.deviceBytes) + " MiB");
-  tip("GPU time of the last frame whose passes were timed, or of the last frame if none was. Timing slows a frame.");
+  tip("GPU time of the last picture whose passes were timed, the sum of the rows below; if none was, of the last "
+      "picture. Timing slows a frame.");
   constexpr ImGuiTableFlags flags = ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp;
   const bool narrow = ImGui::GetContentRegionAvail().x < 22.0f * ImGui::GetFontSize();  // too narrow for all figures
   const ImGuiTableColumnFlags further =
@@ -179,6 +199,7 @@ void passes(PanelContext& ui) {
   for (const PassBranch& node : passTree(frame.passes, frame.skipped)) {
     passRow(ui, node);
   }
+  restRow(ui);
   ImGui::PopStyleVar();
   ImGui::EndTable();
 }

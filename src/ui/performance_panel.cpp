@@ -86,7 +86,7 @@ void performance(PanelContext& ui) {
   if (button(ui, "Copy as CSV", "performance.copy", "Copies all figures of the frames below.")) {
     ui.send(CopyText{history.csv()});
   }
-  const std::string frames = std::to_string(history.frames()) + " frames";
+  const std::string frames = std::to_string(history.frames()) + (history.lowered() ? " draft frames" : " frames");
   continueRow(frames.c_str());
   ImGui::AlignTextToFramePadding();
   ImGui::TextDisabled("%s", frames.c_str());

@@ -34,6 +34,7 @@ struct SkippedView {
   std::vector<int> path;  // the same, indices into Scene::mirrors
   std::string reason;
   std::string detail;
+  bool byRays = false;  // rays show its reflection
 };
 
 struct EffectView : Effect, EffectCost {};
@@ -52,7 +53,7 @@ struct TargetView {
 // Figures of the frame that drew the scene last.
 struct FrameView {
   double frameMs = 0.0;  // smoothed, unless it is still
-  bool still = false;    // later frames drew the panels only
+  bool still = false;    // later frames draw the panels only, or parts of a picture that is not complete
   double cpuMs = 0.0;
   double gpuMs = 0.0;
   double timedGpuMs = 0.0;  // of the last frame whose passes were timed; only some frames are; 0: not of this picture
