@@ -102,6 +102,7 @@ void Demo::updateUi(double seconds) {
   workspace_.prepareView(seconds, !overPanels());
   output_ = ui_->build(view());
   workspace_.accuracy().showDifference(output_.difference);
+  workspace_.setRefusedEdit(output_.refusedEdit);
   for (const Command& command : std::exchange(output_.commands, {})) {
     workspace_.apply(command);
   }

@@ -64,7 +64,7 @@ class Demo : private WorkspaceHost {
   void toggleInspector() override { ui_->windows().toggleInspector(); }
   void openInspector() override { ui_->windows().openInspector(); }
   bool inspectorCovers(const glm::dvec2& place) const override { return ui_->windows().inspectorCovers(place); }
-  bool closeTopWindow(bool panels) override { return ui_->holdsEscape() || ui_->windows().closeTop(panels); }
+  bool closePopup() override { return ui_->holdsEscape() || ui_->windows().closeHelp(); }
 
   void takeInput(const InputEvent& event);
   void handleKey(const KeyEvent& event);

@@ -138,6 +138,7 @@ bool polygonRows(PanelContext& ui, std::vector<glm::dvec3>& vertices) {
   }
   const bool applied = changed && !polygon.problem;
   if (polygon.problem) {
+    ui.output.refusedEdit = true;
     coloredText(errorColor, "Not applied: " + *polygon.problem);
     if (button(ui, "Revert", "edit.polygon.reset", "Returns to the mirror's vertices.")) {
       polygon = {};

@@ -101,7 +101,7 @@ void historyButtons(PanelContext& ui) {
                 Save{}, edit.canSave());
   continueRow("Save as...");
   commandButton(ui, "Save as...", "edit.save_as", "Ctrl+Shift+S", AskWhereToSave{});
-  const char* state = edit.unsaved ? "unsaved changes" : edit.isModel ? "a model, no scene yet" : "saved";
+  const char* state = edit.unsaved ? "unsaved changes" : edit.isNew ? "not saved yet" : "saved";
   continueRow(state);
   ImGui::AlignTextToFramePadding();
   ImGui::TextDisabled("%s", state);

@@ -46,16 +46,18 @@ struct PanelState {
   const Scene* modelsOf = nullptr;             // scene that `model` was chosen for
   std::optional<std::filesystem::path> model;  // model to add next; none: `modelFile`
   std::string modelFile;                       // typed
-  std::string saveAs;                          // typed
 
   std::string dismissedMessage;
 
-  // Prompt::open
+  // Prompt::open and saveAs
   struct Files {
-    std::filesystem::path folder;
-    std::vector<std::filesystem::directory_entry> entries;  // of the folder: folders, scenes and models
+    std::filesystem::path folder;                           // of typed names
+    std::filesystem::path listed;                           // folder of what is typed
+    std::vector<std::filesystem::directory_entry> entries;  // of the listed one: folders, scenes and models
     std::string typed;
+    std::string problem;  // why the typed file cannot be opened
   } files;
+  glm::vec2 promptDisplay{0.0f};  // size of the display that a prompt was centered in
 
   std::vector<std::pair<std::string, PixelRect>> widgets;  // of this frame, by name
 };

@@ -141,14 +141,14 @@ struct EditView {
   std::string undo;                           // label of the step; empty: none
   std::string redo;
   bool unsaved = false;                           // scene or settings have changes to save
-  bool isModel = false;                           // the scene shows a model and has no file yet
+  bool isNew = false;                             // a model or a new scene, which has no file yet
   std::optional<std::filesystem::path> saveFile;  // file that Save writes; none: it asks for one
   Prompt prompt = Prompt::none;
   std::filesystem::path proposedFile;  // for Prompt::saveAs and recovery; a folder for open
   std::string note;                    // what was saved, or why it was not
   OverlayView overlay;
 
-  bool canSave() const { return unsaved || isModel; }
+  bool canSave() const { return unsaved || isNew; }
 };
 
 // A measured configuration.
@@ -215,6 +215,7 @@ struct UiOutput {
   std::optional<TargetRequest> target;
   std::vector<int> hoveredPath;  // of the mirror that is to be outlined; empty: none
   bool difference = false;       // the difference view is wanted over the picture
+  bool refusedEdit = false;      // an edit is shown that could not be applied
 };
 
 }  // namespace speculum
