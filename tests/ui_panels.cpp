@@ -229,6 +229,20 @@ TEST_F(PanelTest, MessagesAreNoLargerThanTheirText) {
   EXPECT_GT(top, 660.0f);
 }
 
+TEST_F(PanelTest, StatusLinesAreAsHighAsTheirText) {
+  const auto height = [&](const char* text) {
+    status_.picture = text;
+    run(2);
+    return ImGui::FindWindowByName("##status")->Size.y;
+  };
+  const float one = height("Picture 4 of 64");
+  EXPECT_LT(one, 2.0f * ImGui::GetTextLineHeight());
+  EXPECT_NEAR(height("Picture 4\nof 64"), one + ImGui::GetTextLineHeight(), 1.0f);
+  const WindowRect free = windows_->freeRect();
+  height("Picture 4 of 64");
+  EXPECT_EQ(windows_->freeRect().size.y, free.size.y) << "panels do not move";
+}
+
 TEST_F(PanelTest, LongStatusLinesLieBelowThePanel) {
   for (int words = 0; words < 60; ++words) {
     status_.picture += "words ";
@@ -790,14 +804,14 @@ TEST_F(Inspector, OnlyValidPolygonsAreApplied) {
   EXPECT_EQ(polygon, narrowed);
   EXPECT_TRUE(output_.refusedEdit);
   ASSERT_TRUE(problem);
-  EXPECT_EQ(problem->find("polygon: is not planar (a planar, convex polygon"), 0u) << *problem;
+  EXPECT_EQ(problem->find("the polygon is not planar (its corners must"), 0u) << *problem;
   typeNumber("edit.polygon.3", 0.83, "-0.5");
   EXPECT_FALSE(problem) << "both upper vertices are nearer now";
   EXPECT_FALSE(output_.refusedEdit);
   EXPECT_EQ(polygon[2], glm::dvec3(0.55, 1.6, -0.5));
   typeNumber("edit.polygon.1", 0.17, "-2");
   ASSERT_TRUE(problem);
-  EXPECT_EQ(problem->find("polygon: is not convex"), 0u) << *problem;
+  EXPECT_EQ(problem->find("the polygon is not convex"), 0u) << *problem;
   click("edit.polygon.reset");
   EXPECT_FALSE(problem);
   click("edit.polygon.1.add");

@@ -14,20 +14,23 @@ float widthOf(std::string_view text) {
 }
 
 TEST(Elide, FittingTextStays) {
-  EXPECT_EQ(startThatFits("left > right", 120.0f, widthOf), "left > right");
-  EXPECT_EQ(startThatFits("", 0.0f, widthOf), "");
+  EXPECT_EQ(endsThatFit("left > right", 120.0f, widthOf), "left > right");
+  EXPECT_EQ(endsThatFit("", 0.0f, widthOf), "");
 }
 
-TEST(Elide, TheStartStays) {
-  EXPECT_EQ(startThatFits("left > right > left", 119.0f, widthOf), "left > r...");
-  EXPECT_EQ(startThatFits("left > right > left", 40.0f, widthOf), "l...");
-  EXPECT_EQ(startThatFits("left", 30.0f, widthOf), "...");
-  EXPECT_EQ(startThatFits("left", 0.0f, widthOf), "...");
+TEST(Elide, BothEndsStay) {
+  EXPECT_EQ(endsThatFit("shadow map of lamp +x", 139.0f, widthOf), "shado...mp +x");
+  EXPECT_EQ(endsThatFit("shadow map of lamp +x", 50.0f, widthOf), "s...x");
+  EXPECT_EQ(endsThatFit("left", 40.0f, widthOf), "left");
+  EXPECT_EQ(endsThatFit("left", 39.0f, widthOf), "...");
+  EXPECT_EQ(endsThatFit("left", 0.0f, widthOf), "...");
 }
 
 TEST(Elide, CharactersAreNotCut) {
-  EXPECT_EQ(startThatFits("\u00e4\u00e4 > left", 60.0f, widthOf), "\u00e4...");
-  EXPECT_EQ(startThatFits("\u00e4\u00e4 > left", 40.0f, widthOf), "...");
+  EXPECT_EQ(endsThatFit("\u00e4\u00e4 > \u00e4\u00e4", 80.0f, widthOf), "\u00e4...\u00e4");
+  EXPECT_EQ(endsThatFit("\u00e4\u00e4 > \u00e4\u00e4", 60.0f, widthOf), "\u00e4...");
+  EXPECT_EQ(endsThatFit("\u00e4\u00e4 > \u00e4\u00e4", 40.0f, widthOf), "...");
+  EXPECT_EQ(endsThatFit("\x84\x84\x84\x84", 30.0f, widthOf), "...") << "no UTF-8";
 }
 
 TEST(Elide, LinesBreakAtSpacesOnly) {

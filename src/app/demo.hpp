@@ -49,7 +49,7 @@ class Demo : private WorkspaceHost {
   void scenesListed() override { ui_->setThumbnails(workspace_.browser().thumbnails()); }
   glm::ivec2 pictureSize() const override;
   PixelRect freePicture() const override;
-  double contentScale() const override { return window_.contentScale(); }
+  double contentScale() const override { return ui_->scale(); }
   std::string gpu() const override { return std::to_string(device_.info().index); }
   void setClipboard(const std::string& text) override { window_.setClipboard(text); }
   void setTitle(const std::string& title) override { window_.setTitle(title); }

@@ -122,7 +122,7 @@ void SceneOpener::keepUnsavedWork() noexcept {
     const fs::path file = document_->savedOrCopy(settings_);
     if (file != shownFile()) {
       recovery_.record(file, document_->prompt() == Prompt::recovery);
-      spdlog::error("unsaved changes are kept in {}", file.string());
+      spdlog::warn("unsaved changes are kept in {}", file.string());
     }
   } catch (const std::exception& error) {
     spdlog::error("unsaved changes are lost: {}", error.what());

@@ -268,7 +268,7 @@ void Workspace::frameDrawn(const ShownPicture& shown, const std::function<Image8
 }
 
 void Workspace::showScene(std::unique_ptr<LoadedScene> scene) {
-  accuracy_.forgetScene();
+  accuracy_.forgetScene("Another scene was opened since the measurement.");
   std::swap(loaded_, scene);
   try {
     host_.useScene(loaded_->scene);

@@ -157,7 +157,10 @@ void selectedNode(PanelContext& ui) {
     commandButton(ui, "Look from behind", "edit.look_behind", "Looks through the mirror at what it shows (B).",
                   LookFromMirror{MirrorSide::back});
     dimmedText(mirrorCost(ui.view.frame, edit.selected.index));
-    recordWidget(ui, "edit.mirror_cost", "Cost of its images in the last frame, also of those seen in other mirrors.");
+    recordWidget(
+        ui, "edit.mirror_cost",
+        "Cost of its images in the last frame, also of those seen in other mirrors. Reflections makes all images "
+        "cheaper, by Mirror resolution, Samples and Max. depth.");
   }
   gizmoMode(ui);
   ImGui::PushItemWidth(-8.0f * ImGui::GetFontSize());

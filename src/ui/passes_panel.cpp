@@ -93,16 +93,14 @@ void passRow(PanelContext& ui, const PassBranch& node) {
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
   const float room = ImGui::GetContentRegionAvail().x - ImGui::GetTreeNodeToLabelSpacing();
-  const std::string name = startThatFits(pathEnd(pass.name), room, textWidth);
+  const std::string name = endsThatFit(pathEnd(pass.name), room, textWidth);
   const std::string id = pass.name + "/" + std::to_string(node.pass);
   const bool open = ImGui::TreeNodeEx(id.c_str(), flags, "%s", name.c_str());
   if (ImGui::IsItemHovered() || (ImGui::IsItemFocused() && ImGui::GetIO().NavVisible)) {
     ui.output.hoveredPath = pass.path;
   }
   recordWidget(ui, "pass." + pass.name);
-  if (hasTarget(pass)) {
-    tip(pass.name + "\nA click shows what it drew.");
-  }
+  tip(pass.name + (hasTarget(pass) ? "\nA click shows what it drew." : ""), true);
   if (hasTarget(pass) && ImGui::IsItemClicked() && !ImGui::IsItemToggledOpen()) {
     target = shown ? std::nullopt : std::optional(pass.path);
     ui.state.choices.targets = !shown;
@@ -150,7 +148,8 @@ void restRow(PanelContext& ui) {
 void header() {
   static constexpr std::array<const char*, 5> about{
       "The main view and, below the view that each is seen in, the mirror images.",
-      "GPU time of the pass. Grey: of an earlier frame.", "Draw calls.", "Texels of the mirror's image that are seen.",
+      "GPU time of the pass. Grey: of an earlier frame.", "Draw calls of the pass.",
+      "Pixels that the pass draws: of the main view, or of a mirror's image as far as it is seen.",
       "Smallest distance between surfaces that the pass still keeps in order."};
   ImGui::TableNextRow(ImGuiTableRowFlags_Headers);
   for (int column = 0; column < static_cast<int>(about.size()); ++column) {
@@ -188,12 +187,12 @@ void passes(PanelContext& ui) {
   if (!ImGui::BeginTable("passes", 5, flags)) {
     return;
   }
-  const float width = 4.0f * ImGui::GetFontSize();
+  const float em = ImGui::GetFontSize();
   ImGui::TableSetupColumn("Pass", ImGuiTableColumnFlags_WidthStretch);
-  ImGui::TableSetupColumn("GPU ms", ImGuiTableColumnFlags_WidthFixed, width);
-  ImGui::TableSetupColumn("Draws", ImGuiTableColumnFlags_WidthFixed, 0.7f * width);
-  ImGui::TableSetupColumn("Pixels", further, 1.13f * width);
-  ImGui::TableSetupColumn("Depth (m)", further, 1.1f * width);
+  ImGui::TableSetupColumn("GPU ms", ImGuiTableColumnFlags_WidthFixed, 3.5f * em);
+  ImGui::TableSetupColumn("Draws", ImGuiTableColumnFlags_WidthFixed, 2.8f * em);
+  ImGui::TableSetupColumn("Pixels", further, 4.5f * em);
+  ImGui::TableSetupColumn("Depth (m)", further, 4.4f * em);
   header();
   ImGui::PushStyleVar(ImGuiStyleVar_IndentSpacing, 0.3f * ImGui::GetFontSize());
   for (const PassBranch& node : passTree(frame.passes, frame.skipped)) {
