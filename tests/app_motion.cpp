@@ -374,16 +374,21 @@ TEST(MotionLevels, WordsSayWhatIsGivenUp) {
   EXPECT_EQ(motionText(Settings(), level), "full quality");
   level.settings.view.scale = 0.5;
   level.settings.view.samples = level.settings.reflection.samples = 1;
-  EXPECT_EQ(motionText(Settings(), level), "0.5 scale, 1 sample, FLIP about 0.05");
+  EXPECT_EQ(motionText(Settings(), level), "0.5 scale, 1 sample (estimated FLIP 0.05)");
   level.settings.effects.shadowLookup = ShadowLookup::map;
-  EXPECT_EQ(motionText(Settings(), level), "shadows from maps, 0.5 scale, 1 sample, FLIP about 0.05");
+  EXPECT_EQ(motionText(Settings(), level), "shadows from maps, 0.5 scale, 1 sample (estimated FLIP 0.05)");
   level.settings.effects = {};
   level.settings.reflection.samples = 2;
   level.settings.reflection.maxDepth = 1;
-  EXPECT_EQ(motionText(Settings(), level), "0.5 scale, 1 sample, mirrors with 2 samples, depth 1, FLIP about 0.05");
+  EXPECT_EQ(motionText(Settings(), level),
+            "0.5 scale, 1 sample, mirrors with 2 samples, depth 1 (estimated FLIP 0.05)");
   level.settings = {};
   level.settings.effects.roughSamples = 1;
-  EXPECT_EQ(motionText(Settings(), level), "4 rays a pixel of rough mirrors, FLIP about 0.05") << "one at each sample";
+  EXPECT_EQ(motionText(Settings(), level), "4 rays a pixel of rough mirrors (estimated FLIP 0.05)")
+      << "one at each sample";
+  level.settings = {};
+  level.settings.reflection.maxPasses = 8;
+  EXPECT_EQ(motionText(Settings(), level), "at most 8 mirror images (estimated FLIP 0.05)");
 }
 
 TEST(Movement, LastsAMomentAfterTheLastStep) {
@@ -400,6 +405,11 @@ TEST(Movement, LastsAMomentAfterTheLastStep) {
   EXPECT_FALSE(movement.moving());
   movement.update(camera, true, 0.1);
   EXPECT_TRUE(movement.moving() && !movement.ending()) << "something else moves";
+  movement.update(camera, false, 1.0);
+  camera.eye.x = 2.0;
+  movement.restart();
+  movement.update(camera, false, 0.1);
+  EXPECT_FALSE(movement.moving()) << "another scene has another camera";
 }
 
 class PacedScene : public testing::Test {
@@ -418,6 +428,9 @@ class PacedScene : public testing::Test {
                         FittedPlan fitted{.settings = settings};
                         const auto side = static_cast<int>(side_ * settings.view.scale);
                         fitted.plan.main.view.rect = {0, 0, side, side};
+                        if (leavesOut_) {
+                          fitted.plan.skipped.push_back({.reason = SkipReason::maxPasses});
+                        }
                         return fitted;
                       });
   }
@@ -439,8 +452,9 @@ class PacedScene : public testing::Test {
   double budgetMs_ = 0.0;
   std::optional<std::pair<std::vector<int>, TargetKind>> target_;
   bool input_ = false;
-  int side_ = 0;         // of the main view, pixels
-  uint64_t number_ = 0;  // of the last frame
+  bool leavesOut_ = false;  // reflection.max_passes leaves mirrors without a pass
+  int side_ = 0;            // of the main view, pixels
+  uint64_t number_ = 0;     // of the last frame
 };
 
 // Draws on a device whose frames take half a second whatever they draw.
@@ -463,11 +477,17 @@ TEST_F(PacedScene, LowersOnlyWhatMoves) {
     draw(true);
   }
   EXPECT_LT(planned_.view.scale, 0.2);
+  EXPECT_TRUE(pace_.lowers());
   expectText("Moving: 0.1");
+  EXPECT_EQ(pace_.text().find("mirror images"), std::string::npos) << "no more are called for: " << pace_.text();
+  leavesOut_ = true;
+  draw(true);
+  EXPECT_NE(pace_.text().find("at most 8 mirror images"), std::string::npos) << pace_.text();
   draw(false);
   expectText("Draft: 0.1");
   draw(false);
   EXPECT_TRUE(sameMainView(planned_, {})) << "tiles of the whole picture";
+  EXPECT_FALSE(pace_.lowers());
 }
 
 TEST_F(PacedScene, SendingThePictureCounts) {
@@ -494,7 +514,7 @@ TEST_F(PacedScene, StillPicturesConvergeOnce) {
     EXPECT_TRUE(pace_.wantsFrame());
     EXPECT_EQ(pictureOf(), std::pair(3, picture));
   }
-  EXPECT_EQ(pace_.text(), "3 of 3 pictures");
+  EXPECT_EQ(pace_.text(), "Picture 3 of 3");
   EXPECT_FALSE(pace_.wantsFrame());
   EXPECT_FALSE(pace_.drawsSlowly()) << "each took one frame";
   EXPECT_EQ(pictureOf(), std::pair(3, 3)) << "the mean again";
@@ -567,7 +587,7 @@ TEST_F(SlowPictures, AreDrawnTileByTile) {
   expectText("Draft: ");
   EXPECT_LE(std::ranges::max(drawPicture()), 8.0 * budget);
   EXPECT_TRUE(pace_.drawsTiles());
-  EXPECT_EQ(pace_.text(), "1 of 16 pictures");
+  EXPECT_EQ(pace_.text(), "Picture 1 of 16");
   for (int picture = 1; picture < 4; ++picture) {
     drawPicture();
   }

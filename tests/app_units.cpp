@@ -156,6 +156,8 @@ TEST_F(Report, TilesOfAPictureAreOneFrame) {
       plan.tiles = {tile, tile + 1};
       report.updateTimes(frameOf(number + 1, 2.0, 30.0), {.frame = number, .gpuMs = 25.0});
       ++number;
+      EXPECT_TRUE(report.view().still) << "no picture follows another at once";
+      EXPECT_EQ(report.view().frameMs, picture == 0 ? 1.0 + 25.0 : 4 * 27.0) << "of the last complete picture";
     }
     if (picture == 0) {
       plan.tiles = {0, 1};
@@ -250,8 +252,8 @@ TEST_F(Report, EarlierTimesAreMarked) {
   const RecordedPass main{{.kind = PassKind::main}, "main view"};
   const auto frame = [&](uint64_t number, const std::vector<RecordedPass>& passes, const FrameTimings& timings,
                          const std::vector<RecordedPass>& timed) {
-    report.updateTimes(frameOf(number, 1.0, 1.0), timings);
-    report.updatePasses(frameOf(number, 1.0, 1.0), timings, passes, timed);
+    report.updateTimes(frameOf(number, 1.0, 1.0), timings, timed);
+    report.updatePasses(frameOf(number, 1.0, 1.0), passes);
   };
   frame(1, {mirror, main}, {}, {});
   frame(2, {mirror, main}, timings(1, {530.0, 100.0}), {mirror, main});
@@ -274,6 +276,76 @@ TEST_F(Report, EarlierTimesAreMarked) {
   EXPECT_FALSE(rows[1].reused);
 }
 
+TEST_F(Report, DraftsHaveTheirOwnTimes) {
+  const std::vector<RecordedPass> passes = {{{.kind = PassKind::main}, "main view"}};
+  const auto frame = [&](RecordedFrame frame, const FrameTimings& timings) {
+    report.updateTimes(frame, timings, passes);
+    report.updatePasses(frame, passes);
+  };
+  const auto draft = [&](uint64_t number) {
+    RecordedFrame frame = frameOf(number, 1.0, 1.0);
+    frame.lowered = true;
+    return frame;
+  };
+  frame(frameOf(1, 1.0, 1.0), {});
+  frame(frameOf(2, 1.0, 1.0), timings(1, {500.0}));
+  frame(draft(3), {});
+  EXPECT_TRUE(std::isnan(rows[0].gpuMs)) << "not the whole picture's";
+  EXPECT_EQ(report.view().timedGpuMs, 0.0);
+  plan.main.view.rect = {0, 0, 2 * tileSide, tileSide};
+  plan.tiles = {0, 1};
+  report.updateTimes(frameOf(4, 1.0, 1.0), timings(3, {20.0}), passes);
+  EXPECT_EQ(rows[0].gpuMs, 20.0) << "known while tiles of the next picture are drawn";
+  EXPECT_EQ(report.view().timedGpuMs, 20.0);
+  EXPECT_EQ(report.view().history.frames(), 1u) << "of drafts";
+}
+
+TEST_F(Report, OtherSettingsMakeTimesOld) {
+  const std::vector<RecordedPass> passes = {{{.kind = PassKind::main}, "main view"}};
+  report.updateTimes(frameOf(1, 1.0, 1.0), {});
+  report.updatePasses(frameOf(1, 1.0, 1.0), passes);
+  report.updateTimes(frameOf(2, 1.0, 1.0), timings(1, {500.0}), passes);
+  EXPECT_TRUE(rows[0].timed);
+  Settings coarse;
+  coarse.view.scale = 0.5;
+  const Scene scene;
+  const SceneState state;
+  report.updatePasses({scene, state, coarse, plan, 3, 1.0, 1.0}, passes);
+  EXPECT_FALSE(rows[0].timed);
+  EXPECT_EQ(rows[0].gpuMs, 500.0);
+  EXPECT_EQ(report.view().timedGpuMs, 0.0);
+}
+
+TEST_F(Report, FramesThatCompileAreNoHistory) {
+  RecordedFrame first = frameOf(1, 900.0, 1000.0);
+  first.compiles = true;
+  report.updateTimes(first, {});
+  report.updateTimes(frameOf(2, 1.0, 20.0), {});
+  EXPECT_EQ(report.view().history.series(FrameHistory::Figure::cpu), std::vector<float>{1.0f});
+}
+
+TEST_F(Report, MirrorsWithoutAPassStayWhileImagesAreReused) {
+  plan.skipped = {{.mirror = 1, .path = {0, 1}, .reason = SkipReason::hidden},
+                  {.mirror = 1, .path = {2, 1}, .reason = SkipReason::hidden}};
+  Scene scene;
+  scene.mirrors.resize(3);
+  const SceneState state;
+  const Settings settings;
+  const RecordedFrame frame{scene, state, settings, plan};
+  report.updateSkipped(frame);
+  EXPECT_EQ(report.view().skipped.size(), 2u);
+  plan.skipped.clear();
+  plan.reused.resize(1);
+  plan.reused[0].view.path = {0};
+  report.updateSkipped(frame);
+  ASSERT_EQ(report.view().skipped.size(), 1u) << "the image of mirror 2 is rendered again";
+  EXPECT_EQ(report.view().skipped[0].path, (std::vector<int>{0, 1}));
+  EXPECT_EQ(report.view().skipped[0].reason, "hidden");
+  plan.reused.clear();
+  report.updateSkipped(frame);
+  EXPECT_TRUE(report.view().skipped.empty());
+}
+
 TEST_F(Report, TimesOfTilesAddUp) {
   const std::vector<RecordedPass> passes = {{{.path = {0}}, "mirror a"}, {{.kind = PassKind::main}, "main view"}};
   plan.passes.resize(1);
@@ -281,7 +353,7 @@ TEST_F(Report, TimesOfTilesAddUp) {
   const auto frame = [&](uint64_t number, const FrameTimings& timings, const std::vector<RecordedPass>& timed) {
     report.updateTimes(frameOf(number, 1.0, 1.0), timings, timed);
     if (endsPicture(plan)) {
-      report.updatePasses(frameOf(number, 1.0, 1.0), timings, passes, timed);
+      report.updatePasses(frameOf(number, 1.0, 1.0), passes);
     }
   };
   frame(1, {}, {});

@@ -175,7 +175,7 @@ TEST_F(Journey, InputBetweenFramesGoesWhereMeant) {
   // Sends all keys before the next frame.
   xdotool({"type", "--window", window_, "--delay", "1", "abcd"});
   xdotool({"key", "--window", window_, "--delay", "1", "BackSpace", "BackSpace", "Left", "x"});
-  EXPECT_TRUE(waitFor([&] { return demo_->panels().saveAs == "axb"; })) << demo_->panels().saveAs;
+  EXPECT_TRUE(waitFor([&] { return demo_->panels().files.typed == "axb"; })) << demo_->panels().files.typed;
   press("Escape");
   EXPECT_EQ(view().edit.prompt, Prompt::none);
   press("n");

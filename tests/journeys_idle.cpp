@@ -182,7 +182,7 @@ TEST_F(IdleWindow, StillPicturesConvergeAndMotionIsLowered) {
   run(2);
   EXPECT_FALSE(contains(view().status.picture, "5 of")) << "one picture in each frame";
   settle();
-  EXPECT_EQ(view().status.picture, "5 of 5 pictures");
+  EXPECT_EQ(view().status.picture, "Picture 5 of 5");
   const Image8 shown = picture();
   demo_->apply(CopyCommandLine{});
   const std::string command = demo_->window().clipboard();

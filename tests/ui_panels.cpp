@@ -1,5 +1,6 @@
 // Commands that clicks on the panels send, and the state that panels keep.
 #include "panel_support.hpp"
+#include "platform/process.hpp"
 
 namespace speculum {
 namespace {
@@ -229,6 +230,20 @@ TEST_F(PanelTest, MessagesAreNoLargerThanTheirText) {
   EXPECT_GT(top, 660.0f);
 }
 
+TEST_F(PanelTest, StatusLinesAreAsHighAsTheirText) {
+  const auto height = [&](const char* text) {
+    status_.picture = text;
+    run(2);
+    return ImGui::FindWindowByName("##status")->Size.y;
+  };
+  const float one = height("Picture 4 of 64");
+  EXPECT_LT(one, 2.0f * ImGui::GetTextLineHeight());
+  EXPECT_NEAR(height("Picture 4\nof 64"), one + ImGui::GetTextLineHeight(), 1.0f);
+  const WindowRect free = windows_->freeRect();
+  height("Picture 4 of 64");
+  EXPECT_EQ(windows_->freeRect().size.y, free.size.y) << "panels do not move";
+}
+
 TEST_F(PanelTest, LongStatusLinesLieBelowThePanel) {
   for (int words = 0; words < 60; ++words) {
     status_.picture += "words ";
@@ -297,6 +312,57 @@ TEST_F(PanelTest, FilesAreChosenFromOwnList) {
   EXPECT_TRUE(std::filesystem::equivalent(only<OpenScene>().file, config_.path() / "models" / "a.obj"));
 }
 
+TEST_F(PanelTest, ListFollowsTheTypedFolder) {
+  const UserFolders home{"HOME"};
+  const std::filesystem::path folder = environment("HOME");
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder / "ring.obj") << "v 0 0 0";
+  edit_.proposedFile = config_.path();
+  edit_.prompt = Prompt::open;
+  run(4);
+  EXPECT_FALSE(has("open.ring.obj"));
+  type("~/");
+  EXPECT_TRUE(has("open.ring.obj"));
+  type("none.obj");
+  click("open.open");
+  EXPECT_FALSE(sent<OpenScene>());
+  EXPECT_EQ(windows_->state().files.problem, "There is no file " + (folder / "none.obj").string());
+  click("open.ring.obj");
+  EXPECT_EQ(windows_->state().files.problem, "");
+  click("open.open");
+  EXPECT_TRUE(std::filesystem::equivalent(only<OpenScene>().file, folder / "ring.obj"));
+}
+
+TEST_F(PanelTest, SavingListsFoldersAndScenes) {
+  std::filesystem::create_directory(config_.path() / "mine");
+  std::ofstream(config_.path() / "mine" / "old.toml") << "";
+  std::ofstream(config_.path() / "mine" / "ring.obj") << "";
+  edit_.proposedFile = config_.path() / "new.toml";
+  edit_.prompt = Prompt::saveAs;
+  run(4);
+  click("open.mine");
+  run(2);
+  EXPECT_EQ(windows_->state().files.typed, (config_.path() / "mine" / "new.toml").string());
+  EXPECT_FALSE(has("open.ring.obj"));
+  click("open.old.toml");
+  EXPECT_EQ(clickFor<SaveAs>("where.save").file, config_.path() / "mine" / "old.toml");
+  edit_.prompt = Prompt::none;
+  run(4);
+  edit_.proposedFile = config_.path() / "none" / "new.toml";
+  edit_.prompt = Prompt::saveAs;
+  run(4);
+  EXPECT_TRUE(has("open.mine")) << "the nearest folder that exists";
+}
+
+TEST_F(PanelTest, PromptsStayCentered) {
+  edit_.prompt = Prompt::recovery;
+  edit_.proposedFile = "/home/scene.toml";
+  run(4);
+  const int left = widget("recovery.open").x;
+  resize(1300, 900);
+  EXPECT_NEAR(widget("recovery.open").x, left + 200, 1);
+}
+
 TEST_F(PanelTest, PromptsFitNarrowWindows) {
   resize(300, 500);
   for (const auto& [prompt, field] : {std::pair(Prompt::open, "open.typed"), std::pair(Prompt::saveAs, "edit.file")}) {
@@ -314,7 +380,7 @@ TEST_F(PanelTest, ModelsWithoutASceneCanBeSaved) {
   click("menu.File");
   click("menu.Save");
   EXPECT_FALSE(sent<Save>());
-  edit_.isModel = true;
+  edit_.isNew = true;
   run(2);
   clickFor<Save>("menu.Save");
 }
@@ -525,19 +591,17 @@ TEST_F(PanelTest, ButtonsSayWhatOtherProgramsSay) {
   }
 }
 
-TEST_F(PanelTest, EscapeClosesWindowsFromTheTop) {
+TEST_F(PanelTest, EscapeClosesTheKeysOnly) {
   windows_->toggleInspector();
   run(3);
   windows_->toggleHelp();
   run(3);
-  EXPECT_TRUE(windows_->closeTop(false));
+  EXPECT_TRUE(windows_->closeHelp());
   EXPECT_FALSE(windows_->state().help);
-  EXPECT_FALSE(windows_->closeTop(false));
+  EXPECT_FALSE(windows_->closeHelp());
   EXPECT_TRUE(windows_->state().inspector);
-  EXPECT_TRUE(windows_->closeTop(true));
-  EXPECT_FALSE(windows_->state().inspector);
-  EXPECT_FALSE(windows_->closeTop(true)) << "the main panel stays";
   windows_->setVisible(false);
+  windows_->toggleInspector();
   windows_->toggleInspector();
   EXPECT_TRUE(windows_->visible());
 }
@@ -739,14 +803,16 @@ TEST_F(Inspector, OnlyValidPolygonsAreApplied) {
   const std::vector<glm::dvec3> narrowed = polygon;
   typeNumber("edit.polygon.2", 0.83, "-0.5");
   EXPECT_EQ(polygon, narrowed);
+  EXPECT_TRUE(output_.refusedEdit);
   ASSERT_TRUE(problem);
-  EXPECT_EQ(problem->find("polygon: is not planar (a planar, convex polygon"), 0u) << *problem;
+  EXPECT_EQ(problem->find("the polygon is not planar (its corners must"), 0u) << *problem;
   typeNumber("edit.polygon.3", 0.83, "-0.5");
   EXPECT_FALSE(problem) << "both upper vertices are nearer now";
+  EXPECT_FALSE(output_.refusedEdit);
   EXPECT_EQ(polygon[2], glm::dvec3(0.55, 1.6, -0.5));
   typeNumber("edit.polygon.1", 0.17, "-2");
   ASSERT_TRUE(problem);
-  EXPECT_EQ(problem->find("polygon: is not convex"), 0u) << *problem;
+  EXPECT_EQ(problem->find("the polygon is not convex"), 0u) << *problem;
   click("edit.polygon.reset");
   EXPECT_FALSE(problem);
   click("edit.polygon.1.add");
@@ -771,9 +837,9 @@ TEST_F(PanelTest, PromptsAnswerByButtonsAndEnter) {
   edit_.prompt = Prompt::saveAs;
   edit_.proposedFile = "/home/scene.toml";
   run(4);
-  EXPECT_EQ(windows_->state().saveAs, "/home/scene.toml");
+  EXPECT_EQ(windows_->state().files.typed, "/home/scene.toml");
   type("/other");
-  EXPECT_EQ(windows_->state().saveAs, "/other") << "the path is selected";
+  EXPECT_EQ(windows_->state().files.typed, "/other") << "the path is selected";
   commands_.clear();
   tap(ImGuiKey_Enter);
   EXPECT_EQ(only<SaveAs>().file, "/other");
@@ -921,6 +987,30 @@ TEST_F(TargetsWindow, ClickedPassOpensAndClosesIt) {
   click("pass.main view", 0.3);
   run(2);
   EXPECT_FALSE(target());
+}
+
+TEST_F(TargetsWindow, RowsAddUpToTheFrame) {
+  EXPECT_FALSE(has("passes.rest"));
+  frame_.passes[1].gpuMs = 20.0;
+  frame_.passes[1].timed = true;
+  frame_.timedGpuMs = 50.0;
+  run(2);
+  EXPECT_TRUE(has("passes.rest"));
+}
+
+TEST_F(TargetsWindow, TooltipsLeaveTheirRowInSight) {
+  for (const char* row : {"pass.mirror wall", "pass.main view"}) {
+    hover(row, 0.3);
+    const auto& windows = ImGui::GetCurrentContext()->Windows;
+    const auto tooltip = std::find_if(windows.begin(), windows.end(), [](const ImGuiWindow* window) {
+      return window->Active && (window->Flags & ImGuiWindowFlags_Tooltip) != 0;
+    });
+    ASSERT_NE(tooltip, windows.end());
+    const PixelRect rect = widget(row);
+    const float top = (*tooltip)->Pos.y;
+    EXPECT_TRUE(top >= static_cast<float>(rect.y + rect.height) ||
+                top + (*tooltip)->Size.y <= static_cast<float>(rect.y));
+  }
 }
 
 TEST_F(TargetsWindow, PointedSkippedMirrorsAreReported) {

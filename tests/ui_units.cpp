@@ -14,20 +14,23 @@ float widthOf(std::string_view text) {
 }
 
 TEST(Elide, FittingTextStays) {
-  EXPECT_EQ(startThatFits("left > right", 120.0f, widthOf), "left > right");
-  EXPECT_EQ(startThatFits("", 0.0f, widthOf), "");
+  EXPECT_EQ(endsThatFit("left > right", 120.0f, widthOf), "left > right");
+  EXPECT_EQ(endsThatFit("", 0.0f, widthOf), "");
 }
 
-TEST(Elide, TheStartStays) {
-  EXPECT_EQ(startThatFits("left > right > left", 119.0f, widthOf), "left > r...");
-  EXPECT_EQ(startThatFits("left > right > left", 40.0f, widthOf), "l...");
-  EXPECT_EQ(startThatFits("left", 30.0f, widthOf), "...");
-  EXPECT_EQ(startThatFits("left", 0.0f, widthOf), "...");
+TEST(Elide, BothEndsStay) {
+  EXPECT_EQ(endsThatFit("shadow map of lamp +x", 139.0f, widthOf), "shado...mp +x");
+  EXPECT_EQ(endsThatFit("shadow map of lamp +x", 50.0f, widthOf), "s...x");
+  EXPECT_EQ(endsThatFit("left", 40.0f, widthOf), "left");
+  EXPECT_EQ(endsThatFit("left", 39.0f, widthOf), "...");
+  EXPECT_EQ(endsThatFit("left", 0.0f, widthOf), "...");
 }
 
 TEST(Elide, CharactersAreNotCut) {
-  EXPECT_EQ(startThatFits("\u00e4\u00e4 > left", 60.0f, widthOf), "\u00e4...");
-  EXPECT_EQ(startThatFits("\u00e4\u00e4 > left", 40.0f, widthOf), "...");
+  EXPECT_EQ(endsThatFit("\u00e4\u00e4 > \u00e4\u00e4", 80.0f, widthOf), "\u00e4...\u00e4");
+  EXPECT_EQ(endsThatFit("\u00e4\u00e4 > \u00e4\u00e4", 60.0f, widthOf), "\u00e4...");
+  EXPECT_EQ(endsThatFit("\u00e4\u00e4 > \u00e4\u00e4", 40.0f, widthOf), "...");
+  EXPECT_EQ(endsThatFit("\x84\x84\x84\x84", 30.0f, widthOf), "...") << "no UTF-8";
 }
 
 TEST(Elide, LinesBreakAtSpacesOnly) {
@@ -66,6 +69,21 @@ TEST(FrameHistory, GpuFiguresJoinTheirFrames) {
   EXPECT_EQ(history.passSeries("mirror a")[0], 2.0f);
   EXPECT_TRUE(std::isnan(history.passSeries("mirror a")[1]));
   EXPECT_TRUE(std::isnan(history.passSeries("none")[0]));
+}
+
+TEST(FrameHistory, DraftsAreKeptApart) {
+  FrameHistory history;
+  history.add(1, 800.0, 1.0);
+  history.add(2, 50.0, 1.0, true);
+  history.add(3, 60.0, 1.0, true);
+  history.addGpu(1, 700.0, Passes{});
+  EXPECT_TRUE(history.lowered());
+  EXPECT_EQ(history.series(FrameHistory::Figure::frame), (std::vector<float>{50.0f, 60.0f}));
+  history.add(4, 900.0, 1.0);
+  EXPECT_EQ(history.frames(), 2u);
+  EXPECT_EQ(history.series(FrameHistory::Figure::gpu).front(), 700.0f);
+  history.clear();
+  EXPECT_EQ(history.frames(), 0u);
 }
 
 TEST(FrameHistory, PassesWithoutFramesAreDropped) {
@@ -179,26 +197,41 @@ TEST(PassTree, ReusedImagesAreNotListedTwice) {
 
 TEST(MirrorCost, SumsPassesOrSaysWhyNone) {
   FrameView frame;
-  const auto pass = [&](std::vector<int> path, double ms, double texels) {
+  const auto pass = [&](std::vector<int> path, double ms, double pixels) {
     PassView row{{.path = std::move(path)}};
     row.gpuMs = ms;
     row.timed = !std::isnan(ms);
-    row.areaPx = texels;
+    row.areaPx = pixels;
     frame.passes.push_back(row);
   };
   pass({2}, 12.5, 4000.0);
-  EXPECT_EQ(mirrorCost(frame, 2), "1 pass, 4000 texels, 12.5 ms on the GPU");
+  EXPECT_EQ(mirrorCost(frame, 2), "1 pass, 4000 pixels, 12.5 ms on the GPU");
   pass({1, 2}, NAN, 300.0);
   pass({2, 1}, 7.0, 1.0);
-  EXPECT_EQ(mirrorCost(frame, 2), "2 passes, 4300 texels, 12.5 ms on the GPU");
+  EXPECT_EQ(mirrorCost(frame, 2), "2 passes, 4300 pixels, 12.5 ms on the GPU");
   frame.passes[0].timed = false;
-  EXPECT_EQ(mirrorCost(frame, 2), "2 passes, 4300 texels") << "its time is of an earlier frame";
+  EXPECT_EQ(mirrorCost(frame, 2), "2 passes, 4300 pixels") << "its time is of an earlier frame";
   frame.passes[0].reused = frame.passes[1].reused = true;
-  EXPECT_EQ(mirrorCost(frame, 2), "2 passes, 4300 texels, reused");
+  EXPECT_EQ(mirrorCost(frame, 2), "2 passes, 4300 pixels, reused");
   frame.passes.push_back({{.kind = PassKind::main}});
   frame.skipped = {{.path = {0, 3}, .reason = "hidden"}, {.path = {3}, .reason = "seen from behind"}};
   EXPECT_EQ(mirrorCost(frame, 3), "No pass: seen from behind");
   EXPECT_EQ(mirrorCost(frame, 4), "No pass");
+  frame.skipped.push_back({.path = {5, 4}, .reason = "drawn by rays", .byRays = true});
+  EXPECT_EQ(mirrorCost(frame, 4), "Drawn by rays");
+}
+
+TEST(RestOfPasses, IsWhatTheFrameTookBesides) {
+  FrameView frame;
+  frame.passes.resize(2);
+  frame.passes[0].gpuMs = 20.0;
+  frame.passes[1].gpuMs = 5.0;
+  frame.passes[1].timed = true;
+  EXPECT_TRUE(std::isnan(restOfPasses(frame)));
+  frame.timedGpuMs = 12.0;
+  EXPECT_EQ(restOfPasses(frame), 7.0) << "the other is of an earlier frame";
+  frame.timedGpuMs = 4.9;
+  EXPECT_EQ(restOfPasses(frame), 0.0) << "rounding";
 }
 
 }  // namespace

@@ -166,11 +166,15 @@ TEST_F(Editing, EscapeCancelsTheDragThenDeselects) {
   send(Escape{});
   EXPECT_FALSE(edit().selected);
   EXPECT_EQ(edit().undo, "");
-  EXPECT_TRUE(host_.inspector);
   send(Escape{});
-  EXPECT_FALSE(host_.inspector);
+  EXPECT_TRUE(host_.inspector) << "panels stay";
+  host_.inspector = false;
   send(SelectNode{ball});
   EXPECT_TRUE(host_.inspector) << "a row of another panel leads to what it stands for";
+  host_.popup = true;
+  send(Escape{});
+  EXPECT_FALSE(host_.popup);
+  EXPECT_EQ(edit().selected, ball) << "one thing at a time";
   send(Escape{});
   send(Escape{});
   send(Escape{});

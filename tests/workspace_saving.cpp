@@ -56,6 +56,22 @@ TEST_F(Saving, QuitAsksAboutUnsavedChanges) {
   EXPECT_EQ(onDisk().objects.size(), 1u) << "nothing was saved";
 }
 
+TEST_F(Saving, QuitAsksAboutEditsThatWereRefused) {
+  workspace_->setRefusedEdit(true);
+  send(Quit{});
+  EXPECT_EQ(edit().prompt, Prompt::unsavedChanges);
+  EXPECT_FALSE(host_.closed);
+  send(DiscardChanges{});
+  EXPECT_TRUE(host_.closed);
+}
+
+TEST_F(Saving, TypedHomeFoldersAreFollowed) {
+  const UserFolders home{"HOME"};
+  fs::create_directories(environment("HOME"));
+  send(SaveAs{"~/mine.toml"});
+  EXPECT_TRUE(fs::exists(fs::path(environment("HOME")) / "mine.toml"));
+}
+
 TEST_F(Saving, SavingAtThePromptWritesAndQuits) {
   removeBall();
   send(Quit{});
@@ -181,6 +197,7 @@ TEST_F(Saving, NewSceneAsksFirstAndSavesElsewhere) {
   EXPECT_EQ(scene().mirrors.size(), 1u);
   EXPECT_EQ(scene().lights.size(), 1u);
   EXPECT_FALSE(edit().unsaved);
+  EXPECT_TRUE(edit().isNew && edit().canSave());
   EXPECT_EQ(edit().undo, "");
   EXPECT_TRUE(view().browser.recent.empty());
   send(AddLight{});
@@ -190,6 +207,7 @@ TEST_F(Saving, NewSceneAsksFirstAndSavesElsewhere) {
   send(SaveAs{"mine"});
   EXPECT_EQ(loadScene(documentsDir() / "Speculum" / "mine.toml").lights.size(), 2u);
   EXPECT_EQ(shownScene(), "mine");
+  EXPECT_FALSE(edit().isNew);
   EXPECT_EQ(std::ranges::count(view().browser.scenes, "untitled", &SceneEntry::name), 0);
 }
 

@@ -48,7 +48,7 @@ class FakeHost : public WorkspaceHost {
   void toggleInspector() override { inspector = !inspector; }
   void openInspector() override { inspector = true; }
   bool inspectorCovers(const glm::dvec2& place) const override { return place.x > inspectorFrom; }
-  bool closeTopWindow(bool panels) override { return panels && std::exchange(inspector, false); }
+  bool closePopup() override { return std::exchange(popup, false); }
 
   int scenesUsed = 0;
   bool failsNext = false;
@@ -61,6 +61,7 @@ class FakeHost : public WorkspaceHost {
   bool panels = true;
   bool closed = false;
   bool inspector = false;
+  bool popup = false;
   double inspectorFrom = width;  // place of its left edge
 };
 

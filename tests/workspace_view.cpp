@@ -357,7 +357,12 @@ TEST_F(Opening, FailureShowsALineAndKeepsScene) {
   drop({"/tmp/notes.txt"});
   EXPECT_EQ(workspace_->problem(), "/tmp/notes.txt: not a scene (a .toml scene or an .obj model is needed)");
   drop({model("none.obj")});
-  EXPECT_TRUE(contains(workspace_->problem(), "none.obj:1: file: cannot be read"));
+  EXPECT_TRUE(contains(workspace_->problem(), "none.obj: there is no such file"));
+  EXPECT_EQ(view().log.lines(LogLevel::error, "").size(), 3u) << "each is logged";
+  setExposure(2.0);
+  send(OpenScene{home_.path() / "none.toml"});
+  EXPECT_FALSE(workspace_->prompting()) << "there is nothing to save the changes for";
+  send(Undo{});
   host_.failsNext = true;
   drop({model("gem.obj")});
   EXPECT_TRUE(contains(workspace_->problem(), "gem.obj: no memory"));

@@ -213,9 +213,9 @@ bool AccuracyController::working() const {
   return sweep_.busy() || coverChanged_ || (showsDifference_ && difference_.working());
 }
 
-void AccuracyController::forgetScene() {
+void AccuracyController::forgetScene(const std::string& why) {
   sweep_.cancel();
-  const std::string about = view_.points.empty() ? view_.about : "The scene has changed since it was measured.";
+  const std::string about = view_.points.empty() ? view_.about : why;
   coverChanged_ = difference_.reset() || coverChanged_;
   difference_.stop();
   setResults({});

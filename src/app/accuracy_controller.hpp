@@ -36,7 +36,8 @@ class AccuracyController {
   // scene.
   std::optional<Image8> takeCover();
   bool working() const;  // afterFrame() has work left although nothing changes
-  void forgetScene();    // before the scene changes or goes away
+  // Call before the scene changes or goes away, with what to show then instead of points.
+  void forgetScene(const std::string& why = "The scene has changed since it was measured.");
 
   const AccuracyView& view() const { return view_; }
   // The measured front, most accurate first; empty before a measurement.

@@ -102,6 +102,7 @@ void Demo::updateUi(double seconds) {
   workspace_.prepareView(seconds, !overPanels());
   output_ = ui_->build(view());
   workspace_.accuracy().showDifference(output_.difference);
+  workspace_.setRefusedEdit(output_.refusedEdit);
   for (const Command& command : std::exchange(output_.commands, {})) {
     workspace_.apply(command);
   }
@@ -116,7 +117,7 @@ void Demo::presentPanels() {
   if (std::optional<Frame> frame = renderer_.beginFrame()) {
     endWithPanels(*frame);
     if (framesDrawn_ == 0) {
-      spdlog::info("first frame, of the panels, submitted {:.0f} ms after the start", millisecondsSinceStart());
+      spdlog::info("panels shown {:.0f} ms after the start", millisecondsSinceStart());
     }
   }
 }
@@ -192,7 +193,8 @@ void Demo::drawFrame(double seconds, double sinceLastMs) {
               !timed && !newPipelines && !plan.mainReused && !plan.tiles);
   const uint64_t number = frame->number;
   endFrame(*frame);
-  if (std::exchange(compiled_, newPipelines) && !newPipelines) {
+  const bool compiledBefore = std::exchange(compiled_, newPipelines);
+  if (compiledBefore && !newPipelines) {
     releaseFreedMemory();  // loading and compiling leave much
   }
   if (framesDrawn_ == 0) {
@@ -200,8 +202,9 @@ void Demo::drawFrame(double seconds, double sinceLastMs) {
   }
   framesDrawn_ += framesDrawn_ < std::numeric_limits<int>::max();
   pacer_.frameDrawn();
-  workspace_.report().update({workspace_.scene(), state, settings, plan, number, cpuMs, sinceLastMs}, renderer_,
-                             *sceneRenderer_, output_.hoveredPath);
+  workspace_.report().update({workspace_.scene(), state, settings, plan, number, cpuMs, sinceLastMs, pace_.lowers(),
+                              newPipelines || compiledBefore},
+                             renderer_, *sceneRenderer_, output_.hoveredPath);
   const auto radiance = [&] { return toDisplay(sceneRenderer_->radiance(), settings.view.displayCurve()); };
   const std::optional<Image8> picture = captured ? std::optional(pictureOf(renderer_.readback())) : std::nullopt;
   workspace_.frameDrawn({workspace_.scene(), state, settings, plan.width, plan.height},
@@ -331,6 +334,7 @@ void Demo::useScene(const Scene& scene) {
   output_ = {};  // it may request a target of the old scene
   sceneRenderer_ = std::make_unique<SceneRenderer>(renderer_, scene);
   ++scenes_;
+  pace_.sceneChanged();
   sceneIsNew_ = std::exchange(shownFile_, scene.file) != scene.file;
 }
 

@@ -49,7 +49,7 @@ class Demo : private WorkspaceHost {
   void scenesListed() override { ui_->setThumbnails(workspace_.browser().thumbnails()); }
   glm::ivec2 pictureSize() const override;
   PixelRect freePicture() const override;
-  double contentScale() const override { return window_.contentScale(); }
+  double contentScale() const override { return ui_->scale(); }
   std::string gpu() const override { return std::to_string(device_.info().index); }
   void setClipboard(const std::string& text) override { window_.setClipboard(text); }
   void setTitle(const std::string& title) override { window_.setTitle(title); }
@@ -64,7 +64,7 @@ class Demo : private WorkspaceHost {
   void toggleInspector() override { ui_->windows().toggleInspector(); }
   void openInspector() override { ui_->windows().openInspector(); }
   bool inspectorCovers(const glm::dvec2& place) const override { return ui_->windows().inspectorCovers(place); }
-  bool closeTopWindow(bool panels) override { return ui_->holdsEscape() || ui_->windows().closeTop(panels); }
+  bool closePopup() override { return ui_->holdsEscape() || ui_->windows().closeHelp(); }
 
   void takeInput(const InputEvent& event);
   void handleKey(const KeyEvent& event);

@@ -40,10 +40,10 @@ DeviceView deviceView(const Renderer& renderer, const Device& device) {
                    feature("timestamps", caps.timestampValidBits > 0, "no times of passes"),
                    feature("pipeline statistics", caps.pipelineStatistics, "no triangles and fragments"),
                    feature("precise occlusion", caps.countsSamples, "samples drawn are not counted"),
-                   feature("geometryShader", caps.primitiveId, "no effect that traces rays"),
-                   feature("sampleRateShading", caps.sampleRateShading, "samples share a shading"),
-                   feature("depthClamp", caps.depthClamp, "the near plane cuts"),
-                   feature("fillModeNonSolid", caps.fillModeNonSolid, "no wireframe"),
+                   feature("geometry shaders", caps.primitiveId, "no effect that traces rays"),
+                   feature("sample shading", caps.sampleRateShading, "samples share a shading"),
+                   feature("depth clamp", caps.depthClamp, "the near plane cuts"),
+                   feature("wireframe", caps.fillModeNonSolid, "no wireframe"),
                    feature("ray queries", caps.rayQueries, "shaders trace all rays"),
                    feature("memory budget", caps.memoryBudget, "the size of the heaps is used")};
   const std::vector<PresentMode> modes = renderer.presentModes();

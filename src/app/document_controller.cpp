@@ -5,6 +5,7 @@
 
 #include "accuracy/fingerprint.hpp"
 #include "app/recovery.hpp"
+#include "app/scene_browser.hpp"
 #include "platform/files.hpp"
 #include "platform/folders.hpp"
 
@@ -52,6 +53,7 @@ DocumentController::DocumentController(LoadedScene& loaded, std::span<const fs::
 void DocumentController::findSaveFile() {
   const fs::path file = editor_.document().usualFile();
   saveFile_ = !isShipped(file) && isWritable(file) ? std::optional(file) : std::nullopt;
+  isNew_ = isModelFile(loaded_.scene.file) || SceneBrowser::isNew(loaded_.scene.file);
 }
 
 bool DocumentController::hasUnsaved(const Settings& settings) const {
@@ -62,7 +64,7 @@ bool DocumentController::hasUnsaved(const Settings& settings) const {
 bool DocumentController::confirmDiscard(const Settings& settings, std::optional<Command> then) {
   const bool alreadyDiscarded =
       discarded_ && discarded_->revision == editor_.document().revision() && discarded_->settings == settings;
-  if (alreadyDiscarded || !prompts_ || !hasUnsaved(settings)) {
+  if (alreadyDiscarded || !prompts_ || (!hasUnsaved(settings) && !refusedEdit_)) {
     return true;
   }
   prompt_ = prompt_ == Prompt::none ? Prompt::unsavedChanges : prompt_;
@@ -103,7 +105,7 @@ void DocumentController::ask(Prompt prompt, const fs::path& proposed) {
 }
 
 std::optional<Command> DocumentController::saveAs(const fs::path& file, const Settings& settings) {
-  proposed_ = proposed_.parent_path() / file;  // a bare name goes into the suggested folder
+  proposed_ = proposed_.parent_path() / typedPath(file);  // a bare name goes into the suggested folder
   return saveTo(proposed_, settings) ? discard(settings) : std::nullopt;
 }
 
@@ -170,7 +172,7 @@ void DocumentController::fill(EditView& view, const Settings& settings) const {
   editor_.fill(view);
   view.unsaved = hasUnsaved(settings);
   view.saveFile = saveFile_;
-  view.isModel = isModelFile(loaded_.scene.file);
+  view.isNew = isNew_;
   view.prompt = prompt_;
   view.proposedFile = proposed_;
   view.note = note_;

@@ -24,6 +24,8 @@ class DocumentController {
 
   // Says whether scene or settings have unsaved changes. A copy that was kept after a failure counts as one.
   bool hasUnsaved(const Settings& settings) const;
+  // Says whether the panels show an edit that could not be applied, which counts as unsaved too.
+  void setRefusedEdit(bool refused) { refusedEdit_ = refused; }
 
   // Answers to a prompt. Each returns the command that waited for it, if any.
   std::optional<Command> save(const Settings& settings);
@@ -60,6 +62,7 @@ class DocumentController {
   bool prompts_;
   Settings settingsAtLoad_;                        // before the user changed any
   std::optional<std::filesystem::path> saveFile_;  // none if it comes with the program or cannot be written
+  bool isNew_ = false;                             // a model or a new scene, which has no file yet
   Prompt prompt_ = Prompt::none;
   std::filesystem::path proposed_;  // by the prompt
   std::optional<Command> afterPrompt_;
@@ -67,6 +70,7 @@ class DocumentController {
   std::optional<std::filesystem::path> refused_;  // existing file that was not overwritten; a second save overwrites it
   std::string note_;
   bool saved_ = false;
+  bool refusedEdit_ = false;
 };
 
 }  // namespace speculum

@@ -56,17 +56,10 @@ auto placeOf(Passes& passes, const PassId& wanted) {
   return std::ranges::find_if(passes, [&](const PassId& pass) { return pass == wanted; });
 }
 
-void setTime(std::vector<PassView>& rows, const PassId& pass, double ms) {
-  if (const auto row = placeOf(rows, pass); row != rows.end()) {
-    row->gpuMs = ms;
-    row->timed = true;
-  }
-}
-
 std::string_view reasonText(SkipReason reason) {
   static constexpr std::array<std::string_view, 10> texts = {
       "behind the eye",        "seen from behind", "outside the view",  "hidden",    "below Min. pixels",
-      "below Min. throughput", "above Max. depth", "above Max. passes", "unchanged", "shown by rays"};
+      "below Min. throughput", "above Max. depth", "above Max. passes", "unchanged", "drawn by rays"};
   return texts[static_cast<size_t>(reason)];
 }
 
@@ -94,7 +87,7 @@ void FrameReport::update(const RecordedFrame& frame, Renderer& renderer, SceneRe
   const std::span<const RecordedPass> timed = sceneRenderer.passesOf(timings.frame);
   updateTimes(frame, timings, timed);
   if (endsPicture(frame.plan)) {
-    updatePasses(frame, timings, sceneRenderer.passes(), timed);
+    updatePasses(frame, sceneRenderer.passes());
     updateEffects(frame, sceneRenderer.ledger());
   }
   updateOutline(frame, hoveredPath);
@@ -104,34 +97,38 @@ void FrameReport::update(const RecordedFrame& frame, Renderer& renderer, SceneRe
 void FrameReport::addFrame(const RecordedFrame& frame, const FrameTimings& timings,
                            std::span<const RecordedPass> timed) {
   if (beginsPicture(frame.plan)) {
-    picture_ = {.whole = !frame.plan.tiles};
+    picture_ = {.whole = !frame.plan.tiles, .settings = frame.settings, .lowered = frame.lowered};
   } else if (timings.frame == picture_.number) {
     picture_.gpuMs += timings.gpuMs;
     picture_.addPasses(timings, timed);
   }
+  picture_.compiles = picture_.compiles || frame.compiles;
   picture_.cpuMs += frame.cpuMs;
   picture_.sinceLastMs += frame.sinceLastMs;
   picture_.number = frame.number;
 }
 
 // Frames that draw the panels only change no figure: those of the last frame that drew the scene stay. A picture of
-// several frames counts as one frame, the last.
+// several frames counts as one frame, the last; while they draw it, the figures are those of the picture before.
 void FrameReport::updateTimes(const RecordedFrame& frame, const FrameTimings& timings,
                               std::span<const RecordedPass> timed) {
   addFrame(frame, timings, timed);
   const bool drawsScene = !frame.plan.mainReused;
-  const bool drewScene = endsPicture(frame.plan) && !std::exchange(view_.still, !drawsScene) && !drawn_.empty();
+  view_.still = !drawsScene || frame.plan.tiles;
+  const bool drewScene = endsPicture(frame.plan) && !std::exchange(panelsOnly_, !drawsScene) && !drawn_.empty();
   if (endsPicture(frame.plan) && drawsScene) {
     const double ms = drewScene ? picture_.sinceLastMs : std::nan("");
     const auto average = [](double& shown, double now, bool begins) {
       shown += (begins ? 1.0 : std::clamp(now / settlingMs, smoothing, 1.0)) * (now - shown);
     };
-    averages_ = averages_ && drewScene;
+    averages_ = averages_ && drewScene && !frame.plan.tiles;
     average(view_.cpuMs, picture_.cpuMs, !drewScene);
-    if (!std::isnan(ms)) {
+    if (!std::isnan(ms) && !frame.plan.tiles) {
       average(view_.frameMs, ms, !std::exchange(averages_, true));
     }
-    view_.history.add(frame.number, ms, picture_.cpuMs);
+    if (!picture_.compiles) {
+      view_.history.add(frame.number, ms, picture_.cpuMs, picture_.lowered);
+    }
     drawn_.push_front(picture_);
     drawn_.resize(std::min(drawn_.size(), awaitedFrames));
     tilesTimed_ = tilesTimed_ && frame.plan.tiles;
@@ -145,31 +142,43 @@ void FrameReport::updateTimes(const RecordedFrame& frame, const FrameTimings& ti
     view_.cpuMs = drawn->cpuMs;
     view_.frameMs = drawn->cpuMs + view_.gpuMs;
   }
+  Picture picture = *drawn;
+  picture.addPasses(timings, timed);
   std::vector<std::pair<std::string, double>> passes;
   if (drawn->whole) {
     for (const PassTiming& pass : timings.passes) {
       passes.emplace_back(pass.name, pass.gpuMs);
     }
   } else {
-    Picture picture = *drawn;
-    picture.addPasses(timings, timed);
+    tilesTimed_ = picture.timed;
     for (const TimedPass& pass : picture.timed ? picture.passes.passes() : std::vector<TimedPass>()) {
       passes.emplace_back(pass.name, pass.timing.gpuMs);
-      setTime(view_.passes, pass, pass.timing.gpuMs);
     }
-    tilesTimed_ = picture.timed;
-    view_.timedGpuMs = picture.timed ? view_.gpuMs : 0.0;
+  }
+  if (picture.timed) {
+    setTimes(picture);
+  } else if (!drawn->whole) {
+    view_.timedGpuMs = 0.0;
   }
   view_.history.addGpu(timings.frame, view_.gpuMs, passes);
 }
 
-bool FrameReport::drewPicture(uint64_t frame) const {
-  return std::ranges::any_of(drawn_, [&](const Picture& drawn) { return drawn.whole && drawn.number == frame; });
+// Sets the times of the listed passes, which may be those of a later picture.
+void FrameReport::setTimes(const Picture& picture) {
+  view_.timedGpuMs = view_.gpuMs;
+  timedSettings_ = picture.settings;
+  timedLowered_ = picture.lowered;
+  std::ranges::for_each(view_.passes, [](PassView& row) { row.timed = false; });
+  for (const TimedPass& pass : picture.passes.passes()) {
+    if (const auto row = placeOf(view_.passes, pass); row != view_.passes.end()) {
+      row->gpuMs = pass.timing.gpuMs;
+      row->timed = true;
+    }
+  }
 }
 
 // Lists passes of cached images too, because nobody can read a list that changes from frame to frame.
-void FrameReport::updatePasses(const RecordedFrame& frame, const FrameTimings& timings,
-                               std::span<const RecordedPass> passes, std::span<const RecordedPass> timed) {
+void FrameReport::updatePasses(const RecordedFrame& frame, std::span<const RecordedPass> passes) {
   const FramePlan& plan = frame.plan;
   const int interval = frame.settings.reflection.updateInterval;
   const auto isReused = [&](const PassView& row) {
@@ -203,19 +212,12 @@ void FrameReport::updatePasses(const RecordedFrame& frame, const FrameTimings& t
     index = row - rows.begin() + 1;
   }
   std::erase_if(rows, [&](const PassView& row) { return row.framesAgo >= interval && !isReused(row); });
-  // The times belong to an earlier frame, whose plan may have differed.
-  const size_t times = drewPicture(timings.frame) ? std::min(timed.size(), timings.passes.size()) : 0;
-  if (times > 0) {
-    view_.timedGpuMs = timings.gpuMs;
-    std::ranges::for_each(rows, [](PassView& row) { row.timed = false; });
-  }
-  for (size_t i = 0; i < times; ++i) {
-    setTime(rows, timed[i], timings.passes[i].gpuMs);
-  }
-  if (plan.tiles && !tilesTimed_) {
+  // Times of another quality say nothing about this picture, those of other settings little.
+  const bool otherQuality = timedLowered_ != frame.lowered || (plan.tiles && !tilesTimed_);
+  if (!plan.mainReused && (otherQuality || !sameMainView(timedSettings_, frame.settings))) {
     view_.timedGpuMs = 0.0;
     for (PassView& row : rows) {
-      row.gpuMs = std::nan("");
+      row.gpuMs = otherQuality ? std::nan("") : row.gpuMs;
       row.timed = false;
     }
   }
@@ -258,12 +260,22 @@ void FrameReport::updateOutline(const RecordedFrame& frame, const std::vector<in
   }
 }
 
+// A plan leaves out mirrors that are seen in cached images, so those of the frame that rendered the image stay.
 void FrameReport::updateSkipped(const RecordedFrame& frame) {
   skipped_ = frame.plan.skipped;
-  view_.skipped.clear();
+  const std::vector<SkippedView> before = std::exchange(view_.skipped, {});
   for (const SkippedMirror& skip : skipped_) {
-    view_.skipped.push_back(
-        {mirrorPathName(frame.scene, skip.path), skip.path, std::string(reasonText(skip.reason)), skip.detail});
+    view_.skipped.push_back({mirrorPathName(frame.scene, skip.path), skip.path, std::string(reasonText(skip.reason)),
+                             skip.detail, skip.reason == SkipReason::rays});
+  }
+  for (const SkippedView& skip : before) {
+    const bool seenInReused =
+        skip.path.size() > 1 && std::ranges::any_of(frame.plan.reused, [&](const PlannedPass& reused) {
+          return reused.view.path.size() == 1 && reused.view.path.front() == skip.path.front();
+        });
+    if (seenInReused && std::ranges::count(view_.skipped, skip.path, &SkippedView::path) == 0) {
+      view_.skipped.push_back(skip);
+    }
   }
 }
 

@@ -17,6 +17,8 @@ struct RecordedFrame {
   uint64_t number = 0;
   double cpuMs = 0.0;
   double sinceLastMs = 0.0;  // NaN after the window was idle
+  bool lowered = false;      // its quality, for the pace
+  bool compiles = false;     // it made pipelines, or the frame before, which takes long
 };
 
 // Collects the figures of frames for the panels.
@@ -32,10 +34,10 @@ class FrameReport {
   std::optional<DebugView> target(const TargetRequest& request, const FramePlan& plan, const Settings& settings,
                                   bool standardSampleLocations);
 
-  // Parts of update() that need no device. `passes` belong to this frame, `timed` to the frame that was timed.
+  // Parts of update() that need no device. `timed` are the passes of the frame that `timings` belong to, `passes` of
+  // this frame.
   void updateTimes(const RecordedFrame& frame, const FrameTimings& timings, std::span<const RecordedPass> timed = {});
-  void updatePasses(const RecordedFrame& frame, const FrameTimings& timings, std::span<const RecordedPass> passes,
-                    std::span<const RecordedPass> timed);
+  void updatePasses(const RecordedFrame& frame, std::span<const RecordedPass> passes);
   void updateOutline(const RecordedFrame& frame, const std::vector<int>& hovered);
   void updateEffects(const RecordedFrame& frame, const EffectLedger& ledger);
   void updateSkipped(const RecordedFrame& frame);
@@ -45,12 +47,14 @@ class FrameReport {
   const FrameView& view() const { return view_; }
 
  private:
-  bool drewPicture(uint64_t frame) const;  // the whole of one, among the latest frames
   void addFrame(const RecordedFrame& frame, const FrameTimings& timings, std::span<const RecordedPass> timed);
 
   // Frames so far that drew a picture: the whole of it, or tiles.
   struct Picture {
     bool whole = true;
+    Settings settings;
+    bool lowered = false;
+    bool compiles = false;
     uint64_t number = 0;  // of the last one
     double sinceLastMs = 0.0;
     double cpuMs = 0.0;
@@ -63,11 +67,15 @@ class FrameReport {
       passes.add(recorded, timings);
     }
   };
+  void setTimes(const Picture& picture);
 
   FrameView view_;
   std::deque<Picture> drawn_;  // of the scene, not the panels only; the latest
   Picture picture_;            // that the last frame drew
+  bool panelsOnly_ = false;    // the last frame drew no part of the scene
   bool tilesTimed_ = false;    // times of passes are of a picture that several frames drew
+  Settings timedSettings_;     // of the picture that times of passes are of
+  bool timedLowered_ = false;  // likewise
   bool averages_ = false;      // FrameView::frameMs: its frames followed each other
   std::vector<SkippedMirror> skipped_;
 };

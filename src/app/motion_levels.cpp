@@ -230,13 +230,14 @@ std::string motionText(const Settings& chosen, const MotionLevel& level) {
   add(reflection.samples != chosen.reflection.samples && reflection.samples != settings.view.samples,
       "mirrors with " + samples(reflection.samples));
   add(reflection.maxDepth != chosen.reflection.maxDepth, fmt::format("depth {}", reflection.maxDepth));
-  add(reflection.maxPasses != chosen.reflection.maxPasses, fmt::format("{} mirror images", reflection.maxPasses));
+  add(reflection.maxPasses != chosen.reflection.maxPasses,
+      fmt::format("at most {} mirror images", reflection.maxPasses));
   add(reflection.updateInterval != chosen.reflection.updateInterval,
       fmt::format("mirrors every {} frames", reflection.updateInterval));
   const double mirrors = reflection.meshError != chosen.reflection.meshError ? reflection.meshError : 0.0;
   const double view = settings.view.meshError != chosen.view.meshError ? settings.view.meshError : 0.0;
   add(mirrors > 0.0 || view > 0.0, fmt::format("meshes within {:.2g} texels", std::max(mirrors, view)));
-  return text.empty() ? "full quality" : text + fmt::format(", FLIP about {:.1g}", level.error);
+  return text.empty() ? "full quality" : text + fmt::format(" (estimated FLIP {:.1g})", level.error);
 }
 
 }  // namespace speculum

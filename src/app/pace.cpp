@@ -49,6 +49,7 @@ const FittedPlan& Pace::plan(const Request& request, const Planner& plan) {
     return fitted;
   };
   fitted_.plan.tiles.reset();
+  lowers_ = false;
   if (moving() && request.budgetMs > 0.0) {
     planMoving(request, counted);
   } else {
@@ -67,7 +68,12 @@ void Pace::planWithinBudget(const Request& request, const Planner& plan) {
     fitted_ = plan(settings, 0);
     return work_;
   });
-  text_ = motionText(chosen, levels[level]);
+  lowers_ = level > 0;
+  MotionLevel shown = levels[level];
+  if (std::ranges::count(fitted_.plan.skipped, SkipReason::maxPasses, &SkippedMirror::reason) == 0) {
+    shown.settings.reflection.maxPasses = chosen.reflection.maxPasses;  // no more are called for
+  }
+  text_ = motionText(chosen, shown);
 }
 
 void Pace::planMoving(const Request& request, const Planner& plan) {
@@ -144,7 +150,7 @@ void Pace::planPicture(const Request& request, const Planner& plan) {
   }
   picture_ = std::min(picture_ + 1, pictures_);
   if (pictures_ > 1) {
-    text_ = fmt::format("{} of {} pictures", picture_, pictures_);
+    text_ = fmt::format("Picture {} of {}", picture_, pictures_);
   }
 }
 

@@ -24,6 +24,7 @@ class Movement {
   }
   bool moving() const { return moving_; }
   bool ending() const { return moving_ && stillSeconds_ > 0.0; }  // nothing moves in this frame
+  void restart() { camera_.reset(); }                             // the next camera is that of another scene
 
  private:
   static constexpr double longestRest = 0.15;  // seconds
@@ -45,6 +46,7 @@ class Pace {
 
   // Begins a frame. `otherwise` says that something besides the camera moves in it.
   void begin(const CameraPose& camera, bool otherwise, double seconds);
+  void sceneChanged() { movement_.restart(); }
   bool moving() const { return movement_.moving(); }
   // Says whether another frame is needed although nothing happens.
   bool wantsFrame() const {
@@ -53,6 +55,8 @@ class Pace {
   // Says whether the last frame drew tiles of a picture. If so, wait for it before the next events: finished() learns
   // from its time, and no second frame delays them.
   bool drawsTiles() const { return fitted_.plan.tiles.has_value(); }
+  // Says whether the planned frame has a lower quality than the chosen settings.
+  bool lowers() const { return lowers_; }
   // Says whether the next frames are likely to draw tiles.
   bool drawsSlowly() const { return !moving() && slow_ && (slow_->begun() || !draft_.empty()); }
 
@@ -123,6 +127,7 @@ class Pace {
   std::deque<double> sendMs_;  // of the last frames, what presenting took beyond drawing
   FittedPlan fitted_;          // of the frame that was planned last
   FrameWork work_;             // of fitted_
+  bool lowers_ = false;
   std::string text_;
   // Settings and content of the still pictures; nothing while the picture moves.
   std::optional<std::pair<Settings, Shown>> shown_;

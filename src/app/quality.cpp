@@ -81,7 +81,12 @@ std::optional<QualityChoice> chooseQuality(const Options& options, const std::fi
           "speculum "
           "accuracy)");
     }
-    spdlog::warn("GPU budget and Max. mean FLIP wait for a measurement (Accuracy > Measure this view)");
+    const bool time = settings.quality.budgetMs > 0.0;
+    const bool error = settings.quality.maxError > 0.0;
+    spdlog::warn("{} for a measurement (Accuracy > Measure this view)", time && error
+                                                                            ? "GPU budget and Max. mean FLIP wait"
+                                                                        : time ? "GPU budget waits"
+                                                                               : "Max. mean FLIP waits");
     return std::nullopt;
   }
   const SweepResults results = readSweepResults(options.sweepResults);

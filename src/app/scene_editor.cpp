@@ -312,7 +312,7 @@ std::filesystem::path SceneEditor::modelFile(const std::filesystem::path& model)
   if (std::ranges::find(models_, model) != models_.end()) {
     return model;
   }
-  const std::filesystem::path file = (document_.scene().file.parent_path() / model).lexically_normal();
+  const std::filesystem::path file = (document_.scene().file.parent_path() / typedPath(model)).lexically_normal();
   if (!isFile(file)) {
     throw InputError(oneLine(file.string() + ": there is no such file (name a Wavefront OBJ file)"));
   }

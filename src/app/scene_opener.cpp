@@ -39,7 +39,18 @@ void SceneOpener::takeChosenFile() {
   }
 }
 
+void SceneOpener::setProblem(const std::string& problem) {
+  problem_ = problem;
+  if (!problem.empty()) {
+    spdlog::error("{}", problem);
+  }
+}
+
 void SceneOpener::open(const fs::path& file) {
+  std::error_code none;
+  if (!fs::exists(file, none)) {
+    return setProblem(file.string() + ": there is no such file");
+  }
   if (document_->prompt() == Prompt::recovery) {
     recovery_.postpone(file);
   }
@@ -54,7 +65,7 @@ void SceneOpener::openDropped(const std::vector<fs::path>& files) {
   try {
     open(SceneBrowser::choose(files));
   } catch (const InputError& error) {
-    problem_ = error.what();
+    setProblem(error.what());
   }
 }
 
@@ -80,7 +91,7 @@ std::unique_ptr<LoadedScene> SceneOpener::update() {
   if (browser_.loaded() && document_->confirmDiscard(settings_, std::nullopt)) {
     loaded = browser_.takeLoaded();
   } else if (const std::optional<std::string> error = browser_.takeError()) {
-    problem_ = *error;
+    setProblem(*error);
     document_->forgetDiscard();
   }
   browser_.updateView();
@@ -111,7 +122,7 @@ void SceneOpener::keepUnsavedWork() noexcept {
     const fs::path file = document_->savedOrCopy(settings_);
     if (file != shownFile()) {
       recovery_.record(file, document_->prompt() == Prompt::recovery);
-      spdlog::error("unsaved changes are kept in {}", file.string());
+      spdlog::warn("unsaved changes are kept in {}", file.string());
     }
   } catch (const std::exception& error) {
     spdlog::error("unsaved changes are lost: {}", error.what());

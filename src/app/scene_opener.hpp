@@ -35,7 +35,7 @@ class SceneOpener {
   SceneBrowser& browser() { return browser_; }
   const SceneBrowser& browser() const { return browser_; }
   const std::string& problem() const { return problem_; }  // with the last scene; empty: none
-  void setProblem(const std::string& problem) { problem_ = problem; }
+  void setProblem(const std::string& problem);             // logs it too
 
  private:
   const std::filesystem::path& shownFile() const { return document_->editor().document().scene().file; }

@@ -236,7 +236,7 @@ void Workspace::update() {
   if (std::unique_ptr<LoadedScene> loaded = opener_.update()) {
     showScene(std::move(loaded));
   }
-  if (const std::string warning = log_.takeProblem(); !warning.empty()) {
+  if (const std::string warning = log_.takeProblem(); !warning.empty() && !problem().starts_with(warning)) {
     status_.show(warning);
   }
   accuracy_.beforeFrame(settings_);
@@ -268,7 +268,7 @@ void Workspace::frameDrawn(const ShownPicture& shown, const std::function<Image8
 }
 
 void Workspace::showScene(std::unique_ptr<LoadedScene> scene) {
-  accuracy_.forgetScene();
+  accuracy_.forgetScene("Another scene was opened since the measurement.");
   std::swap(loaded_, scene);
   try {
     host_.useScene(loaded_->scene);
@@ -348,19 +348,16 @@ void Workspace::resume(const std::optional<Command>& afterPrompt) {
   }
 }
 
-// Ends one thing at a time: drag, menu, selection, window, message.
+// Ends one thing at a time: drag, menu or list of keys, selection, message. Panels stay.
 void Workspace::escape() {
   if (editor().dragging()) {
     return editor().cancelDrag();
   }
-  if (host_.closeTopWindow(false)) {
+  if (host_.closePopup()) {
     return;
   }
   if (editor().document().selection()) {
     return editor().select({});
-  }
-  if (host_.closeTopWindow(true)) {
-    return;
   }
   opener_.setProblem("");
   status_.clear();

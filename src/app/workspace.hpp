@@ -36,7 +36,7 @@ class WorkspaceHost {
   // Says whether the inspector is closed and would open over that place, in screen coordinates of the window.
   virtual bool inspectorCovers(const glm::dvec2& place) const = 0;
   // Closes a menu or the list of keys, or with `panels` the top window. Returns false if there is none.
-  virtual bool closeTopWindow(bool panels) = 0;
+  virtual bool closePopup() = 0;
 };
 
 // The scene that is shown and everything that users do with it: each action comes here as a command, from panels, keys,
@@ -90,6 +90,7 @@ class Workspace {
   SceneBrowser& browser() { return opener_.browser(); }
   const Capture& capture() const { return capture_; }
   void setPictureText(const std::string& text) { status_.setPicture(text); }
+  void setRefusedEdit(bool refused) { document_->setRefusedEdit(refused); }  // the panels show one
   FrameReport& report() { return report_; }
   const PointerController& pointer() const { return pointer_; }
   bool prompting() const { return document_->prompting(); }

@@ -73,9 +73,11 @@ constexpr SettingNeed shadowMaps{"effects.shadow_lookup", "map"};
 
 // Key, value, label, text and cost, then what is not usual.
 constexpr SettingField fields[] = {
-    setting("reflection.method", choice<&R::method>(reflectionMethods), "Method",
-            "mirrors by images or by rays; auto: by rays where those should be faster",
-            "A ray costs more than a texel, but no pass."),
+    setting(
+        "reflection.method", choice<&R::method>(reflectionMethods), "Method",
+        "how mirrors are drawn. raster: a pass renders an image for each; rays: each pixel traces what it reflects; "
+        "auto: rays where those should be faster",
+        "A ray costs more than a texel, but no pass for each mirror."),
     setting("reflection.scale", NumberSetting{at<&R::scale>, 0.125, 4.0}, "Mirror resolution",
             "resolution of mirror images relative to the main view",
             "Pixels grow with its square. Below 1 reflections blur, above 1 edges smooth.",
@@ -186,10 +188,11 @@ constexpr SettingField fields[] = {
     setting("quality.max_error", NumberSetting{at<&Q::maxError>, 0.0, 1.0}, "Max. mean FLIP",
             "chooses the fastest measured settings up to this mean FLIP, the perceived error; 0: off", "Costs nothing.",
             {.changes = none}),
-    setting("quality.motion_ms", AutomaticSetting{at<&Q::motionMs>, 0.0, 1e6}, "Full quality while moving",
-            "longest frame while anything moves, kept by lowering settings; auto: 50 ms on CPUs, elsewhere 0.8 of a "
-            "refresh; 0: no limit",
-            "At 0 movement may stutter.", {.unit = "ms", .changes = none}),
+    setting(
+        "quality.motion_ms", AutomaticSetting{at<&Q::motionMs>, 0.0, 1e6}, "Full quality while moving",
+        "0 (ticked): settings stay as they are while anything moves; auto (not ticked): they are lowered then, so that "
+        "no frame takes longer than 50 ms on CPUs, elsewhere 0.8 of a refresh; other values: than this",
+        "At 0 movement may stutter.", {.unit = "ms", .changes = none}),
     setting("quality.still_pictures", IntegerSetting{at<&Q::stillPictures>, 1, 1024}, "Still pictures",
             "pictures whose mean the window shows when nothing moves", "As many are drawn after each movement.",
             {.changes = none, .slider = SettingSlider{1, 1024, "%d"}}),
@@ -286,14 +289,14 @@ void copySetting(const SettingField& field, const Settings& from, Settings& to) 
       field.kind);
 }
 
-std::string settingHelp(std::string_view key) {
+std::string settingHelp(std::string_view key, const std::string& range) {
   const SettingField* field = findSettingField(key);
   if (!field) {
     return "";
   }
   std::string text = std::string(field->text) + ". " + std::string(field->cost);
   text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
-  return text + "\n" + std::string(key) + ": " + settingRangeWithUnit(*field);
+  return text + "\n" + std::string(key) + ": " + (range.empty() ? settingRangeWithUnit(*field) : range);
 }
 
 }  // namespace speculum

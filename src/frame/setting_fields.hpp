@@ -98,7 +98,7 @@ const SettingField* findSettingField(std::string_view key);  // null: no such ke
 std::string settingRange(const SettingField& field);
 std::string settingRangeWithUnit(const SettingField& field);  // "texels, 0 .. 16"
 // Tooltip of a setting: what it does, what it costs, key and range; empty for an unknown key.
-std::string settingHelp(std::string_view key);
+std::string settingHelp(std::string_view key, const std::string& range = {});
 bool sameSetting(const SettingField& field, const Settings& a, const Settings& b);
 void copySetting(const SettingField& field, const Settings& from, Settings& to);
 

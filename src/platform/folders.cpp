@@ -74,6 +74,12 @@ fs::path documentsDir() {
   return desktopDir("XDG_DOCUMENTS_DIR", "Documents");
 }
 
+fs::path typedPath(const fs::path& typed) {
+  const std::string home = environment("HOME");
+  const bool expands = !home.empty() && typed.begin() != typed.end() && *typed.begin() == "~";
+  return expands ? fs::path(home) / typed.lexically_relative("~") : typed;
+}
+
 fs::path dataDirectory(std::string_view name) {
   const fs::path exe = executablePath().parent_path();
   const fs::path up = exe.parent_path();

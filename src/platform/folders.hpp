@@ -12,6 +12,8 @@ std::filesystem::path userConfigDir();  // $XDG_CONFIG_HOME/speculum or ~/.confi
 // The user's folder for pictures: $XDG_PICTURES_DIR, the one that user-dirs.dirs names, or ~/Pictures.
 std::filesystem::path picturesDir();
 std::filesystem::path documentsDir();  // likewise $XDG_DOCUMENTS_DIR, ~/Documents
+// Returns the path that a user typed: a first part of "~" is the home folder, if there is one.
+std::filesystem::path typedPath(const std::filesystem::path& typed);
 
 // Returns the directory of shipped data `name` ("shaders", "scenes", "models"): beside the executable, in
 // <prefix>/share/speculum, or up to three folders above the executable. Throws std::runtime_error that lists where it

@@ -174,7 +174,7 @@ inline const auto fieldsOf<Mirror> = std::tuple{
           {.unit = "m", .range = kLength, .required = true, .use = FieldUse::placement, .applies = isRectangle}),
     field(&Mirror::spin, "spin", "added to the rotation",
           {.unit = "deg/s", .range = kTurn, .use = FieldUse::placement, .step = 0.5, .applies = isRectangle}),
-    field(&Mirror::reflectance, "reflectance", "share of light reflected; with Fresnel at normal incidence",
+    field(&Mirror::reflectance, "reflectance", "share of light reflected, the tint; with Fresnel at normal incidence",
           {.range = kUnit, .color = true}),
     field(&Mirror::fresnel, "fresnel", "schlick: more at grazing angles"),
     field(&Mirror::baseColor, "base_color", "diffuse layer under the reflection",

@@ -290,7 +290,7 @@ Mirror readMirror(const TableReader& table) {
 
 std::optional<std::string> mirrorPolygonProblem(std::span<const glm::dvec3> polygon) {
   const auto line = [](const std::string& wrong, Key right) {
-    return "polygon: " + wrong + " (" + std::string(right) + ")";
+    return "the polygon " + wrong + " (" + std::string(right) + ")";
   };
   if (polygon.size() > kMostVertices) {
     return line(vertexCountText(polygon.size()), kGoodCount);
@@ -301,7 +301,8 @@ std::optional<std::string> mirrorPolygonProblem(std::span<const glm::dvec3> poly
     }
   }
   const std::optional<std::string> defect = shapeDefect(polygon);
-  return defect ? std::optional(line(*defect, kGoodShape)) : std::nullopt;
+  return defect ? std::optional(line(*defect, "its corners must lie in one plane, without dents, and not on a line"))
+                : std::nullopt;
 }
 
 Bookmark readBookmark(const TableReader& table, const CameraSpec& camera) {

@@ -71,21 +71,30 @@ std::string figure(double value) {
 
 void drawAxes(ImDrawList& list, const Plot& plot, double noiseFloor) {
   const ImVec2 end(plot.corner.x + plot.size.x, plot.corner.y + plot.size.y);
-  list.AddRect(plot.corner, end, ImGui::GetColorU32(ImGuiCol_Text, gridOpacity));
+  const ImU32 grid = ImGui::GetColorU32(ImGuiCol_Text, gridOpacity);
+  const ImU32 ink = ImGui::GetColorU32(ImGuiCol_Text);
+  const float line = ImGui::GetFontSize();
+  list.AddRect(plot.corner, end, grid);
+  float free = plot.corner.x;  // right end of the last label
   forTicks(plot.lowMs, plot.highMs, [&](double ms) {
-    list.AddLine({plot.x(ms), plot.corner.y}, {plot.x(ms), end.y}, ImGui::GetColorU32(ImGuiCol_Text, gridOpacity));
+    list.AddLine({plot.x(ms), plot.corner.y}, {plot.x(ms), end.y}, grid);
     const std::string text = figure(ms);
-    if (plot.x(ms) + 2.0f + ImGui::CalcTextSize(text.c_str()).x < end.x) {
-      list.AddText({plot.x(ms) + 2.0f, end.y - ImGui::GetFontSize()}, ImGui::GetColorU32(ImGuiCol_Text), text.c_str());
+    const float width = textWidth(text);
+    const float left = std::min(plot.x(ms) - 0.5f * width, end.x - width);
+    if (left >= free) {
+      list.AddText({left, end.y}, ink, text.c_str());
+      free = left + width + 0.5f * line;
     }
   });
   forTicks(plot.lowError, plot.highError, [&](double error) {
-    list.AddLine({plot.corner.x, plot.y(error)}, {end.x, plot.y(error)},
-                 ImGui::GetColorU32(ImGuiCol_Text, gridOpacity));
-    if (plot.y(error) < end.y - 2.0f * ImGui::GetFontSize()) {
-      list.AddText({plot.corner.x + 2.0f, plot.y(error)}, ImGui::GetColorU32(ImGuiCol_Text), figure(error).c_str());
-    }
+    const float y = plot.y(error);
+    list.AddLine({plot.corner.x, y}, {end.x, y}, grid);
+    list.AddText({plot.corner.x + 2.0f, std::min(y, end.y - line)}, ink, figure(error).c_str());
   });
+  const char* across = "GPU ms";
+  list.AddText({end.x - textWidth(across) - 2.0f, end.y - line}, ink, across);
+  const char* up = "mean FLIP";
+  list.AddText({end.x - textWidth(up) - 2.0f, plot.corner.y}, ink, up);
   if (noiseFloor > 0.0) {
     const float y = plot.y(noiseFloor);
     for (float x = plot.corner.x; x < end.x; x += 8.0f) {
@@ -138,7 +147,7 @@ void plot(PanelContext& ui) {
   const ImVec2 size(ImGui::GetContentRegionAvail().x, 15.0f * ImGui::GetFontSize());
   ImGui::InvisibleButton("plot", size);
   recordWidget(ui, "accuracy.plot");
-  const Plot plot = plotOf(accuracy, corner, size);
+  const Plot plot = plotOf(accuracy, corner, {size.x, size.y - 1.2f * ImGui::GetFontSize()});  // labels are below
   const int hovered = ImGui::IsItemHovered() ? nearestPoint(plot, accuracy, ImGui::GetMousePos()) : -1;
   ImDrawList& list = *ImGui::GetWindowDrawList();
   list.PushClipRect(corner, {corner.x + size.x, corner.y + size.y}, true);
@@ -155,14 +164,15 @@ void plot(PanelContext& ui) {
     ImGui::SetTooltip(
         "%s\nmean FLIP %s, %s (%s .. %s)%s", point.name.c_str(), figure(point.error).c_str(),
         duration(point.ms).c_str(), duration(point.lowerMs).c_str(), duration(point.upperMs).c_str(),
-        isOnFront(accuracy, hovered) ? "" : "\nGrey: more accurate points take no longer, within the spread.");
+        isOnFront(accuracy, hovered) ? "" : "\nGrey: a more accurate point takes no longer, as far as the bars tell.");
     if (ImGui::IsItemClicked()) {
       ui.send(ApplyPoint{hovered});
     }
   }
   dimmedText(
-      "Error (mean FLIP) over GPU ms. A click applies a point; none is both faster and more accurate than an orange "
-      "one.");
+      "A click applies a point. Bars hold half of its times; where bars overlap, times count as equal. No point is "
+      "more "
+      "accurate than an orange one and as fast.");
   tip("Mean FLIP: mean perceived difference from the reference, 0 (none) to 1.");
 }
 
@@ -173,6 +183,7 @@ void frontSlider(PanelContext& ui) {
   const bool onFront = place != accuracy.front.end();
   int index = onFront ? static_cast<int>(place - accuracy.front.begin()) : 0;
   const std::string text = accuracy.current >= 0 ? accuracy.points[accuracy.current].name : "other settings";
+  ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted("Fast");
   ImGui::SameLine();
   ImGui::SetNextItemWidth(-5.5f * ImGui::GetFontSize());

@@ -40,9 +40,9 @@ void device(PanelContext& ui) {
     fact("Vulkan", device.vulkan);
     fact("Render path", device.renderPath);
     fact("Samples a pixel", fmt::format("{}", fmt::join(device.samples, ", ")));
-    fact("Memory of this window", mebibytes(frame.deviceBytes) + " MiB");
-    fact("Memory of the process", mebibytes(frame.usedBytes) + " MiB");
-    fact("Memory available", mebibytes(frame.budgetBytes) + " MiB");
+    fact("GPU memory of this window", mebibytes(frame.deviceBytes) + " MiB");
+    fact("GPU memory of the program", mebibytes(frame.usedBytes) + " MiB");
+    fact("GPU memory available", mebibytes(frame.budgetBytes) + " MiB");
     fact("Validation layer",
          frame.validationMessages < 0 ? "off" : std::to_string(frame.validationMessages) + " messages");
     ImGui::EndTable();

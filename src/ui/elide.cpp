@@ -11,14 +11,22 @@ bool begins(char c) {
 
 }  // namespace
 
-std::string startThatFits(const std::string& text, float room, const std::function<float(std::string_view)>& widthOf) {
+std::string endsThatFit(const std::string& text, float room, const std::function<float(std::string_view)>& widthOf) {
   if (widthOf(text) <= room) {
     return text;
   }
-  for (size_t end = text.size(); end > 0; --end) {
-    std::string start = text.substr(0, end) + "...";
-    if ((end == text.size() || begins(text[end])) && widthOf(start) <= room) {
-      return start;
+  for (size_t kept = text.size(); kept > 0; --kept) {
+    size_t end = (kept + 1) / 2;              // of the start
+    size_t begin = text.size() - (kept / 2);  // of the end
+    while (end > 0 && !begins(text[end])) {
+      --end;
+    }
+    while (begin < text.size() && !begins(text[begin])) {
+      ++begin;
+    }
+    std::string both = text.substr(0, end) + "..." + text.substr(begin);
+    if (widthOf(both) <= room) {
+      return both;
     }
   }
   return "...";

@@ -6,9 +6,9 @@
 
 namespace speculum {
 
-// `text`, or where that is wider than `room` as much of its start as fits with "...". `widthOf` is in the units of
-// `room`. UTF-8.
-std::string startThatFits(const std::string& text, float room, const std::function<float(std::string_view)>& widthOf);
+// `text`, or where that is wider than `room` as much of its start and end as fits with "..." between. `widthOf` is in
+// the units of `room`. UTF-8.
+std::string endsThatFit(const std::string& text, float room, const std::function<float(std::string_view)>& widthOf);
 
 // `text` with line breaks in place of spaces, so that no line is wider than `room` unless one word is.
 std::string brokenAtSpaces(std::string text, float room, const std::function<float(std::string_view)>& widthOf);

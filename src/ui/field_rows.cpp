@@ -125,7 +125,10 @@ bool polygonRows(PanelContext& ui, std::vector<glm::dvec3>& vertices) {
   if (polygon.mirror != selected || polygon.taken != vertices) {
     polygon = {.vertices = vertices, .taken = vertices, .mirror = selected};
   }
-  dimmedText("Vertices (m), counter-clockwise from the front");
+  dimmedText("Shape by vertices (m), counter-clockwise from the front");
+  recordWidget(ui, "edit.polygon",
+               "The file gives this mirror's vertices, so it has no position, rotation and size, as "
+               "mirrors have that are added. Its handles move all vertices.");
   bool changed = false;
   for (size_t i = 0; i < polygon.vertices.size(); ++i) {
     changed = polygonVertex(ui, polygon.vertices, i) || changed;
@@ -138,6 +141,7 @@ bool polygonRows(PanelContext& ui, std::vector<glm::dvec3>& vertices) {
   }
   const bool applied = changed && !polygon.problem;
   if (polygon.problem) {
+    ui.output.refusedEdit = true;
     coloredText(errorColor, "Not applied: " + *polygon.problem);
     if (button(ui, "Revert", "edit.polygon.reset", "Returns to the mirror's vertices.")) {
       polygon = {};

@@ -30,19 +30,25 @@ double passOf(const std::vector<double>& passes, size_t name) {
 
 }  // namespace
 
-void FrameHistory::add(uint64_t number, double frameMs, double cpuMs) {
+void FrameHistory::add(uint64_t number, double frameMs, double cpuMs, bool lowered) {
   if (paused_) {
     return;
   }
-  rows_.push_back({number, {frameMs, cpuMs, unknown}, {}});
-  if (rows_.size() > longest) {
-    rows_.pop_front();
+  lowered_ = lowered;
+  std::deque<Row>& rows = rows_[static_cast<size_t>(lowered)];
+  rows.push_back({number, {frameMs, cpuMs, unknown}, {}});
+  if (rows.size() > longest) {
+    rows.pop_front();
   }
 }
 
 void FrameHistory::addGpu(uint64_t number, double gpuMs, std::span<const std::pair<std::string, double>> passes) {
-  const auto row = std::ranges::find(rows_, number, &Row::number);
-  if (paused_ || row == rows_.end() || !std::isnan(row->ms.back())) {
+  Row* row = nullptr;
+  for (std::deque<Row>& rows : rows_) {
+    const auto found = std::ranges::find(rows, number, &Row::number);
+    row = found != rows.end() ? &*found : row;
+  }
+  if (paused_ || !row || !std::isnan(row->ms.back())) {
     return;
   }
   row->ms.back() = gpuMs;
@@ -58,13 +64,13 @@ void FrameHistory::addGpu(uint64_t number, double gpuMs, std::span<const std::pa
 }
 
 void FrameHistory::clear() {
-  rows_.clear();
+  rows_ = {};
   names_.clear();
 }
 
 std::vector<float> FrameHistory::series(Figure figure) const {
   std::vector<float> values;
-  for (const Row& row : rows_) {
+  for (const Row& row : rows()) {
     values.push_back(static_cast<float>(row.ms[static_cast<size_t>(figure)]));
   }
   return values;
@@ -73,7 +79,7 @@ std::vector<float> FrameHistory::series(Figure figure) const {
 std::vector<std::string> FrameHistory::passNames() const {
   std::vector<std::string> present;
   for (size_t i = 0; i < names_.size(); ++i) {
-    if (std::ranges::any_of(rows_, [&](const Row& r) { return !std::isnan(passOf(r.passes, i)); })) {
+    if (std::ranges::any_of(rows(), [&](const Row& r) { return !std::isnan(passOf(r.passes, i)); })) {
       present.push_back(names_[i]);
     }
   }
@@ -83,7 +89,7 @@ std::vector<std::string> FrameHistory::passNames() const {
 std::vector<float> FrameHistory::passSeries(const std::string& pass) const {
   const size_t index = std::ranges::find(names_, pass) - names_.begin();
   std::vector<float> values;
-  for (const Row& row : rows_) {
+  for (const Row& row : rows()) {
     values.push_back(static_cast<float>(passOf(row.passes, index)));
   }
   return values;
@@ -97,7 +103,7 @@ std::string FrameHistory::csv() const {
     columns.push_back(std::ranges::find(names_, name) - names_.begin());
     text += "," + quoted(name + " ms");
   }
-  for (const Row& row : rows_) {
+  for (const Row& row : rows()) {
     text += fmt::format("\n{},{},{},{}", row.number, field(row.ms[0]), field(row.ms[1]), field(row.ms[2]));
     for (const size_t column : columns) {
       text += "," + field(passOf(row.passes, column));

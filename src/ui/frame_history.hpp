@@ -11,15 +11,16 @@
 namespace speculum {
 
 // Milliseconds of the last frames, by frame number: those of the CPU and the window, which are there at once, and those
-// of the GPU, which arrive some frames later. Missing figures are NaN.
+// of the GPU, which arrive some frames later. Missing figures are NaN. Frames whose quality was lowered for the pace
+// are kept apart from the others: figures are of those frames only that are like the last one.
 class FrameHistory {
  public:
-  static constexpr size_t longest = 300;  // frames
+  static constexpr size_t longest = 300;  // frames of each quality
 
   enum class Figure { frame, cpu, gpu };
 
   // Numbers ascend. `frameMs` is the time since the frame before, NaN if nothing was drawn for a while.
-  void add(uint64_t number, double frameMs, double cpuMs);
+  void add(uint64_t number, double frameMs, double cpuMs, bool lowered = false);
   // Adds the GPU's figures to a frame from add(). Ignores frames that were dropped or have their figures. Times of
   // passes with the same name add up.
   void addGpu(uint64_t number, double gpuMs, std::span<const std::pair<std::string, double>> passes);
@@ -29,7 +30,8 @@ class FrameHistory {
   void setPaused(bool paused) { paused_ = paused; }
   bool paused() const { return paused_; }
 
-  size_t frames() const { return rows_.size(); }
+  bool lowered() const { return lowered_; }
+  size_t frames() const { return rows().size(); }
   std::vector<float> series(Figure figure) const;  // oldest first
   // Names of passes in the order of their first recording, without those that no frame here has.
   std::vector<std::string> passNames() const;
@@ -45,7 +47,10 @@ class FrameHistory {
     std::array<double, 3> ms{};  // by Figure
     std::vector<double> passes;  // by index in names_; those at the end may be missing
   };
-  std::deque<Row> rows_;
+  const std::deque<Row>& rows() const { return rows_[static_cast<size_t>(lowered_)]; }
+
+  std::array<std::deque<Row>, 2> rows_;  // of full and of lowered quality
+  bool lowered_ = false;                 // the last frame was
   std::vector<std::string> names_;
   bool paused_ = false;
 };

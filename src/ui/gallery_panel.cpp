@@ -15,7 +15,7 @@ constexpr float tileAspect = 192.0f / 108.0f;
 
 // Draws as much of the text as fits into the tile.
 void textWithin(const std::string& whole, const ImVec2& low, const ImVec2& high, float align) {
-  const std::string text = startThatFits(whole, high.x - low.x, textWidth);
+  const std::string text = endsThatFit(whole, high.x - low.x, textWidth);
   const ImVec2 size = ImGui::CalcTextSize(text.c_str());
   const ImVec2 at(low.x + std::max(0.0f, align * (high.x - low.x - size.x)), low.y + 0.5f * (high.y - low.y - size.y));
   ImGui::GetWindowDrawList()->AddText(at, ImGui::GetColorU32(ImGuiCol_Text), text.c_str());

@@ -43,8 +43,8 @@ Shortcut repeated(const char* keys, const char* help, Command command) {
 std::span<const ShortcutGroup> shortcutGroups() {
   static const std::array<ShortcutGroup, 5> groups{
       {{"View",
-        {pointer("drag", "Orbit about the target, or look around in fly mode"), pointer("drag middle or right", "Pan"),
-         pointer("wheel", "Zoom"), pointer("W A S D", "Move forward, left, back, right"),
+        {pointer("Drag", "Orbit about the target, or look around in fly mode"), pointer("Drag middle or right", "Pan"),
+         pointer("Wheel", "Zoom"), pointer("W A S D", "Move forward, left, back, right"),
          pointer("Q E", "Move down, up"), key("F", "Frame the selection, or the whole scene", FrameSelection{}),
          key("B", "Look from behind the selected mirror, or the largest", LookFromMirror{MirrorSide::back}),
          key("Shift+B", "Look out of that mirror", LookFromMirror{MirrorSide::front}),
@@ -60,7 +60,7 @@ std::span<const ShortcutGroup> shortcutGroups() {
          key("F10", "Start or stop recording frames", ToggleRecording{true}),
          key("Shift+F10", "Record frames without the panels", ToggleRecording{false})}},
        {"Edit",
-        {pointer("click", "Select, in mirrors too; click again for the mirror it is seen in"),
+        {pointer("Click", "Select, in mirrors too; click again for the mirror it is seen in"),
          pointer("Shift+click", "Add to the selection, or remove from it"),
          key("G", "Switch between move, rotate and scale handles (Ctrl while dragging: snap)", NextGizmoMode{}),
          repeated("N", "Select the next object, light or mirror", SelectNext{1}),
@@ -74,20 +74,20 @@ std::span<const ShortcutGroup> shortcutGroups() {
         {key("F2", "Show or hide the inspector", ToggleInspector{}), key("F11", "Full screen", ToggleFullScreen{}),
          key("Tab", "Show or hide the panels", TogglePanel{}),
          pointer("Ctrl+Tab", "Go to another window of the panels"),
-         pointer("arrows", "Walk through the panel's widgets; Space presses"),
+         pointer("Arrows", "Walk through the panel's widgets; Space presses"),
          key("F1", "Show or hide this list", ToggleHelp{}),
-         key("Esc", "Cancel the drag, deselect, close the top window", Escape{}), key("Ctrl+Q", "Quit", Quit{})}}}};
+         key("Esc", "Cancel the drag, close a menu, deselect", Escape{}), key("Ctrl+Q", "Quit", Quit{})}}}};
   return groups;
 }
 
 std::span<const Shortcut> gamepadHelp() {
   static const std::array<Shortcut, 9> rows{
-      {pointer("left stick", "Move forward, back, left, right"), pointer("triggers", "Move down, up"),
-       pointer("right stick", "Look around"), pointer("direction pad", "Navigate the panels: A presses, B leaves"),
+      {pointer("Left stick", "Move forward, back, left, right"), pointer("Triggers", "Move down, up"),
+       pointer("Right stick", "Look around"), pointer("Direction pad", "Navigate the panels: A presses, B leaves"),
        pointer("A, B", "Frame the selection or the scene; orbit or fly"),
        pointer("Y, X", "Look from behind a mirror; look out of it"),
-       pointer("bumpers", "Step back or forward by 1/60 s"),
-       pointer("sticks pressed", "Left: reset the camera; right: screenshot"),
+       pointer("Bumpers", "Step back or forward by 1/60 s"),
+       pointer("Sticks pressed", "Left: reset the camera; right: screenshot"),
        pointer("Start, Back", "Pause or play; show or hide the panels")}};
   return rows;
 }

@@ -101,7 +101,7 @@ void historyButtons(PanelContext& ui) {
                 Save{}, edit.canSave());
   continueRow("Save as...");
   commandButton(ui, "Save as...", "edit.save_as", "Ctrl+Shift+S", AskWhereToSave{});
-  const char* state = edit.unsaved ? "unsaved changes" : edit.isModel ? "a model, no scene yet" : "saved";
+  const char* state = edit.unsaved ? "unsaved changes" : edit.isNew ? "not saved yet" : "saved";
   continueRow(state);
   ImGui::AlignTextToFramePadding();
   ImGui::TextDisabled("%s", state);
@@ -157,7 +157,10 @@ void selectedNode(PanelContext& ui) {
     commandButton(ui, "Look from behind", "edit.look_behind", "Looks through the mirror at what it shows (B).",
                   LookFromMirror{MirrorSide::back});
     dimmedText(mirrorCost(ui.view.frame, edit.selected.index));
-    recordWidget(ui, "edit.mirror_cost", "Cost of its images in the last frame, also of those seen in other mirrors.");
+    recordWidget(
+        ui, "edit.mirror_cost",
+        "Cost of its images in the last frame, also of those seen in other mirrors. Reflections makes all images "
+        "cheaper, by Mirror resolution, Samples and Max. depth.");
   }
   gizmoMode(ui);
   ImGui::PushItemWidth(-8.0f * ImGui::GetFontSize());

@@ -214,24 +214,4 @@ WindowRect PanelWindows::freeRect() const {
   return visible_ ? dock_.freeRect() : WindowRect{{0.0f, 0.0f}, {display.x, display.y}};
 }
 
-bool PanelWindows::closeTop(bool closesPanels) {
-  const auto close = [&](const ImGuiWindow& window) {
-    const std::string_view name = window.Name;
-    const auto panel = std::ranges::find(panelNames, name, &PanelName::name);
-    bool* open = name == panels::helpTitle        ? &state_.help
-                 : !closesPanels                  ? nullptr
-                 : name == panels::inspectorTitle ? &state_.inspector
-                 : panel != panelNames.end()      ? &(state_.choices.*panel->open)
-                                                  : nullptr;
-    return open && window.Active && !window.Hidden && std::exchange(*open, false);
-  };
-  const ImVector<ImGuiWindow*>& windows = ImGui::GetCurrentContext()->WindowsFocusOrder;  // the last one is the top
-  for (int i = windows.Size - 1; visible_ && i >= 0; --i) {
-    if (close(*windows[i])) {
-      return true;
-    }
-  }
-  return false;
-}
-
 }  // namespace speculum

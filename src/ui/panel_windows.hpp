@@ -1,5 +1,7 @@
 #pragma once
 
+#include <utility>
+
 #include "ui/panels.hpp"
 
 namespace speculum {
@@ -26,9 +28,8 @@ class PanelWindows {
   bool inspectorCovers(const glm::vec2& place) const;  // closed, it would open there
   // Display without panels, in screen coordinates.
   WindowRect freeRect() const;
-  // Closes the list of keys, or with `closesPanels` the top window except the main panel. Returns false if there is
-  // none.
-  bool closeTop(bool closesPanels);
+  // Closes the list of keys. Returns false if it was not open.
+  bool closeHelp() { return visible_ && std::exchange(state_.help, false); }
 
  private:
   void mainPanel(PanelContext& ui);

@@ -3,6 +3,7 @@
 #include <imgui.h>
 #include <imgui_internal.h>
 #include <spdlog/fmt/fmt.h>
+#include <spdlog/fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -98,7 +99,10 @@ void describe(PanelContext& ui, std::string_view key) {
   const AccuracyView& accuracy = ui.view.accuracy;
   const auto price = accuracy.prices.find(key);
   const bool priced = price != accuracy.prices.end() && !accuracy.otherView;
-  recordWidget(ui, key, settingHelp(key) + measuredHere(ui.view.frame, key) + (priced ? price->second : ""));
+  const std::vector<int>& samples = ui.view.device.samples;
+  const bool limited = key.ends_with(".samples") && !samples.empty();
+  const std::string range = limited ? fmt::format("{} on this device", fmt::join(samples, " ")) : "";
+  recordWidget(ui, key, settingHelp(key, range) + measuredHere(ui.view.frame, key) + (priced ? price->second : ""));
   const Settings& ofScene = ui.view.sceneSettings;
   const SettingField& field = *findSettingField(key);
   if (sameSetting(field, ui.settings, ofScene)) {
@@ -121,14 +125,23 @@ void describe(PanelContext& ui, std::string_view key) {
   }
 }
 
-void tip(const std::string& text) {
+void tip(const std::string& text, bool beside) {
   // A widget with the keyboard's focus counts as hovered, but its tooltip would cover the next widgets.
   const bool byKeyboard = ImGui::GetCurrentContext()->NavDisableMouseHover;
   // Nor may it cover the value of a slider that is dragged.
   const bool held = ImGui::IsItemActive();
   if (!byKeyboard && !held && ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) {
+    const float width = 30.0f * ImGui::GetFontSize();
+    if (beside) {
+      const ImVec2 padding = ImGui::GetStyle().WindowPadding;
+      const float height = ImGui::CalcTextSize(text.c_str(), nullptr, false, width).y + 2.0f * padding.y;
+      const bool below = ImGui::GetItemRectMax().y + height < ImGui::GetIO().DisplaySize.y;
+      ImGui::SetNextWindowPos(
+          {ImGui::GetItemRectMin().x, below ? ImGui::GetItemRectMax().y : ImGui::GetItemRectMin().y}, ImGuiCond_Always,
+          {0.0f, below ? 0.0f : 1.0f});
+    }
     ImGui::BeginTooltip();
-    ImGui::PushTextWrapPos(30.0f * ImGui::GetFontSize());
+    ImGui::PushTextWrapPos(width);
     ImGui::TextUnformatted(text.c_str());
     ImGui::PopTextWrapPos();
     ImGui::EndTooltip();
@@ -192,7 +205,7 @@ std::string labelFor(const std::string& label, float width) {
 }
 
 std::string thatFits(const std::string& text) {
-  return startThatFits(text, ImGui::GetContentRegionAvail().x, textWidth);
+  return endsThatFit(text, ImGui::GetContentRegionAvail().x, textWidth);
 }
 
 void wrappedText(const std::string& text) {

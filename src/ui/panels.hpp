@@ -46,16 +46,18 @@ struct PanelState {
   const Scene* modelsOf = nullptr;             // scene that `model` was chosen for
   std::optional<std::filesystem::path> model;  // model to add next; none: `modelFile`
   std::string modelFile;                       // typed
-  std::string saveAs;                          // typed
 
   std::string dismissedMessage;
 
-  // Prompt::open
+  // Prompt::open and saveAs
   struct Files {
-    std::filesystem::path folder;
-    std::vector<std::filesystem::directory_entry> entries;  // of the folder: folders, scenes and models
+    std::filesystem::path folder;                           // of typed names
+    std::filesystem::path listed;                           // folder of what is typed
+    std::vector<std::filesystem::directory_entry> entries;  // of the listed one: folders, scenes and models
     std::string typed;
+    std::string problem;  // why the typed file cannot be opened
   } files;
+  glm::vec2 promptDisplay{0.0f};  // size of the display that a prompt was centered in
 
   std::vector<std::pair<std::string, PixelRect>> widgets;  // of this frame, by name
 };
@@ -121,8 +123,9 @@ float statusLine(const StatusView& status, float width, float right);
 // Call after each widget of a setting: records it, shows its tooltip, and adds a button at the line's end that resets
 // it to the scene's value if it differs. The button is recorded as "reset." and the key.
 void describe(PanelContext& ui, std::string_view key);
-// Call after a widget: shows a tooltip while the pointer is on it.
-void tip(const std::string& text);
+// Call after a widget: shows a tooltip while the pointer is on it; with `beside` below or above the widget, not over
+// it.
+void tip(const std::string& text, bool beside = false);
 // Call after a widget: records its rectangle by name, and shows the tooltip unless it is empty.
 void recordWidget(PanelContext& ui, std::string_view key, const std::string& tip = {});
 // Draw rows for the settings whose keys begin with `prefix`, except those whose need is not met, and for the fields of
@@ -142,7 +145,7 @@ std::string labelFor(const std::string& label, float width);
 
 float textWidth(std::string_view text);                     // pixels
 void figure(const std::string& text, bool dimmed = false);  // at the right edge of its line or cell
-std::string thatFits(const std::string& text);  // its start, if the rest of the line or cell is too short for it
+std::string thatFits(const std::string& text);  // its ends, if the rest of the line or cell is too short for it
 std::string mebibytes(uint64_t bytes);          // without the unit
 std::string milliseconds(double ms);            // the same without the unit; "-" for NaN
 std::string duration(double ms);                // "3.21 ms", "757 ms", "14.20 s"

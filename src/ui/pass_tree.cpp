@@ -3,6 +3,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "ui/panels.hpp"
 
@@ -53,24 +54,36 @@ std::string pathEnd(const std::string& name) {
   return last != std::string::npos ? name.substr(last + 3) : name.starts_with(kind) ? name.substr(kind.size()) : name;
 }
 
+double restOfPasses(const FrameView& frame) {
+  double rest = frame.timedGpuMs > 0.0 ? frame.timedGpuMs : std::nan("");
+  for (const PassView& pass : frame.passes) {
+    rest -= pass.timed ? pass.gpuMs : 0.0;
+  }
+  return std::max(rest, 0.0);
+}
+
 std::string mirrorCost(const FrameView& frame, int mirror) {
   int passes = 0;
   double ms = 0.0;
-  double texels = 0.0;
+  double pixels = 0.0;
   bool reused = true;
   for (const PassView& pass : frame.passes) {
     if (pass.kind == PassKind::mirror && pass.path.back() == mirror) {
       ++passes;
       ms += pass.timed && !pass.reused ? pass.gpuMs : 0.0;
       reused = reused && pass.reused;
-      texels += pass.areaPx;
+      pixels += pass.areaPx;
     }
   }
   if (passes > 0) {
-    return fmt::format("{} {}, {:.0f} texels", passes, passes == 1 ? "pass" : "passes", texels) +
+    return fmt::format("{} {}, {:.0f} pixels", passes, passes == 1 ? "pass" : "passes", pixels) +
            (reused     ? ", reused"
             : ms > 0.0 ? ", " + panels::duration(ms) + " on the GPU"
                        : "");
+  }
+  const auto isOf = [&](const SkippedView& skip) { return skip.path.back() == mirror; };
+  if (std::ranges::any_of(frame.skipped, [&](const SkippedView& skip) { return isOf(skip) && skip.byRays; })) {
+    return "Drawn by rays";
   }
   const auto skipped = std::ranges::find(frame.skipped, std::vector{mirror}, &SkippedView::path);
   return skipped == frame.skipped.end() ? "No pass" : "No pass: " + skipped->reason;

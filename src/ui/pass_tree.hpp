@@ -23,6 +23,10 @@ std::vector<PassBranch> passTree(std::span<const PassView> passes, std::span<con
 // Returns the last mirror in a pass's name, which is enough in a tree that shows its parents.
 std::string pathEnd(const std::string& name);
 
+// Returns the milliseconds of the timed frame that no listed pass took: for the panels, and between passes. NaN if no
+// frame was timed.
+double restOfPasses(const FrameView& frame);
+
 // Says what the images of a mirror (index into Scene::mirrors) cost, on the screen and in other mirrors, or why it has
 // none.
 std::string mirrorCost(const FrameView& frame, int mirror);

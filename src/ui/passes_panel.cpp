@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "ui/elide.hpp"
 #include "ui/panels.hpp"
@@ -92,16 +93,14 @@ void passRow(PanelContext& ui, const PassBranch& node) {
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
   const float room = ImGui::GetContentRegionAvail().x - ImGui::GetTreeNodeToLabelSpacing();
-  const std::string name = startThatFits(pathEnd(pass.name), room, textWidth);
+  const std::string name = endsThatFit(pathEnd(pass.name), room, textWidth);
   const std::string id = pass.name + "/" + std::to_string(node.pass);
   const bool open = ImGui::TreeNodeEx(id.c_str(), flags, "%s", name.c_str());
   if (ImGui::IsItemHovered() || (ImGui::IsItemFocused() && ImGui::GetIO().NavVisible)) {
     ui.output.hoveredPath = pass.path;
   }
   recordWidget(ui, "pass." + pass.name);
-  if (hasTarget(pass)) {
-    tip(pass.name + "\nA click shows what it drew.");
-  }
+  tip(pass.name + (hasTarget(pass) ? "\nA click shows what it drew." : ""), true);
   if (hasTarget(pass) && ImGui::IsItemClicked() && !ImGui::IsItemToggledOpen()) {
     target = shown ? std::nullopt : std::optional(pass.path);
     ui.state.choices.targets = !shown;
@@ -128,10 +127,29 @@ void passRow(PanelContext& ui, const PassBranch& node) {
   ImGui::TreePop();
 }
 
+// Draws what makes the sum of the rows the frame's time.
+void restRow(PanelContext& ui) {
+  const double rest = restOfPasses(ui.view.frame);
+  if (std::isnan(rest)) {
+    return;
+  }
+  ImGui::TableNextRow();
+  ImGui::TableNextColumn();
+  ImGui::SetCursorPosX(ImGui::GetCursorPosX() + ImGui::GetTreeNodeToLabelSpacing());
+  ImGui::TextUnformatted("panels and gaps");
+  recordWidget(
+      ui, "passes.rest",
+      "GPU time of the frame that no pass above took: for the panels, in each of the frames that drew a part of "
+      "the picture, and between passes.");
+  ImGui::TableNextColumn();
+  figure(milliseconds(rest));
+}
+
 void header() {
   static constexpr std::array<const char*, 5> about{
       "The main view and, below the view that each is seen in, the mirror images.",
-      "GPU time of the pass. Grey: of an earlier frame.", "Draw calls.", "Texels of the mirror's image that are seen.",
+      "GPU time of the pass. Grey: of an earlier frame.", "Draw calls of the pass.",
+      "Pixels that the pass draws: of the main view, or of a mirror's image as far as it is seen.",
       "Smallest distance between surfaces that the pass still keeps in order."};
   ImGui::TableNextRow(ImGuiTableRowFlags_Headers);
   for (int column = 0; column < static_cast<int>(about.size()); ++column) {
@@ -160,7 +178,8 @@ void passes(PanelContext& ui) {
   }
   wrappedText("GPU " + duration(frame.timedGpuMs > 0.0 ? frame.timedGpuMs : frame.gpuMs) + "   Memory " +
               mebibytes(frame.deviceBytes) + " MiB");
-  tip("GPU time of the last frame whose passes were timed, or of the last frame if none was. Timing slows a frame.");
+  tip("GPU time of the last picture whose passes were timed, the sum of the rows below; if none was, of the last "
+      "picture. Timing slows a frame.");
   constexpr ImGuiTableFlags flags = ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp;
   const bool narrow = ImGui::GetContentRegionAvail().x < 22.0f * ImGui::GetFontSize();  // too narrow for all figures
   const ImGuiTableColumnFlags further =
@@ -168,17 +187,18 @@ void passes(PanelContext& ui) {
   if (!ImGui::BeginTable("passes", 5, flags)) {
     return;
   }
-  const float width = 4.0f * ImGui::GetFontSize();
+  const float em = ImGui::GetFontSize();
   ImGui::TableSetupColumn("Pass", ImGuiTableColumnFlags_WidthStretch);
-  ImGui::TableSetupColumn("GPU ms", ImGuiTableColumnFlags_WidthFixed, width);
-  ImGui::TableSetupColumn("Draws", ImGuiTableColumnFlags_WidthFixed, 0.7f * width);
-  ImGui::TableSetupColumn("Pixels", further, 1.13f * width);
-  ImGui::TableSetupColumn("Depth (m)", further, 1.1f * width);
+  ImGui::TableSetupColumn("GPU ms", ImGuiTableColumnFlags_WidthFixed, 3.5f * em);
+  ImGui::TableSetupColumn("Draws", ImGuiTableColumnFlags_WidthFixed, 2.8f * em);
+  ImGui::TableSetupColumn("Pixels", further, 4.5f * em);
+  ImGui::TableSetupColumn("Depth (m)", further, 4.4f * em);
   header();
   ImGui::PushStyleVar(ImGuiStyleVar_IndentSpacing, 0.3f * ImGui::GetFontSize());
   for (const PassBranch& node : passTree(frame.passes, frame.skipped)) {
     passRow(ui, node);
   }
+  restRow(ui);
   ImGui::PopStyleVar();
   ImGui::EndTable();
 }

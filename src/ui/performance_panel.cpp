@@ -58,10 +58,10 @@ bool beginRows(const char* id) {
     return false;
   }
   const float em = ImGui::GetFontSize();
-  ImGui::TableSetupColumn("ms", ImGuiTableColumnFlags_WidthStretch);
-  ImGui::TableSetupColumn("Median", ImGuiTableColumnFlags_WidthFixed, 3.6f * em);
-  ImGui::TableSetupColumn("p95", ImGuiTableColumnFlags_WidthFixed, 3.6f * em);
-  ImGui::TableSetupColumn("Newest right", ImGuiTableColumnFlags_WidthStretch);
+  ImGui::TableSetupColumn("ms", ImGuiTableColumnFlags_WidthStretch, 1.5f);
+  ImGui::TableSetupColumn("Median", ImGuiTableColumnFlags_WidthFixed, 3.2f * em);
+  ImGui::TableSetupColumn("p95", ImGuiTableColumnFlags_WidthFixed, 3.2f * em);
+  ImGui::TableSetupColumn("Newest right", ImGuiTableColumnFlags_WidthStretch, 1.0f);
   ImGui::TableNextRow(ImGuiTableRowFlags_Headers);
   for (int column = 0; column < 4; ++column) {
     ImGui::TableNextColumn();
@@ -86,7 +86,7 @@ void performance(PanelContext& ui) {
   if (button(ui, "Copy as CSV", "performance.copy", "Copies all figures of the frames below.")) {
     ui.send(CopyText{history.csv()});
   }
-  const std::string frames = std::to_string(history.frames()) + " frames";
+  const std::string frames = std::to_string(history.frames()) + (history.lowered() ? " draft frames" : " frames");
   continueRow(frames.c_str());
   ImGui::AlignTextToFramePadding();
   ImGui::TextDisabled("%s", frames.c_str());

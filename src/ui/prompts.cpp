@@ -3,8 +3,10 @@
 #include <imgui_stdlib.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "platform/files.hpp"
+#include "platform/folders.hpp"
 #include "ui/panels.hpp"
 
 namespace speculum::panels {
@@ -19,8 +21,9 @@ float fieldWidth() {
   return std::clamp(ImGui::GetIO().DisplaySize.x - 3.0f * em, 8.0f * em, 34.0f * em);
 }
 
-bool beginPrompt(const char* title) {
-  ImGui::SetNextWindowPos(ImGui::GetMainViewport()->GetCenter(), ImGuiCond_Appearing, ImVec2(0.5f, 0.5f));
+bool beginPrompt(const char* title, bool recenter) {
+  ImGui::SetNextWindowPos(ImGui::GetMainViewport()->GetCenter(), recenter ? ImGuiCond_Always : ImGuiCond_Appearing,
+                          ImVec2(0.5f, 0.5f));
   return ImGui::BeginPopupModal(title, nullptr, flags);
 }
 
@@ -49,6 +52,9 @@ void unsavedChanges(PanelContext& ui) {
   const EditView& edit = ui.view.edit;
   ImGui::TextUnformatted("Save the changes before closing this scene?");
   ImGui::TextDisabled("%s", (edit.saveFile ? *edit.saveFile : edit.scene->file.stem()).c_str());
+  if (ui.output.refusedEdit) {
+    coloredText(warningColor, "The vertices that were typed are not applied: they cannot be saved.");
+  }
   ImGui::Spacing();
   if (edit.saveFile) {
     answerButton(ui, "Save", "ask.save", Save{});
@@ -65,24 +71,93 @@ void unsavedChanges(PanelContext& ui) {
   answerButton(ui, "Cancel", "ask.cancel", CancelPrompt{});
 }
 
+// Lists what can be chosen in a folder: folders, scenes and, with `models`, models.
+void list(PanelState::Files& files, const std::filesystem::path& folder, bool models) {
+  std::error_code none;
+  files.listed = folder;
+  files.entries.clear();
+  for (const auto& entry : std::filesystem::directory_iterator(folder, none)) {
+    const std::filesystem::path& file = entry.path();
+    const bool hidden = file.filename().string().starts_with('.');
+    const bool fits = file.extension() == ".toml" || (models && file.extension() == ".obj");
+    if (!hidden && (entry.is_directory(none) || fits)) {
+      files.entries.push_back(entry);
+    }
+  }
+  std::ranges::sort(files.entries, {}, [](const std::filesystem::directory_entry& entry) {
+    std::error_code none;
+    return std::pair(!entry.is_directory(none), entry.path().filename());
+  });
+}
+
+std::filesystem::path named(const PanelState::Files& files) {
+  return files.folder / typedPath(files.typed);
+}
+
+// Begins with names in `folder`.
+void enter(PanelState::Files& files, const std::filesystem::path& folder, const std::string& typed) {
+  files = {};
+  files.folder = withoutLinks(folder);
+  files.typed = typed;
+}
+
+// Draws the list of the folder that what is typed is in. Returns an entry that was clicked.
+std::optional<std::filesystem::path> fileList(PanelContext& ui, float height, bool models) {
+  PanelState::Files& files = ui.state.files;
+  std::error_code none;
+  std::filesystem::path folder = withoutLinks(named(files).parent_path());
+  while (folder.has_relative_path() && !isFolder(folder)) {
+    folder = folder.parent_path();
+  }
+  if (folder != files.listed) {
+    list(files, folder, models);
+  }
+  const float width = fieldWidth();
+  ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + width);
+  ImGui::TextDisabled("%s", files.listed.c_str());
+  ImGui::PopTextWrapPos();
+  std::optional<std::filesystem::path> clicked;
+  const float others = 8.0f * ImGui::GetFrameHeightWithSpacing();  // height of the menus and of the other rows
+  ImGui::BeginChild("files", {width, std::min(height, ImGui::GetIO().DisplaySize.y - others)}, true);
+  if (ImGui::Selectable("..", false, ImGuiSelectableFlags_DontClosePopups)) {
+    clicked = files.listed.parent_path();
+  }
+  recordWidget(ui, "open...");
+  for (const std::filesystem::directory_entry& entry : files.entries) {
+    const std::string name = entry.path().filename().string();
+    if (ImGui::Selectable((name + (entry.is_directory(none) ? "/" : "")).c_str(), entry.path() == named(files),
+                          ImGuiSelectableFlags_AllowDoubleClick | ImGuiSelectableFlags_DontClosePopups)) {
+      clicked = entry.path();
+    }
+    recordWidget(ui, "open." + name);
+  }
+  ImGui::EndChild();
+  return clicked;
+}
+
 void saveAs(PanelContext& ui) {
+  PanelState::Files& files = ui.state.files;
   ImGui::SetNextItemWidth(fieldWidth());
   if (ImGui::IsWindowAppearing()) {
-    ui.state.saveAs = ui.view.edit.proposedFile.string();
+    const std::filesystem::path& proposed = ui.view.edit.proposedFile;
+    enter(files, proposed.parent_path(), proposed.string());
     ImGui::SetKeyboardFocusHere();
   }
-  ImGui::InputText("##file", &ui.state.saveAs, ImGuiInputTextFlags_AutoSelectAll);
+  ImGui::InputText("##file", &files.typed, ImGuiInputTextFlags_AutoSelectAll);
   recordWidget(ui, "edit.file");
+  if (const auto clicked = fileList(ui, 12.0f * ImGui::GetFontSize(), false)) {
+    files.typed = isFolder(*clicked) ? (*clicked / named(files).filename()).string() : clicked->string();
+  }
   if (!ui.view.edit.note.empty()) {
     coloredText(errorColor, ui.view.edit.note);
   }
   ImGui::TextDisabled("Opens with the scene's own camera. M keeps a view as a bookmark.");
   const size_t commands = ui.output.commands.size();
-  answerButton(ui, "Save", "where.save", SaveAs{ui.state.saveAs});
+  answerButton(ui, "Save", "where.save", SaveAs{named(files)});
   ImGui::SameLine();
   answerButton(ui, "Cancel", "where.cancel", CancelPrompt{});
   if (ui.output.commands.size() == commands && enterPressed()) {
-    ui.send(SaveAs{ui.state.saveAs});
+    ui.send(SaveAs{named(files)});
     ImGui::CloseCurrentPopup();  // if saving fails it opens again, with the keyboard in the field
   }
 }
@@ -97,73 +172,53 @@ void recovery(PanelContext& ui) {
   answerButton(ui, "Ignore", "recovery.ignore", CancelPrompt{});
 }
 
-void enter(PanelState::Files& files, const std::filesystem::path& folder) {
-  std::error_code none;
-  files = {.folder = withoutLinks(folder), .entries = {}, .typed = {}};
-  for (const auto& entry : std::filesystem::directory_iterator(files.folder, none)) {
-    const std::filesystem::path& file = entry.path();
-    const bool hidden = file.filename().string().starts_with('.');
-    if (!hidden && (entry.is_directory(none) || file.extension() == ".toml" || file.extension() == ".obj")) {
-      files.entries.push_back(entry);
-    }
-  }
-  std::ranges::sort(files.entries, {}, [](const std::filesystem::directory_entry& entry) {
-    std::error_code none;
-    return std::pair(!entry.is_directory(none), entry.path().filename());
-  });
-}
-
 void openFile(PanelContext& ui) {
   PanelState::Files& files = ui.state.files;
-  const float em = ImGui::GetFontSize();
   if (ImGui::IsWindowAppearing()) {
-    enter(files, ui.view.edit.proposedFile);
+    enter(files, ui.view.edit.proposedFile, "");
     ImGui::SetKeyboardFocusHere();
   }
-  std::optional<std::filesystem::path> chosen;
   ImGui::SetNextItemWidth(fieldWidth());
-  if (ImGui::InputTextWithHint("##typed", "Scene or model", &files.typed, ImGuiInputTextFlags_EnterReturnsTrue)) {
-    chosen = files.folder / files.typed;
+  bool opens =
+      ImGui::InputTextWithHint("##typed", "Scene or model", &files.typed, ImGuiInputTextFlags_EnterReturnsTrue);
+  if (ImGui::IsItemEdited()) {
+    files.problem.clear();
   }
   recordWidget(ui, "open.typed");
-  ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + fieldWidth());
-  ImGui::TextDisabled("%s", files.folder.c_str());
-  ImGui::PopTextWrapPos();
-  const float others = 8.0f * ImGui::GetFrameHeightWithSpacing();  // height of the menus and of the other rows
-  ImGui::BeginChild("files", {fieldWidth(), std::min(20.0f * em, ImGui::GetIO().DisplaySize.y - others)}, true);
-  if (ImGui::Selectable("..")) {
-    chosen = files.folder.parent_path();
+  if (const auto clicked = fileList(ui, 20.0f * ImGui::GetFontSize(), true)) {
+    const bool leaves = *clicked == files.listed.parent_path();
+    files.typed = files.listed == files.folder && !leaves ? clicked->filename().string() : clicked->string();
+    files.problem.clear();
+    opens = leaves || ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left);
   }
-  for (const std::filesystem::directory_entry& entry : files.entries) {
-    std::error_code none;
-    const bool folder = entry.is_directory(none);
-    const std::string name = entry.path().filename().string();
-    if (ImGui::Selectable((name + (folder ? "/" : "")).c_str(), name == files.typed,
-                          ImGuiSelectableFlags_AllowDoubleClick | ImGuiSelectableFlags_DontClosePopups)) {
-      files.typed = name;
-      chosen = ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left) ? std::optional(entry.path()) : chosen;
-    }
-    recordWidget(ui, "open." + name);
+  if (!files.problem.empty()) {
+    coloredText(errorColor, files.problem);
   }
-  ImGui::EndChild();
-  if (button(ui, "Open", "open.open", "", !files.typed.empty())) {
-    chosen = files.folder / files.typed;
-  }
+  opens = button(ui, "Open", "open.open", "", !files.typed.empty()) || opens;
   ImGui::SameLine();
   answerButton(ui, "Cancel", "open.cancel", CancelPrompt{});
-  if (!chosen) {
+  const std::filesystem::path file = named(files);
+  std::error_code none;
+  if (!opens) {
     return;
   }
-  if (isFolder(*chosen)) {
-    return enter(files, *chosen);
+  if (isFolder(file)) {
+    return enter(files, file, "");
   }
-  ui.send(OpenScene{*chosen});
+  if (!std::filesystem::exists(file, none)) {
+    files.problem = "There is no file " + file.string();
+    return;
+  }
+  ui.send(OpenScene{file});
   ImGui::CloseCurrentPopup();
 }
 
 }  // namespace
 
 void prompts(PanelContext& ui) {
+  const ImVec2 size = ImGui::GetIO().DisplaySize;
+  const glm::vec2 display(size.x, size.y);
+  const bool resized = std::exchange(ui.state.promptDisplay, display) != display;
   for (const auto& [prompt, title, content] :
        {std::tuple(Prompt::unsavedChanges, "Unsaved changes", &unsavedChanges),
         std::tuple(Prompt::saveAs, "Save as", &saveAs), std::tuple(Prompt::open, "Open", &openFile),
@@ -172,7 +227,7 @@ void prompts(PanelContext& ui) {
     if (asked && !ImGui::IsPopupOpen(title)) {
       ImGui::OpenPopup(title);
     }
-    if (beginPrompt(title)) {
+    if (beginPrompt(title, resized)) {
       asked ? content(ui) : ImGui::CloseCurrentPopup();
       ImGui::EndPopup();
     }

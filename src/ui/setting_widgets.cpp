@@ -160,7 +160,7 @@ void settingRows(PanelContext& ui, std::string_view prefix) {
       ImGui::PopID();
       describe(ui, field.key);
       if (field.key == "view.clear_color" && environment.sky && !ui.settings.view.clearColor) {
-        dimmedText("The scene's sky is shown in its place.");
+        dimmedText("Not in use: the scene has a sky. A color that you choose replaces it.");
       }
     }
   }

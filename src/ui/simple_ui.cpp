@@ -76,6 +76,11 @@ void applyTheme(Theme theme, float scale) {
   style.Colors[ImGuiCol_TitleBgCollapsed].w = 0.94f;  // else only the picture is seen
   style.Colors[ImGuiCol_ModalWindowDimBg] = {0.0f, 0.0f, 0.0f, 0.4f};
   style.Colors[ImGuiCol_PlotHistogram] = style.Colors[ImGuiCol_SliderGrab];  // progress bars have text over them
+  // Values are drawn over these.
+  style.Colors[ImGuiCol_SliderGrab].w = 0.5f;
+  style.Colors[ImGuiCol_SliderGrabActive].w = 0.6f;
+  style.Colors[ImGuiCol_HeaderHovered].w = 0.4f;
+  style.Colors[ImGuiCol_HeaderActive].w = 0.5f;
   const float disabled = theme == Theme::light ? 0.33f : 0.68f;
   style.Colors[ImGuiCol_TextDisabled] = {disabled, disabled, disabled, 1.0f};
   style.ScaleAllSizes(scale);
@@ -133,9 +138,13 @@ void SimpleUI::setThumbnails(std::vector<Image8> pictures) {
   scale_ = 0.0f;
 }
 
+float SimpleUI::scale() const {
+  return window_.contentScale() * static_cast<float>(windows_.state().choices.percent) / 100.0f;
+}
+
 // Call between frames, because a frame that is laid out keeps its sizes and colors.
 void SimpleUI::prepareTheme() {
-  const float scale = window_.contentScale() * static_cast<float>(windows_.state().choices.percent) / 100.0f;
+  const float scale = this->scale();
   const Theme theme = windows_.state().choices.theme;
   if (scale == scale_ && theme == theme_) {
     return;

@@ -28,6 +28,7 @@ class SimpleUI {
   // Says whether the pointer there belongs to the panels: it is over one of their windows, or they hold a widget.
   // Screen coordinates of the window.
   bool takesPointer(double x, double y) const;
+  float scale() const;         // of texts and handles: the monitor's by the user's
   bool holdsEscape() const;    // ImGui handles Esc itself: it closes or releases something
   bool holdsWidget() const;    // one is being dragged, pressed or typed into
   bool wantsKeyboard() const;  // a text field is being edited

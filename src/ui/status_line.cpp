@@ -16,6 +16,9 @@ namespace panels {
 
 constexpr float lines = 2.0f;       // lines of text that are kept free
 constexpr float mostWidth = 0.75f;  // of the display
+constexpr const char* pictureHelp =
+    "What this picture leaves out until nothing moves and the whole one is drawn.\n"
+    "Estimated FLIP: how different from the whole picture it should look, 0 (not at all) to 1.";
 
 float statusHeight() {
   return std::floor(lines * ImGui::GetTextLineHeightWithSpacing() + 2.0f * ImGui::GetStyle().FramePadding.y);
@@ -33,14 +36,11 @@ float statusLine(const StatusView& status, float width, float right) {
   // Paths cannot wrap, so the line may be wider than the panel.
   const float text = ImGui::CalcTextSize(shown.c_str()).x + 3.0f * ImGui::GetStyle().FramePadding.x;
   const float most = std::max(width, std::min(mostWidth * display.x, right - 2.0f * margin));
-  const bool oneLine = width == 0.0f && text <= most;
   const float across = std::clamp(text, width, most);
   const ImVec2 padding = ImGui::GetStyle().FramePadding;
   shown = brokenAtSpaces(shown, across - 2.0f * padding.x, textWidth);
-  const float needed =
-      ImGui::CalcTextSize(shown.c_str(), nullptr, false, across - 2.0f * padding.x).y + 3.0f * padding.y;
   const float height =
-      std::max(statusHeight() - (oneLine ? ImGui::GetTextLineHeightWithSpacing() : 0.0f), std::ceil(needed));
+      std::ceil(ImGui::CalcTextSize(shown.c_str(), nullptr, false, across - 2.0f * padding.x).y + 3.0f * padding.y);
   ImGui::SetNextWindowPos({margin, std::max(display.y - height - 0.5f * margin, 0.0f)});
   ImGui::SetNextWindowSize({across, height});
   ImGui::PushStyleVar(ImGuiStyleVar_Alpha, alpha);
@@ -53,6 +53,11 @@ float statusLine(const StatusView& status, float width, float right) {
   }
   ImGui::End();
   ImGui::PopStyleVar(2);
+  const ImVec2 corner(margin, display.y - height - 0.5f * margin);
+  if (!picture.empty() && !ImGui::GetIO().WantCaptureMouse &&
+      ImGui::IsMouseHoveringRect(corner, {corner.x + across, corner.y + height}, false)) {
+    ImGui::SetTooltip("%s", pictureHelp);
+  }
   return height;
 }
 

@@ -17,7 +17,7 @@ void time(PanelContext& ui) {
   if (ImGui::SliderFloat("Time", &seconds, 0.0f, static_cast<float>(span), "%.3f s", ImGuiSliderFlags_AlwaysClamp)) {
     ui.send(Seek{seconds});
   }
-  recordWidget(ui, "time", "Time of the animation.");
+  recordWidget(ui, "time", "Time of the animation. Drag, or Ctrl+click to type; Space pauses.");
   commandButton(ui, "<", "time.back", "Steps back by 1/60 s. Key: comma.", StepTime{-1});
   ImGui::SameLine();
   commandButton(ui, ">", "time.on", "Steps forward by 1/60 s. Key: period.", StepTime{1});

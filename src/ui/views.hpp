@@ -34,6 +34,7 @@ struct SkippedView {
   std::vector<int> path;  // the same, indices into Scene::mirrors
   std::string reason;
   std::string detail;
+  bool byRays = false;  // rays show its reflection
 };
 
 struct EffectView : Effect, EffectCost {};
@@ -52,7 +53,7 @@ struct TargetView {
 // Figures of the frame that drew the scene last.
 struct FrameView {
   double frameMs = 0.0;  // smoothed, unless it is still
-  bool still = false;    // later frames drew the panels only
+  bool still = false;    // later frames draw the panels only, or parts of a picture that is not complete
   double cpuMs = 0.0;
   double gpuMs = 0.0;
   double timedGpuMs = 0.0;  // of the last frame whose passes were timed; only some frames are; 0: not of this picture
@@ -140,14 +141,14 @@ struct EditView {
   std::string undo;                           // label of the step; empty: none
   std::string redo;
   bool unsaved = false;                           // scene or settings have changes to save
-  bool isModel = false;                           // the scene shows a model and has no file yet
+  bool isNew = false;                             // a model or a new scene, which has no file yet
   std::optional<std::filesystem::path> saveFile;  // file that Save writes; none: it asks for one
   Prompt prompt = Prompt::none;
   std::filesystem::path proposedFile;  // for Prompt::saveAs and recovery; a folder for open
   std::string note;                    // what was saved, or why it was not
   OverlayView overlay;
 
-  bool canSave() const { return unsaved || isModel; }
+  bool canSave() const { return unsaved || isNew; }
 };
 
 // A measured configuration.
@@ -214,6 +215,7 @@ struct UiOutput {
   std::optional<TargetRequest> target;
   std::vector<int> hoveredPath;  // of the mirror that is to be outlined; empty: none
   bool difference = false;       // the difference view is wanted over the picture
+  bool refusedEdit = false;      // an edit is shown that could not be applied
 };
 
 }  // namespace speculum
