@@ -43,9 +43,9 @@ TEST_F(Journey, KeysAndGamepadDriveTheWindow) {
   press("Tab");
   EXPECT_EQ(picture().rgba[at(30, 300)], with.rgba[at(30, 300)]);
   click("panel.Log");
-  const ImGuiWindow* before = ImGui::GetCurrentContext()->NavWindow;
+  const ImGuiWindow* focused = ImGui::GetCurrentContext()->NavWindow;
   press("ctrl+Tab");
-  EXPECT_NE(ImGui::GetCurrentContext()->NavWindow, before) << "it switches windows";
+  EXPECT_NE(ImGui::GetCurrentContext()->NavWindow, focused) << "it switches windows";
   EXPECT_EQ(picture().rgba[at(30, 300)], with.rgba[at(30, 300)]) << "and hides none";
   click("panel.Log");
   press("F1");

@@ -358,7 +358,7 @@ TEST_F(Opening, FailureShowsALineAndKeepsScene) {
   EXPECT_EQ(workspace_->problem(), "/tmp/notes.txt: not a scene (a .toml scene or an .obj model is needed)");
   drop({model("none.obj")});
   EXPECT_TRUE(contains(workspace_->problem(), "none.obj: there is no such file"));
-  EXPECT_EQ(view().log.lines(LogLevel::error, "").size(), 3u) << "each is logged";
+  EXPECT_EQ(view().log.lines(LogLevel::err, "").size(), 3u) << "each is logged";
   setExposure(2.0);
   send(OpenScene{home_.path() / "none.toml"});
   EXPECT_FALSE(workspace_->prompting()) << "there is nothing to save the changes for";

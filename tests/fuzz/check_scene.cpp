@@ -116,10 +116,10 @@ void editScene(Scene scene, std::string_view text, const std::filesystem::path& 
   document.addMirror({0.0, 1.0, 2.0}, {0.0, 1.0, 3.0});
   document.addLight({0.0, 1.0, 2.0}, {0.0, 1.0, 3.0});
   document.text(file, {});
-  document.remove({Selection::Kind::mirror, 0});
-  document.remove({Selection::Kind::light, 0});
+  document.remove({Selection{Selection::Kind::mirror, 0}});
+  document.remove({Selection{Selection::Kind::light, 0}});
   if (!scene.objects.empty()) {
-    document.remove({Selection::Kind::object, 0});
+    document.remove({Selection{Selection::Kind::object, 0}});
   }
   document.text(file, {});
 }
