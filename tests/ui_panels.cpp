@@ -872,7 +872,7 @@ TEST_F(AccuracyWindow, GreyPointsSayWhy) {
   EXPECT_TRUE(shows("mean FLIP"));
   EXPECT_FALSE(shows("Grey:"));
   hover("accuracy.point bad");
-  EXPECT_TRUE(shows("Grey: more accurate points take no longer"));
+  EXPECT_TRUE(shows("Grey: a more accurate point takes no longer"));
 }
 
 TEST_F(AccuracyWindow, SaysWhatMeasuringIsForAndHowLongItTakes) {

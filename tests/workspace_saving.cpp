@@ -21,7 +21,7 @@ class Saving : public WorkspaceTest {
   // Acts as before a failure, and returns the copy that the log names.
   std::string keptCopy() {
     workspace_->keepUnsavedWork();
-    const std::string line = view().log.lines(LogLevel::err).back().text;
+    const std::string line = view().log.lines(LogLevel::warn).back().text;
     const std::string start = "unsaved changes are kept in ";
     EXPECT_EQ(line.find(start), 0u) << line;
     return line.substr(start.size());

@@ -45,6 +45,7 @@ float statusLine(const StatusView& status, float width, float right) {
   ImGui::SetNextWindowSize({across, height});
   ImGui::PushStyleVar(ImGuiStyleVar_Alpha, alpha);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImGui::GetStyle().FramePadding);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, {1.0f, 1.0f});  // a line of text is lower than the style's
   constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs |
                                      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing |
                                      ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoBringToFrontOnFocus;
@@ -52,7 +53,7 @@ float statusLine(const StatusView& status, float width, float right) {
     ImGui::TextWrapped("%s", shown.c_str());
   }
   ImGui::End();
-  ImGui::PopStyleVar(2);
+  ImGui::PopStyleVar(3);
   const ImVec2 corner(margin, display.y - height - 0.5f * margin);
   if (!picture.empty() && !ImGui::GetIO().WantCaptureMouse &&
       ImGui::IsMouseHoveringRect(corner, {corner.x + across, corner.y + height}, false)) {
