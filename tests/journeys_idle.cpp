@@ -206,9 +206,9 @@ TEST_F(IdleWindow, StillPicturesConvergeAndMotionIsLowered) {
 // the window does not draw all the time.
 class AccuracyJourney : public Journey {
  protected:
-  // A small picture is soon traced.
+  // A small picture is soon traced; it has room for two columns of panels.
   AccuracyJourney() : Journey(wallScene.substr(0, wallScene.find("[[mirror]]")), idle()) {
-    demo_->window().resize(360, small);
+    demo_->window().resize(640, small);
     run(3);
     click("panel.Accuracy");
   }

@@ -170,9 +170,8 @@ void plot(PanelContext& ui) {
     }
   }
   dimmedText(
-      "A click applies a point. Bars hold half of its times; where bars overlap, times count as equal. No point is "
-      "more "
-      "accurate than an orange one and as fast.");
+      "A click applies a point. Bars hold half of its times and count as equal where they overlap. No point beats an "
+      "orange one.");
   tip("Mean FLIP: mean perceived difference from the reference, 0 (none) to 1.");
 }
 
