@@ -324,7 +324,7 @@ TEST_F(Report, FramesThatCompileAreNoHistory) {
   EXPECT_EQ(report.view().history.series(FrameHistory::Figure::cpu), std::vector<float>{1.0f});
 }
 
-TEST_F(Report, MirrorsWithoutAPassStayWhileImagesAreReused) {
+TEST_F(Report, MirrorsSeenInReusedImagesStayListed) {
   plan.skipped = {{.mirror = 1, .path = {0, 1}, .reason = SkipReason::hidden},
                   {.mirror = 1, .path = {2, 1}, .reason = SkipReason::hidden}};
   Scene scene;

@@ -875,7 +875,7 @@ TEST_F(AccuracyWindow, GreyPointsSayWhy) {
   EXPECT_TRUE(shows("Grey: a more accurate point takes no longer"));
 }
 
-TEST_F(AccuracyWindow, SaysWhatMeasuringIsForAndHowLongItTakes) {
+TEST_F(AccuracyWindow, SaysPurposeAndTimeOfMeasuring) {
   EXPECT_FALSE(shows("The view has changed since."));
   accuracy_.otherView = true;
   run(2);

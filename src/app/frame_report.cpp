@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 #include <utility>
 
 #include "edit/picture_view.hpp"
@@ -268,12 +269,20 @@ void FrameReport::updateSkipped(const RecordedFrame& frame) {
     view_.skipped.push_back({mirrorPathName(frame.scene, skip.path), skip.path, std::string(reasonText(skip.reason)),
                              skip.detail, skip.reason == SkipReason::rays});
   }
+  std::set<int> reused;  // mirrors seen directly in cached images
+  for (const PlannedPass& pass : frame.plan.reused) {
+    if (pass.view.path.size() == 1) {
+      reused.insert(pass.view.path.front());
+    }
+  }
+  std::set<std::vector<int>> listed;
+  for (const SkippedMirror& skip : skipped_) {
+    if (reused.contains(skip.path.front())) {
+      listed.insert(skip.path);
+    }
+  }
   for (const SkippedView& skip : before) {
-    const bool seenInReused =
-        skip.path.size() > 1 && std::ranges::any_of(frame.plan.reused, [&](const PlannedPass& reused) {
-          return reused.view.path.size() == 1 && reused.view.path.front() == skip.path.front();
-        });
-    if (seenInReused && std::ranges::count(view_.skipped, skip.path, &SkippedView::path) == 0) {
+    if (skip.path.size() > 1 && reused.contains(skip.path.front()) && listed.insert(skip.path).second) {
       view_.skipped.push_back(skip);
     }
   }

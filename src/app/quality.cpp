@@ -77,9 +77,8 @@ std::optional<QualityChoice> chooseQuality(const Options& options, const std::fi
     const bool byHand = kept.contains("quality.budget_ms") || kept.contains("quality.max_error");
     if (byHand && options.command != "demo") {
       throw UsageError(
-          "quality.budget_ms and quality.max_error choose from a sweep (--sweep-results F, the results.json of "
-          "speculum "
-          "accuracy)");
+          "quality.budget_ms and quality.max_error choose from a sweep "
+          "(--sweep-results F, the results.json of speculum accuracy)");
     }
     const bool time = settings.quality.budgetMs > 0.0;
     const bool error = settings.quality.maxError > 0.0;

@@ -67,7 +67,8 @@ class Renderer {
   // Submits the frame's commands.
   void endFrame(Frame& frame);
   // Shows the frame submitted last. Mesa's drivers for CPUs draw it and send it to the window system within this call,
-  // so that whatever needs neither its picture nor new events is best done between endFrame() and present().
+  // so that whatever needs neither its picture nor new events is best done between endFrame() and present(). The
+  // next beginFrame() calls it if nobody has.
   void present();
 
   // The display image as a pass target: UNORM color without depth. Their role is TargetRole::swapchain.
