@@ -11,16 +11,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr VkExtent2D extent{32, 32};
+constexpr VkExtent2D tinyExtent{32, 32};
 
 const fs::path glslDir = sourceDir() / "tests" / "shaders";
 
 // Draws one frame with a pipeline cache in `directory`.
 bool runWithCache(Device& device, const fs::path& directory) {
-  RendererOptions options = headless(extent);
+  RendererOptions options = headless(tinyExtent);
   options.pipelineCacheDir = directory;
   Renderer renderer(device, options);
-  SmallScene scene(renderer, extent, 1);
+  SmallScene scene(renderer, tinyExtent, 1);
   EXPECT_TRUE(scene.frame());
   return renderer.pipelineCache().loaded();
 }
@@ -70,10 +70,10 @@ class HotReload : public GpuTest {
     for (const auto& entry : fs::directory_iterator(glslDir)) {
       fs::copy_file(entry.path(), folder_ / entry.path().filename());
     }
-    RendererOptions options = headless(extent);
+    RendererOptions options = headless(tinyExtent);
     options.shaderDir = folder_;
     renderer_.emplace(device_, options);
-    scene_.emplace(*renderer_, extent, 1);
+    scene_.emplace(*renderer_, tinyExtent, 1);
   }
 
   // Replaces `from` in a shader and gives the file a newer time.
@@ -92,7 +92,7 @@ class HotReload : public GpuTest {
   std::array<int, 3> cornerColor() {
     EXPECT_TRUE(scene_->frame(true));
     const Pixels pixels = renderer_->readback();
-    const uint8_t* corner = &pixels.rgba[4 * (extent.width - 1)];
+    const uint8_t* corner = &pixels.rgba[4 * (tinyExtent.width - 1)];
     return {corner[0], corner[1], corner[2]};
   }
 

@@ -10,7 +10,7 @@ namespace {
 
 using Kind = Selection::Kind;
 
-constexpr const char* kText =
+constexpr const char* kEditedText =
     "\xef\xbb\xbf# Jeder Weg, etwas zu sagen\r\n"
     "title = 'Größe' # µ\r\n"
     "environment.ambient = [0.1, 0.1, 0.1]\r\n"
@@ -205,7 +205,7 @@ void step(SceneDocument& document) {
 }
 
 TEST(RandomEdits, ReadBackAndUndoToTheBytes) {
-  TextScene text(kText);
+  TextScene text(kEditedText);
   const std::filesystem::path other = text.folder / "other.toml";
   EXPECT_TRUE(rc::check("random edits", [&] {
     Scene scene = text.scene;
@@ -220,7 +220,7 @@ TEST(RandomEdits, ReadBackAndUndoToTheBytes) {
     while (document.canUndo()) {
       document.undo();
     }
-    RC_ASSERT(document.text(other, {}) == kText);
+    RC_ASSERT(document.text(other, {}) == kEditedText);
   }));
 }
 

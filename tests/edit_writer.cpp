@@ -143,7 +143,7 @@ std::string nameOfFile(const testing::TestParamInfo<fs::path>& info) {
 
 INSTANTIATE_TEST_SUITE_P(Every, ShippedScene, testing::ValuesIn(shippedScenes()), nameOfFile);
 
-constexpr const char* kText = R"(title = "a"
+constexpr const char* kFile = R"(title = "a"
 [camera]
 position = [0, 1, 4]
 target = [0, 0, 0]
@@ -156,7 +156,7 @@ void moveObject(SceneDocument& document, double x) {
 }
 
 TEST(SaveScene, ModelsAreFoundFromAnotherFolder) {
-  TextScene text(kText);
+  TextScene text(kFile);
   fs::create_directories(text.folder / "a b/c");
   moveObject(text.document, 1);
   text.document.save(text.folder / "a b/c/moved.toml", {});
@@ -164,10 +164,10 @@ TEST(SaveScene, ModelsAreFoundFromAnotherFolder) {
   const Scene read = loadScene(text.folder / "a b/c/moved.toml");
   EXPECT_EQ(read.objects[0].model, "../../triangle.obj");
   expectSameContent(read, text.scene, "moved");
-  EXPECT_EQ(readText(text.file), kText) << "the first file is left alone";
+  EXPECT_EQ(readText(text.file), kFile) << "the first file is left alone";
   moveObject(text.document, 0);
   text.document.save(text.file, {}, true);
-  EXPECT_EQ(readText(text.file), kText) << "back home all is as it was";
+  EXPECT_EQ(readText(text.file), kFile) << "back home all is as it was";
 }
 
 TEST(SaveScene, AbsolutePathsStay) {
@@ -184,9 +184,9 @@ TEST(SaveScene, AbsolutePathsStay) {
 }
 
 TEST(SaveScene, FileChangedMeanwhileIsNotOverwritten) {
-  TextScene text(kText);
+  TextScene text(kFile);
   moveObject(text.document, 1);
-  const std::string theirs = std::string(kText) + "# mine now\n";
+  const std::string theirs = std::string(kFile) + "# mine now\n";
   text.folder.write("scene.toml", theirs);
   const std::string message = messageOf<SaveError>([&] { text.document.save(text.file, {}); });
   EXPECT_TRUE(contains(message, "another program has changed the file"));
@@ -201,7 +201,7 @@ TEST(SaveScene, FileChangedMeanwhileIsNotOverwritten) {
 }
 
 TEST(SaveScene, AnotherFileIsNotOverwritten) {
-  TextScene text(kText);
+  TextScene text(kFile);
   const fs::path other = text.folder.write("other.toml", "important");
   const std::string message = messageOf<SaveError>([&] { text.document.save(other, {}); });
   EXPECT_TRUE(contains(message, "there is such a file already"));
@@ -212,14 +212,14 @@ TEST(SaveScene, AnotherFileIsNotOverwritten) {
 }
 
 TEST(SaveScene, DeletedFileIsWrittenAgain) {
-  TextScene text(kText);
+  TextScene text(kFile);
   fs::remove(text.file);
   text.document.save(text.file, {});
-  EXPECT_EQ(readText(text.file), kText);
+  EXPECT_EQ(readText(text.file), kFile);
 }
 
 TEST(SaveScene, UnreadableSceneIsNotWritten) {
-  TextScene text(kText);
+  TextScene text(kFile);
   text.document.change("break", {}, [](Scene& scene) { scene.camera.target = scene.camera.position; });
   const std::string camera = messageOf<SaveError>([&] { text.document.save(text.file, {}); });
   EXPECT_TRUE(contains(camera, "camera.target: has no direction"));
@@ -228,7 +228,7 @@ TEST(SaveScene, UnreadableSceneIsNotWritten) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   text.document.change("break", {}, [&](Scene& scene) { scene.objects[0].scale = glm::dvec3(nan); });
   EXPECT_TRUE(contains(messageOf<SaveError>([&] { text.document.save(text.file, {}); }), "not saved"));
-  EXPECT_EQ(readText(text.file), kText);
+  EXPECT_EQ(readText(text.file), kFile);
   text.document.undo();
   const std::string setting = messageOf<SaveError>([&] {
     text.document.save(text.file, {{{"view.exposure", "bright"}}});
@@ -237,7 +237,7 @@ TEST(SaveScene, UnreadableSceneIsNotWritten) {
 }
 
 TEST(SaveScene, MissingFolderIsAnError) {
-  TextScene text(kText);
+  TextScene text(kFile);
   const std::string message = messageOf<SaveError>([&] { text.document.save(text.folder / "none/scene.toml", {}); });
   EXPECT_TRUE(contains(message, "there is no folder"));
   EXPECT_EQ(text.scene.file, text.file);
@@ -254,7 +254,7 @@ TEST(SaveScene, EverySettingReadsBack) {
     }
   }
   const std::string before =
-      "[settings]\n\"view.exposure\" = 2 # bright\n" + std::string(kText + sizeof("title = \"a\""));
+      "[settings]\n\"view.exposure\" = 2 # bright\n" + std::string(kFile + sizeof("title = \"a\""));
   TextScene text(before);
   const std::vector<SettingChange> changes = settingChanges(Settings(), other);
   for (const SettingField& field : settingFields()) {

@@ -6,7 +6,7 @@
 namespace speculum {
 namespace {
 
-const Projection projection(glm::radians(60.0), 16.0 / 9.0, 0.001);
+const Projection wide(glm::radians(60.0), 16.0 / 9.0, 0.001);
 
 glm::dvec3 toNdc(const glm::dvec4& clip) {
   return glm::dvec3(clip) / clip.w;
@@ -14,18 +14,18 @@ glm::dvec3 toNdc(const glm::dvec4& clip) {
 
 TEST(Projection, MatrixAndFunctionAgree) {
   const glm::dvec3 p(0.3, -0.7, -2.5);
-  EXPECT_EQ(projection.matrix() * glm::dvec4(p, 1.0), projection.clip(p));
+  EXPECT_EQ(wide.matrix() * glm::dvec4(p, 1.0), wide.clip(p));
 }
 
 TEST(Projection, TopOfViewIsFirstRow) {
   const double y = 2.0 * std::tan(glm::radians(30.0));
-  EXPECT_NEAR(toNdc(projection.clip({0.0, y, -2.0})).y, -1.0, 1e-15);
+  EXPECT_NEAR(toNdc(wide.clip({0.0, y, -2.0})).y, -1.0, 1e-15);
 }
 
 TEST(Projection, ObliqueDepthIsOneAtThePlane) {
   // A floor 1 m below a reflected eye that looks down at it: kept is what lies below the floor's image.
   const glm::dvec4 plane(0.0, glm::normalize(glm::dvec2(1.0, -1.0)).x, glm::normalize(glm::dvec2(1.0, -1.0)).y, -1.0);
-  const auto oblique = obliqueProjection(projection, plane);
+  const auto oblique = obliqueProjection(wide, plane);
   ASSERT_TRUE(oblique);
   const glm::dvec3 normal(plane);
   const glm::dvec3 onPlane = normal * 1.0 + glm::dvec3(0.2, 0, 0);

@@ -23,8 +23,8 @@ double anyScale(std::mt19937& engine, double low, double high) {
   return std::exp(uniform(engine, std::log(low), std::log(high)));
 }
 
-struct Builder : OccluderShape {
-  explicit Builder(std::string of) { name = std::move(of); }
+struct ShapeBuilder : OccluderShape {
+  explicit ShapeBuilder(std::string of) { name = std::move(of); }
 
   // Between two polylines, pairwise.
   void strip(const std::vector<glm::dvec3>& a, const std::vector<glm::dvec3>& b, bool closed) {
@@ -65,7 +65,7 @@ std::vector<glm::dvec3> outline(std::mt19937& engine, double z) {
 
 // One opening, cut coarsely or finely.
 OccluderShape wallWithArch(std::mt19937& engine) {
-  Builder wall("arch");
+  ShapeBuilder wall("arch");
   const int cuts = uniformInt(engine, 2, 900);
   const double halfWidth = anyScale(engine, 0.02, 0.9);
   const double height = anyScale(engine, 0.001, 1.9);
@@ -90,7 +90,7 @@ OccluderShape wallWithArch(std::mt19937& engine) {
 }
 
 OccluderShape stairs(std::mt19937& engine) {
-  Builder stairs("stairs");
+  ShapeBuilder stairs("stairs");
   const int steps = uniformInt(engine, 1, 200);
   const double z = anyScale(engine, 1e-4, 1.0);
   for (int i = 0; i < steps; ++i) {
@@ -108,7 +108,7 @@ OccluderShape stairs(std::mt19937& engine) {
 }
 
 OccluderShape bentSheet(std::mt19937& engine) {
-  Builder sheet("sheet");
+  ShapeBuilder sheet("sheet");
   const int strips = uniformInt(engine, 2, 300);
   const double angle = anyScale(engine, 1e-7, 2.0 * pi);  // by which the whole sheet is bent
   const double twist = uniformInt(engine, 0, 2) == 0 ? anyScale(engine, 1e-7, 2.0) : 0.0;
@@ -127,7 +127,7 @@ OccluderShape bentSheet(std::mt19937& engine) {
 
 // A double pyramid over a star, a notched disc or an ellipse.
 OccluderShape star(std::mt19937& engine) {
-  Builder star("star");
+  ShapeBuilder star("star");
   const std::vector<glm::dvec3> ring = outline(engine, 0.0);
   const double thickness = anyScale(engine, 1e-6, 1.0);
   star.fan({0, 0, thickness}, ring);
@@ -137,7 +137,7 @@ OccluderShape star(std::mt19937& engine) {
 
 // Two rings of different size, thick or thin.
 OccluderShape tapered(std::mt19937& engine) {
-  Builder tapered("tapered");
+  ShapeBuilder tapered("tapered");
   const double length = anyScale(engine, 1e-5, 2.0);
   const std::vector<glm::dvec3> wide = outline(engine, 0.0);
   std::vector<glm::dvec3> narrow = wide;
@@ -153,7 +153,7 @@ OccluderShape tapered(std::mt19937& engine) {
 
 // Two sheets with a gap between.
 OccluderShape boards(std::mt19937& engine) {
-  Builder boards("boards");
+  ShapeBuilder boards("boards");
   for (const double z : {0.0, anyScale(engine, 1e-4, 1.0)}) {
     boards.quad({-1, -1, z}, {1, -1, z}, {1, 1, z}, {-1, 1, z});
     boards.quad({-1, 1, z}, {-1, -1, z}, {1, -1, z}, {1, 1, z});
@@ -163,7 +163,7 @@ OccluderShape boards(std::mt19937& engine) {
 
 // With coordinates of few decimals.
 OccluderShape ball(std::mt19937& engine) {
-  Builder ball("ball");
+  ShapeBuilder ball("ball");
   const int sides = uniformInt(engine, 4, 40);
   const int rings = sides / 2;
   const double step = std::pow(10.0, -uniformInt(engine, 3, 6));

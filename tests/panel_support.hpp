@@ -100,26 +100,59 @@ class PanelTest : public testing::Test {
     std::erase(text, ' ');
     return contains(shownText(), text);
   }
-  // Returns the characters that the last frame drew, without spaces, in the order of drawing.
-  static std::string shownText() {
+  struct DrawnGlyph {
+    char letter;
+    float left;     // pixels of the display
+    float lineTop;  // the top of its line of text
+  };
+  // Returns the letters of a list in the order of drawing, without spaces.
+  static std::vector<DrawnGlyph> glyphsOf(const ImDrawList& list) {
     std::map<std::pair<float, float>, const ImFontGlyph*> glyphs;  // by the corner of their picture
     for (const ImFontGlyph& glyph : ImGui::GetFont()->Glyphs) {
       glyphs[{glyph.U0, glyph.V0}] = &glyph;
     }
+    std::vector<DrawnGlyph> found;
+    const ImVector<ImDrawVert>& vertices = list.VtxBuffer;
+    for (int k = 0; k + 3 < vertices.Size; ++k) {
+      const auto at = glyphs.find({vertices[k].uv.x, vertices[k].uv.y});
+      if (at != glyphs.end() && at->second->U1 == vertices[k + 2].uv.x && at->second->V1 == vertices[k + 2].uv.y &&
+          at->second->U0 != at->second->U1) {
+        const ImFontGlyph& glyph = *at->second;
+        found.push_back(
+            {static_cast<char>(glyph.Codepoint), vertices[k].pos.x - glyph.X0, vertices[k].pos.y - glyph.Y0});
+        k += 3;
+      }
+    }
+    return found;
+  }
+  // Returns the letters that the last frame drew.
+  static std::string shownText() {
     std::string text;
     const ImDrawData& drawn = *ImGui::GetDrawData();
     for (int i = 0; i < drawn.CmdListsCount; ++i) {
-      const ImVector<ImDrawVert>& vertices = drawn.CmdLists[i]->VtxBuffer;
-      for (int k = 0; k + 3 < vertices.Size; ++k) {
-        const auto glyph = glyphs.find({vertices[k].uv.x, vertices[k].uv.y});
-        if (glyph != glyphs.end() && glyph->second->U1 == vertices[k + 2].uv.x &&
-            glyph->second->V1 == vertices[k + 2].uv.y && glyph->second->U0 != glyph->second->U1) {
-          text += static_cast<char>(glyph->second->Codepoint);
-          k += 3;
-        }
+      for (const DrawnGlyph& glyph : glyphsOf(*drawn.CmdLists[i])) {
+        text += glyph.letter;
       }
     }
     return text;
+  }
+  // Returns the texts of the last frame that overlap another one's height but do not stand on its line, in one window.
+  static std::string textsOffTheirLine() {
+    std::string found;
+    const ImDrawData& drawn = *ImGui::GetDrawData();
+    for (int i = 0; i < drawn.CmdListsCount; ++i) {
+      std::map<float, std::string> lines;  // by their top
+      for (const DrawnGlyph& glyph : glyphsOf(*drawn.CmdLists[i])) {
+        lines[glyph.lineTop] += glyph.letter;
+      }
+      for (auto line = lines.begin(); line != lines.end() && std::next(line) != lines.end(); ++line) {
+        const auto& [top, text] = *std::next(line);
+        if (top - line->first < 0.8f * ImGui::GetFontSize()) {
+          found += "'" + line->second + "' and '" + text + "'; ";
+        }
+      }
+    }
+    return found;
   }
   static bool showsTooltip() {
     const auto& windows = ImGui::GetCurrentContext()->Windows;

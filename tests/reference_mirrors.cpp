@@ -6,7 +6,7 @@
 namespace speculum {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 using testing::mirrorOf;
 
 const std::vector<glm::dvec3> wallFacingZ = {{-5, -5, 0}, {5, -5, 0}, {5, 5, 0}, {-5, 5, 0}};

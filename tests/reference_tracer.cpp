@@ -7,7 +7,7 @@
 namespace speculum {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 Material diffuse(const glm::dvec3& color) {
   Material material;

@@ -9,11 +9,11 @@ namespace {
 
 using namespace testing_support;
 
-constexpr PictureSize size{160, 120};
+constexpr PictureSize hallSize{160, 120};
 
 // The eye 4 m in front of the sphere's middle and 6 m in front of the mirror, in which the sphere is 8 m away.
 Options hallOptions(const std::string& samples = "1") {
-  return headless(writeScene("hall", replaced(wallScene, "0.9, 1, 0", "0, 1, 0")), size,
+  return headless(writeScene("hall", replaced(wallScene, "0.9, 1, 0", "0, 1, 0")), hallSize,
                   {{"view.samples", samples},
                    {"reflection.samples", samples},
                    {"debug.check_finite", "false"},
@@ -31,7 +31,7 @@ DebugView inPlace(const FramePlan& plan, int pass, TargetKind kind) {
   const PixelRect rect =
       pass < static_cast<int>(plan.passes.size()) ? plan.passes[static_cast<size_t>(pass)].view.rect : PixelRect{};
   return {.pass = pass,
-          .area = {0, 0, size.width, size.height},
+          .area = {0, 0, hallSize.width, hallSize.height},
           .kind = kind,
           .zoom = 1.0,
           .origin = {-rect.x, -rect.y},
@@ -52,12 +52,13 @@ TEST_P(TargetView, DepthIsShownByDistance) {
       drawWith(session, inPlace(plan, pass, TargetKind::depth));
     }
     const Image8 picture = session.picture();
-    const uint8_t* middle = picture.at(size.width / 2, size.height / 2);
+    const uint8_t* middle = picture.at(hallSize.width / 2, hallSize.height / 2);
     EXPECT_NEAR(middle[0], 255.0 / (1.0 + metres / 5.0), 1.5) << "pass " << pass;
     EXPECT_EQ(middle[0], middle[2]);
     if (pass == 1) {
       EXPECT_EQ(picture.at(2, 2)[0], 0) << "the background is infinitely far";
-      EXPECT_NEAR(picture.at(size.width / 2, size.height / 2 + 25)[0], 255.0 / (1.0 + 6.0 / 5.0), 1.5) << "the mirror";
+      EXPECT_NEAR(picture.at(hallSize.width / 2, hallSize.height / 2 + 25)[0], 255.0 / (1.0 + 6.0 / 5.0), 1.5)
+          << "the mirror";
     }
   }
 }
@@ -82,14 +83,14 @@ TEST_P(TargetView, ProbeReadsATexelExactly) {
     EXPECT_EQ(color.texel, texel);
     EXPECT_FALSE(color.depth);
     const auto radiance =
-        session.sceneRenderer().radiance().pixels[static_cast<size_t>(texel.y) * size.width + texel.x];
+        session.sceneRenderer().radiance().pixels[static_cast<size_t>(texel.y) * hallSize.width + texel.x];
     EXPECT_EQ(glm::vec3(color.value), glm::vec3(radiance[0], radiance[1], radiance[2]));
   }
   // The sphere's radius is 0.5 m.
   for (const auto& [pass, metres] : {std::pair(0, 7.5), std::pair(1, 3.5)}) {
     DebugView debug = inPlace(plan, pass, TargetKind::depth);
     const PixelRect rect = pass == 0 ? plan.passes[0].view.rect : PixelRect{};
-    debug.probe = glm::ivec2(size.width / 2 - rect.x, size.height / 2 - rect.y);
+    debug.probe = glm::ivec2(hallSize.width / 2 - rect.x, hallSize.height / 2 - rect.y);
     const TexelValue depth = probed(session, debug);
     EXPECT_TRUE(depth.depth);
     // The pixel's centre is beside the axis, and the sphere has facets.
@@ -101,7 +102,7 @@ TEST_P(TargetView, ProbeReadsATexelExactly) {
     EXPECT_NEAR(1.0 / color.value.a, metres, 0.02) << "disparity, of half precision";
   }
   DebugView wall = inPlace(plan, 1, TargetKind::depth);
-  wall.probe = glm::ivec2(size.width / 2, size.height / 2 + 25);
+  wall.probe = glm::ivec2(hallSize.width / 2, hallSize.height / 2 + 25);
   EXPECT_NEAR(plan.projection.near / probed(session, wall).storedDepth, 6.0, 2e-6) << "at right angles to the view";
   DebugView sky = inPlace(plan, 1, TargetKind::depth);
   sky.probe = glm::ivec2(2, 2);
@@ -127,8 +128,8 @@ TEST(TargetViews, ColorIsThePictureMagnified) {
   magnified.area = {20, 10, 64, 48};
   drawWith(session, magnified);
   const Image8 picture = session.picture();
-  for (int y = 0; y < size.height; ++y) {
-    for (int x = 0; x < size.width; ++x) {
+  for (int y = 0; y < hallSize.height; ++y) {
+    for (int x = 0; x < hallSize.width; ++x) {
       const bool within = magnified.area.contains(x, y);
       const uint8_t* expected = within ? plain.at(60 + (x - 20) / 4, 50 + (y - 10) / 4) : plain.at(x, y);
       ASSERT_TRUE(std::equal(expected, expected + 3, picture.at(x, y))) << x << " " << y;
@@ -145,7 +146,7 @@ TEST(TargetViews, StayUntilTheNextPictureIsComplete) {
   QuietSession session(hallOptions());
   const SceneState state = evaluate(session.scene(), 0.0);
   const auto planOf = [&](const Settings& settings) {
-    return planFrame(session.scene(), state, settings, size.width, size.height);
+    return planFrame(session.scene(), state, settings, hallSize.width, hallSize.height);
   };
   Settings draft = session.settings();
   draft.view.scale = 0.5;

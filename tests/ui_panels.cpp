@@ -121,6 +121,21 @@ TEST_F(PanelTest, NoWindowLiesOverAnother) {
   }
 }
 
+TEST_F(PanelTest, TextsOfARowStandOnOneLine) {
+  scene_.mirrors[0].ripple = Ripple{.amplitude = 0.1};
+  edit_.selected = {Selection::Kind::mirror, 0};
+  edit_.through = {1};
+  windows_->toggleInspector();
+  for (const char* window : {"Scenes", "Performance", "Accuracy", "Device", "Log", "Targets"}) {
+    toggle(window);
+    for (const float width : {1280.0f, 640.0f}) {
+      resize(width, 1200);
+      EXPECT_EQ(textsOffTheirLine(), "") << width << " with " << window;
+    }
+    resize(900, 700);
+  }
+}
+
 TEST_F(PanelTest, NarrowDisplaysHaveOneColumn) {
   windows_->toggleInspector();
   resize(495, 700);  // 38 sizes of the font
@@ -783,6 +798,9 @@ TEST_F(Inspector, MirrorsAreLookedFromAndSeenThrough) {
   EXPECT_EQ(clickFor<LookFromMirror>("edit.look_behind").side, MirrorSide::back);
   EXPECT_EQ(clickFor<LookFromMirror>("edit.look_out").side, MirrorSide::front);
   EXPECT_TRUE(has("edit.mirror_cost"));
+  const double scale = settings_.reflection.scale;
+  drag("reflection.scale", 0.3, -30);
+  EXPECT_LT(settings_.reflection.scale, scale) << "images are made cheaper beside their cost";
   EXPECT_EQ(clickFor<SelectNode>("edit.through.0").node, (Selection{Selection::Kind::mirror, 1}));
   EXPECT_EQ(clickFor<SetGizmoMode>("edit.rotate", 0.1).mode, GizmoMode::turn);
   EXPECT_EQ(clickFor<SetGizmoMode>("edit.scale_handles", 0.1).mode, GizmoMode::scale);

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <atomic>
 #include <functional>
@@ -98,10 +96,6 @@ class BackgroundJob {
 };
 
 // Runs `work` with half of the processor's threads; the others remain for the window.
-template <typename Work>
-auto inBackground(const Work& work) {
-  tbb::task_arena arena(std::max(1, static_cast<int>(std::thread::hardware_concurrency()) / 2));
-  return arena.execute(work);
-}
+void inBackground(const std::function<void()>& work);
 
 }  // namespace speculum

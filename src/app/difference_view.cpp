@@ -43,7 +43,8 @@ void DifferenceView::startTracing(const ShownPicture& shown) {
       .width = shown.width, .height = shown.height, .samples = references[traced_], .noiseFloor = false};
   request.settings = shown.settings;
   tracing_.start(0.0, [&scene = shown.scene, state = shown.state, request](const auto& report) {
-    std::optional<GroundTruth> truth = inBackground([&] { return traceGroundTruth(scene, state, request, report); });
+    std::optional<GroundTruth> truth;
+    inBackground([&] { truth = traceGroundTruth(scene, state, request, report); });
     return truth ? std::make_shared<const GroundTruth>(std::move(*truth)) : Truth();
   });
 }
@@ -51,7 +52,8 @@ void DifferenceView::startTracing(const ShownPicture& shown) {
 void DifferenceView::startComparing(const ShownPicture& shown, Image8 image) {
   comparing_.start(0.0, [truth = truth_, drawn = std::move(image), settings = shown.settings](const auto&) {
     Plane2d map;
-    const ErrorFigures errors = inBackground([&] { return errorsAgainst(*truth, drawn, settings, &map); });
+    ErrorFigures errors;
+    inBackground([&] { errors = errorsAgainst(*truth, drawn, settings, &map); });
     return Compared{settings, heatColors(map), errors.whole};
   });
 }

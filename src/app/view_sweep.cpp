@@ -78,7 +78,8 @@ SweepResults ViewMeasurement::measure(PictureSize size, int samples, const Sweep
   const SweepScene scene{
       .scene = session_.scene(), .state = state, .width = size.width, .height = size.height, .truthSamples = samples};
   SweepResults results = describeSweep(session_, plan, request_.time);
-  const bool finished = inBackground([&] { return runSweep(plan, base_, scene, subject, store, results, progress); });
+  bool finished = false;
+  inBackground([&] { finished = runSweep(plan, base_, scene, subject, store, results, progress); });
   if (finished && session_.device().validationMessages() > 0) {
     throw std::runtime_error("the measurement made validation messages");
   }

@@ -25,7 +25,7 @@ struct DepthErrors {
   double snapping = 0.0;
 };
 
-struct Ray {
+struct EyeRay {
   double distance;  // t
   double w;         // c t
   double depth;
@@ -37,7 +37,7 @@ glm::dvec2 pixelStep(const DepthView& view) {
   return 2.0 / view.pictureSize * glm::dvec2(f.aspect / f.focal, 1.0 / f.focal);
 }
 
-DepthErrors errorsOf(const DepthView& view, const DepthSurface& surface, const glm::dvec4& row, const Ray& ray) {
+DepthErrors errorsOf(const DepthView& view, const DepthSurface& surface, const glm::dvec4& row, const EyeRay& ray) {
   const glm::dvec3& p = surface.point;
   const glm::dvec3 n = glm::abs(surface.normal);
   const glm::dvec3 gradient(row);
@@ -59,7 +59,7 @@ DepthErrors errorsOf(const DepthView& view, const DepthSurface& surface, const g
   return errors;
 }
 
-std::optional<double> gap(const Ray& ray, double error) {
+std::optional<double> gap(const EyeRay& ray, double error) {
   const double left = ray.change - 2.0 * error * ray.distance;
   if (!(left > 0.0)) {
     return std::nullopt;
@@ -90,7 +90,7 @@ DepthResolution depthResolution(const DepthView& view, const DepthSurface& surfa
   if (!(depth < 1.0)) {
     return {};
   }
-  const Ray ray{.distance = distance, .w = w, .depth = std::max(depth, 0.0), .change = row->w * distance / w};
+  const EyeRay ray{.distance = distance, .w = w, .depth = std::max(depth, 0.0), .change = row->w * distance / w};
   const DepthErrors e = errorsOf(view, surface, *row, ray);
   return {.storage = gap(ray, e.storage),
           .rounded = gap(ray, e.storage + e.rounding),

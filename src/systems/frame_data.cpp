@@ -15,7 +15,7 @@ namespace speculum {
 
 namespace {
 
-constexpr std::array bufferNames = {"passes", "mirrors", "lights", "instances", "environments", "mirror vertices"};
+constexpr std::array frameBufferNames = {"passes", "mirrors", "lights", "instances", "environments", "mirror vertices"};
 
 glm::dmat4 relativeToView(const View& view) {
   return glm::dmat4(view.worldToView);
@@ -195,7 +195,7 @@ VkShaderStageFlags FrameData::stagesOf(uint32_t kind) {
 }
 
 FrameData::FrameData(Device& device)
-    : device_(device), buffers_(device, bufferNames, "fewer copies of objects, or a lower reflection.max_passes") {
+    : device_(device), buffers_(device, frameBufferNames, "fewer copies of objects, or a lower reflection.max_passes") {
   std::array<DescriptorBinding, kindCount + 1> bindings{};  // the last for the materials
   for (uint32_t i = 0; i < bindings.size(); ++i) {
     bindings[i] = {.binding = i, .type = typeOf(i), .stages = stagesOf(i)};

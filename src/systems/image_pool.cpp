@@ -14,10 +14,6 @@ uint32_t roundedUp(uint32_t size) {
   return (size + granularity - 1) / granularity * granularity;
 }
 
-uint64_t area(VkExtent2D extent) {
-  return uint64_t{extent.width} * extent.height;
-}
-
 }  // namespace
 
 ImagePool::ImagePool(Device& device, SharedDepth& depth, std::string name)

@@ -8,6 +8,10 @@
 
 namespace speculum {
 
+inline uint64_t area(VkExtent2D extent) {  // texels
+  return uint64_t{extent.width} * extent.height;
+}
+
 // Pool of targets for mirror images and environment maps, which keep their samples. A pass acquires a target, which is
 // released as soon as the pass that samples it is recorded, so that a frame needs no more than the images alive at one
 // time. Later frames use the targets again; those unused for framesKept frames are dropped.

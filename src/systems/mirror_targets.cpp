@@ -11,10 +11,6 @@ VkExtent2D extentOf(const PixelRect& rect) {
   return {static_cast<uint32_t>(rect.width), static_cast<uint32_t>(rect.height)};
 }
 
-uint64_t area(VkExtent2D extent) {
-  return uint64_t{extent.width} * extent.height;
-}
-
 }  // namespace
 
 MirrorTargets::MirrorTargets(Device& device) : device_(device) {}

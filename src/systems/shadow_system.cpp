@@ -13,7 +13,7 @@ namespace speculum {
 namespace {
 
 constexpr VkFormat disparityFormat = VK_FORMAT_R32_SFLOAT;
-constexpr std::array bufferNames = {"shadow maps"};
+constexpr std::array shadowBufferNames = {"shadow maps"};
 
 std::array<gpu::ShadowMapData, gpu::mostShadowMaps> mapData(std::span<const ShadowMap> maps) {
   static_assert(gpu::mostShadowMaps == mostShadowMaps);
@@ -35,7 +35,10 @@ std::array<gpu::ShadowMapData, gpu::mostShadowMaps> mapData(std::span<const Shad
 }  // namespace
 
 ShadowSystem::ShadowSystem(Device& device, PipelineFactory& factory, VkDescriptorSetLayout frameLayout)
-    : device_(device), frameLayout_(frameLayout), buffers_(device, bufferNames, "fewer lights"), pipelines_(factory) {}
+    : device_(device),
+      frameLayout_(frameLayout),
+      buffers_(device, shadowBufferNames, "fewer lights"),
+      pipelines_(factory) {}
 
 void ShadowSystem::create() {
   if (layout_) {

@@ -16,8 +16,8 @@ namespace speculum {
 
 namespace {
 
-constexpr std::array bufferNames = {"trace boxes", "trace instances", "trace mirrors", "trace mirror edges",
-                                    "light paths"};
+constexpr std::array traceBufferNames = {"trace boxes", "trace instances", "trace mirrors", "trace mirror edges",
+                                         "light paths"};
 constexpr uint32_t sceneBindings = TraceScene::kindCount;
 constexpr uint32_t structureBinding = 13;  // in trace_ray_query.glsl
 // Bindings of trace.glsl that are texel buffers: the scene's nodes and triangles; the frame's nodes, edges, instances
@@ -88,7 +88,7 @@ TraceFrame::TraceFrame(Device& device, Uploader& uploader, const Scene& scene)
     : device_(device),
       uploader_(uploader),
       scene_(scene),
-      buffers_(device, bufferNames, "fewer copies of objects", true) {}
+      buffers_(device, traceBufferNames, "fewer copies of objects", true) {}
 
 void TraceFrame::create() {
   // Waits for frames in flight before the upload, which waits only for its own fence.

@@ -157,10 +157,12 @@ void selectedNode(PanelContext& ui) {
     commandButton(ui, "Look from behind", "edit.look_behind", "Looks through the mirror at what it shows (B).",
                   LookFromMirror{MirrorSide::back});
     dimmedText(mirrorCost(ui.view.frame, edit.selected.index));
-    recordWidget(
-        ui, "edit.mirror_cost",
-        "Cost of its images in the last frame, also of those seen in other mirrors. Reflections makes all images "
-        "cheaper, by Mirror resolution, Samples and Max. depth.");
+    recordWidget(ui, "edit.mirror_cost", "Cost of its images in the last frame, also of those seen in other mirrors.");
+    ImGui::PushItemWidth(-10.5f * ImGui::GetFontSize());
+    ImGui::TextUnformatted("To make the images of all mirrors cheaper:");
+    settingRows(ui, "reflection.scale");
+    settingRows(ui, "reflection.max_depth");
+    ImGui::PopItemWidth();
   }
   gizmoMode(ui);
   ImGui::PushItemWidth(-8.0f * ImGui::GetFontSize());

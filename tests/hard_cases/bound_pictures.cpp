@@ -9,7 +9,7 @@ namespace {
 
 using namespace testing_support;
 
-constexpr PictureSize size{160, 90};
+constexpr PictureSize smallSize{160, 90};
 
 double largestDifference(const glm::vec3& a, const glm::vec3& b) {
   const glm::vec3 d = glm::abs(a - b);
@@ -30,8 +30,8 @@ TEST(TailBeyondTheDepthLimit, IsBoundedByTheReflectances) {
             "specular = [0, 0, 0]\nemission = " + (side < 0 ? "[0.4, 0.6, 0.5]\n" : "[0.6, 0.4, 0.45]\n");
   }
   const auto file = writeScene("tail", text);
-  const LinearImage whole = trace(file, size, 64).traced.image;
-  QuietSession session(truthOptions(file, size, 1));
+  const LinearImage whole = trace(file, smallSize, 64).traced.image;
+  QuietSession session(truthOptions(file, smallSize, 1));
   for (const int depth : {1, 2, 4}) {
     set(session, {{"reflection.max_depth", std::to_string(depth)}});
     const LinearImage cut = drawRadiance(session);
@@ -64,7 +64,7 @@ TEST(MirrorsOfFewPixels, LeaveOutTheirAreaAtMost) {
          << rectangleText({0.4 * (i % 40 - 19.5), 0.36 * (i / 40 - 12), 0}, {0, 0, random.uniform(0, 90)}, side, side)
          << "reflectance = [0.5, 0.5, 0.5]\n";
   }
-  Options options = headless(writeScene("few_pixels", text.str()), size);
+  Options options = headless(writeScene("few_pixels", text.str()), smallSize);
   options.validation = false;  // takes seconds for two thousand passes
   QuietSession session(options);
   const auto radiance = [&](const char* pixels) {
@@ -97,7 +97,7 @@ TEST(EyeNearerThanTheNearPlane, SmallRoomsKeepTheirOrder) {
         objectText("MODELS/box.obj", unit * glm::dvec3(0.2, 0.1, 0.6), {30, 10, 0}, 0.3 * unit, {0.1, 0.3, 0.8});
     files.push_back(writeScene("small_room_" + text(unit), scene));
   }
-  expectTruths(files, size, 2);
+  expectTruths(files, smallSize, 2);
 }
 
 // Sheets of one plane that overlap, some facing away, before a mirror that shows them once more. With `rays` there are
@@ -163,7 +163,7 @@ TEST(MirrorsInOnePlane, CoverUnderAGrazingEye) {
     }
     files.push_back(writeScene("grazing_plane_" + std::to_string(i), scene.str()));
   }
-  expectTruths(files, size, 1);
+  expectTruths(files, smallSize, 1);
 }
 
 TEST(MirrorsInOnePlane, RaysMeetThePlaneOnce) {
@@ -172,7 +172,7 @@ TEST(MirrorsInOnePlane, RaysMeetThePlaneOnce) {
   for (int i = 0; i < 2; ++i) {
     files.push_back(writeScene("rays_of_one_plane_" + std::to_string(i), sheetsInOnePlane(random, true)));
   }
-  expectTruths(files, size, 3);
+  expectTruths(files, smallSize, 3);
 }
 
 // Five million waves later water looks as at first, to a billionth of a wave.
@@ -184,9 +184,9 @@ TEST(LongTimes, RipplesComeBackAfterDays) {
                           "ripple = { amplitude = 0.01, wavelength = 0.5, speed = 0.2 }\n" +
                           objectText("MODELS/torus_knot.obj", {0.3, 0.8, -2}, {20, 30, 0}, 0.6, {0.8, 0.3, 0.1}));
   for (const double time : {0.3, 1.2}) {
-    const Image8 later = draw(truthOptions(file, size, 1), 1e6 + time);
-    expectAlike(later, draw(truthOptions(file, size, 1), time), 1, "ripples_after_days");
-    expectTruth(file, size, 1, trace(file, size, 1, 1e6 + time), 1e6 + time);
+    const Image8 later = draw(truthOptions(file, smallSize, 1), 1e6 + time);
+    expectAlike(later, draw(truthOptions(file, smallSize, 1), time), 1, "ripples_after_days");
+    expectTruth(file, smallSize, 1, trace(file, smallSize, 1, 1e6 + time), 1e6 + time);
   }
 }
 

@@ -8,8 +8,8 @@ namespace {
 
 using namespace hard_cases;
 
-constexpr int width = 48;
-constexpr int height = 27;
+constexpr int columns = 48;
+constexpr int rows = 27;
 
 glm::dvec3 withFourDecimals(const glm::dvec3& v) {
   return glm::round(v * 1e4) / 1e4;
@@ -69,17 +69,17 @@ TEST(EyeOnOrBehindTheMirrorPlane, PassIsSkippedAndTheBackDrawn) {
   for (int i = 0; i < 2000; ++i) {
     for (const double far : {0.0, 1e3, 1e7}) {
       const glm::dvec3 offset = far * random.direction();
-      const FramePlan on = planOf(eyeAtHeight(random, 0.0, offset), width, height);
+      const FramePlan on = planOf(eyeAtHeight(random, 0.0, offset), columns, rows);
       ASSERT_TRUE(on.passes.empty()) << "in the plane, case " << i << ", " << far << " m out";
       ASSERT_TRUE(on.main.mirrors.empty()) << "in the plane, case " << i << ", " << far << " m out";
       const double back = -std::pow(10.0, random.uniform(far > 1e6 ? -6 : -9, 0));
       const Scene behind = eyeAtHeight(random, back, offset);
-      const FramePlan plan = planOf(behind, width, height);
+      const FramePlan plan = planOf(behind, columns, rows);
       ASSERT_TRUE(plan.passes.empty()) << "behind the plane, case " << i;
       for (const MirrorDraw& draw : plan.main.mirrors) {
         ASSERT_TRUE(draw.back) << "behind the plane, case " << i;
       }
-      const FramePlan front = planOf(eyeAtHeight(random, -back, offset), width, height);
+      const FramePlan front = planOf(eyeAtHeight(random, -back, offset), columns, rows);
       ASSERT_EQ(front.passes.size(), 1u) << "before the plane, case " << i << ", height " << -back;
     }
   }
@@ -111,10 +111,10 @@ std::vector<glm::ivec2> hitPixels(const SceneState& state, const Projection& f) 
   const MirrorState& mirror = state.mirrors[0];
   const double height0 = glm::dot(mirror.normal, mirror.origin - state.camera.eye);
   std::vector<glm::ivec2> hits;
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
+  for (int y = 0; y < rows; ++y) {
+    for (int x = 0; x < columns; ++x) {
       const glm::dvec2 p = glm::dvec2(x, y) + 0.5;
-      const glm::dvec3 view((2.0 * p.x / width - 1.0) * f.aspect / f.focal, (1.0 - 2.0 * p.y / height) / f.focal, -1.0);
+      const glm::dvec3 view((2.0 * p.x / columns - 1.0) * f.aspect / f.focal, (1.0 - 2.0 * p.y / rows) / f.focal, -1.0);
       const glm::dvec3 ray = glm::transpose(state.camera.worldToView) * view;
       const double t = height0 / glm::dot(mirror.normal, ray);
       if (t > 0.0 && std::isfinite(t) && insidePolygon(mirror, state.camera.eye + t * ray)) {
@@ -147,7 +147,7 @@ TEST(MirrorCrossesTheEyePlane, RectangleHoldsEveryHitPixel) {
   while (views < 1500) {
     const Scene scene = acrossTheEyePlane(random);
     const SceneState state = evaluate(scene, 0.0);
-    const FramePlan plan = planOf(scene, width, height);
+    const FramePlan plan = planOf(scene, columns, rows);
     const std::vector<glm::ivec2> hits = hitPixels(state, plan.projection);
     const std::vector<glm::dvec4> clip = toClip(plan.main.view, plan.projection, state.mirrors[0].polygon);
     const bool crosses = std::any_of(clip.begin(), clip.end(), [](const glm::dvec4& v) { return v.w <= 0.0; });
@@ -165,8 +165,8 @@ TEST(MirrorCrossesTheEyePlane, RectangleHoldsEveryHitPixel) {
 // Moves the mirror just past one of the planes that bound the view.
 void moveOutside(Random& random, Scene& scene) {
   const SceneState state = evaluate(scene, 0.0);
-  const Projection projection(state.camera.verticalFov, static_cast<double>(width) / height, 0.001);
-  const View view = mainView(state.camera, projection, width, height);
+  const Projection projection(state.camera.verticalFov, static_cast<double>(columns) / rows, 0.001);
+  const View view = mainView(state.camera, projection, columns, rows);
   const glm::dvec3 inward = view.cone[static_cast<size_t>(random.uniform(0.0, 3.999))];
   double reach = -1e300;
   for (const glm::dvec3& p : state.mirrors[0].polygon) {
@@ -181,7 +181,7 @@ TEST(MirrorOutsideTheView, HasNoPassAtAll) {
   for (int i = 0; i < 3000; ++i) {
     Scene scene = acrossTheEyePlane(random);
     moveOutside(random, scene);
-    const FramePlan plan = planOf(scene, width, height);
+    const FramePlan plan = planOf(scene, columns, rows);
     ASSERT_TRUE(plan.passes.empty()) << "view " << i;
     ASSERT_EQ(plan.skipped.size(), 1u);
   }
