@@ -121,21 +121,6 @@ TEST_F(PanelTest, NoWindowLiesOverAnother) {
   }
 }
 
-TEST_F(PanelTest, TextsOfARowStandOnOneLine) {
-  scene_.mirrors[0].ripple = Ripple{.amplitude = 0.1};
-  edit_.selected = {Selection::Kind::mirror, 0};
-  edit_.through = {1};
-  windows_->toggleInspector();
-  for (const char* window : {"Scenes", "Performance", "Accuracy", "Device", "Log", "Targets"}) {
-    toggle(window);
-    for (const float width : {1280.0f, 640.0f}) {
-      resize(width, 1200);
-      EXPECT_EQ(textsOffTheirLine(), "") << width << " with " << window;
-    }
-    resize(900, 700);
-  }
-}
-
 TEST_F(PanelTest, NarrowDisplaysHaveOneColumn) {
   windows_->toggleInspector();
   resize(495, 700);  // 38 sizes of the font
@@ -876,6 +861,21 @@ class AccuracyWindow : public PanelTest {
     toggle("Accuracy");
   }
 };
+
+TEST_F(AccuracyWindow, TextsOfARowStandOnOneLine) {
+  scene_.mirrors[0].ripple = Ripple{.amplitude = 0.1};
+  edit_.selected = {Selection::Kind::mirror, 0};
+  edit_.through = {1};
+  windows_->toggleInspector();
+  for (const char* window : {"Scenes", "Performance", "Device", "Log", "Targets"}) {
+    toggle(window);
+    for (const float width : {1280.0f, 640.0f}) {
+      resize(width, 1200);
+      EXPECT_EQ(textsOffTheirLine(), "") << width << " with " << window;
+    }
+    resize(900, 700);
+  }
+}
 
 TEST_F(AccuracyWindow, PointsAndSliderApplySettings) {
   EXPECT_EQ(clickFor<ApplyPoint>("accuracy.point exact").point, 1);
