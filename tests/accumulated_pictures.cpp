@@ -131,7 +131,8 @@ TEST(Accumulation, FinishedMeanIsShownWithoutDrawing) {
   session.renderer().endFrame(frame);
 }
 
-// Draws picture `number` of a mean, `step` tiles in each frame; 0: all in one. Stops before tile `end`.
+// Draws picture `number` of a mean, `step` tiles in each frame; 0: all in one. Stops before tile `end`, or before the
+// last one, where `end` is given.
 void drawTiles(Session& session, int number, size_t step, size_t end = SIZE_MAX) {
   const SceneState state = evaluate(session.scene(), 1.0);
   const Settings mean = pictureSettings(session.settings());
@@ -139,9 +140,10 @@ void drawTiles(Session& session, int number, size_t step, size_t end = SIZE_MAX)
   cache.main = nullptr;
   FramePlan plan = planFrame(session.scene(), state, mean, session.size().width, session.size().height, cache, number);
   const size_t count = tileCount(plan);
-  for (size_t first = 0; first < std::min(count, end); first += step == 0 ? count : step) {
+  const size_t stop = end == SIZE_MAX ? count : std::min(end, count - 1);
+  for (size_t first = 0; first < stop; first += step == 0 ? count : step) {
     if (step > 0) {
-      plan.tiles = {first, std::min(first + step, count)};
+      plan.tiles = {first, std::min(first + step, stop)};
     }
     recordFrame(session, state, mean, plan);
   }
