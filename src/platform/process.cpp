@@ -1,5 +1,6 @@
 #include "platform/process.hpp"
 
+#include <dlfcn.h>
 #include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
@@ -206,7 +207,7 @@ void letBrokenPipesFail() {
 
 #ifdef __SANITIZE_ADDRESS__
 // Drivers stay loaded to the end, so that the leak checker's suppressions can name them.
-extern "C" int dlclose(void*) {
+extern "C" int dlclose(void*) noexcept {
   return 0;
 }
 #endif
