@@ -196,9 +196,9 @@ TEST_F(Report, TargetsStayWhileTilesAreDrawn) {
 }
 
 TEST_F(Report, ReasonsAreWords) {
-  plan.skipped = {{.path = {}, .reason = SkipReason::backface},
-                  {.path = {}, .reason = SkipReason::outside},
-                  {.path = {}, .reason = SkipReason::maxPasses}};
+  plan.skipped = {{.path = {0}, .reason = SkipReason::backface},
+                  {.path = {1}, .reason = SkipReason::outside},
+                  {.path = {2}, .reason = SkipReason::maxPasses}};
   report.updateSkipped(frameOf(1, 1.0, 1.0));
   const std::vector<SkippedView>& skipped = report.view().skipped;
   ASSERT_EQ(skipped.size(), 3u);

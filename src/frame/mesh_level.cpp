@@ -40,10 +40,12 @@ double nearestDepth(const View& view, double cosine, const InstanceState& instan
     // A point q of the visible cone has n.q >= 0 for each plane, so that its depth is no less than (ahead - w n).q for
     // any w > 0. The box's least of that is largest where one axis of the box has no share in it.
     for (const glm::dvec3& normal : view.cone) {
-      const glm::dvec3 weights = (ahead * axes) / (normal * axes);
+      const glm::dvec3 along = ahead * axes;
+      const glm::dvec3 across = normal * axes;
       for (int i = 0; i < 3; ++i) {
-        if (weights[i] > 0.0 && std::isfinite(weights[i])) {
-          depth = std::max(depth, leastAlong(ahead - weights[i] * normal));
+        const double weight = across[i] == 0.0 ? 0.0 : along[i] / across[i];
+        if (weight > 0.0 && std::isfinite(weight)) {
+          depth = std::max(depth, leastAlong(ahead - weight * normal));
         }
       }
     }

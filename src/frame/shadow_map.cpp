@@ -51,8 +51,10 @@ Window windowOf(const Bounds& box, const glm::dvec3& center, const FaceAxes& axe
       allLow[axis] = allLow[axis] && side[axis] < -margin * w;
       allHigh[axis] = allHigh[axis] && side[axis] > margin * w;
     }
-    seen.low = glm::min(seen.low, side / w);
-    seen.high = glm::max(seen.high, side / w);
+    if (!behind) {
+      seen.low = glm::min(seen.low, side / w);
+      seen.high = glm::max(seen.high, side / w);
+    }
   }
   if (!before || glm::any(allLow) || glm::any(allHigh)) {
     return {};
