@@ -103,6 +103,7 @@ TEST(FramePacer, IdleTimeIsNoFrameTime) {
 
 class Report : public testing::Test {
  protected:
+  Report() { scene_.mirrors.resize(3); }
   RecordedFrame frameOf(uint64_t number, double cpuMs, double sinceMs) const {
     return {scene_, state_, settings_, plan, number, cpuMs, sinceMs};
   }
@@ -112,7 +113,7 @@ class Report : public testing::Test {
   const std::vector<PassView>& rows = report.view().passes;
 
  private:
-  const Scene scene_;
+  Scene scene_;
   const SceneState state_;
   const Settings settings_;
 };

@@ -205,8 +205,8 @@ void letBrokenPipesFail() {
 
 }  // namespace speculum
 
-#ifdef __SANITIZE_ADDRESS__
-// Drivers stay loaded to the end, so that the leak checker's suppressions can name them.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+// Drivers stay loaded to the end, so that the suppressions of leaks and races can name them.
 extern "C" int dlclose(void*) noexcept {
   return 0;
 }
