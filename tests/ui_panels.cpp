@@ -552,6 +552,9 @@ TEST_F(PanelTest, HeaderShowsTheLastPictureWhilePaused) {
   frame_.frameMs = 14000.0;
   frame_.still = true;
   run(2);
+  EXPECT_TRUE(shows("14.00 s still")) << "nothing moves";
+  playback_.paused = true;
+  run(2);
   EXPECT_TRUE(shows("14.00 s paused"));
   frame_.frameMs = 20.0;
   frame_.still = false;

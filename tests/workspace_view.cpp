@@ -325,6 +325,15 @@ TEST_F(Opening, ModelsAreFramedBetweenPanels) {
   EXPECT_NEAR(focal * seen.x / -seen.z, width / 4.0, 30.0);
 }
 
+TEST_F(Opening, ModelsStandOnceTheCameraIsMoved) {
+  drop({model("queen.obj")});
+  send(ResetCamera{});
+  EXPECT_TRUE(workspace_->animates()) << "the camera circles";
+  send(SelectNode{{Selection::Kind::object, 0}});
+  send(FrameSelection{});
+  EXPECT_FALSE(workspace_->animates()) << "the user's camera stands, and nothing else moves";
+}
+
 TEST_F(Opening, OpenedScenesFolderIsListedFirst) {
   const BrowserView& browser = view().browser;
   EXPECT_EQ(browser.scenes.front().file.parent_path(), fs::path(options_.scene).parent_path());

@@ -193,7 +193,7 @@ void AccuracyController::afterFrame(const ShownPicture& shown, const std::functi
   const double elapsed = std::chrono::duration<double>(Clock::now() - stageBegan_).count();
   const bool estimable = status && status->fraction > 0.03 && elapsed > 2.0;
   view_.secondsLeft = estimable ? elapsed * (1.0 / status->fraction - 1.0) : 0.0;
-  const bool otherTime = measured_ && moves(shown.scene) && measured_->time != shown.state.time;
+  const bool otherTime = measured_ && contentMoves(shown.scene) && measured_->time != shown.state.time;
   view_.otherView = !view_.points.empty() && measured_ &&
                     (otherTime || measured_->camera.eye != shown.state.camera.eye ||
                      measured_->camera.worldToView != shown.state.camera.worldToView);

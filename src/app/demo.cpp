@@ -225,22 +225,22 @@ const FittedPlan& Demo::planFrame(Frame& frame, const SceneState& state) {
   const bool showsMain = output_.target && output_.target->path.empty();
   const bool settingsMove = ui_->holdsWidget() || pace_.moving();
   const Settings settings = settingsOfFrame();
-  const Pace::Request request{.scene = workspace_.scene(),
-                              .state = state,
-                              .chosen = settings,
-                              .shown = {.scenes = scenes_,
-                                        .revision = workspace_.revision(),
-                                        .shaders = renderer_.pipelines().revision(),
-                                        .time = moves(workspace_.scene()) ? std::optional(state.time) : std::nullopt,
-                                        .size = pictureSize(),
-                                        .target = targetShown()},
-                              // Recorded frames have no budget.
-                              .budgetMs = workspace_.capture().recording()
-                                              ? 0.0
-                                              : motionBudget(workspace_.settings(), isCpu(device_), refreshHz_),
-                              .front = workspace_.accuracy().front(),
-                              .simplifies = levels_.ready(workspace_.scene(), scenes_),
-                              .input = changes_};
+  const Pace::Request request{
+      .scene = workspace_.scene(),
+      .state = state,
+      .chosen = settings,
+      .shown = {.scenes = scenes_,
+                .revision = workspace_.revision(),
+                .shaders = renderer_.pipelines().revision(),
+                .time = contentMoves(workspace_.scene()) ? std::optional(state.time) : std::nullopt,
+                .size = pictureSize(),
+                .target = targetShown()},
+      // Recorded frames have no budget.
+      .budgetMs =
+          workspace_.capture().recording() ? 0.0 : motionBudget(workspace_.settings(), isCpu(device_), refreshHz_),
+      .front = workspace_.accuracy().front(),
+      .simplifies = levels_.ready(workspace_.scene(), scenes_),
+      .input = changes_};
   const FittedPlan& fitted = pace_.plan(request, [&](const Settings& lowered, int picture) {
     return planner_.plan(frame, *sceneRenderer_, request.scene, state, lowered, picture, showsMain, settingsMove);
   });

@@ -16,7 +16,7 @@ DifferenceView::View DifferenceView::viewOf(const ShownPicture& shown) {
   return {.file = shown.scene.file,
           .width = shown.width,
           .height = shown.height,
-          .time = moves(shown.scene) ? std::optional(shown.state.time) : std::nullopt,
+          .time = contentMoves(shown.scene) ? std::optional(shown.state.time) : std::nullopt,
           .camera = shown.state.camera,
           .clearColor = shown.settings.view.clearColor};
 }

@@ -68,7 +68,9 @@ class Workspace {
   void frameDrawn(const ShownPicture& shown, const std::function<Image8()>& radiance, const Image8* captured);
 
   // Say whether frames are needed although nothing happens.
-  bool animates() const { return !playback_.view().paused && moves(scene()); }
+  bool animates() const {
+    return !playback_.view().paused && (camera_.moved() ? contentMoves(scene()) : moves(scene()));
+  }
   bool working() const { return accuracy_.working() || opener_.working(); }
   uint64_t revision() const { return document_->editor().document().revision(); }
   bool dragging() const { return document_->editor().dragging(); }

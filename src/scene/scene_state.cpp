@@ -251,12 +251,16 @@ CameraSpec cameraOf(const Bookmark& bookmark, const CameraSpec& camera) {
           .near = camera.near};
 }
 
-bool moves(const Scene& scene) {
+bool contentMoves(const Scene& scene) {
   const auto any = [](const auto& list, const auto& test) { return std::ranges::any_of(list, test); };
   const glm::dvec3 still(0.0);
-  return scene.camera.orbitSpeed != 0.0 || any(scene.objects, [&](const Object& o) { return o.spin != still; }) ||
+  return any(scene.objects, [&](const Object& o) { return o.spin != still; }) ||
          any(scene.lights, [](const PointLight& l) { return l.orbit && l.orbit->speed != 0.0; }) ||
          any(scene.mirrors, [&](const Mirror& m) { return m.spin != still || (m.ripple && m.ripple->speed != 0.0); });
+}
+
+bool moves(const Scene& scene) {
+  return scene.camera.orbitSpeed != 0.0 || contentMoves(scene);
 }
 
 }  // namespace speculum

@@ -78,7 +78,10 @@ SceneState evaluate(const Scene& scene, double timeSeconds);
 // Returns a camera at the bookmark that does not move.
 CameraSpec cameraOf(const Bookmark& bookmark, const CameraSpec& camera);
 
-// Says whether anything depends on the time.
+// Says whether objects, lights or mirrors depend on the time.
+bool contentMoves(const Scene& scene);
+
+// Says whether they or the scene's camera do.
 bool moves(const Scene& scene);
 
 }  // namespace speculum

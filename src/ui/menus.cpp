@@ -109,7 +109,8 @@ void frameTime(const PanelContext& ui) {
   if (ms <= 0.0) {
     return;
   }
-  const std::string rate = frame.still ? "paused" : fmt::format("{:.{}f} FPS", 1000.0 / ms, ms > 100.0 ? 1 : 0);
+  const char* still = ui.view.playback.paused ? "paused" : "still";
+  const std::string rate = frame.still ? still : fmt::format("{:.{}f} FPS", 1000.0 / ms, ms > 100.0 ? 1 : 0);
   const std::string text = duration(ms) + "   " + rate;
   const float left = ImGui::GetWindowWidth() - ImGui::CalcTextSize(text.c_str()).x - ImGui::GetFontSize();
   if (left > ImGui::GetCursorPosX()) {
