@@ -352,6 +352,7 @@ TEST_F(PanelTest, SavingListsFoldersAndScenes) {
   edit_.prompt = Prompt::saveAs;
   run(4);
   EXPECT_TRUE(has("open.mine")) << "the nearest folder that exists";
+  EXPECT_TRUE(shows("Folder: " + (config_.path() / "none").string())) << "where a bare name goes";
 }
 
 TEST_F(PanelTest, PromptsStayCentered) {
@@ -903,8 +904,8 @@ TEST_F(AccuracyWindow, SaysPurposeAndTimeOfMeasuring) {
   EXPECT_TRUE(shows("The view has changed since."));
   accuracy_ = {};
   run(2);
-  for (const char* step :
-       {"Finds the settings that are the most accurate within a time", "1. traces", "2. draws", "3. takes the times"}) {
+  for (const char* step : {"Finds the settings that are the most accurate within a time", "1. traces", "2. draws",
+                           "3. measures the times"}) {
     EXPECT_TRUE(shows(step)) << step;
   }
   accuracy_.measuring = true;

@@ -170,8 +170,8 @@ void plot(PanelContext& ui) {
     }
   }
   dimmedText(
-      "A click applies a point. Bars hold half of its times and count as equal where they overlap. No point beats an "
-      "orange one.");
+      "A click applies a point. Its bar spans the middle half of its times; points whose bars overlap count as equally "
+      "fast. No point beats an orange one.");
   tip("Mean FLIP: mean perceived difference from the reference, 0 (none) to 1.");
 }
 
@@ -274,7 +274,7 @@ void accuracy(PanelContext& ui) {
   } else if (accuracy.points.empty() && accuracy.about.empty()) {
     wrappedText(
         "Finds the settings that are the most accurate within a time: 1. traces how this view should look, 2. draws it "
-        "with each configuration and compares, 3. takes the times.");
+        "with each configuration and compares, 3. measures the times.");
   }
   if (!accuracy.about.empty()) {
     wrappedText(accuracy.about);

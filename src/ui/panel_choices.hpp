@@ -32,8 +32,7 @@ inline constexpr std::array<PanelName, 6> panelNames{
      {"Targets", &PanelChoices::targets, "What each pass drew: color, depth and mask."},
      {"Device", &PanelChoices::device, "The GPU, its features and its memory."},
      {"Log", &PanelChoices::log, "Messages of the program and of the validation layer."},
-     {"Accuracy", &PanelChoices::accuracy,
-      "Measures what each setting costs and how far it is off, and chooses one."}}};
+     {"Accuracy", &PanelChoices::accuracy, "Measures the time and the error of settings, and chooses the best."}}};
 
 // Reads the saved choices; those that cannot be read have their defaults.
 PanelChoices savedPanelChoices();

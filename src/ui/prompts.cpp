@@ -151,6 +151,8 @@ void saveAs(PanelContext& ui) {
   if (!ui.view.edit.note.empty()) {
     coloredText(errorColor, ui.view.edit.note);
   }
+  dimmedText("Folder: " + named(files).parent_path().string());
+  recordWidget(ui, "edit.folder");
   ImGui::TextDisabled("Opens with the scene's own camera. M keeps a view as a bookmark.");
   const size_t commands = ui.output.commands.size();
   answerButton(ui, "Save", "where.save", SaveAs{named(files)});
