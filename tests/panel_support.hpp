@@ -102,8 +102,7 @@ class PanelTest : public testing::Test {
   }
   struct DrawnGlyph {
     char letter;
-    float left;     // pixels of the display
-    float lineTop;  // the top of its line of text
+    float lineTop;  // the top of its line of text, in pixels of the display
   };
   // Returns the letters of a list in the order of drawing, without spaces.
   static std::vector<DrawnGlyph> glyphsOf(const ImDrawList& list) {
@@ -118,8 +117,7 @@ class PanelTest : public testing::Test {
       if (at != glyphs.end() && at->second->U1 == vertices[k + 2].uv.x && at->second->V1 == vertices[k + 2].uv.y &&
           at->second->U0 != at->second->U1) {
         const ImFontGlyph& glyph = *at->second;
-        found.push_back(
-            {static_cast<char>(glyph.Codepoint), vertices[k].pos.x - glyph.X0, vertices[k].pos.y - glyph.Y0});
+        found.push_back({static_cast<char>(glyph.Codepoint), vertices[k].pos.y - glyph.Y0});
         k += 3;
       }
     }
@@ -146,7 +144,9 @@ class PanelTest : public testing::Test {
       for (const DrawnGlyph& glyph : glyphsOf(*drawn.CmdLists[i])) {
         lines[glyph.lineTop] += glyph.letter;
       }
-      std::erase_if(lines, [](const auto& line) { return std::ranges::none_of(line.second, isalpha); });
+      std::erase_if(lines, [](const auto& line) {
+        return std::ranges::none_of(line.second, [](unsigned char c) { return std::isalpha(c); });
+      });
       for (auto line = lines.begin(); line != lines.end() && std::next(line) != lines.end(); ++line) {
         const auto& [top, text] = *std::next(line);
         if (top - line->first < 0.8f * ImGui::GetFontSize()) {

@@ -39,8 +39,8 @@ double nearestDepth(const View& view, double cosine, const InstanceState& instan
   if (isLarge) {  // of a smaller box the planes would raise the bound by less than a factor of 3
     // A point q of the visible cone has n.q >= 0 for each plane, so that its depth is no less than (ahead - w n).q for
     // any w > 0. The box's least of that is largest where one axis of the box has no share in it.
+    const glm::dvec3 along = ahead * axes;
     for (const glm::dvec3& normal : view.cone) {
-      const glm::dvec3 along = ahead * axes;
       const glm::dvec3 across = normal * axes;
       for (int i = 0; i < 3; ++i) {
         const double weight = across[i] == 0.0 ? 0.0 : along[i] / across[i];
