@@ -788,7 +788,16 @@ TEST_F(Inspector, MirrorsAreLookedFromAndSeenThrough) {
   EXPECT_EQ(clickFor<LookFromMirror>("edit.look_out").side, MirrorSide::front);
   EXPECT_TRUE(has("edit.mirror_cost"));
   const double scale = settings_.reflection.scale;
-  drag("reflection.scale", 0.3, -30);
+  const int left = widget("edit.mirror_cost").x;  // the main panel has such a row too
+  const auto& widgets = windows_->state().widgets;
+  const auto row = std::ranges::find_if(
+      widgets, [&](const auto& shown) { return shown.first == "reflection.scale" && shown.second.x >= left; });
+  ASSERT_NE(row, widgets.end());
+  const PixelRect slider = row->second;
+  moveTo(slider.x + 0.3 * slider.width, slider.y + 0.5 * slider.height);
+  hold(true);
+  moveTo(slider.x + 0.1 * slider.width, slider.y + 0.5 * slider.height);
+  hold(false);
   EXPECT_LT(settings_.reflection.scale, scale) << "images are made cheaper beside their cost";
   EXPECT_EQ(clickFor<SelectNode>("edit.through.0").node, (Selection{Selection::Kind::mirror, 1}));
   EXPECT_EQ(clickFor<SetGizmoMode>("edit.rotate", 0.1).mode, GizmoMode::turn);
