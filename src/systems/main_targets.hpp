@@ -1,0 +1,30 @@
+#pragma once
+
+#include <memory>
+
+#include "core/off_screen.hpp"
+#include "frame/frame_plan.hpp"
+
+namespace speculum {
+
+// Target of the main view. While its tiles are drawn, the display shows the main view of an earlier frame, which then
+// has a target of its own.
+class MainTargets {
+ public:
+  explicit MainTargets(Device& device) : device_(device) {}
+
+  // Begins a picture of the plan. If the plan has tiles and drawn() is `displayed`, shown() keeps it until finish().
+  void begin(const Settings& settings, const FramePlan& plan, bool displayed, RetireQueue& retired);
+  // Shows the picture, whose last tile is drawn.
+  void finish(RetireQueue& retired);
+
+  OffScreen& drawn() { return *drawn_; }
+  OffScreen& shown() { return earlier_ ? *earlier_ : *drawn_; }
+
+ private:
+  Device& device_;
+  std::unique_ptr<OffScreen> drawn_;
+  std::unique_ptr<OffScreen> earlier_;  // null if drawn_ is shown
+};
+
+}  // namespace speculum

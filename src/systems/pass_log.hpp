@@ -1,0 +1,36 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "core/renderer.hpp"
+#include "systems/recorded_pass.hpp"
+
+namespace speculum {
+
+// Passes of the picture, and passes or their parts of the last frames: the GPU's timings arrive later.
+class PassLog {
+ public:
+  void beginFrame() { frame_.clear(); }
+  void beginPicture() { picture_.clear(); }
+
+  void add(RecordedPass pass);
+  // Makes the last pass added a further part of the picture's pass before it, which alone counts the draws.
+  void joinLast();
+  // Keeps the passes of a frame that was recorded to its end.
+  void endFrame(uint64_t number) { frames_[number % frames_.size()] = {number, frame_}; }
+
+  // Passes of the picture, in order.
+  const std::vector<RecordedPass>& passes() const { return picture_; }
+  // Passes and parts of frame `number`; none if it is too old.
+  std::span<const RecordedPass> passesOf(uint64_t number) const;
+
+ private:
+  std::vector<RecordedPass> picture_;
+  std::vector<RecordedPass> frame_;
+  std::array<std::pair<uint64_t, std::vector<RecordedPass>>, framesInFlight + 1> frames_;  // by frame number
+};
+
+}  // namespace speculum
