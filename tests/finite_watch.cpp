@@ -283,14 +283,14 @@ TEST_F(WatchedFrames, CostNothingWhenTheCheckIsOff) {
   };
   drawFrames(false);
   const auto objects = objectsBesidesModules();
-  const size_t pipelines = session.sceneRenderer().pipelineCount();
+  const size_t pipelines = session.renderer().pipelines().count();
   const uint64_t bytes = session.device().allocatedBytes();
   drawFrames(true);
   EXPECT_NE(objectsBesidesModules(), objects);
-  EXPECT_GT(session.sceneRenderer().pipelineCount(), pipelines);
+  EXPECT_GT(session.renderer().pipelines().count(), pipelines);
   drawFrames(false);
   EXPECT_EQ(objectsBesidesModules(), objects);
-  EXPECT_EQ(session.sceneRenderer().pipelineCount(), pipelines);
+  EXPECT_EQ(session.renderer().pipelines().count(), pipelines);
   EXPECT_EQ(session.device().allocatedBytes(), bytes);
 }
 

@@ -107,11 +107,29 @@ TEST(MeshError, TracedRaysKeepAllTriangles) {
   const FramePlan mapped = planOf(scene, 2.0, {{"effects.curved_lookup", "environment"}});
   ASSERT_EQ(mapped.passes[0].simplified.size(), 1u) << "a curved mirror itself stays exact";
   EXPECT_EQ(mapped.passes[0].simplified[0].instance, 1);
-  ASSERT_FALSE(mapped.maps.empty());
-  for (const EnvironmentMap& map : mapped.maps) {
-    for (const PlannedPass& face : map.faces) {
-      EXPECT_TRUE(face.simplified.empty());
+}
+
+TEST(MeshError, FacesOfEnvironmentMapsShareLevels) {
+  Scene scene = sceneOf({30, 60});
+  scene.objects[0].mirror.emplace();
+  const SceneState state = evaluate(scene, 0.0);
+  for (const double meshError : {0.0, 2.0}) {
+    const FramePlan plan = planOf(scene, meshError, {{"effects.curved_lookup", "environment"}});
+    ASSERT_EQ(plan.maps.size(), 1u);
+    std::optional<int> shared;
+    for (const PlannedPass& face : plan.maps[0].faces) {
+      for (const int i : face.instances) {
+        const int level = levelOf(face, i);
+        EXPECT_EQ(shared.value_or(level), level);
+        shared = level;
+        if (level >= 0) {
+          EXPECT_LE(levelsOf(scene.meshes[0]).levels[static_cast<size_t>(level)].error,
+                    largestError(face.view, plan.maps[0].projection, state.instances[static_cast<size_t>(i)],
+                                 scene.meshes[0], meshError));
+        }
+      }
     }
+    EXPECT_EQ(shared.value_or(-1) >= 0, meshError > 0.0);
   }
 }
 

@@ -187,21 +187,21 @@ TEST(TargetViews, CostNothingWhenOff) {
   const FramePlan plan = session.draw(0.0, false).plan;
   drawWith(session, std::nullopt);
   session.renderer().waitIdle();
-  const size_t pipelines = session.sceneRenderer().pipelineCount();
+  const size_t pipelines = session.renderer().pipelines().count();
   const uint64_t bytes = session.device().allocatedBytes();
   for (const int pass : {0, 1}) {
     for (const TargetKind kind : {TargetKind::color, TargetKind::depth}) {
       drawWith(session, inPlace(plan, pass, kind));
     }
   }
-  EXPECT_GT(session.sceneRenderer().pipelineCount(), pipelines);
+  EXPECT_GT(session.renderer().pipelines().count(), pipelines);
   session.renderer().waitIdle();
   EXPECT_GT(session.device().allocatedBytes(), bytes);
   for (int frame = 0; frame < 3; ++frame) {
     drawWith(session, std::nullopt);
   }
   session.renderer().waitIdle();
-  EXPECT_EQ(session.sceneRenderer().pipelineCount(), pipelines);
+  EXPECT_EQ(session.renderer().pipelines().count(), pipelines);
   EXPECT_EQ(session.device().allocatedBytes(), bytes);
 }
 

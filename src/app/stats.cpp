@@ -226,7 +226,7 @@ ordered_json frameStats(Session& session) {
                     {"pictures", frame.pictures},
                     {"device_bytes", device.allocatedBytes()},
                     {"peak_rss_bytes", peakResidentBytes()},
-                    {"pipelines", session.sceneRenderer().pipelineCount()},
+                    {"pipelines", session.renderer().pipelines().count()},
                     {"validation_messages", device.validationMessages()}};
   if (frame.settings.debug.checkFinite) {
     json["totals"]["non_finite"] = session.sceneRenderer().finiteWatch().count();

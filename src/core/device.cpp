@@ -229,20 +229,4 @@ void Device::endLabel(VkCommandBuffer commands) const {
   }
 }
 
-int Device::addImageObserver(std::function<void(uint64_t)> observer) {
-  const int key = imageObservers_.empty() ? 0 : imageObservers_.back().first + 1;
-  imageObservers_.emplace_back(key, std::move(observer));
-  return key;
-}
-
-void Device::removeImageObserver(int key) {
-  std::erase_if(imageObservers_, [key](const auto& entry) { return entry.first == key; });
-}
-
-void Device::imageDestroyed(uint64_t id) {
-  for (const auto& [key, observer] : imageObservers_) {
-    observer(id);
-  }
-}
-
 }  // namespace speculum

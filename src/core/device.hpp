@@ -3,7 +3,6 @@
 #include <vulkan/vulkan.h>
 
 #include <atomic>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -138,12 +137,6 @@ class Device {
   void endLabel(VkCommandBuffer commands) const;
   const DeviceFunctions& functions() const { return functions_; }
 
-  // Adds a function that is called with Image::id() when an image is destroyed, so that caches drop its framebuffers.
-  // Returns a key for removeImageObserver().
-  int addImageObserver(std::function<void(uint64_t)> observer);
-  void removeImageObserver(int key);
-  void imageDestroyed(uint64_t id);
-
  private:
   friend class Memory;
   struct Destroy {
@@ -174,7 +167,6 @@ class Device {
   std::atomic<uint64_t> allocatedBytes_{0};
   std::atomic<uint32_t> allocations_{0};
   VkSampleCountFlags reportedSampleCounts_ = 0;
-  std::vector<std::pair<int, std::function<void(uint64_t)>>> imageObservers_;
 };
 
 // Waits for the GPU when it is destroyed. Make it the last member of a class that owns objects of frames in flight.

@@ -1,20 +1,10 @@
 #include "core/image.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <bit>
 #include <stdexcept>
 
 namespace speculum {
-
-namespace {
-
-uint64_t nextId() {
-  static std::atomic<uint64_t> last{0};
-  return ++last;
-}
-
-}  // namespace
 
 uint32_t mipLevelCount(VkExtent2D extent) {
   return static_cast<uint32_t>(std::bit_width(std::max({extent.width, extent.height, 1u})));
@@ -73,7 +63,6 @@ void Image::createView(Device& device) {
                          .format = desc_.format,
                          .subresourceRange = {aspect(), 0, desc_.mipLevels, 0, 1}},
                         desc_.name);
-  announced_ = {&device, Announce{nextId()}};
 }
 
 SamplerHandle createSampler(Device& device, const SamplerDesc& desc, const std::string& name) {

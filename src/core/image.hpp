@@ -21,6 +21,16 @@ inline constexpr VkFormat depthFormat = VK_FORMAT_D32_SFLOAT;           // rever
 
 uint32_t mipLevelCount(VkExtent2D extent);  // down to 1x1
 
+inline VkExtent2D extentOf(int width, int height) {
+  return {static_cast<uint32_t>(width), static_cast<uint32_t>(height)};
+}
+inline bool sameExtent(VkExtent2D a, VkExtent2D b) {
+  return a.width == b.width && a.height == b.height;
+}
+inline uint64_t areaOf(VkExtent2D extent) {
+  return uint64_t{extent.width} * extent.height;
+}
+
 // A 2D image with a view of all its levels. Owns its memory, or borrows the image of a swapchain.
 class Image {
  public:
@@ -38,9 +48,7 @@ class Image {
   VkSampleCountFlagBits samples() const { return desc_.samples; }
   VkImageAspectFlags aspect() const;
   uint64_t bytes() const { return memory_.bytes(); }
-  // Never reused in a process, unlike handles; 0 for an empty image.
-  uint64_t id() const { return announced_ ? announced_.get_deleter().id : 0; }
-  explicit operator bool() const { return static_cast<bool>(announced_); }
+  explicit operator bool() const { return static_cast<bool>(view_); }
 
   // Layout after the commands recorded so far, which run in the order of recording on the one queue.
   VkImageLayout layout() const { return layout_; }
@@ -51,11 +59,6 @@ class Image {
   }
 
  private:
-  // Notifies the device when the image is destroyed.
-  struct Announce {
-    uint64_t id;
-    void operator()(Device* device) const { device->imageDestroyed(id); }
-  };
   void createView(Device& device);
 
   ImageDesc desc_;
@@ -64,8 +67,6 @@ class Image {
   VkImage image_ = VK_NULL_HANDLE;
   ImageViewHandle view_;
   VkImageLayout layout_ = VK_IMAGE_LAYOUT_UNDEFINED;
-  // The last member, so that observers drop the view before it is destroyed.
-  std::unique_ptr<Device, Announce> announced_;
 };
 
 struct SamplerDesc {
@@ -74,6 +75,8 @@ struct SamplerDesc {
   VkSamplerAddressMode addressMode = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
   float maxLod = VK_LOD_CLAMP_NONE;  // 0: level 0 only
 };
+inline constexpr SamplerDesc nearestSampler{
+    .filter = VK_FILTER_NEAREST, .mipmapMode = VK_SAMPLER_MIPMAP_MODE_NEAREST, .maxLod = 0.0f};
 SamplerHandle createSampler(Device& device, const SamplerDesc& desc, const std::string& name);
 
 }  // namespace speculum

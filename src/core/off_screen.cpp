@@ -29,10 +29,6 @@ Image makeDepth(Device& device, VkExtent2D extent, VkSampleCountFlagBits samples
                         .name = std::move(name)});
 }
 
-bool equal(VkExtent2D a, VkExtent2D b) {
-  return a.width == b.width && a.height == b.height;
-}
-
 }  // namespace
 
 SharedDepth::SharedDepth(Device& device, VkSampleCountFlagBits samples, const std::string& name)
@@ -43,7 +39,7 @@ void SharedDepth::require(VkExtent2D extent, RetireQueue& retired) {
 }
 
 void SharedDepth::trim(VkExtent2D extent, RetireQueue& retired) {
-  if (equal(extent, extent_)) {
+  if (sameExtent(extent, extent_)) {
     return;
   }
   if (image_) {
@@ -66,7 +62,7 @@ void OffScreen::resize(VkExtent2D extent, RetireQueue& retired) {
   if (desc_.shared) {
     desc_.shared->require(extent, retired);
   }
-  if (!equal(extent, desc_.extent) || !color_) {
+  if (!sameExtent(extent, desc_.extent) || !color_) {
     desc_.extent = extent;
     retire(retired);
     create(retired);

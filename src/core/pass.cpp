@@ -6,6 +6,7 @@
 
 #include "core/gpu_timer.hpp"
 #include "core/render_pass_cache.hpp"
+#include "core/retire_queue.hpp"
 
 namespace speculum {
 
@@ -114,10 +115,11 @@ PassGroup::~PassGroup() {
   barriers_.record(commands_, kind, outputs);
 }
 
-PassScope::PassScope(Device& device, RenderPassCache& renderPasses, GpuTimer& timer, VkCommandBuffer commands,
-                     PassDesc desc)
+PassScope::PassScope(Device& device, RenderPassCache& renderPasses, RetireQueue& retired, GpuTimer& timer,
+                     VkCommandBuffer commands, PassDesc desc)
     : device_(device),
       renderPasses_(renderPasses),
+      retired_(retired),
       timer_(timer),
       commands_(commands),
       desc_(std::move(desc)),
@@ -225,24 +227,34 @@ void PassScope::beginRenderPass() {
                                 .loadDepth = targets.depth && desc_.loadDepth,
                                 .storeDepth = targets.depth && desc_.storeDepth,
                                 .colorLayout = targets.color->layout()});
-  std::vector<Image*> images = {targets.color};
+  std::vector<VkImageView> views = {targets.color->view()};
   std::vector<VkClearValue> clears = {colorClear(desc_)};
   if (targets.resolve) {
-    images.push_back(targets.resolve);
+    views.push_back(targets.resolve->view());
     clears.emplace_back();
   }
   if (targets.depth) {
-    images.push_back(targets.depth);
+    views.push_back(targets.depth->view());
     clears.push_back(depthClear(desc_));
   }
-  const VkRenderPassBeginInfo info{
-      .sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO,
-      .renderPass = renderPass,
-      .framebuffer = renderPasses_.framebuffer(renderPass, images, targets.output().extent()),
-      .renderArea = desc_.renderArea,
-      .clearValueCount = static_cast<uint32_t>(clears.size()),
-      .pClearValues = clears.data()};
+  const VkExtent2D extent = targets.output().extent();
+  FramebufferHandle framebuffer = device_.create(vkCreateFramebuffer,
+                                                 {.sType = VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO,
+                                                  .renderPass = renderPass,
+                                                  .attachmentCount = static_cast<uint32_t>(views.size()),
+                                                  .pAttachments = views.data(),
+                                                  .width = extent.width,
+                                                  .height = extent.height,
+                                                  .layers = 1},
+                                                 desc_.name);
+  const VkRenderPassBeginInfo info{.sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO,
+                                   .renderPass = renderPass,
+                                   .framebuffer = framebuffer.get(),
+                                   .renderArea = desc_.renderArea,
+                                   .clearValueCount = static_cast<uint32_t>(clears.size()),
+                                   .pClearValues = clears.data()};
   vkCmdBeginRenderPass(commands_, &info, VK_SUBPASS_CONTENTS_INLINE);
+  retired_.retire(std::move(framebuffer));
 }
 
 }  // namespace speculum

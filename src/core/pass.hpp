@@ -13,6 +13,7 @@ namespace speculum {
 
 class GpuTimer;
 class RenderPassCache;
+class RetireQueue;
 
 // Use of a pass's targets, which decides the barriers that guard them.
 enum class TargetRole { offscreen, main, swapchain };
@@ -91,6 +92,7 @@ class PassScope {
 
   VkCommandBuffer commands() const { return commands_; }
   const PassDesc& desc() const { return desc_; }
+  VkSampleCountFlagBits samples() const { return desc_.targets.samples(); }
   // A label within the pass's own; ended by endLabel.
   void beginLabel(std::string_view name) const { device_.beginLabel(commands_, name); }
   void endLabel() const { device_.endLabel(commands_); }
@@ -104,7 +106,8 @@ class PassScope {
 
  private:
   friend class Renderer;
-  PassScope(Device& device, RenderPassCache& renderPasses, GpuTimer& timer, VkCommandBuffer commands, PassDesc desc);
+  PassScope(Device& device, RenderPassCache& renderPasses, RetireQueue& retired, GpuTimer& timer,
+            VkCommandBuffer commands, PassDesc desc);
   void begin();
   void end();
   void beginDynamic();
@@ -112,6 +115,7 @@ class PassScope {
 
   Device& device_;
   RenderPassCache& renderPasses_;
+  RetireQueue& retired_;
   GpuTimer& timer_;
   VkCommandBuffer commands_;
   PassDesc desc_;

@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/image.hpp"
 #include "core/pipeline_cache.hpp"
 #include "core/render_pass_cache.hpp"
 #include "core/retire_queue.hpp"
@@ -58,6 +59,7 @@ class PipelineFactory {
   // Compiles changed shaders and rebuilds the pipelines that use them; old ones are retired. Returns whether any was.
   bool reload();
   uint64_t revision() const { return revision_; }  // counts the times that reload() rebuilt any
+  size_t count() const { return pipelines_.size(); }
   const std::string& errors() const { return shaders_.errors(); }
   bool watching() const { return shaders_.watching(); }
 

@@ -1,6 +1,7 @@
 #include "core/render_pass_cache.hpp"
 
-#include <algorithm>
+#include <string>
+#include <vector>
 
 namespace speculum {
 
@@ -51,45 +52,10 @@ RenderPassHandle create(Device& device, const RenderPassKey& key) {
 
 }  // namespace
 
-RenderPassCache::RenderPassCache(Device& device)
-    : device_(device), observer_(device.addImageObserver([this](uint64_t id) {
-        std::erase_if(framebuffers_, [id](const auto& entry) {
-          const std::vector<uint64_t>& images = entry.first.images;
-          return std::ranges::find(images, id) != images.end();
-        });
-      })) {}
-
-RenderPassCache::~RenderPassCache() {
-  device_.removeImageObserver(observer_);
-}
-
 VkRenderPass RenderPassCache::renderPass(const RenderPassKey& key) {
   RenderPassHandle& handle = renderPasses_[key];
   if (!handle) {
     handle = create(device_, key);
-  }
-  return handle.get();
-}
-
-VkFramebuffer RenderPassCache::framebuffer(VkRenderPass renderPass, const std::vector<Image*>& images,
-                                           VkExtent2D extent) {
-  FramebufferKey key{renderPass, {}};
-  std::vector<VkImageView> views;
-  for (const Image* image : images) {
-    key.images.push_back(image->id());
-    views.push_back(image->view());
-  }
-  FramebufferHandle& handle = framebuffers_[key];
-  if (!handle) {
-    handle = device_.create(vkCreateFramebuffer,
-                            {.sType = VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO,
-                             .renderPass = renderPass,
-                             .attachmentCount = static_cast<uint32_t>(views.size()),
-                             .pAttachments = views.data(),
-                             .width = extent.width,
-                             .height = extent.height,
-                             .layers = 1},
-                            images.front()->desc().name);
   }
   return handle.get();
 }

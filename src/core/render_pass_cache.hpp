@@ -1,9 +1,8 @@
 #pragma once
 
 #include <map>
-#include <vector>
 
-#include "core/pass.hpp"
+#include "core/device.hpp"
 
 namespace speculum {
 
@@ -22,28 +21,16 @@ struct RenderPassKey {
   auto operator<=>(const RenderPassKey&) const = default;
 };
 
-// Render passes by key and framebuffers by render pass and images; a framebuffer goes when one of its images does.
+// Render passes by key, each made on its first use.
 class RenderPassCache {
  public:
-  explicit RenderPassCache(Device& device);
-  ~RenderPassCache();
-  RenderPassCache(const RenderPassCache&) = delete;
-  RenderPassCache& operator=(const RenderPassCache&) = delete;
+  explicit RenderPassCache(Device& device) : device_(device) {}
 
   VkRenderPass renderPass(const RenderPassKey& key);
-  // `images` in the order of the render pass's attachments.
-  VkFramebuffer framebuffer(VkRenderPass renderPass, const std::vector<Image*>& images, VkExtent2D extent);
 
  private:
-  struct FramebufferKey {
-    VkRenderPass renderPass;
-    std::vector<uint64_t> images;
-    auto operator<=>(const FramebufferKey&) const = default;
-  };
   Device& device_;
-  int observer_;
   std::map<RenderPassKey, RenderPassHandle> renderPasses_;
-  std::map<FramebufferKey, FramebufferHandle> framebuffers_;
 };
 
 }  // namespace speculum

@@ -129,7 +129,7 @@ std::optional<Frame> Renderer::beginFrame() {
 }
 
 PassScope Renderer::beginPass(Frame& frame, const PassDesc& desc) {
-  return PassScope(device_, renderPasses_, slots_[frame.index].timer, frame.commands, desc);
+  return PassScope(device_, renderPasses_, retired_, slots_[frame.index].timer, frame.commands, desc);
 }
 
 PassScope Renderer::beginOverlay(Frame& frame) {
@@ -182,8 +182,7 @@ Image& Renderer::displayImage(const Frame& frame) {
   if (!drawsAside(frame)) {
     return headless() ? headlessImage_ : swapChain_->image(frame.imageIndex);
   }
-  const VkExtent2D extent = asideImage_.extent();
-  if (!asideImage_ || extent.width != frame.extent.width || extent.height != frame.extent.height) {
+  if (!asideImage_ || !sameExtent(asideImage_.extent(), frame.extent)) {
     retired_.retire(std::exchange(asideImage_, makeDisplayImage(frame.extent, displayFormat())));
   }
   return asideImage_;
@@ -218,7 +217,7 @@ void Renderer::setPresentMode(PresentMode mode) {
 void Renderer::recordCapture(Slot& slot, const Frame& frame) {
   Image& image = displayImage(frame);
   const VkExtent2D extent = image.extent();
-  const VkDeviceSize bytes = VkDeviceSize{4} * extent.width * extent.height;
+  const VkDeviceSize bytes = 4 * areaOf(extent);
   if (slot.capture.bytes() != bytes) {
     slot.capture = Buffer(device_, bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, BufferMemory::host, "capture");
   }

@@ -71,7 +71,7 @@ Buffer Uploader::buffer(std::span<const std::byte> data, VkBufferUsageFlags usag
 
 Image Uploader::image(std::span<const std::byte> texels, VkExtent2D extent, VkFormat format, bool mipmaps,
                       const std::string& name) {
-  const VkDeviceSize expected = VkDeviceSize{extent.width} * extent.height * texelBytes(format);
+  const VkDeviceSize expected = areaOf(extent) * texelBytes(format);
   if (texels.size() != expected) {
     throw std::logic_error("image " + name + " needs " + std::to_string(expected) + " bytes of texels, not " +
                            std::to_string(texels.size()));
@@ -119,7 +119,7 @@ void Uploader::generateMipmaps(VkCommandBuffer commands, Image& image) {
 }
 
 std::vector<std::byte> Uploader::read(Image& image) {
-  const VkDeviceSize bytes = VkDeviceSize{image.extent().width} * image.extent().height * texelBytes(image.format());
+  const VkDeviceSize bytes = areaOf(image.extent()) * texelBytes(image.format());
   const Buffer staging(device_, bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, BufferMemory::host,
                        "read-back of " + image.desc().name);
   run([&](VkCommandBuffer commands) {

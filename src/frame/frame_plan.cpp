@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 
 #include "frame/cube_face.hpp"
 #include "frame/environment_map.hpp"
@@ -56,6 +57,7 @@ class Planner {
   ImageSurroundings surroundings() const;
   void simplify();
   void addMaps(std::vector<SimplifiedPass>& passes);
+  std::vector<SimplifiedPass> facesToSimplify(EnvironmentMap& map) const;
   void reuseUnchanged();
   void collect(int node, std::vector<const PlannedPass*>& passes) const;
   int record(int node);
@@ -109,16 +111,14 @@ void Planner::findShadows() {
 // shadow a level would stand. Drawing without a clip plane rules them out too: an object may then be nearer than the
 // mirror, and a level's error is allowed for the mirror's distance.
 void Planner::simplify() {
-  if (settings_.clip == ClipMethod::none || plan_.effects.tracesFromObjects()) {
+  const bool wanted = settings_.meshError > 0.0 || allSettings_.view.meshError > 0.0;
+  if (!wanted || settings_.clip == ClipMethod::none || plan_.effects.tracesFromObjects()) {
     return;
   }
   std::vector<SimplifiedPass> passes;
   for (PassNode& node : nodes_) {
     passes.push_back(
         {&node.pass, readable(node.pass.view), &plan_.projection, meshErrorIn(node.pass.view, allSettings_)});
-  }
-  if (std::ranges::all_of(passes, [](const SimplifiedPass& pass) { return pass.texels == 0.0; })) {
-    return;
   }
   if (plan_.effects.shadowMaps) {
     addMaps(passes);
@@ -130,14 +130,24 @@ void Planner::simplify() {
       simplifyPass(pass, allSettings_.effects, scene_, state_);
     }
   }
+  // An object that two faces show has one level in both, so that it has no step at their edge.
+  for (EnvironmentMap& map : plan_.maps) {
+    simplifyAlike(facesToSimplify(map), allSettings_.effects, scene_, state_);
+  }
 }
 
-// Adds the faces of shadow maps, and those of environment maps, whose surfaces look shadows up.
+std::vector<SimplifiedPass> Planner::facesToSimplify(EnvironmentMap& map) const {
+  std::vector<SimplifiedPass> faces;
+  for (PlannedPass& face : map.faces) {
+    faces.push_back({&face, face.view, &map.projection, settings_.meshError});
+  }
+  return faces;
+}
+
+// Adds the faces of environment maps and of the shadow maps that all of them look up.
 void Planner::addMaps(std::vector<SimplifiedPass>& passes) {
   for (EnvironmentMap& map : plan_.maps) {
-    for (PlannedPass& face : map.faces) {
-      passes.push_back({&face, face.view, &map.projection});
-    }
+    std::ranges::copy(facesToSimplify(map), std::back_inserter(passes));
   }
   constexpr double softened = 2.0;  // texels that a look-up reads in each direction
   const double texels = allSettings_.view.meshError > 0.0 ? softened : 0.0;

@@ -186,6 +186,9 @@ std::vector<int> meshesWithLevels(const FramePlan& plan, const SceneState& state
   add(plan.main);
   std::ranges::for_each(plan.passes, add);
   std::ranges::for_each(plan.reused, add);
+  for (const EnvironmentMap& map : plan.maps) {
+    std::ranges::for_each(map.faces, add);
+  }
   for (const ShadowMap& map : plan.shadowMaps) {
     std::ranges::for_each(map.faces, [&](const ShadowFace& face) { add(face.pass); });
   }

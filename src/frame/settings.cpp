@@ -8,6 +8,7 @@
 #include "frame/setting_fields.hpp"
 #include "scene/input_error.hpp"
 #include "scene/nearest_key.hpp"
+#include "scene/text_lines.hpp"
 #include "scene/value_range.hpp"
 
 namespace speculum {
@@ -36,10 +37,7 @@ std::optional<glm::dvec3> parseColor(std::string_view text) {
     if (comma == std::string_view::npos) {
       return std::nullopt;
     }
-    std::string_view part = text.substr(0, comma);
-    while (!part.empty() && part.front() == ' ') part.remove_prefix(1);
-    while (!part.empty() && part.back() == ' ') part.remove_suffix(1);
-    const std::optional<double> value = parseNumber(part);
+    const std::optional<double> value = parseNumber(trimmed(text.substr(0, comma)));
     if (!value || !kRadiance.contains(*value)) {
       return std::nullopt;
     }
@@ -227,15 +225,6 @@ ordered_json settingsJson(const Settings& settings) {
     json[std::string(field.key)] = jsonOf(field, settings);
   }
   return json;
-}
-
-Environment effectiveEnvironment(const Scene& scene, const Settings& settings) {
-  Environment environment = scene.environment;
-  if (settings.view.clearColor) {
-    environment.background = *settings.view.clearColor;
-    environment.sky.reset();
-  }
-  return environment;
 }
 
 }  // namespace speculum

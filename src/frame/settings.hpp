@@ -150,7 +150,4 @@ bool sameMainView(const Settings& a, const Settings& b);
 // Every key with its value, as numbers, booleans and strings.
 nlohmann::ordered_json settingsJson(const Settings& settings);
 
-// The environment with view.clear_color applied.
-Environment effectiveEnvironment(const Scene& scene, const Settings& settings);
-
 }  // namespace speculum

@@ -11,10 +11,6 @@ namespace {
 
 constexpr VkFormat sumFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
 
-bool equal(VkExtent2D a, VkExtent2D b) {
-  return a.width == b.width && a.height == b.height;
-}
-
 }  // namespace
 
 Accumulation::Accumulation(Renderer& renderer) : renderer_(renderer), pipelines_(renderer.pipelines()) {}
@@ -26,11 +22,10 @@ void Accumulation::begin(VkExtent2D extent, RetireQueue& retired) {
     const std::array bindings = {DescriptorBinding{0, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, stages},
                                  DescriptorBinding{1, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, stages}};
     layout_ = createDescriptorSetLayout(device, bindings, "accumulate");
-    sampler_ = createSampler(
-        device, {.filter = VK_FILTER_NEAREST, .mipmapMode = VK_SAMPLER_MIPMAP_MODE_NEAREST, .maxLod = 0.0f}, "sum");
+    sampler_ = createSampler(device, nearestSampler, "sum");
   }
   for (Image& image : images_) {
-    if (image && !equal(image.extent(), extent)) {
+    if (image && !sameExtent(image.extent(), extent)) {
       retired.retire(std::exchange(image, Image()));
     }
     if (!image) {
@@ -46,7 +41,7 @@ void Accumulation::begin(VkExtent2D extent, RetireQueue& retired) {
 RecordedPass Accumulation::add(Frame& frame, const VkDescriptorImageInfo& radiance, VkExtent2D extent, int picture) {
   if (picture == 0) {
     begin(extent, *frame.retired);
-  } else if (picture != pictures_ || !equal(sum().extent(), extent)) {
+  } else if (picture != pictures_ || !sameExtent(sum().extent(), extent)) {
     throw std::logic_error("picture " + std::to_string(picture) + " of a mean does not follow " +
                            std::to_string(pictures_) + " others of its size");
   }

@@ -27,7 +27,6 @@ class Accumulation {
   int pictures() const { return pictures_; }  // number in the sum
   Image& sum() { return images_[current_]; }  // alpha is the number of pictures
   VkDescriptorImageInfo descriptor() const { return images_[current_].descriptor(sampler_.get()); }
-  size_t pipelineCount() const { return pipelines_.size(); }
 
  private:
   void begin(VkExtent2D extent, RetireQueue& retired);

@@ -20,7 +20,7 @@ uint32_t groups(uint32_t size) {
 }
 
 uint64_t samplesOf(const PassDesc& pass) {
-  return uint64_t{pass.renderArea.extent.width} * pass.renderArea.extent.height * pass.targets.samples();
+  return areaOf(pass.renderArea.extent) * pass.targets.samples();
 }
 
 }  // namespace
@@ -28,14 +28,16 @@ uint64_t samplesOf(const PassDesc& pass) {
 DeferredShading::DeferredShading(Device& device, PipelineFactory& factory, VkDescriptorSetLayout frameLayout)
     : device_(device), frameLayout_(frameLayout), collecting_(factory), shading_(factory), drawing_(factory) {}
 
-std::vector<PixelRect> DeferredShading::bands(const PixelRect& part, VkSampleCountFlagBits samples) {
+std::vector<PixelRect> DeferredShading::bands(std::span<const PixelRect> parts, VkSampleCountFlagBits samples) {
   // A request has 32 bits for a pixel's number and a bit for each sample.
   const uint64_t mostPixels = std::min<uint64_t>(mostSamples / samples, uint64_t{1} << (32 - samples));
-  const int rows = std::clamp(static_cast<int>(mostPixels / static_cast<uint64_t>(part.width)), 1, part.height);
   std::vector<PixelRect> bands;
-  for (int end = part.height; end > 0; end -= rows) {
-    const int first = std::max(end - rows, 0);
-    bands.push_back({part.x, part.y + first, part.width, end - first});
+  for (const PixelRect& part : parts) {
+    const int rows = std::clamp(static_cast<int>(mostPixels / static_cast<uint64_t>(part.width)), 1, part.height);
+    for (int end = part.height; end > 0; end -= rows) {
+      const int first = std::max(end - rows, 0);
+      bands.push_back({part.x, part.y + first, part.width, end - first});
+    }
   }
   return bands;
 }
@@ -90,7 +92,7 @@ void DeferredShading::prepare(const FrameInfo& info, const PassDesc& pass) {
 
 void DeferredShading::collect(const PassScope& scope, const TraceVariant& trace) {
   const VkCommandBuffer commands = scope.commands();
-  const VkSampleCountFlagBits samples = scope.desc().targets.samples();
+  const VkSampleCountFlagBits samples = scope.samples();
   const Pipeline& pipeline = collecting_.get({samples, trace}, [&] {
     return ComputePipelineDesc{
         .name = "collect surfaces",
@@ -110,13 +112,13 @@ void DeferredShading::collect(const PassScope& scope, const TraceVariant& trace)
   Barriers::requestsToUse(commands);
 }
 
-void DeferredShading::shade(const PassScope& scope, const FrameInfo& info, size_t pass) {
+void DeferredShading::shade(const PassScope& scope, const FrameInfo& info, const PassData& pass) {
   idleFrames_ = 0;
   prepare(info, scope.desc());
   scope.beginLabel("deferred shading");
   const TraceVariant& trace = info.trace.variant();
   collect(scope, trace);
-  const VkSampleCountFlagBits samples = scope.desc().targets.samples();
+  const VkSampleCountFlagBits samples = scope.samples();
   const bool trilinear = info.settings.view.textureFilter == TextureFilter::trilinear;
   const Pipeline& pipeline = shading_.get({samples, trace, trilinear}, [&] {
     return ComputePipelineDesc{.name = "deferred shading",
@@ -127,7 +129,7 @@ void DeferredShading::shade(const PassScope& scope, const FrameInfo& info, size_
   });
   const VkCommandBuffer commands = scope.commands();
   pipeline.bind(commands);
-  info.data.bind(pipeline, commands, info.data.passes()[pass]);
+  info.data.bind(pipeline, commands, pass);
   pipeline.bindSet(commands, 1, set_);
   pipeline.bindSet(commands, 2, info.trace.set());
   pipeline.push(commands, areaOf(scope.desc()));
@@ -137,7 +139,7 @@ void DeferredShading::shade(const PassScope& scope, const FrameInfo& info, size_
 }
 
 uint32_t DeferredShading::record(const PassScope& scope) {
-  const VkSampleCountFlagBits samples = scope.desc().targets.samples();
+  const VkSampleCountFlagBits samples = scope.samples();
   const Pipeline& pipeline = drawing_.get(samples, [&] {
     return GraphicsPipelineDesc{.name = "shaded surfaces",
                                 .vert = "shaded.vert",

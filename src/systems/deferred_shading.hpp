@@ -1,5 +1,7 @@
 #pragma once
 
+#include <span>
+
 #include "systems/frame_info.hpp"
 #include "systems/pipeline_variants.hpp"
 
@@ -12,14 +14,14 @@ class DeferredShading {
  public:
   DeferredShading(Device& device, PipelineFactory& factory, VkDescriptorSetLayout frameLayout);
 
-  // Divides a part of a pass into bands whose radiance a storage buffer holds on every device, the lowest first.
-  static std::vector<PixelRect> bands(const PixelRect& part, VkSampleCountFlagBits samples);
+  // Divides parts of a pass into bands whose radiance a storage buffer holds on every device, each part's lowest first.
+  static std::vector<PixelRect> bands(std::span<const PixelRect> parts, VkSampleCountFlagBits samples);
   // Descriptions of the two renderings of a pass that is described by `pass`.
   static PassDesc identifying(PassDesc pass);
   static PassDesc shaded(PassDesc pass);
 
-  // Computes the radiance of the surfaces that pass `pass` of info.data has identified. The scope is paused.
-  void shade(const PassScope& scope, const FrameInfo& info, size_t pass);
+  // Computes the radiance of the surfaces that the pass has identified. The scope is paused.
+  void shade(const PassScope& scope, const FrameInfo& info, const PassData& pass);
   // Replaces the identifiers by the radiance. The scope was resumed after shade(). Returns the number of draws.
   uint32_t record(const PassScope& scope);
 
@@ -31,7 +33,6 @@ class DeferredShading {
   void countPipelines(EffectLedger& ledger) const;
   // Drops what has not been used for some frames. While cached images are shown, the pipelines stay.
   void endFrame(const TraceVariant& trace, bool imagesShown, RetireQueue& retired);
-  size_t pipelineCount() const { return collecting_.size() + shading_.size() + drawing_.size(); }
   uint64_t bytes() const { return shaded_.bytes() + requests_.bytes(); }
 
  private:

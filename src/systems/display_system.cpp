@@ -34,7 +34,7 @@ std::optional<Placement> placementOf(const VkExtent2D& display, const glm::dvec2
   if (area.empty()) {
     return std::nullopt;
   }
-  return Placement{{{area.x, area.y}, {static_cast<uint32_t>(area.width), static_cast<uint32_t>(area.height)}},
+  return Placement{{{area.x, area.y}, extentOf(area.width, area.height)},
                    glm::vec4(glm::dvec4(1.0 / zoom, 1.0 / zoom, -corner / zoom))};
 }
 
@@ -54,27 +54,26 @@ DisplaySystem::DisplaySystem(Renderer& renderer) : renderer_(renderer), pipeline
   layout_ = createDescriptorSetLayout(renderer.device(), {&binding, 1}, "display");
 }
 
-const Pipeline& DisplaySystem::pipelineFor(const MirrorImage& radiance, const Settings& settings, bool enlarged) {
-  const Variant variant{.toneMap = settings.view.toneMap,
-                        .multisampled = radiance.samples != VK_SAMPLE_COUNT_1_BIT,
-                        .enlarged = enlarged,
-                        .format = renderer_.displayFormat()};
-  return pipelines_.get(variant, [&] {
-    return GraphicsPipelineDesc{.name = "display",
-                                .vert = "full_screen.vert",
-                                .frag = variant.multisampled ? "display_average.frag"
-                                        : variant.enlarged   ? "display_enlarge.frag"
-                                                             : "display.frag",
-                                .fragConstants = {variant.toneMap == ToneMap::aces},
-                                .setLayouts = {layout_.get()},
-                                .pushConstantBytes = sizeof(gpu::DisplayConstants),
-                                .color = variant.format,
-                                .depth = VK_FORMAT_UNDEFINED};
-  });
-}
-
-RecordedPass DisplaySystem::draw(Frame& frame, const PassDesc& desc, PassKind kind, const Pipeline& pipeline,
+RecordedPass DisplaySystem::draw(Frame& frame, const PassDesc& desc, PassKind kind, Variant variant,
                                  const VkDescriptorImageInfo& image, const auto& constants) {
+  variant.format = renderer_.displayFormat();
+  const Pipeline& pipeline = pipelines_.get(variant, [&] {
+    GraphicsPipelineDesc pipeline{.name = variant.depth ? "display depth" : "display",
+                                  .vert = "full_screen.vert",
+                                  .frag = variant.multisampled ? "display_average.frag"
+                                          : variant.enlarged   ? "display_enlarge.frag"
+                                                               : "display.frag",
+                                  .fragConstants = {variant.toneMap == ToneMap::aces},
+                                  .setLayouts = {layout_.get()},
+                                  .pushConstantBytes = sizeof constants,
+                                  .color = variant.format,
+                                  .depth = VK_FORMAT_UNDEFINED};
+    if (variant.depth) {
+      pipeline.frag = variant.multisampled ? "display_depth_samples.frag" : "display_depth.frag";
+      pipeline.fragConstants.clear();
+    }
+    return pipeline;
+  });
   const VkDescriptorSet set = frame.descriptors->allocate(layout_.get());
   DescriptorWriter().image(0, image).update(renderer_.device(), set);
   const PassScope scope = renderer_.beginPass(frame, desc);
@@ -85,23 +84,18 @@ RecordedPass DisplaySystem::draw(Frame& frame, const PassDesc& desc, PassKind ki
   return {{.kind = kind}, desc.name, -1, 1};
 }
 
-RecordedPass DisplaySystem::record(Frame& frame, const MirrorImage& radiance, VkExtent2D size, const Settings& settings,
-                                   int pictures) {
+RecordedPass DisplaySystem::record(Frame& frame, const VkDescriptorImageInfo& radiance, VkExtent2D size,
+                                   const Settings& settings, int pictures) {
   const PassDesc desc = fullPass("display", renderer_.displayTargets(frame));
-  const auto texelsPerPixel = [&](VkExtent2D texels) {
-    return glm::vec2(static_cast<float>(texels.width) / static_cast<float>(frame.extent.width),
-                     static_cast<float>(texels.height) / static_cast<float>(frame.extent.height));
+  const auto show = [&](VkExtent2D texels, Variant variant, const VkDescriptorImageInfo& image, double exposure) {
+    const glm::vec2 scale(static_cast<float>(texels.width) / static_cast<float>(frame.extent.width),
+                          static_cast<float>(texels.height) / static_cast<float>(frame.extent.height));
+    variant.enlarged = !cover_ && scale != glm::vec2(1.0f);
+    return draw(frame, desc, PassKind::display, variant, image,
+                gpu::DisplayConstants{glm::vec4(scale, 0.0f, 0.0f), static_cast<float>(exposure)});
   };
-  if (!cover_) {
-    const glm::vec2 scale = texelsPerPixel(size);
-    return draw(
-        frame, desc, PassKind::display, pipelineFor(radiance, settings, scale != glm::vec2(1.0f)), radiance.descriptor,
-        gpu::DisplayConstants{glm::vec4(scale, 0.0f, 0.0f), static_cast<float>(settings.view.exposure / pictures)});
-  }
-  const MirrorImage cover{.descriptor = cover_.descriptor(coverSampler_.get())};
-  const glm::vec2 scale = texelsPerPixel(cover_.extent());
-  return draw(frame, desc, PassKind::display, pipelineFor(cover, Settings()), cover.descriptor,
-              gpu::DisplayConstants{glm::vec4(scale, 0.0f, 0.0f), 1.0f});
+  return cover_ ? show(cover_.extent(), {}, cover_.descriptor(coverSampler_.get()), 1.0)
+                : show(size, {.toneMap = settings.view.toneMap}, radiance, settings.view.exposure / pictures);
 }
 
 std::optional<RecordedPass> DisplaySystem::recordColor(Frame& frame, const glm::ivec2& size, const DebugView& debug,
@@ -111,23 +105,24 @@ std::optional<RecordedPass> DisplaySystem::recordColor(Frame& frame, const glm::
     return std::nullopt;
   }
   return draw(frame, viewPass(renderer_.displayTargets(frame), placement->area), PassKind::debugView,
-              pipelineFor(radiance, settings), radiance.descriptor,
+              {.toneMap = settings.view.toneMap, .multisampled = radiance.samples != VK_SAMPLE_COUNT_1_BIT},
+              radiance.descriptor,
               gpu::DisplayConstants{placement->lookup, static_cast<float>(settings.view.exposure)});
 }
 
 std::optional<RecordedPass> DisplaySystem::recordDepth(Frame& frame, const glm::ivec2& size, const DebugView& debug,
-                                                       WatchedDepth& depth, double near) {
+                                                       const MirrorImage& depth, double near) {
   const std::optional<Placement> placement = placementOf(frame.extent, size, debug);
   if (!placement) {
     return std::nullopt;
   }
-  return draw(frame, viewPass(renderer_.displayTargets(frame), placement->area), PassKind::debugView, depth.pipeline(),
-              depth.descriptor(),
+  return draw(frame, viewPass(renderer_.displayTargets(frame), placement->area), PassKind::debugView,
+              {.multisampled = depth.samples != VK_SAMPLE_COUNT_1_BIT, .depth = true}, depth.descriptor,
               gpu::DepthViewConstants{placement->lookup, static_cast<float>(near / debug.halfDistance)});
 }
 
 void DisplaySystem::releaseView() {
-  pipelines_.dropIf([](const Variant& variant) { return variant.multisampled; });
+  pipelines_.dropIf([](const Variant& variant) { return variant.multisampled || variant.depth; });
 }
 
 void DisplaySystem::countPipelines(EffectLedger& ledger) const {
@@ -153,8 +148,8 @@ void DisplaySystem::setCover(const Image8& picture) {
   }
   // Waits for frames in flight: validation layer 1.3.239 forgets their fences when it sees the wait for an upload's.
   renderer_.waitIdle();
-  const VkExtent2D extent{static_cast<uint32_t>(picture.width), static_cast<uint32_t>(picture.height)};
-  cover_ = renderer_.uploader().image(std::as_bytes(std::span(texels)), extent, colorFormat, false, "cover");
+  cover_ = renderer_.uploader().image(std::as_bytes(std::span(texels)), extentOf(picture.width, picture.height),
+                                      colorFormat, false, "cover");
   if (!coverSampler_) {
     coverSampler_ = createSampler(renderer_.device(), {}, "cover");
   }

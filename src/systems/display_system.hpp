@@ -9,7 +9,6 @@
 #include "systems/frame_data.hpp"
 #include "systems/pipeline_variants.hpp"
 #include "systems/recorded_pass.hpp"
-#include "systems/watched_depth.hpp"
 
 namespace speculum {
 
@@ -27,30 +26,30 @@ class DisplaySystem {
 
   // Records the display pass. It shows the image of setCover(), or else `radiance`, which has `size` texels and is the
   // sum of `pictures` pictures.
-  RecordedPass record(Frame& frame, const MirrorImage& radiance, VkExtent2D size, const Settings& settings,
+  RecordedPass record(Frame& frame, const VkDescriptorImageInfo& radiance, VkExtent2D size, const Settings& settings,
                       int pictures);
   // Record a pass that shows a target of `size` texels; nothing if no part of it lies in the area.
   std::optional<RecordedPass> recordColor(Frame& frame, const glm::ivec2& size, const DebugView& debug,
                                           const MirrorImage& radiance, const Settings& settings);
   // `near`: metres from the eye to the near plane.
   std::optional<RecordedPass> recordDepth(Frame& frame, const glm::ivec2& size, const DebugView& debug,
-                                          WatchedDepth& depth, double near);
+                                          const MirrorImage& depth, double near);
   // Drops the pipelines that only debug views need.
   void releaseView();
 
-  size_t pipelineCount() const { return pipelines_.size(); }
   void countPipelines(EffectLedger& ledger) const;
 
  private:
   struct Variant {
-    ToneMap toneMap;
-    bool multisampled;  // of the image that is shown
-    bool enlarged;
-    VkFormat format;
+    ToneMap toneMap = ToneMap::clamp;
+    bool multisampled = false;  // the image that is shown
+    bool enlarged = false;
+    bool depth = false;                     // shows depth, not radiance
+    VkFormat format = VK_FORMAT_UNDEFINED;  // of the display image
     auto operator<=>(const Variant&) const = default;
   };
-  const Pipeline& pipelineFor(const MirrorImage& radiance, const Settings& settings, bool enlarged = false);
-  RecordedPass draw(Frame& frame, const PassDesc& desc, PassKind kind, const Pipeline& pipeline,
+  // Draws with the variant for the present display image.
+  RecordedPass draw(Frame& frame, const PassDesc& desc, PassKind kind, Variant variant,
                     const VkDescriptorImageInfo& image, const auto& constants);
 
   Renderer& renderer_;

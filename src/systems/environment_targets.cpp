@@ -26,7 +26,7 @@ void EnvironmentTargets::prepare(const FramePlan& plan, RetireQueue& retired) {
   std::vector<OffScreen*> targets(plan.maps.size(), nullptr);
   for (size_t i = 0; i < plan.maps.size(); ++i) {
     if (plan.maps[i].cacheIndex >= 0) {
-      targets[i] = std::exchange(targets_[static_cast<size_t>(plan.maps[i].cacheIndex)], nullptr);
+      targets[i] = std::exchange(targets_[plan.maps[i].cacheIndex], nullptr);
     }
   }
   for (const OffScreen* unused : targets_) {

@@ -108,6 +108,16 @@ void FiniteWatch::check(Frame& frame, const RecordedPass& pass, bool samples, Im
   device_.endLabel(frame.commands);
 }
 
+void FiniteWatch::check(Frame& frame, const RecordedPass& pass, OffScreen& target, VkExtent2D used) {
+  if (slots_[frame.index].frame != frame.number) {
+    return;
+  }
+  if (Image* samples = target.samplesImage()) {
+    check(frame, pass, true, *samples, target.samplesDescriptor(), used);
+  }
+  check(frame, pass, false, target.color(), target.descriptor(), used);
+}
+
 void FiniteWatch::end(Frame& frame) {
   Barriers::computeToHost(frame.commands);
 }

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/off_screen.hpp"
 #include "core/renderer.hpp"
 #include "shaders/gpu_data.h"
 #include "systems/pipeline_variants.hpp"
@@ -37,6 +38,9 @@ class FiniteWatch {
   // one.
   void check(Frame& frame, const RecordedPass& pass, bool samples, Image& image,
              const VkDescriptorImageInfo& descriptor, VkExtent2D used);
+  // Checks a target's samples, if it has any, and then their mean, which hides what is negative in one of them. Does
+  // nothing in a frame that was not begun.
+  void check(Frame& frame, const RecordedPass& pass, OffScreen& target, VkExtent2D used);
   void end(Frame& frame);
   // Releases the GPU's objects as soon as the frames that were watched have finished.
   void release();
@@ -47,7 +51,6 @@ class FiniteWatch {
   const std::vector<NonFinite>& findings() const { return findings_; }
   uint64_t findingsFrame() const { return findingsFrame_; }  // its number; 0: nothing was ever found
   uint64_t count() const { return count_; }                  // samples found since the start
-  size_t pipelineCount() const { return pipelines_.size(); }
 
  private:
   struct Target {

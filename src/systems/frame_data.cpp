@@ -17,73 +17,6 @@ namespace {
 
 constexpr std::array frameBufferNames = {"passes", "mirrors", "lights", "instances", "environments", "mirror vertices"};
 
-glm::dmat4 relativeToView(const View& view) {
-  return glm::dmat4(view.worldToView);
-}
-
-// The view's clip plane as (n, h) for points relative to the eye; without one, every point passes.
-glm::dvec4 relativeClipPlane(const View& view) {
-  if (!view.clip) {
-    return {0.0, 0.0, 0.0, 1.0};
-  }
-  return {view.clip->normal, view.clip->distance(view.eye)};
-}
-
-// Ray directions are affine in the pixel's position; see Projection for the clip space that is inverted here.
-void setRays(gpu::ViewData& data, const View& view, const Projection& projection, const glm::ivec2& target) {
-  const glm::dmat3 viewToWorld = glm::transpose(view.worldToView);
-  const double sx = projection.aspect / projection.focal;
-  const double sy = 1.0 / projection.focal;
-  const glm::dvec2 step = 2.0 / view.pictureSize;
-  const glm::dvec2 origin = glm::dvec2(view.rect.x, view.rect.y) - glm::dvec2(target);
-  // Device coordinates of the target's pixel (0, 0), without the projection's offset.
-  const glm::dvec2 corner = origin * step - 1.0 - projection.offset;
-  data.rayX = glm::vec3(viewToWorld * glm::dvec3(step.x * sx, 0.0, 0.0));
-  data.rayY = glm::vec4(glm::vec3(viewToWorld * glm::dvec3(0.0, -step.y * sy, 0.0)), 0.0f);
-  data.rayOrigin = glm::vec4(glm::vec3(viewToWorld * glm::dvec3(corner.x * sx, -corner.y * sy, -1.0)), 0.0f);
-}
-
-void setBackground(gpu::ViewData& data, const Environment& environment) {
-  data.ambient = glm::vec3(environment.ambient);
-  data.background = glm::vec3(environment.background);
-  data.hasSky = environment.sky.has_value();
-  const Sky sky = environment.sky.value_or(Sky{});
-  data.zenith = glm::vec4(glm::vec3(sky.zenith), 0.0f);
-  data.horizon = glm::vec4(glm::vec3(sky.horizon), 0.0f);
-  data.ground = glm::vec3(sky.ground);
-}
-
-}  // namespace
-
-float handednessOf(const InstanceState& instance) {
-  return glm::determinant(instance.worldFromMesh.linear) < 0.0 ? -1.0f : 1.0f;
-}
-
-uint32_t fixedLightCount(const Scene& scene) {
-  return scene.lights.size() <= gpu::fixedLights ? static_cast<uint32_t>(scene.lights.size()) : gpu::manyLights;
-}
-
-gpu::InstanceData instanceData(const InstanceState& instance, const View& view, const glm::dmat4& clipFromRelative) {
-  const glm::dmat3& linear = instance.worldFromMesh.linear;
-  const glm::dvec3 offset = instance.worldFromMesh.translation - view.eye;
-  glm::dmat4 relativeFromMesh(linear);
-  relativeFromMesh[3] = glm::dvec4(offset, 1.0);
-  const glm::dmat3 normals = unitNormalMatrix(linear);
-  const glm::dvec4 plane = relativeClipPlane(view);
-  const glm::dvec3 normal(plane);
-
-  gpu::InstanceData data{};
-  data.clipFromMesh = glm::mat4(clipFromRelative * relativeFromMesh);
-  for (int r = 0; r < 3; ++r) {
-    data.relativeFromMesh[r] = row(linear, r, offset[r]);
-    data.normalFromMesh[r] = row(normals, r, 0.0);
-  }
-  data.clipPlane = glm::vec4(glm::dvec4(glm::transpose(linear) * normal, glm::dot(normal, offset) + plane.w));
-  return data;
-}
-
-namespace {
-
 Lookup lookupFor(const glm::dvec2& ratio) {
   if (ratio == glm::dvec2(1.0)) {
     return Lookup::fetch;
@@ -96,66 +29,6 @@ const View* imageView(const MirrorDraw& draw, const FramePlan& plan) {
   return draw.pass >= 0 ? &plan.passes[draw.pass].view : draw.cached ? &plan.cached[draw.cached->image].view : nullptr;
 }
 
-gpu::MirrorData mirrorData(const MirrorDraw& draw, const Mirror& mirror, const SceneState& state,
-                           const EffectSettings& effects, const View& view, const View* image) {
-  gpu::MirrorData data{.normal = glm::vec3(draw.plane.normal),
-                       .eyeDistance = static_cast<float>(draw.plane.distance(view.eye)),
-                       .reflectance = glm::vec3(mirror.reflectance),
-                       .schlick = isSchlick(mirror.fresnel, effects),
-                       .baseColor = glm::vec3(draw.back ? mirror.backColor : mirror.baseColor),
-                       .traceMirror = static_cast<uint32_t>(draw.mirror)};
-  if (image) {
-    const glm::dvec2 ratio = image->pictureSize / view.pictureSize;
-    const PixelRect& rect = image->rect;
-    data.lookupScale = glm::vec2(ratio);
-    data.lookupOffset = glm::vec2(glm::dvec2(view.rect.x, view.rect.y) * ratio - glm::dvec2(rect.x, rect.y));
-    data.imageSize = {rect.width, rect.height};
-  }
-  if (draw.cached && draw.cached->moved) {
-    for (int r = 0; r < 3; ++r) {
-      data.texelFromPixel[r] =
-          row(draw.cached->texelFromPixel, r, draw.cached->texelFromDisparity[r] / gpu::disparityLength);
-    }
-  }
-  if (draw.blurs) {
-    data.alpha = static_cast<float>(mirror.roughness * mirror.roughness);
-    data.blurSamples = effects.roughSamples;
-  }
-  if (draw.ripples) {
-    const MirrorState& placed = state.mirrors[static_cast<size_t>(draw.mirror)];
-    const RippleConstants ripple = rippleConstants(*mirror.ripple, state.time);
-    const bool front = glm::dot(placed.normal, draw.plane.normal) > 0.0;
-    data.axisX = glm::vec3(placed.axisX);
-    data.axisY = glm::vec3(placed.axisY);
-    data.rippleOrigin = glm::vec3(placed.origin - view.eye);
-    data.waveNumber = ripple.waveNumber;
-    data.rippleSlope = front ? ripple.slope : -ripple.slope;
-    data.ripplePhase = ripple.phase;
-  }
-  return data;
-}
-
-}  // namespace
-
-glm::dmat4 viewProjection(const Projection& common, const View& view, ClipMethod clip) {
-  glm::dmat4 projection = common.matrix();
-  if (clip == ClipMethod::oblique && view.clip) {
-    const glm::dvec4 relative = relativeClipPlane(view);
-    const glm::dvec4 plane(view.worldToView * glm::dvec3(relative), relative.w);
-    if (const std::optional<glm::dmat4> oblique = obliqueProjection(common, plane)) {
-      projection = *oblique;
-    }
-  }
-  const glm::dvec2 drawn = overscan(view);
-  for (int column = 0; column < 4; ++column) {
-    projection[column].x /= drawn.x;
-    projection[column].y /= drawn.y;
-  }
-  return projection;
-}
-
-namespace {
-
 std::vector<glm::vec3> clearancesOf(const Scene& scene, const SceneState& state) {
   std::vector<glm::vec3> clearances(scene.lights.size());
   for (size_t i = 0; i < clearances.size(); ++i) {
@@ -167,7 +40,15 @@ std::vector<glm::vec3> clearancesOf(const Scene& scene, const SceneState& state)
   return clearances;
 }
 
+bool sameColors(const Object& a, const Object& b) {
+  return a.color == b.color && a.specular == b.specular && a.shininess == b.shininess && a.emission == b.emission;
+}
+
 }  // namespace
+
+uint32_t fixedLightCount(const Scene& scene) {
+  return scene.lights.size() <= gpu::fixedLights ? static_cast<uint32_t>(scene.lights.size()) : gpu::manyLights;
+}
 
 VkDescriptorType FrameData::typeOf(uint32_t kind) {
   return kind == passBlocks || kind == mirrors ? VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC
@@ -273,12 +154,14 @@ void FrameData::addPass(const Source& source, const PlannedPass& pass, const Pro
   const glm::dmat4 projection = viewProjection(common, pass.view, settings.reflection.clip);
   PassData& data = passes_.emplace_back();
   data.pass = static_cast<uint32_t>(passBlocks_.size());
+  data.mirrorView = !pass.view.path.empty();
   gpu::ViewData& view = passBlocks_.emplace_back().view;
-  view.clipFromRelative = glm::mat4(projection * relativeToView(pass.view));
-  const bool clips = settings.reflection.clip != ClipMethod::none;
-  view.clipPlane = clips ? glm::vec4(relativeClipPlane(pass.view)) : glm::vec4(0.0f, 0.0f, 0.0f, 1.0f);
-  setRays(view, pass.view, common, corner);
-  setBackground(view, environment);
+  view = viewData(pass.view, common, corner, environment);
+  const glm::dmat4 clipFromRelative = projection * glm::dmat4(pass.view.worldToView);
+  view.clipFromRelative = glm::mat4(clipFromRelative);
+  if (settings.reflection.clip == ClipMethod::none) {
+    view.clipPlane = glm::vec4(0.0f, 0.0f, 0.0f, 1.0f);
+  }
   view.checksFinite = settings.debug.checkFinite;
   view.picture = static_cast<uint32_t>(plan.picture);
   view.traceOffset = glm::vec4(glm::dvec4(pass.view.eye - plan.main.view.eye, 0.0));
@@ -288,7 +171,7 @@ void FrameData::addPass(const Source& source, const PlannedPass& pass, const Pro
   view.maxDepth = static_cast<uint32_t>(settings.reflection.maxDepth);
   addLights(source, pass, passBlocks_.back(), data);
   data.glyphCount = static_cast<uint32_t>(pass.lights.size());
-  addInstances(source, pass, projection, data);
+  addInstances(source, pass, clipFromRelative, data);
   addMirrors(source, pass, projection, data);
   addMask(pass, plan, settings, data);
 }
@@ -323,22 +206,13 @@ void FrameData::addLights(const Source& source, const PlannedPass& pass, PassBlo
               std::min<size_t>(order.size(), gpu::fixedLights), block.lights);
 }
 
-namespace {
-
-bool sameColors(const Object& a, const Object& b) {
-  return a.color == b.color && a.specular == b.specular && a.shininess == b.shininess && a.emission == b.emission;
-}
-
-}  // namespace
-
-void FrameData::addInstances(const Source& source, const PlannedPass& pass, const glm::dmat4& projection,
+void FrameData::addInstances(const Source& source, const PlannedPass& pass, const glm::dmat4& clipFromRelative,
                              PassData& data) {
   const Scene& scene = source.scene;
   const SceneState& state = source.state;
   const EffectSettings& effects = source.settings.effects;
-  const glm::dmat4 clipFromRelative = projection * relativeToView(pass.view);
   const auto isCurved = [&](int i) {
-    return effects.curved && scene.objects[static_cast<size_t>(state.instances[i].object)].mirror.has_value();
+    return effects.curved && scene.objects[state.instances[i].object].mirror.has_value();
   };
   std::vector<int> order = frontToBack(pass.view, pass.instances, state);
   // Instances of a mesh at one level that look alike share a draw, curved mirrors another one. Each instance that is

@@ -60,7 +60,8 @@ struct MirrorRange {
 
 // Draws of one pass: indices into the buffers of FrameData.
 struct PassData {
-  uint32_t pass = 0;  // index into the passes of the frame
+  uint32_t pass = 0;        // index into the passes of the frame
+  bool mirrorView = false;  // the view is that of a mirror
   std::vector<Batch> batches;
   uint32_t glyphCount = 0;
   uint32_t shadowedLights = 0;  // bits of the lights that have a shadow map, if the scene's are at most fixedLights
@@ -118,7 +119,7 @@ class FrameData {
   // Adds a pass that is drawn from pixel `corner` of its target on.
   void addPass(const Source& source, const PlannedPass& pass, const Projection& projection, const glm::ivec2& corner);
   void addLights(const Source& source, const PlannedPass& pass, PassBlock& block, PassData& data);
-  void addInstances(const Source& source, const PlannedPass& pass, const glm::dmat4& projection, PassData& data);
+  void addInstances(const Source& source, const PlannedPass& pass, const glm::dmat4& clipFromRelative, PassData& data);
   // Makes the instance's batch look up its environment map.
   void addEnvironment(const Source& source, const PlannedPass& pass, int instance, Batch& batch);
   void addMirrors(const Source& source, const PlannedPass& pass, const glm::dmat4& projection, PassData& data);
@@ -139,18 +140,8 @@ class FrameData {
   VkBuffer instanceBuffer_ = VK_NULL_HANDLE;
 };
 
-// Returns the data of an instance in a view. `clipFromRelative` takes world space minus the view's eye to clip space.
-gpu::InstanceData instanceData(const InstanceState& instance, const View& view, const glm::dmat4& clipFromRelative);
-
-// Sign of the determinant of the instance's transform.
-float handednessOf(const InstanceState& instance);
-
 // Returns the value of `lightCount` in shading.glsl for the scene's lights.
 uint32_t fixedLightCount(const Scene& scene);
-
-// Returns the projection of a view under reflection.clip: `common`, or its oblique variant for a mirror's view. The
-// unit square of its clip space is `overscan(view)` times the picture.
-glm::dmat4 viewProjection(const Projection& common, const View& view, ClipMethod clip);
 
 // Corner of an environment map's face in its target, in texels.
 glm::ivec2 faceCorner(const EnvironmentMap& map, size_t face);

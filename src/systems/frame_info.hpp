@@ -28,12 +28,4 @@ struct FrameInfo {
   std::span<const VkDescriptorSet> maps;  // of plan.maps, by index; bound instead of an object's texture
 };
 
-// Properties of a pass that decide which pipelines draw in it.
-struct PassFormat {
-  VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
-  bool mirrorView = false;
-
-  auto operator<=>(const PassFormat&) const = default;
-};
-
 }  // namespace speculum

@@ -8,6 +8,18 @@
 
 namespace speculum {
 
+namespace {
+
+// The view's clip plane as (n, h) for points relative to the eye; without one, every point passes.
+glm::dvec4 relativeClipPlane(const View& view) {
+  if (!view.clip) {
+    return {0.0, 0.0, 0.0, 1.0};
+  }
+  return {view.clip->normal, view.clip->distance(view.eye)};
+}
+
+}  // namespace
+
 glm::vec4 row(const glm::dmat3& m, int r, double w) {
   return glm::vec4(glm::dvec4(m[0][r], m[1][r], m[2][r], w));
 }
@@ -45,6 +57,110 @@ RippleConstants rippleConstants(const Ripple& ripple, double time) {
   // The phase is reduced in double: a float of it would have lost its fraction after hours.
   return {static_cast<float>(k), static_cast<float>(std::min(ripple.amplitude * k, steepest)),
           static_cast<float>(k * productModulo(ripple.speed, time, ripple.wavelength))};
+}
+
+float handednessOf(const InstanceState& instance) {
+  return glm::determinant(instance.worldFromMesh.linear) < 0.0 ? -1.0f : 1.0f;
+}
+
+gpu::InstanceData instanceData(const InstanceState& instance, const View& view, const glm::dmat4& clipFromRelative) {
+  const glm::dmat3& linear = instance.worldFromMesh.linear;
+  const glm::dvec3 offset = instance.worldFromMesh.translation - view.eye;
+  glm::dmat4 relativeFromMesh(linear);
+  relativeFromMesh[3] = glm::dvec4(offset, 1.0);
+  const glm::dmat3 normals = unitNormalMatrix(linear);
+  const glm::dvec4 plane = relativeClipPlane(view);
+  const glm::dvec3 normal(plane);
+
+  gpu::InstanceData data{};
+  data.clipFromMesh = glm::mat4(clipFromRelative * relativeFromMesh);
+  for (int r = 0; r < 3; ++r) {
+    data.relativeFromMesh[r] = row(linear, r, offset[r]);
+    data.normalFromMesh[r] = row(normals, r, 0.0);
+  }
+  data.clipPlane = glm::vec4(glm::dvec4(glm::transpose(linear) * normal, glm::dot(normal, offset) + plane.w));
+  return data;
+}
+
+glm::dmat4 viewProjection(const Projection& common, const View& view, ClipMethod clip) {
+  glm::dmat4 projection = common.matrix();
+  if (clip == ClipMethod::oblique && view.clip) {
+    const glm::dvec4 relative = relativeClipPlane(view);
+    const glm::dvec4 plane(view.worldToView * glm::dvec3(relative), relative.w);
+    if (const std::optional<glm::dmat4> oblique = obliqueProjection(common, plane)) {
+      projection = *oblique;
+    }
+  }
+  const glm::dvec2 drawn = overscan(view);
+  for (int column = 0; column < 4; ++column) {
+    projection[column].x /= drawn.x;
+    projection[column].y /= drawn.y;
+  }
+  return projection;
+}
+
+// Ray directions are affine in the pixel's position; see Projection for the clip space that is inverted here.
+gpu::ViewData viewData(const View& view, const Projection& projection, const glm::ivec2& target,
+                       const Environment& environment) {
+  gpu::ViewData data{};
+  data.clipPlane = glm::vec4(relativeClipPlane(view));
+  const glm::dmat3 viewToWorld = glm::transpose(view.worldToView);
+  const double sx = projection.aspect / projection.focal;
+  const double sy = 1.0 / projection.focal;
+  const glm::dvec2 step = 2.0 / view.pictureSize;
+  const glm::dvec2 origin = glm::dvec2(view.rect.x, view.rect.y) - glm::dvec2(target);
+  // Device coordinates of the target's pixel (0, 0), without the projection's offset.
+  const glm::dvec2 corner = origin * step - 1.0 - projection.offset;
+  data.rayX = glm::vec3(viewToWorld * glm::dvec3(step.x * sx, 0.0, 0.0));
+  data.rayY = glm::vec4(glm::vec3(viewToWorld * glm::dvec3(0.0, -step.y * sy, 0.0)), 0.0f);
+  data.rayOrigin = glm::vec4(glm::vec3(viewToWorld * glm::dvec3(corner.x * sx, -corner.y * sy, -1.0)), 0.0f);
+  data.ambient = glm::vec3(environment.ambient);
+  data.background = glm::vec3(environment.background);
+  data.hasSky = environment.sky.has_value();
+  const Sky sky = environment.sky.value_or(Sky{});
+  data.zenith = glm::vec4(glm::vec3(sky.zenith), 0.0f);
+  data.horizon = glm::vec4(glm::vec3(sky.horizon), 0.0f);
+  data.ground = glm::vec3(sky.ground);
+  return data;
+}
+
+gpu::MirrorData mirrorData(const MirrorDraw& draw, const Mirror& mirror, const SceneState& state,
+                           const EffectSettings& effects, const View& view, const View* image) {
+  gpu::MirrorData data{.normal = glm::vec3(draw.plane.normal),
+                       .eyeDistance = static_cast<float>(draw.plane.distance(view.eye)),
+                       .reflectance = glm::vec3(mirror.reflectance),
+                       .schlick = isSchlick(mirror.fresnel, effects),
+                       .baseColor = glm::vec3(draw.back ? mirror.backColor : mirror.baseColor),
+                       .traceMirror = static_cast<uint32_t>(draw.mirror)};
+  if (image) {
+    const glm::dvec2 ratio = image->pictureSize / view.pictureSize;
+    const PixelRect& rect = image->rect;
+    data.lookupScale = glm::vec2(ratio);
+    data.lookupOffset = glm::vec2(glm::dvec2(view.rect.x, view.rect.y) * ratio - glm::dvec2(rect.x, rect.y));
+    data.imageSize = {rect.width, rect.height};
+  }
+  if (draw.cached && draw.cached->moved) {
+    for (int r = 0; r < 3; ++r) {
+      data.texelFromPixel[r] =
+          row(draw.cached->texelFromPixel, r, draw.cached->texelFromDisparity[r] / gpu::disparityLength);
+    }
+  }
+  if (draw.blurs) {
+    data.alpha = static_cast<float>(mirror.roughness * mirror.roughness);
+    data.blurSamples = effects.roughSamples;
+  }
+  if (draw.ripples) {
+    const MirrorState& placed = state.mirrors[draw.mirror];
+    const RippleConstants ripple = rippleConstants(*mirror.ripple, state.time);
+    const bool front = glm::dot(placed.normal, draw.plane.normal) > 0.0;
+    data.axisX = glm::vec3(placed.axisX);
+    data.axisY = glm::vec3(placed.axisY);
+    data.rippleOrigin = glm::vec3(placed.origin - view.eye);
+    data.waveNumber = ripple.waveNumber;
+    data.rippleSlope = front ? ripple.slope : -ripple.slope;
+    data.ripplePhase = ripple.phase;
+  }
+  return data;
 }
 
 }  // namespace speculum

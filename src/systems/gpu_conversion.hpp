@@ -1,14 +1,13 @@
 #pragma once
 
 #include <glm/glm.hpp>
-#include <vector>
 
-#include "scene/scene.hpp"
+#include "frame/frame_plan.hpp"
 #include "shaders/gpu_data.h"
 
 namespace speculum {
 
-// Conversions from the scene's doubles to the buffers of a frame.
+// Conversions from the scene's and the plan's doubles to the buffers of a frame.
 
 // Returns row `r` of a matrix with `w` as fourth component.
 glm::vec4 row(const glm::dmat3& m, int r, double w);
@@ -28,5 +27,24 @@ struct RippleConstants {
   float phase;  // radians
 };
 RippleConstants rippleConstants(const Ripple& ripple, double time);
+
+// Sign of the determinant of the instance's transform.
+float handednessOf(const InstanceState& instance);
+
+// Returns the data of an instance in a view. `clipFromRelative` takes world space minus the view's eye to clip space.
+gpu::InstanceData instanceData(const InstanceState& instance, const View& view, const glm::dmat4& clipFromRelative);
+
+// Returns the projection of a view under reflection.clip: `common`, or its oblique variant for a mirror's view. The
+// unit square of its clip space is `overscan(view)` times the picture.
+glm::dmat4 viewProjection(const Projection& common, const View& view, ClipMethod clip);
+
+// Returns clip plane, rays and background of a view that is drawn from pixel `target` of its target on; the caller sets
+// the rest.
+gpu::ViewData viewData(const View& view, const Projection& projection, const glm::ivec2& target,
+                       const Environment& environment);
+
+// Returns the data of a mirror in a view; `image` is the view that its image was drawn with, null without one.
+gpu::MirrorData mirrorData(const MirrorDraw& draw, const Mirror& mirror, const SceneState& state,
+                           const EffectSettings& effects, const View& view, const View* image);
 
 }  // namespace speculum

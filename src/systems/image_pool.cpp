@@ -33,7 +33,7 @@ OffScreen& ImagePool::acquire(VkExtent2D extent, RetireQueue& retired) {
   for (Entry& entry : entries_) {
     const VkExtent2D has = entry.target->extent();
     if (!entry.taken && has.width >= extent.width && has.height >= extent.height &&
-        area(has) <= wasteAllowed * area(rounded) && (!best || area(has) < area(best->target->extent()))) {
+        areaOf(has) <= wasteAllowed * areaOf(rounded) && (!best || areaOf(has) < areaOf(best->target->extent()))) {
       best = &entry;
     }
   }

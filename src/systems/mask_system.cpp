@@ -5,21 +5,20 @@ namespace speculum {
 MaskSystem::MaskSystem(PipelineFactory& factory, VkDescriptorSetLayout frameLayout)
     : frameLayout_(frameLayout), pipelines_(factory) {}
 
-uint32_t MaskSystem::record(const PassScope& scope, const FrameInfo& info, size_t pass, const PassFormat& format) {
-  const PassData& data = info.data.passes()[pass];
-  if (data.maskVertexCount == 0) {
+uint32_t MaskSystem::record(const PassScope& scope, const FrameInfo& info, const PassData& pass) {
+  if (pass.maskVertexCount == 0) {
     return 0;
   }
-  const Pipeline& pipeline = pipelines_.get(format.samples, [&] {
+  const Pipeline& pipeline = pipelines_.get(scope.samples(), [&] {
     return GraphicsPipelineDesc{.name = "mask",
                                 .vert = "mirror.vert",
                                 .setLayouts = {frameLayout_},
-                                .samples = format.samples,
+                                .samples = scope.samples(),
                                 .depthCompare = VK_COMPARE_OP_ALWAYS};
   });
   pipeline.bind(scope.commands());
-  info.data.bind(pipeline, scope.commands(), data);
-  vkCmdDraw(scope.commands(), data.maskVertexCount, 1, data.maskFirstVertex, 0);
+  info.data.bind(pipeline, scope.commands(), pass);
+  vkCmdDraw(scope.commands(), pass.maskVertexCount, 1, pass.maskFirstVertex, 0);
   return 1;
 }
 

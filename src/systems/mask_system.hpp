@@ -12,9 +12,8 @@ class MaskSystem {
   MaskSystem(PipelineFactory& factory, VkDescriptorSetLayout frameLayout);
 
   // Value that a pass clears its depth to.
-  static float clearDepth(const PassData& data) { return data.maskVertexCount > 0 ? 1.0f : 0.0f; }
-  uint32_t record(const PassScope& scope, const FrameInfo& info, size_t pass, const PassFormat& format);
-  size_t pipelineCount() const { return pipelines_.size(); }
+  static float clearDepth(const PassData& pass) { return pass.maskVertexCount > 0 ? 1.0f : 0.0f; }
+  uint32_t record(const PassScope& scope, const FrameInfo& info, const PassData& pass);
 
  private:
   VkDescriptorSetLayout frameLayout_;

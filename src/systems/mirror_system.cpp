@@ -29,9 +29,8 @@ bool MirrorSystem::defers(const FrameInfo& info, const MirrorRange& mirror) {
   return mirror.byRays || (mirror.painted && info.trace.variant().traced);
 }
 
-bool MirrorSystem::defers(const FrameInfo& info, size_t pass) {
-  return std::ranges::any_of(info.data.passes()[pass].mirrors,
-                             [&](const MirrorRange& mirror) { return defers(info, mirror); });
+bool MirrorSystem::defers(const FrameInfo& info, const PassData& pass) {
+  return std::ranges::any_of(pass.mirrors, [&](const MirrorRange& mirror) { return defers(info, mirror); });
 }
 
 GraphicsPipelineDesc MirrorSystem::describe(const Variant& variant, const FrameInfo& info) const {
@@ -86,12 +85,12 @@ void MirrorSystem::endFrame(const TraceVariant& trace, bool shadowMaps, bool ima
   });
 }
 
-MirrorSystem::Shading MirrorSystem::shadingOf(const MirrorRange& mirror, const MirrorImage* image,
-                                              const PassFormat& format) const {
+MirrorSystem::Shading MirrorSystem::shadingOf(const PassScope& scope, const MirrorRange& mirror,
+                                              const MirrorImage* image) const {
   if (!image || image->samples == VK_SAMPLE_COUNT_1_BIT) {
     return Shading::single;
   }
-  const bool averages = mirror.blurs || mirror.ripples || image->samples != format.samples ||
+  const bool averages = mirror.blurs || mirror.ripples || image->samples != scope.samples() ||
                         mirror.lookup != Lookup::fetch || !device_.caps().sampleRateShading;
   return averages ? Shading::average : Shading::ownSample;
 }
@@ -126,47 +125,45 @@ MirrorSystem::Variant MirrorSystem::variantOf(const MirrorRange& mirror, Shading
   return variant;
 }
 
-uint32_t MirrorSystem::record(const PassScope& scope, const FrameInfo& info, size_t pass, const PassFormat& format) {
+uint32_t MirrorSystem::record(const PassScope& scope, const FrameInfo& info, const PassData& pass) {
   uint32_t draws = 0;
-  for (const MirrorRange& mirror : info.data.passes()[pass].mirrors) {
-    const Shading shading = shadingOf(mirror, imageOf(mirror, info), format);
+  for (const MirrorRange& mirror : pass.mirrors) {
+    const Shading shading = shadingOf(scope, mirror, imageOf(mirror, info));
     if (defers(info, mirror)) {
-      draw(scope, info, pass, format, mirror, variantOf(mirror, Shading::identifier, false));
+      draw(scope, info, pass, mirror, variantOf(mirror, Shading::identifier, false));
     } else if (shading == Shading::ownSample && mirror.base) {
-      draw(scope, info, pass, format, mirror, variantOf(mirror, Shading::base, false));
-      draw(scope, info, pass, format, mirror, variantOf(mirror, shading, true));
+      draw(scope, info, pass, mirror, variantOf(mirror, Shading::base, false));
+      draw(scope, info, pass, mirror, variantOf(mirror, shading, true));
       ++draws;
     } else {
-      draw(scope, info, pass, format, mirror, variantOf(mirror, shading, false));
+      draw(scope, info, pass, mirror, variantOf(mirror, shading, false));
     }
     ++draws;
   }
   return draws;
 }
 
-uint32_t MirrorSystem::recordReflections(const PassScope& scope, const FrameInfo& info, size_t pass,
-                                         const PassFormat& format) {
+uint32_t MirrorSystem::recordReflections(const PassScope& scope, const FrameInfo& info, const PassData& pass) {
   uint32_t draws = 0;
-  for (const MirrorRange& mirror : info.data.passes()[pass].mirrors) {
+  for (const MirrorRange& mirror : pass.mirrors) {
     if (defers(info, mirror) && !mirror.byRays && mirror.shows != MirrorShows::back) {
-      const Shading shading = shadingOf(mirror, imageOf(mirror, info), format);
-      draw(scope, info, pass, format, mirror, variantOf(mirror, shading, true));
+      const Shading shading = shadingOf(scope, mirror, imageOf(mirror, info));
+      draw(scope, info, pass, mirror, variantOf(mirror, shading, true));
       ++draws;
     }
   }
   return draws;
 }
 
-void MirrorSystem::draw(const PassScope& scope, const FrameInfo& info, size_t pass, const PassFormat& format,
-                        const MirrorRange& mirror, Variant variant) {
-  const PassData& data = info.data.passes()[pass];
+void MirrorSystem::draw(const PassScope& scope, const FrameInfo& info, const PassData& pass, const MirrorRange& mirror,
+                        Variant variant) {
   const bool identifies = variant.shading == Shading::identifier;
-  variant.samples = format.samples;
+  variant.samples = scope.samples();
   variant.perSample = !identifies && info.trace.variant().perSample && (variant.blurs || variant.ripples);
-  variant.clampDepth = !(format.mirrorView && info.settings.reflection.clip == ClipMethod::oblique);
+  variant.clampDepth = !(pass.mirrorView && info.settings.reflection.clip == ClipMethod::oblique);
   variant.trace = identifies ? info.trace.variant() : TraceVariant{};
   variant.shadowed = variant.painted && info.shadows.set() != VK_NULL_HANDLE;
-  variant.shadowedLights = variant.shadowed ? data.shadowedLights : 0;
+  variant.shadowedLights = variant.shadowed ? pass.shadowedLights : 0;
   variant.onlyShadowFace = variant.shadowed ? info.shadows.onlyFace() : gpu::anyShadowFace;
   variant.lightCount = variant.painted ? fixedLightCount(info.scene) : gpu::manyLights;
   const Pipeline& pipeline = pipelines_.get(variant, [&] { return describe(variant, info); });
@@ -175,7 +172,7 @@ void MirrorSystem::draw(const PassScope& scope, const FrameInfo& info, size_t pa
   const VkDescriptorSet set = info.frame.descriptors->allocate(imageLayout_.get());
   DescriptorWriter().image(0, reads ? image->descriptor : noImage_.descriptor(sampler_.get())).update(device_, set);
   pipeline.bind(scope.commands());
-  info.data.bind(pipeline, scope.commands(), data, mirror.mirror);
+  info.data.bind(pipeline, scope.commands(), pass, mirror.mirror);
   pipeline.bindSet(scope.commands(), 1, set);
   if (variant.shadowed) {
     pipeline.bindSet(scope.commands(), 2, info.shadows.set());

@@ -16,15 +16,15 @@ class MirrorSystem {
  public:
   MirrorSystem(Device& device, Uploader& uploader, PipelineFactory& factory, VkDescriptorSetLayout frameLayout);
 
-  uint32_t record(const PassScope& scope, const FrameInfo& info, size_t pass, const PassFormat& format);
+  // Returns the number of draws, as the other functions that record.
+  uint32_t record(const PassScope& scope, const FrameInfo& info, const PassData& pass);
   // Says whether record() draws identifiers in a pass.
-  static bool defers(const FrameInfo& info, size_t pass);
-  // After deferred shading: adds reflections to the layers under them.
-  uint32_t recordReflections(const PassScope& scope, const FrameInfo& info, size_t pass, const PassFormat& format);
+  static bool defers(const FrameInfo& info, const PassData& pass);
+  // Adds reflections to the layers under them, after deferred shading.
+  uint32_t recordReflections(const PassScope& scope, const FrameInfo& info, const PassData& pass);
   void countPipelines(EffectLedger& ledger) const;
   // Drops pipelines as RenderSystem::endFrame does.
   void endFrame(const TraceVariant& trace, bool shadowMaps, bool imagesShown);
-  size_t pipelineCount() const { return pipelines_.size(); }
 
  private:
   enum class Shading { single, average, base, ownSample, identifier };
@@ -52,9 +52,9 @@ class MirrorSystem {
   static Variant variantOf(const MirrorRange& mirror, Shading shading, bool added);
   GraphicsPipelineDesc describe(const Variant& variant, const FrameInfo& info) const;
   // How a mirror without identifier is drawn.
-  Shading shadingOf(const MirrorRange& mirror, const MirrorImage* image, const PassFormat& format) const;
-  void draw(const PassScope& scope, const FrameInfo& info, size_t pass, const PassFormat& format,
-            const MirrorRange& mirror, Variant variant);
+  Shading shadingOf(const PassScope& scope, const MirrorRange& mirror, const MirrorImage* image) const;
+  void draw(const PassScope& scope, const FrameInfo& info, const PassData& pass, const MirrorRange& mirror,
+            Variant variant);
 
   Device& device_;
   VkDescriptorSetLayout frameLayout_;

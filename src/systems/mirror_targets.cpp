@@ -5,14 +5,6 @@
 
 namespace speculum {
 
-namespace {
-
-VkExtent2D extentOf(const PixelRect& rect) {
-  return {static_cast<uint32_t>(rect.width), static_cast<uint32_t>(rect.height)};
-}
-
-}  // namespace
-
 MirrorTargets::MirrorTargets(Device& device) : device_(device) {}
 
 void MirrorTargets::restart() {
@@ -28,7 +20,7 @@ void MirrorTargets::takeCached(const FramePlan& plan) {
   cachedDescriptors_.assign(plan.cached.size(), {});
   for (size_t i = 0; i < plan.cached.size(); ++i) {
     if (plan.cached[i].cacheIndex >= 0) {
-      targets[i] = std::exchange(cachedTargets_[static_cast<size_t>(plan.cached[i].cacheIndex)], nullptr);
+      targets[i] = std::exchange(cachedTargets_[plan.cached[i].cacheIndex], nullptr);
       cachedDescriptors_[i] = {targets[i]->descriptor(), targets[i]->samples()};
     }
   }
@@ -97,7 +89,8 @@ std::vector<PassTargets> MirrorTargets::acquire(const FramePlan& plan, const Pas
   std::vector<PassTargets> targets(order.size());
   for (size_t place = 0; place < order.size(); ++place) {
     const size_t pass = order[place];
-    OffScreen& target = pool_->acquire(extentOf(plan.passes[pass].view.rect), retired);
+    const PixelRect& rect = plan.passes[pass].view.rect;
+    OffScreen& target = pool_->acquire(extentOf(rect.width, rect.height), retired);
     targets_[pass] = &target;
     images_[pass] = {target.descriptor(), target.samples()};
     targets[pass - range.first] = target.targets(depth(place, target.extent()), retired);
@@ -113,7 +106,7 @@ bool MirrorTargets::isNeededLater(const FramePlan& plan, int pass) const {
 void MirrorTargets::releaseShown(const FramePlan& plan, const PlannedPass& pass) {
   for (const MirrorDraw& draw : pass.mirrors) {
     if (draw.pass >= 0 && !isNeededLater(plan, draw.pass)) {
-      pool_->release(*targets_[static_cast<size_t>(draw.pass)]);
+      pool_->release(*targets_[draw.pass]);
     }
   }
 }
@@ -128,7 +121,7 @@ void MirrorTargets::dropDepth(size_t from, RetireQueue& retired) {
 void MirrorTargets::end(const FramePlan& plan, RetireQueue& retired) {
   for (size_t i = 0; i < plan.cached.size(); ++i) {
     if (plan.cached[i].pass >= 0) {
-      cachedTargets_[i] = targets_[static_cast<size_t>(plan.cached[i].pass)];
+      cachedTargets_[i] = targets_[plan.cached[i].pass];
     }
   }
   if (watched_ &&
@@ -150,7 +143,7 @@ void MirrorTargets::fitDepth(RetireQueue& retired) {
   for (Depth& depth : depths_) {
     ++depth.idleFrames;
     if (++depth.frames > ImagePool::framesKept) {
-      if (depth.needed.width > 0 && area(depth.image->extent()) > area(depth.needed) * 3 / 2) {
+      if (depth.needed.width > 0 && areaOf(depth.image->extent()) > areaOf(depth.needed) * 3 / 2) {
         depth.image->trim(depth.needed, retired);
       }
       depth.needed = {0, 0};

@@ -11,7 +11,7 @@ class PointLightSystem {
  public:
   PointLightSystem(PipelineFactory& factory, VkDescriptorSetLayout frameLayout);
 
-  uint32_t record(const PassScope& scope, const FrameInfo& info, size_t pass, const PassFormat& format);
+  uint32_t record(const PassScope& scope, const FrameInfo& info, const PassData& pass);
   // Drops pipelines that have not been used for some frames. `stays` prevents that, while cached images show glyphs.
   void endFrame(bool stays);
   size_t pipelineCount() const { return pipelines_.size(); }

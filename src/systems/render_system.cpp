@@ -23,8 +23,8 @@ bool RenderSystem::defers(const FrameInfo& info, const Batch& batch) {
   return info.trace.variant().traced || batch.curved;
 }
 
-bool RenderSystem::defers(const FrameInfo& info, size_t pass) {
-  return std::ranges::any_of(info.data.passes()[pass].batches, [&](const Batch& batch) { return defers(info, batch); });
+bool RenderSystem::defers(const FrameInfo& info, const PassData& pass) {
+  return std::ranges::any_of(pass.batches, [&](const Batch& batch) { return defers(info, batch); });
 }
 
 void addVertexInput(GraphicsPipelineDesc& desc) {
@@ -98,9 +98,9 @@ GraphicsPipelineDesc RenderSystem::objects(const Variant& variant, const FrameIn
 namespace {
 
 // Returns the indices of a mesh's part at the batch's level.
-IndexRange partRange(const Scene& scene, const SceneResources::GpuMesh& mesh, size_t part, const Batch& batch) {
+IndexRange partRange(const Mesh& mesh, size_t part, const Batch& batch) {
   return batch.level < 0 ? IndexRange{mesh.parts[part].firstIndex, mesh.parts[part].indexCount}
-                         : levelsOf(scene.meshes[batch.mesh]).levels[batch.level].parts[part];
+                         : levelsOf(mesh).levels[batch.level].parts[part];
 }
 
 // Returns those indices of the part that the batch draws.
@@ -134,39 +134,38 @@ void RenderSystem::countDraw(EffectLedger& ledger, const Variant& variant) {
   ledger.draw(EffectKind::wireframe, variant.wireframe);
 }
 
-uint32_t RenderSystem::recordBatch(const PassScope& scope, const FrameInfo& info, const PassData& data,
+uint32_t RenderSystem::recordBatch(const PassScope& scope, const FrameInfo& info, const PassData& pass,
                                    const Batch& batch, Variant variant, const DeferredShading* shading) {
   const VkCommandBuffer commands = scope.commands();
   variant.curved = batch.curved;
   variant.environment = batch.environment;
   variant.trace = variant.deferred ? info.trace.variant() : TraceVariant{};
   variant.shadowed = !variant.deferred && !variant.added && info.shadows.set() != VK_NULL_HANDLE;
-  variant.shadowedLights = variant.shadowed ? data.shadowedLights : 0;
+  variant.shadowedLights = variant.shadowed ? pass.shadowedLights : 0;
   variant.onlyShadowFace = variant.shadowed ? info.shadows.onlyFace() : gpu::anyShadowFace;
   variant.lightCount = variant.deferred || variant.added ? gpu::manyLights : fixedLightCount(info.scene);
-  const SceneResources::GpuMesh& mesh = info.resources.meshes()[batch.mesh];
+  const Mesh& mesh = info.scene.meshes[batch.mesh];
   bindBuffers(commands, info, batch);
   uint32_t draws = 0;
   scope.beginLabel(nameOf("object", info.scene.objects[batch.object].name, batch.object));
   for (size_t p = 0; p < mesh.parts.size(); ++p) {
-    const SceneResources::Part& part = mesh.parts[p];
-    const bool textured = part.texture >= 0 && info.settings.effects.textures;
-    gpu::DrawConstants constants = drawConstants(info.scene.meshes[batch.mesh].parts[p].material,
-                                                 info.scene.objects[batch.object], batch.handedness);
+    const Material& material = mesh.parts[p].material;
+    const bool textured = material.diffuseTexture >= 0 && info.settings.effects.textures;
+    gpu::DrawConstants constants = drawConstants(material, info.scene.objects[batch.object], batch.handedness);
     if (!variant.deferred) {
       variant.diffuseLookup = lookupOf(textured && !batch.environment, info.settings.view.textureFilter);
       variant.glossy = constants.specular != glm::vec3(0.0f);
     }
     const Pipeline& pipeline = objects_.get(variant, [&] { return objects(variant, info, shading); });
     pipeline.bind(commands);
-    info.data.bind(pipeline, commands, data);
-    pipeline.bindSet(commands, 1, batch.map >= 0 ? info.maps[batch.map] : info.resources.texture(part));
+    info.data.bind(pipeline, commands, pass);
+    pipeline.bindSet(commands, 1, batch.map >= 0 ? info.maps[batch.map] : info.resources.texture(material));
     if (variant.shadowed) {
       pipeline.bindSet(commands, 2, info.shadows.set());
     } else if (variant.added) {
       pipeline.bindSet(commands, 2, shading->set());
     }
-    for (const IndexRange& range : drawnRanges(partRange(info.scene, mesh, p, batch), batch)) {
+    for (const IndexRange& range : drawnRanges(partRange(mesh, p, batch), batch)) {
       constants.firstTriangle = range.first / 3;
       if (variant.added) {
         pipeline.push(commands, gpu::ReflectionConstants{constants, DeferredShading::areaOf(scope.desc())});
@@ -201,51 +200,48 @@ void RenderSystem::endFrame(const TraceVariant& trace, bool shadowMaps, bool ima
   });
 }
 
-uint32_t RenderSystem::recordSky(const PassScope& scope, const FrameInfo& info, const PassData& data) {
-  const VkSampleCountFlagBits samples = scope.desc().targets.samples();
-  const Pipeline& pipeline = skies_.get(samples, [&] {
+uint32_t RenderSystem::recordSky(const PassScope& scope, const FrameInfo& info, const PassData& pass) {
+  const Pipeline& pipeline = skies_.get(scope.samples(), [&] {
     return GraphicsPipelineDesc{.name = "sky",
                                 .vert = "full_screen.vert",
                                 .frag = "sky.frag",
                                 .setLayouts = {frameLayout_},
-                                .samples = samples,
+                                .samples = scope.samples(),
                                 .depthWrite = false,
                                 .depthCompare = VK_COMPARE_OP_GREATER_OR_EQUAL};
   });
   pipeline.bind(scope.commands());
-  info.data.bind(pipeline, scope.commands(), data);
+  info.data.bind(pipeline, scope.commands(), pass);
   vkCmdDraw(scope.commands(), 3, 1, 0, 0);
   return 1;
 }
 
-RenderSystem::Variant RenderSystem::variantOf(const FrameInfo& info, const PassFormat& format) {
+RenderSystem::Variant RenderSystem::variantOf(const PassScope& scope, const FrameInfo& info, const PassData& pass) {
   const ClipMethod clip = info.settings.reflection.clip;
-  return {.samples = format.samples,
-          .clipDistance = format.mirrorView && clip == ClipMethod::clipDistance,
-          .clampDepth = !(format.mirrorView && clip == ClipMethod::oblique),
+  return {.samples = scope.samples(),
+          .clipDistance = pass.mirrorView && clip == ClipMethod::clipDistance,
+          .clampDepth = !(pass.mirrorView && clip == ClipMethod::oblique),
           .wireframe = info.settings.view.wireframe};
 }
 
-uint32_t RenderSystem::record(const PassScope& scope, const FrameInfo& info, size_t pass, const PassFormat& format) {
-  const PassData& data = info.data.passes()[pass];
-  Variant variant = variantOf(info, format);
+uint32_t RenderSystem::record(const PassScope& scope, const FrameInfo& info, const PassData& pass) {
+  Variant variant = variantOf(scope, info, pass);
   uint32_t draws = 0;
-  for (const Batch& batch : data.batches) {
+  for (const Batch& batch : pass.batches) {
     variant.deferred = defers(info, batch);
-    draws += recordBatch(scope, info, data, batch, variant);
+    draws += recordBatch(scope, info, pass, batch, variant);
   }
-  return draws + (info.environment.sky ? recordSky(scope, info, data) : 0);
+  return draws + (info.environment.sky ? recordSky(scope, info, pass) : 0);
 }
 
-uint32_t RenderSystem::recordReflections(const PassScope& scope, const FrameInfo& info, size_t pass,
-                                         const PassFormat& format, const DeferredShading& shading) {
-  const PassData& data = info.data.passes()[pass];
-  Variant variant = variantOf(info, format);
+uint32_t RenderSystem::recordReflections(const PassScope& scope, const FrameInfo& info, const PassData& pass,
+                                         const DeferredShading& shading) {
+  Variant variant = variantOf(scope, info, pass);
   variant.added = true;
   uint32_t draws = 0;
-  for (const Batch& batch : data.batches) {
+  for (const Batch& batch : pass.batches) {
     if (batch.environment && defers(info, batch)) {
-      draws += recordBatch(scope, info, data, batch, variant, &shading);
+      draws += recordBatch(scope, info, pass, batch, variant, &shading);
     }
   }
   return draws;

@@ -17,19 +17,17 @@ class RenderSystem {
  public:
   RenderSystem(PipelineFactory& factory, VkDescriptorSetLayout frameLayout, VkDescriptorSetLayout textureLayout);
 
-  // Records pass `pass` of info.data; returns the number of draws.
-  // Objects whose light takes rays are drawn as identifiers.
-  uint32_t record(const PassScope& scope, const FrameInfo& info, size_t pass, const PassFormat& format);
+  // Returns the number of draws. Objects whose light takes rays are drawn as identifiers.
+  uint32_t record(const PassScope& scope, const FrameInfo& info, const PassData& pass);
   // Says whether record() draws identifiers in a pass.
-  static bool defers(const FrameInfo& info, size_t pass);
-  // After deferred shading: adds what curved mirrors look up in environment maps to the layers under it.
-  uint32_t recordReflections(const PassScope& scope, const FrameInfo& info, size_t pass, const PassFormat& format,
+  static bool defers(const FrameInfo& info, const PassData& pass);
+  // Adds what curved mirrors look up in environment maps to the layers under it, after deferred shading.
+  uint32_t recordReflections(const PassScope& scope, const FrameInfo& info, const PassData& pass,
                              const DeferredShading& shading);
   void countPipelines(EffectLedger& ledger) const;
   // Drops pipelines of traced surfaces, or that look up textures and have not been used for some frames. While cached
   // images are shown, the pipelines that rendered them stay. `textured` is drawsTextures().
   void endFrame(const TraceVariant& trace, bool shadowMaps, bool imagesShown, bool curved, bool textured);
-  size_t pipelineCount() const { return objects_.size() + skies_.size(); }
 
  private:
   struct Variant {
@@ -53,10 +51,10 @@ class RenderSystem {
   GraphicsPipelineDesc objects(const Variant& variant, const FrameInfo& info, const DeferredShading* shading) const;
   static bool defers(const FrameInfo& info, const Batch& batch);
   static void countDraw(EffectLedger& ledger, const Variant& variant);
-  static Variant variantOf(const FrameInfo& info, const PassFormat& format);
-  uint32_t recordBatch(const PassScope& scope, const FrameInfo& info, const PassData& data, const Batch& batch,
+  static Variant variantOf(const PassScope& scope, const FrameInfo& info, const PassData& pass);
+  uint32_t recordBatch(const PassScope& scope, const FrameInfo& info, const PassData& pass, const Batch& batch,
                        Variant variant, const DeferredShading* shading = nullptr);
-  uint32_t recordSky(const PassScope& scope, const FrameInfo& info, const PassData& data);
+  uint32_t recordSky(const PassScope& scope, const FrameInfo& info, const PassData& pass);
 
   VkDescriptorSetLayout frameLayout_;
   VkDescriptorSetLayout textureLayout_;

@@ -1,7 +1,6 @@
 #include "systems/scene_renderer.hpp"
 
 #include <algorithm>
-#include <iterator>
 #include <utility>
 
 #include "frame/cube_face.hpp"
@@ -11,43 +10,15 @@
 #include "frame/scene_names.hpp"
 #include "frame/shadow_map.hpp"
 #include "image/enlarge.hpp"
+#include "systems/scene_pass.hpp"
 
 namespace speculum {
 
 namespace {
 
-VkExtent2D extentOf(int width, int height) {
-  return {static_cast<uint32_t>(width), static_cast<uint32_t>(height)};
-}
-
-std::array<float, 4> clearColor(const Environment& environment) {
-  const glm::vec3 color(glm::min(environment.background, glm::dvec3(65504.0)));
-  return {color.r, color.g, color.b, 0.0f};  // infinitely far
-}
-
-// Places the picture so that the target's corner shows the corner of the view's rectangle.
-PassViewport viewportOf(const View& view) {
-  const glm::dvec2 size = overscan(view) * view.pictureSize;
-  const glm::dvec2 corner = 0.5 * (view.pictureSize - size) - glm::dvec2(view.rect.x, view.rect.y);
-  return {static_cast<float>(corner.x), static_cast<float>(corner.y), static_cast<float>(size.x),
-          static_cast<float>(size.y)};
-}
-
-VkFrontFace frontFace(const View& view) {
-  return view.mirrored() ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE;
-}
-
-// Describes a pass that draws the scene into `area` of its targets.
-PassDesc scenePass(std::string name, const PassTargets& targets, const VkRect2D& area, const PassViewport& viewport,
-                   const View& view, const Environment& environment) {
-  return {.name = std::move(name),
-          .targets = targets,
-          .renderArea = area,
-          .viewport = viewport,
-          .scissor = area,
-          .frontFace = frontFace(view),
-          .clearColor = clearColor(environment),
-          .collectStatistics = true};
+// Says whether surfaces of the pass are shaded by DeferredShading.
+bool defers(const FrameInfo& info, const PassData& pass) {
+  return MirrorSystem::defers(info, pass) || RenderSystem::defers(info, pass);
 }
 
 }  // namespace
@@ -68,20 +39,14 @@ SceneRenderer::SceneRenderer(Renderer& renderer, const Scene& scene)
       watch_(renderer),
       display_(renderer),
       accumulation_(renderer),
-      watchedDepth_(std::make_unique<WatchedDepth>(renderer, display_.layout())),
+      watched_(device_),
       probe_(renderer),
+      mainTargets_(device_),
       mirrorTargets_(device_),
       environmentTargets_(device_),
       idle_(device_) {}
 
 SceneRenderer::~SceneRenderer() = default;
-
-size_t SceneRenderer::pipelineCount() const {
-  return maskSystem_.pipelineCount() + renderSystem_.pipelineCount() + pointLightSystem_.pipelineCount() +
-         mirrorSystem_.pipelineCount() + shadowSystem_.pipelineCount() + deferredShading_.pipelineCount() +
-         display_.pipelineCount() + accumulation_.pipelineCount() + watch_.pipelineCount() +
-         watchedDepth_->pipelineCount() + probe_.pipelineCount();
-}
 
 const FiniteWatch& SceneRenderer::finiteWatch() {
   watch_.collect();
@@ -95,10 +60,11 @@ void SceneRenderer::uploadTextures(Frame& frame, const SceneState& state, const 
 
 void SceneRenderer::record(Frame& frame, const SceneState& state, const Settings& settings, const FramePlan& plan,
                            const std::optional<DebugView>& debug, bool shown) {
-  const Environment environment = effectiveEnvironment(scene_, settings);
-  watch(plan, debug, *frame.retired);
+  const Environment environment = scene_.environment.cleared(settings.view.clearColor);
+  watched_.begin(plan, debug, *frame.retired);
+  releaseUnused(debug);
   prepareTargets(frame, settings, plan, shown);
-  frameParts_.clear();
+  log_.beginFrame();
   const bool textured = drawsTextures(scene_, state, settings, plan);
   resources_.prepare(frame, settings.effects.textures, textured);
   resources_.prepareLevels(frame, meshesWithLevels(plan, state));
@@ -120,7 +86,7 @@ void SceneRenderer::record(Frame& frame, const SceneState& state, const Settings
                        .cached = mirrorTargets_.cached(),
                        .maps = mapSets_};
   if (beginsPicture(plan)) {
-    recorded_.clear();
+    log_.beginPicture();
     if (!plan.mainReused) {
       ledger_ = {};
     }
@@ -132,11 +98,8 @@ void SceneRenderer::record(Frame& frame, const SceneState& state, const Settings
   if (unfinished_) {
     mainImage_ = {};
   } else {
-    if (watched_ && watched_->kind == TargetKind::depth) {
-      watchedDepth_->finish(frame.commands, *frame.retired);
-    }
-    shown_ = watched_;
-    releaseEarlierMain(*frame.retired);
+    watched_.finish(frame.commands, *frame.retired);
+    mainTargets_.finish(*frame.retired);
     recordSum(info);
   }
   if (shown) {
@@ -145,29 +108,11 @@ void SceneRenderer::record(Frame& frame, const SceneState& state, const Settings
   if (!unfinished_) {
     endRecord(info, textured);
   }
-  recordedFrames_[frame.number % recordedFrames_.size()] = {frame.number, frameParts_};
+  log_.endFrame(frame.number);
 }
 
-void SceneRenderer::add(RecordedPass pass) {
-  frameParts_.push_back(pass);
-  recorded_.push_back(std::move(pass));
-}
-
-SceneRenderer::Watched SceneRenderer::watchedOf(const FramePlan& plan, const DebugView& debug) {
-  const auto pass = static_cast<size_t>(debug.pass);
-  const View& view = (pass < plan.passes.size() ? plan.passes[pass] : plan.main).view;
-  return {debug.pass, view.path, debug.kind, {view.rect.width, view.rect.height}, plan.projection.near};
-}
-
-// Begins to watch the debug view's target with a picture. Releases what only the debug view needs, once it is off.
-void SceneRenderer::watch(const FramePlan& plan, const std::optional<DebugView>& debug, RetireQueue& retired) {
-  if (beginsPicture(plan)) {
-    watched_ = debug ? std::optional(watchedOf(plan, *debug)) : std::nullopt;
-  }
-  if (!debug || debug->kind != TargetKind::depth) {
-    watched_ = watched_ && watched_->kind == TargetKind::depth ? std::nullopt : watched_;
-    watchedDepth_->release(retired);
-  }
+// Releases what only the debug view needs, once it is off.
+void SceneRenderer::releaseUnused(const std::optional<DebugView>& debug) {
   if (!debug || !debug->probe) {
     probe_.release();
   }
@@ -178,18 +123,11 @@ void SceneRenderer::watch(const FramePlan& plan, const std::optional<DebugView>&
 
 void SceneRenderer::prepareTargets(Frame& frame, const Settings& settings, const FramePlan& plan, bool shown) {
   if (beginsPicture(plan)) {
-    const bool watchesMirror = watched_ && !watched_->path.empty();
     if (unfinished_) {
       mirrorTargets_.restart();
     }
-    mirrorTargets_.begin(plan, device_.sampleCount(settings.reflection.samples),
-                         watchesMirror ? std::optional(watched_->pass) : std::nullopt, *frame.retired);
-    if (shown && plan.tiles && !earlierMain_ && !unfinished_ && accumulated() == 0) {
-      earlierMain_ = std::move(main_);
-    } else if (!plan.tiles) {
-      releaseEarlierMain(*frame.retired);
-    }
-    prepareMain(settings, plan, *frame.retired);
+    mirrorTargets_.begin(plan, device_.sampleCount(settings.reflection.samples), watched_.mirrorPass(), *frame.retired);
+    mainTargets_.begin(settings, plan, shown && !unfinished_ && accumulated() == 0, *frame.retired);
     environmentTargets_.prepare(plan, *frame.retired);
   }
   shadowSystem_.prepare(frame, plan);
@@ -202,31 +140,6 @@ void SceneRenderer::prepareTargets(Frame& frame, const Settings& settings, const
     watch_.begin(frame, plan.maps.size() + plan.passes.size() + 2);  // 2: the main view's samples and their mean
   } else {
     watch_.release();
-  }
-}
-
-void SceneRenderer::prepareMain(const Settings& settings, const FramePlan& plan, RetireQueue& retired) {
-  const VkExtent2D extent = extentOf(plan.main.view.rect.width, plan.main.view.rect.height);
-  const VkSampleCountFlagBits mainSamples = device_.sampleCount(settings.view.samples);
-  const bool readSamples = (settings.debug.checkFinite || plan.effects.any()) && mainSamples != VK_SAMPLE_COUNT_1_BIT;
-  if (!main_ || main_->samples() != mainSamples || main_->desc().readSamples != readSamples) {
-    if (main_) {
-      main_->retire(retired);
-    }
-    const OffScreenDesc desc{.name = "main view",
-                             .extent = extent,
-                             .samples = mainSamples,
-                             .readSamples = readSamples,
-                             .role = TargetRole::main};
-    main_ = std::make_unique<OffScreen>(device_, desc, retired);
-  }
-  main_->resize(extent, retired);
-}
-
-void SceneRenderer::releaseEarlierMain(RetireQueue& retired) {
-  if (earlierMain_) {
-    earlierMain_->retire(retired);
-    earlierMain_.reset();
   }
 }
 
@@ -257,7 +170,8 @@ void SceneRenderer::recordMaps(const FrameInfo& info, const TileRange& faces, si
     }
     const bool whole = planned.cacheIndex < 0 && !info.plan.tiles;
     if (whole) {
-      checkTarget(info, recorded_.back(), environmentTargets_[map], extentOf(3 * planned.size, 2 * planned.size));
+      watch_.check(info.frame, log_.passes().back(), environmentTargets_[map],
+                   extentOf(3 * planned.size, 2 * planned.size));
     }
   }
 }
@@ -277,7 +191,7 @@ void SceneRenderer::recordFace(const FrameInfo& info, size_t map, size_t face, s
   pass.areaPx = planned.faces[face].areaPx;
   drawScene(info, index, desc, std::move(pass));
   // Counts each draw once: drawScene() has entered the curved mirrors seen in the face.
-  ledger_[EffectKind::curved].draws = drawsBefore + recorded_.back().draws;
+  ledger_[EffectKind::curved].draws = drawsBefore + log_.passes().back().draws;
 }
 
 // Returns the number of faces that the picture renders.
@@ -312,7 +226,7 @@ size_t SceneRenderer::recordShadows(const FrameInfo& info, const TileRange& face
       scope.countSamples();
       pass.draws = shadowSystem_.record(scope, info, index + number);
       ledger_[EffectKind::shadows].draws += pass.draws;
-      add(std::move(pass));
+      log_.add(std::move(pass));
     }
   }
   return count;
@@ -339,18 +253,17 @@ void SceneRenderer::recordMirrorRange(const FrameInfo& info, const PassRange& ra
   if (tiles.first == 0) {
     passTargets_ = mirrorTargets_.acquire(info.plan, range, *info.frame.retired);
   }
-  const std::vector<PassTargets>& targets = passTargets_;
   std::vector<PassDesc> descs;
   for (size_t i = range.first; i < range.end; ++i) {
     const View& view = info.plan.passes[i].view;
     PassDesc& desc = descs.emplace_back(
-        scenePass("mirror " + mirrorPathName(scene_, view.path), targets[i - range.first],
+        scenePass("mirror " + mirrorPathName(scene_, view.path), passTargets_[i - range.first],
                   {{0, 0}, extentOf(view.rect.width, view.rect.height)}, viewportOf(view), view, info.environment));
     desc.clearDepth = MaskSystem::clearDepth(info.data.passes()[i]);
     desc.grouped = range.end > range.first + 1;
-    watchDepth(info, i, desc);
+    watched_.prepare(info.plan, i, desc, *info.frame.retired);
   }
-  const size_t firstRecorded = recorded_.size();
+  const size_t firstRecorded = log_.passes().size();
   {
     std::optional<PassGroup> group;
     if (descs.front().grouped) {
@@ -373,7 +286,7 @@ void SceneRenderer::recordMirrorRange(const FrameInfo& info, const PassRange& ra
   }
   for (size_t i = range.first; i < range.end; ++i) {
     const size_t k = i - range.first;
-    checkTarget(info, recorded_[firstRecorded + k], mirrorTargets_[i], descs[k].renderArea.extent);
+    watch_.check(info.frame, log_.passes()[firstRecorded + k], mirrorTargets_[i], descs[k].renderArea.extent);
     mirrorTargets_.releaseShown(info.plan, info.plan.passes[i]);
   }
 }
@@ -382,12 +295,12 @@ void SceneRenderer::recordMain(const FrameInfo& info) {
   const PlannedPass& main = info.plan.main;
   const size_t index = info.plan.passes.size();
   if (!info.plan.mainReused && !tiles_[index].empty()) {
-    const PassDesc whole = fullPass("main view", main_->targets());
+    const PassDesc whole = fullPass("main view", mainTargets_.drawn().targets());
     PassDesc desc = scenePass(whole.name, whole.targets, whole.renderArea, whole.viewport, main.view, info.environment);
     desc.storeSamples = info.settings.debug.checkFinite;
-    watchDepth(info, index, desc);
+    watched_.prepare(info.plan, index, desc, *info.frame.retired);
     drawTiles(info, index, desc, {{.kind = PassKind::main}, desc.name, -1, 0, main.areaPx});
-    checkTarget(info, recorded_.back(), *main_, main_->extent());
+    watch_.check(info.frame, log_.passes().back(), mainTargets_.drawn(), mainTargets_.drawn().extent());
     mirrorTargets_.releaseShown(info.plan, main);
   }
   if (info.settings.debug.checkFinite) {
@@ -399,41 +312,41 @@ void SceneRenderer::recordSum(const FrameInfo& info) {
   if (info.settings.view.accumulate == 1) {
     accumulation_.release(*info.frame.retired);
   } else if (!info.plan.mainReused) {
-    add(accumulation_.add(info.frame, main_->descriptor(), main_->extent(), info.plan.picture));
+    log_.add(accumulation_.add(info.frame, mainTargets_.drawn().descriptor(), mainTargets_.drawn().extent(),
+                               info.plan.picture));
   }
 }
 
 void SceneRenderer::recordDisplay(const FrameInfo& info, const std::optional<DebugView>& debug) {
   const int pictures = accumulated();
   const RecordedPass display =
-      display_.record(info.frame, {.descriptor = pictures > 0 ? accumulation_.descriptor() : shownMain().descriptor()},
-                      shownMain().extent(), info.settings, std::max(pictures, 1));
+      display_.record(info.frame, pictures > 0 ? accumulation_.descriptor() : mainTargets_.shown().descriptor(),
+                      mainTargets_.shown().extent(), info.settings, std::max(pictures, 1));
   if (!unfinished_) {
-    add(display);
+    log_.add(display);
   }
-  if (debug && shown_ && shown_->shows(watchedOf(info.plan, *debug))) {
-    recordDebug(info, *debug);
+  const WatchedTarget::Target* target = debug ? watched_.shown(info.plan, *debug) : nullptr;
+  if (target != nullptr) {
+    recordDebug(info, *debug, *target);
   }
 }
 
-void SceneRenderer::recordDebug(const FrameInfo& info, const DebugView& debug) {
-  OffScreen* target = watchedTarget(info.plan, debug.pass);
-  const bool showsDepth = shown_->kind == TargetKind::depth;
-  if (showsDepth ? !watchedDepth_->exists() : !target) {
+void SceneRenderer::recordDebug(const FrameInfo& info, const DebugView& debug, const WatchedTarget::Target& target) {
+  OffScreen* image = watchedImage(info.plan, debug.pass);
+  const bool showsDepth = target.kind == TargetKind::depth;
+  if (showsDepth ? !watched_.hasDepth() : !image) {
     return;
   }
-  const auto view = showsDepth ? display_.recordDepth(info.frame, shown_->size, debug, *watchedDepth_, shown_->near)
-                               : display_.recordColor(info.frame, shown_->size, debug,
-                                                      {target->descriptor(), target->color().samples()}, info.settings);
+  Image& texels = showsDepth ? watched_.depth() : image->color();
+  const MirrorImage shown{showsDepth ? watched_.depthDescriptor() : image->descriptor(), texels.samples()};
+  const auto view = showsDepth ? display_.recordDepth(info.frame, target.size, debug, shown, target.near)
+                               : display_.recordColor(info.frame, target.size, debug, shown, info.settings);
   if (view && !unfinished_) {
-    add(*view);
+    log_.add(*view);
   }
-  // The picture's earlier target may have been smaller.
-  const bool probes = debug.probe && glm::all(glm::lessThan(*debug.probe, shown_->size));
-  if (probes && showsDepth) {
-    probe_.probe(info.frame, watchedDepth_->image(), watchedDepth_->descriptor(), *debug.probe);
-  } else if (probes) {
-    probe_.probe(info.frame, target->color(), target->descriptor(), *debug.probe);
+  // The target of the last complete picture may have been smaller.
+  if (debug.probe && glm::all(glm::lessThan(*debug.probe, target.size))) {
+    probe_.probe(info.frame, texels, shown.descriptor, *debug.probe);
   }
 }
 
@@ -456,21 +369,13 @@ void SceneRenderer::endRecord(const FrameInfo& info, bool textured) {
   cacheRevision_ = renderer_.pipelines().revision();
 }
 
-bool SceneRenderer::defers(const FrameInfo& info, size_t index) {
-  return MirrorSystem::defers(info, index) || RenderSystem::defers(info, index);
-}
-
 // Counts the draws of the first part only: the others repeat them.
 void SceneRenderer::drawTiles(const FrameInfo& info, size_t index, const PassDesc& desc, const RecordedPass& pass) {
   const auto [width, height] = desc.renderArea.extent;
   bool first = tiles_[index].first == 0;
   std::vector<PixelRect> rects = tileRects(static_cast<int>(width), static_cast<int>(height), tiles_[index]);
-  if (defers(info, index)) {
-    std::vector<PixelRect> bands;
-    for (const PixelRect& rect : rects) {
-      std::ranges::copy(DeferredShading::bands(rect, desc.targets.samples()), std::back_inserter(bands));
-    }
-    rects = std::move(bands);
+  if (defers(info, info.data.passes()[index])) {
+    rects = DeferredShading::bands(rects, desc.targets.samples());
   }
   for (const PixelRect& rect : rects) {
     PassDesc part = desc;
@@ -479,52 +384,34 @@ void SceneRenderer::drawTiles(const FrameInfo& info, size_t index, const PassDes
     const EffectLedger ledger = ledger_;
     drawScene(info, index, part, pass);
     if (!std::exchange(first, false)) {
-      recorded_.pop_back();
-      frameParts_.back().draws = 0;
+      log_.joinLast();
       ledger_ = ledger;
     }
   }
 }
 
 void SceneRenderer::drawScene(const FrameInfo& info, size_t index, const PassDesc& desc, RecordedPass pass) {
-  const bool deferred = defers(info, index);
+  const PassData& data = info.data.passes()[index];
+  const bool deferred = defers(info, data);
   PassScope scope = renderer_.beginPass(info.frame, deferred ? DeferredShading::identifying(desc) : desc);
-  const PassFormat format{.samples = desc.targets.samples(), .mirrorView = pass.kind == PassKind::mirror};
-  pass.draws = maskSystem_.record(scope, info, index, format);
+  pass.draws = maskSystem_.record(scope, info, data);
   scope.countSamples();
-  pass.draws += mirrorSystem_.record(scope, info, index, format);
-  pass.draws += pointLightSystem_.record(scope, info, index, format);
-  pass.draws += renderSystem_.record(scope, info, index, format);
+  pass.draws += mirrorSystem_.record(scope, info, data);
+  pass.draws += pointLightSystem_.record(scope, info, data);
+  pass.draws += renderSystem_.record(scope, info, data);
   if (deferred) {
     scope.pause();
-    deferredShading_.shade(scope, info, index);
+    deferredShading_.shade(scope, info, data);
     scope.resume(DeferredShading::shaded(desc));
     pass.draws += deferredShading_.record(scope);
-    pass.draws += mirrorSystem_.recordReflections(scope, info, index, format);
-    pass.draws += renderSystem_.recordReflections(scope, info, index, format, deferredShading_);
+    pass.draws += mirrorSystem_.recordReflections(scope, info, data);
+    pass.draws += renderSystem_.recordReflections(scope, info, data, deferredShading_);
   }
-  add(std::move(pass));
+  log_.add(std::move(pass));
 }
 
-void SceneRenderer::watchDepth(const FrameInfo& info, size_t pass, PassDesc& desc) {
-  if (watched_ && watched_->kind == TargetKind::depth && watched_->pass == static_cast<int>(pass)) {
-    watchedDepth_->prepare(desc, info.plan.tiles.has_value(), *info.frame.retired);
-  }
-}
-
-// Checks samples before their mean, which hides what is negative in one of them.
-void SceneRenderer::checkTarget(const FrameInfo& info, const RecordedPass& pass, OffScreen& target, VkExtent2D used) {
-  if (!info.settings.debug.checkFinite) {
-    return;
-  }
-  if (Image* samples = target.samplesImage()) {
-    watch_.check(info.frame, pass, true, *samples, target.samplesDescriptor(), used);
-  }
-  watch_.check(info.frame, pass, false, target.color(), target.descriptor(), used);
-}
-
-OffScreen* SceneRenderer::watchedTarget(const FramePlan& plan, int pass) {
-  return pass == static_cast<int>(plan.passes.size()) ? &shownMain()
+OffScreen* SceneRenderer::watchedImage(const FramePlan& plan, int pass) {
+  return pass == static_cast<int>(plan.passes.size()) ? &mainTargets_.shown()
          : unfinished_                                ? mirrorTargets_.earlierWatched()
                                                       : &mirrorTargets_[static_cast<size_t>(pass)];
 }
@@ -533,11 +420,8 @@ OffScreen* SceneRenderer::watchedTarget(const FramePlan& plan, int pass) {
 void SceneRenderer::finishLedger(const FrameInfo& info) {
   const Settings& settings = info.settings;
   const TracedEffects& effects = info.plan.effects;
-  Settings single = settings;
-  single.view.samples = 1;
-  single.reflection.samples = 1;
-  ledger_[EffectKind::msaa].bytes = targetBytes(info.plan, settings) - targetBytes(info.plan, single);
-  for (const RecordedPass& pass : recorded_) {
+  ledger_[EffectKind::msaa].bytes = sampleBytes(info.plan, settings);
+  for (const RecordedPass& pass : log_.passes()) {
     const bool ofMirror = pass.kind == PassKind::mirror;
     const int samples = ofMirror ? settings.reflection.samples : settings.view.samples;
     const bool scene = ofMirror || pass.kind == PassKind::main;
@@ -580,17 +464,12 @@ void SceneRenderer::restart() {
   mirrorTargets_.restart();
 }
 
-std::span<const RecordedPass> SceneRenderer::passesOf(uint64_t frame) const {
-  const auto& [number, passes] = recordedFrames_[frame % recordedFrames_.size()];
-  return number == frame ? std::span(passes) : std::span<const RecordedPass>();
-}
-
 LinearImage SceneRenderer::radiance() {
   renderer_.waitIdle();
   const int pictures = accumulated();
   const std::vector<float> texels =
-      renderer_.uploader().readFloats(pictures > 0 ? accumulation_.sum() : shownMain().color());
-  const VkExtent2D extent = shownMain().color().extent();
+      renderer_.uploader().readFloats(pictures > 0 ? accumulation_.sum() : mainTargets_.shown().color());
+  const VkExtent2D extent = mainTargets_.shown().color().extent();
   LinearImage image(static_cast<int>(extent.width), static_cast<int>(extent.height));
   for (size_t i = 0; i < image.pixels.size(); ++i) {
     image.pixels[i] = {texels[4 * i], texels[4 * i + 1], texels[4 * i + 2]};

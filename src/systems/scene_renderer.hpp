@@ -1,8 +1,7 @@
 #pragma once
 
-#include <array>
-#include <memory>
-#include <string>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "image/image.hpp"
@@ -12,15 +11,16 @@
 #include "systems/environment_targets.hpp"
 #include "systems/finite_watch.hpp"
 #include "systems/frame_info.hpp"
+#include "systems/main_targets.hpp"
 #include "systems/mask_system.hpp"
 #include "systems/mirror_system.hpp"
 #include "systems/mirror_targets.hpp"
+#include "systems/pass_log.hpp"
 #include "systems/point_light_system.hpp"
-#include "systems/recorded_pass.hpp"
 #include "systems/render_system.hpp"
 #include "systems/shadow_system.hpp"
 #include "systems/texel_probe.hpp"
-#include "systems/watched_depth.hpp"
+#include "systems/watched_target.hpp"
 
 namespace speculum {
 
@@ -54,14 +54,13 @@ class SceneRenderer {
   void setCover(const Image8& picture) { display_.setCover(picture); }
 
   // Passes of the last recorded frame, in order.
-  const std::vector<RecordedPass>& passes() const { return recorded_; }
+  const std::vector<RecordedPass>& passes() const { return log_.passes(); }
   // Passes of frame number `frame`, if it is one of the last three recorded. The GPU's timings arrive that late.
-  std::span<const RecordedPass> passesOf(uint64_t frame) const;
+  std::span<const RecordedPass> passesOf(uint64_t frame) const { return log_.passesOf(frame); }
   // Findings of debug.check_finite in the frames that have finished.
   const FiniteWatch& finiteWatch();
   // Value at DebugView::probe in the last frame that had a probe and has finished.
   const std::optional<TexelValue>& probed() { return probe_.value(); }
-  size_t pipelineCount() const;
   // Cost of each effect in the last recorded frame that drew the main view.
   const EffectLedger& ledger() const { return ledger_; }
   // Linear radiance of the main view, or of the mean, in the last recorded frame, enlarged to the picture. Waits for
@@ -69,12 +68,8 @@ class SceneRenderer {
   LinearImage radiance();
 
  private:
-  void watch(const FramePlan& plan, const std::optional<DebugView>& debug, RetireQueue& retired);
+  void releaseUnused(const std::optional<DebugView>& debug);
   void prepareTargets(Frame& frame, const Settings& settings, const FramePlan& plan, bool shown);
-  void prepareMain(const Settings& settings, const FramePlan& plan, RetireQueue& retired);
-  void releaseEarlierMain(RetireQueue& retired);
-  // Main view that the display pass shows.
-  OffScreen& shownMain() { return earlierMain_ ? *earlierMain_ : *main_; }
   void recordFaces(const FrameInfo& info);
   size_t recordShadows(const FrameInfo& info, const TileRange& faces);
   void recordMaps(const FrameInfo& info, const TileRange& faces, size_t face);
@@ -85,22 +80,16 @@ class SceneRenderer {
   void recordMain(const FrameInfo& info);
   void recordSum(const FrameInfo& info);
   void recordDisplay(const FrameInfo& info, const std::optional<DebugView>& debug);
-  void recordDebug(const FrameInfo& info, const DebugView& debug);
+  void recordDebug(const FrameInfo& info, const DebugView& debug, const WatchedTarget::Target& target);
   void endRecord(const FrameInfo& info, bool textured);
   void finishLedger(const FrameInfo& info);
 
-  // Says whether surfaces of pass `index` of info.data are shaded by DeferredShading.
-  static bool defers(const FrameInfo& info, size_t index);
   // Draws the frame's tiles of a mirror pass or the main view.
   void drawTiles(const FrameInfo& info, size_t index, const PassDesc& desc, const RecordedPass& pass);
   // Draws pass `index` of info.data as `desc` says and adds it to the recorded ones.
   void drawScene(const FrameInfo& info, size_t index, const PassDesc& desc, RecordedPass pass);
-  void add(RecordedPass pass);  // to those of the picture and of the frame
-  // Call before each part of the pass: keeps its depth if the debug view shows that.
-  void watchDepth(const FrameInfo& info, size_t pass, PassDesc& desc);
-  void checkTarget(const FrameInfo& info, const RecordedPass& pass, OffScreen& target, VkExtent2D used);
   // Returns the image of the last complete picture in which the pass was watched; null if there is none.
-  OffScreen* watchedTarget(const FramePlan& plan, int pass);
+  OffScreen* watchedImage(const FramePlan& plan, int pass);
 
   Renderer& renderer_;
   Device& device_;
@@ -117,36 +106,20 @@ class SceneRenderer {
   FiniteWatch watch_;
   DisplaySystem display_;
   Accumulation accumulation_;
-  std::unique_ptr<WatchedDepth> watchedDepth_;
+  WatchedTarget watched_;
   TexelProbe probe_;
-  std::unique_ptr<OffScreen> main_;
-  std::unique_ptr<OffScreen> earlierMain_;  // shown while tiles of main_ are drawn; null if main_ is
-  std::vector<TileRange> tiles_;            // of each pass and the main view, that the frame draws
-  std::vector<PassTargets> passTargets_;    // of the mirror passes drawn last; their next tiles may follow
-  bool unfinished_ = false;                 // the last frame drew tiles, and not the last ones of its picture
-  glm::ivec2 pictureSize_{0};               // of the last recorded frame
+  MainTargets mainTargets_;
+  std::vector<TileRange> tiles_;          // of each pass and the main view, that the frame draws
+  std::vector<PassTargets> passTargets_;  // of the mirror passes drawn last; their next tiles may follow
+  bool unfinished_ = false;               // the last frame drew tiles, and not the last ones of its picture
+  glm::ivec2 pictureSize_{0};             // of the last recorded frame
   MirrorTargets mirrorTargets_;
   uint64_t cacheRevision_ = 0;  // of the pipelines that rendered the cached images
   MainImage mainImage_;         // content is empty if the main view must not be reused
   EnvironmentTargets environmentTargets_;
   std::vector<VkDescriptorSet> mapSets_;  // of the present plan's maps
-  std::vector<RecordedPass> recorded_;    // of the picture
-  std::vector<RecordedPass> frameParts_;  // passes, or parts of them, of the frame; draws count in a pass's first part
-  std::array<std::pair<uint64_t, std::vector<RecordedPass>>, framesInFlight + 1> recordedFrames_;  // by frame number
+  PassLog log_;
   EffectLedger ledger_;
-  // A target that the debug view shows.
-  struct Watched {
-    int pass = 0;  // as DebugView::pass
-    std::vector<int> path;
-    TargetKind kind = TargetKind::color;
-    glm::ivec2 size{0};  // texels
-    double near = 0.0;   // metres from the eye to the near plane
-
-    bool shows(const Watched& other) const { return path == other.path && kind == other.kind; }
-  };
-  static Watched watchedOf(const FramePlan& plan, const DebugView& debug);
-  std::optional<Watched> watched_;  // in the picture that is drawn
-  std::optional<Watched> shown_;    // in the last complete one
   IdleGuard idle_;
 };
 

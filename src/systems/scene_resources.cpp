@@ -128,8 +128,8 @@ Image SceneResources::upload(const Texture& texture, const std::string& name) {
     return upload(small, name);
   }
   const std::vector<uint64_t> texels = halfTexels(texture);
-  const VkExtent2D extent{static_cast<uint32_t>(texture.width), static_cast<uint32_t>(texture.height)};
-  return uploader_.image(std::as_bytes(std::span(texels)), extent, colorFormat, true, name);
+  return uploader_.image(std::as_bytes(std::span(texels)), extentOf(texture.width, texture.height), colorFormat, true,
+                         name);
 }
 
 void SceneResources::createTextures() {
@@ -147,7 +147,6 @@ void SceneResources::createTextures() {
 }
 
 void SceneResources::createMeshes() {
-  uint32_t materials = 0;
   for (const Mesh& mesh : scene_.meshes) {
     const std::string name = mesh.source.filename().string();
     const std::vector<GpuVertex> vertices = gpuVertices(mesh.vertices);
@@ -156,16 +155,13 @@ void SceneResources::createMeshes() {
         uploader_.buffer(std::span<const GpuVertex>(vertices), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, name + " vertices");
     gpu.indices =
         uploader_.buffer(std::span<const uint32_t>(mesh.indices), VK_BUFFER_USAGE_INDEX_BUFFER_BIT, name + " indices");
-    for (const MeshPart& part : mesh.parts) {
-      gpu.parts.push_back({part.firstIndex, part.indexCount, materials++, part.material.diffuseTexture});
-    }
   }
 }
 
 void SceneResources::prepareLevels(Frame& frame, std::span<const int> drawn) {
   idleLevelFrames_ = drawn.empty() ? std::min(idleLevelFrames_, idleFramesKept) + 1 : 0;
   for (const int mesh : drawn) {
-    if (!meshes_[static_cast<size_t>(mesh)].levelIndices) {
+    if (!meshes_[mesh].levelIndices) {
       check(vkQueueWaitIdle(device_.queue()), "wait for the queue");
       createLevels(static_cast<size_t>(mesh));
     }
@@ -188,7 +184,7 @@ void SceneResources::createLevels(size_t mesh) {
                                       name + " level indices");
 }
 
-// Materials in the order of GpuMesh::parts.
+// Makes the materials of all parts, in the order of the meshes.
 void SceneResources::createMaterials(bool textured) {
   std::vector<gpu::MaterialData> materials;
   for (const Mesh& mesh : scene_.meshes) {
@@ -205,15 +201,13 @@ void SceneResources::createMaterials(bool textured) {
 uint64_t SceneResources::textureBytes() const {
   uint64_t bytes = 0;
   for (const Image& texture : textures_) {
-    const VkExtent2D extent = texture.extent();
-    // RGBA16F; mip levels add a third.
-    bytes += uint64_t{8} * extent.width * extent.height * 4 / 3;
+    bytes += 8 * areaOf(texture.extent()) * 4 / 3;  // RGBA16F; mip levels add a third
   }
   return bytes;
 }
 
-VkDescriptorSet SceneResources::texture(const Part& part) const {
-  return part.texture < 0 || textures_.empty() ? noTextureSet_ : textureSets_[static_cast<size_t>(part.texture)];
+VkDescriptorSet SceneResources::texture(const Material& material) const {
+  return material.diffuseTexture < 0 || textures_.empty() ? noTextureSet_ : textureSets_[material.diffuseTexture];
 }
 
 }  // namespace speculum

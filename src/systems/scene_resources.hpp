@@ -22,16 +22,9 @@ struct GpuVertex {
 // texture is drawn.
 class SceneResources {
  public:
-  struct Part {
-    uint32_t firstIndex = 0;
-    uint32_t indexCount = 0;
-    uint32_t material = 0;  // index into materials()
-    int texture = -1;       // index into Scene::textures; -1: none
-  };
   struct GpuMesh {
     Buffer vertices;
     Buffer indices;  // uint32
-    std::vector<Part> parts;
     // Simplified meshes, of MeshLevels; empty while none has been drawn for some frames.
     Buffer levelVertices;
     Buffer levelIndices;
@@ -49,7 +42,7 @@ class SceneResources {
   const std::vector<GpuMesh>& meshes() const { return meshes_; }
   const Buffer& materials() const { return materials_; }
   uint64_t textureBytes() const;  // of the uploaded textures, with all mip levels
-  VkDescriptorSet texture(const Part& part) const;
+  VkDescriptorSet texture(const Material& material) const;
   VkDescriptorSetLayout textureLayout() const { return textureLayout_.get(); }
 
  private:

@@ -21,7 +21,6 @@ class TexelProbe {
   void release();
   // Value in the last probed frame that has finished, if there is one.
   const std::optional<TexelValue>& value();
-  size_t pipelineCount() const { return pipelines_.size(); }
 
  private:
   struct Slot {

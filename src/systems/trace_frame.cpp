@@ -7,6 +7,7 @@
 #include <cstring>
 #include <utility>
 
+#include "frame/cube_face.hpp"
 #include "geometry/affine.hpp"
 #include "geometry/reflection.hpp"
 #include "scene/beside_mirrors.hpp"
@@ -46,27 +47,6 @@ gpu::TraceInstance instanceData(const InstanceState& instance, const Object& obj
   data.change = materialChange(object);
   data.shininess = static_cast<float>(object.shininess.value_or(0.0));
   return data;
-}
-
-// Returns the bounds of the mesh's box in trace space.
-Bounds boundsOf(const InstanceState& instance, const Mesh& mesh, const glm::dvec3& eye) {
-  const glm::dvec3 center = instance.worldFromMesh.translation - eye;
-  glm::dvec3 reach(0.0);
-  for (int axis = 0; axis < 3; ++axis) {
-    reach += glm::abs(instance.worldFromMesh.linear[axis]) * mesh.halfExtent[axis];
-  }
-  Bounds bounds;
-  bounds.add(center - reach);
-  bounds.add(center + reach);
-  return bounds;
-}
-
-Bounds boundsOf(const MirrorState& mirror, const glm::dvec3& eye) {
-  Bounds bounds;
-  for (const glm::dvec3& p : mirror.polygon) {
-    bounds.add(p - eye);
-  }
-  return bounds;
 }
 
 uint32_t layersOf(const MirrorState& mirror) {
@@ -251,22 +231,18 @@ void TraceFrame::addInstances(const SceneState& state, const Settings& settings)
 }
 
 void TraceFrame::addHierarchy(const SceneState& state) {
+  const std::vector<Bounds> all = boxesOf(scene_, state, state.camera.eye);
+  const size_t instances = state.instances.size();
   std::vector<Bounds> boxes;
   std::vector<uint32_t> found;
-  const glm::dvec3& eye = state.camera.eye;
-  for (size_t i = 0; i < state.instances.size(); ++i) {
-    const InstanceState& instance = state.instances[i];
-    if (!scene_.meshes[instance.mesh].indices.empty()) {
-      boxes.push_back(boundsOf(instance, scene_.meshes[instance.mesh], eye));
-      found.push_back(static_cast<uint32_t>(i));
+  for (size_t i = 0; i < all.size(); ++i) {
+    const bool isMirror = i >= instances;
+    if (isMirror || !scene_.meshes[state.instances[i].mesh].indices.empty()) {
+      boxes.push_back(all[i]);
+      found.push_back(static_cast<uint32_t>(isMirror ? (i - instances) | gpu::itemMirror : i));
     }
   }
-  for (size_t i = 0; i < state.mirrors.size(); ++i) {
-    boxes.push_back(boundsOf(state.mirrors[i], eye));
-    found.push_back(static_cast<uint32_t>(i) | gpu::itemMirror);
-  }
-  const Bvh top(boxes, 1);
-  appendTopNodes(top, found, topNodes_);
+  appendTopNodes(Bvh(boxes, 1), found, topNodes_);
 }
 
 void TraceFrame::addMirrors(const SceneState& state, const Settings& settings) {

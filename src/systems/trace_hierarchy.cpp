@@ -1,6 +1,7 @@
 #include "systems/trace_hierarchy.hpp"
 
 #include <cmath>
+#include <glm/gtx/component_wise.hpp>
 
 namespace speculum {
 
@@ -56,7 +57,7 @@ uint32_t sideOf(double low, double high, bool falls) {
 TraceGrid traceGrid(const Bounds& bounds) {
   TraceGrid grid;
   const glm::dvec3 size = bounds.high - bounds.low;
-  const double largest = std::max({size.x, size.y, size.z, 1e-30});
+  const double largest = std::max(glm::compMax(size), 1e-30);
   for (int axis = 0; axis < 3; ++axis) {
     // A margin for rounding to float; axes along which a mesh is flat get steps no finer than floats.
     const double width = std::max(size[axis], 1e-3 * largest);
@@ -86,10 +87,9 @@ void appendTopNodes(const Bvh& hierarchy, std::span<const uint32_t> links, std::
   for (int octant = 0; octant < octants; ++octant) {
     const auto first = static_cast<uint32_t>(nodes.size());
     visitInOrder(hierarchy, octant, [&](const Bvh::Node& node, uint32_t next) {
-      const glm::dvec3 reach = glm::max(glm::abs(node.box.low), glm::abs(node.box.high));
-      const double margin = 1e-6 * std::max({reach.x, reach.y, reach.z});
-      const glm::vec3 low(node.box.low - margin);
-      const glm::vec3 high(node.box.high + margin);
+      const Bounds box = node.box.widened(1e-6);
+      const glm::vec3 low(box.low);
+      const glm::vec3 high(box.high);
       gpu::TraceTopNode& added = nodes.emplace_back();
       for (int axis = 0; axis < 3; ++axis) {
         const bool falls = (octant >> axis & 1) != 0;

@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "core/acceleration_structure.hpp"
-#include "geometry/bvh.hpp"
+#include "geometry/triangle_mesh.hpp"
 
 namespace speculum {
 
@@ -22,15 +22,6 @@ struct TraceScene::Content {
 namespace {
 
 constexpr int trianglesPerLeaf = 4;
-
-std::vector<uint32_t> materialsOf(const Mesh& mesh, uint32_t first) {
-  std::vector<uint32_t> materials(mesh.indices.size() / 3, first);
-  for (size_t p = 0; p < mesh.parts.size(); ++p) {
-    const MeshPart& part = mesh.parts[p];
-    std::fill_n(materials.begin() + part.firstIndex / 3, part.indexCount / 3, first + static_cast<uint32_t>(p));
-  }
-  return materials;
-}
 
 // Appends the texture and its levels down to one texel. Of an odd size the last row or column goes.
 void appendLevels(const Texture& texture, std::vector<uint64_t>& texels) {
@@ -56,14 +47,6 @@ void appendLevels(const Texture& texture, std::vector<uint64_t>& texels) {
     width = halfWidth;
     height = halfHeight;
   }
-}
-
-Bvh hierarchyOf(const Mesh& mesh) {
-  std::vector<Bounds> boxes(mesh.indices.size() / 3);
-  for (size_t i = 0; i < 3 * boxes.size(); ++i) {
-    boxes[i / 3].add(mesh.vertices[mesh.indices[i]].position);
-  }
-  return Bvh(boxes, trianglesPerLeaf);
 }
 
 }  // namespace
@@ -135,7 +118,7 @@ uint64_t TraceScene::bytes() const {
 }
 
 void TraceScene::add(const Mesh& mesh, Content& content) {
-  const Bvh hierarchy = hierarchyOf(mesh);
+  const Bvh hierarchy(triangleBounds(mesh), trianglesPerLeaf);
   const auto firstSlot = static_cast<uint32_t>(content.triangles.size());
   meshes_.push_back({.grid = traceGrid(hierarchy.bounds()),
                      .root = static_cast<uint32_t>(content.nodes.size()),
@@ -157,10 +140,10 @@ void TraceScene::add(const Mesh& mesh, Content& content) {
                                 .normal = glm::vec3(vertex.normal),
                                 .v = static_cast<float>(vertex.uv.y)});
   }
-  const std::vector<uint32_t> materials = materialsOf(mesh, content.materials);
-  for (size_t i = 0; i < materials.size(); ++i) {
-    const uint32_t* index = &mesh.indices[3 * i];
-    content.faces.push_back({{index[0], index[1], index[2]}, materials[i]});
+  const uint32_t* index = mesh.indices.data();
+  for (const uint32_t part : partsOfTriangles(mesh)) {
+    content.faces.push_back({{index[0], index[1], index[2]}, content.materials + part});
+    index += 3;
   }
   content.materials += static_cast<uint32_t>(mesh.parts.size());
 }

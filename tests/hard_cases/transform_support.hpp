@@ -5,7 +5,7 @@
 
 #include "frame/frame_plan.hpp"
 #include "random.hpp"
-#include "systems/frame_data.hpp"
+#include "systems/gpu_conversion.hpp"
 
 // Results of the vertex shader for a frame's data, and the same from the scene's own numbers in extended precision.
 namespace speculum::hard_cases {
