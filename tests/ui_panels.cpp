@@ -972,7 +972,8 @@ TEST_F(TargetsWindow, ShowsTheMainViewZoomsAndPans) {
   ASSERT_TRUE(target() && target()->drawn);
   EXPECT_TRUE(target()->path.empty());
   const PixelRect canvas = widget("targets.canvas");
-  EXPECT_NEAR(target()->view.zoom, std::min(canvas.width / 900.0, canvas.height / 700.0), 1e-6);
+  EXPECT_EQ(target()->view.zoom, 0.0) << "fits whatever size the target has when it is drawn";
+  EXPECT_NEAR(windows_->state().targets.shownZoom, std::min(canvas.width / 900.0, canvas.height / 700.0), 1e-6);
   click("targets.one");
   EXPECT_EQ(target()->view.zoom, 1.0);
   const glm::dvec2 before = windows_->state().targets.center;
@@ -991,6 +992,28 @@ TEST_F(TargetsWindow, ShowsTheMainViewZoomsAndPans) {
   EXPECT_EQ(windows_->state().targets.zoom, 0.0);
   toggle("Targets");
   EXPECT_FALSE(target());
+}
+
+TEST_F(TargetsWindow, NothingIsCutWhereTextIsLarge) {
+  toggle("Targets");
+  click("targets.depth", 0.1);
+  for (PassView& pass : frame_.passes) {
+    pass.gpuMs = 123.4;
+    pass.areaPx = 1280.0 * 1000.0;
+  }
+  for (const float scale : {1.0f, 2.0f}) {
+    ImGui::GetIO().FontGlobalScale = scale;
+    for (const float width : {900.0f, 1280.0f, 1920.0f}) {
+      resize(width, 2400);
+      EXPECT_EQ(cutTexts(), "") << width << " at " << scale;
+    }
+  }
+}
+
+TEST_F(TargetsWindow, NewTargetsAreDrawnAtOnce) {
+  frame_.target = {};
+  toggle("Targets");
+  EXPECT_TRUE(target() && target()->drawn) << "else the picture would be seen in its place";
 }
 
 TEST_F(TargetsWindow, IncompleteTargetsAreAnnounced) {

@@ -132,7 +132,7 @@ void SceneRenderer::record(Frame& frame, const SceneState& state, const Settings
   if (unfinished_) {
     mainImage_ = {};
   } else {
-    if (watched_ && watched_->kind == TargetKind::depth) {
+    if (watched_ && watched_->kind == TargetKind::depth && !plan.mainReused) {
       watchedDepth_->finish(frame.commands, *frame.retired);
     }
     shown_ = watched_;
@@ -155,14 +155,18 @@ void SceneRenderer::add(RecordedPass pass) {
 
 SceneRenderer::Watched SceneRenderer::watchedOf(const FramePlan& plan, const DebugView& debug) {
   const auto pass = static_cast<size_t>(debug.pass);
-  const View& view = (pass < plan.passes.size() ? plan.passes[pass] : plan.main).view;
+  const std::vector<PlannedPass>& passes = shownPasses(plan);
+  const View& view = (pass < passes.size() ? passes[pass] : plan.main).view;
   return {debug.pass, view.path, debug.kind, {view.rect.width, view.rect.height}, plan.projection.near};
 }
 
-// Begins to watch the debug view's target with a picture. Releases what only the debug view needs, once it is off.
+// Begins to watch the debug view's target with a picture. One that is shown again keeps what was watched, besides the
+// colors of its main view, which are always there. Releases what only the debug view needs, once it is off.
 void SceneRenderer::watch(const FramePlan& plan, const std::optional<DebugView>& debug, RetireQueue& retired) {
   if (beginsPicture(plan)) {
-    watched_ = debug ? std::optional(watchedOf(plan, *debug)) : std::nullopt;
+    const std::optional<Watched> asked = debug ? std::optional(watchedOf(plan, *debug)) : std::nullopt;
+    const bool there = asked && asked->path.empty() && asked->kind == TargetKind::color;
+    watched_ = !plan.mainReused || there || !asked ? asked : watched_;
   }
   if (!debug || debug->kind != TargetKind::depth) {
     watched_ = watched_ && watched_->kind == TargetKind::depth ? std::nullopt : watched_;
@@ -184,7 +188,8 @@ void SceneRenderer::prepareTargets(Frame& frame, const Settings& settings, const
     }
     mirrorTargets_.begin(plan, device_.sampleCount(settings.reflection.samples),
                          watchesMirror ? std::optional(watched_->pass) : std::nullopt, *frame.retired);
-    if (shown && plan.tiles && !earlierMain_ && !unfinished_ && accumulated() == 0) {
+    const bool mainIsShown = accumulated() == 0 || keepsTarget({}, TargetKind::color);
+    if (shown && plan.tiles && !earlierMain_ && !unfinished_ && mainIsShown) {
       earlierMain_ = std::move(main_);
     } else if (!plan.tiles) {
       releaseEarlierMain(*frame.retired);
@@ -398,7 +403,8 @@ void SceneRenderer::recordMain(const FrameInfo& info) {
 void SceneRenderer::recordSum(const FrameInfo& info) {
   if (info.settings.view.accumulate == 1) {
     accumulation_.release(*info.frame.retired);
-  } else if (!info.plan.mainReused) {
+  } else if (const bool again = info.plan.picture > 0 && info.plan.picture + 1 == accumulated();
+             !info.plan.mainReused && !again) {
     add(accumulation_.add(info.frame, main_->descriptor(), main_->extent(), info.plan.picture));
   }
 }
@@ -524,9 +530,9 @@ void SceneRenderer::checkTarget(const FrameInfo& info, const RecordedPass& pass,
 }
 
 OffScreen* SceneRenderer::watchedTarget(const FramePlan& plan, int pass) {
-  return pass == static_cast<int>(plan.passes.size()) ? &shownMain()
-         : unfinished_                                ? mirrorTargets_.earlierWatched()
-                                                      : &mirrorTargets_[static_cast<size_t>(pass)];
+  return pass == static_cast<int>(shownPasses(plan).size()) ? &shownMain()
+         : unfinished_ || plan.mainReused                   ? mirrorTargets_.earlierWatched()
+                                                            : &mirrorTargets_[static_cast<size_t>(pass)];
 }
 
 // Enters in the ledger the costs that are not entered with each draw.
