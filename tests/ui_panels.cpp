@@ -480,6 +480,7 @@ TEST_F(PanelTest, ThemeAndSizeAreChosenAndRemembered) {
 TEST_F(PanelTest, PresentModesAreThoseOffered) {
   device_.presentModes = {"fifo", "immediate"};
   click("menu.Window");
+  EXPECT_TRUE(shows("VSync (fifo)") && shows("No VSync (immediate)"));
   EXPECT_EQ(clickFor<SetPresentMode>("present.immediate", 0.1).index, 1u);
 }
 
@@ -752,6 +753,14 @@ TEST_F(Inspector, ClickedNumbersAreTyped) {
   const glm::dvec3 before = scene_.mirrors[0].position;
   typeNumber("edit.position", 0.33, "1.75");
   EXPECT_EQ(scene_.mirrors[0].position, glm::dvec3(before.x, 1.75, before.z)) << "what was there is replaced";
+}
+
+TEST_F(Inspector, CopiesAreNamedInWords) {
+  scene_.objects.resize(1);
+  scene_.objects[0].copies.count = 2;
+  resize(900, 1400);
+  select({Selection::Kind::object, 0});
+  EXPECT_TRUE(shows("Number of copies") && shows("Step between copies (m)"));
 }
 
 TEST_F(Inspector, SphereIsSuggested) {
@@ -1050,6 +1059,7 @@ TEST_F(TargetsWindow, RowsAddUpToTheFrame) {
   frame_.timedGpuMs = 50.0;
   run(2);
   EXPECT_TRUE(has("passes.rest"));
+  EXPECT_TRUE(shows("panels and waiting"));
 }
 
 TEST_F(TargetsWindow, TooltipsLeaveTheirRowInSight) {
