@@ -148,6 +148,22 @@ TEST_F(Report, PanelOnlyFramesChangeNoFigure) {
   EXPECT_NEAR(report.view().frameMs, 10.0, 1.0) << "not held up by the slow frame before";
 }
 
+TEST_F(Report, RepeatedPicturesChangeNoFigure) {
+  report.updateTimes(frameOf(1, 5.0, NAN), {});
+  report.updateTimes(frameOf(2, 5.0, 30.0), {.frame = 1, .gpuMs = 20.0});
+  EXPECT_FALSE(report.view().still);
+  const double ms = report.view().frameMs;
+  for (uint64_t number = 3; number < 9; ++number) {
+    RecordedFrame again = frameOf(number, 1.0, 16.0);
+    again.repeats = true;  // as for the Targets window
+    report.updateTimes(again, {.frame = number - 1, .gpuMs = 20.0});
+    EXPECT_TRUE(report.view().still);
+  }
+  EXPECT_EQ(report.view().cpuMs, 5.0);
+  EXPECT_NEAR(report.view().frameMs, 25.0, 1e-9) << "of the last other one, not " << ms;
+  EXPECT_EQ(report.view().history.frames(), 2u);
+}
+
 TEST_F(Report, TilesOfAPictureAreOneFrame) {
   plan.main.view.rect = {0, 0, 2 * tileSide, 2 * tileSide};
   report.updateTimes(frameOf(1, 1.0, NAN), {});

@@ -103,6 +103,7 @@ class PanelTest : public testing::Test {
   struct DrawnGlyph {
     char letter;
     float lineTop;  // the top of its line of text, in pixels of the display
+    int vertex;     // its first one
   };
   // Returns the letters of a list in the order of drawing, without spaces.
   static std::vector<DrawnGlyph> glyphsOf(const ImDrawList& list) {
@@ -117,7 +118,7 @@ class PanelTest : public testing::Test {
       if (at != glyphs.end() && at->second->U1 == vertices[k + 2].uv.x && at->second->V1 == vertices[k + 2].uv.y &&
           at->second->U0 != at->second->U1) {
         const ImFontGlyph& glyph = *at->second;
-        found.push_back({static_cast<char>(glyph.Codepoint), vertices[k].pos.y - glyph.Y0});
+        found.push_back({static_cast<char>(glyph.Codepoint), vertices[k].pos.y - glyph.Y0, k});
         k += 3;
       }
     }
@@ -151,6 +152,28 @@ class PanelTest : public testing::Test {
         const auto& [top, text] = *std::next(line);
         if (top - line->first < 0.8f * ImGui::GetFontSize()) {
           found += "'" + line->second + "' and '" + text + "'; ";
+        }
+      }
+    }
+    return found;
+  }
+  // Returns the texts of the last frame that a column's or a window's side cuts.
+  static std::string cutTexts() {
+    std::string found;
+    const ImDrawData& drawn = *ImGui::GetDrawData();
+    for (int i = 0; i < drawn.CmdListsCount; ++i) {
+      const ImDrawList& list = *drawn.CmdLists[i];
+      for (const ImDrawCmd& command : list.CmdBuffer) {
+        const auto first = list.IdxBuffer.begin() + command.IdxOffset;
+        for (const DrawnGlyph& glyph : glyphsOf(list)) {
+          const bool drawnHere = std::find(first, first + command.ElemCount, glyph.vertex) != first + command.ElemCount;
+          const ImVec4& clip = command.ClipRect;
+          const float top = list.VtxBuffer[glyph.vertex].pos.y;
+          const bool inSight = top >= clip.y && top < clip.w;
+          if (drawnHere && inSight &&
+              (list.VtxBuffer[glyph.vertex].pos.x < clip.x || list.VtxBuffer[glyph.vertex + 2].pos.x > clip.z)) {
+            found += glyph.letter;
+          }
         }
       }
     }

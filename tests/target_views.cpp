@@ -182,6 +182,49 @@ TEST(TargetViews, StayUntilTheNextPictureIsComplete) {
   }
 }
 
+// The last picture of a mean is drawn again for a target.
+TEST(TargetViews, LeaveTheMean) {
+  QuietSession session(hallOptions());
+  const SceneState state = evaluate(session.scene(), 0.0);
+  Settings mean = session.settings();
+  mean.view.accumulate = 3;
+  const auto draw = [&](int picture, const std::optional<DebugView>& debug) {
+    const FramePlan plan = planFrame(session.scene(), state, mean, hallSize.width, hallSize.height,
+                                     session.sceneRenderer().cache(), picture);
+    recordFrame(session, state, mean, plan, debug);
+    return session.picture();
+  };
+  for (int picture = 0; picture < 3; ++picture) {
+    draw(picture, std::nullopt);
+  }
+  const Image8 plain = draw(3, std::nullopt);
+  for (const TargetKind kind : {TargetKind::depth, TargetKind::color}) {
+    for (const int pass : {0, 1}) {
+      const DebugView debug{.pass = pass, .area = {0, 0, 100, 120}, .kind = kind, .halfDistance = 5.0};
+      const std::vector<int> path = pass == 0 ? std::vector<int>{0} : std::vector<int>{};
+      EXPECT_FALSE(session.sceneRenderer().keepsTarget(path, kind));
+      const Image8 shown = draw(2, debug);
+      EXPECT_EQ(session.sceneRenderer().accumulated(), 3);
+      EXPECT_TRUE(session.sceneRenderer().keepsTarget(path, kind));
+      for (int frame = 0; frame < 3; ++frame) {
+        EXPECT_TRUE(draw(3, debug).rgba == shown.rgba) << "nothing has to be drawn for it any more";
+      }
+      int differences = 0;
+      for (int y = 0; y < hallSize.height; ++y) {
+        for (int x = 0; x < hallSize.width; ++x) {
+          const bool same = std::equal(plain.at(x, y), plain.at(x, y) + 3, shown.at(x, y));
+          EXPECT_TRUE(same || debug.area.contains(x, y)) << x << " " << y;
+          differences += same ? 0 : 1;
+        }
+      }
+      EXPECT_GT(differences, 1000);
+      EXPECT_TRUE(draw(3, std::nullopt).rgba == plain.rgba);
+    }
+  }
+  const DebugView main{.pass = 1, .area = {0, 0, 100, 120}};
+  EXPECT_FALSE(draw(3, main).rgba == plain.rgba) << "colors of the main view are always there";
+}
+
 TEST(TargetViews, CostNothingWhenOff) {
   QuietSession session(hallOptions("4"));
   const FramePlan plan = session.draw(0.0, false).plan;

@@ -480,6 +480,7 @@ TEST_F(PanelTest, ThemeAndSizeAreChosenAndRemembered) {
 TEST_F(PanelTest, PresentModesAreThoseOffered) {
   device_.presentModes = {"fifo", "immediate"};
   click("menu.Window");
+  EXPECT_TRUE(shows("VSync (fifo)") && shows("No VSync (immediate)"));
   EXPECT_EQ(clickFor<SetPresentMode>("present.immediate", 0.1).index, 1u);
 }
 
@@ -754,6 +755,14 @@ TEST_F(Inspector, ClickedNumbersAreTyped) {
   EXPECT_EQ(scene_.mirrors[0].position, glm::dvec3(before.x, 1.75, before.z)) << "what was there is replaced";
 }
 
+TEST_F(Inspector, CopiesAreNamedInWords) {
+  scene_.objects.resize(1);
+  scene_.objects[0].copies.count = 2;
+  resize(900, 1400);
+  select({Selection::Kind::object, 0});
+  EXPECT_TRUE(shows("Number of copies") && shows("Step between copies (m)"));
+}
+
 TEST_F(Inspector, SphereIsSuggested) {
   edit_.models = {"/models/frame.obj", "/models/sphere.obj"};
   const Scene other = scene_;
@@ -972,7 +981,8 @@ TEST_F(TargetsWindow, ShowsTheMainViewZoomsAndPans) {
   ASSERT_TRUE(target() && target()->drawn);
   EXPECT_TRUE(target()->path.empty());
   const PixelRect canvas = widget("targets.canvas");
-  EXPECT_NEAR(target()->view.zoom, std::min(canvas.width / 900.0, canvas.height / 700.0), 1e-6);
+  EXPECT_EQ(target()->view.zoom, 0.0) << "fits whatever size the target has when it is drawn";
+  EXPECT_NEAR(windows_->state().targets.shownZoom, std::min(canvas.width / 900.0, canvas.height / 700.0), 1e-6);
   click("targets.one");
   EXPECT_EQ(target()->view.zoom, 1.0);
   const glm::dvec2 before = windows_->state().targets.center;
@@ -991,6 +1001,28 @@ TEST_F(TargetsWindow, ShowsTheMainViewZoomsAndPans) {
   EXPECT_EQ(windows_->state().targets.zoom, 0.0);
   toggle("Targets");
   EXPECT_FALSE(target());
+}
+
+TEST_F(TargetsWindow, NothingIsCutWhereTextIsLarge) {
+  toggle("Targets");
+  click("targets.depth", 0.1);
+  for (PassView& pass : frame_.passes) {
+    pass.gpuMs = 123.4;
+    pass.areaPx = 1280.0 * 1000.0;
+  }
+  for (const float scale : {1.0f, 2.0f}) {
+    ImGui::GetIO().FontGlobalScale = scale;
+    for (const float width : {900.0f, 1280.0f, 1920.0f}) {
+      resize(width, 2400);
+      EXPECT_EQ(cutTexts(), "") << width << " at " << scale;
+    }
+  }
+}
+
+TEST_F(TargetsWindow, NewTargetsAreDrawnAtOnce) {
+  frame_.target = {};
+  toggle("Targets");
+  EXPECT_TRUE(target() && target()->drawn) << "else the picture would be seen in its place";
 }
 
 TEST_F(TargetsWindow, IncompleteTargetsAreAnnounced) {
@@ -1027,6 +1059,7 @@ TEST_F(TargetsWindow, RowsAddUpToTheFrame) {
   frame_.timedGpuMs = 50.0;
   run(2);
   EXPECT_TRUE(has("passes.rest"));
+  EXPECT_TRUE(shows("panels and waiting"));
 }
 
 TEST_F(TargetsWindow, TooltipsLeaveTheirRowInSight) {

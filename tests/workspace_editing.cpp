@@ -51,6 +51,29 @@ TEST_F(Editing, InspectorNeverCoversWhatWasClicked) {
   EXPECT_TRUE(host_.inspector);
 }
 
+TEST_F(Editing, UndoStaysInTheMirrorImage) {
+  click(imageAt_);
+  const glm::dvec3 before = scene().objects[0].position;
+  send(SetGizmoMode{GizmoMode::move});
+  frame();
+  drag(imageAt_ - glm::dvec2(4.0, 0.0), {30.0, 0.0});
+  EXPECT_GT(glm::distance(scene().objects[0].position, before), 0.01);
+  for (const Command& command : {Command(Undo{}), Command(Redo{}), Command(Undo{})}) {
+    send(command);
+    EXPECT_EQ(edit().selected, ball);
+    EXPECT_EQ(edit().through, std::vector<int>{0});
+  }
+  expectNear(scene().objects[0].position, before);
+  clickBall();
+  send(Redo{});
+  EXPECT_TRUE(edit().through.empty()) << "it is selected itself";
+  click(imageAt_);
+  send(DuplicateSelected{});
+  click(imageAt_);
+  send(Undo{});
+  EXPECT_TRUE(edit().through.empty()) << "indices have changed";
+}
+
 TEST_F(Editing, FurtherClicksGoOutwards) {
   const glm::dvec2 at = pixel({0.3, 1.0, -7.5}) - glm::dvec2(4.0, 0.0);
   click(at);

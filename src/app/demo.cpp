@@ -202,8 +202,9 @@ void Demo::drawFrame(double seconds, double sinceLastMs) {
   }
   framesDrawn_ += framesDrawn_ < std::numeric_limits<int>::max();
   pacer_.frameDrawn();
+  const bool repeats = pace_.repeats() && !settings.view.continuous && options_.frames == 0;
   workspace_.report().update({workspace_.scene(), state, settings, plan, number, cpuMs, sinceLastMs, pace_.lowers(),
-                              newPipelines || compiledBefore},
+                              newPipelines || compiledBefore, repeats},
                              renderer_, *sceneRenderer_, output_.hoveredPath);
   const auto radiance = [&] { return toDisplay(sceneRenderer_->radiance(), settings.view.displayCurve()); };
   const std::optional<Image8> picture = captured ? std::optional(pictureOf(renderer_.readback())) : std::nullopt;
@@ -216,13 +217,18 @@ void Demo::drawFrame(double seconds, double sinceLastMs) {
   pace_.presented(milliseconds(Clock::now() - presents));
 }
 
-std::optional<std::pair<std::vector<int>, TargetKind>> Demo::targetShown() const {
+// Returns the target that the panels show if a picture has to be drawn for it. The colors of the main view are always
+// there.
+std::optional<Pace::Target> Demo::missingTarget() const {
   const std::optional<TargetRequest>& target = output_.target;
-  return target ? std::optional(std::pair(target->path, target->view.kind)) : std::nullopt;
+  const bool missing = target && target->drawn && !(target->path.empty() && target->view.kind == TargetKind::color) &&
+                       !sceneRenderer_->keepsTarget(target->path, target->view.kind);
+  return missing ? std::optional(Pace::Target(target->path, target->view.kind)) : std::nullopt;
 }
 
 const FittedPlan& Demo::planFrame(Frame& frame, const SceneState& state) {
-  const bool showsMain = output_.target && output_.target->path.empty();
+  const std::optional<Pace::Target> missing = missingTarget();
+  const bool watchesMirror = output_.target && !output_.target->path.empty();
   const bool settingsMove = ui_->holdsWidget() || pace_.moving();
   const Settings settings = settingsOfFrame();
   const Pace::Request request{
@@ -233,16 +239,20 @@ const FittedPlan& Demo::planFrame(Frame& frame, const SceneState& state) {
                 .revision = workspace_.revision(),
                 .shaders = renderer_.pipelines().revision(),
                 .time = contentMoves(workspace_.scene()) ? std::optional(state.time) : std::nullopt,
-                .size = pictureSize(),
-                .target = targetShown()},
+                .size = pictureSize()},
       // Recorded frames have no budget.
       .budgetMs =
           workspace_.capture().recording() ? 0.0 : motionBudget(workspace_.settings(), isCpu(device_), refreshHz_),
       .front = workspace_.accuracy().front(),
       .simplifies = levels_.ready(workspace_.scene(), scenes_),
-      .input = changes_};
-  const FittedPlan& fitted = pace_.plan(request, [&](const Settings& lowered, int picture) {
-    return planner_.plan(frame, *sceneRenderer_, request.scene, state, lowered, picture, showsMain, settingsMove);
+      .input = changes_,
+      .target = missing};
+  const FittedPlan& fitted = pace_.plan(request, [&](Settings lowered, int picture) {
+    // A mirror whose target is shown is rendered in each frame. This changes no picture.
+    lowered.reflection.skipUnchanged = lowered.reflection.skipUnchanged && !watchesMirror;
+    lowered.reflection.updateInterval = watchesMirror ? 1 : lowered.reflection.updateInterval;
+    return planner_.plan(frame, *sceneRenderer_, request.scene, state, lowered, picture, missing.has_value(),
+                         settingsMove);
   });
   const bool pauses = !pace_.text().empty() && workspace_.animates();
   workspace_.setPictureText(pace_.text() + (pauses ? ". Space: pause for the exact picture" : ""));
@@ -260,14 +270,8 @@ bool Demo::timesPasses(bool movementEnded) {
 
 Settings Demo::settingsOfFrame() const {
   Settings settings = workspace_.settings();
-  // Renders every mirror in each frame while debug.check_finite is on, which reports findings by mirror, or a mirror's
-  // target is shown.
-  const bool watched = output_.target && !output_.target->path.empty();
-  settings.reflection.skipUnchanged = settings.reflection.skipUnchanged && !settings.debug.checkFinite && !watched;
-  settings.reflection.updateInterval = watched ? 1 : settings.reflection.updateInterval;
-  if (output_.target) {
-    settings.view.accumulate = settings.quality.stillPictures = 1;  // a target belongs to one picture
-  }
+  // Renders every mirror in each frame while debug.check_finite is on, which reports findings by mirror.
+  settings.reflection.skipUnchanged = settings.reflection.skipUnchanged && !settings.debug.checkFinite;
   return settings;
 }
 

@@ -81,7 +81,7 @@ class Demo : private WorkspaceHost {
   void endFrame(Frame& frame);
   void abandonFrame(Frame& frame, const std::string& why);
   void drawFrame(double seconds, double sinceLastMs);
-  std::optional<std::pair<std::vector<int>, TargetKind>> targetShown() const;
+  std::optional<Pace::Target> missingTarget() const;
   const FittedPlan& planFrame(Frame& frame, const SceneState& state);
   bool timesPasses(bool movementEnded);
   Settings settingsOfFrame() const;

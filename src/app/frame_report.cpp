@@ -85,6 +85,7 @@ void FrameReport::update(const RecordedFrame& frame, Renderer& renderer, SceneRe
   view_.usedBytes = budget.usedBytes;
   view_.validationMessages = device.validation() ? device.validationMessages() : -1;
   view_.target.value = sceneRenderer.probed();
+  view_.target.complete = sceneRenderer.keepsTarget(view_.target.path, targetKind_);
   const std::span<const RecordedPass> timed = sceneRenderer.passesOf(timings.frame);
   updateTimes(frame, timings, timed);
   if (endsPicture(frame.plan)) {
@@ -109,12 +110,12 @@ void FrameReport::addFrame(const RecordedFrame& frame, const FrameTimings& timin
   picture_.number = frame.number;
 }
 
-// Frames that draw the panels only change no figure: those of the last frame that drew the scene stay. A picture of
+// Frames for the panels only change no figure: those of the last frame that drew another picture stay. A picture of
 // several frames counts as one frame, the last; while they draw it, the figures are those of the picture before.
 void FrameReport::updateTimes(const RecordedFrame& frame, const FrameTimings& timings,
                               std::span<const RecordedPass> timed) {
   addFrame(frame, timings, timed);
-  const bool drawsScene = !frame.plan.mainReused;
+  const bool drawsScene = !frame.plan.mainReused && !frame.repeats;
   view_.still = !drawsScene || frame.plan.tiles;
   const bool drewScene = endsPicture(frame.plan) && !std::exchange(panelsOnly_, !drawsScene) && !drawn_.empty();
   if (endsPicture(frame.plan) && drawsScene) {
@@ -290,21 +291,24 @@ void FrameReport::updateSkipped(const RecordedFrame& frame) {
 
 std::optional<DebugView> FrameReport::target(const TargetRequest& request, const FramePlan& plan,
                                              const Settings& settings, bool standardSampleLocations) {
-  const PlannedPass* mirror = mirrorPass(plan, request.path);
-  if (!mirror && !request.path.empty()) {
+  const std::vector<PlannedPass>& passes = shownPasses(plan);
+  const auto mirror =
+      std::ranges::find_if(passes, [&](const PlannedPass& pass) { return pass.view.path == request.path; });
+  if (mirror == passes.end() && !request.path.empty()) {
     return std::nullopt;
   }
+  targetKind_ = request.view.kind;
   // While tiles are drawn, the target of the picture before stays.
   if (endsPicture(plan) || !view_.target.complete || view_.target.path != request.path) {
     const std::optional<TexelValue> value = view_.target.value;
-    view_.target = targetOf(plan, mirror ? *mirror : plan.main, settings, standardSampleLocations);
+    view_.target = targetOf(plan, mirror != passes.end() ? *mirror : plan.main, settings, standardSampleLocations);
     view_.target.value = value;
   }
   if (!request.drawn) {
     return std::nullopt;
   }
   DebugView view = request.view;
-  view.pass = static_cast<int>(mirror ? mirror - plan.passes.data() : std::ssize(plan.passes));
+  view.pass = static_cast<int>(mirror - passes.begin());
   // The image may have become smaller since the pointer was there.
   if (view.probe && (view.probe->x >= view_.target.size.x || view.probe->y >= view_.target.size.y)) {
     view.probe.reset();

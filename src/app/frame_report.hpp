@@ -19,6 +19,7 @@ struct RecordedFrame {
   double sinceLastMs = 0.0;  // NaN after the window was idle
   bool lowered = false;      // its quality, for the pace
   bool compiles = false;     // it made pipelines, or the frame before, which takes long
+  bool repeats = false;      // it draws the picture that was there before, for the panels
 };
 
 // Collects the figures of frames for the panels.
@@ -78,6 +79,7 @@ class FrameReport {
   bool timedLowered_ = false;  // likewise
   bool averages_ = false;      // FrameView::frameMs: its frames followed each other
   std::vector<SkippedMirror> skipped_;
+  TargetKind targetKind_ = TargetKind::color;  // of FrameView::target
 };
 
 }  // namespace speculum

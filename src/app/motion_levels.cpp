@@ -236,8 +236,8 @@ std::string motionText(const Settings& chosen, const MotionLevel& level) {
       fmt::format("mirrors every {} frames", reflection.updateInterval));
   const double mirrors = reflection.meshError != chosen.reflection.meshError ? reflection.meshError : 0.0;
   const double view = settings.view.meshError != chosen.view.meshError ? settings.view.meshError : 0.0;
-  add(mirrors > 0.0 || view > 0.0, fmt::format("meshes within {:.2g} texels", std::max(mirrors, view)));
-  return text.empty() ? "full quality" : text + fmt::format(" (estimated FLIP {:.1g})", level.error);
+  add(mirrors > 0.0 || view > 0.0, "simplified meshes");
+  return text.empty() ? "full quality" : text + fmt::format(" (estimated error {:.1g} FLIP)", level.error);
 }
 
 }  // namespace speculum

@@ -49,7 +49,7 @@ const FittedPlan& Pace::plan(const Request& request, const Planner& plan) {
     return fitted;
   };
   fitted_.plan.tiles.reset();
-  lowers_ = false;
+  lowers_ = repeats_ = false;
   if (moving() && request.budgetMs > 0.0) {
     planMoving(request, counted);
   } else {
@@ -88,6 +88,7 @@ void Pace::planStill(const Request& request, const Planner& plan) {
   const auto shown = moving() ? std::nullopt : std::optional(std::pair(request.chosen, request.shown));
   if (std::exchange(shown_, shown) != shown || moving()) {
     picture_ = -1;
+    target_.reset();
     slow_.reset();
     draft_.clear();
   }
@@ -96,11 +97,24 @@ void Pace::planStill(const Request& request, const Planner& plan) {
     slow_.reset();
   }
   text_.clear();
+  planTarget(request);
   if (moving() || (pictures_ == 1 && !divides)) {
     picture_ = pictures_;
     fitted_ = plan(withPictures(request.chosen, 1), 0);
   } else if (picture_ >= 0 || !planFirst(request, plan)) {
     planPicture(request, plan);
+  }
+}
+
+// Draws the last picture of a complete mean again for a target that was not kept, once: the mean itself stays. A single
+// picture is drawn again anyway if the plan cannot reuse it.
+void Pace::planTarget(const Request& request) {
+  repeats_ = picture_ == pictures_ || target_;
+  if (!request.target) {
+    target_.reset();
+  } else if (picture_ == pictures_ && pictures_ > 1 && target_ != request.target) {
+    target_ = request.target;
+    --picture_;
   }
 }
 

@@ -57,6 +57,8 @@ class Pace {
   bool drawsTiles() const { return fitted_.plan.tiles.has_value(); }
   // Says whether the planned frame has a lower quality than the chosen settings.
   bool lowers() const { return lowers_; }
+  // Says whether the planned frame draws the picture again that was there before, for the panels.
+  bool repeats() const { return repeats_; }
   // Says whether the next frames are likely to draw tiles.
   bool drawsSlowly() const { return !moving() && slow_ && (slow_->begun() || !draft_.empty()); }
 
@@ -67,11 +69,11 @@ class Pace {
     uint64_t shaders = 0;        // revision of the pipelines
     std::optional<double> time;  // of a scene that moves
     glm::ivec2 size{0};          // pixels of the picture
-    // Pass and kind of the target that is shown beside it; nothing without one.
-    std::optional<std::pair<std::vector<int>, TargetKind>> target;
 
     bool operator==(const Shown&) const = default;
   };
+  // Pass and kind of a target.
+  using Target = std::pair<std::vector<int>, TargetKind>;
   struct Request {
     const Scene& scene;
     const SceneState& state;
@@ -81,6 +83,7 @@ class Pace {
     std::span<const MotionLevel> front;  // as motionLevels takes it
     bool simplifies = false;             // likewise
     bool input = false;                  // there is some, which a frame with tiles must not hold up
+    std::optional<Target> target;        // to show beside the picture, and of which no picture was kept
   };
   // Plans the frame. Calls `plan` a few times, or not at all between tiles of a picture, with settings and the number
   // of a picture in their mean; returns the plan of the last call, valid until the next frame's.
@@ -104,6 +107,7 @@ class Pace {
   void planStill(const Request& request, const Planner& plan);
   bool planFirst(const Request& request, const Planner& plan);
   void planPicture(const Request& request, const Planner& plan);
+  void planTarget(const Request& request);
   void planTiles(const Request& request);
   std::string tilesText() const;
 
@@ -128,6 +132,8 @@ class Pace {
   FittedPlan fitted_;          // of the frame that was planned last
   FrameWork work_;             // of fitted_
   bool lowers_ = false;
+  bool repeats_ = false;
+  std::optional<Target> target_;  // that the last picture of the mean is, or was, drawn again for
   std::string text_;
   // Settings and content of the still pictures; nothing while the picture moves.
   std::optional<std::pair<Settings, Shown>> shown_;

@@ -293,18 +293,19 @@ void SceneEditor::removeBookmark(size_t index) {
   document_.removeBookmark(index);
 }
 
-// Nodes stay selected together as long as all of them keep their indices.
+// Nodes stay selected together, and in the mirror image that was clicked, as long as all of them keep their indices.
 std::optional<SettingsStep> SceneEditor::step(UndoWay way) {
   release();
   if (document_.changesScene(way)) {
     beforeChange_();
-    forgetPath();
+    clicked_.reset();
   }
   const uint64_t structure = document_.structureRevision();
   const Selection first = document_.selection();
   const std::optional<SettingsStep> settings = way == UndoWay::back ? document_.undo() : document_.redo();
   if (document_.structureRevision() != structure || !sameNode(document_.selection(), first)) {
     others_.clear();
+    forgetPath();
   }
   return settings;
 }

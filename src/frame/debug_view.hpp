@@ -13,7 +13,7 @@ struct DebugView {
   int pass = 0;    // index into FramePlan::passes; passes.size() is the main view
   PixelRect area;  // pixels
   TargetKind kind = TargetKind::color;
-  double zoom = 0.0;                // display pixels for each texel; 0 fits the image into the area
+  double zoom = 0.0;                // display pixels for each texel; 0 fits the image into the area's middle
   glm::dvec2 origin{0.0};           // texel at the area's upper left corner; only if zoom > 0
   double halfDistance = 1.0;        // metres from the eye that depth shows half bright
   std::optional<glm::ivec2> probe;  // texel to read: see SceneRenderer::probed

@@ -165,6 +165,11 @@ struct FramePlan {
   std::optional<TileRange> tiles;
 };
 
+// Mirror passes of the picture that the frame shows, which draws them unless it shows the last one again.
+inline const std::vector<PlannedPass>& shownPasses(const FramePlan& plan) {
+  return plan.mainReused ? plan.reused : plan.passes;
+}
+
 // The mirror pass with that path; null if the plan has none.
 const PlannedPass* mirrorPass(const FramePlan& plan, const std::vector<int>& path);
 

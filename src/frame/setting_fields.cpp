@@ -193,7 +193,7 @@ constexpr SettingField fields[] = {
         "0 (ticked): settings stay as they are while anything moves; auto (not ticked): they are lowered then, so that "
         "no frame takes longer than 50 ms on CPUs, elsewhere 0.8 of a refresh; other values: than this",
         "At 0 movement may stutter.", {.unit = "ms", .changes = none}),
-    setting("quality.still_pictures", IntegerSetting{at<&Q::stillPictures>, 1, 1024}, "Still pictures",
+    setting("quality.still_pictures", IntegerSetting{at<&Q::stillPictures>, 1, 1024}, "Pictures to average",
             "pictures whose mean the window shows when nothing moves", "As many are drawn after each movement.",
             {.changes = none, .slider = SettingSlider{1, 1024, "%d"}}),
 

@@ -18,13 +18,14 @@ enum class FieldUse { appearance, placement, label };
 template <typename Owner, typename Value>
 struct FieldTraits {
   std::string_view unit = {};
-  Range range = kAny;          // of each number
-  double floor = kAny.low;     // smaller numbers count as this one
-  double ceiling = kAny.high;  // larger numbers count as this one
-  bool required = false;       // a file must have it
-  bool alwaysSaved = false;    // even at its default, because its table exists for it
-  bool color = false;          // linear RGB
-  bool uniform = false;        // one number stands for three equal ones
+  std::string_view label = {};  // in the inspector; made from the key if empty
+  Range range = kAny;           // of each number
+  double floor = kAny.low;      // smaller numbers count as this one
+  double ceiling = kAny.high;   // larger numbers count as this one
+  bool required = false;        // a file must have it
+  bool alwaysSaved = false;     // even at its default, because its table exists for it
+  bool color = false;           // linear RGB
+  bool uniform = false;         // one number stands for three equal ones
   FieldUse use = FieldUse::appearance;
   double step = 0.01;                            // change for a pixel of a drag in the inspector
   bool (*applies)(const Owner& node) = nullptr;  // if false, the field is neither read nor saved
@@ -85,11 +86,13 @@ inline const auto fieldsOf<CameraSpec> = std::tuple{
 template <>
 inline const auto fieldsOf<Copies> =
     std::tuple{field(&Copies::count, "count", "instances of the object",
-                     {.range = kCopies, .use = FieldUse::placement, .step = 0.1}),
+                     {.label = "Number of copies", .range = kCopies, .use = FieldUse::placement, .step = 0.1}),
                field(&Copies::step, "step", "from one instance to the next",
-                     {.unit = "m", .range = kCoordinate, .use = FieldUse::placement, .shown = [](const Copies& copies) {
-                        return copies.count > 1;
-                      }})};
+                     {.unit = "m",
+                      .label = "Step between copies",
+                      .range = kCoordinate,
+                      .use = FieldUse::placement,
+                      .shown = [](const Copies& copies) { return copies.count > 1; }})};
 
 template <>
 inline const auto fieldsOf<ObjectMirror> = std::tuple{
@@ -100,7 +103,7 @@ inline const auto fieldsOf<ObjectMirror> = std::tuple{
 
 template <>
 inline const auto fieldsOf<Object> = std::tuple{
-    field(&Object::name, "name", "for messages and the panel", {.use = FieldUse::label}),
+    field(&Object::name, "name", "shown in lists and messages", {.use = FieldUse::label}),
     field(&Object::model, "model", "OBJ file, relative to the scene file",
           {.required = true, .use = FieldUse::label, .shown = [](const Object&) { return false; }}),
     field(&Object::position, "position", "of the model's origin",
@@ -133,7 +136,7 @@ inline const auto fieldsOf<Orbit> =
 
 template <>
 inline const auto fieldsOf<PointLight> = std::tuple{
-    field(&PointLight::name, "name", "for messages and the panel", {.use = FieldUse::label}),
+    field(&PointLight::name, "name", "shown in lists and messages", {.use = FieldUse::label}),
     field(&PointLight::position, "position", "of the centre",
           {.unit = "m", .range = kCoordinate, .required = true, .use = FieldUse::placement}),
     field(&PointLight::color, "color", "of light and sphere", {.range = kRadiance, .color = true}),
@@ -159,7 +162,8 @@ inline bool isRectangle(const Mirror& mirror) {
 
 template <>
 inline const auto fieldsOf<Mirror> = std::tuple{
-    field(&Mirror::name, "name", "for messages and the panel; its index from 0 unless given", {.use = FieldUse::label}),
+    field(&Mirror::name, "name", "shown in lists and messages; its index from 0 unless given",
+          {.use = FieldUse::label}),
     field(&Mirror::polygon, "polygon",
           "instead of a rectangle: world-space vertices, planar, convex, counter-clockwise from the front",
           {.unit = "m",

@@ -24,8 +24,8 @@ std::optional<Placement> placementOf(const VkExtent2D& display, const glm::dvec2
   if (zoom > 0.0) {
     corner -= zoom * debug.origin;
   } else {
-    zoom = std::min(area.width / image.x, area.height / image.y);
-    corner = {area.x, area.y};
+    zoom = std::min(debug.area.width / image.x, debug.area.height / image.y);
+    corner += 0.5 * (glm::dvec2(debug.area.width, debug.area.height) - zoom * image);
   }
   const glm::dvec2 last = corner + zoom * image;
   const glm::ivec2 low(glm::ceil(glm::max(corner - 0.5, glm::dvec2(-1.0))));

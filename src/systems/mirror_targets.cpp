@@ -33,13 +33,14 @@ void MirrorTargets::takeCached(const FramePlan& plan) {
   cachedImages_.clear();  // an unfinished picture offers none; end() fills it
 }
 
-// While tiles are drawn the image stays shown; the pool may be cleared meanwhile.
+// While tiles are drawn, or the picture is shown again, the image stays shown; the pool may be cleared meanwhile.
 void MirrorTargets::takeWatched(const FramePlan& plan, RetireQueue& retired) {
   OffScreen* image = std::exchange(watchedImage_, nullptr);
-  if (!plan.tiles) {
+  const bool stays = plan.tiles || (plan.mainReused && watched_);
+  if (!stays) {
     releaseEarlier(retired);
   }
-  if (image && plan.tiles && !earlierWatched_) {
+  if (image && stays && !earlierWatched_) {
     earlierWatched_ = pool_->remove(*image);
   } else if (image) {
     pool_->release(*image);
@@ -124,11 +125,13 @@ void MirrorTargets::end(const FramePlan& plan, RetireQueue& retired) {
       cachedTargets_[i] = targets_[plan.cached[i].pass];
     }
   }
-  if (watched_ &&
-      std::find(cachedTargets_.begin(), cachedTargets_.end(), targets_[*watched_]) == cachedTargets_.end()) {
-    watchedImage_ = targets_[*watched_];
+  if (!plan.mainReused) {
+    if (watched_ &&
+        std::find(cachedTargets_.begin(), cachedTargets_.end(), targets_[*watched_]) == cachedTargets_.end()) {
+      watchedImage_ = targets_[*watched_];
+    }
+    releaseEarlier(retired);
   }
-  releaseEarlier(retired);
   cachedImages_ = plan.cached;
   if (!pool_) {
     return;

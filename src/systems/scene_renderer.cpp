@@ -98,7 +98,7 @@ void SceneRenderer::record(Frame& frame, const SceneState& state, const Settings
   if (unfinished_) {
     mainImage_ = {};
   } else {
-    watched_.finish(frame.commands, *frame.retired);
+    watched_.finish(plan, frame.commands, *frame.retired);
     mainTargets_.finish(*frame.retired);
     recordSum(info);
   }
@@ -127,7 +127,8 @@ void SceneRenderer::prepareTargets(Frame& frame, const Settings& settings, const
       mirrorTargets_.restart();
     }
     mirrorTargets_.begin(plan, device_.sampleCount(settings.reflection.samples), watched_.mirrorPass(), *frame.retired);
-    mainTargets_.begin(settings, plan, shown && !unfinished_ && accumulated() == 0, *frame.retired);
+    const bool mainIsShown = accumulated() == 0 || keepsTarget({}, TargetKind::color);
+    mainTargets_.begin(settings, plan, shown && !unfinished_ && mainIsShown, *frame.retired);
     environmentTargets_.prepare(plan, *frame.retired);
   }
   shadowSystem_.prepare(frame, plan);
@@ -311,7 +312,8 @@ void SceneRenderer::recordMain(const FrameInfo& info) {
 void SceneRenderer::recordSum(const FrameInfo& info) {
   if (info.settings.view.accumulate == 1) {
     accumulation_.release(*info.frame.retired);
-  } else if (!info.plan.mainReused) {
+  } else if (const bool again = info.plan.picture > 0 && info.plan.picture + 1 == accumulated();
+             !info.plan.mainReused && !again) {
     log_.add(accumulation_.add(info.frame, mainTargets_.drawn().descriptor(), mainTargets_.drawn().extent(),
                                info.plan.picture));
   }
@@ -411,9 +413,9 @@ void SceneRenderer::drawScene(const FrameInfo& info, size_t index, const PassDes
 }
 
 OffScreen* SceneRenderer::watchedImage(const FramePlan& plan, int pass) {
-  return pass == static_cast<int>(plan.passes.size()) ? &mainTargets_.shown()
-         : unfinished_                                ? mirrorTargets_.earlierWatched()
-                                                      : &mirrorTargets_[static_cast<size_t>(pass)];
+  return pass == static_cast<int>(shownPasses(plan).size()) ? &mainTargets_.shown()
+         : unfinished_ || plan.mainReused                   ? mirrorTargets_.earlierWatched()
+                                                            : &mirrorTargets_[static_cast<size_t>(pass)];
 }
 
 // Enters in the ledger the costs that are not entered with each draw.

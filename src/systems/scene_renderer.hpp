@@ -42,12 +42,16 @@ class SceneRenderer {
   void uploadTextures(Frame& frame, const SceneState& state, const Settings& settings, const FramePlan& plan);
   // Records every pass up to the display pass. `plan` was made with cache(), `settings` are those of FittedPlan. With
   // view.accumulate above 1, adds the picture to the mean (see Accumulation) and, if `shown`, shows the mean. `debug`
-  // shows the target of the last complete picture, if that was drawn for the same pass and kind.
+  // shows the target of the last complete picture, if keepsTarget(). The last picture of a mean can be drawn again, for
+  // another target: it is not added twice.
   void record(Frame& frame, const SceneState& state, const Settings& settings, const FramePlan& plan,
               const std::optional<DebugView>& debug = std::nullopt, bool shown = true);
   // Pictures in the mean that the last recorded frame shows; 0 without one. Until plan.tiles reach the end of a
   // picture, its frames show what was there before, the mean of the pictures before it or else the main view.
   int accumulated() const { return accumulation_.pictures(); }
+
+  // Says whether the last frame kept that target of the last complete picture, for DebugView.
+  bool keepsTarget(const std::vector<int>& path, TargetKind kind) const { return watched_.keeps(path, kind); }
 
   // Shows `picture` (display sRGB) instead of the scene, stretched to the display, from the next frame on. A picture
   // without pixels shows the scene again.

@@ -10,7 +10,8 @@ namespace {
 
 WatchedTarget::Target targetOf(const FramePlan& plan, const DebugView& debug) {
   const auto pass = static_cast<size_t>(debug.pass);
-  const View& view = (pass < plan.passes.size() ? plan.passes[pass] : plan.main).view;
+  const std::vector<PlannedPass>& passes = shownPasses(plan);
+  const View& view = (pass < passes.size() ? passes[pass] : plan.main).view;
   return {debug.pass, view.path, debug.kind, {view.rect.width, view.rect.height}, plan.projection.near};
 }
 
@@ -24,7 +25,9 @@ void retire(Image& image, RetireQueue& retired) {
 
 void WatchedTarget::begin(const FramePlan& plan, const std::optional<DebugView>& debug, RetireQueue& retired) {
   if (beginsPicture(plan)) {
-    watched_ = debug ? std::optional(targetOf(plan, *debug)) : std::nullopt;
+    const std::optional<Target> asked = debug ? std::optional(targetOf(plan, *debug)) : std::nullopt;
+    const bool isThere = asked && asked->path.empty() && asked->kind == TargetKind::color;
+    watched_ = !plan.mainReused || isThere || !asked ? asked : watched_;
   }
   if (!debug || debug->kind != TargetKind::depth) {
     if (watched_ && watched_->kind == TargetKind::depth) {
@@ -66,8 +69,8 @@ void WatchedTarget::prepare(const FramePlan& plan, size_t index, PassDesc& pass,
   pass.storeDepth = true;
 }
 
-void WatchedTarget::finish(VkCommandBuffer commands, RetireQueue& retired) {
-  if (watched_ && watched_->kind == TargetKind::depth) {
+void WatchedTarget::finish(const FramePlan& plan, VkCommandBuffer commands, RetireQueue& retired) {
+  if (watched_ && watched_->kind == TargetKind::depth && !plan.mainReused) {
     if (nextDepth_) {
       retire(depth_, retired);
       depth_ = std::exchange(nextDepth_, Image());
@@ -81,7 +84,11 @@ void WatchedTarget::finish(VkCommandBuffer commands, RetireQueue& retired) {
 
 const WatchedTarget::Target* WatchedTarget::shown(const FramePlan& plan, const DebugView& debug) const {
   const Target wanted = targetOf(plan, debug);
-  return shown_ && shown_->path == wanted.path && shown_->kind == wanted.kind ? &*shown_ : nullptr;
+  return keeps(wanted.path, wanted.kind) ? &*shown_ : nullptr;
+}
+
+bool WatchedTarget::keeps(const std::vector<int>& path, TargetKind kind) const {
+  return shown_ && shown_->path == path && shown_->kind == kind;
 }
 
 void WatchedTarget::releaseDepth(RetireQueue& retired) {

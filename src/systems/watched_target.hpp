@@ -25,17 +25,20 @@ class WatchedTarget {
 
   explicit WatchedTarget(Device& device) : device_(device) {}
 
-  // Begins a frame of the plan. A target is watched from the beginning of a picture on.
+  // Begins a frame of the plan. A target is watched from the beginning of a picture on. A picture that is shown again
+  // keeps the target that was watched in it, but for the colors of its main view, which are always there.
   void begin(const FramePlan& plan, const std::optional<DebugView>& debug, RetireQueue& retired);
   // Index in plan.passes of the mirror pass whose image is watched; none for the main view.
   std::optional<int> mirrorPass() const;
   // Call it before each part of pass `index`: makes the pass write its depth here if that is watched.
   void prepare(const FramePlan& plan, size_t index, PassDesc& pass, RetireQueue& retired);
   // Ends a picture, whose target can now be shown.
-  void finish(VkCommandBuffer commands, RetireQueue& retired);
+  void finish(const FramePlan& plan, VkCommandBuffer commands, RetireQueue& retired);
 
   // Returns the target of the last complete picture if `debug` shows it; else null.
   const Target* shown(const FramePlan& plan, const DebugView& debug) const;
+  // Says whether shown() has that target.
+  bool keeps(const std::vector<int>& path, TargetKind kind) const;
   bool hasDepth() const { return static_cast<bool>(depth_); }
   // Depth of the last complete picture; hasDepth() is required.
   Image& depth() { return depth_; }

@@ -15,12 +15,15 @@ namespace {
 
 constexpr double farthest = 1e15;  // metres and degrees; docs/scene_format.md, Limits
 
-// Makes a label from a key: "casts_light" becomes "Casts light", and "orbit.speed" with its unit "Orbit speed (deg/s)".
-std::string labelOf(std::string path, std::string_view unit) {
+// Makes a label from a key unless the field has one: "casts_light" becomes "Casts light", and "orbit.speed" with its
+// unit "Orbit speed (deg/s)".
+template <typename Field>
+std::string labelOf(const Field& field, std::string path) {
   std::ranges::replace_if(
       path, [](char c) { return c == '_' || c == '.'; }, ' ');
   path[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(path[0])));
-  return unit.empty() ? path : path + " (" + std::string(unit) + ")";
+  const std::string label = field.label.empty() ? path : std::string(field.label);
+  return field.unit.empty() ? label : label + " (" + std::string(field.unit) + ")";
 }
 
 // Returns a format whose decimals show a drag by one pixel.
@@ -179,7 +182,7 @@ class FieldRows {
     } else if constexpr (std::is_same_v<Value, std::vector<glm::dvec3>>) {
       return polygonRows(ui_, value);
     } else {
-      const bool changed = valueWidget(field, labelOf(path, field.unit).c_str(), value);
+      const bool changed = valueWidget(field, labelOf(field, path).c_str(), value);
       explain(path, field.text, isNumbers<Value>);
       return changed;
     }
@@ -190,7 +193,7 @@ class FieldRows {
   bool optionalRow(const Field& field, const std::string& path, std::optional<Value>& value) {
     bool on = value.has_value();
     bool changed = false;
-    const std::string label = labelOf(path, field.unit);
+    const std::string label = labelOf(field, path);
     if (field.start) {
       const bool inLine = on && !Described<Value>;
       changed = ImGui::Checkbox((inLine ? "##" + label : label).c_str(), &on);

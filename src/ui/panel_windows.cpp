@@ -143,13 +143,16 @@ void PanelWindows::presentModes(PanelContext& ui) {
   const DeviceView& device = ui.view.device;
   for (size_t i = 0; i < device.presentModes.size(); ++i) {
     const std::string& name = device.presentModes[i];
-    if (ImGui::MenuItem(("Present: " + name).c_str(), nullptr, device.presentMode == i)) {
+    const std::string label = name == "fifo"      ? "VSync (fifo)"
+                              : name == "mailbox" ? "VSync, newest picture (mailbox)"
+                                                  : "No VSync (" + name + ")";
+    if (ImGui::MenuItem(label.c_str(), nullptr, device.presentMode == i)) {
       ui.send(SetPresentMode{i});
     }
     panels::recordWidget(
         ui, "present." + name,
-        "fifo waits for the screen and never tears, mailbox shows the newest picture at each refresh, immediate shows "
-        "pictures at once and may tear.");
+        "With VSync the picture never tears; without, pictures are shown at once and may tear. Waiting for the screen "
+        "limits FPS to its refresh rate; showing the newest picture draws more than is seen.");
   }
 }
 

@@ -183,6 +183,11 @@ void figure(const std::string& text, bool dimmed) {
   dimmed ? ImGui::TextDisabled("%s", text.c_str()) : ImGui::TextUnformatted(text.c_str());
 }
 
+void figureColumn(const char* head, float ems, int flags) {
+  const float width = std::max(ems * ImGui::GetFontSize(), std::ceil(textWidth(head)));
+  ImGui::TableSetupColumn(head, ImGuiTableColumnFlags_WidthFixed | flags, width);
+}
+
 void continueRow(const char* label, float further) {
   ImGui::SameLine();
   const float width = ImGui::CalcTextSize(label).x + 2.0f * ImGui::GetStyle().FramePadding.x + further;

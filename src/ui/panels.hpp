@@ -145,6 +145,9 @@ std::string labelFor(const std::string& label, float width);
 
 float textWidth(std::string_view text);                     // pixels
 void figure(const std::string& text, bool dimmed = false);  // at the right edge of its line or cell
+// Sets up a table's column of figures: so wide, in heights of the font, or as wide as its head. `flags`: of
+// ImGuiTableColumnFlags_.
+void figureColumn(const char* head, float ems, int flags = 0);
 std::string thatFits(const std::string& text);  // its ends, if the rest of the line or cell is too short for it
 std::string mebibytes(uint64_t bytes);          // without the unit
 std::string milliseconds(double ms);            // the same without the unit; "-" for NaN

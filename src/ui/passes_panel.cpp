@@ -136,11 +136,11 @@ void restRow(PanelContext& ui) {
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
   ImGui::SetCursorPosX(ImGui::GetCursorPosX() + ImGui::GetTreeNodeToLabelSpacing());
-  ImGui::TextUnformatted("panels and gaps");
+  ImGui::TextUnformatted("panels and waiting");
   recordWidget(
       ui, "passes.rest",
       "GPU time of the frame that no pass above took: for the panels, in each of the frames that drew a part of "
-      "the picture, and between passes.");
+      "the picture, and for waiting between passes.");
   ImGui::TableNextColumn();
   figure(milliseconds(rest));
 }
@@ -150,7 +150,7 @@ void header() {
       "The main view and, below the view that each is seen in, the mirror images.",
       "GPU time of the pass. Grey: of an earlier frame.", "Draw calls of the pass.",
       "Pixels that the pass draws: of the main view, or of a mirror's image as far as it is seen.",
-      "Smallest distance between surfaces that the pass still keeps in order."};
+      "Smallest distance in depth, in metres, between two surfaces that the pass still keeps in order."};
   ImGui::TableNextRow(ImGuiTableRowFlags_Headers);
   for (int column = 0; column < static_cast<int>(about.size()); ++column) {
     ImGui::TableSetColumnIndex(column);
@@ -182,17 +182,15 @@ void passes(PanelContext& ui) {
       "picture. Timing slows a frame.");
   constexpr ImGuiTableFlags flags = ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp;
   const bool narrow = ImGui::GetContentRegionAvail().x < 22.0f * ImGui::GetFontSize();  // too narrow for all figures
-  const ImGuiTableColumnFlags further =
-      ImGuiTableColumnFlags_WidthFixed | (narrow ? ImGuiTableColumnFlags_Disabled : ImGuiTableColumnFlags_None);
+  const ImGuiTableColumnFlags further = narrow ? ImGuiTableColumnFlags_Disabled : ImGuiTableColumnFlags_None;
   if (!ImGui::BeginTable("passes", 5, flags)) {
     return;
   }
-  const float em = ImGui::GetFontSize();
   ImGui::TableSetupColumn("Pass", ImGuiTableColumnFlags_WidthStretch);
-  ImGui::TableSetupColumn("GPU ms", ImGuiTableColumnFlags_WidthFixed, 3.5f * em);
-  ImGui::TableSetupColumn("Draws", ImGuiTableColumnFlags_WidthFixed, 2.8f * em);
-  ImGui::TableSetupColumn("Pixels", further, 4.5f * em);
-  ImGui::TableSetupColumn("Depth (m)", further, 4.4f * em);
+  figureColumn("GPU ms", 3.5f);
+  figureColumn("Draws", 2.8f);
+  figureColumn("Pixels", 4.5f, further);
+  figureColumn("Depth gap", 4.4f, further);
   header();
   ImGui::PushStyleVar(ImGuiStyleVar_IndentSpacing, 0.3f * ImGui::GetFontSize());
   for (const PassBranch& node : passTree(frame.passes, frame.skipped)) {

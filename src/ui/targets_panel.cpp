@@ -187,7 +187,7 @@ void caption(PanelContext& ui, const ImRect& canvas, bool hovered, const glm::dv
   const TargetView& target = ui.view.frame.target;
   Targets& targets = ui.state.targets;
   ImGui::SetCursorScreenPos({canvas.Min.x, canvas.Min.y - ImGui::GetTextLineHeightWithSpacing()});
-  if (!target.complete) {
+  if (!target.complete && targets.kind != Targets::Kind::mask) {
     ImGui::TextDisabled("Drawing...");
   } else if (hovered && texel.x >= 0 && texel.y >= 0 && texel.x < target.size.x && texel.y < target.size.y) {
     targets.pointed = glm::ivec2(texel);
@@ -260,10 +260,10 @@ void targets(PanelContext& ui) {
   caption(ui, canvas, there && hovered, glm::floor(origin + pointer / targets.shownZoom));
   if (shown) {
     ui.output.target = {.path = shown->path,
-                        .drawn = there && !isMask,
+                        .drawn = !isMask,
                         .view = {.area = inPixels(canvas),
                                  .kind = targets.kind == Targets::Kind::depth ? TargetKind::depth : TargetKind::color,
-                                 .zoom = targets.shownZoom,
+                                 .zoom = targets.zoom,
                                  .origin = origin,
                                  .halfDistance = targets.halfDistance,
                                  .probe = isMask ? std::nullopt : targets.pointed}};
