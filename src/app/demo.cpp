@@ -203,7 +203,7 @@ void Demo::drawFrame(double seconds, double sinceLastMs) {
   framesDrawn_ += framesDrawn_ < std::numeric_limits<int>::max();
   pacer_.frameDrawn();
   workspace_.report().update({workspace_.scene(), state, settings, plan, number, cpuMs, sinceLastMs, pace_.lowers(),
-                              newPipelines || compiledBefore},
+                              newPipelines || compiledBefore, workspace_.settings()},
                              renderer_, *sceneRenderer_, output_.hoveredPath);
   const auto radiance = [&] { return toDisplay(sceneRenderer_->radiance(), settings.view.displayCurve()); };
   const std::optional<Image8> picture = captured ? std::optional(pictureOf(renderer_.readback())) : std::nullopt;

@@ -19,6 +19,7 @@ struct RecordedFrame {
   double sinceLastMs = 0.0;  // NaN after the window was idle
   bool lowered = false;      // its quality, for the pace
   bool compiles = false;     // it made pipelines, or the frame before, which takes long
+  Settings chosen = {};      // by the user, before any was lowered
 };
 
 // Collects the figures of frames for the panels.
@@ -53,6 +54,7 @@ class FrameReport {
   struct Picture {
     bool whole = true;
     Settings settings;
+    Settings chosen;
     bool lowered = false;
     bool compiles = false;
     uint64_t number = 0;  // of the last one
@@ -76,6 +78,7 @@ class FrameReport {
   bool tilesTimed_ = false;    // times of passes are of a picture that several frames drew
   Settings timedSettings_;     // of the picture that times of passes are of
   bool timedLowered_ = false;  // likewise
+  Settings historySettings_;   // chosen for the frames of the history
   bool averages_ = false;      // FrameView::frameMs: its frames followed each other
   std::vector<SkippedMirror> skipped_;
 };
