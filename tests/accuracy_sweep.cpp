@@ -425,6 +425,23 @@ TEST_F(SweepFiles, OtherFilesAreNoResults) {
   EXPECT_THROW(readSweepResults(folder_ / "absent.json"), InputError);
 }
 
+TEST(Fingerprint, ScenesAreTheSameWhereverTheyAreSaved) {
+  const TemporaryFolder folder;
+  const auto fingerprintOf = [&](const std::string& name, const std::string& text) {
+    Fingerprint fingerprint;
+    addScene(fingerprint, loadScene(folder.write(name, text)));
+    return fingerprint.hex();
+  };
+  folder.write("box.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const auto scene = [](const std::string& title, const std::string& model, const std::string& x) {
+    return "title = \"" + title + "\"\n[camera]\nposition = [0, 1, 5]\ntarget = [0, 1, 0]\n[[object]]\nmodel = \"" +
+           model + "\"\nposition = [" + x + ", 0, 0]\n";
+  };
+  const std::string first = fingerprintOf("a.toml", scene("a", "box.obj", "1"));
+  EXPECT_EQ(fingerprintOf("copies/b.toml", "# saved elsewhere\n" + scene("b", "../box.obj", "1.0")), first);
+  EXPECT_NE(fingerprintOf("c.toml", scene("a", "box.obj", "2")), first);
+}
+
 TEST(Fingerprint, TellsContentApart) {
   const auto of = [](std::initializer_list<std::string_view> parts) {
     Fingerprint fingerprint;

@@ -333,6 +333,22 @@ TEST_F(Report, OtherSettingsMakeTimesOld) {
   EXPECT_EQ(report.view().timedGpuMs, 0.0);
 }
 
+TEST_F(Report, HistoryIsOfThePresentSettings) {
+  const auto drawn = [&](uint64_t number, double scale, bool lowered = false) {
+    RecordedFrame frame = frameOf(number, 1.0, 1.0);
+    frame.chosen.reflection.scale = scale;
+    frame.lowered = lowered;
+    report.updateTimes(frame, {});
+    return report.view().history.frames();
+  };
+  drawn(1, 1.0);
+  EXPECT_EQ(drawn(2, 1.0), 2u);
+  EXPECT_EQ(drawn(3, 1.0, true), 1u);
+  EXPECT_EQ(drawn(4, 1.0), 3u) << "drafts are no change of settings";
+  EXPECT_EQ(drawn(5, 0.5), 1u) << "cheaper, which a median over earlier frames would hide";
+  EXPECT_EQ(drawn(6, 0.5), 2u);
+}
+
 TEST_F(Report, FramesThatCompileAreNoHistory) {
   RecordedFrame first = frameOf(1, 900.0, 1000.0);
   first.compiles = true;

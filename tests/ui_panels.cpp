@@ -504,6 +504,58 @@ TEST_F(PanelTest, HistoryIsPausedClearedAndCopied) {
   clickFor<ClearHistory>("performance.clear");
 }
 
+class ManyPasses : public PanelTest {
+ protected:
+  ManyPasses() {
+    std::vector<std::pair<std::string, double>> passes = {{"mirror b > c > a", 1.0}, {"mirror b > a", 1.0},
+                                                          {"mirror a", 1.0},         {"mirror b", 1.0},
+                                                          {"main view", 1.0}};
+    for (int i = 0; i < 40; ++i) {
+      passes.emplace_back("mirror m" + std::to_string(i), 1.0);
+    }
+    frame_.history.add(4, 1.0, 0.5);
+    frame_.history.addGpu(4, 3.0, passes);
+    toggle("Performance");
+    resize(1280, 720);
+  }
+};
+
+TEST_F(ManyPasses, HeadStaysInSight) {
+  const PixelRect head = widget("performance.head Median");
+  const PixelRect row = widget("name.CPU");
+  moveTo(row.x + 4, row.y + 4);
+  ImGui::GetIO().MouseWheel = -1.0f;
+  run(3);
+  ImGui::GetIO().MouseWheel = 0.0f;
+  run(2);
+  EXPECT_LT(widget("name.CPU").y, row.y) << "scrolled";
+  EXPECT_EQ(widget("performance.head Median").y, head.y);
+}
+
+TEST_F(ManyPasses, MirrorsInMirrorsStandBelowThem) {
+  const PixelRect direct = widget("name.mirror a");
+  const PixelRect parent = widget("name.mirror b");
+  const PixelRect nested = widget("name.mirror b > a");
+  EXPECT_GT(nested.y, parent.y);
+  EXPECT_GT(nested.x, parent.x);
+  EXPECT_EQ(direct.x, parent.x);
+  EXPECT_EQ(widget("name.mirror b > c > a").x, parent.x) << "its parent did not run: the whole path";
+  EXPECT_TRUE(shows("b > c > a"));
+}
+
+TEST_F(ManyPasses, HeadFitsAtTwiceTheTextSize) {
+  ImGui::GetIO().FontGlobalScale = 2.0f;
+  run(5);
+  for (const char* text : {"Median", "p95", "Graph"}) {
+    EXPECT_TRUE(shows(text)) << text;
+    const ImGuiTable* table = ImGui::GetCurrentContext()->Tables.TryGetMapData(0);
+    const PixelRect head = widget(std::string("performance.head ") + text);
+    ASSERT_TRUE(table);
+    EXPECT_LE(static_cast<float>(head.x + head.width), table->OuterRect.Max.x + 1.0f) << text;
+    EXPECT_GE(static_cast<float>(head.width), ImGui::CalcTextSize(text).x * 0.9f) << text;
+  }
+}
+
 TEST_F(PanelTest, PerformanceRowsSelectTheirMirrors) {
   frame_.passes = {{{.path = {1}}, "mirror wall"}};
   frame_.history.add(4, 1.0, 0.5);
@@ -944,6 +996,37 @@ TEST_F(AccuracyWindow, BoundsBeginWhereSettingsWereMeasured) {
   run(2);
   click("quality.budget_ms", 0.1);
   EXPECT_NEAR(settings_.quality.budgetMs, 130.0, 1e-9) << "the fastest of the front fits";
+}
+
+TEST_F(AccuracyWindow, BoundsNeedMeasuredPoints) {
+  accuracy_ = {};
+  run(2);
+  EXPECT_TRUE(shows("Measure this view first."));
+  click("quality.budget_ms", 0.1);
+  EXPECT_EQ(settings_.quality.budgetMs, 0.0) << "a guess would choose settings as soon as there are points";
+  accuracy_.measuring = true;
+  run(2);
+  EXPECT_FALSE(shows("Measure this view first."));
+  EXPECT_TRUE(shows("Being measured"));
+}
+
+TEST_F(AccuracyWindow, NameOfThePointIsShownInFull) {
+  accuracy_.points[1].name = "reflection scale 0.5, max depth 4, samples 4, view samples 4";
+  accuracy_.current = 1;
+  resize(1280, 720);
+  for (const float textSize : {1.0f, 2.0f}) {
+    ImGui::GetIO().FontGlobalScale = textSize;
+    run(5);
+    const PixelRect slider = widget("accuracy.slider");
+    std::string below;
+    const ImDrawData& drawn = *ImGui::GetDrawData();
+    for (int i = 0; i < drawn.CmdListsCount; ++i) {
+      for (const DrawnGlyph& glyph : glyphsOf(*drawn.CmdLists[i])) {
+        below += glyph.lineTop > static_cast<float>(slider.y + slider.height) - 4.0f ? std::string(1, glyph.letter) : "";
+      }
+    }
+    EXPECT_TRUE(contains(below, "reflectionscale0.5,maxdepth4,samples4,viewsamples4")) << textSize << below;
+  }
 }
 
 TEST_F(AccuracyWindow, MeasurementIsStartedAndCancelled) {

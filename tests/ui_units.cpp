@@ -98,6 +98,31 @@ TEST(FrameHistory, PassesWithoutFramesAreDropped) {
   EXPECT_EQ(history.passSeries("new").back(), 3.0f) << "passes of one name add up";
 }
 
+TEST(FrameHistory, PassesThatRunNoMoreLeaveSoon) {
+  FrameHistory history;
+  history.add(1, 1.0, 1.0);
+  history.addGpu(1, 1.0, Passes{{"old", 1.0}});
+  for (uint64_t number = 2; number <= FrameHistory::recent + 1; ++number) {
+    EXPECT_EQ(history.passNames().front(), "old") << "its turn may come again";
+    history.add(number, 1.0, 1.0);
+    history.addGpu(number, 1.0, Passes{{"new", 1.0}});
+    history.add(100 + number, 1.0, 1.0);
+    history.addGpu(100 + number, 1.0, Passes{});  // whose passes were not timed
+  }
+  EXPECT_EQ(history.passNames(), std::vector<std::string>{"new"});
+}
+
+TEST(FrameHistory, RestartsUnlessPaused) {
+  FrameHistory history;
+  history.add(1, 1.0, 1.0);
+  history.setPaused(true);
+  history.restart();
+  EXPECT_EQ(history.frames(), 1u);
+  history.setPaused(false);
+  history.restart();
+  EXPECT_EQ(history.frames(), 0u);
+}
+
 TEST(FrameHistory, PausedItStaysAsItIs) {
   FrameHistory history;
   history.add(1, 1.0, 1.0);

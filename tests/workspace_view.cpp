@@ -1,5 +1,8 @@
 // Camera, bookmarks, time, captures and files of the window, by commands.
+#include "accuracy/statistics.hpp"
 #include "accuracy/sweep_json.hpp"
+#include "app/accuracy_controller.hpp"
+#include "app/view_sweep.hpp"
 #include "image/picture_files.hpp"
 #include "workspace_support.hpp"
 
@@ -26,6 +29,76 @@ class WindowView : public WorkspaceTest {
     return true;
   }
 };
+
+class Measuring : public WindowView {
+ protected:
+  Measuring() {
+    request_.options.scene = workspace_->scene().file.string();
+    request_.options.size = {320, 240};
+    request_.camera = camera();
+  }
+
+  SweepRequest request_;
+};
+
+TEST_F(Measuring, FirstFigureTakesOneRound) {
+  std::map<std::string, int> reports;
+  const auto count = [&](const SweepStatus& status) { return ++reports[status.stage] > 0; };
+  ViewMeasurement measurement(request_);
+  const SweepResults first = measurement.rough(1, count);
+  const auto points = static_cast<int>(first.points.size());
+  ASSERT_GT(points, 5);
+  EXPECT_LE(reports["times"], points + 2);
+  EXPECT_GT(first.points.front().frameMs.median, 0.0);
+  const SweepResults better = measurement.rough(3, count);
+  EXPECT_EQ(better.points.front().frameMs.repeats, 3);
+  EXPECT_LE(reports["times"], 4 * points + 4);
+}
+
+TEST_F(Measuring, RoughPointsCanBePickedAndArePickedByHandOnly) {
+  AccuracyController accuracy({}, {}, "");
+  Settings settings;
+  const auto waitFor = [&](const auto& done) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(5);
+    while (!done() && std::chrono::steady_clock::now() < end) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      accuracy.beforeFrame(settings);
+    }
+    return done();
+  };
+  settings.quality.maxError = 0.9;
+  accuracy.beforeFrame(settings);
+  EXPECT_TRUE(accuracy.view().choice.starts_with("Measure this view first"));
+  settings.quality = {};
+  accuracy.beforeFrame(settings);
+  accuracy.measure(request_);
+  settings.quality.maxError = 0.9;
+  accuracy.beforeFrame(settings);
+  EXPECT_TRUE(accuracy.view().choice.starts_with("Chooses once")) << accuracy.view().choice;
+  ASSERT_TRUE(waitFor([&] { return !accuracy.view().points.empty(); }));
+  ASSERT_TRUE(accuracy.working()) << "better figures follow";
+  EXPECT_EQ(accuracy.view().current, accuracy.view().front.front()) << "the bound chose";
+  accuracy.applyPoint(accuracy.view().front.back(), settings);
+  const Settings picked = settings;
+  ASSERT_TRUE(waitFor([&] { return !accuracy.working(); })) << accuracy.view().about;
+  accuracy.beforeFrame(settings);
+  EXPECT_EQ(settings, picked) << "better figures change no settings that were picked by hand";
+}
+
+TEST(EnlargedTimes, PartsThatDependOnNoSizeStay) {
+  SweepResults results;
+  for (const double ms : {60.0, 45.0, 50.0}) {
+    SweepPoint& point = results.points.emplace_back();
+    point.frameMs = spreadOf({ms});
+  }
+  // 40 ms of shadow maps, and 64 times as many pixels.
+  enlargeTimes(results, {60.0, 40.0 + 64.0 * 20.0}, {45.0, 40.0 + 64.0 * 5.0});
+  EXPECT_DOUBLE_EQ(results.points[2].frameMs.median, 40.0 + 64.0 * 10.0);
+  EXPECT_EQ(results.points[2].gpuMs.repeats, 0);
+  EXPECT_EQ(results.points[2].gpuMs.median, 0.0) << "the device has no timestamps";
+  enlargeTimes(results, {10.0, 30.0}, {9.5, 29.0});
+  EXPECT_DOUBLE_EQ(results.points[2].frameMs.median, 3.0 * 680.0) << "too close for a line";
+}
 
 TEST_F(WindowView, MiddleButtonPans) {
   const glm::dvec3 before = eye();

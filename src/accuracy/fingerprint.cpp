@@ -2,7 +2,7 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include "platform/files.hpp"
+#include "scene/scene_fields.hpp"
 
 namespace speculum {
 
@@ -14,6 +14,54 @@ static_assert(sizeof(Vertex) == 8 * sizeof(double) && sizeof(glm::vec3) == 3 * s
 void addColor(Fingerprint& fingerprint, const glm::dvec3& color) {
   for (int i = 0; i < 3; ++i) {
     fingerprint.add(color[i]);
+  }
+}
+
+void addValue(Fingerprint& fingerprint, const std::string& text) {
+  fingerprint.add(text);
+}
+
+template <int size>
+void addValue(Fingerprint& fingerprint, const glm::vec<size, double>& v) {
+  for (int i = 0; i < size; ++i) {
+    fingerprint.add(v[i]);
+  }
+}
+
+template <typename T>
+requires std::is_arithmetic_v<T> || std::is_enum_v<T>
+void addValue(Fingerprint& fingerprint, T value) {
+  fingerprint.add(static_cast<double>(value));
+}
+
+template <typename T>
+void addValue(Fingerprint& fingerprint, const std::optional<T>& value);
+template <typename T>
+void addValue(Fingerprint& fingerprint, const std::vector<T>& values);
+
+// Adds all that is drawn of a node: no name, and of a model not its path.
+template <Described Node>
+void addValue(Fingerprint& fingerprint, const Node& node) {
+  forEachField<Node>([&](const auto& field) {
+    if (field.use != FieldUse::label && field.key != "model") {
+      addValue(fingerprint, node.*field.member);
+    }
+  });
+}
+
+template <typename T>
+void addValue(Fingerprint& fingerprint, const std::optional<T>& value) {
+  fingerprint.add(value.has_value());
+  if (value) {
+    addValue(fingerprint, *value);
+  }
+}
+
+template <typename T>
+void addValue(Fingerprint& fingerprint, const std::vector<T>& values) {
+  fingerprint.add(values.size());
+  for (const T& value : values) {
+    addValue(fingerprint, value);
   }
 }
 
@@ -47,8 +95,14 @@ std::string Fingerprint::hex() const {
 }
 
 void addScene(Fingerprint& fingerprint, const Scene& scene) {
-  const std::vector<uint8_t> file = readFile(scene.file);
-  fingerprint.add(std::as_bytes(std::span(file)));
+  addValue(fingerprint, scene.environment);
+  addValue(fingerprint, scene.camera);
+  addValue(fingerprint, scene.objects);
+  addValue(fingerprint, scene.lights);
+  addValue(fingerprint, scene.mirrors);
+  for (const Object& object : scene.objects) {
+    fingerprint.add(object.mesh);
+  }
   for (const Mesh& mesh : scene.meshes) {
     addMesh(fingerprint, mesh);
   }

@@ -13,6 +13,7 @@ namespace speculum {
 namespace {
 
 constexpr int heatBarSteps = 32;
+constexpr int roughRounds = 5;  // after one for the first points
 
 std::string aboutText(const SweepResults& results) {
   return std::to_string(results.points.size()) + " configurations at " + std::to_string(results.width) + "x" +
@@ -80,6 +81,7 @@ AccuracyController::AccuracyController(const Options& options, const Settings& l
 }
 
 void AccuracyController::setResults(SweepResults results) {
+  const bool byHand = !results_.points.empty() && !results.points.empty() && chosen_ < 0;
   results_ = std::move(results);
   view_.points.clear();
   pointSettings_.clear();
@@ -99,7 +101,8 @@ void AccuracyController::setResults(SweepResults results) {
   }
   view_.noiseFloor = results_.floor.whole.flip;
   view_.about.clear();
-  budget_ = {};
+  // A budget chooses again, unless the user has set settings by hand since.
+  budget_ = byHand ? budget_ : QualityBudget();
   chosen_ = -1;
   isRough_ = false;
   settings_.reset();
@@ -112,8 +115,14 @@ void AccuracyController::measure(SweepRequest request) {
     std::shared_ptr<const SweepResults> rough;
     const auto progress = [&](const SweepStatus& status) { return report({status, rough}); };
     ViewMeasurement measurement(request);
-    rough = std::make_shared<SweepResults>(measurement.rough(progress));
-    return rough->points.empty() ? SweepResults() : measurement.whole(progress);
+    for (const int rounds : {1, roughRounds}) {
+      SweepResults results = measurement.rough(rounds, progress);
+      if (results.points.empty()) {
+        return results;
+      }
+      rough = std::make_shared<SweepResults>(std::move(results));
+    }
+    return measurement.whole(progress);
   });
 }
 
@@ -166,7 +175,9 @@ void AccuracyController::followBudget(Settings& settings) {
     view_.choice += isRough_ ? " (rough figures)" : "";
     chosen_ = choice->point;
   } else {
-    view_.choice = budget_.bounds() ? "Measure this view first." : "";
+    view_.choice = !budget_.bounds()  ? ""
+                   : sweep_.running() ? "Chooses once the first points are measured."
+                                      : "Measure this view first.";
   }
 }
 

@@ -204,7 +204,7 @@ void Demo::drawFrame(double seconds, double sinceLastMs) {
   pacer_.frameDrawn();
   const bool repeats = pace_.repeats() && !settings.view.continuous && options_.frames == 0;
   workspace_.report().update({workspace_.scene(), state, settings, plan, number, cpuMs, sinceLastMs, pace_.lowers(),
-                              newPipelines || compiledBefore, repeats},
+                              newPipelines || compiledBefore, repeats, workspace_.settings()},
                              renderer_, *sceneRenderer_, output_.hoveredPath);
   const auto radiance = [&] { return toDisplay(sceneRenderer_->radiance(), settings.view.displayCurve()); };
   const std::optional<Image8> picture = captured ? std::optional(pictureOf(renderer_.readback())) : std::nullopt;

@@ -99,7 +99,7 @@ void FrameReport::update(const RecordedFrame& frame, Renderer& renderer, SceneRe
 void FrameReport::addFrame(const RecordedFrame& frame, const FrameTimings& timings,
                            std::span<const RecordedPass> timed) {
   if (beginsPicture(frame.plan)) {
-    picture_ = {.whole = !frame.plan.tiles, .settings = frame.settings, .lowered = frame.lowered};
+    picture_ = {.whole = !frame.plan.tiles, .settings = frame.settings, .chosen = frame.chosen, .lowered = frame.lowered};
   } else if (timings.frame == picture_.number) {
     picture_.gpuMs += timings.gpuMs;
     picture_.addPasses(timings, timed);
@@ -127,6 +127,10 @@ void FrameReport::updateTimes(const RecordedFrame& frame, const FrameTimings& ti
     average(view_.cpuMs, picture_.cpuMs, !drewScene);
     if (!std::isnan(ms) && !frame.plan.tiles) {
       average(view_.frameMs, ms, !std::exchange(averages_, true));
+    }
+    // Figures of other settings would hide what the present ones cost.
+    if (!sameMainView(std::exchange(historySettings_, picture_.chosen), picture_.chosen)) {
+      view_.history.restart();
     }
     if (!picture_.compiles) {
       view_.history.add(frame.number, ms, picture_.cpuMs, picture_.lowered);

@@ -20,6 +20,7 @@ struct RecordedFrame {
   bool lowered = false;      // its quality, for the pace
   bool compiles = false;     // it made pipelines, or the frame before, which takes long
   bool repeats = false;      // it draws the picture that was there before, for the panels
+  Settings chosen = {};      // by the user, before any was lowered
 };
 
 // Collects the figures of frames for the panels.
@@ -54,6 +55,7 @@ class FrameReport {
   struct Picture {
     bool whole = true;
     Settings settings;
+    Settings chosen;
     bool lowered = false;
     bool compiles = false;
     uint64_t number = 0;  // of the last one
@@ -77,6 +79,7 @@ class FrameReport {
   bool tilesTimed_ = false;    // times of passes are of a picture that several frames drew
   Settings timedSettings_;     // of the picture that times of passes are of
   bool timedLowered_ = false;  // likewise
+  Settings historySettings_;   // chosen for the frames of the history
   bool averages_ = false;      // FrameView::frameMs: its frames followed each other
   std::vector<SkippedMirror> skipped_;
   TargetKind targetKind_ = TargetKind::color;  // of FrameView::target

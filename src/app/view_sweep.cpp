@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "accuracy/fingerprint.hpp"
+#include "accuracy/pareto.hpp"
 #include "app/background_job.hpp"
 #include "app/session_subject.hpp"
 #include "app/sweep_description.hpp"
@@ -35,23 +36,19 @@ Settings baseOf(const SweepRequest& request) {
   return base;
 }
 
-void multiply(Spread& spread, double factor) {
-  for (double* ms : {&spread.median, &spread.minimum, &spread.lowerQuartile, &spread.upperQuartile}) {
-    *ms *= factor;
-  }
-}
-
 // Returns the folder in which a view's measurement is kept, so that measuring the view again takes no time. Removes the
 // oldest ones.
 std::filesystem::path storeFolder(Session& session, const SweepRequest& request) {
   namespace fs = std::filesystem;
   constexpr size_t mostViews = 20;
   Fingerprint view;
-  view.add(sweepIdentity(session, request.options));
+  const double time = contentMoves(session.scene()) ? request.time : 0.0;  // the camera is given
+  Options options = request.options;
+  options.time = time;
+  view.add(sweepIdentity(session, options));
   view.add(std::as_bytes(std::span(&request.camera.eye, 1)));
   view.add(std::as_bytes(std::span(&request.camera.worldToView, 1)));
   view.add(request.camera.verticalFov);
-  view.add(request.time);
   const fs::path sweeps = userCacheDir() / "sweeps";
   keepNewest(sweeps, mostViews);
   return sweeps / view.hex();
@@ -64,7 +61,7 @@ ViewMeasurement::ViewMeasurement(const SweepRequest& request)
   session_.setCamera(request.camera);
 }
 
-SweepResults ViewMeasurement::measure(PictureSize size, int samples, const SweepProgress& progress) {
+SweepResults ViewMeasurement::measure(PictureSize size, const Effort& effort, const SweepProgress& progress) {
   if (!progress({"starting", 1.0})) {
     return {};
   }
@@ -72,11 +69,16 @@ SweepResults ViewMeasurement::measure(PictureSize size, int samples, const Sweep
   session_.setSettings(base_);
   SceneState state = evaluate(session_.scene(), request_.time);
   state.camera = request_.camera;
-  const SweepPlan plan = viewSweep(sweepContext(session_));
+  SweepPlan plan = viewSweep(sweepContext(session_));
+  plan.repeats = effort.rounds;
   SessionSubject subject(session_, request_.time);
   SweepStore store(storeFolder(session_, request_));
-  const SweepScene scene{
-      .scene = session_.scene(), .state = state, .width = size.width, .height = size.height, .truthSamples = samples};
+  const SweepScene scene{.scene = session_.scene(),
+                         .state = state,
+                         .width = size.width,
+                         .height = size.height,
+                         .noiseFloor = effort.noiseFloor,
+                         .truthSamples = effort.samples};
   SweepResults results = describeSweep(session_, plan, request_.time);
   bool finished = false;
   inBackground([&] { finished = runSweep(plan, base_, scene, subject, store, results, progress); });
@@ -86,36 +88,55 @@ SweepResults ViewMeasurement::measure(PictureSize size, int samples, const Sweep
   return finished ? results : SweepResults();
 }
 
-double ViewMeasurement::baseMs(PictureSize size) {
-  session_.resize(size);
-  const FrameCost cost = SessionSubject(session_, request_.time).cost(base_);
-  return cost.gpuMs > 0.0 ? cost.gpuMs : cost.frameMs;
+double ViewMeasurement::wholeMs(const SweepPoint& point) {
+  const auto [known, isNew] = wholeMs_.try_emplace(point.name);
+  if (isNew) {
+    session_.resize(request_.options.size);
+    const FrameCost cost = SessionSubject(session_, request_.time).cost(settingsWith(base_, point.changes));
+    known->second = cost.gpuMs > 0.0 ? cost.gpuMs : cost.frameMs;
+  }
+  return known->second;
 }
 
 SweepResults ViewMeasurement::whole(const SweepProgress& progress) {
-  return measure(request_.options.size, truthSamples, progress);
+  return measure(request_.options.size, {.samples = truthSamples}, progress);
 }
 
-SweepResults ViewMeasurement::rough(const SweepProgress& progress) {
+SweepResults ViewMeasurement::rough(int rounds, const SweepProgress& progress) {
   const PictureSize whole = request_.options.size;
   const double scale = std::min(1.0, std::sqrt(roughPixels / (whole.width * whole.height)));
   const PictureSize small{std::max(1, static_cast<int>(whole.width * scale)),
                           std::max(1, static_cast<int>(whole.height * scale))};
-  SweepResults results = measure(small, roughSamples, progress);
+  SweepResults results =
+      measure(small, {.samples = roughSamples, .rounds = rounds, .noiseFloor = false}, progress);
   if (results.points.empty()) {
     return results;
   }
-  baseMs(small);  // compiles its pipelines
-  const double smallMs = baseMs(small);
+  const auto sized = [&](const SweepPoint& point) { return SizedMs{costMs(point), wholeMs(point)}; };
+  const SizedMs base = sized(results.points.front());
   if (!progress({"times", 1.0})) {
     return {};
   }
-  const double factor = baseMs(whole) / smallMs;
+  enlargeTimes(results, base, sized(*std::ranges::min_element(results.points, {}, costMs)));
+  return progress({"times", 1.0}) ? results : SweepResults();
+}
+
+void enlargeTimes(SweepResults& results, const SizedMs& base, const SizedMs& fastest) {
+  constexpr double leastRatio = 1.2;  // of two times that give a line, so that noise does not decide its slope
+  const double slope = (base.whole - fastest.whole) / (base.small - fastest.small);
+  const bool line = base.small > leastRatio * fastest.small && base.whole > fastest.whole;
+  const double factor = line ? slope : base.whole / base.small;
+  const double constant = line ? base.whole - slope * base.small : 0.0;
   for (SweepPoint& point : results.points) {
-    multiply(point.gpuMs, factor);
-    multiply(point.frameMs, factor);
+    for (Spread* spread : {&point.gpuMs, &point.frameMs}) {
+      if (spread->repeats == 0) {
+        continue;
+      }
+      for (double* ms : {&spread->median, &spread->minimum, &spread->lowerQuartile, &spread->upperQuartile}) {
+        *ms = std::max(*ms, constant + factor * *ms);  // a larger picture takes no less
+      }
+    }
   }
-  return results;
 }
 
 }  // namespace speculum

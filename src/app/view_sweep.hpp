@@ -1,5 +1,7 @@
 #pragma once
 
+#include <map>
+
 #include "accuracy/sweep.hpp"
 #include "app/session.hpp"
 
@@ -20,18 +22,35 @@ class ViewMeasurement {
   // Loads the scene, and throws what loading throws.
   explicit ViewMeasurement(const SweepRequest& request);
 
-  // Measures a picture of few pixels against few samples, within seconds. Its times are enlarged to those of the whole
-  // picture by what one configuration takes in both sizes.
-  SweepResults rough(const SweepProgress& progress);
+  // Measures a picture of few pixels against few samples, within seconds, and times each configuration `rounds` times;
+  // another call takes only the rounds that are missing. Its times are enlarged to those of the whole picture by what
+  // two configurations take in both sizes.
+  SweepResults rough(int rounds, const SweepProgress& progress);
   SweepResults whole(const SweepProgress& progress);
 
  private:
-  SweepResults measure(PictureSize size, int samples, const SweepProgress& progress);
-  double baseMs(PictureSize size);
+  struct Effort {
+    int samples = 0;  // of the reference, a pixel
+    int rounds = SweepPlan::leastRepeats;
+    bool noiseFloor = true;
+  };
+  SweepResults measure(PictureSize size, const Effort& effort, const SweepProgress& progress);
+  double wholeMs(const SweepPoint& point);
 
   SweepRequest request_;
   Settings base_;
   Session session_;
+  std::map<std::string, double> wholeMs_;  // by point, in the whole size
 };
+
+// Milliseconds of one configuration in two sizes.
+struct SizedMs {
+  double small = 0.0;
+  double whole = 0.0;
+};
+// Replaces times of a small picture by those expected of the whole one. A frame has parts that do not depend on its size,
+// such as shadow maps, so the times of two configurations give a line; where these take about as long, all times grow
+// in proportion to those of `base`.
+void enlargeTimes(SweepResults& results, const SizedMs& base, const SizedMs& fastest);
 
 }  // namespace speculum

@@ -178,28 +178,27 @@ void plot(PanelContext& ui) {
 void frontSlider(PanelContext& ui) {
   const AccuracyView& accuracy = ui.view.accuracy;
   const int last = static_cast<int>(accuracy.front.size()) - 1;
-  const auto place = std::ranges::find(accuracy.front, accuracy.current);
-  const bool onFront = place != accuracy.front.end();
-  int index = onFront ? static_cast<int>(place - accuracy.front.begin()) : 0;
-  const std::string text = accuracy.current >= 0 ? accuracy.points[accuracy.current].name : "other settings";
+  const auto current = std::ranges::find(accuracy.front, accuracy.current);
+  const bool onFront = current != accuracy.front.end();
+  int index = onFront ? static_cast<int>(current - accuracy.front.begin()) : 0;
+  const std::string place = onFront ? fmt::format("{} of {}", index + 1, last + 1) : "";
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted("Fast");
   ImGui::SameLine();
   ImGui::SetNextItemWidth(-5.5f * ImGui::GetFontSize());
-  // Escapes '%', because ImGui takes the text as a format.
-  if (ImGui::SliderInt("Accurate", &index, 0, std::max(last, 0),
-                       text.find('%') == std::string::npos ? text.c_str() : "") &&
-      last >= 0) {
+  if (ImGui::SliderInt("Accurate", &index, 0, std::max(last, 0), place.c_str()) && last >= 0) {
     ui.send(ApplyPoint{accuracy.front[index]});
   }
   recordWidget(ui, "accuracy.slider");
+  // Below the slider, which is too narrow for most names.
+  wrappedText(accuracy.current >= 0 ? accuracy.points[accuracy.current].name : "Other settings");
 }
 
 // Returns the first bound when one is switched on: what the settings in use were measured to take, or else the fastest
 // of the front, rounded up to two digits.
-double firstBound(const AccuracyView& accuracy, double PointView::*figure, double usual) {
+double firstBound(const AccuracyView& accuracy, double PointView::*figure) {
   if (accuracy.front.empty()) {
-    return usual;
+    return 0.0;
   }
   const int point = accuracy.current >= 0 ? accuracy.current : accuracy.front.front();
   const double value = accuracy.points[point].*figure;
@@ -209,11 +208,15 @@ double firstBound(const AccuracyView& accuracy, double PointView::*figure, doubl
 
 void budget(PanelContext& ui) {
   QualitySettings& quality = ui.settings.quality;
+  const AccuracyView& accuracy = ui.view.accuracy;
   const auto bound = [&](double& value, double usual, const char* format, const char* key) {
     bool active = value > 0.0;
+    // Without points a bound would be a guess, which chooses later, when nobody expects it.
+    ImGui::BeginDisabled(!active && accuracy.points.empty());
     if (ImGui::Checkbox(findSettingField(key)->label, &active)) {
       value = active ? usual : 0.0;
     }
+    ImGui::EndDisabled();
     recordWidget(ui, key, settingHelp(key));
     if (active) {
       const float width = 8.0f * ImGui::GetFontSize();
@@ -227,11 +230,13 @@ void budget(PanelContext& ui) {
       }
     }
   };
-  const AccuracyView& accuracy = ui.view.accuracy;
-  bound(quality.budgetMs, firstBound(accuracy, &PointView::ms, 16.0), "%.2f", "quality.budget_ms");
-  bound(quality.maxError, firstBound(accuracy, &PointView::error, 0.05), "%.4f", "quality.max_error");
+  bound(quality.budgetMs, firstBound(accuracy, &PointView::ms), "%.2f", "quality.budget_ms");
+  bound(quality.maxError, firstBound(accuracy, &PointView::error), "%.4f", "quality.max_error");
   if (!accuracy.choice.empty()) {
     wrappedText(accuracy.choice);
+  } else if (accuracy.points.empty()) {
+    dimmedText(accuracy.measuring ? "Being measured: bounds choose among the first points."
+                                  : "Bounds choose among measured points. Measure this view first.");
   }
 }
 

@@ -68,6 +68,12 @@ void FrameHistory::clear() {
   names_.clear();
 }
 
+void FrameHistory::restart() {
+  if (!paused_) {
+    clear();
+  }
+}
+
 std::vector<float> FrameHistory::series(Figure figure) const {
   std::vector<float> values;
   for (const Row& row : rows()) {
@@ -77,9 +83,15 @@ std::vector<float> FrameHistory::series(Figure figure) const {
 }
 
 std::vector<std::string> FrameHistory::passNames() const {
+  std::vector<const Row*> timed;  // newest first
+  for (auto row = rows().rbegin(); row != rows().rend() && timed.size() < recent; ++row) {
+    if (!row->passes.empty()) {
+      timed.push_back(&*row);
+    }
+  }
   std::vector<std::string> present;
   for (size_t i = 0; i < names_.size(); ++i) {
-    if (std::ranges::any_of(rows(), [&](const Row& r) { return !std::isnan(passOf(r.passes, i)); })) {
+    if (std::ranges::any_of(timed, [&](const Row* row) { return !std::isnan(passOf(row->passes, i)); })) {
       present.push_back(names_[i]);
     }
   }

@@ -25,6 +25,8 @@ class FrameHistory {
   // passes with the same name add up.
   void addGpu(uint64_t number, double gpuMs, std::span<const std::pair<std::string, double>> passes);
   void clear();
+  // Clears it unless it is paused. Call when later frames are not to be compared with earlier ones.
+  void restart();
 
   // Nothing is added while it is paused.
   void setPaused(bool paused) { paused_ = paused; }
@@ -33,7 +35,9 @@ class FrameHistory {
   bool lowered() const { return lowered_; }
   size_t frames() const { return rows().size(); }
   std::vector<float> series(Figure figure) const;  // oldest first
-  // Names of passes in the order of their first recording, without those that no frame here has.
+  static constexpr size_t recent = 16;  // frames in which a pass that runs by turns does at least once
+  // Names of passes in the order of their first recording, without those that none of the last `recent` frames with
+  // times of passes has.
   std::vector<std::string> passNames() const;
   std::vector<float> passSeries(const std::string& pass) const;
 

@@ -48,10 +48,19 @@ std::vector<PassBranch> passTree(std::span<const PassView> passes, std::span<con
   return roots;
 }
 
-std::string pathEnd(const std::string& name) {
+std::string pathText(const std::string& name) {
   constexpr std::string_view kind = "mirror ";
+  return name.starts_with(kind) ? name.substr(kind.size()) : name;
+}
+
+std::string pathEnd(const std::string& name) {
   const size_t last = name.rfind(" > ");
-  return last != std::string::npos ? name.substr(last + 3) : name.starts_with(kind) ? name.substr(kind.size()) : name;
+  return last != std::string::npos ? name.substr(last + 3) : pathText(name);
+}
+
+std::string pathParent(const std::string& name) {
+  const size_t last = name.rfind(" > ");
+  return last != std::string::npos ? name.substr(0, last) : "";
 }
 
 double restOfPasses(const FrameView& frame) {

@@ -23,6 +23,11 @@ std::vector<PassBranch> passTree(std::span<const PassView> passes, std::span<con
 // Returns the last mirror in a pass's name, which is enough in a tree that shows its parents.
 std::string pathEnd(const std::string& name);
 
+// Returns the name of the pass that a pass is seen in; empty for a mirror seen directly, and for passes of no mirror.
+std::string pathParent(const std::string& name);
+// Returns all mirrors in a pass's name.
+std::string pathText(const std::string& name);
+
 // Returns the milliseconds of the timed frame that no listed pass took: for the panels, and between passes. NaN if no
 // frame was timed.
 double restOfPasses(const FrameView& frame);

@@ -33,11 +33,43 @@ std::vector<float> gapsFilled(std::vector<float> values) {
   return values;
 }
 
-// Draws one row: name, median, p95 and the graph.
-void row(PanelContext& ui, const std::string& name, const std::vector<float>& values, float height) {
+// A pass below the pass that it is seen in.
+struct NestedPass {
+  std::string name;
+  int depth = 0;  // of nesting
+};
+
+// Appends the passes seen in `parent`, each followed by those that are seen in it.
+void nest(const std::vector<std::string>& names, const std::string& parent, int depth, std::vector<NestedPass>& nested) {
+  for (const std::string& name : names) {
+    if (pathParent(name) == parent) {
+      nested.push_back({name, depth});
+      nest(names, name, depth + 1, nested);
+    }
+  }
+}
+
+// Returns the passes in the order of the tree of Passes. One whose parent did not run stands at the left.
+std::vector<NestedPass> nestedPasses(const std::vector<std::string>& names) {
+  std::vector<NestedPass> nested;
+  for (const std::string& name : names) {
+    const std::string parent = pathParent(name);
+    if (parent.empty() || std::ranges::find(names, parent) == names.end()) {
+      nested.push_back({name, 0});
+      nest(names, name, 1, nested);
+    }
+  }
+  return nested;
+}
+
+// Draws one row: name, median, p95 and the graph. A nested pass is indented and shows the end of its path, others the
+// whole.
+void row(PanelContext& ui, const std::string& name, const std::vector<float>& values, float height, int depth = 0) {
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
-  ImGui::TextUnformatted(thatFits(pathEnd(name)).c_str());
+  const float indent = 0.8f * ImGui::GetFontSize() * static_cast<float>(depth);
+  ImGui::SetCursorPosX(ImGui::GetCursorPosX() + indent);
+  ImGui::TextUnformatted(thatFits(depth > 0 ? pathEnd(name) : pathText(name)).c_str());
   const auto pass = std::ranges::find(ui.view.frame.passes, name, &PassView::name);
   const bool ofMirror = pass != ui.view.frame.passes.end() && !pass->path.empty();
   recordWidget(ui, "name." + name, name + (ofMirror ? "\nA click selects the mirror." : ""));
@@ -53,20 +85,24 @@ void row(PanelContext& ui, const std::string& name, const std::vector<float>& va
   recordWidget(ui, "graph." + name);
 }
 
-bool beginRows(const char* id) {
-  if (!ImGui::BeginTable(id, 4, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit)) {
+bool beginRows(PanelContext& ui, const char* id) {
+  const float em = ImGui::GetFontSize();
+  // Scrolls by itself, so that the head stays.
+  const ImVec2 size(0.0f, std::max(ImGui::GetContentRegionAvail().y, 12.0f * em));
+  if (!ImGui::BeginTable(id, 4, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_ScrollY, size)) {
     return false;
   }
-  const float em = ImGui::GetFontSize();
+  ImGui::TableSetupScrollFreeze(0, 1);
   ImGui::TableSetupColumn("ms", ImGuiTableColumnFlags_WidthStretch, 1.5f);
   ImGui::TableSetupColumn("Median", ImGuiTableColumnFlags_WidthFixed, 3.2f * em);
   ImGui::TableSetupColumn("p95", ImGuiTableColumnFlags_WidthFixed, 3.2f * em);
-  ImGui::TableSetupColumn("Newest right", ImGuiTableColumnFlags_WidthStretch, 1.0f);
+  ImGui::TableSetupColumn("Graph", ImGuiTableColumnFlags_WidthStretch, 1.0f);
   ImGui::TableNextRow(ImGuiTableRowFlags_Headers);
   for (int column = 0; column < 4; ++column) {
     ImGui::TableNextColumn();
     const char* name = ImGui::TableGetColumnName(column);
     column == 0 ? ImGui::TextUnformatted(name) : figure(name);
+    recordWidget(ui, "performance.head " + std::string(name), column == 3 ? "The newest frame is at the right." : "");
   }
   return true;
 }
@@ -91,14 +127,14 @@ void performance(PanelContext& ui) {
   ImGui::AlignTextToFramePadding();
   ImGui::TextDisabled("%s", frames.c_str());
   const float em = ImGui::GetFontSize();
-  if (!beginRows("times")) {
+  if (!beginRows(ui, "times")) {
     return;
   }
   row(ui, "Frame", history.series(FrameHistory::Figure::frame), 3.2f * em);
   row(ui, "CPU", history.series(FrameHistory::Figure::cpu), 3.2f * em);
   row(ui, "GPU", history.series(FrameHistory::Figure::gpu), 3.2f * em);
-  for (const std::string& pass : history.passNames()) {
-    row(ui, pass, gapsFilled(history.passSeries(pass)), 1.6f * em);
+  for (const NestedPass& pass : nestedPasses(history.passNames())) {
+    row(ui, pass.name, gapsFilled(history.passSeries(pass.name)), 1.6f * em, pass.depth);
   }
   ImGui::EndTable();
 }
