@@ -248,7 +248,7 @@ const FittedPlan& Demo::planFrame(Frame& frame, const SceneState& state) {
       .input = changes_,
       .target = missing};
   const FittedPlan& fitted = pace_.plan(request, [&](Settings lowered, int picture) {
-    // A mirror whose target is shown is rendered in each frame. This changes no picture.
+    // A mirror whose target is shown is rendered in each frame, so that the target is of the picture.
     lowered.reflection.skipUnchanged = lowered.reflection.skipUnchanged && !watchesMirror;
     lowered.reflection.updateInterval = watchesMirror ? 1 : lowered.reflection.updateInterval;
     return planner_.plan(frame, *sceneRenderer_, request.scene, state, lowered, picture, missing.has_value(),

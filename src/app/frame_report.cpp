@@ -99,7 +99,7 @@ void FrameReport::update(const RecordedFrame& frame, Renderer& renderer, SceneRe
 void FrameReport::addFrame(const RecordedFrame& frame, const FrameTimings& timings,
                            std::span<const RecordedPass> timed) {
   if (beginsPicture(frame.plan)) {
-    picture_ = {.whole = !frame.plan.tiles, .settings = frame.settings, .chosen = frame.chosen, .lowered = frame.lowered};
+    picture_ = {.whole = !frame.plan.tiles, .settings = frame.settings, .chosen = frame.chosen, .lowered = frame.lowered, .repeats = frame.repeats};
   } else if (timings.frame == picture_.number) {
     picture_.gpuMs += timings.gpuMs;
     picture_.addPasses(timings, timed);
@@ -110,8 +110,9 @@ void FrameReport::addFrame(const RecordedFrame& frame, const FrameTimings& timin
   picture_.number = frame.number;
 }
 
-// Frames for the panels only change no figure: those of the last frame that drew another picture stay. A picture of
-// several frames counts as one frame, the last; while they draw it, the figures are those of the picture before.
+// Frames for the panels only change no figure but the times of passes: those of the last frame that drew another
+// picture stay. A picture of several frames counts as one frame, the last; while they draw it, the figures are those of
+// the picture before.
 void FrameReport::updateTimes(const RecordedFrame& frame, const FrameTimings& timings,
                               std::span<const RecordedPass> timed) {
   addFrame(frame, timings, timed);
@@ -135,6 +136,8 @@ void FrameReport::updateTimes(const RecordedFrame& frame, const FrameTimings& ti
     if (!picture_.compiles) {
       view_.history.add(frame.number, ms, picture_.cpuMs, picture_.lowered);
     }
+  }
+  if (endsPicture(frame.plan) && !frame.plan.mainReused) {
     drawn_.push_front(picture_);
     drawn_.resize(std::min(drawn_.size(), awaitedFrames));
     tilesTimed_ = tilesTimed_ && frame.plan.tiles;
@@ -143,10 +146,13 @@ void FrameReport::updateTimes(const RecordedFrame& frame, const FrameTimings& ti
   if (drawn == drawn_.end()) {
     return;
   }
-  view_.gpuMs = drawn->gpuMs + timings.gpuMs;
-  if (view_.still || view_.frameMs == 0.0) {
-    view_.cpuMs = drawn->cpuMs;
-    view_.frameMs = drawn->cpuMs + view_.gpuMs;
+  const double gpuMs = drawn->gpuMs + timings.gpuMs;
+  if (!drawn->repeats) {
+    view_.gpuMs = gpuMs;
+    if (view_.still || view_.frameMs == 0.0) {
+      view_.cpuMs = drawn->cpuMs;
+      view_.frameMs = drawn->cpuMs + gpuMs;
+    }
   }
   Picture picture = *drawn;
   picture.addPasses(timings, timed);
@@ -162,16 +168,16 @@ void FrameReport::updateTimes(const RecordedFrame& frame, const FrameTimings& ti
     }
   }
   if (picture.timed) {
-    setTimes(picture);
+    setTimes(picture, gpuMs);
   } else if (!drawn->whole) {
     view_.timedGpuMs = 0.0;
   }
-  view_.history.addGpu(timings.frame, view_.gpuMs, passes);
+  view_.history.addGpu(timings.frame, gpuMs, passes);
 }
 
 // Sets the times of the listed passes, which may be those of a later picture.
-void FrameReport::setTimes(const Picture& picture) {
-  view_.timedGpuMs = view_.gpuMs;
+void FrameReport::setTimes(const Picture& picture, double gpuMs) {
+  view_.timedGpuMs = gpuMs;
   timedSettings_ = picture.settings;
   timedLowered_ = picture.lowered;
   std::ranges::for_each(view_.passes, [](PassView& row) { row.timed = false; });

@@ -57,6 +57,7 @@ class FrameReport {
     Settings settings;
     Settings chosen;
     bool lowered = false;
+    bool repeats = false;
     bool compiles = false;
     uint64_t number = 0;  // of the last one
     double sinceLastMs = 0.0;
@@ -70,7 +71,7 @@ class FrameReport {
       passes.add(recorded, timings);
     }
   };
-  void setTimes(const Picture& picture);
+  void setTimes(const Picture& picture, double gpuMs);
 
   FrameView view_;
   std::deque<Picture> drawn_;  // of the scene, not the panels only; the latest

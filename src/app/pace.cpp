@@ -89,6 +89,7 @@ void Pace::planStill(const Request& request, const Planner& plan) {
   if (std::exchange(shown_, shown) != shown || moving()) {
     picture_ = -1;
     target_.reset();
+    redraws_ = false;
     slow_.reset();
     draft_.clear();
   }
@@ -109,11 +110,13 @@ void Pace::planStill(const Request& request, const Planner& plan) {
 // Draws the last picture of a complete mean again for a target that was not kept, once: the mean itself stays. A single
 // picture is drawn again anyway if the plan cannot reuse it.
 void Pace::planTarget(const Request& request) {
-  repeats_ = picture_ == pictures_ || target_;
+  redraws_ = redraws_ && picture_ != pictures_;
+  repeats_ = picture_ == pictures_ || redraws_;
   if (!request.target) {
     target_.reset();
   } else if (picture_ == pictures_ && pictures_ > 1 && target_ != request.target) {
     target_ = request.target;
+    redraws_ = true;
     --picture_;
   }
 }

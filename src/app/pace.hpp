@@ -83,7 +83,7 @@ class Pace {
     std::span<const MotionLevel> front;  // as motionLevels takes it
     bool simplifies = false;             // likewise
     bool input = false;                  // there is some, which a frame with tiles must not hold up
-    std::optional<Target> target;        // to show beside the picture, and of which no picture was kept
+    std::optional<Target> target;        // that the panels show and that is not there yet
   };
   // Plans the frame. Calls `plan` a few times, or not at all between tiles of a picture, with settings and the number
   // of a picture in their mean; returns the plan of the last call, valid until the next frame's.
@@ -133,7 +133,8 @@ class Pace {
   FrameWork work_;             // of fitted_
   bool lowers_ = false;
   bool repeats_ = false;
-  std::optional<Target> target_;  // that the last picture of the mean is, or was, drawn again for
+  bool redraws_ = false;          // the last picture of a complete mean, until that is drawn
+  std::optional<Target> target_;  // of the latest redraw
   std::string text_;
   // Settings and content of the still pictures; nothing while the picture moves.
   std::optional<std::pair<Settings, Shown>> shown_;

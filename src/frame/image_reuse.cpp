@@ -40,12 +40,10 @@ bool sameDrawing(const Settings& a, const Settings& b) {
   return sameMirrorImages(a, b) && a.debug == b.debug;
 }
 
-// Says whether settings make the same environment maps. Of reflection.* only mesh_error has a part in that: mirrors in
-// maps show the background.
+// Says whether settings make the same environment maps. reflection.* has no part in that: mirrors in maps show the
+// background, and the content of a map lists its mesh levels.
 bool sameMaps(const Settings& a, Settings b) {
-  const double meshError = b.reflection.meshError;
   b.reflection = a.reflection;
-  b.reflection.meshError = meshError;
   b.view.scale = a.view.scale;
   return sameDrawing(a, b);
 }

@@ -102,7 +102,7 @@ constexpr SettingField fields[] = {
     setting("reflection.skip_unchanged", BooleanSetting{at<&R::skipUnchanged>}, "Reuse unchanged images",
             "reuses cached mirror images that would come out the same", "Saves passes.", {.changes = mainView}),
     setting("reflection.mesh_error", NumberSetting{at<&R::meshError>, 0.0, 16.0}, "Mesh error",
-            "largest error of simplified objects in mirror images; 0: all triangles",
+            "largest error of simplified objects in reflections; 0: all triangles",
             "Saves vertices; shading shifts. Ignored while shadows or curved mirrors are traced; needs view.mesh_error "
             "with "
             "shadow maps.",

@@ -33,6 +33,9 @@ void WatchedTarget::begin(const FramePlan& plan, const std::optional<DebugView>&
     if (watched_ && watched_->kind == TargetKind::depth) {
       watched_.reset();
     }
+    if (shown_ && shown_->kind == TargetKind::depth) {
+      shown_.reset();
+    }
     releaseDepth(retired);
   }
 }
