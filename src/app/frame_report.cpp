@@ -98,7 +98,8 @@ void FrameReport::update(const RecordedFrame& frame, Renderer& renderer, SceneRe
 void FrameReport::addFrame(const RecordedFrame& frame, const FrameTimings& timings,
                            std::span<const RecordedPass> timed) {
   if (beginsPicture(frame.plan)) {
-    picture_ = {.whole = !frame.plan.tiles, .settings = frame.settings, .chosen = frame.chosen, .lowered = frame.lowered};
+    picture_ = {
+        .whole = !frame.plan.tiles, .settings = frame.settings, .chosen = frame.chosen, .lowered = frame.lowered};
   } else if (timings.frame == picture_.number) {
     picture_.gpuMs += timings.gpuMs;
     picture_.addPasses(timings, timed);

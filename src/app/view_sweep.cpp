@@ -107,8 +107,7 @@ SweepResults ViewMeasurement::rough(int rounds, const SweepProgress& progress) {
   const double scale = std::min(1.0, std::sqrt(roughPixels / (whole.width * whole.height)));
   const PictureSize small{std::max(1, static_cast<int>(whole.width * scale)),
                           std::max(1, static_cast<int>(whole.height * scale))};
-  SweepResults results =
-      measure(small, {.samples = roughSamples, .rounds = rounds, .noiseFloor = false}, progress);
+  SweepResults results = measure(small, {.samples = roughSamples, .rounds = rounds, .noiseFloor = false}, progress);
   if (results.points.empty()) {
     return results;
   }

@@ -48,9 +48,9 @@ struct SizedMs {
   double small = 0.0;
   double whole = 0.0;
 };
-// Replaces times of a small picture by those expected of the whole one. A frame has parts that do not depend on its size,
-// such as shadow maps, so the times of two configurations give a line; where these take about as long, all times grow
-// in proportion to those of `base`.
+// Replaces times of a small picture by those expected of the whole one. A frame has parts that do not depend on its
+// size, such as shadow maps, so the times of two configurations give a line; where these take about as long, all times
+// grow in proportion to those of `base`.
 void enlargeTimes(SweepResults& results, const SizedMs& base, const SizedMs& fastest);
 
 }  // namespace speculum

@@ -35,7 +35,7 @@ class FrameHistory {
   bool lowered() const { return lowered_; }
   size_t frames() const { return rows().size(); }
   std::vector<float> series(Figure figure) const;  // oldest first
-  static constexpr size_t recent = 16;  // frames in which a pass that runs by turns does at least once
+  static constexpr size_t recent = 16;             // frames in which a pass that runs by turns does at least once
   // Names of passes in the order of their first recording, without those that none of the last `recent` frames with
   // times of passes has.
   std::vector<std::string> passNames() const;
