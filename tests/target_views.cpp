@@ -183,7 +183,7 @@ TEST(TargetViews, StayUntilTheNextPictureIsComplete) {
 }
 
 // The last picture of a mean is drawn again for a target.
-TEST(TargetViews, LeaveTheMean) {
+TEST(TargetViews, KeepTheMean) {
   QuietSession session(hallOptions());
   const SceneState state = evaluate(session.scene(), 0.0);
   Settings mean = session.settings();

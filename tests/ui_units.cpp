@@ -98,7 +98,7 @@ TEST(FrameHistory, PassesWithoutFramesAreDropped) {
   EXPECT_EQ(history.passSeries("new").back(), 3.0f) << "passes of one name add up";
 }
 
-TEST(FrameHistory, PassesThatRunNoMoreLeaveSoon) {
+TEST(FrameHistory, PassesThatStopLeaveTheList) {
   FrameHistory history;
   history.add(1, 1.0, 1.0);
   history.addGpu(1, 1.0, Passes{{"old", 1.0}});
@@ -112,13 +112,15 @@ TEST(FrameHistory, PassesThatRunNoMoreLeaveSoon) {
   EXPECT_EQ(history.passNames(), std::vector<std::string>{"new"});
 }
 
-TEST(FrameHistory, RestartsUnlessPaused) {
+TEST(FrameHistory, RestartsOnceItIsNotPaused) {
   FrameHistory history;
   history.add(1, 1.0, 1.0);
   history.setPaused(true);
   history.restart();
   EXPECT_EQ(history.frames(), 1u);
   history.setPaused(false);
+  EXPECT_EQ(history.frames(), 0u) << "its frames belong to earlier settings";
+  history.add(2, 1.0, 1.0);
   history.restart();
   EXPECT_EQ(history.frames(), 0u);
 }

@@ -55,7 +55,7 @@ TEST_F(Measuring, FirstFigureTakesOneRound) {
   EXPECT_LE(reports["times"], 4 * points + 4);
 }
 
-TEST_F(Measuring, RoughPointsCanBePickedAndArePickedByHandOnly) {
+TEST_F(Measuring, PickedRoughPointsStay) {
   AccuracyController accuracy({}, {}, "");
   Settings settings;
   const auto waitFor = [&](const auto& done) {
@@ -78,6 +78,7 @@ TEST_F(Measuring, RoughPointsCanBePickedAndArePickedByHandOnly) {
   ASSERT_TRUE(waitFor([&] { return !accuracy.view().points.empty(); }));
   ASSERT_TRUE(accuracy.working()) << "better figures follow";
   EXPECT_EQ(accuracy.view().current, accuracy.view().front.front()) << "the bound chose";
+  ASSERT_GT(accuracy.view().front.size(), 1u);
   accuracy.applyPoint(accuracy.view().front.back(), settings);
   const Settings picked = settings;
   ASSERT_TRUE(waitFor([&] { return !accuracy.working(); })) << accuracy.view().about;
@@ -92,12 +93,23 @@ TEST(EnlargedTimes, PartsThatDependOnNoSizeStay) {
     point.frameMs = spreadOf({ms});
   }
   // 40 ms of shadow maps, and 64 times as many pixels.
-  enlargeTimes(results, {60.0, 40.0 + 64.0 * 20.0}, {45.0, 40.0 + 64.0 * 5.0});
+  enlargeTimes(results, {60.0, 40.0 + 64.0 * 20.0}, {45.0, 40.0 + 64.0 * 5.0}, 64.0);
   EXPECT_DOUBLE_EQ(results.points[2].frameMs.median, 40.0 + 64.0 * 10.0);
   EXPECT_EQ(results.points[2].gpuMs.repeats, 0);
   EXPECT_EQ(results.points[2].gpuMs.median, 0.0) << "the device has no timestamps";
-  enlargeTimes(results, {10.0, 30.0}, {9.5, 29.0});
+  enlargeTimes(results, {10.0, 30.0}, {9.5, 29.0}, 64.0);
   EXPECT_DOUBLE_EQ(results.points[2].frameMs.median, 3.0 * 680.0) << "too close for a line";
+}
+
+TEST(EnlargedTimes, NoiseStaysWithinTheModel) {
+  const auto enlarged = [](const SizedMs& base, const SizedMs& fastest) {
+    SweepResults results;
+    results.points.emplace_back().frameMs = spreadOf({30.0});
+    enlargeTimes(results, base, fastest, 16.0);
+    return results.points[0].frameMs.median;
+  };
+  EXPECT_DOUBLE_EQ(enlarged({12.0, 96.0}, {9.0, 95.0}), 8.0 * 30.0) << "no less than in proportion";
+  EXPECT_DOUBLE_EQ(enlarged({12.0, 96.0}, {9.0, 10.0}), 96.0 + 16.0 * 18.0) << "no more than by pixels";
 }
 
 TEST_F(WindowView, MiddleButtonPans) {

@@ -27,8 +27,8 @@ class Fingerprint {
   uint64_t state_ = kFnv1aStart;
 };
 
-// Adds everything that a picture of the scene depends on except settings: values of the scene, and models and textures as
-// they were read. Names and paths are left out, so that a scene saved elsewhere is the same.
+// Adds everything that a picture of the scene depends on except settings: values of the scene, and models and textures
+// as they were read. Names and paths are left out, so that a scene saved elsewhere is the same.
 void addScene(Fingerprint& fingerprint, const Scene& scene);
 
 }  // namespace speculum

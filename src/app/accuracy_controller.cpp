@@ -13,7 +13,7 @@ namespace speculum {
 namespace {
 
 constexpr int heatBarSteps = 32;
-constexpr int roughRounds = 5;  // after one for the first points
+constexpr int roughRounds = 5;  // in all; the first points come after one
 
 std::string aboutText(const SweepResults& results) {
   return std::to_string(results.points.size()) + " configurations at " + std::to_string(results.width) + "x" +
@@ -21,11 +21,12 @@ std::string aboutText(const SweepResults& results) {
 }
 
 std::string roughText(const SweepResults& results) {
-  return "Rough figures of a " + std::to_string(results.width) + "x" + std::to_string(results.height) + " picture.";
+  return "Rough: errors of a " + std::to_string(results.width) + "x" + std::to_string(results.height) +
+         " picture, times estimated from it.";
 }
 
 // Returns for each setting that was measured by itself what its values cost, cheapest first.
-std::map<std::string, std::string, std::less<>> pricesOf(const SweepResults& results) {
+std::map<std::string, std::string, std::less<>> pricesOf(const SweepResults& results, bool rough) {
   std::map<std::string, std::multimap<double, std::string>> values;  // by setting and milliseconds
   const auto add = [&](const std::string& key, const std::string& value, const SweepPoint& point) {
     const double ms = costSpread(point).median;
@@ -44,7 +45,7 @@ std::map<std::string, std::string, std::less<>> pricesOf(const SweepResults& res
   }
   std::map<std::string, std::string, std::less<>> prices;
   for (const auto& [key, texts] : values) {
-    prices[key] = "\nMeasured in this view:";
+    prices[key] = rough ? "\nEstimated for this view:" : "\nMeasured in this view:";
     for (const auto& [ms, line] : texts) {
       prices[key] += line;
     }
@@ -80,8 +81,7 @@ AccuracyController::AccuracyController(const Options& options, const Settings& l
   view_.choice = choice;
 }
 
-void AccuracyController::setResults(SweepResults results) {
-  const bool byHand = !results_.points.empty() && !results.points.empty() && chosen_ < 0;
+void AccuracyController::setResults(SweepResults results, bool rough) {
   results_ = std::move(results);
   view_.points.clear();
   pointSettings_.clear();
@@ -91,7 +91,7 @@ void AccuracyController::setResults(SweepResults results) {
     view_.points.push_back({point.name, point.whole.flip, spread.median, spread.lowerQuartile, spread.upperQuartile});
     pointSettings_.push_back(settingsOfPoint(results_, static_cast<int>(i)));
   }
-  view_.prices = pricesOf(results_);
+  view_.prices = pricesOf(results_, rough);
   view_.front = paretoFront(results_.points);
   frontLevels_.clear();
   for (auto point = view_.front.rbegin(); point != view_.front.rend(); ++point) {
@@ -102,9 +102,9 @@ void AccuracyController::setResults(SweepResults results) {
   view_.noiseFloor = results_.floor.whole.flip;
   view_.about.clear();
   // A budget chooses again, unless the user has set settings by hand since.
-  budget_ = byHand ? budget_ : QualityBudget();
+  budget_ = setByHand_ ? budget_ : QualityBudget();
   chosen_ = -1;
-  isRough_ = false;
+  isRough_ = rough;
   settings_.reset();
 }
 
@@ -131,8 +131,13 @@ void AccuracyController::cancel() {
     view_.about = roughText(results_) + " The measurement was cancelled.";
   }
   sweep_.cancel();
+  forgetBudget();
+}
+
+// A budget that is set without points asks again for the measurement that it needs.
+void AccuracyController::forgetBudget() {
   if (results_.points.empty()) {
-    budget_ = {};  // a budget that is set asks again for the measurement that it needs
+    budget_ = {};
   }
 }
 
@@ -140,8 +145,7 @@ void AccuracyController::cancel() {
 void AccuracyController::takeResults() {
   if (const auto status = sweep_.progress(); status && status->rough && rough_ != status->rough) {
     rough_ = status->rough;
-    setResults(*rough_);
-    isRough_ = true;
+    setResults(*rough_, true);
     measured_ = requested_;
     view_.about = roughText(results_) + " Better ones follow.";
   }
@@ -169,6 +173,7 @@ void AccuracyController::followBudget(Settings& settings) {
     return;
   }
   acceptBudget(settings);
+  setByHand_ = false;
   if (const std::optional<BudgetChoice> choice = chooseForBudget(results_, budget_)) {
     applyPoint(choice->point, settings);
     view_.choice = choice->why;
@@ -191,6 +196,7 @@ void AccuracyController::findCurrentPoint(const Settings& settings) {
   if (view_.current != chosen_) {
     const bool chose = budget_.bounds() && !results_.points.empty();
     view_.choice = chose ? "Set by hand. Change a bound to let it choose again." : "";
+    setByHand_ = chose;
     chosen_ = -1;
   }
 }
@@ -210,7 +216,10 @@ void AccuracyController::afterFrame(const ShownPicture& shown, const std::functi
                      measured_->camera.worldToView != shown.state.camera.worldToView);
   view_.stage = status ? (status->rough ? "" : "Rough: ") + stepText(status->stage) : "";
   view_.progress = status ? status->fraction : 0.0;
-  view_.about = sweep_.takeError().value_or(view_.about);
+  if (const std::optional<std::string> error = sweep_.takeError()) {
+    view_.about = *error;
+    forgetBudget();
+  }
   const bool changed = showsDifference_ ? image && difference_.update(shown, image) : difference_.reset();
   coverChanged_ = coverChanged_ || changed;
   view_.difference = difference_.status();

@@ -44,9 +44,10 @@ class AccuracyController {
   const std::vector<MotionLevel>& front() const { return frontLevels_; }
 
  private:
-  void setResults(SweepResults results);
+  void setResults(SweepResults results, bool rough = false);
   void takeResults();
   void findCurrentPoint(const Settings& settings);
+  void forgetBudget();
 
   AccuracyView view_;
   struct Status : SweepStatus {
@@ -70,8 +71,9 @@ class AccuracyController {
   std::vector<std::vector<SettingChange>> pointSettings_;  // by point, every setting that it depends on
   std::optional<Settings> settings_;                       // settings for which the current point was found
   std::vector<MotionLevel> frontLevels_;
-  int chosen_ = -1;       // point of the budget's choice that is shown
-  QualityBudget budget_;  // that was applied last
+  int chosen_ = -1;         // point of the budget's choice that is shown
+  QualityBudget budget_;    // that was applied last
+  bool setByHand_ = false;  // settings, since a budget chose them
 };
 
 }  // namespace speculum

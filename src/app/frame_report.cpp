@@ -99,7 +99,11 @@ void FrameReport::update(const RecordedFrame& frame, Renderer& renderer, SceneRe
 void FrameReport::addFrame(const RecordedFrame& frame, const FrameTimings& timings,
                            std::span<const RecordedPass> timed) {
   if (beginsPicture(frame.plan)) {
-    picture_ = {.whole = !frame.plan.tiles, .settings = frame.settings, .chosen = frame.chosen, .lowered = frame.lowered, .repeats = frame.repeats};
+    picture_ = {.whole = !frame.plan.tiles,
+                .settings = frame.settings,
+                .chosen = frame.chosen,
+                .lowered = frame.lowered,
+                .repeats = frame.repeats};
   } else if (timings.frame == picture_.number) {
     picture_.gpuMs += timings.gpuMs;
     picture_.addPasses(timings, timed);

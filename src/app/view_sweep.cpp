@@ -88,12 +88,17 @@ SweepResults ViewMeasurement::measure(PictureSize size, const Effort& effort, co
   return finished ? results : SweepResults();
 }
 
-double ViewMeasurement::wholeMs(const SweepPoint& point) {
-  const auto [known, isNew] = wholeMs_.try_emplace(point.name);
+SizedMs ViewMeasurement::sizedMs(const SweepPoint& point, PictureSize small) {
+  const auto [known, isNew] = sizedMs_.try_emplace(point.name);
   if (isNew) {
-    session_.resize(request_.options.size);
-    const FrameCost cost = SessionSubject(session_, request_.time).cost(settingsWith(base_, point.changes));
-    known->second = cost.gpuMs > 0.0 ? cost.gpuMs : cost.frameMs;
+    const auto time = [&](PictureSize size) {
+      session_.resize(size);
+      const FrameCost cost = SessionSubject(session_, request_.time).cost(settingsWith(base_, point.changes));
+      return cost.gpuMs > 0.0 ? cost.gpuMs : cost.frameMs;
+    };
+    time(small);  // compiles its pipelines
+    known->second.small = time(small);
+    known->second.whole = time(request_.options.size);
   }
   return known->second;
 }
@@ -107,26 +112,26 @@ SweepResults ViewMeasurement::rough(int rounds, const SweepProgress& progress) {
   const double scale = std::min(1.0, std::sqrt(roughPixels / (whole.width * whole.height)));
   const PictureSize small{std::max(1, static_cast<int>(whole.width * scale)),
                           std::max(1, static_cast<int>(whole.height * scale))};
-  SweepResults results =
-      measure(small, {.samples = roughSamples, .rounds = rounds, .noiseFloor = false}, progress);
+  SweepResults results = measure(small, {.samples = roughSamples, .rounds = rounds, .noiseFloor = false}, progress);
   if (results.points.empty()) {
     return results;
   }
-  const auto sized = [&](const SweepPoint& point) { return SizedMs{costMs(point), wholeMs(point)}; };
-  const SizedMs base = sized(results.points.front());
+  const SizedMs base = sizedMs(results.points.front(), small);
   if (!progress({"times", 1.0})) {
     return {};
   }
-  enlargeTimes(results, base, sized(*std::ranges::min_element(results.points, {}, costMs)));
+  enlargeTimes(results, base, sizedMs(*std::ranges::min_element(results.points, {}, costMs), small),
+               static_cast<double>(whole.width) * whole.height / (static_cast<double>(small.width) * small.height));
   return progress({"times", 1.0}) ? results : SweepResults();
 }
 
-void enlargeTimes(SweepResults& results, const SizedMs& base, const SizedMs& fastest) {
+void enlargeTimes(SweepResults& results, const SizedMs& base, const SizedMs& fastest, double pixels) {
   constexpr double leastRatio = 1.2;  // of two times that give a line, so that noise does not decide its slope
-  const double slope = (base.whole - fastest.whole) / (base.small - fastest.small);
+  const double proportion = base.whole / base.small;
   const bool line = base.small > leastRatio * fastest.small && base.whole > fastest.whole;
-  const double factor = line ? slope : base.whole / base.small;
-  const double constant = line ? base.whole - slope * base.small : 0.0;
+  const double slope = line ? (base.whole - fastest.whole) / (base.small - fastest.small) : proportion;
+  const double factor = std::clamp(slope, proportion, std::max(proportion, pixels));
+  const double constant = base.whole - factor * base.small;
   for (SweepPoint& point : results.points) {
     for (Spread* spread : {&point.gpuMs, &point.frameMs}) {
       if (spread->repeats == 0) {

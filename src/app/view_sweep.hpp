@@ -15,6 +15,12 @@ struct SweepRequest {
   double time = 0.0;  // seconds of animation
 };
 
+// Milliseconds of one configuration in two sizes.
+struct SizedMs {
+  double small = 0.0;
+  double whole = 0.0;
+};
+
 // Measures a view, with a scene and a device of its own; may run on any thread. The window uses the same GPU meanwhile,
 // which its times include. Results have no points if `progress` returned false.
 class ViewMeasurement {
@@ -35,22 +41,19 @@ class ViewMeasurement {
     bool noiseFloor = true;
   };
   SweepResults measure(PictureSize size, const Effort& effort, const SweepProgress& progress);
-  double wholeMs(const SweepPoint& point);
+  // Returns what a point takes in both sizes, timed one after the other.
+  SizedMs sizedMs(const SweepPoint& point, PictureSize small);
 
   SweepRequest request_;
   Settings base_;
   Session session_;
-  std::map<std::string, double> wholeMs_;  // by point, in the whole size
+  std::map<std::string, SizedMs> sizedMs_;  // by point
 };
 
-// Milliseconds of one configuration in two sizes.
-struct SizedMs {
-  double small = 0.0;
-  double whole = 0.0;
-};
-// Replaces times of a small picture by those expected of the whole one. A frame has parts that do not depend on its size,
-// such as shadow maps, so the times of two configurations give a line; where these take about as long, all times grow
-// in proportion to those of `base`.
-void enlargeTimes(SweepResults& results, const SizedMs& base, const SizedMs& fastest);
+// Replaces times of a small picture by those expected of the whole one. A frame has parts that do not depend on its
+// size, such as shadow maps, so the times of two configurations give a line; where these take about as long, all times
+// grow in proportion to those of `base`. `pixels` is the ratio of the pixels of both sizes: times grow by no more, and
+// by no less than in proportion, whatever noise says.
+void enlargeTimes(SweepResults& results, const SizedMs& base, const SizedMs& fastest, double pixels);
 
 }  // namespace speculum

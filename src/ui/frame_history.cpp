@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace speculum {
 
@@ -69,7 +70,13 @@ void FrameHistory::clear() {
 }
 
 void FrameHistory::restart() {
-  if (!paused_) {
+  restarts_ = true;
+  setPaused(paused_);
+}
+
+void FrameHistory::setPaused(bool paused) {
+  paused_ = paused;
+  if (!paused_ && std::exchange(restarts_, false)) {
     clear();
   }
 }
@@ -108,16 +115,13 @@ std::vector<float> FrameHistory::passSeries(const std::string& pass) const {
 }
 
 std::string FrameHistory::csv() const {
-  const std::vector<std::string> present = passNames();
-  std::vector<size_t> columns;
   std::string text = "frame,frame ms,CPU ms,GPU ms";
-  for (const std::string& name : present) {
-    columns.push_back(std::ranges::find(names_, name) - names_.begin());
+  for (const std::string& name : names_) {
     text += "," + quoted(name + " ms");
   }
   for (const Row& row : rows()) {
     text += fmt::format("\n{},{},{},{}", row.number, field(row.ms[0]), field(row.ms[1]), field(row.ms[2]));
-    for (const size_t column : columns) {
+    for (size_t column = 0; column < names_.size(); ++column) {
       text += "," + field(passOf(row.passes, column));
     }
   }

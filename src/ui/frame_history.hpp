@@ -25,17 +25,18 @@ class FrameHistory {
   // passes with the same name add up.
   void addGpu(uint64_t number, double gpuMs, std::span<const std::pair<std::string, double>> passes);
   void clear();
-  // Clears it unless it is paused. Call when later frames are not to be compared with earlier ones.
+  // Clears it, or if it is paused, once it no longer is. Call when later frames are not to be compared with earlier
+  // ones.
   void restart();
 
   // Nothing is added while it is paused.
-  void setPaused(bool paused) { paused_ = paused; }
+  void setPaused(bool paused);
   bool paused() const { return paused_; }
 
   bool lowered() const { return lowered_; }
   size_t frames() const { return rows().size(); }
   std::vector<float> series(Figure figure) const;  // oldest first
-  static constexpr size_t recent = 16;  // frames in which a pass that runs by turns does at least once
+  static constexpr size_t recent = 16;             // frames in which a pass that runs by turns does at least once
   // Names of passes in the order of their first recording, without those that none of the last `recent` frames with
   // times of passes has.
   std::vector<std::string> passNames() const;
@@ -57,6 +58,7 @@ class FrameHistory {
   bool lowered_ = false;                 // the last frame was
   std::vector<std::string> names_;
   bool paused_ = false;
+  bool restarts_ = false;  // when it is no longer paused
 };
 
 // Returns the value that `share` of the values are not above, by nearest rank: 0.5 gives the median. Ignores NaN; NaN

@@ -40,7 +40,8 @@ struct NestedPass {
 };
 
 // Appends the passes seen in `parent`, each followed by those that are seen in it.
-void nest(const std::vector<std::string>& names, const std::string& parent, int depth, std::vector<NestedPass>& nested) {
+void nest(const std::vector<std::string>& names, const std::string& parent, int depth,
+          std::vector<NestedPass>& nested) {
   for (const std::string& name : names) {
     if (pathParent(name) == parent) {
       nested.push_back({name, depth});
@@ -89,7 +90,8 @@ bool beginRows(PanelContext& ui, const char* id) {
   const float em = ImGui::GetFontSize();
   // Scrolls by itself, so that the head stays.
   const ImVec2 size(0.0f, std::max(ImGui::GetContentRegionAvail().y, 12.0f * em));
-  if (!ImGui::BeginTable(id, 4, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_ScrollY, size)) {
+  if (!ImGui::BeginTable(id, 4, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_ScrollY,
+                         size)) {
     return false;
   }
   ImGui::TableSetupScrollFreeze(0, 1);
@@ -102,7 +104,8 @@ bool beginRows(PanelContext& ui, const char* id) {
     ImGui::TableNextColumn();
     const char* name = ImGui::TableGetColumnName(column);
     column == 0 ? ImGui::TextUnformatted(name) : figure(name);
-    recordWidget(ui, "performance.head " + std::string(name), column == 3 ? "The newest frame is at the right." : "");
+    recordWidget(ui, "performance.head " + std::to_string(column),
+                 column == 3 ? "The newest frame is at the right." : "");
   }
   return true;
 }
