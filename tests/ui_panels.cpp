@@ -1149,7 +1149,7 @@ TEST_F(TargetsWindow, RowsAddUpToTheFrame) {
   frame_.timedGpuMs = 50.0;
   run(2);
   EXPECT_TRUE(has("passes.rest"));
-  EXPECT_TRUE(shows("panels and waiting"));
+  EXPECT_TRUE(shows("panels, waiting"));
 }
 
 TEST_F(TargetsWindow, TooltipsLeaveTheirRowInSight) {
