@@ -136,7 +136,7 @@ void restRow(PanelContext& ui) {
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
   ImGui::SetCursorPosX(ImGui::GetCursorPosX() + ImGui::GetTreeNodeToLabelSpacing());
-  ImGui::TextUnformatted("panels, waiting");
+  ImGui::TextUnformatted("other work");
   recordWidget(
       ui, "passes.rest",
       "GPU time of the frame that no pass above took: for the panels, in each of the frames that drew a part of "
