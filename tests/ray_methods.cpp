@@ -114,6 +114,7 @@ TEST(RayStructures, MissingMemoryLeavesShaders) {
   QuietSession session(with(writeScene("scarce", room + shadowLight), "software", small));
   runFrames(session);
   const Image8 software = draw(session);
+  draw(session);  // each frame in flight has a buffer for its picture, which must be there already
   set(session, {{"effects.rays", "hardware"}});
   const int before = refusedAllocations();
   {
