@@ -11,12 +11,6 @@ namespace {
 static_assert(sizeof(Vertex) == 8 * sizeof(double) && sizeof(glm::vec3) == 3 * sizeof(float),
               "padding would make equal content differ");
 
-void addColor(Fingerprint& fingerprint, const glm::dvec3& color) {
-  for (int i = 0; i < 3; ++i) {
-    fingerprint.add(color[i]);
-  }
-}
-
 void addValue(Fingerprint& fingerprint, const std::string& text) {
   fingerprint.add(text);
 }
@@ -66,14 +60,14 @@ void addValue(Fingerprint& fingerprint, const std::vector<T>& values) {
 }
 
 void addMesh(Fingerprint& fingerprint, const Mesh& mesh) {
-  addColor(fingerprint, mesh.center);
+  addValue(fingerprint, mesh.center);
   fingerprint.add(std::as_bytes(std::span(mesh.vertices)));
   fingerprint.add(std::as_bytes(std::span(mesh.indices)));
   for (const MeshPart& part : mesh.parts) {
     fingerprint.add(part.firstIndex);
-    addColor(fingerprint, part.material.diffuse);
-    addColor(fingerprint, part.material.specular);
-    addColor(fingerprint, part.material.emission);
+    addValue(fingerprint, part.material.diffuse);
+    addValue(fingerprint, part.material.specular);
+    addValue(fingerprint, part.material.emission);
     fingerprint.add(part.material.shininess);
     fingerprint.add(part.material.diffuseTexture);
   }

@@ -96,8 +96,8 @@ bool beginRows(PanelContext& ui, const char* id) {
   }
   ImGui::TableSetupScrollFreeze(0, 1);
   ImGui::TableSetupColumn("ms", ImGuiTableColumnFlags_WidthStretch, 1.5f);
-  ImGui::TableSetupColumn("Median", ImGuiTableColumnFlags_WidthFixed, 3.2f * em);
-  ImGui::TableSetupColumn("p95", ImGuiTableColumnFlags_WidthFixed, 3.2f * em);
+  figureColumn("Median", 3.2f);
+  figureColumn("p95", 3.2f);
   ImGui::TableSetupColumn("Graph", ImGuiTableColumnFlags_WidthStretch, 1.0f);
   ImGui::TableNextRow(ImGuiTableRowFlags_Headers);
   for (int column = 0; column < 4; ++column) {
