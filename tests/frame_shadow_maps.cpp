@@ -113,6 +113,66 @@ TEST(ShadowMap, FarLightHasOneFace) {
   EXPECT_EQ(onlyShadowFace({}), std::nullopt);
 }
 
+// The face below the lamp of a room in which a box may spin beside the one that stands still.
+class Layers : public Frames {
+ public:
+  explicit Layers(double speed = 90.0) : Frames(room()) {
+    scene.objects.push_back(objectAt({1.5, -0.5, -5}));
+    scene.objects.back().spin.y = speed;
+  }
+  const ShadowFace& down(double time) { return next(time).shadowMaps.at(0).faces.at(3); }
+};
+
+TEST(ShadowLayer, HoldsWhatStandsStill) {
+  Layers frames;
+  EXPECT_FALSE(frames.down(0.0).layer) << "nothing has moved yet";
+  const ShadowFace first = frames.down(0.1);
+  ASSERT_TRUE(first.layer);
+  EXPECT_TRUE(first.layer->rendered);
+  EXPECT_EQ(first.layer->pass.instances, (std::vector{0, 1}));
+  EXPECT_EQ(first.pass.instances, std::vector{2});
+  const ShadowFace next = frames.down(0.2);
+  EXPECT_TRUE(next.rendered);
+  EXPECT_FALSE(next.layer->rendered);
+  EXPECT_EQ(next.pass.instances, std::vector{2});
+  EXPECT_FALSE(frames.down(0.2).rendered) << "the animation pauses";
+  EXPECT_FALSE(frames.down(0.3).layer->rendered);
+  frames.scene.objects[1].position.x -= 0.1;
+  EXPECT_TRUE(frames.down(0.4).layer->rendered);
+  frames.settings.reflection.skipUnchanged = false;
+  EXPECT_FALSE(frames.down(0.5).layer);
+  frames.settings.reflection.skipUnchanged = true;
+  EXPECT_TRUE(frames.down(0.6).layer->rendered);
+}
+
+TEST(ShadowLayer, NeedsStillAndMovingCasters) {
+  const auto hasLayer = [](Layers& frames) {
+    frames.down(0.0);
+    return frames.down(0.1).layer.has_value();
+  };
+  Layers still(0.0);
+  EXPECT_FALSE(hasLayer(still));
+  Layers turning;
+  for (Object& object : turning.scene.objects) {
+    object.spin.y = 90.0;
+  }
+  EXPECT_FALSE(hasLayer(turning));
+  Layers mirror(0.0);
+  mirror.scene.mirrors = {testing_support::wall({-1, 0, -5}, 0, {1, 1})};
+  mirror.scene.mirrors[0].spin.y = 10.0;
+  EXPECT_TRUE(hasLayer(mirror));
+  EXPECT_TRUE(mirror.plan.shadowMaps[0].faces[3].pass.instances.empty());
+}
+
+TEST(ShadowLayer, NeedsALightThatStandsStill) {
+  Layers frames;
+  frames.scene.lights[0].orbit = Orbit{.center = {0, 2, -5}, .speed = 10.0};
+  frames.down(0.0);
+  const ShadowFace& face = frames.down(0.1);
+  EXPECT_TRUE(face.rendered);
+  EXPECT_FALSE(face.layer);
+}
+
 // In random scenes, every drawn point looks up a face that is rendered, within the face's window.
 TEST(ShadowMap, VisiblePointsLieInReadFaces) {
   testing_support::Random random(7);
@@ -179,6 +239,10 @@ TEST(ShadowMap, MemoryIncludesItAndLowersIt) {
   without.shadowMaps.clear();
   const uint64_t bytes = 6ull * 1024 * 1024 * (4 + 4);
   EXPECT_EQ(shadowBytes(frames.plan), bytes);
+  Layers layers;
+  layers.down(0.0);
+  layers.down(0.1);
+  EXPECT_EQ(shadowBytes(layers.plan), bytes + 6ull * 1024 * 1024 * 4);
   EXPECT_EQ(targetBytes(frames.plan, frames.settings), targetBytes(without, frames.settings) + bytes);
   const SceneState state = evaluate(frames.scene, 0.0);
   const FittedPlan fitted = planWithin({.budgetBytes = 10'000'000, .largestSide = 4096}, frames.scene, state,

@@ -1,6 +1,10 @@
 // Shadows that are looked up in maps, against traced ones. frame_shadow_maps.cpp tests which faces are rendered,
 // effects_ledger.cpp their cost and its release.
+#include <sstream>
+
+#include "random.hpp"
 #include "reuse_support.hpp"
+#include "sampling.hpp"
 
 namespace speculum {
 namespace {
@@ -129,6 +133,70 @@ TEST(ShadowMaps, ReuseChangesNoByte) {
     EXPECT_EQ(reusing.picture().rgba, rendering.picture().rgba) << time;
   }
   EXPECT_EQ(least, 0u);
+}
+
+// Objects, a mirror and lights in a room, of which some move.
+std::string randomRoom(Random& random) {
+  std::ostringstream text;
+  const auto spin = [&] { return random.chance(0.5) ? ", spin = " + random.vec(-90, 90) : ""; };
+  text << "[environment] ambient = [0.1, 0.1, 0.1]\n[camera] position = [0.4, 1.8, 3.2], target = [0, 0.5, 0]\n"
+       << "[settings] \"view.samples\" = 1, \"effects.shadow_lookup\" = \"map\"\n"
+       << "[[object]] model = \"MODELS/block.obj\", position = [0, -1.4, 0], scale = [" << random.uniform(1, 8)
+       << ", 0.2, 2]\n";
+  for (size_t i = 0; i < 3 + random.index(5); ++i) {
+    constexpr std::array models{"block", "sphere", "gem"};
+    text << "[[object]] model = \"MODELS/" << random.pick(models) << ".obj\", position = " << random.vec(-1.2, 1.2)
+         << ", rotation = " << random.vec(0, 360) << ", scale = " << random.vec(0.2, 0.8) << spin() << "\n";
+  }
+  text << "[[mirror]] position = " << random.vec(-1.5, 1.5) << ", rotation = " << random.vec(-60, 60)
+       << ", size = [1.5, 1.2], base_color = [0.1, 0.1, 0.1]" << spin() << "\n";
+  for (size_t i = 0; i < 1 + random.index(2); ++i) {
+    text << "[[light]] casts_shadow = true, glow = 0, ";
+    if (random.chance(0.4)) {
+      text << "intensity = 9000, position = [-60, 30, 20]\n";
+    } else {
+      text << "intensity = 9, position = " << random.vec(1, 3)
+           << (random.chance(0.3) ? ", orbit = { center = [0, 2, 0], axis = [0, 1, 0], speed = 40 }" : "") << "\n";
+    }
+  }
+  return text.str();
+}
+
+// Draws random scenes that move and pause before a camera that jumps, with and without reuse.
+TEST(ShadowMaps, LayersChangeNoByteInRandomScenes) {
+  int rendered = 0;
+  int reused = 0;
+  for (const unsigned seed : sampledSeeds(150, 25)) {
+    Random random(seed);
+    Options options = headless(writeScene("shadow_layers", randomRoom(random)), {96, 72});
+    set(options, {{"effects.shadow_map_size", "128"}});
+    if (random.chance(0.5)) {
+      set(options, {{"view.mesh_error", "2"}, {"reflection.mesh_error", "2"}});
+    }
+    QuietSession reusing(options);
+    set(options, {{"reflection.skip_unchanged", "false"}});
+    QuietSession rendering(options);
+    double time = 0.0;
+    for (int frame = 0; frame < 7; ++frame) {
+      time += random.chance(0.3) ? 0.0 : random.uniform(0.02, 0.5);
+      if (random.chance(0.3)) {
+        const glm::dvec3 eye = random.uniform(0.7, 4.0) * glm::dvec3(0.4, 1.8, 3.2) + random.inBox(1.0);
+        const CameraPose camera = lookAt(eye, {0, 0.5, 0}, {0, 1, 0}, 46, 0.1);
+        reusing.setCamera(camera);
+        rendering.setCamera(camera);
+      }
+      EXPECT_EQ(draw(reusing, time).rgba, draw(rendering, time).rgba) << "seed " << seed << ", frame " << frame;
+      for (const ShadowMap& map : reusing.lastFrame().plan.shadowMaps) {
+        for (const ShadowFace& face : map.faces) {
+          rendered += face.rendered && face.layer && face.layer->rendered;
+          reused += face.rendered && face.layer && !face.layer->rendered;
+        }
+      }
+    }
+  }
+  std::printf("layers rendered %d times, reused %d times\n", rendered, reused);
+  EXPECT_GT(rendered, 10);
+  EXPECT_GT(reused, 20);
 }
 
 // The picture is the same wherever the scene lies.

@@ -174,7 +174,7 @@ ImageSurroundings Planner::surroundings() const {
 // Reuses the cached images that would be the same if they were rendered again.
 void Planner::reuseUnchanged() {
   const View& main = nodes_[0].pass.view;
-  reuseShadowMaps(plan_.shadowMaps, cache_.shadowMaps, allSettings_, state_);
+  reuseShadowMaps(plan_.shadowMaps, cache_.shadowMaps, allSettings_, scene_, state_);
   ImageSurroundings withoutMaps = surroundings();
   withoutMaps.maps.clear();
   reuseMaps(plan_.maps, cache_.maps, withoutMaps, main);

@@ -77,15 +77,24 @@ struct EnvironmentMap {
   int cacheIndex = -1;            // index into FrameCache::maps of the map that is reused; -1: this frame renders it
 };
 
+// What casts shadows in a shadow map's face and stands still while other casters move. Its image is kept, and each frame
+// draws the others over a copy of it.
+struct ShadowLayer {
+  PlannedPass pass;
+  bool rendered = false;          // rendered together with the face; else its texels are unchanged
+  std::vector<uint64_t> content;  // all that its texels depend on
+};
+
 // A part of a shadow map: what a light illuminates in one direction, as disparities from the light.
 struct ShadowFace {
-  PlannedPass pass;       // objects and mirrors that cast shadows in it
+  PlannedPass pass;       // objects and mirrors that cast shadows in it; only those that move if drawn over `layer`
   Projection projection;  // of its window
   glm::dvec2 low{0.0};    // window, metres right and down in the plane one metre before the light
   glm::dvec2 high{0.0};
   bool read = false;              // something that is drawn may look it up
   bool rendered = false;          // this frame renders it; else, if it is read, its texels are unchanged
   std::vector<uint64_t> content;  // all that its texels depend on; empty if they were never rendered
+  std::optional<ShadowLayer> layer;
 };
 
 // Six images about a light that casts shadows, side by side, three to a row: effects.shadow_lookup = map.

@@ -146,15 +146,15 @@ std::vector<uint64_t> imageContent(const ImageSurroundings& around, const View& 
   return numbers.take();
 }
 
-std::vector<uint64_t> shadowContent(const SceneState& state, const ShadowFace& face) {
+std::vector<uint64_t> shadowContent(const SceneState& state, const ShadowFace& face, const PlannedPass& casters) {
   Numbers numbers;
-  numbers.addAll(face.pass.view, face.low, face.high, face.projection.near, face.pass.instances);
-  for (const int i : face.pass.instances) {
+  numbers.addAll(casters.view, face.low, face.high, face.projection.near, casters.instances);
+  for (const int i : casters.instances) {
     const InstanceState& instance = state.instances[i];
-    numbers.addAll(instance.mesh, levelOf(face.pass, i), instance.worldFromMesh.linear,
+    numbers.addAll(instance.mesh, levelOf(casters, i), instance.worldFromMesh.linear,
                    instance.worldFromMesh.translation);
   }
-  for (const MirrorDraw& draw : face.pass.mirrors) {
+  for (const MirrorDraw& draw : casters.mirrors) {
     numbers.addAll(draw.mirror, draw.polygon);
   }
   return numbers.take();

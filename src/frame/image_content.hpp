@@ -27,7 +27,7 @@ struct ImageSurroundings {
 std::vector<uint64_t> imageContent(const ImageSurroundings& around, const View& main,
                                    std::span<const PlannedPass* const> passes);
 
-// Returns, as numbers, everything that the texels of a shadow map's face depend on.
-std::vector<uint64_t> shadowContent(const SceneState& state, const ShadowFace& face);
+// Returns, as numbers, everything that the texels of a shadow map's face depend on if `casters` are drawn into it.
+std::vector<uint64_t> shadowContent(const SceneState& state, const ShadowFace& face, const PlannedPass& casters);
 
 }  // namespace speculum

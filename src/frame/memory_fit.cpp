@@ -145,7 +145,8 @@ uint64_t environmentBytes(const FramePlan& plan) {
 
 uint64_t shadowBytes(const FramePlan& plan) {
   const glm::ivec2 extent = shadowExtent(plan.shadowMaps);
-  return static_cast<uint64_t>(extent.x) * static_cast<uint64_t>(extent.y) * (disparityBytes + depthBytes);
+  const uint64_t layerBytes = hasShadowLayers(plan.shadowMaps) ? disparityBytes : 0;
+  return static_cast<uint64_t>(extent.x) * static_cast<uint64_t>(extent.y) * (disparityBytes + depthBytes + layerBytes);
 }
 
 uint64_t targetBytes(const FramePlan& plan, const Settings& settings) {

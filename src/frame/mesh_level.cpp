@@ -190,7 +190,12 @@ std::vector<int> meshesWithLevels(const FramePlan& plan, const SceneState& state
     std::ranges::for_each(map.faces, add);
   }
   for (const ShadowMap& map : plan.shadowMaps) {
-    std::ranges::for_each(map.faces, [&](const ShadowFace& face) { add(face.pass); });
+    for (const ShadowFace& face : map.faces) {
+      add(face.pass);
+      if (face.layer) {
+        add(face.layer->pass);
+      }
+    }
   }
   return {meshes.begin(), meshes.end()};
 }

@@ -194,6 +194,42 @@ class FacePlanner {
   std::vector<Bounds> boxes_;
 };
 
+bool standsStill(const PointLight& light) {
+  return !light.orbit || light.orbit->speed == 0.0;
+}
+
+// Returns the pass with the casters that stand still, or with the others.
+PlannedPass castersOf(PlannedPass pass, bool still, const Scene& scene, const SceneState& state) {
+  const auto isOther = [&](int instance) {
+    const int object = state.instances[static_cast<size_t>(instance)].object;
+    return (scene.objects[static_cast<size_t>(object)].spin == glm::dvec3(0.0)) != still;
+  };
+  std::erase_if(pass.instances, isOther);
+  std::erase_if(pass.partial, [&](const PartialInstance& partial) { return isOther(partial.instance); });
+  std::erase_if(pass.simplified, [&](const SimplifiedInstance& simplified) { return isOther(simplified.instance); });
+  std::erase_if(pass.mirrors, [&](const MirrorDraw& draw) {
+    return (scene.mirrors[static_cast<size_t>(draw.mirror)].spin == glm::dvec3(0.0)) != still;
+  });
+  return pass;
+}
+
+bool isEmpty(const PlannedPass& pass) {
+  return pass.instances.empty() && pass.mirrors.empty();
+}
+
+// Moves the casters that stand still from the face's pass to its layer, unless all of them do or none does.
+void divide(ShadowFace& face, const std::optional<ShadowLayer>& before, const Scene& scene, const SceneState& state) {
+  PlannedPass moving = castersOf(face.pass, false, scene, state);
+  ShadowLayer layer{.pass = castersOf(face.pass, true, scene, state)};
+  if (isEmpty(moving) || isEmpty(layer.pass)) {
+    return;
+  }
+  layer.content = shadowContent(state, face, layer.pass);
+  layer.rendered = !before || before->content != layer.content;
+  face.pass = std::move(moving);
+  face.layer = std::move(layer);
+}
+
 }  // namespace
 
 std::vector<ShadowMap> shadowMaps(const Scene& scene, const SceneState& state, const Settings& settings,
@@ -213,7 +249,7 @@ std::vector<ShadowMap> shadowMaps(const Scene& scene, const SceneState& state, c
 }
 
 void reuseShadowMaps(std::vector<ShadowMap>& maps, std::span<const ShadowMap> before, const Settings& settings,
-                     const SceneState& state) {
+                     const Scene& scene, const SceneState& state) {
   const bool reuses = std::ranges::equal(
       maps, before, [](const auto& a, const auto& b) { return a.light == b.light && a.size == b.size; });
   uint64_t serial = 0;
@@ -225,13 +261,19 @@ void reuseShadowMaps(std::vector<ShadowMap>& maps, std::span<const ShadowMap> be
     maps[i].serial = reuses ? before[i].serial : next;
     for (size_t f = 0; f < maps[i].faces.size(); ++f) {
       ShadowFace& face = maps[i].faces[f];
-      const std::vector<uint64_t>* old = reuses ? &before[i].faces[f].content : nullptr;
+      const ShadowFace* old = reuses ? &before[i].faces[f] : nullptr;
       if (face.read) {
-        face.content = shadowContent(state, face);
-        face.rendered = !settings.reflection.skipUnchanged || !old || *old != face.content;
+        face.content = shadowContent(state, face, face.pass);
+        face.rendered = !settings.reflection.skipUnchanged || !old || old->content != face.content;
         maps[i].serial = face.rendered ? next : maps[i].serial;
       } else if (old) {
-        face.content = *old;
+        face.content = old->content;
+      }
+      if (!face.rendered && old) {
+        face.layer = old->layer;
+      } else if (settings.reflection.skipUnchanged && old && !old->content.empty() &&
+                 standsStill(scene.lights[static_cast<size_t>(maps[i].light)])) {
+        divide(face, old->layer, scene, state);
       }
     }
   }
@@ -258,6 +300,12 @@ std::optional<size_t> onlyShadowFace(std::span<const ShadowMap> maps) {
 bool rendersShadows(std::span<const ShadowMap> maps) {
   return std::ranges::any_of(
       maps, [](const ShadowMap& map) { return std::ranges::any_of(map.faces, &ShadowFace::rendered); });
+}
+
+bool hasShadowLayers(std::span<const ShadowMap> maps) {
+  return std::ranges::any_of(maps, [](const ShadowMap& map) {
+    return std::ranges::any_of(map.faces, [](const ShadowFace& face) { return face.layer.has_value(); });
+  });
 }
 
 glm::ivec2 shadowExtent(std::span<const ShadowMap> maps) {

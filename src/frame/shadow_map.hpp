@@ -24,9 +24,9 @@ std::vector<ShadowMap> shadowMaps(const Scene& scene, const SceneState& state, c
                                   std::span<const ShadowReader> readers);
 
 // Finds the faces that must be rendered: those that are read, and that differ from what the frame before left, or all
-// of them without reflection.skip_unchanged.
+// of them without reflection.skip_unchanged. In a face that changes again, what stands still is rendered to a layer.
 void reuseShadowMaps(std::vector<ShadowMap>& maps, std::span<const ShadowMap> before, const Settings& settings,
-                     const SceneState& state);
+                     const Scene& scene, const SceneState& state);
 
 // Name of a face's pass.
 std::string shadowFaceName(const ShadowMap& map, size_t face);
@@ -35,6 +35,7 @@ std::string shadowFaceName(const ShadowMap& map, size_t face);
 std::optional<size_t> onlyShadowFace(std::span<const ShadowMap> maps);
 
 bool rendersShadows(std::span<const ShadowMap> maps);
+bool hasShadowLayers(std::span<const ShadowMap> maps);
 
 // Texels of the target of all maps; zero without any.
 glm::ivec2 shadowExtent(std::span<const ShadowMap> maps);

@@ -113,9 +113,15 @@ void FrameData::build(Frame& frame, const SceneResources& resources, const Scene
 
   for (size_t map = 0; map < plan.shadowMaps.size(); ++map) {
     for (size_t i = 0; i < plan.shadowMaps[map].faces.size(); ++i) {
-      if (const ShadowFace& face = plan.shadowMaps[map].faces[i]; face.rendered) {
-        addPass(source, face.pass, face.projection, shadowCorner(plan.shadowMaps, map, i));
+      const ShadowFace& face = plan.shadowMaps[map].faces[i];
+      if (!face.rendered) {
+        continue;
       }
+      const glm::ivec2 corner = shadowCorner(plan.shadowMaps, map, i);
+      if (face.layer && face.layer->rendered) {
+        addPass(source, face.layer->pass, face.projection, corner);
+      }
+      addPass(source, face.pass, face.projection, corner);
     }
   }
 

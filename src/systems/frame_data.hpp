@@ -78,8 +78,8 @@ class FrameData {
 
   VkDescriptorSetLayout layout() const { return layout_.get(); }
   // Fills the buffers of this frame in flight. Afterwards passes()[i] belongs to plan.passes[i], the next to the main
-  // view, those after it to the faces of the environment maps and then of the shadow maps that this frame renders, and
-  // set() is valid until the frame has finished.
+  // view, those after it to the faces of the environment maps and then of the shadow maps that this frame renders, each
+  // after its layer, and set() is valid until the frame has finished.
   void build(Frame& frame, const SceneResources& resources, const Scene& scene, const SceneState& state,
              const Settings& settings, const Environment& environment, const FramePlan& plan);
 

@@ -206,31 +206,51 @@ size_t SceneRenderer::recordShadows(const FrameInfo& info, const TileRange& face
   for (size_t map = 0; map < maps.size(); ++map) {
     for (size_t i = 0; i < maps[map].faces.size(); ++i) {
       const ShadowFace& face = maps[map].faces[i];
-      const size_t number = count;
-      count += face.rendered ? 1 : 0;
-      if (!face.rendered || number < faces.first || number >= faces.end) {
+      if (!face.rendered) {
         continue;
       }
-      const glm::ivec2 corner = shadowCorner(maps, map, i);
-      const VkRect2D area{{corner.x, corner.y}, extentOf(maps[map].size, maps[map].size)};
-      const PassId id{.kind = PassKind::shadow, .light = maps[map].light, .face = static_cast<int>(i)};
-      RecordedPass pass{id, shadowFaceName(maps[map], i)};
-      pass.areaPx = face.pass.areaPx;
-      const PassDesc desc{.name = pass.name,
-                          .targets = shadowSystem_.target().targets(),
-                          .renderArea = area,
-                          .viewport = {static_cast<float>(corner.x), static_cast<float>(corner.y),
-                                       static_cast<float>(maps[map].size), static_cast<float>(maps[map].size)},
-                          .scissor = area,
-                          .collectStatistics = true};
-      PassScope scope = renderer_.beginPass(info.frame, desc);
-      scope.countSamples();
-      pass.draws = shadowSystem_.record(scope, info, index + number);
-      ledger_[EffectKind::shadows].draws += pass.draws;
-      log_.add(std::move(pass));
+      if (count >= faces.first && count < faces.end) {
+        recordShadowFace(info, map, i, index);
+      }
+      ++count;
+      index += face.layer && face.layer->rendered ? 2 : 1;
     }
   }
   return count;
+}
+
+// `index` in info.data, of the face or, if that is rendered, of its layer, which counts as a part of the face's pass.
+void SceneRenderer::recordShadowFace(const FrameInfo& info, size_t map, size_t face, size_t index) {
+  const std::vector<ShadowMap>& maps = info.plan.shadowMaps;
+  const ShadowFace& planned = maps[map].faces[face];
+  const auto size = static_cast<float>(maps[map].size);
+  const glm::ivec2 corner = shadowCorner(maps, map, face);
+  const VkRect2D area{{corner.x, corner.y}, extentOf(maps[map].size, maps[map].size)};
+  const PassId id{.kind = PassKind::shadow, .light = maps[map].light, .face = static_cast<int>(face)};
+  RecordedPass pass{id, shadowFaceName(maps[map], face)};
+  pass.areaPx = planned.pass.areaPx;
+  const auto draw = [&](const PassTargets& targets, bool overLayer) {
+    PassScope scope = renderer_.beginPass(
+        info.frame, {.name = pass.name,
+                     .targets = targets,
+                     .renderArea = area,
+                     .viewport = {static_cast<float>(corner.x), static_cast<float>(corner.y), size, size},
+                     .scissor = area,
+                     .collectStatistics = true});
+    scope.countSamples();
+    pass.draws += shadowSystem_.record(scope, info, index++, overLayer);
+  };
+  const bool rendersLayer = planned.layer && planned.layer->rendered;
+  if (rendersLayer) {
+    draw(shadowSystem_.layerTargets(), false);
+  }
+  draw(shadowSystem_.targets(), planned.layer.has_value());
+  ledger_[EffectKind::shadows].draws += pass.draws;
+  log_.add(pass);
+  if (rendersLayer) {
+    log_.add(pass);
+    log_.joinLast();
+  }
 }
 
 void SceneRenderer::recordMirrors(const FrameInfo& info) {

@@ -81,30 +81,63 @@ void ShadowSystem::prepare(Frame& frame, const FramePlan& plan) {
       .image(0, target_->color().descriptor(sampler_.get()))
       .buffer(1, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, buffer)
       .update(device_, set_);
+  prepareLayers(frame, plan);
 }
 
-const Pipeline& ShadowSystem::pipelineFor(Caster caster) {
-  return pipelines_.get(caster, [&] {
+void ShadowSystem::prepareLayers(Frame& frame, const FramePlan& plan) {
+  if (!hasShadowLayers(plan.shadowMaps)) {
+    releaseLayers(*frame.retired);
+    return;
+  }
+  if (!layers_) {
+    const OffScreenDesc desc{
+        .name = "shadow layers", .extent = target_->extent(), .format = disparityFormat, .depth = false};
+    layers_ = std::make_unique<OffScreen>(device_, desc, *frame.retired);
+  }
+  layerSet_ = frame.descriptors->allocate(layout_.get());
+  DescriptorWriter().image(0, layers_->color().descriptor(sampler_.get())).update(device_, layerSet_);
+}
+
+PassTargets ShadowSystem::layerTargets() {
+  PassTargets targets = layers_->targets();
+  targets.depth = target_->targets().depth;
+  return targets;
+}
+
+const Pipeline& ShadowSystem::pipelineFor(Drawn drawn) {
+  return pipelines_.get(drawn, [&] {
     GraphicsPipelineDesc desc{.name = "shadow map",
                               .vert = "mirror.vert",
                               .frag = "shadow_map.frag",
                               .setLayouts = {frameLayout_},
                               .color = disparityFormat};
-    if (caster == Caster::objects) {
+    if (drawn == Drawn::objects) {
       desc.vert = "scene.vert";
       desc.vertConstants = {false};
       addVertexInput(desc);
+    } else if (drawn == Drawn::layer) {
+      desc.vert = "full_screen.vert";
+      desc.frag = "shadow_layer.frag";
+      desc.setLayouts.push_back(layout_.get());
     }
     return desc;
   });
 }
 
-uint32_t ShadowSystem::record(const PassScope& scope, const FrameInfo& info, size_t pass) {
+uint32_t ShadowSystem::record(const PassScope& scope, const FrameInfo& info, size_t pass, bool overLayer) {
   const VkCommandBuffer commands = scope.commands();
   const PassData& data = info.data.passes()[pass];
   uint32_t draws = 0;
+  if (overLayer) {
+    const Pipeline& pipeline = pipelineFor(Drawn::layer);
+    pipeline.bind(commands);
+    info.data.bind(pipeline, commands, data);
+    pipeline.bindSet(commands, 1, layerSet_);
+    vkCmdDraw(commands, 3, 1, 0, 0);
+    ++draws;
+  }
   if (!data.batches.empty()) {
-    const Pipeline& pipeline = pipelineFor(Caster::objects);
+    const Pipeline& pipeline = pipelineFor(Drawn::objects);
     pipeline.bind(commands);
     info.data.bind(pipeline, commands, data);
   }
@@ -118,7 +151,7 @@ uint32_t ShadowSystem::record(const PassScope& scope, const FrameInfo& info, siz
     }
   }
   for (const MirrorRange& mirror : data.mirrors) {
-    const Pipeline& pipeline = pipelineFor(Caster::mirrors);
+    const Pipeline& pipeline = pipelineFor(Drawn::mirrors);
     pipeline.bind(commands);
     info.data.bind(pipeline, commands, data, mirror.mirror);
     vkCmdDraw(commands, mirror.vertexCount, 1, mirror.firstVertex, 0);
@@ -127,7 +160,15 @@ uint32_t ShadowSystem::record(const PassScope& scope, const FrameInfo& info, siz
   return draws;
 }
 
+void ShadowSystem::releaseLayers(RetireQueue& retired) {
+  if (layers_) {
+    layers_->retire(retired);
+    layers_.reset();
+  }
+}
+
 void ShadowSystem::release(RetireQueue& retired) {
+  releaseLayers(retired);
   target_->retire(retired);
   target_.reset();
   buffers_.retire(retired);
@@ -143,7 +184,7 @@ void ShadowSystem::endFrame(const FramePlan& plan, RetireQueue& retired) {
 }
 
 uint64_t ShadowSystem::bytes() const {
-  return target_ ? target_->bytes() + buffers_.bytes() : 0;
+  return target_ ? target_->bytes() + (layers_ ? layers_->bytes() : 0) + buffers_.bytes() : 0;
 }
 
 }  // namespace speculum

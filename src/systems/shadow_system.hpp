@@ -20,9 +20,12 @@ class ShadowSystem {
 
   // Makes the target of the plan's maps; call it before anything of the frame is recorded.
   void prepare(Frame& frame, const FramePlan& plan);
-  OffScreen& target() { return *target_; }
-  // Records pass `pass` of info.data, a face; returns the number of draws.
-  uint32_t record(const PassScope& scope, const FrameInfo& info, size_t pass);
+  PassTargets targets() { return target_->targets(); }
+  // Targets of the faces' layers, at the places that the faces have in targets(), and with the same depth.
+  PassTargets layerTargets();
+  // Records pass `pass` of info.data, a face, over its layer if that was rendered, or its layer. Returns the number of
+  // draws.
+  uint32_t record(const PassScope& scope, const FrameInfo& info, size_t pass, bool overLayer);
   void endFrame(const FramePlan& plan, RetireQueue& retired);
 
   // Descriptor set 2 of pipelines that look maps up, and its layout. The set is null in a frame without maps.
@@ -34,9 +37,11 @@ class ShadowSystem {
   size_t pipelineCount() const { return pipelines_.size(); }
 
  private:
-  enum class Caster { objects, mirrors };
-  const Pipeline& pipelineFor(Caster caster);
+  enum class Drawn { objects, mirrors, layer };
+  const Pipeline& pipelineFor(Drawn drawn);
   void create();
+  void prepareLayers(Frame& frame, const FramePlan& plan);
+  void releaseLayers(RetireQueue& retired);
   void release(RetireQueue& retired);
 
   Device& device_;
@@ -44,9 +49,11 @@ class ShadowSystem {
   DescriptorSetLayoutHandle layout_;
   SamplerHandle sampler_;
   FrameBuffers buffers_;
-  PipelineVariants<Caster> pipelines_;
+  PipelineVariants<Drawn> pipelines_;
   std::unique_ptr<OffScreen> target_;
+  std::unique_ptr<OffScreen> layers_;  // null without a layer
   VkDescriptorSet set_ = VK_NULL_HANDLE;
+  VkDescriptorSet layerSet_ = VK_NULL_HANDLE;
   uint32_t onlyFace_ = gpu::anyShadowFace;
   std::vector<ShadowMap> cached_;
   int idleFrames_ = 0;
