@@ -1,11 +1,6 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <numeric>
-#include <random>
-
 #include "app/pace.hpp"
 #include "frame/picture_tiles.hpp"
+#include "test_headers.hpp"
 
 namespace speculum {
 namespace {
@@ -92,7 +87,7 @@ struct Window {
   }
   double share(double of) const {
     std::vector<double> sorted = times;
-    std::sort(sorted.begin(), sorted.end());
+    std::ranges::sort(sorted);
     return sorted[static_cast<size_t>(of * static_cast<double>(sorted.size() - 1))];
   }
   int changes() const {
@@ -102,11 +97,8 @@ struct Window {
   // Says whether the next better level than the last one chosen would have taken less than 0.7 of the budget.
   bool wastes() const {
     std::mt19937 other(1);
-    const Device quiet = [&] {
-      Device d = device;
-      d.noise = 0.0;
-      return d;
-    }();
+    Device quiet = device;
+    quiet.noise = 0.0;
     return chosen.back() > 0 && load * quiet.frameMs(work(levels[chosen.back() - 1].settings), other) < 0.7 * budget;
   }
 };
@@ -256,7 +248,7 @@ TEST(MotionLevels, FollowTheMeasuredFront) {
   EXPECT_EQ(levels[1].settings.view.samples, 4);
   EXPECT_EQ(levels[1].error, 0.02);
   EXPECT_LT(levels.back().settings.view.scale, 0.2);
-  EXPECT_TRUE(std::is_sorted(levels.begin(), levels.end(), [](auto& a, auto& b) { return a.error < b.error; }));
+  EXPECT_TRUE(std::ranges::is_sorted(levels, [](auto& a, auto& b) { return a.error < b.error; }));
 }
 
 TEST(MotionLevels, MeshesStayUntilTheirLevelsAreMade) {

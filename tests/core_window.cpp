@@ -56,9 +56,7 @@ TEST_P(WindowTest, DrawnFramesAreReadBack) {
   const Pixels pixels = renderer_.readback();
   EXPECT_EQ(pixels.extent.width, renderer_.displayExtent().width);
   const uint8_t* corner = &pixels.rgba[4 * (pixels.extent.width - 1)];
-  EXPECT_EQ(corner[0], 64);
-  EXPECT_EQ(corner[1], 32);
-  EXPECT_EQ(corner[2], 191);
+  EXPECT_EQ(std::vector(corner, corner + 3), (std::vector<uint8_t>{64, 32, 191}));
 }
 
 TEST_P(WindowTest, ResizesDownToOnePixelLeakNothing) {

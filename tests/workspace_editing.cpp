@@ -410,7 +410,7 @@ TEST_F(Editing, ModelsAreAddedFromAnyFile) {
   ASSERT_EQ(edit().models.front().stem(), "sphere") << "the scene's first";
   const auto count = [&](const char* name) {
     const auto models = edit().models;
-    return std::count_if(models.begin(), models.end(), [&](const auto& model) { return model.stem() == name; });
+    return std::ranges::count_if(models, [&](const auto& model) { return model.stem() == name; });
   };
   EXPECT_EQ(count("sphere"), 1);
   send(AddObject{dataDirectory("scenes").parent_path() / "models" / "vase.obj"});

@@ -174,7 +174,7 @@ TEST_F(Saving, ForeignChangesAreNotOverwrittenUnasked) {
 
 TEST_F(Saving, AnotherSceneWaitsForTheAnswer) {
   removeBall();
-  const OpenScene other{sourceFile("scenes/no_mirror.toml")};
+  const OpenScene other{sceneFile("no_mirror")};
   send(other);
   ASSERT_EQ(edit().prompt, Prompt::unsavedChanges);
   send(CancelPrompt{});
@@ -216,7 +216,7 @@ TEST_F(Saving, NewScenesAreListedWhileShown) {
   waitFor([&] { return shownScene() == "untitled"; });
   askWhatToOpen("");
   EXPECT_EQ(edit().proposedFile, dataDirectory("scenes") / "") << "not where the new scene comes from";
-  send(OpenScene{sourceFile("scenes/no_mirror.toml")});
+  send(OpenScene{sceneFile("no_mirror")});
   waitFor([&] { return shownScene() == "no_mirror"; });
   EXPECT_EQ(std::ranges::count(view().browser.scenes, "untitled", &SceneEntry::name), 0);
 }
@@ -224,7 +224,7 @@ TEST_F(Saving, NewScenesAreListedWhileShown) {
 // Changes made while a scene is loading bring up the prompt once it is loaded.
 TEST_F(Saving, ChangesDuringLoadingAreAskedAbout) {
   // No frame takes the scene before the change.
-  workspace_->apply(OpenScene{sourceFile("scenes/no_mirror.toml")});
+  workspace_->apply(OpenScene{sceneFile("no_mirror")});
   workspace_->apply(SelectNode{ball});
   workspace_->apply(RemoveSelected{});
   waitFor([&] { return edit().prompt == Prompt::unsavedChanges; });
@@ -383,7 +383,7 @@ TEST_F(Saving, UnansweredOfferIsMadeAgain) {
   workspace_->keepUnsavedWork();
   start();
   const fs::path kept = edit().proposedFile;
-  send(OpenScene{sourceFile("scenes/no_mirror.toml")});
+  send(OpenScene{sceneFile("no_mirror")});
   waitFor([&] { return scene().file.filename() == "no_mirror.toml"; });
   send(Quit{});
   start();

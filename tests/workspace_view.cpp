@@ -434,7 +434,7 @@ TEST_F(Opening, OpenedScenesFolderIsListedFirst) {
   EXPECT_EQ(browser.scenes[1].file, home_.path() / "b_scene.toml");
   EXPECT_EQ(browser.shown, 1u);
   const auto count = [&](const std::string& name) {
-    return std::count_if(browser.scenes.begin(), browser.scenes.end(), [&](const auto& s) { return s.name == name; });
+    return std::ranges::count_if(browser.scenes, [&](const auto& s) { return s.name == name; });
   };
   EXPECT_EQ(count("notes"), 0) << "no scene";
   EXPECT_EQ(count("gallery"), 1);
@@ -490,7 +490,7 @@ TEST_F(Opening, DesktopsDialogNamesTheFile) {
 // An idle window must wake up for a scene that finished loading between two polls.
 TEST_F(Opening, LoadedSceneIsWorkUntilTaken) {
   const auto load = [&] {
-    workspace_->apply(OpenScene{sourceFile("scenes/no_mirror.toml")});
+    workspace_->apply(OpenScene{sceneFile("no_mirror")});
     while (!workspace_->browser().loaded()) {
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
