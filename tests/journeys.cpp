@@ -132,7 +132,7 @@ TEST_F(Journey, RandomResizesLeakNothing) {
   for (int frame = 0; frame < 8; ++frame) {
     ASSERT_TRUE(demo_->step());
     const auto skipped = view().frame.skipped;
-    reused += std::any_of(skipped.begin(), skipped.end(), [](const auto& s) { return s.reason == "unchanged"; });
+    reused += std::ranges::any_of(skipped, [](const auto& s) { return s.reason == "unchanged"; });
     ASSERT_EQ(view().frame.passes.size(), 3u) << "the pass of a reused image stays in the list";
   }
   EXPECT_GE(reused, 4);
@@ -207,7 +207,7 @@ TEST_F(Journey, ScreenshotsIncludeOrOmitPanels) {
   // Pictures and recordings of one second share a name, so their order tells nothing.
   const std::vector<std::filesystem::path> files = home_.pictures();
   const auto recording =
-      std::find_if(files.begin(), files.end(), [](const auto& file) { return std::filesystem::is_directory(file); });
+      std::ranges::find_if(files, [](const auto& file) { return std::filesystem::is_directory(file); });
   ASSERT_NE(recording, files.end());
   EXPECT_TRUE(readImage8(*recording / "00001.png").rgba == bare.rgba) << "the message is in no picture";
 }
@@ -324,7 +324,7 @@ TEST_F(TwoMirrors, PointedPassesAndMirrorsAreOutlined) {
         return std::min(glm::distance(line.a, corner), glm::distance(line.b, corner)) < 0.01;
       };
       const bool inside = corner.x > 0.0 && corner.x < width && corner.y > 0.0 && corner.y < height;
-      EXPECT_EQ(std::any_of(outline.begin(), outline.end(), meets), inside) << corner.x << " " << corner.y;
+      EXPECT_EQ(std::ranges::any_of(outline, meets), inside) << corner.x << " " << corner.y;
     }
   }
   // Between the command and the next frame's list the row is one of a mirror that is gone.
@@ -345,7 +345,7 @@ TEST_F(TwoMirrors, PointedPassesAndMirrorsAreOutlined) {
   ASSERT_TRUE(waitFor([&] { return !view().frame.outline.empty(); }));
   demo_->apply(OpenScene{writeScene("other", wallScene)});
   demo_->apply(DiscardChanges{});
-  ASSERT_TRUE(waitFor([&] { return view().browser.scenes[view().browser.shown].name == "other"; }));
+  ASSERT_TRUE(waitFor([&] { return shownScene().name == "other"; }));
   gone();
 }
 

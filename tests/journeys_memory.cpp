@@ -23,7 +23,7 @@ class ScarceMemory : public Journey {
   std::filesystem::path open(const std::string& name) {
     const std::filesystem::path file = writeScene(name, texturedScene());
     demo_->apply(OpenScene{file});
-    EXPECT_TRUE(waitFor([&] { return view().browser.scenes[view().browser.shown].name == name; }));
+    EXPECT_TRUE(waitFor([&] { return shownScene().name == name; }));
     run(6);
     return file;
   }

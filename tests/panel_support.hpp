@@ -17,7 +17,7 @@ namespace speculum::testing_support {
 class PanelTest : public testing::Test {
  protected:
   PanelTest() {
-    scene_ = loadScene(sourceFile("scenes/facing_mirrors.toml"));
+    scene_ = loadScene(sceneFile("facing_mirrors"));
     browser_.scenes = {{"one", "One", "/scenes/one.toml"}, {"two", "", "/scenes/two.obj"}};
     edit_.scene = &scene_;
     start();
@@ -179,11 +179,13 @@ class PanelTest : public testing::Test {
     }
     return found;
   }
-  static bool showsTooltip() {
+  // Returns the tooltip that is shown; null if there is none.
+  static const ImGuiWindow* tooltip() {
     const auto& windows = ImGui::GetCurrentContext()->Windows;
-    return std::any_of(windows.begin(), windows.end(), [](const ImGuiWindow* window) {
+    const auto shown = std::ranges::find_if(windows, [](const ImGuiWindow* window) {
       return window->Active && (window->Flags & ImGuiWindowFlags_Tooltip) != 0;
     });
+    return shown == windows.end() ? nullptr : *shown;
   }
 
   bool has(const std::string& name) const {
@@ -222,9 +224,9 @@ class PanelTest : public testing::Test {
     click("panel." + window, 0.1);
     run(3);
   }
-  // Presses at a part of the widget's width, moves, releases.
-  std::vector<Command> drag(const std::string& name, double part, double dx, double dy = 0.0) {
-    hover(name, part);
+  // Presses, moves, releases.
+  void dragFrom(double x, double y, double dx, double dy = 0.0) {
+    moveTo(x, y);
     const ImVec2 from = ImGui::GetIO().MousePos;
     commands_.clear();
     hold(true);
@@ -232,7 +234,17 @@ class PanelTest : public testing::Test {
       moveTo(from.x + dx * i / 4, from.y + dy * i / 4);
     }
     hold(false);
-    return commands_;
+  }
+  // The same from a part of the widget's width.
+  void drag(const std::string& name, double part, double dx, double dy = 0.0) {
+    const PixelRect rect = widget(name);
+    dragFrom(rect.x + rect.width * part, rect.y + rect.height / 2.0, dx, dy);
+  }
+  // Opens a prompt about a file, or with Prompt::none closes it.
+  void ask(Prompt prompt, const std::filesystem::path& file = {}) {
+    edit_.prompt = prompt;
+    edit_.proposedFile = file;
+    run(4);
   }
   void wheel(double notches) {
     ImGui::GetIO().MouseWheel = static_cast<float>(notches);
@@ -315,12 +327,9 @@ class PanelTest : public testing::Test {
 
  private:
   const PixelRect* find(const std::string& name) const {
-    for (const auto& [known, rect] : windows_->state().widgets) {
-      if (known == name) {
-        return &rect;
-      }
-    }
-    return nullptr;
+    const auto& widgets = windows_->state().widgets;
+    const auto known = std::ranges::find_if(widgets, [&](const auto& widget) { return widget.first == name; });
+    return known == widgets.end() ? nullptr : &known->second;
   }
 };
 
