@@ -92,7 +92,7 @@ TEST(ImageMetrics, UnderAMaskOnlyItsPixelsCount) {
   EXPECT_NEAR(c.masked->rmse, c.whole.rmse * std::sqrt(2.0), 1e-9);
   EXPECT_GT(c.masked->flip, 1.5 * c.whole.flip);
   EXPECT_LT(c.masked->ssim, c.whole.ssim);
-  std::fill(mask.selected.begin(), mask.selected.end(), 0);
+  std::ranges::fill(mask.selected, 0);
   EXPECT_FALSE(compare(a, b, {.mask = &mask}).masked);
 }
 

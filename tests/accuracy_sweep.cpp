@@ -199,7 +199,7 @@ TEST(SweepPlans, BuiltInPlansFitDeviceAndScene) {
     }
   }
   EXPECT_TRUE(interval);
-  const auto coarse = std::find_if(full.series.begin(), full.series.end(), [](const SweepSeries& series) {
+  const auto coarse = std::ranges::find_if(full.series, [](const SweepSeries& series) {
     return series.key == "reflection.scale" && series.x.front() < 1.0;
   });
   ASSERT_NE(coarse, full.series.end());
@@ -318,7 +318,7 @@ TEST_F(SmallSweep, ErrorFallsAsTheThroughputBeyondDepth) {
   EXPECT_GT(results.floor.whole.flip, 0.0);
   EXPECT_GT(results.truthMs, 0.0);
   EXPECT_EQ(results.points[0].gpuMs.repeats, 15);
-  EXPECT_TRUE(std::any_of(results.points.begin(), results.points.end(), [](auto& p) { return p.onFront; }));
+  EXPECT_TRUE(std::ranges::any_of(results.points, [](auto& p) { return p.onFront; }));
 }
 
 TEST_F(SmallSweep, InterruptedSweepContinues) {
@@ -367,7 +367,7 @@ TEST_F(SmallSweep, ResultsSurviveTheirFile) {
   const SweepResults read = readSweepResults(folder_.write("results.json", text));
   EXPECT_EQ(sweepJson(read).dump(), text);
   const std::string csv = sweepCsv(results);
-  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), static_cast<long>(results.points.size()) + 1);
+  EXPECT_EQ(std::ranges::count(csv, '\n'), static_cast<long>(results.points.size()) + 1);
   const auto columns = [&](size_t from) {
     return std::count(csv.begin() + from, csv.begin() + csv.find('\n', from), ',');
   };

@@ -219,9 +219,9 @@ INSTANTIATE_TEST_SUITE_P(
 // Corners of the triangles by their positions, whatever corner each begins with.
 std::vector<std::array<int, 3>> sorted(std::vector<std::array<int, 3>> triangles) {
   for (std::array<int, 3>& t : triangles) {
-    std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+    std::rotate(t.begin(), std::ranges::min_element(t), t.end());
   }
-  std::sort(triangles.begin(), triangles.end());
+  std::ranges::sort(triangles);
   return triangles;
 }
 
@@ -255,9 +255,8 @@ TEST_F(ObjLoader, QuadsAreCutAsByTinyobjloader) {
     std::vector<std::array<int, 3>> actual(mesh.indices.size() / 3);
     for (size_t k = 0; k < mesh.indices.size(); ++k) {
       const glm::dvec3 p = mesh.vertices[mesh.indices[k]].position + mesh.center;
-      const auto nearest = std::min_element(corners.begin(), corners.end(), [&](const auto& a, const auto& b) {
-        return glm::distance(a, p) < glm::distance(b, p);
-      });
+      const auto nearest = std::ranges::min_element(
+          corners, [&](const auto& a, const auto& b) { return glm::distance(a, p) < glm::distance(b, p); });
       actual[k / 3][k % 3] = static_cast<int>(nearest - corners.begin());
     }
     ASSERT_EQ(sorted(actual), sorted(expected)) << obj;
