@@ -386,7 +386,7 @@ TEST_F(SmallSweep, ResultsRefuseNumbersThatAreNoInt) {
   for (const char* axis : {"5", "\"other\""}) {
     nlohmann::ordered_json wrong = json;
     wrong["series"][0]["axis"] = nlohmann::ordered_json::parse(axis);
-    EXPECT_EQ(readProblem(wrong.dump()).substr(0, 15), "series[0].axis:") << axis;
+    EXPECT_TRUE(startsWith(readProblem(wrong.dump()), "series[0].axis:")) << axis;
   }
   json["settings"] = "nested";
   std::string text = json.dump();
@@ -414,14 +414,14 @@ TEST_F(SweepFiles, FirstWrongElementEndsTheFile) {
   const std::string text = json.dump();
   json = {};
   const uint64_t before = peakResidentBytes();
-  EXPECT_EQ(readProblem(text).substr(0, 15), "points[0].name:");
+  EXPECT_TRUE(startsWith(readProblem(text), "points[0].name:"));
   EXPECT_LT(peakResidentBytes() - before, uint64_t{256} << 20);
 }
 
 TEST_F(SweepFiles, OtherFilesAreNoResults) {
-  EXPECT_EQ(readProblem("no").substr(0, 8), "not JSON");
-  EXPECT_EQ(readProblem("{}").substr(0, 34), "scene: missing or of another kind ");
-  EXPECT_EQ(readProblem("[1]").substr(0, 5), "scene");
+  EXPECT_TRUE(startsWith(readProblem("no"), "not JSON"));
+  EXPECT_TRUE(startsWith(readProblem("{}"), "scene: missing or of another kind "));
+  EXPECT_TRUE(startsWith(readProblem("[1]"), "scene"));
   EXPECT_THROW(readSweepResults(folder_ / "absent.json"), InputError);
 }
 

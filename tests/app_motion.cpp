@@ -435,7 +435,7 @@ class PacedScene : public testing::Test {
     frame(moves);
     return picture_;
   }
-  void expectText(const std::string& start) const { EXPECT_TRUE(pace_.text().starts_with(start)) << pace_.text(); }
+  void expectText(const std::string& start) const { EXPECT_TRUE(startsWith(pace_.text(), start)); }
 
   Pace pace_{true, 1 + 4};
   Scene scene_;
@@ -475,10 +475,10 @@ TEST_F(PacedScene, LowersOnlyWhatMoves) {
   EXPECT_LT(planned_.view.scale, 0.2);
   EXPECT_TRUE(pace_.lowers());
   expectText("Moving: 0.1");
-  EXPECT_EQ(pace_.text().find("mirror images"), std::string::npos) << "no more are called for: " << pace_.text();
+  EXPECT_FALSE(contains(pace_.text(), "mirror images")) << "no more are called for";
   leavesOut_ = true;
   draw(true);
-  EXPECT_NE(pace_.text().find("at most 8 mirror images"), std::string::npos) << pace_.text();
+  EXPECT_TRUE(contains(pace_.text(), "at most 8 mirror images"));
   draw(false);
   expectText("Draft: 0.1");
   draw(false);
@@ -619,7 +619,7 @@ TEST_F(SlowPictures, AreDrawnTileByTile) {
   EXPECT_FALSE(draw().plan.tiles) << "another picture is asked for";
   expectText("Draft: ");
   EXPECT_EQ(draw().plan.tiles->first, 0u);
-  EXPECT_NE(pace_.text().find("; first picture "), std::string::npos) << "the draft is still shown: " << pace_.text();
+  EXPECT_TRUE(contains(pace_.text(), "; first picture ")) << "the draft is still shown";
   besidesMs_ = 3.0 * budget;
   while (draw().plan.tiles.value_or(TileRange{0, count_}).end < count_) {
   }

@@ -195,7 +195,7 @@ TEST_F(CommandLine, OutputThatCannotBeWrittenExitsTwo) {
 TEST_F(CommandLine, HelpAndVersionExitZero) {
   EXPECT_TRUE(contains(succeed({"--help"}), "reflection.max_depth"));
   succeed({"render", "--help"});
-  EXPECT_TRUE(succeed({"--version"}).starts_with("speculum "));
+  EXPECT_TRUE(startsWith(succeed({"--version"}), "speculum "));
 }
 
 TEST_F(CommandLine, InfoAndScenesList) {
@@ -212,7 +212,7 @@ TEST_F(CommandLine, BrokenSceneNamesFileAndLine) {
   const std::string broken =
       writeScene("broken", "[camera]\nposition = [0, 0, 0]\ntarget = [0, 0, 1]\nvertical_fow = 3\n");
   const std::string line = mistake({"render", "--scene", broken, "--out", out("x.png")});
-  EXPECT_TRUE(line.starts_with(broken + ":4: camera.vertical_fow:")) << line;
+  EXPECT_TRUE(startsWith(line, broken + ":4: camera.vertical_fow:"));
   EXPECT_TRUE(contains(line, "vertical_fov"));
   EXPECT_FALSE(fs::exists(out("x.png")));
 }

@@ -371,7 +371,7 @@ class NegativeLight : protected OwnShaders, public Journey {
 
 TEST_F(NegativeLight, IsLocatedUntilItIsGone) {
   EXPECT_TRUE(waitFor([&] { return !view().message.empty(); }));
-  EXPECT_EQ(view().message.rfind("mirror wall: pixel ", 0), 0u) << view().message;
+  EXPECT_TRUE(startsWith(view().message, "mirror wall: pixel "));
   EXPECT_GT(demo_->nonFinite(), 0u);
   const std::filesystem::path shader = shaders.path() / "scene_shading.glsl";
   std::filesystem::copy_file(sourceFile("shaders/scene_shading.glsl"), shader,
@@ -401,7 +401,7 @@ TEST_F(Journey, PanelsComeBeforeTheFirstPicture) {
 
 TEST_F(Journey, TextIsReadable) {
   const ImFont& font = *ImGui::GetFont();
-  EXPECT_EQ(std::string_view(font.GetDebugName()).find("ProggyClean"), std::string_view::npos);
+  EXPECT_FALSE(contains(font.GetDebugName(), "ProggyClean"));
   for (ImWchar digit = '1'; digit <= '9'; ++digit) {
     EXPECT_EQ(font.FindGlyph(digit)->AdvanceX, font.FindGlyph('0')->AdvanceX);
   }
@@ -461,7 +461,7 @@ TEST(EndedWindow, KeepsUnsavedWork) {
        {std::pair("kill -TERM $pid", 0), std::pair("kill -HUP $pid", 0), std::pair("kill $server", 2)}) {
     const ProcessResult result = endEditedWindow(end);
     EXPECT_EQ(result.exitCode, exitCode) << end;
-    EXPECT_TRUE(result.output.starts_with("warning: unsaved changes are kept in ")) << end << ": " << result.output;
+    EXPECT_TRUE(startsWith(result.output, "warning: unsaved changes are kept in ")) << end;
   }
 }
 

@@ -111,8 +111,7 @@ TEST_F(ObjLoader, DegenerateTrianglesAreDropped) {
 }
 
 TEST_F(ObjLoader, VertexContinuesAfterABackslash) {
-  const Mesh mesh = load("v 0 0 \\\n4\nv 2 0 4\\\n\nv 0 2 4\nf 1 2 3\n");
-  EXPECT_EQ(mesh.center, glm::dvec3(1.0, 1.0, 4.0));
+  EXPECT_EQ(load("v 0 0 \\\n4\nv 2 0 4\\\n\nv 0 2 4\nf 1 2 3\n").center, glm::dvec3(1.0, 1.0, 4.0));
 }
 
 TEST_F(ObjLoader, LinesAndNumbersHaveManyForms) {
@@ -138,7 +137,7 @@ TEST_F(ObjLoader, ArbitraryBytesAreRefused) {
   for (const std::string& text :
        {std::string(), bytes, bytes + '\0', std::string(100, '\\'), std::string("\\\n\\\n")}) {
     const std::string fault = faultOf(text);
-    EXPECT_TRUE(fault.starts_with("m.obj:")) << fault;
+    EXPECT_TRUE(startsWith(fault, "m.obj:"));
     EXPECT_FALSE(contains(fault, "\n"));
   }
 }
@@ -176,7 +175,7 @@ class ObjFaults : public ObjTest, public testing::WithParamInterface<Fault> {};
 
 TEST_P(ObjFaults, NameTheirLine) {
   const std::string fault = faultOf(GetParam().text);
-  EXPECT_TRUE(fault.starts_with("m.obj:" + std::string(GetParam().place) + " ")) << fault;
+  EXPECT_TRUE(startsWith(fault, "m.obj:" + std::string(GetParam().place) + " "));
   EXPECT_TRUE(contains(fault, GetParam().message));
   EXPECT_FALSE(contains(fault, "\n"));
 }

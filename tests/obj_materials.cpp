@@ -175,7 +175,7 @@ TEST_F(MtlFile, FaultsNameTheirLine) {
            {"newmtl a\nNs inf\n", "2: Ns: is inf"},
            {"newmtl a\nd half\n", "2: d: 'half' is not a number"},
            {std::string("newmtl a\n\0\0", 11), "2: file: is not a text file"}}) {
-    EXPECT_TRUE(faultOf(kSquare, mtl).starts_with(std::string("m.mtl:") + fault)) << fault;
+    EXPECT_TRUE(startsWith(faultOf(kSquare, mtl), std::string("m.mtl:") + fault)) << fault;
   }
 }
 

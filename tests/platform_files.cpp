@@ -20,8 +20,8 @@ void expectFileError(const Action& action, const fs::path& file, const std::stri
     action();
     ADD_FAILURE() << "no FileError was thrown for " << file;
   } catch (const FileError& error) {
-    EXPECT_EQ(error.problem().find(problem), 0u) << error.problem();
-    EXPECT_EQ(std::string(error.what()).find(file.string() + ": " + error.problem() + " ("), 0u) << error.what();
+    EXPECT_TRUE(startsWith(error.problem(), problem));
+    EXPECT_TRUE(startsWith(error.what(), file.string() + ": " + error.problem() + " ("));
   }
 }
 

@@ -23,7 +23,7 @@ class Saving : public WorkspaceTest {
     workspace_->keepUnsavedWork();
     const std::string line = view().log.lines(LogLevel::warn).back().text;
     const std::string start = "unsaved changes are kept in ";
-    EXPECT_EQ(line.find(start), 0u) << line;
+    EXPECT_TRUE(startsWith(line, start));
     return line.substr(start.size());
   }
 };
@@ -290,7 +290,7 @@ class CopiedCommand : public Saving {
  protected:
   std::string command() {
     send(CopyCommandLine{});
-    EXPECT_EQ(status().find("Copied: " + host_.clipboard), 0u) << status();
+    EXPECT_TRUE(startsWith(status(), "Copied: " + host_.clipboard));
     return host_.clipboard;
   }
   // The scene that the command draws.

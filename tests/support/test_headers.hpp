@@ -35,6 +35,11 @@ inline ::testing::AssertionResult contains(std::string_view text, std::string_vi
   return (found ? ::testing::AssertionSuccess() : ::testing::AssertionFailure()) << "in: " << text.substr(0, 4000);
 }
 
+inline ::testing::AssertionResult startsWith(std::string_view text, std::string_view start) {
+  return (text.starts_with(start) ? ::testing::AssertionSuccess() : ::testing::AssertionFailure())
+         << "in: " << text.substr(0, 4000);
+}
+
 // Says how often the text has the part.
 inline int occurrences(std::string_view text, std::string_view part) {
   int found = 0;
