@@ -104,8 +104,7 @@ TEST(ImageMetrics, LinearPicturesAreClampedAndEncoded) {
     half.pixels[i] = glm::vec3(1.0f, 0.0f, 0.5f);
   }
   EXPECT_EQ(compareImages(comparedImage(bright), comparedImage(half)).whole.rmse, 0.0);
-  const ComparedImage image = comparedImage(half);
-  EXPECT_NEAR(image.display[0].b, 255.0 * srgbEncode(0.5), 1e-4);
+  EXPECT_NEAR(comparedImage(half).display[0].b, 255.0 * srgbEncode(0.5), 1e-4);
 }
 
 TEST(ImageMetrics, RefusesPicturesThatCannotBeCompared) {

@@ -201,11 +201,9 @@ TEST(SaveScene, FileChangedMeanwhileIsNotOverwritten) {
 TEST(SaveScene, AnotherFileIsNotOverwritten) {
   TextScene text(kFile);
   const fs::path other = text.folder.write("other.toml", "important");
-  const std::string message = messageOf<SaveError>([&] { text.document.save(other, {}); });
-  EXPECT_TRUE(contains(message, "there is such a file already"));
+  EXPECT_TRUE(contains(messageOf<SaveError>([&] { text.document.save(other, {}); }), "there is such a file already"));
   EXPECT_EQ(readText(other), "important");
-  const std::string model = messageOf<SaveError>([&] { text.document.save(text.model, {}, true); });
-  EXPECT_TRUE(contains(model, "name of a model"));
+  EXPECT_TRUE(contains(messageOf<SaveError>([&] { text.document.save(text.model, {}, true); }), "name of a model"));
   EXPECT_EQ(readText(text.model), kTriangleObj);
 }
 

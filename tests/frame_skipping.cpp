@@ -92,8 +92,7 @@ TEST(Hidden, WireframeAndSwitchHideNothing) {
 // A mirror at z = -4 shows the one behind the camera; a door stands in between, or behind the first mirror's plane.
 TEST(Hidden, MirrorsHideOnlyWithWhatTheyReflect) {
   const std::vector<Mirror> facing = {wall({0, 0, -4}, 0, {3, 3}), wall({0, 0, 6}, 180, {2, 2})};
-  const FramePlan between = planOf(sceneWith(facing, {square({0, 0, 2}, {3, 3, 1})}));
-  EXPECT_TRUE(isHidden(between, {0, 1}));
+  EXPECT_TRUE(isHidden(planOf(sceneWith(facing, {square({0, 0, 2}, {3, 3, 1})})), {0, 1}));
   const FramePlan beyond = planOf(sceneWith(facing, {square({0, 0, -6}, {3, 3, 1})}));
   EXPECT_FALSE(isHidden(beyond, {0, 1}));
   EXPECT_EQ(beyond.passes.back().view.path, std::vector<int>{0});

@@ -124,13 +124,22 @@ class PanelTest : public testing::Test {
     }
     return found;
   }
-  // Returns the letters that the last frame drew.
-  static std::string shownText() {
+  // What the last frame drew.
+  static std::vector<const ImDrawList*> drawLists() {
+    std::vector<const ImDrawList*> lists;
+    for (int i = 0; i < ImGui::GetDrawData()->CmdListsCount; ++i) {
+      lists.push_back(ImGui::GetDrawData()->CmdLists[i]);
+    }
+    return lists;
+  }
+  // Returns the letters of the last frame whose lines begin below `top`.
+  static std::string shownText(float top = -INFINITY) {
     std::string text;
-    const ImDrawData& drawn = *ImGui::GetDrawData();
-    for (int i = 0; i < drawn.CmdListsCount; ++i) {
-      for (const DrawnGlyph& glyph : glyphsOf(*drawn.CmdLists[i])) {
-        text += glyph.letter;
+    for (const ImDrawList* list : drawLists()) {
+      for (const DrawnGlyph& glyph : glyphsOf(*list)) {
+        if (glyph.lineTop > top) {
+          text += glyph.letter;
+        }
       }
     }
     return text;
@@ -139,10 +148,9 @@ class PanelTest : public testing::Test {
   // Numbers alone do not count, because the ticks of a plot stand anywhere.
   static std::string textsOffTheirLine() {
     std::string found;
-    const ImDrawData& drawn = *ImGui::GetDrawData();
-    for (int i = 0; i < drawn.CmdListsCount; ++i) {
+    for (const ImDrawList* list : drawLists()) {
       std::map<float, std::string> lines;  // by their top
-      for (const DrawnGlyph& glyph : glyphsOf(*drawn.CmdLists[i])) {
+      for (const DrawnGlyph& glyph : glyphsOf(*list)) {
         lines[glyph.lineTop] += glyph.letter;
       }
       std::erase_if(lines, [](const auto& line) {
@@ -160,18 +168,15 @@ class PanelTest : public testing::Test {
   // Returns the texts of the last frame that a column's or a window's side cuts.
   static std::string cutTexts() {
     std::string found;
-    const ImDrawData& drawn = *ImGui::GetDrawData();
-    for (int i = 0; i < drawn.CmdListsCount; ++i) {
-      const ImDrawList& list = *drawn.CmdLists[i];
-      for (const ImDrawCmd& command : list.CmdBuffer) {
-        const auto first = list.IdxBuffer.begin() + command.IdxOffset;
-        for (const DrawnGlyph& glyph : glyphsOf(list)) {
+    for (const ImDrawList* list : drawLists()) {
+      for (const ImDrawCmd& command : list->CmdBuffer) {
+        const auto first = list->IdxBuffer.begin() + command.IdxOffset;
+        for (const DrawnGlyph& glyph : glyphsOf(*list)) {
           const bool drawnHere = std::find(first, first + command.ElemCount, glyph.vertex) != first + command.ElemCount;
           const ImVec4& clip = command.ClipRect;
-          const float top = list.VtxBuffer[glyph.vertex].pos.y;
-          const bool inSight = top >= clip.y && top < clip.w;
-          if (drawnHere && inSight &&
-              (list.VtxBuffer[glyph.vertex].pos.x < clip.x || list.VtxBuffer[glyph.vertex + 2].pos.x > clip.z)) {
+          const ImVec2& corner = list->VtxBuffer[glyph.vertex].pos;
+          const bool inSight = corner.y >= clip.y && corner.y < clip.w;
+          if (drawnHere && inSight && (corner.x < clip.x || list->VtxBuffer[glyph.vertex + 2].pos.x > clip.z)) {
             found += glyph.letter;
           }
         }

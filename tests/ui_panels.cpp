@@ -214,9 +214,8 @@ TEST_F(PanelTest, MessagesAreNoLargerThanTheirText) {
   run(2);
   float right = 0.0f;
   float top = 700.0f;
-  const ImDrawData& drawn = *ImGui::GetDrawData();
-  for (int i = 0; i < drawn.CmdListsCount; ++i) {
-    for (const ImDrawVert& vertex : drawn.CmdLists[i]->VtxBuffer) {
+  for (const ImDrawList* list : drawLists()) {
+    for (const ImDrawVert& vertex : list->VtxBuffer) {
       right = std::max(right, vertex.pos.x);
       top = std::min(top, vertex.pos.y);
     }
@@ -990,15 +989,8 @@ TEST_F(AccuracyWindow, NameOfThePointIsShownInFull) {
     ImGui::GetIO().FontGlobalScale = textSize;
     run(5);
     const PixelRect slider = widget("accuracy.slider");
-    std::string below;
-    const ImDrawData& drawn = *ImGui::GetDrawData();
-    for (int i = 0; i < drawn.CmdListsCount; ++i) {
-      for (const DrawnGlyph& glyph : glyphsOf(*drawn.CmdLists[i])) {
-        below +=
-            glyph.lineTop > static_cast<float>(slider.y + slider.height) - 4.0f ? std::string(1, glyph.letter) : "";
-      }
-    }
-    EXPECT_TRUE(contains(below, "reflectionscale0.5,maxdepth4,samples4,viewsamples4")) << textSize << below;
+    const std::string below = shownText(static_cast<float>(slider.y + slider.height) - 4.0f);
+    EXPECT_TRUE(contains(below, "reflectionscale0.5,maxdepth4,samples4,viewsamples4")) << textSize;
   }
 }
 
