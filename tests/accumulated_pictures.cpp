@@ -221,7 +221,7 @@ TEST(MultisampledTiles, ChangeNoByte) {
 // Shadow and environment maps of scenes that move.
 class MapTiles : public testing::TestWithParam<const char*> {};
 
-TEST_P(MapTiles, ChangeNoByteAndAreReusedOnceComplete) {
+TEST_P(MapTiles, ChangeNothingAndAreReusedOnceComplete) {
   Options options = inTiles(GetParam());
   set(options, {{"view.accumulate", "1"}, {"view.samples", "1"}, {"reflection.samples", "1"}});
   set(options, {{"effects.shadow_lookup", "map"}, {"effects.curved_lookup", "environment"}});

@@ -425,7 +425,7 @@ TEST_F(SweepFiles, OtherFilesAreNoResults) {
   EXPECT_THROW(readSweepResults(folder_ / "absent.json"), InputError);
 }
 
-TEST(Fingerprint, ScenesAreTheSameWhereverTheyAreSaved) {
+TEST(Fingerprint, ScenesAreTheSameWhereverSaved) {
   const TemporaryFolder folder;
   const auto fingerprintOf = [&](const std::string& name, const std::string& text) {
     Fingerprint fingerprint;

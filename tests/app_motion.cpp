@@ -545,7 +545,7 @@ TEST_F(PacedScene, TargetsKeepTheMean) {
 }
 
 // As while frames are recorded, or with quality.motion_ms at 0.
-TEST_F(PacedScene, MeansBeginAnewAfterMovementWithoutABudget) {
+TEST_F(PacedScene, MeansBeginAnewAfterMovementWithoutBudget) {
   chosen_.quality.stillPictures = 3;
   seconds_ = 1.0;
   frame();
@@ -644,7 +644,7 @@ TEST_F(SlowPictures, SingleOneEndsWithItsTiles) {
   EXPECT_TRUE(pace_.repeats());
 }
 
-TEST(SlowPicture, FacesOfMapsHaveFramesOfTheirOwn) {
+TEST(SlowPicture, FacesOfMapsHaveTheirOwnFrames) {
   SlowPicture picture;
   picture.begin(5, 100, 1000.0);
   EXPECT_EQ(picture.next(50.0), (TileRange{0, 1})) << "nothing is known yet";

@@ -115,7 +115,7 @@ TEST_F(RegressCommand, FindsValuesThatAreNotFinite) {
   EXPECT_EQ(regress({"--shader-dir", shaders.string(), "--update"}).exitCode, 1) << "such a picture is not taken over";
 }
 
-TEST_F(RegressCommand, KeepsToWhatIsExpectedOfTheDriver) {
+TEST_F(RegressCommand, KeepsToExpectationsOfDrivers) {
   writePng(folder_ / "wrong.png", Image8(320, 180));
   writeCases(R"(
 [[case]] scene = 'room.toml', name = 'known', picture = 'wrong.png'

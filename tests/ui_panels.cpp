@@ -225,7 +225,7 @@ TEST_F(PanelTest, MessagesAreNoLargerThanTheirText) {
   EXPECT_GT(top, 660.0f);
 }
 
-TEST_F(PanelTest, StatusLinesAreAsHighAsTheirText) {
+TEST_F(PanelTest, StatusLinesAreAsHighAsText) {
   const auto height = [&](const char* text) {
     status_.picture = text;
     run(2);
@@ -907,7 +907,7 @@ class AccuracyWindow : public PanelTest {
   }
 };
 
-TEST_F(AccuracyWindow, TextsOfARowStandOnOneLine) {
+TEST_F(AccuracyWindow, TextsOfRowsStandOnOneLine) {
   scene_.mirrors[0].ripple = Ripple{.amplitude = 0.1};
   edit_.selected = {Selection::Kind::mirror, 0};
   edit_.through = {1};
@@ -981,7 +981,7 @@ TEST_F(AccuracyWindow, BoundsNeedMeasuredPoints) {
   EXPECT_TRUE(shows("Being measured"));
 }
 
-TEST_F(AccuracyWindow, NameOfThePointIsShownInFull) {
+TEST_F(AccuracyWindow, NameOfPointIsShownInFull) {
   accuracy_.points[1].name = "reflection scale 0.5, max depth 4, samples 4, view samples 4";
   accuracy_.current = 1;
   resize(1280, 720);

@@ -339,7 +339,7 @@ TEST_F(BudgetView, PointsChosenByHandAreSaid) {
   EXPECT_EQ(choice(), "");
 }
 
-TEST_F(BudgetView, ChangedScenesSayThatTheResultIsGone) {
+TEST_F(BudgetView, ChangedScenesSayTheResultIsGone) {
   send(AddLight{});
   EXPECT_TRUE(view().accuracy.points.empty());
   EXPECT_EQ(view().accuracy.about, "The scene has changed since it was measured.");
