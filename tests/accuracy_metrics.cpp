@@ -92,7 +92,7 @@ TEST(ImageMetrics, UnderAMaskOnlyItsPixelsCount) {
   EXPECT_NEAR(c.masked->rmse, c.whole.rmse * std::sqrt(2.0), 1e-9);
   EXPECT_GT(c.masked->flip, 1.5 * c.whole.flip);
   EXPECT_LT(c.masked->ssim, c.whole.ssim);
-  std::fill(mask.selected.begin(), mask.selected.end(), 0);
+  std::ranges::fill(mask.selected, 0);
   EXPECT_FALSE(compare(a, b, {.mask = &mask}).masked);
 }
 
@@ -104,8 +104,7 @@ TEST(ImageMetrics, LinearPicturesAreClampedAndEncoded) {
     half.pixels[i] = glm::vec3(1.0f, 0.0f, 0.5f);
   }
   EXPECT_EQ(compareImages(comparedImage(bright), comparedImage(half)).whole.rmse, 0.0);
-  const ComparedImage image = comparedImage(half);
-  EXPECT_NEAR(image.display[0].b, 255.0 * srgbEncode(0.5), 1e-4);
+  EXPECT_NEAR(comparedImage(half).display[0].b, 255.0 * srgbEncode(0.5), 1e-4);
 }
 
 TEST(ImageMetrics, RefusesPicturesThatCannotBeCompared) {

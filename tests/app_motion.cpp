@@ -1,11 +1,6 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <numeric>
-#include <random>
-
 #include "app/pace.hpp"
 #include "frame/picture_tiles.hpp"
+#include "test_headers.hpp"
 
 namespace speculum {
 namespace {
@@ -92,7 +87,7 @@ struct Window {
   }
   double share(double of) const {
     std::vector<double> sorted = times;
-    std::sort(sorted.begin(), sorted.end());
+    std::ranges::sort(sorted);
     return sorted[static_cast<size_t>(of * static_cast<double>(sorted.size() - 1))];
   }
   int changes() const {
@@ -102,11 +97,8 @@ struct Window {
   // Says whether the next better level than the last one chosen would have taken less than 0.7 of the budget.
   bool wastes() const {
     std::mt19937 other(1);
-    const Device quiet = [&] {
-      Device d = device;
-      d.noise = 0.0;
-      return d;
-    }();
+    Device quiet = device;
+    quiet.noise = 0.0;
     return chosen.back() > 0 && load * quiet.frameMs(work(levels[chosen.back() - 1].settings), other) < 0.7 * budget;
   }
 };
@@ -256,7 +248,7 @@ TEST(MotionLevels, FollowTheMeasuredFront) {
   EXPECT_EQ(levels[1].settings.view.samples, 4);
   EXPECT_EQ(levels[1].error, 0.02);
   EXPECT_LT(levels.back().settings.view.scale, 0.2);
-  EXPECT_TRUE(std::is_sorted(levels.begin(), levels.end(), [](auto& a, auto& b) { return a.error < b.error; }));
+  EXPECT_TRUE(std::ranges::is_sorted(levels, [](auto& a, auto& b) { return a.error < b.error; }));
 }
 
 TEST(MotionLevels, MeshesStayUntilTheirLevelsAreMade) {
@@ -443,7 +435,7 @@ class PacedScene : public testing::Test {
     frame(moves);
     return picture_;
   }
-  void expectText(const std::string& start) const { EXPECT_TRUE(pace_.text().starts_with(start)) << pace_.text(); }
+  void expectText(const std::string& start) const { EXPECT_TRUE(startsWith(pace_.text(), start)); }
 
   Pace pace_{true, 1 + 4};
   Scene scene_;
@@ -483,10 +475,10 @@ TEST_F(PacedScene, LowersOnlyWhatMoves) {
   EXPECT_LT(planned_.view.scale, 0.2);
   EXPECT_TRUE(pace_.lowers());
   expectText("Moving: 0.1");
-  EXPECT_EQ(pace_.text().find("mirror images"), std::string::npos) << "no more are called for: " << pace_.text();
+  EXPECT_FALSE(contains(pace_.text(), "mirror images")) << "no more are called for";
   leavesOut_ = true;
   draw(true);
-  EXPECT_NE(pace_.text().find("at most 8 mirror images"), std::string::npos) << pace_.text();
+  EXPECT_TRUE(contains(pace_.text(), "at most 8 mirror images"));
   draw(false);
   expectText("Draft: 0.1");
   draw(false);
@@ -553,7 +545,7 @@ TEST_F(PacedScene, TargetsKeepTheMean) {
 }
 
 // As while frames are recorded, or with quality.motion_ms at 0.
-TEST_F(PacedScene, MeansBeginAnewAfterMovementWithoutABudget) {
+TEST_F(PacedScene, MeansBeginAnewAfterMovementWithoutBudget) {
   chosen_.quality.stillPictures = 3;
   seconds_ = 1.0;
   frame();
@@ -627,7 +619,7 @@ TEST_F(SlowPictures, AreDrawnTileByTile) {
   EXPECT_FALSE(draw().plan.tiles) << "another picture is asked for";
   expectText("Draft: ");
   EXPECT_EQ(draw().plan.tiles->first, 0u);
-  EXPECT_NE(pace_.text().find("; first picture "), std::string::npos) << "the draft is still shown: " << pace_.text();
+  EXPECT_TRUE(contains(pace_.text(), "; first picture ")) << "the draft is still shown";
   besidesMs_ = 3.0 * budget;
   while (draw().plan.tiles.value_or(TileRange{0, count_}).end < count_) {
   }
@@ -652,7 +644,7 @@ TEST_F(SlowPictures, SingleOneEndsWithItsTiles) {
   EXPECT_TRUE(pace_.repeats());
 }
 
-TEST(SlowPicture, FacesOfMapsHaveFramesOfTheirOwn) {
+TEST(SlowPicture, FacesOfMapsHaveTheirOwnFrames) {
   SlowPicture picture;
   picture.begin(5, 100, 1000.0);
   EXPECT_EQ(picture.next(50.0), (TileRange{0, 1})) << "nothing is known yet";

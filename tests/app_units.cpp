@@ -110,12 +110,13 @@ class Report : public testing::Test {
 
   FramePlan plan;
   FrameReport report;
-  const std::vector<PassView>& rows = report.view().passes;
+  const FrameView& view = report.view();
+  const std::vector<PassView>& rows = view.passes;
+  Settings settings_;
 
  private:
   Scene scene_;
   const SceneState state_;
-  const Settings settings_;
 };
 
 TEST_F(Report, PanelOnlyFramesChangeNoFigure) {
@@ -128,40 +129,40 @@ TEST_F(Report, PanelOnlyFramesChangeNoFigure) {
     return FrameTimings{.frame = frame, .gpuMs = ms, .passes = {{.name = "main view", .gpuMs = ms}}};
   };
   frame(false, NAN, 5.0, {});
-  EXPECT_FALSE(report.view().still);
+  EXPECT_FALSE(view.still);
   frame(true, 14000.0, 1.0, timed(1, 13990.0));
   for (int i = 0; i < 100; ++i) {
     frame(true, 20.0, 1.0, timed(number, 3.0));
   }
-  EXPECT_TRUE(report.view().still);
-  EXPECT_EQ(report.view().frameMs, 13995.0);
-  EXPECT_EQ(report.view().gpuMs, 13990.0);
-  EXPECT_EQ(report.view().cpuMs, 5.0);
-  EXPECT_EQ(report.view().history.frames(), 1u);
+  EXPECT_TRUE(view.still);
+  EXPECT_EQ(view.frameMs, 13995.0);
+  EXPECT_EQ(view.gpuMs, 13990.0);
+  EXPECT_EQ(view.cpuMs, 5.0);
+  EXPECT_EQ(view.history.frames(), 1u);
   frame(false, 20.0, 5.0, {});
   frame(false, 10.0, 5.0, timed(number, 8.0));
-  EXPECT_FALSE(report.view().still);
-  EXPECT_LT(report.view().gpuMs, 10.0);
+  EXPECT_FALSE(view.still);
+  EXPECT_LT(view.gpuMs, 10.0);
   for (int i = 0; i < 100; ++i) {
     frame(false, 10.0, 5.0, timed(number, 8.0));
   }
-  EXPECT_NEAR(report.view().frameMs, 10.0, 1.0) << "not held up by the slow frame before";
+  EXPECT_NEAR(view.frameMs, 10.0, 1.0) << "not held up by the slow frame before";
 }
 
 TEST_F(Report, RepeatedPicturesChangeNoFigure) {
   report.updateTimes(frameOf(1, 5.0, NAN), {});
   report.updateTimes(frameOf(2, 5.0, 30.0), {.frame = 1, .gpuMs = 20.0});
-  EXPECT_FALSE(report.view().still);
-  const double ms = report.view().frameMs;
+  EXPECT_FALSE(view.still);
+  const double ms = view.frameMs;
   for (uint64_t number = 3; number < 9; ++number) {
     RecordedFrame again = frameOf(number, 1.0, 16.0);
     again.repeats = true;  // as for the Targets window
     report.updateTimes(again, {.frame = number - 1, .gpuMs = 20.0});
-    EXPECT_TRUE(report.view().still);
+    EXPECT_TRUE(view.still);
   }
-  EXPECT_EQ(report.view().cpuMs, 5.0);
-  EXPECT_NEAR(report.view().frameMs, 25.0, 1e-9) << "of the last other one, not " << ms;
-  EXPECT_EQ(report.view().history.frames(), 2u);
+  EXPECT_EQ(view.cpuMs, 5.0);
+  EXPECT_NEAR(view.frameMs, 25.0, 1e-9) << "of the last other one, not " << ms;
+  EXPECT_EQ(view.history.frames(), 2u);
 }
 
 TEST_F(Report, TilesOfAPictureAreOneFrame) {
@@ -173,8 +174,8 @@ TEST_F(Report, TilesOfAPictureAreOneFrame) {
       plan.tiles = {tile, tile + 1};
       report.updateTimes(frameOf(number + 1, 2.0, 30.0), {.frame = number, .gpuMs = 25.0});
       ++number;
-      EXPECT_TRUE(report.view().still) << "no picture follows another at once";
-      EXPECT_EQ(report.view().frameMs, picture == 0 ? 1.0 + 25.0 : 4 * 27.0) << "of the last complete picture";
+      EXPECT_TRUE(view.still) << "no picture follows another at once";
+      EXPECT_EQ(view.frameMs, picture == 0 ? 1.0 + 25.0 : 4 * 27.0) << "of the last complete picture";
     }
     if (picture == 0) {
       plan.tiles = {0, 1};
@@ -183,12 +184,12 @@ TEST_F(Report, TilesOfAPictureAreOneFrame) {
       EXPECT_EQ(next.view().gpuMs, 4 * 25.0) << "known while the next picture is drawn";
     }
   }
-  EXPECT_EQ(report.view().history.frames(), 3u);
+  EXPECT_EQ(view.history.frames(), 3u);
   plan.tiles.reset();
   plan.mainReused = true;
   report.updateTimes(frameOf(number + 1, 1.0, 10.0), {.frame = number, .gpuMs = 25.0});
-  EXPECT_EQ(report.view().gpuMs, 4 * 25.0);
-  EXPECT_EQ(report.view().cpuMs, 4 * 2.0);
+  EXPECT_EQ(view.gpuMs, 4 * 25.0);
+  EXPECT_EQ(view.cpuMs, 4 * 2.0);
 }
 
 TEST_F(Report, TargetsStayWhileTilesAreDrawn) {
@@ -196,7 +197,7 @@ TEST_F(Report, TargetsStayWhileTilesAreDrawn) {
   settings.debug.maskPasses = false;
   const auto target = [&](const std::vector<int>& path) {
     report.target({.path = path, .drawn = true}, plan, settings, true);
-    return report.view().target;
+    return view.target;
   };
   plan.main.view.rect = {0, 0, tileSide, tileSide};
   EXPECT_TRUE(target({}).complete);
@@ -217,7 +218,7 @@ TEST_F(Report, ReasonsAreWords) {
                   {.path = {1}, .reason = SkipReason::outside},
                   {.path = {2}, .reason = SkipReason::maxPasses}};
   report.updateSkipped(frameOf(1, 1.0, 1.0));
-  const std::vector<SkippedView>& skipped = report.view().skipped;
+  const std::vector<SkippedView>& skipped = view.skipped;
   ASSERT_EQ(skipped.size(), 3u);
   EXPECT_EQ(skipped[0].reason, "seen from behind");
   EXPECT_EQ(skipped[1].reason, "outside the view");
@@ -226,7 +227,7 @@ TEST_F(Report, ReasonsAreWords) {
 
 TEST_F(Report, EffectsAreNamedAsTheirSwitches) {
   report.updateEffects(frameOf(1, 1.0, 1.0), {});
-  const std::vector<EffectView>& effects = report.view().effects;
+  const std::vector<EffectView>& effects = view.effects;
   EXPECT_EQ(std::ranges::count(effects, "Glowing lights", &EffectView::name), 1);
   for (const EffectView& effect : effects) {
     EXPECT_TRUE(std::ranges::any_of(settingFields(), [&](const SettingField& f) { return f.label == effect.name; }))
@@ -280,7 +281,7 @@ TEST_F(Report, EarlierTimesAreMarked) {
   frame(3, {main}, timings(2, {}), {mirror, main});
   EXPECT_TRUE(rows[0].reused && rows[0].timed) << "the frame's own passes were not timed";
   frame(4, {main}, timings(3, {90.0}), {main});
-  EXPECT_EQ(report.view().timedGpuMs, 90.0);
+  EXPECT_EQ(view.timedGpuMs, 90.0);
   EXPECT_FALSE(rows[0].timed);
   EXPECT_EQ(rows[0].gpuMs, 530.0);
   EXPECT_TRUE(rows[1].timed);
@@ -308,13 +309,13 @@ TEST_F(Report, DraftsHaveTheirOwnTimes) {
   frame(frameOf(2, 1.0, 1.0), timings(1, {500.0}));
   frame(draft(3), {});
   EXPECT_TRUE(std::isnan(rows[0].gpuMs)) << "not the whole picture's";
-  EXPECT_EQ(report.view().timedGpuMs, 0.0);
+  EXPECT_EQ(view.timedGpuMs, 0.0);
   plan.main.view.rect = {0, 0, 2 * tileSide, tileSide};
   plan.tiles = {0, 1};
   report.updateTimes(frameOf(4, 1.0, 1.0), timings(3, {20.0}), passes);
   EXPECT_EQ(rows[0].gpuMs, 20.0) << "known while tiles of the next picture are drawn";
-  EXPECT_EQ(report.view().timedGpuMs, 20.0);
-  EXPECT_EQ(report.view().history.frames(), 1u) << "of drafts";
+  EXPECT_EQ(view.timedGpuMs, 20.0);
+  EXPECT_EQ(view.history.frames(), 1u) << "of drafts";
 }
 
 TEST_F(Report, OtherSettingsMakeTimesOld) {
@@ -323,14 +324,11 @@ TEST_F(Report, OtherSettingsMakeTimesOld) {
   report.updatePasses(frameOf(1, 1.0, 1.0), passes);
   report.updateTimes(frameOf(2, 1.0, 1.0), timings(1, {500.0}), passes);
   EXPECT_TRUE(rows[0].timed);
-  Settings coarse;
-  coarse.view.scale = 0.5;
-  const Scene scene;
-  const SceneState state;
-  report.updatePasses({scene, state, coarse, plan, 3, 1.0, 1.0}, passes);
+  settings_.view.scale = 0.5;
+  report.updatePasses(frameOf(3, 1.0, 1.0), passes);
   EXPECT_FALSE(rows[0].timed);
   EXPECT_EQ(rows[0].gpuMs, 500.0);
-  EXPECT_EQ(report.view().timedGpuMs, 0.0);
+  EXPECT_EQ(view.timedGpuMs, 0.0);
 }
 
 TEST_F(Report, HistoryIsOfThePresentSettings) {
@@ -339,7 +337,7 @@ TEST_F(Report, HistoryIsOfThePresentSettings) {
     frame.chosen.reflection.scale = scale;
     frame.lowered = lowered;
     report.updateTimes(frame, {});
-    return report.view().history.frames();
+    return view.history.frames();
   };
   drawn(1, 1.0);
   EXPECT_EQ(drawn(2, 1.0), 2u);
@@ -354,29 +352,25 @@ TEST_F(Report, FramesThatCompileAreNoHistory) {
   first.compiles = true;
   report.updateTimes(first, {});
   report.updateTimes(frameOf(2, 1.0, 20.0), {});
-  EXPECT_EQ(report.view().history.series(FrameHistory::Figure::cpu), std::vector<float>{1.0f});
+  EXPECT_EQ(view.history.series(FrameHistory::Figure::cpu), std::vector<float>{1.0f});
 }
 
 TEST_F(Report, MirrorsSeenInReusedImagesStayListed) {
   plan.skipped = {{.mirror = 1, .path = {0, 1}, .reason = SkipReason::hidden},
                   {.mirror = 1, .path = {2, 1}, .reason = SkipReason::hidden}};
-  Scene scene;
-  scene.mirrors.resize(3);
-  const SceneState state;
-  const Settings settings;
-  const RecordedFrame frame{scene, state, settings, plan};
+  const RecordedFrame frame = frameOf(1, 1.0, 1.0);
   report.updateSkipped(frame);
-  EXPECT_EQ(report.view().skipped.size(), 2u);
+  EXPECT_EQ(view.skipped.size(), 2u);
   plan.skipped.clear();
   plan.reused.resize(1);
   plan.reused[0].view.path = {0};
   report.updateSkipped(frame);
-  ASSERT_EQ(report.view().skipped.size(), 1u) << "the image of mirror 2 is rendered again";
-  EXPECT_EQ(report.view().skipped[0].path, (std::vector<int>{0, 1}));
-  EXPECT_EQ(report.view().skipped[0].reason, "hidden");
+  ASSERT_EQ(view.skipped.size(), 1u) << "the image of mirror 2 is rendered again";
+  EXPECT_EQ(view.skipped[0].path, (std::vector<int>{0, 1}));
+  EXPECT_EQ(view.skipped[0].reason, "hidden");
   plan.reused.clear();
   report.updateSkipped(frame);
-  EXPECT_TRUE(report.view().skipped.empty());
+  EXPECT_TRUE(view.skipped.empty());
 }
 
 TEST_F(Report, TimesOfTilesAddUp) {
@@ -397,14 +391,14 @@ TEST_F(Report, TimesOfTilesAddUp) {
   plan.tiles = {1, 2};
   frame(4, timings(3, {40.0}), {passes[0]});
   EXPECT_TRUE(std::isnan(rows[1].gpuMs)) << "not the draft's";
-  EXPECT_EQ(report.view().timedGpuMs, 0.0);
+  EXPECT_EQ(view.timedGpuMs, 0.0);
   plan.tiles = {0, 1};
   frame(5, timings(4, {2.0, 300.0}), passes);
   EXPECT_EQ(rows[0].gpuMs, 42.0);
   EXPECT_EQ(rows[1].gpuMs, 300.0);
   EXPECT_TRUE(rows[0].timed && rows[1].timed);
-  EXPECT_EQ(report.view().timedGpuMs, 342.0);
-  EXPECT_EQ(report.view().history.passSeries("mirror a").back(), 42.0f);
+  EXPECT_EQ(view.timedGpuMs, 342.0);
+  EXPECT_EQ(view.history.passSeries("mirror a").back(), 42.0f);
   plan.tiles = {1, 2};
   frame(6, timings(5, {40.0}), {passes[0]});
   EXPECT_EQ(rows[1].gpuMs, 300.0) << "until the next picture is timed";

@@ -6,7 +6,6 @@
 #include "image/picture_files.hpp"
 #include "picture_support.hpp"
 #include "scene_text.hpp"
-#include "test_paths.hpp"
 
 namespace speculum {
 namespace {
@@ -27,6 +26,15 @@ class CommandLine : public testing::Test {
   std::string scene_ = writeScene("command_line", smallScene()).string();
   TemporaryDirectory out_;
   std::string out(const std::string& name) const { return (out_.path() / name).string(); }
+  // Renders a small picture of the scene.
+  void render(const std::string& name, std::vector<std::string> more = {}) {
+    more.insert(more.begin(), {"render", "--scene", scene_, "--size", "64x36", "--out", out(name)});
+    succeed(more);
+  }
+  Image8 rendered(const std::vector<std::string>& more) {
+    render("p.png", more);
+    return readImage8(out("p.png"));
+  }
 };
 
 struct UsageCase {
@@ -37,8 +45,7 @@ struct UsageCase {
 class UsageErrors : public testing::TestWithParam<UsageCase> {};
 
 TEST_P(UsageErrors, AreOneLineAndExitTwo) {
-  const std::string line = mistake(GetParam().arguments);
-  EXPECT_TRUE(contains(line, GetParam().says));
+  EXPECT_TRUE(contains(mistake(GetParam().arguments), GetParam().says));
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -128,7 +135,6 @@ TEST_F(CommandLine, WarningsCanBeReadWhateverTheyName) {
 // Beyond the user's limit of file sizes a signal would end the program.
 TEST_F(CommandLine, FileSizeLimitKeepsTheOldFiles) {
   replaceFile(out("x.png"), "old");
-  const std::string program = (binaryDir() / "speculum").string();
   const ProcessResult result =
       runProcess({"sh", "-c", "ulimit -f 0; exec \"$0\" \"$@\"", program, "reference", "--scene", scene_, "--size",
                   "2x2", "--samples", "1", "--out", out("x.png")});
@@ -153,8 +159,7 @@ TEST_F(CommandLine, LinkLoopsAreNamedInOneLine) {
            {{"regress", out("lost.toml")}, "scene: is 'loop' (a file beside this one"},
            {{"regress", out("masked.toml")}, "mask: is 'loop' (a PNG file"},
            {{"regress", out("cases.toml"), "--out", loop}, loop + " cannot be made (a folder for the report)"}}) {
-    const std::string line = mistake(arguments);
-    EXPECT_TRUE(contains(line, says));
+    EXPECT_TRUE(contains(mistake(arguments), says));
   }
 }
 
@@ -174,7 +179,6 @@ TEST_F(CommandLine, InterruptEndsMeasurementOfPrices) {
       --set view.accumulate=1024 --json "$2" & pid=$!
     while ! grep -q '^SigCgt:.*[2367abef]$' /proc/$pid/status; do sleep 0.05; done
     sleep 1; kill -INT $pid; wait $pid)";
-  const std::string program = (binaryDir() / "speculum").string();
   const ProcessResult result = runProcess({"timeout", "60", "bash", "-c", script, program, scene_, out("r.json")});
   EXPECT_EQ(result.exitCode, 1) << result.output;
   EXPECT_FALSE(std::filesystem::exists(out("r.json")));
@@ -182,8 +186,7 @@ TEST_F(CommandLine, InterruptEndsMeasurementOfPrices) {
 
 TEST_F(CommandLine, OutputThatCannotBeWrittenExitsTwo) {
   for (const char* arguments : {"--help", "scenes"}) {
-    const ProcessResult result =
-        runProcess({"sh", "-c", "\"$0\" $1 >/dev/full", (binaryDir() / "speculum").string(), arguments});
+    const ProcessResult result = runProcess({"sh", "-c", "\"$0\" $1 >/dev/full", program, arguments});
     EXPECT_EQ(result.exitCode, 2);
     EXPECT_EQ(result.output, "standard output: cannot be written (check the disk that it goes to)\n");
   }
@@ -192,25 +195,24 @@ TEST_F(CommandLine, OutputThatCannotBeWrittenExitsTwo) {
 TEST_F(CommandLine, HelpAndVersionExitZero) {
   EXPECT_TRUE(contains(succeed({"--help"}), "reflection.max_depth"));
   succeed({"render", "--help"});
-  EXPECT_TRUE(succeed({"--version"}).starts_with("speculum "));
+  EXPECT_TRUE(startsWith(succeed({"--version"}), "speculum "));
 }
 
 TEST_F(CommandLine, InfoAndScenesList) {
-  const std::string info = succeed({"info"});
-  EXPECT_TRUE(contains(info, "llvmpipe"));
+  EXPECT_TRUE(contains(succeed({"info"}), "llvmpipe"));
   const std::string scenes = succeed({"scenes"});
   for (const char* name : {"gallery", "single_plane", "facing_mirrors", "many_mirrors", "mirror_maze", "no_mirror"}) {
     EXPECT_TRUE(contains(scenes, name)) << name;
   }
   EXPECT_TRUE(contains(scenes, "\nhard/corner ")) << "by the name that --scene takes";
-  EXPECT_EQ(findScene("hard/corner"), sourceFile("scenes/hard/corner.toml"));
+  EXPECT_EQ(findScene("hard/corner"), sceneFile("hard/corner"));
 }
 
 TEST_F(CommandLine, BrokenSceneNamesFileAndLine) {
   const std::string broken =
       writeScene("broken", "[camera]\nposition = [0, 0, 0]\ntarget = [0, 0, 1]\nvertical_fow = 3\n");
   const std::string line = mistake({"render", "--scene", broken, "--out", out("x.png")});
-  EXPECT_TRUE(line.starts_with(broken + ":4: camera.vertical_fow:")) << line;
+  EXPECT_TRUE(startsWith(line, broken + ":4: camera.vertical_fow:"));
   EXPECT_TRUE(contains(line, "vertical_fov"));
   EXPECT_FALSE(fs::exists(out("x.png")));
 }
@@ -309,21 +311,17 @@ TEST_F(CommandLine, BenchRendersEveryImageByDefault) {
 }
 
 TEST_F(CommandLine, SequenceWritesEveryPictureAndTimeMoves) {
-  succeed({"render", "--scene", scene_, "--size", "64x36", "--frames", "3", "--fps", "2", "--time", "1", "--out",
-           out("%03d.png")});
-  succeed({"render", "--scene", scene_, "--size", "64x36", "--time", "1.5", "--out", out("single.png")});
-  EXPECT_EQ(readImage8(out("001.png")).rgba, readImage8(out("single.png")).rgba);
-  EXPECT_NE(readImage8(out("000.png")).rgba, readImage8(out("single.png")).rgba);
+  render("%03d.png", {"--frames", "3", "--fps", "2", "--time", "1"});
+  const Image8 single = rendered({"--time", "1.5"});
+  EXPECT_EQ(readImage8(out("001.png")).rgba, single.rgba);
+  EXPECT_NE(readImage8(out("000.png")).rgba, single.rgba);
   EXPECT_TRUE(fs::exists(out("002.png")));
   EXPECT_FALSE(fs::exists(out("003.png")));
 }
 
 TEST_F(CommandLine, ExrHoldsThePicturesRadiance) {
-  for (const char* name : {"a.png", "a.exr"}) {
-    succeed({"render", "--scene", scene_, "--size", "64x36", "--out", out(name)});
-  }
-  const Image8 shown = toDisplay(readExr(out("a.exr")));
-  EXPECT_LE(difference(shown, readImage8(out("a.png")), 1).largest, 1);
+  render("a.exr");
+  EXPECT_LE(difference(toDisplay(readExr(out("a.exr"))), rendered({}), 1).largest, 1);
 }
 
 TEST_F(CommandLine, CompareDistinguishesPictures) {
@@ -348,35 +346,27 @@ TEST_F(CommandLine, CompareDistinguishesPictures) {
 }
 
 TEST_F(CommandLine, CameraReplacesTheScenes) {
-  const auto render = [&](const std::string& name, std::vector<std::string> more) {
-    more.insert(more.begin(), {"render", "--scene", scene_, "--size", "64x36", "--out", out(name)});
-    succeed(more);
-    return readImage8(out(name)).rgba;
-  };
-  const auto own = render("own.png", {});
-  EXPECT_EQ(render("same.png", {"--camera", "0,1,4:0,1,0"}), own);
-  EXPECT_EQ(render("up.png", {"--camera", "0,1,4:0,1,0:0,2,0"}), own);
-  const auto other = render("other.png", {"--camera", "1,2,4:0,1,0"});
-  EXPECT_NE(other, own);
+  const Image8 own = rendered({});
+  EXPECT_EQ(rendered({"--camera", "0,1,4:0,1,0"}).rgba, own.rgba);
+  EXPECT_EQ(rendered({"--camera", "0,1,4:0,1,0:0,2,0"}).rgba, own.rgba);
+  const Image8 other = rendered({"--camera", "1,2,4:0,1,0"});
+  EXPECT_NE(other.rgba, own.rgba);
   succeed({"reference", "--scene", scene_, "--size", "64x36", "--samples", "1", "--camera", "1,2,4:0,1,0", "--out",
            out("traced.png")});
-  expectAlike(readImage8(out("other.png")), readImage8(out("traced.png")), 2, "command_line_camera");
+  expectAlike(other, readImage8(out("traced.png")), 2, "command_line_camera");
 }
 
 TEST_F(CommandLine, BookmarkIsACamera) {
-  const auto render = [&](const std::string& camera) {
-    succeed({"render", "--scene", scene_, "--size", "64x36", "--camera", camera, "--out", out("b.png")});
-    return readImage8(out("b.png")).rgba;
-  };
-  EXPECT_EQ(render("aside"), render("1,2,4:0,1,0"));
-  EXPECT_NE(render("near, with a wide view"), render("0,1,2:0,1,0"));
+  const auto drawn = [&](const std::string& camera) { return rendered({"--camera", camera}).rgba; };
+  EXPECT_EQ(drawn("aside"), drawn("1,2,4:0,1,0"));
+  EXPECT_NE(drawn("near, with a wide view"), drawn("0,1,2:0,1,0"));
   EXPECT_EQ(mistake({"render", "--scene", scene_, "--camera", "asid", "--out", out("b.png")}),
             "--camera: the scene has no bookmark 'asid' (did you mean 'aside'?)\n");
 }
 
 TEST_F(CommandLine, ShippedScenesAreFoundFromAnyDirectory) {
   for (const char* name : {"hard/corner", "hard/corner.toml", "scenes/hard/corner.toml"}) {
-    const std::string command = "cd / && exec '" + binaryDir().string() + "/speculum' reference --scene " + name +
+    const std::string command = "cd / && exec '" + program + "' reference --scene " + name +
                                 " --size 8x8 --samples 1 --out '" + out("n.png") + "'";
     const ProcessResult result = runProcess({"bash", "-c", command});
     EXPECT_EQ(result.exitCode, 0) << result.output;

@@ -2,7 +2,6 @@
 #include "command_support.hpp"
 #include "frame/setting_fields.hpp"
 #include "picture_support.hpp"
-#include "test_paths.hpp"
 
 namespace speculum {
 namespace {
@@ -10,8 +9,6 @@ namespace {
 using namespace testing_support;
 
 using Words = std::set<std::string>;
-
-const std::string program = binaryDir().string() + "/speculum";
 
 Words words(const std::string& text) {
   std::istringstream stream(text);

@@ -1,6 +1,6 @@
 #include "core_fixture.hpp"
 
-#include <spdlog/spdlog.h>
+#include "log_capture.hpp"
 
 namespace speculum::test {
 namespace {
@@ -24,10 +24,7 @@ std::vector<std::string> messagesWithout(std::optional<BarrierKind> kind, int sa
 }
 
 class Barrier : public testing::TestWithParam<BarrierKind> {
- protected:
-  // The messages are expected here; in the log they would hide the test's own output.
-  void SetUp() override { spdlog::set_level(spdlog::level::off); }
-  void TearDown() override { spdlog::set_level(spdlog::level::info); }
+  const LogCapture log_;  // the messages are expected here; they would hide the test's own output
 };
 
 TEST_P(Barrier, IsMissedWhenLeftOut) {

@@ -91,7 +91,7 @@ TEST_F(SceneDocumentTest, SettingsAreStepsThatLeaveTheScene) {
   EXPECT_TRUE(document.changesScene(UndoWay::forward));
 }
 
-TEST_F(SceneDocumentTest, RevertedDragOfASettingAddsNoStep) {
+TEST_F(SceneDocumentTest, RevertedDragOfSettingAddsNoStep) {
   document.change("move object 'teapot'", kTeapot, moveTeapot(1));
   const Settings before;
   Settings after;

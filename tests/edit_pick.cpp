@@ -83,7 +83,7 @@ class PickedScene : public testing::TestWithParam<const char*> {
     studio_.time = 1.0;
   }
 
-  Options options_ = headless(sourceFile("scenes/" + std::string(GetParam()) + ".toml"), {width, height});
+  Options options_ = headless(sceneFile(GetParam()), {width, height});
   Gpu gpu_{options_};
   Studio studio_{gpu_, options_};
 };
@@ -136,7 +136,7 @@ TEST_P(PickedScene, IsWhatThePixelShows) {
 class PickedPoint : public testing::TestWithParam<const char*> {};
 
 TEST_P(PickedPoint, LiesWhereItIsSeen) {
-  Scene scene = loadScene(sourceFile("scenes/" + std::string(GetParam()) + ".toml"));
+  Scene scene = loadScene(sceneFile(GetParam()));
   makeFlat(scene);
   const SceneState state = evaluate(scene, 1.0);
   const PictureView picture(state.camera, width, height);

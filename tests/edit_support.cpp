@@ -12,7 +12,7 @@ std::vector<fs::path> shippedScenes() {
       files.push_back(entry.path());
     }
   }
-  std::sort(files.begin(), files.end());
+  std::ranges::sort(files);
   return files;
 }
 

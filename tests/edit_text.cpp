@@ -219,7 +219,7 @@ TEST(EditedText, EmptiedBracketsLoseTheirComma) {
 }
 
 // document.text() throws unless the text reads back as the scene.
-TEST(EditedText, ItemsComeAndGoAroundBlanksAndComments) {
+TEST(EditedText, BlanksAndCommentsDoNotDisturbItems) {
   const std::array gaps{"", " ", "\n", "\r\n\t", " # a, ]\n", "\n # {b}\r\n  # ,\n\n "};
   testing_support::Random random(3);
   const auto gap = [&] { return random.pick(gaps); };

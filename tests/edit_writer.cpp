@@ -56,9 +56,7 @@ TEST_P(ShippedScene, UnchangedTextIsTheSameBytes) {
 void changeEverything(Scene& scene) {
   changeFields(scene.environment);
   changeFields(scene.camera);
-  const auto changeAll = [](auto& nodes) {
-    std::for_each(nodes.begin(), nodes.end(), [](auto& n) { changeFields(n); });
-  };
+  const auto changeAll = [](auto& nodes) { std::ranges::for_each(nodes, [](auto& n) { changeFields(n); }); };
   changeAll(scene.objects);
   changeAll(scene.lights);
   changeAll(scene.mirrors);
@@ -136,8 +134,8 @@ TEST_P(ShippedScene, NodesComeAndGo) {
 
 std::string nameOfFile(const testing::TestParamInfo<fs::path>& info) {
   std::string name = info.param.parent_path().filename().string() + "_" + info.param.stem().string();
-  std::replace_if(
-      name.begin(), name.end(), [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); }, '_');
+  std::ranges::replace_if(
+      name, [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); }, '_');
   return name;
 }
 
@@ -203,11 +201,9 @@ TEST(SaveScene, FileChangedMeanwhileIsNotOverwritten) {
 TEST(SaveScene, AnotherFileIsNotOverwritten) {
   TextScene text(kFile);
   const fs::path other = text.folder.write("other.toml", "important");
-  const std::string message = messageOf<SaveError>([&] { text.document.save(other, {}); });
-  EXPECT_TRUE(contains(message, "there is such a file already"));
+  EXPECT_TRUE(contains(messageOf<SaveError>([&] { text.document.save(other, {}); }), "there is such a file already"));
   EXPECT_EQ(readText(other), "important");
-  const std::string model = messageOf<SaveError>([&] { text.document.save(text.model, {}, true); });
-  EXPECT_TRUE(contains(model, "name of a model"));
+  EXPECT_TRUE(contains(messageOf<SaveError>([&] { text.document.save(text.model, {}, true); }), "name of a model"));
   EXPECT_EQ(readText(text.model), kTriangleObj);
 }
 

@@ -92,7 +92,7 @@ struct Case {
   std::string called;
   std::vector<std::string> objects{"Buffer", "Pipeline"};
 
-  bool needs(const std::string& kind) const { return std::find(objects.begin(), objects.end(), kind) != objects.end(); }
+  bool needs(const std::string& kind) const { return std::ranges::find(objects, kind) != objects.end(); }
 };
 
 void PrintTo(const Case& c, std::ostream* out) {
@@ -107,8 +107,7 @@ std::filesystem::path sceneWith(const std::string& name, const std::string& rest
 )" + rest);
 }
 
-Options optionsFor(const std::filesystem::path& file,
-                   const std::vector<std::pair<std::string, std::string>>& more = {}) {
+Options optionsFor(const std::filesystem::path& file, const SettingList& more = {}) {
   Options options = headless(file, size);
   // Switches off the check for finite values, which has objects of its own.
   set(options, {{"debug.check_finite", "false"}});

@@ -130,7 +130,7 @@ INSTANTIATE_TEST_SUITE_P(
 class MirrorsByRays : public testing::TestWithParam<const char*> {};
 
 TEST_P(MirrorsByRays, EqualTheRayTracer) {
-  const std::filesystem::path file = sourceFile("scenes/" + std::string(GetParam()) + ".toml");
+  const std::filesystem::path file = sceneFile(GetParam());
   Options options = truthOptions(file, {160, 90}, 4);
   set(options, {{"reflection.method", "rays"}});
   Gpu gpu(options);
@@ -281,7 +281,7 @@ class RoughMirror : public testing::Test {
     return traced;
   }
 
-  double error(const std::vector<std::pair<std::string, std::string>>& settings) {
+  double error(const SettingList& settings) {
     session_.setSettings(usual_);
     set(session_, settings);
     return mirrorError(drawRadiance(session_), reference());
@@ -341,7 +341,7 @@ TEST(RippledMirror, ImageLookupLiesBetweenSmoothAndTraced) {
   const TraceResult truth = traceSmall(file, {.samples = 16});
   QuietSession session(truthOptions(file, small, 3));
   const Settings usual = session.settings();
-  const auto error = [&](const std::vector<std::pair<std::string, std::string>>& settings) {
+  const auto error = [&](const SettingList& settings) {
     session.setSettings(usual);
     set(session, settings);
     const double e = mirrorError(drawRadiance(session), truth);

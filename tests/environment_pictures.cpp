@@ -40,7 +40,7 @@ std::filesystem::path room(const std::string& name, const std::string& rest = ""
           block("[-2.999, 0.5, -2.4]", "[0.002, 2, 0.4]", "[0.1, 0.6, 0.1]", alongZ) + rest);
 }
 
-Options mapped(const std::filesystem::path& file, std::vector<std::pair<std::string, std::string>> more = {}) {
+Options mapped(const std::filesystem::path& file, SettingList more = {}) {
   Options options = headless(
       file, size, {{"effects.curved_lookup", "environment"}, {"view.samples", "1"}, {"reflection.samples", "1"}});
   set(options, more);

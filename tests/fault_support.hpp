@@ -57,7 +57,7 @@ class FaultTest : public testing::Test {
       add({name + ("=" + (out.path() / "home").string())});
     }
     add(variables);
-    add({(binaryDir() / "speculum").string(), kind.command, "--scene", scene_, "--validation"});
+    add({program, kind.command, "--scene", scene_, "--validation"});
     add(kind.options);
     if (kind.command == "render") {
       add({"--out", picture.string()});
@@ -65,7 +65,7 @@ class FaultTest : public testing::Test {
     const ProcessResult result = runProcess(command);
     Run run{.exitCode = result.exitCode,
             .output = result.output,
-            .lines = std::count(result.output.begin(), result.output.end(), '\n'),
+            .lines = std::ranges::count(result.output, '\n'),
             .picture = readFileIfAny(picture)};
     for (const auto& entry : std::filesystem::directory_iterator(out.path())) {
       const std::string name = entry.path().filename().string();

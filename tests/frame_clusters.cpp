@@ -68,10 +68,10 @@ std::vector<Corners> trianglesOf(const Mesh& mesh, const MeshPart& part) {
       const Vertex& v = mesh.vertices[mesh.indices[i + k]];
       corners[k] = {v.position.x, v.position.y, v.position.z, v.normal.x, v.normal.y, v.normal.z, v.uv.x, v.uv.y};
     }
-    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+    std::rotate(corners.begin(), std::ranges::min_element(corners), corners.end());
     triangles.push_back(corners);
   }
-  std::sort(triangles.begin(), triangles.end());
+  std::ranges::sort(triangles);
   return triangles;
 }
 

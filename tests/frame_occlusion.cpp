@@ -22,8 +22,8 @@ bool meets(const glm::dvec3& eye, const glm::dvec3& point, const std::array<glm:
   const glm::dvec3 c = triangle[2] - eye;
   const std::array parts{volume(ray, b, c), volume(a, ray, c), volume(a, b, ray)};
   const double rounding = 1e-12 * glm::length(ray) * glm::length(a) * glm::length(b);
-  const bool left = std::all_of(parts.begin(), parts.end(), [&](double part) { return part >= -rounding; });
-  const bool right = std::all_of(parts.begin(), parts.end(), [&](double part) { return part <= rounding; });
+  const bool left = std::ranges::all_of(parts, [&](double part) { return part >= -rounding; });
+  const bool right = std::ranges::all_of(parts, [&](double part) { return part <= rounding; });
   const double sum = parts[0] + parts[1] + parts[2];
   const double whole = volume(a, b, c);
   return (left || right) && sum != 0.0 && whole / sum > 0.0 && whole / sum < 1.0;

@@ -30,6 +30,11 @@ bool isHidden(const FramePlan& plan, const std::vector<int>& path) {
   return skip && skip->reason == SkipReason::hidden;
 }
 
+// Says whether the objects hide the mirror.
+bool doHide(const std::vector<Object>& objects, const Mirror& mirror) {
+  return isHidden(planOf(sceneWith({mirror}, objects)), {0});
+}
+
 TEST(Hidden, MirrorsBehindObjectsNeedNoPass) {
   const FramePlan p = planOf(sceneWith({wall({0, 0, -5}, 0, {2, 2})}, {square({0, 0, -3})}));
   EXPECT_TRUE(p.passes.empty());
@@ -58,22 +63,20 @@ TEST(Hidden, BacksAreNotDrawnEither) {
 
 TEST(Hidden, OccludersMustCoverAllInFront) {
   const Mirror mirror = wall({0, 0, -5}, 0, {2, 2});
-  EXPECT_FALSE(isHidden(planOf(sceneWith({mirror}, {square({0, 0, -7}, {9, 9, 1})})), {0})) << "behind it";
-  EXPECT_FALSE(isHidden(planOf(sceneWith({mirror}, {square({0.9, 0, -3})})), {0})) << "part of it peeps out";
-  EXPECT_FALSE(isHidden(
-      planOf(sceneWith({mirror}, {square({-0.5, 0, -3}, {0.5, 1, 1}), square({0.5, 0, -3}, {0.5, 1, 1})})), {0}))
+  EXPECT_FALSE(doHide({square({0, 0, -7}, {9, 9, 1})}, mirror)) << "behind it";
+  EXPECT_FALSE(doHide({square({0.9, 0, -3})}, mirror)) << "part of it peeps out";
+  EXPECT_FALSE(doHide({square({-0.5, 0, -3}, {0.5, 1, 1}), square({0.5, 0, -3}, {0.5, 1, 1})}, mirror))
       << "two halves are not one";
-  EXPECT_FALSE(isHidden(planOf(sceneWith({mirror}, {square({0, 0, -4.9999999})})), {0})) << "depth cannot be sure";
-  EXPECT_FALSE(isHidden(planOf(sceneWith({mirror}, {square({0, 0, 3})})), {0})) << "behind the eye";
+  EXPECT_FALSE(doHide({square({0, 0, -4.9999999})}, mirror)) << "depth cannot be sure";
+  EXPECT_FALSE(doHide({square({0, 0, 3})}, mirror)) << "behind the eye";
   // The outline is 0.6 m wide at 3 m; a pixel is 3 * 2 tan(30) / 360 = 9.6 mm there.
-  EXPECT_FALSE(isHidden(planOf(sceneWith({mirror}, {square({0, 0, -3}, {0.605, 0.605, 1})})), {0})) << "half a pixel";
-  EXPECT_TRUE(isHidden(planOf(sceneWith({mirror}, {square({0, 0, -3}, {0.612, 0.612, 1})})), {0}))
-      << "more than a pixel";
+  EXPECT_FALSE(doHide({square({0, 0, -3}, {0.605, 0.605, 1})}, mirror)) << "half a pixel";
+  EXPECT_TRUE(doHide({square({0, 0, -3}, {0.612, 0.612, 1})}, mirror)) << "more than a pixel";
 }
 
 TEST(Hidden, OnlyVisibleRegionsMustBeCovered) {
   // The mirror reaches far past the picture's border, the occluder only just.
-  EXPECT_TRUE(isHidden(planOf(sceneWith({wall({0, 0, -5}, 0, {90, 90})}, {square({0, 0, -1}, {1.1, 0.62, 1})})), {0}));
+  EXPECT_TRUE(doHide({square({0, 0, -1}, {1.1, 0.62, 1})}, wall({0, 0, -5}, 0, {90, 90})));
 }
 
 TEST(Hidden, WireframeAndSwitchHideNothing) {
@@ -89,8 +92,7 @@ TEST(Hidden, WireframeAndSwitchHideNothing) {
 // A mirror at z = -4 shows the one behind the camera; a door stands in between, or behind the first mirror's plane.
 TEST(Hidden, MirrorsHideOnlyWithWhatTheyReflect) {
   const std::vector<Mirror> facing = {wall({0, 0, -4}, 0, {3, 3}), wall({0, 0, 6}, 180, {2, 2})};
-  const FramePlan between = planOf(sceneWith(facing, {square({0, 0, 2}, {3, 3, 1})}));
-  EXPECT_TRUE(isHidden(between, {0, 1}));
+  EXPECT_TRUE(isHidden(planOf(sceneWith(facing, {square({0, 0, 2}, {3, 3, 1})})), {0, 1}));
   const FramePlan beyond = planOf(sceneWith(facing, {square({0, 0, -6}, {3, 3, 1})}));
   EXPECT_FALSE(isHidden(beyond, {0, 1}));
   EXPECT_EQ(beyond.passes.back().view.path, std::vector<int>{0});
@@ -112,7 +114,7 @@ TEST(Hidden, OverlappingOccludersHideTogether) {
   ASSERT_TRUE(isHidden(p, {0}));
   EXPECT_EQ(skipOf(p, {0})->detail, "behind object 'left' and object 'right'");
   right.position.x = 0.75;  // a gap
-  EXPECT_FALSE(isHidden(planOf(sceneWith({mirror}, {left, right})), {0}));
+  EXPECT_FALSE(doHide({left, right}, mirror));
 }
 
 TEST(Hidden, OccluderOfAllIsNamedAlone) {

@@ -161,8 +161,7 @@ TEST(Unchanged, ReusedImagesCallForTheirEffects) {
         .why;
   };
   frames.next();
-  ASSERT_TRUE(frames.plan.main.instances.empty() ||
-              std::count(frames.plan.main.instances.begin(), frames.plan.main.instances.end(), seenTwice) == 0);
+  ASSERT_TRUE(frames.plan.main.instances.empty() || std::ranges::count(frames.plan.main.instances, seenTwice) == 0);
   const std::string fresh = why();
   frames.next();
   ASSERT_TRUE(frames.plan.passes.empty());

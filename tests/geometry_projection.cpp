@@ -74,7 +74,7 @@ TEST(Grown, MovesEdgesByPixelsAndKeepsDepth) {
       clip.emplace_back(p * w, 0.001, w);
     }
     if (turned) {
-      std::reverse(clip.begin(), clip.end());
+      std::ranges::reverse(clip);
     }
     const std::vector<glm::dvec4> moved = grown(clip, 640, 360, 0.01);
     RC_ASSERT(moved.size() == clip.size());

@@ -81,7 +81,7 @@ std::vector<std::array<int, 3>> earsByTheRule(const std::vector<glm::dvec3>& poi
   std::vector<int> left(points.size());
   std::iota(left.begin(), left.end(), 0);
   const auto isEar = [&](int a, int b, int c) {
-    return turn(a, b, c) > 0.0 && std::none_of(left.begin(), left.end(), [&](int p) {
+    return turn(a, b, c) > 0.0 && std::ranges::none_of(left, [&](int p) {
              return points[p] != points[a] && points[p] != points[b] && points[p] != points[c] &&
                     turn(a, b, p) >= 0.0 && turn(b, c, p) >= 0.0 && turn(c, a, p) >= 0.0;
            });

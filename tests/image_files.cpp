@@ -45,7 +45,7 @@ void expectFault(const Action& action, const fs::path& file, const std::string& 
     action();
     ADD_FAILURE() << "nothing was thrown for " << file;
   } catch (const FileError& error) {
-    EXPECT_EQ(std::string(error.what()).find(file.string() + ": "), 0u) << error.what();
+    EXPECT_TRUE(startsWith(error.what(), file.string() + ": "));
     EXPECT_TRUE(contains(error.problem(), problem)) << error.what();
     EXPECT_FALSE(contains(error.problem(), "\n")) << error.what();
   }

@@ -132,7 +132,7 @@ TEST_F(Journey, RandomResizesLeakNothing) {
   for (int frame = 0; frame < 8; ++frame) {
     ASSERT_TRUE(demo_->step());
     const auto skipped = view().frame.skipped;
-    reused += std::any_of(skipped.begin(), skipped.end(), [](const auto& s) { return s.reason == "unchanged"; });
+    reused += std::ranges::any_of(skipped, [](const auto& s) { return s.reason == "unchanged"; });
     ASSERT_EQ(view().frame.passes.size(), 3u) << "the pass of a reused image stays in the list";
   }
   EXPECT_GE(reused, 4);
@@ -207,7 +207,7 @@ TEST_F(Journey, ScreenshotsIncludeOrOmitPanels) {
   // Pictures and recordings of one second share a name, so their order tells nothing.
   const std::vector<std::filesystem::path> files = home_.pictures();
   const auto recording =
-      std::find_if(files.begin(), files.end(), [](const auto& file) { return std::filesystem::is_directory(file); });
+      std::ranges::find_if(files, [](const auto& file) { return std::filesystem::is_directory(file); });
   ASSERT_NE(recording, files.end());
   EXPECT_TRUE(readImage8(*recording / "00001.png").rgba == bare.rgba) << "the message is in no picture";
 }
@@ -324,7 +324,7 @@ TEST_F(TwoMirrors, PointedPassesAndMirrorsAreOutlined) {
         return std::min(glm::distance(line.a, corner), glm::distance(line.b, corner)) < 0.01;
       };
       const bool inside = corner.x > 0.0 && corner.x < width && corner.y > 0.0 && corner.y < height;
-      EXPECT_EQ(std::any_of(outline.begin(), outline.end(), meets), inside) << corner.x << " " << corner.y;
+      EXPECT_EQ(std::ranges::any_of(outline, meets), inside) << corner.x << " " << corner.y;
     }
   }
   // Between the command and the next frame's list the row is one of a mirror that is gone.
@@ -345,7 +345,7 @@ TEST_F(TwoMirrors, PointedPassesAndMirrorsAreOutlined) {
   ASSERT_TRUE(waitFor([&] { return !view().frame.outline.empty(); }));
   demo_->apply(OpenScene{writeScene("other", wallScene)});
   demo_->apply(DiscardChanges{});
-  ASSERT_TRUE(waitFor([&] { return view().browser.scenes[view().browser.shown].name == "other"; }));
+  ASSERT_TRUE(waitFor([&] { return shownScene().name == "other"; }));
   gone();
 }
 
@@ -371,7 +371,7 @@ class NegativeLight : protected OwnShaders, public Journey {
 
 TEST_F(NegativeLight, IsLocatedUntilItIsGone) {
   EXPECT_TRUE(waitFor([&] { return !view().message.empty(); }));
-  EXPECT_EQ(view().message.rfind("mirror wall: pixel ", 0), 0u) << view().message;
+  EXPECT_TRUE(startsWith(view().message, "mirror wall: pixel "));
   EXPECT_GT(demo_->nonFinite(), 0u);
   const std::filesystem::path shader = shaders.path() / "scene_shading.glsl";
   std::filesystem::copy_file(sourceFile("shaders/scene_shading.glsl"), shader,
@@ -401,7 +401,7 @@ TEST_F(Journey, PanelsComeBeforeTheFirstPicture) {
 
 TEST_F(Journey, TextIsReadable) {
   const ImFont& font = *ImGui::GetFont();
-  EXPECT_EQ(std::string_view(font.GetDebugName()).find("ProggyClean"), std::string_view::npos);
+  EXPECT_FALSE(contains(font.GetDebugName(), "ProggyClean"));
   for (ImWchar digit = '1'; digit <= '9'; ++digit) {
     EXPECT_EQ(font.FindGlyph(digit)->AdvanceX, font.FindGlyph('0')->AdvanceX);
   }
@@ -461,7 +461,7 @@ TEST(EndedWindow, KeepsUnsavedWork) {
        {std::pair("kill -TERM $pid", 0), std::pair("kill -HUP $pid", 0), std::pair("kill $server", 2)}) {
     const ProcessResult result = endEditedWindow(end);
     EXPECT_EQ(result.exitCode, exitCode) << end;
-    EXPECT_TRUE(result.output.starts_with("warning: unsaved changes are kept in ")) << end << ": " << result.output;
+    EXPECT_TRUE(startsWith(result.output, "warning: unsaved changes are kept in ")) << end;
   }
 }
 

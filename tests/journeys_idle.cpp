@@ -32,13 +32,6 @@ class IdleWindow : public Journey {
     run(frames);
     EXPECT_GE(demo_->framesDrawn(), before + frames) << "something moves";
   }
-  void hidePanels() {
-    demo_->apply(TogglePanel{});
-    while (!view().status.text.empty()) {
-      demo_->apply(Escape{});
-    }
-    settle();
-  }
   void pointAt(int x, int y) { xdotool({"mousemove", "--window", window_, std::to_string(x), std::to_string(y)}); }
   // Turns the camera, and returns the scale that it is drawn with meanwhile.
   double drag(int to) {
@@ -98,7 +91,7 @@ TEST_F(IdleWindow, DrawsNothingUntilSomethingHappens) {
   settle();
   demo_->setGamepadSource([] { return std::nullopt; });
   demo_->apply(OpenScene{writeScene("turning", wallScene + "spin = [0, 90, 0]\n")});
-  ASSERT_TRUE(waitFor([&] { return view().browser.scenes[view().browser.shown].name == "turning"; }));
+  ASSERT_TRUE(waitFor([&] { return shownScene().name == "turning"; }));
   expectFrames(15);
   press("space");
   ASSERT_TRUE(view().playback.paused);
@@ -131,6 +124,7 @@ TEST_F(IdleWindow, TargetsShowTexels) {
   click("panel.Targets");
   settle();
   hidePanels();
+  settle();
   for (int i = 0; i < 3; ++i) {
     const double shown = 255.0 * srgbEncode(std::clamp(color.value[i], 0.0f, 1.0f));
     EXPECT_NEAR(picture().at(color.texel.x, color.texel.y)[i], shown, 0.6);
@@ -159,20 +153,20 @@ TEST_F(IdleWindow, GalleryShowsAndOpensScenes) {
   EXPECT_GT(meanDifference("facing_mirrors"), 20.0);
   demo_->apply(SetPaused{true});
   click("gallery.facing_mirrors");
-  ASSERT_TRUE(waitFor([&] { return view().browser.scenes[view().browser.shown].name == "facing_mirrors"; }));
-  EXPECT_EQ(view().browser.scenes[view().browser.shown].title, "Facing mirrors");
+  ASSERT_TRUE(waitFor([&] { return shownScene().name == "facing_mirrors"; }));
+  EXPECT_EQ(shownScene().title, "Facing mirrors");
   hidePanels();
   constexpr PictureSize other{500, 400};
   demo_->window().resize(other.width, other.height);
   ASSERT_TRUE(waitFor([&] { return demo_->renderer().displayExtent().width == uint32_t(other.width); }));
   settle();
-  Options options =
-      headless(sourceFile("scenes/facing_mirrors.toml"), other, {{"view.samples", "1"}, {"reflection.samples", "1"}});
+  Options options = headless(sceneFile("facing_mirrors"), other, {{"view.samples", "1"}, {"reflection.samples", "1"}});
   EXPECT_TRUE(picture().rgba == draw(options, view().playback.time).rgba);
 }
 
 TEST_F(IdleWindow, StillPicturesConvergeAndMotionIsLowered) {
   hidePanels();
+  settle();
   Settings settings = view().settings;
   settings.quality.stillPictures = 5;
   demo_->apply(SetSettings{settings});

@@ -151,14 +151,19 @@ class Journey : public testing::Test {
   }
 
   UiView view() const { return demo_->view(); }
+  const SceneEntry& shownScene() const { return view().browser.scenes[view().browser.shown]; }
   Image8 picture() { return pictureOf(demo_->renderer().readback()); }
-  // Returns the picture without panels and messages.
-  Image8 barePicture() {
+  // Hides panels and messages.
+  void hidePanels() {
     demo_->apply(TogglePanel{});
     while (!view().status.text.empty()) {
       demo_->apply(Escape{});
     }
     run(3);
+  }
+  // Returns the picture without panels and messages.
+  Image8 barePicture() {
+    hidePanels();
     Image8 image = picture();
     demo_->apply(TogglePanel{});
     run(3);

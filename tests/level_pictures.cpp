@@ -27,8 +27,7 @@ std::filesystem::path objectsScene() {
 )");
 }
 
-Options optionsFor(const std::filesystem::path& file, const std::string& meshError,
-                   const std::vector<std::pair<std::string, std::string>>& more = {}) {
+Options optionsFor(const std::filesystem::path& file, const std::string& meshError, const SettingList& more = {}) {
   Options options = headless(file, small, {{"reflection.mesh_error", meshError}});
   set(options, more);
   return options;

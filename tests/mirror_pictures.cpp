@@ -47,8 +47,8 @@ void expectIndependent(const std::string& name, const std::string& before, const
   const Image8 rightOnly = drawText(name + "_r", before + left + black + right + after);
   const std::vector<bool> leftMask = blackPixels(rightOnly);
   const std::vector<bool> rightMask = blackPixels(leftOnly);
-  ASSERT_GT(std::count(leftMask.begin(), leftMask.end(), true), 200);
-  ASSERT_GT(std::count(rightMask.begin(), rightMask.end(), true), 200);
+  ASSERT_GT(std::ranges::count(leftMask, true), 200);
+  ASSERT_GT(std::ranges::count(rightMask, true), 200);
   EXPECT_EQ(difference(both, leftOnly, 0, leftMask).largest, 0);
   EXPECT_EQ(difference(both, rightOnly, 0, rightMask).largest, 0);
 }
@@ -120,13 +120,11 @@ Image8 drawDebugView(const std::string& samples) {
   return session.picture();
 }
 
-using SettingList = std::vector<std::pair<std::string, std::string>>;
-
 // Draws two pictures, the second a moment later, while new memory is filled with one byte. lavapipe's images are such
 // memory.
 std::vector<std::vector<uint8_t>> picturesInMemoryOf(int fill, const std::string& scene, const SettingList& settings) {
   ::mallopt(M_PERTURB, fill);
-  Options options = headless(sourceFile("scenes/" + scene + ".toml"), {96, 54}, settings);
+  Options options = headless(sceneFile(scene), {96, 54}, settings);
   set(options, {{"reflection.max_passes", "12"}});
   std::vector<std::vector<uint8_t>> pictures;
   {
@@ -176,7 +174,7 @@ TEST(MirrorPictures, ClearColorReachesPictureAndReflections) {
 }
 
 TEST(MirrorPictures, ManyMirrorsStayWithinTheirMemory) {
-  QuietSession session(headless(sourceFile("scenes/many_mirrors.toml"), {1280, 720},
+  QuietSession session(headless(sceneFile("many_mirrors"), {1280, 720},
                                 {{"reflection.max_depth", "4"}, {"reflection.samples", "4"}, {"view.samples", "4"}}));
   session.draw(0.0, false);
   session.draw(1.0, false);
@@ -228,8 +226,8 @@ TEST(MirrorPictures, DriverKeepsNoMemoryOfFrames) {
     manyLights += "[[light]]\nposition = [" + std::to_string(i - 10) + ", 3, 4]\nintensity = 1\n";
   }
   const std::vector<std::pair<std::filesystem::path, SettingList>> cases = {
-      {sourceFile("scenes/single_plane.toml"), {}},
-      {sourceFile("scenes/rough.toml"), {{"effects.rough_lookup", "image"}, {"effects.rough_samples", "4"}}},
+      {sceneFile("single_plane"), {}},
+      {sceneFile("rough"), {{"effects.rough_lookup", "image"}, {"effects.rough_samples", "4"}}},
       {writeScene("many_lights", manyLights), {{"debug.check_finite", "true"}}}};
   for (const auto& [file, settings] : cases) {
     Options options = headless(file, {32, 18}, settings);

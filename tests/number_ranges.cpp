@@ -117,6 +117,19 @@ TEST_F(NumberRanges, NumbersAreRefusedByKeyOrDrawn) {
   EXPECT_GE(drawn, 70);
 }
 
+// Draws the scene in metres, then in each other unit; a `share` of the pixels may differ by more than `tolerance`.
+void expectOnePicture(const std::function<std::filesystem::path(double)>& sceneIn, std::initializer_list<double> units,
+                      int tolerance, double share) {
+  Gpu gpu(headless("", size));
+  Studio studio(gpu, headless(sceneIn(1.0), size));
+  const Image8 usual = studio.draw();
+  for (const double metres : units) {
+    studio.show(loadScene(sceneIn(metres)));
+    const PictureAgreement agreement = difference(studio.fresh(), usual, tolerance);
+    EXPECT_LE(agreement.share(), share) << metres << " m: " << agreement.over << " pixels, up to " << agreement.largest;
+  }
+}
+
 // One scene in units of other lengths. Of a small unit, squares and products of lengths leave the range of floats,
 // which devices flush to zero.
 TEST(ScenesOfAnySize, ShowOnePicture) {
@@ -132,14 +145,7 @@ TEST(ScenesOfAnySize, ShowOnePicture) {
             "\nrotation = [-90, 2, 3]\nbase_color = [0.1, 0.2, 0.1]\nreflectance = [0.8, 0.7, 0.9]\nsize = [" +
             text(4.0 * metres) + ", " + text(3.0 * metres) + "]\n");
   };
-  Gpu gpu(headless("", size));
-  Studio studio(gpu, headless(sceneIn(1.0), size));
-  const Image8 usual = studio.draw();
-  for (const double metres : {1e-18, 1e-16, 1e-14, 1e-10, 1e-5, 1e5, 1e10, 1e14}) {
-    studio.show(loadScene(sceneIn(metres)));
-    const PictureAgreement agreement = difference(studio.fresh(), usual, 2);
-    EXPECT_LE(agreement.share(), 0.01) << metres << " m: " << agreement.over << " pixels";
-  }
+  expectOnePicture(sceneIn, {1e-18, 1e-16, 1e-14, 1e-10, 1e-5, 1e5, 1e10, 1e14}, 2, 0.01);
 }
 
 // In large units half floats cannot tell a mirror's distance from that of what it reflects, which is far beyond it.
@@ -156,14 +162,7 @@ TEST(ScenesOfAnySize, BlurAlikeWhatIsFar) {
                           "[[mirror]]\nrotation = [-90, 0, 0]\nroughness = 0.3\nsize = [" + text(8.0 * metres) + ", " +
                           text(8.0 * metres) + "]\n");
   };
-  Gpu gpu(headless("", size));
-  Studio studio(gpu, headless(sceneIn(1.0), size));
-  const Image8 usual = studio.draw();
-  for (const double metres : {1e6, 1e7, 1e12}) {
-    studio.show(loadScene(sceneIn(metres)));
-    const PictureAgreement agreement = difference(studio.fresh(), usual, 8);
-    EXPECT_LE(agreement.share(), 0.02) << metres << " m: " << agreement.over << " pixels, up to " << agreement.largest;
-  }
+  expectOnePicture(sceneIn, {1e6, 1e7, 1e12}, 8, 0.02);
 }
 
 TEST(LargeTextures, AreDrawnSmaller) {

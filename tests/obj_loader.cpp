@@ -111,8 +111,7 @@ TEST_F(ObjLoader, DegenerateTrianglesAreDropped) {
 }
 
 TEST_F(ObjLoader, VertexContinuesAfterABackslash) {
-  const Mesh mesh = load("v 0 0 \\\n4\nv 2 0 4\\\n\nv 0 2 4\nf 1 2 3\n");
-  EXPECT_EQ(mesh.center, glm::dvec3(1.0, 1.0, 4.0));
+  EXPECT_EQ(load("v 0 0 \\\n4\nv 2 0 4\\\n\nv 0 2 4\nf 1 2 3\n").center, glm::dvec3(1.0, 1.0, 4.0));
 }
 
 TEST_F(ObjLoader, LinesAndNumbersHaveManyForms) {
@@ -138,7 +137,7 @@ TEST_F(ObjLoader, ArbitraryBytesAreRefused) {
   for (const std::string& text :
        {std::string(), bytes, bytes + '\0', std::string(100, '\\'), std::string("\\\n\\\n")}) {
     const std::string fault = faultOf(text);
-    EXPECT_TRUE(fault.starts_with("m.obj:")) << fault;
+    EXPECT_TRUE(startsWith(fault, "m.obj:"));
     EXPECT_FALSE(contains(fault, "\n"));
   }
 }
@@ -176,7 +175,7 @@ class ObjFaults : public ObjTest, public testing::WithParamInterface<Fault> {};
 
 TEST_P(ObjFaults, NameTheirLine) {
   const std::string fault = faultOf(GetParam().text);
-  EXPECT_TRUE(fault.starts_with("m.obj:" + std::string(GetParam().place) + " ")) << fault;
+  EXPECT_TRUE(startsWith(fault, "m.obj:" + std::string(GetParam().place) + " "));
   EXPECT_TRUE(contains(fault, GetParam().message));
   EXPECT_FALSE(contains(fault, "\n"));
 }
@@ -219,9 +218,9 @@ INSTANTIATE_TEST_SUITE_P(
 // Corners of the triangles by their positions, whatever corner each begins with.
 std::vector<std::array<int, 3>> sorted(std::vector<std::array<int, 3>> triangles) {
   for (std::array<int, 3>& t : triangles) {
-    std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+    std::rotate(t.begin(), std::ranges::min_element(t), t.end());
   }
-  std::sort(triangles.begin(), triangles.end());
+  std::ranges::sort(triangles);
   return triangles;
 }
 
@@ -255,9 +254,8 @@ TEST_F(ObjLoader, QuadsAreCutAsByTinyobjloader) {
     std::vector<std::array<int, 3>> actual(mesh.indices.size() / 3);
     for (size_t k = 0; k < mesh.indices.size(); ++k) {
       const glm::dvec3 p = mesh.vertices[mesh.indices[k]].position + mesh.center;
-      const auto nearest = std::min_element(corners.begin(), corners.end(), [&](const auto& a, const auto& b) {
-        return glm::distance(a, p) < glm::distance(b, p);
-      });
+      const auto nearest = std::ranges::min_element(
+          corners, [&](const auto& a, const auto& b) { return glm::distance(a, p) < glm::distance(b, p); });
       actual[k / 3][k % 3] = static_cast<int>(nearest - corners.begin());
     }
     ASSERT_EQ(sorted(actual), sorted(expected)) << obj;

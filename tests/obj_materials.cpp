@@ -11,7 +11,13 @@
 namespace speculum {
 namespace {
 
-using MtlFile = ObjTest;
+class MtlFile : public ObjTest {
+ protected:
+  // Returns the material m of that text, which a face has.
+  Material materialOf(const std::string& mtl) {
+    return load(kSquare + "usemtl m\nf 1 2 3\n", mtl).parts.at(0).material;
+  }
+};
 
 void expectDefault(const Material& material) {
   EXPECT_EQ(material.diffuse, glm::dvec3(0.6));
@@ -35,10 +41,7 @@ TEST_F(MtlFile, IsRead) {
 }
 
 TEST_F(MtlFile, OtherFormsOfNumbersAreRead) {
-  const Material material =
-      load(kSquare + "usemtl m\nf 1 2 3\n", "newmtl m\nKd 0.5\nKs xyz 0.1 0.2 0.3\nKe spectral lamp.rfl 2\nd -halo 1\n")
-          .parts[0]
-          .material;
+  const Material material = materialOf("newmtl m\nKd 0.5\nKs xyz 0.1 0.2 0.3\nKe spectral lamp.rfl 2\nd -halo 1\n");
   EXPECT_EQ(material.diffuse, glm::dvec3(0.5)) << "one number counts for all three";
   EXPECT_EQ(material.specular, glm::dvec3(0.0));
   EXPECT_EQ(warnings(),
@@ -47,7 +50,7 @@ TEST_F(MtlFile, OtherFormsOfNumbersAreRead) {
 }
 
 TEST_F(MtlFile, ShininessBelowOneCountsAsOne) {
-  EXPECT_EQ(load(kSquare + "usemtl m\nf 1 2 3\n", "newmtl m\nNs 0.2\n").parts[0].material.shininess, 1.0);
+  EXPECT_EQ(materialOf("newmtl m\nNs 0.2\n").shininess, 1.0);
 }
 
 TEST_F(MtlFile, FacesAreGroupedByFirstUse) {
@@ -79,7 +82,7 @@ TEST_F(MtlFile, MissingNameIsOneWarning) {
 
 TEST_F(MtlFile, OpacityIsAWarning) {
   for (const char* opacity : {"d 0.5", "Tr 0.5", "map_d mask.png"}) {
-    load(kSquare + "usemtl m\nf 1 2 3\n", std::string("newmtl m\nKd 1 1 1\n") + opacity + "\n");
+    materialOf(std::string("newmtl m\nKd 1 1 1\n") + opacity + "\n");
     EXPECT_TRUE(contains(warnings(), "m.mtl:1: material 'm' is not opaque, it is drawn opaque\n")) << opacity;
   }
 }
@@ -90,8 +93,7 @@ TEST_F(MtlFile, TextureIsDecodedToLinear) {
   image.at(1, 0)[1] = 128;
   std::filesystem::create_directory(folder_ / "images");
   writePng(folder_ / "images/my wall.png", image);
-  const Mesh mesh = load(kSquare + "usemtl m\nf 1 2 3\n", "newmtl m\nKd 1 1 1\nmap_Kd images\\my wall.png\n");
-  EXPECT_EQ(mesh.parts[0].material.diffuseTexture, 0);
+  EXPECT_EQ(materialOf("newmtl m\nKd 1 1 1\nmap_Kd images\\my wall.png\n").diffuseTexture, 0);
   ASSERT_EQ(textures_.size(), 1u);
   EXPECT_EQ(textures_[0].width, 2);
   EXPECT_EQ(textures_[0].height, 1);
@@ -102,20 +104,18 @@ TEST_F(MtlFile, TextureIsDecodedToLinear) {
 TEST_F(MtlFile, TextureAloneHasItsOwnColor) {
   writePng(folder_ / "t.png", Image8(1, 1));
   for (const char* more : {"", "map_Kd\n", "map_Kd -bm 1\n"}) {  // without a name they change nothing
-    const Mesh mesh =
-        load(kSquare + "usemtl m\nf 1 2 3\n", std::string("newmtl black\nKd 0 0 0\nnewmtl m\nmap_Kd t.png\n") + more);
-    EXPECT_EQ(mesh.parts[0].material.diffuse, glm::dvec3(0.6)) << more;
-    EXPECT_EQ(mesh.parts[0].material.diffuseTexture, 0) << more;
+    const Material material = materialOf(std::string("newmtl black\nKd 0 0 0\nnewmtl m\nmap_Kd t.png\n") + more);
+    EXPECT_EQ(material.diffuse, glm::dvec3(0.6)) << more;
+    EXPECT_EQ(material.diffuseTexture, 0) << more;
   }
 }
 
 TEST_F(MtlFile, TextureOptionsAreNotItsName) {
   writePng(folder_ / "a wall.png", Image8(1, 1));
   for (const char* options : {"-blendu on ", "-bm 0.5 -clamp off\t", "-o 1 ", "-o 1 2 3 -s 1e2147483648 -mm 0 1 "}) {
-    const Mesh mesh = load(kSquare + "usemtl m\nf 1 2 3\n",
-                           std::string("newmtl m\nmap_Kd ") + options + "a wall.png\nKd 0.5 0.5 0.5\n");
-    EXPECT_EQ(mesh.parts[0].material.diffuseTexture, 0) << options;
-    EXPECT_EQ(mesh.parts[0].material.diffuse, glm::dvec3(0.5)) << options;
+    const Material material = materialOf(std::string("newmtl m\nmap_Kd ") + options + "a wall.png\nKd 0.5 0.5 0.5\n");
+    EXPECT_EQ(material.diffuseTexture, 0) << options;
+    EXPECT_EQ(material.diffuse, glm::dvec3(0.5)) << options;
   }
   EXPECT_EQ(textures_.size(), 1u);
 }
@@ -175,7 +175,7 @@ TEST_F(MtlFile, FaultsNameTheirLine) {
            {"newmtl a\nNs inf\n", "2: Ns: is inf"},
            {"newmtl a\nd half\n", "2: d: 'half' is not a number"},
            {std::string("newmtl a\n\0\0", 11), "2: file: is not a text file"}}) {
-    EXPECT_TRUE(faultOf(kSquare, mtl).starts_with(std::string("m.mtl:") + fault)) << fault;
+    EXPECT_TRUE(startsWith(faultOf(kSquare, mtl), std::string("m.mtl:") + fault)) << fault;
   }
 }
 
@@ -188,7 +188,7 @@ TEST_F(MtlFile, LibrariesHaveBlanksAndBackslashes) {
       escaped += (c == ' ' ? "\\" : "") + std::string(1, c);
     }
     std::string windows = name;
-    std::replace(windows.begin(), windows.end(), '/', '\\');
+    std::ranges::replace(windows, '/', '\\');
     for (const std::string& written : {name, escaped, windows, "none.mtl " + escaped}) {
       const Mesh mesh = load("mtllib " + written + "\n" + kSquare + "usemtl a\nf 1 2 3\n");
       EXPECT_EQ(mesh.parts.at(0).material.diffuse.x, 0.125) << written;

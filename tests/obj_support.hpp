@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "scene_support.hpp"
+#include "test_headers.hpp"
 
 namespace speculum {
 

@@ -109,7 +109,7 @@ double meanError(const Options& options, const std::vector<Shown>& shown) {
 struct Summary {
   explicit Summary(std::vector<double> ms)
       : mean(std::accumulate(ms.begin(), ms.end(), 0.0) / static_cast<double>(ms.size())) {
-    std::sort(ms.begin(), ms.end());
+    std::ranges::sort(ms);
     median = ms[ms.size() / 2];
     p95 = ms[ms.size() * 95 / 100];
     longest = ms.back();

@@ -17,7 +17,7 @@ namespace speculum::testing_support {
 class PanelTest : public testing::Test {
  protected:
   PanelTest() {
-    scene_ = loadScene(sourceFile("scenes/facing_mirrors.toml"));
+    scene_ = loadScene(sceneFile("facing_mirrors"));
     browser_.scenes = {{"one", "One", "/scenes/one.toml"}, {"two", "", "/scenes/two.obj"}};
     edit_.scene = &scene_;
     start();
@@ -124,13 +124,22 @@ class PanelTest : public testing::Test {
     }
     return found;
   }
-  // Returns the letters that the last frame drew.
-  static std::string shownText() {
+  // What the last frame drew.
+  static std::vector<const ImDrawList*> drawLists() {
+    std::vector<const ImDrawList*> lists;
+    for (int i = 0; i < ImGui::GetDrawData()->CmdListsCount; ++i) {
+      lists.push_back(ImGui::GetDrawData()->CmdLists[i]);
+    }
+    return lists;
+  }
+  // Returns the letters of the last frame whose lines begin below `top`.
+  static std::string shownText(float top = -INFINITY) {
     std::string text;
-    const ImDrawData& drawn = *ImGui::GetDrawData();
-    for (int i = 0; i < drawn.CmdListsCount; ++i) {
-      for (const DrawnGlyph& glyph : glyphsOf(*drawn.CmdLists[i])) {
-        text += glyph.letter;
+    for (const ImDrawList* list : drawLists()) {
+      for (const DrawnGlyph& glyph : glyphsOf(*list)) {
+        if (glyph.lineTop > top) {
+          text += glyph.letter;
+        }
       }
     }
     return text;
@@ -139,10 +148,9 @@ class PanelTest : public testing::Test {
   // Numbers alone do not count, because the ticks of a plot stand anywhere.
   static std::string textsOffTheirLine() {
     std::string found;
-    const ImDrawData& drawn = *ImGui::GetDrawData();
-    for (int i = 0; i < drawn.CmdListsCount; ++i) {
+    for (const ImDrawList* list : drawLists()) {
       std::map<float, std::string> lines;  // by their top
-      for (const DrawnGlyph& glyph : glyphsOf(*drawn.CmdLists[i])) {
+      for (const DrawnGlyph& glyph : glyphsOf(*list)) {
         lines[glyph.lineTop] += glyph.letter;
       }
       std::erase_if(lines, [](const auto& line) {
@@ -160,18 +168,15 @@ class PanelTest : public testing::Test {
   // Returns the texts of the last frame that a column's or a window's side cuts.
   static std::string cutTexts() {
     std::string found;
-    const ImDrawData& drawn = *ImGui::GetDrawData();
-    for (int i = 0; i < drawn.CmdListsCount; ++i) {
-      const ImDrawList& list = *drawn.CmdLists[i];
-      for (const ImDrawCmd& command : list.CmdBuffer) {
-        const auto first = list.IdxBuffer.begin() + command.IdxOffset;
-        for (const DrawnGlyph& glyph : glyphsOf(list)) {
+    for (const ImDrawList* list : drawLists()) {
+      for (const ImDrawCmd& command : list->CmdBuffer) {
+        const auto first = list->IdxBuffer.begin() + command.IdxOffset;
+        for (const DrawnGlyph& glyph : glyphsOf(*list)) {
           const bool drawnHere = std::find(first, first + command.ElemCount, glyph.vertex) != first + command.ElemCount;
           const ImVec4& clip = command.ClipRect;
-          const float top = list.VtxBuffer[glyph.vertex].pos.y;
-          const bool inSight = top >= clip.y && top < clip.w;
-          if (drawnHere && inSight &&
-              (list.VtxBuffer[glyph.vertex].pos.x < clip.x || list.VtxBuffer[glyph.vertex + 2].pos.x > clip.z)) {
+          const ImVec2& corner = list->VtxBuffer[glyph.vertex].pos;
+          const bool inSight = corner.y >= clip.y && corner.y < clip.w;
+          if (drawnHere && inSight && (corner.x < clip.x || list->VtxBuffer[glyph.vertex + 2].pos.x > clip.z)) {
             found += glyph.letter;
           }
         }
@@ -179,11 +184,13 @@ class PanelTest : public testing::Test {
     }
     return found;
   }
-  static bool showsTooltip() {
+  // Returns the tooltip that is shown; null if there is none.
+  static const ImGuiWindow* tooltip() {
     const auto& windows = ImGui::GetCurrentContext()->Windows;
-    return std::any_of(windows.begin(), windows.end(), [](const ImGuiWindow* window) {
+    const auto shown = std::ranges::find_if(windows, [](const ImGuiWindow* window) {
       return window->Active && (window->Flags & ImGuiWindowFlags_Tooltip) != 0;
     });
+    return shown == windows.end() ? nullptr : *shown;
   }
 
   bool has(const std::string& name) const {
@@ -222,9 +229,9 @@ class PanelTest : public testing::Test {
     click("panel." + window, 0.1);
     run(3);
   }
-  // Presses at a part of the widget's width, moves, releases.
-  std::vector<Command> drag(const std::string& name, double part, double dx, double dy = 0.0) {
-    hover(name, part);
+  // Presses, moves, releases.
+  void dragFrom(double x, double y, double dx, double dy = 0.0) {
+    moveTo(x, y);
     const ImVec2 from = ImGui::GetIO().MousePos;
     commands_.clear();
     hold(true);
@@ -232,7 +239,17 @@ class PanelTest : public testing::Test {
       moveTo(from.x + dx * i / 4, from.y + dy * i / 4);
     }
     hold(false);
-    return commands_;
+  }
+  // The same from a part of the widget's width.
+  void drag(const std::string& name, double part, double dx, double dy = 0.0) {
+    const PixelRect rect = widget(name);
+    dragFrom(rect.x + rect.width * part, rect.y + rect.height / 2.0, dx, dy);
+  }
+  // Opens a prompt about a file, or with Prompt::none closes it.
+  void ask(Prompt prompt, const std::filesystem::path& file = {}) {
+    edit_.prompt = prompt;
+    edit_.proposedFile = file;
+    run(4);
   }
   void wheel(double notches) {
     ImGui::GetIO().MouseWheel = static_cast<float>(notches);
@@ -315,12 +332,9 @@ class PanelTest : public testing::Test {
 
  private:
   const PixelRect* find(const std::string& name) const {
-    for (const auto& [known, rect] : windows_->state().widgets) {
-      if (known == name) {
-        return &rect;
-      }
-    }
-    return nullptr;
+    const auto& widgets = windows_->state().widgets;
+    const auto known = std::ranges::find_if(widgets, [&](const auto& widget) { return widget.first == name; });
+    return known == widgets.end() ? nullptr : &known->second;
   }
 };
 

@@ -41,16 +41,6 @@ int64_t structuresAlive() {
   return found == alive.end() ? 0 : found->second;
 }
 
-// Says how often the log has the text.
-int count(const LogCapture& log, const std::string& part) {
-  const std::string text = log.text();
-  int found = 0;
-  for (size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) {
-    ++found;
-  }
-  return found;
-}
-
 class RayMethods : public testing::TestWithParam<const char*> {};
 
 TEST_P(RayMethods, FollowSettingAndDevice) {
@@ -67,7 +57,8 @@ TEST_P(RayMethods, FollowSettingAndDevice) {
   EXPECT_EQ(stats["bytes"] > 0, hardware) << stats;
   EXPECT_EQ(stats["structures"], structuresAlive());
   EXPECT_NE(stats["why"], "");
-  EXPECT_EQ(count(log, "effects.rays = hardware: shaders trace the rays"), rays == "hardware" && !hardware ? 1 : 0);
+  EXPECT_EQ(occurrences(log.text(), "effects.rays = hardware: shaders trace the rays"),
+            rays == "hardware" && !hardware ? 1 : 0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Values, RayMethods, testing::Values("auto", "hardware", "software"),
@@ -124,7 +115,7 @@ TEST(RayStructures, MissingMemoryLeavesShaders) {
   EXPECT_GT(refusedAllocations(), before);
   EXPECT_EQ(frameStats(session)["rays"]["method"], "software");
   EXPECT_EQ(session.picture().rgba, software.rgba);
-  EXPECT_EQ(count(log, "there is no memory for acceleration structures"), 1);
+  EXPECT_EQ(occurrences(log.text(), "there is no memory for acceleration structures"), 1);
   EXPECT_EQ(structuresAlive(), 0);
 }
 

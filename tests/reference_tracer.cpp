@@ -311,7 +311,7 @@ TEST(ReferenceTracer, CameraIsRightHandedWithVerticalField) {
   const TraceResult result =
       *RayTracer(scene, evaluate(scene, 0.0)).render({.width = 200, .height = 100, .samples = 1});
   EXPECT_EQ(result.image.at(150, 25), glm::vec3(1.0f));
-  EXPECT_EQ(std::count(result.image.pixels.begin(), result.image.pixels.end(), glm::vec3(0.0f)), 20000 - 4);
+  EXPECT_EQ(std::ranges::count(result.image.pixels, glm::vec3(0.0f)), 20000 - 4);
 }
 
 }  // namespace

@@ -77,7 +77,7 @@ TEST(Evaluate, InstancesAreSorted) {
     order.push_back({instance.mesh, instance.object, instance.copy});
   }
   EXPECT_EQ(order.size(), 6u);
-  EXPECT_TRUE(std::is_sorted(order.begin(), order.end()));
+  EXPECT_TRUE(std::ranges::is_sorted(order));
 }
 
 TEST(Evaluate, BoundingSphereHoldsEveryVertex) {

@@ -115,8 +115,7 @@ TEST(SceneLoader, ReadsBookmarks) {
 }
 
 TEST(SceneLoader, OneScaleStandsForThree) {
-  const Scene scene = load(kCamera + "[[object]]\nmodel = 'triangle.obj'\nscale = -2\n");
-  EXPECT_EQ(scene.objects[0].scale, glm::dvec3(-2.0));
+  EXPECT_EQ(load(kCamera + "[[object]]\nmodel = 'triangle.obj'\nscale = -2\n").objects[0].scale, glm::dvec3(-2.0));
 }
 
 TEST(SceneLoader, NamesMayRepeat) {

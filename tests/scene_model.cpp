@@ -75,7 +75,7 @@ TEST(ModelScene, RefusesImpossibleModels) {
   const TemporaryFolder folder;
   const fs::path tiny = folder.write("tiny.obj", box(1e-12));
   const std::string message = messageOf<InputError>([&] { loadScene(tiny); });
-  EXPECT_EQ(message.rfind(tiny.string() + ":1: v: the model's bounding sphere", 0), 0u) << message;
+  EXPECT_TRUE(startsWith(message, tiny.string() + ":1: v: the model's bounding sphere"));
   const std::string missing = messageOf<InputError>([&] { loadScene(folder / "none.obj"); });
   EXPECT_TRUE(contains(missing, "none.obj:1: file: cannot be read"));
 }
@@ -132,7 +132,7 @@ TEST(AddModel, LoadsAFileOnce) {
   const fs::path huge = folder.write("huge.obj", "v 0 0 0\nv 1e200 0 0\nv 0 1e200 0\nf 1 2 3\n");
   for (const fs::path& file : {huge, folder.write("empty.obj", "v 0 0 0\n"), own.parent_path() / "nowhere.obj"}) {
     const std::string error = messageOf<InputError>([&] { addModel(scene, file); });
-    EXPECT_EQ(error.find(file.string() + ":"), 0u) << error;
+    EXPECT_TRUE(startsWith(error, file.string() + ":"));
     EXPECT_FALSE(contains(error, "\n"));
     EXPECT_EQ(scene.meshes.size(), 2u);
     EXPECT_TRUE(scene.textures.empty());
@@ -148,7 +148,8 @@ TEST(MirrorPolygon, IsRefusedAsInAFile) {
         std::pair(Polygon{{0, 0, 0}, {1, 0, 0}, {0.1, 0.1, 0}, {0, 1, 0}}, "is not convex"),
         std::pair(Polygon{{0, 0, 0}, {1, 0, 0}, {2e15, 1, 0}}, "has a vertex that is too far away"),
         std::pair(Polygon(1001, glm::dvec3(0.0)), "has 1001 vertices")}) {
-    EXPECT_EQ(mirrorPolygonProblem(polygon).value_or("").find(std::string("the polygon ") + wrong + " ("), 0u) << wrong;
+    EXPECT_TRUE(startsWith(mirrorPolygonProblem(polygon).value_or(""), std::string("the polygon ") + wrong + " ("))
+        << wrong;
   }
 }
 

@@ -29,7 +29,7 @@ std::filesystem::path room(const std::string& name, const std::string& rest = ""
 )" + rest);
 }
 
-Options mapped(const std::filesystem::path& file, std::vector<std::pair<std::string, std::string>> more = {}) {
+Options mapped(const std::filesystem::path& file, SettingList more = {}) {
   Options options = headless(file, {320, 240});
   set(options, {{"effects.shadow_lookup", "map"}});
   set(options, more);
@@ -108,9 +108,9 @@ TEST(ShadowMaps, SimplifiedObjectsAreNotShadowed) {
 TEST(ShadowMaps, ListTheirFaces) {
   QuietSession session(mapped(room("faces")));
   const std::vector<std::string> names = drawnMaps("shadow map of ", session);
-  EXPECT_TRUE(std::count(names.begin(), names.end(), "shadow map of light 'lamp' -y"));
-  EXPECT_TRUE(std::count(names.begin(), names.end(), "shadow map of light 'sun' +x"));
-  EXPECT_FALSE(std::count(names.begin(), names.end(), "shadow map of light 'lamp' +y"));
+  EXPECT_TRUE(std::ranges::count(names, "shadow map of light 'lamp' -y"));
+  EXPECT_TRUE(std::ranges::count(names, "shadow map of light 'sun' +x"));
+  EXPECT_FALSE(std::ranges::count(names, "shadow map of light 'lamp' +y"));
 }
 
 // Draws a moving scene with and without reuse, and both render paths: the bytes are the same.

@@ -164,7 +164,7 @@ TEST(Skipping, SmallMirrorsDrawSmallPartsOfObjects) {
 
 TEST(Skipping, MaskDoesNotChangeCachedImages) {
   Options options = headless(roomsScene(), size, {{"reflection.update_interval", "3"}});
-  std::vector<Image8> pictures;
+  std::map<bool, std::vector<std::vector<uint8_t>>> pictures;
   for (const bool masked : {true, false}) {
     QuietSession session(options);
     Settings settings = session.settings();
@@ -172,12 +172,10 @@ TEST(Skipping, MaskDoesNotChangeCachedImages) {
     for (int frame = 0; frame < 6; ++frame) {
       const glm::dvec3 eye(1.4 + 0.01 * frame, 1.5, 1.6);
       session.setCamera(lookAt(eye, {1.2, 1.3, 0.0}, {0, 1, 0}, 60, 0.001));
-      pictures.push_back(pictureWith(session, settings));
+      pictures[masked].push_back(pictureWith(session, settings).rgba);
     }
   }
-  for (size_t frame = 0; frame < 6; ++frame) {
-    EXPECT_EQ(pictures[frame].rgba, pictures[frame + 6].rgba) << "frame " << frame;
-  }
+  EXPECT_TRUE(pictures[true] == pictures[false]);
 }
 
 // A tilted mirror, in a closed room or under a sky. In the room, walls and floor fill its image.

@@ -9,8 +9,8 @@ namespace {
 
 using namespace testing_support;
 
-Image8 thumbnailOf(const std::string& scene) {
-  return readImage8(sourceFile("scenes/thumbnails/" + scene + ".jpg"));
+std::filesystem::path thumbnailOf(const std::string& scene) {
+  return sourceFile("scenes/thumbnails/" + scene + ".jpg");
 }
 
 // Root mean square difference of 16 x 9 block means, in 0 .. 255.
@@ -34,22 +34,21 @@ double coarseDifference(const Image8& a, const Image8& b) {
 TEST(Thumbnails, EveryShippedSceneHasOne) {
   ASSERT_GT(sceneNames().size(), 10u);
   for (const std::string& scene : sceneNames()) {
-    const std::filesystem::path file = sourceFile("scenes/thumbnails/" + scene + ".jpg");
+    const std::filesystem::path file = thumbnailOf(scene);
     ASSERT_TRUE(std::filesystem::exists(file)) << file << " (scripts/thumbnails makes it)";
     EXPECT_LE(std::filesystem::file_size(file), 8192u) << file;
-    EXPECT_EQ(thumbnailOf(scene).width, 192);
-    EXPECT_EQ(thumbnailOf(scene).height, 108);
+    EXPECT_EQ(readImage8(file).width, 192);
+    EXPECT_EQ(readImage8(file).height, 108);
   }
 }
 
 TEST(Thumbnails, ShowTheirScenes) {
   for (const std::string name :
        fullTests() ? std::vector{"gallery", "many_mirrors", "outdoors"} : std::vector{"many_mirrors"}) {
-    Options options = headless(sourceFile("scenes/" + name + ".toml"), {192, 108},
-                               {{"view.samples", "4"}, {"reflection.samples", "4"}});
+    Options options = headless(sceneFile(name), {192, 108}, {{"view.samples", "4"}, {"reflection.samples", "4"}});
     const Image8 drawn = draw(options, 1.0);
     for (const std::string& scene : sceneNames()) {
-      const double d = coarseDifference(drawn, thumbnailOf(scene));
+      const double d = coarseDifference(drawn, readImage8(thumbnailOf(scene)));
       EXPECT_TRUE(scene == name ? d < 4.0 : d > 16.0) << name << " and " << scene << ": " << d;
     }
   }

@@ -14,7 +14,7 @@ using namespace testing_support;
 class SceneTruth : public testing::TestWithParam<std::string> {};
 
 TEST_P(SceneTruth, IsDrawn) {
-  const std::filesystem::path file = sourceFile("scenes/" + GetParam() + ".toml");
+  const std::filesystem::path file = sceneFile(GetParam());
   // In a smaller picture, silhouettes of the pool's ripples take too large a share of the pixels.
   const bool large = fullTests() || GetParam() == "pool";
   const PictureSize size = large ? PictureSize{640, 360} : PictureSize{240, 135};
@@ -37,7 +37,7 @@ INSTANTIATE_TEST_SUITE_P(HardScenes, SceneTruth, testing::ValuesIn(sceneNames("h
 
 // Edges may lie anywhere within 1/256 pixel, and no farther.
 TEST(Tracing, NearestAllowsPartsOfAPixel) {
-  const Truth truth = trace(sourceFile("scenes/facing_mirrors.toml"), {160, 90}, 4);
+  const Truth truth = trace(sceneFile("facing_mirrors"), {160, 90}, 4);
   const auto moved = [&](double x, double y) {
     return toDisplay(truth.tracing.result({x, y}).image, truth.tracing.curve);
   };

@@ -23,12 +23,17 @@ InputEvent text(int character) {
   return {.kind = Kind::text, .code = character};
 }
 
-TEST(InputQueue, TapsLastOneFrame) {
+InputQueue queueOf(std::initializer_list<InputEvent> events) {
   InputQueue queue;
-  for (int tap = 0; tap < 3; ++tap) {
-    queue.push(command(1, true));
-    queue.push(command(1, false));
+  for (const InputEvent& event : events) {
+    queue.push(event);
   }
+  return queue;
+}
+
+TEST(InputQueue, TapsLastOneFrame) {
+  InputQueue queue = queueOf(
+      {command(1, true), command(1, false), command(1, true), command(1, false), command(1, true), command(1, false)});
   for (int tap = 0; tap < 3; ++tap) {
     const std::vector<InputEvent> first = queue.take();
     ASSERT_FALSE(first.empty());
@@ -57,11 +62,7 @@ TEST(InputQueue, TypedTextTakesOneFrame) {
 }
 
 TEST(InputQueue, TextAfterACommandWaits) {
-  InputQueue queue;
-  queue.push(text('a'));
-  queue.push(command(1, true));
-  queue.push(command(1, false));
-  queue.push(text('b'));
+  InputQueue queue = queueOf({text('a'), command(1, true), command(1, false), text('b')});
   const std::vector<InputEvent> first = queue.take();
   ASSERT_EQ(first.size(), 2u);
   EXPECT_EQ(first[0].code, 'a');
@@ -70,12 +71,7 @@ TEST(InputQueue, TextAfterACommandWaits) {
 }
 
 TEST(InputQueue, ClicksKeepTheirPointerPosition) {
-  InputQueue queue;
-  queue.push(pointer(1.0));
-  queue.push(pointer(2.0));
-  queue.push(button(true));
-  queue.push(button(false));
-  queue.push(pointer(3.0));
+  InputQueue queue = queueOf({pointer(1.0), pointer(2.0), button(true), button(false), pointer(3.0)});
   const std::vector<InputEvent> press = queue.take();
   ASSERT_EQ(press.size(), 2u);
   EXPECT_EQ(press[0].x, 2.0) << "the last of the movements";
@@ -87,11 +83,7 @@ TEST(InputQueue, ClicksKeepTheirPointerPosition) {
 }
 
 TEST(InputQueue, DragMovesBeforeReleaseWithinAFrame) {
-  InputQueue queue;
-  queue.push(pointer(1.0));
-  queue.push(button(true));
-  queue.push(pointer(5.0));
-  queue.push(button(false));
+  InputQueue queue = queueOf({pointer(1.0), button(true), pointer(5.0), button(false)});
   EXPECT_TRUE(queue.take().back().down);
   const std::vector<InputEvent> moved = queue.take();
   ASSERT_EQ(moved.size(), 1u);

@@ -51,11 +51,7 @@ TEST_F(ResetArrow, OfACutRowIsReached) {
   const PixelRect row = widget("view.exposure");
   const float margin = std::floor(0.8f * ImGui::GetFontSize());
   resize(900, row.y + 3 + margin + panels::statusHeight());  // 3 pixels of it are in sight
-  hover("view.exposure", 0.2);
-  moveTo(ImGui::GetIO().MousePos.x, row.y + 1);
-  hold(true);
-  moveTo(ImGui::GetIO().MousePos.x + 60, row.y + 1);
-  hold(false);
+  dragFrom(row.x + 0.2 * row.width, row.y + 1, 60);
   expectArrowResetsExposure();
 }
 
@@ -218,9 +214,8 @@ TEST_F(PanelTest, MessagesAreNoLargerThanTheirText) {
   run(2);
   float right = 0.0f;
   float top = 700.0f;
-  const ImDrawData& drawn = *ImGui::GetDrawData();
-  for (int i = 0; i < drawn.CmdListsCount; ++i) {
-    for (const ImDrawVert& vertex : drawn.CmdLists[i]->VtxBuffer) {
+  for (const ImDrawList* list : drawLists()) {
+    for (const ImDrawVert& vertex : list->VtxBuffer) {
       right = std::max(right, vertex.pos.x);
       top = std::min(top, vertex.pos.y);
     }
@@ -230,7 +225,7 @@ TEST_F(PanelTest, MessagesAreNoLargerThanTheirText) {
   EXPECT_GT(top, 660.0f);
 }
 
-TEST_F(PanelTest, StatusLinesAreAsHighAsTheirText) {
+TEST_F(PanelTest, StatusLinesAreAsHighAsText) {
   const auto height = [&](const char* text) {
     status_.picture = text;
     run(2);
@@ -300,9 +295,7 @@ TEST_F(PanelTest, FilesAreChosenFromOwnList) {
   std::filesystem::create_directory(config_.path() / "models");
   std::ofstream(config_.path() / "models" / "a.obj") << "v 0 0 0";
   std::ofstream(config_.path() / "notes.txt") << "no scene";
-  edit_.proposedFile = config_.path();
-  edit_.prompt = Prompt::open;
-  run(4);
+  ask(Prompt::open, config_.path());
   EXPECT_FALSE(has("open.notes.txt"));
   click("open.models");
   click("open.open");
@@ -317,9 +310,7 @@ TEST_F(PanelTest, ListFollowsTheTypedFolder) {
   const std::filesystem::path folder = environment("HOME");
   std::filesystem::create_directories(folder);
   std::ofstream(folder / "ring.obj") << "v 0 0 0";
-  edit_.proposedFile = config_.path();
-  edit_.prompt = Prompt::open;
-  run(4);
+  ask(Prompt::open, config_.path());
   EXPECT_FALSE(has("open.ring.obj"));
   type("~/");
   EXPECT_TRUE(has("open.ring.obj"));
@@ -337,28 +328,21 @@ TEST_F(PanelTest, SavingListsFoldersAndScenes) {
   std::filesystem::create_directory(config_.path() / "mine");
   std::ofstream(config_.path() / "mine" / "old.toml") << "";
   std::ofstream(config_.path() / "mine" / "ring.obj") << "";
-  edit_.proposedFile = config_.path() / "new.toml";
-  edit_.prompt = Prompt::saveAs;
-  run(4);
+  ask(Prompt::saveAs, config_.path() / "new.toml");
   click("open.mine");
   run(2);
   EXPECT_EQ(windows_->state().files.typed, (config_.path() / "mine" / "new.toml").string());
   EXPECT_FALSE(has("open.ring.obj"));
   click("open.old.toml");
   EXPECT_EQ(clickFor<SaveAs>("where.save").file, config_.path() / "mine" / "old.toml");
-  edit_.prompt = Prompt::none;
-  run(4);
-  edit_.proposedFile = config_.path() / "none" / "new.toml";
-  edit_.prompt = Prompt::saveAs;
-  run(4);
+  ask(Prompt::none);
+  ask(Prompt::saveAs, config_.path() / "none" / "new.toml");
   EXPECT_TRUE(has("open.mine")) << "the nearest folder that exists";
   EXPECT_TRUE(shows("Folder: " + (config_.path() / "none").string())) << "where a bare name goes";
 }
 
 TEST_F(PanelTest, PromptsStayCentered) {
-  edit_.prompt = Prompt::recovery;
-  edit_.proposedFile = "/home/scene.toml";
-  run(4);
+  ask(Prompt::recovery, "/home/scene.toml");
   const int left = widget("recovery.open").x;
   resize(1300, 900);
   EXPECT_NEAR(widget("recovery.open").x, left + 200, 1);
@@ -367,13 +351,10 @@ TEST_F(PanelTest, PromptsStayCentered) {
 TEST_F(PanelTest, PromptsFitNarrowWindows) {
   resize(300, 500);
   for (const auto& [prompt, field] : {std::pair(Prompt::open, "open.typed"), std::pair(Prompt::saveAs, "edit.file")}) {
-    edit_.proposedFile = config_.path();
-    edit_.prompt = prompt;
-    run(4);
+    ask(prompt, config_.path());
     EXPECT_GE(widget(field).x, 0);
     EXPECT_LT(widget(field).x + widget(field).width, 300);
-    edit_.prompt = Prompt::none;
-    run(4);
+    ask(Prompt::none);
   }
 }
 
@@ -405,11 +386,7 @@ TEST_F(PanelTest, OpenWindowsAreRemembered) {
 
 TEST_F(PanelTest, LayoutIsKeptInTheUsersFolder) {
   const PixelRect before = widget("time");
-  moveTo(200, 42);
-  hold(true);
-  moveTo(260, 82);
-  moveTo(330, 122);
-  hold(false);
+  dragFrom(200, 42, 130, 80);
   const PixelRect moved = widget("time");
   EXPECT_EQ(moved.x - before.x, 130);
   EXPECT_EQ(moved.y - before.y, 80);
@@ -440,10 +417,7 @@ TEST_F(PanelTest, WindowsReturnFromATinyDisplay) {
   resize(300, 200);
   resize(900, 700);
   EXPECT_EQ(widget("log.copy"), copy);
-  moveTo(copy.x - 100, copy.y - 16);  // its title
-  hold(true);
-  moveTo(copy.x - 200, copy.y - 116);
-  hold(false);
+  dragFrom(copy.x - 100, copy.y - 16, -100, -100);  // its title
   const PixelRect moved = widget("log.copy");
   EXPECT_EQ(moved.x, copy.x - 100);
   resize(500, 300);
@@ -523,10 +497,7 @@ TEST_F(ManyPasses, HeadStaysInSight) {
   const PixelRect head = widget("performance.head 1");
   const PixelRect row = widget("name.CPU");
   moveTo(row.x + 4, row.y + 4);
-  ImGui::GetIO().MouseWheel = -1.0f;
-  run(3);
-  ImGui::GetIO().MouseWheel = 0.0f;
-  run(2);
+  wheel(-1.0);
   EXPECT_LT(widget("name.CPU").y, row.y) << "scrolled";
   EXPECT_EQ(widget("performance.head 1").y, head.y);
 }
@@ -574,9 +545,9 @@ TEST_F(PanelTest, PerformanceRowsSelectTheirMirrors) {
 
 TEST_F(PanelTest, TooltipsLeaveDraggedSlidersInSight) {
   hover("view.exposure", 0.3);
-  EXPECT_TRUE(showsTooltip());
+  EXPECT_TRUE(tooltip());
   hold(true);
-  EXPECT_FALSE(showsTooltip());
+  EXPECT_FALSE(tooltip());
   hold(false);
 }
 
@@ -586,7 +557,7 @@ TEST_F(PanelTest, TooltipsAreThePointersOnly) {
   tap(ImGuiKey_UpArrow);
   run(60);
   ASSERT_TRUE(ImGui::GetIO().NavVisible);
-  EXPECT_FALSE(showsTooltip()) << "it would cover the next rows";
+  EXPECT_FALSE(tooltip()) << "it would cover the next rows";
 }
 
 TEST_F(PanelTest, TooltipsSayWhatWasMeasuredHere) {
@@ -861,10 +832,7 @@ TEST_F(Inspector, MirrorsAreLookedFromAndSeenThrough) {
       widgets, [&](const auto& shown) { return shown.first == "reflection.scale" && shown.second.x >= left; });
   ASSERT_NE(row, widgets.end());
   const PixelRect slider = row->second;
-  moveTo(slider.x + 0.3 * slider.width, slider.y + 0.5 * slider.height);
-  hold(true);
-  moveTo(slider.x + 0.1 * slider.width, slider.y + 0.5 * slider.height);
-  hold(false);
+  dragFrom(slider.x + 0.3 * slider.width, slider.y + 0.5 * slider.height, -0.2 * slider.width);
   EXPECT_LT(settings_.reflection.scale, scale) << "images are made cheaper beside their cost";
   EXPECT_EQ(clickFor<SelectNode>("edit.through.0").node, (Selection{Selection::Kind::mirror, 1}));
   EXPECT_EQ(clickFor<SetGizmoMode>("edit.rotate", 0.1).mode, GizmoMode::turn);
@@ -917,9 +885,7 @@ TEST_F(PanelTest, PromptsAnswerByButtonsAndEnter) {
   run(3);
   EXPECT_FALSE(has("ask.save")) << "only to another file";
   clickFor<AskWhereToSave>("ask.save_as");
-  edit_.prompt = Prompt::saveAs;
-  edit_.proposedFile = "/home/scene.toml";
-  run(4);
+  ask(Prompt::saveAs, "/home/scene.toml");
   EXPECT_EQ(windows_->state().files.typed, "/home/scene.toml");
   type("/other");
   EXPECT_EQ(windows_->state().files.typed, "/other") << "the path is selected";
@@ -928,8 +894,7 @@ TEST_F(PanelTest, PromptsAnswerByButtonsAndEnter) {
   EXPECT_EQ(only<SaveAs>().file, "/other");
   run(3);
   clickFor<CancelPrompt>("where.cancel");
-  edit_.prompt = Prompt::none;
-  run(3);
+  ask(Prompt::none);
   EXPECT_FALSE(has("where.cancel"));
 }
 
@@ -942,7 +907,7 @@ class AccuracyWindow : public PanelTest {
   }
 };
 
-TEST_F(AccuracyWindow, TextsOfARowStandOnOneLine) {
+TEST_F(AccuracyWindow, TextsOfRowsStandOnOneLine) {
   scene_.mirrors[0].ripple = Ripple{.amplitude = 0.1};
   edit_.selected = {Selection::Kind::mirror, 0};
   edit_.through = {1};
@@ -1016,7 +981,7 @@ TEST_F(AccuracyWindow, BoundsNeedMeasuredPoints) {
   EXPECT_TRUE(shows("Being measured"));
 }
 
-TEST_F(AccuracyWindow, NameOfThePointIsShownInFull) {
+TEST_F(AccuracyWindow, NameOfPointIsShownInFull) {
   accuracy_.points[1].name = "reflection scale 0.5, max depth 4, samples 4, view samples 4";
   accuracy_.current = 1;
   resize(1280, 720);
@@ -1024,15 +989,8 @@ TEST_F(AccuracyWindow, NameOfThePointIsShownInFull) {
     ImGui::GetIO().FontGlobalScale = textSize;
     run(5);
     const PixelRect slider = widget("accuracy.slider");
-    std::string below;
-    const ImDrawData& drawn = *ImGui::GetDrawData();
-    for (int i = 0; i < drawn.CmdListsCount; ++i) {
-      for (const DrawnGlyph& glyph : glyphsOf(*drawn.CmdLists[i])) {
-        below +=
-            glyph.lineTop > static_cast<float>(slider.y + slider.height) - 4.0f ? std::string(1, glyph.letter) : "";
-      }
-    }
-    EXPECT_TRUE(contains(below, "reflectionscale0.5,maxdepth4,samples4,viewsamples4")) << textSize << below;
+    const std::string below = shownText(static_cast<float>(slider.y + slider.height) - 4.0f);
+    EXPECT_TRUE(contains(below, "reflectionscale0.5,maxdepth4,samples4,viewsamples4")) << textSize;
   }
 }
 
@@ -1155,15 +1113,11 @@ TEST_F(TargetsWindow, RowsAddUpToTheFrame) {
 TEST_F(TargetsWindow, TooltipsLeaveTheirRowInSight) {
   for (const char* row : {"pass.mirror wall", "pass.main view"}) {
     hover(row, 0.3);
-    const auto& windows = ImGui::GetCurrentContext()->Windows;
-    const auto tooltip = std::find_if(windows.begin(), windows.end(), [](const ImGuiWindow* window) {
-      return window->Active && (window->Flags & ImGuiWindowFlags_Tooltip) != 0;
-    });
-    ASSERT_NE(tooltip, windows.end());
+    ASSERT_TRUE(tooltip());
     const PixelRect rect = widget(row);
-    const float top = (*tooltip)->Pos.y;
+    const float top = tooltip()->Pos.y;
     EXPECT_TRUE(top >= static_cast<float>(rect.y + rect.height) ||
-                top + (*tooltip)->Size.y <= static_cast<float>(rect.y));
+                top + tooltip()->Size.y <= static_cast<float>(rect.y));
   }
 }
 

@@ -15,8 +15,7 @@ using namespace testing_support;
 
 constexpr PictureSize size{48, 27};
 
-Options optionsFor(const std::filesystem::path& file, bool skip,
-                   std::vector<std::pair<std::string, std::string>> more) {
+Options optionsFor(const std::filesystem::path& file, bool skip, SettingList more) {
   Options options = headless(file, size, more);
   set(options, {{"reflection.skip_unchanged", skip ? "true" : "false"}});
   return options;
@@ -24,7 +23,7 @@ Options optionsFor(const std::filesystem::path& file, bool skip,
 
 struct Case {
   const char* scene;
-  std::vector<std::pair<std::string, std::string>> settings;
+  SettingList settings;
 };
 
 void PrintTo(const Case& c, std::ostream* out) {
@@ -34,13 +33,13 @@ void PrintTo(const Case& c, std::ostream* out) {
   }
 }
 
-const std::vector<std::pair<std::string, std::string>> oneSample = {{"view.samples", "1"}, {"reflection.samples", "1"}};
+const SettingList oneSample = {{"view.samples", "1"}, {"reflection.samples", "1"}};
 
 class Sequence : public testing::TestWithParam<Case> {};
 
 // Times with rest, motion, a cut, rest and a cut back.
 TEST_P(Sequence, SkippingChangesNoByte) {
-  const std::filesystem::path file = sourceFile(std::string("scenes/") + GetParam().scene + ".toml");
+  const std::filesystem::path file = sceneFile(GetParam().scene);
   QuietSession session(optionsFor(file, false, GetParam().settings));
   struct Rendered {
     Image8 picture;

@@ -343,7 +343,7 @@ TEST_F(Editing, SelectedNodesMoveTogetherInOneStep) {
   clickBall();
   click(lampAt_, true);
   drag(ballAt_ + glm::dvec2(60.0, 0.0), {33.0, 0.0});
-  EXPECT_EQ(edit().undo.find("move 2 "), 0u) << edit().undo;
+  EXPECT_TRUE(startsWith(edit().undo, "move 2 "));
   const double by = 33.0 / focalPixels;
   expectNear(saved().objects[0].position, {0.3 + by, 1.0, 0.5});
   expectNear(saved_.lights[0].position, {-0.5 + by, 1.5, 0.0});
@@ -369,7 +369,7 @@ TEST_F(Editing, SelectedNodesRotateAboutTheFirst) {
   ASSERT_EQ(edit().others.size(), 2u);
   send(SetGizmoMode{GizmoMode::turn});
   dragRing({width / 2.0, height / 2.0}, {-40.0, -10.0, 20.0, 53.0}, true);
-  EXPECT_EQ(edit().undo.find("rotate 3 "), 0u) << edit().undo;
+  EXPECT_TRUE(startsWith(edit().undo, "rotate 3 "));
   saved();
   // The drag turns by 90 degrees about the mirror's middle, (0, 1, -2).
   expectNear(saved_.mirrors[0].position, {0.0, 1.0, -2.0});
@@ -386,7 +386,7 @@ TEST_F(Editing, SelectedNodesAreCopiedAndDeletedTogether) {
   send(ToggleNode{ball});
   send(ToggleNode{ahead});
   send(DuplicateSelected{});
-  EXPECT_EQ(edit().undo.find("duplicate 3 "), 0u) << edit().undo;
+  EXPECT_TRUE(startsWith(edit().undo, "duplicate 3 "));
   EXPECT_EQ(edit().selected, (Selection{Selection::Kind::mirror, 2}));
   EXPECT_EQ(edit().others, (std::vector<Selection>{{Selection::Kind::object, 1}, {Selection::Kind::mirror, 3}}));
   EXPECT_EQ(saved().mirrors.size(), 4u);
@@ -395,7 +395,7 @@ TEST_F(Editing, SelectedNodesAreCopiedAndDeletedTogether) {
   send(RemoveSelected{});
   EXPECT_GT(host_.drops, drops) << "cached images are of other mirrors now";
   EXPECT_FALSE(edit().selected);
-  EXPECT_EQ(edit().undo.find("remove 3 "), 0u) << edit().undo;
+  EXPECT_TRUE(startsWith(edit().undo, "remove 3 "));
   EXPECT_EQ(saved().mirrors.size(), 2u);
   send(Undo{});
   send(Undo{});
@@ -410,7 +410,7 @@ TEST_F(Editing, ModelsAreAddedFromAnyFile) {
   ASSERT_EQ(edit().models.front().stem(), "sphere") << "the scene's first";
   const auto count = [&](const char* name) {
     const auto models = edit().models;
-    return std::count_if(models.begin(), models.end(), [&](const auto& model) { return model.stem() == name; });
+    return std::ranges::count_if(models, [&](const auto& model) { return model.stem() == name; });
   };
   EXPECT_EQ(count("sphere"), 1);
   send(AddObject{dataDirectory("scenes").parent_path() / "models" / "vase.obj"});

@@ -23,7 +23,7 @@ class Saving : public WorkspaceTest {
     workspace_->keepUnsavedWork();
     const std::string line = view().log.lines(LogLevel::warn).back().text;
     const std::string start = "unsaved changes are kept in ";
-    EXPECT_EQ(line.find(start), 0u) << line;
+    EXPECT_TRUE(startsWith(line, start));
     return line.substr(start.size());
   }
 };
@@ -174,7 +174,7 @@ TEST_F(Saving, ForeignChangesAreNotOverwrittenUnasked) {
 
 TEST_F(Saving, AnotherSceneWaitsForTheAnswer) {
   removeBall();
-  const OpenScene other{sourceFile("scenes/no_mirror.toml")};
+  const OpenScene other{sceneFile("no_mirror")};
   send(other);
   ASSERT_EQ(edit().prompt, Prompt::unsavedChanges);
   send(CancelPrompt{});
@@ -216,7 +216,7 @@ TEST_F(Saving, NewScenesAreListedWhileShown) {
   waitFor([&] { return shownScene() == "untitled"; });
   askWhatToOpen("");
   EXPECT_EQ(edit().proposedFile, dataDirectory("scenes") / "") << "not where the new scene comes from";
-  send(OpenScene{sourceFile("scenes/no_mirror.toml")});
+  send(OpenScene{sceneFile("no_mirror")});
   waitFor([&] { return shownScene() == "no_mirror"; });
   EXPECT_EQ(std::ranges::count(view().browser.scenes, "untitled", &SceneEntry::name), 0);
 }
@@ -224,7 +224,7 @@ TEST_F(Saving, NewScenesAreListedWhileShown) {
 // Changes made while a scene is loading bring up the prompt once it is loaded.
 TEST_F(Saving, ChangesDuringLoadingAreAskedAbout) {
   // No frame takes the scene before the change.
-  workspace_->apply(OpenScene{sourceFile("scenes/no_mirror.toml")});
+  workspace_->apply(OpenScene{sceneFile("no_mirror")});
   workspace_->apply(SelectNode{ball});
   workspace_->apply(RemoveSelected{});
   waitFor([&] { return edit().prompt == Prompt::unsavedChanges; });
@@ -290,7 +290,7 @@ class CopiedCommand : public Saving {
  protected:
   std::string command() {
     send(CopyCommandLine{});
-    EXPECT_EQ(status().find("Copied: " + host_.clipboard), 0u) << status();
+    EXPECT_TRUE(startsWith(status(), "Copied: " + host_.clipboard));
     return host_.clipboard;
   }
   // The scene that the command draws.
@@ -383,7 +383,7 @@ TEST_F(Saving, UnansweredOfferIsMadeAgain) {
   workspace_->keepUnsavedWork();
   start();
   const fs::path kept = edit().proposedFile;
-  send(OpenScene{sourceFile("scenes/no_mirror.toml")});
+  send(OpenScene{sceneFile("no_mirror")});
   waitFor([&] { return scene().file.filename() == "no_mirror.toml"; });
   send(Quit{});
   start();

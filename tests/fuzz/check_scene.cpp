@@ -58,7 +58,7 @@ void checkPlan(const FramePlan& plan, const Settings& settings, size_t mirrorCou
     for (const MirrorDraw& draw : pass.mirrors) {
       require(draw.mirror >= 0 && static_cast<size_t>(draw.mirror) < mirrorCount && unit(draw.plane.normal),
               "mirrors drawn are the scene's");
-      require(std::all_of(draw.polygon.begin(), draw.polygon.end(), [](const glm::dvec3& p) { return finite(p); }),
+      require(std::ranges::all_of(draw.polygon, [](const glm::dvec3& p) { return finite(p); }),
               "what is drawn of a mirror is finite");
     }
   }

@@ -21,7 +21,7 @@ std::vector<fs::path> inputs(const std::string& folder) {
   for (const auto& entry : fs::directory_iterator(sourceDir() / "tests/fuzz" / folder)) {
     files.push_back(entry.path());
   }
-  std::sort(files.begin(), files.end());
+  std::ranges::sort(files);
   return files;
 }
 

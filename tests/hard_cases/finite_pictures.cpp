@@ -44,7 +44,7 @@ std::filesystem::path writeLitScene() {
 }
 
 int notStorable(const LinearImage& image) {
-  return static_cast<int>(std::count_if(image.pixels.begin(), image.pixels.end(), [](const glm::vec3& p) {
+  return static_cast<int>(std::ranges::count_if(image.pixels, [](const glm::vec3& p) {
     return !(p.r >= 0.0f && p.g >= 0.0f && p.b >= 0.0f && p.r <= 65504.0f && p.g <= 65504.0f && p.b <= 65504.0f);
   }));
 }
@@ -54,8 +54,8 @@ TEST(LightOnASurface, EveryPixelIsFinite) {
     QuietSession session(headless(writeLitScene(), size, {{"view.samples", samples}, {"reflection.samples", samples}}));
     const LinearImage radiance = drawRadiance(session);
     EXPECT_EQ(notStorable(radiance), 0) << samples << " samples";
-    const auto brightest = std::max_element(radiance.pixels.begin(), radiance.pixels.end(),
-                                            [](const glm::vec3& a, const glm::vec3& b) { return a.b < b.b; });
+    const auto brightest =
+        std::ranges::max_element(radiance.pixels, [](const glm::vec3& a, const glm::vec3& b) { return a.b < b.b; });
     EXPECT_EQ(brightest->b, 65504.0f) << "the glyph should be as bright as can be stored";
   }
 }
@@ -218,7 +218,7 @@ bool runUntil(Demo& demo, const Condition& condition) {
 
 Options windowOptions() {
   Options options;
-  options.scene = sourceFile("scenes/single_plane.toml").string();
+  options.scene = sceneFile("single_plane").string();
   options.size = {64, 48};
   options.validation = true;
   options.presentMode = PresentMode::immediate;

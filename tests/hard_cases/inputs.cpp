@@ -1,6 +1,6 @@
 // Hard cases of input: unusable shapes are rejected by name, or dropped with a warning.
 #include "geometry/affine.hpp"
-#include "scene_support.hpp"
+#include "obj_support.hpp"
 #include "scene_text.hpp"
 #include "test_headers.hpp"
 
@@ -57,7 +57,7 @@ TEST(RejectedShapes, NonPlanarMirrorsAreNamed) {
   }
 }
 
-class SliverTriangles : public testing::Test {
+class SliverTriangles : public ObjTest {
  protected:
   // Returns a triangle of quality q = 2 area / longest edge^2 and a size of 1 m, in a plane that is parallel to no
   // axis.
@@ -74,26 +74,21 @@ class SliverTriangles : public testing::Test {
     const glm::dvec3 exact = rotationFromDegrees({20, 30, 40})[2];
     return std::isfinite(n.x) ? glm::degrees(std::atan2(glm::length(glm::cross(n, exact)), glm::dot(n, exact))) : 180.0;
   }
-  Mesh load(const std::string& obj) { return loadObj(folder_.write("m.obj", obj), textures_); }
-
-  TemporaryFolder folder_;
-  std::vector<Texture> textures_;
-  LogCapture log_;
 };
 
 TEST_F(SliverTriangles, AreReportedBelow1e5) {
   EXPECT_EQ(load(sliver(1.1e-5)).indices.size(), 3u);
-  EXPECT_EQ(log_.text(), "");
+  EXPECT_EQ(warnings(), "");
   const Mesh mesh = load(sliver(0.9e-5));
   ASSERT_EQ(mesh.indices.size(), 3u);
-  EXPECT_TRUE(contains(log_.text(), "1 triangles are slivers"));
+  EXPECT_TRUE(contains(warnings(), "1 triangles are slivers"));
   EXPECT_LT(degreesOff(mesh.vertices[0].normal), 0.01);
 }
 
 TEST_F(SliverTriangles, AreDroppedBelow1e10) {
   EXPECT_EQ(load(sliver(1.1e-10)).indices.size(), 3u);
   EXPECT_EQ(load(sliver(0.9e-10) + "v 5 5 5\nv 6 5 5\nv 5 6 5\nf 4 5 6\n").indices.size(), 3u);
-  EXPECT_TRUE(contains(log_.text(), "dropped 1 degenerate triangles"));
+  EXPECT_TRUE(contains(warnings(), "dropped 1 degenerate triangles"));
 }
 
 }  // namespace

@@ -40,7 +40,7 @@ class Drawn : public Studio {
   std::filesystem::path file_;
 };
 
-Settings settingsWith(const std::vector<std::pair<std::string, std::string>>& changes) {
+Settings settingsWith(const SettingList& changes) {
   Settings settings;
   settings.debug.checkFinite = true;
   for (const auto& [key, value] : changes) {

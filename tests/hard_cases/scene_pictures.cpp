@@ -120,7 +120,7 @@ TEST(FacingMirrorsAtDepth32, MatchesTheTracer) {
   for (const char* scene : {"scenes/facing_mirrors.toml", "scenes/hard/depth_32.toml"}) {
     const std::filesystem::path file = sourceFile(scene);
     const Truth truth = trace(file, size, 32);
-    EXPECT_GE(*std::max_element(truth.traced.mirrorDepth.begin(), truth.traced.mirrorDepth.end()), 25);
+    EXPECT_GE(*std::ranges::max_element(truth.traced.mirrorDepth), 25);
     expectTruth(file, size, 32, truth);
   }
 }

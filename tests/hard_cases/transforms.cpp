@@ -48,7 +48,7 @@ Errors summary(std::vector<double> errors) {
   if (errors.empty()) {
     return {};
   }
-  std::sort(errors.begin(), errors.end());
+  std::ranges::sort(errors);
   return {errors.back(), errors[errors.size() / 2], static_cast<int>(errors.size())};
 }
 

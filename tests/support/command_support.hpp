@@ -9,12 +9,14 @@
 // The program called as scripts call it.
 namespace speculum::testing_support {
 
+inline const std::string program = binaryDir().string() + "/speculum";
+
 // Runs the program; commands that draw do so with debug.check_finite.
 inline ProcessResult speculum(std::vector<std::string> arguments) {
   if (arguments.front() == "render" || arguments.front() == "bench") {
     arguments.insert(arguments.begin() + 1, {"--set", "debug.check_finite=true"});
   }
-  arguments.insert(arguments.begin(), binaryDir().string() + "/speculum");
+  arguments.insert(arguments.begin(), program);
   return runProcess(arguments);
 }
 

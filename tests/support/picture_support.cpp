@@ -33,6 +33,10 @@ std::filesystem::path sourceFile(const std::string& relative) {
   return sourceDir() / relative;
 }
 
+std::filesystem::path sceneFile(const std::string& name) {
+  return sourceFile("scenes/" + name + ".toml");
+}
+
 std::vector<std::string> sceneNames(const std::string& prefix) {
   std::vector<std::string> names;
   for (const auto& entry : std::filesystem::directory_iterator(sourceFile("scenes/" + prefix))) {
@@ -44,8 +48,7 @@ std::vector<std::string> sceneNames(const std::string& prefix) {
   return names;
 }
 
-Options headless(const std::filesystem::path& scene, PictureSize size,
-                 const std::vector<std::pair<std::string, std::string>>& settings) {
+Options headless(const std::filesystem::path& scene, PictureSize size, const SettingList& settings) {
   keepDriverLoaded();
   Options options;
   options.scene = scene.string();
@@ -60,11 +63,11 @@ Options headless(const std::filesystem::path& scene, PictureSize size,
   return options;
 }
 
-void set(Options& options, const std::vector<std::pair<std::string, std::string>>& settings) {
+void set(Options& options, const SettingList& settings) {
   options.settings.insert(options.settings.end(), settings.begin(), settings.end());
 }
 
-void set(Session& session, const std::vector<std::pair<std::string, std::string>>& settings) {
+void set(Session& session, const SettingList& settings) {
   Settings changed = session.settings();
   for (const auto& [key, value] : settings) {
     EXPECT_EQ(setSetting(changed, key, value), std::nullopt);
@@ -139,7 +142,7 @@ std::filesystem::path sceneDirectory() {
   std::filesystem::path directory = binaryDir() / "tests" / "written";
   if (const testing::TestInfo* test = testing::UnitTest::GetInstance()->current_test_info()) {
     std::string name = std::string(test->test_suite_name()) + "." + test->name();
-    std::replace(name.begin(), name.end(), '/', '_');
+    std::ranges::replace(name, '/', '_');
     directory /= name;
     if (std::exchange(made, directory) != directory) {
       std::filesystem::remove_all(directory);
@@ -161,7 +164,7 @@ void writeShaders(const std::filesystem::path& directory, const std::string& sha
     sources[entry.path().filename()] = readText(entry.path());
   }
   const std::function<bool(const std::string&)> uses = [&](const std::string& name) {
-    return name == shader || std::any_of(sources.begin(), sources.end(), [&](const auto& other) {
+    return name == shader || std::ranges::any_of(sources, [&](const auto& other) {
              return sources[name].find("#include \"" + other.first + "\"") != std::string::npos && uses(other.first);
            });
   };

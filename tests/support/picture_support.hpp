@@ -12,6 +12,9 @@
 
 namespace speculum::testing_support {
 
+// Keys and values, as --set takes them.
+using SettingList = std::vector<std::pair<std::string, std::string>>;
+
 // Expects 99.9 % of the pixels within the tolerance and no 3x3 block wholly over, else writes the evidence.
 void expectAlike(const Image8& actual, const Image8& expected, int tolerance, const std::string& name,
                  const std::vector<bool>& counts = {});
@@ -20,14 +23,13 @@ void expectAlike(const Image8& actual, const Image8& expected, int tolerance, co
 void writeEvidence(const Image8& actual, const Image8& expected, const std::string& name);
 
 // Options for a headless picture with validation and debug.check_finite on, and further settings.
-Options headless(const std::filesystem::path& scene, PictureSize size = {640, 360},
-                 const std::vector<std::pair<std::string, std::string>>& settings = {});
+Options headless(const std::filesystem::path& scene, PictureSize size = {640, 360}, const SettingList& settings = {});
 
 // Adds to the settings.
-void set(Options& options, const std::vector<std::pair<std::string, std::string>>& settings);
+void set(Options& options, const SettingList& settings);
 
 // Changes settings of the session.
-void set(Session& session, const std::vector<std::pair<std::string, std::string>>& settings);
+void set(Session& session, const SettingList& settings);
 
 // Draws frames at a time and waits for each, without reading them back.
 void runFrames(Session& session, int frames = 1, double time = 0.0);
@@ -68,6 +70,9 @@ std::filesystem::path writeScene(const std::string& name, const std::string& tom
 void writeShaders(const std::filesystem::path& directory, const std::string& shader, const std::string& code);
 
 std::filesystem::path sourceFile(const std::string& relative);
+
+// Returns the file of a scene that ships, such as "gallery" or "hard/corner".
+std::filesystem::path sceneFile(const std::string& name);
 
 // Returns the names of the scenes that ship, "gallery", or with a prefix those of a folder, "hard/" gives
 // "hard/corner".

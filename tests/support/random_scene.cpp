@@ -211,7 +211,7 @@ Sight prism(Builder& b) {
         lid.push_back(corner + side * up);
       }
       if (side < 0.0) {
-        std::reverse(lid.begin(), lid.end());
+        std::ranges::reverse(lid);
       }
       b.mirror(lid);
     }

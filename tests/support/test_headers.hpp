@@ -35,4 +35,18 @@ inline ::testing::AssertionResult contains(std::string_view text, std::string_vi
   return (found ? ::testing::AssertionSuccess() : ::testing::AssertionFailure()) << "in: " << text.substr(0, 4000);
 }
 
+inline ::testing::AssertionResult startsWith(std::string_view text, std::string_view start) {
+  return (text.starts_with(start) ? ::testing::AssertionSuccess() : ::testing::AssertionFailure())
+         << "in: " << text.substr(0, 4000);
+}
+
+// Says how often the text has the part.
+inline int occurrences(std::string_view text, std::string_view part) {
+  int found = 0;
+  for (size_t at = text.find(part); at != std::string_view::npos; at = text.find(part, at + 1)) {
+    ++found;
+  }
+  return found;
+}
+
 }  // namespace speculum

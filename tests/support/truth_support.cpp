@@ -70,7 +70,7 @@ Truth trace(const std::filesystem::path& file, PictureSize size, int maxDepth, d
   return truth;
 }
 
-std::vector<std::pair<std::string, std::string>> truthSettings(int maxDepth) {
+SettingList truthSettings(int maxDepth) {
   return {{"view.samples", "1"},
           {"reflection.samples", "1"},
           {"reflection.max_depth", std::to_string(maxDepth)},
@@ -111,7 +111,7 @@ std::vector<bool> notBackground(const TraceResult& traced) {
 }
 
 double share(const std::vector<uint8_t>& values, int atLeast) {
-  const auto count = std::count_if(values.begin(), values.end(), [&](uint8_t v) { return v >= atLeast; });
+  const auto count = std::ranges::count_if(values, [&](uint8_t v) { return v >= atLeast; });
   return static_cast<double>(count) / static_cast<double>(values.size());
 }
 

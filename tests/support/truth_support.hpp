@@ -34,7 +34,7 @@ struct Truth {
 Truth trace(const std::filesystem::path& file, PictureSize size, int maxDepth, double time = 0.0);
 
 // Settings under which the renderer draws what trace() traces: one sample, no bound on passes.
-std::vector<std::pair<std::string, std::string>> truthSettings(int maxDepth);
+SettingList truthSettings(int maxDepth);
 Options truthOptions(const std::filesystem::path& file, PictureSize size, int maxDepth);
 
 // Expects every pixel that is not background within 2/255, except one in a thousand, but no 3x3 block of exceptions. If

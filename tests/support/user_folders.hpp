@@ -37,7 +37,7 @@ class UserFolders {
     for (const auto& entry : std::filesystem::directory_iterator(picturesDir() / "Speculum", none)) {
       files.push_back(entry.path());
     }
-    std::sort(files.begin(), files.end());
+    std::ranges::sort(files);
     return files;
   }
 
