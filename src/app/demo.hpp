@@ -84,7 +84,6 @@ class Demo : private WorkspaceHost {
   std::optional<Pace::Target> missingTarget() const;
   const FittedPlan& planFrame(Frame& frame, const SceneState& state);
   bool timesPasses(bool movementEnded);
-  Settings settingsOfFrame() const;
   std::string currentMessage();
 
   Options options_;

@@ -16,7 +16,7 @@ DifferenceView::View DifferenceView::viewOf(const ShownPicture& shown) {
   return {.file = shown.scene.file,
           .width = shown.width,
           .height = shown.height,
-          .time = contentMoves(shown.scene) ? std::optional(shown.state.time) : std::nullopt,
+          .time = contentTime(shown.scene, shown.state.time),
           .camera = shown.state.camera,
           .clearColor = shown.settings.view.clearColor};
 }

@@ -42,9 +42,8 @@ std::filesystem::path storeFolder(Session& session, const SweepRequest& request)
   namespace fs = std::filesystem;
   constexpr size_t mostViews = 20;
   Fingerprint view;
-  const double time = contentMoves(session.scene()) ? request.time : 0.0;  // the camera is given
   Options options = request.options;
-  options.time = time;
+  options.time = contentTime(session.scene(), request.time).value_or(0.0);  // the camera is given
   view.add(sweepIdentity(session, options));
   view.add(std::as_bytes(std::span(&request.camera.eye, 1)));
   view.add(std::as_bytes(std::span(&request.camera.worldToView, 1)));
