@@ -1014,6 +1014,10 @@ TEST_F(AccuracyWindow, BoundsNeedMeasuredPoints) {
   run(2);
   EXPECT_FALSE(shows("Measure this view first."));
   EXPECT_TRUE(shows("Being measured"));
+  accuracy_.measuring = false;
+  settings_.quality.maxError = 0.9;
+  run(2);
+  EXPECT_TRUE(shows("Measure this view first.")) << "a scene may set a bound";
 }
 
 TEST_F(AccuracyWindow, NameOfThePointIsShownInFull) {
