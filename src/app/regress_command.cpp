@@ -62,17 +62,6 @@ int runWorker(const Options& options, const std::vector<RegressCase>& cases) {
 // Words of a shell command. The page puts quotes around those that need them.
 using Words = std::vector<std::string>;
 
-// Returns the options of this run that change pictures.
-Words drawOptions(const Options& options) {
-  Words words;
-  addSettings(options.settings, words);
-  addDevice(options, words);
-  if (options.validation) {
-    words.push_back("--validation");
-  }
-  return words;
-}
-
 void addCommands(const RegressCase& subject, const Options& options, Outcome& outcome) {
   Words& draw = outcome.drawCommand;
   draw = {"speculum", "render",
@@ -85,7 +74,12 @@ void addCommands(const RegressCase& subject, const Options& options, Outcome& ou
     draw.insert(draw.end(), {"--camera", *subject.camera});
   }
   addSettings(subject.settings, draw);
-  const Words given = drawOptions(options);
+  Words given;  // options of this run that change pictures
+  addSettings(options.settings, given);
+  addDevice(options, given);
+  if (options.validation) {
+    given.push_back("--validation");
+  }
   draw.insert(draw.end(), given.begin(), given.end());
   draw.insert(draw.end(), {"--out", subject.name + ".png"});
   if (outcome.replaceable) {

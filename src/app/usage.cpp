@@ -9,31 +9,6 @@ namespace speculum {
 
 namespace {
 
-const std::map<std::string, std::vector<std::string>>& examples() {
-  static const std::map<std::string, std::vector<std::string>> all = {
-      {"demo",
-       {"--scene mirror_maze", "--scene gallery --set reflection.max_depth=8 --size 1920x1080",
-        "--scene yours.toml --shader-dir shaders"}},
-      {"render",
-       {"--scene gallery --size 1920x1080 --time 3 --out gallery.png --stats gallery.json",
-        "--scene outdoors --frames 120 --fps 30 --out 'frames/%04d.png'",
-        "--scene gallery --camera 0,1.5,3:0,1,0 --set view.samples=8 --out radiance.exr"}},
-      {"reference", {"--scene gallery --size 640x360 --samples 64 --out truth.png"}},
-      {"compare",
-       {"truth.png gallery.png", "truth.png gallery.png --heatmap error.png --json error.json --max-flip 0.05"}},
-      {"accuracy", {"--scene gallery --out report", "--scene gallery --size 320x180 --sweep full --out report"}},
-      {"regress",
-       {"cases.toml --out report", "cases.toml --filter 'gallery*' --jobs 2 --junit report/junit.xml",
-        "cases.toml --update gallery", "cases.toml --repeat 10"}},
-      {"bench",
-       {"--scene many_mirrors --set reflection.max_depth=2 --frames 200 --json bench.json", "--scene gallery --prices",
-        "--scene gallery --against-set view.samples=1", "--reference"}},
-      {"info", {""}},
-      {"scenes", {""}},
-  };
-  return all;
-}
-
 bool isOption(const std::string& argument) {
   return argument.size() > 1 && argument.front() == '-';
 }
@@ -64,8 +39,29 @@ std::string advice(const std::string& argument, const std::vector<std::string>& 
 }  // namespace
 
 std::string examplesText(const std::string& command) {
+  static const std::map<std::string, std::vector<std::string>> examples = {
+      {"demo",
+       {"--scene mirror_maze", "--scene gallery --set reflection.max_depth=8 --size 1920x1080",
+        "--scene yours.toml --shader-dir shaders"}},
+      {"render",
+       {"--scene gallery --size 1920x1080 --time 3 --out gallery.png --stats gallery.json",
+        "--scene outdoors --frames 120 --fps 30 --out 'frames/%04d.png'",
+        "--scene gallery --camera 0,1.5,3:0,1,0 --set view.samples=8 --out radiance.exr"}},
+      {"reference", {"--scene gallery --size 640x360 --samples 64 --out truth.png"}},
+      {"compare",
+       {"truth.png gallery.png", "truth.png gallery.png --heatmap error.png --json error.json --max-flip 0.05"}},
+      {"accuracy", {"--scene gallery --out report", "--scene gallery --size 320x180 --sweep full --out report"}},
+      {"regress",
+       {"cases.toml --out report", "cases.toml --filter 'gallery*' --jobs 2 --junit report/junit.xml",
+        "cases.toml --update gallery", "cases.toml --repeat 10"}},
+      {"bench",
+       {"--scene many_mirrors --set reflection.max_depth=2 --frames 200 --json bench.json", "--scene gallery --prices",
+        "--scene gallery --against-set view.samples=1", "--reference"}},
+      {"info", {""}},
+      {"scenes", {""}},
+  };
   std::string text = "Examples:\n";
-  for (const std::string& arguments : examples().at(command)) {
+  for (const std::string& arguments : examples.at(command)) {
     text += "  speculum " + command + (arguments.empty() ? "" : " ") + arguments + "\n";
   }
   return text;
