@@ -86,7 +86,6 @@ bool menu(PanelContext& ui, const char* label, bool enabled = true);
 
 // Sections of the main panel and contents of the windows beside it, each within the current ImGui window.
 void scene(PanelContext& ui);
-void time(PanelContext& ui);
 void settings(PanelContext& ui);
 void passes(PanelContext& ui);
 void effects(PanelContext& ui);
@@ -158,10 +157,13 @@ void dimmedText(const std::string& text);
 inline constexpr glm::vec3 errorColor{0.92f, 0.38f, 0.28f};  // display sRGB
 inline constexpr glm::vec3 warningColor{0.85f, 0.60f, 0.10f};
 void coloredText(const glm::vec3& color, const std::string& text);
-// Draws a button, records it and shows its tooltip. The second sends the command when it is pressed.
+// Draws a button, records it and shows its tooltip. The second sends the command when it is pressed; the third also
+// continues the row.
 bool button(PanelContext& ui, const char* label, std::string_view key, const std::string& tip, bool enabled = true);
 void commandButton(PanelContext& ui, const char* label, std::string_view key, const std::string& tip, Command command,
                    bool enabled = true);
+void nextButton(PanelContext& ui, const char* label, std::string_view key, const std::string& tip, Command command,
+                bool enabled = true);
 
 }  // namespace panels
 }  // namespace speculum
