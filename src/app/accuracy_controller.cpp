@@ -109,7 +109,7 @@ void AccuracyController::setResults(SweepResults results, bool rough) {
 }
 
 void AccuracyController::measure(SweepRequest request) {
-  requested_ = {request.camera, request.time};
+  requested_ = {request.camera, request.options.time};
   sweep_.start({{"starting", 0.0}, nullptr}, [request = std::move(request)](const auto& report) {
     std::shared_ptr<const SweepResults> rough;
     const auto progress = [&](const SweepStatus& status) { return report({status, rough}); };
