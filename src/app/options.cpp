@@ -16,14 +16,6 @@ namespace speculum {
 
 namespace {
 
-PictureSize parseSize(const std::string& text) {
-  const std::optional<PictureSize> size = pictureSize(text);
-  if (!size) {
-    throw UsageError("--size: '" + text + "' is not a size (" + std::string(pictureSizes) + ")");
-  }
-  return *size;
-}
-
 // Arguments as text. They are checked after parsing, where messages can say what would be right.
 struct Raw {
   std::string size;
@@ -169,7 +161,11 @@ std::vector<std::pair<std::string, std::string>> parseSettings(const std::string
 
 void applyRaw(const Raw& raw, Options& options) {
   if (!raw.size.empty()) {
-    options.size = parseSize(raw.size);
+    const std::optional<PictureSize> size = pictureSize(raw.size);
+    if (!size) {
+      throw UsageError("--size: '" + raw.size + "' is not a size (" + std::string(pictureSizes) + ")");
+    }
+    options.size = *size;
   } else if (options.command == "accuracy") {
     options.size = {640, 360};
   }

@@ -71,7 +71,7 @@ void GlfwInput::newFrame() {
   for (const InputEvent& event : queue_.take()) {
     give(event);
   }
-  // What the backend read of these is as old as the last frame.
+  // The backend read these when the last frame ended.
   ImGuiIO& io = ImGui::GetIO();
   const auto now = std::chrono::steady_clock::now();
   io.DeltaTime = std::max(std::chrono::duration<float>(now - std::exchange(last_, now)).count(), 1e-6f);
