@@ -7,7 +7,6 @@
 #include "app/progress.hpp"
 #include "app/session_subject.hpp"
 #include "app/stats.hpp"
-#include "app/sweep_description.hpp"
 #include "platform/process.hpp"
 
 namespace speculum {

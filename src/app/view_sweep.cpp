@@ -8,7 +8,6 @@
 #include "accuracy/pareto.hpp"
 #include "app/background_job.hpp"
 #include "app/session_subject.hpp"
-#include "app/sweep_description.hpp"
 #include "platform/files.hpp"
 #include "platform/folders.hpp"
 
