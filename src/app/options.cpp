@@ -318,10 +318,8 @@ void setCamera(Options& options, const std::string& text) {
   }
 }
 
-std::optional<Options> parseOptions(int givenCount, const char* const* givenArguments) {
-  const std::vector<const char*> all = withSceneOption(givenCount, givenArguments);
-  const auto argc = static_cast<int>(all.size());
-  const char* const* argv = all.data();
+std::optional<Options> parseOptions(int argc, const char* const* argv) {
+  const std::vector<const char*> arguments = withSceneOption(argc, argv);
   Options options;
   Raw raw;
   CLI::App app("Speculum: planar mirrors in Vulkan that can be trusted", "speculum");
@@ -347,7 +345,7 @@ std::optional<Options> parseOptions(int givenCount, const char* const* givenArgu
   app.footer("`speculum FILE` opens a scene or model in the window.\n\n" + settingsText() + "\n" +
              examplesText("demo") + examplesText("render").substr(std::string("Examples:\n").size()));
   try {
-    app.parse(argc, argv);
+    app.parse(static_cast<int>(arguments.size()), arguments.data());
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) {
       app.exit(error);
@@ -364,7 +362,7 @@ std::optional<Options> parseOptions(int givenCount, const char* const* givenArgu
   if (options.command == "regress" && options.out.empty()) {
     options.out = "regress-report";
   }
-  options.arguments.assign(argv + 1, argv + argc);
+  options.arguments.assign(arguments.begin() + 1, arguments.end());
   return options;
 }
 

@@ -117,17 +117,7 @@ void requireWriter(const std::vector<RegressCase>& cases, const RegressCase& sub
   }
 }
 
-// Replaces the expected picture with the one just drawn.
-void accept(const CaseFiles& files, Outcome& outcome) {
-  const std::filesystem::path picture = outcome.picture;
-  std::error_code ignored;
-  std::filesystem::create_directories(picture.parent_path(), ignored);
-  replaceFile(picture, readFile(files.actual));
-  outcome.verdict = Verdict::updated;
-  outcome.message = "wrote " + picture.string();
-}
-
-// Replaces the expected pictures of failed cases whose names match.
+// Replaces the expected pictures of failed cases whose names match with those just drawn.
 void acceptAll(const Options& options, RegressRun& run) {
   for (size_t i = 0; i < run.cases.size(); ++i) {
     Outcome& outcome = run.outcomes[i];
@@ -136,7 +126,12 @@ void acceptAll(const Options& options, RegressRun& run) {
       continue;
     }
     try {
-      accept(CaseFiles(options.out, name), outcome);
+      const std::filesystem::path picture = outcome.picture;
+      std::error_code ignored;
+      std::filesystem::create_directories(picture.parent_path(), ignored);
+      replaceFile(picture, readFile(CaseFiles(options.out, name).actual));
+      outcome.verdict = Verdict::updated;
+      outcome.message = "wrote " + picture.string();
     } catch (const std::exception& error) {
       outcome.verdict = Verdict::error;
       outcome.message = error.what();

@@ -1,8 +1,6 @@
 #include <imgui.h>
-#include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
-#include <cfloat>
 #include <cmath>
 
 #include "ui/panels.hpp"
