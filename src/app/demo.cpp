@@ -438,6 +438,7 @@ void endWithoutDisplay() {
 }  // namespace
 
 int runDemo(const Options& options) {
+  chooseWindowPlatform(options.platform);
   installInterruptHandler();
   letBrokenPipesFail();
   Demo demo(options);

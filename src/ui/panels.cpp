@@ -16,6 +16,8 @@ namespace speculum::panels {
 
 namespace {
 
+constexpr ImGuiWindowFlags fixedWindow = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                                         ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing;
 constexpr double leastSpan = 20.0;  // seconds that the slider reaches
 
 void bookmarks(PanelContext& ui) {
@@ -280,9 +282,7 @@ void loading(PanelContext& ui) {
   ImGui::SetNextWindowPos(ImVec2(0.5f * io.DisplaySize.x, io.DisplaySize.y - unit), ImGuiCond_Always,
                           ImVec2(0.5f, 1.0f));
   ImGui::SetNextWindowSize(ImVec2(26.0f * unit, 0.0f));
-  if (ImGui::Begin("Loading", nullptr,
-                   ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
-                       ImGuiWindowFlags_NoFocusOnAppearing)) {
+  if (ImGui::Begin("Loading", nullptr, fixedWindow)) {
     ImGui::Text("Loading %s", browser.loading.c_str());
     ImGui::ProgressBar(static_cast<float>(browser.loaded), ImVec2(-5.0f * unit, 0.0f));
     ImGui::SameLine();
@@ -305,9 +305,7 @@ void message(PanelContext& ui, const WindowRect& picture) {
                           {0.5f, 0.0f});
   ImGui::SetNextWindowSize({std::clamp(picture.size.x - 2.0f * em, 20.0f * em, 40.0f * em), 0.0f});
   ImGui::SetNextWindowBgAlpha(1.0f);
-  constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
-                                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing;
-  if (ImGui::Begin("Message", nullptr, flags)) {
+  if (ImGui::Begin("Message", nullptr, fixedWindow)) {
     coloredText(errorColor, ui.view.message);
     if (button(ui, "Dismiss", "message.dismiss", "Esc")) {
       dismissed = ui.view.message;
