@@ -280,7 +280,7 @@ std::string unknownArgument(const CLI::App& app) {
   const std::string meant = advice(name, optionNames(used));
   return "'" + name + "' is not " + (option == left.end() ? "expected" : "an option") + " of " +
          (commanded ? used.get_name() : "speculum") + " (" +
-         (meant.rfind("did you mean", 0) == 0 ? meant : "see " + help) + ")";
+         (meant.starts_with("did you mean") ? meant : "see " + help) + ")";
 }
 
 std::string withoutLineBreaks(std::string text) {
