@@ -213,7 +213,7 @@ TEST_F(PanelTest, MessageIsDismissedAndMovesNothing) {
 }
 
 TEST_F(PanelTest, MessagesAreNoLargerThanTheirText) {
-  windows_->setVisible(false);
+  windows_->toggleVisible();
   status_.text = "Nothing to undo";
   run(2);
   float right = 0.0f;
@@ -663,7 +663,7 @@ TEST_F(PanelTest, EscapeClosesTheKeysOnly) {
   EXPECT_FALSE(windows_->state().help);
   EXPECT_FALSE(windows_->closeHelp());
   EXPECT_TRUE(windows_->state().inspector);
-  windows_->setVisible(false);
+  windows_->toggleVisible();
   windows_->toggleInspector();
   windows_->toggleInspector();
   EXPECT_TRUE(windows_->visible());
