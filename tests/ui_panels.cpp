@@ -209,7 +209,7 @@ TEST_F(PanelTest, MessageIsDismissedAndMovesNothing) {
 }
 
 TEST_F(PanelTest, MessagesAreNoLargerThanTheirText) {
-  windows_->setVisible(false);
+  windows_->toggleVisible();
   status_.text = "Nothing to undo";
   run(2);
   float right = 0.0f;
@@ -634,7 +634,7 @@ TEST_F(PanelTest, EscapeClosesTheKeysOnly) {
   EXPECT_FALSE(windows_->state().help);
   EXPECT_FALSE(windows_->closeHelp());
   EXPECT_TRUE(windows_->state().inspector);
-  windows_->setVisible(false);
+  windows_->toggleVisible();
   windows_->toggleInspector();
   windows_->toggleInspector();
   EXPECT_TRUE(windows_->visible());
@@ -979,6 +979,10 @@ TEST_F(AccuracyWindow, BoundsNeedMeasuredPoints) {
   run(2);
   EXPECT_FALSE(shows("Measure this view first."));
   EXPECT_TRUE(shows("Being measured"));
+  accuracy_.measuring = false;
+  settings_.quality.maxError = 0.9;
+  run(2);
+  EXPECT_TRUE(shows("Measure this view first.")) << "a scene may set a bound";
 }
 
 TEST_F(AccuracyWindow, NameOfPointIsShownInFull) {

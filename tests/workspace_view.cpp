@@ -68,13 +68,13 @@ TEST_F(Measuring, PickedRoughPointsStay) {
   };
   settings.quality.maxError = 0.9;
   accuracy.beforeFrame(settings);
-  EXPECT_TRUE(startsWith(accuracy.view().choice, "Measure this view first"));
+  EXPECT_EQ(accuracy.view().choice, "") << "there are no points";
   settings.quality = {};
   accuracy.beforeFrame(settings);
   accuracy.measure(request_);
   settings.quality.maxError = 0.9;
   accuracy.beforeFrame(settings);
-  EXPECT_TRUE(startsWith(accuracy.view().choice, "Chooses once"));
+  EXPECT_EQ(accuracy.view().choice, "") << "the first points are not measured";
   ASSERT_TRUE(waitFor([&] { return !accuracy.view().points.empty(); }));
   ASSERT_TRUE(accuracy.working()) << "better figures follow";
   EXPECT_EQ(accuracy.view().current, accuracy.view().front.front()) << "the bound chose";
@@ -273,9 +273,9 @@ TEST_F(WindowView, CapturesThatFailSaySo) {
   std::ofstream(picturesDir()) << "a file in the folder's place";
   send(TakeScreenshot{true});
   drawFrame();
-  EXPECT_TRUE(startsWith(status(), "Not saved: "));
+  EXPECT_EQ(status().rfind("Not saved: ", 0), 0u) << status();
   send(ToggleRecording{true});
-  EXPECT_TRUE(startsWith(status(), "Not recorded: "));
+  EXPECT_EQ(status().rfind("Not recorded: ", 0), 0u) << status();
   EXPECT_FALSE(workspace_->capture().wanted());
 }
 
@@ -339,7 +339,7 @@ TEST_F(BudgetView, PointsChosenByHandAreSaid) {
   EXPECT_EQ(choice(), "");
 }
 
-TEST_F(BudgetView, ChangedScenesSayTheResultIsGone) {
+TEST_F(BudgetView, ChangedScenesSayThatTheResultIsGone) {
   send(AddLight{});
   EXPECT_TRUE(view().accuracy.points.empty());
   EXPECT_EQ(view().accuracy.about, "The scene has changed since it was measured.");
@@ -434,7 +434,7 @@ TEST_F(Opening, OpenedScenesFolderIsListedFirst) {
   EXPECT_EQ(browser.scenes[1].file, home_.path() / "b_scene.toml");
   EXPECT_EQ(browser.shown, 1u);
   const auto count = [&](const std::string& name) {
-    return std::ranges::count_if(browser.scenes, [&](const auto& s) { return s.name == name; });
+    return std::count_if(browser.scenes.begin(), browser.scenes.end(), [&](const auto& s) { return s.name == name; });
   };
   EXPECT_EQ(count("notes"), 0) << "no scene";
   EXPECT_EQ(count("gallery"), 1);
@@ -445,7 +445,7 @@ TEST_F(Opening, FailureShowsALineAndKeepsScene) {
   const fs::path broken = home_.path() / "broken.toml";
   std::ofstream(broken) << "[camera]\nposition = [0, 0, 4]\ntarget = [0, 0, 4]\n";
   drop({broken});
-  EXPECT_TRUE(startsWith(workspace_->problem(), broken.string() + ":3: camera.target:"));
+  EXPECT_EQ(workspace_->problem().rfind(broken.string() + ":3: camera.target:", 0), 0u) << workspace_->problem();
   send(Escape{});
   EXPECT_EQ(workspace_->problem(), "") << "dismissed";
   drop({"/tmp/notes.txt"});
@@ -490,7 +490,7 @@ TEST_F(Opening, DesktopsDialogNamesTheFile) {
 // An idle window must wake up for a scene that finished loading between two polls.
 TEST_F(Opening, LoadedSceneIsWorkUntilTaken) {
   const auto load = [&] {
-    workspace_->apply(OpenScene{sceneFile("no_mirror")});
+    workspace_->apply(OpenScene{sourceFile("scenes/no_mirror.toml")});
     while (!workspace_->browser().loaded()) {
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }

@@ -7,7 +7,6 @@
 #include "app/progress.hpp"
 #include "app/session_subject.hpp"
 #include "app/stats.hpp"
-#include "app/sweep_description.hpp"
 #include "platform/process.hpp"
 
 namespace speculum {
@@ -60,8 +59,7 @@ int runAccuracy(const Options& options) {
       progress.reset();  // ends its line before the next one begins
       progress.emplace("accuracy, " + stage, 1.0);
     }
-    progress->set(status.fraction);
-    return !interruptRequested();
+    return progress->set(status.fraction);
   };
   if (!runSweep(plan, context.base, scene, subject, store, results, show)) {
     std::fprintf(stderr, "interrupted; the same command goes on from here\n");

@@ -109,8 +109,7 @@ void AccuracyController::setResults(SweepResults results, bool rough) {
 }
 
 void AccuracyController::measure(SweepRequest request) {
-  requested_ = {request.camera, request.time};
-  view_.choice = results_.points.empty() ? "" : view_.choice;
+  requested_ = {request.camera, request.options.time};
   sweep_.start({{"starting", 0.0}, nullptr}, [request = std::move(request)](const auto& report) {
     std::shared_ptr<const SweepResults> rough;
     const auto progress = [&](const SweepStatus& status) { return report({status, rough}); };
@@ -131,14 +130,6 @@ void AccuracyController::cancel() {
     view_.about = roughText(results_) + " The measurement was cancelled.";
   }
   sweep_.cancel();
-  forgetBudget();
-}
-
-// A budget that is set without points asks again for the measurement that it needs.
-void AccuracyController::forgetBudget() {
-  if (results_.points.empty()) {
-    budget_ = {};
-  }
 }
 
 // Shows a rough measurement at first, and the whole one when it is complete.
@@ -174,15 +165,12 @@ void AccuracyController::followBudget(Settings& settings) {
   }
   acceptBudget(settings);
   setByHand_ = false;
+  view_.choice.clear();
   if (const std::optional<BudgetChoice> choice = chooseForBudget(results_, budget_)) {
     applyPoint(choice->point, settings);
     view_.choice = choice->why;
     view_.choice += isRough_ ? " (rough figures)" : "";
     chosen_ = choice->point;
-  } else {
-    view_.choice = !budget_.bounds()  ? ""
-                   : sweep_.running() ? "Chooses once the first points are measured."
-                                      : "Measure this view first.";
   }
 }
 
@@ -218,7 +206,6 @@ void AccuracyController::afterFrame(const ShownPicture& shown, const std::functi
   view_.progress = status ? status->fraction : 0.0;
   if (const std::optional<std::string> error = sweep_.takeError()) {
     view_.about = *error;
-    forgetBudget();
   }
   const bool changed = showsDifference_ ? image && difference_.update(shown, image) : difference_.reset();
   coverChanged_ = coverChanged_ || changed;

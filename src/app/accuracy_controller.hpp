@@ -47,7 +47,6 @@ class AccuracyController {
   void setResults(SweepResults results, bool rough = false);
   void takeResults();
   void findCurrentPoint(const Settings& settings);
-  void forgetBudget();
 
   AccuracyView view_;
   struct Status : SweepStatus {

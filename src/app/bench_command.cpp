@@ -198,8 +198,7 @@ std::optional<nlohmann::ordered_json> measureFrames(Session& session, const Opti
       frames.push_back(frameStats(session));
       passes.push_back(passIds(session));
     }
-    progress.advance();
-    if (interruptRequested()) {
+    if (!progress.advance()) {
       return std::nullopt;
     }
   }

@@ -28,8 +28,8 @@ class CameraController {
 
   // Turns the view by a drag of the pointer, in pixels; in orbit mode about the target.
   void drag(double dx, double dy);
-  // Moves the camera sideways by a drag of the pointer, in pixels of a picture of that height, so that points as far
-  // away as the target follow the pointer.
+  // Moves the camera sideways by a drag of the pointer, in pixels of a picture of that height. Points as far away as
+  // the target follow the pointer.
   void pan(double dx, double dy, double pictureHeight);
   // Turns as drag() does, by degrees to the right and downwards.
   void turn(double yaw, double pitch);

@@ -12,7 +12,7 @@ namespace speculum {
 // Options with which `render` draws the case, over those of `common`.
 Options caseOptions(const RegressCase& subject, const Options& common);
 
-// Draws cases of `regress` and compares them, with one device, and with one session while scene and size stay the same.
+// Draws cases of `regress` and compares them. Uses one device, and one session while scene and size stay the same.
 class CaseDrawer {
  public:
   explicit CaseDrawer(const Options& options) : options_(options) {}

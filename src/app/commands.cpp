@@ -14,7 +14,6 @@
 #include "platform/folders.hpp"
 #include "platform/machine.hpp"
 #include "platform/process.hpp"
-#include "platform/window.hpp"
 #include "scene/input_error.hpp"
 #include "scene/scene_loader.hpp"
 
@@ -47,7 +46,7 @@ void setUpLog(const std::string& level) {
   spdlog::set_default_logger(logger);
 }
 
-int runInfo() {
+int runInfo(const Options&) {
   for (const DeviceInfo& info : Device::list()) {
     std::printf("%d: %s\n   driver %s, Vulkan %s, %.0f MiB, %s%s\n", info.index, info.name.c_str(), info.driver.c_str(),
                 vulkanVersion(info.apiVersion).c_str(), static_cast<double>(info.memoryBytes) / (1024.0 * 1024.0),
@@ -59,7 +58,7 @@ int runInfo() {
   return 0;
 }
 
-int runScenes() {
+int runScenes(const Options&) {
   std::map<std::string, std::string> titles;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(dataDirectory("scenes"))) {
     if (entry.path().extension() == ".toml") {
@@ -78,19 +77,9 @@ int runScenes() {
 // Runs the command, once more if the device is lost.
 int runCommand(const Options& options) {
   static const std::map<std::string, int (*)(const Options&)> commands = {
-      {"demo",
-       [](const Options& wanted) {
-         chooseWindowPlatform(wanted.platform);
-         return runDemo(wanted);
-       }},
-      {"render", runRender},
-      {"bench", runBench},
-      {"reference", runReference},
-      {"compare", runCompare},
-      {"accuracy", runAccuracy},
-      {"regress", runRegress},
-      {"info", [](const Options&) { return runInfo(); }},
-      {"scenes", [](const Options&) { return runScenes(); }},
+      {"demo", runDemo},           {"render", runRender},   {"bench", runBench},
+      {"reference", runReference}, {"compare", runCompare}, {"accuracy", runAccuracy},
+      {"regress", runRegress},     {"info", runInfo},       {"scenes", runScenes},
   };
   const auto command = commands.at(options.command);
   try {

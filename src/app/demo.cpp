@@ -217,11 +217,10 @@ void Demo::drawFrame(double seconds, double sinceLastMs) {
   pace_.presented(milliseconds(Clock::now() - presents));
 }
 
-// Returns the target that the panels show if a picture has to be drawn for it. The colors of the main view are always
-// there.
+// Returns the target that the panels show if a picture has to be drawn for it.
 std::optional<Pace::Target> Demo::missingTarget() const {
   const std::optional<TargetRequest>& target = output_.target;
-  const bool missing = target && target->drawn && !(target->path.empty() && target->view.kind == TargetKind::color) &&
+  const bool missing = target && target->drawn && !isAlwaysThere(target->path, target->view.kind) &&
                        !sceneRenderer_->keepsTarget(target->path, target->view.kind);
   return missing ? std::optional(Pace::Target(target->path, target->view.kind)) : std::nullopt;
 }
@@ -230,23 +229,23 @@ const FittedPlan& Demo::planFrame(Frame& frame, const SceneState& state) {
   const std::optional<Pace::Target> missing = missingTarget();
   const bool watchesMirror = output_.target && !output_.target->path.empty();
   const bool settingsMove = ui_->holdsWidget() || pace_.moving();
-  const Settings settings = settingsOfFrame();
-  const Pace::Request request{
-      .scene = workspace_.scene(),
-      .state = state,
-      .chosen = settings,
-      .shown = {.scenes = scenes_,
-                .revision = workspace_.revision(),
-                .shaders = renderer_.pipelines().revision(),
-                .time = contentMoves(workspace_.scene()) ? std::optional(state.time) : std::nullopt,
-                .size = pictureSize()},
-      // Recorded frames have no budget.
-      .budgetMs =
-          workspace_.capture().recording() ? 0.0 : motionBudget(workspace_.settings(), isCpu(device_), refreshHz_),
-      .front = workspace_.accuracy().front(),
-      .simplifies = levels_.ready(workspace_.scene(), scenes_),
-      .input = changes_,
-      .target = missing};
+  Settings settings = workspace_.settings();
+  // Renders every mirror in each frame while debug.check_finite is on, which reports findings by mirror.
+  settings.reflection.skipUnchanged = settings.reflection.skipUnchanged && !settings.debug.checkFinite;
+  const bool recorded = workspace_.capture().recording();  // without a budget
+  const Pace::Request request{.scene = workspace_.scene(),
+                              .state = state,
+                              .chosen = settings,
+                              .shown = {.scenes = scenes_,
+                                        .revision = workspace_.revision(),
+                                        .shaders = renderer_.pipelines().revision(),
+                                        .time = contentTime(workspace_.scene(), state.time),
+                                        .size = pictureSize()},
+                              .budgetMs = recorded ? 0.0 : motionBudget(settings, isCpu(device_), refreshHz_),
+                              .front = workspace_.accuracy().front(),
+                              .simplifies = levels_.ready(workspace_.scene(), scenes_),
+                              .input = changes_,
+                              .target = missing};
   const FittedPlan& fitted = pace_.plan(request, [&](Settings lowered, int picture) {
     // A mirror whose target is shown is rendered in each frame, so that the target is of the picture.
     lowered.reflection.skipUnchanged = lowered.reflection.skipUnchanged && !watchesMirror;
@@ -266,13 +265,6 @@ bool Demo::timesPasses(bool movementEnded) {
                      (changeBegins_ || movementEnded || untimedFrames_ >= timedInterval || pace_.drawsSlowly());
   untimedFrames_ = times ? 0 : std::min(untimedFrames_ + 1, timedInterval);
   return times;
-}
-
-Settings Demo::settingsOfFrame() const {
-  Settings settings = workspace_.settings();
-  // Renders every mirror in each frame while debug.check_finite is on, which reports findings by mirror.
-  settings.reflection.skipUnchanged = settings.reflection.skipUnchanged && !settings.debug.checkFinite;
-  return settings;
 }
 
 std::string Demo::currentMessage() {
@@ -446,6 +438,7 @@ void endWithoutDisplay() {
 }  // namespace
 
 int runDemo(const Options& options) {
+  chooseWindowPlatform(options.platform);
   installInterruptHandler();
   letBrokenPipesFail();
   Demo demo(options);

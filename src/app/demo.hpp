@@ -56,10 +56,7 @@ class Demo : private WorkspaceHost {
   void close() override;
   void toggleFullScreen() override { window_.setFullScreen(!window_.fullScreen()); }
   void setPresentMode(size_t index) override;
-  bool togglePanels() override {
-    ui_->windows().setVisible(!ui_->windows().visible());
-    return ui_->windows().visible();
-  }
+  bool togglePanels() override { return ui_->windows().toggleVisible(); }
   void toggleHelp() override { ui_->windows().toggleHelp(); }
   void toggleInspector() override { ui_->windows().toggleInspector(); }
   void openInspector() override { ui_->windows().openInspector(); }
@@ -84,7 +81,6 @@ class Demo : private WorkspaceHost {
   std::optional<Pace::Target> missingTarget() const;
   const FittedPlan& planFrame(Frame& frame, const SceneState& state);
   bool timesPasses(bool movementEnded);
-  Settings settingsOfFrame() const;
   std::string currentMessage();
 
   Options options_;

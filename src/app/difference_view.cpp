@@ -12,15 +12,6 @@ namespace speculum {
 constexpr std::chrono::milliseconds stillFor{400};      // before tracing begins
 constexpr std::array<int, 3> references = {4, 16, 64};  // samples a pixel: a quick first result, then better ones
 
-DifferenceView::View DifferenceView::viewOf(const ShownPicture& shown) {
-  return {.file = shown.scene.file,
-          .width = shown.width,
-          .height = shown.height,
-          .time = contentMoves(shown.scene) ? std::optional(shown.state.time) : std::nullopt,
-          .camera = shown.state.camera,
-          .clearColor = shown.settings.view.clearColor};
-}
-
 bool DifferenceView::reset() {
   tracing_.cancel();
   comparing_.cancel();
@@ -79,7 +70,12 @@ bool DifferenceView::collect() {
 }
 
 bool DifferenceView::update(const ShownPicture& shown, const std::function<Image8()>& image) {
-  const View view = viewOf(shown);
+  const View view{.file = shown.scene.file,
+                  .width = shown.width,
+                  .height = shown.height,
+                  .time = contentTime(shown.scene, shown.state.time),
+                  .camera = shown.state.camera,
+                  .clearColor = shown.settings.view.clearColor};
   if (view != view_) {
     const bool cleared = reset();
     view_ = view;

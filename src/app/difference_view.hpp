@@ -51,7 +51,6 @@ class DifferenceView {
     bool operator==(const View&) const = default;
   };
 
-  static View viewOf(const ShownPicture& shown);
   void startTracing(const ShownPicture& shown);
   void startComparing(const ShownPicture& shown, Image8 image);
   bool collect();

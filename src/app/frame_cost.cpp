@@ -60,10 +60,11 @@ void addRays(FrameWork& work, const PlannedPass& pass, double texels, int sample
   }
   for (const MirrorDraw& draw : pass.mirrors) {
     if (draw.byRays && !draw.back) {
-      const bool rough = settings.roughness && scene.mirrors[static_cast<size_t>(draw.mirror)].roughness > 0.0;
+      const Mirror& mirror = scene.mirrors[static_cast<size_t>(draw.mirror)];
+      const bool rough = settings.roughness && mirror.roughness > 0.0;
       const double area = screenArea(toClip(pass.view, plan.projection, draw.polygon), pass.view.pictureSize.x,
                                      pass.view.pictureSize.y);
-      const bool rippled = settings.ripple && scene.mirrors[static_cast<size_t>(draw.mirror)].ripple;
+      const bool rippled = settings.ripple && mirror.ripple;
       // Every sample sends rays, whatever effects.per_sample is.
       const double rays = area * (1.0 + toLights) * (rough ? roughRays(settings, samples) : samples);
       (rough ? work.roughRays : rippled ? work.rippleRays : work.smoothRays) += rays;

@@ -305,24 +305,23 @@ void FrameReport::updateSkipped(const RecordedFrame& frame) {
 
 std::optional<DebugView> FrameReport::target(const TargetRequest& request, const FramePlan& plan,
                                              const Settings& settings, bool standardSampleLocations) {
-  const std::vector<PlannedPass>& passes = shownPasses(plan);
-  const auto mirror =
-      std::ranges::find_if(passes, [&](const PlannedPass& pass) { return pass.view.path == request.path; });
-  if (mirror == passes.end() && !request.path.empty()) {
+  const PlannedPass* mirror = mirrorPass(plan, request.path);
+  if (!mirror && !request.path.empty()) {
     return std::nullopt;
   }
   targetKind_ = request.view.kind;
   // While tiles are drawn, the target of the picture before stays.
   if (endsPicture(plan) || !view_.target.complete || view_.target.path != request.path) {
     const std::optional<TexelValue> value = view_.target.value;
-    view_.target = targetOf(plan, mirror != passes.end() ? *mirror : plan.main, settings, standardSampleLocations);
+    view_.target = targetOf(plan, mirror ? *mirror : plan.main, settings, standardSampleLocations);
     view_.target.value = value;
   }
   if (!request.drawn) {
     return std::nullopt;
   }
   DebugView view = request.view;
-  view.pass = static_cast<int>(mirror - passes.begin());
+  const std::vector<PlannedPass>& passes = shownPasses(plan);
+  view.pass = static_cast<int>(mirror ? mirror - passes.data() : std::ssize(passes));
   // The image may have become smaller since the pointer was there.
   if (view.probe && (view.probe->x >= view_.target.size.x || view.probe->y >= view_.target.size.y)) {
     view.probe.reset();

@@ -18,9 +18,9 @@ struct RecordedFrame {
   double cpuMs = 0.0;
   double sinceLastMs = 0.0;  // NaN after the window was idle
   bool lowered = false;      // its quality, for the pace
-  bool compiles = false;     // it made pipelines, or the frame before, which takes long
-  bool repeats = false;      // it draws the picture that was there before, for the panels
-  Settings chosen = {};      // by the user, before any was lowered
+  bool compiles = false;     // it or the frame before made pipelines, which takes long
+  bool repeats = false;      // it draws the last picture again, for the panels
+  Settings chosen = {};      // by the user; `settings` may be lowered
 };
 
 // Collects the figures of frames for the panels.
@@ -51,7 +51,7 @@ class FrameReport {
  private:
   void addFrame(const RecordedFrame& frame, const FrameTimings& timings, std::span<const RecordedPass> timed);
 
-  // Frames so far that drew a picture: the whole of it, or tiles.
+  // A picture, with sums over the frames that have drawn it: one, or several that draw tiles.
   struct Picture {
     bool whole = true;
     Settings settings;
@@ -59,12 +59,12 @@ class FrameReport {
     bool lowered = false;
     bool repeats = false;
     bool compiles = false;
-    uint64_t number = 0;  // of the last one
+    uint64_t number = 0;  // of the last frame
     double sinceLastMs = 0.0;
     double cpuMs = 0.0;
-    double gpuMs = 0.0;  // without the last one
-    PassSums passes;     // likewise
-    bool timed = true;   // those are complete
+    double gpuMs = 0.0;  // without the last frame
+    PassSums passes;     // without the last frame
+    bool timed = true;   // the passes of all these frames were timed
 
     void addPasses(const FrameTimings& timings, std::span<const RecordedPass> recorded) {
       timed = timed && !timings.passes.empty();
@@ -74,14 +74,15 @@ class FrameReport {
   void setTimes(const Picture& picture, double gpuMs);
 
   FrameView view_;
-  std::deque<Picture> drawn_;  // of the scene, not the panels only; the latest
+  std::deque<Picture> drawn_;  // latest pictures of the scene, newest first
   Picture picture_;            // that the last frame drew
   bool panelsOnly_ = false;    // the last frame drew no part of the scene
-  bool tilesTimed_ = false;    // times of passes are of a picture that several frames drew
-  Settings timedSettings_;     // of the picture that times of passes are of
-  bool timedLowered_ = false;  // likewise
-  Settings historySettings_;   // chosen for the frames of the history
-  bool averages_ = false;      // FrameView::frameMs: its frames followed each other
+  // The picture that the times of passes are of.
+  bool tilesTimed_ = false;  // several frames drew it
+  Settings timedSettings_;
+  bool timedLowered_ = false;
+  Settings historySettings_;  // chosen for the frames of the history
+  bool averages_ = false;     // FrameView::frameMs: its frames followed each other
   std::vector<SkippedMirror> skipped_;
   TargetKind targetKind_ = TargetKind::color;  // of FrameView::target
 };

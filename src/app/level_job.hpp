@@ -8,8 +8,8 @@ namespace speculum {
 // Makes the levels of a scene's meshes on a thread of its own, so that no frame of the window waits for them.
 class LevelJob {
  public:
-  // Says whether the levels of all meshes are made. Starts to make those that are missing; a call with another scene
-  // ends the work for the one before.
+  // Says whether the levels of all meshes are made, and starts to make missing ones. A call with another scene cancels
+  // the work for the last one.
   bool ready(const Scene& scene, int sceneNumber);
 
  private:

@@ -5,24 +5,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
-#include "app/usage.hpp"
 #include "app/version.hpp"
 #include "frame/setting_fields.hpp"
 #include "scene/camera_text.hpp"
+#include "scene/nearest_key.hpp"
 #include "scene/value_range.hpp"
 
 namespace speculum {
 
 namespace {
-
-PictureSize parseSize(const std::string& text) {
-  const std::optional<PictureSize> size = pictureSize(text);
-  if (!size) {
-    throw UsageError("--size: '" + text + "' is not a size (" + std::string(pictureSizes) + ")");
-  }
-  return *size;
-}
 
 // Arguments as text. They are checked after parsing, where messages can say what would be right.
 struct Raw {
@@ -169,7 +162,11 @@ std::vector<std::pair<std::string, std::string>> parseSettings(const std::string
 
 void applyRaw(const Raw& raw, Options& options) {
   if (!raw.size.empty()) {
-    options.size = parseSize(raw.size);
+    const std::optional<PictureSize> size = pictureSize(raw.size);
+    if (!size) {
+      throw UsageError("--size: '" + raw.size + "' is not a size (" + std::string(pictureSizes) + ")");
+    }
+    options.size = *size;
   } else if (options.command == "accuracy") {
     options.size = {640, 360};
   }
@@ -207,6 +204,85 @@ std::string settingsText() {
   return text;
 }
 
+bool isOption(const std::string& argument) {
+  return argument.size() > 1 && argument.front() == '-';
+}
+
+// Lists option names in the order of the help.
+std::vector<std::string> optionNames(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app.get_options()) {
+    for (const std::string& name : option->get_lnames()) {
+      names.push_back("--" + name);
+    }
+  }
+  return names;
+}
+
+std::vector<std::string> commandNames(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+    names.push_back(command->get_name());
+  }
+  return names;
+}
+
+std::string advice(const std::string& argument, const std::vector<std::string>& known) {
+  return nearestKeyAdvice(argument, std::vector<std::string_view>(known.begin(), known.end()));
+}
+
+// Returns the end of a command's --help: examples of useful calls, a line each.
+std::string examplesText(const std::string& command) {
+  static const std::map<std::string, std::vector<std::string>> examples = {
+      {"demo",
+       {"--scene mirror_maze", "--scene gallery --set reflection.max_depth=8 --size 1920x1080",
+        "--scene yours.toml --shader-dir shaders"}},
+      {"render",
+       {"--scene gallery --size 1920x1080 --time 3 --out gallery.png --stats gallery.json",
+        "--scene outdoors --frames 120 --fps 30 --out 'frames/%04d.png'",
+        "--scene gallery --camera 0,1.5,3:0,1,0 --set view.samples=8 --out radiance.exr"}},
+      {"reference", {"--scene gallery --size 640x360 --samples 64 --out truth.png"}},
+      {"compare",
+       {"truth.png gallery.png", "truth.png gallery.png --heatmap error.png --json error.json --max-flip 0.05"}},
+      {"accuracy", {"--scene gallery --out report", "--scene gallery --size 320x180 --sweep full --out report"}},
+      {"regress",
+       {"cases.toml --out report", "cases.toml --filter 'gallery*' --jobs 2 --junit report/junit.xml",
+        "cases.toml --update gallery", "cases.toml --repeat 10"}},
+      {"bench",
+       {"--scene many_mirrors --set reflection.max_depth=2 --frames 200 --json bench.json", "--scene gallery --prices",
+        "--scene gallery --against-set view.samples=1", "--reference"}},
+      {"info", {""}},
+      {"scenes", {""}},
+  };
+  std::string text = "Examples:\n";
+  for (const std::string& arguments : examples.at(command)) {
+    text += "  speculum " + command + (arguments.empty() ? "" : " ") + arguments + "\n";
+  }
+  return text;
+}
+
+// Returns one line about unknown arguments and what was probably meant. `app` has failed to parse; empty if it left no
+// argument over.
+std::string unknownArgument(const CLI::App& app) {
+  const std::vector<std::string> left = app.remaining(true);
+  if (left.empty()) {
+    return {};
+  }
+  const bool commanded = !app.get_subcommands().empty();
+  const CLI::App& used = commanded ? *app.get_subcommands().front() : app;
+  // Takes the first word for a misspelt command, and the following ones for its arguments.
+  if (!commanded && !isOption(left.front())) {
+    return "'" + left.front() + "' is not a command (" + advice(left.front(), commandNames(app)) + ")";
+  }
+  const auto option = std::ranges::find_if(left, isOption);
+  const std::string name = option == left.end() ? left.front() : option->substr(0, option->find('='));
+  const std::string help = commanded ? "speculum " + used.get_name() + " --help" : "speculum --help";
+  const std::string meant = advice(name, optionNames(used));
+  return "'" + name + "' is not " + (option == left.end() ? "expected" : "an option") + " of " +
+         (commanded ? used.get_name() : "speculum") + " (" +
+         (meant.starts_with("did you mean") ? meant : "see " + help) + ")";
+}
+
 std::string withoutLineBreaks(std::string text) {
   std::ranges::replace(text, '\n', ' ');
   text.erase(text.find_last_not_of(' ') + 1);
@@ -242,10 +318,8 @@ void setCamera(Options& options, const std::string& text) {
   }
 }
 
-std::optional<Options> parseOptions(int givenCount, const char* const* givenArguments) {
-  const std::vector<const char*> all = withSceneOption(givenCount, givenArguments);
-  const auto argc = static_cast<int>(all.size());
-  const char* const* argv = all.data();
+std::optional<Options> parseOptions(int argc, const char* const* argv) {
+  const std::vector<const char*> arguments = withSceneOption(argc, argv);
   Options options;
   Raw raw;
   CLI::App app("Speculum: planar mirrors in Vulkan that can be trusted", "speculum");
@@ -271,7 +345,7 @@ std::optional<Options> parseOptions(int givenCount, const char* const* givenArgu
   app.footer("`speculum FILE` opens a scene or model in the window.\n\n" + settingsText() + "\n" +
              examplesText("demo") + examplesText("render").substr(std::string("Examples:\n").size()));
   try {
-    app.parse(argc, argv);
+    app.parse(static_cast<int>(arguments.size()), arguments.data());
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) {
       app.exit(error);
@@ -288,7 +362,7 @@ std::optional<Options> parseOptions(int givenCount, const char* const* givenArgu
   if (options.command == "regress" && options.out.empty()) {
     options.out = "regress-report";
   }
-  options.arguments.assign(argv + 1, argv + argc);
+  options.arguments.assign(arguments.begin() + 1, arguments.end());
   return options;
 }
 

@@ -16,8 +16,7 @@ PictureSequence::PictureSequence(const std::filesystem::path& pattern, int count
   static const std::regex number("%(0([1-9]))?d");
   const std::string text = pattern.string();
   std::smatch match;
-  numbered_ = count > 0 && std::regex_search(text, match, number);
-  if (!numbered_) {
+  if (count == 0 || !std::regex_search(text, match, number)) {
     if (count > 1) {
       throw UsageError("--out: '" + text + "' names one file for " + std::to_string(count) +
                        " pictures (a pattern such as dir/%04d.png)");
@@ -31,7 +30,7 @@ PictureSequence::PictureSequence(const std::filesystem::path& pattern, int count
 }
 
 std::filesystem::path PictureSequence::at(int index) const {
-  return numbered_ ? fmt::format("{}{:0{}}{}", before_, index, digits_, after_) : before_;
+  return digits_ > 0 ? fmt::format("{}{:0{}}{}", before_, index, digits_, after_) : before_;
 }
 
 }  // namespace speculum

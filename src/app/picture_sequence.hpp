@@ -15,8 +15,7 @@ class PictureSequence {
  private:
   std::string before_;
   std::string after_;
-  int digits_ = 0;
-  bool numbered_ = false;
+  int digits_ = 0;  // of the number between; 0: a single picture
 };
 
 }  // namespace speculum

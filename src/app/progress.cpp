@@ -33,7 +33,7 @@ Progress::~Progress() {
   }
 }
 
-void Progress::set(double done) {
+bool Progress::set(double done) {
   done_ = done;
   const Clock::time_point now = Clock::now();
   // Leaves work that is reported at once out of the pace, because an earlier run did it.
@@ -43,12 +43,12 @@ void Progress::set(double done) {
   }
   const double elapsed = seconds(now - start_);
   const bool due = seconds(now - last_) >= (terminal_ ? barInterval : plainInterval) || (shown_ && done >= total_);
-  if (elapsed < quietSeconds || !due || done <= before_) {
-    return;
+  if (elapsed >= quietSeconds && due && done > before_) {
+    last_ = now;
+    shown_ = true;
+    print(elapsed / (done - before_) * (total_ - done));
   }
-  last_ = now;
-  shown_ = true;
-  print(elapsed / (done - before_) * (total_ - done));
+  return !interruptRequested();
 }
 
 void Progress::print(double secondsLeft) {

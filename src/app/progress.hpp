@@ -14,8 +14,9 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  void advance() { set(done_ + 1.0); }
-  void set(double done);
+  // Return false after Ctrl-C: the work is to end.
+  bool advance() { return set(done_ + 1.0); }
+  bool set(double done);
 
  private:
   using Clock = std::chrono::steady_clock;

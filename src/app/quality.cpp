@@ -80,12 +80,10 @@ std::optional<QualityChoice> chooseQuality(const Options& options, const std::fi
           "quality.budget_ms and quality.max_error choose from a sweep "
           "(--sweep-results F, the results.json of speculum accuracy)");
     }
-    const bool time = settings.quality.budgetMs > 0.0;
-    const bool error = settings.quality.maxError > 0.0;
-    spdlog::warn("{} for a measurement (Accuracy > Measure this view)", time && error
-                                                                            ? "GPU budget and Max. mean FLIP wait"
-                                                                        : time ? "GPU budget waits"
-                                                                               : "Max. mean FLIP waits");
+    const char* bounds = settings.quality.maxError <= 0.0   ? "GPU budget waits"
+                         : settings.quality.budgetMs <= 0.0 ? "Max. mean FLIP waits"
+                                                            : "GPU budget and Max. mean FLIP wait";
+    spdlog::warn("{} for a measurement (Accuracy > Measure this view)", bounds);
     return std::nullopt;
   }
   const SweepResults results = readSweepResults(options.sweepResults);

@@ -41,10 +41,8 @@ int runReference(const Options& options) {
   const RayTracer tracer(loaded.scene, state);
   installInterruptHandler();
   Progress progress("reference", 1.0);
-  const std::optional<TraceResult> result = tracer.render(traceOptions(options, loaded.settings), [&](double part) {
-    progress.set(part);
-    return !interruptRequested();
-  });
+  const std::optional<TraceResult> result =
+      tracer.render(traceOptions(options, loaded.settings), [&](double part) { return progress.set(part); });
   if (!result) {
     return 1;
   }

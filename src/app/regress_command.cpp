@@ -10,8 +10,8 @@
 #include "app/case_drawer.hpp"
 #include "app/commands.hpp"
 #include "app/progress.hpp"
+#include "app/session_subject.hpp"
 #include "app/stats.hpp"
-#include "app/sweep_description.hpp"
 #include "app/version.hpp"
 #include "app/view_command.hpp"
 #include "platform/files.hpp"
@@ -62,17 +62,6 @@ int runWorker(const Options& options, const std::vector<RegressCase>& cases) {
 // Words of a shell command. The page puts quotes around those that need them.
 using Words = std::vector<std::string>;
 
-// Returns the options of this run that change pictures.
-Words drawOptions(const Options& options) {
-  Words words;
-  addSettings(options.settings, words);
-  addDevice(options, words);
-  if (options.validation) {
-    words.push_back("--validation");
-  }
-  return words;
-}
-
 void addCommands(const RegressCase& subject, const Options& options, Outcome& outcome) {
   Words& draw = outcome.drawCommand;
   draw = {"speculum", "render",
@@ -85,7 +74,12 @@ void addCommands(const RegressCase& subject, const Options& options, Outcome& ou
     draw.insert(draw.end(), {"--camera", *subject.camera});
   }
   addSettings(subject.settings, draw);
-  const Words given = drawOptions(options);
+  Words given;  // options of this run that change pictures
+  addSettings(options.settings, given);
+  addDevice(options, given);
+  if (options.validation) {
+    given.push_back("--validation");
+  }
   draw.insert(draw.end(), given.begin(), given.end());
   draw.insert(draw.end(), {"--out", subject.name + ".png"});
   if (outcome.replaceable) {
@@ -123,17 +117,7 @@ void requireWriter(const std::vector<RegressCase>& cases, const RegressCase& sub
   }
 }
 
-// Replaces the expected picture with the one just drawn.
-void accept(const CaseFiles& files, Outcome& outcome) {
-  const std::filesystem::path picture = outcome.picture;
-  std::error_code ignored;
-  std::filesystem::create_directories(picture.parent_path(), ignored);
-  replaceFile(picture, readFile(files.actual));
-  outcome.verdict = Verdict::updated;
-  outcome.message = "wrote " + picture.string();
-}
-
-// Replaces the expected pictures of failed cases whose names match.
+// Replaces the expected pictures of failed cases whose names match with those just drawn.
 void acceptAll(const Options& options, RegressRun& run) {
   for (size_t i = 0; i < run.cases.size(); ++i) {
     Outcome& outcome = run.outcomes[i];
@@ -142,7 +126,12 @@ void acceptAll(const Options& options, RegressRun& run) {
       continue;
     }
     try {
-      accept(CaseFiles(options.out, name), outcome);
+      const std::filesystem::path picture = outcome.picture;
+      std::error_code ignored;
+      std::filesystem::create_directories(picture.parent_path(), ignored);
+      replaceFile(picture, readFile(CaseFiles(options.out, name).actual));
+      outcome.verdict = Verdict::updated;
+      outcome.message = "wrote " + picture.string();
     } catch (const std::exception& error) {
       outcome.verdict = Verdict::error;
       outcome.message = error.what();

@@ -31,10 +31,7 @@ int runRender(const Options& options) {
   session.renderer().setTimerDetail(options.stats.empty() ? TimerDetail::frame : TimerDetail::passes);
   installInterruptHandler();
   Progress progress("render", count * session.settings().view.accumulate);
-  const auto advance = [&] {
-    progress.advance();
-    return !interruptRequested();
-  };
+  const auto advance = [&] { return progress.advance(); };
   for (int i = 0; i < count; ++i) {
     const auto draw = [&] {
       session.draw(options.time + i / options.fps, true, advance);

@@ -259,8 +259,4 @@ void Session::finish() {
   frame_.frameMs = millisecondsSince(start_);
 }
 
-Image8 Session::picture() {
-  return pictureOf(renderer_.readback());
-}
-
 }  // namespace speculum

@@ -99,7 +99,7 @@ class Session {
   void setSettings(const Settings& settings);
   // Waits for the GPU, after which lastFrame() is complete.
   void finish();
-  Image8 picture();                                             // of the last frame drawn with `capture`
+  Image8 picture() { return pictureOf(renderer_.readback()); }  // of the last frame drawn with `capture`
   LinearImage radiance() { return sceneRenderer_.radiance(); }  // of the last frame, before the display pass
   // Returns exitCodeOfChecks() for the frames that have finished.
   int exitCode() { return exitCodeOfChecks(device_.validationMessages(), sceneRenderer_.finiteWatch().count()); }

@@ -26,12 +26,12 @@ class SlowPicture {
 
  private:
   size_t faces_ = 0;
-  double faceMs_ = 0.0;         // of the last ones
-  std::vector<double> tileMs_;  // of the others
+  double faceMs_ = 0.0;         // of each of the last faces
+  std::vector<double> tileMs_;  // of each other tile, expected or measured
   TileRange tiles_;             // of the last next()
-  size_t measured_ = 0;         // of these, from the first on, whose times were measured
-  double dearestMs_ = 0.0;      // of these
-  double totalMs_ = 0.0;        // of the picture's tiles
+  size_t measured_ = 0;         // the first tiles of tileMs_ whose times were measured
+  double dearestMs_ = 0.0;      // longest measured time of a tile
+  double totalMs_ = 0.0;        // of the picture's tiles so far
 };
 
 }  // namespace speculum

@@ -10,9 +10,16 @@
 
 namespace speculum {
 
-namespace {
-
 using nlohmann::ordered_json;
+
+ordered_json summary(std::vector<double> values) {
+  const Spread spread = spreadOf(values);
+  std::ranges::sort(values);
+  const double p95 = values[static_cast<size_t>(std::ceil(0.95 * static_cast<double>(values.size() - 1)))];
+  return {{"median", spread.median}, {"min", spread.minimum}, {"p95", p95}, {"max", values.back()}};
+}
+
+namespace {
 
 // Returns the mirror's name, or its index as a number.
 ordered_json mirrorJson(const Scene& scene, int mirror) {
@@ -52,7 +59,8 @@ ordered_json depthJson(const Session& session, const std::vector<int>& path) {
 }
 
 // Returns the index of the pass that looks this one's image up; null if none does.
-ordered_json parentJson(const std::vector<PassId>& passes, const PassId& pass) {
+template <typename Passes>
+ordered_json parentJson(const Passes& passes, const PassId& pass) {
   if (pass.path.empty()) {
     return nullptr;
   }
@@ -65,14 +73,14 @@ ordered_json parentJson(const std::vector<PassId>& passes, const PassId& pass) {
 
 ordered_json passesJson(Session& session) {
   ordered_json passes = ordered_json::array();
-  const std::vector<PassId> ids = passIds(session);
-  for (const TimedPass& pass : session.lastFrame().passes()) {
+  const std::vector<TimedPass>& all = session.lastFrame().passes();
+  for (const TimedPass& pass : all) {
     const PassTiming& timing = pass.timing;
     const bool mirror = pass.kind == PassKind::mirror;
     passes.push_back({{"name", pass.name},
                       {"mirror", mirror ? mirrorJson(session.scene(), pass.path.back()) : ordered_json(nullptr)},
                       {"path", pathJson(session.scene(), pass.path)},
-                      {"parent", parentJson(ids, pass)},
+                      {"parent", parentJson(all, pass)},
                       {"depth", mirror ? ordered_json(pass.depth) : ordered_json(nullptr)},
                       {"gpu_ms", timing.gpuMs},
                       {"draws", pass.draws},
@@ -133,17 +141,6 @@ ordered_json raysJson(const RayUse& rays) {
           {"bytes", rays.structureBytes}};
 }
 
-}  // namespace
-
-ordered_json summary(std::vector<double> values) {
-  const Spread spread = spreadOf(values);
-  std::ranges::sort(values);
-  const double p95 = values[static_cast<size_t>(std::ceil(0.95 * static_cast<double>(values.size() - 1)))];
-  return {{"median", spread.median}, {"min", spread.minimum}, {"p95", p95}, {"max", values.back()}};
-}
-
-namespace {
-
 ordered_json mergeObjects(const std::vector<const ordered_json*>& objects) {
   ordered_json merged = ordered_json::object();
   for (const auto& [key, value] : objects.back()->items()) {
@@ -160,38 +157,30 @@ ordered_json mergeObjects(const std::vector<const ordered_json*>& objects) {
   return merged;
 }
 
-// Passes of several frames, each once, with their figures in the frames in which they ran.
-struct GatheredPasses {
-  std::vector<PassId> ids;
-  std::vector<std::vector<const ordered_json*>> figures;  // by index into `ids`
+// A pass with its figures in the frames in which it ran.
+struct GatheredPass : PassId {
+  std::vector<const ordered_json*> figures;
 };
 
-GatheredPasses gatherPasses(const std::vector<ordered_json>& frames, const std::vector<std::vector<PassId>>& ids) {
-  GatheredPasses gathered;
+ordered_json mergePasses(const std::vector<ordered_json>& frames, const std::vector<std::vector<PassId>>& ids) {
+  std::vector<GatheredPass> gathered;
   for (size_t f = 0; f < frames.size(); ++f) {
-    std::ptrdiff_t place = 0;
-    for (size_t i = 0; i < ids[f].size(); ++i, ++place) {
-      const auto known = std::ranges::find(gathered.ids, ids[f][i]);
-      if (known == gathered.ids.end()) {
-        gathered.ids.insert(gathered.ids.begin() + place, ids[f][i]);
-        gathered.figures.emplace(gathered.figures.begin() + place);
-      } else {
-        place = known - gathered.ids.begin();
+    std::ptrdiff_t place = 0;  // behind the pass before
+    for (size_t i = 0; i < ids[f].size(); ++i) {
+      auto pass = std::ranges::find_if(gathered, [&](const PassId& id) { return id == ids[f][i]; });
+      if (pass == gathered.end()) {
+        pass = gathered.insert(gathered.begin() + place, GatheredPass{ids[f][i], {}});
       }
-      gathered.figures[static_cast<size_t>(place)].push_back(&frames[f].at("passes").at(i));
+      pass->figures.push_back(&frames[f].at("passes").at(i));
+      place = pass - gathered.begin() + 1;
     }
   }
-  return gathered;
-}
-
-ordered_json mergePasses(const std::vector<ordered_json>& frames, const std::vector<std::vector<PassId>>& ids) {
   ordered_json merged = ordered_json::array();
-  const GatheredPasses gathered = gatherPasses(frames, ids);
-  for (size_t i = 0; i < gathered.ids.size(); ++i) {
-    merged.push_back(mergeObjects(gathered.figures[i]));
-    merged.back()["parent"] = parentJson(gathered.ids, gathered.ids[i]);
-    if (gathered.figures[i].size() < frames.size()) {
-      merged.back()["frames"] = gathered.figures[i].size();
+  for (const GatheredPass& pass : gathered) {
+    merged.push_back(mergeObjects(pass.figures));
+    merged.back()["parent"] = parentJson(gathered, pass);
+    if (pass.figures.size() < frames.size()) {
+      merged.back()["frames"] = pass.figures.size();
     }
   }
   return merged;

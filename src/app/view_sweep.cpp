@@ -8,7 +8,6 @@
 #include "accuracy/pareto.hpp"
 #include "app/background_job.hpp"
 #include "app/session_subject.hpp"
-#include "app/sweep_description.hpp"
 #include "platform/files.hpp"
 #include "platform/folders.hpp"
 
@@ -42,9 +41,8 @@ std::filesystem::path storeFolder(Session& session, const SweepRequest& request)
   namespace fs = std::filesystem;
   constexpr size_t mostViews = 20;
   Fingerprint view;
-  const double time = contentMoves(session.scene()) ? request.time : 0.0;  // the camera is given
   Options options = request.options;
-  options.time = time;
+  options.time = contentTime(session.scene(), options.time).value_or(0.0);  // the camera is given
   view.add(sweepIdentity(session, options));
   view.add(std::as_bytes(std::span(&request.camera.eye, 1)));
   view.add(std::as_bytes(std::span(&request.camera.worldToView, 1)));
@@ -67,11 +65,11 @@ SweepResults ViewMeasurement::measure(PictureSize size, const Effort& effort, co
   }
   session_.resize(size);
   session_.setSettings(base_);
-  SceneState state = evaluate(session_.scene(), request_.time);
+  SceneState state = evaluate(session_.scene(), request_.options.time);
   state.camera = request_.camera;
   SweepPlan plan = viewSweep(sweepContext(session_));
   plan.repeats = effort.rounds;
-  SessionSubject subject(session_, request_.time);
+  SessionSubject subject(session_, request_.options.time);
   SweepStore store(storeFolder(session_, request_));
   const SweepScene scene{.scene = session_.scene(),
                          .state = state,
@@ -79,7 +77,7 @@ SweepResults ViewMeasurement::measure(PictureSize size, const Effort& effort, co
                          .height = size.height,
                          .noiseFloor = effort.noiseFloor,
                          .truthSamples = effort.samples};
-  SweepResults results = describeSweep(session_, plan, request_.time);
+  SweepResults results = describeSweep(session_, plan, request_.options.time);
   bool finished = false;
   inBackground([&] { finished = runSweep(plan, base_, scene, subject, store, results, progress); });
   if (finished && session_.device().validationMessages() > 0) {
@@ -93,7 +91,7 @@ SizedMs ViewMeasurement::sizedMs(const SweepPoint& point, PictureSize small) {
   if (isNew) {
     const auto time = [&](PictureSize size) {
       session_.resize(size);
-      const FrameCost cost = SessionSubject(session_, request_.time).cost(settingsWith(base_, point.changes));
+      const FrameCost cost = SessionSubject(session_, request_.options.time).cost(settingsWith(base_, point.changes));
       return cost.gpuMs > 0.0 ? cost.gpuMs : cost.frameMs;
     };
     time(small);  // compiles its pipelines

@@ -9,10 +9,9 @@ namespace speculum {
 
 // A view of the window to be measured.
 struct SweepRequest {
-  Options options;  // scene, size, device
+  Options options;  // scene, size, time, device
   Settings base;
   CameraPose camera;
-  double time = 0.0;  // seconds of animation
 };
 
 // Milliseconds of one configuration in two sizes.

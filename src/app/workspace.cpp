@@ -430,8 +430,7 @@ void Workspace::measureAccuracy() {
   try {
     SweepRequest request{.options = shownOptions(document_->savedOrCopy(loaded_->settings)),
                          .base = settings_,
-                         .camera = state(time()).camera,
-                         .time = time()};
+                         .camera = state(time()).camera};
     request.options.gpu = host_.gpu();
     accuracy_.measure(std::move(request));
   } catch (const std::runtime_error& error) {

@@ -1,12 +1,18 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "geometry/projection.hpp"
 
 namespace speculum {
 
 enum class TargetKind { color, depth };
+
+// Says whether a target of the pass with this path is there without being asked for: the colors of the main view are.
+inline bool isAlwaysThere(const std::vector<int>& path, TargetKind kind) {
+  return path.empty() && kind == TargetKind::color;
+}
 
 // A pass's target, shown over the picture in an area of the display image.
 struct DebugView {

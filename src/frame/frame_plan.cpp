@@ -287,8 +287,9 @@ std::string_view skipReasonName(SkipReason reason) {
 }
 
 const PlannedPass* mirrorPass(const FramePlan& plan, const std::vector<int>& path) {
-  const auto pass = std::ranges::find_if(plan.passes, [&](const PlannedPass& p) { return p.view.path == path; });
-  return pass == plan.passes.end() ? nullptr : &*pass;
+  const std::vector<PlannedPass>& passes = shownPasses(plan);
+  const auto pass = std::ranges::find_if(passes, [&](const PlannedPass& p) { return p.view.path == path; });
+  return pass == passes.end() ? nullptr : &*pass;
 }
 
 FramePlan planFrame(const Scene& scene, const SceneState& state, const Settings& settings, int width, int height,

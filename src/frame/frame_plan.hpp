@@ -179,7 +179,7 @@ inline const std::vector<PlannedPass>& shownPasses(const FramePlan& plan) {
   return plan.mainReused ? plan.reused : plan.passes;
 }
 
-// The mirror pass with that path; null if the plan has none.
+// Returns the one of shownPasses() with that path; null if there is none.
 const PlannedPass* mirrorPass(const FramePlan& plan, const std::vector<int>& path);
 
 // Finds the passes that a picture of `width` x `height` pixels needs, and why every other mirror has none. Pure. The

@@ -80,6 +80,10 @@ CameraSpec cameraOf(const Bookmark& bookmark, const CameraSpec& camera);
 
 // Says whether objects, lights or mirrors depend on the time.
 bool contentMoves(const Scene& scene);
+// Returns the time that these are at; nothing if they do not depend on it.
+inline std::optional<double> contentTime(const Scene& scene, double timeSeconds) {
+  return contentMoves(scene) ? std::optional(timeSeconds) : std::nullopt;
+}
 
 // Says whether they or the scene's camera do.
 bool moves(const Scene& scene);

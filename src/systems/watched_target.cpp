@@ -26,8 +26,7 @@ void retire(Image& image, RetireQueue& retired) {
 void WatchedTarget::begin(const FramePlan& plan, const std::optional<DebugView>& debug, RetireQueue& retired) {
   if (beginsPicture(plan)) {
     const std::optional<Target> asked = debug ? std::optional(targetOf(plan, *debug)) : std::nullopt;
-    const bool isThere = asked && asked->path.empty() && asked->kind == TargetKind::color;
-    watched_ = !plan.mainReused || isThere || !asked ? asked : watched_;
+    watched_ = !plan.mainReused || !asked || isAlwaysThere(asked->path, asked->kind) ? asked : watched_;
   }
   if (!debug || debug->kind != TargetKind::depth) {
     if (watched_ && watched_->kind == TargetKind::depth) {

@@ -26,7 +26,7 @@ class WatchedTarget {
   explicit WatchedTarget(Device& device) : device_(device) {}
 
   // Begins a frame of the plan. A target is watched from the beginning of a picture on. A picture that is shown again
-  // keeps the target that was watched in it, but for the colors of its main view, which are always there.
+  // keeps the target that was watched in it, unless the target that is asked for isAlwaysThere().
   void begin(const FramePlan& plan, const std::optional<DebugView>& debug, RetireQueue& retired);
   // Index in plan.passes of the mirror pass whose image is watched; none for the main view.
   std::optional<int> mirrorPass() const;

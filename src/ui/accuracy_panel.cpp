@@ -98,10 +98,9 @@ void drawAxes(ImDrawList& list, const Plot& plot, double noiseFloor) {
   if (noiseFloor > 0.0) {
     const float y = plot.y(noiseFloor);
     for (float x = plot.corner.x; x < end.x; x += 8.0f) {
-      list.AddLine({x, y}, {std::min(x + 4.0f, end.x), y}, ImGui::GetColorU32(ImGuiCol_Text));
+      list.AddLine({x, y}, {std::min(x + 4.0f, end.x), y}, ink);
     }
-    list.AddText({end.x - 7.0f * ImGui::GetFontSize(), y - ImGui::GetFontSize()}, ImGui::GetColorU32(ImGuiCol_Text),
-                 "noise floor");
+    list.AddText({end.x - 7.0f * line, y - line}, ink, "noise floor");
   }
 }
 

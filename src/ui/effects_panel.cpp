@@ -35,9 +35,7 @@ void effects(PanelContext& ui) {
     for (const std::string& text : {effect.name, effect.why, on ? std::to_string(effect.draws) : std::string(),
                                     on ? mebibytes(effect.bytes) : std::string()}) {
       ImGui::TableNextColumn();
-      ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetColorU32(on ? ImGuiCol_Text : ImGuiCol_TextDisabled));
-      wrappedText(text);
-      ImGui::PopStyleColor();
+      on ? wrappedText(text) : dimmedText(text);
       if (on) {
         tip(std::to_string(effect.pipelines) + (effect.pipelines == 1 ? " pipeline" : " pipelines"));
       }

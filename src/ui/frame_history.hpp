@@ -10,9 +10,9 @@
 
 namespace speculum {
 
-// Milliseconds of the last frames, by frame number: those of the CPU and the window, which are there at once, and those
-// of the GPU, which arrive some frames later. Missing figures are NaN. Frames whose quality was lowered for the pace
-// are kept apart from the others: figures are of those frames only that are like the last one.
+// Milliseconds of the last frames, by frame number. Those of the CPU and the window are there at once; those of the GPU
+// arrive some frames later. Missing figures are NaN. Frames whose quality was lowered for the pace are kept apart from
+// the others: the figures are of frames with the quality of the last one.
 class FrameHistory {
  public:
   static constexpr size_t longest = 300;  // frames of each quality
@@ -25,8 +25,8 @@ class FrameHistory {
   // passes with the same name add up.
   void addGpu(uint64_t number, double gpuMs, std::span<const std::pair<std::string, double>> passes);
   void clear();
-  // Clears it, or if it is paused, once it no longer is. Call when later frames are not to be compared with earlier
-  // ones.
+  // Clears the history, at once or when it is no longer paused. Call when later frames must not be compared with
+  // earlier ones.
   void restart();
 
   // Nothing is added while it is paused.
@@ -37,8 +37,8 @@ class FrameHistory {
   size_t frames() const { return rows().size(); }
   std::vector<float> series(Figure figure) const;  // oldest first
   static constexpr size_t recent = 16;             // frames in which a pass that runs by turns does at least once
-  // Names of passes in the order of their first recording, without those that none of the last `recent` frames with
-  // times of passes has.
+  // Names of passes in the order of their first recording. Leaves out a pass that ran in none of the last `recent`
+  // frames with times of passes.
   std::vector<std::string> passNames() const;
   std::vector<float> passSeries(const std::string& pass) const;
 
@@ -55,10 +55,10 @@ class FrameHistory {
   const std::deque<Row>& rows() const { return rows_[static_cast<size_t>(lowered_)]; }
 
   std::array<std::deque<Row>, 2> rows_;  // of full and of lowered quality
-  bool lowered_ = false;                 // the last frame was
+  bool lowered_ = false;                 // quality of the last frame
   std::vector<std::string> names_;
   bool paused_ = false;
-  bool restarts_ = false;  // when it is no longer paused
+  bool restarts_ = false;  // clears when it is no longer paused
 };
 
 // Returns the value that `share` of the values are not above, by nearest rank: 0.5 gives the median. Ignores NaN; NaN

@@ -21,7 +21,7 @@ void textWithin(const std::string& whole, const ImVec2& low, const ImVec2& high,
   ImGui::GetWindowDrawList()->AddText(at, ImGui::GetColorU32(ImGuiCol_Text), text.c_str());
 }
 
-// Returns the title, or the file's name where there is none or another scene has the same.
+// Returns the title; the file's name if there is no title or another scene has the same one.
 std::string captionOf(const std::vector<SceneEntry>& scenes, const SceneEntry& scene) {
   const auto same = std::ranges::count(scenes, scene.title, &SceneEntry::title);
   return scene.title.empty() || same > 1 ? scene.file.filename().string() : scene.title;

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cfloat>
-#include <glm/glm.hpp>
 #include <utility>
 
 namespace speculum {
@@ -47,9 +46,7 @@ void GlfwInput::give(const InputEvent& event) {
       }
       return ImGui_ImplGlfw_MouseButtonCallback(window, event.code, event.down ? GLFW_PRESS : GLFW_RELEASE, 0);
     case InputEvent::Kind::pointer:
-      moved_ = true;
-      x_ = event.x;
-      y_ = event.y;
+      pointer_ = glm::vec2(event.x, event.y);
 #if IMGUI_VERSION_NUM >= 18700
       ImGui_ImplGlfw_CursorPosCallback(window, event.x, event.y);
 #endif
@@ -71,7 +68,7 @@ void GlfwInput::newFrame() {
   for (const InputEvent& event : queue_.take()) {
     give(event);
   }
-  // What the backend read of these is as old as the last frame.
+  // The backend read these when the last frame ended.
   ImGuiIO& io = ImGui::GetIO();
   const auto now = std::chrono::steady_clock::now();
   io.DeltaTime = std::max(std::chrono::duration<float>(now - std::exchange(last_, now)).count(), 1e-6f);
@@ -86,8 +83,8 @@ void GlfwInput::newFrame() {
   for (size_t i = 0; i < buttons_.size(); ++i) {
     io.MouseDown[i] = buttons_[i];
   }
-  if (moved_ && io.MousePos.x != -FLT_MAX) {
-    io.MousePos = {static_cast<float>(x_), static_cast<float>(y_)};
+  if (pointer_ && io.MousePos.x != -FLT_MAX) {
+    io.MousePos = {pointer_->x, pointer_->y};
   }
 #endif
 }

@@ -2,6 +2,8 @@
 
 #include <array>
 #include <chrono>
+#include <glm/glm.hpp>
+#include <optional>
 
 #include "ui/input_queue.hpp"
 
@@ -28,9 +30,7 @@ class GlfwInput {
   InputQueue queue_;
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
   std::array<bool, 3> buttons_{};
-  double x_ = 0.0;
-  double y_ = 0.0;
-  bool moved_ = false;  // the pointer has moved since the start
+  std::optional<glm::vec2> pointer_;  // once it has moved
 };
 
 }  // namespace speculum

@@ -78,8 +78,7 @@ void modelChoice(PanelContext& ui) {
 void addButtons(PanelContext& ui) {
   commandButton(ui, "Add mirror", "edit.add_mirror", "Adds a mirror in the middle of the view, facing it.",
                 AddMirror{});
-  continueRow("Add light");
-  commandButton(ui, "Add light", "edit.add_light", "Adds a light in the middle of the view.", AddLight{});
+  nextButton(ui, "Add light", "edit.add_light", "Adds a light in the middle of the view.", AddLight{});
   const bool named = ui.state.model || !ui.state.modelFile.empty();
   commandButton(ui, "Add object", "edit.add_object", "Adds an object with the chosen model in the middle of the view.",
                 AddObject{ui.state.model.value_or(ui.state.modelFile)}, named);
@@ -91,16 +90,12 @@ void historyButtons(PanelContext& ui) {
   const EditView& edit = ui.view.edit;
   const bool any = static_cast<bool>(edit.selected);
   commandButton(ui, "Duplicate", "edit.duplicate", "Ctrl+D", DuplicateSelected{}, any);
-  continueRow("Delete");
-  commandButton(ui, "Delete", "edit.delete", "Del", RemoveSelected{}, any);
-  continueRow("Undo");
-  commandButton(ui, "Undo", "edit.undo", "Ctrl+Z   " + edit.undo, Undo{}, !edit.undo.empty());
-  continueRow("Redo");
-  commandButton(ui, "Redo", "edit.redo", "Ctrl+Shift+Z   " + edit.redo, Redo{}, !edit.redo.empty());
+  nextButton(ui, "Delete", "edit.delete", "Del", RemoveSelected{}, any);
+  nextButton(ui, "Undo", "edit.undo", "Ctrl+Z   " + edit.undo, Undo{}, !edit.undo.empty());
+  nextButton(ui, "Redo", "edit.redo", "Ctrl+Shift+Z   " + edit.redo, Redo{}, !edit.redo.empty());
   commandButton(ui, "Save", "edit.save", "Ctrl+S   " + (edit.saveFile ? edit.saveFile->string() : "Asks for a file"),
                 Save{}, edit.canSave());
-  continueRow("Save as...");
-  commandButton(ui, "Save as...", "edit.save_as", "Ctrl+Shift+S", AskWhereToSave{});
+  nextButton(ui, "Save as...", "edit.save_as", "Ctrl+Shift+S", AskWhereToSave{});
   const char* state = edit.unsaved ? "unsaved changes" : edit.isNew ? "not saved yet" : "saved";
   continueRow(state);
   ImGui::AlignTextToFramePadding();
@@ -153,9 +148,8 @@ void selectedNode(PanelContext& ui) {
   if (edit.selected.kind == Selection::Kind::mirror) {
     commandButton(ui, "Look out of mirror", "edit.look_out", "Looks out of the mirror (Shift+B).",
                   LookFromMirror{MirrorSide::front});
-    continueRow("Look from behind");
-    commandButton(ui, "Look from behind", "edit.look_behind", "Looks through the mirror at what it shows (B).",
-                  LookFromMirror{MirrorSide::back});
+    nextButton(ui, "Look from behind", "edit.look_behind", "Looks through the mirror at what it shows (B).",
+               LookFromMirror{MirrorSide::back});
     dimmedText(mirrorCost(ui.view.frame, edit.selected.index));
     recordWidget(ui, "edit.mirror_cost", "Cost of its images in the last frame, also of those seen in other mirrors.");
     ImGui::PushItemWidth(-10.5f * ImGui::GetFontSize());

@@ -2,7 +2,6 @@
 
 #include <spdlog/common.h>
 
-#include <cstdint>
 #include <deque>
 #include <memory>
 #include <mutex>

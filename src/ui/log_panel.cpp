@@ -21,8 +21,7 @@ void log(PanelContext& ui) {
   if (button(ui, "Copy", "log.copy", "Copies the lines below.")) {
     ui.send(CopyText{logText(lines)});
   }
-  continueRow("Clear");
-  commandButton(ui, "Clear", "log.clear", "", ClearLog{});
+  nextButton(ui, "Clear", "log.clear", "", ClearLog{});
   ImGui::Separator();
   ImGui::BeginChild("lines");
   for (const LogLine& line : lines) {

@@ -2,8 +2,6 @@
 #include <imgui.h>
 #include <spdlog/fmt/fmt.h>
 
-#include <algorithm>
-
 #include "ui/input_map.hpp"
 #include "ui/panels.hpp"
 

@@ -44,10 +44,10 @@ PanelChoices savedPanelChoices() {
 }
 
 void savePanelChoices(const PanelChoices& choices) {
-  std::string text = std::string(percentWord) + " " + std::to_string(choices.percent) + "\n";
-  text += choices.theme == Theme::light ? std::string(themeWord) + " " + std::string(lightWord) + "\n" : "";
+  std::string text = fmt::format("{} {}\n", percentWord, choices.percent);
+  text += choices.theme == Theme::light ? fmt::format("{} {}\n", themeWord, lightWord) : "";
   for (const PanelName& panel : panelNames) {
-    text += choices.*panel.open ? std::string(openWord) + " " + std::string(panel.name) + "\n" : "";
+    text += choices.*panel.open ? fmt::format("{} {}\n", openWord, panel.name) : "";
   }
   if (!storeFile(choicesFile(), text)) {
     spdlog::warn("{} cannot be written: the choices of the panel are not remembered", choicesFile().string());

@@ -9,11 +9,11 @@
 
 namespace speculum {
 
-// Places windows along the left and right edge of the display, those of an edge below each other, until the user moves
-// them. Moved windows stay where the user put them, as far as the display shows them; the others follow the display's
-// size and each other: they get narrower where both edges have windows, share the left edge where both have no room,
-// and those opened first are folded to their titles where a column is full. The layout file lists the windows that the
-// user moved, sized or collapsed.
+// Places windows along the left and right edge of the display, below each other, until the user moves them. A moved
+// window stays where the user put it, as far as the display shows that place. The others follow the display's size and
+// each other: they get narrower if both edges have windows, share the left edge if there is no room for both, and if a
+// column is full, those opened first are folded to their titles. The layout file lists the windows that the user moved,
+// sized or collapsed.
 class PanelDock {
  public:
   enum class Edge { left, right };
@@ -45,7 +45,7 @@ class PanelDock {
     Edge edge = Edge::left;
     glm::vec2 ems{0.0f};
     bool shown = false;   // in this frame or the last
-    bool folded = false;  // like collapsed, but for want of room
+    bool folded = false;  // to its title, for want of room
     int rank = 0;         // grows when the user opens it
   };
   static Length widthOf(const Panel& panel);

@@ -24,7 +24,7 @@ struct Length {
 struct WindowWish {
   float width = 0.0f;
   Length height;
-  int rank = 0;  // where only some can be open, those of the highest ranks are
+  int rank = 0;  // without room for all, windows of the lowest ranks are folded
 };
 
 struct WindowPlace : WindowRect {
@@ -43,7 +43,7 @@ struct WindowRoom {
   bool right = false;   // right edge, else the left one
 };
 
-// Shares `room`: all have a wished, kept or least length, or lie at the same part of the way between two of these.
+// Shares `room`. All get their wished, kept or least length, or a length between two of these at the same ratio.
 std::vector<float> shareRoom(std::span<const Length> lengths, float room);
 
 // Arranges windows along an edge: below each other as high as wished if there is room, else all lower, else in a

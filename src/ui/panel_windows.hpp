@@ -21,7 +21,7 @@ class PanelWindows {
 
   const PanelState& state() const { return state_; }
   bool visible() const { return visible_; }
-  void setVisible(bool visible) { visible_ = visible; }
+  bool toggleVisible() { return visible_ = !visible_; }
   void toggleHelp();
   void toggleInspector();
   void openInspector();

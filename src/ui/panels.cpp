@@ -16,6 +16,10 @@ namespace speculum::panels {
 
 namespace {
 
+constexpr ImGuiWindowFlags fixedWindow = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                                         ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing;
+constexpr double leastSpan = 20.0;  // seconds that the slider reaches
+
 void bookmarks(PanelContext& ui) {
   const std::vector<Bookmark>& bookmarks = ui.view.edit.scene->bookmarks;
   const int shown = ui.view.camera.bookmark;
@@ -32,13 +36,11 @@ void bookmarks(PanelContext& ui) {
     ImGui::EndCombo();
   }
   tip("Views that are saved with the scene. Shift+M goes to the next one.");
-  continueRow("Bookmark view");
-  commandButton(ui, "Bookmark view", "bookmark.add", "Saves the camera's position and direction with the scene (M).",
-                AddBookmark{});
+  nextButton(ui, "Bookmark view", "bookmark.add", "Saves the camera's position and direction with the scene (M).",
+             AddBookmark{});
   if (shown >= 0) {
-    continueRow("Remove");
-    commandButton(ui, "Remove", "bookmark.remove", "Removes the bookmark from the scene.",
-                  RemoveBookmark{static_cast<size_t>(shown)});
+    nextButton(ui, "Remove", "bookmark.remove", "Removes the bookmark from the scene.",
+               RemoveBookmark{static_cast<size_t>(shown)});
   }
 }
 
@@ -73,6 +75,35 @@ void cameraMode(PanelContext& ui) {
     continueRow("Reset camera");
   }
   commandButton(ui, "Reset camera", "camera.reset", "Returns to the scene's camera.", ResetCamera{});
+}
+
+void timeControls(PanelContext& ui) {
+  const PlaybackView& playback = ui.view.playback;
+  // The slider's range doubles whenever the time reaches its end.
+  const double span = leastSpan * std::exp2(std::ceil(std::log2(std::max(1.0, playback.time / leastSpan))));
+  float seconds = static_cast<float>(playback.time);
+  if (ImGui::SliderFloat("Time", &seconds, 0.0f, static_cast<float>(span), "%.3f s", ImGuiSliderFlags_AlwaysClamp)) {
+    ui.send(Seek{seconds});
+  }
+  recordWidget(ui, "time", "Time of the animation. Drag, or Ctrl+click to type; Space pauses.");
+  commandButton(ui, "<", "time.back", "Steps back by 1/60 s. Key: comma.", StepTime{-1});
+  ImGui::SameLine();
+  commandButton(ui, ">", "time.on", "Steps forward by 1/60 s. Key: period.", StepTime{1});
+  ImGui::SameLine();
+  bool paused = playback.paused;
+  if (ImGui::Checkbox("Pause", &paused)) {
+    ui.send(SetPaused{paused});
+  }
+  recordWidget(ui, "pause", "Pauses the animation (Space). The picture then becomes exact.");
+  const float width = 6.0f * ImGui::GetFontSize();
+  continueRow("Speed", width);
+  float speed = static_cast<float>(playback.speed);
+  ImGui::SetNextItemWidth(width);
+  if (ImGui::SliderFloat("Speed", &speed, static_cast<float>(slowestTime), static_cast<float>(fastestTime), "%.3g x",
+                         ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp)) {
+    ui.send(SetTimeSpeed{speed});
+  }
+  recordWidget(ui, "time.speed", "Speed of the animation. Keys: [ halves it, ] doubles it.");
 }
 
 // Returns a text with the time of the passes that a setting acts on, from the last frame whose passes were timed.
@@ -173,6 +204,12 @@ void commandButton(PanelContext& ui, const char* label, std::string_view key, co
   }
 }
 
+void nextButton(PanelContext& ui, const char* label, std::string_view key, const std::string& about, Command command,
+                bool enabled) {
+  continueRow(label);
+  commandButton(ui, label, key, about, std::move(command), enabled);
+}
+
 float textWidth(std::string_view text) {
   return ImGui::CalcTextSize(text.data(), text.data() + text.size()).x;
 }
@@ -235,6 +272,25 @@ void coloredText(const glm::vec3& color, const std::string& text) {
   ImGui::PopStyleColor();
 }
 
+void loading(PanelContext& ui) {
+  const BrowserView& browser = ui.view.browser;
+  if (browser.loading.empty()) {
+    return;
+  }
+  const ImGuiIO& io = ImGui::GetIO();
+  const float unit = ImGui::GetFontSize();
+  ImGui::SetNextWindowPos(ImVec2(0.5f * io.DisplaySize.x, io.DisplaySize.y - unit), ImGuiCond_Always,
+                          ImVec2(0.5f, 1.0f));
+  ImGui::SetNextWindowSize(ImVec2(26.0f * unit, 0.0f));
+  if (ImGui::Begin("Loading", nullptr, fixedWindow)) {
+    ImGui::Text("Loading %s", browser.loading.c_str());
+    ImGui::ProgressBar(static_cast<float>(browser.loaded), ImVec2(-5.0f * unit, 0.0f));
+    ImGui::SameLine();
+    commandButton(ui, "Cancel", "loading.cancel", "", CancelLoading{});
+  }
+  ImGui::End();
+}
+
 // Draws the message over the picture, so that no panel moves.
 void message(PanelContext& ui, const WindowRect& picture) {
   std::string& dismissed = ui.state.dismissedMessage;
@@ -249,9 +305,7 @@ void message(PanelContext& ui, const WindowRect& picture) {
                           {0.5f, 0.0f});
   ImGui::SetNextWindowSize({std::clamp(picture.size.x - 2.0f * em, 20.0f * em, 40.0f * em), 0.0f});
   ImGui::SetNextWindowBgAlpha(1.0f);
-  constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
-                                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing;
-  if (ImGui::Begin("Message", nullptr, flags)) {
+  if (ImGui::Begin("Message", nullptr, fixedWindow)) {
     coloredText(errorColor, ui.view.message);
     if (button(ui, "Dismiss", "message.dismiss", "Esc")) {
       dismissed = ui.view.message;
@@ -272,7 +326,7 @@ void scene(PanelContext& ui) {
   sceneChoice(ui);
   cameraMode(ui);
   bookmarks(ui);
-  time(ui);
+  timeControls(ui);
   commandButton(ui, "Copy command line", "copy",
                 "Copies a speculum render call that draws this view. Unsaved changes go into a copy of the scene.",
                 CopyCommandLine{});
@@ -280,9 +334,8 @@ void scene(PanelContext& ui) {
   if (button(ui, "Inspector", "edit.open", "Selects, moves, adds and deletes objects, lights and mirrors (F2).")) {
     ui.state.inspector = !ui.state.inspector;
   }
-  continueRow("Screenshot");
-  commandButton(ui, "Screenshot", "screenshot", "Saves the window as a picture (F12); Shift+F12 leaves the panels out.",
-                TakeScreenshot{true});
+  nextButton(ui, "Screenshot", "screenshot", "Saves the window as a picture (F12); Shift+F12 leaves the panels out.",
+             TakeScreenshot{true});
 }
 
 void settings(PanelContext& ui) {

@@ -86,7 +86,6 @@ bool menu(PanelContext& ui, const char* label, bool enabled = true);
 
 // Sections of the main panel and contents of the windows beside it, each within the current ImGui window.
 void scene(PanelContext& ui);
-void time(PanelContext& ui);
 void settings(PanelContext& ui);
 void passes(PanelContext& ui);
 void effects(PanelContext& ui);
@@ -137,8 +136,8 @@ bool choice(const char* label, int& index, std::span<const std::string> names);
 // Linear numbers, as files have them, up to `most`, and a swatch that opens a picker.
 bool colorEdit(const char* label, glm::dvec3& linear, double most);
 
-// Call between the widgets of a row: the next one goes to the next line if it does not fit into this one. It is as wide
-// as a button with this label and `further` pixels.
+// Call between the widgets of a row. Continues on the next line if the next widget does not fit: it is `further` pixels
+// wider than a button with this label.
 void continueRow(const char* label, float further = 0.0f);
 // Returns the label for a widget that needs so many pixels; if the line has no room for both, draws the label above.
 std::string labelFor(const std::string& label, float width);
@@ -150,7 +149,7 @@ void figure(const std::string& text, bool dimmed = false);  // at the right edge
 void figureColumn(const char* head, float ems, int flags = 0);
 std::string thatFits(const std::string& text);  // its ends, if the rest of the line or cell is too short for it
 std::string mebibytes(uint64_t bytes);          // without the unit
-std::string milliseconds(double ms);            // the same without the unit; "-" for NaN
+std::string milliseconds(double ms);            // without the unit; "-" for NaN
 std::string duration(double ms);                // "3.21 ms", "757 ms", "14.20 s"
 // Text that is wrapped at the window's edge, but not within numbers; dimmed; in a color.
 void wrappedText(const std::string& text);
@@ -158,10 +157,13 @@ void dimmedText(const std::string& text);
 inline constexpr glm::vec3 errorColor{0.92f, 0.38f, 0.28f};  // display sRGB
 inline constexpr glm::vec3 warningColor{0.85f, 0.60f, 0.10f};
 void coloredText(const glm::vec3& color, const std::string& text);
-// Draws a button, records it and shows its tooltip. The second sends the command when it is pressed.
+// Draws a button, records it and shows its tooltip. The second sends the command when it is pressed; the third also
+// continues the row.
 bool button(PanelContext& ui, const char* label, std::string_view key, const std::string& tip, bool enabled = true);
 void commandButton(PanelContext& ui, const char* label, std::string_view key, const std::string& tip, Command command,
                    bool enabled = true);
+void nextButton(PanelContext& ui, const char* label, std::string_view key, const std::string& tip, Command command,
+                bool enabled = true);
 
 }  // namespace panels
 }  // namespace speculum

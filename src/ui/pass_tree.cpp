@@ -15,37 +15,55 @@ bool isSeenIn(const std::vector<int>& path, const std::vector<int>& parent) {
   return path.size() == parent.size() + 1 && std::equal(parent.begin(), parent.end(), path.begin());
 }
 
-PassBranch nodeOf(int pass, std::span<const PassView> passes, std::span<const SkippedView> skipped) {
-  PassBranch node{.pass = pass};
-  const std::vector<int>& path = passes[static_cast<size_t>(pass)].path;
-  const auto isListed = [&](const std::vector<int>& mirror) {
-    return std::ranges::any_of(passes, [&](const PassView& other) { return other.path == mirror; });
-  };
-  for (size_t i = 0; i < skipped.size(); ++i) {
-    if (isSeenIn(skipped[i].path, path) && !isListed(skipped[i].path)) {
-      node.skipped.push_back(static_cast<int>(i));
+// Returns the name of the pass that a pass is seen in; empty for a mirror seen directly, and for passes of no mirror.
+std::string pathParent(const std::string& name) {
+  const size_t last = name.rfind(" > ");
+  return last != std::string::npos ? name.substr(0, last) : "";
+}
+
+// Returns the branches with that parent, each with those below it.
+std::vector<PassBranch> nested(std::span<const PassBranch> branches, int parent = -1) {
+  std::vector<PassBranch> children;
+  for (const PassBranch& branch : branches) {
+    if (branch.parent == parent) {
+      children.push_back(branch);
+      children.back().children = nested(branches, branch.pass);
     }
   }
-  for (size_t i = 0; i < passes.size(); ++i) {
-    if (isSeenIn(passes[i].path, path)) {
-      node.children.push_back(nodeOf(static_cast<int>(i), passes, skipped));
-    }
-  }
-  return node;
+  return children;
 }
 
 }  // namespace
 
 std::vector<PassBranch> passTree(std::span<const PassView> passes, std::span<const SkippedView> skipped) {
-  std::vector<PassBranch> roots;
-  for (size_t i = 0; i < passes.size(); ++i) {
-    if (!passes[i].path.empty()) {
-      continue;
-    }
-    const int pass = static_cast<int>(i);
-    roots.push_back(passes[i].kind == PassKind::main ? nodeOf(pass, passes, skipped) : PassBranch{.pass = pass});
+  constexpr int notListed = -2;
+  const auto parentOf = [&](const std::vector<int>& path) {
+    const auto parent = std::ranges::find_if(
+        passes, [&](const PassView& pass) { return panels::hasTarget(pass) && isSeenIn(path, pass.path); });
+    return parent == passes.end() ? notListed : static_cast<int>(parent - passes.begin());
+  };
+  std::vector<PassBranch> branches;
+  for (const PassView& pass : passes) {
+    branches.push_back(
+        {.pass = static_cast<int>(branches.size()), .parent = pass.path.empty() ? -1 : parentOf(pass.path)});
   }
-  return roots;
+  for (size_t i = 0; i < skipped.size(); ++i) {
+    const int parent = parentOf(skipped[i].path);
+    if (parent >= 0 && std::ranges::find(passes, skipped[i].path, &PassView::path) == passes.end()) {
+      branches[static_cast<size_t>(parent)].skipped.push_back(static_cast<int>(i));
+    }
+  }
+  return nested(branches);
+}
+
+std::vector<PassBranch> passTree(std::span<const std::string> names) {
+  std::vector<PassBranch> branches;
+  for (const std::string& name : names) {
+    const auto parent = std::ranges::find(names, pathParent(name));
+    branches.push_back({.pass = static_cast<int>(branches.size()),
+                        .parent = parent == names.end() ? -1 : static_cast<int>(parent - names.begin())});
+  }
+  return nested(branches);
 }
 
 std::string pathText(const std::string& name) {
@@ -56,11 +74,6 @@ std::string pathText(const std::string& name) {
 std::string pathEnd(const std::string& name) {
   const size_t last = name.rfind(" > ");
   return last != std::string::npos ? name.substr(last + 3) : pathText(name);
-}
-
-std::string pathParent(const std::string& name) {
-  const size_t last = name.rfind(" > ");
-  return last != std::string::npos ? name.substr(0, last) : "";
 }
 
 double restOfPasses(const FrameView& frame) {

@@ -10,7 +10,8 @@ namespace speculum {
 
 // A pass with what is seen in it.
 struct PassBranch {
-  int pass = -1;             // index into FrameView::passes
+  int pass = -1;             // index into the passes of the tree
+  int parent = -1;           // index of the pass that it is seen in; -1: none
   std::vector<int> skipped;  // indices into FrameView::skipped: mirrors seen in it that have no pass of their own
   std::vector<PassBranch> children;
 };
@@ -19,12 +20,11 @@ struct PassBranch {
 // view. Leaves out mirrors, with a pass or skipped, whose parent is not listed. A mirror whose image is reused is
 // listed with the pass that rendered it, not among the skipped ones.
 std::vector<PassBranch> passTree(std::span<const PassView> passes, std::span<const SkippedView> skipped);
+// Returns the passes with these names in such trees. One whose parent is not among them has none.
+std::vector<PassBranch> passTree(std::span<const std::string> names);
 
 // Returns the last mirror in a pass's name, which is enough in a tree that shows its parents.
 std::string pathEnd(const std::string& name);
-
-// Returns the name of the pass that a pass is seen in; empty for a mirror seen directly, and for passes of no mirror.
-std::string pathParent(const std::string& name);
 // Returns all mirrors in a pass's name.
 std::string pathText(const std::string& name);
 

@@ -2,7 +2,6 @@
 #include <imgui.h>
 #include <spdlog/fmt/fmt.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 

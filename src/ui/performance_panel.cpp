@@ -1,8 +1,6 @@
 #include <imgui.h>
-#include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
-#include <cfloat>
 #include <cmath>
 
 #include "ui/panels.hpp"
@@ -33,36 +31,6 @@ std::vector<float> gapsFilled(std::vector<float> values) {
   return values;
 }
 
-// A pass below the pass that it is seen in.
-struct NestedPass {
-  std::string name;
-  int depth = 0;  // of nesting
-};
-
-// Appends the passes seen in `parent`, each followed by those that are seen in it.
-void nest(const std::vector<std::string>& names, const std::string& parent, int depth,
-          std::vector<NestedPass>& nested) {
-  for (const std::string& name : names) {
-    if (pathParent(name) == parent) {
-      nested.push_back({name, depth});
-      nest(names, name, depth + 1, nested);
-    }
-  }
-}
-
-// Returns the passes in the order of the tree of Passes. One whose parent did not run stands at the left.
-std::vector<NestedPass> nestedPasses(const std::vector<std::string>& names) {
-  std::vector<NestedPass> nested;
-  for (const std::string& name : names) {
-    const std::string parent = pathParent(name);
-    if (parent.empty() || std::ranges::find(names, parent) == names.end()) {
-      nested.push_back({name, 0});
-      nest(names, name, 1, nested);
-    }
-  }
-  return nested;
-}
-
 // Draws one row: name, median, p95 and the graph. A nested pass is indented and shows the end of its path, others the
 // whole.
 void row(PanelContext& ui, const std::string& name, const std::vector<float>& values, float height, int depth = 0) {
@@ -84,6 +52,16 @@ void row(PanelContext& ui, const std::string& name, const std::vector<float>& va
   ImGui::TableNextColumn();
   graph(name.c_str(), values, height);
   recordWidget(ui, "graph." + name);
+}
+
+// Draws the rows of passes, each followed by those that are seen in it.
+void passRows(PanelContext& ui, const std::vector<std::string>& names, std::span<const PassBranch> branches,
+              int depth = 0) {
+  for (const PassBranch& branch : branches) {
+    const std::string& name = names[static_cast<size_t>(branch.pass)];
+    row(ui, name, gapsFilled(ui.view.frame.history.passSeries(name)), 1.6f * ImGui::GetFontSize(), depth);
+    passRows(ui, names, branch.children, depth + 1);
+  }
 }
 
 bool beginRows(PanelContext& ui, const char* id) {
@@ -136,9 +114,8 @@ void performance(PanelContext& ui) {
   row(ui, "Frame", history.series(FrameHistory::Figure::frame), 3.2f * em);
   row(ui, "CPU", history.series(FrameHistory::Figure::cpu), 3.2f * em);
   row(ui, "GPU", history.series(FrameHistory::Figure::gpu), 3.2f * em);
-  for (const NestedPass& pass : nestedPasses(history.passNames())) {
-    row(ui, pass.name, gapsFilled(history.passSeries(pass.name)), 1.6f * em, pass.depth);
-  }
+  const std::vector<std::string> names = history.passNames();
+  passRows(ui, names, passTree(names));
   ImGui::EndTable();
 }
 

@@ -76,7 +76,7 @@ void applyTheme(Theme theme, float scale) {
   style.Colors[ImGuiCol_TitleBgCollapsed].w = 0.94f;  // else only the picture is seen
   style.Colors[ImGuiCol_ModalWindowDimBg] = {0.0f, 0.0f, 0.0f, 0.4f};
   style.Colors[ImGuiCol_PlotHistogram] = style.Colors[ImGuiCol_SliderGrab];  // progress bars have text over them
-  // Values are drawn over these.
+  // Transparent, because values are drawn over them.
   style.Colors[ImGuiCol_SliderGrab].w = 0.5f;
   style.Colors[ImGuiCol_SliderGrabActive].w = 0.6f;
   style.Colors[ImGuiCol_HeaderHovered].w = 0.4f;

@@ -31,7 +31,7 @@ struct PassView : PassId {
 
 struct SkippedView {
   std::string name;       // mirrors from the eye
-  std::vector<int> path;  // the same, indices into Scene::mirrors
+  std::vector<int> path;  // indices of these in Scene::mirrors
   std::string reason;
   std::string detail;
   bool byRays = false;  // rays show its reflection
@@ -56,7 +56,7 @@ struct FrameView {
   bool still = false;    // later frames draw the panels only, or parts of a picture that is not complete
   double cpuMs = 0.0;
   double gpuMs = 0.0;
-  double timedGpuMs = 0.0;  // of the last frame whose passes were timed; only some frames are; 0: not of this picture
+  double timedGpuMs = 0.0;  // of the last frame whose passes were timed; 0: none, or of another picture
   FrameHistory history;
   uint64_t deviceBytes = 0;
   uint64_t budgetBytes = 0;
