@@ -77,8 +77,8 @@ struct EnvironmentMap {
   int cacheIndex = -1;            // index into FrameCache::maps of the map that is reused; -1: this frame renders it
 };
 
-// What casts shadows in a shadow map's face and stands still while other casters move. Its image is kept, and each frame
-// draws the others over a copy of it.
+// What casts shadows in a shadow map's face and stands still while other casters move. Its image is kept, and each
+// frame draws the others over a copy of it.
 struct ShadowLayer {
   PlannedPass pass;
   bool rendered = false;          // rendered together with the face; else its texels are unchanged
