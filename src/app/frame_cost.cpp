@@ -113,7 +113,7 @@ FrameWork workOf(const FramePlan& plan, const Scene& scene, const SceneState& st
         ++work.passes;
         work.triangles += trianglesOf(face.pass, scene, state);
         work.plainTexels += static_cast<double>(map.size) * map.size;
-        if (face.layer && face.layer->rendered) {
+        if (face.rendersLayer()) {
           ++work.passes;
           work.triangles += trianglesOf(face.layer->pass, scene, state);
           work.plainTexels += static_cast<double>(map.size) * map.size;

@@ -95,6 +95,8 @@ struct ShadowFace {
   bool rendered = false;          // this frame renders it; else, if it is read, its texels are unchanged
   std::vector<uint64_t> content;  // all that its texels depend on; empty if they were never rendered
   std::optional<ShadowLayer> layer;
+
+  bool rendersLayer() const { return rendered && layer && layer->rendered; }
 };
 
 // Six images about a light that casts shadows, side by side, three to a row: effects.shadow_lookup = map.

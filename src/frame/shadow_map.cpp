@@ -194,21 +194,17 @@ class FacePlanner {
   std::vector<Bounds> boxes_;
 };
 
-bool standsStill(const PointLight& light) {
-  return !light.orbit || light.orbit->speed == 0.0;
-}
-
 // Returns the pass with the casters that stand still, or with the others.
 PlannedPass castersOf(PlannedPass pass, bool still, const Scene& scene, const SceneState& state) {
   const auto isOther = [&](int instance) {
     const int object = state.instances[static_cast<size_t>(instance)].object;
-    return (scene.objects[static_cast<size_t>(object)].spin == glm::dvec3(0.0)) != still;
+    return spins(scene.objects[static_cast<size_t>(object)]) == still;
   };
   std::erase_if(pass.instances, isOther);
   std::erase_if(pass.partial, [&](const PartialInstance& partial) { return isOther(partial.instance); });
   std::erase_if(pass.simplified, [&](const SimplifiedInstance& simplified) { return isOther(simplified.instance); });
   std::erase_if(pass.mirrors, [&](const MirrorDraw& draw) {
-    return (scene.mirrors[static_cast<size_t>(draw.mirror)].spin == glm::dvec3(0.0)) != still;
+    return spins(scene.mirrors[static_cast<size_t>(draw.mirror)]) == still;
   });
   return pass;
 }
@@ -272,7 +268,7 @@ void reuseShadowMaps(std::vector<ShadowMap>& maps, std::span<const ShadowMap> be
       if (!face.rendered && old) {
         face.layer = old->layer;
       } else if (settings.reflection.skipUnchanged && old && !old->content.empty() &&
-                 standsStill(scene.lights[static_cast<size_t>(maps[i].light)])) {
+                 !orbits(scene.lights[static_cast<size_t>(maps[i].light)])) {
         divide(face, old->layer, scene, state);
       }
     }

@@ -251,12 +251,22 @@ CameraSpec cameraOf(const Bookmark& bookmark, const CameraSpec& camera) {
           .near = camera.near};
 }
 
+bool spins(const Object& object) {
+  return object.spin != glm::dvec3(0.0);
+}
+
+bool spins(const Mirror& mirror) {
+  return mirror.spin != glm::dvec3(0.0);
+}
+
+bool orbits(const PointLight& light) {
+  return light.orbit && light.orbit->speed != 0.0;
+}
+
 bool contentMoves(const Scene& scene) {
   const auto any = [](const auto& list, const auto& test) { return std::ranges::any_of(list, test); };
-  const glm::dvec3 still(0.0);
-  return any(scene.objects, [&](const Object& o) { return o.spin != still; }) ||
-         any(scene.lights, [](const PointLight& l) { return l.orbit && l.orbit->speed != 0.0; }) ||
-         any(scene.mirrors, [&](const Mirror& m) { return m.spin != still || (m.ripple && m.ripple->speed != 0.0); });
+  return any(scene.objects, [](const Object& object) { return spins(object); }) || any(scene.lights, orbits) ||
+         any(scene.mirrors, [](const Mirror& m) { return spins(m) || (m.ripple && m.ripple->speed != 0.0); });
 }
 
 bool moves(const Scene& scene) {

@@ -78,6 +78,11 @@ SceneState evaluate(const Scene& scene, double timeSeconds);
 // Returns a camera at the bookmark that does not move.
 CameraSpec cameraOf(const Bookmark& bookmark, const CameraSpec& camera);
 
+// Says whether the place of an object, a mirror or a light depends on the time.
+bool spins(const Object& object);
+bool spins(const Mirror& mirror);
+bool orbits(const PointLight& light);
+
 // Says whether objects, lights or mirrors depend on the time.
 bool contentMoves(const Scene& scene);
 // Returns the time that these are at; nothing if they do not depend on it.

@@ -118,7 +118,7 @@ void FrameData::build(Frame& frame, const SceneResources& resources, const Scene
         continue;
       }
       const glm::ivec2 corner = shadowCorner(plan.shadowMaps, map, i);
-      if (face.layer && face.layer->rendered) {
+      if (face.rendersLayer()) {
         addPass(source, face.layer->pass, face.projection, corner);
       }
       addPass(source, face.pass, face.projection, corner);

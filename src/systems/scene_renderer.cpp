@@ -210,47 +210,19 @@ size_t SceneRenderer::recordShadows(const FrameInfo& info, const TileRange& face
         continue;
       }
       if (count >= faces.first && count < faces.end) {
-        recordShadowFace(info, map, i, index);
+        const RecordedPass pass = shadowSystem_.record(renderer_, info, map, i, index);
+        ledger_[EffectKind::shadows].draws += pass.draws;
+        log_.add(pass);
+        if (face.rendersLayer()) {
+          log_.add(pass);
+          log_.joinLast();
+        }
       }
       ++count;
-      index += face.layer && face.layer->rendered ? 2 : 1;
+      index += face.rendersLayer() ? 2 : 1;
     }
   }
   return count;
-}
-
-// `index` in info.data, of the face or, if that is rendered, of its layer, which counts as a part of the face's pass.
-void SceneRenderer::recordShadowFace(const FrameInfo& info, size_t map, size_t face, size_t index) {
-  const std::vector<ShadowMap>& maps = info.plan.shadowMaps;
-  const ShadowFace& planned = maps[map].faces[face];
-  const auto size = static_cast<float>(maps[map].size);
-  const glm::ivec2 corner = shadowCorner(maps, map, face);
-  const VkRect2D area{{corner.x, corner.y}, extentOf(maps[map].size, maps[map].size)};
-  const PassId id{.kind = PassKind::shadow, .light = maps[map].light, .face = static_cast<int>(face)};
-  RecordedPass pass{id, shadowFaceName(maps[map], face)};
-  pass.areaPx = planned.pass.areaPx;
-  const auto draw = [&](const PassTargets& targets, bool overLayer) {
-    PassScope scope = renderer_.beginPass(
-        info.frame, {.name = pass.name,
-                     .targets = targets,
-                     .renderArea = area,
-                     .viewport = {static_cast<float>(corner.x), static_cast<float>(corner.y), size, size},
-                     .scissor = area,
-                     .collectStatistics = true});
-    scope.countSamples();
-    pass.draws += shadowSystem_.record(scope, info, index++, overLayer);
-  };
-  const bool rendersLayer = planned.layer && planned.layer->rendered;
-  if (rendersLayer) {
-    draw(shadowSystem_.layerTargets(), false);
-  }
-  draw(shadowSystem_.targets(), planned.layer.has_value());
-  ledger_[EffectKind::shadows].draws += pass.draws;
-  log_.add(pass);
-  if (rendersLayer) {
-    log_.add(pass);
-    log_.joinLast();
-  }
 }
 
 void SceneRenderer::recordMirrors(const FrameInfo& info) {

@@ -76,7 +76,6 @@ class SceneRenderer {
   void prepareTargets(Frame& frame, const Settings& settings, const FramePlan& plan, bool shown);
   void recordFaces(const FrameInfo& info);
   size_t recordShadows(const FrameInfo& info, const TileRange& faces);
-  void recordShadowFace(const FrameInfo& info, size_t map, size_t face, size_t index);
   void recordMaps(const FrameInfo& info, const TileRange& faces, size_t face);
   // Records a face of an environment map, pass `index` of info.data.
   void recordFace(const FrameInfo& info, size_t map, size_t face, size_t index);

@@ -124,7 +124,7 @@ const Pipeline& ShadowSystem::pipelineFor(Drawn drawn) {
   });
 }
 
-uint32_t ShadowSystem::record(const PassScope& scope, const FrameInfo& info, size_t pass, bool overLayer) {
+uint32_t ShadowSystem::draw(const PassScope& scope, const FrameInfo& info, size_t pass, bool overLayer) {
   const VkCommandBuffer commands = scope.commands();
   const PassData& data = info.data.passes()[pass];
   uint32_t draws = 0;
@@ -158,6 +158,33 @@ uint32_t ShadowSystem::record(const PassScope& scope, const FrameInfo& info, siz
     ++draws;
   }
   return draws;
+}
+
+RecordedPass ShadowSystem::record(Renderer& renderer, const FrameInfo& info, size_t map, size_t face, size_t index) {
+  const std::vector<ShadowMap>& maps = info.plan.shadowMaps;
+  const ShadowFace& planned = maps[map].faces[face];
+  const auto size = static_cast<float>(maps[map].size);
+  const glm::ivec2 corner = shadowCorner(maps, map, face);
+  const VkRect2D area{{corner.x, corner.y}, extentOf(maps[map].size, maps[map].size)};
+  const PassId id{.kind = PassKind::shadow, .light = maps[map].light, .face = static_cast<int>(face)};
+  RecordedPass pass{id, shadowFaceName(maps[map], face)};
+  pass.areaPx = planned.pass.areaPx;
+  const auto add = [&](const PassTargets& targets, bool overLayer) {
+    PassScope scope = renderer.beginPass(
+        info.frame, {.name = pass.name,
+                     .targets = targets,
+                     .renderArea = area,
+                     .viewport = {static_cast<float>(corner.x), static_cast<float>(corner.y), size, size},
+                     .scissor = area,
+                     .collectStatistics = true});
+    scope.countSamples();
+    pass.draws += draw(scope, info, index++, overLayer);
+  };
+  if (planned.rendersLayer()) {
+    add(layerTargets(), false);
+  }
+  add(target_->targets(), planned.layer.has_value());
+  return pass;
 }
 
 void ShadowSystem::releaseLayers(RetireQueue& retired) {

@@ -5,6 +5,7 @@
 #include "core/off_screen.hpp"
 #include "systems/frame_info.hpp"
 #include "systems/pipeline_variants.hpp"
+#include "systems/recorded_pass.hpp"
 
 namespace speculum {
 
@@ -20,12 +21,9 @@ class ShadowSystem {
 
   // Makes the target of the plan's maps; call it before anything of the frame is recorded.
   void prepare(Frame& frame, const FramePlan& plan);
-  PassTargets targets() { return target_->targets(); }
-  // Targets of the faces' layers, at the places that the faces have in targets(), and with the same depth.
-  PassTargets layerTargets();
-  // Records pass `pass` of info.data, a face, over its layer if that was rendered, or its layer. Returns the number of
-  // draws.
-  uint32_t record(const PassScope& scope, const FrameInfo& info, size_t pass, bool overLayer);
+  // Records a face that the plan renders and before it, if that is rendered too, its layer. The layer is a pass of its
+  // own for the GPU's timings; the draws returned are those of both. `index` in info.data is that of the first.
+  RecordedPass record(Renderer& renderer, const FrameInfo& info, size_t map, size_t face, size_t index);
   void endFrame(const FramePlan& plan, RetireQueue& retired);
 
   // Descriptor set 2 of pipelines that look maps up, and its layout. The set is null in a frame without maps.
@@ -39,6 +37,10 @@ class ShadowSystem {
  private:
   enum class Drawn { objects, mirrors, layer };
   const Pipeline& pipelineFor(Drawn drawn);
+  // Targets of the faces' layers, at the places that the faces have in target_, and with the same depth.
+  PassTargets layerTargets();
+  // Draws pass `pass` of info.data: a face, over its layer if it has one, or its layer. Returns the number of draws.
+  uint32_t draw(const PassScope& scope, const FrameInfo& info, size_t pass, bool overLayer);
   void create();
   void prepareLayers(Frame& frame, const FramePlan& plan);
   void releaseLayers(RetireQueue& retired);

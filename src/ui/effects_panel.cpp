@@ -35,8 +35,10 @@ void effects(PanelContext& ui) {
     for (const std::string& text : {effect.name, effect.why, on ? std::to_string(effect.draws) : std::string(),
                                     on ? mebibytes(effect.bytes) : std::string()}) {
       ImGui::TableNextColumn();
-      on ? wrappedText(text) : dimmedText(text);
-      if (on) {
+      if (!on) {
+        dimmedText(text);
+      } else {
+        wrappedText(text);
         tip(std::to_string(effect.pipelines) + (effect.pipelines == 1 ? " pipeline" : " pipelines"));
       }
     }
