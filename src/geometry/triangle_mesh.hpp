@@ -44,6 +44,7 @@ class TriangleMesh {
  public:
   static constexpr int64_t noTriangle = -1;
 
+  TriangleMesh() = default;
   explicit TriangleMesh(const Mesh& mesh);
 
   Bounds bounds() const { return bvh_.bounds(); }

@@ -21,13 +21,8 @@ bool isInvertible(const glm::dmat3& m) {
 
 }  // namespace
 
-TraceWorld::TraceWorld(const Scene& scene) : scene_(&scene) {
-  std::vector<std::optional<TriangleMesh>> built(scene.meshes.size());
-  tbb::parallel_for(size_t{0}, built.size(), [&](size_t i) { built[i].emplace(scene.meshes[i]); });
-  meshes_.reserve(built.size());
-  for (auto& mesh : built) {
-    meshes_.push_back(std::move(*mesh));
-  }
+TraceWorld::TraceWorld(const Scene& scene) : scene_(&scene), meshes_(scene.meshes.size()) {
+  tbb::parallel_for(size_t{0}, meshes_.size(), [&](size_t i) { meshes_[i] = TriangleMesh(scene.meshes[i]); });
 }
 
 void TraceWorld::place(const SceneState& state) {
