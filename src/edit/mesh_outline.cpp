@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <set>
 
 #include "geometry/weld.hpp"
 
@@ -47,7 +48,7 @@ std::vector<glm::dvec3> outlinePoints(const Mesh& mesh) {
     }
     return points;
   }
-  std::vector<size_t> farthest;
+  std::set<size_t> farthest;
   for (size_t i = 0; i < mostPoints; ++i) {
     const double y = 1.0 - (2.0 * i + 1.0) / mostPoints;
     const double angle = 2.0 * std::numbers::pi * std::numbers::phi * static_cast<double>(i);
@@ -55,10 +56,8 @@ std::vector<glm::dvec3> outlinePoints(const Mesh& mesh) {
     const auto most = std::ranges::max_element(mesh.vertices, [&](const Vertex& a, const Vertex& b) {
       return glm::dot(a.position, d) < glm::dot(b.position, d);
     });
-    farthest.push_back(static_cast<size_t>(most - mesh.vertices.begin()));
+    farthest.insert(static_cast<size_t>(most - mesh.vertices.begin()));
   }
-  std::ranges::sort(farthest);
-  farthest.erase(std::unique(farthest.begin(), farthest.end()), farthest.end());
   for (const size_t i : farthest) {
     points.push_back(mesh.vertices[i].position);
   }

@@ -163,17 +163,15 @@ std::vector<PixelLine> objectOutline(const InstanceState& instance, const glm::d
 
 std::vector<PixelLine> outlineOf(const Scene& scene, const SceneState& state, const Selection& selection,
                                  const PictureView& picture, const MeshOutline& shape) {
-  const auto index = static_cast<size_t>(selection.index);
   if (selection.kind == Selection::Kind::mirror) {
-    return mirrorOutline(state.mirrors.at(index), picture);
+    return mirrorOutline(state.mirrors.at(selection.index), picture);
   }
   if (selection.kind == Selection::Kind::light) {
-    return lightOutline(state.lights.at(index).position, scene.lights.at(index).radius, picture);
+    return lightOutline(state.lights.at(selection.index).position, scene.lights.at(selection.index).radius, picture);
   }
   const InstanceState* instance = instanceOf(state, selection);
-  return instance
-             ? objectOutline(*instance, scene.meshes.at(static_cast<size_t>(instance->mesh)).halfExtent, picture, shape)
-             : std::vector<PixelLine>();
+  return instance ? objectOutline(*instance, scene.meshes.at(instance->mesh).halfExtent, picture, shape)
+                  : std::vector<PixelLine>();
 }
 
 }  // namespace speculum

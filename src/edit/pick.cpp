@@ -11,7 +11,7 @@ namespace {
 Selection selectionOf(const SceneHit& hit, const TraceWorld& world) {
   switch (hit.kind) {
     case HitKind::object: {
-      const InstanceState& instance = world.instances()[static_cast<size_t>(hit.index)];
+      const InstanceState& instance = world.instances()[hit.index];
       return {Selection::Kind::object, instance.object, instance.copy};
     }
     case HitKind::mirror:
@@ -53,8 +53,8 @@ std::vector<Picked> Picker::at(const SceneState& state, const PictureView& pictu
     if (hit->kind != HitKind::mirror) {
       break;
     }
-    const Mirror& mirror = world_.scene().mirrors[static_cast<size_t>(hit->index)];
-    const MirrorState& placed = world_.mirrors()[static_cast<size_t>(hit->index)];
+    const Mirror& mirror = world_.scene().mirrors[hit->index];
+    const MirrorState& placed = world_.mirrors()[hit->index];
     path.push_back(hit->index);
     throughput *=
         mirrorReflectance(mirror.reflectance, mirror.fresnel, std::abs(glm::dot(placed.normal, ray.direction)));

@@ -20,11 +20,11 @@ std::optional<PictureView> PictureView::through(const Scene& scene, const SceneS
     if (index < 0 || static_cast<size_t>(index) >= state.mirrors.size()) {
       return std::nullopt;
     }
-    const MirrorState& mirror = state.mirrors[static_cast<size_t>(index)];
+    const MirrorState& mirror = state.mirrors[index];
     Plane plane{mirror.origin, mirror.normal};
     const double height = plane.distance(seen.eye());
     const std::vector<glm::dvec3> visible = visiblePart(seen.view_, mirror.polygon);
-    if (visible.empty() || height == 0.0 || (height < 0.0 && !scene.mirrors[static_cast<size_t>(index)].twoSided)) {
+    if (visible.empty() || height == 0.0 || (height < 0.0 && !scene.mirrors[index].twoSided)) {
       return std::nullopt;
     }
     plane.normal *= height < 0.0 ? -1.0 : 1.0;

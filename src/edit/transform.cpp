@@ -48,7 +48,7 @@ const InstanceState* instanceOf(const SceneState& state, const Selection& select
 }
 
 glm::dvec3 pivotOf(const Scene& scene, const SceneState& state, const Selection& selection) {
-  const auto index = static_cast<size_t>(std::max(selection.index, 0));
+  const int index = std::max(selection.index, 0);
   if (selection.kind == Selection::Kind::mirror) {
     return vertexMean(state.mirrors.at(index).polygon);
   }
@@ -65,7 +65,7 @@ glm::dvec3 pivotOf(const Scene& scene, const SceneState& state, const Selection&
 
 double reachOf(const Scene& scene, const SceneState& state, const Selection& selection) {
   const glm::dvec3 pivot = pivotOf(scene, state, selection);
-  const auto index = static_cast<size_t>(std::max(selection.index, 0));
+  const int index = std::max(selection.index, 0);
   if (selection.kind == Selection::Kind::light) {
     return scene.lights.at(index).radius;
   }
@@ -117,7 +117,7 @@ SceneNode turned(const SceneNode& node, const glm::dmat3& rotation, const glm::d
 }
 
 ScaleAxes scaleAxesOf(const Scene& scene, const SceneState& state, const Selection& selection) {
-  const auto index = static_cast<size_t>(std::max(selection.index, 0));
+  const int index = std::max(selection.index, 0);
   if (selection.kind == Selection::Kind::object) {
     const Object& object = scene.objects.at(index);
     return {.directions = rotationFromDegrees(object.rotation + spunBy(object.spin, state.time))};

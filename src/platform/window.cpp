@@ -66,7 +66,7 @@ std::vector<ScreenRect> workAreas() {
   GLFWmonitor** monitors = glfwGetMonitors(&count);
   std::vector<ScreenRect> areas(static_cast<size_t>(count));
   for (int i = 0; i < count; ++i) {
-    ScreenRect& area = areas[static_cast<size_t>(i)];
+    ScreenRect& area = areas[i];
     glfwGetMonitorWorkarea(monitors[i], &area.x, &area.y, &area.width, &area.height);
   }
   return areas;

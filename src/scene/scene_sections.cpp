@@ -83,14 +83,6 @@ void checkShape(const TableReader& table, Key key, std::span<const glm::dvec3> p
   }
 }
 
-// Vertices are rounded to 2^-53 of their distance from the origin, which must be small against the mirror.
-void checkSizeAtPosition(const TableReader& table, const Mirror& mirror) {
-  if (std::min(mirror.size.x, mirror.size.y) < 1e-10 * glm::length(mirror.position)) {
-    table.fail("position", "is too far from the origin for the mirror's size",
-               "at most 1e10 times its width and height are needed");
-  }
-}
-
 // Reads the polygon before the other fields, because it decides which of them apply.
 void readPolygon(const TableReader& table, Mirror& mirror) {
   for (const Key other : {"size", "position", "rotation", "spin"}) {
@@ -110,7 +102,11 @@ void checkRectangle(const TableReader& table, const Mirror& mirror) {
   const std::array<glm::dvec3, 4> corners{glm::dvec3(-half, 0.0), glm::dvec3(half.x, -half.y, 0.0),
                                           glm::dvec3(half, 0.0), glm::dvec3(-half.x, half.y, 0.0)};
   checkShape(table, "size", corners);
-  checkSizeAtPosition(table, mirror);
+  // Vertices are rounded to 2^-53 of their distance from the origin, which must be small against the mirror.
+  if (std::min(mirror.size.x, mirror.size.y) < 1e-10 * glm::length(mirror.position)) {
+    table.fail("position", "is too far from the origin for the mirror's size",
+               "at most 1e10 times its width and height are needed");
+  }
 }
 
 void checkDirections(const TableReader& table, const CameraSpec& camera) {

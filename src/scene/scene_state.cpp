@@ -83,12 +83,6 @@ MirrorState placedMirror(const Mirror& mirror, double time) {
   return state;
 }
 
-MirrorState mirrorState(const Mirror& mirror, double time) {
-  MirrorState state = placedMirror(mirror, time);
-  state.slack = slackOf(state.polygon);
-  return state;
-}
-
 // `forward`, of any length, is not parallel to `up`.
 CameraPose poseAlong(const glm::dvec3& eye, const glm::dvec3& forward, const glm::dvec3& up, double verticalFovDegrees,
                      double near) {
@@ -231,7 +225,8 @@ SceneState evaluate(const Scene& scene, double timeSeconds) {
     state.lights.push_back(lightState(light, timeSeconds));
   }
   for (const Mirror& mirror : scene.mirrors) {
-    state.mirrors.push_back(mirrorState(mirror, timeSeconds));
+    MirrorState& placed = state.mirrors.emplace_back(placedMirror(mirror, timeSeconds));
+    placed.slack = slackOf(placed.polygon);
   }
   findLayers(scene.mirrors, state.mirrors);
   const bool bounces = std::ranges::any_of(scene.mirrors, &Mirror::castsLight);
