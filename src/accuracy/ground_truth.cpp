@@ -43,10 +43,8 @@ std::vector<uint8_t> interior(const std::vector<uint8_t>& mask, int width, int h
   for (int y = 1; y + 1 < height; ++y) {
     for (int x = 1; x + 1 < width; ++x) {
       bool all = true;
-      for (int dy = -1; dy <= 1; ++dy) {
-        for (int dx = -1; dx <= 1; ++dx) {
-          all = all && mask[static_cast<size_t>(y + dy) * width + x + dx] != 0;
-        }
+      for (int k = 0; k < 9; ++k) {
+        all = all && mask[static_cast<size_t>(y + k / 3 - 1) * width + x + k % 3 - 1] != 0;
       }
       inner[static_cast<size_t>(y) * width + x] = all;
     }
