@@ -253,7 +253,7 @@ void Window::installCallbacks() {
     of(w)->notify({.kind = InputEvent::Kind::pointer, .x = x, .y = y});
   });
   glfwSetDropCallback(window_.get(), [](GLFWwindow* w, int count, const char** names) {
-    of(w)->dropFiles({names, names + count});
+    of(w)->notify({.kind = InputEvent::Kind::drop, .dropped = {names, names + count}});
   });
   glfwSetScrollCallback(window_.get(), [](GLFWwindow* w, double dx, double dy) {
     of(w)->notify({.kind = InputEvent::Kind::wheel, .x = dx, .y = dy});
@@ -405,10 +405,6 @@ void Window::setClipboard(const std::string& text) {
 std::string Window::clipboard() const {
   const char* text = glfwGetClipboardString(window_.get());
   return text ? text : "";
-}
-
-void Window::dropFiles(const std::vector<std::filesystem::path>& files) {
-  notify({.kind = InputEvent::Kind::drop, .dropped = files});
 }
 
 std::vector<const char*> Window::requiredInstanceExtensions() const {

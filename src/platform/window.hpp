@@ -118,8 +118,6 @@ class Window {
   std::string clipboard() const;  // empty if it holds no text
   // Calls `listener` with every event.
   void setListener(std::function<void(const InputEvent&)> listener) { listener_ = std::move(listener); }
-  // Handles files as if they had been dropped on the window.
-  void dropFiles(const std::vector<std::filesystem::path>& files);
 
   GLFWwindow* native() const { return window_.get(); }
   std::vector<const char*> requiredInstanceExtensions() const;
