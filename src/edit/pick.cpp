@@ -31,12 +31,6 @@ bool isSkipped(const PickLimits& limits, const std::vector<int>& path) {
   });
 }
 
-// Returns the reflected ray. It starts at the reflected eye and reaches the mirror at the same t, so that it needs no
-// offset off the surface.
-Ray reflectedRay(const Ray& ray, const Plane& plane, double t) {
-  return {reflectPoint(ray.origin, plane), reflectionLinear(plane.normal) * ray.direction, t};
-}
-
 }  // namespace
 
 std::vector<Picked> Picker::at(const SceneState& state, const PictureView& picture, const glm::dvec2& pixel,
@@ -63,7 +57,9 @@ std::vector<Picked> Picker::at(const SceneState& state, const PictureView& pictu
         largest < limits.minThroughput || isSkipped(limits, path)) {
       break;
     }
-    ray = reflectedRay(ray, {placed.origin, placed.normal}, hit->t);
+    // Starts at the reflected eye and reaches the mirror at the same t, so that it needs no offset off the surface.
+    ray = {reflectPoint(ray.origin, {placed.origin, placed.normal}), reflectionLinear(placed.normal) * ray.direction,
+           hit->t};
     skip = {.mirror = hit->index};
   }
   std::ranges::reverse(found);

@@ -144,10 +144,7 @@ glm::dvec3 PathTracer::roughReflection(const Path& path, const Bounce& bounce) {
     ++next.roughLevel;
     sum += follow(next);
   }
-  if (taken > 0) {
-    return sum / static_cast<double>(taken);
-  }
-  return follow(reflected(path, bounce, bounce.base.normal));
+  return taken > 0 ? sum / static_cast<double>(taken) : follow(reflected(path, bounce, bounce.base.normal));
 }
 
 glm::dvec3 PathTracer::follow(Path path) {

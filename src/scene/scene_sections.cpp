@@ -222,20 +222,15 @@ std::vector<SettingEntry> readSettings(const TableReader& file) {
 
 std::vector<std::string> settingTexts(const TableReader& table, Key key, const toml::node& node) {
   std::vector<std::string> texts;
-  const auto add = [&](const toml::node& value) {
+  const toml::array* array = node.as_array();
+  for (size_t i = 0; i < (array ? array->size() : 1); ++i) {
+    const toml::node& value = array ? (*array)[i] : node;
     const std::optional<std::string> text = plainText(value);
     if (!text) {
       table.failAt(value, key, "is " + std::string(typeName(value)),
                    "a number, true, false, a string or an array of those is needed");
     }
     texts.push_back(*text);
-  };
-  if (const toml::array* array = node.as_array()) {
-    for (const toml::node& element : *array) {
-      add(element);
-    }
-  } else {
-    add(node);
   }
   if (texts.empty()) {
     table.failAt(node, key, "is empty", "at least one value is needed");

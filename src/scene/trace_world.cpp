@@ -14,11 +14,6 @@ glm::dmat3 inverseOf(const glm::dmat3& m) {
   return glm::inverse(m * scale) * scale;
 }
 
-bool isInvertible(const glm::dmat3& m) {
-  const glm::dmat3 inverse = inverseOf(m);
-  return std::isfinite(glm::dot(inverse[0] + inverse[1] + inverse[2], glm::dvec3(1.0)));
-}
-
 }  // namespace
 
 TraceWorld::TraceWorld(const Scene& scene) : scene_(&scene), meshes_(scene.meshes.size()) {
@@ -36,8 +31,10 @@ void TraceWorld::place(const SceneState& state) {
     Affine& placed = instances_[i].worldFromMesh;
     placed.translation -= eye;
     instances_[i].center -= eye;
-    placements_.push_back({inverseOf(placed.linear), normalMatrix(placed.linear)});
-    if (isInvertible(placed.linear) && !scene_->meshes[instances_[i].mesh].indices.empty()) {
+    const glm::dmat3 inverse = inverseOf(placed.linear);
+    placements_.push_back({inverse, normalMatrix(placed.linear)});
+    const bool invertible = std::isfinite(glm::dot(inverse[0] + inverse[1] + inverse[2], glm::dvec3(1.0)));
+    if (invertible && !scene_->meshes[instances_[i].mesh].indices.empty()) {
       items.push_back({HitKind::object, static_cast<int>(i)});
     }
   }
