@@ -49,8 +49,8 @@ void addViewScales(SweepPlanner& planner, const SweepContext& context, bool full
   }
 }
 
-// The way to the truth. From 16 pictures on each has one sample, whatever is set. No mean removes
-// the error of shadow maps.
+// Adds means of pictures, which converge to the reference. From 16 pictures on, each has one sample, whatever is set.
+// No mean removes the error of shadow maps.
 void addMeans(SweepPlanner& planner, const SweepContext& context) {
   Changes exact = context.mirrors ? Changes{{"reflection.max_depth", greatestDepth}} : Changes{};
   if (std::ranges::find(context.effects, "effects.shadows") != context.effects.end()) {

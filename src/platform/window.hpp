@@ -2,7 +2,6 @@
 
 #include <vulkan/vulkan.h>
 
-#include <array>
 #include <filesystem>
 #include <functional>
 #include <memory>

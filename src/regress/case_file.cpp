@@ -29,7 +29,7 @@ constexpr Range seconds{.low = 0.0, .high = 86400.0, .aboveLow = true};
 
 // A table of a case, over those of [defaults].
 struct Draft {
-  RegressCase common;  // to the cases of its grid
+  RegressCase common;  // what all cases of its grid share
   std::optional<std::string> name;
   std::optional<std::string> scene;
   std::string picture = "{name}.png";

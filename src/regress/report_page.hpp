@@ -10,7 +10,7 @@
 
 namespace speculum {
 
-// All of a run; outcomes by index of the case.
+// A run of all cases, with one outcome for each.
 struct RegressRun {
   std::filesystem::path file;  // of the cases
   std::vector<RegressCase> cases;

@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "platform/files.hpp"
-#include "scene/input_error.hpp"
 #include "scene/model_scene.hpp"
 #include "scene/scene_sections.hpp"
 #include "scene/toml_file.hpp"
