@@ -76,9 +76,8 @@ Bounds TraceWorld::boundsOf(const Item& item) const {
     const InstanceState& instance = instances_[item.index];
     const Bounds mesh = meshes_[instance.mesh].bounds();
     for (int corner = 0; corner < 8; ++corner) {
-      box.add(
-          instance.worldFromMesh.point({corner & 1 ? mesh.high.x : mesh.low.x, corner & 2 ? mesh.high.y : mesh.low.y,
-                                        corner & 4 ? mesh.high.z : mesh.low.z}));
+      const glm::bvec3 high(corner & 1, corner & 2, corner & 4);
+      box.add(instance.worldFromMesh.point(glm::mix(mesh.low, mesh.high, high)));
     }
   }
   return box;
