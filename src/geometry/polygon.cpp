@@ -40,6 +40,14 @@ bool isConvex(std::span<const glm::dvec3> polygon, const glm::dvec3& normal, dou
 
 }  // namespace
 
+double twiceArea(std::span<const glm::dvec2> corners) {
+  double twice = 0.0;
+  for (size_t i = 1; i + 1 < corners.size(); ++i) {
+    twice += cross(corners[i] - corners[0], corners[i + 1] - corners[0]);
+  }
+  return twice;
+}
+
 glm::dvec3 newellVector(std::span<const glm::dvec3> polygon) {
   glm::dvec3 sum(0.0);
   for (size_t i = 1; i + 1 < polygon.size(); ++i) {

@@ -13,6 +13,9 @@ inline double cross(const glm::dvec2& a, const glm::dvec2& b) {
   return a.x * b.y - a.y * b.x;
 }
 
+// Twice the signed area, positive for corners that run counter-clockwise with y up, clockwise with y down.
+double twiceArea(std::span<const glm::dvec2> corners);
+
 // A plane as a point on it and a unit normal. The form n.x = d would lose |d| * 2^-53 far from the origin.
 struct Plane {
   glm::dvec3 point{0.0};

@@ -44,15 +44,6 @@ double sign(double x) {
   return x < 0.0 ? -1.0 : 1.0;
 }
 
-// Twice the signed area, positive for corners that run clockwise on the screen, where y points down.
-double twiceArea(std::span<const glm::dvec2> corners) {
-  double twice = 0.0;
-  for (size_t i = 1; i + 1 < corners.size(); ++i) {
-    twice += cross(corners[i] - corners[0], corners[i + 1] - corners[0]);
-  }
-  return twice;
-}
-
 glm::dvec3 homogeneous(const glm::dvec4& v) {
   return {v.x, v.y, v.w};
 }

@@ -27,7 +27,7 @@ constexpr size_t mostBytes = 256 << 20;  // of all cases
 constexpr Range share{.low = 0.0, .high = 1.0};
 constexpr Range seconds{.low = 0.0, .high = 86400.0, .aboveLow = true};
 
-// A table of a case, over those of [defaults].
+// A table of a case on top of [defaults], before its grid is expanded.
 struct Draft {
   RegressCase common;  // what all cases of its grid share
   std::optional<std::string> name;

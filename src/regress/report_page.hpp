@@ -15,7 +15,7 @@ struct RegressRun {
   std::filesystem::path file;  // of the cases
   std::vector<RegressCase> cases;
   std::vector<Outcome> outcomes;
-  std::vector<std::string> command;  // words of the one that ran it
+  std::vector<std::string> command;  // words of the command that ran it
   std::string version;
   std::string date;
 
