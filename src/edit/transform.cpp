@@ -72,13 +72,7 @@ double reachOf(const Scene& scene, const SceneState& state, const Selection& sel
   if (const InstanceState* instance = instanceOf(state, selection)) {
     return glm::distance(pivot, instance->center) + instance->radius;
   }
-  double reach = 0.0;
-  if (selection.kind == Selection::Kind::mirror) {
-    for (const glm::dvec3& p : state.mirrors.at(index).polygon) {
-      reach = std::max(reach, glm::distance(pivot, p));
-    }
-  }
-  return reach;
+  return selection.kind == Selection::Kind::mirror ? farthestDistance(pivot, state.mirrors.at(index).polygon) : 0.0;
 }
 
 SceneNode moved(const SceneNode& node, const glm::dvec3& by, double time) {

@@ -34,6 +34,9 @@ glm::dvec3 vertexMean(std::span<const glm::dvec3> polygon);
 
 double polygonArea(std::span<const glm::dvec3> polygon);
 
+// Distance from a point to the farthest of others; 0 without any.
+double farthestDistance(const glm::dvec3& from, std::span<const glm::dvec3> points);
+
 // Says why a polygon is unusable as a mirror, or nothing: fewer than 3 vertices, non-finite, area below 1e-8
 // diameter^2, a vertex farther than 1e-4 diameters off the plane or 1e-5 diameters outside the line of an edge.
 std::optional<std::string> polygonDefect(std::span<const glm::dvec3> polygon);

@@ -55,11 +55,7 @@ glm::dvec3 firstEdge(const std::vector<glm::dvec3>& polygon, const glm::dvec3& n
 
 double slackOf(const std::vector<glm::dvec3>& polygon) {
   const glm::dvec3 center = vertexMean(polygon);
-  double radius = 0.0;
-  for (const glm::dvec3& p : polygon) {
-    radius = std::max(radius, glm::length(p - center));
-  }
-  return 1e-9 * radius + 1e-15 * glm::length(center);
+  return 1e-9 * farthestDistance(center, polygon) + 1e-15 * glm::length(center);
 }
 
 MirrorState placedMirror(const Mirror& mirror, double time) {
