@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <ranges>
 #include <set>
 
 #include "geometry/weld.hpp"
@@ -41,12 +42,9 @@ std::vector<MeshEdge> edgesOf(const Mesh& mesh) {
 // Returns all vertices of a small mesh, else the farthest ones in directions on a Fibonacci lattice: Gonzalez,
 // "Measurement of Areas on a Sphere Using Fibonacci and Latitude-Longitude Lattices" (2010).
 std::vector<glm::dvec3> outlinePoints(const Mesh& mesh) {
-  std::vector<glm::dvec3> points;
   if (mesh.vertices.size() <= mostPoints) {
-    for (const Vertex& vertex : mesh.vertices) {
-      points.push_back(vertex.position);
-    }
-    return points;
+    const auto all = std::views::transform(mesh.vertices, &Vertex::position);
+    return {all.begin(), all.end()};
   }
   std::set<size_t> farthest;
   for (size_t i = 0; i < mostPoints; ++i) {
@@ -58,6 +56,7 @@ std::vector<glm::dvec3> outlinePoints(const Mesh& mesh) {
     });
     farthest.insert(static_cast<size_t>(most - mesh.vertices.begin()));
   }
+  std::vector<glm::dvec3> points;
   for (const size_t i : farthest) {
     points.push_back(mesh.vertices[i].position);
   }

@@ -9,6 +9,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <ranges>
 #include <stdexcept>
 #include <unordered_map>
 #include <utility>
@@ -180,12 +181,9 @@ class SimplifiedPart {
 
  private:
   std::vector<glm::dvec3> corners(const std::vector<uint32_t>& indices) const {
-    std::vector<glm::dvec3> corners;
-    corners.reserve(indices.size());
-    for (const uint32_t index : indices) {
-      corners.push_back(positions_[index]);
-    }
-    return corners;
+    const auto position = [&](uint32_t index) -> const glm::dvec3& { return positions_[index]; };
+    const auto corners = std::views::transform(indices, position);
+    return {corners.begin(), corners.end()};
   }
 
   // Returns the step between the vertices or triangles that are measured: large parts are sampled.

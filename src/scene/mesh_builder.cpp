@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtx/component_wise.hpp>
+#include <ranges>
 
 #include "geometry/bvh.hpp"
 #include "geometry/convex_faces.hpp"
@@ -85,11 +86,8 @@ void rebase(Mesh& mesh) {
 void findOccluders(Mesh& mesh) {
   constexpr size_t mostFaces = 32;
   constexpr size_t mostTriangles = 4096;
-  std::vector<glm::dvec3> positions;
-  positions.reserve(mesh.vertices.size());
-  for (const Vertex& vertex : mesh.vertices) {
-    positions.push_back(vertex.position);
-  }
+  const auto points = std::views::transform(mesh.vertices, &Vertex::position);
+  const std::vector<glm::dvec3> positions(points.begin(), points.end());
   mesh.faces = convexFaces(positions, mesh.indices, mostFaces, mostTriangles);
   mesh.convex = convexMesh(positions, mesh.indices, mostTriangles);
 }
