@@ -14,10 +14,6 @@ namespace {
 
 constexpr int truthDepth = 64;
 
-double milliseconds(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-}
-
 // Returns the root mean square throughput beyond each depth. Assumes that each of a pixel's `count` bounces lets the
 // same share of its throughput through.
 std::vector<double> throughputBeyond(const TraceResult& trace) {
@@ -72,7 +68,8 @@ std::optional<GroundTruth> traceGroundTruth(const Scene& scene, const SceneState
   if (!trace) {
     return std::nullopt;
   }
-  GroundTruth truth{.ms = milliseconds(start), .threads = tbb::this_task_arena::max_concurrency()};
+  const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - start;
+  GroundTruth truth{.ms = spent.count(), .threads = tbb::this_task_arena::max_concurrency()};
   truth.throughputBeyond = throughputBeyond(*trace);
   truth.mirrors = {request.width, request.height, interior(trace->mirrorDepth, request.width, request.height)};
   truth.image = std::move(trace->image);
