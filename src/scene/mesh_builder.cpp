@@ -173,7 +173,7 @@ uint32_t MeshBuilder::vertexOf(const FaceCorner& corner, const glm::dvec3& trian
   return index;
 }
 
-void MeshBuilder::warn(const std::filesystem::path& file) const {
+Mesh MeshBuilder::finish(const std::filesystem::path& file, const std::function<Material(int)>& materialOf) {
   if (nonFinite_ > 0) {
     spdlog::warn("{}: dropped {} faces with vertices that are not finite", file.string(), nonFinite_);
   }
@@ -183,10 +183,6 @@ void MeshBuilder::warn(const std::filesystem::path& file) const {
   if (slivers_ > 0) {
     spdlog::warn("{}: {} triangles are slivers, their normals are inexact", file.string(), slivers_);
   }
-}
-
-Mesh MeshBuilder::finish(const std::filesystem::path& file, const std::function<Material(int)>& materialOf) {
-  warn(file);
   Mesh mesh{.source = file, .vertices = std::move(vertices_)};
   for (const int material : materialOrder_) {
     const std::vector<uint32_t>& indices = materialIndices_[material];

@@ -50,7 +50,6 @@ class MeshBuilder {
   glm::dvec2 uvShiftOf(std::span<const FaceCorner> corners) const;
   void addTriangle(const FaceCorner& a, const FaceCorner& b, const FaceCorner& c);
   uint32_t vertexOf(const FaceCorner& corner, const glm::dvec3& triangleNormal);
-  void warn(const std::filesystem::path& file) const;
 
   std::vector<glm::dvec3> positions_;
   std::vector<glm::dvec2> texcoords_;

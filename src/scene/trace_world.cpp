@@ -171,15 +171,6 @@ std::optional<SceneHit> TraceWorld::meet(const Item& item, const Ray& ray, const
   return hit;
 }
 
-bool TraceWorld::blocks(const Item& item, const Ray& ray, const ShearedRay& sheared, const Skip& skip) const {
-  if (item.kind == HitKind::object) {
-    const int64_t own = skip.instance == item.index ? int64_t{skip.triangle} : TriangleMesh::noTriangle;
-    return meshes_[instances_[item.index].mesh].occluded(toMesh(ray, item.index, ray.tMax), own);
-  }
-  return item.kind == HitKind::mirror && !skipsMirror(skip, item.index) &&
-         meetPolygon(ray, sheared, item.index, ray.tMax).has_value();
-}
-
 std::optional<SceneHit> TraceWorld::closest(const Ray& ray, const Skip& skip) const {
   const ShearedRay sheared(ray);
   std::optional<SceneHit> best;
@@ -201,7 +192,13 @@ bool TraceWorld::occluded(const Ray& ray, const Skip& skip) const {
   bool found = false;
   bvh_.traverse(ray, [&](uint32_t first, uint32_t count, double&) {
     for (uint32_t i = first; i < first + count && !found; ++i) {
-      found = blocks(items_[i], ray, sheared, skip);
+      const auto& [kind, index] = items_[i];
+      if (kind == HitKind::object) {
+        const int64_t own = skip.instance == index ? int64_t{skip.triangle} : TriangleMesh::noTriangle;
+        found = meshes_[instances_[index].mesh].occluded(toMesh(ray, index, ray.tMax), own);
+      } else if (kind == HitKind::mirror && !skipsMirror(skip, index)) {
+        found = meetPolygon(ray, sheared, index, ray.tMax).has_value();
+      }
     }
     return found;
   });
