@@ -52,10 +52,8 @@ void addEdges(std::span<const glm::dvec2> closed, const PictureView& picture, st
 }
 
 std::vector<PixelLine> mirrorOutline(const MirrorState& mirror, const PictureView& picture) {
-  std::vector<glm::dvec3> polygon = mirror.polygon;
-  if (picture.view().clip) {
-    polygon = clipPolygon(polygon, *picture.view().clip);
-  }
+  const auto& clip = picture.view().clip;
+  const std::vector<glm::dvec3> polygon = clip ? clipPolygon(mirror.polygon, *clip) : mirror.polygon;
   std::vector<PixelLine> lines;
   for (size_t i = 0; i < polygon.size(); ++i) {
     add(lines, picture.line(polygon[i], polygon[(i + 1) % polygon.size()]));
@@ -151,10 +149,8 @@ std::vector<PixelLine> objectOutline(const InstanceState& instance, const glm::d
   if (!picture.sees(instance.center, instance.radius)) {
     return {};
   }
-  if (!shape.edges.empty()) {
-    if (auto lines = silhouette(instance, picture, shape.edges)) {
-      return *std::move(lines);
-    }
+  if (auto lines = shape.edges.empty() ? std::nullopt : silhouette(instance, picture, shape.edges)) {
+    return *std::move(lines);
   }
   return hullOutline(instance, half, picture, shape.points);
 }

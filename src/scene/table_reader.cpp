@@ -56,12 +56,8 @@ TableReader::TableReader(const std::filesystem::path& file, std::string label, c
 }
 
 int TableReader::line(std::string_view key) const {
-  for (const auto& [name, value] : table_) {
-    if (name.str() == key) {
-      return lineOf(name.source(), lineOf(value.source(), line_));
-    }
-  }
-  return line_;
+  const auto found = table_.find(key);
+  return found == table_.end() ? line_ : lineOf(found->first.source(), lineOf(found->second.source(), line_));
 }
 
 std::string TableReader::fullKey(std::string_view key) const {
