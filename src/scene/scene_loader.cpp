@@ -2,6 +2,7 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
 #include <array>
 #include <glm/gtx/component_wise.hpp>
 #include <map>
@@ -66,17 +67,6 @@ class ModelProgress {
   double done_ = 0.0;
   double total_ = 0.0;
 };
-
-// Finds a file that is loaded already, under whatever name.
-std::optional<int> knownMesh(const Scene& scene, const fs::path& file) {
-  std::error_code error;
-  for (size_t i = 0; i < scene.meshes.size(); ++i) {
-    if (scene.meshes[i].source == file || fs::equivalent(scene.meshes[i].source, file, error)) {
-      return static_cast<int>(i);
-    }
-  }
-  return std::nullopt;
-}
 
 // `known` has the meshes by the paths of their files without symbolic links.
 int meshIndex(const TableReader& object, Scene& scene, std::map<std::string, int>& known, ModelProgress& progress) {
@@ -191,8 +181,12 @@ Scene loadScene(const fs::path& file, const LoadProgress& progress) {
 }
 
 int addModel(Scene& scene, const fs::path& file, const LoadProgress& progress) {
-  if (const std::optional<int> known = knownMesh(scene, file)) {
-    return *known;
+  const auto known = std::ranges::find_if(scene.meshes, [&](const Mesh& mesh) {
+    std::error_code error;
+    return mesh.source == file || fs::equivalent(mesh.source, file, error);
+  });
+  if (known != scene.meshes.end()) {
+    return static_cast<int>(known - scene.meshes.begin());
   }
   const size_t textures = scene.textures.size();
   try {
