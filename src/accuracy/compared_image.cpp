@@ -1,5 +1,7 @@
 #include "accuracy/compared_image.hpp"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -11,10 +13,6 @@
 namespace speculum {
 
 namespace {
-
-std::string sizeText(int width, int height) {
-  return std::to_string(width) + "x" + std::to_string(height);
-}
 
 bool isLinearFile(const std::filesystem::path& file) {
   std::string ending = file.extension().string();
@@ -48,8 +46,8 @@ ComparedImage comparedImage(const LinearImage& image, std::string name) {
       const float value = image.pixels[i][c];
       if (std::isnan(value)) {
         const int width = std::max(image.width, 1);
-        throw std::runtime_error(result.name + ": pixel (" + std::to_string(i % width) + ", " +
-                                 std::to_string(i / width) + ") is not a number (every channel must be one)");
+        throw std::runtime_error(fmt::format("{}: pixel ({}, {}) is not a number (every channel must be one)",
+                                             result.name, i % width, i / width));
       }
       result.linear[i][c] = std::clamp(value, 0.0f, 1.0f);
       result.display[i][c] = static_cast<float>(255.0 * srgbEncode(result.linear[i][c]));
@@ -74,8 +72,8 @@ PixelMask readPixelMask(const std::filesystem::path& file) {
 
 void requireSameSize(const ComparedImage& a, const ComparedImage& b) {
   if (a.width != b.width || a.height != b.height) {
-    throw std::runtime_error(b.name + ": is " + sizeText(b.width, b.height) + ", but " + a.name + " is " +
-                             sizeText(a.width, a.height) + " (both must have the same size)");
+    throw std::runtime_error(fmt::format("{}: is {}x{}, but {} is {}x{} (both must have the same size)", b.name,
+                                         b.width, b.height, a.name, a.width, a.height));
   }
   if (a.width < 1 || a.height < 1) {
     throw std::runtime_error(a.name + ": has no pixels");

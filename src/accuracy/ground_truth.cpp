@@ -14,10 +14,6 @@ namespace {
 
 constexpr int truthDepth = 64;
 
-double milliseconds(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-}
-
 // Returns the root mean square throughput beyond each depth. Assumes that each of a pixel's `count` bounces lets the
 // same share of its throughput through.
 std::vector<double> throughputBeyond(const TraceResult& trace) {
@@ -43,10 +39,8 @@ std::vector<uint8_t> interior(const std::vector<uint8_t>& mask, int width, int h
   for (int y = 1; y + 1 < height; ++y) {
     for (int x = 1; x + 1 < width; ++x) {
       bool all = true;
-      for (int dy = -1; dy <= 1; ++dy) {
-        for (int dx = -1; dx <= 1; ++dx) {
-          all = all && mask[static_cast<size_t>(y + dy) * width + x + dx] != 0;
-        }
+      for (int k = 0; k < 9; ++k) {
+        all = all && mask[static_cast<size_t>(y + k / 3 - 1) * width + x + k % 3 - 1] != 0;
       }
       inner[static_cast<size_t>(y) * width + x] = all;
     }
@@ -74,7 +68,8 @@ std::optional<GroundTruth> traceGroundTruth(const Scene& scene, const SceneState
   if (!trace) {
     return std::nullopt;
   }
-  GroundTruth truth{.ms = milliseconds(start), .threads = tbb::this_task_arena::max_concurrency()};
+  const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - start;
+  GroundTruth truth{.ms = spent.count(), .threads = tbb::this_task_arena::max_concurrency()};
   truth.throughputBeyond = throughputBeyond(*trace);
   truth.mirrors = {request.width, request.height, interior(trace->mirrorDepth, request.width, request.height)};
   truth.image = std::move(trace->image);

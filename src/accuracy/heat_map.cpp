@@ -21,21 +21,10 @@ constexpr int glyphHeight = 5;
 constexpr int barHeight = 10;
 constexpr int margin = 3;
 
-// Bitmaps of the characters in glyphNames: rows of three bits, the top one first, the leftmost pixel the highest bit.
+// Bitmaps of the characters in glyphNames: each octal digit is a row of three pixels, the first digit the top one.
 constexpr std::string_view glyphNames = "0123456789.e-";
-constexpr std::array<std::array<uint8_t, glyphHeight>, 13> glyphs = {{{7, 5, 5, 5, 7},
-                                                                      {2, 6, 2, 2, 7},
-                                                                      {7, 1, 7, 4, 7},
-                                                                      {7, 1, 7, 1, 7},
-                                                                      {5, 5, 7, 1, 1},
-                                                                      {7, 4, 7, 1, 7},
-                                                                      {7, 4, 7, 5, 7},
-                                                                      {7, 1, 1, 1, 1},
-                                                                      {7, 5, 7, 5, 7},
-                                                                      {7, 5, 7, 1, 7},
-                                                                      {0, 0, 0, 0, 2},
-                                                                      {0, 7, 7, 4, 7},
-                                                                      {0, 0, 7, 0, 0}}};
+constexpr std::array<uint16_t, 13> glyphs{075557, 026227, 071747, 071717, 055711, 074717, 074757,
+                                          071111, 075757, 075717, 000002, 007747, 000700};
 
 glm::dvec3 linearFromOklab(const glm::dvec3& lab) {
   const double l = lab.x + 0.3963377774 * lab.y + 0.2158037573 * lab.z;
@@ -78,7 +67,8 @@ void drawText(Image8& image, int x, int y, const std::string& text, int scale) {
     for (int p = 0; p < glyphWidth * scale * glyphHeight * scale; ++p) {
       const int column = p % (glyphWidth * scale);
       const int row = p / (glyphWidth * scale);
-      if (glyphs[index][row / scale] >> (glyphWidth - 1 - column / scale) & 1) {
+      const int bitsAfter = glyphWidth * glyphHeight - 1 - row / scale * glyphWidth - column / scale;
+      if (glyphs[index] >> bitsAfter & 1) {
         setPixel(image, left + column, y + row, glm::dvec3(1.0));
       }
     }

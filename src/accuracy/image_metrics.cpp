@@ -130,21 +130,16 @@ nlohmann::ordered_json comparisonJson(const Comparison& comparison) {
 }
 
 std::string comparisonTable(const Comparison& comparison, double tolerance) {
-  const auto line = [&](const std::string& label, const char* format, auto&& value) {
-    const auto cell = [&](const ImageMetrics& metrics) { return fmt::format(fmt::runtime(format), value(metrics)); };
+  const auto line = [&](const std::string& label, const char* format, auto figure) {
+    const auto cell = [&](const ImageMetrics& metrics) { return fmt::format(fmt::runtime(format), metrics.*figure); };
     return tableLine(label, cell(comparison.whole), comparison.masked ? cell(*comparison.masked) : "");
   };
   using M = ImageMetrics;
-  return tableLine("", "whole", comparison.masked ? "mask" : "") +
-         line("pixels", "{}", [](const M& m) { return m.pixels; }) +
-         line("RMSE (linear)", "{:.6f}", [](const M& m) { return m.rmse; }) +
-         line("relative RMSE", "{:.6f}", [](const M& m) { return m.relativeRmse; }) +
-         line("PSNR (dB)", "{:.3f}", [](const M& m) { return m.psnr; }) +
-         line("SSIM", "{:.6f}", [](const M& m) { return m.ssim; }) +
-         line("FLIP", "{:.6f}", [](const M& m) { return m.flip; }) +
-         line("largest (1/255)", "{:.4g}", [](const M& m) { return m.maxDiff; }) +
-         line("99th perc. (1/255)", "{:.4g}", [](const M& m) { return m.p99Diff; }) +
-         line(fmt::format("pixels over {:g}/255", tolerance), "{}", [](const M& m) { return m.pixelsOver; });
+  return tableLine("", "whole", comparison.masked ? "mask" : "") + line("pixels", "{}", &M::pixels) +
+         line("RMSE (linear)", "{:.6f}", &M::rmse) + line("relative RMSE", "{:.6f}", &M::relativeRmse) +
+         line("PSNR (dB)", "{:.3f}", &M::psnr) + line("SSIM", "{:.6f}", &M::ssim) + line("FLIP", "{:.6f}", &M::flip) +
+         line("largest (1/255)", "{:.4g}", &M::maxDiff) + line("99th perc. (1/255)", "{:.4g}", &M::p99Diff) +
+         line(fmt::format("pixels over {:g}/255", tolerance), "{}", &M::pixelsOver);
 }
 
 }  // namespace speculum

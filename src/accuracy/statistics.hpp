@@ -7,7 +7,7 @@
 
 namespace speculum {
 
-// Repeated measurements of one thing, in the unit of the values.
+// Repeated measurements of one quantity, in the unit of the values.
 struct Spread {
   double median = 0.0;
   double minimum = 0.0;

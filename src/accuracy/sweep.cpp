@@ -69,15 +69,151 @@ class Sweep {
   }
 
   bool run() { return trace() && compare() && time(); }
-  void fill(SweepResults& results);
+
+  void fill(SweepResults& results) {
+    results.width = scene_.width;
+    results.height = scene_.height;
+    results.truthMs = truth_.ms;
+    results.truthThreads = truth_.threads;
+    results.truthSamples = scene_.truthSamples;
+    results.floor = truth_.floor;
+    results.points.clear();
+    for (size_t i = 0; i < keys_.size(); ++i) {
+      const Measurement& measurement = store_.at(keys_[i]);
+      results.points.push_back({.name = plan_.configurations[i].name,
+                                .changes = plan_.configurations[i].changes,
+                                .whole = measurement.errors->whole,
+                                .mirrors = measurement.errors->mirrors,
+                                .gpuMs = spreadOf(measurement.gpuMs),
+                                .cpuMs = spreadOf(measurement.cpuMs),
+                                .frameMs = spreadOf(measurement.frameMs),
+                                .picture = measurement.picture,
+                                .heatMap = measurement.heatMap});
+    }
+    const bool stamped =
+        std::ranges::all_of(results.points, [](const SweepPoint& point) { return point.gpuMs.median > 0.0; });
+    if (!stamped) {
+      for (SweepPoint& point : results.points) {
+        point.gpuMs = {};
+      }
+    }
+    for (const int index : paretoFront(results.points)) {
+      results.points[index].onFront = true;
+    }
+    results.series = plan_.series;
+    for (SweepSeries& series : results.series) {
+      fit(series, results);
+    }
+    const Image8 shown = toDisplay(truth_.image, base_.view.displayCurve());
+    results.truthPicture = store_.keepPicture("truth.png", shown);
+  }
 
  private:
-  bool trace();
-  bool compare();
-  bool time();
-  void measureErrors(size_t index);
+  bool trace() {
+    const char* stage = "reference";
+    const std::string key = truthKey(scene_, base_);
+    std::optional<GroundTruth> truth = store_.truth(key);
+    if (!truth) {
+      const TruthRequest request{.width = scene_.width,
+                                 .height = scene_.height,
+                                 .samples = scene_.truthSamples,
+                                 .noiseFloor = scene_.noiseFloor,
+                                 .settings = base_};
+      truth = traceGroundTruth(scene_.scene, scene_.state, request,
+                               [&](double fraction) { return report(stage, fraction); });
+      if (!truth) {
+        return false;
+      }
+      store_.keepTruth(key, *truth);
+    }
+    truth_ = std::move(*truth);
+    return report(stage, 1.0);
+  }
+
+  void measureErrors(size_t index) {
+    Measurement& measurement = store_.at(keys_[index]);
+    std::vector<ImageMetrics> whole;
+    std::vector<ImageMetrics> mirrors;
+    const std::vector<Image8> pictures = subject_.pictures(settings_[index]);
+    Plane2d flip;
+    for (const Image8& picture : pictures) {
+      const ErrorFigures errors = errorsAgainst(truth_, picture, settings_[index], &flip);
+      whole.push_back(errors.whole);
+      if (errors.mirrors) {
+        mirrors.push_back(*errors.mirrors);
+      }
+    }
+    measurement.errors =
+        ErrorFigures{meanMetrics(whole), mirrors.empty() ? std::nullopt : std::optional(meanMetrics(mirrors))};
+    measurement.picture = store_.keepPicture(keys_[index] + ".png", pictures.back());
+    measurement.heatMap = store_.keepPicture(keys_[index] + "-flip.png", heatMap(flip));
+  }
+
+  bool compare() {
+    for (size_t i = 0; i < keys_.size(); ++i) {
+      if (!store_.at(keys_[i]).errors) {
+        measureErrors(i);
+        store_.save();
+      }
+      if (!report("pictures", static_cast<double>(i + 1) / static_cast<double>(keys_.size()))) {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  bool time() {
+    const double total = static_cast<double>(plan_.repeats) * static_cast<double>(keys_.size());
+    for (size_t round = 0; round < static_cast<size_t>(plan_.repeats); ++round) {
+      bool measured = false;
+      for (size_t i = 0; i < keys_.size(); ++i) {
+        Measurement& measurement = store_.at(keys_[i]);
+        if (measurement.gpuMs.size() <= round) {
+          const FrameCost cost = subject_.cost(settings_[i]);
+          measurement.gpuMs.push_back(cost.gpuMs);
+          measurement.cpuMs.push_back(cost.cpuMs);
+          measurement.frameMs.push_back(cost.frameMs);
+          measured = true;
+        }
+        if (!report("times", static_cast<double>(round * keys_.size() + i + 1) / total)) {
+          store_.save();
+          return false;
+        }
+      }
+      if (measured) {
+        store_.save();
+      }
+    }
+    return true;
+  }
+
+  // Fits natural logarithms over the points that stand clear of the noise floor. The error left at the greatest
+  // recursion depth comes from everything else; independent errors add as squares, so it is taken off as a square.
+  void fit(SweepSeries& series, const SweepResults& results) const {
+    const double floor = results.floor.mirrors ? results.floor.mirrors->rmse : results.floor.whole.rmse;
+    const double rest = series.theoryOfDepth ? seriesError(results.points[series.points.back()]) : 0.0;
+    std::vector<glm::dvec2> samples;
+    std::vector<glm::dvec2> expected;
+    for (size_t i = 0; i < series.points.size(); ++i) {
+      const double error = seriesError(results.points[series.points[i]]);
+      if (!(error > leastFloors * floor && error > leastRests * rest && series.x[i] <= series.fitUpTo)) {
+        continue;
+      }
+      const double x = series.axis == SweepSeries::Axis::linear ? series.x[i] : std::log(series.x[i]);
+      series.fitted.push_back(static_cast<int>(i));
+      samples.push_back({x, 0.5 * std::log(error * error - rest * rest)});
+      const auto depth = static_cast<size_t>(series.x[i]);
+      if (series.theoryOfDepth && depth < truth_.throughputBeyond.size() && truth_.throughputBeyond[depth] > 0.0) {
+        expected.push_back({x, std::log(truth_.throughputBeyond[depth])});
+      }
+    }
+    series.fit = fitLine(samples);
+    if (series.theoryOfDepth) {
+      series.theorySlope = fitLine(expected).value_or(LineFit{}).slope;
+    }
+  }
+
   bool report(const char* stage, double fraction) const { return !progress_ || progress_({stage, fraction}); }
-  void fit(SweepSeries& series, const SweepResults& results) const;
 
   const SweepPlan& plan_;
   const Settings& base_;
@@ -89,148 +225,6 @@ class Sweep {
   std::vector<std::string> keys_;   // by configuration
   GroundTruth truth_;
 };
-
-bool Sweep::trace() {
-  const char* stage = "reference";
-  const std::string key = truthKey(scene_, base_);
-  std::optional<GroundTruth> truth = store_.truth(key);
-  if (!truth) {
-    const TruthRequest request{.width = scene_.width,
-                               .height = scene_.height,
-                               .samples = scene_.truthSamples,
-                               .noiseFloor = scene_.noiseFloor,
-                               .settings = base_};
-    truth =
-        traceGroundTruth(scene_.scene, scene_.state, request, [&](double fraction) { return report(stage, fraction); });
-    if (!truth) {
-      return false;
-    }
-    store_.keepTruth(key, *truth);
-  }
-  truth_ = std::move(*truth);
-  return report(stage, 1.0);
-}
-
-void Sweep::measureErrors(size_t index) {
-  Measurement& measurement = store_.at(keys_[index]);
-  std::vector<ImageMetrics> whole;
-  std::vector<ImageMetrics> mirrors;
-  const std::vector<Image8> pictures = subject_.pictures(settings_[index]);
-  Plane2d flip;
-  for (const Image8& picture : pictures) {
-    const ErrorFigures errors = errorsAgainst(truth_, picture, settings_[index], &flip);
-    whole.push_back(errors.whole);
-    if (errors.mirrors) {
-      mirrors.push_back(*errors.mirrors);
-    }
-  }
-  measurement.errors =
-      ErrorFigures{meanMetrics(whole), mirrors.empty() ? std::nullopt : std::optional(meanMetrics(mirrors))};
-  measurement.picture = store_.keepPicture(keys_[index] + ".png", pictures.back());
-  measurement.heatMap = store_.keepPicture(keys_[index] + "-flip.png", heatMap(flip));
-}
-
-bool Sweep::compare() {
-  for (size_t i = 0; i < keys_.size(); ++i) {
-    if (!store_.at(keys_[i]).errors) {
-      measureErrors(i);
-      store_.save();
-    }
-    if (!report("pictures", static_cast<double>(i + 1) / static_cast<double>(keys_.size()))) {
-      return false;
-    }
-  }
-  return true;
-}
-
-bool Sweep::time() {
-  const double total = static_cast<double>(plan_.repeats) * static_cast<double>(keys_.size());
-  for (size_t round = 0; round < static_cast<size_t>(plan_.repeats); ++round) {
-    bool measured = false;
-    for (size_t i = 0; i < keys_.size(); ++i) {
-      Measurement& measurement = store_.at(keys_[i]);
-      if (measurement.gpuMs.size() <= round) {
-        const FrameCost cost = subject_.cost(settings_[i]);
-        measurement.gpuMs.push_back(cost.gpuMs);
-        measurement.cpuMs.push_back(cost.cpuMs);
-        measurement.frameMs.push_back(cost.frameMs);
-        measured = true;
-      }
-      if (!report("times", static_cast<double>(round * keys_.size() + i + 1) / total)) {
-        store_.save();
-        return false;
-      }
-    }
-    if (measured) {
-      store_.save();
-    }
-  }
-  return true;
-}
-
-// Fits natural logarithms over the points that stand clear of the noise floor. The error left at the greatest recursion
-// depth comes from everything else; independent errors add as squares, so it is taken off as a square.
-void Sweep::fit(SweepSeries& series, const SweepResults& results) const {
-  const double floor = results.floor.mirrors ? results.floor.mirrors->rmse : results.floor.whole.rmse;
-  const double rest = series.theoryOfDepth ? seriesError(results.points[series.points.back()]) : 0.0;
-  std::vector<glm::dvec2> samples;
-  std::vector<glm::dvec2> expected;
-  for (size_t i = 0; i < series.points.size(); ++i) {
-    const double error = seriesError(results.points[series.points[i]]);
-    if (!(error > leastFloors * floor && error > leastRests * rest && series.x[i] <= series.fitUpTo)) {
-      continue;
-    }
-    const double x = series.axis == SweepSeries::Axis::linear ? series.x[i] : std::log(series.x[i]);
-    series.fitted.push_back(static_cast<int>(i));
-    samples.push_back({x, 0.5 * std::log(error * error - rest * rest)});
-    const auto depth = static_cast<size_t>(series.x[i]);
-    if (series.theoryOfDepth && depth < truth_.throughputBeyond.size() && truth_.throughputBeyond[depth] > 0.0) {
-      expected.push_back({x, std::log(truth_.throughputBeyond[depth])});
-    }
-  }
-  series.fit = fitLine(samples);
-  if (series.theoryOfDepth) {
-    series.theorySlope = fitLine(expected).value_or(LineFit{}).slope;
-  }
-}
-
-void Sweep::fill(SweepResults& results) {
-  results.width = scene_.width;
-  results.height = scene_.height;
-  results.truthMs = truth_.ms;
-  results.truthThreads = truth_.threads;
-  results.truthSamples = scene_.truthSamples;
-  results.floor = truth_.floor;
-  results.points.clear();
-  for (size_t i = 0; i < keys_.size(); ++i) {
-    const Measurement& measurement = store_.at(keys_[i]);
-    results.points.push_back({.name = plan_.configurations[i].name,
-                              .changes = plan_.configurations[i].changes,
-                              .whole = measurement.errors->whole,
-                              .mirrors = measurement.errors->mirrors,
-                              .gpuMs = spreadOf(measurement.gpuMs),
-                              .cpuMs = spreadOf(measurement.cpuMs),
-                              .frameMs = spreadOf(measurement.frameMs),
-                              .picture = measurement.picture,
-                              .heatMap = measurement.heatMap});
-  }
-  const bool stamped =
-      std::ranges::all_of(results.points, [](const SweepPoint& point) { return point.gpuMs.median > 0.0; });
-  if (!stamped) {
-    for (SweepPoint& point : results.points) {
-      point.gpuMs = {};
-    }
-  }
-  for (const int index : paretoFront(results.points)) {
-    results.points[index].onFront = true;
-  }
-  results.series = plan_.series;
-  for (SweepSeries& series : results.series) {
-    fit(series, results);
-  }
-  const Image8 shown = toDisplay(truth_.image, base_.view.displayCurve());
-  results.truthPicture = store_.keepPicture("truth.png", shown);
-}
 
 }  // namespace
 

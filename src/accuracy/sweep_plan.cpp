@@ -49,8 +49,8 @@ void addViewScales(SweepPlanner& planner, const SweepContext& context, bool full
   }
 }
 
-// The way to the truth. From 16 pictures on each has one sample, whatever is set. No mean removes
-// the error of shadow maps.
+// Adds means of pictures, which converge to the reference. From 16 pictures on, each has one sample, whatever is set.
+// No mean removes the error of shadow maps.
 void addMeans(SweepPlanner& planner, const SweepContext& context) {
   Changes exact = context.mirrors ? Changes{{"reflection.max_depth", greatestDepth}} : Changes{};
   if (std::ranges::find(context.effects, "effects.shadows") != context.effects.end()) {
@@ -101,9 +101,7 @@ void addRoughSeries(SweepPlanner& planner, const SweepContext& context, bool ful
                   .theorySlope = -0.5},
                  rays, best(context));
   if (context.mirrors) {
-    for (const std::string& count : lookups) {
-      planner.add({{"effects.rough_lookup", "image"}, {"effects.rough_samples", count}});
-    }
+    planner.grid({{"effects.rough_lookup", {"image"}}, {"effects.rough_samples", lookups}});
   }
 }
 
@@ -145,17 +143,13 @@ void addSingles(SweepPlanner& planner, const SweepContext& context, bool full) {
   for (const std::string& effect : context.effects) {
     planner.add({{effect, "false"}});
     if (effect == "effects.shadows") {
-      for (const char* size : {"256", "1024", "4096"}) {
-        planner.add({{"effects.shadow_lookup", "map"}, {"effects.shadow_map_size", size}});
-      }
+      planner.grid({{"effects.shadow_lookup", {"map"}}, {"effects.shadow_map_size", {"256", "1024", "4096"}}});
     }
     if (effect == "effects.ripple") {
       planner.add({{"effects.ripple_lookup", "image"}});
     }
     if (effect == "effects.curved") {
-      for (const char* size : {"64", "256"}) {
-        planner.add({{"effects.curved_lookup", "environment"}, {"effects.environment_size", size}});
-      }
+      planner.grid({{"effects.curved_lookup", {"environment"}}, {"effects.environment_size", {"64", "256"}}});
     }
   }
   if (!context.effects.empty()) {
@@ -167,25 +161,14 @@ void addSingles(SweepPlanner& planner, const SweepContext& context, bool full) {
   planner.add({{"reflection.samples", "1"}, {"view.samples", most}});
   planner.add({{"reflection.samples", most}, {"view.samples", "1"}});
   if (context.effects.empty()) {  // scenes with traced effects have no mesh levels
-    for (const char* texels : full ? std::vector{"0.25", "0.5", "1", "2", "4"} : std::vector{"0.5", "2"}) {
-      planner.add({{"reflection.mesh_error", texels}});
-    }
+    planner.grid({{"reflection.mesh_error", full ? Values{"0.25", "0.5", "1", "2", "4"} : Values{"0.5", "2"}}});
   }
-  planner.add({{"reflection.clip", "oblique"}});
-  planner.add({{"reflection.clip", "none"}});
-  for (const char* throughput : {"0.2", "0.05", "0.01"}) {
-    planner.add({{"reflection.min_throughput", throughput}});
-  }
-  for (const char* passes : {"1", "2", "4"}) {
-    planner.add({{"reflection.max_passes", passes}});
-  }
-  for (const char* pixels : full ? std::vector{"64", "1024", "8192"} : std::vector{"1024"}) {
-    planner.add({{"reflection.min_pixels", pixels}});
-  }
+  planner.grid({{"reflection.clip", {"oblique", "none"}}});
+  planner.grid({{"reflection.min_throughput", {"0.2", "0.05", "0.01"}}});
+  planner.grid({{"reflection.max_passes", {"1", "2", "4"}}});
+  planner.grid({{"reflection.min_pixels", full ? Values{"64", "1024", "8192"} : Values{"1024"}}});
   if (context.animated) {
-    for (const char* interval : full ? std::vector{"2", "4", "8"} : std::vector{"2", "4"}) {
-      planner.add({{"reflection.update_interval", interval}});
-    }
+    planner.grid({{"reflection.update_interval", full ? Values{"2", "4", "8"} : Values{"2", "4"}}});
   }
 }
 

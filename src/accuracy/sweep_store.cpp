@@ -64,10 +64,6 @@ SweepStore::SweepStore(fs::path folder) : folder_(std::move(folder)) {
   if (error || !isFolder(folder_)) {
     throw std::runtime_error(folder_.string() + ": cannot be made (a folder in a writable place is needed)");
   }
-  load();
-}
-
-void SweepStore::load() {
   const fs::path file = folder_ / "measurements.json";
   const std::optional<ordered_json> json = readJson(file);
   if (!json) {

@@ -36,8 +36,6 @@ class SweepStore {
   std::string keepPicture(const std::string& name, const Image8& image) const;
 
  private:
-  void load();
-
   std::filesystem::path folder_;
   std::map<std::string, Measurement> measurements_;
 };

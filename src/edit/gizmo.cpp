@@ -35,9 +35,7 @@ bool isRing(Grip handle) {
 }
 
 glm::dvec3 unit(int axis) {
-  glm::dvec3 v(0.0);
-  v[axis] = 1.0;
-  return v;
+  return glm::dmat3(1.0)[axis];
 }
 
 glm::dvec3 towards(const PictureView& picture, const glm::dvec3& pivot) {
@@ -148,7 +146,7 @@ void addRing(const PictureView& picture, const glm::dvec3& pivot, int axis, doub
   const glm::dvec3 sight = towards(picture, pivot);
   // A ring seen along its axis has no far half.
   const double depth = std::abs(glm::dot(sight, unit(axis))) < 0.98 ? 0.02 * radius : 2.0 * radius;
-  GizmoShape front{.handle = rings[static_cast<size_t>(axis)]};
+  GizmoShape front{.handle = rings[axis]};
   GizmoShape back{.handle = front.handle, .behind = true};
   for (int i = 0; i < ringSteps; ++i) {
     const glm::dvec3 a = ringPoint(pivot, axis, radius, i);
@@ -195,7 +193,7 @@ std::vector<GizmoShape> Gizmo::shapes(const PictureView& picture) const {
       continue;
     }
     if (glm::length(glm::cross(sight, this->axis(axis))) > steepestAxis) {
-      const Grip handle = (scales ? scaleAxes : moveAxes)[static_cast<size_t>(axis)];
+      const Grip handle = (scales ? scaleAxes : moveAxes)[axis];
       addShaft(picture, pivot_, length * this->axis(axis), handle, shapes);
     }
     if (scales) {
@@ -206,7 +204,7 @@ std::vector<GizmoShape> Gizmo::shapes(const PictureView& picture) const {
     if (std::abs(glm::dot(sight, unit(axis))) > flattestPlane) {
       const std::array corners = {pivot_ + planeNear * u + planeNear * v, pivot_ + planeFar * u + planeNear * v,
                                   pivot_ + planeFar * u + planeFar * v, pivot_ + planeNear * u + planeFar * v};
-      if (auto square = filled(picture, movePlanes[static_cast<size_t>(axis)], corners)) {
+      if (auto square = filled(picture, movePlanes[axis], corners)) {
         shapes.insert(shapes.begin(), std::move(*square));
       }
     }

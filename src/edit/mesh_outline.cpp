@@ -5,6 +5,8 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <ranges>
+#include <set>
 
 #include "geometry/weld.hpp"
 
@@ -40,14 +42,11 @@ std::vector<MeshEdge> edgesOf(const Mesh& mesh) {
 // Returns all vertices of a small mesh, else the farthest ones in directions on a Fibonacci lattice: Gonzalez,
 // "Measurement of Areas on a Sphere Using Fibonacci and Latitude-Longitude Lattices" (2010).
 std::vector<glm::dvec3> outlinePoints(const Mesh& mesh) {
-  std::vector<glm::dvec3> points;
   if (mesh.vertices.size() <= mostPoints) {
-    for (const Vertex& vertex : mesh.vertices) {
-      points.push_back(vertex.position);
-    }
-    return points;
+    const auto all = std::views::transform(mesh.vertices, &Vertex::position);
+    return {all.begin(), all.end()};
   }
-  std::vector<size_t> farthest;
+  std::set<size_t> farthest;
   for (size_t i = 0; i < mostPoints; ++i) {
     const double y = 1.0 - (2.0 * i + 1.0) / mostPoints;
     const double angle = 2.0 * std::numbers::pi * std::numbers::phi * static_cast<double>(i);
@@ -55,10 +54,9 @@ std::vector<glm::dvec3> outlinePoints(const Mesh& mesh) {
     const auto most = std::ranges::max_element(mesh.vertices, [&](const Vertex& a, const Vertex& b) {
       return glm::dot(a.position, d) < glm::dot(b.position, d);
     });
-    farthest.push_back(static_cast<size_t>(most - mesh.vertices.begin()));
+    farthest.insert(static_cast<size_t>(most - mesh.vertices.begin()));
   }
-  std::ranges::sort(farthest);
-  farthest.erase(std::unique(farthest.begin(), farthest.end()), farthest.end());
+  std::vector<glm::dvec3> points;
   for (const size_t i : farthest) {
     points.push_back(mesh.vertices[i].position);
   }

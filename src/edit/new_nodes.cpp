@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <ranges>
 
 #include "geometry/affine.hpp"
 #include "scene/scene_state.hpp"
@@ -42,13 +43,8 @@ glm::dvec3 rowOf(const Object& object) {
 
 // Returns a step within the mirror's plane, so that neither copy stands before the other.
 glm::dvec3 stepInPlane(const MirrorState& state) {
-  double low = 0.0;
-  double high = 0.0;
-  for (const glm::dvec3& vertex : state.polygon) {
-    const double x = glm::dot(vertex - state.origin, state.axisX);
-    low = std::min(low, x);
-    high = std::max(high, x);
-  }
+  const auto x = [&](const glm::dvec3& vertex) { return glm::dot(vertex - state.origin, state.axisX); };
+  const auto [low, high] = std::ranges::minmax(std::views::transform(state.polygon, x));
   return 1.1 * (high - low) * state.axisX;
 }
 

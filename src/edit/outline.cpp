@@ -52,10 +52,8 @@ void addEdges(std::span<const glm::dvec2> closed, const PictureView& picture, st
 }
 
 std::vector<PixelLine> mirrorOutline(const MirrorState& mirror, const PictureView& picture) {
-  std::vector<glm::dvec3> polygon = mirror.polygon;
-  if (picture.view().clip) {
-    polygon = clipPolygon(polygon, *picture.view().clip);
-  }
+  const auto& clip = picture.view().clip;
+  const std::vector<glm::dvec3> polygon = clip ? clipPolygon(mirror.polygon, *clip) : mirror.polygon;
   std::vector<PixelLine> lines;
   for (size_t i = 0; i < polygon.size(); ++i) {
     add(lines, picture.line(polygon[i], polygon[(i + 1) % polygon.size()]));
@@ -151,10 +149,8 @@ std::vector<PixelLine> objectOutline(const InstanceState& instance, const glm::d
   if (!picture.sees(instance.center, instance.radius)) {
     return {};
   }
-  if (!shape.edges.empty()) {
-    if (auto lines = silhouette(instance, picture, shape.edges)) {
-      return *std::move(lines);
-    }
+  if (auto lines = shape.edges.empty() ? std::nullopt : silhouette(instance, picture, shape.edges)) {
+    return *std::move(lines);
   }
   return hullOutline(instance, half, picture, shape.points);
 }
@@ -163,17 +159,15 @@ std::vector<PixelLine> objectOutline(const InstanceState& instance, const glm::d
 
 std::vector<PixelLine> outlineOf(const Scene& scene, const SceneState& state, const Selection& selection,
                                  const PictureView& picture, const MeshOutline& shape) {
-  const auto index = static_cast<size_t>(selection.index);
   if (selection.kind == Selection::Kind::mirror) {
-    return mirrorOutline(state.mirrors.at(index), picture);
+    return mirrorOutline(state.mirrors.at(selection.index), picture);
   }
   if (selection.kind == Selection::Kind::light) {
-    return lightOutline(state.lights.at(index).position, scene.lights.at(index).radius, picture);
+    return lightOutline(state.lights.at(selection.index).position, scene.lights.at(selection.index).radius, picture);
   }
   const InstanceState* instance = instanceOf(state, selection);
-  return instance
-             ? objectOutline(*instance, scene.meshes.at(static_cast<size_t>(instance->mesh)).halfExtent, picture, shape)
-             : std::vector<PixelLine>();
+  return instance ? objectOutline(*instance, scene.meshes.at(instance->mesh).halfExtent, picture, shape)
+                  : std::vector<PixelLine>();
 }
 
 }  // namespace speculum

@@ -11,7 +11,7 @@ namespace {
 Selection selectionOf(const SceneHit& hit, const TraceWorld& world) {
   switch (hit.kind) {
     case HitKind::object: {
-      const InstanceState& instance = world.instances()[static_cast<size_t>(hit.index)];
+      const InstanceState& instance = world.instances()[hit.index];
       return {Selection::Kind::object, instance.object, instance.copy};
     }
     case HitKind::mirror:
@@ -31,12 +31,6 @@ bool isSkipped(const PickLimits& limits, const std::vector<int>& path) {
   });
 }
 
-// Returns the reflected ray. It starts at the reflected eye and reaches the mirror at the same t, so that it needs no
-// offset off the surface.
-Ray reflectedRay(const Ray& ray, const Plane& plane, double t) {
-  return {reflectPoint(ray.origin, plane), reflectionLinear(plane.normal) * ray.direction, t};
-}
-
 }  // namespace
 
 std::vector<Picked> Picker::at(const SceneState& state, const PictureView& picture, const glm::dvec2& pixel,
@@ -53,8 +47,8 @@ std::vector<Picked> Picker::at(const SceneState& state, const PictureView& pictu
     if (hit->kind != HitKind::mirror) {
       break;
     }
-    const Mirror& mirror = world_.scene().mirrors[static_cast<size_t>(hit->index)];
-    const MirrorState& placed = world_.mirrors()[static_cast<size_t>(hit->index)];
+    const Mirror& mirror = world_.scene().mirrors[hit->index];
+    const MirrorState& placed = world_.mirrors()[hit->index];
     path.push_back(hit->index);
     throughput *=
         mirrorReflectance(mirror.reflectance, mirror.fresnel, std::abs(glm::dot(placed.normal, ray.direction)));
@@ -63,7 +57,9 @@ std::vector<Picked> Picker::at(const SceneState& state, const PictureView& pictu
         largest < limits.minThroughput || isSkipped(limits, path)) {
       break;
     }
-    ray = reflectedRay(ray, {placed.origin, placed.normal}, hit->t);
+    // Starts at the reflected eye and reaches the mirror at the same t, so that it needs no offset off the surface.
+    ray = {reflectPoint(ray.origin, {placed.origin, placed.normal}), reflectionLinear(placed.normal) * ray.direction,
+           hit->t};
     skip = {.mirror = hit->index};
   }
   std::ranges::reverse(found);

@@ -20,11 +20,11 @@ std::optional<PictureView> PictureView::through(const Scene& scene, const SceneS
     if (index < 0 || static_cast<size_t>(index) >= state.mirrors.size()) {
       return std::nullopt;
     }
-    const MirrorState& mirror = state.mirrors[static_cast<size_t>(index)];
+    const MirrorState& mirror = state.mirrors[index];
     Plane plane{mirror.origin, mirror.normal};
     const double height = plane.distance(seen.eye());
     const std::vector<glm::dvec3> visible = visiblePart(seen.view_, mirror.polygon);
-    if (visible.empty() || height == 0.0 || (height < 0.0 && !scene.mirrors[static_cast<size_t>(index)].twoSided)) {
+    if (visible.empty() || height == 0.0 || (height < 0.0 && !scene.mirrors[index].twoSided)) {
       return std::nullopt;
     }
     plane.normal *= height < 0.0 ? -1.0 : 1.0;
@@ -87,14 +87,11 @@ std::optional<PixelLine> PictureView::line(const glm::dvec3& a, const glm::dvec3
 // Clips as in Cyrus, Beck, "Generalized Two- and Three-Dimensional Clipping" (1978), for either winding.
 std::optional<PixelLine> PictureView::clipped(const PixelLine& line) const {
   const glm::dvec2 along = line.b - line.a;
-  double area = 0.0;
-  for (size_t i = 0; i < shown_.size(); ++i) {
-    area += cross(shown_[i] - shown_[0], shown_[(i + 1) % shown_.size()] - shown_[0]);
-  }
+  const double winding = twiceArea(shown_) < 0.0 ? -1.0 : 1.0;
   double enter = 0.0;
   double leave = 1.0;
   for (size_t i = 0; i < shown_.size(); ++i) {
-    const glm::dvec2 edge = (shown_[(i + 1) % shown_.size()] - shown_[i]) * (area < 0.0 ? -1.0 : 1.0);
+    const glm::dvec2 edge = (shown_[(i + 1) % shown_.size()] - shown_[i]) * winding;
     const double inside = cross(edge, line.a - shown_[i]);
     const double slope = cross(edge, along);
     if (slope == 0.0) {

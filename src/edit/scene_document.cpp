@@ -199,8 +199,8 @@ std::string SceneDocument::addBookmark(Bookmark bookmark) {
 
 void SceneDocument::removeBookmark(size_t index) {
   structural("remove bookmark '" + scene_.bookmarks.at(index).name + "'", [&] {
-    scene_.bookmarks.erase(scene_.bookmarks.begin() + static_cast<std::ptrdiff_t>(index));
-    scene_.origins.bookmarks.erase(scene_.origins.bookmarks.begin() + static_cast<std::ptrdiff_t>(index));
+    scene_.bookmarks.erase(scene_.bookmarks.begin() + index);
+    scene_.origins.bookmarks.erase(scene_.origins.bookmarks.begin() + index);
     return selection_;
   });
 }

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "edit/scene_keys.hpp"
 #include "edit/toml_editor.hpp"
 #include "platform/files.hpp"
 #include "scene/input_error.hpp"
+#include "scene/scene_fields.hpp"
 #include "scene/scene_loader.hpp"
 #include "scene/toml_text.hpp"
 
@@ -36,6 +36,54 @@ void nameModels(const Scene& loaded, std::span<const Mesh> meshes, const fs::pat
       object.model = pathFrom(file.parent_path(), meshes[object.mesh].source);
     }
   }
+}
+
+template <typename Field, typename Value>
+std::string textOf(const Field& field, const Value& value) {
+  if constexpr (std::is_same_v<Value, glm::dvec3>) {
+    if (field.uniform && value.x == value.y && value.y == value.z) {
+      return tomlText(value.x);
+    }
+  }
+  if constexpr (std::is_enum_v<Value>) {
+    return tomlText(choicesOf(value)[static_cast<size_t>(value)]);
+  } else {
+    return tomlText(value);
+  }
+}
+
+template <Described Node>
+void addKeys(const Node& node, const std::string& table, std::vector<KeyText>& keys) {
+  const Node usual{};
+  forEachField<Node>([&](const auto& field) {
+    if (!field.appliesTo(node)) {
+      return;
+    }
+    using Value = typename std::decay_t<decltype(field)>::Value;
+    const std::string key(field.key);
+    const Value& value = node.*field.member;
+    if constexpr (Described<Value>) {
+      addKeys(value, key, keys);
+    } else if constexpr (!IsOptional<Value>::value) {
+      const std::string text = textOf(field, value);
+      const bool omissible = !field.required && !field.alwaysSaved && text == textOf(field, usual.*field.member);
+      keys.push_back({table, key, text, omissible});
+    } else if constexpr (Described<typename Value::value_type>) {
+      if (value) {
+        addKeys(*value, key, keys);
+      }
+    } else if (value) {
+      keys.push_back({table, key, textOf(field, *value), false});
+    }
+  });
+}
+
+// Returns every key that says something about the node, in the order of its description.
+template <Described Node>
+std::vector<KeyText> keyTexts(const Node& node) {
+  std::vector<KeyText> keys;
+  addKeys(node, "", keys);
+  return keys;
 }
 
 template <typename T>
@@ -120,9 +168,7 @@ void editSettings(TomlEditor& editor, const Settings& loaded, std::span<const Se
 
 template <typename T>
 bool sameTexts(const T& a, const T& b) {
-  return std::ranges::equal(keyTexts(a), keyTexts(b), [](const KeyText& p, const KeyText& q) {
-    return p.table == q.table && p.key == q.key && p.text == q.text;
-  });
+  return keyTexts(a) == keyTexts(b);
 }
 
 template <typename T>

@@ -1,5 +1,7 @@
 #include "edit/toml_editor.hpp"
 
+#include <spdlog/fmt/ranges.h>
+
 #include <algorithm>
 #include <stdexcept>
 #include <tuple>
@@ -27,11 +29,7 @@ std::string keyValue(const std::string& key, size_t width, const std::string& va
 }
 
 std::string inBraces(const std::vector<std::string>& items) {
-  std::string text;
-  for (const std::string& item : items) {
-    text += (text.empty() ? " " : ", ") + item;
-  }
-  return "{" + text + (items.empty() ? "}" : " }");
+  return items.empty() ? "{}" : fmt::format("{{ {} }}", fmt::join(items, ", "));
 }
 
 // Writes the keys of a nested table as one value in braces; empty if all may be omitted.

@@ -6,10 +6,19 @@
 #include <string_view>
 #include <vector>
 
-#include "edit/scene_keys.hpp"
 #include "edit/toml_layout.hpp"
 
 namespace speculum {
+
+// A key of a scene file's table with its value as TOML. Equal texts stand for equal values and the other way round.
+struct KeyText {
+  std::string table;  // "orbit" of orbit.speed; empty for a key of the table itself
+  std::string key;
+  std::string text;
+  bool omissible = false;  // the loader's default
+
+  bool operator==(const KeyText&) const = default;
+};
 
 // Changes values in the text of a TOML file and keeps everything else: comments, order, blanks, line breaks. Nodes are
 // those of root(), which say where the text has them; text() applies the changes collected so far.

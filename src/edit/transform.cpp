@@ -48,7 +48,7 @@ const InstanceState* instanceOf(const SceneState& state, const Selection& select
 }
 
 glm::dvec3 pivotOf(const Scene& scene, const SceneState& state, const Selection& selection) {
-  const auto index = static_cast<size_t>(std::max(selection.index, 0));
+  const int index = std::max(selection.index, 0);
   if (selection.kind == Selection::Kind::mirror) {
     return vertexMean(state.mirrors.at(index).polygon);
   }
@@ -65,20 +65,14 @@ glm::dvec3 pivotOf(const Scene& scene, const SceneState& state, const Selection&
 
 double reachOf(const Scene& scene, const SceneState& state, const Selection& selection) {
   const glm::dvec3 pivot = pivotOf(scene, state, selection);
-  const auto index = static_cast<size_t>(std::max(selection.index, 0));
+  const int index = std::max(selection.index, 0);
   if (selection.kind == Selection::Kind::light) {
     return scene.lights.at(index).radius;
   }
   if (const InstanceState* instance = instanceOf(state, selection)) {
     return glm::distance(pivot, instance->center) + instance->radius;
   }
-  double reach = 0.0;
-  if (selection.kind == Selection::Kind::mirror) {
-    for (const glm::dvec3& p : state.mirrors.at(index).polygon) {
-      reach = std::max(reach, glm::distance(pivot, p));
-    }
-  }
-  return reach;
+  return selection.kind == Selection::Kind::mirror ? farthestDistance(pivot, state.mirrors.at(index).polygon) : 0.0;
 }
 
 SceneNode moved(const SceneNode& node, const glm::dvec3& by, double time) {
@@ -117,7 +111,7 @@ SceneNode turned(const SceneNode& node, const glm::dmat3& rotation, const glm::d
 }
 
 ScaleAxes scaleAxesOf(const Scene& scene, const SceneState& state, const Selection& selection) {
-  const auto index = static_cast<size_t>(std::max(selection.index, 0));
+  const int index = std::max(selection.index, 0);
   if (selection.kind == Selection::Kind::object) {
     const Object& object = scene.objects.at(index);
     return {.directions = rotationFromDegrees(object.rotation + spunBy(object.spin, state.time))};

@@ -2,18 +2,14 @@
 
 #include <cmath>
 #include <glm/gtx/component_wise.hpp>
+#include <utility>
 
 namespace speculum {
 
 namespace {
 
-struct SineCosine {
-  double sine;
-  double cosine;
-};
-
-// Returns exact values at multiples of 90 degrees, where most walls stand, after any number of turns.
-SineCosine sineCosine(double degrees) {
+// Returns sine and cosine, exact at multiples of 90 degrees, where most walls stand, after any number of turns.
+std::pair<double, double> sineCosine(double degrees) {
   const double reduced = std::remainder(degrees, 360.0);
   const double quarter = std::round(reduced / 90.0);
   const double rest = glm::radians(reduced - 90.0 * quarter);

@@ -7,7 +7,7 @@ namespace speculum {
 // a b modulo m, within m / 2 of 0 and to the last digit however large the product is.
 double productModulo(double a, double b, double m);
 
-// x -> linear * x + translation, in double. Composition order is that of matrices: (a * b)(x) = a(b(x)).
+// x -> linear * x + translation, in double.
 struct Affine {
   glm::dmat3 linear{1.0};
   glm::dvec3 translation{0.0};  // metres
@@ -15,10 +15,6 @@ struct Affine {
   glm::dvec3 point(const glm::dvec3& p) const { return linear * p + translation; }
   glm::dvec3 vector(const glm::dvec3& v) const { return linear * v; }
 };
-
-inline Affine operator*(const Affine& a, const Affine& b) {
-  return {a.linear * b.linear, a.linear * b.translation + a.translation};
-}
 
 double largestEntry(const glm::dmat3& m);  // by magnitude
 

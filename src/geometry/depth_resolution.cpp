@@ -32,18 +32,15 @@ struct EyeRay {
   double change;  // m / c: depth is a constant plus change / distance
 };
 
-glm::dvec2 pixelStep(const DepthView& view) {
-  const Projection& f = view.projection;
-  return 2.0 / view.pictureSize * glm::dvec2(f.aspect / f.focal, 1.0 / f.focal);
-}
-
 DepthErrors errorsOf(const DepthView& view, const DepthSurface& surface, const glm::dvec4& row, const EyeRay& ray) {
   const glm::dvec3& p = surface.point;
   const glm::dvec3 n = glm::abs(surface.normal);
   const glm::dvec3 gradient(row);
   const double k = glm::dot(surface.normal, p);
+  const Projection& f = view.projection;
+  const glm::dvec2 pixelStep = 2.0 / view.pictureSize * glm::dvec2(f.aspect / f.focal, 1.0 / f.focal);
   const glm::dvec2 slope =
-      glm::abs(glm::dvec2(gradient) + row.w / k * glm::dvec2(surface.normal)) * pixelStep(view);  // per pixel
+      glm::abs(glm::dvec2(gradient) + row.w / k * glm::dvec2(surface.normal)) * pixelStep;  // per pixel
   const glm::dvec3 moved = 6.0 * rounding(surface.extent) + 3.0 * roundings(p);
   const double along = glm::dot(n, moved) * ray.distance / std::abs(k);
   const double z = gradient == glm::dvec3(0.0)

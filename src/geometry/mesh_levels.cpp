@@ -9,6 +9,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <ranges>
 #include <stdexcept>
 #include <unordered_map>
 #include <utility>
@@ -17,6 +18,12 @@
 #include "geometry/surface_distance.hpp"
 
 namespace speculum {
+
+struct LevelsOfMesh {
+  std::once_flag once;
+  std::atomic<bool> made = false;
+  MeshLevels levels;
+};
 
 namespace {
 
@@ -174,12 +181,9 @@ class SimplifiedPart {
 
  private:
   std::vector<glm::dvec3> corners(const std::vector<uint32_t>& indices) const {
-    std::vector<glm::dvec3> corners;
-    corners.reserve(indices.size());
-    for (const uint32_t index : indices) {
-      corners.push_back(positions_[index]);
-    }
-    return corners;
+    const auto position = [&](uint32_t index) -> const glm::dvec3& { return positions_[index]; };
+    const auto corners = std::views::transform(indices, position);
+    return {corners.begin(), corners.end()};
   }
 
   // Returns the step between the vertices or triangles that are measured: large parts are sampled.
@@ -230,22 +234,6 @@ class SimplifiedPart {
   std::unique_ptr<SurfaceDistance> original_;
 };
 
-size_t indexCount(const std::vector<SimplifiedPart>& parts) {
-  size_t count = 0;
-  for (const SimplifiedPart& part : parts) {
-    count += part.indexCount();
-  }
-  return count;
-}
-
-// Largest error of all parts, at least that of the level before.
-double errorOf(const std::vector<SimplifiedPart>& parts, double before) {
-  for (const SimplifiedPart& part : parts) {
-    before = part.error(before);
-  }
-  return before;
-}
-
 // Appends the simplified triangles of the parts as the next level.
 MeshLevel addLevel(const std::vector<SimplifiedPart>& parts, double error, MeshLevels& levels) {
   MeshLevel level{.error = error};
@@ -260,16 +248,6 @@ MeshLevel addLevel(const std::vector<SimplifiedPart>& parts, double error, MeshL
   level.clusters = clustersOf(levels.vertices, levels.indices, level.parts);
   return level;
 }
-
-}  // namespace
-
-struct LevelsOfMesh {
-  std::once_flag once;
-  std::atomic<bool> made = false;
-  MeshLevels levels;
-};
-
-namespace {
 
 std::shared_ptr<LevelsOfMesh> sharedLevels(const Mesh& mesh) {
   static std::mutex mutex;
@@ -300,12 +278,18 @@ MeshLevels simplified(const Mesh& mesh, const std::function<bool()>& cancelled) 
     if (cancelled && cancelled()) {
       throw std::runtime_error("simplifying was cancelled");
     }
-    std::ranges::for_each(parts, [](SimplifiedPart& part) { part.simplify(); });
-    const size_t left = indexCount(parts);
+    size_t left = 0;
+    for (SimplifiedPart& part : parts) {
+      part.simplify();
+      left += part.indexCount();
+    }
     if (left == 0 || static_cast<double>(left) > (1.0 - leastGain) * static_cast<double>(last)) {
       break;
     }
-    const double error = errorOf(parts, levels.levels.empty() ? 0.0 : levels.levels.back().error);
+    double error = levels.levels.empty() ? 0.0 : levels.levels.back().error;
+    for (const SimplifiedPart& part : parts) {
+      error = part.error(error);
+    }
     if (std::isinf(error)) {
       break;
     }

@@ -9,10 +9,8 @@ namespace {
 
 double diameter(std::span<const glm::dvec3> polygon) {
   double largest = 0.0;
-  for (const glm::dvec3& a : polygon) {
-    for (const glm::dvec3& b : polygon) {
-      largest = std::max(largest, glm::length(a - b));
-    }
+  for (const glm::dvec3& p : polygon) {
+    largest = std::max(largest, farthestDistance(p, polygon));
   }
   return largest;
 }
@@ -40,6 +38,14 @@ bool isConvex(std::span<const glm::dvec3> polygon, const glm::dvec3& normal, dou
 
 }  // namespace
 
+double twiceArea(std::span<const glm::dvec2> corners) {
+  double twice = 0.0;
+  for (size_t i = 1; i + 1 < corners.size(); ++i) {
+    twice += cross(corners[i] - corners[0], corners[i + 1] - corners[0]);
+  }
+  return twice;
+}
+
 glm::dvec3 newellVector(std::span<const glm::dvec3> polygon) {
   glm::dvec3 sum(0.0);
   for (size_t i = 1; i + 1 < polygon.size(); ++i) {
@@ -58,6 +64,14 @@ glm::dvec3 vertexMean(std::span<const glm::dvec3> polygon) {
 
 double polygonArea(std::span<const glm::dvec3> polygon) {
   return 0.5 * glm::length(newellVector(polygon));
+}
+
+double farthestDistance(const glm::dvec3& from, std::span<const glm::dvec3> points) {
+  double farthest = 0.0;
+  for (const glm::dvec3& p : points) {
+    farthest = std::max(farthest, glm::length(p - from));
+  }
+  return farthest;
 }
 
 std::optional<std::string> polygonDefect(std::span<const glm::dvec3> polygon) {

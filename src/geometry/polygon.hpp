@@ -13,6 +13,9 @@ inline double cross(const glm::dvec2& a, const glm::dvec2& b) {
   return a.x * b.y - a.y * b.x;
 }
 
+// Twice the signed area, positive for corners that run counter-clockwise with y up, clockwise with y down.
+double twiceArea(std::span<const glm::dvec2> corners);
+
 // A plane as a point on it and a unit normal. The form n.x = d would lose |d| * 2^-53 far from the origin.
 struct Plane {
   glm::dvec3 point{0.0};
@@ -30,6 +33,9 @@ glm::dvec3 newellVector(std::span<const glm::dvec3> polygon);
 glm::dvec3 vertexMean(std::span<const glm::dvec3> polygon);
 
 double polygonArea(std::span<const glm::dvec3> polygon);
+
+// Distance from a point to the farthest of others; 0 without any.
+double farthestDistance(const glm::dvec3& from, std::span<const glm::dvec3> points);
 
 // Says why a polygon is unusable as a mirror, or nothing: fewer than 3 vertices, non-finite, area below 1e-8
 // diameter^2, a vertex farther than 1e-4 diameters off the plane or 1e-5 diameters outside the line of an edge.

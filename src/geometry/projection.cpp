@@ -44,13 +44,60 @@ double sign(double x) {
   return x < 0.0 ? -1.0 : 1.0;
 }
 
-// Twice the signed area, positive for corners that run clockwise on the screen, where y points down.
-double twiceArea(std::span<const glm::dvec2> corners) {
-  double twice = 0.0;
-  for (size_t i = 1; i + 1 < corners.size(); ++i) {
-    twice += cross(corners[i] - corners[0], corners[i + 1] - corners[0]);
+glm::dvec3 homogeneous(const glm::dvec4& v) {
+  return {v.x, v.y, v.w};
+}
+
+// Returns on which side of the line a vertex lies, and how far; 0 within rounding, so that cuts repeat no vertex.
+double sideOf(const glm::dvec3& line, const glm::dvec4& v) {
+  const glm::dvec3 p = homogeneous(v);
+  const double distance = glm::dot(line, p);
+  return std::abs(distance) > 1e-13 * glm::length(line) * glm::length(p) ? distance : 0.0;
+}
+
+bool reaches(std::span<const glm::dvec4> polygon, const glm::dvec3& line) {
+  return std::ranges::any_of(polygon, [&](const glm::dvec4& v) { return sideOf(line, v) > 0.0; });
+}
+
+// Returns the part on the positive side.
+std::vector<glm::dvec4> cutBy(std::span<const glm::dvec4> polygon, const glm::dvec3& line) {
+  std::vector<glm::dvec4> kept;
+  for (size_t i = 0; i < polygon.size(); ++i) {
+    const glm::dvec4& v = polygon[i];
+    const glm::dvec4& next = polygon[(i + 1) % polygon.size()];
+    const double from = sideOf(line, v);
+    const double to = sideOf(line, next);
+    if (from >= 0.0) {
+      kept.push_back(v);
+    }
+    if ((from > 0.0 && to < 0.0) || (from < 0.0 && to > 0.0)) {
+      kept.push_back(glm::mix(v, next, from / (from - to)));
+    }
   }
-  return twice;
+  return kept;
+}
+
+// Returns the lines of the polygon's edges, positive inside; none if it is no wider than rounding.
+std::vector<glm::dvec3> edgeLines(std::span<const glm::dvec4> polygon) {
+  glm::dvec3 inside(0.0);
+  for (const glm::dvec4& v : polygon) {
+    inside += homogeneous(v);
+  }
+  std::vector<glm::dvec3> lines;
+  for (size_t i = 0; i < polygon.size(); ++i) {
+    const glm::dvec3 a = homogeneous(polygon[i]);
+    const glm::dvec3 b = homogeneous(polygon[(i + 1) % polygon.size()]);
+    const glm::dvec3 line = glm::cross(a, b);
+    // Rounding would give an edge that is too short any direction.
+    if (glm::length(line) > 1e-13 * glm::length(a) * glm::length(b)) {
+      const double distance = glm::dot(line, inside);
+      if (!(std::abs(distance) > 1e-13 * glm::length(line) * glm::length(inside))) {
+        return {};
+      }
+      lines.push_back(line * sign(distance));
+    }
+  }
+  return lines;
 }
 
 }  // namespace
@@ -150,66 +197,6 @@ std::vector<glm::dvec4> grown(std::span<const glm::dvec4> clip, double width, do
   }
   return moved;
 }
-
-namespace {
-
-glm::dvec3 homogeneous(const glm::dvec4& v) {
-  return {v.x, v.y, v.w};
-}
-
-// Returns on which side of the line a vertex lies, and how far; 0 within rounding, so that cuts repeat no vertex.
-double sideOf(const glm::dvec3& line, const glm::dvec4& v) {
-  const glm::dvec3 p = homogeneous(v);
-  const double distance = glm::dot(line, p);
-  return std::abs(distance) > 1e-13 * glm::length(line) * glm::length(p) ? distance : 0.0;
-}
-
-bool reaches(std::span<const glm::dvec4> polygon, const glm::dvec3& line) {
-  return std::ranges::any_of(polygon, [&](const glm::dvec4& v) { return sideOf(line, v) > 0.0; });
-}
-
-// Returns the part on the positive side.
-std::vector<glm::dvec4> cutBy(std::span<const glm::dvec4> polygon, const glm::dvec3& line) {
-  std::vector<glm::dvec4> kept;
-  for (size_t i = 0; i < polygon.size(); ++i) {
-    const glm::dvec4& v = polygon[i];
-    const glm::dvec4& next = polygon[(i + 1) % polygon.size()];
-    const double from = sideOf(line, v);
-    const double to = sideOf(line, next);
-    if (from >= 0.0) {
-      kept.push_back(v);
-    }
-    if ((from > 0.0 && to < 0.0) || (from < 0.0 && to > 0.0)) {
-      kept.push_back(glm::mix(v, next, from / (from - to)));
-    }
-  }
-  return kept;
-}
-
-// Returns the lines of the polygon's edges, positive inside; none if it is no wider than rounding.
-std::vector<glm::dvec3> edgeLines(std::span<const glm::dvec4> polygon) {
-  glm::dvec3 inside(0.0);
-  for (const glm::dvec4& v : polygon) {
-    inside += homogeneous(v);
-  }
-  std::vector<glm::dvec3> lines;
-  for (size_t i = 0; i < polygon.size(); ++i) {
-    const glm::dvec3 a = homogeneous(polygon[i]);
-    const glm::dvec3 b = homogeneous(polygon[(i + 1) % polygon.size()]);
-    const glm::dvec3 line = glm::cross(a, b);
-    // Rounding would give an edge that is too short any direction.
-    if (glm::length(line) > 1e-13 * glm::length(a) * glm::length(b)) {
-      const double distance = glm::dot(line, inside);
-      if (!(std::abs(distance) > 1e-13 * glm::length(line) * glm::length(inside))) {
-        return {};
-      }
-      lines.push_back(line * sign(distance));
-    }
-  }
-  return lines;
-}
-
-}  // namespace
 
 void cutAway(std::vector<std::vector<glm::dvec4>>& parts, std::span<const glm::dvec4> cover) {
   const std::vector<glm::dvec3> lines = edgeLines(cover);

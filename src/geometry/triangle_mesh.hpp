@@ -18,8 +18,8 @@ class ShearedRay {
   explicit ShearedRay(const Ray& ray);
 
   // x and y across the ray, z the ray's parameter t.
-  glm::dvec3 project(const glm::dvec3& p) const { return project(glm::value_ptr(p)); }
-  glm::dvec3 project(const double* p) const {
+  glm::dvec3 project(const glm::dvec3& point) const {
+    const double* p = glm::value_ptr(point);
     const double along = p[kz_] - origin_.z;
     return {p[kx_] - origin_.x - shear_.x * along, p[ky_] - origin_.y - shear_.y * along, shear_.z * along};
   }
@@ -44,6 +44,7 @@ class TriangleMesh {
  public:
   static constexpr int64_t noTriangle = -1;
 
+  TriangleMesh() = default;
   explicit TriangleMesh(const Mesh& mesh);
 
   Bounds bounds() const { return bvh_.bounds(); }

@@ -11,9 +11,9 @@ enum class ToneMap { clamp, aces };
 // IEC 61966-2-1. Both take and return [0, 1].
 double srgbEncode(double linear);
 double srgbDecode(double encoded);
-const std::array<float, 256>& srgbDecoded();  // of each code of 8 bits
+const std::array<float, 256>& srgbDecoded();  // by 8-bit code
 
-// What turns radiance into a picture, besides the sRGB curve.
+// Settings that turn radiance into a picture, besides the sRGB curve.
 struct DisplayCurve {
   double exposure = 1.0;
   ToneMap toneMap = ToneMap::clamp;

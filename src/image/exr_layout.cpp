@@ -63,20 +63,21 @@ class ExrLayout {
  public:
   explicit ExrLayout(Bytes file) : file_(file) { readHeader(); }
 
-  void checkChunks() {
+  void checkChunks(std::vector<uint8_t>& bytes) {
     if (tiled_) {
       checkTiles();
     } else {
+      completeTable(bytes);
       checkRows();
     }
   }
 
+  size_t lineOrderOffset() const { return static_cast<size_t>(attribute("lineOrder", 1).data() - file_.data()); }
+
+ private:
   // Fills the table from the chunks, which follow each other, if the writer left it empty because it was interrupted or
   // does not seek.
   void completeTable(std::vector<uint8_t>& bytes) const {
-    if (tiled_) {
-      return;
-    }
     const int64_t rows = rowsOfChunk();
     const auto chunks = static_cast<uint64_t>((height_ + rows - 1) / rows);
     Cursor table(file_, table_);
@@ -95,9 +96,6 @@ class ExrLayout {
     }
   }
 
-  size_t lineOrderOffset() const { return static_cast<size_t>(attribute("lineOrder", 1).data() - file_.data()); }
-
- private:
   void readHeader() {
     Cursor header(file_);
     require(header.value<uint32_t>() == 20000630, "it does not begin like one");
@@ -260,8 +258,7 @@ class ExrLayout {
 
 void checkExrLayout(std::vector<uint8_t>& bytes) {
   ExrLayout layout(bytes);
-  layout.completeTable(bytes);
-  layout.checkChunks();
+  layout.checkChunks(bytes);
   bytes[layout.lineOrderOffset()] = 0;
 }
 

@@ -28,11 +28,11 @@ fs::path configuredDir(const std::string& variable, const std::string& home) {
   const std::string key = variable + "=\"";
   for (std::string line; std::getline(file, line);) {
     const size_t end = line.rfind('"');
-    if (line.rfind(key, 0) != 0 || end < key.size()) {
+    if (!line.starts_with(key) || end < key.size()) {
       continue;
     }
     const std::string value = line.substr(key.size(), end - key.size());
-    return value.rfind("$HOME/", 0) == 0 ? fs::path(home) / value.substr(6) : fs::path(value);
+    return value.starts_with("$HOME/") ? fs::path(home) / value.substr(6) : fs::path(value);
   }
   return {};
 }

@@ -43,12 +43,10 @@ ChildProcess::ChildProcess(const std::vector<std::string>& arguments, Input inpu
   }
   argv.push_back(nullptr);
   int ends[2];
-  if (::pipe2(ends, O_CLOEXEC) != 0) {
-    throw std::runtime_error("no pipe could be made for " + arguments.front());
-  }
-  // Uses a socket and not a pipe, because writing to a socket whose reader is gone need not raise SIGPIPE.
+  // The input is a socket and not a pipe, because writing to a socket whose reader is gone need not raise SIGPIPE.
   int inputEnds[2] = {-1, -1};
-  if (input == Input::pipe && ::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, inputEnds) != 0) {
+  if (::pipe2(ends, O_CLOEXEC) != 0 ||
+      (input == Input::pipe && ::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, inputEnds) != 0)) {
     throw std::runtime_error("no pipe could be made for " + arguments.front());
   }
   posix_spawn_file_actions_t actions;

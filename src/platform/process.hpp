@@ -28,7 +28,7 @@ class ChildProcess {
   ChildProcess& operator=(const ChildProcess&) = delete;
 
   ProcessResult wait();
-  // wait() without waiting: nothing while the program runs. Call neither afterwards.
+  // Does the same without waiting: nothing while the program runs. Once one has returned a result, call neither again.
   std::optional<ProcessResult> poll();
 
   // Takes a line from the output. Nothing if none comes within `seconds`, or if the program has ended: then running()

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <stdexcept>
-#include <utility>
 
 #include "platform/process.hpp"
 
@@ -66,7 +65,7 @@ std::vector<ScreenRect> workAreas() {
   GLFWmonitor** monitors = glfwGetMonitors(&count);
   std::vector<ScreenRect> areas(static_cast<size_t>(count));
   for (int i = 0; i < count; ++i) {
-    ScreenRect& area = areas[static_cast<size_t>(i)];
+    ScreenRect& area = areas[i];
     glfwGetMonitorWorkarea(monitors[i], &area.x, &area.y, &area.width, &area.height);
   }
   return areas;
@@ -253,7 +252,7 @@ void Window::installCallbacks() {
     of(w)->notify({.kind = InputEvent::Kind::pointer, .x = x, .y = y});
   });
   glfwSetDropCallback(window_.get(), [](GLFWwindow* w, int count, const char** names) {
-    of(w)->dropFiles({names, names + count});
+    of(w)->notify({.kind = InputEvent::Kind::drop, .dropped = {names, names + count}});
   });
   glfwSetScrollCallback(window_.get(), [](GLFWwindow* w, double dx, double dy) {
     of(w)->notify({.kind = InputEvent::Kind::wheel, .x = dx, .y = dy});
@@ -405,10 +404,6 @@ void Window::setClipboard(const std::string& text) {
 std::string Window::clipboard() const {
   const char* text = glfwGetClipboardString(window_.get());
   return text ? text : "";
-}
-
-void Window::dropFiles(const std::vector<std::filesystem::path>& files) {
-  notify({.kind = InputEvent::Kind::drop, .dropped = files});
 }
 
 std::vector<const char*> Window::requiredInstanceExtensions() const {

@@ -2,7 +2,6 @@
 
 #include <vulkan/vulkan.h>
 
-#include <array>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -37,8 +36,8 @@ struct MouseButtonEvent {
 struct InputEvent {
   enum class Kind { key, text, button, pointer, wheel, focus, enter, drop };
   Kind kind = Kind::key;
-  int code = 0;          // GLFW's of the key, by its printed letter, or of the button; the character
-  bool down = false;     // of key and button; the window has the focus, or the pointer is in it
+  int code = 0;          // GLFW's code of the key (by its printed letter) or button; the character of a text
+  bool down = false;     // key or button is pressed; window has the focus; pointer is in the window
   bool command = false;  // a key without a character that is no modifier, or any key with Control or Alt
   double x = 0.0;        // of pointer (screen coordinates of the window, origin top left) and wheel (notches)
   double y = 0.0;
@@ -118,8 +117,6 @@ class Window {
   std::string clipboard() const;  // empty if it holds no text
   // Calls `listener` with every event.
   void setListener(std::function<void(const InputEvent&)> listener) { listener_ = std::move(listener); }
-  // Handles files as if they had been dropped on the window.
-  void dropFiles(const std::vector<std::filesystem::path>& files);
 
   GLFWwindow* native() const { return window_.get(); }
   std::vector<const char*> requiredInstanceExtensions() const;

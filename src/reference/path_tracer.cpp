@@ -5,8 +5,6 @@
 #include <glm/gtx/component_wise.hpp>
 #include <numbers>
 
-#include "reference/shading.hpp"
-
 namespace speculum {
 
 namespace {
@@ -66,10 +64,6 @@ glm::dvec2 MicrofacetSampler::next(int level) {
   constexpr double plastic = 1.32471795724474602596;
   ++drawn_;
   return glm::fract(shift_ + static_cast<double>(drawn_) * glm::dvec2(1.0 / plastic, 1.0 / (plastic * plastic)));
-}
-
-glm::dvec3 PathTracer::background(const glm::dvec3& direction) const {
-  return environment_.sky ? environment_.radiance(glm::normalize(direction)) : environment_.background;
 }
 
 bool PathTracer::reflects(const SceneHit& hit) const {
@@ -144,10 +138,7 @@ glm::dvec3 PathTracer::roughReflection(const Path& path, const Bounce& bounce) {
     ++next.roughLevel;
     sum += follow(next);
   }
-  if (taken > 0) {
-    return sum / static_cast<double>(taken);
-  }
-  return follow(reflected(path, bounce, bounce.base.normal));
+  return taken > 0 ? sum / static_cast<double>(taken) : follow(reflected(path, bounce, bounce.base.normal));
 }
 
 glm::dvec3 PathTracer::follow(Path path) {
@@ -156,7 +147,7 @@ glm::dvec3 PathTracer::follow(Path path) {
   for (;;) {
     const auto hit = world_.closest(path.ray, path.skip);
     if (!hit) {
-      return sum + weight * background(path.ray.direction);
+      return sum + weight * environment_.radiance(glm::normalize(path.ray.direction));
     }
     if (hit->kind == HitKind::glyph) {
       const PointLight& light = world_.scene().lights[hit->index];
@@ -175,7 +166,7 @@ glm::dvec3 PathTracer::follow(Path path) {
     const Path next = reflected(path, bounce, bounce.base.normal);
     const double throughput = glm::compMax(path.throughput);
     if (path.depth >= options_.maxDepth || throughput < options_.minThroughput || throughput == 0.0) {
-      return sum + weight * background(next.ray.direction);
+      return sum + weight * environment_.radiance(glm::normalize(next.ray.direction));
     }
     if (bounce.roughness > 0.0) {
       return sum + weight * roughReflection(path, bounce);

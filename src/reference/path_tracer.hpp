@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
 
@@ -66,7 +65,6 @@ class PathTracer {
   Bounce curvedBounce(const Ray& ray, const SceneHit& hit) const;
   glm::dvec3 backSide(const Ray& ray, const SceneHit& hit) const;
   glm::dvec3 roughReflection(const Path& path, const Bounce& bounce);
-  glm::dvec3 background(const glm::dvec3& direction) const;
   Path reflected(const Path& path, const Bounce& bounce, const glm::dvec3& normal) const;
 
   const TraceWorld& world_;

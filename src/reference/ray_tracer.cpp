@@ -37,33 +37,27 @@ void check(const TraceOptions& options) {
 
 }  // namespace
 
-Ray RayTracer::cameraRay(int width, int height, double x, double y) const {
+Ray RayTracer::cameraRay(const TraceOptions& options, double x, double y) const {
   const double tangent = std::tan(0.5 * camera_.verticalFov);
-  const glm::dvec3 view((2.0 * x / width - 1.0) * tangent * width / height, (1.0 - 2.0 * y / height) * tangent, -1.0);
+  const glm::dvec3 view((2.0 * x / options.width - 1.0) * tangent * options.width / options.height,
+                        (1.0 - 2.0 * y / options.height) * tangent, -1.0);
   return {glm::dvec3(0.0), glm::normalize(glm::transpose(camera_.worldToView) * view)};
-}
-
-glm::dvec3 RayTracer::pixel(const Environment& environment, const TraceOptions& options, int x, int y) const {
-  const int side = gridSize(options.samples);
-  PathTracer tracer(world_, environment, options, time_,
-                    MicrofacetSampler(static_cast<uint32_t>(x), static_cast<uint32_t>(y)));
-  glm::dvec3 sum(0.0);
-  for (int j = 0; j < side; ++j) {
-    for (int i = 0; i < side; ++i) {
-      sum += tracer.radiance(cameraRay(options.width, options.height, x + (i + 0.5) / side, y + (j + 0.5) / side));
-    }
-  }
-  return sum / static_cast<double>(options.samples);
 }
 
 void RayTracer::tile(const Environment& environment, const TraceOptions& options, int x0, int y0,
                      TraceResult& result) const {
+  const int side = gridSize(options.samples);
   for (int y = y0; y < std::min(y0 + tileSize, options.height); ++y) {
     for (int x = x0; x < std::min(x0 + tileSize, options.width); ++x) {
       const size_t i = static_cast<size_t>(y) * options.width + x;
-      result.image.pixels[i] = glm::vec3(pixel(environment, options, x, y));
-      const PathTracer center(world_, environment, options, time_, MicrofacetSampler(0, 0));
-      const MirrorChain chain = center.followMirrors(cameraRay(options.width, options.height, x + 0.5, y + 0.5));
+      PathTracer tracer(world_, environment, options, time_,
+                        MicrofacetSampler(static_cast<uint32_t>(x), static_cast<uint32_t>(y)));
+      glm::dvec3 sum(0.0);
+      for (int k = 0; k < options.samples; ++k) {
+        sum += tracer.radiance(cameraRay(options, x + (k % side + 0.5) / side, y + (k / side + 0.5) / side));
+      }
+      result.image.pixels[i] = glm::vec3(sum / static_cast<double>(options.samples));
+      const MirrorChain chain = tracer.followMirrors(cameraRay(options, x + 0.5, y + 0.5));
       result.mirrorDepth[i] = static_cast<uint8_t>(chain.count);
       result.mirrorThroughput[i] = chain.throughput;
       result.backgroundMask[i] = chain.background;

@@ -54,8 +54,7 @@ class RayTracer {
 
  private:
   // Ray through a point of the picture, pixels from the top left corner; the eye is the origin.
-  Ray cameraRay(int width, int height, double x, double y) const;
-  glm::dvec3 pixel(const Environment& environment, const TraceOptions& options, int x, int y) const;
+  Ray cameraRay(const TraceOptions& options, double x, double y) const;
   void tile(const Environment& environment, const TraceOptions& options, int x0, int y0, TraceResult& result) const;
 
   TraceWorld world_;

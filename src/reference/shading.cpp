@@ -16,16 +16,15 @@ glm::dvec3 safeNormalize(const glm::dvec3& v) {
   return v / std::sqrt(std::max(glm::dot(v, v), 1e-200));
 }
 
-// Returns the radiance due to a source or its mirror image, at `toLight` from the point, that gives `irradiance` at 1
-// m.
-glm::dvec3 lightRadiance(const ShadingPoint& point, const glm::dvec3& toLight, const glm::dvec3& irradiance,
-                         double radius) {
+// Returns the radiance due to a light or its mirror image, at `toLight` from the point.
+glm::dvec3 lightRadiance(const ShadingPoint& point, const glm::dvec3& toLight, const PointLight& light) {
   const glm::dvec3 l = safeNormalize(toLight);
   const double cosine = std::clamp(glm::dot(point.normal, l), 0.0, 1.0);
   const double lobe = std::clamp(glm::dot(point.normal, safeNormalize(l + point.toViewer)), 0.0, 1.0);
   const glm::dvec3 brdf =
       point.diffuse / pi + point.specular * ((point.shininess + 8.0) / (8.0 * pi) * std::pow(lobe, point.shininess));
-  return irradiance * (cosine / std::max(glm::dot(toLight, toLight), radius * radius)) * brdf;
+  const double distance2 = std::max(glm::dot(toLight, toLight), light.radius * light.radius);
+  return light.color * light.intensity * (cosine / distance2) * brdf;
 }
 
 // Returns the radiance due to a light by way of one mirror: along the straight line from the point to the light's image
@@ -58,39 +57,18 @@ glm::dvec3 mirroredLight(const TraceWorld& world, const ShadingPoint& point, int
     }
   }
   const double cosine = std::abs(glm::dot(plane.normal, safeNormalize(toImage)));
-  return mirrorReflectance(material.reflectance, material.fresnel, cosine) *
-         lightRadiance(point, toImage, source.color * source.intensity, source.radius);
+  return mirrorReflectance(material.reflectance, material.fresnel, cosine) * lightRadiance(point, toImage, source);
 }
 
 glm::dvec3 directLight(const TraceWorld& world, const ShadingPoint& point, int light) {
   const PointLight& source = world.scene().lights[light];
   const glm::dvec3 toLight = world.lights()[light].position - point.position;
-  if (glm::dot(point.normal, toLight) <= 0.0) {
-    return glm::dvec3(0.0);
-  }
-  if (source.castsShadow && world.occluded({point.position, toLight, 0.0, 1.0}, point.self)) {
-    return glm::dvec3(0.0);
-  }
-  return lightRadiance(point, toLight, source.color * source.intensity, source.radius);
+  const bool lit = glm::dot(point.normal, toLight) > 0.0 &&
+                   !(source.castsShadow && world.occluded({point.position, toLight, 0.0, 1.0}, point.self));
+  return lit ? lightRadiance(point, toLight, source) : glm::dvec3(0.0);
 }
 
-bool isBlack(const glm::dvec3& c) {
-  return c == glm::dvec3(0.0);
-}
-
-void applyMaterial(const Scene& scene, const Object& object, const Material& material, const glm::dvec2& uv,
-                   ShadingPoint& point) {
-  point.diffuse = object.color.value_or(material.diffuse);
-  if (material.diffuseTexture >= 0) {
-    point.diffuse *= textureColor(scene.textures[material.diffuseTexture], uv);
-  }
-  point.specular = object.specular.value_or(material.specular);
-  point.shininess = std::max(1.0, object.shininess.value_or(material.shininess));
-  point.emission = object.emission.value_or(material.emission);
-}
-
-}  // namespace
-
+// Interpolates linear texels bilinearly, repeated, v up; texel centres at (i + 0.5) / size.
 glm::dvec3 textureColor(const Texture& texture, const glm::dvec2& uv) {
   if (texture.texels.empty()) {
     return glm::dvec3(1.0);
@@ -110,6 +88,19 @@ glm::dvec3 textureColor(const Texture& texture, const glm::dvec2& uv) {
   const double wy = y - cornerY;
   return glm::mix(glm::mix(texel(0, 0), texel(1, 0), wx), glm::mix(texel(0, 1), texel(1, 1), wx), wy);
 }
+
+void applyMaterial(const Scene& scene, const Object& object, const Material& material, const glm::dvec2& uv,
+                   ShadingPoint& point) {
+  point.diffuse = object.color.value_or(material.diffuse);
+  if (material.diffuseTexture >= 0) {
+    point.diffuse *= textureColor(scene.textures[material.diffuseTexture], uv);
+  }
+  point.specular = object.specular.value_or(material.specular);
+  point.shininess = std::max(1.0, object.shininess.value_or(material.shininess));
+  point.emission = object.emission.value_or(material.emission);
+}
+
+}  // namespace
 
 glm::dvec3 mirrorNormal(const Mirror& mirror, const MirrorState& state, const glm::dvec3& position, double time) {
   if (!mirror.ripple || mirror.ripple->amplitude == 0.0) {
@@ -154,7 +145,7 @@ ShadingPoint objectPoint(const TraceWorld& world, const Ray& ray, const SceneHit
 glm::dvec3 surfaceRadiance(const TraceWorld& world, const ShadingPoint& point) {
   const Scene& scene = world.scene();
   glm::dvec3 radiance = point.emission + scene.environment.ambient * point.diffuse;
-  if (isBlack(point.diffuse) && isBlack(point.specular)) {
+  if (point.diffuse == glm::dvec3(0.0) && point.specular == glm::dvec3(0.0)) {
     return radiance;
   }
   for (size_t light = 0; light < scene.lights.size(); ++light) {

@@ -28,9 +28,6 @@ ShadingPoint objectPoint(const TraceWorld& world, const Ray& ray, const SceneHit
 // shadows.
 glm::dvec3 surfaceRadiance(const TraceWorld& world, const ShadingPoint& point);
 
-// Interpolates linear texels bilinearly, repeated, v up; texel centres at (i + 0.5) / size.
-glm::dvec3 textureColor(const Texture& texture, const glm::dvec2& uv);
-
 // Returns the mirror's front normal at a world position relative to the eye: its plane's, or with ripples that of the
 // height field, which is the same from both sides.
 glm::dvec3 mirrorNormal(const Mirror& mirror, const MirrorState& state, const glm::dvec3& position, double time);

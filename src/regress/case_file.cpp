@@ -27,35 +27,14 @@ constexpr size_t mostBytes = 256 << 20;  // of all cases
 constexpr Range share{.low = 0.0, .high = 1.0};
 constexpr Range seconds{.low = 0.0, .high = 86400.0, .aboveLow = true};
 
-// A table of a case, over those of [defaults].
+// A table of a case on top of [defaults], before its grid is expanded.
 struct Draft {
-  RegressCase common;  // to the cases of its grid
+  RegressCase common;  // what all cases of its grid share
   std::optional<std::string> name;
   std::optional<std::string> scene;
   std::string picture = "{name}.png";
   std::map<std::string, std::string> settings;
   std::map<std::string, std::vector<std::string>> grid;
-};
-
-// Reads cases of one file.
-class CaseReader {
- public:
-  explicit CaseReader(const fs::path& file) : file_(file) {}
-
-  void read(const TableReader& table, Draft& draft) const;
-  void expand(const TableReader& table, const Draft& draft, std::vector<RegressCase>& cases);
-
- private:
-  fs::path beside(const std::string& path) const { return (file_.parent_path() / path).lexically_normal(); }
-  std::optional<std::string> text(const TableReader& table, Key key) const;
-  void apply(const TableReader& table, Draft& draft, const std::string& key, const std::string& value) const;
-  Tolerance readTolerance(const TableReader& table) const;
-  std::vector<Expectation> readExpectations(const TableReader& table) const;
-  void add(const TableReader& table, const Draft& draft, const std::string& suffix, std::vector<RegressCase>& cases);
-
-  const fs::path& file_;
-  std::set<std::string> names_;
-  size_t bytes_ = 0;  // of the cases
 };
 
 size_t bytesOf(const fs::path& path) {
@@ -72,7 +51,7 @@ size_t bytesOf(const RegressCase& subject) {
   return bytes;
 }
 
-std::optional<std::string> CaseReader::text(const TableReader& table, Key key) const {
+std::optional<std::string> textIn(const TableReader& table, Key key) {
   if (!table.has(key)) {
     return std::nullopt;
   }
@@ -83,47 +62,7 @@ std::optional<std::string> CaseReader::text(const TableReader& table, Key key) c
   return value;
 }
 
-// Sets what a grid may vary: a key of the case that is a text or a number, or else a setting.
-void CaseReader::apply(const TableReader& table, Draft& draft, const std::string& key, const std::string& value) const {
-  if (key == "scene") {
-    draft.scene = value;
-    const std::optional<fs::path> shipped = isFile(beside(value)) ? std::nullopt : shippedScene(value);
-    draft.common.scene = shipped.value_or(beside(value));
-    if (!isFile(draft.common.scene)) {
-      table.fail(key, "is '" + value + "'", "a file beside this one, or a name of speculum scenes, is needed");
-    }
-  } else if (key == "camera") {
-    try {
-      if (meansPoints(value)) {
-        parseCamera(value);
-      }
-    } catch (const std::invalid_argument& error) {
-      table.fail(key, error.what(), "as --camera takes it");
-    }
-    draft.common.camera = value;
-  } else if (key == "size") {
-    const std::optional<PictureSize> size = pictureSize(value);
-    if (!size) {
-      table.fail(key, "is '" + value + "'", std::string(pictureSizes) + " is needed");
-    }
-    draft.common.size = *size;
-  } else if (key == "time") {
-    const char* start = value.c_str();
-    char* end = nullptr;
-    draft.common.time = std::strtod(start, &end);
-    if (end == start || *end != '\0' || !kTime.contains(draft.common.time)) {
-      table.fail(key, "is '" + value + "'", kTime.text());
-    }
-  } else {
-    Settings scratch;
-    if (const auto problem = setSetting(scratch, key, value)) {
-      table.fail(key, *problem, "keys and values as --set takes them are needed");
-    }
-    draft.settings[key] = value;
-  }
-}
-
-Tolerance CaseReader::readTolerance(const TableReader& table) const {
+Tolerance readTolerance(const TableReader& table) {
   static constexpr std::array<Key, 5> keys{"max_diff", "share", "block", "flip", "flip_p99"};
   Tolerance tolerance;
   if (const std::optional<TableReader> bounds = table.subtable("tolerance", keys)) {
@@ -143,12 +82,12 @@ Tolerance CaseReader::readTolerance(const TableReader& table) const {
   return tolerance;
 }
 
-std::vector<Expectation> CaseReader::readExpectations(const TableReader& table) const {
+std::vector<Expectation> readExpectations(const TableReader& table) {
   static constexpr std::array<Key, 6> keys{"driver", "version", "result", "reason", "picture", "tolerance"};
   static constexpr std::array<Key, 3> results{"pass", "fail", "skip"};
   std::vector<Expectation> expectations;
   for (const TableReader& entry : table.tables("expect", keys)) {
-    Expectation expectation{.driver = entry.text("driver"), .version = text(entry, "version")};
+    Expectation expectation{.driver = entry.text("driver"), .version = textIn(entry, "version")};
     if (expectation.version) {
       try {
         isInVersions("", *expectation.version);
@@ -163,115 +102,166 @@ std::vector<Expectation> CaseReader::readExpectations(const TableReader& table) 
     if (expectation.result != ExpectedResult::pass && expectation.reason.empty()) {
       entry.fail("reason", "is missing", "a sentence that says why is needed");
     }
-    if (const auto picture = text(entry, "picture")) {
-      expectation.picture = *picture;
-    }
+    expectation.picture = textIn(entry, "picture");
     expectation.tolerance = readTolerance(entry);
     expectations.push_back(std::move(expectation));
   }
   return expectations;
 }
 
-void CaseReader::read(const TableReader& table, Draft& draft) const {
-  draft.common.line = table.line();
-  if (const auto name = text(table, "name")) {
-    draft.name = name;
-  }
-  for (const char* key : {"scene", "camera", "size"}) {
-    if (const auto value = text(table, key)) {
-      apply(table, draft, key, *value);
+// Reads cases of one file.
+class CaseReader {
+ public:
+  explicit CaseReader(const fs::path& file) : file_(file) {}
+
+  void read(const TableReader& table, Draft& draft) const {
+    draft.common.line = table.line();
+    if (const auto name = textIn(table, "name")) {
+      draft.name = name;
     }
-  }
-  draft.common.time = table.number("time", draft.common.time, kTime);
-  draft.common.timeout = table.number("timeout", draft.common.timeout, seconds);
-  if (const auto mask = text(table, "mask")) {
-    draft.common.mask = beside(*mask);
-    if (!isFile(*draft.common.mask)) {
-      table.fail("mask", "is '" + *mask + "'", "a PNG file is needed");
-    }
-  }
-  draft.picture = text(table, "picture").value_or(draft.picture);
-  // settingsOf() knows what each setting takes, and names file and line of one that does not.
-  Scene settings;
-  settings.file = file_;
-  settings.settings = readSettings(table);
-  const Settings checked = settingsOf(settings);
-  for (const SettingEntry& entry : settings.settings) {
-    draft.settings[entry.key] = settingValue(checked, entry.key);
-  }
-  if (const std::optional<TableReader> grid = table.subtable("grid")) {
-    for (const auto& [key, node] : grid->table()) {
-      const std::string name(key.str());
-      draft.grid[name] = settingTexts(*grid, name, node);
-      for (const std::string& value : draft.grid[name]) {
-        Draft scratch;
-        apply(*grid, scratch, name, value);
+    for (const char* key : {"scene", "camera", "size"}) {
+      if (const auto value = textIn(table, key)) {
+        apply(table, draft, key, *value);
       }
     }
+    draft.common.time = table.number("time", draft.common.time, kTime);
+    draft.common.timeout = table.number("timeout", draft.common.timeout, seconds);
+    if (const auto mask = textIn(table, "mask")) {
+      draft.common.mask = beside(*mask);
+      if (!isFile(*draft.common.mask)) {
+        table.fail("mask", "is '" + *mask + "'", "a PNG file is needed");
+      }
+    }
+    draft.picture = textIn(table, "picture").value_or(draft.picture);
+    // settingsOf() knows what each setting takes, and names file and line of one that does not.
+    Scene settings;
+    settings.file = file_;
+    settings.settings = readSettings(table);
+    const Settings checked = settingsOf(settings);
+    for (const SettingEntry& entry : settings.settings) {
+      draft.settings[entry.key] = settingValue(checked, entry.key);
+    }
+    if (const std::optional<TableReader> grid = table.subtable("grid")) {
+      for (const auto& [key, node] : grid->table()) {
+        const std::string name(key.str());
+        draft.grid[name] = settingTexts(*grid, name, node);
+        for (const std::string& value : draft.grid[name]) {
+          Draft scratch;
+          apply(*grid, scratch, name, value);
+        }
+      }
+    }
+    draft.common.tolerance = merged(draft.common.tolerance, readTolerance(table));
+    if (table.has("expect")) {
+      draft.common.expect = readExpectations(table);
+    }
   }
-  draft.common.tolerance = merged(draft.common.tolerance, readTolerance(table));
-  if (table.has("expect")) {
-    draft.common.expect = readExpectations(table);
-  }
-}
 
-void CaseReader::expand(const TableReader& table, const Draft& draft, std::vector<RegressCase>& cases) {
-  const auto all = combinations({draft.grid.begin(), draft.grid.end()}, mostCases - std::min(mostCases, cases.size()));
-  if (!all) {
-    table.fail("grid", "makes more than " + std::to_string(mostCases) + " cases", "fewer are needed");
-  }
-  for (const std::vector<SettingChange>& combination : *all) {
-    Draft one = draft;
-    std::string suffix;
-    for (const auto& [key, value] : combination) {
-      suffix += key == "scene" && !draft.name ? "" : "_" + key + "=" + value;
-      apply(table, one, key, value);
+  void expand(const TableReader& table, const Draft& draft, std::vector<RegressCase>& cases) {
+    const auto all =
+        combinations({draft.grid.begin(), draft.grid.end()}, mostCases - std::min(mostCases, cases.size()));
+    if (!all) {
+      table.fail("grid", "makes more than " + std::to_string(mostCases) + " cases", "fewer are needed");
     }
-    add(table, one, suffix, cases);
+    for (const std::vector<SettingChange>& combination : *all) {
+      Draft one = draft;
+      std::string suffix;
+      for (const auto& [key, value] : combination) {
+        suffix += key == "scene" && !draft.name ? "" : "_" + key + "=" + value;
+        apply(table, one, key, value);
+      }
+      add(table, one, suffix, cases);
+    }
   }
-}
 
-void CaseReader::add(const TableReader& table, const Draft& draft, const std::string& suffix,
-                     std::vector<RegressCase>& cases) {
-  RegressCase made = draft.common;
-  if (!draft.scene) {
-    table.fail("scene", "is missing", "a scene file, or a name of speculum scenes, is needed");
-  }
-  made.name = draft.name.value_or(fs::path(*draft.scene).stem().string()) + suffix;
-  for (char& c : made.name) {
-    const bool plain = std::isalnum(static_cast<unsigned char>(c)) != 0;
-    c = plain || std::string_view("._=+-,").find(c) != std::string_view::npos ? c : '_';
-  }
-  if (!names_.insert(made.name).second) {
-    table.fail("name", "'" + made.name + "' is already the name of an earlier case", "names must be unique");
-  }
-  made.settings.assign(draft.settings.begin(), draft.settings.end());
-  Settings settings;
-  for (const auto& [key, value] : made.settings) {
-    setSetting(settings, key, value);
-  }
-  if (settings.quality.budgetMs > 0.0 || settings.quality.maxError > 0.0) {
-    table.fail("settings", "quality.budget_ms and quality.max_error choose from a sweep", "cases have none");
-  }
-  const auto pictureFile = [&](std::string path) {
-    constexpr std::string_view placeholder = "{name}";
-    if (const size_t at = path.find(placeholder); at != std::string::npos) {
-      path.replace(at, placeholder.size(), made.name);
+ private:
+  fs::path beside(const std::string& path) const { return (file_.parent_path() / path).lexically_normal(); }
+
+  // Sets what a grid may vary: a key of the case that is a text or a number, or else a setting.
+  void apply(const TableReader& table, Draft& draft, const std::string& key, const std::string& value) const {
+    if (key == "scene") {
+      draft.scene = value;
+      const std::optional<fs::path> shipped = isFile(beside(value)) ? std::nullopt : shippedScene(value);
+      draft.common.scene = shipped.value_or(beside(value));
+      if (!isFile(draft.common.scene)) {
+        table.fail(key, "is '" + value + "'", "a file beside this one, or a name of speculum scenes, is needed");
+      }
+    } else if (key == "camera") {
+      try {
+        if (meansPoints(value)) {
+          parseCamera(value);
+        }
+      } catch (const std::invalid_argument& error) {
+        table.fail(key, error.what(), "as --camera takes it");
+      }
+      draft.common.camera = value;
+    } else if (key == "size") {
+      const std::optional<PictureSize> size = pictureSize(value);
+      if (!size) {
+        table.fail(key, "is '" + value + "'", std::string(pictureSizes) + " is needed");
+      }
+      draft.common.size = *size;
+    } else if (key == "time") {
+      const char* start = value.c_str();
+      char* end = nullptr;
+      draft.common.time = std::strtod(start, &end);
+      if (end == start || *end != '\0' || !kTime.contains(draft.common.time)) {
+        table.fail(key, "is '" + value + "'", kTime.text());
+      }
+    } else {
+      Settings scratch;
+      if (const auto problem = setSetting(scratch, key, value)) {
+        table.fail(key, *problem, "keys and values as --set takes them are needed");
+      }
+      draft.settings[key] = value;
     }
-    return beside(path);
-  };
-  made.picture = pictureFile(draft.picture);
-  for (Expectation& expectation : made.expect) {
-    if (expectation.picture) {
-      expectation.picture = pictureFile(expectation.picture->string());
+  }
+
+  void add(const TableReader& table, const Draft& draft, const std::string& suffix, std::vector<RegressCase>& cases) {
+    RegressCase made = draft.common;
+    if (!draft.scene) {
+      table.fail("scene", "is missing", "a scene file, or a name of speculum scenes, is needed");
     }
+    made.name = draft.name.value_or(fs::path(*draft.scene).stem().string()) + suffix;
+    for (char& c : made.name) {
+      const bool plain = std::isalnum(static_cast<unsigned char>(c)) != 0;
+      c = plain || std::string_view("._=+-,").find(c) != std::string_view::npos ? c : '_';
+    }
+    if (!names_.insert(made.name).second) {
+      table.fail("name", "'" + made.name + "' is already the name of an earlier case", "names must be unique");
+    }
+    made.settings.assign(draft.settings.begin(), draft.settings.end());
+    Settings settings;
+    for (const auto& [key, value] : made.settings) {
+      setSetting(settings, key, value);
+    }
+    if (settings.quality.budgetMs > 0.0 || settings.quality.maxError > 0.0) {
+      table.fail("settings", "quality.budget_ms and quality.max_error choose from a sweep", "cases have none");
+    }
+    const auto pictureFile = [&](std::string path) {
+      constexpr std::string_view placeholder = "{name}";
+      if (const size_t at = path.find(placeholder); at != std::string::npos) {
+        path.replace(at, placeholder.size(), made.name);
+      }
+      return beside(path);
+    };
+    made.picture = pictureFile(draft.picture);
+    for (Expectation& expectation : made.expect) {
+      if (expectation.picture) {
+        expectation.picture = pictureFile(expectation.picture->string());
+      }
+    }
+    bytes_ += bytesOf(made);
+    if (bytes_ > mostBytes) {
+      table.fail("grid", "makes cases of more than 256 MiB", "fewer cases, expectations or shorter texts are needed");
+    }
+    cases.push_back(std::move(made));
   }
-  bytes_ += bytesOf(made);
-  if (bytes_ > mostBytes) {
-    table.fail("grid", "makes cases of more than 256 MiB", "fewer cases, expectations or shorter texts are needed");
-  }
-  cases.push_back(std::move(made));
-}
+
+  const fs::path& file_;
+  std::set<std::string> names_;
+  size_t bytes_ = 0;  // of the cases
+};
 
 }  // namespace
 

@@ -20,7 +20,7 @@ struct Tolerance {
 
   bool operator==(const Tolerance&) const = default;
 };
-// `changes` over `base`.
+// Returns `base` with the bounds that `changes` gives.
 Tolerance merged(const Tolerance& base, const Tolerance& changes);
 
 enum class ExpectedResult { pass, fail, skip };

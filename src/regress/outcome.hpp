@@ -23,13 +23,13 @@ struct Outcome {
   std::string device;
   std::string driver;
   std::string picture;                     // file of the expected picture
-  std::vector<std::string> drawCommand;    // words of the one that draws it again
-  std::vector<std::string> acceptCommand;  // words of the one that replaces the expected picture; none: it may not be
+  std::vector<std::string> drawCommand;    // words of the command that draws it again
+  std::vector<std::string> acceptCommand;  // words of the command that accepts it; none: not allowed
   bool replaceable = false;                // --update may write the expected picture
   bool hasFiles = false;                   // its pictures are beside the report
   double gain = 1.0;                       // of the difference picture
   double seconds = 0.0;
-  std::vector<int> region;  // left, top, width, height of the largest difference in pixels; none: no entries
+  std::vector<int> region;  // left, top, width, height of the largest difference, pixels; empty without one
   std::vector<OutcomeFigure> figures;
   std::vector<std::string> log;  // last lines of the worker
 };

@@ -116,7 +116,7 @@ void judge(const Image8& expected, const Image8& actual, const RegressCase& subj
   if (const auto region = largestGroup(check.agreement, actual.width)) {
     outcome.region = {region->x, region->y, region->width, region->height};
   }
-  // Small differences are seen too: a tint of 2/255 as well as a missing light.
+  // Makes small differences visible too: a tint of 2/255 as well as a missing light.
   outcome.gain = std::max(20.0, std::floor(200.0 / std::max(1, check.agreement.largest)));
   writePng(files.expected, expected);
   writePng(files.actual, actual);

@@ -9,7 +9,7 @@
 
 namespace speculum {
 
-// A picture against the expected one.
+// Result of comparing a picture with the expected one.
 struct PictureCheck {
   PictureAgreement agreement;
   std::vector<OutcomeFigure> figures;

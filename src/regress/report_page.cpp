@@ -23,7 +23,7 @@ bool needsAttention(const Outcome& outcome) {
   return outcome.verdict == Verdict::failed || outcome.verdict == Verdict::error;
 }
 
-// The four pictures at a JPEG quality, or as they are; null for one that is not there.
+// Embeds the four pictures at a JPEG quality, or as PNG without one; null for a file that is missing.
 ordered_json embedded(const CaseFiles& files, std::optional<int> quality) {
   ordered_json pictures = ordered_json::array();
   for (const std::filesystem::path& file : files.all()) {
@@ -45,7 +45,7 @@ size_t sizeOf(const ordered_json& pictures) {
   return size;
 }
 
-// The best pictures that keep to the room.
+// Embeds the pictures in the best quality that fits `room` characters; null if none does.
 ordered_json picturesOf(const CaseFiles& files, double room) {
   for (const std::optional<int> quality : {std::optional<int>(), std::optional(90), std::optional(70)}) {
     ordered_json pictures = embedded(files, quality);
@@ -72,7 +72,7 @@ std::string escapedXml(const std::string& text) {
   return escaped;
 }
 
-// A message of a workflow command is one line; a property of one has no comma and no colon besides.
+// Escapes text for GitHub's workflow commands: a message is one line, a property has no comma and no colon either.
 std::string escapedCommand(const std::string& text, bool property) {
   std::string escaped;
   for (const char c : text) {

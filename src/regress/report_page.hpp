@@ -10,12 +10,12 @@
 
 namespace speculum {
 
-// All of a run; outcomes by index of the case.
+// A run of all cases, with one outcome for each.
 struct RegressRun {
   std::filesystem::path file;  // of the cases
   std::vector<RegressCase> cases;
   std::vector<Outcome> outcomes;
-  std::vector<std::string> command;  // words of the one that ran it
+  std::vector<std::string> command;  // words of the command that ran it
   std::string version;
   std::string date;
 

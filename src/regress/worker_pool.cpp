@@ -24,7 +24,7 @@ double secondsSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// Jobs that are left. A worker keeps to one group, because another scene takes it time.
+// Jobs that are left. A worker keeps to one group, because loading another scene takes time.
 class JobQueue {
  public:
   explicit JobQueue(const std::vector<WorkerJob>& jobs) : jobs_(jobs) {
@@ -60,7 +60,7 @@ class JobQueue {
   std::mutex mutex_;
 };
 
-// Nothing when interrupted.
+// Sends a job to the worker and waits for the reply; nothing when interrupted.
 std::optional<WorkerReply> ask(ChildProcess& worker, const WorkerJob& job) {
   const Clock::time_point start = Clock::now();
   worker.write(job.request + "\n");
@@ -102,7 +102,7 @@ std::optional<WorkerReply> ask(ChildProcess& worker, const WorkerJob& job) {
   return std::nullopt;
 }
 
-// Lets the worker write its caches.
+// Ends the worker, with time to write its caches.
 void finish(ChildProcess& worker) {
   const Clock::time_point start = Clock::now();
   worker.closeInput();

@@ -21,7 +21,7 @@ struct WorkerReply {
   double seconds = 0.0;
 };
 
-// Starts of the line that answers a request.
+// Start of the line that answers a request.
 constexpr std::string_view workerReplyMark = "reply ";
 
 // Hands jobs to `workers` processes, a request at a time on their standard input. A worker that ends, or takes longer

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <span>
 #include <stdexcept>
 #include <string_view>
 #include <vector>
@@ -46,9 +47,8 @@ bool meansPoints(const std::string& text) {
 Bookmark parseCamera(const std::string& text) {
   const auto lists = parseLists(text).value_or(std::vector<std::vector<double>>());
   const size_t count = lists.size();
-  const bool points =
-      std::all_of(lists.begin(), lists.begin() + static_cast<std::ptrdiff_t>(std::min<size_t>(count, 3)),
-                  [](const auto& list) { return list.size() == 3; });
+  const auto vectors = std::span(lists).first(std::min<size_t>(count, 3));
+  const bool points = std::ranges::all_of(vectors, [](const auto& list) { return list.size() == 3; });
   const bool angle = count < 4 || (lists[3].size() == 1 && kFieldOfView.contains(lists[3][0]));
   if (count < 2 || count > 4 || !points || !angle) {
     throw std::invalid_argument(
@@ -56,8 +56,8 @@ Bookmark parseCamera(const std::string& text) {
         "' is not a camera (position:target, position:target:up or position:target:up:FOV with a vertical "
         "field of view of 1 .. 170 degrees, such as 0,1,4:0,1,0)");
   }
-  for (size_t i = 0; i < std::min<size_t>(count, 3); ++i) {
-    for (const double value : lists[i]) {
+  for (const std::vector<double>& vector : vectors) {
+    for (const double value : vector) {
       if (!kCoordinate.contains(value)) {
         throw std::invalid_argument(fmt::format("{} is out of range ({})", value, kCoordinate.text()));
       }

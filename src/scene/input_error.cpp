@@ -1,7 +1,6 @@
 #include "scene/input_error.hpp"
 
 #include <algorithm>
-#include <string>
 
 #include "platform/files.hpp"
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtx/component_wise.hpp>
+#include <ranges>
 
 #include "geometry/bvh.hpp"
 #include "geometry/convex_faces.hpp"
@@ -85,11 +86,8 @@ void rebase(Mesh& mesh) {
 void findOccluders(Mesh& mesh) {
   constexpr size_t mostFaces = 32;
   constexpr size_t mostTriangles = 4096;
-  std::vector<glm::dvec3> positions;
-  positions.reserve(mesh.vertices.size());
-  for (const Vertex& vertex : mesh.vertices) {
-    positions.push_back(vertex.position);
-  }
+  const auto points = std::views::transform(mesh.vertices, &Vertex::position);
+  const std::vector<glm::dvec3> positions(points.begin(), points.end());
   mesh.faces = convexFaces(positions, mesh.indices, mostFaces, mostTriangles);
   mesh.convex = convexMesh(positions, mesh.indices, mostTriangles);
 }
@@ -175,7 +173,7 @@ uint32_t MeshBuilder::vertexOf(const FaceCorner& corner, const glm::dvec3& trian
   return index;
 }
 
-void MeshBuilder::warn(const std::filesystem::path& file) const {
+Mesh MeshBuilder::finish(const std::filesystem::path& file, const std::function<Material(int)>& materialOf) {
   if (nonFinite_ > 0) {
     spdlog::warn("{}: dropped {} faces with vertices that are not finite", file.string(), nonFinite_);
   }
@@ -185,10 +183,6 @@ void MeshBuilder::warn(const std::filesystem::path& file) const {
   if (slivers_ > 0) {
     spdlog::warn("{}: {} triangles are slivers, their normals are inexact", file.string(), slivers_);
   }
-}
-
-Mesh MeshBuilder::finish(const std::filesystem::path& file, const std::function<Material(int)>& materialOf) {
-  warn(file);
   Mesh mesh{.source = file, .vertices = std::move(vertices_)};
   for (const int material : materialOrder_) {
     const std::vector<uint32_t>& indices = materialIndices_[material];

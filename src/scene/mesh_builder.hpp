@@ -50,13 +50,12 @@ class MeshBuilder {
   glm::dvec2 uvShiftOf(std::span<const FaceCorner> corners) const;
   void addTriangle(const FaceCorner& a, const FaceCorner& b, const FaceCorner& c);
   uint32_t vertexOf(const FaceCorner& corner, const glm::dvec3& triangleNormal);
-  void warn(const std::filesystem::path& file) const;
 
   std::vector<glm::dvec3> positions_;
   std::vector<glm::dvec2> texcoords_;
   std::vector<glm::dvec3> normals_;  // unit, or zero: unusable
-  std::vector<glm::dvec3> points_;   // of the face that is added
-  glm::dvec2 uvShift_{0.0};          // taken off its texture coordinates
+  std::vector<glm::dvec3> points_;   // of the face being added
+  glm::dvec2 uvShift_{0.0};          // subtracted from its texture coordinates
   int material_ = -1;
   std::vector<uint32_t>* indices_ = nullptr;              // of material_, set by its next triangle
   std::map<int, std::vector<uint32_t>> materialIndices_;  // by material

@@ -1,5 +1,7 @@
 #include "scene/nearest_key.hpp"
 
+#include <spdlog/fmt/ranges.h>
+
 #include <algorithm>
 #include <numeric>
 #include <vector>
@@ -40,11 +42,7 @@ std::string nearestKeyAdvice(std::string_view key, std::span<const std::string_v
   if (!nearest.empty()) {
     return "did you mean '" + std::string(nearest) + "'?";
   }
-  std::string list = "one of:";
-  for (const std::string_view candidate : known) {
-    list.append(" ").append(candidate);
-  }
-  return list;
+  return fmt::format("one of: {}", fmt::join(known, " "));
 }
 
 }  // namespace speculum

@@ -97,7 +97,7 @@ std::optional<glm::dvec3> readColor(const fs::path& file, LineReader& line, cons
   return color;
 }
 
-// With -halo, d fades with the angle; its number counts.
+// Reads an opacity. With -halo, d fades with the angle, and the number behind that option counts.
 double readFactor(LineReader& line) {
   const bool halo = line.tokens().size() > 1 && line.tokens()[1] == "-halo";
   return readNumber(line, line.numbers(1, 1, halo ? 2 : 1)[0], kAny);

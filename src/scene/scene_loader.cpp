@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "platform/files.hpp"
-#include "scene/input_error.hpp"
 #include "scene/model_scene.hpp"
 #include "scene/scene_sections.hpp"
 #include "scene/toml_file.hpp"
@@ -69,17 +68,6 @@ class ModelProgress {
   double total_ = 0.0;
 };
 
-// Finds a file that is loaded already, under whatever name.
-std::optional<int> knownMesh(const Scene& scene, const fs::path& file) {
-  std::error_code error;
-  for (size_t i = 0; i < scene.meshes.size(); ++i) {
-    if (scene.meshes[i].source == file || fs::equivalent(scene.meshes[i].source, file, error)) {
-      return static_cast<int>(i);
-    }
-  }
-  return std::nullopt;
-}
-
 // `known` has the meshes by the paths of their files without symbolic links.
 int meshIndex(const TableReader& object, Scene& scene, std::map<std::string, int>& known, ModelProgress& progress) {
   const std::string model = object.text("model");
@@ -98,30 +86,14 @@ int meshIndex(const TableReader& object, Scene& scene, std::map<std::string, int
 // Bounds the memory that copies take in every frame.
 constexpr int kMostInstances = 1'000'000;
 
-void checkCount(const TableReader& table, const Object& object, int earlier) {
-  if (object.copies.count > kMostInstances - earlier) {
-    table.fail("copies", "makes more than 1000000 objects of the scene", "fewer copies are needed");
+// Returns what is needed of an object that is too large; nothing if its projected vertices are still floats. Rays to
+// and from a curved mirror square them.
+std::optional<std::string> extentRemedy(const Object& object, const Mesh& mesh) {
+  const double largest = object.mirror ? 1e18 : 1e35;  // metres
+  if (glm::compMax(glm::abs(object.scale) * (glm::abs(mesh.center) + mesh.radius * mesh.unit)) <= largest) {
+    return std::nullopt;
   }
-}
-
-// Returns the metres within which projected vertices are still floats; rays to and from a curved mirror square them.
-double largestExtent(const Object& object) {
-  return object.mirror ? 1e18 : 1e35;
-}
-
-bool extentInRange(const Object& object, const Mesh& mesh) {
-  return glm::compMax(glm::abs(object.scale) * (glm::abs(mesh.center) + mesh.radius * mesh.unit)) <=
-         largestExtent(object);
-}
-
-std::string extentRemedy(const Object& object) {
-  return fmt::format("at most {:g} m are needed{}", largestExtent(object), object.mirror ? " of a curved mirror" : "");
-}
-
-void checkExtent(const TableReader& table, const Object& object, const Mesh& mesh) {
-  if (!extentInRange(object, mesh)) {
-    table.fail("scale", "makes the model too large", extentRemedy(object));
-  }
+  return fmt::format("at most {:g} m are needed{}", largest, object.mirror ? " of a curved mirror" : "");
 }
 
 constexpr std::array<std::string_view, 8> kKeys{"title",  "environment", "camera", "settings",
@@ -157,7 +129,9 @@ Scene readScene(const TableReader& reader, const fs::path& file, std::string tex
   int instances = 0;
   for (const TableReader& table : reader.tables("object", keysOf<Object>())) {
     Object object = readObject(table);
-    checkCount(table, object, instances);
+    if (object.copies.count > kMostInstances - instances) {
+      table.fail("copies", "makes more than 1000000 objects of the scene", "fewer copies are needed");
+    }
     instances += object.copies.count;
     scene.objects.push_back(std::move(object));
   }
@@ -199,24 +173,30 @@ Scene loadScene(const fs::path& file, const LoadProgress& progress) {
   for (const TableReader& table : reader.tables("object", keysOf<Object>())) {
     Object& object = scene.objects[index++];
     object.mesh = meshIndex(table, scene, known, models);
-    checkExtent(table, object, scene.meshes[object.mesh]);
+    if (const std::optional<std::string> remedy = extentRemedy(object, scene.meshes[object.mesh])) {
+      table.fail("scale", "makes the model too large", *remedy);
+    }
   }
   return scene;
 }
 
 int addModel(Scene& scene, const fs::path& file, const LoadProgress& progress) {
-  if (const std::optional<int> known = knownMesh(scene, file)) {
-    return *known;
+  const auto known = std::ranges::find_if(scene.meshes, [&](const Mesh& mesh) {
+    std::error_code error;
+    return mesh.source == file || fs::equivalent(mesh.source, file, error);
+  });
+  if (known != scene.meshes.end()) {
+    return static_cast<int>(known - scene.meshes.begin());
   }
   const size_t textures = scene.textures.size();
   try {
     Mesh mesh = loadObj(file, scene.textures, progress);
-    if (!extentInRange({}, mesh)) {
-      throwInputError(file, 1, "v", "makes the model too large", extentRemedy({}));
+    if (const std::optional<std::string> remedy = extentRemedy({}, mesh)) {
+      throwInputError(file, 1, "v", "makes the model too large", *remedy);
     }
     scene.meshes.push_back(std::move(mesh));
   } catch (...) {
-    scene.textures.erase(scene.textures.begin() + static_cast<std::ptrdiff_t>(textures), scene.textures.end());
+    scene.textures.resize(textures);
     throw;
   }
   return static_cast<int>(scene.meshes.size()) - 1;

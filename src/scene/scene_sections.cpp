@@ -83,14 +83,6 @@ void checkShape(const TableReader& table, Key key, std::span<const glm::dvec3> p
   }
 }
 
-// Vertices are rounded to 2^-53 of their distance from the origin, which must be small against the mirror.
-void checkSizeAtPosition(const TableReader& table, const Mirror& mirror) {
-  if (std::min(mirror.size.x, mirror.size.y) < 1e-10 * glm::length(mirror.position)) {
-    table.fail("position", "is too far from the origin for the mirror's size",
-               "at most 1e10 times its width and height are needed");
-  }
-}
-
 // Reads the polygon before the other fields, because it decides which of them apply.
 void readPolygon(const TableReader& table, Mirror& mirror) {
   for (const Key other : {"size", "position", "rotation", "spin"}) {
@@ -110,7 +102,11 @@ void checkRectangle(const TableReader& table, const Mirror& mirror) {
   const std::array<glm::dvec3, 4> corners{glm::dvec3(-half, 0.0), glm::dvec3(half.x, -half.y, 0.0),
                                           glm::dvec3(half, 0.0), glm::dvec3(-half.x, half.y, 0.0)};
   checkShape(table, "size", corners);
-  checkSizeAtPosition(table, mirror);
+  // Vertices are rounded to 2^-53 of their distance from the origin, which must be small against the mirror.
+  if (std::min(mirror.size.x, mirror.size.y) < 1e-10 * glm::length(mirror.position)) {
+    table.fail("position", "is too far from the origin for the mirror's size",
+               "at most 1e10 times its width and height are needed");
+  }
 }
 
 void checkDirections(const TableReader& table, const CameraSpec& camera) {
@@ -226,20 +222,15 @@ std::vector<SettingEntry> readSettings(const TableReader& file) {
 
 std::vector<std::string> settingTexts(const TableReader& table, Key key, const toml::node& node) {
   std::vector<std::string> texts;
-  const auto add = [&](const toml::node& value) {
+  const toml::array* array = node.as_array();
+  for (size_t i = 0; i < (array ? array->size() : 1); ++i) {
+    const toml::node& value = array ? (*array)[i] : node;
     const std::optional<std::string> text = plainText(value);
     if (!text) {
       table.failAt(value, key, "is " + std::string(typeName(value)),
                    "a number, true, false, a string or an array of those is needed");
     }
     texts.push_back(*text);
-  };
-  if (const toml::array* array = node.as_array()) {
-    for (const toml::node& element : *array) {
-      add(element);
-    }
-  } else {
-    add(node);
   }
   if (texts.empty()) {
     table.failAt(node, key, "is empty", "at least one value is needed");

@@ -55,11 +55,7 @@ glm::dvec3 firstEdge(const std::vector<glm::dvec3>& polygon, const glm::dvec3& n
 
 double slackOf(const std::vector<glm::dvec3>& polygon) {
   const glm::dvec3 center = vertexMean(polygon);
-  double radius = 0.0;
-  for (const glm::dvec3& p : polygon) {
-    radius = std::max(radius, glm::length(p - center));
-  }
-  return 1e-9 * radius + 1e-15 * glm::length(center);
+  return 1e-9 * farthestDistance(center, polygon) + 1e-15 * glm::length(center);
 }
 
 MirrorState placedMirror(const Mirror& mirror, double time) {
@@ -80,12 +76,6 @@ MirrorState placedMirror(const Mirror& mirror, double time) {
   const glm::dvec3 x = 0.5 * mirror.size.x * state.axisX;
   const glm::dvec3 y = 0.5 * mirror.size.y * state.axisY;
   state.polygon = {state.origin - x - y, state.origin + x - y, state.origin + x + y, state.origin - x + y};
-  return state;
-}
-
-MirrorState mirrorState(const Mirror& mirror, double time) {
-  MirrorState state = placedMirror(mirror, time);
-  state.slack = slackOf(state.polygon);
   return state;
 }
 
@@ -231,7 +221,8 @@ SceneState evaluate(const Scene& scene, double timeSeconds) {
     state.lights.push_back(lightState(light, timeSeconds));
   }
   for (const Mirror& mirror : scene.mirrors) {
-    state.mirrors.push_back(mirrorState(mirror, timeSeconds));
+    MirrorState& placed = state.mirrors.emplace_back(placedMirror(mirror, timeSeconds));
+    placed.slack = slackOf(placed.polygon);
   }
   findLayers(scene.mirrors, state.mirrors);
   const bool bounces = std::ranges::any_of(scene.mirrors, &Mirror::castsLight);

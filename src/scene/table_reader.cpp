@@ -56,12 +56,8 @@ TableReader::TableReader(const std::filesystem::path& file, std::string label, c
 }
 
 int TableReader::line(std::string_view key) const {
-  for (const auto& [name, value] : table_) {
-    if (name.str() == key) {
-      return lineOf(name.source(), lineOf(value.source(), line_));
-    }
-  }
-  return line_;
+  const auto found = table_.find(key);
+  return found == table_.end() ? line_ : lineOf(found->first.source(), lineOf(found->second.source(), line_));
 }
 
 std::string TableReader::fullKey(std::string_view key) const {
@@ -108,24 +104,19 @@ double TableReader::numberOf(const toml::node& node, std::string_view key, const
   return value;
 }
 
-std::vector<double> TableReader::numbersOf(const toml::node& node, std::string_view key, size_t count,
-                                           const Range& range) const {
-  const std::string right = fmt::format("an array of {} numbers is needed", count);
+template <int size>
+glm::vec<size, double> TableReader::vectorOf(const toml::node& node, std::string_view key, const Range& range) const {
+  const std::string right = fmt::format("an array of {} numbers is needed", size);
   const toml::array* array = node.as_array();
   expect(array != nullptr, node, key, right);
-  if (array->size() != count) {
+  if (array->size() != size) {
     failAt(node, key, fmt::format("has {} elements", array->size()), right);
   }
-  std::vector<double> values;
-  for (size_t i = 0; i < count; ++i) {
-    values.push_back(numberOf((*array)[i], elementKey(key, i), range));
+  glm::vec<size, double> vector;
+  for (int i = 0; i < size; ++i) {
+    vector[i] = numberOf((*array)[i], elementKey(key, i), range);
   }
-  return values;
-}
-
-glm::dvec3 TableReader::vec3Of(const toml::node& node, std::string_view key, const Range& range) const {
-  const std::vector<double> values = numbersOf(node, key, 3, range);
-  return {values[0], values[1], values[2]};
+  return vector;
 }
 
 double TableReader::number(std::string_view key, const Range& range) const {
@@ -156,19 +147,18 @@ std::string TableReader::text(std::string_view key) const {
 }
 
 glm::dvec3 TableReader::vec3(std::string_view key, const Range& range) const {
-  return vec3Of(required(key, "an array of 3 numbers is needed"), key, range);
+  return vectorOf<3>(required(key, "an array of 3 numbers is needed"), key, range);
 }
 
 glm::dvec2 TableReader::vec2(std::string_view key, const Range& range) const {
-  const std::vector<double> values = numbersOf(required(key, "an array of 2 numbers is needed"), key, 2, range);
-  return {values[0], values[1]};
+  return vectorOf<2>(required(key, "an array of 2 numbers is needed"), key, range);
 }
 
 glm::dvec3 TableReader::numberOrVec3(std::string_view key) const {
   constexpr std::string_view right = "a number or an array of 3 numbers is needed";
   const toml::node& node = required(key, right);
   expect(node.is_number() || node.is_array(), node, key, right);
-  return node.is_number() ? glm::dvec3(numberOf(node, key, kAny)) : vec3Of(node, key, kAny);
+  return node.is_number() ? glm::dvec3(numberOf(node, key, kAny)) : vectorOf<3>(node, key, kAny);
 }
 
 std::vector<glm::dvec3> TableReader::points(std::string_view key) const {
@@ -176,7 +166,7 @@ std::vector<glm::dvec3> TableReader::points(std::string_view key) const {
   expect(node.is_array(), node, key, "an array of points [x, y, z] is needed");
   std::vector<glm::dvec3> points;
   for (size_t i = 0; i < node.as_array()->size(); ++i) {
-    points.push_back(vec3Of((*node.as_array())[i], elementKey(key, i), kCoordinate));
+    points.push_back(vectorOf<3>((*node.as_array())[i], elementKey(key, i), kCoordinate));
   }
   return points;
 }

@@ -56,8 +56,8 @@ class TableReader {
   void expect(bool fits, const toml::node& node, std::string_view key, std::string_view right) const;
   const toml::node& required(std::string_view key, std::string_view right) const;
   double numberOf(const toml::node& node, std::string_view key, const Range& range) const;
-  std::vector<double> numbersOf(const toml::node& node, std::string_view key, size_t count, const Range& range) const;
-  glm::dvec3 vec3Of(const toml::node& node, std::string_view key, const Range& range) const;
+  template <int size>
+  glm::vec<size, double> vectorOf(const toml::node& node, std::string_view key, const Range& range) const;
 
   const std::filesystem::path& file_;
   std::string label_;

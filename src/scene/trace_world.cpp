@@ -14,20 +14,10 @@ glm::dmat3 inverseOf(const glm::dmat3& m) {
   return glm::inverse(m * scale) * scale;
 }
 
-bool isInvertible(const glm::dmat3& m) {
-  const glm::dmat3 inverse = inverseOf(m);
-  return std::isfinite(glm::dot(inverse[0] + inverse[1] + inverse[2], glm::dvec3(1.0)));
-}
-
 }  // namespace
 
-TraceWorld::TraceWorld(const Scene& scene) : scene_(&scene) {
-  std::vector<std::optional<TriangleMesh>> built(scene.meshes.size());
-  tbb::parallel_for(size_t{0}, built.size(), [&](size_t i) { built[i].emplace(scene.meshes[i]); });
-  meshes_.reserve(built.size());
-  for (auto& mesh : built) {
-    meshes_.push_back(std::move(*mesh));
-  }
+TraceWorld::TraceWorld(const Scene& scene) : scene_(&scene), meshes_(scene.meshes.size()) {
+  tbb::parallel_for(size_t{0}, meshes_.size(), [&](size_t i) { meshes_[i] = TriangleMesh(scene.meshes[i]); });
 }
 
 void TraceWorld::place(const SceneState& state) {
@@ -41,8 +31,10 @@ void TraceWorld::place(const SceneState& state) {
     Affine& placed = instances_[i].worldFromMesh;
     placed.translation -= eye;
     instances_[i].center -= eye;
-    placements_.push_back({inverseOf(placed.linear), normalMatrix(placed.linear)});
-    if (isInvertible(placed.linear) && !scene_->meshes[instances_[i].mesh].indices.empty()) {
+    const glm::dmat3 inverse = inverseOf(placed.linear);
+    placements_.push_back({inverse, normalMatrix(placed.linear)});
+    const bool invertible = std::isfinite(glm::dot(inverse[0] + inverse[1] + inverse[2], glm::dvec3(1.0)));
+    if (invertible && !scene_->meshes[instances_[i].mesh].indices.empty()) {
       items.push_back({HitKind::object, static_cast<int>(i)});
     }
   }
@@ -84,9 +76,8 @@ Bounds TraceWorld::boundsOf(const Item& item) const {
     const InstanceState& instance = instances_[item.index];
     const Bounds mesh = meshes_[instance.mesh].bounds();
     for (int corner = 0; corner < 8; ++corner) {
-      box.add(
-          instance.worldFromMesh.point({corner & 1 ? mesh.high.x : mesh.low.x, corner & 2 ? mesh.high.y : mesh.low.y,
-                                        corner & 4 ? mesh.high.z : mesh.low.z}));
+      const glm::bvec3 high(corner & 1, corner & 2, corner & 4);
+      box.add(instance.worldFromMesh.point(glm::mix(mesh.low, mesh.high, high)));
     }
   }
   return box;
@@ -180,15 +171,6 @@ std::optional<SceneHit> TraceWorld::meet(const Item& item, const Ray& ray, const
   return hit;
 }
 
-bool TraceWorld::blocks(const Item& item, const Ray& ray, const ShearedRay& sheared, const Skip& skip) const {
-  if (item.kind == HitKind::object) {
-    const int64_t own = skip.instance == item.index ? int64_t{skip.triangle} : TriangleMesh::noTriangle;
-    return meshes_[instances_[item.index].mesh].occluded(toMesh(ray, item.index, ray.tMax), own);
-  }
-  return item.kind == HitKind::mirror && !skipsMirror(skip, item.index) &&
-         meetPolygon(ray, sheared, item.index, ray.tMax).has_value();
-}
-
 std::optional<SceneHit> TraceWorld::closest(const Ray& ray, const Skip& skip) const {
   const ShearedRay sheared(ray);
   std::optional<SceneHit> best;
@@ -210,7 +192,13 @@ bool TraceWorld::occluded(const Ray& ray, const Skip& skip) const {
   bool found = false;
   bvh_.traverse(ray, [&](uint32_t first, uint32_t count, double&) {
     for (uint32_t i = first; i < first + count && !found; ++i) {
-      found = blocks(items_[i], ray, sheared, skip);
+      const auto& [kind, index] = items_[i];
+      if (kind == HitKind::object) {
+        const int64_t own = skip.instance == index ? int64_t{skip.triangle} : TriangleMesh::noTriangle;
+        found = meshes_[instances_[index].mesh].occluded(toMesh(ray, index, ray.tMax), own);
+      } else if (kind == HitKind::mirror && !skipsMirror(skip, index)) {
+        found = meetPolygon(ray, sheared, index, ray.tMax).has_value();
+      }
     }
     return found;
   });

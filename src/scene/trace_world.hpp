@@ -68,7 +68,6 @@ class TraceWorld {
   Ray toMesh(const Ray& ray, int instance, double tMax) const;
   std::optional<SceneHit> meet(const Item& item, const Ray& ray, const ShearedRay& sheared, double tMax,
                                const Skip& skip) const;
-  bool blocks(const Item& item, const Ray& ray, const ShearedRay& sheared, const Skip& skip) const;
   std::optional<double> meetPolygon(const Ray& ray, const ShearedRay& sheared, int mirror, double tMax) const;
   std::optional<double> meetGlyph(const Ray& ray, int light, double tMax) const;
 

@@ -18,10 +18,10 @@ struct Range {
 
 inline constexpr Range kAny{};
 inline constexpr Range kPositive{.low = 0.0, .aboveLow = true};
-// Metres and degrees, and metres that are lengths: squares of sums and products of several of them are still doubles.
+// Metres, degrees, and lengths in metres. Squares of sums and products of several of them are still doubles.
 inline constexpr Range kCoordinate{.low = -1e15, .high = 1e15};
 inline constexpr Range kLength{.low = 0.0, .high = 1e15, .aboveLow = true};
-// Degrees per second: times any number of seconds is still a double.
+// Degrees per second. Their product with any number of seconds is still a double.
 inline constexpr Range kTurn{.low = -1e9, .high = 1e9};
 // Radiance and irradiance: floats, whose products with surfaces' colors are floats as well or saturate. Colors of
 // surfaces: what a float loses of a light times one is less than a screen shows.
@@ -33,7 +33,7 @@ inline constexpr Range kWavelength{.low = 1e-9, .high = 1e15};
 inline constexpr Range kWaveSpeed{.low = -1e100, .high = 1e100};  // times any number of seconds is still a double
 inline constexpr Range kTime{.low = -1e15, .high = 1e15};         // seconds
 inline constexpr Range kUnit{.low = 0.0, .high = 1.0};
-// Exponents beyond are narrower highlights than the cosine of a float tells apart.
+// A larger exponent makes a highlight narrower than a float resolves in a cosine.
 inline constexpr double kLeastShininess = 1.0;
 inline constexpr double kMostShininess = 1e6;
 inline constexpr Range kFieldOfView{.low = 1.0, .high = 170.0};  // degrees
