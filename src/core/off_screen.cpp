@@ -42,9 +42,7 @@ void SharedDepth::trim(VkExtent2D extent, RetireQueue& retired) {
   if (sameExtent(extent, extent_)) {
     return;
   }
-  if (image_) {
-    retired.retire(std::exchange(image_, Image()));
-  }
+  retired.take(image_);
   extent_ = extent;
   if (extent.width > 0 && extent.height > 0) {
     image_ = makeDepth(*device_, extent, samples_, name_ + " depth");
@@ -70,11 +68,9 @@ void OffScreen::resize(VkExtent2D extent, RetireQueue& retired) {
 }
 
 void OffScreen::retire(RetireQueue& retired) {
-  retired.retire(std::exchange(sampler_, SamplerHandle()));
+  retired.take(sampler_);
   for (Image* image : {&color_, &samples_, &depth_}) {
-    if (*image) {
-      retired.retire(std::exchange(*image, Image()));
-    }
+    retired.take(*image);
   }
 }
 

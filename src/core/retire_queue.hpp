@@ -14,6 +14,13 @@ class RetireQueue {
   void retire(T object) {
     entries_.push_back({frame_, {new T(std::move(object)), [](void* retired) { delete static_cast<T*>(retired); }}});
   }
+  // Retires an object, if there is one, and leaves none in its place.
+  template <typename T>
+  void take(T& object) {
+    if (object) {
+      retire(std::exchange(object, T()));
+    }
+  }
   void setFrame(uint64_t frame) { frame_ = frame; }  // numbers of frames grow
   // Destroys what was retired in frames up to and including `finished`, in the order of retirement.
   void collect(uint64_t finished) {

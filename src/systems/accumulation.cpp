@@ -1,7 +1,6 @@
 #include "systems/accumulation.hpp"
 
 #include <stdexcept>
-#include <utility>
 
 #include "shaders/gpu_data.h"
 
@@ -25,8 +24,8 @@ void Accumulation::begin(VkExtent2D extent, RetireQueue& retired) {
     sampler_ = createSampler(device, nearestSampler, "sum");
   }
   for (Image& image : images_) {
-    if (image && !sameExtent(image.extent(), extent)) {
-      retired.retire(std::exchange(image, Image()));
+    if (!sameExtent(image.extent(), extent)) {
+      retired.take(image);
     }
     if (!image) {
       image = Image(device, {.extent = extent,
@@ -72,15 +71,12 @@ RecordedPass Accumulation::add(Frame& frame, const VkDescriptorImageInfo& radian
 
 void Accumulation::release(RetireQueue& retired) {
   pictures_ = 0;
-  if (!layout_) {
-    return;
-  }
   pipelines_.clear();
   for (Image& image : images_) {
-    retired.retire(std::exchange(image, Image()));
+    retired.take(image);
   }
-  retired.retire(std::exchange(sampler_, SamplerHandle()));
-  retired.retire(std::exchange(layout_, DescriptorSetLayoutHandle()));
+  retired.take(sampler_);
+  retired.take(layout_);
 }
 
 }  // namespace speculum

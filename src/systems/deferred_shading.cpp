@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <utility>
 
 namespace speculum {
 
@@ -72,8 +71,8 @@ void DeferredShading::prepare(const FrameInfo& info, const PassDesc& pass) {
   }
   const uint64_t samples = samplesOf(pass);
   if (shaded_.bytes() < samples * shadedBytes) {
-    info.frame.retired->retire(std::exchange(shaded_, {}));
-    info.frame.retired->retire(std::exchange(requests_, {}));
+    info.frame.retired->take(shaded_);
+    info.frame.retired->take(requests_);
     shaded_ = Buffer(device_, samples * shadedBytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, BufferMemory::device,
                      "shaded samples");
     requests_ = Buffer(
@@ -172,8 +171,8 @@ void DeferredShading::endFrame(const TraceVariant& trace, bool imagesShown, Reti
   shading_.endFrame(idle);
   drawing_.endFrame([&](VkSampleCountFlagBits) { return !imagesShown; });
   if (shaded_ && ++idleFrames_ > idleFramesKept) {
-    retired.retire(std::exchange(shaded_, {}));
-    retired.retire(std::exchange(requests_, {}));
+    retired.take(shaded_);
+    retired.take(requests_);
   }
 }
 

@@ -131,10 +131,7 @@ void DisplaySystem::countPipelines(EffectLedger& ledger) const {
 }
 
 void DisplaySystem::setCover(const Image8& picture) {
-  if (cover_) {
-    renderer_.retired().retire(std::move(cover_));
-    cover_ = Image();
-  }
+  renderer_.retired().take(cover_);
   if (picture.width < 1) {
     return;
   }

@@ -49,7 +49,7 @@ uint64_t FrameBuffers::bytes() const {
 void FrameBuffers::retire(RetireQueue& retired) {
   for (std::vector<Buffer>& buffers : buffers_) {
     for (Buffer& buffer : buffers) {
-      retired.retire(std::exchange(buffer, {}));
+      retired.take(buffer);
     }
   }
 }

@@ -47,7 +47,6 @@ class MirrorTargets {
   };
   void takeCached(const FramePlan& plan);
   void takeWatched(const FramePlan& plan, RetireQueue& retired);
-  void releaseEarlier(RetireQueue& retired);
   bool isNeededLater(const FramePlan& plan, int pass) const;
   SharedDepth& depth(size_t place, VkExtent2D needed);
   void fitDepth(RetireQueue& retired);

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <glm/gtc/packing.hpp>
-#include <utility>
 
 #include "geometry/mesh_levels.hpp"
 #include "systems/effect_ledger.hpp"
@@ -100,7 +99,7 @@ void SceneResources::upload(Frame& frame, bool enabled, bool drawn) {
     check(vkQueueWaitIdle(device_.queue()), "wait for the queue");
   }
   if (!materials_ || textured != textured_) {
-    frame.retired->retire(std::exchange(materials_, {}));
+    frame.retired->take(materials_);
     createMaterials(textured);
   }
   if (drawn && textures_.empty()) {
@@ -167,9 +166,9 @@ void SceneResources::prepareLevels(Frame& frame, std::span<const int> drawn) {
     }
   }
   for (GpuMesh& mesh : meshes_) {
-    if (idleLevelFrames_ > idleFramesKept && mesh.levelIndices) {
-      frame.retired->retire(std::exchange(mesh.levelVertices, {}));
-      frame.retired->retire(std::exchange(mesh.levelIndices, {}));
+    if (idleLevelFrames_ > idleFramesKept) {
+      frame.retired->take(mesh.levelVertices);
+      frame.retired->take(mesh.levelIndices);
     }
   }
 }
