@@ -21,10 +21,8 @@ VkPhysicalDeviceFeatures usedFeatures(const VkPhysicalDeviceFeatures& available)
       .sampleRateShading = available.sampleRateShading,
       .depthClamp = available.depthClamp,
       .fillModeNonSolid = available.fillModeNonSolid,
-      .samplerAnisotropy = available.samplerAnisotropy,
       .occlusionQueryPrecise = available.occlusionQueryPrecise,
       .pipelineStatisticsQuery = available.pipelineStatisticsQuery,
-      .shaderSampledImageArrayDynamicIndexing = available.shaderSampledImageArrayDynamicIndexing,
       .shaderClipDistance = VK_TRUE,
   };
 }

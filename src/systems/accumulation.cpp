@@ -17,10 +17,8 @@ Accumulation::Accumulation(Renderer& renderer) : renderer_(renderer), pipelines_
 void Accumulation::begin(VkExtent2D extent, RetireQueue& retired) {
   Device& device = renderer_.device();
   if (!layout_) {
-    constexpr VkShaderStageFlags stages = VK_SHADER_STAGE_FRAGMENT_BIT;
-    const std::array bindings = {DescriptorBinding{0, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, stages},
-                                 DescriptorBinding{1, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, stages}};
-    layout_ = createDescriptorSetLayout(device, bindings, "accumulate");
+    constexpr VkDescriptorType image = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+    layout_ = createDescriptorSetLayout(device, {image, image}, VK_SHADER_STAGE_FRAGMENT_BIT, "accumulate");
     sampler_ = createSampler(device, nearestSampler, "sum");
   }
   for (Image& image : images_) {

@@ -49,9 +49,8 @@ PassDesc viewPass(const PassTargets& targets, const VkRect2D& area) {
 }  // namespace
 
 DisplaySystem::DisplaySystem(Renderer& renderer) : renderer_(renderer), pipelines_(renderer.pipelines()) {
-  const DescriptorBinding binding{.type = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-                                  .stages = VK_SHADER_STAGE_FRAGMENT_BIT};
-  layout_ = createDescriptorSetLayout(renderer.device(), {&binding, 1}, "display");
+  layout_ = createDescriptorSetLayout(renderer.device(), {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER},
+                                      VK_SHADER_STAGE_FRAGMENT_BIT, "display");
 }
 
 RecordedPass DisplaySystem::draw(Frame& frame, const PassDesc& desc, PassKind kind, Variant variant,

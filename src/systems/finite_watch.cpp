@@ -51,11 +51,9 @@ FiniteWatch::FiniteWatch(Renderer& renderer)
 void FiniteWatch::begin(const Frame& frame, size_t targets) {
   collect();
   if (!layout_) {
-    constexpr VkShaderStageFlags stages = VK_SHADER_STAGE_COMPUTE_BIT;
-    const std::array bindings = {DescriptorBinding{0, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, stages},
-                                 DescriptorBinding{1, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, stages},
-                                 DescriptorBinding{2, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, stages}};
-    layout_ = createDescriptorSetLayout(device_, bindings, "check finite");
+    constexpr VkDescriptorType storage = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+    layout_ = createDescriptorSetLayout(device_, {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, storage, storage},
+                                        VK_SHADER_STAGE_COMPUTE_BIT, "check finite");
   }
   Slot& slot = slots_[frame.index];
   if (slot.results.bytes() < targets * targetBytes) {

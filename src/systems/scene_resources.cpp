@@ -81,9 +81,8 @@ std::vector<GpuVertex> gpuVertices(const std::vector<Vertex>& vertices) {
 
 SceneResources::SceneResources(Device& device, Uploader& uploader, const Scene& scene)
     : device_(device), uploader_(uploader), scene_(scene), descriptors_(device) {
-  const DescriptorBinding binding{.type = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-                                  .stages = VK_SHADER_STAGE_FRAGMENT_BIT};
-  textureLayout_ = createDescriptorSetLayout(device, {&binding, 1}, "texture");
+  textureLayout_ = createDescriptorSetLayout(device, {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER},
+                                             VK_SHADER_STAGE_FRAGMENT_BIT, "texture");
   sampler_ = createSampler(device, {.addressMode = VK_SAMPLER_ADDRESS_MODE_REPEAT}, "texture");
   noTexture_ = upload(Texture{.width = 1, .height = 1, .texels = {glm::vec3(1.0f)}}, "no texture");
   noTextureSet_ = descriptors_.allocate(textureLayout_.get());
