@@ -138,24 +138,22 @@ bool PipelineFactory::reload() {
 }
 
 PipelineHandle PipelineFactory::build(const PipelineDesc& desc, VkPipelineLayout layout) {
-  if (const auto* compute = std::get_if<ComputePipelineDesc>(&desc)) {
-    return buildCompute(*compute, layout);
-  }
-  return buildGraphics(std::get<GraphicsPipelineDesc>(desc), layout);
+  const VkPipeline pipeline = std::visit([&](const auto& d) { return buildPipeline(d, layout); }, desc);
+  device_.setName(pipeline, nameOf(desc));
+  return {device_.get(), pipeline};
 }
 
-PipelineHandle PipelineFactory::buildCompute(const ComputePipelineDesc& desc, VkPipelineLayout layout) {
+VkPipeline PipelineFactory::buildPipeline(const ComputePipelineDesc& desc, VkPipelineLayout layout) {
   const Stage comp(VK_SHADER_STAGE_COMPUTE_BIT, shaders_.module(desc.comp), desc.constants);
   const VkComputePipelineCreateInfo info{
       .sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO, .stage = comp.info(), .layout = layout};
   VkPipeline pipeline = VK_NULL_HANDLE;
   check(vkCreateComputePipelines(device_.get(), cache_.get(), 1, &info, nullptr, &pipeline),
         "create pipeline " + desc.name);
-  device_.setName(pipeline, desc.name);
-  return {device_.get(), pipeline};
+  return pipeline;
 }
 
-PipelineHandle PipelineFactory::buildGraphics(const GraphicsPipelineDesc& desc, VkPipelineLayout layout) {
+VkPipeline PipelineFactory::buildPipeline(const GraphicsPipelineDesc& desc, VkPipelineLayout layout) {
   const Stage vert(VK_SHADER_STAGE_VERTEX_BIT, shaders_.module(desc.vert), desc.vertConstants);
   std::vector<VkPipelineShaderStageCreateInfo> stages = {vert.info()};
   std::optional<Stage> frag;
@@ -203,8 +201,7 @@ PipelineHandle PipelineFactory::buildGraphics(const GraphicsPipelineDesc& desc, 
   VkPipeline pipeline = VK_NULL_HANDLE;
   check(vkCreateGraphicsPipelines(device_.get(), cache_.get(), 1, &info, nullptr, &pipeline),
         "create pipeline " + desc.name);
-  device_.setName(pipeline, desc.name);
-  return {device_.get(), pipeline};
+  return pipeline;
 }
 
 Pipeline::Pipeline(PipelineFactory& factory, PipelineDesc desc)

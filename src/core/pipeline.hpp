@@ -66,8 +66,8 @@ class PipelineFactory {
  private:
   friend class Pipeline;
   PipelineHandle build(const PipelineDesc& desc, VkPipelineLayout layout);
-  PipelineHandle buildGraphics(const GraphicsPipelineDesc& desc, VkPipelineLayout layout);
-  PipelineHandle buildCompute(const ComputePipelineDesc& desc, VkPipelineLayout layout);
+  VkPipeline buildPipeline(const GraphicsPipelineDesc& desc, VkPipelineLayout layout);
+  VkPipeline buildPipeline(const ComputePipelineDesc& desc, VkPipelineLayout layout);
 
   Device& device_;
   ShaderLibrary& shaders_;
