@@ -11,9 +11,10 @@
 
 namespace speculum {
 
-// Calls vkDestroyAccelerationStructureKHR, which the loader does not export.
+// Call functions of extensions, which the loader does not export.
 void destroyAccelerationStructure(VkDevice device, VkAccelerationStructureKHR structure,
                                   const VkAllocationCallbacks* allocator);
+void destroyMessenger(VkInstance instance, VkDebugUtilsMessengerEXT messenger, const VkAllocationCallbacks* allocator);
 
 // Every type that a Handle owns: the handle's name, the Vulkan type, its object type and what destroys it.
 #define SPECULUM_HANDLES(X)                                                                             \
@@ -39,7 +40,8 @@ void destroyAccelerationStructure(VkDevice device, VkAccelerationStructureKHR st
   X(AccelerationStructureHandle, VkAccelerationStructureKHR, VK_OBJECT_TYPE_ACCELERATION_STRUCTURE_KHR, \
     destroyAccelerationStructure)                                                                       \
   X(SurfaceHandle, VkSurfaceKHR, VK_OBJECT_TYPE_SURFACE_KHR, vkDestroySurfaceKHR)                       \
-  X(SwapchainHandle, VkSwapchainKHR, VK_OBJECT_TYPE_SWAPCHAIN_KHR, vkDestroySwapchainKHR)
+  X(SwapchainHandle, VkSwapchainKHR, VK_OBJECT_TYPE_SWAPCHAIN_KHR, vkDestroySwapchainKHR)               \
+  X(MessengerHandle, VkDebugUtilsMessengerEXT, VK_OBJECT_TYPE_DEBUG_UTILS_MESSENGER_EXT, destroyMessenger)
 
 // VkObjectType of a Vulkan type, for debug names.
 template <typename T>

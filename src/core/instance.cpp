@@ -119,13 +119,6 @@ void DebugMessages::add(bool error, const std::string& text) {
   }
 }
 
-void Instance::destroyMessenger(VkInstance instance, VkDebugUtilsMessengerEXT messenger,
-                                const VkAllocationCallbacks* allocator) {
-  const auto destroy = reinterpret_cast<PFN_vkDestroyDebugUtilsMessengerEXT>(
-      vkGetInstanceProcAddr(instance, "vkDestroyDebugUtilsMessengerEXT"));
-  destroy(instance, messenger, allocator);
-}
-
 Instance::Instance(const DeviceOptions& options) : version_(usedVersion()) {
   const VkApplicationInfo application{.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO,
                                       .pApplicationName = "speculum",
@@ -160,17 +153,12 @@ Instance::Instance(const DeviceOptions& options) : version_(usedVersion()) {
   check(vkCreateInstance(&info, nullptr, &instance), "create the Vulkan instance");
   instance_.reset(instance);
   if (options.validation) {
-    createMessenger();
+    const auto create = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(
+        vkGetInstanceProcAddr(instance, "vkCreateDebugUtilsMessengerEXT"));
+    VkDebugUtilsMessengerEXT messenger = VK_NULL_HANDLE;
+    check(create(instance, &messengerInfo, nullptr, &messenger), "create the debug messenger");
+    messenger_ = {instance, messenger};
   }
-}
-
-void Instance::createMessenger() {
-  const auto create = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(
-      vkGetInstanceProcAddr(instance_.get(), "vkCreateDebugUtilsMessengerEXT"));
-  const VkDebugUtilsMessengerCreateInfoEXT info = messages_.createInfo();
-  VkDebugUtilsMessengerEXT messenger = VK_NULL_HANDLE;
-  check(create(instance_.get(), &info, nullptr, &messenger), "create the debug messenger");
-  messenger_ = {instance_.get(), messenger};
 }
 
 }  // namespace speculum

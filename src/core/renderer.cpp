@@ -75,23 +75,18 @@ void Renderer::waitIdle() {
   retired_.collect(recording_ ? frameNumber_ - 1 : frameNumber_);
 }
 
-bool Renderer::prepareSwapChain() {
-  if (window_->paused()) {
-    return false;
-  }
-  if (window_->takeResized() || swapChain_->stale()) {
-    unusedImage_.reset();
-    return swapChain_->recreate();
-  }
-  return true;
-}
-
 std::optional<uint32_t> Renderer::acquireImage(Slot& slot) {
   if (headless()) {
     return 0;
   }
-  if (!prepareSwapChain()) {
+  if (window_->paused()) {
     return std::nullopt;
+  }
+  if (window_->takeResized() || swapChain_->stale()) {
+    unusedImage_.reset();
+    if (!swapChain_->recreate()) {
+      return std::nullopt;
+    }
   }
   if (unusedImage_) {
     return unusedImage_;

@@ -122,7 +122,6 @@ class Renderer {
   Image& displayImage(const Frame& frame);
   // Says whether the frame is drawn into an image of its own, because the swapchain's cannot be copied.
   bool drawsAside(const Frame& frame) const { return frame.capture && !headless() && !swapChain_->copyable(); }
-  bool prepareSwapChain();
   void recordCapture(Slot& slot, const Frame& frame);
   void submit(Slot& slot, const Frame& frame, bool presents);
   Image makeDisplayImage(VkExtent2D extent, VkFormat format);

@@ -122,10 +122,8 @@ void FiniteWatch::end(Frame& frame) {
 
 void FiniteWatch::release() {
   collect();
-  for (const Slot& slot : slots_) {
-    if (slot.frame != 0) {
-      return;
-    }
+  if (std::ranges::any_of(slots_, [](const Slot& slot) { return slot.frame != 0; })) {
+    return;
   }
   pipelines_.clear();
   layout_.reset();
@@ -163,7 +161,7 @@ void FiniteWatch::read(Slot& slot) {
   if (!found.empty()) {
     // Reports only the first finding of a frame, which usually causes those that follow.
     const std::pair<PassId, bool> first(found.front().id, found.front().samples);
-    if (std::find(reported_.begin(), reported_.end(), first) == reported_.end()) {
+    if (std::ranges::find(reported_, first) == reported_.end()) {
       reported_.push_back(first);
       spdlog::error("debug.check_finite: {}", describe(found.front()));
     }

@@ -109,8 +109,7 @@ void MirrorTargets::end(const FramePlan& plan, RetireQueue& retired) {
     }
   }
   if (!plan.mainReused) {
-    if (watched_ &&
-        std::find(cachedTargets_.begin(), cachedTargets_.end(), targets_[*watched_]) == cachedTargets_.end()) {
+    if (watched_ && std::ranges::find(cachedTargets_, targets_[*watched_]) == cachedTargets_.end()) {
       watchedImage_ = targets_[*watched_];
     }
     retired.take(earlierWatched_);

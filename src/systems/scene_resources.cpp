@@ -147,12 +147,9 @@ void SceneResources::createTextures() {
 void SceneResources::createMeshes() {
   for (const Mesh& mesh : scene_.meshes) {
     const std::string name = mesh.source.filename().string();
-    const std::vector<GpuVertex> vertices = gpuVertices(mesh.vertices);
     GpuMesh& gpu = meshes_.emplace_back();
-    gpu.vertices =
-        uploader_.buffer(std::span<const GpuVertex>(vertices), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, name + " vertices");
-    gpu.indices =
-        uploader_.buffer(std::span<const uint32_t>(mesh.indices), VK_BUFFER_USAGE_INDEX_BUFFER_BIT, name + " indices");
+    gpu.vertices = uploader_.buffer(gpuVertices(mesh.vertices), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, name + " vertices");
+    gpu.indices = uploader_.buffer(mesh.indices, VK_BUFFER_USAGE_INDEX_BUFFER_BIT, name + " indices");
   }
 }
 
@@ -176,10 +173,9 @@ void SceneResources::createLevels(size_t mesh) {
   const MeshLevels& levels = levelsOf(scene_.meshes[mesh]);
   const std::string name = scene_.meshes[mesh].source.filename().string();
   GpuMesh& gpu = meshes_[mesh];
-  gpu.levelVertices = uploader_.buffer(std::span<const GpuVertex>(gpuVertices(levels.vertices)),
-                                       VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, name + " level vertices");
-  gpu.levelIndices = uploader_.buffer(std::span<const uint32_t>(levels.indices), VK_BUFFER_USAGE_INDEX_BUFFER_BIT,
-                                      name + " level indices");
+  gpu.levelVertices =
+      uploader_.buffer(gpuVertices(levels.vertices), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, name + " level vertices");
+  gpu.levelIndices = uploader_.buffer(levels.indices, VK_BUFFER_USAGE_INDEX_BUFFER_BIT, name + " level indices");
 }
 
 // Makes the materials of all parts, in the order of the meshes.
@@ -191,8 +187,7 @@ void SceneResources::createMaterials(bool textured) {
     }
   }
   materials.resize(std::max<size_t>(materials.size(), 1));
-  materials_ =
-      uploader_.buffer(std::span<const gpu::MaterialData>(materials), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "materials");
+  materials_ = uploader_.buffer(materials, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "materials");
   textured_ = textured;
 }
 

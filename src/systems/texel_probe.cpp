@@ -49,7 +49,7 @@ void TexelProbe::probe(Frame& frame, Image& image, const VkDescriptorImageInfo& 
 void TexelProbe::release() {
   collect();
   value_.reset();
-  if (std::any_of(slots_.begin(), slots_.end(), [](const Slot& slot) { return slot.frame != 0; })) {
+  if (std::ranges::any_of(slots_, [](const Slot& slot) { return slot.frame != 0; })) {
     return;
   }
   pipelines_.clear();
