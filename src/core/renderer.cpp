@@ -56,7 +56,6 @@ void Renderer::finish(Slot& slot) {
   check(vkWaitForFences(device_.get(), 1, &fence, VK_TRUE, UINT64_MAX), "wait for a frame");
   check(vkResetFences(device_.get(), 1, &fence), "reset a frame's fence");
   slot.timings = slot.timer.read();
-  timings_ = slot.timings;
   retired_.collect(slot.number);
   slot.number = 0;
 }

@@ -88,7 +88,9 @@ class Renderer {
   void waitIdle();  // also collects timings and retired objects
 
   // Timings of the last frame that has finished; after waitIdle() of the last one recorded.
-  const FrameTimings& timings() const { return timings_; }
+  const FrameTimings& timings() const {
+    return (slots_[0].timings.frame > slots_[1].timings.frame ? slots_[0] : slots_[1]).timings;
+  }
   // Timings of frame number `frame`; null unless it has finished and is one of the last two.
   const FrameTimings* timingsOf(uint64_t frame) const;
   // Applies to frames that begin from now on. TimerDetail::passes at first.
@@ -140,7 +142,6 @@ class Renderer {
   std::array<Slot, framesInFlight> slots_;
   RetireQueue retired_;
   PipelineFactory pipelines_;
-  FrameTimings timings_;  // the later ones of the slots'
   TimerDetail timerDetail_ = TimerDetail::passes;
   uint64_t frameNumber_ = 0;
   bool recording_ = false;

@@ -104,8 +104,7 @@ constexpr SettingField fields[] = {
     setting("reflection.mesh_error", NumberSetting{at<&R::meshError>, 0.0, 16.0}, "Mesh error",
             "largest error of simplified objects in reflections; 0: all triangles",
             "Saves vertices; shading shifts. Ignored while shadows or curved mirrors are traced; needs view.mesh_error "
-            "with "
-            "shadow maps.",
+            "with shadow maps.",
             {.unit = "texels", .slider = SettingSlider{0.0, 16.0}}),
     setting("reflection.clip", choice<&R::clip>(clipMethods), "Clipping", "how geometry behind a mirror is cut",
             "oblique loses depth precision near a mirror; none shows what is behind it."),

@@ -39,8 +39,7 @@ uint32_t groups(uint32_t size, uint32_t group) {
 std::string describe(const NonFinite& found) {
   return fmt::format(
       "{}: pixel {}, {}, sample {}: radiance {}, {}, {} and disparity {} (in 16/m) are not all finite and within 0 .. "
-      "65504 "
-      "({} such samples in this pass)",
+      "65504 ({} such samples in this pass)",
       found.pass, found.x, found.y, found.sample, found.value.r, found.value.g, found.value.b, found.value.a,
       found.count);
 }
