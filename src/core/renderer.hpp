@@ -2,7 +2,6 @@
 
 #include <array>
 #include <filesystem>
-#include <memory>
 #include <optional>
 
 #include "core/command_pool.hpp"
