@@ -31,9 +31,6 @@ Image makeDepth(Device& device, VkExtent2D extent, VkSampleCountFlagBits samples
 
 }  // namespace
 
-SharedDepth::SharedDepth(Device& device, VkSampleCountFlagBits samples, const std::string& name)
-    : device_(&device), samples_(samples), name_(name) {}
-
 void SharedDepth::require(VkExtent2D extent, RetireQueue& retired) {
   trim({std::max(extent.width, extent_.width), std::max(extent.height, extent_.height)}, retired);
 }

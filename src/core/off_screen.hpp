@@ -11,7 +11,8 @@ namespace speculum {
 // One depth image that several OffScreen targets use in turn; as large as the largest of them.
 class SharedDepth {
  public:
-  SharedDepth(Device& device, VkSampleCountFlagBits samples, const std::string& name);
+  SharedDepth(Device& device, VkSampleCountFlagBits samples, const std::string& name)
+      : device_(&device), samples_(samples), name_(name) {}
 
   // Grows to cover `extent`; the old image is retired. Never shrinks: see trim.
   void require(VkExtent2D extent, RetireQueue& retired);

@@ -77,10 +77,6 @@ bool uses(const PipelineDesc& desc, const std::vector<std::string>& shaders) {
 
 }  // namespace
 
-PipelineFactory::PipelineFactory(Device& device, ShaderLibrary& shaders, RenderPassCache& renderPasses,
-                                 PipelineCache& cache, RetireQueue& retired)
-    : device_(device), shaders_(shaders), renderPasses_(renderPasses), cache_(cache), retired_(retired) {}
-
 bool PipelineFactory::reload() {
   const std::vector<std::string> changed = shaders_.poll();
   bool rebuilt = false;

@@ -54,7 +54,8 @@ class Pipeline;
 class PipelineFactory {
  public:
   PipelineFactory(Device& device, ShaderLibrary& shaders, RenderPassCache& renderPasses, PipelineCache& cache,
-                  RetireQueue& retired);
+                  RetireQueue& retired)
+      : device_(device), shaders_(shaders), renderPasses_(renderPasses), cache_(cache), retired_(retired) {}
 
   // Compiles changed shaders and rebuilds the pipelines that use them; old ones are retired. Returns whether any was.
   bool reload();

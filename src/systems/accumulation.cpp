@@ -12,8 +12,6 @@ constexpr VkFormat sumFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
 
 }  // namespace
 
-Accumulation::Accumulation(Renderer& renderer) : renderer_(renderer), pipelines_(renderer.pipelines()) {}
-
 void Accumulation::begin(VkExtent2D extent, RetireQueue& retired) {
   Device& device = renderer_.device();
   if (!layout_) {

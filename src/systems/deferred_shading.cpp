@@ -23,9 +23,6 @@ uint64_t samplesOf(const PassDesc& pass) {
 
 }  // namespace
 
-DeferredShading::DeferredShading(Device& device, PipelineFactory& factory, VkDescriptorSetLayout frameLayout)
-    : device_(device), frameLayout_(frameLayout), collecting_(factory), shading_(factory), drawing_(factory) {}
-
 std::vector<PixelRect> DeferredShading::bands(std::span<const PixelRect> parts, VkSampleCountFlagBits samples) {
   // A request has 32 bits for a pixel's number and a bit for each sample.
   const uint64_t mostPixels = std::min<uint64_t>(mostShadedSamples / samples, uint64_t{1} << (32 - samples));

@@ -57,21 +57,18 @@ RecordedPass DisplaySystem::draw(Frame& frame, const PassDesc& desc, PassKind ki
                                  const VkDescriptorImageInfo& image, const auto& constants) {
   variant.format = renderer_.displayFormat();
   const Pipeline& pipeline = pipelines_.get(variant, [&] {
-    GraphicsPipelineDesc pipeline{.name = variant.depth ? "display depth" : "display",
-                                  .vert = "full_screen.vert",
-                                  .frag = variant.multisampled ? "display_average.frag"
-                                          : variant.enlarged   ? "display_enlarge.frag"
-                                                               : "display.frag",
-                                  .fragConstants = {variant.toneMap == ToneMap::aces},
-                                  .setLayouts = {layout_.get()},
-                                  .pushConstantBytes = sizeof constants,
-                                  .color = variant.format,
-                                  .depth = VK_FORMAT_UNDEFINED};
-    if (variant.depth) {
-      pipeline.frag = variant.multisampled ? "display_depth_samples.frag" : "display_depth.frag";
-      pipeline.fragConstants.clear();
-    }
-    return pipeline;
+    const char* color = variant.multisampled ? "display_average.frag"
+                        : variant.enlarged   ? "display_enlarge.frag"
+                                             : "display.frag";
+    const char* depth = variant.multisampled ? "display_depth_samples.frag" : "display_depth.frag";
+    return GraphicsPipelineDesc{.name = variant.depth ? "display depth" : "display",
+                                .vert = "full_screen.vert",
+                                .frag = variant.depth ? depth : color,
+                                .fragConstants = {variant.toneMap == ToneMap::aces},
+                                .setLayouts = {layout_.get()},
+                                .pushConstantBytes = sizeof constants,
+                                .color = variant.format,
+                                .depth = VK_FORMAT_UNDEFINED};
   });
   const VkDescriptorSet set = frame.descriptors->allocate(layout_.get());
   DescriptorWriter().image(0, image).update(renderer_.device(), set);

@@ -4,8 +4,6 @@
 
 namespace speculum {
 
-EnvironmentTargets::EnvironmentTargets(Device& device) : device_(device) {}
-
 void EnvironmentTargets::restart() {
   cached_.clear();
   targets_.clear();

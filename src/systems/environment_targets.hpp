@@ -8,7 +8,7 @@ namespace speculum {
 // The targets of environment maps: six faces in each, three to a row. Nothing exists while no frame has a map.
 class EnvironmentTargets {
  public:
-  explicit EnvironmentTargets(Device& device);
+  explicit EnvironmentTargets(Device& device) : device_(device) {}
 
   // Maps that the next plan may reuse.
   std::span<const EnvironmentMap> cached() const { return cached_; }

@@ -44,9 +44,6 @@ std::string describe(const NonFinite& found) {
       found.count);
 }
 
-FiniteWatch::FiniteWatch(Renderer& renderer)
-    : renderer_(renderer), device_(renderer.device()), pipelines_(renderer.pipelines()) {}
-
 void FiniteWatch::begin(const Frame& frame, size_t targets) {
   collect();
   if (!layout_) {

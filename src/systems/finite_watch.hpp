@@ -29,7 +29,8 @@ std::string describe(const NonFinite& found);  // one line
 // on the GPU before begin() and after release().
 class FiniteWatch {
  public:
-  explicit FiniteWatch(Renderer& renderer);
+  explicit FiniteWatch(Renderer& renderer)
+      : renderer_(renderer), device_(renderer.device()), pipelines_(renderer.pipelines()) {}
 
   // Begins a frame in which up to `targets` are checked.
   void begin(const Frame& frame, size_t targets);

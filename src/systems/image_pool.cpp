@@ -16,9 +16,6 @@ uint32_t roundedUp(uint32_t size) {
 
 }  // namespace
 
-ImagePool::ImagePool(Device& device, SharedDepth& depth, std::string name)
-    : device_(device), depth_(depth), name_(std::move(name)) {}
-
 uint64_t ImagePool::bytes() const {
   uint64_t sum = 0;
   for (const Entry& entry : entries_) {

@@ -18,7 +18,8 @@ class ImagePool {
   static constexpr int framesKept = 30;
 
   // The debug names of targets are `name` and a number.
-  ImagePool(Device& device, SharedDepth& depth, std::string name);
+  ImagePool(Device& device, SharedDepth& depth, std::string name)
+      : device_(device), depth_(depth), name_(std::move(name)) {}
 
   // Returns a target that covers `extent` and is taken until release().
   OffScreen& acquire(VkExtent2D extent, RetireQueue& retired);

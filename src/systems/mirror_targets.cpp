@@ -5,8 +5,6 @@
 
 namespace speculum {
 
-MirrorTargets::MirrorTargets(Device& device) : device_(device) {}
-
 void MirrorTargets::restart() {
   cachedImages_.clear();
   cachedTargets_.clear();

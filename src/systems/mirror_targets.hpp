@@ -12,7 +12,7 @@ namespace speculum {
 // until the next frame. Nothing exists while no frame has a mirror image.
 class MirrorTargets {
  public:
-  explicit MirrorTargets(Device& device);
+  explicit MirrorTargets(Device& device) : device_(device) {}
 
   // Images that the next plan may reuse.
   const std::vector<CachedImage>& cachedImages() const { return cachedImages_; }

@@ -6,9 +6,6 @@
 
 namespace speculum {
 
-TexelProbe::TexelProbe(Renderer& renderer)
-    : renderer_(renderer), device_(renderer.device()), pipelines_(renderer.pipelines()) {}
-
 void TexelProbe::probe(Frame& frame, Image& image, const VkDescriptorImageInfo& descriptor, const glm::ivec2& texel) {
   collect();
   if (!layout_) {
