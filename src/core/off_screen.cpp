@@ -84,10 +84,6 @@ void OffScreen::create(RetireQueue& retired) {
   }
 }
 
-uint64_t OffScreen::bytes() const {
-  return color_.bytes() + samples_.bytes() + depth_.bytes();
-}
-
 PassTargets OffScreen::targets() {
   Image* depth = desc_.shared ? desc_.shared->image() : &depth_;
   return {.color = samples_ ? &samples_ : &color_,

@@ -58,7 +58,7 @@ class OffScreen {
   const OffScreenDesc& desc() const { return desc_; }
   VkExtent2D extent() const { return desc_.extent; }
   VkSampleCountFlagBits samples() const { return desc_.samples; }
-  uint64_t bytes() const;  // without shared depth
+  uint64_t bytes() const { return color_.bytes() + samples_.bytes() + depth_.bytes(); }  // without shared depth
   Image& color() { return color_; }
   // The image that is resolved to color(), or null. Its descriptor is for shaders that read samples.
   Image* samplesImage() { return samples_ ? &samples_ : nullptr; }

@@ -7,8 +7,6 @@
 
 namespace speculum {
 
-constexpr VkFormat headlessFormat = VK_FORMAT_R8G8B8A8_UNORM;
-
 Renderer::Slot::Slot(Device& device, const std::string& name)
     : pool(device, name),
       acquired(device.create(vkCreateSemaphore, {.sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO},
@@ -180,14 +178,6 @@ Image& Renderer::displayImage(const Frame& frame) {
     retired_.retire(std::exchange(asideImage_, makeDisplayImage(frame.extent, displayFormat())));
   }
   return asideImage_;
-}
-
-VkFormat Renderer::displayFormat() const {
-  return headless() ? headlessFormat : swapChain_->format();
-}
-
-uint32_t Renderer::displayImageCount() const {
-  return std::max(framesInFlight, headless() ? 1 : swapChain_->imageCount());
 }
 
 VkRenderPass Renderer::overlayRenderPass() {

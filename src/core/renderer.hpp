@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <optional>
@@ -72,10 +73,11 @@ class Renderer {
 
   // The display image as a pass target: UNORM color without depth. Their role is TargetRole::swapchain.
   PassTargets displayTargets(Frame& frame) { return {.color = &displayImage(frame), .role = TargetRole::swapchain}; }
-  VkFormat displayFormat() const;
+  VkFormat displayFormat() const { return headless() ? headlessFormat : swapChain_->format(); }
   VkExtent2D displayExtent() const { return headless() ? headlessImage_.extent() : swapChain_->extent(); }
-  uint32_t displayImageCount() const;  // at least 2, which Dear ImGui requires
-  VkRenderPass overlayRenderPass();    // compatible with beginOverlay's; may change when displayFormat() does
+  // At least 2, which Dear ImGui requires.
+  uint32_t displayImageCount() const { return std::max(framesInFlight, headless() ? 1 : swapChain_->imageCount()); }
+  VkRenderPass overlayRenderPass();  // compatible with beginOverlay's; may change when displayFormat() does
   // Present modes of the window; none when headless. A new mode applies from the next frame on.
   std::vector<PresentMode> presentModes() const;
   std::optional<PresentMode> presentMode() const;
@@ -106,6 +108,7 @@ class Renderer {
   PipelineCache& pipelineCache() { return pipelineCache_; }
 
  private:
+  static constexpr VkFormat headlessFormat = VK_FORMAT_R8G8B8A8_UNORM;
   struct Slot {
     Slot(Device& device, const std::string& name);
     CommandPool pool;

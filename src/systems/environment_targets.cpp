@@ -44,8 +44,4 @@ void EnvironmentTargets::endFrame(const FramePlan& plan, RetireQueue& retired) {
   }
 }
 
-uint64_t EnvironmentTargets::bytes() const {
-  return pool_ ? pool_->bytes() + depth_->bytes() : 0;
-}
-
 }  // namespace speculum

@@ -18,7 +18,7 @@ class EnvironmentTargets {
   void prepare(const FramePlan& plan, RetireQueue& retired);
   OffScreen& operator[](size_t map) { return *targets_[map]; }
   void endFrame(const FramePlan& plan, RetireQueue& retired);
-  uint64_t bytes() const;
+  uint64_t bytes() const { return pool_ ? pool_->bytes() + depth_->bytes() : 0; }
 
  private:
   void release(RetireQueue& retired);

@@ -112,10 +112,6 @@ void FiniteWatch::check(Frame& frame, const RecordedPass& pass, OffScreen& targe
   check(frame, pass, false, target.color(), target.descriptor(), used);
 }
 
-void FiniteWatch::end(Frame& frame) {
-  Barriers::computeToHost(frame.commands);
-}
-
 void FiniteWatch::release() {
   collect();
   if (std::ranges::any_of(slots_, [](const Slot& slot) { return slot.frame != 0; })) {

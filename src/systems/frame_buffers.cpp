@@ -13,10 +13,6 @@ FrameBuffers::FrameBuffers(Device& device, std::span<const char* const> names, s
       texels_(texels),
       buffers_(framesInFlight * names.size()) {}
 
-uint64_t FrameBuffers::largest() const {
-  return texels_ ? largestTexelBuffer(device_) : device_.limits().maxStorageBufferRange;
-}
-
 void FrameBuffers::checkSize(size_t kind, uint64_t bytes) const {
   if (bytes > largest()) {
     throw std::runtime_error("a frame has " + std::to_string(bytes >> 20) + " MiB of " + names_[kind] +

@@ -29,7 +29,8 @@ class FrameBuffers {
   void retire(RetireQueue& retired);
 
  private:
-  uint64_t largest() const;  // bytes that the device takes
+  // Bytes that the device takes.
+  uint64_t largest() const { return texels_ ? largestTexelBuffer(device_) : device_.limits().maxStorageBufferRange; }
   size_t indexOf(const Frame& frame, size_t kind) const { return frame.index * names_.size() + kind; }
 
   Device& device_;
