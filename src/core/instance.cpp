@@ -17,12 +17,6 @@ namespace {
 
 constexpr const char* validationLayer = "VK_LAYER_KHRONOS_validation";
 
-bool layerPresent() {
-  const auto layers = enumerate<VkLayerProperties>("list Vulkan layers", vkEnumerateInstanceLayerProperties);
-  return std::ranges::any_of(layers,
-                             [](const auto& layer) { return std::string_view(layer.layerName) == validationLayer; });
-}
-
 bool extensionPresent(std::string_view name) {
   const auto extensions =
       enumerate<VkExtensionProperties>("list instance extensions", vkEnumerateInstanceExtensionProperties, nullptr);
@@ -67,7 +61,8 @@ std::vector<const char*> chooseLayers(const DeviceOptions& options) {
   if (!options.validation) {
     return {};
   }
-  if (!layerPresent()) {
+  const auto layers = enumerate<VkLayerProperties>("list Vulkan layers", vkEnumerateInstanceLayerProperties);
+  if (std::ranges::none_of(layers, [](const auto& l) { return std::string_view(l.layerName) == validationLayer; })) {
     throw std::runtime_error(
         "--validation: VK_LAYER_KHRONOS_validation is missing (install vulkan-validationlayers, or see "
         "VK_LAYER_PATH)");

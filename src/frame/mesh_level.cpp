@@ -53,10 +53,6 @@ double nearestDepth(const View& view, double cosine, const InstanceState& instan
   return view.clip ? std::max(depth, -view.clip->distance(view.eye) * cosine) : depth;
 }
 
-double largestScale(const glm::dmat3& linear) {
-  return std::max({glm::length(linear[0]), glm::length(linear[1]), glm::length(linear[2])});
-}
-
 }  // namespace
 
 double largestError(const View& view, const Projection& projection, const InstanceState& instance, const Mesh& mesh,
@@ -67,7 +63,8 @@ double largestError(const View& view, const Projection& projection, const Instan
   // f d / ((z - d) cos a) = texels, because the displacement may move the nearest point nearer by d.
   const double reach = texels * cosine;
   const double displacement = reach * std::max(depth, 0.0) / (std::max(focal.x, focal.y) + reach);
-  return displacement / largestScale(instance.worldFromMesh.linear);
+  const glm::dmat3& linear = instance.worldFromMesh.linear;
+  return displacement / std::max({glm::length(linear[0]), glm::length(linear[1]), glm::length(linear[2])});
 }
 
 LevelChoice chooseLevel(const View& view, double largestError, const InstanceState& instance, const Mesh& mesh,

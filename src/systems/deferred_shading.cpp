@@ -17,10 +17,6 @@ uint32_t groups(uint32_t size) {
   return (size + groupSide - 1) / groupSide;
 }
 
-uint64_t samplesOf(const PassDesc& pass) {
-  return areaOf(pass.renderArea.extent) * pass.targets.samples();
-}
-
 }  // namespace
 
 std::vector<PixelRect> DeferredShading::bands(std::span<const PixelRect> parts, VkSampleCountFlagBits samples) {
@@ -65,7 +61,7 @@ void DeferredShading::prepare(const FrameInfo& info, const PassDesc& pass) {
     layout_ = createDescriptorSetLayout(device_, bindings, "deferred shading");
     sampler_ = createSampler(device_, {.maxLod = 0.0f}, "deferred shading");
   }
-  const uint64_t samples = samplesOf(pass);
+  const uint64_t samples = speculum::areaOf(pass.renderArea.extent) * pass.targets.samples();
   if (shaded_.bytes() < samples * bytesPerShadedSample) {
     info.frame.retired->take(shaded_);
     info.frame.retired->take(requests_);
