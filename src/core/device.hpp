@@ -88,19 +88,19 @@ class Device {
 
   // Creates a named object: create(vkCreateFence, {.sType = ...}, "upload"). Throws as check() does.
   template <typename Info, typename T>
-  HandleOf<T> create(VkResult (*function)(VkDevice, const Info*, const VkAllocationCallbacks*, T*),
-                     const std::type_identity_t<Info>& info, std::string_view name) const {
+  Handle<T> create(VkResult (*function)(VkDevice, const Info*, const VkAllocationCallbacks*, T*),
+                   const std::type_identity_t<Info>& info, std::string_view name) const {
     T object = VK_NULL_HANDLE;
     const VkResult result = function(get(), &info, nullptr, &object);
     if (result != VK_SUCCESS) {
-      throwVulkanError(result, "create " + std::string(objectName<T>()) + " " + std::string(name));
+      throwVulkanError(result, "create " + std::string(ObjectTraits<T>::name) + " " + std::string(name));
     }
     setName(object, name);
     return {get(), object};
   }
   template <typename T>
   void setName(T object, std::string_view name) const {
-    setObjectName(objectType<T>(), reinterpret_cast<uint64_t>(object), name);
+    setObjectName(ObjectTraits<T>::type, reinterpret_cast<uint64_t>(object), name);
   }
   void beginLabel(VkCommandBuffer commands, std::string_view name) const;
   void endLabel(VkCommandBuffer commands) const;
