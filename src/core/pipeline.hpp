@@ -46,6 +46,11 @@ struct ComputePipelineDesc {
   uint32_t pushConstantBytes = 0;                 // offset 0
 };
 
+// Returns the number of groups of `side` invocations that cover `size` pixels.
+constexpr uint32_t groupCount(uint32_t size, uint32_t side) {
+  return (size + side - 1) / side;
+}
+
 using PipelineDesc = std::variant<GraphicsPipelineDesc, ComputePipelineDesc>;
 
 class Pipeline;

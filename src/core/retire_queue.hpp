@@ -12,7 +12,7 @@ class RetireQueue {
  public:
   template <typename T>
   void retire(T object) {
-    entries_.push_back({frame_, {new T(std::move(object)), [](void* retired) { delete static_cast<T*>(retired); }}});
+    entries_.push_back({frame_, std::make_shared<T>(std::move(object))});
   }
   // Retires an object, if there is one, and leaves none in its place.
   template <typename T>
@@ -33,7 +33,7 @@ class RetireQueue {
  private:
   struct Entry {
     uint64_t frame;
-    std::unique_ptr<void, void (*)(void*)> object;
+    std::shared_ptr<void> object;
   };
   std::deque<Entry> entries_;
   uint64_t frame_ = 0;

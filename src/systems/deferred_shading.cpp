@@ -13,10 +13,6 @@ constexpr uint32_t groupSide = 8;  // in collect_surfaces.glsl
 // The requests' buffer begins with the arguments of the indirect dispatch and their count.
 constexpr std::array<uint32_t, 4> noRequests{0, 1, 1, 0};
 
-uint32_t groups(uint32_t size) {
-  return (size + groupSide - 1) / groupSide;
-}
-
 }  // namespace
 
 std::vector<PixelRect> DeferredShading::bands(std::span<const PixelRect> parts, VkSampleCountFlagBits samples) {
@@ -99,7 +95,7 @@ void DeferredShading::collect(const PassScope& scope, const TraceVariant& trace)
   pipeline.bindSet(commands, 0, set_);
   const gpu::ShadeConstants area = areaOf(scope.desc());
   pipeline.push(commands, area);
-  vkCmdDispatch(commands, groups(area.size.x), groups(area.size.y), 1);
+  vkCmdDispatch(commands, groupCount(area.size.x, groupSide), groupCount(area.size.y, groupSide), 1);
   Barriers::requestsToUse(commands);
 }
 

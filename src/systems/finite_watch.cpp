@@ -30,10 +30,6 @@ T readAt(const Buffer& buffer, const VkDescriptorBufferInfo& info) {
   return data;
 }
 
-uint32_t groups(uint32_t size, uint32_t group) {
-  return (size + group - 1) / group;
-}
-
 }  // namespace
 
 std::string describe(const NonFinite& found) {
@@ -56,8 +52,9 @@ void FiniteWatch::begin(const Frame& frame, size_t targets) {
     slot.results = Buffer(device_, targets * targetBytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, BufferMemory::host,
                           "check finite " + std::to_string(frame.index));
   }
+  const gpu::CheckSearch nothing{.pixel = ~0u};
   for (size_t i = 0; i < targets; ++i) {
-    slot.results.writeObject(gpu::CheckSearch{.pixel = ~0u}, searchOf(slot.results, i).offset);
+    slot.results.write(std::as_bytes(std::span(&nothing, 1)), searchOf(slot.results, i).offset);
   }
   slot.targets.clear();
   slot.frame = frame.number;
@@ -95,7 +92,7 @@ void FiniteWatch::check(Frame& frame, const RecordedPass& pass, bool samples, Im
   };
   device_.beginLabel(frame.commands, "check " + pass.name);
   device_.barriers().record(frame.commands, BarrierKind::targetToCheck, image);
-  dispatch(false, groups(used.width, groupWidth), groups(used.height, groupHeight));
+  dispatch(false, groupCount(used.width, groupWidth), groupCount(used.height, groupHeight));
   device_.barriers().record(frame.commands, BarrierKind::checkToLookUp, search);
   dispatch(true, 1, 1);
   device_.barriers().record(frame.commands, BarrierKind::checkToWrite, image);
