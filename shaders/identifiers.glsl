@@ -22,8 +22,8 @@ uint decoded(vec2 halfs) {
   return ((bits & 0xffff) - leastNormal) | ((bits >> 16) - leastNormal) << fieldBits;
 }
 
-// Stands in the place of disparity where a triangle's reflection will be added, so that hardly any other triangle at its depth
-// adds one too. Below zero and exact in a half float.
+// Replaces the disparity of samples to which a triangle's reflection will be added. It depends on the triangle, so that
+// hardly any other one at the same depth adds its reflection too. Below zero and exact in a half float.
 float reflectionMark(Identifier id) { return -1.0 - float((id.index * 0x9e3779b9u + id.triangle * 0x85ebca6bu) >> 21); }
 
 vec4 encoded(Identifier id) {

@@ -147,32 +147,26 @@ std::span<const BarrierKind> allBarrierKinds() {
   return kinds;
 }
 
-void Barriers::record(VkCommandBuffer commands, BarrierKind kind, std::span<Image* const> images) const {
+void Barriers::record(VkCommandBuffer commands, BarrierKind kind, std::span<Image* const> images,
+                      VkImageLayout layout) const {
   const Rule& rule = ruleOf(kind);
+  const VkImageLayout wanted = rule.layout == unsaid ? layout : rule.layout;
   const bool omit = omitted_ == kind;
   const Scope waited = omit ? nothing : before(rule, images);
   std::vector<VkImageMemoryBarrier> barriers;
   for (Image* image : images) {
-    const VkImageLayout layout = rule.layout == unsaid ? image->layout() : rule.layout;
-    if (!omit || image->layout() != layout) {
-      barriers.push_back(imageBarrier(*image, waited, rule.after, layout));
+    const VkImageLayout next = wanted == unsaid ? image->layout() : wanted;
+    if (!omit || image->layout() != next) {
+      barriers.push_back(imageBarrier(*image, waited, rule.after, next));
     }
-    image->setLayout(layout);
+    image->setLayout(next);
   }
   recordImages(commands, waited, rule.after, barriers);
 }
 
-void Barriers::record(VkCommandBuffer commands, BarrierKind kind, Image& image) const {
-  Image* const images[] = {&image};
-  record(commands, kind, images);
-}
-
 void Barriers::record(VkCommandBuffer commands, BarrierKind kind, Image& image, VkImageLayout layout) const {
-  const Rule& rule = ruleOf(kind);
-  const Scope waited = omitted_ == kind ? nothing : rule.before;
-  const VkImageMemoryBarrier barrier = imageBarrier(image, waited, rule.after, layout);
-  recordImages(commands, waited, rule.after, {&barrier, 1});
-  image.setLayout(layout);
+  Image* const images[] = {&image};
+  record(commands, kind, images, layout);
 }
 
 void Barriers::record(VkCommandBuffer commands, BarrierKind kind, const VkDescriptorBufferInfo& buffer) const {

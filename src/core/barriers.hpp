@@ -50,11 +50,12 @@ class Barriers {
  public:
   void omit(std::optional<BarrierKind> kind) { omitted_ = kind; }
 
-  // Records one command for several images of the same use, of one pass or of several that share no image.
-  void record(VkCommandBuffer commands, BarrierKind kind, std::span<Image* const> images) const;
-  void record(VkCommandBuffer commands, BarrierKind kind, Image& image) const;
-  // Changes the image to `layout`, for kinds without a layout of their own.
-  void record(VkCommandBuffer commands, BarrierKind kind, Image& image, VkImageLayout layout) const;
+  // Records one command for several images of the same use, of one pass or of several that share no image. `layout` is
+  // for kinds without a layout of their own: with VK_IMAGE_LAYOUT_UNDEFINED the images keep theirs.
+  void record(VkCommandBuffer commands, BarrierKind kind, std::span<Image* const> images,
+              VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED) const;
+  void record(VkCommandBuffer commands, BarrierKind kind, Image& image,
+              VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED) const;
   void record(VkCommandBuffer commands, BarrierKind kind, const VkDescriptorBufferInfo& buffer) const;
   // Records a barrier of one mip level. Call it for the levels in order; after the last the whole image is in the
   // kind's layout.

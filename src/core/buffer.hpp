@@ -33,10 +33,6 @@ class Buffer {
 
   // Writes into a host buffer. Throws std::out_of_range past its end.
   void write(std::span<const std::byte> data, VkDeviceSize offset = 0) const;
-  template <typename T>
-  void writeObject(const T& value, VkDeviceSize offset = 0) const {
-    write(std::as_bytes(std::span(&value, 1)), offset);
-  }
 
  private:
   Memory memory_;  // freed after the buffer, and thereby unmapped

@@ -18,6 +18,15 @@ DescriptorSetLayoutHandle createDescriptorSetLayout(Device& device, std::span<co
                        name);
 }
 
+DescriptorSetLayoutHandle createDescriptorSetLayout(Device& device, std::initializer_list<VkDescriptorType> types,
+                                                    VkShaderStageFlags stages, const std::string& name) {
+  std::vector<DescriptorBinding> bindings;
+  for (const VkDescriptorType type : types) {
+    bindings.push_back({.binding = static_cast<uint32_t>(bindings.size()), .type = type, .stages = stages});
+  }
+  return createDescriptorSetLayout(device, bindings, name);
+}
+
 DescriptorPoolHandle DescriptorAllocator::createPool() const {
   constexpr uint32_t sets = 64;
   std::vector<VkDescriptorPoolSize> sizes{
@@ -69,46 +78,36 @@ void DescriptorAllocator::reset() {
   setsInCurrent_ = 0;
 }
 
+VkWriteDescriptorSet& DescriptorWriter::add(uint32_t binding, VkDescriptorType type) {
+  return writes_.emplace_back(VkWriteDescriptorSet{.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
+                                                   .dstBinding = binding,
+                                                   .descriptorCount = 1,
+                                                   .descriptorType = type});
+}
+
 DescriptorWriter& DescriptorWriter::buffer(uint32_t binding, VkDescriptorType type,
                                            const VkDescriptorBufferInfo& info) {
-  writes_.push_back({.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
-                     .dstBinding = binding,
-                     .descriptorCount = 1,
-                     .descriptorType = type,
-                     .pBufferInfo = &buffers_.emplace_back(info)});
+  add(binding, type).pBufferInfo = &buffers_.emplace_back(info);
   return *this;
 }
 
 DescriptorWriter& DescriptorWriter::texels(uint32_t binding, VkBufferView view) {
-  writes_.push_back({.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
-                     .dstBinding = binding,
-                     .descriptorCount = 1,
-                     .descriptorType = VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER,
-                     .pTexelBufferView = &texels_.emplace_back(view)});
+  add(binding, VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER).pTexelBufferView = &texels_.emplace_back(view);
   return *this;
 }
 
-DescriptorWriter& DescriptorWriter::image(uint32_t binding, const VkDescriptorImageInfo& info, uint32_t element) {
-  writes_.push_back({.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
-                     .dstBinding = binding,
-                     .dstArrayElement = element,
-                     .descriptorCount = 1,
-                     .descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-                     .pImageInfo = &images_.emplace_back(info)});
+DescriptorWriter& DescriptorWriter::image(uint32_t binding, const VkDescriptorImageInfo& info) {
+  add(binding, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER).pImageInfo = &images_.emplace_back(info);
   return *this;
 }
 
 DescriptorWriter& DescriptorWriter::structure(uint32_t binding, VkAccelerationStructureKHR structure) {
-  structures_.push_back(
-      {{.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET_ACCELERATION_STRUCTURE_KHR, .accelerationStructureCount = 1},
-       structure});
-  auto& [info, handle] = structures_.back();
+  auto& [info, handle] = structures_.emplace_back(
+      VkWriteDescriptorSetAccelerationStructureKHR{
+          .sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET_ACCELERATION_STRUCTURE_KHR, .accelerationStructureCount = 1},
+      structure);
   info.pAccelerationStructures = &handle;
-  writes_.push_back({.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
-                     .pNext = &info,
-                     .dstBinding = binding,
-                     .descriptorCount = 1,
-                     .descriptorType = VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR});
+  add(binding, VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR).pNext = &info;
   return *this;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <deque>
+#include <initializer_list>
 #include <span>
 #include <string>
 #include <utility>
@@ -19,6 +20,9 @@ struct DescriptorBinding {
 
 DescriptorSetLayoutHandle createDescriptorSetLayout(Device& device, std::span<const DescriptorBinding> bindings,
                                                     const std::string& name);
+// Makes a layout with bindings 0, 1, ... of these types.
+DescriptorSetLayoutHandle createDescriptorSetLayout(Device& device, std::initializer_list<VkDescriptorType> types,
+                                                    VkShaderStageFlags stages, const std::string& name);
 
 // Hands out sets and grows by whole pools of 64 sets with 1024 image descriptors; a set must fit into one pool. Sets
 // live until reset() or the allocator's end; they are not freed singly.
@@ -43,11 +47,13 @@ class DescriptorWriter {
  public:
   DescriptorWriter& buffer(uint32_t binding, VkDescriptorType type, const VkDescriptorBufferInfo& info);
   DescriptorWriter& texels(uint32_t binding, VkBufferView view);
-  DescriptorWriter& image(uint32_t binding, const VkDescriptorImageInfo& info, uint32_t element = 0);  // with sampler
+  DescriptorWriter& image(uint32_t binding, const VkDescriptorImageInfo& info);  // with sampler
   DescriptorWriter& structure(uint32_t binding, VkAccelerationStructureKHR structure);
   void update(Device& device, VkDescriptorSet set);
 
  private:
+  VkWriteDescriptorSet& add(uint32_t binding, VkDescriptorType type);
+
   std::deque<VkDescriptorBufferInfo> buffers_;
   std::deque<VkBufferView> texels_;
   std::deque<VkDescriptorImageInfo> images_;

@@ -8,7 +8,6 @@
 #include <set>
 #include <stdexcept>
 
-#include "core/physical_device.hpp"
 #include "platform/window.hpp"
 
 namespace speculum {
@@ -21,10 +20,8 @@ VkPhysicalDeviceFeatures usedFeatures(const VkPhysicalDeviceFeatures& available)
       .sampleRateShading = available.sampleRateShading,
       .depthClamp = available.depthClamp,
       .fillModeNonSolid = available.fillModeNonSolid,
-      .samplerAnisotropy = available.samplerAnisotropy,
       .occlusionQueryPrecise = available.occlusionQueryPrecise,
       .pipelineStatisticsQuery = available.pipelineStatisticsQuery,
-      .shaderSampledImageArrayDynamicIndexing = available.shaderSampledImageArrayDynamicIndexing,
       .shaderClipDistance = VK_TRUE,
   };
 }
@@ -56,52 +53,43 @@ Device::Device(const DeviceOptions& options) : instance_(options) {
   if (options.window) {
     surface_ = {instance_.get(), options.window->createSurface(instance_.get())};
   }
-  const std::vector<PhysicalDevice> devices = physicalDevices(instance_, surface_.get());
-  const PhysicalDevice& chosen = choose(devices, options.gpu);
-  physical_ = chosen.handle;
-  properties_ = chosen.properties;
-  info_ = chosen.info;
-  caps_ = chosen.caps;
+  gpu_ = choose(physicalDevices(instance_, surface_.get()), options.gpu);
   choosePath(options.renderPath);
-  queueFamily_ = chosen.queueFamily;
-  presentFamily_ = chosen.presentFamily;
-  createDevice(chosen);
-  loadFunctions(chosen.core13);
+  createDevice();
+  loadFunctions();
   setName(queue_, "graphics queue");
-  spdlog::info("GPU {}: {}, {}, render path {}", info_.index, info_.name, info_.driver, renderPathName(renderPath_));
+  spdlog::info("GPU {}: {}, {}, render path {}", info().index, info().name, info().driver, renderPathName(renderPath_));
 }
 
-Device::~Device() = default;
-
 void Device::choosePath(RenderPath wanted) {
-  if (wanted == RenderPath::dynamic && !caps_.dynamicRendering) {
-    throw std::runtime_error("--render-path dynamic: " + info_.name +
+  if (wanted == RenderPath::dynamic && !gpu_.caps.dynamicRendering) {
+    throw std::runtime_error("--render-path dynamic: " + gpu_.info.name +
                              " has no dynamic rendering (use auto or renderpass)");
   }
-  const bool dynamic = wanted == RenderPath::automatic ? caps_.dynamicRendering : wanted == RenderPath::dynamic;
+  const bool dynamic = wanted == RenderPath::automatic ? gpu_.caps.dynamicRendering : wanted == RenderPath::dynamic;
   renderPath_ = dynamic ? RenderPath::dynamic : RenderPath::renderPass;
 }
 
-std::vector<const char*> Device::deviceExtensions(const PhysicalDevice& chosen) const {
+std::vector<const char*> Device::deviceExtensions() const {
   std::vector<const char*> extensions;
   if (surface_) {
     extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
   }
-  if (caps_.memoryBudget) {
+  if (gpu_.caps.memoryBudget) {
     extensions.push_back(VK_EXT_MEMORY_BUDGET_EXTENSION_NAME);
   }
-  if (caps_.rayQueries) {
+  if (gpu_.caps.rayQueries) {
     extensions.insert(extensions.end(), rayQueryExtensions.begin(), rayQueryExtensions.end());
   }
-  if (!chosen.core13) {
+  if (!gpu_.core13) {
     extensions.push_back(VK_EXT_EXTENDED_DYNAMIC_STATE_EXTENSION_NAME);
   }
-  if (!chosen.core13 && renderPath_ == RenderPath::dynamic) {
+  if (!gpu_.core13 && renderPath_ == RenderPath::dynamic) {
     // The first needs the others, unless the device has Vulkan 1.2.
     for (const char* name : {VK_KHR_DYNAMIC_RENDERING_EXTENSION_NAME, VK_KHR_DEPTH_STENCIL_RESOLVE_EXTENSION_NAME,
                              VK_KHR_CREATE_RENDERPASS_2_EXTENSION_NAME, VK_KHR_MULTIVIEW_EXTENSION_NAME,
                              VK_KHR_MAINTENANCE_2_EXTENSION_NAME}) {
-      if (chosen.hasExtension(name)) {
+      if (gpu_.hasExtension(name)) {
         extensions.push_back(name);
       }
     }
@@ -109,8 +97,8 @@ std::vector<const char*> Device::deviceExtensions(const PhysicalDevice& chosen) 
   return extensions;
 }
 
-void Device::createDevice(const PhysicalDevice& chosen) {
-  const std::vector<const char*> extensions = deviceExtensions(chosen);
+void Device::createDevice() {
+  const std::vector<const char*> extensions = deviceExtensions();
   VkPhysicalDeviceDynamicRenderingFeatures dynamic{
       .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DYNAMIC_RENDERING_FEATURES, .dynamicRendering = VK_TRUE};
   VkPhysicalDeviceExtendedDynamicStateFeaturesEXT state{
@@ -119,20 +107,20 @@ void Device::createDevice(const PhysicalDevice& chosen) {
   if (renderPath_ == RenderPath::dynamic) {
     dynamic.pNext = std::exchange(next, &dynamic);
   }
-  if (!chosen.core13) {
+  if (!gpu_.core13) {
     state.pNext = std::exchange(next, &state);
   }
   RayQueryFeatures rays;
   rays.addresses.bufferDeviceAddress = VK_TRUE;
   rays.structures.accelerationStructure = VK_TRUE;
   rays.queries.rayQuery = VK_TRUE;
-  if (caps_.rayQueries) {
+  if (gpu_.caps.rayQueries) {
     next = rays.chain(next);
   }
-  const VkPhysicalDeviceFeatures features = usedFeatures(chosen.features);
+  const VkPhysicalDeviceFeatures features = usedFeatures(gpu_.features);
   const float priority = 1.0f;
   std::vector<VkDeviceQueueCreateInfo> queues;
-  for (const uint32_t family : std::set{queueFamily_, presentFamily_}) {
+  for (const uint32_t family : std::set{gpu_.queueFamily, gpu_.presentFamily}) {
     queues.push_back({.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
                       .queueFamilyIndex = family,
                       .queueCount = 1,
@@ -146,15 +134,15 @@ void Device::createDevice(const PhysicalDevice& chosen) {
                                 .ppEnabledExtensionNames = extensions.data(),
                                 .pEnabledFeatures = &features};
   VkDevice device = VK_NULL_HANDLE;
-  check(vkCreateDevice(physical_, &info, nullptr, &device), "create the logical device of " + info_.name);
+  check(vkCreateDevice(gpu_.handle, &info, nullptr, &device), "create the logical device of " + gpu_.info.name);
   device_.reset(device);
-  vkGetDeviceQueue(device, queueFamily_, 0, &queue_);
-  vkGetDeviceQueue(device, presentFamily_, 0, &presentQueue_);
+  vkGetDeviceQueue(device, gpu_.queueFamily, 0, &queue_);
+  vkGetDeviceQueue(device, gpu_.presentFamily, 0, &presentQueue_);
 }
 
-void Device::loadFunctions(bool core13) {
+void Device::loadFunctions() {
   const auto load = [&]<typename F>(F& function, const char* core, const char* extension) {
-    function = reinterpret_cast<F>(vkGetDeviceProcAddr(device_.get(), core13 ? core : extension));
+    function = reinterpret_cast<F>(vkGetDeviceProcAddr(device_.get(), gpu_.core13 ? core : extension));
   };
   load(functions_.beginRendering, "vkCmdBeginRendering", "vkCmdBeginRenderingKHR");
   load(functions_.endRendering, "vkCmdEndRendering", "vkCmdEndRenderingKHR");
@@ -172,17 +160,17 @@ void Device::loadFunctions(bool core13) {
 void Device::renewSurface(const Window& window) {
   surface_.reset();
   surface_ = {instance_.get(), window.createSurface(instance_.get())};
-  if (!presentsTo(physical_, presentFamily_, surface_.get())) {
-    throw std::runtime_error(info_.name + " no longer presents to this window (choose another with --gpu)");
+  if (!presentsTo(gpu_.handle, gpu_.presentFamily, surface_.get())) {
+    throw std::runtime_error(gpu_.info.name + " no longer presents to this window (choose another with --gpu)");
   }
 }
 
 VkSampleCountFlagBits Device::sampleCount(int wanted) {
   const auto asked = static_cast<VkSampleCountFlags>(std::clamp(wanted, 1, 64));
-  const VkSampleCountFlags count = std::bit_floor(caps_.sampleCounts & (2 * std::bit_floor(asked) - 1));
+  const VkSampleCountFlags count = std::bit_floor(gpu_.caps.sampleCounts & (2 * std::bit_floor(asked) - 1));
   if (count != asked && !(reportedSampleCounts_ & asked)) {
     reportedSampleCounts_ |= asked;
-    spdlog::warn("{} has no {} samples per pixel: {} are used", info_.name, wanted, count);
+    spdlog::warn("{} has no {} samples per pixel: {} are used", gpu_.info.name, wanted, count);
   }
   return static_cast<VkSampleCountFlagBits>(count);
 }
@@ -191,14 +179,14 @@ MemoryBudget Device::memoryBudget() const {
   VkPhysicalDeviceMemoryBudgetPropertiesEXT budget{.sType =
                                                        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MEMORY_BUDGET_PROPERTIES_EXT};
   VkPhysicalDeviceMemoryProperties2 properties{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MEMORY_PROPERTIES_2,
-                                               .pNext = caps_.memoryBudget ? &budget : nullptr};
-  vkGetPhysicalDeviceMemoryProperties2(physical_, &properties);
-  MemoryBudget result{.usedBytes = caps_.memoryBudget ? 0 : allocatedBytes()};
+                                               .pNext = gpu_.caps.memoryBudget ? &budget : nullptr};
+  vkGetPhysicalDeviceMemoryProperties2(gpu_.handle, &properties);
+  MemoryBudget result{.usedBytes = gpu_.caps.memoryBudget ? 0 : allocatedBytes()};
   for (uint32_t heap = 0; heap < properties.memoryProperties.memoryHeapCount; ++heap) {
     const VkMemoryHeap& description = properties.memoryProperties.memoryHeaps[heap];
     if (description.flags & VK_MEMORY_HEAP_DEVICE_LOCAL_BIT) {
-      result.budgetBytes += caps_.memoryBudget ? budget.heapBudget[heap] : description.size;
-      result.usedBytes += caps_.memoryBudget ? budget.heapUsage[heap] : 0;
+      result.budgetBytes += gpu_.caps.memoryBudget ? budget.heapBudget[heap] : description.size;
+      result.usedBytes += gpu_.caps.memoryBudget ? budget.heapUsage[heap] : 0;
     }
   }
   return result;

@@ -11,7 +11,7 @@
 
 #include "core/barriers.hpp"
 #include "core/handle.hpp"
-#include "core/instance.hpp"
+#include "core/physical_device.hpp"
 #include "core/vulkan_result.hpp"
 
 namespace speculum {
@@ -29,34 +29,6 @@ struct DeviceOptions {
   RenderPath renderPath = RenderPath::automatic;
 };
 
-struct DeviceInfo {
-  int index = 0;
-  std::string name;
-  std::string driver;  // name and version
-  uint32_t apiVersion = 0;
-  VkPhysicalDeviceType type = VK_PHYSICAL_DEVICE_TYPE_OTHER;
-  uint64_t memoryBytes = 0;  // of the largest device-local heap
-  bool dynamicRendering = false;
-  bool rayQueries = false;
-  std::optional<std::string> missing;  // feature without which the device is not usable
-};
-
-struct DeviceCaps {
-  VkSampleCountFlags sampleCounts = VK_SAMPLE_COUNT_1_BIT;  // for RGBA16F color and D32F depth alike
-  double timestampPeriod = 0.0;                             // nanoseconds per tick
-  uint32_t timestampValidBits = 0;                          // 0: no timestamps
-  bool pipelineStatistics = false;
-  bool countsSamples = false;  // exactly, in occlusion queries
-  bool sampleRateShading = false;
-  bool depthClamp = false;
-  bool fillModeNonSolid = false;
-  bool primitiveId = false;  // in fragment shaders
-  bool dynamicRendering = false;
-  bool memoryBudget = false;
-  bool rayQueries = false;        // VK_KHR_ray_query and what it needs
-  uint32_t scratchAlignment = 0;  // bytes, of scratch memory for acceleration structures
-};
-
 struct MemoryBudget {
   uint64_t budgetBytes = 0;  // of device-local heaps: the driver's advice, or the heaps' size
   uint64_t usedBytes = 0;    // by this process
@@ -72,14 +44,11 @@ struct DeviceFunctions {
   PFN_vkCmdEndDebugUtilsLabelEXT endLabel = nullptr;
 };
 
-struct PhysicalDevice;
-
 // Instance, the chosen GPU, logical device, its one queue and, where that cannot present, another that does. Outlives
 // everything made from it.
 class Device {
  public:
   explicit Device(const DeviceOptions& options);
-  ~Device();
   Device(const Device&) = delete;
   Device& operator=(const Device&) = delete;
 
@@ -87,19 +56,19 @@ class Device {
   static std::vector<DeviceInfo> list();
 
   VkInstance instance() const { return instance_.get(); }
-  VkPhysicalDevice physical() const { return physical_; }
+  VkPhysicalDevice physical() const { return gpu_.handle; }
   VkDevice get() const { return device_.get(); }
   VkQueue queue() const { return queue_; }
-  uint32_t queueFamily() const { return queueFamily_; }
+  uint32_t queueFamily() const { return gpu_.queueFamily; }
   VkQueue presentQueue() const { return presentQueue_; }  // queue() where that can present
-  uint32_t presentFamily() const { return presentFamily_; }
+  uint32_t presentFamily() const { return gpu_.presentFamily; }
   VkSurfaceKHR surface() const { return surface_.get(); }  // null when headless
   // Creates a new surface after VK_ERROR_SURFACE_LOST_KHR. No swapchain may exist.
   void renewSurface(const Window& window);
-  const DeviceInfo& info() const { return info_; }
-  const DeviceCaps& caps() const { return caps_; }
-  const VkPhysicalDeviceLimits& limits() const { return properties_.limits; }
-  const VkPhysicalDeviceProperties& properties() const { return properties_; }
+  const DeviceInfo& info() const { return gpu_.info; }
+  const DeviceCaps& caps() const { return gpu_.caps; }
+  const VkPhysicalDeviceLimits& limits() const { return gpu_.properties.limits; }
+  const VkPhysicalDeviceProperties& properties() const { return gpu_.properties; }
   RenderPath renderPath() const { return renderPath_; }  // dynamic or renderPass
   bool validation() const { return instance_.validation(); }
 
@@ -119,19 +88,19 @@ class Device {
 
   // Creates a named object: create(vkCreateFence, {.sType = ...}, "upload"). Throws as check() does.
   template <typename Info, typename T>
-  HandleOf<T> create(VkResult (*function)(VkDevice, const Info*, const VkAllocationCallbacks*, T*),
-                     const std::type_identity_t<Info>& info, std::string_view name) const {
+  Handle<T> create(VkResult (*function)(VkDevice, const Info*, const VkAllocationCallbacks*, T*),
+                   const std::type_identity_t<Info>& info, std::string_view name) const {
     T object = VK_NULL_HANDLE;
     const VkResult result = function(get(), &info, nullptr, &object);
     if (result != VK_SUCCESS) {
-      throwVulkanError(result, "create " + std::string(objectName<T>()) + " " + std::string(name));
+      throwVulkanError(result, "create " + std::string(ObjectTraits<T>::name) + " " + std::string(name));
     }
     setName(object, name);
     return {get(), object};
   }
   template <typename T>
   void setName(T object, std::string_view name) const {
-    setObjectName(objectType<T>(), reinterpret_cast<uint64_t>(object), name);
+    setObjectName(ObjectTraits<T>::type, reinterpret_cast<uint64_t>(object), name);
   }
   void beginLabel(VkCommandBuffer commands, std::string_view name) const;
   void endLabel(VkCommandBuffer commands) const;
@@ -145,20 +114,15 @@ class Device {
   };
 
   void choosePath(RenderPath wanted);
-  std::vector<const char*> deviceExtensions(const PhysicalDevice& chosen) const;
-  void createDevice(const PhysicalDevice& chosen);
-  void loadFunctions(bool core13);
+  std::vector<const char*> deviceExtensions() const;
+  void createDevice();
+  void loadFunctions();
   void setObjectName(VkObjectType type, uint64_t object, std::string_view name) const;
 
   Instance instance_;
   SurfaceHandle surface_;
-  VkPhysicalDevice physical_ = VK_NULL_HANDLE;
-  VkPhysicalDeviceProperties properties_{};
-  DeviceInfo info_;
-  DeviceCaps caps_;
+  PhysicalDevice gpu_;
   RenderPath renderPath_ = RenderPath::dynamic;
-  uint32_t queueFamily_ = 0;
-  uint32_t presentFamily_ = 0;
   std::unique_ptr<VkDevice, Destroy> device_;
   VkQueue queue_ = VK_NULL_HANDLE;
   VkQueue presentQueue_ = VK_NULL_HANDLE;

@@ -9,8 +9,14 @@ void destroyAccelerationStructure(VkDevice device, VkAccelerationStructureKHR st
   destroy(device, structure, allocator);
 }
 
+void destroyMessenger(VkInstance instance, VkDebugUtilsMessengerEXT messenger, const VkAllocationCallbacks* allocator) {
+  const auto destroy = reinterpret_cast<PFN_vkDestroyDebugUtilsMessengerEXT>(
+      vkGetInstanceProcAddr(instance, "vkDestroyDebugUtilsMessengerEXT"));
+  destroy(instance, messenger, allocator);
+}
+
 std::map<std::string, int64_t> liveObjects() {
-  std::map<std::string, int64_t> all = {{"VkDebugUtilsMessengerEXT", liveHandles<VkDebugUtilsMessengerEXT>}};
+  std::map<std::string, int64_t> all;
 #define SPECULUM_COUNT(HANDLE, TYPE, VALUE, DESTROY) all[#TYPE] = liveHandles<TYPE>;
   SPECULUM_HANDLES(SPECULUM_COUNT)
 #undef SPECULUM_COUNT

@@ -11,9 +11,10 @@
 
 namespace speculum {
 
-// Calls vkDestroyAccelerationStructureKHR, which the loader does not export.
+// Call functions of extensions, which the loader does not export.
 void destroyAccelerationStructure(VkDevice device, VkAccelerationStructureKHR structure,
                                   const VkAllocationCallbacks* allocator);
+void destroyMessenger(VkInstance instance, VkDebugUtilsMessengerEXT messenger, const VkAllocationCallbacks* allocator);
 
 // Every type that a Handle owns: the handle's name, the Vulkan type, its object type and what destroys it.
 #define SPECULUM_HANDLES(X)                                                                             \
@@ -39,22 +40,30 @@ void destroyAccelerationStructure(VkDevice device, VkAccelerationStructureKHR st
   X(AccelerationStructureHandle, VkAccelerationStructureKHR, VK_OBJECT_TYPE_ACCELERATION_STRUCTURE_KHR, \
     destroyAccelerationStructure)                                                                       \
   X(SurfaceHandle, VkSurfaceKHR, VK_OBJECT_TYPE_SURFACE_KHR, vkDestroySurfaceKHR)                       \
-  X(SwapchainHandle, VkSwapchainKHR, VK_OBJECT_TYPE_SWAPCHAIN_KHR, vkDestroySwapchainKHR)
+  X(SwapchainHandle, VkSwapchainKHR, VK_OBJECT_TYPE_SWAPCHAIN_KHR, vkDestroySwapchainKHR)               \
+  X(MessengerHandle, VkDebugUtilsMessengerEXT, VK_OBJECT_TYPE_DEBUG_UTILS_MESSENGER_EXT, destroyMessenger)
 
-// VkObjectType of a Vulkan type, for debug names.
+// Describes a Vulkan type: its object type for debug names and, if a Handle owns it, its name for messages and the
+// function that destroys it.
 template <typename T>
-constexpr VkObjectType objectType() = delete;
-// Name of a type that a Handle owns, for messages.
-template <typename T>
-constexpr std::string_view objectName() = delete;
-
-#define SPECULUM_OBJECT_TYPE(TYPE, VALUE)     \
-  template <>                                 \
-  constexpr VkObjectType objectType<TYPE>() { \
-    return VALUE;                             \
-  }
-SPECULUM_OBJECT_TYPE(VkQueue, VK_OBJECT_TYPE_QUEUE)
-SPECULUM_OBJECT_TYPE(VkCommandBuffer, VK_OBJECT_TYPE_COMMAND_BUFFER)
+struct ObjectTraits;
+template <>
+struct ObjectTraits<VkQueue> {
+  static constexpr VkObjectType type = VK_OBJECT_TYPE_QUEUE;
+};
+template <>
+struct ObjectTraits<VkCommandBuffer> {
+  static constexpr VkObjectType type = VK_OBJECT_TYPE_COMMAND_BUFFER;
+};
+#define SPECULUM_TRAITS(HANDLE, TYPE, VALUE, DESTROY) \
+  template <>                                         \
+  struct ObjectTraits<TYPE> {                         \
+    static constexpr VkObjectType type = VALUE;       \
+    static constexpr std::string_view name = #TYPE;   \
+    static constexpr auto destroy = DESTROY;          \
+  };
+SPECULUM_HANDLES(SPECULUM_TRAITS)
+#undef SPECULUM_TRAITS
 
 // Live handles of one type in the whole process, for tests that prove "no growth".
 template <typename T>
@@ -63,14 +72,14 @@ inline std::atomic<int64_t> liveHandles{0};
 // Live handles by the name of the Vulkan type; types without any are left out.
 std::map<std::string, int64_t> liveObjects();
 
-// Owns a child of an instance or a device and destroys it with `destroy(owner, object, nullptr)`. Move-only.
-template <typename T, auto destroy>
+// Owns a child of an instance or a device and destroys it. Move-only.
+template <typename T>
 class Handle {
   template <typename Owner>
   static Owner ownerOf(void (*)(Owner, T, const VkAllocationCallbacks*));
 
  public:
-  using Owner = decltype(ownerOf(destroy));
+  using Owner = decltype(ownerOf(ObjectTraits<T>::destroy));
 
   Handle() = default;
   Handle(Owner owner, T object) : owner_(owner), object_(object) {
@@ -91,7 +100,7 @@ class Handle {
   explicit operator bool() const { return object_ != VK_NULL_HANDLE; }
   void reset() {
     if (object_ != VK_NULL_HANDLE) {
-      destroy(owner_, std::exchange(object_, static_cast<T>(VK_NULL_HANDLE)), nullptr);
+      ObjectTraits<T>::destroy(owner_, std::exchange(object_, static_cast<T>(VK_NULL_HANDLE)), nullptr);
       --liveHandles<T>;
     }
   }
@@ -101,25 +110,8 @@ class Handle {
   T object_ = VK_NULL_HANDLE;
 };
 
-// The Handle that owns a Vulkan type: HandleOf<VkFence> is FenceHandle.
-template <typename T>
-struct HandleTrait;
-template <typename T>
-using HandleOf = typename HandleTrait<T>::Type;
-
-#define SPECULUM_HANDLE(HANDLE, TYPE, VALUE, DESTROY) \
-  SPECULUM_OBJECT_TYPE(TYPE, VALUE)                   \
-  template <>                                         \
-  constexpr std::string_view objectName<TYPE>() {     \
-    return #TYPE;                                     \
-  }                                                   \
-  using HANDLE = Handle<TYPE, DESTROY>;               \
-  template <>                                         \
-  struct HandleTrait<TYPE> {                          \
-    using Type = HANDLE;                              \
-  };
-SPECULUM_HANDLES(SPECULUM_HANDLE)
-#undef SPECULUM_HANDLE
-#undef SPECULUM_OBJECT_TYPE
+#define SPECULUM_ALIAS(HANDLE, TYPE, VALUE, DESTROY) using HANDLE = Handle<TYPE>;
+SPECULUM_HANDLES(SPECULUM_ALIAS)
+#undef SPECULUM_ALIAS
 
 }  // namespace speculum

@@ -17,12 +17,6 @@ namespace {
 
 constexpr const char* validationLayer = "VK_LAYER_KHRONOS_validation";
 
-bool layerPresent() {
-  const auto layers = enumerate<VkLayerProperties>("list Vulkan layers", vkEnumerateInstanceLayerProperties);
-  return std::ranges::any_of(layers,
-                             [](const auto& layer) { return std::string_view(layer.layerName) == validationLayer; });
-}
-
 bool extensionPresent(std::string_view name) {
   const auto extensions =
       enumerate<VkExtensionProperties>("list instance extensions", vkEnumerateInstanceExtensionProperties, nullptr);
@@ -67,7 +61,8 @@ std::vector<const char*> chooseLayers(const DeviceOptions& options) {
   if (!options.validation) {
     return {};
   }
-  if (!layerPresent()) {
+  const auto layers = enumerate<VkLayerProperties>("list Vulkan layers", vkEnumerateInstanceLayerProperties);
+  if (std::ranges::none_of(layers, [](const auto& l) { return std::string_view(l.layerName) == validationLayer; })) {
     throw std::runtime_error(
         "--validation: VK_LAYER_KHRONOS_validation is missing (install vulkan-validationlayers, or see "
         "VK_LAYER_PATH)");
@@ -119,13 +114,6 @@ void DebugMessages::add(bool error, const std::string& text) {
   }
 }
 
-void Instance::destroyMessenger(VkInstance instance, VkDebugUtilsMessengerEXT messenger,
-                                const VkAllocationCallbacks* allocator) {
-  const auto destroy = reinterpret_cast<PFN_vkDestroyDebugUtilsMessengerEXT>(
-      vkGetInstanceProcAddr(instance, "vkDestroyDebugUtilsMessengerEXT"));
-  destroy(instance, messenger, allocator);
-}
-
 Instance::Instance(const DeviceOptions& options) : version_(usedVersion()) {
   const VkApplicationInfo application{.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO,
                                       .pApplicationName = "speculum",
@@ -160,17 +148,12 @@ Instance::Instance(const DeviceOptions& options) : version_(usedVersion()) {
   check(vkCreateInstance(&info, nullptr, &instance), "create the Vulkan instance");
   instance_.reset(instance);
   if (options.validation) {
-    createMessenger();
+    const auto create = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(
+        vkGetInstanceProcAddr(instance, "vkCreateDebugUtilsMessengerEXT"));
+    VkDebugUtilsMessengerEXT messenger = VK_NULL_HANDLE;
+    check(create(instance, &messengerInfo, nullptr, &messenger), "create the debug messenger");
+    messenger_ = {instance, messenger};
   }
-}
-
-void Instance::createMessenger() {
-  const auto create = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(
-      vkGetInstanceProcAddr(instance_.get(), "vkCreateDebugUtilsMessengerEXT"));
-  const VkDebugUtilsMessengerCreateInfoEXT info = messages_.createInfo();
-  VkDebugUtilsMessengerEXT messenger = VK_NULL_HANDLE;
-  check(create(instance_.get(), &info, nullptr, &messenger), "create the debug messenger");
-  messenger_ = {instance_.get(), messenger};
 }
 
 }  // namespace speculum

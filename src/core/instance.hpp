@@ -49,15 +49,12 @@ class Instance {
     using pointer = VkInstance;
     void operator()(VkInstance instance) const { vkDestroyInstance(instance, nullptr); }
   };
-  static void destroyMessenger(VkInstance instance, VkDebugUtilsMessengerEXT messenger,
-                               const VkAllocationCallbacks* allocator);
-  void createMessenger();
 
   DebugMessages messages_;
   uint32_t version_;
   bool debugUtils_ = false;
   std::unique_ptr<VkInstance, Destroy> instance_;
-  Handle<VkDebugUtilsMessengerEXT, destroyMessenger> messenger_;
+  MessengerHandle messenger_;
 };
 
 }  // namespace speculum

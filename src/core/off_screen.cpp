@@ -31,9 +31,6 @@ Image makeDepth(Device& device, VkExtent2D extent, VkSampleCountFlagBits samples
 
 }  // namespace
 
-SharedDepth::SharedDepth(Device& device, VkSampleCountFlagBits samples, const std::string& name)
-    : device_(&device), samples_(samples), name_(name) {}
-
 void SharedDepth::require(VkExtent2D extent, RetireQueue& retired) {
   trim({std::max(extent.width, extent_.width), std::max(extent.height, extent_.height)}, retired);
 }
@@ -42,9 +39,7 @@ void SharedDepth::trim(VkExtent2D extent, RetireQueue& retired) {
   if (sameExtent(extent, extent_)) {
     return;
   }
-  if (image_) {
-    retired.retire(std::exchange(image_, Image()));
-  }
+  retired.take(image_);
   extent_ = extent;
   if (extent.width > 0 && extent.height > 0) {
     image_ = makeDepth(*device_, extent, samples_, name_ + " depth");
@@ -70,11 +65,9 @@ void OffScreen::resize(VkExtent2D extent, RetireQueue& retired) {
 }
 
 void OffScreen::retire(RetireQueue& retired) {
-  retired.retire(std::exchange(sampler_, SamplerHandle()));
+  retired.take(sampler_);
   for (Image* image : {&color_, &samples_, &depth_}) {
-    if (*image) {
-      retired.retire(std::exchange(*image, Image()));
-    }
+    retired.take(*image);
   }
 }
 
@@ -89,10 +82,6 @@ void OffScreen::create(RetireQueue& retired) {
   } else if (desc_.depth) {
     depth_ = makeDepth(*device_, desc_.extent, desc_.samples, desc_.name + " depth");
   }
-}
-
-uint64_t OffScreen::bytes() const {
-  return color_.bytes() + samples_.bytes() + depth_.bytes();
 }
 
 PassTargets OffScreen::targets() {

@@ -11,7 +11,8 @@ namespace speculum {
 // One depth image that several OffScreen targets use in turn; as large as the largest of them.
 class SharedDepth {
  public:
-  SharedDepth(Device& device, VkSampleCountFlagBits samples, const std::string& name);
+  SharedDepth(Device& device, VkSampleCountFlagBits samples, const std::string& name)
+      : device_(&device), samples_(samples), name_(name) {}
 
   // Grows to cover `extent`; the old image is retired. Never shrinks: see trim.
   void require(VkExtent2D extent, RetireQueue& retired);
@@ -57,7 +58,7 @@ class OffScreen {
   const OffScreenDesc& desc() const { return desc_; }
   VkExtent2D extent() const { return desc_.extent; }
   VkSampleCountFlagBits samples() const { return desc_.samples; }
-  uint64_t bytes() const;  // without shared depth
+  uint64_t bytes() const { return color_.bytes() + samples_.bytes() + depth_.bytes(); }  // without shared depth
   Image& color() { return color_; }
   // The image that is resolved to color(), or null. Its descriptor is for shaders that read samples.
   Image* samplesImage() { return samples_ ? &samples_ : nullptr; }

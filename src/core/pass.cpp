@@ -178,9 +178,7 @@ void PassScope::resume(PassDesc desc) {
 }
 
 PassScope::~PassScope() {
-  timer_.endSamples(commands_, timerSlot_);
-  end();
-  timer_.endStatistics(commands_, timerSlot_);
+  pause();
   timer_.end(commands_, timerSlot_);
   device_.endLabel(commands_);
 }

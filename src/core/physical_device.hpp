@@ -1,12 +1,42 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "core/device.hpp"
+#include "core/instance.hpp"
 
 namespace speculum {
+
+struct DeviceInfo {
+  int index = 0;
+  std::string name;
+  std::string driver;  // name and version
+  uint32_t apiVersion = 0;
+  VkPhysicalDeviceType type = VK_PHYSICAL_DEVICE_TYPE_OTHER;
+  uint64_t memoryBytes = 0;  // of the largest device-local heap
+  bool dynamicRendering = false;
+  bool rayQueries = false;
+  std::optional<std::string> missing;  // feature without which the device is not usable
+};
+
+struct DeviceCaps {
+  VkSampleCountFlags sampleCounts = VK_SAMPLE_COUNT_1_BIT;  // for RGBA16F color and D32F depth alike
+  double timestampPeriod = 0.0;                             // nanoseconds per tick
+  uint32_t timestampValidBits = 0;                          // 0: no timestamps
+  bool pipelineStatistics = false;
+  bool countsSamples = false;  // exactly, in occlusion queries
+  bool sampleRateShading = false;
+  bool depthClamp = false;
+  bool fillModeNonSolid = false;
+  bool primitiveId = false;  // in fragment shaders
+  bool dynamicRendering = false;
+  bool memoryBudget = false;
+  bool rayQueries = false;        // VK_KHR_ray_query and what it needs
+  uint32_t scratchAlignment = 0;  // bytes, of scratch memory for acceleration structures
+};
 
 // Extensions and features that ray queries need, to be asked about and to be enabled.
 inline constexpr std::array rayQueryExtensions = {VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME,

@@ -49,50 +49,8 @@ constexpr VkPipelineDynamicStateCreateInfo dynamicState{.sType = VK_STRUCTURE_TY
                                                         .dynamicStateCount = dynamicStates.size(),
                                                         .pDynamicStates = dynamicStates.data()};
 
-VkPipelineVertexInputStateCreateInfo vertexInputState(const GraphicsPipelineDesc& desc) {
-  return {.sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO,
-          .vertexBindingDescriptionCount = static_cast<uint32_t>(desc.vertexBindings.size()),
-          .pVertexBindingDescriptions = desc.vertexBindings.data(),
-          .vertexAttributeDescriptionCount = static_cast<uint32_t>(desc.vertexAttributes.size()),
-          .pVertexAttributeDescriptions = desc.vertexAttributes.data()};
-}
-
-VkPipelineRasterizationStateCreateInfo rasterization(const GraphicsPipelineDesc& desc, const DeviceCaps& caps) {
-  return {.sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO,
-          .depthClampEnable = desc.depthClamp && caps.depthClamp,
-          .polygonMode = desc.lines && caps.fillModeNonSolid ? VK_POLYGON_MODE_LINE : VK_POLYGON_MODE_FILL,
-          .cullMode = desc.cullMode,
-          .lineWidth = 1.0f};
-}
-
-VkPipelineMultisampleStateCreateInfo multisampling(const GraphicsPipelineDesc& desc, const DeviceCaps& caps) {
-  return {.sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO,
-          .rasterizationSamples = desc.samples,
-          .sampleShadingEnable = desc.sampleShading && caps.sampleRateShading,
-          .minSampleShading = 1.0f};
-}
-
-VkPipelineDepthStencilStateCreateInfo depthState(const GraphicsPipelineDesc& desc) {
-  const bool present = desc.depth != VK_FORMAT_UNDEFINED;
-  return {.sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO,
-          .depthTestEnable = present && desc.depthTest,
-          .depthWriteEnable = present && desc.depthWrite,
-          .depthCompareOp = desc.depthCompare};
-}
-
 constexpr VkColorComponentFlags allColor =
     VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT;
-
-VkPipelineColorBlendAttachmentState blending(bool adds, bool writesColor) {
-  return {.blendEnable = adds,
-          .srcColorBlendFactor = VK_BLEND_FACTOR_ONE,
-          .dstColorBlendFactor = VK_BLEND_FACTOR_ONE,
-          .colorBlendOp = VK_BLEND_OP_ADD,
-          .srcAlphaBlendFactor = VK_BLEND_FACTOR_ONE,
-          .dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE,
-          .alphaBlendOp = VK_BLEND_OP_ADD,
-          .colorWriteMask = writesColor ? allColor : 0};
-}
 
 PipelineLayoutHandle createLayout(Device& device, const PipelineDesc& desc) {
   const uint32_t pushBytes = std::visit([](const auto& d) { return d.pushConstantBytes; }, desc);
@@ -119,10 +77,6 @@ bool uses(const PipelineDesc& desc, const std::vector<std::string>& shaders) {
 
 }  // namespace
 
-PipelineFactory::PipelineFactory(Device& device, ShaderLibrary& shaders, RenderPassCache& renderPasses,
-                                 PipelineCache& cache, RetireQueue& retired)
-    : device_(device), shaders_(shaders), renderPasses_(renderPasses), cache_(cache), retired_(retired) {}
-
 bool PipelineFactory::reload() {
   const std::vector<std::string> changed = shaders_.poll();
   bool rebuilt = false;
@@ -138,24 +92,22 @@ bool PipelineFactory::reload() {
 }
 
 PipelineHandle PipelineFactory::build(const PipelineDesc& desc, VkPipelineLayout layout) {
-  if (const auto* compute = std::get_if<ComputePipelineDesc>(&desc)) {
-    return buildCompute(*compute, layout);
-  }
-  return buildGraphics(std::get<GraphicsPipelineDesc>(desc), layout);
+  const VkPipeline pipeline = std::visit([&](const auto& d) { return buildPipeline(d, layout); }, desc);
+  device_.setName(pipeline, nameOf(desc));
+  return {device_.get(), pipeline};
 }
 
-PipelineHandle PipelineFactory::buildCompute(const ComputePipelineDesc& desc, VkPipelineLayout layout) {
+VkPipeline PipelineFactory::buildPipeline(const ComputePipelineDesc& desc, VkPipelineLayout layout) {
   const Stage comp(VK_SHADER_STAGE_COMPUTE_BIT, shaders_.module(desc.comp), desc.constants);
   const VkComputePipelineCreateInfo info{
       .sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO, .stage = comp.info(), .layout = layout};
   VkPipeline pipeline = VK_NULL_HANDLE;
   check(vkCreateComputePipelines(device_.get(), cache_.get(), 1, &info, nullptr, &pipeline),
         "create pipeline " + desc.name);
-  device_.setName(pipeline, desc.name);
-  return {device_.get(), pipeline};
+  return pipeline;
 }
 
-PipelineHandle PipelineFactory::buildGraphics(const GraphicsPipelineDesc& desc, VkPipelineLayout layout) {
+VkPipeline PipelineFactory::buildPipeline(const GraphicsPipelineDesc& desc, VkPipelineLayout layout) {
   const Stage vert(VK_SHADER_STAGE_VERTEX_BIT, shaders_.module(desc.vert), desc.vertConstants);
   std::vector<VkPipelineShaderStageCreateInfo> stages = {vert.info()};
   std::optional<Stage> frag;
@@ -163,16 +115,42 @@ PipelineHandle PipelineFactory::buildGraphics(const GraphicsPipelineDesc& desc, 
     frag.emplace(VK_SHADER_STAGE_FRAGMENT_BIT, shaders_.module(*desc.frag), desc.fragConstants);
     stages.push_back(frag->info());
   }
-  const auto vertexInput = vertexInputState(desc);
+  const DeviceCaps& caps = device_.caps();
+  const VkPipelineVertexInputStateCreateInfo vertexInput{
+      .sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO,
+      .vertexBindingDescriptionCount = static_cast<uint32_t>(desc.vertexBindings.size()),
+      .pVertexBindingDescriptions = desc.vertexBindings.data(),
+      .vertexAttributeDescriptionCount = static_cast<uint32_t>(desc.vertexAttributes.size()),
+      .pVertexAttributeDescriptions = desc.vertexAttributes.data()};
   const VkPipelineInputAssemblyStateCreateInfo assembly{
       .sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO,
       .topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST};
   const VkPipelineViewportStateCreateInfo viewport{
       .sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO, .viewportCount = 1, .scissorCount = 1};
-  const auto raster = rasterization(desc, device_.caps());
-  const auto samples = multisampling(desc, device_.caps());
-  const auto depth = depthState(desc);
-  const auto attachment = blending(desc.adds, desc.frag.has_value());
+  const VkPipelineRasterizationStateCreateInfo raster{
+      .sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO,
+      .depthClampEnable = desc.depthClamp && caps.depthClamp,
+      .polygonMode = desc.lines && caps.fillModeNonSolid ? VK_POLYGON_MODE_LINE : VK_POLYGON_MODE_FILL,
+      .cullMode = desc.cullMode,
+      .lineWidth = 1.0f};
+  const VkPipelineMultisampleStateCreateInfo samples{
+      .sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO,
+      .rasterizationSamples = desc.samples,
+      .sampleShadingEnable = desc.sampleShading && caps.sampleRateShading,
+      .minSampleShading = 1.0f};
+  const bool hasDepth = desc.depth != VK_FORMAT_UNDEFINED;
+  const VkPipelineDepthStencilStateCreateInfo depth{.sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO,
+                                                    .depthTestEnable = hasDepth && desc.depthTest,
+                                                    .depthWriteEnable = hasDepth && desc.depthWrite,
+                                                    .depthCompareOp = desc.depthCompare};
+  const VkPipelineColorBlendAttachmentState attachment{.blendEnable = desc.adds,
+                                                       .srcColorBlendFactor = VK_BLEND_FACTOR_ONE,
+                                                       .dstColorBlendFactor = VK_BLEND_FACTOR_ONE,
+                                                       .colorBlendOp = VK_BLEND_OP_ADD,
+                                                       .srcAlphaBlendFactor = VK_BLEND_FACTOR_ONE,
+                                                       .dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE,
+                                                       .alphaBlendOp = VK_BLEND_OP_ADD,
+                                                       .colorWriteMask = desc.frag ? allColor : 0};
   const VkPipelineColorBlendStateCreateInfo blend{.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO,
                                                   .attachmentCount = 1,
                                                   .pAttachments = &attachment};
@@ -203,8 +181,7 @@ PipelineHandle PipelineFactory::buildGraphics(const GraphicsPipelineDesc& desc, 
   VkPipeline pipeline = VK_NULL_HANDLE;
   check(vkCreateGraphicsPipelines(device_.get(), cache_.get(), 1, &info, nullptr, &pipeline),
         "create pipeline " + desc.name);
-  device_.setName(pipeline, desc.name);
-  return {device_.get(), pipeline};
+  return pipeline;
 }
 
 Pipeline::Pipeline(PipelineFactory& factory, PipelineDesc desc)

@@ -46,6 +46,11 @@ struct ComputePipelineDesc {
   uint32_t pushConstantBytes = 0;                 // offset 0
 };
 
+// Returns the number of groups of `side` invocations that cover `size` pixels.
+constexpr uint32_t groupCount(uint32_t size, uint32_t side) {
+  return (size + side - 1) / side;
+}
+
 using PipelineDesc = std::variant<GraphicsPipelineDesc, ComputePipelineDesc>;
 
 class Pipeline;
@@ -54,7 +59,8 @@ class Pipeline;
 class PipelineFactory {
  public:
   PipelineFactory(Device& device, ShaderLibrary& shaders, RenderPassCache& renderPasses, PipelineCache& cache,
-                  RetireQueue& retired);
+                  RetireQueue& retired)
+      : device_(device), shaders_(shaders), renderPasses_(renderPasses), cache_(cache), retired_(retired) {}
 
   // Compiles changed shaders and rebuilds the pipelines that use them; old ones are retired. Returns whether any was.
   bool reload();
@@ -66,8 +72,8 @@ class PipelineFactory {
  private:
   friend class Pipeline;
   PipelineHandle build(const PipelineDesc& desc, VkPipelineLayout layout);
-  PipelineHandle buildGraphics(const GraphicsPipelineDesc& desc, VkPipelineLayout layout);
-  PipelineHandle buildCompute(const ComputePipelineDesc& desc, VkPipelineLayout layout);
+  VkPipeline buildPipeline(const GraphicsPipelineDesc& desc, VkPipelineLayout layout);
+  VkPipeline buildPipeline(const ComputePipelineDesc& desc, VkPipelineLayout layout);
 
   Device& device_;
   ShaderLibrary& shaders_;

@@ -7,8 +7,6 @@
 
 namespace speculum {
 
-constexpr VkFormat headlessFormat = VK_FORMAT_R8G8B8A8_UNORM;
-
 Renderer::Slot::Slot(Device& device, const std::string& name)
     : pool(device, name),
       acquired(device.create(vkCreateSemaphore, {.sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO},
@@ -56,7 +54,6 @@ void Renderer::finish(Slot& slot) {
   check(vkWaitForFences(device_.get(), 1, &fence, VK_TRUE, UINT64_MAX), "wait for a frame");
   check(vkResetFences(device_.get(), 1, &fence), "reset a frame's fence");
   slot.timings = slot.timer.read();
-  timings_ = slot.timings;
   retired_.collect(slot.number);
   slot.number = 0;
 }
@@ -75,23 +72,18 @@ void Renderer::waitIdle() {
   retired_.collect(recording_ ? frameNumber_ - 1 : frameNumber_);
 }
 
-bool Renderer::prepareSwapChain() {
-  if (window_->paused()) {
-    return false;
-  }
-  if (window_->takeResized() || swapChain_->stale()) {
-    unusedImage_.reset();
-    return swapChain_->recreate();
-  }
-  return true;
-}
-
 std::optional<uint32_t> Renderer::acquireImage(Slot& slot) {
   if (headless()) {
     return 0;
   }
-  if (!prepareSwapChain()) {
+  if (window_->paused()) {
     return std::nullopt;
+  }
+  if (window_->takeResized() || swapChain_->stale()) {
+    unusedImage_.reset();
+    if (!swapChain_->recreate()) {
+      return std::nullopt;
+    }
   }
   if (unusedImage_) {
     return unusedImage_;
@@ -186,14 +178,6 @@ Image& Renderer::displayImage(const Frame& frame) {
     retired_.retire(std::exchange(asideImage_, makeDisplayImage(frame.extent, displayFormat())));
   }
   return asideImage_;
-}
-
-VkFormat Renderer::displayFormat() const {
-  return headless() ? headlessFormat : swapChain_->format();
-}
-
-uint32_t Renderer::displayImageCount() const {
-  return std::max(framesInFlight, headless() ? 1 : swapChain_->imageCount());
 }
 
 VkRenderPass Renderer::overlayRenderPass() {

@@ -1,8 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
-#include <memory>
 #include <optional>
 
 #include "core/command_pool.hpp"
@@ -73,10 +73,11 @@ class Renderer {
 
   // The display image as a pass target: UNORM color without depth. Their role is TargetRole::swapchain.
   PassTargets displayTargets(Frame& frame) { return {.color = &displayImage(frame), .role = TargetRole::swapchain}; }
-  VkFormat displayFormat() const;
+  VkFormat displayFormat() const { return headless() ? headlessFormat : swapChain_->format(); }
   VkExtent2D displayExtent() const { return headless() ? headlessImage_.extent() : swapChain_->extent(); }
-  uint32_t displayImageCount() const;  // at least 2, which Dear ImGui requires
-  VkRenderPass overlayRenderPass();    // compatible with beginOverlay's; may change when displayFormat() does
+  // At least 2, which Dear ImGui requires.
+  uint32_t displayImageCount() const { return std::max(framesInFlight, headless() ? 1 : swapChain_->imageCount()); }
+  VkRenderPass overlayRenderPass();  // compatible with beginOverlay's; may change when displayFormat() does
   // Present modes of the window; none when headless. A new mode applies from the next frame on.
   std::vector<PresentMode> presentModes() const;
   std::optional<PresentMode> presentMode() const;
@@ -88,7 +89,9 @@ class Renderer {
   void waitIdle();  // also collects timings and retired objects
 
   // Timings of the last frame that has finished; after waitIdle() of the last one recorded.
-  const FrameTimings& timings() const { return timings_; }
+  const FrameTimings& timings() const {
+    return (slots_[0].timings.frame > slots_[1].timings.frame ? slots_[0] : slots_[1]).timings;
+  }
   // Timings of frame number `frame`; null unless it has finished and is one of the last two.
   const FrameTimings* timingsOf(uint64_t frame) const;
   // Applies to frames that begin from now on. TimerDetail::passes at first.
@@ -105,6 +108,7 @@ class Renderer {
   PipelineCache& pipelineCache() { return pipelineCache_; }
 
  private:
+  static constexpr VkFormat headlessFormat = VK_FORMAT_R8G8B8A8_UNORM;
   struct Slot {
     Slot(Device& device, const std::string& name);
     CommandPool pool;
@@ -122,7 +126,6 @@ class Renderer {
   Image& displayImage(const Frame& frame);
   // Says whether the frame is drawn into an image of its own, because the swapchain's cannot be copied.
   bool drawsAside(const Frame& frame) const { return frame.capture && !headless() && !swapChain_->copyable(); }
-  bool prepareSwapChain();
   void recordCapture(Slot& slot, const Frame& frame);
   void submit(Slot& slot, const Frame& frame, bool presents);
   Image makeDisplayImage(VkExtent2D extent, VkFormat format);
@@ -141,7 +144,6 @@ class Renderer {
   std::array<Slot, framesInFlight> slots_;
   RetireQueue retired_;
   PipelineFactory pipelines_;
-  FrameTimings timings_;  // the later ones of the slots'
   TimerDetail timerDetail_ = TimerDetail::passes;
   uint64_t frameNumber_ = 0;
   bool recording_ = false;

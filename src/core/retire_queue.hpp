@@ -12,7 +12,14 @@ class RetireQueue {
  public:
   template <typename T>
   void retire(T object) {
-    entries_.push_back({frame_, {new T(std::move(object)), [](void* retired) { delete static_cast<T*>(retired); }}});
+    entries_.push_back({frame_, std::make_shared<T>(std::move(object))});
+  }
+  // Retires an object, if there is one, and leaves none in its place.
+  template <typename T>
+  void take(T& object) {
+    if (object) {
+      retire(std::exchange(object, T()));
+    }
   }
   void setFrame(uint64_t frame) { frame_ = frame; }  // numbers of frames grow
   // Destroys what was retired in frames up to and including `finished`, in the order of retirement.
@@ -26,7 +33,7 @@ class RetireQueue {
  private:
   struct Entry {
     uint64_t frame;
-    std::unique_ptr<void, void (*)(void*)> object;
+    std::shared_ptr<void> object;
   };
   std::deque<Entry> entries_;
   uint64_t frame_ = 0;

@@ -136,11 +136,6 @@ void SwapChain::create() {
       .clipped = VK_TRUE,
       .oldSwapchain = old.get()};
   swapchain_ = device_.create(vkCreateSwapchainKHR, info, "swapchain");
-  createImages();
-  stale_ = false;
-}
-
-void SwapChain::createImages() {
   for (VkImage image :
        enumerate<VkImage>("list swapchain images", vkGetSwapchainImagesKHR, device_.get(), swapchain_.get())) {
     const std::string name = "swapchain image " + std::to_string(images_.size());
@@ -148,6 +143,7 @@ void SwapChain::createImages() {
     renderFinished_.push_back(device_.create(vkCreateSemaphore, {.sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO},
                                              name + " render finished"));
   }
+  stale_ = false;
 }
 
 bool SwapChain::check(VkResult result, std::string_view what) {

@@ -42,7 +42,6 @@ class SwapChain {
  private:
   void chooseFormat();
   void create();
-  void createImages();
   // Says whether a call on the chain succeeded; if its result means that the chain is stale, marks it so. Throws for
   // other errors.
   bool check(VkResult result, std::string_view what);

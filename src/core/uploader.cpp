@@ -12,7 +12,6 @@ namespace {
 VkDeviceSize texelBytes(VkFormat format) {
   switch (format) {
     case VK_FORMAT_R8G8B8A8_UNORM:
-    case VK_FORMAT_R8G8B8A8_SRGB:
     case VK_FORMAT_B8G8R8A8_UNORM:
     case VK_FORMAT_D32_SFLOAT:
     case VK_FORMAT_R32_SFLOAT:

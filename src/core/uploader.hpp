@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <ranges>
 #include <span>
 #include <string>
 #include <vector>
@@ -17,9 +18,8 @@ class Uploader {
 
   // A device buffer (usage gets TRANSFER_DST added) that holds `data`.
   Buffer buffer(std::span<const std::byte> data, VkBufferUsageFlags usage, const std::string& name);
-  template <typename T>
-  Buffer buffer(std::span<const T> data, VkBufferUsageFlags usage, const std::string& name) {
-    return buffer(std::as_bytes(data), usage, name);
+  Buffer buffer(const std::ranges::contiguous_range auto& data, VkBufferUsageFlags usage, const std::string& name) {
+    return buffer(std::as_bytes(std::span(data)), usage, name);
   }
   // A sampled image whose level 0 is `texels` (tightly packed rows, top first), in SHADER_READ_ONLY layout. With
   // `mipmaps` all further levels are made by halving blits, which are right only for linear formats such as RGBA16F.

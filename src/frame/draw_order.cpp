@@ -6,16 +6,6 @@
 
 namespace speculum {
 
-namespace {
-
-// Returns the distance in metres to the far end of the bounding sphere. A room begins nearer to the eye than the
-// objects in it but ends behind them, so it is drawn after them.
-double distanceOf(const View& view, const InstanceState& instance) {
-  return glm::length(instance.center - view.eye) + instance.radius;
-}
-
-}  // namespace
-
 std::vector<int> frontToBack(const View& view, std::span<const int> instances, const SceneState& state) {
   struct Entry {
     double batch = 0.0;
@@ -29,7 +19,9 @@ std::vector<int> frontToBack(const View& view, std::span<const int> instances, c
   entries.reserve(instances.size());
   for (const int i : instances) {
     const InstanceState& instance = state.instances[i];
-    const double distance = distanceOf(view, instance);
+    // To the far end of the bounding sphere, in metres. A room begins nearer to the eye than the objects in it but ends
+    // behind them, so it is drawn after them.
+    const double distance = glm::length(instance.center - view.eye) + instance.radius;
     const auto [it, isNew] = nearest.try_emplace(instance.mesh, distance);
     it->second = std::min(it->second, distance);
     entries.push_back({.mesh = instance.mesh, .distance = distance, .instance = i});

@@ -130,9 +130,11 @@ void Planner::simplify() {
       simplifyPass(pass, allSettings_.effects, scene_, state_);
     }
   }
-  // An object that two faces show has one level in both, so that it has no step at their edge.
-  for (EnvironmentMap& map : plan_.maps) {
-    simplifyAlike(facesToSimplify(map), allSettings_.effects, scene_, state_);
+  if (settings_.meshError > 0.0) {
+    // An object that two faces show has one level in both, so that it has no step at their edge.
+    for (EnvironmentMap& map : plan_.maps) {
+      simplifyAlike(facesToSimplify(map), allSettings_.effects, scene_, state_);
+    }
   }
 }
 

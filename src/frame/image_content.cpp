@@ -82,12 +82,6 @@ void addMirror(const ImageSurroundings& around, int index, Numbers& numbers) {
   numbers.add(around.scene.mirrors[index]);
 }
 
-void addLights(const ImageSurroundings& around, Numbers& numbers) {
-  for (size_t i = 0; i < around.scene.lights.size(); ++i) {
-    numbers.addAll(around.state.lights[i].position, around.scene.lights[i]);
-  }
-}
-
 void addEffects(const ImageSurroundings& around, const View& main, Numbers& numbers) {
   const TracedEffects& effects = around.effects;
   numbers.addAll(effects.any(), effects.traces(), effects.shadows.has_value(), effects.shadowMaps,
@@ -142,7 +136,9 @@ std::vector<uint64_t> imageContent(const ImageSurroundings& around, const View& 
   for (const int mirror : mirrors) {
     addMirror(around, mirror, numbers);
   }
-  addLights(around, numbers);
+  for (size_t i = 0; i < around.scene.lights.size(); ++i) {
+    numbers.addAll(around.state.lights[i].position, around.scene.lights[i]);
+  }
   return numbers.take();
 }
 

@@ -18,9 +18,6 @@ constexpr uint64_t depthBytes = 4;     // D32F
 constexpr uint64_t sumBytes = 2 * 16;  // two images of RGBA32F
 constexpr double smallestScale = 0.125;
 constexpr uint64_t disparityBytes = 4;  // R32F
-// Of DeferredShading.
-constexpr uint64_t mostShadedSamples = 65535ull * 128;
-constexpr uint64_t requestBytes = 4;
 constexpr double pixelsForRays = 4e5;
 constexpr int smallestMap = 16;  // texels
 constexpr int smallestShadowMap = 64;
@@ -62,7 +59,7 @@ uint64_t shadedBytes(const FramePlan& plan, const Settings& settings) {
   for (const PlannedPass& pass : plan.passes) {
     samples = std::max(samples, pixels(pass.view.rect) * static_cast<uint64_t>(settings.reflection.samples));
   }
-  return plan.effects.any() ? std::min(samples, mostShadedSamples) * (colorBytes + requestBytes) : 0;
+  return plan.effects.any() ? std::min(samples, mostShadedSamples) * (bytesPerShadedSample + bytesPerRequest) : 0;
 }
 
 uint64_t mainBytes(const FramePlan& plan, const Settings& settings) {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <string>
 
 #include "frame/frame_plan.hpp"
@@ -13,6 +12,12 @@ namespace speculum {
 uint64_t targetBytes(const FramePlan& plan, const Settings& settings);
 // The part of it that more than one sample a pixel costs.
 uint64_t sampleBytes(const FramePlan& plan, const Settings& settings);
+
+// Deferred shading keeps radiance and requests of a pass for at most so many samples at a time: the groups of one
+// dispatch, times requestsPerGroup in requests.glsl.
+inline constexpr uint64_t mostShadedSamples = 65535ull * 128;
+inline constexpr uint64_t bytesPerShadedSample = 8;
+inline constexpr uint64_t bytesPerRequest = 4;
 
 struct TargetLimits {
   uint64_t budgetBytes = 0;   // for all render targets together

@@ -53,10 +53,6 @@ double nearestDepth(const View& view, double cosine, const InstanceState& instan
   return view.clip ? std::max(depth, -view.clip->distance(view.eye) * cosine) : depth;
 }
 
-double largestScale(const glm::dmat3& linear) {
-  return std::max({glm::length(linear[0]), glm::length(linear[1]), glm::length(linear[2])});
-}
-
 }  // namespace
 
 double largestError(const View& view, const Projection& projection, const InstanceState& instance, const Mesh& mesh,
@@ -67,7 +63,8 @@ double largestError(const View& view, const Projection& projection, const Instan
   // f d / ((z - d) cos a) = texels, because the displacement may move the nearest point nearer by d.
   const double reach = texels * cosine;
   const double displacement = reach * std::max(depth, 0.0) / (std::max(focal.x, focal.y) + reach);
-  return displacement / largestScale(instance.worldFromMesh.linear);
+  const glm::dmat3& linear = instance.worldFromMesh.linear;
+  return displacement / std::max({glm::length(linear[0]), glm::length(linear[1]), glm::length(linear[2])});
 }
 
 LevelChoice chooseLevel(const View& view, double largestError, const InstanceState& instance, const Mesh& mesh,
@@ -122,7 +119,7 @@ template <typename Choose>
 void applyLevels(PlannedPass& pass, const Scene& scene, const SceneState& state, const Choose& choose) {
   std::vector<PartialInstance> partial;
   for (const int i : pass.instances) {
-    const Mesh& mesh = scene.meshes[state.instances[static_cast<size_t>(i)].mesh];
+    const Mesh& mesh = scene.meshes[state.instances[i].mesh];
     const PartialInstance* part = partOf(pass.partial, i);
     LevelChoice choice = choose(i, part ? part->ranges : std::vector{allOf(mesh)});
     const IndexRange all = choice.level < 0 ? allOf(mesh) : levelsOf(mesh).levels[choice.level].all;
@@ -139,7 +136,7 @@ void applyLevels(PlannedPass& pass, const Scene& scene, const SceneState& state,
 // Returns the largest error that the pass allows for an instance, in the mesh's unit.
 double errorOf(const SimplifiedPass& simplified, int i, const EffectSettings& effects, const Scene& scene,
                const SceneState& state) {
-  const InstanceState& instance = state.instances[static_cast<size_t>(i)];
+  const InstanceState& instance = state.instances[i];
   if (effects.curved && scene.objects[instance.object].mirror) {
     return 0.0;
   }
@@ -152,7 +149,7 @@ double errorOf(const SimplifiedPass& simplified, int i, const EffectSettings& ef
 void simplifyPass(const SimplifiedPass& simplified, const EffectSettings& effects, const Scene& scene,
                   const SceneState& state) {
   applyLevels(*simplified.pass, scene, state, [&](int i, std::vector<IndexRange> seen) {
-    const InstanceState& instance = state.instances[static_cast<size_t>(i)];
+    const InstanceState& instance = state.instances[i];
     return chooseLevel(simplified.readable, errorOf(simplified, i, effects, scene, state), instance,
                        scene.meshes[instance.mesh], std::move(seen));
   });
@@ -163,15 +160,14 @@ void simplifyAlike(std::span<const SimplifiedPass> passes, const EffectSettings&
   std::vector<double> largest(state.instances.size(), std::numeric_limits<double>::infinity());
   for (const SimplifiedPass& simplified : passes) {
     for (const int i : simplified.pass->instances) {
-      double& error = largest[static_cast<size_t>(i)];
+      double& error = largest[i];
       error = std::min(error, errorOf(simplified, i, effects, scene, state));
     }
   }
   for (const SimplifiedPass& simplified : passes) {
     applyLevels(*simplified.pass, scene, state, [&](int i, std::vector<IndexRange> seen) {
-      const InstanceState& instance = state.instances[static_cast<size_t>(i)];
-      return coarsestLevel(simplified.readable, largest[static_cast<size_t>(i)], instance, scene.meshes[instance.mesh],
-                           std::move(seen));
+      const InstanceState& instance = state.instances[i];
+      return coarsestLevel(simplified.readable, largest[i], instance, scene.meshes[instance.mesh], std::move(seen));
     });
   }
 }
@@ -180,7 +176,7 @@ std::vector<int> meshesWithLevels(const FramePlan& plan, const SceneState& state
   std::set<int> meshes;
   const auto add = [&](const PlannedPass& pass) {
     for (const SimplifiedInstance& simplified : pass.simplified) {
-      meshes.insert(state.instances[static_cast<size_t>(simplified.instance)].mesh);
+      meshes.insert(state.instances[simplified.instance].mesh);
     }
   };
   add(plan.main);

@@ -48,6 +48,28 @@ double radiusAbout(const glm::dvec3& center, std::span<const glm::dvec3> points)
   return radius;
 }
 
+FlatOccluder flatOccluder(std::vector<glm::dvec3> polygon, double size) {
+  FlatOccluder made{.plane = {polygon[0], glm::normalize(newellVector(polygon))}, .slack = roundingPart * size};
+  for (const glm::dvec3& p : polygon) {
+    made.slack = std::max(made.slack, 2.0 * std::abs(made.plane.distance(p)));
+  }
+  made.center = vertexMean(polygon);
+  made.radius = radiusAbout(made.center, polygon);
+  made.polygon = std::move(polygon);
+  return made;
+}
+
+BodyOccluder bodyOccluder(const ConvexMesh& mesh, const InstanceState& state) {
+  BodyOccluder whole{.mesh = &mesh, .slack = roundingPart * state.radius};
+  for (const glm::dvec3& p : mesh.points) {
+    whole.points.push_back(state.worldFromMesh.point(p));
+  }
+  for (const auto& [a, b, c] : mesh.triangles) {
+    whole.normals.push_back(newellVector(std::array{whole.points[a], whole.points[b], whole.points[c]}));
+  }
+  return whole;
+}
+
 // Filters occluders at little cost: keeps those that look large enough and stand before a corner or the middle of the
 // polygon, as any occluder of the whole polygon does.
 class Prefilter {
@@ -109,28 +131,6 @@ Occlusion::Occlusion(const Scene& scene, const SceneState& state, const Settings
     }
     largestFaces_.push_back(mesh.radius > 0.0 ? largest / mesh.radius : 0.0);
   }
-}
-
-FlatOccluder Occlusion::flatOccluder(std::vector<glm::dvec3> polygon, double size) {
-  FlatOccluder made{.plane = {polygon[0], glm::normalize(newellVector(polygon))}, .slack = roundingPart * size};
-  for (const glm::dvec3& p : polygon) {
-    made.slack = std::max(made.slack, 2.0 * std::abs(made.plane.distance(p)));
-  }
-  made.center = vertexMean(polygon);
-  made.radius = radiusAbout(made.center, polygon);
-  made.polygon = std::move(polygon);
-  return made;
-}
-
-BodyOccluder Occlusion::bodyOccluder(const ConvexMesh& mesh, const InstanceState& state) {
-  BodyOccluder whole{.mesh = &mesh, .slack = roundingPart * state.radius};
-  for (const glm::dvec3& p : mesh.points) {
-    whole.points.push_back(state.worldFromMesh.point(p));
-  }
-  for (const auto& [a, b, c] : mesh.triangles) {
-    whole.normals.push_back(newellVector(std::array{whole.points[a], whole.points[b], whole.points[c]}));
-  }
-  return whole;
 }
 
 Occlusion::Body& Occlusion::bodyOf(int instance) {
@@ -264,8 +264,8 @@ void Occlusion::setView(const View& view, std::span<const int> instances, std::v
         const auto [center, radius] = sphereOf(static_cast<size_t>(i));
         return radius / std::max(glm::length(center - view.eye) - radius, 1e-300);
       };
-      std::nth_element(candidates.begin(), candidates.begin() + mostTested, candidates.end(),
-                       [&](int a, int b) { return std::pair(-angle(a), a) < std::pair(-angle(b), b); });
+      std::ranges::nth_element(candidates, candidates.begin() + mostTested, {},
+                               [&](int i) { return std::pair(-angle(i), i); });
       candidates.resize(mostTested);
       std::ranges::sort(candidates);
     }

@@ -56,8 +56,6 @@ class Occlusion {
     std::optional<Occluder> whole;  // hides all of it; without its region
     std::vector<Occluder> parts;
   };
-  static FlatOccluder flatOccluder(std::vector<glm::dvec3> polygon, double size);
-  static BodyOccluder bodyOccluder(const ConvexMesh& mesh, const InstanceState& state);
   Body& bodyOf(int instance);
   const std::optional<OccludedRegion>& regionOf(Face& face) const;
   const std::optional<BodyRegion>& regionOf(Body& body) const;

@@ -45,8 +45,8 @@ size_t tileCount(const FramePlan& plan) {
 
 TileRange facesOf(const FramePlan& plan) {
   const size_t count = faceCount(plan);
-  return plan.tiles ? TileRange{std::min(plan.tiles->first, count), std::min(plan.tiles->end, count)}
-                    : TileRange{0, count};
+  const TileRange drawn = plan.tiles.value_or(TileRange{0, count});
+  return {std::min(drawn.first, count), std::min(drawn.end, count)};
 }
 
 std::vector<TileRange> tilesOfPasses(const FramePlan& plan) {

@@ -23,9 +23,9 @@ std::vector<TileRange> tilesOfPasses(const FramePlan& plan);
 // row from the last to the first. With several samples, lavapipe of Mesa 22.3 also writes to the row above a scissor
 // rectangle and to the column left of it, which in this order are drawn later.
 std::vector<PixelRect> tileRects(int width, int height, const TileRange& tiles);
-// Returns the tiles of the frames that should draw the picture, without a window: all in one, or if it traces rays in
-// so many that no system takes the GPU for hung. Estimates that each traces about two million paths, without those of
-// environment maps. debug.check_finite looks at whole pictures, which are not divided.
+// Divides the picture among frames, for commands: returns the tiles of each. A picture without traced rays is one
+// frame. With them, each frame traces about two million paths, without those of environment maps, so that no system
+// takes the GPU for hung. debug.check_finite looks at whole pictures, which are not divided.
 std::vector<std::optional<TileRange>> partsOf(const FramePlan& plan, const Settings& settings);
 // Say whether this frame draws the first tile of its picture, and the last one.
 bool beginsPicture(const FramePlan& plan);

@@ -45,14 +45,14 @@ template <typename Group, typename T>
 T typeOf(T Group::*);
 
 template <auto Member>
-constexpr SettingMember<decltype(typeOf(Member))> at{valueIn<groupOf<decltype(ownerOf(Member))>, Member>};
+constexpr MemberSetting<decltype(typeOf(Member))> at{{valueIn<groupOf<decltype(ownerOf(Member))>, Member>}};
 
 // `names` in the order of the enumerators.
 template <auto Member>
 constexpr ChoiceSetting choice(std::span<const std::string_view> names) {
   using Enum = decltype(typeOf(Member));
-  return {[](const Settings& settings) { return static_cast<int>(at<Member>.of(settings)); },
-          [](Settings& settings, int index) { at<Member>.of(settings) = static_cast<Enum>(index); }, names};
+  return {[](const Settings& settings) { return static_cast<int>(at<Member>.get(settings)); },
+          [](Settings& settings, int index) { at<Member>.set(settings, static_cast<Enum>(index)); }, names};
 }
 
 constexpr SettingField setting(std::string_view key, const SettingKind& kind, const char* label, std::string_view text,
@@ -104,8 +104,7 @@ constexpr SettingField fields[] = {
     setting("reflection.mesh_error", NumberSetting{at<&R::meshError>, 0.0, 16.0}, "Mesh error",
             "largest error of simplified objects in reflections; 0: all triangles",
             "Saves vertices; shading shifts. Ignored while shadows or curved mirrors are traced; needs view.mesh_error "
-            "with "
-            "shadow maps.",
+            "with shadow maps.",
             {.unit = "texels", .slider = SettingSlider{0.0, 16.0}}),
     setting("reflection.clip", choice<&R::clip>(clipMethods), "Clipping", "how geometry behind a mirror is cut",
             "oblique loses depth precision near a mirror; none shows what is behind it."),
@@ -266,27 +265,11 @@ std::string settingRangeWithUnit(const SettingField& field) {
 }
 
 bool sameSetting(const SettingField& field, const Settings& a, const Settings& b) {
-  return std::visit(
-      [&](const auto& kind) {
-        if constexpr (std::is_same_v<std::decay_t<decltype(kind)>, ChoiceSetting>) {
-          return kind.get(a) == kind.get(b);
-        } else {
-          return kind.value.of(a) == kind.value.of(b);
-        }
-      },
-      field.kind);
+  return std::visit([&](const auto& kind) { return kind.get(a) == kind.get(b); }, field.kind);
 }
 
 void copySetting(const SettingField& field, const Settings& from, Settings& to) {
-  std::visit(
-      [&](const auto& kind) {
-        if constexpr (std::is_same_v<std::decay_t<decltype(kind)>, ChoiceSetting>) {
-          kind.set(to, kind.get(from));
-        } else {
-          kind.value.of(to) = kind.value.of(from);
-        }
-      },
-      field.kind);
+  std::visit([&](const auto& kind) { kind.set(to, kind.get(from)); }, field.kind);
 }
 
 std::string settingHelp(std::string_view key, const std::string& range) {

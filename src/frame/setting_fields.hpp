@@ -18,37 +18,37 @@ struct SettingMember {
   const T& of(const Settings& settings) const { return in(const_cast<Settings&>(settings)); }
 };
 
+// Each kind of setting reads its value with get() and writes it with set().
+template <typename T>
+struct MemberSetting {
+  SettingMember<T> value;
+
+  const T& get(const Settings& settings) const { return value.of(settings); }
+  void set(Settings& settings, const T& wanted) const { value.of(settings) = wanted; }
+};
 // Numbers from low to high.
-struct NumberSetting {
-  SettingMember<double> value;
+struct NumberSetting : MemberSetting<double> {
   double low = 0.0;
   double high = 1.0;
 };
 // A number from low to high, or "auto": none.
-struct AutomaticSetting {
-  SettingMember<std::optional<double>> value;
+struct AutomaticSetting : MemberSetting<std::optional<double>> {
   double low = 0.0;
   double high = 1.0;
 };
-struct IntegerSetting {
-  SettingMember<int> value;
+struct IntegerSetting : MemberSetting<int> {
   int low = 0;
   int high = 1;
   bool powersOfTwo = false;
 };
-struct BooleanSetting {
-  SettingMember<bool> value;
-};
+struct BooleanSetting : MemberSetting<bool> {};
 struct ChoiceSetting {
   int (*get)(const Settings& settings);  // index into names
   void (*set)(Settings& settings, int index);
   std::span<const std::string_view> names;
 };
-struct ColorSetting {
-  SettingMember<std::optional<glm::dvec3>> value;  // linear
-};
-struct TextSetting {
-  SettingMember<std::string> value;
+struct ColorSetting : MemberSetting<std::optional<glm::dvec3>> {};  // linear
+struct TextSetting : MemberSetting<std::string> {
   std::string_view meaning;
 };
 using SettingKind = std::variant<NumberSetting, AutomaticSetting, IntegerSetting, BooleanSetting, ChoiceSetting,

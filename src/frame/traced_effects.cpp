@@ -113,10 +113,9 @@ class Collector {
   bool bounces(const MirroredLight& path) const {
     const PointLight& light = scene_.lights[path.light];
     const double height = heightOf(path);
-    return !isBlack(light.color * light.intensity) && (height > 0.0 || (height < 0.0 && twoSided(path)));
+    return !isBlack(light.color * light.intensity) &&
+           (height > 0.0 || (height < 0.0 && scene_.mirrors[path.mirror].twoSided));
   }
-
-  bool twoSided(const MirroredLight& path) const { return scene_.mirrors[path.mirror].twoSided; }
 
   // Says whether the reflected light reaches something drawn. The light's mirror image shines through the mirror's
   // polygon as through a window, and lights only objects that meet the cone through it.

@@ -1,7 +1,6 @@
 #include "systems/accumulation.hpp"
 
 #include <stdexcept>
-#include <utility>
 
 #include "shaders/gpu_data.h"
 
@@ -13,20 +12,16 @@ constexpr VkFormat sumFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
 
 }  // namespace
 
-Accumulation::Accumulation(Renderer& renderer) : renderer_(renderer), pipelines_(renderer.pipelines()) {}
-
 void Accumulation::begin(VkExtent2D extent, RetireQueue& retired) {
   Device& device = renderer_.device();
   if (!layout_) {
-    constexpr VkShaderStageFlags stages = VK_SHADER_STAGE_FRAGMENT_BIT;
-    const std::array bindings = {DescriptorBinding{0, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, stages},
-                                 DescriptorBinding{1, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, stages}};
-    layout_ = createDescriptorSetLayout(device, bindings, "accumulate");
+    constexpr VkDescriptorType image = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+    layout_ = createDescriptorSetLayout(device, {image, image}, VK_SHADER_STAGE_FRAGMENT_BIT, "accumulate");
     sampler_ = createSampler(device, nearestSampler, "sum");
   }
   for (Image& image : images_) {
-    if (image && !sameExtent(image.extent(), extent)) {
-      retired.retire(std::exchange(image, Image()));
+    if (!sameExtent(image.extent(), extent)) {
+      retired.take(image);
     }
     if (!image) {
       image = Image(device, {.extent = extent,
@@ -72,15 +67,12 @@ RecordedPass Accumulation::add(Frame& frame, const VkDescriptorImageInfo& radian
 
 void Accumulation::release(RetireQueue& retired) {
   pictures_ = 0;
-  if (!layout_) {
-    return;
-  }
   pipelines_.clear();
   for (Image& image : images_) {
-    retired.retire(std::exchange(image, Image()));
+    retired.take(image);
   }
-  retired.retire(std::exchange(sampler_, SamplerHandle()));
-  retired.retire(std::exchange(layout_, DescriptorSetLayoutHandle()));
+  retired.take(sampler_);
+  retired.take(layout_);
 }
 
 }  // namespace speculum

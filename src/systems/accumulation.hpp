@@ -17,7 +17,7 @@ namespace speculum {
 // the same between them. A plan for a picture beyond the last shows the mean again and draws nothing.
 class Accumulation {
  public:
-  explicit Accumulation(Renderer& renderer);
+  explicit Accumulation(Renderer& renderer) : renderer_(renderer), pipelines_(renderer.pipelines()) {}
 
   // Adds the picture in `radiance`, which is in the layout for being sampled, as number `picture`. Throws
   // std::logic_error if it is neither the first nor the next one, of the same size.

@@ -2,35 +2,22 @@
 
 #include <algorithm>
 #include <array>
-#include <utility>
+
+#include "frame/memory_fit.hpp"
 
 namespace speculum {
 
 namespace {
 
-constexpr uint32_t groupSide = 8;                 // in collect_surfaces.glsl
-constexpr uint64_t mostSamples = 65535ull * 128;  // groups of one dispatch, times requestsPerGroup in requests.glsl
-constexpr uint64_t shadedBytes = 8;               // of a sample
-constexpr uint64_t requestBytes = 4;
+constexpr uint32_t groupSide = 8;  // in collect_surfaces.glsl
 // The requests' buffer begins with the arguments of the indirect dispatch and their count.
 constexpr std::array<uint32_t, 4> noRequests{0, 1, 1, 0};
 
-uint32_t groups(uint32_t size) {
-  return (size + groupSide - 1) / groupSide;
-}
-
-uint64_t samplesOf(const PassDesc& pass) {
-  return areaOf(pass.renderArea.extent) * pass.targets.samples();
-}
-
 }  // namespace
-
-DeferredShading::DeferredShading(Device& device, PipelineFactory& factory, VkDescriptorSetLayout frameLayout)
-    : device_(device), frameLayout_(frameLayout), collecting_(factory), shading_(factory), drawing_(factory) {}
 
 std::vector<PixelRect> DeferredShading::bands(std::span<const PixelRect> parts, VkSampleCountFlagBits samples) {
   // A request has 32 bits for a pixel's number and a bit for each sample.
-  const uint64_t mostPixels = std::min<uint64_t>(mostSamples / samples, uint64_t{1} << (32 - samples));
+  const uint64_t mostPixels = std::min<uint64_t>(mostShadedSamples / samples, uint64_t{1} << (32 - samples));
   std::vector<PixelRect> bands;
   for (const PixelRect& part : parts) {
     const int rows = std::clamp(static_cast<int>(mostPixels / static_cast<uint64_t>(part.width)), 1, part.height);
@@ -70,14 +57,14 @@ void DeferredShading::prepare(const FrameInfo& info, const PassDesc& pass) {
     layout_ = createDescriptorSetLayout(device_, bindings, "deferred shading");
     sampler_ = createSampler(device_, {.maxLod = 0.0f}, "deferred shading");
   }
-  const uint64_t samples = samplesOf(pass);
-  if (shaded_.bytes() < samples * shadedBytes) {
-    info.frame.retired->retire(std::exchange(shaded_, {}));
-    info.frame.retired->retire(std::exchange(requests_, {}));
-    shaded_ = Buffer(device_, samples * shadedBytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, BufferMemory::device,
+  const uint64_t samples = speculum::areaOf(pass.renderArea.extent) * pass.targets.samples();
+  if (shaded_.bytes() < samples * bytesPerShadedSample) {
+    info.frame.retired->take(shaded_);
+    info.frame.retired->take(requests_);
+    shaded_ = Buffer(device_, samples * bytesPerShadedSample, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, BufferMemory::device,
                      "shaded samples");
     requests_ = Buffer(
-        device_, sizeof noRequests + samples * requestBytes,
+        device_, sizeof noRequests + samples * bytesPerRequest,
         VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
         BufferMemory::device, "surfaces to shade");
   }
@@ -108,7 +95,7 @@ void DeferredShading::collect(const PassScope& scope, const TraceVariant& trace)
   pipeline.bindSet(commands, 0, set_);
   const gpu::ShadeConstants area = areaOf(scope.desc());
   pipeline.push(commands, area);
-  vkCmdDispatch(commands, groups(area.size.x), groups(area.size.y), 1);
+  vkCmdDispatch(commands, groupCount(area.size.x, groupSide), groupCount(area.size.y, groupSide), 1);
   Barriers::requestsToUse(commands);
 }
 
@@ -172,8 +159,8 @@ void DeferredShading::endFrame(const TraceVariant& trace, bool imagesShown, Reti
   shading_.endFrame(idle);
   drawing_.endFrame([&](VkSampleCountFlagBits) { return !imagesShown; });
   if (shaded_ && ++idleFrames_ > idleFramesKept) {
-    retired.retire(std::exchange(shaded_, {}));
-    retired.retire(std::exchange(requests_, {}));
+    retired.take(shaded_);
+    retired.take(requests_);
   }
 }
 

@@ -12,7 +12,8 @@ namespace speculum {
 // not; the pass goes on with the radiance. GPUs have more room for rays in compute shaders than in fragment shaders.
 class DeferredShading {
  public:
-  DeferredShading(Device& device, PipelineFactory& factory, VkDescriptorSetLayout frameLayout);
+  DeferredShading(Device& device, PipelineFactory& factory, VkDescriptorSetLayout frameLayout)
+      : device_(device), frameLayout_(frameLayout), collecting_(factory), shading_(factory), drawing_(factory) {}
 
   // Divides parts of a pass into bands whose radiance a storage buffer holds on every device, each part's lowest first.
   static std::vector<PixelRect> bands(std::span<const PixelRect> parts, VkSampleCountFlagBits samples);

@@ -49,30 +49,26 @@ PassDesc viewPass(const PassTargets& targets, const VkRect2D& area) {
 }  // namespace
 
 DisplaySystem::DisplaySystem(Renderer& renderer) : renderer_(renderer), pipelines_(renderer.pipelines()) {
-  const DescriptorBinding binding{.type = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-                                  .stages = VK_SHADER_STAGE_FRAGMENT_BIT};
-  layout_ = createDescriptorSetLayout(renderer.device(), {&binding, 1}, "display");
+  layout_ = createDescriptorSetLayout(renderer.device(), {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER},
+                                      VK_SHADER_STAGE_FRAGMENT_BIT, "display");
 }
 
 RecordedPass DisplaySystem::draw(Frame& frame, const PassDesc& desc, PassKind kind, Variant variant,
                                  const VkDescriptorImageInfo& image, const auto& constants) {
   variant.format = renderer_.displayFormat();
   const Pipeline& pipeline = pipelines_.get(variant, [&] {
-    GraphicsPipelineDesc pipeline{.name = variant.depth ? "display depth" : "display",
-                                  .vert = "full_screen.vert",
-                                  .frag = variant.multisampled ? "display_average.frag"
-                                          : variant.enlarged   ? "display_enlarge.frag"
-                                                               : "display.frag",
-                                  .fragConstants = {variant.toneMap == ToneMap::aces},
-                                  .setLayouts = {layout_.get()},
-                                  .pushConstantBytes = sizeof constants,
-                                  .color = variant.format,
-                                  .depth = VK_FORMAT_UNDEFINED};
-    if (variant.depth) {
-      pipeline.frag = variant.multisampled ? "display_depth_samples.frag" : "display_depth.frag";
-      pipeline.fragConstants.clear();
-    }
-    return pipeline;
+    const char* color = variant.multisampled ? "display_average.frag"
+                        : variant.enlarged   ? "display_enlarge.frag"
+                                             : "display.frag";
+    const char* depth = variant.multisampled ? "display_depth_samples.frag" : "display_depth.frag";
+    return GraphicsPipelineDesc{.name = variant.depth ? "display depth" : "display",
+                                .vert = "full_screen.vert",
+                                .frag = variant.depth ? depth : color,
+                                .fragConstants = {variant.toneMap == ToneMap::aces},
+                                .setLayouts = {layout_.get()},
+                                .pushConstantBytes = sizeof constants,
+                                .color = variant.format,
+                                .depth = VK_FORMAT_UNDEFINED};
   });
   const VkDescriptorSet set = frame.descriptors->allocate(layout_.get());
   DescriptorWriter().image(0, image).update(renderer_.device(), set);
@@ -131,10 +127,7 @@ void DisplaySystem::countPipelines(EffectLedger& ledger) const {
 }
 
 void DisplaySystem::setCover(const Image8& picture) {
-  if (cover_) {
-    renderer_.retired().retire(std::move(cover_));
-    cover_ = Image();
-  }
+  renderer_.retired().take(cover_);
   if (picture.width < 1) {
     return;
   }

@@ -4,8 +4,6 @@
 
 namespace speculum {
 
-EnvironmentTargets::EnvironmentTargets(Device& device) : device_(device) {}
-
 void EnvironmentTargets::restart() {
   cached_.clear();
   targets_.clear();
@@ -13,32 +11,18 @@ void EnvironmentTargets::restart() {
 }
 
 void EnvironmentTargets::release(RetireQueue& retired) {
-  if (depth_) {
-    pool_->clear(retired);
-    pool_.reset();
-    depth_->trim({0, 0}, retired);
-    depth_.reset();
-  }
+  retired.take(pool_);
+  retired.take(depth_);
 }
 
 void EnvironmentTargets::prepare(const FramePlan& plan, RetireQueue& retired) {
   cached_.clear();  // until all are complete
-  std::vector<OffScreen*> targets(plan.maps.size(), nullptr);
-  for (size_t i = 0; i < plan.maps.size(); ++i) {
-    if (plan.maps[i].cacheIndex >= 0) {
-      targets[i] = std::exchange(targets_[plan.maps[i].cacheIndex], nullptr);
-    }
-  }
-  for (const OffScreen* unused : targets_) {
-    if (unused) {
-      pool_->release(*unused);
-    }
-  }
+  targets_ = ImagePool::reused(std::span(plan.maps), std::move(targets_), pool_.get());
   if (std::exchange(restart_, false)) {
     release(retired);
   }
   for (size_t i = 0; i < plan.maps.size(); ++i) {
-    if (targets[i]) {
+    if (targets_[i]) {
       continue;
     }
     if (!depth_) {
@@ -46,9 +30,8 @@ void EnvironmentTargets::prepare(const FramePlan& plan, RetireQueue& retired) {
       pool_ = std::make_unique<ImagePool>(device_, *depth_, "environment map");
     }
     const auto size = static_cast<uint32_t>(plan.maps[i].size);
-    targets[i] = &pool_->acquire({3 * size, 2 * size}, retired);
+    targets_[i] = &pool_->acquire({3 * size, 2 * size}, retired);
   }
-  targets_ = std::move(targets);
 }
 
 void EnvironmentTargets::endFrame(const FramePlan& plan, RetireQueue& retired) {
@@ -59,10 +42,6 @@ void EnvironmentTargets::endFrame(const FramePlan& plan, RetireQueue& retired) {
       release(retired);
     }
   }
-}
-
-uint64_t EnvironmentTargets::bytes() const {
-  return pool_ ? pool_->bytes() + depth_->bytes() : 0;
 }
 
 }  // namespace speculum

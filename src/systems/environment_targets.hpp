@@ -8,7 +8,7 @@ namespace speculum {
 // The targets of environment maps: six faces in each, three to a row. Nothing exists while no frame has a map.
 class EnvironmentTargets {
  public:
-  explicit EnvironmentTargets(Device& device);
+  explicit EnvironmentTargets(Device& device) : device_(device) {}
 
   // Maps that the next plan may reuse.
   std::span<const EnvironmentMap> cached() const { return cached_; }
@@ -18,7 +18,7 @@ class EnvironmentTargets {
   void prepare(const FramePlan& plan, RetireQueue& retired);
   OffScreen& operator[](size_t map) { return *targets_[map]; }
   void endFrame(const FramePlan& plan, RetireQueue& retired);
-  uint64_t bytes() const;
+  uint64_t bytes() const { return pool_ ? pool_->bytes() + depth_->bytes() : 0; }
 
  private:
   void release(RetireQueue& retired);

@@ -30,40 +30,31 @@ T readAt(const Buffer& buffer, const VkDescriptorBufferInfo& info) {
   return data;
 }
 
-uint32_t groups(uint32_t size, uint32_t group) {
-  return (size + group - 1) / group;
-}
-
 }  // namespace
 
 std::string describe(const NonFinite& found) {
   return fmt::format(
       "{}: pixel {}, {}, sample {}: radiance {}, {}, {} and disparity {} (in 16/m) are not all finite and within 0 .. "
-      "65504 "
-      "({} such samples in this pass)",
+      "65504 ({} such samples in this pass)",
       found.pass, found.x, found.y, found.sample, found.value.r, found.value.g, found.value.b, found.value.a,
       found.count);
 }
 
-FiniteWatch::FiniteWatch(Renderer& renderer)
-    : renderer_(renderer), device_(renderer.device()), pipelines_(renderer.pipelines()) {}
-
 void FiniteWatch::begin(const Frame& frame, size_t targets) {
   collect();
   if (!layout_) {
-    constexpr VkShaderStageFlags stages = VK_SHADER_STAGE_COMPUTE_BIT;
-    const std::array bindings = {DescriptorBinding{0, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, stages},
-                                 DescriptorBinding{1, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, stages},
-                                 DescriptorBinding{2, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, stages}};
-    layout_ = createDescriptorSetLayout(device_, bindings, "check finite");
+    constexpr VkDescriptorType storage = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+    layout_ = createDescriptorSetLayout(device_, {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, storage, storage},
+                                        VK_SHADER_STAGE_COMPUTE_BIT, "check finite");
   }
   Slot& slot = slots_[frame.index];
   if (slot.results.bytes() < targets * targetBytes) {
     slot.results = Buffer(device_, targets * targetBytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, BufferMemory::host,
                           "check finite " + std::to_string(frame.index));
   }
+  const gpu::CheckSearch nothing{.pixel = ~0u};
   for (size_t i = 0; i < targets; ++i) {
-    slot.results.writeObject(gpu::CheckSearch{.pixel = ~0u}, searchOf(slot.results, i).offset);
+    slot.results.write(std::as_bytes(std::span(&nothing, 1)), searchOf(slot.results, i).offset);
   }
   slot.targets.clear();
   slot.frame = frame.number;
@@ -101,7 +92,7 @@ void FiniteWatch::check(Frame& frame, const RecordedPass& pass, bool samples, Im
   };
   device_.beginLabel(frame.commands, "check " + pass.name);
   device_.barriers().record(frame.commands, BarrierKind::targetToCheck, image);
-  dispatch(false, groups(used.width, groupWidth), groups(used.height, groupHeight));
+  dispatch(false, groupCount(used.width, groupWidth), groupCount(used.height, groupHeight));
   device_.barriers().record(frame.commands, BarrierKind::checkToLookUp, search);
   dispatch(true, 1, 1);
   device_.barriers().record(frame.commands, BarrierKind::checkToWrite, image);
@@ -118,16 +109,10 @@ void FiniteWatch::check(Frame& frame, const RecordedPass& pass, OffScreen& targe
   check(frame, pass, false, target.color(), target.descriptor(), used);
 }
 
-void FiniteWatch::end(Frame& frame) {
-  Barriers::computeToHost(frame.commands);
-}
-
 void FiniteWatch::release() {
   collect();
-  for (const Slot& slot : slots_) {
-    if (slot.frame != 0) {
-      return;
-    }
+  if (std::ranges::any_of(slots_, [](const Slot& slot) { return slot.frame != 0; })) {
+    return;
   }
   pipelines_.clear();
   layout_.reset();
@@ -165,7 +150,7 @@ void FiniteWatch::read(Slot& slot) {
   if (!found.empty()) {
     // Reports only the first finding of a frame, which usually causes those that follow.
     const std::pair<PassId, bool> first(found.front().id, found.front().samples);
-    if (std::find(reported_.begin(), reported_.end(), first) == reported_.end()) {
+    if (std::ranges::find(reported_, first) == reported_.end()) {
       reported_.push_back(first);
       spdlog::error("debug.check_finite: {}", describe(found.front()));
     }

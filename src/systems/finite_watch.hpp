@@ -29,7 +29,8 @@ std::string describe(const NonFinite& found);  // one line
 // on the GPU before begin() and after release().
 class FiniteWatch {
  public:
-  explicit FiniteWatch(Renderer& renderer);
+  explicit FiniteWatch(Renderer& renderer)
+      : renderer_(renderer), device_(renderer.device()), pipelines_(renderer.pipelines()) {}
 
   // Begins a frame in which up to `targets` are checked.
   void begin(const Frame& frame, size_t targets);
@@ -41,7 +42,7 @@ class FiniteWatch {
   // Checks a target's samples, if it has any, and then their mean, which hides what is negative in one of them. Does
   // nothing in a frame that was not begun.
   void check(Frame& frame, const RecordedPass& pass, OffScreen& target, VkExtent2D used);
-  void end(Frame& frame);
+  void end(Frame& frame) { Barriers::computeToHost(frame.commands); }
   // Releases the GPU's objects as soon as the frames that were watched have finished.
   void release();
 

@@ -7,15 +7,11 @@
 namespace speculum {
 
 FrameBuffers::FrameBuffers(Device& device, std::span<const char* const> names, std::string advice, bool texels)
-    : device_(device), names_(names), advice_(std::move(advice)), texels_(texels) {
-  for (std::vector<Buffer>& buffers : buffers_) {
-    buffers.resize(names_.size());
-  }
-}
-
-uint64_t FrameBuffers::largest() const {
-  return texels_ ? largestTexelBuffer(device_) : device_.limits().maxStorageBufferRange;
-}
+    : device_(device),
+      names_(names),
+      advice_(std::move(advice)),
+      texels_(texels),
+      buffers_(framesInFlight * names.size()) {}
 
 void FrameBuffers::checkSize(size_t kind, uint64_t bytes) const {
   if (bytes > largest()) {
@@ -26,7 +22,7 @@ void FrameBuffers::checkSize(size_t kind, uint64_t bytes) const {
 
 void FrameBuffers::write(const Frame& frame, size_t kind, std::span<const std::byte> data) {
   checkSize(kind, data.size());
-  Buffer& buffer = buffers_[frame.index][kind];
+  Buffer& buffer = buffers_[indexOf(frame, kind)];
   if (!buffer || buffer.bytes() < data.size()) {
     const VkBufferUsageFlags other = texels_ ? VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT
                                              : VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT;
@@ -38,19 +34,15 @@ void FrameBuffers::write(const Frame& frame, size_t kind, std::span<const std::b
 
 uint64_t FrameBuffers::bytes() const {
   uint64_t sum = 0;
-  for (const std::vector<Buffer>& buffers : buffers_) {
-    for (const Buffer& buffer : buffers) {
-      sum += buffer.bytes();
-    }
+  for (const Buffer& buffer : buffers_) {
+    sum += buffer.bytes();
   }
   return sum;
 }
 
 void FrameBuffers::retire(RetireQueue& retired) {
-  for (std::vector<Buffer>& buffers : buffers_) {
-    for (Buffer& buffer : buffers) {
-      retired.retire(std::exchange(buffer, {}));
-    }
+  for (Buffer& buffer : buffers_) {
+    retired.take(buffer);
   }
 }
 

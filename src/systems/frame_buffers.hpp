@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <span>
 #include <string>
 #include <vector>
@@ -25,19 +24,20 @@ class FrameBuffers {
   void write(const Frame& frame, size_t kind, const std::vector<T>& data) {
     write(frame, kind, std::as_bytes(std::span(data)));
   }
-  const Buffer& buffer(const Frame& frame, size_t kind) const { return buffers_[frame.index][kind]; }
-  size_t kinds() const { return names_.size(); }
+  const Buffer& buffer(const Frame& frame, size_t kind) const { return buffers_[indexOf(frame, kind)]; }
   uint64_t bytes() const;
   void retire(RetireQueue& retired);
 
  private:
-  uint64_t largest() const;  // bytes that the device takes
+  // Bytes that the device takes.
+  uint64_t largest() const { return texels_ ? largestTexelBuffer(device_) : device_.limits().maxStorageBufferRange; }
+  size_t indexOf(const Frame& frame, size_t kind) const { return frame.index * names_.size() + kind; }
 
   Device& device_;
   std::span<const char* const> names_;
   std::string advice_;
   bool texels_;
-  std::array<std::vector<Buffer>, framesInFlight> buffers_;
+  std::vector<Buffer> buffers_;
 };
 
 }  // namespace speculum

@@ -16,9 +16,6 @@ uint32_t roundedUp(uint32_t size) {
 
 }  // namespace
 
-ImagePool::ImagePool(Device& device, SharedDepth& depth, std::string name)
-    : device_(device), depth_(depth), name_(std::move(name)) {}
-
 uint64_t ImagePool::bytes() const {
   uint64_t sum = 0;
   for (const Entry& entry : entries_) {
@@ -48,15 +45,18 @@ OffScreen& ImagePool::acquire(VkExtent2D extent, RetireQueue& retired) {
   return *best->target;
 }
 
+std::vector<ImagePool::Entry>::iterator ImagePool::entryOf(const OffScreen& target) {
+  return std::ranges::find(entries_, &target, [](const Entry& entry) { return entry.target.get(); });
+}
+
 void ImagePool::release(const OffScreen& target) {
-  const auto entry = std::ranges::find_if(entries_, [&](const Entry& e) { return e.target.get() == &target; });
-  if (entry != entries_.end()) {
+  if (const auto entry = entryOf(target); entry != entries_.end()) {
     entry->taken = false;
   }
 }
 
 std::unique_ptr<OffScreen> ImagePool::remove(const OffScreen& target) {
-  const auto entry = std::ranges::find_if(entries_, [&](const Entry& e) { return e.target.get() == &target; });
+  const auto entry = entryOf(target);
   std::unique_ptr<OffScreen> removed = std::move(entry->target);
   entries_.erase(entry);
   return removed;
@@ -65,17 +65,10 @@ std::unique_ptr<OffScreen> ImagePool::remove(const OffScreen& target) {
 void ImagePool::endFrame(RetireQueue& retired) {
   for (Entry& entry : entries_) {
     if (!entry.taken && ++entry.idleFrames > framesKept) {
-      entry.target->retire(retired);
+      retired.take(entry.target);
     }
   }
-  std::erase_if(entries_, [](const Entry& entry) { return !entry.taken && entry.idleFrames > framesKept; });
-}
-
-void ImagePool::clear(RetireQueue& retired) {
-  for (Entry& entry : entries_) {
-    entry.target->retire(retired);
-  }
-  entries_.clear();
+  std::erase_if(entries_, [](const Entry& entry) { return !entry.target; });
 }
 
 }  // namespace speculum

@@ -1,16 +1,14 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/off_screen.hpp"
 
 namespace speculum {
-
-inline uint64_t area(VkExtent2D extent) {  // texels
-  return uint64_t{extent.width} * extent.height;
-}
 
 // Pool of targets for mirror images and environment maps, which keep their samples. A pass acquires a target, which is
 // released as soon as the pass that samples it is recorded, so that a frame needs no more than the images alive at one
@@ -20,14 +18,30 @@ class ImagePool {
   static constexpr int framesKept = 30;
 
   // The debug names of targets are `name` and a number.
-  ImagePool(Device& device, SharedDepth& depth, std::string name);
+  ImagePool(Device& device, SharedDepth& depth, std::string name)
+      : device_(device), depth_(depth), name_(std::move(name)) {}
 
   // Returns a target that covers `extent` and is taken until release().
   OffScreen& acquire(VkExtent2D extent, RetireQueue& retired);
   void release(const OffScreen& target);
   std::unique_ptr<OffScreen> remove(const OffScreen& target);  // gives it away
+  // Returns, for each of `images`, the target of the cached image that it reuses, null if it is to be rendered.
+  // `targets` are those of the cached images; the others are released, to `pool`, which is null without any target.
+  template <typename Cached>
+  static std::vector<OffScreen*> reused(std::span<const Cached> images, std::vector<OffScreen*> targets,
+                                        ImagePool* pool) {
+    std::vector<OffScreen*> reused;
+    for (const Cached& image : images) {
+      reused.push_back(image.cacheIndex >= 0 ? std::exchange(targets[image.cacheIndex], nullptr) : nullptr);
+    }
+    for (const OffScreen* unused : targets) {
+      if (unused) {
+        pool->release(*unused);
+      }
+    }
+    return reused;
+  }
   void endFrame(RetireQueue& retired);
-  void clear(RetireQueue& retired);  // drops every target; none may be taken
   bool empty() const { return entries_.empty(); }
   uint64_t bytes() const;  // of all targets, without the depth
 
@@ -37,6 +51,8 @@ class ImagePool {
     bool taken = false;
     int idleFrames = 0;
   };
+
+  std::vector<Entry>::iterator entryOf(const OffScreen& target);
 
   Device& device_;
   SharedDepth& depth_;

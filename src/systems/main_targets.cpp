@@ -14,24 +14,15 @@ void MainTargets::begin(const Settings& settings, const FramePlan& plan, bool di
   const VkSampleCountFlagBits samples = device_.sampleCount(settings.view.samples);
   const bool readSamples = (settings.debug.checkFinite || plan.effects.any()) && samples != VK_SAMPLE_COUNT_1_BIT;
   if (!drawn_ || drawn_->samples() != samples || drawn_->desc().readSamples != readSamples) {
-    if (drawn_) {
-      drawn_->retire(retired);
-    }
     const OffScreenDesc desc{.name = "main view",
                              .extent = extent,
                              .samples = samples,
                              .readSamples = readSamples,
                              .role = TargetRole::main};
-    drawn_ = std::make_unique<OffScreen>(device_, desc, retired);
+    std::unique_ptr<OffScreen> before = std::exchange(drawn_, std::make_unique<OffScreen>(device_, desc, retired));
+    retired.take(before);
   }
   drawn_->resize(extent, retired);
-}
-
-void MainTargets::finish(RetireQueue& retired) {
-  if (earlier_) {
-    earlier_->retire(retired);
-    earlier_.reset();
-  }
 }
 
 }  // namespace speculum

@@ -16,7 +16,7 @@ class MainTargets {
   // Begins a picture of the plan. If the plan has tiles and drawn() is `displayed`, shown() keeps it until finish().
   void begin(const Settings& settings, const FramePlan& plan, bool displayed, RetireQueue& retired);
   // Shows the picture, whose last tile is drawn.
-  void finish(RetireQueue& retired);
+  void finish(RetireQueue& retired) { retired.take(earlier_); }
 
   OffScreen& drawn() { return *drawn_; }
   OffScreen& shown() { return earlier_ ? *earlier_ : *drawn_; }

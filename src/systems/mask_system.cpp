@@ -2,9 +2,6 @@
 
 namespace speculum {
 
-MaskSystem::MaskSystem(PipelineFactory& factory, VkDescriptorSetLayout frameLayout)
-    : frameLayout_(frameLayout), pipelines_(factory) {}
-
 uint32_t MaskSystem::record(const PassScope& scope, const FrameInfo& info, const PassData& pass) {
   if (pass.maskVertexCount == 0) {
     return 0;

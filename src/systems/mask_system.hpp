@@ -9,7 +9,8 @@ namespace speculum {
 // that nothing passes the depth test; the mask, drawn first, opens its polygon with the farthest depth.
 class MaskSystem {
  public:
-  MaskSystem(PipelineFactory& factory, VkDescriptorSetLayout frameLayout);
+  MaskSystem(PipelineFactory& factory, VkDescriptorSetLayout frameLayout)
+      : frameLayout_(frameLayout), pipelines_(factory) {}
 
   // Value that a pass clears its depth to.
   static float clearDepth(const PassData& pass) { return pass.maskVertexCount > 0 ? 1.0f : 0.0f; }

@@ -17,9 +17,8 @@ const MirrorImage* imageOf(const MirrorRange& mirror, const FrameInfo& info) {
 MirrorSystem::MirrorSystem(Device& device, Uploader& uploader, PipelineFactory& factory,
                            VkDescriptorSetLayout frameLayout)
     : device_(device), frameLayout_(frameLayout), pipelines_(factory) {
-  const DescriptorBinding binding{.type = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-                                  .stages = VK_SHADER_STAGE_FRAGMENT_BIT};
-  imageLayout_ = createDescriptorSetLayout(device, {&binding, 1}, "mirror image");
+  imageLayout_ = createDescriptorSetLayout(device, {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER},
+                                           VK_SHADER_STAGE_FRAGMENT_BIT, "mirror image");
   sampler_ = createSampler(device, {}, "no mirror image");
   const uint64_t black = 0;
   noImage_ = uploader.image(std::as_bytes(std::span(&black, 1)), {1, 1}, colorFormat, false, "no mirror image");

@@ -5,8 +5,6 @@
 
 namespace speculum {
 
-MirrorTargets::MirrorTargets(Device& device) : device_(device) {}
-
 void MirrorTargets::restart() {
   cachedImages_.clear();
   cachedTargets_.clear();
@@ -16,20 +14,11 @@ void MirrorTargets::restart() {
 // Releases cached images that the plan no longer shows; passes of this frame can use their targets at once, because
 // barriers order frames as they do passes.
 void MirrorTargets::takeCached(const FramePlan& plan) {
-  std::vector<OffScreen*> targets(plan.cached.size(), nullptr);
-  cachedDescriptors_.assign(plan.cached.size(), {});
-  for (size_t i = 0; i < plan.cached.size(); ++i) {
-    if (plan.cached[i].cacheIndex >= 0) {
-      targets[i] = std::exchange(cachedTargets_[plan.cached[i].cacheIndex], nullptr);
-      cachedDescriptors_[i] = {targets[i]->descriptor(), targets[i]->samples()};
-    }
+  cachedTargets_ = ImagePool::reused(std::span(plan.cached), std::move(cachedTargets_), pool_.get());
+  cachedDescriptors_.clear();
+  for (const OffScreen* target : cachedTargets_) {
+    cachedDescriptors_.push_back(target ? MirrorImage{target->descriptor(), target->samples()} : MirrorImage{});
   }
-  for (const OffScreen* unused : cachedTargets_) {
-    if (unused) {
-      pool_->release(*unused);
-    }
-  }
-  cachedTargets_ = std::move(targets);
   cachedImages_.clear();  // an unfinished picture offers none; end() fills it
 }
 
@@ -38,19 +27,12 @@ void MirrorTargets::takeWatched(const FramePlan& plan, RetireQueue& retired) {
   OffScreen* image = std::exchange(watchedImage_, nullptr);
   const bool stays = plan.tiles || (plan.mainReused && watched_);
   if (!stays) {
-    releaseEarlier(retired);
+    retired.take(earlierWatched_);
   }
   if (image && stays && !earlierWatched_) {
     earlierWatched_ = pool_->remove(*image);
   } else if (image) {
     pool_->release(*image);
-  }
-}
-
-void MirrorTargets::releaseEarlier(RetireQueue& retired) {
-  if (earlierWatched_) {
-    earlierWatched_->retire(retired);
-    earlierWatched_.reset();
   }
 }
 
@@ -61,8 +43,7 @@ void MirrorTargets::begin(const FramePlan& plan, VkSampleCountFlagBits samples, 
   takeCached(plan);
   const bool needless = plan.passes.empty() && plan.cached.empty();
   if (pool_ && (restart_ || depths_.front().image->samples() != samples || needless)) {
-    pool_->clear(retired);
-    pool_.reset();
+    retired.take(pool_);
     dropDepth(0, retired);
   }
   restart_ = false;
@@ -114,7 +95,7 @@ void MirrorTargets::releaseShown(const FramePlan& plan, const PlannedPass& pass)
 
 void MirrorTargets::dropDepth(size_t from, RetireQueue& retired) {
   for (size_t i = from; i < depths_.size(); ++i) {
-    depths_[i].image->trim({0, 0}, retired);
+    retired.take(depths_[i].image);
   }
   depths_.resize(from);
 }
@@ -126,11 +107,10 @@ void MirrorTargets::end(const FramePlan& plan, RetireQueue& retired) {
     }
   }
   if (!plan.mainReused) {
-    if (watched_ &&
-        std::find(cachedTargets_.begin(), cachedTargets_.end(), targets_[*watched_]) == cachedTargets_.end()) {
+    if (watched_ && std::ranges::find(cachedTargets_, targets_[*watched_]) == cachedTargets_.end()) {
       watchedImage_ = targets_[*watched_];
     }
-    releaseEarlier(retired);
+    retired.take(earlierWatched_);
   }
   cachedImages_ = plan.cached;
   if (!pool_) {

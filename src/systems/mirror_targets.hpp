@@ -12,15 +12,15 @@ namespace speculum {
 // until the next frame. Nothing exists while no frame has a mirror image.
 class MirrorTargets {
  public:
-  explicit MirrorTargets(Device& device);
+  explicit MirrorTargets(Device& device) : device_(device) {}
 
   // Images that the next plan may reuse.
   const std::vector<CachedImage>& cachedImages() const { return cachedImages_; }
   void restart();  // drops the cached images and, in the next frame, every target
 
   // Begins the plan's picture and takes over the cached images that it reuses. `watched` is the pass that the debug
-  // view shows: its image is not released before the next picture begins, or ends if several frames draw that; nor if
-  // the picture is shown again.
+  // view shows. Its image stays until the next picture begins, or ends if several frames draw that one, and for as long
+  // as the picture is shown again.
   void begin(const FramePlan& plan, VkSampleCountFlagBits samples, std::optional<int> watched, RetireQueue& retired);
   // Returns targets for the passes of a range, in order, each with a depth image of its own. The images that the range
   // looks up stay untouched.
@@ -30,8 +30,8 @@ class MirrorTargets {
   void end(const FramePlan& plan, RetireQueue& retired);
 
   OffScreen& operator[](size_t pass) { return *targets_[pass]; }
-  // Image of the watched pass in the picture before, while tiles of one are drawn or that is shown again; null if there
-  // is none.
+  // Image of the watched pass in the last complete picture. It exists while tiles of the next one are drawn, or while
+  // that picture is shown again; else null.
   OffScreen* earlierWatched() { return earlierWatched_.get(); }
   std::span<const MirrorImage> images() const { return images_; }  // of plan.passes, by index; set once acquired
   // Parallel to FramePlan::cached; set where an earlier frame rendered the image.
@@ -47,7 +47,6 @@ class MirrorTargets {
   };
   void takeCached(const FramePlan& plan);
   void takeWatched(const FramePlan& plan, RetireQueue& retired);
-  void releaseEarlier(RetireQueue& retired);
   bool isNeededLater(const FramePlan& plan, int pass) const;
   SharedDepth& depth(size_t place, VkExtent2D needed);
   void fitDepth(RetireQueue& retired);

@@ -2,7 +2,6 @@
 
 #include <map>
 #include <memory>
-#include <utility>
 
 #include "core/pipeline.hpp"
 #include "systems/effect_ledger.hpp"

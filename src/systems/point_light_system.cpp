@@ -2,9 +2,6 @@
 
 namespace speculum {
 
-PointLightSystem::PointLightSystem(PipelineFactory& factory, VkDescriptorSetLayout frameLayout)
-    : frameLayout_(frameLayout), pipelines_(factory) {}
-
 uint32_t PointLightSystem::record(const PassScope& scope, const FrameInfo& info, const PassData& pass) {
   if (pass.glyphCount == 0) {
     return 0;

@@ -9,7 +9,8 @@ namespace speculum {
 // invocation per sample where the device can, so that their outlines are as smooth as those of triangles.
 class PointLightSystem {
  public:
-  PointLightSystem(PipelineFactory& factory, VkDescriptorSetLayout frameLayout);
+  PointLightSystem(PipelineFactory& factory, VkDescriptorSetLayout frameLayout)
+      : frameLayout_(frameLayout), pipelines_(factory) {}
 
   uint32_t record(const PassScope& scope, const FrameInfo& info, const PassData& pass);
   // Drops pipelines that have not been used for some frames. `stays` prevents that, while cached images show glyphs.

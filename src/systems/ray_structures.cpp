@@ -12,13 +12,13 @@ namespace {
 
 // Updates in a row before a new build: they keep the hierarchy, whose boxes overlap more and more while things move.
 constexpr int mostUpdates = 60;
+constexpr VkBuildAccelerationStructureFlagsKHR bottomFlags = VK_BUILD_ACCELERATION_STRUCTURE_PREFER_FAST_TRACE_BIT_KHR |
+                                                             VK_BUILD_ACCELERATION_STRUCTURE_ALLOW_COMPACTION_BIT_KHR;
 
 StructureInput trianglesInput(const TraceScene& trace, const TraceScene::MeshRange& mesh) {
   static_assert(offsetof(gpu::TraceTriangle, b) == 16 && offsetof(gpu::TraceTriangle, c) == 32 &&
                 sizeof(gpu::TraceTriangle) == 48);
-  StructureInput input{.flags = VK_BUILD_ACCELERATION_STRUCTURE_PREFER_FAST_TRACE_BIT_KHR |
-                                VK_BUILD_ACCELERATION_STRUCTURE_ALLOW_COMPACTION_BIT_KHR,
-                       .count = mesh.triangles};
+  StructureInput input{.flags = bottomFlags, .count = mesh.triangles};
   input.geometry.geometryType = VK_GEOMETRY_TYPE_TRIANGLES_KHR;
   input.geometry.geometry.triangles = {
       .sType = VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_TRIANGLES_DATA_KHR,
@@ -31,9 +31,7 @@ StructureInput trianglesInput(const TraceScene& trace, const TraceScene::MeshRan
 }
 
 StructureInput boxInput(const Buffer& box) {
-  StructureInput input{.flags = VK_BUILD_ACCELERATION_STRUCTURE_PREFER_FAST_TRACE_BIT_KHR |
-                                VK_BUILD_ACCELERATION_STRUCTURE_ALLOW_COMPACTION_BIT_KHR,
-                       .count = 1};
+  StructureInput input{.flags = bottomFlags, .count = 1};
   input.geometry.geometryType = VK_GEOMETRY_TYPE_AABBS_KHR;
   input.geometry.geometry.aabbs = {.sType = VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_AABBS_DATA_KHR,
                                    .data = {box.address()},
@@ -92,9 +90,8 @@ double reachOf(const SceneState& state) {
 
 bool sameStructures(const std::vector<VkAccelerationStructureInstanceKHR>& a,
                     const std::vector<VkAccelerationStructureInstanceKHR>& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& x, const auto& y) {
-    return x.accelerationStructureReference == y.accelerationStructureReference;
-  });
+  constexpr auto reference = &VkAccelerationStructureInstanceKHR::accelerationStructureReference;
+  return std::ranges::equal(a, b, {}, reference, reference);
 }
 
 bool sameBytes(const std::vector<VkAccelerationStructureInstanceKHR>& a,
@@ -125,7 +122,7 @@ RayStructures::RayStructures(Device& device, Uploader& uploader, const TraceScen
 bool RayStructures::canHold(const SceneState& state) {
   constexpr size_t mostIndices = 1 << 24;
   return state.instances.size() < mostIndices && state.mirrors.size() < mostIndices &&
-         std::all_of(state.instances.begin(), state.instances.end(), [](const InstanceState& instance) {
+         std::ranges::all_of(state.instances, [](const InstanceState& instance) {
            const double volume = std::abs(glm::determinant(instance.worldFromMesh.linear));
            return volume > 1e-30 && volume < 1e30;
          });
@@ -194,8 +191,8 @@ void RayStructures::build(const Frame& frame, const SceneState& state) {
 }
 
 uint32_t RayStructures::count() const {
-  return static_cast<uint32_t>(
-      bottom_.size() + std::count_if(tops_.begin(), tops_.end(), [](const Top& top) { return top.capacity > 0; }));
+  return static_cast<uint32_t>(bottom_.size()) +
+         static_cast<uint32_t>(std::ranges::count_if(tops_, [](const Top& top) { return top.capacity > 0; }));
 }
 
 uint64_t RayStructures::bytes() const {

@@ -11,10 +11,6 @@
 
 namespace speculum {
 
-RenderSystem::RenderSystem(PipelineFactory& factory, VkDescriptorSetLayout frameLayout,
-                           VkDescriptorSetLayout textureLayout)
-    : frameLayout_(frameLayout), textureLayout_(textureLayout), objects_(factory), skies_(factory) {}
-
 // A curved mirror that looks up a map has rays only where light falls on the layer under its reflection.
 bool RenderSystem::defers(const FrameInfo& info, const Batch& batch) {
   if (batch.environment) {

@@ -15,7 +15,8 @@ void bindBuffers(VkCommandBuffer commands, const FrameInfo& info, const Batch& b
 // Draws the scene's objects and, where nothing was drawn, its sky.
 class RenderSystem {
  public:
-  RenderSystem(PipelineFactory& factory, VkDescriptorSetLayout frameLayout, VkDescriptorSetLayout textureLayout);
+  RenderSystem(PipelineFactory& factory, VkDescriptorSetLayout frameLayout, VkDescriptorSetLayout textureLayout)
+      : frameLayout_(frameLayout), textureLayout_(textureLayout), objects_(factory), skies_(factory) {}
 
   // Returns the number of draws. Objects whose light takes rays are drawn as identifiers.
   uint32_t record(const PassScope& scope, const FrameInfo& info, const PassData& pass);

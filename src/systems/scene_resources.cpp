@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <glm/gtc/packing.hpp>
-#include <utility>
 
 #include "geometry/mesh_levels.hpp"
 #include "systems/effect_ledger.hpp"
@@ -82,9 +81,8 @@ std::vector<GpuVertex> gpuVertices(const std::vector<Vertex>& vertices) {
 
 SceneResources::SceneResources(Device& device, Uploader& uploader, const Scene& scene)
     : device_(device), uploader_(uploader), scene_(scene), descriptors_(device) {
-  const DescriptorBinding binding{.type = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-                                  .stages = VK_SHADER_STAGE_FRAGMENT_BIT};
-  textureLayout_ = createDescriptorSetLayout(device, {&binding, 1}, "texture");
+  textureLayout_ = createDescriptorSetLayout(device, {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER},
+                                             VK_SHADER_STAGE_FRAGMENT_BIT, "texture");
   sampler_ = createSampler(device, {.addressMode = VK_SAMPLER_ADDRESS_MODE_REPEAT}, "texture");
   noTexture_ = upload(Texture{.width = 1, .height = 1, .texels = {glm::vec3(1.0f)}}, "no texture");
   noTextureSet_ = descriptors_.allocate(textureLayout_.get());
@@ -100,7 +98,7 @@ void SceneResources::upload(Frame& frame, bool enabled, bool drawn) {
     check(vkQueueWaitIdle(device_.queue()), "wait for the queue");
   }
   if (!materials_ || textured != textured_) {
-    frame.retired->retire(std::exchange(materials_, {}));
+    frame.retired->take(materials_);
     createMaterials(textured);
   }
   if (drawn && textures_.empty()) {
@@ -149,12 +147,9 @@ void SceneResources::createTextures() {
 void SceneResources::createMeshes() {
   for (const Mesh& mesh : scene_.meshes) {
     const std::string name = mesh.source.filename().string();
-    const std::vector<GpuVertex> vertices = gpuVertices(mesh.vertices);
     GpuMesh& gpu = meshes_.emplace_back();
-    gpu.vertices =
-        uploader_.buffer(std::span<const GpuVertex>(vertices), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, name + " vertices");
-    gpu.indices =
-        uploader_.buffer(std::span<const uint32_t>(mesh.indices), VK_BUFFER_USAGE_INDEX_BUFFER_BIT, name + " indices");
+    gpu.vertices = uploader_.buffer(gpuVertices(mesh.vertices), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, name + " vertices");
+    gpu.indices = uploader_.buffer(mesh.indices, VK_BUFFER_USAGE_INDEX_BUFFER_BIT, name + " indices");
   }
 }
 
@@ -167,9 +162,9 @@ void SceneResources::prepareLevels(Frame& frame, std::span<const int> drawn) {
     }
   }
   for (GpuMesh& mesh : meshes_) {
-    if (idleLevelFrames_ > idleFramesKept && mesh.levelIndices) {
-      frame.retired->retire(std::exchange(mesh.levelVertices, {}));
-      frame.retired->retire(std::exchange(mesh.levelIndices, {}));
+    if (idleLevelFrames_ > idleFramesKept) {
+      frame.retired->take(mesh.levelVertices);
+      frame.retired->take(mesh.levelIndices);
     }
   }
 }
@@ -178,10 +173,9 @@ void SceneResources::createLevels(size_t mesh) {
   const MeshLevels& levels = levelsOf(scene_.meshes[mesh]);
   const std::string name = scene_.meshes[mesh].source.filename().string();
   GpuMesh& gpu = meshes_[mesh];
-  gpu.levelVertices = uploader_.buffer(std::span<const GpuVertex>(gpuVertices(levels.vertices)),
-                                       VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, name + " level vertices");
-  gpu.levelIndices = uploader_.buffer(std::span<const uint32_t>(levels.indices), VK_BUFFER_USAGE_INDEX_BUFFER_BIT,
-                                      name + " level indices");
+  gpu.levelVertices =
+      uploader_.buffer(gpuVertices(levels.vertices), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, name + " level vertices");
+  gpu.levelIndices = uploader_.buffer(levels.indices, VK_BUFFER_USAGE_INDEX_BUFFER_BIT, name + " level indices");
 }
 
 // Makes the materials of all parts, in the order of the meshes.
@@ -193,8 +187,7 @@ void SceneResources::createMaterials(bool textured) {
     }
   }
   materials.resize(std::max<size_t>(materials.size(), 1));
-  materials_ =
-      uploader_.buffer(std::span<const gpu::MaterialData>(materials), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "materials");
+  materials_ = uploader_.buffer(materials, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "materials");
   textured_ = textured;
 }
 

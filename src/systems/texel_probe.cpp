@@ -6,16 +6,12 @@
 
 namespace speculum {
 
-TexelProbe::TexelProbe(Renderer& renderer)
-    : renderer_(renderer), device_(renderer.device()), pipelines_(renderer.pipelines()) {}
-
 void TexelProbe::probe(Frame& frame, Image& image, const VkDescriptorImageInfo& descriptor, const glm::ivec2& texel) {
   collect();
   if (!layout_) {
-    constexpr VkShaderStageFlags stages = VK_SHADER_STAGE_COMPUTE_BIT;
-    const std::array bindings = {DescriptorBinding{0, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, stages},
-                                 DescriptorBinding{1, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, stages}};
-    layout_ = createDescriptorSetLayout(device_, bindings, "probe texel");
+    layout_ = createDescriptorSetLayout(device_,
+                                        {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
+                                        VK_SHADER_STAGE_COMPUTE_BIT, "probe texel");
   }
   Slot& slot = slots_[frame.index];
   if (!slot.result) {
@@ -50,7 +46,7 @@ void TexelProbe::probe(Frame& frame, Image& image, const VkDescriptorImageInfo& 
 void TexelProbe::release() {
   collect();
   value_.reset();
-  if (std::any_of(slots_.begin(), slots_.end(), [](const Slot& slot) { return slot.frame != 0; })) {
+  if (std::ranges::any_of(slots_, [](const Slot& slot) { return slot.frame != 0; })) {
     return;
   }
   pipelines_.clear();

@@ -13,7 +13,8 @@ namespace speculum {
 // Reads a texel of a target back from the GPU. Nothing exists on the GPU before probe() and after release().
 class TexelProbe {
  public:
-  explicit TexelProbe(Renderer& renderer);
+  explicit TexelProbe(Renderer& renderer)
+      : renderer_(renderer), device_(renderer.device()), pipelines_(renderer.pipelines()) {}
 
   // Reads a texel of a color target or a depth that can be sampled; `descriptor` is the image's. Its layout stays.
   void probe(Frame& frame, Image& image, const VkDescriptorImageInfo& descriptor, const glm::ivec2& texel);

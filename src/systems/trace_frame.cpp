@@ -54,14 +54,6 @@ uint32_t layersOf(const MirrorState& mirror) {
   return half(mirror.frontLayer) | half(mirror.backLayer) << 16;
 }
 
-template <typename T>
-void retireIfAny(std::optional<T>& object, RetireQueue& retired) {
-  if (object) {
-    retired.retire(std::move(*object));
-    object.reset();
-  }
-}
-
 }  // namespace
 
 TraceFrame::TraceFrame(Device& device, Uploader& uploader, const Scene& scene)
@@ -93,8 +85,8 @@ void TraceFrame::create() {
 }
 
 void TraceFrame::release(RetireQueue& retired) {
-  retireIfAny(structures_, retired);
-  retireIfAny(traceScene_, retired);
+  retired.take(structures_);
+  retired.take(traceScene_);
   buffers_.retire(retired);
 }
 
@@ -160,7 +152,7 @@ void TraceFrame::prepareStructures(Frame& frame, const SceneState& state, RayMet
   rays_ = traces ? chooseRays(state, method) : RayUse{};
   if (!rays_.hardware) {
     if (traces || ++structureIdleFrames_ > idleFramesKept) {
-      retireIfAny(structures_, *frame.retired);
+      frame.retired->take(structures_);
     }
     return;
   }
@@ -173,7 +165,7 @@ void TraceFrame::prepareStructures(Frame& frame, const SceneState& state, RayMet
     structures_->build(frame, state);
   } catch (const OutOfMemoryError&) {
     refused_ = true;
-    retireIfAny(structures_, *frame.retired);
+    frame.retired->take(structures_);
     rays_ = chooseRays(state, method);
   }
 }

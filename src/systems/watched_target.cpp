@@ -15,12 +15,6 @@ WatchedTarget::Target targetOf(const FramePlan& plan, const DebugView& debug) {
   return {debug.pass, view.path, debug.kind, {view.rect.width, view.rect.height}, plan.projection.near};
 }
 
-void retire(Image& image, RetireQueue& retired) {
-  if (image) {
-    retired.retire(std::exchange(image, Image()));
-  }
-}
-
 }  // namespace
 
 void WatchedTarget::begin(const FramePlan& plan, const std::optional<DebugView>& debug, RetireQueue& retired) {
@@ -49,7 +43,7 @@ void WatchedTarget::prepare(const FramePlan& plan, size_t index, PassDesc& pass,
   }
   const bool divided = plan.tiles.has_value();
   if (!divided) {
-    retire(nextDepth_, retired);
+    retired.take(nextDepth_);
   }
   Image& image = divided ? nextDepth_ : depth_;
   // The depth image is as large as the color image, because a framebuffer has one size.
@@ -57,7 +51,7 @@ void WatchedTarget::prepare(const FramePlan& plan, size_t index, PassDesc& pass,
   const VkExtent2D has = image.extent();
   const VkSampleCountFlagBits samples = pass.targets.samples();
   if (!image || image.samples() != samples || has.width < wanted.width || has.height < wanted.height) {
-    retire(image, retired);
+    retired.take(image);
     image = Image(device_, {.extent = wanted,
                             .format = depthFormat,
                             .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
@@ -74,7 +68,7 @@ void WatchedTarget::prepare(const FramePlan& plan, size_t index, PassDesc& pass,
 void WatchedTarget::finish(const FramePlan& plan, VkCommandBuffer commands, RetireQueue& retired) {
   if (watched_ && watched_->kind == TargetKind::depth && !plan.mainReused) {
     if (nextDepth_) {
-      retire(depth_, retired);
+      retired.take(depth_);
       depth_ = std::exchange(nextDepth_, Image());
     }
     if (depth_) {
@@ -94,11 +88,9 @@ bool WatchedTarget::keeps(const std::vector<int>& path, TargetKind kind) const {
 }
 
 void WatchedTarget::releaseDepth(RetireQueue& retired) {
-  if (sampler_) {
-    retire(depth_, retired);
-    retire(nextDepth_, retired);
-    retired.retire(std::exchange(sampler_, SamplerHandle()));
-  }
+  retired.take(depth_);
+  retired.take(nextDepth_);
+  retired.take(sampler_);
 }
 
 }  // namespace speculum
