@@ -11,16 +11,16 @@ namespace {
 
 // Distance in bytes between results of targets: no device requires a larger alignment of descriptor offsets.
 constexpr VkDeviceSize resultStride = 256;
-constexpr VkDeviceSize targetBytes = 2 * resultStride;
+constexpr VkDeviceSize targetResultBytes = 2 * resultStride;
 constexpr uint32_t groupWidth = 16;
 constexpr uint32_t groupHeight = 8;
 
 VkDescriptorBufferInfo searchOf(const Buffer& buffer, size_t target) {
-  return {buffer.get(), target * targetBytes, sizeof(gpu::CheckSearch)};
+  return {buffer.get(), target * targetResultBytes, sizeof(gpu::CheckSearch)};
 }
 
 VkDescriptorBufferInfo foundOf(const Buffer& buffer, size_t target) {
-  return {buffer.get(), target * targetBytes + resultStride, sizeof(gpu::CheckFound)};
+  return {buffer.get(), target * targetResultBytes + resultStride, sizeof(gpu::CheckFound)};
 }
 
 template <typename T>
@@ -48,8 +48,8 @@ void FiniteWatch::begin(const Frame& frame, size_t targets) {
                                         VK_SHADER_STAGE_COMPUTE_BIT, "check finite");
   }
   Slot& slot = slots_[frame.index];
-  if (slot.results.bytes() < targets * targetBytes) {
-    slot.results = Buffer(device_, targets * targetBytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, BufferMemory::host,
+  if (slot.results.bytes() < targets * targetResultBytes) {
+    slot.results = Buffer(device_, targets * targetResultBytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, BufferMemory::host,
                           "check finite " + std::to_string(frame.index));
   }
   const gpu::CheckSearch nothing{.pixel = ~0u};
