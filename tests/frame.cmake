@@ -3,5 +3,3 @@ speculum_test(frame_tests
                       frame_memory.cpp frame_depth.cpp frame_skipping.cpp frame_clusters.cpp frame_levels.cpp
                       frame_pass_range.cpp frame_picture_tiles.cpp frame_occlusion.cpp occluder_shapes.cpp reference_scenes.cpp frame_limits.cpp
               LIBRARIES frame ext::rapidcheck)
-# Each file has a planOf() or a room() of its own.
-set_target_properties(frame_tests PROPERTIES UNITY_BUILD OFF)

@@ -21,12 +21,12 @@ void addBody(Scene& scene, SceneState& state, const glm::dvec3& center, double r
   state.instances.push_back(instance);
 }
 
-FramePlan planOf(const Scene& scene, const SceneState& state) {
+FramePlan depthPlan(const Scene& scene, const SceneState& state) {
   return planFrame(scene, state, Settings(), 640, 360);
 }
 
 std::optional<DepthReadout> readoutOf(const Scene& scene, const SceneState& state) {
-  const FramePlan plan = planOf(scene, state);
+  const FramePlan plan = depthPlan(scene, state);
   return depthReadout(plan.passes.at(0), plan.projection, scene, state);
 }
 
@@ -49,7 +49,7 @@ TEST(DepthReadout, BodiesCountWhereTheyReachTheView) {
   Scene scene = mirrorScene();
   SceneState state = evaluate(scene, 0.0);
   addBody(scene, state, {40, 0, 10}, 35.0);
-  const FramePlan plan = planOf(scene, state);
+  const FramePlan plan = depthPlan(scene, state);
   ASSERT_EQ(plan.passes.at(0).instances.size(), 1u);
   const auto farthest = farthestVisible(plan.passes[0], plan.projection, scene, state);
   ASSERT_TRUE(farthest);
@@ -76,7 +76,7 @@ TEST(DepthReadout, MirrorsAndGlyphsCount) {
   scene.mirrors[1].position = {0, 0, 5};
   scene.mirrors[1].rotation = {0, 180, 0};
   const SceneState state = evaluate(scene, 0.0);
-  const FramePlan plan = planOf(scene, state);
+  const FramePlan plan = depthPlan(scene, state);
   const auto direct = std::ranges::find(plan.passes, 0, &PlannedPass::depth);
   const auto readout = depthReadout(*direct, plan.projection, scene, state);
   ASSERT_TRUE(readout);

@@ -18,7 +18,7 @@ enum { ball, wall, box };  // objects
 
 // A curved mirror before the camera, a wall 4 m to its right whose near face is at x = 3.5, and a box behind the
 // camera.
-Scene room() {
+Scene ballRoom() {
   Scene scene = testing_support::sceneWith({});
   scene.meshes = {testing_support::cube(0.5, 0.9)};
   scene.objects = {objectAt({0, 0, -4}), objectAt({4, 0, -4}, {1, 8, 8}), objectAt({0, 0, 6})};
@@ -28,9 +28,11 @@ Scene room() {
   return scene;
 }
 
-class Frames : public testing_support::PlanSequence {
+class MapFrames : public testing_support::PlanSequence {
  public:
-  explicit Frames(Scene s) : PlanSequence(std::move(s)) { settings.effects.curvedLookup = CurvedLookup::environment; }
+  explicit MapFrames(Scene s) : PlanSequence(std::move(s)) {
+    settings.effects.curvedLookup = CurvedLookup::environment;
+  }
   // Maps that the next frame renders.
   int rendered() {
     next();
@@ -39,7 +41,7 @@ class Frames : public testing_support::PlanSequence {
 };
 
 TEST(EnvironmentMap, ExistsWhereACurvedMirrorIsDrawn) {
-  Frames frames(room());
+  MapFrames frames(ballRoom());
   ASSERT_EQ(frames.next().maps.size(), 1u);
   EXPECT_EQ(frames.plan.maps[0].name, "object 'ball'");
   EXPECT_EQ(frames.plan.maps[0].object, ball);
@@ -56,7 +58,7 @@ TEST(EnvironmentMap, ExistsWhereACurvedMirrorIsDrawn) {
 }
 
 TEST(EnvironmentMap, NeedsNoRays) {
-  Frames frames(room());
+  MapFrames frames(ballRoom());
   frames.next();
   const SceneState state = evaluate(frames.scene, 0.0);
   EXPECT_EQ(frames.plan.effects.curved, "object 'ball'");
@@ -69,7 +71,7 @@ TEST(EnvironmentMap, NeedsNoRays) {
 
 // Every direction lies in a face that draws what stands there. No face draws the mirror itself.
 TEST(EnvironmentMap, FacesCoverAllDirections) {
-  Frames frames(room());
+  MapFrames frames(ballRoom());
   for (int i = 0; i < 40; ++i) {
     const double angle = 2.399963 * i;  // the golden angle: evenly over the sphere
     const double y = 1.0 - 2.0 * (i + 0.5) / 40.0;
@@ -97,7 +99,7 @@ TEST(EnvironmentMap, FacesCoverAllDirections) {
 }
 
 TEST(EnvironmentMap, BoxReachesTheNearestFacesAround) {
-  Frames frames(room());
+  MapFrames frames(ballRoom());
   const EnvironmentMap& map = frames.next().maps.at(0);
   EXPECT_NEAR(map.high.x, 3.5, 1e-12) << "the wall's near face";
   EXPECT_NEAR(map.high.z, 5.5, 1e-12) << "the box's";
@@ -109,7 +111,7 @@ TEST(EnvironmentMap, BoxReachesTheNearestFacesAround) {
 }
 
 TEST(EnvironmentMap, IsRenderedWhenItsContentChanged) {
-  Frames frames(room());
+  MapFrames frames(ballRoom());
   EXPECT_EQ(frames.rendered(), 1);
   EXPECT_EQ(frames.rendered(), 0);
   const uint64_t serial = frames.plan.maps[0].serial;
@@ -135,9 +137,9 @@ TEST(EnvironmentMap, IsRenderedWhenItsContentChanged) {
 }
 
 TEST(EnvironmentMap, TakesTurnsWithAnInterval) {
-  Scene scene = room();
+  Scene scene = ballRoom();
   scene.objects[ball].copies = {.count = 4, .step = {0, 0.6, 0}};
-  Frames frames(scene);
+  MapFrames frames(scene);
   frames.settings.effects.environmentInterval = 4;
   for (const int size : {64, 32}) {
     frames.settings.effects.environmentSize = size;
@@ -151,10 +153,10 @@ TEST(EnvironmentMap, TakesTurnsWithAnInterval) {
 
 // An image that shows a map is as old as the map.
 TEST(EnvironmentMap, ImagesThatShowItAreRenderedToo) {
-  Scene scene = room();
+  Scene scene = ballRoom();
   scene.mirrors = {testing_support::wall({0, -2, -4}, 0, {6, 6})};
   scene.mirrors[0].rotation = {-90, 0, 0};
-  Frames frames(scene);
+  MapFrames frames(scene);
   frames.settings.effects.environmentInterval = 3;
   frames.next();
   ASSERT_EQ(frames.plan.passes.size(), 1u);
@@ -168,9 +170,9 @@ TEST(EnvironmentMap, ImagesThatShowItAreRenderedToo) {
 }
 
 TEST(EnvironmentMap, OnlyTheWidestMirrorsHaveOne) {
-  Scene scene = room();
+  Scene scene = ballRoom();
   scene.objects[ball].copies = {.count = 50, .step = {0, 0, -0.3}};
-  Frames frames(scene);
+  MapFrames frames(scene);
   ASSERT_EQ(frames.next().maps.size(), mostEnvironmentMaps);
   for (const EnvironmentMap& map : frames.plan.maps) {
     EXPECT_LT(map.copy, static_cast<int>(mostEnvironmentMaps)) << "the nearest";
@@ -178,7 +180,7 @@ TEST(EnvironmentMap, OnlyTheWidestMirrorsHaveOne) {
 }
 
 TEST(EnvironmentMap, MemoryIncludesItAndLowersIt) {
-  Frames frames(room());
+  MapFrames frames(ballRoom());
   frames.next();
   FramePlan without = frames.plan;
   without.maps.clear();

@@ -21,7 +21,7 @@ Scene sceneOf(const std::vector<double>& distances, double scale = 0.5) {
   return scene;
 }
 
-FramePlan planOf(const Scene& scene, double meshError, std::vector<std::pair<std::string, std::string>> more = {}) {
+FramePlan levelPlan(const Scene& scene, double meshError, std::vector<std::pair<std::string, std::string>> more = {}) {
   Settings settings = settingsOf(scene);
   settings.reflection.meshError = meshError;
   for (const auto& [key, value] : more) {
@@ -31,7 +31,7 @@ FramePlan planOf(const Scene& scene, double meshError, std::vector<std::pair<std
 }
 
 TEST(MeshError, ZeroDrawsAllTriangles) {
-  const FramePlan plan = planOf(sceneOf({12, 60}), 0.0);
+  const FramePlan plan = levelPlan(sceneOf({12, 60}), 0.0);
   ASSERT_EQ(plan.passes.size(), 1u);
   EXPECT_EQ(plan.passes[0].instances.size(), 2u);
   EXPECT_TRUE(plan.passes[0].simplified.empty());
@@ -42,7 +42,7 @@ TEST(MeshError, LevelsGrowWithDistanceAndError) {
   const Scene scene = sceneOf({12, 25, 50, 100, 200});
   std::vector<int> before(5, -1);
   for (const double error : {0.125, 0.25, 0.5, 1.0, 2.0, 4.0}) {
-    const FramePlan plan = planOf(scene, error);
+    const FramePlan plan = levelPlan(scene, error);
     ASSERT_EQ(plan.passes.size(), 1u);
     EXPECT_TRUE(plan.main.simplified.empty()) << "what is seen directly is exact";
     for (int i = 0; i < 5; ++i) {
@@ -56,17 +56,17 @@ TEST(MeshError, LevelsGrowWithDistanceAndError) {
       EXPECT_GT(before[2], before[0]);
     }
   }
-  EXPECT_EQ(meshesWithLevels(planOf(scene, 4.0), evaluate(scene, 0.0)), std::vector{0});
+  EXPECT_EQ(meshesWithLevels(levelPlan(scene, 4.0), evaluate(scene, 0.0)), std::vector{0});
 }
 
 TEST(MeshError, MainViewHasItsOwn) {
   Scene scene = sceneOf({12, 25, 50, 100, 200});
-  EXPECT_TRUE(planOf(scene, 0.0, {{"view.mesh_error", "1"}}).passes.at(0).simplified.empty());
+  EXPECT_TRUE(levelPlan(scene, 0.0, {{"view.mesh_error", "1"}}).passes.at(0).simplified.empty());
   scene.camera.target = {0, 0, 10};
-  const FramePlan plan = planOf(scene, 0.0, {{"view.mesh_error", "1"}});
+  const FramePlan plan = levelPlan(scene, 0.0, {{"view.mesh_error", "1"}});
   EXPECT_FALSE(plan.main.simplified.empty());
   EXPECT_EQ(meshesWithLevels(plan, evaluate(scene, 0.0)), std::vector{0});
-  EXPECT_TRUE(planOf(scene, 0.0, {{"view.mesh_error", "1"}, {"reflection.clip", "none"}}).main.simplified.empty());
+  EXPECT_TRUE(levelPlan(scene, 0.0, {{"view.mesh_error", "1"}, {"reflection.clip", "none"}}).main.simplified.empty());
 }
 
 TEST(MeshError, EveryLevelKeepsTheBound) {
@@ -74,7 +74,7 @@ TEST(MeshError, EveryLevelKeepsTheBound) {
   const SceneState state = evaluate(scene, 0.0);
   int simplified = 0;
   for (const double error : {0.25, 1.0, 4.0}) {
-    const FramePlan plan = planOf(scene, error);
+    const FramePlan plan = levelPlan(scene, error);
     const PlannedPass& pass = plan.passes[0];
     for (const SimplifiedInstance& s : pass.simplified) {
       const MeshLevel& level = levelsOf(scene.meshes[0]).levels[s.level];
@@ -89,7 +89,7 @@ TEST(MeshError, EveryLevelKeepsTheBound) {
 TEST(MeshError, FinerImagesShowMore) {
   const Scene scene = sceneOf({40});
   const auto level = [&](const char* scale) {
-    return levelOf(planOf(scene, 0.5, {{"reflection.scale", scale}}).passes[0], 0);
+    return levelOf(levelPlan(scene, 0.5, {{"reflection.scale", scale}}).passes[0], 0);
   };
   EXPECT_GT(level("0.25"), level("1"));
   EXPECT_GT(level("1"), level("4"));
@@ -97,14 +97,14 @@ TEST(MeshError, FinerImagesShowMore) {
 
 TEST(MeshError, TracedRaysKeepAllTriangles) {
   Scene scene = sceneOf({30, 60});
-  EXPECT_FALSE(planOf(scene, 2.0).passes[0].simplified.empty());
+  EXPECT_FALSE(levelPlan(scene, 2.0).passes[0].simplified.empty());
   scene.lights[0].castsShadow = true;
-  EXPECT_TRUE(planOf(scene, 2.0).passes[0].simplified.empty());
-  EXPECT_FALSE(planOf(scene, 2.0, {{"effects.shadows", "false"}}).passes[0].simplified.empty());
+  EXPECT_TRUE(levelPlan(scene, 2.0).passes[0].simplified.empty());
+  EXPECT_FALSE(levelPlan(scene, 2.0, {{"effects.shadows", "false"}}).passes[0].simplified.empty());
   scene.lights[0].castsShadow = false;
   scene.objects[0].mirror.emplace();
-  EXPECT_TRUE(planOf(scene, 2.0).passes[0].simplified.empty()) << "rays of a curved mirror";
-  const FramePlan mapped = planOf(scene, 2.0, {{"effects.curved_lookup", "environment"}});
+  EXPECT_TRUE(levelPlan(scene, 2.0).passes[0].simplified.empty()) << "rays of a curved mirror";
+  const FramePlan mapped = levelPlan(scene, 2.0, {{"effects.curved_lookup", "environment"}});
   ASSERT_EQ(mapped.passes[0].simplified.size(), 1u) << "a curved mirror itself stays exact";
   EXPECT_EQ(mapped.passes[0].simplified[0].instance, 1);
 }
@@ -116,7 +116,7 @@ TEST(MeshError, FacesOfEnvironmentMapsShareLevels) {
   scene.objects.push_back(testing_support::objectAt(center + glm::dvec3(20, 0, 20), glm::dvec3(2.0)));
   const SceneState state = evaluate(scene, 0.0);
   for (const double meshError : {0.0, 2.0}) {
-    const FramePlan plan = planOf(scene, meshError, {{"effects.curved_lookup", "environment"}});
+    const FramePlan plan = levelPlan(scene, meshError, {{"effects.curved_lookup", "environment"}});
     ASSERT_EQ(plan.maps.size(), 1u);
     std::optional<int> shared;
     int faces = 0;
@@ -145,10 +145,10 @@ TEST(MeshError, OneLevelInPassesAndShadowMaps) {
   scene.lights[0].castsShadow = true;
   const SceneState state = evaluate(scene, 0.0);
   for (const double viewError : {0.0, 1.0}) {
-    const FramePlan plan = planOf(scene, 4.0,
-                                  {{"effects.shadow_lookup", "map"},
-                                   {"effects.shadow_map_size", "64"},
-                                   {"view.mesh_error", viewError > 0.0 ? "1" : "0"}});
+    const FramePlan plan = levelPlan(scene, 4.0,
+                                     {{"effects.shadow_lookup", "map"},
+                                      {"effects.shadow_map_size", "64"},
+                                      {"view.mesh_error", viewError > 0.0 ? "1" : "0"}});
     std::vector<std::optional<int>> levels(scene.objects.size());
     const auto check = [&](const PlannedPass& pass, const Projection& projection, double texels) {
       for (const int i : pass.instances) {
@@ -180,13 +180,13 @@ TEST(MeshError, OneLevelInPassesAndShadowMaps) {
 
 TEST(MeshError, ObjectsAtTheEyeAreExact) {
   Scene scene = sceneOf({11}, 30.0);
-  EXPECT_TRUE(planOf(scene, 0.5).passes[0].simplified.empty());
+  EXPECT_TRUE(levelPlan(scene, 0.5).passes[0].simplified.empty());
 }
 
 TEST(MeshError, PartlySeenBallsAreDrawnInPart) {
   Scene scene = sceneOf({30}, 6.0);
   scene.mirrors[0].size = {0.5, 0.5};
-  const FramePlan plan = planOf(scene, 1.0);
+  const FramePlan plan = levelPlan(scene, 1.0);
   const PlannedPass& pass = plan.passes[0];
   ASSERT_EQ(pass.simplified.size(), 1u);
   const MeshLevels& levels = levelsOf(scene.meshes[0]);

@@ -18,7 +18,7 @@ const std::string camera = "[camera]\nposition = [0.1, 0.2, 0.3]\ntarget = [0, 0
 const std::string deep =
     "[settings]\nreflection = { max_depth = 32, max_passes = 1000000, min_pixels = 0, min_throughput = 0 }\n";
 
-FramePlan planOf(const std::string& text, const std::function<void(Settings&)>& change = {}) {
+FramePlan textPlan(const std::string& text, const std::function<void(Settings&)>& change = {}) {
   const TemporaryFolder folder;
   const Scene scene = loadScene(folder.write("scene.toml", camera + text));
   Settings settings = settingsOf(scene);
@@ -38,7 +38,7 @@ TEST(PlanLimits, FewMirrorsPlanBoundedPasses) {
     text += std::string("[[mirror]]\nsize = [6, 6]\nreflectance = [1, 1, 1]\n") + side + "\n";
   }
   ASSERT_LE(text.size() + camera.size(), 700u);
-  const FramePlan plan = planOf(text);
+  const FramePlan plan = textPlan(text);
   EXPECT_GT(plan.passes.size(), 2000u);
   EXPECT_LE(plan.passes.size(), 30'000u);
   EXPECT_GT(std::ranges::count(plan.skipped, "too many to plan", &SkippedMirror::detail), 0);
@@ -55,7 +55,7 @@ constexpr int instrumented = 1;
 void expectPlanned(const std::string& text, const std::string& kind) {
   ASSERT_LE(camera.size() + text.size(), 65'536u);
   const std::clock_t start = std::clock();  // other programs take none of it
-  planOf(text);
+  textPlan(text);
   EXPECT_LT(std::clock() - start, instrumented * 10 * CLOCKS_PER_SEC) << kind;
   EXPECT_LT(peakResidentBytes(), instrumented * (uint64_t{512} << 20)) << kind;
 }

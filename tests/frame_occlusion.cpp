@@ -118,7 +118,7 @@ class Occluders : public ::testing::Test {
 TEST_F(Occluders, RandomShapesHideNothingVisible) {
   std::map<std::string, int> hidden;
   for (int round = 0; round < 700; ++round) {
-    Scene scene = sceneWith({});
+    Scene scene = testing_support::sceneWith({});
     const OccluderShape shape = randomShape(engine_);
     scene.meshes = {meshOf(shape.positions, shape.indices)};
     scene.objects = {place(0)};
@@ -140,7 +140,8 @@ TEST_F(Occluders, RandomShapesHideNothingVisible) {
 TEST_F(Occluders, BoxesAndPanesHideNothingVisibleTogether) {
   int hidden = 0;
   for (int round = 0; round < 2000; ++round) {
-    Scene scene = sceneWith({wall({uniform(-1, 1), uniform(-1, 1), uniform(-8, -2)}, uniform(-60, 60), {1.5, 1})});
+    Scene scene = testing_support::sceneWith(
+        {wall({uniform(-1, 1), uniform(-1, 1), uniform(-8, -2)}, uniform(-60, 60), {1.5, 1})});
     Triangles box;
     box.box(glm::dvec3(-1.0), glm::dvec3(1.0));
     scene.meshes = {meshOf(box.positions, box.indices)};

@@ -8,7 +8,7 @@ namespace {
 
 using testing_support::wall;
 
-FramePlan planOf(std::vector<Mirror> mirrors, int maxDepth) {
+FramePlan rangePlan(std::vector<Mirror> mirrors, int maxDepth) {
   Settings settings;
   settings.reflection.maxDepth = maxDepth;
   return testing_support::planOf(testing_support::sceneWith(std::move(mirrors)), settings);
@@ -26,7 +26,7 @@ void expectWhole(const FramePlan& plan, const std::vector<PassRange>& ranges) {
 
 TEST(PassRange, MirrorsSideBySideShareOneRange) {
   const FramePlan plan =
-      planOf({wall({-2, 0, -5}, 0, {1, 1}), wall({0, 0, -5}, 0, {2, 2}), wall({2, 0, -5}, 0, {1.5, 1})}, 1);
+      rangePlan({wall({-2, 0, -5}, 0, {1, 1}), wall({0, 0, -5}, 0, {2, 2}), wall({2, 0, -5}, 0, {1.5, 1})}, 1);
   ASSERT_EQ(plan.passes.size(), 3u);
   const std::vector<PassRange> ranges = independentPasses(plan);
   ASSERT_EQ(ranges.size(), 1u);
@@ -39,7 +39,7 @@ TEST(PassRange, MirrorsSideBySideShareOneRange) {
 
 TEST(PassRange, RangesHoldNoPassWithItsImages) {
   const FramePlan plan =
-      planOf({wall({-1, 0, -2}, 70, {3, 2}), wall({1, 0, -2}, -70, {3, 2}), wall({0, 0, -5}, 0, {1, 2})}, 4);
+      rangePlan({wall({-1, 0, -2}, 70, {3, 2}), wall({1, 0, -2}, -70, {3, 2}), wall({0, 0, -5}, 0, {1, 2})}, 4);
   ASSERT_GT(plan.passes.size(), 6u);
   const std::vector<PassRange> ranges = independentPasses(plan);
   expectWhole(plan, ranges);
@@ -55,7 +55,7 @@ TEST(PassRange, RangesHoldNoPassWithItsImages) {
 
 TEST(PassRange, RangesCoverAtMostOnePicture) {
   // Each mirror covers more than half of the picture; the second is beside and behind the first.
-  const FramePlan plan = planOf({wall({-1, 0, -3}, 0, {6, 4}), wall({3, 0, -5}, 0, {8, 8})}, 1);
+  const FramePlan plan = rangePlan({wall({-1, 0, -3}, 0, {6, 4}), wall({3, 0, -5}, 0, {8, 8})}, 1);
   ASSERT_EQ(plan.passes.size(), 2u);
   ASSERT_GT(plan.passes[0].view.rect.area() + plan.passes[1].view.rect.area(), 640 * 360);
   EXPECT_EQ(independentPasses(plan).size(), 2u);
@@ -65,8 +65,8 @@ TEST(PassRange, MemoryIncludesDepthOfTheLargestRange) {
   Settings settings;
   settings.reflection.samples = 1;
   settings.view.samples = 1;
-  const FramePlan one = planOf({wall({-2, 0, -5}, 0, {1, 1})}, 1);
-  const FramePlan two = planOf({wall({-2, 0, -5}, 0, {1, 1}), wall({2, 0, -5}, 0, {1, 1})}, 1);
+  const FramePlan one = rangePlan({wall({-2, 0, -5}, 0, {1, 1})}, 1);
+  const FramePlan two = rangePlan({wall({-2, 0, -5}, 0, {1, 1}), wall({2, 0, -5}, 0, {1, 1})}, 1);
   ASSERT_EQ(two.passes.size(), 2u);
   const auto added = static_cast<uint64_t>(two.passes[1].view.rect.area());
   EXPECT_EQ(targetBytes(two, settings) - targetBytes(one, settings), added * (8 + 4));

@@ -20,7 +20,7 @@ PointLight lightAt(const glm::dvec3& position) {
 }
 
 // A floor before the camera with a box on it, and a lamp above.
-Scene room() {
+Scene lampRoom() {
   Scene scene = testing_support::sceneWith({});
   scene.meshes = {testing_support::cube(0.5, 0.9)};
   scene.objects = {objectAt({0, -1, -5}, {8, 0.1, 8}), objectAt({0, -0.5, -5})};
@@ -28,9 +28,9 @@ Scene room() {
   return scene;
 }
 
-class Frames : public testing_support::PlanSequence {
+class ShadowFrames : public testing_support::PlanSequence {
  public:
-  explicit Frames(Scene s) : PlanSequence(std::move(s)) { settings.effects.shadowLookup = ShadowLookup::map; }
+  explicit ShadowFrames(Scene s) : PlanSequence(std::move(s)) { settings.effects.shadowLookup = ShadowLookup::map; }
   // Faces that the next frame renders.
   std::vector<int> rendered() {
     next();
@@ -47,7 +47,7 @@ class Frames : public testing_support::PlanSequence {
 };
 
 TEST(ShadowMap, ExistsWhereShadowsAreLookedUp) {
-  Frames frames(room());
+  ShadowFrames frames(lampRoom());
   ASSERT_EQ(frames.next().shadowMaps.size(), 1u);
   EXPECT_EQ(frames.plan.shadowMaps[0].name, "light 0");
   EXPECT_FALSE(frames.plan.effects.any()) << "no rays";
@@ -63,7 +63,7 @@ TEST(ShadowMap, ExistsWhereShadowsAreLookedUp) {
 }
 
 TEST(ShadowMap, BouncedLightAndManyLightsTrace) {
-  Frames frames(room());
+  ShadowFrames frames(lampRoom());
   frames.scene.mirrors = {testing_support::wall({0, 0, -8}, 0, {6, 6})};
   frames.scene.mirrors[0].castsLight = true;
   EXPECT_TRUE(frames.next().shadowMaps.empty());
@@ -77,7 +77,7 @@ TEST(ShadowMap, BouncedLightAndManyLightsTrace) {
 }
 
 TEST(ShadowMap, OnlyChangedFacesAreRendered) {
-  Frames frames(room());
+  ShadowFrames frames(lampRoom());
   const std::vector<int> all = frames.rendered();
   EXPECT_TRUE(std::binary_search(all.begin(), all.end(), 3)) << "down to the floor";
   EXPECT_FALSE(std::binary_search(all.begin(), all.end(), 2)) << "nothing above";
@@ -102,7 +102,7 @@ TEST(ShadowMap, OnlyChangedFacesAreRendered) {
 }
 
 TEST(ShadowMap, FarLightHasOneFace) {
-  Frames frames(room());
+  ShadowFrames frames(lampRoom());
   EXPECT_EQ(onlyShadowFace(frames.next().shadowMaps), std::nullopt) << "the lamp is in the room";
   frames.scene.lights = {lightAt({-60, 20, -5})};
   EXPECT_EQ(onlyShadowFace(frames.next().shadowMaps), 0u);
@@ -114,9 +114,9 @@ TEST(ShadowMap, FarLightHasOneFace) {
 }
 
 // The face below the lamp of a room in which a box may spin beside the one that stands still.
-class Layers : public Frames {
+class Layers : public ShadowFrames {
  public:
-  explicit Layers(double speed = 90.0) : Frames(room()) {
+  explicit Layers(double speed = 90.0) : ShadowFrames(lampRoom()) {
     scene.objects.push_back(objectAt({1.5, -0.5, -5}));
     scene.objects.back().spin.y = speed;
   }
@@ -179,7 +179,7 @@ TEST(ShadowMap, VisiblePointsLieInReadFaces) {
   int looked = 0;
   int unread = 0;
   for (int trial = 0; trial < 200; ++trial) {
-    Scene scene = room();
+    Scene scene = lampRoom();
     scene.objects.clear();
     for (int i = 0; i < 8; ++i) {
       scene.objects.push_back(
@@ -190,7 +190,7 @@ TEST(ShadowMap, VisiblePointsLieInReadFaces) {
     scene.mirrors = {testing_support::wall(random.inBox(5), random.uniform(-180, 180), {3, 3})};
     scene.camera.position = random.inBox(8);
     scene.camera.target = random.inBox(3);
-    Frames frames(scene);
+    ShadowFrames frames(scene);
     frames.settings.debug.skipHidden = false;
     frames.next();
     const SceneState state = evaluate(scene, 0.0);
@@ -233,7 +233,7 @@ TEST(ShadowMap, VisiblePointsLieInReadFaces) {
 }
 
 TEST(ShadowMap, MemoryIncludesItAndLowersIt) {
-  Frames frames(room());
+  ShadowFrames frames(lampRoom());
   frames.next();
   FramePlan without = frames.plan;
   without.shadowMaps.clear();
