@@ -331,14 +331,28 @@ TEST_F(PanelTest, SavingListsFoldersAndScenes) {
   ask(Prompt::saveAs, config_.path() / "new.toml");
   click("open.mine");
   run(2);
-  EXPECT_EQ(windows_->state().files.typed, (config_.path() / "mine" / "new.toml").string());
+  EXPECT_EQ(windows_->state().files.typed, "new.toml");
   EXPECT_FALSE(has("open.ring.obj"));
   click("open.old.toml");
   EXPECT_EQ(clickFor<SaveAs>("where.save").file, config_.path() / "mine" / "old.toml");
   ask(Prompt::none);
-  ask(Prompt::saveAs, config_.path() / "none" / "new.toml");
-  EXPECT_TRUE(has("open.mine")) << "the nearest folder that exists";
-  EXPECT_TRUE(shows("Folder: " + (config_.path() / "none").string())) << "where a bare name goes";
+}
+
+TEST_F(PanelTest, SavingShowsItsFolderOnce) {
+  const std::filesystem::path folder = config_.path() / "none";
+  std::filesystem::create_directory(config_.path() / "mine");
+  ask(Prompt::saveAs, folder / "new.toml");
+  EXPECT_EQ(windows_->state().files.typed, "new.toml");
+  EXPECT_TRUE(shows(folder.string()));
+  const std::string text = shownText();
+  const size_t first = text.find(config_.path().string());
+  ASSERT_NE(first, std::string::npos);
+  EXPECT_EQ(text.find(config_.path().string(), first + 1), std::string::npos) << "no other folder";
+  EXPECT_FALSE(has("open.mine")) << "the folder of the file, which saving makes";
+  click("open...");
+  run(2);
+  EXPECT_TRUE(has("open.mine"));
+  EXPECT_EQ(clickFor<SaveAs>("where.save").file, config_.path() / "new.toml");
 }
 
 TEST_F(PanelTest, PromptsStayCentered) {
@@ -886,9 +900,9 @@ TEST_F(PanelTest, PromptsAnswerByButtonsAndEnter) {
   EXPECT_FALSE(has("ask.save")) << "only to another file";
   clickFor<AskWhereToSave>("ask.save_as");
   ask(Prompt::saveAs, "/home/scene.toml");
-  EXPECT_EQ(windows_->state().files.typed, "/home/scene.toml");
+  EXPECT_EQ(windows_->state().files.typed, "scene.toml");
   type("/other");
-  EXPECT_EQ(windows_->state().files.typed, "/other") << "the path is selected";
+  EXPECT_EQ(windows_->state().files.typed, "/other") << "the name is selected";
   commands_.clear();
   tap(ImGuiKey_Enter);
   EXPECT_EQ(only<SaveAs>().file, "/other");
