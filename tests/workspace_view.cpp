@@ -71,7 +71,7 @@ TEST_F(Measuring, PickedRoughPointsStay) {
   EXPECT_EQ(accuracy.view().choice, "") << "there are no points";
   settings.quality = {};
   accuracy.beforeFrame(settings);
-  accuracy.measure(request_);
+  accuracy.measure(request_, workspace_->watchedView());
   settings.quality.maxError = 0.9;
   accuracy.beforeFrame(settings);
   EXPECT_EQ(accuracy.view().choice, "") << "the first points are not measured";
@@ -338,6 +338,37 @@ TEST_F(BudgetView, PointsChosenByHandAreSaid) {
   EXPECT_TRUE(contains(choice(), "no measured point fits"));
   setBudget(0.0);
   EXPECT_EQ(choice(), "");
+}
+
+class SpinningBall : public WorkspaceTest {
+ protected:
+  SpinningBall() : WorkspaceTest(replaced(corridorScene(), "scale = 0.2", "scale = 0.2, spin = [0, 90, 0]")) {}
+
+  bool otherView() { return isOtherView(measured_, workspace_->watchedView()); }
+
+  const WatchedView measured_ = workspace_->watchedView();
+};
+
+TEST_F(SpinningBall, TimeAloneMakesNoOtherView) {
+  frame(0.5);
+  EXPECT_FALSE(otherView()) << "the animation goes on";
+  send(SetPaused{true});
+  EXPECT_TRUE(otherView()) << "a picture of another time stands";
+  send(Seek{measured_.time});
+  EXPECT_FALSE(otherView()) << "the measured one";
+  send(StepTime{1});
+  EXPECT_TRUE(otherView());
+  send(SetPaused{false});
+  frame(0.5);
+  EXPECT_TRUE(otherView()) << "the user set the time";
+}
+
+TEST_F(SpinningBall, MovedCameraMakesAnotherView) {
+  send(FrameSelection{});
+  EXPECT_TRUE(otherView());
+  send(ResetCamera{});
+  frame(0.5);
+  EXPECT_FALSE(otherView());
 }
 
 TEST_F(BudgetView, ChangedScenesSayThatTheResultIsGone) {

@@ -180,6 +180,15 @@ SceneState Workspace::state(double time) {
   return state;
 }
 
+WatchedView Workspace::watchedView() {
+  return {.camera = state(time()).camera,
+          .movedCamera = camera_.moved(),
+          .time = time(),
+          .seeks = playback_.seeks(),
+          .paused = playback_.view().paused,
+          .animated = animated()};
+}
+
 // Returns nothing while the window has no pixels.
 std::optional<SceneView> Workspace::sceneView(double time) {
   const glm::ivec2 size = host_.pictureSize();
@@ -263,7 +272,7 @@ void Workspace::frameDrawn(const ShownPicture& shown, const std::function<Image8
     saved.message += saved.logged && !picture.empty() ? " (" + picture + ")" : "";
     saved.logged ? status_.set(saved.message) : status_.show(saved.message);
   }
-  accuracy_.afterFrame(shown, radiance);
+  accuracy_.afterFrame(shown, watchedView(), radiance);
   tookBack_ = false;
 }
 
@@ -432,7 +441,7 @@ void Workspace::measureAccuracy() {
                          .base = settings_,
                          .camera = state(time()).camera};
     request.options.gpu = host_.gpu();
-    accuracy_.measure(std::move(request));
+    accuracy_.measure(std::move(request), watchedView());
   } catch (const std::runtime_error& error) {
     accuracy_.setProblem(error.what());
   }

@@ -167,7 +167,7 @@ struct AccuracyView {
   int current = -1;                                        // the point that the settings are at; -1: none
   double noiseFloor = 0.0;                                 // mean FLIP
   std::string about;                                       // what was measured, where
-  bool otherView = false;                                  // the camera or the time is another now
+  bool otherView = false;                                  // the user changed the camera or the time since
   double secondsLeft = 0.0;                                // of the stage that runs; 0: not known
   bool measuring = false;
   std::string stage;               // of the measurement that runs
