@@ -442,6 +442,17 @@ TEST_F(Opening, ModelsAreFramedBetweenPanels) {
   EXPECT_NEAR(focal * seen.x / -seen.z, width / 4.0, 30.0);
 }
 
+TEST_F(Opening, WarningsLeaveWithTheirScene) {
+  const fs::path bounded = home_.path() / "bounded.toml";
+  std::ofstream(bounded) << "[camera]\nposition = [0, 0, 4]\ntarget = [0, 0, 0]\n[settings]\n"
+                            "\"quality.budget_ms\" = 5\n";
+  drop({bounded});
+  EXPECT_TRUE(contains(status(), "GPU budget waits"));
+  drop({model("queen.obj")});
+  EXPECT_EQ(shownScene(), "queen.obj");
+  EXPECT_FALSE(contains(status(), "GPU budget waits")) << status();
+}
+
 TEST_F(Opening, ModelsStandOnceTheCameraIsMoved) {
   drop({model("queen.obj")});
   send(ResetCamera{});

@@ -245,8 +245,10 @@ void Workspace::update() {
   if (std::unique_ptr<LoadedScene> loaded = opener_.update()) {
     showScene(std::move(loaded));
   }
-  if (const std::string warning = log_.takeProblem(); !warning.empty() && !problem().starts_with(warning)) {
-    status_.show(warning);
+  // Warnings wait while a scene is read, because they may be of that one.
+  const std::string warning = browser().busy() ? std::string() : log_.takeProblem();
+  if (!warning.empty() && !problem().starts_with(warning)) {
+    status_.warn(warning);
   }
   accuracy_.beforeFrame(settings_);
 }
@@ -288,6 +290,7 @@ void Workspace::showScene(std::unique_ptr<LoadedScene> scene) {
     return host_.useScene(loaded_->scene);
   }
   startDocument();
+  status_.sceneChanged();
   playback_.seek(0.0);
   if (isModelFile(loaded_->scene.file)) {
     frame({.kind = Selection::Kind::object, .index = 0});
