@@ -952,6 +952,24 @@ TEST_F(AccuracyWindow, GreyPointsSayWhy) {
   EXPECT_TRUE(shows("Grey: a more accurate point takes no longer"));
 }
 
+TEST_F(AccuracyWindow, PointsThatABoundChoseAreNotGrey) {
+  const auto greyVertices = [] {
+    int count = 0;
+    for (const ImDrawList* list : drawLists()) {
+      count += static_cast<int>(
+          std::ranges::count(list->VtxBuffer, IM_COL32(130, 150, 180, 200), [](const ImDrawVert& v) { return v.col; }));
+    }
+    return count;
+  };
+  EXPECT_GT(greyVertices(), 0);
+  accuracy_.chosen = 2;
+  accuracy_.current = 2;
+  hover("accuracy.point bad");
+  EXPECT_EQ(greyVertices(), 0);
+  EXPECT_FALSE(shows("Grey:"));
+  EXPECT_TRUE(shows("Green: a bound chose it by its median"));
+}
+
 TEST_F(AccuracyWindow, SaysPurposeAndTimeOfMeasuring) {
   EXPECT_FALSE(shows("The view has changed since."));
   accuracy_.otherView = true;

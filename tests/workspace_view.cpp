@@ -371,6 +371,19 @@ TEST_F(SpinningBall, MovedCameraMakesAnotherView) {
   EXPECT_FALSE(otherView());
 }
 
+TEST_F(BudgetView, PlotKnowsThePointThatABoundChose) {
+  EXPECT_EQ(view().accuracy.chosen, -1);
+  setBudget(2.0);
+  EXPECT_EQ(view().accuracy.chosen, view().accuracy.current);
+  EXPECT_GE(view().accuracy.chosen, 0);
+  send(ApplyPoint{view().accuracy.front.back()});
+  EXPECT_EQ(view().accuracy.chosen, -1) << "the user chose";
+  setBudget(3.0);
+  EXPECT_GE(view().accuracy.chosen, 0);
+  setBudget(0.0);
+  EXPECT_EQ(view().accuracy.chosen, -1);
+}
+
 TEST_F(BudgetView, ChangedScenesSayThatTheResultIsGone) {
   send(AddLight{});
   EXPECT_TRUE(view().accuracy.points.empty());

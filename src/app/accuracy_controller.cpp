@@ -86,7 +86,7 @@ AccuracyController::AccuracyController(const Options& options, const Settings& l
     view_.about = aboutText(results_, measured_);
     acceptBudget(loaded);
     if (const std::optional<BudgetChoice> chosen = chooseForBudget(results_, budget_)) {
-      chosen_ = chosen->point;
+      view_.chosen = chosen->point;
     }
   }
   view_.choice = choice;
@@ -114,7 +114,7 @@ void AccuracyController::setResults(SweepResults results, bool rough) {
   view_.about.clear();
   // A budget chooses again, unless the user has set settings by hand since.
   budget_ = setByHand_ ? budget_ : QualityBudget();
-  chosen_ = -1;
+  view_.chosen = -1;
   isRough_ = rough;
   settings_.reset();
 }
@@ -177,11 +177,12 @@ void AccuracyController::followBudget(Settings& settings) {
   acceptBudget(settings);
   setByHand_ = false;
   view_.choice.clear();
+  view_.chosen = -1;
   if (const std::optional<BudgetChoice> choice = chooseForBudget(results_, budget_)) {
     applyPoint(choice->point, settings);
     view_.choice = choice->why;
     view_.choice += isRough_ ? " (rough figures)" : "";
-    chosen_ = choice->point;
+    view_.chosen = choice->point;
   }
 }
 
@@ -192,11 +193,11 @@ void AccuracyController::findCurrentPoint(const Settings& settings) {
   settings_ = settings;
   const auto at = std::ranges::find_if(pointSettings_, [&](const auto& point) { return isAtPoint(settings, point); });
   view_.current = at == pointSettings_.end() ? -1 : static_cast<int>(at - pointSettings_.begin());
-  if (view_.current != chosen_) {
+  if (view_.current != view_.chosen) {
     const bool chose = budget_.bounds() && !results_.points.empty();
     view_.choice = chose ? "Set by hand. Change a bound to let it choose again." : "";
     setByHand_ = chose;
-    chosen_ = -1;
+    view_.chosen = -1;
   }
 }
 

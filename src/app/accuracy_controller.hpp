@@ -79,7 +79,6 @@ class AccuracyController {
   std::vector<std::vector<SettingChange>> pointSettings_;  // by point, every setting that it depends on
   std::optional<Settings> settings_;                       // settings for which the current point was found
   std::vector<MotionLevel> frontLevels_;
-  int chosen_ = -1;         // point of the budget's choice that is shown
   QualityBudget budget_;    // that was applied last
   bool setByHand_ = false;  // settings, since a budget chose them
 };
