@@ -952,6 +952,13 @@ TEST_F(AccuracyWindow, GreyPointsSayWhy) {
   EXPECT_TRUE(shows("Grey: a more accurate point takes no longer"));
 }
 
+TEST_F(AccuracyWindow, TimesAreOfTheStillPicture) {
+  EXPECT_TRUE(shows("GPU ms, still picture"));
+  const PixelRect plot = widget("accuracy.plot");
+  moveTo(plot.x + 40, plot.y + plot.height + 10);  // the text below
+  EXPECT_TRUE(shows("GPU ms: of a picture in full quality"));
+}
+
 TEST_F(AccuracyWindow, PointsThatABoundChoseAreNotGrey) {
   const auto greyVertices = [] {
     int count = 0;
