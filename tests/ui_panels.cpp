@@ -855,6 +855,19 @@ TEST_F(Inspector, MirrorsAreLookedFromAndSeenThrough) {
   EXPECT_FALSE(has("edit.look_out") || has("edit.mirror_cost"));
 }
 
+TEST_F(Inspector, TooltipsStayClosedWhereADragOfThePictureEnds) {
+  selectMirror(0);
+  const WindowRect picture = windows_->freeRect();
+  moveTo(picture.corner.x + 0.5 * picture.size.x, picture.corner.y + 0.5 * picture.size.y);
+  hold(true);
+  hover("edit.mirror_cost");
+  EXPECT_FALSE(tooltip());
+  hold(false);
+  EXPECT_FALSE(tooltip());
+  hover("edit.mirror_cost", 0.8);
+  EXPECT_TRUE(tooltip());
+}
+
 TEST_F(Inspector, OnlyValidPolygonsAreApplied) {
   Mirror sail;
   sail.name = "sail";
