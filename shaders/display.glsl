@@ -4,6 +4,7 @@
 #include "texels.glsl"
 
 layout(constant_id = 0) const bool aces = false;
+layout(constant_id = 1) const bool shrunk = false;  // a pixel covers more than one texel
 
 layout(set = 0, binding = 0) uniform DISPLAY_IMAGE radiance;
 
@@ -44,7 +45,24 @@ vec3 radianceAt(vec2 position) {
   return clamp(mix(mix(a, b, t.x), mix(c, d, t.x), t.y), min(min(a, b), min(c, d)), max(max(a, b), max(c, d)));
 }
 #else
-vec3 radianceAt(vec2 position) { return texelMean(radiance, ivec2(position)).rgb; }
+// Where it is shrunk, the mean of the box of texels that a pixel covers, or thin lines would come and go.
+vec3 radianceAt(vec2 position) {
+  if (!shrunk) {
+    return texelMean(radiance, ivec2(position)).rgb;
+  }
+  vec2 low = max(position - 0.5 * display.lookup.xy, vec2(0.0));
+  vec2 high = min(position + 0.5 * display.lookup.xy, vec2(display.size));
+  vec3 sum = vec3(0.0);
+  float covered = 0.0;
+  for (int y = int(low.y); y < int(ceil(high.y)); ++y) {
+    for (int x = int(low.x); x < int(ceil(high.x)); ++x) {
+      vec2 part = min(vec2(x + 1, y + 1), high) - max(vec2(x, y), low);
+      sum += part.x * part.y * texelMean(radiance, ivec2(x, y)).rgb;
+      covered += part.x * part.y;
+    }
+  }
+  return sum / covered;
+}
 #endif
 
 void main() {

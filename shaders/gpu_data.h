@@ -295,6 +295,7 @@ struct ReflectionConstants {
 // Push constants of the display pass. Texel of the picture = pixel * lookup.xy + lookup.zw.
 struct DisplayConstants {
   vec4 lookup;
+  uvec2 size;  // texels
   float exposure;
 };
 

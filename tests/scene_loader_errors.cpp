@@ -29,8 +29,17 @@ const std::string kDoor = kBookmark + "position = [0, 1, 4]\ntarget = [0, 1, 0]\
 const std::vector<Fault> kFaults = {
     {"UnknownTable", "[mirors]\n", "4: mirors:", "did you mean 'mirror'?"},
     {"UnknownKeyFarFromAny", "[weather]\n", "4: weather:", "one of: title environment"},
-    {"Malformed", "\n[environment\n", "5: toml:", "a TOML 1.0 file is needed"},
-    {"DuplicateKey", "near = 1\nnear = 2\n", "5: toml:", "near"},
+    {"Malformed", "\n[environment\n",
+     "5: toml:", "in '[environment' (a TOML 1.0 file is needed, where [name] begins a table"},
+    {"DuplicateKey", "near = 1\nnear = 2\n",
+     "5: toml:", "'near', in 'near = 2' (a TOML 1.0 file is needed, where a key"},
+    {"MissingEquals", "  near 1\n",
+     "4: toml:", "expected '=', saw '1', in 'near 1' (a TOML 1.0 file is needed, where a "},
+    {"NumbersWithoutBrackets", "up = 0, 1, 0\n", "4: toml:", "several numbers as [1, 2, 3]"},
+    {"TextWithoutQuotes", "[[light]]\nname = ball\n", "5: toml:", "a text in quotation marks"},
+    {"TextWithoutEnd", "[[light]]\nname = 'ball\n", "5: toml:", "a text ends with the quotation marks that begin it"},
+    {"NumberWithoutDigits", "near = 1.\n", "4: toml:", "in 'near = 1.' (a TOML 1.0 file is needed, where a number is"},
+    {"ArrayWithoutComma", "up = [0, 1 0]\n", "4: toml:", "an array is [1, 2, 3]"},
     {"TitleIsNumber", "[settings]\n[[light]]\nname = 3\n", "6: light[0].name:", "is an integer"},
     {"CameraUnknownKey", "verticl_fov = 60\n", "4: camera.verticl_fov:", "did you mean 'vertical_fov'?"},
     {"CameraFovTooLarge", "vertical_fov = 170.5\n", "4: camera.vertical_fov:", "is 170.5"},
@@ -138,7 +147,7 @@ TEST(SceneFaults, MissingFilesAndFolders) {
 
 TEST(SceneFaults, GarbageIsAnError) {
   expectFault(std::string("\x00\xff\xfe\x80garbage", 12), "1: toml:", "a TOML 1.0 file is needed");
-  expectFault(std::string(100'000, '['), "1: toml:", "a TOML 1.0 file is needed");
+  expectFault(std::string(100'000, '['), "1: toml:", "in '" + std::string(60, '[') + "...' (a TOML 1.0 file is needed");
   expectFault("a = " + std::string(100'000, '['), "1: toml:", "a TOML 1.0 file is needed");
 }
 

@@ -141,6 +141,33 @@ TEST(TargetViews, ColorIsThePictureMagnified) {
   EXPECT_TRUE(std::equal(plain.at(22, 12), plain.at(22, 12) + 3, session.picture().at(22, 12)));
 }
 
+TEST(TargetViews, ShrunkColorIsTheMeanOfItsTexels) {
+  for (const char* samples : {"1", "4"}) {
+    QuietSession session(hallOptions(samples));
+    const FramePlan plan = session.draw(0.0, false).plan;
+    constexpr int texels = 4;  // across, in a pixel
+    DebugView debug = inPlace(plan, 1, TargetKind::color);
+    debug.zoom = 1.0 / texels;
+    drawWith(session, debug);
+    const Image8 shown = session.picture();
+    const LinearImage radiance = session.sceneRenderer().radiance();
+    LinearImage means(hallSize.width / texels, hallSize.height / texels);
+    for (int y = 0; y < means.height * texels; ++y) {
+      for (int x = 0; x < means.width * texels; ++x) {
+        means.at(x / texels, y / texels) += radiance.at(x, y) / static_cast<float>(texels * texels);
+      }
+    }
+    const Image8 expected = toDisplay(means, session.settings().view.displayCurve());
+    for (int y = 0; y < means.height; ++y) {
+      for (int x = 0; x < means.width; ++x) {
+        for (int channel = 0; channel < 3; ++channel) {
+          ASSERT_NEAR(shown.at(x, y)[channel], expected.at(x, y)[channel], 1) << x << " " << y;
+        }
+      }
+    }
+  }
+}
+
 // A draft of a picture, whose targets stay while the picture's tiles are drawn.
 TEST(TargetViews, StayUntilTheNextPictureIsComplete) {
   QuietSession session(hallOptions());

@@ -82,6 +82,29 @@ TEST(InputQueue, ClicksKeepTheirPointerPosition) {
   EXPECT_EQ(queue.take().size(), 1u);
 }
 
+TEST(InputQueue, DoubleClickWithinAFrameCountsAsOne) {
+  using namespace std::chrono_literals;
+  InputQueue queue;
+  const InputQueue::Clock::time_point start;
+  const auto click = [&](int code, InputQueue::Clock::duration at) {
+    queue.push({.kind = Kind::button, .code = code, .down = true}, start + at);
+    queue.push({.kind = Kind::button, .code = code}, start + at);
+  };
+  click(0, 1s);
+  click(0, 1s);
+  click(0, 1400ms);
+  click(1, 1500ms);
+  click(0, 1600ms);
+  std::vector<bool> again;
+  while (!queue.empty()) {
+    const std::vector<InputEvent> press = queue.take();
+    ASSERT_TRUE(press.back().down);
+    again.push_back(press.back().again);
+    EXPECT_FALSE(queue.take().back().down) << "each press has a frame";
+  }
+  EXPECT_EQ(again, (std::vector{false, true, false, false, false}));
+}
+
 TEST(InputQueue, DragMovesBeforeReleaseWithinAFrame) {
   InputQueue queue = queueOf({pointer(1.0), button(true), pointer(5.0), button(false)});
   EXPECT_TRUE(queue.take().back().down);

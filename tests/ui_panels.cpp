@@ -331,14 +331,28 @@ TEST_F(PanelTest, SavingListsFoldersAndScenes) {
   ask(Prompt::saveAs, config_.path() / "new.toml");
   click("open.mine");
   run(2);
-  EXPECT_EQ(windows_->state().files.typed, (config_.path() / "mine" / "new.toml").string());
+  EXPECT_EQ(windows_->state().files.typed, "new.toml");
   EXPECT_FALSE(has("open.ring.obj"));
   click("open.old.toml");
   EXPECT_EQ(clickFor<SaveAs>("where.save").file, config_.path() / "mine" / "old.toml");
   ask(Prompt::none);
-  ask(Prompt::saveAs, config_.path() / "none" / "new.toml");
-  EXPECT_TRUE(has("open.mine")) << "the nearest folder that exists";
-  EXPECT_TRUE(shows("Folder: " + (config_.path() / "none").string())) << "where a bare name goes";
+}
+
+TEST_F(PanelTest, SavingShowsItsFolderOnce) {
+  const std::filesystem::path folder = config_.path() / "none";
+  std::filesystem::create_directory(config_.path() / "mine");
+  ask(Prompt::saveAs, folder / "new.toml");
+  EXPECT_EQ(windows_->state().files.typed, "new.toml");
+  EXPECT_TRUE(shows(folder.string()));
+  const std::string text = shownText();
+  const size_t first = text.find(config_.path().string());
+  ASSERT_NE(first, std::string::npos);
+  EXPECT_EQ(text.find(config_.path().string(), first + 1), std::string::npos) << "no other folder";
+  EXPECT_FALSE(has("open.mine")) << "the folder of the file, which saving makes";
+  click("open...");
+  run(2);
+  EXPECT_TRUE(has("open.mine"));
+  EXPECT_EQ(clickFor<SaveAs>("where.save").file, config_.path() / "new.toml");
 }
 
 TEST_F(PanelTest, PromptsStayCentered) {
@@ -841,6 +855,19 @@ TEST_F(Inspector, MirrorsAreLookedFromAndSeenThrough) {
   EXPECT_FALSE(has("edit.look_out") || has("edit.mirror_cost"));
 }
 
+TEST_F(Inspector, TooltipsStayClosedWhereADragOfThePictureEnds) {
+  selectMirror(0);
+  const WindowRect picture = windows_->freeRect();
+  moveTo(picture.corner.x + 0.5 * picture.size.x, picture.corner.y + 0.5 * picture.size.y);
+  hold(true);
+  hover("edit.mirror_cost");
+  EXPECT_FALSE(tooltip());
+  hold(false);
+  EXPECT_FALSE(tooltip());
+  hover("edit.mirror_cost", 0.8);
+  EXPECT_TRUE(tooltip());
+}
+
 TEST_F(Inspector, OnlyValidPolygonsAreApplied) {
   Mirror sail;
   sail.name = "sail";
@@ -886,9 +913,9 @@ TEST_F(PanelTest, PromptsAnswerByButtonsAndEnter) {
   EXPECT_FALSE(has("ask.save")) << "only to another file";
   clickFor<AskWhereToSave>("ask.save_as");
   ask(Prompt::saveAs, "/home/scene.toml");
-  EXPECT_EQ(windows_->state().files.typed, "/home/scene.toml");
+  EXPECT_EQ(windows_->state().files.typed, "scene.toml");
   type("/other");
-  EXPECT_EQ(windows_->state().files.typed, "/other") << "the path is selected";
+  EXPECT_EQ(windows_->state().files.typed, "/other") << "the name is selected";
   commands_.clear();
   tap(ImGuiKey_Enter);
   EXPECT_EQ(only<SaveAs>().file, "/other");
@@ -936,6 +963,31 @@ TEST_F(AccuracyWindow, GreyPointsSayWhy) {
   EXPECT_FALSE(shows("Grey:"));
   hover("accuracy.point bad");
   EXPECT_TRUE(shows("Grey: a more accurate point takes no longer"));
+}
+
+TEST_F(AccuracyWindow, TimesAreOfTheStillPicture) {
+  EXPECT_TRUE(shows("GPU ms, still picture"));
+  const PixelRect plot = widget("accuracy.plot");
+  moveTo(plot.x + 40, plot.y + plot.height + 10);  // the text below
+  EXPECT_TRUE(shows("GPU ms: of a picture in full quality"));
+}
+
+TEST_F(AccuracyWindow, PointsThatABoundChoseAreNotGrey) {
+  const auto greyVertices = [] {
+    int count = 0;
+    for (const ImDrawList* list : drawLists()) {
+      count += static_cast<int>(
+          std::ranges::count(list->VtxBuffer, IM_COL32(130, 150, 180, 200), [](const ImDrawVert& v) { return v.col; }));
+    }
+    return count;
+  };
+  EXPECT_GT(greyVertices(), 0);
+  accuracy_.chosen = 2;
+  accuracy_.current = 2;
+  hover("accuracy.point bad");
+  EXPECT_EQ(greyVertices(), 0);
+  EXPECT_FALSE(shows("Grey:"));
+  EXPECT_TRUE(shows("Green: a bound chose it by its median"));
 }
 
 TEST_F(AccuracyWindow, SaysPurposeAndTimeOfMeasuring) {

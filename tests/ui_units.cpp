@@ -248,6 +248,20 @@ TEST(MirrorCost, SumsPassesOrSaysWhyNone) {
   EXPECT_EQ(mirrorCost(frame, 4), "Drawn by rays");
 }
 
+TEST(MirrorCost, TimeIsTheMedianOfTheLastFrames) {
+  FrameView frame;
+  frame.passes.push_back({{.path = {0}}, "mirror wall"});
+  frame.passes[0].timed = true;
+  for (const auto& [number, ms] : {std::pair(1, 10.0), std::pair(2, 12.0), std::pair(3, 50.0)}) {
+    frame.history.add(number, 60.0, 1.0);
+    frame.history.addGpu(number, 55.0, std::vector{std::pair<std::string, double>("mirror wall", ms)});
+    frame.passes[0].gpuMs = ms;
+  }
+  EXPECT_EQ(mirrorCost(frame, 0), "1 pass, 0 pixels, 12.0 ms on the GPU");
+  frame.history.setPaused(true);
+  EXPECT_EQ(mirrorCost(frame, 0), "1 pass, 0 pixels, 50.0 ms on the GPU") << "the history may be of other frames";
+}
+
 TEST(RestOfPasses, IsWhatTheFrameTookBesides) {
   FrameView frame;
   frame.passes.resize(2);

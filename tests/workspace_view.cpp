@@ -71,7 +71,7 @@ TEST_F(Measuring, PickedRoughPointsStay) {
   EXPECT_EQ(accuracy.view().choice, "") << "there are no points";
   settings.quality = {};
   accuracy.beforeFrame(settings);
-  accuracy.measure(request_);
+  accuracy.measure(request_, workspace_->watchedView());
   settings.quality.maxError = 0.9;
   accuracy.beforeFrame(settings);
   EXPECT_EQ(accuracy.view().choice, "") << "the first points are not measured";
@@ -340,6 +340,50 @@ TEST_F(BudgetView, PointsChosenByHandAreSaid) {
   EXPECT_EQ(choice(), "");
 }
 
+class SpinningBall : public WorkspaceTest {
+ protected:
+  SpinningBall() : WorkspaceTest(replaced(corridorScene(), "scale = 0.2", "scale = 0.2, spin = [0, 90, 0]")) {}
+
+  bool otherView() { return isOtherView(measured_, workspace_->watchedView()); }
+
+  const WatchedView measured_ = workspace_->watchedView();
+};
+
+TEST_F(SpinningBall, TimeAloneMakesNoOtherView) {
+  frame(0.5);
+  EXPECT_FALSE(otherView()) << "the animation goes on";
+  send(SetPaused{true});
+  EXPECT_TRUE(otherView()) << "a picture of another time stands";
+  send(Seek{measured_.time});
+  EXPECT_FALSE(otherView()) << "the measured one";
+  send(StepTime{1});
+  EXPECT_TRUE(otherView());
+  send(SetPaused{false});
+  frame(0.5);
+  EXPECT_TRUE(otherView()) << "the user set the time";
+}
+
+TEST_F(SpinningBall, MovedCameraMakesAnotherView) {
+  send(FrameSelection{});
+  EXPECT_TRUE(otherView());
+  send(ResetCamera{});
+  frame(0.5);
+  EXPECT_FALSE(otherView());
+}
+
+TEST_F(BudgetView, PlotKnowsThePointThatABoundChose) {
+  EXPECT_EQ(view().accuracy.chosen, -1);
+  setBudget(2.0);
+  EXPECT_EQ(view().accuracy.chosen, view().accuracy.current);
+  EXPECT_GE(view().accuracy.chosen, 0);
+  send(ApplyPoint{view().accuracy.front.back()});
+  EXPECT_EQ(view().accuracy.chosen, -1) << "the user chose";
+  setBudget(3.0);
+  EXPECT_GE(view().accuracy.chosen, 0);
+  setBudget(0.0);
+  EXPECT_EQ(view().accuracy.chosen, -1);
+}
+
 TEST_F(BudgetView, ChangedScenesSayThatTheResultIsGone) {
   send(AddLight{});
   EXPECT_TRUE(view().accuracy.points.empty());
@@ -409,6 +453,17 @@ TEST_F(Opening, ModelsAreFramedBetweenPanels) {
   const glm::dvec3 seen = camera().worldToView * (workspace_->state(0.0).instances.at(0).center - eye());
   const double focal = 0.5 * height / std::tan(0.5 * camera().verticalFov);
   EXPECT_NEAR(focal * seen.x / -seen.z, width / 4.0, 30.0);
+}
+
+TEST_F(Opening, WarningsLeaveWithTheirScene) {
+  const fs::path bounded = home_.path() / "bounded.toml";
+  std::ofstream(bounded) << "[camera]\nposition = [0, 0, 4]\ntarget = [0, 0, 0]\n[settings]\n"
+                            "\"quality.budget_ms\" = 5\n";
+  drop({bounded});
+  EXPECT_TRUE(contains(status(), "GPU budget waits"));
+  drop({model("queen.obj")});
+  EXPECT_EQ(shownScene(), "queen.obj");
+  EXPECT_FALSE(contains(status(), "GPU budget waits")) << status();
 }
 
 TEST_F(Opening, ModelsStandOnceTheCameraIsMoved) {

@@ -15,14 +15,18 @@ namespace {
 constexpr int heatBarSteps = 32;
 constexpr int roughRounds = 5;  // in all; the first points come after one
 
-std::string aboutText(const SweepResults& results) {
-  return std::to_string(results.points.size()) + " configurations at " + std::to_string(results.width) + "x" +
-         std::to_string(results.height) + ", reference of " + std::to_string(results.truthSamples) + " samples a pixel";
+std::string momentText(const std::optional<WatchedView>& measured) {
+  return measured && measured->animated ? fmt::format(" (animation at {:.2f} s)", measured->time) : "";
 }
 
-std::string roughText(const SweepResults& results) {
-  return "Rough: errors of a " + std::to_string(results.width) + "x" + std::to_string(results.height) +
-         " picture, times estimated from it.";
+std::string aboutText(const SweepResults& results, const std::optional<WatchedView>& measured) {
+  return fmt::format("{} configurations at {}x{}, reference of {} samples a pixel{}", results.points.size(),
+                     results.width, results.height, results.truthSamples, momentText(measured));
+}
+
+std::string roughText(const SweepResults& results, const std::optional<WatchedView>& measured) {
+  return fmt::format("Rough: errors of a {}x{} picture, times estimated from it{}.", results.width, results.height,
+                     momentText(measured));
 }
 
 // Returns for each setting that was measured by itself what its values cost, cheapest first.
@@ -62,6 +66,13 @@ std::string stepText(const std::string& stage) {
 
 }  // namespace
 
+bool isOtherView(const WatchedView& measured, const WatchedView& now) {
+  const bool setTime = now.animated && (now.paused || now.seeks != measured.seeks) && now.time != measured.time;
+  const bool followsScene = !measured.movedCamera && !now.movedCamera;
+  return setTime || (!followsScene &&
+                     (now.camera.eye != measured.camera.eye || now.camera.worldToView != measured.camera.worldToView));
+}
+
 AccuracyController::AccuracyController(const Options& options, const Settings& loaded, const std::string& choice) {
   for (int i = 0; i < heatBarSteps; ++i) {
     view_.heatBar.emplace_back(heatColor((i + 0.5) / heatBarSteps));
@@ -72,10 +83,10 @@ AccuracyController::AccuracyController(const Options& options, const Settings& l
     for (size_t i = 0; i < results_.points.size(); ++i) {
       applyPoint(static_cast<int>(i), scratch);  // throws now if a point cannot be applied
     }
-    view_.about = aboutText(results_);
+    view_.about = aboutText(results_, measured_);
     acceptBudget(loaded);
     if (const std::optional<BudgetChoice> chosen = chooseForBudget(results_, budget_)) {
-      chosen_ = chosen->point;
+      view_.chosen = chosen->point;
     }
   }
   view_.choice = choice;
@@ -103,13 +114,13 @@ void AccuracyController::setResults(SweepResults results, bool rough) {
   view_.about.clear();
   // A budget chooses again, unless the user has set settings by hand since.
   budget_ = setByHand_ ? budget_ : QualityBudget();
-  chosen_ = -1;
+  view_.chosen = -1;
   isRough_ = rough;
   settings_.reset();
 }
 
-void AccuracyController::measure(SweepRequest request) {
-  requested_ = {request.camera, request.options.time};
+void AccuracyController::measure(SweepRequest request, const WatchedView& view) {
+  requested_ = view;
   sweep_.start({{"starting", 0.0}, nullptr}, [request = std::move(request)](const auto& report) {
     std::shared_ptr<const SweepResults> rough;
     const auto progress = [&](const SweepStatus& status) { return report({status, rough}); };
@@ -127,7 +138,7 @@ void AccuracyController::measure(SweepRequest request) {
 
 void AccuracyController::cancel() {
   if (const auto status = sweep_.progress(); status && status->rough && status->rough == rough_) {
-    view_.about = roughText(results_) + " The measurement was cancelled.";
+    view_.about = roughText(results_, measured_) + " The measurement was cancelled.";
   }
   sweep_.cancel();
 }
@@ -138,12 +149,12 @@ void AccuracyController::takeResults() {
     rough_ = status->rough;
     setResults(*rough_, true);
     measured_ = requested_;
-    view_.about = roughText(results_) + " Better ones follow.";
+    view_.about = roughText(results_, measured_) + " Better ones follow.";
   }
   if (std::optional<SweepResults> results = sweep_.takeResult()) {
     setResults(std::move(*results));
     measured_ = requested_;
-    view_.about = aboutText(results_);
+    view_.about = aboutText(results_, measured_);
   }
 }
 
@@ -166,11 +177,12 @@ void AccuracyController::followBudget(Settings& settings) {
   acceptBudget(settings);
   setByHand_ = false;
   view_.choice.clear();
+  view_.chosen = -1;
   if (const std::optional<BudgetChoice> choice = chooseForBudget(results_, budget_)) {
     applyPoint(choice->point, settings);
     view_.choice = choice->why;
     view_.choice += isRough_ ? " (rough figures)" : "";
-    chosen_ = choice->point;
+    view_.chosen = choice->point;
   }
 }
 
@@ -181,15 +193,16 @@ void AccuracyController::findCurrentPoint(const Settings& settings) {
   settings_ = settings;
   const auto at = std::ranges::find_if(pointSettings_, [&](const auto& point) { return isAtPoint(settings, point); });
   view_.current = at == pointSettings_.end() ? -1 : static_cast<int>(at - pointSettings_.begin());
-  if (view_.current != chosen_) {
+  if (view_.current != view_.chosen) {
     const bool chose = budget_.bounds() && !results_.points.empty();
     view_.choice = chose ? "Set by hand. Change a bound to let it choose again." : "";
     setByHand_ = chose;
-    chosen_ = -1;
+    view_.chosen = -1;
   }
 }
 
-void AccuracyController::afterFrame(const ShownPicture& shown, const std::function<Image8()>& image) {
+void AccuracyController::afterFrame(const ShownPicture& shown, const WatchedView& view,
+                                    const std::function<Image8()>& image) {
   const std::optional<Status> status = sweep_.progress();
   view_.measuring = status.has_value();
   if (status && !view_.stage.ends_with(stepText(status->stage))) {
@@ -198,10 +211,7 @@ void AccuracyController::afterFrame(const ShownPicture& shown, const std::functi
   const double elapsed = std::chrono::duration<double>(Clock::now() - stageBegan_).count();
   const bool estimable = status && status->fraction > 0.03 && elapsed > 2.0;
   view_.secondsLeft = estimable ? elapsed * (1.0 / status->fraction - 1.0) : 0.0;
-  const bool otherTime = measured_ && contentMoves(shown.scene) && measured_->time != shown.state.time;
-  view_.otherView = !view_.points.empty() && measured_ &&
-                    (otherTime || measured_->camera.eye != shown.state.camera.eye ||
-                     measured_->camera.worldToView != shown.state.camera.worldToView);
+  view_.otherView = !view_.points.empty() && measured_ && isOtherView(*measured_, view);
   view_.stage = status ? (status->rough ? "" : "Rough: ") + stepText(status->stage) : "";
   view_.progress = status ? status->fraction : 0.0;
   if (const std::optional<std::string> error = sweep_.takeError()) {

@@ -10,6 +10,19 @@
 
 namespace speculum {
 
+// A view of the window, and what the user did to it.
+struct WatchedView {
+  CameraPose camera;
+  bool movedCamera = false;  // by the user; else it is the scene's
+  double time = 0.0;         // seconds of animation
+  int seeks = 0;             // how often the user set the time
+  bool paused = false;
+  bool animated = false;  // the picture depends on the time
+};
+// Says whether the user has changed the view since it was measured: the camera, or the time by setting it or by a pause
+// elsewhere. What the clock alone changes is no other view, or an animation would be one from its next frame on.
+bool isOtherView(const WatchedView& measured, const WatchedView& now);
+
 // Accuracy of the view: measurements, the measured points whose settings can be applied, the budget, the difference
 // view.
 class AccuracyController {
@@ -18,7 +31,7 @@ class AccuracyController {
   // applied; `choice` is the reason. Throws InputError for a file that holds no sweep.
   AccuracyController(const Options& options, const Settings& loaded, const std::string& choice);
 
-  void measure(SweepRequest request);
+  void measure(SweepRequest request, const WatchedView& view);
   void cancel();
   void setProblem(const std::string& problem) { view_.about = problem; }
   void applyPoint(int point, Settings& settings) const;
@@ -30,8 +43,8 @@ class AccuracyController {
   void followBudget(Settings& settings);
   // Takes a budget that undo restored together with the settings that it had chosen, without choosing again.
   void acceptBudget(const Settings& settings) { budget_ = budgetOf(settings); }
-  // Call after a frame is drawn. `image` returns its pixels; null if its picture is not finished.
-  void afterFrame(const ShownPicture& shown, const std::function<Image8()>& image);
+  // Call after a frame of the view is drawn. `image` returns its pixels; null if its picture is not finished.
+  void afterFrame(const ShownPicture& shown, const WatchedView& view, const std::function<Image8()>& image);
   // Returns the picture to show instead of the scene, if it changed since the last call; one without pixels shows the
   // scene.
   std::optional<Image8> takeCover();
@@ -57,12 +70,8 @@ class AccuracyController {
   DifferenceView difference_;
   using Clock = std::chrono::steady_clock;
   Clock::time_point stageBegan_;
-  struct MeasuredView {
-    CameraPose camera;
-    double time = 0.0;  // seconds of animation
-  };
-  MeasuredView requested_;                // of the measurement that runs
-  std::optional<MeasuredView> measured_;  // of the points; none if they were read from a file
+  WatchedView requested_;                // of the measurement that runs
+  std::optional<WatchedView> measured_;  // of the points; none if they were read from a file
   bool showsDifference_ = false;
   bool coverChanged_ = false;
   SweepResults results_;
@@ -70,7 +79,6 @@ class AccuracyController {
   std::vector<std::vector<SettingChange>> pointSettings_;  // by point, every setting that it depends on
   std::optional<Settings> settings_;                       // settings for which the current point was found
   std::vector<MotionLevel> frontLevels_;
-  int chosen_ = -1;         // point of the budget's choice that is shown
   QualityBudget budget_;    // that was applied last
   bool setByHand_ = false;  // settings, since a budget chose them
 };

@@ -9,7 +9,10 @@ namespace speculum {
 // The time of the animation.
 class Playback {
  public:
-  void seek(double seconds) { view_.time = std::max(0.0, seconds); }
+  void seek(double seconds) {
+    view_.time = std::max(0.0, seconds);
+    ++seeks_;
+  }
   void step(int steps) {
     view_.paused = true;
     seek(view_.time + steps * timeStep);
@@ -19,9 +22,11 @@ class Playback {
   double after(double seconds) const { return view_.time + (view_.paused ? 0.0 : seconds * view_.speed); }
   void advance(double seconds) { view_.time = after(seconds); }
   const PlaybackView& view() const { return view_; }
+  int seeks() const { return seeks_; }  // how often the time was set
 
  private:
   PlaybackView view_;
+  int seeks_ = 0;
 };
 
 }  // namespace speculum

@@ -19,6 +19,17 @@ class StatusLine {
   void show(const std::string& text) {
     view_.text = text;
     since_ = Clock::now();
+    isWarning_ = false;
+  }
+  // Shows a warning, which goes when another scene comes: it may be about what the scene asks for.
+  void warn(const std::string& text) {
+    show(text);
+    isWarning_ = true;
+  }
+  void sceneChanged() {
+    if (isWarning_) {
+      clear();
+    }
   }
   void setPicture(const std::string& text) { view_.picture = text; }
   void clear() { view_.text.clear(); }
@@ -38,6 +49,7 @@ class StatusLine {
   double age() const { return std::chrono::duration<double>(Clock::now() - since_).count(); }
 
   StatusView view_;
+  bool isWarning_ = false;
   Clock::time_point since_;
 };
 

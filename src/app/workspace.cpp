@@ -180,6 +180,15 @@ SceneState Workspace::state(double time) {
   return state;
 }
 
+WatchedView Workspace::watchedView() {
+  return {.camera = state(time()).camera,
+          .movedCamera = camera_.moved(),
+          .time = time(),
+          .seeks = playback_.seeks(),
+          .paused = playback_.view().paused,
+          .animated = animated()};
+}
+
 // Returns nothing while the window has no pixels.
 std::optional<SceneView> Workspace::sceneView(double time) {
   const glm::ivec2 size = host_.pictureSize();
@@ -236,8 +245,10 @@ void Workspace::update() {
   if (std::unique_ptr<LoadedScene> loaded = opener_.update()) {
     showScene(std::move(loaded));
   }
-  if (const std::string warning = log_.takeProblem(); !warning.empty() && !problem().starts_with(warning)) {
-    status_.show(warning);
+  // Warnings wait while a scene is read, because they may be of that one.
+  const std::string warning = browser().busy() ? std::string() : log_.takeProblem();
+  if (!warning.empty() && !problem().starts_with(warning)) {
+    status_.warn(warning);
   }
   accuracy_.beforeFrame(settings_);
 }
@@ -263,7 +274,7 @@ void Workspace::frameDrawn(const ShownPicture& shown, const std::function<Image8
     saved.message += saved.logged && !picture.empty() ? " (" + picture + ")" : "";
     saved.logged ? status_.set(saved.message) : status_.show(saved.message);
   }
-  accuracy_.afterFrame(shown, radiance);
+  accuracy_.afterFrame(shown, watchedView(), radiance);
   tookBack_ = false;
 }
 
@@ -279,6 +290,7 @@ void Workspace::showScene(std::unique_ptr<LoadedScene> scene) {
     return host_.useScene(loaded_->scene);
   }
   startDocument();
+  status_.sceneChanged();
   playback_.seek(0.0);
   if (isModelFile(loaded_->scene.file)) {
     frame({.kind = Selection::Kind::object, .index = 0});
@@ -432,7 +444,7 @@ void Workspace::measureAccuracy() {
                          .base = settings_,
                          .camera = state(time()).camera};
     request.options.gpu = host_.gpu();
-    accuracy_.measure(std::move(request));
+    accuracy_.measure(std::move(request), watchedView());
   } catch (const std::runtime_error& error) {
     accuracy_.setProblem(error.what());
   }

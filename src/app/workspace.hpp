@@ -68,9 +68,7 @@ class Workspace {
   void frameDrawn(const ShownPicture& shown, const std::function<Image8()>& radiance, const Image8* captured);
 
   // Say whether frames are needed although nothing happens.
-  bool animates() const {
-    return !playback_.view().paused && (camera_.moved() ? contentMoves(scene()) : moves(scene()));
-  }
+  bool animates() const { return !playback_.view().paused && animated(); }
   bool working() const { return accuracy_.working() || opener_.working(); }
   uint64_t revision() const { return document_->editor().document().revision(); }
   bool dragging() const { return document_->editor().dragging(); }
@@ -87,6 +85,7 @@ class Workspace {
   const Settings& settings() const { return settings_; }
   double time() const { return playback_.view().time; }
   SceneState state(double time);  // with the camera of the window
+  WatchedView watchedView();      // of the next frame
   const std::string& problem() const { return opener_.problem(); }
   AccuracyController& accuracy() { return accuracy_; }
   SceneBrowser& browser() { return opener_.browser(); }
@@ -113,6 +112,7 @@ class Workspace {
   void measureAccuracy();
   void frame(const Selection& node);  // none: the whole scene
   void takeSceneChange();
+  bool animated() const { return camera_.moved() ? contentMoves(scene()) : moves(scene()); }
   std::optional<SceneView> sceneView(double time);
   Options shownOptions(const std::filesystem::path& file);
   double aspect() const;

@@ -43,6 +43,7 @@ struct InputEvent {
   double y = 0.0;
   KeyEvent key;                                // of a key, for shortcuts
   bool shift = false;                          // of a button: Shift was held
+  bool again = false;                          // of a button: pressed soon after its last press (by InputQueue)
   std::vector<std::filesystem::path> dropped;  // files
 };
 

@@ -63,6 +63,56 @@ int lineOf(std::string_view toml, Stop stop) {
   return 0;
 }
 
+// Returns the text of a line, as much as a message has room for.
+std::string excerptOf(std::string_view toml, int line) {
+  constexpr size_t kLongest = 60;
+  for (int before = 1; before < line && !toml.empty(); ++before) {
+    toml.remove_prefix(std::min(toml.find('\n'), toml.size() - 1) + 1);
+  }
+  toml = toml.substr(0, toml.find('\n'));
+  const auto isBlank = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
+  while (!toml.empty() && isBlank(toml.front())) {
+    toml.remove_prefix(1);
+  }
+  while (!toml.empty() && isBlank(toml.back())) {
+    toml.remove_suffix(1);
+  }
+  if (toml.size() <= kLongest) {
+    return std::string(toml);
+  }
+  size_t end = kLongest;
+  while (end > 0 && (static_cast<unsigned char>(toml[end]) & 0xc0) == 0x80) {
+    --end;  // within a character
+  }
+  return std::string(toml.substr(0, end)) + "...";
+}
+
+// Says how TOML writes what could not be parsed. `problem` is the library's: what was being parsed, and what is wrong.
+std::string_view rightToml(std::string_view problem) {
+  struct Rule {
+    std::string_view part;  // of the problem
+    std::string_view right;
+  };
+  // The first one that applies, so what is wrong comes before where.
+  static constexpr Rule rules[] = {
+      {"redefine", ", where a key stands once in its table, a table once, and [[name]] begins one of several tables"},
+      {"table header:", ", where [name] begins a table, and [[name]] one of several"},
+      {"key-value pair:", ", where a line is key = value, with several numbers as [1, 2, 3]"},
+      {"root table:", ", where a line is key = value, with several numbers as [1, 2, 3]"},
+      {"escape sequence", ", where a \\ is \\\\ in a text in \"...\", and itself in '...'"},
+      {"string:", ", where a text ends with the quotation marks that begin it, on its line unless they are three"},
+      {"boolean:", ", where true and false are written so, and a text stands in quotation marks"},
+      {"value:", ", where a value is a number, true, false, a text in quotation marks, [1, 2, 3] or { key = 1 }"},
+      {"integer:", ", where a number is such as 2, 0.5 or 1e-3"},
+      {"floating-point:", ", where a number is such as 2, 0.5 or 1e-3"},
+      {"array:", ", where an array is [1, 2, 3]"},
+      {"inline table:", ", where { key = 1, other = 2 } stands on one line"},
+  };
+  const auto rule = std::ranges::find_if(
+      rules, [&](const Rule& candidate) { return problem.find(candidate.part) != std::string_view::npos; });
+  return rule == std::end(rules) ? "" : rule->right;
+}
+
 }  // namespace
 
 std::string readTomlText(const fs::path& file, std::string_view kind) {
@@ -85,8 +135,12 @@ toml::table parseToml(const fs::path& file, std::string_view text, std::string_v
   try {
     return toml::parse(text);
   } catch (const toml::parse_error& error) {
-    const int line = static_cast<int>(error.source().begin.line);
-    throwInputError(file, std::max(1, line), "toml", error.description(), "a TOML 1.0 file is needed");
+    const int line = std::max(1, static_cast<int>(error.source().begin.line));
+    std::string_view problem = error.description();
+    constexpr std::string_view prefix = "Error while parsing ";
+    problem.remove_prefix(problem.starts_with(prefix) ? prefix.size() : 0);
+    throwInputError(file, line, "toml", fmt::format("{}, in '{}'", problem, excerptOf(text, line)),
+                    fmt::format("a TOML 1.0 file is needed{}", rightToml(problem)));
   }
 }
 

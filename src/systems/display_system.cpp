@@ -64,7 +64,7 @@ RecordedPass DisplaySystem::draw(Frame& frame, const PassDesc& desc, PassKind ki
     return GraphicsPipelineDesc{.name = variant.depth ? "display depth" : "display",
                                 .vert = "full_screen.vert",
                                 .frag = variant.depth ? depth : color,
-                                .fragConstants = {variant.toneMap == ToneMap::aces},
+                                .fragConstants = {variant.toneMap == ToneMap::aces, variant.shrunk},
                                 .setLayouts = {layout_.get()},
                                 .pushConstantBytes = sizeof constants,
                                 .color = variant.format,
@@ -88,7 +88,8 @@ RecordedPass DisplaySystem::record(Frame& frame, const VkDescriptorImageInfo& ra
                           static_cast<float>(texels.height) / static_cast<float>(frame.extent.height));
     variant.enlarged = !cover_ && scale != glm::vec2(1.0f);
     return draw(frame, desc, PassKind::display, variant, image,
-                gpu::DisplayConstants{glm::vec4(scale, 0.0f, 0.0f), static_cast<float>(exposure)});
+                gpu::DisplayConstants{
+                    glm::vec4(scale, 0.0f, 0.0f), {texels.width, texels.height}, static_cast<float>(exposure)});
   };
   return cover_ ? show(cover_.extent(), {}, cover_.descriptor(coverSampler_.get()), 1.0)
                 : show(size, {.toneMap = settings.view.toneMap}, radiance, settings.view.exposure / pictures);
@@ -101,11 +102,14 @@ std::optional<RecordedPass> DisplaySystem::recordColor(Frame& frame, const glm::
     return std::nullopt;
   }
   return draw(frame, viewPass(renderer_.displayTargets(frame), placement->area), PassKind::debugView,
-              {.toneMap = settings.view.toneMap, .multisampled = radiance.samples != VK_SAMPLE_COUNT_1_BIT},
+              {.toneMap = settings.view.toneMap,
+               .multisampled = radiance.samples != VK_SAMPLE_COUNT_1_BIT,
+               .shrunk = placement->lookup.x > 1.0f},
               radiance.descriptor,
-              gpu::DisplayConstants{placement->lookup, static_cast<float>(settings.view.exposure)});
+              gpu::DisplayConstants{placement->lookup, size, static_cast<float>(settings.view.exposure)});
 }
 
+// The depth image is not filtered where it is shrunk, because depth has no mean where surfaces meet.
 std::optional<RecordedPass> DisplaySystem::recordDepth(Frame& frame, const glm::ivec2& size, const DebugView& debug,
                                                        const MirrorImage& depth, double near) {
   const std::optional<Placement> placement = placementOf(frame.extent, size, debug);
@@ -118,7 +122,7 @@ std::optional<RecordedPass> DisplaySystem::recordDepth(Frame& frame, const glm::
 }
 
 void DisplaySystem::releaseView() {
-  pipelines_.dropIf([](const Variant& variant) { return variant.multisampled || variant.depth; });
+  pipelines_.dropIf([](const Variant& variant) { return variant.multisampled || variant.shrunk || variant.depth; });
 }
 
 void DisplaySystem::countPipelines(EffectLedger& ledger) const {

@@ -44,6 +44,7 @@ class DisplaySystem {
     ToneMap toneMap = ToneMap::clamp;
     bool multisampled = false;  // the image that is shown
     bool enlarged = false;
+    bool shrunk = false;                    // in a debug view
     bool depth = false;                     // shows depth, not radiance
     VkFormat format = VK_FORMAT_UNDEFINED;  // of the display image
     auto operator<=>(const Variant&) const = default;

@@ -13,6 +13,7 @@ namespace speculum::panels {
 namespace {
 
 constexpr ImU32 frontColor = IM_COL32(250, 190, 70, 255);
+constexpr ImU32 chosenColor = IM_COL32(110, 200, 120, 255);  // of a point off the front that a bound chose
 constexpr ImU32 otherColor = IM_COL32(130, 150, 180, 200);
 constexpr float gridOpacity = 0.16f;
 constexpr double leastError = 1e-4;  // where a point of error 0 is drawn
@@ -91,7 +92,7 @@ void drawAxes(ImDrawList& list, const Plot& plot, double noiseFloor) {
     list.AddLine({plot.corner.x, y}, {end.x, y}, grid);
     list.AddText({plot.corner.x + 2.0f, std::min(y, end.y - line)}, ink, figure(error).c_str());
   });
-  const char* across = "GPU ms";
+  const char* across = "GPU ms, still picture";
   list.AddText({end.x - textWidth(across) - 2.0f, end.y - line}, ink, across);
   const char* up = "mean FLIP";
   list.AddText({end.x - textWidth(up) - 2.0f, plot.corner.y}, ink, up);
@@ -108,6 +109,14 @@ bool isOnFront(const AccuracyView& accuracy, int point) {
   return std::ranges::find(accuracy.front, point) != accuracy.front.end();
 }
 
+// Returns what the color of a point off the front means.
+const char* colorHelp(const AccuracyView& accuracy, int point) {
+  return isOnFront(accuracy, point) ? ""
+         : point == accuracy.chosen ? "\nGreen: a bound chose it by its median, though a more accurate point may take "
+                                      "no longer, as far as the bars tell."
+                                    : "\nGrey: a more accurate point takes no longer, as far as the bars tell.";
+}
+
 void drawPoints(ImDrawList& list, const Plot& plot, const AccuracyView& accuracy, int hovered) {
   for (size_t i = 1; i < accuracy.front.size(); ++i) {
     list.AddLine(plot.at(accuracy.points[accuracy.front[i - 1]]), plot.at(accuracy.points[accuracy.front[i]]),
@@ -115,7 +124,7 @@ void drawPoints(ImDrawList& list, const Plot& plot, const AccuracyView& accuracy
   }
   for (int i = 0; i < static_cast<int>(accuracy.points.size()); ++i) {
     const PointView& point = accuracy.points[i];
-    const ImU32 color = isOnFront(accuracy, i) ? frontColor : otherColor;
+    const ImU32 color = isOnFront(accuracy, i) ? frontColor : i == accuracy.chosen ? chosenColor : otherColor;
     const ImVec2 place = plot.at(point);
     list.AddLine({plot.x(point.lowerMs), place.y}, {plot.x(point.upperMs), place.y}, color);
     list.AddCircleFilled(place, i == hovered ? 6.0f : 4.0f, color);
@@ -160,10 +169,9 @@ void plot(PanelContext& ui) {
   }
   if (hovered >= 0) {
     const PointView& point = accuracy.points[hovered];
-    ImGui::SetTooltip(
-        "%s\nmean FLIP %s, %s (%s .. %s)%s", point.name.c_str(), figure(point.error).c_str(),
-        duration(point.ms).c_str(), duration(point.lowerMs).c_str(), duration(point.upperMs).c_str(),
-        isOnFront(accuracy, hovered) ? "" : "\nGrey: a more accurate point takes no longer, as far as the bars tell.");
+    ImGui::SetTooltip("%s\nmean FLIP %s, %s (%s .. %s)%s", point.name.c_str(), figure(point.error).c_str(),
+                      duration(point.ms).c_str(), duration(point.lowerMs).c_str(), duration(point.upperMs).c_str(),
+                      colorHelp(accuracy, hovered));
     if (ImGui::IsItemClicked()) {
       ui.send(ApplyPoint{hovered});
     }
@@ -171,7 +179,10 @@ void plot(PanelContext& ui) {
   dimmedText(
       "A click applies a point. Its bar spans the middle half of its times; points whose bars overlap count as equally "
       "fast. No point beats an orange one.");
-  tip("Mean FLIP: mean perceived difference from the reference, 0 (none) to 1.");
+  tip("Mean FLIP: mean perceived difference from the reference, 0 (none) to 1.\n"
+      "GPU ms: of a picture in full quality, as drawn while nothing moves. While something moves, settings may be "
+      "lowered "
+      "to keep the pace.");
 }
 
 void frontSlider(PanelContext& ui) {

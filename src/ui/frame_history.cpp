@@ -114,6 +114,14 @@ std::vector<float> FrameHistory::passSeries(const std::string& pass) const {
   return values;
 }
 
+std::vector<float> FrameHistory::filledSeries(const std::string& pass) const {
+  std::vector<float> values = passSeries(pass);
+  for (size_t i = 1; i < values.size(); ++i) {
+    values[i] = std::isnan(values[i]) ? values[i - 1] : values[i];
+  }
+  return values;
+}
+
 std::string FrameHistory::csv() const {
   std::string text = "frame,frame ms,CPU ms,GPU ms";
   for (const std::string& name : names_) {

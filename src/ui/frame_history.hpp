@@ -41,6 +41,8 @@ class FrameHistory {
   // frames with times of passes.
   std::vector<std::string> passNames() const;
   std::vector<float> passSeries(const std::string& pass) const;
+  // Repeats each value until the next one, because few frames have their passes timed.
+  std::vector<float> filledSeries(const std::string& pass) const;
 
   // Returns a line of names with units, then one for each frame, oldest first; missing figures are empty. Names of
   // passes are quoted by RFC 4180.

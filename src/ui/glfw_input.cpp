@@ -44,6 +44,10 @@ void GlfwInput::give(const InputEvent& event) {
       if (static_cast<size_t>(event.code) < buttons_.size()) {
         buttons_[static_cast<size_t>(event.code)] = event.down;
       }
+      // A double click is known by the window's time. ImGui would take the time between the frames.
+      if (event.down) {
+        ImGui::GetIO().MouseDoubleClickTime = event.again ? FLT_MAX : 0.0f;
+      }
       return ImGui_ImplGlfw_MouseButtonCallback(window, event.code, event.down ? GLFW_PRESS : GLFW_RELEASE, 0);
     case InputEvent::Kind::pointer:
       pointer_ = glm::vec2(event.x, event.y);

@@ -1,13 +1,22 @@
 #include "ui/input_queue.hpp"
 
+#include <utility>
+
 namespace speculum {
 
-void InputQueue::push(const InputEvent& event) {
+constexpr std::chrono::milliseconds doubleClickTime{300};
+
+void InputQueue::push(const InputEvent& event, Clock::time_point now) {
   const bool moves = event.kind == InputEvent::Kind::pointer;
   if (moves && !events_.empty() && events_.back().kind == InputEvent::Kind::pointer) {
     events_.back() = event;
   } else {
     events_.push_back(event);
+  }
+  if (event.kind == InputEvent::Kind::button && event.down) {
+    const bool same = std::exchange(pressedButton_, event.code) == event.code;
+    const Clock::duration since = now - std::exchange(pressedAt_, now);
+    events_.back().again = same && since < doubleClickTime;
   }
 }
 

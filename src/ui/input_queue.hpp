@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <deque>
 #include <vector>
 
@@ -12,13 +13,19 @@ namespace speculum {
 // drag between two frames moves in one while the button is down.
 class InputQueue {
  public:
-  void push(const InputEvent& event);
+  using Clock = std::chrono::steady_clock;
+
+  // `now`: when the window got the event. A press becomes one of a double click by that time, because presses between
+  // two frames reach the panels frames apart.
+  void push(const InputEvent& event, Clock::time_point now = Clock::now());
   // Takes the events that the next frame may handle together.
   std::vector<InputEvent> take();
   bool empty() const { return events_.empty(); }
 
  private:
   std::deque<InputEvent> events_;
+  int pressedButton_ = -1;  // last one; -1: none yet
+  Clock::time_point pressedAt_;
 };
 
 }  // namespace speculum

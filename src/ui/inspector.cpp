@@ -151,7 +151,9 @@ void selectedNode(PanelContext& ui) {
     nextButton(ui, "Look from behind", "edit.look_behind", "Looks through the mirror at what it shows (B).",
                LookFromMirror{MirrorSide::back});
     dimmedText(mirrorCost(ui.view.frame, edit.selected.index));
-    recordWidget(ui, "edit.mirror_cost", "Cost of its images in the last frame, also of those seen in other mirrors.");
+    recordWidget(ui, "edit.mirror_cost",
+                 "Its images in the last frame, also those seen in other mirrors. The time is the median of the last "
+                 "frames, as in Performance.");
     ImGui::PushItemWidth(-10.5f * ImGui::GetFontSize());
     ImGui::TextUnformatted("To make the images of all mirrors cheaper:");
     settingRows(ui, "reflection.scale");

@@ -16,7 +16,19 @@ constexpr float clickReach = 6.0f;  // pixels within which clicks repeat each ot
 PanelWindows::PanelWindows()
     : state_{.choices = savedPanelChoices()}, savedChoices_(state_.choices), pendingPercent_(state_.choices.percent) {}
 
+// Opens no tooltip over the widget where a drag of the picture ended, until the pointer moves or a button is pressed.
+// ImGui does the same after a key.
+void PanelWindows::quietAfterDrag() {
+  const ImGuiIO& io = ImGui::GetIO();
+  for (int button = 0; button < ImGuiMouseButton_COUNT; ++button) {
+    if (ImGui::IsMouseReleased(button) && !io.MouseDownOwned[button]) {
+      ImGui::GetCurrentContext()->NavDisableMouseHover = true;
+    }
+  }
+}
+
 UiOutput PanelWindows::build(const UiView& view) {
+  quietAfterDrag();
   PanelContext ui{.view = view, .state = state_, .settings = view.settings, .output = {}};
   state_.widgets.clear();
   state_.targets.pointed.reset();

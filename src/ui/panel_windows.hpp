@@ -32,6 +32,7 @@ class PanelWindows {
   bool closeHelp() { return visible_ && std::exchange(state_.help, false); }
 
  private:
+  static void quietAfterDrag();
   void mainPanel(PanelContext& ui);
   void windowChoices(PanelContext& ui);
   void menuBar(PanelContext& ui);

@@ -158,6 +158,7 @@ void describe(PanelContext& ui, std::string_view key) {
 
 void tip(const std::string& text, bool beside) {
   // A widget with the keyboard's focus counts as hovered, but its tooltip would cover the next widgets.
+  // It is also off after a drag of the picture.
   const bool byKeyboard = ImGui::GetCurrentContext()->NavDisableMouseHover;
   // Nor may it cover the value of a slider that is dragged.
   const bool held = ImGui::IsItemActive();

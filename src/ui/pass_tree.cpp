@@ -33,6 +33,14 @@ std::vector<PassBranch> nested(std::span<const PassBranch> branches, int parent 
   return children;
 }
 
+// Returns the median that the Performance panel shows, because times of single frames jump; where it has none of these
+// frames, or sums passes of one name, that of the timed frame.
+double usualMs(const FrameView& frame, const PassView& pass) {
+  const bool known = !frame.history.paused() && std::ranges::count(frame.passes, pass.name, &PassView::name) == 1;
+  const double median = known ? percentile(frame.history.filledSeries(pass.name), 0.5) : std::nan("");
+  return !std::isnan(median) ? median : pass.timed ? pass.gpuMs : 0.0;
+}
+
 }  // namespace
 
 std::vector<PassBranch> passTree(std::span<const PassView> passes, std::span<const SkippedView> skipped) {
@@ -92,7 +100,7 @@ std::string mirrorCost(const FrameView& frame, int mirror) {
   for (const PassView& pass : frame.passes) {
     if (pass.kind == PassKind::mirror && pass.path.back() == mirror) {
       ++passes;
-      ms += pass.timed && !pass.reused ? pass.gpuMs : 0.0;
+      ms += pass.reused ? 0.0 : usualMs(frame, pass);
       reused = reused && pass.reused;
       pixels += pass.areaPx;
     }

@@ -33,7 +33,7 @@ std::string pathText(const std::string& name);
 double restOfPasses(const FrameView& frame);
 
 // Says what the images of a mirror (index into Scene::mirrors) cost, on the screen and in other mirrors, or why it has
-// none.
+// none. Times are medians of the last frames.
 std::string mirrorCost(const FrameView& frame, int mirror);
 
 }  // namespace speculum

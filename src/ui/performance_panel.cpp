@@ -23,14 +23,6 @@ void graph(const char* name, std::vector<float> values, float height) {
   ImGui::PopID();
 }
 
-// Repeats each value until the next one, because few frames have their passes timed.
-std::vector<float> gapsFilled(std::vector<float> values) {
-  for (size_t i = 1; i < values.size(); ++i) {
-    values[i] = std::isnan(values[i]) ? values[i - 1] : values[i];
-  }
-  return values;
-}
-
 // Draws one row: name, median, p95 and the graph. A nested pass is indented and shows the end of its path, others the
 // whole.
 void row(PanelContext& ui, const std::string& name, const std::vector<float>& values, float height, int depth = 0) {
@@ -59,7 +51,7 @@ void passRows(PanelContext& ui, const std::vector<std::string>& names, std::span
               int depth = 0) {
   for (const PassBranch& branch : branches) {
     const std::string& name = names[static_cast<size_t>(branch.pass)];
-    row(ui, name, gapsFilled(ui.view.frame.history.passSeries(name)), 1.6f * ImGui::GetFontSize(), depth);
+    row(ui, name, ui.view.frame.history.filledSeries(name), 1.6f * ImGui::GetFontSize(), depth);
     passRows(ui, names, branch.children, depth + 1);
   }
 }

@@ -101,14 +101,11 @@ void enter(PanelState::Files& files, const std::filesystem::path& folder, const 
   files.typed = typed;
 }
 
-// Draws the list of the folder that what is typed is in. Returns an entry that was clicked.
-std::optional<std::filesystem::path> fileList(PanelContext& ui, float height, bool models) {
+// Draws the list of a folder. Returns an entry that was clicked.
+std::optional<std::filesystem::path> fileList(PanelContext& ui, const std::filesystem::path& folder, float height,
+                                              bool models) {
   PanelState::Files& files = ui.state.files;
   std::error_code none;
-  std::filesystem::path folder = withoutLinks(named(files).parent_path());
-  while (folder.has_relative_path() && !isFolder(folder)) {
-    folder = folder.parent_path();
-  }
   if (folder != files.listed) {
     list(files, folder, models);
   }
@@ -140,19 +137,22 @@ void saveAs(PanelContext& ui) {
   ImGui::SetNextItemWidth(fieldWidth());
   if (ImGui::IsWindowAppearing()) {
     const std::filesystem::path& proposed = ui.view.edit.proposedFile;
-    enter(files, proposed.parent_path(), proposed.string());
+    enter(files, proposed.parent_path(), proposed.filename().string());
+    files.folder = proposed.parent_path();  // with its links, because the suggested folder is known by that path
     ImGui::SetKeyboardFocusHere();
   }
   ImGui::InputText("##file", &files.typed, ImGuiInputTextFlags_AutoSelectAll);
   recordWidget(ui, "edit.file");
-  if (const auto clicked = fileList(ui, 12.0f * ImGui::GetFontSize(), false)) {
-    files.typed = isFolder(*clicked) ? (*clicked / named(files).filename()).string() : clicked->string();
+  // The list's folder is where the file goes, so it is listed as empty until saving makes it.
+  const std::filesystem::path folder = withoutLinks(named(files).parent_path());
+  if (const auto clicked = fileList(ui, folder, 12.0f * ImGui::GetFontSize(), false)) {
+    const bool enters = *clicked == folder.parent_path() || isFolder(*clicked);
+    files.typed = (enters ? named(files) : *clicked).filename().string();
+    files.folder = enters ? *clicked : folder;
   }
   if (!ui.view.edit.note.empty()) {
     coloredText(errorColor, ui.view.edit.note);
   }
-  dimmedText("Folder: " + named(files).parent_path().string());
-  recordWidget(ui, "edit.folder");
   ImGui::TextDisabled("Opens with the scene's own camera. M keeps a view as a bookmark.");
   const size_t commands = ui.output.commands.size();
   answerButton(ui, "Save", "where.save", SaveAs{named(files)});
@@ -187,7 +187,11 @@ void openFile(PanelContext& ui) {
     files.problem.clear();
   }
   recordWidget(ui, "open.typed");
-  if (const auto clicked = fileList(ui, 20.0f * ImGui::GetFontSize(), true)) {
+  std::filesystem::path folder = withoutLinks(named(files).parent_path());
+  while (folder.has_relative_path() && !isFolder(folder)) {
+    folder = folder.parent_path();
+  }
+  if (const auto clicked = fileList(ui, folder, 20.0f * ImGui::GetFontSize(), true)) {
     const bool leaves = *clicked == files.listed.parent_path();
     files.typed = files.listed == files.folder && !leaves ? clicked->filename().string() : clicked->string();
     files.problem.clear();

@@ -165,9 +165,10 @@ struct AccuracyView {
   std::map<std::string, std::string, std::less<>> prices;  // by setting: its measured values with time and error
   std::vector<int> front;                                  // indices into points, cheapest first
   int current = -1;                                        // the point that the settings are at; -1: none
+  int chosen = -1;                                         // the point that a bound chose, if they still are; -1: none
   double noiseFloor = 0.0;                                 // mean FLIP
   std::string about;                                       // what was measured, where
-  bool otherView = false;                                  // the camera or the time is another now
+  bool otherView = false;                                  // the user changed the camera or the time since
   double secondsLeft = 0.0;                                // of the stage that runs; 0: not known
   bool measuring = false;
   std::string stage;               // of the measurement that runs
