@@ -236,7 +236,8 @@ TEST_F(AccuracyJourney, MeasuresTheViewAndShowsTheDifference) {
   EXPECT_EQ(measured.current, measured.front.front()) << "the bound chose it";
   EXPECT_EQ(view().edit.undo, "change Max. mean FLIP");
   EXPECT_EQ(view().edit.redo, "change Exposure") << "no step of the user's";
-  // The most accurate point takes four samples. A busy machine may measure it as the cheapest, and it is chosen already.
+  // The most accurate point takes four samples. A busy machine may measure it as the cheapest, and it is chosen
+  // already.
   const int best = measured.front.back();
   click("accuracy.point " + measured.points[static_cast<size_t>(best)].name);
   EXPECT_EQ(measured.current, best);

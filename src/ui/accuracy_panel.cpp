@@ -181,8 +181,7 @@ void plot(PanelContext& ui) {
       "fast. No point beats an orange one.");
   tip("Mean FLIP: mean perceived difference from the reference, 0 (none) to 1.\n"
       "GPU ms: of a picture in full quality, as drawn while nothing moves. While something moves, settings may be "
-      "lowered "
-      "to keep the pace.");
+      "lowered to keep the pace.");
 }
 
 void frontSlider(PanelContext& ui) {
