@@ -26,7 +26,7 @@ TEST_F(Devices, WithoutWhatIsOptionalDrawAll) {
   const Run plain = run(withoutRays, {});
   const Run poor = run(withoutRays,
                        {"SPECULUM_HIDE=storage_buffers=4 timestamps statistics precise_counts primitive_id depth_clamp "
-                        "sample_shading anisotropy lines VK_EXT_memory_budget"},
+                        "sample_shading lines VK_EXT_memory_budget"},
                        Place::inner);
   EXPECT_EQ(poor.exitCode, 0);
   EXPECT_EQ(poor.output, "");

@@ -52,8 +52,6 @@ class OffScreen {
 
   // Does nothing if the extent is the present one. Content is lost.
   void resize(VkExtent2D extent, RetireQueue& retired);
-  // Moves all images and the sampler to the queue; for a target that dies while frames that use it are in flight.
-  void retire(RetireQueue& retired);
 
   const OffScreenDesc& desc() const { return desc_; }
   VkExtent2D extent() const { return desc_.extent; }
@@ -70,6 +68,7 @@ class OffScreen {
 
  private:
   void create(RetireQueue& retired);
+  void retire(RetireQueue& retired);  // all images and the sampler
 
   Device* device_;
   OffScreenDesc desc_;

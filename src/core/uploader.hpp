@@ -19,7 +19,9 @@ class Uploader {
   // A device buffer (usage gets TRANSFER_DST added) that holds `data`.
   Buffer buffer(std::span<const std::byte> data, VkBufferUsageFlags usage, const std::string& name);
   Buffer buffer(const std::ranges::contiguous_range auto& data, VkBufferUsageFlags usage, const std::string& name) {
-    return buffer(std::as_bytes(std::span(data)), usage, name);
+    // Without an array's length in its type, which would call this function again.
+    const std::span<const std::byte> bytes = std::as_bytes(std::span(data));
+    return buffer(bytes, usage, name);
   }
   // A sampled image whose level 0 is `texels` (tightly packed rows, top first), in SHADER_READ_ONLY layout. With
   // `mipmaps` all further levels are made by halving blits, which are right only for linear formats such as RGBA16F.

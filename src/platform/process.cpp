@@ -42,11 +42,14 @@ ChildProcess::ChildProcess(const std::vector<std::string>& arguments, Input inpu
     argv.push_back(const_cast<char*>(argument.c_str()));
   }
   argv.push_back(nullptr);
-  int ends[2];
+  int ends[2] = {-1, -1};
   // The input is a socket and not a pipe, because writing to a socket whose reader is gone need not raise SIGPIPE.
   int inputEnds[2] = {-1, -1};
   if (::pipe2(ends, O_CLOEXEC) != 0 ||
       (input == Input::pipe && ::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, inputEnds) != 0)) {
+    for (const int end : ends) {
+      ::close(end);
+    }
     throw std::runtime_error("no pipe could be made for " + arguments.front());
   }
   posix_spawn_file_actions_t actions;

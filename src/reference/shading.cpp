@@ -63,9 +63,9 @@ glm::dvec3 mirroredLight(const TraceWorld& world, const ShadingPoint& point, int
 glm::dvec3 directLight(const TraceWorld& world, const ShadingPoint& point, int light) {
   const PointLight& source = world.scene().lights[light];
   const glm::dvec3 toLight = world.lights()[light].position - point.position;
-  const bool lit = glm::dot(point.normal, toLight) > 0.0 &&
-                   !(source.castsShadow && world.occluded({point.position, toLight, 0.0, 1.0}, point.self));
-  return lit ? lightRadiance(point, toLight, source) : glm::dvec3(0.0);
+  const bool dark = glm::dot(point.normal, toLight) <= 0.0 ||
+                    (source.castsShadow && world.occluded({point.position, toLight, 0.0, 1.0}, point.self));
+  return dark ? glm::dvec3(0.0) : lightRadiance(point, toLight, source);
 }
 
 // Interpolates linear texels bilinearly, repeated, v up; texel centres at (i + 0.5) / size.

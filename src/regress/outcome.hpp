@@ -24,7 +24,7 @@ struct Outcome {
   std::string driver;
   std::string picture;                     // file of the expected picture
   std::vector<std::string> drawCommand;    // words of the command that draws it again
-  std::vector<std::string> acceptCommand;  // words of the command that accepts it; none: not allowed
+  std::vector<std::string> acceptCommand;  // of the one that replaces the expected picture; none: not allowed
   bool replaceable = false;                // --update may write the expected picture
   bool hasFiles = false;                   // its pictures are beside the report
   double gain = 1.0;                       // of the difference picture

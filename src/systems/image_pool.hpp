@@ -25,8 +25,9 @@ class ImagePool {
   OffScreen& acquire(VkExtent2D extent, RetireQueue& retired);
   void release(const OffScreen& target);
   std::unique_ptr<OffScreen> remove(const OffScreen& target);  // gives it away
-  // Returns, for each of `images`, the target of the cached image that it reuses, null if it is to be rendered.
-  // `targets` are those of the cached images; the others are released, to `pool`, which is null without any target.
+  // Returns, for each of `images`, the target of the cached image that it reuses; null if it is to be rendered.
+  // `targets` are those of the cached images, of `pool`, which may be null if there are none. What no image reuses is
+  // released.
   template <typename Cached>
   static std::vector<OffScreen*> reused(std::span<const Cached> images, std::vector<OffScreen*> targets,
                                         ImagePool* pool) {

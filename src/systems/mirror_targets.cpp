@@ -22,7 +22,7 @@ void MirrorTargets::takeCached(const FramePlan& plan) {
   cachedImages_.clear();  // an unfinished picture offers none; end() fills it
 }
 
-// While tiles are drawn, or the picture is shown again, the image stays shown; the pool may be cleared meanwhile.
+// While tiles are drawn, or the picture is shown again, the image stays shown; the pool may be retired meanwhile.
 void MirrorTargets::takeWatched(const FramePlan& plan, RetireQueue& retired) {
   OffScreen* image = std::exchange(watchedImage_, nullptr);
   const bool stays = plan.tiles || (plan.mainReused && watched_);

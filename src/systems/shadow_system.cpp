@@ -86,7 +86,7 @@ void ShadowSystem::prepare(Frame& frame, const FramePlan& plan) {
 
 void ShadowSystem::prepareLayers(Frame& frame, const FramePlan& plan) {
   if (!hasShadowLayers(plan.shadowMaps)) {
-    releaseLayers(*frame.retired);
+    frame.retired->take(layers_);
     return;
   }
   if (!layers_) {
@@ -187,17 +187,9 @@ RecordedPass ShadowSystem::record(Renderer& renderer, const FrameInfo& info, siz
   return pass;
 }
 
-void ShadowSystem::releaseLayers(RetireQueue& retired) {
-  if (layers_) {
-    layers_->retire(retired);
-    layers_.reset();
-  }
-}
-
 void ShadowSystem::release(RetireQueue& retired) {
-  releaseLayers(retired);
-  target_->retire(retired);
-  target_.reset();
+  retired.take(layers_);
+  retired.take(target_);
   buffers_.retire(retired);
   pipelines_.clear();
 }

@@ -43,7 +43,6 @@ class ShadowSystem {
   uint32_t draw(const PassScope& scope, const FrameInfo& info, size_t pass, bool overLayer);
   void create();
   void prepareLayers(Frame& frame, const FramePlan& plan);
-  void releaseLayers(RetireQueue& retired);
   void release(RetireQueue& retired);
 
   Device& device_;

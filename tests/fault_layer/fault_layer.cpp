@@ -128,7 +128,6 @@ auto forward(Tag, Arguments... arguments) {
 void hide(VkPhysicalDevice device, VkPhysicalDeviceFeatures& features) {
   const auto off = [&](const char* name, VkBool32& feature) { feature = feature && !hidden(name, device); };
   off("clip_distance", features.shaderClipDistance);
-  off("anisotropy", features.samplerAnisotropy);
   off("primitive_id", features.geometryShader);
   off("sample_shading", features.sampleRateShading);
   off("depth_clamp", features.depthClamp);
