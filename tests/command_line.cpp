@@ -97,6 +97,8 @@ INSTANTIATE_TEST_SUITE_P(
                   "/nowhere/at/all.png"},
         UsageCase{{"render", "--out", "x.png", "--size", "8x8", "--capture", "x.rdc"}, "RenderDoc is not loaded"},
         UsageCase{{"demo", "--platform", "mir"}, "--platform"}, UsageCase{{"bench", "--frames", "0"}, "--frames"},
+        UsageCase{{"compare", "a.png", "b.png", "--max-diff", "-1"}, "-1 not in range 0 to 1000000 ("},
+        UsageCase{{"compare", "a.png", "b.png", "--max-flip", "-1"}, "-1 not in range 0.000000 to 1000000.000000 ("},
         UsageCase{{"bench", "--warmup", "-1"}, "--warmup"},
         UsageCase{{"bench", "--against-binary", "/nowhere"}, "/nowhere"},
         UsageCase{{"bench", "--against-binary", "/bin/false"}, "/bin/false: bench ended with exit code 1"},
