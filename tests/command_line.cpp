@@ -1,4 +1,8 @@
 // The program as scripts call it: exit codes, errors of one line, files and figures.
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include "command_support.hpp"
 #include "image/color.hpp"
 #include "image/exr.hpp"
@@ -93,6 +97,8 @@ INSTANTIATE_TEST_SUITE_P(
                   "/nowhere/at/all.png"},
         UsageCase{{"render", "--out", "x.png", "--size", "8x8", "--capture", "x.rdc"}, "RenderDoc is not loaded"},
         UsageCase{{"demo", "--platform", "mir"}, "--platform"}, UsageCase{{"bench", "--frames", "0"}, "--frames"},
+        UsageCase{{"compare", "a.png", "b.png", "--max-diff", "-1"}, "-1 not in range 0 to 1000000 ("},
+        UsageCase{{"compare", "a.png", "b.png", "--max-flip", "-1"}, "-1 not in range 0.000000 to 1000000.000000 ("},
         UsageCase{{"bench", "--warmup", "-1"}, "--warmup"},
         UsageCase{{"bench", "--against-binary", "/nowhere"}, "/nowhere"},
         UsageCase{{"bench", "--against-binary", "/bin/false"}, "/bin/false: bench ended with exit code 1"},
@@ -143,6 +149,45 @@ TEST_F(CommandLine, FileSizeLimitKeepsTheOldFiles) {
             out("x.png") + ": cannot be written: File too large (check the folder's permissions and free space)\n");
   EXPECT_EQ(readText(out("x.png")), "old");
   EXPECT_FALSE(fs::exists(out("x.png.part0")));
+}
+
+// A scene and files whose names are not UTF-8.
+TEST_F(CommandLine, EveryOutputKeepsLinksAndPipes) {
+  const auto link = [&](const std::string& name) {
+    replaceFile(out("behind " + name), "old");
+    fs::permissions(out("behind " + name), fs::perms(0640));
+    fs::create_symlink("behind " + name, out(name));
+    return out(name);
+  };
+  std::map<std::string, int> pipes;
+  const auto pipe = [&](const std::string& name) {
+    EXPECT_EQ(::mkfifo(out(name).c_str(), 0600), 0);
+    pipes[name] = ::open(out(name).c_str(), O_RDONLY | O_NONBLOCK);
+    return out(name);
+  };
+  fs::create_symlink(scene_, out("\xff.toml"));
+  const std::vector<std::string> small{"--scene", out("\xff.toml"), "--size", "2x2"};
+  const auto draw = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin() + 1, small.begin(), small.end());
+    succeed(arguments);
+  };
+  draw({"reference", "--samples", "1", "--out", link("\xff.png")});
+  draw({"reference", "--samples", "1", "--out", pipe("p.exr")});
+  draw({"render", "--out", pipe("\xff p.png"), "--stats", link("s.json")});
+  succeed({"compare", out("\xff.png"), out("\xff.png"), "--json", link("c.json"), "--heatmap", pipe("h.png")});
+  succeed({"compare", out("\xff.png"), out("\xff.png"), "--json", pipe("c p.json"), "--heatmap", link("h l.png")});
+  for (const std::string name : {"\xff.png", "s.json", "c.json", "h l.png"}) {
+    EXPECT_TRUE(fs::is_symlink(out(name))) << name;
+    EXPECT_NE(readText(out(name)), "old") << name;
+    EXPECT_EQ(fs::status(out(name)).permissions(), fs::perms(0640)) << name;
+  }
+  for (const auto& [name, descriptor] : pipes) {
+    char first = 0;
+    EXPECT_EQ(::read(descriptor, &first, 1), 1) << name;
+    ::close(descriptor);
+    EXPECT_TRUE(fs::is_fifo(out(name))) << name;
+  }
+  EXPECT_TRUE(contains(readJson(out("s.json"))["scene"].get<std::string>(), "\xef\xbf\xbd.toml"));
 }
 
 TEST_F(CommandLine, LinkLoopsAreNamedInOneLine) {

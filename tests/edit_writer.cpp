@@ -198,6 +198,19 @@ TEST(SaveScene, FileChangedMeanwhileIsNotOverwritten) {
   expectSameContent(loadScene(text.file), text.scene, "saved twice");
 }
 
+TEST(SaveScene, LinksAndModesStay) {
+  TextScene text(kFile);
+  const fs::path behind = text.folder / "behind.toml";
+  fs::rename(text.file, behind);
+  fs::permissions(behind, fs::perms(0640));
+  fs::create_symlink("behind.toml", text.file);
+  moveObject(text.document, 1);
+  text.document.save(text.file, {});
+  EXPECT_TRUE(fs::is_symlink(text.file));
+  EXPECT_EQ(fs::status(behind).permissions(), fs::perms(0640));
+  expectSameContent(loadScene(behind), text.scene, "behind the link");
+}
+
 TEST(SaveScene, AnotherFileIsNotOverwritten) {
   TextScene text(kFile);
   const fs::path other = text.folder.write("other.toml", "important");

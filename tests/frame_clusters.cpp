@@ -1,4 +1,7 @@
 // Clusters: objects that are seen in part are drawn in part, but never less than is seen.
+#include <ctime>
+#include <numbers>
+
 #include "frame_support.hpp"
 #include "geometry/mesh_clusters.hpp"
 #include "random.hpp"
@@ -107,6 +110,36 @@ TEST(Clusters, SortingMakesThemSmallInVertexOrder) {
   for (const uint32_t index : sorted.indices) {
     EXPECT_LE(index, next);
     next = std::max(next, index + 1);
+  }
+}
+
+// Returns a cone of `sides`, or one of its triangles as often.
+Mesh cone(uint32_t sides, bool same) {
+  Mesh mesh{.radius = 1.0, .vertices = {{{0, 0.3, 0}, {0, 1, 0}, {}}}};
+  for (uint32_t i = 0; i < sides; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / sides;
+    mesh.vertices.push_back({{std::cos(angle), 0.0, std::sin(angle)}, {0, 1, 0}, {}});
+    mesh.indices.insert(mesh.indices.end(), {0, same ? 1 : 1 + (i + 1) % sides, same ? 2 : 1 + i});
+  }
+  mesh.parts = {{0, 3 * sides, {}}};
+  return mesh;
+}
+
+// A cone shares one vertex among all its triangles; of many parts, each has few of the vertices.
+TEST(Clusters, MeshesOfAnyFormAreSortedQuickly) {
+  Mesh parts{.radius = 1.0, .vertices = std::vector<Vertex>(600'000)};
+  for (uint32_t i = 0; i < 6000; ++i) {
+    parts.parts.push_back({3 * i, 3, {}});
+    parts.indices.insert(parts.indices.end(), {100 * i, 100 * i + 1, 100 * i + 2});
+  }
+  for (const Mesh& before : {cone(60'000, false), cone(60'000, true), parts}) {
+    Mesh sorted = before;
+    const std::clock_t start = std::clock();
+    sortIntoClusters(sorted);
+    EXPECT_LT(std::clock() - start, 2 * CLOCKS_PER_SEC) << before.parts.size() << " parts";
+    for (const size_t part : {size_t{0}, before.parts.size() - 1}) {
+      EXPECT_TRUE(trianglesOf(sorted, sorted.parts[part]) == trianglesOf(before, before.parts[part]));
+    }
   }
 }
 

@@ -29,8 +29,9 @@ bool meets(const glm::dvec3& eye, const glm::dvec3& point, const std::array<glm:
   return (left || right) && sum != 0.0 && whole / sum > 0.0 && whole / sum < 1.0;
 }
 
+// Only mirrors outside the path cover the last one.
 bool isCovered(const Scene& scene, const SceneState& state, const glm::dvec3& eye, const glm::dvec3& point,
-               int mirror) {
+               const std::vector<int>& path) {
   for (const InstanceState& instance : state.instances) {
     const Mesh& mesh = scene.meshes[instance.mesh];
     const auto corner = [&](size_t i) { return instance.worldFromMesh.point(mesh.vertices[mesh.indices[i]].position); };
@@ -42,7 +43,8 @@ bool isCovered(const Scene& scene, const SceneState& state, const glm::dvec3& ey
   }
   for (size_t m = 0; m < state.mirrors.size(); ++m) {
     const std::vector<glm::dvec3>& polygon = state.mirrors[m].polygon;
-    for (size_t i = 1; static_cast<int>(m) != mirror && i + 1 < polygon.size(); ++i) {
+    const bool inPath = std::ranges::find(path, static_cast<int>(m)) != path.end();
+    for (size_t i = 1; !inPath && i + 1 < polygon.size(); ++i) {
       if (meets(eye, point, {polygon[0], polygon[i], polygon[i + 1]})) {
         return true;
       }
@@ -62,15 +64,16 @@ class Occluders : public ::testing::Test {
             .scale = {uniform(0.5, 2), uniform(0.5, 2), uniform(0.5, 2)}};
   }
 
-  // Returns a mirror somewhere beyond an occluder, in the direction of a point of its surface or beside it.
-  Mirror mirrorBehind(const Scene& scene, const SceneState& state) {
+  // Returns a mirror somewhere beyond an occluder, seen from `eye` in the direction of a point of its surface or beside
+  // it.
+  Mirror mirrorBehind(const Scene& scene, const SceneState& state, const glm::dvec3& eye = glm::dvec3(0.0)) {
     const InstanceState& instance = state.instances[engine_() % state.instances.size()];
     const Mesh& mesh = scene.meshes[instance.mesh];
     const glm::dvec3 a = mesh.vertices[engine_() % mesh.vertices.size()].position;
     const glm::dvec3 b = mesh.vertices[engine_() % mesh.vertices.size()].position;
     const glm::dvec3 target = instance.worldFromMesh.point(glm::mix(a, b, uniform(0, 1)) * uniform(0.2, 1.1));
     const double size = std::exp(uniform(std::log(0.005), std::log(1.0)));
-    return wall(target * uniform(1.3, 3.0), uniform(-50, 50), {size, size * uniform(0.3, 1)});
+    return wall(eye + (target - eye) * uniform(1.3, 3.0), uniform(-50, 50), {size, size * uniform(0.3, 1)});
   }
 
   // Random points of the part of a mirror that the view shows, its corners first.
@@ -89,26 +92,43 @@ class Occluders : public ::testing::Test {
     return points;
   }
 
-  // Plans a scene and checks all mirrors hidden in the main view. Returns their number.
-  int check(const Scene& scene, const std::string& what) {
+  // Plans a scene and checks all mirrors hidden at a depth. Returns their number.
+  int check(const Scene& scene, const std::string& what, int depth = 0) {
     const SceneState state = evaluate(scene, 0.0);
     const FramePlan plan = planOf(scene);
     int hidden = 0;
     for (const SkippedMirror& skipped : plan.skipped) {
-      if (skipped.reason != SkipReason::hidden || skipped.depth > 0) {
+      if (skipped.reason != SkipReason::hidden || skipped.depth != depth) {
         continue;
       }
       ++hidden;
       together_ += skipped.detail.find(" and ") != std::string::npos;
-      const glm::dvec3& eye = plan.main.view.eye;
-      for (const glm::dvec3& p : pointsOf(visiblePart(plan.main.view, state.mirrors[skipped.mirror].polygon))) {
-        if (!isCovered(scene, state, eye, p, skipped.mirror)) {
+      const View& view = viewOf(plan, skipped);
+      for (const glm::dvec3& p : pointsOf(visiblePart(view, state.mirrors[skipped.mirror].polygon))) {
+        glm::dvec3 begin = view.eye;  // of the ray: in the mirror that shows it
+        if (view.clip) {
+          const double above = glm::dot(view.clip->normal, p - view.clip->point);
+          const double below = glm::dot(view.clip->normal, view.clip->point - view.eye);
+          if (above < 1e-6 * below) {
+            continue;
+          }
+          begin += (p - view.eye) * (below / (below + above));
+        }
+        if (!isCovered(scene, state, begin, p, skipped.path)) {
           ADD_FAILURE() << what << " hides a mirror that is seen";
           break;
         }
       }
     }
     return hidden;
+  }
+
+  // Returns the view that does not show a mirror.
+  static const View& viewOf(const FramePlan& plan, const SkippedMirror& skipped) {
+    const std::vector<int> path(skipped.path.begin(), skipped.path.end() - 1);
+    const auto shows = [&](const PlannedPass& pass) { return pass.view.path == path; };
+    const auto pass = std::ranges::find_if(plan.passes, shows);
+    return pass == plan.passes.end() ? plan.main.view : pass->view;
   }
 
   std::mt19937 engine_{17};
@@ -135,6 +155,26 @@ TEST_F(Occluders, RandomShapesHideNothingVisible) {
     RecordProperty("hidden_behind_" + name, count);
     EXPECT_GT(count, 10) << name;
   }
+}
+
+// The eye looks into a mirror that shows the shapes, whole or in part: what is behind its plane hides nothing.
+TEST_F(Occluders, RandomShapesHideNothingVisibleInMirrors) {
+  int hidden = 0;
+  for (int round = 0; round < 300; ++round) {
+    const double plane = uniform(-3, 4);
+    Scene scene = testing_support::sceneWith({wall({0, 0, plane}, 180, {20, 20})});
+    scene.camera.position = {0, 0, plane - 4};
+    scene.camera.target = {0, 0, plane};
+    const OccluderShape shape = randomShape(engine_);
+    scene.meshes = {meshOf(shape.positions, shape.indices)};
+    scene.objects = {place(0), place(0)};
+    const SceneState objects = evaluate(scene, 0.0);
+    for (int i = 0; i < 6; ++i) {
+      scene.mirrors.push_back(mirrorBehind(scene, objects, {0, 0, plane + 4}));
+    }
+    hidden += check(scene, shape.name + ", round " + std::to_string(round), 1);
+  }
+  EXPECT_GT(hidden, 50);
 }
 
 TEST_F(Occluders, BoxesAndPanesHideNothingVisibleTogether) {

@@ -244,6 +244,31 @@ TEST(Png, SmallFilesDoNotUnpackToGigabytes) {
   EXPECT_EQ(readImage8(folder.write("more.png", pngOf(4, 4, packedZeros(200)))).height, 4) << "a little more";
   const fs::path bomb = folder.write("bomb.png", pngOf(4, 4, packedZeros(1'000'000)));
   expectFault([&] { readImage8(bomb); }, bomb, "unpacks to more than its pixels");
+  // An iPhone's header stands behind a chunk that others may fill as they like.
+  const std::string bare = packedZeros(1'000'000).substr(2);
+  const fs::path second = folder.write(
+      "second.png", pngOf(4, 4, bare).insert(8, std::string("\0\0\0\4CgBI\x7f\xff\xff\xff\x7f\xff\xff\xff", 16)));
+  expectFault([&] { readImage8(second); }, second, "is not a picture");
+}
+
+TEST(Png, HeadersOfAnySizeNameTheFile) {
+  const TemporaryFolder folder;
+  const std::vector<unsigned> sides{0, 5, INT32_MAX, UINT32_MAX};
+  for (const unsigned width : sides) {
+    for (const unsigned height : sides) {
+      for (const char bits : {8, 127}) {
+        for (const char color : {0, 2, 6, 127}) {
+          std::string bytes = pngOf(width, height, packedZeros(1));
+          bytes[24] = bits;
+          bytes[25] = color;
+          const fs::path file = folder.write("a.png", bytes);
+          if (width != 5 || height != 5) {
+            expectFault([&] { readImage8(file); }, file, "the picture ");
+          }
+        }
+      }
+    }
+  }
 }
 
 }  // namespace

@@ -71,5 +71,32 @@ TEST_F(ScarceMemory, TexturesBeyondMemoryAreLeftOut) {
   EXPECT_NE(with.rgba, expected(file, "false").rgba);
 }
 
+// Memory of targets and of copies, which no effect could do without.
+TEST_F(ScarceMemory, UndrawableStepsAreTakenBack) {
+  press("space");
+  const Image8 before = barePicture();
+  for (const bool copies : {true, false}) {
+    const int refused = refusedAllocations();
+    refuseMemory(1u << 18, UINT64_MAX);
+    if (copies) {
+      Object many = view().edit.scene->objects.at(0);
+      many.copies = {.count = 100'000, .step = {0.01, 0, 0}};
+      demo_->apply(EditNode{{Selection::Kind::object, 0}, many});
+    } else {
+      Settings settings = view().settings;
+      settings.view.samples = 4;
+      demo_->apply(SetSettings{settings});
+    }
+    ASSERT_TRUE(waitFor([&] { return refusedAllocations() > refused; })) << copies;
+    stopRefusingMemory();  // what was drawn before fits again
+    run(5);
+    EXPECT_TRUE(startsWith(view().message, "Cannot ")) << copies;
+    EXPECT_EQ(view().edit.scene->objects.at(0).copies, Copies());
+    EXPECT_EQ(view().settings.view.samples, 1);
+    click("message.dismiss");
+    EXPECT_TRUE(barePicture().rgba == before.rgba) << copies;
+  }
+}
+
 }  // namespace
 }  // namespace speculum

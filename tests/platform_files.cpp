@@ -142,6 +142,9 @@ TEST_F(Files, StoreMakesTheFolder) {
   EXPECT_FALSE(storeFile(file / "below", "a"));
   EXPECT_FALSE(storeFile(folder_ / "deep", "a"));
   EXPECT_EQ(readText(file), "a");
+  const fs::path pipe = folder_ / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_FALSE(storeFile(pipe, "a")) << "nobody reads it";
 }
 
 TEST_F(Files, FoldersDevicesAndHugeFilesAreRefused) {

@@ -1,3 +1,6 @@
+#include <numbers>
+
+#include "geometry/affine.hpp"
 #include "geometry/polygon.hpp"
 #include "random.hpp"
 #include "scene/beside_mirrors.hpp"
@@ -153,6 +156,35 @@ TEST(Evaluate, RepeatedVerticesLeaveTheFrameWhole) {
   EXPECT_EQ(mirror.normal, glm::dvec3(0, 0, 1));
   EXPECT_EQ(mirror.axisX, glm::dvec3(1, 0, 0));
   EXPECT_EQ(mirror.axisY, glm::dvec3(0, 1, 0));
+}
+
+// Vertices of a mirror may lie a little off its plane, and close to each other. Seen from any eye, the line of each
+// edge leaves the mirror on one side.
+TEST(Evaluate, NearVerticesOffThePlaneCutNothing) {
+  Random random(6);
+  for (int round = 0; round < 300; ++round) {
+    Mirror mirror;
+    const int corners = 3 + round % 6;
+    const glm::dmat3 turn = rotationFromDegrees(random.inBox(180.0));
+    for (int i = 0; i < corners; ++i) {
+      const double angle = 2.0 * std::numbers::pi * i / corners;
+      const glm::dvec3 corner(std::cos(angle), std::sin(angle), 0.0);
+      for (int copies = random.chance(0.5) ? 1 : 3; copies > 0; --copies) {
+        mirror.polygon.push_back(turn * (corner + glm::dvec3(0, 0, std::pow(10.0, random.uniform(-17, -5)))));
+      }
+    }
+    Scene scene = sceneWithCamera();
+    ASSERT_EQ(polygonDefect(mirror.polygon).value_or(""), "") << round;
+    scene.mirrors = {mirror};
+    const std::vector<glm::dvec3> polygon = evaluate(scene, 0.0).mirrors[0].polygon;
+    const glm::dvec3 eye = turn * glm::dvec3(random.uniform(-3, 3), random.uniform(-3, 3), random.uniform(0.1, 2));
+    for (size_t i = 0; i < polygon.size(); ++i) {
+      const glm::dvec3 outward = glm::cross(polygon[i] - eye, polygon[(i + 1) % polygon.size()] - eye);
+      for (const glm::dvec3& p : polygon) {
+        EXPECT_LT(glm::dot(outward, p - eye), 1e-2 * glm::length(outward)) << round << ", edge " << i;
+      }
+    }
+  }
 }
 
 TEST(Evaluate, FarFromTheOriginIsExact) {

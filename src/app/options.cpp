@@ -118,9 +118,9 @@ void addCompare(CLI::App& app, Options& options) {
   app.add_option("--mask", options.mask, "PNG; figures again for the pixels that are not black");
   app.add_option("--heatmap", options.heatmap, "PNG of the FLIP error");
   app.add_option("--json", options.json, "write the figures to F");
-  app.add_option("--max-flip", options.maxFlip, "exit 1 above this mean FLIP")->check(CLI::NonNegativeNumber);
+  app.add_option("--max-flip", options.maxFlip, "exit 1 above this mean FLIP")->check(CLI::Range(0.0, 1e6));
   app.add_option("--max-diff", options.maxDiff, "exit 1 if a channel differs by more than N/255")
-      ->check(CLI::NonNegativeNumber);
+      ->check(CLI::Range(0, 1'000'000));
 }
 
 void addRegress(CLI::App& app, Options& options) {

@@ -241,9 +241,9 @@ ordered_json mergeStats(const std::vector<ordered_json>& frames, const std::vect
 }
 
 void writeText(const std::filesystem::path& file, const std::string& text) {
-  if (!storeFile(file, text)) {
-    throw std::runtime_error(file.string() + ": cannot be written (a file in a writable directory)");
-  }
+  std::error_code ignored;
+  std::filesystem::create_directories(file.parent_path(), ignored);
+  replaceFile(file, text);
 }
 
 void writeJson(const std::filesystem::path& file, const ordered_json& json) {

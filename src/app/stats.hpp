@@ -19,7 +19,7 @@ std::vector<PassId> passIds(Session& session);  // of the last frame
 // Returns { "median", "min", "p95", "max" } of at least one value.
 nlohmann::ordered_json summary(std::vector<double> values);
 
-// Write a file and create its folder. Throw std::runtime_error if that fails.
+// Write a file and create its folder. Throw FileError if that fails.
 void writeText(const std::filesystem::path& file, const std::string& text);
 void writeJson(const std::filesystem::path& file, const nlohmann::ordered_json& json);
 

@@ -3,6 +3,7 @@
 #include <meshoptimizer.h>
 
 #include <algorithm>
+#include <unordered_map>
 
 #include "geometry/bvh.hpp"
 
@@ -22,30 +23,48 @@ MeshCluster clusterOf(std::span<const Vertex> vertices, std::span<const uint32_t
   return {first, count, box.center(), 0.5 * (box.high - box.low)};
 }
 
-// Positions scaled to about unit size, so that floats can hold them.
-std::vector<glm::vec3> unitPositions(const Mesh& mesh) {
-  std::vector<glm::vec3> positions;
-  positions.reserve(mesh.vertices.size());
-  for (const Vertex& vertex : mesh.vertices) {
-    positions.emplace_back(vertex.position / mesh.radius);
-  }
-  return positions;
-}
+// The vertices of a part, numbered from 0. One of many triangles counts as another after every few of them, since the
+// time of sorting grows with the triangles around a vertex.
+struct PartVertices {
+  std::vector<uint32_t> indices;     // into the others
+  std::vector<uint32_t> ofMesh;      // vertices
+  std::vector<glm::vec3> positions;  // scaled to about unit size, so that floats can hold them
 
-void sortTriangles(std::span<uint32_t> indices, const std::vector<glm::vec3>& positions) {
+  PartVertices(const Mesh& mesh, std::span<const uint32_t> all) {
+    constexpr uint32_t mostTriangles = 256;
+    struct Last {
+      uint32_t index;
+      uint32_t triangles;
+    };
+    std::unordered_map<uint32_t, Last> last;  // by vertex of the mesh
+    for (const uint32_t vertex : all) {
+      const auto [found, isNew] = last.try_emplace(vertex);
+      if (isNew || found->second.triangles == mostTriangles) {
+        found->second = {static_cast<uint32_t>(ofMesh.size()), 0};
+        ofMesh.push_back(vertex);
+        positions.emplace_back(mesh.vertices[vertex].position / mesh.radius);
+      }
+      ++found->second.triangles;
+      indices.push_back(found->second.index);
+    }
+  }
+};
+
+void sortTriangles(const Mesh& mesh, std::span<uint32_t> indices) {
   constexpr size_t triangles = clusterIndices / 3;
   constexpr size_t vertices = 64;
+  const PartVertices part(mesh, indices);
   const size_t most = meshopt_buildMeshletsBound(indices.size(), vertices, triangles);
   std::vector<meshopt_Meshlet> meshlets(most);
   std::vector<uint32_t> meshletVertices(most * vertices);
   std::vector<uint8_t> corners(most * clusterIndices);
-  meshlets.resize(meshopt_buildMeshlets(meshlets.data(), meshletVertices.data(), corners.data(), indices.data(),
-                                        indices.size(), &positions[0].x, positions.size(), sizeof(glm::vec3), vertices,
-                                        triangles, 0.0f));
+  meshlets.resize(meshopt_buildMeshlets(meshlets.data(), meshletVertices.data(), corners.data(), part.indices.data(),
+                                        part.indices.size(), &part.positions[0].x, part.positions.size(),
+                                        sizeof(glm::vec3), vertices, triangles, 0.0f));
   size_t next = 0;
   for (const meshopt_Meshlet& meshlet : meshlets) {
     for (uint32_t i = 0; i < 3 * meshlet.triangle_count; ++i) {
-      indices[next++] = meshletVertices[meshlet.vertex_offset + corners[meshlet.triangle_offset + i]];
+      indices[next++] = part.ofMesh[meshletVertices[meshlet.vertex_offset + corners[meshlet.triangle_offset + i]]];
     }
   }
 }
@@ -67,9 +86,8 @@ void sortIntoClusters(Mesh& mesh) {
   if (mesh.indices.size() < fewestClusters * clusterIndices) {
     return;
   }
-  const std::vector<glm::vec3> positions = unitPositions(mesh);
   for (const MeshPart& part : mesh.parts) {
-    sortTriangles(std::span(mesh.indices).subspan(part.firstIndex, part.indexCount), positions);
+    sortTriangles(mesh, std::span(mesh.indices).subspan(part.firstIndex, part.indexCount));
   }
   sortVertices(mesh);
 }

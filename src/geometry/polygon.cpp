@@ -93,7 +93,7 @@ std::optional<std::string> polygonDefect(std::span<const glm::dvec3> polygon) {
       return "is not planar";
     }
   }
-  if (!isConvex(distinctVertices(polygon, 1e-9 * scale), plane.normal, 1e-5 * scale)) {
+  if (!isConvex(withoutSteepEdges(polygon, plane.normal), plane.normal, 1e-5 * scale)) {
     return "is not convex";
   }
   return std::nullopt;
@@ -110,6 +110,20 @@ std::vector<glm::dvec3> distinctVertices(std::span<const glm::dvec3> polygon, do
     distinct.pop_back();
   }
   return distinct;
+}
+
+std::vector<glm::dvec3> withoutSteepEdges(std::span<const glm::dvec3> polygon, const glm::dvec3& normal) {
+  constexpr double steep = 1e-3;
+  const Plane plane{polygon[0], normal};
+  std::vector<glm::dvec3> flat;
+  bool anySteep = false;
+  for (size_t i = 0; i < polygon.size(); ++i) {
+    const glm::dvec3 edge = polygon[(i + 1) % polygon.size()] - polygon[i];
+    anySteep = anySteep || std::abs(glm::dot(normal, edge)) > steep * glm::length(edge);
+    flat.push_back(polygon[i] - plane.distance(polygon[i]) * normal);
+  }
+  return distinctVertices(anySteep ? std::span<const glm::dvec3>(flat) : polygon,
+                          1e-9 * farthestDistance(polygon[0], polygon));
 }
 
 std::vector<glm::dvec3> clipPolygon(std::span<const glm::dvec3> polygon, const Plane& keep) {

@@ -15,9 +15,10 @@ namespace speculum {
 
 namespace {
 
-// Accepts only the documented formats: stb would also read files without any signature as TGA.
+// Accepts only the documented formats: stb would also read files without any signature as TGA, and a PNG in the form of
+// an iPhone, whose header comes second.
 bool isPngOrJpeg(const std::vector<uint8_t>& bytes) {
-  constexpr std::array<uint8_t, 8> png{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
+  constexpr std::array<uint8_t, 16> png{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n', 0, 0, 0, 13, 'I', 'H', 'D', 'R'};
   constexpr std::array<uint8_t, 3> jpeg{0xff, 0xd8, 0xff};
   const auto startsWith = [&](const auto& magic) {
     return bytes.size() >= magic.size() && std::equal(magic.begin(), magic.end(), bytes.begin());
@@ -40,6 +41,11 @@ int64_t scansOf(const std::vector<uint8_t>& bytes) {
   return scans;
 }
 
+[[noreturn]] void throwDamaged(const std::filesystem::path& file) {
+  throw FileError(file, std::string("the picture is damaged: ") + stbi_failure_reason(),
+                  "a complete PNG or JPEG file is needed");
+}
+
 // Checks the size before decoding, because a small file can claim any size. Each scan of a JPEG, which may be as short
 // as 14 bytes, goes through all pixels.
 void checkSize(const std::filesystem::path& file, const std::vector<uint8_t>& bytes) {
@@ -49,7 +55,7 @@ void checkSize(const std::filesystem::path& file, const std::vector<uint8_t>& by
   int height = 0;
   int channels = 0;
   if (stbi_info_from_memory(bytes.data(), static_cast<int>(bytes.size()), &width, &height, &channels) == 0) {
-    return;
+    throwDamaged(file);
   }
   const int64_t pixels = int64_t{width} * height;
   const std::string size = std::to_string(width) + "x" + std::to_string(height) + " pixels";
@@ -129,8 +135,7 @@ Image8 readImage8(const std::filesystem::path& file) {
       stbi_load_from_memory(bytes.data(), static_cast<int>(bytes.size()), &width, &height, &channels, 4),
       &stbi_image_free);
   if (!pixels) {
-    throw FileError(file, std::string("the picture is damaged: ") + stbi_failure_reason(),
-                    "a complete PNG or JPEG file is needed");
+    throwDamaged(file);
   }
   Image8 image(width, height);
   std::copy_n(pixels.get(), image.rgba.size(), image.rgba.begin());

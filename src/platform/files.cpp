@@ -130,7 +130,8 @@ void replace(const fs::path& file, std::span<const uint8_t> content, bool lastin
   const bool exists = ::stat(target.c_str(), &old) == 0;
   // Renaming over a device or pipe would replace it.
   if (exists && !S_ISREG(old.st_mode)) {
-    const int descriptor = ::open(target.c_str(), O_WRONLY | O_CLOEXEC);
+    // A file whose loss does no harm waits for no reader of a pipe.
+    const int descriptor = ::open(target.c_str(), O_WRONLY | O_CLOEXEC | (lasting ? 0 : O_NONBLOCK));
     if (descriptor < 0) {
       failToWrite(file, errno);
     }

@@ -61,9 +61,9 @@ double slackOf(const std::vector<glm::dvec3>& polygon) {
 MirrorState placedMirror(const Mirror& mirror, double time) {
   MirrorState state;
   if (!mirror.polygon.empty()) {
-    state.polygon = mirror.polygon;
     state.origin = mirror.polygon[0];
     state.normal = glm::normalize(newellVector(mirror.polygon));
+    state.polygon = withoutSteepEdges(mirror.polygon, state.normal);
     state.axisX = firstEdge(mirror.polygon, state.normal);
     state.axisY = glm::cross(state.normal, state.axisX);
     return state;
