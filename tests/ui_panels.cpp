@@ -1007,6 +1007,19 @@ TEST_F(AccuracyWindow, SaysPurposeAndTimeOfMeasuring) {
   run(2);
   EXPECT_TRUE(shows("tracing the reference (1 of 3)"));
   EXPECT_TRUE(shows("About 90 s left"));
+  accuracy_.secondsLeft = 340.0;
+  run(2);
+  EXPECT_TRUE(shows("About 6 min left"));
+}
+
+TEST_F(AccuracyWindow, NothingMovesWhenAStepBegins) {
+  accuracy_.measuring = true;
+  accuracy_.secondsLeft = 10.0;
+  run(2);
+  const int bound = widget("quality.budget_ms").y;
+  accuracy_.secondsLeft = 0.0;
+  run(2);
+  EXPECT_EQ(widget("quality.budget_ms").y, bound);
 }
 
 TEST_F(AccuracyWindow, BoundsBeginWhereSettingsWereMeasured) {

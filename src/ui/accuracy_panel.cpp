@@ -271,6 +271,15 @@ void differenceView(PanelContext& ui) {
   ImGui::TextDisabled("Error (FLIP) from 0, left, to 1");
 }
 
+std::string timeLeft(double seconds) {
+  if (seconds <= 0.0) {
+    return "Time left: not known yet";
+  }
+  const bool inMinutes = seconds >= 99.5;
+  return fmt::format("About {:.0f} {} left of this step", inMinutes ? seconds / 60.0 : seconds,
+                     inMinutes ? "min" : "s");
+}
+
 }  // namespace
 
 void accuracy(PanelContext& ui) {
@@ -283,9 +292,11 @@ void accuracy(PanelContext& ui) {
     continueRow(accuracy.stage.c_str());
     ImGui::ProgressBar(static_cast<float>(accuracy.progress), ImVec2(-1.0f, 0.0f), accuracy.stage.c_str());
   }
-  if (accuracy.measuring && accuracy.secondsLeft > 0.0) {
-    ImGui::TextDisabled("About %.0f s left of this step", accuracy.secondsLeft);
-  } else if (accuracy.points.empty() && accuracy.about.empty()) {
+  if (accuracy.measuring) {
+    // Always a line, so that the widgets below stay in their places when a step begins.
+    dimmedText(timeLeft(accuracy.secondsLeft));
+  }
+  if (accuracy.points.empty() && accuracy.about.empty()) {
     wrappedText(
         "Finds the settings that are the most accurate within a time: 1. traces how this view should look, 2. draws it "
         "with each configuration and compares, 3. measures the times.");
