@@ -332,8 +332,10 @@ class BudgetView : public WorkspaceTest {
 TEST_F(BudgetView, PointsChosenByHandAreSaid) {
   setBudget(1e-3);
   EXPECT_TRUE(contains(choice(), "no measured point fits 0.001 ms"));
+  EXPECT_TRUE(view().accuracy.choiceMisses);
   send(ApplyPoint{view().accuracy.front.back()});
   EXPECT_EQ(choice(), "Set by hand. Change a bound to let it choose again.");
+  EXPECT_FALSE(view().accuracy.choiceMisses);
   setBudget(2e-3);
   EXPECT_TRUE(contains(choice(), "no measured point fits"));
   setBudget(0.0);

@@ -87,6 +87,7 @@ AccuracyController::AccuracyController(const Options& options, const Settings& l
     acceptBudget(loaded);
     if (const std::optional<BudgetChoice> chosen = chooseForBudget(results_, budget_)) {
       view_.chosen = chosen->point;
+      view_.choiceMisses = !chosen->met;
     }
   }
   view_.choice = choice;
@@ -177,12 +178,14 @@ void AccuracyController::followBudget(Settings& settings) {
   acceptBudget(settings);
   setByHand_ = false;
   view_.choice.clear();
+  view_.choiceMisses = false;
   view_.chosen = -1;
   if (const std::optional<BudgetChoice> choice = chooseForBudget(results_, budget_)) {
     applyPoint(choice->point, settings);
     view_.choice = choice->why;
     view_.choice += isRough_ ? " (rough figures)" : "";
     view_.chosen = choice->point;
+    view_.choiceMisses = !choice->met;
   }
 }
 
@@ -196,6 +199,7 @@ void AccuracyController::findCurrentPoint(const Settings& settings) {
   if (view_.current != view_.chosen) {
     const bool chose = budget_.bounds() && !results_.points.empty();
     view_.choice = chose ? "Set by hand. Change a bound to let it choose again." : "";
+    view_.choiceMisses = false;
     setByHand_ = chose;
     view_.chosen = -1;
   }
@@ -239,6 +243,7 @@ void AccuracyController::forgetScene(const std::string& why) {
   measured_.reset();
   view_.about = about;
   view_.choice.clear();
+  view_.choiceMisses = false;
 }
 
 }  // namespace speculum

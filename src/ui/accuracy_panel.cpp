@@ -242,7 +242,7 @@ void budget(PanelContext& ui) {
   bound(quality.budgetMs, firstBound(accuracy, &PointView::ms), "%.2f", "quality.budget_ms");
   bound(quality.maxError, firstBound(accuracy, &PointView::error), "%.4f", "quality.max_error");
   if (!accuracy.choice.empty()) {
-    wrappedText(accuracy.choice);
+    accuracy.choiceMisses ? coloredText(warningColor, accuracy.choice) : wrappedText(accuracy.choice);
   } else if (accuracy.points.empty()) {
     dimmedText(accuracy.measuring ? "Being measured: bounds choose among the first points."
                                   : "Bounds choose among measured points. Measure this view first.");

@@ -174,6 +174,7 @@ struct AccuracyView {
   std::string stage;               // of the measurement that runs
   double progress = 0.0;           // of the stage, 0 .. 1
   std::string choice;              // point chosen by the budget, beside the most accurate one
+  bool choiceMisses = false;       // no measured point meets the bounds
   std::string difference;          // error of the picture, or progress of the difference view
   std::vector<glm::vec3> heatBar;  // colors from no error to an error of 1, display sRGB
 };
