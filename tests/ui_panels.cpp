@@ -516,6 +516,15 @@ TEST_F(ManyPasses, HeadStaysInSight) {
   EXPECT_EQ(widget("performance.head 1").y, head.y);
 }
 
+TEST_F(ManyPasses, OnlyTheTableScrolls) {
+  toggle("Scenes");
+  toggle("Targets");
+  run(5);
+  const ImGuiWindow* window = ImGui::FindWindowByName("Performance");
+  ASSERT_TRUE(window);
+  EXPECT_EQ(window->ScrollMax.y, 0.0f);
+}
+
 TEST_F(ManyPasses, MirrorsInMirrorsStandBelowThem) {
   const PixelRect direct = widget("name.mirror a");
   const PixelRect parent = widget("name.mirror b");

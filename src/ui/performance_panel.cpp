@@ -58,8 +58,8 @@ void passRows(PanelContext& ui, const std::vector<std::string>& names, std::span
 
 bool beginRows(PanelContext& ui, const char* id) {
   const float em = ImGui::GetFontSize();
-  // Scrolls by itself, so that the head stays.
-  const ImVec2 size(0.0f, std::max(ImGui::GetContentRegionAvail().y, 12.0f * em));
+  // Scrolls by itself, so that the head stays. Low enough for the lowest docked window, which would scroll as well.
+  const ImVec2 size(0.0f, std::max(ImGui::GetContentRegionAvail().y, 6.0f * em));
   if (!ImGui::BeginTable(id, 4, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_ScrollY,
                          size)) {
     return false;
