@@ -966,6 +966,17 @@ TEST_F(AccuracyWindow, PointsAndSliderApplySettings) {
   EXPECT_EQ(std::get<ApplyPoint>(commands_.front()).point, 0);
 }
 
+TEST_F(AccuracyWindow, SliderSaysThatAPointIsOffTheFront) {
+  EXPECT_TRUE(shows("none of 2"));
+  accuracy_.current = 2;
+  run(2);
+  EXPECT_TRUE(shows("none of 2"));
+  accuracy_.current = 1;
+  run(2);
+  EXPECT_TRUE(shows("2 of 2"));
+  EXPECT_FALSE(shows("none of 2"));
+}
+
 TEST_F(AccuracyWindow, GreyPointsSayWhy) {
   hover("accuracy.point exact");
   EXPECT_TRUE(shows("mean FLIP"));
