@@ -291,6 +291,14 @@ TEST_F(PanelTest, MenusSendTheirCommands) {
   EXPECT_EQ(clickFor<LookFromMirror>("menu.Look out of mirror").side, MirrorSide::front);
 }
 
+TEST_F(PanelTest, MenuSaysWhatIsFramed) {
+  click("menu.View");
+  EXPECT_TRUE(has("menu.Frame scene"));
+  edit_.selected = {Selection::Kind::mirror, 0};
+  run(2);
+  EXPECT_TRUE(has("menu.Frame selection"));
+}
+
 TEST_F(PanelTest, FilesAreChosenFromOwnList) {
   std::filesystem::create_directory(config_.path() / "models");
   std::ofstream(config_.path() / "models" / "a.obj") << "v 0 0 0";

@@ -67,7 +67,7 @@ void editMenu(PanelContext& ui) {
 }
 
 void viewMenu(PanelContext& ui) {
-  item(ui, "Frame selection", FrameSelection{});
+  item(ui, ui.view.edit.selected ? "Frame selection" : "Frame scene", FrameSelection{});
   item(ui, "Look from behind mirror", LookFromMirror{MirrorSide::back});
   item(ui, "Look out of mirror", LookFromMirror{MirrorSide::front}, true, "Shift+B");
   item(ui, "Reset camera", ResetCamera{});
