@@ -473,6 +473,18 @@ TEST_F(PanelTest, ThemeAndSizeAreChosenAndRemembered) {
   EXPECT_EQ(windows_->state().choices.percent, percent);
 }
 
+TEST_F(PanelTest, TallMenusLeaveTheMenuBarFree) {
+  ImGui::GetIO().FontGlobalScale = 2.5f;
+  resize(1280, 500);
+  const float bar = ImGui::GetFrameHeight();
+  click("menu.Window");
+  run(3);
+  const ImGuiWindow* menu = ImGui::FindWindowByName("##Menu_00");
+  ASSERT_TRUE(menu && menu->Active);
+  EXPECT_GE(menu->Pos.y, bar - 1.0f);
+  EXPECT_GT(menu->ScrollMax.y, 0.0f) << "it would not fit otherwise";
+}
+
 TEST_F(PanelTest, PresentModesAreThoseOffered) {
   device_.presentModes = {"fifo", "immediate"};
   click("menu.Window");

@@ -2,6 +2,8 @@
 #include <imgui.h>
 #include <spdlog/fmt/fmt.h>
 
+#include <cfloat>
+
 #include "ui/input_map.hpp"
 #include "ui/panels.hpp"
 
@@ -87,6 +89,9 @@ bool menu(PanelContext& ui, const char* label, bool enabled) {
       std::string("menu.") + label,
       PixelRect{static_cast<int>(corner.x), static_cast<int>(corner.y), static_cast<int>(ImGui::CalcTextSize(label).x),
                 static_cast<int>(ImGui::GetTextLineHeight())});
+  // Taller menus would cover the menu bar, so that the click that opens one chose the entry under it.
+  const float others = ImGui::GetFrameHeight() + 2.0f * ImGui::GetStyle().DisplaySafeAreaPadding.y + 2.0f;
+  ImGui::SetNextWindowSizeConstraints({0.0f, 0.0f}, {FLT_MAX, ImGui::GetIO().DisplaySize.y - others});
   return ImGui::BeginMenu(label, enabled);
 }
 
