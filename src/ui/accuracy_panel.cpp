@@ -178,8 +178,7 @@ void plot(PanelContext& ui) {
   }
   dimmedText(
       "Both axes are logarithmic. A click applies a point. Its bar spans the middle half of its times; points whose "
-      "bars overlap count as equally "
-      "fast. No point beats an orange one.");
+      "bars overlap count as equally fast. No point beats an orange one.");
   tip("Mean FLIP: mean perceived difference from the reference, 0 (none) to 1.\n"
       "GPU ms: of a picture in full quality, as drawn while nothing moves. While something moves, settings may be "
       "lowered to keep the pace.");
@@ -243,8 +242,10 @@ void budget(PanelContext& ui) {
   };
   bound(quality.budgetMs, firstBound(accuracy, &PointView::ms), "%.2f", "quality.budget_ms");
   bound(quality.maxError, firstBound(accuracy, &PointView::error), "%.4f", "quality.max_error");
-  if (!accuracy.choice.empty()) {
-    accuracy.choiceMisses ? coloredText(warningColor, accuracy.choice) : wrappedText(accuracy.choice);
+  if (accuracy.choiceMisses) {
+    coloredText(warningColor, accuracy.choice);
+  } else if (!accuracy.choice.empty()) {
+    wrappedText(accuracy.choice);
   } else if (accuracy.points.empty()) {
     dimmedText(accuracy.measuring ? "Being measured: bounds choose among the first points."
                                   : "Bounds choose among measured points. Measure this view first.");
