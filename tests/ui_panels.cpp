@@ -1007,9 +1007,9 @@ TEST_F(AccuracyWindow, GreyPointsSayWhy) {
 
 TEST_F(AccuracyWindow, TimesAreOfTheStillPicture) {
   EXPECT_TRUE(shows("GPU ms, still picture"));
-  EXPECT_TRUE(shows("Both axes are logarithmic."));
   const PixelRect plot = widget("accuracy.plot");
   moveTo(plot.x + 40, plot.y + plot.height + 10);  // the text below
+  EXPECT_TRUE(shows("Both axes are logarithmic."));
   EXPECT_TRUE(shows("GPU ms: of a picture in full quality"));
 }
 

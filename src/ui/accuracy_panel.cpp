@@ -177,9 +177,9 @@ void plot(PanelContext& ui) {
     }
   }
   dimmedText(
-      "Both axes are logarithmic. A click applies a point. Its bar spans the middle half of its times; points whose "
-      "bars overlap count as equally fast. No point beats an orange one.");
-  tip("Mean FLIP: mean perceived difference from the reference, 0 (none) to 1.\n"
+      "A click applies a point. Its bar spans the middle half of its times; points whose bars overlap count as equally "
+      "fast. No point beats an orange one.");
+  tip("Both axes are logarithmic.\nMean FLIP: mean perceived difference from the reference, 0 (none) to 1.\n"
       "GPU ms: of a picture in full quality, as drawn while nothing moves. While something moves, settings may be "
       "lowered to keep the pace.");
 }
