@@ -98,15 +98,14 @@ std::optional<BudgetChoice> chooseForBudget(const SweepResults& results, const Q
   }
   choice.met = affordable(choice.point) && exact(choice.point);
   const SweepPoint& chosen = points[choice.point];
-  // Bounds that are missed come first: nobody finds them behind the figures.
+  choice.why = fmt::format("'{}', mean FLIP {:.3g} in {}; {}", chosen.name, chosen.whole.flip, timeText(costMs(chosen)),
+                           comparison(chosen, best));
   if (!affordable(choice.point)) {
-    choice.why += fmt::format("no measured point fits {}: ", timeText(budget.ms));
+    choice.why += "; no measured point fits " + timeText(budget.ms);
   }
   if (!exact(choice.point)) {
-    choice.why += fmt::format("the error bound {:.3g} is not met: ", budget.error);
+    choice.why += fmt::format("; the error bound {:.3g} is not met", budget.error);
   }
-  choice.why += fmt::format("'{}', mean FLIP {:.3g} in {}; {}", chosen.name, chosen.whole.flip,
-                            timeText(costMs(chosen)), comparison(chosen, best));
   return choice;
 }
 
