@@ -614,7 +614,7 @@ TEST_F(SlowPictures, AreDrawnTileByTile) {
   }
   input_ = false;
   draw();
-  expectText("Picture 7 of 16: ");
+  expectText("Picture 7 of 16: 37 % in all");
   revision_ = 2;
   EXPECT_FALSE(draw().plan.tiles) << "another picture is asked for";
   expectText("Draft: ");

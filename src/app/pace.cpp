@@ -180,12 +180,15 @@ void Pace::planTiles(const Request& request) {
 }
 
 std::string Pace::tilesText() const {
-  const double percent = std::floor(100.0 * slow_->share());
+  const double share = slow_->share();
   if (picture_ == 0 && !draft_.empty()) {
-    return fmt::format("{}; first picture {:.0f} %", draft_, percent);
+    return fmt::format("{}; first picture {:.0f} %", draft_, std::floor(100.0 * share));
   }
-  return pictures_ == 1 ? fmt::format("Picture {:.0f} %", percent)
-                        : fmt::format("Picture {} of {}: {:.0f} %", picture_ + 1, pictures_, percent);
+  if (pictures_ == 1) {
+    return fmt::format("Picture {:.0f} %", std::floor(100.0 * share));
+  }
+  return fmt::format("Picture {} of {}: {:.0f} % in all", picture_ + 1, pictures_,
+                     std::floor(100.0 * (picture_ + share) / pictures_));
 }
 
 void Pace::drawn(uint64_t number, double cpuMs, bool usual) {
