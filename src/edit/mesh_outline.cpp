@@ -5,7 +5,6 @@
 #include <cmath>
 #include <map>
 #include <numbers>
-#include <ranges>
 #include <set>
 
 #include "geometry/weld.hpp"
@@ -43,8 +42,9 @@ std::vector<MeshEdge> edgesOf(const Mesh& mesh) {
 // "Measurement of Areas on a Sphere Using Fibonacci and Latitude-Longitude Lattices" (2010).
 std::vector<glm::dvec3> outlinePoints(const Mesh& mesh) {
   if (mesh.vertices.size() <= mostPoints) {
-    const auto all = std::views::transform(mesh.vertices, &Vertex::position);
-    return {all.begin(), all.end()};
+    std::vector<glm::dvec3> all(mesh.vertices.size());
+    std::ranges::transform(mesh.vertices, all.begin(), &Vertex::position);
+    return all;
   }
   std::set<size_t> farthest;
   for (size_t i = 0; i < mostPoints; ++i) {

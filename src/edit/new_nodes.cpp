@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <ranges>
 
 #include "geometry/affine.hpp"
 #include "scene/scene_state.hpp"
@@ -44,8 +43,8 @@ glm::dvec3 rowOf(const Object& object) {
 // Returns a step within the mirror's plane, so that neither copy stands before the other.
 glm::dvec3 stepInPlane(const MirrorState& state) {
   const auto x = [&](const glm::dvec3& vertex) { return glm::dot(vertex - state.origin, state.axisX); };
-  const auto [low, high] = std::ranges::minmax(std::views::transform(state.polygon, x));
-  return 1.1 * (high - low) * state.axisX;
+  const auto [low, high] = std::ranges::minmax(state.polygon, {}, x);
+  return 1.1 * (x(high) - x(low)) * state.axisX;
 }
 
 // Moves a light's orbit with it, so that it circles as before.

@@ -9,7 +9,6 @@
 #include <map>
 #include <memory>
 #include <mutex>
-#include <ranges>
 #include <stdexcept>
 #include <unordered_map>
 #include <utility>
@@ -181,9 +180,9 @@ class SimplifiedPart {
 
  private:
   std::vector<glm::dvec3> corners(const std::vector<uint32_t>& indices) const {
-    const auto position = [&](uint32_t index) -> const glm::dvec3& { return positions_[index]; };
-    const auto corners = std::views::transform(indices, position);
-    return {corners.begin(), corners.end()};
+    std::vector<glm::dvec3> corners(indices.size());
+    std::ranges::transform(indices, corners.begin(), [&](uint32_t index) { return positions_[index]; });
+    return corners;
   }
 
   // Returns the step between the vertices or triangles that are measured: large parts are sampled.

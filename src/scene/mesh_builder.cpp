@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtx/component_wise.hpp>
-#include <ranges>
 
 #include "geometry/bvh.hpp"
 #include "geometry/convex_faces.hpp"
@@ -86,8 +85,8 @@ void rebase(Mesh& mesh) {
 void findOccluders(Mesh& mesh) {
   constexpr size_t mostFaces = 32;
   constexpr size_t mostTriangles = 4096;
-  const auto points = std::views::transform(mesh.vertices, &Vertex::position);
-  const std::vector<glm::dvec3> positions(points.begin(), points.end());
+  std::vector<glm::dvec3> positions(mesh.vertices.size());
+  std::ranges::transform(mesh.vertices, positions.begin(), &Vertex::position);
   mesh.faces = convexFaces(positions, mesh.indices, mostFaces, mostTriangles);
   mesh.convex = convexMesh(positions, mesh.indices, mostTriangles);
 }
