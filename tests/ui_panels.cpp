@@ -884,7 +884,7 @@ TEST_F(Inspector, MirrorsAreLookedFromAndSeenThrough) {
   EXPECT_FALSE(has("edit.look_out") || has("edit.mirror_cost"));
 }
 
-TEST_F(Inspector, TooltipsStayClosedWhereADragOfThePictureEnds) {
+TEST_F(Inspector, TooltipsStayClosedAfterDragsOfThePicture) {
   selectMirror(0);
   const WindowRect picture = windows_->freeRect();
   moveTo(picture.corner.x + 0.5 * picture.size.x, picture.corner.y + 0.5 * picture.size.y);
@@ -986,7 +986,7 @@ TEST_F(AccuracyWindow, PointsAndSliderApplySettings) {
   EXPECT_EQ(std::get<ApplyPoint>(commands_.front()).point, 0);
 }
 
-TEST_F(AccuracyWindow, SliderSaysThatAPointIsOffTheFront) {
+TEST_F(AccuracyWindow, SliderNamesPointsOffTheFront) {
   EXPECT_TRUE(shows("none of 2"));
   accuracy_.current = 2;
   run(2);

@@ -89,6 +89,7 @@ class WorkspaceTest : public testing::Test {
     workspace_->apply(command);
     frame();
   }
+  WatchedView watchedView() { return workspace_->watchedView(workspace_->state(workspace_->time())); }
   template <typename Done>
   void waitFor(const Done& done) {
     for (int i = 0; i < 6000 && !done(); ++i) {

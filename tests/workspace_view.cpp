@@ -71,7 +71,7 @@ TEST_F(Measuring, PickedRoughPointsStay) {
   EXPECT_EQ(accuracy.view().choice, "") << "there are no points";
   settings.quality = {};
   accuracy.beforeFrame(settings);
-  accuracy.measure(request_, workspace_->watchedView());
+  accuracy.measure(request_, watchedView());
   settings.quality.maxError = 0.9;
   accuracy.beforeFrame(settings);
   EXPECT_EQ(accuracy.view().choice, "") << "the first points are not measured";
@@ -346,9 +346,9 @@ class SpinningBall : public WorkspaceTest {
  protected:
   SpinningBall() : WorkspaceTest(replaced(corridorScene(), "scale = 0.2", "scale = 0.2, spin = [0, 90, 0]")) {}
 
-  bool otherView() { return isOtherView(measured_, workspace_->watchedView()); }
+  bool otherView() { return isOtherView(measured_, watchedView()); }
 
-  const WatchedView measured_ = workspace_->watchedView();
+  const WatchedView measured_ = watchedView();
 };
 
 TEST_F(SpinningBall, TimeAloneMakesNoOtherView) {

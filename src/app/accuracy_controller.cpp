@@ -93,6 +93,11 @@ AccuracyController::AccuracyController(const Options& options, const Settings& l
   view_.choice = choice;
 }
 
+void AccuracyController::setChoice(const std::string& text, bool misses) {
+  view_.choice = text;
+  view_.choiceMisses = misses;
+}
+
 void AccuracyController::setResults(SweepResults results, bool rough) {
   results_ = std::move(results);
   view_.points.clear();
@@ -177,15 +182,12 @@ void AccuracyController::followBudget(Settings& settings) {
   }
   acceptBudget(settings);
   setByHand_ = false;
-  view_.choice.clear();
-  view_.choiceMisses = false;
+  setChoice();
   view_.chosen = -1;
   if (const std::optional<BudgetChoice> choice = chooseForBudget(results_, budget_)) {
     applyPoint(choice->point, settings);
-    view_.choice = choice->why;
-    view_.choice += isRough_ ? " (rough figures)" : "";
+    setChoice(choice->why + (isRough_ ? " (rough figures)" : ""), !choice->met);
     view_.chosen = choice->point;
-    view_.choiceMisses = !choice->met;
   }
 }
 
@@ -198,8 +200,7 @@ void AccuracyController::findCurrentPoint(const Settings& settings) {
   view_.current = at == pointSettings_.end() ? -1 : static_cast<int>(at - pointSettings_.begin());
   if (view_.current != view_.chosen) {
     const bool chose = budget_.bounds() && !results_.points.empty();
-    view_.choice = chose ? "Set by hand. Change a bound to let it choose again." : "";
-    view_.choiceMisses = false;
+    setChoice(chose ? "Set by hand. Change a bound to let it choose again." : "");
     setByHand_ = chose;
     view_.chosen = -1;
   }
@@ -242,8 +243,7 @@ void AccuracyController::forgetScene(const std::string& why) {
   setResults({});
   measured_.reset();
   view_.about = about;
-  view_.choice.clear();
-  view_.choiceMisses = false;
+  setChoice();
 }
 
 }  // namespace speculum

@@ -60,6 +60,7 @@ class AccuracyController {
   void setResults(SweepResults results, bool rough = false);
   void takeResults();
   void findCurrentPoint(const Settings& settings);
+  void setChoice(const std::string& text = {}, bool misses = false);
 
   AccuracyView view_;
   struct Status : SweepStatus {

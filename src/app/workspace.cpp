@@ -180,10 +180,10 @@ SceneState Workspace::state(double time) {
   return state;
 }
 
-WatchedView Workspace::watchedView() {
-  return {.camera = state(time()).camera,
+WatchedView Workspace::watchedView(const SceneState& shown) const {
+  return {.camera = shown.camera,
           .movedCamera = camera_.moved(),
-          .time = time(),
+          .time = shown.time,
           .seeks = playback_.seeks(),
           .paused = playback_.view().paused,
           .animated = animated()};
@@ -274,7 +274,7 @@ void Workspace::frameDrawn(const ShownPicture& shown, const std::function<Image8
     saved.message += saved.logged && !picture.empty() ? " (" + picture + ")" : "";
     saved.logged ? status_.set(saved.message) : status_.show(saved.message);
   }
-  accuracy_.afterFrame(shown, watchedView(), radiance);
+  accuracy_.afterFrame(shown, watchedView(shown.state), radiance);
   tookBack_ = false;
 }
 
@@ -440,11 +440,11 @@ void Workspace::copyCommandLine() {
 
 void Workspace::measureAccuracy() {
   try {
-    SweepRequest request{.options = shownOptions(document_->savedOrCopy(loaded_->settings)),
-                         .base = settings_,
-                         .camera = state(time()).camera};
+    const SceneState shown = state(time());
+    SweepRequest request{
+        .options = shownOptions(document_->savedOrCopy(loaded_->settings)), .base = settings_, .camera = shown.camera};
     request.options.gpu = host_.gpu();
-    accuracy_.measure(std::move(request), watchedView());
+    accuracy_.measure(std::move(request), watchedView(shown));
   } catch (const std::runtime_error& error) {
     accuracy_.setProblem(error.what());
   }

@@ -85,7 +85,7 @@ class Workspace {
   const Settings& settings() const { return settings_; }
   double time() const { return playback_.view().time; }
   SceneState state(double time);  // with the camera of the window
-  WatchedView watchedView();      // of the next frame
+  WatchedView watchedView(const SceneState& shown) const;
   const std::string& problem() const { return opener_.problem(); }
   AccuracyController& accuracy() { return accuracy_; }
   SceneBrowser& browser() { return opener_.browser(); }

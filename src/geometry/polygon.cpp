@@ -114,16 +114,21 @@ std::vector<glm::dvec3> distinctVertices(std::span<const glm::dvec3> polygon, do
 
 std::vector<glm::dvec3> withoutSteepEdges(std::span<const glm::dvec3> polygon, const glm::dvec3& normal) {
   constexpr double steep = 1e-3;
-  const Plane plane{polygon[0], normal};
-  std::vector<glm::dvec3> flat;
+  const double least = 1e-9 * farthestDistance(polygon[0], polygon);
   bool anySteep = false;
   for (size_t i = 0; i < polygon.size(); ++i) {
     const glm::dvec3 edge = polygon[(i + 1) % polygon.size()] - polygon[i];
     anySteep = anySteep || std::abs(glm::dot(normal, edge)) > steep * glm::length(edge);
-    flat.push_back(polygon[i] - plane.distance(polygon[i]) * normal);
   }
-  return distinctVertices(anySteep ? std::span<const glm::dvec3>(flat) : polygon,
-                          1e-9 * farthestDistance(polygon[0], polygon));
+  if (!anySteep) {
+    return distinctVertices(polygon, least);
+  }
+  const Plane plane{polygon[0], normal};
+  std::vector<glm::dvec3> flat(polygon.begin(), polygon.end());
+  for (glm::dvec3& vertex : flat) {
+    vertex -= plane.distance(vertex) * normal;
+  }
+  return distinctVertices(flat, least);
 }
 
 std::vector<glm::dvec3> clipPolygon(std::span<const glm::dvec3> polygon, const Plane& keep) {

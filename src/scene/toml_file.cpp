@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "scene/input_error.hpp"
+#include "scene/text_lines.hpp"
 
 namespace speculum {
 
@@ -69,14 +70,7 @@ std::string excerptOf(std::string_view toml, int line) {
   for (int before = 1; before < line && !toml.empty(); ++before) {
     toml.remove_prefix(std::min(toml.find('\n'), toml.size() - 1) + 1);
   }
-  toml = toml.substr(0, toml.find('\n'));
-  const auto isBlank = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
-  while (!toml.empty() && isBlank(toml.front())) {
-    toml.remove_prefix(1);
-  }
-  while (!toml.empty() && isBlank(toml.back())) {
-    toml.remove_suffix(1);
-  }
+  toml = trimmed(toml.substr(0, toml.find('\n')));
   if (toml.size() <= kLongest) {
     return std::string(toml);
   }
