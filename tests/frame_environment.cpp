@@ -14,7 +14,7 @@ using testing_support::objectAt;
 constexpr int width = 320;
 constexpr int height = 180;
 
-enum { ball, wall, box };  // objects
+enum { ballObject, wallObject, boxObject };  // indices
 
 // A curved mirror before the camera, a wall 4 m to its right whose near face is at x = 3.5, and a box behind the
 // camera.
@@ -22,8 +22,8 @@ Scene ballRoom() {
   Scene scene = testing_support::sceneWith({});
   scene.meshes = {testing_support::cube(0.5, 0.9)};
   scene.objects = {objectAt({0, 0, -4}), objectAt({4, 0, -4}, {1, 8, 8}), objectAt({0, 0, 6})};
-  scene.objects[ball].mirror.emplace();
-  scene.objects[ball].name = "ball";
+  scene.objects[ballObject].mirror.emplace();
+  scene.objects[ballObject].name = "ball";
   scene.lights = {{.position = {0, 2, 0}, .glow = 0.0}};
   return scene;
 }
@@ -44,7 +44,7 @@ TEST(EnvironmentMap, ExistsWhereACurvedMirrorIsDrawn) {
   MapFrames frames(ballRoom());
   ASSERT_EQ(frames.next().maps.size(), 1u);
   EXPECT_EQ(frames.plan.maps[0].name, "object 'ball'");
-  EXPECT_EQ(frames.plan.maps[0].object, ball);
+  EXPECT_EQ(frames.plan.maps[0].object, ballObject);
   frames.settings.effects.curvedLookup = CurvedLookup::traced;
   EXPECT_TRUE(frames.next().maps.empty());
   frames.settings.effects.curvedLookup = CurvedLookup::environment;
@@ -76,16 +76,16 @@ TEST(EnvironmentMap, FacesCoverAllDirections) {
     const double angle = 2.399963 * i;  // the golden angle: evenly over the sphere
     const double y = 1.0 - 2.0 * (i + 0.5) / 40.0;
     const double r = std::sqrt(1.0 - y * y);
-    frames.scene.objects[box].position =
-        frames.scene.objects[ball].position + 9.0 * glm::dvec3(r * std::cos(angle), y, r * std::sin(angle));
+    frames.scene.objects[boxObject].position =
+        frames.scene.objects[ballObject].position + 9.0 * glm::dvec3(r * std::cos(angle), y, r * std::sin(angle));
     const EnvironmentMap& map = frames.next().maps.at(0);
     const SceneState state = evaluate(frames.scene, 0.0);
     ASSERT_EQ(map.faces.size(), 6u);
     int seen = 0;
     for (const PlannedPass& face : map.faces) {
       for (const int instance : face.instances) {
-        EXPECT_NE(state.instances[static_cast<size_t>(instance)].object, ball);
-        seen += state.instances[static_cast<size_t>(instance)].object == box;
+        EXPECT_NE(state.instances[static_cast<size_t>(instance)].object, ballObject);
+        seen += state.instances[static_cast<size_t>(instance)].object == boxObject;
       }
     }
     EXPECT_GE(seen, 1) << "direction " << i;
@@ -121,12 +121,12 @@ TEST(EnvironmentMap, IsRenderedWhenItsContentChanged) {
   frames.settings.view.scale = 0.5;
   EXPECT_EQ(frames.rendered(), 0) << "nor on the resolution of the picture";
   EXPECT_EQ(frames.plan.maps[0].serial, serial);
-  frames.scene.objects[box].color = glm::dvec3(0.5);
+  frames.scene.objects[boxObject].color = glm::dvec3(0.5);
   EXPECT_EQ(frames.rendered(), 1);
   EXPECT_GT(frames.plan.maps[0].serial, serial);
-  frames.scene.objects[ball].position.y += 0.1;
+  frames.scene.objects[ballObject].position.y += 0.1;
   EXPECT_EQ(frames.rendered(), 1);
-  frames.scene.objects[ball].mirror->reflectance *= 0.5;
+  frames.scene.objects[ballObject].mirror->reflectance *= 0.5;
   EXPECT_EQ(frames.rendered(), 0) << "its own color is not in it";
   frames.settings.effects.environmentSize = 64;
   EXPECT_EQ(frames.rendered(), 1);
@@ -138,7 +138,7 @@ TEST(EnvironmentMap, IsRenderedWhenItsContentChanged) {
 
 TEST(EnvironmentMap, TakesTurnsWithAnInterval) {
   Scene scene = ballRoom();
-  scene.objects[ball].copies = {.count = 4, .step = {0, 0.6, 0}};
+  scene.objects[ballObject].copies = {.count = 4, .step = {0, 0.6, 0}};
   MapFrames frames(scene);
   frames.settings.effects.environmentInterval = 4;
   for (const int size : {64, 32}) {
@@ -161,7 +161,7 @@ TEST(EnvironmentMap, ImagesThatShowItAreRenderedToo) {
   frames.next();
   ASSERT_EQ(frames.plan.passes.size(), 1u);
   for (int frame = 0; frame < 6; ++frame) {
-    frames.scene.objects[box].position.y += frame == 0 ? 0.1 : 0.0;
+    frames.scene.objects[boxObject].position.y += frame == 0 ? 0.1 : 0.0;
     const uint64_t serial = frames.plan.maps[0].serial;
     frames.next();
     const bool mapIsNew = frames.plan.maps[0].serial != serial;
@@ -171,7 +171,7 @@ TEST(EnvironmentMap, ImagesThatShowItAreRenderedToo) {
 
 TEST(EnvironmentMap, OnlyTheWidestMirrorsHaveOne) {
   Scene scene = ballRoom();
-  scene.objects[ball].copies = {.count = 50, .step = {0, 0, -0.3}};
+  scene.objects[ballObject].copies = {.count = 50, .step = {0, 0, -0.3}};
   MapFrames frames(scene);
   ASSERT_EQ(frames.next().maps.size(), mostEnvironmentMaps);
   for (const EnvironmentMap& map : frames.plan.maps) {

@@ -332,6 +332,22 @@ TEST_F(PanelTest, ListFollowsTheTypedFolder) {
   EXPECT_TRUE(std::filesystem::equivalent(only<OpenScene>().file, folder / "ring.obj"));
 }
 
+TEST_F(PanelTest, ListScrollsToTypedNames) {
+  for (int i = 0; i < 60; ++i) {
+    std::ofstream(config_.path() / ("room " + std::to_string(i) + ".toml")) << "";
+  }
+  std::ofstream(config_.path() / "studio.toml") << "";
+  for (const auto& [prompt, field] : {std::pair(Prompt::open, "open.typed"), std::pair(Prompt::saveAs, "edit.file")}) {
+    ask(prompt, config_.path() / "");
+    const int below = widget(field).y + 600;
+    EXPECT_GT(widget("open.studio.toml").y, below);
+    type("stu");
+    run(2);
+    EXPECT_LT(widget("open.studio.toml").y, below);
+    ask(Prompt::none);
+  }
+}
+
 TEST_F(PanelTest, SavingListsFoldersAndScenes) {
   std::filesystem::create_directory(config_.path() / "mine");
   std::ofstream(config_.path() / "mine" / "old.toml") << "";

@@ -18,7 +18,7 @@ constexpr double kSmallest = 1e-9;  // metres, of the bounding sphere's radius
 constexpr double kLargest = 1e12;
 constexpr double kGap = 0.03;   // radii between the model and the mirror below it
 constexpr double kStage = 3.6;  // radii that the mirror measures
-constexpr double kFieldOfView = 36.0;
+constexpr double kModelFieldOfView = 36.0;
 
 std::string disc(double radius) {
   constexpr int kCorners = 96;
@@ -37,7 +37,7 @@ std::string sceneText(const fs::path& file, const Mesh& mesh) {
   const glm::dvec3 center(0.0, height, 0.0);
   const glm::dvec3 target = center - glm::dvec3(0.0, 0.22 * r, 0.0);
   const glm::dvec3 towards = glm::normalize(glm::dvec3(0.62, 0.36, 1.0));
-  const glm::dvec3 eye = target + 1.3 * r / std::sin(glm::radians(0.5 * kFieldOfView)) * towards;
+  const glm::dvec3 eye = target + 1.3 * r / std::sin(glm::radians(0.5 * kModelFieldOfView)) * towards;
   std::string toml = fmt::format("# {} by itself, over a mirror of its size.\ntitle = {}\n\n",
                                  tomlText(file.filename().string()), tomlText(file.stem().string()));
   toml +=
@@ -46,7 +46,7 @@ std::string sceneText(const fs::path& file, const Mesh& mesh) {
       "ambient = [0.17, 0.185, 0.21]\n\n";
   toml += fmt::format(
       "[camera]\nposition     = {}\ntarget       = {}\nvertical_fov = {}\nnear         = {}\norbit_speed  = 10\n\n",
-      tomlText(eye), tomlText(target), kFieldOfView, 1e-3 * r);
+      tomlText(eye), tomlText(target), kModelFieldOfView, 1e-3 * r);
   toml += fmt::format("[[object]]\nname     = {}\nmodel    = {}\nposition = {}\n\n", tomlText(file.stem().string()),
                       tomlText(file.filename().string()), tomlText(center - mesh.center));
   toml += fmt::format(

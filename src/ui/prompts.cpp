@@ -101,11 +101,14 @@ void enter(PanelState::Files& files, const std::filesystem::path& folder, const 
   files.typed = typed;
 }
 
-// Draws the list of a folder. Returns an entry that was clicked.
+// Draws the list of a folder, scrolled to the first name that begins as the typed one after that was `edited`. Returns
+// an entry that was clicked.
 std::optional<std::filesystem::path> fileList(PanelContext& ui, const std::filesystem::path& folder, float height,
-                                              bool models) {
+                                              bool models, bool edited) {
   PanelState::Files& files = ui.state.files;
   std::error_code none;
+  const std::string begun = named(files).filename().string();
+  bool scrolls = edited && !begun.empty();
   if (folder != files.listed) {
     list(files, folder, models);
   }
@@ -126,6 +129,10 @@ std::optional<std::filesystem::path> fileList(PanelContext& ui, const std::files
                           ImGuiSelectableFlags_AllowDoubleClick | ImGuiSelectableFlags_DontClosePopups)) {
       clicked = entry.path();
     }
+    if (scrolls && name.starts_with(begun)) {
+      ImGui::SetScrollHereY();
+      scrolls = false;
+    }
     recordWidget(ui, "open." + name);
   }
   ImGui::EndChild();
@@ -142,10 +149,11 @@ void saveAs(PanelContext& ui) {
     ImGui::SetKeyboardFocusHere();
   }
   ImGui::InputText("##file", &files.typed, ImGuiInputTextFlags_AutoSelectAll);
+  const bool edited = ImGui::IsItemEdited();
   recordWidget(ui, "edit.file");
   // The list's folder is where the file goes, so it is listed as empty until saving makes it.
   const std::filesystem::path folder = withoutLinks(named(files).parent_path());
-  if (const auto clicked = fileList(ui, folder, 12.0f * ImGui::GetFontSize(), false)) {
+  if (const auto clicked = fileList(ui, folder, 12.0f * ImGui::GetFontSize(), false, edited)) {
     const bool enters = *clicked == folder.parent_path() || isFolder(*clicked);
     files.typed = (enters ? named(files) : *clicked).filename().string();
     files.folder = enters ? *clicked : folder;
@@ -183,7 +191,8 @@ void openFile(PanelContext& ui) {
   ImGui::SetNextItemWidth(fieldWidth());
   bool opens =
       ImGui::InputTextWithHint("##typed", "Scene or model", &files.typed, ImGuiInputTextFlags_EnterReturnsTrue);
-  if (ImGui::IsItemEdited()) {
+  const bool edited = ImGui::IsItemEdited();
+  if (edited) {
     files.problem.clear();
   }
   recordWidget(ui, "open.typed");
@@ -191,7 +200,7 @@ void openFile(PanelContext& ui) {
   while (folder.has_relative_path() && !isFolder(folder)) {
     folder = folder.parent_path();
   }
-  if (const auto clicked = fileList(ui, folder, 20.0f * ImGui::GetFontSize(), true)) {
+  if (const auto clicked = fileList(ui, folder, 20.0f * ImGui::GetFontSize(), true, edited)) {
     const bool leaves = *clicked == files.listed.parent_path();
     files.typed = files.listed == files.folder && !leaves ? clicked->filename().string() : clicked->string();
     files.problem.clear();
