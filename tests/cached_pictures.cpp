@@ -3,7 +3,7 @@
 #include "reuse_support.hpp"
 #include "sampling.hpp"
 
-namespace speculum {
+namespace speculum::cached_pictures {
 namespace {
 
 using namespace testing_support;
@@ -206,4 +206,4 @@ TEST(CachedPictures, StatsListReusedMirrorsAndMergePasses) {
 }
 
 }  // namespace
-}  // namespace speculum
+}  // namespace speculum::cached_pictures

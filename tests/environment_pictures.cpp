@@ -3,7 +3,7 @@
 #include "reuse_support.hpp"
 #include "truth_support.hpp"
 
-namespace speculum {
+namespace speculum::environment_pictures {
 namespace {
 
 using namespace testing_support;
@@ -200,4 +200,4 @@ TEST(EnvironmentMaps, ReuseChangesNoByte) {
 }
 
 }  // namespace
-}  // namespace speculum
+}  // namespace speculum::environment_pictures

@@ -7,7 +7,7 @@
 #include "sampling.hpp"
 #include "test_headers.hpp"
 
-namespace speculum {
+namespace speculum::finite_watch {
 namespace {
 
 using namespace testing_support;
@@ -339,4 +339,4 @@ INSTANTIATE_TEST_SUITE_P(Kinds, CheckBarrier,
                          [](const auto& info) { return std::string(barrierName(info.param)); });
 
 }  // namespace
-}  // namespace speculum
+}  // namespace speculum::finite_watch

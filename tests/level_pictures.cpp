@@ -3,7 +3,7 @@
 #include "reuse_support.hpp"
 #include "scene_text.hpp"
 
-namespace speculum {
+namespace speculum::level_pictures {
 namespace {
 
 using namespace testing_support;
@@ -102,4 +102,4 @@ TEST(LevelPictures, MemoryFollowsTheSetting) {
 }
 
 }  // namespace
-}  // namespace speculum
+}  // namespace speculum::level_pictures

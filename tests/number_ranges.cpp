@@ -11,7 +11,7 @@
 #include "studio.hpp"
 #include "truth_support.hpp"
 
-namespace speculum {
+namespace speculum::number_ranges {
 namespace {
 
 using namespace testing_support;
@@ -209,4 +209,4 @@ TEST(EyeAtAVertex, FillsNothing) {
 }
 
 }  // namespace
-}  // namespace speculum
+}  // namespace speculum::number_ranges

@@ -6,7 +6,7 @@
 #include "scarce_memory.hpp"
 #include "test_headers.hpp"
 
-namespace speculum {
+namespace speculum::ray_methods {
 namespace {
 
 using namespace testing_support;
@@ -205,4 +205,4 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& info) { return std::string(info.param.name); });
 
 }  // namespace
-}  // namespace speculum
+}  // namespace speculum::ray_methods

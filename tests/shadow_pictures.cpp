@@ -6,7 +6,7 @@
 #include "reuse_support.hpp"
 #include "sampling.hpp"
 
-namespace speculum {
+namespace speculum::shadow_pictures {
 namespace {
 
 using namespace testing_support;
@@ -232,4 +232,4 @@ TEST(ShadowMaps, StandBesideTracedEffects) {
 }
 
 }  // namespace
-}  // namespace speculum
+}  // namespace speculum::shadow_pictures

@@ -7,7 +7,7 @@
 #include "sampling.hpp"
 #include "test_headers.hpp"
 
-namespace speculum {
+namespace speculum::skipping_pictures {
 namespace {
 
 using namespace testing_support;
@@ -244,4 +244,4 @@ TEST(Skipping, FiguresOfPassesNameTheParent) {
 }
 
 }  // namespace
-}  // namespace speculum
+}  // namespace speculum::skipping_pictures

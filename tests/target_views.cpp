@@ -4,7 +4,7 @@
 #include "scene_text.hpp"
 #include "test_headers.hpp"
 
-namespace speculum {
+namespace speculum::target_views {
 namespace {
 
 using namespace testing_support;
@@ -297,4 +297,4 @@ TEST(TargetViews, MissTheBarrierOfDepth) {
 }
 
 }  // namespace
-}  // namespace speculum
+}  // namespace speculum::target_views

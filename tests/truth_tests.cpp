@@ -25,7 +25,7 @@ std::string nameOf(const testing::TestParamInfo<std::string>& info) {
   return std::filesystem::path(info.param).filename();
 }
 
-// Without the rough one, whose rays are random: accumulated_tests compare its mean.
+// Without the rough one, whose rays are random: accumulated_pictures.cpp compares its mean.
 std::vector<std::string> smoothScenes() {
   std::vector<std::string> names = sceneNames();
   std::erase(names, "rough");

@@ -6,7 +6,7 @@
 #include "studio.hpp"
 #include "truth_support.hpp"
 
-namespace speculum {
+namespace speculum::depth_readout_pictures {
 namespace {
 
 using namespace testing_support;
@@ -229,4 +229,4 @@ TEST_F(DepthReadoutOf, HundredthOfTheGapFails) {
 }
 
 }  // namespace
-}  // namespace speculum
+}  // namespace speculum::depth_readout_pictures

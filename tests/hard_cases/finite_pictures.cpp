@@ -10,7 +10,7 @@
 #include "truth_support.hpp"
 #include "virtual_display.hpp"
 
-namespace speculum {
+namespace speculum::finite_pictures {
 namespace {
 
 using namespace testing_support;
@@ -268,4 +268,4 @@ TEST(AnySizeOfWindow, OnePixelRunsAndMinimisedPauses) {
 }
 
 }  // namespace
-}  // namespace speculum
+}  // namespace speculum::finite_pictures

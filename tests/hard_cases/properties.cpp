@@ -6,7 +6,7 @@
 #include "test_headers.hpp"
 #include "transform_support.hpp"
 
-namespace speculum {
+namespace speculum::properties {
 namespace {
 
 using namespace hard_cases;
@@ -249,4 +249,4 @@ TEST(Invariants, MirrorImageShowsTheMirroredScene) {
 }
 
 }  // namespace
-}  // namespace speculum
+}  // namespace speculum::properties

@@ -2,7 +2,7 @@
 #include "scene_text.hpp"
 #include "truth_support.hpp"
 
-namespace speculum {
+namespace speculum::scene_pictures {
 namespace {
 
 using namespace testing_support;
@@ -194,4 +194,4 @@ TEST(SeamsOfMirrorsAndBodies, AveragedImagesShowTheBackground) {
 }
 
 }  // namespace
-}  // namespace speculum
+}  // namespace speculum::scene_pictures

@@ -1,5 +1,0 @@
-speculum_test(cached_tests SOURCES cached_pictures.cpp LIBRARIES picture_support LABELS pictures)
-speculum_test(unchanged_tests SOURCES unchanged_pictures.cpp LIBRARIES picture_support LABELS pictures)
-speculum_test(level_tests SOURCES level_pictures.cpp LIBRARIES picture_support LABELS pictures)
-speculum_test(environment_tests SOURCES environment_pictures.cpp LIBRARIES picture_support LABELS pictures)
-speculum_test(shadow_tests SOURCES shadow_pictures.cpp LIBRARIES picture_support LABELS pictures)

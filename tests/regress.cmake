@@ -1,3 +1,0 @@
-speculum_test(regress_tests SOURCES regress_cases.cpp regress_reports.cpp LIBRARIES regress)
-speculum_test(regress_command_tests SOURCES regress_command.cpp LIBRARIES picture_support LABELS command_line)
-add_dependencies(regress_command_tests speculum)
