@@ -2,6 +2,7 @@
 // for curved mirrors, and for planar ones that rays show. Needs trace.glsl, traced_light.glsl and microfacet.glsl.
 
 layout(constant_id = 1) const bool trilinear = false;  // between levels of textures
+layout(constant_id = 4) const bool rough = false;      // a mirror of the scene is
 
 struct Bounce {
   Surface surface;  // relative; of a mirror, the layer under the reflection
@@ -151,86 +152,101 @@ vec3 glyphRadiance(vec3 origin, vec3 direction, inout float t) {
   return glow;
 }
 
-struct Path {
-  vec3 direction;  // unit, towards `bounce`
-  Bounce bounce;
-  vec3 m;            // normal that it is mirrored about
-  uint depth;       // of the bounce
-  vec3 throughput;  // of the bounces before
-};
-
-// Follows a path from its first bounce, whose own layer goes to `layer` if `withLayer`.
-vec3 follow(Path path, uint seed, bool withLayer, inout vec3 layer) {
-  vec3 sum = vec3(0.0);
-  vec3 weight = vec3(1.0);
-  bool first = true;
-  for (;;) {
-    Surface surface = path.bounce.surface;
-    bool black = all(equal(surface.diffuse + surface.specular + surface.emission, vec3(0.0)));
-    if (!black && (!first || withLayer)) {
-      vec3 own = tracedSurfaceRadiance(surface, -path.direction, path.bounce.self);
-      own *= path.bounce.reflects ? 1.0 - path.bounce.reflectance : vec3(1.0);
-      layer = first ? own : layer;
-      sum += first ? vec3(0.0) : weight * own;
-    }
-    first = false;
-    if (!path.bounce.reflects) {
-      return sum;
-    }
-    weight *= path.bounce.reflectance;
-    bool last = isLastBounce(path.depth, path.throughput * weight);
-    path.direction = mirrored(path.direction, last ? surface.normal : path.m, path.bounce.planeNormal);
-    if (last) {
-      return sum + weight * backgroundRadiance(path.direction);
-    }
-    ++path.depth;
-    vec3 origin = surface.position + view.traceOffset.xyz;
-    Hit hit = traceRay(origin, path.direction, infinity, path.bounce.self, false);
-    float t = hit.t;
-    vec3 glow = glyphRadiance(surface.position, path.direction, t);
-    if (t < hit.t) {
-      return sum + weight * glow;
-    }
-    if (hit.instance == none && hit.mirror == none) {
-      return sum + weight * backgroundRadiance(path.direction);
-    }
-    if (hit.mirror != none) {
-      bool front = dot(traceMirrors[hit.mirror].normal, path.direction) < 0.0;
-      path.bounce = mirrorBounce(hit.mirror, origin + hit.t * path.direction, path.direction, front, true);
-    } else {
-      path.bounce = objectBounce(hit.instance, triangleTexel(hit.slot, 0).w, Weights(hit.weights, vec3(0.0), vec3(0.0)),
-                                 surface.position + hit.t * path.direction, path.direction);
-    }
-    path.m = path.bounce.surface.normal;
-    if (path.bounce.alpha > 0.0 && path.bounce.reflects) {
-      // Each further bounce samples one microfacet; if it faces away, the mirror's own normal replaces it.
-      seed = mixedBits(seed + 0x9e3779b9u);
-      vec3 m = microfacet(path.m, path.bounce.alpha, vec2(unitInterval(seed), unitInterval(mixedBits(seed))));
-      path.m = staysAbove(path.direction, m, path.bounce.planeNormal) ? m : path.m;
-    }
+// Draws the next microfacet m of `bounce`, seen along `direction`, on the additive recurrence of the plastic number. Those
+// that face away, or that mirror the ray below the plane, are left out. The last of `most` draws is the surface's normal
+// if none was `taken` before. Says whether there is one.
+bool nextMicrofacet(Bounce bounce, vec3 direction, vec2 shift, bool taken, int most, inout int drawn, inout vec3 m) {
+  bool found = false;
+  while (!found && drawn < most) {
+    ++drawn;
+    bool isNormal = !rough || bounce.alpha == 0.0 || (drawn == most && !taken);
+    m = isNormal ? bounce.surface.normal : microfacet(bounce.surface.normal, bounce.alpha, latticePoint(shift, drawn));
+    found = isNormal || staysAbove(direction, m, bounce.planeNormal);
   }
+  return found;
 }
 
-// Returns the radiance of a reflecting surface, seen along `direction`: layer and reflection. A rough one takes the
-// mean over `wanted` microfacets on the additive recurrence of the plastic number, from number `before` on and shifted
-// by the seed; those that face away, or that mirror the ray below the plane, are left out.
-vec3 tracedRadiance(Bounce bounce, vec3 direction, uint seed, uint before, int wanted) {
+// Returns the radiance of a surface, seen along `direction`: its layer and what it reflects. A rough one reflects the
+// mean over `wanted` microfacets, from number `before` of the recurrence on and shifted by the seed.
+//
+// One loop follows all paths of a pixel, so that a pixel begins its next path while its neighbours still follow theirs.
+// An iteration follows one ray and shades what it meets; the first follows none and shades the surface itself. The loop
+// ends at its head: lavapipe of Mesa 22.3 goes on computing for pixels that have left a loop, and variables keep their
+// values only from one iteration to the next.
+vec3 tracedRadiance(Bounce surface, vec3 direction, uint seed, uint before, int wanted) {
   vec2 shift = pixelShift(seed, before);
   int most = 4 * wanted + 16;
+  int drawn = 0;
   int taken = 0;
   vec3 layer = vec3(0.0);
   vec3 sum = vec3(0.0);
-  for (int drawn = 1; taken < wanted && drawn <= most; ++drawn) {
-    vec3 m = bounce.surface.normal;
-    if (bounce.alpha > 0.0 && (taken > 0 || drawn < most)) {
-      m = microfacet(m, bounce.alpha, latticePoint(shift, drawn));
-      if (!staysAbove(direction, m, bounce.planeNormal)) {
-        continue;
+  Bounce bounce = surface;  // where the path is, seen along `towards`
+  vec3 towards = direction;
+  vec3 m = vec3(0.0);  // normal about which the path is mirrored
+  vec3 weight = vec3(1.0);
+  uint depth = view.depth;
+  uint pathSeed = seed;
+  bool starts = false;  // the next path
+  bool first = true;
+  bool ends = false;
+  while (!ends) {
+    bool follows = !first;
+    if (starts) {
+      follows = nextMicrofacet(surface, direction, shift, taken > 0, most, drawn, m);
+      taken += follows ? 1 : 0;
+    }
+    if (rough && starts) {
+      bounce = surface;
+      towards = direction;
+      weight = vec3(1.0);
+      depth = view.depth;
+      pathSeed = seed + before + uint(drawn);
+    }
+    bool meets = first;
+    if (follows) {
+      weight *= bounce.reflectance;
+      bool last = isLastBounce(depth, view.throughput * weight);
+      towards = mirrored(towards, last ? bounce.surface.normal : m, bounce.planeNormal);
+      ++depth;
+      vec3 origin = bounce.surface.position + view.traceOffset.xyz;
+      Hit hit = Hit(0.0, none, 0, vec3(0.0), none);
+      vec3 glow = vec3(0.0);
+      bool glows = false;
+      if (!last) {
+        hit = traceRay(origin, towards, infinity, bounce.self, false);
+        float t = hit.t;
+        glow = glyphRadiance(bounce.surface.position, towards, t);
+        glows = t < hit.t;
+      }
+      meets = !glows && (hit.instance != none || hit.mirror != none);
+      if (!meets) {
+        sum += weight * (glows ? glow : backgroundRadiance(towards));
+      } else if (hit.mirror != none) {
+        bool front = dot(traceMirrors[hit.mirror].normal, towards) < 0.0;
+        bounce = mirrorBounce(hit.mirror, origin + hit.t * towards, towards, front, true);
+      } else {
+        bounce = objectBounce(hit.instance, triangleTexel(hit.slot, 0).w, Weights(hit.weights, vec3(0.0), vec3(0.0)),
+                              bounce.surface.position + hit.t * towards, towards);
+      }
+      m = bounce.surface.normal;
+      if (rough && meets && bounce.alpha > 0.0 && bounce.reflects) {
+        // Each further bounce samples one microfacet; if it faces away, the mirror's own normal replaces it.
+        pathSeed = mixedBits(pathSeed + 0x9e3779b9u);
+        vec3 facet = microfacet(m, bounce.alpha, vec2(unitInterval(pathSeed), unitInterval(mixedBits(pathSeed))));
+        m = staysAbove(towards, facet, bounce.planeNormal) ? facet : m;
       }
     }
-    Path path = Path(direction, bounce, m, view.depth, view.throughput);
-    sum += follow(path, seed + before + uint(drawn), taken == 0, layer);
-    ++taken;
+    vec3 own = vec3(0.0);
+    bool black = all(equal(bounce.surface.diffuse + bounce.surface.specular + bounce.surface.emission, vec3(0.0)));
+    if (meets && !black) {
+      own = tracedSurfaceRadiance(bounce.surface, -towards, bounce.self);
+      own *= bounce.reflects ? 1.0 - bounce.reflectance : vec3(1.0);
+    }
+    layer = first ? own : layer;
+    sum += first ? vec3(0.0) : weight * own;
+    starts = first || !meets || !bounce.reflects;
+    first = false;
+    ends = starts && (!surface.reflects || taken == (rough ? wanted : 1) || drawn == most);
   }
   return layer + sum / float(max(taken, 1));
 }

@@ -111,6 +111,7 @@ void TraceFrame::build(Frame& frame, const SceneState& state, const Settings& se
   addMirrors(state, settings);
   prepareStructures(frame, state, settings.effects.rays, effects.traces());
   variant_.hardware = rays_.hardware;
+  variant_.rough = effects.reflects() && std::ranges::any_of(mirrors_, [](const auto& m) { return m.alpha > 0.0f; });
   instances_.clear();
   topNodes_.clear();
   addInstances(state, settings);

@@ -19,6 +19,7 @@ struct TraceVariant {
   bool castsLight = false;
   bool perSample = false;
   bool hardware = false;  // rays are ray queries
+  bool rough = false;     // rays may be reflected by rough mirrors
 
   auto operator<=>(const TraceVariant&) const = default;
 };
