@@ -56,9 +56,22 @@ vec3 relativeVertex(uint index, uint triangle, uint corner) {
                     vertexOf(instances[index].traceInstance, triangle, corner).position);
 }
 
+float largestComponent(vec3 v) {
+  vec3 size = abs(v);
+  return max(size.x, max(size.y, size.z));
+}
+
+// Returns the factor that gives a triangle near `point` the size of 1, so that areas of small ones do not underflow.
+float unitScale(vec3 point, Corners corners) {
+  float size = max(largestComponent(corners.a - point),
+                   max(largestComponent(corners.b - point), largestComponent(corners.c - point)));
+  return 1.0 / max(size, 1e-30);
+}
+
 // Returns a point on the line of sight that is near the triangle's plane, and not beyond the triangle.
 vec3 pointAhead(vec3 sight, Corners corners) {
-  vec3 normal = cross(corners.b - corners.a, corners.c - corners.a);
+  float scale = unitScale(corners.a, corners);
+  vec3 normal = cross((corners.b - corners.a) * scale, (corners.c - corners.a) * scale);
   float farthest = sqrt(max(dot(corners.a, corners.a), max(dot(corners.b, corners.b), dot(corners.c, corners.c))));
   float t = dot(normal, corners.a) / dot(normal, sight);
   return sight * (t >= 0.0 && t <= farthest ? t : farthest);
@@ -67,9 +80,10 @@ vec3 pointAhead(vec3 sight, Corners corners) {
 // Returns the weights of the corners where the line of sight through `point` meets the triangle's plane.
 vec3 weightsAt(vec3 point, Corners corners) {
   LocalRay sight = localRay(point, point);
-  vec3 a = permuted(corners.a - point, sight.along);
-  vec3 b = permuted(corners.b - point, sight.along);
-  vec3 c = permuted(corners.c - point, sight.along);
+  float scale = unitScale(point, corners);
+  vec3 a = permuted((corners.a - point) * scale, sight.along);
+  vec3 b = permuted((corners.b - point) * scale, sight.along);
+  vec3 c = permuted((corners.c - point) * scale, sight.along);
   a.xy -= sight.shear.xy * a.z;
   b.xy -= sight.shear.xy * b.z;
   c.xy -= sight.shear.xy * c.z;

@@ -1,14 +1,19 @@
 // Images of several mirrors in one frame: overlapping, nested, many; their seams and memory.
 #include <malloc.h>
 
+#include <spdlog/fmt/fmt.h>
+
 #include <cstdio>
+#include <numbers>
 
 #include "image/color.hpp"
 #include "image/enlarge.hpp"
 #include "picture_support.hpp"
+#include "random.hpp"
 #include "sampling.hpp"
 #include "scene_text.hpp"
 #include "test_headers.hpp"
+#include "truth_support.hpp"
 
 namespace speculum {
 namespace {
@@ -60,6 +65,66 @@ TEST(MirrorPictures, OverlappingMirrorsHaveTheirOwnImages) {
 // The room, but the camera looks the other way.
 std::string turnedRoom() {
   return replaced(room, "target = [0, 1, 0]", "target = [0, 1, 9]");
+}
+
+// Three mirrors meet in a corner. In front of all, nothing shows the red back of any.
+TEST(MirrorPictures, CornersShowNoBacks) {
+  const std::string corner = R"(
+[environment] background = [0.9, 0.9, 0.9]
+[settings] "reflection.max_depth" = 4, "view.samples" = 1, "reflection.samples" = 1
+[[mirror]] position = [0, 0, -1], size = [2, 2], back_color = [1, 0, 0]
+[[mirror]] position = [-1, 0, 0], rotation = [0, 90, 0], size = [2, 2], back_color = [1, 0, 0]
+[[mirror]] position = [0, 1, 0], rotation = [90, 0, 0], size = [2, 2], back_color = [1, 0, 0]
+[[light]] position = [-0.2, 0.2, -0.2], glow = 0.0
+)";
+  Random random(14);
+  for (int view = 0; view < 16; ++view) {
+    const glm::dvec3 eye = random.inBox(0.45);
+    const glm::dvec3 target = eye + glm::dvec3(-0.3, 0.3, -0.3) + random.inBox(0.3);
+    const Image8 picture = drawText("corner", corner + "[camera]\nvertical_fov = 80\nposition = " + text(eye) +
+                                                  "\ntarget = " + text(target) + "\n");
+    int backs = 0;
+    for (int y = 0; y < picture.height; ++y) {
+      for (int x = 0; x < picture.width; ++x) {
+        backs += picture.at(x, y)[1] < picture.at(x, y)[0] / 2;
+      }
+    }
+    EXPECT_EQ(backs, 0) << "view " << view;
+  }
+}
+
+// Small mirrors on a mirrored wall, just before a wall: what is left of the mirrored wall has many parts.
+TEST(MirrorPictures, MirrorsWithManyHolesHideWhatIsBehind) {
+  std::string text = R"(
+[environment] ambient = [1, 1, 1], background = [0.2, 0.3, 0.4]
+[camera] position = [0.6, 0.4, 3], target = [0, 0, 0]
+[[object]] model = "MODELS/box.obj", position = [0, -3, -0.501], scale = [6, 6, 1], color = [0.9, 0.1, 0.1]
+)";
+  for (int i = 0; i < 12; ++i) {
+    text += "[[mirror]]\nreflectance = [0.9, 0.7, 0.3]\npolygon = [";
+    for (int corner = 0; corner < 8; ++corner) {
+      const double angle = (corner + 0.1 * i) * std::numbers::pi / 4;
+      text += fmt::format("[{:.6f}, {:.6f}, 0], ", 0.27 * (i - 5.5) + 0.13 * std::cos(angle),
+                          0.4 * std::sin(1.7 * i) + 0.13 * std::sin(angle));
+    }
+    text += "]\n";
+  }
+  text += "[[mirror]]\nsize = [3.6, 2.4]\nreflectance = [0.8, 0.9, 0.95]\n";
+  const std::filesystem::path file = writeScene("holes", text);
+  expectTruth(file, size, 1, trace(file, size, 1));
+}
+
+// A lake with one corner 10 cm high, seen from just above: the eye and its mirror image would see that corner at
+// different places.
+TEST(MirrorPictures, CornersOffThePlaneAreFlattened) {
+  const std::filesystem::path file = writeScene("lake", R"(
+[environment] ambient = [0.5, 0.5, 0.5]
+  sky = { zenith = [0.05, 0.1, 0.9], horizon = [1, 0.8, 0.3], ground = [0.3, 0.28, 0.25] }
+[camera] position = [998, 0.5, -2], target = [997, 0, -3]
+[[object]] model = "MODELS/box.obj", position = [996.8, 0, -3.2], scale = [0.5, 0.14, 0.5], color = [0.9, 0.1, 0.1]
+[[mirror]] polygon = [[0, 0, 0], [1000, 0, 0], [1000, 0.1, -1000], [0, 0, -1000]]
+)");
+  expectTruth(file, size, 2, trace(file, size, 2));
 }
 
 // The camera looks into a large mirror that shows the two.

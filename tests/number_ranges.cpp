@@ -139,7 +139,9 @@ TEST(ScenesOfAnySize, ShowOnePicture) {
         "any_size",
         "[environment]\nambient = [0.1, 0.1, 0.1]\n[camera]\nposition = " + at(0.4, 1.2, 4) + "\ntarget = " +
             at(0.2, 0.8, 0.1) + "\n[[object]]\nmodel = 'MODELS/sphere.obj'\nposition = " + at(-0.5, 0.9, 0.2) +
-            "\nscale = " + at(0.5, 0.6, 0.7) + "\nspecular = [0.3, 0.3, 0.3]\n[[light]]\nposition = " + at(1, 3, 2) +
+            "\nscale = " + at(0.5, 0.6, 0.7) + "\nspecular = [0.3, 0.3, 0.3]" +
+            "\n[[object]]\nmodel = 'MODELS/box.obj'\nposition = " + at(1.1, 0, 0.9) + "\nscale = " + text(metres) +
+            "\nrotation = [0, 30, 0]\n[[light]]\nposition = " + at(1, 3, 2) +
             "\ncasts_shadow = true\nradius = " + text(0.2 * metres) + "\nintensity = " + text(12.0 * metres * metres) +
             "\n[[mirror]]\nposition = " + at(0, 0, -0.2) +
             "\nrotation = [-90, 2, 3]\nbase_color = [0.1, 0.2, 0.1]\nreflectance = [0.8, 0.7, 0.9]\nsize = [" +

@@ -110,6 +110,19 @@ TEST_F(ObjLoader, DegenerateTrianglesAreDropped) {
   EXPECT_EQ(warnings(), "warning: m.obj: dropped 3 degenerate triangles\n");
 }
 
+// Floats hold the place in a texture whichever of its repetitions is named.
+TEST_F(ObjLoader, TextureCoordinatesKeepTheirFraction) {
+  const std::string square = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+  for (const double first : {20.0, 1000.0, -4000.0, 1e9}) {
+    const Mesh mesh = load(square + fmt::format("vt {} 0.25\nvt {} 0.25\nvt {} 0.5\nf 1/1 2/2 3/3\n", first + 0.3125,
+                                                first + 0.4375, first + 0.3125));
+    const double start = mesh.vertices[0].uv.x;
+    EXPECT_EQ(start - std::floor(start), 0.3125) << first;
+    EXPECT_LT(std::abs(start), 16.0) << first;
+    EXPECT_EQ(mesh.vertices[1].uv.x - start, 0.125) << first;
+  }
+}
+
 TEST_F(ObjLoader, VertexContinuesAfterABackslash) {
   EXPECT_EQ(load("v 0 0 \\\n4\nv 2 0 4\\\n\nv 0 2 4\nf 1 2 3\n").center, glm::dvec3(1.0, 1.0, 4.0));
 }

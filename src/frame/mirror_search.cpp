@@ -107,19 +107,31 @@ void MirrorSearch::fill(int node) {
   const auto inOwnPlane = [&](int mirror) {
     return !view.path.empty() && state_.mirrors[view.path.back()].plane == state_.mirrors[mirror].plane;
   };
+  View through = view;
+  through.clip.reset();
+  const std::vector<glm::dvec3> window =
+      view.path.empty() ? std::vector<glm::dvec3>() : visiblePart(through, state_.mirrors[view.path.back()].polygon);
+  // Rays that cross a mirror's plane before they leave the image's own mirror do not meet it again. Where the two share
+  // an edge, rounding would show the other's back.
+  const auto liesBefore = [&](int mirror) {
+    const double height = heightAbove(state_.mirrors[mirror], view.eye);
+    return height != 0.0 && !window.empty() && std::ranges::all_of(window, [&](const glm::dvec3& p) {
+             return height * heightAbove(state_.mirrors[mirror], p) <= 0.0;
+           });
+  };
   std::vector<Sight> sights;  // of the mirrors that are seen; a view may look at a thousand that are not
   std::vector<int> seen;
   for (int i = 0; i < static_cast<int>(scene_.mirrors.size()); ++i) {
     if (!inOwnPlane(i) && !behindEye(view, state_.mirrors[i].polygon)) {
       Sight sight = sightOf(scene_, state_, view, drawn, i);
-      if (!sight.visible.empty()) {
+      if (!sight.visible.empty() && !liesBefore(i)) {
         sights.push_back(std::move(sight));
         seen.push_back(i);
       }
     }
   }
   // Each mirror that is seen is kept with its polygon, and tested against the others.
-  work_ += 64 + 2 * scene_.mirrors.size() + seen.size() * (4 + std::min<size_t>(seen.size(), 512) / 4) +
+  work_ += 72 + 2 * scene_.mirrors.size() + seen.size() * (4 + std::min<size_t>(seen.size(), 512) / 4) +
            (state_.instances.size() + nodes_[node].pass.instances.size()) / 16 + state_.lights.size() / 8;
   occlusion_.setView(view, nodes_[node].pass.instances, std::move(seen));
   size_t next = 0;

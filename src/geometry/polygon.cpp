@@ -93,7 +93,7 @@ std::optional<std::string> polygonDefect(std::span<const glm::dvec3> polygon) {
       return "is not planar";
     }
   }
-  if (!isConvex(withoutSteepEdges(polygon, plane.normal), plane.normal, 1e-5 * scale)) {
+  if (!isConvex(flattened(polygon, plane.normal), plane.normal, 1e-5 * scale)) {
     return "is not convex";
   }
   return std::nullopt;
@@ -112,23 +112,13 @@ std::vector<glm::dvec3> distinctVertices(std::span<const glm::dvec3> polygon, do
   return distinct;
 }
 
-std::vector<glm::dvec3> withoutSteepEdges(std::span<const glm::dvec3> polygon, const glm::dvec3& normal) {
-  constexpr double steep = 1e-3;
-  const double least = 1e-9 * farthestDistance(polygon[0], polygon);
-  bool anySteep = false;
-  for (size_t i = 0; i < polygon.size(); ++i) {
-    const glm::dvec3 edge = polygon[(i + 1) % polygon.size()] - polygon[i];
-    anySteep = anySteep || std::abs(glm::dot(normal, edge)) > steep * glm::length(edge);
-  }
-  if (!anySteep) {
-    return distinctVertices(polygon, least);
-  }
+std::vector<glm::dvec3> flattened(std::span<const glm::dvec3> polygon, const glm::dvec3& normal) {
   const Plane plane{polygon[0], normal};
   std::vector<glm::dvec3> flat(polygon.begin(), polygon.end());
   for (glm::dvec3& vertex : flat) {
     vertex -= plane.distance(vertex) * normal;
   }
-  return distinctVertices(flat, least);
+  return distinctVertices(flat, 1e-9 * farthestDistance(flat[0], flat));
 }
 
 std::vector<glm::dvec3> clipPolygon(std::span<const glm::dvec3> polygon, const Plane& keep) {

@@ -44,10 +44,9 @@ std::optional<std::string> polygonDefect(std::span<const glm::dvec3> polygon);
 // Vertices farther than `least` from the one before: a vertex within rounding of it would give its edge any direction.
 std::vector<glm::dvec3> distinctVertices(std::span<const glm::dvec3> polygon, double least);
 
-// The polygon of a mirror, whose vertices may lie off its plane. If an edge is steep, all are moved into the plane
-// through the first, and those that then coincide are left out: from an oblique eye the line of such an edge would cut
-// through the polygon.
-std::vector<glm::dvec3> withoutSteepEdges(std::span<const glm::dvec3> polygon, const glm::dvec3& normal);
+// The polygon of a mirror, whose vertices may lie off its plane, moved into the plane through the first. Those that
+// then coincide are left out. An oblique eye and its mirror image would see vertices off the plane at different places.
+std::vector<glm::dvec3> flattened(std::span<const glm::dvec3> polygon, const glm::dvec3& normal);
 
 // Sutherland-Hodgman (1974): the part of a convex polygon with dot(normal, v - point) >= 0.
 std::vector<glm::dvec3> clipPolygon(std::span<const glm::dvec3> polygon, const Plane& keep);

@@ -123,10 +123,10 @@ void MeshBuilder::addFace(std::span<const FaceCorner> corners) {
   }
 }
 
-// Returns whole numbers to subtract from texture coordinates so large that a float would lose the fraction. The texture
-// repeats, so it looks the same.
+// Returns whole numbers to subtract from texture coordinates so large that a float would lose more than 1/500 of a
+// texel of 2048. The texture repeats, so it looks the same.
 glm::dvec2 MeshBuilder::uvShiftOf(std::span<const FaceCorner> corners) const {
-  constexpr double nearEnough = 4096.0;
+  constexpr double nearEnough = 16.0;
   glm::dvec2 largest(0.0);
   for (const FaceCorner& corner : corners) {
     largest = glm::max(largest, glm::abs(uvOf(corner)));

@@ -63,7 +63,7 @@ MirrorState placedMirror(const Mirror& mirror, double time) {
   if (!mirror.polygon.empty()) {
     state.origin = mirror.polygon[0];
     state.normal = glm::normalize(newellVector(mirror.polygon));
-    state.polygon = withoutSteepEdges(mirror.polygon, state.normal);
+    state.polygon = flattened(mirror.polygon, state.normal);
     state.axisX = firstEdge(mirror.polygon, state.normal);
     state.axisY = glm::cross(state.normal, state.axisX);
     return state;

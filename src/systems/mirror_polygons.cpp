@@ -38,7 +38,7 @@ std::vector<ClipPolygon> mirrorPolygons(const PlannedPass& pass, const glm::dmat
 
 std::vector<ClipPolygon> partsToDraw(const PlannedPass& pass, const SceneState& state,
                                      std::span<const ClipPolygon> polygons, size_t index) {
-  constexpr size_t mostParts = 64;
+  constexpr size_t mostParts = 1024;
   const MirrorDraw& draw = pass.mirrors[index];
   std::vector<ClipPolygon> parts{polygons[index]};
   if (draw.layer == 0) {
