@@ -61,7 +61,7 @@ float largestComponent(vec3 v) {
   return max(size.x, max(size.y, size.z));
 }
 
-// Returns the factor that gives a triangle near `point` the size of 1, so that areas of small ones do not underflow.
+// Returns the factor that gives a triangle near `point` the size of 1, so that no area leaves the range of floats.
 float unitScale(vec3 point, Corners corners) {
   float size = max(largestComponent(corners.a - point),
                    max(largestComponent(corners.b - point), largestComponent(corners.c - point)));

@@ -2,7 +2,7 @@
 // for curved mirrors, and for planar ones that rays show. Needs trace.glsl, traced_light.glsl and microfacet.glsl.
 
 layout(constant_id = 1) const bool trilinear = false;  // between levels of textures
-layout(constant_id = 4) const bool rough = false;      // a mirror of the scene is
+layout(constant_id = 4) const bool rough = false;      // some mirror of the scene is rough
 
 struct Bounce {
   Surface surface;  // relative; of a mirror, the layer under the reflection
@@ -152,9 +152,9 @@ vec3 glyphRadiance(vec3 origin, vec3 direction, inout float t) {
   return glow;
 }
 
-// Draws the next microfacet m of `bounce`, seen along `direction`, on the additive recurrence of the plastic number. Those
-// that face away, or that mirror the ray below the plane, are left out. The last of `most` draws is the surface's normal
-// if none was `taken` before. Says whether there is one.
+// Draws the next microfacet m of `bounce`, seen along `direction`, on the additive recurrence of the plastic number.
+// Those that face away, or that mirror the ray below the plane, are left out. The last of `most` draws is the surface's
+// normal if none was `taken` before. Says whether there is one.
 bool nextMicrofacet(Bounce bounce, vec3 direction, vec2 shift, bool taken, int most, inout int drawn, inout vec3 m) {
   bool found = false;
   while (!found && drawn < most) {
@@ -186,7 +186,7 @@ vec3 tracedRadiance(Bounce surface, vec3 direction, uint seed, uint before, int 
   vec3 weight = vec3(1.0);
   uint depth = view.depth;
   uint pathSeed = seed;
-  bool starts = false;  // the next path
+  bool starts = false;  // this iteration begins the next path
   bool first = true;
   bool ends = false;
   while (!ends) {

@@ -246,7 +246,7 @@ TEST(LongDraws, AreDividedWithoutATrace) {
   const std::vector<TimedPass> passes = session.lastFrame().passes();
   const uint64_t frame = session.lastFrame().number;
   set(session, {{"debug.check_finite", "false"}});
-  // The parts round positions differently, and so half floats: by one step at most.
+  // Other pixels are computed together, and on lavapipe the sum of 4096 rays then differs in its last bits.
   EXPECT_EQ(difference(draw(session), whole, 1).over, 0);
   EXPECT_GE(session.lastFrame().number, frame + 2) << "several frames drew it";
   ASSERT_EQ(session.lastFrame().passes().size(), passes.size());

@@ -123,6 +123,13 @@ TEST_F(ObjLoader, TextureCoordinatesKeepTheirFraction) {
   }
 }
 
+TEST_F(ObjLoader, RepeatedTexturesShareVertices) {
+  const Mesh mesh = load(
+      "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nvn 0 0 1\nvt 20 0\nvt 21 0\nvt 20 1\nvt 21 1\n"
+      "f 1/1/1 2/2/1 3/3/1\nf 2/2/1 4/4/1 3/3/1\n");
+  EXPECT_EQ(mesh.vertices.size(), 4u);
+}
+
 TEST_F(ObjLoader, VertexContinuesAfterABackslash) {
   EXPECT_EQ(load("v 0 0 \\\n4\nv 2 0 4\\\n\nv 0 2 4\nf 1 2 3\n").center, glm::dvec3(1.0, 1.0, 4.0));
 }

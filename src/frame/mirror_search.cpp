@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtx/component_wise.hpp>
+#include <optional>
 #include <queue>
 #include <sstream>
 
@@ -107,15 +108,18 @@ void MirrorSearch::fill(int node) {
   const auto inOwnPlane = [&](int mirror) {
     return !view.path.empty() && state_.mirrors[view.path.back()].plane == state_.mirrors[mirror].plane;
   };
-  View through = view;
-  through.clip.reset();
-  const std::vector<glm::dvec3> window =
-      view.path.empty() ? std::vector<glm::dvec3>() : visiblePart(through, state_.mirrors[view.path.back()].polygon);
-  // Rays that cross a mirror's plane before they leave the image's own mirror do not meet it again. Where the two share
-  // an edge, rounding would show the other's back.
+  // Rays come from the reflected eye and begin to see at the window. What crosses another mirror's plane before does
+  // not meet that mirror. Where the two mirrors share an edge, rounding would show the other's back.
+  std::optional<std::vector<glm::dvec3>> window;  // the part of the view's own mirror through which it sees
   const auto liesBefore = [&](int mirror) {
+    if (!window) {
+      View through = view;
+      through.clip.reset();
+      window = view.path.empty() ? std::vector<glm::dvec3>()
+                                 : visiblePart(through, state_.mirrors[view.path.back()].polygon);
+    }
     const double height = heightAbove(state_.mirrors[mirror], view.eye);
-    return height != 0.0 && !window.empty() && std::ranges::all_of(window, [&](const glm::dvec3& p) {
+    return height != 0.0 && !window->empty() && std::ranges::all_of(*window, [&](const glm::dvec3& p) {
              return height * heightAbove(state_.mirrors[mirror], p) <= 0.0;
            });
   };

@@ -114,11 +114,13 @@ std::vector<glm::dvec3> distinctVertices(std::span<const glm::dvec3> polygon, do
 
 std::vector<glm::dvec3> flattened(std::span<const glm::dvec3> polygon, const glm::dvec3& normal) {
   const Plane plane{polygon[0], normal};
+  const double size = farthestDistance(polygon[0], polygon);
   std::vector<glm::dvec3> flat(polygon.begin(), polygon.end());
   for (glm::dvec3& vertex : flat) {
-    vertex -= plane.distance(vertex) * normal;
+    const double distance = plane.distance(vertex);
+    vertex -= std::abs(distance) > 1e-12 * size ? distance * normal : glm::dvec3(0.0);
   }
-  return distinctVertices(flat, 1e-9 * farthestDistance(flat[0], flat));
+  return distinctVertices(flat, 1e-9 * size);
 }
 
 std::vector<glm::dvec3> clipPolygon(std::span<const glm::dvec3> polygon, const Plane& keep) {

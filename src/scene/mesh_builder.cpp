@@ -124,14 +124,16 @@ void MeshBuilder::addFace(std::span<const FaceCorner> corners) {
 }
 
 // Returns whole numbers to subtract from texture coordinates so large that a float would lose more than 1/500 of a
-// texel of 2048. The texture repeats, so it looks the same.
+// texel of a texture 2048 texels wide. The texture repeats, so it looks the same. Neighbours mostly get the same
+// numbers, and so share their vertices.
 glm::dvec2 MeshBuilder::uvShiftOf(std::span<const FaceCorner> corners) const {
   constexpr double nearEnough = 16.0;
   glm::dvec2 largest(0.0);
   for (const FaceCorner& corner : corners) {
     largest = glm::max(largest, glm::abs(uvOf(corner)));
   }
-  return std::max(largest.x, largest.y) > nearEnough ? glm::floor(uvOf(corners[0])) : glm::dvec2(0.0);
+  return std::max(largest.x, largest.y) > nearEnough ? nearEnough * glm::floor(uvOf(corners[0]) / nearEnough)
+                                                     : glm::dvec2(0.0);
 }
 
 glm::dvec2 MeshBuilder::uvOf(const FaceCorner& corner) const {
@@ -160,15 +162,16 @@ void MeshBuilder::addTriangle(const FaceCorner& a, const FaceCorner& b, const Fa
 uint32_t MeshBuilder::vertexOf(const FaceCorner& corner, const glm::dvec3& triangleNormal) {
   const auto index = static_cast<uint32_t>(vertices_.size());
   const bool usable = corner.normal >= 0 && normals_[corner.normal] != glm::dvec3(0.0);
-  if (usable && uvShift_ == glm::dvec2(0.0)) {
+  const glm::dvec2 uv = glm::clamp(uvOf(corner) - uvShift_, -mostRepeats, mostRepeats);
+  if (usable) {
     const auto [found, isNew] = sharedVertices_.try_emplace(corner, index);
-    if (!isNew) {
+    if (!isNew && vertices_[found->second].uv == uv) {
       return found->second;
     }
+    found->second = index;
   }
-  vertices_.push_back({.position = positions_[corner.position],
-                       .normal = usable ? normals_[corner.normal] : triangleNormal,
-                       .uv = glm::clamp(uvOf(corner) - uvShift_, -mostRepeats, mostRepeats)});
+  vertices_.push_back(
+      {.position = positions_[corner.position], .normal = usable ? normals_[corner.normal] : triangleNormal, .uv = uv});
   return index;
 }
 

@@ -288,9 +288,10 @@ void FrameData::addMirrors(const Source& source, const PlannedPass& pass, const 
   const auto& [scene, state, settings, environment, plan] = source;
   const EffectSettings& effects = settings.effects;
   const std::vector<ClipPolygon> polygons = mirrorPolygons(pass, projection);
+  size_t cuts = 0;
   for (size_t i = 0; i < pass.mirrors.size(); ++i) {
     const MirrorDraw& draw = pass.mirrors[i];
-    const std::vector<ClipPolygon> parts = partsToDraw(pass, state, polygons, i);
+    const std::vector<ClipPolygon> parts = partsToDraw(pass, state, polygons, i, cuts);
     if (parts.empty()) {
       continue;
     }

@@ -37,8 +37,9 @@ std::vector<ClipPolygon> mirrorPolygons(const PlannedPass& pass, const glm::dmat
 }
 
 std::vector<ClipPolygon> partsToDraw(const PlannedPass& pass, const SceneState& state,
-                                     std::span<const ClipPolygon> polygons, size_t index) {
+                                     std::span<const ClipPolygon> polygons, size_t index, size_t& cuts) {
   constexpr size_t mostParts = 1024;
+  constexpr size_t mostCuts = 100'000;  // about 10 ms
   const MirrorDraw& draw = pass.mirrors[index];
   std::vector<ClipPolygon> parts{polygons[index]};
   if (draw.layer == 0) {
@@ -53,11 +54,12 @@ std::vector<ClipPolygon> partsToDraw(const PlannedPass& pass, const SceneState& 
     for (const glm::dvec4& v : polygons[i]) {
       largestDepth = std::max(largestDepth, v.z / v.w);
     }
-    if (other.layer < draw.layer && parts.size() <= mostParts) {
+    if (other.layer < draw.layer && parts.size() <= mostParts && cuts <= mostCuts) {
+      cuts += parts.size();
       cutAway(parts, polygons[i]);
     }
   }
-  if (parts.size() > mostParts) {
+  if (parts.size() > mostParts || cuts > mostCuts) {
     parts.clear();
   } else if (parts.empty()) {
     return parts;

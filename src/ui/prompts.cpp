@@ -101,8 +101,8 @@ void enter(PanelState::Files& files, const std::filesystem::path& folder, const 
   files.typed = typed;
 }
 
-// Draws the list of a folder, scrolled to the first name that begins as the typed one after that was `edited`. Returns
-// an entry that was clicked.
+// Draws the list of a folder. If the name was `edited` in this frame, scrolls to the first entry that begins with it.
+// Returns an entry that was clicked.
 std::optional<std::filesystem::path> fileList(PanelContext& ui, const std::filesystem::path& folder, float height,
                                               bool models, bool edited) {
   PanelState::Files& files = ui.state.files;

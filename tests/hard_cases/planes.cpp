@@ -1,5 +1,6 @@
 // Hard cases of planes, rectangles and skipped mirrors, against rays cast at the polygon itself.
 #include "geometry/reflection.hpp"
+#include "systems/mirror_polygons.hpp"
 #include "test_headers.hpp"
 #include "transform_support.hpp"
 
@@ -185,6 +186,33 @@ TEST(MirrorOutsideTheView, HasNoPassAtAll) {
     ASSERT_TRUE(plan.passes.empty()) << "view " << i;
     ASSERT_EQ(plan.skipped.size(), 1u);
   }
+}
+
+// Strips across strips, all in one plane, would be cut into 90 000 parts in each pass.
+TEST(MirrorsOfOnePlane, CutsAreLimited) {
+  constexpr int strips = 300;
+  PlannedPass pass;
+  SceneState state;
+  std::vector<ClipPolygon> polygons;
+  for (int i = 0; i < 2 * strips; ++i) {
+    const bool across = i >= strips;
+    const double low = 2.0 * (i % strips) / strips - 1.0;
+    const double high = low + 1.0 / strips;
+    const auto corner = [&](double along, double side) {
+      return across ? glm::dvec4(side, along, 0.5, 1.0) : glm::dvec4(along, side, 0.5, 1.0);
+    };
+    polygons.push_back({corner(-1, low), corner(1, low), corner(1, high), corner(-1, high)});
+    state.mirrors.emplace_back().plane = 0;
+    pass.mirrors.emplace_back().mirror = i;
+    pass.mirrors.back().layer = across;
+  }
+  size_t cuts = 0;
+  EXPECT_EQ(partsToDraw(pass, state, polygons, 0, cuts).size(), 1u);
+  EXPECT_EQ(partsToDraw(pass, state, polygons, strips, cuts).size(), strips + 2u) << "and the whole behind them";
+  for (size_t i = strips + 1; i < 2 * strips; ++i) {
+    partsToDraw(pass, state, polygons, i, cuts);
+  }
+  EXPECT_LE(cuts, 100'000u + strips + 1);
 }
 
 }  // namespace
