@@ -56,11 +56,6 @@ vec3 relativeVertex(uint index, uint triangle, uint corner) {
                     vertexOf(instances[index].traceInstance, triangle, corner).position);
 }
 
-float largestComponent(vec3 v) {
-  vec3 size = abs(v);
-  return max(size.x, max(size.y, size.z));
-}
-
 // Returns the factor that gives a triangle near `point` the size of 1, so that no area leaves the range of floats.
 float unitScale(vec3 point, Corners corners) {
   float size = max(largestComponent(corners.a - point),

@@ -61,11 +61,16 @@ struct BoxRay {
   uint octant;
 };
 
+float largestComponent(vec3 v) {
+  vec3 size = abs(v);
+  return max(size.x, max(size.y, size.z));
+}
+
 // Widens all boxes by what rounding may move the ray or their sides, and by `margin`.
 BoxRay boxRay(vec3 origin, vec3 direction, float margin) {
   // A component of zero would give 0 * infinity, which is not a number.
   vec3 size = abs(direction);
-  float least = max(1e-10 * max(size.x, max(size.y, size.z)), 1e-30);
+  float least = max(1e-10 * largestComponent(direction), 1e-30);
   vec3 inverse = 1.0 / mix(direction, vec3(least), lessThan(size, vec3(least)));
   vec3 offset = origin * inverse;
   vec3 reach = abs(inverse) * (1e-6 * abs(origin) + margin);

@@ -152,9 +152,9 @@ vec3 glyphRadiance(vec3 origin, vec3 direction, inout float t) {
   return glow;
 }
 
-// Draws the next microfacet m of `bounce`, seen along `direction`, on the additive recurrence of the plastic number.
-// Those that face away, or that mirror the ray below the plane, are left out. The last of `most` draws is the surface's
-// normal if none was `taken` before. Says whether there is one.
+// Draws microfacets of `bounce`, seen along `direction`, from the additive recurrence of the plastic number, until one
+// faces the viewer and mirrors the ray above the plane. Returns false if `most` draws are used up without one. A pixel
+// that has not `taken` any by then gets the surface's own normal.
 bool nextMicrofacet(Bounce bounce, vec3 direction, vec2 shift, bool taken, int most, inout int drawn, inout vec3 m) {
   bool found = false;
   while (!found && drawn < most) {
@@ -196,6 +196,7 @@ vec3 tracedRadiance(Bounce surface, vec3 direction, uint seed, uint before, int 
       taken += follows ? 1 : 0;
     }
     if (rough && starts) {
+      // Without rough mirrors there is one path, and it begins with these values.
       bounce = surface;
       towards = direction;
       weight = vec3(1.0);

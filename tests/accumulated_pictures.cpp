@@ -247,7 +247,9 @@ TEST(LongDraws, AreDividedWithoutATrace) {
   const uint64_t frame = session.lastFrame().number;
   set(session, {{"debug.check_finite", "false"}});
   // Other pixels are computed together, and on lavapipe the sum of 4096 rays then differs in its last bits.
-  EXPECT_EQ(difference(draw(session), whole, 1).over, 0);
+  const Image8 divided = draw(session);
+  EXPECT_EQ(difference(divided, whole, 1).over, 0);
+  EXPECT_LE(difference(divided, whole, 0).over, 1);
   EXPECT_GE(session.lastFrame().number, frame + 2) << "several frames drew it";
   ASSERT_EQ(session.lastFrame().passes().size(), passes.size());
   for (size_t i = 0; i < passes.size(); ++i) {
