@@ -23,10 +23,10 @@ shared uint first;  // of the group's requests
 
 vec4 colorAt(uvec2 pixel, uint i) { return texelFetch(surfaces, area.corner + ivec2(pixel), int(i)); }
 
-// Reflections in planar mirrors have edges, which samples smooth.
+// Reflections in planar mirrors are shaded for each sample: edges in them need antialiasing.
 bool shadesEachSample(vec4 color) {
   Identifier id = decoded(color);
-  return perSample || (id.mirror && !id.layerOnly);
+  return perSample || (id.mirror && !id.baseOnly);
 }
 
 void collect(uvec2 pixel) {

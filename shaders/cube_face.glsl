@@ -3,29 +3,29 @@
 // The six images about a point: src/frame/cube_face.hpp.
 
 // The face that shows a direction.
-struct CubeFace {
+struct FaceDirection {
   int axis;
   float side;   // 1 towards the positive axis, else -1
   float along;  // component of the direction along the face's axis
 };
 
-CubeFace cubeFace(vec3 d) {
+FaceDirection cubeFace(vec3 d) {
   vec3 a = abs(d);
   int axis = a.x >= a.y && a.x >= a.z ? 0 : a.y >= a.z ? 1 : 2;
   float component = axis == 0 ? d.x : axis == 1 ? d.y : d.z;
-  return CubeFace(axis, component < 0.0 ? -1.0 : 1.0, abs(component));
+  return FaceDirection(axis, component < 0.0 ? -1.0 : 1.0, abs(component));
 }
 
 // The face with this index, for a direction that it shows.
-CubeFace faceOf(uint index, vec3 d) {
+FaceDirection faceOf(uint index, vec3 d) {
   int axis = int(index / 2);
-  return CubeFace(axis, index % 2 == 0 ? 1.0 : -1.0, abs(d[axis]));
+  return FaceDirection(axis, index % 2 == 0 ? 1.0 : -1.0, abs(d[axis]));
 }
 
-int indexOf(CubeFace face) { return 2 * face.axis + (face.side < 0.0 ? 1 : 0); }
+int indexOf(FaceDirection face) { return 2 * face.axis + (face.side < 0.0 ? 1 : 0); }
 
 // Components of a vector to the right and down in the face. FaceAxes has the axes.
-vec2 inFace(CubeFace face, vec3 v) {
+vec2 inFace(FaceDirection face, vec3 v) {
   return vec2(face.side * (face.axis == 0 ? v.z : face.axis == 1 ? v.x : -v.x), face.axis == 1 ? -v.z : -v.y);
 }
 #endif

@@ -22,7 +22,7 @@ vec3 srgbEncode(vec3 x) {
   return mix(12.92 * x, 1.055 * pow(max(x, vec3(1e-8)), vec3(1.0 / 2.4)) - 0.055, greaterThan(x, vec3(0.0031308)));
 }
 
-// Rounds to steps of 8 bits, a tie up. A device that is left to do it rounds ties as it likes.
+// Rounds to steps of 8 bits, a tie up. Vulkan does not specify how devices round ties.
 vec3 rounded(vec3 x) {
   precise vec3 steps = 255.0 * x;
   return floor(steps + 0.5) / 255.0;

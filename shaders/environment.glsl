@@ -11,7 +11,7 @@ struct MapTexel {
 };
 
 MapTexel mapTexel(vec3 d, int size) {
-  CubeFace face = cubeFace(d);
+  FaceDirection face = cubeFace(d);
   vec2 p = inFace(face, d) / max(face.along, 1e-30);
   int index = indexOf(face);
   float within = float(size) - 2.0 * environmentBorder;
@@ -36,7 +36,7 @@ vec3 mapRadiance(MapTexel at, int size, vec3 d) {
 
 // Returns the direction from the map's centre to the point where a ray leaves the box: Lagarde, Zanuttini, "Local
 // Image-based Lighting With Parallax-corrected Cubemap" (2012).
-vec3 throughBox(EnvironmentData map, vec3 position, vec3 d) {
+vec3 throughBox(CurvedMirrorData map, vec3 position, vec3 d) {
   vec3 from = position - map.center;
   vec3 along = vec3(abs(d.x) < 1e-20 ? 1e-20 : d.x, abs(d.y) < 1e-20 ? 1e-20 : d.y, abs(d.z) < 1e-20 ? 1e-20 : d.z);
   vec3 leave = max((map.low - from) / along, (map.high - from) / along);
@@ -45,7 +45,7 @@ vec3 throughBox(EnvironmentData map, vec3 position, vec3 d) {
 }
 
 // Returns the radiance of a mirror's reflection at `surface`, seen along `direction`.
-vec3 environmentRadiance(EnvironmentData map, Surface surface, vec3 direction, vec3 reflectance) {
+vec3 environmentRadiance(CurvedMirrorData map, Surface surface, vec3 direction, vec3 reflectance) {
   // The reflection is kept above the shading normal's plane, not the triangle's: triangles may be too small for
   // derivatives.
   vec3 d = mirrored(direction, surface.normal, surface.normal);

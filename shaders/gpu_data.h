@@ -1,5 +1,6 @@
-// Structures that C++ and the shaders share; both include this file. The layout is std430: a vec3 starts at a multiple of
-// 16 bytes, so a scalar or padding follows each.
+// Structures that C++ and the shaders share; both include this file. Members lie at the same offsets in std430 and, for
+// structures of uniform blocks, in std140: a vec3 starts at a multiple of 16 bytes, so a scalar or padding follows each,
+// and structures of uniform blocks have no arrays of scalars.
 // Relative space: world space minus the eye of the pass's view, for small numbers near the eye wherever the scene lies.
 // Trace space: world space minus the eye of the main view, the same for all views of a frame.
 #ifndef SPECULUM_GPU_DATA_H
@@ -101,7 +102,7 @@ struct InstanceData {
   vec4 normalFromMesh[3];    // rows, xyz
   vec4 clipPlane;            // in mesh space
   uint traceInstance;        // index into traceInstances
-  uint environment;          // index into environments, for a curved mirror that looks up a map
+  uint curvedMirror;         // index into curvedMirrors, for a curved mirror that looks up a map
   uint padding[2];
 };
 
@@ -111,7 +112,7 @@ struct MirrorData {
   float eyeDistance;  // from the plane, above 0
   vec3 reflectance;
   uint schlick;    // reflectance is that at normal incidence
-  vec3 baseColor;  // of the diffuse layer or of the back
+  vec3 baseColor;  // or color of the back
   uint traceMirror;   // index into traceMirrors
   vec2 lookupScale;   // texel of the image = pixel of the pass * lookupScale + lookupOffset
   vec2 lookupOffset;
@@ -127,11 +128,18 @@ struct MirrorData {
   float ripplePhase;  // radians
   uint index;         // of this, in the frame's mirrors
   uint showsRipples;  // its image is displaced
-  uint padding[2];
+  uint padding0;
+  uint padding1;
+};
+
+// A mirror at a dynamic offset of a uniform buffer. No device requires offsets to be multiples of more than 256 bytes.
+struct MirrorBlock {
+  MirrorData mirror;
+  vec4 padding[4];
 };
 
 // A curved mirror in one view, with the environment map that it looks up.
-struct EnvironmentData {
+struct CurvedMirrorData {
   vec3 center;  // of the map, relative
   uint hasMap;  // 0: the background is shown instead
   vec3 low;     // corners of the box around the map's centre, relative to the centre
@@ -230,12 +238,13 @@ struct TraceInstance {
   uint firstVertex;    // of its mesh
   uint padding[2];
 };
+const uint traceInstanceTexelCount = 14;
 
 const uint curvedNone = 0;
 const uint curvedConstant = 1;
 const uint curvedSchlick = 2;
 
-// A planar mirror in trace space.
+// A planar mirror in trace space, read as texels of 16 bytes.
 struct TraceMirror {
   vec3 origin;
   uint firstVertex;
@@ -256,6 +265,7 @@ struct TraceMirror {
   uint plane;   // MirrorState::plane
   uint layers;  // MirrorState::frontLayer and, in the upper half, backLayer
 };
+const uint traceMirrorTexelCount = 8;
 
 // A light's image in a mirror that casts light, in trace space.
 struct LightPath {
@@ -286,7 +296,7 @@ struct ShadeConstants {
   uvec2 size;
 };
 
-// Push constants of a draw of objects whose reflection is added to a layer.
+// Push constants of a draw of objects whose reflection is added to a base.
 struct ReflectionConstants {
   DrawConstants draw;
   ShadeConstants area;
@@ -347,15 +357,15 @@ static_assert(offsetof(InstanceData, normalFromMesh) == 112 && offsetof(Instance
               sizeof(InstanceData) == 192);
 static_assert(offsetof(DrawConstants, handedness) == 28 && sizeof(DrawConstants) == 48);
 static_assert(offsetof(MirrorData, lookupScale) == 48 && offsetof(MirrorData, texelFromPixel) == 80 &&
-              offsetof(MirrorData, rippleOrigin) == 160 && sizeof(MirrorData) == 192);
-static_assert(offsetof(EnvironmentData, high) == 32 && sizeof(EnvironmentData) == 80);
+              offsetof(MirrorData, rippleOrigin) == 160 && sizeof(MirrorData) == 192 && sizeof(MirrorBlock) == 256);
+static_assert(offsetof(CurvedMirrorData, high) == 32 && sizeof(CurvedMirrorData) == 80);
 static_assert(offsetof(TraceTopNode, far) == 16 && sizeof(TraceTopNode) == 32 && sizeof(TraceNode) == 16);
 static_assert(offsetof(TraceTriangle, c) == 32 && sizeof(TraceTriangle) == 48 && sizeof(TraceFace) == 16);
 static_assert(offsetof(TraceVertex, normal) == 16 && sizeof(TraceVertex) == 32);
 static_assert(offsetof(TraceInstance, gridScale) == 64 && offsetof(TraceInstance, change) == 128 &&
-              offsetof(TraceInstance, firstTriangle) == 208 && sizeof(TraceInstance) == 224);
+              offsetof(TraceInstance, firstTriangle) == 208 && sizeof(TraceInstance) == 16 * traceInstanceTexelCount);
 static_assert(offsetof(TraceMirror, reflectance) == 64 && offsetof(TraceMirror, ripplePhase) == 112 &&
-              sizeof(TraceMirror) == 128);
+              sizeof(TraceMirror) == 16 * traceMirrorTexelCount);
 static_assert(offsetof(LightPath, light) == 32 && sizeof(LightPath) == 64 && sizeof(TraceCounts) == 16);
 static_assert(offsetof(CheckFound, sampleIndex) == 16 && sizeof(CheckFound) == 32);
 

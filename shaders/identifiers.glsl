@@ -3,7 +3,7 @@
 
 struct Identifier {
   bool mirror;     // a planar mirror, else a triangle of an object
-  bool layerOnly;  // only the layer under a reflection, which is added later
+  bool baseOnly;  // without the reflection, which is added later
   uint index;      // into instances, or MirrorData::index; less than 2^28
   uint triangle;   // of the mesh; less than 2^28
 };
@@ -29,7 +29,7 @@ float reflectionMark(Identifier id) { return -1.0 - float((id.index * 0x9e3779b9
 vec4 encoded(Identifier id) {
   vec2 index = encoded(id.index);
   vec2 triangle = encoded(id.triangle);
-  return vec4(-index.x, id.mirror ? -index.y : index.y, id.layerOnly ? -triangle.x : triangle.x, triangle.y);
+  return vec4(-index.x, id.mirror ? -index.y : index.y, id.baseOnly ? -triangle.x : triangle.x, triangle.y);
 }
 
 bool isIdentifier(vec4 color) { return color.r < 0.0; }

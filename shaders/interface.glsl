@@ -1,6 +1,6 @@
-// The buffers that FrameData (src/systems/frame_data.hpp) fills every frame. Values that are the same for all pixels of a
-// draw are in uniform buffers, at the dynamic offset of the pass or of the mirror, because lavapipe reads a storage
-// buffer anew for each pixel.
+// Buffers that FrameData (src/systems/frame_data.hpp) fills every frame, except `materials`. Values that are the same for
+// all pixels of a draw are in uniform buffers, at the dynamic offset of the pass or of the mirror, because lavapipe reads
+// a storage buffer anew for each pixel.
 #include "gpu_data.h"
 
 layout(set = 0, binding = 0, std140) uniform Pass {
@@ -10,7 +10,7 @@ layout(set = 0, binding = 0, std140) uniform Pass {
 layout(set = 0, binding = 1, std140) uniform DrawnMirror { MirrorData mirror; };
 layout(set = 0, binding = 2, std430) readonly buffer Lights { LightData lights[]; };  // of all passes
 layout(set = 0, binding = 3, std430) readonly buffer Instances { InstanceData instances[]; };
-layout(set = 0, binding = 4, std430) readonly buffer Environments { EnvironmentData environments[]; };
+layout(set = 0, binding = 4, std430) readonly buffer CurvedMirrors { CurvedMirrorData curvedMirrors[]; };
 layout(set = 0, binding = 5, std430) readonly buffer MirrorVertices { vec4 mirrorVertices[]; };  // clip space
 layout(set = 0, binding = 6, std430) readonly buffer Materials { MaterialData materials[]; };
 

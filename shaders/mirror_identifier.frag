@@ -3,8 +3,8 @@
 #include "interface.glsl"
 #include "identifiers.glsl"
 
-layout(constant_id = 0) const bool layerOnly = false;
+layout(constant_id = 0) const bool baseOnly = false;
 
 layout(location = 0) out vec4 color;
 
-void main() { color = encoded(Identifier(true, layerOnly, mirror.index, 0)); }
+void main() { color = encoded(Identifier(true, baseOnly, mirror.index, 0)); }

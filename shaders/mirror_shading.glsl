@@ -6,15 +6,15 @@
 #include "microfacet.glsl"
 #include "mirror_plane.glsl"
 
-layout(constant_id = 0) const bool baseOnly = false;   // draws the diffuse layer under the reflection only
-layout(constant_id = 1) const bool reprojects = false; // the image is cached, and eye or mirror moved since
-layout(constant_id = 6) const bool blurs = false;      // the mirror is rough, its image is that of a smooth one
-// Specialisation constants: pixels run no code that their mirror does not need.
+// Specialisation constants: pixels run no code that their mirror does not need. Included files have 4, 5, and 10.
+layout(constant_id = 0) const bool baseOnly = false;    // draws the base without the reflection
+layout(constant_id = 1) const bool reprojects = false;  // the image is cached, and eye or mirror moved since
+layout(constant_id = 2) const bool added = false;       // to the base, which is there already
+layout(constant_id = 6) const bool blurs = false;       // the mirror is rough, its image is that of a smooth one
 layout(constant_id = 7) const uint shows = showsImage;
 layout(constant_id = 8) const uint lookup = lookupFetch;
-layout(constant_id = 9) const bool painted = true;    // its back, or its layer under the reflection, is not black
-layout(constant_id = 2) const bool added = false;     // to the layer, which is there already
-layout(constant_id = 11) const bool ripples = false;   // the mirror is rippled, its image is that of a smooth one
+layout(constant_id = 9) const bool colored = true;    // its back, or its base, is not black
+layout(constant_id = 11) const bool ripples = false;  // the mirror is rippled, its image is that of a smooth one
 
 layout(set = 1, binding = 0) uniform MIRROR_IMAGE reflection;
 
@@ -152,9 +152,9 @@ vec4 reprojected(float nearest) {
     for (int x = low.x; x <= high.x; ++x) {
       vec4 value = valueAt(ivec2(x, y));
       vec2 own = texelAt(r, disparityNow(r, value.a)) - valuePosition();
-      vec2 near = clamp(reach - abs(own - vec2(x, y)), 0.0, 1.0);
-      sum += near.x * near.y * value;
-      weights += near.x * near.y;
+      vec2 weight = clamp(reach - abs(own - vec2(x, y)), 0.0, 1.0);
+      sum += weight.x * weight.y * value;
+      weights += weight.x * weight.y;
       farthest = value.a <= farthest.a ? value : farthest;
     }
   }
@@ -264,10 +264,10 @@ vec3 mirrorNormal(vec3 position) {
 #endif
 
 vec3 baseRadiance(vec3 position, vec3 normal) {
-  if (!painted) {
+  if (!colored) {
     return vec3(0.0);
   }
-  Surface base = mirrorLayer(position, normal, mirror.baseColor);
+  Surface base = mirrorBase(position, normal, mirror.baseColor);
 #ifdef SHADOW_MAPS
   receiver = position;
   receiverNormal = mirror.normal;
@@ -297,8 +297,6 @@ void main() {
     color = storable((1.0 - f) * min(base, shareMax), 0.0);
     return;
   }
-  // The background in a mirror is infinitely far too, but environment maps replace what has disparity 0 by that behind
-  // the mirror.
   vec4 image = vec4(0.0, 0.0, 0.0, float(view.inMap) * halfLeast);
   if (shows == showsImage) {
     if (blurs || ripples) {

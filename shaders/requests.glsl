@@ -2,10 +2,10 @@
 
 const uint requestsPerGroup = 128;
 
-// A request is a pixel's number, above a bit for each sample that sees the surface.
+// A request holds a pixel's number in its upper bits and a bit for each sample that sees the surface in its lower ones.
 layout(set = SHADED_SET, binding = 2, std430) buffer Requests {
   uint requestGroups;  // of the dispatch that shades, in x
-  uint oneGroup[2];    // in y and z
+  uint oneGroup[2];    // of the dispatch, in y and z
   uint requestCount;
   uint requests[];
 };

@@ -24,7 +24,7 @@ out gl_PerVertex {
   float gl_ClipDistance[1];
 };
 
-// Reflections that are added to a layer pass the test for equal depth only if their positions are the same.
+// Reflections that are added to a base pass the test for equal depth only if their positions are the same.
 invariant gl_Position;
 
 void main() {
@@ -36,7 +36,7 @@ void main() {
       vec3(dot(normalFromMesh[0], normal), dot(normalFromMesh[1], normal), dot(normalFromMesh[2], normal));
   textureUv = uv;
   gl_Position = clipFromMesh * p;
-  // Nearer than the rounding of its position a vertex has no direction, and the triangle is seen edge-on: it is cut off.
+  // A vertex nearer to the eye than its rounding error has no reliable direction; the triangle is clipped there.
   vec3 offset = vec3(relativeFromMesh[0].w, relativeFromMesh[1].w, relativeFromMesh[2].w);
   const float rounding2 = 5.7e-14;  // (2^-22)^2
   bool atEye = dot(relativePosition, relativePosition) <= rounding2 * dot(offset, offset);

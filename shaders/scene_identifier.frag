@@ -3,7 +3,7 @@
 #include "gpu_data.h"
 #include "identifiers.glsl"
 
-layout(constant_id = 0) const bool layerOnly = false;
+layout(constant_id = 0) const bool baseOnly = false;
 
 layout(push_constant) uniform Draw { DrawConstants draw; };
 
@@ -12,5 +12,5 @@ layout(location = 3) flat in uint instanceIndex;
 layout(location = 0) out vec4 color;
 
 void main() {
-  color = encoded(Identifier(false, layerOnly, instanceIndex, draw.firstTriangle + uint(gl_PrimitiveID)));
+  color = encoded(Identifier(false, baseOnly, instanceIndex, draw.firstTriangle + uint(gl_PrimitiveID)));
 }

@@ -1,5 +1,5 @@
 // The fragment shader of objects whose light takes no rays. ENVIRONMENT draws curved mirrors, which look up a map; with
-// REFLECTION_ONLY the layer under the reflection is there, because shade.glsl has shaded it.
+// REFLECTION_ONLY the base under the reflection is there, because shade.glsl has shaded it.
 #include "interface.glsl"
 #include "shading.glsl"
 
@@ -51,8 +51,8 @@ vec3 diffuseFactor() {
 #endif
 
 #ifdef REFLECTION_ONLY
-// Returns the samples whose layer is that of this triangle.
-int samplesOfLayer() {
+// Returns the samples whose base is that of this triangle.
+int samplesOfBase() {
   float mark = reflectionMark(Identifier(false, true, instanceIndex, draw.firstTriangle + uint(gl_PrimitiveID)));
   uint pixel = pixelNumber(uvec2(ivec2(gl_FragCoord.xy) - area.corner));
   int mask = 0;
@@ -79,22 +79,22 @@ void main() {
   setReceiver(relativePosition, surface.normal);
 #endif
 #ifdef ENVIRONMENT
-  EnvironmentData map = environments[instances[instanceIndex].environment];
+  CurvedMirrorData map = curvedMirrors[instances[instanceIndex].curvedMirror];
   vec3 direction = safeNormalize(surface.position);
-  surface = mirrorLayer(surface.position, surface.normal, map.baseColor);
+  surface = mirrorBase(surface.position, surface.normal, map.baseColor);
   float cosine = -dot(surface.normal, direction);
   vec3 reflectance = reflectanceAt(map.reflectance, map.schlick, cosine);
-  vec3 layer = vec3(0.0);
+  vec3 base = vec3(0.0);
 #ifndef REFLECTION_ONLY
   if (any(greaterThan(surface.diffuse, vec3(0.0)))) {
-    layer = surfaceRadiance(surface);
+    base = surfaceRadiance(surface);
   }
 #endif
   vec3 reflection = environmentRadiance(map, surface, direction, reflectance);
 #ifdef REFLECTION_ONLY
   reflection = min(reflection, shareMax);
 #endif
-  vec3 radiance = (1.0 - reflectance) * layer + reflectance * reflection;
+  vec3 radiance = (1.0 - reflectance) * base + reflectance * reflection;
 #else
   vec3 radiance = surfaceRadiance(surface);
 #endif
@@ -102,6 +102,6 @@ void main() {
   float w = (view.clipFromRelative * vec4(relativePosition, 1.0)).w;
   color = storable(radiance, disparityLength / max(w, 1e-30));
 #ifdef REFLECTION_ONLY
-  gl_SampleMask[0] = samplesOfLayer();
+  gl_SampleMask[0] = samplesOfBase();
 #endif
 }

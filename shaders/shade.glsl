@@ -15,11 +15,6 @@
 
 layout(local_size_x = requestsPerGroup) in;
 
-struct MirrorBlock {
-  MirrorData mirror;
-  vec4 padding[4];
-};
-
 layout(set = 1, binding = 3, std430) readonly buffer Mirrors { MirrorBlock mirrorBlocks[]; };
 
 // Positions of samples in a pixel: Vulkan specification, "Standard sample locations". Those of n samples start at n - 1.
@@ -121,7 +116,7 @@ Seen seenObject(Identifier id, vec2 position) {
   vec3 direction = safeNormalize(point);
   Bounce bounce = objectBounce(instances[id.index].traceInstance, id.triangle, weights, point, direction);
   float depth = (view.clipFromRelative * vec4(point, 1.0)).w;
-  float disparity = id.layerOnly ? reflectionMark(id) : disparityLength / max(depth, 1e-30);
+  float disparity = id.baseOnly ? reflectionMark(id) : disparityLength / max(depth, 1e-30);
   return Seen(bounce, direction, disparity, seedAt(position), view.picture, 1);
 }
 
@@ -132,16 +127,16 @@ Seen seenMirror(Identifier id, vec2 position, uint firstSample) {
   bool front = dot(traceMirrors[mirror.traceMirror].normal, mirror.normal) > 0.0;
   vec3 direction = safeNormalize(hit.ray);
   Seen seen;
-  // Ripples tilt the layer if they displace the reflection that is added to it.
-  bool ripples = !id.layerOnly || mirror.showsRipples != 0;
+  // Ripples tilt the base if they displace the reflection that is added to it.
+  bool ripples = !id.baseOnly || mirror.showsRipples != 0;
   seen.bounce = mirrorBounce(mirror.traceMirror, hit.position + view.traceOffset.xyz, direction, front, ripples);
-  seen.bounce.alpha = id.layerOnly ? 0.0 : seen.bounce.alpha;
+  seen.bounce.alpha = id.baseOnly ? 0.0 : seen.bounce.alpha;
   seen.direction = direction;
-  seen.disparity = id.layerOnly && seen.bounce.reflects ? 0.0 : hit.disparity;  // that of the reflection is added
+  seen.disparity = id.baseOnly && seen.bounce.reflects ? 0.0 : hit.disparity;  // that of the reflection is added
   seen.seed = seedAt(position);
   seen.before = view.picture;
   seen.wanted = 1;
-  if (seen.bounce.alpha > 0.0 && seen.bounce.reflects && !id.layerOnly) {
+  if (seen.bounce.alpha > 0.0 && seen.bounce.reflects && !id.baseOnly) {
     // The samples share the pixel's points, so that many samples and few are equally smooth.
     seen.seed = seedAt(floor(position) + 0.5);
     uint wanted = (traceCounts.roughSamples + samples - 1) / samples;
@@ -162,9 +157,9 @@ void shade(uint pixel, uint seenBy) {
   } else {
     seen = seenObject(id, position);
   }
-  bool addsReflection = id.layerOnly && seen.bounce.reflects;
+  bool addsReflection = id.baseOnly && seen.bounce.reflects;
   vec3 share = addsReflection ? 1.0 - seen.bounce.reflectance : vec3(1.0);
-  seen.bounce.reflects = seen.bounce.reflects && !id.layerOnly;
+  seen.bounce.reflects = seen.bounce.reflects && !id.baseOnly;
   vec3 radiance = tracedRadiance(seen.bounce, seen.direction, seen.seed, seen.before, seen.wanted);
   vec4 value = storable(addsReflection ? share * min(radiance, shareMax) : radiance, max(seen.disparity, 0.0));
   value.a = seen.disparity < 0.0 ? seen.disparity : value.a;

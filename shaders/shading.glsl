@@ -7,7 +7,7 @@ const float pi = 3.14159265358979;
 const float halfMax = 65504.0;
 const float halfLeast = 6e-8;  // the least half float above 0
 const float radianceMax = 1e30;  // sums stay finite, and unlike infinity it gives 0 times 0
-const float shareMax = 65472.0;  // largest value of a layer: the sum of two rounds to halfMax at most
+const float shareMax = 65472.0;  // largest value of a base or a reflection: the sum of two rounds to halfMax at most
 
 struct Surface {
   vec3 position;  // relative
@@ -20,7 +20,7 @@ struct Surface {
 };
 
 #ifdef COMPUTE
-// Never true, but compilers cannot know.
+// Always false, but no compiler can know that.
 bool isUnneeded() { return gl_LocalInvocationIndex > 0xffff; }
 #else
 bool isUnneeded() { return gl_HelperInvocation; }
@@ -39,7 +39,7 @@ vec3 timesPoint(vec4 rows[3], vec3 p) {
 }
 vec3 timesDirection(vec4 rows[3], vec3 d) { return vec3(dot(rows[0].xyz, d), dot(rows[1].xyz, d), dot(rows[2].xyz, d)); }
 
-// The four texels that a bilinear look-up mixes, in a texture that repeats, with v upwards. A sampler's weights may
+// The four texels that a bilinear lookup mixes, in a texture that repeats, with v upwards. A sampler's weights may
 // have only 8 bits, which shows where texels differ much.
 struct BilinearTexels {
   ivec2 low;
@@ -50,7 +50,7 @@ struct BilinearTexels {
 BilinearTexels bilinearTexels(vec2 uv, ivec2 size) {
   vec2 texel = fract(vec2(uv.x, 1.0 - uv.y)) * vec2(size) - 0.5;
   vec2 corner = floor(texel);
-  // Integer divisions cost lavapipe more than the rest of the look-up.
+  // Integer divisions cost lavapipe more than the rest of the lookup.
   ivec2 low = ivec2(corner);
   low += size * ivec2(lessThan(low, ivec2(0)));
   ivec2 high = low + 1;
@@ -132,8 +132,8 @@ vec3 mirrored(vec3 direction, vec3 m, vec3 planeNormal) {
   return safeNormalize(outward < 0.0 ? d - 2.0 * outward * planeNormal : d);
 }
 
-// The layer under a mirror's reflection, or its back.
-Surface mirrorLayer(vec3 position, vec3 normal, vec3 color) {
+// The base of a mirror: the diffuse surface under its reflection, or its back.
+Surface mirrorBase(vec3 position, vec3 normal, vec3 color) {
   return Surface(position, normal, color, vec3(0.0), vec3(0.0), 1.0, false);
 }
 
@@ -154,8 +154,9 @@ vec3 backgroundRadiance(vec3 direction) {
 }
 
 // Returns the value as a half-float target can store it: beyond its range some drivers store infinity, and one such
-// sample spoils a resolve. `disparity` is disparityLength / w, by which cached images are reprojected. It is 0 where
-// the background is seen, in a mirror too, except that in environment maps a mirror's is halfLeast.
+// sample spoils a resolve. `disparity` is disparityLength / w, by which cached images are reprojected. 0: the background
+// is seen, directly or in a mirror. halfLeast: too far to store, or a mirror in an environment map that shows the
+// background, which must not be replaced by the background behind the mirror.
 vec4 storable(vec3 radiance, float disparity) {
   vec4 value = vec4(radiance, disparity);
   vec4 stored = clamp(value, vec4(0.0, 0.0, 0.0, disparity > 0.0 ? halfLeast : 0.0), vec4(halfMax));
@@ -165,6 +166,5 @@ vec4 storable(vec3 radiance, float disparity) {
   return mix(stored, value, greaterThan(floatBitsToUint(value) & 0x7fffffffu, uvec4(largest)));
 }
 
-// Returns the disparity that storable() stored. Of what has halfLeast only a least distance is known, beyond which a
-// mirror may lie: it counts as infinitely far.
+// Returns the disparity that storable() stored; 0, infinitely far, for halfLeast.
 float disparityOf(float stored) { return stored > halfLeast ? stored : 0.0; }

@@ -2,7 +2,7 @@
 // bias. Needs interface.glsl.
 #include "cube_face.glsl"
 
-layout(constant_id = 4) const uint onlyShadowFace = anyShadowFace;  // shows the whole scene in every map
+layout(constant_id = 4) const uint onlyShadowFace = anyShadowFace;  // face that contains the whole scene, in every map
 layout(constant_id = 10) const uint shadowedLights = 0;  // bits of the pass's lights that have a map, if these are fixed
 
 layout(set = 2, binding = 0) uniform sampler2D shadowTexels;  // disparities from the light, 1/m; 0: nothing is there
@@ -28,7 +28,7 @@ void setReceiver(vec3 position, vec3 shadingNormal) {
 }
 
 // Chooses among loads at uniform addresses, because lavapipe reads any other address once for each pixel.
-vec4 windowOf(uint map, CubeFace face) {
+vec4 windowOf(uint map, FaceDirection face) {
   ShadowMapData data = shadowMaps[map];
   bool positive = face.side > 0.0;
   vec4 x = positive ? data.faces[0] : data.faces[1];
@@ -42,7 +42,7 @@ vec4 windowOf(uint map, CubeFace face) {
 // shadows itself whatever its slope.
 float shadowShare(LightData light) {
   vec3 p = receiver - light.position;
-  CubeFace face = onlyShadowFace == anyShadowFace ? cubeFace(p) : faceOf(onlyShadowFace, p);
+  FaceDirection face = onlyShadowFace == anyShadowFace ? cubeFace(p) : faceOf(onlyShadowFace, p);
   vec4 window = windowOf(light.shadowMap, face);
   float disparity = 1.0 / max(face.along, 1e-30);
   vec2 at = inFace(face, p) * disparity * window.xy + window.zw;

@@ -2,8 +2,9 @@
 // Needs interface.glsl and shading.glsl.
 //
 // Written for lavapipe, which runs both sides of every branch, enters every loop once, and reads a storage buffer once
-// for each pixel and component. So rays read texels, keep no stack, and start at one place for all lights. Boxes do not
-// limit: a ray visits 11 to 22 of instances and mirrors and 9 to 26 of meshes.
+// for each pixel and component. So nodes are read through texel buffers, traversal needs no stack, and rays to all lights
+// are traced by one call. A ray tests 11 to 22 boxes of instances and mirrors and 9 to 26 of meshes, few enough not to
+// limit the speed.
 
 layout(set = 2, binding = 0) uniform usamplerBuffer traceNodes;      // TraceNode
 layout(set = 2, binding = 1) uniform usamplerBuffer traceTriangles;  // TraceTriangle
@@ -111,9 +112,14 @@ vec4 meetTriangle(vec3 corners[3], vec3 origin, uint along, vec3 shear) {
   return vec4(u, v, w, shear.z * (u * a.z + v * b.z + w * c.z)) / area;
 }
 
-vec4 mirrorTexel(uint mirror, uint i) { return uintBitsToFloat(texelFetch(traceMirrorTexels, int(8 * mirror + i))); }
+uvec4 mirrorBits(uint mirror, uint i) {
+  return texelFetch(traceMirrorTexels, int(traceMirrorTexelCount * mirror + i));
+}
 
-uvec4 mirrorPlace(uint mirror) { return texelFetch(traceMirrorTexels, int(8 * mirror + 7)); }
+vec4 mirrorTexel(uint mirror, uint i) { return uintBitsToFloat(mirrorBits(mirror, i)); }
+
+// From TraceMirror::ripplePhase to layers.
+uvec4 mirrorPlace(uint mirror) { return mirrorBits(mirror, traceMirrorTexelCount - 1); }
 
 uint planeOf(uint mirror) { return mirrorPlace(mirror).z; }
 
@@ -165,7 +171,9 @@ LocalRay localRay(vec3 origin, vec3 direction) {
   return LocalRay(origin, along, vec3(d.xy / d.z, 1.0 / d.z));
 }
 
-uvec4 instanceTexel(uint instance, uint i) { return texelFetch(traceInstanceTexels, int(14 * instance + i)); }
+uvec4 instanceTexel(uint instance, uint i) {
+  return texelFetch(traceInstanceTexels, int(traceInstanceTexelCount * instance + i));
+}
 
 uvec4 triangleTexel(uint slot, uint i) { return texelFetch(traceTriangles, int(3 * slot + i)); }
 

@@ -5,7 +5,7 @@ layout(constant_id = 1) const bool trilinear = false;  // between levels of text
 layout(constant_id = 4) const bool rough = false;      // some mirror of the scene is rough
 
 struct Bounce {
-  Surface surface;  // relative; of a mirror, the layer under the reflection
+  Surface surface;  // relative; of a mirror, the base under the reflection
   Skip self;
   bool reflects;
   vec3 planeNormal;  // unit, towards the viewer: what is reflected stays on this side
@@ -33,12 +33,12 @@ Bounce mirrorBounce(uint mirror, vec3 tracePosition, vec3 direction, bool front,
   bounce.reflects = front || traceMirrors[mirror].twoSided != 0;
   bounce.alpha = traceMirrors[mirror].alpha;
   if (!bounce.reflects) {
-    bounce.surface = mirrorLayer(position, bounce.planeNormal, traceMirrors[mirror].backColor);
+    bounce.surface = mirrorBase(position, bounce.planeNormal, traceMirrors[mirror].backColor);
     bounce.reflectance = vec3(0.0);
     return bounce;
   }
   vec3 normal = side * (ripples ? rippled(mirror, tracePosition) : traceMirrors[mirror].normal);
-  bounce.surface = mirrorLayer(position, normal, traceMirrors[mirror].baseColor);
+  bounce.surface = mirrorBase(position, normal, traceMirrors[mirror].baseColor);
   bounce.reflectance = tracedMirrorReflectance(mirror, -dot(normal, direction));
   return bounce;
 }
@@ -48,7 +48,7 @@ void applyCurvedMirror(uint instance, vec3 direction, inout Bounce bounce) {
   uint curved = traceInstances[instance].curved;
   bounce.reflects = curved != curvedNone;
   if (bounce.reflects) {
-    bounce.surface = mirrorLayer(bounce.surface.position, bounce.surface.normal, traceInstances[instance].baseColor);
+    bounce.surface = mirrorBase(bounce.surface.position, bounce.surface.normal, traceInstances[instance].baseColor);
     float cosine = -dot(bounce.surface.normal, direction);
     bounce.reflectance = reflectanceAt(traceInstances[instance].reflectance, uint(curved == curvedSchlick), cosine);
   }
@@ -166,7 +166,7 @@ bool nextMicrofacet(Bounce bounce, vec3 direction, vec2 shift, bool taken, int m
   return found;
 }
 
-// Returns the radiance of a surface, seen along `direction`: its layer and what it reflects. A rough one reflects the
+// Returns the radiance of a surface, seen along `direction`: its base and what it reflects. A rough one reflects the
 // mean over `wanted` microfacets, from number `before` of the recurrence on and shifted by the seed.
 //
 // One loop follows all paths of a pixel, so that a pixel begins its next path while its neighbours still follow theirs.
@@ -178,7 +178,7 @@ vec3 tracedRadiance(Bounce surface, vec3 direction, uint seed, uint before, int 
   int most = 4 * wanted + 16;
   int drawn = 0;
   int taken = 0;
-  vec3 layer = vec3(0.0);
+  vec3 base = vec3(0.0);
   vec3 sum = vec3(0.0);
   Bounce bounce = surface;  // where the path is, seen along `towards`
   vec3 towards = direction;
@@ -243,11 +243,11 @@ vec3 tracedRadiance(Bounce surface, vec3 direction, uint seed, uint before, int 
       own = tracedSurfaceRadiance(bounce.surface, -towards, bounce.self);
       own *= bounce.reflects ? 1.0 - bounce.reflectance : vec3(1.0);
     }
-    layer = first ? own : layer;
+    base = first ? own : base;
     sum += first ? vec3(0.0) : weight * own;
     starts = first || !meets || !bounce.reflects;
     first = false;
     ends = starts && (!surface.reflects || taken == (rough ? wanted : 1) || drawn == most);
   }
-  return layer + sum / float(max(taken, 1));
+  return base + sum / float(max(taken, 1));
 }

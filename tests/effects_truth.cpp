@@ -302,7 +302,7 @@ TEST_F(RoughMirror, MoreRaysReduceError) {
   EXPECT_LT(most, sixteen / 1.8);
 }
 
-// A blurred image of the smooth mirror is far nearer to the truth than a smooth mirror. With as many look-ups as rays
+// A blurred image of the smooth mirror is far nearer to the truth than a smooth mirror. With as many lookups as rays
 // it is worse than tracing, because it lacks what the smooth mirror does not show.
 TEST_F(RoughMirror, ImageLookupLiesBetweenSmoothAndTraced) {
   const double smooth = error({{"effects.roughness", "false"}});
@@ -331,7 +331,7 @@ TEST(RoughMirrorWithShadows, LooksUpMoreAtEverySample) {
   };
   const double pixel = noise("false");
   const double samples = noise("true");
-  std::printf("RMSE of 2 look-ups a pixel %.5f, at each of 4 samples %.5f\n", pixel, samples);
+  std::printf("RMSE of 2 lookups a pixel %.5f, at each of 4 samples %.5f\n", pixel, samples);
   EXPECT_LT(samples, 0.75 * pixel);
 }
 

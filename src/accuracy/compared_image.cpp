@@ -9,15 +9,14 @@
 #include "image/color.hpp"
 #include "image/exr.hpp"
 #include "image/picture_files.hpp"
+#include "platform/text.hpp"
 
 namespace speculum {
 
 namespace {
 
 bool isLinearFile(const std::filesystem::path& file) {
-  std::string ending = file.extension().string();
-  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return std::tolower(c); });
-  return ending == ".exr";
+  return lowerCase(file.extension().string()) == ".exr";
 }
 
 }  // namespace

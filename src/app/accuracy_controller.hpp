@@ -20,7 +20,7 @@ struct WatchedView {
   bool animated = false;  // the picture depends on the time
 };
 // Says whether the user has changed the view since it was measured: the camera, or the time by setting it or by a pause
-// elsewhere. What the clock alone changes is no other view, or an animation would be one from its next frame on.
+// elsewhere. Running animation time does not count: otherwise every frame would be another view.
 bool isOtherView(const WatchedView& measured, const WatchedView& now);
 
 // Accuracy of the view: measurements, the measured points whose settings can be applied, the budget, the difference

@@ -102,7 +102,7 @@ class Demo : private WorkspaceHost {
   size_t pipelines_ = 0;       // after the last frame
   bool compiled_ = false;      // pipelines, in the last frame
   int scenes_ = 0;             // number of scenes shown before this one
-  LevelJob levels_;
+  MeshLevelJob levels_;
   bool sceneIsNew_ = true;  // no picture of it was drawn
   std::filesystem::path shownFile_;
   Settings frameSettings_;
@@ -119,8 +119,8 @@ class Demo : private WorkspaceHost {
   int framesDrawn_ = 0;
 };
 
-// The window until it is closed or --frames are drawn. Exit code 1 if the validation layer or debug.check_finite had
-// anything to say.
+// Runs the window until it is closed or --frames are drawn. Exit code 1 if the validation layer or debug.check_finite
+// reported anything.
 int runDemo(const Options& options);
 
 }  // namespace speculum

@@ -19,9 +19,9 @@ constexpr std::array<double, 6> gpuPrices{1e-7, 0.03, 2e-6, 2e-6, 5e-7, 1e-5};
 constexpr size_t rayKind = 5;
 
 // Relative standard deviations.
-constexpr double speedGuess = 1.0;    // of the device's speed at first
-constexpr double priceGuess = 0.5;    // of each price, in addition
-constexpr double rayGuess = 1.5;      // of a ray's price instead, which depends on scene and hardware
+constexpr double speedSpread = 1.0;   // of the device's speed at first
+constexpr double priceSpread = 0.5;   // of each price, in addition
+constexpr double raySpread = 1.5;     // of a ray's price instead, which depends on scene and hardware
 constexpr double speedDrift = 0.015;  // from frame to frame
 constexpr double priceDrift = 0.004;
 constexpr double frameNoise = 0.1;
@@ -154,26 +154,26 @@ FrameWork scaledWork(FrameWork work, const Settings& from, const Settings& to) {
   return work;
 }
 
-CostModel::CostModel(bool cpuDevice) : prices_(cpuDevice ? cpuPrices : gpuPrices) {
+CostModel::CostModel(bool cpuDevice) : typicalPrices_(cpuDevice ? cpuPrices : gpuPrices) {
   factors_.fill(1.0);
   for (size_t i = 0; i < kinds; ++i) {
-    covariance_[i].fill(speedGuess * speedGuess);
-    const double price = i == rayKind ? rayGuess : priceGuess;
+    covariance_[i].fill(speedSpread * speedSpread);
+    const double price = i == rayKind ? raySpread : priceSpread;
     covariance_[i][i] += price * price;
   }
 }
 
-CostModel::Vector CostModel::guess(const FrameWork& work) const {
+CostModel::Vector CostModel::typicalMs(const FrameWork& work) const {
   const double further = work.mainTexels * (work.viewSamples - 1) + work.mirrorTexels * (work.mirrorSamples - 1);
   Vector ms{work.plainTexels, work.passes,
             work.triangles,   work.mainTexels + work.mirrorTexels + work.mapTexels,
             further,          work.lightRays + work.rippleRays + work.smoothRays + work.curvedRays + work.roughRays};
-  std::ranges::transform(ms, prices_, ms.begin(), std::multiplies());
+  std::ranges::transform(ms, typicalPrices_, ms.begin(), std::multiplies());
   return ms;
 }
 
 double CostModel::predict(const FrameWork& work) const {
-  const Vector ms = guess(work);
+  const Vector ms = typicalMs(work);
   return std::inner_product(ms.begin(), ms.end(), factors_.begin(), 0.0);
 }
 
@@ -187,7 +187,7 @@ void CostModel::learn(const FrameWork& work, double ms) {
     }
   };
   widen(speedDrift, priceDrift);
-  const Vector observed = guess(work);
+  const Vector observed = typicalMs(work);
   const double predicted = predict(work);
   const double noise = frameNoise * predicted + noiseMs;
   const auto spread = [&] {  // covariance times `observed`

@@ -31,10 +31,9 @@ FrameWork workOf(const FramePlan& plan, const Scene& scene, const SceneState& st
 // cost none.
 FrameWork scaledWork(FrameWork work, const Settings& from, const Settings& to);
 
-// Predicts milliseconds of a frame as a sum over its kinds of work, each with a price. A Kalman filter learns from
-// frames the factors between these prices and a guess for the kind of device. The factors are correlated at first: what
-// slows the whole device, such as another program, changes all of them, so few frames correct the prices even of work
-// that they hardly had.
+// Predicts the milliseconds of a frame: the sum over its kinds of work of amount, typical price and factor. Typical
+// prices are constants of the kind of device. A Kalman filter estimates the factors from the times of frames. They
+// start correlated, so that a device that is slow as a whole is recognised within a few frames.
 class CostModel {
  public:
   explicit CostModel(bool cpuDevice);
@@ -46,9 +45,9 @@ class CostModel {
   static constexpr size_t kinds = 6;
   using Vector = std::array<double, kinds>;
 
-  Vector guess(const FrameWork& work) const;  // milliseconds of each kind
+  Vector typicalMs(const FrameWork& work) const;  // of each kind, by typical prices
 
-  Vector prices_;  // milliseconds for a unit of work on a usual device of the kind
+  Vector typicalPrices_;  // milliseconds for a unit of work
   Vector factors_;
   std::array<Vector, kinds> covariance_{};  // of factors_
   int surprises_ = 0;                       // frames in a row that took longer, or (negative) less long, than expected

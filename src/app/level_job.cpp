@@ -9,7 +9,7 @@
 
 namespace speculum {
 
-bool LevelJob::ready(const Scene& scene, int sceneNumber) {
+bool MeshLevelJob::ready(const Scene& scene, int sceneNumber) {
   if (std::exchange(scene_, sceneNumber) != sceneNumber) {
     job_.cancel();
   }

@@ -6,7 +6,7 @@
 namespace speculum {
 
 // Makes the levels of a scene's meshes on a thread of its own, so that no frame of the window waits for them.
-class LevelJob {
+class MeshLevelJob {
  public:
   // Says whether the levels of all meshes are made, and starts to make missing ones. A call with another scene cancels
   // the work for the last one.

@@ -26,9 +26,9 @@ struct MotionLevel {
 
 // Returns levels for a picture of a scene with these settings, each cheaper than the one before: the settings
 // themselves, the front of the scene's measured sweep (most accurate first; may be empty), then steps in an order that
-// holds for most scenes (docs/window.md). No level is above the first in any setting. `sampleCounts` are those that the
-// device has, as a sum. `simplifies`: whether levels may simplify meshes. `cpuDevice`: small mirrors may be cheaper by
-// rays.
+// holds for most scenes (docs/window.md). No setting of a level has better quality than that of the first.
+// `sampleCounts` are those that the device has, as VkSampleCountFlags. `simplifies`: whether levels may simplify
+// meshes. `cpuDevice`: small mirrors may be cheaper by rays.
 std::vector<MotionLevel> motionLevels(const Scene& scene, const Settings& chosen, std::span<const MotionLevel> front,
                                       unsigned sampleCounts, bool simplifies, bool cpuDevice);
 

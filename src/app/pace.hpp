@@ -40,7 +40,7 @@ class Movement {
 // (FramePlan::tiles).
 class Pace {
  public:
-  // `sampleCounts`: bits of the sample counts that the device supports, as VkSampleCountFlags.
+  // `sampleCounts`: those that the device supports, as VkSampleCountFlags.
   Pace(bool cpuDevice, unsigned sampleCounts)
       : cpuDevice_(cpuDevice), sampleCounts_(sampleCounts), controller_(cpuDevice) {}
 
@@ -90,7 +90,8 @@ class Pace {
   using Planner = std::function<FittedPlan(const Settings&, int picture)>;
   const FittedPlan& plan(const Request& request, const Planner& plan);
 
-  // Call when the frame was recorded: `cpuMs` without waiting; `usual` says that its times are those of such a frame.
+  // Call when the frame was recorded: `cpuMs` without waiting; `usual`: nothing but drawing took time, so that the cost
+  // model may learn from it.
   void drawn(uint64_t number, double cpuMs, bool usual);
   // Call when the frame was presented, which took `ms`.
   void presented(double ms) { drawn_.back().presentMs = ms; }
@@ -118,7 +119,7 @@ class Pace {
     Clock::time_point begun;
     double presentMs = 0.0;
     double frameMs = 0.0;           // until the next frame began; 0: not yet
-    std::optional<FrameWork> work;  // if the times are those of such a frame
+    std::optional<FrameWork> work;  // none if the frame was not usual
   };
 
   bool cpuDevice_;

@@ -39,9 +39,9 @@ bool Recovery::isRecorded(const fs::path& copy) {
   return fs::exists(recordOf(copy), none);
 }
 
-void Recovery::record(const fs::path& copy, bool unanswered) {
+void Recovery::record(const fs::path& copy, bool keepsEarlier) {
   storeFile(recordOf(copy), copy.string());
-  if (copy != copy_ && !unanswered) {
+  if (copy != copy_ && !keepsEarlier) {
     forget();
   }
   copy_ = copy;

@@ -13,8 +13,9 @@ class Recovery {
   const std::optional<std::filesystem::path>& findNewest();
   static bool isRecorded(const std::filesystem::path& copy);
 
-  // Records a copy that this session made. It has the changes of the copy before too, unless that is `unanswered`.
-  void record(const std::filesystem::path& copy, bool unanswered = false);
+  // Records a copy that this session made. `keepsEarlier`: the record of the copy before stays, since its changes are
+  // not in this one.
+  void record(const std::filesystem::path& copy, bool keepsEarlier = false);
   // Call when the changes of the copy are saved or discarded. Other windows have records of their own.
   void forget();
   // Call when the user has opened `file` instead of answering: the next start asks again unless that is the copy.

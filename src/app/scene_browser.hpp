@@ -23,7 +23,7 @@ class SceneBrowser {
   // Loads a scene or a model on a thread of its own, and cancels one that is loading.
   void open(const std::filesystem::path& file, const Options& options);
   static std::vector<std::filesystem::path> shippedModels();  // that come with the program
-  static std::filesystem::path newScene();                    // file of the scene that a new one begins as
+  static std::filesystem::path newScene();                    // template of a new scene
   static bool isNew(const std::filesystem::path& scene);
   // Returns the first of the files that can be opened. Throws InputError if there is none.
   static std::filesystem::path choose(const std::vector<std::filesystem::path>& files);

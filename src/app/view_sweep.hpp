@@ -28,8 +28,8 @@ class ViewMeasurement {
   explicit ViewMeasurement(const SweepRequest& request);
 
   // Measures a picture of few pixels against few samples, within seconds, and times each configuration `rounds` times;
-  // another call takes only the rounds that are missing. Its times are enlarged to those of the whole picture by what
-  // two configurations take in both sizes.
+  // a further call measures only the missing rounds. The whole picture's times are extrapolated from two
+  // configurations that are timed in both sizes.
   SweepResults rough(int rounds, const SweepProgress& progress);
   SweepResults whole(const SweepProgress& progress);
 

@@ -35,7 +35,7 @@ class WorkspaceHost {
   virtual void openInspector() = 0;
   // Says whether the inspector is closed and would open over that place, in screen coordinates of the window.
   virtual bool inspectorCovers(const glm::dvec2& place) const = 0;
-  // Closes a menu or the list of keys, or with `panels` the top window. Returns false if there is none.
+  // Closes an open menu or the list of keys. Returns false if neither is open.
   virtual bool closePopup() = 0;
 };
 
@@ -74,8 +74,8 @@ class Workspace {
   bool dragging() const { return document_->editor().dragging(); }
   bool statusFades() const { return status_.fades(); }
 
-  // After a frame that could not be drawn: undoes the last step and shows why. False if there is none, or if
-  // that did not help in the last frame: then it is done again.
+  // After a frame that could not be drawn: undoes the last step and shows why. Returns false if there is none. If
+  // undoing did not help in the last frame, redoes the step and returns false.
   bool undoFailedChange(const std::string& why);
   // Before the program ends without a prompt: keeps unsaved changes in a copy, logs where, and makes the next start
   // offer it.

@@ -8,7 +8,7 @@
 namespace speculum {
 
 enum class BufferMemory {
-  host,    // mapped and coherent, written by the CPU every frame
+  host,    // mapped and coherent, for the CPU to write or read
   device,  // filled once through Uploader
 };
 

@@ -10,7 +10,7 @@ enum class Use { output, resolved };
 
 Image makeColor(Device& device, const OffScreenDesc& desc, Use use) {
   const bool output = use == Use::output;
-  const VkSampleCountFlagBits samples = output && !desc.keepSamples ? VK_SAMPLE_COUNT_1_BIT : desc.samples;
+  const VkSampleCountFlagBits samples = output && !desc.multisampledOutput ? VK_SAMPLE_COUNT_1_BIT : desc.samples;
   VkImageUsageFlags usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
   usage |= output || desc.readSamples ? VK_IMAGE_USAGE_SAMPLED_BIT : 0;
   usage |= samples == VK_SAMPLE_COUNT_1_BIT ? VK_IMAGE_USAGE_TRANSFER_SRC_BIT : 0;

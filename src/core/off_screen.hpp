@@ -37,8 +37,8 @@ struct OffScreenDesc {
   VkExtent2D extent{1, 1};
   VkFormat format = colorFormat;
   VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
-  bool keepSamples = false;  // the output is the multisampled color, read sample by sample; else it is resolved
-  bool readSamples = false;  // the multisampled color can be read too, if the pass stores it
+  bool multisampledOutput = false;  // the output is the multisampled color, read sample by sample; else it is resolved
+  bool readSamples = false;         // the multisampled color can be read too, if the pass stores it
   bool depth = true;
   TargetRole role = TargetRole::offscreen;
   SharedDepth* shared = nullptr;  // outlives the target; its sample count replaces `samples`

@@ -41,9 +41,11 @@ struct PassViewport {
 struct PassDesc {
   std::string name;
   PassTargets targets;
-  // Pixels of the target; only these are cleared and written. Outside them a resolved or single-sample offscreen color
-  // is kept, multisampled color with `keepsSamples` or when loaded, depth when loaded or stored with `keepsSamples`;
-  // swapchain images only when loaded.
+  // Pixels of the target; only these are cleared and written. Outside them
+  // - resolved or single-sample offscreen color is kept,
+  // - multisampled color is kept if `loadColor` or `keepsSamples`,
+  // - depth is kept if `loadDepth`, or `storeDepth` and `keepsSamples`,
+  // - swapchain images are kept if `loadColor`.
   VkRect2D renderArea{};
   PassViewport viewport;
   VkRect2D scissor{};  // pixels of the target, within the render area

@@ -1,20 +1,15 @@
 #include "core/physical_device.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <stdexcept>
 
 #include "core/image.hpp"
+#include "platform/text.hpp"
 
 namespace speculum {
 
 namespace {
-
-std::string lower(std::string text) {
-  std::ranges::transform(text, text.begin(), [](unsigned char c) { return std::tolower(c); });
-  return text;
-}
 
 VkSampleCountFlags sampleCounts(VkPhysicalDevice device, VkFormat format, VkImageUsageFlags usage) {
   VkImageFormatProperties properties{};
@@ -187,7 +182,7 @@ const PhysicalDevice* find(const std::vector<PhysicalDevice>& devices, const std
     return index < devices.size() ? &devices[index] : nullptr;
   }
   for (const PhysicalDevice& device : devices) {
-    if (lower(device.info.name).find(lower(wanted)) != std::string::npos) {
+    if (lowerCase(device.info.name).find(lowerCase(wanted)) != std::string::npos) {
       return &device;
     }
   }

@@ -74,7 +74,7 @@ struct PhysicalDevice {
   bool hasExtension(std::string_view name) const;
 };
 
-// With a surface, DeviceInfo::missing says so of a GPU that cannot present to it.
+// With a surface, DeviceInfo::missing of a GPU that cannot present to it says so.
 std::vector<PhysicalDevice> physicalDevices(const Instance& instance, VkSurfaceKHR surface);
 
 // Chooses by index or part of the name, or if that is empty the first usable one of the best type. Throws

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <functional>
 
+#include "platform/text.hpp"
+
 namespace speculum {
 
 namespace {
@@ -58,7 +60,7 @@ size_t TomlLayout::offset(const toml::source_position& position) const {
   size_t at = lines_.at(position.line - 1);
   for (uint32_t column = 1; column < position.column; ++column) {
     ++at;
-    while (at < text_.size() && (static_cast<unsigned char>(text_[at]) & 0xc0) == 0x80) {
+    while (at < text_.size() && continuesCharacter(text_[at])) {
       ++at;
     }
   }

@@ -1,8 +1,8 @@
 #include "frame/effects.hpp"
 
 #include <algorithm>
-#include <map>
 #include <set>
+#include <stdexcept>
 
 #include "frame/scene_names.hpp"
 
@@ -93,20 +93,34 @@ Effect multisampling(const Settings& settings, const FramePlan& plan) {
 
 }  // namespace
 
-const std::vector<SettingChange>& settingsWithout(EffectKind effect) {
-  static const std::map<EffectKind, std::vector<SettingChange>> changes{
-      {EffectKind::shadows, {{"effects.shadows", "false"}}},
-      {EffectKind::roughness, {{"effects.roughness", "false"}}},
-      {EffectKind::ripple, {{"effects.ripple", "false"}}},
-      {EffectKind::castsLight, {{"effects.casts_light", "false"}}},
-      {EffectKind::fresnel, {{"effects.fresnel", "false"}}},
-      {EffectKind::textures, {{"effects.textures", "false"}}},
-      {EffectKind::msaa, {{"view.samples", "1"}, {"reflection.samples", "1"}}},
-      {EffectKind::toneMap, {{"view.tone_map", "clamp"}}},
-      {EffectKind::glyphs, {{"effects.glyphs", "false"}}},
-      {EffectKind::wireframe, {{"view.wireframe", "false"}}},
-      {EffectKind::curved, {{"effects.curved", "false"}}}};
-  return changes.at(effect);
+std::vector<SettingChange> settingsWithout(EffectKind effect) {
+  switch (effect) {
+    case EffectKind::shadows:
+      return {{"effects.shadows", "false"}};
+    case EffectKind::roughness:
+      return {{"effects.roughness", "false"}};
+    case EffectKind::ripple:
+      return {{"effects.ripple", "false"}};
+    case EffectKind::castsLight:
+      return {{"effects.casts_light", "false"}};
+    case EffectKind::fresnel:
+      return {{"effects.fresnel", "false"}};
+    case EffectKind::textures:
+      return {{"effects.textures", "false"}};
+    case EffectKind::msaa:
+      return {{"view.samples", "1"}, {"reflection.samples", "1"}};
+    case EffectKind::toneMap:
+      return {{"view.tone_map", "clamp"}};
+    case EffectKind::glyphs:
+      return {{"effects.glyphs", "false"}};
+    case EffectKind::wireframe:
+      return {{"view.wireframe", "false"}};
+    case EffectKind::curved:
+      return {{"effects.curved", "false"}};
+    case EffectKind::count:
+      break;
+  }
+  throw std::logic_error("no effect has this kind");
 }
 
 bool drawsTextures(const Scene& scene, const SceneState& state, const Settings& settings, const FramePlan& plan) {

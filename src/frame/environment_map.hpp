@@ -7,7 +7,7 @@
 
 namespace speculum {
 
-// Texels on each side beyond a face's edges, so that bilinear look-ups need no other face.
+// Texels on each side beyond a face's edges, so that bilinear lookups need no other face.
 inline constexpr int environmentBorder = 1;
 // Curved mirrors that may have a map: those that cover the widest angle. Others show the background.
 inline constexpr size_t mostEnvironmentMaps = 32;

@@ -151,7 +151,7 @@ void Planner::addMaps(std::vector<SimplifiedPass>& passes) {
   for (EnvironmentMap& map : plan_.maps) {
     std::ranges::copy(facesToSimplify(map), std::back_inserter(passes));
   }
-  constexpr double softened = 2.0;  // texels that a look-up reads in each direction
+  constexpr double softened = 2.0;  // texels that a lookup reads in each direction
   const double texels = allSettings_.view.meshError > 0.0 ? softened : 0.0;
   for (ShadowMap& map : plan_.shadowMaps) {
     for (ShadowFace& face : map.faces) {

@@ -30,7 +30,7 @@ std::string_view skipReasonName(SkipReason reason);
 // A mirror that a view draws.
 struct MirrorDraw {
   int mirror = 0;                      // index into Scene::mirrors
-  bool back = false;                   // its painted back is seen
+  bool back = false;                   // its back is seen
   bool byRays = false;                 // rays show its reflection, not an image of its plane
   bool blurs = false;                  // rough: the image of its plane is blurred
   bool ripples = false;                // rippled: the image of its plane is looked up where ripples reflect to
@@ -47,7 +47,7 @@ struct PlannedPass {
   int parent = -1;             // index into FramePlan::passes; -1: the main view
   int depth = -1;              // recursion depth of its mirror: 0 seen directly, 1 in a mirror; -1 for the main view
   double areaPx = 0.0;         // area of the mirror's visible region, in texels of its image
-  double throughput = 1.0;     // upper bound over that region, largest channel, with this mirror's own reflectance
+  double throughput = 1.0;     // upper bound over that region, largest channel, including this mirror
   glm::dvec3 channels{1.0};    // upper bound of each channel
   std::vector<int> instances;  // visible ones, indices into SceneState::instances, ascending
   std::vector<PartialInstance> partial;        // instances that are seen in part, ascending
@@ -176,7 +176,8 @@ struct FramePlan {
   std::optional<TileRange> tiles;
 };
 
-// Mirror passes of the picture that the frame shows, which draws them unless it shows the last one again.
+// Mirror passes of the picture that the frame shows: those that it draws, or `reused` if it shows the last picture
+// again.
 inline const std::vector<PlannedPass>& shownPasses(const FramePlan& plan) {
   return plan.mainReused ? plan.reused : plan.passes;
 }

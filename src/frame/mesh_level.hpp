@@ -25,7 +25,7 @@ LevelChoice chooseLevel(const View& view, double largestError, const InstanceSta
 // Texels by which simplified objects may be off in the view: view.mesh_error or reflection.mesh_error.
 double meshErrorIn(const View& view, const Settings& settings);
 
-// A pass to simplify, or one that draws a shadow map, and its view with what look-ups read around it.
+// A pass to simplify, or one that draws a shadow map, and its view with what lookups read around it.
 struct SimplifiedPass {
   PlannedPass* pass = nullptr;
   View readable;
@@ -39,7 +39,7 @@ void simplifyPass(const SimplifiedPass& simplified, const EffectSettings& effect
                   const SceneState& state);
 
 // Chooses one mesh level for each instance in all of the passes, off by at most the texels of each. Shadow maps need
-// that: an object would stand in the shadow of a level of its own that differs.
+// that: otherwise one level of an object would cast shadows on another.
 void simplifyAlike(std::span<const SimplifiedPass> passes, const EffectSettings& effects, const Scene& scene,
                    const SceneState& state);
 

@@ -17,7 +17,7 @@ struct PassNode {
 std::vector<PassNode> findPasses(const Scene& scene, const SceneState& state, const Settings& settings,
                                  const FrameCache& cache, const glm::ivec2& size, FramePlan& plan);
 
-// Widens the view by the distance at which look-ups read its image beyond the visible region. All views get the margin
+// Widens the view by the distance at which lookups read its image beyond the visible region. All views get the margin
 // of cached images, which is the widest, so that every update interval draws the same things in the same order.
 View readableView(const View& view, const Projection& projection, const Settings& settings);
 

@@ -14,8 +14,8 @@ struct Sight {
   std::vector<glm::dvec3> visible;  // world; visible region
 };
 
-// Returns the metres of the eye before the mirror's front; exactly 0 where rounding cannot tell the side. Coordinates
-// are rounded, so the threshold grows with their distance from the origin.
+// Returns the signed distance of the eye from the mirror's plane, metres, positive before the front; exactly 0 where
+// rounding cannot tell the side. Coordinates are rounded, so the threshold grows with their distance from the origin.
 double heightAbove(const MirrorState& mirror, const glm::dvec3& eye);
 
 // Says whether an eye `height` metres before the mirror's front sees no reflection, but its back or its edge.

@@ -22,7 +22,8 @@ struct HalfSpace {
 // Each half space is bounded by the plane through the eye and an edge of the outline, moved inwards by that margin. The
 // triangles that face the eye cover a point of the picture as often as their common outline winds around it. The
 // outline runs counter-clockwise; a point on the left of all its edges is wound around at least once, and so is
-// covered, whatever the occluder's shape. One that is not convex hides only what all of its edges agree on.
+// covered, whatever the occluder's shape. An occluder that is not convex hides only the intersection of its half
+// spaces.
 using OccludedRegion = std::vector<HalfSpace>;
 
 // A flat polygon, world space, and the plane through it, from whose normal the polygon runs counter-clockwise.

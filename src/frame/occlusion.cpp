@@ -8,6 +8,7 @@
 #include "frame/mesh_level.hpp"
 #include "frame/scene_names.hpp"
 #include "geometry/mesh_levels.hpp"
+#include "geometry/polygon.hpp"
 
 namespace speculum {
 
@@ -40,21 +41,13 @@ class Sightline {
   double perLength2_ = 0.0;
 };
 
-double radiusAbout(const glm::dvec3& center, std::span<const glm::dvec3> points) {
-  double radius = 0.0;
-  for (const glm::dvec3& p : points) {
-    radius = std::max(radius, glm::length(p - center));
-  }
-  return radius;
-}
-
 FlatOccluder flatOccluder(std::vector<glm::dvec3> polygon, double size) {
   FlatOccluder made{.plane = {polygon[0], glm::normalize(newellVector(polygon))}, .slack = roundingPart * size};
   for (const glm::dvec3& p : polygon) {
     made.slack = std::max(made.slack, 2.0 * std::abs(made.plane.distance(p)));
   }
   made.center = vertexMean(polygon);
-  made.radius = radiusAbout(made.center, polygon);
+  made.radius = farthestDistance(made.center, polygon);
   made.polygon = std::move(polygon);
   return made;
 }
@@ -77,7 +70,7 @@ class Prefilter {
   Prefilter(const glm::dvec3& eye, std::span<const glm::dvec3> polygon) : eye_(eye), polygon_(polygon) {
     constexpr double least = 0.4;  // of the polygon's own angle
     const glm::dvec3 center = vertexMean(polygon);
-    radius_ = radiusAbout(center, polygon);
+    radius_ = farthestDistance(center, polygon);
     width_ = least * radius_ / glm::length(center - eye);
     lines_.reserve(polygon.size() + 1);
     lines_.emplace_back(center - eye);
@@ -127,7 +120,7 @@ Occlusion::Occlusion(const Scene& scene, const SceneState& state, const Settings
   for (const Mesh& mesh : scene.meshes) {
     double largest = 0.0;
     for (const std::vector<glm::dvec3>& face : mesh.faces) {
-      largest = std::max(largest, radiusAbout(vertexMean(face), face));
+      largest = std::max(largest, farthestDistance(vertexMean(face), face));
     }
     largestFaces_.push_back(mesh.radius > 0.0 ? largest / mesh.radius : 0.0);
   }

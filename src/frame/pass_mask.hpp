@@ -8,7 +8,7 @@
 
 namespace speculum {
 
-// Texels along each axis by which look-ups may reach beyond the edge of a mirror's visible region. With
+// Texels along each axis by which lookups may reach beyond the edge of a mirror's visible region. With
 // `standardLocations` samples lie where Vulkan's standardSampleLocations puts them, otherwise anywhere in their texel.
 double lookupReach(const Settings& settings, bool standardLocations);
 

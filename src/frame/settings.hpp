@@ -60,8 +60,8 @@ enum class CurvedLookup { traced, environment };
 // Source of the shadows of lights: traced rays, or shadow maps.
 enum class ShadowLookup { traced, map };
 
-// What traces rays: ray queries unless the driver runs on the CPU, ray queries wherever the device has them, or
-// shaders.
+// What traces rays. automatic: as hardware, but shaders on CPU drivers; hardware: ray queries if the device has them,
+// else shaders; software: shaders.
 enum class RayMethod { automatic, hardware, software };
 
 // Effects are drawn where the scene calls for them, unless they are switched off here.
@@ -84,7 +84,7 @@ struct EffectSettings {
   CurvedLookup curvedLookup = CurvedLookup::traced;
   int environmentSize = 256;    // texels of each side of an environment map's faces
   int environmentInterval = 1;  // frames
-  bool environmentBox = true;   // corrects look-ups as if the surroundings of the object were a box
+  bool environmentBox = true;   // corrects lookups as if the surroundings of the object were a box
 
   bool operator==(const EffectSettings&) const = default;
 };

@@ -8,10 +8,10 @@
 
 namespace speculum {
 
-// Texels on each side of a face's window: a look-up reads one beyond its own, and rounding may move it.
+// Texels on each side of a face's window: a lookup reads one beyond its own, and rounding may move it.
 inline constexpr int shadowBorder = 2;
 
-// A pass whose surfaces look shadows up, and its view, widened by what look-ups read around it.
+// A pass whose surfaces look shadows up, and its view, widened by what lookups read around it.
 struct ShadowReader {
   const PlannedPass* pass = nullptr;
   View readable;

@@ -18,7 +18,7 @@ struct MirroredLight {
   int mirror = 0;  // index into Scene::mirrors
 };
 
-// The effects that images of planes cannot show, and other work of rays. An effect names the first node that calls for
+// Effects that may need rays, and what of them traces rays in this frame. An effect names the first node that calls for
 // it, if anything drawn does.
 struct TracedEffects {
   std::optional<std::string> shadows;

@@ -1,20 +1,16 @@
 #include "regress/driver.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <regex>
 #include <sstream>
 #include <stdexcept>
 #include <vector>
 
+#include "platform/text.hpp"
+
 namespace speculum {
 
 namespace {
-
-std::string lowerCase(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
-  return text;
-}
 
 std::vector<int> parts(const std::string& version) {
   std::vector<int> numbers;

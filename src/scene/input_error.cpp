@@ -3,20 +3,20 @@
 #include <algorithm>
 
 #include "platform/files.hpp"
+#include "platform/text.hpp"
 
 namespace speculum {
 
 std::string oneLine(std::string message) {
   constexpr size_t kLongest = 4000;
   constexpr size_t kEnd = 1000;
-  const auto isInsideCharacter = [&](size_t at) { return (static_cast<unsigned char>(message[at]) & 0xc0) == 0x80; };
   if (message.size() > kLongest) {
     size_t begin = kLongest - kEnd;
     size_t end = message.size() - kEnd;
-    while (begin > 0 && isInsideCharacter(begin)) {
+    while (begin > 0 && continuesCharacter(message[begin])) {
       --begin;
     }
-    while (end < message.size() && isInsideCharacter(end)) {
+    while (end < message.size() && continuesCharacter(message[end])) {
       ++end;
     }
     message.replace(begin, end - begin, " ... ");

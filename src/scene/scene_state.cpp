@@ -181,7 +181,12 @@ glm::dvec3 Environment::radiance(const glm::dvec3& d) const {
 }
 
 Environment Environment::cleared(const std::optional<glm::dvec3>& color) const {
-  return color ? Environment{.background = *color, .ambient = ambient} : *this;
+  Environment environment = *this;
+  if (color) {
+    environment.background = *color;
+    environment.sky.reset();
+  }
+  return environment;
 }
 
 glm::dvec3 mirrorReflectance(const glm::dvec3& reflectance, Fresnel fresnel, double cosine) {

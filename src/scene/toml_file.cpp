@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "platform/text.hpp"
 #include "scene/input_error.hpp"
 #include "scene/text_lines.hpp"
 
@@ -75,8 +76,8 @@ std::string excerptOf(std::string_view toml, int line) {
     return std::string(toml);
   }
   size_t end = kLongest;
-  while (end > 0 && (static_cast<unsigned char>(toml[end]) & 0xc0) == 0x80) {
-    --end;  // within a character
+  while (end > 0 && continuesCharacter(toml[end])) {
+    --end;
   }
   return std::string(toml.substr(0, end)) + "...";
 }

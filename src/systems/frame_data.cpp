@@ -15,7 +15,8 @@ namespace speculum {
 
 namespace {
 
-constexpr std::array frameBufferNames = {"passes", "mirrors", "lights", "instances", "environments", "mirror vertices"};
+constexpr std::array frameBufferNames = {"passes",    "mirrors",        "lights",
+                                         "instances", "curved mirrors", "mirror vertices"};
 
 Lookup lookupFor(const glm::dvec2& ratio) {
   if (ratio == glm::dvec2(1.0)) {
@@ -68,7 +69,7 @@ VkShaderStageFlags FrameData::stagesOf(uint32_t kind) {
       return vertex | fragment;
     case mirrorVertices:
       return vertex;
-    case environments:
+    case curvedMirrors:
       return fragment;
     default:
       return fragment | compute;
@@ -90,7 +91,7 @@ void FrameData::build(Frame& frame, const SceneResources& resources, const Scene
   mirrors_.clear();
   lights_.clear();
   instances_.clear();
-  environments_.clear();
+  curvedMirrors_.clear();
   mirrorVertices_.clear();
   passes_.clear();
   const Source source{scene, state, settings, environment, plan};
@@ -130,14 +131,14 @@ void FrameData::build(Frame& frame, const SceneResources& resources, const Scene
   buffers_.write(frame, mirrors, mirrors_);
   buffers_.write(frame, lights, lights_);
   buffers_.write(frame, instances, instances_);
-  buffers_.write(frame, environments, environments_);
+  buffers_.write(frame, curvedMirrors, curvedMirrors_);
   buffers_.write(frame, mirrorVertices, mirrorVertices_);
   instanceBuffer_ = buffers_.buffer(frame, instances).get();
   set_ = frame.descriptors->allocate(layout_.get());
   DescriptorWriter writer;
   for (uint32_t kind = 0; kind < kindCount; ++kind) {
     VkDescriptorBufferInfo buffer = buffers_.buffer(frame, kind).descriptor();
-    buffer.range = kind == passBlocks ? sizeof(PassBlock) : kind == mirrors ? sizeof(MirrorBlock) : buffer.range;
+    buffer.range = kind == passBlocks ? sizeof(PassBlock) : kind == mirrors ? sizeof(gpu::MirrorBlock) : buffer.range;
     writer.buffer(kind, typeOf(kind), buffer);
   }
   writer.buffer(kindCount, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, resources.materials().descriptor());
@@ -146,7 +147,7 @@ void FrameData::build(Frame& frame, const SceneResources& resources, const Scene
 
 void FrameData::bind(const Pipeline& pipeline, VkCommandBuffer commands, const PassData& pass, uint32_t mirror) const {
   const std::array offsets{pass.pass * static_cast<uint32_t>(sizeof(PassBlock)),
-                           mirror * static_cast<uint32_t>(sizeof(MirrorBlock))};
+                           mirror * static_cast<uint32_t>(sizeof(gpu::MirrorBlock))};
   pipeline.bindSet(commands, 0, set_, offsets);
 }
 
@@ -265,10 +266,10 @@ void FrameData::addEnvironment(const Source& source, const PlannedPass& pass, in
   const bool inFace = pass.depth < 0 && &pass != &source.plan.main;
   const bool exists = map != maps.end() && !inFace;
   const ObjectMirror& mirror = *source.scene.objects[source.state.instances[instance].object].mirror;
-  gpu::EnvironmentData data{.hasMap = exists,
-                            .reflectance = glm::vec3(mirror.reflectance),
-                            .schlick = isSchlick(mirror.fresnel, source.settings.effects),
-                            .baseColor = glm::vec3(mirror.baseColor)};
+  gpu::CurvedMirrorData data{.hasMap = exists,
+                             .reflectance = glm::vec3(mirror.reflectance),
+                             .schlick = isSchlick(mirror.fresnel, source.settings.effects),
+                             .baseColor = glm::vec3(mirror.baseColor)};
   if (exists) {
     data.center = glm::vec3(map->center - pass.view.eye);
     data.low = glm::vec3(map->low - map->center);
@@ -277,10 +278,10 @@ void FrameData::addEnvironment(const Source& source, const PlannedPass& pass, in
     data.faceSize = map->size;
   }
   batch.environment = true;
-  batch.painted = mirror.baseColor != glm::dvec3(0.0);
+  batch.colored = mirror.baseColor != glm::dvec3(0.0);
   batch.map = exists ? static_cast<int>(map - maps.begin()) : -1;
-  instances_.back().environment = static_cast<uint32_t>(environments_.size());
-  environments_.push_back(data);
+  instances_.back().curvedMirror = static_cast<uint32_t>(curvedMirrors_.size());
+  curvedMirrors_.push_back(data);
 }
 
 void FrameData::addMirrors(const Source& source, const PlannedPass& pass, const glm::dmat4& projection,
@@ -311,9 +312,9 @@ void FrameData::addMirrors(const Source& source, const PlannedPass& pass, const 
                       .fresnel = !draw.back && isSchlick(mirror.fresnel, effects),
                       .base = mirror.baseColor != glm::dvec3(0.0)};
     range.shows = draw.back ? MirrorShows::back : image ? MirrorShows::image : MirrorShows::background;
-    range.painted = draw.back ? mirror.backColor != glm::dvec3(0.0) : range.base;
+    range.colored = draw.back ? mirror.backColor != glm::dvec3(0.0) : range.base;
     range.lookup = image ? lookupFor(image->pictureSize / pass.view.pictureSize) : Lookup::fetch;
-    mirrors_.push_back({mirrorData(draw, mirror, state, effects, pass.view, image)});
+    mirrors_.push_back({.mirror = mirrorData(draw, mirror, state, effects, pass.view, image)});
     mirrors_.back().mirror.index = range.mirror;
     mirrors_.back().mirror.showsRipples = ripples;
     for (const ClipPolygon& part : parts) {

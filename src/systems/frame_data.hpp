@@ -33,12 +33,13 @@ struct Batch {
   uint32_t count = 0;
   bool curved = false;             // the object is a curved mirror
   bool environment = false;        // it looks up an environment map; the batch then has one instance
-  bool painted = false;            // and the layer under its reflection is not black
+  bool colored = false;            // and its base is not black
   int map = -1;                    // index into FramePlan::maps; -1: it shows the background
   int level = -1;                  // index into MeshLevels::levels; -1: the mesh itself
   std::vector<IndexRange> ranges;  // indices that are drawn; empty: all. Only a batch of one instance has ranges
 };
 
+// A mirror that a pass draws.
 struct MirrorRange {
   uint32_t mirror = 0;  // index into the mirrors of the frame
   uint32_t firstVertex = 0;
@@ -48,14 +49,14 @@ struct MirrorRange {
   bool reprojected = false;
   MirrorShows shows = MirrorShows::background;
   Lookup lookup = Lookup::fetch;  // of its image
-  bool blurs = false;             // a rough mirror blurs its image
-  bool ripples = false;           // a rippled mirror displaces its image
+  bool blurs = false;             // it is rough and shown by blurring its image
+  bool ripples = false;           // it is rippled and shown by displacing its image
   bool byRays = false;            // its reflection is traced
-  bool rippled = false;
-  bool rough = false;
+  bool rippled = false;           // by displacing its image or by rays
+  bool rough = false;             // likewise, by blurring
   bool fresnel = false;
-  bool base = false;     // there is a diffuse layer under the reflection
-  bool painted = false;  // the visible one of diffuse layer and back is not black
+  bool base = false;     // its base is not black
+  bool colored = false;  // the base, or the back if that is seen, is not black
 };
 
 // Draws of one pass: indices into the buffers of FrameData.
@@ -93,17 +94,13 @@ class FrameData {
 
  private:
   // Bindings of interface.glsl; the next one is that of SceneResources::materials().
-  enum Kind { passBlocks, mirrors, lights, instances, environments, mirrorVertices, kindCount };
+  enum Kind { passBlocks, mirrors, lights, instances, curvedMirrors, mirrorVertices, kindCount };
 
-  // Uniform blocks at dynamic offsets. No device requires offsets to be multiples of more than 256.
+  // A uniform block at a dynamic offset, as gpu::MirrorBlock is.
   struct alignas(256) PassBlock {
     gpu::ViewData view;
     gpu::LightData lights[gpu::fixedLights];  // all, if there are no more
   };
-  struct alignas(256) MirrorBlock {  // as in shade.glsl
-    gpu::MirrorData mirror;
-  };
-  static_assert(sizeof(MirrorBlock) == 256);
 
   static VkDescriptorType typeOf(uint32_t kind);
   static VkShaderStageFlags stagesOf(uint32_t kind);
@@ -129,11 +126,11 @@ class FrameData {
   DescriptorSetLayoutHandle layout_;
   FrameBuffers buffers_;
   std::vector<PassBlock> passBlocks_;
-  std::vector<MirrorBlock> mirrors_;
+  std::vector<gpu::MirrorBlock> mirrors_;
   std::vector<gpu::LightData> lights_;
   std::vector<glm::vec3> clearances_;  // LightData::clearance of each light of the scene
   std::vector<gpu::InstanceData> instances_;
-  std::vector<gpu::EnvironmentData> environments_;
+  std::vector<gpu::CurvedMirrorData> curvedMirrors_;
   std::vector<glm::vec4> mirrorVertices_;
   std::vector<PassData> passes_;
   VkDescriptorSet set_ = VK_NULL_HANDLE;

@@ -36,8 +36,10 @@ OffScreen& ImagePool::acquire(VkExtent2D extent, RetireQueue& retired) {
   }
   if (!best) {
     best = &entries_.emplace_back();
-    const OffScreenDesc desc{
-        .name = name_ + " " + std::to_string(made_++), .extent = rounded, .keepSamples = true, .shared = &depth_};
+    const OffScreenDesc desc{.name = name_ + " " + std::to_string(made_++),
+                             .extent = rounded,
+                             .multisampledOutput = true,
+                             .shared = &depth_};
     best->target = std::make_unique<OffScreen>(device_, desc, retired);
   }
   best->taken = true;

@@ -13,7 +13,8 @@ class MainTargets {
  public:
   explicit MainTargets(Device& device) : device_(device) {}
 
-  // Begins a picture of the plan. If the plan has tiles and drawn() is `displayed`, shown() keeps it until finish().
+  // Begins a picture of the plan. `displayed`: the display shows drawn(). If the plan has tiles, that target then stays
+  // shown() until finish(), and drawn() is another one.
   void begin(const Settings& settings, const FramePlan& plan, bool displayed, RetireQueue& retired);
   // Shows the picture, whose last tile is drawn.
   void finish(RetireQueue& retired) { retired.take(earlier_); }

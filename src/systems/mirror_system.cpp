@@ -25,7 +25,7 @@ MirrorSystem::MirrorSystem(Device& device, Uploader& uploader, PipelineFactory& 
 }
 
 bool MirrorSystem::defers(const FrameInfo& info, const MirrorRange& mirror) {
-  return mirror.byRays || (mirror.painted && info.trace.variant().traced);
+  return mirror.byRays || (mirror.colored && info.trace.variant().traced);
 }
 
 bool MirrorSystem::defers(const FrameInfo& info, const PassData& pass) {
@@ -64,7 +64,7 @@ GraphicsPipelineDesc MirrorSystem::describe(const Variant& variant, const FrameI
   desc.fragConstants.insert(
       desc.fragConstants.end(),
       {variant.lightCount, variant.blurs, static_cast<uint32_t>(variant.shows), static_cast<uint32_t>(variant.lookup),
-       variant.painted, variant.shadowedLights, variant.ripples});
+       variant.colored, variant.shadowedLights, variant.ripples});
   return desc;
 }
 
@@ -101,7 +101,7 @@ MirrorSystem::Variant MirrorSystem::variantOf(const MirrorRange& mirror, Shading
     case Shading::single:
     case Shading::average:
       variant.shows = mirror.shows;
-      variant.painted = mirror.painted && !added;
+      variant.colored = mirror.colored && !added;
       if (mirror.shows == MirrorShows::image) {
         variant.blurs = mirror.blurs;
         variant.ripples = mirror.ripples;
@@ -110,7 +110,7 @@ MirrorSystem::Variant MirrorSystem::variantOf(const MirrorRange& mirror, Shading
       }
       break;
     case Shading::base:
-      variant.painted = true;
+      variant.colored = true;
       break;
     case Shading::ownSample:
       variant.reprojected = mirror.reprojected;
@@ -161,10 +161,10 @@ void MirrorSystem::draw(const PassScope& scope, const FrameInfo& info, const Pas
   variant.perSample = !identifies && info.trace.variant().perSample && (variant.blurs || variant.ripples);
   variant.clampDepth = !(pass.mirrorView && info.settings.reflection.clip == ClipMethod::oblique);
   variant.trace = identifies ? info.trace.variant() : TraceVariant{};
-  variant.shadowed = variant.painted && info.shadows.set() != VK_NULL_HANDLE;
+  variant.shadowed = variant.colored && info.shadows.set() != VK_NULL_HANDLE;
   variant.shadowedLights = variant.shadowed ? pass.shadowedLights : 0;
   variant.onlyShadowFace = variant.shadowed ? info.shadows.onlyFace() : gpu::anyShadowFace;
-  variant.lightCount = variant.painted ? fixedLightCount(info.scene) : gpu::manyLights;
+  variant.lightCount = variant.colored ? fixedLightCount(info.scene) : gpu::manyLights;
   const Pipeline& pipeline = pipelines_.get(variant, [&] { return describe(variant, info); });
   const MirrorImage* image = imageOf(mirror, info);
   const bool reads = image && !identifies && variant.shading != Shading::base;

@@ -40,7 +40,7 @@ class MirrorSystem {
     bool ripples = false;
     MirrorShows shows = MirrorShows::image;
     Lookup lookup = Lookup::fetch;
-    bool painted = false;
+    bool colored = false;
     uint32_t lightCount = gpu::manyLights;
     TraceVariant trace;
     bool shadowed = false;        // looks shadows up in maps

@@ -19,8 +19,7 @@ class MirrorTargets {
   void restart();  // drops the cached images and, in the next frame, every target
 
   // Begins the plan's picture and takes over the cached images that it reuses. `watched` is the pass that the debug
-  // view shows. Its image stays until the next picture begins, or ends if several frames draw that one, and for as long
-  // as the picture is shown again.
+  // view shows. Its image is kept until the next picture is complete, or as long as this one is shown again.
   void begin(const FramePlan& plan, VkSampleCountFlagBits samples, std::optional<int> watched, RetireQueue& retired);
   // Returns targets for the passes of a range, in order, each with a depth image of its own. The images that the range
   // looks up stay untouched.

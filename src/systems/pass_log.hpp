@@ -17,7 +17,8 @@ class PassLog {
   void beginPicture() { picture_.clear(); }
 
   void add(RecordedPass pass);
-  // Makes the last pass added a further part of the picture's pass before it, which alone counts the draws.
+  // Says that the pass added last continues the pass before it in the picture. The frame's list keeps it, without
+  // draws.
   void joinLast();
   // Keeps the passes of a frame that was recorded to its end.
   void endFrame(uint64_t number) { frames_[number % frames_.size()] = {number, frame_}; }

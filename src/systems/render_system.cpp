@@ -14,7 +14,7 @@ namespace speculum {
 // A curved mirror that looks up a map has rays only where light falls on the layer under its reflection.
 bool RenderSystem::defers(const FrameInfo& info, const Batch& batch) {
   if (batch.environment) {
-    return info.trace.variant().traced && batch.painted;
+    return info.trace.variant().traced && batch.colored;
   }
   return info.trace.variant().traced || batch.curved;
 }

@@ -57,7 +57,7 @@ class SceneRenderer {
   // without pixels shows the scene again.
   void setCover(const Image8& picture) { display_.setCover(picture); }
 
-  // Passes of the last recorded frame, in order.
+  // Passes of the picture that the last frame drew, or continued to draw, in order.
   const std::vector<RecordedPass>& passes() const { return log_.passes(); }
   // Passes of frame number `frame`, if it is one of the last three recorded. The GPU's timings arrive that late.
   std::span<const RecordedPass> passesOf(uint64_t frame) const { return log_.passesOf(frame); }

@@ -31,7 +31,8 @@ class TraceFrame {
   TraceFrame(Device& device, Uploader& uploader, const Scene& scene);
 
   // Storage buffers of deferred shading, with those of FrameData.
-  static constexpr uint32_t storageBuffers = 13;  // 3 + 3 of its own + 4 of the scene + 3 of the frame
+  static constexpr uint32_t storageBuffers =
+      13;  // 3 of FrameData, 3 of DeferredShading, 4 of TraceScene, 3 of TraceFrame
 
   // Fills the buffers of this frame in flight. `effects` are those of the plan; set() is valid until the frame has
   // finished, and null if no effect is called for.

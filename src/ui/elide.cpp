@@ -1,15 +1,8 @@
 #include "ui/elide.hpp"
 
+#include "platform/text.hpp"
+
 namespace speculum {
-
-namespace {
-
-// Says whether a UTF-8 character begins with this byte.
-bool begins(char c) {
-  return (static_cast<unsigned char>(c) & 0xc0u) != 0x80u;
-}
-
-}  // namespace
 
 std::string endsThatFit(const std::string& text, float room, const std::function<float(std::string_view)>& widthOf) {
   if (widthOf(text) <= room) {
@@ -18,10 +11,10 @@ std::string endsThatFit(const std::string& text, float room, const std::function
   for (size_t kept = text.size(); kept > 0; --kept) {
     size_t end = (kept + 1) / 2;              // of the start
     size_t begin = text.size() - (kept / 2);  // of the end
-    while (end > 0 && !begins(text[end])) {
+    while (end > 0 && continuesCharacter(text[end])) {
       --end;
     }
-    while (begin < text.size() && !begins(text[begin])) {
+    while (begin < text.size() && continuesCharacter(text[begin])) {
       ++begin;
     }
     std::string both = text.substr(0, end) + "..." + text.substr(begin);

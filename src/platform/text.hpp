@@ -1,0 +1,20 @@
+#pragma once
+
+#include <algorithm>
+#include <cctype>
+#include <string>
+
+namespace speculum {
+
+// Returns the text with the letters of ASCII in lower case.
+inline std::string lowerCase(std::string text) {
+  std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+// Says whether the byte continues a character of UTF-8 that an earlier byte begins.
+inline bool continuesCharacter(char byte) {
+  return (static_cast<unsigned char>(byte) & 0xc0u) == 0x80u;
+}
+
+}  // namespace speculum
