@@ -4,7 +4,8 @@
 #include "texels.glsl"
 
 layout(constant_id = 0) const bool aces = false;
-layout(constant_id = 1) const bool shrunk = false;  // a pixel covers more than one texel
+layout(constant_id = 1) const bool shrunk = false;   // a pixel covers more than one texel
+layout(constant_id = 2) const bool sampled = false;  // the sampler interpolates with the precision of floats
 
 layout(set = 0, binding = 0) uniform DISPLAY_IMAGE radiance;
 
@@ -33,9 +34,11 @@ vec3 texelAt(ivec2 texel) {
   return texelFetch(radiance, clamp(texel, ivec2(0), textureSize(radiance, 0) - 1), 0).rgb;
 }
 
-// Interpolates bilinearly like image/enlarge.hpp, not with a sampler, whose weights have few bits and differ between
-// devices.
+// Interpolates bilinearly like image/enlarge.hpp. Samplers of GPUs have weights of few bits that differ between devices.
 vec3 radianceAt(vec2 position) {
+  if (sampled) {
+    return textureLod(radiance, position / vec2(textureSize(radiance, 0)), 0.0).rgb;
+  }
   ivec2 corner = ivec2(floor(position - 0.5));
   vec2 t = position - 0.5 - vec2(corner);
   vec3 a = texelAt(corner);

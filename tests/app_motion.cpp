@@ -247,7 +247,7 @@ TEST(MotionLevels, FollowTheMeasuredFront) {
   EXPECT_EQ(levels[1].settings.view.scale, 0.6);
   EXPECT_EQ(levels[1].settings.view.samples, 4);
   EXPECT_EQ(levels[1].error, 0.02);
-  EXPECT_LT(levels.back().settings.view.scale, 0.2);
+  EXPECT_LT(levels.back().settings.view.scale, 0.27);
   EXPECT_TRUE(std::ranges::is_sorted(levels, [](auto& a, auto& b) { return a.error < b.error; }));
 }
 
@@ -472,15 +472,15 @@ TEST_F(PacedScene, LowersOnlyWhatMoves) {
   for (int i = 0; i < 8; ++i) {
     draw(true);
   }
-  EXPECT_LT(planned_.view.scale, 0.2);
+  EXPECT_LT(planned_.view.scale, 0.27);
   EXPECT_TRUE(pace_.lowers());
-  expectText("Moving: 0.1");
+  expectText("Moving: 0.2");
   EXPECT_FALSE(contains(pace_.text(), "mirror images")) << "no more are called for";
   leavesOut_ = true;
   draw(true);
   EXPECT_TRUE(contains(pace_.text(), "at most 8 mirror images"));
   draw(false);
-  expectText("Draft: 0.1");
+  expectText("Draft: 0.2");
   draw(false);
   EXPECT_TRUE(sameMainView(planned_, {})) << "tiles of the whole picture";
   EXPECT_FALSE(pace_.lowers());
@@ -519,7 +519,7 @@ TEST_F(PacedScene, StillPicturesConvergeOnce) {
   revision_ = 3;
   budgetMs_ = 1e-9;
   EXPECT_EQ(pictureOf(), std::pair(1, 0)) << "full quality would take too long";
-  expectText("Draft: 0.1");
+  expectText("Draft: 0.2");
   EXPECT_EQ(pictureOf(), std::pair(3, 0));
 }
 

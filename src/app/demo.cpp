@@ -28,10 +28,6 @@ double milliseconds(std::chrono::steady_clock::duration duration) {
   return std::chrono::duration<double, std::milli>(duration).count();
 }
 
-bool isCpu(const Device& device) {
-  return device.info().type == VK_PHYSICAL_DEVICE_TYPE_CPU;
-}
-
 }  // namespace
 
 Demo::Demo(const Options& options)
@@ -42,7 +38,7 @@ Demo::Demo(const Options& options)
       renderer_(device_, rendererOptions(options, &window_)),
       sceneRenderer_(std::make_unique<SceneRenderer>(renderer_, workspace_.scene())),
       planner_(device_),
-      pace_(isCpu(device_), device_.caps().sampleCounts),
+      pace_(device_.info().isCpu(), device_.caps().sampleCounts),
       refreshHz_(window_.refreshRate()),
       deviceView_(deviceView(renderer_, device_)),
       last_(Clock::now()) {
@@ -241,7 +237,7 @@ const FittedPlan& Demo::planFrame(Frame& frame, const SceneState& state) {
                                         .shaders = renderer_.pipelines().revision(),
                                         .time = contentTime(workspace_.scene(), state.time),
                                         .size = pictureSize()},
-                              .budgetMs = recorded ? 0.0 : motionBudget(settings, isCpu(device_), refreshHz_),
+                              .budgetMs = recorded ? 0.0 : motionBudget(settings, device_.info().isCpu(), refreshHz_),
                               .front = workspace_.accuracy().front(),
                               .simplifies = levels_.ready(workspace_.scene(), scenes_),
                               .input = changes_,

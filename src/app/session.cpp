@@ -145,7 +145,7 @@ BudgetPlanner::BudgetPlanner(const Device& device, bool keepsPicture) {
   limits_.largestSide =
       static_cast<int>(std::min({device.limits().maxImageDimension2D, device.limits().maxViewportDimensions[0],
                                  device.limits().maxViewportDimensions[1]}));
-  limits_.cpu = device.info().type == VK_PHYSICAL_DEVICE_TYPE_CPU;
+  limits_.cpu = device.info().isCpu();
   limits_.keepsPicture = keepsPicture;
   tracesRays_ =
       device.caps().primitiveId && device.limits().maxPerStageDescriptorStorageBuffers >= TraceFrame::storageBuffers;

@@ -20,6 +20,8 @@ struct DeviceInfo {
   bool dynamicRendering = false;
   bool rayQueries = false;
   std::optional<std::string> missing;  // feature without which the device is not usable
+
+  bool isCpu() const { return type == VK_PHYSICAL_DEVICE_TYPE_CPU; }
 };
 
 struct DeviceCaps {

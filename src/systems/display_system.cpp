@@ -51,10 +51,12 @@ PassDesc viewPass(const PassTargets& targets, const VkRect2D& area) {
 DisplaySystem::DisplaySystem(Renderer& renderer) : renderer_(renderer), pipelines_(renderer.pipelines()) {
   layout_ = createDescriptorSetLayout(renderer.device(), {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER},
                                       VK_SHADER_STAGE_FRAGMENT_BIT, "display");
+  linearSampler_ = createSampler(renderer.device(), {}, "display");
 }
 
 RecordedPass DisplaySystem::draw(Frame& frame, const PassDesc& desc, PassKind kind, Variant variant,
                                  const VkDescriptorImageInfo& image, const auto& constants) {
+  Device& device = renderer_.device();
   variant.format = renderer_.displayFormat();
   const Pipeline& pipeline = pipelines_.get(variant, [&] {
     const char* color = variant.multisampled ? "display_average.frag"
@@ -64,14 +66,14 @@ RecordedPass DisplaySystem::draw(Frame& frame, const PassDesc& desc, PassKind ki
     return GraphicsPipelineDesc{.name = variant.depth ? "display depth" : "display",
                                 .vert = "full_screen.vert",
                                 .frag = variant.depth ? depth : color,
-                                .fragConstants = {variant.toneMap == ToneMap::aces, variant.shrunk},
+                                .fragConstants = {variant.toneMap == ToneMap::aces, variant.shrunk, variant.sampled},
                                 .setLayouts = {layout_.get()},
                                 .pushConstantBytes = sizeof constants,
                                 .color = variant.format,
                                 .depth = VK_FORMAT_UNDEFINED};
   });
   const VkDescriptorSet set = frame.descriptors->allocate(layout_.get());
-  DescriptorWriter().image(0, image).update(renderer_.device(), set);
+  DescriptorWriter().image(0, image).update(device, set);
   const PassScope scope = renderer_.beginPass(frame, desc);
   pipeline.bind(scope.commands());
   pipeline.bindSet(scope.commands(), 0, set);
@@ -83,15 +85,17 @@ RecordedPass DisplaySystem::draw(Frame& frame, const PassDesc& desc, PassKind ki
 RecordedPass DisplaySystem::record(Frame& frame, const VkDescriptorImageInfo& radiance, VkExtent2D size,
                                    const Settings& settings, int pictures) {
   const PassDesc desc = fullPass("display", renderer_.displayTargets(frame));
-  const auto show = [&](VkExtent2D texels, Variant variant, const VkDescriptorImageInfo& image, double exposure) {
+  const auto show = [&](VkExtent2D texels, Variant variant, VkDescriptorImageInfo image, double exposure) {
     const glm::vec2 scale(static_cast<float>(texels.width) / static_cast<float>(frame.extent.width),
                           static_cast<float>(texels.height) / static_cast<float>(frame.extent.height));
     variant.enlarged = !cover_ && scale != glm::vec2(1.0f);
+    variant.sampled = variant.enlarged && renderer_.device().info().isCpu();
+    image.sampler = variant.sampled ? linearSampler_.get() : image.sampler;
     return draw(frame, desc, PassKind::display, variant, image,
                 gpu::DisplayConstants{
                     glm::vec4(scale, 0.0f, 0.0f), {texels.width, texels.height}, static_cast<float>(exposure)});
   };
-  return cover_ ? show(cover_.extent(), {}, cover_.descriptor(coverSampler_.get()), 1.0)
+  return cover_ ? show(cover_.extent(), {}, cover_.descriptor(linearSampler_.get()), 1.0)
                 : show(size, {.toneMap = settings.view.toneMap}, radiance, settings.view.exposure / pictures);
 }
 
@@ -147,9 +151,6 @@ void DisplaySystem::setCover(const Image8& picture) {
   renderer_.waitIdle();
   cover_ = renderer_.uploader().image(std::as_bytes(std::span(texels)), extentOf(picture.width, picture.height),
                                       colorFormat, false, "cover");
-  if (!coverSampler_) {
-    coverSampler_ = createSampler(renderer_.device(), {}, "cover");
-  }
 }
 
 }  // namespace speculum

@@ -44,6 +44,7 @@ class DisplaySystem {
     ToneMap toneMap = ToneMap::clamp;
     bool multisampled = false;  // the image that is shown
     bool enlarged = false;
+    bool sampled = false;                   // enlarged by the sampler
     bool shrunk = false;                    // in a debug view
     bool depth = false;                     // shows depth, not radiance
     VkFormat format = VK_FORMAT_UNDEFINED;  // of the display image
@@ -56,7 +57,7 @@ class DisplaySystem {
   Renderer& renderer_;
   DescriptorSetLayoutHandle layout_;
   PipelineVariants<Variant> pipelines_;
-  SamplerHandle coverSampler_;
+  SamplerHandle linearSampler_;
   Image cover_;  // empty: none
 };
 

@@ -127,7 +127,7 @@ void TraceFrame::build(Frame& frame, const SceneState& state, const Settings& se
 }
 
 RayUse TraceFrame::chooseRays(const SceneState& state, RayMethod method) {
-  const bool cpu = device_.info().type == VK_PHYSICAL_DEVICE_TYPE_CPU;
+  const bool cpu = device_.info().isCpu();
   RayUse use{.traced = true};
   if (method == RayMethod::software) {
     use.why = "effects.rays = software";
