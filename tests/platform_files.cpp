@@ -6,8 +6,31 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <csignal>
 #include <future>
+
+namespace {
+
+std::vector<std::string> diskCalls;
+bool fsyncFails = false;
+
+}  // namespace
+
+// The linker's --wrap leads calls of NAME to __wrap_NAME, and __real_NAME to the C library.
+extern "C" {
+int __real_fsync(int descriptor);
+int __wrap_fsync(int descriptor) {
+  diskCalls.emplace_back("fsync");
+  errno = EIO;
+  return fsyncFails ? -1 : __real_fsync(descriptor);
+}
+int __real_rename(const char* from, const char* to);
+int __wrap_rename(const char* from, const char* to) {
+  diskCalls.emplace_back("rename");
+  return __real_rename(from, to);
+}
+}
 
 namespace speculum::test {
 namespace {
@@ -54,6 +77,18 @@ TEST_F(Files, FailedReplaceKeepsTheOldContent) {
   expectFileError([&] { replaceFile(file_, std::string(100'000, 'x')); }, file_, "cannot be written");
   ::setrlimit(RLIMIT_FSIZE, &limit);
   EXPECT_EQ(readText(file_), "old");
+  EXPECT_EQ(count(), 1);
+}
+
+TEST_F(Files, ContentIsOnTheDiskBeforeItReplacesAFile) {
+  replaceFile(file_, "old");
+  diskCalls.clear();
+  replaceFile(file_, "new");
+  EXPECT_EQ(diskCalls, std::vector<std::string>({"fsync", "rename"}));
+  fsyncFails = true;
+  expectFileError([&] { replaceFile(file_, "lost"); }, file_, "cannot be written");
+  fsyncFails = false;
+  EXPECT_EQ(readText(file_), "new");
   EXPECT_EQ(count(), 1);
 }
 
