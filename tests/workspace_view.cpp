@@ -245,7 +245,7 @@ TEST_F(WindowView, ScreenshotsAreSavedAndReported) {
   send(TakeScreenshot{false});
   EXPECT_TRUE(workspace_->capture().wanted());
   EXPECT_TRUE(workspace_->capture().bare());
-  EXPECT_TRUE(view().status.withPanelOnly);
+  EXPECT_TRUE(view().status.savesPicture);
   drawFrame(Image8(5, 3));
   ASSERT_EQ(home_.pictures().size(), 1u);
   EXPECT_EQ(readImage8(home_.pictures()[0]).width, 5);

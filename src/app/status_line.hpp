@@ -33,9 +33,9 @@ class StatusLine {
   }
   void setPicture(const std::string& text) { view_.picture = text; }
   void clear() { view_.text.clear(); }
-  // Once a frame. `withPanelOnly`: the picture is being saved.
-  void update(bool withPanelOnly) {
-    view_.withPanelOnly = withPanelOnly;
+  // Once a frame. `savesPicture`: the window is being saved as a picture.
+  void update(bool savesPicture) {
+    view_.savesPicture = savesPicture;
     view_.age = age();
     if (statusAlpha(view_.age) <= 0.0f) {
       clear();

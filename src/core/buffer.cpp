@@ -11,7 +11,7 @@ constexpr VkDeviceSize texelBytes = 16;
 
 }  // namespace
 
-VkDeviceSize largestTexelBuffer(const Device& device) {
+VkDeviceSize largestShaderBuffer(const Device& device) {
   return std::min<VkDeviceSize>(device.limits().maxStorageBufferRange,
                                 texelBytes * device.limits().maxTexelBufferElements);
 }

@@ -13,7 +13,7 @@ enum class BufferMemory {
 };
 
 // Upper bound of the bytes of a buffer that shaders read as storage or as texels.
-VkDeviceSize largestTexelBuffer(const Device& device);
+VkDeviceSize largestShaderBuffer(const Device& device);
 
 // A buffer with memory of its own. `bytes` 0 is allowed and becomes 4, or 16 for texels: Vulkan has no empty
 // buffers.

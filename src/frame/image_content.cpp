@@ -85,7 +85,7 @@ void addMirror(const ImageSurroundings& around, int index, Numbers& numbers) {
 void addEffects(const ImageSurroundings& around, const View& main, Numbers& numbers) {
   const TracedEffects& effects = around.effects;
   numbers.addAll(effects.any(), effects.traces(), effects.shadows.has_value(), effects.shadowMaps,
-                 effects.castsLight.has_value(), static_cast<double>(effects.mirroredLights.size()));
+                 effects.castsLight.has_value(), static_cast<double>(effects.bouncedLights.size()));
   const bool waves = around.settings.effects.ripple && std::ranges::any_of(around.scene.mirrors, [](const Mirror& m) {
                        return m.ripple && m.ripple->speed != 0.0;
                      });
@@ -94,8 +94,8 @@ void addEffects(const ImageSurroundings& around, const View& main, Numbers& numb
     return;
   }
   numbers.add(main.eye);  // origin of the space that rays are traced in
-  for (const MirroredLight& mirrored : effects.mirroredLights) {
-    numbers.addAll(mirrored.light, mirrored.mirror);
+  for (const BouncedLight& bounced : effects.bouncedLights) {
+    numbers.addAll(bounced.light, bounced.mirror);
   }
 }
 

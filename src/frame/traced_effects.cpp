@@ -53,7 +53,7 @@ class Collector {
   }
 
   TracedEffects finish() {
-    addMirroredLights();
+    addBouncedLights();
     addShadows();
     return std::move(effects_);
   }
@@ -90,27 +90,27 @@ class Collector {
     effects_.shadowRays = !effects_.shadowMaps || effects_.reflects();
   }
 
-  void addMirroredLights() {
+  void addBouncedLights() {
     for (size_t m = 0; settings_.castsLight && anythingLit() && m < scene_.mirrors.size(); ++m) {
       for (size_t i = 0; scene_.mirrors[m].castsLight && i < scene_.lights.size(); ++i) {
-        const MirroredLight path{static_cast<int>(i), static_cast<int>(m)};
+        const BouncedLight path{static_cast<int>(i), static_cast<int>(m)};
         if (bounces(path) && reachesSomething(path)) {
-          effects_.mirroredLights.push_back(path);
+          effects_.bouncedLights.push_back(path);
         }
       }
     }
-    if (!effects_.mirroredLights.empty()) {
-      const int mirror = effects_.mirroredLights.front().mirror;
+    if (!effects_.bouncedLights.empty()) {
+      const int mirror = effects_.bouncedLights.front().mirror;
       effects_.castsLight = nameOf("mirror", scene_.mirrors[mirror].name, mirror);
     }
   }
 
-  double heightOf(const MirroredLight& path) const {
+  double heightOf(const BouncedLight& path) const {
     const MirrorState& mirror = state_.mirrors[path.mirror];
     return glm::dot(mirror.normal, state_.lights[path.light].position - mirror.origin);
   }
 
-  bool bounces(const MirroredLight& path) const {
+  bool bounces(const BouncedLight& path) const {
     const PointLight& light = scene_.lights[path.light];
     const double height = heightOf(path);
     return !isBlack(light.color * light.intensity) &&
@@ -119,7 +119,7 @@ class Collector {
 
   // Says whether the reflected light reaches something drawn. The light's mirror image shines through the mirror's
   // polygon as through a window, and lights only objects that meet the cone through it.
-  bool reachesSomething(const MirroredLight& path) const {
+  bool reachesSomething(const BouncedLight& path) const {
     if (lit_.mirrors || effects_.reflects()) {
       return true;
     }

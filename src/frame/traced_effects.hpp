@@ -13,7 +13,7 @@ namespace speculum {
 struct PlannedPass;
 
 // A light that a mirror bounces to something that is drawn.
-struct MirroredLight {
+struct BouncedLight {
   int light = 0;   // index into Scene::lights
   int mirror = 0;  // index into Scene::mirrors
 };
@@ -32,7 +32,7 @@ struct TracedEffects {
   std::optional<std::string> curved;
   bool curvedRays = false;  // curved mirrors are traced, not looked up in environment maps
   bool mirrorRays = false;  // smooth mirrors are traced, not shown by images
-  std::vector<MirroredLight> mirroredLights;
+  std::vector<BouncedLight> bouncedLights;
 
   // Says whether any ray is traced through the scene's triangles.
   bool traces() const { return shadowRays || reflects(); }

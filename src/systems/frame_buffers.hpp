@@ -30,7 +30,7 @@ class FrameBuffers {
 
  private:
   // Bytes that the device takes.
-  uint64_t largest() const { return texels_ ? largestTexelBuffer(device_) : device_.limits().maxStorageBufferRange; }
+  uint64_t largest() const { return texels_ ? largestShaderBuffer(device_) : device_.limits().maxStorageBufferRange; }
   size_t indexOf(const Frame& frame, size_t kind) const { return frame.index * names_.size() + kind; }
 
   Device& device_;

@@ -281,21 +281,21 @@ void TraceFrame::addMirrors(const SceneState& state, const Settings& settings) {
 
 std::vector<std::byte> TraceFrame::lightPathBytes(const SceneState& state, const Settings& settings,
                                                   const TracedEffects& effects) const {
-  const gpu::TraceCounts header{.lightPaths = static_cast<uint32_t>(effects.mirroredLights.size()),
+  const gpu::TraceCounts header{.lightPaths = static_cast<uint32_t>(effects.bouncedLights.size()),
                                 .topNodes = static_cast<uint32_t>(topNodes_.size() / 8),
                                 .roughSamples = static_cast<uint32_t>(settings.effects.roughSamples)};
   std::vector<gpu::LightPath> paths;
-  for (const MirroredLight& mirrored : effects.mirroredLights) {
-    const PointLight& light = scene_.lights[mirrored.light];
-    const glm::dvec3 position = besideMirrors(state.lights[mirrored.light].position, state.mirrors, state.camera.eye);
-    const MirrorState& mirror = state.mirrors[mirrored.mirror];
+  for (const BouncedLight& bounced : effects.bouncedLights) {
+    const PointLight& light = scene_.lights[bounced.light];
+    const glm::dvec3 position = besideMirrors(state.lights[bounced.light].position, state.mirrors, state.camera.eye);
+    const MirrorState& mirror = state.mirrors[bounced.mirror];
     const glm::dvec3 image = reflectPoint(position, {mirror.origin, mirror.normal});
     paths.push_back({.image = glm::vec3(image - state.camera.eye),
                      .radius = static_cast<float>(light.radius),
                      .irradiance = radiance(light.color * light.intensity),
                      .castsShadow = light.castsShadow && settings.effects.shadows,
                      .light = glm::vec3(position - state.camera.eye),
-                     .mirror = static_cast<uint32_t>(mirrored.mirror),
+                     .mirror = static_cast<uint32_t>(bounced.mirror),
                      .side = glm::dot(mirror.normal, position - mirror.origin) > 0.0 ? 1.0f : -1.0f});
   }
   std::vector<std::byte> bytes(sizeof header + paths.size() * sizeof(gpu::LightPath));

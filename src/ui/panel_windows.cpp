@@ -57,7 +57,7 @@ UiOutput PanelWindows::build(const UiView& view) {
     state_.editing = false;
     ui.send(EndEdit{});
   }
-  if (visible_ || !view.status.withPanelOnly) {
+  if (visible_ || !view.status.savesPicture) {
     const WindowRect free = freeRect();
     statusHeight_ =
         panels::statusLine(view.status, visible_ ? std::max(statusWidth_, 18.0f * ImGui::GetFontSize()) : 0.0f,

@@ -181,9 +181,9 @@ struct AccuracyView {
 
 struct StatusView {
   std::string text;
-  double age = 0.0;            // seconds
-  std::string picture;         // how the picture is drawn, if it is not exact; shown with the panel only
-  bool withPanelOnly = false;  // hide `text` with the panel, while the window is saved as a picture
+  double age = 0.0;           // seconds
+  std::string picture;        // how the picture is drawn, if it is not exact; shown with the panel only
+  bool savesPicture = false;  // the window is saved as a picture: without panels `text` is hidden
 };
 inline constexpr double statusSeconds = 8.0;  // time for which it is shown, fading in the last second
 float statusAlpha(double age);
