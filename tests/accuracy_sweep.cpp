@@ -182,6 +182,7 @@ TEST_F(SweepFiles, MistakesNameTheLine) {
   EXPECT_TRUE(contains(problem("[[series]]\nkey = \"reflection.scale\"\nvalues = [1, 0.5]"), "sweep.toml:3"));
   EXPECT_TRUE(contains(problem("[[series]]\nvalues = [1, 2]"), "key"));
   EXPECT_TRUE(contains(problem("nonsense"), "sweep.toml:1: toml"));
+  EXPECT_TRUE(contains(problem(""), "sweep.toml:1: configuration: is missing"));
   EXPECT_THROW(readSweepPlan(folder_ / "absent.toml", SweepContext()), InputError);
 }
 

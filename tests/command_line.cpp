@@ -229,6 +229,31 @@ TEST_F(CommandLine, InterruptEndsMeasurementOfPrices) {
   EXPECT_FALSE(std::filesystem::exists(out("r.json")));
 }
 
+// The signal comes to this process alone, and the run that it waits for has frames for minutes.
+TEST_F(CommandLine, InterruptEndsRunsInTurn) {
+  const std::string script = R"("$0" bench --scene "$1" --size 96x54 --frames 1000000 \
+      --against-set view.samples=1 & pid=$!
+    while ! grep -q '^SigCgt:.*[2367abef]$' /proc/$pid/status; do sleep 0.05; done
+    sleep 0.3; kill -INT $pid; wait $pid)";
+  EXPECT_EQ(runProcess({"timeout", "60", "bash", "-c", script, program, scene_}).exitCode, 1);
+}
+
+TEST_F(CommandLine, NoOutputReplacesAnotherOptionsFile) {
+  const std::string picture = out("a.png");
+  const std::string scene = out("scene.toml");
+  std::filesystem::copy_file(scene_, scene);
+  for (const auto& [arguments, says] :
+       std::vector<UsageCase>{{{"render", "--scene", scene, "--out", picture, "--stats", scene},
+                               "--stats: " + scene + " is the file of --scene"},
+                              {{"render", "--scene", scene, "--out", picture, "--stats", picture},
+                               "--stats: " + picture + " is the file of --out"}}) {
+    EXPECT_TRUE(contains(mistake(arguments), says));
+  }
+  succeed({"render", "--scene", scene, "--size", "4x4", "--out", picture});
+  EXPECT_TRUE(contains(mistake({"compare", picture, picture, "--json", picture}), "--json: " + picture));
+  succeed({"compare", picture, picture, "--json", "/dev/null", "--heatmap", "/dev/null"});
+}
+
 TEST_F(CommandLine, OutputThatCannotBeWrittenExitsTwo) {
   for (const char* arguments : {"--help", "scenes"}) {
     const ProcessResult result = runProcess({"sh", "-c", "\"$0\" $1 >/dev/full", program, arguments});

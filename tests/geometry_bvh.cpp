@@ -146,6 +146,27 @@ TEST(ReferenceBvh, SkipsTheStartingTriangle) {
   EXPECT_FALSE(tree.occluded(ray, 0));
 }
 
+// The other two triangles at a point are those of a face that the model lists once for each side.
+TEST(ReferenceBvh, SkipsTrianglesWithTheSameCorners) {
+  Mesh mesh = testing::polygonMesh({{-1, -1, 0}, {1, -1, 0.3}, {0, 1, 0.1}});
+  mesh.indices.insert(mesh.indices.end(), {mesh.indices[1], mesh.indices[0], mesh.indices[2]});
+  mesh.parts[0].indexCount = 6;
+  const TriangleMesh tree(mesh);
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  const auto corner = [&](size_t i) { return mesh.vertices[mesh.indices[i]].position; };
+  for (int i = 0; i < 1000; ++i) {
+    const double u = unit(random);
+    const double v = (1.0 - u) * unit(random);
+    const glm::dvec3 point = u * corner(0) + v * corner(1) + (1.0 - u - v) * corner(2);
+    const Ray ray{point, {unit(random) - 0.5, unit(random) - 0.5, unit(random) - 0.5}};
+    for (const int64_t triangle : {0, 1}) {
+      ASSERT_FALSE(tree.closest(ray, triangle));
+      ASSERT_FALSE(tree.occluded(ray, triangle));
+    }
+  }
+}
+
 TEST(ReferenceBvh, RaysWithinBoxFacesAreKept) {
   const Mesh mesh = testing::polygonMesh({{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}});
   const TriangleMesh tree(mesh);

@@ -121,15 +121,18 @@ TEST(ImageFiles, HugePicturesAreRefused) {
 }
 
 // A grey progressive JPEG whose codes are all one bit, with scans that hold no data.
-std::string jpegOfScans(uint8_t highByteOfSides, int scans) {
+std::string jpegOfScans(uint8_t highByteOfSides, int scans, char components = 1) {
   const auto segment = [](char marker, const std::string& data) {
     return std::string("\xff") + marker + '\0' + static_cast<char>(data.size() + 2) + data;
   };
   const auto code = [](char table) { return table + std::string("\1") + std::string(16, '\0'); };
   const std::string side = static_cast<char>(highByteOfSides) + std::string("\0", 1);
+  std::string frame = "\x08" + side + side + components;
+  for (char i = 1; i <= components; ++i) {
+    frame += i + std::string("\x11\0", 2);
+  }
   std::string file = "\xff\xd8" + segment('\xdb', std::string("\0", 1) + std::string(64, '\1')) +
-                     segment('\xc2', "\x08" + side + side + std::string("\1\1\x11\0", 4)) +
-                     segment('\xc4', code('\x00')) + segment('\xc4', code('\x10'));
+                     segment('\xc2', frame) + segment('\xc4', code('\x00')) + segment('\xc4', code('\x10'));
   for (int i = 0; i < scans; ++i) {
     file += segment('\xda', std::string("\1\1\0\1\x3f\0", 6));
   }
@@ -149,6 +152,18 @@ TEST(Jpeg, ScansAreBoundedByTheirPixels) {
     thumbnail += "\xff\xda";
   }
   EXPECT_EQ(readImage8(folder.write("thumbnail.jpg", jpegOfScans(0x08, 2).insert(2, thumbnail))).width, 2048);
+}
+
+TEST(Jpeg, FourInksNeedAdobesMarker) {
+  const TemporaryFolder folder;
+  const std::string file = jpegOfScans(0x01, 1, 4);
+  const fs::path unmarked = folder.write("unmarked.jpg", file);
+  expectFault([&] { readImage8(unmarked); }, unmarked, "the picture has four inks");
+  const std::string adobe(
+      "\xff\xee\0\x0e"
+      "Adobe\0\x64\0\0\0\0\0",
+      16);
+  EXPECT_EQ(readImage8(folder.write("marked.jpg", std::string(file).insert(2, adobe))).width, 256);
 }
 
 TEST(Exr, KeepsEveryFloat) {

@@ -79,6 +79,11 @@ grid = { scene = ["room.toml", "hall.toml"], time = [0, 2.5], "reflection.max_de
   EXPECT_EQ(cases[7].settings, (decltype(cases[0].settings){{"reflection.max_depth", "4"}}));
 }
 
+TEST_F(CaseFile, EveryNameInAPictureIsReplaced) {
+  EXPECT_EQ(read("[[case]]\nscene = 'room.toml'\npicture = '{name}/{name}.png'\n")[0].picture,
+            folder_ / "room/room.png");
+}
+
 TEST_F(CaseFile, GridsOfLongCasesAreBounded) {
   const auto numbers = [](int count) {
     std::string text;
@@ -148,6 +153,7 @@ TEST(Driver, RangesCompareThePartsTheyName) {
   EXPECT_FALSE(isInVersions("a driver without one", ">=0"));
   EXPECT_THROW(isInVersions(mesa22, ">=twenty"), std::invalid_argument);
   EXPECT_THROW(isInVersions(mesa22, ""), std::invalid_argument);
+  EXPECT_THROW(isInVersions(mesa22, ">=20,"), std::invalid_argument);
 }
 
 TEST_F(CaseFile, FirstExpectationThatMatchesWins) {
@@ -218,8 +224,10 @@ TEST_F(Limits, CountOnlyPixelsOfTheMask) {
   subject_.mask = folder / "mask.png";
   EXPECT_EQ(problem(raised(20, 20, 50, 50, 100)), "");
   EXPECT_NE(problem(raised(0, 0, 1, 1, 100)), "");
-  writePng(folder / "mask.png", Image8(5, 5));
-  EXPECT_THROW(problem(grey()), std::runtime_error);
+  for (const Image8& wrong : {Image8(5, 5), grey()}) {
+    writePng(folder / "mask.png", wrong);
+    EXPECT_THROW(problem(grey()), std::runtime_error) << "of another size, or without a pixel that counts";
+  }
 }
 
 TEST_F(Limits, FaultsAreBounded) {

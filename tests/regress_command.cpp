@@ -167,6 +167,20 @@ TEST_F(RegressCommand, FirstOfCasesWritesTheirPicture) {
   EXPECT_FALSE(contains(readText(folder_ / "out/index.html"), R"("--update"],"device)"));
 }
 
+TEST_F(RegressCommand, ReportsReplaceNothingThatCasesRead) {
+  writeRoom("room.toml");
+  std::filesystem::create_directory(folder_ / "out");
+  writePng(folder_ / "out/room.flip.png", Image8(320, 180));
+  for (const char* read : {"picture = 'out/room.expected.png'", "mask = 'out/room.flip.png'",
+                           "expect = [{ driver = 'other', picture = 'out/{name}.actual.png' }]"}) {
+    writeCases(std::string("[[case]]\nscene = 'room.toml'\n") + read + "\n");
+    const ProcessResult result = regress({});
+    EXPECT_EQ(result.exitCode, 2);
+    EXPECT_TRUE(contains(result.output, "--out: the report would replace ")) << result.output;
+  }
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "out/room.flip.png"));
+}
+
 TEST_F(RegressCommand, MistakesExitTwo) {
   writeCases(roomCase);
   const std::string file =

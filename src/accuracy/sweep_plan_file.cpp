@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "frame/setting_fields.hpp"
+#include "scene/input_error.hpp"
 #include "scene/scene_sections.hpp"
 #include "scene/toml_file.hpp"
 
@@ -93,6 +94,9 @@ SweepPlan readSweepPlan(const std::filesystem::path& file, const SweepContext& c
   SweepPlanner planner(file.filename().string(), context);
   if (reader.has("repeats")) {
     planner.plan.repeats = static_cast<int>(reader.integer("repeats", SweepPlan::leastRepeats, 1000));
+  }
+  if (!reader.has("configuration") && !reader.has("grid") && !reader.has("series")) {
+    throwInputError(file, 1, "configuration", "is missing", "[[configuration]], [[grid]] or [[series]] names settings");
   }
   for (const TableReader& table : reader.tables("configuration", configurationKeys)) {
     checked(table, [&] { planner.add(readChanges(table), table.text("name", "")); });

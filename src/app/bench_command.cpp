@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <ranges>
+#include <thread>
 
 #include "accuracy/statistics.hpp"
 #include "accuracy/sweep_planner.hpp"
@@ -54,13 +55,20 @@ std::vector<std::string> argumentsOfARun(const Options& options) {
 // Runs the command and returns its median milliseconds, by key; nothing after Ctrl-C.
 std::optional<std::map<std::string, double>> measured(const std::vector<std::string>& command,
                                                       const std::filesystem::path& json) {
-  const ProcessResult result = runProcess(command);
+  ChildProcess child(command);
+  std::optional<ProcessResult> result;
+  while (!(result = child.poll())) {
+    if (interruptRequested()) {
+      return std::nullopt;
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
   if (interruptRequested()) {
     return std::nullopt;
   }
-  if (result.exitCode != 0) {
-    throw UsageError(command.front() + ": bench ended with exit code " + std::to_string(result.exitCode) + ": " +
-                     lastLine(result.output) + " (a speculum that can run this bench is needed)");
+  if (result->exitCode != 0) {
+    throw UsageError(command.front() + ": bench ended with exit code " + std::to_string(result->exitCode) + ": " +
+                     lastLine(result->output) + " (a speculum that can run this bench is needed)");
   }
   const auto figures = nlohmann::json::parse(readText(json), nullptr, false);
   std::map<std::string, double> medians;

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
@@ -196,6 +197,36 @@ void applyRaw(const Raw& raw, Options& options) {
   }
 }
 
+// Refuses an output that would replace a file of another option. Devices and pipes may be named twice.
+void requireFilesOfTheirOwn(const Options& options) {
+  using File = std::pair<std::string_view, std::filesystem::path>;
+  const std::array inputs{File{"--scene", options.scene},       File{"--sweep", options.sweep},
+                          File{"--mask", options.mask},         File{"--sweep-results", options.sweepResults},
+                          File{"reference", options.reference}, File{"test", options.test},
+                          File{"cases", options.cases}};
+  const std::array outputs{File{"--out", options.out},         File{"--stats", options.stats},
+                           File{"--json", options.json},       File{"--junit", options.junit},
+                           File{"--heatmap", options.heatmap}, File{"--capture", options.capture.value_or("")}};
+  std::error_code error;
+  std::map<std::filesystem::path, std::string_view> used;
+  for (const auto& [option, file] : inputs) {
+    if (std::filesystem::is_regular_file(file, error)) {
+      used.emplace(std::filesystem::weakly_canonical(file, error), option);
+    }
+  }
+  for (const auto& [option, file] : outputs) {
+    const std::filesystem::path target = std::filesystem::weakly_canonical(file, error);
+    const bool replaced = !std::filesystem::exists(target, error) || std::filesystem::is_regular_file(target, error);
+    if (target.empty() || !replaced) {
+      continue;
+    }
+    if (const auto [other, isNew] = used.emplace(target, option); !isNew) {
+      throw UsageError(
+          fmt::format("{}: {} is the file of {} too (name another file)", option, file.string(), other->second));
+    }
+  }
+}
+
 std::string settingsText() {
   std::string text = "Settings (--set key=value):\n";
   for (const SettingField& field : settingFields()) {
@@ -359,6 +390,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     options.command = app.get_subcommands().front()->get_name();
   }
   applyRaw(raw, options);
+  requireFilesOfTheirOwn(options);
   if (options.command == "regress" && options.out.empty()) {
     options.out = "regress-report";
   }

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <fstream>
 #include <iostream>
+#include <set>
 #include <thread>
 
 #include "app/case_drawer.hpp"
@@ -163,6 +164,30 @@ void printOutcomes(const RegressRun& run, const std::filesystem::path& page) {
   std::printf("%s; %s\n", summary(run).c_str(), page.c_str());
 }
 
+// Files of the report replace others of their names, which must not be those that cases read.
+void requireFolderOfItsOwn(const std::vector<RegressCase>& drawn, const std::vector<RegressCase>& cases,
+                           const std::filesystem::path& folder) {
+  std::error_code error;
+  std::set<std::filesystem::path> written;
+  for (const RegressCase& subject : drawn) {
+    for (const std::filesystem::path& file : CaseFiles(folder, subject.name).all()) {
+      written.insert(std::filesystem::weakly_canonical(file, error));
+    }
+  }
+  for (const RegressCase& subject : cases) {
+    std::vector<std::filesystem::path> read{subject.scene, subject.picture, subject.mask.value_or("")};
+    for (const Expectation& expectation : subject.expect) {
+      read.push_back(expectation.picture.value_or(""));
+    }
+    for (const std::filesystem::path& file : read) {
+      if (!file.empty() && written.contains(std::filesystem::weakly_canonical(file, error))) {
+        throw UsageError(fmt::format("--out: the report would replace {} of case '{}' (choose another folder)",
+                                     file.string(), subject.name));
+      }
+    }
+  }
+}
+
 }  // namespace
 
 int runRegress(const Options& options) {
@@ -181,6 +206,7 @@ int runRegress(const Options& options) {
   if (!isFolder(options.out)) {
     throw UsageError("--out: " + options.out.string() + " cannot be made (a folder for the report)");
   }
+  requireFolderOfItsOwn(run.cases, cases, options.out);
   std::vector<WorkerJob> jobs;
   for (size_t i = 0; i < run.cases.size(); ++i) {
     const RegressCase& subject = run.cases[i];

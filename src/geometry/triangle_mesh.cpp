@@ -1,5 +1,8 @@
 #include "geometry/triangle_mesh.hpp"
 
+#include <algorithm>
+#include <array>
+
 namespace speculum {
 
 namespace {
@@ -39,7 +42,9 @@ std::vector<uint32_t> partsOfTriangles(const Mesh& mesh) {
 
 TriangleMesh::TriangleMesh(const Mesh& mesh) : bvh_(triangleBounds(mesh)), parts_(partsOfTriangles(mesh)) {
   triangles_.reserve(parts_.size());
+  places_.resize(parts_.size());
   for (const uint32_t i : bvh_.order()) {
+    places_[i] = static_cast<uint32_t>(triangles_.size());
     const uint32_t* v = &mesh.indices[size_t{i} * 3];
     triangles_.push_back({mesh.vertices[v[0]].position, mesh.vertices[v[1]].position, mesh.vertices[v[2]].position, i});
   }
@@ -68,13 +73,23 @@ std::optional<TriangleHit> TriangleMesh::intersect(const ShearedRay& ray, const 
   return TriangleHit{triangle.index, t, glm::dvec3(u, v, w) * inverse};
 }
 
+// Models that list each face twice, once for each side, have two triangles at the point that a ray leaves.
+bool TriangleMesh::isSkipped(const Triangle& triangle, int64_t skip) const {
+  if (skip == noTriangle || triangle.index == skip) {
+    return triangle.index == skip;
+  }
+  const Triangle& own = triangles_[places_[static_cast<size_t>(skip)]];
+  const std::array corners{triangle.a, triangle.b, triangle.c};
+  return std::ranges::is_permutation(corners, std::array{own.a, own.b, own.c});
+}
+
 std::optional<TriangleHit> TriangleMesh::closest(const Ray& ray, int64_t skip) const {
   const ShearedRay sheared(ray);
   std::optional<TriangleHit> best;
   bvh_.traverse(ray, [&](uint32_t first, uint32_t count, double& tMax) {
     for (uint32_t i = first; i < first + count; ++i) {
       const auto hit = intersect(sheared, triangles_[i], ray.tMin, tMax);
-      if (hit && hit->triangle != skip) {
+      if (hit && !isSkipped(triangles_[i], skip)) {
         best = hit;
         tMax = hit->t;
       }
@@ -89,7 +104,7 @@ bool TriangleMesh::occluded(const Ray& ray, int64_t skip) const {
   bool found = false;
   bvh_.traverse(ray, [&](uint32_t first, uint32_t count, double& tMax) {
     for (uint32_t i = first; i < first + count && !found; ++i) {
-      found = triangles_[i].index != skip && intersect(sheared, triangles_[i], ray.tMin, tMax).has_value();
+      found = intersect(sheared, triangles_[i], ray.tMin, tMax).has_value() && !isSkipped(triangles_[i], skip);
     }
     return found;
   });

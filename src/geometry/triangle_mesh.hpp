@@ -48,7 +48,7 @@ class TriangleMesh {
   explicit TriangleMesh(const Mesh& mesh);
 
   Bounds bounds() const { return bvh_.bounds(); }
-  // Nearest hit with ray.tMin < t < ray.tMax on any triangle but `skip`.
+  // Nearest hit with ray.tMin < t < ray.tMax on any triangle but `skip` and those with the same corners.
   std::optional<TriangleHit> closest(const Ray& ray, int64_t skip = noTriangle) const;
   bool occluded(const Ray& ray, int64_t skip = noTriangle) const;
   uint32_t partOf(uint32_t triangle) const { return parts_[triangle]; }
@@ -60,9 +60,11 @@ class TriangleMesh {
   };
   static std::optional<TriangleHit> intersect(const ShearedRay& ray, const Triangle& triangle, double tMin,
                                               double tMax);
+  bool isSkipped(const Triangle& triangle, int64_t skip) const;
 
   Bvh bvh_;
   std::vector<Triangle> triangles_;  // in the BVH's order
+  std::vector<uint32_t> places_;     // in triangles_, by triangle
   std::vector<uint32_t> parts_;      // by triangle, index into Mesh::parts
 };
 

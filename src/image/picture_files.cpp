@@ -26,19 +26,28 @@ bool isPngOrJpeg(const std::vector<uint8_t>& bytes) {
   return startsWith(png) || startsWith(jpeg);
 }
 
-// Counts the scans of a JPEG; 0 for a PNG.
-int64_t scansOf(const std::vector<uint8_t>& bytes) {
+// What the markers of a JPEG say; of a PNG nothing.
+struct JpegMarkers {
   int64_t scans = 0;
+  int components = 0;
+  bool adobe = false;  // there is Adobe's marker, which tells CMYK from YCCK
+};
+
+JpegMarkers markersOf(const std::vector<uint8_t>& bytes) {
+  JpegMarkers found;
   for (size_t at = bytes[0] == 0xff ? 2 : bytes.size(); at + 4 <= bytes.size();) {
     const uint8_t marker = bytes[at] == 0xff ? bytes[at + 1] : uint8_t{0};
     if (marker == 0xd9) {
       break;
     }
     const bool hasLength = marker > 1 && marker != 0xff && (marker < 0xd0 || marker > 0xd7);
-    scans += marker == 0xda ? 1 : 0;
+    const bool beginsFrame = marker >= 0xc0 && marker <= 0xc2;
+    found.scans += marker == 0xda ? 1 : 0;
+    found.components = beginsFrame && at + 9 < bytes.size() ? bytes[at + 9] : found.components;
+    found.adobe = found.adobe || marker == 0xee;
     at += hasLength ? 2 + size_t{bytes[at + 2]} * 256 + bytes[at + 3] : 1;
   }
-  return scans;
+  return found;
 }
 
 [[noreturn]] void throwDamaged(const std::filesystem::path& file) {
@@ -46,9 +55,9 @@ int64_t scansOf(const std::vector<uint8_t>& bytes) {
                   "a complete PNG or JPEG file is needed");
 }
 
-// Checks the size before decoding, because a small file can claim any size. Each scan of a JPEG, which may be as short
+// Checks sizes before decoding, because a small file can claim any size. Each scan of a JPEG, which may be as short
 // as 14 bytes, goes through all pixels.
-void checkSize(const std::filesystem::path& file, const std::vector<uint8_t>& bytes) {
+void checkHeader(const std::filesystem::path& file, const std::vector<uint8_t>& bytes) {
   constexpr int64_t most = int64_t{1} << 26;
   constexpr int64_t mostInScans = int64_t{1} << 30;
   int width = 0;
@@ -62,9 +71,14 @@ void checkSize(const std::filesystem::path& file, const std::vector<uint8_t>& by
   if (pixels > most) {
     throw FileError(file, "the picture has " + size, "at most 2^26, such as 8192x8192, are read");
   }
-  if (const int64_t scans = scansOf(bytes); scans * pixels > mostInScans) {
-    throw FileError(file, "the picture has " + std::to_string(scans) + " scans of " + size,
+  const JpegMarkers jpeg = markersOf(bytes);
+  if (jpeg.scans * pixels > mostInScans) {
+    throw FileError(file, "the picture has " + std::to_string(jpeg.scans) + " scans of " + size,
                     "at most 2^30 pixels in all scans are read");
+  }
+  // The decoder would take the first three of the colors for those of other pictures.
+  if (jpeg.components == 4 && !jpeg.adobe) {
+    throw FileError(file, "the picture has four inks, but does not say which", "red, green and blue are needed");
   }
 }
 
@@ -126,7 +140,7 @@ Image8 readImage8(const std::filesystem::path& file) {
   if (!isPngOrJpeg(bytes)) {
     throw FileError(file, "is not a picture that can be read", "a PNG or JPEG file is needed");
   }
-  checkSize(file, bytes);
+  checkHeader(file, bytes);
   checkUnpackedSize(file, bytes);
   int width = 0;
   int height = 0;

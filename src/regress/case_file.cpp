@@ -240,7 +240,7 @@ class CaseReader {
     }
     const auto pictureFile = [&](std::string path) {
       constexpr std::string_view placeholder = "{name}";
-      if (const size_t at = path.find(placeholder); at != std::string::npos) {
+      for (size_t at = 0; (at = path.find(placeholder, at)) != std::string::npos; at += made.name.size()) {
         path.replace(at, placeholder.size(), made.name);
       }
       return beside(path);

@@ -49,7 +49,7 @@ bool isInVersions(const std::string& driver, const std::string& range) {
              (sign.front() == '<' && own < bound);
     ++comparisons;
   }
-  if (comparisons == 0) {
+  if (comparisons == 0 || range.ends_with(',')) {
     throw std::invalid_argument("'" + range + "' is no range");
   }
   return holds;

@@ -46,6 +46,9 @@ std::vector<bool> countedPixels(const RegressCase& subject, const Image8& pictur
     throw std::runtime_error(fmt::format("{}: the mask is {}x{}, the picture {}x{}", subject.mask->string(), mask.width,
                                          mask.height, picture.width, picture.height));
   }
+  if (std::ranges::none_of(mask.selected, [](auto selected) { return selected != 0; })) {
+    throw std::runtime_error(subject.mask->string() + ": the mask leaves out every pixel (white pixels count)");
+  }
   return {mask.selected.begin(), mask.selected.end()};
 }
 
