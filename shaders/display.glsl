@@ -5,7 +5,7 @@
 
 layout(constant_id = 0) const bool aces = false;
 layout(constant_id = 1) const bool shrunk = false;   // a pixel covers more than one texel
-layout(constant_id = 2) const bool sampled = false;  // the sampler interpolates with the precision of floats
+layout(constant_id = 2) const bool sampled = false;  // the sampler enlarges: on CPUs, where its weights are floats
 
 layout(set = 0, binding = 0) uniform DISPLAY_IMAGE radiance;
 
@@ -34,7 +34,8 @@ vec3 texelAt(ivec2 texel) {
   return texelFetch(radiance, clamp(texel, ivec2(0), textureSize(radiance, 0) - 1), 0).rgb;
 }
 
-// Interpolates bilinearly like image/enlarge.hpp. Samplers of GPUs have weights of few bits that differ between devices.
+// Interpolates bilinearly like image/enlarge.hpp, by a sampler only on CPUs: those of GPUs have weights of few bits,
+// which differ between devices.
 vec3 radianceAt(vec2 position) {
   if (sampled) {
     return textureLod(radiance, position / vec2(textureSize(radiance, 0)), 0.0).rgb;

@@ -26,7 +26,7 @@ Incoming directLight(LightData light, vec3 position) {
 
 // Returns the light that a mirror casts onto a point. It arrives if the straight line to the light's image crosses the
 // mirror.
-Incoming mirroredLight(LightPath path, vec3 tracePosition, Skip self) {
+Incoming bouncedLight(LightPath path, vec3 tracePosition, Skip self) {
   uint mirror = path.mirror;
   vec3 normal = mirrorTexel(mirror, 1).xyz;
   bool sameSide = path.side * dot(normal, tracePosition - mirrorTexel(mirror, 0).xyz) > 0.0;
@@ -43,7 +43,7 @@ Incoming incomingLight(uint i, Surface surface, vec3 tracePosition, Skip self) {
   if (i < view.lightCount) {
     incoming = directLight(lights[view.firstLight + i], surface.position);
   } else {
-    incoming = mirroredLight(lightPaths[i - view.lightCount], tracePosition, self);
+    incoming = bouncedLight(lightPaths[i - view.lightCount], tracePosition, self);
   }
   return incoming;
 }

@@ -251,6 +251,8 @@ TEST_F(CommandLine, NoOutputReplacesAnotherOptionsFile) {
   }
   succeed({"render", "--scene", scene, "--size", "4x4", "--out", picture});
   EXPECT_TRUE(contains(mistake({"compare", picture, picture, "--json", picture}), "--json: " + picture));
+  const std::string script = R"(cd "$0" && "$1" render --scene "$2" --out new.png --stats ./new.png)";
+  EXPECT_EQ(runProcess({"sh", "-c", script, out_.path().string(), program, scene}).exitCode, 2);
   succeed({"compare", picture, picture, "--json", "/dev/null", "--heatmap", "/dev/null"});
 }
 

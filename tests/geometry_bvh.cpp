@@ -146,7 +146,7 @@ TEST(ReferenceBvh, SkipsTheStartingTriangle) {
   EXPECT_FALSE(tree.occluded(ray, 0));
 }
 
-// The other two triangles at a point are those of a face that the model lists once for each side.
+// A model may list a face twice, once for each side: the twin lies at the point that a ray leaves.
 TEST(ReferenceBvh, SkipsTrianglesWithTheSameCorners) {
   Mesh mesh = testing::polygonMesh({{-1, -1, 0}, {1, -1, 0.3}, {0, 1, 0.1}});
   mesh.indices.insert(mesh.indices.end(), {mesh.indices[1], mesh.indices[0], mesh.indices[2]});

@@ -154,16 +154,17 @@ TEST(Jpeg, ScansAreBoundedByTheirPixels) {
   EXPECT_EQ(readImage8(folder.write("thumbnail.jpg", jpegOfScans(0x08, 2).insert(2, thumbnail))).width, 2048);
 }
 
-TEST(Jpeg, FourInksNeedAdobesMarker) {
+TEST(Jpeg, FourChannelsNeedAdobesMarker) {
   const TemporaryFolder folder;
   const std::string file = jpegOfScans(0x01, 1, 4);
-  const fs::path unmarked = folder.write("unmarked.jpg", file);
-  expectFault([&] { readImage8(unmarked); }, unmarked, "the picture has four inks");
-  const std::string adobe(
-      "\xff\xee\0\x0e"
-      "Adobe\0\x64\0\0\0\0\0",
-      16);
-  EXPECT_EQ(readImage8(folder.write("marked.jpg", std::string(file).insert(2, adobe))).width, 256);
+  const auto marked = [&](const std::string& name, char transform) {
+    const std::string marker = std::string("\xff\xee\0\x0e", 4) + name + std::string("\0\x64\0\0\0\0", 6) + transform;
+    return folder.write(name + std::to_string(transform) + ".jpg", std::string(file).insert(2, marker));
+  };
+  for (const fs::path& wrong : {folder.write("unmarked.jpg", file), marked("Other", 2), marked("Adobe", 1)}) {
+    expectFault([&] { readImage8(wrong); }, wrong, "the picture has four channels, but no Adobe marker");
+  }
+  EXPECT_EQ(readImage8(marked("Adobe", 2)).width, 256);
 }
 
 TEST(Exr, KeepsEveryFloat) {

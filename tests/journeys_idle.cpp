@@ -190,7 +190,7 @@ TEST_F(IdleWindow, StillPicturesConvergeAndMotionIsLowered) {
   demo_->apply(ResetCamera{});
   settings.quality.motionMs = 0.01;
   demo_->apply(SetSettings{settings});
-  EXPECT_LT(drag(width - 160), 0.2);
+  EXPECT_LT(drag(width - 160), 0.27);
   EXPECT_TRUE(rightOfThePanel() == exact);
 }
 

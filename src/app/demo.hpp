@@ -4,7 +4,7 @@
 
 #include "app/frame_pacer.hpp"
 #include "app/frame_planner.hpp"
-#include "app/level_job.hpp"
+#include "app/mesh_level_job.hpp"
 #include "app/pace.hpp"
 #include "app/workspace.hpp"
 #include "ui/simple_ui.hpp"

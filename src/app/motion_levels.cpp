@@ -18,7 +18,7 @@ constexpr double scaleStep = 0.9;
 constexpr double softScale = 0.7;
 constexpr double blurredScale = 0.4;
 // Smaller pictures are hardly faster: from a scale of 0.25 to 0.19 lavapipe draws the gallery in 0.95 of the time. At
-// it, meshes simplified to 4 texels instead of 2 add less than 0.006 to the gallery's FLIP.
+// 0.25, meshes simplified to 4 texels instead of 2 add less than 0.006 to the gallery's FLIP.
 constexpr double leastScale = 0.25;
 constexpr int smallShadowMap = 256;     // texels of a face's side
 constexpr int smallEnvironment = 64;    // likewise

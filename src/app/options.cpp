@@ -10,6 +10,7 @@
 
 #include "app/version.hpp"
 #include "frame/setting_fields.hpp"
+#include "platform/files.hpp"
 #include "scene/camera_text.hpp"
 #include "scene/nearest_key.hpp"
 #include "scene/value_range.hpp"
@@ -116,7 +117,7 @@ void addAccuracy(CLI::App& app, Options& options, Raw& raw) {
 void addCompare(CLI::App& app, Options& options) {
   app.add_option("reference", options.reference, "PNG or EXR")->required();
   app.add_option("test", options.test, "PNG or EXR of the same size")->required();
-  app.add_option("--mask", options.mask, "PNG; figures again for the pixels that are not black");
+  app.add_option("--mask", options.mask, "PNG; figures again for its pixels of at least 128");
   app.add_option("--heatmap", options.heatmap, "PNG of the FLIP error");
   app.add_option("--json", options.json, "write the figures to F");
   app.add_option("--max-flip", options.maxFlip, "exit 1 above this mean FLIP")->check(CLI::Range(0.0, 1e6));
@@ -203,7 +204,7 @@ void requireFilesOfTheirOwn(const Options& options) {
   const std::array inputs{File{"--scene", options.scene},       File{"--sweep", options.sweep},
                           File{"--mask", options.mask},         File{"--sweep-results", options.sweepResults},
                           File{"reference", options.reference}, File{"test", options.test},
-                          File{"cases", options.cases}};
+                          File{"cases", options.cases},         File{"--against-binary", options.againstBinary}};
   const std::array outputs{File{"--out", options.out},         File{"--stats", options.stats},
                            File{"--json", options.json},       File{"--junit", options.junit},
                            File{"--heatmap", options.heatmap}, File{"--capture", options.capture.value_or("")}};
@@ -211,13 +212,13 @@ void requireFilesOfTheirOwn(const Options& options) {
   std::map<std::filesystem::path, std::string_view> used;
   for (const auto& [option, file] : inputs) {
     if (std::filesystem::is_regular_file(file, error)) {
-      used.emplace(std::filesystem::weakly_canonical(file, error), option);
+      used.emplace(withoutLinks(wholePath(file)), option);
     }
   }
   for (const auto& [option, file] : outputs) {
-    const std::filesystem::path target = std::filesystem::weakly_canonical(file, error);
+    const std::filesystem::path target = withoutLinks(wholePath(file));
     const bool replaced = !std::filesystem::exists(target, error) || std::filesystem::is_regular_file(target, error);
-    if (target.empty() || !replaced) {
+    if (file.empty() || !replaced) {
       continue;
     }
     if (const auto [other, isNew] = used.emplace(target, option); !isNew) {
@@ -390,10 +391,10 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     options.command = app.get_subcommands().front()->get_name();
   }
   applyRaw(raw, options);
-  requireFilesOfTheirOwn(options);
   if (options.command == "regress" && options.out.empty()) {
     options.out = "regress-report";
   }
+  requireFilesOfTheirOwn(options);
   options.arguments.assign(arguments.begin() + 1, arguments.end());
   return options;
 }

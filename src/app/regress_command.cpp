@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <fstream>
 #include <iostream>
-#include <set>
+#include <map>
 #include <thread>
 
 #include "app/case_drawer.hpp"
@@ -164,15 +164,18 @@ void printOutcomes(const RegressRun& run, const std::filesystem::path& page) {
   std::printf("%s; %s\n", summary(run).c_str(), page.c_str());
 }
 
-// Files of the report replace others of their names, which must not be those that cases read.
-void requireFolderOfItsOwn(const std::vector<RegressCase>& drawn, const std::vector<RegressCase>& cases,
-                           const std::filesystem::path& folder) {
-  std::error_code error;
-  std::set<std::filesystem::path> written;
+// Refuses a report whose files would replace those that cases read.
+void requireFilesOfItsOwn(const Options& options, const std::vector<RegressCase>& drawn,
+                          const std::vector<RegressCase>& cases) {
+  const auto target = [](const std::filesystem::path& file) { return withoutLinks(wholePath(file)); };
+  std::map<std::filesystem::path, const char*> written{{target(options.out / "index.html"), "--out"}};
   for (const RegressCase& subject : drawn) {
-    for (const std::filesystem::path& file : CaseFiles(folder, subject.name).all()) {
-      written.insert(std::filesystem::weakly_canonical(file, error));
+    for (const std::filesystem::path& file : CaseFiles(options.out, subject.name).all()) {
+      written[target(file)] = "--out";
     }
+  }
+  if (!options.junit.empty() && !written.emplace(target(options.junit), "--junit").second) {
+    throw UsageError("--junit: " + options.junit.string() + " is a file of the report (name another file)");
   }
   for (const RegressCase& subject : cases) {
     std::vector<std::filesystem::path> read{subject.scene, subject.picture, subject.mask.value_or("")};
@@ -180,9 +183,10 @@ void requireFolderOfItsOwn(const std::vector<RegressCase>& drawn, const std::vec
       read.push_back(expectation.picture.value_or(""));
     }
     for (const std::filesystem::path& file : read) {
-      if (!file.empty() && written.contains(std::filesystem::weakly_canonical(file, error))) {
-        throw UsageError(fmt::format("--out: the report would replace {} of case '{}' (choose another folder)",
-                                     file.string(), subject.name));
+      const auto found = file.empty() ? written.end() : written.find(target(file));
+      if (found != written.end()) {
+        throw UsageError(fmt::format("{}: the report would replace {} of case '{}' (choose another place)",
+                                     found->second, file.string(), subject.name));
       }
     }
   }
@@ -206,7 +210,7 @@ int runRegress(const Options& options) {
   if (!isFolder(options.out)) {
     throw UsageError("--out: " + options.out.string() + " cannot be made (a folder for the report)");
   }
-  requireFolderOfItsOwn(run.cases, cases, options.out);
+  requireFilesOfItsOwn(options, run.cases, cases);
   std::vector<WorkerJob> jobs;
   for (size_t i = 0; i < run.cases.size(); ++i) {
     const RegressCase& subject = run.cases[i];

@@ -26,7 +26,7 @@ bool mayTrace(const Scene& scene, const Settings& settings) {
 struct Lit {
   std::vector<bool> instances;  // by index into SceneState::instances
   bool anyInstance = false;
-  bool mirrors = false;  // a layer under a reflection, or a back
+  bool mirrors = false;  // a base under a reflection, or a back
 };
 
 // Collects the effects that passes call for, and what is lit in them.

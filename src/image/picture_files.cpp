@@ -26,14 +26,15 @@ bool isPngOrJpeg(const std::vector<uint8_t>& bytes) {
   return startsWith(png) || startsWith(jpeg);
 }
 
-// What the markers of a JPEG say; of a PNG nothing.
+// What the markers of a JPEG say. Stays empty for a PNG.
 struct JpegMarkers {
   int64_t scans = 0;
   int components = 0;
-  bool adobe = false;  // there is Adobe's marker, which tells CMYK from YCCK
+  bool adobe = false;  // there is Adobe's marker, and it says CMYK or YCCK
 };
 
 JpegMarkers markersOf(const std::vector<uint8_t>& bytes) {
+  constexpr std::string_view adobe("Adobe\0", 6);
   JpegMarkers found;
   for (size_t at = bytes[0] == 0xff ? 2 : bytes.size(); at + 4 <= bytes.size();) {
     const uint8_t marker = bytes[at] == 0xff ? bytes[at + 1] : uint8_t{0};
@@ -44,7 +45,9 @@ JpegMarkers markersOf(const std::vector<uint8_t>& bytes) {
     const bool beginsFrame = marker >= 0xc0 && marker <= 0xc2;
     found.scans += marker == 0xda ? 1 : 0;
     found.components = beginsFrame && at + 9 < bytes.size() ? bytes[at + 9] : found.components;
-    found.adobe = found.adobe || marker == 0xee;
+    found.adobe = found.adobe || (marker == 0xee && at + 16 <= bytes.size() &&
+                                  std::equal(adobe.begin(), adobe.end(), &bytes[at + 4]) &&
+                                  (bytes[at + 15] == 0 || bytes[at + 15] == 2));
     at += hasLength ? 2 + size_t{bytes[at + 2]} * 256 + bytes[at + 3] : 1;
   }
   return found;
@@ -76,9 +79,10 @@ void checkHeader(const std::filesystem::path& file, const std::vector<uint8_t>& 
     throw FileError(file, "the picture has " + std::to_string(jpeg.scans) + " scans of " + size,
                     "at most 2^30 pixels in all scans are read");
   }
-  // The decoder would take the first three of the colors for those of other pictures.
+  // The decoder would take the first three channels for YCbCr and drop the fourth.
   if (jpeg.components == 4 && !jpeg.adobe) {
-    throw FileError(file, "the picture has four inks, but does not say which", "red, green and blue are needed");
+    throw FileError(file, "the picture has four channels, but no Adobe marker that says which colors they are",
+                    "save it in RGB");
   }
 }
 

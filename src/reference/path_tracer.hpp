@@ -52,7 +52,7 @@ class PathTracer {
   };
   // One point of the reflecting side of a flat or curved mirror.
   struct Bounce {
-    ShadingPoint base;       // the layer under the reflection; its normal includes ripples
+    ShadingPoint base;       // what is under the reflection; its normal includes ripples
     glm::dvec3 planeNormal;  // unit, on the viewer's side; of a curved mirror the triangle's own
     glm::dvec3 reflectance;
     double roughness;

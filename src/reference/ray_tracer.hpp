@@ -35,7 +35,7 @@ struct TraceResult {
 // whatever the number of threads (those of the calling oneTBB arena).
 //
 // Choices that the definition leaves open: a rippled mirror is one height field seen from either side; a rough mirror
-// that is cut off shows the background of the smooth reflection; the second leg of mirrored light ignores only the
+// that is cut off shows the background of the smooth reflection; the second leg of bounced light ignores only the
 // mirror that it comes from.
 class RayTracer {
  public:

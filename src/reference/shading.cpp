@@ -29,7 +29,7 @@ glm::dvec3 lightRadiance(const ShadingPoint& point, const glm::dvec3& toLight, c
 
 // Returns the radiance due to a light by way of one mirror: along the straight line from the point to the light's image
 // behind the mirror.
-glm::dvec3 mirroredLight(const TraceWorld& world, const ShadingPoint& point, int light, int mirror) {
+glm::dvec3 bouncedLight(const TraceWorld& world, const ShadingPoint& point, int light, int mirror) {
   const Mirror& material = world.scene().mirrors[mirror];
   const MirrorState& plane = world.mirrors()[mirror];
   const PointLight& source = world.scene().lights[light];
@@ -152,7 +152,7 @@ glm::dvec3 surfaceRadiance(const TraceWorld& world, const ShadingPoint& point) {
     radiance += directLight(world, point, static_cast<int>(light));
     for (size_t mirror = 0; mirror < scene.mirrors.size(); ++mirror) {
       if (scene.mirrors[mirror].castsLight) {
-        radiance += mirroredLight(world, point, static_cast<int>(light), static_cast<int>(mirror));
+        radiance += bouncedLight(world, point, static_cast<int>(light), static_cast<int>(mirror));
       }
     }
   }

@@ -47,7 +47,8 @@ std::vector<bool> countedPixels(const RegressCase& subject, const Image8& pictur
                                          mask.height, picture.width, picture.height));
   }
   if (std::ranges::none_of(mask.selected, [](auto selected) { return selected != 0; })) {
-    throw std::runtime_error(subject.mask->string() + ": the mask leaves out every pixel (white pixels count)");
+    throw std::runtime_error(subject.mask->string() +
+                             ": the mask leaves out every pixel (pixels of at least 128 count)");
   }
   return {mask.selected.begin(), mask.selected.end()};
 }

@@ -89,14 +89,16 @@ RecordedPass DisplaySystem::record(Frame& frame, const VkDescriptorImageInfo& ra
     const glm::vec2 scale(static_cast<float>(texels.width) / static_cast<float>(frame.extent.width),
                           static_cast<float>(texels.height) / static_cast<float>(frame.extent.height));
     variant.enlarged = !cover_ && scale != glm::vec2(1.0f);
-    variant.sampled = variant.enlarged && renderer_.device().info().isCpu();
+    // Not every device filters the floats of a mean, which is not drawn in haste.
+    variant.sampled = variant.enlarged && pictures == 0 && renderer_.device().info().isCpu();
     image.sampler = variant.sampled ? linearSampler_.get() : image.sampler;
     return draw(frame, desc, PassKind::display, variant, image,
                 gpu::DisplayConstants{
                     glm::vec4(scale, 0.0f, 0.0f), {texels.width, texels.height}, static_cast<float>(exposure)});
   };
-  return cover_ ? show(cover_.extent(), {}, cover_.descriptor(linearSampler_.get()), 1.0)
-                : show(size, {.toneMap = settings.view.toneMap}, radiance, settings.view.exposure / pictures);
+  return cover_
+             ? show(cover_.extent(), {}, cover_.descriptor(linearSampler_.get()), 1.0)
+             : show(size, {.toneMap = settings.view.toneMap}, radiance, settings.view.exposure / std::max(pictures, 1));
 }
 
 std::optional<RecordedPass> DisplaySystem::recordColor(Frame& frame, const glm::ivec2& size, const DebugView& debug,

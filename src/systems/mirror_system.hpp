@@ -7,10 +7,10 @@ namespace speculum {
 
 // Draws the mirrors of a pass: fronts look up the images that other passes rendered for them, fronts without an image
 // show the background, backs show their color. An image with the pass's samples and pixels is read sample by sample;
-// the diffuse layer under the reflection, whose loop over the lights costs much more, is then a draw of its own with
+// the base under the reflection, whose loop over the lights costs much more, is then a draw of its own with
 // one invocation per pixel. Rippled and rough mirrors look up their image beside their own pixels, or are shown by
-// rays. A mirror that rays show, or whose layer is lit by rays, is drawn as an identifier; the image is added to the
-// layer after deferred shading. A cached image is read like a new one as long as nothing moved, otherwise it is
+// rays. A mirror that rays show, or whose base is lit by rays, is drawn as an identifier; the image is added to the
+// base after deferred shading. A cached image is read like a new one as long as nothing moved, otherwise it is
 // reprojected.
 class MirrorSystem {
  public:
@@ -20,7 +20,7 @@ class MirrorSystem {
   uint32_t record(const PassScope& scope, const FrameInfo& info, const PassData& pass);
   // Says whether record() draws identifiers in a pass.
   static bool defers(const FrameInfo& info, const PassData& pass);
-  // Adds reflections to the layers under them, after deferred shading.
+  // Adds reflections to the bases under them, after deferred shading.
   uint32_t recordReflections(const PassScope& scope, const FrameInfo& info, const PassData& pass);
   void countPipelines(EffectLedger& ledger) const;
   // Drops pipelines as RenderSystem::endFrame does.
@@ -30,8 +30,8 @@ class MirrorSystem {
   enum class Shading { single, average, base, ownSample, identifier };
   struct Variant {
     Shading shading = Shading::single;
-    bool added = false;      // only the reflection, added to a layer that is there
-    bool byRays = false;     // the identifier stands for layer and reflection, else for the layer
+    bool added = false;      // only the reflection, added to a base that is there
+    bool byRays = false;     // the identifier stands for base and reflection, else for the base
     bool perSample = false;  // looks up its image at each sample
     VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
     bool clampDepth = true;

@@ -11,7 +11,7 @@
 
 namespace speculum {
 
-// A curved mirror that looks up a map has rays only where light falls on the layer under its reflection.
+// A curved mirror that looks up a map has rays only where light falls on its base.
 bool RenderSystem::defers(const FrameInfo& info, const Batch& batch) {
   if (batch.environment) {
     return info.trace.variant().traced && batch.colored;

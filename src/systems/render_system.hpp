@@ -22,7 +22,7 @@ class RenderSystem {
   uint32_t record(const PassScope& scope, const FrameInfo& info, const PassData& pass);
   // Says whether record() draws identifiers in a pass.
   static bool defers(const FrameInfo& info, const PassData& pass);
-  // Adds what curved mirrors look up in environment maps to the layers under it, after deferred shading.
+  // Adds what curved mirrors look up in environment maps to their bases, after deferred shading.
   uint32_t recordReflections(const PassScope& scope, const FrameInfo& info, const PassData& pass,
                              const DeferredShading& shading);
   void countPipelines(EffectLedger& ledger) const;
@@ -43,7 +43,7 @@ class RenderSystem {
     uint32_t lightCount;
     TraceVariant trace;           // of deferred surfaces
     bool deferred = false;        // draws identifiers
-    bool added = false;           // only the reflection, added to the layer that DeferredShading has drawn
+    bool added = false;           // only the reflection, added to the base that DeferredShading has drawn
     bool shadowed = false;        // looks shadows up in maps
     uint32_t shadowedLights = 0;  // constants of shadow_map.glsl
     uint32_t onlyShadowFace = gpu::anyShadowFace;

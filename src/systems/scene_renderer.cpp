@@ -315,7 +315,7 @@ void SceneRenderer::recordDisplay(const FrameInfo& info, const std::optional<Deb
   const int pictures = accumulated();
   const RecordedPass display =
       display_.record(info.frame, pictures > 0 ? accumulation_.descriptor() : mainTargets_.shown().descriptor(),
-                      mainTargets_.shown().extent(), info.settings, std::max(pictures, 1));
+                      mainTargets_.shown().extent(), info.settings, pictures);
   if (!unfinished_) {
     log_.add(display);
   }

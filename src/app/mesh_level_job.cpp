@@ -1,4 +1,4 @@
-#include "app/level_job.hpp"
+#include "app/mesh_level_job.hpp"
 
 #include <spdlog/spdlog.h>
 
