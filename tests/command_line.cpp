@@ -217,25 +217,30 @@ TEST_F(CommandLine, BenchComparesRunsInTurn) {
   EXPECT_LT(ratio, 0.5);
 }
 
-// Waits until the program catches the signal (the last digit of SigCgt holds SIGINT), however slow the machine is. A
-// second later the prices are being measured, which takes many more.
-TEST_F(CommandLine, InterruptEndsMeasurementOfPrices) {
-  const std::string script = R"("$0" bench --scene "$1" --size 96x54 --frames 1 --warmup 0 --prices \
-      --set view.accumulate=1024 --json "$2" & pid=$!
+// Runs bench and interrupts it, and no other process, so many seconds after it catches the signal (the last digit of
+// SigCgt holds SIGINT), however slow the machine is.
+ProcessResult interruptedBench(const std::string& seconds, const std::vector<std::string>& arguments) {
+  const std::string script = R"("$0" bench --size 96x54 "${@:2}" & pid=$!
     while ! grep -q '^SigCgt:.*[2367abef]$' /proc/$pid/status; do sleep 0.05; done
-    sleep 1; kill -INT $pid; wait $pid)";
-  const ProcessResult result = runProcess({"timeout", "60", "bash", "-c", script, program, scene_, out("r.json")});
+    sleep $1; kill -INT $pid; wait $pid)";
+  std::vector<std::string> command{"timeout", "60", "bash", "-c", script, program, seconds};
+  command.insert(command.end(), arguments.begin(), arguments.end());
+  return runProcess(command);
+}
+
+// A second later the prices are being measured, which takes many more.
+TEST_F(CommandLine, InterruptEndsMeasurementOfPrices) {
+  const ProcessResult result = interruptedBench("1", {"--scene", scene_, "--frames", "1", "--warmup", "0", "--prices",
+                                                      "--set", "view.accumulate=1024", "--json", out("r.json")});
   EXPECT_EQ(result.exitCode, 1) << result.output;
   EXPECT_FALSE(std::filesystem::exists(out("r.json")));
 }
 
-// The signal comes to this process alone, and the run that it waits for has frames for minutes.
+// The run that the program waits for has frames for minutes.
 TEST_F(CommandLine, InterruptEndsRunsInTurn) {
-  const std::string script = R"("$0" bench --scene "$1" --size 96x54 --frames 1000000 \
-      --against-set view.samples=1 & pid=$!
-    while ! grep -q '^SigCgt:.*[2367abef]$' /proc/$pid/status; do sleep 0.05; done
-    sleep 0.3; kill -INT $pid; wait $pid)";
-  EXPECT_EQ(runProcess({"timeout", "60", "bash", "-c", script, program, scene_}).exitCode, 1);
+  EXPECT_EQ(
+      interruptedBench("0.3", {"--scene", scene_, "--frames", "1000000", "--against-set", "view.samples=1"}).exitCode,
+      1);
 }
 
 TEST_F(CommandLine, NoOutputReplacesAnotherOptionsFile) {

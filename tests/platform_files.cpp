@@ -80,7 +80,7 @@ TEST_F(Files, FailedReplaceKeepsTheOldContent) {
   EXPECT_EQ(count(), 1);
 }
 
-TEST_F(Files, ContentIsOnTheDiskBeforeItReplacesAFile) {
+TEST_F(Files, ReplaceWaitsForTheDisk) {
   replaceFile(file_, "old");
   diskCalls.clear();
   replaceFile(file_, "new");

@@ -57,10 +57,7 @@ std::optional<std::map<std::string, double>> measured(const std::vector<std::str
                                                       const std::filesystem::path& json) {
   ChildProcess child(command);
   std::optional<ProcessResult> result;
-  while (!(result = child.poll())) {
-    if (interruptRequested()) {
-      return std::nullopt;
-    }
+  while (!interruptRequested() && !(result = child.poll())) {
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
   if (interruptRequested()) {
@@ -178,7 +175,7 @@ bool addPrices(nlohmann::ordered_json& merged, Session& session, double time, in
   const DrawnFrame& frame = session.lastFrame();
   const std::vector<Effect> effects = effectsOf(session.scene(), frame.state, frame.settings, frame.plan);
   for (size_t i = 0; i < effects.size(); ++i) {
-    const Settings without = settingsWith(all, settingsWithout(effects[i].kind));
+    const Settings without = settingsWith(all, settingsWithout(effects[i]));
     std::vector<double> price;
     for (int pair = 0; effects[i].calledFor && pair <= pairs && !interruptRequested(); ++pair) {
       const double with = gpuMs(session, all, time);

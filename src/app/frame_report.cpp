@@ -249,7 +249,7 @@ void FrameReport::updateEffects(const RecordedFrame& frame, const EffectLedger& 
   }
   for (const Effect& effect : effectsOf(frame.scene, frame.state, frame.settings, frame.plan)) {
     EffectView& view = view_.effects.emplace_back(EffectView{effect, ledger[effect.kind]});
-    view.name = findSettingField(settingsWithout(effect.kind).front().key)->label;  // of its switch
+    view.name = findSettingField(settingsWithout(effect).front().key)->label;  // of its switch
   }
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <set>
-#include <stdexcept>
 
 #include "frame/scene_names.hpp"
 
@@ -93,34 +92,17 @@ Effect multisampling(const Settings& settings, const FramePlan& plan) {
 
 }  // namespace
 
-std::vector<SettingChange> settingsWithout(EffectKind effect) {
-  switch (effect) {
-    case EffectKind::shadows:
-      return {{"effects.shadows", "false"}};
-    case EffectKind::roughness:
-      return {{"effects.roughness", "false"}};
-    case EffectKind::ripple:
-      return {{"effects.ripple", "false"}};
-    case EffectKind::castsLight:
-      return {{"effects.casts_light", "false"}};
-    case EffectKind::fresnel:
-      return {{"effects.fresnel", "false"}};
-    case EffectKind::textures:
-      return {{"effects.textures", "false"}};
+std::vector<SettingChange> settingsWithout(const Effect& effect) {
+  switch (effect.kind) {
     case EffectKind::msaa:
       return {{"view.samples", "1"}, {"reflection.samples", "1"}};
     case EffectKind::toneMap:
       return {{"view.tone_map", "clamp"}};
-    case EffectKind::glyphs:
-      return {{"effects.glyphs", "false"}};
     case EffectKind::wireframe:
       return {{"view.wireframe", "false"}};
-    case EffectKind::curved:
-      return {{"effects.curved", "false"}};
-    case EffectKind::count:
-      break;
+    default:  // switched by its name
+      return {{"effects." + effect.name, "false"}};
   }
-  throw std::logic_error("no effect has this kind");
 }
 
 bool drawsTextures(const Scene& scene, const SceneState& state, const Settings& settings, const FramePlan& plan) {

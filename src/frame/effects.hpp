@@ -39,7 +39,7 @@ struct EffectCost {
 };
 
 // Returns the settings (at least one) that leave an effect out of the picture.
-std::vector<SettingChange> settingsWithout(EffectKind effect);
+std::vector<SettingChange> settingsWithout(const Effect& effect);
 
 // Says whether an object with a texture is drawn, or seen in a cached image.
 bool drawsTextures(const Scene& scene, const SceneState& state, const Settings& settings, const FramePlan& plan);

@@ -56,7 +56,6 @@ DisplaySystem::DisplaySystem(Renderer& renderer) : renderer_(renderer), pipeline
 
 RecordedPass DisplaySystem::draw(Frame& frame, const PassDesc& desc, PassKind kind, Variant variant,
                                  const VkDescriptorImageInfo& image, const auto& constants) {
-  Device& device = renderer_.device();
   variant.format = renderer_.displayFormat();
   const Pipeline& pipeline = pipelines_.get(variant, [&] {
     const char* color = variant.multisampled ? "display_average.frag"
@@ -73,7 +72,7 @@ RecordedPass DisplaySystem::draw(Frame& frame, const PassDesc& desc, PassKind ki
                                 .depth = VK_FORMAT_UNDEFINED};
   });
   const VkDescriptorSet set = frame.descriptors->allocate(layout_.get());
-  DescriptorWriter().image(0, image).update(device, set);
+  DescriptorWriter().image(0, image).update(renderer_.device(), set);
   const PassScope scope = renderer_.beginPass(frame, desc);
   pipeline.bind(scope.commands());
   pipeline.bindSet(scope.commands(), 0, set);

@@ -25,7 +25,7 @@ class DisplaySystem {
   void setCover(const Image8& picture);
 
   // Records the display pass. It shows the image of setCover(), or else `radiance`, which has `size` texels and is the
-  // sum of `pictures` pictures.
+  // sum of `pictures` pictures; 0: one picture, no sum.
   RecordedPass record(Frame& frame, const VkDescriptorImageInfo& radiance, VkExtent2D size, const Settings& settings,
                       int pictures);
   // Record a pass that shows a target of `size` texels; nothing if no part of it lies in the area.
