@@ -25,7 +25,8 @@ FramePlan textPlan(const std::string& text, const std::function<void(Settings&)>
   if (change) {
     change(settings);
   }
-  return planFrame(scene, evaluate(scene, 0.0), settings, 640, 360);
+  SceneChanges changes;
+  return planFrame(scene, evaluate(scene, 0.0), settings, 640, 360, {.changes = &changes});
 }
 
 // A room of mirrors in six lines.
@@ -124,9 +125,32 @@ TEST(PlanLimits, LightsInMirrorsPlanWithinTheBounds) {
 TEST(PlanLimits, MillionCopiesPlanWithinTheBounds) {
   const TemporaryFolder folder;
   const auto model = folder.write("t.obj", "v 0 0 -3\nv 1 0 -3\nv 0 1 -3\nf 1 2 3\n");
-  expectPlanned("[[mirror]]\nsize=[9,9]\nposition=[0,0,-9]\n[[object]]\nmodel = '" + model.string() +
-                    "'\ncopies = { count = 1000000, step = [0.001, 0.001, 0] }\n",
-                "copies");
+  std::string text = "[[object]]\nmodel = '" + model.string() +
+                     "'\ncopies = { count = 999900, step = [0.000001, 0.000001, 0] }\n[[mirror]]\nsize=[9,9]\n"
+                     "position=[0,0,-9]\n";
+  expectPlanned(text, "copies");
+  for (int i = 0; i < 99; ++i) {
+    text += "[[mirror]]\nsize=[0.5,0.5]\nposition=[" + std::to_string(i % 10 - 5) + "," + std::to_string(i / 10 - 5) +
+            ",-8]\n";
+  }
+  expectPlanned(text, "copies in a hundred mirrors");
+}
+
+// Curved mirrors with environment maps and lights with shadow maps, each of which sees every object, in every effect.
+TEST(PlanLimits, MapsOfManyObjectsPlanWithinTheBounds) {
+  const TemporaryFolder folder;
+  const auto model = folder.write("t.obj", "v 0 0 -3\nv 1 0 -3\nv 0 1 -3\nf 1 2 3\n");
+  const std::string copies = "copies = { count = 900000, step = [0.001, 0.001, 0] }\n";
+  const std::string object = "[[object]]\nmodel = '" + model.string() + "'\n" + copies;
+  const std::string curved = "[settings]\neffects = { curved_lookup = 'environment' }\n" + object +
+                             "[[object]]\nmodel='" + model.string() +
+                             "'\ncopies = { count = 40, step = [0.1, 0, 0] }\nmirror = { reflectance = [1, 1, 1] }\n";
+  expectPlanned(curved, "environment maps");
+  std::string lights = "[settings]\neffects = { shadow_lookup = 'map' }\n" + object;
+  for (int i = 0; i < 64; ++i) {
+    lights += "[[light]]\nposition=[1," + std::to_string(i) + ",1]\ncasts_shadow=true\n";
+  }
+  expectPlanned(lights, "shadow maps");
 }
 
 }  // namespace

@@ -86,7 +86,8 @@ class PlanSequence {
                      {.images = plan.cached,
                       .maps = plan.maps,
                       .shadowMaps = plan.shadowMaps,
-                      .main = main.content.empty() ? nullptr : &main});
+                      .main = main.content.empty() ? nullptr : &main,
+                      .changes = &changes});
     main = {settings, plan.mainContent};
     return plan;
   }
@@ -116,6 +117,7 @@ class PlanSequence {
   Settings settings;
   FramePlan plan;
   MainImage main;
+  SceneChanges changes;
 };
 
 }  // namespace speculum::testing_support

@@ -218,9 +218,10 @@ TEST(Unchanged, ShortMemoryRendersAnewRatherThanWorse) {
   scene.mirrors[right] = wall({2.5, 0, -5}, 0, {3, 3});
   scene.mirrors[behind] = wall({0, 0, 3}, 180, {12, 6});
   scene.objects[seenLeft].position = {-2.4, 0, -4};
+  SceneChanges changes;
   const auto fit = [&](uint64_t budget, std::span<const CachedImage> cached) {
     return planWithin({.budgetBytes = budget, .largestSide = 4096}, scene, evaluate(scene, 0.0), {}, width, height,
-                      {.images = cached});
+                      {.images = cached, .changes = &changes});
   };
   const FittedPlan first = fit(1ull << 40, {});
   const uint64_t needed = targetBytes(first.plan, first.settings);
@@ -305,7 +306,8 @@ TEST(MainView, MirrorsThatLoseTheirImageDrawIt) {
   ASSERT_TRUE(frames.plan.main.mirrors[0].cached);
   const SceneState state = evaluate(frames.scene, 0.0);
   FramePlan plan = frames.plan;
-  const ImageSurroundings around{frames.scene, state, frames.settings, plan.projection, plan.effects, {}};
+  const ImageSurroundings around{frames.scene,    state, frames.settings, plan.projection, plan.effects,
+                                 &frames.changes, {}};
   reuseMain(plan, &frames.main, around);
   EXPECT_TRUE(plan.mainReused);
   plan.main.mirrors[0].cached.reset();

@@ -52,7 +52,10 @@ PlannedPass faceOf(const Scene& scene, const SceneState& state, const Environmen
   return face;
 }
 
-// Returns the instances of curved mirrors that the passes draw, ascending.
+// Bounds the time and memory of planning: the objects that all faces look at.
+constexpr size_t mostLookedAt = 20'000'000;
+
+// Returns the instances of curved mirrors that the passes draw and that may have a map, ascending.
 std::vector<int> drawnCurved(const Scene& scene, const SceneState& state, std::span<const PlannedPass* const> passes) {
   std::set<int> drawn;
   for (const PlannedPass* pass : passes) {
@@ -63,13 +66,15 @@ std::vector<int> drawnCurved(const Scene& scene, const SceneState& state, std::s
     }
   }
   std::vector<int> curved(drawn.begin(), drawn.end());
-  if (curved.size() > mostEnvironmentMaps) {
+  const size_t most =
+      std::clamp<size_t>(mostLookedAt / (6 * std::max<size_t>(state.instances.size(), 1)), 1, mostEnvironmentMaps);
+  if (curved.size() > most) {
     const auto width = [&](int i) {
       const InstanceState& instance = state.instances[i];
       return instance.radius / std::max(1e-9, glm::length(instance.center - state.camera.eye));
     };
     std::ranges::stable_sort(curved, [&](int a, int b) { return width(a) > width(b); });
-    curved.resize(mostEnvironmentMaps);
+    curved.resize(most);
     std::ranges::sort(curved);
   }
   return curved;

@@ -32,6 +32,10 @@ class Planner {
     if (picture < settings.view.accumulate) {
       plan_.projection.offset = -2.0 * pictureOffset(picture, settings) / glm::dvec2(size_);
     }
+    if (settings_.skipUnchanged && cache.changes) {
+      changes_ = cache.changes;
+      changes_->update(scene, state);
+    }
   }
 
   FramePlan plan() {
@@ -41,7 +45,7 @@ class Planner {
     reuseUnchanged();
     record(0);
     dropSkipsInReused();
-    if (settings_.skipUnchanged && !allSettings_.view.continuous) {
+    if (changes_ && !allSettings_.view.continuous) {
       reuseMain(plan_, cache_.main, surroundings());
     }
     if (allSettings_.view.accumulate > 1 && plan_.picture >= allSettings_.view.accumulate) {
@@ -71,6 +75,7 @@ class Planner {
   const Settings& allSettings_;
   const ReflectionSettings& settings_;
   const FrameCache& cache_;
+  SceneChanges* changes_ = nullptr;  // null without reflection.skip_unchanged
   FramePlan plan_;
   glm::ivec2 size_{0};  // texels of the main view
   std::vector<PassNode> nodes_;
@@ -163,7 +168,7 @@ void Planner::addMaps(std::vector<SimplifiedPass>& passes) {
 }
 
 ImageSurroundings Planner::surroundings() const {
-  ImageSurroundings around{scene_, state_, allSettings_, plan_.projection, plan_.effects, {}};
+  ImageSurroundings around{scene_, state_, allSettings_, plan_.projection, plan_.effects, changes_, {}};
   for (const ShadowMap& map : plan_.shadowMaps) {
     around.shadowSerial = std::max(around.shadowSerial, map.serial);
   }
@@ -176,11 +181,11 @@ ImageSurroundings Planner::surroundings() const {
 // Reuses the cached images that would be the same if they were rendered again.
 void Planner::reuseUnchanged() {
   const View& main = nodes_[0].pass.view;
-  reuseShadowMaps(plan_.shadowMaps, cache_.shadowMaps, allSettings_, scene_, state_);
+  reuseShadowMaps(plan_.shadowMaps, cache_.shadowMaps, scene_, state_, changes_);
   ImageSurroundings withoutMaps = surroundings();
   withoutMaps.maps.clear();
   reuseMaps(plan_.maps, cache_.maps, withoutMaps, main);
-  if (!settings_.skipUnchanged) {
+  if (!changes_) {
     return;
   }
   const ImageSurroundings around = surroundings();

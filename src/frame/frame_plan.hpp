@@ -7,6 +7,7 @@
 
 #include "frame/cached_image.hpp"
 #include "frame/partial_instances.hpp"
+#include "frame/scene_changes.hpp"
 #include "frame/settings.hpp"
 #include "frame/traced_effects.hpp"
 #include "frame/view.hpp"
@@ -143,6 +144,8 @@ struct FrameCache {
   std::span<const EnvironmentMap> maps;
   std::span<const ShadowMap> shadowMaps;
   const MainImage* main = nullptr;  // null: the main view is drawn in any case
+  // Updated by each plan with reflection.skip_unchanged; null: unchanged images are not looked for.
+  SceneChanges* changes = nullptr;
 };
 
 // Tiles first .. end - 1.
@@ -185,7 +188,7 @@ inline const std::vector<PlannedPass>& shownPasses(const FramePlan& plan) {
 // Returns the one of shownPasses() with that path; null if there is none.
 const PlannedPass* mirrorPass(const FramePlan& plan, const std::vector<int>& path);
 
-// Finds the passes that a picture of `width` x `height` pixels needs, and why every other mirror has none. Pure. The
+// Finds the passes that a picture of `width` x `height` pixels needs, and why every other mirror has none. The
 // budget of passes goes to the best first, by visible pixels times throughput. The main view has view.scale times as
 // many texels along each side, rounded, and mirror images reflection.scale times as many as that.
 //

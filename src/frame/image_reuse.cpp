@@ -52,8 +52,7 @@ bool sameMaps(const Settings& a, Settings b) {
 bool reuseMap(EnvironmentMap& map, std::span<const EnvironmentMap> maps, const ImageSurroundings& around,
               const View& main) {
   const int interval = around.settings.effects.environmentInterval;
-  const bool skipUnchanged = around.settings.reflection.skipUnchanged;
-  if (skipUnchanged) {
+  if (around.changes) {
     std::vector<const PlannedPass*> faces;
     for (const PlannedPass& face : map.faces) {
       faces.push_back(&face);
@@ -67,7 +66,7 @@ bool reuseMap(EnvironmentMap& map, std::span<const EnvironmentMap> maps, const I
     return false;
   }
   map.due = interval;
-  const bool unchanged = skipUnchanged && before->content == map.content;
+  const bool unchanged = around.changes && before->content == map.content;
   const bool young = before->age < std::min(before->due, interval);
   if (!unchanged && !young) {
     return false;

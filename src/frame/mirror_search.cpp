@@ -136,7 +136,7 @@ void MirrorSearch::fill(int node) {
   }
   // Each mirror that is seen is kept with its polygon, and tested against the others.
   work_ += 72 + 2 * scene_.mirrors.size() + seen.size() * (4 + std::min<size_t>(seen.size(), 512) / 4) +
-           (state_.instances.size() + nodes_[node].pass.instances.size()) / 16 + state_.lights.size() / 8;
+           state_.instances.size() / 16 + nodes_[node].pass.instances.size() / 4 + state_.lights.size() / 8;
   occlusion_.setView(view, nodes_[node].pass.instances, std::move(seen));
   size_t next = 0;
   for (int i = 0; i < static_cast<int>(scene_.mirrors.size()); ++i) {

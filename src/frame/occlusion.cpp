@@ -109,7 +109,7 @@ class Prefilter {
 
 Occlusion::Occlusion(const Scene& scene, const SceneState& state, const Settings& settings,
                      const Projection& projection)
-    : scene_(scene), state_(state), settings_(settings), projection_(projection), bodies_(state.instances.size()) {
+    : scene_(scene), state_(state), settings_(settings), projection_(projection) {
   for (const MirrorState& mirror : state.mirrors) {
     double size = 0.0;
     for (const glm::dvec3& p : mirror.polygon) {
@@ -127,13 +127,13 @@ Occlusion::Occlusion(const Scene& scene, const SceneState& state, const Settings
 }
 
 Occlusion::Body& Occlusion::bodyOf(int instance) {
-  std::optional<Body>& body = bodies_[instance];
-  if (!body) {
-    body.emplace();
+  const auto [entry, isNew] = bodies_.try_emplace(instance);
+  Body& body = entry->second;
+  if (isNew) {
     const InstanceState& state = state_.instances[instance];
     const Mesh& mesh = scene_.meshes[state.mesh];
     if (!mesh.convex.triangles.empty()) {
-      body->whole = bodyOccluder(mesh.convex, state);
+      body.whole = bodyOccluder(mesh.convex, state);
     }
     for (const std::vector<glm::dvec3>& face : mesh.faces) {
       std::vector<glm::dvec3> polygon;
@@ -141,11 +141,11 @@ Occlusion::Body& Occlusion::bodyOf(int instance) {
         polygon.push_back(state.worldFromMesh.point(p));
       }
       if (std::isnormal(polygonArea(polygon))) {
-        body->faces.push_back({.occluder = flatOccluder(std::move(polygon), state.radius)});
+        body.faces.push_back({.occluder = flatOccluder(std::move(polygon), state.radius)});
       }
     }
   }
-  return *body;
+  return body;
 }
 
 const std::optional<OccludedRegion>& Occlusion::regionOf(Face& face) const {

@@ -3,6 +3,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "frame/occluded_region.hpp"
@@ -73,9 +74,9 @@ class Occlusion {
   std::vector<int> viewMirrors_;    // that are tested in the view, ascending
   std::vector<int> viewInstances_;  // likewise
   int viewNumber_ = -1;
-  std::vector<Face> mirrors_;                // parallel to SceneState::mirrors
-  std::vector<double> largestFaces_;         // by mesh, radius as a part of the mesh's
-  std::vector<std::optional<Body>> bodies_;  // parallel to SceneState::instances; made on first use
+  std::vector<Face> mirrors_;             // parallel to SceneState::mirrors
+  std::vector<double> largestFaces_;      // by mesh, radius as a part of the mesh's
+  std::unordered_map<int, Body> bodies_;  // by index into SceneState::instances; made on first use
 };
 
 }  // namespace speculum

@@ -214,13 +214,14 @@ bool isEmpty(const PlannedPass& pass) {
 }
 
 // Moves the casters that stand still from the face's pass to its layer, unless all of them do or none does.
-void divide(ShadowFace& face, const std::optional<ShadowLayer>& before, const Scene& scene, const SceneState& state) {
+void divide(ShadowFace& face, const std::optional<ShadowLayer>& before, const Scene& scene, const SceneState& state,
+            const SceneChanges& changes) {
   PlannedPass moving = castersOf(face.pass, false, scene, state);
   ShadowLayer layer{.pass = castersOf(face.pass, true, scene, state)};
   if (isEmpty(moving) || isEmpty(layer.pass)) {
     return;
   }
-  layer.content = shadowContent(state, face, layer.pass);
+  layer.content = shadowContent(changes, face, layer.pass);
   layer.rendered = !before || before->content != layer.content;
   face.pass = std::move(moving);
   face.layer = std::move(layer);
@@ -244,8 +245,8 @@ std::vector<ShadowMap> shadowMaps(const Scene& scene, const SceneState& state, c
   return maps;
 }
 
-void reuseShadowMaps(std::vector<ShadowMap>& maps, std::span<const ShadowMap> before, const Settings& settings,
-                     const Scene& scene, const SceneState& state) {
+void reuseShadowMaps(std::vector<ShadowMap>& maps, std::span<const ShadowMap> before, const Scene& scene,
+                     const SceneState& state, const SceneChanges* changes) {
   const bool reuses = std::ranges::equal(
       maps, before, [](const auto& a, const auto& b) { return a.light == b.light && a.size == b.size; });
   uint64_t serial = 0;
@@ -259,17 +260,16 @@ void reuseShadowMaps(std::vector<ShadowMap>& maps, std::span<const ShadowMap> be
       ShadowFace& face = maps[i].faces[f];
       const ShadowFace* old = reuses ? &before[i].faces[f] : nullptr;
       if (face.read) {
-        face.content = shadowContent(state, face, face.pass);
-        face.rendered = !settings.reflection.skipUnchanged || !old || old->content != face.content;
+        face.content = changes ? shadowContent(*changes, face, face.pass) : std::vector<uint64_t>();
+        face.rendered = !changes || !old || old->content != face.content;
         maps[i].serial = face.rendered ? next : maps[i].serial;
       } else if (old) {
         face.content = old->content;
       }
       if (!face.rendered && old) {
         face.layer = old->layer;
-      } else if (settings.reflection.skipUnchanged && old && !old->content.empty() &&
-                 !orbits(scene.lights[static_cast<size_t>(maps[i].light)])) {
-        divide(face, old->layer, scene, state);
+      } else if (changes && old && !old->content.empty() && !orbits(scene.lights[static_cast<size_t>(maps[i].light)])) {
+        divide(face, old->layer, scene, state, *changes);
       }
     }
   }

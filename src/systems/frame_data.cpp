@@ -41,6 +41,40 @@ std::vector<glm::vec3> clearancesOf(const Scene& scene, const SceneState& state)
   return clearances;
 }
 
+struct DrawnPass {
+  const PlannedPass* pass;
+  const Projection* projection;
+  glm::ivec2 corner{0};  // of the rectangle in its target, texels
+  bool inMap = false;    // in an environment map
+};
+
+// Returns the passes of a frame in the order in which they are drawn.
+std::vector<DrawnPass> drawnPasses(const FramePlan& plan) {
+  std::vector<DrawnPass> drawn;
+  for (const PlannedPass& pass : plan.passes) {
+    drawn.push_back({&pass, &plan.projection});
+  }
+  drawn.push_back({&plan.main, &plan.projection});
+  for (const EnvironmentMap& map : plan.maps) {
+    for (size_t face = 0; map.cacheIndex < 0 && face < map.faces.size(); ++face) {
+      drawn.push_back({&map.faces[face], &map.projection, faceCorner(map, face), true});
+    }
+  }
+  for (size_t map = 0; map < plan.shadowMaps.size(); ++map) {
+    for (size_t i = 0; i < plan.shadowMaps[map].faces.size(); ++i) {
+      const ShadowFace& face = plan.shadowMaps[map].faces[i];
+      const glm::ivec2 corner = face.rendered ? shadowCorner(plan.shadowMaps, map, i) : glm::ivec2(0);
+      if (face.rendersLayer()) {
+        drawn.push_back({&face.layer->pass, &face.projection, corner});
+      }
+      if (face.rendered) {
+        drawn.push_back({&face.pass, &face.projection, corner});
+      }
+    }
+  }
+  return drawn;
+}
+
 bool sameColors(const Object& a, const Object& b) {
   return a.color == b.color && a.specular == b.specular && a.shininess == b.shininess && a.emission == b.emission;
 }
@@ -96,34 +130,15 @@ void FrameData::build(Frame& frame, const SceneResources& resources, const Scene
   passes_.clear();
   const Source source{scene, state, settings, environment, plan};
   clearances_ = clearancesOf(scene, state);
-  size_t drawn = plan.main.instances.size();
-  for (const PlannedPass& pass : plan.passes) {
-    drawn += pass.instances.size();
+  const std::vector<DrawnPass> drawn = drawnPasses(plan);
+  size_t instanceCount = 0;
+  for (const DrawnPass& pass : drawn) {
+    instanceCount += pass.pass->instances.size();
   }
-  buffers_.checkSize(instances, drawn * sizeof(gpu::InstanceData));
-  for (const PlannedPass& pass : plan.passes) {
-    addPass(source, pass, plan.projection, {0, 0});
-  }
-  addPass(source, plan.main, plan.projection, {0, 0});
-  for (const EnvironmentMap& map : plan.maps) {
-    for (size_t face = 0; map.cacheIndex < 0 && face < map.faces.size(); ++face) {
-      addPass(source, map.faces[face], map.projection, faceCorner(map, face));
-      passBlocks_.back().view.inMap = 1;
-    }
-  }
-
-  for (size_t map = 0; map < plan.shadowMaps.size(); ++map) {
-    for (size_t i = 0; i < plan.shadowMaps[map].faces.size(); ++i) {
-      const ShadowFace& face = plan.shadowMaps[map].faces[i];
-      if (!face.rendered) {
-        continue;
-      }
-      const glm::ivec2 corner = shadowCorner(plan.shadowMaps, map, i);
-      if (face.rendersLayer()) {
-        addPass(source, face.layer->pass, face.projection, corner);
-      }
-      addPass(source, face.pass, face.projection, corner);
-    }
+  buffers_.checkSize(instances, instanceCount * sizeof(gpu::InstanceData));
+  for (const DrawnPass& pass : drawn) {
+    addPass(source, *pass.pass, *pass.projection, pass.corner);
+    passBlocks_.back().view.inMap = pass.inMap;
   }
 
   mirrors_.resize(std::max<size_t>(mirrors_.size(), 1));  // bound in every draw

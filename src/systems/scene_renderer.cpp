@@ -441,14 +441,15 @@ void SceneRenderer::finishLedger(const FrameInfo& info) {
   ledger_.rays = trace_.rays();
 }
 
-FrameCache SceneRenderer::cache() const {
+FrameCache SceneRenderer::cache() {
   if (cacheRevision_ != renderer_.pipelines().revision()) {
-    return {};
+    return {.changes = &changes_};
   }
   return {.images = mirrorTargets_.cachedImages(),
           .maps = environmentTargets_.cached(),
           .shadowMaps = shadowSystem_.cached(),
-          .main = mainImage_.content.empty() ? nullptr : &mainImage_};
+          .main = mainImage_.content.empty() ? nullptr : &mainImage_,
+          .changes = &changes_};
 }
 
 void SceneRenderer::restart() {

@@ -109,12 +109,13 @@ TEST(LongTimes, CountersPassTwoToThe31Frames) {
   const Scene scene = movingScene();
   const SceneState state = evaluate(scene, 0.0);
   const auto plan = [&](const FrameCache& cache) { return planFrame(scene, state, Settings(), 64, 36, cache); };
-  FramePlan last = plan({});
+  SceneChanges changes;
+  FramePlan last = plan({.changes = &changes});
   ASSERT_FALSE(last.cached.empty());
   last.cached[0].unchangedFor = std::numeric_limits<int>::max() - 2;
   for (int frame = 0; frame < 4; ++frame) {
     const std::vector<CachedImage> before = last.cached;
-    last = plan({.images = before});
+    last = plan({.images = before, .changes = &changes});
     ASSERT_FALSE(last.cached.empty());
     EXPECT_GT(last.cached[0].unchangedFor, 0);
   }
