@@ -25,6 +25,39 @@ vec2 latticePoint(vec2 shift, int index) {
   return fract(shift + float(index) * vec2(0.7548776662466927, 0.5698402909980532));
 }
 
+// A set of `count` points that covers the unit square evenly: the lattice (i / count, i * golden ratio), moved as a
+// whole. Two basis vectors of the lattice of about equal length span a cell. With shifts uniform in it each point is
+// uniform in the square, and the points of one index, in different pixels, stay within a cell: their rays go about the
+// same way, which keeps neighbouring pixels on the same branches.
+struct LatticeSet {
+  vec2 shift;
+  float count;
+};
+
+const float golden = 0.6180339887498949;
+
+// `place` in the cell, 0 .. 1 each.
+LatticeSet latticeSet(vec2 place, int count) {
+  // Neighbours in the Fibonacci sequence give bases, which grow in x and shrink in y.
+  vec2 a = vec2(0.0, -1.0);
+  vec2 b = vec2(1.0 / float(count), golden);
+  while (b.x < abs(b.y)) {
+    vec2 next = a + b;
+    a = b;
+    b = next;
+  }
+  return LatticeSet(place.x * a + place.y * b, float(count));
+}
+
+// Returns a point of the set. From number `count` on they repeat its columns, elsewhere in y.
+vec2 pointOf(LatticeSet set, int index) {
+  float x = set.shift.x + float(index) / set.count;
+  float round = floor(float(index) / set.count);
+  float columns = floor(x);
+  float y = set.shift.y + float(index) * golden - (columns - round) * set.count * golden + round * 0.7548776662466927;
+  return vec2(x - columns, fract(y));
+}
+
 // Samples a normal of GGX with density D(m)(n.m) about n: Walter et al., "Microfacet Models for Refraction through
 // Rough Surfaces" (2007), equations 35 and 36.
 vec3 microfacet(vec3 n, float alpha, vec2 u) {

@@ -95,8 +95,7 @@ struct Seen {
   vec3 direction;  // unit, towards it
   float disparity;
   uint seed;
-  uint before;  // random points of a rough mirror that other samples and pictures take
-  int wanted;   // random points
+  Draws draws;
 };
 
 Seen seenObject(Identifier id, vec2 position) {
@@ -117,7 +116,7 @@ Seen seenObject(Identifier id, vec2 position) {
   Bounce bounce = objectBounce(instances[id.index].traceInstance, id.triangle, weights, point, direction);
   float depth = (view.clipFromRelative * vec4(point, 1.0)).w;
   float disparity = id.baseOnly ? reflectionMark(id) : disparityLength / max(depth, 1e-30);
-  return Seen(bounce, direction, disparity, seedAt(position), view.picture, 1);
+  return Seen(bounce, direction, disparity, seedAt(position), Draws(view.picture, 1, 0, 1));
 }
 
 Seen seenMirror(Identifier id, vec2 position, uint firstSample) {
@@ -134,14 +133,12 @@ Seen seenMirror(Identifier id, vec2 position, uint firstSample) {
   seen.direction = direction;
   seen.disparity = id.baseOnly && seen.bounce.reflects ? 0.0 : hit.disparity;  // that of the reflection is added
   seen.seed = seedAt(position);
-  seen.before = view.picture;
-  seen.wanted = 1;
+  seen.draws = Draws(view.picture, 1, 0, 1);
   if (seen.bounce.alpha > 0.0 && seen.bounce.reflects && !id.baseOnly) {
     // The samples share the pixel's points, so that many samples and few are equally smooth.
     seen.seed = seedAt(floor(position) + 0.5);
     uint wanted = (traceCounts.roughSamples + samples - 1) / samples;
-    seen.before = (view.picture * samples + firstSample) * wanted;
-    seen.wanted = int(wanted);
+    seen.draws = Draws(view.picture, int(wanted), int(firstSample), int(samples));
   }
   return seen;
 }
@@ -160,7 +157,7 @@ void shade(uint pixel, uint seenBy) {
   bool addsReflection = id.baseOnly && seen.bounce.reflects;
   vec3 share = addsReflection ? 1.0 - seen.bounce.reflectance : vec3(1.0);
   seen.bounce.reflects = seen.bounce.reflects && !id.baseOnly;
-  vec3 radiance = tracedRadiance(seen.bounce, seen.direction, seen.seed, seen.before, seen.wanted);
+  vec3 radiance = tracedRadiance(seen.bounce, seen.direction, seen.seed, seen.draws);
   vec4 value = storable(addsReflection ? share * min(radiance, shareMax) : radiance, max(seen.disparity, 0.0));
   value.a = seen.disparity < 0.0 ? seen.disparity : value.a;
   uvec2 halfs = uvec2(packHalf2x16(value.rg), packHalf2x16(value.ba));

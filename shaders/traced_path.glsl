@@ -152,30 +152,40 @@ vec3 glyphRadiance(vec3 origin, vec3 direction, inout float t) {
   return glow;
 }
 
-// Draws microfacets of `bounce`, seen along `direction`, from the additive recurrence of the plastic number, until one
-// faces the viewer and mirrors the ray above the plane. Returns false if `most` draws are used up without one. A pixel
+// Which random points a surface takes for its microfacets.
+struct Draws {
+  uint set;    // number of the pixel's set of points
+  int wanted;  // microfacets
+  int first;   // number in the set
+  int step;    // to the next: the samples that share the set
+};
+
+// Draws microfacets of `bounce`, seen along `direction`, from the points of the set, until one faces the viewer and mirrors the ray above the plane. Returns false if `most` draws are used up without one. A pixel
 // that has not `taken` any by then gets the surface's own normal.
-bool nextMicrofacet(Bounce bounce, vec3 direction, vec2 shift, bool taken, int most, inout int drawn, inout vec3 m) {
+bool nextMicrofacet(Bounce bounce, vec3 direction, LatticeSet set, Draws draws, bool taken, int most, inout int drawn,
+                    inout vec3 m) {
   bool found = false;
   while (!found && drawn < most) {
+    bool isNormal = !rough || bounce.alpha == 0.0 || (drawn + 1 == most && !taken);
+    m = isNormal ? bounce.surface.normal
+                 : microfacet(bounce.surface.normal, bounce.alpha, pointOf(set, draws.first + drawn * draws.step));
     ++drawn;
-    bool isNormal = !rough || bounce.alpha == 0.0 || (drawn == most && !taken);
-    m = isNormal ? bounce.surface.normal : microfacet(bounce.surface.normal, bounce.alpha, latticePoint(shift, drawn));
     found = isNormal || staysAbove(direction, m, bounce.planeNormal);
   }
   return found;
 }
 
 // Returns the radiance of a surface, seen along `direction`: its base and what it reflects. A rough one reflects the
-// mean over `wanted` microfacets, from number `before` of the recurrence on and shifted by the seed.
+// mean over the microfacets that `draws` describes.
 //
 // One loop follows all paths of a pixel, so that a pixel begins its next path while its neighbours still follow theirs.
 // An iteration follows one ray and shades what it meets; the first follows none and shades the surface itself. The loop
 // ends at its head: lavapipe of Mesa 22.3 goes on computing for pixels that have left a loop, and variables keep their
 // values only from one iteration to the next.
-vec3 tracedRadiance(Bounce surface, vec3 direction, uint seed, uint before, int wanted) {
-  vec2 shift = pixelShift(seed, before);
-  int most = 4 * wanted + 16;
+vec3 tracedRadiance(Bounce surface, vec3 direction, uint seed, Draws draws) {
+  int points = draws.wanted * draws.step;
+  LatticeSet set = latticeSet(fract(pixelShift(seed, draws.set)), points);
+  int most = 4 * draws.wanted + 16;
   int drawn = 0;
   int taken = 0;
   vec3 base = vec3(0.0);
@@ -192,7 +202,7 @@ vec3 tracedRadiance(Bounce surface, vec3 direction, uint seed, uint before, int 
   while (!ends) {
     bool follows = !first;
     if (starts) {
-      follows = nextMicrofacet(surface, direction, shift, taken > 0, most, drawn, m);
+      follows = nextMicrofacet(surface, direction, set, draws, taken > 0, most, drawn, m);
       taken += follows ? 1 : 0;
     }
     if (rough && starts) {
@@ -201,7 +211,7 @@ vec3 tracedRadiance(Bounce surface, vec3 direction, uint seed, uint before, int 
       towards = direction;
       weight = vec3(1.0);
       depth = view.depth;
-      pathSeed = seed + before + uint(drawn);
+      pathSeed = seed + draws.set * uint(points) + uint(draws.first + drawn * draws.step);
     }
     bool meets = first;
     if (follows) {
@@ -247,7 +257,7 @@ vec3 tracedRadiance(Bounce surface, vec3 direction, uint seed, uint before, int 
     sum += first ? vec3(0.0) : weight * own;
     starts = first || !meets || !bounce.reflects;
     first = false;
-    ends = starts && (!surface.reflects || taken == (rough ? wanted : 1) || drawn == most);
+    ends = starts && (!surface.reflects || taken == (rough ? draws.wanted : 1) || drawn == most);
   }
   return base + sum / float(max(taken, 1));
 }
