@@ -420,6 +420,12 @@ TEST_F(PanelTest, OpenWindowsAreRemembered) {
   toggle("Scenes");
   restart();
   EXPECT_FALSE(has("gallery.two"));
+  for (const bool open : {true, false}) {
+    windows_->toggleInspector();
+    run(3);
+    restart();
+    EXPECT_EQ(has("edit.add_mirror"), open) << "as other windows";
+  }
 }
 
 TEST_F(PanelTest, LayoutIsKeptInTheUsersFolder) {
@@ -620,6 +626,7 @@ TEST_F(PanelTest, TooltipsAreThePointersOnly) {
 }
 
 TEST_F(PanelTest, TooltipsSayWhatWasMeasuredHere) {
+  resize(900, 800);
   hover("reflection.scale", 0.3);
   EXPECT_FALSE(shows("Here mirror images take")) << "not timed";
   frame_.passes = {{{.path = {0}}, "mirror wall"}, {{.kind = PassKind::main}, "main view"}};
@@ -692,7 +699,7 @@ TEST_F(PanelTest, EscapeClosesTheKeysOnly) {
   EXPECT_TRUE(windows_->closeHelp());
   EXPECT_FALSE(windows_->state().help);
   EXPECT_FALSE(windows_->closeHelp());
-  EXPECT_TRUE(windows_->state().inspector);
+  EXPECT_TRUE(windows_->state().choices.inspector);
   windows_->toggleVisible();
   windows_->toggleInspector();
   windows_->toggleInspector();

@@ -174,14 +174,14 @@ void selectedNode(PanelContext& ui) {
 }  // namespace
 
 void inspector(PanelContext& ui, PanelDock& dock) {
-  if (!ui.state.inspector) {
+  if (!ui.state.choices.inspector) {
     return;
   }
   if (ui.state.focusNodes) {
     ImGui::SetNextWindowFocus();
   }
   ImGui::SetNextWindowBgAlpha(1.0f);
-  if (dock.begin(inspectorTitle, &ui.state.inspector, PanelDock::Edge::right, inspectorEms,
+  if (dock.begin(inspectorTitle, &ui.state.choices.inspector, PanelDock::Edge::right, inspectorEms,
                  ui.state.openedAt ? ImGuiWindowFlags_NoMouseInputs : 0)) {
     nodeList(ui);
     addButtons(ui);

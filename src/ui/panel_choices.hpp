@@ -9,6 +9,7 @@ enum class Theme { dark, light };
 
 // Open windows, theme and size of the panels; saved beside the layout in userConfigDir().
 struct PanelChoices {
+  bool inspector = false;
   bool scenes = false;
   bool performance = false;
   bool targets = false;
@@ -26,8 +27,9 @@ struct PanelName {
   bool PanelChoices::*open;
   const char* about;
 };
-inline constexpr std::array<PanelName, 6> panelNames{
-    {{"Scenes", &PanelChoices::scenes, "Pictures of the scenes; a click opens one."},
+inline constexpr std::array<PanelName, 7> panelNames{
+    {{"Inspector", &PanelChoices::inspector, "Selects, moves, adds and deletes objects, lights and mirrors (F2)."},
+     {"Scenes", &PanelChoices::scenes, "Pictures of the scenes; a click opens one."},
      {"Performance", &PanelChoices::performance, "Times of the last frames and their passes, as graphs."},
      {"Targets", &PanelChoices::targets, "What each pass drew: color, depth and mask."},
      {"Device", &PanelChoices::device, "The GPU, its features and its memory."},

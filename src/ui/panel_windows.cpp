@@ -51,6 +51,10 @@ UiOutput PanelWindows::build(const UiView& view) {
   if (visible_) {
     panels::inspector(ui, dock_);
   }
+  if (state_.choices != savedChoices_) {
+    savedChoices_ = state_.choices;
+    savePanelChoices(savedChoices_);
+  }
   panels::message(ui, freeRect());
   panels::prompts(ui);
   if (state_.editing && !ImGui::IsAnyItemActive()) {
@@ -105,9 +109,9 @@ void PanelWindows::menuBar(PanelContext& ui) {
 }
 
 void PanelWindows::windowMenu(PanelContext& ui) {
-  ImGui::MenuItem("Inspector", keysOf(ToggleInspector{}), &state_.inspector);
   for (const PanelName& panel : panelNames) {
-    ImGui::MenuItem(panel.name.data(), nullptr, &(state_.choices.*panel.open));
+    const char* keys = panel.open == &PanelChoices::inspector ? keysOf(ToggleInspector{}) : nullptr;
+    ImGui::MenuItem(panel.name.data(), keys, &(state_.choices.*panel.open));
     panels::tip(panel.about);
   }
   ImGui::Separator();
@@ -128,7 +132,7 @@ void PanelWindows::windowMenu(PanelContext& ui) {
   ImGui::Separator();
   if (ImGui::MenuItem("Reset layout")) {
     dock_.reset();
-    state_.inspector = state_.help = false;
+    state_.help = false;
     for (const PanelName& panel : panelNames) {
       state_.choices.*panel.open = false;
     }
@@ -194,10 +198,6 @@ void PanelWindows::sideWindows(PanelContext& ui) {
     state_.targets.path.reset();
     ui.output.target.reset();
   }
-  if (choices != savedChoices_) {
-    savedChoices_ = choices;
-    savePanelChoices(choices);
-  }
 }
 
 void PanelWindows::toggleHelp() {
@@ -206,21 +206,22 @@ void PanelWindows::toggleHelp() {
 }
 
 void PanelWindows::toggleInspector() {
-  state_.inspector = !state_.inspector;
-  state_.focusNodes = state_.inspector;
-  visible_ = visible_ || state_.inspector;
+  bool& open = state_.choices.inspector;
+  open = !open;
+  state_.focusNodes = open;
+  visible_ = visible_ || open;
 }
 
 // Opens the inspector, which ignores the pointer until it moves: a further click at the same place is for the picture.
 void PanelWindows::openInspector() {
-  if (!std::exchange(state_.inspector, true)) {
+  if (!std::exchange(state_.choices.inspector, true)) {
     const ImVec2 pointer = ImGui::GetIO().MousePos;
     state_.openedAt = glm::vec2(pointer.x, pointer.y);
   }
 }
 
 bool PanelWindows::inspectorCovers(const glm::vec2& place) const {
-  return visible_ && !state_.inspector &&
+  return visible_ && !state_.choices.inspector &&
          dock_.wouldCover(panels::inspectorTitle, PanelDock::Edge::right, panels::inspectorEms, place);
 }
 

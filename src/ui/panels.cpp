@@ -331,10 +331,6 @@ void scene(PanelContext& ui) {
   commandButton(ui, "Copy command line", "copy",
                 "Copies a speculum render call that draws this view. Unsaved changes go into a copy of the scene.",
                 CopyCommandLine{});
-  continueRow("Inspector");
-  if (button(ui, "Inspector", "edit.open", "Selects, moves, adds and deletes objects, lights and mirrors (F2).")) {
-    ui.state.inspector = !ui.state.inspector;
-  }
   nextButton(ui, "Screenshot", "screenshot", "Saves the window as a picture (F12); Shift+F12 leaves the panels out.",
              TakeScreenshot{true});
 }

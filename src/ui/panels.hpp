@@ -14,7 +14,6 @@ namespace speculum {
 struct PanelState {
   PanelChoices choices;
   bool help = false;
-  bool inspector = false;
   std::optional<glm::vec2> openedAt;  // pointer when a click opened the inspector, until it moves
   bool focusNodes = false;            // the list of nodes takes the keyboard in the next frame
   bool editing = false;               // a continued EditNode has not ended
