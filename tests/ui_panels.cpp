@@ -558,6 +558,20 @@ TEST_F(ManyPasses, HeadStaysInSight) {
   EXPECT_EQ(widget("performance.head 1").y, head.y);
 }
 
+TEST_F(ManyPasses, GraphsLeaveRoomForPasses) {
+  const int high = widget("graph.GPU").height;
+  ImGui::GetIO().FontGlobalScale = 2.0f;
+  run(5);
+  const ImGuiWindow* window = ImGui::FindWindowByName("Performance");
+  ASSERT_TRUE(window);
+  const PixelRect last = widget("name.main view");
+  EXPECT_LT(static_cast<float>(last.y + last.height), window->Pos.y + window->Size.y) << "without scrolling";
+  ImGui::GetIO().FontGlobalScale = 1.0f;
+  frame_.history.clear();
+  run(5);
+  EXPECT_GT(widget("graph.GPU").height, high) << "they use the room that is left";
+}
+
 TEST_F(ManyPasses, OnlyTheTableScrolls) {
   toggle("Scenes");
   toggle("Targets");
