@@ -159,7 +159,9 @@ TEST_F(WindowView, MirrorsAreLookedFromBothSides) {
   EXPECT_LT(eye().z, -2.0);
   EXPECT_NEAR(glm::distance(forward(), glm::dvec3(0.0, 0.0, 1.0)), 0.0, 1e-9);
   EXPECT_TRUE(seesWall());
+  EXPECT_TRUE(contains(status(), "its back does not reflect")) << status();
   send(LookFromMirror{MirrorSide::front});
+  EXPECT_TRUE(contains(status(), "Looking out of mirror")) << status();
   EXPECT_NEAR(eye().z, -2.0 + 0.01, 1e-9);
   EXPECT_NEAR(forward().z, 1.0, 1e-9);
 }

@@ -111,6 +111,7 @@ class Workspace {
   void copyCommandLine();
   void measureAccuracy();
   void frame(const Selection& node);  // none: the whole scene
+  void lookFromMirror(MirrorSide side);
   void takeSceneChange();
   bool animated() const { return camera_.moved() ? contentMoves(scene()) : moves(scene()); }
   std::optional<SceneView> sceneView(double time);

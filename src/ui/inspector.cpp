@@ -148,7 +148,8 @@ void selectedNode(PanelContext& ui) {
   if (edit.selected.kind == Selection::Kind::mirror) {
     commandButton(ui, "Look out of mirror", "edit.look_out", "Looks out of the mirror (Shift+B).",
                   LookFromMirror{MirrorSide::front});
-    nextButton(ui, "Look from behind", "edit.look_behind", "Looks through the mirror at what it shows (B).",
+    nextButton(ui, "Look from behind", "edit.look_behind",
+               "Looks at the mirror's back from behind, or at the wall that it hangs on (B).",
                LookFromMirror{MirrorSide::back});
     dimmedText(mirrorCost(ui.view.frame, edit.selected.index));
     recordWidget(ui, "edit.mirror_cost",
