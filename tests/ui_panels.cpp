@@ -894,6 +894,7 @@ TEST_F(Inspector, ColorsHaveASwatch) {
 TEST_F(Inspector, ReflectanceIsTypedAsInTheFile) {
   scene_.mirrors[0].reflectance = glm::dvec3(0.731, 0.5, 0.5);
   selectMirror(0);
+  EXPECT_TRUE(shows("Reflectance (tint)") && shows("Diffuse color")) << "which of both is the tint";
   EXPECT_TRUE(shows("0.731"));
   typeNumber("edit.reflectance", 0.05, "0.404");
   EXPECT_DOUBLE_EQ(scene_.mirrors[0].reflectance.r, 0.404);

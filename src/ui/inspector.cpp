@@ -162,7 +162,7 @@ void selectedNode(PanelContext& ui) {
     ImGui::PopItemWidth();
   }
   gizmoMode(ui);
-  ImGui::PushItemWidth(-8.0f * ImGui::GetFontSize());
+  ImGui::PushItemWidth(-9.2f * ImGui::GetFontSize());
   SceneNode node = nodeOf(*edit.scene, edit.selected);
   const bool edited = fieldRows(ui, node);
   ImGui::PopItemWidth();
