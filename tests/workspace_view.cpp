@@ -589,6 +589,33 @@ TEST_F(Opening, LoadingIsCancelled) {
   EXPECT_EQ(workspace_->problem(), "") << "which is no error";
 }
 
+TEST_F(Opening, FirstPictureIsTheThumbnailOfForeignFiles) {
+  const auto thumbnail = [&] { return workspace_->browser().thumbnails().at(view().browser.shown); };
+  Image8 picture(960, 400);
+  for (int x = 0; x < picture.width; ++x) {
+    std::fill_n(picture.at(x, 0), 4, uint8_t(7));
+  }
+  const auto expectThumbnail = [&](const char* of) {
+    EXPECT_EQ(thumbnail().width, 0) << of;
+    const int lists = host_.lists;
+    drawFrame(picture);
+    drawFrame(Image8(4, 4));
+    EXPECT_EQ(host_.lists, lists + 1) << "once";
+    const Image8 small = thumbnail();
+    ASSERT_EQ(small.width, 192) << of;
+    EXPECT_LT(*small.at(90, 0), 215) << "the dark row";
+    EXPECT_GT(*small.at(90, 50), 245);
+  };
+  expectThumbnail("the scene of the start");
+  drop({model("queen.obj")});
+  expectThumbnail("a model");
+  send(SaveAs{home_.path() / "saved.toml"});
+  expectThumbnail("a saved scene");
+  options_.scene = (home_.path() / "saved.toml").string();
+  start();
+  EXPECT_EQ(thumbnail().width, 192) << "in later sessions";
+}
+
 TEST_F(Opening, ThumbnailsFollowTheList) {
   const std::vector<Image8> pictures = workspace_->browser().thumbnails();
   const BrowserView& browser = view().browser;

@@ -272,6 +272,10 @@ void Workspace::frameDrawn(const ShownPicture& shown, const std::function<Image8
     saved.logged ? status_.set(saved.message) : status_.show(saved.message);
   }
   accuracy_.afterFrame(shown, watchedView(shown.state), radiance);
+  if (radiance && options_.frames == 0 && std::exchange(needsThumbnail_, false) &&
+      browser().storeThumbnail(radiance())) {
+    host_.scenesListed();
+  }
   tookBack_ = false;
 }
 
@@ -287,6 +291,7 @@ void Workspace::showScene(std::unique_ptr<LoadedScene> scene) {
     return host_.useScene(loaded_->scene);
   }
   startDocument();
+  needsThumbnail_ = true;
   status_.sceneChanged();
   playback_.seek(0.0);
   if (isModelFile(loaded_->scene.file)) {
