@@ -133,8 +133,8 @@ void PanelWindows::windowMenu(PanelContext& ui) {
   if (ImGui::MenuItem("Reset layout")) {
     dock_.reset();
     state_.help = false;
-    for (const PanelName& panel : panelNames) {
-      state_.choices.*panel.open = false;
+    for (const PanelName& panel : rememberedPanels) {
+      state_.choices.*panel.open = PanelChoices().*panel.open;
     }
   }
   panels::recordWidget(ui, "window.reset");

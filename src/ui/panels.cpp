@@ -190,6 +190,13 @@ void recordWidget(PanelContext& ui, std::string_view key, const std::string& abo
   }
 }
 
+bool section(PanelContext& ui, const char* label, bool& open) {
+  ImGui::SetNextItemOpen(open);
+  open = ImGui::CollapsingHeader(label);
+  recordWidget(ui, std::string("section.") + label);
+  return open;
+}
+
 bool button(PanelContext& ui, const char* label, std::string_view key, const std::string& about, bool enabled) {
   ImGui::BeginDisabled(!enabled);
   const bool pressed = ImGui::Button(label);
@@ -336,12 +343,12 @@ void scene(PanelContext& ui) {
 }
 
 void settings(PanelContext& ui) {
-  if (ImGui::CollapsingHeader("View", ImGuiTreeNodeFlags_DefaultOpen)) {
+  if (section(ui, "View", ui.state.choices.viewSection)) {
     settingRows(ui, "view.");
     settingRows(ui, "quality.motion_ms");
     settingRows(ui, "quality.still_pictures");
   }
-  if (ImGui::CollapsingHeader("Reflections", ImGuiTreeNodeFlags_DefaultOpen)) {
+  if (section(ui, "Reflections", ui.state.choices.reflectionsSection)) {
     settingRows(ui, "reflection.");
   }
   commandButton(ui, "Reset settings", "settings.reset", "Returns to the settings that the scene was opened with.",
