@@ -743,6 +743,22 @@ TEST_F(PanelTest, KeysFitNarrowWindows) {
   EXPECT_LT(widget("help.right").x + widget("help.right").width, 400);
 }
 
+TEST_F(PanelTest, LabelsOfDragsStayBesidePanels) {
+  windows_->toggleInspector();
+  resize(1280, 700);
+  const WindowRect picture = windows_->freeRect();
+  const glm::vec2 end = picture.corner + picture.size;
+  edit_.overlay.label = "X 1.000 m";
+  edit_.overlay.labelAt = end - 5.0f;
+  run();
+  const ImVector<ImDrawVert>& vertices = ImGui::GetBackgroundDrawList()->VtxBuffer;
+  EXPECT_GT(vertices.Size, 0);
+  for (const ImDrawVert& vertex : vertices) {
+    EXPECT_LE(vertex.pos.x, end.x + 1.0f);
+    EXPECT_LE(vertex.pos.y, end.y + 1.0f);
+  }
+}
+
 TEST_F(PanelTest, HandlesAreNotDrawnOverATarget) {
   edit_.overlay.outline = {{{0.0, 350.0}, {900.0, 350.0}}, {{450.0, 0.0}, {450.0, 700.0}}};
   toggle("Targets");

@@ -46,11 +46,9 @@ UiOutput PanelWindows::build(const UiView& view) {
     sideWindows(ui);
     panels::besideTarget(ui, [&] { panels::passOutline(ui); });
     panels::help(ui);
-  }
-  panels::besideTarget(ui, [&] { panels::editOverlay(view.edit.overlay); });
-  if (visible_) {
     panels::inspector(ui, dock_);
   }
+  panels::besideTarget(ui, [&] { panels::editOverlay(view.edit.overlay, freeRect()); });
   if (state_.choices != savedChoices_) {
     savedChoices_ = state_.choices;
     savePanelChoices(savedChoices_);

@@ -108,7 +108,7 @@ void prompts(PanelContext& ui);                             // over all others, 
 void passOutline(const PanelContext& ui);  // around the mirror whose row is under the pointer
 // Call while the pointer is on a row of a mirror, which `path` leads to: outlines the mirror, and a click selects it.
 void mirrorRow(PanelContext& ui, const std::vector<int>& path);
-void editOverlay(const OverlayView& overlay);
+void editOverlay(const OverlayView& overlay, const WindowRect& picture);  // `picture`: as far as panels leave it free
 // Draws behind all windows, but not over the target that the Targets window shows.
 void besideTarget(const PanelContext& ui, const std::function<void()>& draw);
 
