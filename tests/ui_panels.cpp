@@ -412,6 +412,19 @@ TEST_F(PanelTest, GalleryOpensScenes) {
   EXPECT_FALSE(sent<OpenScene>()) << "it is shown";
 }
 
+TEST_F(PanelTest, GalleryScrollsToTheShownScene) {
+  browser_.scenes.resize(40, {"more", "", "/scenes/more.toml"});
+  browser_.scenes.push_back({"saved", "", "/scenes/saved.toml"});
+  toggle("Scenes");
+  EXPECT_GT(widget("gallery.saved").y, 700);
+  browser_.shown = 40;
+  run(3);
+  EXPECT_LT(widget("gallery.saved").y, 700);
+  hover("gallery.saved");
+  wheel(20.0);
+  EXPECT_GT(widget("gallery.saved").y, 700) << "once";
+}
+
 TEST_F(PanelTest, OpenWindowsAreRemembered) {
   toggle("Scenes");
   const PixelRect before = widget("gallery.two");
@@ -533,6 +546,7 @@ TEST_F(PanelTest, HistoryIsPausedClearedAndCopied) {
   frame_.history.add(4, 1.0, 0.5);
   toggle("Performance");
   EXPECT_TRUE(has("graph.Frame"));
+  EXPECT_TRUE(shows("1 frame") && !shows("1 frames"));
   EXPECT_EQ(clickFor<CopyText>("performance.copy").text, frame_.history.csv());
   EXPECT_TRUE(clickFor<PauseHistory>("performance.pause", 0.1).paused);
   clickFor<ClearHistory>("performance.clear");
@@ -801,6 +815,12 @@ class Inspector : public PanelTest {
     appliesEdits_ = false;
   }
 };
+
+TEST_F(Inspector, ListIsLowInLowWindows) {
+  const int high = widget("edit.add_mirror").y;
+  resize(900, 350);
+  EXPECT_LT(widget("edit.add_mirror").y, high) << "fields of the selected node come into sight";
+}
 
 TEST_F(Inspector, ListSelectsAndToggles) {
   EXPECT_EQ(clickFor<SelectNode>("edit.node.1").node, (Selection{Selection::Kind::mirror, 1}));

@@ -19,8 +19,9 @@ void nodeList(PanelContext& ui) {
   if (std::exchange(ui.state.focusNodes, false)) {
     ImGui::SetNextWindowFocus();
   }
-  ImGui::BeginChild("nodes", ImVec2(0.0f, 7.5f * ImGui::GetTextLineHeightWithSpacing()), true,
-                    ui.state.openedAt ? ImGuiWindowFlags_NoMouseInputs : 0);
+  const float line = ImGui::GetTextLineHeightWithSpacing();
+  const float height = std::clamp(0.25f * ImGui::GetContentRegionAvail().y, 3.5f * line, 7.5f * line);
+  ImGui::BeginChild("nodes", ImVec2(0.0f, height), true, ui.state.openedAt ? ImGuiWindowFlags_NoMouseInputs : 0);
   int* shown = ImGui::GetStateStorage()->GetIntRef(ImGui::GetID("shown"), -1);  // the row that was scrolled to
   int row = 0;
   for (const Selection& node : allNodes(*edit.scene)) {

@@ -114,7 +114,7 @@ void PanelWindows::windowMenu(PanelContext& ui) {
   }
   ImGui::Separator();
   for (const auto& [name, place, theme] :
-       {std::tuple("Dark", "theme.dark", Theme::dark), std::tuple("Light", "theme.light", Theme::light)}) {
+       {std::tuple("Dark theme", "theme.dark", Theme::dark), std::tuple("Light theme", "theme.light", Theme::light)}) {
     if (ImGui::MenuItem(name, nullptr, state_.choices.theme == theme)) {
       state_.choices.theme = theme;
     }
@@ -182,7 +182,7 @@ void PanelWindows::sideWindows(PanelContext& ui) {
   };
   PanelChoices& choices = state_.choices;
   window("Scenes", choices.scenes, {24.2f, 46.5f}, [&] { panels::gallery(ui, thumbnails_); });
-  window("Performance", choices.performance, {27.0f, 22.0f}, [&] { panels::performance(ui); });
+  window("Performance", choices.performance, {27.0f, 30.0f}, [&] { panels::performance(ui); });
   window("Accuracy", choices.accuracy, {27.0f, 40.0f}, [&] { panels::accuracy(ui); });
   window("Device", choices.device, {27.0f, 30.0f}, [&] { panels::device(ui); });
   window("Log", choices.log, {27.0f, 14.0f}, [&] { panels::log(ui); });

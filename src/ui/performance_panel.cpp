@@ -107,7 +107,8 @@ void performance(PanelContext& ui) {
   if (button(ui, "Copy as CSV", "performance.copy", "Copies all figures of the frames below.")) {
     ui.send(CopyText{history.csv()});
   }
-  const std::string frames = std::to_string(history.frames()) + (history.lowered() ? " draft frames" : " frames");
+  const std::string frames = std::to_string(history.frames()) + (history.lowered() ? " draft" : "") +
+                             (history.frames() == 1 ? " frame" : " frames");
   continueRow(frames.c_str());
   ImGui::AlignTextToFramePadding();
   ImGui::TextDisabled("%s", frames.c_str());
