@@ -1075,6 +1075,12 @@ TEST_F(AccuracyWindow, SliderNamesPointsOffTheFront) {
   EXPECT_FALSE(shows("none of 2"));
 }
 
+TEST_F(AccuracyWindow, PlotLeavesRoomForTheSlider) {
+  resize(1280, 360);
+  const PixelRect slider = widget("accuracy.slider");
+  EXPECT_LT(slider.y + slider.height, 350) << "without scrolling";
+}
+
 TEST_F(AccuracyWindow, GreyPointsSayWhy) {
   hover("accuracy.point exact");
   EXPECT_TRUE(shows("mean FLIP"));
