@@ -940,6 +940,14 @@ TEST_F(Inspector, ReflectanceIsTypedAsInTheFile) {
   EXPECT_DOUBLE_EQ(scene_.mirrors[0].reflectance.r, 0.404);
 }
 
+TEST_F(Inspector, CurvedMirrorsExplainTheirTint) {
+  ASSERT_FALSE(scene_.objects.empty());
+  scene_.objects[0].mirror = ObjectMirror();
+  select({Selection::Kind::object, 0});
+  hover("edit.mirror.reflectance", 0.2);
+  EXPECT_TRUE(shows("Reflectance (tint)") && shows("Share of light reflected"));
+}
+
 TEST_F(Inspector, MirrorsAreLookedFromAndSeenThrough) {
   edit_.through = {1, 0};
   selectMirror(0);

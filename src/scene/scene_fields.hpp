@@ -95,11 +95,12 @@ inline const auto fieldsOf<Copies> =
                       .shown = [](const Copies& copies) { return copies.count > 1; }})};
 
 template <>
-inline const auto fieldsOf<ObjectMirror> = std::tuple{
-    field(&ObjectMirror::reflectance, "reflectance", "as of a mirror",
-          {.label = "Reflectance (tint)", .range = kUnit, .alwaysSaved = true, .color = true}),
-    field(&ObjectMirror::fresnel, "fresnel", "as of a mirror"),
-    field(&ObjectMirror::baseColor, "base_color", "as of a mirror", {.range = kSurfaceColor, .color = true})};
+inline const auto fieldsOf<ObjectMirror> =
+    std::tuple{field(&ObjectMirror::reflectance, "reflectance", "share of light reflected, the tint",
+                     {.label = "Reflectance (tint)", .range = kUnit, .alwaysSaved = true, .color = true}),
+               field(&ObjectMirror::fresnel, "fresnel", "schlick: more at grazing angles"),
+               field(&ObjectMirror::baseColor, "base_color", "diffuse layer under the reflection",
+                     {.label = "Diffuse color", .range = kSurfaceColor, .color = true})};
 
 template <>
 inline const auto fieldsOf<Object> = std::tuple{
