@@ -614,6 +614,15 @@ TEST_F(Opening, FirstPictureIsTheThumbnailOfForeignFiles) {
   options_.scene = (home_.path() / "saved.toml").string();
   start();
   EXPECT_EQ(thumbnail().width, 192) << "in later sessions";
+  const auto frameDrawn = [&](const std::function<Image8()>& read) {
+    workspace_->frameDrawn({scene(), workspace_->state(0.0), workspace_->settings(), width, height}, read, nullptr);
+  };
+  frameDrawn([]() -> Image8 { throw std::runtime_error("no memory"); });
+  drop({sceneFile("no_mirror")});
+  frameDrawn([&] {
+    ADD_FAILURE() << "a scene that comes with a thumbnail needs no picture";
+    return picture;
+  });
 }
 
 TEST_F(Opening, ThumbnailsFollowTheList) {

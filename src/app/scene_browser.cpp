@@ -186,14 +186,19 @@ std::vector<Image8> SceneBrowser::thumbnails() const {
   return pictures;
 }
 
-bool SceneBrowser::storeThumbnail(const Image8& picture) const {
+bool SceneBrowser::storeThumbnail(const std::function<Image8()>& picture) const {
   const fs::path& scene = view_.scenes[view_.shown].file;
   if (isNew(scene) || isFile(shippedThumbnail(scene))) {
     return false;
   }
   const fs::path file = storedThumbnail(scene);
   keepNewest(file.parent_path(), mostThumbnails);
-  return storeFile(file, encodeJpeg(shrunk(picture), 80));
+  try {
+    return storeFile(file, encodeJpeg(shrunk(picture()), 80));
+  } catch (const std::runtime_error& error) {  // the GPU may have no memory left to read the picture
+    spdlog::info("no thumbnail of {}: {}", scene.string(), error.what());
+    return false;
+  }
 }
 
 void SceneBrowser::open(const fs::path& file, const Options& options) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <map>
 
 #include "app/background_job.hpp"
@@ -20,7 +21,7 @@ class SceneBrowser {
   bool show(const std::filesystem::path& file, bool withFolder);
   std::vector<Image8> thumbnails() const;  // of the list; without pixels for a scene that has none
   // Makes a picture of the shown scene its thumbnail, unless the scene comes with one. Returns true if it did.
-  bool storeThumbnail(const Image8& picture) const;
+  bool storeThumbnail(const std::function<Image8()>& picture) const;
 
   // Loads a scene or a model on a thread of its own, and cancels one that is loading.
   void open(const std::filesystem::path& file, const Options& options);

@@ -272,8 +272,7 @@ void Workspace::frameDrawn(const ShownPicture& shown, const std::function<Image8
     saved.logged ? status_.set(saved.message) : status_.show(saved.message);
   }
   accuracy_.afterFrame(shown, watchedView(shown.state), radiance);
-  if (radiance && options_.frames == 0 && std::exchange(needsThumbnail_, false) &&
-      browser().storeThumbnail(radiance())) {
+  if (radiance && options_.frames == 0 && std::exchange(needsThumbnail_, false) && browser().storeThumbnail(radiance)) {
     host_.scenesListed();
   }
   tookBack_ = false;
