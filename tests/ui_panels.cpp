@@ -412,6 +412,19 @@ TEST_F(PanelTest, GalleryOpensScenes) {
   EXPECT_FALSE(sent<OpenScene>()) << "it is shown";
 }
 
+TEST_F(PanelTest, GalleryScrollsToTheShownScene) {
+  browser_.scenes.resize(40, {"more", "", "/scenes/more.toml"});
+  browser_.scenes.push_back({"saved", "", "/scenes/saved.toml"});
+  toggle("Scenes");
+  EXPECT_GT(widget("gallery.saved").y, 700);
+  browser_.shown = 40;
+  run(3);
+  EXPECT_LT(widget("gallery.saved").y, 700);
+  hover("gallery.saved");
+  wheel(20.0);
+  EXPECT_GT(widget("gallery.saved").y, 700) << "once";
+}
+
 TEST_F(PanelTest, OpenWindowsAreRemembered) {
   toggle("Scenes");
   const PixelRect before = widget("gallery.two");
@@ -420,6 +433,16 @@ TEST_F(PanelTest, OpenWindowsAreRemembered) {
   toggle("Scenes");
   restart();
   EXPECT_FALSE(has("gallery.two"));
+  for (const bool open : {true, false}) {
+    windows_->toggleInspector();
+    run(3);
+    restart();
+    EXPECT_EQ(has("edit.add_mirror"), open) << "as other windows";
+  }
+  click("section.View");
+  restart();
+  EXPECT_FALSE(has("view.exposure")) << "as sections of the main panel";
+  EXPECT_TRUE(has("reflection.scale"));
 }
 
 TEST_F(PanelTest, LayoutIsKeptInTheUsersFolder) {
@@ -523,6 +546,7 @@ TEST_F(PanelTest, HistoryIsPausedClearedAndCopied) {
   frame_.history.add(4, 1.0, 0.5);
   toggle("Performance");
   EXPECT_TRUE(has("graph.Frame"));
+  EXPECT_TRUE(shows("1 frame") && !shows("1 frames"));
   EXPECT_EQ(clickFor<CopyText>("performance.copy").text, frame_.history.csv());
   EXPECT_TRUE(clickFor<PauseHistory>("performance.pause", 0.1).paused);
   clickFor<ClearHistory>("performance.clear");
@@ -550,6 +574,20 @@ TEST_F(ManyPasses, HeadStaysInSight) {
   wheel(-1.0);
   EXPECT_LT(widget("name.CPU").y, row.y) << "scrolled";
   EXPECT_EQ(widget("performance.head 1").y, head.y);
+}
+
+TEST_F(ManyPasses, GraphsLeaveRoomForPasses) {
+  const int high = widget("graph.GPU").height;
+  ImGui::GetIO().FontGlobalScale = 2.0f;
+  run(5);
+  const ImGuiWindow* window = ImGui::FindWindowByName("Performance");
+  ASSERT_TRUE(window);
+  const PixelRect last = widget("name.main view");
+  EXPECT_LT(static_cast<float>(last.y + last.height), window->Pos.y + window->Size.y) << "without scrolling";
+  ImGui::GetIO().FontGlobalScale = 1.0f;
+  frame_.history.clear();
+  run(5);
+  EXPECT_GT(widget("graph.GPU").height, high) << "they use the room that is left";
 }
 
 TEST_F(ManyPasses, OnlyTheTableScrolls) {
@@ -620,6 +658,7 @@ TEST_F(PanelTest, TooltipsAreThePointersOnly) {
 }
 
 TEST_F(PanelTest, TooltipsSayWhatWasMeasuredHere) {
+  resize(900, 800);
   hover("reflection.scale", 0.3);
   EXPECT_FALSE(shows("Here mirror images take")) << "not timed";
   frame_.passes = {{{.path = {0}}, "mirror wall"}, {{.kind = PassKind::main}, "main view"}};
@@ -692,7 +731,7 @@ TEST_F(PanelTest, EscapeClosesTheKeysOnly) {
   EXPECT_TRUE(windows_->closeHelp());
   EXPECT_FALSE(windows_->state().help);
   EXPECT_FALSE(windows_->closeHelp());
-  EXPECT_TRUE(windows_->state().inspector);
+  EXPECT_TRUE(windows_->state().choices.inspector);
   windows_->toggleVisible();
   windows_->toggleInspector();
   windows_->toggleInspector();
@@ -716,6 +755,22 @@ TEST_F(PanelTest, KeysFitNarrowWindows) {
   EXPECT_EQ(widget("help.left").x, widget("help.right").x);
   EXPECT_GT(widget("help.right").y, widget("help.left").y);
   EXPECT_LT(widget("help.right").x + widget("help.right").width, 400);
+}
+
+TEST_F(PanelTest, LabelsOfDragsStayBesidePanels) {
+  windows_->toggleInspector();
+  resize(1280, 700);
+  const WindowRect picture = windows_->freeRect();
+  const glm::vec2 end = picture.corner + picture.size;
+  edit_.overlay.label = "X 1.000 m";
+  edit_.overlay.labelAt = end - 5.0f;
+  run();
+  const ImVector<ImDrawVert>& vertices = ImGui::GetBackgroundDrawList()->VtxBuffer;
+  EXPECT_GT(vertices.Size, 0);
+  for (const ImDrawVert& vertex : vertices) {
+    EXPECT_LE(vertex.pos.x, end.x + 1.0f);
+    EXPECT_LE(vertex.pos.y, end.y + 1.0f);
+  }
 }
 
 TEST_F(PanelTest, HandlesAreNotDrawnOverATarget) {
@@ -760,6 +815,12 @@ class Inspector : public PanelTest {
     appliesEdits_ = false;
   }
 };
+
+TEST_F(Inspector, ListIsLowInLowWindows) {
+  const int high = widget("edit.add_mirror").y;
+  resize(900, 350);
+  EXPECT_LT(widget("edit.add_mirror").y, high) << "fields of the selected node come into sight";
+}
 
 TEST_F(Inspector, ListSelectsAndToggles) {
   EXPECT_EQ(clickFor<SelectNode>("edit.node.1").node, (Selection{Selection::Kind::mirror, 1}));
@@ -873,9 +934,18 @@ TEST_F(Inspector, ColorsHaveASwatch) {
 TEST_F(Inspector, ReflectanceIsTypedAsInTheFile) {
   scene_.mirrors[0].reflectance = glm::dvec3(0.731, 0.5, 0.5);
   selectMirror(0);
+  EXPECT_TRUE(shows("Reflectance (tint)") && shows("Diffuse color")) << "which of both is the tint";
   EXPECT_TRUE(shows("0.731"));
   typeNumber("edit.reflectance", 0.05, "0.404");
   EXPECT_DOUBLE_EQ(scene_.mirrors[0].reflectance.r, 0.404);
+}
+
+TEST_F(Inspector, CurvedMirrorsExplainTheirTint) {
+  ASSERT_FALSE(scene_.objects.empty());
+  scene_.objects[0].mirror = ObjectMirror();
+  select({Selection::Kind::object, 0});
+  hover("edit.mirror.reflectance", 0.2);
+  EXPECT_TRUE(shows("Reflectance (tint)") && shows("Share of light reflected"));
 }
 
 TEST_F(Inspector, MirrorsAreLookedFromAndSeenThrough) {
@@ -1011,6 +1081,12 @@ TEST_F(AccuracyWindow, SliderNamesPointsOffTheFront) {
   run(2);
   EXPECT_TRUE(shows("2 of 2"));
   EXPECT_FALSE(shows("none of 2"));
+}
+
+TEST_F(AccuracyWindow, PlotLeavesRoomForTheSlider) {
+  resize(1280, 360);
+  const PixelRect slider = widget("accuracy.slider");
+  EXPECT_LT(slider.y + slider.height, 350) << "without scrolling";
 }
 
 TEST_F(AccuracyWindow, GreyPointsSayWhy) {

@@ -455,6 +455,7 @@ TEST_F(Editing, DeletedMirrorIsNotLookedFrom) {
   const glm::dvec3 before = eye();
   send(LookFromMirror{MirrorSide::back});
   EXPECT_EQ(eye(), before);
+  EXPECT_TRUE(contains(status(), "no mirror")) << status();
 }
 
 }  // namespace

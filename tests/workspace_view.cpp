@@ -159,7 +159,9 @@ TEST_F(WindowView, MirrorsAreLookedFromBothSides) {
   EXPECT_LT(eye().z, -2.0);
   EXPECT_NEAR(glm::distance(forward(), glm::dvec3(0.0, 0.0, 1.0)), 0.0, 1e-9);
   EXPECT_TRUE(seesWall());
+  EXPECT_TRUE(contains(status(), "its back does not reflect")) << status();
   send(LookFromMirror{MirrorSide::front});
+  EXPECT_TRUE(contains(status(), "Looking out of mirror")) << status();
   EXPECT_NEAR(eye().z, -2.0 + 0.01, 1e-9);
   EXPECT_NEAR(forward().z, 1.0, 1e-9);
 }
@@ -585,6 +587,42 @@ TEST_F(Opening, LoadingIsCancelled) {
   EXPECT_EQ(view().browser.loading, "");
   EXPECT_EQ(shownScene(), "workspace");
   EXPECT_EQ(workspace_->problem(), "") << "which is no error";
+}
+
+TEST_F(Opening, FirstPictureIsTheThumbnailOfForeignFiles) {
+  const auto thumbnail = [&] { return workspace_->browser().thumbnails().at(view().browser.shown); };
+  Image8 picture(960, 400);
+  for (int x = 0; x < picture.width; ++x) {
+    std::fill_n(picture.at(x, 0), 4, uint8_t(7));
+  }
+  const auto expectThumbnail = [&](const char* of) {
+    EXPECT_EQ(thumbnail().width, 0) << of;
+    const int lists = host_.lists;
+    drawFrame(picture);
+    drawFrame(Image8(4, 4));
+    EXPECT_EQ(host_.lists, lists + 1) << "once";
+    const Image8 small = thumbnail();
+    ASSERT_EQ(small.width, 192) << of;
+    EXPECT_LT(*small.at(90, 0), 215) << "the dark row";
+    EXPECT_GT(*small.at(90, 50), 245);
+  };
+  expectThumbnail("the scene of the start");
+  drop({model("queen.obj")});
+  expectThumbnail("a model");
+  send(SaveAs{home_.path() / "saved.toml"});
+  expectThumbnail("a saved scene");
+  options_.scene = (home_.path() / "saved.toml").string();
+  start();
+  EXPECT_EQ(thumbnail().width, 192) << "in later sessions";
+  const auto frameDrawn = [&](const std::function<Image8()>& read) {
+    workspace_->frameDrawn({scene(), workspace_->state(0.0), workspace_->settings(), width, height}, read, nullptr);
+  };
+  frameDrawn([]() -> Image8 { throw std::runtime_error("no memory"); });
+  drop({sceneFile("no_mirror")});
+  frameDrawn([&] {
+    ADD_FAILURE() << "a scene that comes with a thumbnail needs no picture";
+    return picture;
+  });
 }
 
 TEST_F(Opening, ThumbnailsFollowTheList) {

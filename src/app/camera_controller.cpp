@@ -235,12 +235,13 @@ void CameraController::lookFrom(const MirrorState& mirror, MirrorSide side, doub
   target_ = eye_ + forward * std::max(distance, radius);
 }
 
-void CameraController::lookFromMirror(MirrorSide side, const SceneState& state, const Selection& selected,
-                                      std::span<const PassView> passes, double aspect) {
+int CameraController::lookFromMirror(MirrorSide side, const SceneState& state, const Selection& selected,
+                                     std::span<const PassView> passes, double aspect) {
   lastMirror_ = mirrorOfInterest(lastMirror_, state.mirrors.size(), selected, passes);
   if (lastMirror_ >= 0) {
     lookFrom(state.mirrors[static_cast<size_t>(lastMirror_)], side, aspect);
   }
+  return lastMirror_;
 }
 
 void CameraController::goToBookmark(size_t index, const Scene& scene) {

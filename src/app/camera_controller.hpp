@@ -53,9 +53,9 @@ class CameraController {
   // its back is seen. `aspect` as above.
   void lookFrom(const MirrorState& mirror, MirrorSide side, double aspect);
   // Looks so from the selected mirror, else from the one that fills most of the picture, else from the last one looked
-  // from.
-  void lookFromMirror(MirrorSide side, const SceneState& state, const Selection& selected,
-                      std::span<const PassView> passes, double aspect);
+  // from. Returns its index; -1 if the scene has none.
+  int lookFromMirror(MirrorSide side, const SceneState& state, const Selection& selected,
+                     std::span<const PassView> passes, double aspect);
 
   void goToBookmark(size_t index, const Scene& scene);
   void goToNextBookmark(const Scene& scene);

@@ -6,6 +6,7 @@
 #include <sstream>
 #include <utility>
 
+#include "accuracy/fingerprint.hpp"
 #include "image/picture_files.hpp"
 #include "platform/files.hpp"
 #include "platform/folders.hpp"
@@ -18,7 +19,8 @@ namespace {
 
 constexpr size_t mostListed = 64;  // files of one folder
 constexpr size_t mostRecent = 10;
-constexpr int largestThumbnail = 192;  // pixels; scripts/thumbnails makes no larger ones
+constexpr glm::ivec2 thumbnailSize(192, 108);  // pixels; scripts/thumbnails makes none of another size
+constexpr size_t mostThumbnails = 200;         // in the user's cache
 
 bool mayBeScene(const fs::path& file) {
   return file.extension() == ".toml";
@@ -39,6 +41,41 @@ std::vector<fs::path> filesIn(const fs::path& folder, bool (*wanted)(const fs::p
 
 fs::path recentFile() {
   return userConfigDir() / "recent";
+}
+
+fs::path shippedThumbnail(const fs::path& scene) {
+  return scene.parent_path() / "thumbnails" / (scene.stem().string() + ".jpg");
+}
+
+fs::path storedThumbnail(const fs::path& scene) {
+  Fingerprint path;
+  path.add(std::string_view(withoutLinks(scene).string()));
+  return userCacheDir() / "thumbnails" / (path.hex() + ".jpg");
+}
+
+// Returns the middle of the picture, shrunk by averages of its codes.
+Image8 shrunk(const Image8& picture) {
+  const glm::dvec2 size(picture.width, picture.height);
+  const double scale = std::min(size.x / thumbnailSize.x, size.y / thumbnailSize.y);
+  const glm::dvec2 corner = 0.5 * (size - scale * glm::dvec2(thumbnailSize));
+  Image8 small(thumbnailSize.x, thumbnailSize.y);
+  for (int y = 0; y < small.height; ++y) {
+    for (int x = 0; x < small.width; ++x) {
+      const glm::ivec2 low = glm::clamp(glm::ivec2(corner + scale * glm::dvec2(x, y)), {0, 0}, glm::ivec2(size) - 1);
+      const glm::ivec2 high = glm::max(glm::ivec2(corner + scale * glm::dvec2(x + 1, y + 1)), low + 1);
+      glm::ivec4 sum(0);
+      for (int v = low.y; v < high.y; ++v) {
+        for (int u = low.x; u < high.x; ++u) {
+          const uint8_t* code = picture.at(u, v);
+          sum += glm::ivec4(code[0], code[1], code[2], 1);
+        }
+      }
+      for (int i = 0; i < 3; ++i) {
+        small.at(x, y)[i] = static_cast<uint8_t>(sum[i] / sum.w);
+      }
+    }
+  }
+  return small;
 }
 
 }  // namespace
@@ -134,19 +171,34 @@ bool SceneBrowser::show(const fs::path& file, bool withFolder) {
 std::vector<Image8> SceneBrowser::thumbnails() const {
   std::vector<Image8> pictures;
   for (const SceneEntry& entry : view_.scenes) {
-    const fs::path file = entry.file.parent_path() / "thumbnails" / (entry.file.stem().string() + ".jpg");
-    std::error_code none;
+    const fs::path shipped = shippedThumbnail(entry.file);
+    const fs::path file = isFile(shipped) ? shipped : storedThumbnail(entry.file);
     Image8 picture;
     try {
-      picture = fs::exists(file, none) ? readImage8(file) : Image8();
+      picture = isFile(file) ? readImage8(file) : Image8();
     } catch (const std::runtime_error& error) {
       spdlog::warn("{}", error.what());
     }
     // Drops a large picture, which would leave too little of the shared texture for the fonts.
-    const bool fits = picture.width <= largestThumbnail && picture.height <= largestThumbnail;
+    const bool fits = picture.width <= thumbnailSize.x && picture.height <= thumbnailSize.x;
     pictures.push_back(fits ? std::move(picture) : Image8());
   }
   return pictures;
+}
+
+bool SceneBrowser::storeThumbnail(const std::function<Image8()>& picture) const {
+  const fs::path& scene = view_.scenes[view_.shown].file;
+  if (isNew(scene) || isFile(shippedThumbnail(scene))) {
+    return false;
+  }
+  const fs::path file = storedThumbnail(scene);
+  keepNewest(file.parent_path(), mostThumbnails);
+  try {
+    return storeFile(file, encodeJpeg(shrunk(picture()), 80));
+  } catch (const std::runtime_error& error) {  // the GPU may have no memory left to read the picture
+    spdlog::info("no thumbnail of {}: {}", scene.string(), error.what());
+    return false;
+  }
 }
 
 void SceneBrowser::open(const fs::path& file, const Options& options) {

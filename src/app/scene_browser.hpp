@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <map>
 
 #include "app/background_job.hpp"
@@ -19,6 +20,8 @@ class SceneBrowser {
   // folder. A new scene is listed while it is shown. Returns true if the list changed.
   bool show(const std::filesystem::path& file, bool withFolder);
   std::vector<Image8> thumbnails() const;  // of the list; without pixels for a scene that has none
+  // Makes a picture of the shown scene its thumbnail, unless the scene comes with one. Returns true if it did.
+  bool storeThumbnail(const std::function<Image8()>& picture) const;
 
   // Loads a scene or a model on a thread of its own, and cancels one that is loading.
   void open(const std::filesystem::path& file, const Options& options);

@@ -58,10 +58,7 @@ void Workspace::apply(const Command& command) {
                  [&](const ToggleCameraMode&) { camera_.toggleMode(); },
                  [&](const SetCameraMode& c) { camera_.setMode(c.mode); },
                  [&](const FrameSelection&) { frame(editor().document().selection()); },
-                 [&](const LookFromMirror& c) {
-                   camera_.lookFromMirror(c.side, evaluate(scene(), time()), editor().document().selection(),
-                                          report_.view().passes, aspect());
-                 },
+                 [&](const LookFromMirror& c) { lookFromMirror(c.side); },
                  [&](const AddBookmark&) {
                    editor().addBookmark(camera_.bookmark(state(time()).camera, scene().camera));
                    camera_.setBookmark(static_cast<int>(scene().bookmarks.size()) - 1);
@@ -275,6 +272,9 @@ void Workspace::frameDrawn(const ShownPicture& shown, const std::function<Image8
     saved.logged ? status_.set(saved.message) : status_.show(saved.message);
   }
   accuracy_.afterFrame(shown, watchedView(shown.state), radiance);
+  if (radiance && options_.frames == 0 && std::exchange(needsThumbnail_, false) && browser().storeThumbnail(radiance)) {
+    host_.scenesListed();
+  }
   tookBack_ = false;
 }
 
@@ -290,6 +290,7 @@ void Workspace::showScene(std::unique_ptr<LoadedScene> scene) {
     return host_.useScene(loaded_->scene);
   }
   startDocument();
+  needsThumbnail_ = true;
   status_.sceneChanged();
   playback_.seek(0.0);
   if (isModelFile(loaded_->scene.file)) {
@@ -351,6 +352,7 @@ void Workspace::resume(const std::optional<Command>& afterPrompt) {
   if (document_->savedSinceLastCall()) {
     status_.set(document_->note());
     opener_.forgetSaved();
+    needsThumbnail_ = true;
     if (browser().show(scene().file, false)) {
       host_.scenesListed();
     }
@@ -408,6 +410,20 @@ void Workspace::frame(const Selection& node) {
     const glm::dvec2 corner = 2.0 * glm::dvec2(free.x, free.y) / size;
     camera_.frame(bounds, aspect(), {.center = {corner.x + half.x - 1.0, 1.0 - corner.y - half.y}, .half = half});
   }
+}
+
+// Reports what is seen, because a back that does not reflect looks like a fault.
+void Workspace::lookFromMirror(MirrorSide side) {
+  const int mirror = camera_.lookFromMirror(side, evaluate(scene(), time()), editor().document().selection(),
+                                            report_.view().passes, aspect());
+  if (mirror < 0) {
+    return status_.set("The scene has no mirror to look from");
+  }
+  const std::string name = describe(scene(), {Selection::Kind::mirror, mirror});
+  const bool reflects = scene().mirrors[static_cast<size_t>(mirror)].twoSided;
+  const std::string back =
+      reflects ? ", which reflects on both sides" : ": its back does not reflect. Shift+B: its front";
+  status_.set(side == MirrorSide::front ? "Looking out of " + name : "Behind " + name + back);
 }
 
 // Returns the options that draw the present view of the scene in `file`.

@@ -111,6 +111,7 @@ class Workspace {
   void copyCommandLine();
   void measureAccuracy();
   void frame(const Selection& node);  // none: the whole scene
+  void lookFromMirror(MirrorSide side);
   void takeSceneChange();
   bool animated() const { return camera_.moved() ? contentMoves(scene()) : moves(scene()); }
   std::optional<SceneView> sceneView(double time);
@@ -138,6 +139,7 @@ class Workspace {
   std::string title_;            // of the window
   uint64_t shownStructure_ = 0;  // of the scene, in the last frame
   bool tookBack_ = false;        // a step, and no frame was drawn since
+  bool needsThumbnail_ = true;   // the scene was opened or saved since the last picture
 };
 
 }  // namespace speculum

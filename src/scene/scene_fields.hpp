@@ -95,11 +95,12 @@ inline const auto fieldsOf<Copies> =
                       .shown = [](const Copies& copies) { return copies.count > 1; }})};
 
 template <>
-inline const auto fieldsOf<ObjectMirror> = std::tuple{
-    field(&ObjectMirror::reflectance, "reflectance", "as of a mirror",
-          {.range = kUnit, .alwaysSaved = true, .color = true}),
-    field(&ObjectMirror::fresnel, "fresnel", "as of a mirror"),
-    field(&ObjectMirror::baseColor, "base_color", "as of a mirror", {.range = kSurfaceColor, .color = true})};
+inline const auto fieldsOf<ObjectMirror> =
+    std::tuple{field(&ObjectMirror::reflectance, "reflectance", "share of light reflected, the tint",
+                     {.label = "Reflectance (tint)", .range = kUnit, .alwaysSaved = true, .color = true}),
+               field(&ObjectMirror::fresnel, "fresnel", "schlick: more at grazing angles"),
+               field(&ObjectMirror::baseColor, "base_color", "diffuse layer under the reflection",
+                     {.label = "Diffuse color", .range = kSurfaceColor, .color = true})};
 
 template <>
 inline const auto fieldsOf<Object> = std::tuple{
@@ -179,10 +180,10 @@ inline const auto fieldsOf<Mirror> = std::tuple{
     field(&Mirror::spin, "spin", "added to the rotation",
           {.unit = "deg/s", .range = kTurn, .use = FieldUse::placement, .step = 0.5, .applies = isRectangle}),
     field(&Mirror::reflectance, "reflectance", "share of light reflected, the tint; with Fresnel at normal incidence",
-          {.range = kUnit, .color = true}),
+          {.label = "Reflectance (tint)", .range = kUnit, .color = true}),
     field(&Mirror::fresnel, "fresnel", "schlick: more at grazing angles"),
     field(&Mirror::baseColor, "base_color", "diffuse layer under the reflection",
-          {.range = kSurfaceColor, .color = true}),
+          {.label = "Diffuse color", .range = kSurfaceColor, .color = true}),
     field(&Mirror::twoSided, "two_sided", "reflects on its back too"),
     field(&Mirror::backColor, "back_color", "diffuse color of the back of a one-sided mirror",
           {.range = kSurfaceColor, .color = true, .shown = [](const Mirror& mirror) { return !mirror.twoSided; }}),

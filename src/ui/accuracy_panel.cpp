@@ -12,8 +12,8 @@ namespace speculum::panels {
 
 namespace {
 
-constexpr ImU32 frontColor = IM_COL32(250, 190, 70, 255);
-constexpr ImU32 chosenColor = IM_COL32(110, 200, 120, 255);  // of a point off the front that a bound chose
+constexpr ImU32 frontColor = IM_COL32(230, 145, 30, 255);
+constexpr ImU32 chosenColor = IM_COL32(60, 170, 85, 255);  // of a point off the front that a bound chose
 constexpr ImU32 otherColor = IM_COL32(130, 150, 180, 200);
 constexpr float gridOpacity = 0.16f;
 constexpr double leastError = 1e-4;  // where a point of error 0 is drawn
@@ -118,25 +118,26 @@ const char* colorHelp(const AccuracyView& accuracy, int point) {
 }
 
 void drawPoints(ImDrawList& list, const Plot& plot, const AccuracyView& accuracy, int hovered) {
+  const float em = ImGui::GetFontSize();
   for (size_t i = 1; i < accuracy.front.size(); ++i) {
     list.AddLine(plot.at(accuracy.points[accuracy.front[i - 1]]), plot.at(accuracy.points[accuracy.front[i]]),
-                 frontColor, 1.5f);
+                 frontColor, 0.1f * em);
   }
   for (int i = 0; i < static_cast<int>(accuracy.points.size()); ++i) {
     const PointView& point = accuracy.points[i];
     const ImU32 color = isOnFront(accuracy, i) ? frontColor : i == accuracy.chosen ? chosenColor : otherColor;
     const ImVec2 place = plot.at(point);
-    list.AddLine({plot.x(point.lowerMs), place.y}, {plot.x(point.upperMs), place.y}, color);
-    list.AddCircleFilled(place, i == hovered ? 6.0f : 4.0f, color);
+    list.AddLine({plot.x(point.lowerMs), place.y}, {plot.x(point.upperMs), place.y}, color, 0.07f * em);
+    list.AddCircleFilled(place, (i == hovered ? 0.4f : 0.27f) * em, color);
     if (i == accuracy.current) {
-      list.AddCircle(place, 8.0f, ImGui::GetColorU32(ImGuiCol_Text), 0, 2.0f);
+      list.AddCircle(place, 0.53f * em, ImGui::GetColorU32(ImGuiCol_Text), 0, 0.13f * em);
     }
   }
 }
 
 int nearestPoint(const Plot& plot, const AccuracyView& accuracy, const ImVec2& mouse) {
   int nearest = -1;
-  float best = 12.0f;
+  float best = 0.8f * ImGui::GetFontSize();
   for (int i = 0; i < static_cast<int>(accuracy.points.size()); ++i) {
     const ImVec2 place = plot.at(accuracy.points[i]);
     const float distance = std::hypot(place.x - mouse.x, place.y - mouse.y);
@@ -152,10 +153,12 @@ int nearestPoint(const Plot& plot, const AccuracyView& accuracy, const ImVec2& m
 void plot(PanelContext& ui) {
   const AccuracyView& accuracy = ui.view.accuracy;
   const ImVec2 corner = ImGui::GetCursorScreenPos();
-  const ImVec2 size(ImGui::GetContentRegionAvail().x, 15.0f * ImGui::GetFontSize());
+  const float em = ImGui::GetFontSize();
+  const ImVec2 room = ImGui::GetContentRegionAvail();
+  const ImVec2 size(room.x, std::clamp(room.y - 11.0f * em, 7.0f * em, 15.0f * em));  // the rest is for what is below
   ImGui::InvisibleButton("plot", size);
   recordWidget(ui, "accuracy.plot");
-  const Plot plot = plotOf(accuracy, corner, {size.x, size.y - 1.2f * ImGui::GetFontSize()});  // labels are below
+  const Plot plot = plotOf(accuracy, corner, {size.x, size.y - 1.2f * em});  // labels are below
   const int hovered = ImGui::IsItemHovered() ? nearestPoint(plot, accuracy, ImGui::GetMousePos()) : -1;
   ImDrawList& list = *ImGui::GetWindowDrawList();
   list.PushClipRect(corner, {corner.x + size.x, corner.y + size.y}, true);

@@ -10,7 +10,7 @@ void effects(PanelContext& ui) {
     called += effect.calledFor;
   }
   const std::string title = "Effects (" + std::to_string(called) + " in use)###effects";
-  if (!ImGui::CollapsingHeader(title.c_str())) {
+  if (!section(ui, title.c_str(), ui.state.choices.effectsSection)) {
     return;
   }
   settingRows(ui, "effects.");

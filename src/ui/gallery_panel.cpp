@@ -1,7 +1,9 @@
 #include <imgui.h>
+#include <imgui_internal.h>
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "ui/elide.hpp"
 #include "ui/panels.hpp"
@@ -63,11 +65,16 @@ void gallery(PanelContext& ui, const Thumbnails& thumbnails) {
   const float room = ImGui::GetContentRegionAvail().x + gap;
   const int columns = std::max(1, static_cast<int>(room / (tileEms * ImGui::GetFontSize() + gap)));
   const float width = std::floor(room / static_cast<float>(columns) - gap);
+  int* found = ImGui::GetStateStorage()->GetIntRef(ImGui::GetID("shown"), -1);  // the tile that was scrolled to
   for (size_t i = 0; i < ui.view.browser.scenes.size(); ++i) {
     if (i % static_cast<size_t>(columns) > 0) {
       ImGui::SameLine();
     }
     tile(ui, thumbnails, i, {width, width / tileAspect});
+    const int index = static_cast<int>(i);
+    if (i == ui.view.browser.shown && std::exchange(*found, index) != index) {
+      ImGui::ScrollToBringRectIntoView(ImGui::GetCurrentWindow(), ImGui::GetCurrentContext()->LastItemData.Rect);
+    }
   }
 }
 

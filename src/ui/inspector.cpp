@@ -19,8 +19,9 @@ void nodeList(PanelContext& ui) {
   if (std::exchange(ui.state.focusNodes, false)) {
     ImGui::SetNextWindowFocus();
   }
-  ImGui::BeginChild("nodes", ImVec2(0.0f, 7.5f * ImGui::GetTextLineHeightWithSpacing()), true,
-                    ui.state.openedAt ? ImGuiWindowFlags_NoMouseInputs : 0);
+  const float line = ImGui::GetTextLineHeightWithSpacing();
+  const float height = std::clamp(0.25f * ImGui::GetContentRegionAvail().y, 3.5f * line, 7.5f * line);
+  ImGui::BeginChild("nodes", ImVec2(0.0f, height), true, ui.state.openedAt ? ImGuiWindowFlags_NoMouseInputs : 0);
   int* shown = ImGui::GetStateStorage()->GetIntRef(ImGui::GetID("shown"), -1);  // the row that was scrolled to
   int row = 0;
   for (const Selection& node : allNodes(*edit.scene)) {
@@ -148,7 +149,8 @@ void selectedNode(PanelContext& ui) {
   if (edit.selected.kind == Selection::Kind::mirror) {
     commandButton(ui, "Look out of mirror", "edit.look_out", "Looks out of the mirror (Shift+B).",
                   LookFromMirror{MirrorSide::front});
-    nextButton(ui, "Look from behind", "edit.look_behind", "Looks through the mirror at what it shows (B).",
+    nextButton(ui, "Look from behind", "edit.look_behind",
+               "Looks at the mirror's back from behind, or at the wall that it hangs on (B).",
                LookFromMirror{MirrorSide::back});
     dimmedText(mirrorCost(ui.view.frame, edit.selected.index));
     recordWidget(ui, "edit.mirror_cost",
@@ -161,7 +163,7 @@ void selectedNode(PanelContext& ui) {
     ImGui::PopItemWidth();
   }
   gizmoMode(ui);
-  ImGui::PushItemWidth(-8.0f * ImGui::GetFontSize());
+  ImGui::PushItemWidth(-9.2f * ImGui::GetFontSize());
   SceneNode node = nodeOf(*edit.scene, edit.selected);
   const bool edited = fieldRows(ui, node);
   ImGui::PopItemWidth();
@@ -174,14 +176,14 @@ void selectedNode(PanelContext& ui) {
 }  // namespace
 
 void inspector(PanelContext& ui, PanelDock& dock) {
-  if (!ui.state.inspector) {
+  if (!ui.state.choices.inspector) {
     return;
   }
   if (ui.state.focusNodes) {
     ImGui::SetNextWindowFocus();
   }
   ImGui::SetNextWindowBgAlpha(1.0f);
-  if (dock.begin(inspectorTitle, &ui.state.inspector, PanelDock::Edge::right, inspectorEms,
+  if (dock.begin(inspectorTitle, &ui.state.choices.inspector, PanelDock::Edge::right, inspectorEms,
                  ui.state.openedAt ? ImGuiWindowFlags_NoMouseInputs : 0)) {
     nodeList(ui);
     addButtons(ui);

@@ -57,12 +57,15 @@ class Painter {
     const ImU32 edge = isPlane(shape.handle) ? color : shade;
     list_.AddPolyline(points.data(), count, edge, ImDrawFlags_Closed, 1.5f);
   }
-  void label(const std::string& text, const glm::dvec2& where) {
-    const ImVec2 size = ImGui::CalcTextSize(text.c_str());
-    const ImVec2 corner(at(where).x + 18.0f, at(where).y + 14.0f);
-    list_.AddRectFilled(ImVec2(corner.x - 6.0f, corner.y - 4.0f),
-                        ImVec2(corner.x + size.x + 6.0f, corner.y + size.y + 4.0f), IM_COL32(0, 0, 0, 190), 4.0f);
-    list_.AddText(corner, IM_COL32_WHITE, text.c_str());
+  // Draws the label beside the place, but within `room`.
+  void label(const std::string& text, const glm::dvec2& where, const WindowRect& room) {
+    const glm::vec2 edge(6.0f, 4.0f);
+    const ImVec2 letters = ImGui::CalcTextSize(text.c_str());
+    const glm::vec2 size = glm::vec2(letters.x, letters.y) + 2.0f * edge;
+    const glm::vec2 wish = glm::vec2(at(where).x, at(where).y) + glm::vec2(12.0f, 10.0f);
+    const glm::vec2 low = glm::max(glm::min(wish, room.corner + room.size - size), room.corner);
+    list_.AddRectFilled({low.x, low.y}, {low.x + size.x, low.y + size.y}, IM_COL32(0, 0, 0, 190), 4.0f);
+    list_.AddText({low.x + edge.x, low.y + edge.y}, IM_COL32_WHITE, text.c_str());
   }
 
  private:
@@ -87,7 +90,7 @@ void passOutline(const PanelContext& ui) {
   painter.lines(ui.view.frame.outline, IM_COL32(255, 196, 40, 255), width);
 }
 
-void editOverlay(const OverlayView& overlay) {
+void editOverlay(const OverlayView& overlay, const WindowRect& picture) {
   Painter painter;
   painter.lines(overlay.itself, itselfColor, 1.5f);
   painter.shaded(overlay.outline, outlineColor, 2.0f);
@@ -95,7 +98,7 @@ void editOverlay(const OverlayView& overlay) {
     painter.shape(shape, shape.handle == overlay.active);
   }
   if (!overlay.label.empty()) {
-    painter.label(overlay.label, overlay.labelAt);
+    painter.label(overlay.label, overlay.labelAt, picture);
   }
 }
 

@@ -14,6 +14,7 @@ namespace speculum {
 namespace {
 
 constexpr std::string_view openWord = "open";
+constexpr std::string_view closedWord = "closed";
 constexpr std::string_view percentWord = "percent";
 constexpr std::string_view themeWord = "theme";
 constexpr std::string_view lightWord = "light";
@@ -30,8 +31,10 @@ PanelChoices savedPanelChoices() {
   std::string word;
   std::string value;
   while (lines >> word >> value) {
-    for (const PanelName& panel : panelNames) {
-      choices.*panel.open = choices.*panel.open || (word == openWord && value == panel.name);
+    for (const PanelName& panel : rememberedPanels) {
+      if (value == panel.name && (word == openWord || word == closedWord)) {
+        choices.*panel.open = word == openWord;
+      }
     }
     if (word == themeWord) {
       choices.theme = value == lightWord ? Theme::light : Theme::dark;
@@ -46,8 +49,10 @@ PanelChoices savedPanelChoices() {
 void savePanelChoices(const PanelChoices& choices) {
   std::string text = fmt::format("{} {}\n", percentWord, choices.percent);
   text += choices.theme == Theme::light ? fmt::format("{} {}\n", themeWord, lightWord) : "";
-  for (const PanelName& panel : panelNames) {
-    text += choices.*panel.open ? fmt::format("{} {}\n", openWord, panel.name) : "";
+  for (const PanelName& panel : rememberedPanels) {
+    const bool open = choices.*panel.open;
+    const bool usual = open == PanelChoices().*panel.open;
+    text += usual ? "" : fmt::format("{} {}\n", open ? openWord : closedWord, panel.name);
   }
   if (!storeFile(choicesFile(), text)) {
     spdlog::warn("{} cannot be written: the choices of the panel are not remembered", choicesFile().string());

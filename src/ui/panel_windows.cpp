@@ -46,10 +46,12 @@ UiOutput PanelWindows::build(const UiView& view) {
     sideWindows(ui);
     panels::besideTarget(ui, [&] { panels::passOutline(ui); });
     panels::help(ui);
-  }
-  panels::besideTarget(ui, [&] { panels::editOverlay(view.edit.overlay); });
-  if (visible_) {
     panels::inspector(ui, dock_);
+  }
+  panels::besideTarget(ui, [&] { panels::editOverlay(view.edit.overlay, freeRect()); });
+  if (state_.choices != savedChoices_) {
+    savedChoices_ = state_.choices;
+    savePanelChoices(savedChoices_);
   }
   panels::message(ui, freeRect());
   panels::prompts(ui);
@@ -105,14 +107,14 @@ void PanelWindows::menuBar(PanelContext& ui) {
 }
 
 void PanelWindows::windowMenu(PanelContext& ui) {
-  ImGui::MenuItem("Inspector", keysOf(ToggleInspector{}), &state_.inspector);
   for (const PanelName& panel : panelNames) {
-    ImGui::MenuItem(panel.name.data(), nullptr, &(state_.choices.*panel.open));
+    const char* keys = panel.open == &PanelChoices::inspector ? keysOf(ToggleInspector{}) : nullptr;
+    ImGui::MenuItem(panel.name.data(), keys, &(state_.choices.*panel.open));
     panels::tip(panel.about);
   }
   ImGui::Separator();
   for (const auto& [name, place, theme] :
-       {std::tuple("Dark", "theme.dark", Theme::dark), std::tuple("Light", "theme.light", Theme::light)}) {
+       {std::tuple("Dark theme", "theme.dark", Theme::dark), std::tuple("Light theme", "theme.light", Theme::light)}) {
     if (ImGui::MenuItem(name, nullptr, state_.choices.theme == theme)) {
       state_.choices.theme = theme;
     }
@@ -128,9 +130,9 @@ void PanelWindows::windowMenu(PanelContext& ui) {
   ImGui::Separator();
   if (ImGui::MenuItem("Reset layout")) {
     dock_.reset();
-    state_.inspector = state_.help = false;
-    for (const PanelName& panel : panelNames) {
-      state_.choices.*panel.open = false;
+    state_.help = false;
+    for (const PanelName& panel : rememberedPanels) {
+      state_.choices.*panel.open = PanelChoices().*panel.open;
     }
   }
   panels::recordWidget(ui, "window.reset");
@@ -180,7 +182,7 @@ void PanelWindows::sideWindows(PanelContext& ui) {
   };
   PanelChoices& choices = state_.choices;
   window("Scenes", choices.scenes, {24.2f, 46.5f}, [&] { panels::gallery(ui, thumbnails_); });
-  window("Performance", choices.performance, {27.0f, 22.0f}, [&] { panels::performance(ui); });
+  window("Performance", choices.performance, {27.0f, 30.0f}, [&] { panels::performance(ui); });
   window("Accuracy", choices.accuracy, {27.0f, 40.0f}, [&] { panels::accuracy(ui); });
   window("Device", choices.device, {27.0f, 30.0f}, [&] { panels::device(ui); });
   window("Log", choices.log, {27.0f, 14.0f}, [&] { panels::log(ui); });
@@ -194,10 +196,6 @@ void PanelWindows::sideWindows(PanelContext& ui) {
     state_.targets.path.reset();
     ui.output.target.reset();
   }
-  if (choices != savedChoices_) {
-    savedChoices_ = choices;
-    savePanelChoices(choices);
-  }
 }
 
 void PanelWindows::toggleHelp() {
@@ -206,21 +204,22 @@ void PanelWindows::toggleHelp() {
 }
 
 void PanelWindows::toggleInspector() {
-  state_.inspector = !state_.inspector;
-  state_.focusNodes = state_.inspector;
-  visible_ = visible_ || state_.inspector;
+  bool& open = state_.choices.inspector;
+  open = !open;
+  state_.focusNodes = open;
+  visible_ = visible_ || open;
 }
 
 // Opens the inspector, which ignores the pointer until it moves: a further click at the same place is for the picture.
 void PanelWindows::openInspector() {
-  if (!std::exchange(state_.inspector, true)) {
+  if (!std::exchange(state_.choices.inspector, true)) {
     const ImVec2 pointer = ImGui::GetIO().MousePos;
     state_.openedAt = glm::vec2(pointer.x, pointer.y);
   }
 }
 
 bool PanelWindows::inspectorCovers(const glm::vec2& place) const {
-  return visible_ && !state_.inspector &&
+  return visible_ && !state_.choices.inspector &&
          dock_.wouldCover(panels::inspectorTitle, PanelDock::Edge::right, panels::inspectorEms, place);
 }
 

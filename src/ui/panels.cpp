@@ -190,6 +190,13 @@ void recordWidget(PanelContext& ui, std::string_view key, const std::string& abo
   }
 }
 
+bool section(PanelContext& ui, const char* label, bool& open) {
+  ImGui::SetNextItemOpen(open);
+  open = ImGui::CollapsingHeader(label);
+  recordWidget(ui, std::string("section.") + label);
+  return open;
+}
+
 bool button(PanelContext& ui, const char* label, std::string_view key, const std::string& about, bool enabled) {
   ImGui::BeginDisabled(!enabled);
   const bool pressed = ImGui::Button(label);
@@ -331,21 +338,17 @@ void scene(PanelContext& ui) {
   commandButton(ui, "Copy command line", "copy",
                 "Copies a speculum render call that draws this view. Unsaved changes go into a copy of the scene.",
                 CopyCommandLine{});
-  continueRow("Inspector");
-  if (button(ui, "Inspector", "edit.open", "Selects, moves, adds and deletes objects, lights and mirrors (F2).")) {
-    ui.state.inspector = !ui.state.inspector;
-  }
   nextButton(ui, "Screenshot", "screenshot", "Saves the window as a picture (F12); Shift+F12 leaves the panels out.",
              TakeScreenshot{true});
 }
 
 void settings(PanelContext& ui) {
-  if (ImGui::CollapsingHeader("View", ImGuiTreeNodeFlags_DefaultOpen)) {
+  if (section(ui, "View", ui.state.choices.viewSection)) {
     settingRows(ui, "view.");
     settingRows(ui, "quality.motion_ms");
     settingRows(ui, "quality.still_pictures");
   }
-  if (ImGui::CollapsingHeader("Reflections", ImGuiTreeNodeFlags_DefaultOpen)) {
+  if (section(ui, "Reflections", ui.state.choices.reflectionsSection)) {
     settingRows(ui, "reflection.");
   }
   commandButton(ui, "Reset settings", "settings.reset", "Returns to the settings that the scene was opened with.",

@@ -14,7 +14,6 @@ namespace speculum {
 struct PanelState {
   PanelChoices choices;
   bool help = false;
-  bool inspector = false;
   std::optional<glm::vec2> openedAt;  // pointer when a click opened the inspector, until it moves
   bool focusNodes = false;            // the list of nodes takes the keyboard in the next frame
   bool editing = false;               // a continued EditNode has not ended
@@ -109,7 +108,7 @@ void prompts(PanelContext& ui);                             // over all others, 
 void passOutline(const PanelContext& ui);  // around the mirror whose row is under the pointer
 // Call while the pointer is on a row of a mirror, which `path` leads to: outlines the mirror, and a click selects it.
 void mirrorRow(PanelContext& ui, const std::vector<int>& path);
-void editOverlay(const OverlayView& overlay);
+void editOverlay(const OverlayView& overlay, const WindowRect& picture);  // `picture`: as far as panels leave it free
 // Draws behind all windows, but not over the target that the Targets window shows.
 void besideTarget(const PanelContext& ui, const std::function<void()>& draw);
 
@@ -157,6 +156,8 @@ void dimmedText(const std::string& text);
 inline constexpr glm::vec3 errorColor{0.92f, 0.38f, 0.28f};  // display sRGB
 inline constexpr glm::vec3 warningColor{0.85f, 0.60f, 0.10f};
 void coloredText(const glm::vec3& color, const std::string& text);
+// ImGui::CollapsingHeader that is open or closed as in the user's choices, and recorded as "section." and the label.
+bool section(PanelContext& ui, const char* label, bool& open);
 // Draws a button, records it and shows its tooltip. The second sends the command when it is pressed; the third also
 // continues the row.
 bool button(PanelContext& ui, const char* label, std::string_view key, const std::string& tip, bool enabled = true);

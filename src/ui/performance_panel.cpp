@@ -10,7 +10,9 @@ namespace speculum::panels {
 
 namespace {
 
-constexpr size_t fewest = 60;  // least number of frames across a graph
+constexpr size_t fewest = 60;       // least number of frames across a graph
+constexpr float largeGraph = 3.2f;  // height in sizes of the font, if there is room
+constexpr float smallGraph = 1.6f;  // that of a pass
 
 // Draws a graph from 0 up; frames without a figure leave a gap.
 void graph(const char* name, std::vector<float> values, float height) {
@@ -48,12 +50,22 @@ void row(PanelContext& ui, const std::string& name, const std::vector<float>& va
 
 // Draws the rows of passes, each followed by those that are seen in it.
 void passRows(PanelContext& ui, const std::vector<std::string>& names, std::span<const PassBranch> branches,
-              int depth = 0) {
+              float height, int depth = 0) {
   for (const PassBranch& branch : branches) {
     const std::string& name = names[static_cast<size_t>(branch.pass)];
-    row(ui, name, ui.view.frame.history.filledSeries(name), 1.6f * ImGui::GetFontSize(), depth);
-    passRows(ui, names, branch.children, depth + 1);
+    row(ui, name, ui.view.frame.history.filledSeries(name), height, depth);
+    passRows(ui, names, branch.children, height, depth + 1);
   }
+}
+
+constexpr float figures = 3.0f;  // rows above those of passes
+
+// Returns how high graphs are: 0: as a line of text; 1: as high as wished, if all rows then fit into the room.
+float graphShare(float room, float passes) {
+  const float em = ImGui::GetFontSize();
+  const float line = ImGui::GetTextLineHeight() + 2.0f * ImGui::GetStyle().CellPadding.y;
+  const float spare = room - (1.0f + figures + passes) * line;
+  return std::clamp(spare / ((figures * (largeGraph - 1.0f) + passes * (smallGraph - 1.0f)) * em), 0.0f, 1.0f);
 }
 
 bool beginRows(PanelContext& ui, const char* id) {
@@ -65,7 +77,7 @@ bool beginRows(PanelContext& ui, const char* id) {
     return false;
   }
   ImGui::TableSetupScrollFreeze(0, 1);
-  ImGui::TableSetupColumn("ms", ImGuiTableColumnFlags_WidthStretch, 1.5f);
+  ImGui::TableSetupColumn("ms", ImGuiTableColumnFlags_WidthStretch, 2.0f);
   figureColumn("Median", 3.2f);
   figureColumn("p95", 3.2f);
   ImGui::TableSetupColumn("Graph", ImGuiTableColumnFlags_WidthStretch, 1.0f);
@@ -95,19 +107,21 @@ void performance(PanelContext& ui) {
   if (button(ui, "Copy as CSV", "performance.copy", "Copies all figures of the frames below.")) {
     ui.send(CopyText{history.csv()});
   }
-  const std::string frames = std::to_string(history.frames()) + (history.lowered() ? " draft frames" : " frames");
+  const std::string frames = std::to_string(history.frames()) + (history.lowered() ? " draft" : "") +
+                             (history.frames() == 1 ? " frame" : " frames");
   continueRow(frames.c_str());
   ImGui::AlignTextToFramePadding();
   ImGui::TextDisabled("%s", frames.c_str());
-  const float em = ImGui::GetFontSize();
+  const std::vector<std::string> names = history.passNames();
+  const float share = graphShare(ImGui::GetContentRegionAvail().y, static_cast<float>(names.size()));
+  const auto height = [&](float most) { return std::lerp(1.0f, most, share) * ImGui::GetFontSize(); };
   if (!beginRows(ui, "times")) {
     return;
   }
-  row(ui, "Frame", history.series(FrameHistory::Figure::frame), 3.2f * em);
-  row(ui, "CPU", history.series(FrameHistory::Figure::cpu), 3.2f * em);
-  row(ui, "GPU", history.series(FrameHistory::Figure::gpu), 3.2f * em);
-  const std::vector<std::string> names = history.passNames();
-  passRows(ui, names, passTree(names));
+  row(ui, "Frame", history.series(FrameHistory::Figure::frame), height(largeGraph));
+  row(ui, "CPU", history.series(FrameHistory::Figure::cpu), height(largeGraph));
+  row(ui, "GPU", history.series(FrameHistory::Figure::gpu), height(largeGraph));
+  passRows(ui, names, passTree(names), height(smallGraph));
   ImGui::EndTable();
 }
 
