@@ -5,7 +5,6 @@
 #include "edit/outline.hpp"
 #include "edit/transform.hpp"
 #include "geometry/affine.hpp"
-#include "geometry/reflection.hpp"
 #include "test_headers.hpp"
 #include "triangles.hpp"
 

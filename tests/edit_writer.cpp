@@ -5,7 +5,6 @@
 #include "error_message.hpp"
 #include "field_changes.hpp"
 #include "frame/setting_fields.hpp"
-#include "image/color.hpp"
 
 namespace speculum {
 namespace {
