@@ -1,4 +1,5 @@
 #include "accuracy/flip.hpp"
+#include "made_pictures.hpp"
 #include "test_headers.hpp"
 
 namespace speculum {
@@ -9,15 +10,8 @@ constexpr double tolerance = 2e-4;
 
 template <typename Color>
 ComparedImage picture(Color&& color) {
-  Image8 image(size, size);
-  for (int y = 0; y < size; ++y) {
-    for (int x = 0; x < size; ++x) {
-      const glm::dvec3 c = 255.0 * color(x, y);
-      std::copy_n(std::array{static_cast<uint8_t>(c.r), static_cast<uint8_t>(c.g), static_cast<uint8_t>(c.b)}.begin(),
-                  3, image.at(x, y));
-    }
-  }
-  return comparedImage(image);
+  return comparedImage(testing_support::madePicture(
+      size, size, [&](int x, int y) { return glm::ivec4(255.0 * glm::dvec4(color(x, y), 1.0)); }));
 }
 
 ComparedImage constant(const glm::dvec3& c) {

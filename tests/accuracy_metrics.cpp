@@ -3,37 +3,21 @@
 #include "accuracy/image_metrics.hpp"
 #include "error_message.hpp"
 #include "image/color.hpp"
+#include "made_pictures.hpp"
 #include "test_headers.hpp"
 
 namespace speculum {
 namespace {
 
-Image8 gradient(int width, int height) {
-  Image8 image(width, height);
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      image.at(x, y)[0] = static_cast<uint8_t>(x * 5 % 256);
-      image.at(x, y)[1] = static_cast<uint8_t>(y * 7 % 256);
-      image.at(x, y)[2] = static_cast<uint8_t>((x + y) * 3 % 256);
-    }
-  }
-  return image;
-}
-
-Image8 gray(int width, int height, uint8_t code) {
-  Image8 image(width, height);
-  for (size_t i = 0; i < image.rgba.size(); ++i) {
-    image.rgba[i] = i % 4 == 3 ? 255 : code;
-  }
-  return image;
-}
+using testing_support::greyPicture;
 
 Comparison compare(const Image8& a, const Image8& b, const CompareOptions& options = {}) {
   return compareImages(comparedImage(a, "a.png"), comparedImage(b, "b.png"), options);
 }
 
 TEST(ImageMetrics, EqualPicturesHaveNoError) {
-  const Image8 image = gradient(40, 30);
+  const Image8 image =
+      testing_support::madePicture(40, 30, [](int x, int y) { return glm::ivec4(5 * x, 7 * y, 3 * (x + y), 255); });
   const ImageMetrics m = compare(image, image).whole;
   EXPECT_EQ(m.rmse, 0.0);
   EXPECT_EQ(m.relativeRmse, 0.0);
@@ -46,7 +30,7 @@ TEST(ImageMetrics, EqualPicturesHaveNoError) {
 }
 
 TEST(ImageMetrics, ConstantPicturesFollowTheFormulas) {
-  const ImageMetrics m = compare(gray(32, 32, 128), gray(32, 32, 138)).whole;
+  const ImageMetrics m = compare(greyPicture(32, 32, 128), greyPicture(32, 32, 138)).whole;
   const double a = srgbDecode(128 / 255.0);
   const double b = srgbDecode(138 / 255.0);
   EXPECT_NEAR(m.rmse, b - a, 1e-7);
@@ -61,7 +45,7 @@ TEST(ImageMetrics, ConstantPicturesFollowTheFormulas) {
 }
 
 TEST(ImageMetrics, CountsAndPercentilesTakeTheWorstChannel) {
-  const Image8 a = gray(20, 10, 100);
+  const Image8 a = greyPicture(20, 10, 100);
   Image8 b = a;
   b.at(3, 2)[1] = 102;
   b.at(4, 2)[2] = 97;
@@ -75,7 +59,7 @@ TEST(ImageMetrics, CountsAndPercentilesTakeTheWorstChannel) {
 }
 
 TEST(ImageMetrics, UnderAMaskOnlyItsPixelsCount) {
-  const Image8 a = gray(40, 40, 100);
+  const Image8 a = greyPicture(40, 40, 100);
   Image8 b = a;
   PixelMask mask{40, 40, std::vector<uint8_t>(1600, 0)};
   for (int y = 0; y < 40; ++y) {
@@ -108,7 +92,7 @@ TEST(ImageMetrics, LinearPicturesAreClampedAndEncoded) {
 }
 
 TEST(ImageMetrics, RefusesPicturesThatCannotBeCompared) {
-  const std::string sizes = messageOf([] { compare(gray(4, 4, 0), gray(4, 5, 0)); });
+  const std::string sizes = messageOf([] { compare(greyPicture(4, 4, 0), greyPicture(4, 5, 0)); });
   EXPECT_TRUE(contains(sizes, "b.png"));
   EXPECT_TRUE(contains(sizes, "4x5"));
   EXPECT_TRUE(contains(sizes, "4x4"));
@@ -119,12 +103,12 @@ TEST(ImageMetrics, RefusesPicturesThatCannotBeCompared) {
   EXPECT_TRUE(contains(nan, "(2, 1)"));
   EXPECT_THROW(compare(Image8(), Image8()), std::runtime_error);
   const PixelMask mask{2, 2, std::vector<uint8_t>(4, 1)};
-  EXPECT_THROW(compare(gray(4, 4, 0), gray(4, 4, 0), {.mask = &mask}), std::runtime_error);
+  EXPECT_THROW(compare(greyPicture(4, 4, 0), greyPicture(4, 4, 0), {.mask = &mask}), std::runtime_error);
   EXPECT_THROW(readComparedImage("/no/such/file.png"), std::runtime_error);
 }
 
 TEST(ImageMetrics, JsonHasFixedKeysAndNullInfinity) {
-  const Image8 a = gray(16, 16, 90);
+  const Image8 a = greyPicture(16, 16, 90);
   const PixelMask mask{16, 16, std::vector<uint8_t>(256, 1)};
   const nlohmann::ordered_json json = comparisonJson(compare(a, a, {.mask = &mask}));
   std::vector<std::string> keys;
@@ -139,7 +123,7 @@ TEST(ImageMetrics, JsonHasFixedKeysAndNullInfinity) {
 }
 
 TEST(ImageMetrics, TableNamesEveryMetric) {
-  const std::string table = comparisonTable(compare(gray(16, 16, 90), gray(16, 16, 95)), 2.0);
+  const std::string table = comparisonTable(compare(greyPicture(16, 16, 90), greyPicture(16, 16, 95)), 2.0);
   for (const char* word : {"RMSE", "relative", "PSNR", "SSIM", "FLIP", "largest", "99th", "pixels over 2/255", "256"}) {
     EXPECT_TRUE(contains(table, word)) << word << " in\n" << table;
   }

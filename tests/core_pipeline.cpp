@@ -79,13 +79,8 @@ class HotReload : public GpuTest {
   // Replaces `from` in a shader and gives the file a newer time.
   void edit(const std::string& name, const std::string& from, const std::string& to) {
     const fs::path file = folder_ / name;
-    const std::vector<uint8_t> content = readFile(file);
-    std::string text(content.begin(), content.end());
-    const size_t at = text.find(from);
-    ASSERT_NE(at, std::string::npos) << from;
-    text.replace(at, from.size(), to);
     const auto before = fs::last_write_time(file);
-    std::ofstream(file) << text;
+    replaceFile(file, replaced(readText(file), from, to));
     fs::last_write_time(file, before + std::chrono::seconds(++edits_));
   }
 

@@ -5,7 +5,6 @@
 #include "edit/outline.hpp"
 #include "edit/transform.hpp"
 #include "geometry/affine.hpp"
-#include "geometry/reflection.hpp"
 #include "test_headers.hpp"
 #include "triangles.hpp"
 
@@ -312,21 +311,14 @@ TEST(Outline, SurroundsAnObjectClosely) {
 
 // A ring about the Z axis, of radius 1 and thickness 0.25, with as many steps around as across.
 Mesh ring(uint32_t steps) {
-  Mesh mesh{.halfExtent = {1.25, 1.25, 0.25}, .radius = 1.3};
-  for (uint32_t i = 0; i <= steps; ++i) {
-    for (uint32_t j = 0; j <= steps; ++j) {
-      const double a = 2.0 * std::numbers::pi * (i % steps) / steps;  // both ends at the same place
-      const double b = 2.0 * std::numbers::pi * (j % steps) / steps;
-      const double r = 1.0 + 0.25 * std::cos(b);
-      mesh.vertices.push_back({{r * std::cos(a), r * std::sin(a), 0.25 * std::sin(b)}, {}, {}});
-      if (i < steps && j < steps) {
-        const uint32_t k = i * (steps + 1) + j;
-        for (const uint32_t corner : {k, k + steps + 1, k + steps + 2, k, k + steps + 2, k + 1}) {
-          mesh.indices.push_back(corner);
-        }
-      }
-    }
-  }
+  Mesh mesh = sheetOf(steps, [&](uint32_t x, uint32_t y) {
+    const double a = 2.0 * std::numbers::pi * (x % steps) / steps;  // both ends at the same place
+    const double b = 2.0 * std::numbers::pi * (y % steps) / steps;
+    const double r = 1.0 + 0.25 * std::cos(b);
+    return glm::dvec3(r * std::cos(a), r * std::sin(a), 0.25 * std::sin(b));
+  });
+  mesh.halfExtent = {1.25, 1.25, 0.25};
+  mesh.radius = 1.3;
   return mesh;
 }
 

@@ -8,12 +8,6 @@
 namespace speculum {
 namespace {
 
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const size_t at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << text << "\nlacks " << from;
-  return at == std::string::npos ? text : text.replace(at, from.size(), to);
-}
-
 // Expects the edit to replace `from` by `to` in the text and nothing else; with an empty `from`, to append.
 void expectEdit(const std::string& text, const std::string& from, const std::string& to,
                 const std::function<void(Scene&)>& edit) {
@@ -62,6 +56,12 @@ TEST(EditedText, PolygonsKeepTheirLines) {
              "[[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]", [](Scene& s) {
                s.mirrors[0].polygon = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
              });
+}
+
+TEST(EditedText, OptionalKeysGo) {
+  const std::string keys = "color = [1, 0, 0] # red\nspecular = [0, 0, 0]\nshininess = 9\n";
+  expectEdit(kCamera + "[[object]]\nmodel = 'triangle.obj'\n" + keys, keys, "",
+             [](Scene& s) { s.objects[0] = {.model = s.objects[0].model, .mesh = 0}; });
 }
 
 TEST(EditedText, PolygonBecomesRectangle) {

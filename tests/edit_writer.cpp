@@ -5,7 +5,6 @@
 #include "error_message.hpp"
 #include "field_changes.hpp"
 #include "frame/setting_fields.hpp"
-#include "image/color.hpp"
 
 namespace speculum {
 namespace {
@@ -72,33 +71,6 @@ TEST_P(ShippedScene, ChangedFieldsReadBackAndCommentsStay) {
   EXPECT_EQ(commentsOf(read.text), commentsOf(copy.original));
   document.undo();
   EXPECT_EQ(document.text(GetParam(), {}), copy.original);
-}
-
-TEST_P(ShippedScene, InnerTablesComeAndGo) {
-  ShippedCopy copy(GetParam());
-  SceneDocument document(copy.scene);
-  document.change("less", {}, [](Scene& s) {
-    s.environment.sky.reset();
-    for (Object& object : s.objects) {
-      object.color.reset();
-      object.specular.reset();
-      object.shininess.reset();
-      object.mirror.reset();
-      object.copies = {};
-    }
-    for (PointLight& light : s.lights) {
-      light.orbit.reset();
-    }
-    for (Mirror& mirror : s.mirrors) {
-      mirror.ripple.reset();
-      if (!mirror.polygon.empty()) {
-        mirror.position = mirror.polygon[0];
-        mirror.polygon.clear();
-        mirror.size = {1.0, 2.0};
-      }
-    }
-  });
-  expectSameContent(copy.reloaded(document), copy.scene, GetParam().string());
 }
 
 TEST_P(ShippedScene, NodesComeAndGo) {
@@ -274,6 +246,38 @@ TEST(SaveScene, EverySettingReadsBack) {
   EXPECT_TRUE(contains(readText(text.file), "\"view.exposure\" = 0.123456789 # bright\n"));
   text.document.save(text.file, {});
   EXPECT_EQ(readText(text.file), before);
+}
+
+// The file that a scene is saved to when the user types a name.
+TEST(SavePlace, MissingTomlEndingIsAdded) {
+  EXPECT_EQ(sceneFileNamed("/a/b.toml"), "/a/b.toml");
+  EXPECT_EQ(sceneFileNamed("/a/b"), "/a/b.toml");
+  EXPECT_EQ(sceneFileNamed("b.v2"), "b.v2.toml");
+  EXPECT_EQ(sceneFileNamed("b.obj"), "b.obj") << "a model: refused later, with its reason";
+  EXPECT_THROW(sceneFileNamed(""), SaveError);
+  EXPECT_THROW(sceneFileNamed("/a/"), SaveError);
+}
+
+TEST(SavePlace, MissingFolderIsNamed) {
+  const TemporaryFolder folder;
+  EXPECT_NO_THROW(requireFolder(folder / "a.toml"));
+  EXPECT_NO_THROW(requireFolder("a.toml")) << "the working directory";
+  const std::string error = messageOf<SaveError>([&] { requireFolder(folder / "one" / "two" / "a.toml"); });
+  EXPECT_TRUE(contains(error, "no folder " + (folder / "one").string() + " ("));
+  std::ofstream(folder / "file") << "no folder";
+  EXPECT_THROW(requireFolder(folder / "file" / "a.toml"), SaveError);
+  EXPECT_FALSE(fs::exists(folder / "one"));
+}
+
+TEST(SavePlace, DeletedWorkingFolderIsRefused) {
+  const fs::path before = fs::current_path();
+  {
+    const TemporaryFolder folder;
+    fs::current_path(folder / "");
+  }
+  EXPECT_THROW(requireFolder("a.toml"), SaveError);
+  EXPECT_NO_THROW(requireFolder("/tmp/a.toml"));
+  fs::current_path(before);
 }
 
 }  // namespace

@@ -16,6 +16,10 @@ class Devices : public FaultTest {
     std::filesystem::copy_file(driver, folder_.path() / "second.json");
     return "VK_ICD_FILENAMES=" + driver.string() + ":" + (folder_.path() / "second.json").string();
   }
+  static void expectQuiet(const Run& run) {
+    EXPECT_EQ(run.exitCode, 0);
+    EXPECT_EQ(run.output, "");
+  }
   TemporaryDirectory folder_;
 };
 
@@ -28,8 +32,7 @@ TEST_F(Devices, WithoutWhatIsOptionalDrawAll) {
                        {"SPECULUM_HIDE=storage_buffers=4 timestamps statistics precise_counts primitive_id depth_clamp "
                         "sample_shading lines VK_EXT_memory_budget"},
                        Place::inner);
-  EXPECT_EQ(poor.exitCode, 0);
-  EXPECT_EQ(poor.output, "");
+  expectQuiet(poor);
   EXPECT_TRUE(poor.picture == plain.picture);
 }
 
@@ -37,16 +40,14 @@ TEST_F(Devices, OlderVersionsDrawTheSame) {
   const Run plain = run(render, {});
   for (const char* version : {"vulkan=1", "vulkan=2", "vulkan=2 VK_KHR_dynamic_rendering"}) {
     const Run old = run(render, {"SPECULUM_HIDE=" + std::string(version)}, Place::inner);
-    EXPECT_EQ(old.exitCode, 0) << version;
-    EXPECT_EQ(old.output, "") << version;
+    expectQuiet(old);
     EXPECT_TRUE(old.picture == plain.picture) << version;
   }
 }
 
 TEST_F(Devices, OlderLoaderThanDriverDraws) {
   const Run old = run(render, {"SPECULUM_HIDE=loader=2"}, Place::early);
-  EXPECT_EQ(old.exitCode, 0);
-  EXPECT_EQ(old.output, "");
+  expectQuiet(old);
   EXPECT_TRUE(old.picture);
 }
 
@@ -70,8 +71,7 @@ TEST_F(Devices, NextOneIsTakenWithoutPresentation) {
 
 TEST_F(Devices, SeparatePresentQueueShows) {
   const Run separate = run(window, {"SPECULUM_HIDE=present_queue"}, Place::inner);
-  EXPECT_EQ(separate.exitCode, 0);
-  EXPECT_EQ(separate.output, "");
+  expectQuiet(separate);
 }
 
 TEST_F(Devices, TooLittleIsOneLine) {

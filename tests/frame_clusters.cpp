@@ -6,6 +6,7 @@
 #include "geometry/mesh_clusters.hpp"
 #include "random.hpp"
 #include "test_headers.hpp"
+#include "triangles.hpp"
 
 namespace speculum {
 namespace {
@@ -14,18 +15,9 @@ using testing_support::planOf;
 
 // A sheet of 32 x 32 squares of 1/16 m in the plane z = 0, row by row.
 Mesh sheet() {
-  Mesh mesh{.halfExtent = {1, 1, 0}, .radius = std::sqrt(2.0)};
-  for (int y = 0; y <= 32; ++y) {
-    for (int x = 0; x <= 32; ++x) {
-      mesh.vertices.push_back({{x / 16.0 - 1.0, y / 16.0 - 1.0, 0.0}, {0, 0, 1}, {}});
-    }
-  }
-  for (uint32_t y = 0; y < 32; ++y) {
-    for (uint32_t x = 0; x < 32; ++x) {
-      const uint32_t a = 33 * y + x;
-      mesh.indices.insert(mesh.indices.end(), {a, a + 1, a + 34, a, a + 34, a + 33});
-    }
-  }
+  Mesh mesh = sheetOf(32, [](uint32_t x, uint32_t y) { return glm::dvec3(x / 16.0 - 1.0, y / 16.0 - 1.0, 0.0); });
+  mesh.halfExtent = {1, 1, 0};
+  mesh.radius = std::sqrt(2.0);
   const uint32_t half = static_cast<uint32_t>(mesh.indices.size()) / 2;
   mesh.parts = {{0, half - 300, {}}, {half - 300, half + 300, {}}};
   mesh.clusters = clustersOf(mesh);

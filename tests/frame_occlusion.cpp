@@ -66,7 +66,7 @@ class Occluders : public ::testing::Test {
 
   // Returns a mirror somewhere beyond an occluder, seen from `eye` in the direction of a point of its surface or beside
   // it.
-  Mirror mirrorBehind(const Scene& scene, const SceneState& state, const glm::dvec3& eye = glm::dvec3(0.0)) {
+  Mirror mirrorBehind(const Scene& scene, const SceneState& state, const glm::dvec3& eye) {
     const InstanceState& instance = state.instances[engine_() % state.instances.size()];
     const Mesh& mesh = scene.meshes[instance.mesh];
     const glm::dvec3 a = mesh.vertices[engine_() % mesh.vertices.size()].position;
@@ -123,6 +123,19 @@ class Occluders : public ::testing::Test {
     return hidden;
   }
 
+  // Places the shape and six mirrors beyond it, seen from `eye`, in the scene. Returns the number of those hidden.
+  int hiddenBehind(const OccluderShape& shape, int objects, Scene scene, const glm::dvec3& eye, int depth) {
+    scene.meshes = {meshOf(shape.positions, shape.indices)};
+    for (int i = 0; i < objects; ++i) {
+      scene.objects.push_back(place(0));
+    }
+    const SceneState placed = evaluate(scene, 0.0);
+    for (int i = 0; i < 6; ++i) {
+      scene.mirrors.push_back(mirrorBehind(scene, placed, eye));
+    }
+    return check(scene, shape.name, depth);
+  }
+
   // Returns the view that does not show a mirror.
   static const View& viewOf(const FramePlan& plan, const SkippedMirror& skipped) {
     const std::vector<int> path(skipped.path.begin(), skipped.path.end() - 1);
@@ -138,18 +151,9 @@ class Occluders : public ::testing::Test {
 TEST_F(Occluders, RandomShapesHideNothingVisible) {
   std::map<std::string, int> hidden;
   for (int round = 0; round < 700; ++round) {
-    Scene scene = testing_support::sceneWith({});
     const OccluderShape shape = randomShape(engine_);
-    scene.meshes = {meshOf(shape.positions, shape.indices)};
-    scene.objects = {place(0)};
-    if (round % 3 == 0) {
-      scene.objects.push_back(place(0));
-    }
-    const SceneState objects = evaluate(scene, 0.0);
-    for (int i = 0; i < 6; ++i) {
-      scene.mirrors.push_back(mirrorBehind(scene, objects));
-    }
-    hidden[shape.name] += check(scene, shape.name + ", round " + std::to_string(round));
+    hidden[shape.name] +=
+        hiddenBehind(shape, round % 3 == 0 ? 2 : 1, testing_support::sceneWith({}), glm::dvec3(0.0), 0);
   }
   for (const auto& [name, count] : hidden) {
     RecordProperty("hidden_behind_" + name, count);
@@ -165,14 +169,7 @@ TEST_F(Occluders, RandomShapesHideNothingVisibleInMirrors) {
     Scene scene = testing_support::sceneWith({wall({0, 0, plane}, 180, {20, 20})});
     scene.camera.position = {0, 0, plane - 4};
     scene.camera.target = {0, 0, plane};
-    const OccluderShape shape = randomShape(engine_);
-    scene.meshes = {meshOf(shape.positions, shape.indices)};
-    scene.objects = {place(0), place(0)};
-    const SceneState objects = evaluate(scene, 0.0);
-    for (int i = 0; i < 6; ++i) {
-      scene.mirrors.push_back(mirrorBehind(scene, objects, {0, 0, plane + 4}));
-    }
-    hidden += check(scene, shape.name + ", round " + std::to_string(round), 1);
+    hidden += hiddenBehind(randomShape(engine_), 2, scene, {0, 0, plane + 4}, 1);
   }
   EXPECT_GT(hidden, 50);
 }

@@ -217,6 +217,17 @@ bool holds(const std::vector<glm::dvec2>& polygon, const glm::dvec2& p) {
   return left || right;
 }
 
+// Returns the areas of the triangles that a convex polygon is drawn as.
+std::vector<double> fanAreas(const std::vector<glm::dvec2>& polygon) {
+  std::vector<double> areas;
+  for (size_t i = 1; i + 1 < polygon.size(); ++i) {
+    const glm::dvec2 a = polygon[i] - polygon[0];
+    const glm::dvec2 b = polygon[i + 1] - polygon[0];
+    areas.push_back(0.5 * std::abs(a.x * b.y - a.y * b.x));
+  }
+  return areas;
+}
+
 TEST(PassMask, CoversTheMirrorAndItsLookups) {
   Mirror mirror = wall({0.2, -0.1, -5}, 30, {3, 2});
   mirror.rotation = {20, 30, 25};
@@ -241,13 +252,8 @@ TEST(PassMask, CoversTheMirrorAndItsLookups) {
         EXPECT_TRUE(holds(mask, glm::clamp(near, low, high))) << scale;
       }
     }
-    double area = 0.0;
-    for (size_t i = 1; i + 1 < mask.size(); ++i) {
-      const glm::dvec2 a = mask[i] - mask[0];
-      const glm::dvec2 b = mask[i + 1] - mask[0];
-      area += 0.5 * std::abs(a.x * b.y - a.y * b.x);
-    }
-    const double texels = area / (texel.x * texel.y);
+    const std::vector<double> areas = fanAreas(mask);
+    const double texels = std::accumulate(areas.begin(), areas.end(), 0.0) / (texel.x * texel.y);
     EXPECT_LT(texels, pass.areaPx * (scale < 1.0 ? 1.2 : 1.12)) << scale;
     EXPECT_LT(texels, 0.75 * pass.view.rect.area()) << "the mirror is tilted";
   }
@@ -284,10 +290,8 @@ TEST(PassMask, HasNoTriangleWithoutArea) {
       for (glm::dvec2& corner : mask) {
         corner = glm::round((corner * 0.5 + 0.5) * pass.view.pictureSize * 256.0);  // as GPUs snap vertices
       }
-      for (size_t i = 1; i + 1 < mask.size(); ++i) {
-        const glm::dvec2 a = mask[i] - mask[0];
-        const glm::dvec2 b = mask[i + 1] - mask[0];
-        ASSERT_GT(std::abs(a.x * b.y - a.y * b.x), 0.0) << "round " << round << ", pass " << pass.view.path.size();
+      for (const double area : fanAreas(mask)) {
+        ASSERT_GT(area, 0.0) << "round " << round << ", pass " << pass.view.path.size();
         ++masks;
       }
     }

@@ -26,14 +26,11 @@ Triangles turned(int rings, int sides, double (*radius)(double)) {
   Triangles body;
   for (int ring = 0; ring < rings; ++ring) {
     for (int side = 0; side < sides; ++side) {
-      const auto first = static_cast<uint32_t>(body.positions.size());
-      body.positions.insert(body.positions.end(),
-                            {p(ring, side), p(ring + 1, side), p(ring + 1, side + 1), p(ring, side + 1)});
       if (ring + 1 < rings) {
-        body.indices.insert(body.indices.end(), {first, first + 1, first + 2});
+        body.triangle(p(ring, side), p(ring + 1, side), p(ring + 1, side + 1));
       }
       if (ring > 0) {
-        body.indices.insert(body.indices.end(), {first, first + 2, first + 3});
+        body.triangle(p(ring, side), p(ring + 1, side + 1), p(ring, side + 1));
       }
     }
   }

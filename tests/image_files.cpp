@@ -2,9 +2,11 @@
 
 #include <ctime>
 
+#include "file_fault.hpp"
 #include "image/exr.hpp"
 #include "image/image.hpp"
 #include "image/picture_files.hpp"
+#include "made_pictures.hpp"
 #include "platform/files.hpp"
 #include "temporary_folder.hpp"
 #include "test_headers.hpp"
@@ -13,19 +15,10 @@ namespace speculum {
 namespace {
 
 namespace fs = std::filesystem;
+using namespace testing_support;
 
 Image8 gradient(int width, int height) {
-  Image8 image(width, height);
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      uint8_t* pixel = image.at(x, y);
-      pixel[0] = static_cast<uint8_t>(x * 7);
-      pixel[1] = static_cast<uint8_t>(y * 11);
-      pixel[2] = static_cast<uint8_t>(x * y);
-      pixel[3] = static_cast<uint8_t>(255 - x);
-    }
-  }
-  return image;
+  return madePicture(width, height, [](int x, int y) { return glm::ivec4(7 * x, 11 * y, x * y, 255 - x); });
 }
 
 LinearImage ramp(int width, int height) {
@@ -36,19 +29,6 @@ LinearImage ramp(int width, int height) {
     }
   }
   return image;
-}
-
-// Expects one line that names the file, the problem and what would help.
-template <typename Action>
-void expectFault(const Action& action, const fs::path& file, const std::string& problem) {
-  try {
-    action();
-    ADD_FAILURE() << "nothing was thrown for " << file;
-  } catch (const FileError& error) {
-    EXPECT_TRUE(startsWith(error.what(), file.string() + ": "));
-    EXPECT_TRUE(contains(error.problem(), problem)) << error.what();
-    EXPECT_FALSE(contains(error.problem(), "\n")) << error.what();
-  }
 }
 
 TEST(Png, KeepsEveryByte) {
@@ -74,34 +54,34 @@ TEST(ImageFiles, FoldersAreNoPictures) {
   const TemporaryFolder folder;
   for (const fs::path& file : {folder / "none/a", folder / ""}) {
     const std::string problem = file == folder / "" ? "it is a folder" : "there is no folder";
-    expectFault([&] { writePng(file, gradient(2, 2)); }, file, problem);
-    expectFault([&] { writeExr(file, ramp(2, 2)); }, file, problem);
+    expectFileFault([&] { writePng(file, gradient(2, 2)); }, file, problem);
+    expectFileFault([&] { writeExr(file, ramp(2, 2)); }, file, problem);
   }
-  expectFault([&] { readImage8(folder.path()); }, folder.path(), "is a folder");
-  expectFault([&] { readExr(folder.path()); }, folder.path(), "is a folder");
+  expectFileFault([&] { readImage8(folder.path()); }, folder.path(), "is a folder");
+  expectFileFault([&] { readExr(folder.path()); }, folder.path(), "is a folder");
 }
 
 TEST(ImageFiles, EmptyImageIsRefused) {
   const TemporaryFolder folder;
-  expectFault([&] { writePng(folder / "a.png", Image8()); }, folder / "a.png", "no pixels");
-  expectFault([&] { writeExr(folder / "a.exr", LinearImage()); }, folder / "a.exr", "no pixels");
+  expectFileFault([&] { writePng(folder / "a.png", Image8()); }, folder / "a.png", "no pixels");
+  expectFileFault([&] { writeExr(folder / "a.exr", LinearImage()); }, folder / "a.exr", "no pixels");
 }
 
 TEST(ImageFiles, DamagedFilesAreRefused) {
   const TemporaryFolder folder;
-  expectFault([&] { readImage8(folder / "none.png"); }, folder / "none.png", "cannot be read");
-  expectFault([&] { readExr(folder / "none.exr"); }, folder / "none.exr", "cannot be read");
+  expectFileFault([&] { readImage8(folder / "none.png"); }, folder / "none.png", "cannot be read");
+  expectFileFault([&] { readExr(folder / "none.exr"); }, folder / "none.exr", "cannot be read");
   writePng(folder / "cut.png", gradient(64, 64));
   fs::resize_file(folder / "cut.png", fs::file_size(folder / "cut.png") / 2);
   folder.write("cut.jpg", "\xff\xd8\xff\xe0 and no more");
   folder.write("text.png", "hello");
   for (const auto& [file, problem] : {std::pair("text.png", "is not a picture"), std::pair("cut.jpg", "is damaged"),
                                       std::pair("cut.png", "is damaged")}) {
-    expectFault([&, name = file] { readImage8(folder / name); }, folder / file, problem);
+    expectFileFault([&, name = file] { readImage8(folder / name); }, folder / file, problem);
   }
   for (const std::string_view content : {std::string_view(""), std::string_view("\x76\x2f\x31\x01 and no more")}) {
     const fs::path exr = folder.write("cut.exr", content);
-    expectFault([&] { readExr(exr); }, exr, "is not an EXR");
+    expectFileFault([&] { readExr(exr); }, exr, "is not an EXR");
   }
 }
 
@@ -115,9 +95,9 @@ std::string pngHeader(uint8_t highByteOfSides) {
 TEST(ImageFiles, HugePicturesAreRefused) {
   const TemporaryFolder folder;
   const fs::path file = folder.write("a.png", pngHeader(0x21));
-  expectFault([&] { readImage8(file); }, file, "the picture has 8448x8448 pixels");
+  expectFileFault([&] { readImage8(file); }, file, "the picture has 8448x8448 pixels");
   folder.write("a.png", pngHeader(0x20));
-  expectFault([&] { readImage8(file); }, file, "is damaged");
+  expectFileFault([&] { readImage8(file); }, file, "is damaged");
 }
 
 // A grey progressive JPEG whose codes are all one bit, with scans that hold no data.
@@ -144,7 +124,7 @@ TEST(Jpeg, ScansAreBoundedByTheirPixels) {
   EXPECT_EQ(readImage8(folder.write("usual.jpg", jpegOfScans(0x01, 300))).width, 256);
   const fs::path bomb = folder.write("bomb.jpg", jpegOfScans(0x20, 4000));
   const std::clock_t start = std::clock();
-  expectFault([&] { readImage8(bomb); }, bomb, "has 4000 scans of 8192x8192 pixels");
+  expectFileFault([&] { readImage8(bomb); }, bomb, "has 4000 scans of 8192x8192 pixels");
   EXPECT_LT(std::clock() - start, CLOCKS_PER_SEC);
   // The data of a segment, such as a thumbnail, are no scans.
   std::string thumbnail = "\xff\xe1\x20\x02";
@@ -162,9 +142,56 @@ TEST(Jpeg, FourChannelsNeedAdobesMarker) {
     return folder.write(name + std::to_string(transform) + ".jpg", std::string(file).insert(2, marker));
   };
   for (const fs::path& wrong : {folder.write("unmarked.jpg", file), marked("Other", 2), marked("Adobe", 1)}) {
-    expectFault([&] { readImage8(wrong); }, wrong, "the picture has four channels, but no Adobe marker");
+    expectFileFault([&] { readImage8(wrong); }, wrong, "the picture has four channels, but no Adobe marker");
   }
   EXPECT_EQ(readImage8(marked("Adobe", 2)).width, 256);
+}
+
+Image8 smoothPicture(int width, int height) {
+  return madePicture(width, height, [&](int x, int y) {
+    return glm::ivec4(255 * x / width, 255 * y / height, 128 + 100 * std::sin(0.1 * (x + y)), x);
+  });
+}
+
+Image8 decoded(const std::vector<uint8_t>& bytes) {
+  const TemporaryFolder folder;
+  return readImage8(folder.write("a.jpg", {reinterpret_cast<const char*>(bytes.data()), bytes.size()}));
+}
+
+double rmsDifference(const Image8& a, const Image8& b) {
+  double sum = 0.0;
+  for (size_t i = 0; i < a.rgba.size(); ++i) {
+    const double difference = i % 4 == 3 ? 0.0 : static_cast<double>(a.rgba[i]) - b.rgba[i];
+    sum += difference * difference;
+  }
+  return std::sqrt(sum / (0.75 * static_cast<double>(a.rgba.size())));
+}
+
+TEST(Jpeg, KeepsSizeAndColorAndDropsAlpha) {
+  for (const auto& [width, height] : {std::pair{1, 1}, std::pair{37, 19}, std::pair{160, 90}, std::pair{300, 1}}) {
+    const Image8 image = smoothPicture(width, height);
+    const Image8 read = decoded(encodeJpeg(image, 95));
+    ASSERT_EQ(read.width, width);
+    ASSERT_EQ(read.height, height);
+    EXPECT_LT(rmsDifference(image, read), 3.0) << width << "x" << height;
+    EXPECT_EQ(read.at(0, 0)[3], 255);
+  }
+}
+
+TEST(Jpeg, QualityIsPaidForInBytes) {
+  const Image8 image = smoothPicture(160, 90);
+  const std::vector<uint8_t> low = encodeJpeg(image, 40);
+  const std::vector<uint8_t> high = encodeJpeg(image, 95);
+  EXPECT_LT(low.size(), high.size());
+  EXPECT_GT(rmsDifference(image, decoded(low)), rmsDifference(image, decoded(high)));
+  EXPECT_EQ(high, encodeJpeg(image, 95));
+}
+
+TEST(Jpeg, RefusesImpossibleSizesAndQualities) {
+  EXPECT_THROW(encodeJpeg(Image8(), 88), std::runtime_error);
+  EXPECT_THROW(encodeJpeg(Image8(65536, 1), 88), std::runtime_error);
+  EXPECT_THROW(encodeJpeg(Image8(8, 8), 0), std::runtime_error);
+  EXPECT_THROW(encodeJpeg(Image8(8, 8), 101), std::runtime_error);
 }
 
 TEST(Exr, KeepsEveryFloat) {
@@ -259,12 +286,12 @@ TEST(Png, SmallFilesDoNotUnpackToGigabytes) {
   EXPECT_EQ(readImage8(folder.write("a.png", pngOf(515, 100, packedZeros(200)))).height, 100);
   EXPECT_EQ(readImage8(folder.write("more.png", pngOf(4, 4, packedZeros(200)))).height, 4) << "a little more";
   const fs::path bomb = folder.write("bomb.png", pngOf(4, 4, packedZeros(1'000'000)));
-  expectFault([&] { readImage8(bomb); }, bomb, "unpacks to more than its pixels");
+  expectFileFault([&] { readImage8(bomb); }, bomb, "unpacks to more than its pixels");
   // An iPhone's header stands behind a chunk that others may fill as they like.
   const std::string bare = packedZeros(1'000'000).substr(2);
   const fs::path second = folder.write(
       "second.png", pngOf(4, 4, bare).insert(8, std::string("\0\0\0\4CgBI\x7f\xff\xff\xff\x7f\xff\xff\xff", 16)));
-  expectFault([&] { readImage8(second); }, second, "is not a picture");
+  expectFileFault([&] { readImage8(second); }, second, "is not a picture");
 }
 
 TEST(Png, HeadersOfAnySizeNameTheFile) {
@@ -279,7 +306,7 @@ TEST(Png, HeadersOfAnySizeNameTheFile) {
           bytes[25] = color;
           const fs::path file = folder.write("a.png", bytes);
           if (width != 5 || height != 5) {
-            expectFault([&] { readImage8(file); }, file, "the picture ");
+            expectFileFault([&] { readImage8(file); }, file, "the picture ");
           }
         }
       }

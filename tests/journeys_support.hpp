@@ -4,7 +4,6 @@
 
 #include "app/demo.hpp"
 #include "driver.hpp"
-#include "image/color.hpp"
 #include "image/picture_files.hpp"
 #include "picture_support.hpp"
 #include "platform/process.hpp"

@@ -3,6 +3,7 @@
 
 #include "frame/frame_plan.hpp"
 #include "image/picture_files.hpp"
+#include "made_pictures.hpp"
 #include "picture_support.hpp"
 #include "sampling.hpp"
 #include "scene/input_error.hpp"
@@ -169,14 +170,10 @@ TEST(ScenesOfAnySize, BlurAlikeWhatIsFar) {
 
 TEST(LargeTextures, AreDrawnSmaller) {
   for (const bool wide : {true, false}) {
-    Image8 image(wide ? 20'000 : 2, wide ? 2 : 20'000);
-    for (int i = 0; i < 40'000; ++i) {
-      const int along = wide ? i % 20'000 : i / 2;
-      const auto wave = static_cast<uint8_t>(128 + 100 * std::sin(along * 0.001));
-      std::copy_n(std::array<uint8_t, 4>{wave, 90, static_cast<uint8_t>(along / 100), 255}.begin(), 4,
-                  image.rgba.begin() + 4 * i);
-    }
-    writePng(sceneDirectory() / "wide.png", image);
+    writePng(sceneDirectory() / "wide.png", madePicture(wide ? 20'000 : 2, wide ? 2 : 20'000, [&](int x, int y) {
+               const int along = wide ? x : y;
+               return glm::ivec4(128 + 100 * std::sin(along * 0.001), 90, along / 100, 255);
+             }));
     std::ofstream(sceneDirectory() / "wide.mtl") << "newmtl a\nmap_Kd wide.png\n";
     writeModel("wide.obj",
                "mtllib wide.mtl\nusemtl a\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\n"

@@ -110,19 +110,6 @@ TEST_F(ObjLoader, DegenerateTrianglesAreDropped) {
   EXPECT_EQ(warnings(), "warning: m.obj: dropped 3 degenerate triangles\n");
 }
 
-// Floats hold the place in a texture whichever of its repetitions is named.
-TEST_F(ObjLoader, TextureCoordinatesKeepTheirFraction) {
-  const std::string square = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
-  for (const double first : {20.0, 1000.0, -4000.0, 1e9}) {
-    const Mesh mesh = load(square + fmt::format("vt {} 0.25\nvt {} 0.25\nvt {} 0.5\nf 1/1 2/2 3/3\n", first + 0.3125,
-                                                first + 0.4375, first + 0.3125));
-    const double start = mesh.vertices[0].uv.x;
-    EXPECT_EQ(start - std::floor(start), 0.3125) << first;
-    EXPECT_LT(std::abs(start), 16.0) << first;
-    EXPECT_EQ(mesh.vertices[1].uv.x - start, 0.125) << first;
-  }
-}
-
 TEST_F(ObjLoader, RepeatedTexturesShareVertices) {
   const Mesh mesh = load(
       "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nvn 0 0 1\nvt 20 0\nvt 21 0\nvt 20 1\nvt 21 1\n"
@@ -303,15 +290,16 @@ TEST_F(ObjLoader, ModelsOfAnySizeKeepTheirShape) {
   }
 }
 
-TEST_F(ObjLoader, TextureCoordinatesFarAwayKeepTheirFraction) {
-  for (const double far : {0.0, 1e4, -1e6, 1e9, -1e12, 1e300}) {
+// Floats hold the place in a texture whichever of its repetitions is named.
+TEST_F(ObjLoader, TextureCoordinatesKeepTheirFraction) {
+  for (const double far : {0.0, 20.0, 1e4, -1e6, 1e9, -1e12, 1e300}) {
     std::string obj = kSquare;
     for (const double u : {0.25, 1.25, 1.75, 0.5}) {
       obj += fmt::format("vt {} {}\n", far + u, 0.5 * u - far);
     }
     const Mesh mesh = load(obj + "vn 0 0 1\nf 1/1/1 2/2/1 3/3/1 4/4/1\n");
     for (const Vertex& vertex : mesh.vertices) {
-      EXPECT_LE(std::max(std::abs(vertex.uv.x), std::abs(vertex.uv.y)), 4100.0) << far;
+      EXPECT_LT(std::max(std::abs(vertex.uv.x), std::abs(vertex.uv.y)), 16.0) << far;
       const glm::dvec3 corner = vertex.position + mesh.center;
       const double u = corner.x == 0.0 ? (corner.y == 0.0 ? 0.25 : 0.5) : (corner.y == 0.0 ? 1.25 : 1.75);
       const double expected = far == 1e300 ? 0.0 : u;

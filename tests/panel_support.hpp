@@ -3,7 +3,6 @@
 #include <imgui.h>
 #include <imgui_internal.h>
 
-#include "image/picture_files.hpp"
 #include "picture_support.hpp"
 #include "scene/scene_loader.hpp"
 #include "test_headers.hpp"
@@ -95,8 +94,9 @@ class PanelTest : public testing::Test {
     return output_;
   }
 
-  // Says whether the last frame shows the text, whose spaces do not count.
-  static bool shows(std::string text) {
+  // Says whether the panels show the text, whose spaces do not count, once what has changed is laid out.
+  bool shows(std::string text) {
+    run(3);
     std::erase(text, ' ');
     return contains(shownText(), text);
   }
@@ -193,10 +193,11 @@ class PanelTest : public testing::Test {
     return shown == windows.end() ? nullptr : *shown;
   }
 
-  bool has(const std::string& name) const {
+  // Find a widget by its name, likewise.
+  bool has(const std::string& name) {
     return find(name) != nullptr;
   }
-  PixelRect widget(const std::string& name) const {
+  PixelRect widget(const std::string& name) {
     const PixelRect* rect = find(name);
     EXPECT_TRUE(rect) << "no widget " << name;
     return rect ? *rect : PixelRect{};
@@ -331,7 +332,8 @@ class PanelTest : public testing::Test {
   bool appliesEdits_ = false;  // to the selected mirror
 
  private:
-  const PixelRect* find(const std::string& name) const {
+  const PixelRect* find(const std::string& name) {
+    run(3);
     const auto& widgets = windows_->state().widgets;
     const auto known = std::ranges::find_if(widgets, [&](const auto& widget) { return widget.first == name; });
     return known == widgets.end() ? nullptr : &known->second;

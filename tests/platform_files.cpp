@@ -1,5 +1,4 @@
-#include "platform/files.hpp"
-#include "test_headers.hpp"
+#include "file_fault.hpp"
 
 #include <fcntl.h>
 #include <sys/resource.h>
@@ -36,17 +35,7 @@ namespace speculum::test {
 namespace {
 
 namespace fs = std::filesystem;
-
-template <typename Action>
-void expectFileError(const Action& action, const fs::path& file, const std::string& problem) {
-  try {
-    action();
-    ADD_FAILURE() << "no FileError was thrown for " << file;
-  } catch (const FileError& error) {
-    EXPECT_TRUE(startsWith(error.problem(), problem));
-    EXPECT_TRUE(startsWith(error.what(), file.string() + ": " + error.problem() + " ("));
-  }
-}
+using testing_support::expectFileFault;
 
 // A folder for files, without one.
 class Files : public testing::Test {
@@ -74,7 +63,7 @@ TEST_F(Files, FailedReplaceKeepsTheOldContent) {
   ::getrlimit(RLIMIT_FSIZE, &limit);
   const rlimit small{.rlim_cur = 1000, .rlim_max = limit.rlim_max};
   ::setrlimit(RLIMIT_FSIZE, &small);
-  expectFileError([&] { replaceFile(file_, std::string(100'000, 'x')); }, file_, "cannot be written");
+  expectFileFault([&] { replaceFile(file_, std::string(100'000, 'x')); }, file_, "cannot be written");
   ::setrlimit(RLIMIT_FSIZE, &limit);
   EXPECT_EQ(readText(file_), "old");
   EXPECT_EQ(count(), 1);
@@ -86,7 +75,7 @@ TEST_F(Files, ReplaceWaitsForTheDisk) {
   replaceFile(file_, "new");
   EXPECT_EQ(diskCalls, std::vector<std::string>({"fsync", "rename"}));
   fsyncFails = true;
-  expectFileError([&] { replaceFile(file_, "lost"); }, file_, "cannot be written");
+  expectFileFault([&] { replaceFile(file_, "lost"); }, file_, "cannot be written");
   fsyncFails = false;
   EXPECT_EQ(readText(file_), "new");
   EXPECT_EQ(count(), 1);
@@ -94,8 +83,8 @@ TEST_F(Files, ReplaceWaitsForTheDisk) {
 
 TEST_F(Files, ReplaceNeedsAFolderAndAFile) {
   const fs::path below = folder_ / "none" / "file";
-  expectFileError([&] { replaceFile(below, "a"); }, below, "cannot be written: there is no folder");
-  expectFileError([&] { replaceFile(folder_, "a"); }, folder_, "cannot be written: it is a folder");
+  expectFileFault([&] { replaceFile(below, "a"); }, below, "cannot be written: there is no folder");
+  expectFileFault([&] { replaceFile(folder_, "a"); }, folder_, "cannot be written: it is a folder");
 }
 
 TEST_F(Files, DevicesAreWrittenNotReplaced) {
@@ -119,7 +108,7 @@ TEST_F(Files, ReplaceKeepsLinksAndModes) {
   EXPECT_EQ(fs::status(file_).permissions(), fs::perms(0640));
   EXPECT_EQ(readText(folder_ / "new"), "made");
   fs::create_symlink("circle", folder_ / "circle");
-  expectFileError([&] { replaceFile(folder_ / "circle", "a"); }, folder_ / "circle", "cannot be written");
+  expectFileFault([&] { replaceFile(folder_ / "circle", "a"); }, folder_ / "circle", "cannot be written");
 }
 
 TEST_F(Files, ReplaceTakesTheLongestNames) {
@@ -183,17 +172,17 @@ TEST_F(Files, StoreMakesTheFolder) {
 }
 
 TEST_F(Files, FoldersDevicesAndHugeFilesAreRefused) {
-  expectFileError([&] { readFile(file_); }, file_, "cannot be read: No such file");
+  expectFileFault([&] { readFile(file_); }, file_, "cannot be read: No such file");
   EXPECT_FALSE(readFileIfAny(file_));
-  expectFileError([&] { readFile(folder_); }, folder_, "is a folder");
-  expectFileError([] { readFile("/dev/zero"); }, "/dev/zero", "is a device or pipe");
+  expectFileFault([&] { readFile(folder_); }, folder_, "is a folder");
+  expectFileFault([] { readFile("/dev/zero"); }, "/dev/zero", "is a device or pipe");
   const fs::path pipe = folder_ / "pipe";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
-  expectFileError([&] { readText(pipe); }, pipe, "is a device or pipe");
+  expectFileFault([&] { readText(pipe); }, pipe, "is a device or pipe");
   replaceFile(file_, "");
   EXPECT_EQ(readText(file_), "");
   fs::resize_file(file_, (2u << 20) + 1);
-  expectFileError([&] { readFile(file_, 2u << 20); }, file_, "is larger than 2 MiB");
+  expectFileFault([&] { readFile(file_, 2u << 20); }, file_, "is larger than 2 MiB");
   EXPECT_EQ(readFile(file_).size(), (2u << 20) + 1);
 }
 

@@ -3,6 +3,7 @@
 
 #include "error_message.hpp"
 #include "image/picture_files.hpp"
+#include "made_pictures.hpp"
 #include "platform/process.hpp"
 #include "regress/driver.hpp"
 #include "regress/picture_check.hpp"
@@ -175,13 +176,7 @@ scene = "room.toml"
 
 class Limits : public testing::Test {
  protected:
-  static Image8 grey() {
-    Image8 picture(100, 100);
-    for (size_t i = 0; i < picture.rgba.size(); ++i) {
-      picture.rgba[i] = i % 4 == 3 ? 255 : 100;
-    }
-    return picture;
-  }
+  static Image8 grey() { return testing_support::greyPicture(100, 100, 100); }
   // The picture with a rectangle raised by `by`.
   static Image8 raised(int left, int top, int width, int height, int by) {
     Image8 picture = grey();

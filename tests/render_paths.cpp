@@ -1,9 +1,8 @@
 // Dynamic rendering and VkRenderPass give the same bytes for golden pictures. Reused images are compared beside
 // their own tests.
 #include "app/case_drawer.hpp"
-#include "picture_support.hpp"
+#include "reuse_support.hpp"
 #include "sampling.hpp"
-#include "test_headers.hpp"
 
 namespace speculum {
 namespace {
@@ -31,20 +30,11 @@ class RenderPaths : public testing::TestWithParam<Cases::value_type> {};
 
 TEST_P(RenderPaths, GiveTheSameBytes) {
   const std::vector<RegressCase>& cases = GetParam().second;
-  Options options = headless(cases[0].scene, fullTests() ? cases[0].size : PictureSize{64, 36});
-  options.renderPath = RenderPath::dynamic;
-  QuietSession dynamic(options);
-  options.renderPath = RenderPath::renderPass;
-  QuietSession passes(options);
-  for (size_t i = 0; i < (fullTests() ? cases.size() : 1); ++i) {
-    const auto drawn = [&](Session& session) {
-      session.setSettings(settingsOf(session.scene()));
-      set(session, caseOptions(cases[i], options).settings);
-      session.restart();
-      session.draw(cases[i].time, true);
-      return session.picture();
-    };
-    EXPECT_EQ(drawn(dynamic).rgba, drawn(passes).rgba) << cases[i].name;
+  for (const RegressCase& golden : std::span(cases).first(fullTests() ? cases.size() : 1)) {
+    SCOPED_TRACE(golden.name);
+    Options options = caseOptions(golden, headless(golden.scene));
+    options.size = fullTests() ? golden.size : PictureSize{64, 36};
+    expectSameOnBothPaths(options, {golden.time});
   }
 }
 

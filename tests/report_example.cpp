@@ -5,6 +5,7 @@
 
 #include "accuracy/heat_map.hpp"
 #include "image/picture_files.hpp"
+#include "made_pictures.hpp"
 
 namespace speculum::testing_support {
 
@@ -76,14 +77,7 @@ void addSeries(SweepResults& results) {
 }
 
 Image8 picture(int seed) {
-  Image8 image(width, height);
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      image.at(x, y)[0] = static_cast<uint8_t>(3 * x + 11 * seed);
-      image.at(x, y)[1] = static_cast<uint8_t>(5 * y);
-    }
-  }
-  return image;
+  return madePicture(width, height, [&](int x, int y) { return glm::ivec4(3 * x + 11 * seed, 5 * y, 255, 255); });
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include "accuracy/report.hpp"
 #include "image/picture_files.hpp"
+#include "made_pictures.hpp"
 #include "regress/picture_check.hpp"
 #include "regress/report_page.hpp"
 #include "report_example.hpp"
@@ -23,10 +24,10 @@ void writePage(const fs::path& folder, const char* name, const SweepResults& res
 
 // Writes pages with a seam of one pixel, a crash, a new picture without an expected one, and passing cases.
 void writeRegressPages(const fs::path& folder) {
-  Image8 expected(64, 36);
-  for (size_t i = 0; i < expected.rgba.size(); ++i) {
-    expected.rgba[i] = i % 4 == 3 ? 255 : static_cast<uint8_t>(i / 64);
-  }
+  const Image8 expected = madePicture(64, 36, [](int x, int y) {
+    const int grey = (64 * y + x) / 16;
+    return glm::ivec4(grey, grey, grey, 255);
+  });
   Image8 actual = expected;
   for (int y = 0; y < actual.height; ++y) {
     actual.at(32, y)[0] ^= 0x80;

@@ -6,6 +6,7 @@
 #include "scene/obj_loader.hpp"
 #include "test_headers.hpp"
 #include "test_paths.hpp"
+#include "triangles.hpp"
 
 namespace speculum {
 namespace {
@@ -160,18 +161,10 @@ TEST(MeshLevels, KeepWindingAndVolume) {
 
 // A wavy sheet of 40 x 40 squares in two materials that meet along a line.
 Mesh twoParts() {
-  Mesh mesh{.halfExtent = {20, 20, 1}, .radius = 29.0};
-  for (int y = 0; y <= 40; ++y) {
-    for (int x = 0; x <= 40; ++x) {
-      mesh.vertices.push_back({{x - 20.0, y - 20.0, std::sin(0.3 * x) * std::cos(0.2 * y)}, {0, 0, 1}, {}});
-    }
-  }
-  for (uint32_t y = 0; y < 40; ++y) {
-    for (uint32_t x = 0; x < 40; ++x) {
-      const uint32_t a = 41 * y + x;
-      mesh.indices.insert(mesh.indices.end(), {a, a + 1, a + 42, a, a + 42, a + 41});
-    }
-  }
+  Mesh mesh = sheetOf(
+      40, [](uint32_t x, uint32_t y) { return glm::dvec3(x - 20.0, y - 20.0, std::sin(0.3 * x) * std::cos(0.2 * y)); });
+  mesh.halfExtent = {20, 20, 1};
+  mesh.radius = 29.0;
   const auto half = static_cast<uint32_t>(mesh.indices.size() / 2);
   mesh.parts = {{0, half, {}}, {half, half, {}}};
   return mesh;

@@ -4,6 +4,8 @@
 #include <glm/glm.hpp>
 #include <vector>
 
+#include "geometry/mesh.hpp"
+
 namespace speculum {
 
 // Triangles of tests, in which neighbours share positions but no vertices.
@@ -36,5 +38,20 @@ struct Triangles {
     quad(p(0), p(1), p(5), p(4));
   }
 };
+
+// A sheet of side x side squares, row by row, with its vertices at place(x, y), 0 .. side each, and without parts.
+template <typename Place>
+Mesh sheetOf(uint32_t side, const Place& place) {
+  Mesh mesh;
+  for (uint32_t i = 0; i < (side + 1) * (side + 1); ++i) {
+    const uint32_t x = i % (side + 1);
+    const uint32_t y = i / (side + 1);
+    mesh.vertices.push_back({place(x, y), {0, 0, 1}, {}});
+    if (x < side && y < side) {
+      mesh.indices.insert(mesh.indices.end(), {i, i + 1, i + side + 2, i, i + side + 2, i + side + 1});
+    }
+  }
+  return mesh;
+}
 
 }  // namespace speculum

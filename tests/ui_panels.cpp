@@ -129,14 +129,12 @@ TEST_F(PanelTest, NarrowDisplaysHaveOneColumn) {
   EXPECT_FALSE(windows_->inspectorCovers({480.0f, 300.0f}));
   resize(900, 700);
   windows_->toggleInspector();
-  run(2);
   EXPECT_GT(widget("edit.add_mirror").x, 450) << "back at its own edge";
 }
 
 TEST_F(PanelTest, HeldWidgetsStayHeldWhenLabelsMove) {
   edit_.selected = {Selection::Kind::mirror, 0};
   windows_->toggleInspector();
-  run(4);
   hover("edit.position", 0.2);
   hold(true);
   const ImGuiID held = ImGui::GetCurrentContext()->ActiveId;
@@ -157,7 +155,6 @@ TEST_F(PanelTest, OlderWindowsFoldAndAClickUnfolds) {
   const WindowRect free = windows_->freeRect();
   moveTo(free.corner.x + free.size.x + 12, free.corner.y + 18);  // the arrow of its title
   press();
-  run(3);
   EXPECT_TRUE(has("performance.copy") && has("accuracy.measure"));
   EXPECT_FALSE(has("log.copy")) << "it was opened before the others";
   restart();
@@ -180,7 +177,6 @@ TEST_F(PanelTest, TimeRowScrubsAndSteps) {
 TEST_F(PanelTest, ButtonsSendTheirCommands) {
   scene_.bookmarks = {{.name = "door"}, {.name = "sky"}};
   camera_.bookmark = 1;
-  run(2);
   clickFor<CopyCommandLine>("copy");
   EXPECT_TRUE(clickFor<TakeScreenshot>("screenshot").withPanel);
   clickFor<ResetCamera>("camera.reset");
@@ -191,20 +187,16 @@ TEST_F(PanelTest, ButtonsSendTheirCommands) {
   click("scene");
   EXPECT_EQ(clickFor<OpenScene>("scene.two").file, "/scenes/two.obj");
   browser_.loading = "two.obj";
-  run(2);
   clickFor<CancelLoading>("loading.cancel");
 }
 
 TEST_F(PanelTest, MessageIsDismissedAndMovesNothing) {
   const PixelRect before = widget("time");
   message_ = "scene.toml: no such file";
-  run(2);
   EXPECT_EQ(widget("time"), before);
   click("message.dismiss");
-  run(1);
   EXPECT_FALSE(has("message.dismiss"));
   message_ = "another.toml: no such file";
-  run(2);
   EXPECT_TRUE(has("message.dismiss"));
 }
 
@@ -278,14 +270,12 @@ TEST_F(PanelTest, MenusSendTheirCommands) {
   clickFor<NewScene>("menu.New");
   click("menu.File");
   click("menu.Open recent");
-  run(3);
   EXPECT_EQ(clickFor<OpenScene>("menu./scenes/two.obj").file, "/scenes/two.obj");
   click("menu.Edit");
   clickFor<Undo>("menu.Undo change Exposure###Undo");
   edit_.models = {"/models/ball.obj"};
   click("menu.Edit");
   click("menu.Add object");
-  run(3);
   EXPECT_EQ(clickFor<AddObject>("menu.ball").model, "/models/ball.obj");
   click("menu.View");
   EXPECT_EQ(clickFor<LookFromMirror>("menu.Look out of mirror").side, MirrorSide::front);
@@ -295,7 +285,6 @@ TEST_F(PanelTest, MenuSaysWhatIsFramed) {
   click("menu.View");
   EXPECT_TRUE(has("menu.Frame scene"));
   edit_.selected = {Selection::Kind::mirror, 0};
-  run(2);
   EXPECT_TRUE(has("menu.Frame selection"));
 }
 
@@ -342,7 +331,6 @@ TEST_F(PanelTest, ListScrollsToTypedNames) {
     const int below = widget(field).y + 600;
     EXPECT_GT(widget("open.studio.toml").y, below);
     type("stu");
-    run(2);
     EXPECT_LT(widget("open.studio.toml").y, below);
     ask(Prompt::none);
   }
@@ -374,7 +362,6 @@ TEST_F(PanelTest, SavingShowsItsFolderOnce) {
   EXPECT_EQ(text.find(config_.path().string(), first + 1), std::string::npos) << "no other folder";
   EXPECT_FALSE(has("open.mine")) << "the folder of the file, which saving makes";
   click("open...");
-  run(2);
   EXPECT_TRUE(has("open.mine"));
   EXPECT_EQ(clickFor<SaveAs>("where.save").file, config_.path() / "new.toml");
 }
@@ -401,7 +388,6 @@ TEST_F(PanelTest, ModelsWithoutASceneCanBeSaved) {
   click("menu.Save");
   EXPECT_FALSE(sent<Save>());
   edit_.isNew = true;
-  run(2);
   clickFor<Save>("menu.Save");
 }
 
@@ -490,9 +476,7 @@ TEST_F(PanelTest, WindowsReturnFromATinyDisplay) {
   EXPECT_EQ(widget("performance.copy").x, csv.x + 150) << "docked windows follow the edge";
   resize(900, 700);
   click("menu.Window");
-  run(2);
   click("window.reset");
-  run(3);
   EXPECT_FALSE(has("log.copy") || has("edit.add_mirror")) << "all are closed";
   toggle("Log");
   EXPECT_GT(widget("log.copy").x, moved.x + 50);
@@ -667,11 +651,9 @@ TEST_F(PanelTest, TooltipsSayWhatWasMeasuredHere) {
   frame_.passes[0].timed = frame_.passes[1].timed = true;
   frame_.timedGpuMs = 50.0;
   accuracy_.prices["reflection.scale"] = "\nMeasured in this view:\n1.0: 7 ms";
-  run(2);
   EXPECT_TRUE(shows("Here mirror images take 12.0 ms of a frame's 50.0 ms on the GPU."));
   EXPECT_TRUE(shows("1.0: 7 ms"));
   accuracy_.otherView = true;
-  run(2);
   EXPECT_FALSE(shows("1.0: 7 ms"));
   hover("view.samples", 0.3);
   EXPECT_TRUE(shows("Here the main view takes 30.0 ms of a frame's 50.0 ms on the GPU."));
@@ -680,14 +662,11 @@ TEST_F(PanelTest, TooltipsSayWhatWasMeasuredHere) {
 TEST_F(PanelTest, HeaderShowsTheLastPictureWhilePaused) {
   frame_.frameMs = 14000.0;
   frame_.still = true;
-  run(2);
   EXPECT_TRUE(shows("14.00 s still")) << "nothing moves";
   playback_.paused = true;
-  run(2);
   EXPECT_TRUE(shows("14.00 s paused"));
   frame_.frameMs = 20.0;
   frame_.still = false;
-  run(2);
   EXPECT_TRUE(shows("20.0 ms 50 FPS"));
   resize(260, 400);
   EXPECT_FALSE(shows("50 FPS")) << "it would lie over the menus";
@@ -696,7 +675,6 @@ TEST_F(PanelTest, HeaderShowsTheLastPictureWhilePaused) {
 
 TEST_F(PanelTest, MenusShowTheirShortcuts) {
   click("menu.File");
-  run(2);
   for (const char* entry : {"New Ctrl+N", "Open... Ctrl+O", "Save Ctrl+S", "Save as... Ctrl+Shift+S", "Quit Ctrl+Q"}) {
     EXPECT_TRUE(shows(entry)) << entry;
   }
@@ -749,7 +727,6 @@ TEST_F(PanelTest, KeysFitOnePage) {
 
 TEST_F(PanelTest, KeysFitNarrowWindows) {
   windows_->toggleHelp();
-  run(4);
   EXPECT_EQ(widget("help.left").y, widget("help.right").y);
   resize(400, 700);
   EXPECT_EQ(widget("help.left").x, widget("help.right").x);
@@ -864,7 +841,6 @@ TEST_F(Inspector, NodesAreAddedOfTheChosenModel) {
   EXPECT_EQ(clickFor<AddObject>("edit.add_object").model, "/models/vase.obj");
   click("edit.model");
   click("edit.model.file");
-  run(2);
   click("edit.add_object");
   EXPECT_FALSE(sent<AddObject>()) << "no file is named";
   click("edit.model_file");
@@ -916,7 +892,6 @@ TEST_F(Inspector, SphereIsSuggested) {
   edit_.models = {"/models/frame.obj", "/models/sphere.obj"};
   const Scene other = scene_;
   edit_.scene = &other;
-  run(2);
   EXPECT_EQ(clickFor<AddObject>("edit.add_object").model, "/models/sphere.obj");
 }
 
@@ -1013,18 +988,15 @@ TEST_F(Inspector, OnlyValidPolygonsAreApplied) {
   ASSERT_EQ(five.size(), 5u);
   EXPECT_EQ(five[2], 0.5 * (five[1] + five[3]));
   scene_.mirrors[0].polygon = five;
-  run(2);
   EXPECT_EQ(std::get<Mirror>(clickFor<EditNode>("edit.polygon.0.remove").node).polygon.size(), 4u);
 }
 
 TEST_F(PanelTest, PromptsAnswerByButtonsAndEnter) {
   edit_.prompt = Prompt::unsavedChanges;
   edit_.saveFile = "/home/scene.toml";
-  run(3);
   EXPECT_TRUE(has("ask.save"));
   clickFor<DiscardChanges>("ask.discard");
   edit_.saveFile.reset();
-  run(3);
   EXPECT_FALSE(has("ask.save")) << "only to another file";
   clickFor<AskWhereToSave>("ask.save_as");
   ask(Prompt::saveAs, "/home/scene.toml");
@@ -1034,7 +1006,6 @@ TEST_F(PanelTest, PromptsAnswerByButtonsAndEnter) {
   commands_.clear();
   tap(ImGuiKey_Enter);
   EXPECT_EQ(only<SaveAs>().file, "/other");
-  run(3);
   clickFor<CancelPrompt>("where.cancel");
   ask(Prompt::none);
   EXPECT_FALSE(has("where.cancel"));
@@ -1075,10 +1046,8 @@ TEST_F(AccuracyWindow, PointsAndSliderApplySettings) {
 TEST_F(AccuracyWindow, SliderNamesPointsOffTheFront) {
   EXPECT_TRUE(shows("none of 2"));
   accuracy_.current = 2;
-  run(2);
   EXPECT_TRUE(shows("none of 2"));
   accuracy_.current = 1;
-  run(2);
   EXPECT_TRUE(shows("2 of 2"));
   EXPECT_FALSE(shows("none of 2"));
 }
@@ -1126,10 +1095,8 @@ TEST_F(AccuracyWindow, PointsThatABoundChoseAreNotGrey) {
 TEST_F(AccuracyWindow, SaysPurposeAndTimeOfMeasuring) {
   EXPECT_FALSE(shows("The view has changed since."));
   accuracy_.otherView = true;
-  run(2);
   EXPECT_TRUE(shows("The view has changed since."));
   accuracy_ = {};
-  run(2);
   for (const char* step : {"Finds the settings that are the most accurate within a time", "1. traces", "2. draws",
                            "3. measures the times"}) {
     EXPECT_TRUE(shows(step)) << step;
@@ -1137,49 +1104,40 @@ TEST_F(AccuracyWindow, SaysPurposeAndTimeOfMeasuring) {
   accuracy_.measuring = true;
   accuracy_.stage = "tracing the reference (1 of 3)";
   accuracy_.secondsLeft = 90.0;
-  run(2);
   EXPECT_TRUE(shows("tracing the reference (1 of 3)"));
   EXPECT_TRUE(shows("About 90 s left"));
   accuracy_.secondsLeft = 340.0;
-  run(2);
   EXPECT_TRUE(shows("About 6 min left"));
 }
 
 TEST_F(AccuracyWindow, NothingMovesWhenAStepBegins) {
   accuracy_.measuring = true;
   accuracy_.secondsLeft = 10.0;
-  run(2);
   const int bound = widget("quality.budget_ms").y;
   accuracy_.secondsLeft = 0.0;
-  run(2);
   EXPECT_EQ(widget("quality.budget_ms").y, bound);
 }
 
 TEST_F(AccuracyWindow, BoundsBeginWhereSettingsWereMeasured) {
   accuracy_.current = 2;
-  run(2);
   click("quality.max_error", 0.1);
   EXPECT_NEAR(settings_.quality.maxError, 0.2, 1e-9);
   accuracy_.current = -1;
   accuracy_.points[0].ms = 123.4;
-  run(2);
   click("quality.budget_ms", 0.1);
   EXPECT_NEAR(settings_.quality.budgetMs, 130.0, 1e-9) << "the fastest of the front fits";
 }
 
 TEST_F(AccuracyWindow, BoundsNeedMeasuredPoints) {
   accuracy_ = {};
-  run(2);
   EXPECT_TRUE(shows("Measure this view first."));
   click("quality.budget_ms", 0.1);
   EXPECT_EQ(settings_.quality.budgetMs, 0.0) << "a guess would choose settings as soon as there are points";
   accuracy_.measuring = true;
-  run(2);
   EXPECT_FALSE(shows("Measure this view first."));
   EXPECT_TRUE(shows("Being measured"));
   accuracy_.measuring = false;
   settings_.quality.maxError = 0.9;
-  run(2);
   EXPECT_TRUE(shows("Measure this view first.")) << "a scene may set a bound";
 }
 
@@ -1189,7 +1147,6 @@ TEST_F(AccuracyWindow, NameOfPointIsShownInFull) {
   resize(1280, 720);
   for (const float textSize : {1.0f, 2.0f}) {
     ImGui::GetIO().FontGlobalScale = textSize;
-    run(5);
     const PixelRect slider = widget("accuracy.slider");
     const std::string below = shownText(static_cast<float>(slider.y + slider.height) - 4.0f);
     EXPECT_TRUE(contains(below, "reflectionscale0.5,maxdepth4,samples4,viewsamples4")) << textSize;
@@ -1200,7 +1157,6 @@ TEST_F(AccuracyWindow, MeasurementIsStartedAndCancelled) {
   clickFor<MeasureAccuracy>("accuracy.measure");
   accuracy_.measuring = true;
   accuracy_.stage = "tracing";
-  run(2);
   EXPECT_FALSE(has("accuracy.measure"));
   clickFor<CancelMeasurement>("accuracy.cancel");
 }
@@ -1283,7 +1239,6 @@ TEST_F(TargetsWindow, IncompleteTargetsAreAnnounced) {
   ASSERT_TRUE(target() && target()->drawn);
   EXPECT_FALSE(target()->view.probe);
   frame_.target.complete = true;
-  run(2);
   EXPECT_FALSE(shows("Drawing..."));
   EXPECT_TRUE(target()->view.probe);
 }
@@ -1307,7 +1262,6 @@ TEST_F(TargetsWindow, RowsAddUpToTheFrame) {
   frame_.passes[1].gpuMs = 20.0;
   frame_.passes[1].timed = true;
   frame_.timedGpuMs = 50.0;
-  run(2);
   EXPECT_TRUE(has("passes.rest"));
   EXPECT_TRUE(shows("other work"));
 }
@@ -1325,7 +1279,6 @@ TEST_F(TargetsWindow, TooltipsLeaveTheirRowInSight) {
 
 TEST_F(TargetsWindow, PointedSkippedMirrorsAreReported) {
   click("skipped in main view", 0.1);
-  run(2);
   hover("skipped.mirror door", 0.1);
   EXPECT_EQ(output_.hoveredPath, std::vector<int>{1});
   const Selection door{Selection::Kind::mirror, 1};

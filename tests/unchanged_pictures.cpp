@@ -1,7 +1,6 @@
 // Pictures with reflection.skip_unchanged are the same bytes as without it while things move, stop or are edited.
 #include <chrono>
 
-#include "app/stats.hpp"
 #include "picture_support.hpp"
 #include "platform/files.hpp"
 #include "reuse_support.hpp"

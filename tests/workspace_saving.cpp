@@ -1,6 +1,5 @@
 // Saving, prompts about unsaved changes, and copies of them.
 #include "app/recovery.hpp"
-#include "test_paths.hpp"
 #include "workspace_support.hpp"
 
 namespace speculum {

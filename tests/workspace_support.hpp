@@ -4,7 +4,6 @@
 #include <thread>
 
 #include "app/workspace.hpp"
-#include "image/picture_files.hpp"
 #include "picture_support.hpp"
 #include "scene/scene_loader.hpp"
 #include "scene_text.hpp"

@@ -53,16 +53,8 @@ std::vector<int> paretoFront(const std::vector<FrontCandidate>& candidates) {
 }
 
 std::vector<int> paretoFront(const std::vector<SweepPoint>& points) {
-  const std::vector<int> order = indicesBy(points.size(), [&](int i) { return points[i].changes.size(); });
-  std::vector<FrontCandidate> candidates;
-  for (const int index : order) {
-    candidates.push_back({points[index].whole.flip, costSpread(points[index])});
-  }
-  std::vector<int> front = paretoFront(candidates);
-  for (int& index : front) {
-    index = order[index];
-  }
-  return front;
+  return paretoFront(points, indicesBy(points.size(), [&](int i) { return points[i].changes.size(); }),
+                     [](const SweepPoint& point) { return point.whole.flip; });
 }
 
 const Spread& costSpread(const SweepPoint& point) {

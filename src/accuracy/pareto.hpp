@@ -34,8 +34,21 @@ std::vector<int> paretoFront(const std::vector<FrontCandidate>& candidates);
 const Spread& costSpread(const SweepPoint& point);
 double costMs(const SweepPoint& point);  // its median
 
-// Finds the front of mean FLIP of the whole picture against costSpread(), as indices of points, cheapest first. Of
-// equally accurate points those with fewer changes come first.
+// Finds the front of an error, errorOf(point), of some of the points against costSpread(), as indices of points,
+// cheapest first. Of equally accurate points the first in `order` comes first.
+template <typename Error>
+std::vector<int> paretoFront(const std::vector<SweepPoint>& points, const std::vector<int>& order,
+                             const Error& errorOf) {
+  std::vector<FrontCandidate> candidates;
+  for (const int index : order) {
+    candidates.push_back({errorOf(points[index]), costSpread(points[index])});
+  }
+  std::vector<int> front = paretoFront(candidates);
+  std::ranges::transform(front, front.begin(), [&](int index) { return order[index]; });
+  return front;
+}
+
+// The front of mean FLIP of the whole picture. Of equally accurate points those with fewer changes come first.
 std::vector<int> paretoFront(const std::vector<SweepPoint>& points);
 
 // The measured point that a budget chooses. Points off the front count too, because their median may fit where that of

@@ -93,29 +93,14 @@ std::vector<int> flipFront(const SweepResults& results) {
   return front;
 }
 
-template <typename Error>
-std::vector<int> frontOf(const SweepResults& results, const Error& errorOf) {
-  std::vector<FrontCandidate> candidates;
-  std::vector<int> points;
-  for (size_t i = 0; i < results.points.size(); ++i) {
-    if (const std::optional<double> error = errorOf(results.points[i])) {
-      candidates.push_back({*error, costSpread(results.points[i])});
-      points.push_back(static_cast<int>(i));
-    }
-  }
-  std::vector<int> front = paretoFront(candidates);
-  for (int& index : front) {
-    index = points[index];
-  }
-  return front;
-}
-
 ordered_json frontsJson(const SweepResults& results) {
-  const auto whole = [](const SweepPoint& point) { return std::optional(point.whole.rmse); };
-  const auto mirrors = [](const SweepPoint& point) {
-    return point.mirrors ? std::optional(point.mirrors->rmse) : std::nullopt;
-  };
-  return {{"flip", flipFront(results)}, {"rmse", frontOf(results, whole)}, {"mirrors", frontOf(results, mirrors)}};
+  const std::vector<SweepPoint>& points = results.points;
+  const std::vector<int> all = indicesBy(points.size(), [](int i) { return i; });
+  std::vector<int> withMirrors = all;
+  std::erase_if(withMirrors, [&](int i) { return !points[i].mirrors; });
+  return {{"flip", flipFront(results)},
+          {"rmse", paretoFront(points, all, [](const SweepPoint& point) { return point.whole.rmse; })},
+          {"mirrors", paretoFront(points, withMirrors, [](const SweepPoint& point) { return point.mirrors->rmse; })}};
 }
 
 ordered_json changedSettings(const SweepResults& results) {

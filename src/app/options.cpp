@@ -212,11 +212,11 @@ void requireFilesOfTheirOwn(const Options& options) {
   std::map<std::filesystem::path, std::string_view> used;
   for (const auto& [option, file] : inputs) {
     if (std::filesystem::is_regular_file(file, error)) {
-      used.emplace(withoutLinks(wholePath(file)), option);
+      used.emplace(withoutLinks(file), option);
     }
   }
   for (const auto& [option, file] : outputs) {
-    const std::filesystem::path target = withoutLinks(wholePath(file));
+    const std::filesystem::path target = withoutLinks(file);
     const bool replaced = !std::filesystem::exists(target, error) || std::filesystem::is_regular_file(target, error);
     if (file.empty() || !replaced) {
       continue;

@@ -167,14 +167,13 @@ void printOutcomes(const RegressRun& run, const std::filesystem::path& page) {
 // Refuses a report whose files would replace those that cases read.
 void requireFilesOfItsOwn(const Options& options, const std::vector<RegressCase>& drawn,
                           const std::vector<RegressCase>& cases) {
-  const auto target = [](const std::filesystem::path& file) { return withoutLinks(wholePath(file)); };
-  std::map<std::filesystem::path, const char*> written{{target(options.out / "index.html"), "--out"}};
+  std::map<std::filesystem::path, const char*> written{{withoutLinks(options.out / "index.html"), "--out"}};
   for (const RegressCase& subject : drawn) {
     for (const std::filesystem::path& file : CaseFiles(options.out, subject.name).all()) {
-      written[target(file)] = "--out";
+      written[withoutLinks(file)] = "--out";
     }
   }
-  if (!options.junit.empty() && !written.emplace(target(options.junit), "--junit").second) {
+  if (!options.junit.empty() && !written.emplace(withoutLinks(options.junit), "--junit").second) {
     throw UsageError("--junit: " + options.junit.string() + " is a file of the report (name another file)");
   }
   for (const RegressCase& subject : cases) {
@@ -183,7 +182,7 @@ void requireFilesOfItsOwn(const Options& options, const std::vector<RegressCase>
       read.push_back(expectation.picture.value_or(""));
     }
     for (const std::filesystem::path& file : read) {
-      const auto found = file.empty() ? written.end() : written.find(target(file));
+      const auto found = file.empty() ? written.end() : written.find(withoutLinks(file));
       if (found != written.end()) {
         throw UsageError(fmt::format("{}: the report would replace {} of case '{}' (choose another place)",
                                      found->second, file.string(), subject.name));

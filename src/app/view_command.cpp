@@ -42,7 +42,7 @@ std::string quoted(const std::string& argument) {
 
 // Returns the name of a scene that comes with the program, else the path.
 std::string sceneText(const std::filesystem::path& file) {
-  const std::filesystem::path path = withoutLinks(wholePath(file));
+  const std::filesystem::path path = withoutLinks(file);
   const std::filesystem::path name = path.lexically_relative(withoutLinks(dataDirectory("scenes")));
   return name.empty() || *name.begin() == ".." ? path.string() : (name.parent_path() / name.stem()).string();
 }

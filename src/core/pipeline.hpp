@@ -101,6 +101,13 @@ class Pipeline {
   void push(VkCommandBuffer commands, const T& constants) const {
     pushBytes(commands, &constants, sizeof constants);
   }
+  // Binds the pipeline with its only set and its push constants.
+  template <typename T>
+  void bind(VkCommandBuffer commands, VkDescriptorSet set, const T& constants) const {
+    bind(commands);
+    bindSet(commands, 0, set);
+    push(commands, constants);
+  }
 
  private:
   friend class PipelineFactory;

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "core/image.hpp"
-#include "core/retire_queue.hpp"
 #include "platform/window.hpp"
 
 namespace speculum {

@@ -56,6 +56,16 @@ void addVisibleInstances(const View& view, const Scene& scene, const SceneState&
   }
 }
 
+void addVisibleLights(const View& view, const Scene& scene, const SceneState& state, const EffectSettings& effects,
+                      PlannedPass& pass) {
+  for (size_t i = 0; i < scene.lights.size(); ++i) {
+    const PointLight& light = scene.lights[i];
+    if (hasGlyph(light, effects) && sphereVisible(view, state.lights[i].position, light.radius)) {
+      pass.lights.push_back(static_cast<int>(i));
+    }
+  }
+}
+
 View viewOf(const CubeFace& face) {
   const glm::dvec3& forward = face.axes.forward;
   const glm::dvec3& up = face.axes.up;

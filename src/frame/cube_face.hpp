@@ -23,6 +23,10 @@ std::vector<Bounds> boxesOf(const Scene& scene, const SceneState& state, const g
 void addVisibleInstances(const View& view, const Scene& scene, const SceneState& state, bool cullClusters, int without,
                          PlannedPass& pass);
 
+// Adds the lights whose glyphs the view may see.
+void addVisibleLights(const View& view, const Scene& scene, const SceneState& state, const EffectSettings& effects,
+                      PlannedPass& pass);
+
 // Point and projection from which a face is seen.
 struct CubeFace {
   glm::dvec3 center;  // world

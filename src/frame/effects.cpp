@@ -18,7 +18,7 @@ struct Visible {
 
 Visible visibleIn(const FramePlan& plan) {
   Visible visible;
-  const auto add = [&](const PlannedPass& pass) {
+  forEachPass(plan, [&](const PlannedPass& pass) {
     visible.instances.insert(pass.instances.begin(), pass.instances.end());
     visible.lights.insert(pass.lights.begin(), pass.lights.end());
     for (const MirrorDraw& draw : pass.mirrors) {
@@ -26,13 +26,7 @@ Visible visibleIn(const FramePlan& plan) {
         visible.mirrorFronts.insert(draw.mirror);
       }
     }
-  };
-  std::ranges::for_each(plan.passes, add);
-  std::ranges::for_each(plan.reused, add);
-  for (const EnvironmentMap& map : plan.maps) {
-    std::ranges::for_each(map.faces, add);
-  }
-  add(plan.main);
+  });
   return visible;
 }
 

@@ -43,12 +43,7 @@ Bounds boxAround(size_t own, std::span<const Bounds> boxes) {
 
 PlannedPass faceOf(const Scene& scene, const SceneState& state, const EnvironmentMap& map, const FaceAxes& axes) {
   PlannedPass face = planFace({map.center, axes, map.projection, map.size}, scene, state, false, map.instance);
-  for (size_t i = 0; i < scene.lights.size(); ++i) {
-    if (hasGlyph(scene.lights[i], map.settings.effects) &&
-        sphereVisible(face.view, state.lights[i].position, scene.lights[i].radius)) {
-      face.lights.push_back(static_cast<int>(i));
-    }
-  }
+  addVisibleLights(face.view, scene, state, map.settings.effects, face);
   return face;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -183,6 +184,18 @@ struct FramePlan {
 // again.
 inline const std::vector<PlannedPass>& shownPasses(const FramePlan& plan) {
   return plan.mainReused ? plan.reused : plan.passes;
+}
+
+// Visits the main view, all mirror passes, those that cached images replace included, and the faces of environment
+// maps.
+template <typename Visit>
+void forEachPass(const FramePlan& plan, const Visit& visit) {
+  visit(plan.main);
+  std::ranges::for_each(plan.passes, visit);
+  std::ranges::for_each(plan.reused, visit);
+  for (const EnvironmentMap& map : plan.maps) {
+    std::ranges::for_each(map.faces, visit);
+  }
 }
 
 // Returns the one of shownPasses() with that path; null if there is none.

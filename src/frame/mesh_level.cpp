@@ -179,12 +179,7 @@ std::vector<int> meshesWithLevels(const FramePlan& plan, const SceneState& state
       meshes.insert(state.instances[simplified.instance].mesh);
     }
   };
-  add(plan.main);
-  std::ranges::for_each(plan.passes, add);
-  std::ranges::for_each(plan.reused, add);
-  for (const EnvironmentMap& map : plan.maps) {
-    std::ranges::for_each(map.faces, add);
-  }
+  forEachPass(plan, add);
   for (const ShadowMap& map : plan.shadowMaps) {
     for (const ShadowFace& face : map.faces) {
       add(face.pass);

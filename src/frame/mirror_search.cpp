@@ -94,12 +94,7 @@ void MirrorSearch::fill(int node) {
   const View view = nodes_[node].pass.view;
   const View readable = readableView(view, plan_.projection, allSettings_);
   addVisibleInstances(readable, scene_, state_, allSettings_.debug.cullClusters, -1, nodes_[node].pass);
-  for (size_t i = 0; i < scene_.lights.size(); ++i) {
-    const PointLight& light = scene_.lights[i];
-    if (hasGlyph(light, allSettings_.effects) && sphereVisible(readable, state_.lights[i].position, light.radius)) {
-      nodes_[node].pass.lights.push_back(static_cast<int>(i));
-    }
-  }
+  addVisibleLights(readable, scene_, state_, allSettings_.effects, nodes_[node].pass);
   // Polygons are cut one pixel farther out, so that no cut edge lies where the image is read.
   View drawn = readable;
   widen(drawn, plan_.projection, 1);

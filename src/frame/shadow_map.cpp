@@ -209,6 +209,10 @@ PlannedPass castersOf(PlannedPass pass, bool still, const Scene& scene, const Sc
   return pass;
 }
 
+bool anyFace(std::span<const ShadowMap> maps, const auto& predicate) {
+  return std::ranges::any_of(maps, [&](const ShadowMap& map) { return std::ranges::any_of(map.faces, predicate); });
+}
+
 bool isEmpty(const PlannedPass& pass) {
   return pass.instances.empty() && pass.mirrors.empty();
 }
@@ -294,14 +298,11 @@ std::optional<size_t> onlyShadowFace(std::span<const ShadowMap> maps) {
 }
 
 bool rendersShadows(std::span<const ShadowMap> maps) {
-  return std::ranges::any_of(
-      maps, [](const ShadowMap& map) { return std::ranges::any_of(map.faces, &ShadowFace::rendered); });
+  return anyFace(maps, &ShadowFace::rendered);
 }
 
 bool hasShadowLayers(std::span<const ShadowMap> maps) {
-  return std::ranges::any_of(maps, [](const ShadowMap& map) {
-    return std::ranges::any_of(map.faces, [](const ShadowFace& face) { return face.layer.has_value(); });
-  });
+  return anyFace(maps, [](const ShadowFace& face) { return face.layer.has_value(); });
 }
 
 glm::ivec2 shadowExtent(std::span<const ShadowMap> maps) {

@@ -245,7 +245,7 @@ fs::path wholePath(const fs::path& path) {
 
 fs::path withoutLinks(const fs::path& path) {
   std::error_code error;
-  fs::path target = fs::weakly_canonical(path, error);
+  fs::path target = fs::weakly_canonical(wholePath(path), error);
   return error ? path : target;
 }
 

@@ -48,7 +48,7 @@ bool isFile(const std::filesystem::path& path);
 bool isFolder(const std::filesystem::path& path);
 // Returns the path from the root on, or the path itself if the working folder was deleted.
 std::filesystem::path wholePath(const std::filesystem::path& path);
-// Returns the path without symbolic links, or the path itself where they cannot be followed.
+// Returns the whole path without symbolic links, or the path itself where they cannot be followed.
 std::filesystem::path withoutLinks(const std::filesystem::path& path);
 bool isWritable(const std::filesystem::path& file);  // the folder of a file that does not exist
 

@@ -58,9 +58,7 @@ RecordedPass Accumulation::add(Frame& frame, const VkDescriptorImageInfo& radian
   });
   const PassDesc desc = fullPass("accumulate", {.color = &sum()});
   const PassScope scope = renderer_.beginPass(frame, desc);
-  pipeline.bind(scope.commands());
-  pipeline.bindSet(scope.commands(), 0, set);
-  pipeline.push(scope.commands(), gpu::AccumulateConstants{picture == 0});
+  pipeline.bind(scope.commands(), set, gpu::AccumulateConstants{picture == 0});
   vkCmdDraw(scope.commands(), 3, 1, 0, 0);
   return {{.kind = PassKind::accumulation}, desc.name, -1, 1};
 }

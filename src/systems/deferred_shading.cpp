@@ -91,10 +91,8 @@ void DeferredShading::collect(const PassScope& scope, const TraceVariant& trace)
   Barriers::requestsToUse(commands);
   vkCmdUpdateBuffer(commands, requests_.get(), 0, sizeof noRequests, noRequests.data());
   Barriers::requestsToUse(commands);
-  pipeline.bind(commands);
-  pipeline.bindSet(commands, 0, set_);
   const gpu::ShadeConstants area = areaOf(scope.desc());
-  pipeline.push(commands, area);
+  pipeline.bind(commands, set_, area);
   vkCmdDispatch(commands, groupCount(area.size.x, groupSide), groupCount(area.size.y, groupSide), 1);
   Barriers::requestsToUse(commands);
 }
@@ -115,7 +113,6 @@ void DeferredShading::shade(const PassScope& scope, const FrameInfo& info, const
                                .pushConstantBytes = sizeof(gpu::ShadeConstants)};
   });
   const VkCommandBuffer commands = scope.commands();
-  pipeline.bind(commands);
   info.data.bind(pipeline, commands, pass);
   pipeline.bindSet(commands, 1, set_);
   pipeline.bindSet(commands, 2, info.trace.set());
@@ -138,9 +135,7 @@ uint32_t DeferredShading::record(const PassScope& scope) {
                                 .depthTest = false,
                                 .depthWrite = false};
   });
-  pipeline.bind(scope.commands());
-  pipeline.bindSet(scope.commands(), 0, set_);
-  pipeline.push(scope.commands(), areaOf(scope.desc()));
+  pipeline.bind(scope.commands(), set_, areaOf(scope.desc()));
   vkCmdDraw(scope.commands(), 3, samples, 0, 0);
   return 1;
 }

@@ -74,9 +74,7 @@ RecordedPass DisplaySystem::draw(Frame& frame, const PassDesc& desc, PassKind ki
   const VkDescriptorSet set = frame.descriptors->allocate(layout_.get());
   DescriptorWriter().image(0, image).update(renderer_.device(), set);
   const PassScope scope = renderer_.beginPass(frame, desc);
-  pipeline.bind(scope.commands());
-  pipeline.bindSet(scope.commands(), 0, set);
-  pipeline.push(scope.commands(), constants);
+  pipeline.bind(scope.commands(), set, constants);
   vkCmdDraw(scope.commands(), 3, 1, 0, 0);
   return {{.kind = kind}, desc.name, -1, 1};
 }

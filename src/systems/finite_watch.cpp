@@ -84,10 +84,7 @@ void FiniteWatch::check(Frame& frame, const RecordedPass& pass, bool samples, Im
       .update(device_, set);
   const bool multisampled = image.samples() != VK_SAMPLE_COUNT_1_BIT;
   const auto dispatch = [&](bool looksUp, uint32_t x, uint32_t y) {
-    const Pipeline& pipeline = this->pipeline({multisampled, looksUp});
-    pipeline.bind(frame.commands);
-    pipeline.bindSet(frame.commands, 0, set);
-    pipeline.push(frame.commands, gpu::CheckConstants{{used.width, used.height}});
+    pipeline({multisampled, looksUp}).bind(frame.commands, set, gpu::CheckConstants{{used.width, used.height}});
     vkCmdDispatch(frame.commands, x, y, 1);
   };
   device_.beginLabel(frame.commands, "check " + pass.name);

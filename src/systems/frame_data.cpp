@@ -163,6 +163,7 @@ void FrameData::build(Frame& frame, const SceneResources& resources, const Scene
 void FrameData::bind(const Pipeline& pipeline, VkCommandBuffer commands, const PassData& pass, uint32_t mirror) const {
   const std::array offsets{pass.pass * static_cast<uint32_t>(sizeof(PassBlock)),
                            mirror * static_cast<uint32_t>(sizeof(gpu::MirrorBlock))};
+  pipeline.bind(commands);
   pipeline.bindSet(commands, 0, set_, offsets);
 }
 

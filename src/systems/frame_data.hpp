@@ -85,7 +85,7 @@ class FrameData {
              const Settings& settings, const Environment& environment, const FramePlan& plan);
 
   const std::vector<PassData>& passes() const { return passes_; }
-  // Binds set 0 for draws of `pass`, or of `mirror` in it.
+  // Binds the pipeline, and set 0 for draws of `pass`, or of `mirror` in it.
   void bind(const Pipeline& pipeline, VkCommandBuffer commands, const PassData& pass, uint32_t mirror = 0) const;
   // MirrorData by MirrorData::index, each at a multiple of 256 bytes.
   VkDescriptorBufferInfo mirrorBuffer(const Frame& frame) const { return buffers_.buffer(frame, mirrors).descriptor(); }

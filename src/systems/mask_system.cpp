@@ -13,7 +13,6 @@ uint32_t MaskSystem::record(const PassScope& scope, const FrameInfo& info, const
                                 .samples = scope.samples(),
                                 .depthCompare = VK_COMPARE_OP_ALWAYS};
   });
-  pipeline.bind(scope.commands());
   info.data.bind(pipeline, scope.commands(), pass);
   vkCmdDraw(scope.commands(), pass.maskVertexCount, 1, pass.maskFirstVertex, 0);
   return 1;

@@ -170,7 +170,6 @@ void MirrorSystem::draw(const PassScope& scope, const FrameInfo& info, const Pas
   const bool reads = image && !identifies && variant.shading != Shading::base;
   const VkDescriptorSet set = info.frame.descriptors->allocate(imageLayout_.get());
   DescriptorWriter().image(0, reads ? image->descriptor : noImage_.descriptor(sampler_.get())).update(device_, set);
-  pipeline.bind(scope.commands());
   info.data.bind(pipeline, scope.commands(), pass, mirror.mirror);
   pipeline.bindSet(scope.commands(), 1, set);
   if (variant.shadowed) {

@@ -15,7 +15,6 @@ uint32_t PointLightSystem::record(const PassScope& scope, const FrameInfo& info,
                                 .sampleShading = scope.samples() != VK_SAMPLE_COUNT_1_BIT,
                                 .cullMode = VK_CULL_MODE_FRONT_BIT};
   });
-  pipeline.bind(scope.commands());
   info.data.bind(pipeline, scope.commands(), pass);
   vkCmdDraw(scope.commands(), 36, pass.glyphCount, 0, 0);
   info.ledger.draw(EffectKind::glyphs);

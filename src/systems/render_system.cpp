@@ -153,7 +153,6 @@ uint32_t RenderSystem::recordBatch(const PassScope& scope, const FrameInfo& info
       variant.glossy = constants.specular != glm::vec3(0.0f);
     }
     const Pipeline& pipeline = objects_.get(variant, [&] { return objects(variant, info, shading); });
-    pipeline.bind(commands);
     info.data.bind(pipeline, commands, pass);
     pipeline.bindSet(commands, 1, batch.map >= 0 ? info.maps[batch.map] : info.resources.texture(material));
     if (variant.shadowed) {
@@ -206,7 +205,6 @@ uint32_t RenderSystem::recordSky(const PassScope& scope, const FrameInfo& info, 
                                 .depthWrite = false,
                                 .depthCompare = VK_COMPARE_OP_GREATER_OR_EQUAL};
   });
-  pipeline.bind(scope.commands());
   info.data.bind(pipeline, scope.commands(), pass);
   vkCmdDraw(scope.commands(), 3, 1, 0, 0);
   return 1;

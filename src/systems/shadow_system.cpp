@@ -130,16 +130,13 @@ uint32_t ShadowSystem::draw(const PassScope& scope, const FrameInfo& info, size_
   uint32_t draws = 0;
   if (overLayer) {
     const Pipeline& pipeline = pipelineFor(Drawn::layer);
-    pipeline.bind(commands);
     info.data.bind(pipeline, commands, data);
     pipeline.bindSet(commands, 1, layerSet_);
     vkCmdDraw(commands, 3, 1, 0, 0);
     ++draws;
   }
   if (!data.batches.empty()) {
-    const Pipeline& pipeline = pipelineFor(Drawn::objects);
-    pipeline.bind(commands);
-    info.data.bind(pipeline, commands, data);
+    info.data.bind(pipelineFor(Drawn::objects), commands, data);
   }
   for (const Batch& batch : data.batches) {
     const Mesh& source = info.scene.meshes[batch.mesh];
@@ -151,9 +148,7 @@ uint32_t ShadowSystem::draw(const PassScope& scope, const FrameInfo& info, size_
     }
   }
   for (const MirrorRange& mirror : data.mirrors) {
-    const Pipeline& pipeline = pipelineFor(Drawn::mirrors);
-    pipeline.bind(commands);
-    info.data.bind(pipeline, commands, data, mirror.mirror);
+    info.data.bind(pipelineFor(Drawn::mirrors), commands, data, mirror.mirror);
     vkCmdDraw(commands, mirror.vertexCount, 1, mirror.firstVertex, 0);
     ++draws;
   }

@@ -34,9 +34,7 @@ void TexelProbe::probe(Frame& frame, Image& image, const VkDescriptorImageInfo& 
   });
   device_.beginLabel(frame.commands, "probe texel");
   device_.barriers().record(frame.commands, BarrierKind::targetToCheck, image);
-  pipeline.bind(frame.commands);
-  pipeline.bindSet(frame.commands, 0, set);
-  pipeline.push(frame.commands, gpu::ProbeConstants{texel});
+  pipeline.bind(frame.commands, set, gpu::ProbeConstants{texel});
   vkCmdDispatch(frame.commands, 1, 1, 1);
   device_.barriers().record(frame.commands, BarrierKind::checkToWrite, image);
   Barriers::computeToHost(frame.commands);

@@ -1,6 +1,5 @@
 // Pictures of hard cases of depth and clipping: the order of two surfaces, and the cut at a mirror's plane.
 #include "geometry/affine.hpp"
-#include "geometry/reflection.hpp"
 #include "scene_text.hpp"
 #include "truth_support.hpp"
 

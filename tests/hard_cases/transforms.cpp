@@ -1,5 +1,4 @@
 // Hard cases of transforms: the vertex shader's inputs against the scene's own numbers in extended precision.
-#include "geometry/reflection.hpp"
 #include "test_headers.hpp"
 #include "transform_support.hpp"
 

@@ -68,10 +68,6 @@ std::string tomlOf(const std::string& text) {
   return file;
 }
 
-std::string replaced(std::string text, const std::string& part, const std::string& by) {
-  return text.replace(text.find(part), part.size(), by);
-}
-
 std::string text(double value) {
   std::ostringstream out;
   out.precision(17);

@@ -23,9 +23,6 @@ extern const std::string corridorNodes;
 // The eye between two mirrors that face each other, and `nodes` between them.
 std::string corridorScene(const std::string& nodes = corridorNodes);
 
-// Returns the text with one part replaced, which it must have.
-std::string replaced(std::string text, const std::string& part, const std::string& by);
-
 // Numbers with all their digits.
 std::string text(double value);
 std::string text(const glm::dvec3& v);

@@ -40,6 +40,12 @@ inline ::testing::AssertionResult startsWith(std::string_view text, std::string_
          << "in: " << text.substr(0, 4000);
 }
 
+// Returns the text with one part replaced, which it must have.
+inline std::string replaced(std::string text, std::string_view part, std::string_view by) {
+  EXPECT_TRUE(contains(text, part)) << part;
+  return text.replace(text.find(part), part.size(), by);
+}
+
 // Says how often the text has the part.
 inline int occurrences(std::string_view text, std::string_view part) {
   int found = 0;
