@@ -10,35 +10,39 @@ uint mixedBits(uint x) {
 
 float unitInterval(uint bits) { return float(bits >> 8) * (1.0 / 16777216.0); }
 
+vec2 randomPair(uint seed) { return vec2(unitInterval(seed), unitInterval(mixedBits(seed))); }
+
 // Returns a seed for a position in pixels, in steps of 1/16.
 uint seedAt(vec2 position) { return mixedBits(uint(position.x * 16.0) + mixedBits(uint(position.y * 16.0))); }
 
-// Returns the lattice's shift in a pixel, from point number `first` on. Whole numbers keep it exact.
-vec2 pixelShift(uint seed, uint first) {
-  uvec2 step = first * uvec2(3242174889u, 2447445414u);  // of latticePoint, times 2^32
+// Returns a shift for recurrencePoint() that continues the sequence of a seed at point number `first`. Whole numbers
+// keep it exact.
+vec2 recurrenceShift(uint seed, uint first) {
+  uvec2 step = first * uvec2(3242174889u, 2447445414u);  // of recurrencePoint, times 2^32
   return vec2(unitInterval(seed), unitInterval(mixedBits(seed + 1))) + vec2(unitInterval(step.x), unitInterval(step.y));
 }
 
 // Returns a point of the additive recurrence of the plastic number: Roberts, "The Unreasonable Effectiveness of
 // Quasirandom Sequences" (2018).
-vec2 latticePoint(vec2 shift, int index) {
+vec2 recurrencePoint(vec2 shift, int index) {
   return fract(shift + float(index) * vec2(0.7548776662466927, 0.5698402909980532));
 }
 
-// A set of `count` points that covers the unit square evenly: the lattice (i / count, i * golden ratio), moved as a
-// whole. Two basis vectors of the lattice of about equal length span a cell. With shifts uniform in it each point is
-// uniform in the square, and the points of one index, in different pixels, stay within a cell: their rays go about the
-// same way, which keeps neighbouring pixels on the same branches.
-struct LatticeSet {
+// `count` points that cover the unit square evenly: the lattice (i / count, i * golden ratio), moved as a whole by a
+// shift within one of its cells. If shifts are uniform in the cell, the points together are uniform in the square, while
+// point i stays in a cell of its own: the rays of point i in neighbouring pixels go about the same way, and the pixels
+// take the same branches.
+struct Lattice {
   vec2 shift;
-  float count;
+  int count;
 };
 
 const float golden = 0.6180339887498949;
 
 // `place` in the cell, 0 .. 1 each.
-LatticeSet latticeSet(vec2 place, int count) {
-  // Neighbours in the Fibonacci sequence give bases, which grow in x and shrink in y.
+Lattice latticeOf(vec2 place, int count) {
+  // Two successive vectors of a Fibonacci sequence span a cell. They grow in x and shrink in y; the loop ends where both
+  // sides of the cell are about equally long.
   vec2 a = vec2(0.0, -1.0);
   vec2 b = vec2(1.0 / float(count), golden);
   while (b.x < abs(b.y)) {
@@ -46,16 +50,15 @@ LatticeSet latticeSet(vec2 place, int count) {
     a = b;
     b = next;
   }
-  return LatticeSet(place.x * a + place.y * b, float(count));
+  return Lattice(place.x * a + place.y * b, count);
 }
 
-// Returns a point of the set. From number `count` on they repeat its columns, elsewhere in y.
-vec2 pointOf(LatticeSet set, int index) {
-  float x = set.shift.x + float(index) / set.count;
-  float round = floor(float(index) / set.count);
-  float columns = floor(x);
-  float y = set.shift.y + float(index) * golden - (columns - round) * set.count * golden + round * 0.7548776662466927;
-  return vec2(x - columns, fract(y));
+// Returns point 0 .. count - 1. One that the shift moves across a side in x comes back as the point `count` numbers
+// away.
+vec2 latticePoint(Lattice lattice, int index) {
+  float x = lattice.shift.x + float(index) / float(lattice.count);
+  float sides = floor(x);
+  return vec2(x - sides, fract(lattice.shift.y + (float(index) - sides * float(lattice.count)) * golden));
 }
 
 // Samples a normal of GGX with density D(m)(n.m) about n: Walter et al., "Microfacet Models for Refraction through

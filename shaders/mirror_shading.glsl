@@ -240,12 +240,12 @@ vec4 scatteredReflection(vec3 ray, vec3 position, vec3 normal) {
   float guess = length(ray) * disparityLength / max(disparityOf(sharp.a), 1e-30) - length(position);
   Origin origin = Origin(position, clamp(guess, 0.0, limit), limit);
   uint seed = seedAt(gl_FragCoord.xy);
-  vec2 shift = pixelShift(seed, view.picture * uint(mirror.blurSamples));
+  vec2 shift = recurrenceShift(seed, view.picture * uint(mirror.blurSamples));
   vec3 sum = vec3(0.0);
   int taken = 0;
   int lookups = int(countHere(uint(mirror.blurSamples)));
   for (int drawn = 1; drawn <= lookups; ++drawn) {
-    vec3 m = microfacet(normal, mirror.alpha, latticePoint(shift, drawn));
+    vec3 m = microfacet(normal, mirror.alpha, recurrencePoint(shift, drawn));
     if (staysAbove(incoming, m, mirror.normal)) {
       sum += imageAlong(incoming - 2.0 * dot(incoming, m) * m, origin);
       ++taken;

@@ -152,23 +152,44 @@ vec3 glyphRadiance(vec3 origin, vec3 direction, inout float t) {
   return glow;
 }
 
-// Which random points a surface takes for its microfacets.
+// Which random points a surface takes for its microfacets. Samples of a pixel share a lattice.
 struct Draws {
-  uint set;    // number of the pixel's set of points
-  int wanted;  // microfacets
-  int first;   // number in the set
-  int step;    // to the next: the samples that share the set
+  uint picture;  // pictures of a mean have other lattices
+  int wanted;    // microfacets of this sample
+  int share;     // of the lattice, that the sample takes
+  int shares;
 };
 
-// Draws microfacets of `bounce`, seen along `direction`, from the points of the set, until one faces the viewer and mirrors the ray above the plane. Returns false if `most` draws are used up without one. A pixel
-// that has not `taken` any by then gets the surface's own normal.
-bool nextMicrofacet(Bounce bounce, vec3 direction, LatticeSet set, Draws draws, bool taken, int most, inout int drawn,
-                    inout vec3 m) {
+struct RandomPoints {
+  Lattice lattice;
+  uint seed;  // of the points that replace those that are rejected
+};
+
+RandomPoints randomPoints(uint seed, Draws draws) {
+  return RandomPoints(latticeOf(fract(recurrenceShift(seed, draws.picture)), draws.wanted * draws.shares),
+                      mixedBits(seed + draws.picture * uint(draws.shares) + uint(draws.share)));
+}
+
+// Returns the points of the sample's share in several rounds, so that the first ones are evenly spread too: lavapipe ends
+// loops after 65 535 iterations. Further points are independent of each other, so that rejecting some biases nothing.
+vec2 randomPoint(RandomPoints points, Draws draws, int drawn) {
+  int rounds = min(draws.wanted & -draws.wanted, 32);  // a power of two
+  int perRound = draws.wanted / rounds;
+  int own = drawn % perRound * rounds + drawn / perRound;
+  return drawn < draws.wanted ? latticePoint(points.lattice, draws.share + own * draws.shares)
+                              : randomPair(mixedBits(points.seed + uint(drawn)));
+}
+
+// Draws microfacets of `bounce`, seen along `direction`, until one faces the viewer and mirrors the ray above the plane.
+// Returns false if `most` draws are used up without one. A pixel that has not `taken` any by then gets the surface's own
+// normal.
+bool nextMicrofacet(Bounce bounce, vec3 direction, RandomPoints points, Draws draws, bool taken, int most,
+                    inout int drawn, inout vec3 m) {
   bool found = false;
   while (!found && drawn < most) {
     bool isNormal = !rough || bounce.alpha == 0.0 || (drawn + 1 == most && !taken);
     m = isNormal ? bounce.surface.normal
-                 : microfacet(bounce.surface.normal, bounce.alpha, pointOf(set, draws.first + drawn * draws.step));
+                 : microfacet(bounce.surface.normal, bounce.alpha, randomPoint(points, draws, drawn));
     ++drawn;
     found = isNormal || staysAbove(direction, m, bounce.planeNormal);
   }
@@ -183,9 +204,8 @@ bool nextMicrofacet(Bounce bounce, vec3 direction, LatticeSet set, Draws draws, 
 // ends at its head: lavapipe of Mesa 22.3 goes on computing for pixels that have left a loop, and variables keep their
 // values only from one iteration to the next.
 vec3 tracedRadiance(Bounce surface, vec3 direction, uint seed, Draws draws) {
-  int points = draws.wanted * draws.step;
-  LatticeSet set = latticeSet(fract(pixelShift(seed, draws.set)), points);
   int most = 4 * draws.wanted + 16;
+  RandomPoints points = randomPoints(seed, draws);
   int drawn = 0;
   int taken = 0;
   vec3 base = vec3(0.0);
@@ -202,7 +222,7 @@ vec3 tracedRadiance(Bounce surface, vec3 direction, uint seed, Draws draws) {
   while (!ends) {
     bool follows = !first;
     if (starts) {
-      follows = nextMicrofacet(surface, direction, set, draws, taken > 0, most, drawn, m);
+      follows = nextMicrofacet(surface, direction, points, draws, taken > 0, most, drawn, m);
       taken += follows ? 1 : 0;
     }
     if (rough && starts) {
@@ -211,7 +231,7 @@ vec3 tracedRadiance(Bounce surface, vec3 direction, uint seed, Draws draws) {
       towards = direction;
       weight = vec3(1.0);
       depth = view.depth;
-      pathSeed = seed + draws.set * uint(points) + uint(draws.first + drawn * draws.step);
+      pathSeed = points.seed + uint(drawn);
     }
     bool meets = first;
     if (follows) {
@@ -243,7 +263,7 @@ vec3 tracedRadiance(Bounce surface, vec3 direction, uint seed, Draws draws) {
       if (rough && meets && bounce.alpha > 0.0 && bounce.reflects) {
         // Each further bounce samples one microfacet; if it faces away, the mirror's own normal replaces it.
         pathSeed = mixedBits(pathSeed + 0x9e3779b9u);
-        vec3 facet = microfacet(m, bounce.alpha, vec2(unitInterval(pathSeed), unitInterval(mixedBits(pathSeed))));
+        vec3 facet = microfacet(m, bounce.alpha, randomPair(pathSeed));
         m = staysAbove(towards, facet, bounce.planeNormal) ? facet : m;
       }
     }

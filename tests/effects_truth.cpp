@@ -202,6 +202,27 @@ TEST(RoughFloor, MeetsAWallWithoutDarkPixels) {
   EXPECT_NEAR((*darkest)[0], 0.5 * 0.8 * 0.9, 0.001);
 }
 
+// Many microfacets of a steep view face away. Those that replace them must not change the mean direction.
+TEST(RoughFloor, SteepViewKeepsTheMean) {
+  const std::filesystem::path file =
+      writeScene("steep_floor",
+                 "[environment]\nsky = { zenith = [1, 1, 1], horizon = [0, 0, 0], ground = [0, 0, 0] }\n[camera]\n"
+                 "position = [0, 1, 0]\ntarget = [0, 0.55, -1]\nvertical_fov = 20\n[[mirror]]\nsize = [2000, 2000]\n"
+                 "rotation = [-90, 0, 0]\nroughness = 0.7\nreflectance = [1, 1, 1]\n");
+  const auto mean = [](const LinearImage& image) {
+    double sum = 0.0;
+    for (const auto& pixel : image.pixels) {
+      sum += pixel[0];
+    }
+    return sum / static_cast<double>(image.pixels.size());
+  };
+  QuietSession session(headless(file, small, {{"effects.rough_samples", "64"}}));
+  const double drawn = mean(drawRadiance(session));
+  const double traced = mean(traceSmall(file, {.samples = 4, .roughSamples = 64}).image);
+  std::printf("mean radiance %.5f, traced %.5f\n", drawn, traced);
+  EXPECT_NEAR(drawn, traced, 0.002 * traced);
+}
+
 // A green mirror lets no red light through.
 TEST(ExactEffects, ThroughputIsPerChannel) {
   const std::filesystem::path file =
