@@ -136,7 +136,7 @@ TEST(Accumulation, FinishedMeanIsShownWithoutDrawing) {
 void drawTiles(Session& session, int number, size_t step, size_t end = SIZE_MAX) {
   const SceneState state = evaluate(session.scene(), 1.0);
   const Settings mean = pictureSettings(session.settings());
-  FrameCache cache = session.sceneRenderer().cache();
+  FrameCache cache = session.sceneRenderer().cache(state);
   cache.main = nullptr;
   FramePlan plan = planFrame(session.scene(), state, mean, session.size().width, session.size().height, cache, number);
   const size_t count = tileCount(plan);

@@ -62,6 +62,9 @@ TEST(EditedText, OptionalKeysGo) {
   const std::string keys = "color = [1, 0, 0] # red\nspecular = [0, 0, 0]\nshininess = 9\n";
   expectEdit(kCamera + "[[object]]\nmodel = 'triangle.obj'\n" + keys, keys, "",
              [](Scene& s) { s.objects[0] = {.model = s.objects[0].model, .mesh = 0}; });
+  const std::string table = "mirror = { fresnel = 'schlick' } # shiny\n";
+  expectEdit(kCamera + "[[object]]\nmodel = 'triangle.obj'\n" + table, table, "",
+             [](Scene& s) { s.objects[0] = {.model = s.objects[0].model, .mesh = 0}; });
 }
 
 TEST(EditedText, PolygonBecomesRectangle) {

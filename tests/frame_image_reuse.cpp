@@ -5,6 +5,7 @@
 #include "frame_support.hpp"
 #include "geometry/affine.hpp"
 #include "image/color.hpp"
+#include "random.hpp"
 #include "test_headers.hpp"
 
 namespace speculum {
@@ -24,6 +25,56 @@ Scene room() {
   scene.objects = {objectAt({-2.5, 0, -2.9}), objectAt({1.6, 0.3, -2}), objectAt({0, 30, 0}), objectAt({3.2, 0, 1})};
   scene.lights = {{.position = {0, 2, 0}, .glow = 0.0}};
   return scene;
+}
+
+// Under one number an instance, a mirror or the lights look the same in all frames, whatever happens in between.
+TEST(SceneChanges, OneNumberMeansOneLook) {
+  Random random(7);
+  Scene scene = room();
+  SceneChanges changes;
+  std::map<std::tuple<char, int, uint64_t>, std::vector<double>> looks;
+  const auto expectLook = [&](char kind, int index, uint64_t changed, const std::vector<double>& look) {
+    const auto [known, isNew] = looks.try_emplace({kind, index, changed}, look);
+    EXPECT_EQ(known->second, look) << kind << index;
+  };
+  const auto anyObject = [&]() -> Object& { return scene.objects[random.index(scene.objects.size())]; };
+  const std::vector<std::function<void()>> edits = {
+      [&] { anyObject().position.x = 0.25 * static_cast<double>(random.index(3)); },
+      [&] { anyObject().color = glm::dvec3(0.25 * static_cast<double>(random.index(3))); },
+      [&] {
+        anyObject().copies = {.count = static_cast<int>(random.index(3)) + 1, .step = {1, 0, 0}};
+      },
+      [&] { std::swap(scene.objects.front(), scene.objects.back()); },
+      [&] { scene.objects.push_back(scene.objects.front()); },
+      [&] { scene.objects.resize(std::max<size_t>(scene.objects.size() - 1, 1)); },
+      [&] { scene.mirrors[left].reflectance.x = 0.25 * static_cast<double>(random.index(3)); },
+      [&] { std::swap(scene.mirrors[left], scene.mirrors[right]); },
+      [&] { scene.lights[0].intensity = static_cast<double>(random.index(3)) + 1.0; }};
+  for (int frame = 0; frame < 500; ++frame) {
+    const SceneState state = evaluate(scene, 0.0);
+    changes.update(scene, state);
+    std::vector<double> all;
+    for (size_t i = 0; i < state.instances.size(); ++i) {
+      const Object& object = scene.objects[static_cast<size_t>(state.instances[i].object)];
+      const std::vector<double> place{state.instances[i].center.x, state.instances[i].center.z};
+      std::vector<double> look = place;
+      look.push_back(object.color ? object.color->x : -1.0);
+      expectLook('p', static_cast<int>(i), changes.placeChanged(static_cast<int>(i)), place);
+      expectLook('i', static_cast<int>(i), changes.instanceChanged(static_cast<int>(i)), look);
+      all.insert(all.end(), look.begin(), look.end());
+    }
+    for (size_t i = 0; i < scene.mirrors.size(); ++i) {
+      const std::vector<double> look{scene.mirrors[i].position.x, scene.mirrors[i].reflectance.x};
+      expectLook('m', static_cast<int>(i), changes.mirrorChanged(static_cast<int>(i)), look);
+      all.insert(all.end(), look.begin(), look.end());
+    }
+    expectLook('l', 0, changes.lightsChanged(), {scene.lights[0].intensity});
+    expectLook('a', 0, changes.anyChanged(), all);
+    const uint64_t before = changes.anyChanged();
+    changes.update(scene, state);
+    EXPECT_EQ(changes.anyChanged(), before) << "nothing changed";
+    edits[random.index(edits.size())]();
+  }
 }
 
 using Mirrors = std::set<int>;
@@ -213,7 +264,9 @@ TEST(Unchanged, ShortMemoryRendersAnewRatherThanWorse) {
   scene.objects[seenLeft].position = {-2.4, 0, -4};
   SceneChanges changes;
   const auto fit = [&](uint64_t budget, std::span<const CachedImage> cached) {
-    return planWithin({.budgetBytes = budget, .largestSide = 4096}, scene, evaluate(scene, 0.0), {}, width, height,
+    const SceneState state = evaluate(scene, 0.0);
+    changes.update(scene, state);
+    return planWithin({.budgetBytes = budget, .largestSide = 4096}, scene, state, {}, width, height,
                       {.images = cached, .changes = &changes});
   };
   const FittedPlan first = fit(1ull << 40, {});

@@ -25,8 +25,10 @@ FramePlan textPlan(const std::string& text, const std::function<void(Settings&)>
   if (change) {
     change(settings);
   }
+  const SceneState state = evaluate(scene, 0.0);
   SceneChanges changes;
-  return planFrame(scene, evaluate(scene, 0.0), settings, 640, 360, {.changes = &changes});
+  changes.update(scene, state);
+  return planFrame(scene, state, settings, 640, 360, {.changes = &changes});
 }
 
 // A room of mirrors in six lines.

@@ -82,7 +82,9 @@ class PlanSequence {
   }
 
   const FramePlan& next(double time = 0.0) {
-    plan = planFrame(scene, evaluate(scene, time), settings, width, height,
+    const SceneState state = evaluate(scene, time);
+    changes.update(scene, state);
+    plan = planFrame(scene, state, settings, width, height,
                      {.images = plan.cached,
                       .maps = plan.maps,
                       .shadowMaps = plan.shadowMaps,

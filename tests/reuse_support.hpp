@@ -56,6 +56,7 @@ inline void expectSameOnBothPaths(Options options, const std::vector<double>& ti
   QuietSession dynamic(options);
   options.renderPath = RenderPath::renderPass;
   QuietSession passes(options);
+  ASSERT_NE(dynamic.device().renderPath(), passes.device().renderPath());
   for (const double time : times) {
     EXPECT_EQ(draw(dynamic, time).rgba, draw(passes, time).rgba) << "at " << time;
   }

@@ -217,7 +217,7 @@ TEST(TargetViews, KeepTheMean) {
   mean.view.accumulate = 3;
   const auto draw = [&](int picture, const std::optional<DebugView>& debug) {
     const FramePlan plan = planFrame(session.scene(), state, mean, hallSize.width, hallSize.height,
-                                     session.sceneRenderer().cache(), picture);
+                                     session.sceneRenderer().cache(state), picture);
     recordFrame(session, state, mean, plan, debug);
     return session.picture();
   };

@@ -425,7 +425,7 @@ TEST_F(PanelTest, OpenWindowsAreRemembered) {
     restart();
     EXPECT_EQ(has("edit.add_mirror"), open) << "as other windows";
   }
-  click("section.View");
+  click("section.view");
   restart();
   EXPECT_FALSE(has("view.exposure")) << "as sections of the main panel";
   EXPECT_TRUE(has("reflection.scale"));

@@ -159,7 +159,7 @@ TEST_F(WindowView, MirrorsAreLookedFromBothSides) {
   EXPECT_LT(eye().z, -2.0);
   EXPECT_NEAR(glm::distance(forward(), glm::dvec3(0.0, 0.0, 1.0)), 0.0, 1e-9);
   EXPECT_TRUE(seesWall());
-  EXPECT_TRUE(contains(status(), "its back does not reflect")) << status();
+  EXPECT_TRUE(contains(status(), "Its back does not reflect")) << status();
   send(LookFromMirror{MirrorSide::front});
   EXPECT_TRUE(contains(status(), "Looking out of mirror")) << status();
   EXPECT_NEAR(eye().z, -2.0 + 0.01, 1e-9);
@@ -617,7 +617,7 @@ TEST_F(Opening, FirstPictureIsTheThumbnailOfForeignFiles) {
   const auto frameDrawn = [&](const std::function<Image8()>& read) {
     workspace_->frameDrawn({scene(), workspace_->state(0.0), workspace_->settings(), width, height}, read, nullptr);
   };
-  frameDrawn([]() -> Image8 { throw std::runtime_error("no memory"); });
+  frameDrawn([]() -> Image8 { throw OutOfMemoryError("no memory"); });
   drop({sceneFile("no_mirror")});
   frameDrawn([&] {
     ADD_FAILURE() << "a scene that comes with a thumbnail needs no picture";

@@ -14,7 +14,7 @@ FittedPlan FramePlanner::plan(Frame& frame, SceneRenderer& sceneRenderer, const 
   }
   const auto planNow = [&] {
     settings.effects.textures = settings.effects.textures && !refused_;
-    FrameCache cache = sceneRenderer.cache();
+    FrameCache cache = sceneRenderer.cache(state);
     if (rendersMain) {
       cache.main = nullptr;
     }

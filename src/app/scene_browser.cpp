@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "accuracy/fingerprint.hpp"
+#include "core/vulkan_result.hpp"
 #include "image/picture_files.hpp"
 #include "platform/files.hpp"
 #include "platform/folders.hpp"
@@ -180,7 +181,7 @@ std::vector<Image8> SceneBrowser::thumbnails() const {
       spdlog::warn("{}", error.what());
     }
     // Drops a large picture, which would leave too little of the shared texture for the fonts.
-    const bool fits = picture.width <= thumbnailSize.x && picture.height <= thumbnailSize.x;
+    const bool fits = picture.width <= thumbnailSize.x && picture.height <= thumbnailSize.y;
     pictures.push_back(fits ? std::move(picture) : Image8());
   }
   return pictures;
@@ -191,14 +192,21 @@ bool SceneBrowser::storeThumbnail(const std::function<Image8()>& picture) const 
   if (isNew(scene) || isFile(shippedThumbnail(scene))) {
     return false;
   }
-  const fs::path file = storedThumbnail(scene);
-  keepNewest(file.parent_path(), mostThumbnails);
+  std::string problem;
   try {
-    return storeFile(file, encodeJpeg(shrunk(picture()), 80));
-  } catch (const std::runtime_error& error) {  // the GPU may have no memory left to read the picture
-    spdlog::info("no thumbnail of {}: {}", scene.string(), error.what());
-    return false;
+    const fs::path file = storedThumbnail(scene);
+    const bool stored = storeFile(file, encodeJpeg(shrunk(picture()), 80));
+    keepNewest(file.parent_path(), mostThumbnails);
+    return stored;
+  } catch (const OutOfMemoryError& error) {  // of the GPU, where the picture is read
+    problem = error.what();
+  } catch (const FileError& error) {
+    problem = error.what();
+  } catch (const fs::filesystem_error& error) {
+    problem = error.what();
   }
+  spdlog::info("no thumbnail of {}: {}", scene.string(), problem);
+  return false;
 }
 
 void SceneBrowser::open(const fs::path& file, const Options& options) {

@@ -201,7 +201,7 @@ void Session::drawPicture(bool capture) {
   std::optional<Frame> frame = renderer_.beginFrame().value();
   collectFinished();
   Clock::time_point recording = Clock::now();
-  FrameCache cache = sceneRenderer_.cache();
+  FrameCache cache = sceneRenderer_.cache(frame_.state);
   cache.main = nullptr;  // the main view is drawn in every frame, so that its pass is reported
   FittedPlan fitted =
       planner_.plan(loaded_.scene, frame_.state, loaded_.settings, size_.width, size_.height, cache, frame_.pictures);

@@ -420,10 +420,13 @@ void Workspace::lookFromMirror(MirrorSide side) {
     return status_.set("The scene has no mirror to look from");
   }
   const std::string name = describe(scene(), {Selection::Kind::mirror, mirror});
+  if (side == MirrorSide::front) {
+    return status_.set("Looking out of " + name);
+  }
   const bool reflects = scene().mirrors[static_cast<size_t>(mirror)].twoSided;
-  const std::string back =
-      reflects ? ", which reflects on both sides" : ": its back does not reflect. Shift+B: its front";
-  status_.set(side == MirrorSide::front ? "Looking out of " + name : "Behind " + name + back);
+  status_.set(
+      "Behind " + name +
+      (reflects ? ", which reflects on both sides" : ". Its back does not reflect; Shift+B looks out of its front"));
 }
 
 // Returns the options that draw the present view of the scene in `file`.

@@ -47,8 +47,8 @@ PlannedPass faceOf(const Scene& scene, const SceneState& state, const Environmen
   return face;
 }
 
-// Bounds the time and memory of planning: the objects that all faces look at.
-constexpr size_t mostLookedAt = 20'000'000;
+// Bounds the time and memory of planning: instances of the scene times faces.
+constexpr size_t mostFaceTests = 20'000'000;
 
 // Returns the instances of curved mirrors that the passes draw and that may have a map, ascending.
 std::vector<int> drawnCurved(const Scene& scene, const SceneState& state, std::span<const PlannedPass* const> passes) {
@@ -62,7 +62,7 @@ std::vector<int> drawnCurved(const Scene& scene, const SceneState& state, std::s
   }
   std::vector<int> curved(drawn.begin(), drawn.end());
   const size_t most =
-      std::clamp<size_t>(mostLookedAt / (6 * std::max<size_t>(state.instances.size(), 1)), 1, mostEnvironmentMaps);
+      std::clamp<size_t>(mostFaceTests / (6 * std::max<size_t>(state.instances.size(), 1)), 1, mostEnvironmentMaps);
   if (curved.size() > most) {
     const auto width = [&](int i) {
       const InstanceState& instance = state.instances[i];

@@ -9,8 +9,8 @@ namespace speculum {
 
 // Texels on each side beyond a face's edges, so that bilinear lookups need no other face.
 inline constexpr int environmentBorder = 1;
-// Curved mirrors that may have a map: those that cover the widest angle, fewer in scenes of more than 100 000 objects.
-// Others show the background.
+// Curved mirrors that may have a map: those that cover the widest angle, fewer in scenes of more than 100 000 objects
+// and copies. Others show the background.
 inline constexpr size_t mostEnvironmentMaps = 32;
 
 // Plans maps for the curved mirrors that these passes draw, all to be rendered. Empty unless effects.curved_lookup is

@@ -32,10 +32,7 @@ class Planner {
     if (picture < settings.view.accumulate) {
       plan_.projection.offset = -2.0 * pictureOffset(picture, settings) / glm::dvec2(size_);
     }
-    if (settings_.skipUnchanged && cache.changes) {
-      changes_ = cache.changes;
-      changes_->update(scene, state);
-    }
+    changes_ = settings_.skipUnchanged ? cache.changes : nullptr;
   }
 
   FramePlan plan() {
@@ -75,7 +72,7 @@ class Planner {
   const Settings& allSettings_;
   const ReflectionSettings& settings_;
   const FrameCache& cache_;
-  SceneChanges* changes_ = nullptr;  // null without reflection.skip_unchanged
+  const SceneChanges* changes_ = nullptr;  // null without reflection.skip_unchanged
   FramePlan plan_;
   glm::ivec2 size_{0};  // texels of the main view
   std::vector<PassNode> nodes_;

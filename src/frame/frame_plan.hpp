@@ -144,9 +144,8 @@ struct FrameCache {
   std::span<const CachedImage> images;  // FramePlan::cached of that frame
   std::span<const EnvironmentMap> maps;
   std::span<const ShadowMap> shadowMaps;
-  const MainImage* main = nullptr;  // null: the main view is drawn in any case
-  // Updated by each plan with reflection.skip_unchanged; null: unchanged images are not looked for.
-  SceneChanges* changes = nullptr;
+  const MainImage* main = nullptr;        // null: the main view is drawn in any case
+  const SceneChanges* changes = nullptr;  // up to this frame; null: unchanged images are not looked for
 };
 
 // Tiles first .. end - 1.
@@ -201,7 +200,7 @@ void forEachPass(const FramePlan& plan, const Visit& visit) {
 // Returns the one of shownPasses() with that path; null if there is none.
 const PlannedPass* mirrorPass(const FramePlan& plan, const std::vector<int>& path);
 
-// Finds the passes that a picture of `width` x `height` pixels needs, and why every other mirror has none. The
+// Finds the passes that a picture of `width` x `height` pixels needs, and why every other mirror has none. Pure. The
 // budget of passes goes to the best first, by visible pixels times throughput. The main view has view.scale times as
 // many texels along each side, rounded, and mirror images reflection.scale times as many as that.
 //

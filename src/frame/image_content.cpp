@@ -41,19 +41,19 @@ std::vector<uint64_t> imageContent(const ImageSurroundings& around, const View& 
     numbers.add(instance);
     numbers.addCount(serial);
   }
-  uint64_t changed = all ? changes.scene() : 0;
+  uint64_t changed = all ? changes.anyChanged() : 0;
   for (const PlannedPass* pass : passes) {
     numbers.addAll(pass->view, pass->channels, pass->instances, pass->simplified, pass->lights, pass->mirrors);
     for (size_t i = 0; !all && i < pass->instances.size(); ++i) {
-      changed = std::max(changed, changes.instance(pass->instances[i]));
+      changed = std::max(changed, changes.instanceChanged(pass->instances[i]));
     }
     for (const MirrorDraw& draw : pass->mirrors) {
-      changed = std::max(changed, changes.mirror(draw.mirror));
+      changed = std::max(changed, changes.mirrorChanged(draw.mirror));
     }
   }
   numbers.addCount(all);
   numbers.addCount(changed);
-  numbers.addCount(changes.lights());
+  numbers.addCount(changes.lightsChanged());
   return numbers.take();
 }
 
@@ -63,7 +63,7 @@ std::vector<uint64_t> shadowContent(const SceneChanges& changes, const ShadowFac
   uint64_t changed = 0;
   for (const int i : casters.instances) {
     numbers.add(levelOf(casters, i));
-    changed = std::max(changed, changes.placed(i));
+    changed = std::max(changed, changes.placeChanged(i));
   }
   for (const MirrorDraw& draw : casters.mirrors) {
     numbers.addAll(draw.mirror, draw.polygon);

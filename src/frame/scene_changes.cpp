@@ -18,16 +18,16 @@ struct PlacementParts {
 }  // namespace
 
 void SceneChanges::update(const Scene& scene, const SceneState& state) {
-  ++frame_;
+  ++update_;
   if (placements_.size() != state.instances.size() || mirrors_.size() != scene.mirrors.size()) {
-    scene_ = frame_;
+    any_ = update_;
   }
   objects_.resize(scene.objects.size());
   for (size_t i = 0; i < scene.objects.size(); ++i) {
     ContentNumbers content;
     content.add(scene.objects[i]);
     note(content.take(), objects_[i]);
-    scene_ = std::max(scene_, objects_[i].changed);
+    any_ = std::max(any_, objects_[i].changed);
   }
   const size_t known = std::min(placements_.size(), state.instances.size());
   placements_.resize(state.instances.size());
@@ -39,7 +39,7 @@ void SceneChanges::update(const Scene& scene, const SceneState& state) {
         std::bit_cast<Placement>(PlacementParts{instance.worldFromMesh, instance.object, instance.mesh});
     if (i >= known || placement != placements_[i]) {
       placements_[i] = placement;
-      placed_[i] = scene_ = frame_;
+      placed_[i] = any_ = update_;
     }
     drawn_[i] = std::max(placed_[i], objects_[static_cast<size_t>(instance.object)].changed);
   }
@@ -49,7 +49,7 @@ void SceneChanges::update(const Scene& scene, const SceneState& state) {
     ContentNumbers content;
     content.addAll(placed.polygon, placed.origin, placed.normal, placed.axisX, placed.axisY, scene.mirrors[i]);
     note(content.take(), mirrors_[i]);
-    scene_ = std::max(scene_, mirrors_[i].changed);
+    any_ = std::max(any_, mirrors_[i].changed);
   }
   ContentNumbers lights;
   for (size_t i = 0; i < scene.lights.size(); ++i) {
@@ -60,7 +60,7 @@ void SceneChanges::update(const Scene& scene, const SceneState& state) {
 
 void SceneChanges::note(std::vector<uint64_t> content, Tracked& tracked) {
   if (tracked.changed == 0 || content != tracked.content) {
-    tracked = {std::move(content), frame_};
+    tracked = {std::move(content), update_};
   }
 }
 

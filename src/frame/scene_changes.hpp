@@ -2,29 +2,27 @@
 
 #include <array>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "scene/scene_state.hpp"
 
 namespace speculum {
 
-// Says in which frame each object, mirror and the lights last changed, bit by bit. Frames are numbered from 1. If two
+// Says when each object, mirror and the lights last changed, bit by bit, as the number of an update, from 1 on. If two
 // frames show the same set of things and the number of the last change among them is the same, none of them changed
 // between the frames.
 class SceneChanges {
  public:
-  // Compares the next frame's scene with that of the frame before. Meshes and textures are taken as unchanged.
+  // Compares the scene with that of the update before. Meshes and textures are taken as unchanged.
   void update(const Scene& scene, const SceneState& state);
 
-  // Of an instance, an index into SceneState::instances: its mesh and its place only.
-  uint64_t placed(int instance) const { return placed_[static_cast<size_t>(instance)]; }
-  // Of an instance: anything that is drawn.
-  uint64_t instance(int instance) const { return drawn_[static_cast<size_t>(instance)]; }
-  uint64_t mirror(int mirror) const { return mirrors_[static_cast<size_t>(mirror)].changed; }
-  uint64_t lights() const { return lights_.changed; }
-  // Of all instances and mirrors.
-  uint64_t scene() const { return scene_; }
+  // An instance is an index into SceneState::instances.
+  uint64_t placeChanged(int instance) const { return placed_[static_cast<size_t>(instance)]; }  // or its mesh
+  uint64_t instanceChanged(int instance) const { return drawn_[static_cast<size_t>(instance)]; }
+  uint64_t mirrorChanged(int mirror) const { return mirrors_[static_cast<size_t>(mirror)].changed; }
+  uint64_t lightsChanged() const { return lights_.changed; }
+  // Any instance or mirror.
+  uint64_t anyChanged() const { return any_; }
 
  private:
   // A place, an object and a mesh.
@@ -36,8 +34,8 @@ class SceneChanges {
 
   void note(std::vector<uint64_t> content, Tracked& tracked);
 
-  uint64_t frame_ = 0;
-  uint64_t scene_ = 0;
+  uint64_t update_ = 0;  // number
+  uint64_t any_ = 0;
   std::vector<Placement> placements_;  // of the instances
   std::vector<uint64_t> placed_;
   std::vector<uint64_t> drawn_;

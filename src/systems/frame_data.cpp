@@ -48,7 +48,7 @@ struct DrawnPass {
   bool inMap = false;    // in an environment map
 };
 
-// Returns the passes of a frame in the order in which they are drawn.
+// Returns the passes that a frame draws, in the order of FrameData::passes().
 std::vector<DrawnPass> drawnPasses(const FramePlan& plan) {
   std::vector<DrawnPass> drawn;
   for (const PlannedPass& pass : plan.passes) {
@@ -63,13 +63,14 @@ std::vector<DrawnPass> drawnPasses(const FramePlan& plan) {
   for (size_t map = 0; map < plan.shadowMaps.size(); ++map) {
     for (size_t i = 0; i < plan.shadowMaps[map].faces.size(); ++i) {
       const ShadowFace& face = plan.shadowMaps[map].faces[i];
-      const glm::ivec2 corner = face.rendered ? shadowCorner(plan.shadowMaps, map, i) : glm::ivec2(0);
+      if (!face.rendered) {
+        continue;
+      }
+      const glm::ivec2 corner = shadowCorner(plan.shadowMaps, map, i);
       if (face.rendersLayer()) {
         drawn.push_back({&face.layer->pass, &face.projection, corner});
       }
-      if (face.rendered) {
-        drawn.push_back({&face.pass, &face.projection, corner});
-      }
+      drawn.push_back({&face.pass, &face.projection, corner});
     }
   }
   return drawn;

@@ -441,7 +441,8 @@ void SceneRenderer::finishLedger(const FrameInfo& info) {
   ledger_.rays = trace_.rays();
 }
 
-FrameCache SceneRenderer::cache() {
+FrameCache SceneRenderer::cache(const SceneState& state) {
+  changes_.update(scene_, state);
   if (cacheRevision_ != renderer_.pipelines().revision()) {
     return {.changes = &changes_};
   }

@@ -32,8 +32,8 @@ class SceneRenderer {
   SceneRenderer(const SceneRenderer&) = delete;
   SceneRenderer& operator=(const SceneRenderer&) = delete;
 
-  // Images of the last plan that the next one may reuse. Empty after a shader reload.
-  FrameCache cache();
+  // Images of the last plan that the plan of the next frame, in `state`, may reuse. None after a shader reload.
+  FrameCache cache(const SceneState& state);
   // Drops all cached images and their targets. The next frame renders everything.
   void restart();
 
@@ -119,8 +119,8 @@ class SceneRenderer {
   glm::ivec2 pictureSize_{0};             // of the last recorded frame
   MirrorTargets mirrorTargets_;
   uint64_t cacheRevision_ = 0;  // of the pipelines that rendered the cached images
-  SceneChanges changes_;        // in the frames that were planned
-  MainImage mainImage_;         // content is empty if the main view must not be reused
+  SceneChanges changes_;
+  MainImage mainImage_;  // content is empty if the main view must not be reused
   EnvironmentTargets environmentTargets_;
   std::vector<VkDescriptorSet> mapSets_;  // of the present plan's maps
   PassLog log_;

@@ -10,7 +10,7 @@ void effects(PanelContext& ui) {
     called += effect.calledFor;
   }
   const std::string title = "Effects (" + std::to_string(called) + " in use)###effects";
-  if (!section(ui, title.c_str(), ui.state.choices.effectsSection)) {
+  if (!section(ui, "effects", title, ui.state.choices.effectsSection)) {
     return;
   }
   settingRows(ui, "effects.");

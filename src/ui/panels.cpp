@@ -190,10 +190,10 @@ void recordWidget(PanelContext& ui, std::string_view key, const std::string& abo
   }
 }
 
-bool section(PanelContext& ui, const char* label, bool& open) {
+bool section(PanelContext& ui, std::string_view key, const std::string& label, bool& open) {
   ImGui::SetNextItemOpen(open);
-  open = ImGui::CollapsingHeader(label);
-  recordWidget(ui, std::string("section.") + label);
+  open = ImGui::CollapsingHeader(label.c_str());
+  recordWidget(ui, "section." + std::string(key));
   return open;
 }
 
@@ -343,12 +343,12 @@ void scene(PanelContext& ui) {
 }
 
 void settings(PanelContext& ui) {
-  if (section(ui, "View", ui.state.choices.viewSection)) {
+  if (section(ui, "view", "View", ui.state.choices.viewSection)) {
     settingRows(ui, "view.");
     settingRows(ui, "quality.motion_ms");
     settingRows(ui, "quality.still_pictures");
   }
-  if (section(ui, "Reflections", ui.state.choices.reflectionsSection)) {
+  if (section(ui, "reflections", "Reflections", ui.state.choices.reflectionsSection)) {
     settingRows(ui, "reflection.");
   }
   commandButton(ui, "Reset settings", "settings.reset", "Returns to the settings that the scene was opened with.",

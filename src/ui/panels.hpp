@@ -156,8 +156,8 @@ void dimmedText(const std::string& text);
 inline constexpr glm::vec3 errorColor{0.92f, 0.38f, 0.28f};  // display sRGB
 inline constexpr glm::vec3 warningColor{0.85f, 0.60f, 0.10f};
 void coloredText(const glm::vec3& color, const std::string& text);
-// ImGui::CollapsingHeader that is open or closed as in the user's choices, and recorded as "section." and the label.
-bool section(PanelContext& ui, const char* label, bool& open);
+// ImGui::CollapsingHeader that is open or closed as in the user's choices, and recorded as "section." and `key`.
+bool section(PanelContext& ui, std::string_view key, const std::string& label, bool& open);
 // Draws a button, records it and shows its tooltip. The second sends the command when it is pressed; the third also
 // continues the row.
 bool button(PanelContext& ui, const char* label, std::string_view key, const std::string& tip, bool enabled = true);

@@ -172,7 +172,7 @@ void mirrorRow(PanelContext& ui, const std::vector<int>& path) {
 
 void passes(PanelContext& ui) {
   const FrameView& frame = ui.view.frame;
-  if (!section(ui, "Passes", ui.state.choices.passesSection)) {
+  if (!section(ui, "passes", "Passes", ui.state.choices.passesSection)) {
     return;
   }
   wrappedText("GPU " + duration(frame.timedGpuMs > 0.0 ? frame.timedGpuMs : frame.gpuMs) + "   Memory " +

@@ -58,14 +58,14 @@ void passRows(PanelContext& ui, const std::vector<std::string>& names, std::span
   }
 }
 
-constexpr float figures = 3.0f;  // rows above those of passes
+constexpr float fixedRows = 3.0f;  // above those of passes
 
 // Returns how high graphs are: 0: as a line of text; 1: as high as wished, if all rows then fit into the room.
 float graphShare(float room, float passes) {
   const float em = ImGui::GetFontSize();
   const float line = ImGui::GetTextLineHeight() + 2.0f * ImGui::GetStyle().CellPadding.y;
-  const float spare = room - (1.0f + figures + passes) * line;
-  return std::clamp(spare / ((figures * (largeGraph - 1.0f) + passes * (smallGraph - 1.0f)) * em), 0.0f, 1.0f);
+  const float spare = room - (1.0f + fixedRows + passes) * line;
+  return std::clamp(spare / ((fixedRows * (largeGraph - 1.0f) + passes * (smallGraph - 1.0f)) * em), 0.0f, 1.0f);
 }
 
 bool beginRows(PanelContext& ui, const char* id) {

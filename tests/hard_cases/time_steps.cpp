@@ -110,6 +110,7 @@ TEST(LongTimes, CountersPassTwoToThe31Frames) {
   const SceneState state = evaluate(scene, 0.0);
   const auto plan = [&](const FrameCache& cache) { return planFrame(scene, state, Settings(), 64, 36, cache); };
   SceneChanges changes;
+  changes.update(scene, state);
   FramePlan last = plan({.changes = &changes});
   ASSERT_FALSE(last.cached.empty());
   last.cached[0].unchangedFor = std::numeric_limits<int>::max() - 2;

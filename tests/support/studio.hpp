@@ -35,7 +35,7 @@ class Studio {
     Frame frame = gpu_.renderer.beginFrame().value();
     state = evaluate(scene, time);
     state.camera = camera.value_or(state.camera);
-    FrameCache cache = sceneRenderer.cache();
+    FrameCache cache = sceneRenderer.cache(state);
     cache.main = reusesMain ? cache.main : nullptr;
     plan = planFrame(scene, state, settings, size_.width, size_.height, cache);
     frame.capture = true;
