@@ -19,7 +19,7 @@ void SlowPicture::begin(size_t faces, size_t count, double ms) {
   totalMs_ = 0.0;
   const std::vector<double> before = std::exchange(tileMs_, std::vector<double>(count));
   if (before.empty()) {
-    std::ranges::fill(tileMs_, caution * ms / static_cast<double>(count));
+    std::ranges::fill(tileMs_, caution * ms / std::max(static_cast<double>(count), 1.0));
     return;
   }
   // The offset of another picture may move a mirror image's border over a tile's, which changes the number of tiles.
