@@ -133,16 +133,16 @@ TEST(ShadowLayer, HoldsWhatStandsStill) {
   EXPECT_EQ(first.pass.instances, std::vector{2});
   const ShadowFace next = frames.down(0.2);
   EXPECT_TRUE(next.rendered);
-  EXPECT_FALSE(next.layer->rendered);
+  EXPECT_FALSE(next.layer.value().rendered);
   EXPECT_EQ(next.pass.instances, std::vector{2});
   EXPECT_FALSE(frames.down(0.2).rendered) << "the animation pauses";
-  EXPECT_FALSE(frames.down(0.3).layer->rendered);
+  EXPECT_FALSE(frames.down(0.3).layer.value().rendered);
   frames.scene.objects[1].position.x -= 0.1;
-  EXPECT_TRUE(frames.down(0.4).layer->rendered);
+  EXPECT_TRUE(frames.down(0.4).layer.value().rendered);
   frames.settings.reflection.skipUnchanged = false;
   EXPECT_FALSE(frames.down(0.5).layer);
   frames.settings.reflection.skipUnchanged = true;
-  EXPECT_TRUE(frames.down(0.6).layer->rendered);
+  EXPECT_TRUE(frames.down(0.6).layer.value().rendered);
 }
 
 TEST(ShadowLayer, NeedsStillAndMovingCasters) {

@@ -178,7 +178,7 @@ ImageSurroundings Planner::surroundings() const {
 // Reuses the cached images that would be the same if they were rendered again.
 void Planner::reuseUnchanged() {
   const View& main = nodes_[0].pass.view;
-  reuseShadowMaps(plan_.shadowMaps, cache_.shadowMaps, scene_, state_, changes_);
+  reuseShadowMaps(plan_.shadowMaps, cache_.shadowMaps, allSettings_, scene_, state_, cache_.changes);
   ImageSurroundings withoutMaps = surroundings();
   withoutMaps.maps.clear();
   reuseMaps(plan_.maps, cache_.maps, withoutMaps, main);

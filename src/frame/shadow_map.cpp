@@ -249,8 +249,9 @@ std::vector<ShadowMap> shadowMaps(const Scene& scene, const SceneState& state, c
   return maps;
 }
 
-void reuseShadowMaps(std::vector<ShadowMap>& maps, std::span<const ShadowMap> before, const Scene& scene,
-                     const SceneState& state, const SceneChanges* changes) {
+void reuseShadowMaps(std::vector<ShadowMap>& maps, std::span<const ShadowMap> before, const Settings& settings,
+                     const Scene& scene, const SceneState& state, const SceneChanges* changes) {
+  const bool skips = changes && settings.reflection.skipUnchanged;
   const bool reuses = std::ranges::equal(
       maps, before, [](const auto& a, const auto& b) { return a.light == b.light && a.size == b.size; });
   uint64_t serial = 0;
@@ -265,14 +266,14 @@ void reuseShadowMaps(std::vector<ShadowMap>& maps, std::span<const ShadowMap> be
       const ShadowFace* old = reuses ? &before[i].faces[f] : nullptr;
       if (face.read) {
         face.content = changes ? shadowContent(*changes, face, face.pass) : std::vector<uint64_t>();
-        face.rendered = !changes || !old || old->content != face.content;
+        face.rendered = !skips || !old || old->content != face.content;
         maps[i].serial = face.rendered ? next : maps[i].serial;
       } else if (old) {
         face.content = old->content;
       }
       if (!face.rendered && old) {
         face.layer = old->layer;
-      } else if (changes && old && !old->content.empty() && !orbits(scene.lights[static_cast<size_t>(maps[i].light)])) {
+      } else if (skips && old && !old->content.empty() && !orbits(scene.lights[static_cast<size_t>(maps[i].light)])) {
         divide(face, old->layer, scene, state, *changes);
       }
     }

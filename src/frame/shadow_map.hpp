@@ -24,9 +24,10 @@ std::vector<ShadowMap> shadowMaps(const Scene& scene, const SceneState& state, c
                                   std::span<const ShadowReader> readers);
 
 // Finds the faces that must be rendered: those that are read, and that differ from what the frame before left, or all
-// of them without `changes`. In a face that changes again, what stands still is rendered to a layer.
-void reuseShadowMaps(std::vector<ShadowMap>& maps, std::span<const ShadowMap> before, const Scene& scene,
-                     const SceneState& state, const SceneChanges* changes);
+// of them without reflection.skip_unchanged or `changes`. In a face that changes again, what stands still is rendered
+// to a layer.
+void reuseShadowMaps(std::vector<ShadowMap>& maps, std::span<const ShadowMap> before, const Settings& settings,
+                     const Scene& scene, const SceneState& state, const SceneChanges* changes);
 
 // Name of a face's pass.
 std::string shadowFaceName(const ShadowMap& map, size_t face);
