@@ -138,8 +138,8 @@ Seen seenMirror(Identifier id, vec2 position, uint firstSample) {
     // The samples share the pixel's points, so that many samples and few are equally smooth.
     seen.seed = seedAt(floor(position) + 0.5);
     uint wanted = (traceCounts.roughSamples + samples - 1) / samples;
-    // In each block of pixels other samples take other shares, because a pixel's edge may leave out some samples. The
-    // pixels of a block take the same branches.
+    // A mirror's edge leaves out some samples of a pixel, so each sample takes another share in each block of pixels. In
+    // one block all pixels agree, and their rays take the same branches.
     uint turn = seedAt(floor(position / 8.0)) + view.picture;
     seen.draws = Draws(view.picture, int(wanted), int((firstSample + turn) % samples), int(samples));
   }

@@ -3,6 +3,7 @@
 #include <ctime>
 
 #include "frame/frame_plan.hpp"
+#include "frame/scene_changes.hpp"
 #include "platform/machine.hpp"
 #include "random.hpp"
 #include "sampling.hpp"

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "frame/frame_plan.hpp"
+#include "frame/scene_changes.hpp"
 #include "geometry/convex_faces.hpp"
 
 namespace speculum::testing_support {

@@ -192,21 +192,15 @@ bool SceneBrowser::storeThumbnail(const std::function<Image8()>& picture) const 
   if (isNew(scene) || isFile(shippedThumbnail(scene))) {
     return false;
   }
-  std::string problem;
   try {
     const fs::path file = storedThumbnail(scene);
     const bool stored = storeFile(file, encodeJpeg(shrunk(picture()), 80));
     keepNewest(file.parent_path(), mostThumbnails);
     return stored;
   } catch (const OutOfMemoryError& error) {  // of the GPU, where the picture is read
-    problem = error.what();
-  } catch (const FileError& error) {
-    problem = error.what();
-  } catch (const fs::filesystem_error& error) {
-    problem = error.what();
+    spdlog::info("no thumbnail of {}: {}", scene.string(), error.what());
+    return false;
   }
-  spdlog::info("no thumbnail of {}: {}", scene.string(), problem);
-  return false;
 }
 
 void SceneBrowser::open(const fs::path& file, const Options& options) {

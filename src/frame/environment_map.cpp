@@ -61,8 +61,8 @@ std::vector<int> drawnCurved(const Scene& scene, const SceneState& state, std::s
     }
   }
   std::vector<int> curved(drawn.begin(), drawn.end());
-  const size_t most =
-      std::clamp<size_t>(mostFaceTests / (6 * std::max<size_t>(state.instances.size(), 1)), 1, mostEnvironmentMaps);
+  const size_t most = std::clamp<size_t>(
+      mostFaceTests / (faceAxes().size() * std::max<size_t>(state.instances.size(), 1)), 1, mostEnvironmentMaps);
   if (curved.size() > most) {
     const auto width = [&](int i) {
       const InstanceState& instance = state.instances[i];

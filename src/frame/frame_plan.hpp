@@ -8,12 +8,13 @@
 
 #include "frame/cached_image.hpp"
 #include "frame/partial_instances.hpp"
-#include "frame/scene_changes.hpp"
 #include "frame/settings.hpp"
 #include "frame/traced_effects.hpp"
 #include "frame/view.hpp"
 
 namespace speculum {
+
+class SceneChanges;
 
 enum class SkipReason {
   behind,         // behind the eye

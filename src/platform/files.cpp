@@ -216,9 +216,9 @@ bool storeFile(const fs::path& file, std::string_view text) {
 void keepNewest(const fs::path& folder, size_t kept, const std::function<bool(const fs::path&)>& count) {
   std::error_code none;
   std::vector<std::pair<fs::file_time_type, fs::path>> entries;
-  for (const auto& entry : fs::directory_iterator(folder, none)) {
-    if (!count || count(entry.path())) {
-      entries.emplace_back(entry.last_write_time(none), entry.path());
+  for (fs::directory_iterator entry(folder, none); entry != fs::directory_iterator(); entry.increment(none)) {
+    if (!count || count(entry->path())) {
+      entries.emplace_back(entry->last_write_time(none), entry->path());
     }
   }
   std::ranges::sort(entries, std::greater<>());

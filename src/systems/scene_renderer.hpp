@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "frame/scene_changes.hpp"
 #include "image/image.hpp"
 #include "systems/accumulation.hpp"
 #include "systems/deferred_shading.hpp"
