@@ -78,7 +78,8 @@ void SmallScene::drawTriangles(Frame& frame, OffScreen& target, const std::strin
   PassDesc desc = fullPass(name, target.targets());
   desc.clearColor = {0.25f, 0.125f, 0.75f, 1.0f};
   desc.collectStatistics = true;
-  const PassScope scope = renderer_.beginPass(frame, desc);
+  PassScope scope = renderer_.beginPass(frame, desc);
+  scope.countSamples();
   if (&target == &main_) {
     copy(frame, scope.commands(), copyToMain_, mirror_);
   }

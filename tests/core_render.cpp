@@ -63,7 +63,7 @@ TEST_F(RendererTest, TimesEveryPassOfTheFinishedFrame) {
   EXPECT_FALSE(timings.passes[2].hasStatistics);
 }
 
-TEST_F(RendererTest, TimesOnlyTheFrameIfAsked) {
+TEST_F(RendererTest, MeasuresNoMoreThanAsked) {
   SmallScene scene(renderer_, extent, 1);
   renderer_.setTimerDetail(TimerDetail::frame);
   scene.frames(3);
@@ -72,7 +72,13 @@ TEST_F(RendererTest, TimesOnlyTheFrameIfAsked) {
   EXPECT_GT(renderer_.timings().gpuMs, 0.0);
   renderer_.setTimerDetail(TimerDetail::passes);
   scene.frames(1);
-  EXPECT_EQ(renderer_.timings().passes.size(), 4u);
+  ASSERT_EQ(renderer_.timings().passes.size(), 4u);
+  EXPECT_FALSE(renderer_.timings().passes[0].hasSamples);
+  renderer_.setTimerDetail(TimerDetail::samples);
+  scene.frames(1);
+  EXPECT_TRUE(renderer_.timings().passes[0].hasSamples);
+  EXPECT_GT(renderer_.timings().passes[0].samples, 500u);
+  EXPECT_LE(renderer_.timings().passes[0].samples, extent.width * extent.height);
 }
 
 // An image of a part of the picture, drawn with a shifted viewport, has exactly the picture's texels.

@@ -231,7 +231,7 @@ std::optional<nlohmann::ordered_json> measureIntervals(Session& session, double 
     }
   }
   session.finish();
-  session.renderer().setTimerDetail(TimerDetail::passes);
+  session.renderer().setTimerDetail(TimerDetail::samples);
   return summary(std::move(intervals));
 }
 

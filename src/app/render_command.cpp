@@ -28,7 +28,7 @@ int runRender(const Options& options) {
   const int count = std::max(1, options.frames);
   const PictureSequence files(options.out, options.frames > 0 ? count : 0);
   Session session(options);
-  session.renderer().setTimerDetail(options.stats.empty() ? TimerDetail::frame : TimerDetail::passes);
+  session.renderer().setTimerDetail(options.stats.empty() ? TimerDetail::frame : TimerDetail::samples);
   installInterruptHandler();
   Progress progress("render", count * session.settings().view.accumulate);
   const auto advance = [&] { return progress.advance(); };

@@ -104,7 +104,7 @@ void GpuTimer::end(VkCommandBuffer commands, int slot) {
 }
 
 void GpuTimer::beginSamples(VkCommandBuffer commands, int slot) {
-  if (samples_ && slot >= 0) {
+  if (samples_ && slot >= 0 && detail_ == TimerDetail::samples) {
     passes_[slot].hasSamples = true;
     countsSamples_ = true;
     vkCmdBeginQuery(commands, samples_.get(), static_cast<uint32_t>(slot), VK_QUERY_CONTROL_PRECISE_BIT);

@@ -25,7 +25,9 @@ struct FrameTimings {
   std::vector<PassTiming> passes;  // in the order of recording; none if only the frame was measured
 };
 
-enum class TimerDetail { frame, passes };
+// What is measured, each with all before it: the frame's time, its passes' times and statistics, and the samples that
+// they draw. Counting samples has a price: lavapipe compiles each shader once more for it.
+enum class TimerDetail { frame, passes, samples };
 
 // Timestamps and pipeline statistics of one frame in flight. Both stamps of a pass are taken at the bottom of the pipe,
 // so that passes do not overlap in the figures and their times add up to the frame's. On lavapipe, which ends all its
@@ -40,7 +42,8 @@ class GpuTimer {
   // Ends the statistics, if they have not ended yet, outside rendering.
   void endStatistics(VkCommandBuffer commands, int slot);
   void end(VkCommandBuffer commands, int slot);
-  // Count the samples that pass the depth test; begin and end within one render pass. To end them again does nothing.
+  // With TimerDetail::samples, count those that pass the depth test; begin and end within one render pass. To end them
+  // again does nothing.
   void beginSamples(VkCommandBuffer commands, int slot);
   void endSamples(VkCommandBuffer commands, int slot);
   FrameTimings read() const;  // after the frame's fence
@@ -55,7 +58,7 @@ class GpuTimer {
   QueryPoolHandle statistics_;  // null where the device has none
   QueryPoolHandle samples_;     // null where the device cannot count them
   uint64_t frame_ = 0;
-  TimerDetail detail_ = TimerDetail::passes;
+  TimerDetail detail_ = TimerDetail::samples;
   uint32_t stamped_ = 0;  // stamps of this frame
   std::vector<PassTiming> passes_;
   bool countsStatistics_ = false;  // of the last pass, begun and not ended

@@ -94,7 +94,7 @@ class Renderer {
   }
   // Timings of frame number `frame`; null unless it has finished and is one of the last two.
   const FrameTimings* timingsOf(uint64_t frame) const;
-  // Applies to frames that begin from now on. TimerDetail::passes at first.
+  // Applies to frames that begin from now on. TimerDetail::samples at first.
   void setTimerDetail(TimerDetail detail) { timerDetail_ = detail; }
   uint64_t frameNumber() const { return frameNumber_; }
   // Rebuilds what changed on disk; call it between frames. Cheap when no directory is watched.
@@ -144,7 +144,7 @@ class Renderer {
   std::array<Slot, framesInFlight> slots_;
   RetireQueue retired_;
   PipelineFactory pipelines_;
-  TimerDetail timerDetail_ = TimerDetail::passes;
+  TimerDetail timerDetail_ = TimerDetail::samples;
   uint64_t frameNumber_ = 0;
   bool recording_ = false;
   std::optional<uint32_t> captureSlot_;  // slot of the latest capture

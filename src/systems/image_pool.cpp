@@ -7,11 +7,13 @@ namespace speculum {
 
 namespace {
 
-constexpr uint32_t granularity = 64;  // texels; sizes are rounded up, so a mirror that moves a little keeps its target
 constexpr uint64_t wasteAllowed = 4;  // largest area of a target, in times the requested area
 
+// Returns the next odd multiple of 32 texels, at least 96: steps of 64, so that a mirror that moves a little keeps its
+// target, and no powers of two, because lavapipe compiles each shader once more for textures of such sizes.
 uint32_t roundedUp(uint32_t size) {
-  return (size + granularity - 1) / granularity * granularity;
+  constexpr uint32_t half = 32;
+  return (std::max(size, half + 1) + half - 1) / (2 * half) * (2 * half) + half;
 }
 
 }  // namespace
