@@ -258,7 +258,7 @@ TEST_F(AccuracyJourney, MeasuresTheViewAndShowsTheDifference) {
   run(1);
   const Image8 plain = picture();
   click("accuracy.difference");
-  ASSERT_TRUE(waitFor([&] { return measured.difference.find("mean FLIP") == 0; })) << measured.difference;
+  ASSERT_TRUE(waitFor([&] { return measured.difference.find("Mean FLIP") == 0; })) << measured.difference;
   run(3);
   // The background is right: the darkest color of the map, at the window's left edge below the panel.
   const Image8 heat = picture();

@@ -1044,12 +1044,12 @@ TEST_F(AccuracyWindow, PointsAndSliderApplySettings) {
 }
 
 TEST_F(AccuracyWindow, SliderNamesPointsOffTheFront) {
-  EXPECT_TRUE(shows("none of 2"));
+  EXPECT_TRUE(shows("2 points"));
   accuracy_.current = 2;
-  EXPECT_TRUE(shows("none of 2"));
+  EXPECT_TRUE(shows("2 points"));
   accuracy_.current = 1;
   EXPECT_TRUE(shows("2 of 2"));
-  EXPECT_FALSE(shows("none of 2"));
+  EXPECT_FALSE(shows("2 points"));
 }
 
 TEST_F(AccuracyWindow, PlotLeavesRoomForTheSlider) {
@@ -1102,9 +1102,9 @@ TEST_F(AccuracyWindow, SaysPurposeAndTimeOfMeasuring) {
     EXPECT_TRUE(shows(step)) << step;
   }
   accuracy_.measuring = true;
-  accuracy_.stage = "tracing the reference (1 of 3)";
+  accuracy_.stage = "Tracing the reference (1 of 3)";
   accuracy_.secondsLeft = 90.0;
-  EXPECT_TRUE(shows("tracing the reference (1 of 3)"));
+  EXPECT_TRUE(shows("Tracing the reference (1 of 3)"));
   EXPECT_TRUE(shows("About 90 s left"));
   accuracy_.secondsLeft = 340.0;
   EXPECT_TRUE(shows("About 6 min left"));

@@ -57,11 +57,11 @@ std::map<std::string, std::string, std::less<>> pricesOf(const SweepResults& res
   return prices;
 }
 
-std::string stepText(const std::string& stage) {
-  return stage == "reference"  ? "tracing the reference (1 of 3)"
-         : stage == "pictures" ? "comparing settings (2 of 3)"
-         : stage == "times"    ? "taking times (3 of 3)"
-                               : stage;
+std::string stepText(const std::string& stage, bool rough) {
+  const char* rest = rough ? " of 3, rough)" : " of 3)";
+  return stage == "reference"  ? std::string("Tracing the reference (1") + rest
+         : stage == "pictures" ? std::string("Comparing settings (2") + rest
+                               : std::string("Timing settings (3") + rest;
 }
 
 }  // namespace
@@ -210,14 +210,14 @@ void AccuracyController::afterFrame(const ShownPicture& shown, const WatchedView
                                     const std::function<Image8()>& image) {
   const std::optional<Status> status = sweep_.progress();
   view_.measuring = status.has_value();
-  if (status && !view_.stage.ends_with(stepText(status->stage))) {
+  const std::string stage = status ? stepText(status->stage, !status->rough) : "";
+  if (std::exchange(view_.stage, stage) != stage) {
     stageBegan_ = Clock::now();
   }
   const double elapsed = std::chrono::duration<double>(Clock::now() - stageBegan_).count();
   const bool estimable = status && status->fraction > 0.03 && elapsed > 2.0;
   view_.secondsLeft = estimable ? elapsed * (1.0 / status->fraction - 1.0) : 0.0;
   view_.otherView = !view_.points.empty() && measured_ && isOtherView(*measured_, view);
-  view_.stage = status ? (status->rough ? "" : "Rough: ") + stepText(status->stage) : "";
   view_.progress = status ? status->fraction : 0.0;
   if (const std::optional<std::string> error = sweep_.takeError()) {
     view_.about = *error;

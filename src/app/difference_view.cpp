@@ -105,14 +105,14 @@ std::string DifferenceView::status() const {
     return problem_;
   }
   if (heatMap_.width > 0) {
-    return fmt::format("mean FLIP {:.4f}, RMSE {:.4f}, largest difference {:.0f}/255{}", metrics_.flip, metrics_.rmse,
+    return fmt::format("Mean FLIP {:.4f}, RMSE {:.4f}, largest difference {:.0f}/255{}", metrics_.flip, metrics_.rmse,
                        metrics_.maxDiff,
                        tracing_.busy() || comparing_.busy() ? " (a finer reference is on its way)" : "");
   }
   if (tracing_.busy() && !truth_) {
-    return fmt::format("tracing the reference: {:.0f} %", 100.0 * tracing_.progress().value_or(1.0));
+    return fmt::format("Tracing the reference: {:.0f} %", 100.0 * tracing_.progress().value_or(1.0));
   }
-  return truth_ ? "comparing" : "waiting for the view to stand still (pause the animation)";
+  return truth_ ? "Comparing" : "Waiting for the view to stand still (pause the animation)";
 }
 
 }  // namespace speculum

@@ -8,10 +8,10 @@ namespace speculum {
 namespace {
 
 // Shares of the budget. Between roomToRaise and tooMuch the level stays.
-constexpr double aim = 0.85;         // largest share that a level may take when it is lowered
-constexpr double roomToRaise = 0.8;  // largest share that a better level may take
-constexpr double tooMuch = 0.95;     // a frame beyond it lowers the level
-constexpr double farBelow = 0.5;     // a better level predicted to take less is tried at once
+constexpr double aim = 0.93;          // largest share that a level may take when it is lowered
+constexpr double roomToRaise = 0.90;  // largest share that a better level may take
+constexpr double tooMuch = 1.0;       // a frame beyond it lowers the level
+constexpr double farBelow = 0.5;      // a better level predicted to take less is tried at once
 
 constexpr double leastPatience = 0.25;  // seconds
 constexpr double mostPatience = 4.0;

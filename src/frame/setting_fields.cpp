@@ -115,7 +115,7 @@ constexpr SettingField fields[] = {
             {.slider = SettingSlider{0.125, 1.0, "%.3f"}}),
     setting("view.samples", IntegerSetting{at<&V::samples>, 1, 8, true}, "Samples", "samples a pixel of the main view",
             "Shading grows with it.", {.changes = mainView}),
-    setting("view.accumulate", IntegerSetting{at<&V::accumulate>, 1, 1024}, "Accumulate",
+    setting("view.accumulate", IntegerSetting{at<&V::accumulate>, 1, 1024}, "Averaged pictures",
             "pictures whose mean is shown, each offset within a pixel",
             "Time grows with it. From 16 on each has one sample.",
             {.unit = "pictures", .slider = SettingSlider{1, 1024, "%d"}}),
@@ -192,7 +192,7 @@ constexpr SettingField fields[] = {
         "0 (ticked): settings stay as they are while anything moves; auto (not ticked): they are lowered then, so that "
         "no frame takes longer than 50 ms on CPUs, elsewhere 0.8 of a refresh; other values: than this",
         "At 0 movement may stutter.", {.unit = "ms", .changes = none}),
-    setting("quality.still_pictures", IntegerSetting{at<&Q::stillPictures>, 1, 1024}, "Pictures to average",
+    setting("quality.still_pictures", IntegerSetting{at<&Q::stillPictures>, 1, 1024}, "Averaged when still",
             "pictures whose mean the window shows when nothing moves", "As many are drawn after each movement.",
             {.changes = none, .slider = SettingSlider{1, 1024, "%d"}}),
 

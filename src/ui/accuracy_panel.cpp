@@ -193,8 +193,7 @@ void frontSlider(PanelContext& ui) {
   const auto current = std::ranges::find(accuracy.front, accuracy.current);
   const bool onFront = current != accuracy.front.end();
   int index = onFront ? static_cast<int>(current - accuracy.front.begin()) : 0;
-  const std::string place =
-      onFront ? fmt::format("{} of {}", index + 1, last + 1) : fmt::format("none of {}", last + 1);
+  const std::string place = onFront ? fmt::format("{} of {}", index + 1, last + 1) : fmt::format("{} points", last + 1);
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted("Fast");
   ImGui::SameLine();
