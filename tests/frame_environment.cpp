@@ -177,6 +177,7 @@ TEST(EnvironmentMap, OnlyTheWidestMirrorsHaveOne) {
   for (const EnvironmentMap& map : frames.plan.maps) {
     EXPECT_LT(map.copy, static_cast<int>(mostEnvironmentMaps)) << "the nearest";
   }
+  EXPECT_TRUE(frames.plan.effects.curved->ends_with("; 32 have environment maps, 18 more show the background"));
 }
 
 TEST(EnvironmentMap, MemoryIncludesItAndLowersIt) {

@@ -50,7 +50,7 @@ PlannedPass faceOf(const Scene& scene, const SceneState& state, const Environmen
 // Bounds the time and memory of planning: instances of the scene times faces.
 constexpr size_t mostFaceTests = 20'000'000;
 
-// Returns the instances of curved mirrors that the passes draw and that may have a map, ascending.
+// Returns the instances of curved mirrors that the passes draw, ascending.
 std::vector<int> drawnCurved(const Scene& scene, const SceneState& state, std::span<const PlannedPass* const> passes) {
   std::set<int> drawn;
   for (const PlannedPass* pass : passes) {
@@ -60,7 +60,11 @@ std::vector<int> drawnCurved(const Scene& scene, const SceneState& state, std::s
       }
     }
   }
-  std::vector<int> curved(drawn.begin(), drawn.end());
+  return {drawn.begin(), drawn.end()};
+}
+
+// Keeps the instances that have maps, ascending.
+void keepWidest(std::vector<int>& curved, const SceneState& state) {
   const size_t most = std::clamp<size_t>(
       mostFaceTests / (faceAxes().size() * std::max<size_t>(state.instances.size(), 1)), 1, mostEnvironmentMaps);
   if (curved.size() > most) {
@@ -72,7 +76,6 @@ std::vector<int> drawnCurved(const Scene& scene, const SceneState& state, std::s
     curved.resize(most);
     std::ranges::sort(curved);
   }
-  return curved;
 }
 
 std::string mapName(const Scene& scene, const InstanceState& instance) {
@@ -83,14 +86,18 @@ std::string mapName(const Scene& scene, const InstanceState& instance) {
 
 }  // namespace
 
-std::vector<EnvironmentMap> environmentMaps(const Scene& scene, const SceneState& state, const Settings& settings,
-                                            std::span<const PlannedPass* const> passes) {
-  std::vector<EnvironmentMap> maps;
+EnvironmentMaps environmentMaps(const Scene& scene, const SceneState& state, const Settings& settings,
+                                std::span<const PlannedPass* const> passes) {
+  EnvironmentMaps maps;
   if (!settings.effects.curved || settings.effects.curvedLookup != CurvedLookup::environment) {
     return maps;
   }
   const std::vector<Bounds> boxes = boxesOf(scene, state);
-  for (const int i : drawnCurved(scene, state, passes)) {
+  std::vector<int> curved = drawnCurved(scene, state, passes);
+  const size_t drawn = curved.size();
+  keepWidest(curved, state);
+  maps.omitted = drawn - curved.size();
+  for (const int i : curved) {
     const InstanceState& instance = state.instances[i];
     const Bounds box = boxAround(static_cast<size_t>(i), boxes);
     EnvironmentMap map{.object = instance.object,
@@ -108,7 +115,7 @@ std::vector<EnvironmentMap> environmentMaps(const Scene& scene, const SceneState
     for (const FaceAxes& axes : faceAxes()) {
       map.faces.push_back(faceOf(scene, state, map, axes));
     }
-    maps.push_back(std::move(map));
+    maps.maps.push_back(std::move(map));
   }
   return maps;
 }

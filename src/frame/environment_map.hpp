@@ -13,9 +13,14 @@ inline constexpr int environmentBorder = 1;
 // and copies. Others show the background.
 inline constexpr size_t mostEnvironmentMaps = 32;
 
-// Plans maps for the curved mirrors that these passes draw, all to be rendered. Empty unless effects.curved_lookup is
+struct EnvironmentMaps {
+  std::vector<EnvironmentMap> maps;
+  size_t omitted = 0;  // curved mirrors that are drawn and have none
+};
+
+// Plans maps for the curved mirrors that these passes draw, all to be rendered. None unless effects.curved_lookup is
 // `environment`.
-std::vector<EnvironmentMap> environmentMaps(const Scene& scene, const SceneState& state, const Settings& settings,
-                                            std::span<const PlannedPass* const> passes);
+EnvironmentMaps environmentMaps(const Scene& scene, const SceneState& state, const Settings& settings,
+                                std::span<const PlannedPass* const> passes);
 
 }  // namespace speculum

@@ -82,7 +82,8 @@ class Planner {
 void Planner::findEffects() {
   std::vector<const PlannedPass*> passes;
   collect(0, passes);
-  plan_.maps = environmentMaps(scene_, state_, allSettings_, passes);
+  EnvironmentMaps maps = environmentMaps(scene_, state_, allSettings_, passes);
+  plan_.maps = std::move(maps.maps);
   passes.pop_back();
   for (const EnvironmentMap& map : plan_.maps) {
     for (const PlannedPass& face : map.faces) {
@@ -91,6 +92,10 @@ void Planner::findEffects() {
   }
   passes.push_back(&nodes_[0].pass);
   plan_.effects = tracedEffects(scene_, state_, allSettings_, passes);
+  if (maps.omitted > 0) {
+    *plan_.effects.curved += "; " + std::to_string(plan_.maps.size()) + " have environment maps, " +
+                             std::to_string(maps.omitted) + " more show the background";
+  }
   if (plan_.effects.shadowMaps) {
     findShadows();
   }

@@ -19,7 +19,7 @@
 namespace speculum {
 
 struct LevelsOfMesh {
-  std::once_flag once;
+  std::mutex making;
   std::atomic<bool> made = false;
   MeshLevels levels;
 };
@@ -300,10 +300,12 @@ MeshLevels simplified(const Mesh& mesh, const std::function<bool()>& cancelled) 
 
 const MeshLevels& levelsOf(const Mesh& mesh, const std::function<bool()>& cancelled) {
   const std::shared_ptr<LevelsOfMesh> shared = sharedLevels(mesh);
-  std::call_once(shared->once, [&] {
+  // A std::once_flag would do, but ThreadSanitizer reports exceptions that leave std::call_once, as a cancelled call's.
+  const std::lock_guard lock(shared->making);
+  if (!shared->made) {
     shared->levels = simplified(mesh, cancelled);
     shared->made = true;
-  });
+  }
   return shared->levels;
 }
 
