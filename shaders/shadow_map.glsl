@@ -3,7 +3,7 @@
 #include "cube_face.glsl"
 
 layout(constant_id = 4) const uint onlyShadowFace = anyShadowFace;  // face that contains the whole scene, in every map
-layout(constant_id = 10) const uint shadowedLights = 0;  // bits of the pass's lights that have a map, if these are fixed
+layout(constant_id = 10) const uint shadowedLights = 0;  // first lights of each pass, which have a map
 
 layout(set = 2, binding = 0) uniform sampler2D shadowTexels;  // disparities from the light, 1/m; 0: nothing is there
 layout(set = 2, binding = 1, std140) uniform ShadowMaps { ShadowMapData shadowMaps[mostShadowMaps]; };
@@ -64,6 +64,6 @@ float shadowShare(LightData light) {
 
 // Returns the share of light `index` of the pass that reaches the receiver.
 float litShare(uint index, LightData light) {
-  bool shadowed = lightCount == manyLights ? light.shadowMap != noShadowMap : (shadowedLights >> index & 1u) != 0;
+  bool shadowed = lightCount == manyLights ? light.shadowMap != noShadowMap : index < shadowedLights;
   return shadowed ? shadowShare(light) : 1.0;
 }

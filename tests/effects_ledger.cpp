@@ -346,5 +346,23 @@ TEST(Ledger, ShadowMapsAreListedAndReleased) {
   EXPECT_GE(cost.pipelines, 2u) << "of the faces and of the teapot";
 }
 
+// Drivers that compile shaders while they draw would stutter.
+TEST(Ledger, VisibleLightsNeedNoPipelines) {
+  std::string lights;
+  for (const std::string x : {"-2", "0", "2"}) {
+    lights += "[[light]]\nposition = [" + x +
+              ", 0.5, 1]\nradius = 0.1\ncasts_shadow = " + (x == "0" ? "true" : "false") + "\n";
+  }
+  QuietSession session(optionsFor(sceneWith("visible_lights", lights),
+                                  {{"effects.shadow_lookup", "map"}, {"effects.shadow_map_size", "256"}}));
+  std::vector<int> pipelines;
+  for (const double x : {-1.2, 0.0, 1.2}) {
+    session.setCamera(lookAt({0.0, 1.0, 4.0}, {x, 0.5, 0.0}, {0.0, 1.0, 0.0}, 40.0, 0.1));
+    drawFrames(session, 2);
+    pipelines.push_back(counts.created["Pipeline"]);
+  }
+  EXPECT_EQ(pipelines, std::vector(3, pipelines.front()));
+}
+
 }  // namespace
 }  // namespace speculum

@@ -200,23 +200,26 @@ void FrameData::addPass(const Source& source, const PlannedPass& pass, const Pro
   addMask(pass, plan, settings, data);
 }
 
-// Lights whose glyphs are visible come first, so that one instanced draw covers them.
+// Lights with a shadow map come first, so that passes share pipelines, and lights whose glyphs are visible stand
+// together, so that one instanced draw covers them: each kind is partitioned towards the other.
 void FrameData::addLights(const Source& source, const PlannedPass& pass, PassBlock& block, PassData& data) {
   const Scene& scene = source.scene;
   block.view.firstLight = static_cast<uint32_t>(lights_.size());
   block.view.lightCount = static_cast<uint32_t>(scene.lights.size());
+  std::vector<uint32_t> maps(scene.lights.size(), gpu::noShadowMap);
+  for (size_t map = 0; map < source.plan.shadowMaps.size(); ++map) {
+    maps[source.plan.shadowMaps[map].light] = static_cast<uint32_t>(map);
+  }
+  const auto hasMap = [&](int i) { return maps[i] != gpu::noShadowMap; };
+  const auto isShown = [&](int i) { return std::binary_search(pass.lights.begin(), pass.lights.end(), i); };
   std::vector<int> order(scene.lights.size());
   std::iota(order.begin(), order.end(), 0);
-  std::stable_partition(order.begin(), order.end(),
-                        [&](int i) { return std::binary_search(pass.lights.begin(), pass.lights.end(), i); });
+  const auto unmapped = std::stable_partition(order.begin(), order.end(), hasMap);
+  const auto shown = std::stable_partition(order.begin(), unmapped, [&](int i) { return !isShown(i); });
+  std::stable_partition(unmapped, order.end(), isShown);
+  data.firstGlyph = static_cast<uint32_t>(shown - order.begin());
   for (const int i : order) {
     const PointLight& light = scene.lights[i];
-    const std::vector<ShadowMap>& maps = source.plan.shadowMaps;
-    const auto map = std::find_if(maps.begin(), maps.end(), [&](const ShadowMap& m) { return m.light == i; });
-    const size_t index = lights_.size() - block.view.firstLight;
-    if (map != maps.end() && scene.lights.size() <= gpu::fixedLights) {
-      data.shadowedLights |= 1u << index;
-    }
     lights_.push_back({.position = glm::vec3(source.state.lights[i].position - pass.view.eye),
                        .radius = static_cast<float>(light.radius),
                        .irradiance = radiance(light.color * light.intensity),
@@ -224,7 +227,7 @@ void FrameData::addLights(const Source& source, const PlannedPass& pass, PassBlo
                        .glow = radiance(light.color * light.glow),
                        .hasGlyph = hasGlyph(light, source.settings.effects),
                        .clearance = clearances_[i],
-                       .shadowMap = map == maps.end() ? gpu::noShadowMap : static_cast<uint32_t>(map - maps.begin())});
+                       .shadowMap = maps[i]});
   }
   std::copy_n(lights_.end() - static_cast<std::ptrdiff_t>(order.size()),
               std::min<size_t>(order.size(), gpu::fixedLights), block.lights);

@@ -64,8 +64,8 @@ struct PassData {
   uint32_t pass = 0;        // index into the passes of the frame
   bool mirrorView = false;  // the view is that of a mirror
   std::vector<Batch> batches;
+  uint32_t firstGlyph = 0;  // index into the lights of the pass
   uint32_t glyphCount = 0;
-  uint32_t shadowedLights = 0;  // bits of the lights that have a shadow map, if the scene's are at most fixedLights
   std::vector<MirrorRange> mirrors;
   uint32_t maskFirstVertex = 0;
   uint32_t maskVertexCount = 0;  // 0: the whole rectangle is drawn

@@ -16,7 +16,7 @@ uint32_t PointLightSystem::record(const PassScope& scope, const FrameInfo& info,
                                 .cullMode = VK_CULL_MODE_FRONT_BIT};
   });
   info.data.bind(pipeline, scope.commands(), pass);
-  vkCmdDraw(scope.commands(), 36, pass.glyphCount, 0, 0);
+  vkCmdDraw(scope.commands(), 36, pass.glyphCount, 0, pass.firstGlyph);
   info.ledger.draw(EffectKind::glyphs);
   return 1;
 }
