@@ -40,7 +40,7 @@ struct Window {
   double mirrors = 1.0;
   double raysOfTexel = 0.0;
   MotionController controller{device.isCpu};
-  std::vector<MotionLevel> levels = motionLevels({}, {}, {}, 1 + 4, true, false);
+  std::vector<MotionLevel> levels = motionLevels({}, {}, {}, 1 + 4, true);
   std::deque<std::pair<FrameWork, double>> inFlight;  // frames whose times have not arrived yet
   std::vector<double> times{};                        // ms
   std::vector<size_t> chosen{};
@@ -204,7 +204,7 @@ TEST(MotionController, TakesMapsOnlyWhereRaysAreSlow) {
     Device device = fastCpu;
     device.ray = ray;
     Window run{device};
-    run.levels = motionLevels(scene, {}, {}, 1 + 4, true, false);
+    run.levels = motionLevels(scene, {}, {}, 1 + 4, true);
     run.raysOfTexel = 0.2;
     run.mirrors = 0.0;
     run.stand(6);
@@ -226,7 +226,7 @@ TEST(MotionLevels, NoLevelExceedsTheFirst) {
   chosen.reflection.updateInterval = 3;
   chosen.reflection.meshError = 1.0;
   const std::vector<MotionLevel> front{{Settings(), 0.01}};
-  const std::vector<MotionLevel> levels = motionLevels({}, chosen, front, 1 + 2 + 4, true, false);
+  const std::vector<MotionLevel> levels = motionLevels({}, chosen, front, 1 + 2 + 4, true);
   ASSERT_GT(levels.size(), 5u);
   EXPECT_TRUE(sameMainView(levels[0].settings, chosen));
   for (const auto& [settings, error] : levels) {
@@ -243,7 +243,7 @@ TEST(MotionLevels, NoLevelExceedsTheFirst) {
 TEST(MotionLevels, FollowTheMeasuredFront) {
   MotionLevel point{Settings(), 0.02};
   point.settings.view.scale = 0.6;
-  const std::vector<MotionLevel> levels = motionLevels({}, {}, std::span(&point, 1), 1 + 4, true, false);
+  const std::vector<MotionLevel> levels = motionLevels({}, {}, std::span(&point, 1), 1 + 4, true);
   EXPECT_EQ(levels[1].settings.view.scale, 0.6);
   EXPECT_EQ(levels[1].settings.view.samples, 4);
   EXPECT_EQ(levels[1].error, 0.02);
@@ -256,7 +256,7 @@ TEST(MotionLevels, MeshesStayUntilTheirLevelsAreMade) {
   point.settings.view.meshError = point.settings.reflection.meshError = 1.0;
   const auto mostError = [&](bool simplifies) {
     double most = 0.0;
-    for (const MotionLevel& level : motionLevels({}, {}, std::span(&point, 1), 1 + 4, simplifies, false)) {
+    for (const MotionLevel& level : motionLevels({}, {}, std::span(&point, 1), 1 + 4, simplifies)) {
       most = std::max({most, level.settings.view.meshError, level.settings.reflection.meshError});
     }
     return most;
@@ -267,11 +267,11 @@ TEST(MotionLevels, MeshesStayUntilTheirLevelsAreMade) {
 
 // Rays need full meshes, in every pass and shadow map.
 TEST(MotionLevels, NoRaysWithSimplifiedMeshes) {
-  Scene scene;
-  scene.mirrors.resize(1);
+  Settings chosen;
+  chosen.reflection.method = ReflectionMethod::automatic;
   size_t rays = 0;
   size_t simplified = 0;
-  for (const auto& [settings, error] : motionLevels(scene, {}, {}, 1 + 4, true, true)) {
+  for (const auto& [settings, error] : motionLevels({}, chosen, {}, 1 + 4, true)) {
     const bool simplifies = settings.view.meshError > 0.0 || settings.reflection.meshError > 0.0;
     const bool traces = settings.reflection.method != ReflectionMethod::raster;
     EXPECT_FALSE(simplifies && traces);
@@ -284,7 +284,7 @@ TEST(MotionLevels, NoRaysWithSimplifiedMeshes) {
 
 TEST(MotionLevels, MapsReplaceTheRaysOfTheScene) {
   const auto last = [](const Scene& scene, const Settings& chosen = {}) {
-    return motionLevels(scene, chosen, {}, 1 + 4, true, false).back().settings.effects;
+    return motionLevels(scene, chosen, {}, 1 + 4, true).back().settings.effects;
   };
   Scene scene;
   EXPECT_EQ(last(scene), EffectSettings());
@@ -308,18 +308,15 @@ TEST(MotionLevels, MapsReplaceTheRaysOfTheScene) {
 TEST(MotionLevels, ImagesReplaceTheRaysOfMirrors) {
   Settings chosen;
   chosen.reflection.method = ReflectionMethod::rays;
-  const std::vector<MotionLevel> levels = motionLevels({}, chosen, {}, 1 + 4, true, false);
+  const std::vector<MotionLevel> levels = motionLevels({}, chosen, {}, 1 + 4, true);
   EXPECT_EQ(levels.front().settings.reflection.method, ReflectionMethod::rays);
   EXPECT_EQ(levels.at(1).settings.reflection.method, ReflectionMethod::raster);
   EXPECT_EQ(levels.back().settings.reflection.method, ReflectionMethod::raster);
-  const auto last = [](const Scene& scene, bool simplifies, bool cpuDevice) {
-    return motionLevels(scene, {}, {}, 1 + 4, simplifies, cpuDevice).back().settings.reflection.method;
-  };
-  const Scene scene{{.mirrors = {Mirror()}}};
-  EXPECT_EQ(last(scene, false, true), ReflectionMethod::automatic);
-  EXPECT_EQ(last(scene, true, true), ReflectionMethod::raster);
-  EXPECT_EQ(last(scene, false, false), ReflectionMethod::raster);
-  EXPECT_EQ(last({}, false, true), ReflectionMethod::raster);
+  chosen.reflection.method = ReflectionMethod::automatic;
+  for (const bool simplifies : {false, true}) {
+    EXPECT_EQ(motionLevels({}, chosen, {}, 1 + 4, simplifies).back().settings.reflection.method,
+              simplifies ? ReflectionMethod::raster : ReflectionMethod::automatic);
+  }
 }
 
 TEST(FrameWork, CountsTheRaysOfEffects) {

@@ -23,16 +23,6 @@ constexpr double leastScale = 0.25;
 constexpr int smallShadowMap = 256;     // texels of a face's side
 constexpr int smallEnvironment = 64;    // likewise
 constexpr int environmentInterval = 8;  // frames
-// Scenes with more triangles are not traced while they move: their hierarchy would delay the first frame.
-constexpr size_t mostTriangles = 100'000;
-
-size_t triangleCount(const Scene& scene) {
-  size_t indices = 0;
-  for (const Mesh& mesh : scene.meshes) {
-    indices += mesh.indices.size();
-  }
-  return indices / 3;
-}
 
 // Lowers each setting to the cheaper one of the two.
 Settings lowered(Settings settings, const Settings& limit) {
@@ -112,7 +102,7 @@ AskedEffects askedEffects(const Scene& scene, const EffectSettings& settings) {
 }
 
 std::vector<MotionLevel> motionLevels(const Scene& scene, const Settings& chosen, std::span<const MotionLevel> front,
-                                      unsigned sampleCounts, bool simplifies, bool cpuDevice) {
+                                      unsigned sampleCounts, bool simplifies) {
   const AskedEffects rays = askedEffects(scene, chosen.effects);
   std::vector<MotionLevel> levels{{chosen}};
   const auto add = [&](const Settings& settings, double error) {
@@ -156,9 +146,11 @@ std::vector<MotionLevel> motionLevels(const Scene& scene, const Settings& chosen
     }
   };
   using E = EffectSettings;
-  // Rays need a hierarchy of all triangles, which is built before the first frame that moves.
-  const bool mayTrace = cpuDevice && !scene.mirrors.empty() && triangleCount(scene) <= mostTriangles;
-  step([&](Settings& s) { s.reflection.method = mayTrace ? ReflectionMethod::automatic : ReflectionMethod::raster; });
+  step([](Settings& s) {
+    if (s.reflection.method == ReflectionMethod::rays) {
+      s.reflection.method = ReflectionMethod::raster;
+    }
+  });
   replace(rays.shadows || rays.castsLight || rays.curved, [](E& effects) { effects.perSample = false; });
   replace(rays.shadows && !rays.castsLight, [](E& effects) { effects.shadowLookup = ShadowLookup::map; });
   simplify(0.5, 0.0);

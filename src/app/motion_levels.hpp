@@ -28,9 +28,9 @@ struct MotionLevel {
 // themselves, the front of the scene's measured sweep (most accurate first; may be empty), then steps in an order that
 // holds for most scenes (docs/window.md). No setting of a level has better quality than that of the first.
 // `sampleCounts` are those that the device has, as VkSampleCountFlags. `simplifies`: whether levels may simplify
-// meshes. `cpuDevice`: small mirrors may be cheaper by rays.
+// meshes.
 std::vector<MotionLevel> motionLevels(const Scene& scene, const Settings& chosen, std::span<const MotionLevel> front,
-                                      unsigned sampleCounts, bool simplifies, bool cpuDevice);
+                                      unsigned sampleCounts, bool simplifies);
 
 // Describes what a level gives up: "0.5 scale, 1 sample, FLIP about 0.05", or "full quality".
 std::string motionText(const Settings& chosen, const MotionLevel& level);

@@ -63,7 +63,7 @@ const FittedPlan& Pace::plan(const Request& request, const Planner& plan) {
 void Pace::planWithinBudget(const Request& request, const Planner& plan) {
   const Settings chosen = withPictures(request.chosen, 1);
   const std::vector<MotionLevel> levels =
-      motionLevels(request.scene, chosen, request.front, sampleCounts_, request.simplifies, cpuDevice_);
+      motionLevels(request.scene, chosen, request.front, sampleCounts_, request.simplifies);
   const size_t level = controller_.choose(levels, request.budgetMs, seconds_, [&](const Settings& settings) {
     fitted_ = plan(settings, 0);
     return work_;
