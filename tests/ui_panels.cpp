@@ -1044,12 +1044,12 @@ TEST_F(AccuracyWindow, PointsAndSliderApplySettings) {
 }
 
 TEST_F(AccuracyWindow, SliderNamesPointsOffTheFront) {
-  EXPECT_TRUE(shows("2 points"));
+  EXPECT_TRUE(shows("off the front"));
   accuracy_.current = 2;
-  EXPECT_TRUE(shows("2 points"));
+  EXPECT_TRUE(shows("off the front"));
   accuracy_.current = 1;
   EXPECT_TRUE(shows("2 of 2"));
-  EXPECT_FALSE(shows("2 points"));
+  EXPECT_FALSE(shows("off the front"));
 }
 
 TEST_F(AccuracyWindow, PlotLeavesRoomForTheSlider) {

@@ -83,9 +83,12 @@ fs::path typedPath(const fs::path& typed) {
 fs::path dataDirectory(std::string_view name) {
   const fs::path exe = executablePath().parent_path();
   const fs::path up = exe.parent_path();
+  std::vector<fs::path> candidates{exe / name, up / "share" / "speculum" / name};
   // Built: beside the program, a folder higher for test programs, then up to the source tree.
-  const fs::path candidates[] = {exe / name, up / "share" / "speculum" / name, up / name, up.parent_path() / name,
-                                 up.parent_path().parent_path() / name};
+  for (fs::path folder = up; candidates.size() < 5 && candidates.back() != folder / name;
+       folder = folder.parent_path()) {
+    candidates.push_back(folder / name);
+  }
   std::string searched;
   for (const fs::path& candidate : candidates) {
     if (isFolder(candidate)) {

@@ -18,6 +18,8 @@ constexpr ImU32 otherColor = IM_COL32(130, 150, 180, 200);
 constexpr float gridOpacity = 0.16f;
 constexpr double leastError = 1e-4;  // where a point of error 0 is drawn
 
+constexpr double mostRoom = 2.0;  // below the points, for a noise floor that is far from them
+
 // A plot with logarithmic axes that fit the points, in screen coordinates.
 struct Plot {
   ImVec2 corner;  // top left
@@ -43,7 +45,7 @@ Plot plotOf(const AccuracyView& accuracy, const ImVec2& corner, const ImVec2& si
     plot.highError = std::max(plot.highError, std::max(point.error, leastError));
   }
   if (accuracy.noiseFloor > leastError) {
-    plot.lowError = std::min(plot.lowError, accuracy.noiseFloor);
+    plot.lowError = std::clamp(accuracy.noiseFloor, plot.lowError / mostRoom, plot.lowError);
   }
   plot.lowMs = std::max(plot.lowMs, 1e-4) / 1.15;
   plot.highMs = std::max(plot.highMs, plot.lowMs) * 1.3;
@@ -87,10 +89,14 @@ void drawAxes(ImDrawList& list, const Plot& plot, double noiseFloor) {
       free = left + width + 0.5f * line;
     }
   });
+  float top = end.y;  // of the last label
   forTicks(plot.lowError, plot.highError, [&](double error) {
     const float y = plot.y(error);
     list.AddLine({plot.corner.x, y}, {end.x, y}, grid);
-    list.AddText({plot.corner.x + 2.0f, std::min(y, end.y - line)}, ink, figure(error).c_str());
+    if (y + line <= top) {
+      list.AddText({plot.corner.x + 2.0f, y}, ink, figure(error).c_str());
+      top = y;
+    }
   });
   const char* across = "GPU ms, still picture";
   list.AddText({end.x - textWidth(across) - 2.0f, end.y - line}, ink, across);
@@ -101,7 +107,7 @@ void drawAxes(ImDrawList& list, const Plot& plot, double noiseFloor) {
     for (float x = plot.corner.x; x < end.x; x += 8.0f) {
       list.AddLine({x, y}, {std::min(x + 4.0f, end.x), y}, ink);
     }
-    list.AddText({end.x - 7.0f * line, y - line}, ink, "noise floor");
+    list.AddText({plot.corner.x + 4.0f * line, y - line}, ink, ("noise floor " + figure(noiseFloor)).c_str());
   }
 }
 
@@ -193,7 +199,7 @@ void frontSlider(PanelContext& ui) {
   const auto current = std::ranges::find(accuracy.front, accuracy.current);
   const bool onFront = current != accuracy.front.end();
   int index = onFront ? static_cast<int>(current - accuracy.front.begin()) : 0;
-  const std::string place = onFront ? fmt::format("{} of {}", index + 1, last + 1) : fmt::format("{} points", last + 1);
+  const std::string place = onFront ? fmt::format("{} of {}", index + 1, last + 1) : std::string("off the front");
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted("Fast");
   ImGui::SameLine();
