@@ -25,8 +25,8 @@ struct FrameTimings {
   std::vector<PassTiming> passes;  // in the order of recording; none if only the frame was measured
 };
 
-// What is measured, each with all before it: the frame's time, its passes' times and statistics, and the samples that
-// they draw. Counting samples has a price: lavapipe compiles each shader once more for it.
+// What is measured: the frame's time; also the times and statistics of its passes; also the samples that they draw.
+// Counting samples has a price: lavapipe compiles each shader once more for it.
 enum class TimerDetail { frame, passes, samples };
 
 // Timestamps and pipeline statistics of one frame in flight. Both stamps of a pass are taken at the bottom of the pipe,

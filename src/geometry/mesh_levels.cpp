@@ -300,7 +300,7 @@ MeshLevels simplified(const Mesh& mesh, const std::function<bool()>& cancelled) 
 
 const MeshLevels& levelsOf(const Mesh& mesh, const std::function<bool()>& cancelled) {
   const std::shared_ptr<LevelsOfMesh> shared = sharedLevels(mesh);
-  // A std::once_flag would do, but ThreadSanitizer reports exceptions that leave std::call_once, as a cancelled call's.
+  // Not std::call_once: ThreadSanitizer reports exceptions that leave it, and a cancelled call throws one.
   const std::lock_guard lock(shared->making);
   if (!shared->made) {
     shared->levels = simplified(mesh, cancelled);

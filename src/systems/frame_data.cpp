@@ -200,8 +200,8 @@ void FrameData::addPass(const Source& source, const PlannedPass& pass, const Pro
   addMask(pass, plan, settings, data);
 }
 
-// Lights with a shadow map come first, so that passes share pipelines, and lights whose glyphs are visible stand
-// together, so that one instanced draw covers them: each kind is partitioned towards the other.
+// Lights with a shadow map come first, so that passes share pipelines. In both groups, lights whose glyphs are visible
+// stand where the groups meet, so that one instanced draw covers them.
 void FrameData::addLights(const Source& source, const PlannedPass& pass, PassBlock& block, PassData& data) {
   const Scene& scene = source.scene;
   block.view.firstLight = static_cast<uint32_t>(lights_.size());
