@@ -162,7 +162,6 @@ std::optional<std::pair<Measured, std::string>> fastEnough(const Options& option
 void measureFixed(const Options& options, const char* name, Path path) {
   double best = INFINITY;
   size_t images = SIZE_MAX;  // that are drawn without a limit
-
   std::string about = "none";
   for (const std::vector<Setting>& settings : fixedSettings) {
     if (settings.size() == 1 && settings[0].first == "reflection.max_passes" &&

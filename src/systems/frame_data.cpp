@@ -131,6 +131,10 @@ void FrameData::build(Frame& frame, const SceneResources& resources, const Scene
   passes_.clear();
   const Source source{scene, state, settings, environment, plan};
   clearances_ = clearancesOf(scene, state);
+  shadowMaps_.assign(scene.lights.size(), gpu::noShadowMap);
+  for (size_t map = 0; map < plan.shadowMaps.size(); ++map) {
+    shadowMaps_[plan.shadowMaps[map].light] = static_cast<uint32_t>(map);
+  }
   const std::vector<DrawnPass> drawn = drawnPasses(plan);
   size_t instanceCount = 0;
   for (const DrawnPass& pass : drawn) {
@@ -206,11 +210,7 @@ void FrameData::addLights(const Source& source, const PlannedPass& pass, PassBlo
   const Scene& scene = source.scene;
   block.view.firstLight = static_cast<uint32_t>(lights_.size());
   block.view.lightCount = static_cast<uint32_t>(scene.lights.size());
-  std::vector<uint32_t> maps(scene.lights.size(), gpu::noShadowMap);
-  for (size_t map = 0; map < source.plan.shadowMaps.size(); ++map) {
-    maps[source.plan.shadowMaps[map].light] = static_cast<uint32_t>(map);
-  }
-  const auto hasMap = [&](int i) { return maps[i] != gpu::noShadowMap; };
+  const auto hasMap = [&](int i) { return shadowMaps_[i] != gpu::noShadowMap; };
   const auto isShown = [&](int i) { return std::binary_search(pass.lights.begin(), pass.lights.end(), i); };
   std::vector<int> order(scene.lights.size());
   std::iota(order.begin(), order.end(), 0);
@@ -227,7 +227,7 @@ void FrameData::addLights(const Source& source, const PlannedPass& pass, PassBlo
                        .glow = radiance(light.color * light.glow),
                        .hasGlyph = hasGlyph(light, source.settings.effects),
                        .clearance = clearances_[i],
-                       .shadowMap = maps[i]});
+                       .shadowMap = shadowMaps_[i]});
   }
   std::copy_n(lights_.end() - static_cast<std::ptrdiff_t>(order.size()),
               std::min<size_t>(order.size(), gpu::fixedLights), block.lights);

@@ -129,6 +129,7 @@ class FrameData {
   std::vector<gpu::MirrorBlock> mirrors_;
   std::vector<gpu::LightData> lights_;
   std::vector<glm::vec3> clearances_;  // LightData::clearance of each light of the scene
+  std::vector<uint32_t> shadowMaps_;   // LightData::shadowMap of each
   std::vector<gpu::InstanceData> instances_;
   std::vector<gpu::CurvedMirrorData> curvedMirrors_;
   std::vector<glm::vec4> mirrorVertices_;

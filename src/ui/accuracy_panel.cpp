@@ -17,8 +17,7 @@ constexpr ImU32 chosenColor = IM_COL32(60, 170, 85, 255);  // of a point off the
 constexpr ImU32 otherColor = IM_COL32(130, 150, 180, 200);
 constexpr float gridOpacity = 0.16f;
 constexpr double leastError = 1e-4;  // where a point of error 0 is drawn
-
-constexpr double mostRoom = 2.0;  // below the points, for a noise floor that is far from them
+constexpr double mostRoom = 2.0;     // below the points, for a noise floor that is far from them
 
 // A plot with logarithmic axes that fit the points, in screen coordinates.
 struct Plot {
