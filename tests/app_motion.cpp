@@ -153,6 +153,16 @@ TEST_P(OnEveryDevice, LoadOfTheMachineIsFollowed) {
   EXPECT_FALSE(run_.wastes());
 }
 
+TEST_P(OnEveryDevice, CheaperViewGainsQualityWithinASecond) {
+  run_.mirrors = 1.5;
+  run_.move(100);
+  run_.mirrors = 0.1;
+  for (double ms = 0.0; ms < 1000.0; ms += run_.times.back()) {
+    run_.move(1);
+  }
+  EXPECT_FALSE(run_.wastes()) << "level " << run_.chosen.back();
+}
+
 TEST_P(OnEveryDevice, ViewIsFollowedWithoutDelay) {
   run_.move(100);
   run_.clear();

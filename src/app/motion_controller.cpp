@@ -9,11 +9,11 @@ namespace {
 
 // Shares of the budget. Between roomToRaise and tooMuch the level stays.
 constexpr double aim = 0.93;          // largest share that a level may take when it is lowered
-constexpr double roomToRaise = 0.90;  // largest share that a better level may take
+constexpr double roomToRaise = 0.91;  // largest share that a better level may take
 constexpr double tooMuch = 1.0;       // a frame beyond it lowers the level
-constexpr double farBelow = 0.5;      // a better level predicted to take less is tried at once
+constexpr double farBelow = 0.75;     // a better level predicted to take less is tried at once
 
-constexpr double leastPatience = 0.25;  // seconds
+constexpr double leastPatience = 0.15;  // seconds
 constexpr double mostPatience = 4.0;
 constexpr double settled = 1.0;      // seconds at a better level after which raising it was no mistake
 constexpr int longestInterval = 60;  // frames

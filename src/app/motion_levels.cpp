@@ -13,7 +13,7 @@ namespace speculum {
 
 namespace {
 
-constexpr double scaleStep = 0.9;
+constexpr double scaleStep = 0.95;
 // Below these, losing far reflections is seen less than losing detail.
 constexpr double softScale = 0.7;
 constexpr double blurredScale = 0.4;
