@@ -45,6 +45,7 @@ TEST_F(Saving, QuitAsksAboutUnsavedChanges) {
   removeBall();
   send(Quit{});
   EXPECT_EQ(edit().prompt, Prompt::unsavedChanges);
+  EXPECT_EQ(edit().afterPrompt, "quitting");
   EXPECT_FALSE(host_.closed);
   send(CancelPrompt{});
   EXPECT_EQ(edit().prompt, Prompt::none);
@@ -176,6 +177,7 @@ TEST_F(Saving, AnotherSceneWaitsForTheAnswer) {
   const OpenScene other{sceneFile("no_mirror")};
   send(other);
   ASSERT_EQ(edit().prompt, Prompt::unsavedChanges);
+  EXPECT_EQ(edit().afterPrompt, "opening no_mirror.toml");
   send(CancelPrompt{});
   EXPECT_TRUE(edit().unsaved);
   EXPECT_FALSE(workspace_->working()) << "nothing is read";
@@ -191,6 +193,7 @@ TEST_F(Saving, NewSceneAsksFirstAndSavesElsewhere) {
   removeBall();
   send(NewScene{});
   EXPECT_EQ(edit().prompt, Prompt::unsavedChanges);
+  EXPECT_EQ(edit().afterPrompt, "starting a new scene");
   send(DiscardChanges{});
   waitFor([&] { return host_.title == "untitled - Speculum"; });
   EXPECT_EQ(scene().mirrors.size(), 1u);

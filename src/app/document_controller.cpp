@@ -38,6 +38,18 @@ fs::path ownFolder() {
   return documentsDir() / "Speculum";
 }
 
+// Names what waits for the user's answer.
+std::string waitingText(const std::optional<Command>& waiting) {
+  if (!waiting) {
+    return "closing this scene";
+  }
+  const auto* open = std::get_if<OpenScene>(&*waiting);
+  if (!open) {
+    return "quitting";
+  }
+  return SceneBrowser::isNew(open->file) ? "starting a new scene" : "opening " + open->file.filename().string();
+}
+
 }  // namespace
 
 DocumentController::DocumentController(LoadedScene& loaded, std::span<const fs::path> shippedModels, bool prompts,
@@ -174,6 +186,7 @@ void DocumentController::fill(EditView& view, const Settings& settings) const {
   view.saveFile = saveFile_;
   view.isNew = isNew_;
   view.prompt = prompt_;
+  view.afterPrompt = waitingText(afterPrompt_);
   view.proposedFile = proposed_;
   view.note = note_;
 }

@@ -60,7 +60,7 @@ ViewMeasurement::ViewMeasurement(const SweepRequest& request)
 }
 
 SweepResults ViewMeasurement::measure(PictureSize size, const Effort& effort, const SweepProgress& progress) {
-  if (!progress({"starting", 1.0})) {
+  if (!progress({"starting", 0.0})) {
     return {};
   }
   session_.resize(size);
@@ -115,7 +115,7 @@ SweepResults ViewMeasurement::rough(int rounds, const SweepProgress& progress) {
     return results;
   }
   const SizedMs base = sizedMs(results.points.front(), small);
-  if (!progress({"times", 1.0})) {
+  if (!progress({"times", 0.0})) {
     return {};
   }
   enlargeTimes(results, base, sizedMs(*std::ranges::min_element(results.points, {}, costMs), small),

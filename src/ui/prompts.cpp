@@ -50,7 +50,7 @@ void answerButton(PanelContext& ui, const char* label, std::string_view key, Com
 
 void unsavedChanges(PanelContext& ui) {
   const EditView& edit = ui.view.edit;
-  ImGui::TextUnformatted("Save the changes before closing this scene?");
+  ImGui::Text("Save the changes before %s?", edit.afterPrompt.c_str());
   ImGui::TextDisabled("%s", (edit.saveFile ? *edit.saveFile : edit.scene->file.stem()).c_str());
   if (ui.output.refusedEdit) {
     coloredText(warningColor, "The vertices that were typed are not applied: they cannot be saved.");

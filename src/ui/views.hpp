@@ -144,6 +144,7 @@ struct EditView {
   bool isNew = false;                             // a model or a new scene, which has no file yet
   std::optional<std::filesystem::path> saveFile;  // file that Save writes; none: it asks for one
   Prompt prompt = Prompt::none;
+  std::string afterPrompt;             // what the answer to unsavedChanges leads to, as in "quitting"
   std::filesystem::path proposedFile;  // for Prompt::saveAs and recovery; a folder for open
   std::string note;                    // what was saved, or why it was not
   OverlayView overlay;
