@@ -290,6 +290,7 @@ TEST_F(Report, EarlierTimesAreMarked) {
   frame(5, {}, {}, {});
   frame(6, {}, timings(5, {3.0}), {main});
   EXPECT_EQ(rows[1].gpuMs, 90.0) << "a frame that draws the panels only";
+  EXPECT_EQ(view.timedGpuMs, 90.0);
   EXPECT_TRUE(rows[0].reused);
   EXPECT_FALSE(rows[1].reused);
 }

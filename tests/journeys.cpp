@@ -405,18 +405,22 @@ TEST_F(Journey, TextIsReadable) {
   for (ImWchar digit = '1'; digit <= '9'; ++digit) {
     EXPECT_EQ(font.FindGlyph(digit)->AdvanceX, font.FindGlyph('0')->AdvanceX);
   }
-  const auto luminance = [](ImGuiCol color) {
-    const ImVec4 c = ImGui::GetStyleColorVec4(color);
+  const auto luminance = [](const glm::vec3& c) {
     return 0.2126 * srgbDecode(c.x) + 0.7152 * srgbDecode(c.y) + 0.0722 * srgbDecode(c.z);
+  };
+  const auto styled = [](ImGuiCol color) {
+    const ImVec4 c = ImGui::GetStyleColorVec4(color);
+    return glm::vec3(c.x, c.y, c.z);
   };
   for (const char* theme : {"theme.dark", "theme.light"}) {
     click("menu.Window");
     run(2);
     click(theme);
     run(2);
-    for (const ImGuiCol text : {ImGuiCol_Text, ImGuiCol_TextDisabled}) {
+    for (const glm::vec3& text : {styled(ImGuiCol_Text), styled(ImGuiCol_TextDisabled),
+                                  panels::onTheme(panels::warningColor), panels::onTheme(panels::errorColor)}) {
       const double a = luminance(text) + 0.05;
-      const double b = luminance(ImGuiCol_WindowBg) + 0.05;
+      const double b = luminance(styled(ImGuiCol_WindowBg)) + 0.05;
       EXPECT_GT(std::max(a, b) / std::min(a, b), 4.5) << theme;
     }
   }

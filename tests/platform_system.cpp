@@ -10,6 +10,7 @@
 #include "platform/folders.hpp"
 #include "platform/machine.hpp"
 #include "platform/process.hpp"
+#include "platform/text.hpp"
 #include "test_headers.hpp"
 
 namespace speculum::test {
@@ -100,6 +101,16 @@ TEST(Machine, KnowsWhenTheProcessStarted) {
 TEST(Machine, PeakMemoryIsPlausible) {
   EXPECT_GT(peakResidentBytes(), uint64_t{1} << 20);
   EXPECT_LT(peakResidentBytes(), uint64_t{1} << 40);
+}
+
+TEST(Text, LargeNumbersHaveNoExponent) {
+  EXPECT_EQ(significant(12.34, 3), "12.3");
+  EXPECT_EQ(significant(999.4, 3), "999");
+  EXPECT_EQ(significant(999.7, 3), "1000");
+  EXPECT_EQ(significant(1570.4, 3), "1570");
+  EXPECT_EQ(significant(-123.0, 2), "-123");
+  EXPECT_EQ(significant(0.00123, 2), "0.0012");
+  EXPECT_EQ(significant(1e300, 3).size(), 301u);
 }
 
 TEST(Process, GivesOutputAndExitCode) {

@@ -212,6 +212,13 @@ TEST_F(Editing, DuplicatesAndFramesStayBetweenPanels) {
   host_.free = PixelRect{0, 0, static_cast<int>(pixel({x, 1.0, 0.5}).x) + 5, height};
   send(DuplicateSelected{});
   EXPECT_LT(object().position.x, x) << "the other side would be behind a panel";
+  const Selection copy = edit().selected;
+  send(SelectNode{ball});
+  send(ToggleNode{copy});
+  send(DuplicateSelected{});
+  EXPECT_LT(object().position.x, x) << "several";
+  send(Undo{});
+  send(SelectNode{copy});
   host_.free = PixelRect{0, 0, width / 2, height};
   send(FrameSelection{});
   const CameraPose pose = camera();
@@ -256,6 +263,8 @@ TEST_F(Editing, FirstCopiesStandBesideEachOther) {
 
 TEST_F(Editing, NodesAreAddedAndSelectedInOrder) {
   send(AddMirror{});
+  const glm::dvec3 place = 1000.0 * scene().mirrors.back().position;
+  EXPECT_LT(glm::length(place - glm::round(place)), 1e-6) << "as a person would type it";
   send(AddLight{});
   send(AddObject{edit().models.front()});
   EXPECT_EQ(scene().mirrors.size() + scene().lights.size() + scene().objects.size(), 7u);

@@ -46,6 +46,8 @@ TEST_F(Measuring, FirstFigureTakesOneRound) {
   const auto count = [&](const SweepStatus& status) { return ++reports[status.stage] > 0; };
   ViewMeasurement measurement(request_);
   const SweepResults first = measurement.rough(1, count);
+  EXPECT_LE(first.width * first.height, 160 * 90);
+  EXPECT_EQ(first.truthSamples, 4);
   const auto points = static_cast<int>(first.points.size());
   ASSERT_GT(points, 5);
   EXPECT_LE(reports["times"], points + 2);
@@ -400,6 +402,19 @@ TEST_F(BudgetView, PricesOfSettingsAreListed) {
   EXPECT_EQ(prices.at("view.samples"), "\nMeasured in this view:\n1: 1 ms, FLIP 0.200\n4: 4 ms, FLIP 0.100");
 }
 
+TEST(Measurement, TimeLeftIsEstimatedWhenItIsKnown) {
+  EXPECT_EQ(secondsLeft(1.0, 0.5), 0.0);
+  EXPECT_EQ(secondsLeft(20.0, 0.02), 0.0);
+  EXPECT_DOUBLE_EQ(secondsLeft(20.0, 0.25), 60.0);
+  EXPECT_EQ(secondsLeft(20.0, 1.0), 0.0);
+}
+
+TEST_F(WindowView, EditsSayThatTheyEndAMeasurement) {
+  send(MeasureAccuracy{});
+  send(AddLight{});
+  EXPECT_EQ(view().accuracy.about, "The scene was changed, so the measurement was cancelled.");
+}
+
 TEST_F(WindowView, TitleNamesTheSceneAndItsState) {
   EXPECT_EQ(host_.title, "workspace - Speculum");
   setExposure(2.0);
@@ -508,11 +523,14 @@ TEST_F(Opening, FailureShowsALineAndKeepsScene) {
   EXPECT_EQ(workspace_->problem().rfind(broken.string() + ":3: camera.target:", 0), 0u) << workspace_->problem();
   send(Escape{});
   EXPECT_EQ(workspace_->problem(), "") << "dismissed";
+  drop({broken});
+  send(DismissMessage{});
+  EXPECT_EQ(workspace_->problem(), "");
   drop({"/tmp/notes.txt"});
   EXPECT_EQ(workspace_->problem(), "/tmp/notes.txt: not a scene (a .toml scene or an .obj model is needed)");
   drop({model("none.obj")});
   EXPECT_TRUE(contains(workspace_->problem(), "none.obj: there is no such file"));
-  EXPECT_EQ(view().log.lines(LogLevel::err, "").size(), 3u) << "each is logged";
+  EXPECT_EQ(view().log.lines(LogLevel::err, "").size(), 4u) << "each is logged";
   setExposure(2.0);
   send(OpenScene{home_.path() / "none.toml"});
   EXPECT_FALSE(workspace_->prompting()) << "there is nothing to save the changes for";
@@ -538,13 +556,32 @@ TEST_F(Opening, WithoutADialogTheWindowAsks) {
   EXPECT_EQ(view().browser.recent.at(0).filename(), "sphere.obj") << "in the next session";
 }
 
-TEST_F(Opening, DesktopsDialogNamesTheFile) {
-  const fs::path dialog = home_.path() / "zenity";
-  std::ofstream(dialog) << "#!/bin/sh\necho a warning >&2\necho " << sourceFile("models/sphere.obj").string() << "\n";
-  fs::permissions(dialog, fs::perms::owner_all);
-  askWhatToOpen(home_.path().string() + ":" + environment("PATH"));
-  EXPECT_EQ(edit().prompt, Prompt::none);
-  waitFor([&] { return shownScene() == "sphere.obj"; });
+class Dialogs : public Opening {
+ protected:
+  // Asks with a dialog that runs these commands; returns whether the window's own list opens.
+  bool asksItself(const char* name, const std::string& commands) {
+    const fs::path dialog = home_.path() / "bin" / name;
+    fs::create_directories(dialog.parent_path());
+    std::ofstream(dialog) << "#!/bin/sh\necho a warning >&2\n" << commands << "\n";
+    fs::permissions(dialog, fs::perms::owner_all);
+    askWhatToOpen(dialog.parent_path().string());
+    waitFor([&] { return !workspace_->working(); });
+    fs::remove(dialog);
+    return edit().prompt == Prompt::open;
+  }
+};
+
+TEST_F(Dialogs, DesktopsDialogNamesTheFile) {
+  EXPECT_FALSE(asksItself("zenity", "echo " + sourceFile("models/sphere.obj").string()));
+  EXPECT_EQ(shownScene(), "sphere.obj");
+  EXPECT_FALSE(asksItself("kdialog", "echo " + sourceFile("scenes/no_mirror.toml").string()));
+  EXPECT_EQ(shownScene(), "no_mirror");
+}
+
+TEST_F(Dialogs, CancelledDialogsEndAndFailedOnesAreReplaced) {
+  EXPECT_FALSE(asksItself("zenity", "exit 1"));
+  EXPECT_TRUE(asksItself("kdialog", "exit 2"));
+  EXPECT_EQ(shownScene(), "workspace");
 }
 
 // An idle window must wake up for a scene that finished loading between two polls.

@@ -4,12 +4,14 @@
 
 #include <limits>
 
+#include "platform/text.hpp"
+
 namespace speculum {
 
 namespace {
 
 std::string timeText(double ms) {
-  return ms < 1000.0 ? fmt::format("{:.3g} ms", ms) : fmt::format("{:.3g} s", ms / 1000.0);
+  return ms < 1000.0 ? significant(ms, 3) + " ms" : significant(ms / 1000.0, 3) + " s";
 }
 
 // Compares the chosen point with the most accurate one.

@@ -7,6 +7,7 @@
 
 #include "accuracy/heat_map.hpp"
 #include "accuracy/sweep_json.hpp"
+#include "platform/text.hpp"
 
 namespace speculum {
 
@@ -34,7 +35,7 @@ std::map<std::string, std::string, std::less<>> pricesOf(const SweepResults& res
   std::map<std::string, std::multimap<double, std::string>> values;  // by setting and milliseconds
   const auto add = [&](const std::string& key, const std::string& value, const SweepPoint& point) {
     const double ms = costSpread(point).median;
-    values[key].emplace(ms, fmt::format("\n{}: {:.3g} ms, FLIP {:.3f}", value, ms, point.whole.flip));
+    values[key].emplace(ms, fmt::format("\n{}: {} ms, FLIP {:.3f}", value, significant(ms, 3), point.whole.flip));
   };
   for (const SweepPoint& point : results.points) {
     if (point.changes.size() == 1) {
@@ -65,6 +66,10 @@ std::string stepText(const std::string& stage, bool rough) {
 }
 
 }  // namespace
+
+double secondsLeft(double elapsed, double fraction) {
+  return fraction > 0.03 && elapsed > 2.0 ? elapsed * (1.0 / fraction - 1.0) : 0.0;
+}
 
 bool isOtherView(const WatchedView& measured, const WatchedView& now) {
   const bool setTime = now.animated && (now.paused || now.seeks != measured.seeks) && now.time != measured.time;
@@ -215,8 +220,7 @@ void AccuracyController::afterFrame(const ShownPicture& shown, const WatchedView
     stageBegan_ = Clock::now();
   }
   const double elapsed = std::chrono::duration<double>(Clock::now() - stageBegan_).count();
-  const bool estimable = status && status->fraction > 0.03 && elapsed > 2.0;
-  view_.secondsLeft = estimable ? elapsed * (1.0 / status->fraction - 1.0) : 0.0;
+  view_.secondsLeft = status ? secondsLeft(elapsed, status->fraction) : 0.0;
   view_.otherView = !view_.points.empty() && measured_ && isOtherView(*measured_, view);
   view_.progress = status ? status->fraction : 0.0;
   if (const std::optional<std::string> error = sweep_.takeError()) {
@@ -236,8 +240,11 @@ bool AccuracyController::working() const {
 }
 
 void AccuracyController::forgetScene(const std::string& why) {
+  const bool cancelled = view_.points.empty() && sweep_.busy();
   sweep_.cancel();
-  const std::string about = view_.points.empty() ? view_.about : why;
+  const std::string about = cancelled              ? "The scene was changed, so the measurement was cancelled."
+                            : view_.points.empty() ? view_.about
+                                                   : why;
   coverChanged_ = difference_.reset() || coverChanged_;
   difference_.stop();
   setResults({});

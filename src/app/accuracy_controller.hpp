@@ -22,6 +22,8 @@ struct WatchedView {
 // Says whether the user has changed the view since it was measured: the camera, or the time by setting it or by a pause
 // elsewhere. Running animation time does not count: otherwise every frame would be another view.
 bool isOtherView(const WatchedView& measured, const WatchedView& now);
+// Estimates the seconds until a stage ends of which this fraction took `elapsed` seconds; 0: too early to tell.
+double secondsLeft(double elapsed, double fraction);
 
 // Accuracy of the view: measurements, the measured points whose settings can be applied, the budget, the difference
 // view.

@@ -25,7 +25,7 @@ SceneNode withCopiesApart(const Scene& scene, const Selection& target, SceneNode
   const bool first = object && object->copies.count > 1 && object->copies.step == glm::dvec3(0.0) &&
                      scene.objects.at(static_cast<size_t>(target.index)).copies.count <= 1;
   if (first) {
-    object->copies.step = glm::round(stepBeside(scene, target) * 1000.0) / 1000.0;
+    object->copies.step = glm::round(stepBeside(scene, std::span(&target, 1)) * 1000.0) / 1000.0;
   }
   return node;
 }
@@ -247,10 +247,10 @@ void SceneEditor::addObject(const SceneView& view, int mesh) {
 }
 
 // Returns the side (1 or -1) on which a copy is in sight, the usual one (1) if neither is.
-double SceneEditor::sideInSight(const SceneView& view, const Selection& node, const PixelRect& free) const {
-  const glm::dvec3 pivot = pivotOf(document_.scene(), view.state, node);
+double SceneEditor::sideInSight(const SceneView& view, std::span<const Selection> nodes, const PixelRect& free) const {
+  const glm::dvec3 pivot = pivotOf(document_.scene(), view.state, nodes.front());
   for (const double side : {1.0, -1.0}) {
-    const auto at = view.picture.pixel(pivot + stepBeside(document_.scene(), node, side));
+    const auto at = view.picture.pixel(pivot + stepBeside(document_.scene(), nodes, side));
     if (at && free.contains(static_cast<int>(at->x), static_cast<int>(at->y))) {
       return side;
     }
@@ -264,10 +264,7 @@ void SceneEditor::duplicate(const SceneView& view, const PixelRect& free) {
     return;
   }
   beginChange();
-  if (nodes.size() == 1) {
-    return select(document_.duplicate(nodes.front(), sideInSight(view, nodes.front(), free)));
-  }
-  const std::vector<Selection> copies = document_.duplicate(std::span(nodes));
+  const std::vector<Selection> copies = document_.duplicate(nodes, sideInSight(view, nodes, free));
   select(copies.front());
   others_.assign(copies.begin() + 1, copies.end());
 }

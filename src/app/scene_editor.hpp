@@ -84,7 +84,7 @@ class SceneEditor {
   PictureView clickedImage(const SceneView& view) const;
   Gizmo gizmo(const SceneView& view) const;
   const MeshOutline& meshOutline(const Selection& node);
-  double sideInSight(const SceneView& view, const Selection& node, const PixelRect& free) const;
+  double sideInSight(const SceneView& view, std::span<const Selection> nodes, const PixelRect& free) const;
   glm::dvec3 pointAhead(const SceneView& view, double part, double least = 0.0);
   Picker& picker();
 

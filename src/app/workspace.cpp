@@ -145,6 +145,7 @@ void Workspace::apply(const Command& command) {
                  [&](const Escape&) { escape(); },
                  [&](const PauseHistory& c) { report_.history().setPaused(c.paused); },
                  [&](const ClearHistory&) { report_.history().clear(); },
+                 [&](const DismissMessage&) { dismissMessage(); },
                  [&](const ClearLog&) { log_.clear(); },
              },
              command);
@@ -350,6 +351,7 @@ void Workspace::useModels() {
 
 void Workspace::resume(const std::optional<Command>& afterPrompt) {
   if (document_->savedSinceLastCall()) {
+    opener_.setProblem("");
     status_.set(document_->note());
     opener_.forgetSaved();
     needsThumbnail_ = true;
@@ -373,6 +375,11 @@ void Workspace::escape() {
   if (editor().document().selection()) {
     return editor().select({});
   }
+  dismissMessage();
+}
+
+// Some messages, such as those of shaders, stay until their cause is gone; the panels hide them.
+void Workspace::dismissMessage() {
   opener_.setProblem("");
   status_.clear();
 }

@@ -106,6 +106,7 @@ class Workspace {
   void useModels();
   void resume(const std::optional<Command>& afterPrompt);
   void escape();
+  void dismissMessage();
   void setSettings(const Settings& settings, bool continued = false);
   void step(UndoWay way);
   void copyCommandLine();

@@ -56,6 +56,37 @@ SceneNode copyMoved(const SceneNode& node, const glm::dvec3& step) {
   return copy;
 }
 
+glm::dvec3 stepBesideOne(const Scene& scene, const Selection& selection) {
+  const size_t index = selection.index;
+  switch (selection.kind) {
+    case Selection::Kind::object: {
+      const Object& object = scene.objects.at(index);
+      return {2.2 * halfExtent(object, scene.meshes.at(object.mesh)).x + std::abs(rowOf(object).x), 0.0, 0.0};
+    }
+    case Selection::Kind::mirror:
+      return stepInPlane(evaluate(scene, 0.0).mirrors.at(index));
+    case Selection::Kind::light:
+      return {6.0 * scene.lights.at(index).radius, 0.0, 0.0};
+    default:
+      return glm::dvec3(0.0);
+  }
+}
+
+glm::dvec3 stepBesideAll(const Scene& scene, std::span<const Selection> nodes) {
+  const SceneState state = evaluate(scene, 0.0);
+  double low = std::numeric_limits<double>::infinity();
+  double high = -low;
+  for (Selection node : nodes) {
+    node.copy = 0;
+    const double x = pivotOf(scene, state, node).x;
+    const double reach = reachOf(scene, state, node);
+    const double row = node.kind == Selection::Kind::object ? rowOf(scene.objects.at(node.index)).x : 0.0;
+    low = std::min(low, x + std::min(row, 0.0) - reach);
+    high = std::max(high, x + std::max(row, 0.0) + reach);
+  }
+  return {1.1 * (high - low), 0.0, 0.0};
+}
+
 }  // namespace
 
 Mirror newMirror(const glm::dvec3& position, const glm::dvec3& viewer) {
@@ -79,42 +110,15 @@ Object newObject(const Scene& scene, int mesh, const glm::dvec3& position) {
   return object;
 }
 
-glm::dvec3 stepBeside(const Scene& scene, const Selection& selection, double side) {
-  const size_t index = selection.index;
-  switch (selection.kind) {
-    case Selection::Kind::object: {
-      const Object& object = scene.objects.at(index);
-      const double width = 2.2 * halfExtent(object, scene.meshes.at(object.mesh)).x + std::abs(rowOf(object).x);
-      return {side * width, 0.0, 0.0};
-    }
-    case Selection::Kind::mirror:
-      return side * stepInPlane(evaluate(scene, 0.0).mirrors.at(index));
-    case Selection::Kind::light:
-      return {side * 6.0 * scene.lights.at(index).radius, 0.0, 0.0};
-    default:
-      return glm::dvec3(0.0);
-  }
+glm::dvec3 stepBeside(const Scene& scene, std::span<const Selection> nodes, double side) {
+  return side * (nodes.size() == 1 ? stepBesideOne(scene, nodes.front()) : stepBesideAll(scene, nodes));
 }
 
-SceneNode copyBeside(const Scene& scene, const Selection& selection, double side) {
-  return copyMoved(nodeOf(scene, selection), stepBeside(scene, selection, side));
-}
-
-std::vector<SceneNode> copiesBeside(const Scene& scene, std::span<const Selection> nodes) {
-  const SceneState state = evaluate(scene, 0.0);
-  double low = std::numeric_limits<double>::infinity();
-  double high = -low;
-  for (Selection node : nodes) {
-    node.copy = 0;
-    const double x = pivotOf(scene, state, node).x;
-    const double reach = reachOf(scene, state, node);
-    const double row = node.kind == Selection::Kind::object ? rowOf(scene.objects.at(node.index)).x : 0.0;
-    low = std::min(low, x + std::min(row, 0.0) - reach);
-    high = std::max(high, x + std::max(row, 0.0) + reach);
-  }
+std::vector<SceneNode> copiesBeside(const Scene& scene, std::span<const Selection> nodes, double side) {
+  const glm::dvec3 step = stepBeside(scene, nodes, side);
   std::vector<SceneNode> copies;
   for (const Selection& node : nodes) {
-    copies.push_back(copyMoved(nodeOf(scene, node), {1.1 * (high - low), 0.0, 0.0}));
+    copies.push_back(copyMoved(nodeOf(scene, node), step));
   }
   return copies;
 }

@@ -17,12 +17,11 @@ PointLight newLight(const glm::dvec3& position, const glm::dvec3& viewer);
 // middle.
 Object newObject(const Scene& scene, int mesh, const glm::dvec3& position);
 
-// Returns the step from a node, an object with all its copies, to a place a little beside it, on the other side for -1.
-// Throws std::out_of_range if the node does not exist.
-glm::dvec3 stepBeside(const Scene& scene, const Selection& selection, double side = 1.0);
-SceneNode copyBeside(const Scene& scene, const Selection& selection, double side = 1.0);
-// Copies several nodes beside the originals, all by the same step so that they stay together.
-std::vector<SceneNode> copiesBeside(const Scene& scene, std::span<const Selection> nodes);
+// Returns the step from nodes, objects with all their copies, to a place a little beside them, on the other side for
+// -1. Throws std::out_of_range if a node does not exist.
+glm::dvec3 stepBeside(const Scene& scene, std::span<const Selection> nodes, double side = 1.0);
+// Copies nodes beside the originals, all by the same step so that they stay together.
+std::vector<SceneNode> copiesBeside(const Scene& scene, std::span<const Selection> nodes, double side = 1.0);
 
 // Returns the first name that is not taken: "teapot", "teapot 2", "teapot 3", counting on from the number that `wanted`
 // ends in. An empty name stays empty.

@@ -162,15 +162,13 @@ Selection SceneDocument::add(const SceneNode& node) {
 }
 
 Selection SceneDocument::duplicate(const Selection& selection, double side) {
-  return selection ? structural("duplicate " + describe(scene_, selection),
-                                [&] { return append(copyBeside(scene_, selection, side)); })
-                   : selection;
+  return selection ? duplicate(std::span(&selection, 1), side).front() : selection;
 }
 
-std::vector<Selection> SceneDocument::duplicate(std::span<const Selection> nodes) {
+std::vector<Selection> SceneDocument::duplicate(std::span<const Selection> nodes, double side) {
   std::vector<Selection> copies;
   structural("duplicate " + describe(scene_, nodes), [&] {
-    for (const SceneNode& copy : copiesBeside(scene_, nodes)) {
+    for (const SceneNode& copy : copiesBeside(scene_, nodes, side)) {
       copies.push_back(append(copy));
     }
     return copies.front();

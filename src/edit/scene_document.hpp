@@ -55,7 +55,7 @@ class SceneDocument {
   Selection duplicate(const Selection& selection, double side = 1.0);
   // Several different nodes in one step. Their copies stay together; the first is selected, all are returned in the
   // order of `nodes`.
-  std::vector<Selection> duplicate(std::span<const Selection> nodes);
+  std::vector<Selection> duplicate(std::span<const Selection> nodes, double side = 1.0);
   void remove(std::vector<Selection> nodes);  // nothing is selected afterwards
 
   // Adds a bookmark under a name that no other has, and returns that name.

@@ -17,4 +17,7 @@ inline bool continuesCharacter(char byte) {
   return (static_cast<unsigned char>(byte) & 0xc0u) == 0x80u;
 }
 
+// Returns the number with this many significant digits, and never fewer than those before the decimal point.
+std::string significant(double value, int digits);
+
 }  // namespace speculum

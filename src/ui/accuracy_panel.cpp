@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "frame/setting_fields.hpp"
+#include "platform/text.hpp"
 #include "ui/panels.hpp"
 
 namespace speculum::panels {
@@ -67,10 +68,6 @@ void forTicks(double low, double high, const Draw& draw) {
   }
 }
 
-std::string figure(double value) {
-  return value < 1000.0 ? fmt::format("{:.3g}", value) : fmt::format("{:.0f}", value);
-}
-
 void drawAxes(ImDrawList& list, const Plot& plot, double noiseFloor) {
   const ImVec2 end(plot.corner.x + plot.size.x, plot.corner.y + plot.size.y);
   const ImU32 grid = ImGui::GetColorU32(ImGuiCol_Text, gridOpacity);
@@ -80,7 +77,7 @@ void drawAxes(ImDrawList& list, const Plot& plot, double noiseFloor) {
   float free = plot.corner.x;  // right end of the last label
   forTicks(plot.lowMs, plot.highMs, [&](double ms) {
     list.AddLine({plot.x(ms), plot.corner.y}, {plot.x(ms), end.y}, grid);
-    const std::string text = figure(ms);
+    const std::string text = significant(ms, 3);
     const float width = textWidth(text);
     const float left = std::min(plot.x(ms) - 0.5f * width, end.x - width);
     if (left >= free) {
@@ -93,7 +90,7 @@ void drawAxes(ImDrawList& list, const Plot& plot, double noiseFloor) {
     const float y = plot.y(error);
     list.AddLine({plot.corner.x, y}, {end.x, y}, grid);
     if (y + line <= top) {
-      list.AddText({plot.corner.x + 2.0f, y}, ink, figure(error).c_str());
+      list.AddText({plot.corner.x + 2.0f, y}, ink, significant(error, 3).c_str());
       top = y;
     }
   });
@@ -106,7 +103,7 @@ void drawAxes(ImDrawList& list, const Plot& plot, double noiseFloor) {
     for (float x = plot.corner.x; x < end.x; x += 8.0f) {
       list.AddLine({x, y}, {std::min(x + 4.0f, end.x), y}, ink);
     }
-    list.AddText({plot.corner.x + 4.0f * line, y - line}, ink, ("noise floor " + figure(noiseFloor)).c_str());
+    list.AddText({plot.corner.x + 4.0f * line, y - line}, ink, ("noise floor " + significant(noiseFloor, 3)).c_str());
   }
 }
 
@@ -119,7 +116,7 @@ const char* colorHelp(const AccuracyView& accuracy, int point) {
   return isOnFront(accuracy, point) ? ""
          : point == accuracy.chosen ? "\nGreen: a bound chose it by its median, though a more accurate point may take "
                                       "no longer, as far as the bars tell."
-                                    : "\nGrey: a more accurate point takes no longer, as far as the bars tell.";
+                                    : "\nGrey: a point at least as accurate takes no longer, as far as the bars tell.";
 }
 
 void drawPoints(ImDrawList& list, const Plot& plot, const AccuracyView& accuracy, int hovered) {
@@ -177,7 +174,7 @@ void plot(PanelContext& ui) {
   }
   if (hovered >= 0) {
     const PointView& point = accuracy.points[hovered];
-    ImGui::SetTooltip("%s\nmean FLIP %s, %s (%s .. %s)%s", point.name.c_str(), figure(point.error).c_str(),
+    ImGui::SetTooltip("%s\nmean FLIP %s, %s (%s .. %s)%s", point.name.c_str(), significant(point.error, 3).c_str(),
                       duration(point.ms).c_str(), duration(point.lowerMs).c_str(), duration(point.upperMs).c_str(),
                       colorHelp(accuracy, hovered));
     if (ImGui::IsItemClicked()) {

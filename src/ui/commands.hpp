@@ -136,6 +136,7 @@ struct TogglePanel {};
 struct ToggleHelp {};
 struct ToggleInspector {};
 struct Escape {};  // cancels a drag, closes what is on top, deselects, or dismisses the message
+struct DismissMessage {};
 struct PauseHistory {
   bool paused = false;
 };
@@ -143,14 +144,14 @@ struct ClearHistory {};
 struct ClearLog {};
 
 // One action of the user. Panels, keys and the gamepad make commands; Workspace::apply carries them out.
-using Command =
-    std::variant<ResetCamera, ToggleCameraMode, SetCameraMode, FrameSelection, LookFromMirror, AddBookmark,
-                 GoToBookmark, GoToNextBookmark, RemoveBookmark, Seek, StepTime, SetPaused, TogglePaused, SetTimeSpeed,
-                 MultiplyTimeSpeed, SetSettings, ResetSettings, NewScene, AskWhatToOpen, OpenScene, OpenDropped,
-                 CancelLoading, Save, AskWhereToSave, SaveAs, DiscardChanges, CancelPrompt, Quit, SelectNode,
-                 ToggleNode, SelectNext, SetGizmoMode, NextGizmoMode, EditNode, EndEdit, AddMirror, AddLight, AddObject,
-                 DuplicateSelected, RemoveSelected, Undo, Redo, MeasureAccuracy, CancelMeasurement, ApplyPoint,
-                 TakeScreenshot, ToggleRecording, CopyCommandLine, CopyText, SetPresentMode, ToggleFullScreen,
-                 TogglePanel, ToggleHelp, ToggleInspector, Escape, PauseHistory, ClearHistory, ClearLog>;
+using Command = std::variant<ResetCamera, ToggleCameraMode, SetCameraMode, FrameSelection, LookFromMirror, AddBookmark,
+                             GoToBookmark, GoToNextBookmark, RemoveBookmark, Seek, StepTime, SetPaused, TogglePaused,
+                             SetTimeSpeed, MultiplyTimeSpeed, SetSettings, ResetSettings, NewScene, AskWhatToOpen,
+                             OpenScene, OpenDropped, CancelLoading, Save, AskWhereToSave, SaveAs, DiscardChanges,
+                             CancelPrompt, Quit, SelectNode, ToggleNode, SelectNext, SetGizmoMode, NextGizmoMode,
+                             EditNode, EndEdit, AddMirror, AddLight, AddObject, DuplicateSelected, RemoveSelected, Undo,
+                             Redo, MeasureAccuracy, CancelMeasurement, ApplyPoint, TakeScreenshot, ToggleRecording,
+                             CopyCommandLine, CopyText, SetPresentMode, ToggleFullScreen, TogglePanel, ToggleHelp,
+                             ToggleInspector, Escape, DismissMessage, PauseHistory, ClearHistory, ClearLog>;
 
 }  // namespace speculum

@@ -254,8 +254,8 @@ std::string labelFor(const std::string& label, float width) {
   return id;
 }
 
-std::string thatFits(const std::string& text) {
-  return endsThatFit(text, ImGui::GetContentRegionAvail().x, textWidth);
+std::string thatFits(const std::string& text, std::optional<float> room) {
+  return endsThatFit(text, room.value_or(ImGui::GetContentRegionAvail().x), textWidth);
 }
 
 void wrappedText(const std::string& text) {
@@ -272,9 +272,13 @@ std::string mebibytes(uint64_t bytes) {
   return fmt::format("{:.1f}", static_cast<double>(bytes) / (1024.0 * 1024.0));
 }
 
-void coloredText(const glm::vec3& color, const std::string& text) {
+glm::vec3 onTheme(const glm::vec3& color) {
   const bool light = ImGui::GetStyleColorVec4(ImGuiCol_Text).x < 0.5f;
-  const glm::vec3 shown = color * (light ? 0.7f : 1.0f);
+  return color * (light ? 0.6f : 1.0f);
+}
+
+void coloredText(const glm::vec3& color, const std::string& text) {
+  const glm::vec3 shown = onTheme(color);
   ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(shown.r, shown.g, shown.b, 1.0f));
   wrappedText(text);
   ImGui::PopStyleColor();
@@ -317,6 +321,7 @@ void message(PanelContext& ui, const WindowRect& picture) {
     coloredText(errorColor, ui.view.message);
     if (button(ui, "Dismiss", "message.dismiss", "Esc")) {
       dismissed = ui.view.message;
+      ui.send(DismissMessage{});
     }
   }
   ImGui::End();

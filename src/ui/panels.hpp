@@ -146,16 +146,18 @@ void figure(const std::string& text, bool dimmed = false);  // at the right edge
 // Sets up a table's column of figures: so wide, in heights of the font, or as wide as its head. `flags`: of
 // ImGuiTableColumnFlags_.
 void figureColumn(const char* head, float ems, int flags = 0);
-std::string thatFits(const std::string& text);  // its ends, if the rest of the line or cell is too short for it
-std::string mebibytes(uint64_t bytes);          // without the unit
-std::string milliseconds(double ms);            // without the unit; "-" for NaN
-std::string duration(double ms);                // "3.21 ms", "757 ms", "14.20 s"
+// Its ends, if it is wider than `room`, by default the rest of the line or cell.
+std::string thatFits(const std::string& text, std::optional<float> room = {});
+std::string mebibytes(uint64_t bytes);  // without the unit
+std::string milliseconds(double ms);    // without the unit; "-" for NaN
+std::string duration(double ms);        // "3.21 ms", "757 ms", "14.20 s"
 // Text that is wrapped at the window's edge, but not within numbers; dimmed; in a color.
 void wrappedText(const std::string& text);
 void dimmedText(const std::string& text);
 inline constexpr glm::vec3 errorColor{0.92f, 0.38f, 0.28f};  // display sRGB
 inline constexpr glm::vec3 warningColor{0.85f, 0.60f, 0.10f};
 void coloredText(const glm::vec3& color, const std::string& text);
+glm::vec3 onTheme(const glm::vec3& color);  // darker on a light theme, as coloredText() shows it
 // ImGui::CollapsingHeader that is open or closed as in the user's choices, and recorded as "section." and `key`.
 bool section(PanelContext& ui, std::string_view key, const std::string& label, bool& open);
 // Draws a button, records it and shows its tooltip. The second sends the command when it is pressed; the third also

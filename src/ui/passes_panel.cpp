@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "platform/text.hpp"
 #include "ui/elide.hpp"
 #include "ui/panels.hpp"
 #include "ui/pass_tree.hpp"
@@ -14,7 +15,7 @@ namespace speculum::panels {
 namespace {
 
 std::string metres(const std::optional<double>& value) {
-  return value ? fmt::format("{:.2g}", *value) : "never";
+  return value ? significant(*value, 2) : "never";
 }
 
 void depthResolution(const PassView& pass, ClipMethod inUse) {

@@ -87,7 +87,9 @@ bool beginRows(PanelContext& ui, const char* id) {
     const char* name = ImGui::TableGetColumnName(column);
     column == 0 ? ImGui::TextUnformatted(name) : figure(name);
     recordWidget(ui, "performance.head " + std::to_string(column),
-                 column == 3 ? "The newest frame is at the right." : "");
+                 column == 3   ? "The newest frame is at the right."
+                 : column == 0 ? "Passes are timed in few frames, which take longer than the others."
+                               : "");
   }
   return true;
 }

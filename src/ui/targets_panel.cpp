@@ -47,8 +47,11 @@ void background(const ImRect& canvas) {
 using Targets = PanelState::Targets;
 
 void passChoice(PanelContext& ui, const PassView* shown) {
-  ImGui::SetNextItemWidth(10.0f * ImGui::GetFontSize());
-  if (ImGui::BeginCombo("##pass", shown ? shown->name.c_str() : "")) {
+  const float width = 10.0f * ImGui::GetFontSize();
+  const float room = width - ImGui::GetFrameHeight() - 2.0f * ImGui::GetStyle().FramePadding.x;
+  ImGui::SetNextItemWidth(width);
+  const std::string preview = shown ? thatFits(shown->name, room) : "";
+  if (ImGui::BeginCombo("##pass", preview.c_str())) {
     for (size_t i = 0; i < ui.view.frame.passes.size(); ++i) {
       const PassView& pass = ui.view.frame.passes[i];
       ImGui::PushID(static_cast<int>(i));  // names may repeat
