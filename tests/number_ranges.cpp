@@ -196,11 +196,17 @@ TEST(EyeAtAVertex, FillsNothing) {
     const glm::dvec3 position = i % 3 == 0 ? glm::dvec3(0.0) : random.inBox(3.0);
     const double offset = i % 4 == 0 ? 0.0 : i % 4 == 1 ? 1e-12 : i % 4 == 2 ? 1e-8 : 1e-5;
     const glm::dvec3 eye = position + 0.7 * corner + offset * glm::normalize(corner);
-    const auto file = writeScene("corner" + std::to_string(i),
-                                 "[environment]\nbackground = [0.2, 0.4, 0.6]\nambient = [1, 1, 1]\n" +
-                                     cameraText(eye, eye + random.direction()) +
-                                     objectText("cube.obj", position, {0, 0, 0}, 0.7, {1, 0, 0}) +
-                                     objectText("cube.obj", position + 2.0 * corner, {20, 30, 40}, 0.5, {0, 1, 0}));
+    const std::string objects = "[environment]\nbackground = [0.2, 0.4, 0.6]\nambient = [1, 1, 1]\n" +
+                                objectText("cube.obj", position, {0, 0, 0}, 0.7, {1, 0, 0}) +
+                                objectText("cube.obj", position + 2.0 * corner, {20, 30, 40}, 0.5, {0, 1, 0});
+    // In every other scene it is the eye's image in a mirror that is there, behind which the cube is.
+    const bool mirrored = i % 2 == 1;
+    const glm::dvec3 seenFrom(eye.x, eye.y, eye.z + 8.0);
+    const auto file =
+        writeScene("corner" + std::to_string(i),
+                   objects + (mirrored ? cameraText(seenFrom, seenFrom + glm::dvec3(0.1, 0.2, -1.0)) + "[[mirror]]\n" +
+                                             rectangleText({eye.x, eye.y, eye.z + 4.0}, {0, 0, 0}, 6, 6)
+                                       : cameraText(eye, eye + random.direction())));
     const Truth truth = trace(file, {64, 36}, 1);
     const PictureAgreement agreement = difference(draw(truthOptions(file, {64, 36}, 1)), truth.picture, 2);
     EXPECT_LE(agreement.share(), 0.02) << i << ": " << agreement.over << " pixels";

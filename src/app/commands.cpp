@@ -14,6 +14,7 @@
 #include "platform/folders.hpp"
 #include "platform/machine.hpp"
 #include "platform/process.hpp"
+#include "platform/text.hpp"
 #include "scene/input_error.hpp"
 #include "scene/scene_loader.hpp"
 

@@ -7,6 +7,7 @@
 #include "edit/outline.hpp"
 #include "platform/files.hpp"
 #include "platform/folders.hpp"
+#include "platform/text.hpp"
 #include "scene/input_error.hpp"
 
 namespace speculum {

@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "frame/picture_tiles.hpp"
+#include "platform/text.hpp"
 #include "scene/input_error.hpp"
 #include "scene/nearest_key.hpp"
 #include "scene/shipped_scene.hpp"

@@ -6,6 +6,7 @@
 
 #include "frame/setting_fields.hpp"
 #include "platform/files.hpp"
+#include "platform/text.hpp"
 #include "scene/input_error.hpp"
 #include "scene/scene_loader.hpp"
 

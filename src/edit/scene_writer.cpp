@@ -5,6 +5,7 @@
 
 #include "edit/toml_editor.hpp"
 #include "platform/files.hpp"
+#include "platform/text.hpp"
 #include "scene/input_error.hpp"
 #include "scene/scene_fields.hpp"
 #include "scene/scene_loader.hpp"

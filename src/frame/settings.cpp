@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "frame/setting_fields.hpp"
+#include "platform/text.hpp"
 #include "scene/input_error.hpp"
 #include "scene/nearest_key.hpp"
 #include "scene/text_lines.hpp"

@@ -12,6 +12,7 @@
 #include <fstream>
 
 #include "platform/folders.hpp"
+#include "platform/text.hpp"
 
 namespace speculum {
 
@@ -167,7 +168,7 @@ void replace(const fs::path& file, std::span<const uint8_t> content, bool lastin
 }  // namespace
 
 FileError::FileError(const fs::path& file, std::string problem, const std::string& remedy)
-    : std::runtime_error(file.string() + ": " + problem + " (" + remedy + ")"), problem_(std::move(problem)) {}
+    : std::runtime_error(oneLine(file.string() + ": " + problem + " (" + remedy + ")")), problem_(std::move(problem)) {}
 
 std::vector<uint8_t> readFile(const fs::path& file, uintmax_t most) {
   return read<std::vector<uint8_t>>(file, most);

@@ -12,7 +12,7 @@
 
 namespace speculum {
 
-// A file that cannot be read or written. what() is `FILE: problem (remedy)`.
+// A file that cannot be read or written. what() is `FILE: problem (remedy)`, made one line.
 class FileError : public std::runtime_error {
  public:
   FileError(const std::filesystem::path& file, std::string problem, const std::string& remedy);

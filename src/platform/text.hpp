@@ -17,6 +17,10 @@ inline bool continuesCharacter(char byte) {
   return (static_cast<unsigned char>(byte) & 0xc0u) == 0x80u;
 }
 
+// Makes a message one line that can be read: replaces control characters, which names, keys and arguments may hold, by
+// '?', and leaves out the middle of a message of more than 4000 bytes.
+std::string oneLine(std::string message);
+
 // Returns the number with this many significant digits, and never fewer than those before the decimal point.
 std::string significant(double value, int digits);
 

@@ -1,30 +1,9 @@
 #include "scene/input_error.hpp"
 
-#include <algorithm>
-
 #include "platform/files.hpp"
 #include "platform/text.hpp"
 
 namespace speculum {
-
-std::string oneLine(std::string message) {
-  constexpr size_t kLongest = 4000;
-  constexpr size_t kEnd = 1000;
-  if (message.size() > kLongest) {
-    size_t begin = kLongest - kEnd;
-    size_t end = message.size() - kEnd;
-    while (begin > 0 && continuesCharacter(message[begin])) {
-      --begin;
-    }
-    while (end < message.size() && continuesCharacter(message[end])) {
-      ++end;
-    }
-    message.replace(begin, end - begin, " ... ");
-  }
-  std::ranges::replace_if(
-      message, [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }, '?');
-  return message;
-}
 
 void throwInputError(const std::filesystem::path& file, int line, std::string_view key, std::string_view wrong,
                      std::string_view right) {

@@ -14,10 +14,6 @@ class InputError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// Makes a message one line that can be read: replaces control characters, which names, keys and arguments may hold, by
-// '?', and leaves out the middle of a message of more than 4000 bytes.
-std::string oneLine(std::string message);
-
 // Throws InputError with `FILE:LINE: key: wrong (right)`, made one line.
 [[noreturn]] void throwInputError(const std::filesystem::path& file, int line, std::string_view key,
                                   std::string_view wrong, std::string_view right);

@@ -2,7 +2,10 @@
 
 #include "accuracy/sweep_json.hpp"
 #include "accuracy/sweep_plan.hpp"
+#include "accuracy/sweep_store.hpp"
 #include "fuzz_support.hpp"
+#include "image/exr.hpp"
+#include "image/picture_files.hpp"
 
 namespace speculum::fuzz {
 
@@ -31,6 +34,23 @@ void checkPlan(const SweepPlan& plan) {
   }
 }
 
+// Reads the text as the measurements and as the reference of a sweep's cache. Says whether it was either.
+bool readsCache(const TemporaryFolder& folder, std::string_view text) {
+  static const bool hasPictures = [&] {
+    writeExr(folder / "truth-a.exr", LinearImage(2, 2));
+    writePng(folder / "truth-a-mirrors.png", Image8(2, 2));
+    return true;
+  }();
+  folder.write("truth-a.json", text);
+  const std::filesystem::path measurements = folder.write("measurements.json", text);
+  const SweepStore store(folder / ".");
+  store.save();
+  const std::string once = readText(measurements);
+  SweepStore(folder / ".").save();
+  require(hasPictures && readText(measurements) == once, "what was written can be read");
+  return store.truth("a") || once.size() > std::string_view("null").size();
+}
+
 }  // namespace
 
 bool checkSweep(std::string_view text) {
@@ -47,7 +67,7 @@ bool checkSweep(std::string_view text) {
   if (isPlan) {
     checkPlan(plan);
   }
-  return isResults || isPlan;
+  return readsCache(folder, text) || isResults || isPlan;
 }
 
 }  // namespace speculum::fuzz

@@ -7,8 +7,8 @@
 namespace speculum::fuzz {
 
 // Checks of the fuzzers and of the regression test: they read an input as a file that a user names, and use it if it is
-// accepted. An input may only be refused by an InputError of one line. A longer message and a broken invariant throw
-// BrokenPromise; other exceptions pass through. They return whether the input was accepted.
+// accepted. An input may only be refused by an InputError or FileError of one line. A longer message and a broken
+// invariant throw BrokenPromise; other exceptions pass through. They return whether the input was accepted.
 class BrokenPromise : public std::logic_error {
  public:
   using std::logic_error::logic_error;
@@ -23,7 +23,11 @@ bool checkScene(std::string_view text);
 // An OBJ file, behind a line `%mtl` its m.mtl. Beside them is t.png.
 bool checkModel(std::string_view text);
 
-// A sweep's results.json and a sweep file: every input is tried as both.
+// A PNG, JPEG or EXR file.
+bool checkPicture(std::string_view bytes);
+
+// A sweep's results.json, a sweep file, and the files of a sweep's cache: every input is tried as each. No cache is
+// refused: what cannot be read counts as absent.
 bool checkSweep(std::string_view text);
 
 }  // namespace speculum::fuzz

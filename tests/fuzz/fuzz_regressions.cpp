@@ -61,7 +61,7 @@ TEST_P(FuzzInputs, Regressions) {
 
 INSTANTIATE_TEST_SUITE_P(Each, FuzzInputs,
                          testing::Values(Subject{"scene", checkScene}, Subject{"model", checkModel},
-                                         Subject{"sweep", checkSweep}),
+                                         Subject{"picture", checkPicture}, Subject{"sweep", checkSweep}),
                          [](const auto& info) { return std::string(info.param.name); });
 
 TEST(FuzzHeapWatch, CountsAllocations) {

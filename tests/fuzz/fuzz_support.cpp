@@ -20,4 +20,9 @@ void require(bool kept, const char* promise) {
   }
 }
 
+void checkMessage(std::string_view message) {
+  require(message.find_first_of("\r\n") == std::string_view::npos, "an error is one line");
+  require(message.ends_with(')'), "an error ends with what would be right");
+}
+
 }  // namespace speculum::fuzz
