@@ -91,9 +91,9 @@ int64_t largestUnpacked(int64_t width, int64_t height, int64_t bitsPerPixel) {
   return (width * bitsPerPixel + 7) / 8 * height + 4 * height + 64;
 }
 
-// The decoder unpacks all that the compressed data hold, however much more than the pixels need. Such files are
-// unpacked once before, into no more than is needed.
-void checkUnpackedSize(const std::filesystem::path& file, const std::vector<uint8_t>& bytes) {
+// The decoder allocates as much as a chunk claims to have, and unpacks all that the compressed data hold, however much
+// more than the pixels need. Such files are unpacked once before, into no more than is needed.
+void checkPngChunks(const std::filesystem::path& file, const std::vector<uint8_t>& bytes) {
   constexpr size_t signature = 8;
   constexpr int64_t mostPerByte = 1032;  // of deflate
   constexpr int64_t harmless = int64_t{1} << 28;
@@ -112,10 +112,15 @@ void checkUnpackedSize(const std::filesystem::path& file, const std::vector<uint
   std::vector<char> packed;
   for (size_t at = signature; at + 12 <= bytes.size();) {
     const auto size = static_cast<size_t>(number(at));
-    if (size > bytes.size() - at - 12) {
+    const std::string_view kind(reinterpret_cast<const char*>(&bytes[at + 4]), 4);
+    if (kind == "IEND") {
       break;
     }
-    if (std::equal(&bytes[at + 4], &bytes[at + 8], "IDAT")) {
+    if (size > bytes.size() - at - 12) {
+      throw FileError(file, "the picture is damaged: a chunk ends beyond the file",
+                      "a complete PNG or JPEG file is needed");
+    }
+    if (kind == "IDAT") {
       packed.insert(packed.end(), &bytes[at + 8], &bytes[at + 8] + size);
     }
     at += size + 12;
@@ -145,7 +150,7 @@ Image8 readImage8(const std::filesystem::path& file) {
     throw FileError(file, "is not a picture that can be read", "a PNG or JPEG file is needed");
   }
   checkHeader(file, bytes);
-  checkUnpackedSize(file, bytes);
+  checkPngChunks(file, bytes);
   int width = 0;
   int height = 0;
   int channels = 0;
