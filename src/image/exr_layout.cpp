@@ -21,6 +21,7 @@ constexpr int64_t mostPixels = int64_t{1} << 26;
 constexpr int64_t mostValues = int64_t{1} << 28;
 constexpr int64_t mostCoordinate = int64_t{1} << 20;  // tinyexr refuses rows beyond
 constexpr size_t mostAttributes = 1000;               // tinyexr stops reading at 1024
+constexpr int64_t mostPerByte = 1032;                 // that deflate unpacks of a byte; RLE and PIZ unpack less
 
 enum Compression : uint8_t { none, rle, zips, zip, piz };
 
@@ -230,8 +231,9 @@ class ExrLayout {
     const Bytes packed = data.take(static_cast<uint64_t>(size));
     const bool isZip = compression_ == zip || compression_ == zips;
     if (size != needed) {
-      require(compression_ != none && (!isZip || unpackedSize(packed, needed) == needed),
-              "a chunk has not as much data as its pixels need");
+      require(
+          compression_ != none && needed <= mostPerByte * size && (!isZip || unpackedSize(packed, needed) == needed),
+          "a chunk has not as much data as its pixels need");
     }
   }
 
