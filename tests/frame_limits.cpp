@@ -32,7 +32,6 @@ FramePlan textPlan(const std::string& text, const std::function<void(Settings&)>
   return planFrame(scene, state, settings, 640, 360, {.changes = &changes});
 }
 
-// A room of mirrors in six lines.
 // Sanitizers slow the program down and keep memory that was freed.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr int instrumented = 10;
@@ -49,6 +48,7 @@ void expectPlanned(const std::string& text, const std::string& kind) {
   EXPECT_LT(peakResidentBytes(), instrumented * (uint64_t{512} << 20)) << kind;
 }
 
+// A room of mirrors in six lines.
 TEST(PlanLimits, FewMirrorsPlanBoundedPasses) {
   std::string text = deep;
   for (const char* side :

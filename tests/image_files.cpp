@@ -73,10 +73,12 @@ TEST(ImageFiles, DamagedFilesAreRefused) {
   expectFileFault([&] { readExr(folder / "none.exr"); }, folder / "none.exr", "cannot be read");
   writePng(folder / "cut.png", gradient(64, 64));
   fs::resize_file(folder / "cut.png", fs::file_size(folder / "cut.png") / 2);
+  folder.write("head.png", readText(folder / "cut.png").substr(0, 33) + "\x7f\xff\xff\xffIDAT");
   folder.write("cut.jpg", "\xff\xd8\xff\xe0 and no more");
   folder.write("text.png", "hello");
   for (const auto& [file, problem] : {std::pair("text.png", "is not a picture"), std::pair("cut.jpg", "is damaged"),
-                                      std::pair("cut.png", "is damaged: a chunk ends beyond the file")}) {
+                                      std::pair("cut.png", "is damaged: a chunk ends beyond the file"),
+                                      std::pair("head.png", "is damaged: a chunk ends beyond the file")}) {
     expectFileFault([&, name = file] { readImage8(folder / name); }, folder / file, problem);
   }
   for (const std::string_view content : {std::string_view(""), std::string_view("\x76\x2f\x31\x01 and no more")}) {

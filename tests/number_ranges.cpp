@@ -191,7 +191,7 @@ TEST(EyeAtAVertex, FillsNothing) {
              "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\n"
              "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 3 4 8 7\nf 2 3 7 6\nf 1 5 8 4\n");
   Random random(4);
-  for (int i = 0; i < 12; ++i) {
+  for (int i = 0; i < 24; ++i) {
     const glm::dvec3 corner(random.chance(0.5) ? 1 : -1, random.chance(0.5) ? 1 : -1, random.chance(0.5) ? 1 : -1);
     const glm::dvec3 position = i % 3 == 0 ? glm::dvec3(0.0) : random.inBox(3.0);
     const double offset = i % 4 == 0 ? 0.0 : i % 4 == 1 ? 1e-12 : i % 4 == 2 ? 1e-8 : 1e-5;
@@ -199,8 +199,8 @@ TEST(EyeAtAVertex, FillsNothing) {
     const std::string objects = "[environment]\nbackground = [0.2, 0.4, 0.6]\nambient = [1, 1, 1]\n" +
                                 objectText("cube.obj", position, {0, 0, 0}, 0.7, {1, 0, 0}) +
                                 objectText("cube.obj", position + 2.0 * corner, {20, 30, 40}, 0.5, {0, 1, 0});
-    // In every other scene it is the eye's image in a mirror that is there, behind which the cube is.
-    const bool mirrored = i % 2 == 1;
+    // In the second half the eye's image in a mirror is at the vertex, and the cube is behind that mirror.
+    const bool mirrored = i >= 12;
     const glm::dvec3 seenFrom(eye.x, eye.y, eye.z + 8.0);
     const auto file =
         writeScene("corner" + std::to_string(i),

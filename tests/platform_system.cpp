@@ -111,6 +111,7 @@ TEST(Text, LargeNumbersHaveNoExponent) {
   EXPECT_EQ(significant(-123.0, 2), "-123");
   EXPECT_EQ(significant(0.00123, 2), "0.0012");
   EXPECT_EQ(significant(1e300, 3).size(), 301u);
+  EXPECT_EQ(significant(0.0000123, 2), "1.2e-05");
 }
 
 TEST(Process, GivesOutputAndExitCode) {

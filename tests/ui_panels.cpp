@@ -200,8 +200,11 @@ TEST_F(PanelTest, MessageIsDismissedAndMovesNothing) {
   has("time");
   message_ = problem;
   EXPECT_TRUE(has("message.dismiss")) << "it occurred again";
+  click("message.dismiss");
   message_ = "another.toml: no such file";
   EXPECT_TRUE(has("message.dismiss"));
+  message_ = problem;
+  EXPECT_TRUE(has("message.dismiss")) << "another one was shown in between";
 }
 
 TEST_F(PanelTest, MessagesAreNoLargerThanTheirText) {

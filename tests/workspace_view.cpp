@@ -393,7 +393,7 @@ TEST_F(BudgetView, PlotKnowsThePointThatABoundChose) {
 TEST_F(BudgetView, ChangedScenesSayThatTheResultIsGone) {
   send(AddLight{});
   EXPECT_TRUE(view().accuracy.points.empty());
-  EXPECT_EQ(view().accuracy.about, "The scene has changed since it was measured.");
+  EXPECT_EQ(view().accuracy.about, "The scene was changed since the measurement.");
 }
 
 TEST_F(BudgetView, PricesOfSettingsAreListed) {
@@ -410,6 +410,16 @@ TEST(Measurement, TimeLeftIsEstimatedWhenItIsKnown) {
 }
 
 TEST_F(WindowView, EditsSayThatTheyEndAMeasurement) {
+  send(MeasureAccuracy{});
+  send(AddLight{});
+  EXPECT_EQ(view().accuracy.about, "The scene was changed, so the measurement was cancelled.");
+  send(AddLight{});
+  EXPECT_EQ(view().accuracy.about, "The scene was changed, so the measurement was cancelled.");
+  send(MeasureAccuracy{});
+  EXPECT_EQ(view().accuracy.about, "") << "of the last one";
+}
+
+TEST_F(BudgetView, EditsSayThatTheyEndAMeasurement) {
   send(MeasureAccuracy{});
   send(AddLight{});
   EXPECT_EQ(view().accuracy.about, "The scene was changed, so the measurement was cancelled.");

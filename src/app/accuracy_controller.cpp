@@ -132,6 +132,9 @@ void AccuracyController::setResults(SweepResults results, bool rough) {
 
 void AccuracyController::measure(SweepRequest request, const WatchedView& view) {
   requested_ = view;
+  if (view_.points.empty()) {
+    view_.about.clear();
+  }
   sweep_.start({{"starting", 0.0}, nullptr}, [request = std::move(request)](const auto& report) {
     std::shared_ptr<const SweepResults> rough;
     const auto progress = [&](const SweepStatus& status) { return report({status, rough}); };
@@ -240,11 +243,11 @@ bool AccuracyController::working() const {
 }
 
 void AccuracyController::forgetScene(const std::string& why) {
-  const bool cancelled = view_.points.empty() && sweep_.busy();
+  const bool cancelled = sweep_.busy();
   sweep_.cancel();
-  const std::string about = cancelled              ? "The scene was changed, so the measurement was cancelled."
-                            : view_.points.empty() ? view_.about
-                                                   : why;
+  const std::string about = cancelled               ? why + ", so the measurement was cancelled."
+                            : !view_.points.empty() ? why + " since the measurement."
+                                                    : view_.about;
   coverChanged_ = difference_.reset() || coverChanged_;
   difference_.stop();
   setResults({});

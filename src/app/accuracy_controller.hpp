@@ -52,7 +52,7 @@ class AccuracyController {
   std::optional<Image8> takeCover();
   bool working() const;  // afterFrame() has work left although nothing changes
   // Call before the scene changes or goes away, with what to show then instead of points.
-  void forgetScene(const std::string& why = "The scene has changed since it was measured.");
+  void forgetScene(const std::string& why = "The scene was changed");
 
   const AccuracyView& view() const { return view_; }
   // The measured front, most accurate first; empty before a measurement.

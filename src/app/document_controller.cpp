@@ -43,11 +43,10 @@ std::string waitingText(const std::optional<Command>& waiting) {
   if (!waiting) {
     return "closing this scene";
   }
-  const auto* open = std::get_if<OpenScene>(&*waiting);
-  if (!open) {
-    return "quitting";
+  if (const auto* open = std::get_if<OpenScene>(&*waiting)) {
+    return SceneBrowser::isNew(open->file) ? "starting a new scene" : "opening " + open->file.filename().string();
   }
-  return SceneBrowser::isNew(open->file) ? "starting a new scene" : "opening " + open->file.filename().string();
+  return std::holds_alternative<Quit>(*waiting) ? "quitting" : "closing this scene";
 }
 
 }  // namespace
@@ -83,6 +82,7 @@ bool DocumentController::confirmDiscard(const Settings& settings, std::optional<
   if (then) {
     afterPrompt_ = std::move(then);
   }
+  waitingText_ = waitingText(afterPrompt_);
   return false;
 }
 
@@ -186,7 +186,7 @@ void DocumentController::fill(EditView& view, const Settings& settings) const {
   view.saveFile = saveFile_;
   view.isNew = isNew_;
   view.prompt = prompt_;
-  view.afterPrompt = waitingText(afterPrompt_);
+  view.afterPrompt = waitingText_;
   view.proposedFile = proposed_;
   view.note = note_;
 }

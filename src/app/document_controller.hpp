@@ -66,6 +66,7 @@ class DocumentController {
   Prompt prompt_ = Prompt::none;
   std::filesystem::path proposed_;  // by the prompt
   std::optional<Command> afterPrompt_;
+  std::string waitingText_;                       // names it
   std::optional<Discarded> discarded_;            // changes that the user discarded
   std::optional<std::filesystem::path> refused_;  // existing file that was not overwritten; a second save overwrites it
   std::string note_;

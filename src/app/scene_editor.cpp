@@ -247,11 +247,12 @@ void SceneEditor::addObject(const SceneView& view, int mesh) {
   select(document_.addObject(mesh, pointAhead(view, 0.9, objectAhead * size)));
 }
 
-// Returns the side (1 or -1) on which a copy is in sight, the usual one (1) if neither is.
+// Returns the side (1 or -1) on which a copy of the first node is in sight, the usual one (1) if neither is.
 double SceneEditor::sideInSight(const SceneView& view, std::span<const Selection> nodes, const PixelRect& free) const {
   const glm::dvec3 pivot = pivotOf(document_.scene(), view.state, nodes.front());
+  const glm::dvec3 step = stepBeside(document_.scene(), nodes);
   for (const double side : {1.0, -1.0}) {
-    const auto at = view.picture.pixel(pivot + stepBeside(document_.scene(), nodes, side));
+    const auto at = view.picture.pixel(pivot + side * step);
     if (at && free.contains(static_cast<int>(at->x), static_cast<int>(at->y))) {
       return side;
     }

@@ -280,7 +280,8 @@ void Workspace::frameDrawn(const ShownPicture& shown, const std::function<Image8
 }
 
 void Workspace::showScene(std::unique_ptr<LoadedScene> scene) {
-  accuracy_.forgetScene("Another scene was opened since the measurement.");
+  accuracy_.setProblem("");
+  accuracy_.forgetScene("Another scene was opened");
   std::swap(loaded_, scene);
   try {
     host_.useScene(loaded_->scene);
@@ -378,7 +379,7 @@ void Workspace::escape() {
   dismissMessage();
 }
 
-// Some messages, such as those of shaders, stay until their cause is gone; the panels hide them.
+// Messages about shaders and memory stay until their cause is gone. The panels' button hides those, Escape does not.
 void Workspace::dismissMessage() {
   opener_.setProblem("");
   status_.clear();

@@ -21,7 +21,7 @@ constexpr int64_t mostPixels = int64_t{1} << 26;
 constexpr int64_t mostValues = int64_t{1} << 28;
 constexpr int64_t mostCoordinate = int64_t{1} << 20;  // tinyexr refuses rows beyond
 constexpr size_t mostAttributes = 1000;               // tinyexr stops reading at 1024
-constexpr int64_t mostPerByte = 1032;                 // that deflate unpacks of a byte; RLE and PIZ unpack less
+constexpr int64_t mostPerByte = 1032;                 // that deflate unpacks from one; RLE and PIZ unpack fewer
 
 enum Compression : uint8_t { none, rle, zips, zip, piz };
 

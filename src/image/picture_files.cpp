@@ -110,13 +110,13 @@ void checkPngChunks(const std::filesystem::path& file, const std::vector<uint8_t
   const int64_t most =
       (int64_t{1} << 26) + largestUnpacked(number(header), number(header + 4), channels * bytes[header + 8]);
   std::vector<char> packed;
-  for (size_t at = signature; at + 12 <= bytes.size();) {
+  for (size_t at = signature; at + 8 <= bytes.size();) {
     const auto size = static_cast<size_t>(number(at));
     const std::string_view kind(reinterpret_cast<const char*>(&bytes[at + 4]), 4);
     if (kind == "IEND") {
       break;
     }
-    if (size > bytes.size() - at - 12) {
+    if (size + 12 > bytes.size() - at) {
       throw FileError(file, "the picture is damaged: a chunk ends beyond the file",
                       "a complete PNG or JPEG file is needed");
     }

@@ -21,7 +21,8 @@ inline bool continuesCharacter(char byte) {
 // '?', and leaves out the middle of a message of more than 4000 bytes.
 std::string oneLine(std::string message);
 
-// Returns the number with this many significant digits, and never fewer than those before the decimal point.
+// Returns the number with this many significant digits, and never fewer than those before the decimal point. Only
+// numbers below 1e-4 have an exponent.
 std::string significant(double value, int digits);
 
 }  // namespace speculum

@@ -306,10 +306,10 @@ void loading(PanelContext& ui) {
 // Draws the message over the picture, so that no panel moves.
 void message(PanelContext& ui, const WindowRect& picture) {
   std::string& dismissed = ui.state.dismissedMessage;
-  if (ui.view.message.empty()) {
+  if (ui.view.message != dismissed) {
     dismissed.clear();
   }
-  if (ui.view.message == dismissed) {
+  if (ui.view.message.empty() || ui.view.message == dismissed) {
     return;
   }
   const float em = ImGui::GetFontSize();
@@ -319,7 +319,7 @@ void message(PanelContext& ui, const WindowRect& picture) {
   ImGui::SetNextWindowBgAlpha(1.0f);
   if (ImGui::Begin("Message", nullptr, fixedWindow)) {
     coloredText(errorColor, ui.view.message);
-    if (button(ui, "Dismiss", "message.dismiss", "Esc")) {
+    if (button(ui, "Dismiss", "message.dismiss", "Until it occurs again.")) {
       dismissed = ui.view.message;
       ui.send(DismissMessage{});
     }

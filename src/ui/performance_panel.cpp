@@ -88,7 +88,7 @@ bool beginRows(PanelContext& ui, const char* id) {
     column == 0 ? ImGui::TextUnformatted(name) : figure(name);
     recordWidget(ui, "performance.head " + std::to_string(column),
                  column == 3   ? "The newest frame is at the right."
-                 : column == 0 ? "Passes are timed in few frames, which take longer than the others."
+                 : column == 1 ? "Most frames do not time their passes, because that makes a frame slower."
                                : "");
   }
   return true;

@@ -50,7 +50,8 @@ void answerButton(PanelContext& ui, const char* label, std::string_view key, Com
 
 void unsavedChanges(PanelContext& ui) {
   const EditView& edit = ui.view.edit;
-  ImGui::Text("Save the changes before %s?", edit.afterPrompt.c_str());
+  const float before = ImGui::CalcTextSize("Save the changes before ?").x;
+  ImGui::Text("Save the changes before %s?", thatFits(edit.afterPrompt, fieldWidth() - before).c_str());
   ImGui::TextDisabled("%s", (edit.saveFile ? *edit.saveFile : edit.scene->file.stem()).c_str());
   if (ui.output.refusedEdit) {
     coloredText(warningColor, "The vertices that were typed are not applied: they cannot be saved.");

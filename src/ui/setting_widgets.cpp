@@ -133,7 +133,7 @@ bool colorEdit(const char* label, glm::dvec3& linear, double most) {
   if (ImGui::ColorButton("##swatch", {picked.x, picked.y, picked.z, 1.0f}, ImGuiColorEditFlags_NoTooltip)) {
     ImGui::OpenPopup("picker");
   }
-  tip("Opens a picker. It shows display colors (sRGB), the numbers beside are linear.");
+  tip("Opens a picker. It shows display colors (sRGB); the numbers beside it are linear.");
   if (ImGui::BeginPopup("picker")) {
     if (ImGui::ColorPicker3("##picker", &picked.x, ImGuiColorEditFlags_NoSidePreview | ImGuiColorEditFlags_Float)) {
       for (int i = 0; i < 3; ++i) {

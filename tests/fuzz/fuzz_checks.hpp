@@ -7,8 +7,9 @@
 namespace speculum::fuzz {
 
 // Checks of the fuzzers and of the regression test: they read an input as a file that a user names, and use it if it is
-// accepted. An input may only be refused by an InputError or FileError of one line. A longer message and a broken
-// invariant throw BrokenPromise; other exceptions pass through. They return whether the input was accepted.
+// accepted. An input may only be refused by an InputError of one line, a picture by such a FileError. A longer message
+// and a broken invariant throw BrokenPromise; other exceptions pass through. They return whether the input was
+// accepted.
 class BrokenPromise : public std::logic_error {
  public:
   using std::logic_error::logic_error;

@@ -26,15 +26,13 @@ inline bool unit(const glm::dvec3& v) {
 
 void checkMessage(std::string_view message);
 
-// Says whether `read` accepted the input. Throws BrokenPromise for an InputError or FileError that is not one line.
-template <typename Read>
+// Says whether `read` accepted the input. Throws BrokenPromise for a Refusal that is not one line.
+template <typename Refusal = InputError, typename Read>
 bool accepted(const Read& read) {
   try {
     read();
     return true;
-  } catch (const InputError& refusal) {
-    checkMessage(refusal.what());
-  } catch (const FileError& refusal) {
+  } catch (const Refusal& refusal) {
     checkMessage(refusal.what());
   }
   return false;

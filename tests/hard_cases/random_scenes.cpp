@@ -161,7 +161,7 @@ TEST_P(RandomScenes, AreDrawnAsTraced) {
 // SPECULUM_SEED is added to each.
 std::vector<unsigned> seeds() {
   const char* first = std::getenv("SPECULUM_SEED");
-  std::vector<unsigned> seeds = sampledSeeds(250, 12);
+  std::vector<unsigned> seeds = sampledSeeds(250, 20);
   for (unsigned& seed : seeds) {
     seed += first ? static_cast<unsigned>(std::atoi(first)) : 0;
   }
