@@ -196,6 +196,14 @@ TEST(Jpeg, RefusesImpossibleSizesAndQualities) {
   EXPECT_THROW(encodeJpeg(Image8(8, 8), 101), std::runtime_error);
 }
 
+// Deflate packs it as small as it can.
+TEST(Exr, PicturesOfOneColorAreRead) {
+  const TemporaryFolder folder;
+  writeExr(folder / "black.exr", LinearImage(8192, 64));
+  EXPECT_LT(fs::file_size(folder / "black.exr"), 10'000u);
+  EXPECT_EQ(readExr(folder / "black.exr").pixels, LinearImage(8192, 64).pixels);
+}
+
 TEST(Exr, KeepsEveryFloat) {
   const TemporaryFolder folder;
   for (const auto& [width, height] : {std::pair{1, 1}, std::pair{15, 3}, std::pair{67, 33}}) {
