@@ -13,6 +13,7 @@ TEST(Settings, EveryDescriptionIsWhole) {
     EXPECT_FALSE(field.text.empty() || field.cost.empty() || std::string(field.label).empty()) << field.key;
     const std::string words = std::string(field.label) + std::string(field.text) + std::string(field.cost);
     EXPECT_FALSE(contains(words, "olour")) << "keys say color";
+    EXPECT_FALSE(contains(field.text, ". ") || contains(field.cost, ". ")) << field.key << ": one sentence each";
     EXPECT_EQ(std::ranges::count(settingFields(), field.key, &SettingField::key), 1) << field.key;
     const auto* integer = std::get_if<IntegerSetting>(&field.kind);
     EXPECT_TRUE(!integer || integer->powersOfTwo || field.slider) << field.key << ": the panel has no widget for it";

@@ -75,12 +75,12 @@ constexpr SettingNeed shadowMaps{"effects.shadow_lookup", "map"};
 constexpr SettingField fields[] = {
     setting(
         "reflection.method", choice<&R::method>(reflectionMethods), "Method",
-        "how mirrors are drawn. raster: a pass renders an image for each; rays: each pixel traces what it reflects; "
-        "auto: rays where those should be faster",
+        "how mirrors are drawn (raster: a pass renders an image for each; rays: each pixel traces what it reflects; "
+        "auto: rays where those should be faster)",
         "A ray costs more than a texel, but no pass for each mirror."),
     setting("reflection.scale", NumberSetting{at<&R::scale>, 0.125, 4.0}, "Mirror resolution",
             "resolution of mirror images relative to the main view",
-            "Pixels grow with its square. Below 1 reflections blur, above 1 edges smooth.",
+            "Pixels grow with its square; below 1 reflections blur, above 1 edges smooth.",
             {.slider = SettingSlider{0.125, 4.0, "%.3f"}}),
     setting("reflection.samples", IntegerSetting{at<&R::samples>, 1, 8, true}, "Samples",
             "samples a pixel of mirror images", "Shading grows with it."),
@@ -103,7 +103,7 @@ constexpr SettingField fields[] = {
             "reuses cached mirror images that would come out the same", "Saves passes.", {.changes = mainView}),
     setting("reflection.mesh_error", NumberSetting{at<&R::meshError>, 0.0, 16.0}, "Mesh error",
             "largest error of simplified objects in reflections; 0: all triangles",
-            "Saves vertices; shading shifts. Ignored while shadows or curved mirrors are traced; needs view.mesh_error "
+            "Saves vertices; shading shifts; ignored while shadows or curved mirrors are traced; needs view.mesh_error "
             "with shadow maps.",
             {.unit = "texels", .slider = SettingSlider{0.0, 16.0}}),
     setting("reflection.clip", choice<&R::clip>(clipMethods), "Clipping", "how geometry behind a mirror is cut",
@@ -117,11 +117,11 @@ constexpr SettingField fields[] = {
             "Shading grows with it.", {.changes = mainView}),
     setting("view.accumulate", IntegerSetting{at<&V::accumulate>, 1, 1024}, "Averaged pictures",
             "pictures whose mean is shown, each offset within a pixel",
-            "Time grows with it. From 16 on each has one sample.",
+            "Time grows with it; from 16 on each has one sample.",
             {.unit = "pictures", .slider = SettingSlider{1, 1024, "%d"}}),
     setting("view.mesh_error", NumberSetting{at<&V::meshError>, 0.0, 16.0}, "Mesh error",
             "largest error of simplified objects in the main view; 0: all triangles",
-            "Saves vertices; shading shifts. Ignored while shadows or curved mirrors are traced.",
+            "Saves vertices; shading shifts; ignored while shadows or curved mirrors are traced.",
             {.unit = "texels", .changes = mainView, .slider = SettingSlider{0.0, 16.0}}),
     setting("view.exposure", NumberSetting{at<&V::exposure>, 0.0, 1e6}, "Exposure",
             "factor on radiance before the tone curve", "Costs nothing.",
