@@ -253,16 +253,17 @@ TEST_F(SceneDocumentTest, AddedNodesFaceTheViewer) {
 }
 
 TEST_F(SceneDocumentTest, DuplicatesGetNamesAndPositions) {
-  EXPECT_EQ(document.duplicate(kTeapot), (Selection{Kind::object, 1}));
+  EXPECT_EQ(document.duplicate({&kTeapot, 1}).front(), (Selection{Kind::object, 1}));
   EXPECT_EQ(scene.objects[1].name, "teapot 2");
   EXPECT_EQ(scene.objects[1].position, glm::dvec3(2.2, 0, 0));
   EXPECT_EQ(scene.objects[1].copies.count, 3);
-  document.duplicate(document.selection());
+  const Selection second = document.selection();
+  document.duplicate({&second, 1});
   EXPECT_EQ(scene.objects[2].name, "teapot 3");
-  document.duplicate(kFloor);
+  document.duplicate({&kFloor, 1});
   EXPECT_EQ(scene.mirrors[1].name, "floor 2");
   EXPECT_NEAR(scene.mirrors[1].position.x, 4.4, 1e-12);
-  document.duplicate(kLamp);
+  document.duplicate({&kLamp, 1});
   EXPECT_GT(scene.lights[1].position.x, 0);
   EXPECT_EQ(scene.lights[1].orbit->center - scene.lights[1].position, glm::dvec3(1, 0, 0));
   EXPECT_EQ(document.undoLabel(), "duplicate light 'lamp'");
@@ -301,7 +302,7 @@ TEST(Duplicate, AvoidsTheRowOfCopies) {
     const Selection last{Kind::object, 0, 2};
     const Scene& scene = text.scene;
     // Three triangles of 2 m, the last 6 m from the first.
-    text.document.duplicate(last);
+    text.document.duplicate({&last, 1});
     EXPECT_NEAR(scene.objects[1].position.x, 8.2, 1e-12) << step;
     EXPECT_EQ(scene.objects[1].copies.step.x, step);
     // The lamp is within the row.

@@ -177,7 +177,9 @@ void step(SceneDocument& document) {
       document.addObject(0, point());
       break;
     case 3:
-      document.duplicate(anything(scene));
+      if (const Selection node = anything(scene)) {
+        document.duplicate({&node, 1});
+      }
       break;
     case 4:
     case 5:

@@ -78,13 +78,15 @@ TEST_P(ShippedScene, NodesComeAndGo) {
   SceneDocument document(copy.scene);
   const glm::dvec3 viewer = copy.scene.camera.position;
   for (size_t i = copy.scene.objects.size(); i-- > 0;) {
-    document.duplicate({Kind::object, static_cast<int>(i)});
+    const Selection node{Kind::object, static_cast<int>(i)};
+    document.duplicate({&node, 1});
     if (i % 2 == 0) {
       document.remove({{Kind::object, static_cast<int>(i)}});
     }
   }
   for (size_t i = copy.scene.mirrors.size(); i-- > 0;) {
-    document.duplicate({Kind::mirror, static_cast<int>(i)});
+    const Selection node{Kind::mirror, static_cast<int>(i)};
+    document.duplicate({&node, 1});
     document.remove({{Kind::mirror, static_cast<int>(i)}});
   }
   for (size_t i = copy.scene.lights.size(); i-- > 1;) {

@@ -280,7 +280,7 @@ void Workspace::frameDrawn(const ShownPicture& shown, const std::function<Image8
 }
 
 void Workspace::showScene(std::unique_ptr<LoadedScene> scene) {
-  accuracy_.setProblem("");
+  accuracy_.setProblem("");  // what was said is about the last scene
   accuracy_.forgetScene("Another scene was opened");
   std::swap(loaded_, scene);
   try {

@@ -162,10 +162,6 @@ Selection SceneDocument::add(const SceneNode& node) {
   return added;
 }
 
-Selection SceneDocument::duplicate(const Selection& selection, double side) {
-  return selection ? duplicate(std::span(&selection, 1), side).front() : selection;
-}
-
 std::vector<Selection> SceneDocument::duplicate(std::span<const Selection> nodes, double side) {
   std::vector<Selection> copies;
   structural("duplicate " + describe(scene_, nodes), [&] {

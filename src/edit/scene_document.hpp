@@ -51,10 +51,9 @@ class SceneDocument {
   Selection addMirror(const glm::dvec3& position, const glm::dvec3& viewer) { return add(newMirror(position, viewer)); }
   Selection addLight(const glm::dvec3& position, const glm::dvec3& viewer) { return add(newLight(position, viewer)); }
   Selection addObject(int mesh, const glm::dvec3& position) { return add(newObject(scene_, mesh, position)); }
-  // Puts the copy beside the node, on the other side for -1. Throws std::out_of_range if there is no such node.
-  Selection duplicate(const Selection& selection, double side = 1.0);
-  // Several different nodes in one step. Their copies stay together; the first is selected, all are returned in the
-  // order of `nodes`.
+  // Puts copies of different nodes (at least one) beside them in one step, on the other side for -1. The copies stay
+  // together; the first is selected, all are returned in the order of `nodes`. Throws std::out_of_range if a node does
+  // not exist.
   std::vector<Selection> duplicate(std::span<const Selection> nodes, double side = 1.0);
   void remove(std::vector<Selection> nodes);  // nothing is selected afterwards
 
