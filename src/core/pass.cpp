@@ -130,7 +130,6 @@ PassScope::PassScope(Device& device, RenderPassCache& renderPasses, RetireQueue&
 }
 
 void PassScope::begin() {
-  rendering_ = true;
   if (desc_.overlay) {
     device_.barriers().record(commands_, BarrierKind::swapchainBeforeOverlay, *desc_.targets.color);
   } else if (!desc_.grouped) {
@@ -141,6 +140,7 @@ void PassScope::begin() {
   } else {
     beginRenderPass();
   }
+  rendering_ = true;  // only now: the destructor must not end what could not begin
   const VkViewport viewport{
       desc_.viewport.x, desc_.viewport.y, desc_.viewport.width, desc_.viewport.height, 0.0f, 1.0f};
   vkCmdSetViewport(commands_, 0, 1, &viewport);
