@@ -444,7 +444,8 @@ TEST_F(Journey, SizesFollowTheScaleOfTheMonitor) {
 }
 
 // The program with a window on a display of its own: an object is deleted, then the script's last part ends the window.
-ProcessResult endEditedWindow(const std::string& end) {
+// `begin` is its first part.
+ProcessResult endEditedWindow(const std::string& end, const std::string& begin = "") {
   const UserFolders home{"XDG_CONFIG_HOME", "XDG_CACHE_HOME"};
   const std::string start = R"(coproc X { exec Xvfb -displayfd 1 -screen 0 640x480x24 -nolisten tcp 2>/dev/null; }
     server=$X_PID; read -r number <&${X[0]}; export DISPLAY=:$number
@@ -457,7 +458,8 @@ ProcessResult endEditedWindow(const std::string& end) {
   const std::string program = (binaryDir() / "speculum").string();
   const std::string scene = writeScene("window_end", wallScene).string();
   return runProcess({"timeout", "300", "bash", "-c",
-                     start + end + "; wait $pid; code=$?; kill $server 2>/dev/null; exit $code", program, scene});
+                     begin + start + end + "; wait $pid; code=$?; kill $server 2>/dev/null; exit $code", program,
+                     scene});
 }
 
 TEST(EndedWindow, KeepsUnsavedWork) {
@@ -467,6 +469,21 @@ TEST(EndedWindow, KeepsUnsavedWork) {
     EXPECT_EQ(result.exitCode, exitCode) << end;
     EXPECT_TRUE(startsWith(result.output, "warning: unsaved changes are kept in ")) << end;
   }
+}
+
+// The window comes back, and offers what was kept.
+TEST(EndedWindow, LostDeviceKeepsUnsavedWork) {
+  const std::string layer = (binaryDir() / "tests" / "fault_layer").string();
+  const ProcessResult result = endEditedWindow(
+      R"(touch "$SPECULUM_FAULT_AFTER"; xdotool key --window $window w 2>/dev/null
+      until xdotool search --onlyvisible --name '^window_end - ' 2>/dev/null | grep -q .; do sleep 0.2; done
+      kill -TERM $pid)",
+      "export VK_ADD_LAYER_PATH=" + layer + " VK_INSTANCE_LAYERS=VK_LAYER_SPECULUM_fault NODEVICE_SELECT=1\n" +
+          "export SPECULUM_FAULT='vkQueueSubmit 1 " + std::to_string(VK_ERROR_DEVICE_LOST) +
+          "' SPECULUM_FAULT_AFTER=$1.lost\n");
+  EXPECT_EQ(result.exitCode, 0);
+  EXPECT_TRUE(startsWith(result.output, "warning: unsaved changes are kept in "));
+  EXPECT_TRUE(contains(result.output, "starting again"));
 }
 
 TEST(EndedWindow, NeedsNoReaderOfItsOutput) {

@@ -3,6 +3,7 @@
 
 #include "frame/frame_plan.hpp"
 #include "image/picture_files.hpp"
+#include "log_capture.hpp"
 #include "made_pictures.hpp"
 #include "picture_support.hpp"
 #include "sampling.hpp"
@@ -181,7 +182,31 @@ TEST(LargeTextures, AreDrawnSmaller) {
     const auto file = writeScene("wide",
                                  "[environment]\nambient = [1, 1, 1]\n[camera]\nposition = [0, 0, 2]\n"
                                  "target = [0, 0, 0]\n[[object]]\nmodel = 'wide.obj'\n");
+    const LogCapture log;
     expectTruth(file, {64, 36}, 1, trace(file, {64, 36}, 1));
+    EXPECT_TRUE(contains(log.text(), "wide.png")) << log.text();
+  }
+}
+
+// A model's lengths and its object's scale may leave the range of floats, their products may not.
+TEST(ModelsOfAnySize, ShowOnePicture) {
+  const auto sceneIn = [](double metres) {
+    std::string corners;
+    for (const glm::dvec3& corner : {glm::dvec3(-1, -1, 0), glm::dvec3(1, -1, 0.5), glm::dvec3(0, 1, 0)}) {
+      const glm::dvec3 p = metres * corner;
+      corners += "v " + text(p.x) + " " + text(p.y) + " " + text(p.z) + "\n";
+    }
+    writeModel("scaled.obj", corners + "f 1 2 3\n");
+    return writeScene("scaled", "[environment]\nambient = [0.3, 0.3, 0.3]\n" + cameraText({0, 0, 3}, {0, 0, 0}) +
+                                    "[[light]]\nposition = [1, 2, 3]\nintensity = 10\n" +
+                                    objectText("scaled.obj", {0, 0, 0}, {0, 20, 0}, 1.0 / metres, {0.9, 0.5, 0.2}) +
+                                    "[[mirror]]\n" + rectangleText({0, 0, -1}, {0, 10, 0}, 5, 5));
+  };
+  Gpu gpu(headless("", size));
+  const Image8 usual = Studio(gpu, headless(sceneIn(1.0), size)).draw();
+  for (const double metres : {1e-40, 1e-30, 1e-10, 1e10, 1e30, 1e40}) {
+    const Image8 picture = Studio(gpu, headless(sceneIn(metres), size)).draw();
+    EXPECT_LE(difference(picture, usual, 2).share(), 0.002) << metres;
   }
 }
 

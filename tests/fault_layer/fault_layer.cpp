@@ -1,9 +1,11 @@
 // A Vulkan layer for tests, which environment variables steer:
 //   SPECULUM_FAULT        "FUNCTION N RESULT": the N-th call (from 1) returns RESULT, a number; VK_INCOMPLETE from the
 //                         first call from there on that asks for more than a count
+//   SPECULUM_FAULT_AFTER  a file: calls before it exists do not fail
 //   SPECULUM_FAULT_CALLS  a file that gets a line "FUNCTION CALLS" for each function when the instance ends
 //   SPECULUM_HIDE         words for what the devices lack: NAME, NAME=VALUE, NAME@DEVICE; see hidden() and limited()
 // It supports one instance with one device at a time.
+#include <unistd.h>
 #include <vulkan/vk_layer.h>
 
 #include <algorithm>
@@ -60,6 +62,11 @@ struct Fault {
   std::string function;
   int call = 0;
   VkResult result = VK_SUCCESS;
+
+  bool waits() const {
+    const char* file = std::getenv("SPECULUM_FAULT_AFTER");
+    return file && access(file, F_OK) != 0;
+  }
 };
 Fault readFault() {
   Fault fault;
@@ -318,7 +325,7 @@ struct Hook<Tag, Result(VKAPI_PTR*)(Arguments...)> {
     if constexpr (std::is_same_v<Result, VkResult>) {
       Fault& fault = state.fault;
       if (fault.function == function.name && fault.call == number) {
-        if (fault.result == VK_INCOMPLETE && counts(arguments...)) {
+        if ((fault.result == VK_INCOMPLETE && counts(arguments...)) || fault.waits()) {
           ++fault.call;
           return forward(Tag{}, arguments...);
         }
