@@ -2,9 +2,12 @@
 #include <nlohmann/json.hpp>
 
 #include "app/stats.hpp"
+#include "occluder_shapes.hpp"
 #include "picture_support.hpp"
 #include "random.hpp"
 #include "sampling.hpp"
+#include "scene_text.hpp"
+#include "studio.hpp"
 #include "test_headers.hpp"
 
 namespace speculum::skipping_pictures {
@@ -160,6 +163,49 @@ TEST(Skipping, SmallMirrorsDrawSmallPartsOfObjects) {
     EXPECT_EQ(parts.rgba, pictureWith(session, settings).rgba) << samples << " samples";
     EXPECT_LT(drawn, 0.9 * mirrorTriangles(statsWith(session, settings)));
   }
+}
+
+// A random shape before mirrors of random size, and a mirror behind the eye that shows both once more.
+std::filesystem::path shapeScene(Random& random, std::mt19937& shapes) {
+  writeModel("shape.obj", randomShape(shapes).obj());
+  std::ostringstream toml;
+  toml << "[environment]\nambient = [0.4, 0.4, 0.4]\nbackground = [0.2, 0.5, 0.7]\n"
+       << cameraText({0, 0, 4}, random.inBox(0.5)) << "[[light]]\nposition = [1, 3, 6]\nintensity = 20\n"
+       << "[[mirror]]\n"
+       << rectangleText({0, 0, 6}, {random.uniform(-10, 10), 180, 0}, 6, 4);
+  for (int i = 0; i < 2; ++i) {
+    toml << objectText("shape.obj", random.inBox(1.0), random.inBox(180.0), random.uniform(0.5, 1.5), {0.8, 0.4, 0.2});
+  }
+  for (int i = 0; i < 6; ++i) {
+    const double side = std::exp(random.uniform(std::log(0.02), std::log(1.0)));
+    toml << "[[mirror]]\n"
+         << rectangleText(random.inBox(1.5) - glm::dvec3(0, 0, 4), {0, random.uniform(-40, 40), 0}, side,
+                          side * random.uniform(0.3, 1));
+  }
+  return writeScene("shape", toml.str());
+}
+
+TEST(Skipping, RandomShapesHideNothingThatIsSeen) {
+  Gpu gpu(headless("", size));
+  Random random(12);
+  std::mt19937 shapes(12);
+  const int scenes = fullTests() ? 2000 : 40;
+  long hidden = 0;
+  for (int i = 0; i < scenes; ++i) {
+    Studio studio(gpu, headless(shapeScene(random, shapes), size));
+    studio.settings.reflection.maxDepth = 2;
+    studio.settings.reflection.meshError = i % 2 == 0 ? 0.0 : 2.0;
+    studio.settings.view.samples = studio.settings.reflection.samples = i % 3 == 0 ? 4 : 1;
+    const Image8 skipping = studio.fresh();
+    hidden += std::ranges::count(studio.plan.skipped, SkipReason::hidden, &SkippedMirror::reason);
+    studio.settings.debug.skipHidden = false;
+    const Image8 all = studio.fresh();
+    if (skipping.rgba != all.rgba) {
+      ADD_FAILURE() << "scene " << i;
+      writeEvidence(skipping, all, "shape_" + std::to_string(i));
+    }
+  }
+  EXPECT_GT(hidden, scenes / 2);
 }
 
 TEST(Skipping, MaskDoesNotChangeCachedImages) {

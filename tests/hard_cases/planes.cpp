@@ -188,6 +188,41 @@ TEST(MirrorOutsideTheView, HasNoPassAtAll) {
   }
 }
 
+// Between two mirrors at 180/n degrees a ray meets mirrors n times at most, so that images of depth n and less fill the
+// view once: 2n passes, however deep they may go. Planes through edges of such images coincide.
+TEST(CornersThatDivide180Degrees, ImagesFillTheViewOnce) {
+  Random random(6);
+  for (int n = 2; n <= 12; ++n) {
+    for (int i = 0; i < 20; ++i) {
+      const double angle = std::numbers::pi / n;
+      const auto wall = [&](double at, bool left) {
+        const glm::dvec3 far(1e3 * std::cos(at), 0.0, 1e3 * std::sin(at));
+        const glm::dvec3 up(0, 1e3, 0);
+        Mirror mirror;
+        mirror.polygon = left ? std::vector{far - up, -up, up, far + up} : std::vector{-up, far - up, far + up, up};
+        return mirror;
+      };
+      Scene scene;
+      scene.mirrors = {wall(0.0, false), wall(angle, true)};
+      const double at = random.uniform(0.05, 0.95) * angle;
+      scene.camera.position = {2.0 * std::cos(at), random.uniform(-1, 1), 2.0 * std::sin(at)};
+      scene.camera.target = {0.0, random.uniform(-0.2, 0.2), 0.0};
+      scene.camera.verticalFov = 40.0;
+      const FramePlan plan = planOf(scene, columns, rows, 32);
+      std::map<int, double> areas;
+      for (const PlannedPass& pass : plan.passes) {
+        areas[pass.depth] += pass.areaPx;
+      }
+      EXPECT_LE(plan.passes.size(), 2u * n) << n;
+      EXPECT_LE(static_cast<int>(areas.size()), n) << n;
+      for (const auto& [depth, area] : areas) {
+        EXPECT_LE(area, columns * rows + 1e-6) << n << ", depth " << depth;
+      }
+      EXPECT_NEAR(areas[0], columns * rows, 1e-6) << n;
+    }
+  }
+}
+
 // Strips across strips, all in one plane, would be cut into 90 000 parts in each pass.
 TEST(MirrorsOfOnePlane, CutsAreLimited) {
   constexpr int strips = 300;

@@ -125,6 +125,52 @@ TEST(FacingMirrorsAtDepth32, MatchesTheTracer) {
   }
 }
 
+// The eye sees a small mirror before a white wall. It shows another behind the eye, which shows the wall and has the
+// black background behind it.
+std::filesystem::path mirrorInMirror(double degrees, const std::string& reflectance, const std::string& more = "") {
+  writeQuad();
+  const double distance = 1.0 / std::tan(glm::radians(0.5 * degrees));  // where the view is two metres high
+  const double side = std::min(0.1 + 0.1 * distance, 1.0);
+  const double otherSide = 12.0 + 0.3 * distance;
+  const glm::dvec3 middle(0.03 * side, 0.02 * side, 0.0);
+  return writeScene("angle_of_view_" + std::to_string(static_cast<int>(degrees)),
+                    cameraText(middle + glm::dvec3(0, 0, distance), middle, {0.1, 1, 0}) + "vertical_fov = " +
+                        text(degrees) + "\n" + objectText("quad.obj", {0, 0, -1}, {0, 0, 0}, 5000, {0, 0, 0}) +
+                        "specular = [0, 0, 0]\nemission = [1, 1, 1]\n[[mirror]]\n" +
+                        rectangleText({0, 0, 0}, {1, 2, 0}, side, side) + "reflectance = " + reflectance +
+                        "\n[[mirror]]\n" + rectangleText({0, 0, 2 * distance + 3}, {-5, 180, 0}, otherSide, otherSide) +
+                        "reflectance = " + reflectance + "\n" + more);
+}
+
+constexpr std::array anglesOfView{1.0, 170.0};
+
+TEST(AnglesOfView, MatchTheTracer) {
+  for (const double degrees : anglesOfView) {
+    const auto file =
+        mirrorInMirror(degrees, "[0.9, 0.8, 0.7]",
+                       objectText("MODELS/torus_knot.obj", {0.4, 0.1, 0.05}, {20, 30, 0}, 0.5, {0.8, 0.3, 0.1}) +
+                           objectText("MODELS/teapot.obj", {-0.5, -0.2, 0.05}, {0, 60, 0}, 0.4, {0.1, 0.4, 0.8}) +
+                           "[[light]]\nposition = [0, 3, 1]\nintensity = 10\n");
+    expectTruth(file, size, 6, trace(file, size, 6));
+  }
+}
+
+// Where a pixel is wide, lookups read far beyond what is seen of an image.
+TEST(AnglesOfView, ImagesOfImagesShowNoBackground) {
+  for (const double degrees : anglesOfView) {
+    QuietSession session(headless(mirrorInMirror(degrees, "[1, 1, 1]"), size,
+                                  {{"reflection.max_depth", "12"}, {"reflection.min_pixels", "0"}}));
+    for (const char* scale : {"0.25", "0.5", "1"}) {
+      for (const char* samples : {"1", "4"}) {
+        set(session, {{"reflection.scale", scale}, {"reflection.samples", samples}, {"view.samples", samples}});
+        const auto isDark = [](const glm::vec3& pixel) { return pixel.r < 0.999f; };
+        EXPECT_EQ(std::ranges::count_if(drawRadiance(session).pixels, isDark), 0)
+            << degrees << " degrees, scale " << scale << ", " << samples << " samples";
+      }
+    }
+  }
+}
+
 // A white room lit by ambient light alone. Two walls are mirrors that meet at an edge; the floor, the other walls and a
 // block touch them. Any gap shows the black background behind.
 std::filesystem::path seamScene(unsigned seed) {
