@@ -64,6 +64,22 @@ TEST_F(RegressCommand, GoesFromRedToGreen) {
   EXPECT_FALSE(contains(readText(folder_ / "out/index.html"), "data:image/png"));
 }
 
+TEST_F(RegressCommand, AddsToTheSummaryOfAJob) {
+  writeCases(roomCase);
+  folder_.write("summary.md", "first\n");
+  ::setenv("GITHUB_STEP_SUMMARY", (folder_ / "summary.md").c_str(), 1);
+  regress({});
+  const std::string summary = readText(folder_ / "summary.md");
+  EXPECT_TRUE(startsWith(summary, "first\n"));
+  EXPECT_TRUE(contains(summary, "there is no expected picture"));
+  ::setenv("GITHUB_STEP_SUMMARY", (folder_ / "none" / "summary.md").c_str(), 1);
+  folder_.write("none", "");  // a file where the folder should be
+  const ProcessResult result = regress({});
+  ::unsetenv("GITHUB_STEP_SUMMARY");
+  EXPECT_EQ(result.exitCode, 2);
+  EXPECT_TRUE(contains(result.output, "none/summary.md: cannot be written")) << result.output;
+}
+
 TEST_F(RegressCommand, FindsSeededFaults) {
   writeRoom("dark.toml", "[[light]]\nposition = [-2, 1, 2]\nintensity = 3\n");
   writeRoom("swapped.toml", "position = [2.5, 1, 0]\nrotation = [0, -60, 0]",

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <fstream>
 #include <iostream>
 #include <map>
 #include <thread>
@@ -149,7 +148,7 @@ void writeReports(const Options& options, const RegressRun& run) {
     std::fputs(githubErrors(run).c_str(), stdout);
   }
   if (const std::string file = environment("GITHUB_STEP_SUMMARY"); !file.empty()) {
-    std::ofstream(file, std::ios::app) << githubSummary(run);
+    writeText(file, readTextIfAny(file) + githubSummary(run));
   }
 }
 
