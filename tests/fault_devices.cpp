@@ -51,10 +51,12 @@ TEST_F(Devices, OlderLoaderThanDriverDraws) {
   EXPECT_TRUE(old.picture);
 }
 
-TEST_F(Devices, DepthSampleCountsAreAsked) {
-  const Run fewer = run(render, {"SPECULUM_HIDE=sampled_depth_samples=1"}, Place::inner);
-  EXPECT_EQ(fewer.exitCode, 0);
-  EXPECT_TRUE(contains(fewer.output, "has no 4 samples per pixel: 1 are used"));
+TEST_F(Devices, SampleCountsAreAsked) {
+  for (const char* lacks : {"color_samples", "depth_samples", "sampled_color_samples", "sampled_depth_samples"}) {
+    const Run fewer = run(render, {"SPECULUM_HIDE=" + std::string(lacks) + "=1"}, Place::inner);
+    EXPECT_EQ(fewer.exitCode, 0) << lacks;
+    EXPECT_TRUE(contains(fewer.output, "has no 4 samples per pixel: 1 are used")) << lacks << fewer.output;
+  }
 }
 
 TEST_F(Devices, NextOneIsTakenWithoutPresentation) {
