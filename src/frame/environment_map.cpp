@@ -111,7 +111,7 @@ EnvironmentMaps environmentMaps(const Scene& scene, const SceneState& state, con
                        .settings = settings};
     map.projection.focal = static_cast<double>(map.size - 2 * environmentBorder) / map.size;
     map.projection.aspect = 1.0;
-    map.projection.near = nearOf(state);
+    map.projection.near = nearOf(state, map.projection);
     for (const FaceAxes& axes : faceAxes()) {
       map.faces.push_back(faceOf(scene, state, map, axes));
     }

@@ -21,7 +21,8 @@ class Planner {
   Planner(const Scene& scene, const SceneState& state, const Settings& settings, int width, int height,
           const FrameCache& cache, int picture)
       : scene_(scene), state_(state), allSettings_(settings), settings_(settings.reflection), cache_(cache) {
-    plan_.projection = Projection(state.camera.verticalFov, static_cast<double>(width) / height, nearOf(state));
+    plan_.projection = Projection(state.camera.verticalFov, static_cast<double>(width) / height, state.camera.near);
+    plan_.projection.near = nearOf(state, plan_.projection);
     plan_.width = width;
     plan_.height = height;
     plan_.picture = picture;

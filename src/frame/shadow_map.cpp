@@ -156,7 +156,7 @@ class FacePlanner {
     face.low = window.low;
     face.high = window.high;
     const int size = settings_.effects.shadowMapSize;
-    face.projection = projectionOf(window, size, nearOf(state_));
+    face.projection = projectionOf(window, size, nearOf(state_, Projection()));  // of a whole face of the cube
     const CubeFace cube{center, axes, face.projection, size};
     face.pass.view = viewOf(cube);
     const std::array<glm::dvec3, 4> rays = cornerRays(face.pass.view, face.projection);

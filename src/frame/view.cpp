@@ -67,15 +67,18 @@ std::vector<glm::dvec3> clippedPart(const View& view, std::span<const glm::dvec3
 
 // Stays below the eye's distance from each mirror's plane, because a mirror's view sees what lies behind that plane,
 // and below the distance of each object.
-double nearOf(const SceneState& state) {
+double nearOf(const SceneState& state, const Projection& projection) {
   const glm::dvec3& eye = state.camera.eye;
+  // Depth is measured along the axis. In a corner of the picture that is this part of the distance.
+  const double depthPart =
+      1.0 / glm::length(glm::dvec3(projection.aspect / projection.focal, 1.0 / projection.focal, 1.0));
   double near = std::min(state.camera.near, Projection().near);
   for (const MirrorState& mirror : state.mirrors) {
-    near = std::min(near, 0.5 * std::abs(glm::dot(mirror.normal, eye - mirror.origin)));
+    near = std::min(near, 0.5 * depthPart * std::abs(glm::dot(mirror.normal, eye - mirror.origin)));
   }
   for (const InstanceState& instance : state.instances) {
     const double outside = glm::length(eye - instance.center) - instance.radius;
-    near = std::min(near, std::max(0.5 * outside, 0.001 * instance.radius));
+    near = std::min(near, depthPart * std::max(0.5 * outside, 0.001 * instance.radius));
   }
   constexpr double smallest = 1e-20;  // depth has to stay a float
   return std::max(near, smallest);

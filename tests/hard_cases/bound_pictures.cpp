@@ -150,15 +150,19 @@ TEST(MirrorsInOnePlane, CoverInTheOrderOfTheFile) {
 TEST(MirrorsInOnePlane, CoverUnderAGrazingEye) {
   Random random(3);
   std::vector<std::filesystem::path> files;
-  for (int i = 0; i < 16; ++i) {
-    const glm::dvec3 eye(random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5), std::pow(10.0, random.uniform(-6, -4)));
+  for (int i = 0; i < 24; ++i) {
+    const glm::dvec3 eye(random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5),
+                         std::pow(10.0, random.uniform(-6, i % 3 == 2 ? -2 : -4)));
+    const bool wide = i % 2 == 1;
     std::ostringstream scene;
     scene << "[environment]\nbackground = [0.8, 0.4, 0.8]\nambient = [0.3, 0.3, 0.1]\n"
-          << cameraText(eye, eye + glm::dvec3(random.uniform(-1, 1), random.uniform(-1, 1), 0.0));
+          << cameraText(eye, eye + glm::dvec3(random.uniform(-1, 1), random.uniform(-1, 1), wide ? -0.2 : 0.0))
+          << "vertical_fov = " << (wide ? 165 : 60) << "\n";
     for (int mirror = 0; mirror < 3; ++mirror) {
+      const bool away = mirror == 0 && i % 4 == 1;  // other mirrors cover its back
       scene << "[[mirror]]\n"
-            << rectangleText({random.uniform(-0.3, 0.3), random.uniform(-0.3, 0.3), 0.0}, {0, 0, random.uniform(0, 90)},
-                             random.uniform(1, 2), random.uniform(1, 2))
+            << rectangleText({random.uniform(-0.3, 0.3), random.uniform(-0.3, 0.3), 0.0},
+                             {away ? 180 : 0, 0, random.uniform(0, 90)}, random.uniform(1, 2), random.uniform(1, 2))
             << "reflectance = " << random.vec(0.2, 0.9) << "\n";
     }
     files.push_back(writeScene("grazing_plane_" + std::to_string(i), scene.str()));
