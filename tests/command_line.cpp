@@ -102,6 +102,9 @@ INSTANTIATE_TEST_SUITE_P(
         UsageCase{{"bench", "--warmup", "-1"}, "--warmup"},
         UsageCase{{"bench", "--against-binary", "/nowhere"}, "/nowhere"},
         UsageCase{{"bench", "--against-binary", "/bin/false"}, "/bin/false: bench ended with exit code 1"},
+        UsageCase{{"bench", "--against-binary", "/bin/true"},
+                  "/bin/true: bench --json wrote no times (a speculum is needed)"},
+        UsageCase{{"bench", "--reference", "--prices"}, "--reference: goes with no other measurement"},
         UsageCase{{"bench", "--against-set", "view.samples=3"}, "--against-set: view.samples: '3'"}));
 
 TEST_F(CommandLine, MessagesCanBeReadWhateverTheyName) {
@@ -243,6 +246,25 @@ TEST_F(CommandLine, InterruptEndsRunsInTurn) {
       1);
 }
 
+TEST_F(CommandLine, NoOutputReplacesFilesOfTheScene) {
+  const std::filesystem::path folder = out_.path();
+  writePng(folder / "wood.png", Image8(2, 2));
+  for (const auto& [name, content] :
+       {std::pair("a.mtl", "newmtl a\nmap_Kd wood.png\n"),
+        std::pair("a.obj", "mtllib a.mtl\nusemtl a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/1 3/1\n"),
+        std::pair("a.toml", "[camera]\nposition = [0, 0, 3]\ntarget = [0, 0, 0]\n[[object]]\nmodel = 'a.obj'\n")}) {
+    std::ofstream(folder / name) << content;
+  }
+  for (const auto& [name, kind] :
+       {std::pair("a.obj", "model"), std::pair("a.mtl", "material"), std::pair("wood.png", "texture")}) {
+    EXPECT_TRUE(contains(
+        mistake({"render", "--scene", out("a.toml"), "--size", "4x4", "--out", out("b.png"), "--stats", out(name)}),
+        "--stats: " + out(name) + " is the file of a " + kind + " of the scene too"));
+  }
+  EXPECT_TRUE(contains(mistake({"reference", "--scene", out("a.toml"), "--size", "4x4", "--out", out("wood.png")}),
+                       "--out: " + out("wood.png")));
+}
+
 TEST_F(CommandLine, NoOutputReplacesAnotherOptionsFile) {
   const std::string picture = out("a.png");
   const std::string scene = out("scene.toml");
@@ -256,6 +278,13 @@ TEST_F(CommandLine, NoOutputReplacesAnotherOptionsFile) {
   }
   succeed({"render", "--scene", scene, "--size", "4x4", "--out", picture});
   EXPECT_TRUE(contains(mistake({"compare", picture, picture, "--json", picture}), "--json: " + picture));
+  const std::string frames = out("f%d.png");
+  EXPECT_TRUE(
+      contains(mistake({"render", "--scene", scene, "--frames", "3", "--out", frames, "--stats", out("f2.png")}),
+               "--stats: " + out("f2.png") + " is the file of --out"));
+  std::filesystem::copy_file(scene, out("index.html"));
+  EXPECT_TRUE(contains(mistake({"accuracy", "--scene", out("index.html"), "--out", out_.path().string()}),
+                       "--out: " + out("index.html") + " is the file of --scene"));
   const std::string script = R"(cd "$0" && "$1" render --scene "$2" --out new.png --stats ./new.png)";
   EXPECT_EQ(runProcess({"sh", "-c", script, out_.path().string(), program, scene}).exitCode, 2);
   succeed({"compare", picture, picture, "--json", "/dev/null", "--heatmap", "/dev/null"});

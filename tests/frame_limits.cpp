@@ -157,5 +157,20 @@ TEST(PlanLimits, MapsOfManyObjectsPlanWithinTheBounds) {
   expectPlanned(lights, "shadow maps");
 }
 
+TEST(PlanLimits, ShadowMapsOfAMillionCopiesPlanWithinTheBounds) {
+  const TemporaryFolder folder;
+  const auto model = folder.write("t.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  std::string text = deep + "effects.shadow_lookup = 'map'\n[[object]]\nmodel = '" + model.string() +
+                     "'\ncopies = { count = 999900, step = [0.00001, 0, 0] }\nspin = [1, 2, 3]\n";
+  for (int i = 0; i < 16; ++i) {
+    text += "[[light]]\nposition = [" + std::to_string(0.1 * i) + ", 0.5, " + std::to_string(0.1 * i) +
+            "]\ncasts_shadow = true\norbit = { speed = 10 }\n";
+  }
+  for (int i = 0; i < 20; ++i) {
+    text += "[[mirror]]\nsize = [2, 2]\nposition = [0, 0, " + std::to_string(-1 - i) + "]\n";
+  }
+  expectPlanned(text, "shadow maps");
+}
+
 }  // namespace
 }  // namespace speculum

@@ -64,6 +64,15 @@ TEST_F(RegressCommand, GoesFromRedToGreen) {
   EXPECT_FALSE(contains(readText(folder_ / "out/index.html"), "data:image/png"));
 }
 
+TEST_F(RegressCommand, UpdateReplacesNoMask) {
+  writePng(folder_ / "room.png", Image8(320, 180));
+  writeCases("[[case]]\nscene = 'room.toml'\nmask = 'room.png'\n");
+  const ProcessResult result = regress({"--update"});
+  EXPECT_EQ(result.exitCode, 2);
+  EXPECT_TRUE(contains(result.output, "--update: would replace " + (folder_ / "room.png").string() + ", the mask of"));
+  EXPECT_EQ(readImage8(folder_ / "room.png").rgba, Image8(320, 180).rgba);
+}
+
 TEST_F(RegressCommand, AddsToTheSummaryOfAJob) {
   writeCases(roomCase);
   folder_.write("summary.md", "first\n");

@@ -67,7 +67,7 @@ std::optional<std::map<std::string, double>> measured(const std::vector<std::str
     throw UsageError(command.front() + ": bench ended with exit code " + std::to_string(result->exitCode) + ": " +
                      lastLine(result->output) + " (a speculum that can run this bench is needed)");
   }
-  const auto figures = nlohmann::json::parse(readText(json), nullptr, false);
+  const auto figures = nlohmann::json::parse(readTextIfAny(json), nullptr, false);
   std::map<std::string, double> medians;
   for (const char* key : totals) {
     const auto median = nlohmann::json::json_pointer("/totals/" + std::string(key) + "/median");
@@ -76,7 +76,7 @@ std::optional<std::map<std::string, double>> measured(const std::vector<std::str
     }
   }
   if (medians.empty()) {
-    throw UsageError(command.front() + ": bench --json wrote no times");
+    throw UsageError(command.front() + ": bench --json wrote no times (a speculum is needed)");
   }
   return medians;
 }
@@ -268,7 +268,11 @@ void printBench(const nlohmann::ordered_json& merged, int measured) {
 }  // namespace
 
 int runBench(const Options& options) {
-  if (!options.againstBinary.empty() || !options.againstSettings.empty()) {
+  const bool against = !options.againstBinary.empty() || !options.againstSettings.empty();
+  if (options.benchReference && (against || options.benchPrices)) {
+    throw UsageError("--reference: goes with no other measurement (without --prices and --against-...)");
+  }
+  if (against) {
     return benchAgainst(options);
   }
   if (options.benchReference) {

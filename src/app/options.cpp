@@ -8,6 +8,7 @@
 #include <cmath>
 #include <map>
 
+#include "app/output_files.hpp"
 #include "app/version.hpp"
 #include "frame/setting_fields.hpp"
 #include "platform/files.hpp"
@@ -195,36 +196,6 @@ void applyRaw(const Raw& raw, Options& options) {
   options.renderPath = *path;
   for (const PresentMode mode : {PresentMode::fifo, PresentMode::mailbox, PresentMode::immediate}) {
     options.presentMode = presentModeName(mode) == raw.presentMode ? mode : options.presentMode;
-  }
-}
-
-// Refuses an output that would replace a file of another option. Devices and pipes may be named twice.
-void requireFilesOfTheirOwn(const Options& options) {
-  using File = std::pair<std::string_view, std::filesystem::path>;
-  const std::array inputs{File{"--scene", options.scene},       File{"--sweep", options.sweep},
-                          File{"--mask", options.mask},         File{"--sweep-results", options.sweepResults},
-                          File{"reference", options.reference}, File{"test", options.test},
-                          File{"cases", options.cases},         File{"--against-binary", options.againstBinary}};
-  const std::array outputs{File{"--out", options.out},         File{"--stats", options.stats},
-                           File{"--json", options.json},       File{"--junit", options.junit},
-                           File{"--heatmap", options.heatmap}, File{"--capture", options.capture.value_or("")}};
-  std::error_code error;
-  std::map<std::filesystem::path, std::string_view> used;
-  for (const auto& [option, file] : inputs) {
-    if (std::filesystem::is_regular_file(file, error)) {
-      used.emplace(withoutLinks(file), option);
-    }
-  }
-  for (const auto& [option, file] : outputs) {
-    const std::filesystem::path target = withoutLinks(file);
-    const bool replaced = !std::filesystem::exists(target, error) || std::filesystem::is_regular_file(target, error);
-    if (file.empty() || !replaced) {
-      continue;
-    }
-    if (const auto [other, isNew] = used.emplace(target, option); !isNew) {
-      throw UsageError(
-          fmt::format("{}: {} is the file of {} too (name another file)", option, file.string(), other->second));
-    }
   }
 }
 

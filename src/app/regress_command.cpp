@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <iostream>
 #include <map>
+#include <set>
 #include <thread>
 
 #include "app/case_drawer.hpp"
@@ -175,7 +176,15 @@ void requireFilesOfItsOwn(const Options& options, const std::vector<RegressCase>
   if (!options.junit.empty() && !written.emplace(withoutLinks(options.junit), "--junit").second) {
     throw UsageError("--junit: " + options.junit.string() + " is a file of the report (name another file)");
   }
+  std::set<std::filesystem::path> updated;
+  for (const RegressCase& subject : drawn) {
+    updated.insert(options.update ? withoutLinks(subject.picture) : std::filesystem::path());
+  }
   for (const RegressCase& subject : cases) {
+    if (subject.mask && updated.contains(withoutLinks(*subject.mask))) {
+      throw UsageError(fmt::format("--update: would replace {}, the mask of case '{}' (name another picture)",
+                                   subject.mask->string(), subject.name));
+    }
     std::vector<std::filesystem::path> read{subject.scene, subject.picture, subject.mask.value_or("")};
     for (const Expectation& expectation : subject.expect) {
       read.push_back(expectation.picture.value_or(""));

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "app/output_files.hpp"
 #include "frame/picture_tiles.hpp"
 #include "platform/text.hpp"
 #include "scene/input_error.hpp"
@@ -69,7 +70,9 @@ Settings settingsOf(const Scene& scene, const Options& options) {
 }
 
 LoadedScene loadSceneWithSettings(const Options& options) {
-  return loadSceneWithSettings(findScene(options.scene), options);
+  LoadedScene loaded = loadSceneWithSettings(findScene(options.scene), options);
+  requireFilesOfTheirOwn(options, loaded.scene);
+  return loaded;
 }
 
 LoadedScene loadSceneWithSettings(const std::filesystem::path& file, const Options& options,

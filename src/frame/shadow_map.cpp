@@ -259,14 +259,22 @@ void reuseShadowMaps(std::vector<ShadowMap>& maps, std::span<const ShadowMap> be
     serial = std::max(serial, map.serial);
   }
   const uint64_t next = serial + 1;
+  constexpr size_t mostCompared = 4'000'000;  // instances of all faces; more would take too much memory
+  size_t instances = 0;
+  for (const ShadowMap& map : maps) {
+    for (const ShadowFace& face : map.faces) {
+      instances += face.pass.instances.size();
+    }
+  }
+  const bool compares = changes && instances <= mostCompared;
   for (size_t i = 0; i < maps.size(); ++i) {
     maps[i].serial = reuses ? before[i].serial : next;
     for (size_t f = 0; f < maps[i].faces.size(); ++f) {
       ShadowFace& face = maps[i].faces[f];
       const ShadowFace* old = reuses ? &before[i].faces[f] : nullptr;
       if (face.read) {
-        face.content = changes ? shadowContent(*changes, face, face.pass) : std::vector<uint64_t>();
-        face.rendered = !skips || !old || old->content != face.content;
+        face.content = compares ? shadowContent(*changes, face, face.pass) : std::vector<uint64_t>();
+        face.rendered = !skips || !compares || !old || old->content != face.content;
         maps[i].serial = face.rendered ? next : maps[i].serial;
       } else if (old) {
         face.content = old->content;

@@ -63,6 +63,7 @@ struct MeshCluster {
 // units of the model's, so that they stay floats whatever its size; only the centre does not.
 struct Mesh {
   std::filesystem::path source;
+  std::vector<std::filesystem::path> materialFiles;
   double unit = 1.0;           // of model space; a power of two
   glm::dvec3 center{0.0};      // model space, of the bounding box
   glm::dvec3 halfExtent{0.0};  // of the bounding box

@@ -146,6 +146,7 @@ Mesh loadObj(const std::filesystem::path& file, std::vector<Texture>& textures, 
     progress(file, kReadShare);
   }
   Mesh mesh = builder.finish(file, [&](int index) { return materials.material(index, textures); });
+  mesh.materialFiles.assign(materials.files().begin(), materials.files().end());
   if (mesh.indices.empty()) {
     throwInputError(file, 1, "f", "the model has no triangle", "at least one face with an area is needed");
   }

@@ -29,6 +29,9 @@ class ObjMaterials {
   // the texture cannot be read.
   Material material(int index, std::vector<Texture>& textures) const;
 
+  // Files that were read, without symbolic links.
+  const std::set<std::filesystem::path>& files() const { return filesRead_; }
+
  private:
   struct Entry {
     Material material;  // without its diffuse color and texture

@@ -120,6 +120,14 @@ FrameData::FrameData(Device& device)
   layout_ = createDescriptorSetLayout(device, bindings, "frame");
 }
 
+void FrameData::requireFits(const FramePlan& plan) const {
+  size_t instanceCount = 0;
+  for (const DrawnPass& pass : drawnPasses(plan)) {
+    instanceCount += pass.pass->instances.size();
+  }
+  buffers_.checkSize(instances, instanceCount * sizeof(gpu::InstanceData));
+}
+
 void FrameData::build(Frame& frame, const SceneResources& resources, const Scene& scene, const SceneState& state,
                       const Settings& settings, const Environment& environment, const FramePlan& plan) {
   passBlocks_.clear();
@@ -135,13 +143,7 @@ void FrameData::build(Frame& frame, const SceneResources& resources, const Scene
   for (size_t map = 0; map < plan.shadowMaps.size(); ++map) {
     shadowMaps_[plan.shadowMaps[map].light] = static_cast<uint32_t>(map);
   }
-  const std::vector<DrawnPass> drawn = drawnPasses(plan);
-  size_t instanceCount = 0;
-  for (const DrawnPass& pass : drawn) {
-    instanceCount += pass.pass->instances.size();
-  }
-  buffers_.checkSize(instances, instanceCount * sizeof(gpu::InstanceData));
-  for (const DrawnPass& pass : drawn) {
+  for (const DrawnPass& pass : drawnPasses(plan)) {
     addPass(source, *pass.pass, *pass.projection, pass.corner);
     passBlocks_.back().view.inMap = pass.inMap;
   }

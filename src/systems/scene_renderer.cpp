@@ -60,6 +60,7 @@ void SceneRenderer::uploadTextures(Frame& frame, const SceneState& state, const 
 
 void SceneRenderer::record(Frame& frame, const SceneState& state, const Settings& settings, const FramePlan& plan,
                            const std::optional<DebugView>& debug, bool shown) {
+  data_.requireFits(plan);
   const Environment environment = scene_.environment.cleared(settings.view.clearColor);
   watched_.begin(plan, debug, *frame.retired);
   releaseUnused(debug);
