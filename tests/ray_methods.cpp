@@ -4,6 +4,7 @@
 #include "log_capture.hpp"
 #include "picture_support.hpp"
 #include "scarce_memory.hpp"
+#include "scene_text.hpp"
 #include "test_headers.hpp"
 
 namespace speculum::ray_methods {
@@ -203,6 +204,22 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"eye_at_a_surface", "[camera]\nposition = [0, 0.001, 0]\ntarget = [1, 0.0008, -1]\n" +
                                                  room.substr(room.find("[[object]]")) + shadowLight + brightWall}),
     [](const auto& info) { return std::string(info.param.name); });
+
+TEST(ManyRays, AreWarnedOf) {
+  const auto file = writeScene("many_rays", cameraText({0, 1, 3}, {0, 0, 0}) +
+                                                objectText("MODELS/box.obj", {0, 0, 0}, {0, 0, 0}, 1, {1, 1, 1}) +
+                                                "[[light]]\nposition = [0, 3, 3]\ncasts_shadow = true\n[[mirror]]\n" +
+                                                rectangleText({0, 1, -1}, {0, 0, 0}, 2, 2) + "roughness = 0.3\n");
+  for (const auto& [samples, warns] : {std::pair("256", false), std::pair("1024", true)}) {
+    const LogCapture log;
+    QuietSession session(headless(file, {4, 4}, {{"effects.rough_samples", samples}}));
+    runFrames(session, 3);
+    const std::string text = log.text();
+    const size_t first = text.find("2048 rays a pixel: this driver may end shaders");
+    EXPECT_EQ(first != std::string::npos, warns) << text;
+    EXPECT_EQ(text.find("rays a pixel", first == std::string::npos ? 0 : first + 10), std::string::npos) << "once";
+  }
+}
 
 }  // namespace
 }  // namespace speculum::ray_methods

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "frame/cube_face.hpp"
+#include "frame/mirror_sight.hpp"
 #include "geometry/affine.hpp"
 #include "geometry/reflection.hpp"
 #include "scene/beside_mirrors.hpp"
@@ -118,12 +119,28 @@ void TraceFrame::build(Frame& frame, const SceneState& state, const Settings& se
   if (effects.traces() && !rays_.hardware) {
     addHierarchy(state);
   }
+  warnOfManyRays(settings, effects);
   buffers_.write(frame, topNodes, topNodes_);
   buffers_.write(frame, instances, instances_);
   buffers_.write(frame, mirrors, mirrors_);
   buffers_.write(frame, mirrorEdges, mirrorEdges_);
   buffers_.write(frame, lightPaths, lightPathBytes(state, settings, effects));
   allocateSet(frame);
+}
+
+// lavapipe ends all loops of an invocation after 65 535 iterations, of which a ray takes some 40.
+void TraceFrame::warnOfManyRays(const Settings& settings, const TracedEffects& effects) {
+  constexpr size_t most = 1000;
+  const int samples = std::max(settings.view.samples, settings.reflection.samples);
+  const int rough = effects.roughRays ? roughRays(settings.effects, samples) : 1;
+  const size_t lights = (effects.shadowRays ? shadowLights(scene_).size() : 0) + effects.bouncedLights.size();
+  const size_t rays = static_cast<size_t>(rough) * (1 + lights);
+  if (device_.info().isCpu() && rays > most && !std::exchange(warnedOfRays_, true)) {
+    spdlog::warn(
+        "{} rays a pixel: this driver may end shaders before they have followed all, so that light is missing "
+        "(fewer lights that cast shadows, a lower effects.rough_samples, or another GPU)",
+        rays);
+  }
 }
 
 RayUse TraceFrame::chooseRays(const SceneState& state, RayMethod method) {

@@ -50,6 +50,7 @@ class TraceFrame {
   void create();
   void release(RetireQueue& retired);
   RayUse chooseRays(const SceneState& state, RayMethod method);
+  void warnOfManyRays(const Settings& settings, const TracedEffects& effects);
   void prepareStructures(Frame& frame, const SceneState& state, RayMethod method, bool traces);
   void allocateSet(Frame& frame);
   void addInstances(const SceneState& state, const Settings& settings);
@@ -76,6 +77,7 @@ class TraceFrame {
   int structureIdleFrames_ = 0;  // without ray queries
   bool refused_ = false;         // there was no memory for acceleration structures
   bool warned_ = false;          // the log says that effects.rays = hardware is not followed
+  bool warnedOfRays_ = false;    // the log says that the driver may leave some out
 };
 
 }  // namespace speculum
