@@ -480,7 +480,7 @@ TEST(EndedWindow, LostDeviceKeepsUnsavedWork) {
       kill -TERM $pid)",
       "export VK_ADD_LAYER_PATH=" + layer + " VK_INSTANCE_LAYERS=VK_LAYER_SPECULUM_fault NODEVICE_SELECT=1\n" +
           "export SPECULUM_FAULT='vkQueueSubmit 1 " + std::to_string(VK_ERROR_DEVICE_LOST) +
-          "' SPECULUM_FAULT_AFTER=$1.lost\n");
+          "' SPECULUM_FAULT_AFTER=$1.lost; rm -f $1.lost\n");
   EXPECT_EQ(result.exitCode, 0);
   EXPECT_TRUE(startsWith(result.output, "warning: unsaved changes are kept in "));
   EXPECT_TRUE(contains(result.output, "starting again"));
