@@ -104,7 +104,7 @@ INSTANTIATE_TEST_SUITE_P(
         UsageCase{{"bench", "--against-binary", "/bin/false"}, "/bin/false: bench ended with exit code 1"},
         UsageCase{{"bench", "--against-binary", "/bin/true"},
                   "/bin/true: bench --json wrote no times (a speculum is needed)"},
-        UsageCase{{"bench", "--reference", "--prices"}, "--reference: goes with no other measurement"},
+        UsageCase{{"bench", "--reference", "--prices"}, "--reference: measures alone"},
         UsageCase{{"bench", "--against-set", "view.samples=3"}, "--against-set: view.samples: '3'"}));
 
 TEST_F(CommandLine, MessagesCanBeReadWhateverTheyName) {
@@ -281,7 +281,7 @@ TEST_F(CommandLine, NoOutputReplacesAnotherOptionsFile) {
   const std::string frames = out("f%d.png");
   EXPECT_TRUE(
       contains(mistake({"render", "--scene", scene, "--frames", "3", "--out", frames, "--stats", out("f2.png")}),
-               "--stats: " + out("f2.png") + " is the file of --out"));
+               "--out: " + out("f2.png") + " is the file of --stats"));
   std::filesystem::copy_file(scene, out("index.html"));
   EXPECT_TRUE(contains(mistake({"accuracy", "--scene", out("index.html"), "--out", out_.path().string()}),
                        "--out: " + out("index.html") + " is the file of --scene"));

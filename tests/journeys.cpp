@@ -478,10 +478,10 @@ TEST(EndedWindow, LostDeviceKeepsUnsavedWork) {
       R"(touch "$SPECULUM_FAULT_AFTER"; xdotool key --window $window w 2>/dev/null
       until xdotool search --onlyvisible --name '^window_end - ' 2>/dev/null | grep -q .; do sleep 0.2; done
       kill -TERM $pid)",
-      "export VK_ADD_LAYER_PATH=" + layer + " VK_INSTANCE_LAYERS=VK_LAYER_SPECULUM_fault NODEVICE_SELECT=1\n" +
+      "export VK_ADD_LAYER_PATH='" + layer + "' VK_INSTANCE_LAYERS=VK_LAYER_SPECULUM_fault NODEVICE_SELECT=1\n" +
           "export SPECULUM_FAULT='vkQueueSubmit 1 " + std::to_string(VK_ERROR_DEVICE_LOST) +
-          "' SPECULUM_FAULT_AFTER=$1.lost; rm -f $1.lost\n");
-  EXPECT_EQ(result.exitCode, 0);
+          "' SPECULUM_FAULT_AFTER=\"$1.lost\"; rm -f \"$1.lost\"\n");
+  EXPECT_EQ(result.exitCode, 0) << result.output;
   EXPECT_TRUE(startsWith(result.output, "warning: unsaved changes are kept in "));
   EXPECT_TRUE(contains(result.output, "starting again"));
 }

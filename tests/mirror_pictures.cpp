@@ -198,7 +198,7 @@ std::vector<std::vector<uint8_t>> picturesInMemoryOf(int fill, const std::string
       pictures.push_back(draw(session, time).rgba);
     }
   }
-  ::mallopt(M_PERTURB, 1);  // as all tests
+  ::mallopt(M_PERTURB, 1);  // the value of MALLOC_PERTURB_ in tests/CMakeLists.txt
   return pictures;
 }
 

@@ -165,7 +165,8 @@ TEST(Skipping, SmallMirrorsDrawSmallPartsOfObjects) {
   }
 }
 
-// A random shape before mirrors of random size, and a mirror behind the eye that shows both once more.
+// Two objects of one random shape before six mirrors of random size, and a mirror behind the eye that shows all of them
+// once more.
 std::filesystem::path shapeScene(Random& random, std::mt19937& shapes) {
   writeModel("shape.obj", randomShape(shapes).obj());
   std::ostringstream toml;

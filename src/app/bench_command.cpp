@@ -270,7 +270,7 @@ void printBench(const nlohmann::ordered_json& merged, int measured) {
 int runBench(const Options& options) {
   const bool against = !options.againstBinary.empty() || !options.againstSettings.empty();
   if (options.benchReference && (against || options.benchPrices)) {
-    throw UsageError("--reference: goes with no other measurement (without --prices and --against-...)");
+    throw UsageError("--reference: measures alone (leave out --prices, --against-binary and --against-set)");
   }
   if (against) {
     return benchAgainst(options);

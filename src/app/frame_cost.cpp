@@ -51,9 +51,7 @@ void addRays(FrameWork& work, const PlannedPass& pass, double texels, int sample
              const Scene& scene, const SceneState& state, const EffectSettings& settings) {
   const TracedEffects& effects = plan.effects;
   const double points = settings.perSample ? samples : 1.0;  // of a texel, from which rays start
-  const double toLights = effects.shadowRays ? static_cast<double>(shadowLights(scene).size()) +
-                                                   2.0 * static_cast<double>(effects.bouncedLights.size())
-                                             : 0.0;
+  const auto toLights = static_cast<double>(effects.raysToLights(scene));
   const double reflected = points * (1.0 + toLights);
   if (!effects.shadowMaps) {
     work.lightRays += texels * points * toLights;

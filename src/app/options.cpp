@@ -4,14 +4,12 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 
 #include "app/output_files.hpp"
 #include "app/version.hpp"
 #include "frame/setting_fields.hpp"
-#include "platform/files.hpp"
 #include "scene/camera_text.hpp"
 #include "scene/nearest_key.hpp"
 #include "scene/value_range.hpp"

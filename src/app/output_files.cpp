@@ -2,7 +2,6 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include <array>
 #include <map>
 #include <vector>
 
@@ -20,18 +19,18 @@ struct NamedFile {
   fs::path file;
 };
 
+bool isSequence(const Options& options) {
+  return options.command == "render" && options.frames > 0;
+}
+
+// Returns the files that the command writes, without the pictures of a sequence.
 std::vector<NamedFile> outputsOf(const Options& options) {
   std::vector<NamedFile> outputs;
   if (options.command == "accuracy") {
     for (const char* name : {"results.json", "results.csv", "index.html"}) {
       outputs.push_back({"--out", options.out / name});
     }
-  } else if (options.command == "render" && options.frames > 0) {
-    const PictureSequence pictures(options.out, options.frames);
-    for (int i = 0; i < options.frames; ++i) {
-      outputs.push_back({"--out", pictures.at(i)});
-    }
-  } else {
+  } else if (!isSequence(options)) {
     outputs.push_back({"--out", options.out});
   }
   outputs.insert(outputs.end(), {{"--stats", options.stats},
@@ -43,27 +42,43 @@ std::vector<NamedFile> outputsOf(const Options& options) {
   return outputs;
 }
 
-// Files by what names them. Follows the links of each folder once.
+// Files in use, each with the option or the part of the scene that names it. Resolves the links of each folder only
+// once.
 class UsedFiles {
  public:
   void add(std::string_view name, const fs::path& file) {
     if (isFile(file)) {
-      used_.emplace(placeOf(file), name);
+      used_.emplace(resolved(file), name);
     }
   }
-  void addOutput(const NamedFile& output) {
-    std::error_code error;
-    if (fs::exists(output.file, error) && !isFile(output.file)) {
-      return;
+  void addOutputs(const Options& options) {
+    for (const auto& [option, file] : outputsOf(options)) {
+      if (isReplaced(file)) {
+        requireUnused(option, file);
+        used_.emplace(resolved(file), option);
+      }
     }
-    if (const auto [other, isNew] = used_.emplace(placeOf(output.file), output.option); !isNew) {
-      throw UsageError(fmt::format("{}: {} is the file of {} too (name another file)", output.option,
-                                   output.file.string(), other->second));
+    if (isSequence(options)) {
+      const PictureSequence pictures(options.out, options.frames);
+      for (int i = 0; i < options.frames; ++i) {
+        requireUnused("--out", pictures.at(i));
+      }
     }
   }
 
  private:
-  fs::path placeOf(const fs::path& file) {
+  // Devices and pipes are not.
+  static bool isReplaced(const fs::path& file) {
+    std::error_code error;
+    return !fs::exists(file, error) || isFile(file);
+  }
+  void requireUnused(std::string_view option, const fs::path& file) {
+    if (const auto other = used_.find(resolved(file)); other != used_.end() && isReplaced(file)) {
+      throw UsageError(
+          fmt::format("{}: {} is the file of {} too (name another file)", option, file.string(), other->second));
+    }
+  }
+  fs::path resolved(const fs::path& file) {
     std::error_code error;
     if (fs::is_symlink(file, error)) {
       return withoutLinks(file);
@@ -90,13 +105,12 @@ void requireFilesOfTheirOwn(const Options& options) {
         NamedFile{"--against-binary", options.againstBinary}}) {
     used.add(option, file);
   }
-  for (const NamedFile& output : outputsOf(options)) {
-    used.addOutput(output);
-  }
+  used.addOutputs(options);
 }
 
 void requireFilesOfTheirOwn(const Options& options, const Scene& scene) {
   UsedFiles used;
+  used.add("--scene", scene.file);
   for (const Mesh& mesh : scene.meshes) {
     used.add("a model of the scene", mesh.source);
     for (const fs::path& file : mesh.materialFiles) {
@@ -106,9 +120,7 @@ void requireFilesOfTheirOwn(const Options& options, const Scene& scene) {
   for (const Texture& texture : scene.textures) {
     used.add("a texture of the scene", texture.source);
   }
-  for (const NamedFile& output : outputsOf(options)) {
-    used.addOutput(output);
-  }
+  used.addOutputs(options);
 }
 
 }  // namespace speculum

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <fstream>
 #include <iostream>
 #include <map>
 #include <set>
@@ -149,7 +150,11 @@ void writeReports(const Options& options, const RegressRun& run) {
     std::fputs(githubErrors(run).c_str(), stdout);
   }
   if (const std::string file = environment("GITHUB_STEP_SUMMARY"); !file.empty()) {
-    writeText(file, readTextIfAny(file) + githubSummary(run));
+    // Other steps add to this file as well, so it is not replaced.
+    std::ofstream stream(file, std::ios::app);
+    if (!(stream << githubSummary(run)).flush()) {
+      throw FileError(file, "cannot be written", "check the folder's permissions and free space");
+    }
   }
 }
 
@@ -178,7 +183,14 @@ void requireFilesOfItsOwn(const Options& options, const std::vector<RegressCase>
   }
   std::set<std::filesystem::path> updated;
   for (const RegressCase& subject : drawn) {
-    updated.insert(options.update ? withoutLinks(subject.picture) : std::filesystem::path());
+    if (options.update && matches(*options.update, subject.name)) {
+      updated.insert(withoutLinks(subject.picture));
+      for (const Expectation& expectation : subject.expect) {
+        if (expectation.picture) {
+          updated.insert(withoutLinks(*expectation.picture));
+        }
+      }
+    }
   }
   for (const RegressCase& subject : cases) {
     if (subject.mask && updated.contains(withoutLinks(*subject.mask))) {

@@ -251,14 +251,6 @@ std::vector<ShadowMap> shadowMaps(const Scene& scene, const SceneState& state, c
 
 void reuseShadowMaps(std::vector<ShadowMap>& maps, std::span<const ShadowMap> before, const Settings& settings,
                      const Scene& scene, const SceneState& state, const SceneChanges* changes) {
-  const bool skips = changes && settings.reflection.skipUnchanged;
-  const bool reuses = std::ranges::equal(
-      maps, before, [](const auto& a, const auto& b) { return a.light == b.light && a.size == b.size; });
-  uint64_t serial = 0;
-  for (const ShadowMap& map : before) {
-    serial = std::max(serial, map.serial);
-  }
-  const uint64_t next = serial + 1;
   constexpr size_t mostCompared = 4'000'000;  // instances of all faces; more would take too much memory
   size_t instances = 0;
   for (const ShadowMap& map : maps) {
@@ -267,6 +259,14 @@ void reuseShadowMaps(std::vector<ShadowMap>& maps, std::span<const ShadowMap> be
     }
   }
   const bool compares = changes && instances <= mostCompared;
+  const bool skips = compares && settings.reflection.skipUnchanged;
+  const bool reuses = std::ranges::equal(
+      maps, before, [](const auto& a, const auto& b) { return a.light == b.light && a.size == b.size; });
+  uint64_t serial = 0;
+  for (const ShadowMap& map : before) {
+    serial = std::max(serial, map.serial);
+  }
+  const uint64_t next = serial + 1;
   for (size_t i = 0; i < maps.size(); ++i) {
     maps[i].serial = reuses ? before[i].serial : next;
     for (size_t f = 0; f < maps[i].faces.size(); ++f) {
@@ -274,7 +274,7 @@ void reuseShadowMaps(std::vector<ShadowMap>& maps, std::span<const ShadowMap> be
       const ShadowFace* old = reuses ? &before[i].faces[f] : nullptr;
       if (face.read) {
         face.content = compares ? shadowContent(*changes, face, face.pass) : std::vector<uint64_t>();
-        face.rendered = !skips || !compares || !old || old->content != face.content;
+        face.rendered = !skips || !old || old->content != face.content;
         maps[i].serial = face.rendered ? next : maps[i].serial;
       } else if (old) {
         face.content = old->content;

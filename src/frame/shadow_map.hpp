@@ -23,9 +23,10 @@ struct ShadowReader {
 std::vector<ShadowMap> shadowMaps(const Scene& scene, const SceneState& state, const Settings& settings,
                                   std::span<const ShadowReader> readers);
 
-// Finds the faces that must be rendered: those that are read, and that differ from what the frame before left, or all
-// of them without reflection.skip_unchanged or `changes`. In a face that changes again, what stands still is rendered
-// to a layer.
+// Finds the faces that must be rendered: those that are read, and that differ from what the frame before left. Without
+// reflection.skip_unchanged or `changes`, and if all faces together draw more than four million instances, which would
+// take too much memory to compare, these are all faces that are read. In a face that changes again, what stands still
+// is rendered to a layer.
 void reuseShadowMaps(std::vector<ShadowMap>& maps, std::span<const ShadowMap> before, const Settings& settings,
                      const Scene& scene, const SceneState& state, const SceneChanges* changes);
 

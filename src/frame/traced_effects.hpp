@@ -18,6 +18,9 @@ struct BouncedLight {
   int mirror = 0;  // index into Scene::mirrors
 };
 
+// Lights that cast shadows and are not black, indices into Scene::lights, ascending.
+std::vector<int> shadowLights(const Scene& scene);
+
 // Effects that may need rays, and what of them traces rays in this frame. An effect names the first node that calls for
 // it, if anything drawn does.
 struct TracedEffects {
@@ -41,12 +44,14 @@ struct TracedEffects {
   // Says whether rays follow reflections. They may meet anything in the scene.
   bool reflects() const { return roughRays || curvedRays || rippleRays || mirrorRays; }
   bool any() const { return traces() || castsLight; }
+  // Returns the rays that a traced point sends to lights: one to each of shadowLights(), two by way of a mirror.
+  size_t raysToLights(const Scene& scene) const {
+    return shadowRays ? shadowLights(scene).size() + 2 * bouncedLights.size() : 0;
+  }
 };
 
 // Most lights whose shadows are looked up; a scene with more traces them.
 inline constexpr size_t mostShadowMaps = 16;
-// Lights that cast shadows and are not black, indices into Scene::lights, ascending.
-std::vector<int> shadowLights(const Scene& scene);
 
 // Finds the effects that these passes call for, under settings.effects. Pure.
 TracedEffects tracedEffects(const Scene& scene, const SceneState& state, const Settings& settings,

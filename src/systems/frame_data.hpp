@@ -78,11 +78,12 @@ class FrameData {
   explicit FrameData(Device& device);
 
   VkDescriptorSetLayout layout() const { return layout_.get(); }
-  // Throws if the plan draws more instances than the device can take.
+  // Throws std::runtime_error if the plan draws more instances than a buffer of the device takes. Call it before
+  // targets are made.
   void requireFits(const FramePlan& plan) const;
-  // Fills the buffers of this frame in flight. The plan fits. Afterwards passes()[i] belongs to plan.passes[i], the
-  // next to the main view, those after it to the faces of the environment maps and then of the shadow maps that this
-  // frame renders, each after its layer, and set() is valid until the frame has finished.
+  // Fills the buffers of this frame in flight, for a plan that passed requireFits(). Afterwards passes()[i] belongs to
+  // plan.passes[i], the next to the main view, those after it to the faces of the environment maps and then of the
+  // shadow maps that this frame renders, each after its layer, and set() is valid until the frame has finished.
   void build(Frame& frame, const SceneResources& resources, const Scene& scene, const SceneState& state,
              const Settings& settings, const Environment& environment, const FramePlan& plan);
 

@@ -44,7 +44,8 @@ class SceneRenderer {
   // Records every pass up to the display pass. `plan` was made with cache(), `settings` are those of FittedPlan. With
   // view.accumulate above 1, adds the picture to the mean (see Accumulation) and, if `shown`, shows the mean. `debug`
   // shows the target of the last complete picture, if keepsTarget(). The last picture of a mean can be drawn again, for
-  // another target: it is not added twice.
+  // another target: it is not added twice. Throws std::runtime_error, before anything is made, if the plan draws more
+  // instances than the device takes.
   void record(Frame& frame, const SceneState& state, const Settings& settings, const FramePlan& plan,
               const std::optional<DebugView>& debug = std::nullopt, bool shown = true);
   // Pictures in the mean that the last recorded frame shows; 0 without one. Until plan.tiles reach the end of a

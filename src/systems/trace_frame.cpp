@@ -128,17 +128,17 @@ void TraceFrame::build(Frame& frame, const SceneState& state, const Settings& se
   allocateSet(frame);
 }
 
-// lavapipe ends all loops of an invocation after 65 535 iterations, of which a ray takes some 40.
+// lavapipe ends all loops of an invocation after 65 535 iterations, of which a ray takes some 40. Each sample of a
+// rough mirror is an invocation of its own.
 void TraceFrame::warnOfManyRays(const Settings& settings, const TracedEffects& effects) {
   constexpr size_t most = 1000;
-  const int samples = std::max(settings.view.samples, settings.reflection.samples);
-  const int rough = effects.roughRays ? roughRays(settings.effects, samples) : 1;
-  const size_t lights = (effects.shadowRays ? shadowLights(scene_).size() : 0) + effects.bouncedLights.size();
-  const size_t rays = static_cast<size_t>(rough) * (1 + lights);
+  const int samples = std::min(settings.view.samples, settings.reflection.samples);  // the fewest send the most rays
+  const int rough = effects.roughRays ? roughRays(settings.effects, samples) / samples : 1;
+  const size_t rays = static_cast<size_t>(rough) * (1 + effects.raysToLights(scene_));
   if (device_.info().isCpu() && rays > most && !std::exchange(warnedOfRays_, true)) {
     spdlog::warn(
-        "{} rays a pixel: this driver may end shaders before they have followed all, so that light is missing "
-        "(fewer lights that cast shadows, a lower effects.rough_samples, or another GPU)",
+        "{} rays a sample: this driver may end a shader before it has followed all of them, so that light is "
+        "missing (fewer lights that cast shadows, a lower effects.rough_samples, or another GPU)",
         rays);
   }
 }
