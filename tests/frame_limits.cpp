@@ -157,7 +157,7 @@ TEST(PlanLimits, MapsOfManyObjectsPlanWithinTheBounds) {
   expectPlanned(lights, "shadow maps");
 }
 
-TEST(PlanLimits, ShadowMapsOfAMillionCopiesPlanWithinTheBounds) {
+TEST(PlanLimits, ShadowMapsOfCopiesPlanWithinTheBounds) {
   const TemporaryFolder folder;
   const auto model = folder.write("t.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   std::string text = deep + "effects.shadow_lookup = 'map'\n[[object]]\nmodel = '" + model.string() +

@@ -73,7 +73,7 @@ class UsedFiles {
     return !fs::exists(file, error) || isFile(file);
   }
   void requireUnused(std::string_view option, const fs::path& file) {
-    if (const auto other = used_.find(resolved(file)); other != used_.end() && isReplaced(file)) {
+    if (const auto other = used_.find(resolved(file)); other != used_.end()) {
       throw UsageError(
           fmt::format("{}: {} is the file of {} too (name another file)", option, file.string(), other->second));
     }

@@ -28,8 +28,8 @@ struct View {
 
 // Returns the depth along the axis of view, in metres, below which the depth test keeps no order: smaller than that of
 // anything drawn, at most the camera's near and 1 mm, and no smaller than needed, because GPUs are slow with tiny
-// depths. Within 1/1000 of its radius, an object around the eye may be drawn out of order. Uses only the
-// focal length and aspect of `projection`.
+// depths. Within 1/1000 of its radius, an object around the eye may be drawn out of order. Uses only the focal length
+// and aspect of `projection`.
 double nearOf(const SceneState& state, const Projection& projection);
 
 // The camera's view of a picture of `width` x `height` pixels.

@@ -88,7 +88,7 @@ TEST(MirrorsOfFewPixels, LeaveOutTheirAreaAtMost) {
   expectBoundedChange(1.0, 3.0);
 }
 
-TEST(MirrorsOfFewPixels, BelowAPixelLeaveOutTheirAreaAtMost) {
+TEST(MirrorsOfFewPixels, BelowAPixelLeaveOutTheirArea) {
   expectBoundedChange(0.2, 1.0);
 }
 
