@@ -134,6 +134,7 @@ struct Summary {
 using Setting = std::pair<std::string, std::string>;
 const std::vector<std::vector<Setting>> fixedSettings = {
     {},
+    {{"view.samples", "4"}},
     {{"reflection.method", "auto"}},
     {{"reflection.max_passes", "32"}},
     {{"reflection.max_passes", "16"}},
@@ -188,7 +189,9 @@ void measureFixed(const Options& options) {
     for (const auto& [key, value] : settings) {
       text += ", " + key + " " + value;
     }
-    if (const double error = meanError(options, kept->first.shown); error < best) {
+    const double error = meanError(options, kept->first.shown);
+    std::fprintf(stderr, "%s: FLIP %.4f\n", text.c_str(), error);
+    if (error < best) {
       best = error;
       about = text;
     }
