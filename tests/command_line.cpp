@@ -259,10 +259,22 @@ TEST_F(CommandLine, NoOutputReplacesFilesOfTheScene) {
        {std::pair("a.obj", "model"), std::pair("a.mtl", "material"), std::pair("wood.png", "texture")}) {
     EXPECT_TRUE(contains(
         mistake({"render", "--scene", out("a.toml"), "--size", "4x4", "--out", out("b.png"), "--stats", out(name)}),
-        "--stats: " + out(name) + " is the file of a " + kind + " of the scene too"));
+        "--stats: " + out(name) + " is a " + kind + " of the scene too"));
   }
   EXPECT_TRUE(contains(mistake({"reference", "--scene", out("a.toml"), "--size", "4x4", "--out", out("wood.png")}),
                        "--out: " + out("wood.png")));
+}
+
+TEST_F(CommandLine, NoOutputReplacesASceneThatIsNamedWithoutItsPath) {
+  const std::filesystem::path scene = out_.path() / "scenes/a.toml";
+  std::filesystem::create_directory(scene.parent_path());
+  std::filesystem::copy_file(scene_, scene);
+  // The program looks for scenes in the folder that holds it.
+  std::filesystem::copy_file(program, out_.path() / "speculum");
+  const ProcessResult result = runProcess(
+      {out("speculum"), "render", "--scene", "a", "--size", "4x4", "--out", out("a.png"), "--stats", scene.string()});
+  EXPECT_EQ(result.exitCode, 2);
+  EXPECT_TRUE(contains(result.output, "--stats: " + scene.string() + " is the file of --scene too")) << result.output;
 }
 
 TEST_F(CommandLine, NoOutputReplacesAnotherOptionsFile) {
@@ -363,6 +375,14 @@ TEST_F(CommandLine, StatsFollowTheirContract) {
   }
   EXPECT_EQ(stats["totals"]["validation_messages"], 0);
   EXPECT_EQ(stats["totals"]["non_finite"], 0);
+}
+
+TEST_F(CommandLine, AFolderWithoutShadersIsRefused) {
+  const TemporaryDirectory shaders;
+  std::filesystem::copy(scene_, shaders.path());
+  EXPECT_TRUE(contains(mistake({"render", "--scene", scene_, "--size", "4x4", "--out", out("a.png"), "--shader-dir",
+                                shaders.path().string()}),
+                       shaders.path().string() + ": holds no file with the name of a shader"));
 }
 
 TEST_F(CommandLine, NegativeRadianceExitsOne) {

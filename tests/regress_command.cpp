@@ -69,7 +69,8 @@ TEST_F(RegressCommand, UpdateReplacesNoMask) {
   writeCases("[[case]]\nscene = 'room.toml'\nmask = 'room.png'\n");
   const ProcessResult result = regress({"--update"});
   EXPECT_EQ(result.exitCode, 2);
-  EXPECT_TRUE(contains(result.output, "--update: would replace " + (folder_ / "room.png").string() + ", the mask of"));
+  EXPECT_TRUE(
+      contains(result.output, "--update: " + (folder_ / "room.png").string() + " is the mask of case 'room' too"));
   EXPECT_EQ(readImage8(folder_ / "room.png").rgba, Image8(320, 180).rgba);
 }
 
@@ -201,7 +202,13 @@ TEST_F(RegressCommand, ReportsReplaceNothingThatCasesRead) {
     writeCases(std::string("[[case]]\nscene = 'room.toml'\n") + read + "\n");
     const ProcessResult result = regress({});
     EXPECT_EQ(result.exitCode, 2);
-    EXPECT_TRUE(contains(result.output, "--out: the report would replace ")) << result.output;
+    EXPECT_TRUE(contains(result.output, " is a file of case 'room' too")) << result.output;
+  }
+  writeCases(roomCase);
+  for (const char* junit : {"room.toml", "out/room.actual.png"}) {
+    const ProcessResult result = regress({"--junit", (folder_ / junit).string()});
+    EXPECT_EQ(result.exitCode, 2);
+    EXPECT_TRUE(contains(result.output, "--junit: ")) << result.output;
   }
   EXPECT_TRUE(std::filesystem::exists(folder_ / "out/room.flip.png"));
 }

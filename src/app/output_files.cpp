@@ -2,7 +2,6 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include <map>
 #include <vector>
 
 #include "app/picture_sequence.hpp"
@@ -42,59 +41,49 @@ std::vector<NamedFile> outputsOf(const Options& options) {
   return outputs;
 }
 
-// Files in use, each with the option or the part of the scene that names it. Resolves the links of each folder only
-// once.
-class UsedFiles {
- public:
-  void add(std::string_view name, const fs::path& file) {
-    if (isFile(file)) {
-      used_.emplace(resolved(file), name);
+void addOutputs(UsedFiles& used, const Options& options) {
+  for (const auto& [option, file] : outputsOf(options)) {
+    used.requireUnused(option, file);
+    used.add(fmt::format("the file of {}", option), file);
+  }
+  if (isSequence(options)) {
+    const PictureSequence pictures(options.out, options.frames);
+    for (int i = 0; i < options.frames; ++i) {
+      used.requireUnused("--out", pictures.at(i));
     }
   }
-  void addOutputs(const Options& options) {
-    for (const auto& [option, file] : outputsOf(options)) {
-      if (isReplaced(file)) {
-        requireUnused(option, file);
-        used_.emplace(resolved(file), option);
-      }
-    }
-    if (isSequence(options)) {
-      const PictureSequence pictures(options.out, options.frames);
-      for (int i = 0; i < options.frames; ++i) {
-        requireUnused("--out", pictures.at(i));
-      }
-    }
-  }
-
- private:
-  // Devices and pipes are not.
-  static bool isReplaced(const fs::path& file) {
-    std::error_code error;
-    return !fs::exists(file, error) || isFile(file);
-  }
-  void requireUnused(std::string_view option, const fs::path& file) {
-    if (const auto other = used_.find(resolved(file)); other != used_.end()) {
-      throw UsageError(
-          fmt::format("{}: {} is the file of {} too (name another file)", option, file.string(), other->second));
-    }
-  }
-  fs::path resolved(const fs::path& file) {
-    std::error_code error;
-    if (fs::is_symlink(file, error)) {
-      return withoutLinks(file);
-    }
-    const auto [folder, isNew] = folders_.try_emplace(file.parent_path());
-    if (isNew) {
-      folder->second = withoutLinks(file.has_parent_path() ? file.parent_path() : fs::path("."));
-    }
-    return folder->second / file.filename();
-  }
-
-  std::map<fs::path, std::string> used_;
-  std::map<fs::path, fs::path> folders_;
-};
+}
 
 }  // namespace
+
+void UsedFiles::add(std::string_view words, const fs::path& file) {
+  if (!file.empty() && isReplaced(file)) {
+    used_.emplace(resolved(file), words);
+  }
+}
+
+void UsedFiles::requireUnused(std::string_view option, const fs::path& file) {
+  if (const auto other = used_.find(resolved(file)); other != used_.end()) {
+    throw UsageError(fmt::format("{}: {} is {} too (name another file)", option, file.string(), other->second));
+  }
+}
+
+bool UsedFiles::isReplaced(const fs::path& file) {
+  std::error_code error;
+  return !fs::exists(file, error) || isFile(file);
+}
+
+fs::path UsedFiles::resolved(const fs::path& file) {
+  std::error_code error;
+  if (fs::is_symlink(file, error)) {
+    return withoutLinks(file);
+  }
+  const auto [folder, isNew] = folders_.try_emplace(file.parent_path());
+  if (isNew) {
+    folder->second = withoutLinks(file.has_parent_path() ? file.parent_path() : fs::path("."));
+  }
+  return folder->second / file.filename();
+}
 
 void requireFilesOfTheirOwn(const Options& options) {
   UsedFiles used;
@@ -103,14 +92,14 @@ void requireFilesOfTheirOwn(const Options& options) {
         NamedFile{"--sweep-results", options.sweepResults}, NamedFile{"reference", options.reference},
         NamedFile{"test", options.test}, NamedFile{"cases", options.cases},
         NamedFile{"--against-binary", options.againstBinary}}) {
-    used.add(option, file);
+    used.add(fmt::format("the file of {}", option), file);
   }
-  used.addOutputs(options);
+  addOutputs(used, options);
 }
 
 void requireFilesOfTheirOwn(const Options& options, const Scene& scene) {
   UsedFiles used;
-  used.add("--scene", scene.file);
+  used.add("the file of --scene", scene.file);
   for (const Mesh& mesh : scene.meshes) {
     used.add("a model of the scene", mesh.source);
     for (const fs::path& file : mesh.materialFiles) {
@@ -120,7 +109,7 @@ void requireFilesOfTheirOwn(const Options& options, const Scene& scene) {
   for (const Texture& texture : scene.textures) {
     used.add("a texture of the scene", texture.source);
   }
-  used.addOutputs(options);
+  addOutputs(used, options);
 }
 
 }  // namespace speculum

@@ -5,12 +5,11 @@
 #include <cstdio>
 #include <fstream>
 #include <iostream>
-#include <map>
-#include <set>
 #include <thread>
 
 #include "app/case_drawer.hpp"
 #include "app/commands.hpp"
+#include "app/output_files.hpp"
 #include "app/progress.hpp"
 #include "app/session_subject.hpp"
 #include "app/stats.hpp"
@@ -169,45 +168,47 @@ void printOutcomes(const RegressRun& run, const std::filesystem::path& page) {
   std::printf("%s; %s\n", summary(run).c_str(), page.c_str());
 }
 
-// Refuses a report whose files would replace those that cases read.
+// Returns the pictures that a case is compared with.
+std::vector<std::filesystem::path> picturesOf(const RegressCase& subject) {
+  std::vector<std::filesystem::path> pictures{subject.picture};
+  for (const Expectation& expectation : subject.expect) {
+    if (expectation.picture) {
+      pictures.push_back(*expectation.picture);
+    }
+  }
+  return pictures;
+}
+
+// Refuses a report whose files would replace those that cases read, and pictures to update that are masks.
 void requireFilesOfItsOwn(const Options& options, const std::vector<RegressCase>& drawn,
                           const std::vector<RegressCase>& cases) {
-  std::map<std::filesystem::path, const char*> written{{withoutLinks(options.out / "index.html"), "--out"}};
-  for (const RegressCase& subject : drawn) {
-    for (const std::filesystem::path& file : CaseFiles(options.out, subject.name).all()) {
-      written[withoutLinks(file)] = "--out";
+  UsedFiles masks;
+  UsedFiles read;
+  for (const RegressCase& subject : cases) {
+    masks.add(fmt::format("the mask of case '{}'", subject.name), subject.mask.value_or(""));
+    const std::string words = fmt::format("a file of case '{}'", subject.name);
+    read.add(words, subject.scene);
+    read.add(words, subject.mask.value_or(""));
+    for (const std::filesystem::path& picture : picturesOf(subject)) {
+      read.add(words, picture);
     }
   }
-  if (!options.junit.empty() && !written.emplace(withoutLinks(options.junit), "--junit").second) {
-    throw UsageError("--junit: " + options.junit.string() + " is a file of the report (name another file)");
-  }
-  std::set<std::filesystem::path> updated;
+  std::vector<std::filesystem::path> report{options.out / "index.html"};
   for (const RegressCase& subject : drawn) {
     if (options.update && matches(*options.update, subject.name)) {
-      updated.insert(withoutLinks(subject.picture));
-      for (const Expectation& expectation : subject.expect) {
-        if (expectation.picture) {
-          updated.insert(withoutLinks(*expectation.picture));
-        }
+      for (const std::filesystem::path& picture : picturesOf(subject)) {
+        masks.requireUnused("--update", picture);
       }
     }
+    const std::vector<std::filesystem::path> files = CaseFiles(options.out, subject.name).all();
+    report.insert(report.end(), files.begin(), files.end());
   }
-  for (const RegressCase& subject : cases) {
-    if (subject.mask && updated.contains(withoutLinks(*subject.mask))) {
-      throw UsageError(fmt::format("--update: would replace {}, the mask of case '{}' (name another picture)",
-                                   subject.mask->string(), subject.name));
-    }
-    std::vector<std::filesystem::path> read{subject.scene, subject.picture, subject.mask.value_or("")};
-    for (const Expectation& expectation : subject.expect) {
-      read.push_back(expectation.picture.value_or(""));
-    }
-    for (const std::filesystem::path& file : read) {
-      const auto found = file.empty() ? written.end() : written.find(withoutLinks(file));
-      if (found != written.end()) {
-        throw UsageError(fmt::format("{}: the report would replace {} of case '{}' (choose another place)",
-                                     found->second, file.string(), subject.name));
-      }
-    }
+  for (const std::filesystem::path& file : report) {
+    read.requireUnused("--out", file);
+    read.add("a file of the report", file);
+  }
+  if (!options.junit.empty()) {
+    read.requireUnused("--junit", options.junit);
   }
 }
 

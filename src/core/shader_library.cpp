@@ -38,6 +38,12 @@ std::vector<fs::path> sourcesIn(const fs::path& depfile, const fs::path& folder)
   return sources;
 }
 
+bool holdsAnyShader(const fs::path& glslDir, const fs::path& spirvDir) {
+  return std::ranges::any_of(fs::directory_iterator(spirvDir), [&](const fs::directory_entry& spirv) {
+    return spirv.path().extension() == ".spv" && isFile(glslDir / spirv.path().stem());
+  });
+}
+
 fs::file_time_type newest(const std::vector<fs::path>& files) {
   fs::file_time_type time = fs::file_time_type::min();
   for (const fs::path& file : files) {
@@ -52,9 +58,8 @@ fs::file_time_type newest(const std::vector<fs::path>& files) {
 ShaderLibrary::ShaderLibrary(Device& device, fs::path spirvDir, fs::path glslDir)
     : device_(device), spirvDir_(std::move(spirvDir)), glslDir_(std::move(glslDir)) {
   if (watching()) {
-    if (!isFolder(glslDir_)) {
-      throw std::runtime_error("--shader-dir: " + glslDir_.string() +
-                               " is not a directory (give the one with the GLSL files)");
+    if (!holdsAnyShader(glslDir_, spirvDir_)) {
+      throw FileError(glslDir_, "holds no file with the name of a shader", "--shader-dir takes a copy of shaders/");
     }
     output_.emplace();
   }

@@ -1,4 +1,6 @@
 // Random scenes that join hard cases: the rasteriser against the tracer, and with each debug switch against itself.
+#include <gtest/gtest-spi.h>
+
 #include "app/session.hpp"
 #include "image/color.hpp"
 #include "random_scene.hpp"
@@ -161,17 +163,17 @@ Image8 expectNoSwitchMatters(Drawn& drawn, const Settings& settings, const std::
   return picture;
 }
 
-TEST_P(RandomScenes, AreDrawnAsTraced) {
-  const RandomScene scene = randomScene(GetParam());
+// Returns how many of its views saw a mirror.
+int compare(Gpu& gpu, const RandomScene& scene) {
   const Settings settings = settingsWith(scene.settings);
-  Drawn plain(*gpu_, scene.file, scene.time);
+  Drawn plain(gpu, scene.file, scene.time);
   std::optional<Drawn> withEffects;
   if (scene.withEffects != scene.file) {
-    withEffects.emplace(*gpu_, scene.withEffects, scene.time);
+    withEffects.emplace(gpu, scene.withEffects, scene.time);
   }
   int views = 0;
   for (size_t view = 0; view < plain.views() && views < mostViews(); ++view) {
-    const std::string name = scene.kind + "_" + std::to_string(GetParam()) + "_" + std::to_string(view);
+    const std::string name = scene.name + "_" + scene.kind + "_" + std::to_string(view);
     plain.look(view);
     if (share(plain.tracing({16, 9}, 1).result().mirrorDepth, 1) < 0.02) {
       continue;
@@ -192,8 +194,50 @@ TEST_P(RandomScenes, AreDrawnAsTraced) {
       }
     }
   }
+  return views;
+}
+
+TEST_P(RandomScenes, AreDrawnAsTraced) {
+  const RandomScene scene = randomScene(GetParam());
   scenes_ += 1;
-  views_ += views;
+  views_ += compare(*gpu_, scene);
+  if (HasFailure()) {
+    const RandomScene least = smallest(scene, [&](const RandomScene& smaller) {
+      testing::TestPartResultArray results;
+      const testing::ScopedFakeTestPartResultReporter reporter(
+          testing::ScopedFakeTestPartResultReporter::INTERCEPT_ONLY_CURRENT_THREAD, &results);
+      try {
+        compare(*gpu_, smaller);
+      } catch (const std::exception&) {
+        return false;
+      }
+      return results.size() > 0;
+    });
+    compare(*gpu_, least);  // again, for the pictures
+    std::printf("The smallest scene that fails: %s at %g s, with", least.withEffects.c_str(), least.time);
+    for (const auto& [key, value] : least.settings) {
+      std::printf(" --set %s=%s", key.c_str(), value.c_str());
+    }
+    std::printf("\n");
+  }
+}
+
+TEST(SmallestScene, KeepsTheTablesWithoutWhichItDoesNotFail) {
+  const auto count = [](const RandomScene& scene, const std::string& table) {
+    const std::string text = readText(scene.file);
+    int count = 0;
+    for (size_t at = text.find(table); at != std::string::npos; at = text.find(table, at + 1)) {
+      ++count;
+    }
+    return count;
+  };
+  const RandomScene scene = randomScene(1);
+  ASSERT_GT(count(scene, "[[mirror]]"), 2);
+  const RandomScene least = smallest(scene, [&](const RandomScene& smaller) {
+    return count(smaller, "[[mirror]]") >= 2 && count(smaller, "[camera]") == 1;
+  });
+  EXPECT_EQ(count(least, "[[mirror]]"), 2);
+  EXPECT_EQ(count(least, "\n["), 2) << readText(least.file);
 }
 
 // SPECULUM_SEED is added to each.

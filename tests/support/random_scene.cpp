@@ -291,6 +291,15 @@ Sight corner(Builder& b) {
   return {{b.number(-0.75, 0.75) + 0.1, b.number(-0.5, 0.5), b.number(1, 4)}, {b.number(-0.5, 0.5), 0, -2}};
 }
 
+void writeFiles(RandomScene& scene) {
+  std::string text = scene.text;
+  scene.file = writeScene(scene.name, text);
+  for (size_t mark = text.find(effectMark); mark != std::string::npos; mark = text.find(effectMark)) {
+    text.erase(mark, effectMark.size());
+  }
+  scene.withEffects = text == scene.text ? scene.file : writeScene(scene.name + "_effects", text);
+}
+
 }  // namespace
 
 RandomScene randomScene(unsigned seed) {
@@ -316,13 +325,9 @@ RandomScene randomScene(unsigned seed) {
   static constexpr std::array<const char*, 6> scales = {"0.5", "0.7", "1", "1", "1", "2"};
   static constexpr std::array<const char*, 3> samples = {"1", "1", "4"};
   RandomScene scene;
-  const std::string name = "random_" + std::to_string(seed);
-  std::string text = b.out.str();
-  scene.file = writeScene(name, text);
-  for (size_t mark = text.find(effectMark); mark != std::string::npos; mark = text.find(effectMark)) {
-    text.erase(mark, effectMark.size());
-  }
-  scene.withEffects = text == b.out.str() ? scene.file : writeScene(name + "_effects", text);
+  scene.name = "random_" + std::to_string(seed);
+  scene.text = b.out.str();
+  writeFiles(scene);
   scene.kind = kind.name;
   // Limits passes to about a hundred if each mirror shows each other.
   scene.maxDepth = b.count(1, std::clamp(static_cast<int>(std::log(100.0) / std::log(b.mirrors() - 0.8)), 1, 32));
@@ -339,6 +344,37 @@ RandomScene randomScene(unsigned seed) {
                     {"effects.curved_lookup", random.chance(0.5) ? "environment" : "traced"},
                     {"effects.environment_size", "32"},
                     {"reflection.update_interval", random.chance(0.2) ? "2" : "1"}};
+  return scene;
+}
+
+RandomScene smallest(RandomScene scene, const std::function<bool(const RandomScene&)>& fails) {
+  const std::string whole = scene.text;
+  scene.name += "_smallest";
+  std::vector<std::string> tables;
+  for (size_t begin = 0; begin < whole.size();) {
+    const size_t next = std::min(whole.find("\n[", begin), whole.size() - 1) + 1;
+    tables.push_back(whole.substr(begin, next - begin));
+    begin = next;
+  }
+  const auto join = [&](const std::vector<std::string>& parts) {
+    scene.text.clear();
+    for (const std::string& part : parts) {
+      scene.text += part;
+    }
+    writeFiles(scene);
+  };
+  for (size_t kept = SIZE_MAX; tables.size() < kept;) {
+    kept = tables.size();
+    for (size_t i = tables.size(); i-- > 0;) {
+      std::vector<std::string> without = tables;
+      without.erase(without.begin() + static_cast<std::ptrdiff_t>(i));
+      join(without);
+      if (fails(scene)) {
+        tables = std::move(without);
+      }
+    }
+  }
+  join(tables);
   return scene;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -8,6 +9,8 @@ namespace speculum::testing_support {
 
 // A valid scene that joins hard cases, the same for the same seed.
 struct RandomScene {
+  std::string name;
+  std::string text;                   // TOML, with a mark before each line that only `withEffects` has
   std::filesystem::path file;         // without shadows, ripples, rough and curved mirrors, light off mirrors
   std::filesystem::path withEffects;  // with some of them, or the same
   std::string kind;                   // of its mirrors, such as "prism"
@@ -21,5 +24,9 @@ struct RandomScene {
 // 1e7 m from the origin; copies, motion, fields of view of 1 to 170 degrees; the eye may be 1 um from a mirror. Further
 // views are bookmarks.
 RandomScene randomScene(unsigned seed);
+
+// Leaves out tables for as long as the scene `fails`. Afterwards it fails, and no longer does without any single table.
+// A table that others need makes the scene invalid, for which `fails` should return false.
+RandomScene smallest(RandomScene scene, const std::function<bool(const RandomScene&)>& fails);
 
 }  // namespace speculum::testing_support
