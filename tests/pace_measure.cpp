@@ -109,7 +109,11 @@ double meanError(const Options& options, const std::vector<Shown>& shown) {
   };
   double sum = 0.0;
   for (const Shown& at : shown) {
-    sum += compareImages(comparedImage(draw(at, full)), comparedImage(draw(at, at.settings))).whole.flip;
+    const double flip = compareImages(comparedImage(draw(at, full)), comparedImage(draw(at, at.settings))).whole.flip;
+    const Settings& s = at.settings;
+    std::fprintf(stderr, "%.1f s: scale %.2f, mesh errors %g and %g, %d passes, FLIP %.4f\n", at.time, s.view.scale,
+                 s.view.meshError, s.reflection.meshError, s.reflection.maxPasses, flip);
+    sum += flip;
   }
   return sum / static_cast<double>(shown.size());
 }
@@ -168,8 +172,9 @@ std::optional<std::pair<Measured, std::string>> fastEnough(const Options& option
   return kept;
 }
 
-// Prints the smallest error of fixed settings that keep the budget along all paths, and the settings.
-void measureFixed(const Options& options) {
+// Prints the smallest error of fixed settings that keep the budget along all paths, and the settings. Compares the
+// views that were `shown` when settings followed the movement.
+void measureFixed(const Options& options, std::vector<Shown> shown) {
   double best = INFINITY;
   size_t images = SIZE_MAX;  // that are drawn without a limit
   std::string about = "none";
@@ -189,7 +194,10 @@ void measureFixed(const Options& options) {
     for (const auto& [key, value] : settings) {
       text += ", " + key + " " + value;
     }
-    const double error = meanError(options, kept->first.shown);
+    for (Shown& at : shown) {
+      at.settings = kept->first.shown.front().settings;
+    }
+    const double error = meanError(options, shown);
     std::fprintf(stderr, "%s: FLIP %.4f\n", text.c_str(), error);
     if (error < best) {
       best = error;
@@ -233,7 +241,7 @@ void measure(const std::string& scene) {
     }
     if (std::getenv("PACE_FIXED")) {
       print(options, "all", all);
-      measureFixed(options);
+      measureFixed(options, all.shown);
     }
   }
   measureStill(options);

@@ -7,14 +7,14 @@ namespace speculum {
 
 namespace {
 
-// Shares of the budget. Between roomToRaise and tooMuch the level stays.
-constexpr double aim = 0.93;          // largest share that a level may take when it is lowered
-constexpr double roomToRaise = 0.91;  // largest share that a better level may take
-constexpr double tooMuch = 1.0;       // a frame beyond it lowers the level
+// Shares of the budget. Between roomToRaise and tooMuch the level stays, so that the mean is the budget at most.
+constexpr double aim = 0.98;          // largest share that a level may take when it is lowered
+constexpr double roomToRaise = 0.96;  // largest share that a better level may take
+constexpr double tooMuch = 1.06;      // a frame beyond it lowers the level
 constexpr double farBelow = 0.75;     // a better level predicted to take less is tried at once
 
 constexpr double leastPatience = 0.15;  // seconds
-constexpr double mostPatience = 4.0;
+constexpr double mostPatience = 1.5;
 constexpr double settled = 1.0;      // seconds at a better level after which raising it was no mistake
 constexpr int longestInterval = 60;  // frames
 
