@@ -389,6 +389,9 @@ TEST(MotionLevels, WordsSayWhatIsGivenUp) {
   level.settings.reflection.maxPasses = 8;
   EXPECT_EQ(motionText(Settings(), level), "at most 8 mirror images (estimated error 0.05 FLIP)");
   level.settings = {};
+  level.settings.reflection.minPixels = 1500.0;
+  EXPECT_EQ(motionText(Settings(), level), "mirror images from 1500 pixels on (estimated error 0.05 FLIP)");
+  level.settings = {};
   level.settings.view.meshError = 4.0;
   EXPECT_EQ(motionText(Settings(), level), "simplified meshes (estimated error 0.05 FLIP)");
 }

@@ -15,9 +15,9 @@ namespace {
 
 constexpr double scaleStep = 0.95;
 // Below these, losing far reflections is seen less than losing detail.
+constexpr double sharpScale = 0.85;
 constexpr double softScale = 0.7;
 constexpr double blurredScale = 0.4;
-constexpr double coarseScale = 0.5;  // below it, so is losing the shape of small parts
 // Smaller pictures are hardly faster: from a scale of 0.25 to 0.19 lavapipe draws the gallery in 0.95 of the time. At
 // 0.25, meshes simplified to 4 texels instead of 2 add less than 0.006 to the gallery's FLIP.
 constexpr double leastScale = 0.25;
@@ -42,7 +42,7 @@ Settings lowered(Settings settings, const Settings& limit) {
     settings.reflection.method = limit.reflection.method;
   }
   least(settings.reflection, limit.reflection, &R::scale, &R::samples, &R::maxDepth, &R::maxPasses);
-  most(settings.reflection, limit.reflection, &R::updateInterval, &R::meshError);
+  most(settings.reflection, limit.reflection, &R::updateInterval, &R::meshError, &R::minPixels);
   least(settings.effects, limit.effects, &E::perSample, &E::castsLight, &E::shadowMapSize, &E::roughSamples,
         &E::environmentSize);
   most(settings.effects, limit.effects, &E::shadowLookup, &E::rippleLookup, &E::roughLookup, &E::curvedLookup,
@@ -51,7 +51,7 @@ Settings lowered(Settings settings, const Settings& limit) {
 }
 
 // Returns the mean FLIP that each setting adds, on average over the shipped scenes without traced effects.
-std::array<double, 8> errorsOf(const Settings& settings) {
+std::array<double, 9> errorsOf(const Settings& settings) {
   const ViewSettings& view = settings.view;
   const ReflectionSettings& reflection = settings.reflection;
   const EffectSettings& effects = settings.effects;
@@ -61,6 +61,7 @@ std::array<double, 8> errorsOf(const Settings& settings) {
           0.025 / view.samples,
           0.009 / reflection.samples,
           0.03 * std::pow(8.0 / reflection.maxPasses, 1.6),
+          3e-6 * reflection.minPixels,
           0.012 * view.meshError,
           0.003 * reflection.meshError,
           effects.shadowLookup == ShadowLookup::map ? 15.0 / effects.shadowMapSize : 0.0,
@@ -69,8 +70,8 @@ std::array<double, 8> errorsOf(const Settings& settings) {
 
 // Adds errors of different kinds as squares, like independent ones.
 double addedError(const Settings& chosen, const Settings& lower) {
-  const std::array<double, 8> less = errorsOf(chosen);
-  const std::array<double, 8> more = errorsOf(lower);
+  const std::array<double, 9> less = errorsOf(chosen);
+  const std::array<double, 9> more = errorsOf(lower);
   double sum = 0.0;
   for (size_t i = 0; i < more.size(); ++i) {
     sum += std::max(0.0, more[i] * more[i] - less[i] * less[i]);
@@ -132,6 +133,8 @@ std::vector<MotionLevel> motionLevels(const Scene& scene, const Settings& chosen
     }
   };
   const auto passesTo = [&](int most) { step([&](Settings& s) { s.reflection.maxPasses = most; }); };
+  // Images shrink fast in mirrors that face each other, and each takes a pass however small it is.
+  const auto imagesFrom = [&](double pixels) { step([&](Settings& s) { s.reflection.minPixels = pixels; }); };
   const auto simplify = [&](double mirrors, double view) {
     if (simplifies) {
       step([&](Settings& s) {
@@ -183,14 +186,17 @@ std::vector<MotionLevel> motionLevels(const Scene& scene, const Settings& chosen
   replace(rays.rough, [](E& effects) { effects.roughSamples = 16; });
   replace(rays.rough, [](E& effects) { effects.roughSamples = 4; });
   replace(rays.rough, [](E& effects) { effects.roughLookup = ReflectionSource::image; });
-  passesTo(32);
+  imagesFrom(1500.0);
+  // Per millisecond saved, these add less error than fewer pixels do.
+  simplify(2.0, 1.0);
+  scaleTo(sharpScale);
+  imagesFrom(4000.0);
   scaleTo(softScale);
-  simplify(2.0, 1.0);  // at half scale it saves a third of the gallery's frame on a CPU, for a FLIP of 0.008
+  simplify(2.0, 2.0);
+  passesTo(32);
   passesTo(24);
   passesTo(16);
   shadowMapsTo(512);
-  scaleTo(coarseScale);
-  simplify(2.0, 2.0);
   scaleTo(blurredScale);
   passesTo(12);
   passesTo(8);
@@ -230,6 +236,8 @@ std::string motionText(const Settings& chosen, const MotionLevel& level) {
   add(reflection.maxDepth != chosen.reflection.maxDepth, fmt::format("depth {}", reflection.maxDepth));
   add(reflection.maxPasses != chosen.reflection.maxPasses,
       fmt::format("at most {} mirror images", reflection.maxPasses));
+  add(reflection.minPixels != chosen.reflection.minPixels,
+      fmt::format("mirror images from {:.0f} pixels on", reflection.minPixels));
   add(reflection.updateInterval != chosen.reflection.updateInterval,
       fmt::format("mirrors every {} frames", reflection.updateInterval));
   const double mirrors = reflection.meshError != chosen.reflection.meshError ? reflection.meshError : 0.0;

@@ -70,8 +70,15 @@ void Pace::planWithinBudget(const Request& request, const Planner& plan) {
   });
   lowers_ = level > 0;
   MotionLevel shown = levels[level];
-  if (std::ranges::count(fitted_.plan.skipped, SkipReason::maxPasses, &SkippedMirror::reason) == 0) {
-    shown.settings.reflection.maxPasses = chosen.reflection.maxPasses;  // no more are called for
+  // What leaves no image out gives nothing up.
+  const auto skips = [&](SkipReason reason) {
+    return std::ranges::count(fitted_.plan.skipped, reason, &SkippedMirror::reason) > 0;
+  };
+  if (!skips(SkipReason::maxPasses)) {
+    shown.settings.reflection.maxPasses = chosen.reflection.maxPasses;
+  }
+  if (!skips(SkipReason::minPixels)) {
+    shown.settings.reflection.minPixels = chosen.reflection.minPixels;
   }
   text_ = motionText(chosen, shown);
 }
