@@ -235,6 +235,7 @@ TEST(MotionLevels, NoLevelExceedsTheFirst) {
   chosen.reflection.maxPasses = 20;
   chosen.reflection.updateInterval = 3;
   chosen.reflection.meshError = 1.0;
+  chosen.reflection.minPixels = 2000.0;
   const std::vector<MotionLevel> front{{Settings(), 0.01}};
   const std::vector<MotionLevel> levels = motionLevels({}, chosen, front, 1 + 2 + 4, true);
   ASSERT_GT(levels.size(), 5u);
@@ -246,6 +247,7 @@ TEST(MotionLevels, NoLevelExceedsTheFirst) {
     EXPECT_LE(settings.reflection.maxPasses, 20);
     EXPECT_GE(settings.reflection.updateInterval, 3);
     EXPECT_GE(settings.reflection.meshError, 1.0);
+    EXPECT_GE(settings.reflection.minPixels, 2000.0);
     EXPECT_TRUE(settings.reflection.clip == chosen.reflection.clip && settings.effects == chosen.effects);
   }
 }
@@ -290,6 +292,16 @@ TEST(MotionLevels, NoRaysWithSimplifiedMeshes) {
   }
   EXPECT_GT(simplified, 0u);
   EXPECT_GT(rays, 0u);
+}
+
+TEST(MotionLevels, ShadowMapsShrinkAfterThePicture) {
+  Scene scene;
+  scene.lights = {{.castsShadow = true}};
+  const std::vector<MotionLevel> levels = motionLevels(scene, {}, {}, 1 + 4, true);
+  for (const auto& [settings, error] : levels) {
+    EXPECT_TRUE(settings.effects.shadowMapSize == 1024 || settings.view.scale < 0.75);
+  }
+  EXPECT_EQ(levels.back().settings.effects.shadowMapSize, 256);
 }
 
 TEST(MotionLevels, MapsReplaceTheRaysOfTheScene) {

@@ -297,6 +297,11 @@ TEST_F(CommandLine, NoOutputReplacesAnotherOptionsFile) {
   std::filesystem::copy_file(scene, out("index.html"));
   EXPECT_TRUE(contains(mistake({"accuracy", "--scene", out("index.html"), "--out", out_.path().string()}),
                        "--out: " + out("index.html") + " is the file of --scene"));
+  // A name of a shipped scene is no file.
+  EXPECT_FALSE(contains(runProcess({"sh", "-c", R"(cd "$0" && "$1" render --scene none --out a.png --stats none)",
+                                    out_.path().string(), program})
+                            .output,
+                        "--stats"));
   const std::string script = R"(cd "$0" && "$1" render --scene "$2" --out new.png --stats ./new.png)";
   EXPECT_EQ(runProcess({"sh", "-c", script, out_.path().string(), program, scene}).exitCode, 2);
   succeed({"compare", picture, picture, "--json", "/dev/null", "--heatmap", "/dev/null"});

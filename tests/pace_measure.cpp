@@ -18,7 +18,7 @@ namespace {
 constexpr double warmup = 2.0;  // seconds
 constexpr double pathSeconds = 8.0;
 // Pictures of each path that are drawn once more in full quality, which takes long in scenes with traced effects.
-const int comparedPictures = std::getenv("PACE_PICTURES") ? std::atoi(std::getenv("PACE_PICTURES")) : 6;
+const int comparedPictures = std::getenv("PACE_PICTURES") ? std::max(1, std::atoi(std::getenv("PACE_PICTURES"))) : 6;
 
 // Gamepad state that drives the camera at a time.
 using Path = GamepadState (*)(double seconds);
@@ -111,8 +111,8 @@ double meanError(const Options& options, const std::vector<Shown>& shown) {
   for (const Shown& at : shown) {
     const double flip = compareImages(comparedImage(draw(at, full)), comparedImage(draw(at, at.settings))).whole.flip;
     const Settings& s = at.settings;
-    std::fprintf(stderr, "%.1f s: scale %.2f, mesh errors %g and %g, %d passes, FLIP %.4f\n", at.time, s.view.scale,
-                 s.view.meshError, s.reflection.meshError, s.reflection.maxPasses, flip);
+    std::fprintf(stderr, "%.1f s: scale %.2f, mesh error %g, in mirrors %g, %d passes, FLIP %.4f\n", at.time,
+                 s.view.scale, s.view.meshError, s.reflection.meshError, s.reflection.maxPasses, flip);
     sum += flip;
   }
   return sum / static_cast<double>(shown.size());

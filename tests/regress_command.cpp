@@ -202,13 +202,16 @@ TEST_F(RegressCommand, ReportsReplaceNothingThatCasesRead) {
     writeCases(std::string("[[case]]\nscene = 'room.toml'\n") + read + "\n");
     const ProcessResult result = regress({});
     EXPECT_EQ(result.exitCode, 2);
-    EXPECT_TRUE(contains(result.output, " is a file of case 'room' too")) << result.output;
+    EXPECT_TRUE(contains(result.output, "--out: ") && contains(result.output, " is a file of case 'room' too"))
+        << result.output;
   }
   writeCases(roomCase);
-  for (const char* junit : {"room.toml", "out/room.actual.png"}) {
-    const ProcessResult result = regress({"--junit", (folder_ / junit).string()});
+  for (const auto& [junit, words] :
+       {std::pair("room.toml", "a file of case 'room'"), std::pair("out/room.actual.png", "a file of the report")}) {
+    const std::string file = (folder_ / junit).string();
+    const ProcessResult result = regress({"--junit", file});
     EXPECT_EQ(result.exitCode, 2);
-    EXPECT_TRUE(contains(result.output, "--junit: ")) << result.output;
+    EXPECT_TRUE(contains(result.output, "--junit: " + file + " is " + words + " too")) << result.output;
   }
   EXPECT_TRUE(std::filesystem::exists(folder_ / "out/room.flip.png"));
 }

@@ -7,7 +7,7 @@ namespace speculum {
 
 namespace {
 
-// Shares of the budget. Between roomToRaise and tooMuch the level stays, so that the mean is the budget at most.
+// Shares of the budget. Between roomToRaise and tooMuch the level stays, so that it does not change all the time.
 constexpr double aim = 0.98;          // largest share that a level may take when it is lowered
 constexpr double roomToRaise = 0.96;  // largest share that a better level may take
 constexpr double tooMuch = 1.06;      // a frame beyond it lowers the level

@@ -10,10 +10,10 @@
 
 namespace speculum {
 
-// Keeps the frames of a moving picture within a budget by choosing a level for each. The first level has the settings
-// that the user chose; each further one costs less. The controller goes down, by as many levels as needed, as soon as a
-// frame is predicted to take longer, and up by one level after a while in which that level would have fitted. It needs
-// no device. docs/window.md describes it for users.
+// Keeps the time of a moving picture's frames near a budget by choosing a level for each. The first level has the
+// settings that the user chose; each further one costs less. The controller goes down, by as many levels as needed, as
+// soon as a frame is predicted to take clearly longer, and up by one level after a while in which that level would have
+// fitted. It needs no device. docs/window.md describes it for users.
 class MotionController {
  public:
   // Plans a frame with these settings and returns its work.
@@ -21,7 +21,7 @@ class MotionController {
 
   explicit MotionController(bool cpuDevice) : model_(cpuDevice) {}
 
-  // Chooses the level of the next frame, `seconds` after the last, with at most `budgetMs` (above 0) of work. Calls
+  // Chooses the level of the next frame, `seconds` after the last, for a budget of `budgetMs` (above 0). Calls
   // `plan` a few times, last with the settings of the chosen level.
   size_t choose(std::span<const MotionLevel> levels, double budgetMs, double seconds, const Planner& plan);
   // Call when the picture stands still: the next moving frame may have any level.

@@ -14,13 +14,15 @@ namespace speculum {
 namespace {
 
 constexpr double scaleStep = 0.95;
-// Below these, losing far reflections is seen less than losing detail.
-constexpr double sharpScale = 0.85;
+// Scales of the view at which other steps come before a lower resolution.
 constexpr double softScale = 0.7;
 constexpr double blurredScale = 0.4;
 // Smaller pictures are hardly faster: from a scale of 0.25 to 0.19 lavapipe draws the gallery in 0.95 of the time. At
 // 0.25, meshes simplified to 4 texels instead of 2 add less than 0.006 to the gallery's FLIP.
 constexpr double leastScale = 0.25;
+// Pixels. Images shrink fast in mirrors that face each other, and each takes a pass however small it is. A larger limit
+// would leave out mirrors that are seen themselves.
+constexpr double smallImage = 1000.0;
 constexpr int smallShadowMap = 256;     // texels of a face's side
 constexpr int smallEnvironment = 64;    // likewise
 constexpr int environmentInterval = 8;  // frames
@@ -133,8 +135,6 @@ std::vector<MotionLevel> motionLevels(const Scene& scene, const Settings& chosen
     }
   };
   const auto passesTo = [&](int most) { step([&](Settings& s) { s.reflection.maxPasses = most; }); };
-  // Images shrink fast in mirrors that face each other, and each takes a pass however small it is.
-  const auto imagesFrom = [&](double pixels) { step([&](Settings& s) { s.reflection.minPixels = pixels; }); };
   const auto simplify = [&](double mirrors, double view) {
     if (simplifies) {
       step([&](Settings& s) {
@@ -177,7 +177,7 @@ std::vector<MotionLevel> motionLevels(const Scene& scene, const Settings& chosen
     effects.environmentSize = smallEnvironment;
     effects.environmentInterval = environmentInterval;
   });
-  // Light off mirrors has no shadows in maps.
+  // Light off mirrors has no shadows in maps. Scenes that cast it are slow, so their maps are small at once.
   replace(rays.castsLight, [](E& effects) {
     effects.castsLight = false;
     effects.shadowLookup = ShadowLookup::map;
@@ -186,11 +186,9 @@ std::vector<MotionLevel> motionLevels(const Scene& scene, const Settings& chosen
   replace(rays.rough, [](E& effects) { effects.roughSamples = 16; });
   replace(rays.rough, [](E& effects) { effects.roughSamples = 4; });
   replace(rays.rough, [](E& effects) { effects.roughLookup = ReflectionSource::image; });
-  imagesFrom(1500.0);
-  // Per millisecond saved, these add less error than fewer pixels do.
+  // For each millisecond saved, these add less error than a lower resolution.
+  step([](Settings& s) { s.reflection.minPixels = smallImage; });
   simplify(2.0, 1.0);
-  scaleTo(sharpScale);
-  imagesFrom(4000.0);
   scaleTo(softScale);
   simplify(2.0, 2.0);
   passesTo(32);

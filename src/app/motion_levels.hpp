@@ -32,7 +32,7 @@ struct MotionLevel {
 std::vector<MotionLevel> motionLevels(const Scene& scene, const Settings& chosen, std::span<const MotionLevel> front,
                                       unsigned sampleCounts, bool simplifies);
 
-// Describes what a level gives up: "0.5 scale, 1 sample, FLIP about 0.05", or "full quality".
+// Describes what a level gives up, such as "0.5 scale, 1 sample (estimated error 0.05 FLIP)", or "full quality".
 std::string motionText(const Settings& chosen, const MotionLevel& level);
 
 }  // namespace speculum

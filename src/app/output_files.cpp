@@ -64,7 +64,7 @@ void UsedFiles::add(std::string_view words, const fs::path& file) {
 
 void UsedFiles::requireUnused(std::string_view option, const fs::path& file) {
   if (const auto other = used_.find(resolved(file)); other != used_.end()) {
-    throw UsageError(fmt::format("{}: {} is {} too (name another file)", option, file.string(), other->second));
+    throw UsageError(fmt::format("{}: {} is {} too (choose another place)", option, file.string(), other->second));
   }
 }
 
@@ -92,7 +92,9 @@ void requireFilesOfTheirOwn(const Options& options) {
         NamedFile{"--sweep-results", options.sweepResults}, NamedFile{"reference", options.reference},
         NamedFile{"test", options.test}, NamedFile{"cases", options.cases},
         NamedFile{"--against-binary", options.againstBinary}}) {
-    used.add(fmt::format("the file of {}", option), file);
+    if (isFile(file)) {  // names of shipped scenes and sweeps are no files
+      used.add(fmt::format("the file of {}", option), file);
+    }
   }
   addOutputs(used, options);
 }

@@ -10,8 +10,8 @@
 
 namespace speculum {
 
-// The files that a command reads or writes, found also by other paths and through links. Devices and pipes are not
-// among them, because writing does not replace them.
+// The files that a command reads or writes. Different paths to a file, also through links, count as the same. Leaves
+// out devices and pipes, because writing does not replace them.
 class UsedFiles {
  public:
   // Adds a file, with words that name it in an error. Ignores an empty path.

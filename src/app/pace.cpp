@@ -70,7 +70,7 @@ void Pace::planWithinBudget(const Request& request, const Planner& plan) {
   });
   lowers_ = level > 0;
   MotionLevel shown = levels[level];
-  // What leaves no image out gives nothing up.
+  // A limit that leaves no image out costs no quality. Images below the chosen limit count too.
   const auto skips = [&](SkipReason reason) {
     return std::ranges::count(fitted_.plan.skipped, reason, &SkippedMirror::reason) > 0;
   };

@@ -179,7 +179,7 @@ std::vector<std::filesystem::path> picturesOf(const RegressCase& subject) {
   return pictures;
 }
 
-// Refuses a report whose files would replace those that cases read, and pictures to update that are masks.
+// Refuses to replace files that cases read with those of the report, and masks with updated pictures.
 void requireFilesOfItsOwn(const Options& options, const std::vector<RegressCase>& drawn,
                           const std::vector<RegressCase>& cases) {
   UsedFiles masks;

@@ -59,7 +59,7 @@ ShaderLibrary::ShaderLibrary(Device& device, fs::path spirvDir, fs::path glslDir
     : device_(device), spirvDir_(std::move(spirvDir)), glslDir_(std::move(glslDir)) {
   if (watching()) {
     if (!holdsAnyShader(glslDir_, spirvDir_)) {
-      throw FileError(glslDir_, "holds no file with the name of a shader", "--shader-dir takes a copy of shaders/");
+      throw FileError(glslDir_, "holds no file with the name of a shader", "give --shader-dir a copy of shaders/");
     }
     output_.emplace();
   }

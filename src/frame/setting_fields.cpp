@@ -190,7 +190,7 @@ constexpr SettingField fields[] = {
     setting(
         "quality.motion_ms", AutomaticSetting{at<&Q::motionMs>, 0.0, 1e6}, "Full quality while moving",
         "0 (ticked): settings stay as they are while anything moves; auto (not ticked): they are lowered then, so that "
-        "frames average at most 50 ms on CPUs, elsewhere 0.8 of a refresh; other values: this many",
+        "frames take about 50 ms on CPUs, elsewhere 0.8 of a refresh; other values: this many",
         "At 0 movement may stutter.", {.unit = "ms", .changes = none}),
     setting("quality.still_pictures", IntegerSetting{at<&Q::stillPictures>, 1, 1024}, "Averaged when still",
             "pictures whose mean the window shows when nothing moves", "As many are drawn after each movement.",

@@ -202,6 +202,8 @@ TEST_P(RandomScenes, AreDrawnAsTraced) {
   scenes_ += 1;
   views_ += compare(*gpu_, scene);
   if (HasFailure()) {
+    std::printf("Reducing %s\n", scene.file.c_str());
+    std::fflush(stdout);
     const RandomScene least = smallest(scene, [&](const RandomScene& smaller) {
       testing::TestPartResultArray results;
       const testing::ScopedFakeTestPartResultReporter reporter(
@@ -213,8 +215,9 @@ TEST_P(RandomScenes, AreDrawnAsTraced) {
       }
       return results.size() > 0;
     });
-    compare(*gpu_, least);  // again, for the pictures
-    std::printf("The smallest scene that fails: %s at %g s, with", least.withEffects.c_str(), least.time);
+    compare(*gpu_, least);  // reports its failures
+    std::printf("The smallest scene that fails: %s at %g s with depth %d; with effects %s and", least.file.c_str(),
+                least.time, least.maxDepth, least.withEffects.c_str());
     for (const auto& [key, value] : least.settings) {
       std::printf(" --set %s=%s", key.c_str(), value.c_str());
     }
@@ -223,7 +226,7 @@ TEST_P(RandomScenes, AreDrawnAsTraced) {
 }
 
 TEST(SmallestScene, KeepsTheTablesWithoutWhichItDoesNotFail) {
-  const auto count = [](const RandomScene& scene, const std::string& table) {
+  const auto tables = [](const RandomScene& scene, const std::string& table) {
     const std::string text = readText(scene.file);
     int count = 0;
     for (size_t at = text.find(table); at != std::string::npos; at = text.find(table, at + 1)) {
@@ -232,12 +235,12 @@ TEST(SmallestScene, KeepsTheTablesWithoutWhichItDoesNotFail) {
     return count;
   };
   const RandomScene scene = randomScene(1);
-  ASSERT_GT(count(scene, "[[mirror]]"), 2);
+  ASSERT_GT(tables(scene, "[[mirror]]"), 2);
   const RandomScene least = smallest(scene, [&](const RandomScene& smaller) {
-    return count(smaller, "[[mirror]]") >= 2 && count(smaller, "[camera]") == 1;
+    return tables(smaller, "[[mirror]]") >= 2 && tables(smaller, "[camera]") == 1;
   });
-  EXPECT_EQ(count(least, "[[mirror]]"), 2);
-  EXPECT_EQ(count(least, "\n["), 2) << readText(least.file);
+  EXPECT_EQ(tables(least, "[[mirror]]"), 2);
+  EXPECT_EQ(tables(least, "\n["), 2) << readText(least.file);
 }
 
 // SPECULUM_SEED is added to each.

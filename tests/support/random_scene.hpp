@@ -25,8 +25,8 @@ struct RandomScene {
 // views are bookmarks.
 RandomScene randomScene(unsigned seed);
 
-// Leaves out tables for as long as the scene `fails`. Afterwards it fails, and no longer does without any single table.
-// A table that others need makes the scene invalid, for which `fails` should return false.
+// Leaves out tables for as long as the scene `fails`, as it must at first. It fails afterwards too, but not without any
+// one of its tables. Scenes that lack a table that others need are invalid: `fails` should return false.
 RandomScene smallest(RandomScene scene, const std::function<bool(const RandomScene&)>& fails);
 
 }  // namespace speculum::testing_support
