@@ -265,7 +265,7 @@ TEST_F(CommandLine, NoOutputReplacesFilesOfTheScene) {
                        "--out: " + out("wood.png")));
 }
 
-TEST_F(CommandLine, NoOutputReplacesASceneThatIsNamedWithoutItsPath) {
+TEST_F(CommandLine, NoOutputReplacesASceneFoundByName) {
   const std::filesystem::path scene = out_.path() / "scenes/a.toml";
   std::filesystem::create_directory(scene.parent_path());
   std::filesystem::copy_file(scene_, scene);

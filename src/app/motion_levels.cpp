@@ -72,8 +72,8 @@ std::array<double, 9> errorsOf(const Settings& settings) {
 
 // Adds errors of different kinds as squares, like independent ones.
 double addedError(const Settings& chosen, const Settings& lower) {
-  const std::array<double, 9> less = errorsOf(chosen);
-  const std::array<double, 9> more = errorsOf(lower);
+  const auto less = errorsOf(chosen);
+  const auto more = errorsOf(lower);
   double sum = 0.0;
   for (size_t i = 0; i < more.size(); ++i) {
     sum += std::max(0.0, more[i] * more[i] - less[i] * less[i]);
@@ -144,17 +144,15 @@ std::vector<MotionLevel> motionLevels(const Scene& scene, const Settings& chosen
       });
     }
   };
-  const auto shadowMapsTo = [&](int size) {
-    if (rays.shadows && !rays.castsLight) {
-      step([&](Settings& s) { s.effects.shadowMapSize = size; });
-    }
-  };
+  using E = EffectSettings;
   const auto replace = [&](bool used, const auto& change) {
     if (used) {
       step([&](Settings& s) { change(s.effects); });
     }
   };
-  using E = EffectSettings;
+  const auto shadowMapsTo = [&](int size) {
+    replace(rays.shadows && !rays.castsLight, [&](E& effects) { effects.shadowMapSize = size; });
+  };
   step([](Settings& s) {
     if (s.reflection.method == ReflectionMethod::rays) {
       s.reflection.method = ReflectionMethod::raster;

@@ -225,7 +225,7 @@ TEST_P(RandomScenes, AreDrawnAsTraced) {
   }
 }
 
-TEST(SmallestScene, KeepsTheTablesWithoutWhichItDoesNotFail) {
+TEST(SmallestScene, KeepsOnlyWhatMakesItFail) {
   const auto tables = [](const RandomScene& scene, const std::string& table) {
     const std::string text = readText(scene.file);
     int count = 0;
