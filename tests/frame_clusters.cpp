@@ -1,5 +1,6 @@
 // Clusters: objects that are seen in part are drawn in part, but never less than is seen.
 #include <ctime>
+#include <glm/gtx/component_wise.hpp>
 #include <numbers>
 
 #include "frame_support.hpp"
@@ -231,6 +232,45 @@ TEST(Clusters, NeverLeaveOutVisibleTriangles) {
   }
   EXPECT_GT(partial, 200);
   EXPECT_LT(4 * (drawn - seen), 3 * (whole - seen)) << "of what is not seen at least a quarter is left out";
+}
+
+// A random box, sheared and maybe mirrored, and an eye at a point of the box's own space.
+TEST(Clusters, OutsideIsBesideTheBoxInItsOwnSpace) {
+  testing_support::Random random(5);
+  for (int i = 0; i < 2000; ++i) {
+    InstanceState instance;
+    for (int column = 0; column < 3; ++column) {
+      instance.worldFromMesh.linear[column] = random.inBox(1.0);
+    }
+    if (std::abs(glm::determinant(instance.worldFromMesh.linear)) < 0.01) {
+      continue;
+    }
+    instance.worldFromMesh.translation = random.inBox(10.0);
+    const glm::dvec3 halfExtent = random.inBox(1.0) + 1.1;
+    const glm::dvec3 eye = 2.0 * random.inBox(1.0) * halfExtent;
+    const double nearest = glm::compMax(glm::abs(eye) / halfExtent);
+    View view;
+    view.eye = instance.worldFromMesh.point(eye);
+    if (nearest < 1.0 || nearest > 1.01) {
+      EXPECT_EQ(isOutside(view, instance, halfExtent), nearest > 1.0) << i;
+    }
+  }
+}
+
+TEST(Clusters, ABoxMayStandOnTheClipPlaneButNotCrossIt) {
+  InstanceState instance;
+  View view;
+  view.eye = {0, -5, 0};
+  const auto outside = [&](double height) {
+    instance.worldFromMesh.translation = {3, height, 0};
+    view.clip = Plane{{0, 0, 0}, {0, 1, 0}};
+    return isOutside(view, instance, {1, 2, 1});
+  };
+  EXPECT_TRUE(outside(2.0));
+  EXPECT_TRUE(outside(2.0 - 1e-9));
+  EXPECT_TRUE(outside(2.5));
+  EXPECT_FALSE(outside(1.99));
+  EXPECT_FALSE(outside(-3.0));
 }
 
 }  // namespace

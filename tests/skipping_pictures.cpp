@@ -209,6 +209,66 @@ TEST(Skipping, RandomShapesHideNothingThatIsSeen) {
   EXPECT_GT(hidden, scenes / 2);
 }
 
+// Solids and others, some mirrored, before a wall mirror and cut by one in the floor. The eye is in one of them in
+// every fifth scene.
+std::filesystem::path solidScene(Random& random, int number) {
+  std::ostringstream toml;
+  toml << "[environment]\nambient = [0.4, 0.4, 0.4]\nbackground = [0.2, 0.5, 0.7]\n[[light]]\n"
+          "position = [1, 3, 2]\nintensity = 20\ncasts_shadow = true\n[[mirror]]\n"
+       << rectangleText({0, 0, 0}, {-90, 0, 0}, 6, 6) << "[[mirror]]\n"
+       << rectangleText({0, 1, -2}, {0, random.uniform(-10, 10), 0}, 4, 2);
+  const std::array models{"sphere", "queen", "torus_knot_upright", "vase", "moebius", "teapot", "ammonite"};
+  glm::dvec3 eye(random.uniform(-1, 1), random.uniform(0.1, 2), 3);
+  for (int i = 0; i < 6; ++i) {
+    const bool inside = number % 5 == 0 && i == 0;
+    const glm::dvec3 position(random.uniform(-1.5, 1.5), random.uniform(-0.5, 1), random.uniform(-1.5, 1.5));
+    const double side = random.uniform(0.8, 2.0);
+    toml << "[[object]]\nmodel = \"MODELS/" << (inside ? "sphere" : random.pick(models))
+         << ".obj\"\nposition = " << text(position) << "\nrotation = " << text(random.inBox(180.0)) << "\nscale = ["
+         << (i % 2 == 0 ? -side : side) << ", " << side << ", " << side * random.uniform(0.5, 1.5)
+         << "]\ncolor = " << random.vec(0.2, 0.9) << "\n";
+    eye = inside ? position + glm::dvec3(0, 0.1 * side, 0) : eye;
+  }
+  toml << cameraText(eye, random.inBox(0.5) + glm::dvec3(0, 0.5, 0));
+  return writeScene("solids", toml.str());
+}
+
+TEST(Skipping, BacksOfSolidsAreNotSeen) {
+  Gpu gpu(headless("", size));
+  Random random(13);
+  const int scenes = fullTests() ? 2000 : 10;
+  for (int i = 0; i < scenes; ++i) {
+    Studio studio(gpu, headless(solidScene(random, i), size, {{"effects.shadow_lookup", "map"}}));
+    studio.settings.reflection.meshError = studio.settings.view.meshError = i % 3 == 0 ? 1.0 : 0.0;
+    studio.settings.view.samples = studio.settings.reflection.samples = i % 2 == 0 ? 4 : 1;
+    const Image8 fronts = studio.fresh();
+    studio.settings.debug.cullClusters = false;
+    const Image8 all = studio.fresh();
+    // Along outlines, a back may be nearer than the front by rounding.
+    const PictureAgreement agreement = difference(fronts, all, 24);
+    if (agreement.over > 4) {
+      ADD_FAILURE() << "scene " << i << ": " << agreement.over << " of 14 400 pixels";
+      writeEvidence(fronts, all, "solids_" + std::to_string(i));
+    }
+  }
+}
+
+TEST(Skipping, SolidsShadeFewerFragments) {
+  QuietSession session(headless(sceneFile("gallery"), size));
+  const auto fragments = [&](bool culls) {
+    Settings settings = session.settings();
+    settings.debug.cullClusters = culls;
+    settings.reflection.skipUnchanged = false;
+    const nlohmann::ordered_json stats = statsWith(session, settings);
+    double sum = 0.0;
+    for (const auto& pass : stats["passes"]) {
+      sum += pass["fragments"].is_null() ? 0.0 : pass["fragments"].get<double>();
+    }
+    return sum;
+  };
+  EXPECT_LT(fragments(true), 0.9 * fragments(false));
+}
+
 TEST(Skipping, MaskDoesNotChangeCachedImages) {
   Options options = headless(roomsScene(), size, {{"reflection.update_interval", "3"}});
   std::map<bool, std::vector<std::vector<uint8_t>>> pictures;

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <map>
 #include <sstream>
 #include <stdexcept>
+#include <tuple>
 #include <unordered_map>
 
 namespace speculum::generator {
@@ -27,6 +29,17 @@ std::string number(double x, int decimals) {
 std::string triple(const glm::dvec3& v, int decimals) {
   return number(v.x, decimals) + ' ' + number(v.y, decimals) + ' ' + number(v.z, decimals);
 }
+
+// As positions are written: in 0.1 mm. Rounded to 1 nm before, so that both sides of a seam round alike.
+glm::dvec3 written(const glm::dvec3& position) {
+  return glm::round(glm::round(position * 1e9) / 1e5) / 1e4;
+}
+
+struct LessByCoordinates {
+  bool operator()(const glm::dvec3& a, const glm::dvec3& b) const {
+    return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
+  }
+};
 
 // The lines of one kind ("v", "vt", "vn"), each distinct one written once.
 class Lines {
@@ -114,6 +127,44 @@ void Model::append(const Model& other, const Affine& place) {
   current_ = before;
 }
 
+Model& Model::close() {
+  using Point = glm::dvec3;
+  struct Edge {
+    Point to;
+    int paint;
+  };
+  std::map<Point, std::map<Point, int, LessByCoordinates>, LessByCoordinates> sides;  // paint by start and end
+  for (const Triangle& t : triangles_) {
+    for (size_t i = 0; i < 3; ++i) {
+      const Point from = written(t.corners[i].position), to = written(t.corners[(i + 1) % 3].position);
+      if (from != to && sides[to].erase(from) == 0) sides[from][to] = t.paint;
+    }
+  }
+  // What is left runs along openings, in the direction of the triangles beside them.
+  std::map<Point, Edge, LessByCoordinates> edges;
+  for (const auto& [from, ends] : sides) {
+    for (const auto& [to, paint] : ends) edges[from] = {to, paint};
+  }
+  while (!edges.empty()) {
+    std::vector<Point> loop;
+    const int paint = edges.begin()->second.paint;
+    for (auto edge = edges.begin(); edge != edges.end(); edge = edges.find(loop.back())) {
+      loop.push_back(edge->second.to);
+      edges.erase(edge);
+    }
+    Point middle(0.0), normal(0.0);
+    for (const Point& p : loop) middle += p / static_cast<double>(loop.size());
+    for (size_t i = 0; i < loop.size(); ++i)
+      normal -= glm::cross(loop[i] - middle, loop[(i + 1) % loop.size()] - middle);
+    normal = glm::normalize(normal);
+    const auto corner = [&](const Point& p) { return Corner{p, normal, {p.x, -p.z}}; };
+    for (size_t i = 0; i < loop.size(); ++i) {
+      triangles_.push_back({paint, {corner(middle), corner(loop[(i + 1) % loop.size()]), corner(loop[i])}});
+    }
+  }
+  return *this;
+}
+
 void Model::write(const std::filesystem::path& directory, const std::string& name) const {
   Lines positions("v"), uvs("vt"), normals("vn");
   std::vector<std::string> faces(paints_.size());
@@ -122,7 +173,7 @@ void Model::write(const std::filesystem::path& directory, const std::string& nam
     text += 'f';
     const bool textured = !paints_[t.paint].map.empty();
     for (const Corner& c : t.corners) {
-      text += ' ' + std::to_string(positions.index(triple(c.position, 4))) + '/';
+      text += ' ' + std::to_string(positions.index(triple(written(c.position), 4))) + '/';
       if (textured) text += std::to_string(uvs.index(number(c.uv.x, 3) + ' ' + number(c.uv.y, 3)));
       text += '/' + std::to_string(normals.index(triple(glm::normalize(c.normal), 3)));
     }

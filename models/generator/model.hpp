@@ -52,6 +52,10 @@ class Model {
   // The other model's triangles and materials, placed. `place` must not mirror.
   void append(const Model& other, const Affine& place);
 
+  // Closes each opening by a fan about the mean of its edge's corners, with the paint beside it. Whoever draws the
+  // model can then leave out the backs of its triangles. An opening must be about flat, and the fan must not fold.
+  Model& close();
+
   size_t triangleCount() const { return triangles_.size(); }
 
   // DIR/name.obj and DIR/name.mtl. Positions in 0.1 mm, normals and uv in 0.001; uv are left out

@@ -67,7 +67,7 @@ Model frame(Opening opening, double width, double height, double border, const P
   p.line({b, 0.03}).arc({0.86 * b, 0.055}, 0.5, 3).line({0.80 * b, 0.05});
   p.curve({0.66 * b, 0.05}, {0.60 * b, 0.085}, {0.46 * b, 0.09}, 5).line({0.42 * b, 0.08});
   p.arc({0.26 * b, 0.075}, 0.45, 4).line({0.22 * b, 0.06}).curve({0.14 * b, 0.06}, {0.12 * b, 0.045}, {0.0, 0.04}, 4);
-  p.line({0.0, 0.035}).line({0.03, 0.033}).line({0.03, 0.005});
+  p.line({0.0, 0.035}).line({0.03, 0.033}).line({0.03, -0.05}).line({b, -0.05});
   const std::vector<glm::dvec2> path = opening == Opening::rectangle ? rectanglePath(width, height)
                                        : opening == Opening::arch    ? archPath(width, height, 24)
                                                                      : ellipsePath(width, height, 40);

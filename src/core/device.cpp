@@ -147,6 +147,7 @@ void Device::loadFunctions() {
   load(functions_.beginRendering, "vkCmdBeginRendering", "vkCmdBeginRenderingKHR");
   load(functions_.endRendering, "vkCmdEndRendering", "vkCmdEndRenderingKHR");
   load(functions_.setFrontFace, "vkCmdSetFrontFace", "vkCmdSetFrontFaceEXT");
+  load(functions_.setCullMode, "vkCmdSetCullMode", "vkCmdSetCullModeEXT");
   if (instance_.hasDebugUtils()) {
     const auto loadInstance = [this]<typename F>(F& function, const char* name) {
       function = reinterpret_cast<F>(vkGetInstanceProcAddr(instance_.get(), name));

@@ -39,6 +39,7 @@ struct DeviceFunctions {
   PFN_vkCmdBeginRendering beginRendering = nullptr;
   PFN_vkCmdEndRendering endRendering = nullptr;
   PFN_vkCmdSetFrontFace setFrontFace = nullptr;
+  PFN_vkCmdSetCullMode setCullMode = nullptr;
   PFN_vkSetDebugUtilsObjectNameEXT setName = nullptr;
   PFN_vkCmdBeginDebugUtilsLabelEXT beginLabel = nullptr;
   PFN_vkCmdEndDebugUtilsLabelEXT endLabel = nullptr;

@@ -146,6 +146,7 @@ void PassScope::begin() {
   vkCmdSetViewport(commands_, 0, 1, &viewport);
   vkCmdSetScissor(commands_, 0, 1, &desc_.scissor);
   device_.functions().setFrontFace(commands_, desc_.frontFace);
+  cull(VK_CULL_MODE_NONE);
 }
 
 void PassScope::countSamples() {

@@ -83,8 +83,9 @@ class PassGroup {
 };
 
 // A pass that is being recorded, from construction to end: debug label, timestamps, statistics, barriers, rendering on
-// the device's render path. Viewport, scissor and front face are set. Made by Renderer::beginPass.
-// A pass that pauses renders twice: between pause() and resume() commands outside rendering may be recorded.
+// the device's render path. Viewport, scissor and front face are set, and nothing is culled. Made by
+// Renderer::beginPass. A pass that pauses renders twice: between pause() and resume() commands outside rendering may be
+// recorded.
 class PassScope {
  public:
   PassScope(const PassScope&) = delete;
@@ -97,6 +98,8 @@ class PassScope {
   // A label within the pass's own; ended by endLabel.
   void beginLabel(std::string_view name) const { device_.beginLabel(commands_, name); }
   void endLabel() const { device_.endLabel(commands_); }
+  // Triangles of these sides are not drawn from here on.
+  void cull(VkCullModeFlags sides) const { device_.functions().setCullMode(commands_, sides); }
   // Ends the first rendering of a pass that pauses.
   void pause();
   // Begins the second one, which loads what the first one has stored. `desc` has the same render area.

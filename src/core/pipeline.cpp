@@ -44,7 +44,8 @@ class Stage {
   VkPipelineShaderStageCreateInfo info_{};
 };
 
-constexpr std::array dynamicStates = {VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR, VK_DYNAMIC_STATE_FRONT_FACE};
+constexpr std::array dynamicStates = {VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR, VK_DYNAMIC_STATE_FRONT_FACE,
+                                      VK_DYNAMIC_STATE_CULL_MODE};
 constexpr VkPipelineDynamicStateCreateInfo dynamicState{.sType = VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO,
                                                         .dynamicStateCount = dynamicStates.size(),
                                                         .pDynamicStates = dynamicStates.data()};
@@ -131,7 +132,6 @@ VkPipeline PipelineFactory::buildPipeline(const GraphicsPipelineDesc& desc, VkPi
       .sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO,
       .depthClampEnable = desc.depthClamp && caps.depthClamp,
       .polygonMode = desc.lines && caps.fillModeNonSolid ? VK_POLYGON_MODE_LINE : VK_POLYGON_MODE_FILL,
-      .cullMode = desc.cullMode,
       .lineWidth = 1.0f};
   const VkPipelineMultisampleStateCreateInfo samples{
       .sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO,

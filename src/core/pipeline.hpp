@@ -33,7 +33,6 @@ struct GraphicsPipelineDesc {
   bool sampleShading = false;                        // one invocation per sample; ignored where not supported
   bool adds = false;                                 // additive blending of color and alpha; else they replace
   bool lines = false;                                // wireframe; filled where not supported
-  VkCullModeFlags cullMode = VK_CULL_MODE_NONE;
   std::vector<VkVertexInputBindingDescription> vertexBindings;
   std::vector<VkVertexInputAttributeDescription> vertexAttributes;
 };

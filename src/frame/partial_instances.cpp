@@ -1,6 +1,7 @@
 #include "frame/partial_instances.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace speculum {
 
@@ -37,6 +38,11 @@ std::vector<LocalPlane> cuttingPlanes(const View& view, const InstanceState& ins
   return planes;
 }
 
+// How far the box reaches from its centre along a direction in world space.
+double reachOf(const InstanceState& instance, const glm::dvec3& halfExtent, const glm::dvec3& direction) {
+  return glm::dot(glm::abs(direction * instance.worldFromMesh.linear), halfExtent);
+}
+
 bool visible(const MeshCluster& cluster, const std::vector<LocalPlane>& planes) {
   return std::ranges::all_of(planes, [&](const LocalPlane& plane) {
     return glm::dot(plane.normal, cluster.center) + glm::dot(glm::abs(plane.normal), cluster.halfExtent) +
@@ -62,6 +68,26 @@ uint32_t indexCount(std::span<const IndexRange> ranges) {
     count += range.count;
   }
   return count;
+}
+
+bool isOutside(const View& view, const InstanceState& instance, const glm::dvec3& halfExtent) {
+  constexpr double margin = 1.0 + 100.0 * rounding;
+  const Affine& worldFromMesh = instance.worldFromMesh;
+  // What stands on a mirror is not cut: the part of the mirror that is inside it, is hidden by it.
+  if (view.clip && view.clip->distance(worldFromMesh.translation) <
+                       (1.0 - rounding) * reachOf(instance, halfExtent, view.clip->normal)) {
+    return false;
+  }
+  // A plane beside the box, parallel to two of its edges, has the eye on its other side.
+  const glm::dvec3 toEye = view.eye - worldFromMesh.translation;
+  const glm::dmat3& edges = worldFromMesh.linear;
+  for (int i = 0; i < 3; ++i) {
+    const glm::dvec3 normal = glm::cross(edges[(i + 1) % 3], edges[(i + 2) % 3]);
+    if (std::abs(glm::dot(normal, toEye)) > margin * halfExtent[i] * std::abs(glm::dot(normal, edges[i]))) {
+      return true;
+    }
+  }
+  return false;
 }
 
 std::vector<IndexRange> visibleRanges(const View& view, const InstanceState& instance, const Mesh& mesh) {

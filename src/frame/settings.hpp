@@ -108,7 +108,7 @@ struct DebugSettings {
   std::string omitBarrier;   // name of a barrier that is not recorded, so that validation must notice
   bool checkFinite = false;  // searches every target of radiance for values that are negative or not finite
   bool skipHidden = true;    // mirrors hidden by occluders have no pass
-  bool cullClusters = true;  // draws only the clusters of an object that a view may see
+  bool cullClusters = true;  // draws only what a view may see of an object: clusters in it, and fronts of solids
   bool maskPasses = true;    // shades only the texels of a mirror image that are looked up
 
   bool operator==(const DebugSettings&) const = default;

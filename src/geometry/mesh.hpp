@@ -74,6 +74,7 @@ struct Mesh {
   std::vector<MeshCluster> clusters;             // see clustersOf()
   std::vector<std::vector<glm::dvec3>> faces;    // relative to `center`, see convexFaces()
   ConvexMesh convex;                             // relative to `center`, see convexMesh()
+  bool solid = false;                            // see isSolid()
   mutable std::shared_ptr<LevelsOfMesh> levels;  // made by the first call of levelsOf()
 };
 

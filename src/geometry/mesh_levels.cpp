@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "geometry/mesh_clusters.hpp"
+#include "geometry/solid_mesh.hpp"
 #include "geometry/surface_distance.hpp"
 
 namespace speculum {
@@ -245,6 +246,9 @@ MeshLevel addLevel(const std::vector<SimplifiedPart>& parts, double error, MeshL
   }
   level.all.count = static_cast<uint32_t>(levels.indices.size()) - level.all.first;
   level.clusters = clustersOf(levels.vertices, levels.indices, level.parts);
+  std::vector<glm::dvec3> positions(levels.vertices.size());
+  std::ranges::transform(levels.vertices, positions.begin(), &Vertex::position);
+  level.solid = isSolid(positions, std::span(levels.indices).subspan(level.all.first));
   return level;
 }
 

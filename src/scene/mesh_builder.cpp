@@ -9,6 +9,7 @@
 #include "geometry/bvh.hpp"
 #include "geometry/convex_faces.hpp"
 #include "geometry/mesh_clusters.hpp"
+#include "geometry/solid_mesh.hpp"
 #include "geometry/triangulate.hpp"
 
 namespace speculum {
@@ -82,13 +83,14 @@ void rebase(Mesh& mesh) {
 
 // Finds the occluders that may hide mirrors: flat faces and a convex mesh. Objects that hide mirrors, such as walls,
 // doors and cupboards, have few triangles or a few large ones.
-void findOccluders(Mesh& mesh) {
+void findShape(Mesh& mesh) {
   constexpr size_t mostFaces = 32;
   constexpr size_t mostTriangles = 4096;
   std::vector<glm::dvec3> positions(mesh.vertices.size());
   std::ranges::transform(mesh.vertices, positions.begin(), &Vertex::position);
   mesh.faces = convexFaces(positions, mesh.indices, mostFaces, mostTriangles);
   mesh.convex = convexMesh(positions, mesh.indices, mostTriangles);
+  mesh.solid = isSolid(positions, mesh.indices);
 }
 
 }  // namespace
@@ -195,7 +197,7 @@ Mesh MeshBuilder::finish(const std::filesystem::path& file, const std::function<
   }
   *this = {};
   rebase(mesh);
-  findOccluders(mesh);
+  findShape(mesh);
   sortIntoClusters(mesh);
   mesh.clusters = clustersOf(mesh);
   return mesh;

@@ -80,6 +80,13 @@ bool sameColors(const Object& a, const Object& b) {
   return a.color == b.color && a.specular == b.specular && a.shininess == b.shininess && a.emission == b.emission;
 }
 
+// Says whether the backs of triangles need not be drawn. Wireframes show them.
+bool cullsBacks(const Settings& settings, const View& view, const InstanceState& instance, const Mesh& mesh,
+                int level) {
+  return settings.debug.cullClusters && !settings.view.wireframe &&
+         (level < 0 ? mesh.solid : levelsOf(mesh).levels[level].solid) && isOutside(view, instance, mesh.halfExtent);
+}
+
 }  // namespace
 
 uint32_t fixedLightCount(const Scene& scene) {
@@ -260,14 +267,16 @@ void FrameData::addInstances(const Source& source, const PlannedPass& pass, cons
     const PartialInstance* part = partOf(pass.partial, i);
     const int level = levelOf(pass, i);
     const float handedness = handednessOf(instance);
+    const bool culls = cullsBacks(source.settings, pass.view, instance, scene.meshes[instance.mesh], level);
     const Batch* last = data.batches.empty() ? nullptr : &data.batches.back();
     if (!last || last->mesh != instance.mesh || last->curved != curved || last->level != level ||
-        last->handedness != handedness || !sameColors(scene.objects[last->object], object) || environment || part ||
-        !last->ranges.empty()) {
+        last->handedness != handedness || last->cullsBacks != culls ||
+        !sameColors(scene.objects[last->object], object) || environment || part || !last->ranges.empty()) {
       data.batches.push_back({.mesh = instance.mesh,
                               .object = instance.object,
                               .handedness = handedness,
                               .firstInstance = static_cast<uint32_t>(instances_.size()),
+                              .cullsBacks = culls,
                               .curved = curved,
                               .level = level});
       data.batches.back().ranges = part ? part->ranges : std::vector<IndexRange>();

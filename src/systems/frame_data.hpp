@@ -31,6 +31,7 @@ struct Batch {
   float handedness = 1.0f;  // of all
   uint32_t firstInstance = 0;
   uint32_t count = 0;
+  bool cullsBacks = false;         // no back of a triangle can be seen
   bool curved = false;             // the object is a curved mirror
   bool environment = false;        // it looks up an environment map; the batch then has one instance
   bool colored = false;            // and its base is not black

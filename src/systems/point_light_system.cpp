@@ -12,11 +12,12 @@ uint32_t PointLightSystem::record(const PassScope& scope, const FrameInfo& info,
                                 .frag = "point_light.frag",
                                 .setLayouts = {frameLayout_},
                                 .samples = scope.samples(),
-                                .sampleShading = scope.samples() != VK_SAMPLE_COUNT_1_BIT,
-                                .cullMode = VK_CULL_MODE_FRONT_BIT};
+                                .sampleShading = scope.samples() != VK_SAMPLE_COUNT_1_BIT};
   });
   info.data.bind(pipeline, scope.commands(), pass);
+  scope.cull(VK_CULL_MODE_FRONT_BIT);
   vkCmdDraw(scope.commands(), 36, pass.glyphCount, 0, pass.firstGlyph);
+  scope.cull(VK_CULL_MODE_NONE);
   info.ledger.draw(EffectKind::glyphs);
   return 1;
 }

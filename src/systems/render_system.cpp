@@ -51,6 +51,12 @@ void bindBuffers(VkCommandBuffer commands, const FrameInfo& info, const Batch& b
   vkCmdBindIndexBuffer(commands, indices.get(), 0, VK_INDEX_TYPE_UINT32);
 }
 
+VkCullModeFlags culledSides(const Batch& batch) {
+  return !batch.cullsBacks         ? VK_CULL_MODE_NONE
+         : batch.handedness > 0.0f ? VK_CULL_MODE_BACK_BIT
+                                   : VK_CULL_MODE_FRONT_BIT;
+}
+
 GraphicsPipelineDesc RenderSystem::objects(const Variant& variant, const FrameInfo& info,
                                            const DeferredShading* shading) const {
   GraphicsPipelineDesc desc{.name = "scene",
@@ -142,6 +148,7 @@ uint32_t RenderSystem::recordBatch(const PassScope& scope, const FrameInfo& info
   variant.lightCount = variant.deferred || variant.added ? gpu::manyLights : fixedLightCount(info.scene);
   const Mesh& mesh = info.scene.meshes[batch.mesh];
   bindBuffers(commands, info, batch);
+  scope.cull(culledSides(batch));
   uint32_t draws = 0;
   scope.beginLabel(nameOf("object", info.scene.objects[batch.object].name, batch.object));
   for (size_t p = 0; p < mesh.parts.size(); ++p) {
@@ -173,6 +180,7 @@ uint32_t RenderSystem::recordBatch(const PassScope& scope, const FrameInfo& info
       info.ledger.draw(EffectKind::textures, textured);
     }
   }
+  scope.cull(VK_CULL_MODE_NONE);
   scope.endLabel();
   return draws;
 }
