@@ -238,7 +238,43 @@ TEST(SolidMesh, RefusesWhatMayShowABack) {
   Triangles edge = boxAt({0, 0, 0}, {1, 1, 1});
   append(edge, boxAt({2, 2, 0}, {1, 1, 1}));
   EXPECT_FALSE(solid(edge)) << "an edge of four triangles";
+  Triangles doubled = boxAt({0, 0, 0}, {1, 1, 1});
+  doubled.triangle(doubled.positions[0], doubled.positions[1], doubled.positions[2]);
+  EXPECT_FALSE(solid(doubled)) << "a triangle twice";
+  doubled.triangle(doubled.positions[1], doubled.positions[0], doubled.positions[2]);
+  EXPECT_FALSE(solid(doubled)) << "and its other side";
+  Triangles infinite = boxAt({0, 0, 0}, {1, 1, 1});
+  std::ranges::replace(infinite.positions, infinite.positions[0], glm::dvec3(INFINITY, 0, 0));
+  EXPECT_FALSE(solid(infinite));
   EXPECT_FALSE(isSolid({}, {}));
+}
+
+// Faces of a box become fans about a point in their plane. Outside of the face, some triangles of the fan are folded
+// over others.
+TEST(SolidMesh, RefusesFolds) {
+  for (const bool folded : {false, true}) {
+    Triangles box = boxAt({0, 0, 0}, {1, 1, 1});
+    box.indices.erase(box.indices.begin(), box.indices.begin() + 6);  // the face at z = 1
+    const std::array<glm::dvec3, 4> ring{glm::dvec3(-1, -1, 1), {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}};
+    for (size_t i = 0; i < 4; ++i) {
+      box.triangle(ring[i], ring[(i + 1) % 4], glm::dvec3(folded ? 1.5 : 0.5, 0.2, 1));
+    }
+    EXPECT_EQ(solid(box), !folded);
+  }
+}
+
+TEST(SolidMesh, ComponentsMayShareAVertex) {
+  Triangles body;
+  const std::array<glm::dvec3, 4> ring{glm::dvec3(-1, -1, 1), {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}};
+  for (const double side : {1.0, -1.0}) {
+    for (size_t i = 0; i < 4; ++i) {
+      const glm::dvec3 a = side * ring[i];
+      const glm::dvec3 b = side * ring[(i + 1) % 4];
+      side > 0 ? body.triangle({0, 0, 0}, b, a) : body.triangle({0, 0, 0}, a, b);
+    }
+    body.quad(side * ring[0], side * ring[side > 0 ? 1 : 3], side * ring[2], side * ring[side > 0 ? 3 : 1]);
+  }
+  EXPECT_TRUE(solid(body));
 }
 
 // A prism over a bow tie is closed and consistently wound, and half of it is inside out.

@@ -143,7 +143,9 @@ Model& Model::close() {
   // What is left runs along openings, in the direction of the triangles beside them.
   std::map<Point, Edge, LessByCoordinates> edges;
   for (const auto& [from, ends] : sides) {
-    for (const auto& [to, paint] : ends) edges[from] = {to, paint};
+    for (const auto& [to, paint] : ends) {
+      if (!edges.try_emplace(from, Edge{to, paint}).second) throw std::logic_error("openings share a corner");
+    }
   }
   while (!edges.empty()) {
     std::vector<Point> loop;

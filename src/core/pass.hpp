@@ -98,7 +98,7 @@ class PassScope {
   // A label within the pass's own; ended by endLabel.
   void beginLabel(std::string_view name) const { device_.beginLabel(commands_, name); }
   void endLabel() const { device_.endLabel(commands_); }
-  // Triangles of these sides are not drawn from here on.
+  // These sides of triangles are not drawn from here on.
   void cull(VkCullModeFlags sides) const { device_.functions().setCullMode(commands_, sides); }
   // Ends the first rendering of a pass that pauses.
   void pause();

@@ -70,20 +70,21 @@ uint32_t indexCount(std::span<const IndexRange> ranges) {
   return count;
 }
 
-bool isOutside(const View& view, const InstanceState& instance, const glm::dvec3& halfExtent) {
-  constexpr double margin = 1.0 + 100.0 * rounding;
+bool seesOnlyFronts(const View& view, const InstanceState& instance, const glm::dvec3& halfExtent) {
   const Affine& worldFromMesh = instance.worldFromMesh;
-  // What stands on a mirror is not cut: the part of the mirror that is inside it, is hidden by it.
-  if (view.clip && view.clip->distance(worldFromMesh.translation) <
-                       (1.0 - rounding) * reachOf(instance, halfExtent, view.clip->normal)) {
+  const glm::dmat3& edges = worldFromMesh.linear;
+  if (view.clip && !(view.clip->distance(worldFromMesh.translation) >
+                     (1.0 + rounding) * reachOf(instance, halfExtent, view.clip->normal))) {
     return false;
   }
-  // A plane beside the box, parallel to two of its edges, has the eye on its other side.
+  // Rounding moves vertices by a share of the whole size, which counts where the box is thin.
+  const double moved = rounding * (halfExtent.x * glm::length(edges[0]) + halfExtent.y * glm::length(edges[1]) +
+                                   halfExtent.z * glm::length(edges[2]));
   const glm::dvec3 toEye = view.eye - worldFromMesh.translation;
-  const glm::dmat3& edges = worldFromMesh.linear;
   for (int i = 0; i < 3; ++i) {
-    const glm::dvec3 normal = glm::cross(edges[(i + 1) % 3], edges[(i + 2) % 3]);
-    if (std::abs(glm::dot(normal, toEye)) > margin * halfExtent[i] * std::abs(glm::dot(normal, edges[i]))) {
+    const glm::dvec3 normal = glm::cross(edges[(i + 1) % 3], edges[(i + 2) % 3]);  // of two sides of the box
+    const double side = halfExtent[i] * std::abs(glm::dot(normal, edges[i]));
+    if (std::abs(glm::dot(normal, toEye)) > side + moved * glm::length(normal)) {
       return true;
     }
   }

@@ -32,9 +32,9 @@ std::vector<IndexRange> visibleRanges(const View& view, const InstanceState& ins
 // The same for a mesh level: its triangles `all`, within the mesh's box, in these clusters.
 std::vector<IndexRange> visibleRanges(const View& view, const InstanceState& instance, const glm::dvec3& halfExtent,
                                       const IndexRange& all, std::span<const MeshCluster> clusters);
-// Says whether the view's eye is outside the mesh's box and its clip plane does not cut the box: if the mesh is solid,
-// it sees no backs of triangles.
-bool isOutside(const View& view, const InstanceState& instance, const glm::dvec3& halfExtent);
+// Says whether the view sees no backs of the mesh's triangles if the mesh is solid: its eye is outside the mesh's box,
+// which lies before its clip plane.
+bool seesOnlyFronts(const View& view, const InstanceState& instance, const glm::dvec3& halfExtent);
 uint32_t indexCount(std::span<const IndexRange> ranges);
 
 }  // namespace speculum

@@ -203,8 +203,8 @@ constexpr SettingField fields[] = {
     setting("debug.skip_hidden", BooleanSetting{at<&D::skipHidden>}, "Skip hidden mirrors",
             "mirrors hidden by occluders have no pass", "Saves passes.", {.changes = mainView}),
     setting("debug.cull_clusters", BooleanSetting{at<&D::cullClusters>}, "Cull clusters",
-            "clusters outside a view and backs of solids are not drawn", "Saves shading; costs draw calls.",
-            {.changes = mainView}),
+            "clusters outside a view and backs of solids are not drawn",
+            "Saves vertices and shading; costs draw calls.", {.changes = mainView}),
     setting("debug.mask_passes", BooleanSetting{at<&D::maskPasses>}, "Mask passes",
             "only visible regions of mirror images are shaded", "Saves shading.", {.changes = mainView}),
 };

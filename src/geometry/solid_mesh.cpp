@@ -7,7 +7,6 @@
 #include <glm/gtx/component_wise.hpp>
 #include <numeric>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include "geometry/bvh.hpp"
@@ -17,7 +16,7 @@ namespace speculum {
 namespace {
 
 constexpr double touching = 1e-7;
-constexpr size_t mostNeighbours = 256;  // tested for each triangle, in the mean
+constexpr size_t mostVisited = 256;  // boxes and triangles for each triangle, in the mean
 
 using Triangle = std::array<uint32_t, 3>;  // vertices
 using Corners = std::array<glm::dvec3, 3>;
@@ -35,7 +34,6 @@ struct SolidTester {
   }
   Corners cornersOf(const Triangle& t) const { return {vertices[t[0]], vertices[t[1]], vertices[t[2]]}; }
 
-  // The first makes vertices and triangles; the others need what those before have made.
   bool weld(std::span<const glm::dvec3> corners);
   bool joinEdges();
   bool isWoundOutward();
@@ -67,23 +65,13 @@ bool SolidTester::weld(std::span<const glm::dvec3> corners) {
   return true;
 }
 
-// The sine of the angle between two triangles that are folded onto each other along an edge is below `touching`.
-bool isFold(const glm::dvec3& from, const glm::dvec3& to, const glm::dvec3& a, const glm::dvec3& b) {
-  const glm::dvec3 edge = glm::normalize(to - from);
-  const auto across = [&](const glm::dvec3& p) { return glm::normalize(p - from - glm::dot(p - from, edge) * edge); };
-  const glm::dvec3 u = across(a);
-  const glm::dvec3 v = across(b);
-  return !(glm::dot(u, v) < 0.0 || glm::length(glm::cross(u, v)) > touching);
-}
-
-// Joins the two triangles of each edge; returns false unless each edge has two, in opposite directions and not folded.
+// Joins the two triangles of each edge; returns false unless each edge has two, in opposite directions.
 bool SolidTester::joinEdges() {
   struct Side {
     uint32_t low;
     uint32_t high;
     bool ascends;
     uint32_t triangle;
-    uint32_t opposite;  // vertex
     auto operator<=>(const Side&) const = default;
   };
   std::vector<Side> sides;
@@ -92,7 +80,7 @@ bool SolidTester::joinEdges() {
     for (size_t i = 0; i < 3; ++i) {
       const uint32_t from = triangles[t][i];
       const uint32_t to = triangles[t][(i + 1) % 3];
-      sides.push_back({std::min(from, to), std::max(from, to), from < to, t, triangles[t][(i + 2) % 3]});
+      sides.push_back({std::min(from, to), std::max(from, to), from < to, t});
     }
   }
   std::ranges::sort(sides);
@@ -105,8 +93,7 @@ bool SolidTester::joinEdges() {
   for (size_t i = 0; i < sides.size(); i += 2) {
     const Side& a = sides[i];
     const Side& b = sides[i + 1];
-    if (!sameEdge(a, b) || a.ascends == b.ascends || (i > 0 && sameEdge(sides[i - 1], a)) ||
-        isFold(vertices[a.low], vertices[a.high], vertices[a.opposite], vertices[b.opposite])) {
+    if (!sameEdge(a, b) || a.ascends == b.ascends || (i > 0 && sameEdge(sides[i - 1], a))) {
       return false;
     }
     parent[componentOf(a.triangle)] = componentOf(b.triangle);
@@ -115,7 +102,7 @@ bool SolidTester::joinEdges() {
 }
 
 bool SolidTester::isWoundOutward() {
-  constexpr double leastVolume = 1e-15;  // far above the rounding of a sum of terms below 1
+  constexpr double leastVolume = 1e-12;  // sixfold; far above the rounding of the sum
   std::vector<double> volumes(triangles.size());
   for (uint32_t t = 0; t < triangles.size(); ++t) {
     const Corners c = cornersOf(triangles[t]);
@@ -168,35 +155,27 @@ using Pair = std::array<glm::dvec3, 2>;  // of unit directions
 
 // Says whether a plane through the apex has `a` on it or below and `b` on it or above, and no common direction on it.
 bool separatesCones(const glm::dvec3& normal, const Pair& a, const Pair& b) {
-  // Heights are exact to 1e-16 / shortest. A common direction would be at most 1e-4 off both directions on the plane,
-  // since it takes less than 1e-11 / touching of those beside it.
-  constexpr double shortest = 1e-4;
+  // If the cones shared a direction, at most 1e-4 of it would come from the directions off the plane, so that it would
+  // lie within 1e-3 of the directions on the plane.
   constexpr double rounding = 1e-11;
   constexpr double leastAngle = 1e-3;
   const double length = glm::length(normal);
-  if (!(length > shortest)) {
-    return false;
-  }
-  std::optional<glm::dvec3> onPlane;
-  for (const glm::dvec3& d : a) {
-    const double height = glm::dot(normal, d) / length;
-    if (height > rounding || (height > -touching && onPlane)) {
+  std::optional<glm::dvec3> onPlaneA;
+  std::optional<glm::dvec3> onPlaneB;
+  for (size_t i = 0; i < 2; ++i) {
+    const double heightA = glm::dot(normal, a[i]) / length;
+    const double heightB = glm::dot(normal, b[i]) / length;
+    const bool isOnA = heightA > -touching;
+    const bool isOnB = heightB < touching;
+    // Negated, because directions of extremely short edges are NaN.
+    if (!(heightA <= rounding && heightB >= -rounding) || (isOnA && onPlaneA) || (isOnB && onPlaneB)) {
       return false;
     }
-    onPlane = height > -touching ? std::optional(d) : onPlane;
+    onPlaneA = isOnA ? std::optional(a[i]) : onPlaneA;
+    onPlaneB = isOnB ? std::optional(b[i]) : onPlaneB;
   }
-  bool first = true;
-  for (const glm::dvec3& d : b) {
-    const double height = glm::dot(normal, d) / length;
-    if (height > touching) {
-      continue;
-    }
-    const bool alike = onPlane && glm::dot(d, *onPlane) > 0.0 && glm::length(glm::cross(d, *onPlane)) < leastAngle;
-    if (height < -rounding || alike || !std::exchange(first, false)) {
-      return false;
-    }
-  }
-  return true;
+  return !onPlaneA || !onPlaneB || glm::dot(*onPlaneA, *onPlaneB) < 0.0 ||
+         glm::length(glm::cross(*onPlaneA, *onPlaneB)) > leastAngle;
 }
 
 // Says whether two triangles meet only in the apex that they share; `a` and `b` are the directions of their other
@@ -233,7 +212,9 @@ bool meet(const SolidTester& mesh, Triangle a, Triangle b) {
     return !areApart(mesh.cornersOf(a), mesh.cornersOf(b));
   }
   if (shared > 1) {
-    return shared == 3;  // triangles of one edge that are folded onto each other were found before
+    // Two triangles that are folded onto each other along their edge: another one at an end of the edge meets them,
+    // too.
+    return shared == 3;
   }
   const glm::dvec3& apex = mesh.vertices[a[atA]];
   const auto directions = [&](const Triangle& t, size_t at) -> Pair {
@@ -254,13 +235,17 @@ bool SolidTester::crossesItself() {
     return glm::all(glm::lessThanEqual(a.low, b.high)) && glm::all(glm::lessThanEqual(b.low, a.high));
   };
   const Bvh bvh(boxes);
-  size_t left = mostNeighbours * (triangles.size() + 16);
+  size_t left = mostVisited * (triangles.size() + 16);
   std::vector<uint32_t> stack;
   for (uint32_t t = 0; t < triangles.size(); ++t) {
     stack.assign(1, 0);
     while (!stack.empty()) {
       const Bvh::Node& node = bvh.nodes()[stack.back()];
       stack.pop_back();
+      if (left < node.count + 1) {
+        return true;
+      }
+      left -= node.count + 1;
       if (!overlap(boxes[t], node.box)) {
         continue;
       }
@@ -270,8 +255,8 @@ bool SolidTester::crossesItself() {
       }
       for (uint32_t k = node.first; k < node.first + node.count; ++k) {
         const uint32_t other = bvh.order()[k];
-        if (left-- == 0 || (other > t && overlap(boxes[t], boxes[other]) && componentOf(other) == componentOf(t) &&
-                            meet(*this, triangles[t], triangles[other]))) {
+        if (other > t && overlap(boxes[t], boxes[other]) && componentOf(other) == componentOf(t) &&
+            meet(*this, triangles[t], triangles[other])) {
           return true;
         }
       }

@@ -6,19 +6,19 @@
 
 namespace speculum {
 
-// Says whether no view from outside the mesh's box can see the back of a triangle, so that it need not be drawn. True
-// for meshes whose components (triangles joined by edges)
+constexpr size_t mostSolidTriangles = 65536;
+
+// Says whether no view from outside the mesh's box can see the back of a triangle, so that backs need not be drawn.
+// True for meshes whose components (triangles joined by edges)
 // - are closed: at each edge, two triangles run in opposite directions,
 // - do not cross or touch themselves, except at shared vertices,
 // - are wound counter-clockwise seen from outside.
-// Such a component winds once around what is inside and not at all around what is outside. The components may cross or
-// contain each other: winding numbers add up, and where a line of sight first meets a surface, the sum must rise.
+// Such a component winds once around what is inside it and not at all around what is outside. Components may cross or
+// contain each other: winding numbers add up, and where a line of sight first meets a surface, the sum rises from 0.
 //
-// Vertices at equal positions are one. What is nearer to itself than 1e-7 of the longest
-// side of the box counts as touching. A mesh of more than `mostSolidTriangles`, or one where too many triangles lie
-// close together to be tested in time n log n, counts as no solid.
+// Vertices at equal positions are one. Parts nearer to each other than 1e-7 of the longest side of the box touch. A
+// mesh of more than `mostSolidTriangles` does not count as solid, nor does one where so many triangles lie close
+// together that more than 256 boxes and triangles were looked at for each.
 bool isSolid(std::span<const glm::dvec3> positions, std::span<const uint32_t> indices);
-
-constexpr size_t mostSolidTriangles = 65536;
 
 }  // namespace speculum

@@ -81,8 +81,8 @@ void rebase(Mesh& mesh) {
   }
 }
 
-// Finds the occluders that may hide mirrors: flat faces and a convex mesh. Objects that hide mirrors, such as walls,
-// doors and cupboards, have few triangles or a few large ones.
+// Finds what may hide mirrors, flat faces and a convex mesh, and whether the mesh is solid. Objects that hide mirrors,
+// such as walls, doors and cupboards, have few triangles or a few large ones.
 void findShape(Mesh& mesh) {
   constexpr size_t mostFaces = 32;
   constexpr size_t mostTriangles = 4096;

@@ -80,11 +80,12 @@ bool sameColors(const Object& a, const Object& b) {
   return a.color == b.color && a.specular == b.specular && a.shininess == b.shininess && a.emission == b.emission;
 }
 
-// Says whether the backs of triangles need not be drawn. Wireframes show them.
-bool cullsBacks(const Settings& settings, const View& view, const InstanceState& instance, const Mesh& mesh,
-                int level) {
-  return settings.debug.cullClusters && !settings.view.wireframe &&
-         (level < 0 ? mesh.solid : levelsOf(mesh).levels[level].solid) && isOutside(view, instance, mesh.halfExtent);
+// Says whether the backs of triangles need not be drawn. Wireframes show them, and so does a near plane that cuts
+// fronts.
+bool cullsBacks(const Device& device, const Settings& settings, const View& view, const InstanceState& instance,
+                const Mesh& mesh, int level) {
+  return device.caps().depthClamp && settings.debug.cullClusters && !settings.view.wireframe && mesh.solid &&
+         seesOnlyFronts(view, instance, mesh.halfExtent) && (level < 0 || levelsOf(mesh).levels[level].solid);
 }
 
 }  // namespace
@@ -267,7 +268,8 @@ void FrameData::addInstances(const Source& source, const PlannedPass& pass, cons
     const PartialInstance* part = partOf(pass.partial, i);
     const int level = levelOf(pass, i);
     const float handedness = handednessOf(instance);
-    const bool culls = cullsBacks(source.settings, pass.view, instance, scene.meshes[instance.mesh], level);
+    const Mesh& mesh = scene.meshes[instance.mesh];
+    const bool culls = cullsBacks(device_, source.settings, pass.view, instance, mesh, level);
     const Batch* last = data.batches.empty() ? nullptr : &data.batches.back();
     if (!last || last->mesh != instance.mesh || last->curved != curved || last->level != level ||
         last->handedness != handedness || last->cullsBacks != culls ||

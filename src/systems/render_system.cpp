@@ -40,21 +40,17 @@ void addVertexInput(GraphicsPipelineDesc& desc) {
   add(13, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(gpu::InstanceData, clipPlane), 1);
 }
 
-void bindBuffers(VkCommandBuffer commands, const FrameInfo& info, const Batch& batch) {
+void bindBatch(const PassScope& scope, const FrameInfo& info, const Batch& batch) {
   const SceneResources::GpuMesh& mesh = info.resources.meshes()[batch.mesh];
   const bool whole = batch.level < 0;
   const Buffer& vertices = whole ? mesh.vertices : mesh.levelVertices;
   const Buffer& indices = whole ? mesh.indices : mesh.levelIndices;
   const std::array buffers{vertices.get(), info.data.instanceBuffer()};
   constexpr std::array<VkDeviceSize, 2> offsets{};
-  vkCmdBindVertexBuffers(commands, 0, buffers.size(), buffers.data(), offsets.data());
-  vkCmdBindIndexBuffer(commands, indices.get(), 0, VK_INDEX_TYPE_UINT32);
-}
-
-VkCullModeFlags culledSides(const Batch& batch) {
-  return !batch.cullsBacks         ? VK_CULL_MODE_NONE
-         : batch.handedness > 0.0f ? VK_CULL_MODE_BACK_BIT
-                                   : VK_CULL_MODE_FRONT_BIT;
+  vkCmdBindVertexBuffers(scope.commands(), 0, buffers.size(), buffers.data(), offsets.data());
+  vkCmdBindIndexBuffer(scope.commands(), indices.get(), 0, VK_INDEX_TYPE_UINT32);
+  const VkCullModeFlags backs = batch.handedness > 0.0f ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_FRONT_BIT;
+  scope.cull(batch.cullsBacks ? backs : VkCullModeFlags{VK_CULL_MODE_NONE});
 }
 
 GraphicsPipelineDesc RenderSystem::objects(const Variant& variant, const FrameInfo& info,
@@ -147,8 +143,7 @@ uint32_t RenderSystem::recordBatch(const PassScope& scope, const FrameInfo& info
   variant.onlyShadowFace = variant.shadowed ? info.shadows.onlyFace() : gpu::anyShadowFace;
   variant.lightCount = variant.deferred || variant.added ? gpu::manyLights : fixedLightCount(info.scene);
   const Mesh& mesh = info.scene.meshes[batch.mesh];
-  bindBuffers(commands, info, batch);
-  scope.cull(culledSides(batch));
+  bindBatch(scope, info, batch);
   uint32_t draws = 0;
   scope.beginLabel(nameOf("object", info.scene.objects[batch.object].name, batch.object));
   for (size_t p = 0; p < mesh.parts.size(); ++p) {
@@ -180,7 +175,6 @@ uint32_t RenderSystem::recordBatch(const PassScope& scope, const FrameInfo& info
       info.ledger.draw(EffectKind::textures, textured);
     }
   }
-  scope.cull(VK_CULL_MODE_NONE);
   scope.endLabel();
   return draws;
 }
@@ -233,6 +227,7 @@ uint32_t RenderSystem::record(const PassScope& scope, const FrameInfo& info, con
     variant.deferred = defers(info, batch);
     draws += recordBatch(scope, info, pass, batch, variant);
   }
+  scope.cull(VK_CULL_MODE_NONE);
   return draws + (info.environment.sky ? recordSky(scope, info, pass) : 0);
 }
 
@@ -246,6 +241,7 @@ uint32_t RenderSystem::recordReflections(const PassScope& scope, const FrameInfo
       draws += recordBatch(scope, info, pass, batch, variant, &shading);
     }
   }
+  scope.cull(VK_CULL_MODE_NONE);
   return draws;
 }
 

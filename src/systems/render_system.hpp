@@ -9,10 +9,9 @@ class DeferredShading;
 
 // Adds the inputs of scene.vert.
 void addVertexInput(GraphicsPipelineDesc& desc);
-// Binds the batch's mesh, at its level, and the frame's instances as these inputs.
-void bindBuffers(VkCommandBuffer commands, const FrameInfo& info, const Batch& batch);
-// The side of the batch's triangles that is not drawn, if any.
-VkCullModeFlags culledSides(const Batch& batch);
+// Binds the batch's mesh, at its level, and the frame's instances as these inputs, and culls what the batch culls until
+// PassScope::cull() says otherwise.
+void bindBatch(const PassScope& scope, const FrameInfo& info, const Batch& batch);
 
 // Draws the scene's objects and, where nothing was drawn, its sky.
 class RenderSystem {

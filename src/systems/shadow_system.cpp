@@ -140,8 +140,7 @@ uint32_t ShadowSystem::draw(const PassScope& scope, const FrameInfo& info, size_
   }
   for (const Batch& batch : data.batches) {
     const Mesh& source = info.scene.meshes[batch.mesh];
-    bindBuffers(commands, info, batch);
-    scope.cull(culledSides(batch));
+    bindBatch(scope, info, batch);
     const std::vector<IndexRange> all{batch.level < 0 ? allOf(source) : levelsOf(source).levels[batch.level].all};
     for (const IndexRange& range : batch.ranges.empty() ? all : batch.ranges) {
       vkCmdDrawIndexed(commands, range.count, batch.count, range.first, 0, batch.firstInstance);
