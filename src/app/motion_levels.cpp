@@ -53,7 +53,7 @@ Settings lowered(Settings settings, const Settings& limit) {
 }
 
 // Returns the mean FLIP that each setting adds, on average over the shipped scenes without traced effects.
-std::array<double, 9> errorsOf(const Settings& settings) {
+std::array<double, 9> errorsOf(const Settings& settings, size_t mirrors) {
   const ViewSettings& view = settings.view;
   const ReflectionSettings& reflection = settings.reflection;
   const EffectSettings& effects = settings.effects;
@@ -62,7 +62,7 @@ std::array<double, 9> errorsOf(const Settings& settings) {
   return {0.055 * std::pow(1.0 / view.scale - 1.0, 0.62),
           0.025 / view.samples,
           0.009 / reflection.samples,
-          0.03 * std::pow(8.0 / reflection.maxPasses, 1.6),
+          0.03 * std::min(1.0, static_cast<double>(mirrors) / 16.0) * std::pow(8.0 / reflection.maxPasses, 1.6),
           3e-6 * reflection.minPixels,
           0.012 * view.meshError,
           0.003 * reflection.meshError,
@@ -71,9 +71,9 @@ std::array<double, 9> errorsOf(const Settings& settings) {
 }
 
 // Adds errors of different kinds as squares, like independent ones.
-double addedError(const Settings& chosen, const Settings& lower) {
-  const auto less = errorsOf(chosen);
-  const auto more = errorsOf(lower);
+double addedError(const Settings& chosen, const Settings& lower, size_t mirrors) {
+  const auto less = errorsOf(chosen, mirrors);
+  const auto more = errorsOf(lower, mirrors);
   double sum = 0.0;
   for (size_t i = 0; i < more.size(); ++i) {
     sum += std::max(0.0, more[i] * more[i] - less[i] * less[i]);
@@ -127,7 +127,7 @@ std::vector<MotionLevel> motionLevels(const Scene& scene, const Settings& chosen
     Settings limit = levels.back().settings;
     change(limit);
     const Settings settings = lowered(levels.back().settings, limit);
-    add(settings, std::hypot(measured.error, addedError(measured.settings, settings)));
+    add(settings, std::hypot(measured.error, addedError(measured.settings, settings, scene.mirrors.size())));
   };
   const auto scaleTo = [&](double least) {
     for (double scale = levels.back().settings.view.scale * scaleStep; scale >= least; scale *= scaleStep) {
@@ -187,6 +187,8 @@ std::vector<MotionLevel> motionLevels(const Scene& scene, const Settings& chosen
   // For each millisecond saved, these add less error than a lower resolution.
   step([](Settings& s) { s.reflection.minPixels = smallImage; });
   simplify(2.0, 1.0);
+  // Mirrors that face each other show images without end, which soon are small and dark.
+  passesTo(std::max(8, 4 * static_cast<int>(std::min<size_t>(scene.mirrors.size(), 1000))));
   scaleTo(softScale);
   simplify(2.0, 2.0);
   passesTo(32);
