@@ -270,5 +270,14 @@ TEST(Models, ShippedBodiesAreSolid) {
   EXPECT_EQ(found, others);
 }
 
+TEST(Models, LevelsOfSolidsMayBeSolid) {
+  for (const char* name : {"sphere", "pawn", "moebius", "torus_knot"}) {
+    const std::vector<MeshLevel> levels = simplified(model(name)).levels;
+    EXPECT_GT(std::ranges::count(levels, true, &MeshLevel::solid), 0) << name;
+  }
+  const std::vector<MeshLevel> levels = simplified(model("teapot")).levels;
+  EXPECT_EQ(std::ranges::count(levels, true, &MeshLevel::solid), 0);
+}
+
 }  // namespace
 }  // namespace speculum

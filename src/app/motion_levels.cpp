@@ -184,11 +184,10 @@ std::vector<MotionLevel> motionLevels(const Scene& scene, const Settings& chosen
   replace(rays.rough, [](E& effects) { effects.roughSamples = 16; });
   replace(rays.rough, [](E& effects) { effects.roughSamples = 4; });
   replace(rays.rough, [](E& effects) { effects.roughLookup = ReflectionSource::image; });
-  // For each millisecond saved, these add less error than a lower resolution.
+  // For each millisecond saved, these add less error than a lower resolution. Images in images soon are small and dark.
+  passesTo(std::max(8, 2 * static_cast<int>(std::min<size_t>(scene.mirrors.size(), 1000))));
   step([](Settings& s) { s.reflection.minPixels = smallImage; });
   simplify(2.0, 1.0);
-  // Mirrors that face each other show images without end, which soon are small and dark.
-  passesTo(std::max(8, 4 * static_cast<int>(std::min<size_t>(scene.mirrors.size(), 1000))));
   scaleTo(softScale);
   simplify(2.0, 2.0);
   passesTo(32);
