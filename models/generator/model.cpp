@@ -6,8 +6,9 @@
 #include <map>
 #include <sstream>
 #include <stdexcept>
-#include <tuple>
 #include <unordered_map>
+
+#include "geometry/weld.hpp"
 
 namespace speculum::generator {
 namespace {
@@ -34,12 +35,6 @@ std::string triple(const glm::dvec3& v, int decimals) {
 glm::dvec3 written(const glm::dvec3& position) {
   return glm::round(glm::round(position * 1e9) / 1e5) / 1e4;
 }
-
-struct LessByCoordinates {
-  bool operator()(const glm::dvec3& a, const glm::dvec3& b) const {
-    return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
-  }
-};
 
 // The lines of one kind ("v", "vt", "vn"), each distinct one written once.
 class Lines {
@@ -133,7 +128,7 @@ Model& Model::close() {
     Point to;
     int paint;
   };
-  std::map<Point, std::map<Point, int, LessByCoordinates>, LessByCoordinates> sides;  // paint by start and end
+  std::map<Point, std::map<Point, int, PointWelder::Less>, PointWelder::Less> sides;  // paint by start and end
   for (const Triangle& t : triangles_) {
     for (size_t i = 0; i < 3; ++i) {
       const Point from = written(t.corners[i].position), to = written(t.corners[(i + 1) % 3].position);
@@ -141,7 +136,7 @@ Model& Model::close() {
     }
   }
   // What is left runs along openings, in the direction of the triangles beside them.
-  std::map<Point, Edge, LessByCoordinates> edges;
+  std::map<Point, Edge, PointWelder::Less> edges;
   for (const auto& [from, ends] : sides) {
     for (const auto& [to, paint] : ends) {
       if (!edges.try_emplace(from, Edge{to, paint}).second) throw std::logic_error("openings share a corner");

@@ -246,9 +246,6 @@ MeshLevel addLevel(const std::vector<SimplifiedPart>& parts, double error, MeshL
   }
   level.all.count = static_cast<uint32_t>(levels.indices.size()) - level.all.first;
   level.clusters = clustersOf(levels.vertices, levels.indices, level.parts);
-  std::vector<glm::dvec3> positions(levels.vertices.size());
-  std::ranges::transform(levels.vertices, positions.begin(), &Vertex::position);
-  level.solid = isSolid(positions, std::span(levels.indices).subspan(level.all.first));
   return level;
 }
 
@@ -298,6 +295,13 @@ MeshLevels simplified(const Mesh& mesh, const std::function<bool()>& cancelled) 
     }
     levels.levels.push_back(addLevel(parts, error, levels));
     last = left;
+  }
+  if (mesh.solid) {
+    std::vector<glm::dvec3> positions(levels.vertices.size());
+    std::ranges::transform(levels.vertices, positions.begin(), &Vertex::position);
+    for (MeshLevel& level : levels.levels) {
+      level.solid = isSolid(positions, std::span(levels.indices).subspan(level.all.first, level.all.count));
+    }
   }
   return levels;
 }

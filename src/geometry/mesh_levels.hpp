@@ -16,7 +16,7 @@ struct MeshLevel {
   IndexRange all;                     // of MeshLevels::indices
   std::vector<IndexRange> parts;      // of MeshLevels::indices, in the order of Mesh::parts
   std::vector<MeshCluster> clusters;  // of all parts; none of a small level
-  bool solid = false;                 // see isSolid()
+  bool solid = false;                 // see isSolid(); false unless the mesh is solid
 };
 
 // Levels from fine to coarse. Each has about seven tenths of the triangles of the one before, the first of those of the
