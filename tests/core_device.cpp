@@ -1,5 +1,7 @@
 #include <array>
 #include <cctype>
+#include <cstring>
+#include <numeric>
 
 #include "core_fixture.hpp"
 #include "error_message.hpp"
@@ -113,6 +115,26 @@ TEST_F(GpuTest, UploadedFloatsAreReadBack) {
   });
   const std::vector<float> expected = {0.0f, 1.0f, -1.0f, 65504.0f, 0.5f, 2.0f, 0.25f, 5.9604645e-8f};
   EXPECT_EQ(uploader.readFloats(image), expected);
+}
+
+TEST_F(GpuTest, BuffersAreWrittenInPieces) {
+  Uploader uploader(device_);
+  std::vector<uint32_t> values(2 * BufferWriter::pieceBytes / sizeof(uint32_t) + 3);
+  std::iota(values.begin(), values.end(), 1u);
+  const VkDeviceSize bytes = values.size() * sizeof(uint32_t);
+  BufferWriter writer(uploader, bytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, "test");
+  writer.add(values[0]);
+  EXPECT_THROW(writer.finish(), std::logic_error);
+  writer.write(std::as_bytes(std::span(values).subspan(1)));
+  EXPECT_THROW(writer.add(0u), std::out_of_range);
+  const Buffer buffer = writer.finish();
+  const Buffer copy(device_, bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, BufferMemory::host, "copy");
+  uploader.run([&](VkCommandBuffer commands) {
+    const VkBufferCopy region{.size = bytes};
+    vkCmdCopyBuffer(commands, buffer.get(), copy.get(), 1, &region);
+    Barriers::copyToHost(commands);
+  });
+  EXPECT_EQ(std::memcmp(copy.mapped(), values.data(), bytes), 0);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include "app/output_files.hpp"
 #include "frame/picture_tiles.hpp"
+#include "platform/machine.hpp"
 #include "platform/text.hpp"
 #include "scene/input_error.hpp"
 #include "scene/nearest_key.hpp"
@@ -78,6 +79,7 @@ LoadedScene loadSceneWithSettings(const Options& options) {
 LoadedScene loadSceneWithSettings(const std::filesystem::path& file, const Options& options,
                                   const LoadProgress& progress) {
   LoadedScene loaded{.scene = loadScene(file, progress)};
+  releaseFreedMemory();  // of a large model as much as the scene itself takes
   loaded.settings = settingsOf(loaded.scene, options);
   loaded.quality = chooseQuality(options, file, loaded.settings);
   return loaded;

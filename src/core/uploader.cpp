@@ -53,19 +53,9 @@ void Uploader::run(const std::function<void(VkCommandBuffer)>& record) {
 }
 
 Buffer Uploader::buffer(std::span<const std::byte> data, VkBufferUsageFlags usage, const std::string& name) {
-  Buffer target(device_, data.size(), usage | VK_BUFFER_USAGE_TRANSFER_DST_BIT, BufferMemory::device, name);
-  if (data.empty()) {
-    return target;
-  }
-  const Buffer staging(device_, data.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT, BufferMemory::host,
-                       "staging of " + name);
-  staging.write(data);
-  run([&](VkCommandBuffer commands) {
-    const VkBufferCopy region{.size = data.size()};
-    vkCmdCopyBuffer(commands, staging.get(), target.get(), 1, &region);
-    device_.barriers().record(commands, BarrierKind::uploadToRead, target.descriptor());
-  });
-  return target;
+  BufferWriter writer(*this, data.size(), usage, name);
+  writer.write(data);
+  return writer.finish();
 }
 
 Image Uploader::image(std::span<const std::byte> texels, VkExtent2D extent, VkFormat format, bool mipmaps,
@@ -115,6 +105,51 @@ void Uploader::generateMipmaps(VkCommandBuffer commands, Image& image) {
     width = halfWidth;
     height = halfHeight;
   }
+}
+
+BufferWriter::BufferWriter(Uploader& uploader, VkDeviceSize bytes, VkBufferUsageFlags usage, const std::string& name)
+    : uploader_(uploader),
+      bytes_(bytes),
+      target_(uploader.device(), bytes, usage | VK_BUFFER_USAGE_TRANSFER_DST_BIT, BufferMemory::device, name) {
+  if (bytes > 0) {
+    staging_ = Buffer(uploader.device(), std::min(bytes, pieceBytes), VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+                      BufferMemory::host, "staging of " + name);
+  }
+}
+
+void BufferWriter::write(std::span<const std::byte> data) {
+  if (data.size() > bytes_ - flushed_ - staged_) {
+    throw std::out_of_range("more bytes than the buffer has");
+  }
+  while (!data.empty()) {
+    const auto count = static_cast<size_t>(std::min<VkDeviceSize>(data.size(), staging_.bytes() - staged_));
+    std::memcpy(staging_.mapped() + staged_, data.data(), count);
+    staged_ += count;
+    data = data.subspan(count);
+    if (staged_ == staging_.bytes()) {
+      flush();
+    }
+  }
+}
+
+void BufferWriter::flush() {
+  uploader_.run([&](VkCommandBuffer commands) {
+    const VkBufferCopy region{.dstOffset = flushed_, .size = staged_};
+    vkCmdCopyBuffer(commands, staging_.get(), target_.get(), 1, &region);
+    uploader_.device().barriers().record(commands, BarrierKind::uploadToRead, target_.descriptor());
+  });
+  flushed_ += staged_;
+  staged_ = 0;
+}
+
+Buffer BufferWriter::finish() {
+  if (staged_ > 0) {
+    flush();
+  }
+  if (flushed_ != bytes_) {
+    throw std::logic_error("a buffer of " + std::to_string(bytes_) + " bytes got " + std::to_string(flushed_));
+  }
+  return std::move(target_);
 }
 
 std::vector<std::byte> Uploader::read(Image& image) {

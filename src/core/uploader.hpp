@@ -4,6 +4,7 @@
 #include <ranges>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "core/command_pool.hpp"
@@ -15,6 +16,8 @@ namespace speculum {
 class Uploader {
  public:
   explicit Uploader(Device& device);
+
+  Device& device() const { return device_; }
 
   // A device buffer (usage gets TRANSFER_DST added) that holds `data`.
   Buffer buffer(std::span<const std::byte> data, VkBufferUsageFlags usage, const std::string& name);
@@ -41,6 +44,33 @@ class Uploader {
   Device& device_;
   CommandPool pool_;
   FenceHandle fence_;
+};
+
+// Writes a device buffer from front to back. The host holds a piece of at most `pieceBytes`, however large the buffer.
+class BufferWriter {
+ public:
+  static constexpr VkDeviceSize pieceBytes = VkDeviceSize{4} << 20;
+
+  // `bytes` and usage as of a Buffer; usage gets TRANSFER_DST added.
+  BufferWriter(Uploader& uploader, VkDeviceSize bytes, VkBufferUsageFlags usage, const std::string& name);
+
+  // Throws std::out_of_range past the buffer's end.
+  void write(std::span<const std::byte> data);
+  template <typename T>
+  requires std::is_trivially_copyable_v<T>
+  void add(const T& value) { write(std::as_bytes(std::span(&value, 1))); }
+  // Returns the buffer once all of its bytes are written; throws std::logic_error before. Call it last.
+  Buffer finish();
+
+ private:
+  void flush();
+
+  Uploader& uploader_;
+  VkDeviceSize bytes_;
+  Buffer target_;
+  Buffer staging_;
+  VkDeviceSize flushed_ = 0;  // bytes in the target
+  VkDeviceSize staged_ = 0;   // bytes in the staging buffer
 };
 
 }  // namespace speculum

@@ -3,7 +3,6 @@
 #include <meshoptimizer.h>
 
 #include <algorithm>
-#include <unordered_map>
 
 #include "geometry/bvh.hpp"
 
@@ -30,30 +29,36 @@ struct PartVertices {
   std::vector<uint32_t> ofMesh;      // vertices
   std::vector<glm::vec3> positions;  // scaled to about unit size, so that floats can hold them
 
-  PartVertices(const Mesh& mesh, std::span<const uint32_t> all) {
+  // What a vertex of the mesh counts as, for so many more triangles.
+  struct Last {
+    uint32_t index = 0;
+    uint32_t trianglesLeft = 0;
+  };
+
+  // `last` has one for each vertex of the mesh, with no triangles left before and after.
+  PartVertices(const Mesh& mesh, std::span<const uint32_t> all, std::span<Last> last) {
     constexpr uint32_t mostTriangles = 256;
-    struct Last {
-      uint32_t index;
-      uint32_t triangles;
-    };
-    std::unordered_map<uint32_t, Last> last;  // by vertex of the mesh
+    indices.reserve(all.size());
     for (const uint32_t vertex : all) {
-      const auto [found, isNew] = last.try_emplace(vertex);
-      if (isNew || found->second.triangles == mostTriangles) {
-        found->second = {static_cast<uint32_t>(ofMesh.size()), 0};
+      Last& found = last[vertex];
+      if (found.trianglesLeft == 0) {
+        found = {static_cast<uint32_t>(ofMesh.size()), mostTriangles};
         ofMesh.push_back(vertex);
         positions.emplace_back(mesh.vertices[vertex].position / mesh.radius);
       }
-      ++found->second.triangles;
-      indices.push_back(found->second.index);
+      --found.trianglesLeft;
+      indices.push_back(found.index);
+    }
+    for (const uint32_t vertex : all) {
+      last[vertex].trianglesLeft = 0;
     }
   }
 };
 
-void sortTriangles(const Mesh& mesh, std::span<uint32_t> indices) {
+void sortTriangles(const Mesh& mesh, std::span<uint32_t> indices, std::span<PartVertices::Last> last) {
   constexpr size_t triangles = clusterIndices / 3;
   constexpr size_t vertices = 64;
-  const PartVertices part(mesh, indices);
+  const PartVertices part(mesh, indices, last);
   const size_t most = meshopt_buildMeshletsBound(indices.size(), vertices, triangles);
   std::vector<meshopt_Meshlet> meshlets(most);
   std::vector<uint32_t> meshletVertices(most * vertices);
@@ -69,15 +74,26 @@ void sortTriangles(const Mesh& mesh, std::span<uint32_t> indices) {
   }
 }
 
+// Sorts the vertices in place by their first use, and drops those without a use.
 void sortVertices(Mesh& mesh) {
-  std::vector<uint32_t> remap(mesh.vertices.size());
-  std::vector<Vertex> sorted(
-      meshopt_optimizeVertexFetchRemap(remap.data(), mesh.indices.data(), mesh.indices.size(), mesh.vertices.size()));
+  std::vector<uint32_t> places(mesh.vertices.size());
+  const size_t used =
+      meshopt_optimizeVertexFetchRemap(places.data(), mesh.indices.data(), mesh.indices.size(), places.size());
   for (uint32_t& index : mesh.indices) {
-    sorted[remap[index]] = mesh.vertices[index];
-    index = remap[index];
+    index = places[index];
   }
-  mesh.vertices = std::move(sorted);
+  auto next = static_cast<uint32_t>(used);
+  for (uint32_t& place : places) {
+    place = place == ~0u ? next++ : place;
+  }
+  for (uint32_t i = 0; i < places.size(); ++i) {
+    while (places[i] != i) {
+      const uint32_t place = places[i];
+      std::swap(mesh.vertices[i], mesh.vertices[place]);
+      std::swap(places[i], places[place]);
+    }
+  }
+  mesh.vertices.resize(used);
 }
 
 }  // namespace
@@ -86,9 +102,11 @@ void sortIntoClusters(Mesh& mesh) {
   if (mesh.indices.size() < fewestClusters * clusterIndices) {
     return;
   }
+  std::vector<PartVertices::Last> last(mesh.vertices.size());
   for (const MeshPart& part : mesh.parts) {
-    sortTriangles(mesh, std::span(mesh.indices).subspan(part.firstIndex, part.indexCount));
+    sortTriangles(mesh, std::span(mesh.indices).subspan(part.firstIndex, part.indexCount), last);
   }
+  last = {};
   sortVertices(mesh);
 }
 

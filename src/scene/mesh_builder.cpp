@@ -86,6 +86,9 @@ void rebase(Mesh& mesh) {
 void findShape(Mesh& mesh) {
   constexpr size_t mostFaces = 32;
   constexpr size_t mostTriangles = 4096;
+  if (mesh.indices.size() > 3 * std::max(mostTriangles, mostSolidTriangles)) {
+    return;
+  }
   std::vector<glm::dvec3> positions(mesh.vertices.size());
   std::ranges::transform(mesh.vertices, positions.begin(), &Vertex::position);
   mesh.faces = convexFaces(positions, mesh.indices, mostFaces, mostTriangles);

@@ -68,13 +68,12 @@ gpu::MaterialData materialData(const Material& material, bool textured) {
           .textureIndex = hasTexture ? static_cast<uint32_t>(material.diffuseTexture) : 0};
 }
 
-std::vector<GpuVertex> gpuVertices(const std::vector<Vertex>& vertices) {
-  std::vector<GpuVertex> result;
-  result.reserve(vertices.size());
+Buffer uploadVertices(Uploader& uploader, const std::vector<Vertex>& vertices, const std::string& name) {
+  BufferWriter writer(uploader, vertices.size() * sizeof(GpuVertex), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, name);
   for (const Vertex& vertex : vertices) {
-    result.push_back({glm::vec3(vertex.position), glm::vec3(vertex.normal), glm::vec2(vertex.uv)});
+    writer.add(GpuVertex{glm::vec3(vertex.position), glm::vec3(vertex.normal), glm::vec2(vertex.uv)});
   }
-  return result;
+  return writer.finish();
 }
 
 }  // namespace
@@ -148,7 +147,7 @@ void SceneResources::createMeshes() {
   for (const Mesh& mesh : scene_.meshes) {
     const std::string name = mesh.source.filename().string();
     GpuMesh& gpu = meshes_.emplace_back();
-    gpu.vertices = uploader_.buffer(gpuVertices(mesh.vertices), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, name + " vertices");
+    gpu.vertices = uploadVertices(uploader_, mesh.vertices, name + " vertices");
     gpu.indices = uploader_.buffer(mesh.indices, VK_BUFFER_USAGE_INDEX_BUFFER_BIT, name + " indices");
   }
 }
@@ -173,8 +172,7 @@ void SceneResources::createLevels(size_t mesh) {
   const MeshLevels& levels = levelsOf(scene_.meshes[mesh]);
   const std::string name = scene_.meshes[mesh].source.filename().string();
   GpuMesh& gpu = meshes_[mesh];
-  gpu.levelVertices =
-      uploader_.buffer(gpuVertices(levels.vertices), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, name + " level vertices");
+  gpu.levelVertices = uploadVertices(uploader_, levels.vertices, name + " level vertices");
   gpu.levelIndices = uploader_.buffer(levels.indices, VK_BUFFER_USAGE_INDEX_BUFFER_BIT, name + " level indices");
 }
 

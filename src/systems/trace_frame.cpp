@@ -66,7 +66,7 @@ TraceFrame::TraceFrame(Device& device, Uploader& uploader, const Scene& scene)
 void TraceFrame::create() {
   // Waits for frames in flight before the upload, which waits only for its own fence.
   check(vkQueueWaitIdle(device_.queue()), "wait for the queue");
-  traceScene_.emplace(device_, uploader_, scene_);
+  traceScene_.emplace(uploader_, scene_);
   if (layout_) {
     return;
   }

@@ -7,7 +7,6 @@ namespace speculum {
 
 namespace {
 
-constexpr int octants = 8;  // bit i of an octant: directions are negative along axis i
 constexpr double steps = 65535.0;
 
 // Says whether rays of the octant usually meet the first box later than the second.
@@ -67,24 +66,25 @@ TraceGrid traceGrid(const Bounds& bounds) {
   return grid;
 }
 
-void appendMeshNodes(const Bvh& hierarchy, const TraceGrid& grid, uint32_t firstTriangle,
-                     std::vector<gpu::TraceNode>& nodes) {
-  for (int octant = 0; octant < octants; ++octant) {
-    const auto first = static_cast<uint32_t>(nodes.size());
+void writeMeshNodes(const Bvh& hierarchy, const TraceGrid& grid, uint32_t firstTriangle, uint32_t firstNode,
+                    BufferWriter& nodes) {
+  for (int octant = 0; octant < traceOctants; ++octant) {
+    const uint32_t first = firstNode + static_cast<uint32_t>(static_cast<size_t>(octant) * hierarchy.nodes().size());
     visitInOrder(hierarchy, octant, [&](const Bvh::Node& node, uint32_t next) {
       const glm::dvec3 low = (node.box.low - glm::dvec3(grid.low)) * glm::dvec3(grid.scale);
       const glm::dvec3 high = (node.box.high - glm::dvec3(grid.low)) * glm::dvec3(grid.scale);
-      gpu::TraceNode& added = nodes.emplace_back();
+      gpu::TraceNode added;
       for (int axis = 0; axis < 3; ++axis) {
         added.sides[axis] = sideOf(low[axis], high[axis], (octant >> axis & 1) != 0);
       }
       added.link = node.count > 0 ? gpu::traceLeaf | (firstTriangle + node.first) << 3 | node.count : first + next;
+      nodes.add(added);
     });
   }
 }
 
 void appendTopNodes(const Bvh& hierarchy, std::span<const uint32_t> links, std::vector<gpu::TraceTopNode>& nodes) {
-  for (int octant = 0; octant < octants; ++octant) {
+  for (int octant = 0; octant < traceOctants; ++octant) {
     const auto first = static_cast<uint32_t>(nodes.size());
     visitInOrder(hierarchy, octant, [&](const Bvh::Node& node, uint32_t next) {
       const Bounds box = node.box.widened(1e-6);

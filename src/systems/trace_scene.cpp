@@ -9,16 +9,6 @@
 
 namespace speculum {
 
-struct TraceScene::Content {
-  std::vector<gpu::TraceNode> nodes;
-  std::vector<gpu::TraceTriangle> triangles;
-  std::vector<gpu::TraceFace> faces;
-  std::vector<gpu::TraceVertex> vertices;
-  std::vector<gpu::TraceTexture> textures;
-  std::vector<uint64_t> texels;
-  uint32_t materials = 0;  // of the meshes before, as SceneResources counts them
-};
-
 namespace {
 
 constexpr int trianglesPerLeaf = 4;
@@ -76,37 +66,111 @@ TraceBufferBytes largestTraceBuffers(const Scene& scene, size_t instances) {
                            texels * sizeof(uint64_t), ofFrame})};
 }
 
-TraceScene::TraceScene(Device& device, Uploader& uploader, const Scene& scene) {
-  Content content;
+TraceScene::TraceScene(Uploader& uploader, const Scene& scene) {
+  writeTriangles(uploader, scene);
+  writeAttributes(uploader, scene);
+  writeTextures(uploader, scene);
+}
+
+template <typename T>
+void TraceScene::write(Uploader& uploader, Kind kind, size_t count, const char* name,
+                       const std::function<void(BufferWriter&)>& content) {
+  const Device& device = uploader.device();
+  const uint64_t bytes = count * sizeof(T);
+  const bool asTexels = kind == nodes || kind == triangles;
+  const TraceBufferBytes limits = traceBufferLimits(device.limits());
+  const uint64_t limit = asTexels ? limits.texels : limits.storage;
+  if (bytes > limit) {
+    throw std::runtime_error(std::string("the scene has ") + std::to_string(bytes >> 20) + " MiB of " + name +
+                             ", the device takes " + std::to_string(limit >> 20) +
+                             " (smaller models, or effects.* = false for what needs rays)");
+  }
+  const bool built = kind == triangles && device.caps().rayQueries;
+  const VkBufferUsageFlags usage =
+      asTexels ? VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT : VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
+  BufferWriter writer(uploader, bytes, usage | (built ? structureInputUsage : 0), name);
+  content(writer);
+  buffers_[kind] = writer.finish();
+}
+
+void TraceScene::writeTriangles(Uploader& uploader, const Scene& scene) {
+  std::vector<Bvh> hierarchies;
+  size_t nodeCount = 0;
+  uint32_t triangleCount = 0;
+  uint32_t vertexCount = 0;
   for (const Mesh& mesh : scene.meshes) {
-    add(mesh, content);
+    const Bvh& hierarchy = hierarchies.emplace_back(triangleBounds(mesh), trianglesPerLeaf);
+    const MeshRange& range = meshes_.emplace_back(MeshRange{.grid = traceGrid(hierarchy.bounds()),
+                                                            .root = static_cast<uint32_t>(nodeCount),
+                                                            .nodes = static_cast<uint32_t>(hierarchy.nodes().size()),
+                                                            .firstTriangle = triangleCount,
+                                                            .triangles = static_cast<uint32_t>(mesh.indices.size() / 3),
+                                                            .firstVertex = vertexCount});
+    nodeCount += size_t{traceOctants} * range.nodes;
+    triangleCount += range.triangles;
+    vertexCount += static_cast<uint32_t>(mesh.vertices.size());
   }
-  for (const Texture& texture : scene.textures) {
-    content.textures.push_back({static_cast<uint32_t>(content.texels.size()), static_cast<uint32_t>(texture.width),
-                                static_cast<uint32_t>(texture.height)});
-    appendLevels(texture, content.texels);
-  }
-  const auto upload = [&](Kind kind, const auto& values, const char* name) {
-    const std::span data = std::as_bytes(std::span(values));
-    const bool asTexels = kind == nodes || kind == triangles;
-    const TraceBufferBytes limits = traceBufferLimits(device.limits());
-    const uint64_t limit = asTexels ? limits.texels : limits.storage;
-    if (data.size() > limit) {
-      throw std::runtime_error(std::string("the scene has ") + std::to_string(data.size() >> 20) + " MiB of " + name +
-                               ", the device takes " + std::to_string(limit >> 20) +
-                               " (smaller models, or effects.* = false for what needs rays)");
+  write<gpu::TraceNode>(uploader, nodes, nodeCount, "trace nodes", [&](BufferWriter& writer) {
+    for (size_t i = 0; i < hierarchies.size(); ++i) {
+      writeMeshNodes(hierarchies[i], meshes_[i].grid, meshes_[i].firstTriangle, meshes_[i].root, writer);
     }
-    const bool built = kind == triangles && device.caps().rayQueries;
-    const VkBufferUsageFlags usage =
-        asTexels ? VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT : VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
-    buffers_[kind] = uploader.buffer(data, usage | (built ? structureInputUsage : 0), name);
-  };
-  upload(nodes, content.nodes, "trace nodes");
-  upload(triangles, content.triangles, "trace triangles");
-  upload(faces, content.faces, "trace faces");
-  upload(vertices, content.vertices, "trace vertices");
-  upload(textures, content.textures, "trace textures");
-  upload(texels, content.texels, "trace texels");
+  });
+  write<gpu::TraceTriangle>(uploader, triangles, triangleCount, "trace triangles", [&](BufferWriter& writer) {
+    for (size_t i = 0; i < hierarchies.size(); ++i) {
+      const Mesh& mesh = scene.meshes[i];
+      for (const uint32_t triangle : hierarchies[i].order()) {
+        const uint32_t* index = &mesh.indices[size_t{triangle} * 3];
+        writer.add(gpu::TraceTriangle{.a = glm::vec3(mesh.vertices[index[0]].position),
+                                      .triangle = triangle,
+                                      .b = glm::vec3(mesh.vertices[index[1]].position),
+                                      .c = glm::vec3(mesh.vertices[index[2]].position)});
+      }
+    }
+  });
+}
+
+void TraceScene::writeAttributes(Uploader& uploader, const Scene& scene) {
+  size_t triangleCount = 0;
+  size_t vertexCount = 0;
+  for (const Mesh& mesh : scene.meshes) {
+    triangleCount += mesh.indices.size() / 3;
+    vertexCount += mesh.vertices.size();
+  }
+  write<gpu::TraceFace>(uploader, faces, triangleCount, "trace faces", [&](BufferWriter& writer) {
+    uint32_t materials = 0;  // of the meshes before, as SceneResources counts them
+    for (const Mesh& mesh : scene.meshes) {
+      const uint32_t* index = mesh.indices.data();
+      for (const uint32_t part : partsOfTriangles(mesh)) {
+        writer.add(gpu::TraceFace{{index[0], index[1], index[2]}, materials + part});
+        index += 3;
+      }
+      materials += static_cast<uint32_t>(mesh.parts.size());
+    }
+  });
+  write<gpu::TraceVertex>(uploader, vertices, vertexCount, "trace vertices", [&](BufferWriter& writer) {
+    for (const Mesh& mesh : scene.meshes) {
+      for (const Vertex& vertex : mesh.vertices) {
+        writer.add(gpu::TraceVertex{.position = glm::vec3(vertex.position),
+                                    .u = static_cast<float>(vertex.uv.x),
+                                    .normal = glm::vec3(vertex.normal),
+                                    .v = static_cast<float>(vertex.uv.y)});
+      }
+    }
+  });
+}
+
+void TraceScene::writeTextures(Uploader& uploader, const Scene& scene) {
+  std::vector<gpu::TraceTexture> first;
+  std::vector<uint64_t> levels;
+  for (const Texture& texture : scene.textures) {
+    first.push_back({static_cast<uint32_t>(levels.size()), static_cast<uint32_t>(texture.width),
+                     static_cast<uint32_t>(texture.height)});
+    appendLevels(texture, levels);
+  }
+  write<gpu::TraceTexture>(uploader, textures, first.size(), "trace textures",
+                           [&](BufferWriter& writer) { writer.write(std::as_bytes(std::span(first))); });
+  write<uint64_t>(uploader, texels, levels.size(), "trace texels",
+                  [&](BufferWriter& writer) { writer.write(std::as_bytes(std::span(levels))); });
 }
 
 uint64_t TraceScene::bytes() const {
@@ -115,37 +179,6 @@ uint64_t TraceScene::bytes() const {
     sum += buffer.bytes();
   }
   return sum;
-}
-
-void TraceScene::add(const Mesh& mesh, Content& content) {
-  const Bvh hierarchy(triangleBounds(mesh), trianglesPerLeaf);
-  const auto firstSlot = static_cast<uint32_t>(content.triangles.size());
-  meshes_.push_back({.grid = traceGrid(hierarchy.bounds()),
-                     .root = static_cast<uint32_t>(content.nodes.size()),
-                     .nodes = static_cast<uint32_t>(hierarchy.nodes().size()),
-                     .firstTriangle = firstSlot,
-                     .triangles = static_cast<uint32_t>(mesh.indices.size() / 3),
-                     .firstVertex = static_cast<uint32_t>(content.vertices.size())});
-  appendMeshNodes(hierarchy, meshes_.back().grid, firstSlot, content.nodes);
-  for (const uint32_t triangle : hierarchy.order()) {
-    const uint32_t* index = &mesh.indices[size_t{triangle} * 3];
-    content.triangles.push_back({.a = glm::vec3(mesh.vertices[index[0]].position),
-                                 .triangle = triangle,
-                                 .b = glm::vec3(mesh.vertices[index[1]].position),
-                                 .c = glm::vec3(mesh.vertices[index[2]].position)});
-  }
-  for (const Vertex& vertex : mesh.vertices) {
-    content.vertices.push_back({.position = glm::vec3(vertex.position),
-                                .u = static_cast<float>(vertex.uv.x),
-                                .normal = glm::vec3(vertex.normal),
-                                .v = static_cast<float>(vertex.uv.y)});
-  }
-  const uint32_t* index = mesh.indices.data();
-  for (const uint32_t part : partsOfTriangles(mesh)) {
-    content.faces.push_back({{index[0], index[1], index[2]}, content.materials + part});
-    index += 3;
-  }
-  content.materials += static_cast<uint32_t>(mesh.parts.size());
 }
 
 }  // namespace speculum

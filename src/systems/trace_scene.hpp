@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+
 #include "core/uploader.hpp"
 #include "scene/scene.hpp"
 #include "systems/trace_hierarchy.hpp"
@@ -31,15 +33,20 @@ class TraceScene {
   enum Kind { nodes, triangles, faces, vertices, textures, texels, kindCount };
 
   // Throws std::runtime_error if the device's buffers cannot hold it.
-  TraceScene(Device& device, Uploader& uploader, const Scene& scene);
+  TraceScene(Uploader& uploader, const Scene& scene);
 
   const std::vector<MeshRange>& meshes() const { return meshes_; }
   const Buffer& buffer(Kind kind) const { return buffers_[kind]; }
   uint64_t bytes() const;
 
  private:
-  struct Content;
-  void add(const Mesh& mesh, Content& content);
+  // Uploads what `content` writes, `count` values of T.
+  template <typename T>
+  void write(Uploader& uploader, Kind kind, size_t count, const char* name,
+             const std::function<void(BufferWriter&)>& content);
+  void writeTriangles(Uploader& uploader, const Scene& scene);  // and their hierarchies, which give `meshes_`
+  void writeAttributes(Uploader& uploader, const Scene& scene);
+  void writeTextures(Uploader& uploader, const Scene& scene);
 
   std::vector<MeshRange> meshes_;
   std::array<Buffer, kindCount> buffers_;
