@@ -44,14 +44,14 @@ void addVisibleInstances(const View& view, const Scene& scene, const SceneState&
         !boxVisible(view, instance.worldFromMesh, mesh.halfExtent)) {
       continue;
     }
-    const std::vector<IndexRange> ranges =
+    std::vector<IndexRange> ranges =
         cullClusters ? visibleRanges(view, instance, mesh) : std::vector<IndexRange>{allOf(mesh)};
     if (ranges.empty()) {
       continue;
     }
     pass.instances.push_back(i);
     if (ranges.front() != allOf(mesh)) {
-      pass.partial.push_back({i, ranges});
+      pass.partial.push_back({i, std::move(ranges)});
     }
   }
 }

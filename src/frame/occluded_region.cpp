@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 namespace speculum {
 
@@ -59,42 +60,49 @@ std::vector<std::pair<uint32_t, uint32_t>> outline(const BodyOccluder& body, con
 
 }  // namespace
 
-std::optional<OccludedRegion> hiddenByFace(const FlatOccluder& occluder, const View& view,
-                                           const Projection& projection) {
+bool hiddenByFace(const FlatOccluder& occluder, const View& view, const Projection& projection,
+                  OccludedRegion& region) {
   const double height = occluder.plane.distance(view.eye);
   const double eye = std::abs(height);
   if (!(eye > occluder.slack)) {
-    return std::nullopt;
+    return false;
   }
-  const double least = 0.01 * occluder.slack;
-  std::vector<glm::dvec3> drawn =
-      view.clip ? distinctVertices(clipPolygon(occluder.polygon, {view.clip->point + occluder.slack * view.clip->normal,
-                                                                  view.clip->normal}),
-                                   least)
-                : distinctVertices(occluder.polygon, least);
+  std::span<const glm::dvec3> drawn = occluder.polygon;
+  std::vector<glm::dvec3> clipped;
+  if (view.clip) {
+    const Plane clip{view.clip->point + occluder.slack * view.clip->normal, view.clip->normal};
+    const auto kept = std::ranges::count_if(drawn, [&](const glm::dvec3& p) { return clip.distance(p) >= 0.0; });
+    if (kept == 0) {
+      return false;
+    }
+    if (kept < std::ssize(drawn)) {
+      clipped = distinctVertices(clipPolygon(drawn, clip), 0.01 * occluder.slack);
+      drawn = clipped;
+    }
+  }
   if (drawn.size() < 3) {
-    return std::nullopt;
+    return false;
   }
   const Axis axis(view, projection);
   // The line of sight through v meets the occluder's plane at v * eye / toPlane(v), in front of v if toPlane(v) > eye.
   const glm::dvec3 toPlane = occluder.plane.normal * (height > 0.0 ? -1.0 : 1.0);
-  OccludedRegion region = {{toPlane, -eye - occluder.slack},
-                           {(1.0 - depthPart) * toPlane, -eye},
-                           {eye * axis.forward - (1.0 + depthPart) * projection.near * toPlane, 0.0}};
+  region.assign({{toPlane, -eye - occluder.slack},
+                 {(1.0 - depthPart) * toPlane, -eye},
+                 {eye * axis.forward - (1.0 + depthPart) * projection.near * toPlane, 0.0}});
   region.reserve(region.size() + 2 * drawn.size());
   const glm::dvec3 inside = vertexMean(drawn) - view.eye;
-  if (height < 0.0) {
-    std::ranges::reverse(drawn);
-  }
+  const auto corner = [&](size_t i) {  // counter-clockwise as seen from the eye
+    i %= drawn.size();
+    return drawn[height < 0.0 ? drawn.size() - 1 - i : i] - view.eye;
+  };
   for (size_t i = 0; i < drawn.size(); ++i) {
-    const auto normal = addEdge(region, drawn[i] - view.eye, drawn[(i + 1) % drawn.size()] - view.eye, inside,
-                                marginPixels * axis.pixel, axis);
+    const auto normal = addEdge(region, corner(i), corner(i + 1), inside, marginPixels * axis.pixel, axis);
     if (!normal) {
-      return std::nullopt;
+      return false;
     }
     region.push_back({eye * *normal - occluder.slack * toPlane, 0.0});
   }
-  return region;
+  return true;
 }
 
 std::optional<BodyRegion> hiddenByBody(const BodyOccluder& body, const View& view, const Projection& projection) {
@@ -134,28 +142,26 @@ bool isBefore(const BodyOccluder& body, const FlatOccluder& target, const glm::d
 std::vector<std::vector<glm::dvec3>> outside(const OccludedRegion& region, const glm::dvec3& eye,
                                              const std::vector<std::vector<glm::dvec3>>& polygons) {
   std::vector<std::vector<glm::dvec3>> pieces;
+  const auto holds = [&](const HalfSpace& half) { return [&](const glm::dvec3& p) { return half.at(p - eye) > 0.0; }; };
   for (const std::vector<glm::dvec3>& polygon : polygons) {
+    const size_t before = pieces.size();
     std::vector<glm::dvec3> within = polygon;
-    std::vector<std::vector<glm::dvec3>> cut;
     for (const HalfSpace& half : region) {
-      const auto inside = [&](const glm::dvec3& p) { return half.at(p - eye) > 0.0; };
-      if (std::ranges::all_of(within, inside)) {
+      if (std::ranges::all_of(within, holds(half))) {
         continue;
       }
       const double slope2 = glm::dot(half.gradient, half.gradient);
-      const bool apart = !(slope2 > 0.0) || std::ranges::none_of(within, inside);
+      const bool apart = !(slope2 > 0.0) || std::ranges::none_of(within, holds(half));
       if (apart) {
-        cut.clear();
-        cut.push_back(polygon);
-        within.clear();
+        pieces.resize(before);
+        pieces.push_back(polygon);
         break;
       }
       const glm::dvec3 point = eye - half.gradient * (half.constant / slope2);
       const glm::dvec3 normal = half.gradient / std::sqrt(slope2);
-      cut.push_back(clipPolygon(within, {point, -normal}));
+      pieces.push_back(clipPolygon(within, {point, -normal}));
       within = clipPolygon(within, {point, normal});
     }
-    pieces.insert(pieces.end(), cut.begin(), cut.end());
   }
   return pieces;
 }

@@ -41,14 +41,14 @@ class Sightline {
   double perLength2_ = 0.0;
 };
 
-FlatOccluder flatOccluder(std::vector<glm::dvec3> polygon, double size) {
+FlatOccluder flatOccluder(std::span<const glm::dvec3> polygon, double size) {
   FlatOccluder made{.plane = {polygon[0], glm::normalize(newellVector(polygon))}, .slack = roundingPart * size};
   for (const glm::dvec3& p : polygon) {
     made.slack = std::max(made.slack, 2.0 * std::abs(made.plane.distance(p)));
   }
   made.center = vertexMean(polygon);
   made.radius = farthestDistance(made.center, polygon);
-  made.polygon = std::move(polygon);
+  made.polygon = distinctVertices(polygon, 0.01 * made.slack);
   return made;
 }
 
@@ -64,10 +64,16 @@ BodyOccluder bodyOccluder(const ConvexMesh& mesh, const InstanceState& state) {
 }
 
 // Filters occluders at little cost: keeps those that look large enough and stand before a corner or the middle of the
-// polygon, as any occluder of the whole polygon does.
+// polygon, as any occluder of the whole polygon does, unless they lie behind the polygon or the eye sees them beside
+// it.
 class Prefilter {
  public:
-  Prefilter(const glm::dvec3& eye, std::span<const glm::dvec3> polygon) : eye_(eye), polygon_(polygon) {
+  // `plane` is the polygon's.
+  Prefilter(const glm::dvec3& eye, std::span<const glm::dvec3> polygon, const Plane& plane)
+      : eye_(eye), polygon_(polygon) {
+    before_.eye = eye;
+    before_.clip = {plane.point, plane.distance(eye) < 0.0 ? -plane.normal : plane.normal};
+    before_.cone = coneThrough(eye, polygon);
     constexpr double least = 0.4;  // of the polygon's own angle
     const glm::dvec3 center = vertexMean(polygon);
     radius_ = farthestDistance(center, polygon);
@@ -91,6 +97,18 @@ class Prefilter {
     const double large = radius + width_ * sphereRadius;
     return large * large >= width_ * width_ * glm::dot(fromEye, fromEye);
   }
+  // These say whether a part of a box, or of the convex hull of points, may lie before the polygon.
+  bool meetsBox(const Affine& worldFromBox, const glm::dvec3& halfExtent) const {
+    return boxVisible(before_, worldFromBox, halfExtent);
+  }
+  bool meetsHull(std::span<const glm::dvec3> points) const {
+    const auto reaches = [&](const Plane& plane) {
+      return std::ranges::any_of(points, [&](const glm::dvec3& p) { return plane.distance(p) > 0.0; });
+    };
+    return reaches(*before_.clip) && std::ranges::all_of(before_.cone, [&](const glm::dvec3& normal) {
+             return reaches({eye_, normal});
+           });
+  }
   // Says whether a corner lies beyond a plane.
   bool reachesBeyond(const Plane& plane) const {
     const double side = plane.distance(eye_);
@@ -100,6 +118,7 @@ class Prefilter {
  private:
   glm::dvec3 eye_;
   std::span<const glm::dvec3> polygon_;
+  View before_;                   // sees what lies before the polygon
   std::vector<Sightline> lines_;  // to the polygon's middle and its corners
   double radius_ = 0.0;           // of the polygon
   double width_ = 0.0;
@@ -135,31 +154,33 @@ Occlusion::Body& Occlusion::bodyOf(int instance) {
     if (!mesh.convex.triangles.empty()) {
       body.whole = bodyOccluder(mesh.convex, state);
     }
+    body.faces.reserve(mesh.faces.size());
+    std::vector<glm::dvec3> polygon;
     for (const std::vector<glm::dvec3>& face : mesh.faces) {
-      std::vector<glm::dvec3> polygon;
+      polygon.clear();
       for (const glm::dvec3& p : face) {
         polygon.push_back(state.worldFromMesh.point(p));
       }
       if (std::isnormal(polygonArea(polygon))) {
-        body.faces.push_back({.occluder = flatOccluder(std::move(polygon), state.radius)});
+        body.faces.push_back({.occluder = flatOccluder(polygon, state.radius)});
       }
     }
   }
   return body;
 }
 
-const std::optional<OccludedRegion>& Occlusion::regionOf(Face& face) const {
-  if (std::exchange(face.hidden.view, viewNumber_) != viewNumber_) {
-    face.hidden.region = hiddenByFace(face.occluder, *view_, projection_);
+const OccludedRegion* Occlusion::regionOf(Face& face) const {
+  if (std::exchange(face.view, viewNumber_) != viewNumber_) {
+    face.hides = hiddenByFace(face.occluder, *view_, projection_, face.region);
   }
-  return face.hidden.region;
+  return face.hides ? &face.region : nullptr;
 }
 
-const std::optional<BodyRegion>& Occlusion::regionOf(Body& body) const {
-  if (std::exchange(body.hidden.view, viewNumber_) != viewNumber_) {
-    body.hidden.region = hiddenByBody(body.whole, *view_, projection_);
+const BodyRegion* Occlusion::regionOf(Body& body) const {
+  if (std::exchange(body.view, viewNumber_) != viewNumber_) {
+    body.region = body.whole.mesh ? hiddenByBody(body.whole, *view_, projection_) : std::nullopt;
   }
-  return body.hidden.region;
+  return body.region ? &*body.region : nullptr;
 }
 
 bool Occlusion::Occluders::add(const OccludedRegion& region, const HalfSpace* also, const Occluder& of,
@@ -189,13 +210,13 @@ bool Occlusion::Occluders::add(const OccludedRegion& region, const HalfSpace* al
 Occlusion::Occluders Occlusion::occludersOf(int mirror, std::span<const glm::dvec3> polygon) {
   const glm::dvec3& eye = view_->eye;
   Occluders found;
-  const Prefilter prefilter(eye, polygon);
+  const Prefilter prefilter(eye, polygon, mirrors_[mirror].occluder.plane);
   const auto addFace = [&](Face& face, const Occluder& of) {
-    if (!prefilter.include(face.occluder.center, face.occluder.radius) ||
+    if (!prefilter.include(face.occluder.center, face.occluder.radius) || !prefilter.meetsHull(face.occluder.polygon) ||
         !prefilter.reachesBeyond(face.occluder.plane)) {
       return false;
     }
-    const std::optional<OccludedRegion>& region = regionOf(face);
+    const OccludedRegion* region = regionOf(face);
     return region && found.add(*region, nullptr, of, eye, polygon);
   };
   for (const int i : viewMirrors_) {
@@ -210,11 +231,12 @@ Occlusion::Occluders Occlusion::occludersOf(int mirror, std::span<const glm::dve
     const double widest = mesh.convex.points.empty() ? instance.radius * largestFaces_[instance.mesh] : instance.radius;
     // Levels of a mesh have other outlines.
     if ((simplifies && mayHaveLevels(mesh)) || !prefilter.looksLarge(instance.center, instance.radius, widest) ||
-        !prefilter.include(instance.center, instance.radius)) {
+        !prefilter.include(instance.center, instance.radius) ||
+        !prefilter.meetsBox(instance.worldFromMesh, mesh.halfExtent)) {
       continue;
     }
     Body& body = bodyOf(i);
-    if (const BodyRegion* region = body.whole.mesh && regionOf(body) ? &*regionOf(body) : nullptr) {
+    if (const BodyRegion* region = regionOf(body)) {
       const bool before = isBefore(body.whole, mirrors_[mirror].occluder, eye);
       if (found.add(region->outline, before ? nullptr : &region->beyond, {.index = i}, eye, polygon)) {
         return found;
@@ -281,26 +303,34 @@ std::optional<std::string> Occlusion::hiddenBy(int mirror, std::span<const glm::
 std::optional<std::string> Occlusion::hiddenTogether(std::span<const Occluder> occluders,
                                                      std::span<const glm::dvec3> polygon) const {
   std::vector<std::vector<glm::dvec3>> pieces = {{polygon.begin(), polygon.end()}};
-  std::vector<std::string> names;
+  std::vector<const Occluder*> used;
   for (const Occluder& occluder : occluders.first(std::min(occluders.size(), mostOccluders))) {
     std::vector<std::vector<glm::dvec3>> left = outside(occluder.region, view_->eye, pieces);
     if (left == pieces || left.size() > mostPieces) {
       continue;
     }
     pieces = std::move(left);
-    const std::string name = nameOfOccluder(occluder);
-    if (std::ranges::find(names, name) == names.end()) {
-      names.push_back(name);
-    }
+    used.push_back(&occluder);
     if (pieces.empty()) {
-      std::string all = names[0];
-      for (size_t i = 1; i < names.size(); ++i) {
-        all += (i + 1 < names.size() ? ", " : " and ") + names[i];
-      }
-      return all;
+      return namesOf(used);
     }
   }
   return std::nullopt;
+}
+
+std::string Occlusion::namesOf(std::span<const Occluder* const> occluders) const {
+  std::vector<std::string> names;  // each once
+  for (const Occluder* occluder : occluders) {
+    const std::string name = nameOfOccluder(*occluder);
+    if (std::ranges::find(names, name) == names.end()) {
+      names.push_back(name);
+    }
+  }
+  std::string all = names[0];
+  for (size_t i = 1; i < names.size(); ++i) {
+    all += (i + 1 < names.size() ? ", " : " and ") + names[i];
+  }
+  return all;
 }
 
 }  // namespace speculum

@@ -29,20 +29,18 @@ class Occlusion {
   std::optional<std::string> hiddenBy(int mirror, std::span<const glm::dvec3> polygon);
 
  private:
-  // Region that an occluder hides in a view, computed when it is first needed.
-  template <typename Region>
-  struct OfView {
-    int view = -1;  // number of the view
-    std::optional<Region> region;
-  };
+  // Occluders have the region that they hide in the view of that number, found when it is first needed.
   struct Face {
     FlatOccluder occluder;
-    OfView<OccludedRegion> hidden;
+    int view = -1;
+    bool hides = false;
+    OccludedRegion region;  // if it hides one
   };
   struct Body {
     std::vector<Face> faces;
     BodyOccluder whole;
-    OfView<BodyRegion> hidden;
+    int view = -1;
+    std::optional<BodyRegion> region;
   };
   struct Occluder {
     OccludedRegion region;
@@ -58,11 +56,12 @@ class Occlusion {
     std::vector<Occluder> parts;
   };
   Body& bodyOf(int instance);
-  const std::optional<OccludedRegion>& regionOf(Face& face) const;
-  const std::optional<BodyRegion>& regionOf(Body& body) const;
+  const OccludedRegion* regionOf(Face& face) const;  // null: hides nothing
+  const BodyRegion* regionOf(Body& body) const;
   Occluders occludersOf(int mirror, std::span<const glm::dvec3> polygon);
   bool skips(const View& view) const;
   std::string nameOfOccluder(const Occluder& occluder) const;
+  std::string namesOf(std::span<const Occluder* const> occluders) const;
   std::optional<std::string> hiddenTogether(std::span<const Occluder> occluders,
                                             std::span<const glm::dvec3> polygon) const;
 

@@ -25,26 +25,6 @@ glm::dvec3 scaledToOne(const glm::dvec3& v) {
   return {std::scalbn(v.x, -exponent), std::scalbn(v.y, -exponent), std::scalbn(v.z, -exponent)};
 }
 
-// Returns inward normals of the planes through the eye and the polygon's edges; skips edges that point at the eye.
-std::vector<glm::dvec3> coneThrough(const glm::dvec3& eye, std::span<const glm::dvec3> polygon) {
-  glm::dvec3 inside(0.0);
-  for (const glm::dvec3& p : polygon) {
-    inside += p - eye;
-  }
-  std::vector<glm::dvec3> cone;
-  for (size_t i = 0; i < polygon.size(); ++i) {
-    const glm::dvec3 a = scaledToOne(polygon[i] - eye);
-    const glm::dvec3 b = scaledToOne(polygon[(i + 1) % polygon.size()] - eye);
-    const glm::dvec3 n = glm::cross(a, b);
-    const double length = glm::length(n);
-    if (length <= shortestEdge * glm::length(a) * glm::length(b)) {
-      continue;
-    }
-    cone.push_back(glm::dot(n, inside) < 0.0 ? n / -length : n / length);
-  }
-  return cone;
-}
-
 // Returns the polygon cut by the clip plane alone.
 std::vector<glm::dvec3> clippedPart(const View& view, std::span<const glm::dvec3> polygon) {
   if (!view.clip) {
@@ -130,6 +110,25 @@ glm::dvec2 overscan(const View& view) {
   // Rectangles are whole pixels and so may exceed a picture size that is not whole; floor() drops the excess.
   const glm::dvec2 beyond = glm::max(-low, glm::floor(high));
   return 1.0 + 2.0 * glm::max(beyond, 0.0) / view.pictureSize;
+}
+
+std::vector<glm::dvec3> coneThrough(const glm::dvec3& eye, std::span<const glm::dvec3> polygon) {
+  glm::dvec3 inside(0.0);
+  for (const glm::dvec3& p : polygon) {
+    inside += p - eye;
+  }
+  std::vector<glm::dvec3> cone;
+  for (size_t i = 0; i < polygon.size(); ++i) {
+    const glm::dvec3 a = scaledToOne(polygon[i] - eye);
+    const glm::dvec3 b = scaledToOne(polygon[(i + 1) % polygon.size()] - eye);
+    const glm::dvec3 n = glm::cross(a, b);
+    const double length = glm::length(n);
+    if (length <= shortestEdge * glm::length(a) * glm::length(b)) {
+      continue;
+    }
+    cone.push_back(glm::dot(n, inside) < 0.0 ? n / -length : n / length);
+  }
+  return cone;
 }
 
 View reflectedView(const View& parent, int mirror, const Plane& plane, std::span<const glm::dvec3> visible,

@@ -101,6 +101,7 @@ std::optional<std::string> polygonDefect(std::span<const glm::dvec3> polygon) {
 
 std::vector<glm::dvec3> distinctVertices(std::span<const glm::dvec3> polygon, double least) {
   std::vector<glm::dvec3> distinct;
+  distinct.reserve(polygon.size());
   for (const glm::dvec3& p : polygon) {
     if (distinct.empty() || glm::length(p - distinct.back()) > least) {
       distinct.push_back(p);
