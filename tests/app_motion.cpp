@@ -302,6 +302,11 @@ TEST(MotionLevels, FewMirrorsLoseImagesBeforePixels) {
     const auto lower = std::ranges::find_if(
         levels, [](const MotionLevel& level) { return level.settings.reflection.minPixels > 1.0; });
     EXPECT_EQ(lower->settings.reflection.maxPasses, most) << mirrors << " mirrors";
+    EXPECT_EQ(lower->settings.view.scale, 1.0) << mirrors << " mirrors";
+    const auto coarse =
+        std::ranges::find_if(levels, [](const MotionLevel& level) { return level.settings.view.meshError > 0.0; });
+    EXPECT_GT(coarse, lower) << mirrors << " mirrors";
+    EXPECT_LT(coarse->settings.view.scale, 0.95) << mirrors << " mirrors";
     EXPECT_TRUE(std::ranges::is_sorted(levels, {}, &MotionLevel::error)) << mirrors << " mirrors";
   }
 }

@@ -1,7 +1,6 @@
 #include <array>
 #include <cctype>
 #include <cstring>
-#include <numeric>
 
 #include "core_fixture.hpp"
 #include "error_message.hpp"
@@ -119,22 +118,29 @@ TEST_F(GpuTest, UploadedFloatsAreReadBack) {
 
 TEST_F(GpuTest, BuffersAreWrittenInPieces) {
   Uploader uploader(device_);
-  std::vector<uint32_t> values(2 * BufferWriter::pieceBytes / sizeof(uint32_t) + 3);
-  std::iota(values.begin(), values.end(), 1u);
-  const VkDeviceSize bytes = values.size() * sizeof(uint32_t);
-  BufferWriter writer(uploader, bytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, "test");
-  writer.add(values[0]);
-  EXPECT_THROW(writer.finish(), std::logic_error);
-  writer.write(std::as_bytes(std::span(values).subspan(1)));
-  EXPECT_THROW(writer.add(0u), std::out_of_range);
-  const Buffer buffer = writer.finish();
-  const Buffer copy(device_, bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, BufferMemory::host, "copy");
-  uploader.run([&](VkCommandBuffer commands) {
-    const VkBufferCopy region{.size = bytes};
-    vkCmdCopyBuffer(commands, buffer.get(), copy.get(), 1, &region);
-    Barriers::copyToHost(commands);
-  });
-  EXPECT_EQ(std::memcmp(copy.mapped(), values.data(), bytes), 0);
+  constexpr VkDeviceSize piece = BufferWriter::pieceBytes;
+  std::vector<uint8_t> values(2 * piece + 3);
+  for (size_t i = 0; i < values.size(); ++i) {
+    values[i] = static_cast<uint8_t>(i * 2654435761u >> 24);
+  }
+  const std::span<const std::byte> all = std::as_bytes(std::span(values));
+  for (const VkDeviceSize bytes : {VkDeviceSize{0}, VkDeviceSize{1}, piece - 1, piece, 2 * piece, 2 * piece + 3}) {
+    BufferWriter writer(uploader, bytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, "test");
+    writer.write(all.first(std::min<size_t>(bytes, 1)));
+    if (bytes > 1) {
+      EXPECT_THROW(writer.finish(), std::logic_error) << bytes;
+      writer.write(all.first(bytes).subspan(1));
+    }
+    EXPECT_THROW(writer.add(uint8_t{0}), std::out_of_range) << bytes;
+    const Buffer buffer = writer.finish();
+    const Buffer copy(device_, bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, BufferMemory::host, "copy");
+    uploader.run([&](VkCommandBuffer commands) {
+      const VkBufferCopy region{.size = buffer.bytes()};
+      vkCmdCopyBuffer(commands, buffer.get(), copy.get(), 1, &region);
+      Barriers::copyToHost(commands);
+    });
+    EXPECT_EQ(std::memcmp(copy.mapped(), values.data(), bytes), 0) << bytes;
+  }
 }
 
 }  // namespace

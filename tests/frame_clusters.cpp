@@ -2,6 +2,8 @@
 #include <ctime>
 #include <glm/gtx/component_wise.hpp>
 #include <numbers>
+#include <numeric>
+#include <random>
 
 #include "frame_support.hpp"
 #include "geometry/mesh_clusters.hpp"
@@ -91,6 +93,29 @@ TEST(Clusters, SortingKeepsAllTrianglesAndTheirWinding) {
   }
 }
 
+TEST(Clusters, SortingDropsVerticesWithoutUse) {
+  const Mesh before = sheet();
+  Mesh mixed = before;
+  mixed.vertices.clear();
+  std::vector<uint32_t> places(before.vertices.size());
+  std::iota(places.begin(), places.end(), 0u);
+  std::ranges::shuffle(places, std::mt19937(1));
+  std::vector<uint32_t> numbers(places.size());
+  for (const uint32_t place : places) {
+    numbers[place] = static_cast<uint32_t>(mixed.vertices.size());
+    mixed.vertices.push_back(before.vertices[place]);
+    mixed.vertices.push_back({.position = {1e3 + place, 0, 0}});
+  }
+  for (uint32_t& index : mixed.indices) {
+    index = numbers[index];
+  }
+  sortIntoClusters(mixed);
+  EXPECT_EQ(mixed.vertices.size(), before.vertices.size());
+  for (size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(trianglesOf(mixed, mixed.parts[i]), trianglesOf(before, before.parts[i])) << i;
+  }
+}
+
 TEST(Clusters, SortingMakesThemSmallInVertexOrder) {
   const Mesh before = sheet();  // rows of 64 triangles, 2 m long
   Mesh sorted = before;
@@ -124,6 +149,9 @@ TEST(Clusters, MeshesOfAnyFormAreSortedQuickly) {
   for (uint32_t i = 0; i < 6000; ++i) {
     parts.parts.push_back({3 * i, 3, {}});
     parts.indices.insert(parts.indices.end(), {100 * i, 100 * i + 1, 100 * i + 2});
+  }
+  for (size_t i = 0; i < parts.vertices.size(); ++i) {
+    parts.vertices[i].position = {1e-6 * static_cast<double>(i), 0.0, 0.0};
   }
   for (const Mesh& before : {cone(60'000, false), cone(60'000, true), parts}) {
     Mesh sorted = before;

@@ -72,6 +72,7 @@ Settings settingsOf(const Scene& scene, const Options& options) {
 
 LoadedScene loadSceneWithSettings(const Options& options) {
   LoadedScene loaded = loadSceneWithSettings(findScene(options.scene), options);
+  releaseFreedMemory();  // Loading a large model frees about as much memory as the scene takes.
   requireFilesOfTheirOwn(options, loaded.scene);
   return loaded;
 }
@@ -79,7 +80,6 @@ LoadedScene loadSceneWithSettings(const Options& options) {
 LoadedScene loadSceneWithSettings(const std::filesystem::path& file, const Options& options,
                                   const LoadProgress& progress) {
   LoadedScene loaded{.scene = loadScene(file, progress)};
-  releaseFreedMemory();  // of a large model as much as the scene itself takes
   loaded.settings = settingsOf(loaded.scene, options);
   loaded.quality = chooseQuality(options, file, loaded.settings);
   return loaded;

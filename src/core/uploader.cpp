@@ -143,11 +143,12 @@ void BufferWriter::flush() {
 }
 
 Buffer BufferWriter::finish() {
+  if (flushed_ + staged_ != bytes_) {
+    throw std::logic_error("a buffer of " + std::to_string(bytes_) + " bytes got " +
+                           std::to_string(flushed_ + staged_));
+  }
   if (staged_ > 0) {
     flush();
-  }
-  if (flushed_ != bytes_) {
-    throw std::logic_error("a buffer of " + std::to_string(bytes_) + " bytes got " + std::to_string(flushed_));
   }
   return std::move(target_);
 }

@@ -47,11 +47,13 @@ class Uploader {
 };
 
 // Writes a device buffer from front to back. The host holds a piece of at most `pieceBytes`, however large the buffer.
+// Each full piece is submitted and waited for, so all functions throw what Uploader::run() throws.
 class BufferWriter {
  public:
   static constexpr VkDeviceSize pieceBytes = VkDeviceSize{4} << 20;
 
-  // `bytes` and usage as of a Buffer; usage gets TRANSFER_DST added.
+  // `bytes`, which may be 0, and `usage` are those of a Buffer; TRANSFER_DST is added. Keeps a reference to the
+  // uploader.
   BufferWriter(Uploader& uploader, VkDeviceSize bytes, VkBufferUsageFlags usage, const std::string& name);
 
   // Throws std::out_of_range past the buffer's end.
@@ -59,7 +61,7 @@ class BufferWriter {
   template <typename T>
   requires std::is_trivially_copyable_v<T>
   void add(const T& value) { write(std::as_bytes(std::span(&value, 1))); }
-  // Returns the buffer once all of its bytes are written; throws std::logic_error before. Call it last.
+  // Returns the buffer, which ends the writing. Throws std::logic_error unless all bytes were added.
   Buffer finish();
 
  private:

@@ -120,8 +120,6 @@ void MirrorSearch::fill(int node) {
   };
   std::vector<Sight> sights;  // of the mirrors that are seen; a view may look at a thousand that are not
   std::vector<int> seen;
-  sights.reserve(std::min<size_t>(scene_.mirrors.size(), 64));
-  seen.reserve(sights.capacity());
   for (int i = 0; i < static_cast<int>(scene_.mirrors.size()); ++i) {
     if (!inOwnPlane(i) && !behindEye(view, state_.mirrors[i].polygon)) {
       Sight sight = sightOf(scene_, state_, view, drawn, i);
@@ -284,12 +282,9 @@ View readableView(const View& view, const Projection& projection, const Settings
 }
 
 void skipMirror(FramePlan& plan, const View& view, int mirror, SkipReason reason, std::string detail) {
-  SkippedMirror& skipped = plan.skipped.emplace_back(
-      SkippedMirror{.mirror = mirror, .depth = static_cast<int>(view.path.size()), .reason = reason});
-  skipped.path.reserve(view.path.size() + 1);
-  skipped.path = view.path;
+  SkippedMirror skipped{mirror, view.path, static_cast<int>(view.path.size()), reason, std::move(detail)};
   skipped.path.push_back(mirror);
-  skipped.detail = std::move(detail);
+  plan.skipped.push_back(std::move(skipped));
 }
 
 }  // namespace speculum

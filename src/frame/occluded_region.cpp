@@ -142,16 +142,16 @@ bool isBefore(const BodyOccluder& body, const FlatOccluder& target, const glm::d
 std::vector<std::vector<glm::dvec3>> outside(const OccludedRegion& region, const glm::dvec3& eye,
                                              const std::vector<std::vector<glm::dvec3>>& polygons) {
   std::vector<std::vector<glm::dvec3>> pieces;
-  const auto holds = [&](const HalfSpace& half) { return [&](const glm::dvec3& p) { return half.at(p - eye) > 0.0; }; };
   for (const std::vector<glm::dvec3>& polygon : polygons) {
     const size_t before = pieces.size();
     std::vector<glm::dvec3> within = polygon;
     for (const HalfSpace& half : region) {
-      if (std::ranges::all_of(within, holds(half))) {
+      const auto inside = [&](const glm::dvec3& p) { return half.at(p - eye) > 0.0; };
+      if (std::ranges::all_of(within, inside)) {
         continue;
       }
       const double slope2 = glm::dot(half.gradient, half.gradient);
-      const bool apart = !(slope2 > 0.0) || std::ranges::none_of(within, holds(half));
+      const bool apart = !(slope2 > 0.0) || std::ranges::none_of(within, inside);
       if (apart) {
         pieces.resize(before);
         pieces.push_back(polygon);

@@ -28,15 +28,15 @@ using OccludedRegion = std::vector<HalfSpace>;
 
 // A flat polygon, world space, and the plane through it, from whose normal the polygon runs counter-clockwise.
 struct FlatOccluder {
-  std::vector<glm::dvec3> polygon;  // vertices farther apart than `slack` / 100
+  std::vector<glm::dvec3> polygon;  // neighbours are more than `slack` / 100 apart
   Plane plane;
   double slack = 0.0;      // metres by which it may stand elsewhere on the GPU
   glm::dvec3 center{0.0};  // of a sphere around it
   double radius = 0.0;
 };
 
-// Finds the region behind a flat occluder. Returns false if there is none, since the view sees the occluder edge-on, as
-// narrow as the margin, or clips it away; the content of `region` then has no meaning.
+// Finds the region behind a flat occluder. Returns false, and leaves `region` without meaning, if the view sees the
+// occluder edge-on or narrower than the margin, or clips it away.
 bool hiddenByFace(const FlatOccluder& occluder, const View& view, const Projection& projection, OccludedRegion& region);
 
 // A closed mesh that is about convex, world space.

@@ -63,9 +63,9 @@ BodyOccluder bodyOccluder(const ConvexMesh& mesh, const InstanceState& state) {
   return whole;
 }
 
-// Filters occluders at little cost: keeps those that look large enough and stand before a corner or the middle of the
-// polygon, as any occluder of the whole polygon does, unless they lie behind the polygon or the eye sees them beside
-// it.
+// Filters occluders at little cost. Keeps those that look large enough and stand before a corner or the middle of the
+// polygon, as any occluder of the whole polygon does. Drops those that lie wholly behind the polygon's plane or outside
+// the cone from the eye through its edges.
 class Prefilter {
  public:
   // `plane` is the polygon's.
@@ -97,18 +97,8 @@ class Prefilter {
     const double large = radius + width_ * sphereRadius;
     return large * large >= width_ * width_ * glm::dot(fromEye, fromEye);
   }
-  // These say whether a part of a box, or of the convex hull of points, may lie before the polygon.
-  bool meetsBox(const Affine& worldFromBox, const glm::dvec3& halfExtent) const {
-    return boxVisible(before_, worldFromBox, halfExtent);
-  }
-  bool meetsHull(std::span<const glm::dvec3> points) const {
-    const auto reaches = [&](const Plane& plane) {
-      return std::ranges::any_of(points, [&](const glm::dvec3& p) { return plane.distance(p) > 0.0; });
-    };
-    return reaches(*before_.clip) && std::ranges::all_of(before_.cone, [&](const glm::dvec3& normal) {
-             return reaches({eye_, normal});
-           });
-  }
+  // Sees what lies before the polygon.
+  const View& before() const { return before_; }
   // Says whether a corner lies beyond a plane.
   bool reachesBeyond(const Plane& plane) const {
     const double side = plane.distance(eye_);
@@ -118,7 +108,7 @@ class Prefilter {
  private:
   glm::dvec3 eye_;
   std::span<const glm::dvec3> polygon_;
-  View before_;                   // sees what lies before the polygon
+  View before_;
   std::vector<Sightline> lines_;  // to the polygon's middle and its corners
   double radius_ = 0.0;           // of the polygon
   double width_ = 0.0;
@@ -212,8 +202,8 @@ Occlusion::Occluders Occlusion::occludersOf(int mirror, std::span<const glm::dve
   Occluders found;
   const Prefilter prefilter(eye, polygon, mirrors_[mirror].occluder.plane);
   const auto addFace = [&](Face& face, const Occluder& of) {
-    if (!prefilter.include(face.occluder.center, face.occluder.radius) || !prefilter.meetsHull(face.occluder.polygon) ||
-        !prefilter.reachesBeyond(face.occluder.plane)) {
+    if (!prefilter.include(face.occluder.center, face.occluder.radius) ||
+        !hullVisible(prefilter.before(), face.occluder.polygon) || !prefilter.reachesBeyond(face.occluder.plane)) {
       return false;
     }
     const OccludedRegion* region = regionOf(face);
@@ -232,7 +222,7 @@ Occlusion::Occluders Occlusion::occludersOf(int mirror, std::span<const glm::dve
     // Levels of a mesh have other outlines.
     if ((simplifies && mayHaveLevels(mesh)) || !prefilter.looksLarge(instance.center, instance.radius, widest) ||
         !prefilter.include(instance.center, instance.radius) ||
-        !prefilter.meetsBox(instance.worldFromMesh, mesh.halfExtent)) {
+        !boxVisible(prefilter.before(), instance.worldFromMesh, mesh.halfExtent)) {
       continue;
     }
     Body& body = bodyOf(i);

@@ -29,17 +29,17 @@ class Occlusion {
   std::optional<std::string> hiddenBy(int mirror, std::span<const glm::dvec3> polygon);
 
  private:
-  // Occluders have the region that they hide in the view of that number, found when it is first needed.
+  // The region that an occluder hides is found when a view first needs it.
   struct Face {
     FlatOccluder occluder;
-    int view = -1;
-    bool hides = false;
-    OccludedRegion region;  // if it hides one
+    int view = -1;          // number of the view that `region` is for; -1: none yet
+    bool hides = false;     // else `region` has no meaning
+    OccludedRegion region;  // keeps its memory from view to view
   };
   struct Body {
     std::vector<Face> faces;
     BodyOccluder whole;
-    int view = -1;
+    int view = -1;  // as of a face
     std::optional<BodyRegion> region;
   };
   struct Occluder {

@@ -145,14 +145,18 @@ View reflectedView(const View& parent, int mirror, const Plane& plane, std::span
   return view;
 }
 
-std::vector<glm::dvec3> visiblePart(const View& view, std::span<const glm::dvec3> polygon) {
-  // Tests single planes first, which takes no memory: most mirrors of a large scene lie beyond one of them.
-  const auto beyond = [&](const Plane& plane) {
-    return std::ranges::all_of(polygon, [&](const glm::dvec3& p) { return plane.distance(p) < 0.0; });
+bool hullVisible(const View& view, std::span<const glm::dvec3> points) {
+  const auto reaches = [&](const Plane& plane) {
+    return std::ranges::any_of(points, [&](const glm::dvec3& p) { return plane.distance(p) >= 0.0; });
   };
-  if ((view.clip && beyond(*view.clip)) || std::ranges::any_of(view.cone, [&](const glm::dvec3& n) {
-        return beyond({view.eye, n});
-      })) {
+  return (!view.clip || reaches(*view.clip)) && std::ranges::all_of(view.cone, [&](const glm::dvec3& normal) {
+           return reaches({view.eye, normal});
+         });
+}
+
+std::vector<glm::dvec3> visiblePart(const View& view, std::span<const glm::dvec3> polygon) {
+  // Takes no memory: most mirrors of a large scene lie beyond one of the planes.
+  if (!hullVisible(view, polygon)) {
     return {};
   }
   std::vector<glm::dvec3> part = clippedPart(view, polygon);

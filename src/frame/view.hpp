@@ -45,14 +45,17 @@ void widen(View& view, const Projection& projection, int pixels);
 // lies within the picture, more where an image has a margin beyond the picture's border.
 glm::dvec2 overscan(const View& view);
 
-// Returns inward unit normals of the planes through the eye and the edges of a convex polygon; skips edges that point
-// at the eye.
+// Returns inward unit normals of the planes through the eye and the edges of a convex polygon (world); skips edges that
+// point at the eye.
 std::vector<glm::dvec3> coneThrough(const glm::dvec3& eye, std::span<const glm::dvec3> polygon);
 
 // `parent` reflected about a mirror's plane. `plane` faces the parent's eye; `visible` is the mirror's visible region
 // (world). `rect` and `pictureSize` are at the resolution of mirror images.
 View reflectedView(const View& parent, int mirror, const Plane& plane, std::span<const glm::dvec3> visible,
                    const PixelRect& rect, const glm::dvec2& pictureSize);
+
+// Says whether the view may see a part of the convex hull of points (world).
+bool hullVisible(const View& view, std::span<const glm::dvec3> points);
 
 // Cuts a convex polygon (world) by the view's clip plane and cone.
 std::vector<glm::dvec3> visiblePart(const View& view, std::span<const glm::dvec3> polygon);

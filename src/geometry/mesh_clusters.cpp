@@ -29,13 +29,13 @@ struct PartVertices {
   std::vector<uint32_t> ofMesh;      // vertices
   std::vector<glm::vec3> positions;  // scaled to about unit size, so that floats can hold them
 
-  // What a vertex of the mesh counts as, for so many more triangles.
+  // The number of a vertex of the mesh within the part, and how many more triangles may use that number.
   struct Last {
     uint32_t index = 0;
     uint32_t trianglesLeft = 0;
   };
 
-  // `last` has one for each vertex of the mesh, with no triangles left before and after.
+  // `last` has one for each vertex of the mesh; in all of them `trianglesLeft` is 0 before and after.
   PartVertices(const Mesh& mesh, std::span<const uint32_t> all, std::span<Last> last) {
     constexpr uint32_t mostTriangles = 256;
     indices.reserve(all.size());

@@ -66,19 +66,19 @@ TraceGrid traceGrid(const Bounds& bounds) {
   return grid;
 }
 
-void writeMeshNodes(const Bvh& hierarchy, const TraceGrid& grid, uint32_t firstTriangle, uint32_t firstNode,
-                    BufferWriter& nodes) {
+void visitMeshNodes(const Bvh& hierarchy, const TraceGrid& grid, uint32_t firstTriangle, uint32_t firstNode,
+                    const std::function<void(const gpu::TraceNode&)>& visit) {
   for (int octant = 0; octant < traceOctants; ++octant) {
     const uint32_t first = firstNode + static_cast<uint32_t>(static_cast<size_t>(octant) * hierarchy.nodes().size());
     visitInOrder(hierarchy, octant, [&](const Bvh::Node& node, uint32_t next) {
       const glm::dvec3 low = (node.box.low - glm::dvec3(grid.low)) * glm::dvec3(grid.scale);
       const glm::dvec3 high = (node.box.high - glm::dvec3(grid.low)) * glm::dvec3(grid.scale);
-      gpu::TraceNode added;
+      gpu::TraceNode made;
       for (int axis = 0; axis < 3; ++axis) {
-        added.sides[axis] = sideOf(low[axis], high[axis], (octant >> axis & 1) != 0);
+        made.sides[axis] = sideOf(low[axis], high[axis], (octant >> axis & 1) != 0);
       }
-      added.link = node.count > 0 ? gpu::traceLeaf | (firstTriangle + node.first) << 3 | node.count : first + next;
-      nodes.add(added);
+      made.link = node.count > 0 ? gpu::traceLeaf | (firstTriangle + node.first) << 3 | node.count : first + next;
+      visit(made);
     });
   }
 }

@@ -1,8 +1,8 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
-#include "core/uploader.hpp"
 #include "geometry/bvh.hpp"
 #include "shaders/gpu_data.h"
 
@@ -20,11 +20,11 @@ struct TraceGrid {
 };
 TraceGrid traceGrid(const Bounds& bounds);
 
-// Both functions give the nodes of all octants, `hierarchy.nodes().size()` for each. Boxes only grow by rounding.
-// The first node of a mesh has index `firstNode` in the buffer.
-void writeMeshNodes(const Bvh& hierarchy, const TraceGrid& grid, uint32_t firstTriangle, uint32_t firstNode,
-                    BufferWriter& nodes);
-// `links` has one for each primitive, in the primitives' order before the hierarchy was built.
+// Calls `visit` with the nodes of a mesh for all octants in the order of the buffer, `hierarchy.nodes().size()` for
+// each octant. The first one has index `firstNode` in the buffer. Boxes only grow by rounding.
+void visitMeshNodes(const Bvh& hierarchy, const TraceGrid& grid, uint32_t firstTriangle, uint32_t firstNode,
+                    const std::function<void(const gpu::TraceNode&)>& visit);
+// Appends nodes likewise. `links` has one for each primitive, in the primitives' order before the hierarchy was built.
 void appendTopNodes(const Bvh& hierarchy, std::span<const uint32_t> links, std::vector<gpu::TraceTopNode>& nodes);
 
 }  // namespace speculum

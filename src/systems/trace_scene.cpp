@@ -72,11 +72,9 @@ TraceScene::TraceScene(Uploader& uploader, const Scene& scene) {
   writeTextures(uploader, scene);
 }
 
-template <typename T>
-void TraceScene::write(Uploader& uploader, Kind kind, size_t count, const char* name,
+void TraceScene::write(Uploader& uploader, Kind kind, uint64_t bytes, const char* name,
                        const std::function<void(BufferWriter&)>& content) {
   const Device& device = uploader.device();
-  const uint64_t bytes = count * sizeof(T);
   const bool asTexels = kind == nodes || kind == triangles;
   const TraceBufferBytes limits = traceBufferLimits(device.limits());
   const uint64_t limit = asTexels ? limits.texels : limits.storage;
@@ -96,26 +94,27 @@ void TraceScene::write(Uploader& uploader, Kind kind, size_t count, const char* 
 void TraceScene::writeTriangles(Uploader& uploader, const Scene& scene) {
   std::vector<Bvh> hierarchies;
   size_t nodeCount = 0;
-  uint32_t triangleCount = 0;
-  uint32_t vertexCount = 0;
+  size_t triangleCount = 0;
+  size_t vertexCount = 0;
   for (const Mesh& mesh : scene.meshes) {
     const Bvh& hierarchy = hierarchies.emplace_back(triangleBounds(mesh), trianglesPerLeaf);
     const MeshRange& range = meshes_.emplace_back(MeshRange{.grid = traceGrid(hierarchy.bounds()),
                                                             .root = static_cast<uint32_t>(nodeCount),
                                                             .nodes = static_cast<uint32_t>(hierarchy.nodes().size()),
-                                                            .firstTriangle = triangleCount,
+                                                            .firstTriangle = static_cast<uint32_t>(triangleCount),
                                                             .triangles = static_cast<uint32_t>(mesh.indices.size() / 3),
-                                                            .firstVertex = vertexCount});
+                                                            .firstVertex = static_cast<uint32_t>(vertexCount)});
     nodeCount += size_t{traceOctants} * range.nodes;
     triangleCount += range.triangles;
-    vertexCount += static_cast<uint32_t>(mesh.vertices.size());
+    vertexCount += mesh.vertices.size();
   }
-  write<gpu::TraceNode>(uploader, nodes, nodeCount, "trace nodes", [&](BufferWriter& writer) {
+  write(uploader, nodes, nodeCount * sizeof(gpu::TraceNode), "trace nodes", [&](BufferWriter& writer) {
     for (size_t i = 0; i < hierarchies.size(); ++i) {
-      writeMeshNodes(hierarchies[i], meshes_[i].grid, meshes_[i].firstTriangle, meshes_[i].root, writer);
+      visitMeshNodes(hierarchies[i], meshes_[i].grid, meshes_[i].firstTriangle, meshes_[i].root,
+                     [&](const gpu::TraceNode& node) { writer.add(node); });
     }
   });
-  write<gpu::TraceTriangle>(uploader, triangles, triangleCount, "trace triangles", [&](BufferWriter& writer) {
+  write(uploader, triangles, triangleCount * sizeof(gpu::TraceTriangle), "trace triangles", [&](BufferWriter& writer) {
     for (size_t i = 0; i < hierarchies.size(); ++i) {
       const Mesh& mesh = scene.meshes[i];
       for (const uint32_t triangle : hierarchies[i].order()) {
@@ -136,7 +135,7 @@ void TraceScene::writeAttributes(Uploader& uploader, const Scene& scene) {
     triangleCount += mesh.indices.size() / 3;
     vertexCount += mesh.vertices.size();
   }
-  write<gpu::TraceFace>(uploader, faces, triangleCount, "trace faces", [&](BufferWriter& writer) {
+  write(uploader, faces, triangleCount * sizeof(gpu::TraceFace), "trace faces", [&](BufferWriter& writer) {
     uint32_t materials = 0;  // of the meshes before, as SceneResources counts them
     for (const Mesh& mesh : scene.meshes) {
       const uint32_t* index = mesh.indices.data();
@@ -147,7 +146,7 @@ void TraceScene::writeAttributes(Uploader& uploader, const Scene& scene) {
       materials += static_cast<uint32_t>(mesh.parts.size());
     }
   });
-  write<gpu::TraceVertex>(uploader, vertices, vertexCount, "trace vertices", [&](BufferWriter& writer) {
+  write(uploader, vertices, vertexCount * sizeof(gpu::TraceVertex), "trace vertices", [&](BufferWriter& writer) {
     for (const Mesh& mesh : scene.meshes) {
       for (const Vertex& vertex : mesh.vertices) {
         writer.add(gpu::TraceVertex{.position = glm::vec3(vertex.position),
@@ -167,10 +166,10 @@ void TraceScene::writeTextures(Uploader& uploader, const Scene& scene) {
                      static_cast<uint32_t>(texture.height)});
     appendLevels(texture, levels);
   }
-  write<gpu::TraceTexture>(uploader, textures, first.size(), "trace textures",
-                           [&](BufferWriter& writer) { writer.write(std::as_bytes(std::span(first))); });
-  write<uint64_t>(uploader, texels, levels.size(), "trace texels",
-                  [&](BufferWriter& writer) { writer.write(std::as_bytes(std::span(levels))); });
+  write(uploader, textures, first.size() * sizeof(gpu::TraceTexture), "trace textures",
+        [&](BufferWriter& writer) { writer.write(std::as_bytes(std::span(first))); });
+  write(uploader, texels, levels.size() * sizeof(uint64_t), "trace texels",
+        [&](BufferWriter& writer) { writer.write(std::as_bytes(std::span(levels))); });
 }
 
 uint64_t TraceScene::bytes() const {

@@ -40,9 +40,8 @@ class TraceScene {
   uint64_t bytes() const;
 
  private:
-  // Uploads what `content` writes, `count` values of T.
-  template <typename T>
-  void write(Uploader& uploader, Kind kind, size_t count, const char* name,
+  // Uploads the bytes that `content` writes.
+  void write(Uploader& uploader, Kind kind, uint64_t bytes, const char* name,
              const std::function<void(BufferWriter&)>& content);
   void writeTriangles(Uploader& uploader, const Scene& scene);  // and their hierarchies, which give `meshes_`
   void writeAttributes(Uploader& uploader, const Scene& scene);
