@@ -23,24 +23,6 @@ constexpr size_t mostTested = 512;
 constexpr size_t mostPieces = 24;
 constexpr size_t mostOccluders = 64;
 
-// A line of sight, from the eye to a point.
-class Sightline {
- public:
-  explicit Sightline(const glm::dvec3& along) : along_(along) {
-    const double length2 = glm::dot(along, along);
-    perLength2_ = length2 > 0.0 ? 1.0 / length2 : 0.0;
-  }
-  // `center` starts at the eye.
-  bool meetsSphere(const glm::dvec3& center, double radius) const {
-    const glm::dvec3 off = center - std::clamp(glm::dot(center, along_) * perLength2_, 0.0, 1.0) * along_;
-    return glm::dot(off, off) <= radius * radius;
-  }
-
- private:
-  glm::dvec3 along_;
-  double perLength2_ = 0.0;
-};
-
 FlatOccluder flatOccluder(std::span<const glm::dvec3> polygon, double size) {
   FlatOccluder made{.plane = {polygon[0], glm::normalize(newellVector(polygon))}, .slack = roundingPart * size};
   for (const glm::dvec3& p : polygon) {
@@ -63,37 +45,23 @@ BodyOccluder bodyOccluder(const ConvexMesh& mesh, const InstanceState& state) {
   return whole;
 }
 
-// Filters occluders at little cost. Keeps those that look large enough and stand before a corner or the middle of the
-// polygon, as any occluder of the whole polygon does. Drops those that lie wholly behind the polygon's plane or outside
-// the cone from the eye through its edges.
+// Filters occluders at little cost. Keeps those that look large enough to matter, unless they lie wholly behind the
+// polygon's plane or outside the cone from the eye through its edges.
 class Prefilter {
  public:
   // `plane` is the polygon's.
-  Prefilter(const glm::dvec3& eye, std::span<const glm::dvec3> polygon, const Plane& plane)
-      : eye_(eye), polygon_(polygon) {
+  Prefilter(const glm::dvec3& eye, std::span<const glm::dvec3> polygon, const Plane& plane) : polygon_(polygon) {
+    constexpr double least = 0.4;  // of the polygon's own angle
+    const glm::dvec3 center = vertexMean(polygon);
+    width_ = least * farthestDistance(center, polygon) / glm::length(center - eye);
     before_.eye = eye;
     before_.clip = {plane.point, plane.distance(eye) < 0.0 ? -plane.normal : plane.normal};
     before_.cone = coneThrough(eye, polygon);
-    constexpr double least = 0.4;  // of the polygon's own angle
-    const glm::dvec3 center = vertexMean(polygon);
-    radius_ = farthestDistance(center, polygon);
-    width_ = least * radius_ / glm::length(center - eye);
-    lines_.reserve(polygon.size() + 1);
-    lines_.emplace_back(center - eye);
-    for (const glm::dvec3& p : polygon) {
-      lines_.emplace_back(p - eye);
-    }
   }
 
-  bool include(const glm::dvec3& center, double radius) const {
-    const glm::dvec3 fromEye = center - eye_;
-    // Tests the first line alone at first: no point of another line is farther from it than the polygon's radius.
-    return looksLarge(center, radius, radius) && lines_[0].meetsSphere(fromEye, radius + radius_) &&
-           std::ranges::any_of(lines_, [&](const Sightline& line) { return line.meetsSphere(fromEye, radius); });
-  }
   // Says whether an occluder of `radius` looks large enough at that point of the sphere that is nearest to the eye.
   bool looksLarge(const glm::dvec3& center, double sphereRadius, double radius) const {
-    const glm::dvec3 fromEye = center - eye_;
+    const glm::dvec3 fromEye = center - before_.eye;
     const double large = radius + width_ * sphereRadius;
     return large * large >= width_ * width_ * glm::dot(fromEye, fromEye);
   }
@@ -101,16 +69,13 @@ class Prefilter {
   const View& before() const { return before_; }
   // Says whether a corner lies beyond a plane.
   bool reachesBeyond(const Plane& plane) const {
-    const double side = plane.distance(eye_);
+    const double side = plane.distance(before_.eye);
     return std::ranges::any_of(polygon_, [&](const glm::dvec3& p) { return side * plane.distance(p) < 0.0; });
   }
 
  private:
-  glm::dvec3 eye_;
   std::span<const glm::dvec3> polygon_;
   View before_;
-  std::vector<Sightline> lines_;  // to the polygon's middle and its corners
-  double radius_ = 0.0;           // of the polygon
   double width_ = 0.0;
 };
 
@@ -202,7 +167,7 @@ Occlusion::Occluders Occlusion::occludersOf(int mirror, std::span<const glm::dve
   Occluders found;
   const Prefilter prefilter(eye, polygon, mirrors_[mirror].occluder.plane);
   const auto addFace = [&](Face& face, const Occluder& of) {
-    if (!prefilter.include(face.occluder.center, face.occluder.radius) ||
+    if (!prefilter.looksLarge(face.occluder.center, face.occluder.radius, face.occluder.radius) ||
         !hullVisible(prefilter.before(), face.occluder.polygon) || !prefilter.reachesBeyond(face.occluder.plane)) {
       return false;
     }
@@ -221,7 +186,6 @@ Occlusion::Occluders Occlusion::occludersOf(int mirror, std::span<const glm::dve
     const double widest = mesh.convex.points.empty() ? instance.radius * largestFaces_[instance.mesh] : instance.radius;
     // Levels of a mesh have other outlines.
     if ((simplifies && mayHaveLevels(mesh)) || !prefilter.looksLarge(instance.center, instance.radius, widest) ||
-        !prefilter.include(instance.center, instance.radius) ||
         !boxVisible(prefilter.before(), instance.worldFromMesh, mesh.halfExtent)) {
       continue;
     }
