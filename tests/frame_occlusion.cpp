@@ -1,5 +1,6 @@
 // Mirrors that the plan says are hidden, against rays from the eye to them.
 #include "frame/frame_plan.hpp"
+#include "frame/occluded_region.hpp"
 #include "frame_support.hpp"
 #include "geometry/affine.hpp"
 #include "occluder_shapes.hpp"
@@ -92,10 +93,39 @@ class Occluders : public ::testing::Test {
     return points;
   }
 
+  // Checks that no mirror is drawn although a single face of an object hides all of it. The slack is ten times that of
+  // the plan, so that rounding decides nothing.
+  static void checkDrawn(const Scene& scene, const SceneState& state, const FramePlan& plan, const std::string& what) {
+    const auto checkPass = [&](const PlannedPass& pass) {
+      for (const int i : pass.instances) {
+        const InstanceState& instance = state.instances[i];
+        for (const std::vector<glm::dvec3>& face : scene.meshes[instance.mesh].faces) {
+          FlatOccluder occluder{.slack = 1e-4 * instance.radius};
+          for (const glm::dvec3& p : face) {
+            occluder.polygon.push_back(instance.worldFromMesh.point(p));
+          }
+          occluder.plane = {occluder.polygon[0], glm::normalize(newellVector(occluder.polygon))};
+          OccludedRegion region;
+          const bool hides = hiddenByFace(occluder, pass.view, plan.projection, region);
+          for (const MirrorDraw& draw : pass.mirrors) {
+            const auto holds = [&](const HalfSpace& half) {
+              return std::ranges::all_of(draw.polygon,
+                                         [&](const glm::dvec3& p) { return half.at(p - pass.view.eye) > 0.0; });
+            };
+            EXPECT_FALSE(hides && std::ranges::all_of(region, holds)) << what << " does not hide mirror " << draw.mirror;
+          }
+        }
+      }
+    };
+    checkPass(plan.main);
+    std::ranges::for_each(plan.passes, checkPass);
+  }
+
   // Plans a scene and checks all mirrors hidden at a depth. Returns their number.
   int check(const Scene& scene, const std::string& what, int depth = 0) {
     const SceneState state = evaluate(scene, 0.0);
     const FramePlan plan = planOf(scene);
+    checkDrawn(scene, state, plan, what);
     int hidden = 0;
     for (const SkippedMirror& skipped : plan.skipped) {
       if (skipped.reason != SkipReason::hidden || skipped.depth != depth) {
