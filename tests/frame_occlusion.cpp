@@ -112,7 +112,8 @@ class Occluders : public ::testing::Test {
               return std::ranges::all_of(draw.polygon,
                                          [&](const glm::dvec3& p) { return half.at(p - pass.view.eye) > 0.0; });
             };
-            EXPECT_FALSE(hides && std::ranges::all_of(region, holds)) << what << " does not hide mirror " << draw.mirror;
+            EXPECT_FALSE(hides && std::ranges::all_of(region, holds))
+                << what << " does not hide mirror " << draw.mirror;
           }
         }
       }
