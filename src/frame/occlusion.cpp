@@ -53,7 +53,8 @@ class Prefilter {
   Prefilter(const glm::dvec3& eye, std::span<const glm::dvec3> polygon, const Plane& plane) : polygon_(polygon) {
     constexpr double least = 0.4;  // of the polygon's own angle
     const glm::dvec3 center = vertexMean(polygon);
-    width_ = least * farthestDistance(center, polygon) / glm::length(center - eye);
+    leastRadius_ = least * farthestDistance(center, polygon);
+    distance_ = glm::length(center - eye);
     before_.eye = eye;
     before_.clip = {plane.point, plane.distance(eye) < 0.0 ? -plane.normal : plane.normal};
     before_.cone = coneThrough(eye, polygon);
@@ -62,8 +63,8 @@ class Prefilter {
   // Says whether an occluder of `radius` looks large enough at that point of the sphere that is nearest to the eye.
   bool looksLarge(const glm::dvec3& center, double sphereRadius, double radius) const {
     const glm::dvec3 fromEye = center - before_.eye;
-    const double large = radius + width_ * sphereRadius;
-    return large * large >= width_ * width_ * glm::dot(fromEye, fromEye);
+    const double large = radius * distance_ + leastRadius_ * sphereRadius;
+    return large * large >= leastRadius_ * leastRadius_ * glm::dot(fromEye, fromEye);
   }
   // Sees what lies before the polygon.
   const View& before() const { return before_; }
@@ -76,7 +77,8 @@ class Prefilter {
  private:
   std::span<const glm::dvec3> polygon_;
   View before_;
-  double width_ = 0.0;
+  double leastRadius_ = 0.0;  // of an occluder as far away as the polygon's middle
+  double distance_ = 0.0;     // from the eye to that middle
 };
 
 }  // namespace
