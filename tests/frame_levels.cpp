@@ -179,6 +179,57 @@ TEST(MeshError, OneLevelInPassesAndShadowMaps) {
   }
 }
 
+// Clusters that are left out change no level of what is drawn, so that pictures without culling are the same.
+TEST(MeshError, LevelsDoNotDependOnCulling) {
+  Random random(17);
+  const Scene empty = sceneOf(std::vector<double>{});
+  levelsOf(empty.meshes[0]);  // copies of the mesh share them
+  int levels = 0;
+  int leftOut = 0;
+  for (int round = 0; round < 300; ++round) {
+    Scene scene = empty;
+    scene.mirrors.push_back(wall({random.uniform(-3, 3), 0, -4}, random.uniform(-60, 60), {1, 1}));
+    for (int i = 0; i < 12; ++i) {
+      Object object = testing_support::objectAt(random.inBox(12.0), glm::dvec3(random.uniform(0.2, 6)));
+      object.rotation = random.inBox(180.0);
+      object.scale.y *= random.uniform(0.1, 1);
+      scene.objects.push_back(object);
+    }
+    scene.lights[0].position = random.inBox(6.0);
+    scene.lights[0].castsShadow = round % 2 == 0;
+    const auto planWith = [&](const char* culls) {
+      return levelPlan(scene, 2.0,
+                       {{"view.mesh_error", "1"}, {"effects.shadow_lookup", "map"}, {"debug.cull_clusters", culls}});
+    };
+    const FramePlan culled = planWith("true");
+    const FramePlan whole = planWith("false");
+    const auto compare = [&](const PlannedPass& some, const PlannedPass& all) {
+      EXPECT_TRUE(all.partial.empty());
+      EXPECT_TRUE(std::ranges::includes(all.instances, some.instances));
+      leftOut += static_cast<int>(all.instances.size() - some.instances.size() + some.partial.size());
+      for (const int i : some.instances) {
+        EXPECT_EQ(levelOf(some, i), levelOf(all, i)) << "object " << i << " in round " << round;
+        levels += levelOf(some, i) >= 0 ? 1 : 0;
+      }
+    };
+    compare(culled.main, whole.main);
+    ASSERT_EQ(culled.passes.size(), whole.passes.size());
+    for (size_t i = 0; i < culled.passes.size(); ++i) {
+      compare(culled.passes[i], whole.passes[i]);
+    }
+    for (size_t map = 0; map < culled.shadowMaps.size(); ++map) {
+      for (size_t i = 0; i < 6; ++i) {
+        if (const ShadowFace& face = culled.shadowMaps[map].faces[i]; face.read) {
+          EXPECT_TRUE(whole.shadowMaps[map].faces[i].read);
+          compare(face.pass, whole.shadowMaps[map].faces[i].pass);
+        }
+      }
+    }
+  }
+  EXPECT_GT(levels, 1000);
+  EXPECT_GT(leftOut, 200);
+}
+
 TEST(MeshError, ObjectsAtTheEyeAreExact) {
   Scene scene = sceneOf({11}, 30.0);
   EXPECT_TRUE(levelPlan(scene, 0.5).passes[0].simplified.empty());

@@ -40,8 +40,7 @@ void addVisibleInstances(const View& view, const Scene& scene, const SceneState&
   for (int i = 0; i < static_cast<int>(state.instances.size()); ++i) {
     const InstanceState& instance = state.instances[i];
     const Mesh& mesh = scene.meshes[instance.mesh];
-    if (i == without || !sphereVisible(view, instance.center, instance.radius) ||
-        !boxVisible(view, instance.worldFromMesh, mesh.halfExtent)) {
+    if (i == without || !boundsVisible(view, instance, mesh.halfExtent)) {
       continue;
     }
     std::vector<IndexRange> ranges =

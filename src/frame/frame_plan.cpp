@@ -130,18 +130,18 @@ void Planner::simplify() {
   }
   if (plan_.effects.shadowMaps) {
     addMaps(passes);
-    simplifyAlike(passes, allSettings_.effects, scene_, state_);
+    simplifyAlike(passes, allSettings_, scene_, state_);
     return;
   }
   for (const SimplifiedPass& pass : passes) {
     if (pass.texels > 0.0) {
-      simplifyPass(pass, allSettings_.effects, scene_, state_);
+      simplifyPass(pass, allSettings_, scene_, state_);
     }
   }
   if (settings_.meshError > 0.0) {
     // An object that two faces show has one level in both, so that it has no step at their edge.
     for (EnvironmentMap& map : plan_.maps) {
-      simplifyAlike(facesToSimplify(map), allSettings_.effects, scene_, state_);
+      simplifyAlike(facesToSimplify(map), allSettings_, scene_, state_);
     }
   }
 }
@@ -163,8 +163,8 @@ void Planner::addMaps(std::vector<SimplifiedPass>& passes) {
   const double texels = allSettings_.view.meshError > 0.0 ? softened : 0.0;
   for (ShadowMap& map : plan_.shadowMaps) {
     for (ShadowFace& face : map.faces) {
-      if (face.read) {
-        passes.push_back({&face.pass, face.pass.view, &face.projection, texels});
+      if (face.inReach) {
+        passes.push_back({&face.pass, face.pass.view, &face.projection, texels, face.read});
       }
     }
   }

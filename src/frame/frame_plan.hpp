@@ -94,6 +94,7 @@ struct ShadowFace {
   Projection projection;  // of its window
   glm::dvec2 low{0.0};    // window, metres right and down in the plane one metre before the light
   glm::dvec2 high{0.0};
+  bool inReach = false;           // a view may show a part of it
   bool read = false;              // something that is drawn may look it up
   bool rendered = false;          // this frame renders it; else, if it is read, its texels are unchanged
   std::vector<uint64_t> content;  // all that its texels depend on; empty if they were never rendered

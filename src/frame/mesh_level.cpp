@@ -114,16 +114,25 @@ LevelChoice coarsestLevel(const View& view, double largestError, const InstanceS
   return {static_cast<int>(end - 1 - levels.begin()), ranges.empty() ? std::vector{level.all} : std::move(ranges)};
 }
 
-// Draws each instance of the pass as choose(instance, ranges seen of the mesh) says.
+// Draws each instance of the pass as choose(instance, ranges seen of the mesh) says. Without culling of clusters, whole
+// levels are drawn, but the same ones.
 template <typename Choose>
-void applyLevels(PlannedPass& pass, const Scene& scene, const SceneState& state, const Choose& choose) {
+void applyLevels(const SimplifiedPass& simplified, const Settings& settings, const Scene& scene,
+                 const SceneState& state, const Choose& choose) {
+  const bool culls = settings.debug.cullClusters;
+  PlannedPass& pass = *simplified.pass;
   std::vector<PartialInstance> partial;
   for (const int i : pass.instances) {
     const Mesh& mesh = scene.meshes[state.instances[i].mesh];
-    const PartialInstance* part = partOf(pass.partial, i);
-    LevelChoice choice = choose(i, part ? part->ranges : std::vector{allOf(mesh)});
+    std::vector<IndexRange> seen = {allOf(mesh)};
+    if (const PartialInstance* part = partOf(pass.partial, i)) {
+      seen = part->ranges;
+    } else if (!culls) {
+      seen = visibleRanges(simplified.readable, state.instances[i], mesh);
+    }
+    LevelChoice choice = choose(i, std::move(seen));
     const IndexRange all = choice.level < 0 ? allOf(mesh) : levelsOf(mesh).levels[choice.level].all;
-    if (choice.ranges.front() != all) {
+    if (culls && choice.ranges.front() != all) {
       partial.push_back({i, std::move(choice.ranges)});
     }
     if (choice.level >= 0) {
@@ -134,10 +143,10 @@ void applyLevels(PlannedPass& pass, const Scene& scene, const SceneState& state,
 }
 
 // Returns the largest error that the pass allows for an instance, in the mesh's unit.
-double errorOf(const SimplifiedPass& simplified, int i, const EffectSettings& effects, const Scene& scene,
+double errorOf(const SimplifiedPass& simplified, int i, const Settings& settings, const Scene& scene,
                const SceneState& state) {
   const InstanceState& instance = state.instances[i];
-  if (effects.curved && scene.objects[instance.object].mirror) {
+  if (settings.effects.curved && scene.objects[instance.object].mirror) {
     return 0.0;
   }
   return largestError(simplified.readable, *simplified.projection, instance, scene.meshes[instance.mesh],
@@ -146,26 +155,33 @@ double errorOf(const SimplifiedPass& simplified, int i, const EffectSettings& ef
 
 }  // namespace
 
-void simplifyPass(const SimplifiedPass& simplified, const EffectSettings& effects, const Scene& scene,
+void simplifyPass(const SimplifiedPass& simplified, const Settings& settings, const Scene& scene,
                   const SceneState& state) {
-  applyLevels(*simplified.pass, scene, state, [&](int i, std::vector<IndexRange> seen) {
+  applyLevels(simplified, settings, scene, state, [&](int i, std::vector<IndexRange> seen) {
     const InstanceState& instance = state.instances[i];
-    return chooseLevel(simplified.readable, errorOf(simplified, i, effects, scene, state), instance,
+    return chooseLevel(simplified.readable, errorOf(simplified, i, settings, scene, state), instance,
                        scene.meshes[instance.mesh], std::move(seen));
   });
 }
 
-void simplifyAlike(std::span<const SimplifiedPass> passes, const EffectSettings& effects, const Scene& scene,
+void simplifyAlike(std::span<const SimplifiedPass> passes, const Settings& settings, const Scene& scene,
                    const SceneState& state) {
+  const int instances = static_cast<int>(state.instances.size());
   std::vector<double> largest(state.instances.size(), std::numeric_limits<double>::infinity());
   for (const SimplifiedPass& simplified : passes) {
-    for (const int i : simplified.pass->instances) {
-      double& error = largest[i];
-      error = std::min(error, errorOf(simplified, i, effects, scene, state));
+    // Not only what the pass draws: the level must not depend on the clusters that are left out.
+    for (int i = 0; i < instances; ++i) {
+      const InstanceState& instance = state.instances[i];
+      if (boundsVisible(simplified.readable, instance, scene.meshes[instance.mesh].halfExtent)) {
+        largest[i] = std::min(largest[i], errorOf(simplified, i, settings, scene, state));
+      }
     }
   }
   for (const SimplifiedPass& simplified : passes) {
-    applyLevels(*simplified.pass, scene, state, [&](int i, std::vector<IndexRange> seen) {
+    if (!simplified.drawn) {
+      continue;
+    }
+    applyLevels(simplified, settings, scene, state, [&](int i, std::vector<IndexRange> seen) {
       const InstanceState& instance = state.instances[i];
       return coarsestLevel(simplified.readable, largest[i], instance, scene.meshes[instance.mesh], std::move(seen));
     });

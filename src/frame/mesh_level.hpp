@@ -31,16 +31,17 @@ struct SimplifiedPass {
   View readable;
   const Projection* projection = nullptr;
   double texels = 0.0;  // by which simplified objects may be off
+  bool drawn = true;    // else it only bounds the levels that others draw
 };
 
 // Chooses a mesh level for each instance of the pass. Curved mirrors keep all triangles, since reflections follow their
 // normals.
-void simplifyPass(const SimplifiedPass& simplified, const EffectSettings& effects, const Scene& scene,
+void simplifyPass(const SimplifiedPass& simplified, const Settings& settings, const Scene& scene,
                   const SceneState& state);
 
 // Chooses one mesh level for each instance in all of the passes, off by at most the texels of each. Shadow maps need
 // that: otherwise one level of an object would cast shadows on another.
-void simplifyAlike(std::span<const SimplifiedPass> passes, const EffectSettings& effects, const Scene& scene,
+void simplifyAlike(std::span<const SimplifiedPass> passes, const Settings& settings, const Scene& scene,
                    const SceneState& state);
 
 // Returns the indices into Scene::meshes of meshes drawn as a level, each once. Passes that cached images replace count

@@ -91,6 +91,10 @@ bool seesOnlyFronts(const View& view, const InstanceState& instance, const glm::
   return false;
 }
 
+bool boundsVisible(const View& view, const InstanceState& instance, const glm::dvec3& halfExtent) {
+  return sphereVisible(view, instance.center, instance.radius) && boxVisible(view, instance.worldFromMesh, halfExtent);
+}
+
 std::vector<IndexRange> visibleRanges(const View& view, const InstanceState& instance, const Mesh& mesh) {
   return visibleRanges(view, instance, mesh.halfExtent, allOf(mesh), mesh.clusters);
 }

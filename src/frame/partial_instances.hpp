@@ -26,6 +26,9 @@ const PartialInstance* partOf(const std::vector<PartialInstance>& partial, int i
 
 IndexRange allOf(const Mesh& mesh);
 
+// Says whether the view may see a part of the instance's sphere and box.
+bool boundsVisible(const View& view, const InstanceState& instance, const glm::dvec3& halfExtent);
+
 // Ranges of the clusters that the view may see: everything in one range unless leaving some out saves more than the
 // extra draw calls cost, empty if the view sees nothing. No visible triangle is left out.
 std::vector<IndexRange> visibleRanges(const View& view, const InstanceState& instance, const Mesh& mesh);

@@ -166,7 +166,8 @@ class FacePlanner {
         near.push_back(readers_[i].pass);
       }
     }
-    if (!near.empty()) {
+    face.inReach = !near.empty();
+    if (face.inReach) {
       face.pass = planFace(cube, scene_, state_, settings_.debug.cullClusters);
       face.read = std::ranges::any_of(near, [&](const PlannedPass* pass) { return hasReceiver(face, *pass); });
     }
