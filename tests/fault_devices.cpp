@@ -36,6 +36,14 @@ TEST_F(Devices, WithoutWhatIsOptionalDrawAll) {
   EXPECT_TRUE(poor.picture == plain.picture);
 }
 
+TEST_F(Devices, WithFewStorageBuffersLeaveRaysOut) {
+  const Run few = run(render, {"SPECULUM_HIDE=storage_buffers=12"}, Place::inner);
+  EXPECT_EQ(few.exitCode, 0);
+  EXPECT_EQ(few.lines, 1) << few.output;
+  EXPECT_TRUE(contains(few.output, "effects.")) << few.output;
+  EXPECT_TRUE(few.picture);
+}
+
 TEST_F(Devices, OlderVersionsDrawTheSame) {
   const Run plain = run(render, {});
   for (const char* version : {"vulkan=1", "vulkan=2", "vulkan=2 VK_KHR_dynamic_rendering"}) {

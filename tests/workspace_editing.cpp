@@ -246,6 +246,16 @@ TEST_F(Editing, ContinuedEditsAreOneStep) {
   EXPECT_EQ(edit().undo, "");
 }
 
+TEST_F(Editing, AxisOfAnOrbitKeepsADirection) {
+  send(AddLight{});
+  PointLight light = std::get<PointLight>(nodeOf(scene(), edit().selected));
+  light.orbit = Orbit{.axis = {0, 0, 1}};
+  send(EditNode{edit().selected, light});
+  light.orbit->axis = {0, 0, 0};
+  send(EditNode{edit().selected, light});
+  EXPECT_EQ(std::get<PointLight>(nodeOf(scene(), edit().selected)).orbit->axis, glm::dvec3(0, 0, 1));
+}
+
 TEST_F(Editing, FirstCopiesStandBesideEachOther) {
   clickBall();
   Object many = object();

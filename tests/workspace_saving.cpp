@@ -10,7 +10,7 @@ namespace fs = std::filesystem;
 
 class Saving : public WorkspaceTest {
  protected:
-  explicit Saving(const Options& more = {}) : WorkspaceTest(corridorScene(), more) {}
+  explicit Saving(const Options& more = {}, const std::string& toml = corridorScene()) : WorkspaceTest(toml, more) {}
 
   void removeBall() {
     send(SelectNode{ball});
@@ -340,6 +340,29 @@ TEST_F(Saving, FailuresKeepUnsavedWorkInACopy) {
   EXPECT_TRUE(view().log.lines(LogLevel::err).empty()) << "there is none";
   removeBall();
   EXPECT_TRUE(loadScene(keptCopy()).objects.empty());
+}
+
+// A box of the scene's own folder stands in the corridor, so that its model can go.
+class OwnModel : public Saving {
+ protected:
+  OwnModel() : Saving({}, corridorScene("[[object]] model = \"" + model() + "\"\n")) {}
+  ~OwnModel() override { fs::remove(model()); }
+
+  static std::string model() {
+    const fs::path file = sceneDirectory() / "own.obj";
+    fs::copy_file(sourceFile("models/box.obj"), file, fs::copy_options::skip_existing);
+    return file.string();
+  }
+};
+
+// No scene without its model can be saved, but the copy can be mended by hand.
+TEST_F(OwnModel, CopyIsKeptWhenItIsGone) {
+  const std::string file = model();
+  setExposure(2.5);
+  fs::remove(file);
+  send(Save{});
+  EXPECT_TRUE(contains(edit().note, "would not be found")) << edit().note;
+  EXPECT_TRUE(contains(readText(keptCopy()), "\"view.exposure\" = 2.5"));
 }
 
 TEST_F(Saving, NextStartOffersTheKeptChanges) {

@@ -161,7 +161,7 @@ bool DocumentController::saveTo(const fs::path& named, const Settings& settings)
   }
 }
 
-fs::path DocumentController::savedOrCopy(const Settings& settings) const {
+fs::path DocumentController::savedOrCopy(const Settings& settings, ReadBack readBack) const {
   const SceneDocument& document = editor_.document();
   if (!hasUnsaved(settings)) {
     return loaded_.scene.file;
@@ -169,7 +169,7 @@ fs::path DocumentController::savedOrCopy(const Settings& settings) const {
   const fs::path folder = viewsFolder();
   std::error_code none;
   fs::create_directories(folder, none);
-  const std::string text = document.text(folder / "view.toml", settingChanges(settingsAtLoad_, settings));
+  const std::string text = document.text(folder / "view.toml", settingChanges(settingsAtLoad_, settings), readBack);
   // Names the copy by its content, so that commands copied earlier still draw the same picture.
   Fingerprint fingerprint;
   fingerprint.add(std::string_view(text));

@@ -40,8 +40,9 @@ class DocumentController {
   bool savedSinceLastCall() { return std::exchange(saved_, false); }
 
   // Returns a file with the scene, its unsaved changes and these settings: a copy in the user's cache folder, or the
-  // scene's own file if that is the same. Throws std::runtime_error if the copy cannot be written.
-  std::filesystem::path savedOrCopy(const Settings& settings) const;
+  // scene's own file if that is the same. Throws std::runtime_error if the copy cannot be written, or does not read
+  // back though that is required.
+  std::filesystem::path savedOrCopy(const Settings& settings, ReadBack readBack = ReadBack::required) const;
 
   const std::string& note() const { return note_; }  // result of the last save, or why a model was not added
   void setNote(const std::string& note) { note_ = note; }

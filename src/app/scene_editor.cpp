@@ -199,6 +199,10 @@ void SceneEditor::replace(const std::string& verb, std::span<const PlacedNode> n
 }
 
 void SceneEditor::edit(const Selection& target, const SceneNode& node, bool continued) {
+  const auto* light = std::get_if<PointLight>(&node);
+  if (light && light->orbit && !hasDirection(light->orbit->axis)) {
+    return;  // the loader refuses such an axis
+  }
   if (continued && !document_.inGesture()) {
     document_.beginGesture();
   }

@@ -119,7 +119,7 @@ void SceneOpener::forgetSaved() {
 
 void SceneOpener::keepUnsavedWork() noexcept {
   try {
-    const fs::path file = document_->savedOrCopy(settings_);
+    const fs::path file = document_->savedOrCopy(settings_, ReadBack::untested);
     if (file != shownFile()) {
       recovery_.record(file, document_->prompt() == Prompt::recovery);
       spdlog::warn("unsaved changes are kept in {}", file.string());

@@ -294,8 +294,9 @@ fs::path SceneDocument::usualFile() const {
   return isModelFile(scene_.file) ? fs::path(scene_.file).replace_extension(".toml") : scene_.file;
 }
 
-std::string SceneDocument::text(const fs::path& file, std::span<const SettingChange> settings) const {
-  return editedText(loaded_, content(), scene_.meshes, settings, file);
+std::string SceneDocument::text(const fs::path& file, std::span<const SettingChange> settings,
+                                ReadBack readBack) const {
+  return editedText(loaded_, content(), scene_.meshes, settings, file, readBack);
 }
 
 void SceneDocument::save(const fs::path& file, std::span<const SettingChange> settings, bool overwrite) {

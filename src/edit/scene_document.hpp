@@ -92,7 +92,8 @@ class SceneDocument {
   // the file the scene's. Throws SaveError; see writeSceneFile for `overwrite`.
   void save(const std::filesystem::path& file, std::span<const SettingChange> settings, bool overwrite = false);
   // The text that save() would write.
-  std::string text(const std::filesystem::path& file, std::span<const SettingChange> settings) const;
+  std::string text(const std::filesystem::path& file, std::span<const SettingChange> settings,
+                   ReadBack readBack = ReadBack::required) const;
 
  private:
   // Content that undo or redo restores, and the selection before and after the edit.

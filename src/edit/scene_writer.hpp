@@ -16,12 +16,16 @@ class SaveError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+// Whether the text of a scene must read back as the scene. A copy of unsaved changes need not: nothing else holds them.
+enum class ReadBack { required, untested };
+
 // Returns the scene file's text with edited content and changed settings; an empty value takes a setting's key out.
 // `loaded` has the original text and file, `meshes` the models of Object::mesh. Unchanged values keep their text,
-// comments and order; paths of models are relative to the folder of `file`. Throws SaveError if the text would not read
-// back as exactly this content.
+// comments and order; paths of models are relative to the folder of `file`. Throws SaveError if the text is required to
+// read back as exactly this content but would not.
 std::string editedText(const Scene& loaded, const SceneContent& content, std::span<const Mesh> meshes,
-                       std::span<const SettingChange> settings, const std::filesystem::path& file);
+                       std::span<const SettingChange> settings, const std::filesystem::path& file,
+                       ReadBack readBack = ReadBack::required);
 
 // Replaces the file by `text`, whole or not at all. Throws SaveError if that fails or, without `overwrite`, if the file
 // does not hold `expected`; with no expected text, if there is a file.

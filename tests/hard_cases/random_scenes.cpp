@@ -103,6 +103,7 @@ void expectTraced(const Image8& picture, const Tracing& tracing, const std::stri
     ADD_FAILURE() << name << ": " << d.over << " of " << d.counted << " pixels differ, " << edges << " are at edges";
     writeEvidence(picture, expected, name);
   }
+  EXPECT_FALSE(difference(picture, expected, 2).block) << name << ": something is drawn over the background";
 }
 
 // Returns the means of blocks of `side` x `side` pixels.
@@ -246,7 +247,7 @@ TEST(SmallestScene, KeepsOnlyWhatMakesItFail) {
 // SPECULUM_SEED is added to each.
 std::vector<unsigned> seeds() {
   const char* first = std::getenv("SPECULUM_SEED");
-  std::vector<unsigned> seeds = sampledSeeds(1000, 20);
+  std::vector<unsigned> seeds = sampledSeeds(1000, 19);  // of all kinds, whose number has no common factor with 19
   for (unsigned& seed : seeds) {
     seed += first ? static_cast<unsigned>(std::atoi(first)) : 0;
   }

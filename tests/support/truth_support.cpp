@@ -13,6 +13,8 @@ void expectTraced(const Image8& actual, const Truth& truth, const std::filesyste
   const bool holds = difference(actual, truth.picture, tolerance, counts).holds();
   expectAlike(actual, holds ? truth.picture : truth.tracing.nearest(actual), tolerance, "truth_" + file.stem().string(),
               counts);
+  EXPECT_FALSE(difference(actual, truth.picture, tolerance).block)
+      << file << ": something is drawn over the background";
 }
 
 }  // namespace
