@@ -128,6 +128,52 @@ TEST(MirrorPictures, CornersOffThePlaneAreFlattened) {
 }
 
 // The camera looks into a large mirror that shows the two.
+// Vertices on the edges of a mirror, or beside its corners, from any vertex on.
+std::vector<glm::dvec3> withNeedlessVertices(const std::vector<glm::dvec3>& polygon, Random& random) {
+  std::vector<glm::dvec3> more;
+  for (size_t i = 0; i < polygon.size(); ++i) {
+    more.push_back(polygon[i]);
+    const glm::dvec3 edge = polygon[(i + 1) % polygon.size()] - polygon[i];
+    std::vector<double> places;
+    for (size_t count = random.index(4); count > 0; --count) {
+      places.push_back(random.chance(0.5) ? random.uniform(0.01, 0.99) : std::pow(10.0, random.uniform(-8, -3)));
+    }
+    std::ranges::sort(places);
+    for (const double place : places) {
+      more.push_back(polygon[i] + place * edge);
+    }
+  }
+  std::ranges::rotate(more, more.begin() + static_cast<std::ptrdiff_t>(random.index(more.size())));
+  return more;
+}
+
+TEST(MirrorPictures, NeedlessVerticesChangeNothing) {
+  Gpu gpu(headless("", size));
+  Random random(29);
+  for (int round = 0; round < (fullTests() ? 400 : 10); ++round) {
+    std::vector<glm::dvec3> polygon;
+    const size_t corners = 3 + random.index(5);
+    const double turn = random.uniform(0, 6);
+    for (size_t i = 0; i < corners; ++i) {
+      const double share = (static_cast<double>(i) + random.uniform(0, 0.6)) / static_cast<double>(corners);
+      const double angle = turn + 2.0 * std::numbers::pi * share;
+      polygon.emplace_back(1.4 * std::cos(angle), 1.0 + 0.9 * std::sin(angle), 0.0);
+    }
+    const std::string facing = mirror("behind", "position = [0, 1, 8]\nrotation = [0, 180, 0]\nsize = [6, 4]");
+    std::array<Image8, 2> pictures;
+    for (size_t i = 0; i < 2; ++i) {
+      const std::vector<glm::dvec3> drawn = i == 0 ? polygon : withNeedlessVertices(polygon, random);
+      Studio studio(gpu, headless(writeScene("needless", room + mirror("ahead", polygonText(drawn)) + facing), size));
+      pictures[i] = studio.fresh();
+    }
+    const PictureAgreement d = difference(pictures[0], pictures[1], 2);
+    if (d.over > 4) {
+      ADD_FAILURE() << "round " << round << ": " << d.over << " pixels differ";
+      writeEvidence(pictures[0], pictures[1], "needless_" + std::to_string(round));
+    }
+  }
+}
+
 TEST(MirrorPictures, NestedOverlappingMirrorsHaveTheirOwnImages) {
   // Limits the depth: below it the large mirror would show the two in each other.
   const std::string turned = replaced(turnedRoom(), "[settings]", "[settings] \"reflection.max_depth\" = 2,");

@@ -2,6 +2,7 @@
 #include <toml++/toml.h>
 
 #include "frame/frame_plan.hpp"
+#include "frame/setting_fields.hpp"
 #include "image/picture_files.hpp"
 #include "log_capture.hpp"
 #include "made_pictures.hpp"
@@ -88,10 +89,12 @@ TEST_F(NumberRanges, NumbersAreRefusedByKeyOrDrawn) {
     const double value = node.value<double>().value();
     ++key;
     for (size_t i = 0; i < std::size(values); ++i) {
-      if (!fullTests() && (i + key) % 7 != 0) {
+      const double other = values[i];
+      const bool always =
+          std::abs(other) == 1e-300 || other == 1e39;  // small and large as a double, 0 and infinite as a float
+      if (!fullTests() && !always && (i + key) % 7 != 0) {
         continue;
       }
-      const double other = values[i];
       node.is_integer() ? void(node.as_integer()->get() = static_cast<int64_t>(std::clamp(other, -1e18, 1e18)))
                         : void(node.as_floating_point()->get() = other);
       std::stringstream text;
@@ -117,6 +120,29 @@ TEST_F(NumberRanges, NumbersAreRefusedByKeyOrDrawn) {
                       : void(node.as_floating_point()->get() = value);
   });
   EXPECT_GE(drawn, 70);
+}
+
+TEST_F(NumberRanges, SettingsAreRefusedByKeyOrDrawn) {
+  const Scene scene = loadScene(file_);
+  int drawn = 0;
+  for (const SettingField& field : settingFields()) {
+    for (const char* value : {"0", "-0", "-1", "2", "0.3", "1e-300", "1e-45", "1e30", "1e39", "1e300", "nan", "-inf"}) {
+      const std::string what = std::string(field.key) + " = " + value;
+      Settings settings = settingsOf(scene);
+      if (const std::optional<std::string> refused = setSetting(settings, field.key, value)) {
+        EXPECT_TRUE(contains(*refused, std::string(field.key)) && !contains(*refused, "\n"))
+            << what << ": " << *refused;
+        continue;
+      }
+      ++drawn;
+      studio_.show(scene);
+      studio_.settings = settings;
+      studio_.settings.debug.checkFinite = true;
+      studio_.fresh();
+      EXPECT_EQ(studio_.sceneRenderer.finiteWatch().count(), 0u) << what;
+    }
+  }
+  EXPECT_GE(drawn, 50);
 }
 
 // Draws the scene in metres, then in each other unit; a `share` of the pixels may differ by more than `tolerance`.
