@@ -84,6 +84,11 @@ TEST_F(Devices, SeparatePresentQueueShows) {
   expectQuiet(separate);
 }
 
+TEST_F(Devices, FewImagesOfASwapChainShow) {
+  const Run few = run(window, {"SPECULUM_HIDE=swapchain_images=2"}, Place::inner);
+  expectQuiet(few);
+}
+
 TEST_F(Devices, TooLittleIsOneLine) {
   struct Case {
     const Kind& kind;

@@ -256,6 +256,10 @@ VkResult forward(vkGetPhysicalDeviceSurfaceCapabilitiesKHR_, VkPhysicalDevice de
   if (hidden("transfer_src", device)) {
     capabilities->supportedUsageFlags &= ~VkImageUsageFlags{VK_IMAGE_USAGE_TRANSFER_SRC_BIT};
   }
+  if (const auto most = limited("swapchain_images", device)) {
+    capabilities->minImageCount = std::min(capabilities->minImageCount, *most);
+    capabilities->maxImageCount = *most;
+  }
   return result;
 }
 
