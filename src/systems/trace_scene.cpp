@@ -39,6 +39,21 @@ void appendLevels(const Texture& texture, std::vector<uint64_t>& texels) {
   }
 }
 
+// Sums over all meshes.
+struct Totals {
+  uint64_t triangles = 0;
+  uint64_t vertices = 0;
+};
+
+Totals totalsOf(const Scene& scene) {
+  Totals totals;
+  for (const Mesh& mesh : scene.meshes) {
+    totals.triangles += mesh.indices.size() / 3;
+    totals.vertices += mesh.vertices.size();
+  }
+  return totals;
+}
+
 }  // namespace
 
 TraceBufferBytes traceBufferLimits(const VkPhysicalDeviceLimits& limits) {
@@ -46,13 +61,8 @@ TraceBufferBytes traceBufferLimits(const VkPhysicalDeviceLimits& limits) {
 }
 
 TraceBufferBytes largestTraceBuffers(const Scene& scene, size_t instances) {
-  uint64_t triangles = 0;
-  uint64_t vertices = 0;
+  const auto [triangles, vertices] = totalsOf(scene);
   uint64_t texels = 0;
-  for (const Mesh& mesh : scene.meshes) {
-    triangles += mesh.indices.size() / 3;
-    vertices += mesh.vertices.size();
-  }
   for (const Texture& texture : scene.textures) {
     texels += 2 * texture.texels.size();  // with the levels
   }
@@ -129,13 +139,8 @@ void TraceScene::writeTriangles(Uploader& uploader, const Scene& scene) {
 }
 
 void TraceScene::writeAttributes(Uploader& uploader, const Scene& scene) {
-  size_t triangleCount = 0;
-  size_t vertexCount = 0;
-  for (const Mesh& mesh : scene.meshes) {
-    triangleCount += mesh.indices.size() / 3;
-    vertexCount += mesh.vertices.size();
-  }
-  write(uploader, faces, triangleCount * sizeof(gpu::TraceFace), "trace faces", [&](BufferWriter& writer) {
+  const Totals totals = totalsOf(scene);
+  write(uploader, faces, totals.triangles * sizeof(gpu::TraceFace), "trace faces", [&](BufferWriter& writer) {
     uint32_t materials = 0;  // of the meshes before, as SceneResources counts them
     for (const Mesh& mesh : scene.meshes) {
       const uint32_t* index = mesh.indices.data();
@@ -146,7 +151,7 @@ void TraceScene::writeAttributes(Uploader& uploader, const Scene& scene) {
       materials += static_cast<uint32_t>(mesh.parts.size());
     }
   });
-  write(uploader, vertices, vertexCount * sizeof(gpu::TraceVertex), "trace vertices", [&](BufferWriter& writer) {
+  write(uploader, vertices, totals.vertices * sizeof(gpu::TraceVertex), "trace vertices", [&](BufferWriter& writer) {
     for (const Mesh& mesh : scene.meshes) {
       for (const Vertex& vertex : mesh.vertices) {
         writer.add(gpu::TraceVertex{.position = glm::vec3(vertex.position),
