@@ -1,3 +1,4 @@
+#include <malloc.h>
 #include <tinyexr.h>
 
 #include <ctime>
@@ -322,6 +323,66 @@ TEST(Png, HeadersOfAnySizeNameTheFile) {
       }
     }
   }
+}
+
+// A PNG of two colors whose pixels also name others.
+std::string pngBeyondItsPalette() {
+  const std::string rows("\0\0\1\2\xff\0\1\0\3\0", 10);  // two of four pixels, each after its filter
+  const std::string stored = std::string("\x78\1\1\x0a\0\xf5\xff", 7) + rows + "sums";
+  std::string png = pngOf(4, 2, stored);
+  png[25] = 3;
+  return png.insert(33, std::string("\0\0\0\6PLTE\x10\x20\x30\x40\x50\x60sums", 18));
+}
+
+TEST(Png, ColorsBeyondThePaletteAreBlack) {
+  const TemporaryFolder folder;
+  const Image8 picture = readImage8(folder.write("a.png", pngBeyondItsPalette()));
+  const auto color = [&](int x, int y) { return std::vector<int>(picture.at(x, y), picture.at(x, y) + 4); };
+  EXPECT_EQ(color(1, 0), (std::vector{0x40, 0x50, 0x60, 255}));
+  for (const auto& [x, y] : {std::pair(2, 0), std::pair(3, 0), std::pair(2, 1)}) {
+    EXPECT_EQ(color(x, y), std::vector(4, 0)) << x << y;
+  }
+}
+
+// Reads the picture or its error with memory that held other values before; returns whether it was read.
+bool readsAlike(const fs::path& file) {
+  std::array<std::string, 2> results;
+  bool read = false;
+  for (size_t i = 0; i < 2; ++i) {
+    mallopt(M_PERTURB, i == 0 ? 1 : 254);
+    try {
+      const Image8 picture = readImage8(file);
+      results[i].assign(picture.rgba.begin(), picture.rgba.end());
+      read = true;
+    } catch (const FileError& error) {
+      results[i] = error.what();
+    }
+  }
+  EXPECT_TRUE(results[0] == results[1]);
+  return read;
+}
+
+// Changes each byte of the headers of frame and scan.
+TEST(DamagedPictures, ShowNoUnwrittenMemory) {
+  const TemporaryFolder folder;
+  const std::vector<uint8_t> jpeg = encodeJpeg(gradient(64, 48), 80);
+  const std::string whole(jpeg.begin(), jpeg.end());
+  int read = 0;
+  for (const auto& [marker, size] : {std::pair("\xff\xc0", 19), std::pair("\xff\xda", 14)}) {
+    const size_t header = whole.find(marker);
+    ASSERT_NE(header, std::string::npos);
+    for (size_t at = header + 1; at < header + static_cast<size_t>(size); ++at) {
+      for (const int value : {0, 1, 2, 3, 0x11, 0x22, 0xc2, 0xff}) {
+        std::string bytes = whole;
+        bytes[at] = static_cast<char>(value);
+        SCOPED_TRACE("byte " + std::to_string(at) + " is " + std::to_string(value));
+        read += readsAlike(folder.write("damaged.jpg", bytes)) ? 1 : 0;
+        bytes.resize(bytes.size() / 2);
+        read += readsAlike(folder.write("damaged.jpg", bytes)) ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_GT(read, 50);
 }
 
 }  // namespace

@@ -1,7 +1,5 @@
 #include "image/exr_layout.hpp"
 
-#include <stb_image.h>
-
 #include <algorithm>
 #include <bit>
 #include <cstring>
@@ -10,6 +8,8 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+
+#include "image/stb_decoder.hpp"
 
 namespace speculum {
 
@@ -239,8 +239,7 @@ class ExrLayout {
 
   static int64_t unpackedSize(Bytes packed, int64_t most) {
     std::vector<char> unpacked(static_cast<size_t>(most));
-    return stbi_zlib_decode_buffer(unpacked.data(), static_cast<int>(most),
-                                   reinterpret_cast<const char*>(packed.data()), static_cast<int>(packed.size()));
+    return unpackZlib({reinterpret_cast<const char*>(packed.data()), packed.size()}, unpacked);
   }
 
   Bytes file_;

@@ -1,19 +1,24 @@
 #include "image/picture_files.hpp"
 
-#include <stb_image.h>
 #include <stb_image_write.h>
 
 #include <algorithm>
 #include <array>
-#include <memory>
 #include <stdexcept>
 #include <string>
 
+#include "image/stb_decoder.hpp"
 #include "platform/files.hpp"
 
 namespace speculum {
 
 namespace {
+
+constexpr const char* completeFile = "a complete PNG or JPEG file is needed";
+
+int64_t bigEndian(const uint8_t* bytes) {
+  return int64_t{bytes[0]} << 24 | int64_t{bytes[1]} << 16 | int64_t{bytes[2]} << 8 | bytes[3];
+}
 
 // Accepts only the documented formats: stb would also read files without any signature as TGA, and a PNG in the form of
 // an iPhone, whose header comes second.
@@ -29,6 +34,7 @@ bool isPngOrJpeg(const std::vector<uint8_t>& bytes) {
 // What the markers of a JPEG say. Stays empty for a PNG.
 struct JpegMarkers {
   int64_t scans = 0;
+  bool quantized = false;  // there are quantisation tables
   int components = 0;
   bool adobe = false;  // there is Adobe's marker, and it says CMYK or YCCK
 };
@@ -44,6 +50,7 @@ JpegMarkers markersOf(const std::vector<uint8_t>& bytes) {
     const bool hasLength = marker > 1 && marker != 0xff && (marker < 0xd0 || marker > 0xd7);
     const bool beginsFrame = marker >= 0xc0 && marker <= 0xc2;
     found.scans += marker == 0xda ? 1 : 0;
+    found.quantized = found.quantized || marker == 0xdb;
     found.components = beginsFrame && at + 9 < bytes.size() ? bytes[at + 9] : found.components;
     found.adobe = found.adobe || (marker == 0xee && at + 16 <= bytes.size() &&
                                   std::equal(adobe.begin(), adobe.end(), &bytes[at + 4]) &&
@@ -53,9 +60,21 @@ JpegMarkers markersOf(const std::vector<uint8_t>& bytes) {
   return found;
 }
 
-[[noreturn]] void throwDamaged(const std::filesystem::path& file) {
-  throw FileError(file, std::string("the picture is damaged: ") + stbi_failure_reason(),
-                  "a complete PNG or JPEG file is needed");
+[[noreturn]] void throwDamaged(const std::filesystem::path& file, const std::string& reason) {
+  throw FileError(file, "the picture is damaged: " + reason, completeFile);
+}
+
+// Returns width and height. Those of a PNG are read here, because the decoder does not say that a picture is too large.
+std::pair<int64_t, int64_t> sizeOf(const std::filesystem::path& file, const std::vector<uint8_t>& bytes) {
+  if (bytes[0] == 0x89 && bytes.size() >= 24) {
+    return {bigEndian(&bytes[16]), bigEndian(&bytes[20])};
+  }
+  int width = 0;
+  int height = 0;
+  if (!readPictureSize(bytes, width, height)) {
+    throwDamaged(file, decodeFailure());
+  }
+  return {width, height};
 }
 
 // Checks sizes before decoding, because a small file can claim any size. Each scan of a JPEG, which may be as short
@@ -63,18 +82,16 @@ JpegMarkers markersOf(const std::vector<uint8_t>& bytes) {
 void checkHeader(const std::filesystem::path& file, const std::vector<uint8_t>& bytes) {
   constexpr int64_t most = int64_t{1} << 26;
   constexpr int64_t mostInScans = int64_t{1} << 30;
-  int width = 0;
-  int height = 0;
-  int channels = 0;
-  if (stbi_info_from_memory(bytes.data(), static_cast<int>(bytes.size()), &width, &height, &channels) == 0) {
-    throwDamaged(file);
-  }
-  const int64_t pixels = int64_t{width} * height;
+  const auto [width, height] = sizeOf(file, bytes);
   const std::string size = std::to_string(width) + "x" + std::to_string(height) + " pixels";
-  if (pixels > most) {
+  if (std::max(width, height) > most || width * height > most) {
     throw FileError(file, "the picture has " + size, "at most 2^26, such as 8192x8192, are read");
   }
+  const int64_t pixels = width * height;
   const JpegMarkers jpeg = markersOf(bytes);
+  if (bytes[0] == 0xff && (jpeg.scans == 0 || !jpeg.quantized)) {
+    throwDamaged(file, jpeg.scans == 0 ? "there is no scan" : "there is no quantisation table");
+  }
   if (jpeg.scans * pixels > mostInScans) {
     throw FileError(file, "the picture has " + std::to_string(jpeg.scans) + " scans of " + size,
                     "at most 2^30 pixels in all scans are read");
@@ -98,27 +115,23 @@ void checkPngChunks(const std::filesystem::path& file, const std::vector<uint8_t
   constexpr int64_t mostPerByte = 1032;  // of deflate
   constexpr int64_t harmless = int64_t{1} << 28;
   constexpr std::array<int64_t, 7> channelsOf{1, 0, 3, 1, 2, 0, 4};  // by color type
-  const auto number = [&](size_t at) {
-    return int64_t{bytes[at]} << 24 | int64_t{bytes[at + 1]} << 16 | int64_t{bytes[at + 2]} << 8 | bytes[at + 3];
-  };
   if (bytes[0] != 0x89 || bytes.size() < signature + 25) {
     return;
   }
   const size_t header = signature + 8;
   const int64_t channels = bytes[header + 9] < channelsOf.size() ? channelsOf[bytes[header + 9]] : 0;
   // Some files hold a little more than they need.
-  const int64_t most =
-      (int64_t{1} << 26) + largestUnpacked(number(header), number(header + 4), channels * bytes[header + 8]);
+  const int64_t most = (int64_t{1} << 26) + largestUnpacked(bigEndian(&bytes[header]), bigEndian(&bytes[header + 4]),
+                                                            channels * bytes[header + 8]);
   std::vector<char> packed;
   for (size_t at = signature; at + 8 <= bytes.size();) {
-    const auto size = static_cast<size_t>(number(at));
+    const auto size = static_cast<size_t>(bigEndian(&bytes[at]));
     const std::string_view kind(reinterpret_cast<const char*>(&bytes[at + 4]), 4);
     if (kind == "IEND") {
       break;
     }
     if (size + 12 > bytes.size() - at) {
-      throw FileError(file, "the picture is damaged: a chunk ends beyond the file",
-                      "a complete PNG or JPEG file is needed");
+      throwDamaged(file, "a chunk ends beyond the file");
     }
     if (kind == "IDAT") {
       packed.insert(packed.end(), &bytes[at + 8], &bytes[at + 8] + size);
@@ -129,10 +142,8 @@ void checkPngChunks(const std::filesystem::path& file, const std::vector<uint8_t
     return;
   }
   std::vector<char> unpacked(static_cast<size_t>(most));
-  if (stbi_zlib_decode_buffer(unpacked.data(), static_cast<int>(most), packed.data(), static_cast<int>(packed.size())) <
-      0) {
-    throw FileError(file, "the picture is damaged, or unpacks to more than its pixels",
-                    "a complete PNG or JPEG file is needed");
+  if (unpackZlib(packed, unpacked) < 0) {
+    throw FileError(file, "the picture is damaged, or unpacks to more than its pixels", completeFile);
   }
 }
 
@@ -153,12 +164,9 @@ Image8 readImage8(const std::filesystem::path& file) {
   checkPngChunks(file, bytes);
   int width = 0;
   int height = 0;
-  int channels = 0;
-  const std::unique_ptr<stbi_uc, decltype(&stbi_image_free)> pixels(
-      stbi_load_from_memory(bytes.data(), static_cast<int>(bytes.size()), &width, &height, &channels, 4),
-      &stbi_image_free);
+  const auto pixels = decodePicture(bytes, width, height);
   if (!pixels) {
-    throwDamaged(file);
+    throwDamaged(file, decodeFailure());
   }
   Image8 image(width, height);
   std::copy_n(pixels.get(), image.rgba.size(), image.rgba.begin());

@@ -167,8 +167,10 @@ void replace(const fs::path& file, std::span<const uint8_t> content, bool lastin
 
 }  // namespace
 
-FileError::FileError(const fs::path& file, std::string problem, const std::string& remedy)
-    : std::runtime_error(oneLine(file.string() + ": " + problem + " (" + remedy + ")")), problem_(std::move(problem)) {}
+FileError::FileError(const fs::path& file, std::string problem, std::string remedy)
+    : std::runtime_error(oneLine(file.string() + ": " + problem + " (" + remedy + ")")),
+      problem_(std::move(problem)),
+      remedy_(std::move(remedy)) {}
 
 std::vector<uint8_t> readFile(const fs::path& file, uintmax_t most) {
   return read<std::vector<uint8_t>>(file, most);

@@ -15,11 +15,13 @@ namespace speculum {
 // A file that cannot be read or written. what() is `FILE: problem (remedy)`, made one line.
 class FileError : public std::runtime_error {
  public:
-  FileError(const std::filesystem::path& file, std::string problem, const std::string& remedy);
+  FileError(const std::filesystem::path& file, std::string problem, std::string remedy);
   const std::string& problem() const { return problem_; }
+  const std::string& remedy() const { return remedy_; }
 
  private:
   std::string problem_;
+  std::string remedy_;
 };
 
 // Reads a file. Throws FileError when it is missing, unreadable, a folder, a device or pipe (which might never end), or

@@ -194,7 +194,7 @@ Material ObjMaterials::material(int index, std::vector<Texture>& textures) const
       material.diffuseTexture = textureIndex(picture, textures);
     } catch (const FileError& error) {
       throwInputError(entry.file, entry.textureLine, "map_Kd", picture.string() + ": " + error.problem(),
-                      "name a PNG or JPEG file, relative to the MTL file");
+                      isFile(picture) ? error.remedy() : "name a PNG or JPEG file, relative to the MTL file");
     }
   }
   return material;

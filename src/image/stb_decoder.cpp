@@ -1,0 +1,40 @@
+#include "image/stb_decoder.hpp"
+
+#include <cstdlib>
+
+// The distribution's build of stb takes memory as it is, so that damaged pictures show what it held before. Here its
+// memory is zero at first, and its palette by an option of the compiler (CMakeLists.txt).
+#define STBI_MALLOC(size) std::calloc(1, size)
+#define STBI_REALLOC(memory, size) std::realloc(memory, size)
+#define STBI_FREE(memory) std::free(memory)
+#define STBI_ONLY_JPEG
+#define STBI_ONLY_PNG
+#define STBI_NO_STDIO
+#define STB_IMAGE_STATIC
+#define STB_IMAGE_IMPLEMENTATION
+#include <stb_image.h>
+
+namespace speculum {
+
+std::unique_ptr<uint8_t, void (*)(void*)> decodePicture(std::span<const uint8_t> bytes, int& width, int& height) {
+  int channels = 0;
+  return {stbi_load_from_memory(bytes.data(), static_cast<int>(bytes.size()), &width, &height, &channels, 4),
+          &stbi_image_free};
+}
+
+bool readPictureSize(std::span<const uint8_t> bytes, int& width, int& height) {
+  int channels = 0;
+  return stbi_info_from_memory(bytes.data(), static_cast<int>(bytes.size()), &width, &height, &channels) != 0;
+}
+
+const char* decodeFailure() {
+  const char* reason = stbi_failure_reason();
+  return reason != nullptr && *reason != '\0' ? reason : "it ends too early";
+}
+
+int unpackZlib(std::span<const char> packed, std::span<char> unpacked) {
+  return stbi_zlib_decode_buffer(unpacked.data(), static_cast<int>(unpacked.size()), packed.data(),
+                                 static_cast<int>(packed.size()));
+}
+
+}  // namespace speculum
