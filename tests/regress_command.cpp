@@ -1,6 +1,7 @@
 // `speculum regress` as scripts call it.
 #include "command_support.hpp"
 #include "image/picture_files.hpp"
+#include "made_pictures.hpp"
 #include "picture_support.hpp"
 #include "scene_text.hpp"
 #include "temporary_folder.hpp"
@@ -72,6 +73,36 @@ TEST_F(RegressCommand, UpdateReplacesNoMask) {
   EXPECT_TRUE(
       contains(result.output, "--update: " + (folder_ / "room.png").string() + " is the mask of case 'room' too"));
   EXPECT_EQ(readImage8(folder_ / "room.png").rgba, Image8(320, 180).rgba);
+}
+
+// A model's texture has the name that its picture would have.
+TEST_F(RegressCommand, UpdateReplacesNoTexture) {
+  folder_.write("room.obj", "mtllib room.mtl\nusemtl all\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/1 3/1\n");
+  folder_.write("room.mtl", "newmtl all\nmap_Kd room.png\n");
+  writePng(folder_ / "room.png", greyPicture(4, 4, 100));
+  writeCases("[[case]]\nscene = 'room.obj'\n");
+  const ProcessResult result = regress({"--update"});
+  EXPECT_EQ(result.exitCode, 1);
+  EXPECT_TRUE(contains(lineOf("room", result.output), "room.png is a texture of the scene too")) << result.output;
+  EXPECT_EQ(readImage8(folder_ / "room.png").width, 4);
+}
+
+TEST_F(RegressCommand, FoldersNeedNoNamesInUtf8) {
+  const std::filesystem::path folder = folder_ / "d\xe9";
+  std::filesystem::create_directory(folder);
+  std::filesystem::rename(folder_ / "room.toml", folder / "room.toml");
+  writeCases(roomCase);
+  std::filesystem::rename(folder_ / "cases.toml", folder / "cases.toml");
+  for (const bool update : {true, false}) {
+    std::vector<std::string> arguments{"regress", (folder / "cases.toml").string(), "--out", (folder / "out").string(),
+                                       "--junit", (folder / "junit.xml").string()};
+    if (update) {
+      arguments.push_back("--update");
+    }
+    const ProcessResult result = speculum(arguments);
+    EXPECT_EQ(result.exitCode, 0) << result.output;
+  }
+  EXPECT_TRUE(std::filesystem::exists(folder / "room.png"));
 }
 
 TEST_F(RegressCommand, AddsToTheSummaryOfAJob) {

@@ -2,6 +2,7 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include "app/output_files.hpp"
 #include "image/picture_files.hpp"
 #include "platform/files.hpp"
 #include "regress/picture_check.hpp"
@@ -79,6 +80,9 @@ bool CaseDrawer::drawAndJudge(const ExpectedCase& expected, Outcome& outcome) {
       return false;
     }
   }
+  UsedFiles ofScene;
+  addFiles(ofScene, session_->scene());
+  ofScene.requireUnused("picture", subject.picture);
   std::optional<Image8> picture;
   if (isFile(subject.picture)) {
     picture = readImage8(subject.picture);

@@ -99,8 +99,7 @@ void requireFilesOfTheirOwn(const Options& options) {
   addOutputs(used, options);
 }
 
-void requireFilesOfTheirOwn(const Options& options, const Scene& scene) {
-  UsedFiles used;
+void addFiles(UsedFiles& used, const Scene& scene) {
   used.add("the file of --scene", scene.file);
   for (const Mesh& mesh : scene.meshes) {
     used.add("a model of the scene", mesh.source);
@@ -111,6 +110,11 @@ void requireFilesOfTheirOwn(const Options& options, const Scene& scene) {
   for (const Texture& texture : scene.textures) {
     used.add("a texture of the scene", texture.source);
   }
+}
+
+void requireFilesOfTheirOwn(const Options& options, const Scene& scene) {
+  UsedFiles used;
+  addFiles(used, scene);
   addOutputs(used, options);
 }
 

@@ -28,6 +28,9 @@ class UsedFiles {
   std::map<std::filesystem::path, std::filesystem::path> folders_;
 };
 
+// Adds the scene's file, models, materials and textures.
+void addFiles(UsedFiles& used, const Scene& scene);
+
 // Refuse an output that would replace another output or a file that the command reads. The first checks files that
 // options name, the second the file of the loaded scene, its models, materials and textures. Devices and pipes may be
 // named twice. Throw UsageError.

@@ -105,14 +105,23 @@ Outcome outcomeOf(const WorkerReply& reply, const RegressCase& subject, int repe
   return outcome;
 }
 
+// The path in the outcome is for people: as text, a name that is not UTF-8 is another one.
+std::filesystem::path pictureOf(const RegressCase& subject, const Outcome& outcome) {
+  return expectedOf(subject, outcome.driver).subject.picture;
+}
+
 // Where cases share a picture, only the first of them in the file may write it, even if this run does not draw that
 // one.
 void requireWriter(const std::vector<RegressCase>& cases, const RegressCase& subject, Outcome& outcome) {
+  if (!outcome.replaceable) {
+    return;
+  }
+  const std::filesystem::path picture = pictureOf(subject, outcome);
   const auto writer = std::ranges::find_if(cases, [&](const RegressCase& one) {
     const ExpectedCase expected = expectedOf(one, outcome.driver);
-    return expected.result != ExpectedResult::skip && expected.subject.picture == outcome.picture;
+    return expected.result != ExpectedResult::skip && expected.subject.picture == picture;
   });
-  if (outcome.replaceable && writer->name != subject.name) {
+  if (writer->name != subject.name) {
     outcome.replaceable = false;
     outcome.message += fmt::format("; case '{}' writes this picture", writer->name);
   }
@@ -127,7 +136,7 @@ void acceptAll(const Options& options, RegressRun& run) {
       continue;
     }
     try {
-      const std::filesystem::path picture = outcome.picture;
+      const std::filesystem::path picture = pictureOf(run.cases[i], outcome);
       std::error_code ignored;
       std::filesystem::create_directories(picture.parent_path(), ignored);
       replaceFile(picture, readFile(CaseFiles(options.out, name).actual));
