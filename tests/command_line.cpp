@@ -3,6 +3,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <numbers>
+
 #include "command_support.hpp"
 #include "image/color.hpp"
 #include "image/exr.hpp"
@@ -152,6 +154,24 @@ TEST_F(CommandLine, FileSizeLimitKeepsTheOldFiles) {
             out("x.png") + ": cannot be written: File too large (check the folder's permissions and free space)\n");
   EXPECT_EQ(readText(out("x.png")), "old");
   EXPECT_FALSE(fs::exists(out("x.png.part0")));
+}
+
+// A ring of mirrors, each of which shows most others.
+TEST_F(CommandLine, StatsOfManyMirrorsAreBounded) {
+  std::string ring =
+      "[camera] position = [0, 1, 0.1], target = [0.5, 1, 0]\n[settings] \"reflection.max_passes\" = 1000,"
+      " \"reflection.max_depth\" = 32, \"reflection.min_pixels\" = 0\n";
+  for (int i = 0; i < 150; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / 150;
+    ring += "[[mirror]] " +
+            rectangleText({2.0 * std::sin(angle), 1.0, 2.0 * std::cos(angle)}, {0, 180.0 + 2.4 * i, 0}, 0.075, 2.0) +
+            "reflectance = [1, 1, 1]\n";
+  }
+  const ProcessResult result = speculum({"render", "--scene", writeScene("ring", ring).string(), "--size", "32x18",
+                                         "--out", out("a.png"), "--stats", out("a.json"), "--log-level", "warn"});
+  EXPECT_EQ(result.exitCode, 0);
+  EXPECT_TRUE(contains(result.output, "warning: 100000 of ")) << result.output;
+  EXPECT_EQ(nlohmann::json::parse(readText(out("a.json")))["skipped"].size(), 100'000u);
 }
 
 // A scene and files whose names are not UTF-8.

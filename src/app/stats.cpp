@@ -1,7 +1,10 @@
 #include "app/stats.hpp"
 
+#include <spdlog/spdlog.h>
+
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "accuracy/statistics.hpp"
 #include "frame/depth_readout.hpp"
@@ -94,8 +97,13 @@ ordered_json passesJson(Session& session) {
 }
 
 ordered_json skippedJson(const Scene& scene, const FramePlan& plan) {
+  constexpr size_t most = 100'000;  // about 25 MB
+  const std::span<const SkippedMirror> listed(plan.skipped.data(), std::min(plan.skipped.size(), most));
+  if (listed.size() < plan.skipped.size()) {
+    spdlog::warn("{} of {} skipped mirrors are listed", listed.size(), plan.skipped.size());
+  }
   ordered_json skipped = ordered_json::array();
-  for (const SkippedMirror& skip : plan.skipped) {
+  for (const SkippedMirror& skip : listed) {
     skipped.push_back({{"mirror", mirrorJson(scene, skip.mirror)},
                        {"path", pathJson(scene, skip.path)},
                        {"depth", skip.depth},
