@@ -122,12 +122,17 @@ TEST_F(MtlFile, TextureOptionsAreNotItsName) {
 
 TEST_F(MtlFile, UnreadableTexturesAreRefused) {
   folder_.write("text.png", "no picture");
+  using namespace std::string_literals;
+  folder_.write("large.png", std::string("\x89PNG\r\n\x1a\n\0\0\0\x0dIHDR\0\0\x40\0\0\0\x40\0\x08\0\0\0\0", 29));
   const std::string right = " (name a PNG or JPEG file, relative to the MTL file)";
-  for (const auto& [name, problem] : {std::pair("none.png", "none.png: cannot be read: No such file or directory"),
-                                      std::pair("text.png", "text.png: is not a picture that can be read"),
-                                      std::pair("/dev/zero", "/dev/zero: is a device or pipe")}) {
+  for (const auto& [name, problem] :
+       {std::pair("none.png", "none.png: cannot be read: No such file or directory" + right),
+        std::pair("text.png", "text.png: is not a picture that can be read (a PNG or JPEG file is needed)"s),
+        std::pair("large.png",
+                  "large.png: the picture has 16384x16384 pixels (at most 2^26, such as 8192x8192, are read)"s),
+        std::pair("/dev/zero", "/dev/zero: is a device or pipe" + right)}) {
     EXPECT_EQ(faultOf(kSquare + "usemtl m\nf 1 2 3\n", std::string("newmtl m\nKd 1 1 1\nmap_Kd ") + name + "\n"),
-              std::string("m.mtl:3: map_Kd: ") + problem + right);
+              std::string("m.mtl:3: map_Kd: ") + problem);
   }
 }
 

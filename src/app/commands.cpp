@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <iostream>
 #include <map>
+#include <new>
 
 #include "app/demo.hpp"
 #include "app/device_view.hpp"
@@ -114,6 +115,8 @@ int speculumMain(int argc, const char* const* argv) {
     return result;
   } catch (const std::filesystem::filesystem_error& error) {
     return fail(error.path1().string() + ": " + error.code().message() + " (check the path)");
+  } catch (const std::bad_alloc&) {
+    return fail("the memory does not suffice (use smaller models, fewer or smaller textures, or a smaller --size)");
   } catch (const std::exception& error) {
     // Bad usage, bad input and a missing GPU end here: nothing was done, and the message says what would help.
     return fail(error.what());

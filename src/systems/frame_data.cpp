@@ -120,7 +120,8 @@ VkShaderStageFlags FrameData::stagesOf(uint32_t kind) {
 }
 
 FrameData::FrameData(Device& device)
-    : device_(device), buffers_(device, frameBufferNames, "fewer copies of objects, or a lower reflection.max_passes") {
+    : device_(device),
+      buffers_(device, frameBufferNames, "fewer copies of objects, fewer lights, or a lower reflection.max_passes") {
   std::array<DescriptorBinding, kindCount + 1> bindings{};  // the last for the materials
   for (uint32_t i = 0; i < bindings.size(); ++i) {
     bindings[i] = {.binding = i, .type = typeOf(i), .stages = stagesOf(i)};
