@@ -239,6 +239,7 @@ TEST(MeshError, LevelsDoNotDependOnCulling) {
     };
     compare(culled.main, whole.main);
     ASSERT_EQ(culled.passes.size(), whole.passes.size());
+    ASSERT_EQ(culled.shadowMaps.size(), whole.shadowMaps.size());
     for (size_t i = 0; i < culled.passes.size(); ++i) {
       compare(culled.passes[i], whole.passes[i]);
     }

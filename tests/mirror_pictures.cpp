@@ -127,7 +127,6 @@ TEST(MirrorPictures, CornersOffThePlaneAreFlattened) {
   expectTruth(file, size, 2, trace(file, size, 2));
 }
 
-// The camera looks into a large mirror that shows the two.
 // Vertices on the edges of a mirror, or beside its corners, from any vertex on.
 std::vector<glm::dvec3> withNeedlessVertices(const std::vector<glm::dvec3>& polygon, Random& random) {
   std::vector<glm::dvec3> more;
@@ -174,6 +173,7 @@ TEST(MirrorPictures, NeedlessVerticesChangeNothing) {
   }
 }
 
+// The camera looks into a large mirror that shows the two.
 TEST(MirrorPictures, NestedOverlappingMirrorsHaveTheirOwnImages) {
   // Limits the depth: below it the large mirror would show the two in each other.
   const std::string turned = replaced(turnedRoom(), "[settings]", "[settings] \"reflection.max_depth\" = 2,");

@@ -138,8 +138,9 @@ TEST_F(NumberRanges, SettingsAreRefusedByKeyOrDrawn) {
       studio_.show(scene);
       studio_.settings = settings;
       studio_.settings.debug.checkFinite = true;
+      const uint64_t before = studio_.sceneRenderer.finiteWatch().count();
       studio_.fresh();
-      EXPECT_EQ(studio_.sceneRenderer.finiteWatch().count(), 0u) << what;
+      EXPECT_EQ(studio_.sceneRenderer.finiteWatch().count(), before) << what;
     }
   }
   EXPECT_GE(drawn, 50);

@@ -80,11 +80,13 @@ TEST_F(RegressCommand, UpdateReplacesNoTexture) {
   folder_.write("room.obj", "mtllib room.mtl\nusemtl all\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/1 3/1\n");
   folder_.write("room.mtl", "newmtl all\nmap_Kd room.png\n");
   writePng(folder_ / "room.png", greyPicture(4, 4, 100));
-  writeCases("[[case]]\nscene = 'room.obj'\n");
-  const ProcessResult result = regress({"--update"});
-  EXPECT_EQ(result.exitCode, 1);
-  EXPECT_TRUE(contains(lineOf("room", result.output), "room.png is a texture of the scene too")) << result.output;
-  EXPECT_EQ(readImage8(folder_ / "room.png").width, 4);
+  writeCases("[[case]]\nscene = 'room.obj'\n[[case]]\nname = 'other'\nscene = 'room.toml'\npicture = 'room.png'\n");
+  for (const char* name : {"*", "other"}) {
+    const ProcessResult result = regress({"--update", name});
+    EXPECT_EQ(result.exitCode, 1);
+    EXPECT_TRUE(contains(result.output, "room.png is a file that case 'room' draws too")) << result.output;
+    EXPECT_EQ(readImage8(folder_ / "room.png").width, 4) << name;
+  }
 }
 
 TEST_F(RegressCommand, FoldersNeedNoNamesInUtf8) {

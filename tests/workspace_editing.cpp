@@ -254,6 +254,14 @@ TEST_F(Editing, AxisOfAnOrbitKeepsADirection) {
   light.orbit->axis = {0, 0, 0};
   send(EditNode{edit().selected, light});
   EXPECT_EQ(std::get<PointLight>(nodeOf(scene(), edit().selected)).orbit->axis, glm::dvec3(0, 0, 1));
+  light.orbit->axis = {0, 1, 1};
+  send(EditNode{edit().selected, light, true});
+  light.orbit->axis = {0, 0, 0};
+  send(EditNode{edit().selected, light});
+  light.orbit->axis = {1, 0, 0};
+  send(EditNode{edit().selected, light});
+  send(Undo{});
+  EXPECT_EQ(std::get<PointLight>(nodeOf(scene(), edit().selected)).orbit->axis, glm::dvec3(0, 1, 1)) << "a step ended";
 }
 
 TEST_F(Editing, FirstCopiesStandBesideEachOther) {

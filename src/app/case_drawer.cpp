@@ -80,9 +80,9 @@ bool CaseDrawer::drawAndJudge(const ExpectedCase& expected, Outcome& outcome) {
       return false;
     }
   }
-  UsedFiles ofScene;
-  addFiles(ofScene, session_->scene());
-  ofScene.requireUnused("picture", subject.picture);
+  for (const std::filesystem::path& file : filesOf(session_->scene())) {
+    outcome.sceneFiles.push_back(file.string());
+  }
   std::optional<Image8> picture;
   if (isFile(subject.picture)) {
     picture = readImage8(subject.picture);

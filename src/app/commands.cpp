@@ -116,7 +116,7 @@ int speculumMain(int argc, const char* const* argv) {
   } catch (const std::filesystem::filesystem_error& error) {
     return fail(error.path1().string() + ": " + error.code().message() + " (check the path)");
   } catch (const std::bad_alloc&) {
-    return fail("the memory does not suffice (use smaller models, fewer or smaller textures, or a smaller --size)");
+    return fail("there is not enough memory (use smaller models, fewer or smaller textures, or a smaller --size)");
   } catch (const std::exception& error) {
     // Bad usage, bad input and a missing GPU end here: nothing was done, and the message says what would help.
     return fail(error.what());

@@ -99,7 +99,20 @@ void requireFilesOfTheirOwn(const Options& options) {
   addOutputs(used, options);
 }
 
-void addFiles(UsedFiles& used, const Scene& scene) {
+std::vector<fs::path> filesOf(const Scene& scene) {
+  std::vector<fs::path> files{scene.file};
+  for (const Mesh& mesh : scene.meshes) {
+    files.push_back(mesh.source);
+    files.insert(files.end(), mesh.materialFiles.begin(), mesh.materialFiles.end());
+  }
+  for (const Texture& texture : scene.textures) {
+    files.push_back(texture.source);
+  }
+  return files;
+}
+
+void requireFilesOfTheirOwn(const Options& options, const Scene& scene) {
+  UsedFiles used;
   used.add("the file of --scene", scene.file);
   for (const Mesh& mesh : scene.meshes) {
     used.add("a model of the scene", mesh.source);
@@ -110,11 +123,6 @@ void addFiles(UsedFiles& used, const Scene& scene) {
   for (const Texture& texture : scene.textures) {
     used.add("a texture of the scene", texture.source);
   }
-}
-
-void requireFilesOfTheirOwn(const Options& options, const Scene& scene) {
-  UsedFiles used;
-  addFiles(used, scene);
   addOutputs(used, options);
 }
 

@@ -105,7 +105,7 @@ Outcome outcomeOf(const WorkerReply& reply, const RegressCase& subject, int repe
   return outcome;
 }
 
-// The path in the outcome is for people: as text, a name that is not UTF-8 is another one.
+// Outcome::picture is only for messages: JSON replaces bytes that are not UTF-8.
 std::filesystem::path pictureOf(const RegressCase& subject, const Outcome& outcome) {
   return expectedOf(subject, outcome.driver).subject.picture;
 }
@@ -129,6 +129,12 @@ void requireWriter(const std::vector<RegressCase>& cases, const RegressCase& sub
 
 // Replaces the expected pictures of failed cases whose names match with those just drawn.
 void acceptAll(const Options& options, RegressRun& run) {
+  UsedFiles scenes;
+  for (size_t i = 0; i < run.cases.size(); ++i) {
+    for (const std::string& file : run.outcomes[i].sceneFiles) {
+      scenes.add(fmt::format("a file that case '{}' draws", run.cases[i].name), file);
+    }
+  }
   for (size_t i = 0; i < run.cases.size(); ++i) {
     Outcome& outcome = run.outcomes[i];
     const std::string& name = run.cases[i].name;
@@ -137,6 +143,7 @@ void acceptAll(const Options& options, RegressRun& run) {
     }
     try {
       const std::filesystem::path picture = pictureOf(run.cases[i], outcome);
+      scenes.requireUnused("--update", picture);
       std::error_code ignored;
       std::filesystem::create_directories(picture.parent_path(), ignored);
       replaceFile(picture, readFile(CaseFiles(options.out, name).actual));

@@ -199,14 +199,14 @@ void SceneEditor::replace(const std::string& verb, std::span<const PlacedNode> n
 }
 
 void SceneEditor::edit(const Selection& target, const SceneNode& node, bool continued) {
-  const auto* light = std::get_if<PointLight>(&node);
-  if (light && light->orbit && !hasDirection(light->orbit->axis)) {
-    return;  // the loader refuses such an axis
-  }
   if (continued && !document_.inGesture()) {
     document_.beginGesture();
   }
-  replace("edit", std::array{PlacedNode(target, withCopiesApart(document_.scene(), target, node))});
+  const auto* light = std::get_if<PointLight>(&node);
+  const bool refused = light && light->orbit && !hasDirection(light->orbit->axis);  // by the loader
+  if (!refused) {
+    replace("edit", std::array{PlacedNode(target, withCopiesApart(document_.scene(), target, node))});
+  }
   if (!continued) {
     endEdit();
   }

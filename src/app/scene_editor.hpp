@@ -46,6 +46,7 @@ class SceneEditor {
   void nextMode() { mode_ = static_cast<GizmoMode>((static_cast<int>(mode_) + 1) % 3); }
 
   // Replaces a node by one of its kind. With `continued` further edits until endEdit() belong to the same step of undo.
+  // Nothing changes for an orbit whose axis has no direction.
   void edit(const Selection& target, const SceneNode& node, bool continued);
   void endEdit();
   void addMirror(const SceneView& view);  // in the middle of the view, as the next two

@@ -117,12 +117,22 @@ void SceneOpener::forgetSaved() {
   }
 }
 
+// Returns the copy, and what is wrong if it does not read back as the scene.
+std::pair<fs::path, std::string> SceneOpener::keptCopy() const {
+  try {
+    return {document_->savedOrCopy(settings_), ""};
+  } catch (const SaveError& error) {
+    return {document_->savedOrCopy(settings_, ReadBack::untested),
+            std::string(", which has to be mended: ") + error.what()};
+  }
+}
+
 void SceneOpener::keepUnsavedWork() noexcept {
   try {
-    const fs::path file = document_->savedOrCopy(settings_, ReadBack::untested);
+    const auto [file, problem] = keptCopy();
     if (file != shownFile()) {
-      recovery_.record(file, document_->prompt() == Prompt::recovery);
-      spdlog::warn("unsaved changes are kept in {}", file.string());
+      recovery_.record(file, document_->prompt() == Prompt::recovery || !problem.empty());
+      spdlog::warn("unsaved changes are kept in {}{}", file.string(), problem);
     }
   } catch (const std::exception& error) {
     spdlog::error("unsaved changes are lost: {}", error.what());

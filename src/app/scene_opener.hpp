@@ -38,6 +38,7 @@ class SceneOpener {
   void setProblem(const std::string& problem);             // logs it too
 
  private:
+  std::pair<std::filesystem::path, std::string> keptCopy() const;
   const std::filesystem::path& shownFile() const { return document_->editor().document().scene().file; }
   std::filesystem::path folderToOpen() const;
   void takeChosenFile();

@@ -1,7 +1,5 @@
 #include "app/stats.hpp"
 
-#include <spdlog/spdlog.h>
-
 #include <algorithm>
 #include <cmath>
 #include <span>
@@ -99,9 +97,6 @@ ordered_json passesJson(Session& session) {
 ordered_json skippedJson(const Scene& scene, const FramePlan& plan) {
   constexpr size_t most = 100'000;  // about 25 MB
   const std::span<const SkippedMirror> listed(plan.skipped.data(), std::min(plan.skipped.size(), most));
-  if (listed.size() < plan.skipped.size()) {
-    spdlog::warn("{} of {} skipped mirrors are listed", listed.size(), plan.skipped.size());
-  }
   ordered_json skipped = ordered_json::array();
   for (const SkippedMirror& skip : listed) {
     skipped.push_back({{"mirror", mirrorJson(scene, skip.mirror)},
@@ -221,6 +216,7 @@ ordered_json frameStats(Session& session) {
                     {"gpu_ms", frame.gpuMs},
                     {"frame_ms", frame.frameMs},
                     {"pictures", frame.pictures},
+                    {"skipped_mirrors", frame.plan.skipped.size()},
                     {"device_bytes", device.allocatedBytes()},
                     {"peak_rss_bytes", peakResidentBytes()},
                     {"pipelines", session.renderer().pipelines().count()},

@@ -16,7 +16,8 @@ class SaveError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// Whether the text of a scene must read back as the scene. A copy of unsaved changes need not: nothing else holds them.
+// Whether the text of a scene must read back as the scene. Only the copy that is kept before a failure may be untested,
+// because otherwise the changes would be lost.
 enum class ReadBack { required, untested };
 
 // Returns the scene file's text with edited content and changed settings; an empty value takes a setting's key out.

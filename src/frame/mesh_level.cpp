@@ -172,7 +172,7 @@ void simplifyAlike(std::span<const SimplifiedPass> passes, const Settings& setti
     // Not only what the pass draws: the level must not depend on the clusters that are left out.
     for (int i = 0; i < instances; ++i) {
       const InstanceState& instance = state.instances[i];
-      if (boundsVisible(simplified.readable, instance, scene.meshes[instance.mesh].halfExtent)) {
+      if (largest[i] > 0.0 && boundsVisible(simplified.readable, instance, scene.meshes[instance.mesh].halfExtent)) {
         largest[i] = std::min(largest[i], errorOf(simplified, i, settings, scene, state));
       }
     }

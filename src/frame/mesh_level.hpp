@@ -40,7 +40,9 @@ void simplifyPass(const SimplifiedPass& simplified, const Settings& settings, co
                   const SceneState& state);
 
 // Chooses one mesh level for each instance in all of the passes, off by at most the texels of each. Shadow maps need
-// that: otherwise one level of an object would cast shadows on another.
+// that: otherwise one level of an object would cast shadows on another. A pass bounds the level of all instances whose
+// bounds its view may see, whether it draws a cluster of them or not. Without debug.cull_clusters, passes draw all of
+// these levels.
 void simplifyAlike(std::span<const SimplifiedPass> passes, const Settings& settings, const Scene& scene,
                    const SceneState& state);
 

@@ -26,7 +26,7 @@ const PartialInstance* partOf(const std::vector<PartialInstance>& partial, int i
 
 IndexRange allOf(const Mesh& mesh);
 
-// Says whether the view may see a part of the instance's sphere and box.
+// Says whether the view may see a part of the instance's bounding sphere and of its mesh's box of that half extent.
 bool boundsVisible(const View& view, const InstanceState& instance, const glm::dvec3& halfExtent);
 
 // Ranges of the clusters that the view may see: everything in one range unless leaving some out saves more than the

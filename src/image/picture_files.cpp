@@ -6,6 +6,8 @@
 #include <array>
 #include <stdexcept>
 #include <string>
+#include <string_view>
+#include <utility>
 
 #include "image/stb_decoder.hpp"
 #include "platform/files.hpp"

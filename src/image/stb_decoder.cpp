@@ -1,6 +1,7 @@
 #include "image/stb_decoder.hpp"
 
 #include <cstdlib>
+#include <string_view>
 
 // The distribution's build of stb takes memory as it is, so that damaged pictures show what it held before. Here its
 // memory is zero at first, and its palette by an option of the compiler (CMakeLists.txt).
@@ -10,6 +11,7 @@
 #define STBI_ONLY_JPEG
 #define STBI_ONLY_PNG
 #define STBI_NO_STDIO
+#define STBI_MAX_DIMENSIONS (1 << 26)
 #define STB_IMAGE_STATIC
 #define STB_IMAGE_IMPLEMENTATION
 #include <stb_image.h>
@@ -28,8 +30,10 @@ bool readPictureSize(std::span<const uint8_t> bytes, int& width, int& height) {
 }
 
 const char* decodeFailure() {
+  // Of what fails without a word, the reason is that of the test for the format.
   const char* reason = stbi_failure_reason();
-  return reason != nullptr && *reason != '\0' ? reason : "it ends too early";
+  const std::string_view text = reason != nullptr ? reason : "";
+  return text.empty() || text == "bad png sig" || text == "unknown image type" ? "it is incomplete" : reason;
 }
 
 int unpackZlib(std::span<const char> packed, std::span<char> unpacked) {

@@ -103,7 +103,7 @@ void expectTraced(const Image8& picture, const Tracing& tracing, const std::stri
     ADD_FAILURE() << name << ": " << d.over << " of " << d.counted << " pixels differ, " << edges << " are at edges";
     writeEvidence(picture, expected, name);
   }
-  EXPECT_FALSE(difference(picture, expected, 2).block) << name << ": something is drawn over the background";
+  expectBackground(picture, expected, traced, name);
 }
 
 // Returns the means of blocks of `side` x `side` pixels.

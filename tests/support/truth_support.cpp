@@ -13,8 +13,7 @@ void expectTraced(const Image8& actual, const Truth& truth, const std::filesyste
   const bool holds = difference(actual, truth.picture, tolerance, counts).holds();
   expectAlike(actual, holds ? truth.picture : truth.tracing.nearest(actual), tolerance, "truth_" + file.stem().string(),
               counts);
-  EXPECT_FALSE(difference(actual, truth.picture, tolerance).block)
-      << file << ": something is drawn over the background";
+  expectBackground(actual, truth.picture, truth.traced, file.stem().string());
 }
 
 }  // namespace
@@ -110,6 +109,13 @@ std::vector<bool> notBackground(const TraceResult& traced) {
     counts.push_back(background == 0);
   }
   return counts;
+}
+
+void expectBackground(const Image8& picture, const Image8& expected, const TraceResult& traced,
+                      const std::string& name) {
+  std::vector<bool> counts = notBackground(traced);
+  counts.flip();
+  EXPECT_FALSE(difference(picture, expected, tolerance, counts).block) << name << ": something covers the background";
 }
 
 double share(const std::vector<uint8_t>& values, int atLeast) {

@@ -50,6 +50,9 @@ void expectTruth(Studio& studio, const std::filesystem::path& file, const Truth&
 
 // Says of each pixel whether it shows anything but the background.
 std::vector<bool> notBackground(const TraceResult& traced);
+// Expects no block of wrong pixels where the tracer sees nothing but the background.
+void expectBackground(const Image8& picture, const Image8& expected, const TraceResult& traced,
+                      const std::string& name);
 
 // Returns the share of the values that are at least `atLeast`.
 double share(const std::vector<uint8_t>& values, int atLeast);
