@@ -80,7 +80,7 @@ TEST_F(RegressCommand, UpdateReplacesNoTexture) {
   folder_.write("room.obj", "mtllib room.mtl\nusemtl all\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/1 3/1\n");
   folder_.write("room.mtl", "newmtl all\nmap_Kd room.png\n");
   writePng(folder_ / "room.png", greyPicture(4, 4, 100));
-  writeCases("[[case]]\nscene = 'room.obj'\n[[case]]\nname = 'other'\nscene = 'room.toml'\npicture = 'room.png'\n");
+  writeCases("[[case]]\nname = 'other'\nscene = 'room.toml'\npicture = 'room.png'\n[[case]]\nscene = 'room.obj'\n");
   for (const char* name : {"*", "other"}) {
     const ProcessResult result = regress({"--update", name});
     EXPECT_EQ(result.exitCode, 1);
