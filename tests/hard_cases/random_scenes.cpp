@@ -123,10 +123,12 @@ Image8 blockMeans(const Image8& picture, int side) {
   return means;
 }
 
-// Expects that at most `pixels` pixels differ by more than `steps` of 255, and no 3x3 block as a whole.
-void expectSame(const Image8& picture, const Image8& expected, const std::string& name, int pixels = 0, int steps = 0) {
+// Expects that at most `pixels` pixels differ by more than `steps` of 255, and unless they may, no 3x3 block as a
+// whole.
+void expectSame(const Image8& picture, const Image8& expected, const std::string& name, int pixels = 0, int steps = 0,
+                bool mayBlocks = false) {
   const PictureAgreement d = difference(picture, expected, steps);
-  if (d.over > pixels || d.block) {
+  if (d.over > pixels || (d.block && !mayBlocks)) {
     ADD_FAILURE() << name << ": " << d.over << " pixels differ";
     writeEvidence(picture, expected, name);
   }
@@ -137,11 +139,10 @@ Image8 expectNoSwitchMatters(Drawn& drawn, const Settings& settings, const std::
   const Image8 picture = drawn.drawWith(settings);
   const bool traces = drawn.plan.effects.any();
   expectSame(drawn.drawWith(settings, false), picture, name + "_cached");
-  const std::array switches{std::pair("skip_hidden", &DebugSettings::skipHidden),
-                            std::pair("mask_passes", &DebugSettings::maskPasses),
-                            std::pair("cull_clusters", &DebugSettings::cullClusters)};
-  // Levels of detail depend on clusters.
-  const size_t count = settings.reflection.meshError == 0.0 ? switches.size() : switches.size() - 1;
+  static constexpr std::array switches{std::pair("skip_hidden", &DebugSettings::skipHidden),
+                                       std::pair("mask_passes", &DebugSettings::maskPasses),
+                                       std::pair("cull_clusters", &DebugSettings::cullClusters)};
+  constexpr size_t count = switches.size();
   for (unsigned off = 1; off < 1u << count; ++off) {
     // The suite turns each switch off alone and all together; the full tests try every combination.
     if (!fullTests() && !std::has_single_bit(off) && off + 1 != 1u << count) {
@@ -159,7 +160,10 @@ Image8 expectNoSwitchMatters(Drawn& drawn, const Settings& settings, const std::
     // A hidden mirror may be all that calls for an effect. Without it no rays are traced, and other shaders round
     // differently. So does lavapipe with other triangles in a draw. Along outlines, backs may be nearer than fronts.
     const int steps = drawn.plan.effects.any() == traces ? 0 : 1;
-    expectSame(other, picture, kind, without.debug.cullClusters ? 0 : 20, steps);
+    // Enlarging spreads a texel of the main view over 4 x 4 pixels.
+    const bool enlarged = settings.view.scale < 1.0;
+    const int backs = enlarged ? 80 : 20;
+    expectSame(other, picture, kind, without.debug.cullClusters ? 0 : backs, steps, enlarged);
   }
   return picture;
 }
