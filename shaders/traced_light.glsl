@@ -48,14 +48,17 @@ Incoming incomingLight(uint i, Surface surface, vec3 tracePosition, Skip self) {
   return incoming;
 }
 
+// End of a ray to a light, as a share of its length: rounding would find a surface on which the light lies at 1 or not.
+const float lightEnd = 1.0 - 1.0 / 1048576.0;
+
 // Says whether nothing blocks the light on its way to the point. An image's light comes by way of its mirror.
 bool unobstructed(uint i, Incoming incoming, vec3 tracePosition, Skip self) {
   Skip skip = self;
   skip.secondPlane = incoming.mirror == none ? none : planeOf(incoming.mirror);
   vec3 origin = tracePosition;
   vec3 direction = incoming.toLight + incoming.clearance;
-  float tMax = incoming.crossing;
   bool last = incoming.mirror == none;
+  float tMax = last ? lightEnd : incoming.crossing;
   bool hidden = false;
   for (;;) {
     Hit hit = traceRay(origin, direction, tMax, skip, true);
@@ -67,7 +70,7 @@ bool unobstructed(uint i, Incoming incoming, vec3 tracePosition, Skip self) {
     }
     origin += incoming.crossing * direction;
     direction = lightPaths[i - view.lightCount].light - origin;
-    tMax = 1.0;
+    tMax = lightEnd;
     skip = Skip(none, none, skip.secondPlane, none, 0.0);
     last = true;
   }

@@ -27,6 +27,9 @@ glm::dvec3 lightRadiance(const ShadingPoint& point, const glm::dvec3& toLight, c
   return light.color * light.intensity * (cosine / distance2) * brdf;
 }
 
+// End of a ray to a light, as a share of its length: rounding would find a surface on which the light lies at 1 or not.
+constexpr double lightEnd = 1.0 - 1e-12;
+
 // Returns the radiance due to a light by way of one mirror: along the straight line from the point to the light's image
 // behind the mirror.
 glm::dvec3 bouncedLight(const TraceWorld& world, const ShadingPoint& point, int light, int mirror) {
@@ -52,7 +55,7 @@ glm::dvec3 bouncedLight(const TraceWorld& world, const ShadingPoint& point, int 
     const glm::dvec3 bounce = leg.at(*crossing);
     const Skip second{.mirror = mirror};
     if (world.occluded({point.position, toImage, 0.0, *crossing}, first) ||
-        world.occluded({bounce, position - bounce, 0.0, 1.0}, second)) {
+        world.occluded({bounce, position - bounce, 0.0, lightEnd}, second)) {
       return glm::dvec3(0.0);
     }
   }
@@ -64,7 +67,7 @@ glm::dvec3 directLight(const TraceWorld& world, const ShadingPoint& point, int l
   const PointLight& source = world.scene().lights[light];
   const glm::dvec3 toLight = world.lights()[light].position - point.position;
   const bool dark = glm::dot(point.normal, toLight) <= 0.0 ||
-                    (source.castsShadow && world.occluded({point.position, toLight, 0.0, 1.0}, point.self));
+                    (source.castsShadow && world.occluded({point.position, toLight, 0.0, lightEnd}, point.self));
   return dark ? glm::dvec3(0.0) : lightRadiance(point, toLight, source);
 }
 

@@ -185,6 +185,29 @@ TEST(LightOnASurface, ShadowsOfLampsOnMirrorsMatchTracer) {
   expectTruths(files, {96, 54}, 1);
 }
 
+// The eye is in a box that has a lamp on its wall, beside a ball. Where light arrives at a small angle, rounding still
+// moves the wall before the lamp: in up to 1.6 % of the pixels, against 47 % if rays end at the lamp.
+TEST(LightOnASurface, ShadowsOfLampsOnWallsMatchTracer) {
+  Random random(12);
+  for (int i = 0; i < 12; ++i) {
+    const glm::dvec3 rotation = random.inBox(180.0);
+    const glm::dmat3 turn = rotationFromDegrees(rotation);
+    const double size = random.uniform(3.0, 30.0);
+    const auto place = [&](double x, double y, double z) { return turn * (size * glm::dvec3(x, y, z)); };
+    const glm::dvec3 lamp = place(random.uniform(-0.3, 0.3), random.uniform(0.2, 0.8), 0.5);
+    const glm::dvec3 eye = place(random.uniform(-0.3, 0.3), random.uniform(0.2, 0.8), random.uniform(-0.4, 0.2));
+    const std::filesystem::path file = writeScene(
+        "lamp_on_wall_" + std::to_string(i),
+        "[environment]\nambient = [0.1, 0.1, 0.1]\n" + cameraText(eye, eye + random.direction()) +
+            objectText("MODELS/box.obj", {0, 0, 0}, rotation, size, {0.6, 0.6, 0.6}) +
+            objectText("MODELS/sphere.obj", place(0.1, 0.4, 0.25), {0, 0, 0}, 0.1 * size, {0.3, 0.6, 0.6}) +
+            "[[light]]\nposition = " + text(lamp) + "\ncasts_shadow = true\nintensity = " + text(size * size) + "\n");
+    const PictureSize picture{96, 54};
+    const Image8 expected = trace(file, picture, 1).picture;
+    EXPECT_LE(difference(draw(truthOptions(file, picture, 1)), expected, 2).share(), 0.02) << file;
+  }
+}
+
 class AnySize : public testing::TestWithParam<PictureSize> {};
 
 // A mirror over all of the view shows the sky; a body would have edges, and a pixel here is metres wide.
