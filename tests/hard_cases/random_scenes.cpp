@@ -160,9 +160,10 @@ Image8 expectNoSwitchMatters(Drawn& drawn, const Settings& settings, const std::
     // A hidden mirror may be all that calls for an effect. Without it no rays are traced, and other shaders round
     // differently. So does lavapipe with other triangles in a draw. Along outlines, backs may be nearer than fronts.
     const int steps = drawn.plan.effects.any() == traces ? 0 : 1;
-    // Enlarging spreads a texel of the main view over 4 x 4 pixels.
-    const bool enlarged = settings.view.scale < 1.0;
-    const int backs = enlarged ? 80 : 20;
+    // Enlarging spreads one texel over a square of that side, so a single one looks like a block.
+    const double side = 2.0 / (settings.view.scale * std::min(settings.reflection.scale, 1.0));
+    const bool enlarged = side > 2.0;
+    const int backs = enlarged ? static_cast<int>(5.0 * side * side) : 20;
     expectSame(other, picture, kind, without.debug.cullClusters ? 0 : backs, steps, enlarged);
   }
   return picture;
