@@ -122,8 +122,7 @@ std::pair<fs::path, std::string> SceneOpener::keptCopy() const {
   try {
     return {document_->savedOrCopy(settings_), ""};
   } catch (const SaveError& error) {
-    return {document_->savedOrCopy(settings_, ReadBack::untested),
-            std::string(", which has to be mended: ") + error.what()};
+    return {document_->savedOrCopy(settings_, ReadBack::untested), error.what()};
   }
 }
 
@@ -132,7 +131,10 @@ void SceneOpener::keepUnsavedWork() noexcept {
     const auto [file, problem] = keptCopy();
     if (file != shownFile()) {
       recovery_.record(file, document_->prompt() == Prompt::recovery || !problem.empty());
-      spdlog::warn("unsaved changes are kept in {}{}", file.string(), problem);
+      if (!problem.empty()) {
+        spdlog::warn("the copy of unsaved changes has to be mended: {}", problem);
+      }
+      spdlog::warn("unsaved changes are kept in {}", file.string());
     }
   } catch (const std::exception& error) {
     spdlog::error("unsaved changes are lost: {}", error.what());
