@@ -80,7 +80,7 @@ bool CaseDrawer::drawAndJudge(const ExpectedCase& expected, Outcome& outcome) {
       return false;
     }
   }
-  for (const std::filesystem::path& file : filesOf(session_->scene())) {
+  for (const auto& [words, file] : filesOf(session_->scene())) {
     outcome.sceneFiles.push_back(file.string());
   }
   std::optional<Image8> picture;

@@ -99,29 +99,24 @@ void requireFilesOfTheirOwn(const Options& options) {
   addOutputs(used, options);
 }
 
-std::vector<fs::path> filesOf(const Scene& scene) {
-  std::vector<fs::path> files{scene.file};
+std::vector<std::pair<std::string_view, fs::path>> filesOf(const Scene& scene) {
+  std::vector<std::pair<std::string_view, fs::path>> files{{"the file of --scene", scene.file}};
   for (const Mesh& mesh : scene.meshes) {
-    files.push_back(mesh.source);
-    files.insert(files.end(), mesh.materialFiles.begin(), mesh.materialFiles.end());
+    files.emplace_back("a model of the scene", mesh.source);
+    for (const fs::path& file : mesh.materialFiles) {
+      files.emplace_back("a material of the scene", file);
+    }
   }
   for (const Texture& texture : scene.textures) {
-    files.push_back(texture.source);
+    files.emplace_back("a texture of the scene", texture.source);
   }
   return files;
 }
 
 void requireFilesOfTheirOwn(const Options& options, const Scene& scene) {
   UsedFiles used;
-  used.add("the file of --scene", scene.file);
-  for (const Mesh& mesh : scene.meshes) {
-    used.add("a model of the scene", mesh.source);
-    for (const fs::path& file : mesh.materialFiles) {
-      used.add("a material of the scene", file);
-    }
-  }
-  for (const Texture& texture : scene.textures) {
-    used.add("a texture of the scene", texture.source);
+  for (const auto& [words, file] : filesOf(scene)) {
+    used.add(words, file);
   }
   addOutputs(used, options);
 }

@@ -30,7 +30,7 @@ bool readPictureSize(std::span<const uint8_t> bytes, int& width, int& height) {
 }
 
 const char* decodeFailure() {
-  // Of what fails without a word, the reason is that of the test for the format.
+  // Some failures set no reason. Then the text is empty or left over from the tests whether the file is a PNG.
   const char* reason = stbi_failure_reason();
   const std::string_view text = reason != nullptr ? reason : "";
   return text.empty() || text == "bad png sig" || text == "unknown image type" ? "it is incomplete" : reason;
