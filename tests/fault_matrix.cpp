@@ -47,23 +47,6 @@ class Faults : public FaultTest {
  protected:
   enum class End { recovered, line, wrong };
 
-  // Calls of each function in a run without a fault.
-  std::map<std::string, int> callsOf(const Kind& kind) {
-    const TemporaryDirectory folder;
-    const std::filesystem::path file = folder.path() / "calls";
-    const Run good = run(kind, {"SPECULUM_FAULT_CALLS=" + file.string()});
-    EXPECT_EQ(good.exitCode, 0);
-    EXPECT_EQ(good.output, "");
-    picture_ = good.picture;
-    std::map<std::string, int> calls;
-    std::ifstream stream(file);
-    std::string name;
-    for (int count = 0; stream >> name >> count;) {
-      calls[name] = count;
-    }
-    return calls;
-  }
-
   End endOf(const Kind& kind, const Fault& fault) {
     const std::string what =
         kind.command + ": " + fault.function + " " + std::to_string(fault.call) + " " + resultName(fault.result);
@@ -84,7 +67,7 @@ class Faults : public FaultTest {
 
   // Every `stride`-th fault of the matrix.
   void expectGoodEnds(const Kind& kind, int stride) {
-    std::map<std::string, int> calls = callsOf(kind);
+    std::map<std::string, int> calls = callsOf(kind, &picture_);
     std::vector<Fault> faults;
     size_t functions = 0;
     for (const FailingFunction& function : failingFunctions()) {

@@ -74,6 +74,25 @@ class FaultTest : public testing::Test {
     return run;
   }
 
+  // Returns the number of calls of each Vulkan function in a run without a fault, and its picture.
+  std::map<std::string, int> callsOf(const Kind& kind, std::optional<std::vector<uint8_t>>* picture = nullptr) {
+    const TemporaryDirectory folder;
+    const std::filesystem::path file = folder.path() / "calls";
+    Run good = run(kind, {"SPECULUM_FAULT_CALLS=" + file.string()});
+    EXPECT_EQ(good.exitCode, 0);
+    EXPECT_EQ(good.output, "");
+    if (picture) {
+      *picture = std::move(good.picture);
+    }
+    std::map<std::string, int> calls;
+    std::ifstream stream(file);
+    std::string name;
+    for (int count = 0; stream >> name >> count;) {
+      calls[name] = count;
+    }
+    return calls;
+  }
+
   test::VirtualDisplay display_;
   // A mirror, an object with a texture, rays, and a setting that needs a compute shader.
   std::string scene_ = writeScene("faults", R"(

@@ -32,38 +32,32 @@ TEST(PictureTiles, RectanglesCoverAnImageOnce) {
   }
 }
 
-TEST(PictureTiles, LongPicturesHaveSeveralParts) {
+TEST(PictureTiles, SubmissionsWithRaysAreBounded) {
   FramePlan plan;
-  plan.main.view.rect = {0, 0, 1600, 1600};
   Settings settings;
-  const auto parts = [&] { return partsOf(plan, settings); };
-  EXPECT_EQ(parts(), std::vector<std::optional<TileRange>>{std::nullopt}) << "no rays";
+  size_t lights = 3;
+  const auto tiles = [&] { return tilesAtOnce(plan, settings, lights); };
+  EXPECT_EQ(tiles(), SIZE_MAX) << "no rays";
   plan.effects.shadowRays = true;
-  const size_t count = tileCount(plan);
-  const auto expectParts = [&](size_t number) {
-    const auto all = parts();
-    EXPECT_EQ(all.size(), number);
-    size_t end = 0;
-    for (const std::optional<TileRange>& part : all) {
-      ASSERT_TRUE(part);
-      EXPECT_EQ(part->first, end);
-      end = part->end;
-    }
-    EXPECT_EQ(end, count);
-  };
-  expectParts(2);
+  const size_t most = (1 << 22) / (tileSide * tileSide);
+  EXPECT_EQ(tiles(), most / 4);
   settings.effects.perSample = true;
-  expectParts(5);
+  settings.view.samples = 4;
+  EXPECT_EQ(tiles(), most / 16);
   settings.effects.perSample = false;
+  lights = 1023;
+  EXPECT_EQ(tiles(), most / 1024);
+  plan.effects.bouncedLights.resize(1024);
+  EXPECT_EQ(tiles(), most / 2048);
+  plan.effects.bouncedLights.clear();
+  lights = 1;
   plan.effects.roughRays = true;
   settings.effects.roughSamples = 1;
   settings.view.samples = 16;
-  expectParts(5);  // a ray at each sample
+  EXPECT_EQ(tiles(), most / 8) << "a ray at each sample";
   settings.view.samples = 4;
   settings.effects.roughSamples = 1 << 20;
-  expectParts(count);
-  settings.debug.checkFinite = true;
-  EXPECT_EQ(parts(), std::vector<std::optional<TileRange>>{std::nullopt});
+  EXPECT_EQ(tiles(), 1u);
 }
 
 TEST(PictureTiles, PassesFollowEachOther) {

@@ -98,5 +98,44 @@ TEST_F(ScarceMemory, UndrawableStepsAreTakenBack) {
   }
 }
 
+// Turns the check of queue submissions off: it crashes in vkDeviceWaitIdle while an image is acquired (layer of
+// 1.3.239).
+struct NoSubmissionCheck {
+  NoSubmissionCheck() { setenv("VK_LAYER_ENABLES", "VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT", 1); }
+  ~NoSubmissionCheck() { unsetenv("VK_LAYER_ENABLES"); }
+};
+
+class EndingMemory : private NoSubmissionCheck, public ScarceMemory {};
+
+// Memory of a larger window, which no step of the user's needs: none is taken back for good. The window ends, and
+// offers the unsaved changes at its next start.
+TEST_F(EndingMemory, KeepsChanges) {
+  demo_->apply(SelectNode{{Selection::Kind::object, 0}});
+  demo_->apply(RemoveSelected{});
+  run(5);
+  refuseMemory(1u << 18, UINT64_MAX);
+  demo_->setCapture(false);
+  demo_->window().resize(width + 40, height + 40);
+  std::string problem;
+  for (int i = 0; i < 200 && problem.empty(); ++i) {
+    try {
+      demo_->step();
+    } catch (const std::exception& error) {
+      problem = error.what();
+    }
+  }
+  EXPECT_TRUE(contains(problem, "VK_ERROR_OUT_OF_DEVICE_MEMORY")) << problem;
+  stopRefusingMemory();
+  demo_.reset();
+  start();
+  EXPECT_EQ(view().edit.prompt, Prompt::recovery);
+  const size_t objects = view().edit.scene->objects.size();
+  const std::filesystem::path kept = view().edit.proposedFile;
+  click("recovery.open");
+  EXPECT_TRUE(waitFor([&] { return view().edit.scene->file == kept; }));
+  run(5);
+  EXPECT_EQ(view().edit.scene->objects.size() + 1, objects);
+}
+
 }  // namespace
 }  // namespace speculum

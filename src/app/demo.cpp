@@ -133,9 +133,9 @@ void Demo::endFrame(Frame& frame) {
 }
 
 // Ends the frame with the panels alone, after taking back the user's last step, which may have caused the exception.
-// Call it while the exception is handled: rethrows it if there is no such step.
+// Call it while the exception is handled: rethrows it if there is no such step, or no frame to end.
 void Demo::abandonFrame(Frame& frame, const std::string& why) {
-  if (!workspace_.undoFailedChange(why)) {
+  if (frame.commands == VK_NULL_HANDLE || !workspace_.undoFailedChange(why)) {
     throw;
   }
   endWithPanels(frame);
@@ -183,7 +183,7 @@ void Demo::drawFrame(double seconds, double sinceLastMs) {
     ui_->record(renderer_.beginOverlay(*frame));
   }
   const Clock::time_point end = Clock::now();
-  const double cpuMs = milliseconds(end - start);
+  const double cpuMs = milliseconds(end - start) - frame->waitedMs;
   const bool newPipelines = std::exchange(pipelines_, renderer_.pipelines().count()) != pipelines_;
   pace_.drawn(frame->number, milliseconds(waits - last_) + cpuMs,
               !timed && !newPipelines && !plan.mainReused && !plan.tiles);

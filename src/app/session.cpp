@@ -6,7 +6,6 @@
 #include <cstdio>
 
 #include "app/output_files.hpp"
-#include "frame/picture_tiles.hpp"
 #include "platform/machine.hpp"
 #include "platform/text.hpp"
 #include "scene/input_error.hpp"
@@ -204,44 +203,31 @@ const DrawnFrame& Session::draw(double time, bool capture, const std::function<b
 
 void Session::drawPicture(bool capture) {
   const bool last = frame_.pictures + 1 == loaded_.settings.view.accumulate;
-  std::optional<Frame> frame = renderer_.beginFrame().value();
+  Frame frame = renderer_.beginFrame().value();
   collectFinished();
-  Clock::time_point recording = Clock::now();
+  const Clock::time_point recording = Clock::now();
   FrameCache cache = sceneRenderer_.cache(frame_.state);
   cache.main = nullptr;  // the main view is drawn in every frame, so that its pass is reported
   FittedPlan fitted =
       planner_.plan(loaded_.scene, frame_.state, loaded_.settings, size_.width, size_.height, cache, frame_.pictures);
   frame_.plan = std::move(fitted.plan);
   frame_.settings = fitted.settings;
-  for (const std::optional<TileRange>& part : partsOf(frame_.plan, frame_.settings)) {
-    if (!frame) {
-      frame = renderer_.beginFrame().value();
-      collectFinished();
-      recording = Clock::now();
-    }
-    frame_.plan.tiles = part;
-    const bool shown = last && endsPicture(frame_.plan);
-    frame->capture = capture && shown;
-    sceneRenderer_.record(*frame, frame_.state, frame_.settings, frame_.plan, std::nullopt, shown);
-    frame_.cpuMs += millisecondsSince(recording);
-    unfinished_.push_back({frame->number, beginsPicture(frame_.plan)});
-    renderer_.endFrame(*frame);
-    frame.reset();
-  }
-  frame_.plan.tiles.reset();
+  frame.capture = capture && last;
+  sceneRenderer_.record(frame, frame_.state, frame_.settings, frame_.plan, std::nullopt, last);
+  frame_.cpuMs += millisecondsSince(recording) - frame.waitedMs;
+  unfinished_.push_back(frame.number);
+  renderer_.endFrame(frame);
   frame_.ledger.add(sceneRenderer_.ledger());
   ++frame_.pictures;
 }
 
 void Session::collectFinished() {
   while (!unfinished_.empty()) {
-    const FrameTimings* timings = renderer_.timingsOf(unfinished_.front().number);
+    const FrameTimings* timings = renderer_.timingsOf(unfinished_.front());
     if (!timings) {
       return;
     }
-    if (unfinished_.front().beginsPicture) {
-      frame_.sums.beginPicture();
-    }
+    frame_.sums.beginPicture();
     frame_.sums.add(sceneRenderer_.passesOf(timings->frame), *timings);
     frame_.number = timings->frame;
     frame_.gpuMs += timings->gpuMs;

@@ -126,12 +126,7 @@ class Session {
   SceneRenderer sceneRenderer_;
   BudgetPlanner planner_;
   DrawnFrame frame_;
-  // The renderer's frames whose figures are not in frame_ yet.
-  struct Unfinished {
-    uint64_t number = 0;
-    bool beginsPicture = true;
-  };
-  std::deque<Unfinished> unfinished_;
+  std::deque<uint64_t> unfinished_;  // the renderer's frames whose figures are not in frame_ yet
   std::chrono::steady_clock::time_point start_;
 };
 

@@ -48,6 +48,16 @@ GpuTimer::GpuTimer(Device& device, const std::string& name) : device_(device) {
 void GpuTimer::reset(VkCommandBuffer commands, uint64_t frame, TimerDetail detail) {
   frame_ = frame;
   detail_ = detail;
+  earlier_ = {};
+  resetQueries(commands);
+}
+
+void GpuTimer::resume(VkCommandBuffer commands) {
+  earlier_ = read();
+  resetQueries(commands);
+}
+
+void GpuTimer::resetQueries(VkCommandBuffer commands) {
   stamped_ = 0;
   passes_.clear();
   for (const auto& [pool, queries] :
@@ -150,6 +160,8 @@ FrameTimings GpuTimer::read() const {
             "read sample counts");
     }
   }
+  timings.gpuMs += earlier_.gpuMs;
+  timings.passes.insert(timings.passes.begin(), earlier_.passes.begin(), earlier_.passes.end());
   return timings;
 }
 

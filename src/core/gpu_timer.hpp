@@ -37,7 +37,9 @@ class GpuTimer {
   explicit GpuTimer(Device& device, const std::string& name);
 
   void reset(VkCommandBuffer commands, uint64_t frame, TimerDetail detail);  // at the start of the frame's commands
-  void finish(VkCommandBuffer commands);                                     // after its last pass
+  // Call between two passes, when the GPU has finished the commands so far and `commands` begin anew.
+  void resume(VkCommandBuffer commands);
+  void finish(VkCommandBuffer commands);  // after its last pass
   int begin(VkCommandBuffer commands, const std::string& pass, bool statistics);
   // Ends the statistics, if they have not ended yet, outside rendering.
   void endStatistics(VkCommandBuffer commands, int slot);
@@ -51,6 +53,7 @@ class GpuTimer {
  private:
   static constexpr uint32_t maxPasses = 512;
 
+  void resetQueries(VkCommandBuffer commands);
   void stamp(VkCommandBuffer commands, uint32_t query);
 
   Device& device_;
@@ -60,6 +63,7 @@ class GpuTimer {
   uint64_t frame_ = 0;
   TimerDetail detail_ = TimerDetail::samples;
   uint32_t stamped_ = 0;  // stamps of this frame
+  FrameTimings earlier_;  // of the frame, before the last resume()
   std::vector<PassTiming> passes_;
   bool countsStatistics_ = false;  // of the last pass, begun and not ended
   bool countsSamples_ = false;

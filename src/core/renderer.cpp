@@ -1,6 +1,7 @@
 #include "core/renderer.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <stdexcept>
 
 #include "platform/folders.hpp"
@@ -50,12 +51,16 @@ void Renderer::finish(Slot& slot) {
   if (slot.number == 0) {
     return;
   }
-  const VkFence fence = slot.finished.get();
-  check(vkWaitForFences(device_.get(), 1, &fence, VK_TRUE, UINT64_MAX), "wait for a frame");
-  check(vkResetFences(device_.get(), 1, &fence), "reset a frame's fence");
+  await(slot);
   slot.timings = slot.timer.read();
   retired_.collect(slot.number);
   slot.number = 0;
+}
+
+void Renderer::await(Slot& slot) {
+  const VkFence fence = slot.finished.get();
+  check(vkWaitForFences(device_.get(), 1, &fence, VK_TRUE, UINT64_MAX), "wait for a frame");
+  check(vkResetFences(device_.get(), 1, &fence), "reset a frame's fence");
 }
 
 const FrameTimings* Renderer::timingsOf(uint64_t frame) const {
@@ -129,6 +134,21 @@ PassScope Renderer::beginOverlay(Frame& frame) {
   desc.loadColor = true;
   desc.overlay = true;
   return beginPass(frame, desc);
+}
+
+void Renderer::submitPart(Frame& frame) {
+  Slot& slot = slots_[frame.index];
+  slot.timer.finish(frame.commands);
+  const VkCommandBuffer commands = std::exchange(frame.commands, VK_NULL_HANDLE);
+  check(vkEndCommandBuffer(commands), "end a part of a frame's commands");
+  const VkSubmitInfo info{
+      .sType = VK_STRUCTURE_TYPE_SUBMIT_INFO, .commandBufferCount = 1, .pCommandBuffers = &commands};
+  const auto start = std::chrono::steady_clock::now();
+  check(vkQueueSubmit(device_.queue(), 1, &info, slot.finished.get()), "submit a part of a frame");
+  await(slot);
+  frame.waitedMs += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  frame.commands = slot.pool.begin();
+  slot.timer.resume(frame.commands);
 }
 
 void Renderer::endFrame(Frame& frame) {

@@ -36,7 +36,7 @@ class Renderer;
 
 // A frame that is being recorded. Valid from beginFrame to endFrame.
 struct Frame {
-  VkCommandBuffer commands = VK_NULL_HANDLE;
+  VkCommandBuffer commands = VK_NULL_HANDLE;   // null: Renderer::submitPart has failed, and the frame with it
   uint32_t index = 0;                          // frame in flight, 0 or 1: choose per-frame buffers by it
   uint32_t imageIndex = 0;                     // of the swapchain; 0 when headless
   uint64_t number = 0;                         // counts from 1
@@ -45,6 +45,7 @@ struct Frame {
   RetireQueue* retired = nullptr;
   bool capture = false;   // set it before the display image is drawn to make Renderer::readback possible
   bool acquired = false;  // a swapchain image is acquired for this frame
+  double waitedMs = 0.0;  // in Renderer::submitPart
 };
 
 // Two frames in flight on one queue, into a window's swapchain or an image in its place. Frames are ordered by
@@ -64,6 +65,9 @@ class Renderer {
   PassScope beginPass(Frame& frame, const PassDesc& desc);
   // A pass of its own that loads and stores the display image, within a VkRenderPass on either path.
   PassScope beginOverlay(Frame& frame);
+  // Submits the frame's commands so far and waits until the GPU has finished them, between two passes. The frame goes
+  // on in a new command buffer: no single submission takes long.
+  void submitPart(Frame& frame);
   // Submits the frame's commands.
   void endFrame(Frame& frame);
   // Shows the frame submitted last. Mesa's drivers for CPUs draw it and send it to the window system within this call,
@@ -122,6 +126,7 @@ class Renderer {
     VkExtent2D captureExtent{0, 0};
   };
   void finish(Slot& slot);
+  void await(Slot& slot);
   std::optional<uint32_t> acquireImage(Slot& slot);
   Image& displayImage(const Frame& frame);
   // Says whether the frame is drawn into an image of its own, because the swapchain's cannot be copied.

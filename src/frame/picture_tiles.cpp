@@ -8,7 +8,7 @@ namespace speculum {
 
 namespace {
 
-constexpr int mostPaths = 1 << 21;
+constexpr double mostRays = 1 << 22;
 
 int tilesAlong(int texels) {
   return (texels + tileSide - 1) / tileSide;
@@ -82,9 +82,9 @@ std::vector<PixelRect> tileRects(int width, int height, const TileRange& tiles) 
   return rects;
 }
 
-std::vector<std::optional<TileRange>> partsOf(const FramePlan& plan, const Settings& settings) {
-  if (!plan.effects.traces() || settings.debug.checkFinite) {
-    return {std::nullopt};
+size_t tilesAtOnce(const FramePlan& plan, const Settings& settings, size_t lights) {
+  if (!plan.effects.traces()) {
+    return SIZE_MAX;
   }
   // Rays of ripples and of smooth mirrors go through each sample.
   const bool perSample = settings.effects.perSample || plan.effects.rippleRays || plan.effects.mirrorRays;
@@ -92,16 +92,13 @@ std::vector<std::optional<TileRange>> partsOf(const FramePlan& plan, const Setti
   // Only a part of the picture is rough, and its rays end sooner than those that surfaces send to each light.
   const int rough = plan.effects.roughRays ? roughRays(settings.effects, samples) / 4 : 1;
   const int paths = std::max({perSample ? samples : 1, rough, 1});  // of a pixel
-  const size_t step = std::max(1, mostPaths / (tileSide * tileSide * paths));
-  const size_t count = tileCount(plan);
-  if (count <= step) {
-    return {std::nullopt};
-  }
-  std::vector<std::optional<TileRange>> parts;
-  for (size_t first = 0; first < count; first += step) {
-    parts.emplace_back(TileRange{first, std::min(first + step, count)});
-  }
-  return parts;
+  const size_t lit = (plan.effects.shadowRays ? lights : 0) + plan.effects.bouncedLights.size();
+  const double rays = static_cast<double>(paths) * static_cast<double>(1 + lit);
+  return static_cast<size_t>(std::max(1.0, mostRays / (tileSide * tileSide * rays)));
+}
+
+size_t tilesOfFace(const EnvironmentMap& map) {
+  return tilesIn({0, 0, map.size, map.size});
 }
 
 bool beginsPicture(const FramePlan& plan) {

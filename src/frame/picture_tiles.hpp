@@ -23,10 +23,12 @@ std::vector<TileRange> tilesOfPasses(const FramePlan& plan);
 // row from the last to the first. With several samples, lavapipe of Mesa 22.3 also writes to the row above a scissor
 // rectangle and to the column left of it, which in this order are drawn later.
 std::vector<PixelRect> tileRects(int width, int height, const TileRange& tiles);
-// Divides the picture among frames, for commands: returns the tiles of each. A picture without traced rays is one
-// frame. With them, each frame traces about two million paths, without those of environment maps, so that no system
-// takes the GPU for hung. debug.check_finite looks at whole pictures, which are not divided.
-std::vector<std::optional<TileRange>> partsOf(const FramePlan& plan, const Settings& settings);
+// Returns the number of tiles whose commands are submitted together, at least 1. A picture without traced rays needs no
+// limit (SIZE_MAX). With them, a submission traces about four million, so that no system takes the GPU for hung.
+// `lights`: number of the scene's.
+size_t tilesAtOnce(const FramePlan& plan, const Settings& settings, size_t lights);
+// Returns the number of tiles of this size that cover a face of an environment map, which is drawn at once.
+size_t tilesOfFace(const EnvironmentMap& map);
 // Say whether this frame draws the first tile of its picture, and the last one.
 bool beginsPicture(const FramePlan& plan);
 bool endsPicture(const FramePlan& plan);

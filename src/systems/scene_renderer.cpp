@@ -71,6 +71,7 @@ void SceneRenderer::record(Frame& frame, const SceneState& state, const Settings
   resources_.prepareLevels(frame, meshesWithLevels(plan, state));
   pictureSize_ = {plan.width, plan.height};
   tiles_ = tilesOfPasses(plan);
+  tilesLeft_ = tilesAtOnce_ = tilesAtOnce(plan, settings, scene_.lights.size());
   data_.build(frame, resources_, scene_, state, settings, environment, plan);
   trace_.build(frame, state, settings, plan.effects);
   const FrameInfo info{.frame = frame,
@@ -194,6 +195,7 @@ void SceneRenderer::recordFace(const FrameInfo& info, size_t map, size_t face, s
   drawScene(info, index, desc, std::move(pass));
   // Counts each draw once: drawScene() has entered the curved mirrors seen in the face.
   ledger_[EffectKind::curved].draws = drawsBefore + log_.passes().back().draws;
+  countTiles(info.frame, tilesOfFace(planned));
 }
 
 // Returns the number of faces that the picture renders.
@@ -367,21 +369,34 @@ void SceneRenderer::endRecord(const FrameInfo& info, bool textured) {
 // Counts the draws of the first part only: the others repeat them.
 void SceneRenderer::drawTiles(const FrameInfo& info, size_t index, const PassDesc& desc, const RecordedPass& pass) {
   const auto [width, height] = desc.renderArea.extent;
-  bool first = tiles_[index].first == 0;
-  std::vector<PixelRect> rects = tileRects(static_cast<int>(width), static_cast<int>(height), tiles_[index]);
-  if (defers(info, info.data.passes()[index])) {
-    rects = DeferredShading::bands(rects, desc.targets.samples());
-  }
-  for (const PixelRect& rect : rects) {
-    PassDesc part = desc;
-    part.renderArea = part.scissor = {{rect.x, rect.y}, extentOf(rect.width, rect.height)};
-    part.keepsSamples = info.plan.tiles || rects.size() > 1;
-    const EffectLedger ledger = ledger_;
-    drawScene(info, index, part, pass);
-    if (!std::exchange(first, false)) {
-      log_.joinLast();
-      ledger_ = ledger;
+  const TileRange& tiles = tiles_[index];
+  bool first = tiles.first == 0;
+  for (TileRange submitted{tiles.first, tiles.first}; submitted.end < tiles.end;) {
+    submitted = {submitted.end, submitted.end + std::min(tilesLeft_, tiles.end - submitted.end)};
+    std::vector<PixelRect> rects = tileRects(static_cast<int>(width), static_cast<int>(height), submitted);
+    if (defers(info, info.data.passes()[index])) {
+      rects = DeferredShading::bands(rects, desc.targets.samples());
     }
+    for (const PixelRect& rect : rects) {
+      PassDesc part = desc;
+      part.renderArea = part.scissor = {{rect.x, rect.y}, extentOf(rect.width, rect.height)};
+      part.keepsSamples = info.plan.tiles || submitted != tiles || rects.size() > 1;
+      const EffectLedger ledger = ledger_;
+      drawScene(info, index, part, pass);
+      if (!std::exchange(first, false)) {
+        log_.joinLast();
+        ledger_ = ledger;
+      }
+    }
+    countTiles(info.frame, submitted.end - submitted.first);
+  }
+}
+
+void SceneRenderer::countTiles(Frame& frame, size_t tiles) {
+  tilesLeft_ -= std::min(tilesLeft_, tiles);
+  if (tilesLeft_ == 0) {
+    renderer_.submitPart(frame);
+    tilesLeft_ = tilesAtOnce_;
   }
 }
 
