@@ -237,26 +237,6 @@ TEST_P(MapTiles, ChangeNothingAndAreReusedOnceComplete) {
 
 INSTANTIATE_TEST_SUITE_P(Scenes, MapTiles, testing::Values("shadows", "mirror_ball"));
 
-// A small rough mirror whose rays would be too many for one draw if it filled the picture.
-TEST(LongDraws, AreDividedWithoutATrace) {
-  QuietSession session(headless(writeScene("small_rough", wallScene + "roughness = 0.3\n"), {128, 72},
-                                {{"effects.rough_samples", "1024"}, {"view.scale", "1"}}));
-  session.setCamera(lookAt({0.0, 0.0, 60.0}, {0.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, 30.0, 0.1));
-  const Image8 whole = draw(session);
-  const std::vector<TimedPass> passes = session.lastFrame().passes();
-  const uint64_t frame = session.lastFrame().number;
-  set(session, {{"debug.check_finite", "false"}});
-  EXPECT_EQ(draw(session).rgba, whole.rgba);
-  EXPECT_GE(session.lastFrame().number, frame + 2) << "several frames drew it";
-  ASSERT_EQ(session.lastFrame().passes().size(), passes.size());
-  for (size_t i = 0; i < passes.size(); ++i) {
-    EXPECT_EQ(session.lastFrame().passes()[i].name, passes[i].name);
-    EXPECT_EQ(session.lastFrame().passes()[i].draws, passes[i].draws);
-    EXPECT_GT(session.lastFrame().passes()[i].timing.gpuMs, 0.0);
-  }
-  EXPECT_FALSE(session.lastFrame().plan.tiles);
-}
-
 // Rough mirrors trace other rays in each picture, so that the mean is as smooth as with more rays a pixel.
 TEST(Accumulation, RoughMirrorsDrawNewRandomNumbers) {
   for (const char* lookup : {"traced", "image"}) {

@@ -107,6 +107,7 @@ INSTANTIATE_TEST_SUITE_P(
         UsageCase{{"bench", "--against-binary", "/bin/true"},
                   "/bin/true: bench --json wrote no times (a speculum is needed)"},
         UsageCase{{"bench", "--reference", "--prices"}, "--reference: measures alone"},
+        UsageCase{{"bench", "--prices", "--against-set", "view.samples=1"}, "--prices: measures alone"},
         UsageCase{{"bench", "--against-set", "view.samples=3"}, "--against-set: view.samples: '3'"}));
 
 TEST_F(CommandLine, MessagesCanBeReadWhateverTheyName) {

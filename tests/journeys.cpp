@@ -1,6 +1,7 @@
 // The window as a user drives it: real X events under a window manager, pictures compared. Single commands and panels
 // are tested without a display.
 #include <imgui_internal.h>
+#include <sys/stat.h>
 
 #include "core/handle.hpp"
 #include "image/color.hpp"
@@ -441,6 +442,27 @@ TEST_F(Journey, SizesFollowTheScaleOfTheMonitor) {
   runProcess({"xprop", "-root", "-remove", "RESOURCE_MANAGER"});
   EXPECT_TRUE(std::filesystem::exists(home_.path() / "XDG_CONFIG_HOME" / "speculum" / "layout.ini"));
   EXPECT_FALSE(std::filesystem::exists("imgui.ini"));
+}
+
+TEST_F(Journey, LayoutIsReadAndWrittenLikeOtherFiles) {
+  demo_.reset();
+  const std::filesystem::path layout = home_.path() / "XDG_CONFIG_HOME" / "speculum" / "layout.ini";
+  const std::filesystem::path elsewhere = home_.path() / "elsewhere.ini";
+  std::filesystem::rename(layout, elsewhere);
+  const std::string before = readText(elsewhere);
+  std::filesystem::create_symlink(elsewhere, layout);
+  std::ofstream(elsewhere) << before << "[Window][Of another program]\nPos=1,2\nSize=3,4\n\n";
+  start();
+  demo_.reset();
+  EXPECT_TRUE(std::filesystem::is_symlink(layout));
+  EXPECT_TRUE(contains(readText(elsewhere), "[Window][Of another program]")) << "what was read is kept";
+  std::filesystem::remove(layout);
+  ASSERT_EQ(mkfifo(layout.c_str(), 0600), 0);
+  start();  // waits for nobody
+  run(3);
+  demo_.reset();
+  EXPECT_TRUE(std::filesystem::is_fifo(layout));
+  start();
 }
 
 // The program with a window on a display of its own: an object is deleted, then the script's last part ends the window.

@@ -275,6 +275,9 @@ int runBench(const Options& options) {
   if (options.benchReference && (against || options.benchPrices)) {
     throw UsageError("--reference: measures alone (leave out --prices, --against-binary and --against-set)");
   }
+  if (options.benchPrices && against) {
+    throw UsageError("--prices: measures alone (leave out --against-binary and --against-set)");
+  }
   if (against) {
     return benchAgainst(options);
   }

@@ -96,15 +96,28 @@ SimpleUI::Context::Context() {
   io.ConfigWindowsMoveFromTitleBarOnly = true;
   io.ConfigDragClickToInputText = true;
   io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard | ImGuiConfigFlags_NavEnableGamepad;
-  // Keeps the layout in the user's folder, not in the working directory.
-  std::error_code error;
-  std::filesystem::create_directories(userConfigDir(), error);
-  iniFile = (userConfigDir() / "layout.ini").string();
-  io.IniFilename = error ? nullptr : iniFile.c_str();
+  io.IniFilename = nullptr;  // Dear ImGui would replace links and wait for the other end of pipes
+  layoutFile = userConfigDir() / "layout.ini";
 }
 
 SimpleUI::Context::~Context() {
+  if (loaded) {
+    saveLayout();
+  }
   ImGui::DestroyContext();
+}
+
+void SimpleUI::Context::loadLayout() {
+  const std::string layout = readTextIfAny(layoutFile);
+  ImGui::LoadIniSettingsFromMemory(layout.data(), layout.size());
+  loaded = true;
+}
+
+void SimpleUI::Context::saveLayout() {
+  size_t bytes = 0;
+  const char* layout = ImGui::SaveIniSettingsToMemory(&bytes);
+  storeFile(layoutFile, std::string_view(layout, bytes));
+  ImGui::GetIO().WantSaveIniSettings = false;
 }
 
 // The two halves of the backend, shut down in reverse.
@@ -129,6 +142,7 @@ struct SimpleUI::Backend {
 SimpleUI::SimpleUI(Renderer& renderer, Window& window)
     : renderer_(renderer), window_(window), backend_(std::make_unique<Backend>(window)), idle_(renderer.device()) {
   windows_.rememberLayout();
+  context_.loadLayout();
 }
 
 SimpleUI::~SimpleUI() = default;
@@ -204,6 +218,9 @@ UiOutput SimpleUI::build(const UiView& view) {
   ImGui::NewFrame();
   UiOutput output = windows_.build(view);
   ImGui::Render();
+  if (ImGui::GetIO().WantSaveIniSettings) {
+    context_.saveLayout();
+  }
   return output;
 }
 

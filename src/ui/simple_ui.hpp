@@ -42,7 +42,10 @@ class SimpleUI {
   struct Context {
     Context();
     ~Context();
-    std::string iniFile;
+    void loadLayout();  // once all of its parts are known
+    void saveLayout();
+    std::filesystem::path layoutFile;  // in the user's folder
+    bool loaded = false;
   };
   struct Backend;
 
