@@ -1,5 +1,6 @@
 // view.accumulate: means of pictures with sub-pixel offsets.
 #include "accuracy/ground_truth.hpp"
+#include "effect_scenes.hpp"
 #include "frame/picture_offset.hpp"
 #include "frame/picture_tiles.hpp"
 #include "image/color.hpp"
@@ -236,6 +237,64 @@ TEST_P(MapTiles, ChangeNothingAndAreReusedOnceComplete) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, MapTiles, testing::Values("shadows", "mirror_ball"));
+
+// The rays of a small rough mirror count as if it filled the picture: with many, the commands of a picture are
+// submitted in parts. It adds too little to be seen, so bytes and figures stay the same.
+class LongDraws : public testing::TestWithParam<std::tuple<const char*, const char*>> {
+ protected:
+  static std::unique_ptr<QuietSession> start(const char* roughSamples) {
+    const auto& [samples, curvedLookup] = GetParam();
+    const std::string scene = effectFloor + shadowLight + wall + "casts_light = true\n" + side + pool + ripple +
+                              "[[mirror]]\nposition = [1.5, 1.2, 0]\nsize = [0.2, 0.2]\nroughness = 0.3\n"
+                              "reflectance = [1e-30, 1e-30, 1e-30]\n"
+                              "[[object]]\nmodel = \"MODELS/sphere.obj\"\nposition = [-0.4, 0.6, 0.9]\nscale = 0.4\n"
+                              "mirror = { reflectance = [0.9, 0.8, 0.6] }\n";
+    return std::make_unique<QuietSession>(headless(writeScene("long_draws", scene), {160, 90},
+                                                   {{"view.samples", samples},
+                                                    {"reflection.samples", samples},
+                                                    {"effects.rough_samples", roughSamples},
+                                                    {"reflection.min_throughput", "0"},
+                                                    {"effects.curved_lookup", curvedLookup},
+                                                    {"effects.environment_size", "64"}}));
+  }
+};
+
+TEST_P(LongDraws, AreDividedWithoutATrace) {
+  const auto whole = start("4");
+  const auto divided = start("512");
+  for (const char* checks : {"false", "true"}) {
+    SCOPED_TRACE(checks);
+    for (Session* session : {whole.get(), divided.get()}) {
+      set(*session, {{"debug.check_finite", checks}});
+      session->restart();
+    }
+    const Image8 picture = draw(*whole);
+    EXPECT_EQ(draw(*divided).rgba, picture.rgba);
+    const std::vector<TimedPass> expected = whole->lastFrame().passes();
+    const std::vector<TimedPass>& passes = divided->lastFrame().passes();
+    EXPECT_EQ(whole->renderer().timings().passes.size(), expected.size()) << "undivided";
+    EXPECT_GT(divided->renderer().timings().passes.size(), passes.size() + 1);
+    ASSERT_EQ(passes.size(), expected.size());
+    for (size_t i = 0; i < passes.size(); ++i) {
+      EXPECT_EQ(passes[i].name, expected[i].name);
+      EXPECT_EQ(passes[i].draws, expected[i].draws) << passes[i].name;
+      // With several samples a part may write beyond its edge, see tileRects().
+      if (divided->settings().view.samples == 1) {
+        EXPECT_EQ(passes[i].timing.samples, expected[i].timing.samples) << passes[i].name;
+      }
+      EXPECT_EQ(passes[i].timing.gpuMs > 0.0, expected[i].timing.gpuMs > 0.0) << passes[i].name;
+    }
+  }
+  for (Session* session : {whole.get(), divided.get()}) {
+    set(*session, {{"debug.check_finite", "false"}});
+    session->restart();
+    drawTiles(*session, 0, session == divided.get() ? 50 : 0);
+  }
+  EXPECT_TRUE(divided->radiance().pixels == whole->radiance().pixels) << "frames with tiles are divided too";
+}
+
+INSTANTIATE_TEST_SUITE_P(Values, LongDraws,
+                         testing::Combine(testing::Values("1", "4"), testing::Values("traced", "environment")));
 
 // Rough mirrors trace other rays in each picture, so that the mean is as smooth as with more rays a pixel.
 TEST(Accumulation, RoughMirrorsDrawNewRandomNumbers) {

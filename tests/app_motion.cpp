@@ -499,7 +499,7 @@ TEST_F(PacedScene, LowersOnlyWhatMoves) {
   side_ = 960;
   const auto draw = [&](bool moves) {
     frame(moves);
-    pace_.drawn(++number_, 1.0, true);
+    pace_.drawn(++number_, 1.0, 0.0, true);
     pace_.finished({.frame = number_, .gpuMs = 500.0});
   };
   draw(false);
@@ -532,7 +532,7 @@ TEST_F(PacedScene, SendingThePictureCounts) {
   const auto scaleAfter = [&](double sendMs, double everyThirdMs) {
     for (int i = 0; i < 60; ++i) {
       frame(true);
-      pace_.drawn(++number_, 1.0, true);
+      pace_.drawn(++number_, 1.0, 0.0, true);
       pace_.presented(gpuMs + (i % 3 == 0 ? everyThirdMs : sendMs));
       pace_.finished({.frame = number_, .gpuMs = gpuMs});
     }
@@ -609,7 +609,7 @@ class SlowPictures : public PacedScene {
     for (size_t tile = tiles.first; tile < tiles.end; ++tile) {
       ms_ += (tile % 8000 < 800 ? 5.0 : 0.5) / 16;  // a tenth of the tiles is dear
     }
-    pace_.drawn(++number_, besidesMs_, false);
+    pace_.drawn(++number_, besidesMs_, 0.0, false);
     return fitted;
   }
   // Draws a picture tile by tile and returns the times of its frames.

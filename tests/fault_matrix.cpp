@@ -104,6 +104,16 @@ TEST_F(Faults, WindowEndsWell) {
   expectGoodEnds(window, stride_);
 }
 
+// Faults between and in the parts of a frame that is submitted in parts.
+TEST_F(Faults, LongDrawsEndWell) {
+  const Kind kind = longWindow("500");
+  std::map<std::string, int> calls = callsOf(kind);
+  for (const char* function : {"vkEndCommandBuffer", "vkQueueSubmit", "vkWaitForFences", "vkResetFences",
+                               "vkResetCommandPool", "vkBeginCommandBuffer", "vkGetQueryPoolResults"}) {
+    endOf(kind, {function, VK_ERROR_OUT_OF_HOST_MEMORY, calls[function] * 2 / 3});
+  }
+}
+
 TEST_F(Faults, LostDevicesAndSurfacesComeBack) {
   for (const Fault& fault :
        {Fault{"vkQueueSubmit", VK_ERROR_DEVICE_LOST, 9}, Fault{"vkAcquireNextImageKHR", VK_ERROR_SURFACE_LOST_KHR, 2},

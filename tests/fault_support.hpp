@@ -74,7 +74,16 @@ class FaultTest : public testing::Test {
     return run;
   }
 
-  // Returns the number of calls of each Vulkan function in a run without a fault, and its picture.
+  // Adds a small rough mirror. With many rays, counted as if it filled the picture, the frames of a window without a
+  // budget are submitted in parts.
+  Kind longWindow(const std::string& roughSamples) {
+    std::ofstream(scene_, std::ios::app) << "[[mirror]]\nposition = [-1, 1, 0]\nsize = [0.1, 0.1]\nroughness = 0.3\n";
+    Kind kind = window;
+    kind.options.insert(kind.options.end(),
+                        {"--set", "quality.motion_ms=0", "--set", "effects.rough_samples=" + roughSamples});
+    return kind;
+  }
+  // Returns the number of calls of each Vulkan function in a run without a fault. Stores its picture in `picture`.
   std::map<std::string, int> callsOf(const Kind& kind, std::optional<std::vector<uint8_t>>* picture = nullptr) {
     const TemporaryDirectory folder;
     const std::filesystem::path file = folder.path() / "calls";

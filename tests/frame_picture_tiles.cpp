@@ -35,29 +35,32 @@ TEST(PictureTiles, RectanglesCoverAnImageOnce) {
 TEST(PictureTiles, SubmissionsWithRaysAreBounded) {
   FramePlan plan;
   Settings settings;
-  size_t lights = 3;
-  const auto tiles = [&] { return tilesAtOnce(plan, settings, lights); };
+  size_t raysToLights = 3;
+  const auto tiles = [&] { return tilesAtOnce(plan, settings, raysToLights); };
   EXPECT_EQ(tiles(), SIZE_MAX) << "no rays";
   plan.effects.shadowRays = true;
-  const size_t most = (1 << 22) / (tileSide * tileSide);
+  const size_t most = (1 << 24) / (tileSide * tileSide);
   EXPECT_EQ(tiles(), most / 4);
   settings.effects.perSample = true;
   settings.view.samples = 4;
   EXPECT_EQ(tiles(), most / 16);
   settings.effects.perSample = false;
-  lights = 1023;
+  raysToLights = 1023;
   EXPECT_EQ(tiles(), most / 1024);
-  plan.effects.bouncedLights.resize(1024);
-  EXPECT_EQ(tiles(), most / 2048);
-  plan.effects.bouncedLights.clear();
-  lights = 1;
+  raysToLights = 1;
   plan.effects.roughRays = true;
   settings.effects.roughSamples = 1;
   settings.view.samples = 16;
-  EXPECT_EQ(tiles(), most / 8) << "a ray at each sample";
+  EXPECT_EQ(tiles(), most / 32) << "a ray at each sample";
   settings.view.samples = 4;
   settings.effects.roughSamples = 1 << 20;
   EXPECT_EQ(tiles(), 1u);
+}
+
+TEST(PictureTiles, FacesCountAsTiles) {
+  EXPECT_EQ(tilesOfFace({.size = 1}), 1u);
+  EXPECT_EQ(tilesOfFace({.size = 2 * tileSide}), 4u);
+  EXPECT_EQ(tilesOfFace({.size = 2 * tileSide + 1}), 9u);
 }
 
 TEST(PictureTiles, PassesFollowEachOther) {

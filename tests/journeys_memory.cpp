@@ -100,21 +100,26 @@ TEST_F(ScarceMemory, UndrawableStepsAreTakenBack) {
 
 // Turns the check of queue submissions off: it crashes in vkDeviceWaitIdle while an image is acquired (layer of
 // 1.3.239).
-struct NoSubmissionCheck {
-  NoSubmissionCheck() { setenv("VK_LAYER_ENABLES", "VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT", 1); }
-  ~NoSubmissionCheck() { unsetenv("VK_LAYER_ENABLES"); }
+class NoSubmissionCheck {
+ public:
+  NoSubmissionCheck() { setenv(name, "VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT", 1); }
+  ~NoSubmissionCheck() { before_.empty() ? unsetenv(name) : setenv(name, before_.c_str(), 1); }
+
+ private:
+  static constexpr const char* name = "VK_LAYER_ENABLES";
+  std::string before_ = environment(name);
 };
 
 class EndingMemory : private NoSubmissionCheck, public ScarceMemory {};
 
-// Memory of a larger window, which no step of the user's needs: none is taken back for good. The window ends, and
-// offers the unsaved changes at its next start.
+// A larger window does not fit. To take back the user's last step does not help, so it is made again, the window ends,
+// and the next start offers the changes.
 TEST_F(EndingMemory, KeepsChanges) {
   demo_->apply(SelectNode{{Selection::Kind::object, 0}});
   demo_->apply(RemoveSelected{});
   run(5);
   refuseMemory(1u << 18, UINT64_MAX);
-  demo_->setCapture(false);
+  demo_->setCapture(false);  // whose buffer would not fit either
   demo_->window().resize(width + 40, height + 40);
   std::string problem;
   for (int i = 0; i < 200 && problem.empty(); ++i) {

@@ -136,6 +136,31 @@ TEST_F(MtlFile, UnreadableTexturesAreRefused) {
   }
 }
 
+// Textures that stand for many large ones have no texels here.
+TEST_F(MtlFile, TexturesBeyondTheBoundOfASceneAreDrawnSmaller) {
+  Image8 halves(2048, 1024);
+  std::fill(halves.rgba.begin(), halves.rgba.begin() + halves.rgba.size() / 2, uint8_t{0});
+  writePng(folder_ / "halves.png", halves);
+  writePng(folder_ / "line.png", Image8(1 << 22, 1));
+  const auto sizes = [&](const char* name, std::vector<Texture> others) {
+    textures_ = std::move(others);
+    const size_t count = textures_.size();
+    materialOf(std::string("newmtl m\nmap_Kd ") + name + ".png\n");
+    EXPECT_EQ(textures_.at(count).texels.size(), textures_[count].width * textures_[count].height);
+    return glm::ivec2(textures_[count].width, textures_[count].height);
+  };
+  const Texture large{.width = 8192, .height = 8192};
+  EXPECT_EQ(sizes("halves", std::vector(3, large)), glm::ivec2(2048, 1024));
+  EXPECT_EQ(warnings(), "");
+  EXPECT_EQ(sizes("halves", std::vector(4, large)), glm::ivec2(1448, 724));
+  EXPECT_EQ(textures_.back().texels.front(), glm::vec3(0.0f));
+  EXPECT_NEAR(textures_.back().texels.back().g, 1.0f, 1e-6f);
+  EXPECT_TRUE(
+      contains(warnings(), "halves.png: is drawn with 1448x724 texels, the textures before it have over 2^28\n"));
+  EXPECT_EQ(sizes("line", std::vector(4, large)), glm::ivec2(1 << 20, 1));
+  EXPECT_EQ(sizes("halves", std::vector(8, large)), glm::ivec2(91, 45));
+}
+
 TEST_F(MtlFile, ManyTexturesAreReadInShortTime) {
   constexpr int count = 2000;
   std::string obj = kSquare;

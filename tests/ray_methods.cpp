@@ -120,47 +120,6 @@ TEST(RayStructures, MissingMemoryLeavesShaders) {
   EXPECT_EQ(structuresAlive(), 0);
 }
 
-// Lights that send nothing make the rays of a picture many: its commands are submitted in parts. Its bytes, figures and
-// findings stay the same.
-TEST(LongDraws, AreDividedWithoutATrace) {
-  const std::string scene = room + shadowLight + brightWall + side + "roughness = 0.3\n" + ball + ripplingPool;
-  const auto lights = [](int count) {
-    std::string dark;
-    for (int i = 0; i < count; ++i) {
-      dark += "[[light]]\nposition = [0, 3, 2]\nintensity = 0\n";
-    }
-    return dark;
-  };
-  for (const char* samples : {"1", "4"}) {
-    for (const char* checks : {"false", "true"}) {
-      SCOPED_TRACE(std::string(samples) + " samples, debug.check_finite = " + checks);
-      const auto start = [&](const std::string& text) {
-        auto session = std::make_unique<QuietSession>(headless(writeScene("long", text), size,
-                                                               {{"view.samples", samples},
-                                                                {"reflection.samples", samples},
-                                                                {"effects.per_sample", "true"},
-                                                                {"effects.rough_samples", "64"},
-                                                                {"debug.check_finite", checks}}));
-        runFrames(*session, 2);
-        return session;
-      };
-      const auto whole = start(scene + lights(2));
-      const auto divided = start(scene + lights(60));
-      EXPECT_EQ(draw(*divided).rgba, draw(*whole).rgba);
-      EXPECT_GT(divided->renderer().timings().passes.size(), whole->renderer().timings().passes.size() + 3);
-      const auto& passes = divided->lastFrame().passes();
-      ASSERT_EQ(passes.size(), whole->lastFrame().passes().size());
-      for (size_t i = 0; i < passes.size(); ++i) {
-        const TimedPass& before = whole->lastFrame().passes()[i];
-        EXPECT_EQ(passes[i].name, before.name);
-        EXPECT_EQ(passes[i].draws, before.draws) << before.name;
-        EXPECT_EQ(passes[i].timing.samples, before.timing.samples) << before.name;
-        EXPECT_EQ(passes[i].timing.gpuMs > 0.0, before.timing.gpuMs > 0.0) << before.name;
-      }
-    }
-  }
-}
-
 struct Case {
   const char* name;
   std::string scene;

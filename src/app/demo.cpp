@@ -185,7 +185,7 @@ void Demo::drawFrame(double seconds, double sinceLastMs) {
   const Clock::time_point end = Clock::now();
   const double cpuMs = milliseconds(end - start) - frame->waitedMs;
   const bool newPipelines = std::exchange(pipelines_, renderer_.pipelines().count()) != pipelines_;
-  pace_.drawn(frame->number, milliseconds(waits - last_) + cpuMs,
+  pace_.drawn(frame->number, milliseconds(waits - last_) + cpuMs, frame->waitedMs,
               !timed && !newPipelines && !plan.mainReused && !plan.tiles);
   const uint64_t number = frame->number;
   endFrame(*frame);

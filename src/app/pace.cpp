@@ -198,10 +198,13 @@ std::string Pace::tilesText() const {
                      std::floor(100.0 * (picture_ + share) / pictures_));
 }
 
-void Pace::drawn(uint64_t number, double cpuMs, bool usual) {
+void Pace::drawn(uint64_t number, double cpuMs, double waitedMs, bool usual) {
   cpuMs_ = cpuMs;
-  drawn_.push_back(
-      {.number = number, .cpuMs = cpuMs, .begun = begun_, .work = usual ? std::optional(work_) : std::nullopt});
+  drawn_.push_back({.number = number,
+                    .cpuMs = cpuMs,
+                    .waitedMs = waitedMs,
+                    .begun = begun_,
+                    .work = usual ? std::optional(work_) : std::nullopt});
   if (drawn_.size() > mostDrawn) {
     drawn_.pop_front();
   }
@@ -209,20 +212,21 @@ void Pace::drawn(uint64_t number, double cpuMs, bool usual) {
 
 // Learns the time of a frame. On a CPU device, drawing, the program and sending the picture to the window system share
 // the cores, so a frame takes the sum of their times, or less where they overlap; on a GPU it takes the longer of the
-// first two, unless the program waits for tiles. Waiting for the monitor does not count.
+// first two, unless the program waits for tiles or parts. Waiting for the monitor does not count.
 void Pace::finished(const FrameTimings& timings) {
   const auto found = std::ranges::find(drawn_, timings.frame, &Drawn::number);
   if (found == drawn_.end()) {
     return;
   }
-  sendMs_.push_back(std::max(found->presentMs - timings.gpuMs, 0.0));
+  sendMs_.push_back(std::max(found->presentMs + found->waitedMs - timings.gpuMs, 0.0));
   if (sendMs_.size() > sentFrames) {
     sendMs_.pop_front();
   }
   const double sum = found->cpuMs + timings.gpuMs + (cpuDevice_ ? std::ranges::min(sendMs_) : 0.0);
-  const double ms = !cpuDevice_ && !drawsTiles() ? std::max(found->cpuMs, timings.gpuMs)
-                    : found->frameMs == 0        ? sum
-                                                 : std::min(found->frameMs, sum);
+  const bool overlaps = !cpuDevice_ && !drawsTiles() && found->waitedMs == 0.0;
+  const double ms = overlaps              ? std::max(found->cpuMs, timings.gpuMs)
+                    : found->frameMs == 0 ? sum
+                                          : std::min(found->frameMs, sum);
   if (drawsTiles() && found + 1 == drawn_.end()) {
     slow_->took(std::max(ms - besidesMs_, leastShare * ms));
     // The frames took longer than one would have, so their time is learned only where even that was less.

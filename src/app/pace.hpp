@@ -90,9 +90,9 @@ class Pace {
   using Planner = std::function<FittedPlan(const Settings&, int picture)>;
   const FittedPlan& plan(const Request& request, const Planner& plan);
 
-  // Call when the frame was recorded: `cpuMs` without waiting; `usual`: nothing but drawing took time, so that the cost
-  // model may learn from it.
-  void drawn(uint64_t number, double cpuMs, bool usual);
+  // Call when the frame was recorded: `cpuMs` without the `waitedMs` that its parts were waited for; `usual`: nothing
+  // but drawing took time, so that the cost model may learn from it.
+  void drawn(uint64_t number, double cpuMs, double waitedMs, bool usual);
   // Call when the frame was presented, which took `ms`.
   void presented(double ms) { drawn_.back().presentMs = ms; }
   // Call with the GPU's times of an earlier frame.
@@ -116,6 +116,7 @@ class Pace {
   struct Drawn {
     uint64_t number = 0;
     double cpuMs = 0.0;
+    double waitedMs = 0.0;
     Clock::time_point begun;
     double presentMs = 0.0;
     double frameMs = 0.0;           // until the next frame began; 0: not yet

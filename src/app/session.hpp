@@ -73,7 +73,7 @@ struct DrawnFrame {
   int pictures = 0;
   uint64_t number = 0;   // of the renderer's last frame that has finished
   double cpuMs = 0.0;    // planning and recording
-  double gpuMs = 0.0;    // from the first pass's start to the last one's end
+  double gpuMs = 0.0;    // see FrameTimings
   double frameMs = 0.0;  // from its beginning until the GPU has finished
   PassSums sums;
   EffectLedger ledger;

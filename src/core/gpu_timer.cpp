@@ -88,11 +88,11 @@ int GpuTimer::begin(VkCommandBuffer commands, const std::string& pass, bool stat
     }
     return -1;
   }
-  if (passes_.size() == maxPasses) {
+  const auto slot = static_cast<uint32_t>(passes_.size());
+  passes_.push_back({.name = pass, .hasStatistics = statistics && statistics_ && slot < maxPasses});
+  if (slot >= maxPasses) {
     return -1;
   }
-  const auto slot = static_cast<uint32_t>(passes_.size());
-  passes_.push_back({.name = pass, .hasStatistics = statistics && statistics_});
   stamp(commands, 2 * slot);
   if (passes_.back().hasStatistics) {
     vkCmdBeginQuery(commands, statistics_.get(), slot, 0);
@@ -129,7 +129,7 @@ void GpuTimer::endSamples(VkCommandBuffer commands, int slot) {
 
 FrameTimings GpuTimer::read() const {
   FrameTimings timings{.frame = frame_, .passes = passes_};
-  const auto count = static_cast<uint32_t>(passes_.size());
+  const uint32_t count = std::min(static_cast<uint32_t>(passes_.size()), maxPasses);
   if (stamped_ > 0) {
     std::vector<uint64_t> ticks(stamped_);
     check(vkGetQueryPoolResults(device_.get(), stamps_.get(), 0, stamped_, ticks.size() * sizeof(uint64_t),

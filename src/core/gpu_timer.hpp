@@ -21,7 +21,7 @@ struct PassTiming {
 
 struct FrameTimings {
   uint64_t frame = 0;              // number of the frame; 0: none has finished yet
-  double gpuMs = 0.0;              // from the first pass's start to the last one's end
+  double gpuMs = 0.0;              // from the first pass's start to the last one's end, without pauses between parts
   std::vector<PassTiming> passes;  // in the order of recording; none if only the frame was measured
 };
 
@@ -31,13 +31,14 @@ enum class TimerDetail { frame, passes, samples };
 
 // Timestamps and pipeline statistics of one frame in flight. Both stamps of a pass are taken at the bottom of the pipe,
 // so that passes do not overlap in the figures and their times add up to the frame's. On lavapipe, which ends all its
-// work before it takes a stamp, passes then do not overlap at all. TimerDetail::frame takes two stamps a frame.
+// work before it takes a stamp, passes then do not overlap at all. TimerDetail::frame takes two stamps, or two for each
+// of the frame's parts (see Renderer::submitPart).
 class GpuTimer {
  public:
   explicit GpuTimer(Device& device, const std::string& name);
 
   void reset(VkCommandBuffer commands, uint64_t frame, TimerDetail detail);  // at the start of the frame's commands
-  // Call between two passes, when the GPU has finished the commands so far and `commands` begin anew.
+  // Begins the next part of the frame, between two passes. The GPU has finished the part before.
   void resume(VkCommandBuffer commands);
   void finish(VkCommandBuffer commands);  // after its last pass
   int begin(VkCommandBuffer commands, const std::string& pass, bool statistics);
@@ -62,8 +63,8 @@ class GpuTimer {
   QueryPoolHandle samples_;     // null where the device cannot count them
   uint64_t frame_ = 0;
   TimerDetail detail_ = TimerDetail::samples;
-  uint32_t stamped_ = 0;  // stamps of this frame
-  FrameTimings earlier_;  // of the frame, before the last resume()
+  uint32_t stamped_ = 0;  // stamps of this part
+  FrameTimings earlier_;  // of the frame's parts before this one
   std::vector<PassTiming> passes_;
   bool countsStatistics_ = false;  // of the last pass, begun and not ended
   bool countsSamples_ = false;

@@ -147,8 +147,9 @@ void Renderer::submitPart(Frame& frame) {
   check(vkQueueSubmit(device_.queue(), 1, &info, slot.finished.get()), "submit a part of a frame");
   await(slot);
   frame.waitedMs += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-  frame.commands = slot.pool.begin();
-  slot.timer.resume(frame.commands);
+  const VkCommandBuffer next = slot.pool.begin();
+  slot.timer.resume(next);
+  frame.commands = next;
 }
 
 void Renderer::endFrame(Frame& frame) {

@@ -36,7 +36,7 @@ class Renderer;
 
 // A frame that is being recorded. Valid from beginFrame to endFrame.
 struct Frame {
-  VkCommandBuffer commands = VK_NULL_HANDLE;   // null: Renderer::submitPart has failed, and the frame with it
+  VkCommandBuffer commands = VK_NULL_HANDLE;   // null once Renderer::submitPart has failed: it cannot end
   uint32_t index = 0;                          // frame in flight, 0 or 1: choose per-frame buffers by it
   uint32_t imageIndex = 0;                     // of the swapchain; 0 when headless
   uint64_t number = 0;                         // counts from 1
@@ -65,8 +65,8 @@ class Renderer {
   PassScope beginPass(Frame& frame, const PassDesc& desc);
   // A pass of its own that loads and stores the display image, within a VkRenderPass on either path.
   PassScope beginOverlay(Frame& frame);
-  // Submits the frame's commands so far and waits until the GPU has finished them, between two passes. The frame goes
-  // on in a new command buffer: no single submission takes long.
+  // Submits the frame's commands so far and waits until the GPU has finished them, which bounds the memory of many
+  // parts. Call it between two passes; `frame.commands` changes.
   void submitPart(Frame& frame);
   // Submits the frame's commands.
   void endFrame(Frame& frame);

@@ -8,7 +8,7 @@ namespace speculum {
 
 namespace {
 
-constexpr double mostRays = 1 << 22;
+constexpr double mostRays = 1 << 24;
 
 int tilesAlong(int texels) {
   return (texels + tileSide - 1) / tileSide;
@@ -82,18 +82,16 @@ std::vector<PixelRect> tileRects(int width, int height, const TileRange& tiles) 
   return rects;
 }
 
-size_t tilesAtOnce(const FramePlan& plan, const Settings& settings, size_t lights) {
+size_t tilesAtOnce(const FramePlan& plan, const Settings& settings, size_t raysToLights) {
   if (!plan.effects.traces()) {
     return SIZE_MAX;
   }
   // Rays of ripples and of smooth mirrors go through each sample.
   const bool perSample = settings.effects.perSample || plan.effects.rippleRays || plan.effects.mirrorRays;
   const int samples = std::max(settings.view.samples, settings.reflection.samples);
-  // Only a part of the picture is rough, and its rays end sooner than those that surfaces send to each light.
-  const int rough = plan.effects.roughRays ? roughRays(settings.effects, samples) / 4 : 1;
-  const int paths = std::max({perSample ? samples : 1, rough, 1});  // of a pixel
-  const size_t lit = (plan.effects.shadowRays ? lights : 0) + plan.effects.bouncedLights.size();
-  const double rays = static_cast<double>(paths) * static_cast<double>(1 + lit);
+  const int rough = plan.effects.roughRays ? roughRays(settings.effects, samples) : 1;
+  const int paths = std::max(perSample ? samples : 1, rough);  // of a pixel
+  const double rays = static_cast<double>(paths) * static_cast<double>(1 + raysToLights);
   return static_cast<size_t>(std::max(1.0, mostRays / (tileSide * tileSide * rays)));
 }
 

@@ -7,8 +7,9 @@
 
 namespace speculum {
 
-// Side in texels of the tiles of a picture that several frames draw. A multiple of 4, the side of lavapipe's blocks, so
-// that even there a pass that is drawn in parts has the same bytes; small, because one core may take 1 ms for a pixel.
+// Side in texels of the tiles of a picture that several frames or submissions draw. A multiple of 4, the side of
+// lavapipe's blocks, so that even there a pass that is drawn in parts has the same bytes; small, because one core may
+// take 1 ms for a pixel.
 inline constexpr int tileSide = 16;
 
 // Returns the number of tiles of a picture: faces of shadow and environment maps, each drawn as one tile, then all
@@ -23,10 +24,10 @@ std::vector<TileRange> tilesOfPasses(const FramePlan& plan);
 // row from the last to the first. With several samples, lavapipe of Mesa 22.3 also writes to the row above a scissor
 // rectangle and to the column left of it, which in this order are drawn later.
 std::vector<PixelRect> tileRects(int width, int height, const TileRange& tiles);
-// Returns the number of tiles whose commands are submitted together, at least 1. A picture without traced rays needs no
-// limit (SIZE_MAX). With them, a submission traces about four million, so that no system takes the GPU for hung.
-// `lights`: number of the scene's.
-size_t tilesAtOnce(const FramePlan& plan, const Settings& settings, size_t lights);
+// Returns the number of tiles whose commands are submitted together, at least 1, so that no system takes the GPU for
+// hung: they trace up to about 16 million rays. A picture without traced rays needs no limit (SIZE_MAX).
+// `raysToLights`: TracedEffects::raysToLights().
+size_t tilesAtOnce(const FramePlan& plan, const Settings& settings, size_t raysToLights);
 // Returns the number of tiles of this size that cover a face of an environment map, which is drawn at once.
 size_t tilesOfFace(const EnvironmentMap& map);
 // Say whether this frame draws the first tile of its picture, and the last one.

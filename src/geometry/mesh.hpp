@@ -8,16 +8,9 @@
 #include <vector>
 
 #include "geometry/convex_mesh.hpp"
+#include "geometry/texture.hpp"
 
 namespace speculum {
-
-// Texels decoded to linear RGB, row 0 at the top of the picture (v = 1).
-struct Texture {
-  std::filesystem::path source;  // without symbolic links
-  int width = 0;
-  int height = 0;
-  std::vector<glm::vec3> texels;
-};
 
 // Phong-Blinn material, linear RGB; see docs/picture.md for the radiance it gives.
 struct Material {

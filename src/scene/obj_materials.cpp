@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "image/color.hpp"
 #include "image/image.hpp"
@@ -39,13 +40,38 @@ Texture loadTexture(const fs::path& file, const fs::path& source) {
   return texture;
 }
 
+// Returns the number of pixels that a scene's next picture may have, with those before it. Without a bound, small files
+// of few colors fill any memory.
+double mostPixels(std::span<const Texture> textures) {
+  double pixels = 0.0;
+  for (const Texture& texture : textures) {
+    pixels += static_cast<double>(texture.width) * texture.height;
+  }
+  constexpr double whole = 1 << 28;
+  return pixels < whole ? whole : pixels < 2.0 * whole ? 1 << 20 : 1 << 12;
+}
+
+// Returns the texture with about `most` texels if it has more.
+Texture bounded(Texture texture, double most) {
+  const double factor = std::sqrt(most / (static_cast<double>(texture.width) * texture.height));
+  if (factor >= 1.0) {
+    return texture;
+  }
+  const int height = std::max(static_cast<int>(factor * texture.height), 1);
+  const int width = std::clamp(static_cast<int>(most / height), 1, texture.width);
+  Texture small = shrunk(texture, width, height);
+  spdlog::warn("{}: is drawn with {}x{} texels, the textures before it have over 2^28", texture.source.string(),
+               small.width, small.height);
+  return small;
+}
+
 int textureIndex(const fs::path& file, std::vector<Texture>& textures) {
   const fs::path source = withoutLinks(file);
   const auto known = std::ranges::find_if(
       textures, [&](const Texture& texture) { return texture.source.native() == source.native(); });
   const auto index = static_cast<int>(known - textures.begin());
   if (known == textures.end()) {
-    textures.push_back(loadTexture(file, source));
+    textures.push_back(bounded(loadTexture(file, source), mostPixels(textures)));
   }
   return index;
 }

@@ -71,7 +71,7 @@ void SceneRenderer::record(Frame& frame, const SceneState& state, const Settings
   resources_.prepareLevels(frame, meshesWithLevels(plan, state));
   pictureSize_ = {plan.width, plan.height};
   tiles_ = tilesOfPasses(plan);
-  tilesLeft_ = tilesAtOnce_ = tilesAtOnce(plan, settings, scene_.lights.size());
+  tilesLeft_ = tilesAtOnce_ = tilesAtOnce(plan, settings, plan.effects.raysToLights(scene_));
   data_.build(frame, resources_, scene_, state, settings, environment, plan);
   trace_.build(frame, state, settings, plan.effects);
   const FrameInfo info{.frame = frame,
@@ -192,10 +192,12 @@ void SceneRenderer::recordFace(const FrameInfo& info, size_t map, size_t face, s
   const PassId id{.kind = PassKind::environment, .instance = planned.instance, .face = static_cast<int>(face)};
   RecordedPass pass{id, desc.name};
   pass.areaPx = planned.faces[face].areaPx;
+  const size_t tiles = tilesOfFace(planned);
+  makeRoom(info.frame, tiles);
   drawScene(info, index, desc, std::move(pass));
+  tilesLeft_ -= std::min(tilesLeft_, tiles);
   // Counts each draw once: drawScene() has entered the curved mirrors seen in the face.
   ledger_[EffectKind::curved].draws = drawsBefore + log_.passes().back().draws;
-  countTiles(info.frame, tilesOfFace(planned));
 }
 
 // Returns the number of faces that the picture renders.
@@ -366,35 +368,36 @@ void SceneRenderer::endRecord(const FrameInfo& info, bool textured) {
   cacheRevision_ = renderer_.pipelines().revision();
 }
 
-// Counts the draws of the first part only: the others repeat them.
+// Counts the draws of the first rectangle only: the others repeat them.
 void SceneRenderer::drawTiles(const FrameInfo& info, size_t index, const PassDesc& desc, const RecordedPass& pass) {
   const auto [width, height] = desc.renderArea.extent;
   const TileRange& tiles = tiles_[index];
   bool first = tiles.first == 0;
-  for (TileRange submitted{tiles.first, tiles.first}; submitted.end < tiles.end;) {
-    submitted = {submitted.end, submitted.end + std::min(tilesLeft_, tiles.end - submitted.end)};
-    std::vector<PixelRect> rects = tileRects(static_cast<int>(width), static_cast<int>(height), submitted);
+  for (size_t begin = tiles.first; begin < tiles.end;) {
+    makeRoom(info.frame, 1);
+    const TileRange part{begin, begin + std::min(tilesLeft_, tiles.end - begin)};
+    std::vector<PixelRect> rects = tileRects(static_cast<int>(width), static_cast<int>(height), part);
     if (defers(info, info.data.passes()[index])) {
       rects = DeferredShading::bands(rects, desc.targets.samples());
     }
     for (const PixelRect& rect : rects) {
-      PassDesc part = desc;
-      part.renderArea = part.scissor = {{rect.x, rect.y}, extentOf(rect.width, rect.height)};
-      part.keepsSamples = info.plan.tiles || submitted != tiles || rects.size() > 1;
+      PassDesc drawn = desc;
+      drawn.renderArea = drawn.scissor = {{rect.x, rect.y}, extentOf(rect.width, rect.height)};
+      drawn.keepsSamples = info.plan.tiles || part != tiles || rects.size() > 1;
       const EffectLedger ledger = ledger_;
-      drawScene(info, index, part, pass);
+      drawScene(info, index, drawn, pass);
       if (!std::exchange(first, false)) {
         log_.joinLast();
         ledger_ = ledger;
       }
     }
-    countTiles(info.frame, submitted.end - submitted.first);
+    tilesLeft_ -= part.end - part.first;
+    begin = part.end;
   }
 }
 
-void SceneRenderer::countTiles(Frame& frame, size_t tiles) {
-  tilesLeft_ -= std::min(tilesLeft_, tiles);
-  if (tilesLeft_ == 0) {
+void SceneRenderer::makeRoom(Frame& frame, size_t tiles) {
+  if (tilesLeft_ < std::min(tiles, tilesAtOnce_)) {
     renderer_.submitPart(frame);
     tilesLeft_ = tilesAtOnce_;
   }

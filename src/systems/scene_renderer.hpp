@@ -92,8 +92,8 @@ class SceneRenderer {
 
   // Draws the frame's tiles of a mirror pass or the main view.
   void drawTiles(const FrameInfo& info, size_t index, const PassDesc& desc, const RecordedPass& pass);
-  // Submits the frame's commands so far if that is due after `tiles` more.
-  void countTiles(Frame& frame, size_t tiles);
+  // Submits the frame's commands so far if they leave no room for so many tiles.
+  void makeRoom(Frame& frame, size_t tiles);
   // Draws pass `index` of info.data as `desc` says and adds it to the recorded ones.
   void drawScene(const FrameInfo& info, size_t index, const PassDesc& desc, RecordedPass pass);
   // Returns the image of the last complete picture in which the pass was watched; null if there is none.
@@ -118,8 +118,8 @@ class SceneRenderer {
   TexelProbe probe_;
   MainTargets mainTargets_;
   std::vector<TileRange> tiles_;          // of each pass and the main view, that the frame draws
-  size_t tilesAtOnce_ = SIZE_MAX;         // of this frame
-  size_t tilesLeft_ = SIZE_MAX;           // until its commands are submitted
+  size_t tilesAtOnce_ = SIZE_MAX;         // tilesAtOnce() of the frame
+  size_t tilesLeft_ = SIZE_MAX;           // of these, for which its commands have room
   std::vector<PassTargets> passTargets_;  // of the mirror passes drawn last; their next tiles may follow
   bool unfinished_ = false;               // the last frame drew tiles, and not the last ones of its picture
   glm::ivec2 pictureSize_{0};             // of the last recorded frame

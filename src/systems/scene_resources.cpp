@@ -21,43 +21,6 @@ std::vector<uint64_t> halfTexels(const Texture& texture) {
   return texels;
 }
 
-// Part of a row or column that a texel of a smaller picture covers.
-struct Share {
-  int index;
-  float weight;
-};
-
-std::vector<Share> sharesOf(int texel, int count, int size) {
-  const double from = static_cast<double>(texel) * size / count;
-  const double to = static_cast<double>(texel + 1) * size / count;
-  std::vector<Share> shares;
-  for (int i = static_cast<int>(from); i < size && i < to; ++i) {
-    const double covered = std::min(to, i + 1.0) - std::max<double>(from, i);
-    shares.push_back({i, static_cast<float>(covered / (to - from))});
-  }
-  return shares;
-}
-
-// Returns the texture with sides of at most `largest` texels, each the mean of the texels that it covers.
-Texture shrunk(const Texture& texture, int largest) {
-  Texture small{
-      .source = texture.source, .width = std::min(texture.width, largest), .height = std::min(texture.height, largest)};
-  for (int y = 0; y < small.height; ++y) {
-    for (int x = 0; x < small.width; ++x) {
-      glm::vec3 sum(0.0f);
-      for (const Share& row : sharesOf(y, small.height, texture.height)) {
-        for (const Share& column : sharesOf(x, small.width, texture.width)) {
-          sum += row.weight * column.weight *
-                 texture.texels[static_cast<size_t>(row.index) * static_cast<size_t>(texture.width) +
-                                static_cast<size_t>(column.index)];
-        }
-      }
-      small.texels.push_back(sum);
-    }
-  }
-  return small;
-}
-
 gpu::MaterialData materialData(const Material& material, bool textured) {
   const bool hasTexture = textured && material.diffuseTexture >= 0;
   return {.diffuse = glm::vec3(material.diffuse),
@@ -119,7 +82,7 @@ void SceneResources::prepare(Frame& frame, bool enabled, bool drawn) {
 Image SceneResources::upload(const Texture& texture, const std::string& name) {
   const auto largest = static_cast<int>(device_.limits().maxImageDimension2D);
   if (std::max(texture.width, texture.height) > largest) {
-    const Texture small = shrunk(texture, largest);
+    const Texture small = shrunk(texture, std::min(texture.width, largest), std::min(texture.height, largest));
     spdlog::warn("{}: is drawn with {}x{} texels, the device's largest side is {}", texture.source.string(),
                  small.width, small.height, largest);
     return upload(small, name);

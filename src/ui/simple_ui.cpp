@@ -35,6 +35,11 @@ DescriptorPoolHandle createPool(Device& device) {
                        "panel");
 }
 
+// In the user's folder, not in the working directory.
+std::filesystem::path layoutFile() {
+  return userConfigDir() / "layout.ini";
+}
+
 // Returns a sans serif font of the system whose digits are equally wide; empty if there is none.
 std::filesystem::path findFont() {
   for (const char* file : {"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf", "/usr/share/fonts/TTF/DejaVuSans.ttf",
@@ -97,27 +102,10 @@ SimpleUI::Context::Context() {
   io.ConfigDragClickToInputText = true;
   io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard | ImGuiConfigFlags_NavEnableGamepad;
   io.IniFilename = nullptr;  // Dear ImGui would replace links and wait for the other end of pipes
-  layoutFile = userConfigDir() / "layout.ini";
 }
 
 SimpleUI::Context::~Context() {
-  if (loaded) {
-    saveLayout();
-  }
   ImGui::DestroyContext();
-}
-
-void SimpleUI::Context::loadLayout() {
-  const std::string layout = readTextIfAny(layoutFile);
-  ImGui::LoadIniSettingsFromMemory(layout.data(), layout.size());
-  loaded = true;
-}
-
-void SimpleUI::Context::saveLayout() {
-  size_t bytes = 0;
-  const char* layout = ImGui::SaveIniSettingsToMemory(&bytes);
-  storeFile(layoutFile, std::string_view(layout, bytes));
-  ImGui::GetIO().WantSaveIniSettings = false;
 }
 
 // The two halves of the backend, shut down in reverse.
@@ -142,10 +130,20 @@ struct SimpleUI::Backend {
 SimpleUI::SimpleUI(Renderer& renderer, Window& window)
     : renderer_(renderer), window_(window), backend_(std::make_unique<Backend>(window)), idle_(renderer.device()) {
   windows_.rememberLayout();
-  context_.loadLayout();
+  const std::string layout = readTextIfAny(layoutFile());
+  ImGui::LoadIniSettingsFromMemory(layout.data(), layout.size());
 }
 
-SimpleUI::~SimpleUI() = default;
+SimpleUI::~SimpleUI() {
+  saveLayout();
+}
+
+void SimpleUI::saveLayout() {
+  size_t bytes = 0;
+  const char* layout = ImGui::SaveIniSettingsToMemory(&bytes);
+  storeFile(layoutFile(), std::string_view(layout, bytes));
+  ImGui::GetIO().WantSaveIniSettings = false;
+}
 
 void SimpleUI::setThumbnails(std::vector<Image8> pictures) {
   windows_.setThumbnails(std::move(pictures));
@@ -219,7 +217,7 @@ UiOutput SimpleUI::build(const UiView& view) {
   UiOutput output = windows_.build(view);
   ImGui::Render();
   if (ImGui::GetIO().WantSaveIniSettings) {
-    context_.saveLayout();
+    saveLayout();
   }
   return output;
 }

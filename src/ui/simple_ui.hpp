@@ -37,21 +37,18 @@ class SimpleUI {
 
  private:
   void initVulkan();
+  void saveLayout();
   void prepareTheme();
 
   struct Context {
     Context();
     ~Context();
-    void loadLayout();  // once all of its parts are known
-    void saveLayout();
-    std::filesystem::path layoutFile;  // in the user's folder
-    bool loaded = false;
   };
   struct Backend;
 
   Renderer& renderer_;
   Window& window_;
-  PanelWindows windows_;  // outlives the context, which saves its layout
+  PanelWindows windows_;  // outlives the context, which knows it as a part of the layout
   Context context_;
   Theme theme_ = Theme::dark;
   float scale_ = 0.0f;  // of fonts and sizes: the monitor's by the user's; 0: nothing is made yet
