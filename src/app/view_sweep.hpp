@@ -49,10 +49,9 @@ class ViewMeasurement {
   std::map<std::string, SizedMs> sizedMs_;  // by point
 };
 
-// Replaces times of a small picture by those expected of the whole one. A frame has parts that do not depend on its
-// size, such as shadow maps, so the times of two configurations give a line; where these take about as long, all times
-// grow in proportion to those of `base`. `pixels` is the ratio of the pixels of both sizes: times grow by no more, and
-// by no less than in proportion, whatever noise says.
+// Replaces times of a small picture by those expected of the whole one, along a line through two configurations, since
+// parts of a frame, such as shadow maps, do not depend on its size. If both take about equally long, all times grow in
+// proportion to `base`. The line's slope is kept between that proportion and `pixels`, the ratio of both sizes' pixels.
 void enlargeTimes(SweepResults& results, const SizedMs& base, const SizedMs& fastest, double pixels);
 
 }  // namespace speculum

@@ -29,8 +29,8 @@ struct PassTargets {
   VkSampleCountFlagBits samples() const { return color->samples(); }
 };
 
-// Viewport in pixels of the target. It may exceed the target: the image of a part of the picture has the picture's size
-// here, and minus the part's corner.
+// Viewport in pixels of the target. It may exceed the target: for a part of the picture it has the picture's size, at
+// minus the part's corner.
 struct PassViewport {
   float x = 0.0f;
   float y = 0.0f;

@@ -101,11 +101,12 @@ constexpr SettingField fields[] = {
             {.unit = "frames", .changes = mainView, .slider = SettingSlider{1, 16, "%d", false}}),
     setting("reflection.skip_unchanged", BooleanSetting{at<&R::skipUnchanged>}, "Reuse unchanged images",
             "reuses cached mirror images that would come out the same", "Saves passes.", {.changes = mainView}),
-    setting("reflection.mesh_error", NumberSetting{at<&R::meshError>, 0.0, 16.0}, "Mesh error",
-            "largest error of simplified objects in reflections; 0: all triangles",
-            "Saves vertices; shading shifts; ignored while shadows or curved mirrors are traced; needs view.mesh_error "
-            "with shadow maps.",
-            {.unit = "texels", .slider = SettingSlider{0.0, 16.0}}),
+    setting(
+        "reflection.mesh_error", NumberSetting{at<&R::meshError>, 0.0, 16.0}, "Mesh error",
+        "largest error of simplified objects in reflections; 0: all triangles",
+        "Saves vertices; shading shifts; off with traced shadows, curved mirrors, bounced light; needs view.mesh_error "
+        "with shadow maps.",
+        {.unit = "texels", .slider = SettingSlider{0.0, 16.0}}),
     setting("reflection.clip", choice<&R::clip>(clipMethods), "Clipping", "how geometry behind a mirror is cut",
             "oblique loses depth precision near a mirror; none shows what is behind it."),
 
@@ -121,7 +122,7 @@ constexpr SettingField fields[] = {
             {.unit = "pictures", .slider = SettingSlider{1, 1024, "%d"}}),
     setting("view.mesh_error", NumberSetting{at<&V::meshError>, 0.0, 16.0}, "Mesh error",
             "largest error of simplified objects in the main view; 0: all triangles",
-            "Saves vertices; shading shifts; ignored while shadows or curved mirrors are traced.",
+            "Saves vertices; shading shifts; off with traced shadows, curved mirrors, bounced light.",
             {.unit = "texels", .changes = mainView, .slider = SettingSlider{0.0, 16.0}}),
     setting("view.exposure", NumberSetting{at<&V::exposure>, 0.0, 1e6}, "Exposure",
             "factor on radiance before the tone curve", "Costs nothing.",
@@ -189,8 +190,8 @@ constexpr SettingField fields[] = {
             {.changes = none}),
     setting(
         "quality.motion_ms", AutomaticSetting{at<&Q::motionMs>, 0.0, 1e6}, "Full quality while moving",
-        "0 (ticked): settings stay as they are while anything moves; auto (not ticked): they are lowered then, so that "
-        "frames take about 50 ms on CPUs, elsewhere 0.8 of a refresh; other values: this many",
+        "time of frames while anything moves, for which settings are lowered; auto: 50 ms on CPUs, elsewhere 0.8 of a "
+        "refresh; 0 (ticked in the panel): nothing is lowered",
         "At 0 movement may stutter.", {.unit = "ms", .changes = none}),
     setting("quality.still_pictures", IntegerSetting{at<&Q::stillPictures>, 1, 1024}, "Averaged when still",
             "pictures whose mean the window shows when nothing moves", "As many are drawn after each movement.",

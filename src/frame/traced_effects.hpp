@@ -39,7 +39,7 @@ struct TracedEffects {
 
   // Says whether any ray is traced through the scene's triangles.
   bool traces() const { return shadowRays || reflects(); }
-  // Says whether triangles of drawn objects are shaded with the scene for rays, rather than mirrors alone.
+  // Says whether rays start on drawn objects too, not on planar mirrors alone.
   bool tracesFromObjects() const { return shadowRays || curvedRays || castsLight; }
   // Says whether rays follow reflections. They may meet anything in the scene.
   bool reflects() const { return roughRays || curvedRays || rippleRays || mirrorRays; }

@@ -7,9 +7,9 @@
 
 namespace speculum {
 
-// Shades the surfaces whose light takes rays. A pass draws their identifiers (shaders/identifiers.glsl) in the place of
-// radiance and pauses; a compute shader then traces rays for what the pass's samples see, and no rays for what they do
-// not; the pass goes on with the radiance. GPUs have more room for rays in compute shaders than in fragment shaders.
+// Shades the surfaces whose shading needs rays. A pass draws their identifiers (shaders/identifiers.glsl) in the place
+// of radiance and pauses; a compute shader then traces rays for what the pass's samples see, and no rays for what they
+// do not; the pass goes on with the radiance. GPUs have more room for rays in compute shaders than in fragment shaders.
 class DeferredShading {
  public:
   DeferredShading(Device& device, PipelineFactory& factory, VkDescriptorSetLayout frameLayout)

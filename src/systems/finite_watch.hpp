@@ -46,7 +46,7 @@ class FiniteWatch {
   // Releases the GPU's objects as soon as the frames that were watched have finished.
   void release();
 
-  // Reads the results of the frames that have finished. Logs the first finding of each pass as an error.
+  // Reads the results of the frames that have finished. Logs a frame's first finding, once for each pass, as an error.
   void collect();
   // Findings of the last finished frame that had any: one for each target, in the order of recording.
   const std::vector<NonFinite>& findings() const { return findings_; }

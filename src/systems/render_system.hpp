@@ -19,7 +19,7 @@ class RenderSystem {
   RenderSystem(PipelineFactory& factory, VkDescriptorSetLayout frameLayout, VkDescriptorSetLayout textureLayout)
       : frameLayout_(frameLayout), textureLayout_(textureLayout), objects_(factory), skies_(factory) {}
 
-  // Returns the number of draws. Objects whose light takes rays are drawn as identifiers.
+  // Returns the number of draws. Objects whose shading needs rays are drawn as identifiers.
   uint32_t record(const PassScope& scope, const FrameInfo& info, const PassData& pass);
   // Says whether record() draws identifiers in a pass.
   static bool defers(const FrameInfo& info, const PassData& pass);
