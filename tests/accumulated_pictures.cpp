@@ -253,6 +253,7 @@ class LongDraws : public testing::TestWithParam<std::tuple<const char*, const ch
                                                    {{"view.samples", samples},
                                                     {"reflection.samples", samples},
                                                     {"effects.rough_samples", roughSamples},
+                                                    {"effects.per_sample", "true"},
                                                     {"reflection.min_throughput", "0"},
                                                     {"effects.curved_lookup", curvedLookup},
                                                     {"effects.environment_size", "64"}}));
@@ -290,7 +291,7 @@ TEST_P(LongDraws, AreDividedWithoutATrace) {
     session->restart();
     drawTiles(*session, 0, session == divided.get() ? 50 : 0);
   }
-  EXPECT_TRUE(divided->radiance().pixels == whole->radiance().pixels) << "frames with tiles are divided too";
+  EXPECT_TRUE(divided->radiance().pixels == whole->radiance().pixels) << "in frames with tiles";
 }
 
 INSTANTIATE_TEST_SUITE_P(Values, LongDraws,

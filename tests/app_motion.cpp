@@ -542,6 +542,26 @@ TEST_F(PacedScene, SendingThePictureCounts) {
   EXPECT_LT(scaleAfter(0.5 * budget, 0.5 * budget), 1.0);
 }
 
+// A frame in parts is drawn before it is presented, and its program waits meanwhile.
+TEST_F(PacedScene, PartsAreWaitedFor) {
+  budgetMs_ = budget;
+  side_ = 960;
+  const auto scaleAfter = [&](bool cpuDevice, double cpuMs, double waitedMs, double presentMs) {
+    pace_ = Pace(cpuDevice, 1 + 4);
+    for (int i = 0; i < 60; ++i) {
+      frame(true);
+      pace_.drawn(++number_, cpuMs, waitedMs, true);
+      pace_.presented(presentMs);
+      pace_.finished({.frame = number_, .gpuMs = 0.6 * budget});
+    }
+    return planned_.view.scale;
+  };
+  EXPECT_LT(scaleAfter(true, 1.0, 0.6 * budget, 0.5 * budget), 1.0) << "it takes long to send the picture";
+  EXPECT_EQ(scaleAfter(true, 1.0, 0.6 * budget, 0.0), 1.0);
+  EXPECT_LT(scaleAfter(false, 0.6 * budget, 0.6 * budget, 0.0), 1.0);
+  EXPECT_EQ(scaleAfter(false, 0.6 * budget, 0.0, 0.0), 1.0) << "drawn while the program works";
+}
+
 TEST_F(PacedScene, StillPicturesConvergeOnce) {
   chosen_.quality.stillPictures = 3;
   EXPECT_EQ(pictureOf(), std::pair(1, 0)) << "full quality first";

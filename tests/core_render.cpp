@@ -81,6 +81,35 @@ TEST_F(RendererTest, MeasuresNoMoreThanAsked) {
   EXPECT_LE(renderer_.timings().passes[0].samples, extent.width * extent.height);
 }
 
+// Of a part with more passes than are measured, the rest keep their places before the next part's.
+TEST_F(RendererTest, PartsOfAFrameAddUp) {
+  OffScreen target(device_, {.name = "target", .extent = extent}, renderer_.retired());
+  Frame frame = renderer_.beginFrame().value();
+  const VkCommandBuffer first = frame.commands;
+  for (int i = 0; i < 514; ++i) {
+    if (i == 513) {
+      renderer_.submitPart(frame);
+    }
+    const PassScope scope =
+        renderer_.beginPass(frame, fullPass(i == 513 ? "second part" : "first part", target.targets()));
+  }
+  EXPECT_EQ(frame.commands, first) << "its buffer begins anew";
+  EXPECT_GT(frame.waitedMs, 0.0);
+  renderer_.endFrame(frame);
+  renderer_.waitIdle();
+  const FrameTimings& timings = renderer_.timings();
+  ASSERT_EQ(timings.passes.size(), 514u);
+  EXPECT_GT(timings.passes[511].gpuMs, 0.0);
+  EXPECT_EQ(timings.passes[512].gpuMs, 0.0);
+  EXPECT_EQ(timings.passes[513].name, "second part");
+  EXPECT_GT(timings.passes[513].gpuMs, 0.0);
+  double sum = 0.0;
+  for (const PassTiming& pass : timings.passes) {
+    sum += pass.gpuMs;
+  }
+  EXPECT_GE(timings.gpuMs * 1.0001, sum);
+}
+
 // An image of a part of the picture, drawn with a shifted viewport, has exactly the picture's texels.
 TEST_F(RendererTest, ShiftedViewportShowsItsPart) {
   constexpr VkExtent2D partExtent{24, 20};

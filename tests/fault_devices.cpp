@@ -111,8 +111,22 @@ TEST_F(Devices, TooLittleIsOneLine) {
 // Also in the window, without a budget and while debug.check_finite is on, so that no system ends a draw for taking
 // long.
 TEST_F(Devices, LongDrawsAreSubmittedInParts) {
-  const int whole = callsOf(longWindow("1"))["vkQueueSubmit"];
-  EXPECT_GT(callsOf(longWindow("500"))["vkQueueSubmit"], whole + 8);
+  addToScene(smallRoughMirror);
+  const auto submissions = [&](const Kind& kind, const std::vector<std::string>& settings) {
+    return callsOf(withSettings(kind, settings))["vkQueueSubmit"];
+  };
+  const auto inWindow = [&](const std::string& roughSamples) {
+    return submissions(window, {"quality.motion_ms=0", "effects.rough_samples=" + roughSamples});
+  };
+  const int whole = inWindow("1");
+  EXPECT_GT(inWindow("500"), whole + 8);
+  addToScene("[[object]] model = \"MODELS/sphere.obj\", position = [1, 1, 0], scale = 0.3, mirror = {}\n");
+  const auto withFaces = [&](const std::string& size) {
+    return submissions(
+        render, {"effects.curved_lookup=environment", "effects.rough_samples=100", "effects.environment_size=" + size});
+  };
+  const int small = withFaces("64");
+  EXPECT_GE(withFaces("256"), small + 4) << "faces of a map";
 }
 
 }  // namespace

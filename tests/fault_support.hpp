@@ -3,6 +3,7 @@
 #include "command_support.hpp"
 #include "picture_support.hpp"
 #include "platform/files.hpp"
+#include "scene_text.hpp"
 #include "virtual_display.hpp"
 
 namespace speculum::testing_support {
@@ -74,13 +75,14 @@ class FaultTest : public testing::Test {
     return run;
   }
 
-  // Adds a small rough mirror. With many rays, counted as if it filled the picture, the frames of a window without a
-  // budget are submitted in parts.
-  Kind longWindow(const std::string& roughSamples) {
-    std::ofstream(scene_, std::ios::app) << "[[mirror]]\nposition = [-1, 1, 0]\nsize = [0.1, 0.1]\nroughness = 0.3\n";
-    Kind kind = window;
-    kind.options.insert(kind.options.end(),
-                        {"--set", "quality.motion_ms=0", "--set", "effects.rough_samples=" + roughSamples});
+  void addToScene(const std::string& toml) { std::ofstream(scene_, std::ios::app) << tomlOf(toml); }
+  // Its rays count as if it filled the picture: with many, frames are submitted in parts.
+  inline static const std::string smallRoughMirror =
+      "[[mirror]] position = [-1, 1, 0], size = [0.1, 0.1], roughness = 0.3\n";
+  static Kind withSettings(Kind kind, const std::vector<std::string>& settings) {
+    for (const std::string& setting : settings) {
+      kind.options.insert(kind.options.end(), {"--set", setting});
+    }
     return kind;
   }
   // Returns the number of calls of each Vulkan function in a run without a fault. Stores its picture in `picture`.

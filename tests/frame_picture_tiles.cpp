@@ -39,7 +39,7 @@ TEST(PictureTiles, SubmissionsWithRaysAreBounded) {
   const auto tiles = [&] { return tilesAtOnce(plan, settings, raysToLights); };
   EXPECT_EQ(tiles(), SIZE_MAX) << "no rays";
   plan.effects.shadowRays = true;
-  const size_t most = (1 << 24) / (tileSide * tileSide);
+  const size_t most = (1 << 25) / (tileSide * tileSide);
   EXPECT_EQ(tiles(), most / 4);
   settings.effects.perSample = true;
   settings.view.samples = 4;
@@ -51,7 +51,9 @@ TEST(PictureTiles, SubmissionsWithRaysAreBounded) {
   plan.effects.roughRays = true;
   settings.effects.roughSamples = 1;
   settings.view.samples = 16;
-  EXPECT_EQ(tiles(), most / 32) << "a ray at each sample";
+  EXPECT_EQ(tiles(), most / 32 / 4) << "a ray at each sample and bounce";
+  settings.reflection.maxDepth = 32;
+  EXPECT_EQ(tiles(), most / 32 / 32);
   settings.view.samples = 4;
   settings.effects.roughSamples = 1 << 20;
   EXPECT_EQ(tiles(), 1u);

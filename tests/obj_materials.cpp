@@ -142,6 +142,7 @@ TEST_F(MtlFile, TexturesBeyondTheBoundOfASceneAreDrawnSmaller) {
   std::fill(halves.rgba.begin(), halves.rgba.begin() + halves.rgba.size() / 2, uint8_t{0});
   writePng(folder_ / "halves.png", halves);
   writePng(folder_ / "line.png", Image8(1 << 22, 1));
+  writePng(folder_ / "column.png", Image8(1, 1 << 22));
   const auto sizes = [&](const char* name, std::vector<Texture> others) {
     textures_ = std::move(others);
     const size_t count = textures_.size();
@@ -155,9 +156,9 @@ TEST_F(MtlFile, TexturesBeyondTheBoundOfASceneAreDrawnSmaller) {
   EXPECT_EQ(sizes("halves", std::vector(4, large)), glm::ivec2(1448, 724));
   EXPECT_EQ(textures_.back().texels.front(), glm::vec3(0.0f));
   EXPECT_NEAR(textures_.back().texels.back().g, 1.0f, 1e-6f);
-  EXPECT_TRUE(
-      contains(warnings(), "halves.png: is drawn with 1448x724 texels, the textures before it have over 2^28\n"));
+  EXPECT_TRUE(contains(warnings(), "halves.png: is drawn with 1448x724 texels, those before it have 2^28 or more\n"));
   EXPECT_EQ(sizes("line", std::vector(4, large)), glm::ivec2(1 << 20, 1));
+  EXPECT_EQ(sizes("column", std::vector(4, large)), glm::ivec2(1, 1 << 20));
   EXPECT_EQ(sizes("halves", std::vector(8, large)), glm::ivec2(91, 45));
 }
 

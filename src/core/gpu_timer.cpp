@@ -22,10 +22,10 @@ QueryPoolHandle createPool(Device& device, VkQueryType type, uint32_t count, VkQ
 PassTiming& PassTiming::operator+=(const PassTiming& other) {
   name = other.name;
   gpuMs += other.gpuMs;
-  hasStatistics = other.hasStatistics;
+  hasStatistics = hasStatistics || other.hasStatistics;
   triangles += other.triangles;
   fragments += other.fragments;
-  hasSamples = other.hasSamples;
+  hasSamples = hasSamples || other.hasSamples;
   samples += other.samples;
   return *this;
 }

@@ -9,7 +9,7 @@ namespace speculum {
 
 struct PassTiming {
   std::string name;
-  double gpuMs = 0.0;  // 0 where the queue has no timestamps
+  double gpuMs = 0.0;  // 0 where the queue has no timestamps, and of passes that are not measured
   bool hasStatistics = false;
   uint64_t triangles = 0;  // triangles after clipping
   uint64_t fragments = 0;  // fragment shader invocations
@@ -21,7 +21,7 @@ struct PassTiming {
 
 struct FrameTimings {
   uint64_t frame = 0;              // number of the frame; 0: none has finished yet
-  double gpuMs = 0.0;              // from the first pass's start to the last one's end, without pauses between parts
+  double gpuMs = 0.0;              // from the first measured pass's start to the last one's end, without pauses
   std::vector<PassTiming> passes;  // in the order of recording; none if only the frame was measured
 };
 
@@ -32,7 +32,7 @@ enum class TimerDetail { frame, passes, samples };
 // Timestamps and pipeline statistics of one frame in flight. Both stamps of a pass are taken at the bottom of the pipe,
 // so that passes do not overlap in the figures and their times add up to the frame's. On lavapipe, which ends all its
 // work before it takes a stamp, passes then do not overlap at all. TimerDetail::frame takes two stamps, or two for each
-// of the frame's parts (see Renderer::submitPart).
+// of the frame's parts (see Renderer::submitPart). The first 512 passes of each part are measured.
 class GpuTimer {
  public:
   explicit GpuTimer(Device& device, const std::string& name);

@@ -65,8 +65,8 @@ class Renderer {
   PassScope beginPass(Frame& frame, const PassDesc& desc);
   // A pass of its own that loads and stores the display image, within a VkRenderPass on either path.
   PassScope beginOverlay(Frame& frame);
-  // Submits the frame's commands so far and waits until the GPU has finished them, which bounds the memory of many
-  // parts. Call it between two passes; `frame.commands` changes.
+  // Submits the frame's commands so far, so that no submission takes long, and waits until the GPU has finished them,
+  // which bounds the memory of many parts. Call it between two passes; `frame.commands` changes.
   void submitPart(Frame& frame);
   // Submits the frame's commands.
   void endFrame(Frame& frame);

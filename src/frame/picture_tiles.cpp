@@ -8,7 +8,7 @@ namespace speculum {
 
 namespace {
 
-constexpr double mostRays = 1 << 24;
+constexpr double mostRays = 1 << 25;
 
 int tilesAlong(int texels) {
   return (texels + tileSide - 1) / tileSide;
@@ -91,7 +91,8 @@ size_t tilesAtOnce(const FramePlan& plan, const Settings& settings, size_t raysT
   const int samples = std::max(settings.view.samples, settings.reflection.samples);
   const int rough = plan.effects.roughRays ? roughRays(settings.effects, samples) : 1;
   const int paths = std::max(perSample ? samples : 1, rough);  // of a pixel
-  const double rays = static_cast<double>(paths) * static_cast<double>(1 + raysToLights);
+  const int bounces = plan.effects.reflects() ? std::max(settings.reflection.maxDepth, 1) : 1;
+  const double rays = static_cast<double>(paths) * bounces * static_cast<double>(1 + raysToLights);
   return static_cast<size_t>(std::max(1.0, mostRays / (tileSide * tileSide * rays)));
 }
 

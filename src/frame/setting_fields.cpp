@@ -101,12 +101,12 @@ constexpr SettingField fields[] = {
             {.unit = "frames", .changes = mainView, .slider = SettingSlider{1, 16, "%d", false}}),
     setting("reflection.skip_unchanged", BooleanSetting{at<&R::skipUnchanged>}, "Reuse unchanged images",
             "reuses cached mirror images that would come out the same", "Saves passes.", {.changes = mainView}),
-    setting(
-        "reflection.mesh_error", NumberSetting{at<&R::meshError>, 0.0, 16.0}, "Mesh error",
-        "largest error of simplified objects in reflections; 0: all triangles",
-        "Saves vertices; shading shifts; off with traced shadows, curved mirrors, bounced light; needs view.mesh_error "
-        "with shadow maps.",
-        {.unit = "texels", .slider = SettingSlider{0.0, 16.0}}),
+    setting("reflection.mesh_error", NumberSetting{at<&R::meshError>, 0.0, 16.0}, "Mesh error",
+            "largest error of simplified objects in reflections; 0: all triangles",
+            "Saves vertices; shading shifts; off with traced shadows or curved mirrors, or bounced light; needs "
+            "view.mesh_error "
+            "with shadow maps.",
+            {.unit = "texels", .slider = SettingSlider{0.0, 16.0}}),
     setting("reflection.clip", choice<&R::clip>(clipMethods), "Clipping", "how geometry behind a mirror is cut",
             "oblique loses depth precision near a mirror; none shows what is behind it."),
 
@@ -122,7 +122,7 @@ constexpr SettingField fields[] = {
             {.unit = "pictures", .slider = SettingSlider{1, 1024, "%d"}}),
     setting("view.mesh_error", NumberSetting{at<&V::meshError>, 0.0, 16.0}, "Mesh error",
             "largest error of simplified objects in the main view; 0: all triangles",
-            "Saves vertices; shading shifts; off with traced shadows, curved mirrors, bounced light.",
+            "Saves vertices; shading shifts; off with traced shadows or curved mirrors, or bounced light.",
             {.unit = "texels", .changes = mainView, .slider = SettingSlider{0.0, 16.0}}),
     setting("view.exposure", NumberSetting{at<&V::exposure>, 0.0, 1e6}, "Exposure",
             "factor on radiance before the tone curve", "Costs nothing.",

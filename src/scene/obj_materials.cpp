@@ -57,10 +57,12 @@ Texture bounded(Texture texture, double most) {
   if (factor >= 1.0) {
     return texture;
   }
-  const int height = std::max(static_cast<int>(factor * texture.height), 1);
-  const int width = std::clamp(static_cast<int>(most / height), 1, texture.width);
+  // A side of one texel leaves the other one more than its share.
+  const int least = std::max(static_cast<int>(factor * texture.height), 1);
+  const int width = std::clamp(static_cast<int>(most / least), 1, texture.width);
+  const int height = std::clamp(static_cast<int>(most / width), 1, texture.height);
   Texture small = shrunk(texture, width, height);
-  spdlog::warn("{}: is drawn with {}x{} texels, the textures before it have over 2^28", texture.source.string(),
+  spdlog::warn("{}: is drawn with {}x{} texels, those before it have 2^28 or more", texture.source.string(),
                small.width, small.height);
   return small;
 }

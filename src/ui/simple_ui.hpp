@@ -48,7 +48,7 @@ class SimpleUI {
 
   Renderer& renderer_;
   Window& window_;
-  PanelWindows windows_;  // outlives the context, which knows it as a part of the layout
+  PanelWindows windows_;
   Context context_;
   Theme theme_ = Theme::dark;
   float scale_ = 0.0f;  // of fonts and sizes: the monitor's by the user's; 0: nothing is made yet
