@@ -262,7 +262,7 @@ class LongDraws : public testing::TestWithParam<std::tuple<const char*, const ch
 
 TEST_P(LongDraws, AreDividedWithoutATrace) {
   const auto whole = start("4");
-  const auto divided = start("512");
+  const auto divided = start("4096");
   for (const char* checks : {"false", "true"}) {
     SCOPED_TRACE(checks);
     for (Session* session : {whole.get(), divided.get()}) {

@@ -39,7 +39,7 @@ TEST(PictureTiles, SubmissionsWithRaysAreBounded) {
   const auto tiles = [&] { return tilesAtOnce(plan, settings, raysToLights); };
   EXPECT_EQ(tiles(), SIZE_MAX) << "no rays";
   plan.effects.shadowRays = true;
-  const size_t most = (1 << 25) / (tileSide * tileSide);
+  const size_t most = (1 << 27) / (tileSide * tileSide);
   EXPECT_EQ(tiles(), most / 4);
   settings.effects.perSample = true;
   settings.view.samples = 4;

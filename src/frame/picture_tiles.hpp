@@ -25,7 +25,7 @@ std::vector<TileRange> tilesOfPasses(const FramePlan& plan);
 // rectangle and to the column left of it, which in this order are drawn later.
 std::vector<PixelRect> tileRects(int width, int height, const TileRange& tiles);
 // Returns the number of tiles whose commands are submitted together, at least 1, so that no system takes the GPU for
-// hung: they trace up to about 32 million rays. A picture without traced rays needs no limit (SIZE_MAX).
+// hung: they trace up to about 130 million rays. A picture without traced rays needs no limit (SIZE_MAX).
 // `raysToLights`: TracedEffects::raysToLights().
 size_t tilesAtOnce(const FramePlan& plan, const Settings& settings, size_t raysToLights);
 // Returns the number of tiles of this size that cover a face of an environment map, which is drawn at once.
