@@ -81,7 +81,8 @@ TEST_F(RendererTest, MeasuresNoMoreThanAsked) {
   EXPECT_LE(renderer_.timings().passes[0].samples, extent.width * extent.height);
 }
 
-// Of a part with more passes than are measured, the rest keep their places before the next part's.
+// A part of 513 passes measures only the first 512. The last one is listed all the same, without a time, so that the
+// next part's pass stands behind it.
 TEST_F(RendererTest, PartsOfAFrameAddUp) {
   OffScreen target(device_, {.name = "target", .extent = extent}, renderer_.retired());
   Frame frame = renderer_.beginFrame().value();

@@ -137,7 +137,7 @@ TEST_F(MtlFile, UnreadableTexturesAreRefused) {
 }
 
 // Textures that stand for many large ones have no texels here.
-TEST_F(MtlFile, TexturesBeyondTheBoundOfASceneAreDrawnSmaller) {
+TEST_F(MtlFile, TexturesBeyondTheBoundAreDrawnSmaller) {
   Image8 halves(2048, 1024);
   std::fill(halves.rgba.begin(), halves.rgba.begin() + halves.rgba.size() / 2, uint8_t{0});
   writePng(folder_ / "halves.png", halves);
