@@ -584,7 +584,7 @@ TEST_F(PacedScene, StillPicturesConvergeOnce) {
 
 TEST_F(PacedScene, TargetsKeepTheMean) {
   chosen_.quality.stillPictures = 3;
-  target_.emplace(std::vector<int>{}, TargetKind::depth);
+  target_.emplace(MirrorPath{}, TargetKind::depth);
   for (const int picture : {0, 0, 1, 2}) {
     EXPECT_EQ(pictureOf().second, picture);
     EXPECT_FALSE(pace_.repeats());
@@ -592,7 +592,7 @@ TEST_F(PacedScene, TargetsKeepTheMean) {
   target_.reset();
   EXPECT_EQ(pictureOf(), std::pair(3, 3));
   for (const int mirror : {0, 1}) {
-    target_.emplace(std::vector<int>{mirror}, TargetKind::color);
+    target_.emplace(MirrorPath{mirror}, TargetKind::color);
     EXPECT_EQ(pictureOf(), std::pair(3, 2)) << "the last picture again";
     EXPECT_TRUE(pace_.repeats());
     EXPECT_EQ(pictureOf(), std::pair(3, 3)) << "once, even if it lacks the target";
@@ -698,7 +698,7 @@ TEST_F(SlowPictures, SingleOneEndsWithItsTiles) {
   while (pace_.wantsFrame()) {
     draw();
   }
-  target_.emplace(std::vector<int>{0}, TargetKind::color);
+  target_.emplace(MirrorPath{0}, TargetKind::color);
   EXPECT_TRUE(draw().plan.tiles) << "it stays while a target is drawn";
   EXPECT_TRUE(pace_.repeats());
 }

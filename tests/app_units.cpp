@@ -195,7 +195,7 @@ TEST_F(Report, TilesOfAPictureAreOneFrame) {
 TEST_F(Report, TargetsStayWhileTilesAreDrawn) {
   Settings settings;
   settings.debug.maskPasses = false;
-  const auto target = [&](const std::vector<int>& path) {
+  const auto target = [&](const MirrorPath& path) {
     report.target({.path = path, .drawn = true}, plan, settings, true);
     return view.target;
   };
@@ -367,7 +367,7 @@ TEST_F(Report, MirrorsSeenInReusedImagesStayListed) {
   plan.reused[0].view.path = {0};
   report.updateSkipped(frame);
   ASSERT_EQ(view.skipped.size(), 1u) << "the image of mirror 2 is rendered again";
-  EXPECT_EQ(view.skipped[0].path, (std::vector<int>{0, 1}));
+  EXPECT_EQ(view.skipped[0].path, (MirrorPath{0, 1}));
   EXPECT_EQ(view.skipped[0].reason, "hidden");
   plan.reused.clear();
   report.updateSkipped(frame);

@@ -107,6 +107,8 @@ INSTANTIATE_TEST_SUITE_P(
         UsageCase{{"bench", "--against-binary", "/bin/true"},
                   "/bin/true: bench --json wrote no times (a speculum is needed)"},
         UsageCase{{"bench", "--reference", "--prices"}, "--reference: measures alone"},
+        UsageCase{{"bench", "--rounds", "3"}, "--rounds: needs --against-binary or --against-set"},
+        UsageCase{{"compare", "a.png", "b.png", "--heatmap", "error.exr"}, "'error.exr' is written as a PNG"},
         UsageCase{{"bench", "--prices", "--against-set", "view.samples=1"}, "--prices: measures alone"},
         UsageCase{{"bench", "--against-set", "view.samples=3"}, "--against-set: view.samples: '3'"}));
 
@@ -412,6 +414,15 @@ TEST_F(CommandLine, AFolderWithoutShadersIsRefused) {
                        shaders.path().string() + ": holds no file with the name of a shader"));
 }
 
+TEST_F(CommandLine, AShaderThatDoesNotCompileIsRefused) {
+  const TemporaryDirectory shaders;
+  writeShaders(shaders.path(), "scene_shading.glsl", "  color.r = nothing;\n");
+  EXPECT_TRUE(contains(mistake({"render", "--scene", scene_, "--size", "4x4", "--out", out("a.png"), "--shader-dir",
+                                shaders.path().string(), "--log-level", "error"}),
+                       "'nothing' : undeclared identifier"));
+  EXPECT_FALSE(std::filesystem::exists(out("a.png")));
+}
+
 TEST_F(CommandLine, NegativeRadianceExitsOne) {
   const TemporaryDirectory shaders;
   writeShaders(shaders.path(), "scene_shading.glsl", "  color.r = -1.0;\n");
@@ -485,6 +496,11 @@ TEST_F(CommandLine, CompareDistinguishesPictures) {
   writePng(out("b.png"), image);
   writePng(out("small.png"), Image8(32, 18));
   succeed({"compare", out("a.png"), out("a.png"), "--max-diff", "0", "--max-flip", "0"});
+  Image8 black(64, 36);
+  std::ranges::fill(black.rgba, uint8_t{0});
+  writePng(out("black.png"), black);
+  EXPECT_TRUE(contains(mistake({"compare", out("a.png"), out("a.png"), "--mask", out("black.png")}),
+                       "black.png: the mask leaves out every pixel"));
   const ProcessResult differ = speculum({"compare", out("a.png"), out("b.png"), "--max-diff", "2", "--json",
                                          out("c.json"), "--heatmap", out("h.png"), "--mask", out("a.png")});
   EXPECT_EQ(differ.exitCode, 1) << differ.output;

@@ -200,7 +200,7 @@ TEST_F(Corridor, IsPickedDirectlyAndThroughMirrors) {
   const auto once = at({0.6, 1.0, -4.5});
   ASSERT_EQ(once.size(), 2u);
   EXPECT_EQ(once[0].what, ball);
-  EXPECT_EQ(once[0].path, std::vector<int>({0}));
+  EXPECT_EQ(once[0].path, MirrorPath({0}));
   EXPECT_NEAR(glm::distance(once[0].point, center), 0.1, 0.01) << "the thing's own place, not its image's";
   EXPECT_LT(once[0].point.z, center.z) << "its far side is seen";
   EXPECT_EQ(once[1], (Picked{ahead, {}, once[1].point}));
@@ -208,9 +208,9 @@ TEST_F(Corridor, IsPickedDirectlyAndThroughMirrors) {
   const auto twice = at({0.6, 1.0, -7.5});
   ASSERT_EQ(twice.size(), 3u);
   EXPECT_EQ(twice[0].what, ball);
-  EXPECT_EQ(twice[0].path, std::vector<int>({0, 1}));
+  EXPECT_EQ(twice[0].path, MirrorPath({0, 1}));
   EXPECT_EQ(twice[1].what, behind);
-  EXPECT_EQ(twice[1].path, std::vector<int>({0}));
+  EXPECT_EQ(twice[1].path, MirrorPath({0}));
   EXPECT_EQ(twice[2].what, ahead);
 }
 
@@ -218,15 +218,15 @@ TEST_F(Corridor, FollowsMirrorsAsDeepAsDrawn) {
   EXPECT_EQ(at({0.6, 1.0, -7.5}, {.maxDepth = 1})[0].what, behind) << "it shows the background";
   EXPECT_EQ(at({0.6, 1.0, -7.5}, {.maxDepth = 0})[0].what, ahead);
   EXPECT_EQ(at({0.6, 1.0, -7.5}, {.minThroughput = 0.93})[0].what, behind) << "0.95 squared is below";
-  const std::vector<SkippedMirror> skipped{{1, {0, 1}, 1, SkipReason::maxPasses, ""}};
+  const RecycledVector<SkippedMirror> skipped{{1, {0, 1}, 1, SkipReason::maxPasses, ""}};
   EXPECT_EQ(at({0.6, 1.0, -7.5}, {.skipped = skipped})[0].what, behind);
-  const std::vector<SkippedMirror> held{{1, {0, 1}, 1, SkipReason::unchanged, ""}};
+  const RecycledVector<SkippedMirror> held{{1, {0, 1}, 1, SkipReason::unchanged, ""}};
   EXPECT_EQ(at({0.6, 1.0, -7.5}, {.skipped = held})[0].what, ball);
 }
 
 TEST_F(Corridor, LightsArePickedByTheirGlow) {
   EXPECT_EQ(at({-0.5, 1.5, 0})[0].what, (Selection{Selection::Kind::light, 0}));
-  EXPECT_EQ(at({-0.5, 1.5, -4.0})[0].path, std::vector<int>({0}));
+  EXPECT_EQ(at({-0.5, 1.5, -4.0})[0].path, MirrorPath({0}));
   EXPECT_NE(at({-0.5, 0.7, 0})[0].what.kind, Selection::Kind::light) << "without a glow it is not drawn";
   EXPECT_TRUE(picker_.at(state_, picture_, {2.0, 2.0}, {}).empty()) << "the background";
 }

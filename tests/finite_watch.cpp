@@ -81,7 +81,7 @@ TEST_F(WatchedImages, EveryHalfFloatIsJudgedPerChannel) {
   ASSERT_EQ(found.size(), 4u);
   for (int channel = 0; channel < 4; ++channel) {
     EXPECT_EQ(found[channel].pass, std::to_string(channel));
-    EXPECT_EQ(found[channel].id.path, std::vector<int>{channel});
+    EXPECT_EQ(found[channel].id.path, MirrorPath{channel});
     EXPECT_EQ(found[channel].count, count);
     EXPECT_EQ(found[channel].y * 256 + found[channel].x, first[channel]);
     const float expected = glm::unpackHalf1x16(images[channel][first[channel]][channel]);
@@ -187,7 +187,7 @@ TEST_P(BrokenPass, IsNamedWithItsMirrorsAndPixel) {
   ASSERT_FALSE(watch.findings().empty());
   const NonFinite& found = watch.findings().front();
   EXPECT_EQ(found.pass, "mirror front > rear");
-  EXPECT_EQ(found.id.path, (std::vector<int>{0, 1}));
+  EXPECT_EQ(found.id.path, (MirrorPath{0, 1}));
   expectFinding(found, 5, 3);
   EXPECT_TRUE(startsWith(describe(found),
                          "mirror front > rear: pixel 5, 3, sample " + std::to_string(samples_ - 1) + ": radiance "));

@@ -182,7 +182,7 @@ TEST(Clusters, SmallMeshesHaveNone) {
 
 TEST(Clusters, ObjectsInsideThePictureAreDrawnWhole) {
   const FramePlan plan = planOf(sceneOf({.position = {0, 0, -5}}));
-  EXPECT_EQ(plan.main.instances, std::vector<int>{0});
+  EXPECT_EQ(plan.main.instances, RecycledVector<int>{0});
   EXPECT_TRUE(plan.main.partial.empty());
 }
 
@@ -192,7 +192,7 @@ TEST(Clusters, ObjectsCutByThePictureArePartial) {
   Settings settings;
   const FramePlan plan = planOf(scene, settings);
   ASSERT_EQ(plan.main.partial.size(), 1u);
-  const std::vector<IndexRange>& ranges = plan.main.partial[0].ranges;
+  const auto& ranges = plan.main.partial[0].ranges;
   ASSERT_EQ(ranges.size(), 1u);
   EXPECT_EQ(ranges[0].first, 0u);
   // The view sees the lowest 0.67 m of 2 m. The last cluster of that part reaches beyond it.
@@ -236,7 +236,7 @@ TEST(Clusters, NeverLeaveOutVisibleTriangles) {
     }
     for (const PlannedPass* pass : passes) {
       const InstanceState& instance = state.instances[0];
-      std::vector<IndexRange> ranges = pass->instances.empty() ? std::vector<IndexRange>() : std::vector{allOf(mesh)};
+      auto ranges = RecycledVector<IndexRange>(pass->instances.empty() ? 0 : 1, allOf(mesh));
       if (!pass->partial.empty()) {
         ranges = pass->partial[0].ranges;
         ++partial;

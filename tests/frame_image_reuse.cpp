@@ -93,8 +93,9 @@ TEST(Unchanged, StillSceneIsRenderedOnce) {
     EXPECT_EQ(frames.unchanged(), both);
     EXPECT_EQ(frames.plan.reused.size(), passes);
     EXPECT_EQ(frames.plan.cached.size(), 2u) << "mirrors in mirrors have none";
-    const std::string detail = frames.plan.skipped.back().detail;
-    EXPECT_EQ(detail, frame == 1 ? "image of the last frame" : "image of " + std::to_string(frame) + " frames ago");
+    const auto detail = frames.plan.skipped.back().detail;
+    EXPECT_EQ(std::string_view(detail),
+              frame == 1 ? "image of the last frame" : "image of " + std::to_string(frame) + " frames ago");
     for (const MirrorDraw& draw : frames.plan.main.mirrors) {
       ASSERT_TRUE(draw.cached);
       EXPECT_FALSE(draw.cached->moved);
@@ -220,7 +221,7 @@ TEST(Unchanged, BudgetIgnoresReuse) {
     frames.scene.mirrors[left].rotation.y = 30.0;  // the third mirror is seen in both
     ASSERT_EQ(frames.next().passes.size(), 4u);
     frames.settings.reflection.maxPasses = 3;
-    std::set<std::vector<int>> paths;
+    std::set<MirrorPath> paths;
     for (const PlannedPass& pass : frames.next().passes) {
       paths.insert(pass.view.path);
     }
@@ -242,7 +243,7 @@ TEST(Unchanged, IntervalRendersOnlyWhatChanged) {
   frames.next();
   for (int frame = 1; frame < 9; ++frame) {
     EXPECT_TRUE(frames.next().passes.empty()) << "frame " << frame;
-    EXPECT_EQ(frames.plan.skipped.back().detail,
+    EXPECT_EQ(std::string_view(frames.plan.skipped.back().detail),
               frame == 1 ? "image of the last frame" : "image of " + std::to_string(frame) + " frames ago");
   }
   Mirrors seen;
@@ -375,7 +376,7 @@ PlanSequence withInterval(Scene scene, int interval) {
   return PlanSequence(std::move(scene), interval, false);
 }
 
-std::string firstUnchanged(const FramePlan& plan) {
+RecycledString firstUnchanged(const FramePlan& plan) {
   const auto it = std::ranges::find(plan.skipped, SkipReason::unchanged, &SkippedMirror::reason);
   return it == plan.skipped.end() ? "" : it->detail;
 }
@@ -576,7 +577,7 @@ TEST(CachedImages, MarginsStayWithinTheLargestSide) {
   Scene scene = corridor();
   Settings settings;
   settings.reflection.updateInterval = 4;
-  std::vector<CachedImage> cached;
+  RecycledVector<CachedImage> cached;
   for (int frame = 0; frame < 8; ++frame) {
     const FittedPlan fitted = planWithin({.budgetBytes = 1ull << 40, .largestSide = width}, scene, evaluate(scene, 0.0),
                                          settings, width, height, {.images = cached});

@@ -58,7 +58,7 @@ TEST(MeshError, LevelsGrowWithDistanceAndError) {
       EXPECT_GT(before[2], before[0]);
     }
   }
-  EXPECT_EQ(meshesWithLevels(levelPlan(scene, 4.0), evaluate(scene, 0.0)), std::vector{0});
+  EXPECT_EQ(meshesWithLevels(levelPlan(scene, 4.0), evaluate(scene, 0.0)), RecycledVector<int>{0});
 }
 
 TEST(MeshError, MainViewHasItsOwn) {
@@ -67,7 +67,7 @@ TEST(MeshError, MainViewHasItsOwn) {
   scene.camera.target = {0, 0, 10};
   const FramePlan plan = levelPlan(scene, 0.0, {{"view.mesh_error", "1"}});
   EXPECT_FALSE(plan.main.simplified.empty());
-  EXPECT_EQ(meshesWithLevels(plan, evaluate(scene, 0.0)), std::vector{0});
+  EXPECT_EQ(meshesWithLevels(plan, evaluate(scene, 0.0)), RecycledVector<int>{0});
   EXPECT_TRUE(levelPlan(scene, 0.0, {{"view.mesh_error", "1"}, {"reflection.clip", "none"}}).main.simplified.empty());
 }
 
@@ -305,7 +305,7 @@ void expectBoundHolds(Scene (*randomScene)(Random&)) {
       if (!sphereVisible(pass.view, points[0], 0.0)) {
         continue;
       }
-      const std::vector<glm::dvec4> clip = toClip(pass.view, plan.projection, points);
+      const auto clip = toClip(pass.view, plan.projection, points);
       const glm::dvec2 apart = glm::dvec2(clip[0]) / clip[0].w - glm::dvec2(clip[1]) / clip[1].w;
       const double texels = glm::length(apart * 0.5 * pass.view.pictureSize);
       ASSERT_LE(texels, bound * (1.0 + 1e-9));

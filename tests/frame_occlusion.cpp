@@ -32,7 +32,7 @@ bool meets(const glm::dvec3& eye, const glm::dvec3& point, const std::array<glm:
 
 // Only mirrors outside the path cover the last one.
 bool isCovered(const Scene& scene, const SceneState& state, const glm::dvec3& eye, const glm::dvec3& point,
-               const std::vector<int>& path) {
+               const MirrorPath& path) {
   for (const InstanceState& instance : state.instances) {
     const Mesh& mesh = scene.meshes[instance.mesh];
     const auto corner = [&](size_t i) { return instance.worldFromMesh.point(mesh.vertices[mesh.indices[i]].position); };
@@ -78,8 +78,8 @@ class Occluders : public ::testing::Test {
   }
 
   // Random points of the part of a mirror that the view shows, its corners first.
-  std::vector<glm::dvec3> pointsOf(const std::vector<glm::dvec3>& polygon) {
-    std::vector<glm::dvec3> points = polygon;
+  Polygon pointsOf(const Polygon& polygon) {
+    Polygon points = polygon;
     for (int i = 0; i < 24; ++i) {
       glm::dvec3 point(0.0);
       double weights = 0.0;
@@ -169,7 +169,7 @@ class Occluders : public ::testing::Test {
 
   // Returns the view that does not show a mirror.
   static const View& viewOf(const FramePlan& plan, const SkippedMirror& skipped) {
-    const std::vector<int> path(skipped.path.begin(), skipped.path.end() - 1);
+    const MirrorPath path(skipped.path.begin(), skipped.path.end() - 1);
     const auto shows = [&](const PlannedPass& pass) { return pass.view.path == path; };
     const auto pass = std::ranges::find_if(plan.passes, shows);
     return pass == plan.passes.end() ? plan.main.view : pass->view;

@@ -39,7 +39,7 @@ TEST(FramePlan, FacingMirrorNeedsOnePass) {
   const PlannedPass& pass = p.passes[0];
   EXPECT_EQ(pass.depth, 0);
   EXPECT_EQ(pass.parent, -1);
-  EXPECT_EQ(pass.view.path, std::vector<int>{0});
+  EXPECT_EQ(pass.view.path, MirrorPath{0});
   // 2 m at 5 m: 2/5 / (2 tan 30) of the height.
   const double side = 0.4 / (2.0 * std::tan(glm::radians(30.0))) * height;
   EXPECT_NEAR(pass.areaPx, side * side, 1e-6);
@@ -87,7 +87,7 @@ TEST(FramePlan, BudgetGoesToTheBestFirst) {
   settings.reflection.maxPasses = 1;
   const FramePlan p = planOf(scene, settings);
   ASSERT_EQ(p.passes.size(), 1u);
-  EXPECT_EQ(p.passes[0].view.path, std::vector<int>{1});
+  EXPECT_EQ(p.passes[0].view.path, MirrorPath{1});
   expectSkipped(p, 0, SkipReason::maxPasses);
   expectSkipped(p, 2, SkipReason::maxPasses);
 }

@@ -129,12 +129,12 @@ TEST(ShadowLayer, HoldsWhatStandsStill) {
   const ShadowFace first = frames.down(0.1);
   ASSERT_TRUE(first.layer);
   EXPECT_TRUE(first.layer->rendered);
-  EXPECT_EQ(first.layer->pass.instances, (std::vector{0, 1}));
-  EXPECT_EQ(first.pass.instances, std::vector{2});
+  EXPECT_EQ(first.layer->pass.instances, (RecycledVector<int>{0, 1}));
+  EXPECT_EQ(first.pass.instances, RecycledVector<int>{2});
   const ShadowFace next = frames.down(0.2);
   EXPECT_TRUE(next.rendered);
   EXPECT_FALSE(next.layer.value().rendered);
-  EXPECT_EQ(next.pass.instances, std::vector{2});
+  EXPECT_EQ(next.pass.instances, RecycledVector<int>{2});
   EXPECT_FALSE(frames.down(0.2).rendered) << "the animation pauses";
   EXPECT_FALSE(frames.down(0.3).layer.value().rendered);
   frames.scene.objects[1].position.x -= 0.1;

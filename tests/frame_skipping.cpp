@@ -25,7 +25,7 @@ Object square(const glm::dvec3& position, const glm::dvec3& scale = glm::dvec3(1
   return {.name = "door", .mesh = 0, .position = position, .scale = scale};
 }
 
-bool isHidden(const FramePlan& plan, const std::vector<int>& path) {
+bool isHidden(const FramePlan& plan, const MirrorPath& path) {
   const SkippedMirror* skip = skipOf(plan, path);
   return skip && skip->reason == SkipReason::hidden;
 }
@@ -95,8 +95,8 @@ TEST(Hidden, MirrorsHideOnlyWithWhatTheyReflect) {
   EXPECT_TRUE(isHidden(planOf(sceneWith(facing, {square({0, 0, 2}, {3, 3, 1})})), {0, 1}));
   const FramePlan beyond = planOf(sceneWith(facing, {square({0, 0, -6}, {3, 3, 1})}));
   EXPECT_FALSE(isHidden(beyond, {0, 1}));
-  EXPECT_EQ(beyond.passes.back().view.path, std::vector<int>{0});
-  ASSERT_TRUE(std::ranges::any_of(beyond.passes, [](const auto& pass) { return pass.view.path == std::vector{0, 1}; }));
+  EXPECT_EQ(beyond.passes.back().view.path, MirrorPath{0});
+  ASSERT_TRUE(std::ranges::any_of(beyond.passes, [](const auto& pass) { return pass.view.path == MirrorPath{0, 1}; }));
   // A door stands across the plane. Only its part before the plane is reflected, so only that part hides.
   Object across = square({0, 0, -4}, {3, 3, 1});
   across.rotation = {0, 90, 0};
@@ -240,7 +240,7 @@ TEST(PassMask, CoversTheMirrorAndItsLookups) {
     const double reach = lookupReach(settings, false);
     const std::vector<glm::dvec2> mask = passMask(pass.view, p.projection, reach);
     ASSERT_GE(mask.size(), 4u);
-    const std::vector<glm::dvec4> clip = toClip(p.main.view, p.projection, p.main.mirrors[0].polygon);
+    const auto clip = toClip(p.main.view, p.projection, p.main.mirrors[0].polygon);
     const glm::dvec2 texel = 2.0 / pass.view.pictureSize;
     const PixelRect& rect = pass.view.rect;
     const glm::dvec2 low = (glm::dvec2(rect.x, rect.y) + 1e-6) * texel - 1.0;

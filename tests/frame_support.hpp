@@ -65,7 +65,7 @@ inline FramePlan planOf(const Scene& scene, const Settings& settings = {}) {
   return planFrame(scene, evaluate(scene, 0.0), settings, width, height);
 }
 
-inline const SkippedMirror* skipOf(const FramePlan& plan, const std::vector<int>& path) {
+inline const SkippedMirror* skipOf(const FramePlan& plan, const MirrorPath& path) {
   const auto it = std::ranges::find(plan.skipped, path, &SkippedMirror::path);
   return it == plan.skipped.end() ? nullptr : &*it;
 }

@@ -80,7 +80,7 @@ TEST_F(EditJourney, HandlesAreDraggedInAMirrorImage) {
   const glm::dvec2 image(width / 2.0 + focalPixels * 0.3 / 6.0, height / 2.0);
   clickAt(image.x + 4, image.y);
   ASSERT_EQ(view().edit.selected, (Selection{Selection::Kind::object, 0}));
-  ASSERT_EQ(view().edit.through, std::vector<int>{0});
+  ASSERT_EQ(view().edit.through, MirrorPath{0});
   // Drags upwards in the mirror image, where the ball is six metres away and a pixel is longer.
   dragFrom(image.x, image.y - 60, 0, -30);
   EXPECT_NEAR(ball().position.y, 1.0 + 6.0 * 30 / focalPixels, 2e-2);
@@ -303,7 +303,7 @@ TEST_F(TwoMirrors, PointedPassesAndMirrorsAreOutlined) {
   const PixelRect row = widget("pass.mirror wall > door");
   moveTo(row.x + row.width / 2, row.y + row.height / 2);
   run(3);
-  ASSERT_EQ(view().frame.outlinedPath, (std::vector<int>{0, 1}));
+  ASSERT_EQ(view().frame.outlinedPath, (MirrorPath{0, 1}));
   expectOutline(without, view().frame.outline, "door in wall");
   scrollTo("skipped in main view");
   click("skipped in main view");
@@ -311,7 +311,7 @@ TEST_F(TwoMirrors, PointedPassesAndMirrorsAreOutlined) {
   const PixelRect door = widget("skipped.door");
   moveTo(door.x + door.width / 2, door.y + door.height / 2);
   run(3);
-  ASSERT_EQ(view().frame.outlinedPath, std::vector<int>{1});
+  ASSERT_EQ(view().frame.outlinedPath, MirrorPath{1});
   expectOutline(without, view().frame.outline, "door");
   // Its corners: 0.5 m beside and 0.8 m above and below the middle, turned by 200 degrees, four metres from the eye.
   const double turn = glm::radians(200.0);

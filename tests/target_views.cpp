@@ -228,7 +228,7 @@ TEST(TargetViews, KeepTheMean) {
   for (const TargetKind kind : {TargetKind::depth, TargetKind::color}) {
     for (const int pass : {0, 1}) {
       const DebugView debug{.pass = pass, .area = {0, 0, 100, 120}, .kind = kind, .halfDistance = 5.0};
-      const std::vector<int> path = pass == 0 ? std::vector<int>{0} : std::vector<int>{};
+      const MirrorPath path = pass == 0 ? MirrorPath{0} : MirrorPath{};
       EXPECT_FALSE(session.sceneRenderer().keepsTarget(path, kind));
       const Image8 shown = draw(2, debug);
       EXPECT_EQ(session.sceneRenderer().accumulated(), 3);

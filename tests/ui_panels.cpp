@@ -628,7 +628,7 @@ TEST_F(PanelTest, PerformanceRowsSelectTheirMirrors) {
   toggle("Performance");
   const Selection wall{Selection::Kind::mirror, 1};
   EXPECT_EQ(clickFor<SelectNode>("name.mirror wall", 0.1).node, wall);
-  EXPECT_EQ(output_.hoveredPath, std::vector<int>{1});
+  EXPECT_EQ(output_.hoveredPath, MirrorPath{1});
 }
 
 TEST_F(PanelTest, TooltipsLeaveDraggedSlidersInSight) {
@@ -1271,8 +1271,8 @@ TEST_F(TargetsWindow, ClickedPassOpensAndClosesIt) {
   click("pass.mirror wall", 0.3);
   run(2);
   ASSERT_TRUE(target());
-  EXPECT_EQ(target()->path, std::vector<int>{0});
-  EXPECT_EQ(output_.hoveredPath, std::vector<int>{0});
+  EXPECT_EQ(target()->path, MirrorPath{0});
+  EXPECT_EQ(output_.hoveredPath, MirrorPath{0});
   frame_.passes.erase(frame_.passes.begin());
   run(2);
   EXPECT_TRUE(target()->path.empty()) << "the main view takes the place of a pass that is gone";
@@ -1304,7 +1304,7 @@ TEST_F(TargetsWindow, TooltipsLeaveTheirRowInSight) {
 TEST_F(TargetsWindow, PointedSkippedMirrorsAreReported) {
   click("skipped in main view", 0.1);
   hover("skipped.mirror door", 0.1);
-  EXPECT_EQ(output_.hoveredPath, std::vector<int>{1});
+  EXPECT_EQ(output_.hoveredPath, MirrorPath{1});
   const Selection door{Selection::Kind::mirror, 1};
   EXPECT_EQ(clickFor<SelectNode>("skipped.mirror door", 0.1).node, door);
   frame_.skipped[0].path = {7};

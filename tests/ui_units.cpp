@@ -224,7 +224,7 @@ TEST(PassTree, ReusedImagesAreNotListedTwice) {
 
 TEST(MirrorCost, SumsPassesOrSaysWhyNone) {
   FrameView frame;
-  const auto pass = [&](std::vector<int> path, double ms, double pixels) {
+  const auto pass = [&](MirrorPath path, double ms, double pixels) {
     PassView row{{.path = std::move(path)}};
     row.gpuMs = ms;
     row.timed = !std::isnan(ms);

@@ -31,10 +31,10 @@ TEST_F(Editing, ClickSelectsDirectlyAndInMirrors) {
   EXPECT_TRUE(host_.inspector);
   click(imageAt_);
   EXPECT_EQ(edit().selected, ball);
-  EXPECT_EQ(edit().through, std::vector<int>{0});
+  EXPECT_EQ(edit().through, MirrorPath{0});
   click(pixel({0.3, 1.0, -7.5}) - glm::dvec2(4.0, 0.0));
   EXPECT_EQ(edit().selected, ball);
-  EXPECT_EQ(edit().through, (std::vector<int>{0, 1}));
+  EXPECT_EQ(edit().through, (MirrorPath{0, 1}));
   click(lampAt_);
   EXPECT_EQ(edit().selected, lamp);
   click({width - 5, 5});
@@ -61,7 +61,7 @@ TEST_F(Editing, UndoStaysInTheMirrorImage) {
   for (const Command& command : {Command(Undo{}), Command(Redo{}), Command(Undo{})}) {
     send(command);
     EXPECT_EQ(edit().selected, ball);
-    EXPECT_EQ(edit().through, std::vector<int>{0});
+    EXPECT_EQ(edit().through, MirrorPath{0});
   }
   expectNear(scene().objects[0].position, before);
   clickBall();
@@ -80,7 +80,7 @@ TEST_F(Editing, FurtherClicksGoOutwards) {
   EXPECT_EQ(edit().selected, ball);
   click(at + glm::dvec2(1.0, 0.0));
   EXPECT_EQ(edit().selected, behind);
-  EXPECT_EQ(edit().through, std::vector<int>{0});
+  EXPECT_EQ(edit().through, MirrorPath{0});
   click(at);
   EXPECT_EQ(edit().selected, ahead);
   EXPECT_TRUE(edit().through.empty());

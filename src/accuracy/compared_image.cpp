@@ -69,6 +69,14 @@ PixelMask readPixelMask(const std::filesystem::path& file) {
   return mask;
 }
 
+PixelMask readUsersMask(const std::filesystem::path& file) {
+  PixelMask mask = readPixelMask(file);
+  if (std::ranges::none_of(mask.selected, [](auto selected) { return selected != 0; })) {
+    throw std::runtime_error(file.string() + ": the mask leaves out every pixel (pixels of at least 128 count)");
+  }
+  return mask;
+}
+
 void requireSameSize(const ComparedImage& a, const ComparedImage& b) {
   if (a.width != b.width || a.height != b.height) {
     throw std::runtime_error(fmt::format("{}: is {}x{}, but {} is {}x{} (both must have the same size)", b.name,

@@ -97,7 +97,7 @@ int benchAgainst(const Options& options) {
   std::vector<std::string> other =
       command(options.againstBinary.empty() ? executablePath() : wholePath(options.againstBinary));
   addSettings(options.againstSettings, other);
-  const int rounds = options.benchRounds;
+  const int rounds = options.benchRounds.value_or(7);
   installInterruptHandler();
   std::map<std::string, std::vector<double>> ratios;
   Progress progress("bench", 2 * rounds);
@@ -277,6 +277,9 @@ int runBench(const Options& options) {
   }
   if (options.benchPrices && against) {
     throw UsageError("--prices: measures alone (leave out --against-binary and --against-set)");
+  }
+  if (options.benchRounds && !against) {
+    throw UsageError("--rounds: needs --against-binary or --against-set");
   }
   if (against) {
     return benchAgainst(options);

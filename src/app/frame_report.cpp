@@ -76,7 +76,7 @@ void FrameReport::clear() {
 }
 
 void FrameReport::update(const RecordedFrame& frame, Renderer& renderer, SceneRenderer& sceneRenderer,
-                         const std::vector<int>& hoveredPath) {
+                         const MirrorPath& hoveredPath) {
   const FrameTimings& timings = renderer.timings();
   Device& device = renderer.device();
   const MemoryBudget budget = device.memoryBudget();
@@ -254,7 +254,7 @@ void FrameReport::updateEffects(const RecordedFrame& frame, const EffectLedger& 
 }
 
 // Outlines the part of a mirror that the view that draws it shows: where the view ends, so does the outline.
-void FrameReport::updateOutline(const RecordedFrame& frame, const std::vector<int>& hovered) {
+void FrameReport::updateOutline(const RecordedFrame& frame, const MirrorPath& hovered) {
   view_.outlinedPath.clear();
   view_.outline.clear();
   // The path is that of the last frame; an edit may have removed mirrors since.
@@ -264,7 +264,7 @@ void FrameReport::updateOutline(const RecordedFrame& frame, const std::vector<in
     const std::span<const int> before = std::span(hovered).first(hovered.size() - 1);
     if (const auto image = picture.through(frame.scene, frame.state, before)) {
       view_.outlinedPath = hovered;
-      const std::vector<glm::dvec3> part = visiblePart(image->view(), frame.state.mirrors[hovered.back()].polygon);
+      const Polygon part = visiblePart(image->view(), frame.state.mirrors[hovered.back()].polygon);
       for (size_t i = 0; i < part.size(); ++i) {
         const auto from = image->pixel(part[i]);
         const auto to = image->pixel(part[(i + 1) % part.size()]);
@@ -282,7 +282,7 @@ void FrameReport::updateSkipped(const RecordedFrame& frame) {
   const std::vector<SkippedView> before = std::exchange(view_.skipped, {});
   for (const SkippedMirror& skip : skipped_) {
     view_.skipped.push_back({mirrorPathName(frame.scene, skip.path), skip.path, std::string(reasonText(skip.reason)),
-                             skip.detail, skip.reason == SkipReason::rays});
+                             std::string(skip.detail), skip.reason == SkipReason::rays});
   }
   std::set<int> reused;  // mirrors seen directly in cached images
   for (const PlannedPass& pass : frame.plan.reused) {
@@ -290,7 +290,7 @@ void FrameReport::updateSkipped(const RecordedFrame& frame) {
       reused.insert(pass.view.path.front());
     }
   }
-  std::set<std::vector<int>> listed;
+  std::set<MirrorPath> listed;
   for (const SkippedMirror& skip : skipped_) {
     if (reused.contains(skip.path.front())) {
       listed.insert(skip.path);
@@ -320,7 +320,7 @@ std::optional<DebugView> FrameReport::target(const TargetRequest& request, const
     return std::nullopt;
   }
   DebugView view = request.view;
-  const std::vector<PlannedPass>& passes = shownPasses(plan);
+  const RecycledVector<PlannedPass>& passes = shownPasses(plan);
   view.pass = static_cast<int>(mirror ? mirror - passes.data() : std::ssize(passes));
   // The image may have become smaller since the pointer was there.
   if (view.probe && (view.probe->x >= view_.target.size.x || view.probe->y >= view_.target.size.y)) {

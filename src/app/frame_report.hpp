@@ -30,7 +30,7 @@ class FrameReport {
   // `hoveredPath`: path of the mirror to outline; empty: none. The GPU's figures are those of the last frame that has
   // finished.
   void update(const RecordedFrame& frame, Renderer& renderer, SceneRenderer& sceneRenderer,
-              const std::vector<int>& hoveredPath);
+              const MirrorPath& hoveredPath);
   // Describes the requested target, and returns how to draw it over the picture; nothing if the plan lacks its pass or
   // the target has no area.
   std::optional<DebugView> target(const TargetRequest& request, const FramePlan& plan, const Settings& settings,
@@ -40,7 +40,7 @@ class FrameReport {
   // this frame.
   void updateTimes(const RecordedFrame& frame, const FrameTimings& timings, std::span<const RecordedPass> timed = {});
   void updatePasses(const RecordedFrame& frame, std::span<const RecordedPass> passes);
-  void updateOutline(const RecordedFrame& frame, const std::vector<int>& hovered);
+  void updateOutline(const RecordedFrame& frame, const MirrorPath& hovered);
   void updateEffects(const RecordedFrame& frame, const EffectLedger& ledger);
   void updateSkipped(const RecordedFrame& frame);
 
@@ -83,7 +83,7 @@ class FrameReport {
   bool timedLowered_ = false;
   Settings historySettings_;  // chosen for the frames of the history
   bool averages_ = false;     // FrameView::frameMs: its frames followed each other
-  std::vector<SkippedMirror> skipped_;
+  RecycledVector<SkippedMirror> skipped_;
   TargetKind targetKind_ = TargetKind::color;  // of FrameView::target
 };
 

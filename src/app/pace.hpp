@@ -73,7 +73,7 @@ class Pace {
     bool operator==(const Shown&) const = default;
   };
   // Pass and kind of a target.
-  using Target = std::pair<std::vector<int>, TargetKind>;
+  using Target = std::pair<MirrorPath, TargetKind>;
   struct Request {
     const Scene& scene;
     const SceneState& state;

@@ -94,7 +94,7 @@ class SceneEditor {
   std::vector<std::filesystem::path> models_;  // that an object can be added of, the scene's first
   std::function<void()> beforeChange_;
   std::unique_ptr<Picker> picker_;  // made when it is needed first
-  std::vector<int> path_;           // mirrors that the selected node was picked through
+  MirrorPath path_;                 // mirrors that the selected node was picked through
   std::vector<Selection> others_;   // selected together with the document's; of objects the first copy
   GizmoMode mode_ = GizmoMode::move;
   std::optional<NodeDrag> drag_;

@@ -217,6 +217,10 @@ void Session::drawPicture(bool capture) {
   frame_.cpuMs += millisecondsSince(recording) - frame.waitedMs;
   unfinished_.push_back(frame.number);
   renderer_.endFrame(frame);
+  // A window goes on with the shaders that it has. A command would show, and exit 0, what nobody asked for.
+  if (const std::string& errors = renderer_.pipelines().errors(); !errors.empty()) {
+    throw std::runtime_error("--shader-dir: " + errors.substr(0, errors.find('\n')));
+  }
   frame_.ledger.add(sceneRenderer_.ledger());
   ++frame_.pictures;
 }

@@ -28,7 +28,7 @@ ordered_json mirrorJson(const Scene& scene, int mirror) {
   return name.empty() ? ordered_json(mirror) : ordered_json(name);
 }
 
-ordered_json pathJson(const Scene& scene, const std::vector<int>& path) {
+ordered_json pathJson(const Scene& scene, const MirrorPath& path) {
   ordered_json json = ordered_json::array();
   for (const int mirror : path) {
     json.push_back(mirrorJson(scene, mirror));
@@ -42,7 +42,7 @@ ordered_json metres(const std::optional<double>& value) {
 
 // Returns the depth resolution of the mirror pass with that path; null for other passes and where only the background
 // is seen.
-ordered_json depthJson(const Session& session, const std::vector<int>& path) {
+ordered_json depthJson(const Session& session, const MirrorPath& path) {
   const DrawnFrame& frame = session.lastFrame();
   const PlannedPass* pass = mirrorPass(frame.plan, path);
   if (!pass) {
@@ -65,7 +65,7 @@ ordered_json parentJson(const Passes& passes, const PassId& pass) {
   if (pass.path.empty()) {
     return nullptr;
   }
-  const std::vector<int> seenIn(pass.path.begin(), pass.path.end() - 1);
+  const MirrorPath seenIn(pass.path.begin(), pass.path.end() - 1);
   const auto parent = std::ranges::find_if(passes, [&](const PassId& other) {
     return (other.kind == PassKind::mirror || other.kind == PassKind::main) && other.path == seenIn;
   });
@@ -103,7 +103,7 @@ ordered_json skippedJson(const Scene& scene, const FramePlan& plan) {
                        {"path", pathJson(scene, skip.path)},
                        {"depth", skip.depth},
                        {"reason", skipReasonName(skip.reason)},
-                       {"detail", skip.detail}});
+                       {"detail", std::string_view(skip.detail)}});
   }
   for (const ShadowMap& map : plan.shadowMaps) {
     for (size_t i = 0; i < map.faces.size(); ++i) {

@@ -23,7 +23,7 @@ Selection selectionOf(const SceneHit& hit, const TraceWorld& world) {
 }
 
 // Says whether the plan skipped the mirror at the end of the path, so that it shows no image.
-bool isSkipped(const PickLimits& limits, const std::vector<int>& path) {
+bool isSkipped(const PickLimits& limits, const MirrorPath& path) {
   return std::ranges::any_of(limits.skipped, [&](const SkippedMirror& skip) {
     const bool shown = skip.reason == SkipReason::maxPasses || skip.reason == SkipReason::maxDepth ||
                        skip.reason == SkipReason::minPixels || skip.reason == SkipReason::minThroughput;
@@ -40,7 +40,7 @@ std::vector<Picked> Picker::at(const SceneState& state, const PictureView& pictu
   Ray ray{glm::dvec3(0.0), glm::normalize(picture.ray(pixel).direction)};
   Skip skip;
   std::vector<Picked> found;
-  std::vector<int> path;
+  MirrorPath path;
   glm::dvec3 throughput(1.0);
   while (const auto hit = world_.closest(ray, skip)) {
     found.push_back({selectionOf(*hit, world_), path, eye + ray.at(hit->t)});

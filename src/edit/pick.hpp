@@ -10,7 +10,7 @@ namespace speculum {
 // A node that a pixel shows.
 struct Picked {
   Selection what;
-  std::vector<int> path;  // mirrors from the eye that it is seen in; indices into Scene::mirrors
+  MirrorPath path;        // mirrors from the eye that it is seen in; indices into Scene::mirrors
   glm::dvec3 point{0.0};  // world, on the node itself
 
   bool operator==(const Picked&) const = default;

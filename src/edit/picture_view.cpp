@@ -23,7 +23,7 @@ std::optional<PictureView> PictureView::through(const Scene& scene, const SceneS
     const MirrorState& mirror = state.mirrors[index];
     Plane plane{mirror.origin, mirror.normal};
     const double height = plane.distance(seen.eye());
-    const std::vector<glm::dvec3> visible = visiblePart(seen.view_, mirror.polygon);
+    const Polygon visible = visiblePart(seen.view_, mirror.polygon);
     if (visible.empty() || height == 0.0 || (height < 0.0 && !scene.mirrors[index].twoSided)) {
       return std::nullopt;
     }

@@ -26,7 +26,7 @@ class PictureView {
 
   const View& view() const { return view_; }
   const glm::dvec3& eye() const { return view_.eye; }  // world; reflected about the mirrors
-  const std::vector<int>& path() const { return view_.path; }
+  const MirrorPath& path() const { return view_.path; }
   glm::dvec3 forward() const;  // world, unit
   // Ray from the eye through a point of the picture; its direction is one metre deep, not of unit length.
   Ray ray(const glm::dvec2& pixel) const;

@@ -2,10 +2,10 @@
 
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "frame/settings.hpp"
 #include "frame/view.hpp"
+#include "platform/recycled_memory.hpp"
 
 namespace speculum {
 
@@ -16,9 +16,9 @@ struct CachedImage {
   // State when the image was rendered.
   View view;
   Projection projection;
-  std::vector<glm::dvec3> visible;  // world; visible region of the mirror
+  Polygon visible;  // world; visible region of the mirror
   Settings settings;
-  std::vector<uint64_t> content;  // imageContent(); empty without reflection.skip_unchanged
+  RecycledVector<uint64_t> content;  // imageContent(); empty without reflection.skip_unchanged
 
   int age = 1;           // frames since it was rendered or last found unchanged, in the next frame
   int unchangedFor = 0;  // frames from when it was rendered to when it was last found unchanged

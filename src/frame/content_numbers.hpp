@@ -5,9 +5,9 @@
 #include <optional>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "frame/frame_plan.hpp"
+#include "platform/recycled_memory.hpp"
 #include "scene/scene_fields.hpp"
 
 namespace speculum {
@@ -28,8 +28,8 @@ class ContentNumbers {
       add(*value);
     }
   }
-  template <typename T>
-  void add(const std::vector<T>& values) {
+  template <typename T, typename Allocator>
+  void add(const std::vector<T, Allocator>& values) {
     add(static_cast<double>(values.size()));
     for (const T& value : values) {
       add(value);
@@ -40,7 +40,7 @@ class ContentNumbers {
     (add(values), ...);
   }
 
-  void add(const std::string& text) { add(std::vector<double>(text.begin(), text.end())); }
+  void add(const std::string& text) { add(RecycledVector<double>(text.begin(), text.end())); }
   template <typename Enum>
   requires std::is_enum_v<Enum>
   void add(Enum value) { add(static_cast<double>(value)); }
@@ -65,10 +65,10 @@ class ContentNumbers {
   // An integer, which is compared whole.
   void addCount(uint64_t value) { numbers_.push_back(value); }
 
-  std::vector<uint64_t> take() { return std::move(numbers_); }
+  RecycledVector<uint64_t> take() { return std::move(numbers_); }
 
  private:
-  std::vector<uint64_t> numbers_;
+  RecycledVector<uint64_t> numbers_;
 };
 
 }  // namespace speculum

@@ -17,8 +17,8 @@ std::span<const FaceAxes> faceAxes() {
   return axes;
 }
 
-std::vector<Bounds> boxesOf(const Scene& scene, const SceneState& state, const glm::dvec3& origin) {
-  std::vector<Bounds> boxes;
+RecycledVector<Bounds> boxesOf(const Scene& scene, const SceneState& state, const glm::dvec3& origin) {
+  RecycledVector<Bounds> boxes;
   for (const InstanceState& instance : state.instances) {
     const glm::dvec3& half = scene.meshes[instance.mesh].halfExtent;
     glm::dvec3 reach(0.0);
@@ -43,8 +43,8 @@ void addVisibleInstances(const View& view, const Scene& scene, const SceneState&
     if (i == without || !boundsVisible(view, instance, mesh.halfExtent)) {
       continue;
     }
-    std::vector<IndexRange> ranges =
-        cullClusters ? visibleRanges(view, instance, mesh) : std::vector<IndexRange>{allOf(mesh)};
+    RecycledVector<IndexRange> ranges =
+        cullClusters ? visibleRanges(view, instance, mesh) : RecycledVector<IndexRange>{allOf(mesh)};
     if (ranges.empty()) {
       continue;
     }

@@ -1,10 +1,10 @@
 #pragma once
 
 #include <span>
-#include <vector>
 
 #include "frame/frame_plan.hpp"
 #include "geometry/bvh.hpp"
+#include "platform/recycled_memory.hpp"
 
 namespace speculum {
 
@@ -17,7 +17,7 @@ struct FaceAxes {
 std::span<const FaceAxes> faceAxes();
 
 // Axis-aligned boxes relative to a point in the world: one per instance, then one per mirror, in the state's order.
-std::vector<Bounds> boxesOf(const Scene& scene, const SceneState& state, const glm::dvec3& origin = glm::dvec3(0.0));
+RecycledVector<Bounds> boxesOf(const Scene& scene, const SceneState& state, const glm::dvec3& origin = glm::dvec3(0.0));
 
 // Adds the instances that the view may see, except `without`. With `cullClusters`, adds only their visible clusters.
 void addVisibleInstances(const View& view, const Scene& scene, const SceneState& state, bool cullClusters, int without,

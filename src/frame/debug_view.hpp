@@ -1,16 +1,15 @@
 #pragma once
 
 #include <optional>
-#include <vector>
 
-#include "geometry/projection.hpp"
+#include "frame/view.hpp"
 
 namespace speculum {
 
 enum class TargetKind { color, depth };
 
 // Says whether a target of the pass with this path is there without being asked for: the colors of the main view are.
-inline bool isAlwaysThere(const std::vector<int>& path, TargetKind kind) {
+inline bool isAlwaysThere(const MirrorPath& path, TargetKind kind) {
   return path.empty() && kind == TargetKind::color;
 }
 

@@ -46,9 +46,9 @@ Effect fresnel(const Scene& scene, const SceneState& state, const Settings& sett
   return {EffectKind::fresnel, "fresnel", false, "no visible mirror asks for it"};
 }
 
-Effect tracedEffect(EffectKind kind, const std::string& name, const std::optional<std::string>& caller,
+Effect tracedEffect(EffectKind kind, const std::string& name, const std::optional<RecycledString>& caller,
                     const std::string& otherwise) {
-  return {kind, name, caller.has_value(), caller.value_or(otherwise)};
+  return {kind, name, caller.has_value(), caller ? std::string(*caller) : otherwise};
 }
 
 Effect textures(const Scene& scene, const SceneState& state, const Settings& settings, const Visible& visible) {

@@ -1,7 +1,7 @@
 #include "frame/environment_map.hpp"
 
 #include <algorithm>
-#include <set>
+#include <iterator>
 
 #include "frame/cube_face.hpp"
 #include "frame/scene_names.hpp"
@@ -51,20 +51,21 @@ PlannedPass faceOf(const Scene& scene, const SceneState& state, const Environmen
 constexpr size_t mostFaceTests = 20'000'000;
 
 // Returns the instances of curved mirrors that the passes draw, ascending.
-std::vector<int> drawnCurved(const Scene& scene, const SceneState& state, std::span<const PlannedPass* const> passes) {
-  std::set<int> drawn;
+RecycledVector<int> drawnCurved(const Scene& scene, const SceneState& state,
+                                std::span<const PlannedPass* const> passes) {
+  RecycledVector<int> drawn;
   for (const PlannedPass* pass : passes) {
-    for (const int i : pass->instances) {
-      if (scene.objects[state.instances[i].object].mirror) {
-        drawn.insert(i);
-      }
-    }
+    std::ranges::copy_if(pass->instances, std::back_inserter(drawn),
+                         [&](int i) { return scene.objects[state.instances[i].object].mirror.has_value(); });
   }
-  return {drawn.begin(), drawn.end()};
+  std::ranges::sort(drawn);
+  const auto repeated = std::ranges::unique(drawn);
+  drawn.erase(repeated.begin(), repeated.end());
+  return drawn;
 }
 
 // Keeps the instances that have maps, ascending.
-void keepWidest(std::vector<int>& curved, const SceneState& state) {
+void keepWidest(RecycledVector<int>& curved, const SceneState& state) {
   const size_t most = std::clamp<size_t>(
       mostFaceTests / (faceAxes().size() * std::max<size_t>(state.instances.size(), 1)), 1, mostEnvironmentMaps);
   if (curved.size() > most) {
@@ -72,16 +73,16 @@ void keepWidest(std::vector<int>& curved, const SceneState& state) {
       const InstanceState& instance = state.instances[i];
       return instance.radius / std::max(1e-9, glm::length(instance.center - state.camera.eye));
     };
-    std::ranges::stable_sort(curved, [&](int a, int b) { return width(a) > width(b); });
+    std::ranges::sort(curved, {}, [&](int i) { return std::pair(-width(i), i); });
     curved.resize(most);
     std::ranges::sort(curved);
   }
 }
 
-std::string mapName(const Scene& scene, const InstanceState& instance) {
+RecycledString mapName(const Scene& scene, const InstanceState& instance) {
   const Object& object = scene.objects[instance.object];
-  return nameOf("object", object.name, instance.object) +
-         (object.copies.count > 1 ? " copy " + std::to_string(instance.copy) : "");
+  auto name = nameOf<RecycledString>("object", object.name, instance.object);
+  return object.copies.count > 1 ? name.append(" copy ").append(std::to_string(instance.copy)) : name;
 }
 
 }  // namespace
@@ -92,8 +93,8 @@ EnvironmentMaps environmentMaps(const Scene& scene, const SceneState& state, con
   if (!settings.effects.curved || settings.effects.curvedLookup != CurvedLookup::environment) {
     return maps;
   }
-  const std::vector<Bounds> boxes = boxesOf(scene, state);
-  std::vector<int> curved = drawnCurved(scene, state, passes);
+  const RecycledVector<Bounds> boxes = boxesOf(scene, state);
+  RecycledVector<int> curved = drawnCurved(scene, state, passes);
   const size_t drawn = curved.size();
   keepWidest(curved, state);
   maps.omitted = drawn - curved.size();

@@ -1,9 +1,9 @@
 #pragma once
 
 #include <span>
-#include <vector>
 
 #include "frame/frame_plan.hpp"
+#include "platform/recycled_memory.hpp"
 
 namespace speculum {
 
@@ -14,7 +14,7 @@ inline constexpr int environmentBorder = 1;
 inline constexpr size_t mostEnvironmentMaps = 32;
 
 struct EnvironmentMaps {
-  std::vector<EnvironmentMap> maps;
+  RecycledVector<EnvironmentMap> maps;
   size_t omitted = 0;  // curved mirrors that are drawn and have none
 };
 

@@ -58,10 +58,10 @@ class Planner {
   void findShadows();
   ImageSurroundings surroundings() const;
   void simplify();
-  void addMaps(std::vector<SimplifiedPass>& passes);
-  std::vector<SimplifiedPass> facesToSimplify(EnvironmentMap& map) const;
+  void addMaps(RecycledVector<SimplifiedPass>& passes);
+  RecycledVector<SimplifiedPass> facesToSimplify(EnvironmentMap& map) const;
   void reuseUnchanged();
-  void collect(int node, std::vector<const PlannedPass*>& passes) const;
+  void collect(int node, RecycledVector<const PlannedPass*>& passes) const;
   int record(int node);
   void reuseImage(MirrorDraw& draw, const PassNode& node);
   void recordReused(int node);
@@ -76,12 +76,12 @@ class Planner {
   const SceneChanges* changes_ = nullptr;  // null without reflection.skip_unchanged
   FramePlan plan_;
   glm::ivec2 size_{0};  // texels of the main view
-  std::vector<PassNode> nodes_;
+  RecycledVector<PassNode> nodes_;
 };
 
 // Finds the environment and shadow maps, and the effects that maps and passes call for. Passes of cached images count.
 void Planner::findEffects() {
-  std::vector<const PlannedPass*> passes;
+  RecycledVector<const PlannedPass*> passes;
   collect(0, passes);
   EnvironmentMaps maps = environmentMaps(scene_, state_, allSettings_, passes);
   plan_.maps = std::move(maps.maps);
@@ -94,8 +94,11 @@ void Planner::findEffects() {
   passes.push_back(&nodes_[0].pass);
   plan_.effects = tracedEffects(scene_, state_, allSettings_, passes);
   if (maps.omitted > 0) {
-    *plan_.effects.curved += "; " + std::to_string(plan_.maps.size()) + " have environment maps, " +
-                             std::to_string(maps.omitted) + " more show the background";
+    plan_.effects.curved->append("; ")
+        .append(std::to_string(plan_.maps.size()))
+        .append(" have environment maps, ")
+        .append(std::to_string(maps.omitted))
+        .append(" more show the background");
   }
   if (plan_.effects.shadowMaps) {
     findShadows();
@@ -103,7 +106,7 @@ void Planner::findEffects() {
 }
 
 void Planner::findShadows() {
-  std::vector<ShadowReader> readers;
+  RecycledVector<ShadowReader> readers;
   for (const PassNode& node : nodes_) {
     readers.push_back({&node.pass, readable(node.pass.view), &plan_.projection});
   }
@@ -123,7 +126,7 @@ void Planner::simplify() {
   if (!wanted || settings_.clip == ClipMethod::none || plan_.effects.tracesFromObjects()) {
     return;
   }
-  std::vector<SimplifiedPass> passes;
+  RecycledVector<SimplifiedPass> passes;
   for (PassNode& node : nodes_) {
     passes.push_back(
         {&node.pass, readable(node.pass.view), &plan_.projection, meshErrorIn(node.pass.view, allSettings_)});
@@ -146,8 +149,8 @@ void Planner::simplify() {
   }
 }
 
-std::vector<SimplifiedPass> Planner::facesToSimplify(EnvironmentMap& map) const {
-  std::vector<SimplifiedPass> faces;
+RecycledVector<SimplifiedPass> Planner::facesToSimplify(EnvironmentMap& map) const {
+  RecycledVector<SimplifiedPass> faces;
   for (PlannedPass& face : map.faces) {
     faces.push_back({&face, face.view, &map.projection, settings_.meshError});
   }
@@ -155,7 +158,7 @@ std::vector<SimplifiedPass> Planner::facesToSimplify(EnvironmentMap& map) const 
 }
 
 // Adds the faces of environment maps and of the shadow maps that all of them look up.
-void Planner::addMaps(std::vector<SimplifiedPass>& passes) {
+void Planner::addMaps(RecycledVector<SimplifiedPass>& passes) {
   for (EnvironmentMap& map : plan_.maps) {
     std::ranges::copy(facesToSimplify(map), std::back_inserter(passes));
   }
@@ -195,7 +198,7 @@ void Planner::reuseUnchanged() {
   for (const int child : nodes_[0].children) {
     std::optional<ImageChoice>& choice = nodes_[child].choice;
     if (choice && choice->image.cacheIndex < 0) {
-      std::vector<const PlannedPass*> passes;
+      RecycledVector<const PlannedPass*> passes;
       collect(child, passes);
       reuseIfUnchanged(choice->image, cache_.images, around, main, passes);
     }
@@ -203,7 +206,7 @@ void Planner::reuseUnchanged() {
 }
 
 // Adds the passes of a node's descendants, then its own.
-void Planner::collect(int node, std::vector<const PlannedPass*>& passes) const {
+void Planner::collect(int node, RecycledVector<const PlannedPass*>& passes) const {
   for (const int child : nodes_[node].children) {
     collect(child, passes);
   }
@@ -213,7 +216,7 @@ void Planner::collect(int node, std::vector<const PlannedPass*>& passes) const {
 // Adds a node's passes to the plan, depth first, so that an image is needed no longer than until its parent is drawn.
 // Returns the index of the node's pass, -1 for the main view.
 int Planner::record(int node) {
-  std::vector<int> childPasses;
+  RecycledVector<int> childPasses;
   for (const int child : nodes_[node].children) {
     PassNode& seen = nodes_[child];
     MirrorDraw& draw = nodes_[node].pass.mirrors[seen.draw];
@@ -256,15 +259,17 @@ void Planner::reuseImage(MirrorDraw& draw, const PassNode& node) {
   draw.cached = moved ? cachedLookup(image, parent, node.pass.view, plan_.projection) : CachedLookup{};
   draw.cached->image = static_cast<int>(plan_.cached.size());
   const int frames = image.unchangedFor + image.age - 1;
-  skipMirror(plan_, parent, image.mirror, SkipReason::unchanged,
-             "image of " + (frames == 1 ? std::string("the last frame") : std::to_string(frames) + " frames ago") +
-                 (moved ? ", reprojected" : ""));
+  RecycledString which = frames == 1 ? "image of the last frame" : "image of ";
+  if (frames != 1) {
+    which.append(std::to_string(frames)).append(" frames ago");
+  }
+  skipMirror(plan_, parent, image.mirror, SkipReason::unchanged, which.append(moved ? ", reprojected" : ""));
   plan_.cached.push_back(image);
 }
 
 // Drops skipped mirrors that are seen only in cached images.
 void Planner::dropSkipsInReused() {
-  std::vector<bool> reused(scene_.mirrors.size(), false);
+  RecycledVector<bool> reused(scene_.mirrors.size(), false);
   for (const CachedImage& image : plan_.cached) {
     reused[image.mirror] = image.cacheIndex >= 0;
   }
@@ -296,9 +301,10 @@ std::string_view skipReasonName(SkipReason reason) {
   return names[static_cast<size_t>(reason)];
 }
 
-const PlannedPass* mirrorPass(const FramePlan& plan, const std::vector<int>& path) {
-  const std::vector<PlannedPass>& passes = shownPasses(plan);
-  const auto pass = std::ranges::find_if(passes, [&](const PlannedPass& p) { return p.view.path == path; });
+const PlannedPass* mirrorPass(const FramePlan& plan, std::span<const int> path) {
+  const RecycledVector<PlannedPass>& passes = shownPasses(plan);
+  const auto pass =
+      std::ranges::find_if(passes, [&](const PlannedPass& p) { return std::ranges::equal(p.view.path, path); });
   return pass == passes.end() ? nullptr : &*pass;
 }
 

@@ -4,13 +4,13 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "frame/cached_image.hpp"
 #include "frame/partial_instances.hpp"
 #include "frame/settings.hpp"
 #include "frame/traced_effects.hpp"
 #include "frame/view.hpp"
+#include "platform/recycled_memory.hpp"
 
 namespace speculum {
 
@@ -39,7 +39,7 @@ struct MirrorDraw {
   bool ripples = false;                // rippled: the image of its plane is looked up where ripples reflect to
   int pass = -1;                       // index into FramePlan::passes of the pass that renders its image; -1: none
   std::optional<CachedLookup> cached;  // set if it reuses a cached image; with neither it shows the background
-  std::vector<glm::dvec3> polygon;     // world, cut to what the view shows, counter-clockwise for the view's eye
+  Polygon polygon;                     // world, cut to what the view shows, counter-clockwise for the view's eye
   Plane plane;                         // world; facing the view's eye
   int layer = 0;                       // MirrorState::frontLayer or backLayer, by the side that is seen
 };
@@ -47,45 +47,45 @@ struct MirrorDraw {
 // One pass: a view and what is drawn in it.
 struct PlannedPass {
   View view;
-  int parent = -1;             // index into FramePlan::passes; -1: the main view
-  int depth = -1;              // recursion depth of its mirror: 0 seen directly, 1 in a mirror; -1 for the main view
-  double areaPx = 0.0;         // area of the mirror's visible region, in texels of its image
-  double throughput = 1.0;     // upper bound over that region, largest channel, including this mirror
-  glm::dvec3 channels{1.0};    // upper bound of each channel
-  std::vector<int> instances;  // visible ones, indices into SceneState::instances, ascending
-  std::vector<PartialInstance> partial;        // instances that are seen in part, ascending
-  std::vector<SimplifiedInstance> simplified;  // instances that are drawn with fewer triangles, ascending
-  std::vector<int> lights;                     // lights whose glyphs are visible, indices into Scene::lights
-  std::vector<MirrorDraw> mirrors;             // in the order of Scene::mirrors
+  int parent = -1;                // index into FramePlan::passes; -1: the main view
+  int depth = -1;                 // recursion depth of its mirror: 0 seen directly, 1 in a mirror; -1 for the main view
+  double areaPx = 0.0;            // area of the mirror's visible region, in texels of its image
+  double throughput = 1.0;        // upper bound over that region, largest channel, including this mirror
+  glm::dvec3 channels{1.0};       // upper bound of each channel
+  RecycledVector<int> instances;  // visible ones, indices into SceneState::instances, ascending
+  RecycledVector<PartialInstance> partial;        // instances that are seen in part, ascending
+  RecycledVector<SimplifiedInstance> simplified;  // instances that are drawn with fewer triangles, ascending
+  RecycledVector<int> lights;                     // lights whose glyphs are visible, indices into Scene::lights
+  RecycledVector<MirrorDraw> mirrors;             // in the order of Scene::mirrors
 };
 
 // Six images about a curved mirror's centre, side by side in one target, three to a row: effects.curved_lookup =
 // environment. docs/effects.md: Environment maps.
 struct EnvironmentMap {
-  int object = 0;    // index into Scene::objects
-  int copy = 0;      // of the object
-  int instance = 0;  // index into SceneState::instances
-  std::string name;  // of the object and copy, for users
-  int size = 0;      // texels of each side of a face
+  int object = 0;       // index into Scene::objects
+  int copy = 0;         // of the object
+  int instance = 0;     // index into SceneState::instances
+  RecycledString name;  // of the object and copy, for users
+  int size = 0;         // texels of each side of a face
   Projection projection;
-  std::vector<PlannedPass> faces;  // towards +x, -x, +y, -y, +z, -z; without the object, mirrors without an image
-  glm::dvec3 center{0.0};          // world, of the object when they were rendered
-  glm::dvec3 low{0.0};             // world, box of what surrounds it in the present frame
+  RecycledVector<PlannedPass> faces;  // towards +x, -x, +y, -y, +z, -z; without the object, mirrors without an image
+  glm::dvec3 center{0.0};             // world, of the object when they were rendered
+  glm::dvec3 low{0.0};                // world, box of what surrounds it in the present frame
   glm::dvec3 high{0.0};
-  Settings settings;              // when they were rendered
-  std::vector<uint64_t> content;  // as CachedImage::content
-  uint64_t serial = 0;            // changes each time that any map is rendered
-  int age = 1;                    // frames since it was rendered or last found unchanged, in the next frame
-  int due = 1;                    // age at which it is rendered anew
-  int cacheIndex = -1;            // index into FrameCache::maps of the map that is reused; -1: this frame renders it
+  Settings settings;                 // when they were rendered
+  RecycledVector<uint64_t> content;  // as CachedImage::content
+  uint64_t serial = 0;               // changes each time that any map is rendered
+  int age = 1;                       // frames since it was rendered or last found unchanged, in the next frame
+  int due = 1;                       // age at which it is rendered anew
+  int cacheIndex = -1;               // index into FrameCache::maps of the map that is reused; -1: this frame renders it
 };
 
 // What casts shadows in a shadow map's face and stands still while other casters move. Its image is kept, and each
 // frame draws the others over a copy of it.
 struct ShadowLayer {
   PlannedPass pass;
-  bool rendered = false;          // rendered together with the face; else its texels are unchanged
-  std::vector<uint64_t> content;  // all that its texels depend on
+  bool rendered = false;             // rendered together with the face; else its texels are unchanged
+  RecycledVector<uint64_t> content;  // all that its texels depend on
 };
 
 // A part of a shadow map: what a light illuminates in one direction, as disparities from the light.
@@ -94,10 +94,10 @@ struct ShadowFace {
   Projection projection;  // of its window
   glm::dvec2 low{0.0};    // window, metres right and down in the plane one metre before the light
   glm::dvec2 high{0.0};
-  bool inReach = false;           // a view may show a part of it
-  bool read = false;              // something that is drawn may look it up
-  bool rendered = false;          // this frame renders it; else, if it is read, its texels are unchanged
-  std::vector<uint64_t> content;  // all that its texels depend on; empty if they were never rendered
+  bool inReach = false;              // a view may show a part of it
+  bool read = false;                 // something that is drawn may look it up
+  bool rendered = false;             // this frame renders it; else, if it is read, its texels are unchanged
+  RecycledVector<uint64_t> content;  // all that its texels depend on; empty if they were never rendered
   std::optional<ShadowLayer> layer;
 
   bool rendersLayer() const { return rendered && layer && layer->rendered; }
@@ -106,11 +106,11 @@ struct ShadowFace {
 // Six images about a light that casts shadows, side by side, three to a row: effects.shadow_lookup = map.
 // docs/effects.md: Shadow maps.
 struct ShadowMap {
-  int light = 0;                  // index into Scene::lights
-  std::string name;               // of the light, for users
-  int size = 0;                   // texels of each side of a face
-  std::vector<ShadowFace> faces;  // in the order of faceAxes()
-  uint64_t serial = 0;            // grows each time that a face of this map is rendered
+  int light = 0;                     // index into Scene::lights
+  RecycledString name;               // of the light, for users
+  int size = 0;                      // texels of each side of a face
+  RecycledVector<ShadowFace> faces;  // in the order of faceAxes()
+  uint64_t serial = 0;               // grows each time that a face of this map is rendered
 };
 
 // Kinds of recorded passes.
@@ -119,26 +119,26 @@ enum class PassKind { mirror, environment, shadow, main, accumulation, display, 
 // Identifies a pass. Equal for the same pass of different frames.
 struct PassId {
   PassKind kind = PassKind::mirror;
-  std::vector<int> path;  // mirrors from the eye, indices into Scene::mirrors; empty for other passes
-  int instance = -1;      // of an environment map, index into SceneState::instances
-  int light = -1;         // of a shadow map, index into Scene::lights
-  int face = -1;          // of an environment or shadow map, index into its faces
+  MirrorPath path;    // empty for other passes
+  int instance = -1;  // of an environment map, index into SceneState::instances
+  int light = -1;     // of a shadow map, index into Scene::lights
+  int face = -1;      // of an environment or shadow map, index into its faces
 
   bool operator==(const PassId&) const = default;
 };
 
 struct SkippedMirror {
   int mirror = 0;
-  std::vector<int> path;  // mirrors from the eye, ending with this one
+  MirrorPath path;  // ends with this one
   int depth = 0;
   SkipReason reason = SkipReason::outside;
-  std::string detail;
+  RecycledString detail;
 };
 
 // The main view that the frame before drew.
 struct MainImage {
   Settings settings;
-  std::vector<uint64_t> content;  // FramePlan::mainContent
+  RecycledVector<uint64_t> content;  // FramePlan::mainContent
 };
 
 // Images of the frame before that this frame may reuse.
@@ -163,19 +163,19 @@ struct FramePlan {
   Projection projection;
   int width = 0;  // pixels of the picture
   int height = 0;
-  int picture = 0;                  // index in the mean of view.accumulate pictures
-  std::vector<PlannedPass> passes;  // of mirrors, in the order of recording: children before their parent
+  int picture = 0;                     // index in the mean of view.accumulate pictures
+  RecycledVector<PlannedPass> passes;  // of mirrors, in the order of recording: children before their parent
   PlannedPass main;
-  bool mainReused = false;            // the frame before drew the same main view or mean, which is shown again
-  std::vector<uint64_t> mainContent;  // imageContent() of the main view if it shows cached images only; else empty
-  std::vector<SkippedMirror> skipped;
-  std::vector<CachedImage> cached;  // reused or rendered by this frame; the next one may reuse them
+  bool mainReused = false;               // the frame before drew the same main view or mean, which is shown again
+  RecycledVector<uint64_t> mainContent;  // imageContent() of the main view if it shows cached images only; else empty
+  RecycledVector<SkippedMirror> skipped;
+  RecycledVector<CachedImage> cached;  // reused or rendered by this frame; the next one may reuse them
   // Passes that cached images replace, in no particular order: what they show is on the screen and calls for effects.
-  std::vector<PlannedPass> reused;
-  std::vector<EnvironmentMap> maps;  // of the curved mirrors that are drawn; `instance` ascending
+  RecycledVector<PlannedPass> reused;
+  RecycledVector<EnvironmentMap> maps;  // of the curved mirrors that are drawn; `instance` ascending
   // One for each light of the scene that may cast shadows, if these are looked up; a map's index is its place in the
   // target.
-  std::vector<ShadowMap> shadowMaps;
+  RecycledVector<ShadowMap> shadowMaps;
   TracedEffects effects;  // that all of these passes call for
   // Tiles that this frame draws of a picture that several frames draw (picture_tiles.hpp); none: it draws all.
   std::optional<TileRange> tiles;
@@ -183,7 +183,7 @@ struct FramePlan {
 
 // Mirror passes of the picture that the frame shows: those that it draws, or `reused` if it shows the last picture
 // again.
-inline const std::vector<PlannedPass>& shownPasses(const FramePlan& plan) {
+inline const RecycledVector<PlannedPass>& shownPasses(const FramePlan& plan) {
   return plan.mainReused ? plan.reused : plan.passes;
 }
 
@@ -200,7 +200,7 @@ void forEachPass(const FramePlan& plan, const Visit& visit) {
 }
 
 // Returns the one of shownPasses() with that path; null if there is none.
-const PlannedPass* mirrorPass(const FramePlan& plan, const std::vector<int>& path);
+const PlannedPass* mirrorPass(const FramePlan& plan, std::span<const int> path);
 
 // Finds the passes that a picture of `width` x `height` pixels needs, and why every other mirror has none. Pure. The
 // budget of passes goes to the best first, by visible pixels times throughput. The main view has view.scale times as

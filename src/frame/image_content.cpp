@@ -28,8 +28,8 @@ void addEffects(const ImageSurroundings& around, const View& main, ContentNumber
 
 }  // namespace
 
-std::vector<uint64_t> imageContent(const ImageSurroundings& around, const View& main,
-                                   std::span<const PlannedPass* const> passes) {
+RecycledVector<uint64_t> imageContent(const ImageSurroundings& around, const View& main,
+                                      std::span<const PlannedPass* const> passes) {
   ContentNumbers numbers;
   numbers.add(around.scene.environment.cleared(around.settings.view.clearColor));
   numbers.addAll(around.projection.focal, around.projection.aspect, around.projection.near, around.projection.offset);
@@ -57,7 +57,8 @@ std::vector<uint64_t> imageContent(const ImageSurroundings& around, const View& 
   return numbers.take();
 }
 
-std::vector<uint64_t> shadowContent(const SceneChanges& changes, const ShadowFace& face, const PlannedPass& casters) {
+RecycledVector<uint64_t> shadowContent(const SceneChanges& changes, const ShadowFace& face,
+                                       const PlannedPass& casters) {
   ContentNumbers numbers;
   numbers.addAll(casters.view, face.low, face.high, face.projection.near, casters.instances);
   uint64_t changed = 0;

@@ -3,10 +3,10 @@
 #include <cstdint>
 #include <span>
 #include <utility>
-#include <vector>
 
 #include "frame/frame_plan.hpp"
 #include "frame/scene_changes.hpp"
+#include "platform/recycled_memory.hpp"
 
 namespace speculum {
 
@@ -16,10 +16,10 @@ struct ImageSurroundings {
   const SceneState& state;
   const Settings& settings;
   const Projection& projection;
-  const TracedEffects& effects;                // of all passes
-  const SceneChanges* changes;                 // up to this frame; null: unchanged images are not looked for
-  std::vector<std::pair<int, uint64_t>> maps;  // environment maps that may be looked up: instance, their serial
-  uint64_t shadowSerial = 0;                   // largest ShadowMap::serial
+  const TracedEffects& effects;                   // of all passes
+  const SceneChanges* changes;                    // up to this frame; null: unchanged images are not looked for
+  RecycledVector<std::pair<int, uint64_t>> maps;  // environment maps that may be looked up: instance, their serial
+  uint64_t shadowSerial = 0;                      // largest ShadowMap::serial
 };
 
 // Returns, as numbers, everything but settings, meshes and textures that the image of a mirror depends on: views, what
@@ -27,10 +27,10 @@ struct ImageSurroundings {
 // equal, are the same bit for bit. `passes` are the mirror's and those of all mirrors seen in it. If any of them traces
 // rays or looks up an environment map, the image depends on the whole scene, and on the time if rays may meet ripples.
 // `around` has changes.
-std::vector<uint64_t> imageContent(const ImageSurroundings& around, const View& main,
-                                   std::span<const PlannedPass* const> passes);
+RecycledVector<uint64_t> imageContent(const ImageSurroundings& around, const View& main,
+                                      std::span<const PlannedPass* const> passes);
 
 // Returns, as numbers, everything that the texels of a shadow map's face depend on if `casters` are drawn into it.
-std::vector<uint64_t> shadowContent(const SceneChanges& changes, const ShadowFace& face, const PlannedPass& casters);
+RecycledVector<uint64_t> shadowContent(const SceneChanges& changes, const ShadowFace& face, const PlannedPass& casters);
 
 }  // namespace speculum

@@ -53,7 +53,7 @@ bool reuseMap(EnvironmentMap& map, std::span<const EnvironmentMap> maps, const I
               const View& main) {
   const int interval = around.settings.effects.environmentInterval;
   if (around.changes) {
-    std::vector<const PlannedPass*> faces;
+    RecycledVector<const PlannedPass*> faces;
     for (const PlannedPass& face : map.faces) {
       faces.push_back(&face);
     }
@@ -122,7 +122,7 @@ void reuseIfUnchanged(CachedImage& image, std::span<const CachedImage> images, c
   }
 }
 
-void reuseMaps(std::vector<EnvironmentMap>& maps, std::span<const EnvironmentMap> before,
+void reuseMaps(RecycledVector<EnvironmentMap>& maps, std::span<const EnvironmentMap> before,
                const ImageSurroundings& around, const View& main) {
   uint64_t serial = 0;
   for (const EnvironmentMap& map : before) {

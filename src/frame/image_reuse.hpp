@@ -1,10 +1,10 @@
 #pragma once
 
 #include <span>
-#include <vector>
 
 #include "frame/cached_image.hpp"
 #include "frame/image_content.hpp"
+#include "platform/recycled_memory.hpp"
 
 namespace speculum {
 
@@ -37,7 +37,7 @@ void reuseIfUnchanged(CachedImage& image, std::span<const CachedImage> images, c
 
 // Reuses maps of the frame before, by reflection.skip_unchanged and effects.environment_interval; the others among
 // `maps`, which come from environmentMaps(), get a new serial. `around` is without maps, since a map shows none.
-void reuseMaps(std::vector<EnvironmentMap>& maps, std::span<const EnvironmentMap> before,
+void reuseMaps(RecycledVector<EnvironmentMap>& maps, std::span<const EnvironmentMap> before,
                const ImageSurroundings& around, const View& main);
 
 // Reuses the main view `before` of the last frame (null: none) if the plan, whose passes must be complete, would draw

@@ -68,7 +68,7 @@ double largestError(const View& view, const Projection& projection, const Instan
 }
 
 LevelChoice chooseLevel(const View& view, double largestError, const InstanceState& instance, const Mesh& mesh,
-                        std::vector<IndexRange> seen) {
+                        RecycledVector<IndexRange> seen) {
   LevelChoice best{.ranges = std::move(seen)};
   if (largestError <= 0.0) {
     return best;  // levelsOf() would make levels that nothing uses
@@ -80,7 +80,7 @@ LevelChoice chooseLevel(const View& view, double largestError, const InstanceSta
     --level;
     const bool clustered = !level->clusters.empty();
     if (level + 1 == end || clustered) {
-      std::vector<IndexRange> ranges = visibleRanges(view, instance, mesh.halfExtent, level->all, level->clusters);
+      RecycledVector<IndexRange> ranges = visibleRanges(view, instance, mesh.halfExtent, level->all, level->clusters);
       if (!ranges.empty() && indexCount(ranges) < indexCount(best.ranges)) {
         best = {static_cast<int>(level - levels.begin()), std::move(ranges)};
       }
@@ -100,7 +100,7 @@ namespace {
 
 // Chooses the coarsest level whose error is no more than `largestError`, whatever the view sees of it.
 LevelChoice coarsestLevel(const View& view, double largestError, const InstanceState& instance, const Mesh& mesh,
-                          std::vector<IndexRange> seen) {
+                          RecycledVector<IndexRange> seen) {
   if (largestError <= 0.0) {
     return {.ranges = std::move(seen)};
   }
@@ -110,8 +110,9 @@ LevelChoice coarsestLevel(const View& view, double largestError, const InstanceS
     return {.ranges = std::move(seen)};
   }
   const MeshLevel& level = *(end - 1);
-  std::vector<IndexRange> ranges = visibleRanges(view, instance, mesh.halfExtent, level.all, level.clusters);
-  return {static_cast<int>(end - 1 - levels.begin()), ranges.empty() ? std::vector{level.all} : std::move(ranges)};
+  RecycledVector<IndexRange> ranges = visibleRanges(view, instance, mesh.halfExtent, level.all, level.clusters);
+  return {static_cast<int>(end - 1 - levels.begin()),
+          ranges.empty() ? RecycledVector<IndexRange>{level.all} : std::move(ranges)};
 }
 
 // Draws each instance of the pass as choose(instance, ranges seen of the mesh) says. Without culling of clusters, whole
@@ -121,10 +122,10 @@ void applyLevels(const SimplifiedPass& simplified, const Settings& settings, con
                  const SceneState& state, const Choose& choose) {
   const bool culls = settings.debug.cullClusters;
   PlannedPass& pass = *simplified.pass;
-  std::vector<PartialInstance> partial;
+  RecycledVector<PartialInstance> partial;
   for (const int i : pass.instances) {
     const Mesh& mesh = scene.meshes[state.instances[i].mesh];
-    std::vector<IndexRange> seen = {allOf(mesh)};
+    RecycledVector<IndexRange> seen = {allOf(mesh)};
     if (const PartialInstance* part = partOf(pass.partial, i)) {
       seen = part->ranges;
     } else if (!culls) {
@@ -157,7 +158,7 @@ double errorOf(const SimplifiedPass& simplified, int i, const Settings& settings
 
 void simplifyPass(const SimplifiedPass& simplified, const Settings& settings, const Scene& scene,
                   const SceneState& state) {
-  applyLevels(simplified, settings, scene, state, [&](int i, std::vector<IndexRange> seen) {
+  applyLevels(simplified, settings, scene, state, [&](int i, RecycledVector<IndexRange> seen) {
     const InstanceState& instance = state.instances[i];
     return chooseLevel(simplified.readable, errorOf(simplified, i, settings, scene, state), instance,
                        scene.meshes[instance.mesh], std::move(seen));
@@ -167,7 +168,7 @@ void simplifyPass(const SimplifiedPass& simplified, const Settings& settings, co
 void simplifyAlike(std::span<const SimplifiedPass> passes, const Settings& settings, const Scene& scene,
                    const SceneState& state) {
   const int instances = static_cast<int>(state.instances.size());
-  std::vector<double> largest(state.instances.size(), std::numeric_limits<double>::infinity());
+  RecycledVector<double> largest(state.instances.size(), std::numeric_limits<double>::infinity());
   for (const SimplifiedPass& simplified : passes) {
     // Not only what the pass draws: the level must not depend on the clusters that are left out.
     for (int i = 0; i < instances; ++i) {
@@ -181,14 +182,14 @@ void simplifyAlike(std::span<const SimplifiedPass> passes, const Settings& setti
     if (!simplified.drawn) {
       continue;
     }
-    applyLevels(simplified, settings, scene, state, [&](int i, std::vector<IndexRange> seen) {
+    applyLevels(simplified, settings, scene, state, [&](int i, RecycledVector<IndexRange> seen) {
       const InstanceState& instance = state.instances[i];
       return coarsestLevel(simplified.readable, largest[i], instance, scene.meshes[instance.mesh], std::move(seen));
     });
   }
 }
 
-std::vector<int> meshesWithLevels(const FramePlan& plan, const SceneState& state) {
+RecycledVector<int> meshesWithLevels(const FramePlan& plan, const SceneState& state) {
   std::set<int> meshes;
   const auto add = [&](const PlannedPass& pass) {
     for (const SimplifiedInstance& simplified : pass.simplified) {

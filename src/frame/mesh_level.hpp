@@ -14,13 +14,13 @@ double largestError(const View& view, const Projection& projection, const Instan
 
 // Mesh level that is drawn instead of the mesh.
 struct LevelChoice {
-  int level = -1;                  // index into MeshLevels::levels; -1: the mesh itself
-  std::vector<IndexRange> ranges;  // indices of the level, or of the mesh, that the view may see
+  int level = -1;                     // index into MeshLevels::levels; -1: the mesh itself
+  RecycledVector<IndexRange> ranges;  // indices of the level, or of the mesh, that the view may see
 };
 
 // Chooses the fewest triangles: the ranges `seen` of the mesh, or a level whose error is no more than `largestError`.
 LevelChoice chooseLevel(const View& view, double largestError, const InstanceState& instance, const Mesh& mesh,
-                        std::vector<IndexRange> seen);
+                        RecycledVector<IndexRange> seen);
 
 // Texels by which simplified objects may be off in the view: view.mesh_error or reflection.mesh_error.
 double meshErrorIn(const View& view, const Settings& settings);
@@ -48,7 +48,7 @@ void simplifyAlike(std::span<const SimplifiedPass> passes, const Settings& setti
 
 // Returns the indices into Scene::meshes of meshes drawn as a level, each once. Passes that cached images replace count
 // too.
-std::vector<int> meshesWithLevels(const FramePlan& plan, const SceneState& state);
+RecycledVector<int> meshesWithLevels(const FramePlan& plan, const SceneState& state);
 
 // Index into MeshLevels::levels of what the pass draws for the instance; -1 for the mesh itself.
 int levelOf(const PlannedPass& pass, int instance);

@@ -1,11 +1,12 @@
 #include "frame/mirror_search.hpp"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
 #include <glm/gtx/component_wise.hpp>
 #include <optional>
 #include <queue>
-#include <sstream>
 
 #include "frame/cube_face.hpp"
 #include "frame/mirror_sight.hpp"
@@ -19,10 +20,10 @@ namespace {
 // A mirror that gets a pass if the budget of passes suffices.
 struct Candidate {
   double priority = 0.0;
-  int parent = 0;                   // node
-  size_t draw = 0;                  // index into the parent's mirrors
-  std::vector<glm::dvec3> visible;  // world; visible region
-  double areaPx = 0.0;              // of the picture
+  int parent = 0;       // node
+  size_t draw = 0;      // index into the parent's mirrors
+  Polygon visible;      // world; visible region
+  double areaPx = 0.0;  // of the picture
   glm::dvec3 throughput{1.0};
   int order = 0;  // of discovery; settles ties so that plans are reproducible
 
@@ -35,11 +36,10 @@ struct Candidate {
 // thousand, or 200 that show 200 others each.
 constexpr size_t mostWork = 2'500'000;
 
-std::string number(double value) {
-  std::ostringstream out;
-  out.precision(3);
-  out << value;
-  return out.str();
+RecycledString number(double value) {
+  std::array<char, 32> text;
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, 3).ptr;
+  return {text.data(), end};
 }
 
 class MirrorSearch {
@@ -54,7 +54,7 @@ class MirrorSearch {
         plan_(plan),
         occlusion_(scene, state, settings, plan.projection) {}
 
-  std::vector<PassNode> nodes(const glm::ivec2& size) {
+  RecycledVector<PassNode> nodes(const glm::ivec2& size) {
     PassNode& root = nodes_.emplace_back();
     root.pass.view = mainView(state_.camera, plan_.projection, size.x, size.y);
     root.pass.areaPx = root.pass.view.rect.area();
@@ -82,8 +82,8 @@ class MirrorSearch {
   const ReflectionSettings& settings_;
   const FrameCache& cache_;
   FramePlan& plan_;
-  std::vector<PassNode> nodes_;
-  std::priority_queue<Candidate> candidates_;
+  RecycledVector<PassNode> nodes_;
+  std::priority_queue<Candidate, RecycledVector<Candidate>> candidates_;
   Occlusion occlusion_;
   int discovered_ = 0;
   size_t work_ = 0;  // 2 for each mirror looked at, and other steps in proportion to their time and memory
@@ -105,21 +105,20 @@ void MirrorSearch::fill(int node) {
   };
   // Rays come from the reflected eye and begin to see at the window. What crosses another mirror's plane before does
   // not meet that mirror. Where the two mirrors share an edge, rounding would show the other's back.
-  std::optional<std::vector<glm::dvec3>> window;  // the part of the view's own mirror through which it sees
+  std::optional<Polygon> window;  // the part of the view's own mirror through which it sees
   const auto liesBefore = [&](int mirror) {
     if (!window) {
       View through = view;
       through.clip.reset();
-      window = view.path.empty() ? std::vector<glm::dvec3>()
-                                 : visiblePart(through, state_.mirrors[view.path.back()].polygon);
+      window = view.path.empty() ? Polygon() : visiblePart(through, state_.mirrors[view.path.back()].polygon);
     }
     const double height = heightAbove(state_.mirrors[mirror], view.eye);
     return height != 0.0 && !window->empty() && std::ranges::all_of(*window, [&](const glm::dvec3& p) {
              return height * heightAbove(state_.mirrors[mirror], p) <= 0.0;
            });
   };
-  std::vector<Sight> sights;  // of the mirrors that are seen; a view may look at a thousand that are not
-  std::vector<int> seen;
+  RecycledVector<Sight> sights;  // of the mirrors that are seen; a view may look at a thousand that are not
+  RecycledVector<int> seen;
   for (int i = 0; i < static_cast<int>(scene_.mirrors.size()); ++i) {
     if (!inOwnPlane(i) && !behindEye(view, state_.mirrors[i].polygon)) {
       Sight sight = sightOf(scene_, state_, view, drawn, i);
@@ -168,7 +167,7 @@ void MirrorSearch::consider(int node, Sight sight) {
   PlannedPass& pass = nodes_[node].pass;
   const View& view = pass.view;
   const int mirror = sight.draw.mirror;
-  const std::optional<std::string> occluder = occlusion_.hiddenBy(mirror, sight.draw.polygon);
+  const std::optional<RecycledString> occluder = occlusion_.hiddenBy(mirror, sight.draw.polygon);
   if (sight.draw.back) {
     if (sight.height < 0.0 && !occluder) {
       pass.mirrors.push_back(std::move(sight.draw));
@@ -200,7 +199,8 @@ void MirrorSearch::propose(int node, Sight sight) {
   sight.draw.ripples = reflects && !sight.draw.byRays && isRippled(material, allSettings_.effects);
   pass.mirrors.push_back(std::move(sight.draw));
   if (deep) {
-    return skipMirror(plan_, view, mirror, SkipReason::maxDepth, "max_depth " + std::to_string(settings_.maxDepth));
+    return skipMirror(plan_, view, mirror, SkipReason::maxDepth,
+                      RecycledString("max_depth ").append(std::to_string(settings_.maxDepth)));
   }
   if (rays.empty() && area < settings_.minPixels) {
     return skipMirror(plan_, view, mirror, SkipReason::minPixels, number(area) + " px");
@@ -209,7 +209,7 @@ void MirrorSearch::propose(int node, Sight sight) {
     return skipMirror(plan_, view, mirror, SkipReason::minThroughput, number(glm::compMax(throughput)));
   }
   if (!rays.empty()) {
-    return skipMirror(plan_, view, mirror, SkipReason::rays, std::string(rays));
+    return skipMirror(plan_, view, mirror, SkipReason::rays, RecycledString(rays));
   }
   candidates_.push({area * glm::compMax(throughput), node, pass.mirrors.size() - 1, std::move(sight.visible), area,
                     throughput, discovered_++});
@@ -220,7 +220,7 @@ void MirrorSearch::expand(const Candidate& candidate) {
   const MirrorDraw& draw = nodes_[candidate.parent].pass.mirrors[candidate.draw];
   if (static_cast<int>(nodes_.size()) > settings_.maxPasses) {
     return skipMirror(plan_, parent, draw.mirror, SkipReason::maxPasses,
-                      "max_passes " + std::to_string(settings_.maxPasses));
+                      RecycledString("max_passes ").append(std::to_string(settings_.maxPasses)));
   }
   if (work_ > mostWork) {
     return skipMirror(plan_, parent, draw.mirror, SkipReason::maxPasses, "too many to plan");
@@ -266,8 +266,8 @@ void MirrorSearch::expand(const Candidate& candidate) {
 
 }  // namespace
 
-std::vector<PassNode> findPasses(const Scene& scene, const SceneState& state, const Settings& settings,
-                                 const FrameCache& cache, const glm::ivec2& size, FramePlan& plan) {
+RecycledVector<PassNode> findPasses(const Scene& scene, const SceneState& state, const Settings& settings,
+                                    const FrameCache& cache, const glm::ivec2& size, FramePlan& plan) {
   return MirrorSearch(scene, state, settings, cache, plan).nodes(size);
 }
 
@@ -281,7 +281,7 @@ View readableView(const View& view, const Projection& projection, const Settings
   return readable;
 }
 
-void skipMirror(FramePlan& plan, const View& view, int mirror, SkipReason reason, std::string detail) {
+void skipMirror(FramePlan& plan, const View& view, int mirror, SkipReason reason, RecycledString detail) {
   SkippedMirror skipped{mirror, view.path, static_cast<int>(view.path.size()), reason, std::move(detail)};
   skipped.path.push_back(mirror);
   plan.skipped.push_back(std::move(skipped));

@@ -8,20 +8,20 @@ namespace speculum {
 struct PassNode {
   PlannedPass pass;
   size_t draw = 0;                    // index of its mirror among the parent's draws
-  std::vector<int> children;          // nodes
+  RecycledVector<int> children;       // nodes
   std::optional<ImageChoice> choice;  // set for mirrors seen directly whose images are cached
 };
 
 // Finds the mirrors that get a pass within the budget of passes. The first node is the main view of `size` texels.
 // Adds to plan.skipped why every other mirror has none. Reads the projection and the picture's size from `plan`.
-std::vector<PassNode> findPasses(const Scene& scene, const SceneState& state, const Settings& settings,
-                                 const FrameCache& cache, const glm::ivec2& size, FramePlan& plan);
+RecycledVector<PassNode> findPasses(const Scene& scene, const SceneState& state, const Settings& settings,
+                                    const FrameCache& cache, const glm::ivec2& size, FramePlan& plan);
 
 // Widens the view by the distance at which lookups read its image beyond the visible region. All views get the margin
 // of cached images, which is the widest, so that every update interval draws the same things in the same order.
 View readableView(const View& view, const Projection& projection, const Settings& settings);
 
 // Adds to plan.skipped why a mirror in a view has no pass.
-void skipMirror(FramePlan& plan, const View& view, int mirror, SkipReason reason, std::string detail = {});
+void skipMirror(FramePlan& plan, const View& view, int mirror, SkipReason reason, RecycledString detail = {});
 
 }  // namespace speculum

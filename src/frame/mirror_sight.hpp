@@ -1,17 +1,17 @@
 #pragma once
 
 #include <span>
-#include <vector>
 
 #include "frame/frame_plan.hpp"
+#include "platform/recycled_memory.hpp"
 
 namespace speculum {
 
 // A mirror as the eye of a view sees it.
 struct Sight {
-  MirrorDraw draw;                  // before settings are applied; empty if nothing is visible
-  double height = 0.0;              // heightAbove() of the view's eye
-  std::vector<glm::dvec3> visible;  // world; visible region
+  MirrorDraw draw;      // before settings are applied; empty if nothing is visible
+  double height = 0.0;  // heightAbove() of the view's eye
+  Polygon visible;      // world; visible region
 };
 
 // Returns the signed distance of the eye from the mirror's plane, metres, positive before the front; exactly 0 where

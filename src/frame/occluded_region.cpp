@@ -41,14 +41,14 @@ std::optional<glm::dvec3> addEdge(OccludedRegion& region, const glm::dvec3& a, c
 
 // Returns the body's outline as seen from the eye: directed edges as pairs of indices into its points. An edge belongs
 // to it if just one of its triangles faces the eye.
-std::vector<std::pair<uint32_t, uint32_t>> outline(const BodyOccluder& body, const glm::dvec3& eye) {
-  std::vector<int> facing;  // 1 if the triangle runs counter-clockwise from the eye, -1 if clockwise
+RecycledVector<std::pair<uint32_t, uint32_t>> outline(const BodyOccluder& body, const glm::dvec3& eye) {
+  RecycledVector<int> facing;  // 1 if the triangle runs counter-clockwise from the eye, -1 if clockwise
   facing.reserve(body.normals.size());
   for (size_t i = 0; i < body.normals.size(); ++i) {
     const glm::dvec3& corner = body.points[body.mesh->triangles[i][0]];
     facing.push_back(glm::dot(body.normals[i], eye - corner) > 0.0 ? 1 : -1);
   }
-  std::vector<std::pair<uint32_t, uint32_t>> outline;
+  RecycledVector<std::pair<uint32_t, uint32_t>> outline;
   for (const ConvexMesh::Edge& edge : body.mesh->edges) {
     const int along = facing[edge.triangles[0]] + (edge.sameDirection ? 1 : -1) * facing[edge.triangles[1]];
     if (along != 0) {
@@ -68,7 +68,7 @@ bool hiddenByFace(const FlatOccluder& occluder, const View& view, const Projecti
     return false;
   }
   std::span<const glm::dvec3> drawn = occluder.polygon;
-  std::vector<glm::dvec3> clipped;
+  Polygon clipped;
   if (view.clip) {
     const Plane clip{view.clip->point + occluder.slack * view.clip->normal, view.clip->normal};
     const auto kept = std::ranges::count_if(drawn, [&](const glm::dvec3& p) { return clip.distance(p) >= 0.0; });
@@ -76,7 +76,7 @@ bool hiddenByFace(const FlatOccluder& occluder, const View& view, const Projecti
       return false;
     }
     if (kept < std::ssize(drawn)) {
-      clipped = distinctVertices(clipPolygon(drawn, clip), 0.01 * occluder.slack);
+      clipped = distinctVertices<Polygon>(clipPolygon<Polygon>(drawn, clip), 0.01 * occluder.slack);
       drawn = clipped;
     }
   }
@@ -139,12 +139,12 @@ bool isBefore(const BodyOccluder& body, const FlatOccluder& target, const glm::d
       body.points, [&](const glm::dvec3& p) { return (height > 0.0 ? 1.0 : -1.0) * target.plane.distance(p) > least; });
 }
 
-std::vector<std::vector<glm::dvec3>> outside(const OccludedRegion& region, const glm::dvec3& eye,
-                                             const std::vector<std::vector<glm::dvec3>>& polygons) {
-  std::vector<std::vector<glm::dvec3>> pieces;
-  for (const std::vector<glm::dvec3>& polygon : polygons) {
+RecycledVector<Polygon> outside(const OccludedRegion& region, const glm::dvec3& eye,
+                                const RecycledVector<Polygon>& polygons) {
+  RecycledVector<Polygon> pieces;
+  for (const Polygon& polygon : polygons) {
     const size_t before = pieces.size();
-    std::vector<glm::dvec3> within = polygon;
+    Polygon within = polygon;
     for (const HalfSpace& half : region) {
       const auto inside = [&](const glm::dvec3& p) { return half.at(p - eye) > 0.0; };
       if (std::ranges::all_of(within, inside)) {
@@ -159,8 +159,8 @@ std::vector<std::vector<glm::dvec3>> outside(const OccludedRegion& region, const
       }
       const glm::dvec3 point = eye - half.gradient * (half.constant / slope2);
       const glm::dvec3 normal = half.gradient / std::sqrt(slope2);
-      pieces.push_back(clipPolygon(within, {point, -normal}));
-      within = clipPolygon(within, {point, normal});
+      pieces.push_back(clipPolygon<Polygon>(within, {point, -normal}));
+      within = clipPolygon<Polygon>(within, {point, normal});
     }
   }
   return pieces;

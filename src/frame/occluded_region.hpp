@@ -1,10 +1,10 @@
 #pragma once
 
 #include <optional>
-#include <vector>
 
 #include "frame/view.hpp"
 #include "geometry/convex_mesh.hpp"
+#include "platform/recycled_memory.hpp"
 
 namespace speculum {
 
@@ -24,11 +24,11 @@ struct HalfSpace {
 // outline runs counter-clockwise; a point on the left of all its edges is wound around at least once, and so is
 // covered, whatever the occluder's shape. An occluder that is not convex hides only the intersection of its half
 // spaces.
-using OccludedRegion = std::vector<HalfSpace>;
+using OccludedRegion = RecycledVector<HalfSpace>;
 
 // A flat polygon, world space, and the plane through it, from whose normal the polygon runs counter-clockwise.
 struct FlatOccluder {
-  std::vector<glm::dvec3> polygon;  // neighbours are more than `slack` / 100 apart
+  Polygon polygon;  // neighbours are more than `slack` / 100 apart
   Plane plane;
   double slack = 0.0;      // metres by which it may stand elsewhere on the GPU
   glm::dvec3 center{0.0};  // of a sphere around it
@@ -41,10 +41,10 @@ bool hiddenByFace(const FlatOccluder& occluder, const View& view, const Projecti
 
 // A closed mesh that is about convex, world space.
 struct BodyOccluder {
-  const ConvexMesh* mesh = nullptr;  // null: nothing hides
-  std::vector<glm::dvec3> points;    // of the mesh's
-  std::vector<glm::dvec3> normals;   // of its triangles, of any length
-  double slack = 0.0;                // metres by which the points may stand elsewhere on the GPU
+  const ConvexMesh* mesh = nullptr;    // null: nothing hides
+  RecycledVector<glm::dvec3> points;   // of the mesh's
+  RecycledVector<glm::dvec3> normals;  // of its triangles, of any length
+  double slack = 0.0;                  // metres by which the points may stand elsewhere on the GPU
 };
 
 // Region behind a body. The body hides a point within `outline` if the point lies on a plane for which isBefore() is
@@ -60,7 +60,7 @@ std::optional<BodyRegion> hiddenByBody(const BodyOccluder& body, const View& vie
 bool isBefore(const BodyOccluder& body, const FlatOccluder& target, const glm::dvec3& eye);
 
 // Cuts a region out of convex polygons (world space) and returns the convex pieces that are left.
-std::vector<std::vector<glm::dvec3>> outside(const OccludedRegion& region, const glm::dvec3& eye,
-                                             const std::vector<std::vector<glm::dvec3>>& polygons);
+RecycledVector<Polygon> outside(const OccludedRegion& region, const glm::dvec3& eye,
+                                const RecycledVector<Polygon>& polygons);
 
 }  // namespace speculum

@@ -30,7 +30,7 @@ FlatOccluder flatOccluder(std::span<const glm::dvec3> polygon, double size) {
   }
   made.center = vertexMean(polygon);
   made.radius = farthestDistance(made.center, polygon);
-  made.polygon = distinctVertices(polygon, 0.01 * made.slack);
+  made.polygon = distinctVertices<Polygon>(polygon, 0.01 * made.slack);
   return made;
 }
 
@@ -112,7 +112,7 @@ Occlusion::Body& Occlusion::bodyOf(int instance) {
       body.whole = bodyOccluder(mesh.convex, state);
     }
     body.faces.reserve(mesh.faces.size());
-    std::vector<glm::dvec3> polygon;
+    Polygon polygon;
     for (const std::vector<glm::dvec3>& face : mesh.faces) {
       polygon.clear();
       for (const glm::dvec3& p : face) {
@@ -205,12 +205,12 @@ Occlusion::Occluders Occlusion::occludersOf(int mirror, std::span<const glm::dve
   return found;
 }
 
-std::string Occlusion::nameOfOccluder(const Occluder& occluder) const {
+RecycledString Occlusion::nameOfOccluder(const Occluder& occluder) const {
   if (occluder.isMirror) {
-    return nameOf("mirror", scene_.mirrors[occluder.index].name, occluder.index);
+    return nameOf<RecycledString>("mirror", scene_.mirrors[occluder.index].name, occluder.index);
   }
   const int object = state_.instances[occluder.index].object;
-  return nameOf("object", scene_.objects[object].name, object);
+  return nameOf<RecycledString>("object", scene_.objects[object].name, object);
 }
 
 bool Occlusion::skips(const View& view) const {
@@ -219,7 +219,7 @@ bool Occlusion::skips(const View& view) const {
   return settings_.debug.skipHidden && !settings_.view.wireframe && !oblique;
 }
 
-void Occlusion::setView(const View& view, std::span<const int> instances, std::vector<int> mirrors) {
+void Occlusion::setView(const View& view, std::span<const int> instances, RecycledVector<int> mirrors) {
   view_ = &view;
   ++viewNumber_;
   // Mirrors are drawn only where the view shows them, not in the margin that is read around it.
@@ -229,7 +229,7 @@ void Occlusion::setView(const View& view, std::span<const int> instances, std::v
     return;
   }
   // Keeps those that fill the widest angles at the eye, in their order.
-  const auto keepLargest = [&](std::vector<int>& candidates, const auto& sphereOf) {
+  const auto keepLargest = [&](RecycledVector<int>& candidates, const auto& sphereOf) {
     if (candidates.size() > mostTested) {
       const auto angle = [&](int i) {
         const auto [center, radius] = sphereOf(static_cast<size_t>(i));
@@ -247,7 +247,7 @@ void Occlusion::setView(const View& view, std::span<const int> instances, std::v
               [&](size_t i) { return std::pair(state_.instances[i].center, state_.instances[i].radius); });
 }
 
-std::optional<std::string> Occlusion::hiddenBy(int mirror, std::span<const glm::dvec3> polygon) {
+std::optional<RecycledString> Occlusion::hiddenBy(int mirror, std::span<const glm::dvec3> polygon) {
   if (!skips(*view_) || polygon.empty()) {
     return std::nullopt;
   }
@@ -256,12 +256,12 @@ std::optional<std::string> Occlusion::hiddenBy(int mirror, std::span<const glm::
 }
 
 // Cuts the occluded regions off the polygon one after the other, until no piece is left.
-std::optional<std::string> Occlusion::hiddenTogether(std::span<const Occluder> occluders,
-                                                     std::span<const glm::dvec3> polygon) const {
-  std::vector<std::vector<glm::dvec3>> pieces = {{polygon.begin(), polygon.end()}};
-  std::vector<const Occluder*> used;
+std::optional<RecycledString> Occlusion::hiddenTogether(std::span<const Occluder> occluders,
+                                                        std::span<const glm::dvec3> polygon) const {
+  RecycledVector<Polygon> pieces = {{polygon.begin(), polygon.end()}};
+  RecycledVector<const Occluder*> used;
   for (const Occluder& occluder : occluders.first(std::min(occluders.size(), mostOccluders))) {
-    std::vector<std::vector<glm::dvec3>> left = outside(occluder.region, view_->eye, pieces);
+    RecycledVector<Polygon> left = outside(occluder.region, view_->eye, pieces);
     if (left == pieces || left.size() > mostPieces) {
       continue;
     }
@@ -274,15 +274,15 @@ std::optional<std::string> Occlusion::hiddenTogether(std::span<const Occluder> o
   return std::nullopt;
 }
 
-std::string Occlusion::namesOf(std::span<const Occluder* const> occluders) const {
-  std::vector<std::string> names;  // each once
+RecycledString Occlusion::namesOf(std::span<const Occluder* const> occluders) const {
+  RecycledVector<RecycledString> names;  // each once
   for (const Occluder* occluder : occluders) {
-    const std::string name = nameOfOccluder(*occluder);
+    const RecycledString name = nameOfOccluder(*occluder);
     if (std::ranges::find(names, name) == names.end()) {
       names.push_back(name);
     }
   }
-  std::string all = names[0];
+  RecycledString all = names[0];
   for (size_t i = 1; i < names.size(); ++i) {
     all += (i + 1 < names.size() ? ", " : " and ") + names[i];
   }

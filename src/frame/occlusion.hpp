@@ -4,11 +4,11 @@
 #include <span>
 #include <string>
 #include <unordered_map>
-#include <vector>
 
 #include "frame/occluded_region.hpp"
 #include "frame/settings.hpp"
 #include "frame/view.hpp"
+#include "platform/recycled_memory.hpp"
 
 namespace speculum {
 
@@ -22,11 +22,11 @@ class Occlusion {
 
   // Sets the view that hiddenBy() is about, to which it keeps a reference. Of the `instances` and `mirrors` that it
   // shows, both ascending, those that look largest are tested if there are very many.
-  void setView(const View& view, std::span<const int> instances, std::vector<int> mirrors);
+  void setView(const View& view, std::span<const int> instances, RecycledVector<int> mirrors);
 
   // Names the occluders that hide all of `polygon` (world), a part of `mirror`, in the view: "object NAME", "mirror
   // NAME", or several of them; nothing if they do not.
-  std::optional<std::string> hiddenBy(int mirror, std::span<const glm::dvec3> polygon);
+  std::optional<RecycledString> hiddenBy(int mirror, std::span<const glm::dvec3> polygon);
 
  private:
   // The region that an occluder hides is found when a view first needs it.
@@ -37,7 +37,7 @@ class Occlusion {
     OccludedRegion region;  // keeps its memory from view to view
   };
   struct Body {
-    std::vector<Face> faces;
+    RecycledVector<Face> faces;
     BodyOccluder whole;
     int view = -1;  // as of a face
     std::optional<BodyRegion> region;
@@ -53,29 +53,30 @@ class Occlusion {
     bool add(const OccludedRegion& region, const HalfSpace* also, const Occluder& of, const glm::dvec3& eye,
              std::span<const glm::dvec3> polygon);
     std::optional<Occluder> whole;  // hides all of it; without its region
-    std::vector<Occluder> parts;
+    RecycledVector<Occluder> parts;
   };
   Body& bodyOf(int instance);
   const OccludedRegion* regionOf(Face& face) const;  // null: hides nothing
   const BodyRegion* regionOf(Body& body) const;
   Occluders occludersOf(int mirror, std::span<const glm::dvec3> polygon);
   bool skips(const View& view) const;
-  std::string nameOfOccluder(const Occluder& occluder) const;
-  std::string namesOf(std::span<const Occluder* const> occluders) const;
-  std::optional<std::string> hiddenTogether(std::span<const Occluder> occluders,
-                                            std::span<const glm::dvec3> polygon) const;
+  RecycledString nameOfOccluder(const Occluder& occluder) const;
+  RecycledString namesOf(std::span<const Occluder* const> occluders) const;
+  std::optional<RecycledString> hiddenTogether(std::span<const Occluder> occluders,
+                                               std::span<const glm::dvec3> polygon) const;
 
   const Scene& scene_;
   const SceneState& state_;
   const Settings& settings_;
   const Projection& projection_;
   const View* view_ = nullptr;
-  std::vector<int> viewMirrors_;    // that are tested in the view, ascending
-  std::vector<int> viewInstances_;  // likewise
+  RecycledVector<int> viewMirrors_;    // that are tested in the view, ascending
+  RecycledVector<int> viewInstances_;  // likewise
   int viewNumber_ = -1;
-  std::vector<Face> mirrors_;             // parallel to SceneState::mirrors
-  std::vector<double> largestFaces_;      // by mesh, radius as a part of the mesh's
-  std::unordered_map<int, Body> bodies_;  // by index into SceneState::instances; made on first use
+  RecycledVector<Face> mirrors_;         // parallel to SceneState::mirrors
+  RecycledVector<double> largestFaces_;  // by mesh, radius as a part of the mesh's
+  std::unordered_map<int, Body, std::hash<int>, std::equal_to<>, RecyclingAllocator<std::pair<const int, Body>>>
+      bodies_;  // by index into SceneState::instances; made on first use
 };
 
 }  // namespace speculum

@@ -19,8 +19,9 @@ struct LocalPlane {
 };
 
 // Returns the view's planes that cut the mesh's bounding box; planes with all of the box on their visible side are not.
-std::vector<LocalPlane> cuttingPlanes(const View& view, const InstanceState& instance, const glm::dvec3& halfExtent) {
-  std::vector<LocalPlane> planes;
+RecycledVector<LocalPlane> cuttingPlanes(const View& view, const InstanceState& instance,
+                                         const glm::dvec3& halfExtent) {
+  RecycledVector<LocalPlane> planes;
   const auto add = [&](const glm::dvec3& normal, double distance) {
     const glm::dvec3 local = normal * instance.worldFromMesh.linear;
     const double reach = glm::dot(glm::abs(local), halfExtent);
@@ -43,7 +44,7 @@ double reachOf(const InstanceState& instance, const glm::dvec3& halfExtent, cons
   return glm::dot(glm::abs(direction * instance.worldFromMesh.linear), halfExtent);
 }
 
-bool visible(const MeshCluster& cluster, const std::vector<LocalPlane>& planes) {
+bool visible(const MeshCluster& cluster, const RecycledVector<LocalPlane>& planes) {
   return std::ranges::all_of(planes, [&](const LocalPlane& plane) {
     return glm::dot(plane.normal, cluster.center) + glm::dot(glm::abs(plane.normal), cluster.halfExtent) +
                plane.offset >=
@@ -53,7 +54,7 @@ bool visible(const MeshCluster& cluster, const std::vector<LocalPlane>& planes) 
 
 }  // namespace
 
-const PartialInstance* partOf(const std::vector<PartialInstance>& partial, int instance) {
+const PartialInstance* partOf(const RecycledVector<PartialInstance>& partial, int instance) {
   const auto found = std::ranges::lower_bound(partial, instance, {}, &PartialInstance::instance);
   return found != partial.end() && found->instance == instance ? &*found : nullptr;
 }
@@ -95,17 +96,17 @@ bool boundsVisible(const View& view, const InstanceState& instance, const glm::d
   return sphereVisible(view, instance.center, instance.radius) && boxVisible(view, instance.worldFromMesh, halfExtent);
 }
 
-std::vector<IndexRange> visibleRanges(const View& view, const InstanceState& instance, const Mesh& mesh) {
+RecycledVector<IndexRange> visibleRanges(const View& view, const InstanceState& instance, const Mesh& mesh) {
   return visibleRanges(view, instance, mesh.halfExtent, allOf(mesh), mesh.clusters);
 }
 
-std::vector<IndexRange> visibleRanges(const View& view, const InstanceState& instance, const glm::dvec3& halfExtent,
-                                      const IndexRange& all, std::span<const MeshCluster> clusters) {
-  const std::vector<LocalPlane> planes = cuttingPlanes(view, instance, halfExtent);
+RecycledVector<IndexRange> visibleRanges(const View& view, const InstanceState& instance, const glm::dvec3& halfExtent,
+                                         const IndexRange& all, std::span<const MeshCluster> clusters) {
+  const RecycledVector<LocalPlane> planes = cuttingPlanes(view, instance, halfExtent);
   if (clusters.empty() || planes.empty()) {
     return {all};
   }
-  std::vector<IndexRange> ranges;
+  RecycledVector<IndexRange> ranges;
   for (const MeshCluster& cluster : clusters) {
     if (!visible(cluster, planes)) {
       continue;
@@ -116,7 +117,7 @@ std::vector<IndexRange> visibleRanges(const View& view, const InstanceState& ins
       ranges.push_back({cluster.firstIndex, cluster.indexCount});
     }
   }
-  return indexCount(ranges) > (1.0 - leastSaved) * all.count ? std::vector<IndexRange>{all} : ranges;
+  return indexCount(ranges) > (1.0 - leastSaved) * all.count ? RecycledVector<IndexRange>{all} : ranges;
 }
 
 }  // namespace speculum

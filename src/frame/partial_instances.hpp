@@ -2,17 +2,17 @@
 
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "frame/view.hpp"
 #include "geometry/mesh.hpp"
+#include "platform/recycled_memory.hpp"
 
 namespace speculum {
 
 // An instance that a view sees only in part: some of its mesh's clusters.
 struct PartialInstance {
-  int instance = 0;                // index into SceneState::instances
-  std::vector<IndexRange> ranges;  // indices that are drawn; ascending and disjoint
+  int instance = 0;                   // index into SceneState::instances
+  RecycledVector<IndexRange> ranges;  // indices that are drawn; ascending and disjoint
 };
 
 // An instance that a pass draws as a mesh level (reflection.mesh_error).
@@ -22,7 +22,7 @@ struct SimplifiedInstance {
 };
 
 // Finds the instance in an ascending list; null if it is not there.
-const PartialInstance* partOf(const std::vector<PartialInstance>& partial, int instance);
+const PartialInstance* partOf(const RecycledVector<PartialInstance>& partial, int instance);
 
 IndexRange allOf(const Mesh& mesh);
 
@@ -31,10 +31,10 @@ bool boundsVisible(const View& view, const InstanceState& instance, const glm::d
 
 // Ranges of the clusters that the view may see: everything in one range unless leaving some out saves more than the
 // extra draw calls cost, empty if the view sees nothing. No visible triangle is left out.
-std::vector<IndexRange> visibleRanges(const View& view, const InstanceState& instance, const Mesh& mesh);
+RecycledVector<IndexRange> visibleRanges(const View& view, const InstanceState& instance, const Mesh& mesh);
 // The same for a mesh level: its triangles `all`, within the mesh's box, in these clusters.
-std::vector<IndexRange> visibleRanges(const View& view, const InstanceState& instance, const glm::dvec3& halfExtent,
-                                      const IndexRange& all, std::span<const MeshCluster> clusters);
+RecycledVector<IndexRange> visibleRanges(const View& view, const InstanceState& instance, const glm::dvec3& halfExtent,
+                                         const IndexRange& all, std::span<const MeshCluster> clusters);
 // Says whether the view sees no backs of the mesh's triangles if the mesh is solid: its eye is outside the mesh's box,
 // which lies before its clip plane.
 bool seesOnlyFronts(const View& view, const InstanceState& instance, const glm::dvec3& halfExtent);

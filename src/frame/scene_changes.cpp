@@ -58,7 +58,7 @@ void SceneChanges::update(const Scene& scene, const SceneState& state) {
   note(lights.take(), lights_);
 }
 
-void SceneChanges::note(std::vector<uint64_t> content, Tracked& tracked) {
+void SceneChanges::note(RecycledVector<uint64_t> content, Tracked& tracked) {
   if (tracked.changed == 0 || content != tracked.content) {
     tracked = {std::move(content), update_};
   }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "platform/recycled_memory.hpp"
 #include "scene/scene_state.hpp"
 
 namespace speculum {
@@ -28,11 +29,11 @@ class SceneChanges {
   // A place, an object and a mesh.
   using Placement = std::array<uint64_t, 13>;
   struct Tracked {
-    std::vector<uint64_t> content;
+    RecycledVector<uint64_t> content;
     uint64_t changed = 0;
   };
 
-  void note(std::vector<uint64_t> content, Tracked& tracked);
+  void note(RecycledVector<uint64_t> content, Tracked& tracked);
 
   uint64_t update_ = 0;  // number
   uint64_t any_ = 0;

@@ -2,10 +2,6 @@
 
 namespace speculum {
 
-std::string nameOf(const std::string& kind, const std::string& name, int index) {
-  return kind + " " + (name.empty() ? std::to_string(index) : "'" + name + "'");
-}
-
 std::string mirrorName(const Scene& scene, int mirror) {
   const std::string& name = scene.mirrors[mirror].name;
   return name.empty() ? std::to_string(mirror) : name;

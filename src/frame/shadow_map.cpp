@@ -160,7 +160,7 @@ class FacePlanner {
     const CubeFace cube{center, axes, face.projection, size};
     face.pass.view = viewOf(cube);
     const std::array<glm::dvec3, 4> rays = cornerRays(face.pass.view, face.projection);
-    std::vector<const PlannedPass*> near;
+    RecycledVector<const PlannedPass*> near;
     for (size_t i = 0; i < readers_.size(); ++i) {
       if (mayMeet(face.pass.view, rays, readers_[i].readable, rays_[i])) {
         near.push_back(readers_[i].pass);
@@ -177,7 +177,7 @@ class FacePlanner {
  private:
   // Says whether the face contains something that the pass draws and that the light may fall on.
   bool hasReceiver(const ShadowFace& face, const PlannedPass& pass) const {
-    const std::vector<int>& drawn = face.pass.instances;
+    const RecycledVector<int>& drawn = face.pass.instances;
     return std::ranges::any_of(pass.instances, [&](int i) { return std::ranges::binary_search(drawn, i); }) ||
            std::ranges::any_of(pass.mirrors, [&](const MirrorDraw& draw) {
              const Mirror& mirror = scene_.mirrors[static_cast<size_t>(draw.mirror)];
@@ -191,8 +191,8 @@ class FacePlanner {
   const SceneState& state_;
   const Settings& settings_;
   std::span<const ShadowReader> readers_;
-  std::vector<std::array<glm::dvec3, 4>> rays_;  // of the readers
-  std::vector<Bounds> boxes_;
+  RecycledVector<std::array<glm::dvec3, 4>> rays_;  // of the readers
+  RecycledVector<Bounds> boxes_;
 };
 
 // Returns the pass with the casters that stand still, or with the others.
@@ -234,14 +234,14 @@ void divide(ShadowFace& face, const std::optional<ShadowLayer>& before, const Sc
 
 }  // namespace
 
-std::vector<ShadowMap> shadowMaps(const Scene& scene, const SceneState& state, const Settings& settings,
-                                  std::span<const ShadowReader> readers) {
+RecycledVector<ShadowMap> shadowMaps(const Scene& scene, const SceneState& state, const Settings& settings,
+                                     std::span<const ShadowReader> readers) {
   const FacePlanner planner(scene, state, settings, readers);
-  std::vector<ShadowMap> maps;
+  RecycledVector<ShadowMap> maps;
   for (const int light : shadowLights(scene)) {
     ShadowMap& map = maps.emplace_back();
     map.light = light;
-    map.name = nameOf("light", scene.lights[static_cast<size_t>(light)].name, light);
+    map.name = nameOf<RecycledString>("light", scene.lights[static_cast<size_t>(light)].name, light);
     map.size = settings.effects.shadowMapSize;
     for (const FaceAxes& axes : faceAxes()) {
       map.faces.push_back(planner.plan(state.lights[static_cast<size_t>(light)].position, axes));
@@ -250,7 +250,7 @@ std::vector<ShadowMap> shadowMaps(const Scene& scene, const SceneState& state, c
   return maps;
 }
 
-void reuseShadowMaps(std::vector<ShadowMap>& maps, std::span<const ShadowMap> before, const Settings& settings,
+void reuseShadowMaps(RecycledVector<ShadowMap>& maps, std::span<const ShadowMap> before, const Settings& settings,
                      const Scene& scene, const SceneState& state, const SceneChanges* changes) {
   constexpr size_t mostCompared = 4'000'000;  // instances of all faces; more would take too much memory
   size_t instances = 0;
@@ -274,7 +274,7 @@ void reuseShadowMaps(std::vector<ShadowMap>& maps, std::span<const ShadowMap> be
       ShadowFace& face = maps[i].faces[f];
       const ShadowFace* old = reuses ? &before[i].faces[f] : nullptr;
       if (face.read) {
-        face.content = compares ? shadowContent(*changes, face, face.pass) : std::vector<uint64_t>();
+        face.content = compares ? shadowContent(*changes, face, face.pass) : RecycledVector<uint64_t>();
         face.rendered = !skips || !old || old->content != face.content;
         maps[i].serial = face.rendered ? next : maps[i].serial;
       } else if (old) {
@@ -290,7 +290,7 @@ void reuseShadowMaps(std::vector<ShadowMap>& maps, std::span<const ShadowMap> be
 }
 
 std::string shadowFaceName(const ShadowMap& map, size_t face) {
-  return "shadow map of " + map.name + " " + faceAxes()[face].name;
+  return "shadow map of " + std::string(map.name) + " " + faceAxes()[face].name;
 }
 
 std::optional<size_t> onlyShadowFace(std::span<const ShadowMap> maps) {

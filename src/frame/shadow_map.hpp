@@ -2,9 +2,9 @@
 
 #include <optional>
 #include <span>
-#include <vector>
 
 #include "frame/frame_plan.hpp"
+#include "platform/recycled_memory.hpp"
 
 namespace speculum {
 
@@ -20,14 +20,14 @@ struct ShadowReader {
 
 // Plans a map for each light of shadowLights(), in which the faces that a reader looks up are to be rendered. The
 // window of a face is as small as the scene allows.
-std::vector<ShadowMap> shadowMaps(const Scene& scene, const SceneState& state, const Settings& settings,
-                                  std::span<const ShadowReader> readers);
+RecycledVector<ShadowMap> shadowMaps(const Scene& scene, const SceneState& state, const Settings& settings,
+                                     std::span<const ShadowReader> readers);
 
 // Finds the faces that must be rendered: those that are read, and that differ from what the frame before left. Without
 // reflection.skip_unchanged or `changes`, and if all faces together draw more than four million instances, which would
 // take too much memory to compare, these are all faces that are read. In a face that changes again, what stands still
 // is rendered to a layer.
-void reuseShadowMaps(std::vector<ShadowMap>& maps, std::span<const ShadowMap> before, const Settings& settings,
+void reuseShadowMaps(RecycledVector<ShadowMap>& maps, std::span<const ShadowMap> before, const Settings& settings,
                      const Scene& scene, const SceneState& state, const SceneChanges* changes);
 
 // Name of a face's pass.

@@ -24,7 +24,7 @@ bool mayTrace(const Scene& scene, const Settings& settings) {
 
 // Surfaces in the passes that light falls on.
 struct Lit {
-  std::vector<bool> instances;  // by index into SceneState::instances
+  RecycledVector<bool> instances;  // by index into SceneState::instances
   bool anyInstance = false;
   bool mirrors = false;  // a base under a reflection, or a back
 };
@@ -44,7 +44,7 @@ class Collector {
       const int object = state_.instances[i].object;
       if (settings_.curved && scene_.objects[object].mirror && !effects_.curved) {
         effects_.curvedRays = settings_.curvedLookup == CurvedLookup::traced;
-        effects_.curved = nameOf("object", scene_.objects[object].name, object);
+        effects_.curved = nameOf<RecycledString>("object", scene_.objects[object].name, object);
       }
     }
     for (const MirrorDraw& draw : pass.mirrors) {
@@ -62,7 +62,7 @@ class Collector {
   void add(const MirrorDraw& draw) {
     const Mirror& mirror = scene_.mirrors[draw.mirror];
     lit_.mirrors = lit_.mirrors || !isBlack(draw.back ? mirror.backColor : mirror.baseColor);
-    const std::string name = nameOf("mirror", mirror.name, draw.mirror);
+    const auto name = nameOf<RecycledString>("mirror", mirror.name, draw.mirror);
     const bool rough = settings_.roughness && mirror.roughness > 0.0 && (draw.byRays || draw.blurs);
     effects_.roughRays = effects_.roughRays || (rough && draw.byRays);
     if (rough && !effects_.roughness) {
@@ -79,11 +79,12 @@ class Collector {
   bool anythingLit() const { return lit_.mirrors || lit_.anyInstance || effects_.reflects(); }
 
   void addShadows() {
-    const std::vector<int> lights = settings_.shadows && anythingLit() ? shadowLights(scene_) : std::vector<int>();
+    const RecycledVector<int> lights =
+        settings_.shadows && anythingLit() ? shadowLights(scene_) : RecycledVector<int>();
     if (lights.empty()) {
       return;
     }
-    effects_.shadows = nameOf("light", scene_.lights[lights.front()].name, lights.front());
+    effects_.shadows = nameOf<RecycledString>("light", scene_.lights[lights.front()].name, lights.front());
     // Light that a mirror reflects is shadowed before and after the mirror, which no map of the light shows.
     effects_.shadowMaps =
         settings_.shadowLookup == ShadowLookup::map && lights.size() <= mostShadowMaps && !effects_.castsLight;
@@ -101,7 +102,7 @@ class Collector {
     }
     if (!effects_.bouncedLights.empty()) {
       const int mirror = effects_.bouncedLights.front().mirror;
-      effects_.castsLight = nameOf("mirror", scene_.mirrors[mirror].name, mirror);
+      effects_.castsLight = nameOf<RecycledString>("mirror", scene_.mirrors[mirror].name, mirror);
     }
   }
 
@@ -155,8 +156,8 @@ class Collector {
 
 }  // namespace
 
-std::vector<int> shadowLights(const Scene& scene) {
-  std::vector<int> lights;
+RecycledVector<int> shadowLights(const Scene& scene) {
+  RecycledVector<int> lights;
   for (size_t i = 0; i < scene.lights.size(); ++i) {
     const PointLight& light = scene.lights[i];
     if (light.castsShadow && !isBlack(light.color * light.intensity)) {

@@ -3,9 +3,9 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <vector>
 
 #include "frame/settings.hpp"
+#include "platform/recycled_memory.hpp"
 #include "scene/scene_state.hpp"
 
 namespace speculum {
@@ -19,23 +19,23 @@ struct BouncedLight {
 };
 
 // Lights that cast shadows and are not black, indices into Scene::lights, ascending.
-std::vector<int> shadowLights(const Scene& scene);
+RecycledVector<int> shadowLights(const Scene& scene);
 
 // Effects that may need rays, and what of them traces rays in this frame. An effect names the first node that calls for
 // it, if anything drawn does.
 struct TracedEffects {
-  std::optional<std::string> shadows;
+  std::optional<RecycledString> shadows;
   bool shadowMaps = false;  // what is drawn looks shadows up in maps
   bool shadowRays = false;  // what is drawn, or what reflected rays meet, traces them
-  std::optional<std::string> roughness;
+  std::optional<RecycledString> roughness;
   bool roughRays = false;  // roughness is traced, not looked up in images
-  std::optional<std::string> ripple;
+  std::optional<RecycledString> ripple;
   bool rippleRays = false;  // ripples are traced, not looked up in images
-  std::optional<std::string> castsLight;
-  std::optional<std::string> curved;
+  std::optional<RecycledString> castsLight;
+  std::optional<RecycledString> curved;
   bool curvedRays = false;  // curved mirrors are traced, not looked up in environment maps
   bool mirrorRays = false;  // smooth mirrors are traced, not shown by images
-  std::vector<BouncedLight> bouncedLights;
+  RecycledVector<BouncedLight> bouncedLights;
 
   // Says whether any ray is traced through the scene's triangles.
   bool traces() const { return shadowRays || reflects(); }

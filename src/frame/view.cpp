@@ -26,7 +26,7 @@ glm::dvec3 scaledToOne(const glm::dvec3& v) {
 }
 
 // Returns the polygon cut by the clip plane alone.
-std::vector<glm::dvec3> clippedPart(const View& view, std::span<const glm::dvec3> polygon) {
+Polygon clippedPart(const View& view, std::span<const glm::dvec3> polygon) {
   if (!view.clip) {
     return {polygon.begin(), polygon.end()};
   }
@@ -40,7 +40,7 @@ std::vector<glm::dvec3> clippedPart(const View& view, std::span<const glm::dvec3
   if (highest <= 1e-12 * reach) {
     return {};
   }
-  return clipPolygon(polygon, *view.clip);
+  return clipPolygon<Polygon>(polygon, *view.clip);
 }
 
 }  // namespace
@@ -112,12 +112,12 @@ glm::dvec2 overscan(const View& view) {
   return 1.0 + 2.0 * glm::max(beyond, 0.0) / view.pictureSize;
 }
 
-std::vector<glm::dvec3> coneThrough(const glm::dvec3& eye, std::span<const glm::dvec3> polygon) {
+RecycledVector<glm::dvec3> coneThrough(const glm::dvec3& eye, std::span<const glm::dvec3> polygon) {
   glm::dvec3 inside(0.0);
   for (const glm::dvec3& p : polygon) {
     inside += p - eye;
   }
-  std::vector<glm::dvec3> cone;
+  RecycledVector<glm::dvec3> cone;
   for (size_t i = 0; i < polygon.size(); ++i) {
     const glm::dvec3 a = scaledToOne(polygon[i] - eye);
     const glm::dvec3 b = scaledToOne(polygon[(i + 1) % polygon.size()] - eye);
@@ -154,22 +154,22 @@ bool hullVisible(const View& view, std::span<const glm::dvec3> points) {
          });
 }
 
-std::vector<glm::dvec3> visiblePart(const View& view, std::span<const glm::dvec3> polygon) {
+Polygon visiblePart(const View& view, std::span<const glm::dvec3> polygon) {
   // Takes no memory: most mirrors of a large scene lie beyond one of the planes.
   if (!hullVisible(view, polygon)) {
     return {};
   }
-  std::vector<glm::dvec3> part = clippedPart(view, polygon);
+  Polygon part = clippedPart(view, polygon);
   for (const glm::dvec3& normal : view.cone) {
     if (part.size() < 3) {
       return {};
     }
     const Plane plane{view.eye, normal};
     if (!std::ranges::all_of(part, [&](const glm::dvec3& p) { return plane.distance(p) >= 0.0; })) {
-      part = clipPolygon(part, plane);
+      part = clipPolygon<Polygon>(part, plane);
     }
   }
-  return part.size() < 3 ? std::vector<glm::dvec3>() : part;
+  return part.size() < 3 ? Polygon() : part;
 }
 
 bool sphereVisible(const View& view, const glm::dvec3& center, double radius) {
@@ -195,8 +195,8 @@ bool boxVisible(const View& view, const Affine& worldFromBox, const glm::dvec3& 
   });
 }
 
-std::vector<glm::dvec4> toClip(const View& view, const Projection& projection, std::span<const glm::dvec3> polygon) {
-  std::vector<glm::dvec4> clip;
+RecycledVector<glm::dvec4> toClip(const View& view, const Projection& projection, std::span<const glm::dvec3> polygon) {
+  RecycledVector<glm::dvec4> clip;
   clip.reserve(polygon.size());
   for (const glm::dvec3& p : polygon) {
     clip.push_back(projection.clip(view.worldToView * (p - view.eye)));

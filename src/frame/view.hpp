@@ -3,24 +3,29 @@
 #include <glm/glm.hpp>
 #include <optional>
 #include <span>
-#include <vector>
 
 #include "geometry/polygon.hpp"
 #include "geometry/projection.hpp"
+#include "platform/recycled_memory.hpp"
 #include "scene/scene_state.hpp"
 
 namespace speculum {
 
+// A convex polygon that is made anew each frame.
+using Polygon = RecycledVector<glm::dvec3>;
+// Mirrors from the eye, indices into Scene::mirrors; empty for the main view.
+using MirrorPath = RecycledVector<int>;
+
 // The camera, or the camera reflected in a chain of mirrors. All views of a frame share one projection, so that a
 // mirror image lines up with the view it is seen from, pixel by pixel.
 struct View {
-  glm::dvec3 eye{0.0};           // world; reflected about every mirror of the path
-  glm::dmat3 worldToView{1.0};   // V R1 .. Rk, linear part; apply it to differences from `eye`
-  std::optional<Plane> clip;     // world; only its positive side is drawn
-  std::vector<glm::dvec3> cone;  // world, inward unit normals of planes through `eye` that bound what can be seen
-  PixelRect rect;                // pixels of the whole picture at this view's resolution
-  glm::dvec2 pictureSize{0.0};   // pixels of the whole picture at this view's resolution; need not be whole
-  std::vector<int> path;         // mirrors from the eye, indices into Scene::mirrors; empty for the main view
+  glm::dvec3 eye{0.0};              // world; reflected about every mirror of the path
+  glm::dmat3 worldToView{1.0};      // V R1 .. Rk, linear part; apply it to differences from `eye`
+  std::optional<Plane> clip;        // world; only its positive side is drawn
+  RecycledVector<glm::dvec3> cone;  // world, inward unit normals of planes through `eye` that bound what can be seen
+  PixelRect rect;                   // pixels of the whole picture at this view's resolution
+  glm::dvec2 pictureSize{0.0};      // pixels of the whole picture at this view's resolution; need not be whole
+  MirrorPath path;
 
   // An odd number of reflections turns counter-clockwise into clockwise.
   bool mirrored() const { return path.size() % 2 == 1; }
@@ -47,7 +52,7 @@ glm::dvec2 overscan(const View& view);
 
 // Returns inward unit normals of the planes through the eye and the edges of a convex polygon (world); skips edges that
 // point at the eye.
-std::vector<glm::dvec3> coneThrough(const glm::dvec3& eye, std::span<const glm::dvec3> polygon);
+RecycledVector<glm::dvec3> coneThrough(const glm::dvec3& eye, std::span<const glm::dvec3> polygon);
 
 // `parent` reflected about a mirror's plane. `plane` faces the parent's eye; `visible` is the mirror's visible region
 // (world). `rect` and `pictureSize` are at the resolution of mirror images.
@@ -58,7 +63,7 @@ View reflectedView(const View& parent, int mirror, const Plane& plane, std::span
 bool hullVisible(const View& view, std::span<const glm::dvec3> points);
 
 // Cuts a convex polygon (world) by the view's clip plane and cone.
-std::vector<glm::dvec3> visiblePart(const View& view, std::span<const glm::dvec3> polygon);
+Polygon visiblePart(const View& view, std::span<const glm::dvec3> polygon);
 
 bool sphereVisible(const View& view, const glm::dvec3& center, double radius);
 
@@ -66,6 +71,6 @@ bool sphereVisible(const View& view, const glm::dvec3& center, double radius);
 bool boxVisible(const View& view, const Affine& worldFromBox, const glm::dvec3& halfExtent);
 
 // Takes world positions to clip space, subtracting the eye first.
-std::vector<glm::dvec4> toClip(const View& view, const Projection& projection, std::span<const glm::dvec3> polygon);
+RecycledVector<glm::dvec4> toClip(const View& view, const Projection& projection, std::span<const glm::dvec3> polygon);
 
 }  // namespace speculum

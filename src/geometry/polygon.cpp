@@ -38,14 +38,6 @@ bool isConvex(std::span<const glm::dvec3> polygon, const glm::dvec3& normal, dou
 
 }  // namespace
 
-double twiceArea(std::span<const glm::dvec2> corners) {
-  double twice = 0.0;
-  for (size_t i = 1; i + 1 < corners.size(); ++i) {
-    twice += cross(corners[i] - corners[0], corners[i + 1] - corners[0]);
-  }
-  return twice;
-}
-
 glm::dvec3 newellVector(std::span<const glm::dvec3> polygon) {
   glm::dvec3 sum(0.0);
   for (size_t i = 1; i + 1 < polygon.size(); ++i) {
@@ -99,20 +91,6 @@ std::optional<std::string> polygonDefect(std::span<const glm::dvec3> polygon) {
   return std::nullopt;
 }
 
-std::vector<glm::dvec3> distinctVertices(std::span<const glm::dvec3> polygon, double least) {
-  std::vector<glm::dvec3> distinct;
-  distinct.reserve(polygon.size());
-  for (const glm::dvec3& p : polygon) {
-    if (distinct.empty() || glm::length(p - distinct.back()) > least) {
-      distinct.push_back(p);
-    }
-  }
-  while (distinct.size() > 1 && glm::length(distinct.front() - distinct.back()) <= least) {
-    distinct.pop_back();
-  }
-  return distinct;
-}
-
 std::vector<glm::dvec3> flattened(std::span<const glm::dvec3> polygon, const glm::dvec3& normal) {
   const Plane plane{polygon[0], normal};
   const double size = farthestDistance(polygon[0], polygon);
@@ -122,24 +100,6 @@ std::vector<glm::dvec3> flattened(std::span<const glm::dvec3> polygon, const glm
     vertex -= std::abs(distance) > 1e-12 * size ? distance * normal : glm::dvec3(0.0);
   }
   return distinctVertices(flat, 1e-9 * size);
-}
-
-std::vector<glm::dvec3> clipPolygon(std::span<const glm::dvec3> polygon, const Plane& keep) {
-  std::vector<glm::dvec3> kept;
-  kept.reserve(polygon.size() + 1);
-  for (size_t i = 0; i < polygon.size(); ++i) {
-    const glm::dvec3& a = polygon[i];
-    const glm::dvec3& b = polygon[(i + 1) % polygon.size()];
-    const double da = keep.distance(a);
-    const double db = keep.distance(b);
-    if (da >= 0.0) {
-      kept.push_back(a);
-    }
-    if ((da >= 0.0) != (db >= 0.0)) {
-      kept.push_back(a + (b - a) * (da / (da - db)));
-    }
-  }
-  return kept;
 }
 
 }  // namespace speculum

@@ -171,7 +171,8 @@ double screenArea(std::span<const glm::dvec4> clip, double width, double height)
   if (touchesEyePlane(clip)) {
     return width * height;
   }
-  return std::min(0.5 * std::abs(twiceArea(cornersOf(clip, width, height))), width * height);
+  const double twice = twiceArea(clip.size(), [&](size_t i) { return toPixels(clip[i], width, height); });
+  return std::min(0.5 * std::abs(twice), width * height);
 }
 
 std::vector<glm::dvec4> grown(std::span<const glm::dvec4> clip, double width, double height, double pixels) {

@@ -40,8 +40,8 @@ Texture loadTexture(const fs::path& file, const fs::path& source) {
   return texture;
 }
 
-// Returns the number of pixels that a scene's next picture may have, with those before it. Without a bound, small files
-// of few colors fill any memory.
+// Returns the number of pixels that a scene's next picture may have, given those before it. Without a bound, small
+// files of few colors fill any memory.
 double mostPixels(std::span<const Texture> textures) {
   double pixels = 0.0;
   for (const Texture& texture : textures) {
@@ -62,7 +62,7 @@ Texture bounded(Texture texture, double most) {
   const int width = std::clamp(static_cast<int>(most / least), 1, texture.width);
   const int height = std::clamp(static_cast<int>(most / width), 1, texture.height);
   Texture small = shrunk(texture, width, height);
-  spdlog::warn("{}: is drawn with {}x{} texels, those before it have 2^28 or more", texture.source.string(),
+  spdlog::warn("{}: is drawn with {}x{} texels: the textures before it have 2^28 or more", texture.source.string(),
                small.width, small.height);
   return small;
 }

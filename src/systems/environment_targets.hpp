@@ -27,7 +27,7 @@ class EnvironmentTargets {
   std::unique_ptr<SharedDepth> depth_;
   std::unique_ptr<ImagePool> pool_;
   std::vector<OffScreen*> targets_;  // parallel to cached_ between frames, to the plan's maps within one
-  std::vector<EnvironmentMap> cached_;
+  RecycledVector<EnvironmentMap> cached_;
   bool restart_ = false;
 };
 

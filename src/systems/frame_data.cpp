@@ -282,7 +282,7 @@ void FrameData::addInstances(const Source& source, const PlannedPass& pass, cons
                               .cullsBacks = culls,
                               .curved = curved,
                               .level = level});
-      data.batches.back().ranges = part ? part->ranges : std::vector<IndexRange>();
+      data.batches.back().ranges = part ? part->ranges : RecycledVector<IndexRange>();
     }
     ++data.batches.back().count;
     instances_.push_back(instanceData(instance, pass.view, clipFromRelative));
@@ -295,7 +295,7 @@ void FrameData::addInstances(const Source& source, const PlannedPass& pass, cons
 
 // Adds the map that a curved mirror looks up. Faces of maps show the background instead of further maps.
 void FrameData::addEnvironment(const Source& source, const PlannedPass& pass, int instance, Batch& batch) {
-  const std::vector<EnvironmentMap>& maps = source.plan.maps;
+  const RecycledVector<EnvironmentMap>& maps = source.plan.maps;
   const auto map = std::find_if(maps.begin(), maps.end(), [&](const auto& m) { return m.instance == instance; });
   const bool inFace = pass.depth < 0 && &pass != &source.plan.main;
   const bool exists = map != maps.end() && !inFace;

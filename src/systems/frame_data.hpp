@@ -31,13 +31,13 @@ struct Batch {
   float handedness = 1.0f;  // of all
   uint32_t firstInstance = 0;
   uint32_t count = 0;
-  bool cullsBacks = false;         // no back of a triangle can be seen
-  bool curved = false;             // the object is a curved mirror
-  bool environment = false;        // it looks up an environment map; the batch then has one instance
-  bool colored = false;            // and its base is not black
-  int map = -1;                    // index into FramePlan::maps; -1: it shows the background
-  int level = -1;                  // index into MeshLevels::levels; -1: the mesh itself
-  std::vector<IndexRange> ranges;  // indices that are drawn; empty: all. Only a batch of one instance has ranges
+  bool cullsBacks = false;            // no back of a triangle can be seen
+  bool curved = false;                // the object is a curved mirror
+  bool environment = false;           // it looks up an environment map; the batch then has one instance
+  bool colored = false;               // and its base is not black
+  int map = -1;                       // index into FramePlan::maps; -1: it shows the background
+  int level = -1;                     // index into MeshLevels::levels; -1: the mesh itself
+  RecycledVector<IndexRange> ranges;  // indices that are drawn; empty: all. Only a batch of one instance has ranges
 };
 
 // A mirror that a pass draws.

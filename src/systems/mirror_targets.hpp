@@ -15,7 +15,7 @@ class MirrorTargets {
   explicit MirrorTargets(Device& device) : device_(device) {}
 
   // Images that the next plan may reuse.
-  const std::vector<CachedImage>& cachedImages() const { return cachedImages_; }
+  const RecycledVector<CachedImage>& cachedImages() const { return cachedImages_; }
   void restart();  // drops the cached images and, in the next frame, every target
 
   // Begins the plan's picture and takes over the cached images that it reuses. `watched` is the pass that the debug
@@ -56,7 +56,7 @@ class MirrorTargets {
   std::unique_ptr<ImagePool> pool_;
   std::vector<OffScreen*> targets_;
   std::vector<MirrorImage> images_;
-  std::vector<CachedImage> cachedImages_;
+  RecycledVector<CachedImage> cachedImages_;
   std::vector<OffScreen*> cachedTargets_;  // parallel to cachedImages_ between frames, to FramePlan::cached within one
   std::vector<MirrorImage> cachedDescriptors_;
   std::optional<int> watched_;

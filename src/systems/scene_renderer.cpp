@@ -186,8 +186,9 @@ void SceneRenderer::recordFace(const FrameInfo& info, size_t map, size_t face, s
   const glm::ivec2 corner = faceCorner(planned, face);
   const PassViewport viewport{static_cast<float>(corner.x), static_cast<float>(corner.y),
                               static_cast<float>(size.width), static_cast<float>(size.height)};
-  const PassDesc desc = scenePass("environment of " + planned.name + " " + faceAxes()[face].name, target.targets(),
-                                  {{corner.x, corner.y}, size}, viewport, planned.faces[face].view, info.environment);
+  const PassDesc desc =
+      scenePass("environment of " + std::string(planned.name) + " " + faceAxes()[face].name, target.targets(),
+                {{corner.x, corner.y}, size}, viewport, planned.faces[face].view, info.environment);
   const uint32_t drawsBefore = ledger_[EffectKind::curved].draws;
   const PassId id{.kind = PassKind::environment, .instance = planned.instance, .face = static_cast<int>(face)};
   RecordedPass pass{id, desc.name};
@@ -202,7 +203,7 @@ void SceneRenderer::recordFace(const FrameInfo& info, size_t map, size_t face, s
 
 // Returns the number of faces that the picture renders.
 size_t SceneRenderer::recordShadows(const FrameInfo& info, const TileRange& faces) {
-  const std::vector<ShadowMap>& maps = info.plan.shadowMaps;
+  const RecycledVector<ShadowMap>& maps = info.plan.shadowMaps;
   size_t index = info.plan.passes.size() + 1;  // of the first in info.data, after the main view and environment maps
   for (const EnvironmentMap& map : info.plan.maps) {
     index += map.cacheIndex < 0 ? map.faces.size() : 0;

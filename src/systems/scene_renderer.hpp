@@ -53,7 +53,7 @@ class SceneRenderer {
   int accumulated() const { return accumulation_.pictures(); }
 
   // Says whether the last frame kept that target of the last complete picture, for DebugView.
-  bool keepsTarget(const std::vector<int>& path, TargetKind kind) const { return watched_.keeps(path, kind); }
+  bool keepsTarget(const MirrorPath& path, TargetKind kind) const { return watched_.keeps(path, kind); }
 
   // Shows `picture` (display sRGB) instead of the scene, stretched to the display, from the next frame on. A picture
   // without pixels shows the scene again.

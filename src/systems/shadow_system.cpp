@@ -141,7 +141,7 @@ uint32_t ShadowSystem::draw(const PassScope& scope, const FrameInfo& info, size_
   for (const Batch& batch : data.batches) {
     const Mesh& source = info.scene.meshes[batch.mesh];
     bindBatch(scope, info, batch);
-    const std::vector<IndexRange> all{batch.level < 0 ? allOf(source) : levelsOf(source).levels[batch.level].all};
+    const RecycledVector<IndexRange> all{batch.level < 0 ? allOf(source) : levelsOf(source).levels[batch.level].all};
     for (const IndexRange& range : batch.ranges.empty() ? all : batch.ranges) {
       vkCmdDrawIndexed(commands, range.count, batch.count, range.first, 0, batch.firstInstance);
       ++draws;
@@ -157,7 +157,7 @@ uint32_t ShadowSystem::draw(const PassScope& scope, const FrameInfo& info, size_
 }
 
 RecordedPass ShadowSystem::record(Renderer& renderer, const FrameInfo& info, size_t map, size_t face, size_t index) {
-  const std::vector<ShadowMap>& maps = info.plan.shadowMaps;
+  const RecycledVector<ShadowMap>& maps = info.plan.shadowMaps;
   const ShadowFace& planned = maps[map].faces[face];
   const auto size = static_cast<float>(maps[map].size);
   const glm::ivec2 corner = shadowCorner(maps, map, face);

@@ -56,7 +56,7 @@ class ShadowSystem {
   VkDescriptorSet set_ = VK_NULL_HANDLE;
   VkDescriptorSet layerSet_ = VK_NULL_HANDLE;
   uint32_t onlyFace_ = gpu::anyShadowFace;
-  std::vector<ShadowMap> cached_;
+  RecycledVector<ShadowMap> cached_;
   int idleFrames_ = 0;
 };
 

@@ -241,7 +241,7 @@ void TraceFrame::addInstances(const SceneState& state, const Settings& settings)
 }
 
 void TraceFrame::addHierarchy(const SceneState& state) {
-  const std::vector<Bounds> all = boxesOf(scene_, state, state.camera.eye);
+  const auto all = boxesOf(scene_, state, state.camera.eye);
   const size_t instances = state.instances.size();
   std::vector<Bounds> boxes;
   std::vector<uint32_t> found;

@@ -10,7 +10,7 @@ namespace {
 
 WatchedTarget::Target targetOf(const FramePlan& plan, const DebugView& debug) {
   const auto pass = static_cast<size_t>(debug.pass);
-  const std::vector<PlannedPass>& passes = shownPasses(plan);
+  const RecycledVector<PlannedPass>& passes = shownPasses(plan);
   const View& view = (pass < passes.size() ? passes[pass] : plan.main).view;
   return {debug.pass, view.path, debug.kind, {view.rect.width, view.rect.height}, plan.projection.near};
 }
@@ -83,7 +83,7 @@ const WatchedTarget::Target* WatchedTarget::shown(const FramePlan& plan, const D
   return keeps(wanted.path, wanted.kind) ? &*shown_ : nullptr;
 }
 
-bool WatchedTarget::keeps(const std::vector<int>& path, TargetKind kind) const {
+bool WatchedTarget::keeps(const MirrorPath& path, TargetKind kind) const {
   return shown_ && shown_->path == path && shown_->kind == kind;
 }
 

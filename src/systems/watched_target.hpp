@@ -16,8 +16,8 @@ namespace speculum {
 class WatchedTarget {
  public:
   struct Target {
-    int pass = 0;           // as DebugView::pass
-    std::vector<int> path;  // of the pass's view
+    int pass = 0;     // as DebugView::pass
+    MirrorPath path;  // of the pass's view
     TargetKind kind = TargetKind::color;
     glm::ivec2 size{0};  // texels
     double near = 0.0;   // metres from the eye to the near plane
@@ -38,7 +38,7 @@ class WatchedTarget {
   // Returns the target of the last complete picture if `debug` shows it; else null.
   const Target* shown(const FramePlan& plan, const DebugView& debug) const;
   // Says whether shown() has that target.
-  bool keeps(const std::vector<int>& path, TargetKind kind) const;
+  bool keeps(const MirrorPath& path, TargetKind kind) const;
   bool hasDepth() const { return static_cast<bool>(depth_); }
   // Depth of the last complete picture; hasDepth() is required.
   Image& depth() { return depth_; }

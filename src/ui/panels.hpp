@@ -21,7 +21,7 @@ struct PanelState {
   bool showDifference = false;
 
   struct Targets {
-    std::optional<std::vector<int>> path;  // mirrors from the eye of the pass that is shown
+    std::optional<MirrorPath> path;  // mirrors from the eye of the pass that is shown
     enum class Kind { color, depth, mask } kind = Kind::color;
     double zoom = 0.0;       // pixels of the display a texel; 0: as large as fits
     double shownZoom = 1.0;  // zoom that is in use, never 0
@@ -107,7 +107,7 @@ void prompts(PanelContext& ui);                             // over all others, 
 // Drawn over the picture, behind all windows.
 void passOutline(const PanelContext& ui);  // around the mirror whose row is under the pointer
 // Call while the pointer is on a row of a mirror, which `path` leads to: outlines the mirror, and a click selects it.
-void mirrorRow(PanelContext& ui, const std::vector<int>& path);
+void mirrorRow(PanelContext& ui, const MirrorPath& path);
 void editOverlay(const OverlayView& overlay, const WindowRect& picture);  // `picture`: as far as panels leave it free
 // Draws behind all windows, but not over the target that the Targets window shows.
 void besideTarget(const PanelContext& ui, const std::function<void()>& draw);

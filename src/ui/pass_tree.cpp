@@ -11,7 +11,7 @@ namespace speculum {
 
 namespace {
 
-bool isSeenIn(const std::vector<int>& path, const std::vector<int>& parent) {
+bool isSeenIn(const MirrorPath& path, const MirrorPath& parent) {
   return path.size() == parent.size() + 1 && std::equal(parent.begin(), parent.end(), path.begin());
 }
 
@@ -45,7 +45,7 @@ double usualMs(const FrameView& frame, const PassView& pass) {
 
 std::vector<PassBranch> passTree(std::span<const PassView> passes, std::span<const SkippedView> skipped) {
   constexpr int notListed = -2;
-  const auto parentOf = [&](const std::vector<int>& path) {
+  const auto parentOf = [&](const MirrorPath& path) {
     const auto parent = std::ranges::find_if(
         passes, [&](const PassView& pass) { return panels::hasTarget(pass) && isSeenIn(path, pass.path); });
     return parent == passes.end() ? notListed : static_cast<int>(parent - passes.begin());
@@ -115,7 +115,7 @@ std::string mirrorCost(const FrameView& frame, int mirror) {
   if (std::ranges::any_of(frame.skipped, [&](const SkippedView& skip) { return isOf(skip) && skip.byRays; })) {
     return "Drawn by rays";
   }
-  const auto skipped = std::ranges::find(frame.skipped, std::vector{mirror}, &SkippedView::path);
+  const auto skipped = std::ranges::find(frame.skipped, MirrorPath{mirror}, &SkippedView::path);
   return skipped == frame.skipped.end() ? "No pass" : "No pass: " + skipped->reason;
 }
 

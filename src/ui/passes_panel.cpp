@@ -83,7 +83,7 @@ void skippedRows(PanelContext& ui, const PassBranch& node) {
 
 void passRow(PanelContext& ui, const PassBranch& node) {
   const PassView& pass = ui.view.frame.passes[static_cast<size_t>(node.pass)];
-  std::optional<std::vector<int>>& target = ui.state.targets.path;
+  std::optional<MirrorPath>& target = ui.state.targets.path;
   const bool shown = hasTarget(pass) && target == pass.path;
   const bool leaf = node.children.empty() && node.skipped.empty();
   ImGuiTreeNodeFlags flags =
@@ -162,7 +162,7 @@ void header() {
 
 }  // namespace
 
-void mirrorRow(PanelContext& ui, const std::vector<int>& path) {
+void mirrorRow(PanelContext& ui, const MirrorPath& path) {
   ui.output.hoveredPath = path;
   // The path is that of the last frame; an edit may have removed mirrors since.
   const bool exists = static_cast<size_t>(path.back()) < ui.view.edit.scene->mirrors.size();

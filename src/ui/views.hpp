@@ -30,8 +30,8 @@ struct PassView : PassId {
 };
 
 struct SkippedView {
-  std::string name;       // mirrors from the eye
-  std::vector<int> path;  // indices of these in Scene::mirrors
+  std::string name;  // mirrors from the eye
+  MirrorPath path;   // indices of these in Scene::mirrors
   std::string reason;
   std::string detail;
   bool byRays = false;  // rays show its reflection
@@ -41,7 +41,7 @@ struct EffectView : Effect, EffectCost {};
 
 // The target that UiOutput::target requested, in the last complete picture.
 struct TargetView {
-  std::vector<int> path;                        // of the pass
+  MirrorPath path;                              // of the pass
   bool complete = false;                        // else it has not been drawn yet
   glm::ivec2 size{0};                           // texels
   std::vector<glm::vec2> mask;                  // texels that the pass shades
@@ -67,7 +67,7 @@ struct FrameView {
   std::vector<EffectView> effects;  // all, in a fixed order
   std::string rays;                 // how they are traced and why; empty: none are
   TargetView target;
-  std::vector<int> outlinedPath;   // of the mirror that is outlined; empty: none
+  MirrorPath outlinedPath;         // of the mirror that is outlined; empty: none
   std::vector<PixelLine> outline;  // where it is, or would be, seen on the picture
 };
 
@@ -135,7 +135,7 @@ struct EditView {
   const Scene* scene = nullptr;  // must live as long as the view
   Selection selected;
   std::vector<Selection> others;  // selected together with it
-  std::vector<int> through;       // mirrors that it was picked through, from the eye
+  MirrorPath through;             // mirrors that it was picked through, from the eye
   GizmoMode mode = GizmoMode::move;
   std::vector<std::filesystem::path> models;  // models of objects that a user can add
   std::string undo;                           // label of the step; empty: none
@@ -207,18 +207,18 @@ struct UiView {
 
 // Request to draw a pass's target over the picture.
 struct TargetRequest {
-  std::vector<int> path;  // of the pass: mirrors from the eye; empty: the main view
-  bool drawn = false;     // else only TargetView is wanted
-  DebugView view;         // without the pass
+  MirrorPath path;     // of the pass: mirrors from the eye; empty: the main view
+  bool drawn = false;  // else only TargetView is wanted
+  DebugView view;      // without the pass
 };
 
 // Commands from the panels of one frame, and their requests for the next frame.
 struct UiOutput {
   std::vector<Command> commands;
   std::optional<TargetRequest> target;
-  std::vector<int> hoveredPath;  // of the mirror that is to be outlined; empty: none
-  bool difference = false;       // the difference view is wanted over the picture
-  bool refusedEdit = false;      // an edit is shown that could not be applied
+  MirrorPath hoveredPath;    // of the mirror that is to be outlined; empty: none
+  bool difference = false;   // the difference view is wanted over the picture
+  bool refusedEdit = false;  // an edit is shown that could not be applied
 };
 
 }  // namespace speculum

@@ -82,7 +82,7 @@ void useScene(Scene scene, Settings settings) {
             "copies are at finite places");
   }
   shorten(scene, settings);
-  std::vector<CachedImage> cached;
+  RecycledVector<CachedImage> cached;
   for (const double time : {0.0, 1.0 / 60.0, 3600.0, 1e6, -1e6, -0.25}) {
     const SceneState state = evaluate(scene, time);
     checkTransforms(state);

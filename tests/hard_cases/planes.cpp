@@ -150,7 +150,7 @@ TEST(MirrorCrossesTheEyePlane, RectangleHoldsEveryHitPixel) {
     const SceneState state = evaluate(scene, 0.0);
     const FramePlan plan = planOf(scene, columns, rows);
     const std::vector<glm::ivec2> hits = hitPixels(state, plan.projection);
-    const std::vector<glm::dvec4> clip = toClip(plan.main.view, plan.projection, state.mirrors[0].polygon);
+    const auto clip = toClip(plan.main.view, plan.projection, state.mirrors[0].polygon);
     const bool crosses = std::ranges::any_of(clip, [](const glm::dvec4& v) { return v.w <= 0.0; });
     if (!crosses || hits.empty()) {
       continue;

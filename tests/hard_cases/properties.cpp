@@ -176,8 +176,8 @@ void checkTranslation(const Scene& scene, const glm::dvec3& offset) {
   }
   RC_ASSERT(a.passes.size() == b.passes.size());
   for (size_t i = 0; i < a.passes.size(); ++i) {
-    const std::vector<glm::dvec4> before = clipsOf(a, a.passes[i].view, scene);
-    const std::vector<glm::dvec4> after = clipsOf(b, b.passes[i].view, far);
+    const auto before = clipsOf(a, a.passes[i].view, scene);
+    const auto after = clipsOf(b, b.passes[i].view, far);
     for (size_t k = 0; k < before.size(); ++k) {
       const double lens = std::max(a.projection.focal, 1.0);
       RC_ASSERT(glm::length(before[k] - after[k]) <= 1e-14 * lens * reach);

@@ -116,7 +116,7 @@ TEST(LongTimes, CountersPassTwoToThe31Frames) {
   ASSERT_FALSE(last.cached.empty());
   last.cached[0].unchangedFor = std::numeric_limits<int>::max() - 2;
   for (int frame = 0; frame < 4; ++frame) {
-    const std::vector<CachedImage> before = last.cached;
+    const RecycledVector<CachedImage> before = last.cached;
     last = plan({.images = before, .changes = &changes});
     ASSERT_FALSE(last.cached.empty());
     EXPECT_GT(last.cached[0].unchangedFor, 0);

@@ -53,7 +53,7 @@ Errors summary(std::vector<double> errors) {
 
 // The reflection in plane (q, n), chained onto a point and the camera's frame: the image of a point p in mirrors
 // m1 .. mk seen from the eye is R1 .. Rk p.
-LongVec3 imageOf(const Scene& scene, const std::vector<int>& path, LongVec3 p) {
+LongVec3 imageOf(const Scene& scene, const MirrorPath& path, LongVec3 p) {
   for (auto it = path.rbegin(); it != path.rend(); ++it) {
     const Mirror& mirror = scene.mirrors[*it];
     const LongVec3 n = longRotation(mirror.rotation)[2];
