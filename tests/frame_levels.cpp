@@ -58,7 +58,7 @@ TEST(MeshError, LevelsGrowWithDistanceAndError) {
       EXPECT_GT(before[2], before[0]);
     }
   }
-  EXPECT_EQ(meshesWithLevels(levelPlan(scene, 4.0), evaluate(scene, 0.0)), RecycledVector<int>{0});
+  EXPECT_EQ(meshesWithLevels(levelPlan(scene, 4.0), evaluate(scene, 0.0)), std::vector<int>{0});
 }
 
 TEST(MeshError, MainViewHasItsOwn) {
@@ -67,7 +67,7 @@ TEST(MeshError, MainViewHasItsOwn) {
   scene.camera.target = {0, 0, 10};
   const FramePlan plan = levelPlan(scene, 0.0, {{"view.mesh_error", "1"}});
   EXPECT_FALSE(plan.main.simplified.empty());
-  EXPECT_EQ(meshesWithLevels(plan, evaluate(scene, 0.0)), RecycledVector<int>{0});
+  EXPECT_EQ(meshesWithLevels(plan, evaluate(scene, 0.0)), std::vector<int>{0});
   EXPECT_TRUE(levelPlan(scene, 0.0, {{"view.mesh_error", "1"}, {"reflection.clip", "none"}}).main.simplified.empty());
 }
 

@@ -14,7 +14,7 @@ FramePlan rangePlan(std::vector<Mirror> mirrors, int maxDepth) {
   return testing_support::planOf(testing_support::sceneWith(std::move(mirrors)), settings);
 }
 
-void expectWhole(const FramePlan& plan, const std::vector<PassRange>& ranges) {
+void expectWhole(const FramePlan& plan, const RecycledVector<PassRange>& ranges) {
   size_t next = 0;
   for (const PassRange& range : ranges) {
     EXPECT_EQ(range.first, next);
@@ -28,10 +28,10 @@ TEST(PassRange, MirrorsSideBySideShareOneRange) {
   const FramePlan plan =
       rangePlan({wall({-2, 0, -5}, 0, {1, 1}), wall({0, 0, -5}, 0, {2, 2}), wall({2, 0, -5}, 0, {1.5, 1})}, 1);
   ASSERT_EQ(plan.passes.size(), 3u);
-  const std::vector<PassRange> ranges = independentPasses(plan);
+  const auto ranges = independentPasses(plan);
   ASSERT_EQ(ranges.size(), 1u);
   expectWhole(plan, ranges);
-  const std::vector<size_t> order = largestFirst(plan, ranges[0]);
+  const auto order = largestFirst(plan, ranges[0]);
   for (size_t i = 1; i < order.size(); ++i) {
     EXPECT_GE(plan.passes[order[i - 1]].view.rect.area(), plan.passes[order[i]].view.rect.area());
   }
@@ -41,7 +41,7 @@ TEST(PassRange, RangesHoldNoPassWithItsImages) {
   const FramePlan plan =
       rangePlan({wall({-1, 0, -2}, 70, {3, 2}), wall({1, 0, -2}, -70, {3, 2}), wall({0, 0, -5}, 0, {1, 2})}, 4);
   ASSERT_GT(plan.passes.size(), 6u);
-  const std::vector<PassRange> ranges = independentPasses(plan);
+  const auto ranges = independentPasses(plan);
   expectWhole(plan, ranges);
   EXPECT_LT(ranges.size(), plan.passes.size());
   for (const PassRange& range : ranges) {

@@ -5,8 +5,6 @@
 namespace speculum {
 namespace {
 
-using Polygon = std::vector<glm::dvec3>;
-
 const Polygon unitSquare = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
 
 TEST(Polygon, NewellVectorIsTwiceTheArea) {

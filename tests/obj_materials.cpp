@@ -156,8 +156,8 @@ TEST_F(MtlFile, TexturesBeyondTheBoundAreDrawnSmaller) {
   EXPECT_EQ(sizes("halves", std::vector(4, large)), glm::ivec2(1448, 724));
   EXPECT_EQ(textures_.back().texels.front(), glm::vec3(0.0f));
   EXPECT_NEAR(textures_.back().texels.back().g, 1.0f, 1e-6f);
-  EXPECT_TRUE(
-      contains(warnings(), "halves.png: is drawn with 1448x724 texels: the textures before it have 2^28 or more\n"));
+  EXPECT_TRUE(contains(warnings(),
+                       "halves.png: is drawn with 1448x724 texels: the textures before it have 2^28 texels or more\n"));
   EXPECT_EQ(sizes("line", std::vector(4, large)), glm::ivec2(1 << 20, 1));
   EXPECT_EQ(sizes("column", std::vector(4, large)), glm::ivec2(1, 1 << 20));
   EXPECT_EQ(sizes("halves", std::vector(8, large)), glm::ivec2(91, 45));

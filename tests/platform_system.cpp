@@ -4,14 +4,12 @@
 #include <unistd.h>
 
 #include <chrono>
-#include <limits>
 #include <thread>
 
 #include "error_message.hpp"
 #include "platform/folders.hpp"
 #include "platform/machine.hpp"
 #include "platform/process.hpp"
-#include "platform/recycled_memory.hpp"
 #include "platform/text.hpp"
 #include "test_headers.hpp"
 
@@ -29,42 +27,6 @@ TEST(Folders, CacheDirectoryFollowsXdg) {
 TEST(Folders, MissingDataDirectoryListsWhereItLooked) {
   EXPECT_TRUE(contains(messageOf([] { dataDirectory("no-such-data"); }), "share/speculum/no-such-data"));
   EXPECT_TRUE(std::filesystem::exists(dataDirectory("shaders")));
-}
-
-TEST(RecycledMemory, FreedBlocksServeAgain) {
-  void* const block = recycled::take(100);
-  recycled::give(block, 100);
-  EXPECT_EQ(recycled::take(120), block) << "both are 128 bytes";
-  void* const other = recycled::take(100);
-  EXPECT_NE(other, block) << "it is in use";
-  recycled::give(other, 100);
-  recycled::give(block, 120);
-  void* const larger = recycled::take(300);
-  EXPECT_TRUE(larger != block && larger != other) << "they are too small";
-  recycled::give(larger, 300);
-}
-
-TEST(RecycledMemory, HoldsWhatIsWrittenOfAnySize) {
-  for (int round = 0; round < 2; ++round) {
-    std::vector<RecycledVector<char>> all;
-    for (const size_t size : {1, 7, 8, 9, 1000, 1 << 20, (1 << 20) + 1}) {
-      all.emplace_back(size, static_cast<char>(size + round));
-    }
-    for (const RecycledVector<char>& bytes : all) {
-      EXPECT_TRUE(std::ranges::all_of(bytes, [&](char c) { return c == static_cast<char>(bytes.size() + round); }));
-    }
-  }
-  RecycledVector<double> numbers;
-  EXPECT_THROW(numbers.reserve(std::numeric_limits<size_t>::max() / sizeof(double)), std::exception);
-}
-
-TEST(RecycledMemory, ThreadsMayFreeWhatOthersTook) {
-  RecycledVector<int> numbers(1000, 7);
-  std::thread([&] {
-    numbers = RecycledVector<int>(1000, 8);
-    RecycledVector<int>(1000, 9).swap(numbers);
-  }).join();
-  EXPECT_EQ(numbers, RecycledVector<int>(1000, 9)) << "the thread that took it has ended";
 }
 
 #if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__)

@@ -69,7 +69,7 @@ PixelMask readPixelMask(const std::filesystem::path& file) {
   return mask;
 }
 
-PixelMask readUsersMask(const std::filesystem::path& file) {
+PixelMask readNonEmptyMask(const std::filesystem::path& file) {
   PixelMask mask = readPixelMask(file);
   if (std::ranges::none_of(mask.selected, [](auto selected) { return selected != 0; })) {
     throw std::runtime_error(file.string() + ": the mask leaves out every pixel (pixels of at least 128 count)");

@@ -36,8 +36,8 @@ struct PixelMask {
 };
 // Throws std::runtime_error if the file cannot be read.
 PixelMask readPixelMask(const std::filesystem::path& file);
-// The same, but throws as well if no pixel is selected.
-PixelMask readUsersMask(const std::filesystem::path& file);
+// Like readPixelMask(), but also throws if the mask selects no pixel.
+PixelMask readNonEmptyMask(const std::filesystem::path& file);
 
 // Throws std::runtime_error that names both pictures and both sizes, unless they are equal and not zero.
 void requireSameSize(const ComparedImage& a, const ComparedImage& b);

@@ -28,14 +28,14 @@ std::string exceeded(const ImageMetrics& metrics, const Options& options) {
 }  // namespace
 
 int runCompare(const Options& options) {
-  if (options.heatmap.extension() == ".exr") {
+  if (options.heatmap.has_extension() && options.heatmap.extension() != ".png") {
     throw UsageError("--heatmap: '" + options.heatmap.string() + "' is written as a PNG (give it the ending .png)");
   }
   const ComparedImage reference = readComparedImage(options.reference);
   const ComparedImage test = readComparedImage(options.test);
   std::optional<PixelMask> mask;
   if (!options.mask.empty()) {
-    mask = readUsersMask(options.mask);
+    mask = readNonEmptyMask(options.mask);
   }
   const double tolerance = options.maxDiff.value_or(2);
   const Comparison comparison =

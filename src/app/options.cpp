@@ -100,7 +100,8 @@ void addBench(CLI::App& app, Options& options, Raw& raw) {
   app.add_option("--against-binary", options.againstBinary,
                  "another speculum: runs both in turn and prints the ratios of their times")
       ->check(CLI::ExistingFile);
-  app.add_option("--rounds", options.benchRounds, "runs of each of the two")->check(CLI::Range(1, 1000));
+  app.add_option("--rounds", options.benchRounds, "runs of each of the two, 7 unless given")
+      ->check(CLI::Range(1, 1000));
   app.add_option("--against-set", raw.againstSettings, "key=value; the same against this program with other settings")
       ->take_all()
       ->allow_extra_args(false);

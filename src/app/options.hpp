@@ -49,7 +49,7 @@ struct Options {
   bool benchPrices = false;             // bench: measures the cost of each effect too
   std::filesystem::path againstBinary;  // bench: another speculum to measure in turn; empty: none
   std::vector<std::pair<std::string, std::string>> againstSettings;  // bench: settings to measure in turn; may be none
-  std::optional<int> benchRounds;                                    // bench: runs of each of the two
+  std::optional<int> benchRounds;                                    // bench: runs of each of the two; none: 7
   std::filesystem::path cases;                                       // regress
   std::string filter = "*";                                          // of the cases' names
   int jobs = 0;                                                      // worker processes; 0: by the processor

@@ -217,9 +217,12 @@ void Session::drawPicture(bool capture) {
   frame_.cpuMs += millisecondsSince(recording) - frame.waitedMs;
   unfinished_.push_back(frame.number);
   renderer_.endFrame(frame);
-  // A window goes on with the shaders that it has. A command would show, and exit 0, what nobody asked for.
+  // The last good shader stays in use after an error. The window says so; a command would write a wrong picture and
+  // exit with 0.
   if (const std::string& errors = renderer_.pipelines().errors(); !errors.empty()) {
-    throw std::runtime_error("--shader-dir: " + errors.substr(0, errors.find('\n')));
+    const size_t found = errors.find("ERROR:");
+    const size_t begin = found == std::string::npos ? 0 : errors.rfind('\n', found) + 1;
+    throw std::runtime_error("--shader-dir: " + errors.substr(begin, errors.find('\n', begin) - begin));
   }
   frame_.ledger.add(sceneRenderer_.ledger());
   ++frame_.pictures;

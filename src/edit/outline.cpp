@@ -53,7 +53,8 @@ void addEdges(std::span<const glm::dvec2> closed, const PictureView& picture, st
 
 std::vector<PixelLine> mirrorOutline(const MirrorState& mirror, const PictureView& picture) {
   const auto& clip = picture.view().clip;
-  const std::vector<glm::dvec3> polygon = clip ? clipPolygon(mirror.polygon, *clip) : mirror.polygon;
+  const Polygon polygon =
+      clip ? clipPolygon(mirror.polygon, *clip) : Polygon(mirror.polygon.begin(), mirror.polygon.end());
   std::vector<PixelLine> lines;
   for (size_t i = 0; i < polygon.size(); ++i) {
     add(lines, picture.line(polygon[i], polygon[(i + 1) % polygon.size()]));

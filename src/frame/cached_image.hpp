@@ -5,7 +5,7 @@
 
 #include "frame/settings.hpp"
 #include "frame/view.hpp"
-#include "platform/recycled_memory.hpp"
+#include "geometry/recycled_memory.hpp"
 
 namespace speculum {
 

@@ -5,9 +5,10 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "frame/frame_plan.hpp"
-#include "platform/recycled_memory.hpp"
+#include "geometry/recycled_memory.hpp"
 #include "scene/scene_fields.hpp"
 
 namespace speculum {

@@ -4,7 +4,7 @@
 
 #include "frame/frame_plan.hpp"
 #include "geometry/bvh.hpp"
-#include "platform/recycled_memory.hpp"
+#include "geometry/recycled_memory.hpp"
 
 namespace speculum {
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <iterator>
+#include <string>
+#include <utility>
 
 #include "frame/cube_face.hpp"
 #include "frame/scene_names.hpp"
@@ -82,7 +84,10 @@ void keepWidest(RecycledVector<int>& curved, const SceneState& state) {
 RecycledString mapName(const Scene& scene, const InstanceState& instance) {
   const Object& object = scene.objects[instance.object];
   auto name = nameOf<RecycledString>("object", object.name, instance.object);
-  return object.copies.count > 1 ? name.append(" copy ").append(std::to_string(instance.copy)) : name;
+  if (object.copies.count > 1) {
+    name.append(" copy ").append(std::to_string(instance.copy));
+  }
+  return name;
 }
 
 }  // namespace

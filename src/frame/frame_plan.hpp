@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <string>
+#include <optional>
+#include <span>
 #include <string_view>
 
 #include "frame/cached_image.hpp"
@@ -10,7 +11,7 @@
 #include "frame/settings.hpp"
 #include "frame/traced_effects.hpp"
 #include "frame/view.hpp"
-#include "platform/recycled_memory.hpp"
+#include "geometry/recycled_memory.hpp"
 
 namespace speculum {
 

@@ -6,7 +6,7 @@
 
 #include "frame/frame_plan.hpp"
 #include "frame/scene_changes.hpp"
-#include "platform/recycled_memory.hpp"
+#include "geometry/recycled_memory.hpp"
 
 namespace speculum {
 

@@ -4,7 +4,7 @@
 
 #include "frame/cached_image.hpp"
 #include "frame/image_content.hpp"
-#include "platform/recycled_memory.hpp"
+#include "geometry/recycled_memory.hpp"
 
 namespace speculum {
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <numeric>
-#include <vector>
 
 #include "frame/image_reuse.hpp"
 #include "frame/pass_range.hpp"
@@ -70,9 +69,9 @@ uint64_t mainBytes(const FramePlan& plan, const Settings& settings) {
 
 // Returns the pixels of the depth images, which the ranges use one after the other.
 uint64_t depthPixels(const FramePlan& plan, std::span<const PassRange> ranges) {
-  std::vector<uint64_t> largest;
+  RecycledVector<uint64_t> largest;
   for (const PassRange& range : ranges) {
-    const std::vector<size_t> passes = largestFirst(plan, range);
+    const RecycledVector<size_t> passes = largestFirst(plan, range);
     largest.resize(std::max(largest.size(), passes.size()), 0);
     for (size_t place = 0; place < passes.size(); ++place) {
       largest[place] = std::max(largest[place], pixels(plan.passes[passes[place]].view.rect));
@@ -148,7 +147,7 @@ uint64_t shadowBytes(const FramePlan& plan) {
 
 uint64_t targetBytes(const FramePlan& plan, const Settings& settings) {
   const auto imageSamples = static_cast<uint64_t>(settings.reflection.samples);
-  const std::vector<PassRange> ranges = independentPasses(plan);
+  const RecycledVector<PassRange> ranges = independentPasses(plan);
   const uint64_t sums = settings.view.accumulate > 1 ? sumBytes : 0;
   return mainBytes(plan, settings) + pixels(plan.main.view.rect) * sums +
          peakPixels(plan, ranges) * imageSamples * colorBytes + depthPixels(plan, ranges) * imageSamples * depthBytes +

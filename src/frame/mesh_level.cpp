@@ -189,7 +189,7 @@ void simplifyAlike(std::span<const SimplifiedPass> passes, const Settings& setti
   }
 }
 
-RecycledVector<int> meshesWithLevels(const FramePlan& plan, const SceneState& state) {
+std::vector<int> meshesWithLevels(const FramePlan& plan, const SceneState& state) {
   std::set<int> meshes;
   const auto add = [&](const PlannedPass& pass) {
     for (const SimplifiedInstance& simplified : pass.simplified) {

@@ -2,6 +2,7 @@
 
 #include "frame/frame_plan.hpp"
 #include "geometry/mesh_levels.hpp"
+#include "geometry/recycled_memory.hpp"
 
 namespace speculum {
 
@@ -48,7 +49,7 @@ void simplifyAlike(std::span<const SimplifiedPass> passes, const Settings& setti
 
 // Returns the indices into Scene::meshes of meshes drawn as a level, each once. Passes that cached images replace count
 // too.
-RecycledVector<int> meshesWithLevels(const FramePlan& plan, const SceneState& state);
+std::vector<int> meshesWithLevels(const FramePlan& plan, const SceneState& state);
 
 // Index into MeshLevels::levels of what the pass draws for the instance; -1 for the mesh itself.
 int levelOf(const PlannedPass& pass, int instance);

@@ -7,6 +7,7 @@
 #include <glm/gtx/component_wise.hpp>
 #include <optional>
 #include <queue>
+#include <string>
 
 #include "frame/cube_face.hpp"
 #include "frame/mirror_sight.hpp"

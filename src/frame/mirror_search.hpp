@@ -1,6 +1,7 @@
 #pragma once
 
 #include "frame/image_reuse.hpp"
+#include "geometry/recycled_memory.hpp"
 
 namespace speculum {
 

@@ -3,7 +3,7 @@
 #include <span>
 
 #include "frame/frame_plan.hpp"
-#include "platform/recycled_memory.hpp"
+#include "geometry/recycled_memory.hpp"
 
 namespace speculum {
 

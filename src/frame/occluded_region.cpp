@@ -76,7 +76,7 @@ bool hiddenByFace(const FlatOccluder& occluder, const View& view, const Projecti
       return false;
     }
     if (kept < std::ssize(drawn)) {
-      clipped = distinctVertices<Polygon>(clipPolygon<Polygon>(drawn, clip), 0.01 * occluder.slack);
+      clipped = distinctVertices(clipPolygon(drawn, clip), 0.01 * occluder.slack);
       drawn = clipped;
     }
   }
@@ -159,8 +159,8 @@ RecycledVector<Polygon> outside(const OccludedRegion& region, const glm::dvec3& 
       }
       const glm::dvec3 point = eye - half.gradient * (half.constant / slope2);
       const glm::dvec3 normal = half.gradient / std::sqrt(slope2);
-      pieces.push_back(clipPolygon<Polygon>(within, {point, -normal}));
-      within = clipPolygon<Polygon>(within, {point, normal});
+      pieces.push_back(clipPolygon(within, {point, -normal}));
+      within = clipPolygon(within, {point, normal});
     }
   }
   return pieces;

@@ -4,7 +4,7 @@
 
 #include "frame/view.hpp"
 #include "geometry/convex_mesh.hpp"
-#include "platform/recycled_memory.hpp"
+#include "geometry/recycled_memory.hpp"
 
 namespace speculum {
 

@@ -30,7 +30,7 @@ FlatOccluder flatOccluder(std::span<const glm::dvec3> polygon, double size) {
   }
   made.center = vertexMean(polygon);
   made.radius = farthestDistance(made.center, polygon);
-  made.polygon = distinctVertices<Polygon>(polygon, 0.01 * made.slack);
+  made.polygon = distinctVertices(polygon, 0.01 * made.slack);
   return made;
 }
 

@@ -1,14 +1,15 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <span>
-#include <string>
 #include <unordered_map>
+#include <utility>
 
 #include "frame/occluded_region.hpp"
 #include "frame/settings.hpp"
 #include "frame/view.hpp"
-#include "platform/recycled_memory.hpp"
+#include "geometry/recycled_memory.hpp"
 
 namespace speculum {
 

@@ -5,7 +5,7 @@
 
 #include "frame/view.hpp"
 #include "geometry/mesh.hpp"
-#include "platform/recycled_memory.hpp"
+#include "geometry/recycled_memory.hpp"
 
 namespace speculum {
 

@@ -56,7 +56,7 @@ std::vector<glm::dvec2> passMask(const View& view, const Projection& projection,
   const glm::dvec2 step = 2.0 / view.pictureSize;
   const glm::dvec2 perDevice(projection.aspect / projection.focal, 1.0 / projection.focal);
   const std::vector<glm::dvec3> rectangle = corners(view);
-  std::vector<glm::dvec3> part = rectangle;
+  Polygon part(rectangle.begin(), rectangle.end());
   bool cut = false;
   for (const glm::dvec3& normal : view.cone) {
     // The plane's line on the screen, as in widen().
@@ -76,7 +76,7 @@ std::vector<glm::dvec2> passMask(const View& view, const Projection& projection,
       if (std::ranges::all_of(part, inside)) {
         break;
       }
-      std::vector<glm::dvec3> rest = clipPolygon(part, Plane{line * (-moved / length2), line});
+      Polygon rest = clipPolygon(part, Plane{line * (-moved / length2), line});
       if (isWellShaped(rest, step)) {
         part = std::move(rest);
         cut = true;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 namespace speculum {
 
@@ -18,8 +19,8 @@ bool showsImageOf(const PlannedPass& pass, size_t first) {
 
 }  // namespace
 
-std::vector<PassRange> independentPasses(const FramePlan& plan) {
-  std::vector<PassRange> ranges;
+RecycledVector<PassRange> independentPasses(const FramePlan& plan) {
+  RecycledVector<PassRange> ranges;
   double covered = 0.0;  // pixels, by the last range
   for (size_t i = 0; i < plan.passes.size(); ++i) {
     const PlannedPass& pass = plan.passes[i];
@@ -34,10 +35,10 @@ std::vector<PassRange> independentPasses(const FramePlan& plan) {
   return ranges;
 }
 
-std::vector<size_t> largestFirst(const FramePlan& plan, const PassRange& range) {
-  std::vector<size_t> passes(range.end - range.first);
+RecycledVector<size_t> largestFirst(const FramePlan& plan, const PassRange& range) {
+  RecycledVector<size_t> passes(range.end - range.first);
   std::iota(passes.begin(), passes.end(), range.first);
-  std::ranges::stable_sort(passes, [&](size_t a, size_t b) { return area(plan.passes[a]) > area(plan.passes[b]); });
+  std::ranges::sort(passes, {}, [&](size_t i) { return std::pair(-area(plan.passes[i]), i); });
   return passes;
 }
 

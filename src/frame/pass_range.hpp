@@ -1,9 +1,9 @@
 #pragma once
 
 #include <cstddef>
-#include <vector>
 
 #include "frame/frame_plan.hpp"
+#include "geometry/recycled_memory.hpp"
 
 namespace speculum {
 
@@ -16,10 +16,10 @@ struct PassRange {
 // Cuts the plan's passes, in the order of recording, into ranges in which none shows another's image, so that a device
 // may overlap them. Each pass of a range has its own depth image; to bound that memory, a range covers no more pixels
 // than a picture at the passes' resolution, unless a single pass does.
-std::vector<PassRange> independentPasses(const FramePlan& plan);
+RecycledVector<PassRange> independentPasses(const FramePlan& plan);
 
 // A range's passes, largest first. The i-th of them draws with the i-th depth image, so that each depth image is as
 // small as it can be.
-std::vector<size_t> largestFirst(const FramePlan& plan, const PassRange& range);
+RecycledVector<size_t> largestFirst(const FramePlan& plan, const PassRange& range);
 
 }  // namespace speculum

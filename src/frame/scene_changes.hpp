@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "platform/recycled_memory.hpp"
+#include "geometry/recycled_memory.hpp"
 #include "scene/scene_state.hpp"
 
 namespace speculum {

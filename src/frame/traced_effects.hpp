@@ -2,10 +2,9 @@
 
 #include <optional>
 #include <span>
-#include <string>
 
 #include "frame/settings.hpp"
-#include "platform/recycled_memory.hpp"
+#include "geometry/recycled_memory.hpp"
 #include "scene/scene_state.hpp"
 
 namespace speculum {

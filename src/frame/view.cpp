@@ -40,7 +40,7 @@ Polygon clippedPart(const View& view, std::span<const glm::dvec3> polygon) {
   if (highest <= 1e-12 * reach) {
     return {};
   }
-  return clipPolygon<Polygon>(polygon, *view.clip);
+  return clipPolygon(polygon, *view.clip);
 }
 
 }  // namespace
@@ -166,7 +166,7 @@ Polygon visiblePart(const View& view, std::span<const glm::dvec3> polygon) {
     }
     const Plane plane{view.eye, normal};
     if (!std::ranges::all_of(part, [&](const glm::dvec3& p) { return plane.distance(p) >= 0.0; })) {
-      part = clipPolygon<Polygon>(part, plane);
+      part = clipPolygon(part, plane);
     }
   }
   return part.size() < 3 ? Polygon() : part;

@@ -6,13 +6,11 @@
 
 #include "geometry/polygon.hpp"
 #include "geometry/projection.hpp"
-#include "platform/recycled_memory.hpp"
+#include "geometry/recycled_memory.hpp"
 #include "scene/scene_state.hpp"
 
 namespace speculum {
 
-// A convex polygon that is made anew each frame.
-using Polygon = RecycledVector<glm::dvec3>;
 // Mirrors from the eye, indices into Scene::mirrors; empty for the main view.
 using MirrorPath = RecycledVector<int>;
 

@@ -91,6 +91,20 @@ std::optional<std::string> polygonDefect(std::span<const glm::dvec3> polygon) {
   return std::nullopt;
 }
 
+Polygon distinctVertices(std::span<const glm::dvec3> polygon, double least) {
+  Polygon distinct;
+  distinct.reserve(polygon.size());
+  for (const glm::dvec3& p : polygon) {
+    if (distinct.empty() || glm::length(p - distinct.back()) > least) {
+      distinct.push_back(p);
+    }
+  }
+  while (distinct.size() > 1 && glm::length(distinct.front() - distinct.back()) <= least) {
+    distinct.pop_back();
+  }
+  return distinct;
+}
+
 std::vector<glm::dvec3> flattened(std::span<const glm::dvec3> polygon, const glm::dvec3& normal) {
   const Plane plane{polygon[0], normal};
   const double size = farthestDistance(polygon[0], polygon);
@@ -99,7 +113,26 @@ std::vector<glm::dvec3> flattened(std::span<const glm::dvec3> polygon, const glm
     const double distance = plane.distance(vertex);
     vertex -= std::abs(distance) > 1e-12 * size ? distance * normal : glm::dvec3(0.0);
   }
-  return distinctVertices(flat, 1e-9 * size);
+  const Polygon distinct = distinctVertices(flat, 1e-9 * size);
+  return {distinct.begin(), distinct.end()};
+}
+
+Polygon clipPolygon(std::span<const glm::dvec3> polygon, const Plane& keep) {
+  Polygon kept;
+  kept.reserve(polygon.size() + 1);
+  for (size_t i = 0; i < polygon.size(); ++i) {
+    const glm::dvec3& a = polygon[i];
+    const glm::dvec3& b = polygon[(i + 1) % polygon.size()];
+    const double da = keep.distance(a);
+    const double db = keep.distance(b);
+    if (da >= 0.0) {
+      kept.push_back(a);
+    }
+    if ((da >= 0.0) != (db >= 0.0)) {
+      kept.push_back(a + (b - a) * (da / (da - db)));
+    }
+  }
+  return kept;
 }
 
 }  // namespace speculum

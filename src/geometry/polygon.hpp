@@ -6,7 +6,12 @@
 #include <string>
 #include <vector>
 
+#include "geometry/recycled_memory.hpp"
+
 namespace speculum {
+
+// Vertices of a polygon that each frame builds anew.
+using Polygon = RecycledVector<glm::dvec3>;
 
 // Positive if b lies counter-clockwise of a, with y up.
 inline double cross(const glm::dvec2& a, const glm::dvec2& b) {
@@ -52,43 +57,13 @@ double farthestDistance(const glm::dvec3& from, std::span<const glm::dvec3> poin
 std::optional<std::string> polygonDefect(std::span<const glm::dvec3> polygon);
 
 // Vertices farther than `least` from the one before: a vertex within rounding of it would give its edge any direction.
-template <typename Polygon = std::vector<glm::dvec3>>
-Polygon distinctVertices(std::span<const glm::dvec3> polygon, double least) {
-  Polygon distinct;
-  distinct.reserve(polygon.size());
-  for (const glm::dvec3& p : polygon) {
-    if (distinct.empty() || glm::length(p - distinct.back()) > least) {
-      distinct.push_back(p);
-    }
-  }
-  while (distinct.size() > 1 && glm::length(distinct.front() - distinct.back()) <= least) {
-    distinct.pop_back();
-  }
-  return distinct;
-}
+Polygon distinctVertices(std::span<const glm::dvec3> polygon, double least);
 
 // The polygon of a mirror, whose vertices may lie off its plane, moved into the plane through the first. Those that
 // then coincide are left out. An oblique eye and its mirror image would see vertices off the plane at different places.
 std::vector<glm::dvec3> flattened(std::span<const glm::dvec3> polygon, const glm::dvec3& normal);
 
 // Sutherland-Hodgman (1974): the part of a convex polygon with dot(normal, v - point) >= 0.
-template <typename Polygon = std::vector<glm::dvec3>>
-Polygon clipPolygon(std::span<const glm::dvec3> polygon, const Plane& keep) {
-  Polygon kept;
-  kept.reserve(polygon.size() + 1);
-  for (size_t i = 0; i < polygon.size(); ++i) {
-    const glm::dvec3& a = polygon[i];
-    const glm::dvec3& b = polygon[(i + 1) % polygon.size()];
-    const double da = keep.distance(a);
-    const double db = keep.distance(b);
-    if (da >= 0.0) {
-      kept.push_back(a);
-    }
-    if ((da >= 0.0) != (db >= 0.0)) {
-      kept.push_back(a + (b - a) * (da / (da - db)));
-    }
-  }
-  return kept;
-}
+Polygon clipPolygon(std::span<const glm::dvec3> polygon, const Plane& keep);
 
 }  // namespace speculum

@@ -65,7 +65,12 @@ void captureWithRenderDoc(const std::filesystem::path& file, const std::function
   // RenderDoc appends its own suffix to the name.
   api->setCaptureFilePathTemplate(wholePath(file).replace_extension().c_str());
   api->startFrameCapture(nullptr, nullptr);
-  draw();
+  try {
+    draw();
+  } catch (...) {
+    api->endFrameCapture(nullptr, nullptr);
+    throw;
+  }
   std::error_code error;
   if (api->endFrameCapture(nullptr, nullptr)) {
     std::filesystem::rename(lastCapture(*api), file, error);

@@ -41,7 +41,7 @@ std::vector<bool> countedPixels(const RegressCase& subject, const Image8& pictur
   if (!subject.mask) {
     return {};
   }
-  const PixelMask mask = readUsersMask(*subject.mask);
+  const PixelMask mask = readNonEmptyMask(*subject.mask);
   if (mask.width != picture.width || mask.height != picture.height) {
     throw std::runtime_error(fmt::format("{}: the mask is {}x{}, the picture {}x{}", subject.mask->string(), mask.width,
                                          mask.height, picture.width, picture.height));

@@ -62,8 +62,8 @@ Texture bounded(Texture texture, double most) {
   const int width = std::clamp(static_cast<int>(most / least), 1, texture.width);
   const int height = std::clamp(static_cast<int>(most / width), 1, texture.height);
   Texture small = shrunk(texture, width, height);
-  spdlog::warn("{}: is drawn with {}x{} texels: the textures before it have 2^28 or more", texture.source.string(),
-               small.width, small.height);
+  spdlog::warn("{}: is drawn with {}x{} texels: the textures before it have 2^28 texels or more",
+               texture.source.string(), small.width, small.height);
   return small;
 }
 

@@ -67,7 +67,7 @@ SharedDepth& MirrorTargets::depth(size_t place, VkExtent2D needed) {
 }
 
 std::vector<PassTargets> MirrorTargets::acquire(const FramePlan& plan, const PassRange& range, RetireQueue& retired) {
-  const std::vector<size_t> order = largestFirst(plan, range);
+  const RecycledVector<size_t> order = largestFirst(plan, range);
   std::vector<PassTargets> targets(order.size());
   for (size_t place = 0; place < order.size(); ++place) {
     const size_t pass = order[place];

@@ -10,6 +10,7 @@ namespace {
 
 std::atomic<size_t> inUse{0};
 std::atomic<size_t> most{0};
+std::atomic<size_t> calls{0};
 
 }  // namespace
 
@@ -18,6 +19,7 @@ void* operator new(size_t size) {
   if (memory == nullptr) {
     throw std::bad_alloc();
   }
+  ++calls;
   const size_t now = inUse += malloc_usable_size(memory);
   for (size_t before = most; before < now && !most.compare_exchange_weak(before, now);) {
   }
@@ -50,6 +52,10 @@ void restartHeapPeak() {
 
 size_t heapPeak() {
   return most;
+}
+
+size_t allocations() {
+  return calls;
 }
 
 }  // namespace speculum::fuzz

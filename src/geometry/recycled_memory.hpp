@@ -8,14 +8,13 @@
 
 namespace speculum {
 
-// Memory for what is made anew each frame. A freed block is kept by the thread that freed it, until that thread asks
-// for a block of about the same size, so that a frame like those before takes nothing from the heap. A thread keeps at
-// most 16 MiB until it ends, in blocks of at most 1 MiB; larger ones come from the heap. A thread may free blocks that
-// another one took.
+// Memory of lists that each frame builds anew. A thread caches the blocks that it frees, in sizes of powers of two, and
+// hands them out again. Beyond 16 MiB it returns all cached blocks to the heap, as it does when it ends. Blocks of more
+// than 1 MiB are not cached. Any thread may free a block.
 namespace recycled {
-// Aligned like memory of operator new. Throws std::bad_alloc.
-void* take(size_t bytes);
-void give(void* block, size_t bytes) noexcept;
+// Aligned as by operator new. Throws std::bad_alloc.
+void* allocate(size_t bytes);
+void deallocate(void* block, size_t bytes) noexcept;
 }  // namespace recycled
 
 // Allocator for the containers of the standard library.
@@ -32,9 +31,9 @@ struct RecyclingAllocator {
     if (count > std::numeric_limits<size_t>::max() / sizeof(T)) {
       throw std::bad_array_new_length();
     }
-    return static_cast<T*>(recycled::take(count * sizeof(T)));
+    return static_cast<T*>(recycled::allocate(count * sizeof(T)));
   }
-  void deallocate(T* block, size_t count) noexcept { recycled::give(block, count * sizeof(T)); }
+  void deallocate(T* block, size_t count) noexcept { recycled::deallocate(block, count * sizeof(T)); }
 
   template <typename U>
   bool operator==(const RecyclingAllocator<U>&) const noexcept {
