@@ -14,7 +14,7 @@ namespace speculum {
 namespace {
 
 // Milliseconds for a texel without lighting, a pass, a triangle, a texel, each further sample of a texel, and a ray.
-constexpr std::array<double, 6> cpuPrices{8e-6, 0.3, 1e-4, 8e-5, 6e-5, 1e-3};
+constexpr std::array<double, 6> cpuPrices{8e-6, 0.3, 1e-4, 3e-5, 3e-5, 1e-3};
 constexpr std::array<double, 6> gpuPrices{1e-7, 0.03, 2e-6, 2e-6, 5e-7, 1e-5};
 constexpr size_t rayKind = 5;
 

@@ -11,7 +11,7 @@ namespace {
 constexpr double aim = 0.98;          // largest share that a level may take when it is lowered
 constexpr double roomToRaise = 0.96;  // largest share that a better level may take
 constexpr double tooMuch = 1.06;      // a frame beyond it lowers the level
-constexpr double farBelow = 0.75;     // a better level predicted to take less is tried at once
+constexpr double farBelow = 0.85;     // a better level predicted to take less is tried at once
 
 constexpr double leastPatience = 0.15;  // seconds
 constexpr double mostPatience = 1.5;
