@@ -108,8 +108,8 @@ INSTANTIATE_TEST_SUITE_P(
                   "/bin/true: bench --json wrote no times (a speculum is needed)"},
         UsageCase{{"bench", "--reference", "--prices"}, "--reference: measures alone"},
         UsageCase{{"bench", "--rounds", "3"}, "--rounds: needs --against-binary or --against-set"},
-        UsageCase{{"compare", "a.png", "b.png", "--heatmap", "error.exr"}, "'error.exr' is written as a PNG"},
-        UsageCase{{"compare", "a.png", "b.png", "--heatmap", "error.jpg"}, "'error.jpg' is written as a PNG"},
+        UsageCase{{"compare", "a.png", "b.png", "--heatmap", "error.exr"}, "'error.exr' must end in .png"},
+        UsageCase{{"compare", "a.png", "b.png", "--heatmap", "error.jpg"}, "'error.jpg' must end in .png"},
         UsageCase{{"bench", "--prices", "--against-set", "view.samples=1"}, "--prices: measures alone"},
         UsageCase{{"bench", "--against-set", "view.samples=3"}, "--against-set: view.samples: '3'"}));
 

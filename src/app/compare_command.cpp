@@ -29,7 +29,7 @@ std::string exceeded(const ImageMetrics& metrics, const Options& options) {
 
 int runCompare(const Options& options) {
   if (options.heatmap.has_extension() && options.heatmap.extension() != ".png") {
-    throw UsageError("--heatmap: '" + options.heatmap.string() + "' is written as a PNG (give it the ending .png)");
+    throw UsageError("--heatmap: '" + options.heatmap.string() + "' must end in .png (the heat map is a PNG)");
   }
   const ComparedImage reference = readComparedImage(options.reference);
   const ComparedImage test = readComparedImage(options.test);

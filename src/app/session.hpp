@@ -90,7 +90,7 @@ class Session {
   // Replaces the scene's camera.
   void setCamera(const std::optional<CameraPose>& camera) { camera_ = camera; }
   // Draws the scene at `time`. picture() needs `capture`. Calls `afterPicture` after each picture of a mean, which ends
-  // early when it returns false.
+  // early when it returns false. Throws std::runtime_error if a shader of --shader-dir does not compile.
   const DrawnFrame& draw(double time, bool capture, const std::function<bool()>& afterPicture = {});
   // Drops all cached images: the next frame renders everything.
   void restart() { sceneRenderer_.restart(); }

@@ -113,8 +113,10 @@ bool ShaderLibrary::compile(const std::string& name, Entry& entry) {
                   "--depfile", depfile.string(), "-o", output.string(), (glslDir_ / name).string()});
   std::optional<std::vector<uint8_t>> code = readFileIfAny(output);
   if (result.exitCode != 0 || !code || !isSpirv(*code)) {
-    entry.error = result.exitCode == 127 ? "glslangValidator was not found (install glslang-tools)" : result.output;
-    spdlog::warn("shader {} did not compile; the last good one stays:\n{}", name, entry.error);
+    entry.error = result.exitCode == 127  ? "glslangValidator was not found (install glslang-tools)"
+                  : result.output.empty() ? "glslangValidator failed without a message"
+                                          : result.output;
+    spdlog::warn("shader {} did not compile:\n{}", name, entry.error);
     return false;
   }
   entry.error.clear();

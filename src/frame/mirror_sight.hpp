@@ -3,7 +3,6 @@
 #include <span>
 
 #include "frame/frame_plan.hpp"
-#include "geometry/recycled_memory.hpp"
 
 namespace speculum {
 

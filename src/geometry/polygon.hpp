@@ -18,7 +18,8 @@ inline double cross(const glm::dvec2& a, const glm::dvec2& b) {
   return a.x * b.y - a.y * b.x;
 }
 
-// Twice the signed area, positive for corners that run counter-clockwise with y up, clockwise with y down.
+// Twice the signed area, positive for corners that run counter-clockwise with y up, clockwise with y down. corner(i) is
+// corner number i, below `count`.
 template <typename Corner>
 double twiceArea(size_t count, const Corner& corner) {
   double twice = 0.0;

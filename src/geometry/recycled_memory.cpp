@@ -28,10 +28,11 @@ size_t sizeClass(size_t bytes) {
   return static_cast<size_t>(std::bit_width(std::max(bytes, sizeof(CachedBlock)) - 1));
 }
 
-// Marks all but the first bytes as in use or not.
+// Marks a block as unused for AddressSanitizer, except its first bytes.
 void poison(void* block, size_t bytes) {
   ASAN_POISON_MEMORY_REGION(static_cast<char*>(block) + sizeof(CachedBlock), bytes - sizeof(CachedBlock));
 }
+// Marks bytes as in use.
 void unpoison(void* block, size_t bytes) {
   ASAN_UNPOISON_MEMORY_REGION(block, bytes);
 }
@@ -89,17 +90,12 @@ void* allocate(size_t bytes) {
 }
 
 void deallocate(void* block, size_t bytes) noexcept {
-  if (bytes > largestBlock) {
+  if (bytes > largestBlock || cache.ended) {
     ::operator delete(block);
     return;
   }
   const size_t index = sizeClass(bytes);
   const size_t size = size_t{1} << index;
-  if (cache.ended) {
-    unpoison(block, size);
-    ::operator delete(block);
-    return;
-  }
   if (!cache.emptiedAtEnd) {
     emptyCacheAtEnd();
   }

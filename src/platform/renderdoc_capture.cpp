@@ -68,7 +68,11 @@ void captureWithRenderDoc(const std::filesystem::path& file, const std::function
   try {
     draw();
   } catch (...) {
-    api->endFrameCapture(nullptr, nullptr);
+    // Ends the capture, which would otherwise go on, and drops its file.
+    if (api->endFrameCapture(nullptr, nullptr)) {
+      std::error_code ignored;
+      std::filesystem::remove(lastCapture(*api), ignored);
+    }
     throw;
   }
   std::error_code error;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <vector>
 
 #include "core/pass.hpp"
 #include "core/retire_queue.hpp"
