@@ -8,7 +8,7 @@ namespace speculum {
 namespace {
 
 // Returns the rectangle's corners in device coordinates, with z = 0.
-std::vector<glm::dvec3> corners(const View& view) {
+Polygon corners(const View& view) {
   const glm::dvec2 step = 2.0 / view.pictureSize;
   const double x0 = view.rect.x * step.x - 1.0;
   const double y0 = view.rect.y * step.y - 1.0;
@@ -55,8 +55,7 @@ std::vector<glm::dvec2> passMask(const View& view, const Projection& projection,
   constexpr double rounding = 0.1;  // pixels; bound of the rounding of float positions on the GPU
   const glm::dvec2 step = 2.0 / view.pictureSize;
   const glm::dvec2 perDevice(projection.aspect / projection.focal, 1.0 / projection.focal);
-  const std::vector<glm::dvec3> rectangle = corners(view);
-  Polygon part(rectangle.begin(), rectangle.end());
+  Polygon part = corners(view);
   bool cut = false;
   for (const glm::dvec3& normal : view.cone) {
     // The plane's line on the screen, as in widen().

@@ -104,8 +104,7 @@ constexpr SettingField fields[] = {
     setting("reflection.mesh_error", NumberSetting{at<&R::meshError>, 0.0, 16.0}, "Mesh error",
             "largest error of simplified objects in reflections; 0: all triangles",
             "Saves vertices; shading shifts; off with traced shadows or curved mirrors, or bounced light; needs "
-            "view.mesh_error "
-            "with shadow maps.",
+            "view.mesh_error with shadow maps.",
             {.unit = "texels", .slider = SettingSlider{0.0, 16.0}}),
     setting("reflection.clip", choice<&R::clip>(clipMethods), "Clipping", "how geometry behind a mirror is cut",
             "oblique loses depth precision near a mirror; none shows what is behind it."),

@@ -62,17 +62,16 @@ class Collector {
   void add(const MirrorDraw& draw) {
     const Mirror& mirror = scene_.mirrors[draw.mirror];
     lit_.mirrors = lit_.mirrors || !isBlack(draw.back ? mirror.backColor : mirror.baseColor);
-    const auto name = nameOf<RecycledString>("mirror", mirror.name, draw.mirror);
     const bool rough = settings_.roughness && mirror.roughness > 0.0 && (draw.byRays || draw.blurs);
     effects_.roughRays = effects_.roughRays || (rough && draw.byRays);
     if (rough && !effects_.roughness) {
-      effects_.roughness = name;
+      effects_.roughness = nameOf<RecycledString>("mirror", mirror.name, draw.mirror);
     }
     const bool rippled = settings_.ripple && mirror.ripple && (draw.byRays || draw.ripples);
     effects_.rippleRays = effects_.rippleRays || (rippled && draw.byRays);
     effects_.mirrorRays = effects_.mirrorRays || (draw.byRays && !rough && !rippled);
     if (rippled && !effects_.ripple) {
-      effects_.ripple = name;
+      effects_.ripple = nameOf<RecycledString>("mirror", mirror.name, draw.mirror);
     }
   }
 
