@@ -246,9 +246,9 @@ TEST_F(CommandLine, BenchComparesRunsInTurn) {
 }
 
 // Runs bench and interrupts it, and no other process, so many seconds after it catches the signal (the last digit of
-// SigCgt holds SIGINT), however slow the machine is.
+// SigCgt holds SIGINT), however slow the machine is. Without job control it would ignore the signal in the background.
 ProcessResult interruptedBench(const std::string& seconds, const std::vector<std::string>& arguments) {
-  const std::string script = R"("$0" bench --size 96x54 "${@:2}" & pid=$!
+  const std::string script = R"(set -m; "$0" bench --size 96x54 "${@:2}" & pid=$!
     while ! grep -q '^SigCgt:.*[2367abef]$' /proc/$pid/status; do sleep 0.05; done
     sleep $1; kill -INT $pid; wait $pid)";
   std::vector<std::string> command{"timeout", "60", "bash", "-c", script, program, seconds};

@@ -1,12 +1,16 @@
 // The user's folders, the machine's memory and other programs.
 #include <malloc.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <chrono>
+#include <csignal>
 #include <thread>
 
 #include "error_message.hpp"
+#include "platform/files.hpp"
 #include "platform/folders.hpp"
 #include "platform/machine.hpp"
 #include "platform/process.hpp"
@@ -16,12 +20,107 @@
 namespace speculum::test {
 namespace {
 
+namespace fs = std::filesystem;
+
 TEST(Folders, CacheDirectoryFollowsXdg) {
   setEnvironment("XDG_CACHE_HOME", "/somewhere");
   EXPECT_EQ(userCacheDir(), "/somewhere/speculum");
   setEnvironment("XDG_CACHE_HOME", "relative/is/ignored");
   setEnvironment("HOME", "/home/me");
   EXPECT_EQ(userCacheDir(), "/home/me/.cache/speculum");
+}
+
+// Neither $HOME nor folders of XDG are set, and $TMPDIR is a folder of the test.
+class HomelessFolders : public testing::Test {
+ protected:
+  HomelessFolders() {
+    for (const char* name :
+         {"HOME", "XDG_CACHE_HOME", "XDG_CONFIG_HOME", "XDG_PICTURES_DIR", "XDG_DOCUMENTS_DIR", "TMPDIR"}) {
+      before_.emplace_back(name, environment(name));
+      ::unsetenv(name);
+    }
+    setEnvironment("TMPDIR", parent_.string());
+    useParent(01777);
+    std::ofstream(victim_) << "precious";
+  }
+  ~HomelessFolders() override {
+    for (const auto& [name, value] : before_) {
+      value.empty() ? ::unsetenv(name.c_str()) : ::setenv(name.c_str(), value.c_str(), 1);
+    }
+  }
+  // Begins with an empty $TMPDIR of that mode.
+  void useParent(mode_t mode) {
+    fs::remove_all(parent_);
+    fs::create_directory(parent_);
+    ::chmod(parent_.c_str(), mode);
+  }
+  // Says whether anything can be stored in each of the user's folders. The files of others must stay as they are.
+  bool keepsAnything() {
+    bool kept = false;
+    for (const fs::path& folder : {userCacheDir(), userConfigDir(), picturesDir(), documentsDir()}) {
+      kept = storeFile(folder / "file", "content") || storeFile(folder / "below" / "file", "content") || kept;
+    }
+    EXPECT_EQ(readText(victim_), "precious");
+    return kept;
+  }
+
+  std::vector<std::pair<std::string, std::string>> before_;
+  const TemporaryDirectory directory_;
+  const fs::path parent_ = directory_.path() / "tmp";
+  const fs::path own_ = parent_ / ("speculum-" + std::to_string(::geteuid()));
+  const fs::path victim_ = directory_.path() / "victim";
+};
+
+TEST_F(HomelessFolders, AreTheUsersAlone) {
+  for (const char* home : {"", "relative"}) {
+    useParent(01777);
+    setEnvironment("HOME", home);
+    EXPECT_TRUE(keepsAnything());
+    EXPECT_EQ(readText(userCacheDir() / "file"), "content");
+    EXPECT_TRUE(keepsAnything()) << "the folder of the last run is used again";
+    struct stat status {};
+    ASSERT_EQ(::lstat(own_.c_str(), &status), 0);
+    EXPECT_EQ(status.st_mode & 07777, mode_t{0700});
+    EXPECT_EQ(std::distance(fs::directory_iterator(parent_), fs::directory_iterator()), 1) << "all lie in it";
+  }
+}
+
+TEST_F(HomelessFolders, KeepNothingWhereOthersMayWrite) {
+  const fs::path theirs = directory_.path() / "theirs";
+  fs::create_directories(theirs / ".cache" / "speculum");
+  fs::create_directories(theirs / ".config" / "speculum");
+  for (const char* folder : {".cache", ".config"}) {
+    fs::create_symlink(victim_, theirs / folder / "speculum" / "file");
+  }
+  fs::permissions(theirs, fs::perms(0700));
+  for (const fs::path& target : {theirs, victim_, directory_.path() / "none"}) {
+    useParent(01777);
+    fs::create_symlink(target, own_);
+    EXPECT_FALSE(keepsAnything()) << target;
+  }
+  useParent(01777);
+  std::ofstream(own_) << "a file";
+  EXPECT_FALSE(keepsAnything());
+  for (const int mode : {0777, 01777, 0770, 0755, 0750, 0707, 0701, 0710, 0720, 0704}) {
+    useParent(01777);
+    fs::copy(theirs, own_, fs::copy_options::recursive | fs::copy_options::copy_symlinks);
+    ::chmod(own_.c_str(), static_cast<mode_t>(mode));
+    EXPECT_FALSE(keepsAnything()) << std::oct << mode;
+  }
+  for (const int mode : {0777, 0773}) {
+    useParent(static_cast<mode_t>(mode));
+    EXPECT_FALSE(keepsAnything()) << "names in it can be changed by others, mode " << std::oct << mode;
+  }
+  if (::geteuid() == 0) {
+    useParent(01777);
+    fs::copy(theirs, own_, fs::copy_options::recursive | fs::copy_options::copy_symlinks);
+    ::chmod(own_.c_str(), 0700);
+    ASSERT_EQ(::chown(own_.c_str(), 12345, 12345), 0);
+    EXPECT_FALSE(keepsAnything());
+    useParent(01777);
+    ASSERT_EQ(::chown(parent_.c_str(), 12345, 12345), 0);
+    EXPECT_FALSE(keepsAnything());
+  }
 }
 
 TEST(Folders, MissingDataDirectoryListsWhereItLooked) {
@@ -144,6 +243,46 @@ TEST(Process, EndedAndHungChildrenAreHandled) {
   EXPECT_EQ(hung.readLine(10.0), "up");
   hung.kill();
   EXPECT_EQ(hung.wait().exitCode, 128 + 9);
+}
+
+// Returns what of a process is left that ignored some signals from its start, let them be handled, and gets `signal`.
+int endBySignal(int signal, const std::vector<int>& ignored) {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    for (const int each : {SIGINT, SIGTERM, SIGHUP}) {
+      ::signal(each, std::ranges::count(ignored, each) > 0 ? SIG_IGN : SIG_DFL);
+    }
+    installInterruptHandler();
+    installInterruptHandler();  // as when a command starts again
+    ::raise(signal);
+    ::_exit(interruptRequested() ? 1 : 0);
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  return status;
+}
+
+TEST(Process, IgnoredSignalsStayIgnored) {
+  const std::vector<int> signals{SIGINT, SIGTERM, SIGHUP};
+  for (unsigned set = 0; set < 8; ++set) {
+    std::vector<int> ignored;
+    for (unsigned i = 0; i < 3; ++i) {
+      if ((set >> i & 1u) != 0) {
+        ignored.push_back(signals[i]);
+      }
+    }
+    for (const int signal : signals) {
+      const int status = endBySignal(signal, ignored);
+      ASSERT_TRUE(WIFEXITED(status));
+      EXPECT_EQ(WEXITSTATUS(status), std::ranges::count(ignored, signal) > 0 ? 0 : 1) << signal << " of " << set;
+    }
+  }
+}
+
+TEST(Process, ChildrenEndAlthoughTerminationIsIgnored) {
+  const auto before = std::signal(SIGTERM, SIG_IGN);
+  ChildProcess({"sleep", "1000"});
+  std::signal(SIGTERM, before);
 }
 
 }  // namespace

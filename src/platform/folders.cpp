@@ -1,5 +1,8 @@
 #include "platform/folders.hpp"
 
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <fstream>
 #include <stdexcept>
 
@@ -12,18 +15,36 @@ namespace fs = std::filesystem;
 
 namespace {
 
+// Returns a folder below $TMPDIR that nobody else can write to, and nothing if that cannot be had. Others may have put
+// a link or a folder of theirs in its place, or move it away where names are not protected.
+std::optional<fs::path> ownTemporaryFolder() {
+  const fs::path parent = temporaryFolder();
+  const fs::path folder = parent / ("speculum-" + std::to_string(::geteuid()));
+  struct stat around {};
+  struct stat own {};
+  ::mkdir(folder.c_str(), 0700);
+  const bool safe = ::stat(parent.c_str(), &around) == 0 && ::lstat(folder.c_str(), &own) == 0 &&
+                    ((around.st_mode & S_IWOTH) == 0 || (around.st_mode & S_ISVTX) != 0) &&
+                    (around.st_uid == 0 || around.st_uid == own.st_uid) && S_ISDIR(own.st_mode) &&
+                    own.st_uid == ::geteuid() && (own.st_mode & 077) == 0;
+  return safe ? std::optional(folder) : std::nullopt;
+}
+
+// Returns a folder that holds the user's others. Without $HOME it is lost when the machine starts again; if even that
+// cannot be had, it is one that cannot be created, so that nothing is kept.
+fs::path homeFolder() {
+  const fs::path home = environment("HOME");
+  return home.is_absolute() ? home : ownTemporaryFolder().value_or("/proc/no-home");
+}
+
 fs::path userDir(const char* variable, const char* fallback) {
   // The XDG base directory specification says to ignore relative paths.
   const fs::path base = environment(variable);
-  if (base.is_absolute()) {
-    return base / "speculum";
-  }
-  const std::string home = environment("HOME");
-  return (home.empty() ? temporaryFolder() : fs::path(home) / fallback) / "speculum";
+  return (base.is_absolute() ? base : homeFolder() / fallback) / "speculum";
 }
 
 // The folder that the file of xdg-user-dirs names: XDG_PICTURES_DIR="$HOME/..." or an absolute path.
-fs::path configuredDir(const std::string& variable, const std::string& home) {
+fs::path configuredDir(const std::string& variable, const fs::path& home) {
   std::ifstream file(userConfigDir().parent_path() / "user-dirs.dirs");
   const std::string key = variable + "=\"";
   for (std::string line; std::getline(file, line);) {
@@ -32,19 +53,19 @@ fs::path configuredDir(const std::string& variable, const std::string& home) {
       continue;
     }
     const std::string value = line.substr(key.size(), end - key.size());
-    return value.starts_with("$HOME/") ? fs::path(home) / value.substr(6) : fs::path(value);
+    return value.starts_with("$HOME/") ? home / value.substr(6) : fs::path(value);
   }
   return {};
 }
 
 fs::path desktopDir(const std::string& variable, const char* fallback) {
-  const std::string home = environment("HOME");
+  const fs::path home = homeFolder();
   for (const fs::path& folder : {fs::path(environment(variable)), configuredDir(variable, home)}) {
     if (folder.is_absolute()) {
       return folder;
     }
   }
-  return home.empty() ? temporaryFolder() : fs::path(home) / fallback;
+  return home / fallback;
 }
 
 }  // namespace

@@ -7,6 +7,9 @@ namespace speculum {
 
 std::filesystem::path temporaryFolder();  // $TMPDIR or /tmp, whether or not it exists
 std::filesystem::path executablePath();
+
+// The user's folders. Without $HOME they lie in $TMPDIR/speculum-UID, which nobody else can write to; where that cannot
+// be had, they are paths that cannot be created.
 std::filesystem::path userCacheDir();   // $XDG_CACHE_HOME/speculum or ~/.cache/speculum; not created
 std::filesystem::path userConfigDir();  // $XDG_CONFIG_HOME/speculum or ~/.config/speculum; not created
 // The user's folder for pictures: $XDG_PICTURES_DIR, the one that user-dirs.dirs names, or ~/Pictures.

@@ -34,6 +34,11 @@ int waitFor(pid_t child) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
+bool isIgnored(int signal) {
+  struct sigaction action {};
+  return ::sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
+}
+
 }  // namespace
 
 ChildProcess::ChildProcess(const std::vector<std::string>& arguments, Input input) {
@@ -74,7 +79,7 @@ ChildProcess::ChildProcess(const std::vector<std::string>& arguments, Input inpu
 
 ChildProcess::~ChildProcess() {
   if (child_ != 0) {
-    ::kill(child_, SIGTERM);
+    ::kill(child_, isIgnored(SIGTERM) ? SIGKILL : SIGTERM);  // a child ignores what this process does
     waitFor(child_);
   }
   closeInput();
@@ -187,9 +192,11 @@ void installInterruptHandler() {
   action.sa_handler = [](int) { interruptFlag = true; };
   // A second Ctrl-C ends the process even if the flag is not looked at.
   action.sa_flags = static_cast<int>(SA_RESETHAND);
-  ::sigaction(SIGINT, &action, nullptr);
-  ::sigaction(SIGTERM, &action, nullptr);
-  ::sigaction(SIGHUP, &action, nullptr);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    if (!isIgnored(signal)) {
+      ::sigaction(signal, &action, nullptr);
+    }
+  }
 }
 
 bool interruptRequested() {

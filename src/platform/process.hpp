@@ -53,7 +53,8 @@ void setEnvironment(const std::string& name, const std::string& value);
 std::string environment(const std::string& name);  // empty if not set
 bool isTerminal(int fileDescriptor);
 
-// Makes Ctrl-C, a closed terminal and a termination request only set a flag; a second Ctrl-C ends the process.
+// Makes Ctrl-C, a closed terminal and a termination request only set a flag; a second Ctrl-C ends the process. A signal
+// that was ignored at the start, as nohup and scripts do for what runs in the background, stays ignored.
 void installInterruptHandler();
 bool interruptRequested();
 
