@@ -451,11 +451,11 @@ TEST_F(Journey, LayoutIsReadAndWrittenLikeOtherFiles) {
   std::filesystem::rename(layout, elsewhere);
   const std::string before = readText(elsewhere);
   std::filesystem::create_symlink(elsewhere, layout);
-  std::ofstream(elsewhere) << before << "[Window][Of another program]\nPos=1,2\nSize=3,4\n\n";
+  std::ofstream(elsewhere) << before << "[Panel][Of another version]\nSize=30,40\n\n";
   start();
   demo_.reset();
   EXPECT_TRUE(std::filesystem::is_symlink(layout));
-  EXPECT_TRUE(contains(readText(elsewhere), "[Window][Of another program]")) << "what was read is kept";
+  EXPECT_TRUE(contains(readText(elsewhere), "[Panel][Of another version]")) << "what was read is kept";
   std::filesystem::remove(layout);
   ASSERT_EQ(mkfifo(layout.c_str(), 0600), 0);
   start();  // waits for nobody

@@ -73,7 +73,8 @@ TEST_F(Files, ReplaceWaitsForTheDisk) {
   replaceFile(file_, "old");
   diskCalls.clear();
   replaceFile(file_, "new");
-  EXPECT_EQ(diskCalls, std::vector<std::string>({"fsync", "rename"}));
+  EXPECT_EQ(diskCalls, std::vector<std::string>({"fsync", "rename", "fsync"}))
+      << "the content, and then the folder's names";
   fsyncFails = true;
   expectFileFault([&] { replaceFile(file_, "lost"); }, file_, "cannot be written");
   fsyncFails = false;

@@ -95,5 +95,21 @@ TEST(PanelLayout, WindowIsMovedIntoTheDisplay) {
   EXPECT_EQ(fitWindow({{-40, -9}, {300, 900}}, {200, 100}), (WindowRect{{0, 0}, {200, 100}}));
 }
 
+TEST(PanelLayout, TitlesStayReachable) {
+  const glm::vec2 display(900, 700);
+  const auto reachable = [&](const WindowRect& wish) { return reachableWindow(wish, display, 20.0f, 12.0f); };
+  EXPECT_EQ(reachable({{850, 650}, {300, 200}}), (WindowRect{{850, 650}, {300, 200}})) << "partly hidden, as put there";
+  for (const float far : {-1e38f, -32767.0f, -300.0f, 0.0f, 890.0f, 32767.0f, 1e38f}) {
+    for (const float size : {0.0f, 16.0f, 300.0f, 32767.0f, 1e38f}) {
+      const WindowRect place = reachable({{far, far}, {size, size}});
+      EXPECT_LE(place.corner.x, 900 - 12);
+      EXPECT_GE(place.corner.x + place.size.x, 12);
+      EXPECT_LE(place.corner.y, 700 - 12);
+      EXPECT_GE(place.corner.y, 20);
+      EXPECT_LE(std::max(place.size.x, place.size.y), 900);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace speculum

@@ -95,7 +95,7 @@ bool SceneBrowser::isNew(const fs::path& scene) {
 }
 
 SceneBrowser::SceneBrowser() {
-  std::istringstream lines(readTextIfAny(recentFile()));
+  std::istringstream lines(readTextIfAny(recentFile(), 1u << 16));
   for (std::string line; std::getline(lines, line) && view_.recent.size() < mostRecent;) {
     if (isFile(line)) {
       view_.recent.emplace_back(line);

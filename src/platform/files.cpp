@@ -1,6 +1,7 @@
 #include "platform/files.hpp"
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -159,6 +160,11 @@ void replace(const fs::path& file, std::span<const uint8_t> content, bool lastin
     if (::rename(partial.c_str(), target.c_str()) != 0) {
       failToWrite(file, errno);
     }
+    if (lasting) {
+      const int names = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+      ::fsync(names);
+      ::close(names);
+    }
   } catch (...) {
     fs::remove(partial, error);
     throw;
@@ -180,16 +186,16 @@ std::string readText(const fs::path& file, uintmax_t most) {
   return read<std::string>(file, most);
 }
 
-std::optional<std::vector<uint8_t>> readFileIfAny(const fs::path& file) {
+std::optional<std::vector<uint8_t>> readFileIfAny(const fs::path& file, uintmax_t most) {
   try {
-    return readFile(file);
+    return readFile(file, most);
   } catch (const FileError&) {
     return std::nullopt;
   }
 }
 
-std::string readTextIfAny(const fs::path& file) {
-  const std::vector<uint8_t> content = readFileIfAny(file).value_or(std::vector<uint8_t>());
+std::string readTextIfAny(const fs::path& file, uintmax_t most) {
+  const std::vector<uint8_t> content = readFileIfAny(file, most).value_or(std::vector<uint8_t>());
   return {content.begin(), content.end()};
 }
 
@@ -255,6 +261,28 @@ fs::path withoutLinks(const fs::path& path) {
 bool isWritable(const fs::path& file) {
   std::error_code ignored;
   return ::access((fs::exists(file, ignored) ? file : folderOf(file)).c_str(), W_OK) == 0;
+}
+
+std::shared_ptr<const int> lockFolder(const fs::path& folder) {
+  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+  // A file system without locks cannot say that another process is there.
+  if (descriptor < 0 || (::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)) {
+    ::close(descriptor);
+    return nullptr;
+  }
+  return {new int(descriptor), [](const int* held) {
+            ::close(*held);
+            delete held;
+          }};
+}
+
+std::string fileNameOf(const std::string& name, const std::string& ending) {
+  constexpr size_t longest = 255;  // bytes, in usual file systems
+  size_t length = std::min(name.size(), longest - ending.size());
+  while (length > 0 && length < name.size() && continuesCharacter(name[length])) {
+    --length;
+  }
+  return name.substr(0, length) + ending;
 }
 
 TemporaryDirectory::TemporaryDirectory() {

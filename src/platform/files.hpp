@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -29,8 +30,8 @@ class FileError : public std::runtime_error {
 std::vector<uint8_t> readFile(const std::filesystem::path& file, uintmax_t most = 1u << 30);
 std::string readText(const std::filesystem::path& file, uintmax_t most = 1u << 30);
 // Returns nothing for a file that readFile() throws for.
-std::optional<std::vector<uint8_t>> readFileIfAny(const std::filesystem::path& file);
-std::string readTextIfAny(const std::filesystem::path& file);  // empty for such a file
+std::optional<std::vector<uint8_t>> readFileIfAny(const std::filesystem::path& file, uintmax_t most = 1u << 30);
+std::string readTextIfAny(const std::filesystem::path& file, uintmax_t most = 1u << 30);  // empty for such a file
 
 // Writes a new file beside `file` and renames it, once it is on the disk, so that a reader sees the old or the new
 // content and a failure leaves the old one. Keeps symbolic links, the mode and, where allowed, the owner. Devices,
@@ -52,6 +53,11 @@ bool isFolder(const std::filesystem::path& path);
 std::filesystem::path wholePath(const std::filesystem::path& path);
 // Returns the whole path without symbolic links, or the path itself where they cannot be followed.
 std::filesystem::path withoutLinks(const std::filesystem::path& path);
+// Locks a folder while the result or a copy of it lives, and at most as long as this process, however it ends. Returns
+// null if the folder is locked already, or is none.
+std::shared_ptr<const int> lockFolder(const std::filesystem::path& folder);
+// Returns the name with an ending, cut before it to the length that file systems allow.
+std::string fileNameOf(const std::string& name, const std::string& ending);
 bool isWritable(const std::filesystem::path& file);  // the folder of a file that does not exist
 
 // A folder of this process, removed with its content on destruction.

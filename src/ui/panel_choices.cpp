@@ -27,7 +27,7 @@ std::filesystem::path choicesFile() {
 
 PanelChoices savedPanelChoices() {
   PanelChoices choices;
-  std::istringstream lines(readTextIfAny(choicesFile()));
+  std::istringstream lines(readTextIfAny(choicesFile(), 1u << 16));
   std::string word;
   std::string value;
   while (lines >> word >> value) {

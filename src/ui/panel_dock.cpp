@@ -15,6 +15,9 @@ namespace {
 // Least sizes of a window in sizes of the font, if the display has room.
 constexpr float narrowest = 18.0f;
 constexpr float lowest = 12.0f;
+// Bounds of what a layout file may say, in screen coordinates.
+constexpr float smallest = 16.0f;
+constexpr float farthest = 32767.0f;
 
 float margin() {
   return std::floor(0.8f * ImGui::GetFontSize());
@@ -59,17 +62,24 @@ void PanelDock::remember() {
   handler.WriteAllFn = [](ImGuiContext*, ImGuiSettingsHandler* self, ImGuiTextBuffer* out) {
     out->append(static_cast<PanelDock*>(self->UserData)->saved().c_str());
   };
+  // Dear ImGui trusts the numbers of its own settings, such as a table's columns. No window here has any.
+  ImGui::GetCurrentContext()->SettingsHandlers.clear();
   ImGui::GetCurrentContext()->SettingsHandlers.push_back(handler);
 }
 
+// Passes over what no window can have. begin() moves the others to where they can be reached.
 void PanelDock::read(Panel& panel, const char* line) {
   glm::vec2 v(0.0f);
-  if (std::sscanf(line, "Pos=%f,%f", &v.x, &v.y) == 2) {
+  const auto reads = [&](const char* format, float least) {
+    return std::sscanf(line, format, &v.x, &v.y) == 2 && glm::all(glm::greaterThanEqual(v, glm::vec2(least))) &&
+           glm::all(glm::lessThanEqual(v, glm::vec2(farthest)));
+  };
+  if (reads("Pos=%f,%f", -farthest)) {
     panel.docked = false;
     panel.wish.corner = v;
-  } else if (std::sscanf(line, "Display=%f,%f", &v.x, &v.y) == 2) {
+  } else if (reads("Display=%f,%f", 0.0f)) {
     panel.display = v;
-  } else if (std::sscanf(line, "Size=%f,%f", &v.x, &v.y) == 2) {
+  } else if (reads("Size=%f,%f", smallest)) {
     panel.wish.size = v;
   } else if (std::string_view(line) == "Collapsed=1") {
     panel.collapsed = true;
@@ -256,7 +266,8 @@ bool PanelDock::begin(const char* name, bool* open, Edge edge, const glm::vec2& 
   const glm::vec2 size = panel.wish.size.x > 0.0f ? panel.wish.size : ems * ImGui::GetFontSize();
   const WindowRect wish{panel.wish.corner, size};
   const bool room = glm::all(glm::greaterThanEqual(displaySize(), panel.display));
-  const WindowRect place = panel.docked ? panel.place : room ? wish : fitWindow(wish, displaySize());
+  const WindowRect free = reachableWindow(room ? wish : fitWindow(wish, displaySize()), displaySize(), top_, margin());
+  const WindowRect place = panel.docked ? panel.place : free;
   panel.folded = panel.docked && panel.place.folded;
   const bool collapsed = panel.collapsed || panel.folded;
   const bool held = ImGui::GetCurrentContext()->ActiveId != 0 && ImGui::IsMouseDown(ImGuiMouseButton_Left);

@@ -108,4 +108,10 @@ WindowRect fitWindow(const WindowRect& wish, const glm::vec2& display) {
   return {glm::clamp(wish.corner, glm::vec2(0.0f), glm::max(display - size, glm::vec2(0.0f))), size};
 }
 
+WindowRect reachableWindow(const WindowRect& wish, const glm::vec2& display, float top, float part) {
+  const glm::vec2 size = glm::max(glm::min(wish.size, display), glm::vec2(part));
+  const glm::vec2 low(part - size.x, top);
+  return {glm::clamp(wish.corner, low, glm::max(display - part, low)), size};
+}
+
 }  // namespace speculum

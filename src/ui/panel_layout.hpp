@@ -53,5 +53,7 @@ std::vector<WindowPlace> arrangeWindows(std::span<const WindowWish> wishes, cons
 
 // Returns the nearest rectangle that shows the whole window, no larger than the display.
 WindowRect fitWindow(const WindowRect& wish, const glm::vec2& display);
+// Returns the nearest rectangle of which the display shows a `part` of the title, in width and height, below `top`.
+WindowRect reachableWindow(const WindowRect& wish, const glm::vec2& display, float top, float part);
 
 }  // namespace speculum

@@ -130,7 +130,7 @@ struct SimpleUI::Backend {
 SimpleUI::SimpleUI(Renderer& renderer, Window& window)
     : renderer_(renderer), window_(window), backend_(std::make_unique<Backend>(window)), idle_(renderer.device()) {
   windows_.rememberLayout();
-  const std::string layout = readTextIfAny(layoutFile());
+  const std::string layout = readTextIfAny(layoutFile(), 1u << 16);
   ImGui::LoadIniSettingsFromMemory(layout.data(), layout.size());
 }
 
