@@ -30,6 +30,16 @@ TEST_F(PanelTest, SettingsAreEditedAndReset) {
   EXPECT_TRUE(commands_.empty()) << "nothing is sent unless something was done";
 }
 
+TEST_F(PanelTest, SavedClearColorIsTakenBack) {
+  EXPECT_FALSE(has("view.scene_background"));
+  settings_.view.clearColor = sceneSettings_.view.clearColor = glm::dvec3(0.5);
+  EXPECT_FALSE(has("reset.view.clear_color")) << "it is the scene's";
+  EXPECT_FALSE(clickFor<SetSettings>("view.scene_background").settings.view.clearColor);
+  EXPECT_FALSE(has("view.scene_background"));
+  click("reset.view.clear_color");
+  EXPECT_TRUE(settings_.view.clearColor);
+}
+
 class ResetArrow : public PanelTest {
  protected:
   // A drag left the keyboard's focus on the slider; the arrow is to its right.
@@ -456,6 +466,66 @@ TEST_F(PanelTest, LayoutIsKeptInTheUsersFolder) {
   EXPECT_EQ(widget("time"), moved);
   EXPECT_FALSE(has("performance.pause")) << "still";
   EXPECT_TRUE(has("log.copy")) << "the other is not";
+}
+
+// Sections of panels, of windows and tables of Dear ImGui, and of nobody, with numbers of every size.
+std::string hostileLayout(std::mt19937& random) {
+  const auto pick = [&](const std::vector<std::string>& from) { return from[random() % from.size()]; };
+  const auto number = [&] {
+    return pick({"-5",
+                 "0",
+                 "1e9",
+                 "1000000000",
+                 "2147483648",
+                 "-2147483649",
+                 "99999999999999999999",
+                 "nan",
+                 "-nan",
+                 "inf",
+                 "-inf",
+                 "1e38",
+                 "-1e38",
+                 "1e-40",
+                 "33000",
+                 "-900",
+                 "12",
+                 "0x7fffffff",
+                 "",
+                 std::string(500, '9')});
+  };
+  std::string text;
+  for (size_t sections = random() % 12; sections > 0; --sections) {
+    text += pick({"[Table][0x" + number() + "," + number() + "]", "[Table][0x12345678," + number() + "]",
+                  "[Window][Speculum]", "[Window][Log]", "[Panel][Log]", "[Panel][Speculum]", "[Panel][Inspector]",
+                  "[Panel][]", "[Panel][", "[Panel]", "[][]", "", "[Panel][" + std::string(3000, 'n') + "]"}) +
+            "\n";
+    for (size_t lines = random() % 8; lines > 0; --lines) {
+      text +=
+          pick({"Pos", "Size", "Display", "Collapsed", "RefScale", "Column 0  Width", "Column " + number() + " Sort"}) +
+          pick({"=", "=", "=", " "}) + number() + pick({",", ",", ",", " "}) + number() + "\n";
+    }
+  }
+  return random() % 8 == 0 ? text + "Pos=" + std::string(1 << 20, '7') + "\n" + text : text;
+}
+
+TEST_F(PanelTest, HostileLayoutsLeavePanelsReachable) {
+  windows_->toggleInspector();
+  toggle("Log");
+  std::mt19937 random(1);
+  for (int i = 0; i < 60; ++i) {
+    stop();
+    const std::string layout = hostileLayout(random);
+    std::ofstream(iniFile_) << layout;
+    start();
+    for (const char* name : {"Speculum", "Log", "Inspector"}) {
+      const ImGuiWindow* window = ImGui::FindWindowByName(name);
+      ASSERT_TRUE(window && window->Active);
+      const ImRect title = window->TitleBarRect();
+      EXPECT_TRUE(title.Min.x <= 890 && title.Max.x >= 10 && title.Min.y <= 690 && title.Min.y >= 18) << layout;
+      EXPECT_TRUE(title.GetWidth() >= 12 && title.GetWidth() <= 900) << layout;
+      EXPECT_TRUE(window->SizeFull.y >= 12 && window->SizeFull.y <= 700) << layout;
+    }
+  }
 }
 
 TEST_F(PanelTest, WindowsReturnFromATinyDisplay) {

@@ -129,7 +129,7 @@ constexpr SettingField fields[] = {
     setting("view.tone_map", choice<&V::toneMap>(toneMaps), "Tone curve", "curve from radiance to display values",
             "Costs nothing.", {.changes = display}),
     setting("view.clear_color", ColorSetting{at<&V::clearColor>}, "Clear color",
-            "replaces the scene's background and sky", "Costs nothing.", {.subject = true}),
+            "replaces the scene's background and sky, unless it is empty", "Costs nothing.", {.subject = true}),
     setting("view.texture_filter", choice<&V::textureFilter>(textureFilters), "Texture filter",
             "how textures are sampled", "trilinear reads twice the texels; far textures are calmer."),
     setting("view.wireframe", BooleanSetting{at<&V::wireframe>}, "Wireframe", "edges of triangles only",

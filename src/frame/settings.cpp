@@ -106,7 +106,7 @@ struct Parser {
 
   Problem operator()(const ColorSetting& color) const {
     const std::optional<glm::dvec3> value = parseColor(text);
-    if (!value) {
+    if (!value && !text.empty()) {
       return "'" + std::string(text) + "' is not a color (three linear values " + kRadiance.shortText() +
              ", such as 0.1,0.2,0.3)";
     }

@@ -162,6 +162,11 @@ void settingRows(PanelContext& ui, std::string_view prefix) {
       if (field.key == "view.clear_color" && environment.sky && !ui.settings.view.clearColor) {
         dimmedText("Not in use: the scene has a sky. A color that you choose replaces it.");
       }
+      if (field.key == "view.clear_color" && ui.settings.view.clearColor &&
+          button(ui, "Use the scene's background", "view.scene_background",
+                 "Shows the scene's sky or background again.")) {
+        ui.settings.view.clearColor.reset();
+      }
     }
   }
 }
