@@ -3,6 +3,10 @@
 #include <spdlog/fmt/fmt.h>
 #include <tiny_obj_loader.h>
 
+#include <ctime>
+#include <deque>
+#include <random>
+
 #include "geometry/polygon.hpp"
 #include "obj_support.hpp"
 #include "test_headers.hpp"
@@ -98,16 +102,18 @@ TEST_F(ObjLoader, BadNormalsBecomeTheFacesOwn) {
 
 TEST_F(ObjLoader, FacesWithNonFiniteVerticesAreDropped) {
   const Mesh mesh = load(
-      "v 0 0 0\nv 1 0 0\nv 0 1 0\nv nan 0 0\nv 0 inf 0\nv 0 0 1e999\nvt nan 0\n"
-      "f 1 2 3\nf 1 2 4\nf 1 2 5\nf 1 2 6 3\nf 1/1 2/1 3/1\n");
+      "v 0 0 0\nv 1 0 0\nv 0 1 0\nv nan 0 0\nv 0 inf 0\nv 0 0 1e999\n"
+      "f 1 2 3\nf 1 2 4\nf 1 2 5\nf 1 2 6 3\n");
   EXPECT_EQ(mesh.indices.size(), 3u);
-  EXPECT_EQ(warnings(), "warning: m.obj: dropped 4 faces with vertices that are not finite\n");
+  EXPECT_EQ(warnings(),
+            "warning: m.obj:4: v: is not a point of three finite numbers, faces with it are left out (and 2 more)\n"
+            "warning: m.obj:8: f: has a vertex that is not finite, the face is left out (and 2 more)\n");
 }
 
 TEST_F(ObjLoader, DegenerateTrianglesAreDropped) {
   const Mesh mesh = load("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 2 0 0\nv 0.5 0.9e-10 0\nf 1 2 3\nf 1 2 4\nf 1 1 2\nf 1 2 5\n");
   EXPECT_EQ(mesh.indices.size(), 3u);
-  EXPECT_EQ(warnings(), "warning: m.obj: dropped 3 degenerate triangles\n");
+  EXPECT_EQ(warnings(), "warning: m.obj:7: f: a triangle without an area is left out (and 2 more)\n");
 }
 
 TEST_F(ObjLoader, RepeatedTexturesShareVertices) {
@@ -129,7 +135,7 @@ TEST_F(ObjLoader, LinesAndNumbersHaveManyForms) {
            {kSquare + "f 1 2 3 \\", 1},
            {kSquare + "# C:\\models\\\nf 1 2 3\nf 1 3 4 # half \\\nf 1 2 4\n", 3},
            {"\xef\xbb\xbfv 0 0 0 # first\nv 1 0 0\nv 0 1 0\nf 1 2 3 # 1 2 3\nf 3 2 1#x", 2},
-           {"\xef\xbb\xbf\xef\xbb\xbf" + std::string("f 99 99 99\n") + kSquare + "f 1 2 3\n", 1},
+           {"\xef\xbb\xbf\xef\xbb\xbf" + std::string("x 99 99 99\n") + kSquare + "f 1 2 3\n", 1},
            {"v 1e-999 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", 1}}) {
     EXPECT_EQ(load(text).indices.size(), 3 * triangles) << text;
   }
@@ -149,10 +155,43 @@ TEST_F(ObjLoader, ArbitraryBytesAreRefused) {
   }
 }
 
-TEST_F(ObjLoader, FacesOfUpTo1000Vertices) {
-  EXPECT_EQ(load(kSquare + "f" + repeated(" 1 2 3 4", 250) + "\n").parts.size(), 1u);
-  EXPECT_EQ(faultOf(kSquare + "f" + repeated(" 1 2 3 4", 250) + " 1\n"),
-            "m.obj:5: f: has 1001 vertices (3 .. 1000 are needed)");
+// Positions on a circle, or with every second one at half the radius, a star.
+std::string roundFace(int corners, bool star) {
+  std::string obj;
+  std::string face = "f";
+  for (int i = 0; i < corners; ++i) {
+    const double angle = 6.283185307179586 * i / corners;
+    const double radius = star && i % 2 == 1 ? 0.5 : 1.0;
+    obj += fmt::format("v {} {} 0\n", radius * std::cos(angle), radius * std::sin(angle));
+    face += fmt::format(" {}", i + 1);
+  }
+  return obj + face + "\n";
+}
+
+double areaOf(const Mesh& mesh) {
+  double area = 0.0;
+  for (size_t i = 0; i < mesh.indices.size() / 3; ++i) {
+    area += polygonArea(corners(mesh, i));
+  }
+  return area;
+}
+
+TEST_F(ObjLoader, FacesOfAnyNumberOfCornersAreCovered) {
+  for (const int count : {5, 999, 1001, 1200, 100'000}) {
+    const double angle = 6.283185307179586 / count;
+    EXPECT_NEAR(areaOf(load(roundFace(count, false))), 0.5 * count * std::sin(angle), 1e-9) << count;
+  }
+  for (const int count : {10, 1000, 1200, 5000}) {
+    const double angle = 6.283185307179586 / count;
+    EXPECT_NEAR(areaOf(load(roundFace(count, true))), 0.25 * count * std::sin(angle), 1e-6) << count;
+  }
+}
+
+TEST_F(ObjLoader, LargeStarsAreLeftOutInTime) {
+  const std::clock_t start = std::clock();
+  EXPECT_EQ(load(roundFace(100'000, true) + "v 0 0 1\nv 1 0 1\nv 1 1 1\nf -1 -2 -3\n").indices.size(), 3u);
+  EXPECT_LT(std::clock() - start, 5 * CLOCKS_PER_SEC);
+  EXPECT_TRUE(contains(warnings(), "f: has too many corners for a face that is no fan about its first"));
 }
 
 TEST_F(ObjLoader, NumbersMayHaveManyDigits) {
@@ -178,49 +217,146 @@ TEST_F(ObjLoader, MissingFilesAndFoldersAreRefused) {
   }
 }
 
-class ObjFaults : public ObjTest, public testing::WithParamInterface<Fault> {};
+struct Defect {
+  const char* name;
+  std::string text;      // of an OBJ file
+  size_t triangles = 1;  // that are left
+  const char* warning = "";
+};
 
-TEST_P(ObjFaults, NameTheirLine) {
+class ObjDefects : public ObjTest, public testing::WithParamInterface<Defect> {};
+
+TEST_P(ObjDefects, CostWhatTheyTouch) {
+  const Mesh mesh = load(GetParam().text);
+  EXPECT_EQ(mesh.indices.size(), 3 * GetParam().triangles);
+  EXPECT_EQ(warnings(), std::string("warning: m.obj:") + GetParam().warning + "\n");
+  ASSERT_EQ(mesh.defects.size(), 1u);
+  EXPECT_TRUE(contains(mesh.defects[0], GetParam().warning));
+}
+
+const std::string kVertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";  // and a face of them
+const char* const kNoVertex = "has a vertex that is not there, the face is left out";
+const char* const kNoTexcoord = "has a texture coordinate that is not there, it counts as missing";
+const char* const kNoNormal = "has a normal that is not there, it counts as missing";
+
+std::string at(int line, const char* text) {
+  return fmt::format("{}: f: {}", line, text);
+}
+
+Defect faceDefect(const char* name, const std::string& more, size_t triangles, int line, const char* text) {
+  static std::deque<std::string> texts;
+  return {name, kVertices + more, triangles, texts.emplace_back(at(line, text)).c_str()};
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Lines, ObjDefects,
+    testing::Values(Defect{"WordInPosition", "v 1 abc 2\n" + kSquare + "f 2 3 4\n", 1,
+                           "1: v: is not a point of three finite numbers, faces with it are left out"},
+                    Defect{"TwoCoordinates", "v 1 2\n" + kSquare + "f 2 3 4\n", 1,
+                           "1: v: is not a point of three finite numbers, faces with it are left out"},
+                    Defect{"NoCoordinates", "v\n" + kSquare + "f 2 3 4\n", 1,
+                           "1: v: is not a point of three finite numbers, faces with it are left out"},
+                    Defect{"OldCompilersNan", "v 1.#QNAN 0 0\n" + kSquare + "f 2 3 4\n", 1,
+                           "1: v: is not a point of three finite numbers, faces with it are left out"},
+                    Defect{"NormalOfWords", kSquare + "vn a b c\nf 1//1 2//1 3//1\n", 1,
+                           "5: vn: is not a vector of three finite numbers, it counts as missing"},
+                    Defect{"EmptyTexcoord", kSquare + "vt\nf 1/1 2/1 3/1\n", 1,
+                           "5: vt: is not one to three finite numbers, it counts as missing"},
+                    faceDefect("IndexTooLarge", "f 1 2 4\n", 1, 5, kNoVertex),
+                    faceDefect("IndexZero", "f 0 1 2\n", 1, 5, kNoVertex),
+                    faceDefect("RelativeIndexTooFar", "f -4 1 2\n", 1, 5, kNoVertex),
+                    faceDefect("IndexBeyondIntegers", "f 1 2 99999999999999999999\n", 1, 5, kNoVertex),
+                    faceDefect("IndexAtTheLargestInteger", "f 1 2 2147483648\n", 1, 5, kNoVertex),
+                    faceDefect("TexcoordTooLarge", "vt 0 0\nf 1/1 2/2 3/1\n", 2, 6, kNoTexcoord),
+                    faceDefect("NoTexcoords", "f 1/1 2 3\n", 2, 5, kNoTexcoord),
+                    faceDefect("NormalTooLarge", "vn 0 0 1\nf 1//1 2//1 3//2\n", 2, 6, kNoNormal),
+                    faceDefect("RelativeNormalTooFar", "vn 0 0 1\nf 1//1 2//-2 3//1\n", 2, 6, kNoNormal),
+                    faceDefect("IndexIsWord", "f 1 2 x\n", 1, 5,
+                               "'x' is no corner (v, v/vt, v//vn or v/vt/vn), the face is left out"),
+                    faceDefect("IndexHasALetter", "f 1 2 3x\n", 1, 5,
+                               "'3x' is no corner (v, v/vt, v//vn or v/vt/vn), the face is left out"),
+                    faceDefect("IndexIsEmpty", "f 1 2 /3\n", 1, 5,
+                               "'/3' is no corner (v, v/vt, v//vn or v/vt/vn), the face is left out"),
+                    faceDefect("IndexOfFour", "f 1/1/1/1 2 3\n", 1, 5,
+                               "'1/1/1/1' is no corner (v, v/vt, v//vn or v/vt/vn), the face is left out"),
+                    faceDefect("FaceOfTwo", "f 1 2\n", 1, 5, "has fewer than three corners, the face is left out"),
+                    faceDefect("FaceOfNone", "\nf\n", 1, 6, "has fewer than three corners, the face is left out"),
+                    faceDefect("LinesOfOldMacs", "f 1 2 9\r", 1, 5, kNoVertex),
+                    faceDefect("LinesOfWindows", "f 1 2 9\r\n", 1, 5, kNoVertex),
+                    faceDefect("ContinuedLine", "f 1 2 \\\n\\\n9\n", 1, 5, kNoVertex),
+                    faceDefect("AfterContinuedLines", "f 1 2 \\\n3\n\n# comment\nf 1 2 9\n", 2, 9, kNoVertex)),
+    [](const auto& info) { return std::string(info.param.name); });
+
+class ObjRefusals : public ObjTest, public testing::WithParamInterface<Fault> {};
+
+TEST_P(ObjRefusals, SayWhatTheFileIs) {
   const std::string fault = faultOf(GetParam().text);
   EXPECT_TRUE(startsWith(fault, "m.obj:" + std::string(GetParam().place) + " "));
-  EXPECT_TRUE(contains(fault, GetParam().message));
+  EXPECT_TRUE(contains(fault, GetParam().message)) << fault;
   EXPECT_FALSE(contains(fault, "\n"));
 }
 
-const std::string kVertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+const std::string kPoints = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 
 INSTANTIATE_TEST_SUITE_P(
-    Tokens, ObjFaults,
-    testing::Values(
-        Fault{"WordInPosition", "# a comment\nv 1 abc 2\n", "2: v:", "'abc' is not a number"},
-        Fault{"TrailingLetters", "v 1 2 3x\n", "1: v:", "'3x' is not a number"},
-        Fault{"TwoSigns", "v 1 2 +-3\n", "1: v:", "'+-3' is not a number"},
-        Fault{"TwoCoordinates", "v 1 2\n", "1: v:", "has 2 numbers (3 .. 8 are needed)"},
-        Fault{"NormalOfFour", "vn 1 2 3 4\n", "1: vn:", "has 4 numbers (3 are needed)"},
-        Fault{"EmptyTexcoord", "vt\n", "1: vt:", "has 0 numbers (1 .. 3 are needed)"},
-        Fault{"IndexTooLarge", kVertices + "f 1 2 4\n", "4: f:", "v index 4 is out of range (1 .. 3, or -3 .. -1)"},
-        Fault{"IndexZero", kVertices + "f 0 1 2\n", "4: f:", "v index 0 is out of range"},
-        Fault{"RelativeIndexTooFar", kVertices + "f -4 1 2\n", "4: f:", "v index -4 is out of range"},
-        Fault{"IndexOfLaterVertex", kVertices + "f 1 2 4\nv 1 1 1\n", "4: f:", "v index 4 is out of range"},
-        Fault{"IndexBeyondIntegers", kVertices + "f 1 2 99999999999999999999\n", "4: f:", "is out of range"},
-        Fault{"TexcoordTooLarge", kVertices + "vt 0 0\nf 1/1 2/2 3/1\n", "5: f:", "vt index 2 is out of range (1 .. 1"},
-        Fault{"NoTexcoords", kVertices + "f 1/1 2/1 3/1\n", "4: f:", "(there is no vt line above)"},
-        Fault{"NormalTooLarge", kVertices + "vn 0 0 1\nf 1//1 2//1 3//2\n", "5: f:", "vn index 2 is out of range"},
-        Fault{"NormalOfTriple", kVertices + "vt 0 0\nvn 0 0 1\nf 1/1/1 2/1/-2 3/1/1\n", "6: f:", "vn index -2"},
-        Fault{"IndexIsWord", kVertices + "f 1 2 x\n", "4: f:", "'x' is not an index"},
-        Fault{"IndexIsEmpty", kVertices + "f 1 2 /3\n", "4: f:", "'' is not an index"},
-        Fault{"IndexOfFour", kVertices + "vt 0 0\nvn 0 0 1\nf 1/1/1/1 2 3\n", "6: f:", "'1/1' is not an index"},
-        Fault{"FaceOfTwo", kVertices + "f 1 2\n", "4: f:", "has 2 vertices (a face needs 3 or more)"},
-        Fault{"FaceOfNone", kVertices + "\nf\n", "5: f:", "has 0 vertices"},
-        Fault{"LinesOfOldMacs", "v 0 0 0\rv 1 0 0\rv 0 1 0\rf 1 2 9\r", "4: f:", "v index 9"},
-        Fault{"LinesOfWindows", "v 0 0 0\r\nv 1 0 0\r\nv 0 1 0\r\nf 1 2 9\r\n", "4: f:", "v index 9"},
-        Fault{"ContinuedLine", kSquare + "f 1 2 \\\n\\\n9\n", "5: f:", "v index 9"},
-        Fault{"AfterContinuedLines", kSquare + "f 1 2 \\\n3 \\\r\n4\n\n# comment\nf 1 2 9\n", "10: f:", "v index 9"},
-        Fault{"Empty", "", "1: f:", "has no triangle"}, Fault{"OnlyVertices", kVertices, "1: f:", "has no triangle"},
-        Fault{"OnlyDegenerateFaces", kVertices + "f 1 1 2\n", "1: f:", "has no triangle"},
-        Fault{"Binary", std::string("\x7f\x45LF\0\0\1v 1\n", 10), "1: file:", "is not a text file"},
-        Fault{"Text", "once upon a time\nthere was no model\n", "1: f:", "has no triangle"}),
+    Files, ObjRefusals,
+    testing::Values(Fault{"Empty", "", "1: file:", "is empty"}, Fault{"Blank", " \n\n", "1: file:", "is empty"},
+                    Fault{"OnlyVertices", kPoints, "1: f:", "has no face"},
+                    Fault{"Lines", kPoints + "l 1 2 3\n", "1: f:", "has lines or points, but no face"},
+                    Fault{"Points", kPoints + "p 1 2 3\n", "1: f:", "has lines or points, but no face"},
+                    Fault{"FreeForm", kPoints + "cstype bezier\nsurf 0 1 0 1 1 2 3\n",
+                          "1: f:", "has free-form curves or surfaces"},
+                    Fault{"OnlyDegenerateFaces", kPoints + "f 1 1 2\n",
+                          "4: f:", "a triangle without an area is left out (no triangle is left to draw)"},
+                    Fault{"OnlyDamagedFaces", kPoints + "f 1 2 9\n", "4: f:", "has a vertex that is not there"},
+                    Fault{"GitLfs", "version https://git-lfs.github.com/spec/v1\noid sha256:4d\nsize 12\n",
+                          "1: file:", "is a Git LFS pointer"},
+                    Fault{"Utf16", std::string("\xff\xfev\0 \0", 6), "1: file:", "is UTF-16 text"},
+                    Fault{"Stl", "solid cube\nfacet normal 0 0 1\n", "1: file:", "is an STL file"},
+                    Fault{"BinaryStl", std::string(80, 'x') + std::string("\1\0\0\0", 4) + std::string(50, '\1'),
+                          "1: file:", "is an STL file"},
+                    Fault{"Ply", "ply\nformat ascii 1.0\n", "1: file:", "is a PLY file"},
+                    Fault{"Gltf", "{ \"asset\": { \"version\": \"2.0\" } }", "1: file:", "is a glTF file"},
+                    Fault{"Zip", "PK\x03\x04", "1: file:", "is a ZIP archive"},
+                    Fault{"Page", "<!DOCTYPE html><html>", "1: file:", "is a web page"},
+                    Fault{"Binary", std::string("\x7f\x45LF\0\0\1v 1\n", 10), "1: file:", "is not a text file"},
+                    Fault{"Text", "once upon a time\nthere was no model\n", "1: f:", "has no face"}),
     [](const auto& info) { return std::string(info.param.name); });
+
+TEST_F(ObjLoader, FacesMayStandBeforeTheirVertices) {
+  const std::string vertices = kSquare + "vt 0 0\nvt 1 0\nvt 1 1\nvn 0 0 1\n";
+  const std::string face = "f 1/1/1 2/2/1 3/3/1\n";
+  const Mesh after = load(vertices + face);
+  const Mesh before = load(face + vertices);
+  ASSERT_EQ(before.indices, after.indices);
+  for (size_t i = 0; i < after.vertices.size(); ++i) {
+    EXPECT_EQ(before.vertices[i].position, after.vertices[i].position);
+    EXPECT_EQ(before.vertices[i].normal, after.vertices[i].normal);
+    EXPECT_EQ(before.vertices[i].uv, after.vertices[i].uv);
+  }
+  EXPECT_EQ(warnings(), "");
+}
+
+// Each damaged line among good ones costs itself and nothing else.
+TEST_F(ObjLoader, RandomDefectsLeaveTheOtherFaces) {
+  std::mt19937 random(9);
+  const auto pick = [&](const auto& items) { return items[random() % std::size(items)]; };
+  const std::array<const char*, 12> bad{"f 1 2\n",     "f 1 2 99\n", "f 0 1 2\n",     "f 1 2 x\n",
+                                        "f -9 1 2\n",  "f\n",        "f 1/ / 2 3\n",  "f 1.5 2 3\n",
+                                        "f 1 2 1e9\n", "f a/b/c\n",  "f 2 2 3 1 7\n", "g\n"};
+  const std::array<const char*, 5> good{"f 1 2 3\n", "f 1/9 2/9 3/9\n", "f 1//9 2//9 3//9\n", "F 1 2 3\n",
+                                        "f 4/ 3// 1\n"};
+  for (int i = 0; i < 200; ++i) {
+    std::string obj = kSquare;
+    size_t count = 1;
+    for (int line = 0; line < 12; ++line) {
+      const bool isGood = random() % 2 == 0;
+      obj += isGood ? pick(good) : pick(bad);
+      count += isGood ? 1 : 0;
+    }
+    EXPECT_EQ(load(obj + "f 2 3 4\n").indices.size(), 3 * count) << obj;
+  }
+}
 
 // Corners of the triangles by their positions, whatever corner each begins with.
 std::vector<std::array<int, 3>> sorted(std::vector<std::array<int, 3>> triangles) {

@@ -1,5 +1,7 @@
 #include "app/file_dialog.hpp"
 
+#include "scene/model_formats.hpp"
+
 namespace speculum {
 
 namespace fs = std::filesystem;
@@ -9,12 +11,12 @@ bool FileDialog::open(const fs::path& folder) {
     return true;
   }
   if (const fs::path zenity = findProgram("zenity"); !zenity.empty()) {
-    process_ = std::make_unique<ChildProcess>(
-        std::vector<std::string>{zenity, "--file-selection", "--title=Open", "--filename=" + folder.string(),
-                                 "--file-filter=Scenes and models | *.toml *.obj", "--file-filter=All files | *"});
+    process_ = std::make_unique<ChildProcess>(std::vector<std::string>{
+        zenity, "--file-selection", "--title=Open", "--filename=" + folder.string(),
+        "--file-filter=Scenes and models | *.toml " + modelPatterns(), "--file-filter=All files | *"});
   } else if (const fs::path kdialog = findProgram("kdialog"); !kdialog.empty()) {
-    process_ = std::make_unique<ChildProcess>(std::vector<std::string>{kdialog, "--title", "Open", "--getopenfilename",
-                                                                       folder, "Scenes and models (*.toml *.obj)"});
+    process_ = std::make_unique<ChildProcess>(std::vector<std::string>{
+        kdialog, "--title", "Open", "--getopenfilename", folder, "Scenes and models (*.toml " + modelPatterns() + ")"});
   }
   return process_ != nullptr;
 }

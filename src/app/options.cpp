@@ -11,6 +11,7 @@
 #include "app/version.hpp"
 #include "frame/setting_fields.hpp"
 #include "scene/camera_text.hpp"
+#include "scene/model_formats.hpp"
 #include "scene/nearest_key.hpp"
 #include "scene/value_range.hpp"
 
@@ -297,7 +298,7 @@ std::vector<const char*> withSceneOption(int argc, const char* const* argv) {
   const size_t place = argc > 1 && argv[1] == std::string_view("demo") ? 2 : 1;
   if (place < arguments.size()) {
     const std::filesystem::path file = arguments[place];
-    if (file.extension() == ".toml" || file.extension() == ".obj") {
+    if (file.extension() == ".toml" || isModelFile(file)) {
       arguments.insert(arguments.begin() + static_cast<std::ptrdiff_t>(place), "--scene");
     }
   }

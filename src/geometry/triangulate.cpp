@@ -112,11 +112,36 @@ std::vector<std::array<int, 3>> triangulateQuad(std::span<const glm::dvec3> quad
 
 }  // namespace
 
+bool isFan(std::span<const glm::dvec3> polygon) {
+  const glm::dvec3 normal = newellVector(polygon);
+  const glm::dvec3 first = polygon[1] - polygon[0];
+  for (size_t i = 1; i + 1 < polygon.size(); ++i) {
+    const glm::dvec3 next = polygon[i + 1] - polygon[0];
+    // The edges turn one way, and by less than half a turn in all.
+    if (glm::dot(normal, glm::cross(polygon[i] - polygon[0], next)) < 0.0 ||
+        glm::dot(normal, glm::cross(first, next)) < 0.0) {
+      return false;
+    }
+  }
+  return true;
+}
+
 std::vector<std::array<int, 3>> triangulate(std::span<const glm::dvec3> polygon) {
+  constexpr size_t fewVertices = 1000;
   if (polygon.size() == 3) {
     return {{0, 1, 2}};
   }
-  return polygon.size() == 4 ? triangulateQuad(polygon) : EarClipper(polygon).run();
+  if (polygon.size() == 4) {
+    return triangulateQuad(polygon);
+  }
+  if (polygon.size() > fewVertices && isFan(polygon)) {
+    std::vector<std::array<int, 3>> triangles(polygon.size() - 2);
+    for (int i = 0; i < static_cast<int>(triangles.size()); ++i) {
+      triangles[i] = {0, i + 1, i + 2};
+    }
+    return triangles;
+  }
+  return EarClipper(polygon).run();
 }
 
 }  // namespace speculum

@@ -11,6 +11,7 @@
 
 #include "image/stb_decoder.hpp"
 #include "platform/files.hpp"
+#include "platform/text.hpp"
 
 namespace speculum {
 
@@ -22,18 +23,43 @@ int64_t bigEndian(const uint8_t* bytes) {
   return int64_t{bytes[0]} << 24 | int64_t{bytes[1]} << 16 | int64_t{bytes[2]} << 8 | bytes[3];
 }
 
-// Accepts only the documented formats: stb would also read files without any signature as TGA, and a PNG in the form of
-// an iPhone, whose header comes second.
-bool isPngOrJpeg(const std::vector<uint8_t>& bytes) {
-  constexpr std::array<uint8_t, 16> png{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n', 0, 0, 0, 13, 'I', 'H', 'D', 'R'};
-  constexpr std::array<uint8_t, 3> jpeg{0xff, 0xd8, 0xff};
-  const auto startsWith = [&](const auto& magic) {
-    return bytes.size() >= magic.size() && std::equal(magic.begin(), magic.end(), bytes.begin());
-  };
-  return startsWith(png) || startsWith(jpeg);
+enum class PictureFormat { png, jpeg, other, unknown };
+
+bool startsWith(const std::vector<uint8_t>& bytes, std::string_view magic, size_t at = 0) {
+  return bytes.size() >= at + magic.size() &&
+         std::equal(magic.begin(), magic.end(), bytes.begin() + static_cast<std::ptrdiff_t>(at),
+                    [](char a, uint8_t b) { return static_cast<uint8_t>(a) == b; });
 }
 
-// What the markers of a JPEG say. Stays empty for a PNG.
+// Finds the format by the signature: stb would also read a PNG in the form of an iPhone, whose header comes second, and
+// files without any signature as TGA, so that one needs the extension.
+PictureFormat formatOf(const std::filesystem::path& file, const std::vector<uint8_t>& bytes) {
+  constexpr std::string_view png("\x89PNG\r\n\x1a\n\0\0\0\x0dIHDR", 16);
+  if (startsWith(bytes, png)) {
+    return PictureFormat::png;
+  }
+  if (startsWith(bytes, "\xff\xd8\xff")) {
+    return PictureFormat::jpeg;
+  }
+  const bool other = startsWith(bytes, "BM") || startsWith(bytes, "GIF8") || startsWith(bytes, "8BPS") ||
+                     lowerCase(file.extension().string()) == ".tga";
+  return other ? PictureFormat::other : PictureFormat::unknown;
+}
+
+[[noreturn]] void throwUnknown(const std::filesystem::path& file, const std::vector<uint8_t>& bytes) {
+  const char* format = startsWith(bytes, "WEBP", 8)                                                  ? "a WebP file"
+                       : startsWith(bytes, "II*") || startsWith(bytes, std::string_view("MM\0*", 4)) ? "a TIFF file"
+                       : startsWith(bytes, "DDS ")                                                   ? "a DDS file"
+                       : startsWith(bytes, "\xabKTX")                                                ? "a KTX file"
+                       : startsWith(bytes, "v/1\x01")                                                ? "an EXR file"
+                       : startsWith(bytes, "#?RADIANCE")                                             ? "an HDR file"
+                       : startsWith(bytes, "ftypavif", 4)                                            ? "an AVIF file"
+                       : startsWith(bytes, "version https://git-lfs") ? "a Git LFS pointer"
+                                                                      : "not a picture that can be read";
+  throw FileError(file, std::string("is ") + format, "a PNG or JPEG file is needed");
+}
+
+// What the markers of a JPEG say.
 struct JpegMarkers {
   int64_t scans = 0;
   bool quantized = false;  // there are quantisation tables
@@ -44,7 +70,7 @@ struct JpegMarkers {
 JpegMarkers markersOf(const std::vector<uint8_t>& bytes) {
   constexpr std::string_view adobe("Adobe\0", 6);
   JpegMarkers found;
-  for (size_t at = bytes[0] == 0xff ? 2 : bytes.size(); at + 4 <= bytes.size();) {
+  for (size_t at = 2; at + 4 <= bytes.size();) {
     const uint8_t marker = bytes[at] == 0xff ? bytes[at + 1] : uint8_t{0};
     if (marker == 0xd9) {
       break;
@@ -67,8 +93,9 @@ JpegMarkers markersOf(const std::vector<uint8_t>& bytes) {
 }
 
 // Returns width and height. Those of a PNG are read here, because the decoder does not say that a picture is too large.
-std::pair<int64_t, int64_t> sizeOf(const std::filesystem::path& file, const std::vector<uint8_t>& bytes) {
-  if (bytes[0] == 0x89 && bytes.size() >= 24) {
+std::pair<int64_t, int64_t> sizeOf(const std::filesystem::path& file, const std::vector<uint8_t>& bytes,
+                                   PictureFormat format) {
+  if (format == PictureFormat::png && bytes.size() >= 24) {
     return {bigEndian(&bytes[16]), bigEndian(&bytes[20])};
   }
   int width = 0;
@@ -81,17 +108,20 @@ std::pair<int64_t, int64_t> sizeOf(const std::filesystem::path& file, const std:
 
 // Checks sizes before decoding, because a small file can claim any size. Each scan of a JPEG, which may be as short
 // as 14 bytes, goes through all pixels.
-void checkHeader(const std::filesystem::path& file, const std::vector<uint8_t>& bytes) {
+void checkHeader(const std::filesystem::path& file, const std::vector<uint8_t>& bytes, PictureFormat format) {
   constexpr int64_t most = int64_t{1} << 26;
   constexpr int64_t mostInScans = int64_t{1} << 30;
-  const auto [width, height] = sizeOf(file, bytes);
+  const auto [width, height] = sizeOf(file, bytes, format);
   const std::string size = std::to_string(width) + "x" + std::to_string(height) + " pixels";
   if (std::max(width, height) > most || width * height > most) {
     throw FileError(file, "the picture has " + size, "at most 2^26, such as 8192x8192, are read");
   }
+  if (format != PictureFormat::jpeg) {
+    return;
+  }
   const int64_t pixels = width * height;
   const JpegMarkers jpeg = markersOf(bytes);
-  if (bytes[0] == 0xff && (jpeg.scans == 0 || !jpeg.quantized)) {
+  if (jpeg.scans == 0 || !jpeg.quantized) {
     throwDamaged(file, jpeg.scans == 0 ? "there is no scan" : "there is no quantisation table");
   }
   if (jpeg.scans * pixels > mostInScans) {
@@ -117,7 +147,7 @@ void checkPngChunks(const std::filesystem::path& file, const std::vector<uint8_t
   constexpr int64_t mostPerByte = 1032;  // of deflate
   constexpr int64_t harmless = int64_t{1} << 28;
   constexpr std::array<int64_t, 7> channelsOf{1, 0, 3, 1, 2, 0, 4};  // by color type
-  if (bytes[0] != 0x89 || bytes.size() < signature + 25) {
+  if (bytes.size() < signature + 25) {
     return;
   }
   const size_t header = signature + 8;
@@ -149,6 +179,22 @@ void checkPngChunks(const std::filesystem::path& file, const std::vector<uint8_t
   }
 }
 
+Image8 decoded(const std::filesystem::path& file, const std::vector<uint8_t>& bytes, PictureFormat format) {
+  checkHeader(file, bytes, format);
+  if (format == PictureFormat::png) {
+    checkPngChunks(file, bytes);
+  }
+  int width = 0;
+  int height = 0;
+  const auto pixels = decodePicture(bytes, width, height);
+  if (!pixels) {
+    throwDamaged(file, decodeFailure());
+  }
+  Image8 image(width, height);
+  std::copy_n(pixels.get(), image.rgba.size(), image.rgba.begin());
+  return image;
+}
+
 void appendBytes(void* context, void* data, int size) {
   auto& bytes = *static_cast<std::vector<uint8_t>*>(context);
   const auto* first = static_cast<const uint8_t*>(data);
@@ -159,20 +205,20 @@ void appendBytes(void* context, void* data, int size) {
 
 Image8 readImage8(const std::filesystem::path& file) {
   const std::vector<uint8_t> bytes = readFile(file);
-  if (!isPngOrJpeg(bytes)) {
+  const PictureFormat format = formatOf(file, bytes);
+  if (format != PictureFormat::png && format != PictureFormat::jpeg) {
     throw FileError(file, "is not a picture that can be read", "a PNG or JPEG file is needed");
   }
-  checkHeader(file, bytes);
-  checkPngChunks(file, bytes);
-  int width = 0;
-  int height = 0;
-  const auto pixels = decodePicture(bytes, width, height);
-  if (!pixels) {
-    throwDamaged(file, decodeFailure());
+  return decoded(file, bytes, format);
+}
+
+Image8 readTexture(const std::filesystem::path& file) {
+  const std::vector<uint8_t> bytes = readFile(file);
+  const PictureFormat format = formatOf(file, bytes);
+  if (format == PictureFormat::unknown) {
+    throwUnknown(file, bytes);
   }
-  Image8 image(width, height);
-  std::copy_n(pixels.get(), image.rgba.size(), image.rgba.begin());
-  return image;
+  return decoded(file, bytes, format);
 }
 
 void writePng(const std::filesystem::path& file, const Image8& image) {

@@ -10,6 +10,9 @@ namespace speculum {
 
 // Reads a PNG or JPEG file of at most 2^26 pixels. Throws FileError.
 Image8 readImage8(const std::filesystem::path& file);
+// Reads a picture that a model names, also a TGA, BMP, PSD or the first picture of a GIF. Throws FileError, which names
+// the format of other pictures.
+Image8 readTexture(const std::filesystem::path& file);
 // Throws FileError.
 void writePng(const std::filesystem::path& file, const Image8& image);
 

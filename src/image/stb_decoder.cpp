@@ -8,8 +8,9 @@
 #define STBI_MALLOC(size) std::calloc(1, size)
 #define STBI_REALLOC(memory, size) std::realloc(memory, size)
 #define STBI_FREE(memory) std::free(memory)
-#define STBI_ONLY_JPEG
-#define STBI_ONLY_PNG
+#define STBI_NO_HDR
+#define STBI_NO_PIC
+#define STBI_NO_PNM
 #define STBI_NO_STDIO
 #define STBI_MAX_DIMENSIONS (1 << 26)
 #define STB_IMAGE_STATIC

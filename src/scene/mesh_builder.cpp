@@ -1,7 +1,5 @@
 #include "scene/mesh_builder.hpp"
 
-#include <spdlog/spdlog.h>
-
 #include <algorithm>
 #include <cmath>
 #include <glm/gtx/component_wise.hpp>
@@ -30,10 +28,6 @@ double length(const glm::dvec3& v) {
 glm::dvec3 unit(const glm::dvec3& v) {
   const double scale = glm::compMax(glm::abs(v));
   return scale > 0.0 ? glm::normalize(v / scale) : glm::dvec3(0.0);
-}
-
-bool isFinite(const glm::dvec3& v) {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
 struct TriangleShape {
@@ -98,6 +92,10 @@ void findShape(Mesh& mesh) {
 
 }  // namespace
 
+bool isFinite(const glm::dvec3& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
 size_t MeshBuilder::CornerHash::operator()(const FaceCorner& corner) const {
   size_t hash = static_cast<size_t>(corner.position);
   hash = hash * 0x9e3779b97f4a7c15u + static_cast<size_t>(corner.texcoord + 1);
@@ -113,18 +111,29 @@ void MeshBuilder::setMaterial(int material) {
   indices_ = nullptr;
 }
 
-void MeshBuilder::addFace(std::span<const FaceCorner> corners) {
+void MeshBuilder::addFace(std::span<const FaceCorner> corners, int line) {
+  // Triangulation of a polygon that is not convex takes time in the square of its corners.
+  constexpr size_t fewCorners = 1000;
+  constexpr double mostPairs = 1 << 30;
   points_.clear();
   for (const FaceCorner& corner : corners) {
-    if (!isFinite(positions_[corner.position]) || !isFinite(glm::dvec3(uvOf(corner), 0.0))) {
-      ++nonFinite_;
+    if (!isFinite(positions_[corner.position])) {
+      defects_.add(file_, line, "f", "has a vertex that is not finite, the face is left out");
       return;
     }
     points_.push_back(positions_[corner.position]);
   }
+  if (corners.size() > fewCorners && !isFan(points_)) {
+    cornerPairs_ += static_cast<double>(corners.size()) * static_cast<double>(corners.size());
+    if (cornerPairs_ > mostPairs) {
+      defects_.add(file_, line, "f",
+                   "has too many corners for a face that is no fan about its first, the face is left out");
+      return;
+    }
+  }
   uvShift_ = uvShiftOf(corners);
   for (const auto& [a, b, c] : triangulate(points_)) {
-    addTriangle(corners[a], corners[b], corners[c]);
+    addTriangle(corners[a], corners[b], corners[c], line);
   }
 }
 
@@ -142,16 +151,19 @@ glm::dvec2 MeshBuilder::uvShiftOf(std::span<const FaceCorner> corners) const {
 }
 
 glm::dvec2 MeshBuilder::uvOf(const FaceCorner& corner) const {
-  return corner.texcoord < 0 ? glm::dvec2(0.0) : texcoords_[corner.texcoord];
+  const glm::dvec2 uv = corner.texcoord < 0 ? glm::dvec2(0.0) : texcoords_[corner.texcoord];
+  return isFinite(glm::dvec3(uv, 0.0)) ? uv : glm::dvec2(0.0);
 }
 
-void MeshBuilder::addTriangle(const FaceCorner& a, const FaceCorner& b, const FaceCorner& c) {
+void MeshBuilder::addTriangle(const FaceCorner& a, const FaceCorner& b, const FaceCorner& c, int line) {
   const TriangleShape shape = shapeOf(positions_[a.position], positions_[b.position], positions_[c.position]);
   if (!(shape.quality >= 1e-10)) {
-    ++degenerate_;
+    defects_.add(file_, line, "f", "a triangle without an area is left out");
     return;
   }
-  slivers_ += shape.quality < 1e-5;
+  if (shape.quality < 1e-5) {
+    defects_.add(file_, line, "f", "a triangle is a sliver, its normal is inexact");
+  }
   if (indices_ == nullptr) {
     const auto [found, isNew] = materialIndices_.try_emplace(material_);
     indices_ = &found->second;
@@ -180,17 +192,8 @@ uint32_t MeshBuilder::vertexOf(const FaceCorner& corner, const glm::dvec3& trian
   return index;
 }
 
-Mesh MeshBuilder::finish(const std::filesystem::path& file, const std::function<Material(int)>& materialOf) {
-  if (nonFinite_ > 0) {
-    spdlog::warn("{}: dropped {} faces with vertices that are not finite", file.string(), nonFinite_);
-  }
-  if (degenerate_ > 0) {
-    spdlog::warn("{}: dropped {} degenerate triangles", file.string(), degenerate_);
-  }
-  if (slivers_ > 0) {
-    spdlog::warn("{}: {} triangles are slivers, their normals are inexact", file.string(), slivers_);
-  }
-  Mesh mesh{.source = file, .vertices = std::move(vertices_)};
+Mesh MeshBuilder::finish(const std::function<Material(int)>& materialOf) {
+  Mesh mesh{.source = file_, .vertices = std::move(vertices_)};
   for (const int material : materialOrder_) {
     const std::vector<uint32_t>& indices = materialIndices_[material];
     mesh.parts.push_back({.firstIndex = static_cast<uint32_t>(mesh.indices.size()),
@@ -198,7 +201,12 @@ Mesh MeshBuilder::finish(const std::filesystem::path& file, const std::function<
                           .material = materialOf(material)});
     mesh.indices.insert(mesh.indices.end(), indices.begin(), indices.end());
   }
-  *this = {};
+  // Gives the memory back before the shape of the mesh is looked for.
+  positions_ = {};
+  texcoords_ = {};
+  normals_ = {};
+  materialIndices_.clear();
+  sharedVertices_ = {};
   rebase(mesh);
   findShape(mesh);
   sortIntoClusters(mesh);

@@ -10,8 +10,11 @@
 #include <vector>
 
 #include "geometry/mesh.hpp"
+#include "scene/model_defects.hpp"
 
 namespace speculum {
+
+bool isFinite(const glm::dvec3& v);
 
 // Indices into the elements added so far, from 0; -1: none.
 struct FaceCorner {
@@ -24,22 +27,25 @@ struct FaceCorner {
 // Builds a mesh from the elements of a model file in their order.
 class MeshBuilder {
  public:
+  // Both must outlive the builder. What is dropped, and what is doubtful, becomes a defect of `file`.
+  MeshBuilder(const std::filesystem::path& file, ModelDefects& defects) : file_(file), defects_(defects) {}
+
   void addPosition(const glm::dvec3& position) { positions_.push_back(position); }
   void addTexcoord(const glm::dvec2& texcoord) { texcoords_.push_back(texcoord); }
   void addNormal(const glm::dvec3& normal);  // any length
   // Material of the faces that follow, -1: the default one.
   void setMaterial(int material);
-  // Triangulates the face. Corners without a usable normal get that of their triangle. Drops faces with coordinates
-  // that are not finite and triangles without an area.
-  void addFace(std::span<const FaceCorner> corners);
+  // Triangulates a face of at least three corners, which stands in this line of the file. Corners without a usable
+  // normal get that of their triangle, corners without a finite texture coordinate (0, 0). Drops faces with positions
+  // that are not finite, triangles without an area, and faces that would take too long to triangulate.
+  void addFace(std::span<const FaceCorner> corners, int line);
 
   size_t positionCount() const { return positions_.size(); }
   size_t texcoordCount() const { return texcoords_.size(); }
   size_t normalCount() const { return normals_.size(); }
 
-  // The triangles, grouped by material in the order of first use. Empties the builder; the mesh may have no triangle.
-  // Logs a warning that names `file` for each kind of dropped or doubtful triangles.
-  Mesh finish(const std::filesystem::path& file, const std::function<Material(int)>& materialOf);
+  // The triangles, grouped by material in the order of first use. The mesh may have no triangle. Call it once, last.
+  Mesh finish(const std::function<Material(int)>& materialOf);
 
  private:
   struct CornerHash {
@@ -48,9 +54,11 @@ class MeshBuilder {
 
   glm::dvec2 uvOf(const FaceCorner& corner) const;
   glm::dvec2 uvShiftOf(std::span<const FaceCorner> corners) const;
-  void addTriangle(const FaceCorner& a, const FaceCorner& b, const FaceCorner& c);
+  void addTriangle(const FaceCorner& a, const FaceCorner& b, const FaceCorner& c, int line);
   uint32_t vertexOf(const FaceCorner& corner, const glm::dvec3& triangleNormal);
 
+  const std::filesystem::path& file_;
+  ModelDefects& defects_;
   std::vector<glm::dvec3> positions_;
   std::vector<glm::dvec2> texcoords_;
   std::vector<glm::dvec3> normals_;  // unit, or zero: unusable
@@ -62,9 +70,7 @@ class MeshBuilder {
   std::vector<int> materialOrder_;
   std::unordered_map<FaceCorner, uint32_t, CornerHash> sharedVertices_;
   std::vector<Vertex> vertices_;
-  size_t nonFinite_ = 0;   // faces
-  size_t degenerate_ = 0;  // triangles
-  size_t slivers_ = 0;     // triangles
+  double cornerPairs_ = 0.0;  // of the faces of many corners that were triangulated
 };
 
 }  // namespace speculum

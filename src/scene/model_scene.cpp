@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "scene/input_error.hpp"
+#include "scene/model_formats.hpp"
 #include "scene/scene_loader.hpp"
 #include "scene/toml_text.hpp"
 
@@ -68,7 +69,7 @@ std::string sceneText(const fs::path& file, const Mesh& mesh) {
 
 Scene modelScene(const fs::path& file, const LoadProgress& progress) {
   std::vector<Texture> textures;
-  Mesh mesh = loadObj(file, textures, progress);
+  Mesh mesh = loadModel(file, textures, progress);
   const double radius = mesh.radius * mesh.unit;
   if (!(radius >= kSmallest && radius <= kLargest)) {
     throwInputError(file, 1, "v", fmt::format("the model's bounding sphere has a radius of {} m", radius),

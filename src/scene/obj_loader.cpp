@@ -1,12 +1,19 @@
 #include "scene/obj_loader.hpp"
 
-#include <spdlog/fmt/fmt.h>
+#include <tiny_obj_loader.h>
 
 #include <algorithm>
 #include <charconv>
+#include <istream>
+#include <limits>
+#include <streambuf>
+#include <utility>
 
+#include "platform/text.hpp"
 #include "scene/input_error.hpp"
 #include "scene/mesh_builder.hpp"
+#include "scene/model_defects.hpp"
+#include "scene/model_files.hpp"
 #include "scene/obj_materials.hpp"
 #include "scene/text_lines.hpp"
 
@@ -14,124 +21,293 @@ namespace speculum {
 
 namespace {
 
-// Most corners of a face; triangulation takes time in their square.
-constexpr size_t kMostCorners = 1000;
 // Share of the time that reading the text of a large model takes; the rest sorts its triangles.
 constexpr double kReadShare = 0.65;
 
-// Converts an index of a face to one from 0. It counts from 1, or backwards from -1, among the `count` lines of `kind`
-// read so far.
-int indexOf(const LineReader& line, std::string_view token, const char* kind, size_t count) {
-  long long index = 0;
-  const auto [end, error] = std::from_chars(token.data(), token.data() + token.size(), index);
-  if (token.empty() || end != token.data() + token.size() || error == std::errc::invalid_argument) {
-    line.fail("f", fmt::format("'{}' is not an index", token), "write v, v/vt, v//vn or v/vt/vn");
-  }
-  const auto largest = static_cast<long long>(count);
-  if (error != std::errc() || index == 0 || index > largest || index < -largest) {
-    const std::string range =
-        count == 0 ? fmt::format("there is no {} line above", kind) : fmt::format("1 .. {0}, or -{0} .. -1", count);
-    line.fail("f", fmt::format("{} index {} is out of range", kind, token), range);
-  }
-  return static_cast<int>(index < 0 ? largest + index : index - 1);
-}
+// What a file holds beside faces, to say what it is if there are none.
+struct Contents {
+  bool faces = false;
+  bool linesOrPoints = false;
+  bool freeForm = false;  // curves and surfaces
+};
 
-FaceCorner cornerOf(const LineReader& line, std::string_view token, const MeshBuilder& mesh) {
-  const size_t first = token.find('/');
-  FaceCorner corner{.position = indexOf(line, token.substr(0, first), "v", mesh.positionCount())};
-  if (first == std::string_view::npos) {
-    return corner;
-  }
-  const size_t second = std::min(token.find('/', first + 1), token.size());
-  // Some programs write v/, v// and v/vt/.
-  if (const std::string_view texcoord = token.substr(first + 1, second - first - 1); !texcoord.empty()) {
-    corner.texcoord = indexOf(line, texcoord, "vt", mesh.texcoordCount());
-  }
-  if (second + 1 < token.size()) {
-    corner.normal = indexOf(line, token.substr(second + 1), "vn", mesh.normalCount());
-  }
-  return corner;
-}
-
-// Feeds the lines of an OBJ file to a mesh builder.
-class ObjReader {
+// Hands tinyobjloader one line at a time, so that its callbacks know the line that they are called for. Lines are
+// joined after a backslash, which the library does not do, keywords are in lower case, and a line of nothing but its
+// keyword gets an argument, because the library would skip it, and with it the number of a vertex.
+class LineStream : public std::streambuf {
  public:
-  ObjReader(const std::filesystem::path& file, MeshBuilder& mesh, ObjMaterials& materials)
-      : file_(file), mesh_(mesh), materials_(materials) {}
+  LineStream(LineReader& line, std::function<void()> onLine) : line_(line), onLine_(std::move(onLine)) {}
 
-  void read(std::string_view text, const LoadProgress& progress) {
-    constexpr int kLinesBetweenCalls = 1 << 14;
-    LineReader line(file_, text, LineReader::Continuation::backslash);
-    for (int count = 1; line.next(); ++count) {
-      readLine(line);
-      if (progress && count % kLinesBetweenCalls == 0) {
-        progress(file_, kReadShare * line.done());
-      }
+ protected:
+  int_type underflow() override {
+    if (!line_.next()) {
+      return traits_type::eof();
     }
+    onLine_();
+    const std::vector<std::string_view>& tokens = line_.tokens();
+    text_.assign(tokens[0]);
+    std::ranges::transform(text_, text_.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    text_ += ' ';
+    if (tokens.size() > 1) {
+      text_.append(tokens[1].data(), tokens.back().data() + tokens.back().size());
+    } else {
+      text_ += '0';
+    }
+    text_ += '\n';
+    setg(text_.data(), text_.data(), text_.data() + text_.size());
+    return traits_type::to_int_type(text_[0]);
   }
 
  private:
-  void readLine(LineReader& line) {
-    const std::string_view keyword = line.keyword();
-    if (keyword == "v") {
-      // A weight or the three values of a color may follow; they are not used.
-      const std::vector<double>& numbers = line.numbers(3, 8);
-      mesh_.addPosition({numbers[0], numbers[1], numbers[2]});
-    } else if (keyword == "vt") {
-      const std::vector<double>& numbers = line.numbers(1, 3);
-      mesh_.addTexcoord({numbers[0], numbers.size() > 1 ? numbers[1] : 0.0});
-    } else if (keyword == "vn") {
-      const std::vector<double>& numbers = line.numbers(3, 3);
-      mesh_.addNormal({numbers[0], numbers[1], numbers[2]});
-    } else if (keyword == "f") {
-      readFace(line);
-    } else if (keyword == "usemtl") {
-      mesh_.setMaterial(materials_.find(line.argument()));
-    } else if (keyword == "mtllib") {
-      readMaterials(line);
-    }
+  LineReader& line_;
+  std::function<void()> onLine_;
+  std::string text_;
+};
+
+// Feeds the lines of an OBJ file to a mesh builder. tinyobjloader says what a line is; its numbers and indices are read
+// again from the line's tokens, because the library
+// - does not round to the nearest double, and reads nan and words as 0;
+// - reads the index that follows "1/ 2" as a texture coordinate, and any integer for one that is too large;
+// - reads no colors of vertices in this interface.
+class ObjReader {
+ public:
+  ObjReader(const std::filesystem::path& file, std::string_view text, MeshBuilder& mesh, ObjMaterials& materials,
+            ModelDefects& defects)
+      : file_(file),
+        line_(text, LineReader::Continuation::backslash),
+        mesh_(mesh),
+        materials_(materials),
+        defects_(defects) {}
+
+  Contents read(const LoadProgress& progress) {
+    constexpr int linesBetweenCalls = 1 << 14;
+    int count = 0;
+    LineStream lines(line_, [&] {
+      noteContents();
+      if (progress && ++count % linesBetweenCalls == 0) {
+        progress(file_, kReadShare * line_.done());
+      }
+    });
+    std::istream stream(&lines);
+    // Without this, an exception of a callback or of `progress` would end the stream like the end of the file.
+    stream.exceptions(std::ios::badbit);
+    Materials materials(*this);
+    tinyobj::LoadObjWithCallback(stream, callbacks(), this, &materials);
+    addLaterFaces();
+    return contents_;
   }
 
-  void readFace(const LineReader& line) {
-    const size_t count = line.tokens().size() - 1;
-    if (count < 3 || count > kMostCorners) {
-      line.fail("f", fmt::format("has {} vertices", count),
-                count < 3 ? "a face needs 3 or more" : fmt::format("3 .. {} are needed", kMostCorners));
+ private:
+  // A face whose vertices stand further down in the file. Its corners are in laterCorners_.
+  struct LaterFace {
+    size_t first = 0;
+    size_t count = 0;
+    int material = -1;
+    int line = 0;
+  };
+
+  // The library asks for each name of a mtllib line until one can be read. The first question reads all of them.
+  class Materials : public tinyobj::MaterialReader {
+   public:
+    explicit Materials(ObjReader& reader) : reader_(reader) {}
+    bool operator()(const std::string&, std::vector<tinyobj::material_t>*, std::map<std::string, int>*, std::string*,
+                    std::string*) override {
+      if (std::exchange(lastLine_, reader_.line_.number()) != reader_.line_.number()) {
+        reader_.materials_.read(reader_.line_.argument(), reader_.line_.number());
+      }
+      return false;
     }
+
+   private:
+    ObjReader& reader_;
+    int lastLine_ = 0;
+  };
+
+  static ObjReader& self(void* user) { return *static_cast<ObjReader*>(user); }
+
+  static tinyobj::callback_t callbacks() {
+    using tinyobj::real_t;
+    tinyobj::callback_t callbacks;
+    callbacks.vertex_cb = [](void* user, real_t, real_t, real_t, real_t) { self(user).addPosition(); };
+    callbacks.texcoord_cb = [](void* user, real_t, real_t, real_t) { self(user).addTexcoord(); };
+    callbacks.normal_cb = [](void* user, real_t, real_t, real_t) { self(user).addNormal(); };
+    callbacks.index_cb = [](void* user, tinyobj::index_t*, int) { self(user).addFace(); };
+    callbacks.usemtl_cb = [](void* user, const char*, int) { self(user).useMaterial(); };
+    return callbacks;
+  }
+
+  void noteContents() {
+    const std::string_view keyword = line_.keyword();
+    contents_.faces = contents_.faces || keyword == "f" || keyword == "F";
+    contents_.linesOrPoints = contents_.linesOrPoints || keyword == "l" || keyword == "p";
+    contents_.freeForm = contents_.freeForm || keyword == "curv" || keyword == "curv2" || keyword == "surf";
+  }
+
+  // The number in a token of the line; NaN if there is none.
+  double number(size_t token) const {
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    return token < line_.tokens().size() ? parseNumber(line_.tokens()[token]).value_or(none) : none;
+  }
+
+  void add(std::string_view key, std::string_view kind, std::string_view detail = {}) {
+    defects_.add(file_, line_.number(), key, kind, detail);
+  }
+
+  // A damaged element is added too, so that the indices of those after it stay right.
+  void addPosition() {
+    const glm::dvec3 position(number(1), number(2), number(3));
+    if (!isFinite(position)) {
+      add("v", "is not a point of three finite numbers, faces with it are left out");
+    }
+    mesh_.addPosition(position);
+  }
+
+  void addTexcoord() {
+    const glm::dvec2 texcoord(number(1), line_.tokens().size() > 2 ? number(2) : 0.0);
+    if (!isFinite(glm::dvec3(texcoord, 0.0))) {
+      add("vt", "is not one to three finite numbers, it counts as missing");
+    }
+    mesh_.addTexcoord(texcoord);
+  }
+
+  void addNormal() {
+    const glm::dvec3 normal(number(1), number(2), number(3));
+    if (!isFinite(normal)) {
+      add("vn", "is not a vector of three finite numbers, it counts as missing");
+    }
+    mesh_.addNormal(normal);
+  }
+
+  void useMaterial() {
+    material_ = materials_.use(line_.argument(), line_.number());
+    mesh_.setMaterial(material_);
+  }
+
+  void addFace() {
+    const std::vector<std::string_view>& tokens = line_.tokens();
     corners_.clear();
-    for (size_t i = 1; i <= count; ++i) {
-      corners_.push_back(cornerOf(line, line.tokens()[i], mesh_));
-    }
-    mesh_.addFace(corners_);
-  }
-
-  // Reads the file that the line names: one name with blanks, or the first existing one of several names. A backslash
-  // before a blank keeps the blank; any other separates folders.
-  void readMaterials(const LineReader& line) {
-    const std::string_view names = line.argument();
-    if (names.find(' ') != std::string_view::npos && materials_.isThere(names)) {
-      materials_.read(names);
-      return;
-    }
-    std::string name;
-    for (size_t i = 0; i <= names.size(); ++i) {
-      if (i == names.size() || names[i] == ' ') {
-        if (!name.empty() && materials_.read(name)) {
-          return;
-        }
-        name.clear();
-      } else {
-        i += names.substr(i).starts_with("\\ ");
-        name += names[i];
+    for (size_t i = 1; i < tokens.size(); ++i) {
+      if (!addCorner(tokens[i])) {
+        add("f", "'{}' is no corner (v, v/vt, v//vn or v/vt/vn), the face is left out", tokens[i]);
+        return;
       }
     }
+    if (corners_.size() < 3) {
+      add("f", "has fewer than three corners, the face is left out");
+    } else if (std::ranges::any_of(corners_, [&](const FaceCorner& corner) { return isLater(corner); })) {
+      later_.push_back({laterCorners_.size(), corners_.size(), material_, line_.number()});
+      laterCorners_.insert(laterCorners_.end(), corners_.begin(), corners_.end());
+    } else {
+      addFace(corners_, line_.number());
+    }
   }
 
+  bool isLater(const FaceCorner& corner) const {
+    return corner.position >= static_cast<int>(mesh_.positionCount()) ||
+           corner.texcoord >= static_cast<int>(mesh_.texcoordCount()) ||
+           corner.normal >= static_cast<int>(mesh_.normalCount());
+  }
+
+  void addLaterFaces() {
+    for (const LaterFace& face : later_) {
+      mesh_.setMaterial(face.material);
+      addFace(std::span(laterCorners_).subspan(face.first, face.count), face.line);
+    }
+  }
+
+  // Adds a face whose indices may be out of range.
+  void addFace(std::span<FaceCorner> corners, int line) {
+    for (FaceCorner& corner : corners) {
+      if (!isInRange(corner.position, mesh_.positionCount())) {
+        defects_.add(file_, line, "f", "has a vertex that is not there, the face is left out");
+        return;
+      }
+      if (corner.texcoord != kNone && !isInRange(corner.texcoord, mesh_.texcoordCount())) {
+        defects_.add(file_, line, "f", "has a texture coordinate that is not there, it counts as missing");
+        corner.texcoord = kNone;
+      }
+      if (corner.normal != kNone && !isInRange(corner.normal, mesh_.normalCount())) {
+        defects_.add(file_, line, "f", "has a normal that is not there, it counts as missing");
+        corner.normal = kNone;
+      }
+    }
+    mesh_.addFace(corners, line);
+  }
+
+  static bool isInRange(int index, size_t count) { return index >= 0 && index < static_cast<int>(count); }
+
+  // Appends the corner that a token names; false if it is none.
+  bool addCorner(std::string_view token) {
+    const size_t first = std::min(token.find('/'), token.size());
+    const size_t second = std::min(token.find('/', std::min(first + 1, token.size())), token.size());
+    const std::string_view texcoord = first < token.size() ? token.substr(first + 1, second - first - 1) : "";
+    const std::string_view normal = second < token.size() ? token.substr(second + 1) : "";
+    FaceCorner& corner = corners_.emplace_back();
+    // Some programs write v/, v// and v/vt/.
+    return readIndex(token.substr(0, first), mesh_.positionCount(), corner.position) &&
+           (texcoord.empty() || readIndex(texcoord, mesh_.texcoordCount(), corner.texcoord)) &&
+           (normal.empty() || readIndex(normal, mesh_.normalCount(), corner.normal));
+  }
+
+  // Converts an index, which counts from 1, or backwards from -1 among the `count` elements above, to one from 0.
+  // Indices that are out of any range become kNowhere. Returns false for what is no integer.
+  static bool readIndex(std::string_view token, size_t count, int& index) {
+    long long value = 0;
+    const auto [end, error] = std::from_chars(token.data(), token.data() + token.size(), value);
+    if (token.empty() || end != token.data() + token.size() || error == std::errc::invalid_argument) {
+      return false;
+    }
+    const long long fromZero = value > 0 ? value - 1 : value + static_cast<long long>(count);
+    const bool usable =
+        error == std::errc() && value != 0 && fromZero >= 0 && fromZero < std::numeric_limits<int>::max();
+    index = usable ? static_cast<int>(fromZero) : kNowhere;
+    return true;
+  }
+
+  static constexpr int kNone = -1;     // no index
+  static constexpr int kNowhere = -2;  // an index of nothing
+
   const std::filesystem::path& file_;
+  LineReader line_;
   MeshBuilder& mesh_;
   ObjMaterials& materials_;
+  ModelDefects& defects_;
+  Contents contents_;
+  int material_ = -1;
   std::vector<FaceCorner> corners_;
+  std::vector<LaterFace> later_;
+  std::vector<FaceCorner> laterCorners_;
 };
+
+[[noreturn]] void throwNothingToDraw(const std::filesystem::path& file, const std::optional<ForeignFile>& foreign,
+                                     const Contents& contents, const std::vector<std::string>& defects) {
+  const std::string right = "at least one face with an area is needed";
+  if (contents.faces) {
+    const auto first =
+        std::ranges::find_if(defects, [](const std::string& text) { return text.find(": f: ") != std::string::npos; });
+    if (first != defects.end()) {
+      throw InputError(*first + " (no triangle is left to draw)");
+    }
+    throwInputError(file, 1, "f", "no triangle is left to draw", right);
+  }
+  if (foreign) {
+    throwInputError(file, 1, "file", foreign->wrong, foreign->right);
+  }
+  if (contents.freeForm) {
+    throwInputError(file, 1, "f", "the model has free-form curves or surfaces, but no face", "export it as triangles");
+  }
+  throwInputError(file, 1, "f",
+                  contents.linesOrPoints ? "the model has lines or points, but no face" : "the model has no face",
+                  right);
+}
+
+// Reads the file into `builder` and `materials`. Returns what it holds and, if it is a file of another format, which.
+std::pair<Contents, std::optional<ForeignFile>> readObj(const std::filesystem::path& file, MeshBuilder& builder,
+                                                        ObjMaterials& materials, ModelDefects& defects,
+                                                        const LoadProgress& progress) {
+  const std::string text = readInputText(file, "a Wavefront OBJ file is needed");
+  return {ObjReader(file, text, builder, materials, defects).read(progress), foreignFile(text)};
+}
 
 }  // namespace
 
@@ -139,16 +315,18 @@ Mesh loadObj(const std::filesystem::path& file, std::vector<Texture>& textures, 
   if (progress) {
     progress(file, 0.0);
   }
-  MeshBuilder builder;
-  ObjMaterials materials(file);
-  ObjReader(file, builder, materials).read(readInputText(file, "a Wavefront OBJ file is needed"), progress);
+  ModelDefects defects;
+  MeshBuilder builder(file, defects);
+  ObjMaterials materials(file, defects);
+  const auto [contents, foreign] = readObj(file, builder, materials, defects, progress);
   if (progress) {
     progress(file, kReadShare);
   }
-  Mesh mesh = builder.finish(file, [&](int index) { return materials.material(index, textures); });
+  Mesh mesh = builder.finish([&](int index) { return materials.material(index, textures); });
   mesh.materialFiles.assign(materials.files().begin(), materials.files().end());
+  mesh.defects = defects.report();
   if (mesh.indices.empty()) {
-    throwInputError(file, 1, "f", "the model has no triangle", "at least one face with an area is needed");
+    throwNothingToDraw(file, foreign, contents, mesh.defects);
   }
   return mesh;
 }

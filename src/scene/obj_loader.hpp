@@ -12,8 +12,9 @@ namespace speculum {
 // it ends the loading.
 using LoadProgress = std::function<void(const std::filesystem::path& file, double done)>;
 
-// Reads a Wavefront OBJ file with its MTL files; appends the textures that its materials name to `textures`. Logs
-// warnings about missing materials and dropped triangles. Throws InputError.
+// Reads a Wavefront OBJ file with its MTL files by tinyobjloader; appends the textures that its materials name to
+// `textures`. A defect costs what it touches: Mesh::defects lists each kind, which is logged as a warning. Throws
+// InputError if nothing is left to draw or the file cannot be read.
 Mesh loadObj(const std::filesystem::path& file, std::vector<Texture>& textures, const LoadProgress& progress = {});
 
 }  // namespace speculum

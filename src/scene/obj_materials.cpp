@@ -2,16 +2,20 @@
 
 #include <spdlog/fmt/fmt.h>
 #include <spdlog/spdlog.h>
+#include <tiny_obj_loader.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <sstream>
+#include <utility>
 
 #include "image/color.hpp"
 #include "image/image.hpp"
 #include "image/picture_files.hpp"
 #include "platform/files.hpp"
-#include "scene/input_error.hpp"
+#include "platform/text.hpp"
 #include "scene/text_lines.hpp"
 #include "scene/value_range.hpp"
 
@@ -21,17 +25,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr size_t kMostMaterials = 10'000;  // of one file
-
-// Returns the path relative to the MTL file's folder. Replaces backslashes, because such files often come from Windows.
-fs::path relativeTo(const fs::path& file, std::string name) {
-  std::ranges::replace(name, '\\', '/');
-  return (file.parent_path() / name).lexically_normal();
-}
-
 Texture loadTexture(const fs::path& file, const fs::path& source) {
   const std::array<float, 256>& linear = srgbDecoded();
-  const Image8 image = readImage8(file);
+  const Image8 image = readTexture(file);
   Texture texture{.source = source, .width = image.width, .height = image.height};
   texture.texels.reserve(image.rgba.size() / 4);
   for (size_t i = 0; i < image.rgba.size(); i += 4) {
@@ -101,131 +97,225 @@ std::string_view textureName(const LineReader& line) {
   return i < tokens.size() ? line.from(tokens[i]) : std::string_view();
 }
 
-double readNumber(const LineReader& line, double value, const Range& range) {
-  if (!range.contains(value)) {
-    line.fail(line.keyword(), fmt::format("is {}", value), range.text());
-  }
-  return value;
-}
-
-// Returns a color, given by three numbers or by one for all three. Colors as spectra or CIE XYZ are left out with a
-// warning.
-std::optional<glm::dvec3> readColor(const fs::path& file, LineReader& line, const Range& range) {
-  const std::vector<std::string_view>& tokens = line.tokens();
-  if (tokens.size() > 1 && (tokens[1] == "spectral" || tokens[1] == "xyz")) {
-    spdlog::warn("{}:{}: {} {} is not used (write {} r g b)", file.string(), line.number(), line.keyword(), tokens[1],
-                 line.keyword());
-    return std::nullopt;
-  }
-  const std::vector<double>& numbers = tokens.size() == 2 ? line.numbers(1, 1) : line.numbers(3, 3);
-  glm::dvec3 color;
-  for (size_t i = 0; i < 3; ++i) {
-    color[static_cast<int>(i)] = readNumber(line, numbers[numbers.size() == 3 ? i : 0], range);
-  }
-  return color;
-}
-
-// Reads an opacity. With -halo, d fades with the angle, and the number behind that option counts.
-double readFactor(LineReader& line) {
-  const bool halo = line.tokens().size() > 1 && line.tokens()[1] == "-halo";
-  return readNumber(line, line.numbers(1, 1, halo ? 2 : 1)[0], kAny);
+double numberOf(std::string_view token) {
+  return parseNumber(token).value_or(std::numeric_limits<double>::quiet_NaN());
 }
 
 }  // namespace
 
-bool ObjMaterials::isThere(std::string_view name) const {
-  return isFile(relativeTo(objFile_, std::string(name)));
-}
+// Reads an MTL file. Each material is a text of its own for tinyobjloader, because the library keeps what the material
+// before it has set. Lines are put into the form that the library reads as meant: keys in their usual case, no
+// comments, colors of three numbers, numbers in their range, and a texture's name without options before it.
+class ObjMaterials::MtlReader {
+ public:
+  MtlReader(ObjMaterials& materials, const fs::path& file, std::string_view text)
+      : materials_(materials), file_(file), line_(text, LineReader::Continuation::none) {}
 
-bool ObjMaterials::read(std::string_view name) {
-  const fs::path file = relativeTo(objFile_, std::string(trimmed(name)));
-  if (!isFile(file)) {
-    spdlog::warn("{}: there is no material file '{}', its faces get the default material", objFile_.string(),
-                 file.string());
-    missingFile_ = true;
-    return false;
+  void read() {
+    constexpr int mostMaterials = 10'000;
+    int count = 0;
+    while (line_.next()) {
+      const std::string key = lowerCase(std::string(line_.keyword()));
+      if (key == "newmtl") {
+        finishMaterial();
+        if (++count > mostMaterials) {
+          add("newmtl", "is one too many, 10000 materials of a file are read");
+          return;
+        }
+        name_ = line_.argument();
+        entry_.emplace();
+        entry_->file = file_;
+        entry_->line = line_.number();
+      } else if (entry_) {  // what stands above the first newmtl belongs to no material
+        readLine(key);
+      }
+    }
+    finishMaterial();
   }
-  if (!filesRead_.insert(withoutLinks(file)).second) {
+
+ private:
+  void add(std::string_view key, std::string_view kind, std::string_view detail = {}) {
+    materials_.defects_.add(file_, line_.number(), key, kind, detail);
+  }
+
+  void readLine(const std::string& key) {
+    if (key == "kd") {
+      hasDiffuse_ = readColor("Kd", kSurfaceColor, kUsualDiffuse) || hasDiffuse_;
+    } else if (key == "ks") {
+      readColor("Ks", kSurfaceColor, 0.0);
+    } else if (key == "ke") {
+      readColor("Ke", kRadiance, 0.0);
+    } else if (key == "ns") {
+      readNumber("Ns");
+    } else if (key == "d") {
+      readNumber("d");
+    } else if (key == "tr") {
+      readNumber("Tr");
+    } else if (key == "map_kd") {
+      if (readTexture("map_Kd")) {
+        entry_->textureLine = line_.number();
+      }
+    } else if (key == "map_d") {
+      readTexture("map_d");
+    }
+  }
+
+  // Colors as spectra or CIE XYZ are left out. One number counts for all three; where one is missing or out of range,
+  // `usual` stands in its place.
+  bool readColor(const char* key, const Range& range, double usual) {
+    const std::vector<std::string_view>& tokens = line_.tokens();
+    if (tokens.size() < 2 || tokens[1] == "spectral" || tokens[1] == "xyz") {
+      add(key, "is not three numbers, it is left out");
+      return false;
+    }
+    text_ += key;
+    for (size_t i = 1; i <= 3; ++i) {
+      const size_t token = tokens.size() == 2 ? 1 : i;
+      const double value = token < tokens.size() ? numberOf(tokens[token]) : std::nan("");
+      if (!range.contains(value)) {
+        add(key, "is not three numbers in range, the usual value stands for the others");
+      }
+      text_ += fmt::format(" {}", range.contains(value) ? value : usual);
+    }
+    text_ += '\n';
     return true;
   }
-  readLines(file, readInputText(file, "a Wavefront MTL file is needed"));
+
+  // With -halo, d fades with the angle, and the number behind that option counts.
+  void readNumber(const char* key) {
+    const std::vector<std::string_view>& tokens = line_.tokens();
+    const size_t at = tokens.size() > 1 && tokens[1] == "-halo" ? 2 : 1;
+    const double value = at < tokens.size() ? numberOf(tokens[at]) : std::nan("");
+    if (!std::isfinite(value)) {
+      add(key, "is not a finite number, it is left out");
+      return;
+    }
+    text_ += fmt::format("{} {}\n", key, value);
+  }
+
+  bool readTexture(const char* key) {
+    const std::string_view name = textureName(line_);
+    if (!name.empty()) {
+      text_.append(key).append(" ").append(name).append("\n");
+    }
+    return !name.empty();
+  }
+
+  void finishMaterial() {
+    if (!entry_) {
+      return;
+    }
+    std::istringstream stream("newmtl m\n" + std::exchange(text_, {}));
+    std::map<std::string, int> indices;
+    std::vector<tinyobj::material_t> read;
+    tinyobj::LoadMtl(&indices, &read, &stream, nullptr, nullptr);
+    const tinyobj::material_t& from = read.at(0);
+    Material& material = entry_->material;
+    material.name = name_;
+    material.diffuse = std::exchange(hasDiffuse_, false)
+                           ? glm::dvec3(from.diffuse[0], from.diffuse[1], from.diffuse[2])
+                           : glm::dvec3(from.diffuse_texname.empty() ? kUsualDiffuse : 1.0);
+    material.specular = {from.specular[0], from.specular[1], from.specular[2]};
+    material.emission = {from.emission[0], from.emission[1], from.emission[2]};
+    material.shininess = std::clamp<double>(from.shininess, kLeastShininess, kMostShininess);
+    entry_->opaque = !(from.dissolve < 1.0) && from.alpha_texname.empty();
+    entry_->diffuseTexture = from.diffuse_texname;
+    materials_.entries_.try_emplace(name_, std::move(*entry_));
+    entry_.reset();
+  }
+
+  static constexpr double kUsualDiffuse = 0.8;  // Kd of a material without one and without a texture
+
+  ObjMaterials& materials_;
+  const fs::path& file_;
+  LineReader line_;
+  std::optional<Entry> entry_;  // the material that is being read
+  std::string name_;
+  std::string text_;  // for tinyobjloader
+  bool hasDiffuse_ = false;
+};
+
+void ObjMaterials::read(std::string_view names, int line) {
+  if (names.find(' ') != std::string_view::npos && readIfThere(names, line)) {
+    return;
+  }
+  std::string name;
+  for (size_t i = 0; i <= names.size(); ++i) {
+    if (i == names.size() || names[i] == ' ') {
+      if (!name.empty() && !readIfThere(name, line)) {
+        defects_.add(objFile_, line, "mtllib", "there is no file '{}', its faces get the default material", name);
+        missingFile_ = true;
+      }
+      name.clear();
+    } else {
+      i += names.substr(i).starts_with("\\ ");
+      name += names[i];
+    }
+  }
+}
+
+// Returns false if there is no such file.
+bool ObjMaterials::readIfThere(std::string_view name, int line) {
+  const std::optional<fs::path> file = modelFiles_.find(objFile_, name);
+  if (!file) {
+    return false;
+  }
+  if (!filesRead_.insert(withoutLinks(*file)).second) {
+    return true;
+  }
+  try {
+    MtlReader(*this, *file, readText(*file)).read();
+  } catch (const FileError& error) {
+    defects_.add(objFile_, line, "mtllib", "{}, its faces get the default material", error.what());
+    missingFile_ = true;
+  }
   return true;
 }
 
-void ObjMaterials::readLines(const fs::path& file, std::string_view text) {
-  const size_t before = entries_.size();
-  Entry none;  // what stands above the first newmtl belongs to no material
-  Entry* entry = &none;
-  LineReader line(file, text, LineReader::Continuation::none);
-  while (line.next()) {
-    const std::string_view key = line.keyword();
-    if (key == "newmtl") {
-      if (entries_.size() - before == kMostMaterials) {
-        line.fail("newmtl", "is one too many", fmt::format("at most {} materials are read", kMostMaterials));
-      }
-      entry = &entries_.emplace_back();
-      entry->material.name = line.argument();
-      entry->file = file;
-      entry->line = line.number();
-      indices_.try_emplace(entry->material.name, static_cast<int>(entries_.size()) - 1);
-    } else if (key == "Kd") {
-      const std::optional<glm::dvec3> color = readColor(file, line, kSurfaceColor);
-      entry->diffuse = color ? color : entry->diffuse;
-    } else if (key == "Ks") {
-      entry->material.specular = readColor(file, line, kSurfaceColor).value_or(entry->material.specular);
-    } else if (key == "Ke") {
-      entry->material.emission = readColor(file, line, kRadiance).value_or(entry->material.emission);
-    } else if (key == "Ns") {
-      entry->material.shininess = std::clamp(readFactor(line), kLeastShininess, kMostShininess);
-    } else if (key == "d") {
-      entry->opacity = readFactor(line);
-    } else if (key == "Tr") {
-      entry->transparency = readFactor(line);
-    } else if (key == "map_d") {
-      entry->hasMask = entry->hasMask || !textureName(line).empty();
-    } else if (key == "map_Kd") {
-      if (const std::string_view name = textureName(line); !name.empty()) {
-        entry->diffuseTexture = name;
-        entry->textureLine = line.number();
-      }
-    }
+int ObjMaterials::use(std::string_view name, int line) {
+  const auto known = useIndices_.find(name);
+  if (known != useIndices_.end()) {
+    return known->second;
   }
+  uses_.push_back({std::string(name), line});
+  return useIndices_.emplace(std::string(name), static_cast<int>(uses_.size()) - 1).first->second;
 }
 
-int ObjMaterials::find(std::string_view name) {
-  const std::string_view key = trimmed(name);
-  const auto found = indices_.find(key);
-  if (found != indices_.end()) {
-    return found->second;
-  }
-  if (!missingFile_) {
-    spdlog::warn("{}: there is no material '{}', its faces get the default material", objFile_.string(), key);
-  }
-  indices_.emplace(std::string(key), -1);
-  return -1;
-}
-
-Material ObjMaterials::material(int index, std::vector<Texture>& textures) const {
+Material ObjMaterials::material(int index, std::vector<Texture>& textures) {
   if (index < 0) {
     return {};
   }
-  const Entry& entry = entries_[index];
+  const Use& use = uses_[index];
+  const auto found = entries_.find(use.name);
+  if (found == entries_.end()) {
+    if (!missingFile_) {
+      defects_.add(objFile_, use.line, "usemtl", "there is no material '{}', its faces get the default one", use.name);
+    }
+    return {};
+  }
+  const Entry& entry = found->second;
   Material material = entry.material;
-  material.diffuse = entry.diffuse.value_or(entry.diffuseTexture.empty() ? glm::dvec3(0.0) : material.diffuse);
-  if (entry.opacity.value_or(1.0 - entry.transparency) < 1.0 || entry.hasMask) {
-    spdlog::warn("{}:{}: material '{}' is not opaque, it is drawn opaque", entry.file.string(), entry.line,
-                 material.name);
+  if (!entry.opaque) {
+    defects_.add(entry.file, entry.line, "newmtl", "'{}' is not opaque, it is drawn opaque", material.name);
   }
   if (!entry.diffuseTexture.empty()) {
-    const fs::path picture = relativeTo(entry.file, entry.diffuseTexture);
-    try {
-      material.diffuseTexture = textureIndex(picture, textures);
-    } catch (const FileError& error) {
-      throwInputError(entry.file, entry.textureLine, "map_Kd", picture.string() + ": " + error.problem(),
-                      isFile(picture) ? error.remedy() : "name a PNG or JPEG file, relative to the MTL file");
-    }
+    addTexture(entry, material, textures);
   }
   return material;
+}
+
+void ObjMaterials::addTexture(const Entry& entry, Material& material, std::vector<Texture>& textures) {
+  const std::optional<fs::path> picture = modelFiles_.find(entry.file, entry.diffuseTexture);
+  if (!picture) {
+    defects_.add(entry.file, entry.textureLine, "map_Kd", "there is no file '{}', the texture is left out",
+                 entry.diffuseTexture);
+    return;
+  }
+  try {
+    material.diffuseTexture = textureIndex(*picture, textures);
+  } catch (const FileError& error) {
+    defects_.add(entry.file, entry.textureLine, "map_Kd", "{}, the texture is left out", error.what());
+  }
 }
 
 }  // namespace speculum

@@ -9,46 +9,57 @@
 #include <vector>
 
 #include "geometry/mesh.hpp"
+#include "scene/model_defects.hpp"
+#include "scene/model_files.hpp"
 
 namespace speculum {
 
-// Materials of the MTL files that an OBJ file names.
+// Materials of the MTL files that an OBJ file names, as tinyobjloader reads them. Faces may name a material before its
+// file is named.
 class ObjMaterials {
  public:
-  explicit ObjMaterials(std::filesystem::path objFile) : objFile_(std::move(objFile)) {}
+  // Both must outlive the materials. Defects are those of the OBJ file's line or of an MTL file's.
+  ObjMaterials(const std::filesystem::path& objFile, ModelDefects& defects)
+      : objFile_(objFile), defects_(defects), modelFiles_(objFile) {}
 
-  // Reads an MTL file, relative to the OBJ file; a second time it does nothing. Returns false and logs a warning when
-  // it is missing. Throws InputError for malformed numbers and too many materials.
-  bool read(std::string_view name);
-  bool isThere(std::string_view name) const;
+  // Reads the files that a mtllib line of the OBJ file names: one name with blanks, or several names. A backslash
+  // before a blank keeps the blank; any other separates folders. A file that was read is not read again.
+  void read(std::string_view names, int line);
 
-  // Index of a material; -1, and a warning the first time, when there is none.
-  int find(std::string_view name);
+  // Index of the material that a usemtl line names, for material().
+  int use(std::string_view name, int line);
 
-  // The material of an index from find(). Appends its texture to `textures` unless it is there. Throws InputError when
-  // the texture cannot be read.
-  Material material(int index, std::vector<Texture>& textures) const;
+  // The material of an index from use(), or the default one for -1 and for a name that no file defines. Appends its
+  // texture to `textures` unless it is there. Call it when all files are read.
+  Material material(int index, std::vector<Texture>& textures);
 
   // Files that were read, without symbolic links.
   const std::set<std::filesystem::path>& files() const { return filesRead_; }
 
  private:
   struct Entry {
-    Material material;  // without its diffuse color and texture
-    std::optional<glm::dvec3> diffuse;
-    std::optional<double> opacity;  // d, which counts more than Tr
-    double transparency = 0.0;      // Tr
-    bool hasMask = false;           // map_d
+    Material material;  // without its texture
+    bool opaque = true;
     std::string diffuseTexture;
     std::filesystem::path file;
     int line = 0;         // of newmtl
     int textureLine = 0;  // of map_Kd
   };
-  void readLines(const std::filesystem::path& file, std::string_view text);
+  struct Use {
+    std::string name;
+    int line = 0;
+  };
+  class MtlReader;
 
-  std::filesystem::path objFile_;
-  std::vector<Entry> entries_;
-  std::map<std::string, int, std::less<>> indices_;
+  bool readIfThere(std::string_view name, int line);
+  void addTexture(const Entry& entry, Material& material, std::vector<Texture>& textures);
+
+  const std::filesystem::path& objFile_;
+  ModelDefects& defects_;
+  ModelFiles modelFiles_;
+  std::map<std::string, Entry> entries_;  // by name
+  std::vector<Use> uses_;
+  std::map<std::string, int, std::less<>> useIndices_;  // by name
   std::set<std::filesystem::path> filesRead_;
   bool missingFile_ = false;
 };

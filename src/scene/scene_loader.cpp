@@ -74,11 +74,11 @@ int meshIndex(const TableReader& object, Scene& scene, std::map<std::string, int
   const fs::path file = modelFile(scene, model);
   if (model.empty() || !isFile(file)) {
     object.fail("model", "there is no file '" + file.string() + "'",
-                "name a Wavefront OBJ file, relative to the scene file");
+                "name a " + modelFormatNames() + " file, relative to the scene file");
   }
   const auto [entry, isNew] = known.try_emplace(withoutLinks(file).string(), static_cast<int>(scene.meshes.size()));
   if (isNew) {
-    scene.meshes.push_back(loadObj(file, scene.textures, progress.ofOne(file)));
+    scene.meshes.push_back(loadModel(file, scene.textures, progress.ofOne(file)));
   }
   return entry->second;
 }
@@ -154,10 +154,6 @@ Scene parseScene(const fs::path& file, std::string text) {
   return readScene({file, "", root, 1, kKeys}, file, std::move(text));
 }
 
-bool isModelFile(const fs::path& file) {
-  return file.extension() == ".obj" || file.extension() == ".OBJ";
-}
-
 Scene loadScene(const fs::path& file, const LoadProgress& progress) {
   if (isModelFile(file)) {
     return modelScene(file, progress);
@@ -190,7 +186,7 @@ int addModel(Scene& scene, const fs::path& file, const LoadProgress& progress) {
   }
   const size_t textures = scene.textures.size();
   try {
-    Mesh mesh = loadObj(file, scene.textures, progress);
+    Mesh mesh = loadModel(file, scene.textures, progress);
     if (const std::optional<std::string> remedy = extentRemedy({}, mesh)) {
       throwInputError(file, 1, "v", "makes the model too large", *remedy);
     }

@@ -6,16 +6,13 @@
 #include <string>
 
 #include "scene/input_error.hpp"
-#include "scene/obj_loader.hpp"
+#include "scene/model_formats.hpp"
 #include "scene/scene.hpp"
 
 namespace speculum {
 
-// Says whether the name is that of a Wavefront OBJ file.
-bool isModelFile(const std::filesystem::path& file);
-
-// Reads a scene with its models and textures; for a model gives modelScene(). Logs warnings (missing MTL, dropped
-// triangles, opacity). Throws InputError.
+// Reads a scene with its models and textures; for a model gives modelScene(). Logs the defects of models
+// as warnings. Throws InputError.
 Scene loadScene(const std::filesystem::path& file, const LoadProgress& progress = {});
 
 // Reads `text` as the content of `file`, without the models: each Object::mesh is -1. Throws InputError.

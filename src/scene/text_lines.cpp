@@ -1,12 +1,8 @@
 #include "scene/text_lines.hpp"
 
-#include <spdlog/fmt/fmt.h>
-
 #include <algorithm>
 #include <charconv>
 #include <cstdlib>
-
-#include "scene/input_error.hpp"
 
 namespace speculum {
 
@@ -44,8 +40,8 @@ std::optional<double> parseNumber(std::string_view token) {
   return error == std::errc() ? value : std::strtod(std::string(token).c_str(), nullptr);
 }
 
-LineReader::LineReader(const std::filesystem::path& file, std::string_view text, Continuation continuation)
-    : file_(file), rest_(text), size_(text.size()), continuation_(continuation) {
+LineReader::LineReader(std::string_view text, Continuation continuation)
+    : rest_(text), size_(text.size()), continuation_(continuation) {
   if (rest_.starts_with("\xef\xbb\xbf")) {
     rest_.remove_prefix(3);
   }
@@ -59,9 +55,6 @@ bool LineReader::next() {
     if (continues(line_)) {
       joinContinuation();
     }
-    if (line_.find('\0') != std::string_view::npos) {
-      fail("file", "is not a text file", "a Wavefront OBJ or MTL file is needed");
-    }
     split();
     if (!tokens_.empty()) {
       return true;
@@ -70,24 +63,14 @@ bool LineReader::next() {
   return false;
 }
 
-const std::vector<double>& LineReader::numbers(size_t least, size_t most, size_t firstToken) {
-  numbers_.clear();
-  for (size_t i = firstToken; i < tokens_.size(); ++i) {
-    const std::optional<double> value = parseNumber(tokens_[i]);
-    if (!value) {
-      fail(keyword(), fmt::format("'{}' is not a number", tokens_[i]), "write for example 0.5 or -1e-3");
+std::string_view LineReader::from(std::string_view token) const {
+  std::string_view text = line_.substr(token.data() - line_.data());
+  for (size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '#' && (i == 0 || isBlank(text[i - 1]))) {
+      text = text.substr(0, i);
     }
-    numbers_.push_back(*value);
   }
-  if (numbers_.size() < least || numbers_.size() > most) {
-    const std::string right = least == most ? fmt::to_string(least) : fmt::format("{} .. {}", least, most);
-    fail(keyword(), fmt::format("has {} numbers", numbers_.size()), right + " are needed");
-  }
-  return numbers_;
-}
-
-void LineReader::fail(std::string_view key, const std::string& wrong, const std::string& right) const {
-  throwInputError(file_, number_, key, wrong, right);
+  return trimmed(text);
 }
 
 std::string_view LineReader::takeLine() {
@@ -116,7 +99,13 @@ void LineReader::joinContinuation() {
 
 void LineReader::split() {
   tokens_.clear();
-  const std::string_view line = line_.substr(0, line_.find('#'));
+  size_t comment = line_.find('#');
+  // Old compilers write 1.#QNAN and -1.#IND for numbers that are none.
+  while (comment != std::string_view::npos && comment > 0 && line_[comment - 1] == '.' && comment + 1 < line_.size() &&
+         (line_[comment + 1] == 'I' || line_[comment + 1] == 'Q' || line_[comment + 1] == 'S')) {
+    comment = line_.find('#', comment + 1);
+  }
+  const std::string_view line = line_.substr(0, comment);
   for (size_t i = 0; i < line.size();) {
     const size_t begin = i;
     while (i < line.size() && !isBlank(line[i])) {

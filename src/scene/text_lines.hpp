@@ -1,6 +1,5 @@
 #pragma once
 
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -15,30 +14,25 @@ std::string_view trimmed(std::string_view text);
 std::optional<double> parseNumber(std::string_view token);
 
 // Splits the text of an OBJ or MTL file into lines of tokens. Lines end with LF, CR LF or CR. A byte order mark,
-// comments and lines without a token are skipped. `file` is only named in errors; it and the text must outlive the
-// reader.
+// comments and lines without a token are skipped. The text must outlive the reader.
 class LineReader {
  public:
   // A backslash at the end of a line joins the next line to it, in OBJ but not in MTL files.
   enum class Continuation { backslash, none };
 
-  LineReader(const std::filesystem::path& file, std::string_view text, Continuation continuation);
+  LineReader(std::string_view text, Continuation continuation);
 
-  // Advances to the next line with a token; false at the end. Throws InputError for a line that holds a zero byte.
+  // Advances to the next line with a token; false at the end.
   bool next();
 
   const std::vector<std::string_view>& tokens() const { return tokens_; }
   std::string_view keyword() const { return tokens_[0]; }
-  // Returns the line from a token on, including blanks within and a comment after it.
-  std::string_view from(std::string_view token) const { return trimmed(line_.substr(token.data() - line_.data())); }
-  std::string_view argument() const { return trimmed(from(keyword()).substr(keyword().size())); }
+  // Returns the line from a token on, with blanks within. A '#' after a blank begins a comment; another belongs to a
+  // name.
+  std::string_view from(std::string_view token) const;
+  std::string_view argument() const { return from(line_.substr(keyword().data() + keyword().size() - line_.data())); }
   int number() const { return number_; }  // from 1; the first of joined lines
   double done() const { return 1.0 - static_cast<double>(rest_.size()) / static_cast<double>(size_); }
-
-  // The numbers from a token on, valid until the next call. Throws InputError for other tokens and other counts.
-  const std::vector<double>& numbers(size_t least, size_t most, size_t firstToken = 1);
-
-  [[noreturn]] void fail(std::string_view key, const std::string& wrong, const std::string& right) const;
 
  private:
   std::string_view takeLine();
@@ -46,14 +40,12 @@ class LineReader {
   void joinContinuation();
   void split();
 
-  const std::filesystem::path& file_;
   std::string_view rest_;
   size_t size_;
   Continuation continuation_;
   std::string_view line_;
   std::string joined_;  // storage of a line_ that was joined
   std::vector<std::string_view> tokens_;
-  std::vector<double> numbers_;
   int number_ = 1;
   int linesTaken_ = 0;  // lines that line_ joins
 };

@@ -7,6 +7,7 @@
 
 #include "platform/files.hpp"
 #include "platform/folders.hpp"
+#include "scene/model_formats.hpp"
 #include "ui/panels.hpp"
 
 namespace speculum::panels {
@@ -80,7 +81,7 @@ void list(PanelState::Files& files, const std::filesystem::path& folder, bool mo
   for (const auto& entry : std::filesystem::directory_iterator(folder, none)) {
     const std::filesystem::path& file = entry.path();
     const bool hidden = file.filename().string().starts_with('.');
-    const bool fits = file.extension() == ".toml" || (models && file.extension() == ".obj");
+    const bool fits = file.extension() == ".toml" || (models && isModelFile(file));
     if (!hidden && (entry.is_directory(none) || fits)) {
       files.entries.push_back(entry);
     }

@@ -1,0 +1,130 @@
+#include "scene/model_files.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "platform/files.hpp"
+#include "platform/text.hpp"
+#include "scene/text_lines.hpp"
+
+namespace speculum {
+
+namespace fs = std::filesystem;
+
+std::optional<fs::path> ModelFiles::find(const fs::path& namingFile, std::string_view name) {
+  name = trimmed(name);
+  if (name.size() > 1 && (name.front() == '"' || name.front() == '\'') && name.back() == name.front()) {
+    name = name.substr(1, name.size() - 2);
+  }
+  std::string path(name);
+  std::ranges::replace(path, '\\', '/');
+  if (path.empty()) {
+    return std::nullopt;
+  }
+  const std::array<fs::path, 2> folders{namingFile.parent_path(), modelFolder_};
+  for (const fs::path& folder : folders) {
+    if (fs::path file = (folder / path).lexically_normal(); isFile(file)) {
+      return file;
+    }
+  }
+  const std::string lower = lowerCase(path.substr(path.find_last_of("/:") + 1));
+  for (const fs::path& folder : folders) {
+    const Listing& here = listing(folder);
+    if (const auto file = here.files.find(lower); file != here.files.end()) {
+      return file->second;
+    }
+    for (const char* below : {"textures", "tex", "maps"}) {
+      const auto found = here.folders.find(below);
+      if (found == here.folders.end()) {
+        continue;
+      }
+      const Listing& there = listing(found->second);
+      if (const auto file = there.files.find(lower); file != there.files.end()) {
+        return file->second;
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+const ModelFiles::Listing& ModelFiles::listing(const fs::path& folder) {
+  constexpr int mostEntries = 100'000;
+  const auto [known, isNew] = listings_.try_emplace(folder);
+  Listing& listing = known->second;
+  if (!isNew) {
+    return listing;
+  }
+  std::error_code none;
+  fs::directory_iterator entry(folder.empty() ? fs::path(".") : folder, none);
+  for (int count = 0; entry != fs::directory_iterator() && count < mostEntries; entry.increment(none), ++count) {
+    const fs::path name = entry->path().filename();
+    auto& paths = isFolder(entry->path()) ? listing.folders : listing.files;
+    // Chooses the first by name, whatever the order in which the folder lists names that differ in case alone.
+    const auto [other, isFirst] = paths.try_emplace(lowerCase(name.string()), folder / name);
+    if (!isFirst) {
+      other->second = std::min(other->second, folder / name);
+    }
+  }
+  return listing;
+}
+
+std::optional<ForeignFile> foreignFile(std::string_view content) {
+  struct Beginning {
+    std::string_view text;
+    const char* wrong;
+    const char* right;
+  };
+  static constexpr const char* asObj = "save it as a Wavefront OBJ file";
+  static constexpr std::array beginnings{
+      Beginning{"version https://git-lfs", "is a Git LFS pointer, not the model itself",
+                "fetch it with 'git lfs pull'"},
+      Beginning{"\xff\xfe", "is UTF-16 text", "save it as UTF-8"},
+      Beginning{"\xfe\xff", "is UTF-16 text", "save it as UTF-8"},
+      Beginning{"solid", "is an STL file", asObj},
+      Beginning{"ply\n", "is a PLY file", asObj},
+      Beginning{"ply\r", "is a PLY file", asObj},
+      Beginning{"OFF", "is an OFF file", asObj},
+      Beginning{"COFF", "is an OFF file", asObj},
+      Beginning{"glTF", "is a glTF file", asObj},
+      Beginning{"Kaydara FBX", "is an FBX file", asObj},
+      Beginning{"; FBX", "is an FBX file", asObj},
+      Beginning{"BLENDER", "is a Blender file", asObj},
+      Beginning{"PK\x03\x04", "is a ZIP archive", "unpack it"},
+      Beginning{"\x1f\x8b", "is compressed with gzip", "unpack it"},
+      Beginning{"MM", "is a 3DS file", asObj},
+      Beginning{"<?xml", "is an XML file", asObj},
+      Beginning{"<!DOCTYPE", "is a web page", "download the file itself"},
+      Beginning{"<html", "is a web page", "download the file itself"},
+      Beginning{"ISO-10303", "is a STEP file", asObj},
+      Beginning{"#VRML", "is a VRML file", asObj},
+      Beginning{"#usda", "is a USD file", asObj},
+      Beginning{"PXR-USDC", "is a USD file", asObj},
+  };
+  if (trimmed(content).empty()) {
+    return ForeignFile{"is empty", "a Wavefront OBJ file is needed"};
+  }
+  const auto found =
+      std::ranges::find_if(beginnings, [&](const Beginning& beginning) { return content.starts_with(beginning.text); });
+  if (found != beginnings.end()) {
+    return ForeignFile{found->wrong, found->right};
+  }
+  if (trimmed(content).starts_with("{") && content.substr(0, 4096).find("\"asset\"") != std::string_view::npos) {
+    return ForeignFile{"is a glTF file", asObj};
+  }
+  // A binary STL file has 80 bytes of any text, the number of its triangles, and 50 bytes for each.
+  if (content.size() >= 84) {
+    size_t triangles = 0;
+    for (int i = 3; i >= 0; --i) {
+      triangles = triangles * 256 + static_cast<unsigned char>(content[80 + i]);
+    }
+    if (content.size() == 84 + 50 * triangles) {
+      return ForeignFile{"is an STL file", asObj};
+    }
+  }
+  if (content.find('\0') != std::string_view::npos) {
+    return ForeignFile{"is not a text file", "a Wavefront OBJ file is needed"};
+  }
+  return std::nullopt;
+}
+
+}  // namespace speculum

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace speculum {
+
+// Finds the files that a model names. Models come from other machines, so names may be in quotes, have backslashes,
+// begin with a drive or folder that is not here, or differ in case.
+class ModelFiles {
+ public:
+  explicit ModelFiles(const std::filesystem::path& model) : modelFolder_(model.parent_path()) {}
+
+  // Returns the file that `name` in `namingFile` means: as named, relative to the folder of the naming file or of the
+  // model; else the file of that name in these folders and in their folders textures, tex and maps. Nothing if there is
+  // none.
+  std::optional<std::filesystem::path> find(const std::filesystem::path& namingFile, std::string_view name);
+
+ private:
+  // Files and folders by their names in lower case.
+  struct Listing {
+    std::map<std::string, std::filesystem::path> files;
+    std::map<std::string, std::filesystem::path> folders;
+  };
+  const Listing& listing(const std::filesystem::path& folder);
+
+  std::filesystem::path modelFolder_;
+  std::map<std::filesystem::path, Listing> listings_;
+};
+
+struct ForeignFile {
+  std::string wrong;  // "is a PLY file"
+  std::string right;
+};
+
+// Says what a file is whose content begins like that of a known format other than OBJ.
+std::optional<ForeignFile> foreignFile(std::string_view content);
+
+}  // namespace speculum

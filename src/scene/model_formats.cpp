@@ -1,0 +1,48 @@
+#include "scene/model_formats.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "platform/text.hpp"
+
+namespace speculum {
+
+namespace {
+
+constexpr std::array formats{ModelFormat{".obj", "Wavefront OBJ", &loadObj}};
+
+const ModelFormat* formatOf(const std::filesystem::path& file) {
+  const auto found = std::ranges::find(formats, lowerCase(file.extension().string()), &ModelFormat::extension);
+  return found == formats.end() ? nullptr : &*found;
+}
+
+}  // namespace
+
+bool isModelFile(const std::filesystem::path& file) {
+  return formatOf(file) != nullptr;
+}
+
+Mesh loadModel(const std::filesystem::path& file, std::vector<Texture>& textures, const LoadProgress& progress) {
+  const ModelFormat* format = formatOf(file);
+  return (format == nullptr ? formats.front() : *format).load(file, textures, progress);
+}
+
+std::string modelFormatNames() {
+  std::string names;
+  for (const ModelFormat& format : formats) {
+    names.append(names.empty() ? "" : " or ").append(format.name);
+  }
+  return names;
+}
+
+std::string modelPatterns() {
+  std::string patterns;
+  for (const ModelFormat& format : formats) {
+    std::string upper(format.extension);
+    std::ranges::transform(upper, upper.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+    patterns.append(patterns.empty() ? "*" : " *").append(format.extension).append(" *").append(upper);
+  }
+  return patterns;
+}
+
+}  // namespace speculum
