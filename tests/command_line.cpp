@@ -113,6 +113,25 @@ INSTANTIATE_TEST_SUITE_P(
         UsageCase{{"bench", "--prices", "--against-set", "view.samples=1"}, "--prices: measures alone"},
         UsageCase{{"bench", "--against-set", "view.samples=3"}, "--against-set: view.samples: '3'"}));
 
+TEST_F(CommandLine, StrictRefusesModelsWithDefects) {
+  const std::string good = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  replaceFile(out("good.OBJ"), good);
+  replaceFile(out("bad.Obj"), good + "f 1 2 9\n");
+  for (const char* command : {"render", "reference"}) {
+    const auto arguments = [&](const char* model, bool strict) {
+      std::vector<std::string> all{command, "--scene", out(model), "--size", "8x8", "--out", out("p.png")};
+      if (strict) {
+        all.push_back("--strict");
+      }
+      return all;
+    };
+    succeed(arguments("good.OBJ", true));
+    succeed(arguments("bad.Obj", false));
+    EXPECT_TRUE(contains(mistake(arguments("bad.Obj", true)),
+                         "bad.Obj:5: f: has a vertex that is not there, the face is left out (strict: "));
+  }
+}
+
 TEST_F(CommandLine, MessagesCanBeReadWhateverTheyName) {
   for (const std::string& text : {std::string("\x1b[2J\n\x7f"), std::string(100'000, 'x')}) {
     const std::string file = out(text + ".toml");

@@ -89,6 +89,17 @@ TEST_F(RegressCommand, UpdateReplacesNoTexture) {
   }
 }
 
+TEST_F(RegressCommand, StrictCasesRefuseDefects) {
+  folder_.write("room.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 9\n");
+  for (const auto& [strict, arguments] : {std::pair("", std::vector<std::string>{"--strict"}),
+                                          std::pair("strict = true\n", std::vector<std::string>{})}) {
+    writeCases(std::string("[[case]]\nscene = 'room.obj'\n[[case]]\nname = 'second'\nscene = 'room.obj'\n") + strict);
+    const ProcessResult result = regress(arguments);
+    EXPECT_EQ(result.exitCode, 1);
+    EXPECT_TRUE(contains(result.output, "room.obj:5: f: has a vertex that is not there")) << result.output;
+  }
+}
+
 TEST_F(RegressCommand, FoldersNeedNoNamesInUtf8) {
   const std::filesystem::path folder = folder_ / "d\xe9";
   std::filesystem::create_directory(folder);

@@ -27,6 +27,7 @@ void addCheck(Outcome& outcome, const std::string& label, uint64_t count, const 
 Options caseOptions(const RegressCase& subject, const Options& common) {
   Options options = common;
   options.scene = subject.scene.string();
+  options.strict = common.strict || subject.strict;
   options.size = subject.size;
   options.settings = subject.settings;
   options.settings.insert(options.settings.end(), common.settings.begin(), common.settings.end());
@@ -107,6 +108,8 @@ Image8 CaseDrawer::draw(const RegressCase& subject, Outcome& outcome) {
   if (!session_ || session_->scene().file != subject.scene || session_->size() != subject.size) {
     session_.reset();
     session_ = std::make_unique<Session>(options, &*device_);
+  } else if (options.strict) {
+    requireNoDefects(session_->scene());
   }
   Session& session = *session_;
   const uint64_t nonFinite = session.sceneRenderer().finiteWatch().count();

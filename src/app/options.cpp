@@ -74,8 +74,13 @@ void addView(CLI::App& app, Options& options, Raw& raw) {
       "bookmark of the scene");
 }
 
+void addStrict(CLI::App& app, Options& options) {
+  app.add_flag("--strict", options.strict, "warnings about models and their files are errors");
+}
+
 void addRender(CLI::App& app, Options& options, Raw& raw) {
   addView(app, options, raw);
+  addStrict(app, options);
   app.add_option("--out", options.out, "F.png, F.exr, or a pattern such as dir/%04d.png with --frames")->required();
   addSweepResults(app, options);
   app.add_option("--stats", options.stats, "JSON: passes, skipped mirrors, effects, totals");
@@ -86,6 +91,7 @@ void addRender(CLI::App& app, Options& options, Raw& raw) {
 
 void addReference(CLI::App& app, Options& options, Raw& raw) {
   addView(app, options, raw);
+  addStrict(app, options);
   app.add_option("--out", options.out, "F.png or F.exr")->required();
   app.add_option("--samples", options.samples, "rays a pixel, a square number")->check(CLI::Range(1, 65536));
 }
@@ -140,6 +146,7 @@ void addRegress(CLI::App& app, Options& options) {
          "take over the pictures of failed cases, all or those with a name like this")
       ->expected(0, 1)
       ->type_name("[GLOB]");
+  addStrict(app, options);
   app.add_option("--junit", options.junit, "write the results to F as JUnit XML");
   app.add_option("--repeat", options.repeat, "draw each case so often; the pictures must be equal")
       ->check(CLI::Range(1, 1000000));

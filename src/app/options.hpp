@@ -33,6 +33,7 @@ struct Options {
   std::string gpu;
   RenderPath renderPath = RenderPath::automatic;
   bool validation = false;
+  bool strict = false;  // render, reference, regress: defects of models are errors
   std::string logLevel = "warn";
   std::filesystem::path shaderDir;
   PresentMode presentMode = PresentMode::fifo;

@@ -79,9 +79,20 @@ LoadedScene loadSceneWithSettings(const Options& options) {
 LoadedScene loadSceneWithSettings(const std::filesystem::path& file, const Options& options,
                                   const LoadProgress& progress) {
   LoadedScene loaded{.scene = loadScene(file, progress)};
+  if (options.strict) {
+    requireNoDefects(loaded.scene);
+  }
   loaded.settings = settingsOf(loaded.scene, options);
   loaded.quality = chooseQuality(options, file, loaded.settings);
   return loaded;
+}
+
+void requireNoDefects(const Scene& scene) {
+  for (const Mesh& mesh : scene.meshes) {
+    if (!mesh.defects.empty()) {
+      throw InputError(mesh.defects[0] + " (strict: a model without defects is needed)");
+    }
+  }
 }
 
 std::optional<CameraPose> cameraOf(const Options& options, const Scene& scene) {

@@ -28,9 +28,13 @@ struct LoadedScene {
 };
 // Returns the scene's settings, with those of --set. Throws UsageError.
 Settings settingsOf(const Scene& scene, const Options& options);
+// Throws InputError too, with --strict also for a defect of a model.
 LoadedScene loadSceneWithSettings(const Options& options);
 LoadedScene loadSceneWithSettings(const std::filesystem::path& file, const Options& options,
                                   const LoadProgress& progress = {});
+
+// Throws InputError with the first defect of a model, if there is one.
+void requireNoDefects(const Scene& scene);
 
 // Returns the camera of --camera; nothing if it is not given. Throws UsageError for one without a direction.
 std::optional<CameraPose> cameraOf(const Options& options, const Scene& scene);

@@ -126,6 +126,7 @@ class CaseReader {
     }
     draft.common.time = table.number("time", draft.common.time, kTime);
     draft.common.timeout = table.number("timeout", draft.common.timeout, seconds);
+    draft.common.strict = table.has("strict") ? table.boolean("strict") : draft.common.strict;
     if (const auto mask = textIn(table, "mask")) {
       draft.common.mask = beside(*mask);
       if (!isFile(*draft.common.mask)) {
@@ -289,8 +290,8 @@ ExpectedCase expectedOf(const RegressCase& subject, const std::string& driver) {
 
 std::vector<RegressCase> readCases(const fs::path& file) {
   static constexpr std::array<Key, 2> rootKeys{"defaults", "case"};
-  static constexpr std::array<Key, 12> keys{"scene", "name", "time",    "camera",  "size",      "settings",
-                                            "grid",  "mask", "timeout", "picture", "tolerance", "expect"};
+  static constexpr std::array<Key, 13> keys{"scene", "name", "time",    "camera",  "size",      "settings",
+                                            "grid",  "mask", "timeout", "picture", "tolerance", "expect", "strict"};
   const toml::table root = readToml(file, "file of cases");
   const TableReader reader(file, "", root, 1, rootKeys);
   CaseReader cases(file);

@@ -45,6 +45,7 @@ struct RegressCase {
   std::vector<std::pair<std::string, std::string>> settings;  // as --set takes them
   std::optional<std::filesystem::path> mask;
   double timeout = 0.0;           // seconds
+  bool strict = false;            // defects of models are errors
   std::filesystem::path picture;  // expected
   Tolerance tolerance;            // complete but for FLIP
   std::vector<Expectation> expect;
