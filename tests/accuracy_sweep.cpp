@@ -7,8 +7,10 @@
 #include "accuracy/sweep.hpp"
 #include "accuracy/sweep_json.hpp"
 #include "accuracy/sweep_plan.hpp"
+#include "accuracy/sweep_store.hpp"
 #include "error_message.hpp"
 #include "image/color.hpp"
+#include "image/picture_files.hpp"
 #include "platform/machine.hpp"
 #include "reference/ray_tracer.hpp"
 #include "scene/scene_loader.hpp"
@@ -359,6 +361,60 @@ TEST_F(SmallSweep, BrokenFilesAreMeasuredAgain) {
   const Run again = run(folder_ / "store");
   EXPECT_EQ(again.drawn, static_cast<int>(plan_.configurations.size()));
   EXPECT_EQ(again.results.points[0].whole.flip, first.points[0].whole.flip);
+}
+
+// A folder from elsewhere: names and links that lead to a file of the user's.
+TEST_F(SweepFiles, StoresStayInTheirFolder) {
+  const fs::path secret = folder_ / "secret.png";
+  writePng(secret, Image8(2, 2));
+  const std::string before = readText(secret);
+  const fs::path store = folder_ / "store";
+  fs::create_directories(store / "below");
+  writePng(store / "own.png", Image8(2, 2));
+  fs::create_symlink("../secret.png", store / "link.png");
+  fs::create_symlink("..", store / "up");
+  fs::create_symlink("own.png", store / "alias.png");
+  fs::create_symlink("store", folder_ / "other name");
+  const std::vector<std::string> outside{
+      "../secret.png",     "below/../../secret.png",
+      "link.png",          "up/secret.png",
+      secret.string(),     "./../secret.png",
+      "../store/link.png", "up/up/" + folder_.path().filename().string() + "/secret.png"};
+  const std::vector<std::string> inside{"own.png", "alias.png", "below/../own.png", "../store/own.png"};
+  {
+    SweepStore written(store);
+    const auto add = [&](const std::string& key, const std::string& picture, const std::string& map) {
+      written.at(key) = {.errors = ErrorFigures(), .picture = picture, .heatMap = map};
+    };
+    for (size_t i = 0; i < outside.size(); ++i) {
+      add("a" + std::to_string(i), outside[i], "own.png");
+      add("b" + std::to_string(i), "own.png", outside[i]);
+    }
+    for (size_t i = 0; i < inside.size(); ++i) {
+      add("c" + std::to_string(i), inside[i], inside[i]);
+    }
+    written.save();
+  }
+  SweepStore read(folder_ / "other name");
+  for (size_t i = 0; i < outside.size(); ++i) {
+    EXPECT_FALSE(read.at("a" + std::to_string(i)).errors) << outside[i];
+    EXPECT_FALSE(read.at("b" + std::to_string(i)).errors) << outside[i];
+  }
+  for (size_t i = 0; i < inside.size(); ++i) {
+    EXPECT_TRUE(read.at("c" + std::to_string(i)).errors) << inside[i];
+  }
+  EXPECT_THROW(read.keepPicture("link.png", Image8(1, 1)), FileError);
+  for (const std::string name : {"truth-a.json", "truth-b.exr", "truth-c-mirrors.png", "measurements.json"}) {
+    fs::remove(store / name);
+    fs::create_symlink("../secret.png", store / name);
+  }
+  for (const char* key : {"a", "b", "c"}) {
+    EXPECT_THROW(read.keepTruth(key, GroundTruth{.image = LinearImage(1, 1), .mirrors = PixelMask{}}), FileError)
+        << key;
+  }
+  EXPECT_THROW(read.save(), FileError);
+  EXPECT_THROW(SweepStore{store}, FileError);
+  EXPECT_EQ(readText(secret), before);
 }
 
 TEST_F(SmallSweep, ResultsSurviveTheirFile) {

@@ -31,6 +31,12 @@ std::optional<ordered_json> readJson(const fs::path& file) {
   }
 }
 
+// Says whether a path relative to the folder leads to a place in it, also behind links.
+bool isInside(const fs::path& folder, const fs::path& file) {
+  const fs::path relative = withoutLinks(folder / file).lexically_relative(withoutLinks(folder));
+  return !relative.empty() && *relative.begin() != "..";
+}
+
 Image8 maskImage(const PixelMask& mask) {
   Image8 image(mask.width, mask.height);
   for (size_t i = 0; i < mask.selected.size(); ++i) {
@@ -64,7 +70,7 @@ SweepStore::SweepStore(fs::path folder) : folder_(std::move(folder)) {
   if (error || !isFolder(folder_)) {
     throw std::runtime_error(folder_.string() + ": cannot be made (a folder in a writable place is needed)");
   }
-  const fs::path file = folder_ / "measurements.json";
+  const fs::path file = fileNamed("measurements.json");
   const std::optional<ordered_json> json = readJson(file);
   if (!json) {
     return;
@@ -73,7 +79,8 @@ SweepStore::SweepStore(fs::path folder) : folder_(std::move(folder)) {
     for (const auto& [key, value] : json->items()) {
       Measurement measurement;
       members(JsonReader(file, value), measurement);
-      const auto kept = [&](const std::string& name) { return isFile(folder_ / name); };
+      // The folder may come from elsewhere, and the report embeds these pictures.
+      const auto kept = [&](const std::string& name) { return isInside(folder_, name) && isFile(folder_ / name); };
       if (!kept(measurement.picture) || !kept(measurement.heatMap)) {
         measurement.errors.reset();
       }
@@ -90,19 +97,20 @@ void SweepStore::save() const {
   for (const auto& [key, measurement] : measurements_) {
     json(key.c_str(), measurement);
   }
-  replaceFile(folder_ / "measurements.json", json.written.dump(-1, ' ', false, ordered_json::error_handler_t::replace));
+  replaceFile(fileNamed("measurements.json"),
+              json.written.dump(-1, ' ', false, ordered_json::error_handler_t::replace));
 }
 
 std::optional<GroundTruth> SweepStore::truth(const std::string& key) const {
-  const fs::path base = folder_ / ("truth-" + key);
-  const std::optional<ordered_json> json = readJson(base.string() + ".json");
+  const std::string base = "truth-" + key;
+  const std::optional<ordered_json> json = readJson(fileNamed(base + ".json"));
   if (!json) {
     return std::nullopt;
   }
   try {
-    GroundTruth truth{.image = readExr(base.string() + ".exr"),
-                      .mirrors = readPixelMask(base.string() + "-mirrors.png")};
-    members(JsonReader(base, *json), truth);
+    GroundTruth truth{.image = readExr(fileNamed(base + ".exr")),
+                      .mirrors = readPixelMask(fileNamed(base + "-mirrors.png"))};
+    members(JsonReader(fileNamed(base + ".json"), *json), truth);
     return truth;
   } catch (const std::exception& problem) {
     spdlog::warn("{}", problem.what());
@@ -111,18 +119,25 @@ std::optional<GroundTruth> SweepStore::truth(const std::string& key) const {
 }
 
 void SweepStore::keepTruth(const std::string& key, const GroundTruth& truth) const {
-  const std::string base = (folder_ / ("truth-" + key)).string();
-  writeExr(base + ".exr", truth.image);
-  writePng(base + "-mirrors.png", maskImage(truth.mirrors));
+  const std::string base = "truth-" + key;
+  writeExr(fileNamed(base + ".exr"), truth.image);
+  writePng(fileNamed(base + "-mirrors.png"), maskImage(truth.mirrors));
   JsonWriter json;
   members(json, truth);
   // This file comes last: its presence means that the others are complete.
-  replaceFile(base + ".json", json.written.dump());
+  replaceFile(fileNamed(base + ".json"), json.written.dump());
 }
 
 std::string SweepStore::keepPicture(const std::string& name, const Image8& image) const {
-  writePng(folder_ / name, image);
+  writePng(fileNamed(name), image);
   return name;
+}
+
+fs::path SweepStore::fileNamed(const std::string& name) const {
+  if (!isInside(folder_, name)) {
+    throw FileError(folder_ / name, "leads out of the folder", "remove the link");
+  }
+  return folder_ / name;
 }
 
 }  // namespace speculum

@@ -23,7 +23,7 @@ struct Measurement {
 // continues. Every write replaces a whole file; a file that cannot be read counts as absent.
 class SweepStore {
  public:
-  // Creates the folder; throws std::runtime_error if that fails.
+  // Creates the folder; throws std::runtime_error if that fails, or if a file of it is a link that leads out of it.
   explicit SweepStore(std::filesystem::path folder);
 
   Measurement& at(const std::string& key) { return measurements_[key]; }
@@ -36,6 +36,9 @@ class SweepStore {
   std::string keepPicture(const std::string& name, const Image8& image) const;
 
  private:
+  // Throws FileError for a link that leads out of the folder.
+  std::filesystem::path fileNamed(const std::string& name) const;
+
   std::filesystem::path folder_;
   std::map<std::string, Measurement> measurements_;
 };
