@@ -6,8 +6,10 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <future>
+#include <thread>
 
 namespace {
 
@@ -141,6 +143,27 @@ TEST_F(Files, ReplaceWritesToAPipe) {
   replaceFile(pipe, "content");
   EXPECT_EQ(reader.get(), "content");
   EXPECT_TRUE(fs::is_fifo(pipe));
+}
+
+TEST_F(Files, PipesWithoutReaderAreRefused) {
+  const fs::path pipe = folder_ / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  fs::create_symlink("pipe", folder_ / "link");
+  expectFileFault([&] { replaceFile(folder_ / "link", "a"); }, folder_ / "link", "it is a pipe that nobody reads");
+}
+
+// More than a pipe holds, so that the writer has to wait.
+TEST_F(Files, SlowReadersOfAPipeGetAll) {
+  const fs::path pipe = folder_ / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  const std::string content(300'000, 'x');
+  std::future<size_t> reader = std::async(std::launch::async, [&] {
+    std::ifstream stream(pipe);
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    return std::string(std::istreambuf_iterator<char>(stream), {}).size();
+  });
+  replaceFile(pipe, content);
+  EXPECT_EQ(reader.get(), content.size());
 }
 
 TEST_F(Files, OpenDescriptorsAreWrittenTo) {

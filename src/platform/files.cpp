@@ -132,10 +132,20 @@ void replace(const fs::path& file, std::span<const uint8_t> content, bool lastin
   const bool exists = ::stat(target.c_str(), &old) == 0;
   // Renaming over a device or pipe would replace it.
   if (exists && !S_ISREG(old.st_mode)) {
-    // A file whose loss does no harm waits for no reader of a pipe.
-    const int descriptor = ::open(target.c_str(), O_WRONLY | O_CLOEXEC | (lasting ? 0 : O_NONBLOCK));
+    // A pipe's reader may come a little later. A file whose loss does no harm waits for none.
+    int descriptor = -1;
+    for (int tries = lasting ? 40 : 1; descriptor < 0 && tries > 0; --tries) {
+      descriptor = ::open(target.c_str(), O_WRONLY | O_CLOEXEC | O_NONBLOCK);
+      if (descriptor < 0 && errno != ENXIO) {
+        failToWrite(file, errno);
+      }
+      ::usleep(descriptor < 0 ? 50'000 : 0);
+    }
     if (descriptor < 0) {
-      failToWrite(file, errno);
+      throw FileError(file, "cannot be written: it is a pipe that nobody reads", "start its reader, or name a file");
+    }
+    if (lasting) {
+      ::fcntl(descriptor, F_SETFL, ::fcntl(descriptor, F_GETFL) & ~O_NONBLOCK);
     }
     return writeAndClose(descriptor, file, content, false);
   }

@@ -35,7 +35,7 @@ std::string readTextIfAny(const std::filesystem::path& file, uintmax_t most = 1u
 
 // Writes a new file beside `file` and renames it, once it is on the disk, so that a reader sees the old or the new
 // content and a failure leaves the old one. Keeps symbolic links, the mode and, where allowed, the owner. Devices,
-// pipes and /dev/fd/N are written to. Throws FileError, also when the folder is missing.
+// pipes with a reader and /dev/fd/N are written to. Throws FileError, also when the folder is missing.
 void replaceFile(const std::filesystem::path& file, std::span<const uint8_t> content);
 void replaceFile(const std::filesystem::path& file, std::string_view text);
 // Writes a file whose loss does no harm: creates the folder too, does not wait for the disk, returns false on failure.
