@@ -1,9 +1,11 @@
 // Cases of `regress`: the file, expectations of drivers, limits, worker processes.
 #include <csignal>
+#include <regex>
 
 #include "error_message.hpp"
 #include "image/picture_files.hpp"
 #include "made_pictures.hpp"
+#include "platform/machine.hpp"
 #include "platform/process.hpp"
 #include "regress/driver.hpp"
 #include "regress/picture_check.hpp"
@@ -109,6 +111,31 @@ TEST_F(CaseFile, GridsOfLongCasesAreBounded) {
   EXPECT_EQ(read(text + "expect = [" + expectations + "]").size(), 1u);
 }
 
+TEST_F(CaseFile, PicturesAreBoundedBeforeTheyAreMade) {
+  const std::string text = "[[case]]\nscene = 'room.toml'\n";
+  const auto repeated = [](const std::string& part, int count) {
+    std::string all;
+    for (int i = 0; i < count; ++i) {
+      all += part;
+    }
+    return all;
+  };
+  const std::string names = repeated("{name}", 40'000);
+  const std::string longName = "name = '" + std::string(32'000, 'n') + "'\n";
+  for (const std::string& more :
+       {longName + "picture = '" + names + "'", "picture = '" + names + "'",
+        longName + "expect = [{ driver = '', picture = '" + names + ".png' }]",
+        "picture = '" + repeated("a/", 40'000) + "'", "picture = '" + std::string(70'000, 'p') + "'"}) {
+    EXPECT_TRUE(contains(mistake(text + more), "picture: has more than 65536 bytes")) << more.substr(0, 20);
+  }
+  const std::string many = repeated("{ driver = '', picture = '{name}{name}' }, ", 20'000);  // 1.3 GB
+  EXPECT_TRUE(contains(mistake(text + longName + "expect = [" + many + "]"), "makes cases of more than 256 MiB"));
+  EXPECT_LT(peakResidentBytes(), uint64_t{1} << 30);
+  const std::string deep = repeated("a/", 40'000);
+  EXPECT_TRUE(contains(mistake("[[case]]\nscene = '" + deep + "'"), "scene: is 'a/a/"));
+  EXPECT_TRUE(contains(mistake(text + "mask = '" + deep + "'"), "mask: is 'a/a/"));
+}
+
 TEST_F(CaseFile, MistakesNameLineAndKey) {
   EXPECT_EQ(mistake(""), "cases.toml:1: case: is missing (write [[case]] above each case)");
   EXPECT_EQ(mistake("[[case]]\nscen = 'room.toml'"),
@@ -155,6 +182,53 @@ TEST(Driver, RangesCompareThePartsTheyName) {
   EXPECT_THROW(isInVersions(mesa22, ">=twenty"), std::invalid_argument);
   EXPECT_THROW(isInVersions(mesa22, ""), std::invalid_argument);
   EXPECT_THROW(isInVersions(mesa22, ">=20,"), std::invalid_argument);
+}
+
+// Compares with the grammar as a regular expression, whose library takes no long text.
+TEST(Driver, RangesFollowTheirGrammar) {
+  const std::regex grammar(
+      " *(>=|<=|>|<|=) *[0-9]{1,9}(\\.[0-9]{1,9})* *(, *(>=|<=|>|<|=) *[0-9]{1,9}(\\.[0-9]{1,9})* *)*");
+  const std::regex tenDigits("[0-9]{10}");
+  std::mt19937 random(1);
+  const std::vector<std::string> pieces{">", "<", "=",  ">=",   "<=",        ",", ".",  " ",
+                                        "0", "7", "22", "22.3", "123456789", "x", "-1", "+1"};
+  int ranges = 0;
+  for (int i = 0; i < 5'000; ++i) {
+    std::string range;
+    for (size_t k = random() % 7; k > 0; --k) {
+      range += pieces[random() % pieces.size()];
+    }
+    bool accepted = true;
+    try {
+      isInVersions(mesa22, range);
+    } catch (const std::invalid_argument&) {
+      accepted = false;
+    }
+    const bool tooLarge = std::regex_search(range, tenDigits);
+    EXPECT_TRUE(tooLarge || accepted == std::regex_match(range, grammar)) << range;
+    ranges += accepted;
+  }
+  EXPECT_GT(ranges, 50);
+}
+
+TEST(Driver, RangesOfAnyLengthAreRead) {
+  for (const std::string part : {">=22,", "<=22.3,", ">22.2 , ", "=22.3.6,"}) {
+    std::string range;
+    for (int i = 0; i < 100'000; ++i) {
+      range += part;
+    }
+    EXPECT_TRUE(isInVersions(mesa22, range + "<23"));
+    EXPECT_FALSE(isInVersions(mesa22, range + "<22"));
+    EXPECT_THROW(isInVersions(mesa22, range), std::invalid_argument);
+  }
+  std::string version = ">=22";
+  for (int i = 0; i < 100'000; ++i) {
+    version += ".0";
+  }
+  EXPECT_TRUE(isInVersions(mesa22, version));
+  EXPECT_THROW(isInVersions(mesa22, ">=" + std::string(1'000'000, '9')), std::invalid_argument);
+  EXPECT_FALSE(isInVersions(std::string(1'000'000, '1') + " " + std::string(1'000'000, '.'), ">=0"));
+  EXPECT_TRUE(isInVersions("driver 3, 550.54.15", "=550.54"));
 }
 
 TEST_F(CaseFile, FirstExpectationThatMatchesWins) {

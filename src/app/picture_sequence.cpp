@@ -2,8 +2,6 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include <regex>
-
 #include "app/options.hpp"
 
 namespace speculum {
@@ -13,20 +11,22 @@ PictureSequence::PictureSequence(const std::filesystem::path& pattern, int count
   if (extension != ".png" && extension != ".exr") {
     throw UsageError("--out: '" + pattern.string() + "' has no known ending (.png or .exr)");
   }
-  static const std::regex number("%(0([1-9]))?d");
   const std::string text = pattern.string();
-  std::smatch match;
-  if (count == 0 || !std::regex_search(text, match, number)) {
-    if (count > 1) {
-      throw UsageError("--out: '" + text + "' names one file for " + std::to_string(count) +
-                       " pictures (a pattern such as dir/%04d.png)");
+  before_ = text;
+  for (size_t at = count == 0 ? text.npos : text.find('%'); at != text.npos; at = text.find('%', at + 1)) {
+    const bool padded = at + 2 < text.size() && text[at + 1] == '0' && text[at + 2] >= '1' && text[at + 2] <= '9';
+    const size_t end = at + (padded ? 3 : 1);
+    if (end < text.size() && text[end] == 'd') {
+      before_ = text.substr(0, at);
+      after_ = text.substr(end + 1);
+      digits_ = padded ? text[at + 2] - '0' : 1;
+      return;
     }
-    before_ = text;
-    return;
   }
-  before_ = match.prefix();
-  after_ = match.suffix();
-  digits_ = match[2].matched ? std::stoi(match[2]) : 1;
+  if (count > 1) {
+    throw UsageError("--out: '" + text + "' names one file for " + std::to_string(count) +
+                     " pictures (a pattern such as dir/%04d.png)");
+  }
 }
 
 std::filesystem::path PictureSequence::at(int index) const {

@@ -24,6 +24,7 @@ using Key = std::string_view;
 
 constexpr size_t mostCases = 10000;
 constexpr size_t mostBytes = 256 << 20;  // of all cases
+constexpr size_t longestPath = 65536;    // bytes; no system opens one that is nearly so long
 constexpr Range share{.low = 0.0, .high = 1.0};
 constexpr Range seconds{.low = 0.0, .high = 86400.0, .aboveLow = true};
 
@@ -128,7 +129,7 @@ class CaseReader {
     draft.common.timeout = table.number("timeout", draft.common.timeout, seconds);
     draft.common.strict = table.has("strict") ? table.boolean("strict") : draft.common.strict;
     if (const auto mask = textIn(table, "mask")) {
-      draft.common.mask = beside(*mask);
+      draft.common.mask = mask->size() <= longestPath ? beside(*mask) : fs::path();
       if (!isFile(*draft.common.mask)) {
         table.fail("mask", "is '" + *mask + "'", "a PNG file is needed");
       }
@@ -182,8 +183,9 @@ class CaseReader {
   void apply(const TableReader& table, Draft& draft, const std::string& key, const std::string& value) const {
     if (key == "scene") {
       draft.scene = value;
-      const std::optional<fs::path> shipped = isFile(beside(value)) ? std::nullopt : shippedScene(value);
-      draft.common.scene = shipped.value_or(beside(value));
+      const fs::path named = value.size() <= longestPath ? beside(value) : fs::path();
+      const std::optional<fs::path> shipped = isFile(named) || named.empty() ? std::nullopt : shippedScene(value);
+      draft.common.scene = shipped.value_or(named);
       if (!isFile(draft.common.scene)) {
         table.fail(key, "is '" + value + "'", "a file beside this one, or a name of speculum scenes, is needed");
       }
@@ -239,11 +241,19 @@ class CaseReader {
     if (settings.quality.budgetMs > 0.0 || settings.quality.maxError > 0.0) {
       table.fail("settings", "quality.budget_ms and quality.max_error choose from a sweep", "cases have none");
     }
-    const auto pictureFile = [&](std::string path) {
+    size_t bytes = bytes_;
+    const auto pictureFile = [&](const std::string& pattern) {
       constexpr std::string_view placeholder = "{name}";
-      for (size_t at = 0; (at = path.find(placeholder, at)) != std::string::npos; at += made.name.size()) {
-        path.replace(at, placeholder.size(), made.name);
+      std::string path;
+      for (size_t at = 0; at < pattern.size() && path.size() <= longestPath; at += placeholder.size()) {
+        const size_t next = std::min(pattern.find(placeholder, at), pattern.size());
+        path.append(pattern, at, next - at).append(next < pattern.size() ? made.name : "");
+        at = next;
       }
+      if (path.size() > longestPath) {
+        table.fail("picture", "has more than 65536 bytes with the case's name", "a shorter path is needed");
+      }
+      requireRoom(table, bytes += path.size() + static_cast<size_t>(std::ranges::count(path, '/')) * sizeof(fs::path));
       return beside(path);
     };
     made.picture = pictureFile(draft.picture);
@@ -253,10 +263,14 @@ class CaseReader {
       }
     }
     bytes_ += bytesOf(made);
-    if (bytes_ > mostBytes) {
+    requireRoom(table, bytes_);
+    cases.push_back(std::move(made));
+  }
+
+  static void requireRoom(const TableReader& table, size_t bytes) {
+    if (bytes > mostBytes) {
       table.fail("grid", "makes cases of more than 256 MiB", "fewer cases, expectations or shorter texts are needed");
     }
-    cases.push_back(std::move(made));
   }
 
   const fs::path& file_;

@@ -1,24 +1,46 @@
 #include "regress/driver.hpp"
 
 #include <algorithm>
-#include <regex>
-#include <sstream>
+#include <charconv>
 #include <stdexcept>
+#include <string_view>
 #include <vector>
 
 #include "platform/text.hpp"
+#include "scene/text_lines.hpp"
 
 namespace speculum {
 
 namespace {
 
-std::vector<int> parts(const std::string& version) {
-  std::vector<int> numbers;
-  std::istringstream stream(version);
-  for (std::string part; std::getline(stream, part, '.');) {
-    numbers.push_back(std::stoi(part));
+constexpr std::string_view digitsAndDots = "0123456789.";
+
+// Returns the parts of a dotted number; nothing for any other text.
+std::vector<int> partsOf(std::string_view text) {
+  std::vector<int> parts;
+  const bool plain = text.find_first_not_of(digitsAndDots) == std::string_view::npos;  // from_chars takes a sign too
+  for (const char* at = text.data(); plain; ++at) {
+    const auto [end, error] = std::from_chars(at, text.data() + text.size(), parts.emplace_back());
+    if (error != std::errc()) {
+      break;
+    }
+    if (end == text.data() + text.size()) {
+      return parts;
+    }
+    at = end;
   }
-  return numbers;
+  return {};
+}
+
+// Returns the parts of the first number of a driver's text that has a dot.
+std::vector<int> versionOf(std::string_view driver) {
+  for (size_t at = 0, end = 0; (at = driver.find_first_of(digitsAndDots, end)) != std::string_view::npos;) {
+    end = std::min(driver.find_first_not_of(digitsAndDots, at), driver.size());
+    if (std::vector<int> parts = partsOf(driver.substr(at, end - at)); parts.size() > 1) {
+      return parts;
+    }
+  }
+  return {};
 }
 
 }  // namespace
@@ -29,28 +51,21 @@ bool isOfFamily(const std::string& driver, const std::string& family) {
 }
 
 bool isInVersions(const std::string& driver, const std::string& range) {
-  static const std::regex number("[0-9]{1,9}(\\.[0-9]{1,9})+");
-  static const std::regex comparison(" *(>=|<=|>|<|=) *([0-9]{1,9}(\\.[0-9]{1,9})*) *");
-  std::smatch found;
-  const std::vector<int> version = std::regex_search(driver, found, number) ? parts(found.str()) : std::vector<int>();
+  const std::vector<int> version = versionOf(driver);
   bool holds = !version.empty();
-  std::istringstream stream(range);
-  int comparisons = 0;
-  for (std::string text; std::getline(stream, text, ',');) {
-    std::smatch match;
-    if (!std::regex_match(text, match, comparison)) {
+  for (size_t at = 0; at <= range.size();) {
+    const size_t end = std::min(range.find(',', at), range.size());
+    const std::string_view text = trimmed(std::string_view(range).substr(at, end - at));
+    at = end + 1;
+    const std::string_view sign = text.substr(0, text.starts_with(">=") || text.starts_with("<=") ? 2 : 1);
+    const std::vector<int> bound = partsOf(trimmed(text.substr(sign.size())));
+    if (sign.find_first_of("<>=") != 0 || bound.empty()) {
       throw std::invalid_argument("'" + range + "' is no range");
     }
-    const std::vector<int> bound = parts(match[2]);
     std::vector<int> own = version;
     own.resize(bound.size());
-    const std::string sign = match[1];
-    holds &= (sign.find('=') != std::string::npos && own == bound) || (sign.front() == '>' && own > bound) ||
+    holds &= (sign.ends_with('=') && own == bound) || (sign.front() == '>' && own > bound) ||
              (sign.front() == '<' && own < bound);
-    ++comparisons;
-  }
-  if (comparisons == 0 || range.ends_with(',')) {
-    throw std::invalid_argument("'" + range + "' is no range");
   }
   return holds;
 }
