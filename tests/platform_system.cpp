@@ -7,6 +7,8 @@
 
 #include <chrono>
 #include <csignal>
+#include <nlohmann/json.hpp>
+#include <regex>
 #include <thread>
 
 #include "error_message.hpp"
@@ -16,6 +18,7 @@
 #include "platform/process.hpp"
 #include "platform/text.hpp"
 #include "test_headers.hpp"
+#include "test_paths.hpp"
 
 namespace speculum::test {
 namespace {
@@ -211,6 +214,129 @@ TEST(Text, LargeNumbersHaveNoExponent) {
   EXPECT_EQ(significant(0.00123, 2), "0.0012");
   EXPECT_EQ(significant(1e300, 3).size(), 301u);
   EXPECT_EQ(significant(0.0000123, 2), "1.2e-05");
+}
+
+// Returns the escapes that JSON in ASCII needs for the text, such as \\n and \\u202e. Throws for what is not UTF-8.
+std::set<std::string> escapesOf(const std::string& text) {
+  const std::string json = nlohmann::json(text).dump(-1, ' ', true);
+  std::set<std::string> escapes;
+  for (size_t i = 0; (i = json.find('\\', i)) != std::string::npos;) {
+    const size_t length = json[i + 1] == 'u' ? 6 : 2;
+    escapes.insert(json.substr(i, length));
+    i += length;
+  }
+  return escapes;
+}
+
+// GitHub's runner trims a line before it looks for ::, and finds ##[ anywhere in it.
+void expectHarmless(const std::string& line) {
+  static const std::regex hidden(R"(\\([nrtbf]|u00[0189].|u007f|u061c|u200[ef]|u202[89a-e]|u206.|ufd[de].|ufff[ef]))");
+  for (const std::string& escape : escapesOf(line)) {
+    EXPECT_FALSE(std::regex_match(escape, hidden)) << escape << " in " << line;
+  }
+  const size_t begin = line.find_first_not_of(" \xc2\xa0\xe3\x80");
+  EXPECT_NE(line.compare(std::min(begin, line.size()), 2, "::"), 0) << line;
+  EXPECT_EQ(line.find("##"), std::string::npos) << line;
+}
+
+TEST(Text, OneLineOfAnyBytesIsHarmless) {
+  const std::vector<std::string> pieces{"\n",
+                                        "\r",
+                                        "\x1b[2J",
+                                        "\x1b]0;t\x07",
+                                        "\x7f",
+                                        "\xc2\x85",
+                                        "\xc2\x9b",
+                                        "\xe2\x80\xa8",
+                                        "\xe2\x80\xa9",
+                                        "\xe2\x80\xae",
+                                        "\xe2\x81\xa6",
+                                        "\xd8\x9c",
+                                        "\xef\xbf\xbe",
+                                        "\xef\xbf\xbf",
+                                        "\xed\xa0\x80",
+                                        "\xed\xbf\xbf",
+                                        "\xc0\x80",
+                                        "\xe0\x80\x80",
+                                        "\xf4\x90\x80\x80",
+                                        "\xf0\x9f\xbf\xbe",
+                                        "\xff",
+                                        "\xe2",
+                                        "\xf0\x9f",
+                                        "::error::",
+                                        "::add-mask::",
+                                        "##[error]",
+                                        "##vso[task]",
+                                        "#",
+                                        ":",
+                                        " ",
+                                        "\xc2\xa0",
+                                        "\xe3\x80\x80",
+                                        "a",
+                                        "\xc3\xa9",
+                                        "\xf0\x9f\x98\x80"};
+  std::mt19937 random(1);
+  for (int i = 0; i < 20'000; ++i) {
+    std::string text;
+    for (size_t k = random() % 8; k > 0; --k) {
+      text += random() % 4 == 0 ? std::string(1, static_cast<char>(random())) : pieces[random() % pieces.size()];
+    }
+    const std::string line = oneLine(text);
+    expectHarmless(line);
+    ASSERT_EQ(oneLine(line), line) << "a message may go through it twice";
+    for (std::string lines = indentedLines(text); !lines.empty();) {
+      const size_t length = std::min(lines.find('\n'), lines.size());
+      expectHarmless(lines.substr(0, length));
+      lines.erase(0, length + 1);
+    }
+  }
+}
+
+TEST(Text, OneLineKeepsWhatCanBeRead) {
+  for (const char* text :
+       {"a: b::c # d", "\xc3\xa9t\xc3\xa9 \xe6\x97\xa5 \xf0\x9f\x98\x80", "C:\\models\\a.obj", "1 # 2:3", ""}) {
+    EXPECT_EQ(oneLine(text), text);
+  }
+  EXPECT_EQ(oneLine("a\nb\x1b[2J\xff\xe2\x80\xae"), "a\\x0ab\\x1b[2J\\xff\\u202e");
+  EXPECT_EQ(oneLine(" ::error::##[x]"), " \\x3a:error::#\\x23[x]");
+  EXPECT_EQ(indentedLines("a\n::b\nreply {}"), "a\n  \\x3a:b\n  reply {}");
+}
+
+TEST(Text, LongLinesEndAtWholeCharacters) {
+  for (size_t shift = 0; shift < 4; ++shift) {
+    std::string text(shift, 'x');
+    for (int i = 0; i < 5000; ++i) {
+      text += "\xf0\x9f\x98\x80";
+    }
+    EXPECT_LT(oneLine(text).size(), 4010u);
+    expectHarmless(oneLine(text));
+  }
+}
+
+// Every other way to print would let foreign text through.
+TEST(Text, NothingPrintsButPrintLine) {
+  const std::map<std::string, int> others{{"app/commands.cpp", 2},         // flushes the stream of --help
+                                          {"app/compare_command.cpp", 1},  // a table of numbers
+                                          {"app/progress.cpp", 3},
+                                          {"app/regress_command.cpp", 2},  // the worker's reply, and GitHub's commands
+                                          {"platform/machine.cpp", 1},     // a constant line, where memory is short
+                                          {"platform/text.cpp", 1}};
+  const std::regex call(R"((^|[^a-z])([fd]?printf|f?puts|putchar|fputc|fwrite)\(|std::(cout|cerr|clog))");
+  std::map<std::string, int> found;
+  const std::filesystem::path src = sourceDir() / "src";
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(src)) {
+    if (entry.path().extension() == ".cpp" || entry.path().extension() == ".hpp") {
+      std::ifstream file(entry.path());
+      for (std::string line; std::getline(file, line);) {
+        const bool likely = line.find("printf") != line.npos || line.find("put") != line.npos ||
+                            line.find("fwrite") != line.npos || line.find("std::c") != line.npos;
+        if (likely && std::regex_search(line, call)) {
+          ++found[entry.path().lexically_relative(src).string()];
+        }
+      }
+    }
+  }
+  EXPECT_EQ(found, others);
 }
 
 TEST(Process, GivesOutputAndExitCode) {

@@ -36,8 +36,69 @@ TEST(Reports, JUnitIsXml) {
       contains(xml,
                "<failure message=\"50 % differ, &quot;a&quot; &lt; 1 &amp; | more\">pixels over 3/255: 50 % (limit "
                "0.1 %)\n</failure>"));
-  EXPECT_TRUE(contains(xml, "<error message=\"ended by signal 11\">last? words"));
+  EXPECT_TRUE(contains(xml, "<error message=\"ended by signal 11\">last\\x01 words"));
   EXPECT_TRUE(contains(xml, "name=\"left out\" time=\"0.000000\"><skipped message=\"no such driver\"/>"));
+}
+
+// Characters that XML 1.0 forbids, bytes that are no characters, and commands of runners, anywhere in a run.
+TEST(Reports, ForeignTextStaysText) {
+  const std::vector<std::string> pieces{"\n",
+                                        "\r",
+                                        "\x1b",
+                                        "\x01",
+                                        "\xef\xbf\xbe",
+                                        "\xef\xbf\xbf",
+                                        "\xed\xa0\x80",
+                                        "\xff",
+                                        "\xc2\x85",
+                                        "\xe2\x80\xa8",
+                                        "::error::x",
+                                        "##[error]x",
+                                        "::add-mask::",
+                                        "a",
+                                        "]]>",
+                                        "<",
+                                        "|",
+                                        "&"};
+  std::mt19937 random(1);
+  const auto text = [&] {
+    std::string made;
+    for (size_t k = random() % 6; k > 0; --k) {
+      made += pieces[random() % pieces.size()];
+    }
+    return made;
+  };
+  const auto linesThat = [](const std::string& lines, const auto& match) {
+    std::istringstream stream(lines);
+    int count = 0;
+    for (std::string line; std::getline(stream, line);) {
+      count += match(line) ? 1 : 0;
+    }
+    return count;
+  };
+  for (int i = 0; i < 500; ++i) {
+    RegressRun run{.file = "cases" + text() + ".toml"};
+    for (const Verdict verdict : {Verdict::failed, Verdict::error, Verdict::skipped}) {
+      run.cases.push_back({.name = text()});
+      run.outcomes.push_back(
+          {.verdict = verdict, .message = text(), .figures = {{text(), text(), text()}}, .log = {text(), text()}});
+    }
+    const std::string xml = junitXml(run);
+    EXPECT_NO_THROW(nlohmann::json(xml).dump()) << "not UTF-8";
+    EXPECT_TRUE(std::ranges::none_of(xml, [](char c) { return c >= 0 && c < 0x20 && c != '\n'; }));
+    EXPECT_FALSE(contains(xml, "\xef\xbf\xbe"));
+    EXPECT_FALSE(contains(xml, "\xef\xbf\xbf"));
+    const std::string errors = githubErrors(run);
+    EXPECT_EQ(linesThat(errors, [](const std::string& line) { return line.starts_with("::error file=/"); }), 2);
+    EXPECT_EQ(std::ranges::count(errors, '\n'), 2) << errors;
+    const std::string table = githubSummary(run);
+    EXPECT_EQ(linesThat(table, [](const std::string& line) { return line.starts_with("| "); }), 4) << table;
+    EXPECT_EQ(std::ranges::count(table, '\n'), 7) << table;
+    for (const std::string& report : {xml, errors, table.substr(table.find('\n'))}) {
+      EXPECT_FALSE(contains(report, "##["));
+      EXPECT_FALSE(contains(report, "\x1b"));
+    }
+  }
 }
 
 TEST(Reports, GithubGetsErrorsAndATable) {

@@ -422,6 +422,8 @@ class ReportPage(Page):
         self.assertEqual(self.js("return setOptions({'reflection.scale': '0.5', 'view.clear_color': '1,0,0'})"),
                          "--set reflection.scale=0.5 --set view.clear_color=1,0,0")
         self.assertEqual(self.js("return [\"it's $5\", ''].map(shellWord)"), ["'it'\\''s $5'", "''"])
+        self.assertEqual(self.js("return shellWord('a\\u001b[2J\\u202e\\nb')"),
+                         r"$'a\U0000001b[2J\U0000202e\U0000000ab'")
 
 
 if __name__ == "__main__":

@@ -1,4 +1,5 @@
-#include <cstdio>
+#include <spdlog/fmt/fmt.h>
+
 #include <nlohmann/json.hpp>
 
 #include "accuracy/report.hpp"
@@ -8,6 +9,7 @@
 #include "app/session_subject.hpp"
 #include "app/stats.hpp"
 #include "platform/process.hpp"
+#include "platform/text.hpp"
 
 namespace speculum {
 
@@ -25,13 +27,14 @@ void writeReport(const Options& options, SweepResults& results, const std::strin
 }
 
 void printFront(const SweepResults& results) {
-  std::printf("%-44s %10s %10s %10s\n", "on the front", "GPU ms", "mean FLIP", "RMSE");
+  printLine(fmt::format("{:<44} {:>10} {:>10} {:>10}", "on the front", "GPU ms", "mean FLIP", "RMSE"));
   for (const int index : paretoFront(results.points)) {
     const SweepPoint& point = results.points[index];
-    std::printf("%-44s %10.3f %10.5f %10.5f\n", point.name.c_str(), costMs(point), point.whole.flip, point.whole.rmse);
+    printLine(fmt::format("{:<44} {:>10.3f} {:>10.5f} {:>10.5f}", point.name, costMs(point), point.whole.flip,
+                          point.whole.rmse));
   }
-  std::printf("%-44s %10.0f %10.5f %10.5f\n", "reference (and its noise floor)", results.truthMs,
-              results.floor.whole.flip, results.floor.whole.rmse);
+  printLine(fmt::format("{:<44} {:>10.0f} {:>10.5f} {:>10.5f}", "reference (and its noise floor)", results.truthMs,
+                        results.floor.whole.flip, results.floor.whole.rmse));
 }
 
 }  // namespace
@@ -62,12 +65,12 @@ int runAccuracy(const Options& options) {
     return progress->set(status.fraction);
   };
   if (!runSweep(plan, context.base, scene, subject, store, results, show)) {
-    std::fprintf(stderr, "interrupted; the same command goes on from here\n");
+    printLine("interrupted; the same command goes on from here", stderr);
     return 1;
   }
   writeReport(options, results, folder);
   printFront(results);
-  std::printf("%s\n", (options.out / "index.html").c_str());
+  printLine((options.out / "index.html").string());
   session.finish();
   return session.exitCode();
 }

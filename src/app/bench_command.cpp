@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <cstdio>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -20,6 +19,7 @@
 #include "platform/files.hpp"
 #include "platform/folders.hpp"
 #include "platform/process.hpp"
+#include "platform/text.hpp"
 #include "reference/throughput.hpp"
 
 namespace speculum {
@@ -120,13 +120,13 @@ int benchAgainst(const Options& options) {
     }
   }
   nlohmann::ordered_json written{{"rounds", rounds}, {"ratios", nlohmann::ordered_json::object()}};
-  std::printf("%-12s %8s %8s %8s %8s   this over the other, %d rounds\n", "ratio of", "median", "min", "q1", "q3",
-              rounds);
+  printLine(fmt::format("{:<12} {:>8} {:>8} {:>8} {:>8}   this over the other, {} rounds", "ratio of", "median", "min",
+                        "q1", "q3", rounds));
   for (const char* key : totals) {
     if (ratios.contains(key)) {
       const Spread spread = spreadOf(ratios[key]);
-      std::printf("%-12s %8.3f %8.3f %8.3f %8.3f\n", key, spread.median, spread.minimum, spread.lowerQuartile,
-                  spread.upperQuartile);
+      printLine(fmt::format("{:<12} {:>8.3f} {:>8.3f} {:>8.3f} {:>8.3f}", key, spread.median, spread.minimum,
+                            spread.lowerQuartile, spread.upperQuartile));
       written["ratios"][key] = {{"median", spread.median},
                                 {"min", spread.minimum},
                                 {"q1", spread.lowerQuartile},
@@ -145,10 +145,9 @@ int benchReference(const Options& options) {
   constexpr int64_t triangles = 100000;
   constexpr int64_t rays = 1000000;
   const RayThroughput result = measureRayThroughput(triangles, rays);
-  std::printf(
-      "%lld triangles, %lld random rays, %.1f %% hit, one core: %.3f million rays per second (hierarchy: %.2f s)\n",
-      static_cast<long long>(result.triangles), static_cast<long long>(result.rays), 100.0 * result.hitFraction,
-      1e-6 * result.raysPerSecond(), result.buildSeconds);
+  printLine(fmt::format(
+      "{} triangles, {} random rays, {:.1f} % hit, one core: {:.3f} million rays per second (hierarchy: {:.2f} s)",
+      result.triangles, result.rays, 100.0 * result.hitFraction, 1e-6 * result.raysPerSecond(), result.buildSeconds));
   if (!options.json.empty()) {
     writeJson(options.json, {{"triangles", result.triangles},
                              {"rays", result.rays},
@@ -238,25 +237,23 @@ std::optional<nlohmann::ordered_json> measureIntervals(Session& session, double 
   return summary(std::move(intervals));
 }
 
+constexpr const char* benchRow = "{:<40} {:>6} {:>10} {:>10} {:>8} {:>10} {:>10}";
+
 // Prints a row of `merged`; a dash stands for figures that the device does not count.
 void printRow(const nlohmann::ordered_json& row, const std::string& frames, const std::array<const char*, 3>& figures) {
   const nlohmann::ordered_json& gpu = row["gpu_ms"];
   const auto ms = [&](const char* key) { return gpu.is_null() ? "-" : fmt::format("{:.3f}", gpu[key].get<double>()); };
-  std::printf("%-40s %6s %10s %10s", row["name"].get<std::string>().c_str(), frames.c_str(), ms("median").c_str(),
-              ms("p95").c_str());
-  for (size_t i = 0; i < figures.size(); ++i) {
-    std::printf(i == 0 ? " %8s" : " %10s", row[figures[i]].is_null() ? "-" : row[figures[i]].dump().c_str());
-  }
-  std::printf("\n");
+  const auto figure = [&](size_t i) { return row[figures[i]].is_null() ? "-" : row[figures[i]].dump(); };
+  printLine(fmt::format(benchRow, row["name"].get<std::string>(), frames, ms("median"), ms("p95"), figure(0), figure(1),
+                        figure(2)));
 }
 
 void printBench(const nlohmann::ordered_json& merged, int measured) {
-  constexpr const char* header = "%-40s %6s %10s %10s %8s %10s %10s\n";
-  std::printf(header, "pass", "frames", "median ms", "p95 ms", "draws", "triangles", "fragments");
+  printLine(fmt::format(benchRow, "pass", "frames", "median ms", "p95 ms", "draws", "triangles", "fragments"));
   for (const auto& pass : merged["passes"]) {
     printRow(pass, std::to_string(pass.value("frames", measured)), {"draws", "triangles", "fragments"});
   }
-  std::printf(header, "effect", "", "median ms", "p95 ms", "draws", "bytes", "pipelines");
+  printLine(fmt::format(benchRow, "effect", "", "median ms", "p95 ms", "draws", "bytes", "pipelines"));
   for (const auto& effect : merged["effects"]) {
     if (effect["called_for"].get<bool>()) {
       printRow(effect, "", {"draws", "bytes", "pipelines"});
@@ -264,7 +261,8 @@ void printBench(const nlohmann::ordered_json& merged, int measured) {
   }
   for (const char* key : totals) {
     const auto& total = merged["totals"][key];
-    std::printf("%-40s %6d %10.3f %10.3f\n", key, measured, total["median"].get<double>(), total["p95"].get<double>());
+    printLine(fmt::format("{:<40} {:>6} {:>10.3f} {:>10.3f}", key, measured, total["median"].get<double>(),
+                          total["p95"].get<double>()));
   }
 }
 

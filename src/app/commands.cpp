@@ -1,5 +1,6 @@
 #include "app/commands.hpp"
 
+#include <spdlog/fmt/fmt.h>
 #include <spdlog/pattern_formatter.h>
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
@@ -23,17 +24,12 @@ namespace speculum {
 
 namespace {
 
-// Formats a log message as oneLine() does, but keeps the line breaks of compilers and validation layers.
+// Formats a log message, which keeps the line breaks of compilers and validation layers.
 class LogText : public spdlog::custom_flag_formatter {
  public:
   void format(const spdlog::details::log_msg& message, const std::tm&, spdlog::memory_buf_t& text) override {
-    std::string_view rest(message.payload.data(), message.payload.size());
-    while (!rest.empty()) {
-      const std::string_view line = rest.substr(0, rest.find('\n'));
-      const std::string readable = oneLine(std::string(line)) + (line.size() < rest.size() ? "\n" : "");
-      text.append(readable.data(), readable.data() + readable.size());
-      rest.remove_prefix(std::min(line.size() + 1, rest.size()));
-    }
+    const std::string lines = indentedLines({message.payload.data(), message.payload.size()});
+    text.append(lines.data(), lines.data() + lines.size());
   }
   std::unique_ptr<spdlog::custom_flag_formatter> clone() const override { return std::make_unique<LogText>(); }
 };
@@ -50,12 +46,13 @@ void setUpLog(const std::string& level) {
 
 int runInfo(const Options&) {
   for (const DeviceInfo& info : Device::list()) {
-    std::printf("%d: %s\n   driver %s, Vulkan %s, %.0f MiB, %s%s\n", info.index, info.name.c_str(), info.driver.c_str(),
-                vulkanVersion(info.apiVersion).c_str(), static_cast<double>(info.memoryBytes) / (1024.0 * 1024.0),
-                info.missing            ? ("not usable: " + *info.missing).c_str()
-                : info.dynamicRendering ? "dynamic rendering"
-                                        : "render passes only",
-                info.rayQueries ? ", ray queries" : "");
+    printLine(fmt::format("{}: {}", info.index, info.name));
+    printLine(fmt::format("   driver {}, Vulkan {}, {:.0f} MiB, {}{}", info.driver, vulkanVersion(info.apiVersion),
+                          static_cast<double>(info.memoryBytes) / (1024.0 * 1024.0),
+                          info.missing            ? "not usable: " + *info.missing
+                          : info.dynamicRendering ? "dynamic rendering"
+                                                  : "render passes only",
+                          info.rayQueries ? ", ray queries" : ""));
   }
   return 0;
 }
@@ -70,8 +67,8 @@ int runScenes(const Options&) {
   for (const auto& [file, title] : titles) {
     // Names scenes as --scene takes them: hard/corner for a scene in a folder.
     const std::filesystem::path name = std::filesystem::path(file).lexically_relative(dataDirectory("scenes"));
-    std::printf("%-24s %s\n%25s%s\n", std::filesystem::path(name).replace_extension().c_str(), title.c_str(), "",
-                file.c_str());
+    printLine(fmt::format("{:<24} {}", std::filesystem::path(name).replace_extension().string(), title));
+    printLine(fmt::format("{:25}{}", "", file));
   }
   return 0;
 }
@@ -93,7 +90,7 @@ int runCommand(const Options& options) {
 }
 
 int fail(const std::string& message) {
-  std::fprintf(stderr, "%s\n", oneLine(message).c_str());
+  printLine(message, stderr);
   return 2;
 }
 

@@ -7,6 +7,7 @@
 #include "app/commands.hpp"
 #include "app/stats.hpp"
 #include "image/picture_files.hpp"
+#include "platform/text.hpp"
 
 namespace speculum {
 
@@ -49,7 +50,7 @@ int runCompare(const Options& options) {
   }
   const std::string problem = exceeded(comparison.whole, options);
   if (!problem.empty()) {
-    std::fprintf(stderr, "%s\n", problem.c_str());
+    printLine(problem, stderr);
   }
   return problem.empty() ? 0 : 1;
 }

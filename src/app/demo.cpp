@@ -3,7 +3,6 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <cstdlib>
 #include <limits>
 #include <memory>
@@ -14,6 +13,7 @@
 #include "image/color.hpp"
 #include "platform/machine.hpp"
 #include "platform/process.hpp"
+#include "platform/text.hpp"
 #include "ui/input_map.hpp"
 
 namespace speculum {
@@ -427,7 +427,7 @@ void endWithoutDisplay() {
   if (shownDemo) {
     shownDemo->keepUnsavedWork();
   }
-  std::fputs("the window system has ended (start it again)\n", stderr);
+  printLine("the window system has ended (start it again)", stderr);
   std::_Exit(2);
 }
 

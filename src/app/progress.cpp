@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "platform/process.hpp"
+#include "platform/text.hpp"
 
 namespace speculum {
 
@@ -19,8 +20,8 @@ double seconds(std::chrono::steady_clock::duration duration) {
 
 }  // namespace
 
-Progress::Progress(std::string what, double total)
-    : what_(std::move(what)),
+Progress::Progress(std::string_view what, double total)
+    : what_(oneLine(what)),
       total_(total),
       terminal_(isTerminal(2)),
       created_(Clock::now()),

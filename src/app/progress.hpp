@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <string>
+#include <string_view>
 
 namespace speculum {
 
@@ -9,7 +10,7 @@ namespace speculum {
 // Prints nothing for work that is done within a second.
 class Progress {
  public:
-  Progress(std::string what, double total);
+  Progress(std::string_view what, double total);
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;

@@ -3,12 +3,12 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <map>
 #include <ranges>
 
 #include "accuracy/sweep_json.hpp"
 #include "frame/setting_fields.hpp"
+#include "platform/text.hpp"
 #include "scene/scene_loader.hpp"
 
 namespace speculum {
@@ -93,8 +93,9 @@ std::optional<QualityChoice> chooseQuality(const Options& options, const std::fi
   }
   warnOfDifferences(results, options, scene);
   applyPoint(results, choice->point, kept, settings);
-  std::fprintf(stderr, "quality: %s (measured on %s, %s at %dx%d)\n", choice->why.c_str(), results.device.c_str(),
-               results.scene.c_str(), results.width, results.height);
+  printLine(fmt::format("quality: {} (measured on {}, {} at {}x{})", choice->why, results.device, results.scene,
+                        results.width, results.height),
+            stderr);
   return QualityChoice{results.points[choice->point], choice->met, choice->why};
 }
 

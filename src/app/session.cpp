@@ -3,7 +3,6 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <cstdio>
 
 #include "app/output_files.hpp"
 #include "platform/machine.hpp"
@@ -145,11 +144,10 @@ void applyDebugSettings(const Settings& settings, Device& device) {
 
 int exitCodeOfChecks(int validationMessages, uint64_t nonFinite) {
   if (validationMessages > 0) {
-    std::fprintf(stderr, "%d validation messages\n", validationMessages);
+    printLine(fmt::format("{} validation messages", validationMessages), stderr);
   }
   if (nonFinite > 0) {
-    std::fprintf(stderr, "%llu samples of radiance that are not finite or not within 0 .. 65504\n",
-                 static_cast<unsigned long long>(nonFinite));
+    printLine(fmt::format("{} samples of radiance that are not finite or not within 0 .. 65504", nonFinite), stderr);
   }
   return validationMessages > 0 || nonFinite > 0 ? 1 : 0;
 }

@@ -2,28 +2,84 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdio>
+#include <tuple>
+#include <utility>
 
 namespace speculum {
 
-std::string oneLine(std::string message) {
+namespace {
+
+// Returns the character that the UTF-8 begins with, and the number of its bytes: 0, after the first byte, if it is
+// none.
+std::pair<char32_t, size_t> firstCharacter(std::string_view text) {
+  static constexpr std::array<char32_t, 5> least{0, 0x110000, 0x80, 0x800, 0x10000};
+  const auto lead = static_cast<uint8_t>(text[0]);
+  const auto ones = static_cast<size_t>(std::countl_one(lead));
+  char32_t code = lead & (0x7fu >> ones);
+  for (size_t i = 1; i < ones; ++i) {
+    code = i < text.size() && continuesCharacter(text[i]) ? code << 6 | (text[i] & 0x3fu) : 0;
+  }
+  const bool valid = ones < least.size() && code >= least[ones] && code < 0x110000 && code >> 11 != 0xd800 >> 11;
+  return valid ? std::pair(code, std::max<size_t>(ones, 1)) : std::pair<char32_t, size_t>(lead, 0);
+}
+
+// Control characters, marks that turn the direction of text, line separators, and what is no character.
+bool isHidden(char32_t code) {
+  static constexpr std::array<char32_t, 14> bounds{0,      0x20,   0x7f,   0xa0,   0x61c,  0x61d,  0x200e,
+                                                   0x2010, 0x2028, 0x202f, 0x2060, 0x2070, 0xfdd0, 0xfdf0};
+  return (std::ranges::upper_bound(bounds, code) - bounds.begin()) % 2 == 1 || (code & 0xfffeu) == 0xfffeu;
+}
+
+}  // namespace
+
+std::string oneLine(std::string_view text) {
   constexpr size_t kLongest = 4000;
   constexpr size_t kEnd = 1000;
-  if (message.size() > kLongest) {
+  std::string line;
+  bool begun = false;  // with a letter, digit or mark
+  for (size_t i = 0, bytes = 0; i < text.size(); i += std::max<size_t>(bytes, 1)) {
+    char32_t code = 0;
+    std::tie(code, bytes) = firstCharacter(text.substr(i));
+    // Runners act on a line that begins with ::, and on ##[, ##vso[ or ##teamcity[ anywhere in it.
+    const bool runs = code == '#' ? i > 0 && text[i - 1] == '#' : !begun && text.substr(i).starts_with("::");
+    if (runs || bytes == 0 || isHidden(code)) {
+      std::array<char, 12> escaped{};
+      std::snprintf(escaped.data(), escaped.size(), bytes > 1 ? "\\u%04x" : "\\x%02x", static_cast<unsigned>(code));
+      line += escaped.data();
+    } else {
+      line += text.substr(i, bytes);
+    }
+    begun = begun || (line.back() > 0x20 && line.back() < 0x7f);
+  }
+  if (line.size() > kLongest) {
     size_t begin = kLongest - kEnd;
-    size_t end = message.size() - kEnd;
-    while (begin > 0 && continuesCharacter(message[begin])) {
+    size_t end = line.size() - kEnd;
+    while (begin > 0 && continuesCharacter(line[begin])) {
       --begin;
     }
-    while (end < message.size() && continuesCharacter(message[end])) {
+    while (end < line.size() && continuesCharacter(line[end])) {
       ++end;
     }
-    message.replace(begin, end - begin, " ... ");
+    line.replace(begin, end - begin, " ... ");
   }
-  std::ranges::replace_if(
-      message, [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }, '?');
-  return message;
+  return line;
+}
+
+std::string indentedLines(std::string_view text) {
+  std::string lines;
+  for (size_t at = 0; at < text.size();) {
+    const size_t length = std::min(text.find('\n', at), text.size()) - at;
+    lines += (at == 0 ? "" : "\n  ") + oneLine(text.substr(at, length));
+    at += length + 1;
+  }
+  return lines;
+}
+
+void printLine(std::string_view text, std::FILE* stream) {
+  std::fputs((oneLine(text) + "\n").c_str(), stream);
 }
 
 std::string significant(double value, int digits) {

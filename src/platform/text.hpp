@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstdio>
 #include <string>
+#include <string_view>
 
 namespace speculum {
 
@@ -17,9 +19,14 @@ inline bool continuesCharacter(char byte) {
   return (static_cast<unsigned char>(byte) & 0xc0u) == 0x80u;
 }
 
-// Makes a message one line that can be read: replaces control characters, which names, keys and arguments may hold, by
-// '?', and leaves out the middle of a message of more than 4000 bytes.
-std::string oneLine(std::string message);
+// Makes a text one line that does nothing to the terminal or CI runner that it is printed to, whatever names, keys and
+// messages it holds: escapes control characters, marks of direction, bytes that are not UTF-8 and starts of runners'
+// commands as \x1b or \u202e, and leaves out the middle of a line of more than 4000 bytes.
+std::string oneLine(std::string_view text);
+// The same for each line of a text. Indents all but the first, so that none passes for a message of its own.
+std::string indentedLines(std::string_view text);
+// Prints oneLine() and a line break. Every command prints through it.
+void printLine(std::string_view text, std::FILE* stream = stdout);
 
 // Returns the number with this many significant digits, and never fewer than those before the decimal point. Only
 // numbers below 1e-4 have an exponent.

@@ -11,6 +11,7 @@
 #include "accuracy/html_page.hpp"
 #include "image/picture_files.hpp"
 #include "platform/files.hpp"
+#include "platform/text.hpp"
 #include "regress/picture_check.hpp"
 
 namespace speculum {
@@ -56,38 +57,31 @@ ordered_json picturesOf(const CaseFiles& files, double room) {
   return nullptr;
 }
 
-std::string escapedXml(const std::string& text) {
-  // Logs and paths may hold bytes that are not UTF-8, which would make the file unreadable.
-  const std::string valid =
-      nlohmann::json::parse(nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace))
-          .get<std::string>();
+std::string escapedXml(std::string_view line) {
+  static const std::map<char, std::string> entities{{'<', "&lt;"}, {'>', "&gt;"}, {'&', "&amp;"}, {'"', "&quot;"}};
   std::string escaped;
-  for (const char c : valid) {
-    static const std::map<char, std::string> entities{{'<', "&lt;"}, {'>', "&gt;"}, {'&', "&amp;"}, {'"', "&quot;"}};
-    // XML 1.0 has no other control characters.
-    const char shown = static_cast<unsigned char>(c) >= 0x20 || c == '\n' || c == '\t' ? c : '?';
+  for (const char c : oneLine(line)) {  // without the characters that XML forbids
     const auto entity = entities.find(c);
-    escaped += entity == entities.end() ? std::string(1, shown) : entity->second;
+    escaped += entity == entities.end() ? std::string(1, c) : entity->second;
   }
   return escaped;
 }
 
-// Escapes text for GitHub's workflow commands: a message is one line, a property has no comma and no colon either.
-std::string escapedCommand(const std::string& text, bool property) {
+// Escapes text for GitHub's workflow commands: a property has no comma and no colon.
+std::string escapedCommand(std::string_view text, bool property) {
   std::string escaped;
-  for (const char c : text) {
-    const bool special = c == '%' || c == '\r' || c == '\n' || (property && (c == ',' || c == ':'));
-    constexpr std::string_view digits = "0123456789ABCDEF";
-    escaped += special ? std::string{'%', digits[c >> 4 & 15], digits[c & 15]} : std::string(1, c);
+  for (const char c : oneLine(text)) {
+    const bool special = c == '%' || (property && (c == ',' || c == ':'));
+    escaped += special ? fmt::format("%{:02X}", static_cast<int>(c)) : std::string(1, c);
   }
   return escaped;
 }
 
-std::string escapedCell(const std::string& text) {
+std::string escapedCell(std::string_view text) {
   std::string escaped;
-  for (const char c : text) {
+  for (const char c : oneLine(text)) {
     escaped += c == '|' || c == '<' || c == '\\' ? "\\" : "";
-    escaped += c == '\n' || c == '\r' ? ' ' : c;
+    escaped += c;
   }
   return escaped;
 }
@@ -160,17 +154,17 @@ std::string junitXml(const RegressRun& run) {
     const std::string message = escapedXml(outcome.message);
     std::string text;
     for (const OutcomeFigure& figure : outcome.figures) {
-      text += fmt::format("{}: {} (limit {})\n", figure.label, figure.value, figure.limit);
+      text += escapedXml(fmt::format("{}: {} (limit {})", figure.label, figure.value, figure.limit)) + "\n";
     }
     for (const std::string& line : outcome.log) {
-      text += line + "\n";
+      text += escapedXml(line) + "\n";
     }
     std::string result;
     if (outcome.verdict == Verdict::skipped) {
       result = fmt::format("<skipped message=\"{}\"/>", message);
     } else if (needsAttention(outcome)) {
       const char* element = outcome.verdict == Verdict::failed ? "failure" : "error";
-      result = fmt::format("\n    <{0} message=\"{1}\">{2}</{0}>\n  ", element, message, escapedXml(text));
+      result = fmt::format("\n    <{0} message=\"{1}\">{2}</{0}>\n  ", element, message, text);
     }
     cases += fmt::format("  <testcase classname=\"{}\" name=\"{}\" time=\"{:.6f}\">{}</testcase>\n",
                          escapedXml(run.file.stem().string()), escapedXml(run.cases[i].name), outcome.seconds, result);

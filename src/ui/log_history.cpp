@@ -7,6 +7,8 @@
 #include <cctype>
 #include <utility>
 
+#include "platform/text.hpp"
+
 namespace speculum {
 
 namespace {
@@ -24,7 +26,7 @@ class HistorySink : public spdlog::sinks::base_sink<std::mutex> {
 
  private:
   void sink_it_(const spdlog::details::log_msg& message) override {
-    history_.add(message.level, std::string(message.payload.begin(), message.payload.end()));
+    history_.add(message.level, indentedLines({message.payload.data(), message.payload.size()}));
   }
   void flush_() override {}
 

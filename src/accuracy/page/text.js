@@ -25,8 +25,12 @@ function columnDecimals(values) {
   return Math.min(6, Math.max(0, ...needed));
 }
 
-// One word of a POSIX shell, in quotes only where they are needed.
-const shellWord = text => /^[A-Za-z0-9_.\/=,:+@%-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`;
+// One word of a shell, in quotes only where they are needed. A terminal acts on control characters that are pasted.
+const hidden = /[\p{Cc}\p{Cf}\p{Zl}\p{Zp}'\\]/gu;
+const shellWord = text => /^[A-Za-z0-9_.\/=,:+@%-]+$/.test(text) ? text
+  : /[\p{Cc}\p{Cf}\p{Zl}\p{Zp}]/u.test(text)
+    ? `$'${text.replace(hidden, c => `\\U${c.codePointAt(0).toString(16).padStart(8, '0')}`)}'`
+    : `'${text.replaceAll("'", "'\\''")}'`;
 
 const setOption = (key, value) => `--set ${shellWord(`${key}=${value}`)}`;
 const setOptions = settings => Object.entries(settings).map(([key, value]) => setOption(key, value)).join(' ');
