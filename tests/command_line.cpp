@@ -162,8 +162,52 @@ TEST_F(CommandLine, WarningsCanBeReadWhateverTheyName) {
   const std::string model = out("triangle.obj");
   replaceFile(model, "usemtl a\x1b[2J\nusemtl " + std::string(100'000, 'x') + "\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   const std::string warnings = succeed({"reference", "--scene", model, "--size", "2x2", "--out", out("x.png")});
-  EXPECT_TRUE(contains(warnings, "'a?[2J'")) << warnings;
+  EXPECT_TRUE(contains(warnings, R"('a\x1b[2J')")) << warnings;
   EXPECT_LT(warnings.size(), 10'000u);
+}
+
+TEST_F(CommandLine, TablesCanBeReadWhateverTheyName) {
+  const std::string scene =
+      writeScene("foreign", wallScene + std::string("[[mirror]] name = \"a\\u001b[2J\\n::error::b\\u202e##[error]c\", "
+                                                    "position = [0.2, 1, 0.3], size = [1, 1]\n"));
+  const std::string table =
+      succeed({"bench", "--scene", scene, "--size", "16x9", "--frames", "1", "--warmup", "0", "--log-level", "error"});
+  EXPECT_TRUE(contains(table, R"(a\x1b[2J\x0a::error::b\u202e#\x23[error]c)"));
+  EXPECT_FALSE(contains(table, "\n::"));
+}
+
+// Too little for a device, for its compiler, for the pictures, and enough.
+TEST_F(CommandLine, LimitedMemoryEndsInOneLine) {
+  replaceFile(out("cases.toml"), "[[case]]\nscene = '" + scene_ + "'\nsize = '64x36'\n");
+  const auto limited = [&](int mebibytes, const std::vector<std::string>& arguments) {
+    std::vector<std::string> command{"sh", "-c", "ulimit -v $0 && exec \"$@\"", std::to_string(mebibytes << 10),
+                                     program};
+    command.insert(command.end(), arguments.begin(), arguments.end());
+    return runProcess(command);
+  };
+  int failed = 0;
+  for (const int mebibytes : {100, 200, 250, 300, 350}) {
+    const ProcessResult result =
+        limited(mebibytes, {"render", "--scene", scene_, "--size", "1280x720", "--out", out("x.png")});
+    EXPECT_TRUE(result.exitCode == 0 || result.exitCode == 2) << mebibytes << ": " << result.output;
+    if (result.exitCode == 2) {
+      ++failed;
+      EXPECT_TRUE(contains(result.output, std::to_string(mebibytes) + " MiB of address space: raise ulimit -v"));
+      EXPECT_FALSE(contains(result.output, "bad_alloc"));
+      EXPECT_FALSE(contains(result.output, "terminate"));
+      EXPECT_FALSE(fs::exists(out("x.png")));
+    }
+  }
+  EXPECT_GE(failed, 3);
+  const ProcessResult regress = limited(200, {"regress", out("cases.toml"), "--out", out("report"), "--jobs", "1"});
+  EXPECT_EQ(regress.exitCode, 2);
+  EXPECT_EQ(occurrences(regress.output, "\n"), 1) << regress.output;
+  EXPECT_TRUE(contains(regress.output, "200 MiB of address space: raise ulimit -v"));
+  const ProcessResult reference =
+      limited(200, {"reference", "--scene", scene_, "--size", "8192x8192", "--samples", "1", "--out", out("x.png")});
+  EXPECT_EQ(reference.exitCode, 2);
+  EXPECT_TRUE(startsWith(reference.output, "there is not enough memory (use smaller models"));
+  EXPECT_EQ(occurrences(reference.output, "\n"), 1) << reference.output;
 }
 
 // Beyond the user's limit of file sizes a signal would end the program.

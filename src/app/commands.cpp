@@ -9,7 +9,6 @@
 #include <cstdio>
 #include <iostream>
 #include <map>
-#include <new>
 
 #include "app/demo.hpp"
 #include "app/device_view.hpp"
@@ -98,6 +97,7 @@ int fail(const std::string& message) {
 
 int speculumMain(int argc, const char* const* argv) {
   keepFreedMemory();
+  explainLackOfMemory();
   letLargeWritesFail();
   try {
     int result = 0;
@@ -112,8 +112,6 @@ int speculumMain(int argc, const char* const* argv) {
     return result;
   } catch (const std::filesystem::filesystem_error& error) {
     return fail(error.path1().string() + ": " + error.code().message() + " (check the path)");
-  } catch (const std::bad_alloc&) {
-    return fail("there is not enough memory (use smaller models, fewer or smaller textures, or a smaller --size)");
   } catch (const std::exception& error) {
     // Bad usage, bad input and a missing GPU end here: nothing was done, and the message says what would help.
     return fail(error.what());

@@ -1,5 +1,7 @@
 #include "core/vulkan_result.hpp"
 
+#include "platform/machine.hpp"
+
 namespace speculum {
 
 std::string resultName(VkResult result) {
@@ -53,7 +55,7 @@ std::string remedy(VkResult result) {
 }  // namespace
 
 void throwVulkanError(VkResult result, std::string_view what) {
-  const std::string text = std::string(what) + ": " + resultName(result) + remedy(result);
+  const std::string text = std::string(what) + ": " + resultName(result) + remedy(result) + memoryLimitAdvice();
   if (result == VK_ERROR_OUT_OF_DEVICE_MEMORY || result == VK_ERROR_OUT_OF_HOST_MEMORY) {
     throw OutOfMemoryError(text);
   }

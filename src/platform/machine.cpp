@@ -5,15 +5,56 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <csignal>
 #include <ctime>
+#include <exception>
 #include <fstream>
+#include <new>
 #include <sstream>
+#include <string>
 #include <string_view>
 #include <thread>
 
 #include "platform/process.hpp"
 
 namespace speculum {
+
+namespace {
+
+std::string outOfMemory;  // what is said, made while there is memory
+
+struct NoMemory : std::bad_alloc {
+  const char* what() const noexcept override { return outOfMemory.c_str(); }
+};
+
+// Takes no memory, since a signal handler calls it.
+[[noreturn]] void endOutOfMemory() {
+  ::dprintf(STDERR_FILENO, "%s\n", outOfMemory.c_str());
+  ::_exit(2);
+}
+
+}  // namespace
+
+std::string memoryLimitAdvice() {
+  rlimit limit{};
+  if (::getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) {
+    return {};
+  }
+  return " (this process may use " + std::to_string(limit.rlim_cur >> 20) + " MiB of address space: raise ulimit -v)";
+}
+
+void explainLackOfMemory() {
+  const std::string limit = memoryLimitAdvice();
+  outOfMemory =
+      "there is not enough memory (use smaller models, fewer or smaller textures, or a smaller --size)" + limit;
+  std::set_new_handler([] { throw NoMemory(); });
+  if (!limit.empty()) {
+    std::set_terminate(endOutOfMemory);
+    for (const int fault : {SIGABRT, SIGSEGV, SIGBUS}) {
+      std::signal(fault, [](int) { endOutOfMemory(); });
+    }
+  }
+}
 
 std::string machineDescription() {
   const auto valueAfter = [](const char* file, std::string_view start) -> std::string {

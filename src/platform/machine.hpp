@@ -14,6 +14,13 @@ double millisecondsSinceStart();   // of this process, to 10 ms; 0 if the system
 // the same pages in again at the next draw. The user's own MALLOC_ variables take precedence.
 void keepFreedMemory();
 
+// Makes what() of each std::bad_alloc that operator new throws from now on say what would help. If the process's
+// address space is limited, also turns an abort or fault into that line and exit code 2: drivers end so where memory is
+// short.
+void explainLackOfMemory();
+// Returns such advice, as ` (...)`; nothing if the address space is not limited.
+std::string memoryLimitAdvice();
+
 // Returns what is freed so far to the system. Takes some milliseconds.
 void releaseFreedMemory();
 

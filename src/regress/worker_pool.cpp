@@ -89,7 +89,8 @@ std::optional<WorkerReply> ask(ChildProcess& worker, const WorkerJob& job) {
       }
       reply.end = JobEnd::crashed;
       reply.text = result.exitCode > 128 ? "the worker was ended by signal " + std::to_string(result.exitCode - 128)
-                                         : "the worker ended with exit code " + std::to_string(result.exitCode);
+                                         : "the worker ended with exit code " + std::to_string(result.exitCode) +
+                                               (reply.log.empty() ? "" : ": " + reply.log.back());
       return interruptRequested() ? std::nullopt : std::optional(reply);
     }
     if (reply.seconds > job.timeout) {
