@@ -182,7 +182,7 @@ TEST_F(IdleWindow, StillPicturesConvergeAndMotionIsLowered) {
   const ProcessResult result = runProcess(
       {"bash", "-c", "cd '" + home_.path().string() + "' && PATH=" + binaryDir().string() + ":$PATH && " + command});
   ASSERT_EQ(result.exitCode, 0) << command << "\n" << result.output;
-  EXPECT_TRUE(readImage8(home_.path() / "journey.png").rgba == shown.rgba) << command;
+  EXPECT_TRUE(readImage8(home_.path() / "journey.view.png").rgba == shown.rgba) << command;
   settings.quality.stillPictures = 1;
   demo_->apply(SetSettings{settings});
   EXPECT_EQ(drag(width - 160), 1.0) << "never, with 0";

@@ -1,4 +1,6 @@
 // `speculum regress` as scripts call it.
+#include <sys/stat.h>
+
 #include "command_support.hpp"
 #include "image/picture_files.hpp"
 #include "made_pictures.hpp"
@@ -98,6 +100,132 @@ TEST_F(RegressCommand, StrictCasesRefuseDefects) {
     EXPECT_EQ(result.exitCode, 1);
     EXPECT_TRUE(contains(result.output, "room.obj:5: f: has a vertex that is not there")) << result.output;
   }
+}
+
+// Files of cases that this run leaves out, or cannot draw, however their models name them.
+TEST_F(RegressCommand, UpdateReplacesNoFileOfAnyCase) {
+  const std::map<std::string, std::string> materials{{"map_Kd t0.png", "t0.png"},
+                                                     {"map_Kd -s 2 2 1 -clamp on t1.png", "t1.png"},
+                                                     {"map_Kd with blanks 2.png", "with blanks 2.png"},
+                                                     {"map_Kd below\\\\..\\\\t3.png", "t3.png"},
+                                                     {"Kd none\nmap_Kd t4.png", "t4.png"},
+                                                     {"newmtl unused\nmap_d t5.png", "t5.png"},
+                                                     {"map_Kd link.png", "behind.png"}};
+  const std::string corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/1 3/1\n";
+  std::string cases;
+  std::vector<std::string> pictures;
+  const auto add = [&](const std::string& scene, const std::string& picture) {
+    const std::string i = std::to_string(pictures.size());
+    writePng(folder_ / picture, greyPicture(4, 4, 100));
+    cases += "[[case]]\nname = 'left" + i + "'\nscene = '" + scene + "'\npicture = 'no.png'\n";
+    cases += "[[case]]\nname = 'drawn" + i + "'\nscene = 'room.toml'\npicture = '" + picture + "'\n";
+    pictures.push_back(picture);
+  };
+  std::filesystem::create_directory(folder_ / "below");
+  std::filesystem::create_symlink("behind.png", folder_ / "link.png");
+  for (const auto& [text, picture] : materials) {
+    const std::string name = "m" + std::to_string(pictures.size());
+    folder_.write(name + ".mtl", "newmtl a\n" + text + "\n");
+    folder_.write(name + ".obj", "mtllib none.mtl \\\n " + name + ".mtl\nusemtl a\n" + corners);
+    add(name + ".obj", picture);
+  }
+  folder_.write("my own.mtl", "newmtl a\nmap_Kd blank.png\n");
+  folder_.write("blank.obj", "mtllib my own.mtl\n" + corners);
+  folder_.write("broken.toml", "[camera]\nposition = 1\n[[object]]\nmodel = './below/../blank.obj'\nscale = 'x'\n");
+  add("broken.toml", "blank.png");
+  folder_.write("escaped.obj", "mtllib my\\ other.mtl\n" + corners);
+  folder_.write("my other.mtl", "newmtl a\nmap_Kd escaped.png\n");
+  add("escaped.obj", "escaped.png");
+  writeCases(cases);
+  const ProcessResult result = regress({"--filter", "drawn*", "--update"});
+  EXPECT_EQ(result.exitCode, 1);
+  for (size_t i = 0; i < pictures.size(); ++i) {
+    const std::string name = "drawn" + std::to_string(i);
+    EXPECT_TRUE(
+        contains(lineOf(name, result.output), " is a file that case 'left" + std::to_string(i) + "' draws too"));
+    EXPECT_EQ(readImage8(folder_ / pictures[i]).width, 4) << pictures[i];
+  }
+  EXPECT_TRUE(contains(result.output, std::to_string(pictures.size()) + " error"));
+}
+
+TEST_F(RegressCommand, UpdateRefusesWhatIsNoFile) {
+  ASSERT_EQ(::mkfifo((folder_ / "pipe.png").c_str(), 0600), 0);
+  std::filesystem::create_directory(folder_ / "folder.png");
+  std::filesystem::create_symlink("/dev/null", folder_ / "device.png");
+  std::filesystem::create_symlink("loop.png", folder_ / "loop.png");
+  std::string cases;
+  for (const std::string name : {"pipe", "folder", "device", "loop"}) {
+    cases += "[[case]]\nname = '" + name + "'\nscene = 'room.toml'\n";
+  }
+  writeCases(cases);
+  const ProcessResult result = regress({"--update"});
+  EXPECT_EQ(result.exitCode, 1);
+  EXPECT_TRUE(contains(lineOf("pipe", result.output), "pipe.png: is a device or pipe (a file is needed)"));
+  EXPECT_TRUE(contains(lineOf("device", result.output), "device.png: is a device or pipe (a file is needed)"));
+  EXPECT_TRUE(contains(lineOf("folder", result.output), "folder.png: is a folder (a file is needed)"));
+  EXPECT_TRUE(contains(lineOf("loop", result.output), "Too many levels of symbolic links"));
+  EXPECT_TRUE(contains(result.output, "4 cases: 4 error"));
+}
+
+// Runs the report's commands beside the cases, where they could meet every file of them.
+TEST_F(RegressCommand, CommandsOfTheReportLeaveOtherFiles) {
+  writePng(folder_ / "room.png", Image8(320, 180));
+  writePng(folder_ / "room.again.png", Image8(320, 180));
+  writeCases(roomCase + "[[case]]\nscene = 'room.toml'\nname = 'room.again'\n");
+  ASSERT_EQ(regress({}).exitCode, 1);
+  const std::string page = readText(folder_ / "out/index.html");
+  const std::string start = "<script type=\"application/json\" id=\"data\">";
+  ASSERT_TRUE(contains(page, start));
+  const size_t at = page.find(start) + start.size();
+  const nlohmann::json data = nlohmann::json::parse(page.substr(at, page.find("</script>", at) - at));
+  std::map<std::string, std::string> before;
+  const auto files = [&] {
+    std::map<std::string, std::string> contents;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder_.path())) {
+      if (entry.is_regular_file()) {
+        contents[entry.path().string()] = readText(entry.path());
+      }
+    }
+    return contents;
+  };
+  before = files();
+  std::set<std::string> drawn;
+  for (const nlohmann::json& one : data["cases"]) {
+    std::vector<std::string> words = one["drawCommand"];
+    drawn.insert(words.back());
+    words.front() = program;
+    words.insert(words.begin(), {"sh", "-c", "cd \"$0\" && exec \"$@\"", folder_.path().string()});
+    EXPECT_EQ(runProcess(words).exitCode, 0);
+  }
+  EXPECT_EQ(drawn.size(), 2u);
+  std::vector<std::string> words = data["cases"][0]["acceptCommand"];
+  words.front() = program;
+  EXPECT_EQ(runProcess(words).exitCode, 0);
+  const std::map<std::string, std::string> after = files();
+  for (const auto& [file, content] : before) {
+    EXPECT_EQ(after.at(file) == content, file != (folder_ / "room.png")) << file << " is only written by the second";
+  }
+  EXPECT_EQ(readImage8(folder_ / *drawn.begin()).rgba, readImage8(folder_ / "room.png").rgba);
+}
+
+TEST_F(RegressCommand, ForeignTextIsOneHarmlessLine) {
+  writeCases(
+      "[[case]]\nscene = 'room.toml'\nexpect = [{ driver = '', result = 'skip', reason = "
+      "\"a\\n::error::b\\r##[error]c\\u001b[2J\\u202e\\nreply {}\" }]\n[[case]]\nname = 'lost'\nscene = 'room.toml'\n"
+      "picture = \"::add-mask::\\n::add-mask::x.png\"\n");
+  const std::string cases = (folder_ / "::stop::\n::x.toml").string();
+  std::filesystem::rename(folder_ / "cases.toml", cases);
+  ::setenv("GITHUB_ACTIONS", "true", 1);
+  const ProcessResult result = runProcess({"sh", "-c", R"(cd "$0" && exec "$1" regress "$2" --out ::out --jobs 1)",
+                                           folder_.path().string(), program, std::filesystem::path(cases).filename()});
+  ::unsetenv("GITHUB_ACTIONS");
+  EXPECT_EQ(result.exitCode, 1);
+  EXPECT_EQ(lineOf("room", result.output),
+            R"(skipped room: a\x0a::error::b\x0d#\x23[error]c\x1b[2J\u202e\x0areply {})");
+  EXPECT_EQ(occurrences(result.output, "\n"), 4) << result.output;
+  EXPECT_EQ(occurrences(result.output, "\n::"), 1) << "GitHub's command for the lost picture: " << result.output;
+  EXPECT_TRUE(contains(result.output, "\n::error file=/"));
+  EXPECT_FALSE(contains(result.output, "##["));
 }
 
 TEST_F(RegressCommand, FoldersNeedNoNamesInUtf8) {

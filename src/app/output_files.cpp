@@ -99,24 +99,17 @@ void requireFilesOfTheirOwn(const Options& options) {
   addOutputs(used, options);
 }
 
-std::vector<std::pair<std::string_view, fs::path>> filesOf(const Scene& scene) {
-  std::vector<std::pair<std::string_view, fs::path>> files{{"the file of --scene", scene.file}};
+void requireFilesOfTheirOwn(const Options& options, const Scene& scene) {
+  UsedFiles used;
+  used.add("the file of --scene", scene.file);
   for (const Mesh& mesh : scene.meshes) {
-    files.emplace_back("a model of the scene", mesh.source);
+    used.add("a model of the scene", mesh.source);
     for (const fs::path& file : mesh.materialFiles) {
-      files.emplace_back("a material of the scene", file);
+      used.add("a material of the scene", file);
     }
   }
   for (const Texture& texture : scene.textures) {
-    files.emplace_back("a texture of the scene", texture.source);
-  }
-  return files;
-}
-
-void requireFilesOfTheirOwn(const Options& options, const Scene& scene) {
-  UsedFiles used;
-  for (const auto& [words, file] : filesOf(scene)) {
-    used.add(words, file);
+    used.add("a texture of the scene", texture.source);
   }
   addOutputs(used, options);
 }

@@ -30,9 +30,6 @@ class UsedFiles {
   std::map<std::filesystem::path, std::filesystem::path> folders_;
 };
 
-// The scene's file, models, materials and textures, each after words that name it in an error.
-std::vector<std::pair<std::string_view, std::filesystem::path>> filesOf(const Scene& scene);
-
 // Refuse an output that would replace another output or a file that the command reads. The first checks files that
 // options name, the second the file of the loaded scene, its models, materials and textures. Devices and pipes may be
 // named twice. Throw UsageError.

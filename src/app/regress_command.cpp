@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <fstream>
 #include <iostream>
+#include <set>
 #include <thread>
 
 #include "app/case_drawer.hpp"
@@ -18,9 +19,11 @@
 #include "platform/files.hpp"
 #include "platform/folders.hpp"
 #include "platform/process.hpp"
+#include "platform/text.hpp"
 #include "regress/picture_check.hpp"
 #include "regress/report_page.hpp"
 #include "regress/worker_pool.hpp"
+#include "scene/scene_loader.hpp"
 
 namespace speculum {
 
@@ -63,7 +66,7 @@ int runWorker(const Options& options, const std::vector<RegressCase>& cases) {
 // Words of a shell command. The page puts quotes around those that need them.
 using Words = std::vector<std::string>;
 
-void addCommands(const RegressCase& subject, const Options& options, Outcome& outcome) {
+void addCommands(const RegressCase& subject, const Options& options, const std::string& picture, Outcome& outcome) {
   Words& draw = outcome.drawCommand;
   draw = {"speculum", "render",
           "--scene",  subject.scene.string(),
@@ -82,12 +85,13 @@ void addCommands(const RegressCase& subject, const Options& options, Outcome& ou
     given.push_back("--validation");
   }
   draw.insert(draw.end(), given.begin(), given.end());
-  draw.insert(draw.end(), {"--out", subject.name + ".png"});
+  draw.insert(draw.end(), {"--out", picture});
   if (outcome.replaceable) {
     Words& accept = outcome.acceptCommand;
     accept = {"speculum", "regress", options.cases.string(), "--filter", subject.name};
     accept.insert(accept.end(), given.begin(), given.end());
-    accept.push_back("--update");
+    // Leaves the report that the command stands in.
+    accept.insert(accept.end(), {"--update", "--out", (options.out / "accepted").string()});
   }
 }
 
@@ -116,10 +120,10 @@ void requireWriter(const std::vector<RegressCase>& cases, const RegressCase& sub
   if (!outcome.replaceable) {
     return;
   }
-  const std::filesystem::path picture = pictureOf(subject, outcome);
+  const std::filesystem::path picture = withoutLinks(pictureOf(subject, outcome));
   const auto writer = std::ranges::find_if(cases, [&](const RegressCase& one) {
     const ExpectedCase expected = expectedOf(one, outcome.driver);
-    return expected.result != ExpectedResult::skip && expected.subject.picture == picture;
+    return expected.result != ExpectedResult::skip && withoutLinks(expected.subject.picture) == picture;
   });
   if (writer->name != subject.name) {
     outcome.replaceable = false;
@@ -127,14 +131,8 @@ void requireWriter(const std::vector<RegressCase>& cases, const RegressCase& sub
   }
 }
 
-// Replaces the expected pictures of failed cases whose names match with those just drawn.
-void acceptAll(const Options& options, RegressRun& run) {
-  UsedFiles scenes;
-  for (size_t i = 0; i < run.cases.size(); ++i) {
-    for (const std::string& file : run.outcomes[i].sceneFiles) {
-      scenes.add(fmt::format("a file that case '{}' draws", run.cases[i].name), file);
-    }
-  }
+// Replaces the expected pictures of failed cases whose names match with those just drawn, but no file of `drawn`.
+void acceptAll(const Options& options, UsedFiles& drawn, RegressRun& run) {
   for (size_t i = 0; i < run.cases.size(); ++i) {
     Outcome& outcome = run.outcomes[i];
     const std::string& name = run.cases[i].name;
@@ -143,7 +141,7 @@ void acceptAll(const Options& options, RegressRun& run) {
     }
     try {
       const std::filesystem::path picture = pictureOf(run.cases[i], outcome);
-      scenes.requireUnused("--update", picture);
+      drawn.requireUnused("--update", picture);
       std::error_code ignored;
       std::filesystem::create_directories(picture.parent_path(), ignored);
       replaceFile(picture, readFile(CaseFiles(options.out, name).actual));
@@ -166,8 +164,11 @@ void writeReports(const Options& options, const RegressRun& run) {
   }
   if (const std::string file = environment("GITHUB_STEP_SUMMARY"); !file.empty()) {
     // Other steps add to this file as well, so it is not replaced.
-    std::ofstream stream(file, std::ios::app);
-    if (!(stream << githubSummary(run)).flush()) {
+    std::ofstream stream;
+    if (!std::filesystem::is_fifo(std::filesystem::path(file))) {  // which might wait for a reader
+      stream.open(file, std::ios::app);
+    }
+    if (!stream.is_open() || !(stream << githubSummary(run)).flush()) {
       throw FileError(file, "cannot be written", "check the folder's permissions and free space");
     }
   }
@@ -177,11 +178,10 @@ void printOutcomes(const RegressRun& run, const std::filesystem::path& page) {
   for (size_t i = 0; i < run.cases.size(); ++i) {
     const Outcome& outcome = run.outcomes[i];
     if (!outcome.message.empty()) {
-      std::printf("%-7s %s: %s\n", verdictName(outcome.verdict).c_str(), run.cases[i].name.c_str(),
-                  outcome.message.c_str());
+      printLine(fmt::format("{:<7} {}: {}", verdictName(outcome.verdict), run.cases[i].name, outcome.message));
     }
   }
-  std::printf("%s; %s\n", summary(run).c_str(), page.c_str());
+  printLine(summary(run) + "; " + page.string());
 }
 
 // Returns the pictures that a case is compared with.
@@ -195,36 +195,65 @@ std::vector<std::filesystem::path> picturesOf(const RegressCase& subject) {
   return pictures;
 }
 
-// Refuses to replace files that cases read with those of the report, and masks with updated pictures.
-void requireFilesOfItsOwn(const Options& options, const std::vector<RegressCase>& drawn,
-                          const std::vector<RegressCase>& cases) {
-  UsedFiles masks;
-  UsedFiles read;
-  for (const RegressCase& subject : cases) {
-    masks.add(fmt::format("the mask of case '{}'", subject.name), subject.mask.value_or(""));
-    const std::string words = fmt::format("a file of case '{}'", subject.name);
-    read.add(words, subject.scene);
-    read.add(words, subject.mask.value_or(""));
-    for (const std::filesystem::path& picture : picturesOf(subject)) {
-      read.add(words, picture);
+// The files of all cases, also of those that this run does not draw.
+struct FilesOfCases {
+  explicit FilesOfCases(const Options& options, const std::vector<RegressCase>& cases) {
+    drawn.add("the file of cases", options.cases);
+    std::set<std::filesystem::path> scenes;
+    for (const RegressCase& subject : cases) {
+      const std::filesystem::path mask = subject.mask.value_or("");
+      masks.add(fmt::format("the mask of case '{}'", subject.name), mask);
+      add(fmt::format("a file of case '{}'", subject.name), mask);
+      for (const std::filesystem::path& picture : picturesOf(subject)) {
+        add(fmt::format("a file of case '{}'", subject.name), picture);
+      }
+      for (const std::filesystem::path& file :
+           scenes.insert(subject.scene).second ? filesNamedBy(subject.scene) : std::set<std::filesystem::path>()) {
+        drawn.add(fmt::format("a file that case '{}' draws", subject.name), file);
+        add(fmt::format("a file of case '{}'", subject.name), file);
+      }
     }
   }
+
+  // Returns a name for a picture of the case that none of the files has, wherever the picture is written.
+  std::string newPicture(const RegressCase& subject) {
+    std::string name = subject.name;
+    do {
+      name += ".again";
+    } while (!names.insert(name + ".png").second);
+    return name + ".png";
+  }
+
+  UsedFiles drawn;  // by scenes; and the file of cases
+  UsedFiles masks;
+  UsedFiles all;
+  std::set<std::filesystem::path> names;  // without folders
+
+ private:
+  void add(std::string_view words, const std::filesystem::path& file) {
+    all.add(words, file);
+    names.insert(file.filename());
+  }
+};
+
+// Refuses to replace files that cases read with those of the report, and masks with updated pictures.
+void requireFilesOfItsOwn(const Options& options, const std::vector<RegressCase>& drawn, FilesOfCases& files) {
   std::vector<std::filesystem::path> report{options.out / "index.html"};
   for (const RegressCase& subject : drawn) {
     if (options.update && matches(*options.update, subject.name)) {
       for (const std::filesystem::path& picture : picturesOf(subject)) {
-        masks.requireUnused("--update", picture);
+        files.masks.requireUnused("--update", picture);
       }
     }
-    const std::vector<std::filesystem::path> files = CaseFiles(options.out, subject.name).all();
-    report.insert(report.end(), files.begin(), files.end());
+    const std::vector<std::filesystem::path> pictures = CaseFiles(options.out, subject.name).all();
+    report.insert(report.end(), pictures.begin(), pictures.end());
   }
   for (const std::filesystem::path& file : report) {
-    read.requireUnused("--out", file);
-    read.add("a file of the report", file);
+    files.all.requireUnused("--out", file);
+    files.all.add("a file of the report", file);
   }
   if (!options.junit.empty()) {
-    read.requireUnused("--junit", options.junit);
+    files.all.requireUnused("--junit", options.junit);
   }
 }
 
@@ -246,7 +275,8 @@ int runRegress(const Options& options) {
   if (!isFolder(options.out)) {
     throw UsageError("--out: " + options.out.string() + " cannot be made (a folder for the report)");
   }
-  requireFilesOfItsOwn(options, run.cases, cases);
+  FilesOfCases files(options, cases);
+  requireFilesOfItsOwn(options, run.cases, files);
   std::vector<WorkerJob> jobs;
   for (size_t i = 0; i < run.cases.size(); ++i) {
     const RegressCase& subject = run.cases[i];
@@ -278,7 +308,7 @@ int runRegress(const Options& options) {
         outcome.verdict = Verdict::error;
         outcome.message = error.what();
       }
-      addCommands(subject, options, outcome);
+      addCommands(subject, options, files.newPicture(subject), outcome);
       progress.advance();
     });
     if (!finished) {
@@ -289,7 +319,7 @@ int runRegress(const Options& options) {
     throw std::runtime_error(run.outcomes.front().message);
   }
   if (options.update) {
-    acceptAll(options, run);
+    acceptAll(options, files.drawn, run);
   }
   printOutcomes(run, options.out / "index.html");
   writeReports(options, run);

@@ -7,6 +7,7 @@
 
 #include "platform/files.hpp"
 #include "platform/folders.hpp"
+#include "platform/text.hpp"
 
 namespace speculum {
 
@@ -33,9 +34,13 @@ std::string quoted(const std::string& argument) {
   if (!argument.empty() && std::ranges::all_of(argument, plain)) {
     return argument;
   }
-  std::string text = "'";
+  // A terminal acts on control characters that are pasted, even within quotes.
+  const bool hidden = oneLine(argument) != argument;
+  std::string text = hidden ? "$'" : "'";
   for (const char c : argument) {
-    text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    text += hidden && !plain(c) ? fmt::format("\\{:03o}", static_cast<unsigned char>(c))
+            : c == '\''         ? std::string("'\\''")
+                                : std::string(1, c);
   }
   return text + "'";
 }
@@ -83,7 +88,7 @@ std::string viewCommand(const Options& options, const std::filesystem::path& fil
     }
   }
   addDevice(options, arguments);
-  arguments.insert(arguments.end(), {"--out", scene.file.stem().string() + ".png"});
+  arguments.insert(arguments.end(), {"--out", scene.file.stem().string() + ".view.png"});
   std::string text;
   for (const std::string& argument : arguments) {
     text += (text.empty() ? "" : " ") + quoted(argument);

@@ -29,8 +29,7 @@ struct Outcome {
   bool hasFiles = false;                   // its pictures are beside the report
   double gain = 1.0;                       // of the difference picture
   double seconds = 0.0;
-  std::vector<std::string> sceneFiles;  // scene, models, materials and textures, which --update must not replace
-  std::vector<int> region;              // left, top, width, height of the largest difference, pixels; empty without one
+  std::vector<int> region;  // left, top, width, height of the largest difference, pixels; empty without one
   std::vector<OutcomeFigure> figures;
   std::vector<std::string> log;  // last lines of the worker
 };
@@ -42,7 +41,7 @@ NLOHMANN_JSON_SERIALIZE_ENUM(Verdict, {{Verdict::passed, "passed"},
                                        {Verdict::updated, "updated"}})
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(OutcomeFigure, label, value, limit, over)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Outcome, verdict, message, device, driver, picture, drawCommand, acceptCommand,
-                                   replaceable, hasFiles, gain, seconds, sceneFiles, region, figures, log)
+                                   replaceable, hasFiles, gain, seconds, region, figures, log)
 
 // "passed" and so on.
 std::string verdictName(Verdict verdict);

@@ -12,6 +12,7 @@
 #include "platform/files.hpp"
 #include "scene/model_scene.hpp"
 #include "scene/scene_sections.hpp"
+#include "scene/text_lines.hpp"
 #include "scene/toml_file.hpp"
 
 namespace speculum {
@@ -21,8 +22,8 @@ namespace fs = std::filesystem;
 namespace {
 
 // Returns the file of a model's path in a scene file.
-fs::path modelFile(const Scene& scene, const std::string& model) {
-  const fs::path named = scene.file.parent_path() / model;
+fs::path modelFile(const fs::path& scene, const std::string& model) {
+  const fs::path named = scene.parent_path() / model;
   fs::path file = named.lexically_normal();
   std::error_code error;
   // The paths name different files if ".." follows a symbolic link to a folder.
@@ -41,7 +42,7 @@ class ModelProgress {
     }
     std::set<fs::path> files;
     for (const Object& object : scene.objects) {
-      const fs::path file = modelFile(scene, object.model);
+      const fs::path file = modelFile(scene.file, object.model);
       total_ += files.insert(file).second ? sizeOf(file) : 0.0;
     }
   }
@@ -71,7 +72,7 @@ class ModelProgress {
 // `known` has the meshes by the paths of their files without symbolic links.
 int meshIndex(const TableReader& object, Scene& scene, std::map<std::string, int>& known, ModelProgress& progress) {
   const std::string model = object.text("model");
-  const fs::path file = modelFile(scene, model);
+  const fs::path file = modelFile(scene.file, model);
   if (model.empty() || !isFile(file)) {
     object.fail("model", "there is no file '" + file.string() + "'",
                 "name a " + modelFormatNames() + " file, relative to the scene file");
@@ -147,6 +148,29 @@ toml::table tomlIfAny(const fs::path& file) {
   }
 }
 
+// Adds a model, or a material file, and the files that its lines may name: what begins with any word, and the word.
+void addFilesNamedIn(const fs::path& file, LineReader::Continuation continuation, std::set<fs::path>& files) {
+  constexpr size_t longestPath = 4096;
+  files.insert(file);
+  const std::string text = readTextIfAny(file);
+  LineReader line(file, text, continuation);
+  while (line.next()) {
+    const bool materials = line.keyword() == "mtllib";
+    for (size_t i = 1; i < line.tokens().size() && (materials || line.keyword().starts_with("map_")); ++i) {
+      for (const std::string_view words : {line.from(line.tokens()[i]), line.tokens()[i]}) {
+        std::string name(words.substr(0, longestPath));
+        for (size_t at = 0; (at = name.find('\\', at)) != std::string::npos;) {
+          name.replace(at, 1, name[at + 1] == ' ' ? "" : "/");
+        }
+        const fs::path named = (file.parent_path() / name).lexically_normal();
+        if (isFile(named) && files.insert(named).second && materials) {
+          addFilesNamedIn(named, LineReader::Continuation::none, files);
+        }
+      }
+    }
+  }
+}
+
 }  // namespace
 
 Scene parseScene(const fs::path& file, std::string text) {
@@ -200,6 +224,25 @@ int addModel(Scene& scene, const fs::path& file, const LoadProgress& progress) {
 
 std::string sceneTitle(const fs::path& file) {
   return tomlIfAny(file)["title"].value_or(std::string());
+}
+
+std::set<fs::path> filesNamedBy(const fs::path& file) {
+  std::set<fs::path> files{file};
+  std::set<fs::path> models;
+  if (isModelFile(file)) {
+    models = files;
+  }
+  const toml::table root = models.empty() ? tomlIfAny(file) : toml::table();
+  for (size_t i = 0; root["object"][i]; ++i) {
+    models.insert(modelFile(file, root["object"][i]["model"].value_or(std::string())));
+  }
+  for (const fs::path& model : models) {
+    try {
+      addFilesNamedIn(model, LineReader::Continuation::backslash, files);
+    } catch (const InputError&) {  // a file that is no text is refused when it is drawn
+    }
+  }
+  return files;
 }
 
 bool isSceneFile(const fs::path& file) {

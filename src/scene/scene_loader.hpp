@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 
@@ -28,6 +29,9 @@ int addModel(Scene& scene, const std::filesystem::path& file, const LoadProgress
 
 // Reads the scene's `title` without its models; empty for a file that has none or cannot be read.
 std::string sceneTitle(const std::filesystem::path& file);
+// Lists the file of a scene or model with the models, materials and textures that it names, also those that no face
+// uses. Takes what it can from files that cannot be drawn, and reads no number.
+std::set<std::filesystem::path> filesNamedBy(const std::filesystem::path& file);
 // Says whether the file looks like a scene file, valid or not. Models do not.
 bool isSceneFile(const std::filesystem::path& file);
 

@@ -326,7 +326,7 @@ function texts({ results, changed }) {
       ? 'GPU times come from the device’s timestamps; CPU times are the processor’s share of a frame.'
       : 'The device has no timestamps, so the time of the whole frame stands in for the GPU’s.',
     sweepCommand: `speculum accuracy ${scene} --sweep ${shellWord(results.sweep)}${base} --out FOLDER`,
-    pictureCommand: `speculum render ${scene}${base} --out picture.png --set …`,
+    pictureCommand: `speculum render ${scene}${base} --out FOLDER/picture.png --set …`,
     baseSettings: Object.entries(results.settings).map(([key, value]) => `${key} = ${value || '(the scene’s)'}\n`).join(''),
     made: `Made by Speculum ${results.version} from results.json${results.date ? `, ${results.date}` : ''}.`,
   };
