@@ -31,4 +31,8 @@ bool checkPicture(std::string_view bytes);
 // refused: what cannot be read counts as absent.
 bool checkSweep(std::string_view text);
 
+// A file of cases. Beside it are room.toml, hall.obj and mask.png. Accepted cases are matched with drivers and
+// reported.
+bool checkCase(std::string_view text);
+
 }  // namespace speculum::fuzz

@@ -61,7 +61,8 @@ TEST_P(FuzzInputs, Regressions) {
 
 INSTANTIATE_TEST_SUITE_P(Each, FuzzInputs,
                          testing::Values(Subject{"scene", checkScene}, Subject{"model", checkModel},
-                                         Subject{"picture", checkPicture}, Subject{"sweep", checkSweep}),
+                                         Subject{"picture", checkPicture}, Subject{"sweep", checkSweep},
+                                         Subject{"case", checkCase}),
                          [](const auto& info) { return std::string(info.param.name); });
 
 TEST(FuzzHeapWatch, CountsAllocations) {
