@@ -88,10 +88,11 @@ void addCommands(const RegressCase& subject, const Options& options, const std::
   draw.insert(draw.end(), {"--out", picture});
   if (outcome.replaceable) {
     Words& accept = outcome.acceptCommand;
-    accept = {"speculum", "regress", options.cases.string(), "--filter", subject.name};
-    accept.insert(accept.end(), given.begin(), given.end());
     // Leaves the report that the command stands in.
-    accept.insert(accept.end(), {"--update", "--out", (options.out / "accepted").string()});
+    accept = {"speculum", "regress",   options.cases.string(), "--out", (options.out / "accepted").string(),
+              "--filter", subject.name};
+    accept.insert(accept.end(), given.begin(), given.end());
+    accept.push_back("--update");
   }
 }
 
