@@ -1,6 +1,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "frame/settings.hpp"
 #include "fuzz_support.hpp"
 #include "image/picture_files.hpp"
 #include "platform/text.hpp"
