@@ -10,6 +10,8 @@
 #include <utility>
 
 #include "platform/files.hpp"
+#include "platform/text.hpp"
+#include "scene/model_files.hpp"
 #include "scene/model_scene.hpp"
 #include "scene/scene_sections.hpp"
 #include "scene/text_lines.hpp"
@@ -148,23 +150,25 @@ toml::table tomlIfAny(const fs::path& file) {
   }
 }
 
-// Adds a model, or a material file, and the files that its lines may name: what begins with any word, and the word.
-void addFilesNamedIn(const fs::path& file, LineReader::Continuation continuation, std::set<fs::path>& files) {
+// Adds a model, or a material file, and the files that its lines may name: by any word, and by what begins with it.
+void addFilesNamedIn(const fs::path& file, LineReader::Continuation continuation, ModelFiles& search,
+                     std::set<fs::path>& files) {
   constexpr size_t longestPath = 4096;
   files.insert(file);
   const std::string text = readTextIfAny(file);
-  LineReader line(file, text, continuation);
+  LineReader line(text, continuation);
   while (line.next()) {
-    const bool materials = line.keyword() == "mtllib";
-    for (size_t i = 1; i < line.tokens().size() && (materials || line.keyword().starts_with("map_")); ++i) {
+    const std::string keyword = lowerCase(std::string(line.keyword()));
+    const bool materials = keyword == "mtllib";
+    for (size_t i = 1; i < line.tokens().size() && (materials || keyword.starts_with("map_")); ++i) {
       for (const std::string_view words : {line.from(line.tokens()[i]), line.tokens()[i]}) {
         std::string name(words.substr(0, longestPath));
-        for (size_t at = 0; (at = name.find('\\', at)) != std::string::npos;) {
-          name.replace(at, 1, name[at + 1] == ' ' ? "" : "/");
+        for (size_t at = 0; (at = name.find("\\ ", at)) != std::string::npos;) {
+          name.erase(at, 1);
         }
-        const fs::path named = (file.parent_path() / name).lexically_normal();
-        if (isFile(named) && files.insert(named).second && materials) {
-          addFilesNamedIn(named, LineReader::Continuation::none, files);
+        const std::optional<fs::path> named = search.find(file, name);
+        if (named && files.insert(*named).second && materials) {
+          addFilesNamedIn(*named, LineReader::Continuation::none, search, files);
         }
       }
     }
@@ -237,10 +241,8 @@ std::set<fs::path> filesNamedBy(const fs::path& file) {
     models.insert(modelFile(file, root["object"][i]["model"].value_or(std::string())));
   }
   for (const fs::path& model : models) {
-    try {
-      addFilesNamedIn(model, LineReader::Continuation::backslash, files);
-    } catch (const InputError&) {  // a file that is no text is refused when it is drawn
-    }
+    ModelFiles search(model);
+    addFilesNamedIn(model, LineReader::Continuation::backslash, search, files);
   }
   return files;
 }
