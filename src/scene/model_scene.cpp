@@ -44,10 +44,9 @@ std::string sceneText(const fs::path& file, const Mesh& mesh) {
   toml +=
       "[environment]\n"
       "sky     = { zenith = [0.1, 0.21, 0.45], horizon = [0.8, 0.8, 0.78], ground = [0.5, 0.5, 0.5] }\n"
-      "ambient = [0.17, 0.185, 0.21]\n\n";
-  toml += fmt::format(
-      "[camera]\nposition     = {}\ntarget       = {}\nvertical_fov = {}\nnear         = {}\norbit_speed  = 10\n\n",
-      tomlText(eye), tomlText(target), kModelFieldOfView, 1e-3 * r);
+      "ambient = [0.22, 0.235, 0.26]\n\n";
+  toml += fmt::format("[camera]\nposition     = {}\ntarget       = {}\nvertical_fov = {}\nnear         = {}\n\n",
+                      tomlText(eye), tomlText(target), kModelFieldOfView, 1e-3 * r);
   toml += fmt::format("[[object]]\nname     = {}\nmodel    = {}\nposition = {}\n\n", tomlText(file.stem().string()),
                       tomlText(file.filename().string()), tomlText(center - mesh.center));
   toml += fmt::format(
@@ -57,7 +56,7 @@ std::string sceneText(const fs::path& file, const Mesh& mesh) {
   toml += fmt::format(
       "[[light]]\nname      = \"rim\"\nposition  = {}\nintensity = {}\nradius    = {}\n"
       "glow      = 0\ncolor     = [0.75, 0.85, 1]\n\n",
-      tomlText(center + r * glm::dvec3(2.8, 1.8, -2.4)), 12.0 * r * r, 0.05 * r);
+      tomlText(center + r * glm::dvec3(2.8, 2.6, -2.2)), 42.0 * r * r, 0.05 * r);
   toml += fmt::format(
       "[[mirror]]\nname        = \"floor\"\npolygon     = {}\nreflectance = [0.34, 0.35, 0.36]\n"
       "base_color  = [0.2, 0.2, 0.205]\ntwo_sided   = true\n",
