@@ -409,6 +409,31 @@ TEST(Measurement, TimeLeftIsEstimatedWhenItIsKnown) {
   EXPECT_EQ(secondsLeft(20.0, 1.0), 0.0);
 }
 
+// Replays reports of all parts, and of some that take everything from the store at once.
+TEST(Measurement, StepsCountOnThroughAllParts) {
+  std::mt19937 random(5);
+  for (int run = 0; run < 20; ++run) {
+    double last = 0.0;
+    std::string text;
+    std::set<std::string> texts;
+    for (int part = 0; part < 3; ++part) {
+      for (const char* stage : {"starting", "reference", "pictures", "times"}) {
+        for (double fraction = 0.0; fraction <= 1.0; fraction += std::uniform_real_distribution(0.1, 1.1)(random)) {
+          const auto [step, progress] = measuringStep(part, {stage, fraction});
+          EXPECT_GE(progress, last) << part << stage;
+          EXPECT_TRUE(step == text || texts.insert(step).second) << "again: " << step;
+          last = progress;
+          text = step;
+        }
+      }
+    }
+    EXPECT_LE(last, 1.0);
+    EXPECT_EQ(texts.size(), 7u);
+    EXPECT_EQ(text, "Timing settings (7 of 7)");
+  }
+  EXPECT_EQ(measuringStep(2, {"times", 1.0}).second, 1.0);
+}
+
 TEST_F(WindowView, EditsSayThatTheyEndAMeasurement) {
   send(MeasureAccuracy{});
   send(AddLight{});

@@ -58,14 +58,16 @@ std::map<std::string, std::string, std::less<>> pricesOf(const SweepResults& res
   return prices;
 }
 
-std::string stepText(const std::string& stage, bool rough) {
-  const char* rest = rough ? " of 3, rough)" : " of 3)";
-  return stage == "reference"  ? std::string("Tracing the reference (1") + rest
-         : stage == "pictures" ? std::string("Comparing settings (2") + rest
-                               : std::string("Timing settings (3") + rest;
-}
-
 }  // namespace
+
+std::pair<std::string, double> measuringStep(int part, const SweepStatus& status) {
+  // The second part takes the reference and the pictures from the first.
+  const int stage = status.stage == "times" ? 2 : part == 1 ? 3 : status.stage == "pictures" ? 1 : 0;
+  const int step = part == 0 ? stage : part == 1 ? 3 : 4 + stage;
+  const double done = stage == 3 ? 0.0 : status.fraction;
+  const char* name = stage == 0 ? "Tracing the reference" : stage == 1 ? "Comparing settings" : "Timing settings";
+  return {fmt::format("{} ({} of 7{})", name, step + 1, part < 2 ? ", rough" : ""), (step + done) / 7.0};
+}
 
 double secondsLeft(double elapsed, double fraction) {
   return fraction > 0.03 && elapsed > 2.0 ? elapsed * (1.0 / fraction - 1.0) : 0.0;
@@ -137,7 +139,8 @@ void AccuracyController::measure(SweepRequest request, const WatchedView& view) 
   }
   sweep_.start({{"starting", 0.0}, nullptr}, [request = std::move(request)](const auto& report) {
     std::shared_ptr<const SweepResults> rough;
-    const auto progress = [&](const SweepStatus& status) { return report({status, rough}); };
+    int part = 0;
+    const auto progress = [&](const SweepStatus& status) { return report({status, rough, part}); };
     ViewMeasurement measurement(request);
     for (const int rounds : {1, roughRounds}) {
       SweepResults results = measurement.rough(rounds, progress);
@@ -145,6 +148,7 @@ void AccuracyController::measure(SweepRequest request, const WatchedView& view) 
         return results;
       }
       rough = std::make_shared<SweepResults>(std::move(results));
+      ++part;
     }
     return measurement.whole(progress);
   });
@@ -218,14 +222,14 @@ void AccuracyController::afterFrame(const ShownPicture& shown, const WatchedView
                                     const std::function<Image8()>& image) {
   const std::optional<Status> status = sweep_.progress();
   view_.measuring = status.has_value();
-  const std::string stage = status ? stepText(status->stage, !status->rough) : "";
+  const auto [stage, progress] = status ? measuringStep(status->part, *status) : std::pair(std::string(), 0.0);
   if (std::exchange(view_.stage, stage) != stage) {
     stageBegan_ = Clock::now();
   }
   const double elapsed = std::chrono::duration<double>(Clock::now() - stageBegan_).count();
   view_.secondsLeft = status ? secondsLeft(elapsed, status->fraction) : 0.0;
   view_.otherView = !view_.points.empty() && measured_ && isOtherView(*measured_, view);
-  view_.progress = status ? status->fraction : 0.0;
+  view_.progress = progress;
   if (const std::optional<std::string> error = sweep_.takeError()) {
     view_.about = *error;
   }

@@ -22,6 +22,9 @@ struct WatchedView {
 // Says whether the user has changed the view since it was measured: the camera, or the time by setting it or by a pause
 // elsewhere. Running animation time does not count: otherwise every frame would be another view.
 bool isOtherView(const WatchedView& measured, const WatchedView& now);
+// Names the step of a measurement, counted on through its parts (a rough one, more rounds of its times, the whole
+// picture), and returns the share of all steps that is done.
+std::pair<std::string, double> measuringStep(int part, const SweepStatus& status);
 // Estimates the seconds until a stage ends of which this fraction took `elapsed` seconds; 0: too early to tell.
 double secondsLeft(double elapsed, double fraction);
 
@@ -67,6 +70,7 @@ class AccuracyController {
   AccuracyView view_;
   struct Status : SweepStatus {
     std::shared_ptr<const SweepResults> rough;  // null until it is measured
+    int part = 0;                               // as measuringStep() takes it
   };
   BackgroundJob<SweepResults, Status> sweep_;
   std::shared_ptr<const SweepResults> rough_;  // last one shown

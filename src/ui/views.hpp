@@ -173,7 +173,7 @@ struct AccuracyView {
   double secondsLeft = 0.0;                                // of the stage that runs; 0: not known
   bool measuring = false;
   std::string stage;               // of the measurement that runs
-  double progress = 0.0;           // of the stage, 0 .. 1
+  double progress = 0.0;           // of the measurement, 0 .. 1
   std::string choice;              // point chosen by the budget, beside the most accurate one
   bool choiceMisses = false;       // no measured point meets the bounds
   std::string difference;          // error of the picture, or progress of the difference view
