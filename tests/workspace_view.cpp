@@ -265,6 +265,7 @@ TEST_F(WindowView, RecordingsAreEvenSequences) {
   EXPECT_FALSE(workspace_->capture().bare());
   EXPECT_EQ(workspace_->frameSeconds(1.0), 1.0 / Capture::framesPerSecond) << "however long the frames take";
   drawFrame();
+  EXPECT_TRUE(contains(status(), "Recording: 1 frame ") && contains(status(), "F10 stops")) << status();
   drawFrame();
   send(ToggleRecording{true});
   ASSERT_EQ(home_.pictures().size(), 1u);
@@ -272,6 +273,19 @@ TEST_F(WindowView, RecordingsAreEvenSequences) {
   EXPECT_FALSE(fs::exists(home_.pictures()[0] / "00002.png"));
   EXPECT_EQ(status(), "Recorded 2 frames at 30 a second in " + home_.pictures()[0].string());
   EXPECT_EQ(workspace_->frameSeconds(1.0), 1.0);
+}
+
+// The window's title is in no recorded picture.
+TEST_F(WindowView, TitleSaysThatFramesAreRecorded) {
+  for (const bool withPanels : {false, true}) {
+    send(ToggleRecording{withPanels});
+    EXPECT_EQ(host_.title, "Recording, F10 stops - workspace - Speculum");
+    setExposure(withPanels ? 2.0 : 3.0);
+    EXPECT_EQ(host_.title, "Recording, F10 stops - workspace* - Speculum");
+    send(ToggleRecording{withPanels});
+    send(Undo{});
+    EXPECT_EQ(host_.title, "workspace - Speculum");
+  }
 }
 
 TEST_F(WindowView, CapturesThatFailSaySo) {

@@ -48,8 +48,10 @@ std::string Capture::record(const Image8& picture) {
   try {
     writePng(*folder_ / fmt::format("{:05}.png", frames_), picture);
     ++frames_;
-    recorded_ = fmt::format("Recorded {} {} at {} a second in {}", frames_, frames_ == 1 ? "frame" : "frames",
-                            framesPerSecond, folder_->string());
+    const std::string frames = fmt::format("{} {} at {} a second in {}", frames_, frames_ == 1 ? "frame" : "frames",
+                                           framesPerSecond, folder_->string());
+    recorded_ = "Recorded " + frames;
+    return "Recording: " + frames + ". F10 stops.";
   } catch (const std::exception& error) {
     recorded_ = "Recording ended after " + std::to_string(frames_) + " frames: " + error.what();
     folder_.reset();

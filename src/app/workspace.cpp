@@ -17,8 +17,9 @@ struct Overloaded : Functions... {
 template <typename... Functions>
 Overloaded(Functions...) -> Overloaded<Functions...>;  // clang needs it before version 17
 
-std::string windowTitle(const EditView& edit) {
-  return edit.scene->file.stem().string() + (edit.unsaved ? "* - Speculum" : " - Speculum");
+std::string windowTitle(const EditView& edit, bool recording) {
+  return (recording ? "Recording, F10 stops - " : "") + edit.scene->file.stem().string() +
+         (edit.unsaved ? "* - Speculum" : " - Speculum");
 }
 
 }  // namespace
@@ -209,8 +210,8 @@ double Workspace::aspect() const {
 
 void Workspace::prepareView(double seconds, bool pointerOverPicture) {
   document_->fill(edit_, settings_);
-  if (title_ != windowTitle(edit_)) {
-    host_.setTitle(title_ = windowTitle(edit_));
+  if (const std::string title = windowTitle(edit_, capture_.recording()); title_ != title) {
+    host_.setTitle(title_ = title);
   }
   edit_.overlay = {};
   if (edit_.selected) {
