@@ -425,6 +425,46 @@ TEST(MotionLevels, WordsSayWhatIsGivenUp) {
   EXPECT_EQ(motionText(Settings(), level), "simplified meshes (estimated error 0.05 FLIP)");
 }
 
+TEST(StillText, SaysTheErrorOfTheSettingsInForce) {
+  Scene scene;
+  EXPECT_EQ(stillText(scene, {}), "");
+  scene.lights = {{.castsShadow = true}};
+  Settings settings;
+  EXPECT_EQ(stillText(scene, settings), "") << "traced";
+  settings.effects.shadowLookup = ShadowLookup::map;
+  for (const int texels : {64, 1024, 4096}) {
+    settings.effects.shadowMapSize = texels;
+    EXPECT_EQ(stillText(scene, settings), "shadow outlines within a texel of the map, 1/" + std::to_string(texels / 2) +
+                                              " of the distance from the light");
+  }
+}
+
+// Of random scenes and settings: it tells of maps exactly where a plan uses them.
+TEST(StillText, AgreesWithThePlan) {
+  std::mt19937 random(3);
+  const auto chance = [&](double share) { return std::bernoulli_distribution(share)(random); };
+  std::map<bool, int> found;
+  for (int run = 0; run < 200; ++run) {
+    Scene scene = parseScene("scene.toml",
+                             "[camera]\nposition = [0, 0, 4]\ntarget = [0, 0, 0]\n"
+                             "[[mirror]]\nposition = [0, 0, -1]\nsize = [4, 4]\nreflectance = [0.5, 0.5, 0.5]\n"
+                             "base_color = [0.1, 0.1, 0.1]\n");
+    scene.mirrors[0].castsLight = chance(0.2);
+    scene.lights.resize(chance(0.2) ? 17 : 1 + run % 3, {.position = {0.0, 0.5, 1.0}, .intensity = 1.0});
+    for (PointLight& light : scene.lights) {
+      light.castsShadow = chance(0.8);
+    }
+    Settings settings;
+    settings.effects.shadows = chance(0.8);
+    settings.effects.castsLight = chance(0.5);
+    settings.effects.shadowLookup = chance(0.8) ? ShadowLookup::map : ShadowLookup::traced;
+    const FramePlan plan = planFrame(scene, evaluate(scene, 0.0), settings, 64, 36);
+    EXPECT_EQ(contains(stillText(scene, settings), "shadow outlines"), plan.effects.shadowMaps) << run;
+    ++found[plan.effects.shadowMaps];
+  }
+  EXPECT_GT(std::min(found[true], found[false]), 30);
+}
+
 TEST(Movement, LastsAMomentAfterTheLastStep) {
   Movement movement;
   CameraPose camera;

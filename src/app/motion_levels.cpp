@@ -246,4 +246,26 @@ std::string motionText(const Settings& chosen, const MotionLevel& level) {
   return text.empty() ? "full quality" : text + fmt::format(" (estimated error {:.1g} FLIP)", level.error);
 }
 
+std::string stillText(const Scene& scene, const Settings& settings) {
+  const EffectSettings& effects = settings.effects;
+  const AskedEffects asked = askedEffects(scene, effects);
+  std::string text;
+  const auto add = [&](bool applies, const std::string& words) {
+    text += applies ? (text.empty() ? "" : ", ") + words : "";
+  };
+  // A texel of a face, which is 90 degrees wide.
+  add(asked.shadows && effects.shadowLookup == ShadowLookup::map && !asked.castsLight &&
+          shadowLights(scene).size() <= mostShadowMaps,
+      fmt::format("shadow outlines within a texel of the map, 1/{} of the distance from the light",
+                  effects.shadowMapSize / 2));
+  add(asked.curved && effects.curvedLookup == CurvedLookup::environment,
+      fmt::format("curved mirrors from maps of {} texels a side", effects.environmentSize));
+  add((asked.ripple && effects.rippleLookup == ReflectionSource::image) ||
+          (asked.rough && effects.roughLookup == ReflectionSource::image),
+      "ripples and blur only of what a smooth mirror shows");
+  add(settings.view.meshError > 0.0 || settings.reflection.meshError > 0.0,
+      fmt::format("objects within {:.2g} texels", std::max(settings.view.meshError, settings.reflection.meshError)));
+  return text;
+}
+
 }  // namespace speculum

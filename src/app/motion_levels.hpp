@@ -35,4 +35,8 @@ std::vector<MotionLevel> motionLevels(const Scene& scene, const Settings& chosen
 // Describes what a level gives up, such as "0.5 scale, 1 sample (estimated error 0.05 FLIP)", or "full quality".
 std::string motionText(const Settings& chosen, const MotionLevel& level);
 
+// Describes what a still picture of a scene approximates with these settings, and how closely; empty if it is exact as
+// docs/picture.md defines it, effects with noise in the mean.
+std::string stillText(const Scene& scene, const Settings& settings);
+
 }  // namespace speculum

@@ -94,7 +94,9 @@ void timeControls(PanelContext& ui) {
   if (ImGui::Checkbox("Pause", &paused)) {
     ui.send(SetPaused{paused});
   }
-  recordWidget(ui, "pause", "Pauses the animation (Space). The picture then becomes exact.");
+  recordWidget(
+      ui, "pause",
+      "Pauses the animation (Space). The picture then converges, and the line below says what it approximates.");
   const float width = 6.0f * ImGui::GetFontSize();
   continueRow("Speed", width);
   float speed = static_cast<float>(playback.speed);
