@@ -142,6 +142,70 @@ TEST_F(PanelTest, NarrowDisplaysHaveOneColumn) {
   EXPECT_GT(widget("edit.add_mirror").x, 450) << "back at its own edge";
 }
 
+// Returns the share of the display that windows cover, each window's part of another counted once.
+double coveredShare() {
+  const ImVec2 display = ImGui::GetIO().DisplaySize;
+  constexpr int steps = 200;
+  int covered = 0;
+  for (int i = 0; i < steps * steps; ++i) {
+    const ImVec2 p((i % steps + 0.5f) * display.x / steps, (i / steps + 0.5f) * display.y / steps);
+    covered += std::ranges::any_of(ImGui::GetCurrentContext()->Windows, [&](const ImGuiWindow* window) {
+      return window->Active && !window->Hidden && !window->ParentWindow && window->Rect().Contains(p) &&
+             std::string_view(window->Name).find("Debug##") == std::string_view::npos;
+    });
+  }
+  return static_cast<double>(covered) / (steps * steps);
+}
+
+class FirstClick : public PanelTest {
+ protected:
+  // Lays panels out at this scale of a monitor, with the program's font.
+  void show(float width, float height, float scale) {
+    ImGui::GetIO().FontGlobalScale = 15.0f * scale / 13.0f;
+    resize(width, height);
+    scene_ = loadScene(sourceFile("scenes/gallery.toml"));
+    run(3);
+  }
+  void clickNode() {
+    edit_.selected = {Selection::Kind::mirror, 0};
+    windows_->openInspector();
+    run(5);
+  }
+};
+
+TEST_F(FirstClick, LeavesMostOfTheWindowToTheScene) {
+  for (const auto& [width, height, scale] :
+       {std::tuple(1280.0f, 720.0f, 1.0f), std::tuple(1280.0f, 720.0f, 2.0f), std::tuple(1600.0f, 900.0f, 1.25f),
+        std::tuple(1024.0f, 768.0f, 1.0f), std::tuple(1366.0f, 768.0f, 1.5f), std::tuple(2560.0f, 1440.0f, 2.0f)}) {
+    SCOPED_TRACE(testing::Message() << width << " x " << height << " at " << scale);
+    show(width, height, scale);
+    EXPECT_LT(coveredShare(), 0.44);
+    clickNode();
+    EXPECT_LT(coveredShare(), 0.33);
+    EXPECT_TRUE(has("edit.name")) << "the fields are in sight";
+    windows_->toggleInspector();
+    run(5);
+    EXPECT_TRUE(has("time")) << "the main panel is back";
+  }
+}
+
+TEST_F(FirstClick, FoldedPanelIsUnfoldedByAClick) {
+  show(1280, 720, 1.0f);
+  clickNode();
+  EXPECT_FALSE(has("time"));
+  moveTo(24, ImGui::GetFrameHeight() + 24);  // the arrow of its title
+  press();
+  EXPECT_TRUE(has("time") && has("edit.name")) << "as the user wishes";
+  windows_->toggleInspector();
+  EXPECT_TRUE(has("time"));
+}
+
+TEST_F(FirstClick, LargeDisplaysKeepBothPanels) {
+  show(2560, 1440, 1.0f);
+  clickNode();
+  EXPECT_TRUE(has("time") && has("edit.name"));
+}
+
 TEST_F(PanelTest, HeldWidgetsStayHeldWhenLabelsMove) {
   edit_.selected = {Selection::Kind::mirror, 0};
   windows_->toggleInspector();
@@ -864,6 +928,7 @@ class Inspector : public PanelTest {
  protected:
   Inspector() {
     edit_.models = {"/models/ball.obj", "/models/vase.obj"};
+    resize(900, 1000);  // has room for all fields
     windows_->toggleInspector();
     run(3);
   }

@@ -183,7 +183,7 @@ void inspector(PanelContext& ui, PanelDock& dock) {
     ImGui::SetNextWindowFocus();
   }
   ImGui::SetNextWindowBgAlpha(1.0f);
-  if (dock.begin(inspectorTitle, &ui.state.choices.inspector, PanelDock::Edge::right, inspectorEms,
+  if (dock.begin(inspectorTitle, &ui.state.choices.inspector, PanelDock::Edge::right, modestEms(inspectorEms),
                  ui.state.openedAt ? ImGuiWindowFlags_NoMouseInputs : 0)) {
     nodeList(ui);
     addButtons(ui);

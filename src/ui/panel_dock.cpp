@@ -126,7 +126,7 @@ WindowRect PanelDock::freeRect() const {
   float left = 0.0f;
   float right = display.x;
   for (const Panel* panel : order_) {
-    if (panel->docked && panel->shown) {
+    if (panel->docked && panel->shown && !panel->collapsed) {
       const WindowRect& place = panel->given;
       columns_.edgeOf(*panel) == Edge::left ? void(left = std::max(left, place.corner.x + place.size.x))
                                             : void(right = std::min(right, place.corner.x));

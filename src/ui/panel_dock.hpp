@@ -3,6 +3,7 @@
 #include <array>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "ui/panel_layout.hpp"
@@ -27,6 +28,8 @@ class PanelDock {
   // Calls ImGui::Begin with a size in sizes of the font; a height of 0 reaches down to the display's edge. Call
   // ImGui::End whatever it returns.
   bool begin(const char* name, bool* open, Edge edge, const glm::vec2& ems, int windowFlags = 0);
+  // Folds a window to its title, or unfolds it. Returns whether it was folded.
+  bool fold(const char* name, bool folded) { return std::exchange(panels_[name].collapsed, folded); }
   // Says whether a window that is closed would cover the place when it opens.
   bool wouldCover(const char* name, Edge edge, const glm::vec2& ems, const glm::vec2& place) const;
   // Display without the docked windows.

@@ -11,6 +11,7 @@
 
 namespace speculum {
 
+constexpr const char* mainTitle = "Speculum";
 constexpr float clickReach = 6.0f;  // pixels within which clicks repeat each other
 
 PanelWindows::PanelWindows()
@@ -38,6 +39,9 @@ UiOutput PanelWindows::build(const UiView& view) {
     state_.openedAt.reset();
   }
   panels::loading(ui);
+  if (!state_.choices.inspector && std::exchange(foldedMain_, false)) {
+    dock_.fold(mainTitle, false);
+  }
   dock_.beginFrame(visible_ ? ImGui::GetFrameHeight() : 0.0f, std::max(panels::statusHeight(), statusHeight_),
                    !visible_);
   if (visible_) {
@@ -76,7 +80,7 @@ UiOutput PanelWindows::build(const UiView& view) {
 }
 
 void PanelWindows::mainPanel(PanelContext& ui) {
-  if (dock_.begin("Speculum", nullptr, PanelDock::Edge::left, {28.0f, 0.0f})) {
+  if (dock_.begin(mainTitle, nullptr, PanelDock::Edge::left, panels::modestEms({28.0f, 0.0f}))) {
     ImGui::PushItemWidth(-10.5f * ImGui::GetFontSize());  // the rest is for the labels
     statusWidth_ = ImGui::GetWindowWidth();
     panels::scene(ui);
@@ -215,12 +219,15 @@ void PanelWindows::openInspector() {
   if (!std::exchange(state_.choices.inspector, true)) {
     const ImVec2 pointer = ImGui::GetIO().MousePos;
     state_.openedAt = glm::vec2(pointer.x, pointer.y);
+    const float left = dock_.freeRect().size.x - panels::inspectorEms.x * ImGui::GetFontSize();
+    foldedMain_ = left < 0.5f * ImGui::GetIO().DisplaySize.x && !dock_.fold(mainTitle, true);
   }
 }
 
 bool PanelWindows::inspectorCovers(const glm::vec2& place) const {
   return visible_ && !state_.choices.inspector &&
-         dock_.wouldCover(panels::inspectorTitle, PanelDock::Edge::right, panels::inspectorEms, place);
+         dock_.wouldCover(panels::inspectorTitle, PanelDock::Edge::right, panels::modestEms(panels::inspectorEms),
+                          place);
 }
 
 WindowRect PanelWindows::freeRect() const {

@@ -48,6 +48,7 @@ class PanelWindows {
   float statusWidth_ = 0.0f;  // pixels
   float statusHeight_ = 0.0f;
   bool visible_ = true;
+  bool foldedMain_ = false;  // the inspector folded the main panel when it opened
 };
 
 }  // namespace speculum

@@ -329,6 +329,13 @@ void message(PanelContext& ui, const WindowRect& picture) {
   ImGui::End();
 }
 
+glm::vec2 modestEms(const glm::vec2& ems) {
+  const ImVec2 display = ImGui::GetIO().DisplaySize;
+  const glm::vec2 room = glm::vec2(display.x, display.y) / ImGui::GetFontSize();
+  const float width = std::min(ems.x, std::max(18.0f, 0.42f * room.x));
+  return {width, std::min(ems.y, std::max(12.0f, 0.24f * room.x * room.y / width))};
+}
+
 std::string milliseconds(double ms) {
   return std::isnan(ms) ? "-" : fmt::format("{:.{}f}", ms, ms < 10.0 ? 2 : ms < 100.0 ? 1 : 0);
 }

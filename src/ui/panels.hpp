@@ -75,7 +75,10 @@ namespace panels {
 
 inline constexpr const char* helpTitle = "Keys";
 inline constexpr const char* inspectorTitle = "Inspector";
-inline constexpr glm::vec2 inspectorEms{25.0f, 46.0f};  // its size, in sizes of the font
+// Returns a size in sizes of the font for a window that would be so large on a large display; on a small one it takes
+// no more of the width than necessary and a quarter of the display. A height of 0 stays.
+glm::vec2 modestEms(const glm::vec2& ems);
+inline constexpr glm::vec2 inspectorEms{25.0f, 46.0f};
 
 // The main menu bar.
 void menus(PanelContext& ui);            // File, Edit and View
