@@ -1,5 +1,10 @@
+#include <cstdio>
+
+#include "app/first_pictures.hpp"
 #include "app/pace.hpp"
+#include "frame/frame_plan.hpp"
 #include "frame/picture_tiles.hpp"
+#include "scene/scene_loader.hpp"
 #include "test_headers.hpp"
 
 namespace speculum {
@@ -600,6 +605,93 @@ TEST_F(PacedScene, PartsAreWaitedFor) {
   EXPECT_EQ(scaleAfter(true, 1.0, 0.6 * budget, 0.0), 1.0);
   EXPECT_LT(scaleAfter(false, 0.6 * budget, 0.6 * budget, 0.0), 1.0);
   EXPECT_EQ(scaleAfter(false, 0.6 * budget, 0.0, 0.0), 1.0) << "drawn while the program works";
+}
+
+// Opens a scene whose frames take `fullMs` with four samples in full resolution.
+class OpenedScene : public PacedScene {
+ protected:
+  void open(double fullMs) {
+    budgetMs_ = budget;
+    seconds_ = 0.05;
+    side_ = 960;
+    pace_ = Pace(true, 1 + 4);
+    opening_.begin(true, true);
+    moves_ = true;
+    number_ = 0;
+    for (int i = 0; i < 40 || (i < 2000 && opening_.covered()); ++i) {
+      draw(fullMs);
+    }
+  }
+  void draw(double fullMs) {
+    const FittedPlan fitted = frame(moves_);
+    ++number_;
+    pace_.drawn(number_, 1.0, 0.0, number_ > 2);  // the first frames compile
+    const double scale = planned_.view.scale;
+    const double ms = fullMs * scale * scale * planned_.view.samples / 4.0;
+    pace_.finished({.frame = number_, .gpuMs = fitted.plan.tiles ? 2.0 * budget : ms});
+    if (opening_.drawn(pace_.playCost(), moves_, endsPicture(fitted.plan) && !pace_.lowers())) {
+      moves_ = false;
+      stoodAt_ = number_;
+    }
+  }
+
+  FirstPictures opening_;
+  bool moves_ = true;
+  uint64_t stoodAt_ = 0;
+};
+
+TEST_F(OpenedScene, MovesUnaskedWhereTheDeviceCanMoveIt) {
+  std::mt19937 random(2);
+  for (int run = 0; run < 12; ++run) {
+    const bool slow = run % 2 == 0;
+    // One sample of a quarter of the pixels takes a sixteenth.
+    const double sixteenth =
+        slow ? std::uniform_real_distribution(70.0, 400.0)(random) : std::uniform_real_distribution(0.1, 35.0)(random);
+    SCOPED_TRACE(sixteenth);
+    open(16.0 * sixteenth);
+    EXPECT_EQ(moves_, !slow);
+    EXPECT_EQ(opening_.holds(), slow);
+    EXPECT_FALSE(opening_.covered()) << "it moves, or is drawn in full";
+    ASSERT_TRUE(pace_.playCost());
+    double rate = 0.0;
+    double scale = 0.0;
+    EXPECT_EQ(
+        std::sscanf(pace_.playCost()->c_str(), "Play (about %lf frames/s at %lf of the resolution)", &rate, &scale),
+        slow ? 2 : -1);
+    if (slow) {
+      EXPECT_LE(stoodAt_, 15u);
+      EXPECT_NEAR(scale, std::max(0.25, 0.5 * std::sqrt(budget / sixteenth)), 0.15 * scale);
+      EXPECT_NEAR(1000.0 / rate, 4.0 * scale * scale * sixteenth, 0.3 * 1000.0 / rate);
+    }
+  }
+}
+
+TEST(FirstPictures, StaysCoveredUntilThereIsAGoodPicture) {
+  FirstPictures opening;
+  opening.begin(true, true);
+  EXPECT_FALSE(opening.drawn(std::nullopt, true, true)) << "nothing is known yet";
+  EXPECT_TRUE(opening.covered());
+  EXPECT_TRUE(opening.drawn("Play", true, false));
+  EXPECT_FALSE(opening.drawn("Play", false, false)) << "only once";
+  EXPECT_TRUE(opening.covered()) << "a draft";
+  opening.drawn("Play", false, true);
+  EXPECT_FALSE(opening.covered());
+  EXPECT_TRUE(opening.holds());
+  opening.drawn("Play", true, false);
+  EXPECT_FALSE(opening.holds()) << "the user plays it";
+  opening.begin(false, true);
+  EXPECT_FALSE(opening.drawn("Play", false, false)) << "nothing moves";
+  EXPECT_TRUE(opening.covered());
+  opening.uncover();
+  EXPECT_FALSE(opening.covered());
+  opening.begin(true, true);
+  EXPECT_FALSE(opening.drawn("", true, false)) << "fast enough";
+  EXPECT_FALSE(opening.covered());
+  opening.begin(true, true);
+  for (int i = 0; i < 100; ++i) {
+    EXPECT_FALSE(opening.drawn(std::nullopt, true, true)) << "never known";
+  }
+  EXPECT_FALSE(opening.covered());
 }
 
 TEST_F(PacedScene, StillPicturesConvergeOnce) {

@@ -1,4 +1,6 @@
 // The window draws when something changes, and only then; what it measures meanwhile.
+#include <imgui_internal.h>
+
 #include "journeys_support.hpp"
 #include "platform/folders.hpp"
 #include "test_paths.hpp"
@@ -192,6 +194,68 @@ TEST_F(IdleWindow, StillPicturesConvergeAndMotionIsLowered) {
   demo_->apply(SetSettings{settings});
   EXPECT_LT(drag(width - 160), 0.27);
   EXPECT_TRUE(rightOfThePanel() == exact);
+}
+
+// A window that has this time for moving frames.
+class PacedWindow : public Journey {
+ protected:
+  explicit PacedWindow(const char* motionMs = "0.01") : Journey(wallScene, paced(motionMs)) {}
+
+  static Options paced(const char* motionMs) {
+    Options options = idle();
+    options.settings.emplace_back("quality.motion_ms", motionMs);
+    return options;
+  }
+  // Returns the mean color of a square.
+  static glm::dvec3 meanOf(const Image8& image, const glm::ivec2& middle, int half) {
+    glm::dvec3 sum(0.0);
+    for (int i = 0; i < 4 * half * half; ++i) {
+      const uint8_t* code = image.at(middle.x - half + i % (2 * half), middle.y - half + i / (2 * half));
+      sum += glm::dvec3(code[0], code[1], code[2]);
+    }
+    return sum / (4.0 * half * half);
+  }
+};
+
+TEST_F(PacedWindow, SlowScenesOpenStillBelowTheirThumbnail) {
+  demo_->apply(OpenScene{sceneFile("no_mirror")});
+  ASSERT_TRUE(waitFor([&] { return shownScene().name == "no_mirror"; }));
+  const Image8 thumbnail = readImage8(sourceFile("scenes/thumbnails/no_mirror.jpg"));
+  int covered = 0;
+  EXPECT_TRUE(waitFor([&] {
+    if (view().browser.poster && ++covered == 3) {
+      const float left = ImGui::FindWindowByName("Speculum")->Rect().Max.x;
+      const float scale = std::min(28.0f * ImGui::GetFontSize(), 0.9f * (width - left)) / 192.0f;
+      const glm::ivec2 middle(0.5f * (left + width), 0.5f * (ImGui::GetFrameHeight() + height));
+      const glm::dvec3 shown = meanOf(picture(), middle, static_cast<int>(20 * scale));
+      EXPECT_LT(glm::distance(shown, meanOf(thumbnail, {96, 54}, 20)), 8.0);
+    }
+    return view().playback.paused;
+  }));
+  EXPECT_GE(covered, 3);
+  EXPECT_EQ(view().playback.time, 0.0);
+  EXPECT_TRUE(startsWith(view().playback.cost, "Play (about "));
+  settle();
+  EXPECT_FALSE(view().browser.poster);
+  EXPECT_EQ(demo_->frameSettings().view.scale, 1.0) << "the whole picture";
+  click("play");
+  run(10);
+  EXPECT_FALSE(view().playback.paused);
+  EXPECT_GT(view().playback.time, 0.0);
+}
+
+class FastWindow : public PacedWindow {
+ protected:
+  FastWindow() : PacedWindow("100000") {}
+};
+
+TEST_F(FastWindow, ScenesOpenMoving) {
+  demo_->apply(OpenScene{sceneFile("no_mirror")});
+  ASSERT_TRUE(waitFor([&] { return shownScene().name == "no_mirror"; }));
+  run(12);
+  EXPECT_FALSE(view().playback.paused || view().browser.poster);
+  EXPECT_EQ(view().playback.cost, "");
+  EXPECT_GT(view().playback.time, 0.0);
 }
 
 // Without a mirror there is little to vary, and the measurement is soon done. It runs while nothing else does, and so

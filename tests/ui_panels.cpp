@@ -206,6 +206,16 @@ TEST_F(FirstClick, LargeDisplaysKeepBothPanels) {
   EXPECT_TRUE(has("time") && has("edit.name"));
 }
 
+TEST_F(PanelTest, SlowScenesOfferToPlay) {
+  playback_.cost = "Play (about 20 frames/s at 0.44 of the resolution)";
+  EXPECT_FALSE(has("play")) << "it plays";
+  playback_.paused = true;
+  EXPECT_TRUE(shows(playback_.cost));
+  EXPECT_FALSE(clickFor<SetPaused>("play").paused);
+  playback_.cost.clear();
+  EXPECT_FALSE(has("play"));
+}
+
 TEST_F(PanelTest, HeldWidgetsStayHeldWhenLabelsMove) {
   edit_.selected = {Selection::Kind::mirror, 0};
   windows_->toggleInspector();

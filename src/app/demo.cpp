@@ -83,6 +83,7 @@ bool Demo::stepOnce() {
     return !shouldClose();
   }
   if (std::exchange(sceneIsNew_, false)) {
+    beginOpening();
     presentPanels();
   }
   const double sinceLastMs = pacer_.beginFrame(seconds);
@@ -106,12 +107,32 @@ void Demo::updateUi(double seconds) {
   workspace_.advance(seconds);
 }
 
+void Demo::beginOpening() {
+  if (first_.holds()) {
+    apply(SetPaused{false});
+  }
+  const bool paced = options_.frames == 0 && budgetMs() > 0.0;
+  first_.begin(paced && workspace_.animates(), paced && device_.info().isCpu());
+  workspace_.setPlayCost("");
+  workspace_.browser().showPoster(true);
+}
+
+void Demo::continueOpening(const FramePlan& plan) {
+  if (first_.drawn(pace_.playCost(), workspace_.animates(), endsPicture(plan) && !pace_.lowers())) {
+    apply(SetPaused{true});
+    apply(Seek{0.0});
+  }
+  workspace_.setPlayCost(pace_.playCost().value_or(""));
+  workspace_.browser().showPoster(first_.covered());
+}
+
 // Draws the panels alone before a scene's first picture, which may take long.
 void Demo::presentPanels() {
-  workspace_.setPictureText("Drawing " + workspace_.scene().file.filename().string() + "...");
+  workspace_.setPictureText(drawingText());
   updateUi(0.0);
   if (std::optional<Frame> frame = renderer_.beginFrame()) {
     endWithPanels(*frame);
+    workspace_.browser().showPoster(first_.covered());
     if (framesDrawn_ == 0) {
       spdlog::info("panels shown {:.0f} ms after the start", millisecondsSinceStart());
     }
@@ -198,6 +219,7 @@ void Demo::drawFrame(double seconds, double sinceLastMs) {
   }
   framesDrawn_ += framesDrawn_ < std::numeric_limits<int>::max();
   pacer_.frameDrawn();
+  continueOpening(plan);
   const bool repeats = pace_.repeats() && !settings.view.continuous && options_.frames == 0;
   workspace_.report().update({workspace_.scene(), state, settings, plan, number, cpuMs, sinceLastMs, pace_.lowers(),
                               newPipelines || compiledBefore, repeats, workspace_.settings()},
@@ -237,7 +259,7 @@ const FittedPlan& Demo::planFrame(Frame& frame, const SceneState& state) {
                                         .shaders = renderer_.pipelines().revision(),
                                         .time = contentTime(workspace_.scene(), state.time),
                                         .size = pictureSize()},
-                              .budgetMs = recorded ? 0.0 : motionBudget(settings, device_.info().isCpu(), refreshHz_),
+                              .budgetMs = recorded ? 0.0 : budgetMs(),
                               .front = workspace_.accuracy().front(),
                               .simplifies = levels_.ready(workspace_.scene(), scenes_),
                               .input = changes_,
@@ -249,9 +271,18 @@ const FittedPlan& Demo::planFrame(Frame& frame, const SceneState& state) {
     return planner_.plan(frame, *sceneRenderer_, request.scene, state, lowered, picture, missing.has_value(),
                          settingsMove);
   });
-  const bool pauses = !pace_.text().empty() && workspace_.animates();
-  workspace_.setPictureText(pace_.text() + (pauses ? ". Space: pause for the exact picture" : ""));
+  workspace_.setPictureText(first_.covered() ? drawingText() : pictureText(request.scene, settings));
   return fitted;
+}
+
+// Returns the pace's text and what the picture approximates, or would if the animation were paused.
+std::string Demo::pictureText(const Scene& scene, const Settings& chosen) const {
+  const std::string& text = pace_.text();
+  const std::string rest = stillText(scene, chosen);
+  if (!text.empty() && workspace_.animates()) {
+    return text + ". Space: pause for the " + (rest.empty() ? "exact picture" : "whole picture (" + rest + ")");
+  }
+  return pace_.lowers() || rest.empty() ? text : text + (text.empty() ? "Approximate: " : "; approximate: ") + rest;
 }
 
 // Times passes one by one only at the start and the end of a change and every few frames, because that slows a frame.
@@ -353,6 +384,9 @@ void Demo::setPresentMode(size_t index) {
 
 void Demo::takeInput(const InputEvent& event) {
   using Kind = InputEvent::Kind;
+  if (event.kind == Kind::wheel || (event.down && (event.kind == Kind::key || event.kind == Kind::button))) {
+    first_.uncover();
+  }
   if (event.kind == Kind::key) {
     handleKey(event.key);
   } else if (event.kind == Kind::button && event.code <= static_cast<int>(MouseButton::middle)) {

@@ -2,6 +2,7 @@
 
 #include <chrono>
 
+#include "app/first_pictures.hpp"
 #include "app/frame_pacer.hpp"
 #include "app/frame_planner.hpp"
 #include "app/mesh_level_job.hpp"
@@ -73,6 +74,8 @@ class Demo : private WorkspaceHost {
   bool changing();
   bool idle();
   void updateUi(double seconds);
+  void beginOpening();
+  void continueOpening(const FramePlan& plan);
   void presentPanels();
   void endWithPanels(Frame& frame);
   void endFrame(Frame& frame);
@@ -80,6 +83,9 @@ class Demo : private WorkspaceHost {
   void drawFrame(double seconds, double sinceLastMs);
   std::optional<Pace::Target> missingTarget() const;
   const FittedPlan& planFrame(Frame& frame, const SceneState& state);
+  std::string drawingText() const { return "Drawing " + workspace_.scene().file.filename().string() + "..."; }
+  std::string pictureText(const Scene& scene, const Settings& chosen) const;
+  double budgetMs() const { return motionBudget(workspace_.settings(), device_.info().isCpu(), refreshHz_); }
   bool timesPasses(bool movementEnded);
   std::string currentMessage();
 
@@ -91,6 +97,7 @@ class Demo : private WorkspaceHost {
   std::unique_ptr<SceneRenderer> sceneRenderer_;
   FramePlanner planner_;
   Pace pace_;
+  FirstPictures first_;
   double refreshHz_;
   DeviceView deviceView_;
   std::unique_ptr<SimpleUI> ui_;

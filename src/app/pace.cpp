@@ -20,6 +20,8 @@ constexpr double tilesShare = 2.0;   // budgets for a frame with tiles and witho
 constexpr double leastShare = 0.1;   // of such a frame's time is its tiles'
 constexpr size_t mostDrawn = 4;      // frames whose times have not arrived
 constexpr size_t sentFrames = 8;     // frames of which one does not wait for the monitor
+constexpr int framesToKnow = 5;      // timed moving frames after which it is known what playing costs
+constexpr double leastMoved = 0.5;   // of the resolution, at which a scene is worth moving unasked
 
 Settings withPictures(Settings settings, int pictures) {
   settings.view.accumulate = pictures;
@@ -69,6 +71,9 @@ void Pace::planWithinBudget(const Request& request, const Planner& plan) {
     return work_;
   });
   lowers_ = level > 0;
+  if (learned_ >= framesToKnow) {
+    findPlayCost(levels, request);
+  }
   MotionLevel shown = levels[level];
   // A limit that leaves no image out costs no quality. Images below the chosen limit count too.
   const auto skips = [&](SkipReason reason) {
@@ -81,6 +86,20 @@ void Pace::planWithinBudget(const Request& request, const Planner& plan) {
     shown.settings.reflection.minPixels = chosen.reflection.minPixels;
   }
   text_ = motionText(chosen, shown);
+}
+
+// Looks for the best level that should fit: the controller rises to it by and by.
+void Pace::findPlayCost(std::span<const MotionLevel> levels, const Request& request) {
+  double ms = 0.0;
+  const auto fits = [&](const MotionLevel& level) {
+    ms = controller_.predict(scaledWork(work_, fitted_.settings, level.settings));
+    return ms <= request.budgetMs;
+  };
+  const auto best = std::min(std::ranges::find_if(levels, fits), levels.end() - 1);
+  const double scale = best->settings.view.scale / request.chosen.view.scale;
+  playCost_ = scale >= leastMoved
+                  ? ""
+                  : fmt::format("Play (about {:.2g} frames/s at {:.2g} of the resolution)", 1000.0 / ms, scale);
 }
 
 void Pace::planMoving(const Request& request, const Planner& plan) {
@@ -235,6 +254,7 @@ void Pace::finished(const FrameTimings& timings) {
     }
   } else if (found->work && timings.passes.empty()) {
     controller_.learn(*found->work, ms);
+    learned_ += moving();
   }
   drawn_.erase(drawn_.begin(), found + 1);
 }

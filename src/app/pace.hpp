@@ -46,7 +46,12 @@ class Pace {
 
   // Begins a frame. `otherwise` says that something besides the camera moves in it.
   void begin(const CameraPose& camera, bool otherwise, double seconds);
-  void sceneChanged() { movement_.restart(); }
+  void sceneChanged() {
+    movement_.restart();
+    drawn_.clear();
+    learned_ = 0;
+    playCost_.reset();
+  }
   bool moving() const { return movement_.moving(); }
   // Says whether another frame is needed although nothing happens.
   bool wantsFrame() const {
@@ -98,6 +103,10 @@ class Pace {
   // Call with the GPU's times of an earlier frame.
   void finished(const FrameTimings& timings);
 
+  // Returns the label of a button to play a scene that this device cannot move at half of its resolution, with the
+  // frames a second and the resolution to expect; empty for a faster device, nothing until it is known.
+  const std::optional<std::string>& playCost() const { return playCost_; }
+
   // Text for the user: what the picture gives up for its pace, or how far it has converged; empty if neither applies.
   const std::string& text() const { return text_; }
 
@@ -108,6 +117,7 @@ class Pace {
   void planStill(const Request& request, const Planner& plan);
   bool planFirst(const Request& request, const Planner& plan);
   void planPicture(const Request& request, const Planner& plan);
+  void findPlayCost(std::span<const MotionLevel> levels, const Request& request);
   void planTarget(const Request& request);
   void planTiles(const Request& request);
   std::string tilesText() const;
@@ -130,6 +140,8 @@ class Pace {
   double seconds_ = 0.0;  // since the last frame
   Clock::time_point begun_;
   std::deque<Drawn> drawn_;
+  int learned_ = 0;  // moving frames of this scene that were timed
+  std::optional<std::string> playCost_;
   std::deque<double> sendMs_;  // of the last frames, what presenting took beyond drawing
   FittedPlan fitted_;          // of the frame that was planned last
   FrameWork work_;             // of fitted_

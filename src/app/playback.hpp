@@ -18,6 +18,7 @@ class Playback {
     seek(view_.time + steps * timeStep);
   }
   void setPaused(bool paused) { view_.paused = paused; }
+  void setCost(const std::string& cost) { view_.cost = cost; }
   void setSpeed(double speed) { view_.speed = std::clamp(speed, slowestTime, fastestTime); }
   double after(double seconds) const { return view_.time + (view_.paused ? 0.0 : seconds * view_.speed); }
   void advance(double seconds) { view_.time = after(seconds); }

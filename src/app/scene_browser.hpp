@@ -36,6 +36,7 @@ class SceneBrowser {
   std::unique_ptr<LoadedScene> takeLoaded() { return load_.takeResult().value_or(nullptr); }
   std::optional<std::string> takeError() { return load_.takeError(); }
 
+  void showPoster(bool shown) { view_.poster = shown; }
   void updateView();  // once a frame, for the progress of loading
   const BrowserView& view() const { return view_; }
 

@@ -91,6 +91,7 @@ class Workspace {
   SceneBrowser& browser() { return opener_.browser(); }
   const Capture& capture() const { return capture_; }
   void setPictureText(const std::string& text) { status_.setPicture(text); }
+  void setPlayCost(const std::string& cost) { playback_.setCost(animated() ? cost : ""); }
   void setRefusedEdit(bool refused) { document_->setRefusedEdit(refused); }  // the panels show one
   FrameReport& report() { return report_; }
   const PointerController& pointer() const { return pointer_; }

@@ -45,7 +45,7 @@ void tile(PanelContext& ui, const Thumbnails& thumbnails, size_t index, const Im
   const ImVec2 low = ImGui::GetItemRectMin();
   const ImVec2 high(low.x + size.x, low.y + size.y);
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  if (!thumbnails.draw(index, {low.x, low.y}, {high.x, high.y})) {
+  if (!thumbnails.draw(list, index, {low.x, low.y}, {high.x, high.y})) {
     list.AddRectFilled(low, high, ImGui::GetColorU32(ImGuiCol_FrameBg), ImGui::GetStyle().FrameRounding);
     textWithin(scene.name, low, high, 0.5f);
   }
@@ -59,6 +59,24 @@ void tile(PanelContext& ui, const Thumbnails& thumbnails, size_t index, const Im
 }
 
 }  // namespace
+
+// Draws the shown scene's thumbnail with its title where panels leave room, if there is one.
+void poster(const PanelContext& ui, const Thumbnails& thumbnails, const WindowRect& picture) {
+  constexpr float ems = 28.0f;
+  const BrowserView& browser = ui.view.browser;
+  const float width = std::min(ems * ImGui::GetFontSize(), 0.9f * picture.size.x);
+  const glm::vec2 size(width, width / tileAspect);
+  const glm::vec2 low = glm::floor(picture.corner + 0.5f * (picture.size - size));
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  if (!browser.poster || !thumbnails.draw(list, browser.shown, low, low + size)) {
+    return;
+  }
+  list.AddRectFilled({0.0f, 0.0f}, ImGui::GetIO().DisplaySize, IM_COL32(20, 20, 23, 255));
+  thumbnails.draw(list, browser.shown, low, low + size);
+  const std::string title = captionOf(browser.scenes, browser.scenes[browser.shown]);
+  list.AddText({low.x + 0.5f * (width - textWidth(title)), low.y + size.y + 0.5f * ImGui::GetFontSize()},
+               IM_COL32_WHITE, title.c_str());
+}
 
 void gallery(PanelContext& ui, const Thumbnails& thumbnails) {
   const float gap = ImGui::GetStyle().ItemSpacing.x;

@@ -51,8 +51,10 @@ UiOutput PanelWindows::build(const UiView& view) {
     panels::besideTarget(ui, [&] { panels::passOutline(ui); });
     panels::help(ui);
     panels::inspector(ui, dock_);
+    panels::playOffer(ui, freeRect());
   }
   panels::besideTarget(ui, [&] { panels::editOverlay(view.edit.overlay, freeRect()); });
+  panels::poster(ui, thumbnails_, freeRect());
   if (state_.choices != savedChoices_) {
     savedChoices_ = state_.choices;
     savePanelChoices(savedChoices_);
@@ -215,6 +217,7 @@ void PanelWindows::toggleInspector() {
 }
 
 // Opens the inspector, which ignores the pointer until it moves: a further click at the same place is for the picture.
+// The main panel folds meanwhile unless both leave half of the display.
 void PanelWindows::openInspector() {
   if (!std::exchange(state_.choices.inspector, true)) {
     const ImVec2 pointer = ImGui::GetIO().MousePos;

@@ -336,6 +336,21 @@ glm::vec2 modestEms(const glm::vec2& ems) {
   return {width, std::min(ems.y, std::max(12.0f, 0.24f * room.x * room.y / width))};
 }
 
+void playOffer(PanelContext& ui, const WindowRect& picture) {
+  const PlaybackView& playback = ui.view.playback;
+  if (!playback.paused || playback.cost.empty()) {
+    return;
+  }
+  ImGui::SetNextWindowPos({picture.corner.x + 0.5f * picture.size.x,
+                           picture.corner.y + picture.size.y - statusHeight() - ImGui::GetFontSize()},
+                          ImGuiCond_Always, {0.5f, 1.0f});
+  if (ImGui::Begin("##play", nullptr, fixedWindow | ImGuiWindowFlags_AlwaysAutoResize)) {
+    commandButton(ui, playback.cost.c_str(), "play",
+                  "Plays the animation (Space) with as much quality as this device has time for.", SetPaused{false});
+  }
+  ImGui::End();
+}
+
 std::string milliseconds(double ms) {
   return std::isnan(ms) ? "-" : fmt::format("{:.{}f}", ms, ms < 10.0 ? 2 : ms < 100.0 ? 1 : 0);
 }

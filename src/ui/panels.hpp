@@ -104,10 +104,12 @@ bool hasTarget(const PassView& pass);
 void loading(PanelContext& ui);  // while something is loaded
 void help(PanelContext& ui);
 void inspector(PanelContext& ui, PanelDock& dock);
-void message(PanelContext& ui, const WindowRect& picture);  // an error, until it is dismissed
-void prompts(PanelContext& ui);                             // over all others, while a prompt is open
+void message(PanelContext& ui, const WindowRect& picture);    // an error, until it is dismissed
+void playOffer(PanelContext& ui, const WindowRect& picture);  // what playing costs, while it is paused
+void prompts(PanelContext& ui);                               // over all others, while a prompt is open
 
 // Drawn over the picture, behind all windows.
+void poster(const PanelContext& ui, const Thumbnails& thumbnails, const WindowRect& picture);  // instead of the picture
 void passOutline(const PanelContext& ui);  // around the mirror whose row is under the pointer
 // Call while the pointer is on a row of a mirror, which `path` leads to: outlines the mirror, and a click selects it.
 void mirrorRow(PanelContext& ui, const MirrorPath& path);

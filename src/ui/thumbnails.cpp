@@ -30,7 +30,7 @@ void Thumbnails::addTo(ImFontAtlas& atlas) {
   }
 }
 
-bool Thumbnails::draw(size_t picture, const glm::vec2& low, const glm::vec2& high) const {
+bool Thumbnails::draw(ImDrawList& list, size_t picture, const glm::vec2& low, const glm::vec2& high) const {
   if (picture >= rects_.size() || rects_[picture] < 0) {
     return false;
   }
@@ -38,8 +38,8 @@ bool Thumbnails::draw(size_t picture, const glm::vec2& low, const glm::vec2& hig
   ImVec2 first;
   ImVec2 last;
   atlas.CalcCustomRectUV(atlas.GetCustomRectByIndex(rects_[picture]), &first, &last);
-  ImGui::GetWindowDrawList()->AddImageRounded(atlas.TexID, {low.x, low.y}, {high.x, high.y}, first, last,
-                                              IM_COL32_WHITE, ImGui::GetStyle().FrameRounding);
+  list.AddImageRounded(atlas.TexID, {low.x, low.y}, {high.x, high.y}, first, last, IM_COL32_WHITE,
+                       ImGui::GetStyle().FrameRounding);
   return true;
 }
 

@@ -4,6 +4,7 @@
 
 #include "image/image.hpp"
 
+struct ImDrawList;
 struct ImFontAtlas;
 
 namespace speculum {
@@ -16,8 +17,8 @@ class Thumbnails {
 
   // Packs the pictures with the fonts. Call it after the fonts are added and before the atlas is uploaded.
   void addTo(ImFontAtlas& atlas);
-  // Draws a picture into a rectangle of the screen with the current window's draw list. Returns false if there is none.
-  bool draw(size_t picture, const glm::vec2& low, const glm::vec2& high) const;
+  // Draws a picture into a rectangle of the screen. Returns false if there is none.
+  bool draw(ImDrawList& list, size_t picture, const glm::vec2& low, const glm::vec2& high) const;
 
  private:
   std::vector<Image8> pictures_;

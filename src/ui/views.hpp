@@ -100,6 +100,7 @@ struct BrowserView {
   size_t shown = 0;                           // index into them
   std::string loading;                        // file that is read in the background; empty: none
   double loaded = 0.0;                        // share of it, 0 .. 1
+  bool poster = false;                        // the shown scene's thumbnail stands in the picture's place
   std::vector<std::filesystem::path> recent;  // opened or saved, the last one first
 };
 
@@ -116,6 +117,7 @@ struct PlaybackView {
   double time = 0.0;   // seconds of animation
   double speed = 1.0;  // seconds of animation a second
   bool paused = false;
+  std::string cost;  // label of a button to play, with what that costs; empty: nothing to speak of
 };
 
 // Drawn over the picture, in its pixels.

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace speculum {
+
+// How a scene is shown at first: it moves at once, but where that proves too slow it stands until the user plays it. A
+// CPU device draws its first pictures below the scene's thumbnail.
+class FirstPictures {
+ public:
+  // Begins with another scene. `moves`: by itself, at a pace. `covered`: until there is a good picture.
+  void begin(bool moves, bool covered) {
+    triesLeft_ = moves ? mostTries : 0;
+    covered_ = covered;
+    holds_ = false;
+  }
+  // Call after each frame: with Pace::playCost(), whether the scene moves by itself, and whether the frame was a
+  // complete picture in full quality. Returns true if the scene is to go back and stand.
+  bool drawn(const std::optional<std::string>& playCost, bool moves, bool complete) {
+    const bool tried = triesLeft_ > 0;
+    triesLeft_ = moves && !playCost ? triesLeft_ - tried : 0;
+    const bool stands = tried && moves && !playCost.value_or("").empty();
+    holds_ = stands || (holds_ && !moves);
+    covered_ = covered_ && (tried ? triesLeft_ > 0 || stands || !moves : !complete);
+    return stands;
+  }
+  void uncover() { covered_ = false; }  // the user acts
+
+  bool covered() const { return covered_; }
+  bool holds() const { return holds_; }  // the scene stands, and nobody has played it yet
+
+ private:
+  static constexpr int mostTries = 60;
+
+  int triesLeft_ = 0;  // frames in which the cost of playing may become known
+  bool covered_ = false;
+  bool holds_ = false;
+};
+
+}  // namespace speculum
