@@ -181,6 +181,7 @@ TEST_F(Journey, InputBetweenFramesGoesWhereMeant) {
   EXPECT_EQ(view().edit.prompt, Prompt::none);
   press("n");
   ASSERT_TRUE(view().edit.selected);
+  press("F2");  // closes the inspector, so that the main panel unfolds
   const PixelRect box = widget("pause");
   moveTo(width / 2, 30);
   // Sends all events before the next frame.
@@ -339,6 +340,7 @@ TEST_F(TwoMirrors, PointedPassesAndMirrorsAreOutlined) {
   };
   gone();
   demo_->apply(Undo{});
+  demo_->apply(ToggleInspector{});  // closes it, so that the main panel unfolds
   run(4);
   scrollTo("skipped.door");
   const PixelRect again = widget("skipped.door");
