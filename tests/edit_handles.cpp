@@ -90,6 +90,43 @@ TEST(GizmoHandles, SizeIsTheSameAtEveryDistance) {
   }
 }
 
+// Mirrors that are smaller than the handles, seen directly or in another mirror.
+TEST(GizmoHandles, AreWholeBeyondTheirMirrorsEdge) {
+  rc::check([] {
+    Scene scene = emptyScene();
+    scene.mirrors.push_back({.position = {0, 0, -2}, .rotation = {0, uniform(-15, 15), 0}});
+    scene.mirrors.back().size = glm::dvec2(uniform(0.05, 0.4), uniform(0.05, 0.4));
+    scene.mirrors.push_back({.position = {0, 0, 5}, .rotation = {0, 180, 0}, .size = {19, 9}});
+    const SceneState state = evaluate(scene, 0.0);
+    const std::vector<int> path = *rc::gen::elementOf(std::vector<std::vector<int>>{{0}, {0, 1}, {}});
+    const auto picture = lookingAt({0, 0, 1.5}, {0, 0, -2}).through(scene, state, path);
+    RC_PRE(picture);
+    const glm::dvec3 pivot = inBox(0.5);
+    const auto mode = static_cast<GizmoMode>(*rc::gen::inRange(0, 3));
+    std::map<Grip, size_t> lines;
+    std::map<Grip, glm::dvec2> ends;
+    const std::vector<GizmoShape> shapes = Gizmo(mode, pivot, arm).shapes(*picture);
+    RC_PRE(!shapes.empty());
+    for (const GizmoShape& shape : shapes) {
+      if (!shape.filled) {
+        lines[shape.handle] += shape.points.size() / 2;
+        ends[shape.handle] = shape.points.empty() ? glm::dvec2(-1e9) : shape.points.back();
+      }
+    }
+    for (const GizmoShape& shape : shapes) {
+      const auto end = ends.find(shape.handle);
+      if (shape.filled && end != ends.end()) {
+        const size_t corner = modeOf(shape.handle) == GizmoMode::scale ? 0 : 1;
+        RC_ASSERT(glm::distance(0.5 * (shape.points[corner] + shape.points[corner + (corner == 0 ? 2 : 1)]),
+                                end->second) < 1e-6);
+      }
+    }
+    for (const auto& [handle, count] : lines) {
+      RC_ASSERT(count == (mode == GizmoMode::turn ? 72u : 1u));
+    }
+  });
+}
+
 TEST(GizmoHandles, HandlesTowardsTheEyeAreHidden) {
   const PictureView picture = lookingAt({0, 0, 4}, {0, 0, 0});
   for (const GizmoShape& shape : Gizmo(GizmoMode::move, {0, 0, 0}, arm).shapes(picture)) {

@@ -47,7 +47,8 @@ struct GizmoShape {
 };
 
 // Handles around a point, of the same size on the picture at every distance: along the world's axes, or those of the
-// node for scaling. In a PictureView through mirrors they surround the point's mirror image.
+// node for scaling. In a PictureView through mirrors they surround the point's mirror image, whole even beyond the
+// mirror's edge: they belong to no surface, and a part that is cut could not be grabbed.
 class Gizmo {
  public:
   // `pivot` in the world; `arm`: length of an axis and radius of a ring, pixels.

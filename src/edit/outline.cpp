@@ -57,7 +57,7 @@ std::vector<PixelLine> mirrorOutline(const MirrorState& mirror, const PictureVie
       clip ? clipPolygon(mirror.polygon, *clip) : Polygon(mirror.polygon.begin(), mirror.polygon.end());
   std::vector<PixelLine> lines;
   for (size_t i = 0; i < polygon.size(); ++i) {
-    add(lines, picture.line(polygon[i], polygon[(i + 1) % polygon.size()]));
+    add(lines, picture.clippedLine(polygon[i], polygon[(i + 1) % polygon.size()]));
   }
   return lines;
 }
@@ -86,7 +86,7 @@ std::vector<PixelLine> boxOutline(const InstanceState& instance, const glm::dvec
       glm::dvec3 other = at;
       other[axis] = -other[axis];
       if (at[axis] < 0.0) {
-        add(lines, picture.line(instance.worldFromMesh.point(at), instance.worldFromMesh.point(other)));
+        add(lines, picture.clippedLine(instance.worldFromMesh.point(at), instance.worldFromMesh.point(other)));
       }
     }
   }
@@ -125,7 +125,7 @@ std::optional<PixelLine> lineInFront(const PictureView& picture, glm::dvec3 a, g
       (da < 0.0 ? a : b) = glm::mix(a, b, da / (da - db));
     }
   }
-  return picture.line(a, b);
+  return picture.clippedLine(a, b);
 }
 
 // Returns the edges where the surface turns away from the eye; nothing if there are too many to draw.

@@ -81,7 +81,12 @@ std::optional<PixelLine> PictureView::line(const glm::dvec3& a, const glm::dvec3
   };
   const auto first = pixel(cut(b, a, depthB, depthA));
   const auto second = pixel(cut(a, b, depthA, depthB));
-  return first && second ? clipped({*first, *second}) : std::nullopt;
+  return first && second ? std::optional(PixelLine{*first, *second}) : std::nullopt;
+}
+
+std::optional<PixelLine> PictureView::clippedLine(const glm::dvec3& a, const glm::dvec3& b) const {
+  const auto whole = line(a, b);
+  return whole ? clipped(*whole) : std::nullopt;
 }
 
 // Clips as in Cyrus, Beck, "Generalized Two- and Three-Dimensional Clipping" (1978), for either winding.

@@ -34,9 +34,11 @@ class PictureView {
   // Fails for points nearer than the near plane.
   std::optional<glm::dvec2> pixel(const glm::dvec3& world) const;
   double metresPerPixel(const glm::dvec3& world) const;  // at its depth
-  // Clips to the part beyond the near plane and within the picture, or within the last mirror of the path.
+  // Cuts a line to its part beyond the near plane.
   std::optional<PixelLine> line(const glm::dvec3& a, const glm::dvec3& b) const;
+  // Clips a line to the picture, or to the last mirror of the path.
   std::optional<PixelLine> clipped(const PixelLine& line) const;
+  std::optional<PixelLine> clippedLine(const glm::dvec3& a, const glm::dvec3& b) const;  // line(), clipped
   bool sees(const glm::dvec3& center, double radius) const { return sphereVisible(view_, center, radius); }
 
  private:
