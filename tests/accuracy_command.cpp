@@ -1,5 +1,6 @@
 // `speculum accuracy` and what uses its results, as scripts call them.
 #include "accuracy/sweep_json.hpp"
+#include "app/session_subject.hpp"
 #include "command_support.hpp"
 #include "picture_support.hpp"
 #include "platform/files.hpp"
@@ -123,6 +124,41 @@ TEST_F(AccuracyCommand, MistakesAreOneLineAndExitTwo) {
   EXPECT_TRUE(contains(mistake({"render", "--scene", scene_, "--out", out("p.png"), "--set", "quality.budget_ms=3",
                                 "--sweep-results", out("bad.toml")}),
                        "not JSON"));
+}
+
+// Scenes of none to two mirrors, of which the second may stand where no path of light needs it.
+TEST(LeftOutConfigurations, DrawTheBytesOfOneThatIsKept) {
+  for (const int mirrors : {0, 1, 2}) {
+    std::string toml = wallScene.substr(0, wallScene.find("[[mirror]]"));
+    for (int i = 0; i < mirrors; ++i) {
+      toml += "[[mirror]]\n" + rectangleText({0.7 * i, 1.0, -1.5}, {0, 10.0 * i, 0}, 0.6, 0.9) + "\n";
+    }
+    Session session(headless(writeScene("left_out", toml), {64, 36}));
+    SweepPlan plan = viewSweep(sweepContext(session));
+    plan.repeats = 1;
+    const Settings base = session.settings();
+    const SceneState state = evaluate(session.scene(), 0.0);
+    SessionSubject subject(session, 0.0);
+    const TemporaryDirectory folder;
+    SweepStore store(folder.path());
+    const SweepScene scene{
+        .scene = session.scene(), .state = state, .width = 64, .height = 36, .noiseFloor = false, .truthSamples = 1};
+    SweepResults results;
+    ASSERT_TRUE(runSweep(plan, base, scene, subject, store, results, {}));
+    std::set<std::vector<uint8_t>> kept;
+    std::vector<std::pair<std::string, std::vector<uint8_t>>> leftOut;
+    for (const SweepConfiguration& configuration : plan.configurations) {
+      const bool isPoint = std::ranges::count(results.points, configuration.name, &SweepPoint::name) > 0;
+      const std::vector<uint8_t> bytes = subject.pictures(settingsWith(base, configuration.changes)).at(0).rgba;
+      isPoint ? void(kept.insert(bytes)) : leftOut.emplace_back(configuration.name, bytes);
+    }
+    EXPECT_EQ(std::ssize(leftOut), results.leftOut);
+    EXPECT_EQ(results.leftOut > 0, mirrors > 0) << mirrors;
+    EXPECT_GT(results.points.size(), 1u);
+    for (const auto& [name, bytes] : leftOut) {
+      EXPECT_TRUE(kept.contains(bytes)) << name << " with " << mirrors << " mirrors";
+    }
+  }
 }
 
 TEST_F(AccuracyCommand, BenchesTheReference) {

@@ -9,6 +9,7 @@
 #include "accuracy/sweep_plan.hpp"
 #include "accuracy/sweep_store.hpp"
 #include "error_message.hpp"
+#include "frame/setting_fields.hpp"
 #include "image/color.hpp"
 #include "image/picture_files.hpp"
 #include "platform/machine.hpp"
@@ -345,6 +346,60 @@ TEST_F(SmallSweep, InterruptedSweepContinues) {
     EXPECT_EQ(rest.results.points[i].whole.rmse, whole.points[i].whole.rmse) << "stored and traced anew are equal";
     EXPECT_EQ(rest.results.points[i].gpuMs.repeats, 15);
   }
+}
+
+// The tracer looks at the depth alone: settings of any other kind make no difference.
+TEST_F(SmallSweep, LeavesOutWhatDrawsTheSame) {
+  std::mt19937 random(11);
+  SweepPlanner planner("test", contextOf(true, false));
+  planner.series({.key = "reflection.scale", .name = "flat"}, {"0.5", "1", "2"}, SweepPlanner::Changes{});
+  planner.series({.key = "reflection.max_depth", .name = "depth"}, {"1", "2", "4"},
+                 SweepPlanner::Changes{{"view.samples", "1"}});
+  for (int i = 0; i < 12; ++i) {
+    const auto pick = [&](std::vector<std::string> values) { return values[random() % values.size()]; };
+    planner.add({{"reflection.max_depth", pick({"1", "2"})},
+                 {"view.samples", pick({"1", "4"})},
+                 {"reflection.clip", pick({"none", "oblique"})},
+                 {"effects.shadows", pick({"true", "false"})}});
+  }
+  plan_ = planner.plan;
+  const Run measured = run(folder_ / "store");
+  const SweepResults& results = measured.results;
+  ASSERT_EQ(results.points.size(), 3u) << "depths 1, 2 and 4";
+  EXPECT_EQ(results.leftOut + 3, std::ssize(plan_.configurations));
+  EXPECT_EQ(measured.timed, 3 * 15) << "only points are timed";
+  EXPECT_EQ(results.points[0].name, "base") << "the first of equals stays";
+  ASSERT_EQ(results.series.size(), 2u);
+  EXPECT_EQ(results.series[0].points, (std::vector{0, 0, 0})) << "the base stands for all resolutions";
+  for (size_t i = 0; i < 3; ++i) {
+    const SweepPoint& point = results.points[results.series[1].points[i]];
+    EXPECT_EQ(settingsWith(Settings(), point.changes).reflection.maxDepth, std::vector({1, 2, 4})[i]);
+  }
+  EXPECT_EQ(run(folder_ / "store").results.points.size(), 3u) << "from the store too";
+}
+
+TEST(SweepPlans, NamesAreTheWordsOfThePanels) {
+  std::set<std::string> labels;
+  SweepPlanner planner("test", contextOf(true, false));
+  for (const SettingField& field : settingFields()) {
+    if (!field.subject && !field.key.starts_with("quality.") && !field.key.starts_with("debug.")) {
+      EXPECT_TRUE(labels.insert(field.label).second) << field.label << " would be two settings";
+      const auto* truth = std::get_if<BooleanSetting>(&field.kind);
+      if (truth) {
+        const bool usual = truth->get(Settings());
+        const int index = planner.add({{std::string(field.key), usual ? "false" : "true"}});
+        EXPECT_EQ(planner.plan.configurations[index].name, std::string(field.label) + (usual ? " off" : " on"));
+      }
+    }
+  }
+  const auto nameOf = [&](const SweepPlanner::Changes& changes) {
+    return planner.plan.configurations[planner.add(changes)].name;
+  };
+  EXPECT_EQ(nameOf({{"reflection.scale", "0.05e1"}, {"reflection.samples", "1"}, {"view.samples", "1"}}),
+            "Mirror resolution 0.5, Mirror samples 1, Samples 1");
+  EXPECT_EQ(nameOf({{"reflection.scale", "2"}}), "Mirror resolution 2");
+  EXPECT_EQ(nameOf({{"reflection.min_throughput", "0.05"}}), "Min. throughput 0.05");
+  EXPECT_EQ(nameOf({{"effects.shadow_lookup", "map"}}), "Shadow lookup map");
 }
 
 TEST_F(SmallSweep, ChangedIdentityMeasuresAnew) {

@@ -3,6 +3,7 @@
 
 import math
 import pathlib
+import random
 import subprocess
 import sys
 import tempfile
@@ -394,6 +395,20 @@ class ReportPage(Page):
             const lines = [{ style: 'steep', points: [[1, 1], [10, 1e9]] }, { style: 'outside', points: [[1, 1e7], [10, 1e9]] }];
             const plot = drawPlot({ x: { label: 'x' }, y: { label: 'y' }, marks, lines }, 480, 380);
             return [...plot.querySelectorAll('path')].map(path => path.parentNode.getAttribute('class'))"""), ["steep"])
+
+    def test_labels_of_points_differ(self):
+        self.open("empty")
+        choice = random.Random(7).choice
+        for _ in range(20):
+            parts = [f"{key} {value}" for key in ("Mirror resolution", "Max. depth", "Mirror samples", "Samples")
+                     for value in ("0.5", "1", "2")]
+            names = sorted({", ".join(choice(parts) for _ in range(1 + i % 4)) for i in range(12)})
+            labels = self.js("return shortLabels(arguments[0])", names)
+            self.assertEqual(len(set(labels)), len(names), labels)
+            for name, label in zip(names, labels):
+                self.assertTrue(name.startswith(label.removesuffix("…")))
+        self.assertEqual(self.js("return shortLabels(['base', ''])"), ["base", ""])
+        self.assertEqual(self.js("return shortLabels(['a'.repeat(40)])"), ["a" * 25 + "…"])
 
     def test_labels_without_room_are_left_out(self):
         self.open("empty")

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "accuracy/fingerprint.hpp"
 #include "accuracy/heat_map.hpp"
@@ -78,7 +79,8 @@ class Sweep {
     results.truthSamples = scene_.truthSamples;
     results.floor = truth_.floor;
     results.points.clear();
-    for (size_t i = 0; i < keys_.size(); ++i) {
+    results.leftOut = std::ssize(keys_) - std::ssize(kept_);
+    for (const size_t i : kept_) {
       const Measurement& measurement = store_.at(keys_[i]);
       results.points.push_back({.name = plan_.configurations[i].name,
                                 .changes = plan_.configurations[i].changes,
@@ -102,6 +104,7 @@ class Sweep {
     }
     results.series = plan_.series;
     for (SweepSeries& series : results.series) {
+      std::ranges::transform(series.points, series.points.begin(), [&](int i) { return pointOf_[i]; });
       fit(series, results);
     }
     const Image8 shown = toDisplay(truth_.image, base_.view.displayCurve());
@@ -136,7 +139,10 @@ class Sweep {
     std::vector<ImageMetrics> mirrors;
     const std::vector<Image8> pictures = subject_.pictures(settings_[index]);
     Plane2d flip;
+    Fingerprint drawn;
+    drawn.add(subject_.work());
     for (const Image8& picture : pictures) {
+      drawn.add(std::as_bytes(std::span(picture.rgba)));
       const ErrorFigures errors = errorsAgainst(truth_, picture, settings_[index], &flip);
       whole.push_back(errors.whole);
       if (errors.mirrors) {
@@ -145,6 +151,7 @@ class Sweep {
     }
     measurement.errors =
         ErrorFigures{meanMetrics(whole), mirrors.empty() ? std::nullopt : std::optional(meanMetrics(mirrors))};
+    measurement.drawn = drawn.hex();
     measurement.picture = store_.keepPicture(keys_[index] + ".png", pictures.back());
     measurement.heatMap = store_.keepPicture(keys_[index] + "-flip.png", heatMap(flip));
   }
@@ -159,14 +166,23 @@ class Sweep {
         return false;
       }
     }
+    std::map<std::string, size_t> points;
+    for (size_t i = 0; i < keys_.size(); ++i) {
+      const auto [point, isNew] = points.try_emplace(store_.at(keys_[i]).drawn, kept_.size());
+      pointOf_.push_back(static_cast<int>(point->second));
+      if (isNew) {
+        kept_.push_back(i);
+      }
+    }
     return true;
   }
 
   bool time() {
-    const double total = static_cast<double>(plan_.repeats) * static_cast<double>(keys_.size());
+    const double total = static_cast<double>(plan_.repeats) * static_cast<double>(kept_.size());
+    double done = 0.0;
     for (size_t round = 0; round < static_cast<size_t>(plan_.repeats); ++round) {
       bool measured = false;
-      for (size_t i = 0; i < keys_.size(); ++i) {
+      for (const size_t i : kept_) {
         Measurement& measurement = store_.at(keys_[i]);
         if (measurement.gpuMs.size() <= round) {
           const FrameCost cost = subject_.cost(settings_[i]);
@@ -175,7 +191,7 @@ class Sweep {
           measurement.frameMs.push_back(cost.frameMs);
           measured = true;
         }
-        if (!report("times", static_cast<double>(round * keys_.size() + i + 1) / total)) {
+        if (!report("times", ++done / total)) {
           store_.save();
           return false;
         }
@@ -223,6 +239,8 @@ class Sweep {
   const SweepProgress& progress_;
   std::vector<Settings> settings_;  // by configuration
   std::vector<std::string> keys_;   // by configuration
+  std::vector<size_t> kept_;        // configurations that are points
+  std::vector<int> pointOf_;        // by configuration, index into kept_
   GroundTruth truth_;
 };
 

@@ -13,16 +13,15 @@ namespace {
 constexpr size_t mostConfigurations = 1000;
 constexpr int longestInterval = 16;  // to see every image at every age takes 1.5 times its square of frames
 
+// Says what the settings are in the words of the panels, whose labels differ.
 std::string shortName(const SweepPlanner::Changes& changes) {
   std::string name;
   for (const SettingChange& change : changes) {
-    const std::string_view key = change.key;
-    const std::string_view reflection = "reflection.";
-    std::string words(key.starts_with(reflection) ? key.substr(reflection.size()) : key);
-    std::ranges::replace(words, '.', ' ');
-    std::ranges::replace(words, '_', ' ');
-    const bool whole = change.value.ends_with(".0");
-    name += (name.empty() ? "" : ", ") + words + " " + change.value.substr(0, change.value.size() - (whole ? 2 : 0));
+    std::string value = change.value;
+    std::ranges::replace(value, '_', ' ');
+    value = value == "true" ? "on" : value == "false" ? "off" : value;
+    value.resize(value.size() - (value.ends_with(".0") ? 2 : 0));
+    name += (name.empty() ? "" : ", ") + std::string(findSettingField(change.key)->label) + " " + value;
   }
   return name.empty() ? "base" : name;
 }

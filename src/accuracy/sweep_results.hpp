@@ -77,6 +77,7 @@ struct SweepResults {
 
   std::vector<SweepPoint> points;
   std::vector<SweepSeries> series;
+  int leftOut = 0;  // configurations without a point: they draw what another does. Not in results.json
 };
 
 // Returns a header line, then a line for each point: RFC 4180.

@@ -48,6 +48,7 @@ Image8 maskImage(const PixelMask& mask) {
 }  // namespace
 
 void members(auto&& json, Of<Measurement> auto& measurement) {
+  json("drawn", measurement.drawn);
   json("picture", measurement.picture);
   json("heat_map", measurement.heatMap);
   json("gpu_ms", measurement.gpuMs);

@@ -12,6 +12,7 @@ namespace speculum {
 // Measurements of one configuration so far.
 struct Measurement {
   std::optional<ErrorFigures> errors;
+  std::string drawn;    // fingerprint of the pictures and of the work for them
   std::string picture;  // file in the store's folder
   std::string heatMap;
   std::vector<double> gpuMs;  // one value a round, as many in each

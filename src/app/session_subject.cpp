@@ -6,6 +6,7 @@
 #include <ctime>
 
 #include "accuracy/fingerprint.hpp"
+#include "app/frame_cost.hpp"
 #include "app/motion_levels.hpp"
 #include "app/version.hpp"
 #include "frame/setting_fields.hpp"
@@ -58,6 +59,16 @@ std::vector<Image8> SessionSubject::pictures(const Settings& settings) {
     pictures.push_back(session_.picture());
   }
   return pictures;
+}
+
+std::string SessionSubject::work() const {
+  const DrawnFrame& frame = session_.lastFrame();
+  FrameWork work = workOf(frame.plan, session_.scene(), frame.state, frame.settings);
+  work.mirrorSamples *= work.mirrorPasses > 0.0;
+  Fingerprint fingerprint;
+  fingerprint.add(std::as_bytes(std::span(&work, 1)));
+  fingerprint.add(frame.pictures);
+  return fingerprint.hex();
 }
 
 FrameCost SessionSubject::cost(const Settings& settings) {

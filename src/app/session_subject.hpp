@@ -16,6 +16,7 @@ class SessionSubject : public SweepSubject {
 
   // Frames of update intervals are 1/30 s apart; the last one is at the sweep's time.
   std::vector<Image8> pictures(const Settings& settings) override;
+  std::string work() const override;
   FrameCost cost(const Settings& settings) override;
 
  private:

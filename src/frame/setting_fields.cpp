@@ -82,7 +82,7 @@ constexpr SettingField fields[] = {
             "resolution of mirror images relative to the main view",
             "Pixels grow with its square; below 1 reflections blur, above 1 edges smooth.",
             {.slider = SettingSlider{0.125, 4.0, "%.3f"}}),
-    setting("reflection.samples", IntegerSetting{at<&R::samples>, 1, 8, true}, "Samples",
+    setting("reflection.samples", IntegerSetting{at<&R::samples>, 1, 8, true}, "Mirror samples",
             "samples a pixel of mirror images", "Shading grows with it."),
     setting("reflection.max_depth", IntegerSetting{at<&R::maxDepth>, 0, 32}, "Max. depth",
             "depth of mirror images; 1: only mirrors seen directly", "Each adds passes.",
@@ -101,7 +101,7 @@ constexpr SettingField fields[] = {
             {.unit = "frames", .changes = mainView, .slider = SettingSlider{1, 16, "%d", false}}),
     setting("reflection.skip_unchanged", BooleanSetting{at<&R::skipUnchanged>}, "Reuse unchanged images",
             "reuses cached mirror images that would come out the same", "Saves passes.", {.changes = mainView}),
-    setting("reflection.mesh_error", NumberSetting{at<&R::meshError>, 0.0, 16.0}, "Mesh error",
+    setting("reflection.mesh_error", NumberSetting{at<&R::meshError>, 0.0, 16.0}, "Mirror mesh error",
             "largest error of simplified objects in reflections; 0: all triangles",
             "Saves vertices; shading shifts; off with traced shadows or curved mirrors, or bounced light; needs "
             "view.mesh_error with shadow maps.",

@@ -75,10 +75,19 @@ function frontMark(point, key, measure, onFront) {
     x: costOf(point).median, y: error, key,
     shape: error <= 0 ? 'triangle' : base ? 'square' : onFront ? 'disc' : 'ring',
     style: (onFront ? 'front' : 'dominated') + (base ? ' base' : ''),
-    label: !onFront && !base ? '' : point.name.length > 26 ? `${point.name.slice(0, 25)}…` : point.name,
+    label: onFront || base ? point.name : '',
     tip: tipOf(point, measure.name, error),
     spread: costOf(point).repeats > 1 ? costOf(point) : null,
   };
+}
+
+// Names cut to 25 characters, or as many as tell each from the others.
+function shortLabels(names) {
+  return names.map(name => {
+    let length = 25;
+    while (length < name.length && names.some(other => other !== name && other.startsWith(name.slice(0, length)))) length += 1;
+    return length + 1 < name.length ? `${name.slice(0, length)}…` : name;
+  });
 }
 
 // Each error holds until the next point of the front can be paid for.
@@ -123,6 +132,7 @@ function frontPlot(results, front, measure) {
   const marks = results.points
     .map((point, i) => measure.of(point.error) === null ? null : frontMark(point, String(i), measure, front.includes(i)))
     .filter(Boolean).sort((a, b) => layer(a) - layer(b));
+  shortLabels(marks.map(mark => mark.label)).forEach((label, i) => { marks[i].label = label; });
   const floor = measure.of(results.ground_truth.noise_floor);
   const time = timedOnGpu(results) ? 'GPU time, ms a frame' : 'frame time, ms';
   const plot = {
