@@ -698,10 +698,11 @@ TEST_F(PacedScene, StillPicturesConvergeOnce) {
   chosen_.quality.stillPictures = 3;
   EXPECT_EQ(pictureOf(), std::pair(1, 0)) << "full quality first";
   for (int picture = 0; picture < 3; ++picture) {
+    EXPECT_EQ(pace_.text(), std::to_string(picture) + " of 3 pictures averaged");
     EXPECT_TRUE(pace_.wantsFrame());
     EXPECT_EQ(pictureOf(), std::pair(3, picture));
   }
-  EXPECT_EQ(pace_.text(), "Picture 3 of 3");
+  EXPECT_EQ(pace_.text(), "3 of 3 pictures averaged");
   EXPECT_FALSE(pace_.wantsFrame());
   EXPECT_FALSE(pace_.drawsSlowly()) << "each took one frame";
   EXPECT_EQ(pictureOf(), std::pair(3, 3)) << "the mean again";
@@ -732,7 +733,7 @@ TEST_F(PacedScene, TargetsKeepTheMean) {
   }
   target_.reset();
   frame();
-  EXPECT_EQ(pace_.text(), "Picture 3 of 3");
+  EXPECT_EQ(pace_.text(), "3 of 3 pictures averaged");
 }
 
 // As while frames are recorded, or with quality.motion_ms at 0.
@@ -795,7 +796,7 @@ TEST_F(SlowPictures, AreDrawnTileByTile) {
   expectText("Draft: ");
   EXPECT_LE(std::ranges::max(drawPicture()), 8.0 * budget);
   EXPECT_TRUE(pace_.drawsTiles());
-  EXPECT_EQ(pace_.text(), "Picture 1 of 16");
+  EXPECT_EQ(pace_.text(), "1 of 16 pictures averaged");
   for (int picture = 1; picture < 4; ++picture) {
     drawPicture();
   }
@@ -805,7 +806,7 @@ TEST_F(SlowPictures, AreDrawnTileByTile) {
   }
   input_ = false;
   draw();
-  expectText("Picture 7 of 16: 37 % in all");
+  expectText("6 of 16 pictures averaged, next one ");
   revision_ = 2;
   EXPECT_FALSE(draw().plan.tiles) << "another picture is asked for";
   expectText("Draft: ");

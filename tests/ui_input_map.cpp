@@ -21,6 +21,11 @@ TEST(InputMap, KeysMeanTheirCommands) {
   EXPECT_EQ(side(false), MirrorSide::back);
   EXPECT_EQ(side(true), MirrorSide::front);
   EXPECT_TRUE(commandOf({.key = Key::f, .pressed = true, .shift = true})) << "shift means nothing here";
+  const auto withPanel = [](bool shift) {
+    return std::get<TakeScreenshot>(*commandOf({.key = Key::f12, .pressed = true, .shift = shift})).withPanel;
+  };
+  EXPECT_FALSE(withPanel(false));
+  EXPECT_TRUE(withPanel(true));
 }
 
 TEST(InputMap, PrintedLettersAreKnown) {

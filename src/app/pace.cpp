@@ -158,6 +158,7 @@ bool Pace::planFirst(const Request& request, const Planner& plan) {
   const bool whole = request.budgetMs <= 0.0 || controller_.predict(work_) <= most;
   picture_ = whole && single ? 1 : 0;
   if (whole) {
+    text_ = single ? "" : meanText();
     return true;
   }
   const FrameWork work = scaledWork(work_, settings, pictureSettings(withPictures(request.chosen, pictures_)));
@@ -193,7 +194,7 @@ void Pace::planPicture(const Request& request, const Planner& plan) {
   }
   picture_ = std::min(picture_ + 1, pictures_);
   if (pictures_ > 1) {
-    text_ = fmt::format("Picture {} of {}", picture_, pictures_);
+    text_ = meanText();
   }
 }
 
@@ -213,8 +214,11 @@ std::string Pace::tilesText() const {
   if (pictures_ == 1) {
     return fmt::format("Picture {:.0f} %", std::floor(100.0 * share));
   }
-  return fmt::format("Picture {} of {}: {:.0f} % in all", picture_ + 1, pictures_,
-                     std::floor(100.0 * (picture_ + share) / pictures_));
+  return fmt::format("{}, next one {:.0f} %", meanText(), std::floor(100.0 * share));
+}
+
+std::string Pace::meanText() const {
+  return fmt::format("{} of {} pictures averaged", picture_, pictures_);
 }
 
 void Pace::drawn(uint64_t number, double cpuMs, double waitedMs, bool usual) {

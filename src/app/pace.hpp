@@ -121,6 +121,7 @@ class Pace {
   void planTarget(const Request& request);
   void planTiles(const Request& request);
   std::string tilesText() const;
+  std::string meanText() const;
 
   using Clock = std::chrono::steady_clock;
   struct Drawn {

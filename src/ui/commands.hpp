@@ -117,7 +117,7 @@ struct ApplyPoint {
 
 // Output.
 struct TakeScreenshot {
-  bool withPanel = true;
+  bool withPanel = false;
 };
 struct ToggleRecording {
   bool withPanel = true;

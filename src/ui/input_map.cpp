@@ -55,8 +55,8 @@ std::span<const ShortcutGroup> shortcutGroups() {
          repeated(",", "Step back by 1/60 s", StepTime{-1}), key("[", "Halve the speed", MultiplyTimeSpeed{0.5}),
          key("]", "Double the speed", MultiplyTimeSpeed{2.0})}},
        {"Capture",
-        {key("F12", "Save a screenshot", TakeScreenshot{true}),
-         key("Shift+F12", "Save a screenshot without the panels", TakeScreenshot{false}),
+        {key("F12", "Save the picture", TakeScreenshot{false}),
+         key("Shift+F12", "Save the picture with the panels", TakeScreenshot{true}),
          key("F10", "Start or stop recording frames", ToggleRecording{true}),
          key("Shift+F10", "Record frames without the panels", ToggleRecording{false})}},
        {"Edit",
@@ -87,7 +87,7 @@ std::span<const Shortcut> gamepadHelp() {
        pointer("A, B", "Frame the selection or the scene; orbit or fly"),
        pointer("Y, X", "Look from behind a mirror; look out of it"),
        pointer("Bumpers", "Step back or forward by 1/60 s"),
-       pointer("Sticks pressed", "Left: reset the camera; right: screenshot"),
+       pointer("Sticks pressed", "Left: reset the camera; right: save the picture"),
        pointer("Start, Back", "Pause or play; show or hide the panels")}};
   return rows;
 }
@@ -126,7 +126,7 @@ GamepadCommand commandOf(GamepadButton button) {
        {TogglePanel{}, true},
        {TogglePaused{}, true},
        {ResetCamera{}},
-       {TakeScreenshot{true}}}};
+       {TakeScreenshot{false}}}};
   return commands[static_cast<size_t>(button)];
 }
 

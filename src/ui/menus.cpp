@@ -34,7 +34,8 @@ void fileMenu(PanelContext& ui) {
   item(ui, "Save", Save{}, edit.canSave());
   item(ui, "Save as...", AskWhereToSave{});
   ImGui::Separator();
-  item(ui, "Save screenshot", TakeScreenshot{true});
+  item(ui, "Save picture", TakeScreenshot{false});
+  item(ui, "Save picture with panels", TakeScreenshot{true}, true, "Shift+F12");
   item(ui, "Record frames", ToggleRecording{true});
   item(ui, "Copy command line", CopyCommandLine{});
   ImGui::Separator();
