@@ -176,7 +176,7 @@ TEST_F(IdleWindow, StillPicturesConvergeAndMotionIsLowered) {
   run(2);
   EXPECT_FALSE(contains(view().status.picture, "5 of")) << "one picture in each frame";
   settle();
-  EXPECT_EQ(view().status.picture, "Picture 5 of 5");
+  EXPECT_EQ(view().status.picture, "5 of 5 pictures averaged");
   const Image8 shown = picture();
   demo_->apply(CopyCommandLine{});
   const std::string command = demo_->window().clipboard();
@@ -329,6 +329,13 @@ TEST_F(AccuracyJourney, MeasuresTheViewAndShowsTheDifference) {
   const uint8_t* corner = heat.at(3, small - 3);
   EXPECT_NE(corner[0], plain.at(3, small - 3)[0]);
   EXPECT_LT(corner[0] + corner[1] + corner[2], 90);
+  // The plot and the map show one error of one point.
+  setSetting("quality.still_pictures", "3");
+  EXPECT_TRUE(waitFor([&] { return contains(measured.difference, "Mean FLIP of the mean of 3 pictures: "); }));
+  click("accuracy.point " + measured.points[static_cast<size_t>(best)].name);
+  const std::string error = significant(measured.points[static_cast<size_t>(best)].error, 3);
+  EXPECT_TRUE(waitFor([&] { return contains(measured.difference, "Mean FLIP of one picture: " + error + "."); }))
+      << error << ", but " << measured.difference;
   const std::string first = measured.difference;
   setSetting("view.exposure", "0.5");
   EXPECT_TRUE(waitFor([&] { return measured.difference != first; })) << "another setting, another difference";

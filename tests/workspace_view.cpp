@@ -260,6 +260,18 @@ TEST_F(WindowView, ScreenshotsAreSavedAndReported) {
   EXPECT_EQ(status(), "") << "dismissed";
 }
 
+TEST_F(WindowView, SavedPicturesSayHowFarTheyAre) {
+  for (const bool withPanel : {false, true}) {
+    for (const char* picture : {"17 of 64 pictures averaged", "Draft: 0.5 of the resolution", ""}) {
+      workspace_->setPictureText(picture);
+      send(TakeScreenshot{withPanel});
+      EXPECT_EQ(workspace_->capture().bare(), !withPanel);
+      drawFrame(Image8(5, 3));
+      EXPECT_TRUE(status().ends_with(*picture ? std::string(".png, ") + picture : ".png")) << status();
+    }
+  }
+}
+
 TEST_F(WindowView, RecordingsAreEvenSequences) {
   send(ToggleRecording{true});
   EXPECT_FALSE(workspace_->capture().bare());
@@ -402,6 +414,33 @@ TEST_F(BudgetView, PlotKnowsThePointThatABoundChose) {
   EXPECT_GE(view().accuracy.chosen, 0);
   setBudget(0.0);
   EXPECT_EQ(view().accuracy.chosen, -1);
+}
+
+TEST_F(BudgetView, PickedPointsAreShownAlone) {
+  const auto pictures = [&] { return workspace_->shownSettings().quality.stillPictures; };
+  workspace_->accuracy().show(true, {});
+  const int mean = pictures();
+  ASSERT_GT(mean, 1);
+  for (const int point : {0, 1, 0}) {
+    send(ApplyPoint{point});
+    EXPECT_EQ(pictures(), 1);
+    EXPECT_TRUE(view().accuracy.alone);
+    EXPECT_EQ(view().accuracy.current, point);
+    EXPECT_TRUE(contains(status(), "one picture")) << status();
+    EXPECT_EQ(workspace_->settings().quality.stillPictures, mean) << "nothing to be saved";
+  }
+  workspace_->accuracy().show(false, {});
+  frame();
+  EXPECT_EQ(pictures(), mean) << "the window is closed, nothing would say so";
+  workspace_->accuracy().show(true, {});
+  frame();
+  EXPECT_EQ(pictures(), 1);
+  changeSettings([](Settings& settings) { settings.view.exposure = 3.0; });
+  EXPECT_EQ(pictures(), mean);
+  send(Undo{});
+  EXPECT_EQ(pictures(), 1) << "the picked settings again";
+  setBudget(2.0);
+  EXPECT_EQ(pictures(), mean) << "a bound chose, nobody picked";
 }
 
 TEST_F(BudgetView, ChangedScenesSayThatTheResultIsGone) {

@@ -14,14 +14,16 @@ namespace speculum {
 namespace {
 
 constexpr int heatBarSteps = 32;
-constexpr int roughRounds = 5;  // in all; the first points come after one
+constexpr int mostSamples = 64;  // of the difference view's reference
+constexpr int roughRounds = 5;   // in all; the first points come after one
 
 std::string momentText(const std::optional<WatchedView>& measured) {
   return measured && measured->animated ? fmt::format(" (animation at {:.2f} s)", measured->time) : "";
 }
 
 std::string aboutText(const SweepResults& results, const std::optional<WatchedView>& measured) {
-  return fmt::format("{} configurations at {}x{}, reference of {} samples a pixel{}", results.points.size(),
+  const std::string same = results.leftOut > 0 ? fmt::format(" ({} more draw the same)", results.leftOut) : "";
+  return fmt::format("{} configurations{} at {}x{}, reference of {} samples a pixel{}", results.points.size(), same,
                      results.width, results.height, results.truthSamples, momentText(measured));
 }
 
@@ -186,6 +188,18 @@ void AccuracyController::beforeFrame(Settings& settings) {
   takeResults();
   followBudget(settings);
   findCurrentPoint(settings);
+  view_.alone = showsPoints_ && view_.current >= 0 && picked_ == settings;
+}
+
+void AccuracyController::show(bool points, std::optional<double> errorGain) {
+  showsPoints_ = points;
+  coverChanged_ = coverChanged_ || (errorGain != errorGain_ && difference_.map().width > 0);
+  errorGain_ = errorGain;
+}
+
+Settings AccuracyController::shown(Settings settings) const {
+  settings.quality.stillPictures = view_.alone ? 1 : settings.quality.stillPictures;
+  return settings;
 }
 
 void AccuracyController::followBudget(Settings& settings) {
@@ -233,17 +247,21 @@ void AccuracyController::afterFrame(const ShownPicture& shown, const WatchedView
   if (const std::optional<std::string> error = sweep_.takeError()) {
     view_.about = *error;
   }
-  const bool changed = showsDifference_ ? image && difference_.update(shown, image) : difference_.reset();
+  // The reference of the point's own error, so that both are the same figure.
+  const int samples = view_.alone && !isRough_ ? results_.truthSamples : mostSamples;
+  const bool changed = errorGain_ ? image && difference_.update(shown, image, samples) : difference_.reset();
   coverChanged_ = coverChanged_ || changed;
   view_.difference = difference_.status();
 }
 
 std::optional<Image8> AccuracyController::takeCover() {
-  return std::exchange(coverChanged_, false) ? std::optional(difference_.heatMap()) : std::nullopt;
+  return std::exchange(coverChanged_, false)
+             ? std::optional(heatColors(difference_.map(), 1.0 / errorGain_.value_or(1.0)))
+             : std::nullopt;
 }
 
 bool AccuracyController::working() const {
-  return sweep_.busy() || coverChanged_ || (showsDifference_ && difference_.working());
+  return sweep_.busy() || coverChanged_ || (errorGain_ && difference_.working());
 }
 
 void AccuracyController::forgetScene(const std::string& why) {

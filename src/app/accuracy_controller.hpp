@@ -40,7 +40,12 @@ class AccuracyController {
   void cancel();
   void setProblem(const std::string& problem) { view_.about = problem; }
   void applyPoint(int point, Settings& settings) const;
-  void showDifference(bool shown) { showsDifference_ = shown; }
+  // Says what of UiOutput the panels ask for.
+  void show(bool points, std::optional<double> errorGain);
+  // Call with the settings of a point that the user picked. While they stay, shown() leaves out the mean of still
+  // pictures, which hides how points differ.
+  void pick(const Settings& settings) { picked_ = settings; }
+  Settings shown(Settings settings) const;
 
   // Call before a frame. Takes finished results; a budget that is set then chooses a point of them.
   void beforeFrame(Settings& settings);
@@ -79,7 +84,9 @@ class AccuracyController {
   Clock::time_point stageBegan_;
   WatchedView requested_;                // of the measurement that runs
   std::optional<WatchedView> measured_;  // of the points; none if they were read from a file
-  bool showsDifference_ = false;
+  bool showsPoints_ = false;
+  std::optional<double> errorGain_;  // of the difference view; none: it is not shown
+  std::optional<Settings> picked_;
   bool coverChanged_ = false;
   SweepResults results_;
   bool isRough_ = false;                                   // results_ are of few pixels and samples

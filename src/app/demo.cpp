@@ -98,7 +98,7 @@ void Demo::updateUi(double seconds) {
   workspace_.moveCamera(heldDirection(), navigating ? GamepadState{} : gamepad_, seconds);
   workspace_.prepareView(seconds, !overPanels());
   output_ = ui_->build(view());
-  workspace_.accuracy().showDifference(output_.difference);
+  workspace_.accuracy().show(output_.points, output_.errorGain);
   workspace_.setRefusedEdit(output_.refusedEdit);
   for (const Command& command : std::exchange(output_.commands, {})) {
     workspace_.apply(command);
@@ -247,7 +247,7 @@ const FittedPlan& Demo::planFrame(Frame& frame, const SceneState& state) {
   const std::optional<Pace::Target> missing = missingTarget();
   const bool watchesMirror = output_.target && !output_.target->path.empty();
   const bool settingsMove = ui_->holdsWidget() || pace_.moving();
-  Settings settings = workspace_.settings();
+  Settings settings = workspace_.shownSettings();
   // Renders every mirror in each frame while debug.check_finite is on, which reports findings by mirror.
   settings.reflection.skipUnchanged = settings.reflection.skipUnchanged && !settings.debug.checkFinite;
   const bool recorded = workspace_.capture().recording();  // without a budget

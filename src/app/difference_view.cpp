@@ -5,7 +5,7 @@
 #include <array>
 #include <utility>
 
-#include "accuracy/heat_map.hpp"
+#include "platform/text.hpp"
 
 namespace speculum {
 
@@ -20,7 +20,7 @@ bool DifferenceView::reset() {
   view_.reset();
   compared_.reset();
   problem_.clear();
-  return std::exchange(heatMap_, Image8()).width > 0;
+  return std::exchange(map_, Plane2d()).width > 0;
 }
 
 void DifferenceView::stop() {
@@ -45,7 +45,7 @@ void DifferenceView::startComparing(const ShownPicture& shown, Image8 image) {
     Plane2d map;
     ErrorFigures errors;
     inBackground([&] { errors = errorsAgainst(*truth, drawn, settings, &map); });
-    return Compared{settings, heatColors(map), errors.whole};
+    return Compared{settings, std::move(map), errors.whole};
   });
 }
 
@@ -53,8 +53,9 @@ void DifferenceView::startComparing(const ShownPicture& shown, Image8 image) {
 bool DifferenceView::collect() {
   bool fresh = false;
   if (std::optional<Compared> result = comparing_.takeResult(); result && result->settings == compared_) {
-    heatMap_ = std::move(result->heatMap);
+    map_ = std::move(result->map);
     metrics_ = result->metrics;
+    pictures_ = result->settings.view.accumulate;
     fresh = true;
   }
   // A finer reference waits until the comparison with the last one ends.
@@ -69,8 +70,13 @@ bool DifferenceView::collect() {
   return fresh;
 }
 
-bool DifferenceView::update(const ShownPicture& shown, const std::function<Image8()>& image) {
+bool DifferenceView::lacksReference() const {
+  return traced_ < references.size() && (!view_ || references[traced_] <= view_->samples);
+}
+
+bool DifferenceView::update(const ShownPicture& shown, const std::function<Image8()>& image, int samples) {
   const View view{.file = shown.scene.file,
+                  .samples = samples,
                   .width = shown.width,
                   .height = shown.height,
                   .time = contentTime(shown.scene, shown.state.time),
@@ -86,7 +92,7 @@ bool DifferenceView::update(const ShownPicture& shown, const std::function<Image
   if (!problem_.empty()) {
     return fresh;
   }
-  if (traced_ < references.size() && !tracing_.busy() && Clock::now() - still_ > stillFor) {
+  if (lacksReference() && !tracing_.busy() && Clock::now() - still_ > stillFor) {
     startTracing(shown);
   }
   if (truth_ && shown.settings != compared_ && !comparing_.busy()) {
@@ -97,16 +103,17 @@ bool DifferenceView::update(const ShownPicture& shown, const std::function<Image
 }
 
 bool DifferenceView::working() const {
-  return problem_.empty() && (tracing_.busy() || comparing_.busy() || traced_ < references.size());
+  return problem_.empty() && (tracing_.busy() || comparing_.busy() || lacksReference());
 }
 
 std::string DifferenceView::status() const {
   if (!problem_.empty()) {
     return problem_;
   }
-  if (heatMap_.width > 0) {
-    return fmt::format("Mean FLIP {:.4f}, RMSE {:.4f}, largest difference {:.0f}/255{}", metrics_.flip, metrics_.rmse,
-                       metrics_.maxDiff,
+  if (map_.width > 0) {
+    const std::string shown = pictures_ == 1 ? "one picture" : fmt::format("the mean of {} pictures", pictures_);
+    return fmt::format("Mean FLIP of {}: {}. RMSE {:.4f}, largest difference {:.0f}/255{}", shown,
+                       significant(metrics_.flip, 3), metrics_.rmse, metrics_.maxDiff,
                        tracing_.busy() || comparing_.busy() ? " (a finer reference is on its way)" : "");
   }
   if (tracing_.busy() && !truth_) {

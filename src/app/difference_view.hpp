@@ -21,27 +21,28 @@ struct ShownPicture {
 class DifferenceView {
  public:
   // Call once a frame, after it is drawn. `image` returns its pixels in display sRGB; it is called only when they are
-  // needed. Returns true when heatMap() has changed.
-  bool update(const ShownPicture& shown, const std::function<Image8()>& image);
+  // needed. `samples`: of the finest reference, a pixel. Returns true when map() has changed.
+  bool update(const ShownPicture& shown, const std::function<Image8()>& image, int samples);
   // Drops everything without waiting for running work. Returns true if there was a heat map.
   bool reset();
   void stop();  // as reset(), but waits for running work
 
-  const Image8& heatMap() const { return heatMap_; }  // without pixels until there is one
-  bool working() const;                               // update() has work left although nothing changes
-  std::string status() const;                         // text for the user: the error, or the work that is running
+  const Plane2d& map() const { return map_; }  // errors; without pixels until there are some
+  bool working() const;                        // update() has work left although nothing changes
+  std::string status() const;                  // text for the user: the error, or the work that is running
 
  private:
   using Clock = std::chrono::steady_clock;
   struct Compared {
     Settings settings;
-    Image8 heatMap;
+    Plane2d map;
     ImageMetrics metrics;
   };
   using Truth = std::shared_ptr<const GroundTruth>;
   // Everything that the reference depends on.
   struct View {
     std::filesystem::path file;
+    int samples = 0;
     int width = 0;
     int height = 0;
     std::optional<double> time;  // of a scene that moves
@@ -54,6 +55,7 @@ class DifferenceView {
   void startTracing(const ShownPicture& shown);
   void startComparing(const ShownPicture& shown, Image8 image);
   bool collect();
+  bool lacksReference() const;
 
   std::optional<View> view_;
   std::optional<Settings> compared_;  // settings of the picture compared last
@@ -62,8 +64,9 @@ class DifferenceView {
   BackgroundJob<Compared> comparing_;
   size_t traced_ = 0;  // references finished
   Truth truth_;
-  Image8 heatMap_;
+  Plane2d map_;
   ImageMetrics metrics_;
+  int pictures_ = 1;     // in the mean that was compared
   std::string problem_;  // error that ended the work
 };
 

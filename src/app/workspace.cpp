@@ -125,6 +125,8 @@ void Workspace::apply(const Command& command) {
                    Settings settings = settings_;
                    accuracy_.applyPoint(c.point, settings);
                    setSettings(settings);
+                   accuracy_.pick(settings_);
+                   status_.set("Shows the picked point as it was measured: one picture, not the mean of several.");
                  },
                  [&](const TakeScreenshot& c) { capture_.takeScreenshot(c.withPanel); },
                  [&](const ToggleRecording& c) {
@@ -270,7 +272,7 @@ void Workspace::frameDrawn(const ShownPicture& shown, const std::function<Image8
   if (captured) {
     Capture::Saved saved = capture_.save(scene().file.stem().string(), *captured);
     const std::string& picture = status_.view().picture;
-    saved.message += saved.logged && !picture.empty() ? " (" + picture + ")" : "";
+    saved.message += saved.logged && !picture.empty() ? ", " + picture : "";
     saved.logged ? status_.set(saved.message) : status_.show(saved.message);
   }
   accuracy_.afterFrame(shown, watchedView(shown.state), radiance);
@@ -455,7 +457,7 @@ void Workspace::copyCommandLine() {
     if (camera_.moved()) {
       options.camera = camera_.bookmark(state(time()).camera, scene().camera);
     }
-    Settings settings = settings_;
+    Settings settings = shownSettings();
     settings.view.accumulate = stillPictures(settings);
     const std::string command = viewCommand(options, file, scene(), settings);
     host_.setClipboard(command);

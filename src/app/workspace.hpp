@@ -83,6 +83,7 @@ class Workspace {
 
   const Scene& scene() const { return loaded_->scene; }
   const Settings& settings() const { return settings_; }
+  Settings shownSettings() const { return accuracy_.shown(settings_); }  // with which the picture is drawn
   double time() const { return playback_.view().time; }
   SceneState state(double time);  // with the camera of the window
   WatchedView watchedView(const SceneState& shown) const;

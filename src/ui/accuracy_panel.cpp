@@ -94,9 +94,9 @@ void drawAxes(ImDrawList& list, const Plot& plot, double noiseFloor) {
       top = y;
     }
   });
-  const char* across = "GPU ms, still picture";
+  const char* across = "GPU ms of one picture";
   list.AddText({end.x - textWidth(across) - 2.0f, end.y - line}, ink, across);
-  const char* up = "mean FLIP";
+  const char* up = "mean FLIP of one picture";
   list.AddText({end.x - textWidth(up) - 2.0f, plot.corner.y}, ink, up);
   if (noiseFloor > 0.0) {
     const float y = plot.y(noiseFloor);
@@ -174,19 +174,20 @@ void plot(PanelContext& ui) {
   }
   if (hovered >= 0) {
     const PointView& point = accuracy.points[hovered];
-    ImGui::SetTooltip("%s\nmean FLIP %s, %s (%s .. %s)%s", point.name.c_str(), significant(point.error, 3).c_str(),
-                      duration(point.ms).c_str(), duration(point.lowerMs).c_str(), duration(point.upperMs).c_str(),
-                      colorHelp(accuracy, hovered));
+    showTip(fmt::format("{}\nMean FLIP of one picture {}, {} ({} .. {}){}", point.name, significant(point.error, 3),
+                        duration(point.ms), duration(point.lowerMs), duration(point.upperMs),
+                        colorHelp(accuracy, hovered)));
     if (ImGui::IsItemClicked()) {
       ui.send(ApplyPoint{hovered});
     }
   }
   dimmedText(
-      "A click applies a point. Its bar spans the middle half of its times; points whose bars overlap count as equally "
+      "A click picks a point: its settings, drawn as one picture. Its bar spans the middle half of its times; points "
+      "whose bars overlap count as equally "
       "fast. No point beats an orange one.");
   tip("Both axes are logarithmic.\nMean FLIP: mean perceived difference from the reference, 0 (none) to 1.\n"
-      "GPU ms: of a picture in full quality, as drawn while nothing moves. While something moves, settings may be "
-      "lowered to keep the pace.");
+      "One picture: in full quality, as measured. While something moves, settings may be lowered to keep the pace; a "
+      "still window shows the mean of several, with less error, unless a point was picked.");
 }
 
 void frontSlider(PanelContext& ui) {
@@ -206,6 +207,9 @@ void frontSlider(PanelContext& ui) {
   recordWidget(ui, "accuracy.slider");
   // Below the slider, which is too narrow for most names.
   wrappedText(accuracy.current >= 0 ? accuracy.points[accuracy.current].name : "Other settings");
+  dimmedText(accuracy.alone ? "Shown as measured, as one picture: mean FLIP " +
+                                  significant(accuracy.points[accuracy.current].error, 3)
+                            : "Not a picked point: a still view shows the mean of several pictures.");
 }
 
 // Returns the first bound when one is switched on: what the settings in use were measured to take, or else the fastest
@@ -275,7 +279,12 @@ void differenceView(PanelContext& ui) {
                                               ImGui::ColorConvertFloat4ToU32({c.r, c.g, c.b, 1.0f}));
   }
   ImGui::Dummy({1.0f, height});
-  ImGui::TextDisabled("Error (FLIP) from 0, left, to 1");
+  const float gain = ui.state.errorGain;
+  dimmedText(fmt::format("FLIP from 0, left, to {}{} (gain {})", significant(1.0 / gain, 3),
+                         gain > 1.0f ? " and more" : "", significant(gain, 3)));
+  ImGui::SliderFloat(labelFor("Gain", 8.0f * ImGui::GetFontSize()).c_str(), &ui.state.errorGain, 1.0f, 100.0f, "%.1f",
+                     ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
+  recordWidget(ui, "accuracy.gain", "Multiplies the errors that the map shows, so that small ones are seen.");
 }
 
 std::string timeLeft(double seconds) {

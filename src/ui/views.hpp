@@ -171,6 +171,7 @@ struct AccuracyView {
   int chosen = -1;                                         // the point that a bound chose, if they still are; -1: none
   double noiseFloor = 0.0;                                 // mean FLIP
   std::string about;                                       // what was measured, where
+  bool alone = false;                                      // the picture is one of the current point, without a mean
   bool otherView = false;                                  // the user changed the camera or the time since
   double secondsLeft = 0.0;                                // of the stage that runs; 0: not known
   bool measuring = false;
@@ -218,9 +219,10 @@ struct TargetRequest {
 struct UiOutput {
   std::vector<Command> commands;
   std::optional<TargetRequest> target;
-  MirrorPath hoveredPath;    // of the mirror that is to be outlined; empty: none
-  bool difference = false;   // the difference view is wanted over the picture
-  bool refusedEdit = false;  // an edit is shown that could not be applied
+  MirrorPath hoveredPath;           // of the mirror that is to be outlined; empty: none
+  bool points = false;              // points of measurements are shown, and can be picked
+  std::optional<double> errorGain;  // of the difference view that is wanted over the picture; none: it is not
+  bool refusedEdit = false;         // an edit is shown that could not be applied
 };
 
 }  // namespace speculum
