@@ -1,6 +1,9 @@
 // Commands that clicks on the panels send, and the state that panels keep.
+#include "frame/setting_fields.hpp"
 #include "panel_support.hpp"
 #include "platform/process.hpp"
+#include "platform/text.hpp"
+#include "scene/scene_fields.hpp"
 
 namespace speculum {
 namespace {
@@ -262,7 +265,7 @@ TEST_F(PanelTest, ButtonsSendTheirCommands) {
   scene_.bookmarks = {{.name = "door"}, {.name = "sky"}};
   camera_.bookmark = 1;
   clickFor<CopyCommandLine>("copy");
-  EXPECT_TRUE(clickFor<TakeScreenshot>("screenshot").withPanel);
+  EXPECT_FALSE(clickFor<TakeScreenshot>("screenshot").withPanel);
   clickFor<ResetCamera>("camera.reset");
   clickFor<AddBookmark>("bookmark.add");
   EXPECT_EQ(clickFor<RemoveBookmark>("bookmark.remove").index, 1u);
@@ -391,6 +394,40 @@ TEST_F(PanelTest, FilesAreChosenFromOwnList) {
   EXPECT_FALSE(sent<OpenScene>()) << "one click only selects";
   click("open.open");
   EXPECT_TRUE(std::filesystem::equivalent(only<OpenScene>().file, config_.path() / "models" / "a.obj"));
+}
+
+TEST_F(PanelTest, EnterOnFoldersKeepsTheKeyboard) {
+  const std::filesystem::path folder = std::filesystem::canonical(config_.path());
+  std::filesystem::create_directories(folder / "outer" / "inner" / "empty");
+  std::ofstream(folder / "outer" / "inner" / "scene.toml") << "";
+  for (const Prompt prompt : {Prompt::open, Prompt::saveAs}) {
+    ask(prompt, folder / (prompt == Prompt::saveAs ? "new.toml" : ""));
+    commands_.clear();
+    for (const char* name : {"outer", "inner"}) {  // in the field
+      type(name);
+      tap(ImGuiKey_Enter);
+      EXPECT_EQ(windows_->state().files.folder.filename(), name);
+      run(2);
+      EXPECT_TRUE(ImGui::GetIO().WantTextInput) << "the next name is typed";
+    }
+    tap(ImGuiKey_DownArrow);
+    tap(ImGuiKey_DownArrow);
+    tap(ImGuiKey_Enter);  // in the list, on "empty" below ".."
+    EXPECT_EQ(windows_->state().files.folder, folder / "outer" / "inner" / "empty");
+    EXPECT_FALSE(ImGui::GetIO().WantTextInput);
+    tap(ImGuiKey_Enter);  // on "..", the only entry
+    EXPECT_TRUE(has("open.empty"));
+    tap(ImGuiKey_DownArrow);
+    EXPECT_TRUE(commands_.empty());
+    tap(ImGuiKey_Enter);
+    if (prompt == Prompt::open) {
+      EXPECT_EQ(only<OpenScene>().file, folder / "outer" / "inner" / "scene.toml");
+    } else {
+      EXPECT_TRUE(commands_.empty()) << "a name is chosen, nothing is saved";
+      EXPECT_EQ(windows_->state().files.typed, "scene.toml");
+    }
+    ask(Prompt::none);
+  }
 }
 
 TEST_F(PanelTest, ListFollowsTheTypedFolder) {
@@ -783,6 +820,73 @@ TEST_F(PanelTest, TooltipsLeaveDraggedSlidersInSight) {
   hold(false);
 }
 
+TEST_F(PanelTest, TooltipsLieOverNothingThatTheyExplain) {
+  edit_.selected = {Selection::Kind::mirror, 0};
+  windows_->toggleInspector();
+  for (const auto& [width, height] :
+       {std::pair(1280.0f, 720.0f), std::pair(640.0f, 720.0f), std::pair(420.0f, 900.0f)}) {
+    resize(width, height);
+    int shown = 0;
+    for (const auto& [name, rect] : std::vector(windows_->state().widgets)) {
+      const ImRect item(static_cast<float>(rect.x), static_cast<float>(rect.y), static_cast<float>(rect.x + rect.width),
+                        static_cast<float>(rect.y + rect.height));
+      moveTo(item.Min.x + 0.3 * item.GetWidth(), item.GetCenter().y);
+      const ImGuiWindow* window = ImGui::GetCurrentContext()->HoveredWindow;
+      if (window && window->InnerClipRect.Contains(item) && tooltip()) {
+        EXPECT_FALSE(tooltip()->Rect().Overlaps(item)) << name << " at " << width;
+        ++shown;
+      }
+    }
+    EXPECT_GT(shown, 12) << width;
+  }
+}
+
+// Every slider of a setting in the main panel.
+TEST_F(PanelTest, SlidersMoveWithEachPressOfAnArrow) {
+  settings_.effects.roughSamples = settings_.view.accumulate = settings_.quality.stillPictures = 1;
+  resize(900, 2400);
+  click("section.effects");
+  int sliders = 0;
+  std::mt19937 random(9);
+  std::discrete_distribution<int> low{1.0, 1.0};
+  const auto shares = [&](std::mt19937& from) { return low(from) == 0 ? 0.02 : 0.5; };
+  for (const SettingField& field : settingFields()) {
+    if (!field.slider || !has(std::string(field.key))) {
+      continue;
+    }
+    ++sliders;
+    click(std::string(field.key), shares(random));
+    tap(ImGuiKey_DownArrow);
+    tap(ImGuiKey_UpArrow);
+    tap(ImGuiKey_Space);
+    ASSERT_TRUE(ImGui::IsAnyItemActive()) << field.key;
+    const auto value = [&] { return std::stod(settingValue(settings_, field.key)); };
+    for (int press = 0; press < 4; ++press) {
+      const double before = value();
+      tap(ImGuiKey_RightArrow);
+      EXPECT_GT(value(), before) << field.key;
+    }
+    const double before = value();
+    tap(ImGuiKey_LeftArrow);
+    EXPECT_LT(value(), before) << field.key;
+    tap(ImGuiKey_Space);
+  }
+  EXPECT_GT(sliders, 8);
+}
+
+TEST_F(PanelTest, ArrowsAloneChangeNothing) {
+  std::mt19937 random(3);
+  resize(900, 2400);
+  windows_->toggleInspector();
+  commands_.clear();
+  for (int press = 0; press < 150; ++press) {
+    constexpr std::array keys{ImGuiKey_DownArrow, ImGuiKey_UpArrow, ImGuiKey_LeftArrow, ImGuiKey_RightArrow,
+                              ImGuiKey_DownArrow};
+    tap(keys[random() % keys.size()]);
+  }
+  EXPECT_TRUE(commands_.empty());
+}
+
 TEST_F(PanelTest, TooltipsAreThePointersOnly) {
   click("view.exposure");
   tap(ImGuiKey_DownArrow);
@@ -1072,12 +1176,60 @@ TEST_F(Inspector, ColorsHaveASwatch) {
     found = shows("Opens a picker.");
   }
   EXPECT_TRUE(found);
+  press();
+  EXPECT_TRUE(shows("As displayed (sRGB)"));
+}
+
+// Says how often the panels show the text.
+int timesShown(const std::string& shown, const std::string& text) {
+  int times = 0;
+  for (size_t at = shown.find(text); at != std::string::npos; at = shown.find(text, at + 1)) {
+    ++times;
+  }
+  return times;
+}
+
+TEST_F(Inspector, ColorsSayThatTheyAreLinear) {
+  scene_.objects.at(0).color = scene_.objects[0].specular = glm::dvec3(0.5);
+  scene_.objects[0].mirror = ObjectMirror();
+  const auto inSight = [&](const char* window, const std::string& name) {
+    if (!has(name)) {
+      return false;
+    }
+    const PixelRect rect = widget(name);
+    const ImRect clip = ImGui::FindWindowByName(window)->InnerClipRect;
+    return clip.Contains(ImVec2(float(rect.x), float(rect.y))) &&
+           clip.Contains(ImVec2(float(rect.x), float(rect.y + rect.height)));
+  };
+  const auto colorsOf = [&]<typename Node>(const Node&, const std::string& prefix) {
+    int count = 0;
+    forEachField<Node>([&](const auto& field) {
+      // Of a value that can be switched off the switch has the field's name.
+      constexpr bool switched = IsOptional<typename std::decay_t<decltype(field)>::Value>::value;
+      count += field.color && inSight("Inspector", prefix + std::string(field.key) + (switched ? ".value" : ""));
+    });
+    return count;
+  };
+  for (const float width : {1280.0f, 500.0f}) {
+    resize(width, 1800);
+    for (const Selection& node : {Selection{Selection::Kind::mirror, 0}, Selection{Selection::Kind::object, 0},
+                                  Selection{Selection::Kind::light, 0}}) {
+      select(node);
+      const int colors = inSight("Speculum", "view.clear_color") +
+                         colorsOf(Mirror(), "edit.") * (node.kind == Selection::Kind::mirror) +
+                         colorsOf(PointLight(), "edit.") * (node.kind == Selection::Kind::light) +
+                         (colorsOf(Object(), "edit.") + colorsOf(ObjectMirror(), "edit.mirror.")) *
+                             (node.kind == Selection::Kind::object);
+      EXPECT_GE(colors, 2);
+      EXPECT_EQ(timesShown(shownText(), "linear)"), colors) << static_cast<int>(node.kind) << " at " << width;
+    }
+  }
 }
 
 TEST_F(Inspector, ReflectanceIsTypedAsInTheFile) {
   scene_.mirrors[0].reflectance = glm::dvec3(0.731, 0.5, 0.5);
   selectMirror(0);
-  EXPECT_TRUE(shows("Reflectance (tint)") && shows("Diffuse color")) << "which of both is the tint";
+  EXPECT_TRUE(shows("Reflectance (tint, linear)") && shows("Diffuse color")) << "which of both is the tint";
   EXPECT_TRUE(shows("0.731"));
   typeNumber("edit.reflectance", 0.05, "0.404");
   EXPECT_DOUBLE_EQ(scene_.mirrors[0].reflectance.r, 0.404);
@@ -1088,7 +1240,7 @@ TEST_F(Inspector, CurvedMirrorsExplainTheirTint) {
   scene_.objects[0].mirror = ObjectMirror();
   select({Selection::Kind::object, 0});
   hover("edit.mirror.reflectance", 0.2);
-  EXPECT_TRUE(shows("Reflectance (tint)") && shows("Share of light reflected"));
+  EXPECT_TRUE(shows("Reflectance (tint, linear)") && shows("Share of light reflected"));
 }
 
 TEST_F(Inspector, MirrorsAreLookedFromAndSeenThrough) {
@@ -1234,12 +1386,13 @@ TEST_F(AccuracyWindow, GreyPointsSayWhy) {
   EXPECT_TRUE(shows("Grey: a point at least as accurate takes no longer"));
 }
 
-TEST_F(AccuracyWindow, TimesAreOfTheStillPicture) {
-  EXPECT_TRUE(shows("GPU ms, still picture"));
+TEST_F(AccuracyWindow, FiguresAreOfOnePicture) {
+  EXPECT_TRUE(shows("mean FLIP of one picture"));
+  EXPECT_TRUE(shows("GPU ms of one picture"));
   const PixelRect plot = widget("accuracy.plot");
   moveTo(plot.x + 40, plot.y + plot.height + 10);  // the text below
   EXPECT_TRUE(shows("Both axes are logarithmic."));
-  EXPECT_TRUE(shows("GPU ms: of a picture in full quality"));
+  EXPECT_TRUE(shows("One picture: in full quality, as measured."));
 }
 
 TEST_F(AccuracyWindow, PointsThatABoundChoseAreNotGrey) {
@@ -1331,9 +1484,28 @@ TEST_F(AccuracyWindow, MeasurementIsStartedAndCancelled) {
 
 TEST_F(AccuracyWindow, DifferenceEndsWithTheWindow) {
   click("accuracy.difference", 0.05);
-  EXPECT_TRUE(run(2).difference);
+  EXPECT_TRUE(run(2).errorGain && output_.points);
   toggle("Accuracy");
-  EXPECT_FALSE(run(2).difference);
+  EXPECT_FALSE(run(2).errorGain || output_.points);
+}
+
+TEST_F(AccuracyWindow, GainIsInTheLegend) {
+  resize(900, 1000);
+  click("accuracy.difference", 0.05);
+  EXPECT_TRUE(shows("FLIP from 0, left, to 1 (gain 1)"));
+  for (const double by : {30.0, 60.0}) {
+    drag("accuracy.gain", 0.05, by);
+    const double gain = run(2).errorGain.value();
+    EXPECT_GT(gain, 1.1);
+    EXPECT_TRUE(shows("to " + significant(1.0 / gain, 3) + " and more (gain " + significant(gain, 3) + ")"));
+  }
+}
+
+TEST_F(AccuracyWindow, PickedPointsAreShownAlone) {
+  accuracy_.current = 1;
+  EXPECT_TRUE(shows("a still view shows the mean of several pictures"));
+  accuracy_.alone = true;
+  EXPECT_TRUE(shows("Shown as measured, as one picture: mean FLIP 0.001"));
 }
 
 class TargetsWindow : public PanelTest {
@@ -1344,7 +1516,8 @@ class TargetsWindow : public PanelTest {
     frame_.passes = {mirror, main};
     frame_.skipped = {{.name = "mirror door", .path = {1}, .reason = "backface"}};
     frame_.target = {.complete = true, .size = {900, 700}};
-    resize(900, 1800);  // the passes are in view
+    resize(900, 1800);  // all windows are in view
+    toggle("Passes");
   }
   const std::optional<TargetRequest>& target() const { return output_.target; }
 };
@@ -1433,6 +1606,100 @@ TEST_F(TargetsWindow, RowsAddUpToTheFrame) {
   frame_.timedGpuMs = 50.0;
   EXPECT_TRUE(has("passes.rest"));
   EXPECT_TRUE(shows("other work"));
+}
+
+// Passes of mirrors that come and go, recorded in any order.
+class ChangingPasses : public PanelTest {
+ protected:
+  static constexpr int most = 7;
+  ChangingPasses() {
+    resize(900, 1200);
+    toggle("Passes");
+    setPasses((1 << most) - 1);
+  }
+  // Shows the passes of the mirrors in `mirrors`, a bit each.
+  void setPasses(int mirrors) {
+    frame_.passes = {{{.kind = PassKind::main}, "main view"}};
+    for (int mirror = 0; mirror < most; ++mirror) {
+      if ((mirrors >> mirror & 1) != 0) {
+        PassView pass{{.path = {mirror}}, "mirror " + std::to_string(mirror)};
+        pass.gpuMs = std::uniform_real_distribution(0.1, 9.0)(random_);
+        pass.timed = true;
+        frame_.passes.push_back(pass);
+      }
+    }
+    std::shuffle(frame_.passes.begin(), frame_.passes.end(), random_);
+    run(2);
+  }
+  // Names of the rows from top to bottom.
+  std::vector<std::string> rows() {
+    std::map<int, std::string> byPlace;
+    run(2);
+    for (const auto& [name, rect] : windows_->state().widgets) {
+      if (name.starts_with("pass.")) {
+        byPlace[rect.y] = name;
+      }
+    }
+    std::vector<std::string> names;
+    for (const auto& [place, name] : byPlace) {
+      names.push_back(name);
+    }
+    return names;
+  }
+  std::mt19937 random_{5};
+};
+
+TEST_F(ChangingPasses, OrderIsThatOfTheScene) {
+  const std::vector<std::string> first = rows();
+  ASSERT_EQ(first.size(), static_cast<size_t>(most) + 1);
+  EXPECT_TRUE(std::ranges::is_sorted(first.begin() + 1, first.end()));
+  for (int i = 0; i < 12; ++i) {
+    const int shown = std::uniform_int_distribution(1, (1 << most) - 1)(random_);
+    setPasses(shown);
+    std::vector<std::string> expected = first;
+    std::erase_if(expected, [&](const std::string& name) {
+      return name != "pass.main view" && (shown >> (name.back() - '0') & 1) == 0;
+    });
+    EXPECT_EQ(rows(), expected);
+  }
+}
+
+TEST_F(ChangingPasses, RowsUnderThePointerStay) {
+  const std::vector<std::string> first = rows();
+  hover("pass.mirror 3", 0.3);
+  for (int i = 0; i < 12; ++i) {
+    setPasses(std::uniform_int_distribution(1, (1 << most) - 1)(random_));
+    EXPECT_EQ(rows(), first);
+  }
+  setPasses(1);
+  moveTo(600, 1100);
+  EXPECT_EQ(rows().size(), 2u) << "the pointer has left";
+}
+
+TEST_F(ChangingPasses, AreSortedOnlyOnDemand) {
+  const std::vector<std::string> inScene = rows();
+  const auto slowestFirst = [&] {
+    std::vector<PassView> passes = frame_.passes;
+    std::erase_if(passes, [](const PassView& pass) { return pass.kind == PassKind::main; });
+    std::ranges::sort(passes, std::greater(), &PassView::gpuMs);
+    std::vector<std::string> names = {"pass.main view"};
+    for (const PassView& pass : passes) {
+      names.push_back("pass." + pass.name);
+    }
+    return names;
+  };
+  click("passes.head 1");
+  const std::vector<std::string> sorted = rows();
+  EXPECT_EQ(sorted, slowestFirst());
+  moveTo(600, 1100);
+  for (int i = 0; i < 6; ++i) {
+    setPasses((1 << most) - 1);
+    EXPECT_EQ(rows(), sorted) << "times change, rows do not";
+  }
+  click("passes.head 1");
+  EXPECT_EQ(rows(), slowestFirst());
+  click("passes.head 0");
+  EXPECT_EQ(rows(), inScene);
 }
 
 TEST_F(TargetsWindow, TooltipsLeaveTheirRowInSight) {

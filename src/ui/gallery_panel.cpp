@@ -40,7 +40,7 @@ void tile(PanelContext& ui, const Thumbnails& thumbnails, size_t index, const Im
   recordWidget(ui, "gallery." + scene.name);
   const bool hot = ImGui::IsItemHovered() || (ImGui::IsItemFocused() && ImGui::GetIO().NavVisible);
   if (ImGui::IsItemHovered()) {
-    ImGui::SetTooltip("%s\n%s", scene.name.c_str(), scene.file.c_str());
+    showTip(scene.name + "\n" + scene.file.string());
   }
   const ImVec2 low = ImGui::GetItemRectMin();
   const ImVec2 high(low.x + size.x, low.y + size.y);

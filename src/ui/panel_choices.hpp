@@ -18,9 +18,9 @@ struct PanelChoices {
   bool device = false;
   bool log = false;
   bool accuracy = false;
+  bool passes = false;
   bool viewSection = true;
   bool reflectionsSection = true;
-  bool passesSection = true;
   bool effectsSection = false;
   Theme theme = Theme::dark;
   int percent = 100;  // of the size for the monitor's scale, 50 .. 300
@@ -41,11 +41,11 @@ inline constexpr std::array<PanelName, 11> rememberedPanels{
      {"Device", &PanelChoices::device, "The GPU, its features and its memory."},
      {"Log", &PanelChoices::log, "Messages of the program and of the validation layer."},
      {"Accuracy", &PanelChoices::accuracy, "Measures the time and the error of settings, and chooses the best."},
+     {"Passes", &PanelChoices::passes, "What each frame renders and what it costs, and why a mirror has no image."},
      {"View", &PanelChoices::viewSection},
      {"Reflections", &PanelChoices::reflectionsSection},
-     {"Passes", &PanelChoices::passesSection},
      {"Effects", &PanelChoices::effectsSection}}};
-inline constexpr std::span<const PanelName> panelNames = std::span(rememberedPanels).first(7);  // windows
+inline constexpr std::span<const PanelName> panelNames = std::span(rememberedPanels).first(8);  // windows
 
 // Reads the saved choices; those that cannot be read have their defaults.
 PanelChoices savedPanelChoices();

@@ -71,7 +71,10 @@ UiOutput PanelWindows::build(const UiView& view) {
         panels::statusLine(view.status, visible_ ? std::max(statusWidth_, 18.0f * ImGui::GetFontSize()) : 0.0f,
                            free.corner.x + free.size.x);
   }
-  ui.output.difference = state_.choices.accuracy && state_.showDifference;
+  ui.output.points = state_.choices.accuracy;
+  if (state_.choices.accuracy && state_.showDifference) {
+    ui.output.errorGain = state_.errorGain;
+  }
   if (ui.settings != view.settings) {
     const bool continued = std::exchange(state_.setting, ImGui::IsAnyItemActive());
     ui.output.commands.insert(ui.output.commands.begin(), SetSettings{ui.settings, continued});
@@ -88,7 +91,6 @@ void PanelWindows::mainPanel(PanelContext& ui) {
     panels::scene(ui);
     windowChoices(ui);
     panels::settings(ui);
-    panels::passes(ui);
     panels::effects(ui);
     ImGui::PopItemWidth();
   }
@@ -190,6 +192,7 @@ void PanelWindows::sideWindows(PanelContext& ui) {
   window("Scenes", choices.scenes, {24.2f, 46.5f}, [&] { panels::gallery(ui, thumbnails_); });
   window("Performance", choices.performance, {27.0f, 30.0f}, [&] { panels::performance(ui); });
   window("Accuracy", choices.accuracy, {27.0f, 40.0f}, [&] { panels::accuracy(ui); });
+  window("Passes", choices.passes, {27.0f, 30.0f}, [&] { panels::passes(ui); });
   window("Device", choices.device, {27.0f, 30.0f}, [&] { panels::device(ui); });
   window("Log", choices.log, {27.0f, 14.0f}, [&] { panels::log(ui); });
   // Without a background, because the renderer draws the target below it: this version of ImGui's Vulkan backend draws

@@ -154,31 +154,38 @@ void describe(PanelContext& ui, std::string_view key) {
   recordWidget(ui, "reset." + std::string(key));
   if (ImGui::IsItemHovered()) {
     const std::string value = settingValue(ofScene, key);
-    ImGui::SetTooltip("Reset to %s", value.empty() ? "the scene's background" : value.c_str());
+    showTip("Reset to " + (value.empty() ? "the scene's background" : value));
   }
 }
 
-void tip(const std::string& text, bool beside) {
+void showTip(const std::string& text) {
+  const float em = ImGui::GetFontSize();
+  const ImRect window = ImGui::GetCurrentWindow()->RootWindow->Rect();
+  const ImRect item(ImGui::GetItemRectMin(), ImGui::GetItemRectMax());
+  const ImVec2 padding = ImGui::GetStyle().WindowPadding;
+  const ImVec2 letters = ImGui::CalcTextSize(text.c_str(), nullptr, false, 30.0f * em);
+  const ImVec2 size(letters.x + 2.0f * padding.x, letters.y + 2.0f * padding.y);
+  const ImVec2 room(ImGui::GetIO().DisplaySize.x - size.x, ImGui::GetIO().DisplaySize.y - size.y);
+  ImVec2 place(item.Min.x, item.Max.y <= room.y ? item.Max.y : item.Min.y - size.y);
+  if (window.Max.x <= room.x || window.Min.x >= size.x) {
+    place = {window.Max.x <= room.x ? window.Max.x : window.Min.x - size.x, item.Min.y};
+  }
+  ImGui::SetNextWindowPos({std::max(std::min(place.x, room.x), 0.0f), std::max(std::min(place.y, room.y), 0.0f)});
+  ImGui::BeginTooltip();
+  ImGui::PushTextWrapPos(padding.x + 30.0f * em);
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::EndTooltip();
+}
+
+void tip(const std::string& text) {
   // A widget with the keyboard's focus counts as hovered, but its tooltip would cover the next widgets.
   // It is also off after a drag of the picture.
   const bool byKeyboard = ImGui::GetCurrentContext()->NavDisableMouseHover;
   // Nor may it cover the value of a slider that is dragged.
   const bool held = ImGui::IsItemActive();
   if (!byKeyboard && !held && ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) {
-    const float width = 30.0f * ImGui::GetFontSize();
-    if (beside) {
-      const ImVec2 padding = ImGui::GetStyle().WindowPadding;
-      const float height = ImGui::CalcTextSize(text.c_str(), nullptr, false, width).y + 2.0f * padding.y;
-      const bool below = ImGui::GetItemRectMax().y + height < ImGui::GetIO().DisplaySize.y;
-      ImGui::SetNextWindowPos(
-          {ImGui::GetItemRectMin().x, below ? ImGui::GetItemRectMax().y : ImGui::GetItemRectMin().y}, ImGuiCond_Always,
-          {0.0f, below ? 0.0f : 1.0f});
-    }
-    ImGui::BeginTooltip();
-    ImGui::PushTextWrapPos(width);
-    ImGui::TextUnformatted(text.c_str());
-    ImGui::PopTextWrapPos();
-    ImGui::EndTooltip();
+    showTip(text);
   }
 }
 
@@ -367,8 +374,8 @@ void scene(PanelContext& ui) {
   commandButton(ui, "Copy command line", "copy",
                 "Copies a speculum render call that draws this view. Unsaved changes go into a copy of the scene.",
                 CopyCommandLine{});
-  nextButton(ui, "Screenshot", "screenshot", "Saves the window as a picture (F12); Shift+F12 leaves the panels out.",
-             TakeScreenshot{true});
+  nextButton(ui, "Save picture", "screenshot", "Saves the picture as a PNG file (F12); Shift+F12 adds the panels.",
+             TakeScreenshot{false});
 }
 
 void settings(PanelContext& ui) {

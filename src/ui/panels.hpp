@@ -19,6 +19,7 @@ struct PanelState {
   bool editing = false;               // a continued EditNode has not ended
   bool setting = false;               // the widget of the last SetSettings is held
   bool showDifference = false;
+  float errorGain = 1.0f;  // factor on the errors that are shown
 
   struct Targets {
     std::optional<MirrorPath> path;  // mirrors from the eye of the pass that is shown
@@ -30,6 +31,14 @@ struct PanelState {
     std::optional<glm::ivec2> pointed;  // texel under the pointer
     std::optional<WindowRect> canvas;   // where the target is drawn; none while the window is closed
   } targets;
+
+  struct Passes {
+    std::vector<PassView> passes;  // rows
+    std::vector<SkippedView> skipped;
+    std::vector<PassId> order;  // of a click on a column's head; empty: the scene's
+    std::string step;           // of undo, when the pointer came upon them
+    bool held = false;          // in their places, because the pointer is on them
+  } passes;
 
   std::array<char, 64> logFilter{};  // text that a line must contain
   LogLevel logLevel = LogLevel::info;
@@ -50,9 +59,10 @@ struct PanelState {
 
   // Prompt::open and saveAs
   struct Files {
-    std::filesystem::path folder;                           // of typed names
-    std::filesystem::path listed;                           // folder of what is typed
-    std::vector<std::filesystem::directory_entry> entries;  // of the listed one: folders, scenes and models
+    enum class Focus { none, field, list } focus = Focus::field;  // which takes the keyboard in the next frame
+    std::filesystem::path folder;                                 // of typed names
+    std::filesystem::path listed;                                 // folder of what is typed
+    std::vector<std::filesystem::directory_entry> entries;        // of the listed one: folders, scenes and models
     std::string typed;
     std::string problem;  // why the typed file cannot be opened
   } files;
@@ -89,8 +99,8 @@ bool menu(PanelContext& ui, const char* label, bool enabled = true);
 // Sections of the main panel and contents of the windows beside it, each within the current ImGui window.
 void scene(PanelContext& ui);
 void settings(PanelContext& ui);
-void passes(PanelContext& ui);
 void effects(PanelContext& ui);
+void passes(PanelContext& ui);
 void gallery(PanelContext& ui, const Thumbnails& thumbnails);
 void performance(PanelContext& ui);
 void device(PanelContext& ui);
@@ -126,9 +136,10 @@ float statusLine(const StatusView& status, float width, float right);
 // Call after each widget of a setting: records it, shows its tooltip, and adds a button at the line's end that resets
 // it to the scene's value if it differs. The button is recorded as "reset." and the key.
 void describe(PanelContext& ui, std::string_view key);
-// Call after a widget: shows a tooltip while the pointer is on it; with `beside` below or above the widget, not over
-// it.
-void tip(const std::string& text, bool beside = false);
+// Call after a widget: shows a tooltip while the pointer is on it.
+void tip(const std::string& text);
+// Shows a tooltip about the last widget, but not over it: beside the window or, without room there, below or above.
+void showTip(const std::string& text);
 // Call after a widget: records its rectangle by name, and shows the tooltip unless it is empty.
 void recordWidget(PanelContext& ui, std::string_view key, const std::string& tip = {});
 // Draw rows for the settings whose keys begin with `prefix`, except those whose need is not met, and for the fields of

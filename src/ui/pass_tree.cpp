@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "ui/panels.hpp"
 
@@ -43,7 +44,8 @@ double usualMs(const FrameView& frame, const PassView& pass) {
 
 }  // namespace
 
-std::vector<PassBranch> passTree(std::span<const PassView> passes, std::span<const SkippedView> skipped) {
+std::vector<PassBranch> passTree(std::span<const PassView> passes, std::span<const SkippedView> skipped,
+                                 std::span<const PassId> order) {
   constexpr int notListed = -2;
   const auto parentOf = [&](const MirrorPath& path) {
     const auto parent = std::ranges::find_if(
@@ -61,6 +63,14 @@ std::vector<PassBranch> passTree(std::span<const PassView> passes, std::span<con
       branches[static_cast<size_t>(parent)].skipped.push_back(static_cast<int>(i));
     }
   }
+  for (PassBranch& branch : branches) {
+    std::ranges::stable_sort(branch.skipped, {}, [&](int i) { return skipped[static_cast<size_t>(i)].path; });
+  }
+  std::ranges::stable_sort(branches, {}, [&](const PassBranch& branch) {
+    const PassView& pass = passes[static_cast<size_t>(branch.pass)];
+    const auto rank = std::ranges::find(order, PassId(pass)) - order.begin();
+    return std::tuple(rank, pass.kind != PassKind::main, pass.path, pass.kind, pass.light, pass.instance, pass.face);
+  });
   return nested(branches);
 }
 

@@ -17,9 +17,11 @@ struct PassBranch {
 };
 
 // Returns the main view, with every mirror pass below the pass that it is seen in, and then the passes that are no
-// view. Leaves out mirrors, with a pass or skipped, whose parent is not listed. A mirror whose image is reused is
-// listed with the pass that rendered it, not among the skipped ones.
-std::vector<PassBranch> passTree(std::span<const PassView> passes, std::span<const SkippedView> skipped);
+// view, those of `order` first, then in the order of the scene. Leaves out mirrors, with a pass or skipped, whose
+// parent is not listed. A mirror whose image is reused is listed with the pass that rendered it, not among the skipped
+// ones.
+std::vector<PassBranch> passTree(std::span<const PassView> passes, std::span<const SkippedView> skipped,
+                                 std::span<const PassId> order = {});
 // Returns the passes with these names in such trees. One whose parent is not among them has none.
 std::vector<PassBranch> passTree(std::span<const std::string> names);
 

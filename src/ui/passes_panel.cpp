@@ -1,7 +1,9 @@
 // The tree of passes.
 #include <imgui.h>
 #include <spdlog/fmt/fmt.h>
+#include <spdlog/fmt/ranges.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -47,6 +49,19 @@ void textAcrossColumns(const std::string& text) {
   ImGui::PopClipRect();
 }
 
+// Takes the frame's passes, or their figures alone while the pointer is on the rows, which then keep their places.
+void followPasses(PanelState::Passes& rows, const FrameView& frame) {
+  if (!rows.held || frame.passes.empty()) {
+    rows.passes = frame.passes;
+    rows.skipped = frame.skipped;
+    return;
+  }
+  for (PassView& pass : rows.passes) {
+    const auto now = std::ranges::find_if(frame.passes, [&](const PassView& p) { return PassId(p) == PassId(pass); });
+    now != frame.passes.end() ? void(pass = *now) : void(pass.timed = false);
+  }
+}
+
 void skippedRows(PanelContext& ui, const PassBranch& node) {
   if (node.skipped.empty()) {
     return;
@@ -54,7 +69,7 @@ void skippedRows(PanelContext& ui, const PassBranch& node) {
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
   const bool open = ImGui::TreeNodeEx("###skipped", ImGuiTreeNodeFlags_SpanFullWidth);
-  recordWidget(ui, "skipped in " + ui.view.frame.passes[static_cast<size_t>(node.pass)].name);
+  recordWidget(ui, "skipped in " + ui.state.passes.passes[static_cast<size_t>(node.pass)].name);
   ImGui::SameLine();
   textAcrossColumns(std::to_string(node.skipped.size()) + " without a pass");
   if (!open) {
@@ -62,7 +77,7 @@ void skippedRows(PanelContext& ui, const PassBranch& node) {
   }
   ImGui::Indent(ImGui::GetTreeNodeToLabelSpacing());
   for (const int i : node.skipped) {
-    const SkippedView& skip = ui.view.frame.skipped[static_cast<size_t>(i)];
+    const SkippedView& skip = ui.state.passes.skipped[static_cast<size_t>(i)];
     const std::string name = pathEnd(skip.name);
     const std::string why = skip.reason + (skip.detail.empty() ? "" : " (" + skip.detail + ")");
     ImGui::TableNextRow();
@@ -73,7 +88,7 @@ void skippedRows(PanelContext& ui, const PassBranch& node) {
     textAcrossColumns(why);
     recordWidget(ui, "skipped." + skip.name);
     if (nameHovered || ImGui::IsItemHovered()) {
-      ImGui::SetTooltip("%s\n%s\nA click selects the mirror.", skip.name.c_str(), why.c_str());
+      showTip(skip.name + "\n" + why + "\nA click selects the mirror.");
       mirrorRow(ui, skip.path);
     }
   }
@@ -82,7 +97,7 @@ void skippedRows(PanelContext& ui, const PassBranch& node) {
 }
 
 void passRow(PanelContext& ui, const PassBranch& node) {
-  const PassView& pass = ui.view.frame.passes[static_cast<size_t>(node.pass)];
+  const PassView& pass = ui.state.passes.passes[static_cast<size_t>(node.pass)];
   std::optional<MirrorPath>& target = ui.state.targets.path;
   const bool shown = hasTarget(pass) && target == pass.path;
   const bool leaf = node.children.empty() && node.skipped.empty();
@@ -94,13 +109,14 @@ void passRow(PanelContext& ui, const PassBranch& node) {
   ImGui::TableNextColumn();
   const float room = ImGui::GetContentRegionAvail().x - ImGui::GetTreeNodeToLabelSpacing();
   const std::string name = endsThatFit(pathEnd(pass.name), room, textWidth);
-  const std::string id = pass.name + "/" + std::to_string(node.pass);
+  const std::string id = fmt::format("{} {} {} {} {}", static_cast<int>(pass.kind), fmt::join(pass.path, ">"),
+                                     pass.instance, pass.light, pass.face);
   const bool open = ImGui::TreeNodeEx(id.c_str(), flags, "%s", name.c_str());
   if (ImGui::IsItemHovered() || (ImGui::IsItemFocused() && ImGui::GetIO().NavVisible)) {
     ui.output.hoveredPath = pass.path;
   }
   recordWidget(ui, "pass." + pass.name);
-  tip(pass.name + (hasTarget(pass) ? "\nA click shows what it drew." : ""), true);
+  tip(pass.name + (hasTarget(pass) ? "\nA click shows what it drew." : ""));
   if (hasTarget(pass) && ImGui::IsItemClicked() && !ImGui::IsItemToggledOpen()) {
     target = shown ? std::nullopt : std::optional(pass.path);
     ui.state.choices.targets = !shown;
@@ -145,10 +161,11 @@ void restRow(PanelContext& ui) {
   figure(milliseconds(rest));
 }
 
-void header() {
+void header(PanelContext& ui) {
   static constexpr std::array<const char*, 5> about{
-      "The main view and, below the view that each is seen in, the mirror images.",
-      "GPU time of the pass. Grey: of an earlier frame.", "Draw calls of the pass.",
+      "The main view and, below the view that each is seen in, the mirror images. A click orders them as in the scene.",
+      "GPU time of the pass. Grey: of an earlier frame. A click puts the longest first, as they are now.",
+      "Draw calls of the pass.",
       "Pixels that the pass draws: of the main view, or of a mirror's image as far as it is seen.",
       "Smallest distance in depth, in metres, between two surfaces that the pass still keeps in order."};
   ImGui::TableNextRow(ImGuiTableRowFlags_Headers);
@@ -156,7 +173,12 @@ void header() {
     ImGui::TableSetColumnIndex(column);
     const char* name = ImGui::TableGetColumnName(column);
     column > 0 ? figure(name) : ImGui::TextUnformatted(name);
-    tip(about[static_cast<size_t>(column)]);
+    recordWidget(ui, "passes.head " + std::to_string(column), about[static_cast<size_t>(column)]);
+    if (column <= 1 && ImGui::IsItemClicked()) {
+      std::vector<PassView> sorted = column == 1 ? ui.state.passes.passes : std::vector<PassView>();
+      std::ranges::stable_sort(sorted, {}, [](const PassView& p) { return std::isnan(p.gpuMs) ? 0.0 : -p.gpuMs; });
+      ui.state.passes.order.assign(sorted.begin(), sorted.end());
+    }
   }
 }
 
@@ -173,9 +195,11 @@ void mirrorRow(PanelContext& ui, const MirrorPath& path) {
 
 void passes(PanelContext& ui) {
   const FrameView& frame = ui.view.frame;
-  if (!section(ui, "passes", "Passes", ui.state.choices.passesSection)) {
-    return;
-  }
+  PanelState::Passes& rows = ui.state.passes;
+  const bool pointed = ImGui::IsWindowHovered(ImGuiHoveredFlags_AllowWhenBlockedByActiveItem);
+  rows.step = pointed ? rows.step : ui.view.edit.undo;
+  rows.held = pointed && rows.step == ui.view.edit.undo;  // an edit may give a mirror the place of another
+  followPasses(rows, frame);
   wrappedText("GPU " + duration(frame.timedGpuMs > 0.0 ? frame.timedGpuMs : frame.gpuMs) + "   Memory " +
               mebibytes(frame.deviceBytes) + " MiB");
   tip("GPU time of the last picture whose passes were timed, the sum of the rows below; if none was, of the last "
@@ -191,9 +215,9 @@ void passes(PanelContext& ui) {
   figureColumn("Draws", 2.8f);
   figureColumn("Pixels", 4.5f, further);
   figureColumn("Depth gap", 4.4f, further);
-  header();
+  header(ui);
   ImGui::PushStyleVar(ImGuiStyleVar_IndentSpacing, 0.3f * ImGui::GetFontSize());
-  for (const PassBranch& node : passTree(frame.passes, frame.skipped)) {
+  for (const PassBranch& node : passTree(rows.passes, rows.skipped, rows.order)) {
     passRow(ui, node);
   }
   restRow(ui);

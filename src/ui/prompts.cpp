@@ -1,5 +1,6 @@
 // The prompts about unsaved changes and for the file to save to.
 #include <imgui.h>
+#include <imgui_internal.h>
 #include <imgui_stdlib.h>
 
 #include <algorithm>
@@ -13,6 +14,8 @@
 namespace speculum::panels {
 
 namespace {
+
+using Focus = PanelState::Files::Focus;
 
 constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings;
 
@@ -96,15 +99,23 @@ std::filesystem::path named(const PanelState::Files& files) {
   return files.folder / typedPath(files.typed);
 }
 
-// Begins with names in `folder`.
+// Begins with names in `folder`, typed into the field.
 void enter(PanelState::Files& files, const std::filesystem::path& folder, const std::string& typed) {
   files = {};
   files.folder = withoutLinks(folder);
   files.typed = typed;
 }
 
+// Call before the field.
+void focusField(PanelState::Files& files) {
+  if (files.focus == Focus::field) {
+    files.focus = Focus::none;
+    ImGui::SetKeyboardFocusHere();
+  }
+}
+
 // Draws the list of a folder. If the name was `edited` in this frame, scrolls to the first entry that begins with it.
-// Returns an entry that was clicked.
+// Returns an entry that was clicked, or on which Enter was pressed.
 std::optional<std::filesystem::path> fileList(PanelContext& ui, const std::filesystem::path& folder, float height,
                                               bool models, bool edited) {
   PanelState::Files& files = ui.state.files;
@@ -118,27 +129,36 @@ std::optional<std::filesystem::path> fileList(PanelContext& ui, const std::files
   ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + width);
   ImGui::TextDisabled("%s", files.listed.c_str());
   ImGui::PopTextWrapPos();
-  std::optional<std::filesystem::path> clicked;
+  std::optional<std::filesystem::path> chosen;
   const float others = 8.0f * ImGui::GetFrameHeightWithSpacing();  // height of the menus and of the other rows
-  ImGui::BeginChild("files", {width, std::min(height, ImGui::GetIO().DisplaySize.y - others)}, true);
-  if (ImGui::Selectable("..", false, ImGuiSelectableFlags_DontClosePopups)) {
-    clicked = files.listed.parent_path();
-  }
-  recordWidget(ui, "open...");
-  for (const std::filesystem::directory_entry& entry : files.entries) {
-    const std::string name = entry.path().filename().string();
-    if (ImGui::Selectable((name + (entry.is_directory(none) ? "/" : "")).c_str(), entry.path() == named(files),
-                          ImGuiSelectableFlags_AllowDoubleClick | ImGuiSelectableFlags_DontClosePopups)) {
-      clicked = entry.path();
+  ImGui::BeginChild("files", {width, std::min(height, ImGui::GetIO().DisplaySize.y - others)}, true,
+                    ImGuiWindowFlags_NavFlattened);  // arrows lead into it
+  const auto row = [&](const std::string& name, const std::string& label, const std::filesystem::path& file,
+                       bool first) {
+    constexpr auto rowFlags = ImGuiSelectableFlags_AllowDoubleClick | ImGuiSelectableFlags_DontClosePopups;
+    if (ImGui::Selectable(label.c_str(), file == named(files), rowFlags) ||
+        (ImGui::IsItemFocused() && enterPressed())) {
+      chosen = file;
     }
+    if (first && files.focus == Focus::list) {
+      files.focus = Focus::none;
+      ImGui::SetFocusID(ImGui::GetItemID(), ImGui::GetCurrentWindow());
+      ImGui::GetCurrentContext()->NavDisableHighlight = false;
+    }
+    recordWidget(ui, "open." + name);
+  };
+  row("..", "..", files.listed.parent_path(), files.entries.empty());
+  for (size_t i = 0; i < files.entries.size(); ++i) {
+    const std::filesystem::path& file = files.entries[i].path();
+    const std::string name = file.filename().string();
+    row(name, name + (files.entries[i].is_directory(none) ? "/" : ""), file, i == 0);
     if (scrolls && name.starts_with(begun)) {
       ImGui::SetScrollHereY();
       scrolls = false;
     }
-    recordWidget(ui, "open." + name);
   }
   ImGui::EndChild();
-  return clicked;
+  return chosen;
 }
 
 void saveAs(PanelContext& ui) {
@@ -148,17 +168,19 @@ void saveAs(PanelContext& ui) {
     const std::filesystem::path& proposed = ui.view.edit.proposedFile;
     enter(files, proposed.parent_path(), proposed.filename().string());
     files.folder = proposed.parent_path();  // with its links, because the suggested folder is known by that path
-    ImGui::SetKeyboardFocusHere();
   }
+  focusField(files);
   ImGui::InputText("##file", &files.typed, ImGuiInputTextFlags_AutoSelectAll);
   const bool edited = ImGui::IsItemEdited();
   recordWidget(ui, "edit.file");
   // The list's folder is where the file goes, so it is listed as empty until saving makes it.
   const std::filesystem::path folder = withoutLinks(named(files).parent_path());
-  if (const auto clicked = fileList(ui, folder, 12.0f * ImGui::GetFontSize(), false, edited)) {
-    const bool enters = *clicked == folder.parent_path() || isFolder(*clicked);
-    files.typed = (enters ? named(files) : *clicked).filename().string();
-    files.folder = enters ? *clicked : folder;
+  const auto chosen = fileList(ui, folder, 12.0f * ImGui::GetFontSize(), false, edited);
+  if (chosen) {
+    const bool enters = *chosen == folder.parent_path() || isFolder(*chosen);
+    files.typed = (enters ? named(files) : *chosen).filename().string();
+    files.folder = enters ? *chosen : folder;
+    files.focus = enters && enterPressed() ? Focus::list : files.focus;
   }
   if (!ui.view.edit.note.empty()) {
     coloredText(errorColor, ui.view.edit.note);
@@ -168,10 +190,14 @@ void saveAs(PanelContext& ui) {
   answerButton(ui, "Save", "where.save", SaveAs{named(files)});
   ImGui::SameLine();
   answerButton(ui, "Cancel", "where.cancel", CancelPrompt{});
-  if (ui.output.commands.size() == commands && enterPressed()) {
-    ui.send(SaveAs{named(files)});
-    ImGui::CloseCurrentPopup();  // if saving fails it opens again, with the keyboard in the field
+  if (chosen || ui.output.commands.size() != commands || !enterPressed()) {
+    return;
   }
+  if (isFolder(named(files))) {
+    return enter(files, named(files), ui.view.edit.proposedFile.filename().string());
+  }
+  ui.send(SaveAs{named(files)});
+  ImGui::CloseCurrentPopup();  // if saving fails it opens again, with the keyboard in the field
 }
 
 void recovery(PanelContext& ui) {
@@ -188,8 +214,8 @@ void openFile(PanelContext& ui) {
   PanelState::Files& files = ui.state.files;
   if (ImGui::IsWindowAppearing()) {
     enter(files, ui.view.edit.proposedFile, "");
-    ImGui::SetKeyboardFocusHere();
   }
+  focusField(files);
   ImGui::SetNextItemWidth(fieldWidth());
   bool opens =
       ImGui::InputTextWithHint("##typed", "Scene or model", &files.typed, ImGuiInputTextFlags_EnterReturnsTrue);
@@ -202,11 +228,12 @@ void openFile(PanelContext& ui) {
   while (folder.has_relative_path() && !isFolder(folder)) {
     folder = folder.parent_path();
   }
-  if (const auto clicked = fileList(ui, folder, 20.0f * ImGui::GetFontSize(), true, edited)) {
-    const bool leaves = *clicked == files.listed.parent_path();
-    files.typed = files.listed == files.folder && !leaves ? clicked->filename().string() : clicked->string();
+  const auto chosen = fileList(ui, folder, 20.0f * ImGui::GetFontSize(), true, edited);
+  if (chosen) {
+    const bool leaves = *chosen == files.listed.parent_path();
+    files.typed = files.listed == files.folder && !leaves ? chosen->filename().string() : chosen->string();
     files.problem.clear();
-    opens = leaves || ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left);
+    opens = leaves || enterPressed() || ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left);
   }
   if (!files.problem.empty()) {
     coloredText(errorColor, files.problem);
@@ -220,7 +247,9 @@ void openFile(PanelContext& ui) {
     return;
   }
   if (isFolder(file)) {
-    return enter(files, file, "");
+    enter(files, file, "");
+    files.focus = chosen && enterPressed() ? Focus::list : files.focus;
+    return;
   }
   if (!std::filesystem::exists(file, none)) {
     files.problem = "There is no file " + file.string();

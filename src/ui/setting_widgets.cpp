@@ -27,17 +27,30 @@ struct Widget {
 
   std::string label() const { return labelFor(field.label, 5.0f * ImGui::GetFontSize()); }
 
+  // Moves the slider by its last digit if an arrow key did not move it: Dear ImGui moves it by a share of its length,
+  // which is less at the low end of 1 .. 1024. Returns the value.
+  template <typename T>
+  T moveByKey(T& value, T before) const {
+    if (value == before && ImGui::IsItemActive()) {
+      const auto pressed = [](ImGuiKey key) { return static_cast<int>(ImGui::IsKeyPressed(ImGui::GetKeyIndex(key))); };
+      const double steps = pressed(ImGuiKey_RightArrow) - pressed(ImGuiKey_LeftArrow);
+      const double step = std::pow(10.0, -ImParseFormatPrecision(field.slider->format, 0));
+      value = static_cast<T>(std::clamp(value + steps * step, field.slider->low, field.slider->high));
+    }
+    return value;
+  }
+
   void operator()(const NumberSetting& number) const {
     double& value = number.value.of(settings);
     if (!field.slider) {
       ImGui::InputDouble(label().c_str(), &value, 0.0, 0.0, "%.4f", ImGuiInputTextFlags_EnterReturnsTrue);
       return;
     }
-    float edited = static_cast<float>(value);
-    if (ImGui::SliderFloat(label().c_str(), &edited, static_cast<float>(field.slider->low),
-                           static_cast<float>(field.slider->high), field.slider->format, flags())) {
-      value = edited;
-    }
+    const float before = static_cast<float>(value);
+    float edited = before;
+    ImGui::SliderFloat(label().c_str(), &edited, static_cast<float>(field.slider->low),
+                       static_cast<float>(field.slider->high), field.slider->format, flags());
+    value = moveByKey(edited, before) != before ? edited : value;
   }
 
   // Unchecked means "auto": the device's value.
@@ -52,9 +65,10 @@ struct Widget {
   void operator()(const IntegerSetting& integer) const {
     int& value = integer.value.of(settings);
     if (!integer.powersOfTwo) {
-      const SettingSlider slider = *field.slider;
-      ImGui::SliderInt(label().c_str(), &value, static_cast<int>(slider.low), static_cast<int>(slider.high),
-                       slider.format, flags());
+      const int before = value;
+      ImGui::SliderInt(label().c_str(), &value, static_cast<int>(field.slider->low),
+                       static_cast<int>(field.slider->high), field.slider->format, flags());
+      moveByKey(value, before);
       return;
     }
     const bool ofDevice = field.key.ends_with(".samples");
@@ -123,7 +137,9 @@ bool colorEdit(const char* label, glm::dvec3& linear, double most) {
     picked[i] = static_cast<float>(srgbEncode(std::clamp(linear[i], 0.0, 1.0)));
   }
   const float swatch = ImGui::GetFrameHeight() + style.ItemInnerSpacing.x;
-  const std::string shown = labelFor(label, swatch + 9.5f * ImGui::GetFontSize());
+  std::string words = label;  // "Color (linear)", "Reflectance (tint, linear)"
+  words.ends_with(')') ? words.insert(words.size() - 1, ", linear") : words.append(" (linear)");
+  const std::string shown = labelFor(words, swatch + 9.5f * ImGui::GetFontSize());
   ImGui::BeginGroup();
   ImGui::PushID(label);
   ImGui::SetNextItemWidth(ImGui::CalcItemWidth() - swatch);
@@ -135,6 +151,7 @@ bool colorEdit(const char* label, glm::dvec3& linear, double most) {
   }
   tip("Opens a picker. It shows display colors (sRGB); the numbers beside it are linear.");
   if (ImGui::BeginPopup("picker")) {
+    ImGui::TextUnformatted("As displayed (sRGB)");
     if (ImGui::ColorPicker3("##picker", &picked.x, ImGuiColorEditFlags_NoSidePreview | ImGuiColorEditFlags_Float)) {
       for (int i = 0; i < 3; ++i) {
         linear[i] = std::round(srgbDecode(picked[i]) * 1e4) / 1e4;

@@ -51,14 +51,14 @@ float statusLine(const StatusView& status, float width, float right) {
                                      ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoBringToFrontOnFocus;
   if (ImGui::Begin("##status", nullptr, flags)) {
     ImGui::TextWrapped("%s", shown.c_str());
+    const ImVec2 corner = ImGui::GetWindowPos();
+    if (!picture.empty() && !ImGui::GetIO().WantCaptureMouse &&
+        ImGui::IsMouseHoveringRect(corner, {corner.x + across, corner.y + height}, false)) {
+      showTip(pictureHelp);
+    }
   }
   ImGui::End();
   ImGui::PopStyleVar(3);
-  const ImVec2 corner(margin, display.y - height - 0.5f * margin);
-  if (!picture.empty() && !ImGui::GetIO().WantCaptureMouse &&
-      ImGui::IsMouseHoveringRect(corner, {corner.x + across, corner.y + height}, false)) {
-    ImGui::SetTooltip("%s", pictureHelp);
-  }
   return height;
 }
 
