@@ -10,6 +10,10 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/models/ DESTINATION ${SPECULUM_DATA_DIR}
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/scenes/ DESTINATION ${SPECULUM_DATA_DIR}/scenes
         FILES_MATCHING PATTERN "*.toml" PATTERN "*.jpg")
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples/ DESTINATION ${SPECULUM_DATA_DIR}/examples)
+# The examples' programs; what they need of their folders is among the data above.
+set(examples ${CMAKE_INSTALL_LIBEXECDIR}/speculum/examples)
+install(TARGETS triangle offscreen one_mirror mirror_in_mirror RUNTIME DESTINATION ${examples})
+install(DIRECTORY ${PROJECT_BINARY_DIR}/examples/shaders DESTINATION ${examples} FILES_MATCHING PATTERN "*.spv")
 install(FILES ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES ${PROJECT_SOURCE_DIR}/scripts/speculum-completion.bash
         DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME speculum)

@@ -55,7 +55,7 @@ Device::Device(const DeviceOptions& options) : instance_(options) {
   }
   gpu_ = choose(physicalDevices(instance_, surface_.get()), options.gpu);
   choosePath(options.renderPath);
-  createDevice();
+  createDevice(options);
   loadFunctions();
   setName(queue_, "graphics queue");
   spdlog::info("GPU {}: {}, {}, render path {}", info().index, info().name, info().driver, renderPathName(renderPath_));
@@ -70,8 +70,13 @@ void Device::choosePath(RenderPath wanted) {
   renderPath_ = dynamic ? RenderPath::dynamic : RenderPath::renderPass;
 }
 
-std::vector<const char*> Device::deviceExtensions() const {
-  std::vector<const char*> extensions;
+std::vector<const char*> Device::deviceExtensions(const DeviceOptions& options) const {
+  std::vector<const char*> extensions = options.extensions;
+  for (const char* name : extensions) {
+    if (!gpu_.hasExtension(name)) {
+      throw std::runtime_error(info().name + " has no " + name + " (update its driver, " + info().driver + ")");
+    }
+  }
   if (surface_) {
     extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
   }
@@ -97,13 +102,13 @@ std::vector<const char*> Device::deviceExtensions() const {
   return extensions;
 }
 
-void Device::createDevice() {
-  const std::vector<const char*> extensions = deviceExtensions();
+void Device::createDevice(const DeviceOptions& options) {
+  const std::vector<const char*> extensions = deviceExtensions(options);
   VkPhysicalDeviceDynamicRenderingFeatures dynamic{
       .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DYNAMIC_RENDERING_FEATURES, .dynamicRendering = VK_TRUE};
   VkPhysicalDeviceExtendedDynamicStateFeaturesEXT state{
       .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_EXTENDED_DYNAMIC_STATE_FEATURES_EXT, .extendedDynamicState = VK_TRUE};
-  void* next = nullptr;
+  void* next = options.features;
   if (renderPath_ == RenderPath::dynamic) {
     dynamic.pNext = std::exchange(next, &dynamic);
   }

@@ -27,6 +27,8 @@ struct DeviceOptions {
   bool validation = false;   // core and synchronisation validation of VK_LAYER_KHRONOS_validation
   Window* window = nullptr;  // null: headless, without any surface extension
   RenderPath renderPath = RenderPath::automatic;
+  std::vector<const char*> extensions;  // of the device, besides those that it takes by itself; one missing is an error
+  void* features = nullptr;             // chain of structures for them, which outlives the constructor
 };
 
 struct MemoryBudget {
@@ -115,8 +117,8 @@ class Device {
   };
 
   void choosePath(RenderPath wanted);
-  std::vector<const char*> deviceExtensions() const;
-  void createDevice();
+  std::vector<const char*> deviceExtensions(const DeviceOptions& options) const;
+  void createDevice(const DeviceOptions& options);
   void loadFunctions();
   void setObjectName(VkObjectType type, uint64_t object, std::string_view name) const;
 

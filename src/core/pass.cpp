@@ -47,7 +47,7 @@ TargetBarriers barriersBefore(TargetRole role) {
     case TargetRole::swapchain:
       break;
   }
-  return {BarrierKind::swapchainBeforeWrite, BarrierKind::swapchainBeforeWrite, BarrierKind::swapchainBeforeWrite};
+  return {BarrierKind::swapchainBeforeWrite, BarrierKind::swapchainBeforeWrite, BarrierKind::mainDepthBeforeWrite};
 }
 
 // Makes the images' content undefined, also outside a pass's render area.

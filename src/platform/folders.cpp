@@ -104,10 +104,12 @@ fs::path typedPath(const fs::path& typed) {
 fs::path dataDirectory(std::string_view name) {
   const fs::path exe = executablePath().parent_path();
   const fs::path up = exe.parent_path();
-  std::vector<fs::path> candidates{exe / name, up / "share" / "speculum" / name};
-  // Built: beside the program, a folder higher for test programs, then up to the source tree.
-  for (fs::path folder = up; candidates.size() < 5 && candidates.back() != folder / name;
+  std::vector<fs::path> candidates{exe / name};
+  // Installed: below the prefix, which is one folder above programs and three above examples. Built: beside the
+  // program, a folder higher for test programs, then up to the source tree.
+  for (fs::path folder = up; candidates.size() < 7 && candidates.back() != folder / name;
        folder = folder.parent_path()) {
+    candidates.push_back(folder / "share" / "speculum" / name);
     candidates.push_back(folder / name);
   }
   std::string searched;

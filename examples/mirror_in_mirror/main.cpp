@@ -1,0 +1,293 @@
+// Mirror in mirror. What a mirror shows in another one is drawn before what that one shows: a list of passes, deepest
+// first, each of which fetches its pixels from those before it.
+
+#include <glm/gtc/matrix_transform.hpp>
+#include <map>
+
+#include "shared/example.hpp"
+#include "shared/mesh.hpp"
+#include "shared/shader_pair.hpp"
+#include "shared/simple_ui.hpp"
+#include "shared/view_sets.hpp"
+
+namespace speculum::examples {
+namespace {
+
+// Where a pass looks from, and what lights it. view.glsl has the same members.
+struct View {
+  glm::mat4 clipFromWorld{1.0f};
+  glm::vec4 eye{0.0f, 0.0f, 0.0f, 1.0f};
+  glm::vec4 clipPlane{0.0f, 0.0f, 0.0f, 1.0f};  // this one cuts nothing
+  glm::vec4 light{0.0f};
+  glm::vec4 lightColor{0.0f};
+  glm::vec4 ambient{0.0f};
+};
+
+struct Object {
+  glm::mat4 worldFromModel{1.0f};
+  glm::vec4 diffuse{1.0f};
+  glm::vec4 specular{0.04f, 0.04f, 0.04f, 60.0f};
+};
+
+struct Mirror {
+  glm::mat4 worldFromMirror{1.0f};
+  glm::vec4 reflectance{0.92f, 0.93f, 0.94f, 1.0f};
+  uint32_t naive = 0;
+};
+
+constexpr glm::vec3 background{0.10f, 0.11f, 0.19f};
+
+// Where a mirror hangs; scene.toml has the same values.
+struct Place {
+  glm::vec3 center;
+  glm::vec3 normal;
+  float yaw;  // radians
+};
+constexpr std::array places{Place{{0.0f, 1.0f, -1.4756f}, {0.0f, 0.0f, 1.0f}, 0.0f},
+                            Place{{0.0f, 1.0f, 2.9756f}, {0.0f, 0.0f, -1.0f}, glm::pi<float>()}};
+
+glm::mat4 placed(const glm::vec3& position, const glm::vec3& scale, float yaw = 0.0f) {
+  return glm::scale(glm::rotate(glm::translate(glm::mat4(1.0f), position), yaw, {0.0f, 1.0f, 0.0f}), scale);
+}
+
+// Vulkan's clip space has y down. Depth is reversed, 1 at the near plane and 0 infinitely far, which keeps it precise.
+glm::mat4 projection(float verticalFov, float aspect) {
+  const float focal = 1.0f / std::tan(verticalFov / 2.0f);
+  constexpr float near = 0.01f;
+  return {{focal / aspect, 0, 0, 0}, {0, -focal, 0, 0}, {0, 0, 0, -1}, {0, 0, near, 0}};
+}
+
+// Takes every point to the other side of the plane: p - 2 n (n . (p - q)).
+glm::mat4 reflection(const glm::vec3& q, const glm::vec3& n) {
+  const glm::mat3 linear = glm::mat3(1.0f) - 2.0f * glm::outerProduct(n, n);
+  glm::mat4 matrix(linear);
+  matrix[3] = glm::vec4(2.0f * glm::dot(n, q) * n, 1.0f);
+  return matrix;
+}
+
+View viewFrom(const glm::vec3& offset, double time, float aspect, float turn) {
+  constexpr glm::vec3 target{0.1f, 0.85f, -0.4f};
+  const glm::vec3 eye = target + glm::mat3(glm::rotate(glm::mat4(1.0f), turn, {0, 1, 0})) * offset;
+  const auto angle = static_cast<float>(glm::radians(40.0 * time));
+  return {.clipFromWorld = projection(glm::radians(45.0f), aspect) * glm::lookAt(eye, target, {0, 1, 0}),
+          .eye = glm::vec4(eye, 1.0f),
+          .light = glm::vec4(0.9f * std::cos(angle), 1.9f, -0.9f * std::sin(angle), 0.06f),
+          .lightColor = glm::vec4(9.0f, 7.8f, 6.2f, 0.4f),
+          .ambient = glm::vec4(0.07f, 0.07f, 0.09f, 0.0f)};
+}
+
+// The mirror shows what an eye behind it sees, which is the eye's own reflection. Moving the eye there is the same as
+// reflecting the world: first reflect, then go on as before, with the same projection.
+View reflectedView(const View& seen, const Place& mirror) {
+  const glm::mat4 reflect = reflection(mirror.center, mirror.normal);
+  View view = seen;
+  view.clipFromWorld = seen.clipFromWorld * reflect;
+  view.eye = reflect * seen.eye;
+  // Between that eye and the mirror stands what is behind the mirror, which must not hide what is before it.
+  view.clipPlane = glm::vec4(mirror.normal, -glm::dot(mirror.normal, mirror.center));
+  return view;
+}
+
+// Says whether a view sees the mirror's front. It sees nothing of it if all corners lie beyond one side of the picture.
+bool isSeen(const Place& mirror, const View& view) {
+  const glm::mat4 corners{{-0.5f, -0.5f, 0, 1}, {0.5f, -0.5f, 0, 1}, {0.5f, 0.5f, 0, 1}, {-0.5f, 0.5f, 0, 1}};
+  const glm::mat4 worldFromMirror = placed(mirror.center, {1.95f, 1.3f, 1.0f}, mirror.yaw);
+  const glm::mat4 clip = glm::transpose(view.clipFromWorld * worldFromMirror * corners);  // x of all, y of all, ...
+  const auto beyond = [&](const glm::vec4& side) { return glm::all(glm::greaterThan(side, clip[3])); };
+  return glm::dot(mirror.normal, glm::vec3(view.eye) - mirror.center) > 0.0f && !beyond(clip[0]) && !beyond(-clip[0]) &&
+         !beyond(clip[1]) && !beyond(-clip[1]);
+}
+
+// The core: GPU, frames in flight with the SwapChain, and what is drawn into.
+struct Core {
+  const Options& options;
+  std::unique_ptr<Window> window;
+  Device device;
+  Renderer renderer;
+  SharedDepth depth;  // of all passes, one after the other
+  OffScreen beyond;   // one pixel of the background, which mirrors show where the list ends
+  std::map<std::pair<int, size_t>, OffScreen> offScreens;  // by depth and mirror
+
+  explicit Core(const Options& asked)
+      : options(asked),
+        window(options.openWindow()),
+        device(options.device(window.get())),
+        renderer(device, options.renderer(window.get())),
+        depth(device, VK_SAMPLE_COUNT_1_BIT, "shared"),
+        beyond(device, {.name = "background", .depth = false}, renderer.retired()) {}
+};
+
+using Images = std::array<OffScreen*, places.size()>;  // what each mirror shows in a view
+
+struct ImagePass {
+  View view;
+  OffScreen* target;
+  Images images;  // what mirrors show in it
+  bool flipped;   // by an odd number of reflections
+};
+
+// Lists the passes for all mirrors that a view sees, each after those that it needs. Returns what the mirrors show.
+Images listPasses(Core& core, const View& seen, int depth, int most, bool naive, std::vector<ImagePass>& passes) {
+  Images images;
+  images.fill(&core.beyond);
+  for (size_t m = 0; m < places.size(); ++m) {
+    if (depth < most && isSeen(places[m], seen)) {
+      const View view = naive ? seen : reflectedView(seen, places[m]);
+      const Images nested = listPasses(core, view, depth + 1, naive ? 0 : most, naive, passes);
+      const OffScreenDesc desc{.name = "offscreen", .shared = &core.depth};
+      const auto made = core.offScreens.try_emplace({depth, m}, core.device, desc, core.renderer.retired());
+      images[m] = &made.first->second;
+      passes.push_back({view, images[m], nested, !naive && depth % 2 == 0});
+    }
+  }
+  return images;
+}
+
+// Draws the objects.
+class RenderSystem {
+ public:
+  RenderSystem(Core& core, VkDescriptorSetLayout views)
+      : cube_(core.renderer.uploader(), core.options.model("../shared/cube.obj")),
+        knot_(core.renderer.uploader(), core.options.model("../../models/torus_knot_upright.obj")),
+        sphere_(core.renderer.uploader(), core.options.model("../../models/sphere.obj")),
+        frame_(core.renderer.uploader(), core.options.model("../../models/frame_wide.obj")),
+        shaders_(core.renderer, core.options, "scene",
+                 {.setLayouts = {views},
+                  .pushConstantBytes = sizeof(Object),
+                  .vertexBindings = Mesh::bindings(),
+                  .vertexAttributes = Mesh::attributes()}) {}
+
+  void record(const PassScope& pass, VkDescriptorSet view, double time) const {
+    const auto spin = static_cast<float>(glm::radians(30.0 * time));
+    const std::pair<const Mesh*, Object> objects[] = {
+        {&cube_, {placed({0, -0.05f, 0}, {8, 0.1f, 6}), {0.26f, 0.15f, 0.09f, 1}, {0.05f, 0.05f, 0.05f, 40}}},
+        {&cube_, {placed({0, 1.5f, -1.55f}, {8, 3.0f, 0.1f}), {0.07f, 0.19f, 0.22f, 1}}},
+        {&frame_, {placed({0, 1.0f, -1.5f}, glm::vec3(0.65f)), {0.42f, 0.26f, 0.075f, 1}, {0.55f, 0.38f, 0.13f, 48}}},
+        {&cube_, {placed({0, 1.5f, 3.05f}, {8, 3.0f, 0.1f}), {0.30f, 0.12f, 0.10f, 1}}},
+        {&frame_,
+         {placed({0, 1.0f, 3.0f}, glm::vec3(0.65f), glm::pi<float>()),
+          {0.42f, 0.26f, 0.075f, 1},
+          {0.55f, 0.38f, 0.13f, 48}}},
+        {&cube_, {placed({0, 0.25f, 0}, {0.62f, 0.5f, 0.62f}), {0.6f, 0.56f, 0.48f, 1}}},
+        {&knot_, {placed({0, 0.5f, 0}, glm::vec3(0.9f), spin), {0.5f, 0.09f, 0.04f, 1}, {0.3f, 0.28f, 0.25f, 70}}},
+        {&sphere_,
+         {placed({-0.85f, 0.27f, -0.6f}, glm::vec3(0.54f)), {0.05f, 0.13f, 0.42f, 1}, {0.1f, 0.1f, 0.1f, 200}}},
+        {&sphere_, {placed({0.85f, 0.2f, -0.85f}, glm::vec3(0.4f)), {0.5f, 0.4f, 0.12f, 1}, {0.1f, 0.1f, 0.1f, 200}}},
+    };
+    shaders_.bind(pass, view);
+    pass.cull(VK_CULL_MODE_BACK_BIT);
+    for (const auto& [mesh, object] : objects) {
+      shaders_.push(pass, object);
+      mesh->draw(pass.commands());
+    }
+  }
+
+ private:
+  Mesh cube_;
+  Mesh knot_;
+  Mesh sphere_;
+  Mesh frame_;
+  ShaderPair shaders_;
+};
+
+// Draws the lamp.
+class PointLightSystem {
+ public:
+  PointLightSystem(Core& core, VkDescriptorSetLayout views)
+      : shaders_(core.renderer, core.options, "light", {.setLayouts = {views}}) {}
+
+  void record(const PassScope& pass, VkDescriptorSet view) const {
+    shaders_.bind(pass, view);
+    vkCmdDraw(pass.commands(), 6, 1, 0, 0);
+  }
+
+ private:
+  ShaderPair shaders_;
+};
+
+// Draws a mirror, which looks up an OffScreen.
+class MirrorSystem {
+ public:
+  MirrorSystem(Core& core, VkDescriptorSetLayout views)
+      : shaders_(core.renderer, core.options, "mirror", {.setLayouts = {views}, .pushConstantBytes = sizeof(Mirror)}) {}
+
+  void record(const PassScope& pass, VkDescriptorSet view, const Place& at, bool naive) const {
+    shaders_.bind(pass, view);
+    shaders_.push(pass, Mirror{.worldFromMirror = placed(at.center, {1.95f, 1.3f, 1.0f}, at.yaw), .naive = naive});
+    vkCmdDraw(pass.commands(), 6, 1, 0, 0);
+  }
+
+ private:
+  ShaderPair shaders_;
+};
+
+Drawn run(const Options& options) {
+  Core core(options);
+  ViewSets<View> views(core.device);
+  const RenderSystem renderSystem(core, views.layout());
+  const PointLightSystem pointLightSystem(core, views.layout());
+  const MirrorSystem mirrorSystem(core, views.layout());
+  const std::unique_ptr<SimpleUI> ui = SimpleUI::forWindow(core.renderer, core.window.get());
+  bool naive = options.naive;
+  int depth = 8;
+  UiState state{.clearColor = background, .naive = &naive, .depth = &depth, .mostDepth = 16};
+  const IdleGuard idle(core.device);
+
+  for (Loop loop(options, core.window.get()); loop.next();) {
+    std::optional<Frame> frame = core.renderer.beginFrame();  // waits for the frame before the last one
+    if (!frame) {
+      continue;  // the window has no pixels
+    }
+    frame->capture = !core.window;
+    if (ui) {
+      ui->build(state);
+    }
+    core.depth.require(frame->extent, core.renderer.retired());
+    const float aspect = static_cast<float>(frame->extent.width) / static_cast<float>(frame->extent.height);
+    const View eye = viewFrom({1.5f, 0.65f, 2.7f}, loop.time(), aspect, ui ? ui->turn() : 0.0f);
+    std::vector<ImagePass> passes;
+    const Images images = listPasses(core, eye, 0, depth, naive, passes);
+    PassDesc end = fullPass("background", core.beyond.targets());
+    end.clearColor = radiance(state.clearColor);
+    core.renderer.beginPass(*frame, end);
+    for (const auto& [reflected, target, shown, flipped] : passes) {
+      target->resize(naive ? VkExtent2D{512, 512} : frame->extent, core.renderer.retired());
+      PassDesc desc = fullPass("offscreen", target->targets());
+      desc.clearColor = radiance(state.clearColor);
+      // A reflection turns left into right, so corners that ran counter-clockwise run clockwise.
+      desc.frontFace = flipped ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE;
+      // Before the pass waits whatever still reads the OffScreen; its end makes the OffScreen readable.
+      const PassScope pass = core.renderer.beginPass(*frame, desc);
+      const VkDescriptorSet view = views.write(*frame, reflected);
+      renderSystem.record(pass, view, loop.time());
+      for (size_t m = 0; m < places.size(); ++m) {
+        mirrorSystem.record(pass, views.write(*frame, reflected, shown[m]), places[m], naive);
+      }
+      pointLightSystem.record(pass, view);
+    }
+    {
+      PassDesc desc = fullPass("window", core.renderer.displayTargets(*frame));
+      desc.targets.depth = core.depth.image();
+      desc.clearColor = displayed(state.clearColor);
+      const PassScope pass = core.renderer.beginPass(*frame, desc);
+      const VkDescriptorSet view = views.write(*frame, eye);
+      renderSystem.record(pass, view, loop.time());
+      for (size_t m = 0; m < places.size(); ++m) {
+        mirrorSystem.record(pass, views.write(*frame, eye, images[m]), places[m], naive);
+      }
+      pointLightSystem.record(pass, view);
+    }
+    if (ui) {
+      ui->record(core.renderer.beginOverlay(*frame));
+    }
+    core.renderer.endFrame(*frame);  // submits; the image is shown when it is drawn
+  }
+  return finish(core.renderer);
+}
+
+}  // namespace
+}  // namespace speculum::examples
+
+int main(int argc, char** argv) {
+  return speculum::examples::exampleMain(argc, argv, EXAMPLE_NAME, speculum::examples::run);
+}

@@ -1,0 +1,20 @@
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "view.glsl"
+
+layout(push_constant) uniform Mirror {
+  mat4 worldFromMirror;
+  vec4 reflectance;
+  uint naive;
+} mirror;
+
+layout(location = 0) out vec2 uv;
+
+// Draws a square of side 1, counter-clockwise seen from +z, in which the mirror faces.
+void main() {
+  const vec2 corners[6] = vec2[](vec2(0, 0), vec2(1, 0), vec2(1, 1), vec2(0, 0), vec2(1, 1), vec2(0, 1));
+  uv = corners[gl_VertexIndex];
+  vec4 world = mirror.worldFromMirror * vec4(uv - 0.5, 0.0, 1.0);
+  gl_Position = view.clipFromWorld * world;
+  gl_ClipDistance[0] = dot(view.clipPlane, world);
+}

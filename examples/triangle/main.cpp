@@ -1,0 +1,126 @@
+// A triangle. A GPU, a window with its swapchain, and one draw a frame.
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "shared/example.hpp"
+#include "shared/shader_pair.hpp"
+#include "shared/simple_ui.hpp"
+#include "shared/view_sets.hpp"
+
+namespace speculum::examples {
+namespace {
+
+// Where a pass looks from, and what lights it. view.glsl has the same members.
+struct View {
+  glm::mat4 clipFromWorld{1.0f};
+  glm::vec4 eye{0.0f, 0.0f, 0.0f, 1.0f};
+  glm::vec4 light{0.0f};
+  glm::vec4 lightColor{0.0f};
+  glm::vec4 ambient{0.0f};
+};
+
+struct Object {
+  glm::mat4 worldFromModel{1.0f};
+  glm::vec4 diffuse{1.0f};
+  glm::vec4 specular{0.04f, 0.04f, 0.04f, 60.0f};
+};
+
+constexpr glm::vec3 background{0.10f, 0.11f, 0.19f};
+
+glm::mat4 placed(const glm::vec3& position, const glm::vec3& scale, float yaw = 0.0f) {
+  return glm::scale(glm::rotate(glm::translate(glm::mat4(1.0f), position), yaw, {0.0f, 1.0f, 0.0f}), scale);
+}
+
+// Vulkan's clip space has y down. Depth is reversed, 1 at the near plane and 0 infinitely far, which keeps it precise.
+glm::mat4 projection(float verticalFov, float aspect) {
+  const float focal = 1.0f / std::tan(verticalFov / 2.0f);
+  constexpr float near = 0.01f;
+  return {{focal / aspect, 0, 0, 0}, {0, -focal, 0, 0}, {0, 0, 0, -1}, {0, 0, near, 0}};
+}
+
+View viewFrom(const glm::vec3& offset, double time, float aspect, float turn) {
+  constexpr glm::vec3 target{0.1f, 0.85f, -0.4f};
+  const glm::vec3 eye = target + glm::mat3(glm::rotate(glm::mat4(1.0f), turn, {0, 1, 0})) * offset;
+  const auto angle = static_cast<float>(glm::radians(40.0 * time));
+  return {.clipFromWorld = projection(glm::radians(45.0f), aspect) * glm::lookAt(eye, target, {0, 1, 0}),
+          .eye = glm::vec4(eye, 1.0f),
+          .light = glm::vec4(0.9f * std::cos(angle), 1.9f, -0.9f * std::sin(angle), 0.06f),
+          .lightColor = glm::vec4(9.0f, 7.8f, 6.2f, 0.4f),
+          .ambient = glm::vec4(0.07f, 0.07f, 0.09f, 0.0f)};
+}
+
+// The core: GPU, frames in flight with the SwapChain, and what is drawn into.
+struct Core {
+  const Options& options;
+  std::unique_ptr<Window> window;
+  Device device;
+  Renderer renderer;
+  SharedDepth depth;  // of all passes, one after the other
+
+  explicit Core(const Options& asked)
+      : options(asked),
+        window(options.openWindow()),
+        device(options.device(window.get())),
+        renderer(device, options.renderer(window.get())),
+        depth(device, VK_SAMPLE_COUNT_1_BIT, "shared") {}
+};
+
+// Draws the objects.
+class RenderSystem {
+ public:
+  RenderSystem(Core& core, VkDescriptorSetLayout views)
+      : shaders_(core.renderer, core.options, "scene", {.setLayouts = {views}, .pushConstantBytes = sizeof(Object)}) {}
+
+  void record(const PassScope& pass, VkDescriptorSet view, double time) const {
+    const auto spin = static_cast<float>(glm::radians(30.0 * time));
+    shaders_.bind(pass, view);
+    shaders_.push(pass, Object{.worldFromModel = placed(glm::vec3(0.0f), glm::vec3(1.0f), spin)});
+    vkCmdDraw(pass.commands(), 3, 1, 0, 0);
+  }
+
+ private:
+  ShaderPair shaders_;
+};
+
+Drawn run(const Options& options) {
+  Core core(options);
+  ViewSets<View> views(core.device);
+  const RenderSystem renderSystem(core, views.layout());
+  const std::unique_ptr<SimpleUI> ui = SimpleUI::forWindow(core.renderer, core.window.get());
+  UiState state{.clearColor = background};
+  const IdleGuard idle(core.device);
+
+  for (Loop loop(options, core.window.get()); loop.next();) {
+    std::optional<Frame> frame = core.renderer.beginFrame();  // waits for the frame before the last one
+    if (!frame) {
+      continue;  // the window has no pixels
+    }
+    frame->capture = !core.window;
+    if (ui) {
+      ui->build(state);
+    }
+    core.depth.require(frame->extent, core.renderer.retired());
+    const float aspect = static_cast<float>(frame->extent.width) / static_cast<float>(frame->extent.height);
+    const View eye = viewFrom({1.5f, 0.65f, 2.7f}, loop.time(), aspect, ui ? ui->turn() : 0.0f);
+    {
+      PassDesc desc = fullPass("window", core.renderer.displayTargets(*frame));
+      desc.targets.depth = core.depth.image();
+      desc.clearColor = displayed(state.clearColor);
+      const PassScope pass = core.renderer.beginPass(*frame, desc);
+      const VkDescriptorSet view = views.write(*frame, eye);
+      renderSystem.record(pass, view, loop.time());
+    }
+    if (ui) {
+      ui->record(core.renderer.beginOverlay(*frame));
+    }
+    core.renderer.endFrame(*frame);  // submits; the image is shown when it is drawn
+  }
+  return finish(core.renderer);
+}
+
+}  // namespace
+}  // namespace speculum::examples
+
+int main(int argc, char** argv) {
+  return speculum::examples::exampleMain(argc, argv, EXAMPLE_NAME, speculum::examples::run);
+}

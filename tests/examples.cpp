@@ -1,0 +1,195 @@
+#include "accuracy/picture_agreement.hpp"
+#include "image/color.hpp"
+#include "image/picture_files.hpp"
+#include "platform/files.hpp"
+#include "platform/process.hpp"
+#include "reference/ray_tracer.hpp"
+#include "scene/scene_loader.hpp"
+#include "test_headers.hpp"
+#include "test_paths.hpp"
+#include "virtual_display.hpp"
+
+namespace speculum::testing_support {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path sources = sourceDir() / "examples";
+
+ProcessResult example(const std::string& name, std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), (binaryDir() / "examples" / name).string());
+  return runProcess(arguments);
+}
+
+// Draws a picture under validation, which must say nothing.
+Image8 draw(const std::string& name, std::vector<std::string> arguments) {
+  const fs::path file = binaryDir() / "tests" / ("example_" + name + ".png");
+  arguments.insert(arguments.end(), {"--out", file.string(), "--validation"});
+  const ProcessResult result = example(name, arguments);
+  EXPECT_EQ(result.exitCode, 0) << result.output;
+  EXPECT_EQ(result.output, "");
+  return readImage8(file);
+}
+
+class Step : public testing::TestWithParam<std::string> {};
+
+TEST_P(Step, BothPathsDrawTheSameBytes) {
+  const std::vector<std::string> size{"--size", "161x90", "--time", "0.4"};
+  std::vector<std::string> path = size;
+  path.insert(path.end(), {"--render-path", "dynamic"});
+  const Image8 dynamic = draw(GetParam(), path);
+  path.back() = "renderpass";
+  EXPECT_EQ(draw(GetParam(), path).rgba, dynamic.rgba);
+  ASSERT_EQ(dynamic.width, 161);
+  EXPECT_GT(std::set<uint8_t>(dynamic.rgba.begin(), dynamic.rgba.end()).size(), 50u) << "there is something in it";
+}
+
+// Devices without them say so; validation layers that do not know them are refused.
+TEST_P(Step, ShaderObjectsDrawTheSameBytes) {
+  const std::string file = (binaryDir() / "tests" / ("objects_" + GetParam() + ".png")).string();
+  const std::vector<std::string> size{"--size", "161x90", "--out", file};
+  std::vector<std::string> objects = size;
+  objects.insert(objects.end(), {"--shaders", "objects"});
+  const ProcessResult result = example(GetParam(), objects);
+  if (contains(result.output, "has no VK_EXT_shader_object")) {
+    EXPECT_EQ(result.exitCode, 2);
+    EXPECT_EQ(std::ranges::count(result.output, '\n'), 1);
+    return;
+  }
+  ASSERT_EQ(result.exitCode, 0) << result.output;
+  const Image8 drawn = readImage8(file);
+  ASSERT_EQ(example(GetParam(), size).exitCode, 0);
+  EXPECT_EQ(readImage8(file).rgba, drawn.rgba);
+}
+
+INSTANTIATE_TEST_SUITE_P(Examples, Step, testing::Values("triangle", "offscreen", "one_mirror", "mirror_in_mirror"),
+                         [](const auto& info) { return info.param; });
+
+class MirrorStep : public testing::TestWithParam<std::string> {};
+
+TEST_P(MirrorStep, PicturesAgreeWithTheTracer) {
+  const Scene scene = loadScene(sources / GetParam() / "scene.toml");
+  for (const double time : {0.0, 3.7}) {
+    const RayTracer tracer(scene, evaluate(scene, time));
+    const TraceOptions options{.width = 320, .height = 180, .samples = 1, .maxDepth = 8};
+    const Image8 truth = toDisplay(tracer.render(options)->image);
+    const Image8 drawn = draw(GetParam(), {"--size", "320x180", "--time", std::to_string(time)});
+    const PictureAgreement agreement = difference(drawn, truth, 2);
+    EXPECT_TRUE(agreement.holds()) << agreement.over << " of " << agreement.counted << " pixels at " << time;
+  }
+}
+
+TEST_P(MirrorStep, NaiveIsComparedInOneLine) {
+  const std::string file = (binaryDir() / "tests" / "example_naive.png").string();
+  const ProcessResult result = example(GetParam(), {"--naive", "--size", "160x90", "--out", file, "--validation"});
+  ASSERT_EQ(result.exitCode, 0) << result.output;
+  double naive = 0.0, naiveMs = 0.0, exact = 0.0, exactMs = 0.0;
+  ASSERT_EQ(std::sscanf(result.output.c_str(), "naive: FLIP %lf in %lf ms; exact: FLIP %lf in %lf ms\n", &naive,
+                        &naiveMs, &exact, &exactMs),
+            4)
+      << result.output;
+  EXPECT_EQ(std::ranges::count(result.output, '\n'), 1);
+  EXPECT_GT(naive, 0.02);
+  EXPECT_LT(exact, 0.002);
+  EXPECT_GT(std::min(naiveMs, exactMs), 0.0);
+  EXPECT_NE(readImage8(file).rgba, draw(GetParam(), {"--size", "160x90"}).rgba) << "the naive picture is written";
+}
+
+INSTANTIATE_TEST_SUITE_P(Examples, MirrorStep, testing::Values("one_mirror", "mirror_in_mirror"),
+                         [](const auto& info) { return info.param; });
+
+TEST(Examples, BadUsageIsOneLine) {
+  const std::vector<std::vector<std::string>> mistakes = {{"--size", "3"},
+                                                          {"--size", "0x9"},
+                                                          {"--frames", "0"},
+                                                          {"--frames", "many"},
+                                                          {"--time", "nan"},
+                                                          {"--time"},
+                                                          {"--out", "a.jpg"},
+                                                          {"--out", "/nowhere/a.png"},
+                                                          {"--shaders", "none"},
+                                                          {"--shaders", "objects", "--render-path", "renderpass"},
+                                                          {"--fast"},
+                                                          {"picture"},
+                                                          {"--naive"},
+                                                          {"--render-path", "both"}};
+  for (const std::vector<std::string>& arguments : mistakes) {
+    const ProcessResult result = example("triangle", arguments);
+    EXPECT_EQ(result.exitCode, 2) << arguments[0] << ": " << result.output;
+    EXPECT_EQ(std::ranges::count(result.output, '\n'), 1) << arguments[0] << ": " << result.output;
+  }
+}
+
+TEST(Examples, StepsStayShort) {
+  const auto lines = [](const fs::path& file) {
+    const std::string text = readText(file);
+    return std::ranges::count(text, '\n');
+  };
+  std::string before;
+  for (const std::string name : {"triangle", "offscreen", "one_mirror", "mirror_in_mirror"}) {
+    for (const auto& entry : fs::directory_iterator(sources / name)) {
+      const std::string ending = entry.path().extension().string();
+      if (ending == ".vert" || ending == ".frag" || ending == ".glsl") {
+        EXPECT_LE(lines(entry.path()), 60) << entry.path();
+      }
+    }
+    const fs::path main = sources / name / "main.cpp";
+    EXPECT_LE(lines(main), 350);
+    if (!before.empty()) {
+      const std::string changes = runProcess({"diff", (sources / before / "main.cpp").string(), main.string()}).output;
+      EXPECT_LE(std::ranges::count(changes, '\n'), 100) << before << " to " << name;
+    }
+    before = name;
+  }
+}
+
+// The examples stand on core: what they show must not be done by the layers above it.
+TEST(Examples, UseNoSystemsOfTheProgram) {
+  for (const auto& entry : fs::recursive_directory_iterator(sources)) {
+    if (entry.path().extension() == ".cpp" || entry.path().extension() == ".hpp") {
+      const std::string text = readText(entry.path());
+      for (const char* layer : {"\"frame/", "\"systems/", "\"ui/", "\"app/"}) {
+        EXPECT_EQ(text.find(layer), std::string::npos) << entry.path() << ": " << layer;
+      }
+    }
+  }
+}
+
+class WindowStep : public testing::TestWithParam<std::string> {};
+
+TEST_P(WindowStep, ResizesAndMinimises) {
+  const test::VirtualDisplay display;
+  ChildProcess child({(binaryDir() / "examples" / "one_mirror").string(), "--size", "320x200", "--validation",
+                      "--render-path", GetParam()});
+  const auto xdotool = [](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "xdotool");
+    return runProcess(arguments);
+  };
+  std::string window = xdotool({"search", "--sync", "--name", "^one_mirror$"}).output;
+  window = window.substr(0, window.find('\n'));
+  ASSERT_FALSE(window.empty());
+  xdotool({"windowsize", "--sync", window, "417", "261"});
+  xdotool({"windowminimize", "--sync", window});
+  xdotool({"windowmap", "--sync", window});
+  xdotool({"windowsize", "--sync", window, "211", "130"});
+  EXPECT_TRUE(child.running());
+  xdotool({"windowactivate", "--sync", window, "key", "alt+F4"});
+  const ProcessResult result = child.wait();
+  EXPECT_EQ(result.exitCode, 0) << result.output;
+  EXPECT_EQ(result.output, "");
+}
+
+INSTANTIATE_TEST_SUITE_P(Examples, WindowStep, testing::Values("dynamic", "renderpass"),
+                         [](const auto& info) { return info.param; });
+
+TEST(Examples, WindowEndsAfterItsFrames) {
+  const test::VirtualDisplay display;
+  for (const char* name : {"triangle", "offscreen", "mirror_in_mirror"}) {
+    const ProcessResult result = example(name, {"--size", "160x100", "--frames", "3", "--validation"});
+    EXPECT_EQ(result.exitCode, 0) << result.output;
+    EXPECT_EQ(result.output, "");
+  }
+}
+
+}  // namespace
+}  // namespace speculum::testing_support
