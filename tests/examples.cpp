@@ -1,3 +1,6 @@
+#include <chrono>
+#include <thread>
+
 #include "accuracy/picture_agreement.hpp"
 #include "image/color.hpp"
 #include "image/picture_files.hpp"
@@ -155,6 +158,24 @@ TEST(Examples, UseNoSystemsOfTheProgram) {
   }
 }
 
+// Lays out files as cmake/install.cmake does.
+TEST(Examples, InstalledProgramsFindTheirFiles) {
+  const TemporaryDirectory prefix;
+  const fs::path programs = prefix.path() / "libexec" / "speculum" / "examples";
+  const fs::path data = prefix.path() / "share" / "speculum";
+  fs::create_directories(programs);
+  fs::create_directories(data);
+  fs::copy_file(binaryDir() / "examples" / "one_mirror", programs / "one_mirror");
+  fs::create_directory_symlink(binaryDir() / "examples" / "shaders", programs / "shaders");
+  fs::create_directory_symlink(sourceDir() / "models", data / "models");
+  fs::create_directory_symlink(sources, data / "examples");
+  const std::string out = (prefix.path() / "picture.png").string();
+  const ProcessResult result =
+      runProcess({(programs / "one_mirror").string(), "--size", "16x9", "--naive", "--out", out});
+  EXPECT_EQ(result.exitCode, 0) << result.output;
+  EXPECT_TRUE(isFile(out));
+}
+
 class WindowStep : public testing::TestWithParam<std::string> {};
 
 TEST_P(WindowStep, ResizesAndMinimises) {
@@ -165,15 +186,25 @@ TEST_P(WindowStep, ResizesAndMinimises) {
     arguments.insert(arguments.begin(), "xdotool");
     return runProcess(arguments);
   };
-  std::string window = xdotool({"search", "--sync", "--name", "^one_mirror$"}).output;
+  std::string window;
+  for (int i = 0; i < 600 && window.empty(); ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    window = xdotool({"search", "--name", "^one_mirror$"}).output;
+  }
   window = window.substr(0, window.find('\n'));
-  ASSERT_FALSE(window.empty());
-  xdotool({"windowsize", "--sync", window, "417", "261"});
-  xdotool({"windowminimize", "--sync", window});
-  xdotool({"windowmap", "--sync", window});
-  xdotool({"windowsize", "--sync", window, "211", "130"});
+  const auto frames = [] { std::this_thread::sleep_for(std::chrono::milliseconds(150)); };
+  for (const std::vector<std::string>& action :
+       std::vector<std::vector<std::string>>{{"windowsize", window, "417", "261"},
+                                             {"windowminimize", window},
+                                             {"windowmap", window},
+                                             {"windowsize", window, "1", "130"},
+                                             {"windowsize", window, "211", "130"}}) {
+    frames();
+    ASSERT_EQ(xdotool(action).exitCode, 0) << action.front();
+  }
+  frames();
   EXPECT_TRUE(child.running());
-  xdotool({"windowactivate", "--sync", window, "key", "alt+F4"});
+  xdotool({"keydown", "--window", window, "Escape"});
   const ProcessResult result = child.wait();
   EXPECT_EQ(result.exitCode, 0) << result.output;
   EXPECT_EQ(result.output, "");

@@ -50,7 +50,7 @@ bool Loop::next() {
   }
   do {
     window_->paused() ? window_->waitEvents(0.1) : window_->pollEvents();
-    if (window_->shouldClose()) {
+    if (window_->shouldClose() || window_->keyDown(Key::escape)) {
       return false;
     }
   } while (window_->paused());
@@ -108,6 +108,9 @@ Options parse(int argc, char** argv, const std::string& name) {
   const std::optional<PictureSize> asked = size.empty() ? PictureSize{1280, 720} : pictureSize(size);
   if (!asked) {
     throw std::runtime_error("--size: '" + size + "' is not a size (" + std::string(pictureSizes) + ")");
+  }
+  if (!std::isfinite(options.time.value_or(0.0))) {
+    throw std::runtime_error("--time: not a finite number (seconds of animation, such as 2.5)");
   }
   if (options.naive && !isFile(options.model("scene.toml"))) {
     throw std::runtime_error("--naive: " + name + " has no mirror (use one_mirror or mirror_in_mirror)");

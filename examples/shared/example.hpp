@@ -32,7 +32,7 @@ struct Options {
   std::filesystem::path model(const std::string& path) const;
 };
 
-// Handles the window's events, waits while it is minimised, and counts frames.
+// Handles the window's events, waits while it is minimised, and counts frames. Esc ends it.
 class Loop {
  public:
   Loop(const Options& options, Window* window) : options_(options), window_(window) {}
