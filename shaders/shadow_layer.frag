@@ -2,12 +2,12 @@
 #extension GL_GOOGLE_include_directive : require
 #include "interface.glsl"
 
-layout(set = 1, binding = 0) uniform sampler2D layer;
+layout(set = 1, binding = 0) uniform usampler2D layer;
 
-// Copies the disparities of the layer, and the depths that belong to them.
-layout(location = 0) out float disparity;
+// Copies the planes of the layer, and the depths that belong to them.
+layout(location = 0) out uvec2 plane;
 
 void main() {
-  disparity = texelFetch(layer, ivec2(gl_FragCoord.xy), 0).r;
-  gl_FragDepth = view.clipFromRelative[3].z * disparity;
+  plane = texelFetch(layer, ivec2(gl_FragCoord.xy), 0).rg;
+  gl_FragDepth = view.clipFromRelative[3].z * uintBitsToFloat(plane.x);
 }

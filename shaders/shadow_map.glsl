@@ -1,17 +1,19 @@
 // Shadows looked up in the images about a light: ShadowMap in src/frame/frame_plan.hpp. docs/numerics.md derives the
-// bias. Needs interface.glsl.
+// comparison. Needs interface.glsl.
 #include "cube_face.glsl"
 
 layout(constant_id = 4) const uint onlyShadowFace = anyShadowFace;  // face that contains the whole scene, in every map
 layout(constant_id = 10) const uint shadowedLights = 0;  // first lights of each pass, which have a map
 
-layout(set = 2, binding = 0) uniform sampler2D shadowTexels;  // disparities from the light, 1/m; 0: nothing is there
+layout(set = 2, binding = 0) uniform usampler2D shadowTexels;  // what shadow_map.frag stores; 0: nothing is there
 layout(set = 2, binding = 1, std140) uniform ShadowMaps { ShadowMapData shadowMaps[mostShadowMaps]; };
 
-const float leastShadowCosine = 0.05;  // steeper slopes count as this one
-const float shadowBias = 0.5;          // texels
+const float leastShadowCosine = 1e-6;  // steeper slopes count as this one
+const float shadowBias = 0.125;        // texels
+const float slopeError = 1.0 / 64.0;   // of planes that are rasterised or derived from pixels, texels
 
-// The point that shadows are looked up for, relative, and the normal of its triangle. Set before surfaceRadiance().
+// The point that shadows are looked up for, relative, and the normal of its triangle, towards the eye. Set before
+// surfaceRadiance().
 vec3 receiver;
 vec3 receiverNormal;
 
@@ -24,7 +26,7 @@ void setReceiver(vec3 position, vec3 shadingNormal) {
   bool found = along > 0.5 && along < 2.0;
   receiver = found ? along * position : position;
   receiverNormal = found ? safeNormalize(facet * inversesqrt(max(dot(facet, facet), 1e-30))) : shadingNormal;
-  receiverNormal = dot(receiverNormal, shadingNormal) < 0.0 ? -receiverNormal : receiverNormal;
+  receiverNormal = dot(receiverNormal, position) > 0.0 ? -receiverNormal : receiverNormal;
 }
 
 // Chooses among loads at uniform addresses, because lavapipe reads any other address once for each pixel.
@@ -37,28 +39,64 @@ vec4 windowOf(uint map, FaceDirection face) {
   return face.axis == 0 ? x : face.axis == 1 ? y : z;
 }
 
-// Returns the share of the light that reaches the receiver, interpolated bilinearly between four texels. Each is
-// compared with the disparity of the receiver's plane at that texel, which is linear on the face, so that no plane
-// shadows itself whatever its slope.
+// The planes that a light sees at four texels about a point of its map, in the order of textureGather: lower left, lower
+// right, upper right, upper left, with y downwards. Disparities are linear on a plane.
+struct SeenPlanes {
+  vec4 x;  // of the texels' centres from the point
+  vec4 y;
+  vec4 disparity;  // at the texels' centres; 0: nothing is there
+  vec4 rise;       // from the point to the texels' centres
+};
+
+SeenPlanes planesAbout(vec2 at) {
+  vec2 corner = floor(at + 0.5);  // shared by the four texels
+  vec2 low = corner - 0.5 - at;
+  SeenPlanes seen;
+  seen.x = low.x + vec4(0.0, 1.0, 1.0, 0.0);
+  seen.y = low.y + vec4(1.0, 1.0, 0.0, 0.0);
+  corner /= vec2(textureSize(shadowTexels, 0));
+  seen.disparity = uintBitsToFloat(textureGather(shadowTexels, corner, 0));
+  uvec4 slopes = textureGather(shadowTexels, corner, 1);
+  vec2 a = unpackHalf2x16(slopes.x);
+  vec2 b = unpackHalf2x16(slopes.y);
+  vec2 c = unpackHalf2x16(slopes.z);
+  vec2 d = unpackHalf2x16(slopes.w);
+  seen.rise = seen.disparity * (vec4(a.x, b.x, c.x, d.x) * seen.x + vec4(a.y, b.y, c.y, d.y) * seen.y);
+  return seen;
+}
+
+// Returns the share of the light that reaches the receiver, interpolated bilinearly between four texels. A plane seen
+// hides the receiver if it is nearer to the light than the receiver's own plane at the texel's centre and at the
+// receiver. If it is nearer at one of them only, both belong to surfaces that meet in between. If it is farther at both,
+// the light passes beside the receiver's surface, and the texel tells nothing.
 float shadowShare(LightData light) {
   vec3 p = receiver - light.position;
   FaceDirection face = onlyShadowFace == anyShadowFace ? cubeFace(p) : faceOf(onlyShadowFace, p);
   vec4 window = windowOf(light.shadowMap, face);
   float disparity = 1.0 / max(face.along, 1e-30);
-  vec2 at = inFace(face, p) * disparity * window.xy + window.zw;
-  // Height of the light below the receiver's plane.
-  float height = min(dot(receiverNormal, p), -leastShadowCosine * length(p) - 1e-30);
-  vec2 gradient = inFace(face, receiverNormal) / (height * window.xy);
-  disparity += disparity * shadowBias / min(window.x, window.y);
+  SeenPlanes seen = planesAbout(inFace(face, p) * disparity * window.xy + window.zw);
+  float height = dot(receiverNormal, p);  // of the light below the receiver's plane
+  bool facesLight = height < 0.0;
+  height = (facesLight ? -1.0 : 1.0) * max(abs(height), leastShadowCosine * length(p) + 1e-30);
+  vec2 slope = inFace(face, receiverNormal) / (height * window.xy);
+  vec4 rise = slope.x * seen.x + slope.y * seen.y;  // of the receiver's plane
 
-  vec2 corner = floor(at + 0.5);  // shared by the four texels
-  vec2 low = corner - 0.5 - at;
-  // In the order of textureGather: lower left, lower right, upper right, upper left, with y downwards.
-  vec4 x = low.x + vec4(0.0, 1.0, 1.0, 0.0);
-  vec4 y = low.y + vec4(1.0, 1.0, 0.0, 0.0);
-  vec4 texels = textureGather(shadowTexels, corner / vec2(textureSize(shadowTexels, 0)));
-  vec4 lit = vec4(lessThanEqual(texels, disparity + gradient.x * x + gradient.y * y));
-  float share = dot(lit, (1.0 - abs(x)) * (1.0 - abs(y)));
+  vec4 nearerAtTexel = seen.disparity - disparity - rise;
+  vec4 nearerHere = seen.disparity - disparity - seen.rise;
+  vec4 rounding = 1e-6 * disparity + slopeError * abs(seen.rise);
+  vec4 error = disparity * shadowBias / min(window.x, window.y) + slopeError * (abs(seen.rise) + abs(rise));
+  vec4 covers = vec4(greaterThan(nearerHere, rounding));
+  vec4 hides = covers * vec4(greaterThan(nearerAtTexel, error));
+  vec4 tells = vec4(greaterThan(max(nearerHere, nearerAtTexel), -error)) * vec4(greaterThan(seen.disparity, vec4(0.0)));
+  // A plane that also hides the receiver from another texel crosses the receiver's plane and does not end there.
+  vec4 hiding = hides * nearerHere;
+  float nearest = max(max(hiding.x, hiding.y), max(hiding.z, hiding.w));
+  tells *= 1.0 - (covers - hides) * vec4(lessThan(abs(nearerHere - nearest), error));
+
+  vec4 weights = (1.0 - abs(seen.x)) * (1.0 - abs(seen.y)) * tells;
+  float sum = dot(weights, vec4(1.0));
+  // Without any texel that tells, a surface that faces away from the light lies behind its own body's outline.
+  float share = sum > 0.0 ? 1.0 - dot(weights, hides) / sum : facesLight ? 1.0 : 0.0;
   return window.x > 0.0 ? share : 1.0;  // nothing casts a shadow in an empty face
 }
 

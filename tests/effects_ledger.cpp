@@ -342,7 +342,7 @@ TEST(Ledger, ShadowMapsAreListedAndReleased) {
       optionsFor(sceneWith("shadow_maps", "[[light]]\nposition = [1, 2, 1]\nintensity = 9\ncasts_shadow = true\n"),
                  {{"effects.shadow_lookup", "map"}, {"effects.shadow_map_size", "256"}});
   // The buffer holds the faces' windows.
-  const EffectCost cost = expectMapReleased(options, EffectKind::shadows, "shadows", 1, 4 + 4, false);
+  const EffectCost cost = expectMapReleased(options, EffectKind::shadows, "shadows", 1, 8 + 4, false);
   EXPECT_GE(cost.pipelines, 2u) << "of the faces and of the teapot";
 }
 

@@ -16,7 +16,7 @@ constexpr uint64_t colorBytes = 8;     // RGBA16F
 constexpr uint64_t depthBytes = 4;     // D32F
 constexpr uint64_t sumBytes = 2 * 16;  // two images of RGBA32F
 constexpr double smallestScale = 0.125;
-constexpr uint64_t disparityBytes = 4;  // R32F
+constexpr uint64_t shadowPlaneBytes = 8;  // R32G32
 constexpr double pixelsForRays = 4e5;
 constexpr int smallestMap = 16;  // texels
 constexpr int smallestShadowMap = 64;
@@ -141,8 +141,9 @@ uint64_t environmentBytes(const FramePlan& plan) {
 
 uint64_t shadowBytes(const FramePlan& plan) {
   const glm::ivec2 extent = shadowExtent(plan.shadowMaps);
-  const uint64_t layerBytes = hasShadowLayers(plan.shadowMaps) ? disparityBytes : 0;
-  return static_cast<uint64_t>(extent.x) * static_cast<uint64_t>(extent.y) * (disparityBytes + depthBytes + layerBytes);
+  const uint64_t layerBytes = hasShadowLayers(plan.shadowMaps) ? shadowPlaneBytes : 0;
+  return static_cast<uint64_t>(extent.x) * static_cast<uint64_t>(extent.y) *
+         (shadowPlaneBytes + depthBytes + layerBytes);
 }
 
 uint64_t targetBytes(const FramePlan& plan, const Settings& settings) {

@@ -12,7 +12,7 @@ namespace speculum {
 
 namespace {
 
-constexpr VkFormat disparityFormat = VK_FORMAT_R32_SFLOAT;
+constexpr VkFormat planeFormat = VK_FORMAT_R32G32_UINT;
 constexpr std::array shadowBufferNames = {"shadow maps"};
 
 std::array<gpu::ShadowMapData, gpu::mostShadowMaps> mapData(std::span<const ShadowMap> maps) {
@@ -49,7 +49,7 @@ void ShadowSystem::create() {
           .binding = 0, .type = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, .stages = VK_SHADER_STAGE_FRAGMENT_BIT},
       DescriptorBinding{.binding = 1, .stages = VK_SHADER_STAGE_FRAGMENT_BIT}};
   layout_ = createDescriptorSetLayout(device_, bindings, "shadow maps");
-  // Shaders gather texels and interpolate, because devices need not filter this format linearly.
+  // Shaders gather texels and interpolate what they compare.
   sampler_ = createSampler(device_,
                            {.filter = VK_FILTER_NEAREST, .mipmapMode = VK_SAMPLER_MIPMAP_MODE_NEAREST, .maxLod = 0.0f},
                            "shadow maps");
@@ -66,7 +66,7 @@ void ShadowSystem::prepare(Frame& frame, const FramePlan& plan) {
   const VkExtent2D extent{static_cast<uint32_t>(size.x), static_cast<uint32_t>(size.y)};
   if (!target_) {
     target_ = std::make_unique<OffScreen>(
-        device_, OffScreenDesc{.name = "shadow maps", .extent = extent, .format = disparityFormat}, *frame.retired);
+        device_, OffScreenDesc{.name = "shadow maps", .extent = extent, .format = planeFormat}, *frame.retired);
   }
   target_->resize(extent, *frame.retired);
   if (target_->color().layout() == VK_IMAGE_LAYOUT_UNDEFINED && !rendersShadows(plan.shadowMaps)) {
@@ -91,7 +91,7 @@ void ShadowSystem::prepareLayers(Frame& frame, const FramePlan& plan) {
   }
   if (!layers_) {
     const OffScreenDesc desc{
-        .name = "shadow layers", .extent = target_->extent(), .format = disparityFormat, .depth = false};
+        .name = "shadow layers", .extent = target_->extent(), .format = planeFormat, .depth = false};
     layers_ = std::make_unique<OffScreen>(device_, desc, *frame.retired);
   }
   layerSet_ = frame.descriptors->allocate(layout_.get());
@@ -110,7 +110,7 @@ const Pipeline& ShadowSystem::pipelineFor(Drawn drawn) {
                               .vert = "mirror.vert",
                               .frag = "shadow_map.frag",
                               .setLayouts = {frameLayout_},
-                              .color = disparityFormat};
+                              .color = planeFormat};
     if (drawn == Drawn::objects) {
       desc.vert = "scene.vert";
       desc.vertConstants = {false};

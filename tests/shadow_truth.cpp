@@ -1,0 +1,210 @@
+// Shadow maps against traced shadows on random meshes, where errors may only stand along the outlines of shadows.
+#include <numbers>
+#include <sstream>
+
+#include "random.hpp"
+#include "sampling.hpp"
+#include "scene_text.hpp"
+#include "studio.hpp"
+
+namespace speculum::shadow_truth {
+namespace {
+
+using namespace testing_support;
+
+constexpr PictureSize size{128, 96};
+
+// Points of a surface over a grid, closed or open, smooth or creased, with few and long triangles.
+struct RandomSurface {
+  explicit RandomSurface(Random& random)
+      : kind(random.index(4)),
+        rows(3 + random.index(9)),
+        columns(4 + random.index(11)),
+        smooth(random.chance(0.6)),
+        waves(static_cast<double>(1 + random.index(4))),
+        depth(random.uniform(0.0, 0.3)) {}
+
+  glm::dvec3 at(double row, double column) const {
+    const double u = row / static_cast<double>(rows);
+    const double v = 2.0 * std::numbers::pi * column / static_cast<double>(columns);
+    const double wave = depth * std::sin(waves * std::numbers::pi * u) * std::cos(waves * v);
+    const double theta = std::numbers::pi * u;
+    switch (kind) {
+      case 0:  // a lumpy ball
+        return (0.7 + wave) * glm::dvec3(std::sin(theta) * std::cos(v), std::cos(theta), std::sin(theta) * std::sin(v));
+      case 1: {  // a ring
+        const double tube = 0.25 + 0.5 * wave;
+        const double radius = 0.6 + tube * std::cos(2.0 * theta);
+        return {radius * std::cos(v), -tube * std::sin(2.0 * theta), radius * std::sin(v)};
+      }
+      case 2:  // an arch or a tube, open at its ends
+        return {0.7 * std::cos(v), 1.4 * (0.5 - u), (0.7 + wave) * std::sin(v)};
+      default:  // a sheet with waves
+        return {1.8 * (v / (2.0 * std::numbers::pi) - 0.5), 2.0 * wave, 1.8 * (0.5 - u)};
+    }
+  }
+
+  glm::dvec3 normalAt(double row, double column) const {
+    const double step = 0.01;
+    const glm::dvec3 n =
+        glm::cross(at(row + step, column) - at(row - step, column), at(row, column + step) - at(row, column - step));
+    return glm::length(n) > 1e-9 ? -glm::normalize(n) : glm::dvec3(0, row > 0 ? -1 : 1, 0);
+  }
+
+  std::string obj() const {
+    std::ostringstream out;
+    const auto vector = [&](const char* key, const glm::dvec3& v) {
+      out << key << ' ' << v.x << ' ' << v.y << ' ' << v.z << '\n';
+    };
+    for (size_t row = 0; row <= rows; ++row) {
+      for (size_t column = 0; column <= columns; ++column) {
+        const auto r = static_cast<double>(row);
+        const auto c = static_cast<double>(column);
+        vector("v", at(r, c));
+        vector("vn", normalAt(r, c));
+      }
+    }
+    const auto corner = [&](size_t row, size_t column) {
+      const std::string index = std::to_string(row * (columns + 1) + column + 1);
+      return ' ' + (smooth ? index + "//" + index : index);
+    };
+    for (size_t row = 0; row < rows; ++row) {
+      for (size_t column = 0; column < columns; ++column) {
+        out << 'f' << corner(row, column) << corner(row, column + 1) << corner(row + 1, column + 1)
+            << corner(row + 1, column) << '\n';
+      }
+    }
+    return out.str();
+  }
+
+  size_t kind, rows, columns;
+  bool smooth;
+  double waves, depth;
+};
+
+// A light in, on or behind the plane of a piece of the surface, inside it, near or far.
+glm::dvec3 randomLight(Random& random, const RandomSurface& surface) {
+  const double row = static_cast<double>(random.index(surface.rows)) + 0.3;
+  const double column = static_cast<double>(random.index(surface.columns)) + 0.6;
+  const glm::dvec3 p = surface.at(row, column);
+  const glm::dvec3 n = surface.normalAt(row, column);
+  const glm::dvec3 along = glm::normalize(glm::cross(n, random.direction()));
+  const double behind = random.uniform(0.0, 0.3);
+  switch (random.index(6)) {
+    case 0:
+      return p + random.uniform(0.5, 3.0) * along;
+    case 1:
+      return p + random.uniform(0.002, 0.05) * n;
+    case 2:
+      return p + random.uniform(0.5, 3.0) * along - behind * n;
+    case 3:
+      return 0.3 * random.direction();
+    case 4:
+      return 60.0 * random.direction();
+    default:
+      return random.uniform(1.0, 3.0) * random.direction();
+  }
+}
+
+std::filesystem::path surfaceScene(Random& random, unsigned seed) {
+  const RandomSurface surface(random);
+  const std::string name = "surface_" + std::to_string(seed);
+  writeModel(name + ".obj", surface.obj());
+  const glm::dvec3 light = randomLight(random, surface);
+  const bool inside = surface.kind == 0 && random.chance(0.3);
+  const glm::dvec3 eye = (inside ? 0.3 : 2.2) * random.direction();
+  std::ostringstream out;
+  out << "[environment]\nambient = [0.1, 0.1, 0.1]\n"
+      << cameraText(eye, 0.3 * random.direction()) << "vertical_fov = 55\n"
+      << objectText(name + ".obj", {0, 0, 0}, {0, 0, 0}, 1.0, {0.8, 0.75, 0.7});
+  if (random.chance(0.5)) {
+    out << "[[object]]\nmodel = \"MODELS/block.obj\"\nposition = [0, " << random.uniform(-1.2, -0.6)
+        << ", 0]\nscale = [6, 0.1, 6]\n";
+  }
+  out << "[[light]]\nposition = " << text(light) << "\nintensity = " << 4.0 * std::max(glm::dot(light, light), 0.2)
+      << "\nglow = 0\ncasts_shadow = true\n";
+  return writeScene(name, out.str());
+}
+
+// Says of each pixel whether it lies within `reach` pixels of one where `mask` differs from its neighbour.
+std::vector<bool> nearOutline(const std::vector<bool>& mask, int reach) {
+  std::vector<bool> near(mask.size());
+  for (int y = 0; y < size.height; ++y) {
+    for (int x = 0; x < size.width; ++x) {
+      const bool own = mask[static_cast<size_t>(y * size.width + x)];
+      for (int j = std::max(y - reach, 0); j <= std::min(y + reach, size.height - 1); ++j) {
+        for (int i = std::max(x - reach, 0); i <= std::min(x + reach, size.width - 1); ++i) {
+          if (mask[static_cast<size_t>(j * size.width + i)] != own) {
+            near[static_cast<size_t>(y * size.width + x)] = true;
+          }
+        }
+      }
+    }
+  }
+  return near;
+}
+
+struct Agreement {
+  PictureAgreement all;
+  PictureAgreement offOutlines;  // pixels apart from the outlines of traced shadows
+};
+
+// Draws the scene with maps and with traced shadows.
+Agreement compareShadows(Gpu& gpu, const std::filesystem::path& file, const std::string& mapSize) {
+  Studio studio(gpu, headless(file, size, {{"view.samples", "1"}, {"effects.shadow_map_size", mapSize}}));
+  const Image8 traced = studio.draw();
+  studio.settings.effects.shadows = false;
+  const Image8 lit = studio.draw();
+  studio.settings.effects.shadows = true;
+  studio.settings.effects.shadowLookup = ShadowLookup::map;
+  const Image8 mapped = studio.draw();
+  std::vector<bool> counts = nearOutline(difference(traced, lit, 8).isOver, 2);
+  counts.flip();
+  return {difference(mapped, traced, 8), difference(mapped, traced, 8, counts)};
+}
+
+TEST(ShadowMaps, RandomSurfacesErrOnlyAlongOutlines) {
+  Gpu gpu(headless("", size));
+  int pixels = 0;
+  int wrong = 0;
+  for (const unsigned seed : sampledSeeds(1000, 90)) {
+    Random random(seed);
+    const Agreement agreement = compareShadows(gpu, surfaceScene(random, seed), "1024");
+    EXPECT_LE(agreement.offOutlines.over, 12) << "seed " << seed;
+    pixels += agreement.all.counted;
+    wrong += agreement.all.over;
+  }
+  std::printf("%.3f %% of the pixels are wrong\n", 100.0 * wrong / pixels);
+  EXPECT_LT(wrong, 0.0015 * pixels);
+}
+
+// A corner of walls without thickness, mouldings on one of them, and the light behind that one.
+std::filesystem::path corner(Random& random, unsigned seed) {
+  std::ostringstream out;
+  out << "[environment]\nambient = [0.1, 0.1, 0.1]\n"
+      << cameraText({1.5, random.uniform(-0.5, 0.5), 0.5}, {-0.9, 0, -0.8})
+      << "[[object]]\nmodel = \"quad.obj\"\nposition = [-1, 0, 1]\nrotation = [0, 90, 0]\nscale = [2, 6, 1]\n"
+      << "[[object]]\nmodel = \"quad.obj\"\nposition = [2, 0, -1]\nscale = [3, 6, 1]\n";
+  for (int i = 0; i < 3; ++i) {
+    const double depth = random.uniform(0.03, 0.3);
+    const double z = random.uniform(-0.8, 0.8);
+    out << "[[object]]\nmodel = \"MODELS/block.obj\"\nposition = " << text(glm::dvec3(0.5 * depth - 1.0, -1.5, z))
+        << "\nscale = " << text(glm::dvec3(depth, 3, random.uniform(0.03, 0.2))) << "\n";
+  }
+  const double x = -random.uniform(4, 8);
+  out << "[[light]]\nposition = " << text(glm::dvec3(x, 0.2, random.uniform(0, 2)))
+      << "\nintensity = 90\nglow = 0\ncasts_shadow = true\n";
+  return writeScene("corner_" + std::to_string(seed), out.str());
+}
+
+TEST(ShadowMaps, ThinWallsLeakNoLight) {
+  Gpu gpu(headless("", size));
+  writeQuad();
+  for (const unsigned seed : sampledSeeds(100, 25)) {
+    Random random(seed);
+    EXPECT_LE(compareShadows(gpu, corner(random, seed), "256").all.over, 12) << "seed " << seed;
+  }
+}
+
+}  // namespace
+}  // namespace speculum::shadow_truth
