@@ -8,6 +8,7 @@
 #include "accuracy/sweep_json.hpp"
 #include "accuracy/sweep_plan.hpp"
 #include "accuracy/sweep_store.hpp"
+#include "accuracy/sweep_planner.hpp"
 #include "error_message.hpp"
 #include "frame/setting_fields.hpp"
 #include "image/color.hpp"
@@ -187,6 +188,8 @@ TEST_F(SweepFiles, MistakesNameTheLine) {
   EXPECT_TRUE(contains(problem("nonsense"), "sweep.toml:1: toml"));
   EXPECT_TRUE(contains(problem(""), "sweep.toml:1: configuration: is missing"));
   EXPECT_THROW(readSweepPlan(folder_ / "absent.toml", SweepContext()), InputError);
+  EXPECT_NO_THROW(SweepPlanner("own", {.interval = 16}));
+  EXPECT_THROW(SweepPlanner("own", {.interval = 17}), std::invalid_argument) << "a mirror's own interval";
 }
 
 TEST(SweepPlans, BuiltInPlansFitDeviceAndScene) {

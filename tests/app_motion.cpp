@@ -61,7 +61,7 @@ struct Window {
             .mirrorTexels = 0.6 * mirrors * texels,
             .lightRays = settings.effects.shadowLookup == ShadowLookup::map ? 0.0 : raysOfTexel * texels,
             .viewSamples = settings.view.samples,
-            .mirrorSamples = settings.reflection.samples};
+            .mirrorSamples = 1.0 * settings.reflection.samples};
   }
   double draw(const Settings& settings) {
     const FrameWork frame = work(settings);
@@ -254,6 +254,40 @@ TEST(MotionLevels, NoLevelExceedsTheFirst) {
     EXPECT_GE(settings.reflection.meshError, 1.0);
     EXPECT_GE(settings.reflection.minPixels, 2000.0);
     EXPECT_TRUE(settings.reflection.clip == chosen.reflection.clip && settings.effects == chosen.effects);
+  }
+}
+
+// Whatever mirrors ask for themselves, no level raises it, and the last one draws them as cheaply as the others.
+TEST(MotionLevels, LowerTheQualityOfSingleMirrors) {
+  Scene scene;
+  scene.mirrors = {{.quality = {.scale = 4.0, .samples = 8, .method = ReflectionMethod::rays}},
+                   {.quality = {.scale = 0.25, .samples = 1, .method = ReflectionMethod::automatic}},
+                   {}};
+  MotionLevel point{Settings(), 0.02};
+  point.settings.reflection.scale = 0.5;
+  for (const int samples : {1, 4}) {
+    Settings chosen;
+    chosen.reflection.samples = samples;
+    for (const auto front : {std::span<const MotionLevel>(), std::span<const MotionLevel>(&point, 1)}) {
+      const std::vector<MotionLevel> levels = motionLevels(scene, chosen, front, 1 + 2 + 4 + 8, true);
+      EXPECT_EQ(levels[0].settings, chosen);
+      for (size_t i = 1; i < levels.size(); ++i) {
+        for (const Mirror& mirror : scene.mirrors) {
+          const ReflectionSettings better = reflectionOf(mirror.quality, levels[i - 1].settings);
+          const ReflectionSettings worse = reflectionOf(mirror.quality, levels[i].settings);
+          EXPECT_LE(worse.scale, better.scale);
+          EXPECT_LE(worse.samples, better.samples);
+          EXPECT_TRUE(worse.method == better.method || worse.method == ReflectionMethod::raster);
+        }
+        EXPECT_NE(motionText(chosen, levels[i]), "full quality");
+      }
+      for (const Mirror& mirror : scene.mirrors) {
+        const ReflectionSettings last = reflectionOf(mirror.quality, levels.back().settings);
+        EXPECT_EQ(last.samples, 1);
+        EXPECT_EQ(last.method, ReflectionMethod::raster);
+        EXPECT_LE(last.scale, front.empty() ? mirror.quality.scale.value_or(1.0) : 0.5);
+      }
+    }
   }
 }
 

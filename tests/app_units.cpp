@@ -4,6 +4,7 @@
 
 #include "app/background_job.hpp"
 #include "app/camera_controller.hpp"
+#include "app/difference_view.hpp"
 #include "app/frame_pacer.hpp"
 #include "app/frame_report.hpp"
 #include "app/options.hpp"
@@ -23,6 +24,31 @@ bool waitFor(const Done& done) {
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
   return done();
+}
+
+TEST(DifferenceView, ErrorsOfMirrorsAreWithinTheirOutlines) {
+  Scene scene;
+  scene.environment.background = glm::dvec3(1.0);
+  scene.camera.target = {0, 0, -1};
+  const Mirror gray{.position = {-2, 0, -4}, .size = {1.5, 1.5}, .reflectance = glm::dvec3(0.2)};
+  scene.mirrors = {gray, gray, gray};
+  scene.mirrors[1].position.x = 2.0;
+  scene.mirrors[1].reflectance = glm::dvec3(1.0);
+  scene.mirrors[2].position.z = 4.0;  // behind the eye
+  const SceneState state = evaluate(scene, 0.0);
+  const Settings settings;
+  const ShownPicture shown{scene, state, settings, 96, 54};
+  DifferenceView difference;
+  EXPECT_TRUE(difference.mirrorErrors().empty());
+  const auto white = [] { return Image8(96, 54); };
+  ASSERT_TRUE(waitFor([&] { return difference.update(shown, white) || !difference.mirrorErrors().empty(); }));
+  const std::vector<double> errors = difference.mirrorErrors();
+  ASSERT_EQ(errors.size(), 3u);
+  EXPECT_GT(errors[0], 0.3);
+  EXPECT_LT(errors[1], 0.02) << "it shows the background, as the picture does";
+  EXPECT_TRUE(std::isnan(errors[2]));
+  difference.stop();
+  EXPECT_TRUE(difference.mirrorErrors().empty());
 }
 
 TEST(BackgroundJob, ResultIsTakenOnce) {

@@ -446,6 +446,10 @@ TEST_F(CommandLine, StatsFollowTheirContract) {
   EXPECT_GT(mirror["triangles"], 0);
   EXPECT_GT(mirror["fragments"], 0);
   EXPECT_GT(mirror["area_px"], 100.0);
+  EXPECT_EQ(mirror["samples"], 4);
+  EXPECT_GE(mirror["size"][0].get<int>() * mirror["size"][1].get<int>(), mirror["area_px"].get<double>());
+  EXPECT_EQ(stats["passes"][1]["size"], nlohmann::json({160, 90}));
+  EXPECT_TRUE(stats["passes"][2]["size"].is_null());
   const nlohmann::json& resolution = mirror["depth_resolution"];
   EXPECT_GT(resolution["distance_m"], 0.0);
   EXPECT_GT(resolution["clip_distance_m"], 1e-7 * resolution["distance_m"].get<double>());

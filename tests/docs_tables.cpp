@@ -61,6 +61,12 @@ std::string shape(const Field& field) {
   }());
   if constexpr (Described<Inner>) {
     return "table";
+  } else if constexpr (std::is_enum_v<Inner>) {
+    std::string names;
+    for (const std::string_view name : choicesOf(Inner())) {
+      names += (names.empty() ? "" : ", ") + tomlText(name);
+    }
+    return names;
   } else if constexpr (std::is_same_v<Inner, std::string>) {
     return "text";
   } else if constexpr (std::is_same_v<Inner, glm::dvec2>) {

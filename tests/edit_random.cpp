@@ -86,7 +86,7 @@ void randomize(const Field& field, Value& value) {
   } else if constexpr (std::is_same_v<Value, bool>) {
     value = !value;
   } else if constexpr (std::is_same_v<Value, int>) {
-    value = whole(1, 4);
+    value = field.range.powersOfTwo ? 1 << whole(0, 4) : whole(1, 4);
   } else if constexpr (std::is_same_v<Value, double>) {
     const Range& range = field.range;
     value = range.high <= 1e6 ? range.low + (range.high - range.low) * share()

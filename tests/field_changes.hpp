@@ -27,7 +27,7 @@ void changeValue(const Field& field, Value& value) {
   } else if constexpr (std::is_same_v<Value, bool>) {
     value = !value;
   } else if constexpr (std::is_same_v<Value, int>) {
-    ++value;
+    value = field.range.contains(value + 1) ? value + 1 : static_cast<int>(field.range.low);
   } else if constexpr (std::is_same_v<Value, double>) {
     value = otherNumber(field.range, field.floor, value);
   } else if constexpr (std::is_same_v<Value, std::string>) {

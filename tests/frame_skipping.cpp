@@ -237,7 +237,7 @@ TEST(PassMask, CoversTheMirrorAndItsLookups) {
     const FramePlan p = planOf(sceneWith({mirror}, {}), settings);
     ASSERT_EQ(p.passes.size(), 1u);
     const PlannedPass& pass = p.passes[0];
-    const double reach = lookupReach(settings, false);
+    const double reach = lookupReach(pass, settings, false);
     const std::vector<glm::dvec2> mask = passMask(pass.view, p.projection, reach);
     ASSERT_GE(mask.size(), 4u);
     const auto clip = toClip(p.main.view, p.projection, p.main.mirrors[0].polygon);
@@ -286,7 +286,7 @@ TEST(PassMask, HasNoTriangleWithoutArea) {
     settings.reflection.scale = oneOf({0.5, 1.0});
     const FramePlan p = planOf(scene, settings);
     for (const PlannedPass& pass : p.passes) {
-      std::vector<glm::dvec2> mask = passMask(pass.view, p.projection, lookupReach(settings, true));
+      std::vector<glm::dvec2> mask = passMask(pass.view, p.projection, lookupReach(pass, settings, true));
       for (glm::dvec2& corner : mask) {
         corner = glm::round((corner * 0.5 + 0.5) * pass.view.pictureSize * 256.0);  // as GPUs snap vertices
       }
@@ -312,7 +312,7 @@ TEST(MirrorPolygons, ReachAsFarAsImagesAreRead) {
     ASSERT_GE(plan.passes.size(), 2u);
     for (const PlannedPass& pass : plan.passes) {
       View read = pass.view;
-      widen(read, plan.projection, static_cast<int>(std::ceil(lookupReach(settings, false))));
+      widen(read, plan.projection, static_cast<int>(std::ceil(lookupReach(pass, settings, false))));
       for (const MirrorDraw& draw : pass.mirrors) {
         const double all = polygonArea(visiblePart(read, state.mirrors[draw.mirror].polygon));
         EXPECT_NEAR(polygonArea(visiblePart(read, draw.polygon)), all, 1e-9 * all) << fov;
@@ -329,16 +329,21 @@ TEST(PassMask, IsEmptyWhereMirrorsFillTheirRectangle) {
 
 TEST(PassMask, ReachesAsFarAsLookupsDo) {
   Settings settings;
-  EXPECT_DOUBLE_EQ(lookupReach(settings, true), 0.75) << "4 samples, 1/8 from the texel's border";
-  EXPECT_DOUBLE_EQ(lookupReach(settings, false), 1.0) << "a whole texel";
-  settings.reflection.samples = 1;
-  EXPECT_DOUBLE_EQ(lookupReach(settings, true), 0.375);
+  PlannedPass pass{.quality = {.samples = 4}, .shownIn = {.samples = 4}};
+  EXPECT_DOUBLE_EQ(lookupReach(pass, settings, true), 0.75) << "4 samples, 1/8 from the texel's border";
+  EXPECT_DOUBLE_EQ(lookupReach(pass, settings, false), 1.0) << "a whole texel";
+  pass.quality.samples = 1;
+  EXPECT_DOUBLE_EQ(lookupReach(pass, settings, true), 0.375);
   settings.view.samples = 1;
-  EXPECT_DOUBLE_EQ(lookupReach(settings, true), 0.0);
-  settings.reflection.updateInterval = 2;
-  EXPECT_DOUBLE_EQ(lookupReach(settings, true), 2.0);
-  settings.reflection.scale = 4.0;
-  EXPECT_DOUBLE_EQ(lookupReach(settings, true), 5.0);
+  EXPECT_DOUBLE_EQ(lookupReach(pass, settings, true), 0.375) << "what shows the image has 4";
+  pass.shownIn.samples = 1;
+  EXPECT_DOUBLE_EQ(lookupReach(pass, settings, true), 0.0);
+  pass.shownIn.scale = 2.0;
+  EXPECT_DOUBLE_EQ(lookupReach(pass, settings, true), 2.0) << "an image of fewer texels than what shows it";
+  pass = {.quality = {.interval = 2}};
+  EXPECT_DOUBLE_EQ(lookupReach(pass, settings, true), 2.0);
+  pass.quality.scale = 4.0;
+  EXPECT_DOUBLE_EQ(lookupReach(pass, settings, true), 5.0);
 }
 
 TEST(PassMask, FollowsTheMarginOfACachedImage) {

@@ -1243,21 +1243,53 @@ TEST_F(Inspector, CurvedMirrorsExplainTheirTint) {
   EXPECT_TRUE(shows("Reflectance (tint, linear)") && shows("Share of light reflected"));
 }
 
+TEST_F(Inspector, MirrorsHaveAQualityOfTheirOwn) {
+  selectMirror(0);
+  const auto quality = [&](const EditNode& edit) { return std::get<Mirror>(edit.node).quality; };
+  settings_.reflection.samples = 4;
+  settings_.reflection.scale = 0.75;
+  for (const char* key : {"scale", "samples", "update_interval", "method"}) {
+    const std::string row = std::string("edit.quality.") + key;
+    EXPECT_TRUE(has(row) && has(row + ".value")) << key;
+    const EditNode edit = clickFor<EditNode>(row);
+    EXPECT_EQ(edit.target, (Selection{Selection::Kind::mirror, 0}));
+    EXPECT_NE(quality(edit), MirrorQuality()) << key;
+  }
+  EXPECT_EQ(quality(clickFor<EditNode>("edit.quality.scale")), MirrorQuality{.scale = 0.75}) << "that of the settings";
+  EXPECT_EQ(quality(clickFor<EditNode>("edit.quality.samples")), MirrorQuality{.samples = 4});
+  scene_.mirrors[0].quality = {.scale = 1.0, .samples = 2};
+  run(3);
+  EXPECT_EQ(quality(clickFor<EditNode>("edit.quality.samples")), MirrorQuality{.scale = 1.0}) << "as the settings";
+  appliesEdits_ = true;
+  const PixelRect slider = widget("edit.quality.scale.value");
+  dragFrom(slider.x + 0.3 * slider.width, slider.y + 0.5 * slider.height, -0.2 * slider.width);
+  EXPECT_LT(scene_.mirrors[0].quality.scale, 1.0);
+  EXPECT_EQ(scene_.mirrors[0].quality.samples, 2);
+  EXPECT_EQ(settings_.reflection.scale, 0.75) << "the settings stay";
+}
+
+TEST_F(Inspector, MirrorsShowTheirError) {
+  selectMirror(1);
+  EXPECT_FALSE(output_.difference);
+  click("edit.mirror_error", 0.1);
+  run(2);
+  EXPECT_TRUE(output_.difference);
+  accuracy_.difference = "Tracing the reference: 40 %";
+  run(2);
+  EXPECT_TRUE(shows("Tracing the reference: 40 %"));
+  accuracy_.mirrorErrors = {std::nan(""), 0.0123};
+  run(2);
+  EXPECT_TRUE(shows("0.0123 mean FLIP"));
+  selectMirror(0);
+  EXPECT_TRUE(shows("not in view"));
+}
+
 TEST_F(Inspector, MirrorsAreLookedFromAndSeenThrough) {
   edit_.through = {1, 0};
   selectMirror(0);
   EXPECT_EQ(clickFor<LookFromMirror>("edit.look_behind").side, MirrorSide::back);
   EXPECT_EQ(clickFor<LookFromMirror>("edit.look_out").side, MirrorSide::front);
   EXPECT_TRUE(has("edit.mirror_cost"));
-  const double scale = settings_.reflection.scale;
-  const int left = widget("edit.mirror_cost").x;  // the main panel has such a row too
-  const auto& widgets = windows_->state().widgets;
-  const auto row = std::ranges::find_if(
-      widgets, [&](const auto& shown) { return shown.first == "reflection.scale" && shown.second.x >= left; });
-  ASSERT_NE(row, widgets.end());
-  const PixelRect slider = row->second;
-  dragFrom(slider.x + 0.3 * slider.width, slider.y + 0.5 * slider.height, -0.2 * slider.width);
-  EXPECT_LT(settings_.reflection.scale, scale) << "images are made cheaper beside their cost";
   EXPECT_EQ(clickFor<SelectNode>("edit.through.0").node, (Selection{Selection::Kind::mirror, 1}));
   EXPECT_EQ(clickFor<SetGizmoMode>("edit.rotate", 0.1).mode, GizmoMode::turn);
   EXPECT_EQ(clickFor<SetGizmoMode>("edit.scale_handles", 0.1).mode, GizmoMode::scale);

@@ -257,9 +257,10 @@ TEST(MirrorCost, TimeIsTheMedianOfTheLastFrames) {
     frame.history.addGpu(number, 55.0, std::vector{std::pair<std::string, double>("mirror wall", ms)});
     frame.passes[0].gpuMs = ms;
   }
-  EXPECT_EQ(mirrorCost(frame, 0), "1 pass, 0 pixels, 12.0 ms on the GPU");
+  EXPECT_EQ(mirrorCost(frame, 0), "1 pass, 0 pixels, 12.0 ms on the GPU, 22 % of the frame");
   frame.history.setPaused(true);
-  EXPECT_EQ(mirrorCost(frame, 0), "1 pass, 0 pixels, 50.0 ms on the GPU") << "the history may be of other frames";
+  EXPECT_EQ(mirrorCost(frame, 0), "1 pass, 0 pixels, 50.0 ms on the GPU, 91 % of the frame")
+      << "the history may be of other frames";
 }
 
 TEST(RestOfPasses, IsWhatTheFrameTookBesides) {

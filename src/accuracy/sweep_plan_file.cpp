@@ -93,7 +93,7 @@ SweepPlan readSweepPlan(const std::filesystem::path& file, const SweepContext& c
   const TableReader reader(file, "", root, 1, keys);
   SweepPlanner planner(file.filename().string(), context);
   if (reader.has("repeats")) {
-    planner.plan.repeats = static_cast<int>(reader.integer("repeats", SweepPlan::leastRepeats, 1000));
+    planner.plan.repeats = static_cast<int>(reader.integer("repeats", {.low = SweepPlan::leastRepeats, .high = 1000}));
   }
   if (!reader.has("configuration") && !reader.has("grid") && !reader.has("series")) {
     throwInputError(file, 1, "configuration", "is missing", "[[configuration]], [[grid]] or [[series]] names settings");

@@ -63,6 +63,10 @@ Settings settingsWith(const Settings& base, const std::vector<SettingChange>& ch
 SweepPlanner::SweepPlanner(std::string name, const SweepContext& context) : base_(context.base) {
   plan.name = std::move(name);
   add({});
+  if (context.interval > longestInterval) {
+    throw std::invalid_argument("quality.update_interval of a mirror: a sweep takes intervals up to " +
+                                std::to_string(longestInterval));
+  }
 }
 
 int SweepPlanner::add(const Changes& changes, const std::string& name) {

@@ -37,6 +37,7 @@ struct SweepContext {
   bool mirrors = true;                  // the scene has mirrors
   bool animated = false;                // something moves
   bool rough = false;                   // a mirror is rough
+  int interval = 1;                     // frames; the longest of all mirrors
   std::vector<std::string> effects{};   // switches of the effects that the scene uses, such as effects.shadows
 };
 

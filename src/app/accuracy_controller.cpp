@@ -252,6 +252,7 @@ void AccuracyController::afterFrame(const ShownPicture& shown, const WatchedView
   const bool changed = errorGain_ ? image && difference_.update(shown, image, samples) : difference_.reset();
   coverChanged_ = coverChanged_ || changed;
   view_.difference = difference_.status();
+  view_.mirrorErrors = difference_.mirrorErrors();
 }
 
 std::optional<Image8> AccuracyController::takeCover() {

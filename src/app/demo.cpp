@@ -77,7 +77,9 @@ bool Demo::stepOnce() {
   const bool changed = std::exchange(changes_, changes);
   changeBegins_ = changes && !changed;
   if (changes || pace_.wantsFrame()) {
-    pacer_.change(workspace_.settings());
+    Settings shown = workspace_.settings();
+    shown.reflection = mostAsked(workspace_.scene(), shown);
+    pacer_.change(shown);
   }
   if (!pacer_.due() && !idle()) {
     return !shouldClose();
@@ -268,6 +270,7 @@ const FittedPlan& Demo::planFrame(Frame& frame, const SceneState& state) {
     // A mirror whose target is shown is rendered in each frame, so that the target is of the picture.
     lowered.reflection.skipUnchanged = lowered.reflection.skipUnchanged && !watchesMirror;
     lowered.reflection.updateInterval = watchesMirror ? 1 : lowered.reflection.updateInterval;
+    lowered.limit.mostInterval = watchesMirror ? 1 : lowered.limit.mostInterval;
     return planner_.plan(frame, *sceneRenderer_, request.scene, state, lowered, picture, missing.has_value(),
                          settingsMove);
   });

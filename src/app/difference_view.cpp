@@ -2,15 +2,41 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
+#include "edit/picture_view.hpp"
 #include "platform/text.hpp"
 
 namespace speculum {
 
 constexpr std::chrono::milliseconds stillFor{400};      // before tracing begins
 constexpr std::array<int, 3> references = {4, 16, 64};  // samples a pixel: a quick first result, then better ones
+
+namespace {
+
+// Returns for each mirror the mean over the pixels that look at it, as if nothing stood before it; NaN if none does.
+std::vector<double> errorsOfMirrors(const Plane2d& map, const PictureView& picture, const SceneState& state) {
+  std::vector<double> errors;
+  for (const MirrorState& mirror : state.mirrors) {
+    const bool inView = !visiblePart(picture.view(), mirror.polygon).empty();
+    const RecycledVector<glm::dvec3> cone = coneThrough(picture.eye(), mirror.polygon);
+    double sum = 0.0;
+    int count = 0;
+    for (size_t i = 0; inView && i < map.values.size(); ++i) {
+      const glm::dvec2 pixel(static_cast<double>(i % map.width) + 0.5, static_cast<double>(i / map.width) + 0.5);
+      const glm::dvec3 ray = picture.ray(pixel).direction;
+      const bool meets = std::ranges::all_of(cone, [&](const glm::dvec3& n) { return glm::dot(n, ray) >= 0.0; });
+      sum += meets ? map.values[i] : 0.0;
+      count += meets;
+    }
+    errors.push_back(sum / count);
+  }
+  return errors;
+}
+
+}  // namespace
 
 bool DifferenceView::reset() {
   tracing_.cancel();
@@ -20,6 +46,7 @@ bool DifferenceView::reset() {
   view_.reset();
   compared_.reset();
   problem_.clear();
+  mirrorErrors_.clear();
   return std::exchange(map_, Plane2d()).width > 0;
 }
 
@@ -41,12 +68,15 @@ void DifferenceView::startTracing(const ShownPicture& shown) {
 }
 
 void DifferenceView::startComparing(const ShownPicture& shown, Image8 image) {
-  comparing_.start(0.0, [truth = truth_, drawn = std::move(image), settings = shown.settings](const auto&) {
-    Plane2d map;
-    ErrorFigures errors;
-    inBackground([&] { errors = errorsAgainst(*truth, drawn, settings, &map); });
-    return Compared{settings, std::move(map), errors.whole};
-  });
+  comparing_.start(
+      0.0, [truth = truth_, drawn = std::move(image), settings = shown.settings, state = shown.state](const auto&) {
+        Plane2d map;
+        ErrorFigures errors;
+        inBackground([&] { errors = errorsAgainst(*truth, drawn, settings, &map); });
+        std::vector<double> mirrorErrors =
+            errorsOfMirrors(map, PictureView(state.camera, map.width, map.height), state);
+        return Compared{settings, std::move(map), errors.whole, std::move(mirrorErrors)};
+      });
 }
 
 // Returns true for a new heat map. Drops one whose settings have changed meanwhile.
@@ -56,6 +86,7 @@ bool DifferenceView::collect() {
     map_ = std::move(result->map);
     metrics_ = result->metrics;
     pictures_ = result->settings.view.accumulate;
+    mirrorErrors_ = std::move(result->mirrorErrors);
     fresh = true;
   }
   // A finer reference waits until the comparison with the last one ends.

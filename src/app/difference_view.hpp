@@ -28,8 +28,10 @@ class DifferenceView {
   void stop();  // as reset(), but waits for running work
 
   const Plane2d& map() const { return map_; }  // errors; without pixels until there are some
-  bool working() const;                        // update() has work left although nothing changes
-  std::string status() const;                  // text for the user: the error, or the work that is running
+  // By mirror: the mean error within its outline, NaN if the eye does not see it; empty without map().
+  const std::vector<double>& mirrorErrors() const { return mirrorErrors_; }
+  bool working() const;        // update() has work left although nothing changes
+  std::string status() const;  // text for the user: the error, or the work that is running
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -37,6 +39,7 @@ class DifferenceView {
     Settings settings;
     Plane2d map;
     ImageMetrics metrics;
+    std::vector<double> mirrorErrors;
   };
   using Truth = std::shared_ptr<const GroundTruth>;
   // Everything that the reference depends on.
@@ -67,6 +70,7 @@ class DifferenceView {
   Plane2d map_;
   ImageMetrics metrics_;
   int pictures_ = 1;     // in the mean that was compared
+  std::vector<double> mirrorErrors_;
   std::string problem_;  // error that ended the work
 };
 

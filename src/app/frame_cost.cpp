@@ -87,14 +87,18 @@ FrameWork workOf(const FramePlan& plan, const Scene& scene, const SceneState& st
                  .mirrorPasses = static_cast<double>(plan.passes.size()),
                  .mainTexels = static_cast<double>(plan.main.view.rect.area()),
                  .viewSamples = settings.view.samples,
-                 .mirrorSamples = settings.reflection.samples};
+                 .mirrorSamples = 1.0 * settings.reflection.samples,
+                 .interval = mostAsked(scene, settings).updateInterval};
+  double further = 0.0;  // samples beyond those of the settings
   work.triangles = trianglesOf(plan.main, scene, state);
   addRays(work, plan.main, work.mainTexels, work.viewSamples, plan, scene, state, settings.effects);
   for (const PlannedPass& pass : plan.passes) {
     work.triangles += trianglesOf(pass, scene, state);
     work.mirrorTexels += pass.areaPx;
-    addRays(work, pass, pass.areaPx, work.mirrorSamples, plan, scene, state, settings.effects);
+    further += pass.areaPx * (pass.quality.samples - settings.reflection.samples);
+    addRays(work, pass, pass.areaPx, pass.quality.samples, plan, scene, state, settings.effects);
   }
+  work.mirrorSamples += work.mirrorTexels > 0.0 ? further / work.mirrorTexels : 0.0;
   for (const EnvironmentMap& map : plan.maps) {
     for (const PlannedPass& face : map.faces) {
       if (map.cacheIndex < 0) {
@@ -141,14 +145,18 @@ FrameWork scaledWork(FrameWork work, const Settings& from, const Settings& to) {
   work.lightRays *= shadowMaps ? 0.0 : rays;
   const double sampleRays = squared(view) * to.view.samples / from.view.samples;
   work.rippleRays *= effects.rippleLookup == ReflectionSource::image ? 0.0 : sampleRays;
-  work.smoothRays *= to.reflection.method == ReflectionMethod::raster ? 0.0 : sampleRays;
+  // If the settings did not call for rays, single mirrors do.
+  const bool images =
+      to.reflection.method == ReflectionMethod::raster && from.reflection.method != to.reflection.method;
+  work.smoothRays *= images || !to.limit.rays ? 0.0 : sampleRays;
   work.curvedRays *= effects.curvedLookup == CurvedLookup::environment ? 0.0 : rays;
   work.roughRays *=
       effects.roughLookup == ReflectionSource::image
           ? 0.0
           : squared(view) * roughRays(effects, to.view.samples) / roughRays(from.effects, from.view.samples);
   work.viewSamples = to.view.samples;
-  work.mirrorSamples = to.reflection.samples;
+  const double samples = work.mirrorSamples * to.reflection.samples / from.reflection.samples;
+  work.mirrorSamples = std::min(std::max(samples, 1.0), 1.0 * to.limit.samples);
   return work;
 }
 

@@ -31,7 +31,7 @@ TargetView targetOf(const FramePlan& plan, const PlannedPass& pass, const Settin
                     .size = {view.rect.width, view.rect.height},
                     .near = plan.projection.near};
   if (!view.path.empty() && settings.debug.maskPasses) {
-    for (const glm::dvec2& p : passMask(view, plan.projection, lookupReach(settings, standardSampleLocations))) {
+    for (const glm::dvec2& p : passMask(view, plan.projection, lookupReach(pass, settings, standardSampleLocations))) {
       target.mask.push_back(texel(p));
     }
   }
@@ -196,7 +196,7 @@ void FrameReport::setTimes(const Picture& picture, double gpuMs) {
 // Lists passes of cached images too, because nobody can read a list that changes from frame to frame.
 void FrameReport::updatePasses(const RecordedFrame& frame, std::span<const RecordedPass> passes) {
   const FramePlan& plan = frame.plan;
-  const int interval = frame.settings.reflection.updateInterval;
+  const int interval = mostAsked(frame.scene, frame.settings).updateInterval;
   const auto isReused = [&](const PassView& row) {
     return (plan.mainReused && row.kind == PassKind::main) ||
            std::ranges::any_of(plan.reused, [&](const PlannedPass& p) { return p.view.path == row.path; });

@@ -50,7 +50,8 @@ size_t MotionController::choose(std::span<const MotionLevel> levels, double budg
   }
   sinceChange_ += seconds;
   const Settings& settings = levels[level_].settings;
-  const int interval = std::max(settings.reflection.updateInterval, settings.effects.environmentInterval);
+  const int interval =
+      std::max({work.interval, settings.reflection.updateInterval, settings.effects.environmentInterval});
   predicted_.push_back(model_.predict(work));
   while (predicted_.size() > static_cast<size_t>(std::min(interval, longestInterval))) {
     predicted_.pop_front();

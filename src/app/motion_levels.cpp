@@ -39,6 +39,8 @@ Settings lowered(Settings settings, const Settings& limit) {
   using V = ViewSettings;
   using R = ReflectionSettings;
   using E = EffectSettings;
+  using L = QualityLimit;
+  const ReflectionSettings before = settings.reflection;
   least(settings.view, limit.view, &V::scale, &V::samples);
   most(settings.view, limit.view, &V::meshError);
   if (limit.reflection.method != ReflectionMethod::rays) {
@@ -50,6 +52,8 @@ Settings lowered(Settings settings, const Settings& limit) {
         &E::environmentSize);
   most(settings.effects, limit.effects, &E::shadowLookup, &E::rippleLookup, &E::roughLookup, &E::curvedLookup,
        &E::environmentInterval);
+  lowerLimit(before, settings);
+  least(settings.limit, limit.limit, &L::samples, &L::rays);
   return settings;
 }
 
@@ -109,6 +113,10 @@ AskedEffects askedEffects(const Scene& scene, const EffectSettings& settings) {
 std::vector<MotionLevel> motionLevels(const Scene& scene, const Settings& chosen, std::span<const MotionLevel> front,
                                       unsigned sampleCounts, bool simplifies) {
   const AskedEffects rays = askedEffects(scene, chosen.effects);
+  const int mostSamples = mostAsked(scene, chosen).samples;
+  const auto asksFor = [&](ReflectionMethod method) {
+    return std::ranges::any_of(scene.mirrors, [&](const Mirror& mirror) { return mirror.quality.method == method; });
+  };
   std::vector<MotionLevel> levels{{chosen}};
   const auto add = [&](const Settings& settings, double error) {
     if (!sameMainView(settings, levels.back().settings)) {
@@ -140,6 +148,7 @@ std::vector<MotionLevel> motionLevels(const Scene& scene, const Settings& chosen
     if (simplifies) {
       step([&](Settings& s) {
         s.reflection.method = ReflectionMethod::raster;  // rays rule simplified meshes out
+        s.limit.rays = !asksFor(ReflectionMethod::rays) && !asksFor(ReflectionMethod::automatic);
         s.reflection.meshError = mirrors;
         s.view.meshError = view;
       });
@@ -154,19 +163,22 @@ std::vector<MotionLevel> motionLevels(const Scene& scene, const Settings& chosen
   const auto shadowMapsTo = [&](int size) {
     replace(rays.shadows && !rays.castsLight, [&](E& effects) { effects.shadowMapSize = size; });
   };
-  step([](Settings& s) {
+  step([&](Settings& s) {
     if (s.reflection.method == ReflectionMethod::rays) {
       s.reflection.method = ReflectionMethod::raster;
     }
+    s.limit.rays = !asksFor(ReflectionMethod::rays);
   });
   replace(rays.shadows || rays.castsLight || rays.curved, [](E& effects) { effects.perSample = false; });
   replace(rays.shadows && !rays.castsLight, [](E& effects) { effects.shadowLookup = ShadowLookup::map; });
   simplify(0.5, 0.0);
-  for (const auto& samples : {+[](Settings& s) -> int& { return s.reflection.samples; },
-                              +[](Settings& s) -> int& { return s.view.samples; }}) {
+  for (const bool ofMirrors : {true, false}) {
     for (const int count : {4, 2, 1}) {
       if ((sampleCounts & static_cast<unsigned>(count)) != 0) {
-        step([&](Settings& s) { samples(s) = count; });
+        step([&](Settings& s) {
+          (ofMirrors ? s.reflection.samples : s.view.samples) = count;
+          s.limit.samples = ofMirrors && mostSamples > count ? count : s.limit.samples;
+        });
       }
     }
   }
@@ -233,6 +245,7 @@ std::string motionText(const Settings& chosen, const MotionLevel& level) {
   add(reflection.scale != chosen.reflection.scale, fmt::format("mirrors at {:.2g} scale", reflection.scale));
   add(reflection.samples != chosen.reflection.samples && reflection.samples != settings.view.samples,
       "mirrors with " + samples(reflection.samples));
+  add(settings.limit != chosen.limit && reflection == chosen.reflection, "mirrors below their own quality");
   add(reflection.maxDepth != chosen.reflection.maxDepth, fmt::format("depth {}", reflection.maxDepth));
   add(reflection.maxPasses != chosen.reflection.maxPasses,
       fmt::format("at most {} mirror images", reflection.maxPasses));

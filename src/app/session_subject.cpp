@@ -48,7 +48,7 @@ void SessionSubject::drawEarlierFrame(int framesBefore, bool capture, bool whole
 
 std::vector<Image8> SessionSubject::pictures(const Settings& settings) {
   session_.setSettings(settings);
-  const int interval = settings.reflection.updateInterval;
+  const int interval = mostAsked(session_.scene(), settings).updateInterval;
   std::vector<Image8> pictures;
   // After one interval mirrors become due in turn, so n frames in a row show each mirror at every age.
   for (int last = interval > 1 ? interval : 0; last < (interval > 1 ? 2 * interval : 1); ++last) {
@@ -77,7 +77,7 @@ FrameCost SessionSubject::cost(const Settings& settings) {
   measured.reflection.skipUnchanged = false;
   session_.setSettings(measured);
   session_.restart();
-  const int counted = settings.reflection.updateInterval;
+  const int counted = mostAsked(session_.scene(), settings).updateInterval;
   FrameCost cost;
   for (int frame = 2 * counted - 1; frame >= 0; --frame) {
     const bool counts = frame < counted;
@@ -111,7 +111,8 @@ SweepContext sweepContext(Session& session) {
                        .sampleCounts = sampleCountsOf(session.device()),
                        .mirrors = !session.scene().mirrors.empty(),
                        .animated = moves(session.scene()),
-                       .rough = asked.rough};
+                       .rough = asked.rough,
+                       .interval = mostAsked(session.scene(), session.settings()).updateInterval};
   for (const auto& [key, wanted] :
        {std::pair("effects.shadows", asked.shadows), std::pair("effects.roughness", asked.rough),
         std::pair("effects.ripple", asked.ripple), std::pair("effects.casts_light", asked.castsLight),

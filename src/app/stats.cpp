@@ -78,6 +78,9 @@ ordered_json passesJson(Session& session) {
   for (const TimedPass& pass : all) {
     const PassTiming& timing = pass.timing;
     const bool mirror = pass.kind == PassKind::mirror;
+    const FramePlan& plan = session.lastFrame().plan;
+    const PlannedPass* planned = pass.kind == PassKind::main ? &plan.main : mirrorPass(plan, pass.path);
+    const PixelRect rect = planned ? planned->view.rect : PixelRect();
     passes.push_back({{"name", pass.name},
                       {"mirror", mirror ? mirrorJson(session.scene(), pass.path.back()) : ordered_json(nullptr)},
                       {"path", pathJson(session.scene(), pass.path)},
@@ -89,6 +92,8 @@ ordered_json passesJson(Session& session) {
                       {"fragments", timing.hasStatistics ? ordered_json(timing.fragments) : ordered_json(nullptr)},
                       {"samples_drawn", timing.hasSamples ? ordered_json(timing.samples) : ordered_json(nullptr)},
                       {"area_px", pass.areaPx},
+                      {"size", planned ? ordered_json({rect.width, rect.height}) : ordered_json(nullptr)},
+                      {"samples", planned ? ordered_json(planned->quality.samples) : ordered_json(nullptr)},
                       {"depth_resolution", depthJson(session, pass.path)}});
   }
   return passes;

@@ -30,8 +30,8 @@ Options optionsOf(const SweepRequest& request) {
 Settings baseOf(const SweepRequest& request) {
   Settings base = request.base;
   base.quality = {};
-  base.reflection.updateInterval = 1;  // the view stands still
-  base.debug.checkFinite = false;      // its time would be counted
+  base.reflection.updateInterval = base.limit.mostInterval = 1;  // the view stands still
+  base.debug.checkFinite = false;                                // its time would be counted
   return base;
 }
 

@@ -260,10 +260,10 @@ void Workspace::takeSceneChange() {
   if (!editor().changedSinceLastCall()) {
     return;
   }
-  const Settings& settings = settings_;
+  const int interval = mostAsked(scene(), settings_).updateInterval;
   const uint64_t structure = editor().document().structureRevision();
   const bool restructured = std::exchange(shownStructure_, structure) != structure;
-  if (restructured || settings.reflection.updateInterval > 1 || settings.effects.environmentInterval > 1) {
+  if (restructured || interval > 1 || settings_.effects.environmentInterval > 1) {
     host_.dropCachedImages();
   }
 }

@@ -18,6 +18,7 @@ struct CachedImage {
   Projection projection;
   Polygon visible;  // world; visible region of the mirror
   Settings settings;
+  int samples = 1;                   // a texel
   RecycledVector<uint64_t> content;  // imageContent(); empty without reflection.skip_unchanged
 
   int age = 1;           // frames since it was rendered or last found unchanged, in the next frame

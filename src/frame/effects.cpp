@@ -78,8 +78,11 @@ Effect multisampling(const Settings& settings, const FramePlan& plan) {
   if (settings.view.samples > 1) {
     return {EffectKind::msaa, "msaa", true, "view.samples = " + std::to_string(settings.view.samples)};
   }
-  if (settings.reflection.samples > 1 && (!plan.passes.empty() || !plan.cached.empty())) {
-    return {EffectKind::msaa, "msaa", true, "reflection.samples = " + std::to_string(settings.reflection.samples)};
+  int samples = 1;  // of mirror images
+  forEachPass(plan, [&](const PlannedPass& pass) { samples = std::max(samples, pass.quality.samples); });
+  if (samples > 1) {
+    const std::string key = samples == settings.reflection.samples ? "reflection.samples = " : "quality.samples = ";
+    return {EffectKind::msaa, "msaa", true, key + std::to_string(samples)};
   }
   return {EffectKind::msaa, "msaa", false, "one sample a pixel"};
 }

@@ -53,7 +53,6 @@ class Planner {
   }
 
  private:
-  View readable(const View& view) const { return readableView(view, plan_.projection, allSettings_); }
   void findEffects();
   void findShadows();
   ImageSurroundings surroundings() const;
@@ -108,7 +107,7 @@ void Planner::findEffects() {
 void Planner::findShadows() {
   RecycledVector<ShadowReader> readers;
   for (const PassNode& node : nodes_) {
-    readers.push_back({&node.pass, readable(node.pass.view), &plan_.projection});
+    readers.push_back({&node.pass, readableView(node.pass, plan_.projection), &plan_.projection});
   }
   for (const EnvironmentMap& map : plan_.maps) {
     for (const PlannedPass& face : map.faces) {
@@ -128,8 +127,8 @@ void Planner::simplify() {
   }
   RecycledVector<SimplifiedPass> passes;
   for (PassNode& node : nodes_) {
-    passes.push_back(
-        {&node.pass, readable(node.pass.view), &plan_.projection, meshErrorIn(node.pass.view, allSettings_)});
+    passes.push_back({&node.pass, readableView(node.pass, plan_.projection), &plan_.projection,
+                      meshErrorIn(node.pass.view, allSettings_)});
   }
   if (plan_.effects.shadowMaps) {
     addMaps(passes);

@@ -45,9 +45,17 @@ struct MirrorDraw {
   int layer = 0;                       // MirrorState::frontLayer or backLayer, by the side that is seen
 };
 
+struct ImageQuality {
+  double scale = 1.0;  // resolution relative to the main view
+  int samples = 1;
+  int interval = 1;  // frames between images of the mirror that is seen directly, with all that is seen in it
+};
+
 // One pass: a view and what is drawn in it.
 struct PlannedPass {
   View view;
+  ImageQuality quality;
+  ImageQuality shownIn;           // of the pass that shows the image
   int parent = -1;                // index into FramePlan::passes; -1: the main view
   int depth = -1;                 // recursion depth of its mirror: 0 seen directly, 1 in a mirror; -1 for the main view
   double areaPx = 0.0;            // area of the mirror's visible region, in texels of its image
@@ -205,7 +213,8 @@ const PlannedPass* mirrorPass(const FramePlan& plan, std::span<const int> path);
 
 // Finds the passes that a picture of `width` x `height` pixels needs, and why every other mirror has none. Pure. The
 // budget of passes goes to the best first, by visible pixels times throughput. The main view has view.scale times as
-// many texels along each side, rounded, and mirror images reflection.scale times as many as that.
+// many texels along each side, rounded, and mirror images reflection.scale times as many as that, unless a mirror has a
+// quality of its own. An image in an image has no more texels and samples than the one that shows it.
 //
 // With reflection.skip_unchanged, a mirror seen directly reuses its image in `cache.images` if everything that the
 // image depends on is exactly as it was. With reflection.update_interval above 1, it also does so while the image is

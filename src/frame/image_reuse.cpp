@@ -9,7 +9,8 @@ namespace speculum {
 namespace {
 
 bool canReuse(const CachedImage& image, const ReuseRequest& request) {
-  return sameMirrorImages(image.settings, request.settings) && image.view.pictureSize == request.view.pictureSize &&
+  return sameMirrorImages(image.settings, request.settings) && image.samples == request.samples &&
+         image.view.pictureSize == request.view.pictureSize &&
          (unmoved(image, request.view, request.projection, request.visible) ||
           covers(image, request.view, request.visible));
 }
@@ -104,6 +105,7 @@ ImageChoice chooseImage(std::span<const CachedImage> images, const ReuseRequest&
                               .projection = request.projection,
                               .visible = {request.visible.begin(), request.visible.end()},
                               .settings = request.settings,
+                              .samples = request.samples,
                               .due = due}};
   if (const int pixels = exists ? marginFor(*before, request, due) : 0; pixels > 0) {
     widen(fresh.image.view, request.projection, pixels);

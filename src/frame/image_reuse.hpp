@@ -18,6 +18,7 @@ struct ReuseRequest {
   const Projection& projection;
   std::span<const glm::dvec3> visible;  // world; visible region of the mirror
   const Settings& settings;
+  int samples = 1;   // a texel of the image
   int interval = 1;  // frames between two images
   int order = 0;     // number of the mirror in order of discovery; new images become due in turn by it
 };

@@ -1,6 +1,8 @@
 #include "frame/memory_fit.hpp"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <numeric>
 
 #include "frame/image_reuse.hpp"
@@ -25,27 +27,37 @@ uint64_t pixels(const PixelRect& rect) {
   return static_cast<uint64_t>(rect.area());
 }
 
-// Returns the pixels of the cached images.
-uint64_t cachedPixels(const FramePlan& plan) {
+// Samples of the targets of a plan, each with at most `most` a pixel.
+struct Samples {
+  int most = static_cast<int>(kSamples.high);
+
+  uint64_t of(const PixelRect& rect, int samples) const {
+    return pixels(rect) * static_cast<uint64_t>(std::min(samples, most));
+  }
+  uint64_t of(const PlannedPass& pass) const { return of(pass.view.rect, pass.quality.samples); }
+};
+
+// Returns the samples of the cached images.
+uint64_t cachedSamples(const FramePlan& plan, const Samples& samples) {
   uint64_t sum = 0;
   for (const CachedImage& image : plan.cached) {
-    sum += image.cacheIndex >= 0 ? pixels(image.view.rect) : 0;
+    sum += image.cacheIndex >= 0 ? samples.of(image.view.rect, image.samples) : 0;
   }
   return sum;
 }
 
-// Returns the most pixels of mirror images that exist at one time: each from its range of passes to its parent's.
-uint64_t peakPixels(const FramePlan& plan, std::span<const PassRange> ranges) {
-  uint64_t alive = cachedPixels(plan);
+// Returns the most samples of mirror images that exist at one time: each from its range of passes to its parent's.
+uint64_t peakSamples(const FramePlan& plan, std::span<const PassRange> ranges, const Samples& samples) {
+  uint64_t alive = cachedSamples(plan, samples);
   uint64_t peak = alive;
   for (const PassRange& range : ranges) {
     for (size_t i = range.first; i < range.end; ++i) {
-      alive += pixels(plan.passes[i].view.rect);
+      alive += samples.of(plan.passes[i]);
     }
     peak = std::max(peak, alive);
     for (size_t i = range.first; i < range.end; ++i) {
       for (const MirrorDraw& draw : plan.passes[i].mirrors) {
-        alive -= draw.pass >= 0 ? pixels(plan.passes[draw.pass].view.rect) : 0;
+        alive -= draw.pass >= 0 ? samples.of(plan.passes[draw.pass]) : 0;
       }
     }
   }
@@ -53,44 +65,61 @@ uint64_t peakPixels(const FramePlan& plan, std::span<const PassRange> ranges) {
 }
 
 // Returns the bytes of the samples of the largest pass, whose radiance deferred shading keeps.
-uint64_t shadedBytes(const FramePlan& plan, const Settings& settings) {
-  uint64_t samples = pixels(plan.main.view.rect) * static_cast<uint64_t>(settings.view.samples);
+uint64_t shadedBytes(const FramePlan& plan, const Settings& settings, const Samples& all) {
+  uint64_t samples = all.of(plan.main.view.rect, settings.view.samples);
   for (const PlannedPass& pass : plan.passes) {
-    samples = std::max(samples, pixels(pass.view.rect) * static_cast<uint64_t>(settings.reflection.samples));
+    samples = std::max(samples, all.of(pass));
   }
   return plan.effects.any() ? std::min(samples, mostShadedSamples) * (bytesPerShadedSample + bytesPerRequest) : 0;
 }
 
-uint64_t mainBytes(const FramePlan& plan, const Settings& settings) {
-  const auto samples = static_cast<uint64_t>(settings.view.samples);
+uint64_t mainBytes(const FramePlan& plan, int sampleCount) {
+  const auto samples = static_cast<uint64_t>(sampleCount);
   const uint64_t multisampled = samples > 1 ? samples * colorBytes : 0;
   return pixels(plan.main.view.rect) * (colorBytes + multisampled + samples * depthBytes);
 }
 
-// Returns the pixels of the depth images, which the ranges use one after the other.
-uint64_t depthPixels(const FramePlan& plan, std::span<const PassRange> ranges) {
-  RecycledVector<uint64_t> largest;
+// Returns the samples of the depth images, which the ranges use one after the other: some for each sample count.
+uint64_t depthSamples(const FramePlan& plan, std::span<const PassRange> ranges, const Samples& samples) {
+  std::array<RecycledVector<uint64_t>, 4> largest;  // by the logarithm of the count
   for (const PassRange& range : ranges) {
-    const RecycledVector<size_t> passes = largestFirst(plan, range);
-    largest.resize(std::max(largest.size(), passes.size()), 0);
-    for (size_t place = 0; place < passes.size(); ++place) {
-      largest[place] = std::max(largest[place], pixels(plan.passes[passes[place]].view.rect));
+    std::array<size_t, 4> places{};
+    for (const size_t i : largestFirst(plan, range)) {
+      const int count = std::countr_zero(static_cast<unsigned>(plan.passes[i].quality.samples));
+      const size_t place = places[count]++;
+      largest[count].resize(std::max(largest[count].size(), place + 1), 0);
+      largest[count][place] = std::max(largest[count][place], samples.of(plan.passes[i]));
     }
   }
-  return std::accumulate(largest.begin(), largest.end(), uint64_t{0});
+  uint64_t sum = 0;
+  for (const RecycledVector<uint64_t>& images : largest) {
+    sum = std::accumulate(images.begin(), images.end(), sum);
+  }
+  return sum;
 }
 
-bool lower(Settings& settings, const FramePlan& plan, std::string& what) {
+// Makes mirror images at most so large. Returns what the message says of it.
+std::string lowerScale(Settings& settings, double scale) {
+  Settings largest;
+  settings.limit.scale = largest.reflection.scale = scale;
+  const bool own = settings.reflection.scale < scale;
+  settings.reflection.scale = std::min(settings.reflection.scale, scale);
+  return (own ? "quality.scale to " : "reflection.scale to ") + settingValue(largest, "reflection.scale");
+}
+
+// `most`: that any mirror asks for.
+bool lower(Settings& settings, const ReflectionSettings& most, const FramePlan& plan, std::string& what) {
   ReflectionSettings& reflection = settings.reflection;
-  if (reflection.samples > 1) {
-    reflection.samples /= 2;
-    what = "reflection.samples to " + std::to_string(reflection.samples);
+  if (most.samples > 1) {
+    settings.limit.samples = most.samples / 2;
+    what = reflection.samples < most.samples ? "quality.samples to " : "reflection.samples to ";
+    what += std::to_string(settings.limit.samples);
+    reflection.samples = std::min(reflection.samples, settings.limit.samples);
   } else if (settings.view.samples > 1) {
     settings.view.samples /= 2;
     what = "view.samples to " + std::to_string(settings.view.samples);
-  } else if (reflection.scale > smallestScale) {
-    reflection.scale = std::max(smallestScale, reflection.scale / 2.0);
-    what = "reflection.scale to " + settingValue(settings, "reflection.scale");
+  } else if (most.scale > smallestScale) {
+    what = lowerScale(settings, std::max(smallestScale, most.scale / 2.0));
   } else if (!plan.maps.empty() && settings.effects.environmentSize > smallestMap) {
     settings.effects.environmentSize /= 2;
     what = "effects.environment_size to " + std::to_string(settings.effects.environmentSize);
@@ -103,12 +132,26 @@ bool lower(Settings& settings, const FramePlan& plan, std::string& what) {
   return true;
 }
 
+bool isAutomatic(const Mirror& mirror, const Settings& settings) {
+  return reflectionOf(mirror.quality, settings).method == ReflectionMethod::automatic;
+}
+
 // Says whether a GPU draws the frame faster with rays in the place of mirror images: with one sample a pixel, once a
-// mirror covers much of the picture (docs/scaling.md). More samples were not measured.
-bool raysAreFaster(const FramePlan& plan, const Settings& settings) {
-  return settings.view.samples == 1 && std::ranges::any_of(plan.passes, [](const PlannedPass& pass) {
-           return pass.depth == 0 && pass.areaPx >= pixelsForRays;
+// mirror covers much of the picture (docs/scaling.md). More samples were not measured. Only mirrors count that are
+// automatic by `asked`.
+bool raysAreFaster(const FramePlan& plan, const Scene& scene, const Settings& asked) {
+  return asked.view.samples == 1 && std::ranges::any_of(plan.passes, [&](const PlannedPass& pass) {
+           return pass.depth == 0 && pass.areaPx >= pixelsForRays &&
+                  isAutomatic(scene.mirrors[pass.view.path[0]], asked);
          });
+}
+
+// Sets what automatic mirrors are drawn by.
+void setAutomatic(Settings& settings, const Settings& asked, ReflectionMethod method) {
+  settings.limit.automatic = method;
+  if (asked.reflection.method == ReflectionMethod::automatic) {
+    settings.reflection.method = method;
+  }
 }
 
 void leaveOutRays(Settings& settings, const Scene& scene) {
@@ -120,6 +163,15 @@ void leaveOutRays(Settings& settings, const Scene& scene) {
   effects.castsLight = false;
   effects.curved = effects.curved && effects.curvedLookup == CurvedLookup::environment;
   settings.reflection.method = ReflectionMethod::raster;
+  settings.limit.rays = false;
+}
+
+uint64_t bytesWith(const FramePlan& plan, const Settings& settings, const Samples& samples) {
+  const RecycledVector<PassRange> ranges = independentPasses(plan);
+  const uint64_t sums = settings.view.accumulate > 1 ? sumBytes : 0;
+  return mainBytes(plan, std::min(settings.view.samples, samples.most)) + pixels(plan.main.view.rect) * sums +
+         peakSamples(plan, ranges, samples) * colorBytes + depthSamples(plan, ranges, samples) * depthBytes +
+         environmentBytes(plan) + shadowBytes(plan) + shadedBytes(plan, settings, samples);
 }
 
 std::string mebibytes(uint64_t bytes) {
@@ -147,41 +199,34 @@ uint64_t shadowBytes(const FramePlan& plan) {
 }
 
 uint64_t targetBytes(const FramePlan& plan, const Settings& settings) {
-  const auto imageSamples = static_cast<uint64_t>(settings.reflection.samples);
-  const RecycledVector<PassRange> ranges = independentPasses(plan);
-  const uint64_t sums = settings.view.accumulate > 1 ? sumBytes : 0;
-  return mainBytes(plan, settings) + pixels(plan.main.view.rect) * sums +
-         peakPixels(plan, ranges) * imageSamples * colorBytes + depthPixels(plan, ranges) * imageSamples * depthBytes +
-         environmentBytes(plan) + shadowBytes(plan) + shadedBytes(plan, settings);
+  return bytesWith(plan, settings, {});
 }
 
 uint64_t sampleBytes(const FramePlan& plan, const Settings& settings) {
-  Settings single = settings;
-  single.view.samples = single.reflection.samples = 1;
-  return targetBytes(plan, settings) - targetBytes(plan, single);
+  return targetBytes(plan, settings) - bytesWith(plan, settings, {.most = 1});
 }
 
 FittedPlan planWithin(const TargetLimits& limits, const Scene& scene, const SceneState& state, const Settings& settings,
                       int width, int height, FrameCache cache, int picture) {
   FittedPlan fitted{{}, pictureSettings(settings), {}};
-  ReflectionSettings& reflection = fitted.settings.reflection;
-  const double margins = reflection.updateInterval > 1 ? 2.0 * largestMargin * height : 0.0;
+  const ReflectionSettings most = mostAsked(scene, fitted.settings);
+  const double margins = most.updateInterval > 1 ? 2.0 * largestMargin * height : 0.0;
   const auto plan = [&] { fitted.plan = planFrame(scene, state, fitted.settings, width, height, cache, picture); };
   const auto say = [&](const std::string& what) { fitted.message += (fitted.message.empty() ? "" : "; ") + what; };
   const double largestScale = limits.largestSide / (settings.view.scale * (std::max(width, height) + margins));
-  if (reflection.scale > largestScale) {
-    reflection.scale = largestScale;
-    say("mirror images of " + settingValue(settings, "reflection.scale") +
+  if (most.scale > largestScale) {
+    Settings asked;
+    asked.reflection.scale = most.scale;
+    say("mirror images of " + settingValue(asked, "reflection.scale") +
         " times the main view's size are larger than the device's " + std::to_string(limits.largestSide) +
-        " pixels: lowered reflection.scale to " + settingValue(fitted.settings, "reflection.scale"));
+        " pixels: lowered " + lowerScale(fitted.settings, largestScale));
   }
-  const bool chooses = reflection.method == ReflectionMethod::automatic && !limits.cpu;
-  if (reflection.method == ReflectionMethod::automatic && (!limits.cpu || !limits.tracesRays)) {
-    reflection.method = ReflectionMethod::raster;
+  if (!limits.cpu || !limits.tracesRays) {
+    setAutomatic(fitted.settings, settings, ReflectionMethod::raster);
   }
   plan();
-  if (chooses && limits.tracesRays && raysAreFaster(fitted.plan, fitted.settings)) {
-    reflection.method = ReflectionMethod::rays;
+  if (!limits.cpu && limits.tracesRays && raysAreFaster(fitted.plan, scene, pictureSettings(settings))) {
+    setAutomatic(fitted.settings, settings, ReflectionMethod::rays);
     plan();
   }
   if (!limits.tracesRays && fitted.plan.effects.any()) {
@@ -204,21 +249,22 @@ FittedPlan planWithin(const TargetLimits& limits, const Scene& scene, const Scen
   // The picture that stays shown was drawn with the samples that were asked for, or as many as fitted.
   uint64_t kept = 0;
   if (limits.keepsPicture && (settings.view.accumulate > 1 || settings.quality.stillPictures == 1)) {
-    Settings before = settings;
-    while (before.view.samples > 1 && mainBytes(fitted.plan, before) > limits.budgetBytes) {
-      before.view.samples /= 2;
+    int samples = settings.view.samples;
+    while (samples > 1 && mainBytes(fitted.plan, samples) > limits.budgetBytes) {
+      samples /= 2;
     }
-    kept = mainBytes(fitted.plan, before);
+    kept = mainBytes(fitted.plan, samples);
   }
   const auto needed = [&] { return kept + targetBytes(fitted.plan, fitted.settings); };
-  if (needed() > limits.budgetBytes && reflection.updateInterval == 1) {
+  if (needed() > limits.budgetBytes && most.updateInterval == 1) {
     cache.images = {};
     plan();
   }
   const uint64_t wanted = needed();
   std::string what;
   std::string lowered;
-  while (needed() > limits.budgetBytes && lower(fitted.settings, fitted.plan, what)) {
+  while (needed() > limits.budgetBytes &&
+         lower(fitted.settings, mostAsked(scene, fitted.settings), fitted.plan, what)) {
     lowered += (lowered.empty() ? "" : ", ") + what;
     plan();
   }

@@ -59,6 +59,7 @@ class MirrorSearch {
     PassNode& root = nodes_.emplace_back();
     root.pass.view = mainView(state_.camera, plan_.projection, size.x, size.y);
     root.pass.areaPx = root.pass.view.rect.area();
+    root.pass.quality.samples = allSettings_.view.samples;
     fill(0);
     while (!candidates_.empty()) {
       const Candidate best = candidates_.top();
@@ -75,6 +76,7 @@ class MirrorSearch {
   void consider(int node, Sight sight);
   void propose(int node, Sight sight);
   void expand(const Candidate& candidate);
+  ImageQuality qualityOf(int mirror, const PlannedPass& shownIn) const;
   bool behindEye(const View& view, std::span<const glm::dvec3> polygon) const;
 
   const Scene& scene_;
@@ -93,7 +95,7 @@ class MirrorSearch {
 // Finds what a node's view draws, and which of its mirrors are candidates for passes.
 void MirrorSearch::fill(int node) {
   const View view = nodes_[node].pass.view;
-  const View readable = readableView(view, plan_.projection, allSettings_);
+  const View readable = readableView(nodes_[node].pass, plan_.projection);
   addVisibleInstances(readable, scene_, state_, allSettings_.debug.cullClusters, -1, nodes_[node].pass);
   addVisibleLights(readable, scene_, state_, allSettings_.effects, nodes_[node].pass);
   // Polygons are cut one pixel farther out, so that no cut edge lies where the image is read.
@@ -193,8 +195,8 @@ void MirrorSearch::propose(int node, Sight sight) {
   const bool deep = static_cast<int>(view.path.size()) >= settings_.maxDepth;
   const bool reflects = !deep && glm::compMax(throughput) >= settings_.minThroughput;
   const glm::dvec2 texels = view.pictureSize / glm::dvec2(plan_.width, plan_.height);
-  const int samples = view.path.empty() ? allSettings_.view.samples : settings_.samples;
-  const std::string_view rays = whyRays(material, allSettings_, reflects, area * texels.x * texels.y * samples);
+  const double samples = area * texels.x * texels.y * pass.quality.samples;
+  const std::string_view rays = whyRays(material, allSettings_, reflects, samples);
   sight.draw.byRays = !rays.empty();
   sight.draw.blurs = reflects && !sight.draw.byRays && isRough(material, allSettings_.effects);
   sight.draw.ripples = reflects && !sight.draw.byRays && isRippled(material, allSettings_.effects);
@@ -216,6 +218,15 @@ void MirrorSearch::propose(int node, Sight sight) {
                     throughput, discovered_++});
 }
 
+ImageQuality MirrorSearch::qualityOf(int mirror, const PlannedPass& shownIn) const {
+  const ReflectionSettings own = reflectionOf(scene_.mirrors[mirror].quality, allSettings_);
+  if (shownIn.view.path.empty()) {
+    return {own.scale, own.samples, own.updateInterval};
+  }
+  const auto& [scale, samples, interval] = shownIn.quality;
+  return {std::min(own.scale, scale), std::min(own.samples, samples), interval};
+}
+
 void MirrorSearch::expand(const Candidate& candidate) {
   const View& parent = nodes_[candidate.parent].pass.view;
   const MirrorDraw& draw = nodes_[candidate.parent].pass.mirrors[candidate.draw];
@@ -226,7 +237,10 @@ void MirrorSearch::expand(const Candidate& candidate) {
   if (work_ > mostWork) {
     return skipMirror(plan_, parent, draw.mirror, SkipReason::maxPasses, "too many to plan");
   }
-  const glm::dvec2 picture = nodes_[0].pass.view.pictureSize * settings_.scale;
+  PassNode node;
+  node.pass.shownIn = nodes_[candidate.parent].pass.quality;
+  node.pass.quality = qualityOf(draw.mirror, nodes_[candidate.parent].pass);
+  const glm::dvec2 picture = nodes_[0].pass.view.pictureSize * node.pass.quality.scale;
   const glm::dvec2 ratio = picture / parent.pictureSize;
   const PixelRect& outer = parent.rect;
   const int x0 = static_cast<int>(std::floor(outer.x * ratio.x));
@@ -238,7 +252,6 @@ void MirrorSearch::expand(const Candidate& candidate) {
   if (rect.empty()) {
     return skipMirror(plan_, parent, draw.mirror, SkipReason::outside);
   }
-  PassNode node;
   node.pass.view = reflectedView(parent, draw.mirror, draw.plane, candidate.visible, rect, picture);
   const bool displacesLookup = draw.blurs || draw.ripples;
   if (displacesLookup) {
@@ -250,10 +263,11 @@ void MirrorSearch::expand(const Candidate& candidate) {
   node.pass.channels = candidate.throughput;
   node.draw = candidate.draw;
   // An image that is read beside a pixel's own texel cannot be reprojected.
-  const int interval = displacesLookup ? 1 : settings_.updateInterval;
+  const int interval = displacesLookup ? 1 : node.pass.quality.interval;
   if (node.pass.depth == 0 && (interval > 1 || settings_.skipUnchanged)) {
-    const ReuseRequest request{node.pass.view, plan_.projection, candidate.visible,
-                               allSettings_,   interval,         candidate.order};
+    const ReuseRequest request{node.pass.view, plan_.projection,          candidate.visible,
+                               allSettings_,   node.pass.quality.samples, interval,
+                               candidate.order};
     node.choice = chooseImage(cache_.images, request);
     if (node.choice->image.cacheIndex < 0) {
       node.pass.view = node.choice->image.view;
@@ -272,12 +286,10 @@ RecycledVector<PassNode> findPasses(const Scene& scene, const SceneState& state,
   return MirrorSearch(scene, state, settings, cache, plan).nodes(size);
 }
 
-View readableView(const View& view, const Projection& projection, const Settings& settings) {
-  View readable = view;
-  if (!view.path.empty()) {
-    Settings caching = settings;
-    caching.reflection.updateInterval = std::max(caching.reflection.updateInterval, 2);
-    widen(readable, projection, static_cast<int>(std::ceil(1.5 * lookupReach(caching, false))) + 1);
+View readableView(const PlannedPass& pass, const Projection& projection) {
+  View readable = pass.view;
+  if (!readable.path.empty()) {
+    widen(readable, projection, static_cast<int>(std::ceil(1.5 * cachedLookupReach(pass.quality))) + 1);
   }
   return readable;
 }

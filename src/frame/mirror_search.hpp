@@ -18,9 +18,10 @@ struct PassNode {
 RecycledVector<PassNode> findPasses(const Scene& scene, const SceneState& state, const Settings& settings,
                                     const FrameCache& cache, const glm::ivec2& size, FramePlan& plan);
 
-// Widens the view by the distance at which lookups read its image beyond the visible region. All views get the margin
-// of cached images, which is the widest, so that every update interval draws the same things in the same order.
-View readableView(const View& view, const Projection& projection, const Settings& settings);
+// Returns the pass's view, widened by the distance at which lookups read its image beyond the visible region. All views
+// get the margin of cached images, which is the widest, so that every update interval draws the same things in the same
+// order.
+View readableView(const PlannedPass& pass, const Projection& projection);
 
 // Adds to plan.skipped why a mirror in a view has no pass.
 void skipMirror(FramePlan& plan, const View& view, int mirror, SkipReason reason, RecycledString detail = {});

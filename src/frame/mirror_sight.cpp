@@ -78,11 +78,11 @@ std::string_view whyRays(const Mirror& mirror, const Settings& settings, bool re
   if (isRough(mirror, effects) && effects.roughLookup == ReflectionSource::traced) {
     return "rough";
   }
-  const ReflectionMethod method = settings.reflection.method;
+  const ReflectionMethod method = reflectionOf(mirror.quality, settings).method;
   if (method == ReflectionMethod::automatic && samples < samplesOfAPass) {
     return "faster, since it covers few pixels";
   }
-  return method == ReflectionMethod::rays ? "reflection.method" : "";
+  return method != ReflectionMethod::rays ? "" : mirror.quality.method ? "quality.method" : "reflection.method";
 }
 
 }  // namespace speculum

@@ -40,8 +40,8 @@ bool isRippled(const Mirror& mirror, const EffectSettings& effects);
 // its samples, as shaders/shade.glsl does.
 int roughRays(const EffectSettings& effects, int samples);
 
-// Returns why rays show what the mirror reflects, which is seen in `samples` samples: because reflection.method says
-// so, or because an image of its plane cannot; empty if an image shows it. At a limit of depth or throughput the mirror
+// Returns why rays show what the mirror reflects, which is seen in `samples` samples: because its method says so, or
+// because an image of its plane cannot; empty if an image shows it. At a limit of depth or throughput the mirror
 // reflects the background alone, so only ripples count.
 std::string_view whyRays(const Mirror& mirror, const Settings& settings, bool reflects, double samples);
 

@@ -41,14 +41,19 @@ bool isWellShaped(std::span<const glm::dvec3> polygon, const glm::dvec2& step) {
 // shade at another point where only some of them pass the depth test. At other resolutions, and in cached images, a
 // pixel reads a box about its centre, which may lie half a pixel outside the edge. The box is as wide as a pixel, or as
 // a texel if that is wider, and half a texel more on each side for the samples.
-double lookupReach(const Settings& settings, bool standardLocations) {
-  const ReflectionSettings& r = settings.reflection;
-  if (r.scale != 1.0 || r.updateInterval > 1) {
-    return std::max(r.scale, 1.0) + 1.0;
+double lookupReach(const PlannedPass& pass, const Settings& settings, bool standardLocations) {
+  const ImageQuality& image = pass.quality;
+  if (image.scale != 1.0 || pass.shownIn.scale != 1.0 || image.interval > 1) {
+    return cachedLookupReach(image);
   }
   // Standard locations of 2, 4 and 8 samples, from the texel's middle.
   const auto farthest = [&](int samples) { return standardLocations ? 0.5 - 0.5 / std::min(samples, 8) : 0.5; };
-  return std::max(farthest(r.samples), farthest(settings.view.samples)) + farthest(r.samples);
+  const int most = std::max({image.samples, pass.shownIn.samples, settings.view.samples});
+  return farthest(most) + farthest(image.samples);
+}
+
+double cachedLookupReach(const ImageQuality& quality) {
+  return std::max(quality.scale, 1.0) + 1.0;
 }
 
 std::vector<glm::dvec2> passMask(const View& view, const Projection& projection, double reach) {

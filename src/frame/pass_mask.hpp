@@ -3,14 +3,16 @@
 #include <glm/glm.hpp>
 #include <vector>
 
-#include "frame/settings.hpp"
-#include "frame/view.hpp"
+#include "frame/frame_plan.hpp"
 
 namespace speculum {
 
-// Texels along each axis by which lookups may reach beyond the edge of a mirror's visible region. With
-// `standardLocations` samples lie where Vulkan's standardSampleLocations puts them, otherwise anywhere in their texel.
-double lookupReach(const Settings& settings, bool standardLocations);
+// Texels along each axis by which lookups of the pass's image may reach beyond the edge of the mirror's visible region.
+// With `standardLocations` samples lie where Vulkan's standardSampleLocations puts them, otherwise anywhere in their
+// texel.
+double lookupReach(const PlannedPass& pass, const Settings& settings, bool standardLocations);
+// The same of an image that is cached, or has another resolution than what shows it.
+double cachedLookupReach(const ImageQuality& quality);
 
 // Mask of a pass: at least what the view's cone bounds, widened by `reach` pixels along each axis. A convex polygon in
 // the picture's device coordinates ([-1, 1], y down) without short edges or flat corners; empty if it is the view's

@@ -13,10 +13,12 @@ Settings pictureSettings(const Settings& settings) {
   Settings drawn = settings;
   drawn.reflection.skipUnchanged = false;
   drawn.reflection.updateInterval = 1;
+  drawn.limit.mostInterval = 1;
   drawn.effects.environmentInterval = 1;
   if (settings.view.accumulate >= singleSamplePictures) {
     drawn.view.samples = 1;
     drawn.reflection.samples = 1;
+    drawn.limit.samples = 1;
   }
   return drawn;
 }

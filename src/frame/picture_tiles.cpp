@@ -90,7 +90,8 @@ size_t tilesAtOnce(const FramePlan& plan, const Settings& settings, size_t raysT
   }
   // Rays of ripples and of smooth mirrors go through each sample.
   const bool perSample = settings.effects.perSample || plan.effects.rippleRays || plan.effects.mirrorRays;
-  const int samples = std::max(settings.view.samples, settings.reflection.samples);
+  int samples = settings.reflection.samples;
+  forEachPass(plan, [&](const PlannedPass& pass) { samples = std::max(samples, pass.quality.samples); });
   const int rough = plan.effects.roughRays ? roughRays(settings.effects, samples) : 1;
   const int paths = std::max(perSample ? samples : 1, rough);  // of a pixel
   const int bounces = plan.effects.reflects() ? std::max(settings.reflection.maxDepth, 1) : 1;

@@ -4,8 +4,7 @@
 #include <array>
 #include <cctype>
 
-#include "scene/member_count.hpp"
-#include "scene/value_range.hpp"
+#include "scene/scene_fields.hpp"
 
 namespace speculum {
 
@@ -60,7 +59,7 @@ constexpr SettingField setting(std::string_view key, const SettingKind& kind, co
   return {traits, key, kind, label, text, cost};
 }
 
-constexpr std::array<std::string_view, 3> reflectionMethods{"auto", "raster", "rays"};
+constexpr auto reflectionMethods = choicesOf(ReflectionMethod());
 constexpr std::array<std::string_view, 3> clipMethods{"clip_distance", "oblique", "none"};
 constexpr std::array<std::string_view, 2> toneMaps{"clamp", "aces"};
 constexpr std::array<std::string_view, 2> textureFilters{"bilinear", "trilinear"};
@@ -78,7 +77,7 @@ constexpr SettingField fields[] = {
         "how mirrors are drawn (raster: a pass renders an image for each; rays: each pixel traces what it reflects; "
         "auto: rays where those should be faster)",
         "A ray costs more than a texel, but no pass for each mirror."),
-    setting("reflection.scale", NumberSetting{at<&R::scale>, 0.125, 4.0}, "Mirror resolution",
+    setting("reflection.scale", NumberSetting{at<&R::scale>, kImageScale.low, kImageScale.high}, "Mirror resolution",
             "resolution of mirror images relative to the main view",
             "Pixels grow with its square; below 1 reflections blur, above 1 edges smooth.",
             {.slider = SettingSlider{0.125, 4.0, "%.3f"}}),
@@ -220,7 +219,7 @@ static_assert(describes<V>("view."), "describe every member of ViewSettings abov
 static_assert(describes<E>("effects."), "describe every member of EffectSettings above");
 static_assert(describes<Q>("quality."), "describe every member of QualitySettings above");
 static_assert(describes<D>("debug."), "describe every member of DebugSettings above");
-static_assert(memberCount<Settings>() == 5, "name the group of settings above");
+static_assert(memberCount<Settings>() == 6, "name the group of settings above; all but `limit` are settings");
 
 }  // namespace
 
@@ -238,14 +237,8 @@ std::string settingRange(const SettingField& field) {
     std::string operator()(const NumberSetting& n) const { return Range{n.low, n.high}.shortText(); }
     std::string operator()(const AutomaticSetting& n) const { return "auto | " + Range{n.low, n.high}.shortText(); }
     std::string operator()(const IntegerSetting& n) const {
-      if (!n.powersOfTwo) {
-        return std::to_string(n.low) + " .. " + std::to_string(n.high);
-      }
-      std::string powers = std::to_string(n.low);
-      for (int power = 2 * n.low; power <= n.high; power *= 2) {
-        powers += " " + std::to_string(power);
-      }
-      return powers;
+      return n.powersOfTwo ? Range{.low = 1.0 * n.low, .high = 1.0 * n.high, .powersOfTwo = true}.shortText()
+                           : std::to_string(n.low) + " .. " + std::to_string(n.high);
     }
     std::string operator()(const BooleanSetting&) const { return "true | false"; }
     std::string operator()(const ChoiceSetting& choice) const {

@@ -154,8 +154,9 @@ bool takesText(const SettingField& field) {
 
 // Says whether all settings are equal that change the part `last` of a frame or an earlier part.
 bool sameUpTo(FramePart last, const Settings& a, const Settings& b) {
-  return std::ranges::all_of(
-      settingFields(), [&](const SettingField& field) { return field.changes > last || sameSetting(field, a, b); });
+  return a.limit == b.limit && std::ranges::all_of(settingFields(), [&](const SettingField& field) {
+           return field.changes > last || sameSetting(field, a, b);
+         });
 }
 
 }  // namespace
@@ -166,6 +167,44 @@ bool isSchlick(Fresnel fresnel, const EffectSettings& effects) {
 
 bool hasGlyph(const PointLight& light, const EffectSettings& effects) {
   return effects.glyphs && light.glow > 0.0;
+}
+
+ReflectionSettings reflectionOf(const MirrorQuality& own, const Settings& settings) {
+  ReflectionSettings asked = settings.reflection;
+  const QualityLimit& limit = settings.limit;
+  asked.scale = own.scale ? std::min(*own.scale, limit.scale) : asked.scale;
+  asked.samples = own.samples ? std::min(*own.samples, limit.samples) : asked.samples;
+  if (own.updateInterval) {
+    asked.updateInterval = std::min(std::max(*own.updateInterval, limit.leastInterval), limit.mostInterval);
+  }
+  if (own.method) {
+    asked.method = !limit.rays                                  ? ReflectionMethod::raster
+                   : *own.method == ReflectionMethod::automatic ? limit.automatic
+                                                                : *own.method;
+  }
+  return asked;
+}
+
+ReflectionSettings mostAsked(const Scene& scene, const Settings& settings) {
+  ReflectionSettings most = settings.reflection;
+  for (const Mirror& mirror : scene.mirrors) {
+    const ReflectionSettings asked = reflectionOf(mirror.quality, settings);
+    most.scale = std::max(most.scale, asked.scale);
+    most.samples = std::max(most.samples, asked.samples);
+    most.updateInterval = std::max(most.updateInterval, asked.updateInterval);
+  }
+  return most;
+}
+
+void lowerLimit(const ReflectionSettings& before, Settings& settings) {
+  const ReflectionSettings& now = settings.reflection;
+  QualityLimit& limit = settings.limit;
+  limit.scale = now.scale < before.scale ? std::min(limit.scale, now.scale) : limit.scale;
+  limit.samples = now.samples < before.samples ? std::min(limit.samples, now.samples) : limit.samples;
+  if (now.updateInterval > before.updateInterval) {
+    limit.leastInterval = std::max(limit.leastInterval, now.updateInterval);
+  }
+  limit.rays = limit.rays && (now.method == before.method || now.method != ReflectionMethod::raster);
 }
 
 std::optional<std::string> setSetting(Settings& settings, std::string_view key, std::string_view value) {

@@ -9,15 +9,12 @@
 
 #include "image/color.hpp"
 #include "scene/scene.hpp"
+#include "scene/value_range.hpp"
 
 namespace speculum {
 
 enum class ClipMethod { clipDistance, oblique, none };
 enum class TextureFilter { bilinear, trilinear };
-
-// What shows a planar mirror's reflection. raster: an image that a pass renders. automatic: whichever is likely to be
-// faster.
-enum class ReflectionMethod { automatic, raster, rays };
 
 struct ReflectionSettings {
   ReflectionMethod method = ReflectionMethod::raster;
@@ -114,15 +111,35 @@ struct DebugSettings {
   bool operator==(const DebugSettings&) const = default;
 };
 
+// Bounds what mirrors ask for by a quality of their own. Whatever lowers settings lowers it along.
+struct QualityLimit {
+  double scale = kImageScale.high;
+  int samples = static_cast<int>(kSamples.high);
+  int leastInterval = 1;  // frames
+  int mostInterval = static_cast<int>(kInterval.high);
+  bool rays = true;
+  ReflectionMethod automatic = ReflectionMethod::automatic;  // what that stands for on the device
+
+  bool operator==(const QualityLimit&) const = default;
+};
+
 struct Settings {
   ReflectionSettings reflection;
   ViewSettings view;
   EffectSettings effects;
   QualitySettings quality;
   DebugSettings debug;
+  QualityLimit limit;  // no setting: users do not see it
 
   bool operator==(const Settings&) const = default;
 };
+
+// Returns `settings.reflection` with the mirror's own quality, as far as the limit allows it.
+ReflectionSettings reflectionOf(const MirrorQuality& own, const Settings& settings);
+// Returns `settings.reflection` with the largest scale, sample count and interval of all mirrors.
+ReflectionSettings mostAsked(const Scene& scene, const Settings& settings);
+// Lowers the limit to each value of `settings.reflection` that was lowered since `before`.
+void lowerLimit(const ReflectionSettings& before, Settings& settings);
 
 // Sets one key of settingFields(). The value is text as on a command line: numbers, true/false, names, colors as
 // "r,g,b" or "[r, g, b]". Returns what is wrong and what would be right, or nothing.

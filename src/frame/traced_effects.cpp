@@ -18,8 +18,9 @@ bool mayTrace(const Scene& scene, const Settings& settings) {
   return settings.reflection.method != ReflectionMethod::raster ||
          std::ranges::any_of(scene.lights, &PointLight::castsShadow) ||
          std::ranges::any_of(scene.objects, [](const Object& o) { return o.mirror.has_value(); }) ||
-         std::ranges::any_of(scene.mirrors,
-                             [](const Mirror& m) { return m.roughness > 0.0 || m.ripple || m.castsLight; });
+         std::ranges::any_of(scene.mirrors, [](const Mirror& m) {
+           return m.roughness > 0.0 || m.ripple || m.castsLight || m.quality.method;
+         });
 }
 
 // Surfaces in the passes that light falls on.

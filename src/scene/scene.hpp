@@ -112,6 +112,20 @@ struct Ripple {
   bool operator==(const Ripple&) const = default;
 };
 
+// What shows a planar mirror's reflection. raster: an image that a pass renders. automatic: whichever is likely to be
+// faster.
+enum class ReflectionMethod { automatic, raster, rays };
+
+// Quality of a mirror's images. A member without a value is that of the settings, reflection.*.
+struct MirrorQuality {
+  std::optional<double> scale;  // resolution relative to the main view
+  std::optional<int> samples;
+  std::optional<int> updateInterval;  // frames
+  std::optional<ReflectionMethod> method;
+
+  bool operator==(const MirrorQuality&) const = default;
+};
+
 struct Mirror {
   std::string name;
   glm::dvec3 position{0.0};
@@ -127,6 +141,7 @@ struct Mirror {
   bool twoSided = false;
   glm::dvec3 backColor{0.1};
   bool castsLight = false;
+  MirrorQuality quality;
 
   bool operator==(const Mirror&) const = default;
 };

@@ -157,6 +157,14 @@ inline const auto fieldsOf<Ripple> =
                      {.unit = "m", .range = kWavelength, .step = 0.005}),
                field(&Ripple::speed, "speed", "of the waves", {.unit = "m/s", .range = kWaveSpeed, .step = 0.005})};
 
+template <>
+inline const auto fieldsOf<MirrorQuality> =
+    std::tuple{field(&MirrorQuality::scale, "scale", "`reflection.scale` of its images", {.range = kImageScale}),
+               field(&MirrorQuality::samples, "samples", "`reflection.samples` of its images", {.range = kSamples}),
+               field(&MirrorQuality::updateInterval, "update_interval", "`reflection.update_interval` of its image",
+                     {.unit = "frames", .range = kInterval}),
+               field(&MirrorQuality::method, "method", "`reflection.method` of the mirror")};
+
 inline bool isRectangle(const Mirror& mirror) {
   return mirror.polygon.empty();
 }
@@ -193,7 +201,10 @@ inline const auto fieldsOf<Mirror> = std::tuple{
     field(&Mirror::ripple, "ripple", "two trains of waves run over the mirror",
           {.applies = [](const Mirror& mirror) { return !mirror.ripple || mirror.ripple->amplitude > 0.0; },
            .start = Ripple{.amplitude = 0.002}}),
-    field(&Mirror::castsLight, "casts_light", "light bounced by the mirror reaches the scene")};
+    field(&Mirror::castsLight, "casts_light", "light bounced by the mirror reaches the scene"),
+    // The inspector has rows of its own for it.
+    field(&Mirror::quality, "quality", "its own quality; the settings' where a key is missing",
+          {.shown = [](const Mirror&) { return false; }})};
 
 template <>
 inline const auto fieldsOf<Bookmark> = std::tuple{
@@ -225,6 +236,10 @@ void forEachField(const Visitor& visit) {
 // Names of an enumeration's values in scene files, in the order of the enumerators.
 constexpr auto choicesOf(Fresnel) {
   return std::array<std::string_view, 2>{"none", "schlick"};
+}
+
+constexpr auto choicesOf(ReflectionMethod) {
+  return std::array<std::string_view, 3>{"auto", "raster", "rays"};
 }
 
 }  // namespace speculum

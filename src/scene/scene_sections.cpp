@@ -24,8 +24,7 @@ Value readValue(const TableReader& table, const Field& field) {
   if constexpr (std::is_same_v<Value, double>) {
     return std::clamp(table.number(field.key, field.range), field.floor, field.ceiling);
   } else if constexpr (std::is_same_v<Value, int>) {
-    return static_cast<int>(
-        table.integer(field.key, static_cast<int64_t>(field.range.low), static_cast<int64_t>(field.range.high)));
+    return static_cast<int>(table.integer(field.key, field.range));
   } else if constexpr (std::is_same_v<Value, bool>) {
     return table.boolean(field.key);
   } else if constexpr (std::is_same_v<Value, std::string>) {

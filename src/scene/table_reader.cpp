@@ -123,12 +123,13 @@ double TableReader::number(std::string_view key, const Range& range) const {
   return numberOf(required(key, range.text()), key, range);
 }
 
-int64_t TableReader::integer(std::string_view key, int64_t low, int64_t high) const {
-  const std::string right = fmt::format("an integer {} .. {} is needed", low, high);
+int64_t TableReader::integer(std::string_view key, const Range& range) const {
+  const std::string right =
+      range.powersOfTwo ? range.text() : fmt::format("an integer {:.0f} .. {:.0f} is needed", range.low, range.high);
   const toml::node& node = required(key, right);
   expect(node.is_integer(), node, key, right);
   const int64_t value = node.as_integer()->get();
-  if (value < low || value > high) {
+  if (!range.contains(static_cast<double>(value))) {
     failAt(node, key, fmt::format("is {}", value), right);
   }
   return value;

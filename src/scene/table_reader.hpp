@@ -31,7 +31,7 @@ class TableReader {
   double number(std::string_view key, double fallback, const Range& range) const {
     return has(key) ? number(key, range) : fallback;
   }
-  int64_t integer(std::string_view key, int64_t low, int64_t high) const;
+  int64_t integer(std::string_view key, const Range& range) const;
   bool boolean(std::string_view key) const;
   std::string text(std::string_view key) const;
   std::string text(std::string_view key, const std::string& fallback) const { return has(key) ? text(key) : fallback; }

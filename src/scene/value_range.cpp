@@ -25,10 +25,14 @@ std::string number(double value) {
 }  // namespace
 
 bool Range::contains(double value) const {
-  return std::isfinite(value) && (aboveLow ? value > low : value >= low) && value <= high;
+  return std::isfinite(value) && (aboveLow ? value > low : value >= low) && value <= high &&
+         (!powersOfTwo || std::exp2(std::ilogb(value)) == value);
 }
 
 std::string Range::text() const {
+  if (powersOfTwo) {
+    return "one of " + shortText() + " is needed";
+  }
   if (high < std::numeric_limits<double>::max()) {
     return aboveLow
                ? fmt::format("a finite number above {} and up to {} is needed", number(low), number(high))
@@ -42,6 +46,13 @@ std::string Range::text() const {
 }
 
 std::string Range::shortText() const {
+  if (powersOfTwo) {
+    std::string powers = number(low);
+    for (double power = 2.0 * low; power <= high; power *= 2.0) {
+      powers += " " + number(power);
+    }
+    return powers;
+  }
   if (high == std::numeric_limits<double>::max()) {
     return low == -high ? "" : (aboveLow ? "> " : ">= ") + number(low);
   }

@@ -9,7 +9,8 @@ namespace speculum {
 struct Range {
   double low = -std::numeric_limits<double>::max();
   double high = std::numeric_limits<double>::max();
-  bool aboveLow = false;  // low itself is out
+  bool aboveLow = false;     // low itself is out
+  bool powersOfTwo = false;  // no other numbers
 
   bool contains(double value) const;
   std::string text() const;       // for errors: "a number in 0 .. 1 is needed"
@@ -38,5 +39,8 @@ inline constexpr double kLeastShininess = 1.0;
 inline constexpr double kMostShininess = 1e6;
 inline constexpr Range kFieldOfView{.low = 1.0, .high = 170.0};  // degrees
 inline constexpr Range kCopies{.low = 1.0, .high = 1'000'000.0};
+inline constexpr Range kImageScale{.low = 0.125, .high = 4.0};
+inline constexpr Range kSamples{.low = 1.0, .high = 8.0, .powersOfTwo = true};
+inline constexpr Range kInterval{.low = 1.0, .high = 1'000'000.0};  // frames
 
 }  // namespace speculum

@@ -17,7 +17,8 @@ void EnvironmentTargets::release(RetireQueue& retired) {
 
 void EnvironmentTargets::prepare(const FramePlan& plan, RetireQueue& retired) {
   cached_.clear();  // until all are complete
-  targets_ = ImagePool::reused(std::span(plan.maps), std::move(targets_), pool_.get());
+  targets_ = ImagePool::reused(std::span(plan.maps), std::move(targets_),
+                               [&](const OffScreen& unused) { pool_->release(unused); });
   if (std::exchange(restart_, false)) {
     release(retired);
   }

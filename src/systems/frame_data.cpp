@@ -365,7 +365,7 @@ void FrameData::addMask(const PlannedPass& pass, const FramePlan& plan, const Se
     return;
   }
   const glm::dvec2 drawn = overscan(pass.view);
-  const double reach = lookupReach(settings, device_.limits().standardSampleLocations);
+  const double reach = lookupReach(pass, settings, device_.limits().standardSampleLocations);
   ClipPolygon clip;
   for (const glm::dvec2& p : passMask(pass.view, plan.projection, reach)) {
     clip.emplace_back(p / drawn, 0.0, 1.0);  // infinitely far

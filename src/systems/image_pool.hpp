@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -26,18 +27,17 @@ class ImagePool {
   void release(const OffScreen& target);
   std::unique_ptr<OffScreen> remove(const OffScreen& target);  // gives it away
   // Returns, for each of `images`, the target of the cached image that it reuses; null if it is to be rendered.
-  // `targets` are those of the cached images, of `pool`, which may be null if there are none. What no image reuses is
-  // released.
+  // `targets` are those of the cached images. What no image reuses is released.
   template <typename Cached>
   static std::vector<OffScreen*> reused(std::span<const Cached> images, std::vector<OffScreen*> targets,
-                                        ImagePool* pool) {
+                                        const std::function<void(const OffScreen&)>& release) {
     std::vector<OffScreen*> reused;
     for (const Cached& image : images) {
       reused.push_back(image.cacheIndex >= 0 ? std::exchange(targets[image.cacheIndex], nullptr) : nullptr);
     }
     for (const OffScreen* unused : targets) {
       if (unused) {
-        pool->release(*unused);
+        release(*unused);
       }
     }
     return reused;

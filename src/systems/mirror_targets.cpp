@@ -14,7 +14,8 @@ void MirrorTargets::restart() {
 // Releases cached images that the plan no longer shows; passes of this frame can use their targets at once, because
 // barriers order frames as they do passes.
 void MirrorTargets::takeCached(const FramePlan& plan) {
-  cachedTargets_ = ImagePool::reused(std::span(plan.cached), std::move(cachedTargets_), pool_.get());
+  cachedTargets_ = ImagePool::reused(std::span(plan.cached), std::move(cachedTargets_),
+                                     [&](const OffScreen& unused) { poolOf(unused).release(unused); });
   cachedDescriptors_.clear();
   for (const OffScreen* target : cachedTargets_) {
     cachedDescriptors_.push_back(target ? MirrorImage{target->descriptor(), target->samples()} : MirrorImage{});
@@ -30,37 +31,42 @@ void MirrorTargets::takeWatched(const FramePlan& plan, RetireQueue& retired) {
     retired.take(earlierWatched_);
   }
   if (image && stays && !earlierWatched_) {
-    earlierWatched_ = pool_->remove(*image);
+    earlierWatched_ = poolOf(*image).remove(*image);
   } else if (image) {
-    pool_->release(*image);
+    poolOf(*image).release(*image);
   }
 }
 
-void MirrorTargets::begin(const FramePlan& plan, VkSampleCountFlagBits samples, std::optional<int> watched,
-                          RetireQueue& retired) {
+void MirrorTargets::begin(const FramePlan& plan, std::optional<int> watched, RetireQueue& retired) {
   watched_ = watched;
   takeWatched(plan, retired);
   takeCached(plan);
-  const bool needless = plan.passes.empty() && plan.cached.empty();
-  if (pool_ && (restart_ || depths_.front().image->samples() != samples || needless)) {
-    retired.take(pool_);
-    dropDepth(0, retired);
+  for (auto& [samples, pool] : pools_) {
+    const auto has = [count = samples](const OffScreen* target) { return target && target->samples() == count; };
+    const auto needs = [this, count = samples](const PlannedPass& pass) { return samplesOf(pass) == count; };
+    if (restart_ || (std::ranges::none_of(cachedTargets_, has) && std::ranges::none_of(plan.passes, needs))) {
+      retired.take(pool.images);
+      dropDepth(pool.depths, 0, retired);
+    }
   }
   restart_ = false;
-  if (!plan.passes.empty() && !pool_) {
-    depths_.push_back({std::make_unique<SharedDepth>(device_, samples, "mirror images")});
-    pool_ = std::make_unique<ImagePool>(device_, *depths_.front().image, "mirror image");
+  std::erase_if(pools_, [](const auto& entry) { return !entry.second.images; });
+  for (const PlannedPass& pass : plan.passes) {
+    if (Pool& pool = pools_[samplesOf(pass)]; !pool.images) {
+      pool.images = std::make_unique<ImagePool>(device_, depth(samplesOf(pass), 0, {0, 0}), "mirror image");
+    }
   }
   targets_.assign(plan.passes.size(), nullptr);
   images_.assign(plan.passes.size(), {});
 }
 
-SharedDepth& MirrorTargets::depth(size_t place, VkExtent2D needed) {
-  if (place == depths_.size()) {
-    depths_.push_back({std::make_unique<SharedDepth>(device_, depths_.front().image->samples(),
-                                                     "mirror images " + std::to_string(place))});
+SharedDepth& MirrorTargets::depth(VkSampleCountFlagBits samples, size_t place, VkExtent2D needed) {
+  std::vector<Depth>& depths = pools_[samples].depths;
+  if (place == depths.size()) {
+    const std::string number = place > 0 ? " " + std::to_string(place) : "";
+    depths.push_back({std::make_unique<SharedDepth>(device_, samples, "mirror images" + number)});
   }
-  Depth& depth = depths_[place];
+  Depth& depth = depths[place];
   depth.idleFrames = 0;
   depth.needed = {std::max(depth.needed.width, needed.width), std::max(depth.needed.height, needed.height)};
   return *depth.image;
@@ -69,13 +75,14 @@ SharedDepth& MirrorTargets::depth(size_t place, VkExtent2D needed) {
 std::vector<PassTargets> MirrorTargets::acquire(const FramePlan& plan, const PassRange& range, RetireQueue& retired) {
   const RecycledVector<size_t> order = largestFirst(plan, range);
   std::vector<PassTargets> targets(order.size());
-  for (size_t place = 0; place < order.size(); ++place) {
-    const size_t pass = order[place];
+  std::map<VkSampleCountFlagBits, size_t> places;
+  for (const size_t pass : order) {
     const PixelRect& rect = plan.passes[pass].view.rect;
-    OffScreen& target = pool_->acquire(extentOf(rect.width, rect.height), retired);
+    const VkSampleCountFlagBits samples = samplesOf(plan.passes[pass]);
+    OffScreen& target = pools_.at(samples).images->acquire(extentOf(rect.width, rect.height), retired);
     targets_[pass] = &target;
     images_[pass] = {target.descriptor(), target.samples()};
-    targets[pass - range.first] = target.targets(depth(place, target.extent()), retired);
+    targets[pass - range.first] = target.targets(depth(samples, places[samples]++, target.extent()), retired);
   }
   return targets;
 }
@@ -88,16 +95,16 @@ bool MirrorTargets::isNeededLater(const FramePlan& plan, int pass) const {
 void MirrorTargets::releaseShown(const FramePlan& plan, const PlannedPass& pass) {
   for (const MirrorDraw& draw : pass.mirrors) {
     if (draw.pass >= 0 && !isNeededLater(plan, draw.pass)) {
-      pool_->release(*targets_[draw.pass]);
+      poolOf(*targets_[draw.pass]).release(*targets_[draw.pass]);
     }
   }
 }
 
-void MirrorTargets::dropDepth(size_t from, RetireQueue& retired) {
-  for (size_t i = from; i < depths_.size(); ++i) {
-    retired.take(depths_[i].image);
+void MirrorTargets::dropDepth(std::vector<Depth>& depths, size_t from, RetireQueue& retired) {
+  for (size_t i = from; i < depths.size(); ++i) {
+    retired.take(depths[i].image);
   }
-  depths_.resize(from);
+  depths.resize(from);
 }
 
 void MirrorTargets::end(const FramePlan& plan, RetireQueue& retired) {
@@ -113,17 +120,16 @@ void MirrorTargets::end(const FramePlan& plan, RetireQueue& retired) {
     retired.take(earlierWatched_);
   }
   cachedImages_ = plan.cached;
-  if (!pool_) {
-    return;
+  for (auto& [samples, pool] : pools_) {
+    pool.images->endFrame(retired);
+    fitDepth(pool.depths, retired);
   }
-  pool_->endFrame(retired);
-  fitDepth(retired);
 }
 
 // Shrinks depth images, which otherwise only grow, and drops idle ones. Keeps the first while there are targets.
-void MirrorTargets::fitDepth(RetireQueue& retired) {
-  size_t used = depths_.size();
-  for (Depth& depth : depths_) {
+void MirrorTargets::fitDepth(std::vector<Depth>& depths, RetireQueue& retired) {
+  size_t used = depths.size();
+  for (Depth& depth : depths) {
     ++depth.idleFrames;
     if (++depth.frames > ImagePool::framesKept) {
       if (depth.needed.width > 0 && areaOf(depth.image->extent()) > areaOf(depth.needed) * 3 / 2) {
@@ -133,10 +139,10 @@ void MirrorTargets::fitDepth(RetireQueue& retired) {
       depth.frames = 0;
     }
   }
-  while (used > 1 && depths_[used - 1].idleFrames > ImagePool::framesKept) {
+  while (used > 1 && depths[used - 1].idleFrames > ImagePool::framesKept) {
     --used;
   }
-  dropDepth(used, retired);
+  dropDepth(depths, used, retired);
 }
 
 }  // namespace speculum

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <optional>
 
 #include "frame/pass_range.hpp"
@@ -20,7 +21,7 @@ class MirrorTargets {
 
   // Begins the plan's picture and takes over the cached images that it reuses. `watched` is the pass that the debug
   // view shows. Its image is kept until the next picture is complete, or as long as this one is shown again.
-  void begin(const FramePlan& plan, VkSampleCountFlagBits samples, std::optional<int> watched, RetireQueue& retired);
+  void begin(const FramePlan& plan, std::optional<int> watched, RetireQueue& retired);
   // Returns targets for the passes of a range, in order, each with a depth image of its own. The images that the range
   // looks up stay untouched.
   std::vector<PassTargets> acquire(const FramePlan& plan, const PassRange& range, RetireQueue& retired);
@@ -37,23 +38,29 @@ class MirrorTargets {
   std::span<const MirrorImage> cached() const { return cachedDescriptors_; }
 
  private:
-  // Depth that the passes with the same index in their ranges use in turn.
+  // Depth that the passes with the same index in their ranges, among those of a sample count, use in turn.
   struct Depth {
     std::unique_ptr<SharedDepth> image;
     int idleFrames = 0;
     VkExtent2D needed{0, 0};  // largest extent since the image was last fitted
     int frames = 0;           // frames since then
   };
+  // Targets of one sample count.
+  struct Pool {
+    std::vector<Depth> depths;  // the first exists as long as the images
+    std::unique_ptr<ImagePool> images;
+  };
+  VkSampleCountFlagBits samplesOf(const PlannedPass& pass) { return device_.sampleCount(pass.quality.samples); }
+  ImagePool& poolOf(const OffScreen& target) { return *pools_.at(target.samples()).images; }
   void takeCached(const FramePlan& plan);
   void takeWatched(const FramePlan& plan, RetireQueue& retired);
   bool isNeededLater(const FramePlan& plan, int pass) const;
-  SharedDepth& depth(size_t place, VkExtent2D needed);
-  void fitDepth(RetireQueue& retired);
-  void dropDepth(size_t from, RetireQueue& retired);
+  SharedDepth& depth(VkSampleCountFlagBits samples, size_t place, VkExtent2D needed);
+  static void fitDepth(std::vector<Depth>& depths, RetireQueue& retired);
+  static void dropDepth(std::vector<Depth>& depths, size_t from, RetireQueue& retired);
 
   Device& device_;
-  std::vector<Depth> depths_;
-  std::unique_ptr<ImagePool> pool_;
+  std::map<VkSampleCountFlagBits, Pool> pools_;
   std::vector<OffScreen*> targets_;
   std::vector<MirrorImage> images_;
   RecycledVector<CachedImage> cachedImages_;

@@ -128,7 +128,7 @@ void SceneRenderer::prepareTargets(Frame& frame, const Settings& settings, const
     if (unfinished_) {
       mirrorTargets_.restart();
     }
-    mirrorTargets_.begin(plan, device_.sampleCount(settings.reflection.samples), watched_.mirrorPass(), *frame.retired);
+    mirrorTargets_.begin(plan, watched_.mirrorPass(), *frame.retired);
     const bool mainIsShown = accumulated() == 0 || keepsTarget({}, TargetKind::color);
     mainTargets_.begin(settings, plan, shown && !unfinished_ && mainIsShown, *frame.retired);
     environmentTargets_.prepare(plan, *frame.retired);
@@ -436,10 +436,9 @@ void SceneRenderer::finishLedger(const FrameInfo& info) {
   const TracedEffects& effects = info.plan.effects;
   ledger_[EffectKind::msaa].bytes = sampleBytes(info.plan, settings);
   for (const RecordedPass& pass : log_.passes()) {
-    const bool ofMirror = pass.kind == PassKind::mirror;
-    const int samples = ofMirror ? settings.reflection.samples : settings.view.samples;
-    const bool scene = ofMirror || pass.kind == PassKind::main;
-    ledger_[EffectKind::msaa].draws += scene && samples > 1 ? pass.draws : 0;
+    const bool main = pass.kind == PassKind::main;
+    const PlannedPass* planned = main ? &info.plan.main : mirrorPass(info.plan, pass.path);
+    ledger_[EffectKind::msaa].draws += planned && planned->quality.samples > 1 ? pass.draws : 0;
   }
   ledger_[EffectKind::textures].bytes = ledger_[EffectKind::textures].draws > 0 ? resources_.textureBytes() : 0;
   ledger_[EffectKind::toneMap].draws = settings.view.toneMap == ToneMap::aces ? 1 : 0;

@@ -132,7 +132,10 @@ void TraceFrame::build(Frame& frame, const SceneState& state, const Settings& se
 // rough mirror is an invocation of its own.
 void TraceFrame::warnOfManyRays(const Settings& settings, const TracedEffects& effects) {
   constexpr size_t most = 1000;
-  const int samples = std::min(settings.view.samples, settings.reflection.samples);  // the fewest send the most rays
+  int samples = std::min(settings.view.samples, settings.reflection.samples);  // the fewest send the most rays
+  for (const Mirror& mirror : scene_.mirrors) {
+    samples = std::min(samples, reflectionOf(mirror.quality, settings).samples);
+  }
   const int rough = effects.roughRays ? roughRays(settings.effects, samples) / samples : 1;
   const size_t rays = static_cast<size_t>(rough) * (1 + effects.raysToLights(scene_));
   if (device_.info().isCpu() && rays > most && !std::exchange(warnedOfRays_, true)) {

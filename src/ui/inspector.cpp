@@ -1,9 +1,11 @@
 // The window that edits the scene.
 #include <imgui.h>
 #include <imgui_stdlib.h>
+#include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
 #include <cfloat>
+#include <cmath>
 #include <tuple>
 #include <utility>
 
@@ -134,6 +136,58 @@ void gizmoMode(PanelContext& ui) {
   ImGui::NewLine();
 }
 
+// Draws a row for a key of a mirror's own quality: a box, then the setting's widget, which shows the settings' value
+// while the box is not checked. Returns true if the user changed anything.
+template <typename T>
+bool qualityRow(PanelContext& ui, const std::string& name, std::optional<T>& own, T ReflectionSettings::*member) {
+  const std::string key = "reflection." + name;
+  const std::optional<T> before = own;
+  Settings shown = ui.settings;
+  shown.reflection.*member = own.value_or(shown.reflection.*member);
+  bool on = own.has_value();
+  ImGui::PushID(name.c_str());
+  ImGui::Checkbox("##own", &on);
+  recordWidget(ui, "edit.quality." + name, "Checked: this mirror's own value. Else that of the settings.");
+  ImGui::SameLine();
+  ImGui::BeginDisabled(!on);
+  settingWidget(ui, *findSettingField(key), shown);
+  ImGui::EndDisabled();
+  recordWidget(ui, "edit.quality." + name + ".value", settingHelp(key));
+  ImGui::PopID();
+  own = on ? std::optional(shown.reflection.*member) : std::nullopt;
+  return own != before;
+}
+
+// Draws what the mirror costs, how wrong it is, and its own quality. Returns true if the user changed that.
+bool mirrorQuality(PanelContext& ui, MirrorQuality& quality) {
+  using R = ReflectionSettings;
+  const int mirror = ui.view.edit.selected.index;
+  dimmedText(mirrorCost(ui.view.frame, mirror));
+  recordWidget(ui, "edit.mirror_cost",
+               "Its images in the last frame, also those seen in other mirrors. The time is the median of the last "
+               "frames, as in Performance.");
+  ImGui::Checkbox("Show its error", &ui.state.showDifference);
+  recordWidget(ui, "edit.mirror_error",
+               "Compares the still picture with the traced reference, and shows where it differs. The number is the "
+               "mean within the mirror's outline, with what stands before it.");
+  if (ui.state.showDifference) {
+    const std::vector<double>& errors = ui.view.accuracy.mirrorErrors;
+    const bool known = static_cast<size_t>(mirror) < errors.size();
+    ImGui::SameLine();
+    wrappedText(!known                       ? ui.view.accuracy.difference
+                : std::isnan(errors[mirror]) ? "not in view"
+                                             : fmt::format("{:.4f} mean FLIP", errors[mirror]));
+  }
+  ImGui::PushItemWidth(-10.5f * ImGui::GetFontSize());
+  ImGui::TextUnformatted("Quality of this mirror (unchecked: as the settings):");
+  const bool edited = qualityRow(ui, "scale", quality.scale, &R::scale) |
+                      qualityRow(ui, "samples", quality.samples, &R::samples) |
+                      qualityRow(ui, "update_interval", quality.updateInterval, &R::updateInterval) |
+                      qualityRow(ui, "method", quality.method, &R::method);
+  ImGui::PopItemWidth();
+  return edited;
+}
+
 void selectedNode(PanelContext& ui) {
   const EditView& edit = ui.view.edit;
   if (!edit.selected) {
@@ -146,26 +200,19 @@ void selectedNode(PanelContext& ui) {
   if (!edit.through.empty()) {
     throughButtons(ui);
   }
+  SceneNode node = nodeOf(*edit.scene, edit.selected);
+  bool edited = false;
   if (edit.selected.kind == Selection::Kind::mirror) {
     commandButton(ui, "Look out of mirror", "edit.look_out", "Looks out of the mirror (Shift+B).",
                   LookFromMirror{MirrorSide::front});
     nextButton(ui, "Look from behind", "edit.look_behind",
                "Looks at the mirror's back from behind, or at the wall that it hangs on (B).",
                LookFromMirror{MirrorSide::back});
-    dimmedText(mirrorCost(ui.view.frame, edit.selected.index));
-    recordWidget(ui, "edit.mirror_cost",
-                 "Its images in the last frame, also those seen in other mirrors. The time is the median of the last "
-                 "frames, as in Performance.");
-    ImGui::PushItemWidth(-10.5f * ImGui::GetFontSize());
-    ImGui::TextUnformatted("To make the images of all mirrors cheaper:");
-    settingRows(ui, "reflection.scale");
-    settingRows(ui, "reflection.max_depth");
-    ImGui::PopItemWidth();
+    edited = mirrorQuality(ui, std::get<Mirror>(node).quality);
   }
   gizmoMode(ui);
   ImGui::PushItemWidth(-9.2f * ImGui::GetFontSize());
-  SceneNode node = nodeOf(*edit.scene, edit.selected);
-  const bool edited = fieldRows(ui, node);
+  edited = fieldRows(ui, node) || edited;
   ImGui::PopItemWidth();
   if (edited) {
     ui.state.editing = ImGui::IsAnyItemActive();

@@ -72,7 +72,7 @@ UiOutput PanelWindows::build(const UiView& view) {
                            free.corner.x + free.size.x);
   }
   ui.output.points = state_.choices.accuracy;
-  if (state_.choices.accuracy && state_.showDifference) {
+  if ((state_.choices.accuracy || state_.choices.inspector) && state_.showDifference) {
     ui.output.errorGain = state_.errorGain;
   }
   if (ui.settings != view.settings) {

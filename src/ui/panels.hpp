@@ -3,6 +3,7 @@
 #include <array>
 #include <functional>
 
+#include "frame/setting_fields.hpp"
 #include "ui/panel_choices.hpp"
 #include "ui/panel_dock.hpp"
 #include "ui/thumbnails.hpp"
@@ -145,6 +146,7 @@ void recordWidget(PanelContext& ui, std::string_view key, const std::string& tip
 // Draw rows for the settings whose keys begin with `prefix`, except those whose need is not met, and for the fields of
 // a node; true if the user changed a field. Rows come from the descriptions of settings and fields.
 void settingRows(PanelContext& ui, std::string_view prefix);
+void settingWidget(const PanelContext& ui, const SettingField& field, Settings& settings);  // without tooltip
 bool fieldRows(PanelContext& ui, SceneNode& node);
 // Draws a drop-down list. Returns true if the user chose another of `names`.
 bool choice(const char* label, int& index, std::span<const std::string> names);

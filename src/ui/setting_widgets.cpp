@@ -50,7 +50,9 @@ struct Widget {
     float edited = before;
     ImGui::SliderFloat(label().c_str(), &edited, static_cast<float>(field.slider->low),
                        static_cast<float>(field.slider->high), field.slider->format, flags());
-    value = moveByKey(edited, before) != before ? edited : value;
+    if (moveByKey(edited, before) != before) {
+      value = std::round(1e6 * edited) / 1e6;  // files show the digits that the slider does
+    }
   }
 
   // Unchecked means "auto": the device's value.
@@ -167,13 +169,18 @@ bool colorEdit(const char* label, glm::dvec3& linear, double most) {
   return changed;
 }
 
+void settingWidget(const PanelContext& ui, const SettingField& field, Settings& settings) {
+  const glm::dvec3& background = ui.view.edit.scene->environment.background;
+  std::visit(Widget{field, settings, background, ui.view.device.samples}, field.kind);
+}
+
 void settingRows(PanelContext& ui, std::string_view prefix) {
   const Environment& environment = ui.view.edit.scene->environment;
   for (const SettingField& field : settingFields()) {
     const bool needed = !field.needs || settingValue(ui.settings, field.needs->key) == field.needs->value;
     if (needed && field.key.starts_with(prefix) && !std::holds_alternative<TextSetting>(field.kind)) {
       ImGui::PushID(field.key.data(), field.key.data() + field.key.size());
-      std::visit(Widget{field, ui.settings, environment.background, ui.view.device.samples}, field.kind);
+      settingWidget(ui, field, ui.settings);
       ImGui::PopID();
       describe(ui, field.key);
       if (field.key == "view.clear_color" && environment.sky && !ui.settings.view.clearColor) {

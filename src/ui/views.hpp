@@ -175,12 +175,13 @@ struct AccuracyView {
   bool otherView = false;                                  // the user changed the camera or the time since
   double secondsLeft = 0.0;                                // of the stage that runs; 0: not known
   bool measuring = false;
-  std::string stage;               // of the measurement that runs
-  double progress = 0.0;           // of the measurement, 0 .. 1
-  std::string choice;              // point chosen by the budget, beside the most accurate one
-  bool choiceMisses = false;       // no measured point meets the bounds
-  std::string difference;          // error of the picture, or progress of the difference view
-  std::vector<glm::vec3> heatBar;  // colors from no error to an error of 1, display sRGB
+  std::string stage;                 // of the measurement that runs
+  double progress = 0.0;             // of the measurement, 0 .. 1
+  std::string choice;                // point chosen by the budget, beside the most accurate one
+  bool choiceMisses = false;         // no measured point meets the bounds
+  std::string difference;            // error of the picture, or progress of the difference view
+  std::vector<double> mirrorErrors;  // by mirror: mean FLIP of the difference view in its outline; NaN: not in view
+  std::vector<glm::vec3> heatBar;    // colors from no error to an error of 1, display sRGB
 };
 
 struct StatusView {

@@ -33,6 +33,27 @@ class Drawn : public Studio {
     tracing.state.camera = camera.value();
     return tracing;
   }
+  // Draws with the same quality for all mirrors.
+  Image8 drawWithQuality(const MirrorQuality& quality, const Settings& changed) {
+    const std::vector<Mirror> mirrors = scene.mirrors;
+    std::ranges::for_each(scene.mirrors, [&](Mirror& mirror) { mirror.quality = quality; });
+    Image8 picture = drawWith(changed);
+    scene.mirrors = mirrors;
+    return picture;
+  }
+  // Draws with another mirror in the place of the one with this index.
+  Image8 drawWithMirror(size_t index, const Mirror& mirror, const Settings& changed) {
+    const Mirror before = std::exchange(scene.mirrors[index], mirror);
+    Image8 picture = drawWith(changed);
+    scene.mirrors[index] = before;
+    return picture;
+  }
+  double lowestScale(double scale) const {
+    for (const Mirror& mirror : scene.mirrors) {
+      scale = std::min(scale, mirror.quality.scale.value_or(scale));
+    }
+    return scale;
+  }
   Image8 drawWith(const Settings& changed, bool fresh = true) {
     settings = changed;
     return fresh ? Studio::fresh() : draw();
@@ -161,12 +182,46 @@ Image8 expectNoSwitchMatters(Drawn& drawn, const Settings& settings, const std::
     // differently. So does lavapipe with other triangles in a draw. Along outlines, backs may be nearer than fronts.
     const int steps = drawn.plan.effects.any() == traces ? 0 : 1;
     // Enlarging spreads one texel over a square of that side, so a single one looks like a block.
-    const double side = 2.0 / (settings.view.scale * std::min(settings.reflection.scale, 1.0));
+    const double side = 2.0 / (settings.view.scale * std::min(drawn.lowestScale(settings.reflection.scale), 1.0));
     const bool enlarged = side > 2.0;
     const int backs = enlarged ? static_cast<int>(5.0 * side * side) : 20;
     expectSame(other, picture, kind, without.debug.cullClusters ? 0 : backs, steps, enlarged);
   }
   return picture;
+}
+
+// Expects that a quality which all mirrors ask for is that of the settings, and that a lower one of a single mirror
+// changes only pixels that show it. Those change if its color does.
+void expectQualityOfOneMirror(Drawn& drawn, const Settings& settings, const std::string& name) {
+  const ReflectionSettings& asked = settings.reflection;
+  const Image8 usual = drawn.drawWithQuality({}, settings);
+  expectSame(drawn.drawWithQuality({asked.scale, asked.samples, asked.updateInterval, asked.method}, settings), usual,
+             name + "_quality_of_all");
+  const Image8 picture = drawn.drawWith(settings);
+  const auto seen =
+      std::ranges::find_if(drawn.plan.main.mirrors, [](const MirrorDraw& draw) { return draw.pass >= 0; });
+  if (seen == drawn.plan.main.mirrors.end()) {
+    return;
+  }
+  const auto index = static_cast<size_t>(seen->mirror);
+  Mirror mirror = drawn.scene.mirrors[index];
+  mirror.quality = {.scale = 0.3, .samples = 1, .method = ReflectionMethod::raster};
+  const bool traced = drawn.plan.effects.any();
+  const Image8 lower = drawn.drawWithMirror(index, mirror, settings);
+  const bool traces = drawn.plan.effects.any() != traced;  // other shaders, which round differently
+  mirror = drawn.scene.mirrors[index];
+  mirror.reflectance = glm::dvec3(0.0);
+  mirror.fresnel = Fresnel::none;
+  mirror.baseColor = glm::dvec3(0.0);
+  const Image8 black = drawn.drawWithMirror(index, mirror, settings);
+  mirror.baseColor = glm::dvec3(100.0);
+  const Image8 bright = drawn.drawWithMirror(index, mirror, settings);
+  Image8 expected = picture;
+  for (size_t i = 0; i < picture.rgba.size(); ++i) {
+    const bool shows = black.rgba[i] != picture.rgba[i] || bright.rgba[i] != picture.rgba[i];
+    expected.rgba[i] = shows ? lower.rgba[i] : picture.rgba[i];
+  }
+  expectSame(lower, expected, name + "_quality_of_one", 0, traces ? 1 : 0);
 }
 
 // Returns how many of its views saw a mirror.
@@ -185,15 +240,17 @@ int compare(Gpu& gpu, const RandomScene& scene) {
       continue;
     }
     ++views;
-    expectTraced(plain.drawWith(settingsWith(truthSettings(scene.maxDepth))), plain.tracing(size, scene.maxDepth),
-                 name);
+    expectTraced(plain.drawWithQuality({}, settingsWith(truthSettings(scene.maxDepth))),
+                 plain.tracing(size, scene.maxDepth), name);
     Drawn& drawn = withEffects ? *withEffects : plain;
     drawn.look(view);
     const Image8 picture = expectNoSwitchMatters(drawn, settings, name);
+    expectQualityOfOneMirror(plain, settings, name);
     if (!withEffects && settings.view.scale == 1.0 && settings.reflection.meshError == 0.0) {
       // Other resolutions soften edges by a texel or two, but no patch may differ.
       const Image8 expected = toDisplay(plain.tracing(size, settings.reflection.maxDepth).result().image);
-      const int texel = settings.reflection.scale < 1.0 ? 2 : 1;  // pixels
+      const double scale = plain.lowestScale(settings.reflection.scale);
+      const int texel = scale < 0.5 ? 4 : scale < 1.0 ? 2 : 1;  // pixels
       if (difference(blockMeans(picture, texel), blockMeans(expected, texel), 90).block) {
         ADD_FAILURE() << name << " differs at other settings";
         writeEvidence(picture, expected, name + "_settings");

@@ -23,6 +23,7 @@ class Builder {
   explicit Builder(unsigned seed)
       : random(seed),
         shapes_(seed),
+        qualities_(seed + 1'000'000),
         seed_(seed),
         tidy(random.chance(0.4)),
         alike_(random.chance(0.3)),
@@ -49,7 +50,7 @@ class Builder {
     for (const glm::dvec3& corner : corners) {
       placed.push_back(at(corner));
     }
-    out << "[[mirror]]\n" << polygonText(placed) << (alike_ ? material_ : material());
+    out << "[[mirror]]\n" << polygonText(placed) << (alike_ ? material_ : material()) << quality();
     planes_.push_back(corners);
   }
   void mirror(const glm::dvec3& center, const glm::dvec3& rotation, const glm::dvec2& size, int corners = 4) {
@@ -153,7 +154,29 @@ class Builder {
     return text.str();
   }
 
+  // Returns the line of a mirror with a quality of its own, or nothing.
+  std::string quality() {
+    static constexpr std::array<const char*, 4> scales{"0.25", "0.5", "1", "2"};
+    static constexpr std::array<const char*, 3> samples{"1", "2", "4"};
+    static constexpr std::array<const char*, 2> intervals{"1", "3"};
+    static constexpr std::array<const char*, 3> methods{"\"raster\"", "\"rays\"", "\"auto\""};
+    std::string keys;
+    const auto add = [&](double chance, const char* key, const auto& values) {
+      if (qualities_.chance(chance)) {
+        keys += (keys.empty() ? "" : ", ") + std::string(key) + " = " + qualities_.pick(values);
+      }
+    };
+    if (qualities_.chance(0.4)) {
+      add(0.6, "scale", scales);
+      add(0.6, "samples", samples);
+      add(0.2, "update_interval", intervals);
+      add(0.2, "method", methods);
+    }
+    return keys.empty() ? "" : "quality = { " + keys + " }\n";
+  }
+
   std::mt19937 shapes_;
+  Random qualities_;  // of its own, so that a seed's scene is the same without them
   unsigned seed_;
 
  public:

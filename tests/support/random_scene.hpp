@@ -21,8 +21,8 @@ struct RandomScene {
 };
 
 // Mirrors that cross, face, nest or adjoin each other, tile a plane, form a prism or stand behind openings, up to
-// 1e7 m from the origin; copies, motion, fields of view of 1 to 170 degrees; the eye may be 1 um from a mirror. Further
-// views are bookmarks.
+// 1e7 m from the origin; copies, motion, fields of view of 1 to 170 degrees; the eye may be 1 um from a mirror; mirrors
+// with a quality of their own. Further views are bookmarks.
 RandomScene randomScene(unsigned seed);
 
 // Leaves out tables for as long as the scene `fails`, as it must at first. It fails afterwards too, but not without any
