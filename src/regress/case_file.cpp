@@ -71,7 +71,7 @@ Tolerance readTolerance(const TableReader& table) {
       return bounds->has(key) ? std::optional(bounds->number(key, share)) : std::nullopt;
     };
     if (bounds->has("max_diff")) {
-      tolerance.maxDiff = static_cast<int>(bounds->integer("max_diff", 0, 255));
+      tolerance.maxDiff = static_cast<int>(bounds->integer("max_diff", {.low = 0, .high = 255}));
     }
     if (bounds->has("block")) {
       tolerance.block = bounds->boolean("block");
