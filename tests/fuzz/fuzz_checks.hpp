@@ -35,4 +35,12 @@ bool checkSweep(std::string_view text);
 // reported.
 bool checkCase(std::string_view text);
 
+// A layout of the panels, with sections that are not theirs. None is refused: what no window can have is passed over,
+// and panels stay reachable in displays of several sizes. Counts as accepted if it says anything about a panel.
+bool checkLayout(std::string_view text);
+
+// A copy of unsaved changes behind a line with the scene's name: it is kept, offered, read, kept again and forgotten.
+// Beside the folder of copies' folders is t.obj, ../../t.obj from a copy.
+bool checkRecovery(std::string_view input);
+
 }  // namespace speculum::fuzz
