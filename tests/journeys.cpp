@@ -479,8 +479,12 @@ ProcessResult endEditedWindow(const std::string& end, const std::string& begin =
 }
 
 TEST(EndedWindow, KeepsUnsavedWork) {
-  for (const auto& [end, exitCode] :
-       {std::pair("kill -TERM $pid", 0), std::pair("kill -HUP $pid", 0), std::pair("kill $server", 2)}) {
+  const ProcessResult killed =
+      endEditedWindow("sleep 2; kill -KILL $pid; ls \"$XDG_CONFIG_HOME/speculum/unsaved/1/window_end.toml\"");
+  EXPECT_EQ(killed.exitCode, 128 + 9);
+  EXPECT_TRUE(contains(killed.output, "/unsaved/1/window_end.toml\n")) << killed.output;
+  EXPECT_FALSE(contains(killed.output, "cannot access"));
+  for (const auto& [end, exitCode] : {std::pair("kill -TERM $pid", 0), std::pair("kill $server", 2)}) {
     const ProcessResult result = endEditedWindow(end);
     EXPECT_EQ(result.exitCode, exitCode) << end;
     EXPECT_TRUE(startsWith(result.output, "warning: unsaved changes are kept in ")) << end;

@@ -73,7 +73,9 @@ class WorkspaceTest : public testing::Test {
     start();
   }
 
+  // A session of the program, after the end of the last one.
   void start() {
+    workspace_.reset();
     workspace_ = std::make_unique<Workspace>(options_, host_);
     frame();
   }

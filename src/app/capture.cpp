@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "image/picture_files.hpp"
+#include "platform/files.hpp"
 #include "platform/folders.hpp"
 
 namespace speculum {
@@ -18,10 +19,10 @@ std::filesystem::path newPath(const std::string& scene, const std::string& endin
   const std::filesystem::path folder = picturesDir() / "Speculum";
   std::error_code error;  // ignored: writing into the folder will fail and say why
   std::filesystem::create_directories(folder, error);
-  const std::string name = fmt::format("{}_{:%Y-%m-%d_%H-%M-%S}", scene, fmt::localtime(std::time(nullptr)));
-  std::filesystem::path path = folder / (name + ending);
+  const std::string time = fmt::format("_{:%Y-%m-%d_%H-%M-%S}", fmt::localtime(std::time(nullptr)));
+  std::filesystem::path path = folder / fileNameOf(scene, time + ending);
   for (int number = 2; std::filesystem::exists(path, error); ++number) {
-    path = folder / (name + "_" + std::to_string(number) + ending);
+    path = folder / fileNameOf(scene, time + "_" + std::to_string(number) + ending);
   }
   return path;
 }

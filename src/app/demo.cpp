@@ -52,7 +52,11 @@ Demo::Demo(const Options& options)
 bool Demo::step() {
   // All exceptions of a frame are caught here.
   try {
-    return stepOnce();
+    const bool open = stepOnce();
+    if (open) {
+      workspace_.keepChanges(Clock::now());
+    }
+    return open;
   } catch (...) {
     workspace_.keepUnsavedWork();
     throw;

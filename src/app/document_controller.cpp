@@ -4,8 +4,8 @@
 #include <array>
 
 #include "accuracy/fingerprint.hpp"
-#include "app/recovery.hpp"
 #include "app/scene_browser.hpp"
+#include "edit/recovery.hpp"
 #include "platform/files.hpp"
 #include "platform/folders.hpp"
 
@@ -15,22 +15,22 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr size_t mostCopies = 100;  // besides those with unsaved changes of a session that failed
+constexpr size_t mostCopies = 100;
 
-// Returns the folder of copies with unsaved changes.
+// Returns the folder of copies that commands draw.
 fs::path viewsFolder() {
   return userCacheDir() / "views";
 }
 
-// Says whether the file lies in the folder of shipped scenes or in that of copies.
+// Says whether the file lies in the folder of shipped scenes or in one of copies.
 bool isShipped(const fs::path& file) {
   const fs::path scenes = dataDirectory("scenes");
   const std::array folders{scenes, scenes.parent_path() / "models", viewsFolder()};
-  return std::ranges::any_of(folders, [&](const fs::path& folder) {
-    std::error_code none;
-    const fs::path below = fs::relative(file, folder, none);
-    return !below.empty() && *below.begin() != "..";
-  });
+  return Recovery::isCopy(file) || std::ranges::any_of(folders, [&](const fs::path& folder) {
+           std::error_code none;
+           const fs::path below = fs::relative(file, folder, none);
+           return !below.empty() && *below.begin() != "..";
+         });
 }
 
 // Returns the default folder for saved scenes; created on first use.
@@ -64,12 +64,12 @@ DocumentController::DocumentController(LoadedScene& loaded, std::span<const fs::
 void DocumentController::findSaveFile() {
   const fs::path file = editor_.document().usualFile();
   saveFile_ = !isShipped(file) && isWritable(file) ? std::optional(file) : std::nullopt;
+  isCopy_ = Recovery::isCopy(file);
   isNew_ = isModelFile(loaded_.scene.file) || SceneBrowser::isNew(loaded_.scene.file);
 }
 
 bool DocumentController::hasUnsaved(const Settings& settings) const {
-  return editor_.document().modified() || settings != loaded_.settings ||
-         loaded_.scene.file.parent_path() == viewsFolder();
+  return editor_.document().modified() || settings != loaded_.settings || isCopy_;
 }
 
 bool DocumentController::confirmDiscard(const Settings& settings, std::optional<Command> then) {
@@ -95,7 +95,7 @@ std::optional<Command> DocumentController::save(const Settings& settings) {
     askWhere();
     return std::nullopt;
   }
-  if (saveTo(editor_.document().usualFile(), settings)) {
+  if (saveTo(editor_.document().usualFile(), settings, false)) {
     return discard(settings);
   }
   const std::string why = note_;
@@ -116,9 +116,9 @@ void DocumentController::ask(Prompt prompt, const fs::path& proposed) {
   note_.clear();
 }
 
-std::optional<Command> DocumentController::saveAs(const fs::path& file, const Settings& settings) {
+std::optional<Command> DocumentController::saveAs(const fs::path& file, const Settings& settings, bool copyModels) {
   proposed_ = proposed_.parent_path() / typedPath(file);  // a bare name goes into the suggested folder
-  return saveTo(proposed_, settings) ? discard(settings) : std::nullopt;
+  return saveTo(proposed_, settings, copyModels) ? discard(settings) : std::nullopt;
 }
 
 std::optional<Command> DocumentController::discard(const Settings& settings) {
@@ -133,7 +133,7 @@ void DocumentController::cancelPrompt() {
   refused_.reset();
 }
 
-bool DocumentController::saveTo(const fs::path& named, const Settings& settings) {
+bool DocumentController::saveTo(const fs::path& named, const Settings& settings, bool copyModels) {
   fs::path file = named;
   try {
     file = sceneFileNamed(named);
@@ -145,12 +145,15 @@ bool DocumentController::saveTo(const fs::path& named, const Settings& settings)
     if (isShipped(file) && file != refused_) {
       throw SaveError(file.string() + ": not saved: it comes with the program");
     }
-    editor_.document().save(file, settingChanges(settingsAtLoad_, settings), file == refused_);
+    editor_.document().save(file, settingChanges(settingsAtLoad_, settings), file == refused_, copyModels);
     note_ = "Saved " + wholePath(file).lexically_normal().string();
     loaded_.settings = settings;
     refused_.reset();
     saved_ = true;
     findSaveFile();
+    if (copyModels) {
+      editor_.modelsChanged();
+    }
     return true;
   } catch (const SaveError& error) {
     const bool overwritable = file.extension() == ".toml" && isFile(file);
@@ -161,21 +164,23 @@ bool DocumentController::saveTo(const fs::path& named, const Settings& settings)
   }
 }
 
-fs::path DocumentController::savedOrCopy(const Settings& settings, ReadBack readBack) const {
-  const SceneDocument& document = editor_.document();
+std::string DocumentController::text(const fs::path& file, const Settings& settings, ReadBack readBack) const {
+  return editor_.document().text(file, settingChanges(settingsAtLoad_, settings), readBack);
+}
+
+fs::path DocumentController::savedOrCopy(const Settings& settings) const {
   if (!hasUnsaved(settings)) {
     return loaded_.scene.file;
   }
   const fs::path folder = viewsFolder();
   std::error_code none;
   fs::create_directories(folder, none);
-  const std::string text = document.text(folder / "view.toml", settingChanges(settingsAtLoad_, settings), readBack);
+  const std::string text = this->text(folder / "view.toml", settings, ReadBack::required);
   // Names the copy by its content, so that commands copied earlier still draw the same picture.
   Fingerprint fingerprint;
   fingerprint.add(std::string_view(text));
-  const fs::path file = folder / (loaded_.scene.file.stem().string() + "-" + fingerprint.hex() + ".toml");
-  keepNewest(folder, mostCopies,
-             [](const fs::path& copy) { return copy.extension() == ".toml" && !Recovery::isRecorded(copy); });
+  const fs::path file = folder / fileNameOf(loaded_.scene.file.stem().string(), "-" + fingerprint.hex() + ".toml");
+  keepNewest(folder, mostCopies, [](const fs::path& copy) { return copy.extension() == ".toml"; });
   replaceFile(file, std::string_view(text));
   return file;
 }

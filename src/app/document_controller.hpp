@@ -22,14 +22,14 @@ class DocumentController {
   bool prompting() const { return prompt_ != Prompt::none; }
   void forgetDiscard() { discarded_.reset(); }  // the next confirmDiscard() prompts again
 
-  // Says whether scene or settings have unsaved changes. A copy that was kept after a failure counts as one.
+  // Says whether scene or settings have unsaved changes. A copy that was kept counts as one.
   bool hasUnsaved(const Settings& settings) const;
   // Says whether the panels show an edit that could not be applied, which counts as unsaved too.
   void setRefusedEdit(bool refused) { refusedEdit_ = refused; }
 
   // Answers to a prompt. Each returns the command that waited for it, if any.
   std::optional<Command> save(const Settings& settings);
-  std::optional<Command> saveAs(const std::filesystem::path& file, const Settings& settings);
+  std::optional<Command> saveAs(const std::filesystem::path& file, const Settings& settings, bool copyModels);
   std::optional<Command> discard(const Settings& settings);
   void askWhere();
   // Shows a prompt that proposes a file, or a folder to open one from.
@@ -40,9 +40,11 @@ class DocumentController {
   bool savedSinceLastCall() { return std::exchange(saved_, false); }
 
   // Returns a file with the scene, its unsaved changes and these settings: a copy in the user's cache folder, or the
-  // scene's own file if that is the same. Throws std::runtime_error if the copy cannot be written, or does not read
-  // back though that is required.
-  std::filesystem::path savedOrCopy(const Settings& settings, ReadBack readBack = ReadBack::required) const;
+  // scene's own file if that is the same. Throws std::runtime_error if the copy cannot be written or does not read
+  // back.
+  std::filesystem::path savedOrCopy(const Settings& settings) const;
+  // Returns the text of such a file. Throws SaveError.
+  std::string text(const std::filesystem::path& file, const Settings& settings, ReadBack readBack) const;
 
   const std::string& note() const { return note_; }  // result of the last save, or why a model was not added
   void setNote(const std::string& note) { note_ = note; }
@@ -55,7 +57,7 @@ class DocumentController {
     Settings settings;
   };
 
-  bool saveTo(const std::filesystem::path& named, const Settings& settings);
+  bool saveTo(const std::filesystem::path& named, const Settings& settings, bool copyModels);
   void findSaveFile();
 
   LoadedScene& loaded_;
@@ -63,6 +65,7 @@ class DocumentController {
   bool prompts_;
   Settings settingsAtLoad_;                        // before the user changed any
   std::optional<std::filesystem::path> saveFile_;  // none if it comes with the program or cannot be written
+  bool isCopy_ = false;                            // the scene's file, made by the program
   bool isNew_ = false;                             // a model or a new scene, which has no file yet
   Prompt prompt_ = Prompt::none;
   std::filesystem::path proposed_;  // by the prompt

@@ -2,6 +2,8 @@
 
 #include <spdlog/spdlog.h>
 
+#include <ctime>
+
 #include "platform/files.hpp"
 
 namespace speculum {
@@ -12,9 +14,17 @@ SceneOpener::SceneOpener(const Options& options, const Settings& settings) : opt
   options_.sweepResults.clear();  // they belong to the first scene
 }
 
+void SceneOpener::setDocument(DocumentController& document) {
+  document_ = &document;
+  seen_.reset();
+  if (options_.frames == 0) {
+    recovery_.setScene(shownFile());
+  }
+}
+
 void SceneOpener::offerRecovery() {
-  if (const std::optional<fs::path>& copy = recovery_.findNewest()) {
-    document_->ask(Prompt::recovery, *copy);
+  if (const fs::path copy = recovery_.findNewest(); !copy.empty()) {
+    document_->ask(Prompt::recovery, copy);
   }
 }
 
@@ -51,9 +61,6 @@ void SceneOpener::open(const fs::path& file) {
   if (!fs::exists(file, none)) {
     return setProblem(file.string() + ": there is no such file");
   }
-  if (document_->prompt() == Prompt::recovery) {
-    recovery_.postpone(file);
-  }
   document_->closeOpenPrompt();
   if (document_->confirmDiscard(settings_, OpenScene{file})) {
     problem_.clear();
@@ -76,12 +83,21 @@ void SceneOpener::cancelLoading() {
 
 void SceneOpener::cancelPrompt() {
   if (document_->prompt() == Prompt::recovery) {
-    recovery_.forget();
+    recovery_.postpone();
   }
   document_->cancelPrompt();
   if (browser_.loaded()) {
     browser_.cancelLoading();
   }
+}
+
+std::optional<Command> SceneOpener::discard() {
+  if (document_->prompt() == Prompt::recovery) {
+    recovery_.discardOffer();
+    document_->cancelPrompt();
+    return std::nullopt;
+  }
+  return document_->discard(settings_);
 }
 
 std::unique_ptr<LoadedScene> SceneOpener::update() {
@@ -105,36 +121,55 @@ bool SceneOpener::working() const {
 
 bool SceneOpener::confirmQuit() {
   const bool confirmed = document_->confirmDiscard(settings_, Quit{});
-  if (confirmed && document_->prompt() != Prompt::recovery) {
-    recovery_.forget();
+  if (confirmed && options_.frames == 0) {
+    forgetCopies();
   }
   return confirmed;
 }
 
 void SceneOpener::forgetSaved() {
   if (!document_->hasUnsaved(settings_)) {
-    recovery_.forget();
+    forgetCopies();
   }
 }
 
-// Returns the copy, and what is wrong if it does not read back as the scene.
-std::pair<fs::path, std::string> SceneOpener::keptCopy() const {
-  try {
-    return {document_->savedOrCopy(settings_), ""};
-  } catch (const SaveError& error) {
-    return {document_->savedOrCopy(settings_, ReadBack::untested), error.what()};
+void SceneOpener::forgetCopies() {
+  recovery_.forget();
+  copyDue_.reset();
+}
+
+fs::path SceneOpener::keepCopy() {
+  return recovery_.keep(shownFile().stem().string(),
+                        [this](const fs::path& file) { return document_->text(file, settings_, ReadBack::untested); });
+}
+
+void SceneOpener::keepChanges(Clock::time_point now) noexcept {
+  using namespace std::chrono_literals;
+  const std::pair shown(document_->editor().document().revision(), settings_);
+  if (std::exchange(seen_, shown) != shown) {
+    copyDue_ = copyDue_.value_or(now + std::max<Clock::duration>(1s, copyInterval_));
   }
+  if (!copyDue_ || now < *copyDue_ || options_.frames > 0) {
+    return;
+  }
+  const std::clock_t start = std::clock();
+  copyDue_.reset();
+  try {
+    document_->hasUnsaved(settings_) ? static_cast<void>(keepCopy()) : recovery_.forget();
+    copyFailed_ = false;
+  } catch (const std::exception& error) {
+    copyDue_ = now + 10s;
+    if (!std::exchange(copyFailed_, true)) {
+      spdlog::warn("no copy of unsaved changes is kept: {}", error.what());
+    }
+  }
+  copyInterval_ = 10 * std::chrono::microseconds(std::clock() - start);  // a large scene takes long
 }
 
 void SceneOpener::keepUnsavedWork() noexcept {
   try {
-    const auto [file, problem] = keptCopy();
-    if (file != shownFile()) {
-      recovery_.record(file, document_->prompt() == Prompt::recovery || !problem.empty());
-      if (!problem.empty()) {
-        spdlog::warn("the copy of unsaved changes has to be mended: {}", problem);
-      }
-      spdlog::warn("unsaved changes are kept in {}", file.string());
+    if (document_->hasUnsaved(settings_)) {
+      spdlog::warn("unsaved changes are kept in {}", keepCopy().string());
     }
   } catch (const std::exception& error) {
     spdlog::error("unsaved changes are lost: {}", error.what());

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <chrono>
+
 #include "app/document_controller.hpp"
 #include "app/file_dialog.hpp"
-#include "app/recovery.hpp"
 #include "app/scene_browser.hpp"
+#include "edit/recovery.hpp"
 
 namespace speculum {
 
@@ -14,7 +16,7 @@ class SceneOpener {
   // Keeps the reference to the settings in use.
   SceneOpener(const Options& options, const Settings& settings);
 
-  void setDocument(DocumentController& document) { document_ = &document; }  // call when another scene is shown
+  void setDocument(DocumentController& document);  // call when another scene is shown
   void offerRecovery();
 
   // Asks for a file: by the desktop's dialog, if it has one that can be started, else by a prompt.
@@ -23,13 +25,18 @@ class SceneOpener {
   void openDropped(const std::vector<std::filesystem::path>& files);
   void cancelLoading();
   void cancelPrompt();
+  std::optional<Command> discard();  // as DocumentController::discard, or the answer to the offer
   // Call once a frame. Returns a scene to show when it is loaded and no unsaved changes stand against it, else null.
   std::unique_ptr<LoadedScene> update();
   bool working() const;  // update() has work left although nothing happens
 
   bool confirmQuit();  // as DocumentController::confirmDiscard
   void forgetSaved();  // call after saving: the copy of saved changes is not offered again
-  // Keeps unsaved changes in a copy, logs where, and makes the next start offer it.
+  using Clock = std::chrono::steady_clock;
+  // Keeps unsaved changes in a copy that the next start offers, at most a second after they were made and once a
+  // second. Call it often. Does nothing with --frames.
+  void keepChanges(Clock::time_point now) noexcept;
+  // Keeps them at once, and logs where.
   void keepUnsavedWork() noexcept;
 
   SceneBrowser& browser() { return browser_; }
@@ -38,7 +45,8 @@ class SceneOpener {
   void setProblem(const std::string& problem);             // logs it too
 
  private:
-  std::pair<std::filesystem::path, std::string> keptCopy() const;
+  std::filesystem::path keepCopy();
+  void forgetCopies();
   const std::filesystem::path& shownFile() const { return document_->editor().document().scene().file; }
   std::filesystem::path folderToOpen() const;
   void takeChosenFile();
@@ -50,6 +58,10 @@ class SceneOpener {
   FileDialog dialog_;
   Recovery recovery_;
   std::string problem_;
+  std::optional<std::pair<uint64_t, Settings>> seen_;  // revision and settings that keepChanges() saw last
+  std::optional<Clock::time_point> copyDue_;           // none: the copy has all changes
+  Clock::duration copyInterval_{};
+  bool copyFailed_ = false;
 };
 
 }  // namespace speculum

@@ -87,8 +87,8 @@ void Workspace::apply(const Command& command) {
                  [&](const CancelLoading&) { opener_.cancelLoading(); },
                  [&](const Save&) { resume(document_->save(settings_)); },
                  [&](const AskWhereToSave&) { document_->askWhere(); },
-                 [&](const SaveAs& c) { resume(document_->saveAs(c.file, settings_)); },
-                 [&](const DiscardChanges&) { resume(document_->discard(settings_)); },
+                 [&](const SaveAs& c) { resume(document_->saveAs(c.file, settings_, c.copyModels)); },
+                 [&](const DiscardChanges&) { resume(opener_.discard()); },
                  [&](const CancelPrompt&) { opener_.cancelPrompt(); },
                  [&](const Quit&) {
                    if (opener_.confirmQuit()) {

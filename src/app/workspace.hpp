@@ -77,6 +77,8 @@ class Workspace {
   // After a frame that could not be drawn: undoes the last step and shows why. Returns false if there is none. If
   // undoing did not help in the last frame, redoes the step and returns false.
   bool undoFailedChange(const std::string& why);
+  // Call in every step, also without a frame: keeps unsaved changes in a copy that the next start offers.
+  void keepChanges(SceneOpener::Clock::time_point now) noexcept { opener_.keepChanges(now); }
   // Before the program ends without a prompt: keeps unsaved changes in a copy, logs where, and makes the next start
   // offer it.
   void keepUnsavedWork() noexcept { opener_.keepUnsavedWork(); }

@@ -299,15 +299,30 @@ std::string SceneDocument::text(const fs::path& file, std::span<const SettingCha
   return editedText(loaded_, content(), scene_.meshes, settings, file, readBack);
 }
 
-void SceneDocument::save(const fs::path& file, std::span<const SettingChange> settings, bool overwrite) {
+void SceneDocument::save(const fs::path& file, std::span<const SettingChange> settings, bool overwrite,
+                         bool copiesModels) {
   endGesture();
   if (isModelFile(file)) {
     throw SaveError(oneLine(file.string() + ": not saved: it is the name of a model (name a file such as " +
                             fs::path(file).replace_extension(".toml").filename().string() + ")"));
   }
-  std::string text = this->text(file, settings);
-  const bool known = withoutLinks(file) == withoutLinks(savedFile_);
-  writeSceneFile(file, text, known ? savedText_ : std::nullopt, overwrite);
+  std::vector<fs::path> sources =
+      copiesModels ? copyModels(scene_, wholePath(file).parent_path()) : std::vector<fs::path>();
+  const auto exchangeSources = [&] {
+    for (size_t i = 0; i < sources.size(); ++i) {
+      std::swap(scene_.meshes[i].source, sources[i]);
+    }
+  };
+  std::string text;
+  exchangeSources();
+  try {
+    text = this->text(file, settings);
+    const bool known = withoutLinks(file) == withoutLinks(savedFile_);
+    writeSceneFile(file, text, known ? savedText_ : std::nullopt, overwrite);
+  } catch (...) {
+    exchangeSources();
+    throw;
+  }
   saved_ = content();
   modified_.reset();
   savedFile_ = file;

@@ -24,6 +24,11 @@ std::string pathFrom(const fs::path& folder, const fs::path& target) {
   return (relative.empty() ? to : relative).generic_string();
 }
 
+bool leadsTo(const fs::path& path, const fs::path& file) {
+  std::error_code error;
+  return path.lexically_normal() == file || fs::equivalent(path, file, error);
+}
+
 // Sets the models' paths for a scene in `file`. Keeps those that are still right as the user wrote them.
 void nameModels(const Scene& loaded, std::span<const Mesh> meshes, const fs::path& file, SceneContent& content) {
   const bool moved = withoutLinks(loaded.file).parent_path() != withoutLinks(file).parent_path();
@@ -31,10 +36,12 @@ void nameModels(const Scene& loaded, std::span<const Mesh> meshes, const fs::pat
     Object& object = content.objects[i];
     const int origin = content.origins.objects[i];
     const Object* before = origin < 0 ? nullptr : &loaded.objects.at(origin);
-    if (before != nullptr && before->mesh == object.mesh && (!moved || fs::path(before->model).is_absolute())) {
+    const fs::path& source = meshes[object.mesh].source;
+    if (before != nullptr && before->mesh == object.mesh && (!moved || fs::path(before->model).is_absolute()) &&
+        leadsTo(loaded.file.parent_path() / before->model, source)) {
       object.model = before->model;
     } else {
-      object.model = pathFrom(file.parent_path(), meshes[object.mesh].source);
+      object.model = pathFrom(file.parent_path(), source);
     }
   }
 }
@@ -208,7 +215,71 @@ void check(const fs::path& file, const std::string& text, const SceneContent& co
   }
 }
 
+bool isBelow(const fs::path& file, const fs::path& folder) {
+  const fs::path relative = file.lexically_relative(folder);
+  return !relative.empty() && *relative.begin() != "..";
+}
+
+// Says whether `to` has the content of `from` or can be made.
+bool canCopy(const fs::path& from, const fs::path& to) {
+  std::error_code error;
+  if (fs::exists(fs::symlink_status(to, error))) {
+    return isFile(to) && fs::file_size(from, error) == fs::file_size(to, error) && readFile(from) == readFile(to);
+  }
+  fs::create_directories(to.parent_path(), error);
+  return isFolder(to.parent_path());
+}
+
+// Copies files below `root`, keeping their places to each other, by which they name each other. Returns the first copy.
+fs::path copyTogether(const std::vector<fs::path>& files, const fs::path& root, const fs::path& folder) {
+  constexpr int mostFolders = 1000;
+  for (int number = 1; number <= mostFolders; ++number) {
+    const fs::path target = folder / (number == 1 ? "models" : "models-" + std::to_string(number));
+    const auto copyOf = [&](const fs::path& file) { return target / file.lexically_relative(root); };
+    if (std::ranges::all_of(files, [&](const fs::path& file) { return canCopy(file, copyOf(file)); })) {
+      for (const fs::path& file : files) {
+        if (!isFile(copyOf(file))) {
+          replaceFile(copyOf(file), readFile(file));
+        }
+      }
+      return copyOf(files.front());
+    }
+  }
+  throw FileError(folder, "has no place for copies of the models", "save into another folder");
+}
+
 }  // namespace
+
+std::vector<size_t> modelsOutside(const Scene& scene, const fs::path& folder) {
+  const fs::path inside = withoutLinks(folder);
+  std::vector<size_t> meshes;
+  for (size_t i = 0; i < scene.meshes.size(); ++i) {
+    if (std::ranges::count(scene.objects, static_cast<int>(i), &Object::mesh) > 0 &&
+        !isBelow(withoutLinks(scene.meshes[i].source), inside)) {
+      meshes.push_back(i);
+    }
+  }
+  return meshes;
+}
+
+std::vector<fs::path> copyModels(const Scene& scene, const fs::path& folder) try {
+  std::vector<fs::path> sources;
+  std::ranges::transform(scene.meshes, std::back_inserter(sources), &Mesh::source);
+  for (const size_t i : modelsOutside(scene, folder)) {
+    std::vector<fs::path> files{wholePath(sources[i]).lexically_normal()};
+    fs::path root = files[0].parent_path();
+    for (const fs::path& named : scene.meshes[i].namedFiles) {
+      files.push_back((files[0].parent_path() / named).lexically_normal());
+      while (!isBelow(files.back(), root)) {
+        root = root.parent_path();
+      }
+    }
+    sources[i] = copyTogether(files, root, folder);
+  }
+  return sources;
+} catch (const FileError& error) {
+  throw SaveError("not saved: " + std::string(error.what()));
+}
 
 std::string editedText(const Scene& loaded, const SceneContent& edited, std::span<const Mesh> meshes,
                        std::span<const SettingChange> settings, const fs::path& file, ReadBack readBack) {
@@ -217,9 +288,7 @@ std::string editedText(const Scene& loaded, const SceneContent& edited, std::spa
   Settings wanted = settingsOf(loaded);
   const Settings before = wanted;
   for (const SettingChange& change : settings) {
-    if (change.value.empty() && change.key == "view.clear_color") {
-      wanted.view.clearColor.reset();
-    } else if (const auto problem = setSetting(wanted, change.key, change.value)) {
+    if (const auto problem = setSetting(wanted, change.key, change.value)) {
       throw SaveError(*problem);
     }
   }

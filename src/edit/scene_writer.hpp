@@ -28,6 +28,14 @@ std::string editedText(const Scene& loaded, const SceneContent& content, std::sp
                        std::span<const SettingChange> settings, const std::filesystem::path& file,
                        ReadBack readBack = ReadBack::required);
 
+// Returns the indices of the meshes that objects use and whose files lie neither in `folder` nor below.
+std::vector<size_t> modelsOutside(const Scene& scene, const std::filesystem::path& folder);
+
+// Copies these models, with the materials and textures that they name by relative paths, to `models` in the folder.
+// Overwrites nothing: a model that would need that goes to `models-2` and so on. Returns the files of all meshes.
+// Throws SaveError.
+std::vector<std::filesystem::path> copyModels(const Scene& scene, const std::filesystem::path& folder);
+
 // Replaces the file by `text`, whole or not at all. Throws SaveError if that fails or, without `overwrite`, if the file
 // does not hold `expected`; with no expected text, if there is a file.
 void writeSceneFile(const std::filesystem::path& file, const std::string& text,

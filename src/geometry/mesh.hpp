@@ -56,12 +56,13 @@ struct MeshCluster {
 // units of the model's, so that they stay floats whatever its size; only the centre does not.
 struct Mesh {
   std::filesystem::path source;
-  std::vector<std::filesystem::path> materialFiles;
-  std::vector<std::string> defects;  // of its files, one line for each kind: `FILE:LINE: key: what is wrong`
-  double unit = 1.0;                 // of model space; a power of two
-  glm::dvec3 center{0.0};            // model space, of the bounding box
-  glm::dvec3 halfExtent{0.0};        // of the bounding box
-  double radius = 0.0;               // of the bounding sphere about `center`
+  std::vector<std::filesystem::path> materialFiles;  // without symbolic links
+  std::vector<std::filesystem::path> namedFiles;     // materials and textures named by relative paths: from `source`
+  std::vector<std::string> defects;                  // of its files, one line a kind: `FILE:LINE: key: what is wrong`
+  double unit = 1.0;                                 // of model space; a power of two
+  glm::dvec3 center{0.0};                            // model space, of the bounding box
+  glm::dvec3 halfExtent{0.0};                        // of the bounding box
+  double radius = 0.0;                               // of the bounding sphere about `center`
   std::vector<Vertex> vertices;
   std::vector<uint32_t> indices;
   std::vector<MeshPart> parts;

@@ -324,6 +324,9 @@ Mesh loadObj(const std::filesystem::path& file, std::vector<Texture>& textures, 
   }
   Mesh mesh = builder.finish([&](int index) { return materials.material(index, textures); });
   mesh.materialFiles.assign(materials.files().begin(), materials.files().end());
+  for (const std::filesystem::path& named : materials.namedFiles()) {
+    mesh.namedFiles.push_back(named.lexically_relative(file.lexically_normal().parent_path()));
+  }
   mesh.defects = defects.report();
   if (mesh.indices.empty()) {
     throwNothingToDraw(file, foreign, contents, mesh.defects);

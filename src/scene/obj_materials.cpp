@@ -260,6 +260,9 @@ bool ObjMaterials::readIfThere(std::string_view name, int line) {
   if (!file) {
     return false;
   }
+  if (!fs::path(trimmed(name)).is_absolute()) {
+    namedFiles_.insert(*file);
+  }
   if (!filesRead_.insert(withoutLinks(*file)).second) {
     return true;
   }
@@ -310,6 +313,9 @@ void ObjMaterials::addTexture(const Entry& entry, Material& material, std::vecto
     defects_.add(entry.file, entry.textureLine, "map_Kd", "there is no file '{}', the texture is left out",
                  entry.diffuseTexture);
     return;
+  }
+  if (!fs::path(entry.diffuseTexture).is_absolute() && namedFiles_.contains(entry.file)) {
+    namedFiles_.insert(*picture);
   }
   try {
     material.diffuseTexture = textureIndex(*picture, textures);

@@ -35,6 +35,8 @@ class ObjMaterials {
 
   // Files that were read, without symbolic links.
   const std::set<std::filesystem::path>& files() const { return filesRead_; }
+  // Those, and textures, that were named by relative paths only; with symbolic links.
+  const std::set<std::filesystem::path>& namedFiles() const { return namedFiles_; }
 
  private:
   struct Entry {
@@ -61,6 +63,7 @@ class ObjMaterials {
   std::vector<Use> uses_;
   std::map<std::string, int, std::less<>> useIndices_;  // by name
   std::set<std::filesystem::path> filesRead_;
+  std::set<std::filesystem::path> namedFiles_;
   bool missingFile_ = false;
 };
 

@@ -73,6 +73,7 @@ struct Save {};
 struct AskWhereToSave {};
 struct SaveAs {
   std::filesystem::path file;
+  bool copyModels = false;  // beside it, with their materials and textures
 };
 struct DiscardChanges {};
 struct CancelPrompt {};

@@ -65,8 +65,10 @@ struct PanelState {
     std::filesystem::path listed;                                 // folder of what is typed
     std::vector<std::filesystem::directory_entry> entries;        // of the listed one: folders, scenes and models
     std::string typed;
-    std::string problem;  // why the typed file cannot be opened
+    std::string problem;       // why the typed file cannot be opened
+    size_t modelsOutside = 0;  // number of the scene's models that are neither in the listed folder nor below
   } files;
+  bool copyModels = true;         // when the scene is saved into another folder
   glm::vec2 promptDisplay{0.0f};  // size of the display that a prompt was centered in
 
   std::vector<std::pair<std::string, PixelRect>> widgets;  // of this frame, by name

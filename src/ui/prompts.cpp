@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "edit/scene_writer.hpp"
 #include "platform/files.hpp"
 #include "platform/folders.hpp"
 #include "scene/model_formats.hpp"
@@ -124,6 +125,7 @@ std::optional<std::filesystem::path> fileList(PanelContext& ui, const std::files
   bool scrolls = edited && !begun.empty();
   if (folder != files.listed) {
     list(files, folder, models);
+    files.modelsOutside = modelsOutside(*ui.view.edit.scene, folder).size();
   }
   const float width = fieldWidth();
   ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + width);
@@ -185,9 +187,15 @@ void saveAs(PanelContext& ui) {
   if (!ui.view.edit.note.empty()) {
     coloredText(errorColor, ui.view.edit.note);
   }
+  const bool moves = files.modelsOutside > 0 && folder != withoutLinks(ui.view.edit.scene->file).parent_path();
+  if (moves) {
+    ImGui::Checkbox("Copy the models here too", &ui.state.copyModels);
+    recordWidget(ui, "where.models", "With materials and textures, into 'models' beside the scene; else they stay.");
+  }
   ImGui::TextDisabled("Opens with the scene's own camera. M keeps a view as a bookmark.");
   const size_t commands = ui.output.commands.size();
-  answerButton(ui, "Save", "where.save", SaveAs{named(files)});
+  const SaveAs answer{named(files), moves && ui.state.copyModels};
+  answerButton(ui, "Save", "where.save", answer);
   ImGui::SameLine();
   answerButton(ui, "Cancel", "where.cancel", CancelPrompt{});
   if (chosen || ui.output.commands.size() != commands || !enterPressed()) {
@@ -196,7 +204,7 @@ void saveAs(PanelContext& ui) {
   if (isFolder(named(files))) {
     return enter(files, named(files), ui.view.edit.proposedFile.filename().string());
   }
-  ui.send(SaveAs{named(files)});
+  ui.send(answer);
   ImGui::CloseCurrentPopup();  // if saving fails it opens again, with the keyboard in the field
 }
 
@@ -207,7 +215,9 @@ void recovery(PanelContext& ui) {
   answerButton(ui, "Open", "recovery.open", OpenScene{ui.view.edit.proposedFile});
   ImGui::SetItemDefaultFocus();
   ImGui::SameLine();
-  answerButton(ui, "Ignore", "recovery.ignore", CancelPrompt{});
+  answerButton(ui, "Discard", "recovery.discard", DiscardChanges{});
+  ImGui::SameLine();
+  answerButton(ui, "Ask again later", "recovery.later", CancelPrompt{});
 }
 
 void openFile(PanelContext& ui) {
