@@ -99,11 +99,20 @@ struct MaterialChange {
 struct InstanceData {
   mat4 clipFromMesh;
   vec4 relativeFromMesh[3];  // rows
-  vec4 normalFromMesh[3];    // rows, xyz
+  vec4 normalFromMesh[3];    // rows, xyz; all w: metres from the eye to the far end
   vec4 clipPlane;            // in mesh space
   uint traceInstance;        // index into traceInstances
   uint curvedMirror;         // index into curvedMirrors, for a curved mirror that looks up a map
-  uint padding[2];
+  uint repeats;              // index into repeatingTriangles - number of the triangle in its mesh
+  uint padding;
+};
+
+// A triangle whose texture repeats so often that its coordinates are no floats: linear functions of a point in trace
+// space, computed in double and reduced to small numbers near the eye.
+struct RepeatingTriangle {
+  vec4 u;
+  vec4 v;
+  vec4 height;  // above its plane
 };
 
 // A mirror in one view.
@@ -228,7 +237,7 @@ struct TraceInstance {
   uint root;              // node
   vec3 gridScale;
   uint nodes;  // of an octant
-  vec4 normalFromMesh[3];  // rows, xyz
+  vec4 normalFromMesh[3];  // rows, xyz; all w: metres from the main eye to the far end
   MaterialChange change;
   vec3 reflectance;  // of a curved mirror
   uint curved;       // one of the curved* constants
@@ -236,7 +245,8 @@ struct TraceInstance {
   float shininess;   // 0: the material's
   uint firstTriangle;  // of its mesh, in traceFaces
   uint firstVertex;    // of its mesh
-  uint padding[2];
+  uint firstRepeating;  // number, in its mesh, of the first triangle in repeatingTriangles
+  uint repeats;         // as InstanceData::repeats
 };
 const uint traceInstanceTexelCount = 14;
 

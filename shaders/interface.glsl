@@ -12,6 +12,7 @@ layout(set = 0, binding = 2, std430) readonly buffer Lights { LightData lights[]
 layout(set = 0, binding = 3, std430) readonly buffer Instances { InstanceData instances[]; };
 layout(set = 0, binding = 4, std430) readonly buffer CurvedMirrors { CurvedMirrorData curvedMirrors[]; };
 layout(set = 0, binding = 5, std430) readonly buffer MirrorVertices { vec4 mirrorVertices[]; };  // clip space
-layout(set = 0, binding = 6, std430) readonly buffer Materials { MaterialData materials[]; };
+layout(set = 0, binding = 6, std430) readonly buffer Repeating { RepeatingTriangle repeatingTriangles[]; };
+layout(set = 0, binding = 7, std430) readonly buffer Materials { MaterialData materials[]; };
 
 vec3 rayThrough(vec2 pixel) { return view.rayX * pixel.x + view.rayY.xyz * pixel.y + view.rayOrigin.xyz; }

@@ -267,7 +267,7 @@ vec3 baseRadiance(vec3 position, vec3 normal) {
   if (!colored) {
     return vec3(0.0);
   }
-  Surface base = mirrorBase(position, normal, mirror.baseColor);
+  Surface base = mirrorBase(position, normal, mirror.baseColor, length(position));
 #ifdef SHADOW_MAPS
   receiver = position;
   receiverNormal = mirror.normal;

@@ -11,13 +11,14 @@ layout(location = 2) in vec2 uv;
 // a time, but reads a storage buffer anew for each.
 layout(location = 3) in mat4 clipFromMesh;
 layout(location = 7) in vec4 relativeFromMesh[3];  // rows
-layout(location = 10) in vec3 normalFromMesh[3];   // rows
+layout(location = 10) in vec4 normalFromMesh[3];   // rows
 layout(location = 13) in vec4 clipPlane;           // in mesh space
 
 layout(location = 0) centroid out vec3 relativePosition;
 layout(location = 1) centroid out vec3 relativeNormal;
 layout(location = 2) centroid out vec2 textureUv;
 layout(location = 3) flat out uint instanceIndex;
+layout(location = 4) flat out float reach;
 
 out gl_PerVertex {
   vec4 gl_Position;
@@ -33,7 +34,8 @@ void main() {
   relativePosition = vec3(dot(relativeFromMesh[0], p), dot(relativeFromMesh[1], p), dot(relativeFromMesh[2], p));
   // Not normalised here: interpolation has to be linear in the mesh's own normals.
   relativeNormal =
-      vec3(dot(normalFromMesh[0], normal), dot(normalFromMesh[1], normal), dot(normalFromMesh[2], normal));
+      vec3(dot(normalFromMesh[0].xyz, normal), dot(normalFromMesh[1].xyz, normal), dot(normalFromMesh[2].xyz, normal));
+  reach = normalFromMesh[0].w;
   textureUv = uv;
   gl_Position = clipFromMesh * p;
   // A vertex nearer to the eye than its rounding error has no reliable direction; the triangle is clipped there.

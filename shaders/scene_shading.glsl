@@ -1,5 +1,6 @@
 // The fragment shader of objects whose light takes no rays. ENVIRONMENT draws curved mirrors, which look up a map; with
-// REFLECTION_ONLY the base under the reflection is there, because shade.glsl has shaded it.
+// REFLECTION_ONLY the base under the reflection is there, because shade.glsl has shaded it. REPEATING draws
+// RepeatingTriangles.
 #include "interface.glsl"
 #include "shading.glsl"
 
@@ -29,6 +30,7 @@ layout(location = 0) centroid in vec3 relativePosition;
 layout(location = 1) centroid in vec3 relativeNormal;
 layout(location = 2) centroid in vec2 textureUv;
 layout(location = 3) flat in uint instanceIndex;
+layout(location = 4) flat in float reach;
 
 layout(location = 0) out vec4 color;
 
@@ -42,8 +44,13 @@ vec3 bilinearLevel0(vec2 uv) {
 }
 
 vec3 diffuseFactor() {
-  return diffuseLookup == textureTrilinear ? texture(diffuseTexture, vec2(textureUv.x, 1.0 - textureUv.y)).rgb
-                                           : bilinearLevel0(textureUv);
+#ifdef REPEATING
+  uint index = instances[instanceIndex].repeats + draw.firstTriangle + uint(gl_PrimitiveID);
+  vec2 uv = repeatingUv(index, view.traceOffset.xyz, rayThrough(gl_FragCoord.xy));
+#else
+  vec2 uv = textureUv;
+#endif
+  return diffuseLookup == textureTrilinear ? texture(diffuseTexture, vec2(uv.x, 1.0 - uv.y)).rgb : bilinearLevel0(uv);
 }
 
 #ifdef ENVIRONMENT
@@ -69,7 +76,7 @@ void main() {
   // handedness; the sign of the instance's determinant corrects it for mirrored instances.
   bool front = gl_FrontFacing == (draw.handedness > 0.0);
   Surface surface = Surface(relativePosition, safeNormalize(front ? relativeNormal : -relativeNormal), draw.diffuse,
-                            glossy ? draw.specular : vec3(0.0), draw.emission, draw.shininess, glossy);
+                            glossy ? draw.specular : vec3(0.0), draw.emission, draw.shininess, glossy, reach);
 #ifndef ENVIRONMENT
   if (diffuseLookup != textureNone) {
     surface.diffuse *= diffuseFactor();
@@ -81,7 +88,7 @@ void main() {
 #ifdef ENVIRONMENT
   CurvedMirrorData map = curvedMirrors[instances[instanceIndex].curvedMirror];
   vec3 direction = safeNormalize(surface.position);
-  surface = mirrorBase(surface.position, surface.normal, map.baseColor);
+  surface = mirrorBase(surface.position, surface.normal, map.baseColor, reach);
   float cosine = -dot(surface.normal, direction);
   vec3 reflectance = reflectanceAt(map.reflectance, map.schlick, cosine);
   vec3 base = vec3(0.0);

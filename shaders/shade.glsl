@@ -113,7 +113,8 @@ Seen seenObject(Identifier id, vec2 position) {
   }
   point += w.x * (corners.a - point) + w.y * (corners.b - point) + w.z * (corners.c - point);
   vec3 direction = safeNormalize(point);
-  Bounce bounce = objectBounce(instances[id.index].traceInstance, id.triangle, weights, point, direction);
+  Bounce bounce = objectBounce(instances[id.index].traceInstance, id.triangle, weights, point, direction,
+                               view.traceOffset.xyz, sight);
   float depth = (view.clipFromRelative * vec4(point, 1.0)).w;
   float disparity = id.baseOnly ? reflectionMark(id) : disparityLength / max(depth, 1e-30);
   return Seen(bounce, direction, disparity, seedAt(position), Draws(view.picture, 1, 0, 1));

@@ -17,6 +17,7 @@ struct Surface {
   vec3 emission;
   float shininess;
   bool glossy;  // the specular color is not black
+  float reach;  // metres: largest length in what the position was computed from
 };
 
 #ifdef COMPUTE
@@ -57,12 +58,26 @@ BilinearTexels bilinearTexels(vec2 uv, ivec2 size) {
   return BilinearTexels(low, high - size * ivec2(equal(high, size)), texel - corner);
 }
 
+// Height of a light above a surface, relative to the lengths from which it is computed, that may be rounding. A light so
+// low counts as in the surface's plane, or its side would change from pixel to pixel.
+const float leastHeight = 1e-6;
+
+// Returns the texture coordinates where a line of sight in trace space meets the triangle's plane.
+vec2 repeatingUv(uint index, vec3 origin, vec3 direction) {
+  RepeatingTriangle at = repeatingTriangles[index];
+  float height = dot(at.height.xyz, origin) + at.height.w;
+  vec4 point = vec4(origin - direction * (height / dot(at.height.xyz, direction)), 1.0);
+  return vec2(dot(at.u, point), dot(at.v, point));
+}
+
 // Returns the radiance due to a light at `toLight` from the surface; `irradiance` is at 1 m, facing the light.
 // lavapipe runs both sides of every branch, so there is none for surfaces that face away.
 vec3 lightRadiance(vec3 toLight, float radius, vec3 irradiance, Surface surface, vec3 toViewer) {
   float distance2 = max(dot(toLight, toLight), 1e-37);
   float inverse = inversesqrt(distance2);
-  float cosine = clamp(dot(surface.normal, toLight) * inverse, 0.0, 1.0);
+  float height = dot(surface.normal, toLight);
+  bool above = height > leastHeight * (surface.reach + distance2 * inverse);
+  float cosine = above ? clamp(height * inverse, 0.0, 1.0) : 0.0;
   vec3 brdf = surface.diffuse / pi;
   if (surface.glossy) {
     // The half vector is l + toViewer; its cosine with the normal is squared, which takes no square root. Where the
@@ -133,16 +148,17 @@ vec3 mirrored(vec3 direction, vec3 m, vec3 planeNormal) {
 }
 
 // The base of a mirror: the diffuse surface under its reflection, or its back.
-Surface mirrorBase(vec3 position, vec3 normal, vec3 color) {
-  return Surface(position, normal, color, vec3(0.0), vec3(0.0), 1.0, false);
+Surface mirrorBase(vec3 position, vec3 normal, vec3 color, float reach) {
+  return Surface(position, normal, color, vec3(0.0), vec3(0.0), 1.0, false, reach);
 }
 
 // The surface of an object, without its texture.
-Surface objectSurface(vec3 position, vec3 normal, MaterialData material, MaterialChange change, float shininess) {
+Surface objectSurface(vec3 position, vec3 normal, MaterialData material, MaterialChange change, float shininess,
+                      float reach) {
   vec3 specular = change.replacesSpecular != 0 ? change.specular : material.specular;
   return Surface(position, normal, change.replacesDiffuse != 0 ? change.diffuse : material.diffuse, specular,
                  change.replacesEmission != 0 ? change.emission : material.emission,
-                 shininess > 0.0 ? shininess : material.shininess, any(greaterThan(specular, vec3(0.0))));
+                 shininess > 0.0 ? shininess : material.shininess, any(greaterThan(specular, vec3(0.0))), reach);
 }
 
 vec3 backgroundRadiance(vec3 direction) {

@@ -38,11 +38,11 @@ struct Skip {
   uint triangle;
   uint plane;
   uint secondPlane;
-  float near;  // metres from the origin within which the rest of the instance is ignored too
+  float near;  // metres from the origin within which all objects are ignored
 };
 
-// Returns Skip::near for a point. Where triangles meet, rounding may put the point inside the object: by some 1e-7 of
-// its distance from the eye, and more along a ray that leaves at grazing angle.
+// Returns Skip::near for a point. Where triangles meet or coincide, rounding may put the point behind another one: by
+// some 1e-7 of its distance from the eye, and more along a ray that leaves at grazing angle.
 float nearOf(vec3 position) { return 2e-5 * length(position); }
 
 struct Hit {
@@ -223,8 +223,10 @@ void traceMesh(uint instance, vec3 origin, vec3 direction, float near, Skip skip
     for (;;) {
       uint triangle;
       vec4 met = meetSlot(slot, ray, triangle);
-      bool own = instance == skip.instance && (triangle == skip.triangle || met.w < near);
-      if (slot < end && met.w > 0.0 && met.w < hit.t && !own) {
+      bool own = met.w < near || (instance == skip.instance && triangle == skip.triangle);
+      // Of surfaces that coincide, the one listed first is met.
+      bool first = met.w < hit.t || (met.w == hit.t && instance < hit.instance);
+      if (slot < end && met.w > 0.0 && first && !own) {
         hit.t = met.w;
         hit.instance = instance;
         hit.slot = slot;

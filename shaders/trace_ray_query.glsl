@@ -4,7 +4,7 @@
 layout(set = 2, binding = 13) uniform accelerationStructureEXT traceStructure;
 
 bool ignores(Skip skip, uint instance, uint slot, float t, float near) {
-  return instance == skip.instance && (triangleTexel(slot, 0).w == skip.triangle || t < near);
+  return t < near || (instance == skip.instance && triangleTexel(slot, 0).w == skip.triangle);
 }
 
 // Finds the first surface that a ray in trace space meets before tMax; with `any`, one of them.

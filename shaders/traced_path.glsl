@@ -3,6 +3,7 @@
 
 layout(constant_id = 1) const bool trilinear = false;  // between levels of textures
 layout(constant_id = 4) const bool rough = false;      // some mirror of the scene is rough
+layout(constant_id = 6) const bool repeating = false;  // there are repeatingTriangles
 
 struct Bounce {
   Surface surface;  // relative; of a mirror, the base under the reflection
@@ -33,12 +34,12 @@ Bounce mirrorBounce(uint mirror, vec3 tracePosition, vec3 direction, bool front,
   bounce.reflects = front || traceMirrors[mirror].twoSided != 0;
   bounce.alpha = traceMirrors[mirror].alpha;
   if (!bounce.reflects) {
-    bounce.surface = mirrorBase(position, bounce.planeNormal, traceMirrors[mirror].backColor);
+    bounce.surface = mirrorBase(position, bounce.planeNormal, traceMirrors[mirror].backColor, length(position));
     bounce.reflectance = vec3(0.0);
     return bounce;
   }
   vec3 normal = side * (ripples ? rippled(mirror, tracePosition) : traceMirrors[mirror].normal);
-  bounce.surface = mirrorBase(position, normal, traceMirrors[mirror].baseColor);
+  bounce.surface = mirrorBase(position, normal, traceMirrors[mirror].baseColor, length(position));
   bounce.reflectance = tracedMirrorReflectance(mirror, -dot(normal, direction));
   return bounce;
 }
@@ -48,7 +49,8 @@ void applyCurvedMirror(uint instance, vec3 direction, inout Bounce bounce) {
   uint curved = traceInstances[instance].curved;
   bounce.reflects = curved != curvedNone;
   if (bounce.reflects) {
-    bounce.surface = mirrorBase(bounce.surface.position, bounce.surface.normal, traceInstances[instance].baseColor);
+    bounce.surface = mirrorBase(bounce.surface.position, bounce.surface.normal, traceInstances[instance].baseColor,
+                                bounce.surface.reach);
     float cosine = -dot(bounce.surface.normal, direction);
     bounce.reflectance = reflectanceAt(traceInstances[instance].reflectance, uint(curved == curvedSchlick), cosine);
   }
@@ -105,8 +107,10 @@ struct Weights {
   vec3 down;
 };
 
-// A triangle seen along `direction`, at the relative position to which the weights belong.
-Bounce objectBounce(uint instance, uint triangle, Weights weights, vec3 position, vec3 direction) {
+// A triangle seen along `direction`, at the relative position to which the weights belong. `origin` is a point on the
+// line of sight, in trace space, `sight` its direction.
+Bounce objectBounce(uint instance, uint triangle, Weights weights, vec3 position, vec3 direction, vec3 origin,
+                    vec3 sight) {
   TraceVertex a = vertexOf(instance, triangle, 0);
   TraceVertex b = vertexOf(instance, triangle, 1);
   TraceVertex c = vertexOf(instance, triangle, 2);
@@ -116,12 +120,17 @@ Bounce objectBounce(uint instance, uint triangle, Weights weights, vec3 position
   bool away = dot(geometric, direction) > 0.0;
   MaterialData material = materials[traceFaces[traceInstances[instance].firstTriangle + triangle].material];
   Surface surface = objectSurface(position, away ? -normal : normal, material, traceInstances[instance].change,
-                                  traceInstances[instance].shininess);
+                                  traceInstances[instance].shininess,
+                                  traceInstances[instance].normalFromMesh[0].w + length(position));
   if (material.hasTexture != 0) {
     mat3x2 corners = mat3x2(a.u, a.v, b.u, b.v, c.u, c.v);
     TraceTexture source = traceTextures[material.textureIndex];
-    surface.diffuse *= trilinear ? trilinearColor(source, corners * w, corners * weights.across, corners * weights.down)
-                                 : textureColor(source, corners * w);
+    vec2 uv = corners * w;
+    if (repeating && triangle >= traceInstances[instance].firstRepeating) {
+      uv = repeatingUv(traceInstances[instance].repeats + triangle, origin, sight);
+    }
+    surface.diffuse *= trilinear ? trilinearColor(source, uv, corners * weights.across, corners * weights.down)
+                                 : textureColor(source, uv);
   }
   Skip self = Skip(instance, triangle, none, none, nearOf(position));
   Bounce bounce = Bounce(surface, self, false, away ? -geometric : geometric, vec3(0.0), 0.0);
@@ -257,7 +266,7 @@ vec3 tracedRadiance(Bounce surface, vec3 direction, uint seed, Draws draws) {
         bounce = mirrorBounce(hit.mirror, origin + hit.t * towards, towards, front, true);
       } else {
         bounce = objectBounce(hit.instance, triangleTexel(hit.slot, 0).w, Weights(hit.weights, vec3(0.0), vec3(0.0)),
-                              bounce.surface.position + hit.t * towards, towards);
+                              bounce.surface.position + hit.t * towards, towards, origin, towards);
       }
       m = bounce.surface.normal;
       if (rough && meets && bounce.alpha > 0.0 && bounce.reflects) {

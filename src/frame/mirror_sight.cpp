@@ -10,6 +10,24 @@ namespace {
 // Tracing this many samples takes about as long as rendering a pass on lavapipe (docs/scaling.md).
 constexpr double samplesOfAPass = 1500.0;
 
+// Returns the visible part of a mirror's polygon. Of one so large that cuts near the eye would be off by a part of the
+// eye's height, only what is not at the horizon is cut, in its plane.
+Polygon visiblePart(const View& view, const MirrorState& mirror, double height) {
+  constexpr double large = 1e12;  // heights of the eye
+  constexpr double horizon = 1e9;
+  if (height == 0.0 || farthestDistance(view.eye, mirror.polygon) < large * std::abs(height)) {
+    return visiblePart(view, mirror.polygon);
+  }
+  Polygon part(mirror.polygon.begin(), mirror.polygon.end());
+  for (const glm::dvec3& axis : {mirror.axisX, -mirror.axisX, mirror.axisY, -mirror.axisY}) {
+    part = clipPolygon(part, {view.eye + horizon * std::abs(height) * axis, -axis});
+  }
+  for (glm::dvec3& p : part) {
+    p -= (glm::dot(mirror.normal, p - view.eye) + height) * mirror.normal;
+  }
+  return visiblePart(view, part);
+}
+
 }  // namespace
 
 double heightAbove(const MirrorState& mirror, const glm::dvec3& eye) {
@@ -25,7 +43,7 @@ MirrorDraw facingDraw(const MirrorState& mirror, int index, double height, bool 
   MirrorDraw draw{.mirror = index, .plane = {mirror.origin, mirror.normal}};
   draw.back = back;
   draw.layer = height < 0.0 ? mirror.backLayer : mirror.frontLayer;
-  draw.polygon = visiblePart(drawn, mirror.polygon);
+  draw.polygon = visiblePart(drawn, mirror, height);
   if (height < 0.0) {
     draw.plane.normal = -draw.plane.normal;
     std::ranges::reverse(draw.polygon);
@@ -35,7 +53,8 @@ MirrorDraw facingDraw(const MirrorState& mirror, int index, double height, bool 
 
 Sight sightOf(const Scene& scene, const SceneState& state, const View& view, const View& drawn, int mirror) {
   const MirrorState& geometry = state.mirrors[mirror];
-  Sight sight{.height = heightAbove(geometry, view.eye), .visible = visiblePart(view, geometry.polygon)};
+  Sight sight{.height = heightAbove(geometry, view.eye)};
+  sight.visible = visiblePart(view, geometry, sight.height);
   if (!sight.visible.empty()) {
     sight.draw = facingDraw(geometry, mirror, sight.height, showsBack(scene.mirrors[mirror], sight.height), drawn);
   }

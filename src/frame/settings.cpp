@@ -154,12 +154,19 @@ bool takesText(const SettingField& field) {
 
 // Says whether all settings are equal that change the part `last` of a frame or an earlier part.
 bool sameUpTo(FramePart last, const Settings& a, const Settings& b) {
-  return a.limit == b.limit && std::ranges::all_of(settingFields(), [&](const SettingField& field) {
-           return field.changes > last || sameSetting(field, a, b);
-         });
+  const auto same = [&](const SettingField& field) { return field.changes > last || sameSetting(field, a, b); };
+  return a.limit == b.limit && a.view.radianceScale() == b.view.radianceScale() &&
+         std::ranges::all_of(settingFields(), same);
 }
 
 }  // namespace
+
+double ViewSettings::radianceScale() const {
+  constexpr double most = 4096.0;
+  constexpr double least = 0x1p-100;  // radiance times this is still a float
+  const bool ordinary = exposure == 0.0 || (exposure >= 1.0 / most && exposure <= most);
+  return ordinary ? 1.0 : std::exp2(std::floor(std::log2(std::max(exposure, least))));
+}
 
 bool isSchlick(Fresnel fresnel, const EffectSettings& effects) {
   return effects.fresnel && fresnel == Fresnel::schlick;

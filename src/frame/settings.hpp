@@ -45,6 +45,8 @@ struct ViewSettings {
   bool continuous = false;  // the window draws all the time
 
   DisplayCurve displayCurve() const { return {exposure, toneMap}; }
+  // Factor on radiance in targets of 16 bits, a power of two: 1 unless the exposure is beyond 1/4096 to 4096.
+  double radianceScale() const;
   bool operator==(const ViewSettings&) const = default;
 };
 

@@ -66,10 +66,11 @@ struct Mesh {
   std::vector<Vertex> vertices;
   std::vector<uint32_t> indices;
   std::vector<MeshPart> parts;
-  std::vector<MeshCluster> clusters;             // see clustersOf()
-  std::vector<std::vector<glm::dvec3>> faces;    // relative to `center`, see convexFaces()
-  ConvexMesh convex;                             // relative to `center`, see convexMesh()
-  bool solid = false;                            // see isSolid()
+  std::vector<MeshCluster> clusters;           // see clustersOf()
+  std::vector<std::vector<glm::dvec3>> faces;  // relative to `center`, see convexFaces()
+  ConvexMesh convex;                           // relative to `center`, see convexMesh()
+  bool solid = false;                          // see isSolid()
+  uint32_t repeats = 0;  // last triangles, whose texture repeats so often that floats of its coordinates lose digits
   mutable std::shared_ptr<LevelsOfMesh> levels;  // made by the first call of levelsOf()
 };
 

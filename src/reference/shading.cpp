@@ -30,6 +30,12 @@ glm::dvec3 lightRadiance(const ShadingPoint& point, const glm::dvec3& toLight, c
 // End of a ray to a light, as a share of its length: rounding would find a surface on which the light lies at 1 or not.
 constexpr double lightEnd = 1.0 - 1e-12;
 
+// Returns the start of a ray to a light, as a share of its length: surfaces that coincide with the point's, moved by
+// rounding, are not in the way. Points are relative to the eye.
+double lightStart(const ShadingPoint& point, const glm::dvec3& toLight) {
+  return 1e-9 * glm::length(point.position) / glm::length(toLight);
+}
+
 // Returns the radiance due to a light by way of one mirror: along the straight line from the point to the light's image
 // behind the mirror.
 glm::dvec3 bouncedLight(const TraceWorld& world, const ShadingPoint& point, int light, int mirror) {
@@ -54,7 +60,7 @@ glm::dvec3 bouncedLight(const TraceWorld& world, const ShadingPoint& point, int 
     first.secondMirror = mirror;
     const glm::dvec3 bounce = leg.at(*crossing);
     const Skip second{.mirror = mirror};
-    if (world.occluded({point.position, toImage, 0.0, *crossing}, first) ||
+    if (world.occluded({point.position, toImage, lightStart(point, toImage), *crossing}, first) ||
         world.occluded({bounce, position - bounce, 0.0, lightEnd}, second)) {
       return glm::dvec3(0.0);
     }
@@ -66,8 +72,8 @@ glm::dvec3 bouncedLight(const TraceWorld& world, const ShadingPoint& point, int 
 glm::dvec3 directLight(const TraceWorld& world, const ShadingPoint& point, int light) {
   const PointLight& source = world.scene().lights[light];
   const glm::dvec3 toLight = world.lights()[light].position - point.position;
-  const bool dark = glm::dot(point.normal, toLight) <= 0.0 ||
-                    (source.castsShadow && world.occluded({point.position, toLight, 0.0, lightEnd}, point.self));
+  const Ray ray{point.position, toLight, lightStart(point, toLight), lightEnd};
+  const bool dark = glm::dot(point.normal, toLight) <= 0.0 || (source.castsShadow && world.occluded(ray, point.self));
   return dark ? glm::dvec3(0.0) : lightRadiance(point, toLight, source);
 }
 

@@ -18,6 +18,12 @@ namespace {
 // distance, and would leave the range of floats.
 constexpr double mostRepeats = 1e9;
 
+// Texture coordinates of this size have digits enough as floats.
+constexpr double nearEnough = 16.0;
+
+// Most triangles of a mesh whose texture coordinates are computed anew in each frame.
+constexpr size_t mostRepeatingTriangles = 1 << 16;
+
 // Returns the length of a vector whose square may leave the range of a double.
 double length(const glm::dvec3& v) {
   const double scale = glm::compMax(glm::abs(v));
@@ -141,7 +147,6 @@ void MeshBuilder::addFace(std::span<const FaceCorner> corners, int line) {
 // texel of a texture 2048 texels wide. The texture repeats, so it looks the same. Neighbours mostly get the same
 // numbers, and so share their vertices.
 glm::dvec2 MeshBuilder::uvShiftOf(std::span<const FaceCorner> corners) const {
-  constexpr double nearEnough = 16.0;
   glm::dvec2 largest(0.0);
   for (const FaceCorner& corner : corners) {
     largest = glm::max(largest, glm::abs(uvOf(corner)));
@@ -194,13 +199,29 @@ uint32_t MeshBuilder::vertexOf(const FaceCorner& corner, const glm::dvec3& trian
 
 Mesh MeshBuilder::finish(const std::function<Material(int)>& materialOf) {
   Mesh mesh{.source = file_, .vertices = std::move(vertices_)};
-  for (const int material : materialOrder_) {
-    const std::vector<uint32_t>& indices = materialIndices_[material];
-    mesh.parts.push_back({.firstIndex = static_cast<uint32_t>(mesh.indices.size()),
-                          .indexCount = static_cast<uint32_t>(indices.size()),
-                          .material = materialOf(material)});
-    mesh.indices.insert(mesh.indices.end(), indices.begin(), indices.end());
+  std::vector<Material> materials;
+  std::ranges::transform(materialOrder_, std::back_inserter(materials), materialOf);
+  const auto repeatsOften = [&](uint32_t vertex) {
+    return glm::compMax(glm::abs(mesh.vertices[vertex].uv)) > 2.0 * nearEnough;
+  };
+  size_t usual = 0;  // indices of triangles that do not repeat their texture so often
+  for (const bool repeats : {false, true}) {
+    for (size_t i = 0; i < materials.size(); ++i) {
+      const auto first = static_cast<uint32_t>(mesh.indices.size());
+      const std::vector<uint32_t>& indices = materialIndices_[materialOrder_[i]];
+      for (auto triangle = indices.begin(); triangle != indices.end(); triangle += 3) {
+        if (repeats == (materials[i].diffuseTexture >= 0 && std::any_of(triangle, triangle + 3, repeatsOften))) {
+          mesh.indices.insert(mesh.indices.end(), triangle, triangle + 3);
+        }
+      }
+      if (const auto count = static_cast<uint32_t>(mesh.indices.size()) - first; count > 0) {
+        mesh.parts.push_back({.firstIndex = first, .indexCount = count, .material = materials[i]});
+      }
+    }
+    usual = repeats ? usual : mesh.indices.size();
   }
+  const size_t repeating = (mesh.indices.size() - usual) / 3;
+  mesh.repeats = repeating <= mostRepeatingTriangles ? static_cast<uint32_t>(repeating) : 0;
   // Gives the memory back before the shape of the mesh is looked for.
   positions_ = {};
   texcoords_ = {};

@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <cmath>
+#include <limits>
 
 namespace speculum {
 
@@ -98,6 +99,9 @@ bool TraceWorld::covers(const SceneHit& hit, const SceneHit& other) const {
   const auto layer = [&](const SceneHit& h) {
     return h.mirrorFront ? mirrors_[h.index].frontLayer : mirrors_[h.index].backLayer;
   };
+  if (hit.kind == HitKind::object && other.kind == HitKind::object) {
+    return hit.index < other.index;
+  }
   return hit.kind == HitKind::mirror && other.kind == HitKind::mirror && layer(hit) < layer(other);
 }
 
@@ -149,7 +153,9 @@ std::optional<SceneHit> TraceWorld::meet(const Item& item, const Ray& ray, const
   SceneHit hit{.kind = item.kind, .index = item.index};
   if (item.kind == HitKind::object) {
     const int64_t own = skip.instance == item.index ? int64_t{skip.triangle} : TriangleMesh::noTriangle;
-    const auto found = meshes_[instances_[item.index].mesh].closest(toMesh(ray, item.index, tMax), own);
+    constexpr double infinity = std::numeric_limits<double>::infinity();  // includes a hit at tMax
+    const auto found =
+        meshes_[instances_[item.index].mesh].closest(toMesh(ray, item.index, std::nextafter(tMax, infinity)), own);
     if (!found) {
       return std::nullopt;
     }

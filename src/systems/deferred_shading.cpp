@@ -108,7 +108,8 @@ void DeferredShading::shade(const PassScope& scope, const FrameInfo& info, const
   const Pipeline& pipeline = shading_.get({samples, trace, trilinear}, [&] {
     return ComputePipelineDesc{.name = "deferred shading",
                                .comp = trace.hardware ? "shade_ray_query.comp" : "shade.comp",
-                               .constants = {samples, trilinear, trace.shadows, trace.castsLight, trace.rough},
+                               .constants = {samples, trilinear, trace.shadows, trace.castsLight, trace.rough,
+                                             gpu::manyLights, trace.repeating},
                                .setLayouts = {frameLayout_, layout_.get(), info.trace.layout()},
                                .pushConstantBytes = sizeof(gpu::ShadeConstants)};
   });

@@ -15,8 +15,8 @@ namespace speculum {
 
 namespace {
 
-constexpr std::array frameBufferNames = {"passes",    "mirrors",        "lights",
-                                         "instances", "curved mirrors", "mirror vertices"};
+constexpr std::array frameBufferNames = {
+    "passes", "mirrors", "lights", "instances", "curved mirrors", "mirror vertices", "repeating triangles"};
 
 Lookup lookupFor(const glm::dvec2& ratio) {
   if (ratio == glm::dvec2(1.0)) {
@@ -90,6 +90,10 @@ bool cullsBacks(const Device& device, const Settings& settings, const View& view
 
 }  // namespace
 
+bool hasRepeatingTriangles(const Scene& scene) {
+  return std::ranges::any_of(scene.meshes, [](const Mesh& mesh) { return mesh.repeats > 0; });
+}
+
 uint32_t fixedLightCount(const Scene& scene) {
   return scene.lights.size() <= gpu::fixedLights ? static_cast<uint32_t>(scene.lights.size()) : gpu::manyLights;
 }
@@ -114,6 +118,8 @@ VkShaderStageFlags FrameData::stagesOf(uint32_t kind) {
       return vertex;
     case curvedMirrors:
       return fragment;
+    case kindCount:
+      return compute;
     default:
       return fragment | compute;
   }
@@ -146,6 +152,7 @@ void FrameData::build(Frame& frame, const SceneResources& resources, const Scene
   curvedMirrors_.clear();
   mirrorVertices_.clear();
   passes_.clear();
+  addRepeating(scene, state, plan.main.view.eye);
   const Source source{scene, state, settings, environment, plan};
   clearances_ = clearancesOf(scene, state);
   shadowMaps_.assign(scene.lights.size(), gpu::noShadowMap);
@@ -164,6 +171,7 @@ void FrameData::build(Frame& frame, const SceneResources& resources, const Scene
   buffers_.write(frame, instances, instances_);
   buffers_.write(frame, curvedMirrors, curvedMirrors_);
   buffers_.write(frame, mirrorVertices, mirrorVertices_);
+  buffers_.write(frame, repeating, repeating_);
   instanceBuffer_ = buffers_.buffer(frame, instances).get();
   set_ = frame.descriptors->allocate(layout_.get());
   DescriptorWriter writer;
@@ -219,6 +227,7 @@ void FrameData::addPass(const Source& source, const PlannedPass& pass, const Pro
 // stand where the groups meet, so that one instanced draw covers them.
 void FrameData::addLights(const Source& source, const PlannedPass& pass, PassBlock& block, PassData& data) {
   const Scene& scene = source.scene;
+  const double scale = source.settings.view.radianceScale();
   block.view.firstLight = static_cast<uint32_t>(lights_.size());
   block.view.lightCount = static_cast<uint32_t>(scene.lights.size());
   const auto hasMap = [&](int i) { return shadowMaps_[i] != gpu::noShadowMap; };
@@ -233,9 +242,9 @@ void FrameData::addLights(const Source& source, const PlannedPass& pass, PassBlo
     const PointLight& light = scene.lights[i];
     lights_.push_back({.position = glm::vec3(source.state.lights[i].position - pass.view.eye),
                        .radius = static_cast<float>(light.radius),
-                       .irradiance = radiance(light.color * light.intensity),
+                       .irradiance = radiance(scale * light.color * light.intensity),
                        .castsShadow = light.castsShadow,
-                       .glow = radiance(light.color * light.glow),
+                       .glow = radiance(scale * light.color * light.glow),
                        .hasGlyph = hasGlyph(light, source.settings.effects),
                        .clearance = clearances_[i],
                        .shadowMap = shadowMaps_[i]});
@@ -287,6 +296,7 @@ void FrameData::addInstances(const Source& source, const PlannedPass& pass, cons
     ++data.batches.back().count;
     instances_.push_back(instanceData(instance, pass.view, clipFromRelative));
     instances_.back().traceInstance = static_cast<uint32_t>(i);
+    instances_.back().repeats = repeats_.empty() ? 0 : repeats_[i];
     if (environment) {
       addEnvironment(source, pass, i, data.batches.back());
     }
@@ -357,6 +367,22 @@ void FrameData::addMirrors(const Source& source, const PlannedPass& pass, const 
     addFringe(mirrorVertices_, polygons[i], pass.view.pictureSize * overscan(pass.view));
     range.vertexCount = static_cast<uint32_t>(mirrorVertices_.size()) - range.firstVertex;
     data.mirrors.push_back(range);
+  }
+}
+
+void FrameData::addRepeating(const Scene& scene, const SceneState& state, const glm::dvec3& eye) {
+  repeating_.clear();
+  repeats_.clear();
+  if (!device_.caps().primitiveId || !hasRepeatingTriangles(scene)) {
+    return;
+  }
+  for (const InstanceState& instance : state.instances) {
+    const Mesh& mesh = scene.meshes[instance.mesh];
+    const auto end = static_cast<uint32_t>(mesh.indices.size() / 3);
+    repeats_.push_back(static_cast<uint32_t>(repeating_.size()) - (end - mesh.repeats));
+    for (uint32_t triangle = end - mesh.repeats; triangle < end; ++triangle) {
+      repeating_.push_back(repeatingTriangle(mesh, triangle, instance, eye));
+    }
   }
 }
 

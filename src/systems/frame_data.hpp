@@ -89,6 +89,8 @@ class FrameData {
              const Settings& settings, const Environment& environment, const FramePlan& plan);
 
   const std::vector<PassData>& passes() const { return passes_; }
+  // InstanceData::repeats of each instance of the scene; empty without repeating triangles.
+  std::span<const uint32_t> repeats() const { return repeats_; }
   // Binds the pipeline, and set 0 for draws of `pass`, or of `mirror` in it.
   void bind(const Pipeline& pipeline, VkCommandBuffer commands, const PassData& pass, uint32_t mirror = 0) const;
   // MirrorData by MirrorData::index, each at a multiple of 256 bytes.
@@ -98,7 +100,7 @@ class FrameData {
 
  private:
   // Bindings of interface.glsl; the next one is that of SceneResources::materials().
-  enum Kind { passBlocks, mirrors, lights, instances, curvedMirrors, mirrorVertices, kindCount };
+  enum Kind { passBlocks, mirrors, lights, instances, curvedMirrors, mirrorVertices, repeating, kindCount };
 
   // A uniform block at a dynamic offset, as gpu::MirrorBlock is.
   struct alignas(256) PassBlock {
@@ -124,6 +126,7 @@ class FrameData {
   // Makes the instance's batch look up its environment map.
   void addEnvironment(const Source& source, const PlannedPass& pass, int instance, Batch& batch);
   void addMirrors(const Source& source, const PlannedPass& pass, const glm::dmat4& projection, PassData& data);
+  void addRepeating(const Scene& scene, const SceneState& state, const glm::dvec3& eye);
   void addMask(const PlannedPass& pass, const FramePlan& plan, const Settings& settings, PassData& data);
 
   Device& device_;
@@ -137,10 +140,15 @@ class FrameData {
   std::vector<gpu::InstanceData> instances_;
   std::vector<gpu::CurvedMirrorData> curvedMirrors_;
   std::vector<glm::vec4> mirrorVertices_;
+  std::vector<gpu::RepeatingTriangle> repeating_;
+  std::vector<uint32_t> repeats_;  // InstanceData::repeats of each instance of the scene
   std::vector<PassData> passes_;
   VkDescriptorSet set_ = VK_NULL_HANDLE;
   VkBuffer instanceBuffer_ = VK_NULL_HANDLE;
 };
+
+// Says whether a mesh has gpu::RepeatingTriangles.
+bool hasRepeatingTriangles(const Scene& scene);
 
 // Returns the value of `lightCount` in shading.glsl for the scene's lights.
 uint32_t fixedLightCount(const Scene& scene);

@@ -28,6 +28,15 @@ glm::vec3 radiance(const glm::dvec3& product) {
   return glm::vec3(glm::min(product, kRadiance.high));
 }
 
+Environment scaled(Environment environment, double scale) {
+  Sky sky = environment.sky.value_or(Sky{});
+  for (glm::dvec3* color : {&environment.background, &environment.ambient, &sky.zenith, &sky.horizon, &sky.ground}) {
+    *color = radiance(scale * *color);
+  }
+  environment.sky = environment.sky ? std::optional(sky) : std::nullopt;
+  return environment;
+}
+
 gpu::MaterialChange materialChange(const Object& object) {
   return {.diffuse = glm::vec3(object.color.value_or(glm::dvec3(0.0))),
           .replacesDiffuse = object.color.has_value(),
@@ -59,6 +68,10 @@ RippleConstants rippleConstants(const Ripple& ripple, double time) {
           static_cast<float>(k * productModulo(ripple.speed, time, ripple.wavelength))};
 }
 
+double reachOf(const InstanceState& instance, const glm::dvec3& eye) {
+  return glm::length(instance.center - eye) + instance.radius;
+}
+
 float handednessOf(const InstanceState& instance) {
   return glm::determinant(instance.worldFromMesh.linear) < 0.0 ? -1.0f : 1.0f;
 }
@@ -76,10 +89,34 @@ gpu::InstanceData instanceData(const InstanceState& instance, const View& view, 
   data.clipFromMesh = glm::mat4(clipFromRelative * relativeFromMesh);
   for (int r = 0; r < 3; ++r) {
     data.relativeFromMesh[r] = row(linear, r, offset[r]);
-    data.normalFromMesh[r] = row(normals, r, 0.0);
+    data.normalFromMesh[r] = row(normals, r, reachOf(instance, view.eye));
   }
   data.clipPlane = glm::vec4(glm::dvec4(glm::transpose(linear) * normal, glm::dot(normal, offset) + plane.w));
   return data;
+}
+
+gpu::RepeatingTriangle repeatingTriangle(const Mesh& mesh, uint32_t triangle, const InstanceState& instance,
+                                         const glm::dvec3& eye) {
+  const uint32_t* index = &mesh.indices[size_t{triangle} * 3];
+  const glm::dvec2& uv = mesh.vertices[index[0]].uv;
+  const auto relative = [&](int corner) {
+    return instance.worldFromMesh.linear * mesh.vertices[index[corner]].position +
+           (instance.worldFromMesh.translation - eye);
+  };
+  const glm::dvec3 a = relative(0);
+  const glm::dvec3 ab = relative(1) - a;
+  const glm::dvec3 ac = relative(2) - a;
+  const glm::dvec3 normal = glm::cross(ab, ac);
+  const double area2 = glm::dot(normal, normal);
+  // A texture looks the same after any whole number of repeats.
+  const auto coordinate = [&](int k) {
+    const double alongAb = mesh.vertices[index[1]].uv[k] - uv[k];
+    const double alongAc = mesh.vertices[index[2]].uv[k] - uv[k];
+    const glm::dvec3 slope = (alongAb * glm::cross(ac, normal) + alongAc * glm::cross(normal, ab)) / area2;
+    return glm::vec4(glm::dvec4(slope, glm::fract(uv[k] - glm::dot(slope, a))));
+  };
+  const glm::dvec3 unit = normal / std::sqrt(area2);
+  return {coordinate(0), coordinate(1), glm::vec4(glm::dvec4(unit, -glm::dot(unit, a)))};
 }
 
 glm::dmat4 viewProjection(const Projection& common, const View& view, ClipMethod clip) {

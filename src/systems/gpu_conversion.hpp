@@ -13,6 +13,8 @@ namespace speculum {
 glm::vec4 row(const glm::dmat3& m, int r, double w);
 // Rounds a product of radiances to floats, at most kRadiance.high.
 glm::vec3 radiance(const glm::dvec3& product);
+// Returns the environment with its radiances times `scale`.
+Environment scaled(Environment environment, double scale);
 // Returns the colors that replace those of the object's material.
 gpu::MaterialChange materialChange(const Object& object);
 // Returns the constants for drawing a part of an object; the caller sets firstTriangle.
@@ -28,11 +30,17 @@ struct RippleConstants {
 };
 RippleConstants rippleConstants(const Ripple& ripple, double time);
 
+// Returns the distance from the eye to the far end of the instance, metres.
+double reachOf(const InstanceState& instance, const glm::dvec3& eye);
 // Sign of the determinant of the instance's transform.
 float handednessOf(const InstanceState& instance);
 
 // Returns the data of an instance in a view. `clipFromRelative` takes world space minus the view's eye to clip space.
 gpu::InstanceData instanceData(const InstanceState& instance, const View& view, const glm::dmat4& clipFromRelative);
+
+// Returns the triangle of a mesh's instance in the space of points relative to the eye.
+gpu::RepeatingTriangle repeatingTriangle(const Mesh& mesh, uint32_t triangle, const InstanceState& instance,
+                                         const glm::dvec3& eye);
 
 // Returns the projection of a view under reflection.clip: `common`, or its oblique variant for a mirror's view. The
 // unit square of its clip space is `overscan(view)` times the picture.

@@ -36,7 +36,7 @@ void addVertexInput(GraphicsPipelineDesc& desc) {
   };
   add(3, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(gpu::InstanceData, clipFromMesh), 4);
   add(7, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(gpu::InstanceData, relativeFromMesh), 3);
-  add(10, VK_FORMAT_R32G32B32_SFLOAT, offsetof(gpu::InstanceData, normalFromMesh), 3);
+  add(10, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(gpu::InstanceData, normalFromMesh), 3);
   add(13, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(gpu::InstanceData, clipPlane), 1);
 }
 
@@ -70,6 +70,8 @@ GraphicsPipelineDesc RenderSystem::objects(const Variant& variant, const FrameIn
     desc.fragConstants = {variant.environment};
   } else if (variant.environment) {
     desc.frag = "scene_environment.frag";
+  } else if (variant.repeating) {
+    desc.frag = "scene_repeating.frag";
   }
   if (variant.added) {
     desc.frag = "scene_environment_reflection.frag";
@@ -81,7 +83,9 @@ GraphicsPipelineDesc RenderSystem::objects(const Variant& variant, const FrameIn
     desc.adds = true;
   }
   if (variant.shadowed) {
-    desc.frag = variant.environment ? "scene_environment_shadowed.frag" : "scene_shadowed.frag";
+    desc.frag = variant.environment ? "scene_environment_shadowed.frag"
+                : variant.repeating ? "scene_repeating_shadowed.frag"
+                                    : "scene_shadowed.frag";
     desc.setLayouts.push_back(info.shadows.layout());
   }
   desc.fragConstants.resize(4, 0);
@@ -150,9 +154,13 @@ uint32_t RenderSystem::recordBatch(const PassScope& scope, const FrameInfo& info
     const Material& material = mesh.parts[p].material;
     const bool textured = material.diffuseTexture >= 0 && info.settings.effects.textures;
     gpu::DrawConstants constants = drawConstants(material, info.scene.objects[batch.object], batch.handedness);
+    constants.emission *= info.settings.view.radianceScale();
     if (!variant.deferred) {
       variant.diffuseLookup = lookupOf(textured && !batch.environment, info.settings.view.textureFilter);
       variant.glossy = constants.specular != glm::vec3(0.0f);
+      variant.repeating = variant.diffuseLookup != gpu::textureNone && batch.level < 0 &&
+                          !info.data.repeats().empty() &&
+                          mesh.parts[p].firstIndex + 3 * mesh.repeats >= mesh.indices.size();
     }
     const Pipeline& pipeline = objects_.get(variant, [&] { return objects(variant, info, shading); });
     info.data.bind(pipeline, commands, pass);

@@ -21,6 +21,12 @@ bool defers(const FrameInfo& info, const PassData& pass) {
   return MirrorSystem::defers(info, pass) || RenderSystem::defers(info, pass);
 }
 
+// Returns the settings with the exposure of a picture whose radiances are stored times `radianceScale`.
+Settings displayed(Settings settings, double radianceScale) {
+  settings.view.exposure /= radianceScale;
+  return settings;
+}
+
 }  // namespace
 
 SceneRenderer::SceneRenderer(Renderer& renderer, const Scene& scene)
@@ -55,19 +61,20 @@ const FiniteWatch& SceneRenderer::finiteWatch() {
 
 void SceneRenderer::uploadTextures(Frame& frame, const SceneState& state, const Settings& settings,
                                    const FramePlan& plan) {
-  resources_.upload(frame, settings.effects.textures, drawsTextures(scene_, state, settings, plan));
+  resources_.upload(frame, settings, drawsTextures(scene_, state, settings, plan));
 }
 
 void SceneRenderer::record(Frame& frame, const SceneState& state, const Settings& settings, const FramePlan& plan,
                            const std::optional<DebugView>& debug, bool shown) {
   data_.requireFits(plan);
-  const Environment environment = scene_.environment.cleared(settings.view.clearColor);
+  const double radianceScale = settings.view.radianceScale();
+  const Environment environment = scaled(scene_.environment.cleared(settings.view.clearColor), radianceScale);
   watched_.begin(plan, debug, *frame.retired);
   releaseUnused(debug);
   prepareTargets(frame, settings, plan, shown);
   log_.beginFrame();
   const bool textured = drawsTextures(scene_, state, settings, plan);
-  resources_.prepare(frame, settings.effects.textures, textured);
+  resources_.prepare(frame, settings, textured);
   resources_.prepareLevels(frame, meshesWithLevels(plan, state));
   pictureSize_ = {plan.width, plan.height};
   tiles_ = tilesOfPasses(plan);
@@ -103,6 +110,7 @@ void SceneRenderer::record(Frame& frame, const SceneState& state, const Settings
     watched_.finish(plan, frame.commands, *frame.retired);
     mainTargets_.finish(*frame.retired);
     recordSum(info);
+    radianceScale_ = radianceScale;
   }
   if (shown) {
     recordDisplay(info, debug);
@@ -321,7 +329,7 @@ void SceneRenderer::recordDisplay(const FrameInfo& info, const std::optional<Deb
   const int pictures = accumulated();
   const RecordedPass display =
       display_.record(info.frame, pictures > 0 ? accumulation_.descriptor() : mainTargets_.shown().descriptor(),
-                      mainTargets_.shown().extent(), info.settings, pictures);
+                      mainTargets_.shown().extent(), displayed(info.settings, radianceScale_), pictures);
   if (!unfinished_) {
     log_.add(display);
   }
@@ -340,7 +348,8 @@ void SceneRenderer::recordDebug(const FrameInfo& info, const DebugView& debug, c
   Image& texels = showsDepth ? watched_.depth() : image->color();
   const MirrorImage shown{showsDepth ? watched_.depthDescriptor() : image->descriptor(), texels.samples()};
   const auto view = showsDepth ? display_.recordDepth(info.frame, target.size, debug, shown, target.near)
-                               : display_.recordColor(info.frame, target.size, debug, shown, info.settings);
+                               : display_.recordColor(info.frame, target.size, debug, shown,
+                                                      displayed(info.settings, radianceScale_));
   if (view && !unfinished_) {
     log_.add(*view);
   }
@@ -479,6 +488,14 @@ void SceneRenderer::restart() {
   mirrorTargets_.restart();
 }
 
+std::optional<TexelValue> SceneRenderer::probed() {
+  std::optional<TexelValue> found = probe_.value();
+  if (found) {
+    found->value /= glm::vec4(glm::vec3(static_cast<float>(radianceScale_)), 1.0f);
+  }
+  return found;
+}
+
 LinearImage SceneRenderer::radiance() {
   renderer_.waitIdle();
   const int pictures = accumulated();
@@ -488,7 +505,7 @@ LinearImage SceneRenderer::radiance() {
   LinearImage image(static_cast<int>(extent.width), static_cast<int>(extent.height));
   for (size_t i = 0; i < image.pixels.size(); ++i) {
     image.pixels[i] = {texels[4 * i], texels[4 * i + 1], texels[4 * i + 2]};
-    image.pixels[i] /= static_cast<float>(std::max(pictures, 1));
+    image.pixels[i] /= static_cast<float>(std::max(pictures, 1) * radianceScale_);
   }
   return enlarged(image, pictureSize_.x, pictureSize_.y);
 }

@@ -66,7 +66,7 @@ class SceneRenderer {
   // Findings of debug.check_finite in the frames that have finished.
   const FiniteWatch& finiteWatch();
   // Value at DebugView::probe in the last frame that had a probe and has finished.
-  const std::optional<TexelValue>& probed() { return probe_.value(); }
+  std::optional<TexelValue> probed();
   // Cost of each effect in the last recorded frame that drew the main view.
   const EffectLedger& ledger() const { return ledger_; }
   // Linear radiance of the main view, or of the mean, in the last recorded frame, enlarged to the picture. Waits for
@@ -121,6 +121,7 @@ class SceneRenderer {
   size_t tilesAtOnce_ = SIZE_MAX;         // tilesAtOnce() of the frame
   size_t tilesLeft_ = SIZE_MAX;           // of these, for which its commands have room
   std::vector<PassTargets> passTargets_;  // of the mirror passes drawn last; their next tiles may follow
+  double radianceScale_ = 1.0;            // ViewSettings::radianceScale() of the last complete picture
   bool unfinished_ = false;               // the last frame drew tiles, and not the last ones of its picture
   glm::ivec2 pictureSize_{0};             // of the last recorded frame
   MirrorTargets mirrorTargets_;

@@ -7,6 +7,7 @@
 
 #include "geometry/mesh_levels.hpp"
 #include "systems/effect_ledger.hpp"
+#include "systems/gpu_conversion.hpp"
 
 namespace speculum {
 
@@ -21,13 +22,13 @@ std::vector<uint64_t> halfTexels(const Texture& texture) {
   return texels;
 }
 
-gpu::MaterialData materialData(const Material& material, bool textured) {
+gpu::MaterialData materialData(const Material& material, bool textured, double radianceScale) {
   const bool hasTexture = textured && material.diffuseTexture >= 0;
   return {.diffuse = glm::vec3(material.diffuse),
           .hasTexture = hasTexture,
           .specular = glm::vec3(material.specular),
           .shininess = static_cast<float>(material.shininess),
-          .emission = glm::vec3(material.emission),
+          .emission = radiance(radianceScale * material.emission),
           .textureIndex = hasTexture ? static_cast<uint32_t>(material.diffuseTexture) : 0};
 }
 
@@ -52,24 +53,25 @@ SceneResources::SceneResources(Device& device, Uploader& uploader, const Scene& 
   createMeshes();
 }
 
-void SceneResources::upload(Frame& frame, bool enabled, bool drawn) {
-  const bool textured = enabled && !scene_.textures.empty();
-  const bool uploads = !materials_ || textured != textured_ || (drawn && textures_.empty());
-  if (uploads) {
+void SceneResources::upload(Frame& frame, const Settings& settings, bool drawn) {
+  const bool textured = settings.effects.textures && !scene_.textures.empty();
+  const double scale = settings.view.radianceScale();
+  const bool changed = !materials_ || textured != textured_ || scale != radianceScale_;
+  if (changed || (drawn && textures_.empty())) {
     // Waits for frames in flight before the upload, which waits only for its own fence.
     check(vkQueueWaitIdle(device_.queue()), "wait for the queue");
   }
-  if (!materials_ || textured != textured_) {
+  if (changed) {
     frame.retired->take(materials_);
-    createMaterials(textured);
+    createMaterials(textured, scale);
   }
   if (drawn && textures_.empty()) {
     createTextures();
   }
 }
 
-void SceneResources::prepare(Frame& frame, bool enabled, bool drawn) {
-  upload(frame, enabled, drawn);
+void SceneResources::prepare(Frame& frame, const Settings& settings, bool drawn) {
+  upload(frame, settings, drawn);
   idleFrames_ = drawn ? 0 : std::min(idleFrames_, idleFramesKept) + 1;
   if (idleFrames_ > idleFramesKept) {
     for (Image& texture : textures_) {
@@ -140,16 +142,17 @@ void SceneResources::createLevels(size_t mesh) {
 }
 
 // Makes the materials of all parts, in the order of the meshes.
-void SceneResources::createMaterials(bool textured) {
+void SceneResources::createMaterials(bool textured, double radianceScale) {
   std::vector<gpu::MaterialData> materials;
   for (const Mesh& mesh : scene_.meshes) {
     for (const MeshPart& part : mesh.parts) {
-      materials.push_back(materialData(part.material, textured));
+      materials.push_back(materialData(part.material, textured, radianceScale));
     }
   }
   materials.resize(std::max<size_t>(materials.size(), 1));
   materials_ = uploader_.buffer(materials, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "materials");
   textured_ = textured;
+  radianceScale_ = radianceScale;
 }
 
 uint64_t SceneResources::textureBytes() const {

@@ -6,6 +6,7 @@
 #include "core/descriptors.hpp"
 #include "core/renderer.hpp"
 #include "core/uploader.hpp"
+#include "frame/settings.hpp"
 #include "scene/scene.hpp"
 #include "shaders/gpu_data.h"
 
@@ -32,10 +33,10 @@ class SceneResources {
 
   SceneResources(Device& device, Uploader& uploader, const Scene& scene);
 
-  // Begins a frame. `enabled` is effects.textures, `drawn` is drawsTextures(). Uploads are finished on return.
-  void prepare(Frame& frame, bool enabled, bool drawn);
+  // Begins a frame. `drawn` is drawsTextures(). Uploads are finished on return.
+  void prepare(Frame& frame, const Settings& settings, bool drawn);
   // Does the uploads of prepare(). After an OutOfMemoryError it can be called again with other arguments.
-  void upload(Frame& frame, bool enabled, bool drawn);
+  void upload(Frame& frame, const Settings& settings, bool drawn);
   // Uploads the levels of the meshes `drawn`, which is meshesWithLevels(), and drops idle ones.
   void prepareLevels(Frame& frame, std::span<const int> drawn);
 
@@ -50,7 +51,7 @@ class SceneResources {
   void createTextures();
   void createMeshes();
   void createLevels(size_t mesh);
-  void createMaterials(bool textured);
+  void createMaterials(bool textured, double radianceScale);
 
   Device& device_;
   Uploader& uploader_;
@@ -64,7 +65,8 @@ class SceneResources {
   std::vector<VkDescriptorSet> textureSets_;  // made with textures_ and kept when those are dropped
   int idleFrames_ = 0;                        // since textures_ were drawn
   Buffer materials_;
-  bool textured_ = false;  // whether materials_ refer to textures
+  bool textured_ = false;       // whether materials_ refer to textures
+  double radianceScale_ = 1.0;  // of emission in materials_
   std::vector<GpuMesh> meshes_;
   int idleLevelFrames_ = 0;  // since a mesh level was drawn
 };

@@ -12,6 +12,7 @@
 #include "geometry/affine.hpp"
 #include "geometry/reflection.hpp"
 #include "scene/beside_mirrors.hpp"
+#include "systems/frame_data.hpp"
 #include "systems/gpu_conversion.hpp"
 
 namespace speculum {
@@ -43,7 +44,7 @@ gpu::TraceInstance instanceData(const InstanceState& instance, const Object& obj
   gpu::TraceInstance data{};
   for (int r = 0; r < 3; ++r) {
     data.meshFromTrace[r] = row(inverse, r, offset[r]);
-    data.normalFromMesh[r] = row(normals, r, 0.0);
+    data.normalFromMesh[r] = row(normals, r, reachOf(instance, eye));
   }
   data.change = materialChange(object);
   data.shininess = static_cast<float>(object.shininess.value_or(0.0));
@@ -108,7 +109,8 @@ void TraceFrame::build(Frame& frame, const SceneState& state, const Settings& se
   variant_ = {.traced = (effects.shadowRays && !effects.shadowMaps) || effects.castsLight,
               .shadows = effects.shadowRays,
               .castsLight = effects.castsLight.has_value(),
-              .perSample = settings.effects.perSample && effects.traces()};
+              .perSample = settings.effects.perSample && effects.traces(),
+              .repeating = hasRepeatingTriangles(scene_)};
   addMirrors(state, settings);
   prepareStructures(frame, state, settings.effects.rays, effects.traces());
   variant_.hardware = rays_.hardware;
@@ -228,6 +230,7 @@ RayUse TraceFrame::rays() const {
 }
 
 void TraceFrame::addInstances(const SceneState& state, const Settings& settings) {
+  uint32_t repeating = 0;
   for (const InstanceState& instance : state.instances) {
     const Object& object = scene_.objects[instance.object];
     const TraceScene::MeshRange& mesh = traceScene_->meshes()[instance.mesh];
@@ -238,6 +241,10 @@ void TraceFrame::addInstances(const SceneState& state, const Settings& settings)
     data.nodes = mesh.nodes;
     data.firstTriangle = mesh.firstTriangle;
     data.firstVertex = mesh.firstVertex;
+    data.firstRepeating = mesh.triangles - scene_.meshes[instance.mesh].repeats;
+    data.repeats = repeating - data.firstRepeating;
+    repeating += scene_.meshes[instance.mesh].repeats;
+    data.change.emission *= settings.view.radianceScale();
     setMirror(object.mirror, settings.effects, data);
     instances_.push_back(data);
   }
@@ -312,7 +319,7 @@ std::vector<std::byte> TraceFrame::lightPathBytes(const SceneState& state, const
     const glm::dvec3 image = reflectPoint(position, {mirror.origin, mirror.normal});
     paths.push_back({.image = glm::vec3(image - state.camera.eye),
                      .radius = static_cast<float>(light.radius),
-                     .irradiance = radiance(light.color * light.intensity),
+                     .irradiance = radiance(settings.view.radianceScale() * light.color * light.intensity),
                      .castsShadow = light.castsShadow && settings.effects.shadows,
                      .light = glm::vec3(position - state.camera.eye),
                      .mirror = static_cast<uint32_t>(bounced.mirror),

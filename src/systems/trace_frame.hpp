@@ -18,8 +18,9 @@ struct TraceVariant {
   bool shadows = false;
   bool castsLight = false;
   bool perSample = false;
-  bool hardware = false;  // rays are ray queries
-  bool rough = false;     // rays may be reflected by rough mirrors
+  bool hardware = false;   // rays are ray queries
+  bool rough = false;      // rays may be reflected by rough mirrors
+  bool repeating = false;  // there are RepeatingTriangles
 
   auto operator<=>(const TraceVariant&) const = default;
 };
@@ -32,7 +33,7 @@ class TraceFrame {
 
   // Storage buffers of deferred shading, with those of FrameData.
   static constexpr uint32_t storageBuffers =
-      13;  // 3 of FrameData, 3 of DeferredShading, 4 of TraceScene, 3 of TraceFrame
+      14;  // 4 of FrameData, 3 of DeferredShading, 4 of TraceScene, 3 of TraceFrame
 
   // Fills the buffers of this frame in flight. `effects` are those of the plan; set() is valid until the frame has
   // finished, and null if no effect is called for.

@@ -208,6 +208,47 @@ TEST(LightOnASurface, ShadowsOfLampsOnWallsMatchTracer) {
   }
 }
 
+// A bright light in the plane of an object's quad, of a mirror's front or back, or of a quad that its image lights by
+// way of a mirror: turned anywhere, as a part of a large plane, far from the origin, and seen in another mirror.
+std::string lightInAPlane(Random& random, int kind, bool shadows) {
+  const glm::dvec3 rotation = random.inBox(180.0);
+  const glm::dmat3 turn = rotationFromDegrees(rotation);
+  const glm::dvec3 center = random.inBox(random.chance(0.5) ? 1.0 : 1e5);
+  const auto at = [&](double x, double y, double z) { return center + turn * glm::dvec3(x, y, z); };
+  const bool back = kind == 2;
+  std::ostringstream scene;
+  scene << "[environment]\nambient = [0.05, 0.05, 0.05]\nbackground = [0.1, 0.2, 0.3]\n"
+        << cameraText(at(0.9, 0.3, back ? -1.6 : 1.6), at(0.1, 0.1, 0))
+        << "[[light]]\nposition = " << text(at(0.3, -0.2, 0))
+        << "\nintensity = 5000\ncasts_shadow = " << (shadows ? "true\n" : "false\n");
+  if (kind == 0 || kind == 3) {
+    const double size = random.chance(0.5) ? 1.0 : random.uniform(1.0, 200.0);
+    const glm::dvec3 corner = size > 1.0 ? at(0.8 * size, -0.7 * size, 0) : center;
+    scene << objectText("quad.obj", corner, rotation, size, {0.7, 0.6, 0.5}) << "specular = [0.3, 0.3, 0.3]\n";
+  } else {
+    scene << "[[mirror]]\n"
+          << rectangleText(center, rotation, 2.0, 2.0) << "reflectance = [0.3, 0.3, 0.3]\n"
+          << "base_color = [0.7, 0.7, 0.2]\nback_color = [0.7, 0.2, 0.2]\n";
+  }
+  const double low = back ? -1.0 : -0.5;
+  scene << "[[mirror]]\ncasts_light = " << (kind == 3 ? "true\n" : "false\n")
+        << polygonText({at(-1, 1.2, low), at(1, 1.2, low), at(1, 1.2, low + 1.5), at(-1, 1.2, low + 1.5)});
+  return scene.str();
+}
+
+TEST(LightOnASurface, InItsPlaneAddsNoHalo) {
+  writeQuad();
+  Random random(5);
+  Gpu gpu(headless("", {96, 54}));
+  for (int i = 0; i < 16; ++i) {
+    const auto file = writeScene("plane_light_" + std::to_string(i), lightInAPlane(random, i % 4, i / 4 % 2 == 1));
+    Studio studio(gpu, truthOptions(file, {96, 54}, 2));
+    studio.settings.effects.rays = RayMethod::software;
+    studio.settings.reflection.method = i >= 8 ? ReflectionMethod::rays : ReflectionMethod::automatic;
+    expectTruth(studio, file, trace(file, {96, 54}, 2));
+  }
+}
+
 class AnySize : public testing::TestWithParam<PictureSize> {};
 
 // A mirror over all of the view shows the sky; a body would have edges, and a pixel here is metres wide.
