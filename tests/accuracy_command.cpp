@@ -150,7 +150,11 @@ TEST(LeftOutConfigurations, DrawTheBytesOfOneThatIsKept) {
     for (const SweepConfiguration& configuration : plan.configurations) {
       const bool isPoint = std::ranges::count(results.points, configuration.name, &SweepPoint::name) > 0;
       const std::vector<uint8_t> bytes = subject.pictures(settingsWith(base, configuration.changes)).at(0).rgba;
-      isPoint ? void(kept.insert(bytes)) : leftOut.emplace_back(configuration.name, bytes);
+      if (isPoint) {
+        kept.insert(bytes);
+      } else {
+        leftOut.emplace_back(configuration.name, bytes);
+      }
     }
     EXPECT_EQ(std::ssize(leftOut), results.leftOut);
     EXPECT_EQ(results.leftOut > 0, mirrors > 0) << mirrors;

@@ -41,7 +41,7 @@ TEST(DifferenceView, ErrorsOfMirrorsAreWithinTheirOutlines) {
   DifferenceView difference;
   EXPECT_TRUE(difference.mirrorErrors().empty());
   const auto white = [] { return Image8(96, 54); };
-  ASSERT_TRUE(waitFor([&] { return difference.update(shown, white) || !difference.mirrorErrors().empty(); }));
+  ASSERT_TRUE(waitFor([&] { return difference.update(shown, white, 4) || !difference.mirrorErrors().empty(); }));
   const std::vector<double> errors = difference.mirrorErrors();
   ASSERT_EQ(errors.size(), 3u);
   EXPECT_GT(errors[0], 0.3);

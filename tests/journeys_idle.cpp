@@ -3,6 +3,7 @@
 
 #include "journeys_support.hpp"
 #include "platform/folders.hpp"
+#include "platform/text.hpp"
 #include "test_paths.hpp"
 
 namespace speculum {

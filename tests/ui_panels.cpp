@@ -1270,10 +1270,10 @@ TEST_F(Inspector, MirrorsHaveAQualityOfTheirOwn) {
 
 TEST_F(Inspector, MirrorsShowTheirError) {
   selectMirror(1);
-  EXPECT_FALSE(output_.difference);
+  EXPECT_FALSE(output_.errorGain);
   click("edit.mirror_error", 0.1);
   run(2);
-  EXPECT_TRUE(output_.difference);
+  EXPECT_TRUE(output_.errorGain);
   accuracy_.difference = "Tracing the reference: 40 %";
   run(2);
   EXPECT_TRUE(shows("Tracing the reference: 40 %"));
