@@ -60,7 +60,7 @@ BilinearTexels bilinearTexels(vec2 uv, ivec2 size) {
 
 // Height of a light above a surface, relative to the lengths from which it is computed, that may be rounding. A light so
 // low counts as in the surface's plane, or its side would change from pixel to pixel.
-const float leastHeight = 1e-6;
+const float leastHeight = 3e-7;
 
 // Returns the texture coordinates where a line of sight in trace space meets the triangle's plane.
 vec2 repeatingUv(uint index, vec3 origin, vec3 direction) {
