@@ -87,8 +87,8 @@ FrameWork workOf(const FramePlan& plan, const Scene& scene, const SceneState& st
                  .mirrorPasses = static_cast<double>(plan.passes.size()),
                  .mainTexels = static_cast<double>(plan.main.view.rect.area()),
                  .viewSamples = settings.view.samples,
-                 .mirrorSamples = 1.0 * settings.reflection.samples,
-                 .interval = mostAsked(scene, settings).updateInterval};
+                 .interval = mostAsked(scene, settings).updateInterval,
+                 .mirrorSamples = 1.0 * settings.reflection.samples};
   double further = 0.0;  // samples beyond those of the settings
   work.triangles = trianglesOf(plan.main, scene, state);
   addRays(work, plan.main, work.mainTexels, work.viewSamples, plan, scene, state, settings.effects);

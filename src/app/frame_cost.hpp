@@ -22,8 +22,8 @@ struct FrameWork {
   double curvedRays = 0.0;
   double roughRays = 0.0;
   int viewSamples = 1;
-  double mirrorSamples = 1.0;  // on average over the mirrors' texels
   int interval = 1;            // frames in which each mirror is rendered once
+  double mirrorSamples = 1.0;  // on average over the mirrors' texels
 };
 
 FrameWork workOf(const FramePlan& plan, const Scene& scene, const SceneState& state, const Settings& settings);
