@@ -64,6 +64,9 @@ class RandomInput : public Journey {
     nonFinite_ += demo_->nonFinite();
     demo_.reset();
     start();
+    if (view().edit.prompt == Prompt::recovery) {
+      demo_->apply(DiscardChanges{});
+    }
     connectGamepad();
   }
   void stepped(int steps) {
