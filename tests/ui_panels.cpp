@@ -1245,6 +1245,9 @@ TEST_F(Inspector, CurvedMirrorsExplainTheirTint) {
 
 TEST_F(Inspector, MirrorsHaveAQualityOfTheirOwn) {
   selectMirror(0);
+  EXPECT_FALSE(has("edit.quality.scale"));
+  click("edit.quality", 0.1);
+  run(3);
   const auto quality = [&](const EditNode& edit) { return std::get<Mirror>(edit.node).quality; };
   settings_.reflection.samples = 4;
   settings_.reflection.scale = 0.75;

@@ -178,8 +178,13 @@ bool mirrorQuality(PanelContext& ui, MirrorQuality& quality) {
                 : std::isnan(errors[mirror]) ? "not in view"
                                              : fmt::format("{:.4f} mean FLIP", errors[mirror]));
   }
+  const bool open = ImGui::CollapsingHeader(quality == MirrorQuality() ? "Quality: as the settings###quality"
+                                                                       : "Quality: its own###quality");
+  recordWidget(ui, "edit.quality", "Makes this mirror cheaper, or sharper, than the others.");
+  if (!open) {
+    return false;
+  }
   ImGui::PushItemWidth(-10.5f * ImGui::GetFontSize());
-  ImGui::TextUnformatted("Quality of this mirror (unchecked: as the settings):");
   const bool edited = qualityRow(ui, "scale", quality.scale, &R::scale) |
                       qualityRow(ui, "samples", quality.samples, &R::samples) |
                       qualityRow(ui, "update_interval", quality.updateInterval, &R::updateInterval) |
