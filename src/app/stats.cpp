@@ -81,6 +81,7 @@ ordered_json passesJson(Session& session) {
     const FramePlan& plan = session.lastFrame().plan;
     const PlannedPass* planned = pass.kind == PassKind::main ? &plan.main : mirrorPass(plan, pass.path);
     const PixelRect rect = planned ? planned->view.rect : PixelRect();
+    const int samples = planned ? session.device().sampleCount(planned->quality.samples) : 0;
     passes.push_back({{"name", pass.name},
                       {"mirror", mirror ? mirrorJson(session.scene(), pass.path.back()) : ordered_json(nullptr)},
                       {"path", pathJson(session.scene(), pass.path)},
@@ -93,7 +94,7 @@ ordered_json passesJson(Session& session) {
                       {"samples_drawn", timing.hasSamples ? ordered_json(timing.samples) : ordered_json(nullptr)},
                       {"area_px", pass.areaPx},
                       {"size", planned ? ordered_json({rect.width, rect.height}) : ordered_json(nullptr)},
-                      {"samples", planned ? ordered_json(planned->quality.samples) : ordered_json(nullptr)},
+                      {"samples", planned ? ordered_json(samples) : ordered_json(nullptr)},
                       {"depth_resolution", depthJson(session, pass.path)}});
   }
   return passes;
