@@ -179,7 +179,7 @@ class MirrorSystem {
 
 Drawn run(const Options& options) {
   Core core(options);
-  ViewSets<View> views(core.device);
+  ViewSets<View> views(core.renderer);
   const RenderSystem renderSystem(core, views.layout());
   const PointLightSystem pointLightSystem(core, views.layout());
   const MirrorSystem mirrorSystem(core, views.layout());

@@ -13,15 +13,16 @@ namespace speculum::examples {
 template <typename View>
 class ViewSets {
  public:
-  explicit ViewSets(Device& device)
-      : device_(device),
+  explicit ViewSets(Renderer& renderer)
+      : device_(renderer.device()),
         layout_(createDescriptorSetLayout(
-            device, {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER},
-            VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, "view")) {}
+            device_, {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER},
+            VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, "view")),
+        none_(renderer.uploader().image(std::array<std::byte, 4>{}, {1, 1}, VK_FORMAT_R8G8B8A8_UNORM, false, "none")),
+        sampler_(createSampler(device_, nearestSampler, "none")) {}
 
   VkDescriptorSetLayout layout() const { return layout_.get(); }
 
-  // Only shaders that look up no image can do without `image`.
   VkDescriptorSet write(Frame& frame, const View& view, const OffScreen* image = nullptr) {
     used_ = frame.number == number_ ? used_ + 1 : 0;
     number_ = frame.number;
@@ -31,18 +32,18 @@ class ViewSets {
     }
     buffers[used_].write(std::as_bytes(std::span(&view, 1)));
     const VkDescriptorSet set = frame.descriptors->allocate(layout_.get());
-    DescriptorWriter writer;
-    writer.buffer(0, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, buffers[used_].descriptor());
-    if (image) {
-      writer.image(1, image->descriptor());
-    }
-    writer.update(device_, set);
+    DescriptorWriter()
+        .buffer(0, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, buffers[used_].descriptor())
+        .image(1, image ? image->descriptor() : none_.descriptor(sampler_.get()))
+        .update(device_, set);
     return set;
   }
 
  private:
   Device& device_;
   DescriptorSetLayoutHandle layout_;
+  Image none_;  // for shaders that look up no image: lavapipe of Mesa 22.3 reads all descriptors of a set
+  SamplerHandle sampler_;
   std::array<std::vector<Buffer>, framesInFlight> buffers_;
   uint64_t number_ = 0;  // of the frame written to last
   size_t used_ = 0;      // index of the buffer written last

@@ -84,7 +84,7 @@ class RenderSystem {
 
 Drawn run(const Options& options) {
   Core core(options);
-  ViewSets<View> views(core.device);
+  ViewSets<View> views(core.renderer);
   const RenderSystem renderSystem(core, views.layout());
   const std::unique_ptr<SimpleUI> ui = SimpleUI::forWindow(core.renderer, core.window.get());
   UiState state{.clearColor = background};
