@@ -340,7 +340,7 @@ glm::vec2 modestEms(const glm::vec2& ems) {
   const ImVec2 display = ImGui::GetIO().DisplaySize;
   const glm::vec2 room = glm::vec2(display.x, display.y) / ImGui::GetFontSize();
   const float width = std::min(ems.x, std::max(18.0f, 0.42f * room.x));
-  return {width, std::min(ems.y, std::max(12.0f, 0.24f * room.x * room.y / width))};
+  return {width, std::min(ems.y, std::max(12.0f, room.x * room.y / 75.0f))};
 }
 
 void playOffer(PanelContext& ui, const WindowRect& picture) {
