@@ -661,8 +661,11 @@ class OpenedScene : public PacedScene {
     ++number_;
     pace_.drawn(number_, 1.0, 0.0, number_ > 2);  // the first frames compile
     const double scale = planned_.view.scale;
-    const double ms = fullMs * scale * scale * planned_.view.samples / 4.0;
-    pace_.finished({.frame = number_, .gpuMs = fitted.plan.tiles ? 2.0 * budget : ms});
+    double ms = fullMs * scale * scale * planned_.view.samples / 4.0;
+    if (const auto& tiles = fitted.plan.tiles) {
+      ms *= static_cast<double>(tiles->end - tiles->first) / static_cast<double>(tileCount(fitted.plan));
+    }
+    pace_.finished({.frame = number_, .gpuMs = ms});
     if (opening_.drawn(pace_.playCost(), moves_, endsPicture(fitted.plan) && !pace_.lowers())) {
       moves_ = false;
       stoodAt_ = number_;

@@ -66,7 +66,7 @@ std::pair<std::string, double> measuringStep(int part, const SweepStatus& status
   // The second part takes the reference and the pictures from the first.
   const int stage = status.stage == "times" ? 2 : part == 1 ? 3 : status.stage == "pictures" ? 1 : 0;
   const int step = part == 0 ? stage : part == 1 ? 3 : 4 + stage;
-  const double done = stage == 3 ? 0.0 : status.fraction;
+  const double done = stage == 3 || status.stage == "starting" ? 0.0 : status.fraction;
   const char* name = stage == 0 ? "Tracing the reference" : stage == 1 ? "Comparing settings" : "Timing settings";
   return {fmt::format("{} ({} of 7{})", name, step + 1, part < 2 ? ", rough" : ""), (step + done) / 7.0};
 }
