@@ -12,5 +12,5 @@ void main() {
   vec3 n = gl_FrontFacing ? worldNormal : -worldNormal;
   vec3 toLight = view.light.xyz - worldPosition;
   vec3 irradiance = view.lightColor.rgb * max(dot(n, normalize(toLight)), 0.0) / dot(toLight, toLight);
-  show(diffuse * (view.ambient.rgb + irradiance / 3.14159265));
+  show(diffuse * (4.0 * view.ambient.rgb + irradiance / 3.14159265));  // alone, a triangle needs more ambient light
 }
