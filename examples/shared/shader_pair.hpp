@@ -15,7 +15,7 @@ namespace speculum::examples {
 // --shaders objects a pair of shader objects.
 class ShaderPair {
  public:
-  // NAME.vert and NAME.frag; `desc` says the rest, except for the colour's format.
+  // NAME.vert and NAME.frag; `desc` says the rest, except for the color's format.
   ShaderPair(Renderer& renderer, const Options& options, const std::string& name, GraphicsPipelineDesc desc);
 
   void bind(const PassScope& pass, VkDescriptorSet set) const;

@@ -72,7 +72,7 @@ void SimpleUI::build(UiState& state) {
   ImGui::Begin("Frame", nullptr, ImGuiWindowFlags_AlwaysAutoResize);
   ImGui::Text("%.2f ms, %.0f frames per second", 1000.0f / io.Framerate, io.Framerate);
   ImGui::Text("%.2f ms on the GPU", renderer_.timings().gpuMs);
-  ImGui::ColorEdit3("Clear colour", &state.clearColor.x, ImGuiColorEditFlags_Float | ImGuiColorEditFlags_NoInputs);
+  ImGui::ColorEdit3("Clear color", &state.clearColor.x, ImGuiColorEditFlags_Float | ImGuiColorEditFlags_NoInputs);
   ImGui::Checkbox("Settings", &state.settings);
   if (state.settings && state.naive) {
     ImGui::Checkbox("Naive mirror", state.naive);
