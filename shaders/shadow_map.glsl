@@ -57,11 +57,7 @@ SeenPlanes planesAbout(vec2 at) {
   corner /= vec2(textureSize(shadowTexels, 0));
   seen.disparity = uintBitsToFloat(textureGather(shadowTexels, corner, 0));
   uvec4 slopes = textureGather(shadowTexels, corner, 1);
-  vec2 a = unpackHalf2x16(slopes.x);
-  vec2 b = unpackHalf2x16(slopes.y);
-  vec2 c = unpackHalf2x16(slopes.z);
-  vec2 d = unpackHalf2x16(slopes.w);
-  seen.rise = seen.disparity * (vec4(a.x, b.x, c.x, d.x) * seen.x + vec4(a.y, b.y, c.y, d.y) * seen.y);
+  seen.rise = uintBitsToFloat(slopes & 0xffff0000u) * seen.x + uintBitsToFloat(slopes << 16) * seen.y;
   return seen;
 }
 
