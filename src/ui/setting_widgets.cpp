@@ -31,11 +31,12 @@ struct Widget {
   // which is less at the low end of 1 .. 1024. Returns the value.
   template <typename T>
   T moveByKey(T& value, T before) const {
-    if (value == before && ImGui::IsItemActive()) {
-      const auto pressed = [](ImGuiKey key) { return static_cast<int>(ImGui::IsKeyPressed(ImGui::GetKeyIndex(key))); };
-      const double steps = pressed(ImGuiKey_RightArrow) - pressed(ImGuiKey_LeftArrow);
+    const auto pressed = [](ImGuiKey key) { return static_cast<int>(ImGui::IsKeyPressed(ImGui::GetKeyIndex(key))); };
+    const int steps = pressed(ImGuiKey_RightArrow) - pressed(ImGuiKey_LeftArrow);
+    if (value == before && ImGui::IsItemActive() && steps != 0) {
       const double step = std::pow(10.0, -ImParseFormatPrecision(field.slider->format, 0));
       value = static_cast<T>(std::clamp(value + steps * step, field.slider->low, field.slider->high));
+      ImGui::GetCurrentContext()->SliderCurrentAccum = 0.0f;  // else what it did not move adds up
     }
     return value;
   }
