@@ -1734,6 +1734,14 @@ TEST_F(ChangingPasses, RowsUnderThePointerStay) {
   setPasses(1);
   moveTo(600, 1100);
   EXPECT_EQ(rows().size(), 2u) << "the pointer has left";
+  hover("pass.mirror 0", 0.3);
+  for (const char* step : {"delete mirror", ""}) {
+    edit_.undo = step;
+    setPasses(7);
+    EXPECT_EQ(rows().size(), 4u) << "an edit may have given a mirror the place of another";
+    setPasses(1);
+    EXPECT_EQ(rows().size(), 2u);
+  }
 }
 
 TEST_F(ChangingPasses, AreSortedOnlyOnDemand) {

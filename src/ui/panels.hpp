@@ -36,9 +36,9 @@ struct PanelState {
   struct Passes {
     std::vector<PassView> passes;  // rows
     std::vector<SkippedView> skipped;
-    std::vector<PassId> order;  // of a click on a column's head; empty: the scene's
-    std::string step;           // of undo, when the pointer came upon them
-    bool held = false;          // in their places, because the pointer is on them
+    std::vector<PassId> order;        // of a click on a column's head; empty: the scene's
+    std::optional<std::string> step;  // of undo, when the pointer came upon them; none after an edit since
+    bool held = false;                // in their places, because the pointer is on them
   } passes;
 
   std::array<char, 64> logFilter{};  // text that a line must contain

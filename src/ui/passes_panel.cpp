@@ -197,8 +197,12 @@ void passes(PanelContext& ui) {
   const FrameView& frame = ui.view.frame;
   PanelState::Passes& rows = ui.state.passes;
   const bool pointed = ImGui::IsWindowHovered(ImGuiHoveredFlags_AllowWhenBlockedByActiveItem);
-  rows.step = pointed ? rows.step : ui.view.edit.undo;
-  rows.held = pointed && rows.step == ui.view.edit.undo;  // an edit may give a mirror the place of another
+  if (!pointed) {
+    rows.step = ui.view.edit.undo;
+  } else if (rows.step != ui.view.edit.undo) {
+    rows.step.reset();  // an edit may have given a mirror the place of another
+  }
+  rows.held = pointed && rows.step;
   followPasses(rows, frame);
   wrappedText("GPU " + duration(frame.timedGpuMs > 0.0 ? frame.timedGpuMs : frame.gpuMs) + "   Memory " +
               mebibytes(frame.deviceBytes) + " MiB");
