@@ -333,7 +333,6 @@ TEST_F(TwoMirrors, PointedPassesAndMirrorsAreOutlined) {
   };
   gone();
   demo_->apply(Undo{});
-  demo_->apply(ToggleInspector{});  // closes it, so that the main panel unfolds
   run(4);
   const PixelRect again = widget("skipped.door");
   moveTo(again.x + again.width / 2, again.y + again.height / 2);
