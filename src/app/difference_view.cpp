@@ -68,15 +68,14 @@ void DifferenceView::startTracing(const ShownPicture& shown) {
 }
 
 void DifferenceView::startComparing(const ShownPicture& shown, Image8 image) {
-  comparing_.start(
-      0.0, [truth = truth_, drawn = std::move(image), settings = shown.settings, state = shown.state](const auto&) {
-        Plane2d map;
-        ErrorFigures errors;
-        inBackground([&] { errors = errorsAgainst(*truth, drawn, settings, &map); });
-        std::vector<double> mirrorErrors =
-            errorsOfMirrors(map, PictureView(state.camera, map.width, map.height), state);
-        return Compared{settings, std::move(map), errors.whole, std::move(mirrorErrors)};
-      });
+  comparing_.start(0.0, [truth = truth_, drawn = std::move(image), settings = shown.settings,
+                         state = shown.state](const auto&) {
+    Plane2d map;
+    ErrorFigures errors;
+    inBackground([&] { errors = errorsAgainst(*truth, drawn, settings, &map); });
+    std::vector<double> mirrorErrors = errorsOfMirrors(map, PictureView(state.camera, map.width, map.height), state);
+    return Compared{settings, std::move(map), errors.whole, std::move(mirrorErrors)};
+  });
 }
 
 // Returns true for a new heat map. Drops one whose settings have changed meanwhile.

@@ -69,7 +69,7 @@ class DifferenceView {
   Truth truth_;
   Plane2d map_;
   ImageMetrics metrics_;
-  int pictures_ = 1;     // in the mean that was compared
+  int pictures_ = 1;  // in the mean that was compared
   std::vector<double> mirrorErrors_;
   std::string problem_;  // error that ended the work
 };

@@ -304,8 +304,8 @@ ExpectedCase expectedOf(const RegressCase& subject, const std::string& driver) {
 
 std::vector<RegressCase> readCases(const fs::path& file) {
   static constexpr std::array<Key, 2> rootKeys{"defaults", "case"};
-  static constexpr std::array<Key, 13> keys{"scene", "name", "time",    "camera",  "size",      "settings",
-                                            "grid",  "mask", "timeout", "picture", "tolerance", "expect", "strict"};
+  static constexpr std::array<Key, 13> keys{"scene", "name",    "time",    "camera",    "size",   "settings", "grid",
+                                            "mask",  "timeout", "picture", "tolerance", "expect", "strict"};
   const toml::table root = readToml(file, "file of cases");
   const TableReader reader(file, "", root, 1, rootKeys);
   CaseReader cases(file);

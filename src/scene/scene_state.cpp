@@ -106,7 +106,9 @@ struct Placed {
 bool inOnePlane(const Placed& a, const Placed& b) {
   const Plane plane{a.state->polygon[0], a.state->normal};
   const double slack = std::max(a.state->slack, b.state->slack);
-  return std::ranges::all_of(b.state->polygon, [&](const auto& p) { return std::abs(plane.distance(p)) <= slack; });
+  const bool parallel = std::abs(glm::dot(a.state->normal, b.state->normal)) > 1.0 - 1e-9;
+  return parallel &&
+         std::ranges::all_of(b.state->polygon, [&](const auto& p) { return std::abs(plane.distance(p)) <= slack; });
 }
 
 // Says whether the line through an edge of `a` separates `b` from `a`, except for `slack` metres.

@@ -239,13 +239,17 @@ std::string lightInAPlane(Random& random, int kind, bool shadows) {
 TEST(LightOnASurface, InItsPlaneAddsNoHalo) {
   writeQuad();
   Random random(5);
-  Gpu gpu(headless("", {96, 54}));
+  std::vector<std::filesystem::path> files;
   for (int i = 0; i < 16; ++i) {
-    const auto file = writeScene("plane_light_" + std::to_string(i), lightInAPlane(random, i % 4, i / 4 % 2 == 1));
-    Studio studio(gpu, truthOptions(file, {96, 54}, 2));
-    studio.settings.effects.rays = RayMethod::software;
+    files.push_back(writeScene("plane_light_" + std::to_string(i), lightInAPlane(random, i % 4, i / 4 % 2 == 1)));
+  }
+  const Options options = truthOptions(files.front(), {96, 54}, 2);
+  Gpu gpu(options);
+  Studio studio(gpu, options);
+  studio.settings.effects.rays = RayMethod::software;
+  for (size_t i = 0; i < files.size(); ++i) {
     studio.settings.reflection.method = i >= 8 ? ReflectionMethod::rays : ReflectionMethod::automatic;
-    expectTruth(studio, file, trace(file, {96, 54}, 2));
+    expectTruth(studio, files[i], trace(files[i], {96, 54}, 2));
   }
 }
 
