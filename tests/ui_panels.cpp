@@ -478,26 +478,6 @@ TEST_F(PanelTest, SavingListsFoldersAndScenes) {
   ask(Prompt::none);
 }
 
-TEST_F(PanelTest, SavingElsewhereOffersToCopyModels) {
-  ask(Prompt::saveAs, config_.path() / "new.toml");
-  EXPECT_TRUE(clickFor<SaveAs>("where.save").copyModels) << "unless they are left where they are";
-  ask(Prompt::saveAs, config_.path() / "new.toml");
-  click("where.models", 0.05);
-  EXPECT_FALSE(clickFor<SaveAs>("where.save").copyModels);
-  ask(Prompt::saveAs, scene_.file);
-  EXPECT_FALSE(has("where.models")) << "in its own folder everything stays";
-  EXPECT_FALSE(clickFor<SaveAs>("where.save").copyModels);
-}
-
-TEST_F(PanelTest, KeptChangesAreOpenedDiscardedOrLeft) {
-  ask(Prompt::recovery, "/home/scene.toml");
-  EXPECT_EQ(clickFor<OpenScene>("recovery.open").file, "/home/scene.toml");
-  ask(Prompt::recovery, "/home/scene.toml");
-  clickFor<DiscardChanges>("recovery.discard");
-  ask(Prompt::recovery, "/home/scene.toml");
-  clickFor<CancelPrompt>("recovery.later");
-}
-
 TEST_F(PanelTest, SavingShowsItsFolderOnce) {
   const std::filesystem::path folder = config_.path() / "none";
   std::filesystem::create_directory(config_.path() / "mine");
