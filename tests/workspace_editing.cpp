@@ -449,7 +449,7 @@ TEST_F(Editing, ModelsAreAddedFromAnyFile) {
   EXPECT_EQ(status(), edit().note);
   std::ofstream(folder / "empty.obj") << "v 0 0 0\n";
   send(AddObject{"empty.obj"});
-  EXPECT_TRUE(contains(edit().note, "empty.obj:1: f: the model has no triangle"));
+  EXPECT_TRUE(contains(edit().note, "empty.obj:1: f: the model has no face"));
   EXPECT_FALSE(contains(edit().note, "\n"));
   EXPECT_EQ(edit().undo, "add object 'vase'") << "nothing is lost";
   std::ofstream(folder / "flag.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
