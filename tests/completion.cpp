@@ -63,7 +63,7 @@ TEST(Completion, OffersTheOptionsOfEachCommand) {
     const std::string help = runProcess({program, command, "--help"}).output;
     EXPECT_EQ(completions({program, command, "--"}), listed(help, "Options:", "Examples:")) << command;
   }
-  EXPECT_EQ(completions({program, "render", "--st"}), Words{"--stats"});
+  EXPECT_EQ(completions({program, "render", "--st"}), (Words{"--stats", "--strict"}));
 }
 
 TEST(Completion, OffersTheSettings) {
