@@ -125,6 +125,7 @@ TEST_F(IdleWindow, TargetsShowTexels) {
   }
   EXPECT_GT(mainView().framesAgo, 0) << "the finished picture stays";
   click("panel.Targets");
+  moveTo(width - 5, height - 5);  // away from what has a tooltip
   settle();
   hidePanels();
   settle();

@@ -169,19 +169,19 @@ TEST(ExposuresOfAnySize, ReuseNoImageOfAnotherScale) {
 // Cuts of a polygon of 1e15 m are off by decimetres, as are its corners.
 TEST(LargeMirrors, ReachTheHorizon) {
   std::vector<std::filesystem::path> files;
-  const auto add = [&](const std::string& mirror) {
+  const auto add = [&](const std::string& mirror, bool standing = true) {
     files.push_back(writeScene("large_" + std::to_string(files.size()),
                                "[environment]\nambient = [0.2, 0.2, 0.2]\nsky = { zenith = [0.2, 0.4, 0.9], horizon = "
                                "[0.8, 0.85, 0.9], ground = [0.3, 0.28, 0.25] }\n" +
                                    cameraText({0.3, 1.2, 4}, {0, 0.6, 0}) +
                                    objectText("MODELS/box.obj", {0, 0.01, 0}, {0, 20, 0}, 1.0, {0.7, 0.3, 0.1}) +
-                                   "[[mirror]]\n" + mirror + "[[mirror]]\n" +
-                                   rectangleText({-1.5, 1, -0.5}, {0, 40, 0}, 1, 1)));
+                                   "[[mirror]]\n" + mirror +
+                                   (standing ? "[[mirror]]\n" + rectangleText({-1.5, 1, -0.5}, {0, 40, 0}, 1, 1) : "")));
   };
   for (const double metres : {1e11, 1e13, 1e14, 3e14, 7e14, 1e15}) {
     add(rectangleText({0, 0, 0}, {-90, 0, 0}, metres, metres));
     add(rectangleText({0, 0, 0}, {-89, 0.5, 0.3}, metres, 0.7 * metres));
-    add(polygonText({{-metres, 0, 0.5 * metres}, {metres, 0, metres}, {0.3 * metres, 0, -metres}}));
+    add(polygonText({{-metres, 0, 0.5 * metres}, {metres, 0, metres}, {0.3 * metres, 0, -metres}}), metres < 1e12);
     add(polygonText({{-3, 0, 3}, {3, 0, 3}, {0.5 * metres, 0, -metres}, {-0.5 * metres, 0, -metres}}));
   }
   expectTruths(files, {96, 54}, 2);

@@ -69,7 +69,9 @@ RippleConstants rippleConstants(const Ripple& ripple, double time) {
 }
 
 double reachOf(const InstanceState& instance, const glm::dvec3& eye) {
-  return glm::length(instance.center - eye) + instance.radius;
+  // On a larger object a lamp at a usual height would count as in the surface's plane.
+  constexpr double largest = 1e6;
+  return std::min(glm::length(instance.center - eye) + instance.radius, largest);
 }
 
 float handednessOf(const InstanceState& instance) {

@@ -30,7 +30,7 @@ struct RippleConstants {
 };
 RippleConstants rippleConstants(const Ripple& ripple, double time);
 
-// Returns the distance from the eye to the far end of the instance, metres.
+// Returns the distance from the eye to the far end of the instance, metres, at most 1e6.
 double reachOf(const InstanceState& instance, const glm::dvec3& eye);
 // Sign of the determinant of the instance's transform.
 float handednessOf(const InstanceState& instance);
