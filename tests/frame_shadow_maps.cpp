@@ -237,12 +237,12 @@ TEST(ShadowMap, MemoryIncludesItAndLowersIt) {
   frames.next();
   FramePlan without = frames.plan;
   without.shadowMaps.clear();
-  const uint64_t bytes = 6ull * 1024 * 1024 * (4 + 4);
+  const uint64_t bytes = 6ull * 1024 * 1024 * (8 + 4);
   EXPECT_EQ(shadowBytes(frames.plan), bytes);
   Layers layers;
   layers.down(0.0);
   layers.down(0.1);
-  EXPECT_EQ(shadowBytes(layers.plan), bytes + 6ull * 1024 * 1024 * 4);
+  EXPECT_EQ(shadowBytes(layers.plan), bytes + 6ull * 1024 * 1024 * 8);
   EXPECT_EQ(targetBytes(frames.plan, frames.settings), targetBytes(without, frames.settings) + bytes);
   const SceneState state = evaluate(frames.scene, 0.0);
   const FittedPlan fitted = planWithin({.budgetBytes = 10'000'000, .largestSide = 4096}, frames.scene, state,

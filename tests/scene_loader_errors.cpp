@@ -126,7 +126,7 @@ const std::vector<Fault> kFaults = {
     {"MirrorReflectanceIsNumber", kMirror + "reflectance = 1\n", "6: mirror[0].reflectance:", "array of 3 numbers"},
     {"MirrorFresnelUnknown", kMirror + "fresnel = 'shlick'\n", "6: mirror[0].fresnel:", "did you mean 'schlick'?"},
     {"MirrorNameCannotBreakTheLine", kMirror + "name = \"a\\nb\"\nfresnel = 1\n",
-     "7: mirror[a?b].fresnel:", "is an integer"},
+     "7: mirror[a\\x0ab].fresnel:", "is an integer"},
     {"BookmarkWithoutName", "[[bookmark]]\nposition = [0, 0, 1]\n", "4: bookmark[0].name:", "is missing"},
     {"BookmarkNameIsEmpty", "[[bookmark]]\nname = ''\n", "5: bookmark[0].name:", "is empty"},
     {"BookmarkNameOfAnother", kDoor + kDoor, "9: bookmark[door].name:", "another bookmark's"},

@@ -833,7 +833,7 @@ TEST_F(PanelTest, TooltipsLieOverNothingThatTheyExplain) {
         continue;  // has none, and may lie below the end of its list, under other widgets
       }
       moveTo(item.Min.x + 0.3 * item.GetWidth(), item.GetCenter().y);
-      run(2);  // a tooltip has the size of the one before it at first
+      run(3);  // a tooltip has the size of the one before it at first
       const ImGuiWindow* window = ImGui::GetCurrentContext()->HoveredWindow;
       if (window && window->InnerClipRect.Contains(item) && tooltip()) {
         EXPECT_FALSE(tooltip()->Rect().Overlaps(item)) << name << " at " << width;

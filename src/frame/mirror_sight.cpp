@@ -13,9 +13,11 @@ constexpr double samplesOfAPass = 1500.0;
 // Returns the visible part of a mirror's polygon. Of one so large that cuts near the eye would be off by a part of the
 // eye's height, only what is not at the horizon is cut, in its plane.
 Polygon visiblePart(const View& view, const MirrorState& mirror, double height) {
-  constexpr double large = 1e12;  // heights of the eye
+  constexpr double large = 1e12;       // heights of the eye
+  constexpr double leastMetres = 1e9;  // smaller mirrors lose no strip
   constexpr double horizon = 1e9;
-  if (height == 0.0 || farthestDistance(view.eye, mirror.polygon) < large * std::abs(height)) {
+  const double farthest = farthestDistance(view.eye, mirror.polygon);
+  if (height == 0.0 || farthest < std::max(large * std::abs(height), leastMetres)) {
     return visiblePart(view, mirror.polygon);
   }
   Polygon part(mirror.polygon.begin(), mirror.polygon.end());

@@ -90,7 +90,7 @@ size_t tilesAtOnce(const FramePlan& plan, const Settings& settings, size_t raysT
   }
   // Rays of ripples and of smooth mirrors go through each sample.
   const bool perSample = settings.effects.perSample || plan.effects.rippleRays || plan.effects.mirrorRays;
-  int samples = settings.reflection.samples;
+  int samples = std::max(settings.view.samples, settings.reflection.samples);
   forEachPass(plan, [&](const PlannedPass& pass) { samples = std::max(samples, pass.quality.samples); });
   const int rough = plan.effects.roughRays ? roughRays(settings.effects, samples) : 1;
   const int paths = std::max(perSample ? samples : 1, rough);  // of a pixel
