@@ -69,7 +69,8 @@ TEST(PassRange, MemoryIncludesDepthOfTheLargestRange) {
   const FramePlan two = rangePlan({wall({-2, 0, -5}, 0, {1, 1}), wall({2, 0, -5}, 0, {1, 1})}, 1);
   ASSERT_EQ(two.passes.size(), 2u);
   const auto added = static_cast<uint64_t>(two.passes[1].view.rect.area());
-  EXPECT_EQ(targetBytes(two, settings) - targetBytes(one, settings), added * 4 * (8 + 4)) << "four samples a pixel, as planned";
+  EXPECT_EQ(targetBytes(two, settings) - targetBytes(one, settings), added * 4 * (8 + 4))
+      << "four samples a pixel, as planned";
 }
 
 }  // namespace

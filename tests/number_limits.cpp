@@ -170,13 +170,13 @@ TEST(ExposuresOfAnySize, ReuseNoImageOfAnotherScale) {
 TEST(LargeMirrors, ReachTheHorizon) {
   std::vector<std::filesystem::path> files;
   const auto add = [&](const std::string& mirror, bool standing = true) {
-    files.push_back(writeScene("large_" + std::to_string(files.size()),
-                               "[environment]\nambient = [0.2, 0.2, 0.2]\nsky = { zenith = [0.2, 0.4, 0.9], horizon = "
-                               "[0.8, 0.85, 0.9], ground = [0.3, 0.28, 0.25] }\n" +
-                                   cameraText({0.3, 1.2, 4}, {0, 0.6, 0}) +
-                                   objectText("MODELS/box.obj", {0, 0.01, 0}, {0, 20, 0}, 1.0, {0.7, 0.3, 0.1}) +
-                                   "[[mirror]]\n" + mirror +
-                                   (standing ? "[[mirror]]\n" + rectangleText({-1.5, 1, -0.5}, {0, 40, 0}, 1, 1) : "")));
+    files.push_back(
+        writeScene("large_" + std::to_string(files.size()),
+                   "[environment]\nambient = [0.2, 0.2, 0.2]\nsky = { zenith = [0.2, 0.4, 0.9], horizon = "
+                   "[0.8, 0.85, 0.9], ground = [0.3, 0.28, 0.25] }\n" +
+                       cameraText({0.3, 1.2, 4}, {0, 0.6, 0}) +
+                       objectText("MODELS/box.obj", {0, 0.01, 0}, {0, 20, 0}, 1.0, {0.7, 0.3, 0.1}) + "[[mirror]]\n" +
+                       mirror + (standing ? "[[mirror]]\n" + rectangleText({-1.5, 1, -0.5}, {0, 40, 0}, 1, 1) : "")));
   };
   for (const double metres : {1e11, 1e13, 1e14, 3e14, 7e14, 1e15}) {
     add(rectangleText({0, 0, 0}, {-90, 0, 0}, metres, metres));

@@ -823,7 +823,7 @@ TEST_F(PanelTest, TooltipsLeaveDraggedSlidersInSight) {
 TEST_F(PanelTest, TooltipsLieOverNothingThatTheyExplain) {
   edit_.selected = {Selection::Kind::mirror, 0};
   windows_->toggleInspector();
-  for (const auto& [width, height] : {std::pair(1280.0f, 720.0f), std::pair(420.0f, 900.0f)}) {
+  for (const auto& [width, height] : {std::pair(1280.0f, 720.0f), std::pair(900.0f, 700.0f)}) {
     resize(width, height);
     int shown = 0;
     for (const auto& [name, rect] : std::vector(windows_->state().widgets)) {
@@ -836,7 +836,9 @@ TEST_F(PanelTest, TooltipsLieOverNothingThatTheyExplain) {
       run(3);  // a tooltip has the size of the one before it at first
       const ImGuiWindow* window = ImGui::GetCurrentContext()->HoveredWindow;
       if (window && window->InnerClipRect.Contains(item) && tooltip()) {
-        EXPECT_FALSE(tooltip()->Rect().Overlaps(item)) << name << " at " << width;
+        EXPECT_FALSE(tooltip()->Rect().Overlaps(item))
+            << name << " at " << width << ": " << item.Min.y << " .. " << item.Max.y << ", the tooltip "
+            << tooltip()->Rect().Min.y << " .. " << tooltip()->Rect().Max.y;
         ++shown;
       }
     }
