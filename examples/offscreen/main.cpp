@@ -2,11 +2,11 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "shared/example.hpp"
-#include "shared/mesh.hpp"
-#include "shared/shader_pair.hpp"
-#include "shared/simple_ui.hpp"
-#include "shared/view_sets.hpp"
+#include "common/example.hpp"
+#include "common/mesh.hpp"
+#include "common/shader_pair.hpp"
+#include "common/simple_ui.hpp"
+#include "common/view_sets.hpp"
 
 namespace speculum::examples {
 namespace {
@@ -73,7 +73,7 @@ struct Core {
 class RenderSystem {
  public:
   RenderSystem(Core& core, VkDescriptorSetLayout views)
-      : cube_(core.renderer.uploader(), core.options.model("../shared/cube.obj")),
+      : cube_(core.renderer.uploader(), core.options.model("../common/cube.obj")),
         knot_(core.renderer.uploader(), core.options.model("../../models/torus_knot_upright.obj")),
         shaders_(core.renderer, core.options, "scene",
                  {.setLayouts = {views},

@@ -1,6 +1,6 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
-#include "../shared/display.glsl"
+#include "../common/display.glsl"
 #include "view.glsl"
 
 layout(push_constant) uniform Object {

@@ -1,6 +1,6 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
-#include "../shared/display.glsl"
+#include "../common/display.glsl"
 
 layout(set = 0, binding = 1) uniform sampler2D image;  // linear radiance
 

@@ -2,10 +2,10 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "shared/example.hpp"
-#include "shared/shader_pair.hpp"
-#include "shared/simple_ui.hpp"
-#include "shared/view_sets.hpp"
+#include "common/example.hpp"
+#include "common/shader_pair.hpp"
+#include "common/simple_ui.hpp"
+#include "common/view_sets.hpp"
 
 namespace speculum::examples {
 namespace {
