@@ -224,7 +224,7 @@ void traceMesh(uint instance, vec3 origin, vec3 direction, float near, Skip skip
       uint triangle;
       vec4 met = meetSlot(slot, ray, triangle);
       bool own = met.w < near || (instance == skip.instance && triangle == skip.triangle);
-      // Of surfaces that coincide, the one listed first is met.
+      // Meets the first listed of surfaces that coincide.
       bool first = met.w < hit.t || (met.w == hit.t && instance < hit.instance);
       if (slot < end && met.w > 0.0 && first && !own) {
         hit.t = met.w;

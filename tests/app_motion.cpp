@@ -478,7 +478,7 @@ TEST(StillText, SaysTheErrorOfTheSettingsInForce) {
   }
 }
 
-// Of random scenes and settings: it tells of maps exactly where a plan uses them.
+// The text names maps exactly where the plan of a random scene uses them.
 TEST(StillText, AgreesWithThePlan) {
   std::mt19937 random(3);
   const auto chance = [&](double share) { return std::bernoulli_distribution(share)(random); };

@@ -1213,7 +1213,7 @@ TEST_F(Inspector, ColorsSayThatTheyAreLinear) {
   const auto colorsOf = [&]<typename Node>(const Node&, const std::string& prefix) {
     int count = 0;
     forEachField<Node>([&](const auto& field) {
-      // Of a value that can be switched off the switch has the field's name.
+      // The switch of a value that can be off has the field's name.
       constexpr bool switched = IsOptional<typename std::decay_t<decltype(field)>::Value>::value;
       count += field.color && inSight("Inspector", prefix + std::string(field.key) + (switched ? ".value" : ""));
     });
