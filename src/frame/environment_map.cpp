@@ -61,8 +61,7 @@ RecycledVector<int> drawnCurved(const Scene& scene, const SceneState& state,
                          [&](int i) { return scene.objects[state.instances[i].object].mirror.has_value(); });
   }
   std::ranges::sort(drawn);
-  const auto repeated = std::ranges::unique(drawn);
-  drawn.erase(repeated.begin(), repeated.end());
+  drawn.erase(std::unique(drawn.begin(), drawn.end()), drawn.end());  // Clang 14 does not take std::ranges::unique
   return drawn;
 }
 
