@@ -90,7 +90,7 @@ std::string escapedCell(std::string_view text) {
 std::vector<size_t> reportOrder(const RegressRun& run) {
   std::vector<size_t> order(run.outcomes.size());
   std::iota(order.begin(), order.end(), size_t{0});
-  std::ranges::stable_partition(order, [&](size_t i) { return needsAttention(run.outcomes[i]); });
+  std::stable_partition(order.begin(), order.end(), [&](size_t i) { return needsAttention(run.outcomes[i]); });
   return order;
 }
 
