@@ -319,7 +319,9 @@ std::vector<std::string> messagesWithout(const std::string& kind, const fs::path
 TEST_P(CheckBarrier, IsMissedWhenLeftOut) {
   const std::string kind(barrierName(GetParam()));
   const fs::path scene = writeScene("hall_" + kind, hall + shadow);
-  for (const char* samples : {"1", "4"}) {
+  // Unless all run, kinds are left out in turn at one sample and at four.
+  const bool single = static_cast<int>(GetParam()) % 2 == 0;
+  for (const char* samples : fullTests() ? std::vector{"1", "4"} : std::vector{single ? "1" : "4"}) {
     const std::vector<std::string> messages = messagesWithout(kind, scene, samples);
     ASSERT_FALSE(messages.empty()) << samples << " samples";
     EXPECT_TRUE(contains(messages.front(), "SYNC-HAZARD"));
