@@ -84,8 +84,7 @@ class PickedScene : public testing::TestWithParam<const char*> {
   }
 
   Options options_ = headless(sceneFile(GetParam()), {width, height});
-  Gpu gpu_{options_};
-  Studio studio_{gpu_, options_};
+  Studio studio_{options_};
 };
 
 double largestDifference(const glm::dvec3& a, const glm::dvec3& b) {

@@ -71,15 +71,10 @@ class ExactEffects : public testing::TestWithParam<Case> {
  protected:
   static void SetUpTestSuite() {
     const Options options = truthOptions(corner("effects_models", nearBall), size, 3);
-    gpu_ = std::make_unique<Gpu>(options);
-    studio_ = std::make_unique<Studio>(*gpu_, options);
+    studio_ = std::make_unique<Studio>(options);
   }
-  static void TearDownTestSuite() {
-    studio_.reset();
-    gpu_.reset();
-  }
+  static void TearDownTestSuite() { studio_.reset(); }
 
-  static inline std::unique_ptr<Gpu> gpu_;
   static inline std::unique_ptr<Studio> studio_;
 };
 
@@ -133,8 +128,7 @@ TEST_P(MirrorsByRays, EqualTheRayTracer) {
   const std::filesystem::path file = sceneFile(GetParam());
   Options options = truthOptions(file, {160, 90}, 4);
   set(options, {{"reflection.method", "rays"}});
-  Gpu gpu(options);
-  Studio studio(gpu, options);
+  Studio studio(options);
   expectTruth(studio, file, trace(file, {160, 90}, 4));
   EXPECT_TRUE(studio.plan.passes.empty());
 }

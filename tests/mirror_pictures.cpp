@@ -147,7 +147,6 @@ std::vector<glm::dvec3> withNeedlessVertices(const std::vector<glm::dvec3>& poly
 }
 
 TEST(MirrorPictures, NeedlessVerticesChangeNothing) {
-  Gpu gpu(headless("", size));
   Random random(29);
   for (int round = 0; round < (fullTests() ? 400 : 10); ++round) {
     std::vector<glm::dvec3> polygon;
@@ -162,7 +161,7 @@ TEST(MirrorPictures, NeedlessVerticesChangeNothing) {
     std::array<Image8, 2> pictures;
     for (size_t i = 0; i < 2; ++i) {
       const std::vector<glm::dvec3> drawn = i == 0 ? polygon : withNeedlessVertices(polygon, random);
-      Studio studio(gpu, headless(writeScene("needless", room + mirror("ahead", polygonText(drawn)) + facing), size));
+      Studio studio(headless(writeScene("needless", room + mirror("ahead", polygonText(drawn)) + facing), size));
       pictures[i] = studio.fresh();
     }
     const PictureAgreement d = difference(pictures[0], pictures[1], 2);

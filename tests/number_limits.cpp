@@ -70,13 +70,12 @@ TEST(TexturesRepeatedOften, MatchTheTracer) {
            }));
   std::ofstream(sceneDirectory() / "checks.mtl") << "newmtl a\nKd 1 1 1\nmap_Kd checks.png\n";
   Random random(3);
-  Gpu gpu(headless("", {96, 54}));
   const double repeats[] = {60, 1e3, 5e3, 1e5, 1e6};
   for (int i = 0; i < 10; ++i) {
     const int squares = i % 3 == 0 ? 1 : i % 3 == 1 ? 5 : 24;
     const auto file = writeScene("repeated_" + std::to_string(i),
                                  repeatedTexture(random, repeats[i % 5], squares, i % 2 == 0 ? 1.0 : 0.02, i % 4 > 1));
-    Studio studio(gpu, truthOptions(file, {96, 54}, 2));
+    Studio studio(truthOptions(file, {96, 54}, 2));
     studio.settings.effects.rays = RayMethod::software;
     studio.settings.reflection.method = i >= 5 ? ReflectionMethod::rays : ReflectionMethod::automatic;
     expectTruth(studio, file, trace(file, {96, 54}, 2));
@@ -127,8 +126,7 @@ TEST(ExposuresOfAnySize, ShowOnePicture) {
   writeModel("lamp.obj", "v -1 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   for (const char* settings : {"\"effects.shadow_lookup\" = \"map\"\n\"effects.curved_lookup\" = \"environment\"\n",
                                "\"effects.rays\" = \"software\"\n\"reflection.method\" = \"rays\"\n"}) {
-    Gpu gpu(headless("", size));
-    Studio studio(gpu, headless(exposedScene(1.0, settings), size));
+    Studio studio(headless(exposedScene(1.0, settings), size));
     const Image8 usual = studio.draw();
     const LinearImage radiance = studio.sceneRenderer.radiance();
     for (const double exposure : {1e-25, 1e-6, 3e-5, 1e-3, 1e3, 7e4, 1e6}) {
@@ -155,10 +153,9 @@ TEST(ExposuresOfAnySize, ShowOnePicture) {
 TEST(ExposuresOfAnySize, ReuseNoImageOfAnotherScale) {
   writeModel("lamp.obj", "v -1 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   const auto file = exposedScene(1e5, "\"effects.curved_lookup\" = \"environment\"\n");
-  Gpu gpu(headless("", size));
-  Studio studio(gpu, headless(file, size));
+  Studio studio(headless(file, size));
   studio.reusesMain = true;
-  Studio other(gpu, headless(file, size));
+  Studio other(headless(file, size));
   for (const double exposure : {1e5, 1.0, 1e6, 2e5, 1e4}) {
     studio.settings.view.exposure = other.settings.view.exposure = exposure;
     EXPECT_EQ(studio.draw().rgba, other.fresh().rgba) << exposure;
@@ -216,8 +213,7 @@ TEST(ObjectsOfOnePlane, ShadowNoneOfThem) {
   for (int i = 0; i < 10; ++i) {
     files.push_back(writeScene("one_plane_" + std::to_string(i), coincidingQuads(random, i % 2 == 0)));
   }
-  Gpu gpu(truthOptions(files.front(), size, 2));
-  Studio studio(gpu, truthOptions(files.front(), size, 2));
+  Studio studio(truthOptions(files.front(), size, 2));
   studio.settings.effects.rays = RayMethod::software;  // others leave open which copy is met
   for (const std::filesystem::path& file : files) {
     expectTruth(studio, file, trace(file, size, 2));

@@ -77,8 +77,7 @@ class NumberRanges : public testing::Test {
   }
 
   std::filesystem::path file_ = writeScene("numbers", everyNumber);
-  Gpu gpu_{headless(file_, size)};
-  Studio studio_{gpu_, headless(file_, size)};
+  Studio studio_{headless(file_, size)};
 };
 
 TEST_F(NumberRanges, NumbersAreRefusedByKeyOrDrawn) {
@@ -149,8 +148,7 @@ TEST_F(NumberRanges, SettingsAreRefusedByKeyOrDrawn) {
 // Draws the scene in metres, then in each other unit; a `share` of the pixels may differ by more than `tolerance`.
 void expectOnePicture(const std::function<std::filesystem::path(double)>& sceneIn, std::initializer_list<double> units,
                       int tolerance, double share) {
-  Gpu gpu(headless("", size));
-  Studio studio(gpu, headless(sceneIn(1.0), size));
+  Studio studio(headless(sceneIn(1.0), size));
   const Image8 usual = studio.draw();
   for (const double metres : units) {
     studio.show(loadScene(sceneIn(metres)));
@@ -229,10 +227,9 @@ TEST(ModelsOfAnySize, ShowOnePicture) {
                                     objectText("scaled.obj", {0, 0, 0}, {0, 20, 0}, 1.0 / metres, {0.9, 0.5, 0.2}) +
                                     "[[mirror]]\n" + rectangleText({0, 0, -1}, {0, 10, 0}, 5, 5));
   };
-  Gpu gpu(headless("", size));
-  const Image8 usual = Studio(gpu, headless(sceneIn(1.0), size)).draw();
+  const Image8 usual = Studio(headless(sceneIn(1.0), size)).draw();
   for (const double metres : {1e-40, 1e-30, 1e-10, 1e10, 1e30, 1e40}) {
-    const Image8 picture = Studio(gpu, headless(sceneIn(metres), size)).draw();
+    const Image8 picture = Studio(headless(sceneIn(metres), size)).draw();
     EXPECT_LE(difference(picture, usual, 2).share(), 0.002) << metres;
   }
 }

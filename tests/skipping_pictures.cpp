@@ -183,13 +183,12 @@ std::filesystem::path shapeScene(Random& random, std::mt19937& shapes) {
 }
 
 TEST(Skipping, RandomShapesHideNothingThatIsSeen) {
-  Gpu gpu(headless("", size));
   Random random(12);
   std::mt19937 shapes(12);
-  const int scenes = fullTests() ? 2000 : 40;
+  const int scenes = fullTests() ? 2000 : 12;
   long hidden = 0;
   for (int i = 0; i < scenes; ++i) {
-    Studio studio(gpu, headless(shapeScene(random, shapes), size));
+    Studio studio(headless(shapeScene(random, shapes), size));
     studio.settings.reflection.maxDepth = 2;
     studio.settings.reflection.meshError = i % 2 == 0 ? 0.0 : 2.0;
     studio.settings.view.samples = studio.settings.reflection.samples = i % 3 == 0 ? 4 : 1;
@@ -230,11 +229,10 @@ std::filesystem::path solidScene(Random& random, int number) {
 }
 
 TEST(Skipping, BacksOfSolidsAreNotSeen) {
-  Gpu gpu(headless("", size));
   Random random(13);
-  const int scenes = fullTests() ? 2000 : 10;
+  const int scenes = fullTests() ? 2000 : 6;
   for (int i = 0; i < scenes; ++i) {
-    Studio studio(gpu, headless(solidScene(random, i), size, {{"effects.shadow_lookup", "map"}}));
+    Studio studio(headless(solidScene(random, i), size, {{"effects.shadow_lookup", "map"}}));
     studio.settings.reflection.meshError = studio.settings.view.meshError = i % 3 == 0 ? 1.0 : 0.0;
     studio.settings.view.samples = studio.settings.reflection.samples = i % 2 == 0 ? 4 : 1;
     const Image8 fronts = studio.fresh();

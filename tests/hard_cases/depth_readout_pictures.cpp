@@ -68,11 +68,11 @@ struct Count {
 // Draws the squares of a case with any gap between them.
 class Squares {
  public:
-  Squares(Gpu& gpu, const Case& c)
+  explicit Squares(const Case& c)
       : case_(c),
-        studio_(gpu, truthOptions(writeScene("readout", prefixOf(c) + objectText(c.near, {}, {}, 1.0, {1, 0, 0}) +
-                                                            objectText(c.far, {}, {}, 1.0, {0, 1, 0})),
-                                  size, c.nested ? 2 : 1)),
+        studio_(truthOptions(writeScene("readout", prefixOf(c) + objectText(c.near, {}, {}, 1.0, {1, 0, 0}) +
+                                                       objectText(c.far, {}, {}, 1.0, {0, 1, 0})),
+                             size, c.nested ? 2 : 1)),
         near_(placed(studio_.scene.objects[0], c.distance, 1.0)),
         far_(studio_.scene.objects[1]) {}
 
@@ -154,7 +154,7 @@ class DepthReadoutOf : public testing::Test {
 
   // Draws each method at the gap that the readout states, and returns the number of methods with one.
   int expectInOrder(const Case& c) {
-    Squares squares(gpu_, c);
+    Squares squares(c);
     const DepthReadout readout = squares.readout();
     int stated = 0;
     for (const auto& [name, method] : methods) {
@@ -182,8 +182,6 @@ class DepthReadoutOf : public testing::Test {
     }
     return lost;
   }
-
-  Gpu gpu_{headless("", size)};
 };
 
 constexpr std::array<std::pair<const char*, const char*>, 4> meshes = {
@@ -209,7 +207,7 @@ TEST_F(DepthReadoutOf, GapHoldsForCutSurfaces) {
 TEST_F(DepthReadoutOf, GapHoldsInANearMirror) {
   EXPECT_EQ(expectInOrder({.h = 0.01}), 3);
   EXPECT_EQ(expectInOrder({.h = 1e-6}), 2) << "oblique depth keeps no gap there";
-  EXPECT_FALSE(Squares(gpu_, {.h = 1e-6}).readout().oblique);
+  EXPECT_FALSE(Squares({.h = 1e-6}).readout().oblique);
 }
 
 TEST_F(DepthReadoutOf, GapHoldsInNestedMirrors) {
@@ -221,7 +219,7 @@ TEST_F(DepthReadoutOf, GapHoldsInNestedMirrors) {
 TEST_F(DepthReadoutOf, HundredthOfTheGapFails) {
   int lost = 0;
   for (const auto& [near, far] : meshes) {
-    Squares squares(gpu_, {.near = near, .far = far});
+    Squares squares({.near = near, .far = far});
     lost += lost > 0 ? 0 : losing(squares, 1.0 / 100.0);
     EXPECT_EQ(losing(squares, 1.0 / 400.0), 3) << near << " before " << far;
   }

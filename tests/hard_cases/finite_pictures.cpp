@@ -6,6 +6,7 @@
 #include "geometry/affine.hpp"
 #include "image/color.hpp"
 #include "random.hpp"
+#include "sampling.hpp"
 #include "scene_text.hpp"
 #include "truth_support.hpp"
 #include "virtual_display.hpp"
@@ -244,10 +245,13 @@ TEST(LightOnASurface, InItsPlaneAddsNoHalo) {
     files.push_back(writeScene("plane_light_" + std::to_string(i), lightInAPlane(random, i % 4, i / 4 % 2 == 1)));
   }
   const Options options = truthOptions(files.front(), {96, 54}, 2);
-  Gpu gpu(options);
-  Studio studio(gpu, options);
+  Studio studio(options);
   studio.settings.effects.rays = RayMethod::software;
   for (size_t i = 0; i < files.size(); ++i) {
+    // Unless all are drawn, each pair of kind, shadows and method comes once.
+    if (!fullTests() && (i + i / 4 + i / 8) % 2 != 0) {
+      continue;
+    }
     studio.settings.reflection.method = i >= 8 ? ReflectionMethod::rays : ReflectionMethod::automatic;
     expectTruth(studio, files[i], trace(files[i], {96, 54}, 2));
   }

@@ -19,17 +19,21 @@ constexpr PictureSize size{160, 90};
 // A scene with its views: 0 is the camera's, others are bookmarks.
 class Drawn : public Studio {
  public:
-  Drawn(Gpu& gpu, const std::filesystem::path& file, double at) : Studio(gpu, headless(file, size)), file_(file) {
-    time = at;
-  }
+  Drawn(const std::filesystem::path& file, double at) : Studio(headless(file, size)), file_(file) { time = at; }
 
   size_t views() const { return scene.bookmarks.size() + 1; }
   void look(size_t view) {
     const CameraSpec spec = view == 0 ? scene.camera : cameraOf(scene.bookmarks[view - 1], scene.camera);
     camera = lookAt(spec.position, spec.target, spec.up, spec.verticalFov, spec.near);
   }
-  Tracing tracing(PictureSize extent, int maxDepth) const {
-    Tracing tracing = tracingOf(file_, extent, maxDepth, time);
+  Tracing tracing(PictureSize extent, int maxDepth) {
+    if (!loaded_) {
+      loaded_ = tracingOf(file_, size, maxDepth, time);
+    }
+    Tracing tracing = *loaded_;
+    tracing.options.width = extent.width;
+    tracing.options.height = extent.height;
+    tracing.options.maxDepth = maxDepth;
     tracing.state.camera = camera.value();
     return tracing;
   }
@@ -61,6 +65,7 @@ class Drawn : public Studio {
 
  private:
   std::filesystem::path file_;
+  std::optional<Tracing> loaded_;
 };
 
 Settings settingsWith(const SettingList& changes) {
@@ -78,16 +83,13 @@ int mostViews() {
 
 class RandomScenes : public testing::TestWithParam<unsigned> {
  protected:
-  static void SetUpTestSuite() { gpu_ = std::make_unique<Gpu>(headless("", size)); }
   static void TearDownTestSuite() {
-    gpu_.reset();
     // scripts/test-gpu runs each scene in a process of its own, and a single one may have few views.
     if (scenes_ > 3) {
       EXPECT_GE(2 * views_, mostViews() * scenes_) << "few views see a mirror";
     }
   }
 
-  static inline std::unique_ptr<Gpu> gpu_;
   static inline int scenes_ = 0;
   static inline int views_ = 0;  // that see a mirror
 };
@@ -225,12 +227,12 @@ void expectQualityOfOneMirror(Drawn& drawn, const Settings& settings, const std:
 }
 
 // Returns how many of its views saw a mirror.
-int compare(Gpu& gpu, const RandomScene& scene) {
+int compare(const RandomScene& scene) {
   const Settings settings = settingsWith(scene.settings);
-  Drawn plain(gpu, scene.file, scene.time);
+  Drawn plain(scene.file, scene.time);
   std::optional<Drawn> withEffects;
   if (scene.withEffects != scene.file) {
-    withEffects.emplace(gpu, scene.withEffects, scene.time);
+    withEffects.emplace(scene.withEffects, scene.time);
   }
   int views = 0;
   for (size_t view = 0; view < plain.views() && views < mostViews(); ++view) {
@@ -263,7 +265,7 @@ int compare(Gpu& gpu, const RandomScene& scene) {
 TEST_P(RandomScenes, AreDrawnAsTraced) {
   const RandomScene scene = randomScene(GetParam());
   scenes_ += 1;
-  views_ += compare(*gpu_, scene);
+  views_ += compare(scene);
   if (HasFailure()) {
     std::printf("Reducing %s\n", scene.file.c_str());
     std::fflush(stdout);
@@ -272,13 +274,13 @@ TEST_P(RandomScenes, AreDrawnAsTraced) {
       const testing::ScopedFakeTestPartResultReporter reporter(
           testing::ScopedFakeTestPartResultReporter::INTERCEPT_ONLY_CURRENT_THREAD, &results);
       try {
-        compare(*gpu_, smaller);
+        compare(smaller);
       } catch (const std::exception&) {
         return false;
       }
       return results.size() > 0;
     });
-    compare(*gpu_, least);  // reports its failures
+    compare(least);  // reports its failures
     std::printf("The smallest scene that fails: %s at %g s with depth %d; with effects %s and", least.file.c_str(),
                 least.time, least.maxDepth, least.withEffects.c_str());
     for (const auto& [key, value] : least.settings) {
@@ -309,7 +311,7 @@ TEST(SmallestScene, KeepsOnlyWhatMakesItFail) {
 // SPECULUM_SEED is added to each.
 std::vector<unsigned> seeds() {
   const char* first = std::getenv("SPECULUM_SEED");
-  std::vector<unsigned> seeds = sampledSeeds(1000, 19);  // of all kinds, whose number has no common factor with 19
+  std::vector<unsigned> seeds = sampledSeeds(1000, 83);  // of all kinds, whose number has no common factor with 83
   for (unsigned& seed : seeds) {
     seed += first ? static_cast<unsigned>(std::atoi(first)) : 0;
   }

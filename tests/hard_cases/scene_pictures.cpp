@@ -107,8 +107,7 @@ std::filesystem::path nestedScene(const std::string& name, const std::array<int,
 // A clip plane or a winding left over from another pass would make pictures depend on the order of passes.
 TEST(NestedMirrors, OrderOfPassesLeavesNoTrace) {
   const Options options = headless(nestedScene("nested", {0, 1, 2, 3}), size);
-  Gpu gpu(options);
-  Studio studio(gpu, options);
+  Studio studio(options);
   const Image8 expected = studio.draw();
   for (const std::array<int, 4>& order : {std::array{3, 2, 1, 0}, std::array{1, 3, 0, 2}}) {
     studio.show(loadScene(nestedScene("nested_other", order)));

@@ -10,7 +10,6 @@ using namespace testing_support;
 // Walls that meet at the dihedral angle on x = 0, which a picture of odd width sees through the middle of its pixels.
 TEST(SeamOnPixelCentres, ChangesNoOtherColumn) {
   constexpr PictureSize size{81, 61};
-  std::optional<Gpu> gpu;
   std::optional<Studio> studio;
   for (const double degrees : {180.0 / 2, 180.0 / 3, 180.0 / 4, 180.0 / 5, 75.0, 120.0, 135.0, 170.0}) {
     const double half = 0.5 * degrees * std::numbers::pi / 180.0;
@@ -28,8 +27,8 @@ TEST(SeamOnPixelCentres, ChangesNoOtherColumn) {
     text += wall({-far.x, 0, far.z}, {0, 0, -1}) + wall({0, 0, -1}, far);
     const auto file = writeScene("corner" + std::to_string(static_cast<int>(degrees)), text);
     const Truth truth = trace(file, size, 8);
-    if (!gpu) {
-      studio.emplace(gpu.emplace(truthOptions(file, size, 8)), truthOptions(file, size, 8));
+    if (!studio) {
+      studio.emplace(truthOptions(file, size, 8));
     }
     studio->show(loadScene(file));
     const Image8 picture = studio->fresh();

@@ -4,6 +4,7 @@
 #include "image/picture_files.hpp"
 #include "platform/files.hpp"
 #include "scene_text.hpp"
+#include "studio.hpp"
 #include "test_headers.hpp"
 #include "test_paths.hpp"
 
@@ -90,6 +91,11 @@ void expectQuiet(Session& session) {
 }
 
 Image8 draw(const Options& options, double time) {
+  if (options.validation && options.renderPath == RenderPath::automatic && options.shaderDir.empty()) {
+    Studio studio(options);
+    studio.time = time;
+    return studio.draw();
+  }
   QuietSession session(options);
   session.draw(time, true);
   return session.picture();

@@ -5,20 +5,23 @@
 
 namespace speculum::testing_support {
 
-// A device and its renderer, for any number of scenes in turn.
+// The device and the renderer of all studios of a process: to make a pipeline again takes longer than most pictures.
+// They stay to the end, because the driver ends its threads before static objects go.
 struct Gpu {
-  explicit Gpu(const Options& options)
-      : device(deviceOptions(options, nullptr)), renderer(device, rendererOptions(options, nullptr)) {}
+  static Gpu& shared() {
+    static Gpu* const gpu = new Gpu;
+    return *gpu;
+  }
 
-  Device device;
-  Renderer renderer;
+  Device device{deviceOptions(headless(""), nullptr)};
+  Renderer renderer{device, {.extent = {1, 1}}};
 };
 
 // A scene whose nodes, time and settings change between pictures without new meshes, materials or pipelines.
 class Studio {
  public:
   // Begins with the scene, settings and size of `options`.
-  Studio(Gpu& gpu, const Options& options) : Studio(gpu, loadSceneWithSettings(options), options.size) {}
+  explicit Studio(const Options& options) : Studio(loadSceneWithSettings(options), options.size) {}
   ~Studio() {
     gpu_.renderer.waitIdle();
     EXPECT_EQ(gpu_.device.validationMessages(), 0) << scene.file;
@@ -32,6 +35,11 @@ class Studio {
   // Draws the picture and reuses cached images where possible.
   Image8 draw() {
     gpu_.renderer.reloadShaders();
+    const VkExtent2D extent{static_cast<uint32_t>(size_.width), static_cast<uint32_t>(size_.height)};
+    if (const VkExtent2D before = gpu_.renderer.displayExtent();
+        before.width != extent.width || before.height != extent.height) {
+      gpu_.renderer.resizeHeadless(extent);
+    }
     Frame frame = gpu_.renderer.beginFrame().value();
     state = evaluate(scene, time);
     state.camera = camera.value_or(state.camera);
@@ -59,14 +67,13 @@ class Studio {
   SceneRenderer sceneRenderer;
 
  private:
-  Studio(Gpu& gpu, LoadedScene loaded, PictureSize size)
+  Studio(LoadedScene loaded, PictureSize size)
       : scene(std::move(loaded.scene)),
         settings(std::move(loaded.settings)),
-        sceneRenderer(gpu.renderer, scene),
-        gpu_(gpu),
+        sceneRenderer(Gpu::shared().renderer, scene),
         size_(size) {}
 
-  Gpu& gpu_;
+  Gpu& gpu_ = Gpu::shared();
   PictureSize size_;
 };
 

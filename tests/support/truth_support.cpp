@@ -90,8 +90,7 @@ void expectTruth(const std::filesystem::path& file, PictureSize size, int maxDep
 
 void expectTruths(const std::vector<std::filesystem::path>& files, PictureSize size, int maxDepth) {
   const Options options = truthOptions(files.front(), size, maxDepth);
-  Gpu gpu(options);
-  Studio studio(gpu, options);
+  Studio studio(options);
   for (const std::filesystem::path& file : files) {
     expectTruth(studio, file, trace(file, size, maxDepth));
   }
