@@ -187,9 +187,7 @@ TEST_P(Ledger, UncalledEffectCostsNothing) {
 
 TEST_P(Ledger, CalledEffectIsListedAndReleased) {
   counts = {};
-  Options options = without(optionsFor(sceneWith(effect_ + "_called", GetParam().called)), effect_);
-  options.validation = fullTests();  // takes longer than the frames themselves; UnseenLedger has it always
-  QuietSession session(options);
+  QuietSession session(without(optionsFor(sceneWith(effect_ + "_called", GetParam().called)), effect_));
   const Drawn before = drawWith(session, effect_, false, 3);
   const Drawn during = drawWith(session, effect_, true, 1);
   for (const std::string& kind : GetParam().objects) {

@@ -166,7 +166,7 @@ Agreement compareShadows(const std::filesystem::path& file, const std::string& m
 TEST(ShadowMaps, RandomSurfacesErrOnlyAlongOutlines) {
   int pixels = 0;
   int wrong = 0;
-  for (const unsigned seed : sampledSeeds(1000, 200)) {
+  for (const unsigned seed : sampledSeeds(1000, 90)) {
     Random random(seed);
     const Agreement agreement = compareShadows(surfaceScene(random, seed), "1024");
     EXPECT_LE(agreement.offOutlines.over, 12) << "seed " << seed;

@@ -179,7 +179,7 @@ TEST(UnchangedPictures, ReloadedShadersShowInMirrors) {
 
 // Only a mirror image shows what calls for rays. Its pipelines must stay while the image is reused.
 TEST(UnchangedPictures, PipelinesOfReusedImagesStay) {
-  Options options = optionsFor(writeScene("only_in_the_mirror", R"(
+  QuietSession session(optionsFor(writeScene("only_in_the_mirror", R"(
 [environment] background = [0.3, 0.4, 0.5]
 [camera] position = [0, 1, 3], target = [0, 1, 0]
 [[object]] model = "MODELS/sphere.obj", position = [0, 1, 5], mirror = {}
@@ -187,9 +187,7 @@ TEST(UnchangedPictures, PipelinesOfReusedImagesStay) {
 [[light]] position = [1, 3, 3], intensity = 20
 [[mirror]] position = [0, 1, -2], size = [3, 2]
 )"),
-                               true, {{"debug.check_finite", "false"}});
-  options.validation = false;  // takes longer than the frames themselves
-  QuietSession session(options);
+                                  true, {{"debug.check_finite", "false"}}));
   const std::vector<uint8_t> first = draw(session, 0.0).rgba;
   ASSERT_EQ(session.sceneRenderer().ledger()[EffectKind::curved].pipelines, 1u);
   runFrames(session, 129);
