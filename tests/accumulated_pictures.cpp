@@ -122,7 +122,7 @@ TEST(Accumulation, FinishedMeanIsShownWithoutDrawing) {
   const SceneState state = evaluate(session.scene(), 0.0);
   const Settings settings = pictureSettings(session.settings());
   const FramePlan plan = planFrame(session.scene(), state, settings, size.width, size.height, {}, 4);
-  EXPECT_TRUE(plan.passes.empty());
+  EXPECT_TRUE(plan.drawnMirrors().empty());
   recordFrame(session, state, settings, plan);
   EXPECT_EQ(session.sceneRenderer().passes().size(), 1u);
   EXPECT_EQ(session.picture().rgba, picture.rgba);

@@ -406,12 +406,12 @@ TEST(FrameWork, CountsTheRaysOfEffects) {
   settings.effects.perSample = true;
   settings.effects.roughSamples = 8;
   FramePlan plan{.projection = Projection(1.0, 1.0, 0.1)};
-  plan.main.view = mainView({}, plan.projection, 100, 100);
+  plan.main().view = mainView({}, plan.projection, 100, 100);
   plan.effects.shadowRays = true;
   EXPECT_EQ(workOf(plan, scene, state, settings).lightRays, 4 * 1e4);
   settings.effects.perSample = false;
   EXPECT_EQ(workOf(plan, scene, state, settings).lightRays, 1e4);
-  plan.main.mirrors.push_back({.byRays = true, .polygon = {{-9, -9, -1}, {9, -9, -1}, {9, 9, -1}, {-9, 9, -1}}});
+  plan.main().mirrors.push_back({.byRays = true, .polygon = {{-9, -9, -1}, {9, -9, -1}, {9, 9, -1}, {-9, 9, -1}}});
   const FrameWork work = workOf(plan, scene, state, settings);
   EXPECT_NEAR(work.roughRays, 8 * 2 * 1e4, 1e-3) << "a reflected ray and one to the light";
   Settings to = settings;
@@ -541,7 +541,7 @@ class PacedScene : public testing::Test {
                         picture_ = {settings.view.accumulate, picture};
                         FittedPlan fitted{.settings = settings};
                         const auto side = static_cast<int>(side_ * settings.view.scale);
-                        fitted.plan.main.view.rect = {0, 0, side, side};
+                        fitted.plan.main().view.rect = {0, 0, side, side};
                         if (leavesOut_) {
                           fitted.plan.skipped.push_back({.reason = SkipReason::maxPasses});
                         }

@@ -10,6 +10,7 @@
 #include "app/options.hpp"
 #include "frame/picture_tiles.hpp"
 #include "frame/setting_fields.hpp"
+#include "plan_by_hand.hpp"
 #include "platform/gamepad.hpp"
 #include "scene/scene_loader.hpp"
 #include "temporary_folder.hpp"
@@ -148,7 +149,7 @@ class Report : public testing::Test {
 TEST_F(Report, PanelOnlyFramesChangeNoFigure) {
   uint64_t number = 0;
   const auto frame = [&](bool panelOnly, double sinceMs, double cpuMs, const FrameTimings& timings) {
-    plan.mainReused = panelOnly;
+    plan.main().source = panelOnly ? PassSource::reused : PassSource::drawn;
     report.updateTimes(frameOf(++number, cpuMs, sinceMs), timings);
   };
   const auto timed = [](uint64_t frame, double ms) {
@@ -192,7 +193,7 @@ TEST_F(Report, RepeatedPicturesChangeNoFigure) {
 }
 
 TEST_F(Report, TilesOfAPictureAreOneFrame) {
-  plan.main.view.rect = {0, 0, 2 * tileSide, 2 * tileSide};
+  plan.main().view.rect = {0, 0, 2 * tileSide, 2 * tileSide};
   report.updateTimes(frameOf(1, 1.0, NAN), {});
   uint64_t number = 1;
   for (int picture = 0; picture < 2; ++picture) {
@@ -212,7 +213,7 @@ TEST_F(Report, TilesOfAPictureAreOneFrame) {
   }
   EXPECT_EQ(view.history.frames(), 3u);
   plan.tiles.reset();
-  plan.mainReused = true;
+  plan.main().source = PassSource::reused;
   report.updateTimes(frameOf(number + 1, 1.0, 10.0), {.frame = number, .gpuMs = 25.0});
   EXPECT_EQ(view.gpuMs, 4 * 25.0);
   EXPECT_EQ(view.cpuMs, 4 * 2.0);
@@ -225,12 +226,10 @@ TEST_F(Report, TargetsStayWhileTilesAreDrawn) {
     report.target({.path = path, .drawn = true}, plan, settings, true);
     return view.target;
   };
-  plan.main.view.rect = {0, 0, tileSide, tileSide};
+  plan.main().view.rect = {0, 0, tileSide, tileSide};
   EXPECT_TRUE(target({}).complete);
-  plan.passes.resize(1);
-  plan.passes[0].view.path = {0};
-  plan.passes[0].view.rect = {0, 0, tileSide, tileSide};
-  plan.main.view.rect = {0, 0, 2 * tileSide, tileSide};
+  testing_support::addMirror(plan, {0}).view.rect = {0, 0, tileSide, tileSide};
+  plan.main().view.rect = {0, 0, 2 * tileSide, tileSide};
   plan.tiles = {0, 1};
   EXPECT_EQ(target({}).size.x, tileSide) << "of the picture before";
   EXPECT_FALSE(target({0}).complete) << "it has no picture before";
@@ -302,8 +301,7 @@ TEST_F(Report, EarlierTimesAreMarked) {
   frame(1, {mirror, main}, {}, {});
   frame(2, {mirror, main}, timings(1, {530.0, 100.0}), {mirror, main});
   EXPECT_TRUE(rows[0].timed && rows[1].timed);
-  plan.reused.resize(1);
-  plan.reused[0].view.path = {0};
+  testing_support::addMirror(plan, {0}, PassSource::reused);
   frame(3, {main}, timings(2, {}), {mirror, main});
   EXPECT_TRUE(rows[0].reused && rows[0].timed) << "the frame's own passes were not timed";
   frame(4, {main}, timings(3, {90.0}), {main});
@@ -312,7 +310,7 @@ TEST_F(Report, EarlierTimesAreMarked) {
   EXPECT_EQ(rows[0].gpuMs, 530.0);
   EXPECT_TRUE(rows[1].timed);
   EXPECT_EQ(rows[1].gpuMs, 90.0);
-  plan.mainReused = true;
+  plan.main().source = PassSource::reused;
   frame(5, {}, {}, {});
   frame(6, {}, timings(5, {3.0}), {main});
   EXPECT_EQ(rows[1].gpuMs, 90.0) << "a frame that draws the panels only";
@@ -337,7 +335,7 @@ TEST_F(Report, DraftsHaveTheirOwnTimes) {
   frame(draft(3), {});
   EXPECT_TRUE(std::isnan(rows[0].gpuMs)) << "not the whole picture's";
   EXPECT_EQ(view.timedGpuMs, 0.0);
-  plan.main.view.rect = {0, 0, 2 * tileSide, tileSide};
+  plan.main().view.rect = {0, 0, 2 * tileSide, tileSide};
   plan.tiles = {0, 1};
   report.updateTimes(frameOf(4, 1.0, 1.0), timings(3, {20.0}), passes);
   EXPECT_EQ(rows[0].gpuMs, 20.0) << "known while tiles of the next picture are drawn";
@@ -389,21 +387,19 @@ TEST_F(Report, MirrorsSeenInReusedImagesStayListed) {
   report.updateSkipped(frame);
   EXPECT_EQ(view.skipped.size(), 2u);
   plan.skipped.clear();
-  plan.reused.resize(1);
-  plan.reused[0].view.path = {0};
+  testing_support::addMirror(plan, {0}, PassSource::reused);
   report.updateSkipped(frame);
   ASSERT_EQ(view.skipped.size(), 1u) << "the image of mirror 2 is rendered again";
   EXPECT_EQ(view.skipped[0].path, (MirrorPath{0, 1}));
   EXPECT_EQ(view.skipped[0].reason, "hidden");
-  plan.reused.clear();
+  plan.passes.erase(plan.passes.begin());
   report.updateSkipped(frame);
   EXPECT_TRUE(view.skipped.empty());
 }
 
 TEST_F(Report, TimesOfTilesAddUp) {
   const std::vector<RecordedPass> passes = {{{.path = {0}}, "mirror a"}, {{.kind = PassKind::main}, "main view"}};
-  plan.passes.resize(1);
-  plan.passes[0].view.rect = plan.main.view.rect = {0, 0, tileSide, tileSide};
+  testing_support::addMirror(plan, {0}).view.rect = plan.main().view.rect = {0, 0, tileSide, tileSide};
   const auto frame = [&](uint64_t number, const FrameTimings& timings, const std::vector<RecordedPass>& timed) {
     report.updateTimes(frameOf(number, 1.0, 1.0), timings, timed);
     if (endsPicture(plan)) {

@@ -48,7 +48,8 @@ TEST_P(StillScene, IntervalChangesNoByte) {
     int skipped = 0;
     for (int frame = 0; frame < interval + 2; ++frame) {
       ASSERT_EQ(draw(session, 1.0).rgba, expected.rgba) << "interval " << interval << ", frame " << frame;
-      skipped += static_cast<int>(session.lastFrame().plan.reused.size());
+      skipped +=
+          static_cast<int>(std::ranges::count(session.lastFrame().plan.passes, PassSource::reused, &Pass::source));
     }
     EXPECT_GT(skipped, 0);
   }

@@ -130,7 +130,7 @@ TEST_P(MirrorsByRays, EqualTheRayTracer) {
   set(options, {{"reflection.method", "rays"}});
   Studio studio(options);
   expectTruth(studio, file, trace(file, {160, 90}, 4));
-  EXPECT_TRUE(studio.plan.passes.empty());
+  EXPECT_TRUE(studio.plan.drawnMirrors().empty());
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, MirrorsByRays,

@@ -183,7 +183,7 @@ TEST_P(BrokenPass, IsNamedWithItsMirrorsAndPixel) {
   const BrokenSky sky(0, 5, 3, samples_ - 1, value_);
   Session session(watched(hall, "nested_" + GetParam().name(), sky, GetParam().path, samples_));
   const FiniteWatch& watch = drawWatched(session);
-  ASSERT_EQ(session.lastFrame().plan.passes.size(), 2u);
+  ASSERT_EQ(session.lastFrame().plan.drawnMirrors().size(), 2u);
   ASSERT_FALSE(watch.findings().empty());
   const NonFinite& found = watch.findings().front();
   EXPECT_EQ(found.pass, "mirror front > rear");
@@ -236,7 +236,7 @@ TEST_F(WatchedFrames, CachedImagesAreCheckedWhenRendered) {
   int rendered = 0;
   for (uint64_t frame = 1; frame <= 9; ++frame) {
     const FiniteWatch& watch = drawWatched(session);
-    const bool fresh = !session.lastFrame().plan.passes.empty();
+    const bool fresh = !session.lastFrame().plan.drawnMirrors().empty();
     rendered += fresh ? 1 : 0;
     // Without mirror passes the main view is the first view; it shows the sky at the same texel.
     ASSERT_EQ(watch.findingsFrame(), frame);

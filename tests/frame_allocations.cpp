@@ -24,7 +24,7 @@ class Planning {
     changes_.update(scene_, state);
     FittedPlan last = std::move(last_);
     const MainImage main{last.settings, last.plan.mainContent};
-    const FrameCache cache{last.plan.cached, last.plan.maps, last.plan.shadowMaps, &main, &changes_};
+    const FrameCache cache{last.plan.cached, last.plan.cubes, &main, &changes_};
     const size_t before = fuzz::allocations();
     last_ = planWithin({.budgetBytes = UINT64_MAX, .largestSide = 16384}, scene_, state, settings_, 640, 360, cache);
     last = {};

@@ -182,8 +182,8 @@ TEST(Clusters, SmallMeshesHaveNone) {
 
 TEST(Clusters, ObjectsInsideThePictureAreDrawnWhole) {
   const FramePlan plan = planOf(sceneOf({.position = {0, 0, -5}}));
-  EXPECT_EQ(plan.main.instances, RecycledVector<int>{0});
-  EXPECT_TRUE(plan.main.partial.empty());
+  EXPECT_EQ(plan.main().instances, RecycledVector<int>{0});
+  EXPECT_TRUE(plan.main().partial.empty());
 }
 
 TEST(Clusters, ObjectsCutByThePictureArePartial) {
@@ -191,15 +191,15 @@ TEST(Clusters, ObjectsCutByThePictureArePartial) {
   const Scene scene = sceneOf({.position = {0, 1.2, -1.5}});
   Settings settings;
   const FramePlan plan = planOf(scene, settings);
-  ASSERT_EQ(plan.main.partial.size(), 1u);
-  const auto& ranges = plan.main.partial[0].ranges;
+  ASSERT_EQ(plan.main().partial.size(), 1u);
+  const auto& ranges = plan.main().partial[0].ranges;
   ASSERT_EQ(ranges.size(), 1u);
   EXPECT_EQ(ranges[0].first, 0u);
   // The view sees the lowest 0.67 m of 2 m. The last cluster of that part reaches beyond it.
   EXPECT_GE(ranges[0].count, 6u * 32u * 10u);
   EXPECT_LE(ranges[0].count, 6u * 32u * 13u);
   settings.debug.cullClusters = false;
-  EXPECT_TRUE(planOf(scene, settings).main.partial.empty());
+  EXPECT_TRUE(planOf(scene, settings).main().partial.empty());
 }
 
 TEST(Clusters, ObjectsSeenByBoxOnlyAreDropped) {
@@ -208,7 +208,7 @@ TEST(Clusters, ObjectsSeenByBoxOnlyAreDropped) {
   Mesh& mesh = scene.meshes[0];
   std::erase_if(mesh.clusters, [](const MeshCluster& c) { return c.center.y > -0.5; });
   scene.objects[0].position = {0, -1.2, -1.5};
-  EXPECT_TRUE(planOf(scene).main.instances.empty());
+  EXPECT_TRUE(planOf(scene).main().instances.empty());
 }
 
 // Checks every triangle by itself, from random places, in mirrors too.
@@ -230,11 +230,11 @@ TEST(Clusters, NeverLeaveOutVisibleTriangles) {
     const Scene scene = sceneOf(object, {mirror});
     const SceneState state = evaluate(scene, 0.0);
     const FramePlan plan = planFrame(scene, state, {}, 640, 360);
-    std::vector<const PlannedPass*> passes{&plan.main};
-    for (const PlannedPass& pass : plan.passes) {
+    std::vector<const Pass*> passes{&plan.main()};
+    for (const Pass& pass : plan.drawnMirrors()) {
       passes.push_back(&pass);
     }
-    for (const PlannedPass* pass : passes) {
+    for (const Pass* pass : passes) {
       const InstanceState& instance = state.instances[0];
       auto ranges = RecycledVector<IndexRange>(pass->instances.empty() ? 0 : 1, allOf(mesh));
       if (!pass->partial.empty()) {

@@ -27,7 +27,7 @@ FramePlan depthPlan(const Scene& scene, const SceneState& state) {
 
 std::optional<DepthReadout> readoutOf(const Scene& scene, const SceneState& state) {
   const FramePlan plan = depthPlan(scene, state);
-  return depthReadout(plan.passes.at(0), plan.projection, scene, state);
+  return depthReadout(plan.drawnMirrors()[0], plan.projection, scene, state);
 }
 
 TEST(DepthReadout, NothingFiniteIsSeen) {
@@ -50,11 +50,11 @@ TEST(DepthReadout, BodiesCountWhereTheyReachTheView) {
   SceneState state = evaluate(scene, 0.0);
   addBody(scene, state, {40, 0, 10}, 35.0);
   const FramePlan plan = depthPlan(scene, state);
-  ASSERT_EQ(plan.passes.at(0).instances.size(), 1u);
-  const auto farthest = farthestVisible(plan.passes[0], plan.projection, scene, state);
+  ASSERT_EQ(plan.drawnMirrors()[0].instances.size(), 1u);
+  const auto farthest = farthestVisible(plan.drawnMirrors()[0], plan.projection, scene, state);
   ASSERT_TRUE(farthest);
   // The farthest of many points of the sphere that the view sees.
-  const View& view = plan.passes[0].view;
+  const View& view = plan.drawnMirrors()[0].view;
   double seen = 0.0;
   for (int i = 0; i < 200000; ++i) {
     const double z = 1.0 - 2.0 * (i + 0.5) / 200000;
@@ -77,7 +77,7 @@ TEST(DepthReadout, MirrorsAndGlyphsCount) {
   scene.mirrors[1].rotation = {0, 180, 0};
   const SceneState state = evaluate(scene, 0.0);
   const FramePlan plan = depthPlan(scene, state);
-  const auto direct = std::ranges::find(plan.passes, 0, &PlannedPass::depth);
+  const auto direct = std::ranges::find(plan.drawnMirrors(), 0, &Pass::depth);
   const auto readout = depthReadout(*direct, plan.projection, scene, state);
   ASSERT_TRUE(readout);
   EXPECT_GE(readout->distance, 9.0);

@@ -83,20 +83,20 @@ const Mirrors both{left, right};
 TEST(Unchanged, StillSceneIsRenderedOnce) {
   PlanSequence frames(room());
   frames.next();
-  const size_t passes = frames.plan.passes.size();
+  const size_t passes = frames.plan.drawnMirrors().size();
   ASSERT_GE(passes, 3u) << "there is a mirror in a mirror";
   EXPECT_EQ(frames.rendered(), both);
-  EXPECT_TRUE(frames.plan.reused.empty());
+  EXPECT_EQ(testing_support::reusedMirrors(frames.plan), 0u);
   for (int frame = 1; frame < 5; ++frame) {
     frames.next();
-    EXPECT_TRUE(frames.plan.passes.empty());
+    EXPECT_TRUE(frames.plan.drawnMirrors().empty());
     EXPECT_EQ(frames.unchanged(), both);
-    EXPECT_EQ(frames.plan.reused.size(), passes);
+    EXPECT_EQ(testing_support::reusedMirrors(frames.plan), passes);
     EXPECT_EQ(frames.plan.cached.size(), 2u) << "mirrors in mirrors have none";
     const auto detail = frames.plan.skipped.back().detail;
     EXPECT_EQ(std::string_view(detail),
               frame == 1 ? "image of the last frame" : "image of " + std::to_string(frame) + " frames ago");
-    for (const MirrorDraw& draw : frames.plan.main.mirrors) {
+    for (const MirrorDraw& draw : frames.plan.main().mirrors) {
       ASSERT_TRUE(draw.cached);
       EXPECT_FALSE(draw.cached->moved);
     }
@@ -107,14 +107,14 @@ TEST(Unchanged, SwitchedOffRendersEveryImage) {
   PlanSequence frames(room());
   frames.settings.reflection.skipUnchanged = false;
   for (int frame = 0; frame < 3; ++frame) {
-    EXPECT_EQ(frames.next().passes.size(), 3u);
+    EXPECT_EQ(frames.next().drawnMirrors().size(), 3u);
     EXPECT_TRUE(frames.plan.cached.empty());
   }
   frames.settings.reflection.skipUnchanged = true;
-  EXPECT_EQ(frames.next().passes.size(), 3u) << "nothing was cached";
-  EXPECT_TRUE(frames.next().passes.empty());
+  EXPECT_EQ(frames.next().drawnMirrors().size(), 3u) << "nothing was cached";
+  EXPECT_TRUE(frames.next().drawnMirrors().empty());
   frames.settings.reflection.skipUnchanged = false;
-  EXPECT_EQ(frames.next().passes.size(), 3u);
+  EXPECT_EQ(frames.next().drawnMirrors().size(), 3u);
 }
 
 // The mirrors rendered in the frame after `change`; the one after that renders nothing.
@@ -122,12 +122,12 @@ Mirrors renderedAfter(const std::function<void(PlanSequence&)>& change, Scene sc
   PlanSequence frames(std::move(scene));
   frames.next();
   frames.next();
-  EXPECT_TRUE(frames.plan.passes.empty());
+  EXPECT_TRUE(frames.plan.drawnMirrors().empty());
   change(frames);
   frames.next(time);
   Mirrors rendered = frames.rendered();
   frames.next(time);
-  EXPECT_TRUE(frames.plan.passes.empty());
+  EXPECT_TRUE(frames.plan.drawnMirrors().empty());
   return rendered;
 }
 
@@ -186,7 +186,7 @@ TEST(Unchanged, TimeCountsWhereSomethingDependsOnIt) {
   PlanSequence still(scene);
   still.settings.effects.ripple = false;
   still.next();
-  EXPECT_TRUE(still.next(7.0).passes.empty());
+  EXPECT_TRUE(still.next(7.0).drawnMirrors().empty());
 }
 
 TEST(Unchanged, ShadowsDependOnTheWholeScene) {
@@ -206,10 +206,10 @@ TEST(Unchanged, ReusedImagesCallForTheirEffects) {
         .why;
   };
   frames.next();
-  ASSERT_TRUE(frames.plan.main.instances.empty() || std::ranges::count(frames.plan.main.instances, seenTwice) == 0);
+  ASSERT_TRUE(frames.plan.main().instances.empty() || std::ranges::count(frames.plan.main().instances, seenTwice) == 0);
   const std::string fresh = why();
   frames.next();
-  ASSERT_TRUE(frames.plan.passes.empty());
+  ASSERT_TRUE(frames.plan.drawnMirrors().empty());
   EXPECT_EQ(why(), fresh);
   EXPECT_EQ(fresh, "object 3");
 }
@@ -219,20 +219,20 @@ TEST(Unchanged, BudgetIgnoresReuse) {
   for (const int interval : {1, 2}) {
     PlanSequence frames(room(), interval);
     frames.scene.mirrors[left].rotation.y = 30.0;  // the third mirror is seen in both
-    ASSERT_EQ(frames.next().passes.size(), 4u);
+    ASSERT_EQ(frames.next().drawnMirrors().size(), 4u);
     frames.settings.reflection.maxPasses = 3;
     std::set<MirrorPath> paths;
-    for (const PlannedPass& pass : frames.next().passes) {
+    for (const Pass& pass : frames.next().drawnMirrors()) {
       paths.insert(pass.view.path);
     }
     ASSERT_EQ(paths.size(), 3u);
     for (int frame = 0; frame < 4; ++frame) {
       frames.scene.objects[frame % 2 == 0 ? seenLeft : seenRight].shininess = 2.0 + frame;
       frames.next();
-      for (const PlannedPass& pass : frames.plan.passes) {
+      for (const Pass& pass : frames.plan.drawnMirrors()) {
         EXPECT_TRUE(paths.count(pass.view.path));
       }
-      EXPECT_EQ(frames.plan.passes.size() + frames.plan.reused.size(), 3u);
+      EXPECT_EQ(frames.plan.drawnMirrors().size() + testing_support::reusedMirrors(frames.plan), 3u);
     }
   }
 }
@@ -242,7 +242,7 @@ TEST(Unchanged, IntervalRendersOnlyWhatChanged) {
   frames.settings.reflection.updateInterval = 3;
   frames.next();
   for (int frame = 1; frame < 9; ++frame) {
-    EXPECT_TRUE(frames.next().passes.empty()) << "frame " << frame;
+    EXPECT_TRUE(frames.next().drawnMirrors().empty()) << "frame " << frame;
     EXPECT_EQ(std::string_view(frames.plan.skipped.back().detail),
               frame == 1 ? "image of the last frame" : "image of " + std::to_string(frame) + " frames ago");
   }
@@ -274,12 +274,12 @@ TEST(Unchanged, ShortMemoryRendersAnewRatherThanWorse) {
   const uint64_t needed = targetBytes(first.plan, first.settings);
   scene.objects[seenLeft].color = glm::dvec3(0.5);
   const FittedPlan mixed = fit(1ull << 40, first.plan.cached);
-  ASSERT_LT(mixed.plan.passes.size(), first.plan.passes.size());
-  ASSERT_FALSE(mixed.plan.passes.empty());
+  ASSERT_LT(mixed.plan.drawnMirrors().size(), first.plan.drawnMirrors().size());
+  ASSERT_FALSE(mixed.plan.drawnMirrors().empty());
   const uint64_t more = targetBytes(mixed.plan, mixed.settings);
   ASSERT_GT(more, needed) << "the case is not met";
   const FittedPlan fitted = fit(needed, first.plan.cached);
-  EXPECT_EQ(fitted.plan.passes.size(), first.plan.passes.size());
+  EXPECT_EQ(fitted.plan.drawnMirrors().size(), first.plan.drawnMirrors().size());
   EXPECT_EQ(fitted.settings.reflection, first.settings.reflection);
   EXPECT_TRUE(fitted.message.empty()) << fitted.message;
 }
@@ -287,15 +287,15 @@ TEST(Unchanged, ShortMemoryRendersAnewRatherThanWorse) {
 // The frame that renders the mirrors cannot reuse the main view; nor can the one after it, which shows new images.
 TEST(MainView, IsReusedOneFrameAfterItsMirrors) {
   PlanSequence frames(room());
-  EXPECT_FALSE(frames.next().mainReused);
+  EXPECT_FALSE(frames.next().mainReused());
   EXPECT_TRUE(frames.plan.mainContent.empty());
-  EXPECT_FALSE(frames.next().mainReused);
+  EXPECT_FALSE(frames.next().mainReused());
   for (int frame = 2; frame < 5; ++frame) {
-    EXPECT_TRUE(frames.next().mainReused) << "frame " << frame;
+    EXPECT_TRUE(frames.next().mainReused()) << "frame " << frame;
   }
   frames.scene.mirrors.clear();
-  EXPECT_FALSE(frames.next().mainReused);
-  EXPECT_TRUE(frames.next().mainReused);
+  EXPECT_FALSE(frames.next().mainReused());
+  EXPECT_TRUE(frames.next().mainReused());
 }
 
 // Says whether the main view is drawn in the frame after `change` to a scene that stood still.
@@ -304,9 +304,9 @@ bool drawnAfter(const std::function<void(PlanSequence&)>& change, Scene scene = 
   for (int frame = 0; frame < 3; ++frame) {
     frames.next();
   }
-  EXPECT_TRUE(frames.plan.mainReused);
+  EXPECT_TRUE(frames.plan.mainReused());
   change(frames);
-  return !frames.next(time).mainReused;
+  return !frames.next(time).mainReused();
 }
 
 TEST(MainView, VisibleChangesDrawIt) {
@@ -341,7 +341,7 @@ TEST(MainView, ReprojectedImagesDrawIt) {
   for (int frame = 0; frame < 6; ++frame) {
     frames.scene.camera.position.x += 1e-4;
     frames.next();
-    EXPECT_FALSE(frames.plan.mainReused);
+    EXPECT_FALSE(frames.plan.mainReused());
   }
 }
 
@@ -350,16 +350,16 @@ TEST(MainView, MirrorsThatLoseTheirImageDrawIt) {
   PlanSequence frames(room());
   frames.next();
   frames.next();
-  ASSERT_TRUE(frames.plan.main.mirrors[0].cached);
+  ASSERT_TRUE(frames.plan.main().mirrors[0].cached);
   const SceneState state = evaluate(frames.scene, 0.0);
   FramePlan plan = frames.plan;
   const ImageSurroundings around{frames.scene,    state, frames.settings, plan.projection, plan.effects,
                                  &frames.changes, {}};
   reuseMain(plan, &frames.main, around);
-  EXPECT_TRUE(plan.mainReused);
-  plan.main.mirrors[0].cached.reset();
+  EXPECT_TRUE(plan.mainReused());
+  plan.main().mirrors[0].cached.reset();
   reuseMain(plan, &frames.main, around);
-  EXPECT_FALSE(plan.mainReused);
+  EXPECT_FALSE(plan.mainReused());
 }
 
 // Six mirrors in a row before the camera, which stands at the origin and looks along -z.
@@ -388,13 +388,13 @@ TEST(CachedImages, MirrorsTakeTurnsAfterTheFirstFrame) {
     for (int frame = 0; frame < 15; ++frame) {
       sequence.next();
       ASSERT_EQ(sequence.plan.cached.size(), 6u);
-      EXPECT_EQ(sequence.plan.passes.size() + count(sequence.plan, SkipReason::unchanged), 6u);
+      EXPECT_EQ(sequence.plan.drawnMirrors().size() + count(sequence.plan, SkipReason::unchanged), 6u);
       if (frame == 0) {
-        EXPECT_EQ(sequence.plan.passes.size(), 6u);
+        EXPECT_EQ(sequence.plan.drawnMirrors().size(), 6u);
       } else if (frame > 1) {
-        EXPECT_EQ(sequence.plan.passes.size(), 2u) << "frame " << frame << ", step " << step;
+        EXPECT_EQ(sequence.plan.drawnMirrors().size(), 2u) << "frame " << frame << ", step " << step;
       }
-      for (const PlannedPass& pass : sequence.plan.passes) {
+      for (const Pass& pass : sequence.plan.drawnMirrors()) {
         frames[pass.view.path[0]].push_back(frame);
       }
       sequence.moveCamera({step, 0, 0});
@@ -415,18 +415,18 @@ TEST(CachedImages, ReusedImagesAreListedWithTheirAge) {
   sequence.next();
   ASSERT_EQ(count(sequence.plan, SkipReason::unchanged), 5) << "the fourth mirror comes due after one frame";
   EXPECT_EQ(firstUnchanged(sequence.plan), "image of the last frame");
-  for (const MirrorDraw& draw : sequence.plan.main.mirrors) {
+  for (const MirrorDraw& draw : sequence.plan.main().mirrors) {
     EXPECT_NE(draw.cached.has_value(), draw.pass >= 0);
     EXPECT_FALSE(draw.cached && draw.cached->moved) << "nothing moved";
   }
   sequence.moveCamera({0.001, 0, 0});
   sequence.next();  // the first images had no margin
-  EXPECT_EQ(sequence.plan.passes.size(), 6u);
+  EXPECT_EQ(sequence.plan.drawnMirrors().size(), 6u);
   sequence.moveCamera({0.001, 0, 0});
   sequence.next();
   ASSERT_GT(count(sequence.plan, SkipReason::unchanged), 0);
   EXPECT_EQ(firstUnchanged(sequence.plan), "image of the last frame, reprojected");
-  for (const MirrorDraw& draw : sequence.plan.main.mirrors) {
+  for (const MirrorDraw& draw : sequence.plan.main().mirrors) {
     if (draw.cached) {
       EXPECT_TRUE(draw.cached->moved);
       EXPECT_EQ(sequence.plan.cached[static_cast<size_t>(draw.cached->image)].mirror, draw.mirror);
@@ -436,14 +436,14 @@ TEST(CachedImages, ReusedImagesAreListedWithTheirAge) {
 
 TEST(CachedImages, NestedMirrorsAreRenderedWithTheirParent) {
   PlanSequence sequence = withInterval(corridor(), 3);
-  const size_t whole = sequence.next().passes.size();
+  const size_t whole = sequence.next().drawnMirrors().size();
   EXPECT_EQ(whole, 4u);
   EXPECT_EQ(sequence.plan.cached.size(), 1u) << "mirrors in mirrors have none";
   const int deeper = count(sequence.plan, SkipReason::maxDepth);
   EXPECT_GT(deeper, 0);
   for (int frame = 1; frame < 7; ++frame) {
     sequence.next();
-    EXPECT_EQ(sequence.plan.passes.size(), frame % 3 == 0 ? whole : 0u) << "frame " << frame;
+    EXPECT_EQ(sequence.plan.drawnMirrors().size(), frame % 3 == 0 ? whole : 0u) << "frame " << frame;
     EXPECT_EQ(count(sequence.plan, SkipReason::unchanged), frame % 3 == 0 ? 0 : 1);
     EXPECT_EQ(count(sequence.plan, SkipReason::maxDepth), frame % 3 == 0 ? deeper : 0)
         << "nothing seen in a reused image is listed";
@@ -456,7 +456,7 @@ TEST(CachedImages, ChangedSettingsAndSizesRenderAnew) {
     PlanSequence sequence = withInterval(row(), 100);
     sequence.next();
     change(sequence.settings);
-    return sequence.next().passes.size();
+    return sequence.next().drawnMirrors().size();
   };
   EXPECT_EQ(freshAfter([](Settings&) {}), 0u);
   EXPECT_EQ(freshAfter([](Settings& s) { s.view.exposure = 2.0; }), 0u);
@@ -467,7 +467,7 @@ TEST(CachedImages, ChangedSettingsAndSizesRenderAnew) {
   sequence.next();
   const FramePlan larger = planFrame(sequence.scene, evaluate(sequence.scene, 0.0), sequence.settings, width + 1,
                                      height, {.images = sequence.plan.cached});
-  EXPECT_EQ(larger.passes.size(), 6u);
+  EXPECT_EQ(larger.drawnMirrors().size(), 6u);
 }
 
 TEST(CachedImages, CutsRenderAnewAndForgetUnseenMirrors) {
@@ -481,7 +481,7 @@ TEST(CachedImages, CutsRenderAnewAndForgetUnseenMirrors) {
   EXPECT_TRUE(sequence.next().cached.empty());
   sequence.moveCamera({-50, 0, 0});
   sequence.next();
-  EXPECT_EQ(sequence.plan.passes.size(), 6u);
+  EXPECT_EQ(sequence.plan.drawnMirrors().size(), 6u);
   EXPECT_EQ(sequence.plan.cached.size(), 6u);
 }
 
@@ -495,16 +495,16 @@ TEST(CachedImages, ReusedImagesCoverTheVisibleRegion) {
       sequence.scene.camera.position = {std::sin(seed + t), 0.3 * std::sin(2.0 * seed + t), -t};
       sequence.scene.camera.target = sequence.scene.camera.position + glm::dvec3(0.3 * std::sin(t), 0, -1);
       const FramePlan& plan = sequence.next();
-      for (const MirrorDraw& draw : plan.main.mirrors) {
+      for (const MirrorDraw& draw : plan.main().mirrors) {
         ASSERT_TRUE(draw.cached || draw.pass >= 0 || count(plan, SkipReason::minPixels) > 0);
         if (!draw.cached || !draw.cached->moved) {
           continue;
         }
         ++reprojected;
         const CachedImage& image = plan.cached[static_cast<size_t>(draw.cached->image)];
-        for (const glm::dvec3& corner : visiblePart(plan.main.view, draw.polygon)) {
-          const glm::dvec4 clip = plan.projection.clip(plan.main.view.worldToView * (corner - plan.main.view.eye));
-          const glm::dvec2 pixel = (glm::dvec2(clip) / clip.w * 0.5 + 0.5) * plan.main.view.pictureSize;
+        for (const glm::dvec3& corner : visiblePart(plan.main().view, draw.polygon)) {
+          const glm::dvec4 clip = plan.projection.clip(plan.main().view.worldToView * (corner - plan.main().view.eye));
+          const glm::dvec2 pixel = (glm::dvec2(clip) / clip.w * 0.5 + 0.5) * plan.main().view.pictureSize;
           for (const double part : {0.0, 0.01, 0.1, 0.5, 1.0}) {
             const glm::dvec3 texel = draw.cached->texelFromPixel * glm::dvec3(pixel, 1.0) +
                                      draw.cached->texelFromDisparity * (part / clip.w);
@@ -550,9 +550,9 @@ TEST(CachedImages, LookupFindsThePointInTheImage) {
 
 TEST(CachedImages, MarginFollowsTheMotion) {
   PlanSequence sequence = withInterval(corridor(), 6);
-  const PixelRect plain = sequence.next().passes.back().view.rect;
+  const PixelRect plain = sequence.next().drawnMirrors().back().view.rect;
   sequence.moveCamera({0.01, 0, 0});
-  const PixelRect slow = sequence.next().passes.back().view.rect;
+  const PixelRect slow = sequence.next().drawnMirrors().back().view.rect;
   EXPECT_GT(slow.width, plain.width + 2);
   EXPECT_LT(slow.width, plain.width + 60);
   EXPECT_LE(slow.height, plain.height + 2 * largestMargin * height + 2);
@@ -567,7 +567,7 @@ TEST(CachedImages, MemoryIncludesReusedImages) {
   sequence.next();
   const uint64_t image = static_cast<uint64_t>(sequence.plan.cached[0].view.rect.area()) * 4 * 8;
   const FramePlan reused = sequence.next();
-  ASSERT_TRUE(reused.passes.empty());
+  ASSERT_TRUE(reused.drawnMirrors().empty());
   FramePlan without = reused;
   without.cached.clear();
   EXPECT_EQ(targetBytes(reused, sequence.settings), targetBytes(without, sequence.settings) + image);
@@ -581,7 +581,7 @@ TEST(CachedImages, MarginsStayWithinTheLargestSide) {
   for (int frame = 0; frame < 8; ++frame) {
     const FittedPlan fitted = planWithin({.budgetBytes = 1ull << 40, .largestSide = width}, scene, evaluate(scene, 0.0),
                                          settings, width, height, {.images = cached});
-    for (const PlannedPass& pass : fitted.plan.passes) {
+    for (const Pass& pass : fitted.plan.drawnMirrors()) {
       EXPECT_LE((overscan(pass.view) * pass.view.pictureSize).x, width);
       EXPECT_LE(pass.view.rect.width, width);
     }

@@ -34,9 +34,9 @@ FramePlan levelPlan(const Scene& scene, double meshError, std::vector<std::pair<
 
 TEST(MeshError, ZeroDrawsAllTriangles) {
   const FramePlan plan = levelPlan(sceneOf({12, 60}), 0.0);
-  ASSERT_EQ(plan.passes.size(), 1u);
-  EXPECT_EQ(plan.passes[0].instances.size(), 2u);
-  EXPECT_TRUE(plan.passes[0].simplified.empty());
+  ASSERT_EQ(plan.drawnMirrors().size(), 1u);
+  EXPECT_EQ(plan.drawnMirrors()[0].instances.size(), 2u);
+  EXPECT_TRUE(plan.drawnMirrors()[0].simplified.empty());
   EXPECT_TRUE(meshesWithLevels(plan, evaluate(sceneOf({12, 60}), 0.0)).empty());
 }
 
@@ -45,12 +45,12 @@ TEST(MeshError, LevelsGrowWithDistanceAndError) {
   std::vector<int> before(5, -1);
   for (const double error : {0.125, 0.25, 0.5, 1.0, 2.0, 4.0}) {
     const FramePlan plan = levelPlan(scene, error);
-    ASSERT_EQ(plan.passes.size(), 1u);
-    EXPECT_TRUE(plan.main.simplified.empty()) << "what is seen directly is exact";
+    ASSERT_EQ(plan.drawnMirrors().size(), 1u);
+    EXPECT_TRUE(plan.main().simplified.empty()) << "what is seen directly is exact";
     for (int i = 0; i < 5; ++i) {
-      const int level = levelOf(plan.passes[0], i);
+      const int level = levelOf(plan.drawnMirrors()[0], i);
       EXPECT_GE(level, before[i]);
-      EXPECT_GE(level, i == 0 ? -1 : levelOf(plan.passes[0], i - 1));
+      EXPECT_GE(level, i == 0 ? -1 : levelOf(plan.drawnMirrors()[0], i - 1));
       before[i] = level;
     }
     if (error == 0.5) {
@@ -63,12 +63,12 @@ TEST(MeshError, LevelsGrowWithDistanceAndError) {
 
 TEST(MeshError, MainViewHasItsOwn) {
   Scene scene = sceneOf({12, 25, 50, 100, 200});
-  EXPECT_TRUE(levelPlan(scene, 0.0, {{"view.mesh_error", "1"}}).passes.at(0).simplified.empty());
+  EXPECT_TRUE(levelPlan(scene, 0.0, {{"view.mesh_error", "1"}}).drawnMirrors()[0].simplified.empty());
   scene.camera.target = {0, 0, 10};
   const FramePlan plan = levelPlan(scene, 0.0, {{"view.mesh_error", "1"}});
-  EXPECT_FALSE(plan.main.simplified.empty());
+  EXPECT_FALSE(plan.main().simplified.empty());
   EXPECT_EQ(meshesWithLevels(plan, evaluate(scene, 0.0)), std::vector<int>{0});
-  EXPECT_TRUE(levelPlan(scene, 0.0, {{"view.mesh_error", "1"}, {"reflection.clip", "none"}}).main.simplified.empty());
+  EXPECT_TRUE(levelPlan(scene, 0.0, {{"view.mesh_error", "1"}, {"reflection.clip", "none"}}).main().simplified.empty());
 }
 
 TEST(MeshError, EveryLevelKeepsTheBound) {
@@ -77,7 +77,7 @@ TEST(MeshError, EveryLevelKeepsTheBound) {
   int simplified = 0;
   for (const double error : {0.25, 1.0, 4.0}) {
     const FramePlan plan = levelPlan(scene, error);
-    const PlannedPass& pass = plan.passes[0];
+    const Pass& pass = plan.drawnMirrors()[0];
     for (const SimplifiedInstance& s : pass.simplified) {
       const MeshLevel& level = levelsOf(scene.meshes[0]).levels[s.level];
       EXPECT_LE(level.error,
@@ -91,7 +91,7 @@ TEST(MeshError, EveryLevelKeepsTheBound) {
 TEST(MeshError, FinerImagesShowMore) {
   const Scene scene = sceneOf({40});
   const auto level = [&](const char* scale) {
-    return levelOf(levelPlan(scene, 0.5, {{"reflection.scale", scale}}).passes[0], 0);
+    return levelOf(levelPlan(scene, 0.5, {{"reflection.scale", scale}}).drawnMirrors()[0], 0);
   };
   EXPECT_GT(level("0.25"), level("1"));
   EXPECT_GT(level("1"), level("4"));
@@ -99,16 +99,16 @@ TEST(MeshError, FinerImagesShowMore) {
 
 TEST(MeshError, TracedRaysKeepAllTriangles) {
   Scene scene = sceneOf({30, 60});
-  EXPECT_FALSE(levelPlan(scene, 2.0).passes[0].simplified.empty());
+  EXPECT_FALSE(levelPlan(scene, 2.0).drawnMirrors()[0].simplified.empty());
   scene.lights[0].castsShadow = true;
-  EXPECT_TRUE(levelPlan(scene, 2.0).passes[0].simplified.empty());
-  EXPECT_FALSE(levelPlan(scene, 2.0, {{"effects.shadows", "false"}}).passes[0].simplified.empty());
+  EXPECT_TRUE(levelPlan(scene, 2.0).drawnMirrors()[0].simplified.empty());
+  EXPECT_FALSE(levelPlan(scene, 2.0, {{"effects.shadows", "false"}}).drawnMirrors()[0].simplified.empty());
   scene.lights[0].castsShadow = false;
   scene.objects[0].mirror.emplace();
-  EXPECT_TRUE(levelPlan(scene, 2.0).passes[0].simplified.empty()) << "rays of a curved mirror";
+  EXPECT_TRUE(levelPlan(scene, 2.0).drawnMirrors()[0].simplified.empty()) << "rays of a curved mirror";
   const FramePlan mapped = levelPlan(scene, 2.0, {{"effects.curved_lookup", "environment"}});
-  ASSERT_EQ(mapped.passes[0].simplified.size(), 1u) << "a curved mirror itself stays exact";
-  EXPECT_EQ(mapped.passes[0].simplified[0].instance, 1);
+  ASSERT_EQ(mapped.drawnMirrors()[0].simplified.size(), 1u) << "a curved mirror itself stays exact";
+  EXPECT_EQ(mapped.drawnMirrors()[0].simplified[0].instance, 1);
 }
 
 TEST(MeshError, FacesOfEnvironmentMapsShareLevels) {
@@ -119,10 +119,13 @@ TEST(MeshError, FacesOfEnvironmentMapsShareLevels) {
   const SceneState state = evaluate(scene, 0.0);
   for (const double meshError : {0.0, 2.0}) {
     const FramePlan plan = levelPlan(scene, meshError, {{"effects.curved_lookup", "environment"}});
-    ASSERT_EQ(plan.maps.size(), 1u);
+    ASSERT_EQ(plan.cubes.size(), 1u);
     std::optional<int> shared;
     int faces = 0;
-    for (const PlannedPass& face : plan.maps[0].faces) {
+    for (const Pass& face : plan.passes) {
+      if (!face.isFace()) {
+        continue;
+      }
       faces += static_cast<int>(face.instances.size());
       for (const int i : face.instances) {
         const int level = levelOf(face, i);
@@ -130,8 +133,8 @@ TEST(MeshError, FacesOfEnvironmentMapsShareLevels) {
         shared = level;
         if (level >= 0) {
           EXPECT_LE(levelsOf(scene.meshes[0]).levels[static_cast<size_t>(level)].error,
-                    largestError(face.view, plan.maps[0].projection, state.instances[static_cast<size_t>(i)],
-                                 scene.meshes[0], meshError));
+                    largestError(face.view, face.projection, state.instances[static_cast<size_t>(i)], scene.meshes[0],
+                                 meshError));
         }
       }
     }
@@ -152,7 +155,7 @@ TEST(MeshError, OneLevelInPassesAndShadowMaps) {
                                       {"effects.shadow_map_size", "64"},
                                       {"view.mesh_error", viewError > 0.0 ? "1" : "0"}});
     std::vector<std::optional<int>> levels(scene.objects.size());
-    const auto check = [&](const PlannedPass& pass, const Projection& projection, double texels) {
+    const auto check = [&](const Pass& pass, const Projection& projection, double texels) {
       for (const int i : pass.instances) {
         const InstanceState& instance = state.instances[static_cast<size_t>(i)];
         const int level = levelOf(pass, i);
@@ -164,15 +167,15 @@ TEST(MeshError, OneLevelInPassesAndShadowMaps) {
         }
       }
     };
-    check(plan.main, plan.projection, viewError);
-    ASSERT_FALSE(plan.passes.empty());
-    for (const PlannedPass& pass : plan.passes) {
+    check(plan.main(), plan.projection, viewError);
+    ASSERT_FALSE(plan.drawnMirrors().empty());
+    for (const Pass& pass : plan.drawnMirrors()) {
       check(pass, plan.projection, 4.0);
     }
-    ASSERT_EQ(plan.shadowMaps.size(), 1u);
-    for (const ShadowFace& face : plan.shadowMaps[0].faces) {
-      if (face.read) {
-        check(face.pass, face.projection, viewError > 0.0 ? 2.0 : 0.0);
+    ASSERT_EQ(plan.cubes.size(), 1u);
+    for (const Pass& face : plan.passes) {
+      if (face.isFace() && face.drawn()) {
+        check(face, face.projection, viewError > 0.0 ? 2.0 : 0.0);
       }
     }
     EXPECT_EQ(levels[2] >= 0, viewError > 0.0) << "its shadow may fall into the main view";
@@ -227,7 +230,7 @@ TEST(MeshError, LevelsDoNotDependOnCulling) {
     };
     const FramePlan culled = planWith("true");
     const FramePlan whole = planWith("false");
-    const auto compare = [&](const PlannedPass& some, const PlannedPass& all) {
+    const auto compare = [&](const Pass& some, const Pass& all) {
       EXPECT_TRUE(all.partial.empty());
       EXPECT_TRUE(std::ranges::includes(all.instances, some.instances));
       partial += static_cast<int>(some.partial.size());
@@ -237,18 +240,11 @@ TEST(MeshError, LevelsDoNotDependOnCulling) {
         levels += levelOf(some, i) >= 0 ? 1 : 0;
       }
     };
-    compare(culled.main, whole.main);
     ASSERT_EQ(culled.passes.size(), whole.passes.size());
-    ASSERT_EQ(culled.shadowMaps.size(), whole.shadowMaps.size());
     for (size_t i = 0; i < culled.passes.size(); ++i) {
-      compare(culled.passes[i], whole.passes[i]);
-    }
-    for (size_t map = 0; map < culled.shadowMaps.size(); ++map) {
-      for (size_t i = 0; i < 6; ++i) {
-        if (const ShadowFace& face = culled.shadowMaps[map].faces[i]; face.read) {
-          EXPECT_TRUE(whole.shadowMaps[map].faces[i].read);
-          compare(face.pass, whole.shadowMaps[map].faces[i].pass);
-        }
+      if (culled.passes[i].drawn()) {
+        EXPECT_TRUE(whole.passes[i].drawn());
+        compare(culled.passes[i], whole.passes[i]);
       }
     }
   }
@@ -259,14 +255,14 @@ TEST(MeshError, LevelsDoNotDependOnCulling) {
 
 TEST(MeshError, ObjectsAtTheEyeAreExact) {
   Scene scene = sceneOf({11}, 30.0);
-  EXPECT_TRUE(levelPlan(scene, 0.5).passes[0].simplified.empty());
+  EXPECT_TRUE(levelPlan(scene, 0.5).drawnMirrors()[0].simplified.empty());
 }
 
 TEST(MeshError, PartlySeenBallsAreDrawnInPart) {
   Scene scene = sceneOf({30}, 6.0);
   scene.mirrors[0].size = {0.5, 0.5};
   const FramePlan plan = levelPlan(scene, 1.0);
-  const PlannedPass& pass = plan.passes[0];
+  const Pass& pass = plan.drawnMirrors()[0];
   ASSERT_EQ(pass.simplified.size(), 1u);
   const MeshLevels& levels = levelsOf(scene.meshes[0]);
   const MeshLevel& level = levels.levels[pass.simplified[0].level];
@@ -291,9 +287,9 @@ void expectBoundHolds(Scene (*randomScene)(Random&)) {
     const Scene scene = randomScene(random);
     const SceneState state = evaluate(scene, 0.0);
     const FramePlan plan = planFrame(scene, state, {}, 640, 360);
-    const PlannedPass& pass = plan.passes.empty() ? plan.main : plan.passes[0];
+    const Pass& pass = plan.drawnMirrors().empty() ? plan.main() : plan.drawnMirrors()[0];
     const double bound = random.uniform(0.1, 16.0);
-    if (pass.instances.empty() || plan.passes.size() != scene.mirrors.size()) {
+    if (pass.instances.empty() || plan.drawnMirrors().size() != scene.mirrors.size()) {
       continue;
     }
     const double error = largestError(pass.view, plan.projection, state.instances[0], scene.meshes[0], bound);

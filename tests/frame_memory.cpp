@@ -66,7 +66,7 @@ TEST(MemoryFit, MirrorImagesStayWithinTheLargestSide) {
   const FittedPlan fitted =
       planWithin({.budgetBytes = 1ull << 40, .largestSide = 2500}, scene, evaluate(scene, 0.0), settings, 1000, 500);
   EXPECT_EQ(fitted.settings.reflection.scale, 2.5);
-  EXPECT_EQ(fitted.plan.passes.at(0).view.pictureSize.x, 2500.0);
+  EXPECT_EQ(fitted.plan.drawnMirrors()[0].view.pictureSize.x, 2500.0);
   EXPECT_TRUE(contains(fitted.message, "lowered reflection.scale to 2.5"));
 }
 
@@ -80,11 +80,11 @@ TEST(MemoryFit, TracedEffectsNeedADeviceThatCan) {
                       100);
   };
   EXPECT_TRUE(plan(true).message.empty());
-  EXPECT_TRUE(plan(true).plan.passes.empty());
+  EXPECT_TRUE(plan(true).plan.drawnMirrors().empty());
   const FittedPlan without = plan(false);
   EXPECT_TRUE(contains(without.message, "effects.*"));
   EXPECT_FALSE(without.settings.effects.ripple);
-  EXPECT_EQ(without.plan.passes.size(), 1u);
+  EXPECT_EQ(without.plan.drawnMirrors().size(), 1u);
 }
 
 TEST(MemoryFit, RaysReplacePassesWhereTheyPay) {
@@ -95,7 +95,7 @@ TEST(MemoryFit, RaysReplacePassesWhereTheyPay) {
     settings.reflection.method = method;
     limits.budgetBytes = 1ull << 40;
     limits.largestSide = 4096;
-    return planWithin(limits, scene, evaluate(scene, 0.0), settings, 2 * height, height).plan.passes.size();
+    return planWithin(limits, scene, evaluate(scene, 0.0), settings, 2 * height, height).plan.drawnMirrors().size();
   };
   EXPECT_EQ(passes(ReflectionMethod::rays, {}), 0u);
   EXPECT_EQ(passes(ReflectionMethod::rays, {.tracesRays = false}), 1u);
@@ -111,7 +111,7 @@ TEST(MemoryFit, RaysReplacePassesWhereTheyPay) {
 TEST(MemoryFit, PlansUnchangedWithNothingLeftToLower) {
   const FittedPlan least = fit(1);
   EXPECT_EQ(least.settings.reflection.scale, 0.125);
-  EXPECT_EQ(least.plan.passes.size(), 1u);
+  EXPECT_EQ(least.plan.drawnMirrors().size(), 1u);
 }
 
 }  // namespace

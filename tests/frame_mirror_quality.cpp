@@ -42,8 +42,8 @@ Settings anySettings(Random& random) {
   return settings;
 }
 
-const PlannedPass& viewOf(const FramePlan& plan, std::span<const int> path) {
-  const PlannedPass* pass = path.empty() ? &plan.main : mirrorPass(plan, path);
+const Pass& viewOf(const FramePlan& plan, std::span<const int> path) {
+  const Pass* pass = path.empty() ? &plan.main() : mirrorPass(plan, path);
   return *pass;
 }
 
@@ -59,24 +59,24 @@ TEST(MirrorQuality, EachPassHasWhatItsMirrorAsksFor) {
     const Settings settings = anySettings(random);
     const ReflectionSettings& usual = settings.reflection;
     const FramePlan plan = planOf(scene, settings);
-    for (const PlannedPass& pass : plan.passes) {
+    for (const Pass& pass : plan.drawnMirrors()) {
       const MirrorQuality& own = scene.mirrors[pass.view.path.back()].quality;
       const MirrorQuality& first = scene.mirrors[pass.view.path.front()].quality;
-      const PlannedPass& seenIn = viewOf(plan, std::span(pass.view.path).first(pass.view.path.size() - 1));
+      const Pass& seenIn = viewOf(plan, std::span(pass.view.path).first(pass.view.path.size() - 1));
       double scale = own.scale.value_or(usual.scale);
       int samples = own.samples.value_or(usual.samples);
       if (pass.depth > 0) {
         scale = std::min(scale, seenIn.quality.scale);
         samples = std::min(samples, seenIn.quality.samples);
       }
-      EXPECT_EQ(pass.view.pictureSize, scale * plan.main.view.pictureSize);
+      EXPECT_EQ(pass.view.pictureSize, scale * plan.main().view.pictureSize);
       EXPECT_EQ(pass.quality.samples, samples);
       EXPECT_EQ(pass.quality.interval, first.updateInterval.value_or(usual.updateInterval));
       EXPECT_EQ(pass.shownIn.samples, seenIn.quality.samples);
       EXPECT_EQ(own.method.value_or(usual.method), ReflectionMethod::raster);
       ++passes;
     }
-    for (const MirrorDraw& draw : plan.main.mirrors) {
+    for (const MirrorDraw& draw : plan.main().mirrors) {
       const bool rays = scene.mirrors[draw.mirror].quality.method.value_or(usual.method) == ReflectionMethod::rays;
       EXPECT_EQ(draw.byRays, rays && !draw.back);
       EXPECT_TRUE(plan.effects.mirrorRays || !draw.byRays);
@@ -103,13 +103,13 @@ TEST(MirrorQuality, EqualToTheSettingsChangesNothing) {
     settings.reflection.updateInterval = 1;
     settings.reflection.method = ReflectionMethod::raster;
     const FramePlan with = planOf(scene, settings);
-    ASSERT_EQ(with.passes.size(), without.passes.size());
-    for (size_t i = 0; i < with.passes.size(); ++i) {
-      EXPECT_EQ(with.passes[i].view.path, without.passes[i].view.path);
-      EXPECT_EQ(with.passes[i].view.rect, without.passes[i].view.rect);
-      EXPECT_EQ(with.passes[i].view.cone, without.passes[i].view.cone);
-      EXPECT_EQ(with.passes[i].quality.samples, without.passes[i].quality.samples);
-      EXPECT_EQ(with.passes[i].areaPx, without.passes[i].areaPx);
+    ASSERT_EQ(with.drawnMirrors().size(), without.drawnMirrors().size());
+    for (size_t i = 0; i < with.drawnMirrors().size(); ++i) {
+      EXPECT_EQ(with.drawnMirrors()[i].view.path, without.drawnMirrors()[i].view.path);
+      EXPECT_EQ(with.drawnMirrors()[i].view.rect, without.drawnMirrors()[i].view.rect);
+      EXPECT_EQ(with.drawnMirrors()[i].view.cone, without.drawnMirrors()[i].view.cone);
+      EXPECT_EQ(with.drawnMirrors()[i].quality.samples, without.drawnMirrors()[i].quality.samples);
+      EXPECT_EQ(with.drawnMirrors()[i].areaPx, without.drawnMirrors()[i].areaPx);
     }
     EXPECT_EQ(targetBytes(with, settings), targetBytes(without, settings));
   }
@@ -207,13 +207,13 @@ TEST(MirrorQuality, MemoryThatIsMissingLowersIt) {
   EXPECT_TRUE(whole.message.empty());
   const FittedPlan less = fit(scene, {.budgetBytes = 30'000'000, .largestSide = 4096}, settings);
   EXPECT_LE(targetBytes(less.plan, less.settings), 30'000'000u);
-  EXPECT_EQ(less.plan.passes.at(0).quality.samples, 1);
-  EXPECT_LE(less.plan.passes.at(0).quality.scale, 1.0);
+  EXPECT_EQ(less.plan.drawnMirrors()[0].quality.samples, 1);
+  EXPECT_LE(less.plan.drawnMirrors()[0].quality.scale, 1.0);
   EXPECT_TRUE(contains(less.message, "lowered quality.samples to 4, quality.samples to 2, quality.samples to 1"));
   EXPECT_TRUE(contains(less.message, "quality.scale to 1.0")) << less.message;
   EXPECT_EQ(less.settings.reflection.scale, 0.5) << "the others' images are not larger";
   const FittedPlan small = fit(scene, {.budgetBytes = 1ull << 40, .largestSide = 1500}, settings);
-  EXPECT_EQ(small.plan.passes.at(0).quality.scale, 1.5);
+  EXPECT_EQ(small.plan.drawnMirrors()[0].quality.scale, 1.5);
   EXPECT_TRUE(contains(small.message, "lowered quality.scale to 1.5")) << small.message;
 }
 
@@ -239,7 +239,8 @@ TEST(MirrorQuality, AutomaticMirrorsChooseByThemselves) {
     all.budgetBytes = 1ull << 40;
     all.largestSide = 65536;
     std::set<int> drawn;
-    for (const PlannedPass& pass : planWithin(all, scene, evaluate(scene, 0.0), settings, height, height).plan.passes) {
+    const FittedPlan fitted = planWithin(all, scene, evaluate(scene, 0.0), settings, height, height);
+    for (const Pass& pass : fitted.plan.drawnMirrors()) {
       drawn.insert(pass.view.path.front());
     }
     return drawn;

@@ -96,7 +96,7 @@ class Occluders : public ::testing::Test {
   // Checks that no mirror is drawn although a single face of an object hides all of it. The slack is ten times that of
   // the plan, so that rounding decides nothing.
   static void checkDrawn(const Scene& scene, const SceneState& state, const FramePlan& plan, const std::string& what) {
-    const auto checkPass = [&](const PlannedPass& pass) {
+    const auto checkPass = [&](const Pass& pass) {
       for (const int i : pass.instances) {
         const InstanceState& instance = state.instances[i];
         for (const std::vector<glm::dvec3>& face : scene.meshes[instance.mesh].faces) {
@@ -118,8 +118,8 @@ class Occluders : public ::testing::Test {
         }
       }
     };
-    checkPass(plan.main);
-    std::ranges::for_each(plan.passes, checkPass);
+    checkPass(plan.main());
+    std::ranges::for_each(plan.drawnMirrors(), checkPass);
   }
 
   // Plans a scene and checks all mirrors hidden at a depth. Returns their number.
@@ -170,9 +170,9 @@ class Occluders : public ::testing::Test {
   // Returns the view that does not show a mirror.
   static const View& viewOf(const FramePlan& plan, const SkippedMirror& skipped) {
     const MirrorPath path(skipped.path.begin(), skipped.path.end() - 1);
-    const auto shows = [&](const PlannedPass& pass) { return pass.view.path == path; };
-    const auto pass = std::ranges::find_if(plan.passes, shows);
-    return pass == plan.passes.end() ? plan.main.view : pass->view;
+    const auto shows = [&](const Pass& pass) { return pass.view.path == path; };
+    const auto pass = std::ranges::find_if(plan.drawnMirrors(), shows);
+    return pass == plan.drawnMirrors().end() ? plan.main().view : pass->view;
   }
 
   std::mt19937 engine_{17};

@@ -1,4 +1,5 @@
 #include "frame/picture_tiles.hpp"
+#include "plan_by_hand.hpp"
 #include "test_headers.hpp"
 
 namespace speculum {
@@ -60,17 +61,17 @@ TEST(PictureTiles, SubmissionsWithRaysAreBounded) {
 }
 
 TEST(PictureTiles, FacesCountAsTiles) {
-  EXPECT_EQ(tilesOfFace({.size = 1}), 1u);
-  EXPECT_EQ(tilesOfFace({.size = 2 * tileSide}), 4u);
-  EXPECT_EQ(tilesOfFace({.size = 2 * tileSide + 1}), 9u);
+  const auto tilesOfSquare = [](int side) { return tilesIn({0, 0, side, side}); };
+  EXPECT_EQ(tilesOfSquare(1), 1u);
+  EXPECT_EQ(tilesOfSquare(2 * tileSide), 4u);
+  EXPECT_EQ(tilesOfSquare(2 * tileSide + 1), 9u);
 }
 
 TEST(PictureTiles, PassesFollowEachOther) {
   FramePlan plan;
-  plan.passes.resize(2);
-  plan.passes[0].view.rect = {10, 10, tileSide + 1, tileSide};
-  plan.passes[1].view.rect = {0, 0, 10, 10};
-  plan.main.view.rect = {0, 0, 2 * tileSide, 2 * tileSide};
+  testing_support::addMirror(plan, {0}).view.rect = {10, 10, tileSide + 1, tileSide};
+  testing_support::addMirror(plan, {1}).view.rect = {0, 0, 10, 10};
+  plan.main().view.rect = {0, 0, 2 * tileSide, 2 * tileSide};
   EXPECT_EQ(tileCount(plan), 2u + 1u + 4u);
   EXPECT_EQ(tilesOfPasses(plan), (std::vector<TileRange>{{0, 2}, {0, 1}, {0, 4}})) << "all";
   EXPECT_TRUE(beginsPicture(plan) && endsPicture(plan));
@@ -84,24 +85,25 @@ TEST(PictureTiles, PassesFollowEachOther) {
 
 TEST(PictureTiles, FacesOfMapsComeFirst) {
   FramePlan plan;
-  plan.main.view.rect = {0, 0, 2 * tileSide, tileSide};
-  plan.shadowMaps.resize(1);
-  plan.shadowMaps[0].faces.resize(6);
-  plan.shadowMaps[0].faces[4].rendered = true;
-  plan.maps.resize(2);
-  plan.maps[0].faces.resize(6);
-  plan.maps[1].faces.resize(6);
-  plan.maps[1].cacheIndex = 0;
-  EXPECT_EQ(faceCount(plan), 1u + 6u) << "without those that are reused";
-  EXPECT_EQ(tileCount(plan), 7u + 2u);
-  EXPECT_EQ(facesOf(plan), (TileRange{0, 7}));
-  plan.tiles = {0, 3};
-  EXPECT_EQ(facesOf(plan), (TileRange{0, 3}));
-  EXPECT_TRUE(tilesOfPasses(plan)[0].empty());
-  plan.tiles = {6, 9};
-  EXPECT_EQ(facesOf(plan), (TileRange{6, 7}));
-  EXPECT_EQ(tilesOfPasses(plan)[0], (TileRange{0, 2}));
-  EXPECT_TRUE(endsPicture(plan));
+  plan.main().view.rect = {0, 0, 2 * tileSide, tileSide};
+  const Pass shadow{.id = {.kind = PassKind::shadow}};
+  plan.passes.insert(plan.passes.begin(), {shadow, shadow, shadow, {.id = {.kind = PassKind::environment}}});
+  plan.passes[0].isLayer = true;
+  plan.passes[1].layer = 0;
+  plan.passes[2].source = PassSource::reused;
+  EXPECT_EQ(faceCount(plan), 2u) << "without layers and those that are reused";
+  EXPECT_EQ(tileCount(plan), 2u + 2u);
+  EXPECT_TRUE(beginsPicture(plan) && endsFaces(plan) && endsPicture(plan));
+  const TileRange none;
+  plan.tiles = {0, 1};
+  EXPECT_EQ(tilesOfPasses(plan), (std::vector<TileRange>{none, {0, 1}, none, none, none}));
+  EXPECT_FALSE(endsFaces(plan));
+  plan.tiles = {1, 3};
+  EXPECT_EQ(tilesOfPasses(plan), (std::vector<TileRange>{none, {1, 1}, none, {0, 1}, {0, 1}}));
+  EXPECT_TRUE(endsFaces(plan) && !endsPicture(plan));
+  plan.tiles = {3, 4};
+  EXPECT_EQ(tilesOfPasses(plan).back(), (TileRange{1, 2}));
+  EXPECT_TRUE(endsPicture(plan) && !endsFaces(plan)) << "they ended before";
 }
 
 }  // namespace

@@ -103,10 +103,10 @@ TEST(PictureOffset, MovesAllViewsAlike) {
   Random random(5);
   for (const int picture : {1, 2, 40, 63}) {
     const FramePlan p = planFrame(scene, state, drawn, width, height, {}, picture);
-    const glm::dvec2 moved = -2.0 * pictureOffset(picture, drawn) / p.main.view.pictureSize;
+    const glm::dvec2 moved = -2.0 * pictureOffset(picture, drawn) / p.main().view.pictureSize;
     ASSERT_EQ(p.passes.size(), first.passes.size());
-    for (size_t i = 0; i <= p.passes.size(); ++i) {
-      const View& view = i < p.passes.size() ? p.passes[i].view : p.main.view;
+    for (const Pass& pass : p.passes) {
+      const View& view = pass.view;
       for (int k = 0; k < 20; ++k) {
         const glm::dvec3 direction = random.direction();
         const std::vector<glm::dvec3> point{view.eye + direction};
@@ -115,14 +115,14 @@ TEST(PictureOffset, MovesAllViewsAlike) {
         EXPECT_NEAR(glm::length(after - before - glm::dvec4(moved * before.w, 0.0, 0.0)), 0.0, 1e-12);
         EXPECT_NEAR(glm::length(p.projection.matrix() * glm::dvec4(view.worldToView * direction, 1.0) - after), 0.0,
                     1e-12);
-        if (i == p.passes.size()) {
+        if (pass.id.kind == PassKind::main) {
           const bool inside = std::abs(after.x) <= after.w && std::abs(after.y) <= after.w;
           EXPECT_EQ(sphereVisible(view, point.front(), 0.0), inside);
         }
       }
     }
   }
-  EXPECT_TRUE(planFrame(scene, state, drawn, width, height, {}, 64).mainReused);
+  EXPECT_TRUE(planFrame(scene, state, drawn, width, height, {}, 64).mainReused());
 }
 
 }  // namespace

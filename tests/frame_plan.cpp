@@ -35,18 +35,17 @@ void expectSkipped(const FramePlan& plan, int mirror, SkipReason reason) {
 
 TEST(FramePlan, FacingMirrorNeedsOnePass) {
   const FramePlan p = planOf(sceneWith({wall({0, 0, -5}, 0)}));
-  ASSERT_EQ(p.passes.size(), 1u);
-  const PlannedPass& pass = p.passes[0];
+  ASSERT_EQ(p.drawnMirrors().size(), 1u);
+  const Pass& pass = p.drawnMirrors()[0];
   EXPECT_EQ(pass.depth, 0);
-  EXPECT_EQ(pass.parent, -1);
   EXPECT_EQ(pass.view.path, MirrorPath{0});
   // 2 m at 5 m: 2/5 / (2 tan 30) of the height.
   const double side = 0.4 / (2.0 * std::tan(glm::radians(30.0))) * height;
   EXPECT_NEAR(pass.areaPx, side * side, 1e-6);
   EXPECT_EQ(pass.view.rect.width, static_cast<int>(2 * std::ceil(side / 2)) + 2);
   EXPECT_NEAR(glm::length(pass.view.eye - glm::dvec3(0, 0, -10)), 0.0, 1e-12);
-  ASSERT_EQ(p.main.mirrors.size(), 1u);
-  EXPECT_EQ(p.main.mirrors[0].pass, 0);
+  ASSERT_EQ(p.main().mirrors.size(), 1u);
+  EXPECT_EQ(p.main().mirrors[0].pass, 0);
   EXPECT_TRUE(p.skipped.empty());
 }
 
@@ -69,15 +68,15 @@ TEST(FramePlan, ReasonsAtTheFirstLevel) {
 TEST(FramePlan, BackIsDrawnUnlessTwoSided) {
   Scene scene = sceneWith({wall({0, 0, -5}, 180)});
   FramePlan p = planOf(scene);
-  ASSERT_EQ(p.main.mirrors.size(), 1u);
-  EXPECT_TRUE(p.main.mirrors[0].back);
-  EXPECT_TRUE(p.passes.empty());
+  ASSERT_EQ(p.main().mirrors.size(), 1u);
+  EXPECT_TRUE(p.main().mirrors[0].back);
+  EXPECT_TRUE(p.drawnMirrors().empty());
 
   scene.mirrors[0].twoSided = true;
   p = planOf(scene);
-  ASSERT_EQ(p.passes.size(), 1u);
-  EXPECT_FALSE(p.main.mirrors[0].back);
-  EXPECT_GT(p.main.mirrors[0].plane.normal.z, 0.99);
+  ASSERT_EQ(p.drawnMirrors().size(), 1u);
+  EXPECT_FALSE(p.main().mirrors[0].back);
+  EXPECT_GT(p.main().mirrors[0].plane.normal.z, 0.99);
 }
 
 TEST(FramePlan, BudgetGoesToTheBestFirst) {
@@ -86,8 +85,8 @@ TEST(FramePlan, BudgetGoesToTheBestFirst) {
   Settings settings;
   settings.reflection.maxPasses = 1;
   const FramePlan p = planOf(scene, settings);
-  ASSERT_EQ(p.passes.size(), 1u);
-  EXPECT_EQ(p.passes[0].view.path, MirrorPath{1});
+  ASSERT_EQ(p.drawnMirrors().size(), 1u);
+  EXPECT_EQ(p.drawnMirrors()[0].view.path, MirrorPath{1});
   expectSkipped(p, 0, SkipReason::maxPasses);
   expectSkipped(p, 2, SkipReason::maxPasses);
 }
@@ -97,14 +96,14 @@ TEST(FramePlan, RaysTakeThePlaceOfPasses) {
   settings.reflection.method = ReflectionMethod::rays;
   const Scene scene = sceneWith({wall({0, 0, -5}, 0)});
   const FramePlan p = planOf(scene, settings);
-  EXPECT_TRUE(p.passes.empty());
-  EXPECT_TRUE(p.main.mirrors.at(0).byRays);
+  EXPECT_TRUE(p.drawnMirrors().empty());
+  EXPECT_TRUE(p.main().mirrors.at(0).byRays);
   EXPECT_TRUE(p.effects.traces());
   expectSkipped(p, 0, SkipReason::rays);
   settings.reflection.method = ReflectionMethod::automatic;
-  EXPECT_EQ(planOf(scene, settings).passes.size(), 1u);
+  EXPECT_EQ(planOf(scene, settings).drawnMirrors().size(), 1u);
   const Scene far = sceneWith({wall({0, 0, -200}, 0)});
-  EXPECT_TRUE(planOf(far, settings).passes.empty());
+  EXPECT_TRUE(planOf(far, settings).drawnMirrors().empty());
   EXPECT_TRUE(planOf(far, settings).effects.traces());
   expectSkipped(planOf(far, settings), 0, SkipReason::rays);
   settings.reflection.method = ReflectionMethod::rays;
@@ -117,13 +116,13 @@ TEST(FramePlan, FacingMirrorsRecurseDeepestFirst) {
   Settings settings;
   settings.reflection.maxDepth = 6;
   const FramePlan p = planOf(corridor(), settings);
-  ASSERT_EQ(p.passes.size(), 6u);
-  for (size_t i = 0; i < p.passes.size(); ++i) {
-    EXPECT_EQ(p.passes[i].depth, 5 - static_cast<int>(i));
-    EXPECT_EQ(p.passes[i].parent, i + 1 < p.passes.size() ? static_cast<int>(i) + 1 : -1);
-    EXPECT_EQ(p.passes[i].view.mirrored(), p.passes[i].depth % 2 == 0);
+  ASSERT_EQ(p.drawnMirrors().size(), 6u);
+  for (size_t i = 0; i < p.drawnMirrors().size(); ++i) {
+    EXPECT_EQ(p.drawnMirrors()[i].depth, 5 - static_cast<int>(i));
+    EXPECT_EQ(p.passes[i + 1].mirrors[0].pass, static_cast<int>(i)) << "shown in the next one";
+    EXPECT_EQ(p.drawnMirrors()[i].view.mirrored(), p.drawnMirrors()[i].depth % 2 == 0);
     if (i > 0) {
-      EXPECT_LT(p.passes[i - 1].areaPx, p.passes[i].areaPx);
+      EXPECT_LT(p.drawnMirrors()[i - 1].areaPx, p.drawnMirrors()[i].areaPx);
     }
   }
   const auto cut = std::ranges::find(p.skipped, SkipReason::maxDepth, &SkippedMirror::reason);
@@ -136,8 +135,8 @@ TEST(FramePlan, ThroughputIsTheProductOfReflectances) {
   scene.mirrors[0].reflectance = {0.5, 0.1, 0.1};
   scene.mirrors[1].reflectance = {0.1, 0.4, 0.1};
   const FramePlan p = planOf(scene);
-  const auto second = std::ranges::find(p.passes, 1, &PlannedPass::depth);
-  ASSERT_NE(second, p.passes.end());
+  const auto second = std::ranges::find(p.drawnMirrors(), 1, &Pass::depth);
+  ASSERT_NE(second, p.drawnMirrors().end());
   EXPECT_NEAR(second->throughput, 0.05, 1e-15);
 }
 
@@ -146,15 +145,15 @@ TEST(FramePlan, SchlickBoundUsesTheFarthestPoint) {
   scene.mirrors[0].reflectance = glm::dvec3(0.04);
   scene.mirrors[0].fresnel = Fresnel::schlick;
   const FramePlan p = planOf(scene);
-  ASSERT_EQ(p.passes.size(), 1u);
+  ASSERT_EQ(p.drawnMirrors().size(), 1u);
   const double cosine = 5.0 / std::sqrt(27.0);
-  EXPECT_NEAR(p.passes[0].throughput, 0.04 + 0.96 * std::pow(1.0 - cosine, 5.0), 1e-12);
+  EXPECT_NEAR(p.drawnMirrors()[0].throughput, 0.04 + 0.96 * std::pow(1.0 - cosine, 5.0), 1e-12);
 }
 
 TEST(FramePlan, CoplanarNeighboursDoNotReflectEachOther) {
   const FramePlan p = planOf(sceneWith({wall({-1.5, 0, -5}, 0), wall({1.5, 0, -5}, 0)}));
-  EXPECT_EQ(p.passes.size(), 2u);
-  for (const PlannedPass& pass : p.passes) {
+  EXPECT_EQ(p.drawnMirrors().size(), 2u);
+  for (const Pass& pass : p.drawnMirrors()) {
     EXPECT_TRUE(pass.mirrors.empty());
   }
 }
@@ -172,20 +171,20 @@ TEST(FramePlan, TexelsFollowBothScales) {
     const FramePlan p = planFrame(scene, state, settings, size.x, size.y);
     EXPECT_EQ(p.width, size.x);
     const glm::dvec2 texels = glm::dvec2(size) * settings.view.scale;
-    const glm::dvec2 drawn = p.main.view.pictureSize;
-    EXPECT_EQ(p.main.view.rect, (PixelRect{0, 0, static_cast<int>(drawn.x), static_cast<int>(drawn.y)}));
+    const glm::dvec2 drawn = p.main().view.pictureSize;
+    EXPECT_EQ(p.main().view.rect, (PixelRect{0, 0, static_cast<int>(drawn.x), static_cast<int>(drawn.y)}));
     EXPECT_EQ(drawn, glm::max(glm::round(texels), 1.0));
-    EXPECT_EQ(p.main.areaPx, drawn.x * drawn.y);
+    EXPECT_EQ(p.main().areaPx, drawn.x * drawn.y);
     // The scale changes resolutions, but neither the mirrors with passes nor the reasons of the others nor picking.
-    ASSERT_EQ(p.passes.size(), whole.passes.size());
+    ASSERT_EQ(p.drawnMirrors().size(), whole.drawnMirrors().size());
     EXPECT_EQ(p.skipped.size(), whole.skipped.size());
-    for (size_t i = 0; i < p.passes.size(); ++i) {
-      const View& view = p.passes[i].view;
-      EXPECT_EQ(view.path, whole.passes[i].view.path);
+    for (size_t i = 0; i < p.drawnMirrors().size(); ++i) {
+      const View& view = p.drawnMirrors()[i].view;
+      EXPECT_EQ(view.path, whole.drawnMirrors()[i].view.path);
       EXPECT_EQ(view.pictureSize, settings.reflection.scale * drawn);
-      EXPECT_NEAR(p.passes[i].areaPx * size.x * size.y,
-                  whole.passes[i].areaPx * view.pictureSize.x * view.pictureSize.y,
-                  1e-6 * p.passes[i].areaPx * size.x * size.y);
+      EXPECT_NEAR(p.drawnMirrors()[i].areaPx * size.x * size.y,
+                  whole.drawnMirrors()[i].areaPx * view.pictureSize.x * view.pictureSize.y,
+                  1e-6 * p.drawnMirrors()[i].areaPx * size.x * size.y);
       EXPECT_GE(std::min(view.rect.width, view.rect.height), 1);
     }
   }
@@ -194,13 +193,13 @@ TEST(FramePlan, TexelsFollowBothScales) {
 TEST(FramePlan, MinPixelsCountsPixelsOfThePicture) {
   const Scene scene = sceneWith({wall({0, 0, -5}, 0, {0.1, 0.1})});
   Settings settings;
-  const double pixels = planOf(scene).passes.at(0).areaPx;
+  const double pixels = planOf(scene).drawnMirrors()[0].areaPx;
   for (const double scale : {1.0, 0.5, 0.125}) {
     settings.view.scale = scale;
     settings.reflection.minPixels = 0.99 * pixels;
-    EXPECT_EQ(planOf(scene, settings).passes.size(), 1u) << scale;
+    EXPECT_EQ(planOf(scene, settings).drawnMirrors().size(), 1u) << scale;
     settings.reflection.minPixels = 1.01 * pixels;
-    EXPECT_EQ(planOf(scene, settings).passes.size(), 0u) << scale;
+    EXPECT_EQ(planOf(scene, settings).drawnMirrors().size(), 0u) << scale;
   }
 }
 

@@ -35,10 +35,10 @@ class ShadowFrames : public testing_support::PlanSequence {
   std::vector<int> rendered() {
     next();
     std::vector<int> faces;
-    for (const ShadowMap& map : plan.shadowMaps) {
-      for (int i = 0; i < 6; ++i) {
-        if (map.faces[static_cast<size_t>(i)].rendered) {
-          faces.push_back(i);
+    for (const Cube& map : testing_support::shadowMapsOf(plan)) {
+      for (size_t i = 0; i < 6; ++i) {
+        if (testing_support::faceOf(plan, map, i).drawn()) {
+          faces.push_back(static_cast<int>(i));
         }
       }
     }
@@ -48,31 +48,31 @@ class ShadowFrames : public testing_support::PlanSequence {
 
 TEST(ShadowMap, ExistsWhereShadowsAreLookedUp) {
   ShadowFrames frames(lampRoom());
-  ASSERT_EQ(frames.next().shadowMaps.size(), 1u);
-  EXPECT_EQ(frames.plan.shadowMaps[0].name, "light 0");
+  ASSERT_EQ(testing_support::shadowMapsOf(frames.next()).size(), 1u);
+  EXPECT_EQ(testing_support::shadowMapsOf(frames.plan)[0].name, "light 0");
   EXPECT_FALSE(frames.plan.effects.any()) << "no rays";
   frames.settings.effects.shadowLookup = ShadowLookup::traced;
-  EXPECT_TRUE(frames.next().shadowMaps.empty());
+  EXPECT_TRUE(testing_support::shadowMapsOf(frames.next()).empty());
   EXPECT_TRUE(frames.plan.effects.traces());
   frames.settings.effects.shadowLookup = ShadowLookup::map;
   frames.settings.effects.shadows = false;
-  EXPECT_TRUE(frames.next().shadowMaps.empty());
+  EXPECT_TRUE(testing_support::shadowMapsOf(frames.next()).empty());
   frames.settings.effects.shadows = true;
   frames.scene.camera.target = {0, 0, 1};
-  EXPECT_TRUE(frames.next().shadowMaps.empty()) << "nothing in view";
+  EXPECT_TRUE(testing_support::shadowMapsOf(frames.next()).empty()) << "nothing in view";
 }
 
 TEST(ShadowMap, BouncedLightAndManyLightsTrace) {
   ShadowFrames frames(lampRoom());
   frames.scene.mirrors = {testing_support::wall({0, 0, -8}, 0, {6, 6})};
   frames.scene.mirrors[0].castsLight = true;
-  EXPECT_TRUE(frames.next().shadowMaps.empty());
+  EXPECT_TRUE(testing_support::shadowMapsOf(frames.next()).empty());
   EXPECT_TRUE(frames.plan.effects.shadowRays);
   frames.scene.mirrors.clear();
   frames.scene.lights.assign(mostShadowMaps, lightAt({1, 2, -5}));
-  EXPECT_EQ(frames.next().shadowMaps.size(), mostShadowMaps);
+  EXPECT_EQ(testing_support::shadowMapsOf(frames.next()).size(), mostShadowMaps);
   frames.scene.lights.push_back(lightAt({1, 2, -5}));
-  EXPECT_TRUE(frames.next().shadowMaps.empty());
+  EXPECT_TRUE(testing_support::shadowMapsOf(frames.next()).empty());
   EXPECT_TRUE(frames.plan.effects.shadowRays);
 }
 
@@ -103,14 +103,14 @@ TEST(ShadowMap, OnlyChangedFacesAreRendered) {
 
 TEST(ShadowMap, FarLightHasOneFace) {
   ShadowFrames frames(lampRoom());
-  EXPECT_EQ(onlyShadowFace(frames.next().shadowMaps), std::nullopt) << "the lamp is in the room";
+  EXPECT_EQ(onlyShadowFace(frames.next()), std::nullopt) << "the lamp is in the room";
   frames.scene.lights = {lightAt({-60, 20, -5})};
-  EXPECT_EQ(onlyShadowFace(frames.next().shadowMaps), 0u);
+  EXPECT_EQ(onlyShadowFace(frames.next()), 0u);
   frames.scene.lights.push_back(lightAt({-60, 25, 0}));
-  EXPECT_EQ(onlyShadowFace(frames.next().shadowMaps), 0u);
+  EXPECT_EQ(onlyShadowFace(frames.next()), 0u);
   frames.scene.lights[1] = lightAt({60, 25, 0});
-  EXPECT_EQ(onlyShadowFace(frames.next().shadowMaps), std::nullopt) << "two lights, two faces";
-  EXPECT_EQ(onlyShadowFace({}), std::nullopt);
+  EXPECT_EQ(onlyShadowFace(frames.next()), std::nullopt) << "two lights, two faces";
+  EXPECT_EQ(onlyShadowFace(FramePlan()), std::nullopt);
 }
 
 // The face below the lamp of a room in which a box may spin beside the one that stands still.
@@ -120,35 +120,53 @@ class Layers : public ShadowFrames {
     scene.objects.push_back(objectAt({1.5, -0.5, -5}));
     scene.objects.back().spin.y = speed;
   }
-  const ShadowFace& down(double time) { return next(time).shadowMaps.at(0).faces.at(3); }
+  const Pass& down(double time) {
+    next(time);
+    return testing_support::faceOf(plan, plan.cubes.at(0), 3);
+  }
+  // Layer of the face in the last frame; null without one.
+  const Pass* layer() const {
+    const int index = testing_support::faceOf(plan, plan.cubes.at(0), 3).layer;
+    return index < 0 ? nullptr : &plan.passes[static_cast<size_t>(index)];
+  }
+  // Plans a frame that has a layer and says whether it draws that.
+  bool drawsLayer(double time) {
+    down(time);
+    EXPECT_TRUE(layer());
+    return layer() && layer()->drawn();
+  }
 };
 
 TEST(ShadowLayer, HoldsWhatStandsStill) {
   Layers frames;
-  EXPECT_FALSE(frames.down(0.0).layer) << "nothing has moved yet";
-  const ShadowFace first = frames.down(0.1);
-  ASSERT_TRUE(first.layer);
-  EXPECT_TRUE(first.layer->rendered);
-  EXPECT_EQ(first.layer->pass.instances, (RecycledVector<int>{0, 1}));
-  EXPECT_EQ(first.pass.instances, RecycledVector<int>{2});
-  const ShadowFace next = frames.down(0.2);
-  EXPECT_TRUE(next.rendered);
-  EXPECT_FALSE(next.layer.value().rendered);
-  EXPECT_EQ(next.pass.instances, RecycledVector<int>{2});
-  EXPECT_FALSE(frames.down(0.2).rendered) << "the animation pauses";
-  EXPECT_FALSE(frames.down(0.3).layer.value().rendered);
+  frames.down(0.0);
+  EXPECT_FALSE(frames.layer()) << "nothing has moved yet";
+  EXPECT_EQ(frames.down(0.1).instances, RecycledVector<int>{2});
+  ASSERT_TRUE(frames.layer());
+  EXPECT_TRUE(frames.layer()->drawn());
+  EXPECT_LT(frames.layer(), &frames.plan.passes[static_cast<size_t>(frames.plan.cubes[0].faces[3])])
+      << "it comes first";
+  EXPECT_EQ(frames.layer()->instances, (RecycledVector<int>{0, 1}));
+  const Pass& next = frames.down(0.2);
+  EXPECT_TRUE(next.drawn());
+  EXPECT_FALSE(frames.layer()->drawn());
+  EXPECT_EQ(next.instances, RecycledVector<int>{2});
+  EXPECT_FALSE(frames.down(0.2).drawn()) << "the animation pauses";
+  EXPECT_FALSE(frames.drawsLayer(0.3));
   frames.scene.objects[1].position.x -= 0.1;
-  EXPECT_TRUE(frames.down(0.4).layer.value().rendered);
+  EXPECT_TRUE(frames.drawsLayer(0.4));
   frames.settings.reflection.skipUnchanged = false;
-  EXPECT_FALSE(frames.down(0.5).layer);
+  frames.down(0.5);
+  EXPECT_FALSE(frames.layer());
   frames.settings.reflection.skipUnchanged = true;
-  EXPECT_TRUE(frames.down(0.6).layer.value().rendered);
+  EXPECT_TRUE(frames.drawsLayer(0.6));
 }
 
 TEST(ShadowLayer, NeedsStillAndMovingCasters) {
   const auto hasLayer = [](Layers& frames) {
     frames.down(0.0);
-    return frames.down(0.1).layer.has_value();
+    frames.down(0.1);
+    return frames.layer() != nullptr;
   };
   Layers still(0.0);
   EXPECT_FALSE(hasLayer(still));
@@ -161,16 +179,15 @@ TEST(ShadowLayer, NeedsStillAndMovingCasters) {
   mirror.scene.mirrors = {testing_support::wall({-1, 0, -5}, 0, {1, 1})};
   mirror.scene.mirrors[0].spin.y = 10.0;
   EXPECT_TRUE(hasLayer(mirror));
-  EXPECT_TRUE(mirror.plan.shadowMaps[0].faces[3].pass.instances.empty());
+  EXPECT_TRUE(testing_support::faceOf(mirror.plan, mirror.plan.cubes[0], 3).instances.empty());
 }
 
 TEST(ShadowLayer, NeedsALightThatStandsStill) {
   Layers frames;
   frames.scene.lights[0].orbit = Orbit{.center = {0, 2, -5}, .speed = 10.0};
   frames.down(0.0);
-  const ShadowFace& face = frames.down(0.1);
-  EXPECT_TRUE(face.rendered);
-  EXPECT_FALSE(face.layer);
+  EXPECT_TRUE(frames.down(0.1).drawn());
+  EXPECT_FALSE(frames.layer());
 }
 
 // In random scenes, every drawn point looks up a face that is rendered, within the face's window.
@@ -194,15 +211,13 @@ TEST(ShadowMap, VisiblePointsLieInReadFaces) {
     frames.settings.debug.skipHidden = false;
     frames.next();
     const SceneState state = evaluate(scene, 0.0);
-    std::vector<const PlannedPass*> passes{&frames.plan.main};
-    for (const PlannedPass& pass : frames.plan.passes) {
+    std::vector<const Pass*> passes{&frames.plan.main()};
+    for (const Pass& pass : frames.plan.drawnMirrors()) {
       passes.push_back(&pass);
     }
-    for (const ShadowMap& map : frames.plan.shadowMaps) {
-      unread += static_cast<int>(std::ranges::count(map.faces, false, &ShadowFace::read));
-    }
+    unread += static_cast<int>(std::ranges::count(frames.plan.passes, PassSource::unread, &Pass::source));
     for (int sample = 0; sample < 400; ++sample) {
-      const PlannedPass& pass = *passes[random.index(passes.size())];
+      const Pass& pass = *passes[random.index(passes.size())];
       if (pass.instances.empty()) {
         continue;
       }
@@ -211,16 +226,16 @@ TEST(ShadowMap, VisiblePointsLieInReadFaces) {
       if (!sphereVisible(pass.view, p, 0.0)) {
         continue;
       }
-      for (const ShadowMap& map : frames.plan.shadowMaps) {
+      for (const Cube& map : testing_support::shadowMapsOf(frames.plan)) {
         const glm::dvec3 d = p - state.lights[static_cast<size_t>(map.light)].position;
         size_t in = 0;
         for (size_t f = 1; f < 6; ++f) {
           in = glm::dot(d, faceAxes()[f].forward) > glm::dot(d, faceAxes()[in].forward) ? f : in;
         }
-        EXPECT_EQ(onlyShadowFace({&map, 1}).value_or(in), in);
-        const ShadowFace& face = map.faces[in];
-        ASSERT_TRUE(face.read) << "trial " << trial;
-        const glm::dvec4 clip = face.projection.clip(face.pass.view.worldToView * d);
+        EXPECT_EQ(onlyShadowFace(frames.plan).value_or(in), in);
+        const Pass& face = testing_support::faceOf(frames.plan, map, in);
+        ASSERT_NE(face.source, PassSource::unread) << "trial " << trial;
+        const glm::dvec4 clip = face.projection.clip(face.view.worldToView * d);
         const double inner = 1.0 - 2.0 * shadowBorder / map.size + 1e-9;
         EXPECT_LE(std::abs(clip.x / clip.w), inner);
         EXPECT_LE(std::abs(clip.y / clip.w), inner);
@@ -236,7 +251,7 @@ TEST(ShadowMap, MemoryIncludesItAndLowersIt) {
   ShadowFrames frames(lampRoom());
   frames.next();
   FramePlan without = frames.plan;
-  without.shadowMaps.clear();
+  without.cubes.clear();
   const uint64_t bytes = 6ull * 1024 * 1024 * (8 + 4);
   EXPECT_EQ(shadowBytes(frames.plan), bytes);
   Layers layers;

@@ -37,8 +37,8 @@ bool doHide(const std::vector<Object>& objects, const Mirror& mirror) {
 
 TEST(Hidden, MirrorsBehindObjectsNeedNoPass) {
   const FramePlan p = planOf(sceneWith({wall({0, 0, -5}, 0, {2, 2})}, {square({0, 0, -3})}));
-  EXPECT_TRUE(p.passes.empty());
-  EXPECT_TRUE(p.main.mirrors.empty());
+  EXPECT_TRUE(p.drawnMirrors().empty());
+  EXPECT_TRUE(p.main().mirrors.empty());
   ASSERT_TRUE(isHidden(p, {0}));
   EXPECT_EQ(skipOf(p, {0})->detail, "behind object 'door'");
 }
@@ -50,14 +50,14 @@ TEST(Hidden, MirrorsHideMirrorsFromBothSides) {
     const FramePlan p = planOf(sceneWith({wall({0, 0, -5}, 0, {2, 2}), screen}, {}));
     ASSERT_TRUE(isHidden(p, {0})) << yaw;
     EXPECT_EQ(skipOf(p, {0})->detail, "behind mirror 'screen'");
-    ASSERT_EQ(p.main.mirrors.size(), 1u);
-    EXPECT_EQ(p.main.mirrors[0].mirror, 1);
+    ASSERT_EQ(p.main().mirrors.size(), 1u);
+    EXPECT_EQ(p.main().mirrors[0].mirror, 1);
   }
 }
 
 TEST(Hidden, BacksAreNotDrawnEither) {
   const FramePlan p = planOf(sceneWith({wall({0, 0, -5}, 180, {2, 2})}, {square({0, 0, -3})}));
-  EXPECT_TRUE(p.main.mirrors.empty());
+  EXPECT_TRUE(p.main().mirrors.empty());
   EXPECT_EQ(skipOf(p, {0})->reason, SkipReason::backface);
 }
 
@@ -83,10 +83,10 @@ TEST(Hidden, WireframeAndSwitchHideNothing) {
   const Scene scene = sceneWith({wall({0, 0, -5}, 0, {2, 2})}, {square({0, 0, -3})});
   Settings settings;
   settings.view.wireframe = true;
-  EXPECT_EQ(planOf(scene, settings).passes.size(), 1u);
+  EXPECT_EQ(planOf(scene, settings).drawnMirrors().size(), 1u);
   settings = {};
   settings.debug.skipHidden = false;
-  EXPECT_EQ(planOf(scene, settings).passes.size(), 1u);
+  EXPECT_EQ(planOf(scene, settings).drawnMirrors().size(), 1u);
 }
 
 // A mirror at z = -4 shows the one behind the camera; a door stands in between, or behind the first mirror's plane.
@@ -95,8 +95,10 @@ TEST(Hidden, MirrorsHideOnlyWithWhatTheyReflect) {
   EXPECT_TRUE(isHidden(planOf(sceneWith(facing, {square({0, 0, 2}, {3, 3, 1})})), {0, 1}));
   const FramePlan beyond = planOf(sceneWith(facing, {square({0, 0, -6}, {3, 3, 1})}));
   EXPECT_FALSE(isHidden(beyond, {0, 1}));
-  EXPECT_EQ(beyond.passes.back().view.path, MirrorPath{0});
-  ASSERT_TRUE(std::ranges::any_of(beyond.passes, [](const auto& pass) { return pass.view.path == MirrorPath{0, 1}; }));
+  EXPECT_EQ(beyond.drawnMirrors().back().view.path, MirrorPath{0});
+  ASSERT_TRUE(std::ranges::any_of(beyond.drawnMirrors(), [](const auto& pass) {
+    return pass.view.path == MirrorPath{0, 1};
+  }));
   // A door stands across the plane. Only its part before the plane is reflected, so only that part hides.
   Object across = square({0, 0, -4}, {3, 3, 1});
   across.rotation = {0, 90, 0};
@@ -110,7 +112,7 @@ TEST(Hidden, OverlappingOccludersHideTogether) {
   left.name = "left";
   right.name = "right";
   const FramePlan p = planOf(sceneWith({mirror}, {left, right}));
-  EXPECT_TRUE(p.passes.empty());
+  EXPECT_TRUE(p.drawnMirrors().empty());
   ASSERT_TRUE(isHidden(p, {0}));
   EXPECT_EQ(skipOf(p, {0})->detail, "behind object 'left' and object 'right'");
   right.position.x = 0.75;  // a gap
@@ -235,12 +237,12 @@ TEST(PassMask, CoversTheMirrorAndItsLookups) {
     Settings settings;
     settings.reflection.scale = scale;
     const FramePlan p = planOf(sceneWith({mirror}, {}), settings);
-    ASSERT_EQ(p.passes.size(), 1u);
-    const PlannedPass& pass = p.passes[0];
+    ASSERT_EQ(p.drawnMirrors().size(), 1u);
+    const Pass& pass = p.drawnMirrors()[0];
     const double reach = lookupReach(pass, settings, false);
     const std::vector<glm::dvec2> mask = passMask(pass.view, p.projection, reach);
     ASSERT_GE(mask.size(), 4u);
-    const auto clip = toClip(p.main.view, p.projection, p.main.mirrors[0].polygon);
+    const auto clip = toClip(p.main().view, p.projection, p.main().mirrors[0].polygon);
     const glm::dvec2 texel = 2.0 / pass.view.pictureSize;
     const PixelRect& rect = pass.view.rect;
     const glm::dvec2 low = (glm::dvec2(rect.x, rect.y) + 1e-6) * texel - 1.0;
@@ -285,7 +287,7 @@ TEST(PassMask, HasNoTriangleWithoutArea) {
     settings.reflection.maxPasses = 1000;
     settings.reflection.scale = oneOf({0.5, 1.0});
     const FramePlan p = planOf(scene, settings);
-    for (const PlannedPass& pass : p.passes) {
+    for (const Pass& pass : p.drawnMirrors()) {
       std::vector<glm::dvec2> mask = passMask(pass.view, p.projection, lookupReach(pass, settings, true));
       for (glm::dvec2& corner : mask) {
         corner = glm::round((corner * 0.5 + 0.5) * pass.view.pictureSize * 256.0);  // as GPUs snap vertices
@@ -309,8 +311,8 @@ TEST(MirrorPolygons, ReachAsFarAsImagesAreRead) {
     settings.reflection.scale = 0.05;
     const SceneState state = evaluate(scene, 0.0);
     const FramePlan plan = planOf(scene, settings);
-    ASSERT_GE(plan.passes.size(), 2u);
-    for (const PlannedPass& pass : plan.passes) {
+    ASSERT_GE(plan.drawnMirrors().size(), 2u);
+    for (const Pass& pass : plan.drawnMirrors()) {
       View read = pass.view;
       widen(read, plan.projection, static_cast<int>(std::ceil(lookupReach(pass, settings, false))));
       for (const MirrorDraw& draw : pass.mirrors) {
@@ -323,13 +325,13 @@ TEST(MirrorPolygons, ReachAsFarAsImagesAreRead) {
 
 TEST(PassMask, IsEmptyWhereMirrorsFillTheirRectangle) {
   const FramePlan p = planOf(sceneWith({wall({0, 0, -1}, 0, {20, 20})}, {}));
-  ASSERT_EQ(p.passes.size(), 1u);
-  EXPECT_TRUE(passMask(p.passes[0].view, p.projection, 1.5).empty());
+  ASSERT_EQ(p.drawnMirrors().size(), 1u);
+  EXPECT_TRUE(passMask(p.drawnMirrors()[0].view, p.projection, 1.5).empty());
 }
 
 TEST(PassMask, ReachesAsFarAsLookupsDo) {
   Settings settings;
-  PlannedPass pass{.quality = {.samples = 4}, .shownIn = {.samples = 4}};
+  Pass pass{.quality = {.samples = 4}, .shownIn = {.samples = 4}};
   EXPECT_DOUBLE_EQ(lookupReach(pass, settings, true), 0.75) << "4 samples, 1/8 from the texel's border";
   EXPECT_DOUBLE_EQ(lookupReach(pass, settings, false), 1.0) << "a whole texel";
   pass.quality.samples = 1;
@@ -348,7 +350,7 @@ TEST(PassMask, ReachesAsFarAsLookupsDo) {
 
 TEST(PassMask, FollowsTheMarginOfACachedImage) {
   const Scene scene = sceneWith({wall({0, 0, -5}, 20, {2, 2})}, {});
-  View view = planOf(scene).passes[0].view;
+  View view = planOf(scene).drawnMirrors()[0].view;
   const Projection projection = planOf(scene).projection;
   const std::vector<glm::dvec2> narrow = passMask(view, projection, 1.5);
   widen(view, projection, 20);
@@ -366,7 +368,7 @@ TEST(BoxVisible, IsTightAndNeverTooTight) {
   const auto uniform = [&](double low, double high) { return random.uniform(low, high); };
   int culled = 0;
   for (int round = 0; round < 20000; ++round) {
-    const View& view = round % 2 == 0 ? p.main.view : p.passes[0].view;
+    const View& view = round % 2 == 0 ? p.main().view : p.drawnMirrors()[0].view;
     const glm::dvec3 half(uniform(0.01, 2), uniform(0.01, 2), uniform(0.01, 0.05));
     const Affine place{rotationFromDegrees({uniform(0, 360), uniform(0, 360), 0}) * uniform(0.2, 2),
                        {uniform(-8, 8), uniform(-6, 6), uniform(-12, 12)}};

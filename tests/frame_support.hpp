@@ -65,6 +65,24 @@ inline FramePlan planOf(const Scene& scene, const Settings& settings = {}) {
   return planFrame(scene, evaluate(scene, 0.0), settings, width, height);
 }
 
+inline std::span<const Cube> shadowMapsOf(const FramePlan& plan) {
+  return cubesOf(plan.cubes, PassKind::shadow);
+}
+inline std::span<const Cube> environmentMapsOf(const FramePlan& plan) {
+  return cubesOf(plan.cubes, PassKind::environment);
+}
+
+inline const Pass& faceOf(const FramePlan& plan, const Cube& cube, size_t face) {
+  return plan.passes[static_cast<size_t>(cube.faces[face])];
+}
+
+// Returns the mirror passes that cached images replace.
+inline size_t reusedMirrors(const FramePlan& plan) {
+  return static_cast<size_t>(std::ranges::count_if(plan.passes, [](const Pass& pass) {
+    return pass.id.kind == PassKind::mirror && pass.source == PassSource::reused;
+  }));
+}
+
 inline const SkippedMirror* skipOf(const FramePlan& plan, const MirrorPath& path) {
   const auto it = std::ranges::find(plan.skipped, path, &SkippedMirror::path);
   return it == plan.skipped.end() ? nullptr : &*it;
@@ -87,8 +105,7 @@ class PlanSequence {
     changes.update(scene, state);
     plan = planFrame(scene, state, settings, width, height,
                      {.images = plan.cached,
-                      .maps = plan.maps,
-                      .shadowMaps = plan.shadowMaps,
+                      .cubes = plan.cubes,
                       .main = main.content.empty() ? nullptr : &main,
                       .changes = &changes});
     main = {settings, plan.mainContent};
@@ -101,7 +118,7 @@ class PlanSequence {
   // Mirrors seen directly that have a pass, or a cached image that is reused.
   std::set<int> rendered() const {
     std::set<int> mirrors;
-    for (const PlannedPass& pass : plan.passes) {
+    for (const Pass& pass : plan.drawnMirrors()) {
       mirrors.insert(pass.view.path.front());
     }
     return mirrors;

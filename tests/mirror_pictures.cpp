@@ -366,7 +366,7 @@ TEST(MirrorPictures, UnseenMirrorsTakeNoMemory) {
     session->draw(0.0, true);
     session->renderer().waitIdle();
   }
-  EXPECT_TRUE(with.lastFrame().plan.passes.empty());
+  EXPECT_TRUE(with.lastFrame().plan.drawnMirrors().empty());
   EXPECT_EQ(with.picture().rgba, without.picture().rgba);
   EXPECT_LE(with.device().allocatedBytes(), without.device().allocatedBytes() + 4096);
 }
@@ -386,7 +386,7 @@ TEST(ViewScale, DrawsTheSmallerPictureEnlarged) {
     settings.reflection.minPixels = 0.0;  // pixels of the picture, which differ
     whole.setSettings(settings);
     const Image8 picture = draw(whole);
-    EXPECT_EQ(whole.lastFrame().plan.main.areaPx, drawn.width * drawn.height);
+    EXPECT_EQ(whole.lastFrame().plan.main().areaPx, drawn.width * drawn.height);
     const LinearImage radiance = whole.radiance();
     ASSERT_EQ(radiance.width, size.width);
     EXPECT_LE(difference(picture, toDisplay(radiance), 1).over, 0) << scale;

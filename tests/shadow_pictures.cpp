@@ -170,11 +170,9 @@ TEST(ShadowMaps, LayersChangeNoByteInRandomScenes) {
         rendering.setCamera(camera);
       }
       EXPECT_EQ(draw(reusing, time).rgba, draw(rendering, time).rgba) << "seed " << seed << ", frame " << frame;
-      for (const ShadowMap& map : reusing.lastFrame().plan.shadowMaps) {
-        for (const ShadowFace& face : map.faces) {
-          rendered += face.rendersLayer();
-          reused += face.rendered && face.layer && !face.rendersLayer();
-        }
+      for (const Pass& pass : reusing.lastFrame().plan.passes) {
+        rendered += pass.isLayer && pass.drawn();
+        reused += pass.isLayer && !pass.drawn();
       }
     }
   }

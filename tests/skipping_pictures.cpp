@@ -101,10 +101,10 @@ TEST(Skipping, CameraCutsShowWhatDrawingEverythingShows) {
     settings.debug.skipHidden = settings.debug.cullClusters = true;
     const Image8 skipping = pictureWith(session, settings);
     hidden += std::ranges::count(session.lastFrame().plan.skipped, SkipReason::hidden, &SkippedMirror::reason);
-    passes += session.lastFrame().plan.passes.size();
+    passes += session.lastFrame().plan.drawnMirrors().size();
     settings.debug.skipHidden = settings.debug.maskPasses = false;
     const Image8 all = pictureWith(session, settings);
-    passesOfAll += session.lastFrame().plan.passes.size();
+    passesOfAll += session.lastFrame().plan.drawnMirrors().size();
     ASSERT_EQ(skipping.rgba, all.rgba) << "cut " << cut;
     if (cut % 4 == 0) {
       settings.debug.cullClusters = false;

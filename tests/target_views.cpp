@@ -28,8 +28,7 @@ const DrawnFrame& drawWith(Session& session, const std::optional<DebugView>& deb
 
 // Shows the target over the whole picture, each texel at its own pixel.
 DebugView inPlace(const FramePlan& plan, int pass, TargetKind kind) {
-  const PixelRect rect =
-      pass < static_cast<int>(plan.passes.size()) ? plan.passes[static_cast<size_t>(pass)].view.rect : PixelRect{};
+  const PixelRect& rect = plan.passes[static_cast<size_t>(pass)].view.rect;
   return {.pass = pass,
           .area = {0, 0, hallSize.width, hallSize.height},
           .kind = kind,
@@ -45,7 +44,7 @@ TEST_P(TargetView, DepthIsShownByDistance) {
   options.renderPath = GetParam().first;
   QuietSession session(options);
   const FramePlan plan = session.draw(0.0, false).plan;
-  ASSERT_EQ(plan.passes.size(), 1u);
+  ASSERT_EQ(plan.drawnMirrors().size(), 1u);
   // The sphere's radius is 0.5 m.
   for (const auto& [pass, metres] : {std::pair(0, 7.5), std::pair(1, 3.5)}) {
     for (int frame = 0; frame < 3; ++frame) {
@@ -89,7 +88,7 @@ TEST_P(TargetView, ProbeReadsATexelExactly) {
   // The sphere's radius is 0.5 m.
   for (const auto& [pass, metres] : {std::pair(0, 7.5), std::pair(1, 3.5)}) {
     DebugView debug = inPlace(plan, pass, TargetKind::depth);
-    const PixelRect rect = pass == 0 ? plan.passes[0].view.rect : PixelRect{};
+    const PixelRect rect = pass == 0 ? plan.drawnMirrors()[0].view.rect : PixelRect{};
     debug.probe = glm::ivec2(hallSize.width / 2 - rect.x, hallSize.height / 2 - rect.y);
     const TexelValue depth = probed(session, debug);
     EXPECT_TRUE(depth.depth);
@@ -181,7 +180,7 @@ TEST(TargetViews, StayUntilTheNextPictureIsComplete) {
   full.view.samples = full.reflection.samples = 4;
   FramePlan plan = planOf(full);
   const size_t count = tileCount(plan);
-  ASSERT_EQ(plan.passes.size(), 1u);
+  ASSERT_EQ(plan.drawnMirrors().size(), 1u);
   for (const TargetKind kind : {TargetKind::color, TargetKind::depth}) {
     for (const int pass : {0, 1}) {
       const DebugView debug{.pass = pass, .area = {20, 10, 100, 80}, .kind = kind, .halfDistance = 5.0};

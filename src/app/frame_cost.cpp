@@ -7,7 +7,6 @@
 
 #include "frame/mesh_level.hpp"
 #include "frame/mirror_sight.hpp"
-#include "frame/shadow_map.hpp"
 
 namespace speculum {
 
@@ -33,7 +32,7 @@ constexpr double surprise = 1.5;      // deviations
 constexpr double mostBelieved = 2.5;  // deviations: bounds the weight of a single disturbed frame
 constexpr double leastFactor = 0.02;
 
-double trianglesOf(const PlannedPass& pass, const Scene& scene, const SceneState& state) {
+double trianglesOf(const Pass& pass, const Scene& scene, const SceneState& state) {
   double indices = 0.0;
   for (const int instance : pass.instances) {
     const Mesh& mesh = scene.meshes[static_cast<size_t>(state.instances[static_cast<size_t>(instance)].mesh)];
@@ -47,8 +46,8 @@ double trianglesOf(const PlannedPass& pass, const Scene& scene, const SceneState
 }
 
 // Adds the rays of a pass with this number of texels, each of `samples` samples.
-void addRays(FrameWork& work, const PlannedPass& pass, double texels, int samples, const FramePlan& plan,
-             const Scene& scene, const SceneState& state, const EffectSettings& settings) {
+void addRays(FrameWork& work, const Pass& pass, double texels, int samples, const FramePlan& plan, const Scene& scene,
+             const SceneState& state, const EffectSettings& settings) {
   const TracedEffects& effects = plan.effects;
   const double points = settings.perSample ? samples : 1.0;  // of a texel, from which rays start
   const auto toLights = static_cast<double>(effects.raysToLights(scene));
@@ -83,46 +82,34 @@ void addRays(FrameWork& work, const PlannedPass& pass, double texels, int sample
 
 FrameWork workOf(const FramePlan& plan, const Scene& scene, const SceneState& state, const Settings& settings) {
   FrameWork work{.plainTexels = static_cast<double>(plan.width) * plan.height,
-                 .passes = static_cast<double>(plan.passes.size()) + 1.0,
-                 .mirrorPasses = static_cast<double>(plan.passes.size()),
-                 .mainTexels = static_cast<double>(plan.main.view.rect.area()),
+                 .mainTexels = static_cast<double>(plan.main().view.rect.area()),
                  .viewSamples = settings.view.samples,
                  .interval = mostAsked(scene, settings).updateInterval,
                  .mirrorSamples = 1.0 * settings.reflection.samples};
   double further = 0.0;  // samples beyond those of the settings
-  work.triangles = trianglesOf(plan.main, scene, state);
-  addRays(work, plan.main, work.mainTexels, work.viewSamples, plan, scene, state, settings.effects);
-  for (const PlannedPass& pass : plan.passes) {
+  for (const Pass& pass : plan.passes) {
+    const PassKind kind = pass.id.kind;
+    if (!pass.drawn() && kind != PassKind::main) {
+      continue;
+    }
+    ++work.passes;
     work.triangles += trianglesOf(pass, scene, state);
-    work.mirrorTexels += pass.areaPx;
-    further += pass.areaPx * (pass.quality.samples - settings.reflection.samples);
-    addRays(work, pass, pass.areaPx, pass.quality.samples, plan, scene, state, settings.effects);
+    if (kind == PassKind::shadow) {
+      work.plainTexels += static_cast<double>(pass.view.rect.area());
+      continue;
+    }
+    const double texels = kind == PassKind::main ? work.mainTexels : pass.areaPx;
+    addRays(work, pass, texels, kind == PassKind::main ? work.viewSamples : pass.quality.samples, plan, scene, state,
+            settings.effects);
+    if (kind == PassKind::mirror) {
+      ++work.mirrorPasses;
+      work.mirrorTexels += pass.areaPx;
+      further += pass.areaPx * (pass.quality.samples - settings.reflection.samples);
+    } else if (kind == PassKind::environment) {
+      work.mapTexels += pass.areaPx;
+    }
   }
   work.mirrorSamples += work.mirrorTexels > 0.0 ? further / work.mirrorTexels : 0.0;
-  for (const EnvironmentMap& map : plan.maps) {
-    for (const PlannedPass& face : map.faces) {
-      if (map.cacheIndex < 0) {
-        ++work.passes;
-        work.triangles += trianglesOf(face, scene, state);
-        work.mapTexels += face.areaPx;
-        addRays(work, face, face.areaPx, 1, plan, scene, state, settings.effects);
-      }
-    }
-  }
-  for (const ShadowMap& map : plan.shadowMaps) {
-    for (const ShadowFace& face : map.faces) {
-      if (face.rendered) {
-        ++work.passes;
-        work.triangles += trianglesOf(face.pass, scene, state);
-        work.plainTexels += static_cast<double>(map.size) * map.size;
-        if (face.rendersLayer()) {
-          ++work.passes;
-          work.triangles += trianglesOf(face.layer->pass, scene, state);
-          work.plainTexels += static_cast<double>(map.size) * map.size;
-        }
-      }
-    }
-  }
   return work;
 }
 

@@ -20,8 +20,7 @@ constexpr double smoothing = 0.05;    // smallest weight of a frame in the times
 constexpr double settlingMs = 500.0;  // a frame that takes longer is shown without averaging
 constexpr size_t awaitedFrames = 4;   // frames whose GPU times may still arrive
 
-TargetView targetOf(const FramePlan& plan, const PlannedPass& pass, const Settings& settings,
-                    bool standardSampleLocations) {
+TargetView targetOf(const FramePlan& plan, const Pass& pass, const Settings& settings, bool standardSampleLocations) {
   const View& view = pass.view;
   const auto texel = [&](const glm::dvec2& device) {
     return glm::vec2((0.5 * device + 0.5) * view.pictureSize - glm::dvec2(view.rect.x, view.rect.y));
@@ -120,7 +119,7 @@ void FrameReport::addFrame(const RecordedFrame& frame, const FrameTimings& timin
 void FrameReport::updateTimes(const RecordedFrame& frame, const FrameTimings& timings,
                               std::span<const RecordedPass> timed) {
   addFrame(frame, timings, timed);
-  const bool drawsScene = !frame.plan.mainReused && !frame.repeats;
+  const bool drawsScene = !frame.plan.mainReused() && !frame.repeats;
   view_.still = !drawsScene || frame.plan.tiles;
   const bool drewScene = endsPicture(frame.plan) && !std::exchange(panelsOnly_, !drawsScene) && !drawn_.empty();
   if (endsPicture(frame.plan) && drawsScene) {
@@ -141,7 +140,7 @@ void FrameReport::updateTimes(const RecordedFrame& frame, const FrameTimings& ti
       view_.history.add(frame.number, ms, picture_.cpuMs, picture_.lowered);
     }
   }
-  if (endsPicture(frame.plan) && !frame.plan.mainReused) {
+  if (endsPicture(frame.plan) && !frame.plan.mainReused()) {
     drawn_.push_front(picture_);
     drawn_.resize(std::min(drawn_.size(), awaitedFrames));
     tilesTimed_ = tilesTimed_ && frame.plan.tiles;
@@ -197,17 +196,17 @@ void FrameReport::setTimes(const Picture& picture, double gpuMs) {
 void FrameReport::updatePasses(const RecordedFrame& frame, std::span<const RecordedPass> passes) {
   const FramePlan& plan = frame.plan;
   const int interval = mostAsked(frame.scene, frame.settings).updateInterval;
+  const auto reuses = [](const Pass& pass) { return pass.source == PassSource::reused && !pass.isFace(); };
   const auto isReused = [&](const PassView& row) {
-    return (plan.mainReused && row.kind == PassKind::main) ||
-           std::ranges::any_of(plan.reused, [&](const PlannedPass& p) { return p.view.path == row.path; });
+    return std::ranges::any_of(plan.passes, [&](const Pass& pass) { return reuses(pass) && pass.id == row; });
   };
   std::vector<PassView> rows;
-  if (interval > 1 || !plan.reused.empty() || plan.mainReused) {
+  if (interval > 1 || std::ranges::any_of(plan.passes, reuses)) {
     rows = std::move(view_.passes);
   }
   for (PassView& row : rows) {
     ++row.framesAgo;
-    row.reused = plan.mainReused ? row.reused : isReused(row);
+    row.reused = plan.mainReused() ? row.reused : isReused(row);
   }
   std::ptrdiff_t index = 0;
   for (const RecordedPass& pass : passes) {
@@ -221,7 +220,7 @@ void FrameReport::updatePasses(const RecordedFrame& frame, std::span<const Recor
     }
     row->areaPx = pass.areaPx;
     row->draws = pass.draws;
-    const PlannedPass* planned = mirrorPass(plan, pass.path);
+    const Pass* planned = mirrorPass(plan, pass.path);
     row->resolution = planned ? depthReadout(*planned, plan.projection, frame.scene, frame.state) : std::nullopt;
     row->framesAgo = 0;
     row->reused = false;
@@ -230,7 +229,7 @@ void FrameReport::updatePasses(const RecordedFrame& frame, std::span<const Recor
   std::erase_if(rows, [&](const PassView& row) { return row.framesAgo >= interval && !isReused(row); });
   // Times of another quality say nothing about this picture, those of other settings little.
   const bool otherQuality = timedLowered_ != frame.lowered || (plan.tiles && !tilesTimed_);
-  if (!plan.mainReused && (otherQuality || !sameMainView(timedSettings_, frame.settings))) {
+  if (!plan.mainReused() && (otherQuality || !sameMainView(timedSettings_, frame.settings))) {
     view_.timedGpuMs = 0.0;
     for (PassView& row : rows) {
       row.gpuMs = otherQuality ? std::nan("") : row.gpuMs;
@@ -285,8 +284,8 @@ void FrameReport::updateSkipped(const RecordedFrame& frame) {
                              std::string(skip.detail), skip.reason == SkipReason::rays});
   }
   std::set<int> reused;  // mirrors seen directly in cached images
-  for (const PlannedPass& pass : frame.plan.reused) {
-    if (pass.view.path.size() == 1) {
+  for (const Pass& pass : frame.plan.passes) {
+    if (pass.source == PassSource::reused && pass.view.path.size() == 1) {
       reused.insert(pass.view.path.front());
     }
   }
@@ -305,7 +304,7 @@ void FrameReport::updateSkipped(const RecordedFrame& frame) {
 
 std::optional<DebugView> FrameReport::target(const TargetRequest& request, const FramePlan& plan,
                                              const Settings& settings, bool standardSampleLocations) {
-  const PlannedPass* mirror = mirrorPass(plan, request.path);
+  const Pass* mirror = mirrorPass(plan, request.path);
   if (!mirror && !request.path.empty()) {
     return std::nullopt;
   }
@@ -313,15 +312,14 @@ std::optional<DebugView> FrameReport::target(const TargetRequest& request, const
   // While tiles are drawn, the target of the picture before stays.
   if (endsPicture(plan) || !view_.target.complete || view_.target.path != request.path) {
     const std::optional<TexelValue> value = view_.target.value;
-    view_.target = targetOf(plan, mirror ? *mirror : plan.main, settings, standardSampleLocations);
+    view_.target = targetOf(plan, mirror ? *mirror : plan.main(), settings, standardSampleLocations);
     view_.target.value = value;
   }
   if (!request.drawn) {
     return std::nullopt;
   }
   DebugView view = request.view;
-  const RecycledVector<PlannedPass>& passes = shownPasses(plan);
-  view.pass = static_cast<int>(mirror ? mirror - passes.data() : std::ssize(passes));
+  view.pass = static_cast<int>((mirror ? mirror : &plan.main()) - plan.passes.data());
   // The image may have become smaller since the pointer was there.
   if (view.probe && (view.probe->x >= view_.target.size.x || view.probe->y >= view_.target.size.y)) {
     view.probe.reset();

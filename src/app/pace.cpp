@@ -30,7 +30,7 @@ Settings withPictures(Settings settings, int pictures) {
 
 // Says whether tiles can draw the picture; debug.check_finite looks at whole ones.
 bool drawnInTiles(const FittedPlan& fitted) {
-  return !fitted.plan.mainReused && !fitted.settings.debug.checkFinite;
+  return !fitted.plan.mainReused() && !fitted.settings.debug.checkFinite;
 }
 
 }  // namespace

@@ -6,7 +6,6 @@
 
 #include "accuracy/statistics.hpp"
 #include "frame/depth_readout.hpp"
-#include "frame/shadow_map.hpp"
 #include "platform/machine.hpp"
 
 namespace speculum {
@@ -44,7 +43,7 @@ ordered_json metres(const std::optional<double>& value) {
 // is seen.
 ordered_json depthJson(const Session& session, const MirrorPath& path) {
   const DrawnFrame& frame = session.lastFrame();
-  const PlannedPass* pass = mirrorPass(frame.plan, path);
+  const Pass* pass = mirrorPass(frame.plan, path);
   if (!pass) {
     return nullptr;
   }
@@ -79,7 +78,7 @@ ordered_json passesJson(Session& session) {
     const PassTiming& timing = pass.timing;
     const bool mirror = pass.kind == PassKind::mirror;
     const FramePlan& plan = session.lastFrame().plan;
-    const PlannedPass* planned = pass.kind == PassKind::main ? &plan.main : mirrorPass(plan, pass.path);
+    const Pass* planned = pass.kind == PassKind::main ? &plan.main() : mirrorPass(plan, pass.path);
     const PixelRect rect = planned ? planned->view.rect : PixelRect();
     const int samples = planned ? session.device().sampleCount(planned->quality.samples) : 0;
     passes.push_back({{"name", pass.name},
@@ -111,16 +110,14 @@ ordered_json skippedJson(const Scene& scene, const FramePlan& plan) {
                        {"reason", skipReasonName(skip.reason)},
                        {"detail", std::string_view(skip.detail)}});
   }
-  for (const ShadowMap& map : plan.shadowMaps) {
-    for (size_t i = 0; i < map.faces.size(); ++i) {
-      if (const ShadowFace& face = map.faces[i]; !face.rendered) {
-        const SkipReason reason = face.read ? SkipReason::unchanged : SkipReason::outside;
-        skipped.push_back({{"mirror", nullptr},
-                           {"path", ordered_json::array()},
-                           {"depth", nullptr},
-                           {"reason", skipReasonName(reason)},
-                           {"detail", shadowFaceName(map, i)}});
-      }
+  for (const Pass& pass : plan.passes) {
+    if (pass.id.kind == PassKind::shadow && !pass.isLayer && !pass.drawn()) {
+      const SkipReason reason = pass.source == PassSource::reused ? SkipReason::unchanged : SkipReason::outside;
+      skipped.push_back({{"mirror", nullptr},
+                         {"path", ordered_json::array()},
+                         {"depth", nullptr},
+                         {"reason", skipReasonName(reason)},
+                         {"detail", passName(scene, plan, pass)}});
     }
   }
   return skipped;

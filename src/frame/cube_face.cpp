@@ -36,7 +36,7 @@ RecycledVector<Bounds> boxesOf(const Scene& scene, const SceneState& state, cons
 }
 
 void addVisibleInstances(const View& view, const Scene& scene, const SceneState& state, bool cullClusters, int without,
-                         PlannedPass& pass) {
+                         Pass& pass) {
   for (int i = 0; i < static_cast<int>(state.instances.size()); ++i) {
     const InstanceState& instance = state.instances[i];
     const Mesh& mesh = scene.meshes[instance.mesh];
@@ -56,13 +56,17 @@ void addVisibleInstances(const View& view, const Scene& scene, const SceneState&
 }
 
 void addVisibleLights(const View& view, const Scene& scene, const SceneState& state, const EffectSettings& effects,
-                      PlannedPass& pass) {
+                      Pass& pass) {
   for (size_t i = 0; i < scene.lights.size(); ++i) {
     const PointLight& light = scene.lights[i];
     if (hasGlyph(light, effects) && sphereVisible(view, state.lights[i].position, light.radius)) {
       pass.lights.push_back(static_cast<int>(i));
     }
   }
+}
+
+glm::ivec2 faceCorner(int size, size_t face) {
+  return size * glm::ivec2(face % 3, face / 3);
 }
 
 View viewOf(const CubeFace& face) {
@@ -74,10 +78,10 @@ View viewOf(const CubeFace& face) {
   return mainView(pose, face.projection, face.size, face.size);
 }
 
-PlannedPass planFace(const CubeFace& face, const Scene& scene, const SceneState& state, bool cullClusters,
-                     int without) {
-  PlannedPass pass;
+Pass planFace(const CubeFace& face, const Scene& scene, const SceneState& state, bool cullClusters, int without) {
+  Pass pass;
   pass.view = viewOf(face);
+  pass.projection = face.projection;
   pass.areaPx = pass.view.rect.area();
   addVisibleInstances(pass.view, scene, state, cullClusters, without, pass);
   View drawn = pass.view;

@@ -15,7 +15,7 @@ inline bool isAlwaysThere(const MirrorPath& path, TargetKind kind) {
 
 // A pass's target, shown over the picture in an area of the display image.
 struct DebugView {
-  int pass = 0;    // index into shownPasses(); its size stands for the main view
+  int pass = 0;    // index into FramePlan::passes
   PixelRect area;  // pixels
   TargetKind kind = TargetKind::color;
   double zoom = 0.0;                // display pixels for each texel; 0 fits the image into the area's middle

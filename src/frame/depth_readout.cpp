@@ -77,7 +77,7 @@ class Farthest {
 
 }  // namespace
 
-std::optional<FarthestPoint> farthestVisible(const PlannedPass& pass, const Projection& projection, const Scene& scene,
+std::optional<FarthestPoint> farthestVisible(const Pass& pass, const Projection& projection, const Scene& scene,
                                              const SceneState& state) {
   Farthest farthest(pass.view, projection);
   for (const int i : pass.instances) {
@@ -92,7 +92,7 @@ std::optional<FarthestPoint> farthestVisible(const PlannedPass& pass, const Proj
   return farthest.point();
 }
 
-std::optional<DepthReadout> depthReadout(const PlannedPass& pass, const Projection& projection, const Scene& scene,
+std::optional<DepthReadout> depthReadout(const Pass& pass, const Projection& projection, const Scene& scene,
                                          const SceneState& state) {
   const View& view = pass.view;
   const std::optional<FarthestPoint> farthest = farthestVisible(pass, projection, scene, state);

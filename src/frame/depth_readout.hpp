@@ -24,11 +24,11 @@ struct FarthestPoint {
   glm::dvec3 point{0.0};
   double extent = 0.0;  // metres; radius of the bounding sphere it lies on, 0 for a mirror
 };
-std::optional<FarthestPoint> farthestVisible(const PlannedPass& pass, const Projection& projection, const Scene& scene,
+std::optional<FarthestPoint> farthestVisible(const Pass& pass, const Projection& projection, const Scene& scene,
                                              const SceneState& state);
 
 // Returns nothing if the pass sees only the background.
-std::optional<DepthReadout> depthReadout(const PlannedPass& pass, const Projection& projection, const Scene& scene,
+std::optional<DepthReadout> depthReadout(const Pass& pass, const Projection& projection, const Scene& scene,
                                          const SceneState& state);
 
 // The readout's gap for one clip method.

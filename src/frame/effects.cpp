@@ -18,7 +18,7 @@ struct Visible {
 
 Visible visibleIn(const FramePlan& plan) {
   Visible visible;
-  forEachPass(plan, [&](const PlannedPass& pass) {
+  forEachSeen(plan, [&](const Pass& pass) {
     visible.instances.insert(pass.instances.begin(), pass.instances.end());
     visible.lights.insert(pass.lights.begin(), pass.lights.end());
     for (const MirrorDraw& draw : pass.mirrors) {
@@ -79,7 +79,7 @@ Effect multisampling(const Settings& settings, const FramePlan& plan) {
     return {EffectKind::msaa, "msaa", true, "view.samples = " + std::to_string(settings.view.samples)};
   }
   int samples = 1;  // of mirror images
-  forEachPass(plan, [&](const PlannedPass& pass) { samples = std::max(samples, pass.quality.samples); });
+  forEachSeen(plan, [&](const Pass& pass) { samples = std::max(samples, pass.quality.samples); });
   if (samples > 1) {
     const std::string key = samples == settings.reflection.samples ? "reflection.samples = " : "quality.samples = ";
     return {EffectKind::msaa, "msaa", true, key + std::to_string(samples)};

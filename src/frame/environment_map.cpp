@@ -5,7 +5,6 @@
 #include <string>
 #include <utility>
 
-#include "frame/cube_face.hpp"
 #include "frame/scene_names.hpp"
 
 namespace speculum {
@@ -43,8 +42,10 @@ Bounds boxAround(size_t own, std::span<const Bounds> boxes) {
   return around;
 }
 
-PlannedPass faceOf(const Scene& scene, const SceneState& state, const EnvironmentMap& map, const FaceAxes& axes) {
-  PlannedPass face = planFace({map.center, axes, map.projection, map.size}, scene, state, false, map.instance);
+Pass faceOf(const Scene& scene, const SceneState& state, const Cube& map, const Projection& projection, size_t index) {
+  Pass face = planFace({map.center, faceAxes()[index], projection, map.size}, scene, state, false, map.instance);
+  face.id = {.kind = PassKind::environment, .instance = map.instance, .face = static_cast<int>(index)};
+  face.corner = faceCorner(map.size, index);
   addVisibleLights(face.view, scene, state, map.settings.effects, face);
   return face;
 }
@@ -53,10 +54,9 @@ PlannedPass faceOf(const Scene& scene, const SceneState& state, const Environmen
 constexpr size_t mostFaceTests = 20'000'000;
 
 // Returns the instances of curved mirrors that the passes draw, ascending.
-RecycledVector<int> drawnCurved(const Scene& scene, const SceneState& state,
-                                std::span<const PlannedPass* const> passes) {
+RecycledVector<int> drawnCurved(const Scene& scene, const SceneState& state, std::span<const Pass* const> passes) {
   RecycledVector<int> drawn;
-  for (const PlannedPass* pass : passes) {
+  for (const Pass* pass : passes) {
     std::ranges::copy_if(pass->instances, std::back_inserter(drawn),
                          [&](int i) { return scene.objects[state.instances[i].object].mirror.has_value(); });
   }
@@ -92,7 +92,7 @@ RecycledString mapName(const Scene& scene, const InstanceState& instance) {
 }  // namespace
 
 EnvironmentMaps environmentMaps(const Scene& scene, const SceneState& state, const Settings& settings,
-                                std::span<const PlannedPass* const> passes) {
+                                std::span<const Pass* const> passes) {
   EnvironmentMaps maps;
   if (!settings.effects.curved || settings.effects.curvedLookup != CurvedLookup::environment) {
     return maps;
@@ -105,22 +105,24 @@ EnvironmentMaps environmentMaps(const Scene& scene, const SceneState& state, con
   for (const int i : curved) {
     const InstanceState& instance = state.instances[i];
     const Bounds box = boxAround(static_cast<size_t>(i), boxes);
-    EnvironmentMap map{.object = instance.object,
-                       .copy = instance.copy,
-                       .instance = i,
-                       .name = mapName(scene, instance),
-                       .size = settings.effects.environmentSize,
-                       .center = instance.center,
-                       .low = box.low,
-                       .high = box.high,
-                       .settings = settings};
-    map.projection.focal = static_cast<double>(map.size - 2 * environmentBorder) / map.size;
-    map.projection.aspect = 1.0;
-    map.projection.near = nearOf(state, map.projection);
-    for (const FaceAxes& axes : faceAxes()) {
-      map.faces.push_back(faceOf(scene, state, map, axes));
+    Cube map{.kind = PassKind::environment,
+             .object = instance.object,
+             .copy = instance.copy,
+             .instance = i,
+             .name = mapName(scene, instance),
+             .size = settings.effects.environmentSize,
+             .center = instance.center,
+             .low = box.low,
+             .high = box.high,
+             .settings = settings};
+    Projection projection;
+    projection.focal = static_cast<double>(map.size - 2 * environmentBorder) / map.size;
+    projection.aspect = 1.0;
+    projection.near = nearOf(state, projection);
+    for (size_t face = 0; face < map.faces.size(); ++face) {
+      maps.faces.push_back(faceOf(scene, state, map, projection, face));
     }
-    maps.maps.push_back(std::move(map));
+    maps.cubes.push_back(std::move(map));
   }
   return maps;
 }

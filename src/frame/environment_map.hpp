@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include "frame/frame_plan.hpp"
+#include "frame/cube_face.hpp"
 #include "geometry/recycled_memory.hpp"
 
 namespace speculum {
@@ -13,14 +13,13 @@ inline constexpr int environmentBorder = 1;
 // and copies. Others show the background.
 inline constexpr size_t mostEnvironmentMaps = 32;
 
-struct EnvironmentMaps {
-  RecycledVector<EnvironmentMap> maps;
+struct EnvironmentMaps : PlannedCubes {
   size_t omitted = 0;  // curved mirrors that are drawn and have none
 };
 
 // Plans maps for the curved mirrors that these passes draw, all to be rendered. None unless effects.curved_lookup is
 // `environment`.
 EnvironmentMaps environmentMaps(const Scene& scene, const SceneState& state, const Settings& settings,
-                                std::span<const PlannedPass* const> passes);
+                                std::span<const Pass* const> passes);
 
 }  // namespace speculum

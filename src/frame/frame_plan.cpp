@@ -6,10 +6,12 @@
 #include <iterator>
 
 #include "frame/cube_face.hpp"
+#include "frame/cube_reuse.hpp"
 #include "frame/environment_map.hpp"
 #include "frame/mesh_level.hpp"
 #include "frame/mirror_search.hpp"
 #include "frame/picture_offset.hpp"
+#include "frame/scene_names.hpp"
 #include "frame/shadow_map.hpp"
 
 namespace speculum {
@@ -37,17 +39,19 @@ class Planner {
   }
 
   FramePlan plan() {
+    plan_.passes.clear();
     nodes_ = findPasses(scene_, state_, allSettings_, cache_, size_, plan_);
     findEffects();
     simplify();
+    addFaces();
     reuseUnchanged();
-    record(0);
+    addReused();
+    add(0);
     dropSkipsInReused();
-    if (changes_ && !allSettings_.view.continuous) {
+    if (meanIsComplete()) {
+      std::ranges::for_each(plan_.passes, [](Pass& pass) { pass.source = PassSource::reused; });
+    } else if (changes_ && !allSettings_.view.continuous) {
       reuseMain(plan_, cache_.main, surroundings());
-    }
-    if (allSettings_.view.accumulate > 1 && plan_.picture >= allSettings_.view.accumulate) {
-      reuseMean();
     }
     return std::move(plan_);
   }
@@ -57,15 +61,19 @@ class Planner {
   void findShadows();
   ImageSurroundings surroundings() const;
   void simplify();
-  void addMaps(RecycledVector<SimplifiedPass>& passes);
-  RecycledVector<SimplifiedPass> facesToSimplify(EnvironmentMap& map) const;
+  RecycledVector<SimplifiedPass> facesToSimplify(size_t map);
+  void addFaces();
   void reuseUnchanged();
-  void collect(int node, RecycledVector<const PlannedPass*>& passes) const;
-  int record(int node);
-  void reuseImage(MirrorDraw& draw, const PassNode& node);
-  void recordReused(int node);
+  void collect(int node, RecycledVector<const Pass*>& passes) const;
+  void addReused();
+  void addReused(int node);
+  int add(int node);
+  void append(int node, PassSource source);
+  void reuseImage(MirrorDraw& draw, const MirrorNode& node);
   void dropSkipsInReused();
-  void reuseMean();
+  bool meanIsComplete() const {
+    return allSettings_.view.accumulate > 1 && plan_.picture >= allSettings_.view.accumulate;
+  }
 
   const Scene& scene_;
   const SceneState& state_;
@@ -75,26 +83,26 @@ class Planner {
   const SceneChanges* changes_ = nullptr;  // null without reflection.skip_unchanged
   FramePlan plan_;
   glm::ivec2 size_{0};  // texels of the main view
-  RecycledVector<PassNode> nodes_;
+  RecycledVector<MirrorNode> nodes_;
+  PlannedCubes shadowMaps_;
+  PlannedCubes environmentMaps_;
 };
 
 // Finds the environment and shadow maps, and the effects that maps and passes call for. Passes of cached images count.
 void Planner::findEffects() {
-  RecycledVector<const PlannedPass*> passes;
+  RecycledVector<const Pass*> passes;
   collect(0, passes);
   EnvironmentMaps maps = environmentMaps(scene_, state_, allSettings_, passes);
-  plan_.maps = std::move(maps.maps);
+  environmentMaps_ = std::move(maps);
   passes.pop_back();
-  for (const EnvironmentMap& map : plan_.maps) {
-    for (const PlannedPass& face : map.faces) {
-      passes.push_back(&face);
-    }
+  for (const Pass& face : environmentMaps_.faces) {
+    passes.push_back(&face);
   }
   passes.push_back(&nodes_[0].pass);
   plan_.effects = tracedEffects(scene_, state_, allSettings_, passes);
   if (maps.omitted > 0) {
     plan_.effects.curved->append("; ")
-        .append(std::to_string(plan_.maps.size()))
+        .append(std::to_string(environmentMaps_.cubes.size()))
         .append(" have environment maps, ")
         .append(std::to_string(maps.omitted))
         .append(" more show the background");
@@ -106,15 +114,13 @@ void Planner::findEffects() {
 
 void Planner::findShadows() {
   RecycledVector<ShadowReader> readers;
-  for (const PassNode& node : nodes_) {
+  for (const MirrorNode& node : nodes_) {
     readers.push_back({&node.pass, readableView(node.pass, plan_.projection), &plan_.projection});
   }
-  for (const EnvironmentMap& map : plan_.maps) {
-    for (const PlannedPass& face : map.faces) {
-      readers.push_back({&face, face.view, &map.projection});
-    }
+  for (const Pass& face : environmentMaps_.faces) {
+    readers.push_back({&face, face.view, &face.projection});
   }
-  plan_.shadowMaps = shadowMaps(scene_, state_, allSettings_, readers);
+  shadowMaps_ = shadowMaps(scene_, state_, allSettings_, readers);
 }
 
 // Chooses mesh levels. Rays from objects rule them out: they start on what is drawn but meet full meshes, in whose
@@ -126,12 +132,21 @@ void Planner::simplify() {
     return;
   }
   RecycledVector<SimplifiedPass> passes;
-  for (PassNode& node : nodes_) {
+  for (MirrorNode& node : nodes_) {
     passes.push_back({&node.pass, readableView(node.pass, plan_.projection), &plan_.projection,
                       meshErrorIn(node.pass.view, allSettings_)});
   }
   if (plan_.effects.shadowMaps) {
-    addMaps(passes);
+    for (size_t map = 0; map < environmentMaps_.cubes.size(); ++map) {
+      std::ranges::copy(facesToSimplify(map), std::back_inserter(passes));
+    }
+    constexpr double softened = 2.0;  // texels that a lookup reads in each direction
+    const double texels = allSettings_.view.meshError > 0.0 ? softened : 0.0;
+    for (Pass& face : shadowMaps_.faces) {
+      if (face.inReach) {
+        passes.push_back({&face, face.view, &face.projection, texels, face.source != PassSource::unread});
+      }
+    }
     simplifyAlike(passes, allSettings_, scene_, state_);
     return;
   }
@@ -142,54 +157,50 @@ void Planner::simplify() {
   }
   if (settings_.meshError > 0.0) {
     // An object that two faces show has one level in both, so that it has no step at their edge.
-    for (EnvironmentMap& map : plan_.maps) {
+    for (size_t map = 0; map < environmentMaps_.cubes.size(); ++map) {
       simplifyAlike(facesToSimplify(map), allSettings_, scene_, state_);
     }
   }
 }
 
-RecycledVector<SimplifiedPass> Planner::facesToSimplify(EnvironmentMap& map) const {
+RecycledVector<SimplifiedPass> Planner::facesToSimplify(size_t map) {
+  constexpr size_t count = 6;
   RecycledVector<SimplifiedPass> faces;
-  for (PlannedPass& face : map.faces) {
-    faces.push_back({&face, face.view, &map.projection, settings_.meshError});
+  for (Pass& face : std::span(environmentMaps_.faces).subspan(count * map, count)) {
+    faces.push_back({&face, face.view, &face.projection, settings_.meshError});
   }
   return faces;
 }
 
-// Adds the faces of environment maps and of the shadow maps that all of them look up.
-void Planner::addMaps(RecycledVector<SimplifiedPass>& passes) {
-  for (EnvironmentMap& map : plan_.maps) {
-    std::ranges::copy(facesToSimplify(map), std::back_inserter(passes));
-  }
-  constexpr double softened = 2.0;  // texels that a lookup reads in each direction
-  const double texels = allSettings_.view.meshError > 0.0 ? softened : 0.0;
-  for (ShadowMap& map : plan_.shadowMaps) {
-    for (ShadowFace& face : map.faces) {
-      if (face.inReach) {
-        passes.push_back({&face.pass, face.pass.view, &face.projection, texels, face.read});
-      }
-    }
-  }
-}
-
 ImageSurroundings Planner::surroundings() const {
   ImageSurroundings around{scene_, state_, allSettings_, plan_.projection, plan_.effects, changes_, {}};
-  for (const ShadowMap& map : plan_.shadowMaps) {
-    around.shadowSerial = std::max(around.shadowSerial, map.serial);
-  }
-  for (const EnvironmentMap& map : plan_.maps) {
-    around.maps.emplace_back(map.instance, map.serial);
+  for (const Cube& cube : plan_.cubes) {
+    if (cube.kind == PassKind::shadow) {
+      around.shadowSerial = std::max(around.shadowSerial, cube.serial);
+    } else {
+      around.maps.emplace_back(cube.instance, cube.serial);
+    }
   }
   return around;
 }
 
+// Adds the faces of maps to the plan. A complete mean needs none, but keeps the shadow maps of the frame before for the
+// frames after it.
+void Planner::addFaces() {
+  const std::span<const Cube> shadows = cubesOf(cache_.cubes, PassKind::shadow);
+  if (meanIsComplete()) {
+    plan_.cubes.assign(shadows.begin(), shadows.end());
+    return;
+  }
+  ImageSurroundings around = surroundings();
+  around.changes = cache_.changes;
+  addShadowMaps(plan_, std::move(shadowMaps_), shadows, around);
+  addEnvironmentMaps(plan_, std::move(environmentMaps_), cubesOf(cache_.cubes, PassKind::environment), surroundings(),
+                     nodes_[0].pass.view);
+}
+
 // Reuses the cached images that would be the same if they were rendered again.
 void Planner::reuseUnchanged() {
-  const View& main = nodes_[0].pass.view;
-  reuseShadowMaps(plan_.shadowMaps, cache_.shadowMaps, allSettings_, scene_, state_, cache_.changes);
-  ImageSurroundings withoutMaps = surroundings();
-  withoutMaps.maps.clear();
-  reuseMaps(plan_.maps, cache_.maps, withoutMaps, main);
   if (!changes_) {
     return;
   }
@@ -197,62 +208,64 @@ void Planner::reuseUnchanged() {
   for (const int child : nodes_[0].children) {
     std::optional<ImageChoice>& choice = nodes_[child].choice;
     if (choice && choice->image.cacheIndex < 0) {
-      RecycledVector<const PlannedPass*> passes;
+      RecycledVector<const Pass*> passes;
       collect(child, passes);
-      reuseIfUnchanged(choice->image, cache_.images, around, main, passes);
+      reuseIfUnchanged(choice->image, cache_.images, around, nodes_[0].pass.view, passes);
     }
   }
 }
 
 // Adds the passes of a node's descendants, then its own.
-void Planner::collect(int node, RecycledVector<const PlannedPass*>& passes) const {
+void Planner::collect(int node, RecycledVector<const Pass*>& passes) const {
   for (const int child : nodes_[node].children) {
     collect(child, passes);
   }
   passes.push_back(&nodes_[node].pass);
 }
 
-// Adds a node's passes to the plan, depth first, so that an image is needed no longer than until its parent is drawn.
-// Returns the index of the node's pass, -1 for the main view.
-int Planner::record(int node) {
-  RecycledVector<int> childPasses;
+void Planner::append(int node, PassSource source) {
+  Pass& pass = plan_.passes.emplace_back(std::move(nodes_[node].pass));
+  pass.id = {.kind = node == 0 ? PassKind::main : PassKind::mirror, .path = pass.view.path};
+  pass.source = source;
+  pass.projection = plan_.projection;
+}
+
+// Adds the passes that cached images replace.
+void Planner::addReused() {
+  for (const int child : nodes_[0].children) {
+    if (nodes_[child].choice && nodes_[child].choice->image.cacheIndex >= 0) {
+      reuseImage(nodes_[0].pass.mirrors[nodes_[child].draw], nodes_[child]);
+      addReused(child);
+    }
+  }
+}
+
+void Planner::addReused(int node) {
   for (const int child : nodes_[node].children) {
-    PassNode& seen = nodes_[child];
-    MirrorDraw& draw = nodes_[node].pass.mirrors[seen.draw];
-    if (seen.choice && seen.choice->image.cacheIndex >= 0) {
-      reuseImage(draw, seen);
-      recordReused(child);
+    addReused(child);
+  }
+  append(node, PassSource::reused);
+}
+
+// Adds the passes that are drawn for a node, depth first, so that an image is needed no longer than until its parent is
+// drawn. Returns the index of the node's pass.
+int Planner::add(int node) {
+  for (const int child : nodes_[node].children) {
+    MirrorDraw& draw = nodes_[node].pass.mirrors[nodes_[child].draw];
+    if (draw.cached) {
       continue;
     }
-    std::optional<ImageChoice> choice = std::move(seen.choice);
-    draw.pass = record(child);
-    childPasses.push_back(draw.pass);
-    if (choice) {
+    draw.pass = add(child);
+    if (std::optional<ImageChoice>& choice = nodes_[child].choice) {
       choice->image.pass = draw.pass;
       plan_.cached.push_back(std::move(choice->image));
     }
   }
-  const int index = node == 0 ? -1 : static_cast<int>(plan_.passes.size());
-  for (const int pass : childPasses) {
-    plan_.passes[pass].parent = index;
-  }
-  if (node == 0) {
-    plan_.main = std::move(nodes_[0].pass);
-  } else {
-    plan_.passes.push_back(std::move(nodes_[node].pass));
-  }
-  return index;
+  append(node, PassSource::drawn);
+  return static_cast<int>(plan_.passes.size()) - 1;
 }
 
-// Lists the passes that a cached image replaces.
-void Planner::recordReused(int node) {
-  for (const int child : nodes_[node].children) {
-    recordReused(child);
-  }
-  plan_.reused.push_back(std::move(nodes_[node].pass));
-}
-
-void Planner::reuseImage(MirrorDraw& draw, const PassNode& node) {
+void Planner::reuseImage(MirrorDraw& draw, const MirrorNode& node) {
   const auto& [image, moved] = *node.choice;
   const View& parent = nodes_[0].pass.view;
   draw.cached = moved ? cachedLookup(image, parent, node.pass.view, plan_.projection) : CachedLookup{};
@@ -276,21 +289,6 @@ void Planner::dropSkipsInReused() {
                 [&](const SkippedMirror& skipped) { return skipped.depth > 0 && reused[skipped.path.front()]; });
 }
 
-// Makes the plan show the complete mean again and draw nothing.
-void Planner::reuseMean() {
-  plan_.mainReused = true;
-  plan_.reused = std::move(plan_.passes);
-  plan_.passes.clear();
-  plan_.maps.clear();
-  plan_.shadowMaps.assign(cache_.shadowMaps.begin(), cache_.shadowMaps.end());
-  for (ShadowMap& map : plan_.shadowMaps) {
-    std::ranges::for_each(map.faces, [](ShadowFace& face) { face.rendered = false; });
-  }
-  for (MirrorDraw& draw : plan_.main.mirrors) {
-    draw.pass = -1;
-  }
-}
-
 }  // namespace
 
 std::string_view skipReasonName(SkipReason reason) {
@@ -300,11 +298,38 @@ std::string_view skipReasonName(SkipReason reason) {
   return names[static_cast<size_t>(reason)];
 }
 
-const PlannedPass* mirrorPass(const FramePlan& plan, std::span<const int> path) {
-  const RecycledVector<PlannedPass>& passes = shownPasses(plan);
-  const auto pass =
-      std::ranges::find_if(passes, [&](const PlannedPass& p) { return std::ranges::equal(p.view.path, path); });
+std::span<const Pass> FramePlan::drawnMirrors() const {
+  const auto isDrawn = [](const Pass& pass) { return pass.id.kind == PassKind::mirror && pass.drawn(); };
+  const auto first = std::ranges::find_if(passes, isDrawn);
+  return {first, std::find_if_not(first, passes.end(), isDrawn)};
+}
+
+std::span<const Pass> FramePlan::shownMirrors() const {
+  if (!mainReused()) {
+    return drawnMirrors();
+  }
+  const auto first = std::ranges::find(passes, PassKind::mirror, [](const Pass& pass) { return pass.id.kind; });
+  return {std::min(first, passes.end() - 1), passes.end() - 1};
+}
+
+std::span<const Cube> cubesOf(std::span<const Cube> cubes, PassKind kind) {
+  const auto first = std::ranges::find(cubes, kind, &Cube::kind);
+  return {first, std::find_if(first, cubes.end(), [&](const Cube& cube) { return cube.kind != kind; })};
+}
+
+const Pass* mirrorPass(const FramePlan& plan, std::span<const int> path) {
+  const std::span<const Pass> passes = plan.shownMirrors();
+  const auto pass = std::ranges::find_if(passes, [&](const Pass& p) { return std::ranges::equal(p.view.path, path); });
   return pass == passes.end() ? nullptr : &*pass;
+}
+
+std::string passName(const Scene& scene, const FramePlan& plan, const Pass& pass) {
+  if (pass.isFace()) {
+    const Cube& cube = plan.cubes[static_cast<size_t>(pass.cube)];
+    return (pass.id.kind == PassKind::shadow ? "shadow map of " : "environment of ") + std::string(cube.name) + " " +
+           faceAxes()[static_cast<size_t>(pass.id.face)].name;
+  }
+  return pass.id.kind == PassKind::main ? "main view" : "mirror " + mirrorPathName(scene, pass.view.path);
 }
 
 FramePlan planFrame(const Scene& scene, const SceneState& state, const Settings& settings, int width, int height,

@@ -1,9 +1,10 @@
 #pragma once
 
-#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "frame/cached_image.hpp"
@@ -51,78 +52,6 @@ struct ImageQuality {
   int interval = 1;  // frames between images of the mirror that is seen directly, with all that is seen in it
 };
 
-// One pass: a view and what is drawn in it.
-struct PlannedPass {
-  View view;
-  ImageQuality quality;
-  ImageQuality shownIn;           // of the pass that shows the image
-  int parent = -1;                // index into FramePlan::passes; -1: the main view
-  int depth = -1;                 // recursion depth of its mirror: 0 seen directly, 1 in a mirror; -1 for the main view
-  double areaPx = 0.0;            // area of the mirror's visible region, in texels of its image
-  double throughput = 1.0;        // upper bound over that region, largest channel, including this mirror
-  glm::dvec3 channels{1.0};       // upper bound of each channel
-  RecycledVector<int> instances;  // visible ones, indices into SceneState::instances, ascending
-  RecycledVector<PartialInstance> partial;        // instances that are seen in part, ascending
-  RecycledVector<SimplifiedInstance> simplified;  // instances that are drawn with fewer triangles, ascending
-  RecycledVector<int> lights;                     // lights whose glyphs are visible, indices into Scene::lights
-  RecycledVector<MirrorDraw> mirrors;             // in the order of Scene::mirrors
-};
-
-// Six images about a curved mirror's centre, side by side in one target, three to a row: effects.curved_lookup =
-// environment. docs/effects.md: Environment maps.
-struct EnvironmentMap {
-  int object = 0;       // index into Scene::objects
-  int copy = 0;         // of the object
-  int instance = 0;     // index into SceneState::instances
-  RecycledString name;  // of the object and copy, for users
-  int size = 0;         // texels of each side of a face
-  Projection projection;
-  RecycledVector<PlannedPass> faces;  // towards +x, -x, +y, -y, +z, -z; without the object, mirrors without an image
-  glm::dvec3 center{0.0};             // world, of the object when they were rendered
-  glm::dvec3 low{0.0};                // world, box of what surrounds it in the present frame
-  glm::dvec3 high{0.0};
-  Settings settings;                 // when they were rendered
-  RecycledVector<uint64_t> content;  // as CachedImage::content
-  uint64_t serial = 0;               // changes each time that any map is rendered
-  int age = 1;                       // frames since it was rendered or last found unchanged, in the next frame
-  int due = 1;                       // age at which it is rendered anew
-  int cacheIndex = -1;               // index into FrameCache::maps of the map that is reused; -1: this frame renders it
-};
-
-// What casts shadows in a shadow map's face and stands still while other casters move. Its image is kept, and each
-// frame draws the others over a copy of it.
-struct ShadowLayer {
-  PlannedPass pass;
-  bool rendered = false;             // rendered together with the face; else its texels are unchanged
-  RecycledVector<uint64_t> content;  // all that its texels depend on
-};
-
-// A part of a shadow map: what a light illuminates in one direction, as disparities from the light.
-struct ShadowFace {
-  PlannedPass pass;       // objects and mirrors that cast shadows in it; only those that move if drawn over `layer`
-  Projection projection;  // of its window
-  glm::dvec2 low{0.0};    // window, metres right and down in the plane one metre before the light
-  glm::dvec2 high{0.0};
-  bool inReach = false;              // a view may show a part of it
-  bool read = false;                 // something that is drawn may look it up
-  bool rendered = false;             // this frame renders it; else, if it is read, its texels are unchanged
-  RecycledVector<uint64_t> content;  // all that its texels depend on; empty if they were never rendered
-  std::optional<ShadowLayer> layer;
-
-  bool rendersLayer() const { return rendered && layer && layer->rendered; }
-};
-
-// Six images about a light that casts shadows, side by side, three to a row: effects.shadow_lookup = map.
-// docs/effects.md: Shadow maps.
-struct ShadowMap {
-  int light = 0;                     // index into Scene::lights
-  RecycledString name;               // of the light, for users
-  int size = 0;                      // texels of each side of a face
-  RecycledVector<ShadowFace> faces;  // in the order of faceAxes()
-  uint64_t serial = 0;               // grows each time that a face of this map is rendered
-};
-
-// Kinds of recorded passes.
 enum class PassKind { mirror, environment, shadow, main, accumulation, display, debugView };
 
 // Identifies a pass. Equal for the same pass of different frames.
@@ -131,9 +60,86 @@ struct PassId {
   MirrorPath path;    // empty for other passes
   int instance = -1;  // of an environment map, index into SceneState::instances
   int light = -1;     // of a shadow map, index into Scene::lights
-  int face = -1;      // of an environment or shadow map, index into its faces
+  int face = -1;      // of an environment or shadow map, in the order of faceAxes()
 
   bool operator==(const PassId&) const = default;
+};
+
+// How a frame comes by the image of a pass.
+enum class PassSource {
+  drawn,   // this frame draws it
+  reused,  // an earlier frame drew it; a MirrorDraw says whether it is reprojected
+  unread,  // nothing that is drawn reads it: a shadow map's face
+};
+
+// Tiles first .. end - 1.
+struct TileRange {
+  size_t first = 0;
+  size_t end = 0;
+
+  bool empty() const { return end <= first; }
+  bool operator==(const TileRange&) const = default;
+};
+
+// Part of a shadow map's face that has texels: metres right and down in the plane one metre before the light.
+struct FaceWindow {
+  glm::dvec2 low{0.0};
+  glm::dvec2 high{0.0};
+
+  bool empty() const { return low == high; }
+};
+
+// One pass: a view, what is drawn in it, and where its image comes from.
+struct Pass {
+  PassId id;
+  PassSource source = PassSource::drawn;
+  View view;
+  Projection projection;
+  glm::ivec2 corner{0};  // of the view's rectangle in its target, texels
+  int cube = -1;         // index into FramePlan::cubes of the cube that it is a face of; -1: none
+  int layer = -1;        // index into FramePlan::passes of the pass whose image a shadow map's face is drawn over
+  bool isLayer = false;  // the pass is such a layer; it has the id of its face
+  bool inReach = true;   // a view may show a part of what a shadow map's face shows
+  FaceWindow window;     // of a shadow map's face
+  ImageQuality quality;
+  ImageQuality shownIn;           // of the pass that shows the image
+  int depth = -1;                 // recursion depth of its mirror: 0 seen directly, 1 in a mirror; -1 for other passes
+  double areaPx = 0.0;            // area of the mirror's visible region, in texels of its image
+  double throughput = 1.0;        // upper bound over that region, largest channel, including this mirror
+  glm::dvec3 channels{1.0};       // upper bound of each channel
+  RecycledVector<int> instances;  // visible ones, indices into SceneState::instances, ascending
+  RecycledVector<PartialInstance> partial;        // instances that are seen in part, ascending
+  RecycledVector<SimplifiedInstance> simplified;  // instances that are drawn with fewer triangles, ascending
+  RecycledVector<int> lights;                     // lights whose glyphs are visible, indices into Scene::lights
+  RecycledVector<MirrorDraw> mirrors;             // in the order of Scene::mirrors
+
+  bool drawn() const { return source == PassSource::drawn; }
+  bool isFace() const { return id.kind == PassKind::shadow || id.kind == PassKind::environment; }
+};
+
+// Six images about a point, side by side in one target, three to a row, whose faces are passes: the environment map of
+// a curved mirror (effects.curved_lookup = environment) or the shadow map of a light (effects.shadow_lookup = map).
+// docs/effects.md describes both.
+struct Cube {
+  PassKind kind = PassKind::environment;
+  int light = -1;                                    // of a shadow map, index into Scene::lights
+  int object = -1;                                   // of an environment map, index into Scene::objects
+  int copy = 0;                                      // of the object
+  int instance = -1;                                 // index into SceneState::instances
+  RecycledString name;                               // of the light, or of the object and copy, for users
+  int size = 0;                                      // texels of each side of a face
+  std::array<int, 6> faces{-1, -1, -1, -1, -1, -1};  // indices into FramePlan::passes, in the order of faceAxes()
+  glm::dvec3 center{0.0};                            // world, when it was rendered
+  glm::dvec3 low{0.0};                               // world, box of what surrounds the mirror in the present frame
+  glm::dvec3 high{0.0};
+  Settings settings;    // when it was rendered
+  uint64_t serial = 0;  // grows each time that any cube of its kind, or a face of a shadow map, is rendered
+  int age = 1;          // frames since it was rendered or last found unchanged, in the next frame
+  int due = 1;          // age at which it is rendered anew
+  int cacheIndex = -1;  // of an environment map, index into FrameCache::cubes of the one that is reused; -1: none
+  // All that the texels of each face depend on, and of the layer below it; empty if there are none.
+  std::array<RecycledVector<uint64_t>, 6> content;
+  std::array<RecycledVector<uint64_t>, 6> layerContent;
 };
 
 struct SkippedMirror {
@@ -152,64 +158,60 @@ struct MainImage {
 
 // Images of the frame before that this frame may reuse.
 struct FrameCache {
-  std::span<const CachedImage> images;  // FramePlan::cached of that frame
-  std::span<const EnvironmentMap> maps;
-  std::span<const ShadowMap> shadowMaps;
+  std::span<const CachedImage> images;    // FramePlan::cached of that frame
+  std::span<const Cube> cubes;            // FramePlan::cubes
   const MainImage* main = nullptr;        // null: the main view is drawn in any case
   const SceneChanges* changes = nullptr;  // up to this frame; null: unchanged images are not looked for
 };
 
-// Tiles first .. end - 1.
-struct TileRange {
-  size_t first = 0;
-  size_t end = 0;
-
-  bool empty() const { return end <= first; }
-  bool operator==(const TileRange&) const = default;
-};
-
+// A frame is one list of passes. Those that draw are recorded in its order: faces of shadow maps, each after its layer,
+// faces of environment maps, mirrors, children before their parent, and the main view. Passes that the frame reuses
+// stand in the list too: what they show is on the screen. Those of mirrors stand before the mirrors that are drawn.
 struct FramePlan {
-  Projection projection;
-  int width = 0;  // pixels of the picture
+  Projection projection;  // of all passes but faces
+  int width = 0;          // pixels of the picture
   int height = 0;
-  int picture = 0;                     // index in the mean of view.accumulate pictures
-  RecycledVector<PlannedPass> passes;  // of mirrors, in the order of recording: children before their parent
-  PlannedPass main;
-  bool mainReused = false;               // the frame before drew the same main view or mean, which is shown again
+  int picture = 0;                                                    // index in the mean of view.accumulate pictures
+  RecycledVector<Pass> passes{Pass{.id = {.kind = PassKind::main}}};  // the last is the main view
+  // Shadow maps of the lights that may cast shadows, in the order of lights, then environment maps of the curved
+  // mirrors that are drawn, `instance` ascending.
+  RecycledVector<Cube> cubes;
   RecycledVector<uint64_t> mainContent;  // imageContent() of the main view if it shows cached images only; else empty
   RecycledVector<SkippedMirror> skipped;
   RecycledVector<CachedImage> cached;  // reused or rendered by this frame; the next one may reuse them
-  // Passes that cached images replace, in no particular order: what they show is on the screen and calls for effects.
-  RecycledVector<PlannedPass> reused;
-  RecycledVector<EnvironmentMap> maps;  // of the curved mirrors that are drawn; `instance` ascending
-  // One for each light of the scene that may cast shadows, if these are looked up; a map's index is its place in the
-  // target.
-  RecycledVector<ShadowMap> shadowMaps;
-  TracedEffects effects;  // that all of these passes call for
+  TracedEffects effects;               // that all of these passes call for
   // Tiles that this frame draws of a picture that several frames draw (picture_tiles.hpp); none: it draws all.
   std::optional<TileRange> tiles;
+
+  const Pass& main() const { return passes.back(); }
+  Pass& main() { return passes.back(); }
+  // The frame before drew the same main view or mean, which is shown again.
+  bool mainReused() const { return !main().drawn(); }
+  // Mirror passes that the frame draws. They stand side by side in the list.
+  std::span<const Pass> drawnMirrors() const;
+  // Mirror passes of the picture that the frame shows: those that it draws or, if it shows the last picture again,
+  // those that drew that.
+  std::span<const Pass> shownMirrors() const;
 };
 
-// Mirror passes of the picture that the frame shows: those that it draws, or `reused` if it shows the last picture
-// again.
-inline const RecycledVector<PlannedPass>& shownPasses(const FramePlan& plan) {
-  return plan.mainReused ? plan.reused : plan.passes;
-}
+// Cubes of one kind, which stand side by side.
+std::span<const Cube> cubesOf(std::span<const Cube> cubes, PassKind kind);
 
-// Visits the main view, all mirror passes, those that cached images replace included, and the faces of environment
-// maps.
+// Visits all passes but those of shadow maps: what they draw reaches the eye.
 template <typename Visit>
-void forEachPass(const FramePlan& plan, const Visit& visit) {
-  visit(plan.main);
-  std::ranges::for_each(plan.passes, visit);
-  std::ranges::for_each(plan.reused, visit);
-  for (const EnvironmentMap& map : plan.maps) {
-    std::ranges::for_each(map.faces, visit);
+void forEachSeen(const FramePlan& plan, const Visit& visit) {
+  for (const Pass& pass : plan.passes) {
+    if (pass.id.kind != PassKind::shadow) {
+      visit(pass);
+    }
   }
 }
 
-// Returns the one of shownPasses() with that path; null if there is none.
-const PlannedPass* mirrorPass(const FramePlan& plan, std::span<const int> path);
+// Name for users, such as "mirror wall > mirror door" or "shadow map of light 'lamp' +x".
+std::string passName(const Scene& scene, const FramePlan& plan, const Pass& pass);
+
+// Returns the one of shownMirrors() with that path; null if there is none.
+const Pass* mirrorPass(const FramePlan& plan, std::span<const int> path);
 
 // Finds the passes that a picture of `width` x `height` pixels needs, and why every other mirror has none. Pure. The
 // budget of passes goes to the best first, by visible pixels times throughput. The main view has view.scale times as
@@ -221,11 +223,11 @@ const PlannedPass* mirrorPass(const FramePlan& plan, std::span<const int> path);
 // younger than its due age, was drawn under the same settings and covers what is seen. The budget of passes is spent as
 // if every image were rendered, so that no image depends on which others are reused.
 //
-// `cache.maps` are reused likewise, by reflection.skip_unchanged and effects.environment_interval. With
+// `cache.cubes` are reused likewise, by reflection.skip_unchanged and effects.environment_interval. With
 // reflection.skip_unchanged and without view.continuous, so is the main view if it is exactly as it was.
 //
 // Plans picture number `picture` of a mean, at its offset, under pictureSettings(). If that is view.accumulate or more,
-// the mean is complete and is shown again: `mainReused`.
+// the mean is complete and is shown again: mainReused().
 FramePlan planFrame(const Scene& scene, const SceneState& state, const Settings& settings, int width, int height,
                     const FrameCache& cache = {}, int picture = 0);
 

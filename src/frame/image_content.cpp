@@ -29,7 +29,7 @@ void addEffects(const ImageSurroundings& around, const View& main, ContentNumber
 }  // namespace
 
 RecycledVector<uint64_t> imageContent(const ImageSurroundings& around, const View& main,
-                                      std::span<const PlannedPass* const> passes) {
+                                      std::span<const Pass* const> passes) {
   ContentNumbers numbers;
   numbers.add(around.scene.environment.cleared(around.settings.view.clearColor));
   numbers.addAll(around.projection.focal, around.projection.aspect, around.projection.near, around.projection.offset);
@@ -42,7 +42,7 @@ RecycledVector<uint64_t> imageContent(const ImageSurroundings& around, const Vie
     numbers.addCount(serial);
   }
   uint64_t changed = all ? changes.anyChanged() : 0;
-  for (const PlannedPass* pass : passes) {
+  for (const Pass* pass : passes) {
     numbers.addAll(pass->view, pass->channels, pass->instances, pass->simplified, pass->lights, pass->mirrors,
                    pass->quality.samples);
     for (size_t i = 0; !all && i < pass->instances.size(); ++i) {
@@ -58,10 +58,9 @@ RecycledVector<uint64_t> imageContent(const ImageSurroundings& around, const Vie
   return numbers.take();
 }
 
-RecycledVector<uint64_t> shadowContent(const SceneChanges& changes, const ShadowFace& face,
-                                       const PlannedPass& casters) {
+RecycledVector<uint64_t> shadowContent(const SceneChanges& changes, const Pass& face, const Pass& casters) {
   ContentNumbers numbers;
-  numbers.addAll(casters.view, face.low, face.high, face.projection.near, casters.instances);
+  numbers.addAll(casters.view, face.window.low, face.window.high, face.projection.near, casters.instances);
   uint64_t changed = 0;
   for (const int i : casters.instances) {
     numbers.add(levelOf(casters, i));

@@ -19,7 +19,7 @@ struct ImageSurroundings {
   const TracedEffects& effects;                   // of all passes
   const SceneChanges* changes;                    // up to this frame; null: unchanged images are not looked for
   RecycledVector<std::pair<int, uint64_t>> maps;  // environment maps that may be looked up: instance, their serial
-  uint64_t shadowSerial = 0;                      // largest ShadowMap::serial
+  uint64_t shadowSerial = 0;                      // largest Cube::serial of a shadow map
 };
 
 // Returns, as numbers, everything but settings, meshes and textures that the image of a mirror depends on: views, what
@@ -28,9 +28,9 @@ struct ImageSurroundings {
 // rays or looks up an environment map, the image depends on the whole scene, and on the time if rays may meet ripples.
 // `around` has changes.
 RecycledVector<uint64_t> imageContent(const ImageSurroundings& around, const View& main,
-                                      std::span<const PlannedPass* const> passes);
+                                      std::span<const Pass* const> passes);
 
 // Returns, as numbers, everything that the texels of a shadow map's face depend on if `casters` are drawn into it.
-RecycledVector<uint64_t> shadowContent(const SceneChanges& changes, const ShadowFace& face, const PlannedPass& casters);
+RecycledVector<uint64_t> shadowContent(const SceneChanges& changes, const Pass& face, const Pass& casters);
 
 }  // namespace speculum

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "frame/shadow_map.hpp"
-
 namespace speculum {
 
 namespace {
@@ -36,54 +34,11 @@ auto imageOf(std::span<const CachedImage> images, int mirror) {
   return std::ranges::find(images, mirror, &CachedImage::mirror);
 }
 
-// Says whether settings draw the same image bit for bit. debug.* counts too, which sameMirrorImages leaves out.
+}  // namespace
+
 bool sameDrawing(const Settings& a, const Settings& b) {
   return sameMirrorImages(a, b) && a.debug == b.debug;
 }
-
-// Says whether settings make the same environment maps. reflection.* has no part in that: mirrors in maps show the
-// background, and the content of a map lists its mesh levels.
-bool sameMaps(const Settings& a, Settings b) {
-  b.reflection = a.reflection;
-  b.view.scale = a.view.scale;
-  return sameDrawing(a, b);
-}
-
-// Replaces a map by that of the frame before if it can be reused, and says whether it did.
-bool reuseMap(EnvironmentMap& map, std::span<const EnvironmentMap> maps, const ImageSurroundings& around,
-              const View& main) {
-  const int interval = around.settings.effects.environmentInterval;
-  if (around.changes) {
-    RecycledVector<const PlannedPass*> faces;
-    for (const PlannedPass& face : map.faces) {
-      faces.push_back(&face);
-    }
-    map.content = imageContent(around, main, faces);
-  }
-  const auto before = std::ranges::find_if(
-      maps, [&](const EnvironmentMap& other) { return other.object == map.object && other.copy == map.copy; });
-  if (before == maps.end() || !sameMaps(before->settings, around.settings)) {
-    map.due = interval - map.instance % interval;  // so that maps become due in turn
-    return false;
-  }
-  map.due = interval;
-  const bool unchanged = around.changes && before->content == map.content;
-  const bool young = before->age < std::min(before->due, interval);
-  if (!unchanged && !young) {
-    return false;
-  }
-  map.cacheIndex = static_cast<int>(before - maps.begin());
-  map.serial = before->serial;
-  map.center = before->center;
-  if (!unchanged) {
-    map.content = before->content;
-    map.age = before->age + 1;
-    map.due = before->due;
-  }
-  return true;
-}
-
-}  // namespace
 
 ImageChoice chooseImage(std::span<const CachedImage> images, const ReuseRequest& request) {
   const auto before = imageOf(images, request.view.path.back());
@@ -114,7 +69,7 @@ ImageChoice chooseImage(std::span<const CachedImage> images, const ReuseRequest&
 }
 
 void reuseIfUnchanged(CachedImage& image, std::span<const CachedImage> images, const ImageSurroundings& around,
-                      const View& main, std::span<const PlannedPass* const> passes) {
+                      const View& main, std::span<const Pass* const> passes) {
   image.content = imageContent(around, main, passes);
   const auto before = imageOf(images, image.mirror);
   if (before != images.end() && before->content == image.content && sameDrawing(before->settings, around.settings)) {
@@ -124,30 +79,18 @@ void reuseIfUnchanged(CachedImage& image, std::span<const CachedImage> images, c
   }
 }
 
-void reuseMaps(RecycledVector<EnvironmentMap>& maps, std::span<const EnvironmentMap> before,
-               const ImageSurroundings& around, const View& main) {
-  uint64_t serial = 0;
-  for (const EnvironmentMap& map : before) {
-    serial = std::max(serial, map.serial);
-  }
-  for (EnvironmentMap& map : maps) {
-    if (!reuseMap(map, before, around, main)) {
-      map.serial = ++serial;
-    }
-  }
-}
-
 void reuseMain(FramePlan& plan, const MainImage* before, const ImageSurroundings& around) {
-  const bool renders = !plan.passes.empty() || rendersShadows(plan.shadowMaps) ||
-                       std::ranges::any_of(plan.maps, [](const EnvironmentMap& map) { return map.cacheIndex < 0; });
-  const bool reprojects =
-      std::ranges::any_of(plan.main.mirrors, [](const MirrorDraw& draw) { return draw.cached && draw.cached->moved; });
+  const bool renders =
+      std::ranges::any_of(plan.passes, [&](const Pass& pass) { return pass.drawn() && &pass != &plan.main(); });
+  const bool reprojects = std::ranges::any_of(plan.main().mirrors,
+                                              [](const MirrorDraw& draw) { return draw.cached && draw.cached->moved; });
   if (renders || reprojects) {
     return;
   }
-  const PlannedPass* main = &plan.main;
-  plan.mainContent = imageContent(around, plan.main.view, {&main, 1});
-  plan.mainReused = before && before->content == plan.mainContent && sameMainView(before->settings, around.settings);
+  const Pass* main = &plan.main();
+  plan.mainContent = imageContent(around, main->view, {&main, 1});
+  const bool same = before && before->content == plan.mainContent && sameMainView(before->settings, around.settings);
+  plan.main().source = same ? PassSource::reused : PassSource::drawn;
 }
 
 }  // namespace speculum

@@ -34,15 +34,13 @@ ImageChoice chooseImage(std::span<const CachedImage> images, const ReuseRequest&
 // Reuses the cached image of the same mirror if `image`, which this frame would render, is the same bit for bit. `main`
 // is the view that both are seen in; `passes` are as for imageContent().
 void reuseIfUnchanged(CachedImage& image, std::span<const CachedImage> images, const ImageSurroundings& around,
-                      const View& main, std::span<const PlannedPass* const> passes);
-
-// Reuses maps of the frame before, by reflection.skip_unchanged and effects.environment_interval; the others among
-// `maps`, which come from environmentMaps(), get a new serial. `around` is without maps, since a map shows none.
-void reuseMaps(RecycledVector<EnvironmentMap>& maps, std::span<const EnvironmentMap> before,
-               const ImageSurroundings& around, const View& main);
+                      const View& main, std::span<const Pass* const> passes);
 
 // Reuses the main view `before` of the last frame (null: none) if the plan, whose passes must be complete, would draw
 // the same main view with the same images.
 void reuseMain(FramePlan& plan, const MainImage* before, const ImageSurroundings& around);
+
+// Says whether settings draw the same image bit for bit. debug.* counts too, which sameMirrorImages leaves out.
+bool sameDrawing(const Settings& a, const Settings& b);
 
 }  // namespace speculum

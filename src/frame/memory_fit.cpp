@@ -34,7 +34,7 @@ struct Samples {
   uint64_t of(const PixelRect& rect, int samples) const {
     return pixels(rect) * static_cast<uint64_t>(std::min(samples, most));
   }
-  uint64_t of(const PlannedPass& pass) const { return of(pass.view.rect, pass.quality.samples); }
+  uint64_t of(const Pass& pass) const { return of(pass.view.rect, pass.quality.samples); }
 };
 
 // Returns the samples of the cached images.
@@ -66,8 +66,8 @@ uint64_t peakSamples(const FramePlan& plan, std::span<const PassRange> ranges, c
 
 // Returns the bytes of the samples of the largest pass, whose radiance deferred shading keeps.
 uint64_t shadedBytes(const FramePlan& plan, const Settings& settings, const Samples& all) {
-  uint64_t samples = all.of(plan.main.view.rect, settings.view.samples);
-  for (const PlannedPass& pass : plan.passes) {
+  uint64_t samples = all.of(plan.main().view.rect, settings.view.samples);
+  for (const Pass& pass : plan.drawnMirrors()) {
     samples = std::max(samples, all.of(pass));
   }
   return plan.effects.any() ? std::min(samples, mostShadedSamples) * (bytesPerShadedSample + bytesPerRequest) : 0;
@@ -76,7 +76,7 @@ uint64_t shadedBytes(const FramePlan& plan, const Settings& settings, const Samp
 uint64_t mainBytes(const FramePlan& plan, int sampleCount) {
   const auto samples = static_cast<uint64_t>(sampleCount);
   const uint64_t multisampled = samples > 1 ? samples * colorBytes : 0;
-  return pixels(plan.main.view.rect) * (colorBytes + multisampled + samples * depthBytes);
+  return pixels(plan.main().view.rect) * (colorBytes + multisampled + samples * depthBytes);
 }
 
 // Returns the samples of the depth images, which the ranges use one after the other: some for each sample count.
@@ -120,10 +120,10 @@ bool lower(Settings& settings, const ReflectionSettings& most, const FramePlan& 
     what = "view.samples to " + std::to_string(settings.view.samples);
   } else if (most.scale > smallestScale) {
     what = lowerScale(settings, std::max(smallestScale, most.scale / 2.0));
-  } else if (!plan.maps.empty() && settings.effects.environmentSize > smallestMap) {
+  } else if (!cubesOf(plan.cubes, PassKind::environment).empty() && settings.effects.environmentSize > smallestMap) {
     settings.effects.environmentSize /= 2;
     what = "effects.environment_size to " + std::to_string(settings.effects.environmentSize);
-  } else if (!plan.shadowMaps.empty() && settings.effects.shadowMapSize > smallestShadowMap) {
+  } else if (!cubesOf(plan.cubes, PassKind::shadow).empty() && settings.effects.shadowMapSize > smallestShadowMap) {
     settings.effects.shadowMapSize /= 2;
     what = "effects.shadow_map_size to " + std::to_string(settings.effects.shadowMapSize);
   } else {
@@ -140,7 +140,7 @@ bool isAutomatic(const Mirror& mirror, const Settings& settings) {
 // mirror covers much of the picture (docs/scaling.md). More samples were not measured. Only mirrors count that are
 // automatic by `asked`.
 bool raysAreFaster(const FramePlan& plan, const Scene& scene, const Settings& asked) {
-  return asked.view.samples == 1 && std::ranges::any_of(plan.passes, [&](const PlannedPass& pass) {
+  return asked.view.samples == 1 && std::ranges::any_of(plan.drawnMirrors(), [&](const Pass& pass) {
            return pass.depth == 0 && pass.areaPx >= pixelsForRays &&
                   isAutomatic(scene.mirrors[pass.view.path[0]], asked);
          });
@@ -169,7 +169,7 @@ void leaveOutRays(Settings& settings, const Scene& scene) {
 uint64_t bytesWith(const FramePlan& plan, const Settings& settings, const Samples& samples) {
   const RecycledVector<PassRange> ranges = independentPasses(plan);
   const uint64_t sums = settings.view.accumulate > 1 ? sumBytes : 0;
-  return mainBytes(plan, std::min(settings.view.samples, samples.most)) + pixels(plan.main.view.rect) * sums +
+  return mainBytes(plan, std::min(settings.view.samples, samples.most)) + pixels(plan.main().view.rect) * sums +
          peakSamples(plan, ranges, samples) * colorBytes + depthSamples(plan, ranges, samples) * depthBytes +
          environmentBytes(plan) + shadowBytes(plan) + shadedBytes(plan, settings, samples);
 }
@@ -183,7 +183,7 @@ std::string mebibytes(uint64_t bytes) {
 uint64_t environmentBytes(const FramePlan& plan) {
   uint64_t color = 0;
   uint64_t largest = 0;
-  for (const EnvironmentMap& map : plan.maps) {
+  for (const Cube& map : cubesOf(plan.cubes, PassKind::environment)) {
     const uint64_t texels = 6 * static_cast<uint64_t>(map.size) * static_cast<uint64_t>(map.size);
     color += texels * colorBytes;
     largest = std::max(largest, texels);
@@ -192,8 +192,8 @@ uint64_t environmentBytes(const FramePlan& plan) {
 }
 
 uint64_t shadowBytes(const FramePlan& plan) {
-  const glm::ivec2 extent = shadowExtent(plan.shadowMaps);
-  const uint64_t layerBytes = hasShadowLayers(plan.shadowMaps) ? shadowPlaneBytes : 0;
+  const glm::ivec2 extent = shadowExtent(plan);
+  const uint64_t layerBytes = hasShadowLayers(plan) ? shadowPlaneBytes : 0;
   return static_cast<uint64_t>(extent.x) * static_cast<uint64_t>(extent.y) *
          (shadowPlaneBytes + depthBytes + layerBytes);
 }
@@ -237,8 +237,7 @@ FittedPlan planWithin(const TargetLimits& limits, const Scene& scene, const Scen
   }
   int& shadowMapSize = fitted.settings.effects.shadowMapSize;
   const int wantedSize = shadowMapSize;
-  for (glm::ivec2 extent = shadowExtent(fitted.plan.shadowMaps); std::max(extent.x, extent.y) > limits.largestSide;
-       extent /= 2) {
+  for (glm::ivec2 extent = shadowExtent(fitted.plan); std::max(extent.x, extent.y) > limits.largestSide; extent /= 2) {
     shadowMapSize /= 2;
   }
   if (shadowMapSize < wantedSize) {

@@ -121,7 +121,7 @@ template <typename Choose>
 void applyLevels(const SimplifiedPass& simplified, const Settings& settings, const Scene& scene,
                  const SceneState& state, const Choose& choose) {
   const bool culls = settings.debug.cullClusters;
-  PlannedPass& pass = *simplified.pass;
+  Pass& pass = *simplified.pass;
   RecycledVector<PartialInstance> partial;
   for (const int i : pass.instances) {
     const Mesh& mesh = scene.meshes[state.instances[i].mesh];
@@ -191,24 +191,15 @@ void simplifyAlike(std::span<const SimplifiedPass> passes, const Settings& setti
 
 std::vector<int> meshesWithLevels(const FramePlan& plan, const SceneState& state) {
   std::set<int> meshes;
-  const auto add = [&](const PlannedPass& pass) {
+  for (const Pass& pass : plan.passes) {
     for (const SimplifiedInstance& simplified : pass.simplified) {
       meshes.insert(state.instances[simplified.instance].mesh);
-    }
-  };
-  forEachPass(plan, add);
-  for (const ShadowMap& map : plan.shadowMaps) {
-    for (const ShadowFace& face : map.faces) {
-      add(face.pass);
-      if (face.layer) {
-        add(face.layer->pass);
-      }
     }
   }
   return {meshes.begin(), meshes.end()};
 }
 
-int levelOf(const PlannedPass& pass, int instance) {
+int levelOf(const Pass& pass, int instance) {
   const auto found = std::ranges::lower_bound(pass.simplified, instance, {}, &SimplifiedInstance::instance);
   return found != pass.simplified.end() && found->instance == instance ? found->level : -1;
 }

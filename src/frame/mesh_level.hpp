@@ -28,7 +28,7 @@ double meshErrorIn(const View& view, const Settings& settings);
 
 // A pass to simplify, or one that draws a shadow map, and its view with what lookups read around it.
 struct SimplifiedPass {
-  PlannedPass* pass = nullptr;
+  Pass* pass = nullptr;
   View readable;
   const Projection* projection = nullptr;
   double texels = 0.0;  // by which simplified objects may be off
@@ -52,6 +52,6 @@ void simplifyAlike(std::span<const SimplifiedPass> passes, const Settings& setti
 std::vector<int> meshesWithLevels(const FramePlan& plan, const SceneState& state);
 
 // Index into MeshLevels::levels of what the pass draws for the instance; -1 for the mesh itself.
-int levelOf(const PlannedPass& pass, int instance);
+int levelOf(const Pass& pass, int instance);
 
 }  // namespace speculum

@@ -55,8 +55,8 @@ class MirrorSearch {
         plan_(plan),
         occlusion_(scene, state, settings, plan.projection) {}
 
-  RecycledVector<PassNode> nodes(const glm::ivec2& size) {
-    PassNode& root = nodes_.emplace_back();
+  RecycledVector<MirrorNode> nodes(const glm::ivec2& size) {
+    MirrorNode& root = nodes_.emplace_back();
     root.pass.view = mainView(state_.camera, plan_.projection, size.x, size.y);
     root.pass.areaPx = root.pass.view.rect.area();
     root.pass.quality.samples = allSettings_.view.samples;
@@ -76,7 +76,7 @@ class MirrorSearch {
   void consider(int node, Sight sight);
   void propose(int node, Sight sight);
   void expand(const Candidate& candidate);
-  ImageQuality qualityOf(int mirror, const PlannedPass& shownIn) const;
+  ImageQuality qualityOf(int mirror, const Pass& shownIn) const;
   bool behindEye(const View& view, std::span<const glm::dvec3> polygon) const;
 
   const Scene& scene_;
@@ -85,7 +85,7 @@ class MirrorSearch {
   const ReflectionSettings& settings_;
   const FrameCache& cache_;
   FramePlan& plan_;
-  RecycledVector<PassNode> nodes_;
+  RecycledVector<MirrorNode> nodes_;
   std::priority_queue<Candidate, RecycledVector<Candidate>> candidates_;
   Occlusion occlusion_;
   int discovered_ = 0;
@@ -167,7 +167,7 @@ void MirrorSearch::skipBack(const View& view, int mirror, double height) {
 }
 
 void MirrorSearch::consider(int node, Sight sight) {
-  PlannedPass& pass = nodes_[node].pass;
+  Pass& pass = nodes_[node].pass;
   const View& view = pass.view;
   const int mirror = sight.draw.mirror;
   const std::optional<RecycledString> occluder = occlusion_.hiddenBy(mirror, sight.draw.polygon);
@@ -185,7 +185,7 @@ void MirrorSearch::consider(int node, Sight sight) {
 
 // Adds a visible mirror to the draws, and makes it a candidate if it is worth a pass.
 void MirrorSearch::propose(int node, Sight sight) {
-  PlannedPass& pass = nodes_[node].pass;
+  Pass& pass = nodes_[node].pass;
   const View& view = pass.view;
   const int mirror = sight.draw.mirror;
   const Mirror& material = scene_.mirrors[mirror];
@@ -218,7 +218,7 @@ void MirrorSearch::propose(int node, Sight sight) {
                     throughput, discovered_++});
 }
 
-ImageQuality MirrorSearch::qualityOf(int mirror, const PlannedPass& shownIn) const {
+ImageQuality MirrorSearch::qualityOf(int mirror, const Pass& shownIn) const {
   const ReflectionSettings own = reflectionOf(scene_.mirrors[mirror].quality, allSettings_);
   if (shownIn.view.path.empty()) {
     return {own.scale, own.samples, own.updateInterval};
@@ -237,7 +237,7 @@ void MirrorSearch::expand(const Candidate& candidate) {
   if (work_ > mostWork) {
     return skipMirror(plan_, parent, draw.mirror, SkipReason::maxPasses, "too many to plan");
   }
-  PassNode node;
+  MirrorNode node;
   node.pass.shownIn = nodes_[candidate.parent].pass.quality;
   node.pass.quality = qualityOf(draw.mirror, nodes_[candidate.parent].pass);
   const glm::dvec2 picture = nodes_[0].pass.view.pictureSize * node.pass.quality.scale;
@@ -281,12 +281,12 @@ void MirrorSearch::expand(const Candidate& candidate) {
 
 }  // namespace
 
-RecycledVector<PassNode> findPasses(const Scene& scene, const SceneState& state, const Settings& settings,
-                                    const FrameCache& cache, const glm::ivec2& size, FramePlan& plan) {
+RecycledVector<MirrorNode> findPasses(const Scene& scene, const SceneState& state, const Settings& settings,
+                                      const FrameCache& cache, const glm::ivec2& size, FramePlan& plan) {
   return MirrorSearch(scene, state, settings, cache, plan).nodes(size);
 }
 
-View readableView(const PlannedPass& pass, const Projection& projection) {
+View readableView(const Pass& pass, const Projection& projection) {
   View readable = pass.view;
   if (!readable.path.empty()) {
     widen(readable, projection, static_cast<int>(std::ceil(1.5 * cachedLookupReach(pass.quality))) + 1);

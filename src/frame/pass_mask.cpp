@@ -41,7 +41,7 @@ bool isWellShaped(std::span<const glm::dvec3> polygon, const glm::dvec2& step) {
 // shade at another point where only some of them pass the depth test. At other resolutions, and in cached images, a
 // pixel reads a box about its centre, which may lie half a pixel outside the edge. The box is as wide as a pixel, or as
 // a texel if that is wider, and half a texel more on each side for the samples.
-double lookupReach(const PlannedPass& pass, const Settings& settings, bool standardLocations) {
+double lookupReach(const Pass& pass, const Settings& settings, bool standardLocations) {
   const ImageQuality& image = pass.quality;
   if (image.scale != 1.0 || pass.shownIn.scale != 1.0 || image.interval > 1) {
     return cachedLookupReach(image);

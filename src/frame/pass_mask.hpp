@@ -10,7 +10,7 @@ namespace speculum {
 // Texels along each axis by which lookups of the pass's image may reach beyond the edge of the mirror's visible region.
 // With `standardLocations` samples lie where Vulkan's standardSampleLocations puts them, otherwise anywhere in their
 // texel.
-double lookupReach(const PlannedPass& pass, const Settings& settings, bool standardLocations);
+double lookupReach(const Pass& pass, const Settings& settings, bool standardLocations);
 // The same of an image that is cached, or has another resolution than what shows it.
 double cachedLookupReach(const ImageQuality& quality);
 

@@ -8,11 +8,11 @@ namespace speculum {
 
 namespace {
 
-double area(const PlannedPass& pass) {
+double area(const Pass& pass) {
   return static_cast<double>(pass.view.rect.area());
 }
 
-bool showsImageOf(const PlannedPass& pass, size_t first) {
+bool showsImageOf(const Pass& pass, size_t first) {
   return std::ranges::any_of(pass.mirrors,
                              [&](const MirrorDraw& draw) { return draw.pass >= static_cast<int>(first); });
 }
@@ -23,7 +23,10 @@ RecycledVector<PassRange> independentPasses(const FramePlan& plan) {
   RecycledVector<PassRange> ranges;
   double covered = 0.0;  // pixels, by the last range
   for (size_t i = 0; i < plan.passes.size(); ++i) {
-    const PlannedPass& pass = plan.passes[i];
+    const Pass& pass = plan.passes[i];
+    if (pass.id.kind != PassKind::mirror || !pass.drawn()) {
+      continue;
+    }
     const double picture = pass.view.pictureSize.x * pass.view.pictureSize.y;
     if (ranges.empty() || showsImageOf(pass, ranges.back().first) || covered + area(pass) > picture) {
       ranges.push_back({i, i});

@@ -13,9 +13,9 @@ struct PassRange {
   size_t end = 0;
 };
 
-// Cuts the plan's passes, in the order of recording, into ranges in which none shows another's image, so that a device
-// may overlap them. Each pass of a range has its own depth image; to bound that memory, a range covers no more pixels
-// than a picture at the passes' resolution, unless a single pass does.
+// Cuts the mirror passes that are drawn, in the order of recording, into ranges in which none shows another's image, so
+// that a device may overlap them. Each pass of a range has its own depth image; to bound that memory, a range covers no
+// more pixels than a picture at the passes' resolution, unless a single pass does.
 RecycledVector<PassRange> independentPasses(const FramePlan& plan);
 
 // A range's passes, largest first. The i-th of them draws with the i-th depth image, so that each depth image is as

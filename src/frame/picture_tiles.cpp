@@ -16,47 +16,35 @@ int tilesAlong(int texels) {
   return (texels + tileSide - 1) / tileSide;
 }
 
-size_t tilesIn(const PixelRect& rect) {
-  return static_cast<size_t>(tilesAlong(rect.width)) * static_cast<size_t>(tilesAlong(rect.height));
-}
-
-const PixelRect& rectOf(const FramePlan& plan, size_t pass) {
-  return (pass < plan.passes.size() ? plan.passes[pass] : plan.main).view.rect;
+// Returns the number of tiles of a pass: none unless it is drawn, or with another one.
+size_t tilesOf(const Pass& pass) {
+  return !pass.drawn() || pass.isLayer ? 0 : pass.isFace() ? 1 : tilesIn(pass.view.rect);
 }
 
 }  // namespace
 
 size_t faceCount(const FramePlan& plan) {
   size_t count = 0;
-  for (const ShadowMap& map : plan.shadowMaps) {
-    count += static_cast<size_t>(std::ranges::count(map.faces, true, &ShadowFace::rendered));
-  }
-  for (const EnvironmentMap& map : plan.maps) {
-    count += map.cacheIndex < 0 ? map.faces.size() : 0;
+  for (const Pass& pass : plan.passes) {
+    count += pass.isFace() ? tilesOf(pass) : 0;
   }
   return count;
 }
 
 size_t tileCount(const FramePlan& plan) {
-  size_t count = faceCount(plan);
-  for (size_t pass = 0; pass <= plan.passes.size(); ++pass) {
-    count += tilesIn(rectOf(plan, pass));
+  size_t count = 0;
+  for (const Pass& pass : plan.passes) {
+    count += tilesOf(pass);
   }
   return count;
-}
-
-TileRange facesOf(const FramePlan& plan) {
-  const size_t count = faceCount(plan);
-  const TileRange drawn = plan.tiles.value_or(TileRange{0, count});
-  return {std::min(drawn.first, count), std::min(drawn.end, count)};
 }
 
 std::vector<TileRange> tilesOfPasses(const FramePlan& plan) {
   const TileRange drawn = plan.tiles.value_or(TileRange{0, SIZE_MAX});
   std::vector<TileRange> tiles;
-  size_t before = faceCount(plan);
-  for (size_t pass = 0; pass <= plan.passes.size(); ++pass) {
-    const size_t end = before + tilesIn(rectOf(plan, pass));
+  size_t before = 0;
+  for (const Pass& pass : plan.passes) {
+    const size_t end = before + tilesOf(pass);
     tiles.push_back({std::clamp(drawn.first, before, end) - before, std::clamp(drawn.end, before, end) - before});
     before = end;
   }
@@ -91,7 +79,7 @@ size_t tilesAtOnce(const FramePlan& plan, const Settings& settings, size_t raysT
   // Rays of ripples and of smooth mirrors go through each sample.
   const bool perSample = settings.effects.perSample || plan.effects.rippleRays || plan.effects.mirrorRays;
   int samples = std::max(settings.view.samples, settings.reflection.samples);
-  forEachPass(plan, [&](const PlannedPass& pass) { samples = std::max(samples, pass.quality.samples); });
+  forEachSeen(plan, [&](const Pass& pass) { samples = std::max(samples, pass.quality.samples); });
   const int rough = plan.effects.roughRays ? roughRays(settings.effects, samples) : 1;
   const int paths = std::max(perSample ? samples : 1, rough);  // of a pixel
   const int bounces = plan.effects.reflects() ? std::max(settings.reflection.maxDepth, 1) : 1;
@@ -99,12 +87,17 @@ size_t tilesAtOnce(const FramePlan& plan, const Settings& settings, size_t raysT
   return static_cast<size_t>(std::max(1.0, mostRays / (tileSide * tileSide * rays)));
 }
 
-size_t tilesOfFace(const EnvironmentMap& map) {
-  return tilesIn({0, 0, map.size, map.size});
+size_t tilesIn(const PixelRect& rect) {
+  return static_cast<size_t>(tilesAlong(rect.width)) * static_cast<size_t>(tilesAlong(rect.height));
 }
 
 bool beginsPicture(const FramePlan& plan) {
   return !plan.tiles || plan.tiles->first == 0;
+}
+
+bool endsFaces(const FramePlan& plan) {
+  return !plan.tiles ||
+         (plan.tiles->end >= faceCount(plan) && (beginsPicture(plan) || plan.tiles->first < faceCount(plan)));
 }
 
 bool endsPicture(const FramePlan& plan) {

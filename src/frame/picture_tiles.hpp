@@ -12,13 +12,12 @@ namespace speculum {
 // take 1 ms for a pixel.
 inline constexpr int tileSide = 16;
 
-// Returns the number of tiles of a picture: faces of shadow and environment maps, each drawn as one tile, then all
-// tiles of the passes of mirrors, in the order of recording, and of the main view.
+// Returns the number of tiles of a picture: those of its passes that are drawn, in the order of recording. A face of a
+// shadow or environment map is drawn as one tile, with the layer that it is drawn over.
 size_t tileCount(const FramePlan& plan);
+// The tiles that are faces come first.
 size_t faceCount(const FramePlan& plan);
-// Returns the faces that this frame draws.
-TileRange facesOf(const FramePlan& plan);
-// Returns the tiles that this frame draws of each pass of a mirror and of the main view, counted within the pass.
+// Returns the tiles of each pass that this frame draws, counted within the pass.
 std::vector<TileRange> tilesOfPasses(const FramePlan& plan);
 // Returns few rectangles that together are these tiles of an image, in the order to draw them: tiles are counted row by
 // row from the last to the first. With several samples, lavapipe of Mesa 22.3 also writes to the row above a scissor
@@ -28,10 +27,12 @@ std::vector<PixelRect> tileRects(int width, int height, const TileRange& tiles);
 // hung: they trace up to about 130 million rays. A picture without traced rays needs no limit (SIZE_MAX).
 // `raysToLights`: TracedEffects::raysToLights().
 size_t tilesAtOnce(const FramePlan& plan, const Settings& settings, size_t raysToLights);
-// Returns the number of tiles of this size that cover a face of an environment map, which is drawn at once.
-size_t tilesOfFace(const EnvironmentMap& map);
-// Say whether this frame draws the first tile of its picture, and the last one.
+// Returns the number of tiles that cover a rectangle of this size.
+size_t tilesIn(const PixelRect& rect);
+// Say whether this frame draws the first tile of its picture, the last face of a map (or, without any, the first tile),
+// and the last tile.
 bool beginsPicture(const FramePlan& plan);
+bool endsFaces(const FramePlan& plan);
 bool endsPicture(const FramePlan& plan);
 
 }  // namespace speculum

@@ -4,8 +4,6 @@
 #include <array>
 #include <cmath>
 
-#include "frame/cube_face.hpp"
-#include "frame/image_content.hpp"
 #include "frame/scene_names.hpp"
 
 namespace speculum {
@@ -20,22 +18,17 @@ constexpr double smallestWindow = 1e-3;
 // by a part of a pixel.
 constexpr double margin = 1.05;
 
-struct Window {
-  glm::dvec2 low{1.0};
-  glm::dvec2 high{-1.0};
+bool isEmpty(const FaceWindow& window) {
+  return window.low.x >= window.high.x || window.low.y >= window.high.y;
+}
 
-  bool empty() const { return low.x >= high.x || low.y >= high.y; }
-  void add(const Window& other) {
-    low = glm::min(low, other.low);
-    high = glm::max(high, other.high);
-  }
-};
+constexpr FaceWindow nothing{glm::dvec2(1.0), glm::dvec2(-1.0)};
 
 // Returns the part of the face in which the box is seen: nothing if the box lies beyond one of the face's sides, the
 // whole face if it reaches behind the light.
-Window windowOf(const Bounds& box, const glm::dvec3& center, const FaceAxes& axes) {
+FaceWindow windowOf(const Bounds& box, const glm::dvec3& center, const FaceAxes& axes) {
   const glm::dvec3 right = glm::cross(axes.forward, axes.up);
-  Window seen{glm::dvec2(1e300), glm::dvec2(-1e300)};
+  FaceWindow seen{glm::dvec2(1e300), glm::dvec2(-1e300)};
   bool before = false;
   bool behind = false;
   glm::bvec2 allLow(true);   // all corners lie left of, or above, the face
@@ -57,7 +50,7 @@ Window windowOf(const Bounds& box, const glm::dvec3& center, const FaceAxes& axe
     }
   }
   if (!before || glm::any(allLow) || glm::any(allHigh)) {
-    return {};
+    return nothing;
   }
   if (behind) {
     return {glm::dvec2(-1.0), glm::dvec2(1.0)};
@@ -66,7 +59,7 @@ Window windowOf(const Bounds& box, const glm::dvec3& center, const FaceAxes& axe
 }
 
 // Moves the sides outwards to a grid, so that a window stays the same while something in it moves a little.
-Window onGrid(Window window) {
+FaceWindow onGrid(FaceWindow window) {
   for (int axis = 0; axis < 2; ++axis) {
     const double width = std::max(window.high[axis] - window.low[axis], smallestWindow);
     const double step = std::exp2(std::floor(std::log2(width))) / 8.0;
@@ -83,7 +76,7 @@ Window onGrid(Window window) {
 }
 
 // Returns the projection of an image that shows the window within its border.
-Projection projectionOf(const Window& window, int size, double near) {
+Projection projectionOf(const FaceWindow& window, int size, double near) {
   const glm::dvec2 scale =
       2.0 / (window.high - window.low) * static_cast<double>(size - 2 * shadowBorder) / static_cast<double>(size);
   Projection projection;
@@ -131,6 +124,13 @@ glm::ivec2 gridOf(size_t maps) {
   return {columns, (count + columns - 1) / columns};
 }
 
+// Returns the corner of a map's face in the target, in texels.
+glm::ivec2 shadowCorner(size_t maps, int size, size_t map, size_t face) {
+  const int columns = gridOf(maps).x;
+  const glm::ivec2 place(static_cast<int>(map) % columns, static_cast<int>(map) / columns);
+  return size * glm::ivec2(3, 2) * place + faceCorner(size, face);
+}
+
 class FacePlanner {
  public:
   FacePlanner(const Scene& scene, const SceneState& state, const Settings& settings,
@@ -141,49 +141,47 @@ class FacePlanner {
     }
   }
 
-  ShadowFace plan(const glm::dvec3& center, const FaceAxes& axes) const {
-    ShadowFace face;
-    Window window;
+  Pass plan(const glm::dvec3& center, const FaceAxes& axes) const {
+    Pass face{.source = PassSource::unread, .inReach = false};
+    FaceWindow window = nothing;
     for (const Bounds& box : boxes_) {
-      if (const Window seen = windowOf(box, center, axes); !seen.empty()) {
-        window.add(seen);
+      if (const FaceWindow seen = windowOf(box, center, axes); !isEmpty(seen)) {
+        window = {glm::min(window.low, seen.low), glm::max(window.high, seen.high)};
       }
     }
-    if (window.empty()) {
+    if (isEmpty(window)) {
       return face;
     }
     window = onGrid(window);
-    face.low = window.low;
-    face.high = window.high;
     const int size = settings_.effects.shadowMapSize;
     face.projection = projectionOf(window, size, nearOf(state_, Projection()));  // of a whole face of the cube
     const CubeFace cube{center, axes, face.projection, size};
-    face.pass.view = viewOf(cube);
-    const std::array<glm::dvec3, 4> rays = cornerRays(face.pass.view, face.projection);
-    RecycledVector<const PlannedPass*> near;
+    face.view = viewOf(cube);
+    const std::array<glm::dvec3, 4> rays = cornerRays(face.view, face.projection);
+    RecycledVector<const Pass*> near;
     for (size_t i = 0; i < readers_.size(); ++i) {
-      if (mayMeet(face.pass.view, rays, readers_[i].readable, rays_[i])) {
+      if (mayMeet(face.view, rays, readers_[i].readable, rays_[i])) {
         near.push_back(readers_[i].pass);
       }
     }
-    face.inReach = !near.empty();
-    if (face.inReach) {
-      face.pass = planFace(cube, scene_, state_, settings_.debug.cullClusters);
-      face.read = std::ranges::any_of(near, [&](const PlannedPass* pass) { return hasReceiver(face, *pass); });
+    if (!near.empty()) {
+      face = planFace(cube, scene_, state_, settings_.debug.cullClusters);
+      const bool read = std::ranges::any_of(near, [&](const Pass* pass) { return hasReceiver(face, *pass); });
+      face.source = read ? PassSource::drawn : PassSource::unread;
     }
+    face.window = window;
     return face;
   }
 
  private:
   // Says whether the face contains something that the pass draws and that the light may fall on.
-  bool hasReceiver(const ShadowFace& face, const PlannedPass& pass) const {
-    const RecycledVector<int>& drawn = face.pass.instances;
+  bool hasReceiver(const Pass& face, const Pass& pass) const {
+    const RecycledVector<int>& drawn = face.instances;
     return std::ranges::any_of(pass.instances, [&](int i) { return std::ranges::binary_search(drawn, i); }) ||
            std::ranges::any_of(pass.mirrors, [&](const MirrorDraw& draw) {
              const Mirror& mirror = scene_.mirrors[static_cast<size_t>(draw.mirror)];
              return (draw.back ? mirror.backColor : mirror.baseColor) != glm::dvec3(0.0) &&
-                    std::ranges::any_of(face.pass.mirrors,
-                                        [&](const MirrorDraw& in) { return in.mirror == draw.mirror; });
+                    std::ranges::any_of(face.mirrors, [&](const MirrorDraw& in) { return in.mirror == draw.mirror; });
            });
   }
 
@@ -195,135 +193,59 @@ class FacePlanner {
   RecycledVector<Bounds> boxes_;
 };
 
-// Returns the pass with the casters that stand still, or with the others.
-PlannedPass castersOf(PlannedPass pass, bool still, const Scene& scene, const SceneState& state) {
-  const auto isOther = [&](int instance) {
-    const int object = state.instances[static_cast<size_t>(instance)].object;
-    return spins(scene.objects[static_cast<size_t>(object)]) == still;
-  };
-  std::erase_if(pass.instances, isOther);
-  std::erase_if(pass.partial, [&](const PartialInstance& partial) { return isOther(partial.instance); });
-  std::erase_if(pass.simplified, [&](const SimplifiedInstance& simplified) { return isOther(simplified.instance); });
-  std::erase_if(pass.mirrors, [&](const MirrorDraw& draw) {
-    return spins(scene.mirrors[static_cast<size_t>(draw.mirror)]) == still;
-  });
-  return pass;
-}
-
-bool anyFace(std::span<const ShadowMap> maps, const auto& predicate) {
-  return std::ranges::any_of(maps, [&](const ShadowMap& map) { return std::ranges::any_of(map.faces, predicate); });
-}
-
-bool isEmpty(const PlannedPass& pass) {
-  return pass.instances.empty() && pass.mirrors.empty();
-}
-
-// Moves the casters that stand still from the face's pass to its layer, unless all of them do or none does.
-void divide(ShadowFace& face, const std::optional<ShadowLayer>& before, const Scene& scene, const SceneState& state,
-            const SceneChanges& changes) {
-  PlannedPass moving = castersOf(face.pass, false, scene, state);
-  ShadowLayer layer{.pass = castersOf(face.pass, true, scene, state)};
-  if (isEmpty(moving) || isEmpty(layer.pass)) {
-    return;
-  }
-  layer.content = shadowContent(changes, face, layer.pass);
-  layer.rendered = !before || before->content != layer.content;
-  face.pass = std::move(moving);
-  face.layer = std::move(layer);
-}
-
 }  // namespace
 
-RecycledVector<ShadowMap> shadowMaps(const Scene& scene, const SceneState& state, const Settings& settings,
-                                     std::span<const ShadowReader> readers) {
+PlannedCubes shadowMaps(const Scene& scene, const SceneState& state, const Settings& settings,
+                        std::span<const ShadowReader> readers) {
   const FacePlanner planner(scene, state, settings, readers);
-  RecycledVector<ShadowMap> maps;
-  for (const int light : shadowLights(scene)) {
-    ShadowMap& map = maps.emplace_back();
-    map.light = light;
-    map.name = nameOf<RecycledString>("light", scene.lights[static_cast<size_t>(light)].name, light);
-    map.size = settings.effects.shadowMapSize;
-    for (const FaceAxes& axes : faceAxes()) {
-      map.faces.push_back(planner.plan(state.lights[static_cast<size_t>(light)].position, axes));
+  const RecycledVector<int> lights = shadowLights(scene);
+  PlannedCubes maps;
+  for (const int light : lights) {
+    const glm::dvec3& center = state.lights[static_cast<size_t>(light)].position;
+    const Cube& map = maps.cubes.emplace_back(
+        Cube{.kind = PassKind::shadow,
+             .light = light,
+             .name = nameOf<RecycledString>("light", scene.lights[static_cast<size_t>(light)].name, light),
+             .size = settings.effects.shadowMapSize,
+             .center = center});
+    for (size_t face = 0; face < map.faces.size(); ++face) {
+      Pass& pass = maps.faces.emplace_back(planner.plan(center, faceAxes()[face]));
+      pass.id = {.kind = PassKind::shadow, .light = light, .face = static_cast<int>(face)};
+      pass.corner = shadowCorner(lights.size(), map.size, maps.cubes.size() - 1, face);
     }
   }
   return maps;
 }
 
-void reuseShadowMaps(RecycledVector<ShadowMap>& maps, std::span<const ShadowMap> before, const Settings& settings,
-                     const Scene& scene, const SceneState& state, const SceneChanges* changes) {
-  constexpr size_t mostCompared = 4'000'000;  // instances of all faces; more would take too much memory
-  size_t instances = 0;
-  for (const ShadowMap& map : maps) {
-    for (const ShadowFace& face : map.faces) {
-      instances += face.pass.instances.size();
-    }
-  }
-  const bool compares = changes && instances <= mostCompared;
-  const bool skips = compares && settings.reflection.skipUnchanged;
-  const bool reuses = std::ranges::equal(
-      maps, before, [](const auto& a, const auto& b) { return a.light == b.light && a.size == b.size; });
-  uint64_t serial = 0;
-  for (const ShadowMap& map : before) {
-    serial = std::max(serial, map.serial);
-  }
-  const uint64_t next = serial + 1;
-  for (size_t i = 0; i < maps.size(); ++i) {
-    maps[i].serial = reuses ? before[i].serial : next;
-    for (size_t f = 0; f < maps[i].faces.size(); ++f) {
-      ShadowFace& face = maps[i].faces[f];
-      const ShadowFace* old = reuses ? &before[i].faces[f] : nullptr;
-      if (face.read) {
-        face.content = compares ? shadowContent(*changes, face, face.pass) : RecycledVector<uint64_t>();
-        face.rendered = !skips || !old || old->content != face.content;
-        maps[i].serial = face.rendered ? next : maps[i].serial;
-      } else if (old) {
-        face.content = old->content;
-      }
-      if (!face.rendered && old) {
-        face.layer = old->layer;
-      } else if (skips && old && !old->content.empty() && !orbits(scene.lights[static_cast<size_t>(maps[i].light)])) {
-        divide(face, old->layer, scene, state, *changes);
-      }
-    }
-  }
-}
-
-std::string shadowFaceName(const ShadowMap& map, size_t face) {
-  return "shadow map of " + std::string(map.name) + " " + faceAxes()[face].name;
-}
-
-std::optional<size_t> onlyShadowFace(std::span<const ShadowMap> maps) {
+std::optional<size_t> onlyShadowFace(const FramePlan& plan) {
   std::optional<size_t> only;
-  for (const ShadowMap& map : maps) {
-    for (size_t i = 0; i < map.faces.size(); ++i) {
-      const bool empty = map.faces[i].low == map.faces[i].high;
-      if (!empty && only.value_or(i) != i) {
-        return std::nullopt;
-      }
-      only = empty ? only : i;
+  for (const Pass& pass : plan.passes) {
+    const auto face = static_cast<size_t>(pass.id.face);
+    if (pass.id.kind != PassKind::shadow || pass.window.empty()) {
+      continue;
     }
+    if (only.value_or(face) != face) {
+      return std::nullopt;
+    }
+    only = face;
   }
   return only;
 }
 
-bool rendersShadows(std::span<const ShadowMap> maps) {
-  return anyFace(maps, &ShadowFace::rendered);
+bool rendersShadows(const FramePlan& plan) {
+  return std::ranges::any_of(plan.passes,
+                             [](const Pass& pass) { return pass.id.kind == PassKind::shadow && pass.drawn(); });
 }
 
-bool hasShadowLayers(std::span<const ShadowMap> maps) {
-  return anyFace(maps, [](const ShadowFace& face) { return face.layer.has_value(); });
+bool hasShadowLayers(const FramePlan& plan) {
+  return std::ranges::any_of(plan.cubes, [](const Cube& cube) {
+    return std::ranges::any_of(cube.layerContent, [](const auto& content) { return !content.empty(); });
+  });
 }
 
-glm::ivec2 shadowExtent(std::span<const ShadowMap> maps) {
+glm::ivec2 shadowExtent(const FramePlan& plan) {
+  const std::span<const Cube> maps = cubesOf(plan.cubes, PassKind::shadow);
   return maps.empty() ? glm::ivec2(0) : glm::ivec2(3, 2) * gridOf(maps.size()) * maps[0].size;
-}
-
-glm::ivec2 shadowCorner(std::span<const ShadowMap> maps, size_t map, size_t face) {
-  const int columns = gridOf(maps.size()).x;
-  const glm::ivec2 place(static_cast<int>(map) % columns, static_cast<int>(map) / columns);
-  const glm::ivec2 within(static_cast<int>(face) % 3, static_cast<int>(face) / 3);
-  return maps[map].size * (glm::ivec2(3, 2) * place + within);
 }
 
 }  // namespace speculum

@@ -38,7 +38,7 @@ class Collector {
     lit_.instances.resize(state.instances.size());
   }
 
-  void add(const PlannedPass& pass) {
+  void add(const Pass& pass) {
     for (const int i : pass.instances) {
       lit_.instances[i] = true;
       lit_.anyInstance = true;
@@ -168,12 +168,12 @@ RecycledVector<int> shadowLights(const Scene& scene) {
 }
 
 TracedEffects tracedEffects(const Scene& scene, const SceneState& state, const Settings& settings,
-                            std::span<const PlannedPass* const> passes) {
+                            std::span<const Pass* const> passes) {
   if (!mayTrace(scene, settings)) {
     return {};
   }
   Collector collector(scene, state, settings.effects);
-  for (const PlannedPass* pass : passes) {
+  for (const Pass* pass : passes) {
     collector.add(*pass);
   }
   return collector.finish();

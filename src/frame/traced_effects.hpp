@@ -9,7 +9,7 @@
 
 namespace speculum {
 
-struct PlannedPass;
+struct Pass;
 
 // A light that a mirror bounces to something that is drawn.
 struct BouncedLight {
@@ -54,6 +54,6 @@ inline constexpr size_t mostShadowMaps = 16;
 
 // Finds the effects that these passes call for, under settings.effects. Pure.
 TracedEffects tracedEffects(const Scene& scene, const SceneState& state, const Settings& settings,
-                            std::span<const PlannedPass* const> passes);
+                            std::span<const Pass* const> passes);
 
 }  // namespace speculum

@@ -5,7 +5,6 @@
 namespace speculum {
 
 void EnvironmentTargets::restart() {
-  cached_.clear();
   targets_.clear();
   restart_ = true;
 }
@@ -16,13 +15,12 @@ void EnvironmentTargets::release(RetireQueue& retired) {
 }
 
 void EnvironmentTargets::prepare(const FramePlan& plan, RetireQueue& retired) {
-  cached_.clear();  // until all are complete
-  targets_ = ImagePool::reused(std::span(plan.maps), std::move(targets_),
-                               [&](const OffScreen& unused) { pool_->release(unused); });
+  const std::span<const Cube> maps = cubesOf(plan.cubes, PassKind::environment);
+  targets_ = ImagePool::reused(maps, std::move(targets_), [&](const OffScreen& unused) { pool_->release(unused); });
   if (std::exchange(restart_, false)) {
     release(retired);
   }
-  for (size_t i = 0; i < plan.maps.size(); ++i) {
+  for (size_t i = 0; i < maps.size(); ++i) {
     if (targets_[i]) {
       continue;
     }
@@ -30,13 +28,12 @@ void EnvironmentTargets::prepare(const FramePlan& plan, RetireQueue& retired) {
       depth_ = std::make_unique<SharedDepth>(device_, VK_SAMPLE_COUNT_1_BIT, "environment maps");
       pool_ = std::make_unique<ImagePool>(device_, *depth_, "environment map");
     }
-    const auto size = static_cast<uint32_t>(plan.maps[i].size);
+    const auto size = static_cast<uint32_t>(maps[i].size);
     targets_[i] = &pool_->acquire({3 * size, 2 * size}, retired);
   }
 }
 
-void EnvironmentTargets::endFrame(const FramePlan& plan, RetireQueue& retired) {
-  cached_ = plan.maps;
+void EnvironmentTargets::endFrame(RetireQueue& retired) {
   if (pool_) {
     pool_->endFrame(retired);
     if (pool_->empty()) {

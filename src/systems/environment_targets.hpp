@@ -10,14 +10,13 @@ class EnvironmentTargets {
  public:
   explicit EnvironmentTargets(Device& device) : device_(device) {}
 
-  // Maps that the next plan may reuse.
-  std::span<const EnvironmentMap> cached() const { return cached_; }
-  void restart();  // drops the cached maps
+  void restart();  // drops the targets in the next frame
 
   // Takes targets for the plan's maps and frees those of other maps. Call it at the start of the plan's frame.
   void prepare(const FramePlan& plan, RetireQueue& retired);
+  // Target of a map, by its index among the environment maps.
   OffScreen& operator[](size_t map) { return *targets_[map]; }
-  void endFrame(const FramePlan& plan, RetireQueue& retired);
+  void endFrame(RetireQueue& retired);
   uint64_t bytes() const { return pool_ ? pool_->bytes() + depth_->bytes() : 0; }
 
  private:
@@ -26,8 +25,7 @@ class EnvironmentTargets {
   Device& device_;
   std::unique_ptr<SharedDepth> depth_;
   std::unique_ptr<ImagePool> pool_;
-  std::vector<OffScreen*> targets_;  // parallel to cached_ between frames, to the plan's maps within one
-  RecycledVector<EnvironmentMap> cached_;
+  std::vector<OffScreen*> targets_;  // of the environment maps of the plan that was prepared last
   bool restart_ = false;
 };
 

@@ -6,7 +6,6 @@
 #include "frame/draw_order.hpp"
 #include "frame/mesh_level.hpp"
 #include "frame/pass_mask.hpp"
-#include "frame/shadow_map.hpp"
 #include "scene/beside_mirrors.hpp"
 #include "systems/gpu_conversion.hpp"
 #include "systems/mirror_polygons.hpp"
@@ -39,41 +38,6 @@ std::vector<glm::vec3> clearancesOf(const Scene& scene, const SceneState& state)
     }
   }
   return clearances;
-}
-
-struct DrawnPass {
-  const PlannedPass* pass;
-  const Projection* projection;
-  glm::ivec2 corner{0};  // of the rectangle in its target, texels
-  bool inMap = false;    // in an environment map
-};
-
-// Returns the passes that a frame draws, in the order of FrameData::passes().
-std::vector<DrawnPass> drawnPasses(const FramePlan& plan) {
-  std::vector<DrawnPass> drawn;
-  for (const PlannedPass& pass : plan.passes) {
-    drawn.push_back({&pass, &plan.projection});
-  }
-  drawn.push_back({&plan.main, &plan.projection});
-  for (const EnvironmentMap& map : plan.maps) {
-    for (size_t face = 0; map.cacheIndex < 0 && face < map.faces.size(); ++face) {
-      drawn.push_back({&map.faces[face], &map.projection, faceCorner(map, face), true});
-    }
-  }
-  for (size_t map = 0; map < plan.shadowMaps.size(); ++map) {
-    for (size_t i = 0; i < plan.shadowMaps[map].faces.size(); ++i) {
-      const ShadowFace& face = plan.shadowMaps[map].faces[i];
-      if (!face.rendered) {
-        continue;
-      }
-      const glm::ivec2 corner = shadowCorner(plan.shadowMaps, map, i);
-      if (face.rendersLayer()) {
-        drawn.push_back({&face.layer->pass, &face.projection, corner});
-      }
-      drawn.push_back({&face.pass, &face.projection, corner});
-    }
-  }
-  return drawn;
 }
 
 bool sameColors(const Object& a, const Object& b) {
@@ -137,8 +101,8 @@ FrameData::FrameData(Device& device)
 
 void FrameData::requireFits(const FramePlan& plan) const {
   size_t instanceCount = 0;
-  for (const DrawnPass& pass : drawnPasses(plan)) {
-    instanceCount += pass.pass->instances.size();
+  for (const Pass& pass : plan.passes) {
+    instanceCount += pass.drawn() ? pass.instances.size() : 0;
   }
   buffers_.checkSize(instances, instanceCount * sizeof(gpu::InstanceData));
 }
@@ -151,20 +115,24 @@ void FrameData::build(Frame& frame, const SceneResources& resources, const Scene
   instances_.clear();
   curvedMirrors_.clear();
   mirrorVertices_.clear();
-  passes_.clear();
-  addRepeating(scene, state, plan.main.view.eye);
+  passes_.assign(plan.passes.size(), {});
+  addRepeating(scene, state, plan.main().view.eye);
   const Source source{scene, state, settings, environment, plan};
   clearances_ = clearancesOf(scene, state);
   shadowMaps_.assign(scene.lights.size(), gpu::noShadowMap);
-  for (size_t map = 0; map < plan.shadowMaps.size(); ++map) {
-    shadowMaps_[plan.shadowMaps[map].light] = static_cast<uint32_t>(map);
+  const std::span<const Cube> maps = cubesOf(plan.cubes, PassKind::shadow);
+  for (size_t map = 0; map < maps.size(); ++map) {
+    shadowMaps_[maps[map].light] = static_cast<uint32_t>(map);
   }
-  for (const DrawnPass& pass : drawnPasses(plan)) {
-    addPass(source, *pass.pass, *pass.projection, pass.corner);
-    passBlocks_.back().view.inMap = pass.inMap;
+  for (size_t i = 0; i < plan.passes.size(); ++i) {
+    if (plan.passes[i].drawn()) {
+      addPass(source, plan.passes[i], passes_[i]);
+    }
   }
 
-  mirrors_.resize(std::max<size_t>(mirrors_.size(), 1));  // bound in every draw
+  // Bound in every draw, and in a frame that draws none.
+  mirrors_.resize(std::max<size_t>(mirrors_.size(), 1));
+  passBlocks_.resize(std::max<size_t>(passBlocks_.size(), 1));
   buffers_.write(frame, passBlocks, passBlocks_);
   buffers_.write(frame, mirrors, mirrors_);
   buffers_.write(frame, lights, lights_);
@@ -191,19 +159,14 @@ void FrameData::bind(const Pipeline& pipeline, VkCommandBuffer commands, const P
   pipeline.bindSet(commands, 0, set_, offsets);
 }
 
-glm::ivec2 faceCorner(const EnvironmentMap& map, size_t face) {
-  return map.size * glm::ivec2(face % 3, face / 3);
-}
-
-void FrameData::addPass(const Source& source, const PlannedPass& pass, const Projection& common,
-                        const glm::ivec2& corner) {
+void FrameData::addPass(const Source& source, const Pass& pass, PassData& data) {
   const auto& [scene, state, settings, environment, plan] = source;
-  const glm::dmat4 projection = viewProjection(common, pass.view, settings.reflection.clip);
-  PassData& data = passes_.emplace_back();
+  const glm::dmat4 projection = viewProjection(pass.projection, pass.view, settings.reflection.clip);
   data.pass = static_cast<uint32_t>(passBlocks_.size());
   data.mirrorView = !pass.view.path.empty();
   gpu::ViewData& view = passBlocks_.emplace_back().view;
-  view = viewData(pass.view, common, corner, environment);
+  view = viewData(pass.view, pass.projection, pass.corner, environment);
+  view.inMap = pass.id.kind == PassKind::environment;
   const glm::dmat4 clipFromRelative = projection * glm::dmat4(pass.view.worldToView);
   view.clipFromRelative = glm::mat4(clipFromRelative);
   if (settings.reflection.clip == ClipMethod::none) {
@@ -211,7 +174,7 @@ void FrameData::addPass(const Source& source, const PlannedPass& pass, const Pro
   }
   view.checksFinite = settings.debug.checkFinite;
   view.picture = static_cast<uint32_t>(plan.picture);
-  view.traceOffset = glm::vec4(glm::dvec4(pass.view.eye - plan.main.view.eye, 0.0));
+  view.traceOffset = glm::vec4(glm::dvec4(pass.view.eye - plan.main().view.eye, 0.0));
   view.throughput = glm::vec3(pass.channels);
   view.minThroughput = static_cast<float>(settings.reflection.minThroughput);
   view.depth = static_cast<uint32_t>(pass.view.path.size());
@@ -225,7 +188,7 @@ void FrameData::addPass(const Source& source, const PlannedPass& pass, const Pro
 
 // Lights with a shadow map come first, so that passes share pipelines. In both groups, lights whose glyphs are visible
 // stand where the groups meet, so that one instanced draw covers them.
-void FrameData::addLights(const Source& source, const PlannedPass& pass, PassBlock& block, PassData& data) {
+void FrameData::addLights(const Source& source, const Pass& pass, PassBlock& block, PassData& data) {
   const Scene& scene = source.scene;
   const double scale = source.settings.view.radianceScale();
   block.view.firstLight = static_cast<uint32_t>(lights_.size());
@@ -253,7 +216,7 @@ void FrameData::addLights(const Source& source, const PlannedPass& pass, PassBlo
               std::min<size_t>(order.size(), gpu::fixedLights), block.lights);
 }
 
-void FrameData::addInstances(const Source& source, const PlannedPass& pass, const glm::dmat4& clipFromRelative,
+void FrameData::addInstances(const Source& source, const Pass& pass, const glm::dmat4& clipFromRelative,
                              PassData& data) {
   const Scene& scene = source.scene;
   const SceneState& state = source.state;
@@ -304,11 +267,10 @@ void FrameData::addInstances(const Source& source, const PlannedPass& pass, cons
 }
 
 // Adds the map that a curved mirror looks up. Faces of maps show the background instead of further maps.
-void FrameData::addEnvironment(const Source& source, const PlannedPass& pass, int instance, Batch& batch) {
-  const RecycledVector<EnvironmentMap>& maps = source.plan.maps;
-  const auto map = std::find_if(maps.begin(), maps.end(), [&](const auto& m) { return m.instance == instance; });
-  const bool inFace = pass.depth < 0 && &pass != &source.plan.main;
-  const bool exists = map != maps.end() && !inFace;
+void FrameData::addEnvironment(const Source& source, const Pass& pass, int instance, Batch& batch) {
+  const RecycledVector<Cube>& cubes = source.plan.cubes;
+  const auto map = std::ranges::find(cubes, instance, &Cube::instance);
+  const bool exists = map != cubes.end() && !pass.isFace();
   const ObjectMirror& mirror = *source.scene.objects[source.state.instances[instance].object].mirror;
   gpu::CurvedMirrorData data{.hasMap = exists,
                              .reflectance = glm::vec3(mirror.reflectance),
@@ -323,13 +285,12 @@ void FrameData::addEnvironment(const Source& source, const PlannedPass& pass, in
   }
   batch.environment = true;
   batch.colored = mirror.baseColor != glm::dvec3(0.0);
-  batch.map = exists ? static_cast<int>(map - maps.begin()) : -1;
+  batch.map = exists ? static_cast<int>(map - cubes.begin()) : -1;
   instances_.back().curvedMirror = static_cast<uint32_t>(curvedMirrors_.size());
   curvedMirrors_.push_back(data);
 }
 
-void FrameData::addMirrors(const Source& source, const PlannedPass& pass, const glm::dmat4& projection,
-                           PassData& data) {
+void FrameData::addMirrors(const Source& source, const Pass& pass, const glm::dmat4& projection, PassData& data) {
   const auto& [scene, state, settings, environment, plan] = source;
   const EffectSettings& effects = settings.effects;
   const std::vector<ClipPolygon> polygons = mirrorPolygons(pass, projection);
@@ -386,7 +347,7 @@ void FrameData::addRepeating(const Scene& scene, const SceneState& state, const 
   }
 }
 
-void FrameData::addMask(const PlannedPass& pass, const FramePlan& plan, const Settings& settings, PassData& data) {
+void FrameData::addMask(const Pass& pass, const FramePlan& plan, const Settings& settings, PassData& data) {
   if (pass.view.path.empty() || !settings.debug.maskPasses) {
     return;
   }

@@ -35,7 +35,7 @@ struct Batch {
   bool curved = false;                // the object is a curved mirror
   bool environment = false;           // it looks up an environment map; the batch then has one instance
   bool colored = false;               // and its base is not black
-  int map = -1;                       // index into FramePlan::maps; -1: it shows the background
+  int map = -1;                       // index into FramePlan::cubes; -1: it shows the background
   int level = -1;                     // index into MeshLevels::levels; -1: the mesh itself
   RecycledVector<IndexRange> ranges;  // indices that are drawn; empty: all. Only a batch of one instance has ranges
 };
@@ -83,8 +83,7 @@ class FrameData {
   // targets are made.
   void requireFits(const FramePlan& plan) const;
   // Fills the buffers of this frame in flight, for a plan that passed requireFits(). Afterwards passes()[i] belongs to
-  // plan.passes[i], the next to the main view, those after it to the faces of the environment maps and then of the
-  // shadow maps that this frame renders, each after its layer, and set() is valid until the frame has finished.
+  // plan.passes[i], with draws if that is drawn, and set() is valid until the frame has finished.
   void build(Frame& frame, const SceneResources& resources, const Scene& scene, const SceneState& state,
              const Settings& settings, const Environment& environment, const FramePlan& plan);
 
@@ -119,15 +118,14 @@ class FrameData {
     const Environment& environment;
     const FramePlan& plan;
   };
-  // Adds a pass that is drawn from pixel `corner` of its target on.
-  void addPass(const Source& source, const PlannedPass& pass, const Projection& projection, const glm::ivec2& corner);
-  void addLights(const Source& source, const PlannedPass& pass, PassBlock& block, PassData& data);
-  void addInstances(const Source& source, const PlannedPass& pass, const glm::dmat4& clipFromRelative, PassData& data);
+  void addPass(const Source& source, const Pass& pass, PassData& data);
+  void addLights(const Source& source, const Pass& pass, PassBlock& block, PassData& data);
+  void addInstances(const Source& source, const Pass& pass, const glm::dmat4& clipFromRelative, PassData& data);
   // Makes the instance's batch look up its environment map.
-  void addEnvironment(const Source& source, const PlannedPass& pass, int instance, Batch& batch);
-  void addMirrors(const Source& source, const PlannedPass& pass, const glm::dmat4& projection, PassData& data);
+  void addEnvironment(const Source& source, const Pass& pass, int instance, Batch& batch);
+  void addMirrors(const Source& source, const Pass& pass, const glm::dmat4& projection, PassData& data);
   void addRepeating(const Scene& scene, const SceneState& state, const glm::dvec3& eye);
-  void addMask(const PlannedPass& pass, const FramePlan& plan, const Settings& settings, PassData& data);
+  void addMask(const Pass& pass, const FramePlan& plan, const Settings& settings, PassData& data);
 
   Device& device_;
   DescriptorSetLayoutHandle layout_;
@@ -152,8 +150,5 @@ bool hasRepeatingTriangles(const Scene& scene);
 
 // Returns the value of `lightCount` in shading.glsl for the scene's lights.
 uint32_t fixedLightCount(const Scene& scene);
-
-// Corner of an environment map's face in its target, in texels.
-glm::ivec2 faceCorner(const EnvironmentMap& map, size_t face);
 
 }  // namespace speculum

@@ -25,7 +25,7 @@ struct FrameInfo {
   EffectLedger& ledger;                 // systems enter their draws
   std::span<const MirrorImage> images;  // of plan.passes, by index; valid while their parent is recorded
   std::span<const MirrorImage> cached;  // parallel to FramePlan::cached; set where an earlier frame rendered the image
-  std::span<const VkDescriptorSet> maps;  // of plan.maps, by index; bound instead of an object's texture
+  std::span<const VkDescriptorSet> maps;  // of plan.cubes, by index; bound instead of an object's texture
 };
 
 }  // namespace speculum

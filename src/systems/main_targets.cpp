@@ -10,7 +10,7 @@ void MainTargets::begin(const Settings& settings, const FramePlan& plan, bool di
   } else if (displayed && !earlier_) {
     earlier_ = std::move(drawn_);
   }
-  const VkExtent2D extent = extentOf(plan.main.view.rect.width, plan.main.view.rect.height);
+  const VkExtent2D extent = extentOf(plan.main().view.rect.width, plan.main().view.rect.height);
   const VkSampleCountFlagBits samples = device_.sampleCount(settings.view.samples);
   const bool readSamples = (settings.debug.checkFinite || plan.effects.any()) && samples != VK_SAMPLE_COUNT_1_BIT;
   if (!drawn_ || drawn_->samples() != samples || drawn_->desc().readSamples != readSamples) {

@@ -25,7 +25,7 @@ ClipPolygon movedBack(ClipPolygon clip, int layer, double largestDepth) {
 
 }  // namespace
 
-std::vector<ClipPolygon> mirrorPolygons(const PlannedPass& pass, const glm::dmat4& projection) {
+std::vector<ClipPolygon> mirrorPolygons(const Pass& pass, const glm::dmat4& projection) {
   std::vector<ClipPolygon> polygons;
   for (const MirrorDraw& draw : pass.mirrors) {
     ClipPolygon& clip = polygons.emplace_back();
@@ -36,8 +36,8 @@ std::vector<ClipPolygon> mirrorPolygons(const PlannedPass& pass, const glm::dmat
   return polygons;
 }
 
-std::vector<ClipPolygon> partsToDraw(const PlannedPass& pass, const SceneState& state,
-                                     std::span<const ClipPolygon> polygons, size_t index, size_t& cuts) {
+std::vector<ClipPolygon> partsToDraw(const Pass& pass, const SceneState& state, std::span<const ClipPolygon> polygons,
+                                     size_t index, size_t& cuts) {
   constexpr size_t mostParts = 1024;
   constexpr size_t mostCuts = 100'000;  // about 10 ms
   const MirrorDraw& draw = pass.mirrors[index];

@@ -162,7 +162,8 @@ void MirrorSystem::draw(const PassScope& scope, const FrameInfo& info, const Pas
   variant.clampDepth = !(pass.mirrorView && info.settings.reflection.clip == ClipMethod::oblique);
   variant.trace = identifies ? info.trace.variant() : TraceVariant{};
   variant.shadowed = variant.colored && info.shadows.set() != VK_NULL_HANDLE;
-  variant.shadowedLights = variant.shadowed ? static_cast<uint32_t>(info.plan.shadowMaps.size()) : 0;
+  variant.shadowedLights =
+      variant.shadowed ? static_cast<uint32_t>(cubesOf(info.plan.cubes, PassKind::shadow).size()) : 0;
   variant.onlyShadowFace = variant.shadowed ? info.shadows.onlyFace() : gpu::anyShadowFace;
   variant.lightCount = variant.colored ? fixedLightCount(info.scene) : gpu::manyLights;
   const Pipeline& pipeline = pipelines_.get(variant, [&] { return describe(variant, info); });

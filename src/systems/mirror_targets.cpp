@@ -26,7 +26,7 @@ void MirrorTargets::takeCached(const FramePlan& plan) {
 // While tiles are drawn, or the picture is shown again, the image stays shown; the pool may be retired meanwhile.
 void MirrorTargets::takeWatched(const FramePlan& plan, RetireQueue& retired) {
   OffScreen* image = std::exchange(watchedImage_, nullptr);
-  const bool stays = plan.tiles || (plan.mainReused && watched_);
+  const bool stays = plan.tiles || (plan.mainReused() && watched_);
   if (!stays) {
     retired.take(earlierWatched_);
   }
@@ -43,15 +43,15 @@ void MirrorTargets::begin(const FramePlan& plan, std::optional<int> watched, Ret
   takeCached(plan);
   for (auto& [samples, pool] : pools_) {
     const auto has = [count = samples](const OffScreen* target) { return target && target->samples() == count; };
-    const auto needs = [this, count = samples](const PlannedPass& pass) { return samplesOf(pass) == count; };
-    if (restart_ || (std::ranges::none_of(cachedTargets_, has) && std::ranges::none_of(plan.passes, needs))) {
+    const auto needs = [this, count = samples](const Pass& pass) { return samplesOf(pass) == count; };
+    if (restart_ || (std::ranges::none_of(cachedTargets_, has) && std::ranges::none_of(plan.drawnMirrors(), needs))) {
       retired.take(pool.images);
       dropDepth(pool.depths, 0, retired);
     }
   }
   restart_ = false;
   std::erase_if(pools_, [](const auto& entry) { return !entry.second.images; });
-  for (const PlannedPass& pass : plan.passes) {
+  for (const Pass& pass : plan.drawnMirrors()) {
     if (Pool& pool = pools_[samplesOf(pass)]; !pool.images) {
       pool.images = std::make_unique<ImagePool>(device_, depth(samplesOf(pass), 0, {0, 0}), "mirror image");
     }
@@ -92,7 +92,7 @@ bool MirrorTargets::isNeededLater(const FramePlan& plan, int pass) const {
   return pass == watched_ || std::ranges::find(plan.cached, pass, &CachedImage::pass) != plan.cached.end();
 }
 
-void MirrorTargets::releaseShown(const FramePlan& plan, const PlannedPass& pass) {
+void MirrorTargets::releaseShown(const FramePlan& plan, const Pass& pass) {
   for (const MirrorDraw& draw : pass.mirrors) {
     if (draw.pass >= 0 && !isNeededLater(plan, draw.pass)) {
       poolOf(*targets_[draw.pass]).release(*targets_[draw.pass]);
@@ -113,7 +113,7 @@ void MirrorTargets::end(const FramePlan& plan, RetireQueue& retired) {
       cachedTargets_[i] = targets_[plan.cached[i].pass];
     }
   }
-  if (!plan.mainReused) {
+  if (!plan.mainReused()) {
     if (watched_ && std::ranges::find(cachedTargets_, targets_[*watched_]) == cachedTargets_.end()) {
       watchedImage_ = targets_[*watched_];
     }

@@ -26,7 +26,7 @@ class MirrorTargets {
   // looks up stay untouched.
   std::vector<PassTargets> acquire(const FramePlan& plan, const PassRange& range, RetireQueue& retired);
   // Releases the images that a recorded pass looked up.
-  void releaseShown(const FramePlan& plan, const PlannedPass& pass);
+  void releaseShown(const FramePlan& plan, const Pass& pass);
   void end(const FramePlan& plan, RetireQueue& retired);
 
   OffScreen& operator[](size_t pass) { return *targets_[pass]; }
@@ -50,7 +50,7 @@ class MirrorTargets {
     std::vector<Depth> depths;  // the first exists as long as the images
     std::unique_ptr<ImagePool> images;
   };
-  VkSampleCountFlagBits samplesOf(const PlannedPass& pass) { return device_.sampleCount(pass.quality.samples); }
+  VkSampleCountFlagBits samplesOf(const Pass& pass) { return device_.sampleCount(pass.quality.samples); }
   ImagePool& poolOf(const OffScreen& target) { return *pools_.at(target.samples()).images; }
   void takeCached(const FramePlan& plan);
   void takeWatched(const FramePlan& plan, RetireQueue& retired);

@@ -143,7 +143,8 @@ uint32_t RenderSystem::recordBatch(const PassScope& scope, const FrameInfo& info
   variant.environment = batch.environment;
   variant.trace = variant.deferred ? info.trace.variant() : TraceVariant{};
   variant.shadowed = !variant.deferred && !variant.added && info.shadows.set() != VK_NULL_HANDLE;
-  variant.shadowedLights = variant.shadowed ? static_cast<uint32_t>(info.plan.shadowMaps.size()) : 0;
+  variant.shadowedLights =
+      variant.shadowed ? static_cast<uint32_t>(cubesOf(info.plan.cubes, PassKind::shadow).size()) : 0;
   variant.onlyShadowFace = variant.shadowed ? info.shadows.onlyFace() : gpu::anyShadowFace;
   variant.lightCount = variant.deferred || variant.added ? gpu::manyLights : fixedLightCount(info.scene);
   const Mesh& mesh = info.scene.meshes[batch.mesh];

@@ -7,8 +7,6 @@
 #include "frame/memory_fit.hpp"
 #include "frame/mesh_level.hpp"
 #include "frame/picture_tiles.hpp"
-#include "frame/scene_names.hpp"
-#include "frame/shadow_map.hpp"
 #include "image/enlarge.hpp"
 #include "systems/scene_pass.hpp"
 
@@ -96,13 +94,12 @@ void SceneRenderer::record(Frame& frame, const SceneState& state, const Settings
                        .maps = mapSets_};
   if (beginsPicture(plan)) {
     log_.beginPicture();
-    if (!plan.mainReused) {
+    cubes_.clear();
+    if (!plan.mainReused()) {
       ledger_ = {};
     }
   }
-  recordFaces(info);
-  recordMirrors(info);
-  recordMain(info);
+  recordPasses(info);
   unfinished_ = !endsPicture(plan);
   if (unfinished_) {
     mainImage_ = {};
@@ -143,119 +140,99 @@ void SceneRenderer::prepareTargets(Frame& frame, const Settings& settings, const
   }
   shadowSystem_.prepare(frame, plan);
   mapSets_.clear();
-  for (size_t i = 0; i < plan.maps.size(); ++i) {
-    mapSets_.push_back(frame.descriptors->allocate(resources_.textureLayout()));
-    DescriptorWriter().image(0, environmentTargets_[i].descriptor()).update(device_, mapSets_.back());
+  for (const Cube& cube : plan.cubes) {
+    const bool environment = cube.kind == PassKind::environment;
+    mapSets_.push_back(environment ? frame.descriptors->allocate(resources_.textureLayout()) : VK_NULL_HANDLE);
+    if (environment) {
+      const OffScreen& target = environmentTarget(plan, plan.passes[cube.faces[0]]);
+      DescriptorWriter().image(0, target.descriptor()).update(device_, mapSets_.back());
+    }
   }
   if (settings.debug.checkFinite) {
-    watch_.begin(frame, plan.maps.size() + plan.passes.size() + 2);  // 2: the main view's samples and their mean
+    watch_.begin(frame, plan.passes.size() + 1);  // the main view's samples and their mean are two
   } else {
     watch_.release();
   }
 }
 
-// Records the frame's faces of shadow and environment maps. The next plan may reuse them once all are drawn.
-void SceneRenderer::recordFaces(const FrameInfo& info) {
+OffScreen& SceneRenderer::environmentTarget(const FramePlan& plan, const Pass& face) {
+  return environmentTargets_[face.cube - cubesOf(plan.cubes, PassKind::shadow).size()];
+}
+
+void SceneRenderer::recordPasses(const FrameInfo& info) {
   const FramePlan& plan = info.plan;
-  if (beginsPicture(plan)) {
-    shadowSystem_.restart();
+  // Passes of a group render side by side, without the pause of deferred shading.
+  const bool grouped = !plan.tiles && !info.trace.set();
+  const RecycledVector<PassRange> groups = grouped ? independentPasses(plan) : RecycledVector<PassRange>();
+  auto group = groups.begin();
+  for (size_t i = 0; i < plan.passes.size(); ++i) {
+    if (tiles_[i].empty()) {
+      continue;
+    }
+    switch (plan.passes[i].id.kind) {
+      case PassKind::shadow:
+        recordShadow(info, i);
+        break;
+      case PassKind::environment:
+        recordEnvironment(info, i);
+        break;
+      case PassKind::mirror: {
+        const PassRange range = grouped ? *group++ : PassRange{i, i + 1};
+        recordMirrors(info, range);
+        i = range.end - 1;
+        break;
+      }
+      default:
+        recordMain(info, i);
+    }
   }
-  const TileRange faces = facesOf(plan);
-  recordMaps(info, faces, recordShadows(info, faces));
-  const bool last = faces.end == faceCount(plan) && (beginsPicture(plan) || !faces.empty());
-  if (last) {
-    environmentTargets_.endFrame(plan, *info.frame.retired);
+  if (endsFaces(plan)) {
+    cubes_ = plan.cubes;
+    environmentTargets_.endFrame(*info.frame.retired);
     shadowSystem_.endFrame(plan, *info.frame.retired);
   }
-}
-
-// `face`: number of the first one among `faces`.
-void SceneRenderer::recordMaps(const FrameInfo& info, const TileRange& faces, size_t face) {
-  size_t index = info.plan.passes.size() + 1;  // in info.data, after the main view
-  for (size_t map = 0; map < info.plan.maps.size(); ++map) {
-    const EnvironmentMap& planned = info.plan.maps[map];
-    for (size_t i = 0; planned.cacheIndex < 0 && i < planned.faces.size(); ++i, ++index, ++face) {
-      if (face >= faces.first && face < faces.end) {
-        recordFace(info, map, i, index);
-      }
-    }
-    const bool whole = planned.cacheIndex < 0 && !info.plan.tiles;
-    if (whole) {
-      watch_.check(info.frame, log_.passes().back(), environmentTargets_[map],
-                   extentOf(3 * planned.size, 2 * planned.size));
-    }
+  if (info.settings.debug.checkFinite) {
+    watch_.end(info.frame);
   }
 }
 
-void SceneRenderer::recordFace(const FrameInfo& info, size_t map, size_t face, size_t index) {
-  const EnvironmentMap& planned = info.plan.maps[map];
-  OffScreen& target = environmentTargets_[map];
-  const VkExtent2D size = extentOf(planned.size, planned.size);
-  const glm::ivec2 corner = faceCorner(planned, face);
-  const PassViewport viewport{static_cast<float>(corner.x), static_cast<float>(corner.y),
+void SceneRenderer::recordShadow(const FrameInfo& info, size_t index) {
+  const int layer = info.plan.passes[index].layer;
+  const RecordedPass pass = shadowSystem_.record(renderer_, info, index);
+  ledger_[EffectKind::shadows].draws += pass.draws;
+  log_.add(pass);
+  if (layer >= 0 && info.plan.passes[static_cast<size_t>(layer)].drawn()) {
+    log_.add(pass);
+    log_.joinLast();
+  }
+}
+
+void SceneRenderer::recordEnvironment(const FrameInfo& info, size_t index) {
+  const Pass& face = info.plan.passes[index];
+  OffScreen& target = environmentTarget(info.plan, face);
+  const VkExtent2D size = extentOf(face.view.rect.width, face.view.rect.height);
+  const PassViewport viewport{static_cast<float>(face.corner.x), static_cast<float>(face.corner.y),
                               static_cast<float>(size.width), static_cast<float>(size.height)};
-  const PassDesc desc =
-      scenePass("environment of " + std::string(planned.name) + " " + faceAxes()[face].name, target.targets(),
-                {{corner.x, corner.y}, size}, viewport, planned.faces[face].view, info.environment);
+  const PassDesc desc = scenePass(passName(scene_, info.plan, face), target.targets(),
+                                  {{face.corner.x, face.corner.y}, size}, viewport, face.view, info.environment);
   const uint32_t drawsBefore = ledger_[EffectKind::curved].draws;
-  const PassId id{.kind = PassKind::environment, .instance = planned.instance, .face = static_cast<int>(face)};
-  RecordedPass pass{id, desc.name};
-  pass.areaPx = planned.faces[face].areaPx;
-  const size_t tiles = tilesOfFace(planned);
+  RecordedPass pass{face.id, desc.name};
+  pass.areaPx = face.areaPx;
+  const size_t tiles = tilesIn(face.view.rect);
   makeRoom(info.frame, tiles);
   drawScene(info, index, desc, std::move(pass));
   tilesLeft_ -= std::min(tilesLeft_, tiles);
   // Counts each draw once: drawScene() has entered the curved mirrors seen in the face.
   ledger_[EffectKind::curved].draws = drawsBefore + log_.passes().back().draws;
-}
-
-// Returns the number of faces that the picture renders.
-size_t SceneRenderer::recordShadows(const FrameInfo& info, const TileRange& faces) {
-  const RecycledVector<ShadowMap>& maps = info.plan.shadowMaps;
-  size_t index = info.plan.passes.size() + 1;  // of the first in info.data, after the main view and environment maps
-  for (const EnvironmentMap& map : info.plan.maps) {
-    index += map.cacheIndex < 0 ? map.faces.size() : 0;
-  }
-  size_t count = 0;
-  for (size_t map = 0; map < maps.size(); ++map) {
-    for (size_t i = 0; i < maps[map].faces.size(); ++i) {
-      const ShadowFace& face = maps[map].faces[i];
-      if (!face.rendered) {
-        continue;
-      }
-      if (count >= faces.first && count < faces.end) {
-        const RecordedPass pass = shadowSystem_.record(renderer_, info, map, i, index);
-        ledger_[EffectKind::shadows].draws += pass.draws;
-        log_.add(pass);
-        if (face.rendersLayer()) {
-          log_.add(pass);
-          log_.joinLast();
-        }
-      }
-      ++count;
-      index += face.rendersLayer() ? 2 : 1;
-    }
-  }
-  return count;
-}
-
-void SceneRenderer::recordMirrors(const FrameInfo& info) {
-  // Passes of a group render side by side, without the pause of deferred shading.
-  if (!info.plan.tiles && !info.trace.set()) {
-    for (const PassRange& range : independentPasses(info.plan)) {
-      recordMirrorRange(info, range);
-    }
-    return;
-  }
-  for (size_t i = 0; i < info.plan.passes.size(); ++i) {
-    if (!tiles_[i].empty()) {
-      recordMirrorRange(info, {i, i + 1});
-    }
+  const bool last = static_cast<size_t>(face.id.face) + 1 == faceAxes().size();
+  if (last && !info.plan.tiles) {
+    watch_.check(info.frame, log_.passes().back(), target,
+                 extentOf(3 * face.view.rect.width, 2 * face.view.rect.height));
   }
 }
 
 // Releases and checks images after the whole range, because barriers are recorded only before and after it.
-void SceneRenderer::recordMirrorRange(const FrameInfo& info, const PassRange& range) {
+void SceneRenderer::recordMirrors(const FrameInfo& info, const PassRange& range) {
   const TileRange tiles = tiles_[range.first];  // of all passes, or of the only one
   if (tiles.first == 0) {
     passTargets_ = mirrorTargets_.acquire(info.plan, range, *info.frame.retired);
@@ -264,7 +241,7 @@ void SceneRenderer::recordMirrorRange(const FrameInfo& info, const PassRange& ra
   for (size_t i = range.first; i < range.end; ++i) {
     const View& view = info.plan.passes[i].view;
     PassDesc& desc = descs.emplace_back(
-        scenePass("mirror " + mirrorPathName(scene_, view.path), passTargets_[i - range.first],
+        scenePass(passName(scene_, info.plan, info.plan.passes[i]), passTargets_[i - range.first],
                   {{0, 0}, extentOf(view.rect.width, view.rect.height)}, viewportOf(view), view, info.environment));
     desc.clearDepth = MaskSystem::clearDepth(info.data.passes()[i]);
     desc.grouped = range.end > range.first + 1;
@@ -277,14 +254,9 @@ void SceneRenderer::recordMirrorRange(const FrameInfo& info, const PassRange& ra
       group.emplace(device_.barriers(), info.frame.commands, descs);
     }
     for (size_t i = range.first; i < range.end; ++i) {
-      const PlannedPass& planned = info.plan.passes[i];
+      const Pass& planned = info.plan.passes[i];
       const PassDesc& desc = descs[i - range.first];
-      RecordedPass pass;
-      pass.path = planned.view.path;
-      pass.name = desc.name;
-      pass.depth = planned.depth;
-      pass.areaPx = planned.areaPx;
-      drawTiles(info, i, desc, pass);
+      drawTiles(info, i, desc, {planned.id, desc.name, planned.depth, 0, planned.areaPx});
     }
   }
   // Once its first tile is drawn: no image is acquired before its last one.
@@ -298,28 +270,22 @@ void SceneRenderer::recordMirrorRange(const FrameInfo& info, const PassRange& ra
   }
 }
 
-void SceneRenderer::recordMain(const FrameInfo& info) {
-  const PlannedPass& main = info.plan.main;
-  const size_t index = info.plan.passes.size();
-  if (!info.plan.mainReused && !tiles_[index].empty()) {
-    const PassDesc whole = fullPass("main view", mainTargets_.drawn().targets());
-    PassDesc desc = scenePass(whole.name, whole.targets, whole.renderArea, whole.viewport, main.view, info.environment);
-    desc.storeSamples = info.settings.debug.checkFinite;
-    watched_.prepare(info.plan, index, desc, *info.frame.retired);
-    drawTiles(info, index, desc, {{.kind = PassKind::main}, desc.name, -1, 0, main.areaPx});
-    watch_.check(info.frame, log_.passes().back(), mainTargets_.drawn(), mainTargets_.drawn().extent());
-    mirrorTargets_.releaseShown(info.plan, main);
-  }
-  if (info.settings.debug.checkFinite) {
-    watch_.end(info.frame);
-  }
+void SceneRenderer::recordMain(const FrameInfo& info, size_t index) {
+  const Pass& main = info.plan.passes[index];
+  const PassDesc whole = fullPass(passName(scene_, info.plan, main), mainTargets_.drawn().targets());
+  PassDesc desc = scenePass(whole.name, whole.targets, whole.renderArea, whole.viewport, main.view, info.environment);
+  desc.storeSamples = info.settings.debug.checkFinite;
+  watched_.prepare(info.plan, index, desc, *info.frame.retired);
+  drawTiles(info, index, desc, {main.id, desc.name, -1, 0, main.areaPx});
+  watch_.check(info.frame, log_.passes().back(), mainTargets_.drawn(), mainTargets_.drawn().extent());
+  mirrorTargets_.releaseShown(info.plan, main);
 }
 
 void SceneRenderer::recordSum(const FrameInfo& info) {
   if (info.settings.view.accumulate == 1) {
     accumulation_.release(*info.frame.retired);
   } else if (const bool again = info.plan.picture > 0 && info.plan.picture + 1 == accumulated();
-             !info.plan.mainReused && !again) {
+             !info.plan.mainReused() && !again) {
     log_.add(accumulation_.add(info.frame, mainTargets_.drawn().descriptor(), mainTargets_.drawn().extent(),
                                info.plan.picture));
   }
@@ -363,14 +329,16 @@ void SceneRenderer::recordDebug(const FrameInfo& info, const DebugView& debug, c
 void SceneRenderer::endRecord(const FrameInfo& info, bool textured) {
   const FramePlan& plan = info.plan;
   RetireQueue& retired = *info.frame.retired;
-  const bool imagesShown = !plan.reused.empty() || plan.mainReused;
-  const bool shadowMaps = !plan.shadowMaps.empty();
+  const auto isShown = [](const Pass& pass) { return pass.source == PassSource::reused && !pass.isFace(); };
+  const bool imagesShown = std::ranges::any_of(plan.passes, isShown);
+  const bool glyphsShown =
+      std::ranges::any_of(plan.passes, [&](const Pass& pass) { return isShown(pass) && !pass.lights.empty(); });
+  const bool shadowMaps = !cubesOf(plan.cubes, PassKind::shadow).empty();
   renderSystem_.endFrame(trace_.variant(), shadowMaps, imagesShown, plan.effects.curved.has_value(), textured);
   mirrorSystem_.endFrame(trace_.variant(), shadowMaps, imagesShown && plan.effects.any());
   deferredShading_.endFrame(trace_.variant(), imagesShown && plan.effects.any(), retired);
-  pointLightSystem_.endFrame((plan.mainReused && !plan.main.lights.empty()) ||
-                             std::ranges::any_of(plan.reused, [](const auto& p) { return !p.lights.empty(); }));
-  if (!plan.mainReused) {
+  pointLightSystem_.endFrame(glyphsShown);
+  if (!plan.mainReused()) {
     finishLedger(info);
   }
   mainImage_ = {info.settings, plan.mainContent};
@@ -434,9 +402,9 @@ void SceneRenderer::drawScene(const FrameInfo& info, size_t index, const PassDes
 }
 
 OffScreen* SceneRenderer::watchedImage(const FramePlan& plan, int pass) {
-  return pass == static_cast<int>(shownPasses(plan).size()) ? &mainTargets_.shown()
-         : unfinished_ || plan.mainReused                   ? mirrorTargets_.earlierWatched()
-                                                            : &mirrorTargets_[static_cast<size_t>(pass)];
+  return plan.passes[static_cast<size_t>(pass)].id.kind == PassKind::main ? &mainTargets_.shown()
+         : unfinished_ || plan.mainReused()                               ? mirrorTargets_.earlierWatched()
+                                                                          : &mirrorTargets_[static_cast<size_t>(pass)];
 }
 
 // Enters in the ledger the costs that are not entered with each draw.
@@ -446,7 +414,7 @@ void SceneRenderer::finishLedger(const FrameInfo& info) {
   ledger_[EffectKind::msaa].bytes = sampleBytes(info.plan, settings);
   for (const RecordedPass& pass : log_.passes()) {
     const bool main = pass.kind == PassKind::main;
-    const PlannedPass* planned = main ? &info.plan.main : mirrorPass(info.plan, pass.path);
+    const Pass* planned = main ? &info.plan.main() : mirrorPass(info.plan, pass.path);
     ledger_[EffectKind::msaa].draws += planned && planned->quality.samples > 1 ? pass.draws : 0;
   }
   ledger_[EffectKind::textures].bytes = ledger_[EffectKind::textures].draws > 0 ? resources_.textureBytes() : 0;
@@ -475,16 +443,15 @@ FrameCache SceneRenderer::cache(const SceneState& state) {
     return {.changes = &changes_};
   }
   return {.images = mirrorTargets_.cachedImages(),
-          .maps = environmentTargets_.cached(),
-          .shadowMaps = shadowSystem_.cached(),
+          .cubes = cubes_,
           .main = mainImage_.content.empty() ? nullptr : &mainImage_,
           .changes = &changes_};
 }
 
 void SceneRenderer::restart() {
   mainImage_ = {};
+  cubes_.clear();
   environmentTargets_.restart();
-  shadowSystem_.restart();
   mirrorTargets_.restart();
 }
 

@@ -76,14 +76,14 @@ class SceneRenderer {
  private:
   void releaseUnused(const std::optional<DebugView>& debug);
   void prepareTargets(Frame& frame, const Settings& settings, const FramePlan& plan, bool shown);
-  void recordFaces(const FrameInfo& info);
-  size_t recordShadows(const FrameInfo& info, const TileRange& faces);
-  void recordMaps(const FrameInfo& info, const TileRange& faces, size_t face);
-  // Records a face of an environment map, pass `index` of info.data.
-  void recordFace(const FrameInfo& info, size_t map, size_t face, size_t index);
-  void recordMirrors(const FrameInfo& info);
-  void recordMirrorRange(const FrameInfo& info, const PassRange& range);
-  void recordMain(const FrameInfo& info);
+  // Records the passes of the plan, those below by their index in it.
+  void recordPasses(const FrameInfo& info);
+  void recordShadow(const FrameInfo& info, size_t index);
+  void recordEnvironment(const FrameInfo& info, size_t index);
+  void recordMirrors(const FrameInfo& info, const PassRange& range);
+  void recordMain(const FrameInfo& info, size_t index);
+  // Target of the environment map that the pass is a face of.
+  OffScreen& environmentTarget(const FramePlan& plan, const Pass& face);
   void recordSum(const FrameInfo& info);
   void recordDisplay(const FrameInfo& info, const std::optional<DebugView>& debug);
   void recordDebug(const FrameInfo& info, const DebugView& debug, const WatchedTarget::Target& target);
@@ -117,7 +117,7 @@ class SceneRenderer {
   WatchedTarget watched_;
   TexelProbe probe_;
   MainTargets mainTargets_;
-  std::vector<TileRange> tiles_;          // of each pass and the main view, that the frame draws
+  std::vector<TileRange> tiles_;          // tilesOfPasses() of the frame
   size_t tilesAtOnce_ = SIZE_MAX;         // tilesAtOnce() of the frame
   size_t tilesLeft_ = SIZE_MAX;           // of these, for which its commands have room
   std::vector<PassTargets> passTargets_;  // of the mirror passes drawn last; their next tiles may follow
@@ -129,7 +129,8 @@ class SceneRenderer {
   SceneChanges changes_;
   MainImage mainImage_;  // content is empty if the main view must not be reused
   EnvironmentTargets environmentTargets_;
-  std::vector<VkDescriptorSet> mapSets_;  // of the present plan's maps
+  std::vector<VkDescriptorSet> mapSets_;  // of the present plan's cubes; null for shadow maps
+  RecycledVector<Cube> cubes_;            // that the next plan may reuse; none before all faces of a picture are drawn
   PassLog log_;
   EffectLedger ledger_;
   IdleGuard idle_;

@@ -15,18 +15,15 @@ namespace {
 constexpr VkFormat planeFormat = VK_FORMAT_R32G32_UINT;
 constexpr std::array shadowBufferNames = {"shadow maps"};
 
-std::array<gpu::ShadowMapData, gpu::mostShadowMaps> mapData(std::span<const ShadowMap> maps) {
+std::array<gpu::ShadowMapData, gpu::mostShadowMaps> mapData(const FramePlan& plan) {
   static_assert(gpu::mostShadowMaps == mostShadowMaps);
   std::array<gpu::ShadowMapData, gpu::mostShadowMaps> data{};
-  for (size_t map = 0; map < maps.size(); ++map) {
-    for (size_t i = 0; i < maps[map].faces.size(); ++i) {
-      const ShadowFace& face = maps[map].faces[i];
-      if (!face.read) {
-        continue;
-      }
-      const glm::dvec2 scale = static_cast<double>(maps[map].size - 2 * shadowBorder) / (face.high - face.low);
-      const glm::dvec2 corner = glm::dvec2(shadowCorner(maps, map, i) + shadowBorder) - face.low * scale;
-      data[map].faces[i] = glm::vec4(glm::dvec4(scale, corner));
+  for (const Pass& face : plan.passes) {
+    if (face.id.kind == PassKind::shadow && !face.isLayer && face.source != PassSource::unread) {
+      const double texels = static_cast<double>(plan.cubes[face.cube].size - 2 * shadowBorder);
+      const glm::dvec2 scale = texels / (face.window.high - face.window.low);
+      const glm::dvec2 corner = glm::dvec2(face.corner + shadowBorder) - face.window.low * scale;
+      data[face.cube].faces[face.id.face] = glm::vec4(glm::dvec4(scale, corner));
     }
   }
   return data;
@@ -57,22 +54,22 @@ void ShadowSystem::create() {
 
 void ShadowSystem::prepare(Frame& frame, const FramePlan& plan) {
   set_ = VK_NULL_HANDLE;
-  if (plan.shadowMaps.empty()) {
+  if (cubesOf(plan.cubes, PassKind::shadow).empty()) {
     return;
   }
   create();
-  onlyFace_ = static_cast<uint32_t>(onlyShadowFace(plan.shadowMaps).value_or(gpu::anyShadowFace));
-  const glm::ivec2 size = shadowExtent(plan.shadowMaps);
+  onlyFace_ = static_cast<uint32_t>(onlyShadowFace(plan).value_or(gpu::anyShadowFace));
+  const glm::ivec2 size = shadowExtent(plan);
   const VkExtent2D extent{static_cast<uint32_t>(size.x), static_cast<uint32_t>(size.y)};
   if (!target_) {
     target_ = std::make_unique<OffScreen>(
         device_, OffScreenDesc{.name = "shadow maps", .extent = extent, .format = planeFormat}, *frame.retired);
   }
   target_->resize(extent, *frame.retired);
-  if (target_->color().layout() == VK_IMAGE_LAYOUT_UNDEFINED && !rendersShadows(plan.shadowMaps)) {
+  if (target_->color().layout() == VK_IMAGE_LAYOUT_UNDEFINED && !rendersShadows(plan)) {
     device_.barriers().record(frame.commands, BarrierKind::offscreenToSample, target_->color());
   }
-  const auto data = mapData(plan.shadowMaps);
+  const auto data = mapData(plan);
   buffers_.write(frame, 0, std::as_bytes(std::span(data)));
   set_ = frame.descriptors->allocate(layout_.get());
   VkDescriptorBufferInfo buffer = buffers_.buffer(frame, 0).descriptor();
@@ -85,7 +82,7 @@ void ShadowSystem::prepare(Frame& frame, const FramePlan& plan) {
 }
 
 void ShadowSystem::prepareLayers(Frame& frame, const FramePlan& plan) {
-  if (!hasShadowLayers(plan.shadowMaps)) {
+  if (!hasShadowLayers(plan)) {
     frame.retired->take(layers_);
     return;
   }
@@ -156,30 +153,28 @@ uint32_t ShadowSystem::draw(const PassScope& scope, const FrameInfo& info, size_
   return draws;
 }
 
-RecordedPass ShadowSystem::record(Renderer& renderer, const FrameInfo& info, size_t map, size_t face, size_t index) {
-  const RecycledVector<ShadowMap>& maps = info.plan.shadowMaps;
-  const ShadowFace& planned = maps[map].faces[face];
-  const auto size = static_cast<float>(maps[map].size);
-  const glm::ivec2 corner = shadowCorner(maps, map, face);
-  const VkRect2D area{{corner.x, corner.y}, extentOf(maps[map].size, maps[map].size)};
-  const PassId id{.kind = PassKind::shadow, .light = maps[map].light, .face = static_cast<int>(face)};
-  RecordedPass pass{id, shadowFaceName(maps[map], face)};
-  pass.areaPx = planned.pass.areaPx;
-  const auto add = [&](const PassTargets& targets, bool overLayer) {
+RecordedPass ShadowSystem::record(Renderer& renderer, const FrameInfo& info, size_t index) {
+  const Pass& face = info.plan.passes[index];
+  const VkExtent2D size = extentOf(face.view.rect.width, face.view.rect.height);
+  const VkRect2D area{{face.corner.x, face.corner.y}, size};
+  RecordedPass pass{face.id, passName(info.scene, info.plan, face)};
+  pass.areaPx = face.areaPx;
+  const auto add = [&](const PassTargets& targets, int drawn, bool overLayer) {
     PassScope scope = renderer.beginPass(
         info.frame, {.name = pass.name,
                      .targets = targets,
                      .renderArea = area,
-                     .viewport = {static_cast<float>(corner.x), static_cast<float>(corner.y), size, size},
+                     .viewport = {static_cast<float>(face.corner.x), static_cast<float>(face.corner.y),
+                                  static_cast<float>(size.width), static_cast<float>(size.height)},
                      .scissor = area,
                      .collectStatistics = true});
     scope.countSamples();
-    pass.draws += draw(scope, info, index++, overLayer);
+    pass.draws += draw(scope, info, static_cast<size_t>(drawn), overLayer);
   };
-  if (planned.rendersLayer()) {
-    add(layerTargets(), false);
+  if (face.layer >= 0 && info.plan.passes[face.layer].drawn()) {
+    add(layerTargets(), face.layer, false);
   }
-  add(target_->targets(), planned.layer.has_value());
+  add(target_->targets(), static_cast<int>(index), face.layer >= 0);
   return pass;
 }
 
@@ -191,8 +186,7 @@ void ShadowSystem::release(RetireQueue& retired) {
 }
 
 void ShadowSystem::endFrame(const FramePlan& plan, RetireQueue& retired) {
-  cached_ = plan.shadowMaps;
-  idleFrames_ = plan.shadowMaps.empty() ? std::min(idleFrames_, ImagePool::framesKept) + 1 : 0;
+  idleFrames_ = cubesOf(plan.cubes, PassKind::shadow).empty() ? std::min(idleFrames_, ImagePool::framesKept) + 1 : 0;
   if (target_ && idleFrames_ > ImagePool::framesKept) {
     release(retired);
   }

@@ -15,15 +15,11 @@ class ShadowSystem {
  public:
   ShadowSystem(Device& device, PipelineFactory& factory, VkDescriptorSetLayout frameLayout);
 
-  // Maps that the next plan may reuse.
-  std::span<const ShadowMap> cached() const { return cached_; }
-  void restart() { cached_.clear(); }
-
   // Makes the target of the plan's maps; call it before anything of the frame is recorded.
   void prepare(Frame& frame, const FramePlan& plan);
-  // Records a face that the plan renders and before it, if that is rendered too, its layer. The layer is a pass of its
-  // own for the GPU's timings; the draws returned are those of both. `index` in info.data is that of the first.
-  RecordedPass record(Renderer& renderer, const FrameInfo& info, size_t map, size_t face, size_t index);
+  // Records a face and before it, if that is drawn too, its layer. The layer is a pass of its own for the GPU's
+  // timings; the draws returned are those of both. `index` in the plan is that of the face.
+  RecordedPass record(Renderer& renderer, const FrameInfo& info, size_t index);
   void endFrame(const FramePlan& plan, RetireQueue& retired);
 
   // Descriptor set 2 of pipelines that look maps up, and its layout. The set is null in a frame without maps.
@@ -56,7 +52,6 @@ class ShadowSystem {
   VkDescriptorSet set_ = VK_NULL_HANDLE;
   VkDescriptorSet layerSet_ = VK_NULL_HANDLE;
   uint32_t onlyFace_ = gpu::anyShadowFace;
-  RecycledVector<ShadowMap> cached_;
   int idleFrames_ = 0;
 };
 

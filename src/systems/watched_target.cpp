@@ -9,9 +9,7 @@ namespace speculum {
 namespace {
 
 WatchedTarget::Target targetOf(const FramePlan& plan, const DebugView& debug) {
-  const auto pass = static_cast<size_t>(debug.pass);
-  const RecycledVector<PlannedPass>& passes = shownPasses(plan);
-  const View& view = (pass < passes.size() ? passes[pass] : plan.main).view;
+  const View& view = plan.passes[static_cast<size_t>(debug.pass)].view;
   return {debug.pass, view.path, debug.kind, {view.rect.width, view.rect.height}, plan.projection.near};
 }
 
@@ -20,7 +18,7 @@ WatchedTarget::Target targetOf(const FramePlan& plan, const DebugView& debug) {
 void WatchedTarget::begin(const FramePlan& plan, const std::optional<DebugView>& debug, RetireQueue& retired) {
   if (beginsPicture(plan)) {
     const std::optional<Target> asked = debug ? std::optional(targetOf(plan, *debug)) : std::nullopt;
-    watched_ = !plan.mainReused || !asked || isAlwaysThere(asked->path, asked->kind) ? asked : watched_;
+    watched_ = !plan.mainReused() || !asked || isAlwaysThere(asked->path, asked->kind) ? asked : watched_;
   }
   if (!debug || debug->kind != TargetKind::depth) {
     if (watched_ && watched_->kind == TargetKind::depth) {
@@ -66,7 +64,7 @@ void WatchedTarget::prepare(const FramePlan& plan, size_t index, PassDesc& pass,
 }
 
 void WatchedTarget::finish(const FramePlan& plan, VkCommandBuffer commands, RetireQueue& retired) {
-  if (watched_ && watched_->kind == TargetKind::depth && !plan.mainReused) {
+  if (watched_ && watched_->kind == TargetKind::depth && !plan.mainReused()) {
     if (nextDepth_) {
       retired.take(depth_);
       depth_ = std::exchange(nextDepth_, Image());

@@ -27,7 +27,7 @@ class WatchedTarget {
   // Begins a frame of the plan. A target is watched from the beginning of a picture on. A picture that is shown again
   // keeps the target that was watched in it, unless the target that is asked for isAlwaysThere().
   void begin(const FramePlan& plan, const std::optional<DebugView>& debug, RetireQueue& retired);
-  // Index in shownPasses() of the mirror pass whose image is watched; none for the main view.
+  // Index in FramePlan::passes of the mirror pass whose image is watched; none for the main view.
   std::optional<int> mirrorPass() const;
   // Call it before each part of pass `index`: makes the pass write its depth here if that is watched.
   void prepare(const FramePlan& plan, size_t index, PassDesc& pass, RetireQueue& retired);

@@ -48,9 +48,10 @@ void checkView(const View& view) {
 }
 
 void checkPlan(const FramePlan& plan, const Settings& settings, size_t mirrorCount) {
-  require(plan.passes.size() <= static_cast<size_t>(settings.reflection.maxPasses), "passes keep to their budget");
-  checkView(plan.main.view);
-  for (const PlannedPass& pass : plan.passes) {
+  require(plan.drawnMirrors().size() <= static_cast<size_t>(settings.reflection.maxPasses),
+          "passes keep to their budget");
+  checkView(plan.main().view);
+  for (const Pass& pass : plan.drawnMirrors()) {
     checkView(pass.view);
     require(!pass.view.rect.empty() && std::isfinite(pass.areaPx) && std::isfinite(pass.throughput),
             "a pass has pixels");

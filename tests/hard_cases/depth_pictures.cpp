@@ -156,7 +156,7 @@ Image8 plateInMirror(const std::string& clip) {
   options.settings.emplace_back("reflection.clip", clip);
   QuietSession session(options);
   const DrawnFrame first = session.draw(0.0, false);
-  EXPECT_EQ(first.plan.passes.at(0).view.rect, (PixelRect{0, 0, tileSize.width, tileSize.height}));
+  EXPECT_EQ(first.plan.drawnMirrors()[0].view.rect, (PixelRect{0, 0, tileSize.width, tileSize.height}));
   recordFrame(session, first.state, session.settings(), first.plan,
               DebugView{.pass = 0, .area = {0, 0, tileSize.width, tileSize.height}});
   return session.picture();

@@ -79,7 +79,7 @@ class Squares {
   // Returns the depth readout of the pass that shows the nearer square.
   DepthReadout readout() {
     draw({near_}, ClipMethod::clipDistance);
-    for (const PlannedPass& pass : studio_.plan.passes) {
+    for (const Pass& pass : studio_.plan.drawnMirrors()) {
       if (pass.view.path.size() == (case_.nested ? 2 : 1)) {
         return depthReadout(pass, studio_.plan.projection, studio_.scene, studio_.state).value_or(DepthReadout{});
       }

@@ -71,17 +71,17 @@ TEST(EyeOnOrBehindTheMirrorPlane, PassIsSkippedAndTheBackDrawn) {
     for (const double far : {0.0, 1e3, 1e7}) {
       const glm::dvec3 offset = far * random.direction();
       const FramePlan on = planOf(eyeAtHeight(random, 0.0, offset), columns, rows);
-      ASSERT_TRUE(on.passes.empty()) << "in the plane, case " << i << ", " << far << " m out";
-      ASSERT_TRUE(on.main.mirrors.empty()) << "in the plane, case " << i << ", " << far << " m out";
+      ASSERT_TRUE(on.drawnMirrors().empty()) << "in the plane, case " << i << ", " << far << " m out";
+      ASSERT_TRUE(on.main().mirrors.empty()) << "in the plane, case " << i << ", " << far << " m out";
       const double back = -std::pow(10.0, random.uniform(far > 1e6 ? -6 : -9, 0));
       const Scene behind = eyeAtHeight(random, back, offset);
       const FramePlan plan = planOf(behind, columns, rows);
-      ASSERT_TRUE(plan.passes.empty()) << "behind the plane, case " << i;
-      for (const MirrorDraw& draw : plan.main.mirrors) {
+      ASSERT_TRUE(plan.drawnMirrors().empty()) << "behind the plane, case " << i;
+      for (const MirrorDraw& draw : plan.main().mirrors) {
         ASSERT_TRUE(draw.back) << "behind the plane, case " << i;
       }
       const FramePlan front = planOf(eyeAtHeight(random, -back, offset), columns, rows);
-      ASSERT_EQ(front.passes.size(), 1u) << "before the plane, case " << i << ", height " << -back;
+      ASSERT_EQ(front.drawnMirrors().size(), 1u) << "before the plane, case " << i << ", height " << -back;
     }
   }
 }
@@ -150,15 +150,15 @@ TEST(MirrorCrossesTheEyePlane, RectangleHoldsEveryHitPixel) {
     const SceneState state = evaluate(scene, 0.0);
     const FramePlan plan = planOf(scene, columns, rows);
     const std::vector<glm::ivec2> hits = hitPixels(state, plan.projection);
-    const auto clip = toClip(plan.main.view, plan.projection, state.mirrors[0].polygon);
+    const auto clip = toClip(plan.main().view, plan.projection, state.mirrors[0].polygon);
     const bool crosses = std::ranges::any_of(clip, [](const glm::dvec4& v) { return v.w <= 0.0; });
     if (!crosses || hits.empty()) {
       continue;
     }
     ++views;
-    ASSERT_EQ(plan.passes.size(), 1u);
+    ASSERT_EQ(plan.drawnMirrors().size(), 1u);
     for (const glm::ivec2& p : hits) {
-      EXPECT_TRUE(plan.passes[0].view.rect.contains(p.x, p.y)) << "view " << views;
+      EXPECT_TRUE(plan.drawnMirrors()[0].view.rect.contains(p.x, p.y)) << "view " << views;
     }
   }
 }
@@ -183,7 +183,7 @@ TEST(MirrorOutsideTheView, HasNoPassAtAll) {
     Scene scene = acrossTheEyePlane(random);
     moveOutside(random, scene);
     const FramePlan plan = planOf(scene, columns, rows);
-    ASSERT_TRUE(plan.passes.empty()) << "view " << i;
+    ASSERT_TRUE(plan.drawnMirrors().empty()) << "view " << i;
     ASSERT_EQ(plan.skipped.size(), 1u);
   }
 }
@@ -210,10 +210,10 @@ TEST(CornersThatDivide180Degrees, ImagesFillTheViewOnce) {
       scene.camera.verticalFov = 40.0;
       const FramePlan plan = planOf(scene, columns, rows, 32);
       std::map<int, double> areas;
-      for (const PlannedPass& pass : plan.passes) {
+      for (const Pass& pass : plan.drawnMirrors()) {
         areas[pass.depth] += pass.areaPx;
       }
-      EXPECT_LE(plan.passes.size(), 2u * n) << n;
+      EXPECT_LE(plan.drawnMirrors().size(), 2u * n) << n;
       EXPECT_LE(static_cast<int>(areas.size()), n) << n;
       for (const auto& [depth, area] : areas) {
         EXPECT_LE(area, columns * rows + 1e-6) << n << ", depth " << depth;
@@ -226,7 +226,7 @@ TEST(CornersThatDivide180Degrees, ImagesFillTheViewOnce) {
 // Strips across strips, all in one plane, would be cut into 90 000 parts in each pass.
 TEST(MirrorsOfOnePlane, CutsAreLimited) {
   constexpr int strips = 300;
-  PlannedPass pass;
+  Pass pass;
   SceneState state;
   std::vector<ClipPolygon> polygons;
   for (int i = 0; i < 2 * strips; ++i) {

@@ -170,14 +170,14 @@ void checkTranslation(const Scene& scene, const glm::dvec3& offset) {
     return toClip(view, plan.projection, s.mirrors[0].polygon);
   };
   // Differences from the eye are exact: not one bit differs before the first reflection.
-  RC_ASSERT(clipsOf(a, a.main.view, scene) == clipsOf(b, b.main.view, far));
+  RC_ASSERT(clipsOf(a, a.main().view, scene) == clipsOf(b, b.main().view, far));
   if (tooNearToTell(scene) || tooNearToTell(far)) {
     return;
   }
-  RC_ASSERT(a.passes.size() == b.passes.size());
-  for (size_t i = 0; i < a.passes.size(); ++i) {
-    const auto before = clipsOf(a, a.passes[i].view, scene);
-    const auto after = clipsOf(b, b.passes[i].view, far);
+  RC_ASSERT(a.drawnMirrors().size() == b.drawnMirrors().size());
+  for (size_t i = 0; i < a.drawnMirrors().size(); ++i) {
+    const auto before = clipsOf(a, a.drawnMirrors()[i].view, scene);
+    const auto after = clipsOf(b, b.drawnMirrors()[i].view, far);
     for (size_t k = 0; k < before.size(); ++k) {
       const double lens = std::max(a.projection.focal, 1.0);
       RC_ASSERT(glm::length(before[k] - after[k]) <= 1e-14 * lens * reach);
@@ -212,8 +212,8 @@ int checkRectangle(const Scene& scene) {
     }
     const glm::dvec2 pixel = longPixel(worldToView, relative, scene.camera.verticalFov, width, height);
     if (pixel.x >= 0.0 && pixel.y >= 0.0 && pixel.x < width && pixel.y < height) {
-      RC_ASSERT(plan.passes.size() == 1u);
-      RC_ASSERT(plan.passes[0].view.rect.contains(static_cast<int>(pixel.x), static_cast<int>(pixel.y)));
+      RC_ASSERT(plan.drawnMirrors().size() == 1u);
+      RC_ASSERT(plan.drawnMirrors()[0].view.rect.contains(static_cast<int>(pixel.x), static_cast<int>(pixel.y)));
       ++inView;
     }
   }
@@ -233,15 +233,15 @@ TEST(Invariants, MirrorImageShowsTheMirroredScene) {
     const Scene scene = lookingAtAMirror();
     const glm::dvec3 p = point();
     const FramePlan plan = planOf(scene, width, height);
-    if (plan.passes.empty()) {
+    if (plan.drawnMirrors().empty()) {
       return;
     }
     ++judged;
-    const View& view = plan.passes[0].view;
+    const View& view = plan.drawnMirrors()[0].view;
     const std::vector<glm::dvec3> original = {p};
     const std::vector<glm::dvec3> mirrored = {reflectPoint(p, *view.clip)};
     const glm::dvec4 seen = toClip(view, plan.projection, original)[0];
-    const glm::dvec4 direct = toClip(plan.main.view, plan.projection, mirrored)[0];
+    const glm::dvec4 direct = toClip(plan.main().view, plan.projection, mirrored)[0];
     const double reach = std::max({reachOf(scene), largest(p), largest(mirrored[0])});
     RC_ASSERT(glm::length(seen - direct) <= 1e-14 * std::max(plan.projection.focal, 1.0) * reach);
   });

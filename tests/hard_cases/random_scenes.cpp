@@ -201,8 +201,8 @@ void expectQualityOfOneMirror(Drawn& drawn, const Settings& settings, const std:
              name + "_quality_of_all");
   const Image8 picture = drawn.drawWith(settings);
   const auto seen =
-      std::ranges::find_if(drawn.plan.main.mirrors, [](const MirrorDraw& draw) { return draw.pass >= 0; });
-  if (seen == drawn.plan.main.mirrors.end()) {
+      std::ranges::find_if(drawn.plan.main().mirrors, [](const MirrorDraw& draw) { return draw.pass >= 0; });
+  if (seen == drawn.plan.main().mirrors.end()) {
     return;
   }
   const auto index = static_cast<size_t>(seen->mirror);

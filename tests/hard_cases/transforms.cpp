@@ -87,9 +87,9 @@ Errors doublePathErrors(const Scene& scene, const Scene& truth, int maxDepth, si
     }
   };
   if (pathLength == 0) {
-    addPass(plan.main.view);
+    addPass(plan.main().view);
   }
-  for (const PlannedPass& pass : plan.passes) {
+  for (const Pass& pass : plan.drawnMirrors()) {
     if (pass.view.path.size() == pathLength) {
       addPass(pass.view);
     }
@@ -145,8 +145,8 @@ Windings windingsOf(const glm::dvec3& scale, size_t depth) {
   const InstanceState& instance = state.instances[0];
   const std::vector<Vertex>& vertices = scene.meshes[0].vertices;
   Windings windings;
-  for (const PlannedPass* pass = plan.passes.data(); pass <= plan.passes.data() + plan.passes.size(); ++pass) {
-    const View& view = pass == plan.passes.data() + plan.passes.size() ? plan.main.view : pass->view;
+  for (const Pass& pass : plan.passes) {
+    const View& view = pass.view;
     if (view.path.size() != depth) {
       continue;
     }
@@ -234,7 +234,7 @@ double cutError(double offset) {
   const SceneState state = evaluate(scene, 0.0);
   const FramePlan plan = planOf(scene, width, height, 1);
   double error = 0.0;
-  for (const PlannedPass& pass : plan.passes) {
+  for (const Pass& pass : plan.drawnMirrors()) {
     const gpu::InstanceData data = dataIn(plan, pass.view, state.instances[0]);
     const Mirror& mirror = origin.mirrors[pass.view.path[0]];
     const LongVec3 n = longRotation(mirror.rotation)[2];
@@ -262,9 +262,9 @@ TEST(NestedMirrors, PassesAreCutAtTheirMirrors) {
   const Scene scene = corridor();
   const SceneState state = evaluate(scene, 0.0);
   const FramePlan plan = planOf(scene, width, height, 4);
-  ASSERT_EQ(plan.passes.size(), 4u);
+  ASSERT_EQ(plan.drawnMirrors().size(), 4u);
   int wrong = 0;
-  for (const PlannedPass& pass : plan.passes) {
+  for (const Pass& pass : plan.drawnMirrors()) {
     const Mirror& mirror = scene.mirrors[pass.view.path.back()];
     const LongVec3 n = longRotation(mirror.rotation)[2];
     InstanceState cloud = state.instances[0];
