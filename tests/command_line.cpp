@@ -58,6 +58,7 @@ INSTANTIATE_TEST_SUITE_P(
     All, UsageErrors,
     testing::Values(
         UsageCase{{"paint"}, "paint"}, UsageCase{{"render"}, "--out"}, UsageCase{{"render", "--out"}, "--out"},
+        UsageCase{{"regress"}, "cases is required (see speculum regress --help)"},
         UsageCase{{"render", "--out", "x.jpg"}, "'x.jpg' has no known ending (.png or .exr)"},
         UsageCase{{"render", "--out", "x.png", "--frames", "2"}, "a pattern such as dir/%04d.png"},
         UsageCase{{"render", "--out", "x.png", "--size", "0x10"}, "--size: '0x10' is not a size"},

@@ -362,8 +362,9 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
       return std::nullopt;
     }
     const std::string unknown = unknownArgument(app);
+    const std::string chosen = app.get_subcommands().empty() ? "" : app.get_subcommands().front()->get_name() + " ";
     throw UsageError(
-        withoutLineBreaks(unknown.empty() ? error.what() + std::string(" (see speculum --help)") : unknown));
+        withoutLineBreaks(unknown.empty() ? fmt::format("{} (see speculum {}--help)", error.what(), chosen) : unknown));
   }
   if (!app.get_subcommands().empty()) {
     options.command = app.get_subcommands().front()->get_name();
