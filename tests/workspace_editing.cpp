@@ -328,6 +328,32 @@ TEST_F(Editing, ReusedImagesAreDroppedAfterEdits) {
   EXPECT_GT(host_.drops, drops);
 }
 
+TEST_F(Editing, FiguresOfTheSceneBeforeAreDropped) {
+  FrameHistory& history = workspace_->report().history();
+  const auto measure = [&] {
+    history.add(1, 20.0, 1.0);
+    frame();
+    return history.frames();
+  };
+  EXPECT_EQ(measure(), 1u);
+  Mirror mirror = scene().mirrors[0];
+  mirror.quality.scale = 0.25;
+  send(EditNode{{Selection::Kind::mirror, 0}, mirror, false});
+  EXPECT_EQ(history.frames(), 0u) << "they would hide that the mirror is cheaper";
+  EXPECT_EQ(measure(), 1u);
+  send(Undo{});
+  EXPECT_EQ(history.frames(), 0u);
+  clickBall();
+  EXPECT_EQ(measure(), 1u) << "a selection changes nothing";
+  moveTo(ballAt_ + glm::dvec2(60.0, 0.0));
+  press(true);
+  moveTo(ballAt_ + glm::dvec2(93.0, 0.0));
+  frame();
+  EXPECT_NE(object().position.x, 0.3);
+  EXPECT_EQ(history.frames(), 1u) << "it is being dragged";
+  press(false);
+}
+
 TEST_F(Editing, ShiftAddsAndTakesOut) {
   click(ballAt_, true);
   EXPECT_EQ(edit().selected, ball);

@@ -255,10 +255,14 @@ void Workspace::update() {
 }
 
 // Drops cached images of the old scene that content comparison does not cover: those reused by an interval, and those
-// of mirrors whose indices changed.
+// of mirrors whose indices changed. Also drops figures that would hide what the new scene costs; those of a drag stay
+// together, because it changes costs little by little.
 void Workspace::takeSceneChange() {
   if (!editor().changedSinceLastCall()) {
     return;
+  }
+  if (!editor().dragging()) {
+    report_.history().restart();
   }
   const int interval = mostAsked(scene(), settings_).updateInterval;
   const uint64_t structure = editor().document().structureRevision();
