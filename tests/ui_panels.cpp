@@ -119,6 +119,10 @@ std::string overlaps() {
 
 TEST_F(PanelTest, NoWindowLiesOverAnother) {
   windows_->toggleInspector();
+  playback_.paused = true;
+  playback_.cost = "Play (about 20 frames/s at 0.44 of the resolution)";
+  status_.text = "Saved /home/somebody/Pictures/Speculum/gallery_2026-11-28_01-16-41.png";
+  status_.picture = "6 of 64 pictures averaged, next one 30 %\napproximate: shadow outlines\nand what is rough";
   for (const char* window : {"Scenes", "Performance", "Accuracy", "Device", "Log", "Targets"}) {
     toggle(window);
     for (const auto& [width, height] : {std::pair(1280.0f, 720.0f), std::pair(640.0f, 480.0f),
@@ -215,6 +219,11 @@ TEST_F(PanelTest, SlowScenesOfferToPlay) {
   playback_.paused = true;
   EXPECT_TRUE(shows(playback_.cost));
   EXPECT_FALSE(clickFor<SetPaused>("play").paused);
+  holdControl(true);
+  tap(ImGuiKey_Tab);
+  holdControl(false);
+  run(2);
+  EXPECT_STREQ(ImGui::GetCurrentContext()->NavWindow->RootWindow->Name, "Speculum") << "Space presses nothing unseen";
   playback_.cost.clear();
   EXPECT_FALSE(has("play"));
 }
@@ -476,6 +485,15 @@ TEST_F(PanelTest, SavingListsFoldersAndScenes) {
   click("open.old.toml");
   EXPECT_EQ(clickFor<SaveAs>("where.save").file, config_.path() / "mine" / "old.toml");
   ask(Prompt::none);
+}
+
+TEST_F(PanelTest, KeptChangesAreOpenedDiscardedOrLeft) {
+  ask(Prompt::recovery, "/home/scene.toml");
+  EXPECT_EQ(clickFor<OpenScene>("recovery.open").file, "/home/scene.toml");
+  ask(Prompt::recovery, "/home/scene.toml");
+  clickFor<DiscardChanges>("recovery.discard");
+  ask(Prompt::recovery, "/home/scene.toml");
+  clickFor<CancelPrompt>("recovery.later");
 }
 
 TEST_F(PanelTest, SavingShowsItsFolderOnce) {

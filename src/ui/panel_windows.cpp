@@ -42,8 +42,8 @@ UiOutput PanelWindows::build(const UiView& view) {
   if (!state_.choices.inspector && std::exchange(foldedMain_, false)) {
     dock_.fold(mainTitle, false);
   }
-  dock_.beginFrame(visible_ ? ImGui::GetFrameHeight() : 0.0f, std::max(panels::statusHeight(), statusHeight_),
-                   !visible_);
+  const float below = std::max(panels::statusHeight(), statusHeight_);
+  dock_.beginFrame(visible_ ? ImGui::GetFrameHeight() : 0.0f, below, !visible_);
   if (visible_) {
     menuBar(ui);
     mainPanel(ui);
@@ -51,7 +51,7 @@ UiOutput PanelWindows::build(const UiView& view) {
     panels::besideTarget(ui, [&] { panels::passOutline(ui); });
     panels::help(ui);
     panels::inspector(ui, dock_);
-    panels::playOffer(ui, freeRect());
+    panels::playOffer(ui, freeRect(), below);
   }
   panels::besideTarget(ui, [&] { panels::editOverlay(view.edit.overlay, freeRect()); });
   panels::poster(ui, thumbnails_, freeRect());

@@ -343,15 +343,17 @@ glm::vec2 modestEms(const glm::vec2& ems) {
   return {width, std::min(ems.y, std::max(12.0f, room.x * room.y / 75.0f))};
 }
 
-void playOffer(PanelContext& ui, const WindowRect& picture) {
+void playOffer(PanelContext& ui, const WindowRect& picture, float below) {
   const PlaybackView& playback = ui.view.playback;
-  if (!playback.paused || playback.cost.empty()) {
+  const float em = ImGui::GetFontSize();
+  const float room = std::min(picture.size.x - ImGui::CalcTextSize(playback.cost.c_str()).x, picture.size.y - below);
+  if (!playback.paused || playback.cost.empty() || room < 4.0f * em) {
     return;
   }
-  ImGui::SetNextWindowPos({picture.corner.x + 0.5f * picture.size.x,
-                           picture.corner.y + picture.size.y - statusHeight() - ImGui::GetFontSize()},
+  ImGui::SetNextWindowPos({picture.corner.x + 0.5f * picture.size.x, picture.corner.y + picture.size.y - below - em},
                           ImGuiCond_Always, {0.5f, 1.0f});
-  if (ImGui::Begin("##play", nullptr, fixedWindow | ImGuiWindowFlags_AlwaysAutoResize)) {
+  constexpr ImGuiWindowFlags flags = fixedWindow | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoNav;
+  if (ImGui::Begin("##play", nullptr, flags)) {
     commandButton(ui, playback.cost.c_str(), "play",
                   "Plays the animation (Space) with as much quality as this device has time for.", SetPaused{false});
   }

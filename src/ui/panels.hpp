@@ -117,9 +117,10 @@ bool hasTarget(const PassView& pass);
 void loading(PanelContext& ui);  // while something is loaded
 void help(PanelContext& ui);
 void inspector(PanelContext& ui, PanelDock& dock);
-void message(PanelContext& ui, const WindowRect& picture);    // an error, until it is dismissed
-void playOffer(PanelContext& ui, const WindowRect& picture);  // what playing costs, while it is paused
-void prompts(PanelContext& ui);                               // over all others, while a prompt is open
+void message(PanelContext& ui, const WindowRect& picture);  // an error, until it is dismissed
+// What playing costs, while it is paused, `below` over the picture's edge. Only where there is room; Space plays too.
+void playOffer(PanelContext& ui, const WindowRect& picture, float below);
+void prompts(PanelContext& ui);  // over all others, while a prompt is open
 
 // Drawn over the picture, behind all windows.
 void poster(const PanelContext& ui, const Thumbnails& thumbnails, const WindowRect& picture);  // instead of the picture
