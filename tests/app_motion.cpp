@@ -45,7 +45,7 @@ struct Window {
   double mirrors = 1.0;
   double raysOfTexel = 0.0;
   MotionController controller{device.isCpu};
-  std::vector<MotionLevel> levels = motionLevels({}, {}, {}, 1 + 4, true);
+  std::vector<MotionLevel> levels = motionLevels({}, {}, {}, 1 + 4);
   std::deque<std::pair<FrameWork, double>> inFlight;  // frames whose times have not arrived yet
   std::vector<double> times{};                        // ms
   std::vector<size_t> chosen{};
@@ -219,7 +219,7 @@ TEST(MotionController, TakesMapsOnlyWhereRaysAreSlow) {
     Device device = fastCpu;
     device.ray = ray;
     Window run{device};
-    run.levels = motionLevels(scene, {}, {}, 1 + 4, true);
+    run.levels = motionLevels(scene, {}, {}, 1 + 4);
     run.raysOfTexel = 0.2;
     run.mirrors = 0.0;
     run.stand(6);
@@ -239,10 +239,9 @@ TEST(MotionLevels, NoLevelExceedsTheFirst) {
   chosen.reflection.maxDepth = 1;
   chosen.reflection.maxPasses = 20;
   chosen.reflection.updateInterval = 3;
-  chosen.reflection.meshError = 1.0;
   chosen.reflection.minPixels = 2000.0;
   const std::vector<MotionLevel> front{{Settings(), 0.01}};
-  const std::vector<MotionLevel> levels = motionLevels({}, chosen, front, 1 + 2 + 4, true);
+  const std::vector<MotionLevel> levels = motionLevels({}, chosen, front, 1 + 2 + 4);
   ASSERT_GT(levels.size(), 5u);
   EXPECT_TRUE(sameMainView(levels[0].settings, chosen));
   for (const auto& [settings, error] : levels) {
@@ -251,7 +250,6 @@ TEST(MotionLevels, NoLevelExceedsTheFirst) {
     EXPECT_LE(settings.reflection.maxDepth, 1);
     EXPECT_LE(settings.reflection.maxPasses, 20);
     EXPECT_GE(settings.reflection.updateInterval, 3);
-    EXPECT_GE(settings.reflection.meshError, 1.0);
     EXPECT_GE(settings.reflection.minPixels, 2000.0);
     EXPECT_TRUE(settings.reflection.clip == chosen.reflection.clip && settings.effects == chosen.effects);
   }
@@ -269,7 +267,7 @@ TEST(MotionLevels, LowerTheQualityOfSingleMirrors) {
     Settings chosen;
     chosen.reflection.samples = samples;
     for (const auto front : {std::span<const MotionLevel>(), std::span<const MotionLevel>(&point, 1)}) {
-      const std::vector<MotionLevel> levels = motionLevels(scene, chosen, front, 1 + 2 + 4 + 8, true);
+      const std::vector<MotionLevel> levels = motionLevels(scene, chosen, front, 1 + 2 + 4 + 8);
       EXPECT_EQ(levels[0].settings, chosen);
       for (size_t i = 1; i < levels.size(); ++i) {
         for (const Mirror& mirror : scene.mirrors) {
@@ -284,7 +282,7 @@ TEST(MotionLevels, LowerTheQualityOfSingleMirrors) {
       for (const Mirror& mirror : scene.mirrors) {
         const ReflectionSettings last = reflectionOf(mirror.quality, levels.back().settings);
         EXPECT_EQ(last.samples, 1);
-        EXPECT_EQ(last.method, ReflectionMethod::raster);
+        EXPECT_NE(last.method, ReflectionMethod::rays);
         EXPECT_LE(last.scale, front.empty() ? mirror.quality.scale.value_or(1.0) : 0.5);
       }
     }
@@ -294,7 +292,7 @@ TEST(MotionLevels, LowerTheQualityOfSingleMirrors) {
 TEST(MotionLevels, FollowTheMeasuredFront) {
   MotionLevel point{Settings(), 0.02};
   point.settings.view.scale = 0.6;
-  const std::vector<MotionLevel> levels = motionLevels({}, {}, std::span(&point, 1), 1 + 4, true);
+  const std::vector<MotionLevel> levels = motionLevels({}, {}, std::span(&point, 1), 1 + 4);
   EXPECT_EQ(levels[1].settings.view.scale, 0.6);
   EXPECT_EQ(levels[1].settings.view.samples, 4);
   EXPECT_EQ(levels[1].error, 0.02);
@@ -302,50 +300,15 @@ TEST(MotionLevels, FollowTheMeasuredFront) {
   EXPECT_TRUE(std::ranges::is_sorted(levels, [](auto& a, auto& b) { return a.error < b.error; }));
 }
 
-TEST(MotionLevels, MeshesStayUntilTheirLevelsAreMade) {
-  MotionLevel point{Settings(), 0.02};
-  point.settings.view.meshError = point.settings.reflection.meshError = 1.0;
-  const auto mostError = [&](bool simplifies) {
-    double most = 0.0;
-    for (const MotionLevel& level : motionLevels({}, {}, std::span(&point, 1), 1 + 4, simplifies)) {
-      most = std::max({most, level.settings.view.meshError, level.settings.reflection.meshError});
-    }
-    return most;
-  };
-  EXPECT_EQ(mostError(false), 0.0);
-  EXPECT_GE(mostError(true), 1.0);
-}
-
-// Rays need full meshes, in every pass and shadow map.
-TEST(MotionLevels, NoRaysWithSimplifiedMeshes) {
-  Settings chosen;
-  chosen.reflection.method = ReflectionMethod::automatic;
-  size_t rays = 0;
-  size_t simplified = 0;
-  for (const auto& [settings, error] : motionLevels({}, chosen, {}, 1 + 4, true)) {
-    const bool simplifies = settings.view.meshError > 0.0 || settings.reflection.meshError > 0.0;
-    const bool traces = settings.reflection.method != ReflectionMethod::raster;
-    EXPECT_FALSE(simplifies && traces);
-    simplified += simplifies;
-    rays += traces;
-  }
-  EXPECT_GT(simplified, 0u);
-  EXPECT_GT(rays, 0u);
-}
-
 TEST(MotionLevels, FewMirrorsLoseImagesBeforePixels) {
   for (const auto& [mirrors, most] : {std::pair<size_t, int>(1, 8), {2, 8}, {16, 32}, {2000, 64}}) {
     Scene scene;
     scene.mirrors.resize(mirrors);
-    const std::vector<MotionLevel> levels = motionLevels(scene, {}, {}, 1 + 4, true);
+    const std::vector<MotionLevel> levels = motionLevels(scene, {}, {}, 1 + 4);
     const auto lower = std::ranges::find_if(
         levels, [](const MotionLevel& level) { return level.settings.reflection.minPixels > 1.0; });
     EXPECT_EQ(lower->settings.reflection.maxPasses, most) << mirrors << " mirrors";
     EXPECT_EQ(lower->settings.view.scale, 1.0) << mirrors << " mirrors";
-    const auto coarse =
-        std::ranges::find_if(levels, [](const MotionLevel& level) { return level.settings.view.meshError > 0.0; });
-    EXPECT_GT(coarse, lower) << mirrors << " mirrors";
-    EXPECT_LT(coarse->settings.view.scale, 0.95) << mirrors << " mirrors";
     EXPECT_TRUE(std::ranges::is_sorted(levels, {}, &MotionLevel::error)) << mirrors << " mirrors";
   }
 }
@@ -353,7 +316,7 @@ TEST(MotionLevels, FewMirrorsLoseImagesBeforePixels) {
 TEST(MotionLevels, ShadowMapsShrinkAfterThePicture) {
   Scene scene;
   scene.lights = {{.castsShadow = true}};
-  const std::vector<MotionLevel> levels = motionLevels(scene, {}, {}, 1 + 4, true);
+  const std::vector<MotionLevel> levels = motionLevels(scene, {}, {}, 1 + 4);
   for (const auto& [settings, error] : levels) {
     EXPECT_TRUE(settings.effects.shadowMapSize == 1024 || settings.view.scale < 0.75);
   }
@@ -362,7 +325,7 @@ TEST(MotionLevels, ShadowMapsShrinkAfterThePicture) {
 
 TEST(MotionLevels, MapsReplaceTheRaysOfTheScene) {
   const auto last = [](const Scene& scene, const Settings& chosen = {}) {
-    return motionLevels(scene, chosen, {}, 1 + 4, true).back().settings.effects;
+    return motionLevels(scene, chosen, {}, 1 + 4).back().settings.effects;
   };
   Scene scene;
   EXPECT_EQ(last(scene), EffectSettings());
@@ -386,15 +349,13 @@ TEST(MotionLevels, MapsReplaceTheRaysOfTheScene) {
 TEST(MotionLevels, ImagesReplaceTheRaysOfMirrors) {
   Settings chosen;
   chosen.reflection.method = ReflectionMethod::rays;
-  const std::vector<MotionLevel> levels = motionLevels({}, chosen, {}, 1 + 4, true);
+  const std::vector<MotionLevel> levels = motionLevels({}, chosen, {}, 1 + 4);
   EXPECT_EQ(levels.front().settings.reflection.method, ReflectionMethod::rays);
   EXPECT_EQ(levels.at(1).settings.reflection.method, ReflectionMethod::raster);
   EXPECT_EQ(levels.back().settings.reflection.method, ReflectionMethod::raster);
   chosen.reflection.method = ReflectionMethod::automatic;
-  for (const bool simplifies : {false, true}) {
-    EXPECT_EQ(motionLevels({}, chosen, {}, 1 + 4, simplifies).back().settings.reflection.method,
-              simplifies ? ReflectionMethod::raster : ReflectionMethod::automatic);
-  }
+  EXPECT_EQ(motionLevels({}, chosen, {}, 1 + 4).back().settings.reflection.method, ReflectionMethod::automatic)
+      << "it takes what is faster";
 }
 
 TEST(FrameWork, CountsTheRaysOfEffects) {
@@ -459,9 +420,6 @@ TEST(MotionLevels, WordsSayWhatIsGivenUp) {
   level.settings = {};
   level.settings.reflection.minPixels = 1500.0;
   EXPECT_EQ(motionText(Settings(), level), "mirror images from 1500 pixels on (estimated error 0.05 FLIP)");
-  level.settings = {};
-  level.settings.view.meshError = 4.0;
-  EXPECT_EQ(motionText(Settings(), level), "simplified meshes (estimated error 0.05 FLIP)");
 }
 
 TEST(StillText, SaysTheErrorOfTheSettingsInForce) {

@@ -45,8 +45,6 @@ std::vector<Settings> settingsToPlan(const Settings& shipped) {
   all[2].effects.shadowLookup = ShadowLookup::map;
   all[2].effects.curvedLookup = CurvedLookup::environment;
   all[2].reflection.skipUnchanged = true;
-  all[2].reflection.meshError = 1.0;
-  all[2].view.meshError = 1.0;
   all[3].reflection.method = ReflectionMethod::automatic;
   all[3].reflection.minPixels = 2000.0;
   all[3].reflection.maxPasses = 6;

@@ -53,7 +53,6 @@ TEST(Settings, PicturesFollowFromWhatChangesThem) {
   const std::set<std::string_view> othersThanImages{"reflection.update_interval",
                                                     "reflection.skip_unchanged",
                                                     "view.samples",
-                                                    "view.mesh_error",
                                                     "view.exposure",
                                                     "view.tone_map",
                                                     "view.continuous"};

@@ -180,31 +180,6 @@ TEST(Hidden, EdgeOnSheetsHideNothing) {
   }
 }
 
-TEST(Hidden, SimplifiedMeshesHideNothingInMirrors) {
-  const Object post = square({0, 0, 2}, {3, 3, 0.5});
-  const std::vector<Mirror> facing = {wall({0, 0, -4}, 0, {3, 3}), wall({0, 0, 6}, 180, {2, 2})};
-  Scene fine = sceneWithBoxes(facing, {post}, 2);
-  Settings settings;
-  for (const double meshError : {0.0, 0.5}) {
-    settings.reflection.meshError = meshError;
-    EXPECT_TRUE(isHidden(planOf(sceneWithBoxes(facing, {post}), settings), {0, 1})) << "12 triangles have no levels";
-    EXPECT_EQ(isHidden(planOf(fine, settings), {0, 1}), meshError == 0.0);
-    fine.meshes[0].faces = {{{-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}}};
-    fine.meshes[0].convex = {};
-    EXPECT_EQ(isHidden(planOf(fine, settings), {0, 1}), meshError == 0.0) << "by a face";
-    fine = sceneWithBoxes(facing, {post}, 2);
-  }
-}
-
-TEST(Hidden, SimplifiedMeshesHideNothingInMainView) {
-  const Scene scene = sceneWithBoxes({wall({0, 0, -4}, 0, {1, 1})}, {square({0, 0, -2}, {3, 3, 0.5})}, 2);
-  Settings settings;
-  settings.reflection.meshError = 0.5;
-  EXPECT_TRUE(isHidden(planOf(scene, settings), {0}));
-  settings.view.meshError = 0.5;
-  EXPECT_FALSE(isHidden(planOf(scene, settings), {0}));
-}
-
 // Says whether a convex polygon holds a point, both in device coordinates.
 bool holds(const std::vector<glm::dvec2>& polygon, const glm::dvec2& p) {
   bool left = true;

@@ -115,8 +115,8 @@ double meanError(const Options& options, const std::vector<Shown>& shown) {
   for (const Shown& at : shown) {
     const double flip = compareImages(comparedImage(draw(at, full)), comparedImage(draw(at, at.settings))).whole.flip;
     const Settings& s = at.settings;
-    std::fprintf(stderr, "%.1f s: scale %.2f, mesh error %g, in mirrors %g, %d passes, FLIP %.4f\n", at.time,
-                 s.view.scale, s.view.meshError, s.reflection.meshError, s.reflection.maxPasses, flip);
+    std::fprintf(stderr, "%.1f s: scale %.2f, %d passes, FLIP %.4f\n", at.time, s.view.scale, s.reflection.maxPasses,
+                 flip);
     sum += flip;
   }
   return sum / static_cast<double>(shown.size());
@@ -147,7 +147,6 @@ const std::vector<std::vector<Setting>> fixedSettings = {
     {{"reflection.max_passes", "32"}},
     {{"reflection.max_passes", "16"}},
     {{"reflection.max_passes", "8"}},
-    {{"reflection.max_passes", "16"}, {"reflection.mesh_error", "2"}, {"view.mesh_error", "2"}},
 };
 constexpr std::array fixedScales = {"0.125", "0.18", "0.25", "0.35", "0.5", "0.7", "1"};
 

@@ -95,16 +95,6 @@ TEST(ShadowMaps, SingleFaceChangesNoByte) {
   EXPECT_EQ(difference(single, several, 0).over, 0);
 }
 
-// Objects of a level that differs from that of the map would shadow themselves.
-TEST(ShadowMaps, SimplifiedObjectsAreNotShadowed) {
-  QuietSession session(mapped(room("levels")));
-  const Image8 exact = draw(session);
-  set(session, {{"view.mesh_error", "2"}, {"reflection.mesh_error", "2"}});
-  const PictureAgreement agreement = difference(draw(session), exact, 24);
-  std::printf("%d of %d pixels over\n", agreement.over, agreement.counted);
-  EXPECT_LT(agreement.over, agreement.counted / 200);
-}
-
 TEST(ShadowMaps, ListTheirFaces) {
   QuietSession session(mapped(room("faces")));
   const std::vector<std::string> names = drawnMaps("shadow map of ", session);
@@ -153,9 +143,6 @@ TEST(ShadowMaps, LayersChangeNoByteInRandomScenes) {
     Random random(seed);
     Options options = headless(writeScene("shadow_layers", randomRoom(random)), {96, 72});
     set(options, {{"effects.shadow_map_size", "128"}});
-    if (random.chance(0.5)) {
-      set(options, {{"view.mesh_error", "2"}, {"reflection.mesh_error", "2"}});
-    }
     QuietSession reusing(options);
     set(options, {{"reflection.skip_unchanged", "false"}});
     options.renderPath = RenderPath::renderPass;

@@ -190,7 +190,6 @@ TEST(Skipping, RandomShapesHideNothingThatIsSeen) {
   for (int i = 0; i < scenes; ++i) {
     Studio studio(headless(shapeScene(random, shapes), size));
     studio.settings.reflection.maxDepth = 2;
-    studio.settings.reflection.meshError = i % 2 == 0 ? 0.0 : 2.0;
     studio.settings.view.samples = studio.settings.reflection.samples = i % 3 == 0 ? 4 : 1;
     const Image8 skipping = studio.fresh();
     hidden += std::ranges::count(studio.plan.skipped, SkipReason::hidden, &SkippedMirror::reason);
@@ -233,7 +232,6 @@ TEST(Skipping, BacksOfSolidsAreNotSeen) {
   const int scenes = fullTests() ? 2000 : 6;
   for (int i = 0; i < scenes; ++i) {
     Studio studio(headless(solidScene(random, i), size, {{"effects.shadow_lookup", "map"}}));
-    studio.settings.reflection.meshError = studio.settings.view.meshError = i % 3 == 0 ? 1.0 : 0.0;
     studio.settings.view.samples = studio.settings.reflection.samples = i % 2 == 0 ? 4 : 1;
     const Image8 fronts = studio.fresh();
     studio.settings.debug.cullClusters = false;

@@ -70,7 +70,7 @@ std::vector<Case> sequences() {
   std::vector<Case> cases = {{"facing_mirrors", {{"reflection.samples", "1"}}},
                              {"mirror_ball", {{"effects.per_sample", "false"}}},
                              {"rough", {{"effects.rough_lookup", "image"}, {"effects.rough_samples", "4"}}},
-                             {"gallery", {{"reflection.mesh_error", "2"}, {"reflection.samples", "1"}}},
+                             {"gallery", {{"reflection.samples", "1"}}},
                              {"outdoors", {{"reflection.clip", "oblique"}, {"view.samples", "1"}}}};
   if (fullTests()) {
     cases.insert(cases.end(), {{"gallery", {}},

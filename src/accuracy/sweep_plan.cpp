@@ -160,9 +160,6 @@ void addSingles(SweepPlanner& planner, const SweepContext& context, bool full) {
   }
   planner.add({{"reflection.samples", "1"}, {"view.samples", most}});
   planner.add({{"reflection.samples", most}, {"view.samples", "1"}});
-  if (context.effects.empty()) {  // scenes with traced effects have no mesh levels
-    planner.grid({{"reflection.mesh_error", full ? Values{"0.25", "0.5", "1", "2", "4"} : Values{"0.5", "2"}}});
-  }
   planner.grid({{"reflection.clip", {"oblique", "none"}}});
   planner.grid({{"reflection.min_throughput", {"0.2", "0.05", "0.01"}}});
   planner.grid({{"reflection.max_passes", {"1", "2", "4"}}});

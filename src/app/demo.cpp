@@ -267,7 +267,6 @@ const FittedPlan& Demo::planFrame(Frame& frame, const SceneState& state) {
                                         .size = pictureSize()},
                               .budgetMs = recorded ? 0.0 : budgetMs(),
                               .front = workspace_.accuracy().front(),
-                              .simplifies = levels_.ready(workspace_.scene(), scenes_),
                               .input = changes_,
                               .target = missing};
   const FittedPlan& fitted = pace_.plan(request, [&](Settings lowered, int picture) {

@@ -5,7 +5,6 @@
 #include "app/first_pictures.hpp"
 #include "app/frame_pacer.hpp"
 #include "app/frame_planner.hpp"
-#include "app/mesh_level_job.hpp"
 #include "app/pace.hpp"
 #include "app/workspace.hpp"
 #include "ui/simple_ui.hpp"
@@ -109,8 +108,7 @@ class Demo : private WorkspaceHost {
   size_t pipelines_ = 0;       // after the last frame
   bool compiled_ = false;      // pipelines, in the last frame
   int scenes_ = 0;             // number of scenes shown before this one
-  MeshLevelJob levels_;
-  bool sceneIsNew_ = true;  // no picture of it was drawn
+  bool sceneIsNew_ = true;     // no picture of it was drawn
   std::filesystem::path shownFile_;
   Settings frameSettings_;
   std::string message_;

@@ -5,7 +5,6 @@
 #include <numbers>
 #include <numeric>
 
-#include "frame/mesh_level.hpp"
 #include "frame/mirror_sight.hpp"
 
 namespace speculum {
@@ -37,10 +36,7 @@ double trianglesOf(const Pass& pass, const Scene& scene, const SceneState& state
   for (const int instance : pass.instances) {
     const Mesh& mesh = scene.meshes[static_cast<size_t>(state.instances[static_cast<size_t>(instance)].mesh)];
     const PartialInstance* part = partOf(pass.partial, instance);
-    const int level = levelOf(pass, instance);
-    indices += part         ? indexCount(part->ranges)
-               : level >= 0 ? levelsOf(mesh).levels[static_cast<size_t>(level)].all.count
-                            : static_cast<double>(mesh.indices.size());
+    indices += part ? indexCount(part->ranges) : static_cast<double>(mesh.indices.size());
   }
   return indices / 3.0;
 }

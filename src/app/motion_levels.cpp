@@ -18,8 +18,7 @@ constexpr double scaleStep = 0.95;
 constexpr double sharpScale = 0.85;
 constexpr double softScale = 0.7;
 constexpr double blurredScale = 0.4;
-// Smaller pictures are hardly faster: from a scale of 0.25 to 0.19 lavapipe draws the gallery in 0.95 of the time. At
-// 0.25, meshes simplified to 4 texels instead of 2 add less than 0.006 to the gallery's FLIP.
+// Smaller pictures are hardly faster: from a scale of 0.25 to 0.19 lavapipe draws the gallery in 0.95 of the time.
 constexpr double leastScale = 0.25;
 // Pixels. Images shrink fast in mirrors that face each other, and each takes a pass however small it is. A larger limit
 // would leave out mirrors that are seen themselves.
@@ -42,12 +41,11 @@ Settings lowered(Settings settings, const Settings& limit) {
   using L = QualityLimit;
   const ReflectionSettings before = settings.reflection;
   least(settings.view, limit.view, &V::scale, &V::samples);
-  most(settings.view, limit.view, &V::meshError);
   if (limit.reflection.method != ReflectionMethod::rays) {
     settings.reflection.method = limit.reflection.method;
   }
   least(settings.reflection, limit.reflection, &R::scale, &R::samples, &R::maxDepth, &R::maxPasses);
-  most(settings.reflection, limit.reflection, &R::updateInterval, &R::meshError, &R::minPixels);
+  most(settings.reflection, limit.reflection, &R::updateInterval, &R::minPixels);
   least(settings.effects, limit.effects, &E::perSample, &E::castsLight, &E::shadowMapSize, &E::roughSamples,
         &E::environmentSize);
   most(settings.effects, limit.effects, &E::shadowLookup, &E::rippleLookup, &E::roughLookup, &E::curvedLookup,
@@ -58,7 +56,7 @@ Settings lowered(Settings settings, const Settings& limit) {
 }
 
 // Returns the mean FLIP that each setting adds, on average over the shipped scenes without traced effects.
-std::array<double, 9> errorsOf(const Settings& settings, size_t mirrors) {
+std::array<double, 7> errorsOf(const Settings& settings, size_t mirrors) {
   const ViewSettings& view = settings.view;
   const ReflectionSettings& reflection = settings.reflection;
   const EffectSettings& effects = settings.effects;
@@ -69,8 +67,6 @@ std::array<double, 9> errorsOf(const Settings& settings, size_t mirrors) {
           0.009 / reflection.samples,
           0.03 * std::min(1.0, static_cast<double>(mirrors) / 16.0) * std::pow(8.0 / reflection.maxPasses, 1.6),
           3e-6 * reflection.minPixels,
-          0.012 * view.meshError,
-          0.003 * reflection.meshError,
           effects.shadowLookup == ShadowLookup::map ? 15.0 / effects.shadowMapSize : 0.0,
           std::hypot(image ? 0.13 : 0.0, 0.18 / std::sqrt(roughSamples))};
 }
@@ -111,7 +107,7 @@ AskedEffects askedEffects(const Scene& scene, const EffectSettings& settings) {
 }
 
 std::vector<MotionLevel> motionLevels(const Scene& scene, const Settings& chosen, std::span<const MotionLevel> front,
-                                      unsigned sampleCounts, bool simplifies) {
+                                      unsigned sampleCounts) {
   const AskedEffects rays = askedEffects(scene, chosen.effects);
   const int mostSamples = mostAsked(scene, chosen).samples;
   const auto asksFor = [&](ReflectionMethod method) {
@@ -124,12 +120,7 @@ std::vector<MotionLevel> motionLevels(const Scene& scene, const Settings& chosen
     }
   };
   for (const MotionLevel& point : front) {
-    Settings settings = lowered(chosen, point.settings);
-    if (!simplifies) {
-      settings.reflection.meshError = chosen.reflection.meshError;
-      settings.view.meshError = chosen.view.meshError;
-    }
-    add(settings, point.error);
+    add(lowered(chosen, point.settings), point.error);
   }
   const MotionLevel measured = levels.back();
   const auto step = [&](const auto& change) {
@@ -144,16 +135,6 @@ std::vector<MotionLevel> motionLevels(const Scene& scene, const Settings& chosen
     }
   };
   const auto passesTo = [&](int most) { step([&](Settings& s) { s.reflection.maxPasses = most; }); };
-  const auto simplify = [&](double mirrors, double view) {
-    if (simplifies) {
-      step([&](Settings& s) {
-        s.reflection.method = ReflectionMethod::raster;  // rays rule simplified meshes out
-        s.limit.rays = !asksFor(ReflectionMethod::rays) && !asksFor(ReflectionMethod::automatic);
-        s.reflection.meshError = mirrors;
-        s.view.meshError = view;
-      });
-    }
-  };
   using E = EffectSettings;
   const auto replace = [&](bool used, const auto& change) {
     if (used) {
@@ -171,7 +152,6 @@ std::vector<MotionLevel> motionLevels(const Scene& scene, const Settings& chosen
   });
   replace(rays.shadows || rays.castsLight || rays.curved, [](E& effects) { effects.perSample = false; });
   replace(rays.shadows && !rays.castsLight, [](E& effects) { effects.shadowLookup = ShadowLookup::map; });
-  simplify(0.5, 0.0);
   for (const bool ofMirrors : {true, false}) {
     for (const int count : {4, 2, 1}) {
       if ((sampleCounts & static_cast<unsigned>(count)) != 0) {
@@ -198,13 +178,10 @@ std::vector<MotionLevel> motionLevels(const Scene& scene, const Settings& chosen
   replace(rays.rough, [](E& effects) { effects.roughSamples = 4; });
   replace(rays.rough, [](E& effects) { effects.roughLookup = ReflectionSource::image; });
   // For each millisecond saved, fewer and larger images add the least error: images in images are small and dark.
-  // Coarser meshes in the main view add more than the first steps of the resolution.
   passesTo(std::max(8, 2 * static_cast<int>(std::min<size_t>(scene.mirrors.size(), 1000))));
   step([](Settings& s) { s.reflection.minPixels = smallImage; });
   scaleTo(sharpScale);
-  simplify(2.0, 1.0);
   scaleTo(softScale);
-  simplify(2.0, 2.0);
   passesTo(32);
   passesTo(24);
   passesTo(16);
@@ -214,7 +191,6 @@ std::vector<MotionLevel> motionLevels(const Scene& scene, const Settings& chosen
   passesTo(8);
   shadowMapsTo(smallShadowMap);
   scaleTo(leastScale);
-  simplify(4.0, 4.0);
   return levels;
 }
 
@@ -253,9 +229,6 @@ std::string motionText(const Settings& chosen, const MotionLevel& level) {
       fmt::format("mirror images from {:.0f} pixels on", reflection.minPixels));
   add(reflection.updateInterval != chosen.reflection.updateInterval,
       fmt::format("mirrors every {} frames", reflection.updateInterval));
-  const double mirrors = reflection.meshError != chosen.reflection.meshError ? reflection.meshError : 0.0;
-  const double view = settings.view.meshError != chosen.view.meshError ? settings.view.meshError : 0.0;
-  add(mirrors > 0.0 || view > 0.0, "simplified meshes");
   return text.empty() ? "full quality" : text + fmt::format(" (estimated error {:.1g} FLIP)", level.error);
 }
 
@@ -276,8 +249,6 @@ std::string stillText(const Scene& scene, const Settings& settings) {
   add((asked.ripple && effects.rippleLookup == ReflectionSource::image) ||
           (asked.rough && effects.roughLookup == ReflectionSource::image),
       "ripples and blur only of what a smooth mirror shows");
-  add(settings.view.meshError > 0.0 || settings.reflection.meshError > 0.0,
-      fmt::format("objects within {:.2g} texels", std::max(settings.view.meshError, settings.reflection.meshError)));
   return text;
 }
 

@@ -27,10 +27,9 @@ struct MotionLevel {
 // Returns levels for a picture of a scene with these settings, each cheaper than the one before: the settings
 // themselves, the front of the scene's measured sweep (most accurate first; may be empty), then steps in an order that
 // holds for most scenes (docs/window.md). No setting of a level has better quality than that of the first.
-// `sampleCounts` are those that the device has, as VkSampleCountFlags. `simplifies`: whether levels may simplify
-// meshes.
+// `sampleCounts` are those that the device has, as VkSampleCountFlags.
 std::vector<MotionLevel> motionLevels(const Scene& scene, const Settings& chosen, std::span<const MotionLevel> front,
-                                      unsigned sampleCounts, bool simplifies);
+                                      unsigned sampleCounts);
 
 // Describes what a level gives up, such as "0.5 scale, 1 sample (estimated error 0.05 FLIP)", or "full quality".
 std::string motionText(const Settings& chosen, const MotionLevel& level);

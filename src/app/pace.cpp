@@ -64,8 +64,7 @@ const FittedPlan& Pace::plan(const Request& request, const Planner& plan) {
 // Plans the frame within the budget. The text says what the picture gives up for that.
 void Pace::planWithinBudget(const Request& request, const Planner& plan) {
   const Settings chosen = withPictures(request.chosen, 1);
-  const std::vector<MotionLevel> levels =
-      motionLevels(request.scene, chosen, request.front, sampleCounts_, request.simplifies);
+  const std::vector<MotionLevel> levels = motionLevels(request.scene, chosen, request.front, sampleCounts_);
   const size_t level = controller_.choose(levels, request.budgetMs, seconds_, [&](const Settings& settings) {
     fitted_ = plan(settings, 0);
     return work_;

@@ -86,7 +86,6 @@ class Pace {
     Shown shown;
     double budgetMs = 0.0;               // 0: nothing is lowered
     std::span<const MotionLevel> front;  // as motionLevels takes it
-    bool simplifies = false;             // likewise
     bool input = false;                  // there is some, which a frame with tiles must not hold up
     std::optional<Target> target;        // that the panels show and that is not there yet
   };

@@ -57,7 +57,6 @@ class ContentNumbers {
   void add(const View& view) {
     addAll(view.eye, view.worldToView, view.clip, view.cone, view.rect, view.pictureSize, view.path);
   }
-  void add(const SimplifiedInstance& simplified) { addAll(simplified.instance, simplified.level); }
   // A cached image is compared by itself; a mirror without an image shows the background.
   void add(const MirrorDraw& draw) {
     addAll(draw.cached.has_value(), draw.mirror, draw.back, draw.byRays, draw.blurs, draw.ripples, draw.polygon,

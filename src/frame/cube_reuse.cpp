@@ -35,7 +35,6 @@ Pass castersOf(Pass face, bool still, const Scene& scene, const SceneState& stat
   };
   std::erase_if(face.instances, isOther);
   std::erase_if(face.partial, [&](const PartialInstance& partial) { return isOther(partial.instance); });
-  std::erase_if(face.simplified, [&](const SimplifiedInstance& simplified) { return isOther(simplified.instance); });
   std::erase_if(face.mirrors, [&](const MirrorDraw& draw) {
     return spins(scene.mirrors[static_cast<size_t>(draw.mirror)]) == still;
   });
@@ -60,7 +59,7 @@ std::optional<Pass> divided(Pass& face, const ImageSurroundings& around) {
 }
 
 // Says whether settings make the same environment maps. reflection.* has no part in that: mirrors in maps show the
-// background, and the content of a map lists its mesh levels.
+// background.
 bool sameMaps(const Settings& a, Settings b) {
   b.reflection = a.reflection;
   b.view.scale = a.view.scale;

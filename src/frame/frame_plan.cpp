@@ -8,7 +8,6 @@
 #include "frame/cube_face.hpp"
 #include "frame/cube_reuse.hpp"
 #include "frame/environment_map.hpp"
-#include "frame/mesh_level.hpp"
 #include "frame/mirror_search.hpp"
 #include "frame/picture_offset.hpp"
 #include "frame/scene_names.hpp"
@@ -42,7 +41,6 @@ class Planner {
     plan_.passes.clear();
     nodes_ = findPasses(scene_, state_, allSettings_, cache_, size_, plan_);
     findEffects();
-    simplify();
     addFaces();
     reuseUnchanged();
     addReused();
@@ -60,8 +58,6 @@ class Planner {
   void findEffects();
   void findShadows();
   ImageSurroundings surroundings() const;
-  void simplify();
-  RecycledVector<SimplifiedPass> facesToSimplify(size_t map);
   void addFaces();
   void reuseUnchanged();
   void collect(int node, RecycledVector<const Pass*>& passes) const;
@@ -121,55 +117,6 @@ void Planner::findShadows() {
     readers.push_back({&face, face.view, &face.projection});
   }
   shadowMaps_ = shadowMaps(scene_, state_, allSettings_, readers);
-}
-
-// Chooses mesh levels. Rays from objects rule them out: they start on what is drawn but meet full meshes, in whose
-// shadow a level would stand. Drawing without a clip plane rules them out too: an object may then be nearer than the
-// mirror, and a level's error is allowed for the mirror's distance.
-void Planner::simplify() {
-  const bool wanted = settings_.meshError > 0.0 || allSettings_.view.meshError > 0.0;
-  if (!wanted || settings_.clip == ClipMethod::none || plan_.effects.tracesFromObjects()) {
-    return;
-  }
-  RecycledVector<SimplifiedPass> passes;
-  for (MirrorNode& node : nodes_) {
-    passes.push_back({&node.pass, readableView(node.pass, plan_.projection), &plan_.projection,
-                      meshErrorIn(node.pass.view, allSettings_)});
-  }
-  if (plan_.effects.shadowMaps) {
-    for (size_t map = 0; map < environmentMaps_.cubes.size(); ++map) {
-      std::ranges::copy(facesToSimplify(map), std::back_inserter(passes));
-    }
-    constexpr double softened = 2.0;  // texels that a lookup reads in each direction
-    const double texels = allSettings_.view.meshError > 0.0 ? softened : 0.0;
-    for (Pass& face : shadowMaps_.faces) {
-      if (face.inReach) {
-        passes.push_back({&face, face.view, &face.projection, texels, face.source != PassSource::unread});
-      }
-    }
-    simplifyAlike(passes, allSettings_, scene_, state_);
-    return;
-  }
-  for (const SimplifiedPass& pass : passes) {
-    if (pass.texels > 0.0) {
-      simplifyPass(pass, allSettings_, scene_, state_);
-    }
-  }
-  if (settings_.meshError > 0.0) {
-    // An object that two faces show has one level in both, so that it has no step at their edge.
-    for (size_t map = 0; map < environmentMaps_.cubes.size(); ++map) {
-      simplifyAlike(facesToSimplify(map), allSettings_, scene_, state_);
-    }
-  }
-}
-
-RecycledVector<SimplifiedPass> Planner::facesToSimplify(size_t map) {
-  constexpr size_t count = 6;
-  RecycledVector<SimplifiedPass> faces;
-  for (Pass& face : std::span(environmentMaps_.faces).subspan(count * map, count)) {
-    faces.push_back({&face, face.view, &face.projection, settings_.meshError});
-  }
-  return faces;
 }
 
 ImageSurroundings Planner::surroundings() const {

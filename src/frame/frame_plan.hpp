@@ -108,10 +108,9 @@ struct Pass {
   double throughput = 1.0;        // upper bound over that region, largest channel, including this mirror
   glm::dvec3 channels{1.0};       // upper bound of each channel
   RecycledVector<int> instances;  // visible ones, indices into SceneState::instances, ascending
-  RecycledVector<PartialInstance> partial;        // instances that are seen in part, ascending
-  RecycledVector<SimplifiedInstance> simplified;  // instances that are drawn with fewer triangles, ascending
-  RecycledVector<int> lights;                     // lights whose glyphs are visible, indices into Scene::lights
-  RecycledVector<MirrorDraw> mirrors;             // in the order of Scene::mirrors
+  RecycledVector<PartialInstance> partial;  // instances that are seen in part, ascending
+  RecycledVector<int> lights;               // lights whose glyphs are visible, indices into Scene::lights
+  RecycledVector<MirrorDraw> mirrors;       // in the order of Scene::mirrors
 
   bool drawn() const { return source == PassSource::drawn; }
   bool isFace() const { return id.kind == PassKind::shadow || id.kind == PassKind::environment; }

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "frame/content_numbers.hpp"
-#include "frame/mesh_level.hpp"
 
 namespace speculum {
 
@@ -43,8 +42,7 @@ RecycledVector<uint64_t> imageContent(const ImageSurroundings& around, const Vie
   }
   uint64_t changed = all ? changes.anyChanged() : 0;
   for (const Pass* pass : passes) {
-    numbers.addAll(pass->view, pass->channels, pass->instances, pass->simplified, pass->lights, pass->mirrors,
-                   pass->quality.samples);
+    numbers.addAll(pass->view, pass->channels, pass->instances, pass->lights, pass->mirrors, pass->quality.samples);
     for (size_t i = 0; !all && i < pass->instances.size(); ++i) {
       changed = std::max(changed, changes.instanceChanged(pass->instances[i]));
     }
@@ -63,7 +61,6 @@ RecycledVector<uint64_t> shadowContent(const SceneChanges& changes, const Pass& 
   numbers.addAll(casters.view, face.window.low, face.window.high, face.projection.near, casters.instances);
   uint64_t changed = 0;
   for (const int i : casters.instances) {
-    numbers.add(levelOf(casters, i));
     changed = std::max(changed, changes.placeChanged(i));
   }
   for (const MirrorDraw& draw : casters.mirrors) {

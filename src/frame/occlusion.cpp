@@ -5,9 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "frame/mesh_level.hpp"
 #include "frame/scene_names.hpp"
-#include "geometry/mesh_levels.hpp"
 #include "geometry/polygon.hpp"
 
 namespace speculum {
@@ -181,13 +179,11 @@ Occlusion::Occluders Occlusion::occludersOf(int mirror, std::span<const glm::dve
       return found;
     }
   }
-  const bool simplifies = meshErrorIn(*view_, settings_) > 0.0;
   for (const int i : viewInstances_) {
     const InstanceState& instance = state_.instances[i];
     const Mesh& mesh = scene_.meshes[instance.mesh];
     const double widest = mesh.convex.points.empty() ? instance.radius * largestFaces_[instance.mesh] : instance.radius;
-    // Levels of a mesh have other outlines.
-    if ((simplifies && mayHaveLevels(mesh)) || !prefilter.looksLarge(instance.center, instance.radius, widest) ||
+    if (!prefilter.looksLarge(instance.center, instance.radius, widest) ||
         !boxVisible(prefilter.before(), instance.worldFromMesh, mesh.halfExtent)) {
       continue;
     }

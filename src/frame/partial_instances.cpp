@@ -97,17 +97,13 @@ bool boundsVisible(const View& view, const InstanceState& instance, const glm::d
 }
 
 RecycledVector<IndexRange> visibleRanges(const View& view, const InstanceState& instance, const Mesh& mesh) {
-  return visibleRanges(view, instance, mesh.halfExtent, allOf(mesh), mesh.clusters);
-}
-
-RecycledVector<IndexRange> visibleRanges(const View& view, const InstanceState& instance, const glm::dvec3& halfExtent,
-                                         const IndexRange& all, std::span<const MeshCluster> clusters) {
-  const RecycledVector<LocalPlane> planes = cuttingPlanes(view, instance, halfExtent);
-  if (clusters.empty() || planes.empty()) {
+  const IndexRange all = allOf(mesh);
+  const RecycledVector<LocalPlane> planes = cuttingPlanes(view, instance, mesh.halfExtent);
+  if (mesh.clusters.empty() || planes.empty()) {
     return {all};
   }
   RecycledVector<IndexRange> ranges;
-  for (const MeshCluster& cluster : clusters) {
+  for (const MeshCluster& cluster : mesh.clusters) {
     if (!visible(cluster, planes)) {
       continue;
     }

@@ -15,12 +15,6 @@ struct PartialInstance {
   RecycledVector<IndexRange> ranges;  // indices that are drawn; ascending and disjoint
 };
 
-// An instance that a pass draws as a mesh level (reflection.mesh_error).
-struct SimplifiedInstance {
-  int instance = 0;  // index into SceneState::instances
-  int level = 0;     // index into MeshLevels::levels
-};
-
 // Finds the instance in an ascending list; null if it is not there.
 const PartialInstance* partOf(const RecycledVector<PartialInstance>& partial, int instance);
 
@@ -32,9 +26,6 @@ bool boundsVisible(const View& view, const InstanceState& instance, const glm::d
 // Ranges of the clusters that the view may see: everything in one range unless leaving some out saves more than the
 // extra draw calls cost, empty if the view sees nothing. No visible triangle is left out.
 RecycledVector<IndexRange> visibleRanges(const View& view, const InstanceState& instance, const Mesh& mesh);
-// The same for a mesh level: its triangles `all`, within the mesh's box, in these clusters.
-RecycledVector<IndexRange> visibleRanges(const View& view, const InstanceState& instance, const glm::dvec3& halfExtent,
-                                         const IndexRange& all, std::span<const MeshCluster> clusters);
 // Says whether the view sees no backs of the mesh's triangles if the mesh is solid: its eye is outside the mesh's box,
 // which lies before its clip plane.
 bool seesOnlyFronts(const View& view, const InstanceState& instance, const glm::dvec3& halfExtent);

@@ -100,11 +100,6 @@ constexpr SettingField fields[] = {
             {.unit = "frames", .changes = mainView, .slider = SettingSlider{1, 16, "%d", false}}),
     setting("reflection.skip_unchanged", BooleanSetting{at<&R::skipUnchanged>}, "Reuse unchanged images",
             "reuses cached mirror images that would come out the same", "Saves passes.", {.changes = mainView}),
-    setting("reflection.mesh_error", NumberSetting{at<&R::meshError>, 0.0, 16.0}, "Mirror mesh error",
-            "largest error of simplified objects in reflections; 0: all triangles",
-            "Saves vertices; shading shifts; off with traced shadows or curved mirrors, or bounced light; needs "
-            "view.mesh_error with shadow maps.",
-            {.unit = "texels", .slider = SettingSlider{0.0, 16.0}}),
     setting("reflection.clip", choice<&R::clip>(clipMethods), "Clipping", "how geometry behind a mirror is cut",
             "oblique loses depth precision near a mirror; none shows what is behind it."),
 
@@ -118,10 +113,6 @@ constexpr SettingField fields[] = {
             "pictures whose mean is shown, each offset within a pixel",
             "Time grows with it; from 16 on each has one sample.",
             {.unit = "pictures", .slider = SettingSlider{1, 1024, "%d"}}),
-    setting("view.mesh_error", NumberSetting{at<&V::meshError>, 0.0, 16.0}, "Mesh error",
-            "largest error of simplified objects in the main view; 0: all triangles",
-            "Saves vertices; shading shifts; off with traced shadows or curved mirrors, or bounced light.",
-            {.unit = "texels", .changes = mainView, .slider = SettingSlider{0.0, 16.0}}),
     setting("view.exposure", NumberSetting{at<&V::exposure>, 0.0, 1e6}, "Exposure",
             "factor on radiance before the tone curve", "Costs nothing.",
             {.changes = display, .slider = SettingSlider{0.01, 100.0}}),

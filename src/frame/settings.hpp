@@ -26,7 +26,6 @@ struct ReflectionSettings {
   int maxPasses = 64;
   int updateInterval = 1;     // frames
   bool skipUnchanged = true;  // reuses cached images that would come out the same
-  double meshError = 0.0;     // texels by which outlines of objects in mirror images may be off
   ClipMethod clip = ClipMethod::clipDistance;
 
   bool operator==(const ReflectionSettings&) const = default;
@@ -35,8 +34,7 @@ struct ReflectionSettings {
 struct ViewSettings {
   double scale = 1.0;  // resolution of the main view relative to the picture; mirror images follow it
   int samples = 4;
-  int accumulate = 1;      // pictures whose mean is shown
-  double meshError = 0.0;  // texels by which outlines of objects in the main view may be off
+  int accumulate = 1;  // pictures whose mean is shown
   double exposure = 1.0;
   ToneMap toneMap = ToneMap::clamp;
   std::optional<glm::dvec3> clearColor;  // linear; replaces background and sky of the scene

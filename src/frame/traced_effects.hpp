@@ -38,8 +38,6 @@ struct TracedEffects {
 
   // Says whether any ray is traced through the scene's triangles.
   bool traces() const { return shadowRays || reflects(); }
-  // Says whether rays may start on drawn objects, where simplified ones would not fit what the rays meet.
-  bool tracesFromObjects() const { return shadowRays || curvedRays || castsLight; }
   // Says whether rays follow reflections. They may meet anything in the scene.
   bool reflects() const { return roughRays || curvedRays || rippleRays || mirrorRays; }
   bool any() const { return traces() || castsLight; }

@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <glm/glm.hpp>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -34,8 +33,6 @@ struct IndexRange {
   uint32_t count = 0;  // a multiple of 3
   bool operator==(const IndexRange&) const = default;
 };
-
-struct LevelsOfMesh;
 
 struct MeshPart {
   uint32_t firstIndex = 0;
@@ -71,7 +68,6 @@ struct Mesh {
   ConvexMesh convex;                           // relative to `center`, see convexMesh()
   bool solid = false;                          // see isSolid()
   uint32_t repeats = 0;  // last triangles, whose texture repeats so often that floats of its coordinates lose digits
-  mutable std::shared_ptr<LevelsOfMesh> levels;  // made by the first call of levelsOf()
 };
 
 }  // namespace speculum

@@ -4,7 +4,6 @@
 #include <numeric>
 
 #include "frame/draw_order.hpp"
-#include "frame/mesh_level.hpp"
 #include "frame/pass_mask.hpp"
 #include "scene/beside_mirrors.hpp"
 #include "systems/gpu_conversion.hpp"
@@ -47,9 +46,9 @@ bool sameColors(const Object& a, const Object& b) {
 // Says whether the backs of triangles need not be drawn. Wireframes show them, and so does a near plane that cuts
 // fronts.
 bool cullsBacks(const Device& device, const Settings& settings, const View& view, const InstanceState& instance,
-                const Mesh& mesh, int level) {
+                const Mesh& mesh) {
   return device.caps().depthClamp && settings.debug.cullClusters && !settings.view.wireframe && mesh.solid &&
-         seesOnlyFronts(view, instance, mesh.halfExtent) && (level < 0 || levelsOf(mesh).levels[level].solid);
+         seesOnlyFronts(view, instance, mesh.halfExtent);
 }
 
 }  // namespace
@@ -225,7 +224,7 @@ void FrameData::addInstances(const Source& source, const Pass& pass, const glm::
     return effects.curved && scene.objects[state.instances[i].object].mirror.has_value();
   };
   std::vector<int> order = frontToBack(pass.view, pass.instances, state);
-  // Instances of a mesh at one level that look alike share a draw, curved mirrors another one. Each instance that is
+  // Instances of a mesh that look alike share a draw, curved mirrors another one. Each instance that is
   // seen in part has its own.
   for (auto first = order.begin(); first != order.end();) {
     const int mesh = state.instances[*first].mesh;
@@ -239,21 +238,19 @@ void FrameData::addInstances(const Source& source, const Pass& pass, const glm::
     const bool curved = isCurved(i);
     const bool environment = curved && effects.curvedLookup == CurvedLookup::environment;
     const PartialInstance* part = partOf(pass.partial, i);
-    const int level = levelOf(pass, i);
     const float handedness = handednessOf(instance);
     const Mesh& mesh = scene.meshes[instance.mesh];
-    const bool culls = cullsBacks(device_, source.settings, pass.view, instance, mesh, level);
+    const bool culls = cullsBacks(device_, source.settings, pass.view, instance, mesh);
     const Batch* last = data.batches.empty() ? nullptr : &data.batches.back();
-    if (!last || last->mesh != instance.mesh || last->curved != curved || last->level != level ||
-        last->handedness != handedness || last->cullsBacks != culls ||
-        !sameColors(scene.objects[last->object], object) || environment || part || !last->ranges.empty()) {
+    if (!last || last->mesh != instance.mesh || last->curved != curved || last->handedness != handedness ||
+        last->cullsBacks != culls || !sameColors(scene.objects[last->object], object) || environment || part ||
+        !last->ranges.empty()) {
       data.batches.push_back({.mesh = instance.mesh,
                               .object = instance.object,
                               .handedness = handedness,
                               .firstInstance = static_cast<uint32_t>(instances_.size()),
                               .cullsBacks = culls,
-                              .curved = curved,
-                              .level = level});
+                              .curved = curved});
       data.batches.back().ranges = part ? part->ranges : RecycledVector<IndexRange>();
     }
     ++data.batches.back().count;

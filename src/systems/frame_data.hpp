@@ -36,7 +36,6 @@ struct Batch {
   bool environment = false;           // it looks up an environment map; the batch then has one instance
   bool colored = false;               // and its base is not black
   int map = -1;                       // index into FramePlan::cubes; -1: it shows the background
-  int level = -1;                     // index into MeshLevels::levels; -1: the mesh itself
   RecycledVector<IndexRange> ranges;  // indices that are drawn; empty: all. Only a batch of one instance has ranges
 };
 

@@ -4,7 +4,6 @@
 #include <array>
 
 #include "frame/scene_names.hpp"
-#include "geometry/mesh_levels.hpp"
 #include "systems/deferred_shading.hpp"
 #include "systems/gpu_conversion.hpp"
 #include "systems/shadow_system.hpp"
@@ -42,13 +41,10 @@ void addVertexInput(GraphicsPipelineDesc& desc) {
 
 void bindBatch(const PassScope& scope, const FrameInfo& info, const Batch& batch) {
   const SceneResources::GpuMesh& mesh = info.resources.meshes()[batch.mesh];
-  const bool whole = batch.level < 0;
-  const Buffer& vertices = whole ? mesh.vertices : mesh.levelVertices;
-  const Buffer& indices = whole ? mesh.indices : mesh.levelIndices;
-  const std::array buffers{vertices.get(), info.data.instanceBuffer()};
+  const std::array buffers{mesh.vertices.get(), info.data.instanceBuffer()};
   constexpr std::array<VkDeviceSize, 2> offsets{};
   vkCmdBindVertexBuffers(scope.commands(), 0, buffers.size(), buffers.data(), offsets.data());
-  vkCmdBindIndexBuffer(scope.commands(), indices.get(), 0, VK_INDEX_TYPE_UINT32);
+  vkCmdBindIndexBuffer(scope.commands(), mesh.indices.get(), 0, VK_INDEX_TYPE_UINT32);
   const VkCullModeFlags backs = batch.handedness > 0.0f ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_FRONT_BIT;
   scope.cull(batch.cullsBacks ? backs : VkCullModeFlags{VK_CULL_MODE_NONE});
 }
@@ -99,21 +95,15 @@ GraphicsPipelineDesc RenderSystem::objects(const Variant& variant, const FrameIn
 
 namespace {
 
-// Returns the indices of a mesh's part at the batch's level.
-IndexRange partRange(const Mesh& mesh, size_t part, const Batch& batch) {
-  return batch.level < 0 ? IndexRange{mesh.parts[part].firstIndex, mesh.parts[part].indexCount}
-                         : levelsOf(mesh).levels[batch.level].parts[part];
-}
-
 // Returns those indices of the part that the batch draws.
-std::vector<IndexRange> drawnRanges(const IndexRange& part, const Batch& batch) {
+std::vector<IndexRange> drawnRanges(const MeshPart& part, const Batch& batch) {
   if (batch.ranges.empty()) {
-    return {part};
+    return {{part.firstIndex, part.indexCount}};
   }
   std::vector<IndexRange> drawn;
   for (const IndexRange& range : batch.ranges) {
-    const uint32_t first = std::max(range.first, part.first);
-    const uint32_t end = std::min(range.first + range.count, part.first + part.count);
+    const uint32_t first = std::max(range.first, part.firstIndex);
+    const uint32_t end = std::min(range.first + range.count, part.firstIndex + part.indexCount);
     if (first < end) {
       drawn.push_back({first, end - first});
     }
@@ -159,8 +149,7 @@ uint32_t RenderSystem::recordBatch(const PassScope& scope, const FrameInfo& info
     if (!variant.deferred) {
       variant.diffuseLookup = lookupOf(textured && !batch.environment, info.settings.view.textureFilter);
       variant.glossy = constants.specular != glm::vec3(0.0f);
-      variant.repeating = variant.diffuseLookup != gpu::textureNone && batch.level < 0 &&
-                          !info.data.repeats().empty() &&
+      variant.repeating = variant.diffuseLookup != gpu::textureNone && !info.data.repeats().empty() &&
                           mesh.parts[p].firstIndex + 3 * mesh.repeats >= mesh.indices.size();
     }
     const Pipeline& pipeline = objects_.get(variant, [&] { return objects(variant, info, shading); });
@@ -171,7 +160,7 @@ uint32_t RenderSystem::recordBatch(const PassScope& scope, const FrameInfo& info
     } else if (variant.added) {
       pipeline.bindSet(commands, 2, shading->set());
     }
-    for (const IndexRange& range : drawnRanges(partRange(mesh, p, batch), batch)) {
+    for (const IndexRange& range : drawnRanges(mesh.parts[p], batch)) {
       constants.firstTriangle = range.first / 3;
       if (variant.added) {
         pipeline.push(commands, gpu::ReflectionConstants{constants, DeferredShading::areaOf(scope.desc())});

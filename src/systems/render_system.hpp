@@ -9,7 +9,7 @@ class DeferredShading;
 
 // Adds the inputs of scene.vert.
 void addVertexInput(GraphicsPipelineDesc& desc);
-// Binds the batch's mesh, at its level, and the frame's instances as these inputs, and culls what the batch culls until
+// Binds the batch's mesh and the frame's instances as these inputs, and culls what the batch culls until
 // PassScope::cull() says otherwise.
 void bindBatch(const PassScope& scope, const FrameInfo& info, const Batch& batch);
 

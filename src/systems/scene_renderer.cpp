@@ -5,7 +5,6 @@
 
 #include "frame/cube_face.hpp"
 #include "frame/memory_fit.hpp"
-#include "frame/mesh_level.hpp"
 #include "frame/picture_tiles.hpp"
 #include "image/enlarge.hpp"
 #include "systems/scene_pass.hpp"
@@ -73,7 +72,6 @@ void SceneRenderer::record(Frame& frame, const SceneState& state, const Settings
   log_.beginFrame();
   const bool textured = drawsTextures(scene_, state, settings, plan);
   resources_.prepare(frame, settings, textured);
-  resources_.prepareLevels(frame, meshesWithLevels(plan, state));
   pictureSize_ = {plan.width, plan.height};
   tiles_ = tilesOfPasses(plan);
   tilesLeft_ = tilesAtOnce_ = tilesAtOnce(plan, settings, plan.effects.raysToLights(scene_));

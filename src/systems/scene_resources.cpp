@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <glm/gtc/packing.hpp>
 
-#include "geometry/mesh_levels.hpp"
 #include "systems/effect_ledger.hpp"
 #include "systems/gpu_conversion.hpp"
 
@@ -115,30 +114,6 @@ void SceneResources::createMeshes() {
     gpu.vertices = uploadVertices(uploader_, mesh.vertices, name + " vertices");
     gpu.indices = uploader_.buffer(mesh.indices, VK_BUFFER_USAGE_INDEX_BUFFER_BIT, name + " indices");
   }
-}
-
-void SceneResources::prepareLevels(Frame& frame, std::span<const int> drawn) {
-  idleLevelFrames_ = drawn.empty() ? std::min(idleLevelFrames_, idleFramesKept) + 1 : 0;
-  for (const int mesh : drawn) {
-    if (!meshes_[mesh].levelIndices) {
-      check(vkQueueWaitIdle(device_.queue()), "wait for the queue");
-      createLevels(static_cast<size_t>(mesh));
-    }
-  }
-  for (GpuMesh& mesh : meshes_) {
-    if (idleLevelFrames_ > idleFramesKept) {
-      frame.retired->take(mesh.levelVertices);
-      frame.retired->take(mesh.levelIndices);
-    }
-  }
-}
-
-void SceneResources::createLevels(size_t mesh) {
-  const MeshLevels& levels = levelsOf(scene_.meshes[mesh]);
-  const std::string name = scene_.meshes[mesh].source.filename().string();
-  GpuMesh& gpu = meshes_[mesh];
-  gpu.levelVertices = uploadVertices(uploader_, levels.vertices, name + " level vertices");
-  gpu.levelIndices = uploader_.buffer(levels.indices, VK_BUFFER_USAGE_INDEX_BUFFER_BIT, name + " level indices");
 }
 
 // Makes the materials of all parts, in the order of the meshes.

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include "core/descriptors.hpp"
@@ -26,9 +25,6 @@ class SceneResources {
   struct GpuMesh {
     Buffer vertices;
     Buffer indices;  // uint32
-    // Simplified meshes, of MeshLevels; empty while none has been drawn for some frames.
-    Buffer levelVertices;
-    Buffer levelIndices;
   };
 
   SceneResources(Device& device, Uploader& uploader, const Scene& scene);
@@ -37,8 +33,6 @@ class SceneResources {
   void prepare(Frame& frame, const Settings& settings, bool drawn);
   // Does the uploads of prepare(). After an OutOfMemoryError it can be called again with other arguments.
   void upload(Frame& frame, const Settings& settings, bool drawn);
-  // Uploads the levels of the meshes `drawn`, which is meshesWithLevels(), and drops idle ones.
-  void prepareLevels(Frame& frame, std::span<const int> drawn);
 
   const std::vector<GpuMesh>& meshes() const { return meshes_; }
   const Buffer& materials() const { return materials_; }
@@ -50,7 +44,6 @@ class SceneResources {
   Image upload(const Texture& texture, const std::string& name);
   void createTextures();
   void createMeshes();
-  void createLevels(size_t mesh);
   void createMaterials(bool textured, double radianceScale);
 
   Device& device_;
@@ -68,7 +61,6 @@ class SceneResources {
   bool textured_ = false;       // whether materials_ refer to textures
   double radianceScale_ = 1.0;  // of emission in materials_
   std::vector<GpuMesh> meshes_;
-  int idleLevelFrames_ = 0;  // since a mesh level was drawn
 };
 
 }  // namespace speculum

@@ -4,7 +4,6 @@
 #include <array>
 
 #include "frame/shadow_map.hpp"
-#include "geometry/mesh_levels.hpp"
 #include "systems/image_pool.hpp"
 #include "systems/render_system.hpp"
 
@@ -136,9 +135,8 @@ uint32_t ShadowSystem::draw(const PassScope& scope, const FrameInfo& info, size_
     info.data.bind(pipelineFor(Drawn::objects), commands, data);
   }
   for (const Batch& batch : data.batches) {
-    const Mesh& source = info.scene.meshes[batch.mesh];
     bindBatch(scope, info, batch);
-    const RecycledVector<IndexRange> all{batch.level < 0 ? allOf(source) : levelsOf(source).levels[batch.level].all};
+    const RecycledVector<IndexRange> all{allOf(info.scene.meshes[batch.mesh])};
     for (const IndexRange& range : batch.ranges.empty() ? all : batch.ranges) {
       vkCmdDrawIndexed(commands, range.count, batch.count, range.first, 0, batch.firstInstance);
       ++draws;

@@ -361,7 +361,6 @@ RandomScene randomScene(unsigned seed) {
                     {"view.scale", random.chance(0.2) ? "0.5" : "1"},
                     {"reflection.max_depth", std::to_string(std::min(b.count(1, 3), scene.maxDepth))},
                     {"reflection.max_passes", "1000"},
-                    {"reflection.mesh_error", random.chance(0.2) ? "2" : "0"},
                     {"effects.rough_lookup", random.chance(0.7) ? "image" : "traced"},
                     {"effects.rough_samples", "4"},
                     {"effects.curved_lookup", random.chance(0.5) ? "environment" : "traced"},
