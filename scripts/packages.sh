@@ -10,7 +10,7 @@ build_packages=(
 run_packages=(mesa-vulkan-drivers fonts-dejavu-core)
 test_packages=(
   vulkan-validationlayers libgtest-dev librapidcheck-dev libembree-dev
-  xvfb x11-xkb-utils xdotool wmctrl x11-utils openbox util-linux python3-minimal
+  xvfb x11-xkb-utils xdotool wmctrl x11-utils openbox util-linux python3
   chromium chromium-driver python3-selenium
 )
 # Debian 13 has later versions only, which format differently.

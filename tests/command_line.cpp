@@ -103,16 +103,9 @@ INSTANTIATE_TEST_SUITE_P(
         UsageCase{{"compare", "a.png", "b.png", "--max-diff", "-1"}, "-1 not in range 0 to 1000000 ("},
         UsageCase{{"compare", "a.png", "b.png", "--max-flip", "-1"}, "-1 not in range 0.000000 to 1000000.000000 ("},
         UsageCase{{"bench", "--warmup", "-1"}, "--warmup"},
-        UsageCase{{"bench", "--against-binary", "/nowhere"}, "/nowhere"},
-        UsageCase{{"bench", "--against-binary", "/bin/false"}, "/bin/false: bench ended with exit code 1"},
-        UsageCase{{"bench", "--against-binary", "/bin/true"},
-                  "/bin/true: bench --json wrote no times (a speculum is needed)"},
         UsageCase{{"bench", "--reference", "--prices"}, "--reference: measures alone"},
-        UsageCase{{"bench", "--rounds", "3"}, "--rounds: needs --against-binary or --against-set"},
         UsageCase{{"compare", "a.png", "b.png", "--heatmap", "error.exr"}, "'error.exr' must end in .png"},
-        UsageCase{{"compare", "a.png", "b.png", "--heatmap", "error.jpg"}, "'error.jpg' must end in .png"},
-        UsageCase{{"bench", "--prices", "--against-set", "view.samples=1"}, "--prices: measures alone"},
-        UsageCase{{"bench", "--against-set", "view.samples=3"}, "--against-set: view.samples: '3'"}));
+        UsageCase{{"compare", "a.png", "b.png", "--heatmap", "error.jpg"}, "'error.jpg' must end in .png"}));
 
 TEST_F(CommandLine, StrictRefusesModelsWithDefects) {
   const std::string good = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
@@ -300,13 +293,28 @@ TEST_F(CommandLine, LinkLoopsAreNamedInOneLine) {
   }
 }
 
+// Runs scripts/bench-against with the program.
+ProcessResult benchAgainst(const std::vector<std::string>& arguments) {
+  std::vector<std::string> command{(sourceDir() / "scripts/bench-against").string(), "--program", program};
+  command.insert(command.end(), arguments.begin(), arguments.end());
+  return runProcess(command);
+}
+
 // Compares with a run of 64 pictures a frame, which is slower by more than any noise.
 TEST_F(CommandLine, BenchComparesRunsInTurn) {
-  succeed({"bench", "--scene", scene_, "--size", "32x18", "--frames", "3", "--warmup", "1",
-           "--against-set=view.accumulate=64", "--rounds", "1", "--json", out("r.json")});
+  const ProcessResult result = benchAgainst({"--scene", scene_, "--size", "32x18", "--frames", "3", "--warmup", "1",
+                                             "--set=view.accumulate=64", "--rounds", "1", "--json", out("r.json")});
+  ASSERT_EQ(result.exitCode, 0) << result.output;
   const double ratio = readJson(out("r.json"))["ratios"]["gpu_ms"]["median"];
   EXPECT_GT(ratio, 0.0);
   EXPECT_LT(ratio, 0.5);
+  for (const auto& [other, says] : {std::pair("/nowhere", "/nowhere: No such file or directory"),
+                                    std::pair("/bin/false", "/bin/false: bench ended with exit code 1"),
+                                    std::pair("/bin/true", "/bin/true: bench --json wrote no times")}) {
+    const ProcessResult refused = benchAgainst({"--scene", scene_, "--binary", other});
+    EXPECT_EQ(refused.exitCode, 2);
+    EXPECT_TRUE(contains(refused.output, says)) << refused.output;
+  }
 }
 
 // Runs bench and interrupts it, and no other process, so many seconds after it catches the signal (the last digit of
@@ -326,13 +334,6 @@ TEST_F(CommandLine, InterruptEndsMeasurementOfPrices) {
                                                       "--set", "view.accumulate=1024", "--json", out("r.json")});
   EXPECT_EQ(result.exitCode, 1) << result.output;
   EXPECT_FALSE(std::filesystem::exists(out("r.json")));
-}
-
-// The run that the program waits for has frames for minutes.
-TEST_F(CommandLine, InterruptEndsRunsInTurn) {
-  EXPECT_EQ(
-      interruptedBench("0.3", {"--scene", scene_, "--frames", "1000000", "--against-set", "view.samples=1"}).exitCode,
-      1);
 }
 
 TEST_F(CommandLine, NoOutputReplacesFilesOfTheScene) {

@@ -3,13 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <ranges>
-#include <thread>
 
-#include "accuracy/statistics.hpp"
 #include "accuracy/sweep_planner.hpp"
 #include "app/commands.hpp"
 #include "app/progress.hpp"
@@ -17,7 +14,6 @@
 #include "app/stats.hpp"
 #include "app/view_command.hpp"
 #include "platform/files.hpp"
-#include "platform/folders.hpp"
 #include "platform/process.hpp"
 #include "platform/text.hpp"
 #include "reference/throughput.hpp"
@@ -30,115 +26,6 @@ using Clock = std::chrono::steady_clock;
 
 constexpr auto untilInterrupted = [] { return !interruptRequested(); };
 constexpr std::array totals = {"cpu_ms", "gpu_ms", "frame_ms", "interval_ms"};
-
-std::string lastLine(std::string text) {
-  while (!text.empty() && text.back() == '\n') {
-    text.pop_back();
-  }
-  return text.substr(text.rfind('\n') + 1);
-}
-
-// Returns the arguments for one of the runs that are compared: without --json and what they are measured against.
-std::vector<std::string> argumentsOfARun(const Options& options) {
-  std::vector<std::string> kept;
-  for (auto argument = options.arguments.begin(); argument != options.arguments.end(); ++argument) {
-    const std::string name = argument->substr(0, argument->find('='));
-    if (name != "--against-binary" && name != "--against-set" && name != "--json" && name != "--rounds") {
-      kept.push_back(*argument);
-    } else if (name == *argument) {
-      ++argument;
-    }
-  }
-  return kept;
-}
-
-// Runs the command and returns its median milliseconds, by key; nothing after Ctrl-C.
-std::optional<std::map<std::string, double>> measured(const std::vector<std::string>& command,
-                                                      const std::filesystem::path& json) {
-  ChildProcess child(command);
-  std::optional<ProcessResult> result;
-  while (!interruptRequested() && !(result = child.poll())) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
-  }
-  if (interruptRequested()) {
-    return std::nullopt;
-  }
-  if (result->exitCode != 0) {
-    throw UsageError(command.front() + ": bench ended with exit code " + std::to_string(result->exitCode) + ": " +
-                     lastLine(result->output) + " (a speculum that can run this bench is needed)");
-  }
-  const auto figures = nlohmann::json::parse(readTextIfAny(json), nullptr, false);
-  std::map<std::string, double> medians;
-  for (const char* key : totals) {
-    const auto median = nlohmann::json::json_pointer("/totals/" + std::string(key) + "/median");
-    if (figures.contains(median) && figures[median].is_number()) {
-      medians[key] = figures[median];
-    }
-  }
-  if (medians.empty()) {
-    throw UsageError(command.front() + ": bench --json wrote no times (a speculum is needed)");
-  }
-  return medians;
-}
-
-// Runs `bench --json` of this program and of the other one, or of this one with the other settings, in turn as
-// processes of their own, and prints the ratios of their median times, this one's over the other's. Returns the exit
-// code. Throws UsageError if the other one cannot be run.
-int benchAgainst(const Options& options) {
-  const TemporaryDirectory folder;
-  const std::filesystem::path json = folder.path() / "bench.json";
-  const auto command = [&](const std::filesystem::path& program) {
-    std::vector<std::string> arguments = argumentsOfARun(options);
-    arguments.insert(arguments.begin(), program.string());
-    arguments.insert(arguments.end(), {"--json", json.string()});
-    return arguments;
-  };
-  const std::vector<std::string> own = command(executablePath());
-  std::vector<std::string> other =
-      command(options.againstBinary.empty() ? executablePath() : wholePath(options.againstBinary));
-  addSettings(options.againstSettings, other);
-  const int rounds = options.benchRounds.value_or(7);
-  installInterruptHandler();
-  std::map<std::string, std::vector<double>> ratios;
-  Progress progress("bench", 2 * rounds);
-  for (int round = 0; round < rounds; ++round) {
-    std::array<std::map<std::string, double>, 2> times;
-    // The order changes with each round, because a machine that warms up or slows down would favour one of them. The
-    // other program is first at the beginning, because it may not run at all.
-    for (const size_t side : round % 2 == 0 ? std::array<size_t, 2>{1, 0} : std::array<size_t, 2>{0, 1}) {
-      const auto medians = measured(side == 0 ? own : other, json);
-      if (!medians) {
-        return 1;
-      }
-      times[side] = *medians;
-      progress.advance();
-    }
-    for (const auto& [key, ms] : times[0]) {
-      if (times[1].contains(key) && times[1][key] > 0.0) {
-        ratios[key].push_back(ms / times[1][key]);
-      }
-    }
-  }
-  nlohmann::ordered_json written{{"rounds", rounds}, {"ratios", nlohmann::ordered_json::object()}};
-  printLine(fmt::format("{:<12} {:>8} {:>8} {:>8} {:>8}   this over the other, {} rounds", "ratio of", "median", "min",
-                        "q1", "q3", rounds));
-  for (const char* key : totals) {
-    if (ratios.contains(key)) {
-      const Spread spread = spreadOf(ratios[key]);
-      printLine(fmt::format("{:<12} {:>8.3f} {:>8.3f} {:>8.3f} {:>8.3f}", key, spread.median, spread.minimum,
-                            spread.lowerQuartile, spread.upperQuartile));
-      written["ratios"][key] = {{"median", spread.median},
-                                {"min", spread.minimum},
-                                {"q1", spread.lowerQuartile},
-                                {"q3", spread.upperQuartile},
-                                {"values", ratios[key]}};
-    }
-  }
-  if (!options.json.empty()) {
-    writeJson(options.json, written);
-  }
-  return 0;
-}
 
 // Measures rays per second and core of the double-precision tracer.
 int benchReference(const Options& options) {
@@ -269,18 +156,8 @@ void printBench(const nlohmann::ordered_json& merged, int measured) {
 }  // namespace
 
 int runBench(const Options& options) {
-  const bool against = !options.againstBinary.empty() || !options.againstSettings.empty();
-  if (options.benchReference && (against || options.benchPrices)) {
-    throw UsageError("--reference: measures alone (leave out --prices, --against-binary and --against-set)");
-  }
-  if (options.benchPrices && against) {
-    throw UsageError("--prices: measures alone (leave out --against-binary and --against-set)");
-  }
-  if (options.benchRounds && !against) {
-    throw UsageError("--rounds: needs --against-binary or --against-set");
-  }
-  if (against) {
-    return benchAgainst(options);
+  if (options.benchReference && options.benchPrices) {
+    throw UsageError("--reference: measures alone (leave out --prices)");
   }
   if (options.benchReference) {
     return benchReference(options);

@@ -24,7 +24,6 @@ struct Raw {
   std::string size;
   std::string camera;
   std::vector<std::string> settings;
-  std::vector<std::string> againstSettings;
   std::string renderPath = "auto";
   std::string presentMode = "fifo";
 };
@@ -104,14 +103,6 @@ void addBench(CLI::App& app, Options& options, Raw& raw) {
   addSweepResults(app, options);
   app.add_flag("--prices", options.benchPrices, "GPU ms of each effect as well, by leaving it out in turn");
   app.add_flag("--reference", options.benchReference, "the ray tracer instead: rays per second and core");
-  app.add_option("--against-binary", options.againstBinary,
-                 "another speculum: runs both in turn and prints the ratios of their times")
-      ->check(CLI::ExistingFile);
-  app.add_option("--rounds", options.benchRounds, "runs of each of the two, 7 unless given")
-      ->check(CLI::Range(1, 1000));
-  app.add_option("--against-set", raw.againstSettings, "key=value; the same against this program with other settings")
-      ->take_all()
-      ->allow_extra_args(false);
 }
 
 void addAccuracy(CLI::App& app, Options& options, Raw& raw) {
@@ -195,7 +186,6 @@ void applyRaw(const Raw& raw, Options& options) {
     throw UsageError("--max-flip: not a finite number (a mean FLIP, such as 0.05)");
   }
   options.settings = parseSettings("--set", raw.settings);
-  options.againstSettings = parseSettings("--against-set", raw.againstSettings);
   const std::optional<RenderPath> path = renderPathFromName(raw.renderPath);
   if (!path) {
     throw UsageError("--render-path: '" + raw.renderPath + "' is not a choice (auto | dynamic | renderpass)");
@@ -260,7 +250,7 @@ std::string examplesText(const std::string& command) {
         "cases.toml --update gallery", "cases.toml --repeat 10"}},
       {"bench",
        {"--scene many_mirrors --set reflection.max_depth=2 --frames 200 --json bench.json", "--scene gallery --prices",
-        "--scene gallery --against-set view.samples=1", "--reference"}},
+        "--reference"}},
       {"info", {""}},
       {"scenes", {""}},
   };

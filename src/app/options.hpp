@@ -44,17 +44,14 @@ struct Options {
   std::filesystem::path heatmap;
   std::optional<double> maxFlip;
   std::optional<int> maxDiff;
-  std::string sweep = "quick";          // accuracy: quick, full or a file
-  std::filesystem::path sweepResults;   // results.json of an earlier sweep; empty: none
-  bool benchReference = false;          // bench: measures the ray tracer instead of the renderer
-  bool benchPrices = false;             // bench: measures the cost of each effect too
-  std::filesystem::path againstBinary;  // bench: another speculum to measure in turn; empty: none
-  std::vector<std::pair<std::string, std::string>> againstSettings;  // bench: settings to measure in turn; may be none
-  std::optional<int> benchRounds;                                    // bench: runs of each of the two; none: 7
-  std::filesystem::path cases;                                       // regress
-  std::string filter = "*";                                          // of the cases' names
-  int jobs = 0;                                                      // worker processes; 0: by the processor
-  int repeat = 1;                                                    // pictures of each case, which must be equal
+  std::string sweep = "quick";         // accuracy: quick, full or a file
+  std::filesystem::path sweepResults;  // results.json of an earlier sweep; empty: none
+  bool benchReference = false;         // bench: measures the ray tracer instead of the renderer
+  bool benchPrices = false;            // bench: measures the cost of each effect too
+  std::filesystem::path cases;         // regress
+  std::string filter = "*";            // of the cases' names
+  int jobs = 0;                        // worker processes; 0: by the processor
+  int repeat = 1;                      // pictures of each case, which must be equal
   std::optional<std::string> update;   // names of the cases whose expected pictures are replaced
   std::filesystem::path junit;         // empty: none
   bool worker = false;                 // draws the cases whose indices come on standard input

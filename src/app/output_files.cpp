@@ -90,8 +90,7 @@ void requireFilesOfTheirOwn(const Options& options) {
   for (const auto& [option, file] :
        {NamedFile{"--scene", options.scene}, NamedFile{"--sweep", options.sweep}, NamedFile{"--mask", options.mask},
         NamedFile{"--sweep-results", options.sweepResults}, NamedFile{"reference", options.reference},
-        NamedFile{"test", options.test}, NamedFile{"cases", options.cases},
-        NamedFile{"--against-binary", options.againstBinary}}) {
+        NamedFile{"test", options.test}, NamedFile{"cases", options.cases}}) {
     if (isFile(file)) {  // names of shipped scenes and sweeps are no files
       used.add(fmt::format("the file of {}", option), file);
     }
