@@ -25,7 +25,10 @@ bool checkRecovery(std::string_view input) {
   require(Recovery().findNewest().empty(), "a copy is offered once");
   require(readText(kept) == text, "a copy has what was kept");
   Scene scene;
-  const bool read = accepted([&] { scene = loadScene(kept); });
+  const bool read = accepted([&] {
+    scene = loadScene(kept);
+    settingsOf(scene);  // as opening it does
+  });
   recovery.setScene(kept);
   if (read) {
     const SceneDocument document(scene);
