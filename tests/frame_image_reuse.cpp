@@ -214,6 +214,22 @@ TEST(Unchanged, ReusedImagesCallForTheirEffects) {
   EXPECT_EQ(fresh, "object 3");
 }
 
+TEST(Effects, SayWhatSmoothsEdges) {
+  PlanSequence frames(room());
+  frames.settings.reflection.samples = 1;
+  for (const auto& [samples, pictures, why] : {std::tuple(4, 1, "view.samples = 4"),
+                                               {1, 1, "one sample a pixel"},
+                                               {1, 64, "the mean of pictures smooths edges"}}) {
+    frames.settings.view.samples = samples;
+    frames.settings.view.accumulate = pictures;
+    frames.next();
+    EXPECT_EQ(effectsOf(frames.scene, evaluate(frames.scene, 0.0), frames.settings,
+                        frames.plan)[static_cast<size_t>(EffectKind::msaa)]
+                  .why,
+              why);
+  }
+}
+
 // The budget of passes is not spent on deeper reflections while images are reused, because those would flicker.
 TEST(Unchanged, BudgetIgnoresReuse) {
   for (const int interval : {1, 2}) {

@@ -149,6 +149,8 @@ TEST_F(CaseFile, MistakesNameLineAndKey) {
   EXPECT_EQ(mistake(room + room),
             "cases.toml:3: case[1].name: 'room' is already the name of an earlier case (names must be unique)");
   EXPECT_TRUE(startsWith(mistake(room + "size = '640'"), "cases.toml:3: case[0].size: is '640' ("));
+  EXPECT_EQ(mistake(room + "size = [640, 360]"),
+            "cases.toml:3: case[0].size: is an array (a string such as \"640x360\" is needed)");
   EXPECT_TRUE(startsWith(mistake(room + "camera = '1,2'"), "cases.toml:3: case[0].camera: "));
   EXPECT_TRUE(startsWith(mistake(room + "settings = { view.samples = 3 }"), "cases.toml:3: view.samples: "));
   EXPECT_EQ(mistake(room + "settings = { quality.budget_ms = 5 }"),

@@ -224,6 +224,9 @@ TEST_F(PanelTest, SlowScenesOfferToPlay) {
   holdControl(false);
   run(2);
   EXPECT_STREQ(ImGui::GetCurrentContext()->NavWindow->RootWindow->Name, "Speculum") << "Space presses nothing unseen";
+  ask(Prompt::recovery, "/home/scene.toml");
+  EXPECT_FALSE(has("play")) << "a question comes first";
+  ask(Prompt::none);
   playback_.cost.clear();
   EXPECT_FALSE(has("play"));
 }

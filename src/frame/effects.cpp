@@ -84,7 +84,8 @@ Effect multisampling(const Settings& settings, const FramePlan& plan) {
     const std::string key = samples == settings.reflection.samples ? "reflection.samples = " : "quality.samples = ";
     return {EffectKind::msaa, "msaa", true, key + std::to_string(samples)};
   }
-  return {EffectKind::msaa, "msaa", false, "one sample a pixel"};
+  const bool mean = settings.view.accumulate > 1;
+  return {EffectKind::msaa, "msaa", false, mean ? "the mean of pictures smooths edges" : "one sample a pixel"};
 }
 
 }  // namespace

@@ -52,11 +52,11 @@ size_t bytesOf(const RegressCase& subject) {
   return bytes;
 }
 
-std::optional<std::string> textIn(const TableReader& table, Key key) {
+std::optional<std::string> textIn(const TableReader& table, Key key, const char* right = "a string is needed") {
   if (!table.has(key)) {
     return std::nullopt;
   }
-  std::string value = table.text(key);
+  std::string value = table.textAs(key, right);
   if (value.empty()) {
     table.fail(key, "is empty", "a text is needed");
   }
@@ -120,8 +120,10 @@ class CaseReader {
     if (const auto name = textIn(table, "name")) {
       draft.name = name;
     }
-    for (const char* key : {"scene", "camera", "size"}) {
-      if (const auto value = textIn(table, key)) {
+    for (const auto& [key, right] : {std::pair("scene", "a file or a name of speculum scenes is needed"),
+                                     std::pair("camera", "a string as --camera takes it is needed"),
+                                     std::pair("size", "a string such as \"640x360\" is needed")}) {
+      if (const auto value = textIn(table, key, right)) {
         apply(table, draft, key, *value);
       }
     }

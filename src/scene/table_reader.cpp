@@ -141,9 +141,9 @@ bool TableReader::boolean(std::string_view key) const {
   return node.as_boolean()->get();
 }
 
-std::string TableReader::text(std::string_view key) const {
-  const toml::node& node = required(key, "a string is needed");
-  expect(node.is_string(), node, key, "a string is needed");
+std::string TableReader::textAs(std::string_view key, std::string_view right) const {
+  const toml::node& node = required(key, right);
+  expect(node.is_string(), node, key, right);
   return node.as_string()->get();
 }
 

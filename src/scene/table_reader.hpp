@@ -33,7 +33,8 @@ class TableReader {
   }
   int64_t integer(std::string_view key, const Range& range) const;
   bool boolean(std::string_view key) const;
-  std::string text(std::string_view key) const;
+  std::string text(std::string_view key) const { return textAs(key, "a string is needed"); }
+  std::string textAs(std::string_view key, std::string_view right) const;
   std::string text(std::string_view key, const std::string& fallback) const { return has(key) ? text(key) : fallback; }
   glm::dvec2 vec2(std::string_view key, const Range& range) const;
   glm::dvec3 vec3(std::string_view key, const Range& range) const;

@@ -347,7 +347,7 @@ void playOffer(PanelContext& ui, const WindowRect& picture, float below) {
   const PlaybackView& playback = ui.view.playback;
   const float em = ImGui::GetFontSize();
   const float room = std::min(picture.size.x - ImGui::CalcTextSize(playback.cost.c_str()).x, picture.size.y - below);
-  if (!playback.paused || playback.cost.empty() || room < 4.0f * em) {
+  if (!playback.paused || playback.cost.empty() || room < 4.0f * em || ui.view.edit.prompt != Prompt::none) {
     return;
   }
   ImGui::SetNextWindowPos({picture.corner.x + 0.5f * picture.size.x, picture.corner.y + picture.size.y - below - em},
