@@ -27,7 +27,7 @@ Image8 shown(Session& session, int pictures) {
 
 // Draws one picture of a mean by itself.
 LinearImage single(Session& session, const SceneState& state, const Settings& mean, int picture) {
-  const FramePlan plan = planFrame(session.scene(), state, mean, size.width, size.height, {}, picture);
+  const FramePlan plan = planFrame({session.scene(), state, mean, {size.width, size.height}, {}, picture});
   Settings alone = mean;
   alone.view.accumulate = 1;
   recordFrame(session, state, alone, plan);
@@ -121,12 +121,12 @@ TEST(Accumulation, FinishedMeanIsShownWithoutDrawing) {
   const Image8 picture = shown(session, 4);
   const SceneState state = evaluate(session.scene(), 0.0);
   const Settings settings = pictureSettings(session.settings());
-  const FramePlan plan = planFrame(session.scene(), state, settings, size.width, size.height, {}, 4);
+  const FramePlan plan = planFrame({session.scene(), state, settings, {size.width, size.height}, {}, 4});
   EXPECT_TRUE(plan.drawnMirrors().empty());
   recordFrame(session, state, settings, plan);
   EXPECT_EQ(session.sceneRenderer().passes().size(), 1u);
   EXPECT_EQ(session.picture().rgba, picture.rgba);
-  const FramePlan late = planFrame(session.scene(), state, settings, size.width, size.height, {}, 2);
+  const FramePlan late = planFrame({session.scene(), state, settings, {size.width, size.height}, {}, 2});
   Frame frame = session.renderer().beginFrame().value();
   EXPECT_THROW(session.sceneRenderer().record(frame, state, settings, late), std::logic_error);
   session.renderer().endFrame(frame);
@@ -139,7 +139,8 @@ void drawTiles(Session& session, int number, size_t step, size_t end = SIZE_MAX)
   const Settings mean = pictureSettings(session.settings());
   FrameCache cache = session.sceneRenderer().cache(state);
   cache.main = nullptr;
-  FramePlan plan = planFrame(session.scene(), state, mean, session.size().width, session.size().height, cache, number);
+  FramePlan plan =
+      planFrame({session.scene(), state, mean, {session.size().width, session.size().height}, cache, number});
   const size_t count = tileCount(plan);
   const size_t stop = end == SIZE_MAX ? count : std::min(end, count - 1);
   for (size_t first = 0; first < stop; first += step == 0 ? count : step) {

@@ -455,7 +455,7 @@ TEST(StillText, AgreesWithThePlan) {
     settings.effects.shadows = chance(0.8);
     settings.effects.castsLight = chance(0.5);
     settings.effects.shadowLookup = chance(0.8) ? ShadowLookup::map : ShadowLookup::traced;
-    const FramePlan plan = planFrame(scene, evaluate(scene, 0.0), settings, 64, 36);
+    const FramePlan plan = planFrame({scene, evaluate(scene, 0.0), settings, {64, 36}});
     EXPECT_EQ(contains(stillText(scene, settings), "shadow outlines"), plan.effects.shadowMaps) << run;
     ++found[plan.effects.shadowMaps];
   }
@@ -483,28 +483,16 @@ TEST(Movement, LastsAMomentAfterTheLastStep) {
   EXPECT_FALSE(movement.moving()) << "another scene has another camera";
 }
 
-class PacedScene : public testing::Test {
+class PacedScene : public testing::Test, private PicturePlanner {
  protected:
   FittedPlan frame(bool moves = false) {
     pace_.begin({}, moves, seconds_);
-    return pace_.plan({.scene = scene_,
-                       .state = state_,
-                       .chosen = chosen_,
+    return pace_.plan({.frame = {scene_, state_, chosen_},
+                       .planner = *this,
                        .shown = {.revision = revision_},
                        .budgetMs = budgetMs_,
                        .input = input_,
-                       .target = target_},
-                      [&](const Settings& settings, int picture) {
-                        planned_ = settings;
-                        picture_ = {settings.view.accumulate, picture};
-                        FittedPlan fitted{.settings = settings};
-                        const auto side = static_cast<int>(side_ * settings.view.scale);
-                        fitted.plan.main().view.rect = {0, 0, side, side};
-                        if (leavesOut_) {
-                          fitted.plan.skipped.push_back({.reason = SkipReason::maxPasses});
-                        }
-                        return fitted;
-                      });
+                       .target = target_});
   }
   // Plans a frame and returns the pictures of its mean and the one that is drawn.
   std::pair<int, int> pictureOf(bool moves = false) {
@@ -512,6 +500,18 @@ class PacedScene : public testing::Test {
     return picture_;
   }
   void expectText(const std::string& start) const { EXPECT_TRUE(startsWith(pace_.text(), start)); }
+
+  FittedPlan plan(const FrameRequest& request) override {
+    planned_ = request.settings;
+    picture_ = {planned_.view.accumulate, request.picture};
+    FittedPlan fitted{.settings = planned_};
+    const auto side = static_cast<int>(side_ * planned_.view.scale);
+    fitted.plan.main().view.rect = {0, 0, side, side};
+    if (leavesOut_) {
+      fitted.plan.skipped.push_back({.reason = SkipReason::maxPasses});
+    }
+    return fitted;
+  }
 
   Pace pace_{true, 1 + 4};
   Scene scene_;

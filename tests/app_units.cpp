@@ -138,7 +138,7 @@ class Report : public testing::Test {
   FramePlan plan;
   FrameReport report;
   const FrameView& view = report.view();
-  const std::vector<PassView>& rows = view.passes;
+  const std::vector<PassRow>& rows = view.passes;
   Settings settings_;
 
  private:

@@ -55,7 +55,7 @@ std::string tracedEffectsOf(const Options& options, double time) {
   const SceneState state = evaluate(scene, time);
   const Settings settings = settingsOf(scene);
   std::string names;
-  const FramePlan plan = planFrame(scene, state, settings, options.size.width, options.size.height);
+  const FramePlan plan = planFrame({scene, state, settings, {options.size.width, options.size.height}});
   for (const Effect& effect : effectsOf(scene, state, settings, plan)) {
     const bool traced = effect.name == "shadows" || effect.name == "ripple" || effect.name == "casts_light" ||
                         effect.name == "curved" || effect.name == "roughness";

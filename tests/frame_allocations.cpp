@@ -1,7 +1,7 @@
 // Tests that planning reuses the memory of earlier frames.
 #include <thread>
 
-#include "frame/memory_fit.hpp"
+#include "frame/fitted_plan.hpp"
 #include "frame/scene_changes.hpp"
 #include "fuzz/heap_watch.hpp"
 #include "sampling.hpp"
@@ -26,7 +26,8 @@ class Planning {
     const MainImage main{last.settings, last.plan.mainContent};
     const FrameCache cache{last.plan.cached, last.plan.cubes, &main, &changes_};
     const size_t before = fuzz::allocations();
-    last_ = planWithin({.budgetBytes = UINT64_MAX, .largestSide = 16384}, scene_, state, settings_, 640, 360, cache);
+    last_ =
+        planWithin({.budgetBytes = UINT64_MAX, .largestSide = 16384}, {scene_, state, settings_, {640, 360}, cache});
     last = {};
     return fuzz::allocations() - before;
   }

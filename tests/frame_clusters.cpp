@@ -229,7 +229,7 @@ TEST(Clusters, NeverLeaveOutVisibleTriangles) {
                         .size = {uniform(0.1, 2), uniform(0.1, 2)}};
     const Scene scene = sceneOf(object, {mirror});
     const SceneState state = evaluate(scene, 0.0);
-    const FramePlan plan = planFrame(scene, state, {}, 640, 360);
+    const FramePlan plan = planFrame({scene, state, {}, {640, 360}});
     std::vector<const Pass*> passes{&plan.main()};
     for (const Pass& pass : plan.drawnMirrors()) {
       passes.push_back(&pass);

@@ -22,7 +22,7 @@ void addBody(Scene& scene, SceneState& state, const glm::dvec3& center, double r
 }
 
 FramePlan depthPlan(const Scene& scene, const SceneState& state) {
-  return planFrame(scene, state, Settings(), 640, 360);
+  return planFrame({scene, state, Settings(), {640, 360}});
 }
 
 std::optional<DepthReadout> readoutOf(const Scene& scene, const SceneState& state) {

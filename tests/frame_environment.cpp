@@ -1,7 +1,8 @@
 // Environment maps: which curved mirrors have one, what is in it, when it is rendered. Without a GPU.
 #include "frame/effects.hpp"
 #include "frame/environment_map.hpp"
-#include "frame/memory_fit.hpp"
+#include "frame/fitted_plan.hpp"
+#include "frame/target_memory.hpp"
 #include "frame/traced_effects.hpp"
 #include "frame_support.hpp"
 #include "test_headers.hpp"
@@ -64,7 +65,7 @@ TEST(EnvironmentMap, NeedsNoRays) {
   EXPECT_EQ(frames.plan.effects.curved, "object 'ball'");
   EXPECT_FALSE(frames.plan.effects.any());
   const FittedPlan fitted = planWithin({.budgetBytes = 1ull << 40, .largestSide = 4096, .tracesRays = false},
-                                       frames.scene, state, frames.settings, width, height);
+                                       {frames.scene, state, frames.settings, {width, height}});
   EXPECT_EQ(fitted.plan.cubes.size(), 1u) << "a device that cannot trace rays draws it";
   EXPECT_TRUE(fitted.message.empty());
 }
@@ -190,8 +191,8 @@ TEST(EnvironmentMap, MemoryIncludesItAndLowersIt) {
   const uint64_t bytes = 6ull * 256 * 256 * (8 + 4);
   EXPECT_EQ(environmentBytes(frames.plan), bytes);
   EXPECT_EQ(targetBytes(frames.plan, frames.settings), targetBytes(without, frames.settings) + bytes);
-  const FittedPlan fitted = planWithin({.budgetBytes = 1'500'000, .largestSide = 4096}, frames.scene,
-                                       evaluate(frames.scene, 0.0), frames.settings, width, height);
+  const FittedPlan fitted = planWithin({.budgetBytes = 1'500'000, .largestSide = 4096},
+                                       {frames.scene, evaluate(frames.scene, 0.0), frames.settings, {width, height}});
   EXPECT_LT(fitted.settings.effects.environmentSize, 256);
   EXPECT_LE(targetBytes(fitted.plan, fitted.settings), 1'500'000u);
   EXPECT_TRUE(contains(fitted.message, "effects.environment_size to 128"));

@@ -1,7 +1,8 @@
 // Which images are reused, by the planner alone: with reflection.skip_unchanged, then with an update_interval.
 #include "frame/effects.hpp"
+#include "frame/fitted_plan.hpp"
 #include "frame/image_reuse.hpp"
-#include "frame/memory_fit.hpp"
+#include "frame/target_memory.hpp"
 #include "frame_support.hpp"
 #include "geometry/affine.hpp"
 #include "image/color.hpp"
@@ -283,8 +284,8 @@ TEST(Unchanged, ShortMemoryRendersAnewRatherThanWorse) {
   const auto fit = [&](uint64_t budget, std::span<const CachedImage> cached) {
     const SceneState state = evaluate(scene, 0.0);
     changes.update(scene, state);
-    return planWithin({.budgetBytes = budget, .largestSide = 4096}, scene, state, {}, width, height,
-                      {.images = cached, .changes = &changes});
+    return planWithin({.budgetBytes = budget, .largestSide = 4096},
+                      {scene, state, {}, {width, height}, {.images = cached, .changes = &changes}});
   };
   const FittedPlan first = fit(1ull << 40, {});
   const uint64_t needed = targetBytes(first.plan, first.settings);
@@ -481,8 +482,11 @@ TEST(CachedImages, ChangedSettingsAndSizesRenderAnew) {
 
   PlanSequence sequence = withInterval(row(), 100);
   sequence.next();
-  const FramePlan larger = planFrame(sequence.scene, evaluate(sequence.scene, 0.0), sequence.settings, width + 1,
-                                     height, {.images = sequence.plan.cached});
+  const FramePlan larger = planFrame({sequence.scene,
+                                      evaluate(sequence.scene, 0.0),
+                                      sequence.settings,
+                                      {width + 1, height},
+                                      {.images = sequence.plan.cached}});
   EXPECT_EQ(larger.drawnMirrors().size(), 6u);
 }
 
@@ -595,8 +599,8 @@ TEST(CachedImages, MarginsStayWithinTheLargestSide) {
   settings.reflection.updateInterval = 4;
   RecycledVector<CachedImage> cached;
   for (int frame = 0; frame < 8; ++frame) {
-    const FittedPlan fitted = planWithin({.budgetBytes = 1ull << 40, .largestSide = width}, scene, evaluate(scene, 0.0),
-                                         settings, width, height, {.images = cached});
+    const FittedPlan fitted = planWithin({.budgetBytes = 1ull << 40, .largestSide = width},
+                                         {scene, evaluate(scene, 0.0), settings, {width, height}, {.images = cached}});
     for (const Pass& pass : fitted.plan.drawnMirrors()) {
       EXPECT_LE((overscan(pass.view) * pass.view.pictureSize).x, width);
       EXPECT_LE(pass.view.rect.width, width);

@@ -29,7 +29,7 @@ FramePlan textPlan(const std::string& text, const std::function<void(Settings&)>
   const SceneState state = evaluate(scene, 0.0);
   SceneChanges changes;
   changes.update(scene, state);
-  return planFrame(scene, state, settings, 640, 360, {.changes = &changes});
+  return planFrame({scene, state, settings, {640, 360}, {.changes = &changes}});
 }
 
 // Sanitizers slow the program down and keep memory that was freed.

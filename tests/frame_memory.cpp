@@ -1,4 +1,5 @@
-#include "frame/memory_fit.hpp"
+#include "frame/fitted_plan.hpp"
+#include "frame/target_memory.hpp"
 #include "frame_support.hpp"
 #include "test_headers.hpp"
 
@@ -12,7 +13,7 @@ Scene wallScene() {
 
 FittedPlan fit(uint64_t budget) {
   const Scene scene = wallScene();
-  return planWithin({.budgetBytes = budget, .largestSide = 4096}, scene, evaluate(scene, 0.0), {}, 1000, 1000);
+  return planWithin({.budgetBytes = budget, .largestSide = 4096}, {scene, evaluate(scene, 0.0), {}, {1000, 1000}});
 }
 
 TEST(MemoryFit, CountsMainViewImagesAndDepth) {
@@ -41,7 +42,7 @@ TEST(MemoryFit, CountsThePictureThatStaysShown) {
   settings.view.accumulate = 64;
   const auto scale = [&](bool keepsPicture) {
     const TargetLimits limits{.budgetBytes = 105'000'000, .largestSide = 4096, .keepsPicture = keepsPicture};
-    return planWithin(limits, scene, evaluate(scene, 0.0), settings, 1000, 1000).settings.reflection.scale;
+    return planWithin(limits, {scene, evaluate(scene, 0.0), settings, {1000, 1000}}).settings.reflection.scale;
   };
   // Per pixel: main 8 + 4, sums 32; mirror image 8 + 4; what stays 8 + 4 * (8 + 4).
   EXPECT_EQ(scale(false), 1.0);
@@ -54,7 +55,7 @@ TEST(MemoryFit, KeptPictureHasTheSamplesThatFitted) {
   settings.view.samples = 8;
   settings.view.accumulate = 64;
   const TargetLimits limits{.budgetBytes = 103'000'000, .largestSide = 4096, .keepsPicture = true};
-  const FittedPlan fitted = planWithin(limits, scene, evaluate(scene, 0.0), settings, 1000, 1000);
+  const FittedPlan fitted = planWithin(limits, {scene, evaluate(scene, 0.0), settings, {1000, 1000}});
   // Per pixel: with 8 samples 8 + 8 * (8 + 4), which never fitted; what stays has 4, 8 + 4 * (8 + 4).
   EXPECT_EQ(fitted.settings.reflection.scale, 0.5);
 }
@@ -63,8 +64,8 @@ TEST(MemoryFit, MirrorImagesStayWithinTheLargestSide) {
   const Scene scene = wallScene();
   Settings settings;
   settings.reflection.scale = 4.0;
-  const FittedPlan fitted =
-      planWithin({.budgetBytes = 1ull << 40, .largestSide = 2500}, scene, evaluate(scene, 0.0), settings, 1000, 500);
+  const FittedPlan fitted = planWithin({.budgetBytes = 1ull << 40, .largestSide = 2500},
+                                       {scene, evaluate(scene, 0.0), settings, {1000, 500}});
   EXPECT_EQ(fitted.settings.reflection.scale, 2.5);
   EXPECT_EQ(fitted.plan.drawnMirrors()[0].view.pictureSize.x, 2500.0);
   EXPECT_TRUE(contains(fitted.message, "lowered reflection.scale to 2.5"));
@@ -76,8 +77,8 @@ TEST(MemoryFit, TracedEffectsNeedADeviceThatCan) {
   scene.mirrors[0].ripple = Ripple{.amplitude = 0.01};
   const SceneState state = evaluate(scene, 0.0);
   const auto plan = [&](bool tracesRays) {
-    return planWithin({.budgetBytes = 1ull << 40, .largestSide = 4096, .tracesRays = tracesRays}, scene, state, {}, 100,
-                      100);
+    return planWithin({.budgetBytes = 1ull << 40, .largestSide = 4096, .tracesRays = tracesRays},
+                      {scene, state, {}, {100, 100}});
   };
   EXPECT_TRUE(plan(true).message.empty());
   EXPECT_TRUE(plan(true).plan.drawnMirrors().empty());
@@ -95,7 +96,7 @@ TEST(MemoryFit, RaysReplacePassesWhereTheyPay) {
     settings.reflection.method = method;
     limits.budgetBytes = 1ull << 40;
     limits.largestSide = 4096;
-    return planWithin(limits, scene, evaluate(scene, 0.0), settings, 2 * height, height).plan.drawnMirrors().size();
+    return planWithin(limits, {scene, evaluate(scene, 0.0), settings, {2 * height, height}}).plan.drawnMirrors().size();
   };
   EXPECT_EQ(passes(ReflectionMethod::rays, {}), 0u);
   EXPECT_EQ(passes(ReflectionMethod::rays, {.tracesRays = false}), 1u);

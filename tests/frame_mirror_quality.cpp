@@ -1,7 +1,8 @@
 // Mirrors with a quality of their own: what each pass has, and how lowered settings lower it.
+#include "frame/fitted_plan.hpp"
 #include "frame/image_reuse.hpp"
-#include "frame/memory_fit.hpp"
 #include "frame/picture_offset.hpp"
+#include "frame/target_memory.hpp"
 #include "frame_support.hpp"
 #include "support/random.hpp"
 #include "test_headers.hpp"
@@ -191,7 +192,7 @@ TEST(MirrorQuality, LoweredSettingsLowerItButNeverRaiseIt) {
 }
 
 FittedPlan fit(const Scene& scene, const TargetLimits& limits, const Settings& settings = {}) {
-  return planWithin(limits, scene, evaluate(scene, 0.0), settings, 1000, 1000);
+  return planWithin(limits, {scene, evaluate(scene, 0.0), settings, {1000, 1000}});
 }
 
 TEST(MirrorQuality, MemoryThatIsMissingLowersIt) {
@@ -239,7 +240,7 @@ TEST(MirrorQuality, AutomaticMirrorsChooseByThemselves) {
     all.budgetBytes = 1ull << 40;
     all.largestSide = 65536;
     std::set<int> drawn;
-    const FittedPlan fitted = planWithin(all, scene, evaluate(scene, 0.0), settings, height, height);
+    const FittedPlan fitted = planWithin(all, {scene, evaluate(scene, 0.0), settings, {height, height}});
     for (const Pass& pass : fitted.plan.drawnMirrors()) {
       drawn.insert(pass.view.path.front());
     }

@@ -98,11 +98,11 @@ TEST(PictureOffset, MovesAllViewsAlike) {
   const Settings drawn = pictureSettings(settings);
   EXPECT_EQ(drawn.view.samples, 1);
   EXPECT_EQ(drawn.reflection.samples, 1);
-  const FramePlan first = planFrame(scene, state, drawn, width, height, {}, 0);
+  const FramePlan first = planFrame({scene, state, drawn, {width, height}, {}, 0});
   EXPECT_EQ(first.projection, planOf(scene).projection);
   Random random(5);
   for (const int picture : {1, 2, 40, 63}) {
-    const FramePlan p = planFrame(scene, state, drawn, width, height, {}, picture);
+    const FramePlan p = planFrame({scene, state, drawn, {width, height}, {}, picture});
     const glm::dvec2 moved = -2.0 * pictureOffset(picture, drawn) / p.main().view.pictureSize;
     ASSERT_EQ(p.passes.size(), first.passes.size());
     for (const Pass& pass : p.passes) {
@@ -122,7 +122,7 @@ TEST(PictureOffset, MovesAllViewsAlike) {
       }
     }
   }
-  EXPECT_TRUE(planFrame(scene, state, drawn, width, height, {}, 64).mainReused());
+  EXPECT_TRUE(planFrame({scene, state, drawn, {width, height}, {}, 64}).mainReused());
 }
 
 }  // namespace

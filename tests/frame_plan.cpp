@@ -164,11 +164,11 @@ TEST(FramePlan, TexelsFollowBothScales) {
   const SceneState state = evaluate(scene, 0.0);
   for (int round = 0; round < 100; ++round) {
     const glm::ivec2 size(static_cast<int>(random.uniform(1, 2000)), static_cast<int>(random.uniform(1, 2000)));
-    const FramePlan whole = planFrame(scene, state, {}, size.x, size.y);
+    const FramePlan whole = planFrame({scene, state, {}, {size.x, size.y}});
     Settings settings;
     settings.view.scale = random.uniform(0.125, 1.0);
     settings.reflection.scale = random.uniform(0.125, 4.0);
-    const FramePlan p = planFrame(scene, state, settings, size.x, size.y);
+    const FramePlan p = planFrame({scene, state, settings, {size.x, size.y}});
     EXPECT_EQ(p.width, size.x);
     const glm::dvec2 texels = glm::dvec2(size) * settings.view.scale;
     const glm::dvec2 drawn = p.main().view.pictureSize;

@@ -5,8 +5,9 @@
 #include <cmath>
 
 #include "frame/cube_face.hpp"
-#include "frame/memory_fit.hpp"
+#include "frame/fitted_plan.hpp"
 #include "frame/shadow_map.hpp"
+#include "frame/target_memory.hpp"
 #include "frame_support.hpp"
 #include "random.hpp"
 
@@ -260,12 +261,14 @@ TEST(ShadowMap, MemoryIncludesItAndLowersIt) {
   EXPECT_EQ(shadowBytes(layers.plan), bytes + 6ull * 1024 * 1024 * 8);
   EXPECT_EQ(targetBytes(frames.plan, frames.settings), targetBytes(without, frames.settings) + bytes);
   const SceneState state = evaluate(frames.scene, 0.0);
-  const FittedPlan fitted = planWithin({.budgetBytes = 10'000'000, .largestSide = 4096}, frames.scene, state,
-                                       frames.settings, testing_support::width, testing_support::height);
+  const FittedPlan fitted =
+      planWithin({.budgetBytes = 10'000'000, .largestSide = 4096},
+                 {frames.scene, state, frames.settings, {testing_support::width, testing_support::height}});
   EXPECT_LT(fitted.settings.effects.shadowMapSize, 1024);
   EXPECT_NE(fitted.message.find("effects.shadow_map_size to 512"), std::string::npos) << fitted.message;
-  const FittedPlan narrow = planWithin({.budgetBytes = 1ull << 40, .largestSide = 2048}, frames.scene, state,
-                                       frames.settings, testing_support::width, testing_support::height);
+  const FittedPlan narrow =
+      planWithin({.budgetBytes = 1ull << 40, .largestSide = 2048},
+                 {frames.scene, state, frames.settings, {testing_support::width, testing_support::height}});
   EXPECT_EQ(narrow.settings.effects.shadowMapSize, 512);
 }
 

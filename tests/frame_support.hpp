@@ -62,7 +62,7 @@ inline Mesh meshOf(const std::vector<glm::dvec3>& positions, const std::vector<u
 }
 
 inline FramePlan planOf(const Scene& scene, const Settings& settings = {}) {
-  return planFrame(scene, evaluate(scene, 0.0), settings, width, height);
+  return planFrame({scene, evaluate(scene, 0.0), settings, {width, height}});
 }
 
 inline std::span<const Cube> shadowMapsOf(const FramePlan& plan) {
@@ -103,11 +103,14 @@ class PlanSequence {
   const FramePlan& next(double time = 0.0) {
     const SceneState state = evaluate(scene, time);
     changes.update(scene, state);
-    plan = planFrame(scene, state, settings, width, height,
-                     {.images = plan.cached,
-                      .cubes = plan.cubes,
-                      .main = main.content.empty() ? nullptr : &main,
-                      .changes = &changes});
+    plan = planFrame({scene,
+                      state,
+                      settings,
+                      {width, height},
+                      {.images = plan.cached,
+                       .cubes = plan.cubes,
+                       .main = main.content.empty() ? nullptr : &main,
+                       .changes = &changes}});
     main = {settings, plan.mainContent};
     return plan;
   }

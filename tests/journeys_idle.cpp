@@ -50,9 +50,9 @@ class IdleWindow : public Journey {
     EXPECT_EQ(demo_->frameSettings().view.scale, 1.0);
     return scale;
   }
-  PassView mainView() {
-    const std::vector<PassView>& passes = view().frame.passes;
-    return *std::ranges::find(passes, PassKind::main, &PassView::kind);
+  PassRow mainView() {
+    const std::vector<PassRow>& passes = view().frame.passes;
+    return *std::ranges::find(passes, PassKind::main, &PassRow::kind);
   }
   // Returns the picture without the panel, whose figures differ from frame to frame, and without the messages below,
   // which go after some seconds.

@@ -172,7 +172,7 @@ TEST(TargetViews, StayUntilTheNextPictureIsComplete) {
   QuietSession session(hallOptions());
   const SceneState state = evaluate(session.scene(), 0.0);
   const auto planOf = [&](const Settings& settings) {
-    return planFrame(session.scene(), state, settings, hallSize.width, hallSize.height);
+    return planFrame({session.scene(), state, settings, {hallSize.width, hallSize.height}});
   };
   Settings draft = session.settings();
   draft.view.scale = 0.5;
@@ -215,8 +215,12 @@ TEST(TargetViews, KeepTheMean) {
   Settings mean = session.settings();
   mean.view.accumulate = 3;
   const auto draw = [&](int picture, const std::optional<DebugView>& debug) {
-    const FramePlan plan = planFrame(session.scene(), state, mean, hallSize.width, hallSize.height,
-                                     session.sceneRenderer().cache(state), picture);
+    const FramePlan plan = planFrame({session.scene(),
+                                      state,
+                                      mean,
+                                      {hallSize.width, hallSize.height},
+                                      session.sceneRenderer().cache(state),
+                                      picture});
     recordFrame(session, state, mean, plan, debug);
     return session.picture();
   };

@@ -1574,8 +1574,8 @@ TEST_F(AccuracyWindow, PickedPointsAreShownAlone) {
 class TargetsWindow : public PanelTest {
  protected:
   TargetsWindow() {
-    const PassView mirror{{.path = {0}}, "mirror wall"};
-    const PassView main{{.kind = PassKind::main}, "main view"};
+    const PassRow mirror{{.path = {0}}, "mirror wall"};
+    const PassRow main{{.kind = PassKind::main}, "main view"};
     frame_.passes = {mirror, main};
     frame_.skipped = {{.name = "mirror door", .path = {1}, .reason = "backface"}};
     frame_.target = {.complete = true, .size = {900, 700}};
@@ -1617,7 +1617,7 @@ TEST_F(TargetsWindow, NothingIsCutWhereTextIsLarge) {
   frame_.passes[1].name = "mirror door of the long corridor behind the kitchen > mirror wall opposite";
   toggle("Targets");
   click("targets.depth", 0.1);
-  for (PassView& pass : frame_.passes) {
+  for (PassRow& pass : frame_.passes) {
     pass.gpuMs = 123.4;
     pass.areaPx = 1280.0 * 1000.0;
   }
@@ -1685,7 +1685,7 @@ class ChangingPasses : public PanelTest {
     frame_.passes = {{{.kind = PassKind::main}, "main view"}};
     for (int mirror = 0; mirror < most; ++mirror) {
       if ((mirrors >> mirror & 1) != 0) {
-        PassView pass{{.path = {mirror}}, "mirror " + std::to_string(mirror)};
+        PassRow pass{{.path = {mirror}}, "mirror " + std::to_string(mirror)};
         pass.gpuMs = std::uniform_real_distribution(0.1, 9.0)(random_);
         pass.timed = true;
         frame_.passes.push_back(pass);
@@ -1750,11 +1750,11 @@ TEST_F(ChangingPasses, RowsUnderThePointerStay) {
 TEST_F(ChangingPasses, AreSortedOnlyOnDemand) {
   const std::vector<std::string> inScene = rows();
   const auto slowestFirst = [&] {
-    std::vector<PassView> passes = frame_.passes;
-    std::erase_if(passes, [](const PassView& pass) { return pass.kind == PassKind::main; });
-    std::ranges::sort(passes, std::greater(), &PassView::gpuMs);
+    std::vector<PassRow> passes = frame_.passes;
+    std::erase_if(passes, [](const PassRow& pass) { return pass.kind == PassKind::main; });
+    std::ranges::sort(passes, std::greater(), &PassRow::gpuMs);
     std::vector<std::string> names = {"pass.main view"};
-    for (const PassView& pass : passes) {
+    for (const PassRow& pass : passes) {
       names.push_back("pass." + pass.name);
     }
     return names;

@@ -185,7 +185,7 @@ TEST(LogHistory, FiltersByLevelAndText) {
 
 TEST(PassTree, MirrorsHangBelowTheirParents) {
   // In the order of recording: children before their parent.
-  const std::vector<PassView> passes = {
+  const std::vector<PassRow> passes = {
       {{.path = {0, 1}}, "mirror a > b"},      {{.path = {0}}, "mirror a"},
       {{.path = {1, 0}}, "mirror b > a"},      {{.path = {1}}, "mirror b"},
       {{.kind = PassKind::main}, "main view"}, {{.kind = PassKind::display}, "display"}};
@@ -193,11 +193,11 @@ TEST(PassTree, MirrorsHangBelowTheirParents) {
                                             {"a > c", {0, 2}, "outside"},
                                             {"a > b > a", {0, 1, 0}, "max_depth"},
                                             {"d > a", {3, 0}, "outside"}};
-  const std::vector<PassBranch> roots = passTree(passes, skipped);
+  const std::vector<TreeNode> roots = passTree(passes, skipped);
   ASSERT_EQ(roots.size(), 2u);
   EXPECT_EQ(roots[1].pass, 5);
   EXPECT_TRUE(roots[1].children.empty());
-  const PassBranch& main = roots[0];
+  const TreeNode& main = roots[0];
   EXPECT_EQ(main.pass, 4);
   EXPECT_EQ(main.skipped, std::vector<int>{0});
   ASSERT_EQ(main.children.size(), 2u);
@@ -215,9 +215,9 @@ TEST(PassTree, IsEmptyWithoutPasses) {
 }
 
 TEST(PassTree, ReusedImagesAreNotListedTwice) {
-  const std::vector<PassView> passes = {{{.path = {0}}, "mirror a"}, {{.kind = PassKind::main}, "main view"}};
+  const std::vector<PassRow> passes = {{{.path = {0}}, "mirror a"}, {{.kind = PassKind::main}, "main view"}};
   const std::vector<SkippedView> skipped = {{"a", {0}, "unchanged"}, {"b", {1}, "hidden"}};
-  const std::vector<PassBranch> roots = passTree(passes, skipped);
+  const std::vector<TreeNode> roots = passTree(passes, skipped);
   ASSERT_EQ(roots.size(), 1u);
   EXPECT_EQ(roots[0].skipped, std::vector<int>{1});
 }
@@ -225,7 +225,7 @@ TEST(PassTree, ReusedImagesAreNotListedTwice) {
 TEST(MirrorCost, SumsPassesOrSaysWhyNone) {
   FrameView frame;
   const auto pass = [&](MirrorPath path, double ms, double pixels) {
-    PassView row{{.path = std::move(path)}};
+    PassRow row{{.path = std::move(path)}};
     row.gpuMs = ms;
     row.timed = !std::isnan(ms);
     row.areaPx = pixels;

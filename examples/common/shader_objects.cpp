@@ -103,7 +103,7 @@ void ShaderObjects::bind(const PassScope& pass, VkDescriptorSet set) const {
 // Records all that a pipeline would hold. PassScope has set front face and cull mode.
 void ShaderObjects::setState(const PassScope& pass) const {
   const VkCommandBuffer commands = pass.commands();
-  const PassViewport& area = pass.desc().viewport;
+  const Viewport& area = pass.desc().viewport;
   const VkViewport viewport{area.x, area.y, area.width, area.height, 0.0f, 1.0f};
   vkCmdSetViewportWithCount(commands, 1, &viewport);
   vkCmdSetScissorWithCount(commands, 1, &pass.desc().scissor);

@@ -42,13 +42,13 @@ Sphere boundsOfAll(const SceneState& state) {
   return sphere;
 }
 
-int mirrorOfInterest(int last, size_t count, const Selection& selected, std::span<const PassView> passes) {
+int mirrorOfInterest(int last, size_t count, const Selection& selected, std::span<const PassRow> passes) {
   if (selected.kind == Selection::Kind::mirror) {
     return selected.index;
   }
   int mirror = last;
   double area = 0.0;
-  for (const PassView& pass : passes) {
+  for (const PassRow& pass : passes) {
     if (pass.path.size() == 1 && pass.areaPx > area) {
       mirror = pass.path[0];
       area = pass.areaPx;
@@ -236,7 +236,7 @@ void CameraController::lookFrom(const MirrorState& mirror, MirrorSide side, doub
 }
 
 int CameraController::lookFromMirror(MirrorSide side, const SceneState& state, const Selection& selected,
-                                     std::span<const PassView> passes, double aspect) {
+                                     std::span<const PassRow> passes, double aspect) {
   lastMirror_ = mirrorOfInterest(lastMirror_, state.mirrors.size(), selected, passes);
   if (lastMirror_ >= 0) {
     lookFrom(state.mirrors[static_cast<size_t>(lastMirror_)], side, aspect);

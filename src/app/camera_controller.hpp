@@ -55,7 +55,7 @@ class CameraController {
   // Looks so from the selected mirror, else from the one that fills most of the picture, else from the last one looked
   // from. Returns its index; -1 if the scene has none.
   int lookFromMirror(MirrorSide side, const SceneState& state, const Selection& selected,
-                     std::span<const PassView> passes, double aspect);
+                     std::span<const PassRow> passes, double aspect);
 
   void goToBookmark(size_t index, const Scene& scene);
   void goToNextBookmark(const Scene& scene);

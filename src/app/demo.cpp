@@ -37,7 +37,7 @@ Demo::Demo(const Options& options)
       device_(deviceOptions(options, &window_)),
       renderer_(device_, rendererOptions(options, &window_)),
       sceneRenderer_(std::make_unique<SceneRenderer>(renderer_, workspace_.scene())),
-      planner_(device_),
+      planner_(device_, true),
       pace_(device_.info().isCpu(), device_.caps().sampleCounts),
       refreshHz_(window_.refreshRate()),
       deviceView_(deviceView(renderer_, device_)),
@@ -251,34 +251,46 @@ std::optional<Pace::Target> Demo::missingTarget() const {
 
 const FittedPlan& Demo::planFrame(Frame& frame, const SceneState& state) {
   const std::optional<Pace::Target> missing = missingTarget();
-  const bool watchesMirror = output_.target && !output_.target->path.empty();
-  const bool settingsMove = ui_->holdsWidget() || pace_.moving();
   Settings settings = workspace_.shownSettings();
   // Renders every mirror in each frame while debug.check_finite is on, which reports findings by mirror.
   settings.reflection.skipUnchanged = settings.reflection.skipUnchanged && !settings.debug.checkFinite;
+  // A mirror whose target is shown is rendered in each frame, so that the target is of the picture.
+  planner_.begin(output_.target && !output_.target->path.empty(), ui_->holdsWidget() || pace_.moving());
+  FrameCache cache = sceneRenderer_->cache(state);
+  if (missing) {
+    cache.main = nullptr;
+  }
   const bool recorded = workspace_.capture().recording();  // without a budget
-  const Pace::Request request{.scene = workspace_.scene(),
-                              .state = state,
-                              .chosen = settings,
-                              .shown = {.scenes = scenes_,
-                                        .revision = workspace_.revision(),
-                                        .shaders = renderer_.pipelines().revision(),
-                                        .time = contentTime(workspace_.scene(), state.time),
-                                        .size = pictureSize()},
-                              .budgetMs = recorded ? 0.0 : budgetMs(),
-                              .front = workspace_.accuracy().front(),
-                              .input = changes_,
-                              .target = missing};
-  const FittedPlan& fitted = pace_.plan(request, [&](Settings lowered, int picture) {
-    // A mirror whose target is shown is rendered in each frame, so that the target is of the picture.
-    lowered.reflection.skipUnchanged = lowered.reflection.skipUnchanged && !watchesMirror;
-    lowered.reflection.updateInterval = watchesMirror ? 1 : lowered.reflection.updateInterval;
-    lowered.limit.mostInterval = watchesMirror ? 1 : lowered.limit.mostInterval;
-    return planner_.plan(frame, *sceneRenderer_, request.scene, state, lowered, picture, missing.has_value(),
-                         settingsMove);
-  });
-  workspace_.setPictureText(first_.covered() ? drawingText() : pictureText(request.scene, settings));
+  const Scene& scene = workspace_.scene();
+  const FittedPlan& fitted = pace_.plan({.frame = {.scene = scene,
+                                                   .state = state,
+                                                   .settings = settings,
+                                                   .size = glm::ivec2(frame.extent.width, frame.extent.height),
+                                                   .cache = cache},
+                                         .planner = planner_,
+                                         .shown = {.scenes = scenes_,
+                                                   .revision = workspace_.revision(),
+                                                   .shaders = renderer_.pipelines().revision(),
+                                                   .time = contentTime(scene, state.time),
+                                                   .size = pictureSize()},
+                                         .budgetMs = recorded ? 0.0 : budgetMs(),
+                                         .front = workspace_.accuracy().front(),
+                                         .input = changes_,
+                                         .target = missing});
+  uploadTextures(frame, state, fitted);
+  workspace_.setPictureText(first_.covered() ? drawingText() : pictureText(scene, settings));
   return fitted;
+}
+
+// Uploads the textures of a plan, or leaves them out of it if there is no memory for them.
+void Demo::uploadTextures(Frame& frame, const SceneState& state, const FittedPlan& fitted) {
+  try {
+    sceneRenderer_->uploadTextures(frame, state, fitted.settings, fitted.plan);
+  } catch (const OutOfMemoryError& error) {
+    planner_.leaveOutTextures(error.what());
+    pace_.leaveOutTextures();
+    sceneRenderer_->uploadTextures(frame, state, fitted.settings, fitted.plan);
+  }
 }
 
 // Returns the pace's text and what the picture approximates, or would if the animation were paused.

@@ -82,6 +82,7 @@ class Demo : private WorkspaceHost {
   void drawFrame(double seconds, double sinceLastMs);
   std::optional<Pace::Target> missingTarget() const;
   const FittedPlan& planFrame(Frame& frame, const SceneState& state);
+  void uploadTextures(Frame& frame, const SceneState& state, const FittedPlan& fitted);
   std::string drawingText() const { return "Drawing " + workspace_.scene().file.filename().string() + "..."; }
   std::string pictureText(const Scene& scene, const Settings& chosen) const;
   double budgetMs() const { return motionBudget(workspace_.settings(), device_.info().isCpu(), refreshHz_); }

@@ -2,46 +2,73 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
+
+#include "app/options.hpp"
+#include "systems/trace_frame.hpp"
+
 namespace speculum {
 
-FittedPlan FramePlanner::plan(Frame& frame, SceneRenderer& sceneRenderer, const Scene& scene, const SceneState& state,
-                              Settings settings, int picture, bool rendersMain, bool settingsMove) {
-  const Settings asked = settings;
-  std::string known;
-  if (refused_ && !settingsMove && refused_->settings != asked) {
-    known = refused_->problem;
+FramePlanner::FramePlanner(const Device& device, bool keepsPicture) {
+  // Leaves a quarter for meshes, textures and other programs. Reads the budget only once, so that plans of equal frames
+  // are equal.
+  limits_.budgetBytes = device.memoryBudget().budgetBytes / 4 * 3;
+  limits_.largestSide =
+      static_cast<int>(std::min({device.limits().maxImageDimension2D, device.limits().maxViewportDimensions[0],
+                                 device.limits().maxViewportDimensions[1]}));
+  limits_.cpu = device.info().isCpu();
+  limits_.keepsPicture = keepsPicture;
+  tracesRays_ =
+      device.caps().primitiveId && device.limits().maxPerStageDescriptorStorageBuffers >= TraceFrame::storageBuffers;
+  bufferLimits_ = traceBufferLimits(device.limits());
+}
+
+void FramePlanner::begin(bool rendersMirrors, bool leavesOutTextures) {
+  rendersMirrors_ = rendersMirrors;
+  leavesOutTextures_ = leavesOutTextures;
+}
+
+FittedPlan FramePlanner::plan(const FrameRequest& request) {
+  if (std::max(request.size.x, request.size.y) > limits_.largestSide) {
+    throw UsageError("--size: " + std::to_string(request.size.x) + "x" + std::to_string(request.size.y) +
+                     " is larger than the device draws (at most " + std::to_string(limits_.largestSide) +
+                     " pixels a side)");
+  }
+  FrameRequest asked = request;
+  if (rendersMirrors_) {
+    asked.settings.reflection.skipUnchanged = false;
+    asked.settings.reflection.updateInterval = asked.settings.limit.mostInterval = 1;
+  }
+  asked_ = asked.settings;
+  if (refused_ && !leavesOutTextures_ && refused_->settings != asked_) {
+    retried_ = refused_->problem;
     refused_.reset();
   }
-  const auto planNow = [&] {
-    settings.effects.textures = settings.effects.textures && !refused_;
-    FrameCache cache = sceneRenderer.cache(state);
-    if (rendersMain) {
-      cache.main = nullptr;
-    }
-    return planner_.plan(scene, state, settings, static_cast<int>(frame.extent.width),
-                         static_cast<int>(frame.extent.height), cache, picture);
-  };
-  FittedPlan fitted = planNow();
-  try {
-    sceneRenderer.uploadTextures(frame, state, fitted.settings, fitted.plan);
-  } catch (const OutOfMemoryError& error) {
-    if (refused_) {
-      throw;  // textures are left out already, so the memory is missing for something else
-    }
-    refused_ = {asked, "drawn without textures until a setting is changed: " + std::string(error.what())};
-    if (refused_->problem != known) {
-      spdlog::warn("{}", refused_->problem);
-    }
-    fitted = planNow();
-    sceneRenderer.uploadTextures(frame, state, fitted.settings, fitted.plan);
+  asked.settings.effects.textures = asked_.effects.textures && !refused_;
+  const TraceBufferBytes needed = largestTraceBuffers(request.scene, request.state.instances.size());
+  limits_.tracesRays = tracesRays_ && needed.texels <= bufferLimits_.texels && needed.storage <= bufferLimits_.storage;
+  FittedPlan fitted = planWithin(limits_, asked);
+  if (!fitted.message.empty() && lowered_.empty()) {
+    spdlog::warn("{}", fitted.message);
   }
+  lowered_ = fitted.message;
   return fitted;
 }
 
+void FramePlanner::leaveOutTextures(const std::string& why) {
+  if (refused_) {
+    throw;
+  }
+  refused_ = {asked_, "drawn without textures until a setting is changed: " + why};
+  if (refused_->problem != retried_) {
+    spdlog::warn("{}", refused_->problem);
+  }
+  retried_.clear();
+}
+
 std::string FramePlanner::message() const {
-  std::string message = refused_ ? refused_->problem : "";
-  message += !message.empty() && !planner_.message().empty() ? "; " : "";
-  return message + planner_.message();
+  const std::string refused = refused_ ? refused_->problem : "";
+  return refused + (refused.empty() || lowered_.empty() ? "" : "; ") + lowered_;
 }
 
 }  // namespace speculum

@@ -183,7 +183,7 @@ void FrameReport::setTimes(const Picture& picture, double gpuMs) {
   view_.timedGpuMs = gpuMs;
   timedSettings_ = picture.settings;
   timedLowered_ = picture.lowered;
-  std::ranges::for_each(view_.passes, [](PassView& row) { row.timed = false; });
+  std::ranges::for_each(view_.passes, [](PassRow& row) { row.timed = false; });
   for (const TimedPass& pass : picture.passes.passes()) {
     if (const auto row = placeOf(view_.passes, pass); row != view_.passes.end()) {
       row->gpuMs = pass.timing.gpuMs;
@@ -197,14 +197,14 @@ void FrameReport::updatePasses(const RecordedFrame& frame, std::span<const Recor
   const FramePlan& plan = frame.plan;
   const int interval = mostAsked(frame.scene, frame.settings).updateInterval;
   const auto reuses = [](const Pass& pass) { return pass.source == PassSource::reused && !pass.isFace(); };
-  const auto isReused = [&](const PassView& row) {
+  const auto isReused = [&](const PassRow& row) {
     return std::ranges::any_of(plan.passes, [&](const Pass& pass) { return reuses(pass) && pass.id == row; });
   };
-  std::vector<PassView> rows;
+  std::vector<PassRow> rows;
   if (interval > 1 || std::ranges::any_of(plan.passes, reuses)) {
     rows = std::move(view_.passes);
   }
-  for (PassView& row : rows) {
+  for (PassRow& row : rows) {
     ++row.framesAgo;
     row.reused = plan.mainReused() ? row.reused : isReused(row);
   }
@@ -212,7 +212,7 @@ void FrameReport::updatePasses(const RecordedFrame& frame, std::span<const Recor
   for (const RecordedPass& pass : passes) {
     auto row = placeOf(rows, pass);
     if (row == rows.end()) {
-      PassView fresh{pass, pass.name};
+      PassRow fresh{pass, pass.name};
       const auto before = placeOf(view_.passes, pass);
       fresh.gpuMs = before == view_.passes.end() ? std::nan("") : before->gpuMs;  // only some frames time passes
       fresh.timed = before != view_.passes.end() && before->timed;
@@ -226,12 +226,12 @@ void FrameReport::updatePasses(const RecordedFrame& frame, std::span<const Recor
     row->reused = false;
     index = row - rows.begin() + 1;
   }
-  std::erase_if(rows, [&](const PassView& row) { return row.framesAgo >= interval && !isReused(row); });
+  std::erase_if(rows, [&](const PassRow& row) { return row.framesAgo >= interval && !isReused(row); });
   // Times of another quality say nothing about this picture, those of other settings little.
   const bool otherQuality = timedLowered_ != frame.lowered || (plan.tiles && !tilesTimed_);
   if (!plan.mainReused() && (otherQuality || !sameMainView(timedSettings_, frame.settings))) {
     view_.timedGpuMs = 0.0;
-    for (PassView& row : rows) {
+    for (PassRow& row : rows) {
       row.gpuMs = otherQuality ? std::nan("") : row.gpuMs;
       row.timed = false;
     }

@@ -2,7 +2,7 @@
 
 #include <deque>
 
-#include "app/pass_sums.hpp"
+#include "app/picture_sums.hpp"
 #include "systems/scene_renderer.hpp"
 #include "ui/views.hpp"
 
@@ -63,7 +63,7 @@ class FrameReport {
     double sinceLastMs = 0.0;
     double cpuMs = 0.0;
     double gpuMs = 0.0;  // without the last frame
-    PassSums passes;     // without the last frame
+    PictureSums passes;  // without the last frame
     bool timed = true;   // the passes of all these frames were timed
 
     void addPasses(const FrameTimings& timings, std::span<const RecordedPass> recorded) {

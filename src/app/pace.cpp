@@ -44,29 +44,33 @@ void Pace::begin(const CameraPose& camera, bool otherwise, double seconds) {
   }
 }
 
-const FittedPlan& Pace::plan(const Request& request, const Planner& plan) {
-  const Planner counted = [&](const Settings& settings, int picture) {
-    FittedPlan fitted = plan(settings, picture);
-    work_ = workOf(fitted.plan, request.scene, request.state, fitted.settings);
-    return fitted;
-  };
+const FittedPlan& Pace::plan(const Request& request) {
   fitted_.plan.tiles.reset();
   lowers_ = repeats_ = false;
   if (moving() && request.budgetMs > 0.0) {
-    planMoving(request, counted);
+    planMoving(request);
   } else {
     controller_.setStill();
-    planStill(request, counted);
+    planStill(request);
   }
   return fitted_;
 }
 
+// Plans a picture, or number `picture` of a mean, with these settings.
+void Pace::planWith(const Request& request, const Settings& settings, int picture) {
+  FrameRequest frame = request.frame;
+  frame.settings = settings;
+  frame.picture = picture;
+  fitted_ = request.planner.plan(frame);
+  work_ = workOf(fitted_.plan, frame.scene, frame.state, fitted_.settings);
+}
+
 // Plans the frame within the budget. The text says what the picture gives up for that.
-void Pace::planWithinBudget(const Request& request, const Planner& plan) {
-  const Settings chosen = withPictures(request.chosen, 1);
-  const std::vector<MotionLevel> levels = motionLevels(request.scene, chosen, request.front, sampleCounts_);
+void Pace::planWithinBudget(const Request& request) {
+  const Settings chosen = withPictures(request.frame.settings, 1);
+  const std::vector<MotionLevel> levels = motionLevels(request.frame.scene, chosen, request.front, sampleCounts_);
   const size_t level = controller_.choose(levels, request.budgetMs, seconds_, [&](const Settings& settings) {
-    fitted_ = plan(settings, 0);
+    planWith(request, settings, 0);
     return work_;
   });
   lowers_ = level > 0;
@@ -95,22 +99,22 @@ void Pace::findPlayCost(std::span<const MotionLevel> levels, const Request& requ
     return ms <= request.budgetMs;
   };
   const auto best = std::min(std::ranges::find_if(levels, fits), levels.end() - 1);
-  const double scale = best->settings.view.scale / request.chosen.view.scale;
+  const double scale = best->settings.view.scale / request.frame.settings.view.scale;
   playCost_ = scale >= leastMoved
                   ? ""
                   : fmt::format("Play (about {:.2g} frames/s at {:.2g} of the resolution)", 1000.0 / ms, scale);
 }
 
-void Pace::planMoving(const Request& request, const Planner& plan) {
+void Pace::planMoving(const Request& request) {
   shown_.reset();
-  planWithinBudget(request, plan);
+  planWithinBudget(request);
   text_ = "Moving: " + text_;
 }
 
-void Pace::planStill(const Request& request, const Planner& plan) {
-  pictures_ = moving() ? 1 : stillPictures(request.chosen);
+void Pace::planStill(const Request& request) {
+  pictures_ = moving() ? 1 : stillPictures(request.frame.settings);
   // The mean begins anew when nothing moves any more, even if nothing else has changed.
-  const auto shown = moving() ? std::nullopt : std::optional(std::pair(request.chosen, request.shown));
+  const auto shown = moving() ? std::nullopt : std::optional(std::pair(request.frame.settings, request.shown));
   if (std::exchange(shown_, shown) != shown || moving()) {
     picture_ = -1;
     target_.reset();
@@ -126,9 +130,9 @@ void Pace::planStill(const Request& request, const Planner& plan) {
   planTarget(request);
   if (moving() || (pictures_ == 1 && !divides)) {
     picture_ = pictures_;
-    fitted_ = plan(withPictures(request.chosen, 1), 0);
-  } else if (picture_ >= 0 || !planFirst(request, plan)) {
-    planPicture(request, plan);
+    planWith(request, withPictures(request.frame.settings, 1), 0);
+  } else if (picture_ >= 0 || !planFirst(request)) {
+    planPicture(request);
   }
 }
 
@@ -149,10 +153,10 @@ void Pace::planTarget(const Request& request) {
 // Plans the first frame in full quality if that is fast, else a draft. Returns false if the first picture of the mean
 // is fast enough to come at once. A slow frame would delay the mean, whose pictures have one sample; a single picture
 // is drawn in tiles only if it would hold up input for long.
-bool Pace::planFirst(const Request& request, const Planner& plan) {
+bool Pace::planFirst(const Request& request) {
   const bool single = pictures_ == 1;
-  const Settings settings = withPictures(request.chosen, 1);
-  fitted_ = plan(settings, 0);
+  const Settings settings = withPictures(request.frame.settings, 1);
+  planWith(request, settings, 0);
   const double most = (single ? longestWait : 1.0) * request.budgetMs;
   const bool whole = request.budgetMs <= 0.0 || controller_.predict(work_) <= most;
   picture_ = whole && single ? 1 : 0;
@@ -160,23 +164,23 @@ bool Pace::planFirst(const Request& request, const Planner& plan) {
     text_ = single ? "" : meanText();
     return true;
   }
-  const FrameWork work = scaledWork(work_, settings, pictureSettings(withPictures(request.chosen, pictures_)));
+  const FrameWork work = scaledWork(work_, settings, pictureSettings(withPictures(request.frame.settings, pictures_)));
   if (controller_.predict(work) <= longestWait * request.budgetMs) {
     return false;
   }
   slow_.emplace();
-  planWithinBudget(request, plan);
+  planWithinBudget(request);
   draft_ = text_ = "Draft: " + text_;
   return true;
 }
 
 // Plans the next picture of the mean or, if it is slow, its next tiles.
-void Pace::planPicture(const Request& request, const Planner& plan) {
+void Pace::planPicture(const Request& request) {
   if (!slow_ && picture_ > 0 && request.budgetMs > 0.0) {
     slow_.emplace();
   }
   if (!slow_ || slow_->finished()) {
-    fitted_ = plan(withPictures(request.chosen, pictures_), pictures_ == 1 ? 0 : picture_);
+    planWith(request, withPictures(request.frame.settings, pictures_), pictures_ == 1 ? 0 : picture_);
     const double ms = controller_.predict(work_);
     if (slow_ && ms > longestWait * request.budgetMs && drawnInTiles(fitted_)) {
       const size_t faces = faceCount(fitted_.plan);

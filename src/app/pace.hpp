@@ -7,7 +7,7 @@
 #include "app/slow_picture.hpp"
 #include "core/gpu_timer.hpp"
 #include "frame/debug_view.hpp"
-#include "frame/memory_fit.hpp"
+#include "frame/fitted_plan.hpp"
 
 namespace speculum {
 
@@ -80,19 +80,18 @@ class Pace {
   // Pass and kind of a target.
   using Target = std::pair<MirrorPath, TargetKind>;
   struct Request {
-    const Scene& scene;
-    const SceneState& state;
-    const Settings& chosen;
+    FrameRequest frame;       // with the chosen settings
+    PicturePlanner& planner;  // is asked a few times, or not at all between tiles of a picture
     Shown shown;
     double budgetMs = 0.0;               // 0: nothing is lowered
     std::span<const MotionLevel> front;  // as motionLevels takes it
     bool input = false;                  // there is some, which a frame with tiles must not hold up
     std::optional<Target> target;        // that the panels show and that is not there yet
   };
-  // Plans the frame. Calls `plan` a few times, or not at all between tiles of a picture, with settings and the number
-  // of a picture in their mean; returns the plan of the last call, valid until the next frame's.
-  using Planner = std::function<FittedPlan(const Settings&, int picture)>;
-  const FittedPlan& plan(const Request& request, const Planner& plan);
+  // Plans the frame. The plan is valid until the next frame's.
+  const FittedPlan& plan(const Request& request);
+  // Leaves textures out of the frame that was planned.
+  void leaveOutTextures() { fitted_.settings.effects.textures = false; }
 
   // Call when the frame was recorded: `cpuMs` without the `waitedMs` that its parts were waited for; `usual`: nothing
   // but drawing took time, so that the cost model may learn from it.
@@ -110,12 +109,13 @@ class Pace {
   const std::string& text() const { return text_; }
 
  private:
-  // These set fitted_ and text_.
-  void planWithinBudget(const Request& request, const Planner& plan);
-  void planMoving(const Request& request, const Planner& plan);
-  void planStill(const Request& request, const Planner& plan);
-  bool planFirst(const Request& request, const Planner& plan);
-  void planPicture(const Request& request, const Planner& plan);
+  // These set fitted_, work_ and text_.
+  void planWith(const Request& request, const Settings& settings, int picture);
+  void planWithinBudget(const Request& request);
+  void planMoving(const Request& request);
+  void planStill(const Request& request);
+  bool planFirst(const Request& request);
+  void planPicture(const Request& request);
   void findPlayCost(std::span<const MotionLevel> levels, const Request& request);
   void planTarget(const Request& request);
   void planTiles(const Request& request);

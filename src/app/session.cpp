@@ -152,37 +152,6 @@ int exitCodeOfChecks(int validationMessages, uint64_t nonFinite) {
   return validationMessages > 0 || nonFinite > 0 ? 1 : 0;
 }
 
-BudgetPlanner::BudgetPlanner(const Device& device, bool keepsPicture) {
-  // Leaves a quarter for meshes, textures and other programs. Reads the budget only once, so that plans of equal frames
-  // are equal.
-  limits_.budgetBytes = device.memoryBudget().budgetBytes / 4 * 3;
-  limits_.largestSide =
-      static_cast<int>(std::min({device.limits().maxImageDimension2D, device.limits().maxViewportDimensions[0],
-                                 device.limits().maxViewportDimensions[1]}));
-  limits_.cpu = device.info().isCpu();
-  limits_.keepsPicture = keepsPicture;
-  tracesRays_ =
-      device.caps().primitiveId && device.limits().maxPerStageDescriptorStorageBuffers >= TraceFrame::storageBuffers;
-  bufferLimits_ = traceBufferLimits(device.limits());
-}
-
-FittedPlan BudgetPlanner::plan(const Scene& scene, const SceneState& state, const Settings& settings, int width,
-                               int height, const FrameCache& cache, int picture) {
-  if (std::max(width, height) > limits_.largestSide) {
-    throw UsageError("--size: " + std::to_string(width) + "x" + std::to_string(height) +
-                     " is larger than the device draws (at most " + std::to_string(limits_.largestSide) +
-                     " pixels a side)");
-  }
-  const TraceBufferBytes needed = largestTraceBuffers(scene, state.instances.size());
-  limits_.tracesRays = tracesRays_ && needed.texels <= bufferLimits_.texels && needed.storage <= bufferLimits_.storage;
-  FittedPlan fitted = planWithin(limits_, scene, state, settings, width, height, cache, picture);
-  if (!fitted.message.empty() && message_.empty()) {
-    spdlog::warn("{}", fitted.message);
-  }
-  message_ = fitted.message;
-  return fitted;
-}
-
 Session::Session(const Options& options, Device* device)
     : size_(options.size),
       loaded_(loadSceneWithSettings(options)),
@@ -217,8 +186,12 @@ void Session::drawPicture(bool capture) {
   const Clock::time_point recording = Clock::now();
   FrameCache cache = sceneRenderer_.cache(frame_.state);
   cache.main = nullptr;  // the main view is drawn in every frame, so that its pass is reported
-  FittedPlan fitted =
-      planner_.plan(loaded_.scene, frame_.state, loaded_.settings, size_.width, size_.height, cache, frame_.pictures);
+  FittedPlan fitted = planner_.plan({.scene = loaded_.scene,
+                                     .state = frame_.state,
+                                     .settings = loaded_.settings,
+                                     .size = {size_.width, size_.height},
+                                     .cache = cache,
+                                     .picture = frame_.pictures});
   frame_.plan = std::move(fitted.plan);
   frame_.settings = fitted.settings;
   frame.capture = capture && last;

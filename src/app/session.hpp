@@ -5,14 +5,13 @@
 #include <functional>
 #include <memory>
 
+#include "app/frame_planner.hpp"
 #include "app/options.hpp"
-#include "app/pass_sums.hpp"
+#include "app/picture_sums.hpp"
 #include "app/quality.hpp"
 #include "frame/effects.hpp"
-#include "frame/memory_fit.hpp"
 #include "scene/scene_loader.hpp"
 #include "systems/scene_renderer.hpp"
-#include "systems/trace_scene.hpp"
 
 namespace speculum {
 
@@ -52,22 +51,6 @@ void applyDebugSettings(const Settings& settings, Device& device);
 // stderr for each that did.
 int exitCodeOfChecks(int validationMessages, uint64_t nonFinite);
 
-// Calls planWithin() with the device's limits, and logs when it begins to lower settings.
-class BudgetPlanner {
- public:
-  // `keepsPicture` as in TargetLimits.
-  explicit BudgetPlanner(const Device& device, bool keepsPicture = false);
-  FittedPlan plan(const Scene& scene, const SceneState& state, const Settings& settings, int width, int height,
-                  const FrameCache& cache, int picture = 0);
-  const std::string& message() const { return message_; }  // of the last plan; empty if nothing was lowered
-
- private:
-  TargetLimits limits_;
-  bool tracesRays_ = true;  // the device can, if its buffers can hold the scene
-  TraceBufferBytes bufferLimits_;
-  std::string message_;
-};
-
 // One frame as it was planned and recorded: a picture, or the mean of view.accumulate pictures. Times, draws and counts
 // are sums over its pictures; the GPU's are there after Session::finish.
 struct DrawnFrame {
@@ -79,7 +62,7 @@ struct DrawnFrame {
   double cpuMs = 0.0;    // planning and recording
   double gpuMs = 0.0;    // see FrameTimings
   double frameMs = 0.0;  // from its beginning until the GPU has finished
-  PassSums sums;
+  PictureSums sums;
   EffectLedger ledger;
 
   const std::vector<TimedPass>& passes() const { return sums.passes(); }
@@ -128,7 +111,7 @@ class Session {
   Device& device_;
   Renderer renderer_;
   SceneRenderer sceneRenderer_;
-  BudgetPlanner planner_;
+  FramePlanner planner_;
   DrawnFrame frame_;
   std::deque<uint64_t> unfinished_;  // the renderer's frames whose figures are not in frame_ yet
   std::chrono::steady_clock::time_point start_;

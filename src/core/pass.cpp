@@ -68,7 +68,7 @@ PassDesc fullPass(std::string name, const PassTargets& targets) {
           .scissor = {{0, 0}, extent}};
 }
 
-PassGroup::PassGroup(const Barriers& barriers, VkCommandBuffer commands, std::span<const PassDesc> passes)
+SharedBarriers::SharedBarriers(const Barriers& barriers, VkCommandBuffer commands, std::span<const PassDesc> passes)
     : barriers_(barriers), commands_(commands), passes_(passes) {
   std::vector<Image*> samples;
   std::vector<Image*> outputs;
@@ -100,7 +100,7 @@ PassGroup::PassGroup(const Barriers& barriers, VkCommandBuffer commands, std::sp
   barriers_.record(commands_, kinds.depth, depths);
 }
 
-PassGroup::~PassGroup() {
+SharedBarriers::~SharedBarriers() {
   const TargetRole role = passes_.front().targets.role;
   if (role == TargetRole::swapchain) {
     return;

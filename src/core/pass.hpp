@@ -31,7 +31,7 @@ struct PassTargets {
 
 // Viewport in pixels of the target. It may exceed the target: for a part of the picture it has the picture's size, at
 // minus the part's corner.
-struct PassViewport {
+struct Viewport {
   float x = 0.0f;
   float y = 0.0f;
   float width = 0.0f;
@@ -47,7 +47,7 @@ struct PassDesc {
   // - depth is kept if `loadDepth`, or `storeDepth` and `keepsSamples`,
   // - swapchain images are kept if `loadColor`.
   VkRect2D renderArea{};
-  PassViewport viewport;
+  Viewport viewport;
   VkRect2D scissor{};  // pixels of the target, within the render area
   VkFrontFace frontFace = VK_FRONT_FACE_COUNTER_CLOCKWISE;
   std::array<float, 4> clearColor{0.0f, 0.0f, 0.0f, 1.0f};
@@ -58,7 +58,7 @@ struct PassDesc {
   bool storeSamples = false;       // keeps multisampled color for passes that load or read it
   bool keepsSamples = false;       // outside the render area too
   bool collectStatistics = false;  // triangles after clipping and fragment shader invocations
-  bool grouped = false;            // its barriers are those of its PassGroup
+  bool grouped = false;            // its barriers are those of its SharedBarriers
   bool pauses = false;             // compute shaders read `color`, with all its samples, in PassScope::pause
   bool overlay = false;            // loads and stores the display image in a VkRenderPass, on either render path
 };
@@ -69,12 +69,12 @@ PassDesc fullPass(std::string name, const PassTargets& targets);
 // Barriers of one pass, or of several that touch none of each other's targets: all before the first and all after the
 // last, so that the device may draw the passes side by side. The passes, at least one, have PassDesc::grouped set,
 // outlive the group, are begun and ended within it, and are alike in role, samples and in what they load.
-class PassGroup {
+class SharedBarriers {
  public:
-  PassGroup(const Barriers& barriers, VkCommandBuffer commands, std::span<const PassDesc> passes);
-  PassGroup(const PassGroup&) = delete;
-  PassGroup& operator=(const PassGroup&) = delete;
-  ~PassGroup();
+  SharedBarriers(const Barriers& barriers, VkCommandBuffer commands, std::span<const PassDesc> passes);
+  SharedBarriers(const SharedBarriers&) = delete;
+  SharedBarriers& operator=(const SharedBarriers&) = delete;
+  ~SharedBarriers();
 
  private:
   const Barriers& barriers_;
@@ -123,7 +123,7 @@ class PassScope {
   GpuTimer& timer_;
   VkCommandBuffer commands_;
   PassDesc desc_;
-  std::optional<PassGroup> group_;  // none in a group of several
+  std::optional<SharedBarriers> group_;  // none in a group of several
   bool dynamic_;
   bool rendering_ = false;
   int timerSlot_;

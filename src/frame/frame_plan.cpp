@@ -19,22 +19,26 @@ namespace {
 
 class Planner {
  public:
-  Planner(const Scene& scene, const SceneState& state, const Settings& settings, int width, int height,
-          const FrameCache& cache, int picture)
-      : scene_(scene), state_(state), allSettings_(settings), settings_(settings.reflection), cache_(cache) {
-    plan_.projection = Projection(state.camera.verticalFov, static_cast<double>(width) / height, state.camera.near);
-    plan_.projection.near = nearOf(state, plan_.projection);
-    plan_.width = width;
-    plan_.height = height;
-    plan_.picture = picture;
+  explicit Planner(const FrameRequest& request)
+      : scene_(request.scene),
+        state_(request.state),
+        allSettings_(request.settings),
+        settings_(request.settings.reflection),
+        cache_(request.cache) {
+    const CameraPose& camera = state_.camera;
+    plan_.width = request.size.x;
+    plan_.height = request.size.y;
+    plan_.picture = request.picture;
+    plan_.projection = Projection(camera.verticalFov, static_cast<double>(plan_.width) / plan_.height, camera.near);
+    plan_.projection.near = nearOf(state_, plan_.projection);
     const auto texels = [&](int pixels) {
-      return std::max(1, static_cast<int>(std::lround(pixels * settings.view.scale)));
+      return std::max(1, static_cast<int>(std::lround(pixels * allSettings_.view.scale)));
     };
-    size_ = {texels(width), texels(height)};
-    if (picture < settings.view.accumulate) {
-      plan_.projection.offset = -2.0 * pictureOffset(picture, settings) / glm::dvec2(size_);
+    size_ = {texels(plan_.width), texels(plan_.height)};
+    if (plan_.picture < allSettings_.view.accumulate) {
+      plan_.projection.offset = -2.0 * pictureOffset(plan_.picture, allSettings_) / glm::dvec2(size_);
     }
-    changes_ = settings_.skipUnchanged ? cache.changes : nullptr;
+    changes_ = settings_.skipUnchanged ? cache_.changes : nullptr;
   }
 
   FramePlan plan() {
@@ -279,9 +283,8 @@ std::string passName(const Scene& scene, const FramePlan& plan, const Pass& pass
   return pass.id.kind == PassKind::main ? "main view" : "mirror " + mirrorPathName(scene, pass.view.path);
 }
 
-FramePlan planFrame(const Scene& scene, const SceneState& state, const Settings& settings, int width, int height,
-                    const FrameCache& cache, int picture) {
-  return Planner(scene, state, settings, width, height, cache, picture).plan();
+FramePlan planFrame(const FrameRequest& request) {
+  return Planner(request).plan();
 }
 
 }  // namespace speculum

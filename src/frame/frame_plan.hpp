@@ -163,6 +163,16 @@ struct FrameCache {
   const SceneChanges* changes = nullptr;  // up to this frame; null: unchanged images are not looked for
 };
 
+// A picture to plan: a scene at one moment.
+struct FrameRequest {
+  const Scene& scene;
+  const SceneState& state;
+  Settings settings;   // as they are asked for
+  glm::ivec2 size{0};  // of the picture, pixels
+  FrameCache cache;    // what the frame before left
+  int picture = 0;     // number in the mean of view.accumulate pictures
+};
+
 // A frame is one list of passes. Those that draw are recorded in its order: faces of shadow maps, each after its layer,
 // faces of environment maps, mirrors, children before their parent, and the main view. Passes that the frame reuses
 // stand in the list too: what they show is on the screen. Those of mirrors stand before the mirrors that are drawn.
@@ -212,7 +222,7 @@ std::string passName(const Scene& scene, const FramePlan& plan, const Pass& pass
 // Returns the one of shownMirrors() with that path; null if there is none.
 const Pass* mirrorPass(const FramePlan& plan, std::span<const int> path);
 
-// Finds the passes that a picture of `width` x `height` pixels needs, and why every other mirror has none. Pure. The
+// Finds the passes that a picture needs, and why every other mirror has none. Pure. The
 // budget of passes goes to the best first, by visible pixels times throughput. The main view has view.scale times as
 // many texels along each side, rounded, and mirror images reflection.scale times as many as that, unless a mirror has a
 // quality of its own. An image in an image has no more texels and samples than the one that shows it.
@@ -225,9 +235,8 @@ const Pass* mirrorPass(const FramePlan& plan, std::span<const int> path);
 // `cache.cubes` are reused likewise, by reflection.skip_unchanged and effects.environment_interval. With
 // reflection.skip_unchanged and without view.continuous, so is the main view if it is exactly as it was.
 //
-// Plans picture number `picture` of a mean, at its offset, under pictureSettings(). If that is view.accumulate or more,
-// the mean is complete and is shown again: mainReused().
-FramePlan planFrame(const Scene& scene, const SceneState& state, const Settings& settings, int width, int height,
-                    const FrameCache& cache = {}, int picture = 0);
+// A picture of a mean is planned at its offset, under pictureSettings(). If its number is view.accumulate or more, the
+// mean is complete and is shown again: mainReused().
+FramePlan planFrame(const FrameRequest& request);
 
 }  // namespace speculum

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "frame/memory_fit.hpp"
+#include "frame/target_memory.hpp"
 
 namespace speculum {
 
@@ -97,7 +97,7 @@ void DeferredShading::collect(const PassScope& scope, const TraceVariant& trace)
   Barriers::requestsToUse(commands);
 }
 
-void DeferredShading::shade(const PassScope& scope, const FrameInfo& info, const PassData& pass) {
+void DeferredShading::shade(const PassScope& scope, const FrameInfo& info, const DrawList& pass) {
   idleFrames_ = 0;
   prepare(info, scope.desc());
   scope.beginLabel("deferred shading");

@@ -22,7 +22,7 @@ class DeferredShading {
   static PassDesc shaded(PassDesc pass);
 
   // Computes the radiance of the surfaces that the pass has identified. The scope is paused.
-  void shade(const PassScope& scope, const FrameInfo& info, const PassData& pass);
+  void shade(const PassScope& scope, const FrameInfo& info, const DrawList& pass);
   // Replaces the identifiers by the radiance. The scope was resumed after shade(). Returns the number of draws.
   uint32_t record(const PassScope& scope);
 

@@ -144,21 +144,21 @@ void FrameData::build(Frame& frame, const SceneResources& resources, const Scene
   DescriptorWriter writer;
   for (uint32_t kind = 0; kind < kindCount; ++kind) {
     VkDescriptorBufferInfo buffer = buffers_.buffer(frame, kind).descriptor();
-    buffer.range = kind == passBlocks ? sizeof(PassBlock) : kind == mirrors ? sizeof(gpu::MirrorBlock) : buffer.range;
+    buffer.range = kind == passBlocks ? sizeof(DrawBlock) : kind == mirrors ? sizeof(gpu::MirrorBlock) : buffer.range;
     writer.buffer(kind, typeOf(kind), buffer);
   }
   writer.buffer(kindCount, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, resources.materials().descriptor());
   writer.update(device_, set_);
 }
 
-void FrameData::bind(const Pipeline& pipeline, VkCommandBuffer commands, const PassData& pass, uint32_t mirror) const {
-  const std::array offsets{pass.pass * static_cast<uint32_t>(sizeof(PassBlock)),
+void FrameData::bind(const Pipeline& pipeline, VkCommandBuffer commands, const DrawList& pass, uint32_t mirror) const {
+  const std::array offsets{pass.pass * static_cast<uint32_t>(sizeof(DrawBlock)),
                            mirror * static_cast<uint32_t>(sizeof(gpu::MirrorBlock))};
   pipeline.bind(commands);
   pipeline.bindSet(commands, 0, set_, offsets);
 }
 
-void FrameData::addPass(const Source& source, const Pass& pass, PassData& data) {
+void FrameData::addPass(const Source& source, const Pass& pass, DrawList& data) {
   const auto& [scene, state, settings, environment, plan] = source;
   const glm::dmat4 projection = viewProjection(pass.projection, pass.view, settings.reflection.clip);
   data.pass = static_cast<uint32_t>(passBlocks_.size());
@@ -187,7 +187,7 @@ void FrameData::addPass(const Source& source, const Pass& pass, PassData& data) 
 
 // Lights with a shadow map come first, so that passes share pipelines. In both groups, lights whose glyphs are visible
 // stand where the groups meet, so that one instanced draw covers them.
-void FrameData::addLights(const Source& source, const Pass& pass, PassBlock& block, PassData& data) {
+void FrameData::addLights(const Source& source, const Pass& pass, DrawBlock& block, DrawList& data) {
   const Scene& scene = source.scene;
   const double scale = source.settings.view.radianceScale();
   block.view.firstLight = static_cast<uint32_t>(lights_.size());
@@ -216,7 +216,7 @@ void FrameData::addLights(const Source& source, const Pass& pass, PassBlock& blo
 }
 
 void FrameData::addInstances(const Source& source, const Pass& pass, const glm::dmat4& clipFromRelative,
-                             PassData& data) {
+                             DrawList& data) {
   const Scene& scene = source.scene;
   const SceneState& state = source.state;
   const EffectSettings& effects = source.settings.effects;
@@ -287,7 +287,7 @@ void FrameData::addEnvironment(const Source& source, const Pass& pass, int insta
   curvedMirrors_.push_back(data);
 }
 
-void FrameData::addMirrors(const Source& source, const Pass& pass, const glm::dmat4& projection, PassData& data) {
+void FrameData::addMirrors(const Source& source, const Pass& pass, const glm::dmat4& projection, DrawList& data) {
   const auto& [scene, state, settings, environment, plan] = source;
   const EffectSettings& effects = settings.effects;
   const std::vector<ClipPolygon> polygons = mirrorPolygons(pass, projection);
@@ -344,7 +344,7 @@ void FrameData::addRepeating(const Scene& scene, const SceneState& state, const 
   }
 }
 
-void FrameData::addMask(const Pass& pass, const FramePlan& plan, const Settings& settings, PassData& data) {
+void FrameData::addMask(const Pass& pass, const FramePlan& plan, const Settings& settings, DrawList& data) {
   if (pass.view.path.empty() || !settings.debug.maskPasses) {
     return;
   }

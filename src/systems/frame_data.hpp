@@ -60,7 +60,7 @@ struct MirrorRange {
 };
 
 // Draws of one pass: indices into the buffers of FrameData.
-struct PassData {
+struct DrawList {
   uint32_t pass = 0;        // index into the passes of the frame
   bool mirrorView = false;  // the view is that of a mirror
   std::vector<Batch> batches;
@@ -86,11 +86,11 @@ class FrameData {
   void build(Frame& frame, const SceneResources& resources, const Scene& scene, const SceneState& state,
              const Settings& settings, const Environment& environment, const FramePlan& plan);
 
-  const std::vector<PassData>& passes() const { return passes_; }
+  const std::vector<DrawList>& passes() const { return passes_; }
   // InstanceData::repeats of each instance of the scene; empty without repeating triangles.
   std::span<const uint32_t> repeats() const { return repeats_; }
   // Binds the pipeline, and set 0 for draws of `pass`, or of `mirror` in it.
-  void bind(const Pipeline& pipeline, VkCommandBuffer commands, const PassData& pass, uint32_t mirror = 0) const;
+  void bind(const Pipeline& pipeline, VkCommandBuffer commands, const DrawList& pass, uint32_t mirror = 0) const;
   // MirrorData by MirrorData::index, each at a multiple of 256 bytes.
   VkDescriptorBufferInfo mirrorBuffer(const Frame& frame) const { return buffers_.buffer(frame, mirrors).descriptor(); }
   // InstanceData by instance, as vertex attributes: the same buffer that the set has.
@@ -101,7 +101,7 @@ class FrameData {
   enum Kind { passBlocks, mirrors, lights, instances, curvedMirrors, mirrorVertices, repeating, kindCount };
 
   // A uniform block at a dynamic offset, as gpu::MirrorBlock is.
-  struct alignas(256) PassBlock {
+  struct alignas(256) DrawBlock {
     gpu::ViewData view;
     gpu::LightData lights[gpu::fixedLights];  // all, if there are no more
   };
@@ -117,19 +117,19 @@ class FrameData {
     const Environment& environment;
     const FramePlan& plan;
   };
-  void addPass(const Source& source, const Pass& pass, PassData& data);
-  void addLights(const Source& source, const Pass& pass, PassBlock& block, PassData& data);
-  void addInstances(const Source& source, const Pass& pass, const glm::dmat4& clipFromRelative, PassData& data);
+  void addPass(const Source& source, const Pass& pass, DrawList& data);
+  void addLights(const Source& source, const Pass& pass, DrawBlock& block, DrawList& data);
+  void addInstances(const Source& source, const Pass& pass, const glm::dmat4& clipFromRelative, DrawList& data);
   // Makes the instance's batch look up its environment map.
   void addEnvironment(const Source& source, const Pass& pass, int instance, Batch& batch);
-  void addMirrors(const Source& source, const Pass& pass, const glm::dmat4& projection, PassData& data);
+  void addMirrors(const Source& source, const Pass& pass, const glm::dmat4& projection, DrawList& data);
   void addRepeating(const Scene& scene, const SceneState& state, const glm::dvec3& eye);
-  void addMask(const Pass& pass, const FramePlan& plan, const Settings& settings, PassData& data);
+  void addMask(const Pass& pass, const FramePlan& plan, const Settings& settings, DrawList& data);
 
   Device& device_;
   DescriptorSetLayoutHandle layout_;
   FrameBuffers buffers_;
-  std::vector<PassBlock> passBlocks_;
+  std::vector<DrawBlock> passBlocks_;
   std::vector<gpu::MirrorBlock> mirrors_;
   std::vector<gpu::LightData> lights_;
   std::vector<glm::vec3> clearances_;  // LightData::clearance of each light of the scene
@@ -139,7 +139,7 @@ class FrameData {
   std::vector<glm::vec4> mirrorVertices_;
   std::vector<gpu::RepeatingTriangle> repeating_;
   std::vector<uint32_t> repeats_;  // InstanceData::repeats of each instance of the scene
-  std::vector<PassData> passes_;
+  std::vector<DrawList> passes_;
   VkDescriptorSet set_ = VK_NULL_HANDLE;
   VkBuffer instanceBuffer_ = VK_NULL_HANDLE;
 };

@@ -2,7 +2,7 @@
 
 namespace speculum {
 
-uint32_t MaskSystem::record(const PassScope& scope, const FrameInfo& info, const PassData& pass) {
+uint32_t MaskSystem::record(const PassScope& scope, const FrameInfo& info, const DrawList& pass) {
   if (pass.maskVertexCount == 0) {
     return 0;
   }

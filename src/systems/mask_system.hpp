@@ -13,8 +13,8 @@ class MaskSystem {
       : frameLayout_(frameLayout), pipelines_(factory) {}
 
   // Value that a pass clears its depth to.
-  static float clearDepth(const PassData& pass) { return pass.maskVertexCount > 0 ? 1.0f : 0.0f; }
-  uint32_t record(const PassScope& scope, const FrameInfo& info, const PassData& pass);
+  static float clearDepth(const DrawList& pass) { return pass.maskVertexCount > 0 ? 1.0f : 0.0f; }
+  uint32_t record(const PassScope& scope, const FrameInfo& info, const DrawList& pass);
 
  private:
   VkDescriptorSetLayout frameLayout_;

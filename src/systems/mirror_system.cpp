@@ -28,7 +28,7 @@ bool MirrorSystem::defers(const FrameInfo& info, const MirrorRange& mirror) {
   return mirror.byRays || (mirror.colored && info.trace.variant().traced);
 }
 
-bool MirrorSystem::defers(const FrameInfo& info, const PassData& pass) {
+bool MirrorSystem::defers(const FrameInfo& info, const DrawList& pass) {
   return std::ranges::any_of(pass.mirrors, [&](const MirrorRange& mirror) { return defers(info, mirror); });
 }
 
@@ -124,7 +124,7 @@ MirrorSystem::Variant MirrorSystem::variantOf(const MirrorRange& mirror, Shading
   return variant;
 }
 
-uint32_t MirrorSystem::record(const PassScope& scope, const FrameInfo& info, const PassData& pass) {
+uint32_t MirrorSystem::record(const PassScope& scope, const FrameInfo& info, const DrawList& pass) {
   uint32_t draws = 0;
   for (const MirrorRange& mirror : pass.mirrors) {
     const Shading shading = shadingOf(scope, mirror, imageOf(mirror, info));
@@ -142,7 +142,7 @@ uint32_t MirrorSystem::record(const PassScope& scope, const FrameInfo& info, con
   return draws;
 }
 
-uint32_t MirrorSystem::recordReflections(const PassScope& scope, const FrameInfo& info, const PassData& pass) {
+uint32_t MirrorSystem::recordReflections(const PassScope& scope, const FrameInfo& info, const DrawList& pass) {
   uint32_t draws = 0;
   for (const MirrorRange& mirror : pass.mirrors) {
     if (defers(info, mirror) && !mirror.byRays && mirror.shows != MirrorShows::back) {
@@ -154,7 +154,7 @@ uint32_t MirrorSystem::recordReflections(const PassScope& scope, const FrameInfo
   return draws;
 }
 
-void MirrorSystem::draw(const PassScope& scope, const FrameInfo& info, const PassData& pass, const MirrorRange& mirror,
+void MirrorSystem::draw(const PassScope& scope, const FrameInfo& info, const DrawList& pass, const MirrorRange& mirror,
                         Variant variant) {
   const bool identifies = variant.shading == Shading::identifier;
   variant.samples = scope.samples();

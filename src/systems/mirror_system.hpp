@@ -17,11 +17,11 @@ class MirrorSystem {
   MirrorSystem(Device& device, Uploader& uploader, PipelineFactory& factory, VkDescriptorSetLayout frameLayout);
 
   // Returns the number of draws, as the other functions that record.
-  uint32_t record(const PassScope& scope, const FrameInfo& info, const PassData& pass);
+  uint32_t record(const PassScope& scope, const FrameInfo& info, const DrawList& pass);
   // Says whether record() draws identifiers in a pass.
-  static bool defers(const FrameInfo& info, const PassData& pass);
+  static bool defers(const FrameInfo& info, const DrawList& pass);
   // Adds reflections to the bases under them, after deferred shading.
-  uint32_t recordReflections(const PassScope& scope, const FrameInfo& info, const PassData& pass);
+  uint32_t recordReflections(const PassScope& scope, const FrameInfo& info, const DrawList& pass);
   void countPipelines(EffectLedger& ledger) const;
   // Drops pipelines as RenderSystem::endFrame does.
   void endFrame(const TraceVariant& trace, bool shadowMaps, bool imagesShown);
@@ -53,7 +53,7 @@ class MirrorSystem {
   GraphicsPipelineDesc describe(const Variant& variant, const FrameInfo& info) const;
   // How a mirror without identifier is drawn.
   Shading shadingOf(const PassScope& scope, const MirrorRange& mirror, const MirrorImage* image) const;
-  void draw(const PassScope& scope, const FrameInfo& info, const PassData& pass, const MirrorRange& mirror,
+  void draw(const PassScope& scope, const FrameInfo& info, const DrawList& pass, const MirrorRange& mirror,
             Variant variant);
 
   Device& device_;

@@ -72,7 +72,8 @@ SharedDepth& MirrorTargets::depth(VkSampleCountFlagBits samples, size_t place, V
   return *depth.image;
 }
 
-std::vector<PassTargets> MirrorTargets::acquire(const FramePlan& plan, const PassRange& range, RetireQueue& retired) {
+std::vector<PassTargets> MirrorTargets::acquire(const FramePlan& plan, const ConcurrentPasses& range,
+                                                RetireQueue& retired) {
   const RecycledVector<size_t> order = largestFirst(plan, range);
   std::vector<PassTargets> targets(order.size());
   std::map<VkSampleCountFlagBits, size_t> places;

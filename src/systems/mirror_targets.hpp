@@ -3,7 +3,7 @@
 #include <map>
 #include <optional>
 
-#include "frame/pass_range.hpp"
+#include "frame/concurrent_passes.hpp"
 #include "systems/frame_data.hpp"
 #include "systems/image_pool.hpp"
 
@@ -24,7 +24,7 @@ class MirrorTargets {
   void begin(const FramePlan& plan, std::optional<int> watched, RetireQueue& retired);
   // Returns targets for the passes of a range, in order, each with a depth image of its own. The images that the range
   // looks up stay untouched.
-  std::vector<PassTargets> acquire(const FramePlan& plan, const PassRange& range, RetireQueue& retired);
+  std::vector<PassTargets> acquire(const FramePlan& plan, const ConcurrentPasses& range, RetireQueue& retired);
   // Releases the images that a recorded pass looked up.
   void releaseShown(const FramePlan& plan, const Pass& pass);
   void end(const FramePlan& plan, RetireQueue& retired);

@@ -2,7 +2,7 @@
 
 namespace speculum {
 
-uint32_t PointLightSystem::record(const PassScope& scope, const FrameInfo& info, const PassData& pass) {
+uint32_t PointLightSystem::record(const PassScope& scope, const FrameInfo& info, const DrawList& pass) {
   if (pass.glyphCount == 0) {
     return 0;
   }

@@ -12,7 +12,7 @@ class PointLightSystem {
   PointLightSystem(PipelineFactory& factory, VkDescriptorSetLayout frameLayout)
       : frameLayout_(frameLayout), pipelines_(factory) {}
 
-  uint32_t record(const PassScope& scope, const FrameInfo& info, const PassData& pass);
+  uint32_t record(const PassScope& scope, const FrameInfo& info, const DrawList& pass);
   // Drops pipelines that have not been used for some frames. `stays` prevents that, while cached images show glyphs.
   void endFrame(bool stays);
   size_t pipelineCount() const { return pipelines_.size(); }

@@ -18,7 +18,7 @@ bool RenderSystem::defers(const FrameInfo& info, const Batch& batch) {
   return info.trace.variant().traced || batch.curved;
 }
 
-bool RenderSystem::defers(const FrameInfo& info, const PassData& pass) {
+bool RenderSystem::defers(const FrameInfo& info, const DrawList& pass) {
   return std::ranges::any_of(pass.batches, [&](const Batch& batch) { return defers(info, batch); });
 }
 
@@ -126,7 +126,7 @@ void RenderSystem::countDraw(EffectLedger& ledger, const Variant& variant) {
   ledger.draw(EffectKind::wireframe, variant.wireframe);
 }
 
-uint32_t RenderSystem::recordBatch(const PassScope& scope, const FrameInfo& info, const PassData& pass,
+uint32_t RenderSystem::recordBatch(const PassScope& scope, const FrameInfo& info, const DrawList& pass,
                                    const Batch& batch, Variant variant, const DeferredShading* shading) {
   const VkCommandBuffer commands = scope.commands();
   variant.curved = batch.curved;
@@ -195,7 +195,7 @@ void RenderSystem::endFrame(const TraceVariant& trace, bool shadowMaps, bool ima
   });
 }
 
-uint32_t RenderSystem::recordSky(const PassScope& scope, const FrameInfo& info, const PassData& pass) {
+uint32_t RenderSystem::recordSky(const PassScope& scope, const FrameInfo& info, const DrawList& pass) {
   const Pipeline& pipeline = skies_.get(scope.samples(), [&] {
     return GraphicsPipelineDesc{.name = "sky",
                                 .vert = "full_screen.vert",
@@ -210,7 +210,7 @@ uint32_t RenderSystem::recordSky(const PassScope& scope, const FrameInfo& info, 
   return 1;
 }
 
-RenderSystem::Variant RenderSystem::variantOf(const PassScope& scope, const FrameInfo& info, const PassData& pass) {
+RenderSystem::Variant RenderSystem::variantOf(const PassScope& scope, const FrameInfo& info, const DrawList& pass) {
   const ClipMethod clip = info.settings.reflection.clip;
   return {.samples = scope.samples(),
           .clipDistance = pass.mirrorView && clip == ClipMethod::clipDistance,
@@ -218,7 +218,7 @@ RenderSystem::Variant RenderSystem::variantOf(const PassScope& scope, const Fram
           .wireframe = info.settings.view.wireframe};
 }
 
-uint32_t RenderSystem::record(const PassScope& scope, const FrameInfo& info, const PassData& pass) {
+uint32_t RenderSystem::record(const PassScope& scope, const FrameInfo& info, const DrawList& pass) {
   Variant variant = variantOf(scope, info, pass);
   uint32_t draws = 0;
   for (const Batch& batch : pass.batches) {
@@ -229,7 +229,7 @@ uint32_t RenderSystem::record(const PassScope& scope, const FrameInfo& info, con
   return draws + (info.environment.sky ? recordSky(scope, info, pass) : 0);
 }
 
-uint32_t RenderSystem::recordReflections(const PassScope& scope, const FrameInfo& info, const PassData& pass,
+uint32_t RenderSystem::recordReflections(const PassScope& scope, const FrameInfo& info, const DrawList& pass,
                                          const DeferredShading& shading) {
   Variant variant = variantOf(scope, info, pass);
   variant.added = true;

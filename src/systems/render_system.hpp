@@ -20,11 +20,11 @@ class RenderSystem {
       : frameLayout_(frameLayout), textureLayout_(textureLayout), objects_(factory), skies_(factory) {}
 
   // Returns the number of draws. Objects whose shading needs rays are drawn as identifiers.
-  uint32_t record(const PassScope& scope, const FrameInfo& info, const PassData& pass);
+  uint32_t record(const PassScope& scope, const FrameInfo& info, const DrawList& pass);
   // Says whether record() draws identifiers in a pass.
-  static bool defers(const FrameInfo& info, const PassData& pass);
+  static bool defers(const FrameInfo& info, const DrawList& pass);
   // Adds what curved mirrors look up in environment maps to their bases, after deferred shading.
-  uint32_t recordReflections(const PassScope& scope, const FrameInfo& info, const PassData& pass,
+  uint32_t recordReflections(const PassScope& scope, const FrameInfo& info, const DrawList& pass,
                              const DeferredShading& shading);
   void countPipelines(EffectLedger& ledger) const;
   // Drops pipelines of traced surfaces, or that look up textures and have not been used for some frames. While cached
@@ -54,10 +54,10 @@ class RenderSystem {
   GraphicsPipelineDesc objects(const Variant& variant, const FrameInfo& info, const DeferredShading* shading) const;
   static bool defers(const FrameInfo& info, const Batch& batch);
   static void countDraw(EffectLedger& ledger, const Variant& variant);
-  static Variant variantOf(const PassScope& scope, const FrameInfo& info, const PassData& pass);
-  uint32_t recordBatch(const PassScope& scope, const FrameInfo& info, const PassData& pass, const Batch& batch,
+  static Variant variantOf(const PassScope& scope, const FrameInfo& info, const DrawList& pass);
+  uint32_t recordBatch(const PassScope& scope, const FrameInfo& info, const DrawList& pass, const Batch& batch,
                        Variant variant, const DeferredShading* shading = nullptr);
-  uint32_t recordSky(const PassScope& scope, const FrameInfo& info, const PassData& pass);
+  uint32_t recordSky(const PassScope& scope, const FrameInfo& info, const DrawList& pass);
 
   VkDescriptorSetLayout frameLayout_;
   VkDescriptorSetLayout textureLayout_;

@@ -20,14 +20,14 @@ VkFrontFace frontFace(const View& view) {
 
 }  // namespace
 
-PassViewport viewportOf(const View& view) {
+Viewport viewportOf(const View& view) {
   const glm::dvec2 size = overscan(view) * view.pictureSize;
   const glm::dvec2 corner = 0.5 * (view.pictureSize - size) - glm::dvec2(view.rect.x, view.rect.y);
   return {static_cast<float>(corner.x), static_cast<float>(corner.y), static_cast<float>(size.x),
           static_cast<float>(size.y)};
 }
 
-PassDesc scenePass(std::string name, const PassTargets& targets, const VkRect2D& area, const PassViewport& viewport,
+PassDesc scenePass(std::string name, const PassTargets& targets, const VkRect2D& area, const Viewport& viewport,
                    const View& view, const Environment& environment) {
   return {.name = std::move(name),
           .targets = targets,

@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "frame/cube_face.hpp"
-#include "frame/memory_fit.hpp"
 #include "frame/picture_tiles.hpp"
+#include "frame/target_memory.hpp"
 #include "image/enlarge.hpp"
 #include "systems/scene_pass.hpp"
 
@@ -14,7 +14,7 @@ namespace speculum {
 namespace {
 
 // Says whether surfaces of the pass are shaded by DeferredShading.
-bool defers(const FrameInfo& info, const PassData& pass) {
+bool defers(const FrameInfo& info, const DrawList& pass) {
   return MirrorSystem::defers(info, pass) || RenderSystem::defers(info, pass);
 }
 
@@ -161,7 +161,8 @@ void SceneRenderer::recordPasses(const FrameInfo& info) {
   const FramePlan& plan = info.plan;
   // Passes of a group render side by side, without the pause of deferred shading.
   const bool grouped = !plan.tiles && !info.trace.set();
-  const RecycledVector<PassRange> groups = grouped ? independentPasses(plan) : RecycledVector<PassRange>();
+  const RecycledVector<ConcurrentPasses> groups =
+      grouped ? independentPasses(plan) : RecycledVector<ConcurrentPasses>();
   auto group = groups.begin();
   for (size_t i = 0; i < plan.passes.size(); ++i) {
     if (tiles_[i].empty()) {
@@ -175,7 +176,7 @@ void SceneRenderer::recordPasses(const FrameInfo& info) {
         recordEnvironment(info, i);
         break;
       case PassKind::mirror: {
-        const PassRange range = grouped ? *group++ : PassRange{i, i + 1};
+        const ConcurrentPasses range = grouped ? *group++ : ConcurrentPasses{i, i + 1};
         recordMirrors(info, range);
         i = range.end - 1;
         break;
@@ -209,8 +210,8 @@ void SceneRenderer::recordEnvironment(const FrameInfo& info, size_t index) {
   const Pass& face = info.plan.passes[index];
   OffScreen& target = environmentTarget(info.plan, face);
   const VkExtent2D size = extentOf(face.view.rect.width, face.view.rect.height);
-  const PassViewport viewport{static_cast<float>(face.corner.x), static_cast<float>(face.corner.y),
-                              static_cast<float>(size.width), static_cast<float>(size.height)};
+  const Viewport viewport{static_cast<float>(face.corner.x), static_cast<float>(face.corner.y),
+                          static_cast<float>(size.width), static_cast<float>(size.height)};
   const PassDesc desc = scenePass(passName(scene_, info.plan, face), target.targets(),
                                   {{face.corner.x, face.corner.y}, size}, viewport, face.view, info.environment);
   const uint32_t drawsBefore = ledger_[EffectKind::curved].draws;
@@ -230,7 +231,7 @@ void SceneRenderer::recordEnvironment(const FrameInfo& info, size_t index) {
 }
 
 // Releases and checks images after the whole range, because barriers are recorded only before and after it.
-void SceneRenderer::recordMirrors(const FrameInfo& info, const PassRange& range) {
+void SceneRenderer::recordMirrors(const FrameInfo& info, const ConcurrentPasses& range) {
   const TileRange tiles = tiles_[range.first];  // of all passes, or of the only one
   if (tiles.first == 0) {
     passTargets_ = mirrorTargets_.acquire(info.plan, range, *info.frame.retired);
@@ -247,7 +248,7 @@ void SceneRenderer::recordMirrors(const FrameInfo& info, const PassRange& range)
   }
   const size_t firstRecorded = log_.passes().size();
   {
-    std::optional<PassGroup> group;
+    std::optional<SharedBarriers> group;
     if (descs.front().grouped) {
       group.emplace(device_.barriers(), info.frame.commands, descs);
     }
@@ -380,7 +381,7 @@ void SceneRenderer::makeRoom(Frame& frame, size_t tiles) {
 }
 
 void SceneRenderer::drawScene(const FrameInfo& info, size_t index, const PassDesc& desc, RecordedPass pass) {
-  const PassData& data = info.data.passes()[index];
+  const DrawList& data = info.data.passes()[index];
   const bool deferred = defers(info, data);
   PassScope scope = renderer_.beginPass(info.frame, deferred ? DeferredShading::identifying(desc) : desc);
   pass.draws = maskSystem_.record(scope, info, data);

@@ -80,7 +80,7 @@ class SceneRenderer {
   void recordPasses(const FrameInfo& info);
   void recordShadow(const FrameInfo& info, size_t index);
   void recordEnvironment(const FrameInfo& info, size_t index);
-  void recordMirrors(const FrameInfo& info, const PassRange& range);
+  void recordMirrors(const FrameInfo& info, const ConcurrentPasses& range);
   void recordMain(const FrameInfo& info, size_t index);
   // Target of the environment map that the pass is a face of.
   OffScreen& environmentTarget(const FramePlan& plan, const Pass& face);

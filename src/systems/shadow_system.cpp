@@ -122,7 +122,7 @@ const Pipeline& ShadowSystem::pipelineFor(Drawn drawn) {
 
 uint32_t ShadowSystem::draw(const PassScope& scope, const FrameInfo& info, size_t pass, bool overLayer) {
   const VkCommandBuffer commands = scope.commands();
-  const PassData& data = info.data.passes()[pass];
+  const DrawList& data = info.data.passes()[pass];
   uint32_t draws = 0;
   if (overLayer) {
     const Pipeline& pipeline = pipelineFor(Drawn::layer);

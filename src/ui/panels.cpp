@@ -116,7 +116,7 @@ std::string measuredHere(const FrameView& frame, std::string_view key) {
   }
   const bool mirrors = key.starts_with("reflection.");
   double ms = 0.0;
-  for (const PassView& pass : frame.passes) {
+  for (const PassRow& pass : frame.passes) {
     const bool counts = pass.kind == (mirrors ? PassKind::mirror : PassKind::main) && pass.timed && !pass.reused;
     ms += counts ? pass.gpuMs : 0.0;
   }

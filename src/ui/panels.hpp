@@ -33,8 +33,8 @@ struct PanelState {
     std::optional<WindowRect> canvas;   // where the target is drawn; none while the window is closed
   } targets;
 
-  struct Passes {
-    std::vector<PassView> passes;  // rows
+  struct Rows {
+    std::vector<PassRow> passes;  // rows
     std::vector<SkippedView> skipped;
     std::vector<PassId> order;        // of a click on a column's head; empty: the scene's
     std::optional<std::string> step;  // of undo, when the pointer came upon them; none after an edit since
@@ -111,7 +111,7 @@ void log(PanelContext& ui);
 void accuracy(PanelContext& ui);
 // Leaves its lower part transparent, because the renderer draws the target there.
 void targets(PanelContext& ui);
-bool hasTarget(const PassView& pass);
+bool hasTarget(const PassRow& pass);
 
 // Windows of their own.
 void loading(PanelContext& ui);  // while something is loaded

@@ -23,9 +23,9 @@ std::string pathParent(const std::string& name) {
 }
 
 // Returns the branches with that parent, each with those below it.
-std::vector<PassBranch> nested(std::span<const PassBranch> branches, int parent = -1) {
-  std::vector<PassBranch> children;
-  for (const PassBranch& branch : branches) {
+std::vector<TreeNode> nested(std::span<const TreeNode> branches, int parent = -1) {
+  std::vector<TreeNode> children;
+  for (const TreeNode& branch : branches) {
     if (branch.parent == parent) {
       children.push_back(branch);
       children.back().children = nested(branches, branch.pass);
@@ -36,46 +36,46 @@ std::vector<PassBranch> nested(std::span<const PassBranch> branches, int parent 
 
 // Returns the median that the Performance panel shows, because times of single frames jump; where it has none of these
 // frames, or sums passes of one name, that of the timed frame.
-double usualMs(const FrameView& frame, const PassView& pass) {
-  const bool known = !frame.history.paused() && std::ranges::count(frame.passes, pass.name, &PassView::name) == 1;
+double usualMs(const FrameView& frame, const PassRow& pass) {
+  const bool known = !frame.history.paused() && std::ranges::count(frame.passes, pass.name, &PassRow::name) == 1;
   const double median = known ? percentile(frame.history.filledSeries(pass.name), 0.5) : std::nan("");
   return !std::isnan(median) ? median : pass.timed ? pass.gpuMs : 0.0;
 }
 
 }  // namespace
 
-std::vector<PassBranch> passTree(std::span<const PassView> passes, std::span<const SkippedView> skipped,
-                                 std::span<const PassId> order) {
+std::vector<TreeNode> passTree(std::span<const PassRow> passes, std::span<const SkippedView> skipped,
+                               std::span<const PassId> order) {
   constexpr int notListed = -2;
   const auto parentOf = [&](const MirrorPath& path) {
     const auto parent = std::ranges::find_if(
-        passes, [&](const PassView& pass) { return panels::hasTarget(pass) && isSeenIn(path, pass.path); });
+        passes, [&](const PassRow& pass) { return panels::hasTarget(pass) && isSeenIn(path, pass.path); });
     return parent == passes.end() ? notListed : static_cast<int>(parent - passes.begin());
   };
-  std::vector<PassBranch> branches;
-  for (const PassView& pass : passes) {
+  std::vector<TreeNode> branches;
+  for (const PassRow& pass : passes) {
     branches.push_back(
         {.pass = static_cast<int>(branches.size()), .parent = pass.path.empty() ? -1 : parentOf(pass.path)});
   }
   for (size_t i = 0; i < skipped.size(); ++i) {
     const int parent = parentOf(skipped[i].path);
-    if (parent >= 0 && std::ranges::find(passes, skipped[i].path, &PassView::path) == passes.end()) {
+    if (parent >= 0 && std::ranges::find(passes, skipped[i].path, &PassRow::path) == passes.end()) {
       branches[static_cast<size_t>(parent)].skipped.push_back(static_cast<int>(i));
     }
   }
-  for (PassBranch& branch : branches) {
+  for (TreeNode& branch : branches) {
     std::ranges::stable_sort(branch.skipped, {}, [&](int i) { return skipped[static_cast<size_t>(i)].path; });
   }
-  std::ranges::stable_sort(branches, {}, [&](const PassBranch& branch) {
-    const PassView& pass = passes[static_cast<size_t>(branch.pass)];
+  std::ranges::stable_sort(branches, {}, [&](const TreeNode& branch) {
+    const PassRow& pass = passes[static_cast<size_t>(branch.pass)];
     const auto rank = std::ranges::find(order, PassId(pass)) - order.begin();
     return std::tuple(rank, pass.kind != PassKind::main, pass.path, pass.kind, pass.light, pass.instance, pass.face);
   });
   return nested(branches);
 }
 
-std::vector<PassBranch> passTree(std::span<const std::string> names) {
-  std::vector<PassBranch> branches;
+std::vector<TreeNode> passTree(std::span<const std::string> names) {
+  std::vector<TreeNode> branches;
   for (const std::string& name : names) {
     const auto parent = std::ranges::find(names, pathParent(name));
     branches.push_back({.pass = static_cast<int>(branches.size()),
@@ -96,7 +96,7 @@ std::string pathEnd(const std::string& name) {
 
 double restOfPasses(const FrameView& frame) {
   double rest = frame.timedGpuMs > 0.0 ? frame.timedGpuMs : std::nan("");
-  for (const PassView& pass : frame.passes) {
+  for (const PassRow& pass : frame.passes) {
     rest -= pass.timed ? pass.gpuMs : 0.0;
   }
   return std::max(rest, 0.0);
@@ -107,7 +107,7 @@ std::string mirrorCost(const FrameView& frame, int mirror) {
   double ms = 0.0;
   double pixels = 0.0;
   bool reused = true;
-  for (const PassView& pass : frame.passes) {
+  for (const PassRow& pass : frame.passes) {
     if (pass.kind == PassKind::mirror && pass.path.back() == mirror) {
       ++passes;
       ms += pass.reused ? 0.0 : usualMs(frame, pass);

@@ -9,21 +9,21 @@
 namespace speculum {
 
 // A pass with what is seen in it.
-struct PassBranch {
+struct TreeNode {
   int pass = -1;             // index into the passes of the tree
   int parent = -1;           // index of the pass that it is seen in; -1: none
   std::vector<int> skipped;  // indices into FrameView::skipped: mirrors seen in it that have no pass of their own
-  std::vector<PassBranch> children;
+  std::vector<TreeNode> children;
 };
 
 // Returns the main view, with every mirror pass below the pass that it is seen in, and then the passes that are no
 // view, those of `order` first, then in the order of the scene. Leaves out mirrors, with a pass or skipped, whose
 // parent is not listed. A mirror whose image is reused is listed with the pass that rendered it, not among the skipped
 // ones.
-std::vector<PassBranch> passTree(std::span<const PassView> passes, std::span<const SkippedView> skipped,
-                                 std::span<const PassId> order = {});
+std::vector<TreeNode> passTree(std::span<const PassRow> passes, std::span<const SkippedView> skipped,
+                               std::span<const PassId> order = {});
 // Returns the passes with these names in such trees. One whose parent is not among them has none.
-std::vector<PassBranch> passTree(std::span<const std::string> names);
+std::vector<TreeNode> passTree(std::span<const std::string> names);
 
 // Returns the last mirror in a pass's name, which is enough in a tree that shows its parents.
 std::string pathEnd(const std::string& name);

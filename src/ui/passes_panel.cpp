@@ -20,7 +20,7 @@ std::string metres(const std::optional<double>& value) {
   return value ? significant(*value, 2) : "never";
 }
 
-void depthResolution(const PassView& pass, ClipMethod inUse) {
+void depthResolution(const PassRow& pass, ClipMethod inUse) {
   ImGui::TableNextColumn();
   figure(pass.resolution ? metres(gapWith(*pass.resolution, inUse)) : "");
   if (!pass.resolution) {
@@ -50,19 +50,19 @@ void textAcrossColumns(const std::string& text) {
 }
 
 // Takes the frame's passes, or their figures alone while the pointer is on the rows, which then keep their places.
-void followPasses(PanelState::Passes& rows, const FrameView& frame) {
+void followPasses(PanelState::Rows& rows, const FrameView& frame) {
   if (!rows.held || frame.passes.empty()) {
     rows.passes = frame.passes;
     rows.skipped = frame.skipped;
     return;
   }
-  for (PassView& pass : rows.passes) {
-    const auto now = std::ranges::find_if(frame.passes, [&](const PassView& p) { return PassId(p) == PassId(pass); });
+  for (PassRow& pass : rows.passes) {
+    const auto now = std::ranges::find_if(frame.passes, [&](const PassRow& p) { return PassId(p) == PassId(pass); });
     now != frame.passes.end() ? void(pass = *now) : void(pass.timed = false);
   }
 }
 
-void skippedRows(PanelContext& ui, const PassBranch& node) {
+void skippedRows(PanelContext& ui, const TreeNode& node) {
   if (node.skipped.empty()) {
     return;
   }
@@ -96,8 +96,8 @@ void skippedRows(PanelContext& ui, const PassBranch& node) {
   ImGui::TreePop();
 }
 
-void passRow(PanelContext& ui, const PassBranch& node) {
-  const PassView& pass = ui.state.passes.passes[static_cast<size_t>(node.pass)];
+void passRow(PanelContext& ui, const TreeNode& node) {
+  const PassRow& pass = ui.state.passes.passes[static_cast<size_t>(node.pass)];
   std::optional<MirrorPath>& target = ui.state.targets.path;
   const bool shown = hasTarget(pass) && target == pass.path;
   const bool leaf = node.children.empty() && node.skipped.empty();
@@ -136,7 +136,7 @@ void passRow(PanelContext& ui, const PassBranch& node) {
   if (!open) {
     return;
   }
-  for (const PassBranch& child : node.children) {
+  for (const TreeNode& child : node.children) {
     passRow(ui, child);
   }
   skippedRows(ui, node);
@@ -175,8 +175,8 @@ void header(PanelContext& ui) {
     column > 0 ? figure(name) : ImGui::TextUnformatted(name);
     recordWidget(ui, "passes.head " + std::to_string(column), about[static_cast<size_t>(column)]);
     if (column <= 1 && ImGui::IsItemClicked()) {
-      std::vector<PassView> sorted = column == 1 ? ui.state.passes.passes : std::vector<PassView>();
-      std::ranges::stable_sort(sorted, {}, [](const PassView& p) { return std::isnan(p.gpuMs) ? 0.0 : -p.gpuMs; });
+      std::vector<PassRow> sorted = column == 1 ? ui.state.passes.passes : std::vector<PassRow>();
+      std::ranges::stable_sort(sorted, {}, [](const PassRow& p) { return std::isnan(p.gpuMs) ? 0.0 : -p.gpuMs; });
       ui.state.passes.order.assign(sorted.begin(), sorted.end());
     }
   }
@@ -195,7 +195,7 @@ void mirrorRow(PanelContext& ui, const MirrorPath& path) {
 
 void passes(PanelContext& ui) {
   const FrameView& frame = ui.view.frame;
-  PanelState::Passes& rows = ui.state.passes;
+  PanelState::Rows& rows = ui.state.passes;
   const bool pointed = ImGui::IsWindowHovered(ImGuiHoveredFlags_AllowWhenBlockedByActiveItem);
   if (!pointed) {
     rows.step = ui.view.edit.undo;
@@ -221,7 +221,7 @@ void passes(PanelContext& ui) {
   figureColumn("Depth gap", 4.4f, further);
   header(ui);
   ImGui::PushStyleVar(ImGuiStyleVar_IndentSpacing, 0.3f * ImGui::GetFontSize());
-  for (const PassBranch& node : passTree(rows.passes, rows.skipped, rows.order)) {
+  for (const TreeNode& node : passTree(rows.passes, rows.skipped, rows.order)) {
     passRow(ui, node);
   }
   restRow(ui);

@@ -33,7 +33,7 @@ void row(PanelContext& ui, const std::string& name, const std::vector<float>& va
   const float indent = 0.8f * ImGui::GetFontSize() * static_cast<float>(depth);
   ImGui::SetCursorPosX(ImGui::GetCursorPosX() + indent);
   ImGui::TextUnformatted(thatFits(depth > 0 ? pathEnd(name) : pathText(name)).c_str());
-  const auto pass = std::ranges::find(ui.view.frame.passes, name, &PassView::name);
+  const auto pass = std::ranges::find(ui.view.frame.passes, name, &PassRow::name);
   const bool ofMirror = pass != ui.view.frame.passes.end() && !pass->path.empty();
   recordWidget(ui, "name." + name, name + (ofMirror ? "\nA click selects the mirror." : ""));
   if (ofMirror && ImGui::IsItemHovered()) {
@@ -49,9 +49,9 @@ void row(PanelContext& ui, const std::string& name, const std::vector<float>& va
 }
 
 // Draws the rows of passes, each followed by those that are seen in it.
-void passRows(PanelContext& ui, const std::vector<std::string>& names, std::span<const PassBranch> branches,
-              float height, int depth = 0) {
-  for (const PassBranch& branch : branches) {
+void passRows(PanelContext& ui, const std::vector<std::string>& names, std::span<const TreeNode> branches, float height,
+              int depth = 0) {
+  for (const TreeNode& branch : branches) {
     const std::string& name = names[static_cast<size_t>(branch.pass)];
     row(ui, name, ui.view.frame.history.filledSeries(name), height, depth);
     passRows(ui, names, branch.children, height, depth + 1);

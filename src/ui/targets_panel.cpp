@@ -46,14 +46,14 @@ void background(const ImRect& canvas) {
 
 using Targets = PanelState::Targets;
 
-void passChoice(PanelContext& ui, const PassView* shown) {
+void passChoice(PanelContext& ui, const PassRow* shown) {
   const float width = 10.0f * ImGui::GetFontSize();
   const float room = width - ImGui::GetFrameHeight() - 2.0f * ImGui::GetStyle().FramePadding.x;
   ImGui::SetNextItemWidth(width);
   const std::string preview = shown ? thatFits(shown->name, room) : "";
   if (ImGui::BeginCombo("##pass", preview.c_str())) {
     for (size_t i = 0; i < ui.view.frame.passes.size(); ++i) {
-      const PassView& pass = ui.view.frame.passes[i];
+      const PassRow& pass = ui.view.frame.passes[i];
       ImGui::PushID(static_cast<int>(i));  // names may repeat
       if (hasTarget(pass) && ImGui::Selectable(pass.name.c_str(), &pass == shown)) {
         ui.state.targets.path = pass.path;
@@ -65,7 +65,7 @@ void passChoice(PanelContext& ui, const PassView* shown) {
   recordWidget(ui, "targets.pass", "Pass whose target is shown.");
 }
 
-void controls(PanelContext& ui, const PassView* shown) {
+void controls(PanelContext& ui, const PassRow* shown) {
   struct Choice {
     Targets::Kind kind;
     const char* label;
@@ -176,11 +176,11 @@ PixelRect inPixels(const ImRect& rect) {
 }
 
 // Returns the pass whose target is shown: the chosen one, or the main view if that is gone.
-const PassView* shownPass(PanelContext& ui) {
-  const std::vector<PassView>& passes = ui.view.frame.passes;
+const PassRow* shownPass(PanelContext& ui) {
+  const std::vector<PassRow>& passes = ui.view.frame.passes;
   const auto pass =
-      std::ranges::find_if(passes, [&](const PassView& p) { return hasTarget(p) && ui.state.targets.path == p.path; });
-  const auto main = std::ranges::find(passes, PassKind::main, &PassView::kind);
+      std::ranges::find_if(passes, [&](const PassRow& p) { return hasTarget(p) && ui.state.targets.path == p.path; });
+  const auto main = std::ranges::find(passes, PassKind::main, &PassRow::kind);
   const auto shown = pass != passes.end() ? pass : main;
   ui.state.targets.path = shown != passes.end() ? std::optional(shown->path) : std::nullopt;
   return shown != passes.end() ? &*shown : nullptr;
@@ -217,14 +217,14 @@ void besideTarget(const PanelContext& ui, const std::function<void()>& draw) {
   }
 }
 
-bool hasTarget(const PassView& pass) {
+bool hasTarget(const PassRow& pass) {
   return pass.kind == PassKind::mirror || pass.kind == PassKind::main;
 }
 
 void targets(PanelContext& ui) {
   const TargetView& target = ui.view.frame.target;
   Targets& targets = ui.state.targets;
-  const PassView* shown = shownPass(ui);
+  const PassRow* shown = shownPass(ui);
   // The controls are drawn first, because the canvas begins below as many lines as they take. The background around the
   // canvas is then put under them.
   ImDrawList& list = *ImGui::GetWindowDrawList();

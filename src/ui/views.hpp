@@ -18,7 +18,7 @@ namespace speculum {
 
 // Everything that panels show. A class of src/app fills each struct: the one whose view() or fill() has its type.
 
-struct PassView : PassId {
+struct PassRow : PassId {
   std::string name;
   int framesAgo = 0;    // since it ran
   bool reused = false;  // by the frame that drew the scene last: no pass, the image of an earlier frame
@@ -61,8 +61,8 @@ struct FrameView {
   uint64_t deviceBytes = 0;
   uint64_t budgetBytes = 0;
   uint64_t usedBytes = 0;
-  int validationMessages = -1;   // -1: the layer is off
-  std::vector<PassView> passes;  // in the order of recording; with reflection.update_interval, of that many frames
+  int validationMessages = -1;  // -1: the layer is off
+  std::vector<PassRow> passes;  // in the order of recording; with reflection.update_interval, of that many frames
   std::vector<SkippedView> skipped;
   std::vector<EffectView> effects;  // all, in a fixed order
   std::string rays;                 // how they are traced and why; empty: none are

@@ -88,7 +88,7 @@ void useScene(Scene scene, Settings settings) {
     const SceneState state = evaluate(scene, time);
     checkTransforms(state);
     checkMirrors(state);
-    const FramePlan plan = planFrame(scene, state, settings, kWidth, kHeight, {.images = cached});
+    const FramePlan plan = planFrame({scene, state, settings, {kWidth, kHeight}, {.images = cached}});
     checkPlan(plan, settings, scene.mirrors.size());
     cached = plan.cached;
   }

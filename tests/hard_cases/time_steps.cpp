@@ -109,7 +109,7 @@ TEST(LongTimes, ProductsKeepTheirRemainder) {
 TEST(LongTimes, CountersPassTwoToThe31Frames) {
   const Scene scene = movingScene();
   const SceneState state = evaluate(scene, 0.0);
-  const auto plan = [&](const FrameCache& cache) { return planFrame(scene, state, Settings(), 64, 36, cache); };
+  const auto plan = [&](const FrameCache& cache) { return planFrame({scene, state, Settings(), {64, 36}, cache}); };
   SceneChanges changes;
   changes.update(scene, state);
   FramePlan last = plan({.changes = &changes});

@@ -22,7 +22,7 @@ FramePlan planOf(const Scene& scene, int width, int height, int maxDepth) {
   settings.reflection.maxPasses = 1000;
   settings.reflection.minPixels = 0.0;
   settings.reflection.minThroughput = 0.0;
-  return planFrame(scene, evaluate(scene, 0.0), settings, width, height);
+  return planFrame({scene, evaluate(scene, 0.0), settings, {width, height}});
 }
 
 glm::vec4 shaderClip(const gpu::InstanceData& data, const Vertex& vertex) {

@@ -45,7 +45,7 @@ class Studio {
     state.camera = camera.value_or(state.camera);
     FrameCache cache = sceneRenderer.cache(state);
     cache.main = reusesMain ? cache.main : nullptr;
-    plan = planFrame(scene, state, settings, size_.width, size_.height, cache);
+    plan = planFrame({scene, state, settings, {size_.width, size_.height}, cache});
     frame.capture = true;
     sceneRenderer.record(frame, state, settings, plan);
     gpu_.renderer.endFrame(frame);

@@ -1,5 +1,5 @@
-#include "frame/memory_fit.hpp"
-#include "frame/pass_range.hpp"
+#include "frame/concurrent_passes.hpp"
+#include "frame/target_memory.hpp"
 #include "frame_support.hpp"
 #include "test_headers.hpp"
 
@@ -14,9 +14,9 @@ FramePlan rangePlan(std::vector<Mirror> mirrors, int maxDepth) {
   return testing_support::planOf(testing_support::sceneWith(std::move(mirrors)), settings);
 }
 
-void expectWhole(const FramePlan& plan, const RecycledVector<PassRange>& ranges) {
+void expectWhole(const FramePlan& plan, const RecycledVector<ConcurrentPasses>& ranges) {
   size_t next = 0;
-  for (const PassRange& range : ranges) {
+  for (const ConcurrentPasses& range : ranges) {
     EXPECT_EQ(range.first, next);
     EXPECT_GT(range.end, range.first);
     next = range.end;
@@ -24,7 +24,7 @@ void expectWhole(const FramePlan& plan, const RecycledVector<PassRange>& ranges)
   EXPECT_EQ(next, plan.drawnMirrors().size());
 }
 
-TEST(PassRange, MirrorsSideBySideShareOneRange) {
+TEST(ConcurrentPasses, MirrorsSideBySideShareOneRange) {
   const FramePlan plan =
       rangePlan({wall({-2, 0, -5}, 0, {1, 1}), wall({0, 0, -5}, 0, {2, 2}), wall({2, 0, -5}, 0, {1.5, 1})}, 1);
   ASSERT_EQ(plan.drawnMirrors().size(), 3u);
@@ -37,14 +37,14 @@ TEST(PassRange, MirrorsSideBySideShareOneRange) {
   }
 }
 
-TEST(PassRange, RangesHoldNoPassWithItsImages) {
+TEST(ConcurrentPasses, RangesHoldNoPassWithItsImages) {
   const FramePlan plan =
       rangePlan({wall({-1, 0, -2}, 70, {3, 2}), wall({1, 0, -2}, -70, {3, 2}), wall({0, 0, -5}, 0, {1, 2})}, 4);
   ASSERT_GT(plan.drawnMirrors().size(), 6u);
   const auto ranges = independentPasses(plan);
   expectWhole(plan, ranges);
   EXPECT_LT(ranges.size(), plan.drawnMirrors().size());
-  for (const PassRange& range : ranges) {
+  for (const ConcurrentPasses& range : ranges) {
     for (size_t i = range.first; i < range.end; ++i) {
       for (const MirrorDraw& draw : plan.drawnMirrors()[i].mirrors) {
         EXPECT_LT(draw.pass, static_cast<int>(range.first)) << "pass " << i;
@@ -53,7 +53,7 @@ TEST(PassRange, RangesHoldNoPassWithItsImages) {
   }
 }
 
-TEST(PassRange, RangesCoverAtMostOnePicture) {
+TEST(ConcurrentPasses, RangesCoverAtMostOnePicture) {
   // Each mirror covers more than half of the picture; the second is beside and behind the first.
   const FramePlan plan = rangePlan({wall({-1, 0, -3}, 0, {6, 4}), wall({3, 0, -5}, 0, {8, 8})}, 1);
   ASSERT_EQ(plan.drawnMirrors().size(), 2u);
@@ -61,7 +61,7 @@ TEST(PassRange, RangesCoverAtMostOnePicture) {
   EXPECT_EQ(independentPasses(plan).size(), 2u);
 }
 
-TEST(PassRange, MemoryIncludesDepthOfTheLargestRange) {
+TEST(ConcurrentPasses, MemoryIncludesDepthOfTheLargestRange) {
   Settings settings;
   settings.reflection.samples = 1;
   settings.view.samples = 1;

@@ -1,10 +1,10 @@
-#include "app/pass_sums.hpp"
+#include "app/picture_sums.hpp"
 
 #include <algorithm>
 
 namespace speculum {
 
-void PassSums::add(std::span<const RecordedPass> passes, const FrameTimings& timings) {
+void PictureSums::add(std::span<const RecordedPass> passes, const FrameTimings& timings) {
   for (size_t i = 0; i < passes.size(); ++i) {
     const PassId& id = passes[i];
     auto sum = std::ranges::find_if(passes_, [&](const PassId& pass) { return pass == id; });

@@ -14,7 +14,7 @@ struct TimedPass : RecordedPass {
 };
 
 // Passes with the sums of their draws and figures over frames, which draw parts of a picture or pictures of a mean.
-class PassSums {
+class PictureSums {
  public:
   // Call before the first frame of a picture. Pictures may differ in passes at the edge of the view.
   void beginPicture() { place_ = 0; }

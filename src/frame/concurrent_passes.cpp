@@ -1,4 +1,4 @@
-#include "frame/pass_range.hpp"
+#include "frame/concurrent_passes.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -19,8 +19,8 @@ bool showsImageOf(const Pass& pass, size_t first) {
 
 }  // namespace
 
-RecycledVector<PassRange> independentPasses(const FramePlan& plan) {
-  RecycledVector<PassRange> ranges;
+RecycledVector<ConcurrentPasses> independentPasses(const FramePlan& plan) {
+  RecycledVector<ConcurrentPasses> ranges;
   double covered = 0.0;  // pixels, by the last range
   for (size_t i = 0; i < plan.passes.size(); ++i) {
     const Pass& pass = plan.passes[i];
@@ -38,7 +38,7 @@ RecycledVector<PassRange> independentPasses(const FramePlan& plan) {
   return ranges;
 }
 
-RecycledVector<size_t> largestFirst(const FramePlan& plan, const PassRange& range) {
+RecycledVector<size_t> largestFirst(const FramePlan& plan, const ConcurrentPasses& range) {
   RecycledVector<size_t> passes(range.end - range.first);
   std::iota(passes.begin(), passes.end(), range.first);
   std::ranges::sort(passes, {}, [&](size_t i) { return std::pair(-area(plan.passes[i]), i); });
