@@ -288,11 +288,13 @@ std::shared_ptr<const int> lockFolder(const fs::path& folder) {
 
 std::string fileNameOf(const std::string& name, const std::string& ending) {
   constexpr size_t longest = 255;  // bytes, in usual file systems
-  size_t length = std::min(name.size(), longest - ending.size());
+  const size_t most = std::min(name.size(), longest - ending.size());
+  size_t length = most;
   while (length > 0 && length < name.size() && continuesCharacter(name[length])) {
     --length;
   }
-  return name.substr(0, length) + ending;
+  constexpr size_t longestRest = 3;  // bytes after the first of a character; a name with more of them is no UTF-8
+  return name.substr(0, most - length > longestRest ? most : length) + ending;
 }
 
 TemporaryDirectory::TemporaryDirectory() {
