@@ -127,21 +127,19 @@ TEST(Hidden, OccluderOfAllIsNamedAlone) {
   EXPECT_EQ(skipOf(p, {0})->detail, "behind object 'door'");
 }
 
-// A scene with boxes of 2 m whose sides are cut into 2 n^2 triangles. They have no flat occluders.
-Scene sceneWithBoxes(std::vector<Mirror> mirrors, const std::vector<Object>& objects, int n = 1) {
+// A scene with boxes of 2 m. They have no flat occluders.
+Scene sceneWithBoxes(std::vector<Mirror> mirrors, const std::vector<Object>& objects) {
   Scene scene = sceneWith(std::move(mirrors), objects);
   Triangles boxes;
   for (int side = 0; side < 6; ++side) {
-    for (int cell = 0; cell < n * n; ++cell) {
-      const auto at = [&](int x, int y) {
-        glm::dvec3 p;
-        p[side / 2] = side % 2 == 0 ? 1.0 : -1.0;
-        p[(side / 2 + 1) % 3] = 2.0 * (cell % n + x) / n - 1.0;
-        p[(side / 2 + 2) % 3] = 2.0 * (cell / n + y) / n - 1.0;
-        return p;
-      };
-      boxes.quad(at(0, 0), at(1, 0), at(1, 1), at(0, 1));
-    }
+    const auto at = [&](double x, double y) {
+      glm::dvec3 p;
+      p[side / 2] = side % 2 == 0 ? 1.0 : -1.0;
+      p[(side / 2 + 1) % 3] = x;
+      p[(side / 2 + 2) % 3] = y;
+      return p;
+    };
+    boxes.quad(at(-1, -1), at(1, -1), at(1, 1), at(-1, 1));
   }
   scene.meshes = {meshOf(boxes.positions, boxes.indices)};
   scene.meshes[0].faces.clear();

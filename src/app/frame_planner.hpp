@@ -16,8 +16,8 @@ class FramePlanner : public PicturePlanner {
   // `keepsPicture` as in TargetLimits.
   explicit FramePlanner(const Device& device, bool keepsPicture = false);
 
-  // Call before the plans of a frame if either is not so: no mirror may show the image of an earlier frame, and
-  // textures that were left out are not tried again, because each trial waits for the device.
+  // Call before the plans of a frame. With `rendersMirrors` no mirror shows the image of an earlier frame. With
+  // `leavesOutTextures` textures that were left out are not tried again, because each trial waits for the device.
   void begin(bool rendersMirrors, bool leavesOutTextures);
   // Logs when it begins to lower settings. Throws UsageError for a picture that is larger than the device draws.
   FittedPlan plan(const FrameRequest& request) override;

@@ -86,7 +86,7 @@ struct FaceWindow {
   glm::dvec2 low{0.0};
   glm::dvec2 high{0.0};
 
-  bool empty() const { return low == high; }
+  bool empty() const { return low.x >= high.x || low.y >= high.y; }
 };
 
 // One pass: a view, what is drawn in it, and where its image comes from.
@@ -99,7 +99,6 @@ struct Pass {
   int cube = -1;         // index into FramePlan::cubes of the cube that it is a face of; -1: none
   int layer = -1;        // index into FramePlan::passes of the pass whose image a shadow map's face is drawn over
   bool isLayer = false;  // the pass is such a layer; it has the id of its face
-  bool inReach = true;   // a view may show a part of what a shadow map's face shows
   FaceWindow window;     // of a shadow map's face
   ImageQuality quality;
   ImageQuality shownIn;           // of the pass that shows the image
@@ -222,10 +221,10 @@ std::string passName(const Scene& scene, const FramePlan& plan, const Pass& pass
 // Returns the one of shownMirrors() with that path; null if there is none.
 const Pass* mirrorPass(const FramePlan& plan, std::span<const int> path);
 
-// Finds the passes that a picture needs, and why every other mirror has none. Pure. The
-// budget of passes goes to the best first, by visible pixels times throughput. The main view has view.scale times as
-// many texels along each side, rounded, and mirror images reflection.scale times as many as that, unless a mirror has a
-// quality of its own. An image in an image has no more texels and samples than the one that shows it.
+// Finds the passes that a picture needs, and why every other mirror has none. Pure. The budget of passes goes to the
+// best first, by visible pixels times throughput. The main view has view.scale times as many texels along each side,
+// rounded, and mirror images reflection.scale times as many as that, unless a mirror has a quality of its own. An image
+// in an image has no more texels and samples than the one that shows it.
 //
 // With reflection.skip_unchanged, a mirror seen directly reuses its image in `cache.images` if everything that the
 // image depends on is exactly as it was. With reflection.update_interval above 1, it also does so while the image is

@@ -18,10 +18,6 @@ constexpr double smallestWindow = 1e-3;
 // by a part of a pixel.
 constexpr double margin = 1.05;
 
-bool isEmpty(const FaceWindow& window) {
-  return window.low.x >= window.high.x || window.low.y >= window.high.y;
-}
-
 constexpr FaceWindow nothing{glm::dvec2(1.0), glm::dvec2(-1.0)};
 
 // Returns the part of the face in which the box is seen: nothing if the box lies beyond one of the face's sides, the
@@ -142,14 +138,14 @@ class FacePlanner {
   }
 
   Pass plan(const glm::dvec3& center, const FaceAxes& axes) const {
-    Pass face{.source = PassSource::unread, .inReach = false};
+    Pass face{.source = PassSource::unread};
     FaceWindow window = nothing;
     for (const Bounds& box : boxes_) {
-      if (const FaceWindow seen = windowOf(box, center, axes); !isEmpty(seen)) {
+      if (const FaceWindow seen = windowOf(box, center, axes); !seen.empty()) {
         window = {glm::min(window.low, seen.low), glm::max(window.high, seen.high)};
       }
     }
-    if (isEmpty(window)) {
+    if (window.empty()) {
       return face;
     }
     window = onGrid(window);
