@@ -82,7 +82,11 @@ struct Window {
   void move(int frames) {
     for (int i = 0; i < frames; ++i) {
       const double seconds = times.empty() ? 0.0 : times.back() / 1000.0;
-      chosen.push_back(controller.choose(levels, budget, seconds, [&](const Settings& s) { return work(s); }));
+      size_t level = controller.begin(levels, budget, seconds);
+      while (const std::optional<size_t> next = controller.next(levels, work(levels[level].settings))) {
+        level = *next;
+      }
+      chosen.push_back(level);
       times.push_back(draw(levels[chosen.back()].settings));
     }
   }

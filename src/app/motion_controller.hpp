@@ -1,7 +1,6 @@
 #pragma once
 
 #include <deque>
-#include <functional>
 #include <optional>
 #include <span>
 
@@ -16,14 +15,14 @@ namespace speculum {
 // fitted. It needs no device. docs/window.md describes it for users.
 class MotionController {
  public:
-  // Plans a frame with these settings and returns its work.
-  using Planner = std::function<FrameWork(const Settings&)>;
-
   explicit MotionController(bool cpuDevice) : model_(cpuDevice) {}
 
-  // Chooses the level of the next frame, `seconds` after the last, for a budget of `budgetMs` (above 0). Calls
-  // `plan` a few times, last with the settings of the chosen level.
-  size_t choose(std::span<const MotionLevel> levels, double budgetMs, double seconds, const Planner& plan);
+  // Chooses the level of the next frame, `seconds` after the last, for a budget of `budgetMs` (above 0). Plan the frame
+  // at the level that this returns, then at each level that next() returns for the work of the last plan. The last plan
+  // is the frame's.
+  size_t begin(std::span<const MotionLevel> levels, double budgetMs, double seconds);
+  // Returns the level to plan next, or nothing if the one planned last is chosen.
+  std::optional<size_t> next(std::span<const MotionLevel> levels, const FrameWork& work);
   // Call when the picture stands still: the next moving frame may have any level.
   void setStill() { moving_ = false; }
 
@@ -32,12 +31,27 @@ class MotionController {
   double predict(const FrameWork& work) const { return model_.predict(work); }
 
  private:
-  size_t fittingLevel(std::span<const MotionLevel> levels, size_t first, size_t planned, const FrameWork& work,
-                      double ms) const;
+  // Why a level is planned.
+  enum class Try {
+    afterStanding,  // a movement begins with the level of the last one
+    current,        // the level of the last frame, or the one that fits where a movement begins
+    lower,          // the last one planned takes too long
+    higher,         // there seems to be room for it
+    back,           // there was none
+  };
+  size_t fittingLevel(std::span<const MotionLevel> levels, size_t first, const FrameWork& work) const;
+  std::optional<size_t> nextFromCurrent(std::span<const MotionLevel> levels, const FrameWork& work);
+  std::optional<size_t> lower(std::span<const MotionLevel> levels, const FrameWork& work);
+  std::optional<size_t> tryLevel(Try why, size_t level);
+  void choose();
 
   CostModel model_;
-  size_t level_ = 0;
+  double budgetMs_ = 0.0;
+  size_t level_ = 0;   // planned last
+  size_t before_ = 0;  // chosen for the last frame
+  Try try_ = Try::current;
   bool moving_ = false;
+  bool begins_ = false;           // the movement, with this frame
   double patience_ = 0.0;         // seconds at a level before a better one is tried
   double sinceChange_ = 0.0;      // seconds
   bool raised_ = false;           // the last change was to a better level

@@ -35,8 +35,8 @@ bool drawnInTiles(const FittedPlan& fitted) {
 
 }  // namespace
 
-void Pace::begin(const CameraPose& camera, bool otherwise, double seconds) {
-  movement_.update(camera, otherwise, seconds);
+void Pace::begin(const CameraPose& camera, bool contentMoves, double seconds) {
+  movement_.update(camera, contentMoves, seconds);
   seconds_ = seconds;
   begun_ = Clock::now();
   if (!drawn_.empty() && drawn_.back().frameMs == 0.0) {
@@ -46,7 +46,8 @@ void Pace::begin(const CameraPose& camera, bool otherwise, double seconds) {
 
 const FittedPlan& Pace::plan(const Request& request) {
   fitted_.plan.tiles.reset();
-  lowers_ = repeats_ = false;
+  level_ = 0;
+  text_.clear();
   if (moving() && request.budgetMs > 0.0) {
     planMoving(request);
   } else {
@@ -69,15 +70,16 @@ void Pace::planWith(const Request& request, const Settings& settings, int pictur
 void Pace::planWithinBudget(const Request& request) {
   const Settings chosen = withPictures(request.frame.settings, 1);
   const std::vector<MotionLevel> levels = motionLevels(request.frame.scene, chosen, request.front, sampleCounts_);
-  const size_t level = controller_.choose(levels, request.budgetMs, seconds_, [&](const Settings& settings) {
-    planWith(request, settings, 0);
-    return work_;
-  });
-  lowers_ = level > 0;
+  level_ = controller_.begin(levels, request.budgetMs, seconds_);
+  planWith(request, levels[level_].settings, 0);
+  while (const std::optional<size_t> next = controller_.next(levels, work_)) {
+    level_ = *next;
+    planWith(request, levels[level_].settings, 0);
+  }
   if (learned_ >= framesToKnow) {
     findPlayCost(levels, request);
   }
-  MotionLevel shown = levels[level];
+  MotionLevel shown = levels[level_];
   // A limit that leaves no image out costs no quality. Images below the chosen limit count too.
   const auto skips = [&](SkipReason reason) {
     return std::ranges::count(fitted_.plan.skipped, reason, &SkippedMirror::reason) > 0;
@@ -106,98 +108,109 @@ void Pace::findPlayCost(std::span<const MotionLevel> levels, const Request& requ
 }
 
 void Pace::planMoving(const Request& request) {
+  forgetStill();
+  state_ = State::moving;
   shown_.reset();
   planWithinBudget(request);
   text_ = "Moving: " + text_;
 }
 
+void Pace::forgetStill() {
+  state_ = State::changed;
+  picture_ = 0;
+  target_.reset();
+  slow_ = {};
+  draft_.clear();
+}
+
 void Pace::planStill(const Request& request) {
-  pictures_ = moving() ? 1 : stillPictures(request.frame.settings);
   // The mean begins anew when nothing moves any more, even if nothing else has changed.
   const auto shown = moving() ? std::nullopt : std::optional(std::pair(request.frame.settings, request.shown));
   if (std::exchange(shown_, shown) != shown || moving()) {
-    picture_ = -1;
-    target_.reset();
-    redraws_ = false;
-    slow_.reset();
-    draft_.clear();
+    forgetStill();
   }
+  pictures_ = moving() ? 1 : stillPictures(request.frame.settings);
   const bool divides = request.budgetMs > 0.0;
-  if (!divides) {
-    slow_.reset();
+  if (!divides && !slow_.finished()) {
+    slow_ = {};
+    target_.reset();
   }
-  text_.clear();
-  planTarget(request);
-  if (moving() || (pictures_ == 1 && !divides)) {
-    picture_ = pictures_;
-    planWith(request, withPictures(request.frame.settings, 1), 0);
-  } else if (picture_ >= 0 || !planFirst(request)) {
-    planPicture(request);
+  const State state = stateAfter(request);
+  if (pictures_ == 1 && !divides) {
+    planWhole(request);
+    state_ = state == State::changed ? State::whole : State::done;
+  } else if (state == State::changed) {
+    planFirst(request);
+  } else {
+    planPicture(request, state);
   }
 }
 
-// Draws the last picture of a complete mean again for a target that was not kept, once: the mean itself stays. A single
-// picture is drawn again anyway if the plan cannot reuse it.
-void Pace::planTarget(const Request& request) {
-  redraws_ = redraws_ && picture_ != pictures_;
-  repeats_ = picture_ == pictures_ || redraws_;
+// Returns what follows the last frame. A target of a single picture needs no redraw: that is drawn again anyway if its
+// plan cannot reuse it.
+Pace::State Pace::stateAfter(const Request& request) {
   if (!request.target) {
     target_.reset();
-  } else if (picture_ == pictures_ && pictures_ > 1 && target_ != request.target) {
-    target_ = request.target;
-    redraws_ = true;
-    --picture_;
   }
+  if (state_ == State::changed || picture_ < pictures_ || !slow_.finished()) {
+    return state_ == State::changed || state_ == State::redraw ? state_ : State::mean;
+  }
+  const bool missing = request.target && pictures_ > 1 && target_ != request.target;
+  target_ = request.target;
+  return missing ? State::redraw : State::done;
 }
 
-// Plans the first frame in full quality if that is fast, else a draft. Returns false if the first picture of the mean
-// is fast enough to come at once. A slow frame would delay the mean, whose pictures have one sample; a single picture
-// is drawn in tiles only if it would hold up input for long.
-bool Pace::planFirst(const Request& request) {
-  const bool single = pictures_ == 1;
-  const Settings settings = withPictures(request.frame.settings, 1);
-  planWith(request, settings, 0);
-  const double most = (single ? longestWait : 1.0) * request.budgetMs;
-  const bool whole = request.budgetMs <= 0.0 || controller_.predict(work_) <= most;
-  picture_ = whole && single ? 1 : 0;
-  if (whole) {
-    text_ = single ? "" : meanText();
-    return true;
+void Pace::planWhole(const Request& request) {
+  planWith(request, withPictures(request.frame.settings, 1), 0);
+  picture_ = pictures_ == 1 ? 1 : 0;
+  state_ = State::whole;
+}
+
+// Plans the first frame: in full quality if that is fast, else the first picture of the mean if that is fast, else a
+// draft. A slow frame would delay the mean, whose pictures have one sample; a single picture is drawn in tiles only if
+// it would hold up input for long.
+void Pace::planFirst(const Request& request) {
+  planWhole(request);
+  const double most = (pictures_ == 1 ? longestWait : 1.0) * request.budgetMs;
+  if (request.budgetMs <= 0.0 || controller_.predict(work_) <= most) {
+    text_ = pictures_ == 1 ? "" : meanText(0);
+    return;
   }
-  const FrameWork work = scaledWork(work_, settings, pictureSettings(withPictures(request.frame.settings, pictures_)));
+  picture_ = 0;
+  const Settings& chosen = request.frame.settings;
+  const FrameWork work = scaledWork(work_, withPictures(chosen, 1), pictureSettings(withPictures(chosen, pictures_)));
   if (controller_.predict(work) <= longestWait * request.budgetMs) {
-    return false;
+    return planPicture(request, State::mean);
   }
-  slow_.emplace();
+  state_ = State::draft;
   planWithinBudget(request);
   draft_ = text_ = "Draft: " + text_;
-  return true;
 }
 
-// Plans the next picture of the mean or, if it is slow, its next tiles.
-void Pace::planPicture(const Request& request) {
-  if (!slow_ && picture_ > 0 && request.budgetMs > 0.0) {
-    slow_.emplace();
-  }
-  if (!slow_ || slow_->finished()) {
-    planWith(request, withPictures(request.frame.settings, pictures_), pictures_ == 1 ? 0 : picture_);
+// Plans the next picture or, if it is slow and something else is shown, its next tiles.
+void Pace::planPicture(const Request& request, State state) {
+  state_ = state;
+  const int next = state == State::redraw ? pictures_ - 1 : picture_;
+  if (slow_.finished()) {
+    planWith(request, withPictures(request.frame.settings, pictures_), pictures_ == 1 ? 0 : next);
+    const bool covers = request.budgetMs > 0.0 && (picture_ > 0 || !draft_.empty());
     const double ms = controller_.predict(work_);
-    if (slow_ && ms > longestWait * request.budgetMs && drawnInTiles(fitted_)) {
+    if (covers && ms > longestWait * request.budgetMs && drawnInTiles(fitted_)) {
       const size_t faces = faceCount(fitted_.plan);
-      slow_->begin(faces, tileCount(fitted_.plan) - faces, ms);
+      slow_.begin(faces, tileCount(fitted_.plan) - faces, ms);
       slowWork_ = work_;
     }
   }
-  if (slow_ && !slow_->finished()) {
+  if (!slow_.finished()) {
     planTiles(request);
-    if (!slow_->finished()) {
-      text_ = tilesText();
+    if (!slow_.finished()) {
+      text_ = tilesText(next);
       return;
     }
   }
-  picture_ = std::min(picture_ + 1, pictures_);
+  picture_ = std::min(next + 1, pictures_);
   if (pictures_ > 1) {
-    text_ = meanText();
+    text_ = meanText(picture_);
   }
 }
 
@@ -206,31 +219,31 @@ void Pace::planTiles(const Request& request) {
   besidesMs_ = cpuMs_ + controller_.predict({.plainTexels = pixels});
   const double most = (request.input ? 1.0 : tilesShare) * request.budgetMs;
   // At least half of the time goes to the tiles, whatever the rest of a frame takes.
-  fitted_.plan.tiles = slow_->next(std::max(most - besidesMs_, besidesMs_));
+  fitted_.plan.tiles = slow_.next(std::max(most - besidesMs_, besidesMs_));
 }
 
-std::string Pace::tilesText() const {
-  const double share = slow_->share();
-  if (picture_ == 0 && !draft_.empty()) {
+std::string Pace::tilesText(int complete) const {
+  const double share = slow_.share();
+  if (complete == 0 && !draft_.empty()) {
     return fmt::format("{}; first picture {:.0f} %", draft_, std::floor(100.0 * share));
   }
   if (pictures_ == 1) {
     return fmt::format("Picture {:.0f} %", std::floor(100.0 * share));
   }
-  return fmt::format("{}, next one {:.0f} %", meanText(), std::floor(100.0 * share));
+  return fmt::format("{}, next one {:.0f} %", meanText(complete), std::floor(100.0 * share));
 }
 
-std::string Pace::meanText() const {
-  return fmt::format("{} of {} pictures averaged", picture_, pictures_);
+std::string Pace::meanText(int complete) const {
+  return fmt::format("{} of {} pictures averaged", complete, pictures_);
 }
 
-void Pace::drawn(uint64_t number, double cpuMs, double waitedMs, bool usual) {
+void Pace::drawn(uint64_t number, double cpuMs, double waitedMs, bool learns) {
   cpuMs_ = cpuMs;
   drawn_.push_back({.number = number,
                     .cpuMs = cpuMs,
                     .waitedMs = waitedMs,
                     .begun = begun_,
-                    .work = usual ? std::optional(work_) : std::nullopt});
+                    .work = learns ? std::optional(work_) : std::nullopt});
   if (drawn_.size() > mostDrawn) {
     drawn_.pop_front();
   }
@@ -254,10 +267,10 @@ void Pace::finished(const FrameTimings& timings) {
                     : found->frameMs == 0 ? sum
                                           : std::min(found->frameMs, sum);
   if (drawsTiles() && found + 1 == drawn_.end()) {
-    slow_->took(std::max(ms - besidesMs_, leastShare * ms));
+    slow_.took(std::max(ms - besidesMs_, leastShare * ms));
     // The frames took longer than one would have, so their time is learned only where even that was less.
-    if (slow_->finished() && slow_->totalMs() < controller_.predict(slowWork_)) {
-      controller_.learn(slowWork_, slow_->totalMs());
+    if (slow_.finished() && slow_.totalMs() < controller_.predict(slowWork_)) {
+      controller_.learn(slowWork_, slow_.totalMs());
     }
   } else if (found->work && timings.passes.empty()) {
     controller_.learn(*found->work, ms);

@@ -15,9 +15,9 @@ namespace speculum {
 // that the picture does not change its quality between two steps of the pointer.
 class Movement {
  public:
-  // Call once a frame, `seconds` after the last. `otherwise` says that something besides the camera moves.
-  void update(const CameraPose& camera, bool otherwise, double seconds) {
-    const bool moves = otherwise || (camera_ && *camera_ != camera);
+  // Call once a frame, `seconds` after the last. `contentMoves`: something besides the camera does.
+  void update(const CameraPose& camera, bool contentMoves, double seconds) {
+    const bool moves = contentMoves || (camera_ && *camera_ != camera);
     camera_ = camera;
     stillSeconds_ = moves ? 0.0 : stillSeconds_ + seconds;
     moving_ = moves || (moving_ && stillSeconds_ < longestRest);
@@ -37,15 +37,26 @@ class Movement {
 // Chooses the quality of the window's frames: while something moves, as much of the chosen settings as fits into a
 // budget of milliseconds; otherwise all of them, or where that takes longer a draft that fits, then the picture or the
 // mean of pictures with offsets (view.accumulate), one in each frame or, where one takes long, over several
-// (FramePlan::tiles).
+// (FramePlan::tiles). docs/window.md draws the states.
 class Pace {
  public:
+  // What the planned frame is. All but the first are of a still picture, or of any without a budget.
+  enum class State {
+    moving,   // a picture that fits the budget, while something moves
+    changed,  // not planned yet: something else is to be shown
+    whole,    // a picture with the chosen settings
+    draft,    // a picture that fits the budget, shown until the first one of the mean is complete
+    mean,     // the next picture of the mean, or tiles of it
+    redraw,   // the last picture of a complete mean, or tiles of it: for a target that was not kept
+    done,     // the complete picture or mean as it was there before, for the panels
+  };
+
   // `sampleCounts`: those that the device supports, as VkSampleCountFlags.
   Pace(bool cpuDevice, unsigned sampleCounts)
       : cpuDevice_(cpuDevice), sampleCounts_(sampleCounts), controller_(cpuDevice) {}
 
-  // Begins a frame. `otherwise` says that something besides the camera moves in it.
-  void begin(const CameraPose& camera, bool otherwise, double seconds);
+  // Begins a frame. `contentMoves`: something besides the camera does.
+  void begin(const CameraPose& camera, bool contentMoves, double seconds);
   void sceneChanged() {
     movement_.restart();
     drawn_.clear();
@@ -55,17 +66,17 @@ class Pace {
   bool moving() const { return movement_.moving(); }
   // Says whether another frame is needed although nothing happens.
   bool wantsFrame() const {
-    return movement_.ending() || (!moving() && (picture_ < pictures_ || (slow_ && !slow_->finished())));
+    return movement_.ending() || (!moving() && (picture_ < pictures_ || state_ == State::changed || !slow_.finished()));
   }
   // Says whether the last frame drew tiles of a picture. If so, wait for it before the next events: finished() learns
   // from its time, and no second frame delays them.
   bool drawsTiles() const { return fitted_.plan.tiles.has_value(); }
   // Says whether the planned frame has a lower quality than the chosen settings.
-  bool lowers() const { return lowers_; }
-  // Says whether the planned frame draws the picture again that was there before, for the panels.
-  bool repeats() const { return repeats_; }
+  bool lowers() const { return level_ > 0; }
+  // Says whether the planned frame draws the picture again that was there before.
+  bool repeats() const { return state_ == State::redraw || state_ == State::done; }
   // Says whether the next frames are likely to draw tiles.
-  bool drawsSlowly() const { return !moving() && slow_ && (slow_->begun() || !draft_.empty()); }
+  bool drawsSlowly() const { return !moving() && (slow_.begun() || !draft_.empty()); }
 
   // Identifies what a still picture shows, besides the chosen settings.
   struct Shown {
@@ -93,9 +104,9 @@ class Pace {
   // Leaves textures out of the frame that was planned.
   void leaveOutTextures() { fitted_.settings.effects.textures = false; }
 
-  // Call when the frame was recorded: `cpuMs` without the `waitedMs` that its parts were waited for; `usual`: nothing
-  // but drawing took time, so that the cost model may learn from it.
-  void drawn(uint64_t number, double cpuMs, double waitedMs, bool usual);
+  // Call when the frame was recorded: `cpuMs` without the `waitedMs` that its parts were waited for; `learns`: nothing
+  // but drawing took time, so the cost model may learn from it.
+  void drawn(uint64_t number, double cpuMs, double waitedMs, bool learns);
   // Call when the frame was presented, which took `ms`.
   void presented(double ms) { drawn_.back().presentMs = ms; }
   // Call with the GPU's times of an earlier frame.
@@ -109,18 +120,21 @@ class Pace {
   const std::string& text() const { return text_; }
 
  private:
-  // These set fitted_, work_ and text_.
+  // These set fitted_, work_, level_ and text_.
   void planWith(const Request& request, const Settings& settings, int picture);
   void planWithinBudget(const Request& request);
+  // These set state_ too.
   void planMoving(const Request& request);
   void planStill(const Request& request);
-  bool planFirst(const Request& request);
-  void planPicture(const Request& request);
-  void findPlayCost(std::span<const MotionLevel> levels, const Request& request);
-  void planTarget(const Request& request);
+  void planWhole(const Request& request);
+  void planFirst(const Request& request);
+  void planPicture(const Request& request, State state);
   void planTiles(const Request& request);
-  std::string tilesText() const;
-  std::string meanText() const;
+  State stateAfter(const Request& request);
+  void forgetStill();
+  void findPlayCost(std::span<const MotionLevel> levels, const Request& request);
+  std::string tilesText(int complete) const;
+  std::string meanText(int complete) const;
 
   using Clock = std::chrono::steady_clock;
   struct Drawn {
@@ -130,7 +144,7 @@ class Pace {
     Clock::time_point begun;
     double presentMs = 0.0;
     double frameMs = 0.0;           // until the next frame began; 0: not yet
-    std::optional<FrameWork> work;  // none if the frame was not usual
+    std::optional<FrameWork> work;  // none if the cost model may not learn from it
   };
 
   bool cpuDevice_;
@@ -145,18 +159,17 @@ class Pace {
   std::deque<double> sendMs_;  // of the last frames, what presenting took beyond drawing
   FittedPlan fitted_;          // of the frame that was planned last
   FrameWork work_;             // of fitted_
-  bool lowers_ = false;
-  bool repeats_ = false;
-  bool redraws_ = false;          // the last picture of a complete mean, until that is drawn
-  std::optional<Target> target_;  // of the latest redraw
-  std::string text_;
+  size_t level_ = 0;           // of fitted_; 0: the chosen settings
+  State state_ = State::changed;
   // Settings and content of the still pictures; nothing while the picture moves.
   std::optional<std::pair<Settings, Shown>> shown_;
-  int picture_ = -1;                 // next picture of the mean; -1: a picture in full quality, or a draft, comes first
-  int pictures_ = 0;                 // in the mean; 1: a single picture instead
-  std::optional<SlowPicture> slow_;  // nothing until a picture or draft is shown, which stays while tiles are drawn
+  int picture_ = 0;               // complete pictures of the mean
+  int pictures_ = 0;              // in the mean; 1: a single picture instead
+  std::optional<Target> target_;  // of the latest redraw
+  SlowPicture slow_;              // that tiles are drawn of, while another picture or a draft is shown
   FrameWork slowWork_;
-  std::string draft_;       // what the draft gives up that is shown until the first picture is complete
+  std::string draft_;  // what the draft gives up; empty: none was needed
+  std::string text_;
   double cpuMs_ = 0.0;      // of the last frame
   double besidesMs_ = 0.0;  // expected of a frame, besides its tiles: the program's work and the display pass
 };
