@@ -6,7 +6,6 @@
 #include "accuracy/pareto.hpp"
 #include "accuracy/sweep.hpp"
 #include "accuracy/sweep_json.hpp"
-#include "accuracy/sweep_plan.hpp"
 #include "accuracy/sweep_planner.hpp"
 #include "accuracy/sweep_store.hpp"
 #include "error_message.hpp"

@@ -6,7 +6,7 @@
 #include <random>
 
 #include "frame_support.hpp"
-#include "geometry/mesh_clusters.hpp"
+#include "geometry/mesh.hpp"
 #include "random.hpp"
 #include "test_headers.hpp"
 #include "triangles.hpp"

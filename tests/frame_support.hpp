@@ -6,7 +6,7 @@
 
 #include "frame/frame_plan.hpp"
 #include "frame/scene_changes.hpp"
-#include "geometry/convex_faces.hpp"
+#include "geometry/convex_mesh.hpp"
 
 namespace speculum::testing_support {
 

@@ -1,6 +1,6 @@
 #include <ctime>
 
-#include "geometry/convex_faces.hpp"
+#include "geometry/convex_mesh.hpp"
 #include "geometry/polygon.hpp"
 #include "test_headers.hpp"
 #include "triangles.hpp"

@@ -1,4 +1,4 @@
-#include "image/enlarge.hpp"
+#include "image/image.hpp"
 #include "test_headers.hpp"
 
 namespace speculum {

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "image/color.hpp"
-#include "image/enlarge.hpp"
+#include "image/image.hpp"
 #include "picture_support.hpp"
 #include "random.hpp"
 #include "sampling.hpp"

@@ -7,7 +7,7 @@
 #include "made_pictures.hpp"
 #include "platform/machine.hpp"
 #include "platform/process.hpp"
-#include "regress/driver.hpp"
+#include "regress/case_file.hpp"
 #include "regress/picture_check.hpp"
 #include "regress/worker_pool.hpp"
 #include "scene/input_error.hpp"

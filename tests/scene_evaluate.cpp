@@ -3,7 +3,6 @@
 #include "geometry/affine.hpp"
 #include "geometry/polygon.hpp"
 #include "random.hpp"
-#include "scene/beside_mirrors.hpp"
 #include "scene/scene_state.hpp"
 #include "test_headers.hpp"
 

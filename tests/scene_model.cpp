@@ -1,4 +1,4 @@
-#include "scene/model_scene.hpp"
+#include "scene/scene_loader.hpp"
 #include "scene/scene_state.hpp"
 #include "scene_support.hpp"
 #include "test_headers.hpp"

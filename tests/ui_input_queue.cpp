@@ -1,6 +1,6 @@
 // Input between two frames, and how the next frames receive it.
 #include "test_headers.hpp"
-#include "ui/input_queue.hpp"
+#include "ui/glfw_input.hpp"
 
 namespace speculum {
 namespace {

@@ -11,7 +11,7 @@
 #include "accuracy/image_metrics.hpp"
 #include "image/color.hpp"
 #include "image/picture_files.hpp"
-#include "image/picture_size.hpp"
+#include "image/image.hpp"
 #include "platform/files.hpp"
 #include "platform/folders.hpp"
 #include "platform/text.hpp"

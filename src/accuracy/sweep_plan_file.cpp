@@ -1,4 +1,4 @@
-#include "accuracy/sweep_plan.hpp"
+#include "accuracy/sweep_planner.hpp"
 
 #include <array>
 #include <limits>

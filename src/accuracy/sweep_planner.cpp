@@ -26,6 +26,193 @@ std::string shortName(const SweepPlanner::Changes& changes) {
   return name.empty() ? "base" : name;
 }
 
+using Changes = SweepPlanner::Changes;
+using Values = std::vector<std::string>;
+
+constexpr const char* greatestDepth = "32";
+
+Values texts(const std::vector<int>& values) {
+  Values list;
+  for (const int value : values) {
+    list.push_back(std::to_string(value));
+  }
+  return list;
+}
+
+Changes samples(const std::string& count) {
+  return {{"reflection.samples", count}, {"view.samples", count}};
+}
+
+// Sets everything but the setting of a series to its best, because the main view's own sampling would hide the errors
+// of a coarse mirror image.
+Changes best(const SweepContext& context) {
+  return joined(samples(std::to_string(context.sampleCounts.back())), {{"reflection.max_depth", greatestDepth}});
+}
+
+// Sets samples of the view, and of mirror images if the scene has mirrors.
+Changes drawn(const SweepContext& context, const std::string& count) {
+  return context.mirrors ? samples(count) : Changes{{"view.samples", count}};
+}
+
+// Drafts: the whole picture at a lower resolution.
+void addViewScales(SweepPlanner& planner, const SweepContext& context, bool full) {
+  const Values scales =
+      full ? Values{"0.125", "0.177", "0.25", "0.354", "0.5", "0.707", "1"} : Values{"0.25", "0.5", "1"};
+  planner.series({.key = "view.scale",
+                  .name = "Resolution of the main view and of mirror images",
+                  .note = "An edge is wrong over a width in proportion to the texel: squared error as 1/scale",
+                  .theorySlope = -0.5,
+                  .fitUpTo = 0.99},
+                 scales, drawn(context, std::to_string(context.sampleCounts.back())));
+  for (const std::string& scale : scales) {
+    planner.add(joined({{"view.scale", scale}}, drawn(context, "1")));
+  }
+}
+
+// Adds means of pictures, which converge to the reference. From 16 pictures on, each has one sample, whatever is set.
+// No mean removes the error of shadow maps.
+void addMeans(SweepPlanner& planner, const SweepContext& context) {
+  Changes exact = context.mirrors ? Changes{{"reflection.max_depth", greatestDepth}} : Changes{};
+  if (std::ranges::find(context.effects, "effects.shadows") != context.effects.end()) {
+    exact.push_back({"effects.shadow_lookup", "traced"});
+  }
+  planner.series({.key = "view.accumulate",
+                  .name = "Pictures in a mean, one sample each",
+                  .note = "Edges N^-0.75, and texture, highlights and shading edges with them",
+                  .theorySlope = -0.75},
+                 {"1", "4", "16", "64"}, joined(drawn(context, "1"), exact));
+  planner.add(joined(joined(drawn(context, "4"), exact), {{"view.accumulate", "4"}}));
+}
+
+void addScaleSeries(SweepPlanner& planner, const SweepContext& context, bool full) {
+  const Values coarse =
+      full ? Values{"0.125", "0.177", "0.25", "0.354", "0.5", "0.707", "1"} : Values{"0.125", "0.25", "0.5", "1"};
+  planner.series({.key = "reflection.scale",
+                  .name = "Resolution of mirror images, up to the screen's",
+                  .note = "An edge is wrong over a width in proportion to the texel: squared error as 1/scale. At 1 "
+                          "nothing is resampled, which is another law",
+                  .theorySlope = -0.5,
+                  .fitUpTo = 0.99},
+                 coarse, best(context));
+  const Values fine = full ? Values{"1", "1.5", "2", "3", "4"} : Values{"1", "1.5", "2"};
+  planner.series({.key = "reflection.scale",
+                  .name = "Resolution above the screen's, one sample a texel",
+                  .note = "Regular N samples an edge of any slope: N^-0.75, with N = scale^2",
+                  .theorySlope = -1.5},
+                 fine,
+                 {{"reflection.samples", "1"},
+                  {"view.samples", std::to_string(context.sampleCounts.back())},
+                  {"reflection.max_depth", greatestDepth}});
+}
+
+void addRoughSeries(SweepPlanner& planner, const SweepContext& context, bool full) {
+  const Values lookups =
+      full ? Values{"1", "2", "4", "8", "16", "32", "64", "128", "256"} : Values{"1", "4", "16", "64"};
+  // Fewer rays than samples draw the same picture, because each sample sends one at least.
+  const int least = context.sampleCounts.back();
+  Values rays;
+  for (int count = least; count <= (full ? 256 : 128); count *= full ? 2 : 4) {
+    rays.push_back(std::to_string(count));
+  }
+  planner.series({.key = "effects.rough_samples",
+                  .name = "Rays a pixel of rough mirrors",
+                  .note = "Random rays err by N^-0.5; a shifted lattice does better where what is seen is "
+                          "smooth",
+                  .theorySlope = -0.5},
+                 rays, best(context));
+  if (context.mirrors) {
+    planner.grid({{"effects.rough_lookup", {"image"}}, {"effects.rough_samples", lookups}});
+  }
+}
+
+void addSeries(SweepPlanner& planner, const SweepContext& context, bool full) {
+  const Values counts = texts(context.sampleCounts);
+  SweepSeries msaa{.key = "view.samples",
+                   .name = "Samples a pixel, of view and mirror images alike",
+                   .note = "Edges N^-0.75; texture, highlights and shading edges gain nothing",
+                   .theorySlope = -0.75};
+  std::vector<Changes> each;
+  for (const std::string& count : counts) {
+    each.push_back(context.mirrors ? joined(samples(count), {{"reflection.max_depth", greatestDepth}})
+                                   : Changes{{"view.samples", count}});
+  }
+  planner.series(std::move(msaa), counts, each);
+  addViewScales(planner, context, full);
+  addMeans(planner, context);
+  if (context.rough) {
+    addRoughSeries(planner, context, full);
+  }
+  if (!context.mirrors) {
+    return;
+  }
+  addScaleSeries(planner, context, full);
+  const Values depths = full ? Values{"0", "1", "2", "3", "4", "5", "6", "8", "12", "16", greatestDepth}
+                             : Values{"0", "1", "2", "3", "4", "8", greatestDepth};
+  planner.series({.key = "reflection.max_depth",
+                  .name = "Depth of mirrors in mirrors",
+                  .axis = SweepSeries::Axis::linear,
+                  .note = "Root mean square throughput of the light beyond, from the mirrors in view; what is left at "
+                          "the greatest depth is taken off as a square",
+                  .theoryOfDepth = true},
+                 depths, samples(std::to_string(context.sampleCounts.back())));
+}
+
+void addSingles(SweepPlanner& planner, const SweepContext& context, bool full) {
+  const std::string most = std::to_string(context.sampleCounts.back());
+  planner.add({{"view.texture_filter", "trilinear"}});
+  for (const std::string& effect : context.effects) {
+    planner.add({{effect, "false"}});
+    if (effect == "effects.shadows") {
+      planner.grid({{"effects.shadow_lookup", {"map"}}, {"effects.shadow_map_size", {"256", "1024", "4096"}}});
+    }
+    if (effect == "effects.ripple") {
+      planner.add({{"effects.ripple_lookup", "image"}});
+    }
+    if (effect == "effects.curved") {
+      planner.grid({{"effects.curved_lookup", {"environment"}}, {"effects.environment_size", {"64", "256"}}});
+    }
+  }
+  if (!context.effects.empty()) {
+    planner.add({{"effects.per_sample", "true"}});
+  }
+  if (!context.mirrors) {
+    return;
+  }
+  planner.add({{"reflection.samples", "1"}, {"view.samples", most}});
+  planner.add({{"reflection.samples", most}, {"view.samples", "1"}});
+  planner.grid({{"reflection.clip", {"oblique", "none"}}});
+  planner.grid({{"reflection.min_throughput", {"0.2", "0.05", "0.01"}}});
+  planner.grid({{"reflection.max_passes", {"1", "2", "4"}}});
+  planner.grid({{"reflection.min_pixels", full ? Values{"64", "1024", "8192"} : Values{"1024"}}});
+  if (context.animated) {
+    planner.grid({{"reflection.update_interval", full ? Values{"2", "4", "8"} : Values{"2", "4"}}});
+  }
+}
+
+SweepPlan builtIn(const std::string& name, const SweepContext& context) {
+  const bool full = name == "full";
+  SweepPlanner planner(name, context);
+  addSeries(planner, context, full);
+  addSingles(planner, context, full);
+  if (!context.mirrors) {
+    return std::move(planner.plan);
+  }
+  const Values scales = full ? Values{"0.25", "0.5", "0.75", "1", "1.5", "2"} : Values{"0.5", "1"};
+  const Values depths = full ? Values{"1", "2", "3", "4", "8"} : Values{"1", "2", "4"};
+  for (const std::string& count : texts(context.sampleCounts)) {
+    planner.grid({{"reflection.scale", scales},
+                  {"reflection.max_depth", depths},
+                  {"reflection.samples", {count}},
+                  {"view.samples", {count}}});
+  }
+  planner.add({{"reflection.scale", "0.25"},
+               {"reflection.max_depth", "1"},
+               {"reflection.samples", "1"},
+               {"view.samples", "1"}});
+  planner.add(joined(best(context), {{"reflection.scale", "2"}}));
+  return std::move(planner.plan);
+}
+
 }  // namespace
 
 std::optional<std::vector<std::vector<SettingChange>>> combinations(const SettingGrid& grid, size_t most) {
@@ -133,6 +320,29 @@ void SweepPlanner::series(SweepSeries series, const std::vector<std::string>& va
   if (series.points.size() > 1) {
     plan.series.push_back(std::move(series));
   }
+}
+
+SweepPlan viewSweep(const SweepContext& context) {
+  SweepPlanner planner("view", context);
+  for (const std::string& count : {texts(context.sampleCounts).front(), texts(context.sampleCounts).back()}) {
+    if (!context.mirrors) {
+      planner.add({{"view.samples", count}});
+      continue;
+    }
+    planner.grid({{"reflection.scale", {"0.5", "1"}},
+                  {"reflection.max_depth", {"1", "2", "4"}},
+                  {"reflection.samples", {count}},
+                  {"view.samples", {count}}});
+  }
+  if (context.mirrors) {
+    planner.add(joined({{"reflection.scale", "0.25"}, {"reflection.max_depth", "1"}}, samples("1")));
+    planner.add(joined(best(context), {{"reflection.scale", "2"}}));
+  }
+  return std::move(planner.plan);
+}
+
+SweepPlan sweepPlan(const std::string& wanted, const SweepContext& context) {
+  return wanted == "quick" || wanted == "full" ? builtIn(wanted, context) : readSweepPlan(wanted, context);
 }
 
 }  // namespace speculum

@@ -11,8 +11,8 @@
 #include "app/version.hpp"
 #include "frame/setting_fields.hpp"
 #include "scene/camera_text.hpp"
+#include "scene/input_error.hpp"
 #include "scene/model_formats.hpp"
-#include "scene/nearest_key.hpp"
 #include "scene/value_range.hpp"
 
 namespace speculum {

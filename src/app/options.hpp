@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/renderer.hpp"
-#include "image/picture_size.hpp"
+#include "image/image.hpp"
 #include "scene/scene.hpp"
 
 namespace speculum {

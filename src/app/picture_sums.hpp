@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/gpu_timer.hpp"
-#include "systems/recorded_pass.hpp"
+#include "systems/pass_log.hpp"
 
 namespace speculum {
 

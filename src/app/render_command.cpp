@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include "app/commands.hpp"
-#include "app/picture_sequence.hpp"
+#include "app/output_files.hpp"
 #include "app/progress.hpp"
 #include "app/session.hpp"
 #include "app/stats.hpp"

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "app/node_drag.hpp"
-#include "edit/mesh_outline.hpp"
+#include "edit/outline.hpp"
 #include "edit/pick.hpp"
 #include "edit/scene_document.hpp"
 #include "ui/views.hpp"

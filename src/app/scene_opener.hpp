@@ -1,13 +1,33 @@
 #pragma once
 
 #include <chrono>
+#include <filesystem>
+#include <memory>
+#include <optional>
 
 #include "app/document_controller.hpp"
-#include "app/file_dialog.hpp"
 #include "app/scene_browser.hpp"
 #include "edit/recovery.hpp"
+#include "platform/process.hpp"
 
 namespace speculum {
+
+// The desktop's dialog for a file to open (zenity or kdialog), in a child process.
+class FileDialog {
+ public:
+  struct Answer {
+    std::optional<std::filesystem::path> file;  // none if the user cancelled, or the dialog failed
+    bool failed = false;
+  };
+
+  // Opens it in that folder unless it is open. Returns false if the desktop has none.
+  bool open(const std::filesystem::path& folder);
+  bool isOpen() const { return process_ != nullptr; }
+  std::optional<Answer> poll();  // once it has closed
+
+ private:
+  std::unique_ptr<ChildProcess> process_;  // while it is open
+};
 
 // Opens scenes: asks for a file, prompts about unsaved changes first, loads in the background, and offers the copy that
 // a session that failed has kept.

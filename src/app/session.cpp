@@ -8,8 +8,7 @@
 #include "platform/machine.hpp"
 #include "platform/text.hpp"
 #include "scene/input_error.hpp"
-#include "scene/nearest_key.hpp"
-#include "scene/shipped_scene.hpp"
+#include "scene/scene_loader.hpp"
 
 namespace speculum {
 

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "accuracy/sweep.hpp"
-#include "accuracy/sweep_plan.hpp"
+#include "accuracy/sweep_planner.hpp"
 #include "app/session.hpp"
 
 namespace speculum {

@@ -7,8 +7,8 @@ namespace speculum {
 
 namespace {
 
-VkAttachmentDescription attachment(VkFormat format, VkSampleCountFlagBits samples, bool load, bool store,
-                                   VkImageLayout layout) {
+VkAttachmentDescription attachmentOf(VkFormat format, VkSampleCountFlagBits samples, bool load, bool store,
+                                     VkImageLayout layout) {
   // Keeps the layout: barriers change layouts, not render passes.
   return {.format = format,
           .samples = samples,
@@ -25,16 +25,16 @@ constexpr VkImageLayout depthLayout = VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_O
 
 RenderPassHandle create(Device& device, const RenderPassKey& key) {
   std::vector<VkAttachmentDescription> attachments = {
-      attachment(key.color, key.samples, key.loadColor, key.storeColor, key.colorLayout)};
+      attachmentOf(key.color, key.samples, key.loadColor, key.storeColor, key.colorLayout)};
   const VkAttachmentReference color{0, key.colorLayout};
   const VkAttachmentReference resolve{1, resolveLayout};
   const VkAttachmentReference depth{key.resolve ? 2u : 1u, depthLayout};
   if (key.resolve) {
-    attachments.push_back(attachment(key.color, VK_SAMPLE_COUNT_1_BIT, false, true, resolveLayout));
+    attachments.push_back(attachmentOf(key.color, VK_SAMPLE_COUNT_1_BIT, false, true, resolveLayout));
     attachments.back().loadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
   }
   if (key.depth != VK_FORMAT_UNDEFINED) {
-    attachments.push_back(attachment(key.depth, key.samples, key.loadDepth, key.storeDepth, depthLayout));
+    attachments.push_back(attachmentOf(key.depth, key.samples, key.loadDepth, key.storeDepth, depthLayout));
   }
   const VkSubpassDescription subpass{.pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS,
                                      .colorAttachmentCount = 1,

@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <optional>
 
-#include "core/command_pool.hpp"
 #include "core/descriptors.hpp"
 #include "core/gpu_timer.hpp"
 #include "core/off_screen.hpp"

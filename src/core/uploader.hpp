@@ -7,10 +7,24 @@
 #include <type_traits>
 #include <vector>
 
-#include "core/command_pool.hpp"
+#include "core/device.hpp"
 #include "core/image.hpp"
 
 namespace speculum {
+
+// A command pool and its one primary command buffer, which records anew after each reset.
+class CommandPool {
+ public:
+  CommandPool(Device& device, const std::string& name);
+
+  // Empties the buffer and begins to record. The GPU has finished what was recorded before.
+  VkCommandBuffer begin();
+
+ private:
+  Device& device_;
+  CommandPoolHandle pool_;
+  VkCommandBuffer commands_ = VK_NULL_HANDLE;
+};
 
 // Copies that are finished on return; for loading, not for every frame.
 class Uploader {

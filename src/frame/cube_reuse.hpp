@@ -1,7 +1,7 @@
 #pragma once
 
 #include "frame/cube_face.hpp"
-#include "frame/image_content.hpp"
+#include "frame/image_reuse.hpp"
 
 namespace speculum {
 

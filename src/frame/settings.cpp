@@ -8,7 +8,6 @@
 #include "frame/setting_fields.hpp"
 #include "platform/text.hpp"
 #include "scene/input_error.hpp"
-#include "scene/nearest_key.hpp"
 #include "scene/text_lines.hpp"
 #include "scene/value_range.hpp"
 

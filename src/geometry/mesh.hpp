@@ -3,13 +3,24 @@
 #include <cstdint>
 #include <filesystem>
 #include <glm/glm.hpp>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "geometry/convex_mesh.hpp"
-#include "geometry/texture.hpp"
 
 namespace speculum {
+
+// Texels decoded to linear RGB, row 0 at the top of the picture (v = 1).
+struct Texture {
+  std::filesystem::path source;  // without symbolic links
+  int width = 0;
+  int height = 0;
+  std::vector<glm::vec3> texels;
+};
+
+// Returns the texture with fewer texels, each the mean of the texels that it covers.
+Texture shrunk(const Texture& texture, int width, int height);
 
 // Phong-Blinn material, linear RGB; see docs/picture.md for the radiance it gives.
 struct Material {
@@ -69,5 +80,16 @@ struct Mesh {
   bool solid = false;                          // see isSolid()
   uint32_t repeats = 0;  // last triangles, whose texture repeats so often that floats of its coordinates lose digits
 };
+
+// Reorders the triangles of each part so that consecutive ones lie close together on the surface, by meshoptimizer's
+// meshlets, and the vertices by their first use: clusters become small, and fewer vertices are shaded twice. A mesh
+// that is too small for clusters stays as it is.
+void sortIntoClusters(Mesh& mesh);
+
+// Cuts the mesh's triangles in their order into clusters of 64. None for a mesh that is too small to gain by it.
+std::vector<MeshCluster> clustersOf(const Mesh& mesh);
+// Does the same for triangles that are not a Mesh; `parts` are ranges of `indices`.
+std::vector<MeshCluster> clustersOf(std::span<const Vertex> vertices, std::span<const uint32_t> indices,
+                                    std::span<const IndexRange> parts);
 
 }  // namespace speculum

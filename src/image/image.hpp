@@ -3,7 +3,9 @@
 #include <cstdint>
 #include <filesystem>
 #include <glm/glm.hpp>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace speculum {
@@ -31,5 +33,23 @@ struct Image8 {
   uint8_t* at(int x, int y) { return &rgba[(static_cast<size_t>(y) * width + x) * 4]; }
   const uint8_t* at(int x, int y) const { return &rgba[(static_cast<size_t>(y) * width + x) * 4]; }
 };
+
+// Stretches the image to `width` x `height` pixels, no fewer than it has, as the shader display_enlarge.frag does:
+// bilinearly, because that never rings nor falls below zero, and a spline through sixteen texels took half of a moving
+// frame's time on a CPU. Equal sizes change nothing.
+LinearImage enlarged(const LinearImage& image, int width, int height);
+
+struct PictureSize {
+  int width = 0;  // pixels
+  int height = 0;
+
+  bool operator==(const PictureSize&) const = default;
+};
+
+// What pictureSize() takes, for messages.
+constexpr std::string_view pictureSizes = "WIDTHxHEIGHT in pixels, 1x1 to 16384x16384";
+
+// Parses "640x360". Returns nothing for any other text.
+std::optional<PictureSize> pictureSize(std::string_view text);
 
 }  // namespace speculum

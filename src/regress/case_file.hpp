@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "image/picture_size.hpp"
+#include "image/image.hpp"
 
 namespace speculum {
 
@@ -62,5 +62,14 @@ ExpectedCase expectedOf(const RegressCase& subject, const std::string& driver);
 // Cases of a TOML file, as docs/regression.md describes it. Paths are relative to the file; a scene that is not there
 // may be one that comes with the program. Throws InputError.
 std::vector<RegressCase> readCases(const std::filesystem::path& file);
+
+// Says whether a driver, such as "llvmpipe Mesa 22.3.6 (LLVM 15.0.6)", is of a family: its text holds that word, in any
+// case. "lavapipe" means llvmpipe.
+bool isOfFamily(const std::string& driver, const std::string& family);
+
+// Says whether the first dotted number of the driver's text is in a range: comparisons separated by commas, each one of
+// >=, >, <=, <, = before a version. Parts that the range does not name are not compared: 25.0.7 is "=25" and "<=25".
+// Throws std::invalid_argument for a range that cannot be read.
+bool isInVersions(const std::string& driver, const std::string& range);
 
 }  // namespace speculum

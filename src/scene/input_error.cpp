@@ -1,9 +1,33 @@
 #include "scene/input_error.hpp"
 
+#include <spdlog/fmt/ranges.h>
+#include <algorithm>
+#include <numeric>
+#include <vector>
+
 #include "platform/files.hpp"
 #include "platform/text.hpp"
 
 namespace speculum {
+
+namespace {
+
+size_t editDistance(std::string_view a, std::string_view b) {
+  std::vector<size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), size_t{0});
+  for (size_t i = 0; i < a.size(); ++i) {
+    size_t diagonal = row[0];
+    row[0] = i + 1;
+    for (size_t j = 0; j < b.size(); ++j) {
+      const size_t substituted = diagonal + (a[i] == b[j] ? 0 : 1);
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({substituted, row[j] + 1, row[j + 1] + 1});
+    }
+  }
+  return row[b.size()];
+}
+
+}  // namespace
 
 void throwInputError(const std::filesystem::path& file, int line, std::string_view key, std::string_view wrong,
                      std::string_view right) {
@@ -18,6 +42,24 @@ std::string readInputText(const std::filesystem::path& file, std::string_view ri
   } catch (const FileError& error) {
     throwInputError(file, 1, "file", error.problem(), right);
   }
+}
+
+std::string nearestKeyAdvice(std::string_view key, std::span<const std::string_view> known) {
+  // A file may have keys of any length; no known key is near a longer one.
+  constexpr size_t kLongest = 64;
+  size_t least = key.size() > kLongest ? 0 : std::max<size_t>(1, key.size() * 2 / 5) + 1;
+  std::string_view nearest;
+  for (const std::string_view candidate : known) {
+    const size_t distance = least == 0 ? 1 : editDistance(key, candidate);
+    if (distance < least) {
+      least = distance;
+      nearest = candidate;
+    }
+  }
+  if (!nearest.empty()) {
+    return "did you mean '" + std::string(nearest) + "'?";
+  }
+  return fmt::format("one of: {}", fmt::join(known, " "));
 }
 
 }  // namespace speculum

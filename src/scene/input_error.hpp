@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -21,5 +22,9 @@ class InputError : public std::runtime_error {
 // Reads an input file. Throws InputError for line 1 and key `file`; `right` says which file is needed, `most` is the
 // largest size in bytes.
 std::string readInputText(const std::filesystem::path& file, std::string_view right, uintmax_t most = 1u << 30);
+
+// Returns the advice of an error about an unknown key: "did you mean 'x'?" for the known key with the least edit
+// distance (Levenshtein 1966) when that is at most two fifths of the key's length, or 1, else the list of known keys.
+std::string nearestKeyAdvice(std::string_view key, std::span<const std::string_view> known);
 
 }  // namespace speculum

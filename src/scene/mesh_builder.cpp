@@ -5,8 +5,8 @@
 #include <glm/gtx/component_wise.hpp>
 
 #include "geometry/bvh.hpp"
-#include "geometry/convex_faces.hpp"
-#include "geometry/mesh_clusters.hpp"
+#include "geometry/convex_mesh.hpp"
+#include "geometry/mesh.hpp"
 #include "geometry/solid_mesh.hpp"
 #include "geometry/triangulate.hpp"
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "geometry/mesh.hpp"
-#include "scene/model_defects.hpp"
+#include "scene/model_files.hpp"
 
 namespace speculum {
 

@@ -12,7 +12,6 @@
 #include "platform/text.hpp"
 #include "scene/input_error.hpp"
 #include "scene/mesh_builder.hpp"
-#include "scene/model_defects.hpp"
 #include "scene/model_files.hpp"
 #include "scene/obj_materials.hpp"
 #include "scene/text_lines.hpp"

@@ -8,6 +8,7 @@
 
 #include "scene/input_error.hpp"
 #include "scene/model_formats.hpp"
+#include "scene/obj_loader.hpp"
 #include "scene/scene.hpp"
 
 namespace speculum {
@@ -34,5 +35,14 @@ std::string sceneTitle(const std::filesystem::path& file);
 std::set<std::filesystem::path> filesNamedBy(const std::filesystem::path& file);
 // Says whether the file looks like a scene file, valid or not. Models do not.
 bool isSceneFile(const std::filesystem::path& file);
+
+// Finds a scene or model that comes with the program: by its name, such as "gallery", or by its path within the
+// program's data. Nothing if there is none.
+std::optional<std::filesystem::path> shippedScene(const std::filesystem::path& wanted);
+
+// Makes a scene that shows a model of any size by itself: it stands still over a round mirror, below a sky, and two
+// lights leave no side of it dark. Throws InputError, also for a bounding sphere whose radius is not within
+// 1e-9 .. 1e12 m.
+Scene modelScene(const std::filesystem::path& file, const LoadProgress& progress = {});
 
 }  // namespace speculum

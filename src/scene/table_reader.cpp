@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "scene/input_error.hpp"
-#include "scene/nearest_key.hpp"
 
 namespace speculum {
 

@@ -3,8 +3,8 @@
 #include <array>
 
 #include "core/renderer.hpp"
+#include "systems/pass_log.hpp"
 #include "systems/pipeline_variants.hpp"
-#include "systems/recorded_pass.hpp"
 
 namespace speculum {
 

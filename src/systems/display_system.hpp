@@ -7,8 +7,8 @@
 #include "image/image.hpp"
 #include "systems/effect_ledger.hpp"
 #include "systems/frame_data.hpp"
+#include "systems/pass_log.hpp"
 #include "systems/pipeline_variants.hpp"
-#include "systems/recorded_pass.hpp"
 
 namespace speculum {
 

@@ -7,8 +7,8 @@
 #include "core/off_screen.hpp"
 #include "core/renderer.hpp"
 #include "shaders/gpu_data.h"
+#include "systems/pass_log.hpp"
 #include "systems/pipeline_variants.hpp"
-#include "systems/recorded_pass.hpp"
 
 namespace speculum {
 

@@ -5,7 +5,7 @@
 
 #include "frame/draw_order.hpp"
 #include "frame/pass_mask.hpp"
-#include "scene/beside_mirrors.hpp"
+#include "scene/scene_state.hpp"
 #include "systems/gpu_conversion.hpp"
 #include "systems/mirror_polygons.hpp"
 

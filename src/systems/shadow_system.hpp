@@ -4,8 +4,8 @@
 
 #include "core/off_screen.hpp"
 #include "systems/frame_info.hpp"
+#include "systems/pass_log.hpp"
 #include "systems/pipeline_variants.hpp"
-#include "systems/recorded_pass.hpp"
 
 namespace speculum {
 

@@ -11,7 +11,7 @@
 #include "frame/mirror_sight.hpp"
 #include "geometry/affine.hpp"
 #include "geometry/reflection.hpp"
-#include "scene/beside_mirrors.hpp"
+#include "scene/scene_state.hpp"
 #include "systems/frame_data.hpp"
 #include "systems/gpu_conversion.hpp"
 

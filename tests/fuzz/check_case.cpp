@@ -6,7 +6,6 @@
 #include "image/picture_files.hpp"
 #include "platform/text.hpp"
 #include "regress/case_file.hpp"
-#include "regress/driver.hpp"
 #include "regress/report_page.hpp"
 
 namespace speculum::fuzz {

@@ -1,7 +1,7 @@
 #include <nlohmann/json.hpp>
 
 #include "accuracy/sweep_json.hpp"
-#include "accuracy/sweep_plan.hpp"
+#include "accuracy/sweep_planner.hpp"
 #include "accuracy/sweep_store.hpp"
 #include "fuzz_support.hpp"
 #include "image/exr.hpp"

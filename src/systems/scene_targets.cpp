@@ -1,0 +1,101 @@
+#include "systems/scene_targets.hpp"
+
+#include <array>
+#include <utility>
+
+#include "scene/scene.hpp"
+
+namespace speculum {
+
+namespace {
+
+std::array<float, 4> clearColor(const Environment& environment) {
+  const glm::vec3 color(glm::min(environment.background, glm::dvec3(65504.0)));
+  return {color.r, color.g, color.b, 0.0f};  // infinitely far
+}
+
+VkFrontFace frontFace(const View& view) {
+  return view.mirrored() ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE;
+}
+
+}  // namespace
+
+void MainTargets::begin(const Settings& settings, const FramePlan& plan, bool displayed, RetireQueue& retired) {
+  if (!plan.tiles) {
+    finish(retired);
+  } else if (displayed && !earlier_) {
+    earlier_ = std::move(drawn_);
+  }
+  const VkExtent2D extent = extentOf(plan.main().view.rect.width, plan.main().view.rect.height);
+  const VkSampleCountFlagBits samples = device_.sampleCount(settings.view.samples);
+  const bool readSamples = (settings.debug.checkFinite || plan.effects.any()) && samples != VK_SAMPLE_COUNT_1_BIT;
+  if (!drawn_ || drawn_->samples() != samples || drawn_->desc().readSamples != readSamples) {
+    const OffScreenDesc desc{.name = "main view",
+                             .extent = extent,
+                             .samples = samples,
+                             .readSamples = readSamples,
+                             .role = TargetRole::main};
+    std::unique_ptr<OffScreen> before = std::exchange(drawn_, std::make_unique<OffScreen>(device_, desc, retired));
+    retired.take(before);
+  }
+  drawn_->resize(extent, retired);
+}
+
+void EnvironmentTargets::restart() {
+  targets_.clear();
+  restart_ = true;
+}
+
+void EnvironmentTargets::release(RetireQueue& retired) {
+  retired.take(pool_);
+  retired.take(depth_);
+}
+
+void EnvironmentTargets::prepare(const FramePlan& plan, RetireQueue& retired) {
+  const std::span<const Cube> maps = cubesOf(plan.cubes, PassKind::environment);
+  targets_ = ImagePool::reused(maps, std::move(targets_), [&](const OffScreen& unused) { pool_->release(unused); });
+  if (std::exchange(restart_, false)) {
+    release(retired);
+  }
+  for (size_t i = 0; i < maps.size(); ++i) {
+    if (targets_[i]) {
+      continue;
+    }
+    if (!depth_) {
+      depth_ = std::make_unique<SharedDepth>(device_, VK_SAMPLE_COUNT_1_BIT, "environment maps");
+      pool_ = std::make_unique<ImagePool>(device_, *depth_, "environment map");
+    }
+    const auto size = static_cast<uint32_t>(maps[i].size);
+    targets_[i] = &pool_->acquire({3 * size, 2 * size}, retired);
+  }
+}
+
+void EnvironmentTargets::endFrame(RetireQueue& retired) {
+  if (pool_) {
+    pool_->endFrame(retired);
+    if (pool_->empty()) {
+      release(retired);
+    }
+  }
+}
+
+Viewport viewportOf(const View& view) {
+  const glm::dvec2 size = overscan(view) * view.pictureSize;
+  const glm::dvec2 corner = 0.5 * (view.pictureSize - size) - glm::dvec2(view.rect.x, view.rect.y);
+  return {static_cast<float>(corner.x), static_cast<float>(corner.y), static_cast<float>(size.x),
+          static_cast<float>(size.y)};
+}
+
+PassDesc scenePass(std::string name, const PassTargets& targets, const VkRect2D& area, const Viewport& viewport,
+                   const View& view, const Environment& environment) {
+  return {.name = std::move(name),
+          .targets = targets,
+          .renderArea = area,
+          .viewport = viewport,
+          .scissor = area,
+          .frontFace = frontFace(view),
+          .clearColor = clearColor(environment),
+          .collectStatistics = true};
+}
+
+}  // namespace speculum
