@@ -13,7 +13,7 @@ const uint mostSamples = 16;
 
 layout(local_size_x = groupSide, local_size_y = groupSide) in;
 
-layout(constant_id = 4) const bool perSample = false;
+layout(constant_id = constantPerSample) const bool perSample = false;
 
 layout(set = 0, binding = 0) uniform SURFACES surfaces;
 

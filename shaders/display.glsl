@@ -3,9 +3,9 @@
 #include "gpu_data.h"
 #include "texels.glsl"
 
-layout(constant_id = 0) const bool aces = false;
-layout(constant_id = 1) const bool shrunk = false;   // a pixel covers more than one texel
-layout(constant_id = 2) const bool sampled = false;  // the sampler enlarges: on CPUs, where its weights are floats
+layout(constant_id = constantAces) const bool aces = false;
+layout(constant_id = constantShrunk) const bool shrunk = false;   // a pixel covers more than one texel
+layout(constant_id = constantSampled) const bool sampled = false;  // the sampler enlarges: on CPUs, where its weights are floats
 
 layout(set = 0, binding = 0) uniform DISPLAY_IMAGE radiance;
 

@@ -171,6 +171,32 @@ struct DrawConstants {
   uint firstTriangle;  // of the draw, in its mesh
 };
 
+// Numbers of specialisation constants. Each has one meaning, in whatever shader it stands.
+const uint constantDiffuseLookup = 0;
+const uint constantGlossy = 1;
+const uint constantBaseOnly = 2;
+const uint constantReprojects = 3;
+const uint constantAdded = 4;
+const uint constantBlurs = 5;
+const uint constantRipples = 6;
+const uint constantShows = 7;
+const uint constantLookup = 8;
+const uint constantColored = 9;
+const uint constantLightCount = 10;
+const uint constantOnlyShadowFace = 11;
+const uint constantShadowedLights = 12;
+const uint constantClipAtMirror = 13;
+const uint constantSamples = 14;
+const uint constantPerSample = 15;
+const uint constantTrilinear = 16;
+const uint constantRough = 17;
+const uint constantRepeating = 18;
+const uint constantShadows = 19;
+const uint constantCastsLight = 20;
+const uint constantAces = 21;
+const uint constantShrunk = 22;
+const uint constantSampled = 23;
+
 // Values of specialisation constants: texture of an object, number of lights, content of a mirror and lookup of its
 // image.
 const uint textureNone = 0;

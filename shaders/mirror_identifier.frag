@@ -3,7 +3,7 @@
 #include "interface.glsl"
 #include "identifiers.glsl"
 
-layout(constant_id = 0) const bool baseOnly = false;
+layout(constant_id = constantBaseOnly) const bool baseOnly = false;
 
 layout(location = 0) out vec4 color;
 

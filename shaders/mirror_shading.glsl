@@ -6,15 +6,15 @@
 #include "microfacet.glsl"
 #include "mirror_plane.glsl"
 
-// Specialisation constants: pixels run no code that their mirror does not need. Included files have 4, 5, and 10.
-layout(constant_id = 0) const bool baseOnly = false;    // draws the base without the reflection
-layout(constant_id = 1) const bool reprojects = false;  // the image is cached, and eye or mirror moved since
-layout(constant_id = 2) const bool added = false;       // to the base, which is there already
-layout(constant_id = 6) const bool blurs = false;       // the mirror is rough, its image is that of a smooth one
-layout(constant_id = 7) const uint shows = showsImage;
-layout(constant_id = 8) const uint lookup = lookupFetch;
-layout(constant_id = 9) const bool colored = true;    // its back, or its base, is not black
-layout(constant_id = 11) const bool ripples = false;  // the mirror is rippled, its image is that of a smooth one
+// Specialisation constants: pixels run no code that their mirror does not need.
+layout(constant_id = constantBaseOnly) const bool baseOnly = false;    // draws the base without the reflection
+layout(constant_id = constantReprojects) const bool reprojects = false;  // the image is cached, and eye or mirror moved since
+layout(constant_id = constantAdded) const bool added = false;       // to the base, which is there already
+layout(constant_id = constantBlurs) const bool blurs = false;       // the mirror is rough, its image is that of a smooth one
+layout(constant_id = constantShows) const uint shows = showsImage;
+layout(constant_id = constantLookup) const uint lookup = lookupFetch;
+layout(constant_id = constantColored) const bool colored = true;    // its back, or its base, is not black
+layout(constant_id = constantRipples) const bool ripples = false;  // the mirror is rippled, its image is that of a smooth one
 
 layout(set = 1, binding = 0) uniform MIRROR_IMAGE reflection;
 

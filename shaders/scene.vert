@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "interface.glsl"
 
-layout(constant_id = 0) const bool clipAtMirror = false;
+layout(constant_id = constantClipAtMirror) const bool clipAtMirror = false;
 
 layout(location = 0) in vec3 position;  // mesh space
 layout(location = 1) in vec3 normal;

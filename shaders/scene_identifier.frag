@@ -3,7 +3,7 @@
 #include "gpu_data.h"
 #include "identifiers.glsl"
 
-layout(constant_id = 0) const bool baseOnly = false;
+layout(constant_id = constantBaseOnly) const bool baseOnly = false;
 
 layout(push_constant) uniform Draw { DrawConstants draw; };
 

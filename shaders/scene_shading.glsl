@@ -4,11 +4,11 @@
 #include "interface.glsl"
 #include "shading.glsl"
 
-layout(constant_id = 0) const uint diffuseLookup = textureNone;
-layout(constant_id = 1) const bool glossy = true;  // the specular color is not black
+layout(constant_id = constantDiffuseLookup) const uint diffuseLookup = textureNone;
+layout(constant_id = constantGlossy) const bool glossy = true;  // the specular color is not black
 
 #ifdef REFLECTION_ONLY
-layout(constant_id = 2) const uint samples = 1;
+layout(constant_id = constantSamples) const uint samples = 1;
 
 layout(push_constant) uniform Draw {
   DrawConstants draw;

@@ -8,7 +8,7 @@ layout(set = SHADED_SET, binding = 1, std430) SHADED_ACCESS buffer Shaded { uvec
 const uint notShaded = 0xffffffff;  // the sample's color is no identifier
 
 #ifndef SHADED_BY_DRAWS
-layout(constant_id = 0) const uint samples = 1;
+layout(constant_id = constantSamples) const uint samples = 1;
 
 layout(push_constant) uniform Area { ShadeConstants area; };
 #endif

@@ -1,7 +1,7 @@
 // Shadows by rays, and light that mirrors cast onto surfaces. Needs trace.glsl.
 
-layout(constant_id = 2) const bool shadows = false;
-layout(constant_id = 3) const bool castsLight = false;
+layout(constant_id = constantShadows) const bool shadows = false;
+layout(constant_id = constantCastsLight) const bool castsLight = false;
 
 vec3 tracedMirrorReflectance(uint mirror, float cosine) {
   return reflectanceAt(traceMirrors[mirror].reflectance, traceMirrors[mirror].schlick, cosine);

@@ -1,9 +1,9 @@
 // Computes the radiance that a surface reflects by following rays from mirror to mirror, as docs/picture.md defines it:
 // for curved mirrors, and for planar ones that rays show. Needs trace.glsl, traced_light.glsl and microfacet.glsl.
 
-layout(constant_id = 1) const bool trilinear = false;  // between levels of textures
-layout(constant_id = 4) const bool rough = false;      // some mirror of the scene is rough
-layout(constant_id = 6) const bool repeating = false;  // there are repeatingTriangles
+layout(constant_id = constantTrilinear) const bool trilinear = false;  // between levels of textures
+layout(constant_id = constantRough) const bool rough = false;      // some mirror of the scene is rough
+layout(constant_id = constantRepeating) const bool repeating = false;  // there are repeatingTriangles
 
 struct Bounce {
   Surface surface;  // relative; of a mirror, the base under the reflection

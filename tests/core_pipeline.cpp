@@ -140,7 +140,7 @@ TEST_F(HotReload, ComputePipelinesSpecialiseAndAreRebuilt) {
   const DescriptorSetLayoutHandle layout = oneBinding(device_, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
   const Pipeline pipeline(renderer_->pipelines(), ComputePipelineDesc{.name = "fill",
                                                                       .comp = "fill.comp",
-                                                                      .constants = {3},
+                                                                      .constants = {{0, 3}},
                                                                       .setLayouts = {layout.get()},
                                                                       .pushConstantBytes = sizeof(uint32_t)});
   const std::vector<uint32_t> values = {7, 10, 13, 16, 19, 22, 25, 28};
@@ -199,7 +199,7 @@ TEST_F(RendererTest, MipmapLevelsHoldTheMean) {
   const Pipeline pipeline(renderer_.pipelines(), GraphicsPipelineDesc{.name = "textured",
                                                                       .vert = "full_screen.vert",
                                                                       .frag = "textured.frag",
-                                                                      .fragConstants = {std::bit_cast<uint32_t>(4.0f)},
+                                                                      .constants = {{0, std::bit_cast<uint32_t>(4.0f)}},
                                                                       .setLayouts = {layout.get()},
                                                                       .depth = VK_FORMAT_UNDEFINED});
   std::optional<Frame> frame = renderer_.beginFrame();

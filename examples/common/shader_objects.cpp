@@ -48,8 +48,9 @@ ShaderObjects::ShaderObjects(Device& device, const std::filesystem::path& spirvD
                            .pushConstantRangeCount = ranges,
                            .pPushConstantRanges = &range},
                           desc.name);
-  const VkSpecializationMapEntry entry{0, 0, sizeof(uint32_t)};
-  const VkSpecializationInfo constants{1, &entry, sizeof(uint32_t), desc.fragConstants.data()};
+  const SpecialisedConstant& constant = desc.constants.front();
+  const VkSpecializationMapEntry entry{constant.number, 0, sizeof constant.value};
+  const VkSpecializationInfo constants{1, &entry, sizeof constant.value, &constant.value};
   const std::vector<uint8_t> codes[2] = {readFile(spirvDir / (desc.vert + ".spv")),
                                          readFile(spirvDir / (*desc.frag + ".spv"))};
   VkShaderCreateInfoEXT infos[2];

@@ -10,7 +10,7 @@ ShaderPair::ShaderPair(Renderer& renderer, const Options& options, const std::st
   desc.frag = name + ".frag";
   for (const bool window : {false, true}) {
     desc.color = window ? renderer.displayFormat() : colorFormat;
-    desc.fragConstants = {window};
+    desc.constants = {{0, window}};
     if (options.shaderObjects) {
       kinds_[window].objects =
           std::make_unique<ShaderObjects>(renderer.device(), dataDirectory("shaders/" + options.name), desc);

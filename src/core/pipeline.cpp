@@ -18,15 +18,16 @@ const std::string& nameOf(const PipelineDesc& desc) {
   return std::visit([](const auto& d) -> const std::string& { return d.name; }, desc);
 }
 
-// One shader stage with constants 0, 1, ... taken from a list; keeps what the create info points to.
+// One shader stage with its constants; keeps what the create info points to.
 class Stage {
  public:
-  Stage(VkShaderStageFlagBits stage, VkShaderModule module, const std::vector<uint32_t>& constants) {
-    for (uint32_t i = 0; i < constants.size(); ++i) {
-      entries_.push_back({i, static_cast<uint32_t>(i * sizeof(uint32_t)), sizeof(uint32_t)});
+  Stage(VkShaderStageFlagBits stage, VkShaderModule module, const std::vector<SpecialisedConstant>& constants) {
+    for (const SpecialisedConstant& constant : constants) {
+      entries_.push_back({constant.number, static_cast<uint32_t>(values_.size() * sizeof(uint32_t)), sizeof(uint32_t)});
+      values_.push_back(constant.value);
     }
-    specialization_ = {static_cast<uint32_t>(entries_.size()), entries_.data(), constants.size() * sizeof(uint32_t),
-                       constants.data()};
+    specialization_ = {static_cast<uint32_t>(entries_.size()), entries_.data(), values_.size() * sizeof(uint32_t),
+                       values_.data()};
     info_ = {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
              .stage = stage,
              .module = module,
@@ -40,6 +41,7 @@ class Stage {
 
  private:
   std::vector<VkSpecializationMapEntry> entries_;
+  std::vector<uint32_t> values_;
   VkSpecializationInfo specialization_{};
   VkPipelineShaderStageCreateInfo info_{};
 };
@@ -109,11 +111,11 @@ VkPipeline PipelineFactory::buildPipeline(const ComputePipelineDesc& desc, VkPip
 }
 
 VkPipeline PipelineFactory::buildPipeline(const GraphicsPipelineDesc& desc, VkPipelineLayout layout) {
-  const Stage vert(VK_SHADER_STAGE_VERTEX_BIT, shaders_.module(desc.vert), desc.vertConstants);
+  const Stage vert(VK_SHADER_STAGE_VERTEX_BIT, shaders_.module(desc.vert), desc.constants);
   std::vector<VkPipelineShaderStageCreateInfo> stages = {vert.info()};
   std::optional<Stage> frag;
   if (desc.frag) {
-    frag.emplace(VK_SHADER_STAGE_FRAGMENT_BIT, shaders_.module(*desc.frag), desc.fragConstants);
+    frag.emplace(VK_SHADER_STAGE_FRAGMENT_BIT, shaders_.module(*desc.frag), desc.constants);
     stages.push_back(frag->info());
   }
   const DeviceCaps& caps = device_.caps();

@@ -14,13 +14,18 @@
 
 namespace speculum {
 
+// A specialisation constant of shaders: its constant_id, and the bits of its value.
+struct SpecialisedConstant {
+  uint32_t number = 0;
+  uint32_t value = 0;
+};
+
 // State of a graphics pipeline. Only viewport, scissor and front face are dynamic.
 struct GraphicsPipelineDesc {
   std::string name;
-  std::string vert;                     // e.g. "scene.vert"
-  std::optional<std::string> frag;      // none: only depth is written
-  std::vector<uint32_t> vertConstants;  // specialisation constants 0, 1, ... of the vertex shader
-  std::vector<uint32_t> fragConstants;
+  std::string vert;                               // e.g. "scene.vert"
+  std::optional<std::string> frag;                // none: only depth is written
+  std::vector<SpecialisedConstant> constants;     // of both shaders, each of which takes those that it declares
   std::vector<VkDescriptorSetLayout> setLayouts;  // outlive the pipeline
   uint32_t pushConstantBytes = 0;                 // offset 0, vertex and fragment stage
   VkFormat color = colorFormat;
@@ -39,8 +44,8 @@ struct GraphicsPipelineDesc {
 
 struct ComputePipelineDesc {
   std::string name;
-  std::string comp;                               // e.g. "check_finite.comp"
-  std::vector<uint32_t> constants;                // specialisation constants 0, 1, ...
+  std::string comp;  // e.g. "check_finite.comp"
+  std::vector<SpecialisedConstant> constants;
   std::vector<VkDescriptorSetLayout> setLayouts;  // outlive the pipeline
   uint32_t pushConstantBytes = 0;                 // offset 0
 };

@@ -84,7 +84,7 @@ void DeferredShading::collect(const PassScope& scope, const TraceVariant& trace)
     return ComputePipelineDesc{
         .name = "collect surfaces",
         .comp = samples == VK_SAMPLE_COUNT_1_BIT ? "collect_surfaces.comp" : "collect_surfaces_samples.comp",
-        .constants = {samples, 0, 0, 0, trace.perSample},
+        .constants = {{gpu::constantSamples, samples}, {gpu::constantPerSample, trace.perSample}},
         .setLayouts = {layout_.get()},
         .pushConstantBytes = sizeof(gpu::ShadeConstants)};
   });
@@ -108,8 +108,12 @@ void DeferredShading::shade(const PassScope& scope, const FrameInfo& info, const
   const Pipeline& pipeline = shading_.get({samples, trace, trilinear}, [&] {
     return ComputePipelineDesc{.name = "deferred shading",
                                .comp = trace.hardware ? "shade_ray_query.comp" : "shade.comp",
-                               .constants = {samples, trilinear, trace.shadows, trace.castsLight, trace.rough,
-                                             gpu::manyLights, trace.repeating},
+                               .constants = {{gpu::constantSamples, samples},
+                                             {gpu::constantTrilinear, trilinear},
+                                             {gpu::constantShadows, trace.shadows},
+                                             {gpu::constantCastsLight, trace.castsLight},
+                                             {gpu::constantRough, trace.rough},
+                                             {gpu::constantRepeating, trace.repeating}},
                                .setLayouts = {frameLayout_, layout_.get(), info.trace.layout()},
                                .pushConstantBytes = sizeof(gpu::ShadeConstants)};
   });
@@ -129,7 +133,7 @@ uint32_t DeferredShading::record(const PassScope& scope) {
     return GraphicsPipelineDesc{.name = "shaded surfaces",
                                 .vert = "shaded.vert",
                                 .frag = "shaded.frag",
-                                .fragConstants = {static_cast<uint32_t>(samples)},
+                                .constants = {{gpu::constantSamples, static_cast<uint32_t>(samples)}},
                                 .setLayouts = {layout_.get()},
                                 .pushConstantBytes = sizeof(gpu::ShadeConstants),
                                 .samples = samples,

@@ -37,7 +37,16 @@ GraphicsPipelineDesc MirrorSystem::describe(const Variant& variant, const FrameI
   GraphicsPipelineDesc desc{.name = "mirror",
                             .vert = "mirror.vert",
                             .frag = "mirror.frag",
-                            .fragConstants = {shading == Shading::base, variant.reprojected, variant.added},
+                            .constants = {{gpu::constantReprojects, variant.reprojected},
+                                          {gpu::constantAdded, variant.added},
+                                          {gpu::constantBlurs, variant.blurs},
+                                          {gpu::constantRipples, variant.ripples},
+                                          {gpu::constantShows, static_cast<uint32_t>(variant.shows)},
+                                          {gpu::constantLookup, static_cast<uint32_t>(variant.lookup)},
+                                          {gpu::constantColored, variant.colored},
+                                          {gpu::constantOnlyShadowFace, variant.onlyShadowFace},
+                                          {gpu::constantLightCount, variant.lightCount},
+                                          {gpu::constantShadowedLights, variant.shadowedLights}},
                             .setLayouts = {frameLayout_, imageLayout_.get()},
                             .samples = variant.samples,
                             .depthClamp = variant.clampDepth};
@@ -47,8 +56,9 @@ GraphicsPipelineDesc MirrorSystem::describe(const Variant& variant, const FrameI
     desc.frag = "mirror_sample.frag";
   } else if (shading == Shading::identifier) {
     desc.frag = "mirror_identifier.frag";
-    desc.fragConstants = {!variant.byRays};
   }
+  const bool baseOnly = shading == Shading::identifier ? !variant.byRays : shading == Shading::base;
+  desc.constants.push_back({gpu::constantBaseOnly, baseOnly});
   desc.sampleShading = shading == Shading::ownSample || variant.perSample;
   if (variant.added) {
     desc.depthCompare = VK_COMPARE_OP_EQUAL;
@@ -59,12 +69,6 @@ GraphicsPipelineDesc MirrorSystem::describe(const Variant& variant, const FrameI
     desc.frag = shading == Shading::average ? "mirror_average_shadowed.frag" : "mirror_shadowed.frag";
     desc.setLayouts.push_back(info.shadows.layout());
   }
-  desc.fragConstants.resize(4, 0);
-  desc.fragConstants.push_back(variant.onlyShadowFace);
-  desc.fragConstants.insert(
-      desc.fragConstants.end(),
-      {variant.lightCount, variant.blurs, static_cast<uint32_t>(variant.shows), static_cast<uint32_t>(variant.lookup),
-       variant.colored, variant.shadowedLights, variant.ripples});
   return desc;
 }
 

@@ -54,8 +54,14 @@ GraphicsPipelineDesc RenderSystem::objects(const Variant& variant, const FrameIn
   GraphicsPipelineDesc desc{.name = "scene",
                             .vert = "scene.vert",
                             .frag = "scene.frag",
-                            .vertConstants = {variant.clipDistance},
-                            .fragConstants = {variant.diffuseLookup, variant.glossy},
+                            .constants = {{gpu::constantClipAtMirror, variant.clipDistance},
+                                          {gpu::constantDiffuseLookup, variant.diffuseLookup},
+                                          {gpu::constantGlossy, variant.glossy},
+                                          {gpu::constantBaseOnly, variant.environment},
+                                          {gpu::constantSamples, variant.samples},
+                                          {gpu::constantOnlyShadowFace, variant.onlyShadowFace},
+                                          {gpu::constantLightCount, variant.lightCount},
+                                          {gpu::constantShadowedLights, variant.shadowedLights}},
                             .setLayouts = {frameLayout_, textureLayout_},
                             .pushConstantBytes = sizeof(gpu::DrawConstants),
                             .samples = variant.samples,
@@ -63,7 +69,6 @@ GraphicsPipelineDesc RenderSystem::objects(const Variant& variant, const FrameIn
                             .lines = variant.wireframe};
   if (variant.deferred) {
     desc.frag = "scene_identifier.frag";
-    desc.fragConstants = {variant.environment};
   } else if (variant.environment) {
     desc.frag = "scene_environment.frag";
   } else if (variant.repeating) {
@@ -71,7 +76,6 @@ GraphicsPipelineDesc RenderSystem::objects(const Variant& variant, const FrameIn
   }
   if (variant.added) {
     desc.frag = "scene_environment_reflection.frag";
-    desc.fragConstants.push_back(variant.samples);
     desc.setLayouts.push_back(shading->layout());
     desc.pushConstantBytes = sizeof(gpu::ReflectionConstants);
     desc.depthCompare = VK_COMPARE_OP_EQUAL;
@@ -84,11 +88,6 @@ GraphicsPipelineDesc RenderSystem::objects(const Variant& variant, const FrameIn
                                     : "scene_shadowed.frag";
     desc.setLayouts.push_back(info.shadows.layout());
   }
-  desc.fragConstants.resize(4, 0);
-  desc.fragConstants.push_back(variant.onlyShadowFace);
-  desc.fragConstants.push_back(variant.lightCount);
-  desc.fragConstants.resize(10, 0);
-  desc.fragConstants.push_back(variant.shadowedLights);
   addVertexInput(desc);
   return desc;
 }

@@ -109,7 +109,6 @@ const Pipeline& ShadowSystem::pipelineFor(Drawn drawn) {
                               .color = planeFormat};
     if (drawn == Drawn::objects) {
       desc.vert = "scene.vert";
-      desc.vertConstants = {false};
       addVertexInput(desc);
     } else if (drawn == Drawn::layer) {
       desc.vert = "full_screen.vert";
