@@ -28,7 +28,7 @@ class Journey : public testing::Test {
     options_.scene = writeScene("journey", toml).string();
     options_.size = {width, height};
     options_.validation = true;
-    options_.presentMode = PresentMode::immediate;
+    options_.window.presentMode = PresentMode::immediate;
     // Draws everything in every frame, so that run() can count frames, and moving pictures in full quality, however
     // slow the machine is.
     options_.settings.insert(options_.settings.begin(), {{"view.continuous", "true"},

@@ -234,7 +234,7 @@ void print(const Options& options, const char* path, const Measured& measured, d
 void measure(const std::string& scene) {
   Options options;
   options.scene = scene;
-  options.presentMode = PresentMode::immediate;
+  options.window.presentMode = PresentMode::immediate;
   if (!std::getenv("PACE_STILL")) {
     Measured all;
     double sum = 0.0;  // of the paths' errors, which are of equally many pictures

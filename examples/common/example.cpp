@@ -10,8 +10,8 @@
 
 #include "accuracy/image_metrics.hpp"
 #include "image/color.hpp"
-#include "image/picture_files.hpp"
 #include "image/image.hpp"
+#include "image/picture_files.hpp"
 #include "platform/files.hpp"
 #include "platform/folders.hpp"
 #include "platform/text.hpp"

@@ -82,10 +82,10 @@ std::optional<nlohmann::ordered_json> measureFrames(Session& session, const Opti
                                                     Progress& progress) {
   std::vector<nlohmann::ordered_json> frames;
   std::vector<std::vector<PassId>> passes;
-  for (int i = 0; i < options.warmup + measured; ++i) {
+  for (int i = 0; i < options.bench.warmup + measured; ++i) {
     session.draw(options.time, false, untilInterrupted);
     session.finish();
-    if (i >= options.warmup) {
+    if (i >= options.bench.warmup) {
       if (!frames.empty()) {
         frames.back()["skipped"].clear();  // only the last list is merged, and each may be long
       }
@@ -156,10 +156,10 @@ void printBench(const nlohmann::ordered_json& merged, int measured) {
 }  // namespace
 
 int runBench(const Options& options) {
-  if (options.benchReference && options.benchPrices) {
+  if (options.bench.tracer && options.bench.prices) {
     throw UsageError("--reference: measures alone (leave out --prices)");
   }
-  if (options.benchReference) {
+  if (options.bench.tracer) {
     return benchReference(options);
   }
   const int measured = options.frames > 0 ? options.frames : 60;
@@ -171,14 +171,14 @@ int runBench(const Options& options) {
     session.setSettings(settings);
   }
   installInterruptHandler();
-  Progress progress("bench", options.warmup + 2 * measured);
+  Progress progress("bench", options.bench.warmup + 2 * measured);
   std::optional<nlohmann::ordered_json> merged = measureFrames(session, options, measured, progress);
   const auto intervals = merged ? measureIntervals(session, options.time, measured, progress) : std::nullopt;
   if (!intervals) {
     return 1;
   }
   (*merged)["totals"]["interval_ms"] = *intervals;
-  if (options.benchPrices && !addPrices(*merged, session, options.time, std::max(5, measured / 4))) {
+  if (options.bench.prices && !addPrices(*merged, session, options.time, std::max(5, measured / 4))) {
     return 1;
   }
   printBench(*merged, measured);

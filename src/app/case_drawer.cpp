@@ -66,7 +66,7 @@ bool CaseDrawer::drawAndJudge(const ExpectedCase& expected, Outcome& outcome) {
   RegressCase subject = expected.subject;
   const CaseFiles files(options_.out, subject.name);
   const Image8 actual = draw(subject, outcome);
-  for (int i = 1; i < options_.repeat; ++i) {
+  for (int i = 1; i < options_.regress.repeat; ++i) {
     const Image8 again = draw(subject, outcome);
     if (again.rgba != actual.rgba) {
       // Compares two pictures of this driver byte for byte, whatever tolerance the case has.

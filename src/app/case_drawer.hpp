@@ -17,7 +17,7 @@ class CaseDrawer {
  public:
   explicit CaseDrawer(const Options& options) : options_(options) {}
 
-  // Draws the case options.repeat times. Everything that goes wrong is in the outcome.
+  // Draws the case options.regress.repeat times. Everything that goes wrong is in the outcome.
   Outcome outcomeOf(const RegressCase& subject);
 
  private:

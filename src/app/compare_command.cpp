@@ -16,12 +16,13 @@ namespace {
 // Lists the measures that exceed the given limits; empty if none does.
 std::string exceeded(const ImageMetrics& metrics, const Options& options) {
   std::string text;
-  if (options.maxFlip && metrics.flip > *options.maxFlip) {
-    text += "FLIP " + std::to_string(metrics.flip) + " is above --max-flip " + std::to_string(*options.maxFlip) + ". ";
+  if (options.compare.maxFlip && metrics.flip > *options.compare.maxFlip) {
+    text += "FLIP " + std::to_string(metrics.flip) + " is above --max-flip " +
+            std::to_string(*options.compare.maxFlip) + ". ";
   }
-  if (options.maxDiff && metrics.maxDiff > *options.maxDiff) {
+  if (options.compare.maxDiff && metrics.maxDiff > *options.compare.maxDiff) {
     text += std::to_string(metrics.pixelsOver) + " pixels differ by more than --max-diff " +
-            std::to_string(*options.maxDiff) + ".";
+            std::to_string(*options.compare.maxDiff) + ".";
   }
   return text;
 }
@@ -29,24 +30,24 @@ std::string exceeded(const ImageMetrics& metrics, const Options& options) {
 }  // namespace
 
 int runCompare(const Options& options) {
-  if (options.heatmap.has_extension() && options.heatmap.extension() != ".png") {
-    throw UsageError("--heatmap: '" + options.heatmap.string() + "' must end in .png (the heat map is a PNG)");
+  if (options.compare.heatmap.has_extension() && options.compare.heatmap.extension() != ".png") {
+    throw UsageError("--heatmap: '" + options.compare.heatmap.string() + "' must end in .png (the heat map is a PNG)");
   }
-  const ComparedImage reference = readComparedImage(options.reference);
-  const ComparedImage test = readComparedImage(options.test);
+  const ComparedImage reference = readComparedImage(options.compare.reference);
+  const ComparedImage test = readComparedImage(options.compare.test);
   std::optional<PixelMask> mask;
-  if (!options.mask.empty()) {
-    mask = readNonEmptyMask(options.mask);
+  if (!options.compare.mask.empty()) {
+    mask = readNonEmptyMask(options.compare.mask);
   }
-  const double tolerance = options.maxDiff.value_or(2);
+  const double tolerance = options.compare.maxDiff.value_or(2);
   const Comparison comparison =
       compareImages(reference, test, {.tolerance = tolerance, .mask = mask ? &*mask : nullptr});
   std::fputs(comparisonTable(comparison, tolerance).c_str(), stdout);
   if (!options.json.empty()) {
     writeJson(options.json, comparisonJson(comparison));
   }
-  if (!options.heatmap.empty()) {
-    writePng(options.heatmap, heatMap(comparison.flip));
+  if (!options.compare.heatmap.empty()) {
+    writePng(options.compare.heatmap, heatMap(comparison.flip));
   }
   const std::string problem = exceeded(comparison.whole, options);
   if (!problem.empty()) {

@@ -486,7 +486,7 @@ void endWithoutDisplay() {
 }  // namespace
 
 int runDemo(const Options& options) {
-  chooseWindowPlatform(options.platform);
+  chooseWindowPlatform(options.window.platform);
   installInterruptHandler();
   letBrokenPipesFail();
   Demo demo(options);

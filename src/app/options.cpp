@@ -56,7 +56,7 @@ void addDemo(CLI::App& app, Options& options, Raw& raw) {
   addSweepResults(app, options);
   app.add_option("--present-mode", raw.presentMode, "fifo | mailbox | immediate")
       ->check(CLI::IsMember({"fifo", "mailbox", "immediate"}));
-  app.add_option("--platform", options.platform, "x11 | wayland; GLFW before 3.4 is installed for one of them")
+  app.add_option("--platform", options.window.platform, "x11 | wayland; GLFW before 3.4 is installed for one of them")
       ->check(CLI::IsMember({"x11", "wayland"}));
 }
 
@@ -82,27 +82,27 @@ void addRender(CLI::App& app, Options& options, Raw& raw) {
   addStrict(app, options);
   app.add_option("--out", options.out, "F.png, F.exr, or a pattern such as dir/%04d.png with --frames")->required();
   addSweepResults(app, options);
-  app.add_option("--stats", options.stats, "JSON: passes, skipped mirrors, effects, totals");
-  app.add_option("--capture", options.capture, "F.rdc: the first picture for RenderDoc, which must be loaded");
+  app.add_option("--stats", options.render.stats, "JSON: passes, skipped mirrors, effects, totals");
+  app.add_option("--capture", options.render.capture, "F.rdc: the first picture for RenderDoc, which must be loaded");
   app.add_option("--frames", options.frames, "a sequence of so many pictures")->check(CLI::Range(1, 1000000));
-  app.add_option("--fps", options.fps, "pictures per second of animation")->check(CLI::Range(1e-6, 1e6));
+  app.add_option("--fps", options.render.fps, "pictures per second of animation")->check(CLI::Range(1e-6, 1e6));
 }
 
 void addReference(CLI::App& app, Options& options, Raw& raw) {
   addView(app, options, raw);
   addStrict(app, options);
   app.add_option("--out", options.out, "F.png or F.exr")->required();
-  app.add_option("--samples", options.samples, "rays a pixel, a square number")->check(CLI::Range(1, 65536));
+  app.add_option("--samples", options.referenceSamples, "rays a pixel, a square number")->check(CLI::Range(1, 65536));
 }
 
 void addBench(CLI::App& app, Options& options, Raw& raw) {
   addView(app, options, raw);
   app.add_option("--frames", options.frames, "measured frames")->check(CLI::Range(1, 1000000));
-  app.add_option("--warmup", options.warmup, "frames before")->check(CLI::Range(0, 1000000));
+  app.add_option("--warmup", options.bench.warmup, "frames before")->check(CLI::Range(0, 1000000));
   app.add_option("--json", options.json, "write the figures to F");
   addSweepResults(app, options);
-  app.add_flag("--prices", options.benchPrices, "GPU ms of each effect as well, by leaving it out in turn");
-  app.add_flag("--reference", options.benchReference, "the ray tracer instead: rays per second and core");
+  app.add_flag("--prices", options.bench.prices, "GPU ms of each effect as well, by leaving it out in turn");
+  app.add_flag("--reference", options.bench.tracer, "the ray tracer instead: rays per second and core");
 }
 
 void addAccuracy(CLI::App& app, Options& options, Raw& raw) {
@@ -113,35 +113,35 @@ void addAccuracy(CLI::App& app, Options& options, Raw& raw) {
 }
 
 void addCompare(CLI::App& app, Options& options) {
-  app.add_option("reference", options.reference, "PNG or EXR")->required();
-  app.add_option("test", options.test, "PNG or EXR of the same size")->required();
-  app.add_option("--mask", options.mask, "PNG; figures again for its pixels of at least 128");
-  app.add_option("--heatmap", options.heatmap, "PNG of the FLIP error");
+  app.add_option("reference", options.compare.reference, "PNG or EXR")->required();
+  app.add_option("test", options.compare.test, "PNG or EXR of the same size")->required();
+  app.add_option("--mask", options.compare.mask, "PNG; figures again for its pixels of at least 128");
+  app.add_option("--heatmap", options.compare.heatmap, "PNG of the FLIP error");
   app.add_option("--json", options.json, "write the figures to F");
-  app.add_option("--max-flip", options.maxFlip, "exit 1 above this mean FLIP")->check(CLI::Range(0.0, 1e6));
-  app.add_option("--max-diff", options.maxDiff, "exit 1 if a channel differs by more than N/255")
+  app.add_option("--max-flip", options.compare.maxFlip, "exit 1 above this mean FLIP")->check(CLI::Range(0.0, 1e6));
+  app.add_option("--max-diff", options.compare.maxDiff, "exit 1 if a channel differs by more than N/255")
       ->check(CLI::Range(0, 1'000'000));
 }
 
 void addRegress(CLI::App& app, Options& options) {
-  app.add_option("cases", options.cases, "TOML: scenes, times, cameras, settings, tolerances")->required();
+  app.add_option("cases", options.regress.cases, "TOML: scenes, times, cameras, settings, tolerances")->required();
   app.add_option("--out", options.out, "folder of the report, regress-report unless given");
-  app.add_option("--filter", options.filter, "only cases with a name like this, such as 'gallery*'");
-  app.add_option("--jobs", options.jobs, "worker processes, up to 4 by the processor unless given")
+  app.add_option("--filter", options.regress.filter, "only cases with a name like this, such as 'gallery*'");
+  app.add_option("--jobs", options.regress.jobs, "worker processes, up to 4 by the processor unless given")
       ->check(CLI::Range(1, 256));
   app.add_option_function<std::vector<std::string>>(
          "--update",
          [&](const std::vector<std::string>& glob) {
-           options.update = glob.empty() || glob.front().empty() ? "*" : glob.front();
+           options.regress.update = glob.empty() || glob.front().empty() ? "*" : glob.front();
          },
          "take over the pictures of failed cases, all or those with a name like this")
       ->expected(0, 1)
       ->type_name("[GLOB]");
   addStrict(app, options);
-  app.add_option("--junit", options.junit, "write the results to F as JUnit XML");
-  app.add_option("--repeat", options.repeat, "draw each case so often; the pictures must be equal")
+  app.add_option("--junit", options.regress.junit, "write the results to F as JUnit XML");
+  app.add_option("--repeat", options.regress.repeat, "draw each case so often; the pictures must be equal")
       ->check(CLI::Range(1, 1000000));
-  app.add_flag("--worker", options.worker)->group("");
+  app.add_flag("--worker", options.regress.worker)->group("");
 }
 
 std::vector<std::pair<std::string, std::string>> parseSettings(const std::string& option,
@@ -179,10 +179,10 @@ void applyRaw(const Raw& raw, Options& options) {
                                  kTime.shortText()));
   }
   // Finds NaN, which passes range checks because no comparison with it holds.
-  if (!std::isfinite(options.fps)) {
+  if (!std::isfinite(options.render.fps)) {
     throw UsageError("--fps: not a finite number (pictures per second, such as 30)");
   }
-  if (options.maxFlip && !std::isfinite(*options.maxFlip)) {
+  if (options.compare.maxFlip && !std::isfinite(*options.compare.maxFlip)) {
     throw UsageError("--max-flip: not a finite number (a mean FLIP, such as 0.05)");
   }
   options.settings = parseSettings("--set", raw.settings);
@@ -192,7 +192,7 @@ void applyRaw(const Raw& raw, Options& options) {
   }
   options.renderPath = *path;
   for (const PresentMode mode : {PresentMode::fifo, PresentMode::mailbox, PresentMode::immediate}) {
-    options.presentMode = presentModeName(mode) == raw.presentMode ? mode : options.presentMode;
+    options.window.presentMode = presentModeName(mode) == raw.presentMode ? mode : options.window.presentMode;
   }
 }
 

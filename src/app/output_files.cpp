@@ -32,11 +32,11 @@ std::vector<NamedFile> outputsOf(const Options& options) {
   } else if (!isSequence(options)) {
     outputs.push_back({"--out", options.out});
   }
-  outputs.insert(outputs.end(), {{"--stats", options.stats},
+  outputs.insert(outputs.end(), {{"--stats", options.render.stats},
                                  {"--json", options.json},
-                                 {"--junit", options.junit},
-                                 {"--heatmap", options.heatmap},
-                                 {"--capture", options.capture.value_or("")}});
+                                 {"--junit", options.regress.junit},
+                                 {"--heatmap", options.compare.heatmap},
+                                 {"--capture", options.render.capture.value_or("")}});
   std::erase_if(outputs, [](const NamedFile& output) { return output.file.empty(); });
   return outputs;
 }
@@ -88,9 +88,10 @@ fs::path UsedFiles::resolved(const fs::path& file) {
 void requireFilesOfTheirOwn(const Options& options) {
   UsedFiles used;
   for (const auto& [option, file] :
-       {NamedFile{"--scene", options.scene}, NamedFile{"--sweep", options.sweep}, NamedFile{"--mask", options.mask},
-        NamedFile{"--sweep-results", options.sweepResults}, NamedFile{"reference", options.reference},
-        NamedFile{"test", options.test}, NamedFile{"cases", options.cases}}) {
+       {NamedFile{"--scene", options.scene}, NamedFile{"--sweep", options.sweep},
+        NamedFile{"--mask", options.compare.mask}, NamedFile{"--sweep-results", options.sweepResults},
+        NamedFile{"reference", options.compare.reference}, NamedFile{"test", options.compare.test},
+        NamedFile{"cases", options.regress.cases}}) {
     if (isFile(file)) {  // names of shipped scenes and sweeps are no files
       used.add(fmt::format("the file of {}", option), file);
     }

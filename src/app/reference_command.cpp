@@ -17,7 +17,7 @@ namespace {
 TraceOptions traceOptions(const Options& options, const Settings& settings) {
   return {.width = options.size.width,
           .height = options.size.height,
-          .samples = options.samples,
+          .samples = options.referenceSamples,
           .maxDepth = settings.reflection.maxDepth,
           .minThroughput = settings.reflection.minThroughput,
           .clearColor = settings.view.clearColor};
@@ -33,7 +33,7 @@ void checkSamples(int samples) {
 }  // namespace
 
 int runReference(const Options& options) {
-  checkSamples(options.samples);
+  checkSamples(options.referenceSamples);
   const PictureSequence files(options.out, 0);
   const LoadedScene loaded = loadSceneWithSettings(options);
   SceneState state = evaluate(loaded.scene, options.time);

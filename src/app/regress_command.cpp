@@ -39,13 +39,13 @@ std::vector<RegressCase> selectedCases(std::vector<RegressCase> cases, const Opt
   const auto requireMatch = [&](const std::string& option, const std::string& glob) {
     if (std::ranges::none_of(cases, [&](const RegressCase& one) { return matches(glob, one.name); })) {
       throw UsageError(fmt::format("{}: no case of {} has a name like '{}' (* stands for any text)", option,
-                                   options.cases.string(), glob));
+                                   options.regress.cases.string(), glob));
     }
   };
-  requireMatch("--filter", options.filter);
-  std::erase_if(cases, [&](const RegressCase& subject) { return !matches(options.filter, subject.name); });
-  if (options.update) {
-    requireMatch("--update", *options.update);
+  requireMatch("--filter", options.regress.filter);
+  std::erase_if(cases, [&](const RegressCase& subject) { return !matches(options.regress.filter, subject.name); });
+  if (options.regress.update) {
+    requireMatch("--update", *options.regress.update);
   }
   return cases;
 }
@@ -89,7 +89,7 @@ void addCommands(const RegressCase& subject, const Options& options, const std::
   if (outcome.replaceable) {
     Words& accept = outcome.acceptCommand;
     // Leaves the report that the command stands in.
-    accept = {"speculum", "regress",   options.cases.string(), "--out", (options.out / "accepted").string(),
+    accept = {"speculum", "regress",   options.regress.cases.string(), "--out", (options.out / "accepted").string(),
               "--filter", subject.name};
     accept.insert(accept.end(), given.begin(), given.end());
     accept.push_back("--update");
@@ -137,7 +137,7 @@ void acceptAll(const Options& options, UsedFiles& drawn, RegressRun& run) {
   for (size_t i = 0; i < run.cases.size(); ++i) {
     Outcome& outcome = run.outcomes[i];
     const std::string& name = run.cases[i].name;
-    if (!outcome.replaceable || !matches(*options.update, name)) {
+    if (!outcome.replaceable || !matches(*options.regress.update, name)) {
       continue;
     }
     try {
@@ -157,8 +157,8 @@ void acceptAll(const Options& options, UsedFiles& drawn, RegressRun& run) {
 
 void writeReports(const Options& options, const RegressRun& run) {
   writeText(options.out / "index.html", regressHtml(run, options.out));
-  if (!options.junit.empty()) {
-    writeText(options.junit, junitXml(run));
+  if (!options.regress.junit.empty()) {
+    writeText(options.regress.junit, junitXml(run));
   }
   if (environment("GITHUB_ACTIONS") == "true") {
     std::fputs(githubErrors(run).c_str(), stdout);
@@ -199,7 +199,7 @@ std::vector<std::filesystem::path> picturesOf(const RegressCase& subject) {
 // The files of all cases, also of those that this run does not draw.
 struct FilesOfCases {
   explicit FilesOfCases(const Options& options, const std::vector<RegressCase>& cases) {
-    drawn.add("the file of cases", options.cases);
+    drawn.add("the file of cases", options.regress.cases);
     std::set<std::filesystem::path> scenes;
     for (const RegressCase& subject : cases) {
       const std::filesystem::path mask = subject.mask.value_or("");
@@ -241,7 +241,7 @@ struct FilesOfCases {
 void requireFilesOfItsOwn(const Options& options, const std::vector<RegressCase>& drawn, FilesOfCases& files) {
   std::vector<std::filesystem::path> report{options.out / "index.html"};
   for (const RegressCase& subject : drawn) {
-    if (options.update && matches(*options.update, subject.name)) {
+    if (options.regress.update && matches(*options.regress.update, subject.name)) {
       for (const std::filesystem::path& picture : picturesOf(subject)) {
         files.masks.requireUnused("--update", picture);
       }
@@ -253,21 +253,21 @@ void requireFilesOfItsOwn(const Options& options, const std::vector<RegressCase>
     files.all.requireUnused("--out", file);
     files.all.add("a file of the report", file);
   }
-  if (!options.junit.empty()) {
-    files.all.requireUnused("--junit", options.junit);
+  if (!options.regress.junit.empty()) {
+    files.all.requireUnused("--junit", options.regress.junit);
   }
 }
 
 }  // namespace
 
 int runRegress(const Options& options) {
-  const std::vector<RegressCase> cases = readCases(options.cases);
-  RegressRun run{.file = options.cases,
+  const std::vector<RegressCase> cases = readCases(options.regress.cases);
+  RegressRun run{.file = options.regress.cases,
                  .cases = selectedCases(cases, options),
                  .command = {"speculum"},
                  .version = versionString,
                  .date = utcNow()};
-  if (options.worker) {
+  if (options.regress.worker) {
     return runWorker(options, run.cases);
   }
   run.command.insert(run.command.end(), options.arguments.begin(), options.arguments.end());
@@ -283,7 +283,7 @@ int runRegress(const Options& options) {
     const RegressCase& subject = run.cases[i];
     jobs.push_back({std::to_string(i),
                     fmt::format("{} {}x{}", subject.scene.string(), subject.size.width, subject.size.height),
-                    subject.timeout * options.repeat});
+                    subject.timeout * options.regress.repeat});
     for (const std::filesystem::path& file : CaseFiles(options.out, subject.name).all()) {
       std::filesystem::remove(file, error);
     }
@@ -293,8 +293,9 @@ int runRegress(const Options& options) {
   std::vector<std::string> worker{executablePath().string()};
   worker.insert(worker.end(), options.arguments.begin(), options.arguments.end());
   worker.push_back("--worker");
-  const int workers =
-      options.jobs > 0 ? options.jobs : std::min(usualWorkers, static_cast<int>(std::thread::hardware_concurrency()));
+  const int workers = options.regress.jobs > 0
+                          ? options.regress.jobs
+                          : std::min(usualWorkers, static_cast<int>(std::thread::hardware_concurrency()));
   installInterruptHandler();
   {
     Progress progress("regress", static_cast<double>(jobs.size()));
@@ -302,7 +303,7 @@ int runRegress(const Options& options) {
       const RegressCase& subject = run.cases[i];
       Outcome& outcome = run.outcomes[i];
       try {
-        outcome = outcomeOf(reply, subject, options.repeat);
+        outcome = outcomeOf(reply, subject, options.regress.repeat);
         withoutDevice += reply.end == JobEnd::answered && outcome.device.empty();
         requireWriter(cases, subject, outcome);
       } catch (const std::exception& error) {
@@ -319,7 +320,7 @@ int runRegress(const Options& options) {
   if (withoutDevice > 0 && withoutDevice == run.outcomes.size()) {
     throw std::runtime_error(run.outcomes.front().message);
   }
-  if (options.update) {
+  if (options.regress.update) {
     acceptAll(options, files.drawn, run);
   }
   printOutcomes(run, options.out / "index.html");

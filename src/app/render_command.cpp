@@ -28,17 +28,17 @@ int runRender(const Options& options) {
   const int count = std::max(1, options.frames);
   const PictureSequence files(options.out, options.frames > 0 ? count : 0);
   Session session(options);
-  session.renderer().setTimerDetail(options.stats.empty() ? TimerDetail::frame : TimerDetail::samples);
+  session.renderer().setTimerDetail(options.render.stats.empty() ? TimerDetail::frame : TimerDetail::samples);
   installInterruptHandler();
   Progress progress("render", count * session.settings().view.accumulate);
   const auto advance = [&] { return progress.advance(); };
   for (int i = 0; i < count; ++i) {
     const auto draw = [&] {
-      session.draw(options.time + i / options.fps, true, advance);
+      session.draw(options.time + i / options.render.fps, true, advance);
       session.finish();
     };
-    if (options.capture && i == 0) {
-      captureWithRenderDoc(*options.capture, draw);
+    if (options.render.capture && i == 0) {
+      captureWithRenderDoc(*options.render.capture, draw);
     } else {
       draw();
     }
@@ -50,8 +50,8 @@ int runRender(const Options& options) {
       return 1;
     }
   }
-  if (!options.stats.empty()) {
-    writeJson(options.stats, frameStats(session));
+  if (!options.render.stats.empty()) {
+    writeJson(options.render.stats, frameStats(session));
   }
   return session.exitCode();
 }

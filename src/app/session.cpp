@@ -124,7 +124,7 @@ DeviceOptions deviceOptions(const Options& options, Window* window) {
 RendererOptions rendererOptions(const Options& options, Window* window) {
   return {.window = window,
           .extent = rendererExtent(options.size),
-          .presentMode = options.presentMode,
+          .presentMode = options.window.presentMode,
           .shaderDir = options.shaderDir};
 }
 

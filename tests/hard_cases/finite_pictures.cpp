@@ -293,7 +293,7 @@ Options windowOptions() {
   options.scene = sceneFile("single_plane").string();
   options.size = {64, 48};
   options.validation = true;
-  options.presentMode = PresentMode::immediate;
+  options.window.presentMode = PresentMode::immediate;
   options.settings = {{"debug.check_finite", "true"}};
   return options;
 }
