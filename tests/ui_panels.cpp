@@ -490,6 +490,19 @@ TEST_F(PanelTest, SavingListsFoldersAndScenes) {
   ask(Prompt::none);
 }
 
+TEST_F(PanelTest, SavingElsewhereOffersToCopyModels) {
+  scene_.file = config_.path() / "own" / "scene.toml";
+  ask(Prompt::saveAs, config_.path() / "new.toml");
+  EXPECT_TRUE(clickFor<SaveAs>("where.save").copyModels) << "unless they are left where they are";
+  ask(Prompt::saveAs, config_.path() / "new.toml");
+  click("where.models", 0.05);
+  EXPECT_FALSE(clickFor<SaveAs>("where.save").copyModels);
+  ask(Prompt::none);
+  ask(Prompt::saveAs, scene_.file);
+  EXPECT_FALSE(has("where.models")) << "in its own folder everything stays";
+  EXPECT_FALSE(clickFor<SaveAs>("where.save").copyModels);
+}
+
 TEST_F(PanelTest, KeptChangesAreOpenedDiscardedOrLeft) {
   ask(Prompt::recovery, "/home/scene.toml");
   EXPECT_EQ(clickFor<OpenScene>("recovery.open").file, "/home/scene.toml");
