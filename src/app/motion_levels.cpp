@@ -99,9 +99,10 @@ AskedEffects askedEffects(const Scene& scene, const EffectSettings& settings) {
                                  return object.mirror.has_value();
                                })};
   for (const Mirror& mirror : scene.mirrors) {
+    const MirrorOptics optics = opticsOf(mirror, settings);
     asked.castsLight = asked.castsLight || (settings.castsLight && mirror.castsLight);
-    asked.ripple = asked.ripple || isRippled(mirror, settings);
-    asked.rough = asked.rough || isRough(mirror, settings);
+    asked.ripple = asked.ripple || optics.ripple;
+    asked.rough = asked.rough || optics.alpha > 0.0;
   }
   return asked;
 }

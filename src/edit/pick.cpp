@@ -50,8 +50,7 @@ std::vector<Picked> Picker::at(const SceneState& state, const PictureView& pictu
     const Mirror& mirror = world_.scene().mirrors[hit->index];
     const MirrorState& placed = world_.mirrors()[hit->index];
     path.push_back(hit->index);
-    throughput *=
-        mirrorReflectance(mirror.reflectance, mirror.fresnel, std::abs(glm::dot(placed.normal, ray.direction)));
+    throughput *= opticsOf(mirror).reflectanceAt(std::abs(glm::dot(placed.normal, ray.direction)));
     const double largest = std::max({throughput.r, throughput.g, throughput.b});
     if (!(hit->mirrorFront || mirror.twoSided) || static_cast<int>(path.size()) > limits.maxDepth || largest == 0.0 ||
         largest < limits.minThroughput || isSkipped(limits, path)) {

@@ -34,12 +34,12 @@ Effect fresnel(const Scene& scene, const SceneState& state, const Settings& sett
   for (const int i : visible.instances) {
     const int object = state.instances[i].object;
     const std::optional<ObjectMirror>& mirror = scene.objects[object].mirror;
-    if (settings.effects.curved && mirror && isSchlick(mirror->fresnel, settings.effects)) {
+    if (settings.effects.curved && mirror && opticsOf(*mirror, settings.effects).fresnel == Fresnel::schlick) {
       return {EffectKind::fresnel, "fresnel", true, nameOf("object", scene.objects[object].name, object)};
     }
   }
   for (const int i : visible.mirrorFronts) {
-    if (isSchlick(scene.mirrors[i].fresnel, settings.effects)) {
+    if (opticsOf(scene.mirrors[i], settings.effects).fresnel == Fresnel::schlick) {
       return {EffectKind::fresnel, "fresnel", true, nameOf("mirror", scene.mirrors[i].name, i)};
     }
   }

@@ -189,17 +189,17 @@ void MirrorSearch::propose(int node, Sight sight) {
   const View& view = pass.view;
   const int mirror = sight.draw.mirror;
   const Mirror& material = scene_.mirrors[mirror];
+  const MirrorOptics optics = opticsOf(material, allSettings_.effects);
   const double area = screenArea(toClip(view, plan_.projection, sight.visible), plan_.width, plan_.height);
-  const glm::dvec3 throughput =
-      pass.channels * reflectanceBound(material, allSettings_.effects, sight.draw.plane, view.eye, sight.visible);
+  const glm::dvec3 throughput = pass.channels * reflectanceBound(optics, sight.draw.plane, view.eye, sight.visible);
   const bool deep = static_cast<int>(view.path.size()) >= settings_.maxDepth;
   const bool reflects = !deep && glm::compMax(throughput) >= settings_.minThroughput;
   const glm::dvec2 texels = view.pictureSize / glm::dvec2(plan_.width, plan_.height);
   const double samples = area * texels.x * texels.y * pass.quality.samples;
   const std::string_view rays = whyRays(material, allSettings_, reflects, samples);
   sight.draw.byRays = !rays.empty();
-  sight.draw.blurs = reflects && !sight.draw.byRays && isRough(material, allSettings_.effects);
-  sight.draw.ripples = reflects && !sight.draw.byRays && isRippled(material, allSettings_.effects);
+  sight.draw.blurs = reflects && !sight.draw.byRays && optics.alpha > 0.0;
+  sight.draw.ripples = reflects && !sight.draw.byRays && optics.ripple;
   pass.mirrors.push_back(std::move(sight.draw));
   if (deep) {
     return skipMirror(plan_, view, mirror, SkipReason::maxDepth,

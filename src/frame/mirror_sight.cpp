@@ -63,25 +63,13 @@ Sight sightOf(const Scene& scene, const SceneState& state, const View& view, con
   return sight;
 }
 
-glm::dvec3 reflectanceBound(const Mirror& mirror, const EffectSettings& effects, const Plane& plane,
-                            const glm::dvec3& eye, std::span<const glm::dvec3> visible) {
-  if (!isSchlick(mirror.fresnel, effects)) {
-    return mirror.reflectance;
-  }
+glm::dvec3 reflectanceBound(const MirrorOptics& optics, const Plane& plane, const glm::dvec3& eye,
+                            std::span<const glm::dvec3> visible) {
   double farthest = 0.0;
   for (const glm::dvec3& p : visible) {
     farthest = std::max(farthest, glm::length(p - eye));
   }
-  const double cosine = farthest > 0.0 ? std::clamp(plane.distance(eye) / farthest, 0.0, 1.0) : 1.0;
-  return mirror.reflectance + (1.0 - mirror.reflectance) * std::pow(1.0 - cosine, 5.0);
-}
-
-bool isRough(const Mirror& mirror, const EffectSettings& effects) {
-  return effects.roughness && mirror.roughness > 0.0;
-}
-
-bool isRippled(const Mirror& mirror, const EffectSettings& effects) {
-  return effects.ripple && mirror.ripple;
+  return optics.reflectanceAt(farthest > 0.0 ? plane.distance(eye) / farthest : 1.0);
 }
 
 int roughRays(const EffectSettings& effects, int samples) {
@@ -90,13 +78,14 @@ int roughRays(const EffectSettings& effects, int samples) {
 
 std::string_view whyRays(const Mirror& mirror, const Settings& settings, bool reflects, double samples) {
   const EffectSettings& effects = settings.effects;
-  if (isRippled(mirror, effects) && effects.rippleLookup == ReflectionSource::traced) {
+  const MirrorOptics optics = opticsOf(mirror, effects);
+  if (optics.ripple && effects.rippleLookup == ReflectionSource::traced) {
     return "ripples";
   }
   if (!reflects) {
     return "";
   }
-  if (isRough(mirror, effects) && effects.roughLookup == ReflectionSource::traced) {
+  if (optics.alpha > 0.0 && effects.roughLookup == ReflectionSource::traced) {
     return "rough";
   }
   const ReflectionMethod method = reflectionOf(mirror.quality, settings).method;

@@ -31,11 +31,9 @@ Sight sightOf(const Scene& scene, const SceneState& state, const View& view, con
 
 // Upper bound of the reflectance of what is visible. Schlick's F grows towards grazing; the flattest view of a polygon
 // is that of its farthest vertex.
-glm::dvec3 reflectanceBound(const Mirror& mirror, const EffectSettings& effects, const Plane& plane,
-                            const glm::dvec3& eye, std::span<const glm::dvec3> visible);
+glm::dvec3 reflectanceBound(const MirrorOptics& optics, const Plane& plane, const glm::dvec3& eye,
+                            std::span<const glm::dvec3> visible);
 
-bool isRough(const Mirror& mirror, const EffectSettings& effects);
-bool isRippled(const Mirror& mirror, const EffectSettings& effects);
 // Returns the rays that a pixel of a rough mirror sends: effects.rough_samples, rounded up to equally many at each of
 // its samples, as shaders/shade.glsl does.
 int roughRays(const EffectSettings& effects, int samples);

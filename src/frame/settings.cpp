@@ -167,8 +167,18 @@ double ViewSettings::radianceScale() const {
   return ordinary ? 1.0 : std::exp2(std::floor(std::log2(std::max(exposure, least))));
 }
 
-bool isSchlick(Fresnel fresnel, const EffectSettings& effects) {
-  return effects.fresnel && fresnel == Fresnel::schlick;
+MirrorOptics opticsOf(const Mirror& mirror, const EffectSettings& effects) {
+  MirrorOptics optics = opticsOf(mirror);
+  optics.fresnel = effects.fresnel ? optics.fresnel : Fresnel::none;
+  optics.alpha = effects.roughness ? optics.alpha : 0.0;
+  optics.ripple = effects.ripple ? optics.ripple : std::nullopt;
+  return optics;
+}
+
+MirrorOptics opticsOf(const ObjectMirror& mirror, const EffectSettings& effects) {
+  MirrorOptics optics = opticsOf(mirror);
+  optics.fresnel = effects.fresnel ? optics.fresnel : Fresnel::none;
+  return optics;
 }
 
 bool hasGlyph(const PointLight& light, const EffectSettings& effects) {

@@ -87,7 +87,8 @@ struct EffectSettings {
 };
 
 // Say whether an effect that a mirror or a light has is drawn under these settings.
-bool isSchlick(Fresnel fresnel, const EffectSettings& effects);
+MirrorOptics opticsOf(const Mirror& mirror, const EffectSettings& effects);
+MirrorOptics opticsOf(const ObjectMirror& mirror, const EffectSettings& effects);
 bool hasGlyph(const PointLight& light, const EffectSettings& effects);
 
 // Bounds for the choice among measured settings (accuracy/pareto.hpp), and the window's pace (docs/window.md). The

@@ -62,13 +62,14 @@ class Collector {
  private:
   void add(const MirrorDraw& draw) {
     const Mirror& mirror = scene_.mirrors[draw.mirror];
-    lit_.mirrors = lit_.mirrors || !isBlack(draw.back ? mirror.backColor : mirror.baseColor);
-    const bool rough = settings_.roughness && mirror.roughness > 0.0 && (draw.byRays || draw.blurs);
+    const MirrorOptics optics = opticsOf(mirror, settings_);
+    lit_.mirrors = lit_.mirrors || !isBlack(draw.back ? optics.backColor : optics.baseColor);
+    const bool rough = optics.alpha > 0.0 && (draw.byRays || draw.blurs);
     effects_.roughRays = effects_.roughRays || (rough && draw.byRays);
     if (rough && !effects_.roughness) {
       effects_.roughness = nameOf<RecycledString>("mirror", mirror.name, draw.mirror);
     }
-    const bool rippled = settings_.ripple && mirror.ripple && (draw.byRays || draw.ripples);
+    const bool rippled = optics.ripple && (draw.byRays || draw.ripples);
     effects_.rippleRays = effects_.rippleRays || (rippled && draw.byRays);
     effects_.mirrorRays = effects_.mirrorRays || (draw.byRays && !rough && !rippled);
     if (rippled && !effects_.ripple) {

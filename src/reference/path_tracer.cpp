@@ -75,6 +75,7 @@ bool PathTracer::reflects(const SceneHit& hit) const {
 
 PathTracer::Bounce PathTracer::mirrorBounce(const Ray& ray, const SceneHit& hit) const {
   const Mirror& mirror = world_.scene().mirrors[hit.index];
+  const MirrorOptics optics = opticsOf(mirror);
   const MirrorState& state = world_.mirrors()[hit.index];
   const double side = hit.mirrorFront ? 1.0 : -1.0;
   const glm::dvec3 position = ray.at(hit.t);
@@ -82,25 +83,25 @@ PathTracer::Bounce PathTracer::mirrorBounce(const Ray& ray, const SceneHit& hit)
   return {.base = {.position = position,
                    .normal = normal,
                    .toViewer = -ray.direction,
-                   .diffuse = mirror.baseColor,
+                   .diffuse = optics.baseColor,
                    .self = {.mirror = hit.index}},
           .planeNormal = side * state.normal,
-          .reflectance = mirrorReflectance(mirror.reflectance, mirror.fresnel, -glm::dot(normal, ray.direction)),
-          .roughness = mirror.roughness,
+          .reflectance = optics.reflectanceAt(-glm::dot(normal, ray.direction)),
+          .alpha = optics.alpha,
           .t = hit.t};
 }
 
 PathTracer::Bounce PathTracer::curvedBounce(const Ray& ray, const SceneHit& hit) const {
-  const ObjectMirror& mirror = *world_.scene().objects[world_.instances()[hit.index].object].mirror;
+  const MirrorOptics optics = opticsOf(*world_.scene().objects[world_.instances()[hit.index].object].mirror);
   const ShadingPoint point = objectPoint(world_, ray, hit);
   return {.base = {.position = point.position,
                    .normal = point.normal,
                    .toViewer = point.toViewer,
-                   .diffuse = mirror.baseColor,
+                   .diffuse = optics.baseColor,
                    .self = point.self},
           .planeNormal = point.facet,
-          .reflectance = mirrorReflectance(mirror.reflectance, mirror.fresnel, glm::dot(point.normal, point.toViewer)),
-          .roughness = 0.0,
+          .reflectance = optics.reflectanceAt(glm::dot(point.normal, point.toViewer)),
+          .alpha = optics.alpha,
           .t = hit.t};
 }
 
@@ -127,7 +128,7 @@ glm::dvec3 PathTracer::roughReflection(const Path& path, const Bounce& bounce) {
   glm::dvec3 sum(0.0);
   int taken = 0;
   for (int drawn = 0; taken < wanted && drawn < 4 * wanted + 16; ++drawn) {
-    const glm::dvec3 m = microfacet(bounce.base.normal, bounce.roughness * bounce.roughness, sampler_.next(level));
+    const glm::dvec3 m = microfacet(bounce.base.normal, bounce.alpha, sampler_.next(level));
     const double facing = -glm::dot(m, path.ray.direction);
     const glm::dvec3 direction = path.ray.direction + 2.0 * facing * m;
     if (facing <= 0.0 || glm::dot(direction, bounce.planeNormal) <= 0.0) {
@@ -168,7 +169,7 @@ glm::dvec3 PathTracer::follow(Path path) {
     if (path.depth >= options_.maxDepth || throughput < options_.minThroughput || throughput == 0.0) {
       return sum + weight * environment_.radiance(glm::normalize(next.ray.direction));
     }
-    if (bounce.roughness > 0.0) {
+    if (bounce.alpha > 0.0) {
       return sum + weight * roughReflection(path, bounce);
     }
     path = next;

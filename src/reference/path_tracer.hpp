@@ -55,7 +55,7 @@ class PathTracer {
     ShadingPoint base;       // what is under the reflection; its normal includes ripples
     glm::dvec3 planeNormal;  // unit, on the viewer's side; of a curved mirror the triangle's own
     glm::dvec3 reflectance;
-    double roughness;
+    double alpha;  // of GGX; 0: smooth
     double t;
   };
   bool reflects(const SceneHit& hit) const;

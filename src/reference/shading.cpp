@@ -66,7 +66,7 @@ glm::dvec3 bouncedLight(const TraceWorld& world, const ShadingPoint& point, int 
     }
   }
   const double cosine = std::abs(glm::dot(plane.normal, safeNormalize(toImage)));
-  return mirrorReflectance(material.reflectance, material.fresnel, cosine) * lightRadiance(point, toImage, source);
+  return opticsOf(material).reflectanceAt(cosine) * lightRadiance(point, toImage, source);
 }
 
 glm::dvec3 directLight(const TraceWorld& world, const ShadingPoint& point, int light) {

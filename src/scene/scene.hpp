@@ -52,10 +52,6 @@ struct Copies {
 
 enum class Fresnel { none, schlick };
 
-// Reflectance F of a mirror for `cosine`, the cosine between its normal and the viewer: the same at every angle, or
-// Schlick, "An Inexpensive BRDF Model for Physically-based Rendering" (1994).
-glm::dvec3 mirrorReflectance(const glm::dvec3& reflectance, Fresnel fresnel, double cosine);
-
 // Properties of an object that is a curved mirror.
 struct ObjectMirror {
   glm::dvec3 reflectance{0.95};
@@ -145,6 +141,23 @@ struct Mirror {
 
   bool operator==(const Mirror&) const = default;
 };
+
+// How a mirror reflects: what images, rays and the tracer read of it.
+struct MirrorOptics {
+  glm::dvec3 reflectance{0.0};
+  Fresnel fresnel = Fresnel::none;
+  glm::dvec3 baseColor{0.0};
+  glm::dvec3 backColor{0.0};
+  bool twoSided = false;
+  double alpha = 0.0;  // width of the GGX distribution of its normals; 0: smooth
+  std::optional<Ripple> ripple;
+
+  // Reflectance F for `cosine`, the cosine between the normal and the viewer: the same at every angle, or Schlick, "An
+  // Inexpensive BRDF Model for Physically-based Rendering" (1994).
+  glm::dvec3 reflectanceAt(double cosine) const;
+};
+MirrorOptics opticsOf(const Mirror& mirror);
+MirrorOptics opticsOf(const ObjectMirror& mirror);
 
 // A view that the user can return to.
 struct Bookmark {

@@ -199,7 +199,21 @@ Environment Environment::cleared(const std::optional<glm::dvec3>& color) const {
   return environment;
 }
 
-glm::dvec3 mirrorReflectance(const glm::dvec3& reflectance, Fresnel fresnel, double cosine) {
+MirrorOptics opticsOf(const Mirror& mirror) {
+  return {.reflectance = mirror.reflectance,
+          .fresnel = mirror.fresnel,
+          .baseColor = mirror.baseColor,
+          .backColor = mirror.backColor,
+          .twoSided = mirror.twoSided,
+          .alpha = mirror.roughness * mirror.roughness,
+          .ripple = mirror.ripple};
+}
+
+MirrorOptics opticsOf(const ObjectMirror& mirror) {
+  return {.reflectance = mirror.reflectance, .fresnel = mirror.fresnel, .baseColor = mirror.baseColor};
+}
+
+glm::dvec3 MirrorOptics::reflectanceAt(double cosine) const {
   if (fresnel == Fresnel::none) {
     return reflectance;
   }

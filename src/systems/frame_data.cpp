@@ -268,11 +268,12 @@ void FrameData::addEnvironment(const Source& source, const Pass& pass, int insta
   const RecycledVector<Cube>& cubes = source.plan.cubes;
   const auto map = std::ranges::find(cubes, instance, &Cube::instance);
   const bool exists = map != cubes.end() && !pass.isFace();
-  const ObjectMirror& mirror = *source.scene.objects[source.state.instances[instance].object].mirror;
+  const MirrorOptics optics =
+      opticsOf(*source.scene.objects[source.state.instances[instance].object].mirror, source.settings.effects);
   gpu::CurvedMirrorData data{.hasMap = exists,
-                             .reflectance = glm::vec3(mirror.reflectance),
-                             .schlick = isSchlick(mirror.fresnel, source.settings.effects),
-                             .baseColor = glm::vec3(mirror.baseColor)};
+                             .reflectance = glm::vec3(optics.reflectance),
+                             .schlick = optics.fresnel == Fresnel::schlick,
+                             .baseColor = glm::vec3(optics.baseColor)};
   if (exists) {
     data.center = glm::vec3(map->center - pass.view.eye);
     data.low = glm::vec3(map->low - map->center);
@@ -281,7 +282,7 @@ void FrameData::addEnvironment(const Source& source, const Pass& pass, int insta
     data.faceSize = map->size;
   }
   batch.environment = true;
-  batch.colored = mirror.baseColor != glm::dvec3(0.0);
+  batch.colored = optics.baseColor != glm::dvec3(0.0);
   batch.map = exists ? static_cast<int>(map - cubes.begin()) : -1;
   instances_.back().curvedMirror = static_cast<uint32_t>(curvedMirrors_.size());
   curvedMirrors_.push_back(data);
@@ -299,6 +300,7 @@ void FrameData::addMirrors(const Source& source, const Pass& pass, const glm::dm
       continue;
     }
     const Mirror& mirror = scene.mirrors[draw.mirror];
+    const MirrorOptics optics = opticsOf(mirror, effects);
     const View* image = imageView(draw, plan);
     const bool ripples = draw.ripples && image;
     MirrorRange range{.mirror = static_cast<uint32_t>(mirrors_.size()),
@@ -309,14 +311,14 @@ void FrameData::addMirrors(const Source& source, const Pass& pass, const glm::dm
                       .blurs = draw.blurs,
                       .ripples = ripples,
                       .byRays = draw.byRays,
-                      .rippled = ripples || (draw.byRays && effects.ripple && mirror.ripple),
-                      .rough = draw.blurs || (draw.byRays && effects.roughness && mirror.roughness > 0.0),
-                      .fresnel = !draw.back && isSchlick(mirror.fresnel, effects),
-                      .base = mirror.baseColor != glm::dvec3(0.0)};
+                      .rippled = ripples || (draw.byRays && optics.ripple),
+                      .rough = draw.blurs || (draw.byRays && optics.alpha > 0.0),
+                      .fresnel = !draw.back && optics.fresnel == Fresnel::schlick,
+                      .base = optics.baseColor != glm::dvec3(0.0)};
     range.shows = draw.back ? MirrorShows::back : image ? MirrorShows::image : MirrorShows::background;
-    range.colored = draw.back ? mirror.backColor != glm::dvec3(0.0) : range.base;
+    range.colored = draw.back ? optics.backColor != glm::dvec3(0.0) : range.base;
     range.lookup = image ? lookupFor(image->pictureSize / pass.view.pictureSize) : Lookup::fetch;
-    mirrors_.push_back({.mirror = mirrorData(draw, mirror, state, effects, pass.view, image)});
+    mirrors_.push_back({.mirror = mirrorData(draw, optics, state, effects, pass.view, image)});
     mirrors_.back().mirror.index = range.mirror;
     mirrors_.back().mirror.showsRipples = ripples;
     for (const ClipPolygon& part : parts) {

@@ -163,13 +163,13 @@ gpu::ViewData viewData(const View& view, const Projection& projection, const glm
   return data;
 }
 
-gpu::MirrorData mirrorData(const MirrorDraw& draw, const Mirror& mirror, const SceneState& state,
+gpu::MirrorData mirrorData(const MirrorDraw& draw, const MirrorOptics& optics, const SceneState& state,
                            const EffectSettings& effects, const View& view, const View* image) {
   gpu::MirrorData data{.normal = glm::vec3(draw.plane.normal),
                        .eyeDistance = static_cast<float>(draw.plane.distance(view.eye)),
-                       .reflectance = glm::vec3(mirror.reflectance),
-                       .schlick = isSchlick(mirror.fresnel, effects),
-                       .baseColor = glm::vec3(draw.back ? mirror.backColor : mirror.baseColor),
+                       .reflectance = glm::vec3(optics.reflectance),
+                       .schlick = optics.fresnel == Fresnel::schlick,
+                       .baseColor = glm::vec3(draw.back ? optics.backColor : optics.baseColor),
                        .traceMirror = static_cast<uint32_t>(draw.mirror)};
   if (image) {
     const glm::dvec2 ratio = image->pictureSize / view.pictureSize;
@@ -185,12 +185,12 @@ gpu::MirrorData mirrorData(const MirrorDraw& draw, const Mirror& mirror, const S
     }
   }
   if (draw.blurs) {
-    data.alpha = static_cast<float>(mirror.roughness * mirror.roughness);
+    data.alpha = static_cast<float>(optics.alpha);
     data.blurSamples = effects.roughSamples;
   }
   if (draw.ripples) {
     const MirrorState& placed = state.mirrors[draw.mirror];
-    const RippleConstants ripple = rippleConstants(*mirror.ripple, state.time);
+    const RippleConstants ripple = rippleConstants(*optics.ripple, state.time);
     const bool front = glm::dot(placed.normal, draw.plane.normal) > 0.0;
     data.axisX = glm::vec3(placed.axisX);
     data.axisY = glm::vec3(placed.axisY);

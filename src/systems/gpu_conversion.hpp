@@ -52,7 +52,7 @@ gpu::ViewData viewData(const View& view, const Projection& projection, const glm
                        const Environment& environment);
 
 // Returns the data of a mirror in a view; `image` is the view that its image was drawn with, null without one.
-gpu::MirrorData mirrorData(const MirrorDraw& draw, const Mirror& mirror, const SceneState& state,
+gpu::MirrorData mirrorData(const MirrorDraw& draw, const MirrorOptics& optics, const SceneState& state,
                            const EffectSettings& effects, const View& view, const View* image);
 
 }  // namespace speculum

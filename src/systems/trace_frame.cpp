@@ -30,9 +30,10 @@ constexpr std::array<bool, structureBinding> readsTexels = {true,  true,  false,
 
 void setMirror(const std::optional<ObjectMirror>& mirror, const EffectSettings& effects, gpu::TraceInstance& data) {
   if (mirror && effects.curved) {
-    data.curved = isSchlick(mirror->fresnel, effects) ? gpu::curvedSchlick : gpu::curvedConstant;
-    data.reflectance = glm::vec3(mirror->reflectance);
-    data.baseColor = glm::vec3(mirror->baseColor);
+    const MirrorOptics optics = opticsOf(*mirror, effects);
+    data.curved = optics.fresnel == Fresnel::schlick ? gpu::curvedSchlick : gpu::curvedConstant;
+    data.reflectance = glm::vec3(optics.reflectance);
+    data.baseColor = glm::vec3(optics.baseColor);
   }
 }
 
@@ -269,25 +270,24 @@ void TraceFrame::addMirrors(const SceneState& state, const Settings& settings) {
   mirrors_.clear();
   mirrorEdges_.clear();
   for (size_t i = 0; i < scene_.mirrors.size(); ++i) {
-    const Mirror& mirror = scene_.mirrors[i];
+    const MirrorOptics optics = opticsOf(scene_.mirrors[i], settings.effects);
     const MirrorState& placed = state.mirrors[i];
-    const double alpha = settings.effects.roughness ? mirror.roughness * mirror.roughness : 0.0;
     mirrors_.push_back({.origin = glm::vec3(placed.origin - state.camera.eye),
                         .firstVertex = static_cast<uint32_t>(mirrorEdges_.size()),
                         .normal = glm::vec3(placed.normal),
                         .vertexCount = static_cast<uint32_t>(placed.polygon.size()),
                         .axisX = glm::vec3(placed.axisX),
                         .axisY = glm::vec3(placed.axisY),
-                        .reflectance = glm::vec3(mirror.reflectance),
-                        .schlick = isSchlick(mirror.fresnel, settings.effects),
-                        .baseColor = glm::vec3(mirror.baseColor),
-                        .twoSided = mirror.twoSided,
-                        .backColor = glm::vec3(mirror.backColor),
-                        .alpha = static_cast<float>(alpha),
+                        .reflectance = glm::vec3(optics.reflectance),
+                        .schlick = optics.fresnel == Fresnel::schlick,
+                        .baseColor = glm::vec3(optics.baseColor),
+                        .twoSided = optics.twoSided,
+                        .backColor = glm::vec3(optics.backColor),
+                        .alpha = static_cast<float>(optics.alpha),
                         .plane = static_cast<uint32_t>(placed.plane),
                         .layers = layersOf(placed)});
-    if (settings.effects.ripple && mirror.ripple) {
-      const RippleConstants ripple = rippleConstants(*mirror.ripple, state.time);
+    if (optics.ripple) {
+      const RippleConstants ripple = rippleConstants(*optics.ripple, state.time);
       mirrors_.back().hasRipple = 1;
       mirrors_.back().waveNumber = ripple.waveNumber;
       mirrors_.back().rippleSlope = ripple.slope;
