@@ -852,6 +852,19 @@ TEST(SlowPicture, FacesOfMapsHaveTheirOwnFrames) {
   EXPECT_GT(picture.next(50.0).end, 15u) << "known from the picture before";
 }
 
+// A frame is slow for another reason than its tiles: without the fault the picture takes 100 frames.
+TEST(SlowPicture, OneSlowFrameIsSoonForgotten) {
+  constexpr size_t tiles = 10'000;
+  SlowPicture picture;
+  picture.begin(0, tiles, 1000.0);
+  int frames = 0;
+  for (TileRange drawn; drawn.end < tiles; ++frames) {
+    drawn = picture.next(10.0);
+    picture.took(frames == 10 ? 1000.0 : 0.1 * static_cast<double>(drawn.end - drawn.first));
+  }
+  EXPECT_LE(frames, 150);
+}
+
 TEST(Pace, BudgetFollowsDeviceAndMonitor) {
   Settings settings;
   EXPECT_EQ(motionBudget(settings, true, 144.0), 50.0);

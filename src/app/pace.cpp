@@ -35,6 +35,9 @@ bool drawnInTiles(const FittedPlan& fitted) {
 }
 
 constexpr double caution = 4.0;  // a tile that was never drawn may take that much longer than expected
+// How much of the dearest tile's time counts a frame later. One frame may be slow for another reason, such as another
+// program that takes the processor.
+constexpr double remembered = 0.9;
 
 }  // namespace
 
@@ -330,7 +333,7 @@ void SlowPicture::took(double ms) {
   }
   std::fill(tileMs_.data() + tiles_.first - faces_, tileMs_.data() + tiles_.end - faces_, tileMs);
   measured_ = std::max(measured_, tiles_.end - faces_);
-  dearestMs_ = std::max(dearestMs_, tileMs);
+  dearestMs_ = std::max(remembered * dearestMs_, tileMs);
   std::fill(tileMs_.data() + measured_, tileMs_.data() + tileMs_.size(), std::max(tileMs, dearestMs_ / caution));
 }
 

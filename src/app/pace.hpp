@@ -36,7 +36,7 @@ class SlowPicture {
   std::vector<double> tileMs_;  // of each other tile, expected or measured
   TileRange tiles_;             // of the last next()
   size_t measured_ = 0;         // the first tiles of tileMs_ whose times were measured
-  double dearestMs_ = 0.0;      // longest measured time of a tile
+  double dearestMs_ = 0.0;      // longest measured time of a tile, fading from frame to frame
   double totalMs_ = 0.0;        // of the picture's tiles so far
 };
 
@@ -44,7 +44,7 @@ class SlowPicture {
 // that the picture does not change its quality between two steps of the pointer.
 class Movement {
  public:
-  // Call once a frame, `seconds` after the last. `contentMoves`: something besides the camera does.
+  // Call once a frame, `seconds` after the last. `contentMoves`: something besides the camera moves.
   void update(const CameraPose& camera, bool contentMoves, double seconds) {
     const bool moves = contentMoves || (camera_ && *camera_ != camera);
     camera_ = camera;
@@ -84,7 +84,7 @@ class Pace {
   Pace(bool cpuDevice, unsigned sampleCounts)
       : cpuDevice_(cpuDevice), sampleCounts_(sampleCounts), controller_(cpuDevice) {}
 
-  // Begins a frame. `contentMoves`: something besides the camera does.
+  // Begins a frame. `contentMoves`: something besides the camera moves.
   void begin(const CameraPose& camera, bool contentMoves, double seconds);
   void sceneChanged() {
     movement_.restart();
