@@ -4,8 +4,9 @@
 #include "texels.glsl"
 
 layout(constant_id = constantAces) const bool aces = false;
-layout(constant_id = constantShrunk) const bool shrunk = false;   // a pixel covers more than one texel
-layout(constant_id = constantSampled) const bool sampled = false;  // the sampler enlarges: on CPUs, where its weights are floats
+layout(constant_id = constantShrunk) const bool shrunk = false;  // a pixel covers more than one texel
+// The sampler enlarges: on CPUs, where its weights are floats.
+layout(constant_id = constantSampled) const bool sampled = false;
 
 layout(set = 0, binding = 0) uniform DISPLAY_IMAGE radiance;
 
@@ -34,7 +35,7 @@ vec3 texelAt(ivec2 texel) {
   return texelFetch(radiance, clamp(texel, ivec2(0), textureSize(radiance, 0) - 1), 0).rgb;
 }
 
-// Interpolates bilinearly like image/enlarge.hpp, by a sampler only on CPUs: those of GPUs have weights of few bits,
+// Interpolates bilinearly like enlarged() of image/image.hpp, by a sampler only on CPUs: those of GPUs have weights of few bits,
 // which differ between devices.
 vec3 radianceAt(vec2 position) {
   if (sampled) {

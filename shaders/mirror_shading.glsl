@@ -7,14 +7,17 @@
 #include "mirror_plane.glsl"
 
 // Specialisation constants: pixels run no code that their mirror does not need.
-layout(constant_id = constantBaseOnly) const bool baseOnly = false;    // draws the base without the reflection
-layout(constant_id = constantReprojects) const bool reprojects = false;  // the image is cached, and eye or mirror moved since
-layout(constant_id = constantAdded) const bool added = false;       // to the base, which is there already
-layout(constant_id = constantBlurs) const bool blurs = false;       // the mirror is rough, its image is that of a smooth one
+layout(constant_id = constantBaseOnly) const bool baseOnly = false;  // draws the base without the reflection
+// The image is cached, and eye or mirror moved since.
+layout(constant_id = constantReprojects) const bool reprojects = false;
+layout(constant_id = constantAdded) const bool added = false;  // to the base, which is there already
+// The mirror is rough, its image is that of a smooth one.
+layout(constant_id = constantBlurs) const bool blurs = false;
 layout(constant_id = constantShows) const uint shows = showsImage;
 layout(constant_id = constantLookup) const uint lookup = lookupFetch;
-layout(constant_id = constantColored) const bool colored = true;    // its back, or its base, is not black
-layout(constant_id = constantRipples) const bool ripples = false;  // the mirror is rippled, its image is that of a smooth one
+layout(constant_id = constantColored) const bool colored = true;  // its back, or its base, is not black
+// The mirror is rippled, its image is that of a smooth one.
+layout(constant_id = constantRipples) const bool ripples = false;
 
 layout(set = 1, binding = 0) uniform MIRROR_IMAGE reflection;
 

@@ -1,7 +1,8 @@
 // Radiance of a surface and of the background, as docs/picture.md defines them. Needs interface.glsl.
 #extension GL_EXT_control_flow_attributes : require
 
-layout(constant_id = constantLightCount) const uint lightCount = manyLights;  // view.lightCount, if it is at most fixedLights
+// The value of view.lightCount, if it is at most fixedLights.
+layout(constant_id = constantLightCount) const uint lightCount = manyLights;
 
 const float pi = 3.14159265358979;
 const float halfMax = 65504.0;

@@ -2,8 +2,10 @@
 // comparison. Needs interface.glsl.
 #include "cube_face.glsl"
 
-layout(constant_id = constantOnlyShadowFace) const uint onlyShadowFace = anyShadowFace;  // face that contains the whole scene, in every map
-layout(constant_id = constantShadowedLights) const uint shadowedLights = 0;  // first lights of each pass, which have a map
+// Face that contains the whole scene, in every map.
+layout(constant_id = constantOnlyShadowFace) const uint onlyShadowFace = anyShadowFace;
+// First lights of each pass, which have a map.
+layout(constant_id = constantShadowedLights) const uint shadowedLights = 0;
 
 layout(set = 2, binding = 0) uniform usampler2D shadowTexels;  // what shadow_map.frag stores; 0: nothing is there
 layout(set = 2, binding = 1, std140) uniform ShadowMaps { ShadowMapData shadowMaps[mostShadowMaps]; };

@@ -2,7 +2,7 @@
 // for curved mirrors, and for planar ones that rays show. Needs trace.glsl, traced_light.glsl and microfacet.glsl.
 
 layout(constant_id = constantTrilinear) const bool trilinear = false;  // between levels of textures
-layout(constant_id = constantRough) const bool rough = false;      // some mirror of the scene is rough
+layout(constant_id = constantRough) const bool rough = false;  // some mirror of the scene is rough
 layout(constant_id = constantRepeating) const bool repeating = false;  // there are repeatingTriangles
 
 struct Bounce {

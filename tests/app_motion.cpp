@@ -746,6 +746,21 @@ TEST_F(PacedScene, MeansBeginAnewAfterMovementWithoutBudget) {
   EXPECT_EQ(pictureOf(), std::pair(3, 0));
 }
 
+// As when a recording begins.
+TEST_F(PacedScene, PictureWithoutBudgetIsNoRepeatBeforeItIsComplete) {
+  chosen_.quality.stillPictures = 1;
+  side_ = 3200;
+  budgetMs_ = budget;
+  frame();
+  expectText("Draft: ");
+  budgetMs_ = 0.0;
+  frame();
+  EXPECT_FALSE(pace_.repeats());
+  EXPECT_FALSE(pace_.drawsSlowly());
+  frame();
+  EXPECT_TRUE(pace_.repeats());
+}
+
 // Pictures that take several budgets. The device reports the time of a frame when the next one begins.
 class SlowPictures : public PacedScene {
  protected:
@@ -828,6 +843,7 @@ TEST_F(SlowPictures, SingleOneEndsWithItsTiles) {
   EXPECT_TRUE(draw().plan.tiles) << "another event, and the picture cannot be shown again";
   EXPECT_TRUE(pace_.wantsFrame()) << "it is not left unfinished";
   while (pace_.wantsFrame()) {
+    EXPECT_TRUE(pace_.repeats());
     draw();
   }
   target_.emplace(MirrorPath{0}, TargetKind::color);
@@ -852,7 +868,7 @@ TEST(SlowPicture, FacesOfMapsHaveTheirOwnFrames) {
   EXPECT_GT(picture.next(50.0).end, 15u) << "known from the picture before";
 }
 
-// A frame is slow for another reason than its tiles: without the fault the picture takes 100 frames.
+// One frame is slow for a reason other than its tiles. Without it the picture takes 100 frames.
 TEST(SlowPicture, OneSlowFrameIsSoonForgotten) {
   constexpr size_t tiles = 10'000;
   SlowPicture picture;

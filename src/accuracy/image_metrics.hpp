@@ -14,7 +14,7 @@ struct ImageMetrics {
   double rmse = 0.0;          // root mean square over pixels and channels, linear [0, 1]
   double relativeRmse = 0.0;  // rmse / root mean square of the reference; infinite if only the reference is black
   double psnr = 0.0;          // dB, display sRGB [0, 1]; infinite for equal pictures
-  double ssim = 0.0;          // mean of the map without its border of 5 pixels (see ssim.hpp)
+  double ssim = 0.0;          // mean of the map without its border of 5 pixels (see ssimMap())
   double flip = 0.0;          // mean of the map
   double maxDiff = 0.0;       // 1/255, of the channel that differs most
   double p99Diff = 0.0;       // 1/255; 99 % of the pixels differ by no more (nearest rank)

@@ -53,14 +53,13 @@ void addRays(FrameWork& work, const Pass& pass, double texels, int samples, cons
   }
   for (const MirrorDraw& draw : pass.mirrors) {
     if (draw.byRays && !draw.back) {
-      const Mirror& mirror = scene.mirrors[static_cast<size_t>(draw.mirror)];
-      const bool rough = settings.roughness && mirror.roughness > 0.0;
+      const MirrorOptics optics = opticsOf(scene.mirrors[static_cast<size_t>(draw.mirror)], settings);
+      const bool rough = optics.alpha > 0.0;
       const double area = screenArea(toClip(pass.view, plan.projection, draw.polygon), pass.view.pictureSize.x,
                                      pass.view.pictureSize.y);
-      const bool rippled = settings.ripple && mirror.ripple;
       // Every sample sends rays, whatever effects.per_sample is.
       const double rays = area * (1.0 + toLights) * (rough ? roughRays(settings, samples) : samples);
-      (rough ? work.roughRays : rippled ? work.rippleRays : work.smoothRays) += rays;
+      (rough ? work.roughRays : optics.ripple ? work.rippleRays : work.smoothRays) += rays;
     }
   }
   for (const int i : pass.instances) {

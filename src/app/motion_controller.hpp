@@ -33,7 +33,7 @@ class MotionController {
  private:
   // Why a level is planned.
   enum class Try {
-    afterStanding,  // a movement begins with the level of the last one
+    afterStanding,  // a movement begins, with the level of the movement before
     current,        // the level of the last frame, or the one that fits where a movement begins
     lower,          // the last one planned takes too long
     higher,         // there seems to be room for it

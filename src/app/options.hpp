@@ -73,7 +73,7 @@ struct Options {
   std::filesystem::path json;          // empty: none
   std::filesystem::path sweepResults;  // results.json of an earlier sweep; empty: none
 
-  WindowArguments window;
+  WindowArguments window;  // of the command demo
   RenderArguments render;
   int referenceSamples = 64;  // a pixel
   CompareArguments compare;

@@ -4,7 +4,6 @@
 
 #include <vector>
 
-#include "app/options.hpp"
 #include "platform/files.hpp"
 
 namespace speculum {

@@ -23,6 +23,10 @@ constexpr size_t mostDrawn = 4;      // frames whose times have not arrived
 constexpr size_t sentFrames = 8;     // frames of which one does not wait for the monitor
 constexpr int framesToKnow = 5;      // timed moving frames after which it is known what playing costs
 constexpr double leastMoved = 0.5;   // of the resolution, at which a scene is worth moving unasked
+constexpr double caution = 4.0;      // a tile that was never drawn may take that much longer than expected
+// How much of the dearest tile's time counts a frame later. One frame may be slow for another reason, such as another
+// program that takes the processor.
+constexpr double remembered = 0.9;
 
 Settings withPictures(Settings settings, int pictures) {
   settings.view.accumulate = pictures;
@@ -33,11 +37,6 @@ Settings withPictures(Settings settings, int pictures) {
 bool drawnInTiles(const FittedPlan& fitted) {
   return !fitted.plan.mainReused() && !fitted.settings.debug.checkFinite;
 }
-
-constexpr double caution = 4.0;  // a tile that was never drawn may take that much longer than expected
-// How much of the dearest tile's time counts a frame later. One frame may be slow for another reason, such as another
-// program that takes the processor.
-constexpr double remembered = 0.9;
 
 }  // namespace
 
@@ -137,14 +136,17 @@ void Pace::planStill(const Request& request) {
   }
   pictures_ = moving() ? 1 : stillPictures(request.frame.settings);
   const bool divides = request.budgetMs > 0.0;
-  if (!divides && !slow_.finished()) {
+  if (!divides) {
+    if (!slow_.finished()) {
+      target_.reset();
+    }
     slow_ = {};
-    target_.reset();
+    draft_.clear();
   }
   const State state = stateAfter(request);
   if (pictures_ == 1 && !divides) {
     planWhole(request);
-    state_ = state == State::changed ? State::whole : State::done;
+    state_ = state == State::done ? State::done : State::whole;
   } else if (state == State::changed) {
     planFirst(request);
   } else {
@@ -158,8 +160,11 @@ Pace::State Pace::stateAfter(const Request& request) {
   if (!request.target) {
     target_.reset();
   }
-  if (state_ == State::changed || picture_ < pictures_ || !slow_.finished()) {
-    return state_ == State::changed || state_ == State::redraw ? state_ : State::mean;
+  if (state_ == State::changed || !slow_.finished()) {
+    return state_;
+  }
+  if (picture_ < pictures_) {
+    return State::mean;
   }
   const bool missing = request.target && pictures_ > 1 && target_ != request.target;
   target_ = request.target;

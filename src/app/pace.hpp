@@ -1,6 +1,6 @@
 #pragma once
 
-#include <functional>
+#include <deque>
 #include <optional>
 #include <vector>
 
@@ -69,7 +69,7 @@ class Movement {
 // (FramePlan::tiles). docs/architecture.md says which state follows which.
 class Pace {
  public:
-  // What the planned frame is. All but the first are of a still picture, or of any without a budget.
+  // What the planned frame is. All but `moving` are for still pictures, or for moving ones without a budget.
   enum class State {
     moving,   // a picture that fits the budget, while something moves
     changed,  // not planned yet: something else is to be shown
@@ -94,9 +94,7 @@ class Pace {
   }
   bool moving() const { return movement_.moving(); }
   // Says whether another frame is needed although nothing happens.
-  bool wantsFrame() const {
-    return movement_.ending() || (!moving() && (picture_ < pictures_ || state_ == State::changed || !slow_.finished()));
-  }
+  bool wantsFrame() const { return movement_.ending() || (!moving() && (!isComplete() || !slow_.finished())); }
   // Says whether the last frame drew tiles of a picture. If so, wait for it before the next events: finished() learns
   // from its time, and no second frame delays them.
   bool drawsTiles() const { return fitted_.plan.tiles.has_value(); }
@@ -159,6 +157,7 @@ class Pace {
   void planFirst(const Request& request);
   void planPicture(const Request& request, State state);
   void planTiles(const Request& request);
+  bool isComplete() const { return picture_ == pictures_ && state_ != State::changed && state_ != State::moving; }
   State stateAfter(const Request& request);
   void forgetStill();
   void findPlayCost(std::span<const MotionLevel> levels, const Request& request);
@@ -195,7 +194,7 @@ class Pace {
   int picture_ = 0;               // complete pictures of the mean
   int pictures_ = 0;              // in the mean; 1: a single picture instead
   std::optional<Target> target_;  // of the latest redraw
-  SlowPicture slow_;              // that tiles are drawn of, while another picture or a draft is shown
+  SlowPicture slow_;              // of which tiles are drawn, while another picture or a draft is shown
   FrameWork slowWork_;
   std::string draft_;  // what the draft gives up; empty: none was needed
   std::string text_;

@@ -8,7 +8,6 @@
 #include "platform/machine.hpp"
 #include "platform/text.hpp"
 #include "scene/input_error.hpp"
-#include "scene/scene_loader.hpp"
 
 namespace speculum {
 

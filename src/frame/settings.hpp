@@ -86,9 +86,10 @@ struct EffectSettings {
   bool operator==(const EffectSettings&) const = default;
 };
 
-// Say whether an effect that a mirror or a light has is drawn under these settings.
+// Return how a mirror reflects, without what these settings leave out.
 MirrorOptics opticsOf(const Mirror& mirror, const EffectSettings& effects);
 MirrorOptics opticsOf(const ObjectMirror& mirror, const EffectSettings& effects);
+// Says whether a light is drawn as a sphere under these settings.
 bool hasGlyph(const PointLight& light, const EffectSettings& effects);
 
 // Bounds for the choice among measured settings (accuracy/pareto.hpp), and the window's pace (docs/window.md). The

@@ -6,7 +6,6 @@
 
 #include "geometry/bvh.hpp"
 #include "geometry/convex_mesh.hpp"
-#include "geometry/mesh.hpp"
 #include "geometry/solid_mesh.hpp"
 #include "geometry/triangulate.hpp"
 

@@ -6,8 +6,6 @@
 #include "frame/cube_face.hpp"
 #include "frame/picture_tiles.hpp"
 #include "frame/target_memory.hpp"
-#include "image/image.hpp"
-#include "systems/scene_targets.hpp"
 
 namespace speculum {
 

@@ -19,9 +19,8 @@ TraceBufferBytes traceBufferLimits(const VkPhysicalDeviceLimits& limits);
 // Returns upper bounds for a scene. `instances` counts all copies.
 TraceBufferBytes largestTraceBuffers(const Scene& scene, size_t instances);
 
-// Hierarchies of boxes as shaders follow them, without a stack: gpu_data.h says how nodes are linked.
-
-// A hierarchy has its nodes once for each octant of directions; bit i of an octant: they are negative along axis i.
+// Hierarchies of boxes as shaders follow them, without a stack: gpu_data.h says how nodes are linked. Each has its
+// nodes once for each octant of directions; bit i of an octant: they are negative along axis i.
 constexpr int traceOctants = 8;
 
 // Axis-aligned grid that holds the boxes of a mesh.

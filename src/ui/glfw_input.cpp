@@ -12,6 +12,8 @@ namespace speculum {
 
 namespace {
 
+constexpr std::chrono::milliseconds doubleClickTime{300};
+
 glm::vec2 vectorOf(VkExtent2D extent) {
   return {static_cast<float>(extent.width), static_cast<float>(extent.height)};
 }
@@ -92,8 +94,6 @@ void GlfwInput::newFrame() {
   }
 #endif
 }
-
-constexpr std::chrono::milliseconds doubleClickTime{300};
 
 void InputQueue::push(const InputEvent& event, Clock::time_point now) {
   const bool moves = event.kind == InputEvent::Kind::pointer;
