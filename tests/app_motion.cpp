@@ -746,6 +746,17 @@ TEST_F(PacedScene, MeansBeginAnewAfterMovementWithoutBudget) {
   EXPECT_EQ(pictureOf(), std::pair(3, 0));
 }
 
+TEST_F(PacedScene, FrameWithoutAnImageAfterMovementIsMadeUpFor) {
+  chosen_.quality.stillPictures = 1;
+  budgetMs_ = budget;
+  frame(true);
+  pace_.begin({}, false, 1.0);
+  EXPECT_FALSE(pace_.moving());
+  EXPECT_TRUE(pace_.wantsFrame()) << "no frame was planned since";
+  frame();
+  EXPECT_FALSE(pace_.wantsFrame());
+}
+
 // As when a recording begins.
 TEST_F(PacedScene, PictureWithoutBudgetIsNoRepeatBeforeItIsComplete) {
   chosen_.quality.stillPictures = 1;

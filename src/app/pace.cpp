@@ -40,6 +40,50 @@ bool drawnInTiles(const FittedPlan& fitted) {
 
 }  // namespace
 
+void SlowPicture::begin(size_t faces, size_t count, double ms) {
+  tiles_ = {};
+  faces_ = faces;
+  faceMs_ = std::numeric_limits<double>::infinity();
+  totalMs_ = 0.0;
+  const std::vector<double> before = std::exchange(tileMs_, std::vector<double>(count));
+  if (before.empty()) {
+    std::ranges::fill(tileMs_, caution * ms / std::max(static_cast<double>(count), 1.0));
+    return;
+  }
+  // The offset of another picture may move a mirror image's border over a tile's, which changes the number of tiles.
+  for (size_t i = 0; i < count; ++i) {
+    tileMs_[i] = before[i * before.size() / count];
+  }
+  measured_ = measured_ * count / before.size();
+}
+
+TileRange SlowPicture::next(double ms) {
+  tiles_ = {tiles_.end, tiles_.end + 1};
+  const bool faces = tiles_.first < faces_;
+  const auto expected = [&](size_t tile) { return faces ? faceMs_ : tileMs_[tile - faces_]; };
+  const size_t end = faces ? faces_ : faces_ + tileMs_.size();
+  for (double sum = expected(tiles_.first); tiles_.end < end; ++tiles_.end) {
+    sum += expected(tiles_.end);
+    if (sum > ms) {
+      break;
+    }
+  }
+  return tiles_;
+}
+
+void SlowPicture::took(double ms) {
+  totalMs_ += ms;
+  const double tileMs = ms / static_cast<double>(tiles_.end - tiles_.first);
+  if (tiles_.first < faces_) {
+    faceMs_ = tileMs;
+    return;
+  }
+  std::fill(tileMs_.data() + tiles_.first - faces_, tileMs_.data() + tiles_.end - faces_, tileMs);
+  measured_ = std::max(measured_, tiles_.end - faces_);
+  dearestMs_ = std::max(remembered * dearestMs_, tileMs);
+  std::fill(tileMs_.data() + measured_, tileMs_.data() + tileMs_.size(), std::max(tileMs, dearestMs_ / caution));
+}
+
 void Pace::begin(const CameraPose& camera, bool contentMoves, double seconds) {
   movement_.update(camera, contentMoves, seconds);
   seconds_ = seconds;
@@ -145,7 +189,8 @@ void Pace::planStill(const Request& request) {
   }
   const State state = stateAfter(request);
   if (pictures_ == 1 && !divides) {
-    planWhole(request);
+    planWith(request, withPictures(request.frame.settings, 1), 0);
+    picture_ = 1;
     state_ = state == State::done ? State::done : State::whole;
   } else if (state == State::changed) {
     planFirst(request);
@@ -171,25 +216,20 @@ Pace::State Pace::stateAfter(const Request& request) {
   return missing ? State::redraw : State::done;
 }
 
-void Pace::planWhole(const Request& request) {
-  planWith(request, withPictures(request.frame.settings, 1), 0);
-  picture_ = pictures_ == 1 ? 1 : 0;
-  state_ = State::whole;
-}
-
 // Plans the first frame: in full quality if that is fast, else the first picture of the mean if that is fast, else a
 // draft. A slow frame would delay the mean, whose pictures have one sample; a single picture is drawn in tiles only if
 // it would hold up input for long.
 void Pace::planFirst(const Request& request) {
-  planWhole(request);
+  const Settings whole = withPictures(request.frame.settings, 1);
+  planWith(request, whole, 0);
   const double most = (pictures_ == 1 ? longestWait : 1.0) * request.budgetMs;
   if (request.budgetMs <= 0.0 || controller_.predict(work_) <= most) {
+    state_ = State::whole;
+    picture_ = pictures_ == 1 ? 1 : 0;
     text_ = pictures_ == 1 ? "" : meanText(0);
     return;
   }
-  picture_ = 0;
-  const Settings& chosen = request.frame.settings;
-  const FrameWork work = scaledWork(work_, withPictures(chosen, 1), pictureSettings(withPictures(chosen, pictures_)));
+  const FrameWork work = scaledWork(work_, whole, pictureSettings(withPictures(whole, pictures_)));
   if (controller_.predict(work) <= longestWait * request.budgetMs) {
     return planPicture(request, State::mean);
   }
@@ -296,50 +336,6 @@ int stillPictures(const Settings& settings) {
 
 double motionBudget(const Settings& settings, bool cpuDevice, double refreshHz) {
   return settings.quality.motionMs.value_or(cpuDevice ? cpuBudgetMs : refreshShare * 1000.0 / refreshHz);
-}
-
-void SlowPicture::begin(size_t faces, size_t count, double ms) {
-  tiles_ = {};
-  faces_ = faces;
-  faceMs_ = std::numeric_limits<double>::infinity();
-  totalMs_ = 0.0;
-  const std::vector<double> before = std::exchange(tileMs_, std::vector<double>(count));
-  if (before.empty()) {
-    std::ranges::fill(tileMs_, caution * ms / std::max(static_cast<double>(count), 1.0));
-    return;
-  }
-  // The offset of another picture may move a mirror image's border over a tile's, which changes the number of tiles.
-  for (size_t i = 0; i < count; ++i) {
-    tileMs_[i] = before[i * before.size() / count];
-  }
-  measured_ = measured_ * count / before.size();
-}
-
-TileRange SlowPicture::next(double ms) {
-  tiles_ = {tiles_.end, tiles_.end + 1};
-  const bool faces = tiles_.first < faces_;
-  const auto expected = [&](size_t tile) { return faces ? faceMs_ : tileMs_[tile - faces_]; };
-  const size_t end = faces ? faces_ : faces_ + tileMs_.size();
-  for (double sum = expected(tiles_.first); tiles_.end < end; ++tiles_.end) {
-    sum += expected(tiles_.end);
-    if (sum > ms) {
-      break;
-    }
-  }
-  return tiles_;
-}
-
-void SlowPicture::took(double ms) {
-  totalMs_ += ms;
-  const double tileMs = ms / static_cast<double>(tiles_.end - tiles_.first);
-  if (tiles_.first < faces_) {
-    faceMs_ = tileMs;
-    return;
-  }
-  std::fill(tileMs_.data() + tiles_.first - faces_, tileMs_.data() + tiles_.end - faces_, tileMs);
-  measured_ = std::max(measured_, tiles_.end - faces_);
-  dearestMs_ = std::max(remembered * dearestMs_, tileMs);
-  std::fill(tileMs_.data() + measured_, tileMs_.data() + tileMs_.size(), std::max(tileMs, dearestMs_ / caution));
 }
 
 }  // namespace speculum

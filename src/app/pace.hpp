@@ -153,7 +153,6 @@ class Pace {
   // These set state_ too.
   void planMoving(const Request& request);
   void planStill(const Request& request);
-  void planWhole(const Request& request);
   void planFirst(const Request& request);
   void planPicture(const Request& request, State state);
   void planTiles(const Request& request);
