@@ -13,7 +13,9 @@ using namespace testing_support;
 TEST(Rays, SayWhyTheyShowAMirror) {
   Settings settings;
   Mirror mirror;
-  const auto why = [&](bool reflects, double samples) { return whyRays(mirror, settings, reflects, samples); };
+  const auto why = [&](bool reflects, double samples) {
+    return whyRays(mirror.quality, opticsOf(mirror, settings.effects), settings, reflects, samples);
+  };
   EXPECT_EQ(why(true, 10.0), "");
   settings.reflection.method = ReflectionMethod::automatic;
   EXPECT_EQ(why(true, 10.0), "faster, since it covers few pixels");

@@ -196,7 +196,7 @@ void MirrorSearch::propose(int node, Sight sight) {
   const bool reflects = !deep && glm::compMax(throughput) >= settings_.minThroughput;
   const glm::dvec2 texels = view.pictureSize / glm::dvec2(plan_.width, plan_.height);
   const double samples = area * texels.x * texels.y * pass.quality.samples;
-  const std::string_view rays = whyRays(material, allSettings_, reflects, samples);
+  const std::string_view rays = whyRays(material.quality, optics, allSettings_, reflects, samples);
   sight.draw.byRays = !rays.empty();
   sight.draw.blurs = reflects && !sight.draw.byRays && optics.alpha > 0.0;
   sight.draw.ripples = reflects && !sight.draw.byRays && optics.ripple;

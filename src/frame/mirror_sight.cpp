@@ -65,6 +65,9 @@ Sight sightOf(const Scene& scene, const SceneState& state, const View& view, con
 
 glm::dvec3 reflectanceBound(const MirrorOptics& optics, const Plane& plane, const glm::dvec3& eye,
                             std::span<const glm::dvec3> visible) {
+  if (optics.fresnel == Fresnel::none) {
+    return optics.reflectance;
+  }
   double farthest = 0.0;
   for (const glm::dvec3& p : visible) {
     farthest = std::max(farthest, glm::length(p - eye));
@@ -76,9 +79,9 @@ int roughRays(const EffectSettings& effects, int samples) {
   return (effects.roughSamples + samples - 1) / samples * samples;
 }
 
-std::string_view whyRays(const Mirror& mirror, const Settings& settings, bool reflects, double samples) {
+std::string_view whyRays(const MirrorQuality& own, const MirrorOptics& optics, const Settings& settings, bool reflects,
+                         double samples) {
   const EffectSettings& effects = settings.effects;
-  const MirrorOptics optics = opticsOf(mirror, effects);
   if (optics.ripple && effects.rippleLookup == ReflectionSource::traced) {
     return "ripples";
   }
@@ -88,11 +91,11 @@ std::string_view whyRays(const Mirror& mirror, const Settings& settings, bool re
   if (optics.alpha > 0.0 && effects.roughLookup == ReflectionSource::traced) {
     return "rough";
   }
-  const ReflectionMethod method = reflectionOf(mirror.quality, settings).method;
+  const ReflectionMethod method = reflectionOf(own, settings).method;
   if (method == ReflectionMethod::automatic && samples < samplesOfAPass) {
     return "faster, since it covers few pixels";
   }
-  return method != ReflectionMethod::rays ? "" : mirror.quality.method ? "quality.method" : "reflection.method";
+  return method != ReflectionMethod::rays ? "" : own.method ? "quality.method" : "reflection.method";
 }
 
 }  // namespace speculum

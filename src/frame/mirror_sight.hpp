@@ -38,9 +38,10 @@ glm::dvec3 reflectanceBound(const MirrorOptics& optics, const Plane& plane, cons
 // its samples, as shaders/shade.glsl does.
 int roughRays(const EffectSettings& effects, int samples);
 
-// Returns why rays show what the mirror reflects, which is seen in `samples` samples: because its method says so, or
-// because an image of its plane cannot; empty if an image shows it. At a limit of depth or throughput the mirror
-// reflects the background alone, so only ripples count.
-std::string_view whyRays(const Mirror& mirror, const Settings& settings, bool reflects, double samples);
+// Returns why rays show what a mirror with this quality of its own reflects, which is seen in `samples` samples:
+// because its method says so, or because an image of its plane cannot; empty if an image shows it. At a limit of depth
+// or throughput the mirror reflects the background alone, so only ripples count.
+std::string_view whyRays(const MirrorQuality& own, const MirrorOptics& optics, const Settings& settings, bool reflects,
+                         double samples);
 
 }  // namespace speculum

@@ -158,6 +158,13 @@ bool sameUpTo(FramePart last, const Settings& a, const Settings& b) {
          std::ranges::all_of(settingFields(), same);
 }
 
+MirrorOptics withEffects(MirrorOptics optics, const EffectSettings& effects) {
+  optics.fresnel = effects.fresnel ? optics.fresnel : Fresnel::none;
+  optics.alpha = effects.roughness ? optics.alpha : 0.0;
+  optics.ripple = effects.ripple ? optics.ripple : std::nullopt;
+  return optics;
+}
+
 }  // namespace
 
 double ViewSettings::radianceScale() const {
@@ -168,17 +175,11 @@ double ViewSettings::radianceScale() const {
 }
 
 MirrorOptics opticsOf(const Mirror& mirror, const EffectSettings& effects) {
-  MirrorOptics optics = opticsOf(mirror);
-  optics.fresnel = effects.fresnel ? optics.fresnel : Fresnel::none;
-  optics.alpha = effects.roughness ? optics.alpha : 0.0;
-  optics.ripple = effects.ripple ? optics.ripple : std::nullopt;
-  return optics;
+  return withEffects(opticsOf(mirror), effects);
 }
 
 MirrorOptics opticsOf(const ObjectMirror& mirror, const EffectSettings& effects) {
-  MirrorOptics optics = opticsOf(mirror);
-  optics.fresnel = effects.fresnel ? optics.fresnel : Fresnel::none;
-  return optics;
+  return withEffects(opticsOf(mirror), effects);
 }
 
 bool hasGlyph(const PointLight& light, const EffectSettings& effects) {
