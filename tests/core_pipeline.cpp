@@ -1,5 +1,7 @@
 #include <bit>
 #include <cstring>
+#include <regex>
+#include <set>
 
 #include "core_fixture.hpp"
 #include "error_message.hpp"
@@ -181,6 +183,16 @@ TEST(ShaderLibrary, ErrorsNameTheFileOrDirectory) {
   replaceFile(directory.path() / "bad.frag.spv", std::vector<uint8_t>(64, 7));
   ShaderLibrary damaged(device, directory.path());
   EXPECT_THROW(damaged.module("bad.frag"), std::runtime_error);
+}
+
+TEST(SpecialisationConstants, EachHasANumberOfItsOwn) {
+  const std::string text = readText(sourceDir() / "shaders" / "gpu_data.h");
+  const std::regex constant("const uint (constant[A-Z]\\w*) = (\\d+);");
+  std::set<std::string> numbers;
+  for (std::sregex_iterator at(text.begin(), text.end(), constant), end; at != end; ++at) {
+    EXPECT_TRUE(numbers.insert((*at)[2]).second) << (*at)[1] << " has the number of another";
+  }
+  EXPECT_GE(numbers.size(), 24u);
 }
 
 // The left half is 1, the right half 0: every level below the first few averages to one half at the top.
