@@ -21,8 +21,18 @@ String nameOf(std::string_view kind, std::string_view name, int index) {
 }
 
 // Name of a mirror for users: its `name`, or its index.
-std::string mirrorName(const Scene& scene, int mirror);
+inline std::string mirrorName(const Scene& scene, int mirror) {
+  const std::string& name = scene.mirrors[mirror].name;
+  return name.empty() ? std::to_string(mirror) : name;
+}
+
 // Name of a path for users: "floor > wall", from the eye on.
-std::string mirrorPathName(const Scene& scene, std::span<const int> path);
+inline std::string mirrorPathName(const Scene& scene, std::span<const int> path) {
+  std::string text;
+  for (const int mirror : path) {
+    text += (text.empty() ? "" : " > ") + mirrorName(scene, mirror);
+  }
+  return text;
+}
 
 }  // namespace speculum

@@ -1,5 +1,6 @@
 #include "geometry/affine.hpp"
 
+#include <array>
 #include <cmath>
 #include <glm/gtx/component_wise.hpp>
 #include <utility>
@@ -15,16 +16,8 @@ std::pair<double, double> sineCosine(double degrees) {
   const double rest = glm::radians(reduced - 90.0 * quarter);
   const double s = std::sin(rest);
   const double c = std::cos(rest);
-  switch (static_cast<int>(quarter) & 3) {
-    case 0:
-      return {s, c};
-    case 1:
-      return {c, -s};
-    case 2:
-      return {-s, -c};
-    default:
-      return {-c, s};
-  }
+  const std::array<std::pair<double, double>, 4> turned = {{{s, c}, {c, -s}, {-s, -c}, {-c, s}}};
+  return turned[static_cast<size_t>(static_cast<int>(quarter) & 3)];
 }
 
 }  // namespace

@@ -25,17 +25,26 @@ class PassLog {
   void beginFrame() { frame_.clear(); }
   void beginPicture() { picture_.clear(); }
 
-  void add(RecordedPass pass);
+  void add(RecordedPass pass) {
+    frame_.push_back(pass);
+    picture_.push_back(std::move(pass));
+  }
   // Says that the pass added last continues the pass before it in the picture. The frame's list keeps it, without
   // draws.
-  void joinLast();
+  void joinLast() {
+    picture_.pop_back();
+    frame_.back().draws = 0;
+  }
   // Keeps the passes of a frame that was recorded to its end.
   void endFrame(uint64_t number) { frames_[number % frames_.size()] = {number, frame_}; }
 
   // Passes of the picture, in order.
   const std::vector<RecordedPass>& passes() const { return picture_; }
   // Passes and parts of frame `number`; none if it is too old.
-  std::span<const RecordedPass> passesOf(uint64_t number) const;
+  std::span<const RecordedPass> passesOf(uint64_t number) const {
+    const auto& [recorded, passes] = frames_[number % frames_.size()];
+    return recorded == number ? std::span(passes) : std::span<const RecordedPass>();
+  }
 
  private:
   std::vector<RecordedPass> picture_;

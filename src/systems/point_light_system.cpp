@@ -22,8 +22,4 @@ uint32_t PointLightSystem::record(const PassScope& scope, const FrameInfo& info,
   return 1;
 }
 
-void PointLightSystem::endFrame(bool stays) {
-  pipelines_.endFrame([&](VkSampleCountFlagBits) { return !stays; });
-}
-
 }  // namespace speculum

@@ -14,7 +14,9 @@ class PointLightSystem {
 
   uint32_t record(const PassScope& scope, const FrameInfo& info, const DrawList& pass);
   // Drops pipelines that have not been used for some frames. `stays` prevents that, while cached images show glyphs.
-  void endFrame(bool stays);
+  void endFrame(bool stays) {
+    pipelines_.endFrame([&](VkSampleCountFlagBits) { return !stays; });
+  }
   size_t pipelineCount() const { return pipelines_.size(); }
 
  private:
