@@ -1,6 +1,6 @@
 #ifndef SPECULUM_CUBE_FACE
 #define SPECULUM_CUBE_FACE
-// The six images about a point: src/frame/cube_face.hpp.
+// The six images about a point: src/plan/cube_face.hpp.
 
 // The face that shows a direction.
 struct FaceDirection {

@@ -1,5 +1,5 @@
-// Reflections of a curved mirror, looked up in six images about its centre: EnvironmentMap in src/frame/frame_plan.hpp,
-// with the faces of src/frame/cube_face.hpp. The map is bound as `diffuseTexture`. Needs shading.glsl.
+// Reflections of a curved mirror, looked up in six images about its centre: EnvironmentMap in src/plan/frame_plan.hpp,
+// with the faces of src/plan/cube_face.hpp. The map is bound as `diffuseTexture`. Needs shading.glsl.
 #include "cube_face.glsl"
 
 const float environmentBorder = 1.0;  // texels of a face beyond its edges

@@ -1,4 +1,4 @@
-// Shadows looked up in the images about a light: ShadowMap in src/frame/frame_plan.hpp. docs/numerics.md derives the
+// Shadows looked up in the images about a light: ShadowMap in src/plan/frame_plan.hpp. docs/numerics.md derives the
 // comparison. Needs interface.glsl.
 #include "cube_face.glsl"
 

@@ -1,4 +1,4 @@
-#include "app/commands.hpp"
+#include "cli/commands.hpp"
 
 int main(int argc, char** argv) {
   return speculum::speculumMain(argc, argv);

@@ -8,7 +8,7 @@
 #include <map>
 #include <stdexcept>
 
-#include "accuracy/image_metrics.hpp"
+#include "compare/image_metrics.hpp"
 #include "image/color.hpp"
 #include "image/image.hpp"
 #include "image/picture_files.hpp"

@@ -3,10 +3,10 @@
 #include <functional>
 #include <optional>
 
-#include "accuracy/compared_image.hpp"
-#include "accuracy/image_metrics.hpp"
-#include "frame/settings.hpp"
+#include "compare/compared_image.hpp"
+#include "compare/image_metrics.hpp"
 #include "scene/scene_state.hpp"
+#include "settings/settings.hpp"
 
 namespace speculum {
 

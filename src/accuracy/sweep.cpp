@@ -4,10 +4,10 @@
 #include <cmath>
 #include <map>
 
-#include "accuracy/fingerprint.hpp"
-#include "accuracy/heat_map.hpp"
 #include "accuracy/pareto.hpp"
-#include "frame/setting_fields.hpp"
+#include "compare/heat_map.hpp"
+#include "scene/fingerprint.hpp"
+#include "settings/setting_fields.hpp"
 
 namespace speculum {
 

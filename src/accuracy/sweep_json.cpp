@@ -99,6 +99,21 @@ ordered_json parseJson(const std::vector<uint8_t>& bytes) {
   });
 }
 
+ordered_json metricsJson(const ImageMetrics& m) {
+  JsonWriter json;
+  members(json, m);
+  json.written.erase("pixels");
+  return std::move(json.written);
+}
+
+ordered_json comparisonJson(const Comparison& comparison) {
+  ordered_json json = metricsJson(comparison.whole);
+  if (comparison.masked) {
+    json["mask"] = metricsJson(*comparison.masked);
+  }
+  return json;
+}
+
 ordered_json sweepJson(const SweepResults& results) {
   JsonWriter json;
   members(json, results);

@@ -16,6 +16,13 @@ namespace speculum {
 // proportional to their number, which is limited before they are read.
 nlohmann::ordered_json parseJson(const std::vector<uint8_t>& bytes);
 
+// { "rmse", "relative_rmse", "psnr", "ssim", "flip", "max_diff", "p99_diff", "pixels_over" }. JSON has no infinity:
+// null stands for it.
+nlohmann::ordered_json metricsJson(const ImageMetrics& metrics);
+
+// Returns metricsJson() of the whole picture, with that of the mask under "mask" if there is one.
+nlohmann::ordered_json comparisonJson(const Comparison& comparison);
+
 // Returns results.json of `speculum accuracy`.
 nlohmann::ordered_json sweepJson(const SweepResults& results);
 

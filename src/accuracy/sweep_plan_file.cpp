@@ -4,10 +4,10 @@
 #include <limits>
 #include <stdexcept>
 
-#include "frame/setting_fields.hpp"
 #include "scene/input_error.hpp"
 #include "scene/scene_sections.hpp"
 #include "scene/toml_file.hpp"
+#include "settings/setting_fields.hpp"
 
 namespace speculum {
 
@@ -50,7 +50,7 @@ void readSeries(const TableReader& table, SweepPlanner& planner) {
     series.axis = static_cast<SweepSeries::Axis>(table.choice("axis", axes));
   }
   series.note = table.text("note", "");
-  series.theorySlope = table.number("theory", 0.0, kAny);
+  series.theorySlope = table.number("theory", 0.0, anyRange);
   const toml::node* values = table.table().get("values");
   if (values == nullptr || !values->is_array()) {
     table.fail("values", "is missing or no array", "numbers in ascending order are needed");

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <charconv>
+#include <iterator>
+#include <sstream>
 #include <stdexcept>
 
-#include "frame/setting_fields.hpp"
+#include "settings/setting_fields.hpp"
 
 namespace speculum {
 
@@ -39,6 +41,13 @@ Values texts(const std::vector<int>& values) {
   return list;
 }
 
+// Returns the values of a setting that a built-in sweep tries.
+Values swept(std::string_view key, bool full) {
+  const SweptValues& values = findSettingField(key)->swept;
+  std::istringstream words{std::string(full ? values.full : values.quick)};
+  return {std::istream_iterator<std::string>(words), {}};
+}
+
 Changes samples(const std::string& count) {
   return {{"reflection.samples", count}, {"view.samples", count}};
 }
@@ -56,8 +65,7 @@ Changes drawn(const SweepContext& context, const std::string& count) {
 
 // Drafts: the whole picture at a lower resolution.
 void addViewScales(SweepPlanner& planner, const SweepContext& context, bool full) {
-  const Values scales =
-      full ? Values{"0.125", "0.177", "0.25", "0.354", "0.5", "0.707", "1"} : Values{"0.25", "0.5", "1"};
+  const Values scales = swept("view.scale", full);
   planner.series({.key = "view.scale",
                   .name = "Resolution of the main view and of mirror images",
                   .note = "An edge is wrong over a width in proportion to the texel: squared error as 1/scale",
@@ -80,20 +88,18 @@ void addMeans(SweepPlanner& planner, const SweepContext& context) {
                   .name = "Pictures in a mean, one sample each",
                   .note = "Edges N^-0.75, and texture, highlights and shading edges with them",
                   .theorySlope = -0.75},
-                 {"1", "4", "16", "64"}, joined(drawn(context, "1"), exact));
+                 swept("view.accumulate", true), joined(drawn(context, "1"), exact));
   planner.add(joined(joined(drawn(context, "4"), exact), {{"view.accumulate", "4"}}));
 }
 
 void addScaleSeries(SweepPlanner& planner, const SweepContext& context, bool full) {
-  const Values coarse =
-      full ? Values{"0.125", "0.177", "0.25", "0.354", "0.5", "0.707", "1"} : Values{"0.125", "0.25", "0.5", "1"};
   planner.series({.key = "reflection.scale",
                   .name = "Resolution of mirror images, up to the screen's",
                   .note = "An edge is wrong over a width in proportion to the texel: squared error as 1/scale. At 1 "
                           "nothing is resampled, which is another law",
                   .theorySlope = -0.5,
                   .fitUpTo = 0.99},
-                 coarse, best(context));
+                 swept("reflection.scale", full), best(context));
   const Values fine = full ? Values{"1", "1.5", "2", "3", "4"} : Values{"1", "1.5", "2"};
   planner.series({.key = "reflection.scale",
                   .name = "Resolution above the screen's, one sample a texel",
@@ -106,8 +112,6 @@ void addScaleSeries(SweepPlanner& planner, const SweepContext& context, bool ful
 }
 
 void addRoughSeries(SweepPlanner& planner, const SweepContext& context, bool full) {
-  const Values lookups =
-      full ? Values{"1", "2", "4", "8", "16", "32", "64", "128", "256"} : Values{"1", "4", "16", "64"};
   // Fewer rays than samples draw the same picture, because each sample sends one at least.
   const int least = context.sampleCounts.back();
   Values rays;
@@ -121,7 +125,8 @@ void addRoughSeries(SweepPlanner& planner, const SweepContext& context, bool ful
                   .theorySlope = -0.5},
                  rays, best(context));
   if (context.mirrors) {
-    planner.grid({{"effects.rough_lookup", {"image"}}, {"effects.rough_samples", lookups}});
+    planner.grid({{"effects.rough_lookup", swept("effects.rough_lookup", full)},
+                  {"effects.rough_samples", swept("effects.rough_samples", full)}});
   }
 }
 
@@ -146,46 +151,51 @@ void addSeries(SweepPlanner& planner, const SweepContext& context, bool full) {
     return;
   }
   addScaleSeries(planner, context, full);
-  const Values depths = full ? Values{"0", "1", "2", "3", "4", "5", "6", "8", "12", "16", greatestDepth}
-                             : Values{"0", "1", "2", "3", "4", "8", greatestDepth};
   planner.series({.key = "reflection.max_depth",
                   .name = "Depth of mirrors in mirrors",
                   .axis = SweepSeries::Axis::linear,
                   .note = "Root mean square throughput of the light beyond, from the mirrors in view; what is left at "
                           "the greatest depth is taken off as a square",
                   .theoryOfDepth = true},
-                 depths, samples(std::to_string(context.sampleCounts.back())));
+                 swept("reflection.max_depth", full), samples(std::to_string(context.sampleCounts.back())));
 }
 
 void addSingles(SweepPlanner& planner, const SweepContext& context, bool full) {
   const std::string most = std::to_string(context.sampleCounts.back());
-  planner.add({{"view.texture_filter", "trilinear"}});
+  const auto grid = [&](const std::vector<std::string>& keys) {
+    SettingGrid axes;
+    for (const std::string& key : keys) {
+      axes.emplace_back(key, swept(key, full));
+    }
+    planner.grid(axes);
+  };
+  grid({"view.texture_filter"});
   for (const std::string& effect : context.effects) {
     planner.add({{effect, "false"}});
     if (effect == "effects.shadows") {
-      planner.grid({{"effects.shadow_lookup", {"map"}}, {"effects.shadow_map_size", {"256", "1024", "4096"}}});
+      grid({"effects.shadow_lookup", "effects.shadow_map_size"});
     }
     if (effect == "effects.ripple") {
-      planner.add({{"effects.ripple_lookup", "image"}});
+      grid({"effects.ripple_lookup"});
     }
     if (effect == "effects.curved") {
-      planner.grid({{"effects.curved_lookup", {"environment"}}, {"effects.environment_size", {"64", "256"}}});
+      grid({"effects.curved_lookup", "effects.environment_size"});
     }
   }
   if (!context.effects.empty()) {
-    planner.add({{"effects.per_sample", "true"}});
+    grid({"effects.per_sample"});
   }
   if (!context.mirrors) {
     return;
   }
   planner.add({{"reflection.samples", "1"}, {"view.samples", most}});
   planner.add({{"reflection.samples", most}, {"view.samples", "1"}});
-  planner.grid({{"reflection.clip", {"oblique", "none"}}});
-  planner.grid({{"reflection.min_throughput", {"0.2", "0.05", "0.01"}}});
-  planner.grid({{"reflection.max_passes", {"1", "2", "4"}}});
-  planner.grid({{"reflection.min_pixels", full ? Values{"64", "1024", "8192"} : Values{"1024"}}});
+  grid({"reflection.clip"});
+  grid({"reflection.min_throughput"});
+  grid({"reflection.max_passes"});
+  grid({"reflection.min_pixels"});
   if (context.animated) {
-    planner.grid({{"reflection.update_interval", full ? Values{"2", "4", "8"} : Values{"2", "4"}}});
+    grid({"reflection.update_interval"});
   }
 }
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "accuracy/sweep_results.hpp"
-#include "frame/settings.hpp"
+#include "settings/settings.hpp"
 
 namespace speculum {
 

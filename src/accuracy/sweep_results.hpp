@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "accuracy/image_metrics.hpp"
-#include "accuracy/statistics.hpp"
-#include "frame/settings.hpp"
+#include "compare/image_metrics.hpp"
+#include "compare/statistics.hpp"
+#include "settings/settings.hpp"
 
 namespace speculum {
 

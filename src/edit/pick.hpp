@@ -2,7 +2,7 @@
 
 #include "edit/picture_view.hpp"
 #include "edit/selection.hpp"
-#include "frame/frame_plan.hpp"
+#include "plan/frame_plan.hpp"
 #include "scene/trace_world.hpp"
 
 namespace speculum {

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "frame/view.hpp"
 #include "geometry/bvh.hpp"
+#include "plan/view.hpp"
 
 namespace speculum {
 

@@ -4,11 +4,11 @@
 #include <numeric>
 #include <utility>
 
-#include "frame/setting_fields.hpp"
 #include "platform/files.hpp"
 #include "platform/text.hpp"
 #include "scene/input_error.hpp"
 #include "scene/scene_loader.hpp"
+#include "settings/setting_fields.hpp"
 
 namespace speculum {
 

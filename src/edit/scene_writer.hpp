@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "frame/settings.hpp"
+#include "settings/settings.hpp"
 
 namespace speculum {
 

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "frame/scene_names.hpp"
+#include "plan/scene_names.hpp"
 
 namespace speculum {
 

@@ -12,7 +12,7 @@ namespace speculum {
 
 namespace {
 
-constexpr size_t kLongestLine = 120;
+constexpr size_t longestLine = 120;
 
 const KeyText* find(const std::vector<KeyText>& keys, const KeyText& wanted) {
   const auto found =
@@ -143,7 +143,7 @@ void TomlEditor::replaceChangedNumbers(const toml::node& value, std::string_view
 
 // Breaks a list of points into lines if it is too long for one.
 std::string TomlEditor::wrappedPoints(std::string_view value, size_t before) const {
-  if (!value.starts_with("[[") || before + value.size() <= kLongestLine) {
+  if (!value.starts_with("[[") || before + value.size() <= longestLine) {
     return std::string(value);
   }
   std::string text = "[" + toml_.lineBreak();

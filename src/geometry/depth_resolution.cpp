@@ -32,7 +32,8 @@ struct EyeRay {
   double change;  // m / c: depth is a constant plus change / distance
 };
 
-DepthErrors errorsOf(const DepthView& view, const DepthSurface& surface, const glm::dvec4& row, const EyeRay& ray) {
+DepthErrors errorsOf(const DepthProjection& view, const DepthSurface& surface, const glm::dvec4& row,
+                     const EyeRay& ray) {
   const glm::dvec3& p = surface.point;
   const glm::dvec3 n = glm::abs(surface.normal);
   const glm::dvec3 gradient(row);
@@ -66,7 +67,7 @@ std::optional<double> gap(const EyeRay& ray, double error) {
 }
 
 // Returns the row of the projection that gives clip z; nothing if the projection does not exist.
-std::optional<glm::dvec4> depthRow(const DepthView& view) {
+std::optional<glm::dvec4> depthRow(const DepthProjection& view) {
   if (!view.plane) {
     return glm::dvec4(0.0, 0.0, 0.0, view.projection.near);
   }
@@ -76,7 +77,7 @@ std::optional<glm::dvec4> depthRow(const DepthView& view) {
 
 }  // namespace
 
-DepthResolution depthResolution(const DepthView& view, const DepthSurface& surface) {
+DepthResolution depthResolution(const DepthProjection& view, const DepthSurface& surface) {
   const std::optional<glm::dvec4> row = depthRow(view);
   const double w = -surface.point.z;
   if (!row || !(w > 0.0) || glm::dot(surface.normal, surface.point) == 0.0) {
@@ -94,7 +95,7 @@ DepthResolution depthResolution(const DepthView& view, const DepthSurface& surfa
           .snapped = gap(ray, e.storage + e.rounding + e.snapping)};
 }
 
-std::optional<double> resolvableGap(const DepthView& view, const glm::dvec3& point, double angle, double extent) {
+std::optional<double> resolvableGap(const DepthProjection& view, const glm::dvec3& point, double angle, double extent) {
   constexpr int directions = 16;
   const glm::dvec3 toEye = -glm::normalize(point);
   const glm::dvec3 side =

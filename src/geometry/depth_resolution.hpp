@@ -36,7 +36,7 @@ namespace speculum {
 // Stability of Numerical Algorithms" (2002), 3.1, for sums of products. The terms are added up, not squared.
 
 // A picture and its projection; `plane` as obliqueProjection takes it, none for the common projection.
-struct DepthView {
+struct DepthProjection {
   Projection projection;
   std::optional<glm::dvec4> plane;
   glm::dvec2 pictureSize{0.0};  // pixels
@@ -56,9 +56,9 @@ struct DepthResolution {
   std::optional<double> snapped;  // and with vertices snapped to 1/256 pixel: holds for any two surfaces
 };
 
-DepthResolution depthResolution(const DepthView& view, const DepthSurface& surface);
+DepthResolution depthResolution(const DepthProjection& view, const DepthSurface& surface);
 
 // Largest `snapped` of surfaces tilted by `angle` (radians) away from the eye, over 16 directions of tilt.
-std::optional<double> resolvableGap(const DepthView& view, const glm::dvec3& point, double angle, double extent);
+std::optional<double> resolvableGap(const DepthProjection& view, const glm::dvec3& point, double angle, double extent);
 
 }  // namespace speculum

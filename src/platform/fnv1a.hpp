@@ -6,11 +6,11 @@
 
 namespace speculum {
 
-inline constexpr uint64_t kFnv1aStart = 0xcbf29ce484222325u;
+inline constexpr uint64_t fnv1aStart = 0xcbf29ce484222325u;
 
 // FNV-1a with 64 bits (Fowler, Noll, Vo): detects content that changed by accident, not by intent. `hash` is
-// kFnv1aStart or the hash of the bytes before these.
-constexpr uint64_t fnv1a(std::span<const std::byte> bytes, uint64_t hash = kFnv1aStart) {
+// fnv1aStart or the hash of the bytes before these.
+constexpr uint64_t fnv1a(std::span<const std::byte> bytes, uint64_t hash = fnv1aStart) {
   for (const std::byte byte : bytes) {
     hash = (hash ^ static_cast<uint64_t>(byte)) * 0x100000001b3u;
   }

@@ -36,8 +36,8 @@ bool isHidden(char32_t code) {
 }  // namespace
 
 std::string oneLine(std::string_view text) {
-  constexpr size_t kLongest = 4000;
-  constexpr size_t kEnd = 1000;
+  constexpr size_t longest = 4000;
+  constexpr size_t lastKept = 1000;
   std::string line;
   bool begun = false;  // with a letter, digit or mark
   for (size_t i = 0, bytes = 0; i < text.size(); i += std::max<size_t>(bytes, 1)) {
@@ -54,9 +54,9 @@ std::string oneLine(std::string_view text) {
     }
     begun = begun || (line.back() > 0x20 && line.back() < 0x7f);
   }
-  if (line.size() > kLongest) {
-    size_t begin = kLongest - kEnd;
-    size_t end = line.size() - kEnd;
+  if (line.size() > longest) {
+    size_t begin = longest - lastKept;
+    size_t end = line.size() - lastKept;
     while (begin > 0 && continuesCharacter(line[begin])) {
       --begin;
     }

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "accuracy/sweep_planner.hpp"
-#include "frame/settings.hpp"
 #include "platform/files.hpp"
 #include "platform/text.hpp"
 #include "scene/camera_text.hpp"
@@ -18,6 +17,7 @@
 #include "scene/scene_sections.hpp"
 #include "scene/text_lines.hpp"
 #include "scene/toml_file.hpp"
+#include "settings/settings.hpp"
 
 namespace speculum {
 
@@ -131,7 +131,7 @@ class CaseReader {
         apply(table, draft, key, *value);
       }
     }
-    draft.common.time = table.number("time", draft.common.time, kTime);
+    draft.common.time = table.number("time", draft.common.time, timeRange);
     draft.common.timeout = table.number("timeout", draft.common.timeout, seconds);
     draft.common.strict = table.has("strict") ? table.boolean("strict") : draft.common.strict;
     if (const auto mask = textIn(table, "mask")) {
@@ -214,8 +214,8 @@ class CaseReader {
       const char* start = value.c_str();
       char* end = nullptr;
       draft.common.time = std::strtod(start, &end);
-      if (end == start || *end != '\0' || !kTime.contains(draft.common.time)) {
-        table.fail(key, "is '" + value + "'", kTime.text());
+      if (end == start || *end != '\0' || !timeRange.contains(draft.common.time)) {
+        table.fail(key, "is '" + value + "'", timeRange.text());
       }
     } else {
       Settings scratch;

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "accuracy/compared_image.hpp"
-#include "accuracy/flip.hpp"
-#include "accuracy/heat_map.hpp"
-#include "accuracy/statistics.hpp"
+#include "compare/compared_image.hpp"
+#include "compare/flip.hpp"
+#include "compare/heat_map.hpp"
+#include "compare/statistics.hpp"
 #include "image/picture_files.hpp"
 
 namespace speculum {

@@ -2,8 +2,8 @@
 
 #include <optional>
 
-#include "accuracy/picture_agreement.hpp"
-#include "accuracy/plane.hpp"
+#include "compare/picture_agreement.hpp"
+#include "compare/plane.hpp"
 #include "regress/case_file.hpp"
 #include "regress/outcome.hpp"
 

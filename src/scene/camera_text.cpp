@@ -49,7 +49,7 @@ Bookmark parseCamera(const std::string& text) {
   const size_t count = lists.size();
   const auto vectors = std::span(lists).first(std::min<size_t>(count, 3));
   const bool points = std::ranges::all_of(vectors, [](const auto& list) { return list.size() == 3; });
-  const bool angle = count < 4 || (lists[3].size() == 1 && kFieldOfView.contains(lists[3][0]));
+  const bool angle = count < 4 || (lists[3].size() == 1 && fieldOfViewRange.contains(lists[3][0]));
   if (count < 2 || count > 4 || !points || !angle) {
     throw std::invalid_argument(
         "'" + text +
@@ -58,8 +58,8 @@ Bookmark parseCamera(const std::string& text) {
   }
   for (const std::vector<double>& vector : vectors) {
     for (const double value : vector) {
-      if (!kCoordinate.contains(value)) {
-        throw std::invalid_argument(fmt::format("{} is out of range ({})", value, kCoordinate.text()));
+      if (!coordinateRange.contains(value)) {
+        throw std::invalid_argument(fmt::format("{} is out of range ({})", value, coordinateRange.text()));
       }
     }
   }

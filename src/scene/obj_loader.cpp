@@ -21,7 +21,7 @@ namespace speculum {
 namespace {
 
 // Share of the time that reading the text of a large model takes; the rest sorts its triangles.
-constexpr double kReadShare = 0.65;
+constexpr double readShare = 0.65;
 
 // What a file holds beside faces, to say what it is if there are none.
 struct Contents {
@@ -84,7 +84,7 @@ class ObjReader {
     LineStream lines(line_, [&] {
       noteContents();
       if (progress && ++count % linesBetweenCalls == 0) {
-        progress(file_, kReadShare * line_.done());
+        progress(file_, readShare * line_.done());
       }
     });
     std::istream stream(&lines);
@@ -221,13 +221,13 @@ class ObjReader {
         defects_.add(file_, line, "f", "has a vertex that is not there, the face is left out");
         return;
       }
-      if (corner.texcoord != kNone && !isInRange(corner.texcoord, mesh_.texcoordCount())) {
+      if (corner.texcoord != noIndex && !isInRange(corner.texcoord, mesh_.texcoordCount())) {
         defects_.add(file_, line, "f", "has a texture coordinate that is not there, it counts as missing");
-        corner.texcoord = kNone;
+        corner.texcoord = noIndex;
       }
-      if (corner.normal != kNone && !isInRange(corner.normal, mesh_.normalCount())) {
+      if (corner.normal != noIndex && !isInRange(corner.normal, mesh_.normalCount())) {
         defects_.add(file_, line, "f", "has a normal that is not there, it counts as missing");
-        corner.normal = kNone;
+        corner.normal = noIndex;
       }
     }
     mesh_.addFace(corners, line);
@@ -249,7 +249,7 @@ class ObjReader {
   }
 
   // Converts an index, which counts from 1, or backwards from -1 among the `count` elements above, to one from 0.
-  // Indices that are out of any range become kNowhere. Returns false for what is no integer.
+  // Indices that are out of any range become nowhere. Returns false for what is no integer.
   static bool readIndex(std::string_view token, size_t count, int& index) {
     long long value = 0;
     const auto [end, error] = std::from_chars(token.data(), token.data() + token.size(), value);
@@ -259,12 +259,12 @@ class ObjReader {
     const long long fromZero = value > 0 ? value - 1 : value + static_cast<long long>(count);
     const bool usable =
         error == std::errc() && value != 0 && fromZero >= 0 && fromZero < std::numeric_limits<int>::max();
-    index = usable ? static_cast<int>(fromZero) : kNowhere;
+    index = usable ? static_cast<int>(fromZero) : nowhere;
     return true;
   }
 
-  static constexpr int kNone = -1;     // no index
-  static constexpr int kNowhere = -2;  // an index of nothing
+  static constexpr int noIndex = -1;  // no index
+  static constexpr int nowhere = -2;  // an index of nothing
 
   const std::filesystem::path& file_;
   LineReader line_;
@@ -319,7 +319,7 @@ Mesh loadObj(const std::filesystem::path& file, std::vector<Texture>& textures, 
   ObjMaterials materials(file, defects);
   const auto [contents, foreign] = readObj(file, builder, materials, defects, progress);
   if (progress) {
-    progress(file, kReadShare);
+    progress(file, readShare);
   }
   Mesh mesh = builder.finish([&](int index) { return materials.material(index, textures); });
   mesh.materialFiles.assign(materials.files().begin(), materials.files().end());

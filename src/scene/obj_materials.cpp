@@ -140,11 +140,11 @@ class ObjMaterials::MtlReader {
 
   void readLine(const std::string& key) {
     if (key == "kd") {
-      hasDiffuse_ = readColor("Kd", kSurfaceColor, kUsualDiffuse) || hasDiffuse_;
+      hasDiffuse_ = readColor("Kd", surfaceColorRange, usualDiffuse) || hasDiffuse_;
     } else if (key == "ks") {
-      readColor("Ks", kSurfaceColor, 0.0);
+      readColor("Ks", surfaceColorRange, 0.0);
     } else if (key == "ke") {
-      readColor("Ke", kRadiance, 0.0);
+      readColor("Ke", radianceRange, 0.0);
     } else if (key == "ns") {
       readNumber("Ns");
     } else if (key == "d") {
@@ -214,17 +214,17 @@ class ObjMaterials::MtlReader {
     material.name = name_;
     material.diffuse = std::exchange(hasDiffuse_, false)
                            ? glm::dvec3(from.diffuse[0], from.diffuse[1], from.diffuse[2])
-                           : glm::dvec3(from.diffuse_texname.empty() ? kUsualDiffuse : 1.0);
+                           : glm::dvec3(from.diffuse_texname.empty() ? usualDiffuse : 1.0);
     material.specular = {from.specular[0], from.specular[1], from.specular[2]};
     material.emission = {from.emission[0], from.emission[1], from.emission[2]};
-    material.shininess = std::clamp<double>(from.shininess, kLeastShininess, kMostShininess);
+    material.shininess = std::clamp<double>(from.shininess, leastShininess, mostShininess);
     entry_->opaque = !(from.dissolve < 1.0) && from.alpha_texname.empty();
     entry_->diffuseTexture = from.diffuse_texname;
     materials_.entries_.try_emplace(name_, std::move(*entry_));
     entry_.reset();
   }
 
-  static constexpr double kUsualDiffuse = 0.8;  // Kd of a material without one and without a texture
+  static constexpr double usualDiffuse = 0.8;  // Kd of a material without one and without a texture
 
   ObjMaterials& materials_;
   const fs::path& file_;

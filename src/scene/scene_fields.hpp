@@ -35,14 +35,14 @@ enum class FieldUse { appearance, placement, label };
 template <typename Owner, typename Value>
 struct FieldTraits {
   std::string_view unit = {};
-  std::string_view label = {};  // in the inspector; made from the key if empty
-  Range range = kAny;           // of each number
-  double floor = kAny.low;      // smaller numbers count as this one
-  double ceiling = kAny.high;   // larger numbers count as this one
-  bool required = false;        // a file must have it
-  bool alwaysSaved = false;     // even at its default, because its table exists for it
-  bool color = false;           // linear RGB
-  bool uniform = false;         // one number stands for three equal ones
+  std::string_view label = {};     // in the inspector; made from the key if empty
+  Range range = anyRange;          // of each number
+  double floor = anyRange.low;     // smaller numbers count as this one
+  double ceiling = anyRange.high;  // larger numbers count as this one
+  bool required = false;           // a file must have it
+  bool alwaysSaved = false;        // even at its default, because its table exists for it
+  bool color = false;              // linear RGB
+  bool uniform = false;            // one number stands for three equal ones
   FieldUse use = FieldUse::appearance;
   double step = 0.01;                            // change for a pixel of a drag in the inspector
   bool (*applies)(const Owner& node) = nullptr;  // if false, the field is neither read nor saved
@@ -76,48 +76,50 @@ template <typename T>
 inline constexpr auto fieldsOf = nullptr;
 
 template <>
-inline const auto fieldsOf<Sky> =
-    std::tuple{field(&Sky::zenith, "zenith", "straight up", {.range = kRadiance, .required = true, .color = true}),
-               field(&Sky::horizon, "horizon", "at the horizon", {.range = kRadiance, .required = true, .color = true}),
-               field(&Sky::ground, "ground", "below it", {.range = kRadiance, .required = true, .color = true})};
+inline const auto fieldsOf<Sky> = std::tuple{
+    field(&Sky::zenith, "zenith", "straight up", {.range = radianceRange, .required = true, .color = true}),
+    field(&Sky::horizon, "horizon", "at the horizon", {.range = radianceRange, .required = true, .color = true}),
+    field(&Sky::ground, "ground", "below it", {.range = radianceRange, .required = true, .color = true})};
 
 template <>
 inline const auto fieldsOf<Environment> =
     std::tuple{field(&Environment::background, "background", "radiance of rays that hit nothing",
-                     {.range = kRadiance, .color = true}),
+                     {.range = radianceRange, .color = true}),
                field(&Environment::sky, "sky", "replaces the background"),
                field(&Environment::ambient, "ambient", "constant irradiance over pi, multiplied by the diffuse color",
-                     {.range = kRadiance, .color = true})};
+                     {.range = radianceRange, .color = true})};
 
 template <>
 inline const auto fieldsOf<CameraSpec> = std::tuple{
-    field(&CameraSpec::position, "position", "the eye", {.unit = "m", .range = kCoordinate, .required = true}),
+    field(&CameraSpec::position, "position", "the eye", {.unit = "m", .range = coordinateRange, .required = true}),
     field(&CameraSpec::target, "target", "what it looks at; not the position",
-          {.unit = "m", .range = kCoordinate, .required = true}),
-    field(&CameraSpec::up, "up", "not along the view direction", {.range = kCoordinate}),
-    field(&CameraSpec::verticalFov, "vertical_fov", "vertical field of view", {.unit = "deg", .range = kFieldOfView}),
-    field(&CameraSpec::near, "near", "depth precision only: nothing is cut there", {.unit = "m", .range = kPositive}),
+          {.unit = "m", .range = coordinateRange, .required = true}),
+    field(&CameraSpec::up, "up", "not along the view direction", {.range = coordinateRange}),
+    field(&CameraSpec::verticalFov, "vertical_fov", "vertical field of view",
+          {.unit = "deg", .range = fieldOfViewRange}),
+    field(&CameraSpec::near, "near", "depth precision only: nothing is cut there",
+          {.unit = "m", .range = positiveRange}),
     field(&CameraSpec::orbitSpeed, "orbit_speed", "around the target about up, by the right-hand rule",
-          {.unit = "deg/s", .range = kTurn})};
+          {.unit = "deg/s", .range = turnRange})};
 
 template <>
 inline const auto fieldsOf<Copies> =
     std::tuple{field(&Copies::count, "count", "instances of the object",
-                     {.label = "Number of copies", .range = kCopies, .use = FieldUse::placement, .step = 0.1}),
+                     {.label = "Number of copies", .range = copiesRange, .use = FieldUse::placement, .step = 0.1}),
                field(&Copies::step, "step", "from one instance to the next",
                      {.unit = "m",
                       .label = "Step between copies",
-                      .range = kCoordinate,
+                      .range = coordinateRange,
                       .use = FieldUse::placement,
                       .shown = [](const Copies& copies) { return copies.count > 1; }})};
 
 template <>
 inline const auto fieldsOf<ObjectMirror> =
     std::tuple{field(&ObjectMirror::reflectance, "reflectance", "share of light reflected, the tint",
-                     {.label = "Reflectance (tint)", .range = kUnit, .alwaysSaved = true, .color = true}),
+                     {.label = "Reflectance (tint)", .range = unitRange, .alwaysSaved = true, .color = true}),
                field(&ObjectMirror::fresnel, "fresnel", "schlick: more at grazing angles"),
                field(&ObjectMirror::baseColor, "base_color", "diffuse layer under the reflection",
-                     {.label = "Diffuse color", .range = kSurfaceColor, .color = true})};
+                     {.label = "Diffuse color", .range = surfaceColorRange, .color = true})};
 
 template <>
 inline const auto fieldsOf<Object> = std::tuple{
@@ -125,61 +127,61 @@ inline const auto fieldsOf<Object> = std::tuple{
     field(&Object::model, "model", "OBJ file, relative to the scene file",
           {.required = true, .use = FieldUse::label, .shown = [](const Object&) { return false; }}),
     field(&Object::position, "position", "of the model's origin",
-          {.unit = "m", .range = kCoordinate, .use = FieldUse::placement}),
+          {.unit = "m", .range = coordinateRange, .use = FieldUse::placement}),
     field(&Object::rotation, "rotation", "pitch about X, yaw about Y, roll about Z; R = Ry Rx Rz",
-          {.unit = "deg", .range = kCoordinate, .use = FieldUse::placement, .step = 0.5}),
+          {.unit = "deg", .range = coordinateRange, .use = FieldUse::placement, .step = 0.5}),
     field(&Object::scale, "scale", "along the model's own axes; negative mirrors it, zero is an error",
           {.uniform = true, .use = FieldUse::placement}),
     field(&Object::spin, "spin", "added to the rotation",
-          {.unit = "deg/s", .range = kTurn, .use = FieldUse::placement, .step = 0.5}),
+          {.unit = "deg/s", .range = turnRange, .use = FieldUse::placement, .step = 0.5}),
     field(&Object::color, "color", "replaces the model's diffuse color (Kd); textures multiply it",
-          {.range = kSurfaceColor, .color = true, .start = glm::dvec3(0.6)}),
+          {.range = surfaceColorRange, .color = true, .start = glm::dvec3(0.6)}),
     field(&Object::specular, "specular", "replaces the model's specular color (Ks)",
-          {.range = kSurfaceColor, .color = true, .start = glm::dvec3(0.2)}),
+          {.range = surfaceColorRange, .color = true, .start = glm::dvec3(0.2)}),
     field(&Object::shininess, "shininess", "replaces the model's exponent of highlights (Ns); clamped to 1 .. 1e6",
-          {.floor = kLeastShininess, .ceiling = kMostShininess, .step = 1.0, .start = 50.0}),
+          {.floor = leastShininess, .ceiling = mostShininess, .step = 1.0, .start = 50.0}),
     field(&Object::emission, "emission", "replaces the model's emission (Ke): radiance that lights nothing else",
-          {.range = kRadiance, .color = true, .start = glm::dvec3(1.0)}),
+          {.range = radianceRange, .color = true, .start = glm::dvec3(1.0)}),
     field(&Object::mirror, "mirror", "makes the object a curved mirror", {.start = ObjectMirror()}),
     field(&Object::copies, "copies", "the k-th instance is moved by k times the step", {.use = FieldUse::placement})};
 
 template <>
-inline const auto fieldsOf<Orbit> =
-    std::tuple{field(&Orbit::center, "center", "point on the axis",
-                     {.unit = "m", .range = kCoordinate, .use = FieldUse::placement}),
-               field(&Orbit::axis, "axis", "direction; not zero",
-                     {.range = kCoordinate, .use = FieldUse::placement, .shown = [](const Orbit&) { return false; }}),
-               field(&Orbit::speed, "speed", "by the right-hand rule",
-                     {.unit = "deg/s", .range = kTurn, .alwaysSaved = true, .use = FieldUse::placement, .step = 0.5})};
+inline const auto fieldsOf<Orbit> = std::tuple{
+    field(&Orbit::center, "center", "point on the axis",
+          {.unit = "m", .range = coordinateRange, .use = FieldUse::placement}),
+    field(&Orbit::axis, "axis", "direction; not zero",
+          {.range = coordinateRange, .use = FieldUse::placement, .shown = [](const Orbit&) { return false; }}),
+    field(&Orbit::speed, "speed", "by the right-hand rule",
+          {.unit = "deg/s", .range = turnRange, .alwaysSaved = true, .use = FieldUse::placement, .step = 0.5})};
 
 template <>
 inline const auto fieldsOf<PointLight> = std::tuple{
     field(&PointLight::name, "name", "shown in lists and messages", {.use = FieldUse::label}),
     field(&PointLight::position, "position", "of the centre",
-          {.unit = "m", .range = kCoordinate, .required = true, .use = FieldUse::placement}),
-    field(&PointLight::color, "color", "of light and sphere", {.range = kRadiance, .color = true}),
+          {.unit = "m", .range = coordinateRange, .required = true, .use = FieldUse::placement}),
+    field(&PointLight::color, "color", "of light and sphere", {.range = radianceRange, .color = true}),
     field(&PointLight::intensity, "intensity", "irradiance at 1 m on a surface that faces the light",
-          {.range = kRadiance, .step = 0.1}),
+          {.range = radianceRange, .step = 0.1}),
     field(&PointLight::radius, "radius", "of the visible sphere, and the floor of the inverse square law",
-          {.unit = "m", .range = kLength, .step = 0.002}),
-    field(&PointLight::glow, "glow", "radiance of the sphere by its color; 0 draws none", {.range = kRadiance}),
+          {.unit = "m", .range = lengthRange, .step = 0.002}),
+    field(&PointLight::glow, "glow", "radiance of the sphere by its color; 0 draws none", {.range = radianceRange}),
     field(&PointLight::castsShadow, "casts_shadow", "objects and mirrors cast its shadows"),
     field(&PointLight::orbit, "orbit", "circles around an axis", {.use = FieldUse::placement})};
 
 template <>
 inline const auto fieldsOf<Ripple> =
     std::tuple{field(&Ripple::amplitude, "amplitude", "0: no ripple",
-                     {.unit = "m", .range = kAmplitude, .alwaysSaved = true, .step = 0.0002}),
+                     {.unit = "m", .range = amplitudeRange, .alwaysSaved = true, .step = 0.0002}),
                field(&Ripple::wavelength, "wavelength", "of both trains of waves",
-                     {.unit = "m", .range = kWavelength, .step = 0.005}),
-               field(&Ripple::speed, "speed", "of the waves", {.unit = "m/s", .range = kWaveSpeed, .step = 0.005})};
+                     {.unit = "m", .range = wavelengthRange, .step = 0.005}),
+               field(&Ripple::speed, "speed", "of the waves", {.unit = "m/s", .range = waveSpeedRange, .step = 0.005})};
 
 template <>
 inline const auto fieldsOf<MirrorQuality> =
-    std::tuple{field(&MirrorQuality::scale, "scale", "`reflection.scale` of its images", {.range = kImageScale}),
-               field(&MirrorQuality::samples, "samples", "`reflection.samples` of its images", {.range = kSamples}),
+    std::tuple{field(&MirrorQuality::scale, "scale", "`reflection.scale` of its images", {.range = imageScaleRange}),
+               field(&MirrorQuality::samples, "samples", "`reflection.samples` of its images", {.range = samplesRange}),
                field(&MirrorQuality::updateInterval, "update_interval", "`reflection.update_interval` of its image",
-                     {.unit = "frames", .range = kInterval}),
+                     {.unit = "frames", .range = intervalRange}),
                field(&MirrorQuality::method, "method", "`reflection.method` of the mirror")};
 
 inline bool isRectangle(const Mirror& mirror) {
@@ -193,27 +195,27 @@ inline const auto fieldsOf<Mirror> = std::tuple{
     field(&Mirror::polygon, "polygon",
           "instead of a rectangle: world-space vertices, planar, convex, counter-clockwise from the front",
           {.unit = "m",
-           .range = kCoordinate,
+           .range = coordinateRange,
            .use = FieldUse::placement,
            .applies = [](const Mirror& mirror) { return !isRectangle(mirror); }}),
     field(&Mirror::position, "position", "of the centre of a rectangle",
-          {.unit = "m", .range = kCoordinate, .use = FieldUse::placement, .applies = isRectangle}),
+          {.unit = "m", .range = coordinateRange, .use = FieldUse::placement, .applies = isRectangle}),
     field(&Mirror::rotation, "rotation", "as of objects; unrotated it faces +Z",
-          {.unit = "deg", .range = kCoordinate, .use = FieldUse::placement, .step = 0.5, .applies = isRectangle}),
+          {.unit = "deg", .range = coordinateRange, .use = FieldUse::placement, .step = 0.5, .applies = isRectangle}),
     field(&Mirror::size, "size", "width and height",
-          {.unit = "m", .range = kLength, .required = true, .use = FieldUse::placement, .applies = isRectangle}),
+          {.unit = "m", .range = lengthRange, .required = true, .use = FieldUse::placement, .applies = isRectangle}),
     field(&Mirror::spin, "spin", "added to the rotation",
-          {.unit = "deg/s", .range = kTurn, .use = FieldUse::placement, .step = 0.5, .applies = isRectangle}),
+          {.unit = "deg/s", .range = turnRange, .use = FieldUse::placement, .step = 0.5, .applies = isRectangle}),
     field(&Mirror::reflectance, "reflectance", "share of light reflected, the tint; with Fresnel at normal incidence",
-          {.label = "Reflectance (tint)", .range = kUnit, .color = true}),
+          {.label = "Reflectance (tint)", .range = unitRange, .color = true}),
     field(&Mirror::fresnel, "fresnel", "schlick: more at grazing angles"),
     field(&Mirror::baseColor, "base_color", "diffuse layer under the reflection",
-          {.label = "Diffuse color", .range = kSurfaceColor, .color = true}),
+          {.label = "Diffuse color", .range = surfaceColorRange, .color = true}),
     field(&Mirror::twoSided, "two_sided", "reflects on its back too"),
     field(&Mirror::backColor, "back_color", "diffuse color of the back of a one-sided mirror",
-          {.range = kSurfaceColor, .color = true, .shown = [](const Mirror& mirror) { return !mirror.twoSided; }}),
+          {.range = surfaceColorRange, .color = true, .shown = [](const Mirror& mirror) { return !mirror.twoSided; }}),
     field(&Mirror::roughness, "roughness", "spread of the reflection: GGX with alpha = roughness squared",
-          {.range = kUnit, .step = 0.002}),
+          {.range = unitRange, .step = 0.002}),
     // The loader drops ripples without height.
     field(&Mirror::ripple, "ripple", "two trains of waves run over the mirror",
           {.applies = [](const Mirror& mirror) { return !mirror.ripple || mirror.ripple->amplitude > 0.0; },
@@ -226,10 +228,12 @@ inline const auto fieldsOf<Mirror> = std::tuple{
 template <>
 inline const auto fieldsOf<Bookmark> = std::tuple{
     field(&Bookmark::name, "name", "no other bookmark's", {.required = true, .use = FieldUse::label}),
-    field(&Bookmark::position, "position", "as the camera's", {.unit = "m", .range = kCoordinate, .required = true}),
-    field(&Bookmark::target, "target", "as the camera's", {.unit = "m", .range = kCoordinate, .required = true}),
-    field(&Bookmark::up, "up", "the camera's unless given", {.range = kCoordinate}),
-    field(&Bookmark::verticalFov, "vertical_fov", "the camera's unless given", {.unit = "deg", .range = kFieldOfView})};
+    field(&Bookmark::position, "position", "as the camera's",
+          {.unit = "m", .range = coordinateRange, .required = true}),
+    field(&Bookmark::target, "target", "as the camera's", {.unit = "m", .range = coordinateRange, .required = true}),
+    field(&Bookmark::up, "up", "the camera's unless given", {.range = coordinateRange}),
+    field(&Bookmark::verticalFov, "vertical_fov", "the camera's unless given",
+          {.unit = "deg", .range = fieldOfViewRange})};
 
 template <typename T>
 concept Described = !std::is_null_pointer_v<std::remove_cvref_t<decltype(fieldsOf<T>)>>;

@@ -91,7 +91,7 @@ int meshIndex(const TableReader& object, Scene& scene, std::map<std::string, int
 }
 
 // Bounds the memory that copies take in every frame.
-constexpr int kMostInstances = 1'000'000;
+constexpr int mostInstances = 1'000'000;
 
 // Returns what is needed of an object that is too large; nothing if its projected vertices are still floats. Rays to
 // and from a curved mirror square them.
@@ -103,8 +103,8 @@ std::optional<std::string> extentRemedy(const Object& object, const Mesh& mesh) 
   return fmt::format("at most {:g} m are needed{}", largest, object.mirror ? " of a curved mirror" : "");
 }
 
-constexpr std::array<std::string_view, 8> kKeys{"title",  "environment", "camera", "settings",
-                                                "object", "light",       "mirror", "bookmark"};
+constexpr std::array<std::string_view, 8> keys{"title",  "environment", "camera", "settings",
+                                               "object", "light",       "mirror", "bookmark"};
 
 void addBookmarks(const TableReader& reader, Scene& scene) {
   std::set<std::string> names;
@@ -136,7 +136,7 @@ Scene readScene(const TableReader& reader, const fs::path& file, std::string tex
   int instances = 0;
   for (const TableReader& table : reader.tables("object", keysOf<Object>())) {
     Object object = readObject(table);
-    if (object.copies.count > kMostInstances - instances) {
+    if (object.copies.count > mostInstances - instances) {
       table.fail("copies", "makes more than 1000000 objects of the scene", "fewer copies are needed");
     }
     instances += object.copies.count;
@@ -179,17 +179,17 @@ void addFilesNamedIn(const fs::path& file, LineReader::Continuation continuation
   }
 }
 
-constexpr double kSmallest = 1e-9;  // metres, of the bounding sphere's radius
-constexpr double kLargest = 1e12;
-constexpr double kGap = 0.03;   // radii between the model and the mirror below it
-constexpr double kStage = 3.6;  // radii that the mirror measures
-constexpr double kModelFieldOfView = 36.0;
+constexpr double smallest = 1e-9;  // metres, of the bounding sphere's radius
+constexpr double largest = 1e12;
+constexpr double gap = 0.03;   // radii between the model and the mirror below it
+constexpr double stage = 3.6;  // radii that the mirror measures
+constexpr double modelFieldOfView = 36.0;
 
 std::string disc(double radius) {
-  constexpr int kCorners = 96;
+  constexpr int count = 96;
   std::string corners;
-  for (int i = 0; i < kCorners; ++i) {
-    const double turn = glm::radians(360.0) * i / kCorners;
+  for (int i = 0; i < count; ++i) {
+    const double turn = glm::radians(360.0) * i / count;
     corners += fmt::format("  {},\n", tomlText(glm::dvec3(radius * std::cos(turn), 0.0, -radius * std::sin(turn))));
   }
   return "[\n" + corners + "]";
@@ -198,11 +198,11 @@ std::string disc(double radius) {
 // Writes a scene whose unit is the radius of the model's bounding sphere, with the model's centre above the origin.
 std::string sceneText(const fs::path& file, const Mesh& mesh) {
   const double r = mesh.radius * mesh.unit;
-  const double height = mesh.halfExtent.y * mesh.unit + kGap * r;  // of the centre
+  const double height = mesh.halfExtent.y * mesh.unit + gap * r;  // of the centre
   const glm::dvec3 center(0.0, height, 0.0);
   const glm::dvec3 target = center - glm::dvec3(0.0, 0.22 * r, 0.0);
   const glm::dvec3 towards = glm::normalize(glm::dvec3(0.62, 0.36, 1.0));
-  const glm::dvec3 eye = target + 1.3 * r / std::sin(glm::radians(0.5 * kModelFieldOfView)) * towards;
+  const glm::dvec3 eye = target + 1.3 * r / std::sin(glm::radians(0.5 * modelFieldOfView)) * towards;
   std::string toml = fmt::format("# {} by itself, over a mirror of its size.\ntitle = {}\n\n",
                                  tomlText(file.filename().string()), tomlText(file.stem().string()));
   toml +=
@@ -210,7 +210,7 @@ std::string sceneText(const fs::path& file, const Mesh& mesh) {
       "sky     = { zenith = [0.1, 0.21, 0.45], horizon = [0.8, 0.8, 0.78], ground = [0.5, 0.5, 0.5] }\n"
       "ambient = [0.22, 0.235, 0.26]\n\n";
   toml += fmt::format("[camera]\nposition     = {}\ntarget       = {}\nvertical_fov = {}\nnear         = {}\n\n",
-                      tomlText(eye), tomlText(target), kModelFieldOfView, 1e-3 * r);
+                      tomlText(eye), tomlText(target), modelFieldOfView, 1e-3 * r);
   toml += fmt::format("[[object]]\nname     = {}\nmodel    = {}\nposition = {}\n\n", tomlText(file.stem().string()),
                       tomlText(file.filename().string()), tomlText(center - mesh.center));
   toml += fmt::format(
@@ -224,7 +224,7 @@ std::string sceneText(const fs::path& file, const Mesh& mesh) {
   toml += fmt::format(
       "[[mirror]]\nname        = \"floor\"\npolygon     = {}\nreflectance = [0.34, 0.35, 0.36]\n"
       "base_color  = [0.2, 0.2, 0.205]\ntwo_sided   = true\n",
-      disc(kStage * r));
+      disc(stage * r));
   return toml;
 }
 
@@ -232,7 +232,7 @@ std::string sceneText(const fs::path& file, const Mesh& mesh) {
 
 Scene parseScene(const fs::path& file, std::string text) {
   const toml::table root = parseToml(file, text, "scene file");
-  return readScene({file, "", root, 1, kKeys}, file, std::move(text));
+  return readScene({file, "", root, 1, keys}, file, std::move(text));
 }
 
 Scene loadScene(const fs::path& file, const LoadProgress& progress) {
@@ -241,7 +241,7 @@ Scene loadScene(const fs::path& file, const LoadProgress& progress) {
   }
   std::string text = readTomlText(file, "scene file");
   const toml::table root = parseToml(file, text, "scene file");
-  const TableReader reader(file, "", root, 1, kKeys);
+  const TableReader reader(file, "", root, 1, keys);
   // Reads the file first, so that its errors are reported before models are loaded, which takes long.
   Scene scene = readScene(reader, file, std::move(text));
   ModelProgress models(scene, progress);
@@ -323,7 +323,7 @@ Scene modelScene(const fs::path& file, const LoadProgress& progress) {
   std::vector<Texture> textures;
   Mesh mesh = loadModel(file, textures, progress);
   const double radius = mesh.radius * mesh.unit;
-  if (!(radius >= kSmallest && radius <= kLargest)) {
+  if (!(radius >= smallest && radius <= largest)) {
     throwInputError(file, 1, "v", fmt::format("the model's bounding sphere has a radius of {} m", radius),
                     "1e-9 .. 1e12 is needed, or a scene that scales the model");
   }

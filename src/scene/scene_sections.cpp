@@ -17,7 +17,7 @@ namespace {
 using Key = std::string_view;
 
 // Bounds the time to check a polygon, which grows with its square.
-constexpr size_t kMostVertices = 1000;
+constexpr size_t mostVertices = 1000;
 
 template <typename Value, typename Field>
 Value readValue(const TableReader& table, const Field& field) {
@@ -62,23 +62,23 @@ void readFields(const TableReader& table, Node& node) {
 
 std::optional<std::string> shapeDefect(std::span<const glm::dvec3> polygon) {
   const std::optional<std::string> defect = polygonDefect(polygon);
-  if (!defect && !(glm::length(newellVector(polygon)) >= kShortest * kShortest)) {
+  if (!defect && !(glm::length(newellVector(polygon)) >= shortestLength * shortestLength)) {
     return "has no area that can be computed with";
   }
   return defect;
 }
 
-constexpr Key kGoodShape = "a planar, convex polygon with an area of at least 1e-8 of its squared diameter is needed";
+constexpr Key goodShape = "a planar, convex polygon with an area of at least 1e-8 of its squared diameter is needed";
 
 std::string vertexCountText(size_t count) {
   return "has " + std::to_string(count) + " vertices";
 }
 
-constexpr Key kGoodCount = "3 .. 1000 are needed";
+constexpr Key goodCount = "3 .. 1000 are needed";
 
 void checkShape(const TableReader& table, Key key, std::span<const glm::dvec3> polygon) {
   if (const std::optional<std::string> defect = shapeDefect(polygon)) {
-    table.fail(key, *defect, kGoodShape);
+    table.fail(key, *defect, goodShape);
   }
 }
 
@@ -90,8 +90,8 @@ void readPolygon(const TableReader& table, Mirror& mirror) {
     }
   }
   mirror.polygon = table.points("polygon");
-  if (mirror.polygon.size() > kMostVertices) {
-    table.fail("polygon", vertexCountText(mirror.polygon.size()), kGoodCount);
+  if (mirror.polygon.size() > mostVertices) {
+    table.fail("polygon", vertexCountText(mirror.polygon.size()), goodCount);
   }
   checkShape(table, "polygon", mirror.polygon);
 }
@@ -165,11 +165,11 @@ std::string settingText(const TableReader& settings, const toml::node& node, con
 // `depth`: number of tables around `table` within [settings].
 void flatten(const TableReader& settings, const toml::table& table, const std::string& prefix, int tableLine, int depth,
              std::map<std::string, SettingEntry>& entries) {
-  constexpr int kDeepest = 7;
+  constexpr int deepest = 7;
   for (const auto& [key, node] : table) {
     const std::string full = prefix + std::string(key.str());
     const int line = key.source().begin.line > 0 ? static_cast<int>(key.source().begin.line) : tableLine;
-    if (node.is_table() && depth == kDeepest) {
+    if (node.is_table() && depth == deepest) {
       settings.failAt(node, full, "has too many parts", "no setting has more than 2");
     }
     if (node.is_table()) {
@@ -282,12 +282,12 @@ std::optional<std::string> mirrorPolygonProblem(std::span<const glm::dvec3> poly
   const auto line = [](const std::string& wrong, Key right) {
     return "the polygon " + wrong + " (" + std::string(right) + ")";
   };
-  if (polygon.size() > kMostVertices) {
-    return line(vertexCountText(polygon.size()), kGoodCount);
+  if (polygon.size() > mostVertices) {
+    return line(vertexCountText(polygon.size()), goodCount);
   }
   for (const glm::dvec3& p : polygon) {
-    if (!kCoordinate.contains(p.x) || !kCoordinate.contains(p.y) || !kCoordinate.contains(p.z)) {
-      return line("has a vertex that is too far away", kCoordinate.text() + " is needed for each coordinate");
+    if (!coordinateRange.contains(p.x) || !coordinateRange.contains(p.y) || !coordinateRange.contains(p.z)) {
+      return line("has a vertex that is too far away", coordinateRange.text() + " is needed for each coordinate");
     }
   }
   const std::optional<std::string> defect = shapeDefect(polygon);

@@ -23,9 +23,9 @@ struct CameraPose {
 };
 
 // Products with shorter vectors leave the range of doubles when they are squared.
-inline constexpr double kShortest = 1e-30;
+inline constexpr double shortestLength = 1e-30;
 inline bool hasDirection(const glm::dvec3& v) {
-  return glm::length(v) >= kShortest;
+  return glm::length(v) >= shortestLength;
 }
 
 // Throws std::invalid_argument when eye and target coincide or `up` is parallel to the view direction.

@@ -158,7 +158,7 @@ glm::dvec3 TableReader::numberOrVec3(std::string_view key) const {
   constexpr std::string_view right = "a number or an array of 3 numbers is needed";
   const toml::node& node = required(key, right);
   expect(node.is_number() || node.is_array(), node, key, right);
-  return node.is_number() ? glm::dvec3(numberOf(node, key, kAny)) : vectorOf<3>(node, key, kAny);
+  return node.is_number() ? glm::dvec3(numberOf(node, key, anyRange)) : vectorOf<3>(node, key, anyRange);
 }
 
 std::vector<glm::dvec3> TableReader::points(std::string_view key) const {
@@ -166,7 +166,7 @@ std::vector<glm::dvec3> TableReader::points(std::string_view key) const {
   expect(node.is_array(), node, key, "an array of points [x, y, z] is needed");
   std::vector<glm::dvec3> points;
   for (size_t i = 0; i < node.as_array()->size(); ++i) {
-    points.push_back(vectorOf<3>((*node.as_array())[i], elementKey(key, i), kCoordinate));
+    points.push_back(vectorOf<3>((*node.as_array())[i], elementKey(key, i), coordinateRange));
   }
   return points;
 }

@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr uintmax_t kLargestFile = 16u << 20;  // bytes; no scene written by hand is larger
+constexpr uintmax_t largestFile = 16u << 20;  // bytes; no scene written by hand is larger
 
 // Returns the end of the string that begins at `start` with a quotation mark, or of the part that an unfinished one
 // spans.
@@ -67,15 +67,15 @@ int lineOf(std::string_view toml, Stop stop) {
 
 // Returns the text of a line, as much as a message has room for.
 std::string excerptOf(std::string_view toml, int line) {
-  constexpr size_t kLongest = 60;
+  constexpr size_t longest = 60;
   for (int before = 1; before < line && !toml.empty(); ++before) {
     toml.remove_prefix(std::min(toml.find('\n'), toml.size() - 1) + 1);
   }
   toml = trimmed(toml.substr(0, toml.find('\n')));
-  if (toml.size() <= kLongest) {
+  if (toml.size() <= longest) {
     return std::string(toml);
   }
-  size_t end = kLongest;
+  size_t end = longest;
   while (end > 0 && continuesCharacter(toml[end])) {
     --end;
   }
@@ -111,7 +111,7 @@ std::string_view rightToml(std::string_view problem) {
 }  // namespace
 
 std::string readTomlText(const fs::path& file, std::string_view kind) {
-  return readInputText(file, fmt::format("a {} is needed", kind), kLargestFile);
+  return readInputText(file, fmt::format("a {} is needed", kind), largestFile);
 }
 
 toml::table readToml(const fs::path& file, std::string_view kind) {
@@ -140,14 +140,14 @@ toml::table parseToml(const fs::path& file, std::string_view text, std::string_v
 }
 
 int lineOfTooDeepKey(std::string_view toml) {
-  constexpr int kMostDots = 31;
+  constexpr int mostDots = 31;
   int dots = 0;
   return lineOf(toml, [&](char c) {
     if (std::string_view("\n=,[]{}").find(c) != std::string_view::npos) {
       dots = 0;
     }
     dots += c == '.' ? 1 : 0;
-    return dots > kMostDots;
+    return dots > mostDots;
   });
 }
 

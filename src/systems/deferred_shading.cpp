@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "frame/target_memory.hpp"
+#include "plan/target_memory.hpp"
 
 namespace speculum {
 

@@ -16,7 +16,7 @@ struct Placement {
   glm::vec4 lookup;
 };
 
-std::optional<Placement> placementOf(const VkExtent2D& display, const glm::dvec2& image, const DebugView& debug) {
+std::optional<Placement> placementOf(const VkExtent2D& display, const glm::dvec2& image, const TargetDisplay& debug) {
   const glm::ivec2 end(display.width, display.height);
   PixelRect area = intersect(debug.area, {0, 0, end.x, end.y});
   glm::dvec2 corner(debug.area.x, debug.area.y);  // of texel 0, 0, in pixels of the display
@@ -100,13 +100,13 @@ RecordedPass DisplaySystem::record(Frame& frame, const VkDescriptorImageInfo& ra
              : show(size, {.toneMap = settings.view.toneMap}, radiance, settings.view.exposure / std::max(pictures, 1));
 }
 
-std::optional<RecordedPass> DisplaySystem::recordColor(Frame& frame, const glm::ivec2& size, const DebugView& debug,
+std::optional<RecordedPass> DisplaySystem::recordColor(Frame& frame, const glm::ivec2& size, const TargetDisplay& debug,
                                                        const MirrorImage& radiance, const Settings& settings) {
   const std::optional<Placement> placement = placementOf(frame.extent, size, debug);
   if (!placement) {
     return std::nullopt;
   }
-  return draw(frame, viewPass(renderer_.displayTargets(frame), placement->area), PassKind::debugView,
+  return draw(frame, viewPass(renderer_.displayTargets(frame), placement->area), PassKind::targetDisplay,
               {.toneMap = settings.view.toneMap,
                .multisampled = radiance.samples != VK_SAMPLE_COUNT_1_BIT,
                .shrunk = placement->lookup.x > 1.0f},
@@ -115,13 +115,13 @@ std::optional<RecordedPass> DisplaySystem::recordColor(Frame& frame, const glm::
 }
 
 // The depth image is not filtered where it is shrunk, because depth has no mean where surfaces meet.
-std::optional<RecordedPass> DisplaySystem::recordDepth(Frame& frame, const glm::ivec2& size, const DebugView& debug,
+std::optional<RecordedPass> DisplaySystem::recordDepth(Frame& frame, const glm::ivec2& size, const TargetDisplay& debug,
                                                        const MirrorImage& depth, double near) {
   const std::optional<Placement> placement = placementOf(frame.extent, size, debug);
   if (!placement) {
     return std::nullopt;
   }
-  return draw(frame, viewPass(renderer_.displayTargets(frame), placement->area), PassKind::debugView,
+  return draw(frame, viewPass(renderer_.displayTargets(frame), placement->area), PassKind::targetDisplay,
               {.multisampled = depth.samples != VK_SAMPLE_COUNT_1_BIT, .depth = true}, depth.descriptor,
               gpu::DepthViewConstants{placement->lookup, static_cast<float>(near / debug.halfDistance)});
 }

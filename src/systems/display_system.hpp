@@ -2,9 +2,9 @@
 
 #include <optional>
 
-#include "frame/debug_view.hpp"
 #include "image/color.hpp"
 #include "image/image.hpp"
+#include "plan/target_display.hpp"
 #include "systems/effect_ledger.hpp"
 #include "systems/frame_data.hpp"
 #include "systems/pass_log.hpp"
@@ -29,10 +29,10 @@ class DisplaySystem {
   RecordedPass record(Frame& frame, const VkDescriptorImageInfo& radiance, VkExtent2D size, const Settings& settings,
                       int pictures);
   // Record a pass that shows a target of `size` texels; nothing if no part of it lies in the area.
-  std::optional<RecordedPass> recordColor(Frame& frame, const glm::ivec2& size, const DebugView& debug,
+  std::optional<RecordedPass> recordColor(Frame& frame, const glm::ivec2& size, const TargetDisplay& debug,
                                           const MirrorImage& radiance, const Settings& settings);
   // `near`: metres from the eye to the near plane.
-  std::optional<RecordedPass> recordDepth(Frame& frame, const glm::ivec2& size, const DebugView& debug,
+  std::optional<RecordedPass> recordDepth(Frame& frame, const glm::ivec2& size, const TargetDisplay& debug,
                                           const MirrorImage& depth, double near);
   // Drops the pipelines that only debug views need.
   void releaseView();

@@ -3,7 +3,7 @@
 #include <array>
 #include <string_view>
 
-#include "frame/effects.hpp"
+#include "plan/effects.hpp"
 
 namespace speculum {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
-#include "frame/draw_order.hpp"
-#include "frame/pass_mask.hpp"
+#include "plan/draw_order.hpp"
+#include "plan/pass_mask.hpp"
 #include "scene/scene_state.hpp"
 #include "systems/gpu_conversion.hpp"
 #include "systems/mirror_polygons.hpp"

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "core/renderer.hpp"
-#include "frame/frame_plan.hpp"
+#include "plan/frame_plan.hpp"
 #include "shaders/gpu_data.h"
 #include "systems/frame_buffers.hpp"
 #include "systems/scene_resources.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/renderer.hpp"
-#include "frame/frame_plan.hpp"
+#include "plan/frame_plan.hpp"
 #include "systems/effect_ledger.hpp"
 #include "systems/frame_data.hpp"
 #include "systems/scene_resources.hpp"

@@ -25,7 +25,7 @@ glm::vec4 row(const glm::dmat3& m, int r, double w) {
 }
 
 glm::vec3 radiance(const glm::dvec3& product) {
-  return glm::vec3(glm::min(product, kRadiance.high));
+  return glm::vec3(glm::min(product, radianceRange.high));
 }
 
 Environment scaled(Environment environment, double scale) {

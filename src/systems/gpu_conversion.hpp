@@ -2,7 +2,7 @@
 
 #include <glm/glm.hpp>
 
-#include "frame/frame_plan.hpp"
+#include "plan/frame_plan.hpp"
 #include "shaders/gpu_data.h"
 
 namespace speculum {
@@ -11,7 +11,7 @@ namespace speculum {
 
 // Returns row `r` of a matrix with `w` as fourth component.
 glm::vec4 row(const glm::dmat3& m, int r, double w);
-// Rounds a product of radiances to floats, at most kRadiance.high.
+// Rounds a product of radiances to floats, at most radianceRange.high.
 glm::vec3 radiance(const glm::dvec3& product);
 // Returns the environment with its radiances times `scale`.
 Environment scaled(Environment environment, double scale);

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "frame/frame_plan.hpp"
+#include "plan/frame_plan.hpp"
 #include "scene/scene_state.hpp"
 
 // What is drawn of the mirrors of a pass.

@@ -3,7 +3,7 @@
 #include <map>
 #include <optional>
 
-#include "frame/concurrent_passes.hpp"
+#include "plan/concurrent_passes.hpp"
 #include "systems/frame_data.hpp"
 #include "systems/image_pool.hpp"
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/renderer.hpp"
-#include "frame/frame_plan.hpp"
+#include "plan/frame_plan.hpp"
 
 namespace speculum {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "frame/scene_names.hpp"
+#include "plan/scene_names.hpp"
 #include "systems/deferred_shading.hpp"
 #include "systems/gpu_conversion.hpp"
 #include "systems/shadow_system.hpp"

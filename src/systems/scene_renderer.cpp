@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "frame/cube_face.hpp"
-#include "frame/picture_tiles.hpp"
-#include "frame/target_memory.hpp"
+#include "plan/cube_face.hpp"
+#include "plan/picture_tiles.hpp"
+#include "plan/target_memory.hpp"
 
 namespace speculum {
 
@@ -60,7 +60,7 @@ void SceneRenderer::uploadTextures(Frame& frame, const SceneState& state, const 
 }
 
 void SceneRenderer::record(Frame& frame, const SceneState& state, const Settings& settings, const FramePlan& plan,
-                           const std::optional<DebugView>& debug, bool shown) {
+                           const std::optional<TargetDisplay>& debug, bool shown) {
   data_.requireFits(plan);
   const double radianceScale = settings.view.radianceScale();
   const Environment environment = scaled(scene_.environment.cleared(settings.view.clearColor), radianceScale);
@@ -115,7 +115,7 @@ void SceneRenderer::record(Frame& frame, const SceneState& state, const Settings
 }
 
 // Releases what only the debug view needs, once it is off.
-void SceneRenderer::releaseUnused(const std::optional<DebugView>& debug) {
+void SceneRenderer::releaseUnused(const std::optional<TargetDisplay>& debug) {
   if (!debug || !debug->probe) {
     probe_.release();
   }
@@ -288,7 +288,7 @@ void SceneRenderer::recordSum(const FrameInfo& info) {
   }
 }
 
-void SceneRenderer::recordDisplay(const FrameInfo& info, const std::optional<DebugView>& debug) {
+void SceneRenderer::recordDisplay(const FrameInfo& info, const std::optional<TargetDisplay>& debug) {
   const int pictures = accumulated();
   const RecordedPass display =
       display_.record(info.frame, pictures > 0 ? accumulation_.descriptor() : mainTargets_.shown().descriptor(),
@@ -302,7 +302,8 @@ void SceneRenderer::recordDisplay(const FrameInfo& info, const std::optional<Deb
   }
 }
 
-void SceneRenderer::recordDebug(const FrameInfo& info, const DebugView& debug, const WatchedTarget::Target& target) {
+void SceneRenderer::recordDebug(const FrameInfo& info, const TargetDisplay& debug,
+                                const WatchedTarget::Target& target) {
   OffScreen* image = watchedImage(info.plan, debug.pass);
   const bool showsDepth = target.kind == TargetKind::depth;
   if (showsDepth ? !watched_.hasDepth() : !image) {

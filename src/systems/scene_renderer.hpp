@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "frame/scene_changes.hpp"
 #include "image/image.hpp"
+#include "plan/scene_changes.hpp"
 #include "systems/accumulation.hpp"
 #include "systems/deferred_shading.hpp"
 #include "systems/display_system.hpp"
@@ -44,12 +44,12 @@ class SceneRenderer {
   // another target: it is not added twice. Throws std::runtime_error, before anything is made, if the plan draws more
   // instances than the device takes.
   void record(Frame& frame, const SceneState& state, const Settings& settings, const FramePlan& plan,
-              const std::optional<DebugView>& debug = std::nullopt, bool shown = true);
+              const std::optional<TargetDisplay>& debug = std::nullopt, bool shown = true);
   // Pictures in the mean that the last recorded frame shows; 0 without one. Until plan.tiles reach the end of a
   // picture, its frames show what was there before, the mean of the pictures before it or else the main view.
   int accumulated() const { return accumulation_.pictures(); }
 
-  // Says whether the last frame kept that target of the last complete picture, for DebugView.
+  // Says whether the last frame kept that target of the last complete picture, for TargetDisplay.
   bool keepsTarget(const MirrorPath& path, TargetKind kind) const { return watched_.keeps(path, kind); }
 
   // Shows `picture` (display sRGB) instead of the scene, stretched to the display, from the next frame on. A picture
@@ -62,7 +62,7 @@ class SceneRenderer {
   std::span<const RecordedPass> passesOf(uint64_t frame) const { return log_.passesOf(frame); }
   // Findings of debug.check_finite in the frames that have finished.
   const FiniteWatch& finiteWatch();
-  // Value at DebugView::probe in the last frame that had a probe and has finished.
+  // Value at TargetDisplay::probe in the last frame that had a probe and has finished.
   std::optional<TexelValue> probed();
   // Cost of each effect in the last recorded frame that drew the main view.
   const EffectLedger& ledger() const { return ledger_; }
@@ -71,7 +71,7 @@ class SceneRenderer {
   LinearImage radiance();
 
  private:
-  void releaseUnused(const std::optional<DebugView>& debug);
+  void releaseUnused(const std::optional<TargetDisplay>& debug);
   void prepareTargets(Frame& frame, const Settings& settings, const FramePlan& plan, bool shown);
   // Records the passes of the plan, those below by their index in it.
   void recordPasses(const FrameInfo& info);
@@ -82,8 +82,8 @@ class SceneRenderer {
   // Target of the environment map that the pass is a face of.
   OffScreen& environmentTarget(const FramePlan& plan, const Pass& face);
   void recordSum(const FrameInfo& info);
-  void recordDisplay(const FrameInfo& info, const std::optional<DebugView>& debug);
-  void recordDebug(const FrameInfo& info, const DebugView& debug, const WatchedTarget::Target& target);
+  void recordDisplay(const FrameInfo& info, const std::optional<TargetDisplay>& debug);
+  void recordDebug(const FrameInfo& info, const TargetDisplay& debug, const WatchedTarget::Target& target);
   void endRecord(const FrameInfo& info, bool textured);
   void finishLedger(const FrameInfo& info);
 

@@ -5,8 +5,8 @@
 #include "core/descriptors.hpp"
 #include "core/renderer.hpp"
 #include "core/uploader.hpp"
-#include "frame/settings.hpp"
 #include "scene/scene.hpp"
+#include "settings/settings.hpp"
 #include "shaders/gpu_data.h"
 
 namespace speculum {

@@ -5,8 +5,8 @@
 
 #include "core/off_screen.hpp"
 #include "core/pass.hpp"
-#include "frame/frame_plan.hpp"
-#include "frame/view.hpp"
+#include "plan/frame_plan.hpp"
+#include "plan/view.hpp"
 #include "systems/frame_data.hpp"
 #include "systems/image_pool.hpp"
 

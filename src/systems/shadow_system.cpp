@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "frame/shadow_map.hpp"
+#include "plan/shadow_map.hpp"
 #include "systems/image_pool.hpp"
 #include "systems/render_system.hpp"
 

@@ -7,10 +7,10 @@
 #include <cstring>
 #include <utility>
 
-#include "frame/cube_face.hpp"
-#include "frame/mirror_sight.hpp"
 #include "geometry/affine.hpp"
 #include "geometry/reflection.hpp"
+#include "plan/cube_face.hpp"
+#include "plan/mirror_sight.hpp"
 #include "scene/scene_state.hpp"
 #include "systems/frame_data.hpp"
 #include "systems/gpu_conversion.hpp"

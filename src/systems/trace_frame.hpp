@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/renderer.hpp"
-#include "frame/traced_effects.hpp"
+#include "plan/traced_effects.hpp"
 #include "systems/effect_ledger.hpp"
 #include "systems/frame_buffers.hpp"
 #include "systems/ray_structures.hpp"

@@ -4,20 +4,20 @@
 #include <cstring>
 #include <utility>
 
-#include "frame/picture_tiles.hpp"
+#include "plan/picture_tiles.hpp"
 
 namespace speculum {
 
 namespace {
 
-WatchedTarget::Target targetOf(const FramePlan& plan, const DebugView& debug) {
+WatchedTarget::Target targetOf(const FramePlan& plan, const TargetDisplay& debug) {
   const View& view = plan.passes[static_cast<size_t>(debug.pass)].view;
   return {debug.pass, view.path, debug.kind, {view.rect.width, view.rect.height}, plan.projection.near};
 }
 
 }  // namespace
 
-void WatchedTarget::begin(const FramePlan& plan, const std::optional<DebugView>& debug, RetireQueue& retired) {
+void WatchedTarget::begin(const FramePlan& plan, const std::optional<TargetDisplay>& debug, RetireQueue& retired) {
   if (beginsPicture(plan)) {
     const std::optional<Target> asked = debug ? std::optional(targetOf(plan, *debug)) : std::nullopt;
     watched_ = !plan.mainReused() || !asked || isAlwaysThere(asked->path, asked->kind) ? asked : watched_;
@@ -78,7 +78,7 @@ void WatchedTarget::finish(const FramePlan& plan, VkCommandBuffer commands, Reti
   shown_ = watched_;
 }
 
-const WatchedTarget::Target* WatchedTarget::shown(const FramePlan& plan, const DebugView& debug) const {
+const WatchedTarget::Target* WatchedTarget::shown(const FramePlan& plan, const TargetDisplay& debug) const {
   const Target wanted = targetOf(plan, debug);
   return keeps(wanted.path, wanted.kind) ? &*shown_ : nullptr;
 }

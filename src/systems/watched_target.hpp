@@ -6,8 +6,8 @@
 #include "core/pass.hpp"
 #include "core/renderer.hpp"
 #include "core/retire_queue.hpp"
-#include "frame/debug_view.hpp"
-#include "frame/frame_plan.hpp"
+#include "plan/frame_plan.hpp"
+#include "plan/target_display.hpp"
 #include "shaders/gpu_data.h"
 #include "systems/pipeline_variants.hpp"
 
@@ -19,7 +19,7 @@ namespace speculum {
 class WatchedTarget {
  public:
   struct Target {
-    int pass = 0;     // as DebugView::pass
+    int pass = 0;     // as TargetDisplay::pass
     MirrorPath path;  // of the pass's view
     TargetKind kind = TargetKind::color;
     glm::ivec2 size{0};  // texels
@@ -30,7 +30,7 @@ class WatchedTarget {
 
   // Begins a frame of the plan. A target is watched from the beginning of a picture on. A picture that is shown again
   // keeps the target that was watched in it, unless the target that is asked for isAlwaysThere().
-  void begin(const FramePlan& plan, const std::optional<DebugView>& debug, RetireQueue& retired);
+  void begin(const FramePlan& plan, const std::optional<TargetDisplay>& debug, RetireQueue& retired);
   // Index in FramePlan::passes of the mirror pass whose image is watched; none for the main view.
   std::optional<int> mirrorPass() const;
   // Call it before each part of pass `index`: makes the pass write its depth here if that is watched.
@@ -39,7 +39,7 @@ class WatchedTarget {
   void finish(const FramePlan& plan, VkCommandBuffer commands, RetireQueue& retired);
 
   // Returns the target of the last complete picture if `debug` shows it; else null.
-  const Target* shown(const FramePlan& plan, const DebugView& debug) const;
+  const Target* shown(const FramePlan& plan, const TargetDisplay& debug) const;
   // Says whether shown() has that target.
   bool keeps(const MirrorPath& path, TargetKind kind) const;
   bool hasDepth() const { return static_cast<bool>(depth_); }

@@ -5,8 +5,8 @@
 #include <cfloat>
 #include <cmath>
 
-#include "frame/setting_fields.hpp"
 #include "platform/text.hpp"
+#include "settings/setting_fields.hpp"
 #include "ui/panels.hpp"
 
 namespace speculum::panels {
@@ -33,12 +33,12 @@ struct Plot {
   float y(double error) const {
     return corner.y + size.y * (1.0f - part(std::clamp(error, lowError, highError), lowError, highError));
   }
-  ImVec2 at(const PointView& point) const { return {x(point.ms), y(point.error)}; }
+  ImVec2 at(const PointRow& point) const { return {x(point.ms), y(point.error)}; }
 };
 
-Plot plotOf(const AccuracyView& accuracy, const ImVec2& corner, const ImVec2& size) {
+Plot plotOf(const ShownAccuracy& accuracy, const ImVec2& corner, const ImVec2& size) {
   Plot plot{corner, size, DBL_MAX, 0.0, DBL_MAX, 0.0};
-  for (const PointView& point : accuracy.points) {
+  for (const PointRow& point : accuracy.points) {
     plot.lowMs = std::min(plot.lowMs, point.lowerMs);
     plot.highMs = std::max(plot.highMs, point.upperMs);
     plot.lowError = std::min(plot.lowError, std::max(point.error, leastError));
@@ -107,26 +107,26 @@ void drawAxes(ImDrawList& list, const Plot& plot, double noiseFloor) {
   }
 }
 
-bool isOnFront(const AccuracyView& accuracy, int point) {
+bool isOnFront(const ShownAccuracy& accuracy, int point) {
   return std::ranges::find(accuracy.front, point) != accuracy.front.end();
 }
 
 // Returns what the color of a point off the front means.
-const char* colorHelp(const AccuracyView& accuracy, int point) {
+const char* colorHelp(const ShownAccuracy& accuracy, int point) {
   return isOnFront(accuracy, point) ? ""
          : point == accuracy.chosen ? "\nGreen: a bound chose it by its median, though a more accurate point may take "
                                       "no longer, as far as the bars tell."
                                     : "\nGrey: a point at least as accurate takes no longer, as far as the bars tell.";
 }
 
-void drawPoints(ImDrawList& list, const Plot& plot, const AccuracyView& accuracy, int hovered) {
+void drawPoints(ImDrawList& list, const Plot& plot, const ShownAccuracy& accuracy, int hovered) {
   const float em = ImGui::GetFontSize();
   for (size_t i = 1; i < accuracy.front.size(); ++i) {
     list.AddLine(plot.at(accuracy.points[accuracy.front[i - 1]]), plot.at(accuracy.points[accuracy.front[i]]),
                  frontColor, 0.1f * em);
   }
   for (int i = 0; i < static_cast<int>(accuracy.points.size()); ++i) {
-    const PointView& point = accuracy.points[i];
+    const PointRow& point = accuracy.points[i];
     const ImU32 color = isOnFront(accuracy, i) ? frontColor : i == accuracy.chosen ? chosenColor : otherColor;
     const ImVec2 place = plot.at(point);
     list.AddLine({plot.x(point.lowerMs), place.y}, {plot.x(point.upperMs), place.y}, color, 0.07f * em);
@@ -137,7 +137,7 @@ void drawPoints(ImDrawList& list, const Plot& plot, const AccuracyView& accuracy
   }
 }
 
-int nearestPoint(const Plot& plot, const AccuracyView& accuracy, const ImVec2& mouse) {
+int nearestPoint(const Plot& plot, const ShownAccuracy& accuracy, const ImVec2& mouse) {
   int nearest = -1;
   float best = 0.8f * ImGui::GetFontSize();
   for (int i = 0; i < static_cast<int>(accuracy.points.size()); ++i) {
@@ -153,7 +153,7 @@ int nearestPoint(const Plot& plot, const AccuracyView& accuracy, const ImVec2& m
 
 // Plots error against milliseconds; a click on a point applies it.
 void plot(PanelContext& ui) {
-  const AccuracyView& accuracy = ui.view.accuracy;
+  const ShownAccuracy& accuracy = ui.input.accuracy;
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   const float em = ImGui::GetFontSize();
   const ImVec2 room = ImGui::GetContentRegionAvail();
@@ -173,7 +173,7 @@ void plot(PanelContext& ui) {
                                   PixelRect{static_cast<int>(place.x) - 2, static_cast<int>(place.y) - 2, 4, 4});
   }
   if (hovered >= 0) {
-    const PointView& point = accuracy.points[hovered];
+    const PointRow& point = accuracy.points[hovered];
     showTip(fmt::format("{}\nMean FLIP of one picture {}, {} ({} .. {}){}", point.name, significant(point.error, 3),
                         duration(point.ms), duration(point.lowerMs), duration(point.upperMs),
                         colorHelp(accuracy, hovered)));
@@ -191,7 +191,7 @@ void plot(PanelContext& ui) {
 }
 
 void frontSlider(PanelContext& ui) {
-  const AccuracyView& accuracy = ui.view.accuracy;
+  const ShownAccuracy& accuracy = ui.input.accuracy;
   const int last = static_cast<int>(accuracy.front.size()) - 1;
   const auto current = std::ranges::find(accuracy.front, accuracy.current);
   const bool onFront = current != accuracy.front.end();
@@ -214,7 +214,7 @@ void frontSlider(PanelContext& ui) {
 
 // Returns the first bound when one is switched on: what the settings in use were measured to take, or else the fastest
 // of the front, rounded up to two digits.
-double firstBound(const AccuracyView& accuracy, double PointView::*figure) {
+double firstBound(const ShownAccuracy& accuracy, double PointRow::*figure) {
   if (accuracy.front.empty()) {
     return 0.0;
   }
@@ -226,7 +226,7 @@ double firstBound(const AccuracyView& accuracy, double PointView::*figure) {
 
 void budget(PanelContext& ui) {
   QualitySettings& quality = ui.settings.quality;
-  const AccuracyView& accuracy = ui.view.accuracy;
+  const ShownAccuracy& accuracy = ui.input.accuracy;
   const auto bound = [&](double& value, double usual, const char* format, const char* key) {
     bool active = value > 0.0;
     // Without points a bound would be a guess, which chooses later, when nobody expects it.
@@ -248,8 +248,8 @@ void budget(PanelContext& ui) {
       }
     }
   };
-  bound(quality.budgetMs, firstBound(accuracy, &PointView::ms), "%.2f", "quality.budget_ms");
-  bound(quality.maxError, firstBound(accuracy, &PointView::error), "%.4f", "quality.max_error");
+  bound(quality.budgetMs, firstBound(accuracy, &PointRow::ms), "%.2f", "quality.budget_ms");
+  bound(quality.maxError, firstBound(accuracy, &PointRow::error), "%.4f", "quality.max_error");
   if (accuracy.choiceMisses) {
     coloredText(warningColor, accuracy.choice);
   } else if (!accuracy.choice.empty()) {
@@ -260,8 +260,8 @@ void budget(PanelContext& ui) {
   }
 }
 
-void differenceView(PanelContext& ui) {
-  const AccuracyView& accuracy = ui.view.accuracy;
+void differenceMap(PanelContext& ui) {
+  const ShownAccuracy& accuracy = ui.input.accuracy;
   ImGui::Checkbox("Show the error of this picture", &ui.state.showDifference);
   recordWidget(ui, "accuracy.difference");
   if (!ui.state.showDifference) {
@@ -299,7 +299,7 @@ std::string timeLeft(double seconds) {
 }  // namespace
 
 void accuracy(PanelContext& ui) {
-  const AccuracyView& accuracy = ui.view.accuracy;
+  const ShownAccuracy& accuracy = ui.input.accuracy;
   if (!accuracy.measuring) {
     commandButton(ui, "Measure this view", "accuracy.measure", "Runs in the background while you go on.",
                   MeasureAccuracy{});
@@ -330,7 +330,7 @@ void accuracy(PanelContext& ui) {
   ImGui::Separator();
   budget(ui);
   ImGui::Separator();
-  differenceView(ui);
+  differenceMap(ui);
 }
 
 }  // namespace speculum::panels

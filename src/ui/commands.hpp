@@ -8,7 +8,7 @@
 
 #include "edit/gizmo.hpp"
 #include "edit/transform.hpp"
-#include "frame/settings.hpp"
+#include "settings/settings.hpp"
 
 namespace speculum {
 
@@ -130,7 +130,7 @@ struct CopyText {
 
 // The window and its panels.
 struct SetPresentMode {
-  size_t index = 0;  // into DeviceView::presentModes
+  size_t index = 0;  // into ShownDevice::presentModes
 };
 struct ToggleFullScreen {};
 struct TogglePanel {};

@@ -31,8 +31,8 @@ bool beginFacts(const char* id) {
 }  // namespace
 
 void device(PanelContext& ui) {
-  const DeviceView& device = ui.view.device;
-  const FrameView& frame = ui.view.frame;
+  const ShownDevice& device = ui.input.device;
+  const ShownFrame& frame = ui.input.frame;
   if (beginFacts("device")) {
     fact("Device", device.name);
     fact("Kind", device.kind);
@@ -49,7 +49,7 @@ void device(PanelContext& ui) {
   }
   ImGui::Separator();
   if (beginFacts("features")) {
-    for (const FeatureView& feature : device.features) {
+    for (const FeatureRow& feature : device.features) {
       fact(feature.name.c_str(), (feature.present ? "" : "missing: ") + feature.about);
     }
     ImGui::EndTable();

@@ -6,7 +6,7 @@ namespace speculum::panels {
 
 void effects(PanelContext& ui) {
   int called = 0;
-  for (const EffectView& effect : ui.view.frame.effects) {
+  for (const EffectRow& effect : ui.input.frame.effects) {
     called += effect.calledFor;
   }
   const std::string title = "Effects (" + std::to_string(called) + " in use)###effects";
@@ -14,8 +14,8 @@ void effects(PanelContext& ui) {
     return;
   }
   settingRows(ui, "effects.");
-  if (!ui.view.frame.rays.empty()) {
-    wrappedText(ui.view.frame.rays);
+  if (!ui.input.frame.rays.empty()) {
+    wrappedText(ui.input.frame.rays);
   }
   const float em = ImGui::GetFontSize();
   const bool narrow = ImGui::GetContentRegionAvail().x < 22.0f * em;  // then figures would leave no room for words
@@ -29,7 +29,7 @@ void effects(PanelContext& ui) {
   ImGui::TableSetupColumn("Draws", figures, 3.4f * em);
   ImGui::TableSetupColumn("MiB", figures, 3.4f * em);
   ImGui::TableHeadersRow();
-  for (const EffectView& effect : ui.view.frame.effects) {
+  for (const EffectRow& effect : ui.input.frame.effects) {
     const bool on = effect.calledFor;
     ImGui::TableNextRow();
     for (const std::string& text : {effect.name, effect.why, on ? std::to_string(effect.draws) : std::string(),

@@ -124,7 +124,7 @@ bool polygonVertex(PanelContext& ui, std::vector<glm::dvec3>& vertices, size_t i
 // if it did.
 bool polygonRows(PanelContext& ui, std::vector<glm::dvec3>& vertices) {
   PanelState::Polygon& polygon = ui.state.polygon;
-  const int selected = ui.view.edit.selected.index;
+  const int selected = ui.input.edit.selected.index;
   if (polygon.mirror != selected || polygon.taken != vertices) {
     polygon = {.vertices = vertices, .taken = vertices, .mirror = selected};
   }

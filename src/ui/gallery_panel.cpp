@@ -30,8 +30,8 @@ std::string captionOf(const std::vector<SceneEntry>& scenes, const SceneEntry& s
 }
 
 void tile(PanelContext& ui, const Thumbnails& thumbnails, size_t index, const ImVec2& size) {
-  const SceneEntry& scene = ui.view.browser.scenes[index];
-  const bool shown = index == ui.view.browser.shown;
+  const SceneEntry& scene = ui.input.browser.scenes[index];
+  const bool shown = index == ui.input.browser.shown;
   const float titleHeight = 1.35f * ImGui::GetFontSize();
   ImGui::PushID(static_cast<int>(index));
   if (ImGui::InvisibleButton("scene", {size.x, size.y + titleHeight}) && !shown) {
@@ -54,7 +54,7 @@ void tile(PanelContext& ui, const Thumbnails& thumbnails, size_t index, const Im
     list.AddRect(low, high, ImGui::GetColorU32(color), ImGui::GetStyle().FrameRounding, 0,
                  0.17f * ImGui::GetFontSize());
   }
-  textWithin(captionOf(ui.view.browser.scenes, scene), {low.x, high.y}, {high.x, high.y + titleHeight}, 0.0f);
+  textWithin(captionOf(ui.input.browser.scenes, scene), {low.x, high.y}, {high.x, high.y + titleHeight}, 0.0f);
   ImGui::PopID();
 }
 
@@ -63,7 +63,7 @@ void tile(PanelContext& ui, const Thumbnails& thumbnails, size_t index, const Im
 // Draws the shown scene's thumbnail with its title where panels leave room, if there is one.
 void poster(const PanelContext& ui, const Thumbnails& thumbnails, const WindowRect& picture) {
   constexpr float ems = 28.0f;
-  const BrowserView& browser = ui.view.browser;
+  const ShownScenes& browser = ui.input.browser;
   const float width = std::min(ems * ImGui::GetFontSize(), 0.9f * picture.size.x);
   const glm::vec2 size(width, width / tileAspect);
   const glm::vec2 low = glm::floor(picture.corner + 0.5f * (picture.size - size));
@@ -84,13 +84,13 @@ void gallery(PanelContext& ui, const Thumbnails& thumbnails) {
   const int columns = std::max(1, static_cast<int>(room / (tileEms * ImGui::GetFontSize() + gap)));
   const float width = std::floor(room / static_cast<float>(columns) - gap);
   int* found = ImGui::GetStateStorage()->GetIntRef(ImGui::GetID("shown"), -1);  // the tile that was scrolled to
-  for (size_t i = 0; i < ui.view.browser.scenes.size(); ++i) {
+  for (size_t i = 0; i < ui.input.browser.scenes.size(); ++i) {
     if (i % static_cast<size_t>(columns) > 0) {
       ImGui::SameLine();
     }
     tile(ui, thumbnails, i, {width, width / tileAspect});
     const int index = static_cast<int>(i);
-    if (i == ui.view.browser.shown && std::exchange(*found, index) != index) {
+    if (i == ui.input.browser.shown && std::exchange(*found, index) != index) {
       ImGui::ScrollToBringRectIntoView(ImGui::GetCurrentWindow(), ImGui::GetCurrentContext()->LastItemData.Rect);
     }
   }

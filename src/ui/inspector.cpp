@@ -17,7 +17,7 @@ namespace speculum::panels {
 namespace {
 
 void nodeList(PanelContext& ui) {
-  const EditView& edit = ui.view.edit;
+  const ShownEdit& edit = ui.input.edit;
   if (std::exchange(ui.state.focusNodes, false)) {
     ImGui::SetNextWindowFocus();
   }
@@ -46,9 +46,9 @@ void nodeList(PanelContext& ui) {
 }
 
 void modelChoice(PanelContext& ui) {
-  const std::vector<std::filesystem::path>& models = ui.view.edit.models;
+  const std::vector<std::filesystem::path>& models = ui.input.edit.models;
   std::optional<std::filesystem::path>& chosen = ui.state.model;
-  if (std::exchange(ui.state.modelsOf, ui.view.edit.scene) != ui.view.edit.scene) {
+  if (std::exchange(ui.state.modelsOf, ui.input.edit.scene) != ui.input.edit.scene) {
     // Suggests a plain shape instead of the scene's first model, which often is a frame or a room.
     const auto plain = std::ranges::find(models, "sphere", [](const std::filesystem::path& m) { return m.stem(); });
     chosen = models.empty() ? std::nullopt : std::optional(plain != models.end() ? *plain : models.front());
@@ -90,7 +90,7 @@ void addButtons(PanelContext& ui) {
 }
 
 void historyButtons(PanelContext& ui) {
-  const EditView& edit = ui.view.edit;
+  const ShownEdit& edit = ui.input.edit;
   const bool any = static_cast<bool>(edit.selected);
   commandButton(ui, "Duplicate", "edit.duplicate", "Ctrl+D", DuplicateSelected{}, any);
   nextButton(ui, "Delete", "edit.delete", "Del", RemoveSelected{}, any);
@@ -109,9 +109,9 @@ void historyButtons(PanelContext& ui) {
 void throughButtons(PanelContext& ui) {
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted("Seen in:");
-  for (size_t i = 0; i < ui.view.edit.through.size(); ++i) {
-    const Selection mirror{Selection::Kind::mirror, ui.view.edit.through[i]};
-    const std::string name = speculum::describe(*ui.view.edit.scene, mirror);
+  for (size_t i = 0; i < ui.input.edit.through.size(); ++i) {
+    const Selection mirror{Selection::Kind::mirror, ui.input.edit.through[i]};
+    const std::string name = speculum::describe(*ui.input.edit.scene, mirror);
     continueRow(name.c_str());
     ImGui::PushID(static_cast<int>(i));  // a mirror may come twice
     if (ImGui::SmallButton(name.c_str())) {
@@ -127,7 +127,7 @@ void gizmoMode(PanelContext& ui) {
   for (const auto& [label, key, mode] :
        {std::tuple("Move", "edit.move", GizmoMode::move), std::tuple("Rotate", "edit.rotate", GizmoMode::turn),
         std::tuple("Scale", "edit.scale_handles", GizmoMode::scale)}) {
-    if (ImGui::RadioButton(label, ui.view.edit.mode == mode)) {
+    if (ImGui::RadioButton(label, ui.input.edit.mode == mode)) {
       ui.send(SetGizmoMode{mode});
     }
     recordWidget(ui, key, "G switches between the handles. Hold Ctrl while dragging to snap.");
@@ -161,8 +161,8 @@ bool qualityRow(PanelContext& ui, const std::string& name, std::optional<T>& own
 // Draws what the mirror costs, how wrong it is, and its own quality. Returns true if the user changed that.
 bool mirrorQuality(PanelContext& ui, MirrorQuality& quality) {
   using R = ReflectionSettings;
-  const int mirror = ui.view.edit.selected.index;
-  dimmedText(mirrorCost(ui.view.frame, mirror));
+  const int mirror = ui.input.edit.selected.index;
+  dimmedText(mirrorCost(ui.input.frame, mirror));
   recordWidget(ui, "edit.mirror_cost",
                "Its images in the last frame, also those seen in other mirrors. The time is the median of the last "
                "frames, as in Performance.");
@@ -171,10 +171,10 @@ bool mirrorQuality(PanelContext& ui, MirrorQuality& quality) {
                "Compares the still picture with the traced reference, and shows where it differs. The number is the "
                "mean within the mirror's outline, with what stands before it.");
   if (ui.state.showDifference) {
-    const std::vector<double>& errors = ui.view.accuracy.mirrorErrors;
+    const std::vector<double>& errors = ui.input.accuracy.mirrorErrors;
     const bool known = static_cast<size_t>(mirror) < errors.size();
     ImGui::SameLine();
-    wrappedText(!known                       ? ui.view.accuracy.difference
+    wrappedText(!known                       ? ui.input.accuracy.difference
                 : std::isnan(errors[mirror]) ? "not in view"
                                              : fmt::format("{:.4f} mean FLIP", errors[mirror]));
   }
@@ -194,7 +194,7 @@ bool mirrorQuality(PanelContext& ui, MirrorQuality& quality) {
 }
 
 void selectedNode(PanelContext& ui) {
-  const EditView& edit = ui.view.edit;
+  const ShownEdit& edit = ui.input.edit;
   if (!edit.selected) {
     ImGui::TextWrapped("Click an object, light or mirror in the picture, or choose it from the list.");
     return;

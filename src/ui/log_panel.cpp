@@ -16,7 +16,7 @@ void log(PanelContext& ui) {
   ImGui::Combo("##least", &least, "info\0warning\0error\0");
   tip("Shows only lines of this level and above.");
   state.logLevel = static_cast<LogLevel>(LogLevel::info + least);
-  const std::vector<LogLine> lines = ui.view.log.lines(state.logLevel, state.logFilter.data());
+  const std::vector<LogLine> lines = ui.input.log.lines(state.logLevel, state.logFilter.data());
   continueRow("Copy");
   if (button(ui, "Copy", "log.copy", "Copies the lines below.")) {
     ui.send(CopyText{logText(lines)});

@@ -22,7 +22,7 @@ void item(PanelContext& ui, const char* label, Command command, bool enabled = t
 void fileMenu(PanelContext& ui) {
   item(ui, "New", NewScene{});
   item(ui, "Open...", AskWhatToOpen{});
-  const std::vector<std::filesystem::path>& recent = ui.view.browser.recent;
+  const std::vector<std::filesystem::path>& recent = ui.input.browser.recent;
   if (menu(ui, "Open recent", !recent.empty())) {
     for (const std::filesystem::path& file : recent) {
       item(ui, file.c_str(), OpenScene{file}, true, "");
@@ -30,7 +30,7 @@ void fileMenu(PanelContext& ui) {
     ImGui::EndMenu();
   }
   ImGui::Separator();
-  const EditView& edit = ui.view.edit;
+  const ShownEdit& edit = ui.input.edit;
   item(ui, "Save", Save{}, edit.canSave());
   item(ui, "Save as...", AskWhereToSave{});
   ImGui::Separator();
@@ -43,7 +43,7 @@ void fileMenu(PanelContext& ui) {
 }
 
 void editMenu(PanelContext& ui) {
-  const EditView& edit = ui.view.edit;
+  const ShownEdit& edit = ui.input.edit;
   const auto labelled = [](const char* verb, const std::string& step) {
     return step.empty() ? std::string(verb) : std::string(verb) + " " + step + "###" + verb;
   };
@@ -70,15 +70,15 @@ void editMenu(PanelContext& ui) {
 }
 
 void viewMenu(PanelContext& ui) {
-  item(ui, ui.view.edit.selected ? "Frame selection" : "Frame scene", FrameSelection{});
+  item(ui, ui.input.edit.selected ? "Frame selection" : "Frame scene", FrameSelection{});
   item(ui, "Look from behind mirror", LookFromMirror{MirrorSide::back});
   item(ui, "Look out of mirror", LookFromMirror{MirrorSide::front}, true, "Shift+B");
   item(ui, "Reset camera", ResetCamera{});
   ImGui::Separator();
   item(ui, "Bookmark view", AddBookmark{});
-  item(ui, "Next bookmark", GoToNextBookmark{}, !ui.view.edit.scene->bookmarks.empty());
+  item(ui, "Next bookmark", GoToNextBookmark{}, !ui.input.edit.scene->bookmarks.empty());
   ImGui::Separator();
-  item(ui, ui.view.playback.paused ? "Play" : "Pause", TogglePaused{});
+  item(ui, ui.input.playback.paused ? "Play" : "Pause", TogglePaused{});
   item(ui, "Full screen", ToggleFullScreen{});
 }
 
@@ -108,12 +108,12 @@ void menus(PanelContext& ui) {
 
 // Shows the frame time at the right edge if a frame was drawn and there is room.
 void frameTime(const PanelContext& ui) {
-  const FrameView& frame = ui.view.frame;
+  const ShownFrame& frame = ui.input.frame;
   const double ms = frame.frameMs;
   if (ms <= 0.0) {
     return;
   }
-  const char* still = ui.view.playback.paused ? "paused" : "still";
+  const char* still = ui.input.playback.paused ? "paused" : "still";
   const std::string rate = frame.still ? still : fmt::format("{:.{}f} FPS", 1000.0 / ms, ms > 100.0 ? 1 : 0);
   const std::string text = duration(ms) + "   " + rate;
   const float left = ImGui::GetWindowWidth() - ImGui::CalcTextSize(text.c_str()).x - ImGui::GetFontSize();

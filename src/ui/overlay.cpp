@@ -81,16 +81,16 @@ class Painter {
 
 // Draws light lines over wider dark ones, which show on any picture.
 void passOutline(const PanelContext& ui) {
-  if (ui.output.hoveredPath.empty() || ui.output.hoveredPath != ui.view.frame.outlinedPath) {
+  if (ui.output.hoveredPath.empty() || ui.output.hoveredPath != ui.input.frame.outlinedPath) {
     return;
   }
   const float width = std::max(1.0f, 0.14f * ImGui::GetFontSize());
   Painter painter;
-  painter.lines(ui.view.frame.outline, IM_COL32(0, 0, 0, 190), 2.5f * width);
-  painter.lines(ui.view.frame.outline, IM_COL32(255, 196, 40, 255), width);
+  painter.lines(ui.input.frame.outline, IM_COL32(0, 0, 0, 190), 2.5f * width);
+  painter.lines(ui.input.frame.outline, IM_COL32(255, 196, 40, 255), width);
 }
 
-void editOverlay(const OverlayView& overlay, const WindowRect& picture) {
+void editOverlay(const ShownOverlay& overlay, const WindowRect& picture) {
   Painter painter;
   painter.lines(overlay.itself, itselfColor, 1.5f);
   painter.shaded(overlay.outline, outlineColor, 2.0f);

@@ -28,9 +28,9 @@ void PanelWindows::quietAfterDrag() {
   }
 }
 
-UiOutput PanelWindows::build(const UiView& view) {
+UiOutput PanelWindows::build(const UiInput& input) {
   quietAfterDrag();
-  PanelContext ui{.view = view, .state = state_, .settings = view.settings, .output = {}};
+  PanelContext ui{.input = input, .state = state_, .settings = input.settings, .output = {}};
   state_.widgets.clear();
   state_.targets.pointed.reset();
   state_.targets.canvas.reset();
@@ -53,7 +53,7 @@ UiOutput PanelWindows::build(const UiView& view) {
     panels::inspector(ui, dock_);
     panels::playOffer(ui, freeRect(), below);
   }
-  panels::besideTarget(ui, [&] { panels::editOverlay(view.edit.overlay, freeRect()); });
+  panels::besideTarget(ui, [&] { panels::editOverlay(input.edit.overlay, freeRect()); });
   panels::poster(ui, thumbnails_, freeRect());
   if (state_.choices != savedChoices_) {
     savedChoices_ = state_.choices;
@@ -65,17 +65,17 @@ UiOutput PanelWindows::build(const UiView& view) {
     state_.editing = false;
     ui.send(EndEdit{});
   }
-  if (visible_ || !view.status.savesPicture) {
+  if (visible_ || !input.status.savesPicture) {
     const WindowRect free = freeRect();
     statusHeight_ =
-        panels::statusLine(view.status, visible_ ? std::max(statusWidth_, 18.0f * ImGui::GetFontSize()) : 0.0f,
+        panels::statusLine(input.status, visible_ ? std::max(statusWidth_, 18.0f * ImGui::GetFontSize()) : 0.0f,
                            free.corner.x + free.size.x);
   }
   ui.output.points = state_.choices.accuracy;
   if ((state_.choices.accuracy || state_.choices.inspector) && state_.showDifference) {
     ui.output.errorGain = state_.errorGain;
   }
-  if (ui.settings != view.settings) {
+  if (ui.settings != input.settings) {
     const bool continued = std::exchange(state_.setting, ImGui::IsAnyItemActive());
     ui.output.commands.insert(ui.output.commands.begin(), SetSettings{ui.settings, continued});
   } else if (!ImGui::IsAnyItemActive()) {
@@ -162,7 +162,7 @@ void PanelWindows::windowChoices(PanelContext& ui) {
 }
 
 void PanelWindows::presentModes(PanelContext& ui) {
-  const DeviceView& device = ui.view.device;
+  const ShownDevice& device = ui.input.device;
   for (size_t i = 0; i < device.presentModes.size(); ++i) {
     const std::string& name = device.presentModes[i];
     const std::string label = name == "fifo"      ? "VSync (fifo)"

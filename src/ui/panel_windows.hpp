@@ -6,8 +6,8 @@
 
 namespace speculum {
 
-// All windows of the user interface in the current Dear ImGui context. They show a view and return the user's actions
-// as commands; Vulkan and GLFW are not needed.
+// All windows of the user interface in the current Dear ImGui context. They show their input and return the user's
+// actions as commands; Vulkan and GLFW are not needed.
 class PanelWindows {
  public:
   PanelWindows();
@@ -15,7 +15,7 @@ class PanelWindows {
   // Call it once, before the first frame of the ImGui context, which must end before this object.
   void rememberLayout() { dock_.remember(); }
   // Lays out everything between ImGui::NewFrame and ImGui::Render.
-  UiOutput build(const UiView& view);
+  UiOutput build(const UiInput& input);
   void setThumbnails(std::vector<Image8> pictures) { thumbnails_ = Thumbnails(std::move(pictures)); }
   Thumbnails& thumbnails() { return thumbnails_; }
 

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <tuple>
 
-#include "frame/setting_fields.hpp"
+#include "settings/setting_fields.hpp"
 #include "ui/elide.hpp"
 
 namespace speculum::panels {
@@ -21,8 +21,8 @@ constexpr ImGuiWindowFlags fixedWindow = ImGuiWindowFlags_NoDecoration | ImGuiWi
 constexpr double leastSpan = 20.0;  // seconds that the slider reaches
 
 void bookmarks(PanelContext& ui) {
-  const std::vector<Bookmark>& bookmarks = ui.view.edit.scene->bookmarks;
-  const int shown = ui.view.camera.bookmark;
+  const std::vector<Bookmark>& bookmarks = ui.input.edit.scene->bookmarks;
+  const int shown = ui.input.camera.bookmark;
   ImGui::SetNextItemWidth(10.0f * ImGui::GetFontSize());
   const bool open = ImGui::BeginCombo("##bookmarks", shown >= 0 ? bookmarks[shown].name.c_str() : "Bookmarks");
   recordWidget(ui, "bookmarks");
@@ -45,7 +45,7 @@ void bookmarks(PanelContext& ui) {
 }
 
 void sceneChoice(PanelContext& ui) {
-  const BrowserView& browser = ui.view.browser;
+  const ShownScenes& browser = ui.input.browser;
   const SceneEntry& shown = browser.scenes[browser.shown];
   const std::string label =
       labelFor("Scene", ImGui::CalcTextSize(shown.name.c_str()).x + 2.0f * ImGui::GetFrameHeight());
@@ -68,7 +68,7 @@ void sceneChoice(PanelContext& ui) {
 void cameraMode(PanelContext& ui) {
   for (const auto& [label, mode, about] : {std::tuple("Orbit", CameraMode::orbit, "Dragging orbits about the target."),
                                            std::tuple("Fly", CameraMode::fly, "Dragging looks around.")}) {
-    if (ImGui::RadioButton(label, ui.view.camera.mode == mode)) {
+    if (ImGui::RadioButton(label, ui.input.camera.mode == mode)) {
       ui.send(SetCameraMode{mode});
     }
     tip(about);
@@ -78,7 +78,7 @@ void cameraMode(PanelContext& ui) {
 }
 
 void timeControls(PanelContext& ui) {
-  const PlaybackView& playback = ui.view.playback;
+  const ShownPlayback& playback = ui.input.playback;
   // The slider's range doubles whenever the time reaches its end.
   const double span = leastSpan * std::exp2(std::ceil(std::log2(std::max(1.0, playback.time / leastSpan))));
   float seconds = static_cast<float>(playback.time);
@@ -109,7 +109,7 @@ void timeControls(PanelContext& ui) {
 }
 
 // Returns a text with the time of the passes that a setting acts on, from the last frame whose passes were timed.
-std::string measuredHere(const FrameView& frame, std::string_view key) {
+std::string measuredHere(const ShownFrame& frame, std::string_view key) {
   const SettingField& field = *findSettingField(key);
   if (field.changes >= FramePart::display || std::holds_alternative<ColorSetting>(field.kind)) {
     return "";
@@ -129,14 +129,14 @@ std::string measuredHere(const FrameView& frame, std::string_view key) {
 }  // namespace
 
 void describe(PanelContext& ui, std::string_view key) {
-  const AccuracyView& accuracy = ui.view.accuracy;
+  const ShownAccuracy& accuracy = ui.input.accuracy;
   const auto price = accuracy.prices.find(key);
   const bool priced = price != accuracy.prices.end() && !accuracy.otherView;
-  const std::vector<int>& samples = ui.view.device.samples;
+  const std::vector<int>& samples = ui.input.device.samples;
   const bool limited = key.ends_with(".samples") && !samples.empty();
   const std::string range = limited ? fmt::format("{} on this device", fmt::join(samples, " ")) : "";
-  recordWidget(ui, key, settingHelp(key, range) + measuredHere(ui.view.frame, key) + (priced ? price->second : ""));
-  const Settings& ofScene = ui.view.sceneSettings;
+  recordWidget(ui, key, settingHelp(key, range) + measuredHere(ui.input.frame, key) + (priced ? price->second : ""));
+  const Settings& ofScene = ui.input.sceneSettings;
   const SettingField& field = *findSettingField(key);
   if (sameSetting(field, ui.settings, ofScene)) {
     return;
@@ -294,7 +294,7 @@ void coloredText(const glm::vec3& color, const std::string& text) {
 }
 
 void loading(PanelContext& ui) {
-  const BrowserView& browser = ui.view.browser;
+  const ShownScenes& browser = ui.input.browser;
   if (browser.loading.empty()) {
     return;
   }
@@ -315,10 +315,10 @@ void loading(PanelContext& ui) {
 // Draws the message over the picture, so that no panel moves.
 void message(PanelContext& ui, const WindowRect& picture) {
   std::string& dismissed = ui.state.dismissedMessage;
-  if (ui.view.message != dismissed) {
+  if (ui.input.message != dismissed) {
     dismissed.clear();
   }
-  if (ui.view.message.empty() || ui.view.message == dismissed) {
+  if (ui.input.message.empty() || ui.input.message == dismissed) {
     return;
   }
   const float em = ImGui::GetFontSize();
@@ -327,9 +327,9 @@ void message(PanelContext& ui, const WindowRect& picture) {
   ImGui::SetNextWindowSize({std::clamp(picture.size.x - 2.0f * em, 20.0f * em, 40.0f * em), 0.0f});
   ImGui::SetNextWindowBgAlpha(1.0f);
   if (ImGui::Begin("Message", nullptr, fixedWindow)) {
-    coloredText(errorColor, ui.view.message);
+    coloredText(errorColor, ui.input.message);
     if (button(ui, "Dismiss", "message.dismiss", "Until it occurs again.")) {
-      dismissed = ui.view.message;
+      dismissed = ui.input.message;
       ui.send(DismissMessage{});
     }
   }
@@ -344,10 +344,10 @@ glm::vec2 modestEms(const glm::vec2& ems) {
 }
 
 void playOffer(PanelContext& ui, const WindowRect& picture, float below) {
-  const PlaybackView& playback = ui.view.playback;
+  const ShownPlayback& playback = ui.input.playback;
   const float em = ImGui::GetFontSize();
   const float room = std::min(picture.size.x - ImGui::CalcTextSize(playback.cost.c_str()).x, picture.size.y - below);
-  if (!playback.paused || playback.cost.empty() || room < 4.0f * em || ui.view.edit.prompt != Prompt::none) {
+  if (!playback.paused || playback.cost.empty() || room < 4.0f * em || ui.input.edit.prompt != Prompt::none) {
     return;
   }
   ImGui::SetNextWindowPos({picture.corner.x + 0.5f * picture.size.x, picture.corner.y + picture.size.y - below - em},

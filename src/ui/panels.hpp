@@ -3,11 +3,11 @@
 #include <array>
 #include <functional>
 
-#include "frame/setting_fields.hpp"
+#include "settings/setting_fields.hpp"
 #include "ui/panel_choices.hpp"
 #include "ui/panel_dock.hpp"
+#include "ui/shown.hpp"
 #include "ui/thumbnails.hpp"
-#include "ui/views.hpp"
 
 namespace speculum {
 
@@ -35,7 +35,7 @@ struct PanelState {
 
   struct Rows {
     std::vector<PassRow> passes;  // rows
-    std::vector<SkippedView> skipped;
+    std::vector<SkippedRow> skipped;
     std::vector<PassId> order;        // of a click on a column's head; empty: the scene's
     std::optional<std::string> step;  // of undo, when the pointer came upon them; none after an edit since
     bool held = false;                // in their places, because the pointer is on them
@@ -76,7 +76,7 @@ struct PanelState {
 
 // Everything that a panel reads and writes while a frame is laid out.
 struct PanelContext {
-  const UiView& view;
+  const UiInput& input;
   PanelState& state;
   Settings settings;  // edited by the widgets
   UiOutput output;
@@ -127,7 +127,7 @@ void poster(const PanelContext& ui, const Thumbnails& thumbnails, const WindowRe
 void passOutline(const PanelContext& ui);  // around the mirror whose row is under the pointer
 // Call while the pointer is on a row of a mirror, which `path` leads to: outlines the mirror, and a click selects it.
 void mirrorRow(PanelContext& ui, const MirrorPath& path);
-void editOverlay(const OverlayView& overlay, const WindowRect& picture);  // `picture`: as far as panels leave it free
+void editOverlay(const ShownOverlay& overlay, const WindowRect& picture);  // `picture`: as far as panels leave it free
 // Draws behind all windows, but not over the target that the Targets window shows.
 void besideTarget(const PanelContext& ui, const std::function<void()>& draw);
 
@@ -135,7 +135,7 @@ float statusHeight();  // least height of the status line, in pixels
 // Draws the status line at the lower left edge of the display, which PanelDock keeps free, up to `right`, where windows
 // of the right edge begin. `width` is the panel's, in pixels; 0 while the panel is hidden, and the line is then as wide
 // as its text. Returns its height, in pixels.
-float statusLine(const StatusView& status, float width, float right);
+float statusLine(const ShownStatus& status, float width, float right);
 
 // Call after each widget of a setting: records it, shows its tooltip, and adds a button at the line's end that resets
 // it to the scene's value if it differs. The button is recorded as "reset." and the key.

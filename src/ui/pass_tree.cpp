@@ -36,7 +36,7 @@ std::vector<TreeNode> nested(std::span<const TreeNode> branches, int parent = -1
 
 // Returns the median that the Performance panel shows, because times of single frames jump; where it has none of these
 // frames, or sums passes of one name, that of the timed frame.
-double usualMs(const FrameView& frame, const PassRow& pass) {
+double usualMs(const ShownFrame& frame, const PassRow& pass) {
   const bool known = !frame.history.paused() && std::ranges::count(frame.passes, pass.name, &PassRow::name) == 1;
   const double median = known ? percentile(frame.history.filledSeries(pass.name), 0.5) : std::nan("");
   return !std::isnan(median) ? median : pass.timed ? pass.gpuMs : 0.0;
@@ -44,7 +44,7 @@ double usualMs(const FrameView& frame, const PassRow& pass) {
 
 }  // namespace
 
-std::vector<TreeNode> passTree(std::span<const PassRow> passes, std::span<const SkippedView> skipped,
+std::vector<TreeNode> passTree(std::span<const PassRow> passes, std::span<const SkippedRow> skipped,
                                std::span<const PassId> order) {
   constexpr int notListed = -2;
   const auto parentOf = [&](const MirrorPath& path) {
@@ -94,7 +94,7 @@ std::string pathEnd(const std::string& name) {
   return last != std::string::npos ? name.substr(last + 3) : pathText(name);
 }
 
-double restOfPasses(const FrameView& frame) {
+double restOfPasses(const ShownFrame& frame) {
   double rest = frame.timedGpuMs > 0.0 ? frame.timedGpuMs : std::nan("");
   for (const PassRow& pass : frame.passes) {
     rest -= pass.timed ? pass.gpuMs : 0.0;
@@ -102,7 +102,7 @@ double restOfPasses(const FrameView& frame) {
   return std::max(rest, 0.0);
 }
 
-std::string mirrorCost(const FrameView& frame, int mirror) {
+std::string mirrorCost(const ShownFrame& frame, int mirror) {
   int passes = 0;
   double ms = 0.0;
   double pixels = 0.0;
@@ -124,11 +124,11 @@ std::string mirrorCost(const FrameView& frame, int mirror) {
             : ms > 0.0 ? ", " + panels::duration(ms) + " on the GPU" + share
                        : "");
   }
-  const auto isOf = [&](const SkippedView& skip) { return skip.path.back() == mirror; };
-  if (std::ranges::any_of(frame.skipped, [&](const SkippedView& skip) { return isOf(skip) && skip.byRays; })) {
+  const auto isOf = [&](const SkippedRow& skip) { return skip.path.back() == mirror; };
+  if (std::ranges::any_of(frame.skipped, [&](const SkippedRow& skip) { return isOf(skip) && skip.byRays; })) {
     return "Drawn by rays";
   }
-  const auto skipped = std::ranges::find(frame.skipped, MirrorPath{mirror}, &SkippedView::path);
+  const auto skipped = std::ranges::find(frame.skipped, MirrorPath{mirror}, &SkippedRow::path);
   return skipped == frame.skipped.end() ? "No pass" : "No pass: " + skipped->reason;
 }
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "ui/views.hpp"
+#include "ui/shown.hpp"
 
 namespace speculum {
 
@@ -12,7 +12,7 @@ namespace speculum {
 struct TreeNode {
   int pass = -1;             // index into the passes of the tree
   int parent = -1;           // index of the pass that it is seen in; -1: none
-  std::vector<int> skipped;  // indices into FrameView::skipped: mirrors seen in it that have no pass of their own
+  std::vector<int> skipped;  // indices into ShownFrame::skipped: mirrors seen in it that have no pass of their own
   std::vector<TreeNode> children;
 };
 
@@ -20,7 +20,7 @@ struct TreeNode {
 // view, those of `order` first, then in the order of the scene. Leaves out mirrors, with a pass or skipped, whose
 // parent is not listed. A mirror whose image is reused is listed with the pass that rendered it, not among the skipped
 // ones.
-std::vector<TreeNode> passTree(std::span<const PassRow> passes, std::span<const SkippedView> skipped,
+std::vector<TreeNode> passTree(std::span<const PassRow> passes, std::span<const SkippedRow> skipped,
                                std::span<const PassId> order = {});
 // Returns the passes with these names in such trees. One whose parent is not among them has none.
 std::vector<TreeNode> passTree(std::span<const std::string> names);
@@ -32,10 +32,10 @@ std::string pathText(const std::string& name);
 
 // Returns the milliseconds of the timed frame that no listed pass took: for the panels, and between passes. NaN if no
 // frame was timed.
-double restOfPasses(const FrameView& frame);
+double restOfPasses(const ShownFrame& frame);
 
 // Says what the images of a mirror (index into Scene::mirrors) cost, on the screen and in other mirrors, or why it has
 // none. Times are medians of the last frames.
-std::string mirrorCost(const FrameView& frame, int mirror);
+std::string mirrorCost(const ShownFrame& frame, int mirror);
 
 }  // namespace speculum

@@ -50,7 +50,7 @@ void textAcrossColumns(const std::string& text) {
 }
 
 // Takes the frame's passes, or their figures alone while the pointer is on the rows, which then keep their places.
-void followPasses(PanelState::Rows& rows, const FrameView& frame) {
+void followPasses(PanelState::Rows& rows, const ShownFrame& frame) {
   if (!rows.held || frame.passes.empty()) {
     rows.passes = frame.passes;
     rows.skipped = frame.skipped;
@@ -77,7 +77,7 @@ void skippedRows(PanelContext& ui, const TreeNode& node) {
   }
   ImGui::Indent(ImGui::GetTreeNodeToLabelSpacing());
   for (const int i : node.skipped) {
-    const SkippedView& skip = ui.state.passes.skipped[static_cast<size_t>(i)];
+    const SkippedRow& skip = ui.state.passes.skipped[static_cast<size_t>(i)];
     const std::string name = pathEnd(skip.name);
     const std::string why = skip.reason + (skip.detail.empty() ? "" : " (" + skip.detail + ")");
     ImGui::TableNextRow();
@@ -145,7 +145,7 @@ void passRow(PanelContext& ui, const TreeNode& node) {
 
 // Draws what makes the sum of the rows the frame's time.
 void restRow(PanelContext& ui) {
-  const double rest = restOfPasses(ui.view.frame);
+  const double rest = restOfPasses(ui.input.frame);
   if (std::isnan(rest)) {
     return;
   }
@@ -187,19 +187,19 @@ void header(PanelContext& ui) {
 void mirrorRow(PanelContext& ui, const MirrorPath& path) {
   ui.output.hoveredPath = path;
   // The path is that of the last frame; an edit may have removed mirrors since.
-  const bool exists = static_cast<size_t>(path.back()) < ui.view.edit.scene->mirrors.size();
+  const bool exists = static_cast<size_t>(path.back()) < ui.input.edit.scene->mirrors.size();
   if (exists && ImGui::IsMouseClicked(ImGuiMouseButton_Left)) {
     ui.send(SelectNode{{Selection::Kind::mirror, path.back()}});
   }
 }
 
 void passes(PanelContext& ui) {
-  const FrameView& frame = ui.view.frame;
+  const ShownFrame& frame = ui.input.frame;
   PanelState::Rows& rows = ui.state.passes;
   const bool pointed = ImGui::IsWindowHovered(ImGuiHoveredFlags_AllowWhenBlockedByActiveItem);
   if (!pointed) {
-    rows.step = ui.view.edit.undo;
-  } else if (rows.step != ui.view.edit.undo) {
+    rows.step = ui.input.edit.undo;
+  } else if (rows.step != ui.input.edit.undo) {
     rows.step.reset();  // an edit may have given a mirror the place of another
   }
   rows.held = pointed && rows.step;

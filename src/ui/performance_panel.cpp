@@ -33,8 +33,8 @@ void row(PanelContext& ui, const std::string& name, const std::vector<float>& va
   const float indent = 0.8f * ImGui::GetFontSize() * static_cast<float>(depth);
   ImGui::SetCursorPosX(ImGui::GetCursorPosX() + indent);
   ImGui::TextUnformatted(thatFits(depth > 0 ? pathEnd(name) : pathText(name)).c_str());
-  const auto pass = std::ranges::find(ui.view.frame.passes, name, &PassRow::name);
-  const bool ofMirror = pass != ui.view.frame.passes.end() && !pass->path.empty();
+  const auto pass = std::ranges::find(ui.input.frame.passes, name, &PassRow::name);
+  const bool ofMirror = pass != ui.input.frame.passes.end() && !pass->path.empty();
   recordWidget(ui, "name." + name, name + (ofMirror ? "\nA click selects the mirror." : ""));
   if (ofMirror && ImGui::IsItemHovered()) {
     mirrorRow(ui, pass->path);
@@ -53,7 +53,7 @@ void passRows(PanelContext& ui, const std::vector<std::string>& names, std::span
               int depth = 0) {
   for (const TreeNode& branch : branches) {
     const std::string& name = names[static_cast<size_t>(branch.pass)];
-    row(ui, name, ui.view.frame.history.filledSeries(name), height, depth);
+    row(ui, name, ui.input.frame.history.filledSeries(name), height, depth);
     passRows(ui, names, branch.children, height, depth + 1);
   }
 }
@@ -97,7 +97,7 @@ bool beginRows(PanelContext& ui, const char* id) {
 }  // namespace
 
 void performance(PanelContext& ui) {
-  const FrameHistory& history = ui.view.frame.history;
+  const FrameHistory& history = ui.input.frame.history;
   bool paused = history.paused();
   if (ImGui::Checkbox("Pause", &paused)) {
     ui.send(PauseHistory{paused});

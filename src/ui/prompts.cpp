@@ -54,7 +54,7 @@ void answerButton(PanelContext& ui, const char* label, std::string_view key, Com
 }
 
 void unsavedChanges(PanelContext& ui) {
-  const EditView& edit = ui.view.edit;
+  const ShownEdit& edit = ui.input.edit;
   const float before = ImGui::CalcTextSize("Save the changes before ?").x;
   ImGui::Text("Save the changes before %s?", thatFits(edit.afterPrompt, fieldWidth() - before).c_str());
   ImGui::TextDisabled("%s", (edit.saveFile ? *edit.saveFile : edit.scene->file.stem()).c_str());
@@ -125,7 +125,7 @@ std::optional<std::filesystem::path> fileList(PanelContext& ui, const std::files
   bool scrolls = edited && !begun.empty();
   if (folder != files.listed) {
     list(files, folder, models);
-    files.modelsOutside = modelsOutside(*ui.view.edit.scene, folder).size();
+    files.modelsOutside = modelsOutside(*ui.input.edit.scene, folder).size();
   }
   const float width = fieldWidth();
   ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + width);
@@ -167,7 +167,7 @@ void saveAs(PanelContext& ui) {
   PanelState::Files& files = ui.state.files;
   ImGui::SetNextItemWidth(fieldWidth());
   if (ImGui::IsWindowAppearing()) {
-    const std::filesystem::path& proposed = ui.view.edit.proposedFile;
+    const std::filesystem::path& proposed = ui.input.edit.proposedFile;
     enter(files, proposed.parent_path(), proposed.filename().string());
     files.folder = proposed.parent_path();  // with its links, because the suggested folder is known by that path
   }
@@ -184,10 +184,10 @@ void saveAs(PanelContext& ui) {
     files.folder = enters ? *chosen : folder;
     files.focus = enters && enterPressed() ? Focus::list : files.focus;
   }
-  if (!ui.view.edit.note.empty()) {
-    coloredText(errorColor, ui.view.edit.note);
+  if (!ui.input.edit.note.empty()) {
+    coloredText(errorColor, ui.input.edit.note);
   }
-  const bool moves = files.modelsOutside > 0 && folder != withoutLinks(ui.view.edit.scene->file).parent_path();
+  const bool moves = files.modelsOutside > 0 && folder != withoutLinks(ui.input.edit.scene->file).parent_path();
   if (moves) {
     ImGui::Checkbox("Copy the models here too", &ui.state.copyModels);
     recordWidget(ui, "where.models", "With materials and textures, into 'models' beside the scene; else they stay.");
@@ -202,7 +202,7 @@ void saveAs(PanelContext& ui) {
     return;
   }
   if (isFolder(named(files))) {
-    return enter(files, named(files), ui.view.edit.proposedFile.filename().string());
+    return enter(files, named(files), ui.input.edit.proposedFile.filename().string());
   }
   ui.send(answer);
   ImGui::CloseCurrentPopup();  // if saving fails it opens again, with the keyboard in the field
@@ -210,9 +210,9 @@ void saveAs(PanelContext& ui) {
 
 void recovery(PanelContext& ui) {
   ImGui::TextUnformatted("Speculum ended with unsaved changes. Open the copy that it kept?");
-  ImGui::TextDisabled("%s", ui.view.edit.proposedFile.c_str());
+  ImGui::TextDisabled("%s", ui.input.edit.proposedFile.c_str());
   ImGui::Spacing();
-  answerButton(ui, "Open", "recovery.open", OpenScene{ui.view.edit.proposedFile});
+  answerButton(ui, "Open", "recovery.open", OpenScene{ui.input.edit.proposedFile});
   ImGui::SetItemDefaultFocus();
   ImGui::SameLine();
   answerButton(ui, "Discard", "recovery.discard", DiscardChanges{});
@@ -223,7 +223,7 @@ void recovery(PanelContext& ui) {
 void openFile(PanelContext& ui) {
   PanelState::Files& files = ui.state.files;
   if (ImGui::IsWindowAppearing()) {
-    enter(files, ui.view.edit.proposedFile, "");
+    enter(files, ui.input.edit.proposedFile, "");
   }
   focusField(files);
   ImGui::SetNextItemWidth(fieldWidth());
@@ -279,7 +279,7 @@ void prompts(PanelContext& ui) {
        {std::tuple(Prompt::unsavedChanges, "Unsaved changes", &unsavedChanges),
         std::tuple(Prompt::saveAs, "Save as", &saveAs), std::tuple(Prompt::open, "Open", &openFile),
         std::tuple(Prompt::recovery, "Unsaved changes of the last session", &recovery)}) {
-    const bool asked = ui.view.edit.prompt == prompt;
+    const bool asked = ui.input.edit.prompt == prompt;
     if (asked && !ImGui::IsPopupOpen(title)) {
       ImGui::OpenPopup(title);
     }

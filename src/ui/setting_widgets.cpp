@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "frame/setting_fields.hpp"
 #include "image/color.hpp"
+#include "settings/setting_fields.hpp"
 #include "ui/panels.hpp"
 
 namespace speculum::panels {
@@ -171,12 +171,12 @@ bool colorEdit(const char* label, glm::dvec3& linear, double most) {
 }
 
 void settingWidget(const PanelContext& ui, const SettingField& field, Settings& settings) {
-  const glm::dvec3& background = ui.view.edit.scene->environment.background;
-  std::visit(Widget{field, settings, background, ui.view.device.samples}, field.kind);
+  const glm::dvec3& background = ui.input.edit.scene->environment.background;
+  std::visit(Widget{field, settings, background, ui.input.device.samples}, field.kind);
 }
 
 void settingRows(PanelContext& ui, std::string_view prefix) {
-  const Environment& environment = ui.view.edit.scene->environment;
+  const Environment& environment = ui.input.edit.scene->environment;
   for (const SettingField& field : settingFields()) {
     const bool needed = !field.needs || settingValue(ui.settings, field.needs->key) == field.needs->value;
     if (needed && field.key.starts_with(prefix) && !std::holds_alternative<TextSetting>(field.kind)) {

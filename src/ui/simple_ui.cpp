@@ -209,12 +209,12 @@ void SimpleUI::push(const InputEvent& event) {
   backend_->input.push(event);
 }
 
-UiOutput SimpleUI::build(const UiView& view) {
+UiOutput SimpleUI::build(const UiInput& input) {
   prepareTheme();
   ImGui_ImplVulkan_NewFrame();
   backend_->input.newFrame();
   ImGui::NewFrame();
-  UiOutput output = windows_.build(view);
+  UiOutput output = windows_.build(input);
   ImGui::Render();
   if (ImGui::GetIO().WantSaveIniSettings) {
     saveLayout();

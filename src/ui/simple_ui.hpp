@@ -17,11 +17,11 @@ class SimpleUI {
 
   void push(const InputEvent& event);  // call with each of the window's
   // Lays out this frame's panels. Call it once a frame, even if nothing is drawn.
-  UiOutput build(const UiView& view);
+  UiOutput build(const UiInput& input);
   void record(const PassScope& scope);
   // Reads what only the window system knows, for the next build(). It may wait for an answer.
   void readWindow();
-  void setThumbnails(std::vector<Image8> pictures);  // of BrowserView::scenes, from the next frame on
+  void setThumbnails(std::vector<Image8> pictures);  // of ShownScenes::scenes, from the next frame on
   PanelWindows& windows() { return windows_; }
   const PanelWindows& windows() const { return windows_; }
 

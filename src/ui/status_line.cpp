@@ -24,7 +24,7 @@ float statusHeight() {
   return std::floor(lines * ImGui::GetTextLineHeightWithSpacing() + 2.0f * ImGui::GetStyle().FramePadding.y);
 }
 
-float statusLine(const StatusView& status, float width, float right) {
+float statusLine(const ShownStatus& status, float width, float right) {
   const std::string picture = width > 0.0f ? status.picture : "";
   const float alpha = picture.empty() ? statusAlpha(status.age) : 1.0f;
   if ((status.text.empty() && picture.empty()) || alpha <= 0.0f) {

@@ -52,8 +52,8 @@ void passChoice(PanelContext& ui, const PassRow* shown) {
   ImGui::SetNextItemWidth(width);
   const std::string preview = shown ? thatFits(shown->name, room) : "";
   if (ImGui::BeginCombo("##pass", preview.c_str())) {
-    for (size_t i = 0; i < ui.view.frame.passes.size(); ++i) {
-      const PassRow& pass = ui.view.frame.passes[i];
+    for (size_t i = 0; i < ui.input.frame.passes.size(); ++i) {
+      const PassRow& pass = ui.input.frame.passes[i];
       ImGui::PushID(static_cast<int>(i));  // names may repeat
       if (hasTarget(pass) && ImGui::Selectable(pass.name.c_str(), &pass == shown)) {
         ui.state.targets.path = pass.path;
@@ -122,7 +122,7 @@ void moveView(Targets& targets, const glm::dvec2& image, const glm::dvec2& room,
 }
 
 // Returns the value of the texel under the pointer; "..." until it arrives from the GPU.
-std::string valueText(const Targets& targets, const TargetView& target) {
+std::string valueText(const Targets& targets, const ShownTarget& target) {
   if (targets.kind == Targets::Kind::mask) {
     return "";
   }
@@ -136,7 +136,7 @@ std::string valueText(const Targets& targets, const TargetView& target) {
                                      : "infinitely far";
 }
 
-void maskImage(const TargetView& target, double zoom, const ImRect& canvas, const glm::dvec2& corner) {
+void maskImage(const ShownTarget& target, double zoom, const ImRect& canvas, const glm::dvec2& corner) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const auto toScreen = [&](const std::vector<glm::vec2>& polygon) {
     std::vector<ImVec2> points;
@@ -177,7 +177,7 @@ PixelRect inPixels(const ImRect& rect) {
 
 // Returns the pass whose target is shown: the chosen one, or the main view if that is gone.
 const PassRow* shownPass(PanelContext& ui) {
-  const std::vector<PassRow>& passes = ui.view.frame.passes;
+  const std::vector<PassRow>& passes = ui.input.frame.passes;
   const auto pass =
       std::ranges::find_if(passes, [&](const PassRow& p) { return hasTarget(p) && ui.state.targets.path == p.path; });
   const auto main = std::ranges::find(passes, PassKind::main, &PassRow::kind);
@@ -187,7 +187,7 @@ const PassRow* shownPass(PanelContext& ui) {
 }
 
 void caption(PanelContext& ui, const ImRect& canvas, bool hovered, const glm::dvec2& texel) {
-  const TargetView& target = ui.view.frame.target;
+  const ShownTarget& target = ui.input.frame.target;
   Targets& targets = ui.state.targets;
   ImGui::SetCursorScreenPos({canvas.Min.x, canvas.Min.y - ImGui::GetTextLineHeightWithSpacing()});
   if (!target.complete && targets.kind != Targets::Kind::mask) {
@@ -222,7 +222,7 @@ bool hasTarget(const PassRow& pass) {
 }
 
 void targets(PanelContext& ui) {
-  const TargetView& target = ui.view.frame.target;
+  const ShownTarget& target = ui.input.frame.target;
   Targets& targets = ui.state.targets;
   const PassRow* shown = shownPass(ui);
   // The controls are drawn first, because the canvas begins below as many lines as they take. The background around the
@@ -262,14 +262,15 @@ void targets(PanelContext& ui) {
   }
   caption(ui, canvas, there && hovered, glm::floor(origin + pointer / targets.shownZoom));
   if (shown) {
-    ui.output.target = {.path = shown->path,
-                        .drawn = !isMask,
-                        .view = {.area = inPixels(canvas),
-                                 .kind = targets.kind == Targets::Kind::depth ? TargetKind::depth : TargetKind::color,
-                                 .zoom = targets.zoom,
-                                 .origin = origin,
-                                 .halfDistance = targets.halfDistance,
-                                 .probe = isMask ? std::nullopt : targets.pointed}};
+    ui.output.target = {
+        .path = shown->path,
+        .drawn = !isMask,
+        .display = {.area = inPixels(canvas),
+                    .kind = targets.kind == Targets::Kind::depth ? TargetKind::depth : TargetKind::color,
+                    .zoom = targets.zoom,
+                    .origin = origin,
+                    .halfDistance = targets.halfDistance,
+                    .probe = isMask ? std::nullopt : targets.pointed}};
   }
 }
 

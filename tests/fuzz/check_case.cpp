@@ -1,12 +1,12 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "frame/settings.hpp"
 #include "fuzz_support.hpp"
 #include "image/picture_files.hpp"
 #include "platform/text.hpp"
 #include "regress/case_file.hpp"
 #include "regress/report_page.hpp"
+#include "settings/settings.hpp"
 
 namespace speculum::fuzz {
 

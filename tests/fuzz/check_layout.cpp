@@ -10,7 +10,7 @@ namespace speculum::fuzz {
 
 namespace {
 
-constexpr std::array<std::pair<const char*, PanelDock::Edge>, 3> kPanels{
+constexpr std::array<std::pair<const char*, PanelDock::Edge>, 3> panelEdges{
     {{"Speculum", PanelDock::Edge::left}, {"Log", PanelDock::Edge::right}, {"Inspector", PanelDock::Edge::right}}};
 
 // A context of Dear ImGui without a display.
@@ -52,13 +52,13 @@ std::string savedAgain(const std::string& text) {
     for (int frame = 0; frame < 2; ++frame) {
       ImGui::NewFrame();
       dock.beginFrame(20.0f, 10.0f, false);
-      for (const auto& [name, edge] : kPanels) {
+      for (const auto& [name, edge] : panelEdges) {
         dock.begin(name, nullptr, edge, {28.0f, 20.0f});
         ImGui::End();
       }
       ImGui::Render();
     }
-    for (const auto& [name, edge] : kPanels) {
+    for (const auto& [name, edge] : panelEdges) {
       checkWindow(name, display);
     }
   }

@@ -2,17 +2,17 @@
 #include <array>
 
 #include "edit/scene_document.hpp"
-#include "frame/frame_plan.hpp"
 #include "fuzz_support.hpp"
 #include "geometry/polygon.hpp"
+#include "plan/frame_plan.hpp"
 #include "scene/scene_state.hpp"
 
 namespace speculum::fuzz {
 
 namespace {
 
-constexpr int kWidth = 64;  // pixels of the planned pictures
-constexpr int kHeight = 48;
+constexpr int pictureWidth = 64;  // pixels of the planned pictures
+constexpr int pictureHeight = 48;
 
 void checkTransforms(const SceneState& state) {
   require(finite(state.camera.eye), "the eye is finite");
@@ -88,7 +88,7 @@ void useScene(Scene scene, Settings settings) {
     const SceneState state = evaluate(scene, time);
     checkTransforms(state);
     checkMirrors(state);
-    const FramePlan plan = planFrame({scene, state, settings, {kWidth, kHeight}, {.images = cached}});
+    const FramePlan plan = planFrame({scene, state, settings, {pictureWidth, pictureHeight}, {.images = cached}});
     checkPlan(plan, settings, scene.mirrors.size());
     cached = plan.cached;
   }

@@ -15,7 +15,7 @@ class BrokenPromise : public std::logic_error {
   using std::logic_error::logic_error;
 };
 
-inline constexpr size_t kLargestInput = 64u << 10;  // bytes; larger inputs are ignored
+inline constexpr size_t largestInput = 64u << 10;  // bytes; larger inputs are ignored
 
 // A scene file. Beside it are t.obj, a triangle, and large.obj, whose vertices are at 1e200. Accepted scenes are
 // evaluated and planned at several times.

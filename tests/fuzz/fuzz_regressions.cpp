@@ -13,8 +13,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kMostSeconds = 10.0;
-constexpr size_t kMostBytes = 512u << 20;
+constexpr double mostSeconds = 10.0;
+constexpr size_t mostBytes = 512u << 20;
 
 std::vector<fs::path> inputs(const std::string& folder) {
   std::vector<fs::path> files;
@@ -38,15 +38,15 @@ class FuzzInputs : public testing::TestWithParam<Subject> {
     for (const fs::path& file : files) {
       SCOPED_TRACE(file.string());
       const std::string text = readText(file);
-      EXPECT_LE(text.size(), kLargestInput) << "the fuzzers pass over it";
+      EXPECT_LE(text.size(), largestInput) << "the fuzzers pass over it";
       restartHeapPeak();
       const size_t before = heapPeak();
       const std::clock_t start = std::clock();
       bool accepted = false;
       EXPECT_NO_THROW(accepted = GetParam().check(text));
       EXPECT_TRUE(accepted || folder != "corpus") << "mutations of what is refused early go no deeper";
-      EXPECT_LT(std::clock() - start, kMostSeconds * CLOCKS_PER_SEC);
-      EXPECT_LT(heapPeak() - before, kMostBytes);
+      EXPECT_LT(std::clock() - start, mostSeconds * CLOCKS_PER_SEC);
+      EXPECT_LT(heapPeak() - before, mostBytes);
     }
   }
 };

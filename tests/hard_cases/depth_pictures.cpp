@@ -158,7 +158,7 @@ Image8 plateInMirror(const std::string& clip) {
   const DrawnFrame first = session.draw(0.0, false);
   EXPECT_EQ(first.plan.drawnMirrors()[0].view.rect, (PixelRect{0, 0, tileSize.width, tileSize.height}));
   recordFrame(session, first.state, session.settings(), first.plan,
-              DebugView{.pass = 0, .area = {0, 0, tileSize.width, tileSize.height}});
+              TargetDisplay{.pass = 0, .area = {0, 0, tileSize.width, tileSize.height}});
   return session.picture();
 }
 

@@ -1,6 +1,6 @@
 // The depth readout of a mirror pass states a gap. Two parallel surfaces that far apart are drawn in the right order on
 // every pixel.
-#include "frame/depth_readout.hpp"
+#include "plan/depth_readout.hpp"
 #include "sampling.hpp"
 #include "scene_text.hpp"
 #include "studio.hpp"

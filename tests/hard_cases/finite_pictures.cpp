@@ -2,7 +2,6 @@
 #include <chrono>
 #include <thread>
 
-#include "app/demo.hpp"
 #include "geometry/affine.hpp"
 #include "image/color.hpp"
 #include "random.hpp"
@@ -10,6 +9,7 @@
 #include "scene_text.hpp"
 #include "truth_support.hpp"
 #include "virtual_display.hpp"
+#include "window/demo.hpp"
 
 namespace speculum::finite_pictures {
 namespace {
@@ -302,12 +302,12 @@ TEST(TimeSteps, SuspendDoesNotAdvanceAnimation) {
   const test::VirtualDisplay display;
   Demo demo(windowOptions());
   ASSERT_TRUE(runUntil(demo, [&] { return demo.framesDrawn() > 2; }));
-  const double before = demo.view().playback.time;
+  const double before = demo.shown().playback.time;
   std::this_thread::sleep_for(std::chrono::milliseconds(800));
   const int drawn = demo.framesDrawn();
   ASSERT_TRUE(runUntil(demo, [&] { return demo.framesDrawn() > drawn; }));
-  EXPECT_GE(demo.view().playback.time, before);
-  EXPECT_LT(demo.view().playback.time - before, 0.5);
+  EXPECT_GE(demo.shown().playback.time, before);
+  EXPECT_LT(demo.shown().playback.time - before, 0.5);
 }
 
 TEST(AnySizeOfWindow, OnePixelRunsAndMinimisedPauses) {

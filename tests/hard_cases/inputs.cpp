@@ -1,6 +1,6 @@
 // Hard cases of input: unusable shapes are rejected by name, or dropped with a warning.
 #include "geometry/affine.hpp"
-#include "obj_support.hpp"
+#include "scene/obj_support.hpp"
 #include "scene_text.hpp"
 #include "test_headers.hpp"
 
@@ -11,7 +11,7 @@ using testing_support::text;
 using Polygon = std::vector<glm::dvec3>;
 
 std::string faultOf(const std::string& text) {
-  return sceneFaultOf(kCamera + text);
+  return sceneFaultOf(usualCamera + text);
 }
 
 std::string mirrorFault(const Polygon& polygon) {

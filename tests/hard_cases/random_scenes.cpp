@@ -1,11 +1,11 @@
 // Random scenes that join hard cases: the rasteriser against the tracer, and with each debug switch against itself.
 #include <gtest/gtest-spi.h>
 
-#include "app/session.hpp"
 #include "image/color.hpp"
 #include "random_scene.hpp"
 #include "reference/ray_tracer.hpp"
 #include "sampling.hpp"
+#include "session/session.hpp"
 #include "studio.hpp"
 #include "truth_support.hpp"
 

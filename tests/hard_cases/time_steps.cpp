@@ -1,6 +1,6 @@
 // Animation after an hour's pause, with a clock that goes backwards, after 1e6 s: every transform finite and exact.
-#include "frame/scene_changes.hpp"
 #include "geometry/affine.hpp"
+#include "plan/scene_changes.hpp"
 #include "test_headers.hpp"
 #include "transform_support.hpp"
 

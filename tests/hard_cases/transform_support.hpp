@@ -3,7 +3,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
-#include "frame/frame_plan.hpp"
+#include "plan/frame_plan.hpp"
 #include "random.hpp"
 #include "systems/gpu_conversion.hpp"
 

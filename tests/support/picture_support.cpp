@@ -113,7 +113,7 @@ LinearImage drawRadiance(Session& session, double time) {
 }
 
 void recordFrame(Session& session, const SceneState& state, const Settings& settings, const FramePlan& plan,
-                 const std::optional<DebugView>& debug) {
+                 const std::optional<TargetDisplay>& debug) {
   Frame frame = session.renderer().beginFrame().value();
   frame.capture = true;
   session.sceneRenderer().record(frame, state, settings, plan, debug);

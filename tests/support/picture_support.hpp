@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "accuracy/picture_agreement.hpp"
-#include "app/session.hpp"
+#include "compare/picture_agreement.hpp"
 #include "image/image.hpp"
+#include "session/session.hpp"
 
 namespace speculum::testing_support {
 
@@ -52,7 +52,7 @@ LinearImage drawRadiance(Session& session, double time = 0.0);
 
 // Records and submits one frame of a plan. The picture is read back.
 void recordFrame(Session& session, const SceneState& state, const Settings& settings, const FramePlan& plan,
-                 const std::optional<DebugView>& debug = {});
+                 const std::optional<TargetDisplay>& debug = {});
 
 // Root mean square difference in radiance of the pixels whose `counts` is set, by default of all.
 double rootMeanSquare(const LinearImage& a, const LinearImage& b, const std::vector<bool>& counts = {});

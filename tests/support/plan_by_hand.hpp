@@ -1,6 +1,6 @@
 #pragma once
 
-#include "frame/frame_plan.hpp"
+#include "plan/frame_plan.hpp"
 
 namespace speculum::testing_support {
 

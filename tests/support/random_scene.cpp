@@ -7,8 +7,8 @@
 #include <sstream>
 
 #include "geometry/affine.hpp"
-#include "occluder_shapes.hpp"
 #include "picture_support.hpp"
+#include "plan/occluder_shapes.hpp"
 #include "scene_text.hpp"
 
 namespace speculum::testing_support {

@@ -93,8 +93,8 @@ class Server {
     // A window that is mapped while the manager starts may wait for ever to be shown.
     const TemporaryDirectory directory;
     const std::filesystem::path ready = directory.path() / "ready";
-    manager_ = start({"openbox", "--config-file", (sourceDir() / "tests/openbox.xml").string(), "--startup",
-                      "touch " + ready.string()});
+    manager_ = start({"openbox", "--config-file", (sourceDir() / "tests" / "window" / "openbox.xml").string(),
+                      "--startup", "touch " + ready.string()});
     for (int i = 0; i < 6000 && !std::filesystem::exists(ready); ++i) {
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }

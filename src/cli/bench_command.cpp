@@ -1,0 +1,191 @@
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <ranges>
+
+#include "accuracy/sweep_planner.hpp"
+#include "cli/commands.hpp"
+#include "cli/progress.hpp"
+#include "cli/stats.hpp"
+#include "platform/files.hpp"
+#include "platform/process.hpp"
+#include "platform/text.hpp"
+#include "reference/throughput.hpp"
+#include "session/session.hpp"
+#include "session/view_command.hpp"
+
+namespace speculum {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr auto untilInterrupted = [] { return !interruptRequested(); };
+constexpr std::array totals = {"cpu_ms", "gpu_ms", "frame_ms", "interval_ms"};
+
+// Measures rays per second and core of the double-precision tracer.
+int benchReference(const Options& options) {
+  constexpr int64_t triangles = 100000;
+  constexpr int64_t rays = 1000000;
+  const RayThroughput result = measureRayThroughput(triangles, rays);
+  printLine(fmt::format(
+      "{} triangles, {} random rays, {:.1f} % hit, one core: {:.3f} million rays per second (hierarchy: {:.2f} s)",
+      result.triangles, result.rays, 100.0 * result.hitFraction, 1e-6 * result.raysPerSecond(), result.buildSeconds));
+  if (!options.json.empty()) {
+    writeJson(options.json, {{"triangles", result.triangles},
+                             {"rays", result.rays},
+                             {"hit_fraction", result.hitFraction},
+                             {"seconds", result.seconds},
+                             {"build_seconds", result.buildSeconds},
+                             {"rays_per_second", result.raysPerSecond()}});
+  }
+  return 0;
+}
+
+double gpuMs(Session& session, const Settings& settings, double time) {
+  session.setSettings(settings);
+  session.draw(time, false, untilInterrupted);
+  session.finish();
+  return session.lastFrame().gpuMs;
+}
+
+// Adds the GPU milliseconds of each effect that the frame drawn last calls for: draws frames with and without the
+// effect in turn, `pairs` of them after one that is not counted. Returns false if interrupted.
+bool addPrices(nlohmann::ordered_json& merged, Session& session, double time, int pairs) {
+  const Settings all = session.settings();
+  session.renderer().setTimerDetail(TimerDetail::frame);
+  const DrawnFrame& frame = session.lastFrame();
+  const std::vector<Effect> effects = effectsOf(session.scene(), frame.state, frame.settings, frame.plan);
+  for (size_t i = 0; i < effects.size(); ++i) {
+    const Settings without = settingsWith(all, settingsWithout(effects[i]));
+    std::vector<double> price;
+    for (int pair = 0; effects[i].calledFor && pair <= pairs && !interruptRequested(); ++pair) {
+      const double with = gpuMs(session, all, time);
+      const double rest = gpuMs(session, without, time);
+      if (pair > 0) {
+        price.push_back(with - rest);
+      }
+    }
+    if (!price.empty()) {
+      merged["effects"][i]["gpu_ms"] = summary(std::move(price));
+    }
+  }
+  return !interruptRequested();
+}
+
+// Draws one frame at a time, so that times of frames do not mix. Returns nothing if interrupted.
+std::optional<nlohmann::ordered_json> measureFrames(Session& session, const Options& options, int measured,
+                                                    Progress& progress) {
+  std::vector<nlohmann::ordered_json> frames;
+  std::vector<std::vector<PassId>> passes;
+  for (int i = 0; i < options.bench.warmup + measured; ++i) {
+    session.draw(options.time, false, untilInterrupted);
+    session.finish();
+    if (i >= options.bench.warmup) {
+      if (!frames.empty()) {
+        frames.back()["skipped"].clear();  // only the last list is merged, and each may be long
+      }
+      frames.push_back(frameStats(session));
+      passes.push_back(passIds(session));
+    }
+    if (!progress.advance()) {
+      return std::nullopt;
+    }
+  }
+  return mergeStats(frames, passes);
+}
+
+// Measures milliseconds from one frame to the next as in a window without panels and vertical sync: the CPU records a
+// frame while the device draws the last one, and passes are not timed. Returns nothing if interrupted.
+std::optional<nlohmann::ordered_json> measureIntervals(Session& session, double time, int measured,
+                                                       Progress& progress) {
+  constexpr int untilTheyOverlap = static_cast<int>(framesInFlight) + 1;
+  std::vector<double> intervals;
+  Clock::time_point last{};
+  session.renderer().setTimerDetail(TimerDetail::frame);
+  for (int i = 0; i < untilTheyOverlap + measured; ++i) {
+    session.draw(time, false, untilInterrupted);
+    const Clock::time_point now = Clock::now();
+    if (i >= untilTheyOverlap) {
+      intervals.push_back(std::chrono::duration<double, std::milli>(now - last).count());
+      progress.advance();
+    }
+    last = now;
+    if (interruptRequested()) {
+      return std::nullopt;
+    }
+  }
+  session.finish();
+  session.renderer().setTimerDetail(TimerDetail::samples);
+  return summary(std::move(intervals));
+}
+
+constexpr const char* benchRow = "{:<40} {:>6} {:>10} {:>10} {:>8} {:>10} {:>10}";
+
+// Prints a row of `merged`; a dash stands for figures that the device does not count.
+void printRow(const nlohmann::ordered_json& row, const std::string& frames, const std::array<const char*, 3>& figures) {
+  const nlohmann::ordered_json& gpu = row["gpu_ms"];
+  const auto ms = [&](const char* key) { return gpu.is_null() ? "-" : fmt::format("{:.3f}", gpu[key].get<double>()); };
+  const auto figure = [&](size_t i) { return row[figures[i]].is_null() ? "-" : row[figures[i]].dump(); };
+  printLine(fmt::format(benchRow, row["name"].get<std::string>(), frames, ms("median"), ms("p95"), figure(0), figure(1),
+                        figure(2)));
+}
+
+void printBench(const nlohmann::ordered_json& merged, int measured) {
+  printLine(fmt::format(benchRow, "pass", "frames", "median ms", "p95 ms", "draws", "triangles", "fragments"));
+  for (const auto& pass : merged["passes"]) {
+    printRow(pass, std::to_string(pass.value("frames", measured)), {"draws", "triangles", "fragments"});
+  }
+  printLine(fmt::format(benchRow, "effect", "", "median ms", "p95 ms", "draws", "bytes", "pipelines"));
+  for (const auto& effect : merged["effects"]) {
+    if (effect["called_for"].get<bool>()) {
+      printRow(effect, "", {"draws", "bytes", "pipelines"});
+    }
+  }
+  for (const char* key : totals) {
+    const auto& total = merged["totals"][key];
+    printLine(fmt::format("{:<40} {:>6} {:>10.3f} {:>10.3f}", key, measured, total["median"].get<double>(),
+                          total["p95"].get<double>()));
+  }
+}
+
+}  // namespace
+
+int runBench(const Options& options) {
+  if (options.bench.tracer && options.bench.prices) {
+    throw UsageError("--reference: measures alone (leave out --prices)");
+  }
+  if (options.bench.tracer) {
+    return benchReference(options);
+  }
+  const int measured = options.frames > 0 ? options.frames : 60;
+  Session session(options);
+  if (std::ranges::count(std::views::keys(options.settings), "reflection.skip_unchanged") == 0) {
+    // All frames have the same time, so with reuse only the first would render mirror images.
+    Settings settings = session.settings();
+    settings.reflection.skipUnchanged = false;
+    session.setSettings(settings);
+  }
+  installInterruptHandler();
+  Progress progress("bench", options.bench.warmup + 2 * measured);
+  std::optional<nlohmann::ordered_json> merged = measureFrames(session, options, measured, progress);
+  const auto intervals = merged ? measureIntervals(session, options.time, measured, progress) : std::nullopt;
+  if (!intervals) {
+    return 1;
+  }
+  (*merged)["totals"]["interval_ms"] = *intervals;
+  if (options.bench.prices && !addPrices(*merged, session, options.time, std::max(5, measured / 4))) {
+    return 1;
+  }
+  printBench(*merged, measured);
+  if (!options.json.empty()) {
+    writeJson(options.json, *merged);
+  }
+  return session.exitCode();
+}
+
+}  // namespace speculum

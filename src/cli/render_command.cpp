@@ -1,0 +1,59 @@
+#include <algorithm>
+
+#include "cli/commands.hpp"
+#include "cli/progress.hpp"
+#include "cli/stats.hpp"
+#include "image/exr.hpp"
+#include "image/picture_files.hpp"
+#include "platform/process.hpp"
+#include "platform/renderdoc_capture.hpp"
+#include "session/output_files.hpp"
+#include "session/session.hpp"
+
+namespace speculum {
+
+namespace {
+
+void savePicture(Session& session, const std::filesystem::path& file) {
+  if (file.extension() == ".exr") {
+    writeExr(file, session.radiance());
+  } else {
+    writePng(file, session.picture());
+  }
+}
+
+}  // namespace
+
+int runRender(const Options& options) {
+  const int count = std::max(1, options.frames);
+  const PictureSequence files(options.out, options.frames > 0 ? count : 0);
+  Session session(options);
+  session.renderer().setTimerDetail(options.render.stats.empty() ? TimerDetail::frame : TimerDetail::samples);
+  installInterruptHandler();
+  Progress progress("render", count * session.settings().view.accumulate);
+  const auto advance = [&] { return progress.advance(); };
+  for (int i = 0; i < count; ++i) {
+    const auto draw = [&] {
+      session.draw(options.time + i / options.render.fps, true, advance);
+      session.finish();
+    };
+    if (options.render.capture && i == 0) {
+      captureWithRenderDoc(*options.render.capture, draw);
+    } else {
+      draw();
+    }
+    if (session.lastFrame().pictures < session.settings().view.accumulate) {
+      return 1;  // interrupted
+    }
+    savePicture(session, files.at(i));
+    if (interruptRequested()) {
+      return 1;
+    }
+  }
+  if (!options.render.stats.empty()) {
+    writeJson(options.render.stats, frameStats(session));
+  }
+  return session.exitCode();
+}
+
+}  // namespace speculum

@@ -1,0 +1,260 @@
+#include "cli/stats.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "compare/statistics.hpp"
+#include "plan/depth_readout.hpp"
+#include "platform/machine.hpp"
+
+namespace speculum {
+
+using nlohmann::ordered_json;
+
+ordered_json summary(std::vector<double> values) {
+  const Spread spread = spreadOf(values);
+  std::ranges::sort(values);
+  const double p95 = values[static_cast<size_t>(std::ceil(0.95 * static_cast<double>(values.size() - 1)))];
+  return {{"median", spread.median}, {"min", spread.minimum}, {"p95", p95}, {"max", values.back()}};
+}
+
+namespace {
+
+// Returns the mirror's name, or its index as a number.
+ordered_json mirrorJson(const Scene& scene, int mirror) {
+  const std::string& name = scene.mirrors[mirror].name;
+  return name.empty() ? ordered_json(mirror) : ordered_json(name);
+}
+
+ordered_json pathJson(const Scene& scene, const MirrorPath& path) {
+  ordered_json json = ordered_json::array();
+  for (const int mirror : path) {
+    json.push_back(mirrorJson(scene, mirror));
+  }
+  return json;
+}
+
+ordered_json metres(const std::optional<double>& value) {
+  return value ? ordered_json(*value) : ordered_json(nullptr);
+}
+
+// Returns the depth resolution of the mirror pass with that path; null for other passes and where only the background
+// is seen.
+ordered_json depthJson(const Session& session, const MirrorPath& path) {
+  const DrawnFrame& frame = session.lastFrame();
+  const Pass* pass = mirrorPass(frame.plan, path);
+  if (!pass) {
+    return nullptr;
+  }
+  const auto readout = depthReadout(*pass, frame.plan.projection, session.scene(), frame.state);
+  if (!readout) {
+    return nullptr;
+  }
+  return {{"distance_m", readout->distance},
+          {"in_use_m", metres(gapWith(*readout, frame.settings.reflection.clip))},
+          {"clip_distance_m", metres(readout->plain)},
+          {"oblique_m", metres(readout->oblique)},
+          {"none_m", metres(readout->plain)}};
+}
+
+// Returns the index of the pass that looks this one's image up; null if none does.
+template <typename Passes>
+ordered_json parentJson(const Passes& passes, const PassId& pass) {
+  if (pass.path.empty()) {
+    return nullptr;
+  }
+  const MirrorPath seenIn(pass.path.begin(), pass.path.end() - 1);
+  const auto parent = std::ranges::find_if(passes, [&](const PassId& other) {
+    return (other.kind == PassKind::mirror || other.kind == PassKind::main) && other.path == seenIn;
+  });
+  return parent == passes.end() ? ordered_json(nullptr) : ordered_json(parent - passes.begin());
+}
+
+ordered_json passesJson(Session& session) {
+  ordered_json passes = ordered_json::array();
+  const std::vector<TimedPass>& all = session.lastFrame().passes();
+  for (const TimedPass& pass : all) {
+    const PassTiming& timing = pass.timing;
+    const bool mirror = pass.kind == PassKind::mirror;
+    const FramePlan& plan = session.lastFrame().plan;
+    const Pass* planned = pass.kind == PassKind::main ? &plan.main() : mirrorPass(plan, pass.path);
+    const PixelRect rect = planned ? planned->view.rect : PixelRect();
+    const int samples = planned ? session.device().sampleCount(planned->quality.samples) : 0;
+    passes.push_back({{"name", pass.name},
+                      {"mirror", mirror ? mirrorJson(session.scene(), pass.path.back()) : ordered_json(nullptr)},
+                      {"path", pathJson(session.scene(), pass.path)},
+                      {"parent", parentJson(all, pass)},
+                      {"depth", mirror ? ordered_json(pass.depth) : ordered_json(nullptr)},
+                      {"gpu_ms", timing.gpuMs},
+                      {"draws", pass.draws},
+                      {"triangles", timing.hasStatistics ? ordered_json(timing.triangles) : ordered_json(nullptr)},
+                      {"fragments", timing.hasStatistics ? ordered_json(timing.fragments) : ordered_json(nullptr)},
+                      {"samples_drawn", timing.hasSamples ? ordered_json(timing.samples) : ordered_json(nullptr)},
+                      {"area_px", pass.areaPx},
+                      {"size", planned ? ordered_json({rect.width, rect.height}) : ordered_json(nullptr)},
+                      {"samples", planned ? ordered_json(samples) : ordered_json(nullptr)},
+                      {"depth_resolution", depthJson(session, pass.path)}});
+  }
+  return passes;
+}
+
+ordered_json skippedJson(const Scene& scene, const FramePlan& plan) {
+  constexpr size_t most = 100'000;  // about 25 MB
+  const std::span<const SkippedMirror> listed(plan.skipped.data(), std::min(plan.skipped.size(), most));
+  ordered_json skipped = ordered_json::array();
+  for (const SkippedMirror& skip : listed) {
+    skipped.push_back({{"mirror", mirrorJson(scene, skip.mirror)},
+                       {"path", pathJson(scene, skip.path)},
+                       {"depth", skip.depth},
+                       {"reason", skipReasonName(skip.reason)},
+                       {"detail", std::string_view(skip.detail)}});
+  }
+  for (const Pass& pass : plan.passes) {
+    if (pass.id.kind == PassKind::shadow && !pass.isLayer && !pass.drawn()) {
+      const SkipReason reason = pass.source == PassSource::reused ? SkipReason::unchanged : SkipReason::outside;
+      skipped.push_back({{"mirror", nullptr},
+                         {"path", ordered_json::array()},
+                         {"depth", nullptr},
+                         {"reason", skipReasonName(reason)},
+                         {"detail", passName(scene, plan, pass)}});
+    }
+  }
+  return skipped;
+}
+
+// Leaves gpu_ms empty; only `bench --prices` measures it, by leaving each effect out in turn.
+ordered_json effectsJson(Session& session) {
+  ordered_json json = ordered_json::array();
+  const DrawnFrame& frame = session.lastFrame();
+  for (const Effect& effect : effectsOf(session.scene(), frame.state, frame.settings, frame.plan)) {
+    const EffectCost& cost = frame.ledger[effect.kind];
+    json.push_back({{"name", effect.name},
+                    {"called_for", effect.calledFor},
+                    {"why", effect.why},
+                    {"gpu_ms", nullptr},
+                    {"draws", cost.draws},
+                    {"bytes", cost.bytes},
+                    {"pipelines", cost.pipelines}});
+  }
+  return json;
+}
+
+ordered_json raysJson(const RayUse& rays) {
+  return {{"method", !rays.traced ? ordered_json(nullptr) : ordered_json(rays.hardware ? "hardware" : "software")},
+          {"why", rays.traced ? rays.why : "nothing visible calls for rays"},
+          {"structures", rays.structures},
+          {"bytes", rays.structureBytes}};
+}
+
+ordered_json mergeObjects(const std::vector<const ordered_json*>& objects) {
+  ordered_json merged = ordered_json::object();
+  for (const auto& [key, value] : objects.back()->items()) {
+    if (key.ends_with("_ms") && value.is_number()) {
+      std::vector<double> values;
+      for (const ordered_json* object : objects) {
+        values.push_back(object->at(key).get<double>());
+      }
+      merged[key] = summary(std::move(values));
+    } else {
+      merged[key] = value;
+    }
+  }
+  return merged;
+}
+
+// A pass with its figures in the frames in which it ran.
+struct GatheredPass : PassId {
+  std::vector<const ordered_json*> figures;
+};
+
+ordered_json mergePasses(const std::vector<ordered_json>& frames, const std::vector<std::vector<PassId>>& ids) {
+  std::vector<GatheredPass> gathered;
+  for (size_t f = 0; f < frames.size(); ++f) {
+    std::ptrdiff_t place = 0;  // behind the pass before
+    for (size_t i = 0; i < ids[f].size(); ++i) {
+      auto pass = std::ranges::find_if(gathered, [&](const PassId& id) { return id == ids[f][i]; });
+      if (pass == gathered.end()) {
+        pass = gathered.insert(gathered.begin() + place, GatheredPass{ids[f][i], {}});
+      }
+      pass->figures.push_back(&frames[f].at("passes").at(i));
+      place = pass - gathered.begin() + 1;
+    }
+  }
+  ordered_json merged = ordered_json::array();
+  for (const GatheredPass& pass : gathered) {
+    merged.push_back(mergeObjects(pass.figures));
+    merged.back()["parent"] = parentJson(gathered, pass);
+    if (pass.figures.size() < frames.size()) {
+      merged.back()["frames"] = pass.figures.size();
+    }
+  }
+  return merged;
+}
+
+}  // namespace
+
+ordered_json frameStats(Session& session) {
+  Device& device = session.device();
+  const DrawnFrame& frame = session.lastFrame();
+  ordered_json json;
+  json["scene"] = session.scene().file.string();
+  json["size"] = {frame.plan.width, frame.plan.height};
+  json["device"] = device.info().name;
+  json["driver"] = device.info().driver;
+  json["render_path"] = renderPathName(device.renderPath());
+  json["settings"] = settingsJson(frame.settings);
+  json["passes"] = passesJson(session);
+  json["skipped"] = skippedJson(session.scene(), frame.plan);
+  json["effects"] = effectsJson(session);
+  json["rays"] = raysJson(frame.ledger.rays);
+  if (const std::optional<QualityChoice>& quality = session.quality()) {
+    json["quality"] = {{"point", quality->point.name},
+                       {"flip", quality->point.whole.flip},
+                       {"gpu_ms", costMs(quality->point)},
+                       {"met", quality->met},
+                       {"why", quality->why}};
+  }
+  json["totals"] = {{"cpu_ms", frame.cpuMs},
+                    {"gpu_ms", frame.gpuMs},
+                    {"frame_ms", frame.frameMs},
+                    {"pictures", frame.pictures},
+                    {"skipped_mirrors", frame.plan.skipped.size()},
+                    {"device_bytes", device.allocatedBytes()},
+                    {"peak_rss_bytes", peakResidentBytes()},
+                    {"pipelines", session.renderer().pipelines().count()},
+                    {"validation_messages", device.validationMessages()}};
+  if (frame.settings.debug.checkFinite) {
+    json["totals"]["non_finite"] = session.sceneRenderer().finiteWatch().count();
+  }
+  return json;
+}
+
+std::vector<PassId> passIds(Session& session) {
+  const std::vector<TimedPass>& passes = session.lastFrame().passes();
+  return {passes.begin(), passes.end()};
+}
+
+ordered_json mergeStats(const std::vector<ordered_json>& frames, const std::vector<std::vector<PassId>>& passes) {
+  ordered_json merged = frames.back();
+  merged["frames"] = frames.size();
+  std::vector<const ordered_json*> totals;
+  for (const ordered_json& frame : frames) {
+    totals.push_back(&frame.at("totals"));
+  }
+  merged["totals"] = mergeObjects(totals);
+  merged["passes"] = mergePasses(frames, passes);
+  return merged;
+}
+
+void writeText(const std::filesystem::path& file, const std::string& text) {
+  std::error_code ignored;
+  std::filesystem::create_directories(file.parent_path(), ignored);
+  replaceFile(file, text);
+}
+
+void writeJson(const std::filesystem::path& file, const ordered_json& json) {
+  writeText(file, json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n");
+}
+
+}  // namespace speculum

@@ -1,0 +1,41 @@
+#include "plan/draw_order.hpp"
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+
+namespace speculum {
+
+std::vector<int> frontToBack(const View& view, std::span<const int> instances, const SceneState& state) {
+  struct Entry {
+    double batch = 0.0;
+    int mesh = 0;
+    double distance = 0.0;
+    int instance = 0;
+    auto key() const { return std::tie(batch, mesh, distance, instance); }
+  };
+  std::map<int, double> nearest;  // of the mesh's instances
+  std::vector<Entry> entries;
+  entries.reserve(instances.size());
+  for (const int i : instances) {
+    const InstanceState& instance = state.instances[i];
+    // To the far end of the bounding sphere, in metres. A room begins nearer to the eye than the objects in it but ends
+    // behind them, so it is drawn after them.
+    const double distance = glm::length(instance.center - view.eye) + instance.radius;
+    const auto [it, isNew] = nearest.try_emplace(instance.mesh, distance);
+    it->second = std::min(it->second, distance);
+    entries.push_back({.mesh = instance.mesh, .distance = distance, .instance = i});
+  }
+  for (Entry& entry : entries) {
+    entry.batch = nearest[entry.mesh];
+  }
+  std::ranges::sort(entries, [](const Entry& a, const Entry& b) { return a.key() < b.key(); });
+  std::vector<int> order;
+  order.reserve(entries.size());
+  for (const Entry& entry : entries) {
+    order.push_back(entry.instance);
+  }
+  return order;
+}
+
+}  // namespace speculum

@@ -1,0 +1,130 @@
+#include "plan/effects.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "plan/scene_names.hpp"
+
+namespace speculum {
+
+namespace {
+
+// Nodes that at least one pass of the plan draws. Passes that cached images replace count too.
+struct Visible {
+  std::set<int> instances;
+  std::set<int> lights;
+  std::set<int> mirrorFronts;
+};
+
+Visible visibleIn(const FramePlan& plan) {
+  Visible visible;
+  forEachSeen(plan, [&](const Pass& pass) {
+    visible.instances.insert(pass.instances.begin(), pass.instances.end());
+    visible.lights.insert(pass.lights.begin(), pass.lights.end());
+    for (const MirrorDraw& draw : pass.mirrors) {
+      if (!draw.back) {
+        visible.mirrorFronts.insert(draw.mirror);
+      }
+    }
+  });
+  return visible;
+}
+
+Effect fresnel(const Scene& scene, const SceneState& state, const Settings& settings, const Visible& visible) {
+  for (const int i : visible.instances) {
+    const int object = state.instances[i].object;
+    const std::optional<ObjectMirror>& mirror = scene.objects[object].mirror;
+    if (settings.effects.curved && mirror && opticsOf(*mirror, settings.effects).fresnel == Fresnel::schlick) {
+      return {EffectKind::fresnel, "fresnel", true, nameOf("object", scene.objects[object].name, object)};
+    }
+  }
+  for (const int i : visible.mirrorFronts) {
+    if (opticsOf(scene.mirrors[i], settings.effects).fresnel == Fresnel::schlick) {
+      return {EffectKind::fresnel, "fresnel", true, nameOf("mirror", scene.mirrors[i].name, i)};
+    }
+  }
+  return {EffectKind::fresnel, "fresnel", false, "no visible mirror asks for it"};
+}
+
+Effect tracedEffect(EffectKind kind, const std::string& name, const std::optional<RecycledString>& caller,
+                    const std::string& otherwise) {
+  return {kind, name, caller.has_value(), caller ? std::string(*caller) : otherwise};
+}
+
+Effect textures(const Scene& scene, const SceneState& state, const Settings& settings, const Visible& visible) {
+  for (const int i : settings.effects.textures ? visible.instances : std::set<int>()) {
+    const InstanceState& instance = state.instances[i];
+    const Mesh& mesh = scene.meshes[instance.mesh];
+    for (const MeshPart& part : mesh.parts) {
+      if (part.material.diffuseTexture >= 0) {
+        return {EffectKind::textures, "textures", true,
+                nameOf("object", scene.objects[instance.object].name, instance.object) + " with " +
+                    mesh.source.filename().string()};
+      }
+    }
+  }
+  return {EffectKind::textures, "textures", false, "no visible object has one"};
+}
+
+Effect glyphs(const Scene& scene, const Visible& visible) {
+  if (visible.lights.empty()) {
+    return {EffectKind::glyphs, "glyphs", false, "no light's glyph is in view"};
+  }
+  const int first = *visible.lights.begin();
+  return {EffectKind::glyphs, "glyphs", true, nameOf("light", scene.lights[first].name, first)};
+}
+
+Effect multisampling(const Settings& settings, const FramePlan& plan) {
+  if (settings.view.samples > 1) {
+    return {EffectKind::msaa, "msaa", true, "view.samples = " + std::to_string(settings.view.samples)};
+  }
+  int samples = 1;  // of mirror images
+  forEachSeen(plan, [&](const Pass& pass) { samples = std::max(samples, pass.quality.samples); });
+  if (samples > 1) {
+    const std::string key = samples == settings.reflection.samples ? "reflection.samples = " : "quality.samples = ";
+    return {EffectKind::msaa, "msaa", true, key + std::to_string(samples)};
+  }
+  const bool mean = settings.view.accumulate > 1;
+  return {EffectKind::msaa, "msaa", false, mean ? "the mean of pictures smooths edges" : "one sample a pixel"};
+}
+
+}  // namespace
+
+std::vector<SettingChange> settingsWithout(const Effect& effect) {
+  switch (effect.kind) {
+    case EffectKind::msaa:
+      return {{"view.samples", "1"}, {"reflection.samples", "1"}};
+    case EffectKind::toneMap:
+      return {{"view.tone_map", "clamp"}};
+    case EffectKind::wireframe:
+      return {{"view.wireframe", "false"}};
+    default:  // switched by its name
+      return {{"effects." + effect.name, "false"}};
+  }
+}
+
+bool drawsTextures(const Scene& scene, const SceneState& state, const Settings& settings, const FramePlan& plan) {
+  return !scene.textures.empty() && textures(scene, state, settings, visibleIn(plan)).calledFor;
+}
+
+std::vector<Effect> effectsOf(const Scene& scene, const SceneState& state, const Settings& settings,
+                              const FramePlan& plan) {
+  const Visible visible = visibleIn(plan);
+  const TracedEffects& traced = plan.effects;
+  const bool aces = settings.view.toneMap == ToneMap::aces;
+  const bool wire = settings.view.wireframe;
+  return {
+      tracedEffect(EffectKind::shadows, "shadows", traced.shadows, "no light casts them on what is drawn"),
+      tracedEffect(EffectKind::roughness, "roughness", traced.roughness, "no visible mirror is rough"),
+      tracedEffect(EffectKind::ripple, "ripple", traced.ripple, "no visible mirror has ripples"),
+      tracedEffect(EffectKind::castsLight, "casts_light", traced.castsLight, "no mirror casts light on what is drawn"),
+      fresnel(scene, state, settings, visible),
+      textures(scene, state, settings, visible),
+      multisampling(settings, plan),
+      {EffectKind::toneMap, "tone_map", aces, aces ? "view.tone_map = aces" : "view.tone_map = clamp"},
+      glyphs(scene, visible),
+      {EffectKind::wireframe, "wireframe", wire, wire ? "view.wireframe = true" : "view.wireframe = false"},
+      tracedEffect(EffectKind::curved, "curved", traced.curved, "no visible object is a mirror")};
+}
+
+}  // namespace speculum

@@ -1,0 +1,130 @@
+#include "plan/environment_map.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <string>
+#include <utility>
+
+#include "plan/scene_names.hpp"
+
+namespace speculum {
+
+namespace {
+
+// Returns the box that surrounds boxes[own]. Each side lies at the near face of the farthest box on that side, such as
+// a wall, or at the far face of a box that encloses the object, such as a room; without either, at the end of the
+// scene.
+Bounds boxAround(size_t own, std::span<const Bounds> boxes) {
+  const Bounds& inner = boxes[own];
+  Bounds all = inner;
+  Bounds around = inner;
+  glm::bvec3 lowFound(false);
+  glm::bvec3 highFound(false);
+  for (size_t i = 0; i < boxes.size(); ++i) {
+    const Bounds& box = boxes[i];
+    all.add(box);
+    const glm::bvec3 above = glm::greaterThanEqual(box.low, inner.high);
+    const glm::bvec3 below = glm::lessThanEqual(box.high, inner.low);
+    const bool encloses = i != own && !glm::any(above) && !glm::any(below);
+    for (int axis = 0; axis < 3; ++axis) {
+      if (above[axis] || encloses) {
+        around.high[axis] = std::max(around.high[axis], encloses ? box.high[axis] : box.low[axis]);
+        highFound[axis] = true;
+      }
+      if (below[axis] || encloses) {
+        around.low[axis] = std::min(around.low[axis], encloses ? box.low[axis] : box.high[axis]);
+        lowFound[axis] = true;
+      }
+    }
+  }
+  around.low = glm::mix(all.low, around.low, lowFound);
+  around.high = glm::mix(all.high, around.high, highFound);
+  return around;
+}
+
+Pass faceOf(const Scene& scene, const SceneState& state, const Cube& map, const Projection& projection, size_t index) {
+  Pass face = planFace({map.center, faceAxes()[index], projection, map.size}, scene, state, false, map.instance);
+  face.id = {.kind = PassKind::environment, .instance = map.instance, .face = static_cast<int>(index)};
+  face.corner = faceCorner(map.size, index);
+  addVisibleLights(face.view, scene, state, map.settings.effects, face);
+  return face;
+}
+
+// Bounds the time and memory of planning: instances of the scene times faces.
+constexpr size_t mostFaceTests = 20'000'000;
+
+// Returns the instances of curved mirrors that the passes draw, ascending.
+RecycledVector<int> drawnCurved(const Scene& scene, const SceneState& state, std::span<const Pass* const> passes) {
+  RecycledVector<int> drawn;
+  for (const Pass* pass : passes) {
+    std::ranges::copy_if(pass->instances, std::back_inserter(drawn),
+                         [&](int i) { return scene.objects[state.instances[i].object].mirror.has_value(); });
+  }
+  std::ranges::sort(drawn);
+  drawn.erase(std::unique(drawn.begin(), drawn.end()), drawn.end());  // Clang 14 does not take std::ranges::unique
+  return drawn;
+}
+
+// Keeps the instances that have maps, ascending.
+void keepWidest(RecycledVector<int>& curved, const SceneState& state) {
+  const size_t most = std::clamp<size_t>(
+      mostFaceTests / (faceAxes().size() * std::max<size_t>(state.instances.size(), 1)), 1, mostEnvironmentMaps);
+  if (curved.size() > most) {
+    const auto width = [&](int i) {
+      const InstanceState& instance = state.instances[i];
+      return instance.radius / std::max(1e-9, glm::length(instance.center - state.camera.eye));
+    };
+    std::ranges::sort(curved, {}, [&](int i) { return std::pair(-width(i), i); });
+    curved.resize(most);
+    std::ranges::sort(curved);
+  }
+}
+
+RecycledString mapName(const Scene& scene, const InstanceState& instance) {
+  const Object& object = scene.objects[instance.object];
+  auto name = nameOf<RecycledString>("object", object.name, instance.object);
+  if (object.copies.count > 1) {
+    name.append(" copy ").append(std::to_string(instance.copy));
+  }
+  return name;
+}
+
+}  // namespace
+
+EnvironmentMaps environmentMaps(const Scene& scene, const SceneState& state, const Settings& settings,
+                                std::span<const Pass* const> passes) {
+  EnvironmentMaps maps;
+  if (!settings.effects.curved || settings.effects.curvedLookup != CurvedLookup::environment) {
+    return maps;
+  }
+  const RecycledVector<Bounds> boxes = boxesOf(scene, state);
+  RecycledVector<int> curved = drawnCurved(scene, state, passes);
+  const size_t drawn = curved.size();
+  keepWidest(curved, state);
+  maps.omitted = drawn - curved.size();
+  for (const int i : curved) {
+    const InstanceState& instance = state.instances[i];
+    const Bounds box = boxAround(static_cast<size_t>(i), boxes);
+    Cube map{.kind = PassKind::environment,
+             .object = instance.object,
+             .copy = instance.copy,
+             .instance = i,
+             .name = mapName(scene, instance),
+             .size = settings.effects.environmentSize,
+             .center = instance.center,
+             .low = box.low,
+             .high = box.high,
+             .settings = settings};
+    Projection projection;
+    projection.focal = static_cast<double>(map.size - 2 * environmentBorder) / map.size;
+    projection.aspect = 1.0;
+    projection.near = nearOf(state, projection);
+    for (size_t face = 0; face < map.faces.size(); ++face) {
+      maps.faces.push_back(faceOf(scene, state, map, projection, face));
+    }
+    maps.cubes.push_back(std::move(map));
+  }
+  return maps;
+}
+
+}  // namespace speculum

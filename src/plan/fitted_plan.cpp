@@ -1,0 +1,167 @@
+#include "plan/fitted_plan.hpp"
+
+#include <algorithm>
+
+#include "plan/image_reuse.hpp"
+#include "plan/picture_offset.hpp"
+#include "plan/shadow_map.hpp"
+#include "plan/target_memory.hpp"
+
+namespace speculum {
+
+namespace {
+
+constexpr double smallestScale = 0.125;
+constexpr double pixelsForRays = 4e5;
+constexpr int smallestMap = 16;  // texels
+constexpr int smallestShadowMap = 64;
+
+// Makes mirror images at most so large. Returns what the message says of it.
+std::string lowerScale(Settings& settings, double scale) {
+  Settings largest;
+  settings.limit.scale = largest.reflection.scale = scale;
+  const bool own = settings.reflection.scale < scale;
+  settings.reflection.scale = std::min(settings.reflection.scale, scale);
+  return (own ? "quality.scale to " : "reflection.scale to ") + settingValue(largest, "reflection.scale");
+}
+
+// `most`: that any mirror asks for.
+bool lower(Settings& settings, const ReflectionSettings& most, const FramePlan& plan, std::string& what) {
+  ReflectionSettings& reflection = settings.reflection;
+  if (most.samples > 1) {
+    settings.limit.samples = most.samples / 2;
+    what = reflection.samples < most.samples ? "quality.samples to " : "reflection.samples to ";
+    what += std::to_string(settings.limit.samples);
+    reflection.samples = std::min(reflection.samples, settings.limit.samples);
+  } else if (settings.view.samples > 1) {
+    settings.view.samples /= 2;
+    what = "view.samples to " + std::to_string(settings.view.samples);
+  } else if (most.scale > smallestScale) {
+    what = lowerScale(settings, std::max(smallestScale, most.scale / 2.0));
+  } else if (!cubesOf(plan.cubes, PassKind::environment).empty() && settings.effects.environmentSize > smallestMap) {
+    settings.effects.environmentSize /= 2;
+    what = "effects.environment_size to " + std::to_string(settings.effects.environmentSize);
+  } else if (!cubesOf(plan.cubes, PassKind::shadow).empty() && settings.effects.shadowMapSize > smallestShadowMap) {
+    settings.effects.shadowMapSize /= 2;
+    what = "effects.shadow_map_size to " + std::to_string(settings.effects.shadowMapSize);
+  } else {
+    return false;
+  }
+  return true;
+}
+
+bool isAutomatic(const Mirror& mirror, const Settings& settings) {
+  return reflectionOf(mirror.quality, settings).method == ReflectionMethod::automatic;
+}
+
+// Says whether a GPU draws the frame faster with rays in the place of mirror images: with one sample a pixel, once a
+// mirror covers much of the picture (docs/scaling.md). More samples were not measured. Only mirrors count that are
+// automatic by `asked`.
+bool raysAreFaster(const FramePlan& plan, const Scene& scene, const Settings& asked) {
+  return asked.view.samples == 1 && std::ranges::any_of(plan.drawnMirrors(), [&](const Pass& pass) {
+           return pass.depth == 0 && pass.areaPx >= pixelsForRays &&
+                  isAutomatic(scene.mirrors[pass.view.path[0]], asked);
+         });
+}
+
+// Sets what automatic mirrors are drawn by.
+void setAutomatic(Settings& settings, const Settings& asked, ReflectionMethod method) {
+  settings.limit.automatic = method;
+  if (asked.reflection.method == ReflectionMethod::automatic) {
+    settings.reflection.method = method;
+  }
+}
+
+void leaveOutRays(Settings& settings, const Scene& scene) {
+  EffectSettings& effects = settings.effects;
+  effects.shadows =
+      effects.shadows && effects.shadowLookup == ShadowLookup::map && shadowLights(scene).size() <= mostShadowMaps;
+  effects.roughness = effects.roughness && effects.roughLookup == ReflectionSource::image;
+  effects.ripple = effects.ripple && effects.rippleLookup == ReflectionSource::image;
+  effects.castsLight = false;
+  effects.curved = effects.curved && effects.curvedLookup == CurvedLookup::environment;
+  settings.reflection.method = ReflectionMethod::raster;
+  settings.limit.rays = false;
+}
+
+std::string mebibytes(uint64_t bytes) {
+  return std::to_string(bytes >> 20) + " MiB";
+}
+
+}  // namespace
+
+FittedPlan planWithin(const TargetLimits& limits, const FrameRequest& request) {
+  const Scene& scene = request.scene;
+  const Settings& settings = request.settings;
+  FrameRequest asked = request;
+  FittedPlan fitted{{}, pictureSettings(settings), {}};
+  const ReflectionSettings most = mostAsked(scene, fitted.settings);
+  const double margins = most.updateInterval > 1 ? 2.0 * largestMargin * request.size.y : 0.0;
+  const auto plan = [&] {
+    asked.settings = fitted.settings;
+    fitted.plan = planFrame(asked);
+  };
+  const auto say = [&](const std::string& what) { fitted.message += (fitted.message.empty() ? "" : "; ") + what; };
+  const double largestScale =
+      limits.largestSide / (settings.view.scale * (std::max(request.size.x, request.size.y) + margins));
+  if (most.scale > largestScale) {
+    Settings largest;
+    largest.reflection.scale = most.scale;
+    say("mirror images of " + settingValue(largest, "reflection.scale") +
+        " times the main view's size are larger than the device's " + std::to_string(limits.largestSide) +
+        " pixels: lowered " + lowerScale(fitted.settings, largestScale));
+  }
+  if (!limits.cpu || !limits.tracesRays) {
+    setAutomatic(fitted.settings, settings, ReflectionMethod::raster);
+  }
+  plan();
+  if (!limits.cpu && limits.tracesRays && raysAreFaster(fitted.plan, scene, pictureSettings(settings))) {
+    setAutomatic(fitted.settings, settings, ReflectionMethod::rays);
+    plan();
+  }
+  if (!limits.tracesRays && fitted.plan.effects.any()) {
+    leaveOutRays(fitted.settings, scene);
+    say("effects.* that trace rays, and reflection.method=rays, are left out: the device lacks geometryShader, storage "
+        "buffers, or room in them for the scene");
+    plan();
+  }
+  int& shadowMapSize = fitted.settings.effects.shadowMapSize;
+  const int wantedSize = shadowMapSize;
+  for (glm::ivec2 extent = shadowExtent(fitted.plan); std::max(extent.x, extent.y) > limits.largestSide; extent /= 2) {
+    shadowMapSize /= 2;
+  }
+  if (shadowMapSize < wantedSize) {
+    say("shadow maps exceed the device's " + std::to_string(limits.largestSide) +
+        " pixels: lowered effects.shadow_map_size to " + std::to_string(shadowMapSize));
+    plan();
+  }
+  // The picture that stays shown was drawn with the samples that were asked for, or as many as fitted.
+  uint64_t kept = 0;
+  if (limits.keepsPicture && (settings.view.accumulate > 1 || settings.quality.stillPictures == 1)) {
+    int samples = settings.view.samples;
+    while (samples > 1 && mainBytes(fitted.plan, samples) > limits.budgetBytes) {
+      samples /= 2;
+    }
+    kept = mainBytes(fitted.plan, samples);
+  }
+  const auto needed = [&] { return kept + targetBytes(fitted.plan, fitted.settings); };
+  if (needed() > limits.budgetBytes && most.updateInterval == 1) {
+    asked.cache.images = {};
+    plan();
+  }
+  const uint64_t wanted = needed();
+  std::string what;
+  std::string lowered;
+  while (needed() > limits.budgetBytes &&
+         lower(fitted.settings, mostAsked(scene, fitted.settings), fitted.plan, what)) {
+    lowered += (lowered.empty() ? "" : ", ") + what;
+    plan();
+  }
+  if (!lowered.empty()) {
+    say("targets of " + mebibytes(wanted) + " do not fit the device's " + mebibytes(limits.budgetBytes) + ": lowered " +
+        lowered);
+  }
+  return fitted;
+}
+
+}  // namespace speculum

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "plan/frame_plan.hpp"
+
+namespace speculum {
+
+struct TargetLimits {
+  uint64_t budgetBytes = 0;   // for all render targets together
+  int largestSide = 0;        // pixels of a picture, at any resolution
+  bool keepsPicture = false;  // the last one stays in memory while a still one is drawn, as in the window
+  bool tracesRays = true;     // the device has gl_PrimitiveID in fragment shaders, and the scene fits storage buffers
+  bool cpu = false;           // the device is a CPU
+};
+
+struct FittedPlan {
+  FramePlan plan;
+  Settings settings;    // as passed in, or lowered
+  std::string message;  // what was lowered and why; empty if nothing was
+};
+
+// Plans with settings lowered until the targets fit the limits. First unchanged images are rendered instead of reused,
+// if that needs less memory. Then these are halved step by step: samples of mirror images, samples of the main view,
+// resolution of mirror images and maps. A plan that still does not fit is returned as it is. Traced effects are left
+// out where the device cannot trace, and reflection.method = auto becomes what is faster. The request's settings become
+// pictureSettings() before anything else.
+FittedPlan planWithin(const TargetLimits& limits, const FrameRequest& request);
+
+// Plans pictures within the limits of a device.
+class PicturePlanner {
+ public:
+  virtual ~PicturePlanner() = default;
+  virtual FittedPlan plan(const FrameRequest& request) = 0;
+};
+
+}  // namespace speculum

@@ -1,0 +1,241 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "geometry/recycled_memory.hpp"
+#include "plan/cached_image.hpp"
+#include "plan/partial_instances.hpp"
+#include "plan/traced_effects.hpp"
+#include "plan/view.hpp"
+#include "settings/settings.hpp"
+
+namespace speculum {
+
+class SceneChanges;
+
+enum class SkipReason {
+  behind,         // behind the eye
+  backface,       // the eye sees its back, or its edge
+  outside,        // outside the view, the mirror it is seen in, or behind that mirror's plane
+  hidden,         // behind occluders
+  minPixels,      // smaller than reflection.min_pixels
+  minThroughput,  // lets less through than reflection.min_throughput
+  maxDepth,       // reflection.max_depth
+  maxPasses,      // reflection.max_passes was spent on better ones
+  unchanged,      // its cached image is reused
+  rays,           // rays show its reflection
+};
+std::string_view skipReasonName(SkipReason reason);
+
+// A mirror that a view draws.
+struct MirrorDraw {
+  int mirror = 0;                      // index into Scene::mirrors
+  bool back = false;                   // its back is seen
+  bool byRays = false;                 // rays show its reflection, not an image of its plane
+  bool blurs = false;                  // rough: the image of its plane is blurred
+  bool ripples = false;                // rippled: the image of its plane is looked up where ripples reflect to
+  int pass = -1;                       // index into FramePlan::passes of the pass that renders its image; -1: none
+  std::optional<CachedLookup> cached;  // set if it reuses a cached image; with neither it shows the background
+  Polygon polygon;                     // world, cut to what the view shows, counter-clockwise for the view's eye
+  Plane plane;                         // world; facing the view's eye
+  int layer = 0;                       // MirrorState::frontLayer or backLayer, by the side that is seen
+};
+
+struct ImageQuality {
+  double scale = 1.0;  // resolution relative to the main view
+  int samples = 1;
+  int interval = 1;  // frames between images of the mirror that is seen directly, with all that is seen in it
+};
+
+enum class PassKind { mirror, environment, shadow, main, accumulation, display, targetDisplay };
+
+// Identifies a pass. Equal for the same pass of different frames.
+struct PassId {
+  PassKind kind = PassKind::mirror;
+  MirrorPath path;    // empty for other passes
+  int instance = -1;  // of an environment map, index into SceneState::instances
+  int light = -1;     // of a shadow map, index into Scene::lights
+  int face = -1;      // of an environment or shadow map, in the order of faceAxes()
+
+  bool operator==(const PassId&) const = default;
+};
+
+// How a frame comes by the image of a pass.
+enum class PassSource {
+  drawn,   // this frame draws it
+  reused,  // an earlier frame drew it; a MirrorDraw says whether it is reprojected
+  unread,  // nothing that is drawn reads it: a shadow map's face
+};
+
+// Tiles first .. end - 1.
+struct TileRange {
+  size_t first = 0;
+  size_t end = 0;
+
+  bool empty() const { return end <= first; }
+  bool operator==(const TileRange&) const = default;
+};
+
+// Part of a shadow map's face that has texels: metres right and down in the plane one metre before the light.
+struct FaceWindow {
+  glm::dvec2 low{0.0};
+  glm::dvec2 high{0.0};
+
+  bool empty() const { return low.x >= high.x || low.y >= high.y; }
+};
+
+// One pass: a view, what is drawn in it, and where its image comes from.
+struct Pass {
+  PassId id;
+  PassSource source = PassSource::drawn;
+  View view;
+  Projection projection;
+  glm::ivec2 corner{0};  // of the view's rectangle in its target, texels
+  int cube = -1;         // index into FramePlan::cubes of the cube that it is a face of; -1: none
+  int layer = -1;        // index into FramePlan::passes of the pass whose image a shadow map's face is drawn over
+  bool isLayer = false;  // the pass is such a layer; it has the id of its face
+  FaceWindow window;     // of a shadow map's face
+  ImageQuality quality;
+  ImageQuality shownIn;           // of the pass that shows the image
+  int depth = -1;                 // recursion depth of its mirror: 0 seen directly, 1 in a mirror; -1 for other passes
+  double areaPx = 0.0;            // area of the mirror's visible region, in texels of its image
+  double throughput = 1.0;        // upper bound over that region, largest channel, including this mirror
+  glm::dvec3 channels{1.0};       // upper bound of each channel
+  RecycledVector<int> instances;  // visible ones, indices into SceneState::instances, ascending
+  RecycledVector<PartialInstance> partial;  // instances that are seen in part, ascending
+  RecycledVector<int> lights;               // lights whose glyphs are visible, indices into Scene::lights
+  RecycledVector<MirrorDraw> mirrors;       // in the order of Scene::mirrors
+
+  bool drawn() const { return source == PassSource::drawn; }
+  bool isFace() const { return id.kind == PassKind::shadow || id.kind == PassKind::environment; }
+};
+
+// Six images about a point, side by side in one target, three to a row, whose faces are passes: the environment map of
+// a curved mirror (effects.curved_lookup = environment) or the shadow map of a light (effects.shadow_lookup = map).
+// docs/effects.md describes both.
+struct Cube {
+  PassKind kind = PassKind::environment;
+  int light = -1;                                    // of a shadow map, index into Scene::lights
+  int object = -1;                                   // of an environment map, index into Scene::objects
+  int copy = 0;                                      // of the object
+  int instance = -1;                                 // index into SceneState::instances
+  RecycledString name;                               // of the light, or of the object and copy, for users
+  int size = 0;                                      // texels of each side of a face
+  std::array<int, 6> faces{-1, -1, -1, -1, -1, -1};  // indices into FramePlan::passes, in the order of faceAxes()
+  glm::dvec3 center{0.0};                            // world, when it was rendered
+  glm::dvec3 low{0.0};                               // world, box of what surrounds the mirror in the present frame
+  glm::dvec3 high{0.0};
+  Settings settings;    // when it was rendered
+  uint64_t serial = 0;  // grows each time that any cube of its kind, or a face of a shadow map, is rendered
+  int age = 1;          // frames since it was rendered or last found unchanged, in the next frame
+  int due = 1;          // age at which it is rendered anew
+  int cacheIndex = -1;  // of an environment map, index into FrameCache::cubes of the one that is reused; -1: none
+  // All that the texels of each face depend on, and of the layer below it; empty if there are none.
+  std::array<RecycledVector<uint64_t>, 6> content;
+  std::array<RecycledVector<uint64_t>, 6> layerContent;
+};
+
+struct SkippedMirror {
+  int mirror = 0;
+  MirrorPath path;  // ends with this one
+  int depth = 0;
+  SkipReason reason = SkipReason::outside;
+  RecycledString detail;
+};
+
+// The main view that the frame before drew.
+struct MainImage {
+  Settings settings;
+  RecycledVector<uint64_t> content;  // FramePlan::mainContent
+};
+
+// Images of the frame before that this frame may reuse.
+struct FrameCache {
+  std::span<const CachedImage> images;    // FramePlan::cached of that frame
+  std::span<const Cube> cubes;            // FramePlan::cubes
+  const MainImage* main = nullptr;        // null: the main view is drawn in any case
+  const SceneChanges* changes = nullptr;  // up to this frame; null: unchanged images are not looked for
+};
+
+// A picture to plan: a scene at one moment.
+struct FrameRequest {
+  const Scene& scene;
+  const SceneState& state;
+  Settings settings;   // as they are asked for
+  glm::ivec2 size{0};  // of the picture, pixels
+  FrameCache cache;    // what the frame before left
+  int picture = 0;     // number in the mean of view.accumulate pictures
+};
+
+// A frame is one list of passes. Those that draw are recorded in its order: faces of shadow maps, each after its layer,
+// faces of environment maps, mirrors, children before their parent, and the main view. Passes that the frame reuses
+// stand in the list too: what they show is on the screen. Those of mirrors stand before the mirrors that are drawn.
+struct FramePlan {
+  Projection projection;  // of all passes but faces
+  int width = 0;          // pixels of the picture
+  int height = 0;
+  int picture = 0;                                                    // index in the mean of view.accumulate pictures
+  RecycledVector<Pass> passes{Pass{.id = {.kind = PassKind::main}}};  // the last is the main view
+  // Shadow maps of the lights that may cast shadows, in the order of lights, then environment maps of the curved
+  // mirrors that are drawn, `instance` ascending.
+  RecycledVector<Cube> cubes;
+  RecycledVector<uint64_t> mainContent;  // imageContent() of the main view if it shows cached images only; else empty
+  RecycledVector<SkippedMirror> skipped;
+  RecycledVector<CachedImage> cached;  // reused or rendered by this frame; the next one may reuse them
+  TracedEffects effects;               // that all of these passes call for
+  // Tiles that this frame draws of a picture that several frames draw (picture_tiles.hpp); none: it draws all.
+  std::optional<TileRange> tiles;
+
+  const Pass& main() const { return passes.back(); }
+  Pass& main() { return passes.back(); }
+  // The frame before drew the same main view or mean, which is shown again.
+  bool mainReused() const { return !main().drawn(); }
+  // Mirror passes that the frame draws. They stand side by side in the list.
+  std::span<const Pass> drawnMirrors() const;
+  // Mirror passes of the picture that the frame shows: those that it draws or, if it shows the last picture again,
+  // those that drew that.
+  std::span<const Pass> shownMirrors() const;
+};
+
+// Cubes of one kind, which stand side by side.
+std::span<const Cube> cubesOf(std::span<const Cube> cubes, PassKind kind);
+
+// Visits all passes but those of shadow maps: what they draw reaches the eye.
+template <typename Visit>
+void forEachSeen(const FramePlan& plan, const Visit& visit) {
+  for (const Pass& pass : plan.passes) {
+    if (pass.id.kind != PassKind::shadow) {
+      visit(pass);
+    }
+  }
+}
+
+// Name for users, such as "mirror wall > mirror door" or "shadow map of light 'lamp' +x".
+std::string passName(const Scene& scene, const FramePlan& plan, const Pass& pass);
+
+// Returns the one of shownMirrors() with that path; null if there is none.
+const Pass* mirrorPass(const FramePlan& plan, std::span<const int> path);
+
+// Finds the passes that a picture needs, and why every other mirror has none. Pure. The budget of passes goes to the
+// best first, by visible pixels times throughput. The main view has view.scale times as many texels along each side,
+// rounded, and mirror images reflection.scale times as many as that, unless a mirror has a quality of its own. An image
+// in an image has no more texels and samples than the one that shows it.
+//
+// With reflection.skip_unchanged, a mirror seen directly reuses its image in `cache.images` if everything that the
+// image depends on is exactly as it was. With reflection.update_interval above 1, it also does so while the image is
+// younger than its due age, was drawn under the same settings and covers what is seen. The budget of passes is spent as
+// if every image were rendered, so that no image depends on which others are reused.
+//
+// `cache.cubes` are reused likewise, by reflection.skip_unchanged and effects.environment_interval. With
+// reflection.skip_unchanged and without view.continuous, so is the main view if it is exactly as it was.
+//
+// A picture of a mean is planned at its offset, under pictureSettings(). If its number is view.accumulate or more, the
+// mean is complete and is shown again: mainReused().
+FramePlan planFrame(const FrameRequest& request);
+
+}  // namespace speculum

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <utility>
+
+#include "geometry/recycled_memory.hpp"
+#include "plan/cached_image.hpp"
+#include "plan/frame_plan.hpp"
+#include "plan/scene_changes.hpp"
+
+namespace speculum {
+
+// Largest margin around an image that is cached, as a part of the picture's height. Margins are as wide as the motion
+// of the last frames calls for.
+inline constexpr double largestMargin = 0.1;
+
+// A mirror seen directly, whose image may be reused and is cached.
+struct ReuseRequest {
+  const View& view;  // of the mirror's pass, without a margin
+  const Projection& projection;
+  std::span<const glm::dvec3> visible;  // world; visible region of the mirror
+  const Settings& settings;
+  int samples = 1;   // a texel of the image
+  int interval = 1;  // frames between two images
+  int order = 0;     // number of the mirror in order of discovery; new images become due in turn by it
+};
+
+struct ImageChoice {
+  CachedImage image;   // a cached one if it serves; else this frame's, whose view has the margin
+  bool moved = false;  // whether view or mirror moved since the cached image was rendered
+};
+
+// Chooses the image that a mirror shows, by the cached one's age, what it covers and the settings it was drawn under.
+ImageChoice chooseImage(std::span<const CachedImage> images, const ReuseRequest& request);
+
+// State that all images of a frame share.
+struct ImageSurroundings {
+  const Scene& scene;
+  const SceneState& state;
+  const Settings& settings;
+  const Projection& projection;
+  const TracedEffects& effects;                   // of all passes
+  const SceneChanges* changes;                    // up to this frame; null: unchanged images are not looked for
+  RecycledVector<std::pair<int, uint64_t>> maps;  // environment maps that may be looked up: instance, their serial
+  uint64_t shadowSerial = 0;                      // largest Cube::serial of a shadow map
+};
+
+// Returns, as numbers, everything but settings, meshes and textures that the image of a mirror depends on: views, what
+// they show, and when any of that last changed. Images with equal content, under settings that sameMirrorImages() calls
+// equal, are the same bit for bit. `passes` are the mirror's and those of all mirrors seen in it. If any of them traces
+// rays or looks up an environment map, the image depends on the whole scene, and on the time if rays may meet ripples.
+// `around` has changes.
+RecycledVector<uint64_t> imageContent(const ImageSurroundings& around, const View& main,
+                                      std::span<const Pass* const> passes);
+
+// Returns, as numbers, everything that the texels of a shadow map's face depend on if `casters` are drawn into it.
+RecycledVector<uint64_t> shadowContent(const SceneChanges& changes, const Pass& face, const Pass& casters);
+
+// Reuses the cached image of the same mirror if `image`, which this frame would render, is the same bit for bit. `main`
+// is the view that both are seen in; `passes` are as for imageContent().
+void reuseIfUnchanged(CachedImage& image, std::span<const CachedImage> images, const ImageSurroundings& around,
+                      const View& main, std::span<const Pass* const> passes);
+
+// Reuses the main view `before` of the last frame (null: none) if the plan, whose passes must be complete, would draw
+// the same main view with the same images.
+void reuseMain(FramePlan& plan, const MainImage* before, const ImageSurroundings& around);
+
+// Says whether settings draw the same image bit for bit. debug.* counts too, which sameMirrorImages leaves out.
+bool sameDrawing(const Settings& a, const Settings& b);
+
+}  // namespace speculum

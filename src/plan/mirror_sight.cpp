@@ -1,0 +1,97 @@
+#include "plan/mirror_sight.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace speculum {
+
+namespace {
+
+// Tracing this many samples takes about as long as rendering a pass on lavapipe (docs/scaling.md).
+constexpr double samplesOfAPass = 1500.0;
+
+// Returns the visible part of a mirror's polygon. Of one so large that cuts near the eye would be off by a part of the
+// eye's height, only what is not at the horizon is cut, in its plane.
+Polygon visiblePart(const View& view, const MirrorState& mirror, double height) {
+  constexpr double large = 1e12;       // heights of the eye
+  constexpr double leastMetres = 1e9;  // smaller mirrors lose no strip
+  constexpr double horizon = 1e9;
+  const double farthest = farthestDistance(view.eye, mirror.polygon);
+  if (height == 0.0 || farthest < std::max(large * std::abs(height), leastMetres)) {
+    return visiblePart(view, mirror.polygon);
+  }
+  Polygon part(mirror.polygon.begin(), mirror.polygon.end());
+  for (const glm::dvec3& axis : {mirror.axisX, -mirror.axisX, mirror.axisY, -mirror.axisY}) {
+    part = clipPolygon(part, {view.eye + horizon * std::abs(height) * axis, -axis});
+  }
+  for (glm::dvec3& p : part) {
+    p -= (glm::dot(mirror.normal, p - view.eye) + height) * mirror.normal;
+  }
+  return visiblePart(view, part);
+}
+
+}  // namespace
+
+double heightAbove(const MirrorState& mirror, const glm::dvec3& eye) {
+  const double height = glm::dot(mirror.normal, eye - mirror.origin);
+  return std::abs(height) > 1e-15 * (glm::length(eye) + glm::length(mirror.origin)) ? height : 0.0;
+}
+
+bool showsBack(const Mirror& mirror, double height) {
+  return height <= 0.0 && !(mirror.twoSided && height < 0.0);
+}
+
+MirrorDraw facingDraw(const MirrorState& mirror, int index, double height, bool back, const View& drawn) {
+  MirrorDraw draw{.mirror = index, .plane = {mirror.origin, mirror.normal}};
+  draw.back = back;
+  draw.layer = height < 0.0 ? mirror.backLayer : mirror.frontLayer;
+  draw.polygon = visiblePart(drawn, mirror, height);
+  if (height < 0.0) {
+    draw.plane.normal = -draw.plane.normal;
+    std::ranges::reverse(draw.polygon);
+  }
+  return draw;
+}
+
+Sight sightOf(const Scene& scene, const SceneState& state, const View& view, const View& drawn, int mirror) {
+  const MirrorState& geometry = state.mirrors[mirror];
+  Sight sight{.height = heightAbove(geometry, view.eye)};
+  sight.visible = visiblePart(view, geometry, sight.height);
+  if (!sight.visible.empty()) {
+    sight.draw = facingDraw(geometry, mirror, sight.height, showsBack(scene.mirrors[mirror], sight.height), drawn);
+  }
+  return sight;
+}
+
+glm::dvec3 reflectanceBound(const MirrorOptics& optics, const Plane& plane, const glm::dvec3& eye,
+                            std::span<const glm::dvec3> visible) {
+  if (optics.fresnel == Fresnel::none) {
+    return optics.reflectance;
+  }
+  double farthest = 0.0;
+  for (const glm::dvec3& p : visible) {
+    farthest = std::max(farthest, glm::length(p - eye));
+  }
+  return optics.reflectanceAt(farthest > 0.0 ? plane.distance(eye) / farthest : 1.0);
+}
+
+std::string_view whyRays(const MirrorQuality& own, const MirrorOptics& optics, const Settings& settings, bool reflects,
+                         double samples) {
+  const EffectSettings& effects = settings.effects;
+  if (optics.ripple && effects.rippleLookup == ReflectionSource::traced) {
+    return "ripples";
+  }
+  if (!reflects) {
+    return "";
+  }
+  if (optics.alpha > 0.0 && effects.roughLookup == ReflectionSource::traced) {
+    return "rough";
+  }
+  const ReflectionMethod method = reflectionOf(own, settings).method;
+  if (method == ReflectionMethod::automatic && samples < samplesOfAPass) {
+    return "faster, since it covers few pixels";
+  }
+  return method != ReflectionMethod::rays ? "" : own.method ? "quality.method" : "reflection.method";
+}
+
+}  // namespace speculum

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <span>
+
+#include "plan/frame_plan.hpp"
+
+namespace speculum {
+
+// A mirror as the eye of a view sees it.
+struct Sight {
+  MirrorDraw draw;      // before settings are applied; empty if nothing is visible
+  double height = 0.0;  // heightAbove() of the view's eye
+  Polygon visible;      // world; visible region
+};
+
+// Returns the signed distance of the eye from the mirror's plane, metres, positive before the front; exactly 0 where
+// rounding cannot tell the side. Coordinates are rounded, so the threshold grows with their distance from the origin.
+double heightAbove(const MirrorState& mirror, const glm::dvec3& eye);
+
+// Says whether an eye `height` metres before the mirror's front sees no reflection, but its back or its edge.
+bool showsBack(const Mirror& mirror, double height);
+
+// Returns mirror number `index` as an eye `height` metres before its front sees it: the side, plane and polygon, cut by
+// `drawn`, that face the eye.
+MirrorDraw facingDraw(const MirrorState& mirror, int index, double height, bool back, const View& drawn);
+
+// Finds what a view sees of a mirror. `drawn` is the view, widened by what is drawn beyond its edge. Polygons are cut
+// by it before they are drawn, because floats are too coarse for the depth near the eye of a polygon whose vertices lie
+// far outside the view.
+Sight sightOf(const Scene& scene, const SceneState& state, const View& view, const View& drawn, int mirror);
+
+// Upper bound of the reflectance of what is visible. Schlick's F grows towards grazing; the flattest view of a polygon
+// is that of its farthest vertex.
+glm::dvec3 reflectanceBound(const MirrorOptics& optics, const Plane& plane, const glm::dvec3& eye,
+                            std::span<const glm::dvec3> visible);
+
+// Returns why rays show what a mirror with this quality of its own reflects, which is seen in `samples` samples:
+// because its method says so, or because an image of its plane cannot; empty if an image shows it. At a limit of depth
+// or throughput the mirror reflects the background alone, so only ripples count.
+std::string_view whyRays(const MirrorQuality& own, const MirrorOptics& optics, const Settings& settings, bool reflects,
+                         double samples);
+
+}  // namespace speculum

@@ -1,0 +1,288 @@
+#include "plan/occlusion.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "geometry/polygon.hpp"
+#include "plan/scene_names.hpp"
+
+namespace speculum {
+
+namespace {
+
+// Rounding of what is drawn on the GPU, as a part of its size; floats are off by 1e-7 of it.
+constexpr double roundingPart = 1e-5;
+// Largest numbers of a view's mirrors and of its instances that are tested. Testing all against each other takes time
+// in the square of their number, and those that look small hide little.
+constexpr size_t mostTested = 512;
+// Limits of the search for several occluders: pieces of the polygon that are not hidden yet, and occluders.
+constexpr size_t mostPieces = 24;
+constexpr size_t mostOccluders = 64;
+
+FlatOccluder flatOccluder(std::span<const glm::dvec3> polygon, double size) {
+  FlatOccluder made{.plane = {polygon[0], glm::normalize(newellVector(polygon))}, .slack = roundingPart * size};
+  for (const glm::dvec3& p : polygon) {
+    made.slack = std::max(made.slack, 2.0 * std::abs(made.plane.distance(p)));
+  }
+  made.center = vertexMean(polygon);
+  made.radius = farthestDistance(made.center, polygon);
+  made.polygon = distinctVertices(polygon, 0.01 * made.slack);
+  return made;
+}
+
+BodyOccluder bodyOccluder(const ConvexMesh& mesh, const InstanceState& state) {
+  BodyOccluder whole{.mesh = &mesh, .slack = roundingPart * state.radius};
+  for (const glm::dvec3& p : mesh.points) {
+    whole.points.push_back(state.worldFromMesh.point(p));
+  }
+  for (const auto& [a, b, c] : mesh.triangles) {
+    whole.normals.push_back(newellVector(std::array{whole.points[a], whole.points[b], whole.points[c]}));
+  }
+  return whole;
+}
+
+// Filters occluders at little cost. Keeps those that look large enough to matter, unless they lie wholly behind the
+// polygon's plane or outside the cone from the eye through its edges.
+class Prefilter {
+ public:
+  // `plane` is the polygon's.
+  Prefilter(const glm::dvec3& eye, std::span<const glm::dvec3> polygon, const Plane& plane) : polygon_(polygon) {
+    constexpr double least = 0.4;  // of the polygon's own angle
+    const glm::dvec3 center = vertexMean(polygon);
+    leastRadius_ = least * farthestDistance(center, polygon);
+    distance_ = glm::length(center - eye);
+    before_.eye = eye;
+    before_.clip = {plane.point, plane.distance(eye) < 0.0 ? -plane.normal : plane.normal};
+    before_.cone = coneThrough(eye, polygon);
+  }
+
+  // Says whether an occluder of `radius` looks large enough at that point of the sphere that is nearest to the eye.
+  bool looksLarge(const glm::dvec3& center, double sphereRadius, double radius) const {
+    const glm::dvec3 fromEye = center - before_.eye;
+    const double large = radius * distance_ + leastRadius_ * sphereRadius;
+    return large * large >= leastRadius_ * leastRadius_ * glm::dot(fromEye, fromEye);
+  }
+  // Sees what lies before the polygon.
+  const View& before() const { return before_; }
+  // Says whether a corner lies beyond a plane.
+  bool reachesBeyond(const Plane& plane) const {
+    const double side = plane.distance(before_.eye);
+    return std::ranges::any_of(polygon_, [&](const glm::dvec3& p) { return side * plane.distance(p) < 0.0; });
+  }
+
+ private:
+  std::span<const glm::dvec3> polygon_;
+  View before_;
+  double leastRadius_ = 0.0;  // of an occluder as far away as the polygon's middle
+  double distance_ = 0.0;     // from the eye to that middle
+};
+
+}  // namespace
+
+Occlusion::Occlusion(const Scene& scene, const SceneState& state, const Settings& settings,
+                     const Projection& projection)
+    : scene_(scene), state_(state), settings_(settings), projection_(projection) {
+  for (const MirrorState& mirror : state.mirrors) {
+    double size = 0.0;
+    for (const glm::dvec3& p : mirror.polygon) {
+      size = std::max(size, glm::length(p - mirror.polygon[0]));
+    }
+    mirrors_.push_back({.occluder = flatOccluder(mirror.polygon, size)});
+  }
+  for (const Mesh& mesh : scene.meshes) {
+    double largest = 0.0;
+    for (const std::vector<glm::dvec3>& face : mesh.faces) {
+      largest = std::max(largest, farthestDistance(vertexMean(face), face));
+    }
+    largestFaces_.push_back(mesh.radius > 0.0 ? largest / mesh.radius : 0.0);
+  }
+}
+
+Occlusion::Body& Occlusion::bodyOf(int instance) {
+  const auto [entry, isNew] = bodies_.try_emplace(instance);
+  Body& body = entry->second;
+  if (isNew) {
+    const InstanceState& state = state_.instances[instance];
+    const Mesh& mesh = scene_.meshes[state.mesh];
+    if (!mesh.convex.triangles.empty()) {
+      body.whole = bodyOccluder(mesh.convex, state);
+    }
+    body.faces.reserve(mesh.faces.size());
+    Polygon polygon;
+    for (const std::vector<glm::dvec3>& face : mesh.faces) {
+      polygon.clear();
+      for (const glm::dvec3& p : face) {
+        polygon.push_back(state.worldFromMesh.point(p));
+      }
+      if (std::isnormal(polygonArea(polygon))) {
+        body.faces.push_back({.occluder = flatOccluder(polygon, state.radius)});
+      }
+    }
+  }
+  return body;
+}
+
+const OccludedRegion* Occlusion::regionOf(Face& face) const {
+  if (std::exchange(face.view, viewNumber_) != viewNumber_) {
+    face.hides = hiddenByFace(face.occluder, *view_, projection_, face.region);
+  }
+  return face.hides ? &face.region : nullptr;
+}
+
+const BodyRegion* Occlusion::regionOf(Body& body) const {
+  if (std::exchange(body.view, viewNumber_) != viewNumber_) {
+    body.region = body.whole.mesh ? hiddenByBody(body.whole, *view_, projection_) : std::nullopt;
+  }
+  return body.region ? &*body.region : nullptr;
+}
+
+bool Occlusion::Occluders::add(const OccludedRegion& region, const HalfSpace* also, const Occluder& of,
+                               const glm::dvec3& eye, std::span<const glm::dvec3> polygon) {
+  bool all = true;
+  const auto meets = [&](const HalfSpace& half) {
+    const auto within = std::ranges::count_if(polygon, [&](const glm::dvec3& p) { return half.at(p - eye) > 0.0; });
+    all = all && within == std::ssize(polygon);
+    return within > 0;
+  };
+  if ((also && !meets(*also)) || !std::ranges::all_of(region, meets)) {
+    return false;
+  }
+  if (all) {
+    whole = of;
+    return true;
+  }
+  Occluder& part = parts.emplace_back(of);
+  if (also) {
+    part.region.push_back(*also);
+  }
+  part.region.insert(part.region.end(), region.begin(), region.end());
+  return false;
+}
+
+// Finds the first occluder that hides all of `polygon`, a part of `mirror`, or else those that hide a part of it.
+Occlusion::Occluders Occlusion::occludersOf(int mirror, std::span<const glm::dvec3> polygon) {
+  const glm::dvec3& eye = view_->eye;
+  Occluders found;
+  const Prefilter prefilter(eye, polygon, mirrors_[mirror].occluder.plane);
+  const auto addFace = [&](Face& face, const Occluder& of) {
+    if (!prefilter.looksLarge(face.occluder.center, face.occluder.radius, face.occluder.radius) ||
+        !hullVisible(prefilter.before(), face.occluder.polygon) || !prefilter.reachesBeyond(face.occluder.plane)) {
+      return false;
+    }
+    const OccludedRegion* region = regionOf(face);
+    return region && found.add(*region, nullptr, of, eye, polygon);
+  };
+  for (const int i : viewMirrors_) {
+    if (i != mirror && addFace(mirrors_[i], {.isMirror = true, .index = i})) {
+      return found;
+    }
+  }
+  for (const int i : viewInstances_) {
+    const InstanceState& instance = state_.instances[i];
+    const Mesh& mesh = scene_.meshes[instance.mesh];
+    const double widest = mesh.convex.points.empty() ? instance.radius * largestFaces_[instance.mesh] : instance.radius;
+    if (!prefilter.looksLarge(instance.center, instance.radius, widest) ||
+        !boxVisible(prefilter.before(), instance.worldFromMesh, mesh.halfExtent)) {
+      continue;
+    }
+    Body& body = bodyOf(i);
+    if (const BodyRegion* region = regionOf(body)) {
+      const bool before = isBefore(body.whole, mirrors_[mirror].occluder, eye);
+      if (found.add(region->outline, before ? nullptr : &region->beyond, {.index = i}, eye, polygon)) {
+        return found;
+      }
+    }
+    if (std::ranges::any_of(body.faces, [&](Face& face) { return addFace(face, {.index = i}); })) {
+      return found;
+    }
+  }
+  return found;
+}
+
+RecycledString Occlusion::nameOfOccluder(const Occluder& occluder) const {
+  if (occluder.isMirror) {
+    return nameOf<RecycledString>("mirror", scene_.mirrors[occluder.index].name, occluder.index);
+  }
+  const int object = state_.instances[occluder.index].object;
+  return nameOf<RecycledString>("object", scene_.objects[object].name, object);
+}
+
+bool Occlusion::skips(const View& view) const {
+  // An oblique depth buffer may keep another order, so nothing is hidden.
+  const bool oblique = settings_.reflection.clip == ClipMethod::oblique && view.clip;
+  return settings_.debug.skipHidden && !settings_.view.wireframe && !oblique;
+}
+
+void Occlusion::setView(const View& view, std::span<const int> instances, RecycledVector<int> mirrors) {
+  view_ = &view;
+  ++viewNumber_;
+  // Mirrors are drawn only where the view shows them, not in the margin that is read around it.
+  viewMirrors_ = std::move(mirrors);
+  viewInstances_.assign(instances.begin(), instances.end());
+  if (mirrors_.empty() || !skips(view)) {
+    return;
+  }
+  // Keeps those that fill the widest angles at the eye, in their order.
+  const auto keepLargest = [&](RecycledVector<int>& candidates, const auto& sphereOf) {
+    if (candidates.size() > mostTested) {
+      const auto angle = [&](int i) {
+        const auto [center, radius] = sphereOf(static_cast<size_t>(i));
+        return radius / std::max(glm::length(center - view.eye) - radius, 1e-300);
+      };
+      std::ranges::nth_element(candidates, candidates.begin() + mostTested, {},
+                               [&](int i) { return std::pair(-angle(i), i); });
+      candidates.resize(mostTested);
+      std::ranges::sort(candidates);
+    }
+  };
+  keepLargest(viewMirrors_,
+              [&](size_t i) { return std::pair(mirrors_[i].occluder.center, mirrors_[i].occluder.radius); });
+  keepLargest(viewInstances_,
+              [&](size_t i) { return std::pair(state_.instances[i].center, state_.instances[i].radius); });
+}
+
+std::optional<RecycledString> Occlusion::hiddenBy(int mirror, std::span<const glm::dvec3> polygon) {
+  if (!skips(*view_) || polygon.empty()) {
+    return std::nullopt;
+  }
+  const Occluders found = occludersOf(mirror, polygon);
+  return found.whole ? nameOfOccluder(*found.whole) : hiddenTogether(found.parts, polygon);
+}
+
+// Cuts the occluded regions off the polygon one after the other, until no piece is left.
+std::optional<RecycledString> Occlusion::hiddenTogether(std::span<const Occluder> occluders,
+                                                        std::span<const glm::dvec3> polygon) const {
+  RecycledVector<Polygon> pieces = {{polygon.begin(), polygon.end()}};
+  RecycledVector<const Occluder*> used;
+  for (const Occluder& occluder : occluders.first(std::min(occluders.size(), mostOccluders))) {
+    RecycledVector<Polygon> left = outside(occluder.region, view_->eye, pieces);
+    if (left == pieces || left.size() > mostPieces) {
+      continue;
+    }
+    pieces = std::move(left);
+    used.push_back(&occluder);
+    if (pieces.empty()) {
+      return namesOf(used);
+    }
+  }
+  return std::nullopt;
+}
+
+RecycledString Occlusion::namesOf(std::span<const Occluder* const> occluders) const {
+  RecycledVector<RecycledString> names;  // each once
+  for (const Occluder* occluder : occluders) {
+    const RecycledString name = nameOfOccluder(*occluder);
+    if (std::ranges::find(names, name) == names.end()) {
+      names.push_back(name);
+    }
+  }
+  RecycledString all = names[0];
+  for (size_t i = 1; i < names.size(); ++i) {
+    all += (i + 1 < names.size() ? ", " : " and ") + names[i];
+  }
+  return all;
+}
+
+}  // namespace speculum

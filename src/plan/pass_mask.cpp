@@ -1,0 +1,102 @@
+#include "plan/pass_mask.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace speculum {
+
+namespace {
+
+// Returns the rectangle's corners in device coordinates, with z = 0.
+Polygon corners(const View& view) {
+  const glm::dvec2 step = 2.0 / view.pictureSize;
+  const double x0 = view.rect.x * step.x - 1.0;
+  const double y0 = view.rect.y * step.y - 1.0;
+  const double x1 = (view.rect.x + view.rect.width) * step.x - 1.0;
+  const double y1 = (view.rect.y + view.rect.height) * step.y - 1.0;
+  return {{x0, y0, 0.0}, {x1, y0, 0.0}, {x1, y1, 0.0}, {x0, y1, 0.0}};
+}
+
+// Says whether the polygon's edges are long enough and its corners far enough from straight that no triangle of its fan
+// loses its area when the GPU snaps vertices to a grid of 1/256 of a pixel or coarser. If a draw has such a triangle,
+// lavapipe leaves out the others too.
+bool isWellShaped(std::span<const glm::dvec3> polygon, const glm::dvec2& step) {
+  constexpr double shortest = 1.0 / 8.0;
+  constexpr double flattest = 1.0 / 32.0;
+  const size_t n = polygon.size();
+  for (size_t i = 0; i < n; ++i) {
+    const glm::dvec2 before = glm::dvec2(polygon[(i + n - 1) % n] - polygon[i]) / step;
+    const glm::dvec2 after = glm::dvec2(polygon[(i + 1) % n] - polygon[i]) / step;
+    const double height = std::abs(before.x * after.y - before.y * after.x) / glm::length(after - before);
+    if (!(glm::length(after) >= shortest) || !(height >= flattest)) {
+      return false;
+    }
+  }
+  return n >= 3;
+}
+
+}  // namespace
+
+// At the screen's resolution a pixel reads one texel. The mask holds all samples of that texel, because a driver may
+// shade at another point where only some of them pass the depth test. At other resolutions, and in cached images, a
+// pixel reads a box about its centre, which may lie half a pixel outside the edge. The box is as wide as a pixel, or as
+// a texel if that is wider, and half a texel more on each side for the samples.
+double lookupReach(const Pass& pass, const Settings& settings, bool standardLocations) {
+  const ImageQuality& image = pass.quality;
+  if (image.scale != 1.0 || pass.shownIn.scale != 1.0 || image.interval > 1) {
+    return cachedLookupReach(image);
+  }
+  // Standard locations of 2, 4 and 8 samples, from the texel's middle.
+  const auto farthest = [&](int samples) { return standardLocations ? 0.5 - 0.5 / std::min(samples, 8) : 0.5; };
+  const int most = std::max({image.samples, pass.shownIn.samples, settings.view.samples});
+  return farthest(most) + farthest(image.samples);
+}
+
+double cachedLookupReach(const ImageQuality& quality) {
+  return std::max(quality.scale, 1.0) + 1.0;
+}
+
+std::vector<glm::dvec2> passMask(const View& view, const Projection& projection, double reach) {
+  constexpr double rounding = 0.1;  // pixels; bound of the rounding of float positions on the GPU
+  const glm::dvec2 step = 2.0 / view.pictureSize;
+  const glm::dvec2 perDevice(projection.aspect / projection.focal, 1.0 / projection.focal);
+  Polygon part = corners(view);
+  bool cut = false;
+  for (const glm::dvec3& normal : view.cone) {
+    // The plane's line on the screen, as in widen().
+    const glm::dvec3 n = view.worldToView * normal;
+    const glm::dvec3 line(n.x * perDevice.x, -n.y * perDevice.y, 0.0);
+    const glm::dvec2 perPixel = glm::abs(step * glm::dvec2(line));
+    const double offset = -n.z - glm::dot(glm::dvec2(line), projection.offset) + reach * (perPixel.x + perPixel.y) +
+                          rounding * glm::length(perPixel);
+    const double length2 = glm::dot(line, line);
+    if (length2 == 0.0) {
+      continue;
+    }
+    // Moves the cut outwards until the polygon is well shaped, or makes none: the mask may be larger than needed.
+    for (const double outwards : {0.0, 0.25, 0.5, 1.0}) {
+      const double moved = offset + outwards * glm::length(perPixel);
+      const auto inside = [&](const glm::dvec3& p) { return glm::dot(line, p) + moved >= 0.0; };
+      if (std::ranges::all_of(part, inside)) {
+        break;
+      }
+      Polygon rest = clipPolygon(part, Plane{line * (-moved / length2), line});
+      if (isWellShaped(rest, step)) {
+        part = std::move(rest);
+        cut = true;
+        break;
+      }
+    }
+  }
+  if (!cut) {
+    return {};
+  }
+  std::vector<glm::dvec2> mask;
+  mask.reserve(part.size());
+  for (const glm::dvec3& p : part) {
+    mask.emplace_back(p);
+  }
+  return mask;
+}
+
+}  // namespace speculum

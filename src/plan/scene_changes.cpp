@@ -1,0 +1,67 @@
+#include "plan/scene_changes.hpp"
+
+#include <algorithm>
+#include <bit>
+
+#include "plan/content_numbers.hpp"
+
+namespace speculum {
+
+namespace {
+
+struct PlacementParts {
+  Affine worldFromMesh;
+  int object;
+  int mesh;
+};
+
+}  // namespace
+
+void SceneChanges::update(const Scene& scene, const SceneState& state) {
+  ++update_;
+  if (placements_.size() != state.instances.size() || mirrors_.size() != scene.mirrors.size()) {
+    any_ = update_;
+  }
+  objects_.resize(scene.objects.size());
+  for (size_t i = 0; i < scene.objects.size(); ++i) {
+    ContentNumbers content;
+    content.add(scene.objects[i]);
+    note(content.take(), objects_[i]);
+    any_ = std::max(any_, objects_[i].changed);
+  }
+  const size_t known = std::min(placements_.size(), state.instances.size());
+  placements_.resize(state.instances.size());
+  placed_.resize(state.instances.size());
+  drawn_.resize(state.instances.size());
+  for (size_t i = 0; i < state.instances.size(); ++i) {
+    const InstanceState& instance = state.instances[i];
+    const auto placement =
+        std::bit_cast<Placement>(PlacementParts{instance.worldFromMesh, instance.object, instance.mesh});
+    if (i >= known || placement != placements_[i]) {
+      placements_[i] = placement;
+      placed_[i] = any_ = update_;
+    }
+    drawn_[i] = std::max(placed_[i], objects_[static_cast<size_t>(instance.object)].changed);
+  }
+  mirrors_.resize(scene.mirrors.size());
+  for (size_t i = 0; i < scene.mirrors.size(); ++i) {
+    const MirrorState& placed = state.mirrors[i];
+    ContentNumbers content;
+    content.addAll(placed.polygon, placed.origin, placed.normal, placed.axisX, placed.axisY, scene.mirrors[i]);
+    note(content.take(), mirrors_[i]);
+    any_ = std::max(any_, mirrors_[i].changed);
+  }
+  ContentNumbers lights;
+  for (size_t i = 0; i < scene.lights.size(); ++i) {
+    lights.addAll(state.lights[i].position, scene.lights[i]);
+  }
+  note(lights.take(), lights_);
+}
+
+void SceneChanges::note(RecycledVector<uint64_t> content, Tracked& tracked) {
+  if (tracked.changed == 0 || content != tracked.content) {
+    tracked = {std::move(content), update_};
+  }
+}
+
+}  // namespace speculum

@@ -1,0 +1,247 @@
+#include "plan/shadow_map.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "plan/scene_names.hpp"
+
+namespace speculum {
+
+namespace {
+
+// Width of the smallest window, metres in the plane one metre before the light: smaller ones would show the rounding
+// of directions.
+constexpr double smallestWindow = 1e-3;
+
+// Widens a face where boxes beside it are told from those in it: the edge of a drawn triangle may reach beyond its box
+// by a part of a pixel.
+constexpr double margin = 1.05;
+
+constexpr FaceWindow nothing{glm::dvec2(1.0), glm::dvec2(-1.0)};
+
+// Returns the part of the face in which the box is seen: nothing if the box lies beyond one of the face's sides, the
+// whole face if it reaches behind the light.
+FaceWindow windowOf(const Bounds& box, const glm::dvec3& center, const FaceAxes& axes) {
+  const glm::dvec3 right = glm::cross(axes.forward, axes.up);
+  FaceWindow seen{glm::dvec2(1e300), glm::dvec2(-1e300)};
+  bool before = false;
+  bool behind = false;
+  glm::bvec2 allLow(true);   // all corners lie left of, or above, the face
+  glm::bvec2 allHigh(true);  // right of it, or below
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::dvec3 p =
+        glm::mix(box.low, box.high, glm::bvec3((corner & 1) != 0, (corner & 2) != 0, (corner & 4) != 0)) - center;
+    const double w = glm::dot(p, axes.forward);
+    before = before || w > 0.0;
+    behind = behind || !(w > 1e-6 * glm::length(p));
+    const glm::dvec2 side(glm::dot(p, right), -glm::dot(p, axes.up));
+    for (int axis = 0; axis < 2; ++axis) {
+      allLow[axis] = allLow[axis] && side[axis] < -margin * w;
+      allHigh[axis] = allHigh[axis] && side[axis] > margin * w;
+    }
+    if (!behind) {
+      seen.low = glm::min(seen.low, side / w);
+      seen.high = glm::max(seen.high, side / w);
+    }
+  }
+  if (!before || glm::any(allLow) || glm::any(allHigh)) {
+    return nothing;
+  }
+  if (behind) {
+    return {glm::dvec2(-1.0), glm::dvec2(1.0)};
+  }
+  return {glm::max(seen.low, -1.0), glm::min(seen.high, 1.0)};
+}
+
+// Moves the sides outwards to a grid, so that a window stays the same while something in it moves a little.
+FaceWindow onGrid(FaceWindow window) {
+  for (int axis = 0; axis < 2; ++axis) {
+    const double width = std::max(window.high[axis] - window.low[axis], smallestWindow);
+    const double step = std::exp2(std::floor(std::log2(width))) / 8.0;
+    window.low[axis] = std::max(std::floor(window.low[axis] / step) * step, -1.0);
+    window.high[axis] = std::min(std::ceil(window.high[axis] / step) * step, 1.0);
+    if (window.high[axis] - window.low[axis] < smallestWindow) {
+      const double middle =
+          std::clamp(0.5 * (window.low[axis] + window.high[axis]), smallestWindow - 1.0, 1.0 - smallestWindow);
+      window.low[axis] = middle - 0.5 * smallestWindow;
+      window.high[axis] = middle + 0.5 * smallestWindow;
+    }
+  }
+  return window;
+}
+
+// Returns the projection of an image that shows the window within its border.
+Projection projectionOf(const FaceWindow& window, int size, double near) {
+  const glm::dvec2 scale =
+      2.0 / (window.high - window.low) * static_cast<double>(size - 2 * shadowBorder) / static_cast<double>(size);
+  Projection projection;
+  projection.focal = scale.y;
+  projection.aspect = scale.y / scale.x;
+  projection.near = near;
+  projection.offset = -0.5 * scale * (window.low + window.high);
+  return projection;
+}
+
+// Returns the world directions from the eye to the corners of the view's rectangle.
+std::array<glm::dvec3, 4> cornerRays(const View& view, const Projection& projection) {
+  const glm::dmat3 viewToWorld = glm::transpose(view.worldToView);
+  std::array<glm::dvec3, 4> rays;
+  for (int corner = 0; corner < 4; ++corner) {
+    const glm::dvec2 pixel(view.rect.x + (corner & 1) * view.rect.width,
+                           view.rect.y + (corner >> 1) * view.rect.height);
+    const glm::dvec2 device = 2.0 * pixel / view.pictureSize - 1.0 - projection.offset;
+    rays[static_cast<size_t>(corner)] =
+        viewToWorld * glm::dvec3(device.x * projection.aspect / projection.focal, -device.y / projection.focal, -1.0);
+  }
+  return rays;
+}
+
+// Says whether all rays from `eye` stay on the plane's negative side.
+bool liesBehind(const glm::dvec3& normal, double height, std::span<const glm::dvec3> rays) {
+  return height < 0.0 && std::ranges::all_of(rays, [&](const glm::dvec3& ray) { return glm::dot(normal, ray) <= 0.0; });
+}
+
+// Says whether the pyramids of two views may meet; false only if a side of one of them separates them.
+bool mayMeet(const View& a, std::span<const glm::dvec3> raysOfA, const View& b, std::span<const glm::dvec3> raysOfB) {
+  const auto separates = [](const View& sides, const View& other, std::span<const glm::dvec3> rays) {
+    return (sides.clip && liesBehind(sides.clip->normal, sides.clip->distance(other.eye), rays)) ||
+           std::ranges::any_of(sides.cone, [&](const glm::dvec3& normal) {
+             return liesBehind(normal, glm::dot(normal, other.eye - sides.eye), rays);
+           });
+  };
+  return !separates(a, b, raysOfB) && !separates(b, a, raysOfA);
+}
+
+// Returns columns and rows of maps in their target, so that it is about a square.
+glm::ivec2 gridOf(size_t maps) {
+  const int count = static_cast<int>(maps);
+  const int columns = static_cast<int>(std::ceil(std::sqrt(2.0 * count / 3.0)));
+  return {columns, (count + columns - 1) / columns};
+}
+
+// Returns the corner of a map's face in the target, in texels.
+glm::ivec2 shadowCorner(size_t maps, int size, size_t map, size_t face) {
+  const int columns = gridOf(maps).x;
+  const glm::ivec2 place(static_cast<int>(map) % columns, static_cast<int>(map) / columns);
+  return size * glm::ivec2(3, 2) * place + faceCorner(size, face);
+}
+
+class FacePlanner {
+ public:
+  FacePlanner(const Scene& scene, const SceneState& state, const Settings& settings,
+              std::span<const ShadowReader> readers)
+      : scene_(scene), state_(state), settings_(settings), readers_(readers), boxes_(boxesOf(scene, state)) {
+    for (const ShadowReader& reader : readers) {
+      rays_.push_back(cornerRays(reader.readable, *reader.projection));
+    }
+  }
+
+  Pass plan(const glm::dvec3& center, const FaceAxes& axes) const {
+    Pass face{.source = PassSource::unread};
+    FaceWindow window = nothing;
+    for (const Bounds& box : boxes_) {
+      if (const FaceWindow seen = windowOf(box, center, axes); !seen.empty()) {
+        window = {glm::min(window.low, seen.low), glm::max(window.high, seen.high)};
+      }
+    }
+    if (window.empty()) {
+      return face;
+    }
+    window = onGrid(window);
+    const int size = settings_.effects.shadowMapSize;
+    face.projection = projectionOf(window, size, nearOf(state_, Projection()));  // of a whole face of the cube
+    const CubeFace cube{center, axes, face.projection, size};
+    face.view = viewOf(cube);
+    const std::array<glm::dvec3, 4> rays = cornerRays(face.view, face.projection);
+    RecycledVector<const Pass*> near;
+    for (size_t i = 0; i < readers_.size(); ++i) {
+      if (mayMeet(face.view, rays, readers_[i].readable, rays_[i])) {
+        near.push_back(readers_[i].pass);
+      }
+    }
+    if (!near.empty()) {
+      face = planFace(cube, scene_, state_, settings_.debug.cullClusters);
+      const bool read = std::ranges::any_of(near, [&](const Pass* pass) { return hasReceiver(face, *pass); });
+      face.source = read ? PassSource::drawn : PassSource::unread;
+    }
+    face.window = window;
+    return face;
+  }
+
+ private:
+  // Says whether the face contains something that the pass draws and that the light may fall on.
+  bool hasReceiver(const Pass& face, const Pass& pass) const {
+    const RecycledVector<int>& drawn = face.instances;
+    return std::ranges::any_of(pass.instances, [&](int i) { return std::ranges::binary_search(drawn, i); }) ||
+           std::ranges::any_of(pass.mirrors, [&](const MirrorDraw& draw) {
+             const Mirror& mirror = scene_.mirrors[static_cast<size_t>(draw.mirror)];
+             return (draw.back ? mirror.backColor : mirror.baseColor) != glm::dvec3(0.0) &&
+                    std::ranges::any_of(face.mirrors, [&](const MirrorDraw& in) { return in.mirror == draw.mirror; });
+           });
+  }
+
+  const Scene& scene_;
+  const SceneState& state_;
+  const Settings& settings_;
+  std::span<const ShadowReader> readers_;
+  RecycledVector<std::array<glm::dvec3, 4>> rays_;  // of the readers
+  RecycledVector<Bounds> boxes_;
+};
+
+}  // namespace
+
+PlannedCubes shadowMaps(const Scene& scene, const SceneState& state, const Settings& settings,
+                        std::span<const ShadowReader> readers) {
+  const FacePlanner planner(scene, state, settings, readers);
+  const RecycledVector<int> lights = shadowLights(scene);
+  PlannedCubes maps;
+  for (const int light : lights) {
+    const glm::dvec3& center = state.lights[static_cast<size_t>(light)].position;
+    const Cube& map = maps.cubes.emplace_back(
+        Cube{.kind = PassKind::shadow,
+             .light = light,
+             .name = nameOf<RecycledString>("light", scene.lights[static_cast<size_t>(light)].name, light),
+             .size = settings.effects.shadowMapSize,
+             .center = center});
+    for (size_t face = 0; face < map.faces.size(); ++face) {
+      Pass& pass = maps.faces.emplace_back(planner.plan(center, faceAxes()[face]));
+      pass.id = {.kind = PassKind::shadow, .light = light, .face = static_cast<int>(face)};
+      pass.corner = shadowCorner(lights.size(), map.size, maps.cubes.size() - 1, face);
+    }
+  }
+  return maps;
+}
+
+std::optional<size_t> onlyShadowFace(const FramePlan& plan) {
+  std::optional<size_t> only;
+  for (const Pass& pass : plan.passes) {
+    const auto face = static_cast<size_t>(pass.id.face);
+    if (pass.id.kind != PassKind::shadow || pass.window.empty()) {
+      continue;
+    }
+    if (only.value_or(face) != face) {
+      return std::nullopt;
+    }
+    only = face;
+  }
+  return only;
+}
+
+bool rendersShadows(const FramePlan& plan) {
+  return std::ranges::any_of(plan.passes,
+                             [](const Pass& pass) { return pass.id.kind == PassKind::shadow && pass.drawn(); });
+}
+
+bool hasShadowLayers(const FramePlan& plan) {
+  return std::ranges::any_of(plan.cubes, [](const Cube& cube) {
+    return std::ranges::any_of(cube.layerContent, [](const auto& content) { return !content.empty(); });
+  });
+}
+
+glm::ivec2 shadowExtent(const FramePlan& plan) {
+  const std::span<const Cube> maps = cubesOf(plan.cubes, PassKind::shadow);
+  return maps.empty() ? glm::ivec2(0) : glm::ivec2(3, 2) * gridOf(maps.size()) * maps[0].size;
+}
+
+}  // namespace speculum

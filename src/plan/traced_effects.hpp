@@ -1,0 +1,67 @@
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "geometry/recycled_memory.hpp"
+#include "scene/scene_state.hpp"
+#include "settings/settings.hpp"
+
+namespace speculum {
+
+struct Pass;
+
+// A light that a mirror bounces to something that is drawn.
+struct BouncedLight {
+  int light = 0;   // index into Scene::lights
+  int mirror = 0;  // index into Scene::mirrors
+};
+
+// Lights that cast shadows and are not black, indices into Scene::lights, ascending.
+RecycledVector<int> shadowLights(const Scene& scene);
+
+// Effects that may need rays, and what of them traces rays in this frame. An effect names the first node that calls for
+// it, if anything drawn does.
+struct TracedEffects {
+  std::optional<RecycledString> shadows;
+  bool shadowMaps = false;  // what is drawn looks shadows up in maps
+  bool shadowRays = false;  // what is drawn, or what reflected rays meet, traces them
+  std::optional<RecycledString> roughness;
+  bool roughRays = false;  // roughness is traced, not looked up in images
+  std::optional<RecycledString> ripple;
+  bool rippleRays = false;  // ripples are traced, not looked up in images
+  std::optional<RecycledString> castsLight;
+  std::optional<RecycledString> curved;
+  bool curvedRays = false;  // curved mirrors are traced, not looked up in environment maps
+  bool mirrorRays = false;  // smooth mirrors are traced, not shown by images
+  RecycledVector<BouncedLight> bouncedLights;
+
+  // Says whether any ray is traced through the scene's triangles.
+  bool traces() const { return shadowRays || reflects(); }
+  // Says whether rays follow reflections. They may meet anything in the scene.
+  bool reflects() const { return roughRays || curvedRays || rippleRays || mirrorRays; }
+  bool any() const { return traces() || castsLight; }
+  // Returns the rays that a traced point sends to lights: one to each of shadowLights(), two by way of a mirror.
+  size_t raysToLights(const Scene& scene) const {
+    return shadowRays ? shadowLights(scene).size() + 2 * bouncedLights.size() : 0;
+  }
+};
+
+// Most lights whose shadows are looked up; a scene with more traces them.
+inline constexpr size_t mostShadowMaps = 16;
+
+// Finds the effects that these passes call for, under settings.effects. Pure.
+TracedEffects tracedEffects(const Scene& scene, const SceneState& state, const Settings& settings,
+                            std::span<const Pass* const> passes);
+
+// Effects of a scene that rays or maps show, unless the settings leave them out.
+struct AskedEffects {
+  bool shadows = false;
+  bool castsLight = false;
+  bool ripple = false;
+  bool rough = false;
+  bool curved = false;
+};
+AskedEffects askedEffects(const Scene& scene, const EffectSettings& settings = {});
+
+}  // namespace speculum

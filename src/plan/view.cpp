@@ -1,0 +1,207 @@
+#include "plan/view.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtx/component_wise.hpp>
+
+#include "geometry/reflection.hpp"
+
+namespace speculum {
+
+namespace {
+
+// Angle at the eye below which an edge is taken to point at the eye and bounds nothing: rounding turns the plane
+// through a shorter edge by more than 1e-7.
+constexpr double shortestEdge = 1e-9;
+
+// Returns the vector times a power of two, exactly, with its largest coordinate between 1 and 2: products of such
+// vectors cannot underflow.
+glm::dvec3 scaledToOne(const glm::dvec3& v) {
+  const double largest = glm::compMax(glm::abs(v));
+  if (largest == 0.0) {
+    return v;
+  }
+  const int exponent = std::ilogb(largest);
+  return {std::scalbn(v.x, -exponent), std::scalbn(v.y, -exponent), std::scalbn(v.z, -exponent)};
+}
+
+// Returns the polygon cut by the clip plane alone.
+Polygon clippedPart(const View& view, std::span<const glm::dvec3> polygon) {
+  if (!view.clip) {
+    return {polygon.begin(), polygon.end()};
+  }
+  double reach = 0.0;
+  double highest = -1e300;
+  for (const glm::dvec3& p : polygon) {
+    reach = std::max({reach, glm::length(p - view.clip->point), glm::length(p - polygon[0])});
+    highest = std::max(highest, view.clip->distance(p));
+  }
+  // A mirror in the plane of the mirror it would be seen in is not seen; rounding must not lift it off that plane.
+  if (highest <= 1e-12 * reach) {
+    return {};
+  }
+  return clipPolygon(polygon, *view.clip);
+}
+
+}  // namespace
+
+// Stays below the eye's distance from each mirror's plane, because a mirror's view sees what lies behind that plane,
+// and below the distance of each object.
+double nearOf(const SceneState& state, const Projection& projection) {
+  const glm::dvec3& eye = state.camera.eye;
+  // Depth is measured along the axis. In a corner of the picture that is this part of the distance.
+  const double depthPart =
+      1.0 / glm::length(glm::dvec3(projection.aspect / projection.focal, 1.0 / projection.focal, 1.0));
+  double near = std::min(state.camera.near, Projection().near);
+  for (const MirrorState& mirror : state.mirrors) {
+    near = std::min(near, 0.5 * depthPart * std::abs(glm::dot(mirror.normal, eye - mirror.origin)));
+  }
+  for (const InstanceState& instance : state.instances) {
+    const double outside = glm::length(eye - instance.center) - instance.radius;
+    near = std::min(near, depthPart * std::max(0.5 * outside, 0.001 * instance.radius));
+  }
+  constexpr double smallest = 1e-20;  // depth has to stay a float
+  return std::max(near, smallest);
+}
+
+View mainView(const CameraPose& camera, const Projection& projection, int width, int height) {
+  View view;
+  view.eye = camera.eye;
+  view.worldToView = camera.worldToView;
+  view.rect = {0, 0, width, height};
+  view.pictureSize = glm::dvec2(width, height);
+  boundByRectangle(view, projection);
+  return view;
+}
+
+void boundByRectangle(View& view, const Projection& projection) {
+  const double fx = projection.focal / projection.aspect;
+  const double fy = projection.focal;
+  const glm::dvec2 first(view.rect.x, view.rect.y);
+  const glm::dvec2 last(view.rect.x + view.rect.width, view.rect.y + view.rect.height);
+  const glm::dvec2 low = 2.0 * first / view.pictureSize - 1.0 - projection.offset;
+  const glm::dvec2 high = 2.0 * last / view.pictureSize - 1.0 - projection.offset;
+  const glm::dmat3 viewToWorld = glm::transpose(view.worldToView);
+  view.cone.clear();
+  // The planes are x - low.x w, high.x w - x, high.y w - y, y - low.y w >= 0 in clip space without offset, with w = -z
+  // and y down.
+  for (const glm::dvec3& n :
+       {glm::dvec3(fx, 0, low.x), glm::dvec3(-fx, 0, -high.x), glm::dvec3(0, fy, -high.y), glm::dvec3(0, -fy, low.y)}) {
+    view.cone.push_back(viewToWorld * glm::normalize(n));
+  }
+}
+
+// In device coordinates without offset, a plane's line on the screen is nx / fx x - ny / fy y - nz = 0. A pixel
+// outwards changes the constant by the gradient's length in pixels.
+void widen(View& view, const Projection& projection, int pixels) {
+  const glm::dvec2 step = 2.0 / view.pictureSize;
+  for (glm::dvec3& normal : view.cone) {
+    glm::dvec3 n = view.worldToView * normal;
+    const glm::dvec2 gradient = step * glm::dvec2(n.x * projection.aspect / projection.focal, n.y / projection.focal);
+    n.z -= pixels * glm::length(gradient);
+    normal = glm::transpose(view.worldToView) * glm::normalize(n);
+  }
+  view.rect = {view.rect.x - pixels, view.rect.y - pixels, view.rect.width + 2 * pixels, view.rect.height + 2 * pixels};
+}
+
+glm::dvec2 overscan(const View& view) {
+  const glm::dvec2 low(view.rect.x, view.rect.y);
+  const glm::dvec2 high = low + glm::dvec2(view.rect.width, view.rect.height) - view.pictureSize;
+  // Rectangles are whole pixels and so may exceed a picture size that is not whole; floor() drops the excess.
+  const glm::dvec2 beyond = glm::max(-low, glm::floor(high));
+  return 1.0 + 2.0 * glm::max(beyond, 0.0) / view.pictureSize;
+}
+
+RecycledVector<glm::dvec3> coneThrough(const glm::dvec3& eye, std::span<const glm::dvec3> polygon) {
+  glm::dvec3 inside(0.0);
+  for (const glm::dvec3& p : polygon) {
+    inside += p - eye;
+  }
+  RecycledVector<glm::dvec3> cone;
+  for (size_t i = 0; i < polygon.size(); ++i) {
+    const glm::dvec3 a = scaledToOne(polygon[i] - eye);
+    const glm::dvec3 b = scaledToOne(polygon[(i + 1) % polygon.size()] - eye);
+    const glm::dvec3 n = glm::cross(a, b);
+    const double length = glm::length(n);
+    if (length <= shortestEdge * glm::length(a) * glm::length(b)) {
+      continue;
+    }
+    cone.push_back(glm::dot(n, inside) < 0.0 ? n / -length : n / length);
+  }
+  return cone;
+}
+
+View reflectedView(const View& parent, int mirror, const Plane& plane, std::span<const glm::dvec3> visible,
+                   const PixelRect& rect, const glm::dvec2& pictureSize) {
+  View view;
+  view.eye = reflectPoint(parent.eye, plane);
+  view.worldToView = parent.worldToView * reflectionLinear(plane.normal);
+  view.clip = plane;
+  view.cone = coneThrough(view.eye, visible);
+  view.rect = rect;
+  view.pictureSize = pictureSize;
+  view.path = parent.path;
+  view.path.push_back(mirror);
+  return view;
+}
+
+bool hullVisible(const View& view, std::span<const glm::dvec3> points) {
+  const auto reaches = [&](const Plane& plane) {
+    return std::ranges::any_of(points, [&](const glm::dvec3& p) { return plane.distance(p) >= 0.0; });
+  };
+  return (!view.clip || reaches(*view.clip)) && std::ranges::all_of(view.cone, [&](const glm::dvec3& normal) {
+           return reaches({view.eye, normal});
+         });
+}
+
+Polygon visiblePart(const View& view, std::span<const glm::dvec3> polygon) {
+  // Takes no memory: most mirrors of a large scene lie beyond one of the planes.
+  if (!hullVisible(view, polygon)) {
+    return {};
+  }
+  Polygon part = clippedPart(view, polygon);
+  for (const glm::dvec3& normal : view.cone) {
+    if (part.size() < 3) {
+      return {};
+    }
+    const Plane plane{view.eye, normal};
+    if (!std::ranges::all_of(part, [&](const glm::dvec3& p) { return plane.distance(p) >= 0.0; })) {
+      part = clipPolygon(part, plane);
+    }
+  }
+  return part.size() < 3 ? Polygon() : part;
+}
+
+bool sphereVisible(const View& view, const glm::dvec3& center, double radius) {
+  if (view.clip && view.clip->distance(center) < -radius) {
+    return false;
+  }
+  return std::ranges::all_of(view.cone,
+                             [&](const glm::dvec3& normal) { return glm::dot(normal, center - view.eye) >= -radius; });
+}
+
+bool boxVisible(const View& view, const Affine& worldFromBox, const glm::dvec3& halfExtent) {
+  const glm::dvec3 axes(glm::length(worldFromBox.linear[0]), glm::length(worldFromBox.linear[1]),
+                        glm::length(worldFromBox.linear[2]));
+  const double rounding = 1e-5 * glm::dot(axes, halfExtent);  // bound of float rounding on the GPU
+  const auto reach = [&](const glm::dvec3& normal) {
+    return glm::dot(glm::abs(normal * worldFromBox.linear), halfExtent) + rounding;
+  };
+  if (view.clip && view.clip->distance(worldFromBox.translation) < -reach(view.clip->normal)) {
+    return false;
+  }
+  return std::ranges::all_of(view.cone, [&](const glm::dvec3& normal) {
+    return glm::dot(normal, worldFromBox.translation - view.eye) >= -reach(normal);
+  });
+}
+
+RecycledVector<glm::dvec4> toClip(const View& view, const Projection& projection, std::span<const glm::dvec3> polygon) {
+  RecycledVector<glm::dvec4> clip;
+  clip.reserve(polygon.size());
+  for (const glm::dvec3& p : polygon) {
+    clip.push_back(projection.clip(view.worldToView * (p - view.eye)));
+  }
+  return clip;
+}
+
+}  // namespace speculum

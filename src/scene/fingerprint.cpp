@@ -1,0 +1,109 @@
+#include "scene/fingerprint.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include "scene/scene_fields.hpp"
+
+namespace speculum {
+
+namespace {
+
+static_assert(sizeof(Vertex) == 8 * sizeof(double) && sizeof(glm::vec3) == 3 * sizeof(float),
+              "padding would make equal content differ");
+
+void addValue(Fingerprint& fingerprint, const std::string& text) {
+  fingerprint.add(text);
+}
+
+template <int size>
+void addValue(Fingerprint& fingerprint, const glm::vec<size, double>& v) {
+  for (int i = 0; i < size; ++i) {
+    fingerprint.add(v[i]);
+  }
+}
+
+template <typename T>
+requires std::is_arithmetic_v<T> || std::is_enum_v<T>
+void addValue(Fingerprint& fingerprint, T value) {
+  fingerprint.add(static_cast<double>(value));
+}
+
+template <typename T>
+void addValue(Fingerprint& fingerprint, const std::optional<T>& value);
+template <typename T>
+void addValue(Fingerprint& fingerprint, const std::vector<T>& values);
+
+// Adds all that is drawn of a node: no name, and of a model not its path.
+template <Described Node>
+void addValue(Fingerprint& fingerprint, const Node& node) {
+  forEachField<Node>([&](const auto& field) {
+    if (field.use != FieldUse::label && field.key != "model") {
+      addValue(fingerprint, node.*field.member);
+    }
+  });
+}
+
+template <typename T>
+void addValue(Fingerprint& fingerprint, const std::optional<T>& value) {
+  fingerprint.add(value.has_value());
+  if (value) {
+    addValue(fingerprint, *value);
+  }
+}
+
+template <typename T>
+void addValue(Fingerprint& fingerprint, const std::vector<T>& values) {
+  fingerprint.add(values.size());
+  for (const T& value : values) {
+    addValue(fingerprint, value);
+  }
+}
+
+void addMesh(Fingerprint& fingerprint, const Mesh& mesh) {
+  addValue(fingerprint, mesh.center);
+  fingerprint.add(std::as_bytes(std::span(mesh.vertices)));
+  fingerprint.add(std::as_bytes(std::span(mesh.indices)));
+  for (const MeshPart& part : mesh.parts) {
+    fingerprint.add(part.firstIndex);
+    addValue(fingerprint, part.material.diffuse);
+    addValue(fingerprint, part.material.specular);
+    addValue(fingerprint, part.material.emission);
+    fingerprint.add(part.material.shininess);
+    fingerprint.add(part.material.diffuseTexture);
+  }
+}
+
+}  // namespace
+
+void Fingerprint::add(std::span<const std::byte> bytes) {
+  state_ = fnv1a(bytes, state_);
+}
+
+void Fingerprint::add(std::string_view text) {
+  add(static_cast<uint64_t>(text.size()));
+  add(std::as_bytes(std::span(text)));
+}
+
+std::string Fingerprint::hex() const {
+  return fmt::format("{:016x}", state_);
+}
+
+void addScene(Fingerprint& fingerprint, const Scene& scene) {
+  addValue(fingerprint, scene.environment);
+  addValue(fingerprint, scene.camera);
+  addValue(fingerprint, scene.objects);
+  addValue(fingerprint, scene.lights);
+  addValue(fingerprint, scene.mirrors);
+  for (const Object& object : scene.objects) {
+    fingerprint.add(object.mesh);
+  }
+  for (const Mesh& mesh : scene.meshes) {
+    addMesh(fingerprint, mesh);
+  }
+  for (const Texture& texture : scene.textures) {
+    fingerprint.add(texture.width);
+    fingerprint.add(std::as_bytes(std::span(texture.texels)));
+  }
+}
+
+}  // namespace speculum

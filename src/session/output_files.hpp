@@ -1,0 +1,52 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "scene/scene.hpp"
+#include "session/options.hpp"
+
+namespace speculum {
+
+// The files that a command reads or writes. Different paths to a file, also through links, count as the same. Leaves
+// out devices and pipes, because writing does not replace them.
+class UsedFiles {
+ public:
+  // Adds a file, with words that name it in an error. Ignores an empty path.
+  void add(std::string_view words, const std::filesystem::path& file);
+  // Throws UsageError if an option's output is one of the files.
+  void requireUnused(std::string_view option, const std::filesystem::path& file);
+
+ private:
+  static bool isReplaced(const std::filesystem::path& file);
+  // Resolves the links of each folder only once.
+  std::filesystem::path resolved(const std::filesystem::path& file);
+
+  std::map<std::filesystem::path, std::string> used_;
+  std::map<std::filesystem::path, std::filesystem::path> folders_;
+};
+
+// Refuse an output that would replace another output or a file that the command reads. The first checks files that
+// options name, the second the file of the loaded scene, its models, materials and textures. Devices and pipes may be
+// named twice. Throw UsageError.
+void requireFilesOfTheirOwn(const Options& options);
+void requireFilesOfTheirOwn(const Options& options, const Scene& scene);
+
+// Names the file of each picture of a sequence. The pattern has one %d or %0Nd, or none for a single picture. Throws
+// UsageError for endings other than .png and .exr, and for a sequence without a number.
+class PictureSequence {
+ public:
+  PictureSequence(const std::filesystem::path& pattern, int count);
+  std::filesystem::path at(int index) const;
+
+ private:
+  std::string before_;
+  std::string after_;
+  int digits_ = 0;  // of the number between; 0: a single picture
+};
+
+}  // namespace speculum

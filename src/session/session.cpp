@@ -1,0 +1,241 @@
+#include "session/session.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+
+#include "platform/machine.hpp"
+#include "platform/text.hpp"
+#include "scene/input_error.hpp"
+#include "session/output_files.hpp"
+
+namespace speculum {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double millisecondsSince(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+VkExtent2D rendererExtent(PictureSize size) {
+  return {static_cast<uint32_t>(size.width), static_cast<uint32_t>(size.height)};
+}
+
+const Bookmark& bookmarkNamed(const std::string& name, const Scene& scene) {
+  std::vector<std::string_view> names;
+  for (const Bookmark& bookmark : scene.bookmarks) {
+    if (bookmark.name == name) {
+      return bookmark;
+    }
+    names.push_back(bookmark.name);
+  }
+  throw UsageError(oneLine(
+      "--camera: the scene has no bookmark '" + name + "' (" +
+      (names.empty() ? "it has none; position:target, such as 0,1,4:0,1,0, is needed" : nearestKeyAdvice(name, names)) +
+      ")"));
+}
+
+}  // namespace
+
+std::filesystem::path findScene(const std::string& wanted) {
+  namespace fs = std::filesystem;
+  const fs::path path = wanted.empty() ? "gallery.toml" : fs::path(wanted);
+  // A folder with the scene's name, for example of its pictures, must not hide the scene. Loading says why a path
+  // cannot be followed.
+  std::error_code none;
+  const fs::file_type type = fs::status(path, none).type();
+  if (!wanted.empty() && type != fs::file_type::not_found && type != fs::file_type::directory) {
+    return path;
+  }
+  if (const std::optional<fs::path> shipped = shippedScene(path)) {
+    return *shipped;
+  }
+  throw UsageError("--scene: there is no file '" + wanted +
+                   "' (a scene file, a model, or a name from speculum scenes)");
+}
+
+Settings settingsOf(const Scene& scene, const Options& options) {
+  Settings settings = settingsOf(scene);
+  for (const auto& [key, value] : options.settings) {
+    if (const auto problem = setSetting(settings, key, value)) {
+      throw UsageError("--set: " + *problem);
+    }
+  }
+  return settings;
+}
+
+LoadedScene loadSceneWithSettings(const Options& options) {
+  LoadedScene loaded = loadSceneWithSettings(findScene(options.scene), options);
+  releaseFreedMemory();  // Loading a large model frees about as much memory as the scene takes.
+  requireFilesOfTheirOwn(options, loaded.scene);
+  return loaded;
+}
+
+LoadedScene loadSceneWithSettings(const std::filesystem::path& file, const Options& options,
+                                  const LoadProgress& progress) {
+  LoadedScene loaded{.scene = loadScene(file, progress)};
+  if (options.strict) {
+    requireNoDefects(loaded.scene);
+  }
+  loaded.settings = settingsOf(loaded.scene, options);
+  loaded.quality = chooseQuality(options, file, loaded.settings);
+  return loaded;
+}
+
+void requireNoDefects(const Scene& scene) {
+  for (const Mesh& mesh : scene.meshes) {
+    if (!mesh.defects.empty()) {
+      throw InputError(mesh.defects[0] + " (strict: a model without defects is needed)");
+    }
+  }
+}
+
+std::optional<CameraPose> cameraOf(const Options& options, const Scene& scene) {
+  if (options.bookmark.empty() && !options.camera) {
+    return std::nullopt;
+  }
+  const CameraSpec camera =
+      cameraOf(options.camera ? *options.camera : bookmarkNamed(options.bookmark, scene), scene.camera);
+  try {
+    return lookAt(camera.position, camera.target, camera.up, camera.verticalFov, camera.near);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError("--camera: " + std::string(error.what()) + " (position:target:up, of which the three differ)");
+  }
+}
+
+Image8 pictureOf(Pixels pixels) {
+  Image8 image;
+  image.width = static_cast<int>(pixels.extent.width);
+  image.height = static_cast<int>(pixels.extent.height);
+  image.rgba = std::move(pixels.rgba);
+  for (size_t i = 3; i < image.rgba.size(); i += 4) {
+    image.rgba[i] = 255;
+  }
+  return image;
+}
+
+DeviceOptions deviceOptions(const Options& options, Window* window) {
+  return {.gpu = options.gpu, .validation = options.validation, .window = window, .renderPath = options.renderPath};
+}
+
+RendererOptions rendererOptions(const Options& options, Window* window) {
+  return {.window = window,
+          .extent = rendererExtent(options.size),
+          .presentMode = options.window.presentMode,
+          .shaderDir = options.shaderDir};
+}
+
+void applyDebugSettings(const Settings& settings, Device& device) {
+  const std::string& name = settings.debug.omitBarrier;
+  const std::optional<BarrierKind> kind = barrierFromName(name);
+  if (!name.empty() && !kind) {
+    std::string names;
+    for (const BarrierKind known : allBarrierKinds()) {
+      names += (names.empty() ? "" : ", ") + std::string(barrierName(known));
+    }
+    throw UsageError("debug.omit_barrier: there is no barrier '" + name + "' (" + names + ")");
+  }
+  device.barriers().omit(kind);
+}
+
+int exitCodeOfChecks(int validationMessages, uint64_t nonFinite) {
+  if (validationMessages > 0) {
+    printLine(fmt::format("{} validation messages", validationMessages), stderr);
+  }
+  if (nonFinite > 0) {
+    printLine(fmt::format("{} samples of radiance that are not finite or not within 0 .. 65504", nonFinite), stderr);
+  }
+  return validationMessages > 0 || nonFinite > 0 ? 1 : 0;
+}
+
+Session::Session(const Options& options, Device* device)
+    : size_(options.size),
+      loaded_(loadSceneWithSettings(options)),
+      camera_(cameraOf(options, loaded_.scene)),
+      ownDevice_(device ? nullptr : std::make_unique<Device>(deviceOptions(options, nullptr))),
+      device_(device ? *device : *ownDevice_),
+      renderer_(device_, rendererOptions(options, nullptr)),
+      sceneRenderer_(renderer_, loaded_.scene),
+      planner_(device_) {
+  applyDebugSettings(loaded_.settings, device_);
+}
+
+const DrawnFrame& Session::draw(double time, bool capture, const std::function<bool()>& afterPicture) {
+  start_ = Clock::now();
+  renderer_.reloadShaders();
+  frame_ = {.state = evaluate(loaded_.scene, time)};
+  frame_.state.camera = camera_.value_or(frame_.state.camera);
+  unfinished_.clear();
+  while (frame_.pictures < loaded_.settings.view.accumulate) {
+    drawPicture(capture);
+    if (afterPicture && !afterPicture()) {
+      break;
+    }
+  }
+  return frame_;
+}
+
+void Session::drawPicture(bool capture) {
+  const bool last = frame_.pictures + 1 == loaded_.settings.view.accumulate;
+  Frame frame = renderer_.beginFrame().value();
+  collectFinished();
+  const Clock::time_point recording = Clock::now();
+  FrameCache cache = sceneRenderer_.cache(frame_.state);
+  cache.main = nullptr;  // the main view is drawn in every frame, so that its pass is reported
+  FittedPlan fitted = planner_.plan({.scene = loaded_.scene,
+                                     .state = frame_.state,
+                                     .settings = loaded_.settings,
+                                     .size = {size_.width, size_.height},
+                                     .cache = cache,
+                                     .picture = frame_.pictures});
+  frame_.plan = std::move(fitted.plan);
+  frame_.settings = fitted.settings;
+  frame.capture = capture && last;
+  sceneRenderer_.record(frame, frame_.state, frame_.settings, frame_.plan, std::nullopt, last);
+  frame_.cpuMs += millisecondsSince(recording) - frame.waitedMs;
+  unfinished_.push_back(frame.number);
+  renderer_.endFrame(frame);
+  // The last good shader stays in use after an error. The window says so; a command would write a wrong picture and
+  // exit with 0.
+  if (const std::string& errors = renderer_.pipelines().errors(); !errors.empty()) {
+    const size_t found = errors.find("ERROR:");
+    const size_t begin = found == std::string::npos ? 0 : errors.rfind('\n', found) + 1;
+    throw std::runtime_error("--shader-dir: " + errors.substr(begin, errors.find('\n', begin) - begin));
+  }
+  frame_.ledger.add(sceneRenderer_.ledger());
+  ++frame_.pictures;
+}
+
+void Session::collectFinished() {
+  while (!unfinished_.empty()) {
+    const FrameTimings* timings = renderer_.timingsOf(unfinished_.front());
+    if (!timings) {
+      return;
+    }
+    frame_.sums.beginPicture();
+    frame_.sums.add(sceneRenderer_.passesOf(timings->frame), *timings);
+    frame_.number = timings->frame;
+    frame_.gpuMs += timings->gpuMs;
+    unfinished_.pop_front();
+  }
+}
+
+void Session::resize(PictureSize size) {
+  size_ = size;
+  renderer_.resizeHeadless(rendererExtent(size));
+}
+
+void Session::setSettings(const Settings& settings) {
+  applyDebugSettings(settings, device_);
+  loaded_.settings = settings;
+}
+
+void Session::finish() {
+  renderer_.waitIdle();
+  collectFinished();
+  frame_.frameMs = millisecondsSince(start_);
+}
+
+}  // namespace speculum

@@ -1,0 +1,120 @@
+#pragma once
+
+#include <chrono>
+#include <deque>
+#include <functional>
+#include <memory>
+
+#include "plan/effects.hpp"
+#include "scene/scene_loader.hpp"
+#include "session/frame_planner.hpp"
+#include "session/options.hpp"
+#include "session/picture_sums.hpp"
+#include "session/quality.hpp"
+#include "systems/scene_renderer.hpp"
+
+namespace speculum {
+
+// Finds the scene file of --scene: a path, a path within the program's data, or a shipped scene's name. Throws
+// UsageError if there is none.
+std::filesystem::path findScene(const std::string& wanted);
+
+// A scene with its settings: defaults, [settings], --set, and a sweep's choice for the bounds of quality.*.
+struct LoadedScene {
+  Scene scene;
+  Settings settings;
+  std::optional<QualityChoice> quality;
+};
+// Returns the scene's settings, with those of --set. Throws UsageError.
+Settings settingsOf(const Scene& scene, const Options& options);
+// Throws InputError too, with --strict also for a defect of a model.
+LoadedScene loadSceneWithSettings(const Options& options);
+LoadedScene loadSceneWithSettings(const std::filesystem::path& file, const Options& options,
+                                  const LoadProgress& progress = {});
+
+// Throws InputError with the first defect of a model, if there is one.
+void requireNoDefects(const Scene& scene);
+
+// Returns the camera of --camera; nothing if it is not given. Throws UsageError for one without a direction.
+std::optional<CameraPose> cameraOf(const Options& options, const Scene& scene);
+
+// Returns what the renderer read back as an opaque picture.
+Image8 pictureOf(Pixels pixels);
+
+DeviceOptions deviceOptions(const Options& options, Window* window);
+RendererOptions rendererOptions(const Options& options, Window* window);
+
+// Applies debug.omit_barrier. Throws UsageError with all names for one that does not exist.
+void applyDebugSettings(const Settings& settings, Device& device);
+
+// Returns the exit code of a run: 1 if the validation layer or debug.check_finite found anything; prints a line on
+// stderr for each that did.
+int exitCodeOfChecks(int validationMessages, uint64_t nonFinite);
+
+// One frame as it was planned and recorded: a picture, or the mean of view.accumulate pictures. Times, draws and counts
+// are sums over its pictures; the GPU's are there after Session::finish.
+struct DrawnFrame {
+  SceneState state;
+  FramePlan plan;     // of the last picture
+  Settings settings;  // of the plan
+  int pictures = 0;
+  uint64_t number = 0;   // of the renderer's last frame that has finished
+  double cpuMs = 0.0;    // planning and recording
+  double gpuMs = 0.0;    // see FrameTimings
+  double frameMs = 0.0;  // from its beginning until the GPU has finished
+  PictureSums sums;
+  EffectLedger ledger;
+
+  const std::vector<TimedPass>& passes() const { return sums.passes(); }
+};
+
+// A scene drawn without a window.
+class Session {
+ public:
+  // Draws with `device`, which must outlive it, or with one of its own.
+  explicit Session(const Options& options, Device* device = nullptr);
+
+  // Replaces the scene's camera.
+  void setCamera(const std::optional<CameraPose>& camera) { camera_ = camera; }
+  // Draws the scene at `time`. picture() needs `capture`. Calls `afterPicture` after each picture of a mean, which ends
+  // early when it returns false. Throws std::runtime_error if a shader of --shader-dir does not compile.
+  const DrawnFrame& draw(double time, bool capture, const std::function<bool()>& afterPicture = {});
+  // Drops all cached images: the next frame renders everything.
+  void restart() { sceneRenderer_.restart(); }
+  void resize(PictureSize size);  // from the next frame on
+  // Changes the settings from the next frame on. Throws UsageError for a debug.omit_barrier that does not exist.
+  void setSettings(const Settings& settings);
+  // Waits for the GPU, after which lastFrame() is complete.
+  void finish();
+  Image8 picture() { return pictureOf(renderer_.readback()); }  // of the last frame drawn with `capture`
+  LinearImage radiance() { return sceneRenderer_.radiance(); }  // of the last frame, before the display pass
+  // Returns exitCodeOfChecks() for the frames that have finished.
+  int exitCode() { return exitCodeOfChecks(device_.validationMessages(), sceneRenderer_.finiteWatch().count()); }
+
+  const Scene& scene() const { return loaded_.scene; }
+  const Settings& settings() const { return loaded_.settings; }
+  const std::optional<QualityChoice>& quality() const { return loaded_.quality; }
+  PictureSize size() const { return size_; }
+  Device& device() { return device_; }
+  Renderer& renderer() { return renderer_; }
+  SceneRenderer& sceneRenderer() { return sceneRenderer_; }
+  const DrawnFrame& lastFrame() const { return frame_; }
+
+ private:
+  void drawPicture(bool capture);
+  void collectFinished();
+
+  PictureSize size_;
+  LoadedScene loaded_;
+  std::optional<CameraPose> camera_;
+  std::unique_ptr<Device> ownDevice_;  // null: another's is used
+  Device& device_;
+  Renderer renderer_;
+  SceneRenderer sceneRenderer_;
+  FramePlanner planner_;
+  DrawnFrame frame_;
+  std::deque<uint64_t> unfinished_;  // the renderer's frames whose figures are not in frame_ yet
+  std::chrono::steady_clock::time_point start_;
+};
+
+}  // namespace speculum

@@ -1,0 +1,99 @@
+#include "session/view_command.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <string_view>
+
+#include "platform/files.hpp"
+#include "platform/folders.hpp"
+#include "platform/text.hpp"
+
+namespace speculum {
+
+namespace {
+
+// Writes numbers as the shortest texts that read back the same.
+std::string pointText(const glm::dvec3& point) {
+  return fmt::format("{},{},{}", point.x, point.y, point.z);
+}
+
+std::string cameraText(const Bookmark& camera, const CameraSpec& usual) {
+  std::string text = pointText(camera.position) + ":" + pointText(camera.target);
+  if (camera.up || camera.verticalFov) {
+    text += ":" + pointText(camera.up.value_or(usual.up));
+  }
+  return text + (camera.verticalFov ? fmt::format(":{}", *camera.verticalFov) : "");
+}
+
+std::string quoted(const std::string& argument) {
+  const auto plain = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+           std::string_view("-_./:,=+%@").find(c) != std::string_view::npos;
+  };
+  if (!argument.empty() && std::ranges::all_of(argument, plain)) {
+    return argument;
+  }
+  // A terminal acts on control characters that are pasted, even within quotes.
+  const bool hidden = oneLine(argument) != argument;
+  std::string text = hidden ? "$'" : "'";
+  for (const char c : argument) {
+    text += hidden && !plain(c) ? fmt::format("\\{:03o}", static_cast<unsigned char>(c))
+            : c == '\''         ? std::string("'\\''")
+                                : std::string(1, c);
+  }
+  return text + "'";
+}
+
+// Returns the name of a scene that comes with the program, else the path.
+std::string sceneText(const std::filesystem::path& file) {
+  const std::filesystem::path path = withoutLinks(file);
+  const std::filesystem::path name = path.lexically_relative(withoutLinks(dataDirectory("scenes")));
+  return name.empty() || *name.begin() == ".." ? path.string() : (name.parent_path() / name.stem()).string();
+}
+
+}  // namespace
+
+void addSettings(std::span<const std::pair<std::string, std::string>> settings, std::vector<std::string>& arguments) {
+  for (const auto& [key, value] : settings) {
+    arguments.insert(arguments.end(), {"--set", key + "=" + value});
+  }
+}
+
+void addDevice(const Options& options, std::vector<std::string>& arguments) {
+  if (!options.gpu.empty()) {
+    arguments.insert(arguments.end(), {"--gpu", options.gpu});
+  }
+  if (options.renderPath != RenderPath::automatic) {
+    arguments.insert(arguments.end(), {"--render-path", std::string(renderPathName(options.renderPath))});
+  }
+  if (!options.shaderDir.empty()) {
+    arguments.insert(arguments.end(), {"--shader-dir", wholePath(options.shaderDir).string()});
+  }
+}
+
+std::string viewCommand(const Options& options, const std::filesystem::path& file, const Scene& scene,
+                        const Settings& settings) {
+  std::vector<std::string> arguments = {
+      "speculum", "render",
+      "--scene",  sceneText(file),
+      "--size",   std::to_string(options.size.width) + "x" + std::to_string(options.size.height),
+      "--time",   fmt::to_string(options.time)};
+  if (options.camera) {
+    arguments.insert(arguments.end(), {"--camera", cameraText(*options.camera, scene.camera)});
+  }
+  for (const SettingChange& change : settingChanges(settingsOf(scene), settings)) {
+    if (change.key != "view.continuous" && !change.key.starts_with("quality.")) {
+      arguments.insert(arguments.end(), {"--set", change.key + "=" + change.value});
+    }
+  }
+  addDevice(options, arguments);
+  arguments.insert(arguments.end(), {"--out", scene.file.stem().string() + ".view.png"});
+  std::string text;
+  for (const std::string& argument : arguments) {
+    text += (text.empty() ? "" : " ") + quoted(argument);
+  }
+  return text;
+}
+
+}  // namespace speculum

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <chrono>
+
+#include "accuracy/ground_truth.hpp"
+#include "window/background_job.hpp"
+
+namespace speculum {
+
+// A picture of the window and everything that it depends on. The scene must live until DifferenceMap::stop().
+struct ShownPicture {
+  const Scene& scene;
+  const SceneState& state;
+  const Settings& settings;
+  int width = 0;  // pixels
+  int height = 0;
+};
+
+// Heat map of the FLIP error of a still picture of the window against the ray-traced reference. Tracing and comparing
+// run on other threads; any motion restarts them.
+class DifferenceMap {
+ public:
+  // Call once a frame, after it is drawn. `image` returns its pixels in display sRGB; it is called only when they are
+  // needed. `samples`: of the finest reference, a pixel. Returns true when map() has changed.
+  bool update(const ShownPicture& shown, const std::function<Image8()>& image, int samples);
+  // Drops everything without waiting for running work. Returns true if there was a heat map.
+  bool reset();
+  void stop();  // as reset(), but waits for running work
+
+  const Plane2d& map() const { return map_; }  // errors; without pixels until there are some
+  // By mirror: the mean error within its outline, NaN if the eye does not see it; empty without map().
+  const std::vector<double>& mirrorErrors() const { return mirrorErrors_; }
+  bool working() const;        // update() has work left although nothing changes
+  std::string status() const;  // text for the user: the error, or the work that is running
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  struct Compared {
+    Settings settings;
+    Plane2d map;
+    ImageMetrics metrics;
+    std::vector<double> mirrorErrors;
+  };
+  using Truth = std::shared_ptr<const GroundTruth>;
+  // Everything that the reference depends on.
+  struct View {
+    std::filesystem::path file;
+    int samples = 0;
+    int width = 0;
+    int height = 0;
+    std::optional<double> time;  // of a scene that moves
+    CameraPose camera;
+    std::optional<glm::dvec3> clearColor;
+
+    bool operator==(const View&) const = default;
+  };
+
+  void startTracing(const ShownPicture& shown);
+  void startComparing(const ShownPicture& shown, Image8 image);
+  bool collect();
+  bool lacksReference() const;
+
+  std::optional<View> view_;
+  std::optional<Settings> compared_;  // settings of the picture compared last
+  Clock::time_point still_;
+  BackgroundJob<Truth> tracing_;
+  BackgroundJob<Compared> comparing_;
+  size_t traced_ = 0;  // references finished
+  Truth truth_;
+  Plane2d map_;
+  ImageMetrics metrics_;
+  int pictures_ = 1;  // in the mean that was compared
+  std::vector<double> mirrorErrors_;
+  std::string problem_;  // error that ended the work
+};
+
+}  // namespace speculum

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <span>
+
+#include "session/frame_cost.hpp"
+#include "window/motion_levels.hpp"
+
+namespace speculum {
+
+// Keeps the time of a moving picture's frames near a budget by choosing a level for each. The first level has the
+// settings that the user chose; each further one costs less. The controller goes down, by as many levels as needed, as
+// soon as a frame is predicted to take clearly longer, and up by one level after a while in which that level would have
+// fitted. It needs no device. docs/window.md describes it for users.
+class MotionController {
+ public:
+  explicit MotionController(bool cpuDevice) : model_(cpuDevice) {}
+
+  // Chooses the level of the next frame, `seconds` after the last, for a budget of `budgetMs` (above 0). Plan the frame
+  // at the level that this returns, then at each level that next() returns for the work of the last plan. The last plan
+  // is the frame's.
+  size_t begin(std::span<const MotionLevel> levels, double budgetMs, double seconds);
+  // Returns the level to plan next, or nothing if the one planned last is chosen.
+  std::optional<size_t> next(std::span<const MotionLevel> levels, const FrameWork& work);
+  // Call when the picture stands still: the next moving frame may have any level.
+  void setStill() { moving_ = false; }
+
+  // Call with the time of each frame, moving or still, unless it did unusual work that `work` does not contain.
+  void learn(const FrameWork& work, double ms) { model_.learn(work, ms); }
+  double predict(const FrameWork& work) const { return model_.predict(work); }
+
+ private:
+  // Why a level is planned.
+  enum class Try {
+    afterStanding,  // a movement begins, with the level of the movement before
+    current,        // the level of the last frame, or the one that fits where a movement begins
+    lower,          // the last one planned takes too long
+    higher,         // there seems to be room for it
+    back,           // there was none
+  };
+  size_t fittingLevel(std::span<const MotionLevel> levels, size_t first, const FrameWork& work) const;
+  std::optional<size_t> nextFromCurrent(std::span<const MotionLevel> levels, const FrameWork& work);
+  std::optional<size_t> lower(std::span<const MotionLevel> levels, const FrameWork& work);
+  std::optional<size_t> tryLevel(Try why, size_t level);
+  void choose();
+
+  CostModel model_;
+  double budgetMs_ = 0.0;
+  size_t level_ = 0;   // planned last
+  size_t before_ = 0;  // chosen for the last frame
+  Try try_ = Try::current;
+  bool moving_ = false;
+  bool begins_ = false;           // the movement, with this frame
+  double patience_ = 0.0;         // seconds at a level before a better one is tried
+  double sinceChange_ = 0.0;      // seconds
+  bool raised_ = false;           // the last change was to a better level
+  bool refused_ = false;          // since the last change, a better level was planned and did not fit
+  std::deque<double> predicted_;  // milliseconds of the last frames, one update interval
+};
+
+}  // namespace speculum

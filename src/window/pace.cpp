@@ -1,0 +1,341 @@
+#include "window/pace.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "plan/picture_offset.hpp"
+#include "plan/picture_tiles.hpp"
+
+namespace speculum {
+
+namespace {
+
+constexpr double cpuBudgetMs = 50.0;
+constexpr double refreshShare = 0.8;
+constexpr double longestWait = 3.0;  // budgets: slower still pictures come after a draft, tile by tile
+constexpr double tilesShare = 2.0;   // budgets for a frame with tiles and without input
+constexpr double leastShare = 0.1;   // of such a frame's time is its tiles'
+constexpr size_t mostDrawn = 4;      // frames whose times have not arrived
+constexpr size_t sentFrames = 8;     // frames of which one does not wait for the monitor
+constexpr int framesToKnow = 5;      // timed moving frames after which it is known what playing costs
+constexpr double leastMoved = 0.5;   // of the resolution, at which a scene is worth moving unasked
+constexpr double caution = 4.0;      // a tile that was never drawn may take that much longer than expected
+// How much of the dearest tile's time counts a frame later. One frame may be slow for another reason, such as another
+// program that takes the processor.
+constexpr double remembered = 0.9;
+
+Settings withPictures(Settings settings, int pictures) {
+  settings.view.accumulate = pictures;
+  return settings;
+}
+
+// Says whether tiles can draw the picture; debug.check_finite looks at whole ones.
+bool drawnInTiles(const FittedPlan& fitted) {
+  return !fitted.plan.mainReused() && !fitted.settings.debug.checkFinite;
+}
+
+}  // namespace
+
+void SlowPicture::begin(size_t faces, size_t count, double ms) {
+  tiles_ = {};
+  faces_ = faces;
+  faceMs_ = std::numeric_limits<double>::infinity();
+  totalMs_ = 0.0;
+  const std::vector<double> before = std::exchange(tileMs_, std::vector<double>(count));
+  if (before.empty()) {
+    std::ranges::fill(tileMs_, caution * ms / std::max(static_cast<double>(count), 1.0));
+    return;
+  }
+  // The offset of another picture may move a mirror image's border over a tile's, which changes the number of tiles.
+  for (size_t i = 0; i < count; ++i) {
+    tileMs_[i] = before[i * before.size() / count];
+  }
+  measured_ = measured_ * count / before.size();
+}
+
+TileRange SlowPicture::next(double ms) {
+  tiles_ = {tiles_.end, tiles_.end + 1};
+  const bool faces = tiles_.first < faces_;
+  const auto expected = [&](size_t tile) { return faces ? faceMs_ : tileMs_[tile - faces_]; };
+  const size_t end = faces ? faces_ : faces_ + tileMs_.size();
+  for (double sum = expected(tiles_.first); tiles_.end < end; ++tiles_.end) {
+    sum += expected(tiles_.end);
+    if (sum > ms) {
+      break;
+    }
+  }
+  return tiles_;
+}
+
+void SlowPicture::took(double ms) {
+  totalMs_ += ms;
+  const double tileMs = ms / static_cast<double>(tiles_.end - tiles_.first);
+  if (tiles_.first < faces_) {
+    faceMs_ = tileMs;
+    return;
+  }
+  std::fill(tileMs_.data() + tiles_.first - faces_, tileMs_.data() + tiles_.end - faces_, tileMs);
+  measured_ = std::max(measured_, tiles_.end - faces_);
+  dearestMs_ = std::max(remembered * dearestMs_, tileMs);
+  std::fill(tileMs_.data() + measured_, tileMs_.data() + tileMs_.size(), std::max(tileMs, dearestMs_ / caution));
+}
+
+void Pace::begin(const CameraPose& camera, bool contentMoves, double seconds) {
+  movement_.update(camera, contentMoves, seconds);
+  seconds_ = seconds;
+  begun_ = Clock::now();
+  if (!drawn_.empty() && drawn_.back().frameMs == 0.0) {
+    drawn_.back().frameMs = std::chrono::duration<double, std::milli>(begun_ - drawn_.back().begun).count();
+  }
+}
+
+const FittedPlan& Pace::plan(const Request& request) {
+  fitted_.plan.tiles.reset();
+  level_ = 0;
+  text_.clear();
+  if (moving() && request.budgetMs > 0.0) {
+    planMoving(request);
+  } else {
+    controller_.setStill();
+    planStill(request);
+  }
+  return fitted_;
+}
+
+// Plans a picture, or number `picture` of a mean, with these settings.
+void Pace::planWith(const Request& request, const Settings& settings, int picture) {
+  FrameRequest frame = request.frame;
+  frame.settings = settings;
+  frame.picture = picture;
+  fitted_ = request.planner.plan(frame);
+  work_ = workOf(fitted_.plan, frame.scene, frame.state, fitted_.settings);
+}
+
+// Plans the frame within the budget. The text says what the picture gives up for that.
+void Pace::planWithinBudget(const Request& request) {
+  const Settings chosen = withPictures(request.frame.settings, 1);
+  const std::vector<MotionLevel> levels = motionLevels(request.frame.scene, chosen, request.front, sampleCounts_);
+  level_ = controller_.begin(levels, request.budgetMs, seconds_);
+  planWith(request, levels[level_].settings, 0);
+  while (const std::optional<size_t> next = controller_.next(levels, work_)) {
+    level_ = *next;
+    planWith(request, levels[level_].settings, 0);
+  }
+  if (learned_ >= framesToKnow) {
+    findPlayCost(levels, request);
+  }
+  MotionLevel shown = levels[level_];
+  // A limit that leaves no image out costs no quality. Images below the chosen limit count too.
+  const auto skips = [&](SkipReason reason) {
+    return std::ranges::count(fitted_.plan.skipped, reason, &SkippedMirror::reason) > 0;
+  };
+  if (!skips(SkipReason::maxPasses)) {
+    shown.settings.reflection.maxPasses = chosen.reflection.maxPasses;
+  }
+  if (!skips(SkipReason::minPixels)) {
+    shown.settings.reflection.minPixels = chosen.reflection.minPixels;
+  }
+  text_ = motionText(chosen, shown);
+}
+
+// Looks for the best level that should fit: the controller rises to it by and by.
+void Pace::findPlayCost(std::span<const MotionLevel> levels, const Request& request) {
+  double ms = 0.0;
+  const auto fits = [&](const MotionLevel& level) {
+    ms = controller_.predict(scaledWork(work_, fitted_.settings, level.settings));
+    return ms <= request.budgetMs;
+  };
+  const auto best = std::min(std::ranges::find_if(levels, fits), levels.end() - 1);
+  const double scale = best->settings.view.scale / request.frame.settings.view.scale;
+  playCost_ = scale >= leastMoved
+                  ? ""
+                  : fmt::format("Play (about {:.2g} frames/s at {:.2g} of the resolution)", 1000.0 / ms, scale);
+}
+
+void Pace::planMoving(const Request& request) {
+  forgetStill();
+  state_ = State::moving;
+  shown_.reset();
+  planWithinBudget(request);
+  text_ = "Moving: " + text_;
+}
+
+void Pace::forgetStill() {
+  state_ = State::changed;
+  picture_ = 0;
+  target_.reset();
+  slow_ = {};
+  draft_.clear();
+}
+
+void Pace::planStill(const Request& request) {
+  // The mean begins anew when nothing moves any more, even if nothing else has changed.
+  const auto shown = moving() ? std::nullopt : std::optional(std::pair(request.frame.settings, request.shown));
+  if (std::exchange(shown_, shown) != shown || moving()) {
+    forgetStill();
+  }
+  pictures_ = moving() ? 1 : stillPictures(request.frame.settings);
+  const bool divides = request.budgetMs > 0.0;
+  if (!divides) {
+    if (!slow_.finished()) {
+      target_.reset();
+    }
+    slow_ = {};
+    draft_.clear();
+  }
+  const State state = stateAfter(request);
+  if (pictures_ == 1 && !divides) {
+    planWith(request, withPictures(request.frame.settings, 1), 0);
+    picture_ = 1;
+    state_ = state == State::done ? State::done : State::whole;
+  } else if (state == State::changed) {
+    planFirst(request);
+  } else {
+    planPicture(request, state);
+  }
+}
+
+// Returns what follows the last frame. A target of a single picture needs no redraw: that is drawn again anyway if its
+// plan cannot reuse it.
+Pace::State Pace::stateAfter(const Request& request) {
+  if (!request.target) {
+    target_.reset();
+  }
+  if (state_ == State::changed || !slow_.finished()) {
+    return state_;
+  }
+  if (picture_ < pictures_) {
+    return State::mean;
+  }
+  const bool missing = request.target && pictures_ > 1 && target_ != request.target;
+  target_ = request.target;
+  return missing ? State::redraw : State::done;
+}
+
+// Plans the first frame: in full quality if that is fast, else the first picture of the mean if that is fast, else a
+// draft. A slow frame would delay the mean, whose pictures have one sample; a single picture is drawn in tiles only if
+// it would hold up input for long.
+void Pace::planFirst(const Request& request) {
+  const Settings whole = withPictures(request.frame.settings, 1);
+  planWith(request, whole, 0);
+  const double most = (pictures_ == 1 ? longestWait : 1.0) * request.budgetMs;
+  if (request.budgetMs <= 0.0 || controller_.predict(work_) <= most) {
+    state_ = State::whole;
+    picture_ = pictures_ == 1 ? 1 : 0;
+    text_ = pictures_ == 1 ? "" : meanText(0);
+    return;
+  }
+  const FrameWork work = scaledWork(work_, whole, pictureSettings(withPictures(whole, pictures_)));
+  if (controller_.predict(work) <= longestWait * request.budgetMs) {
+    return planPicture(request, State::mean);
+  }
+  state_ = State::draft;
+  planWithinBudget(request);
+  draft_ = text_ = "Draft: " + text_;
+}
+
+// Plans the next picture or, if it is slow and something else is shown, its next tiles.
+void Pace::planPicture(const Request& request, State state) {
+  state_ = state;
+  const int next = state == State::redraw ? pictures_ - 1 : picture_;
+  if (slow_.finished()) {
+    planWith(request, withPictures(request.frame.settings, pictures_), pictures_ == 1 ? 0 : next);
+    const bool covers = request.budgetMs > 0.0 && (picture_ > 0 || !draft_.empty());
+    const double ms = controller_.predict(work_);
+    if (covers && ms > longestWait * request.budgetMs && drawnInTiles(fitted_)) {
+      const size_t faces = faceCount(fitted_.plan);
+      slow_.begin(faces, tileCount(fitted_.plan) - faces, ms);
+      slowWork_ = work_;
+    }
+  }
+  if (!slow_.finished()) {
+    planTiles(request);
+    if (!slow_.finished()) {
+      text_ = tilesText(next);
+      return;
+    }
+  }
+  picture_ = std::min(next + 1, pictures_);
+  if (pictures_ > 1) {
+    text_ = meanText(picture_);
+  }
+}
+
+void Pace::planTiles(const Request& request) {
+  const double pixels = static_cast<double>(request.shown.size.x) * request.shown.size.y;
+  besidesMs_ = cpuMs_ + controller_.predict({.plainTexels = pixels});
+  const double most = (request.input ? 1.0 : tilesShare) * request.budgetMs;
+  // At least half of the time goes to the tiles, whatever the rest of a frame takes.
+  fitted_.plan.tiles = slow_.next(std::max(most - besidesMs_, besidesMs_));
+}
+
+std::string Pace::tilesText(int complete) const {
+  const double share = slow_.share();
+  if (complete == 0 && !draft_.empty()) {
+    return fmt::format("{}; first picture {:.0f} %", draft_, std::floor(100.0 * share));
+  }
+  if (pictures_ == 1) {
+    return fmt::format("Picture {:.0f} %", std::floor(100.0 * share));
+  }
+  return fmt::format("{}, next one {:.0f} %", meanText(complete), std::floor(100.0 * share));
+}
+
+std::string Pace::meanText(int complete) const {
+  return fmt::format("{} of {} pictures averaged", complete, pictures_);
+}
+
+void Pace::drawn(uint64_t number, double cpuMs, double waitedMs, bool learns) {
+  cpuMs_ = cpuMs;
+  drawn_.push_back({.number = number,
+                    .cpuMs = cpuMs,
+                    .waitedMs = waitedMs,
+                    .begun = begun_,
+                    .work = learns ? std::optional(work_) : std::nullopt});
+  if (drawn_.size() > mostDrawn) {
+    drawn_.pop_front();
+  }
+}
+
+// Learns the time of a frame. On a CPU device, drawing, the program and sending the picture to the window system share
+// the cores, so a frame takes the sum of their times, or less where they overlap; on a GPU it takes the longer of the
+// first two, unless the program waits for tiles or parts. Waiting for the monitor does not count.
+void Pace::finished(const FrameTimings& timings) {
+  const auto found = std::ranges::find(drawn_, timings.frame, &Drawn::number);
+  if (found == drawn_.end()) {
+    return;
+  }
+  sendMs_.push_back(std::max(found->presentMs + found->waitedMs - timings.gpuMs, 0.0));
+  if (sendMs_.size() > sentFrames) {
+    sendMs_.pop_front();
+  }
+  const double sum = found->cpuMs + timings.gpuMs + (cpuDevice_ ? std::ranges::min(sendMs_) : 0.0);
+  const bool overlaps = !cpuDevice_ && !drawsTiles() && found->waitedMs == 0.0;
+  const double ms = overlaps              ? std::max(found->cpuMs, timings.gpuMs)
+                    : found->frameMs == 0 ? sum
+                                          : std::min(found->frameMs, sum);
+  if (drawsTiles() && found + 1 == drawn_.end()) {
+    slow_.took(std::max(ms - besidesMs_, leastShare * ms));
+    // The frames took longer than one would have, so their time is learned only where even that was less.
+    if (slow_.finished() && slow_.totalMs() < controller_.predict(slowWork_)) {
+      controller_.learn(slowWork_, slow_.totalMs());
+    }
+  } else if (found->work && timings.passes.empty()) {
+    controller_.learn(*found->work, ms);
+    learned_ += moving();
+  }
+  drawn_.erase(drawn_.begin(), found + 1);
+}
+
+int stillPictures(const Settings& settings) {
+  return std::max(settings.view.accumulate, settings.quality.stillPictures);
+}
+
+double motionBudget(const Settings& settings, bool cpuDevice, double refreshHz) {
+  return settings.quality.motionMs.value_or(cpuDevice ? cpuBudgetMs : refreshShare * 1000.0 / refreshHz);
+}
+
+}  // namespace speculum

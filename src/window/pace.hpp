@@ -1,0 +1,210 @@
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include "core/gpu_timer.hpp"
+#include "plan/fitted_plan.hpp"
+#include "plan/frame_plan.hpp"
+#include "plan/target_display.hpp"
+#include "window/motion_controller.hpp"
+
+namespace speculum {
+
+// A still picture that takes longer than a window may wait: several frames draw it, a few tiles each. Learns the time
+// of each tile, for the next pictures of the same view. Tiles that are faces of maps come first, in frames of their
+// own: they take another time, and most pictures have none.
+class SlowPicture {
+ public:
+  // Begins a picture of `faces` and `count` other tiles. These are expected to take `ms` if it is the first picture;
+  // others are expected to take as long as the last.
+  void begin(size_t faces, size_t count, double ms);
+  // Returns the next tiles, at least one, that are expected to take `ms` together.
+  TileRange next(double ms);
+  // Call with the time that they took.
+  void took(double ms);
+
+  bool begun() const { return !tileMs_.empty(); }                          // at least one picture was
+  bool finished() const { return tiles_.end == faces_ + tileMs_.size(); }  // all tiles are planned
+  double share() const { return static_cast<double>(tiles_.end) / static_cast<double>(faces_ + tileMs_.size()); }
+  double totalMs() const { return totalMs_; }
+
+ private:
+  size_t faces_ = 0;
+  double faceMs_ = 0.0;         // of each of the last faces
+  std::vector<double> tileMs_;  // of each other tile, expected or measured
+  TileRange tiles_;             // of the last next()
+  size_t measured_ = 0;         // the first tiles of tileMs_ whose times were measured
+  double dearestMs_ = 0.0;      // longest measured time of a tile, fading from frame to frame
+  double totalMs_ = 0.0;        // of the picture's tiles so far
+};
+
+// Says whether the picture moves, by its camera or otherwise. A movement lasts until nothing has moved for a moment, so
+// that the picture does not change its quality between two steps of the pointer.
+class Movement {
+ public:
+  // Call once a frame, `seconds` after the last. `contentMoves`: something besides the camera moves.
+  void update(const CameraPose& camera, bool contentMoves, double seconds) {
+    const bool moves = contentMoves || (camera_ && *camera_ != camera);
+    camera_ = camera;
+    stillSeconds_ = moves ? 0.0 : stillSeconds_ + seconds;
+    moving_ = moves || (moving_ && stillSeconds_ < longestRest);
+  }
+  bool moving() const { return moving_; }
+  bool ending() const { return moving_ && stillSeconds_ > 0.0; }  // nothing moves in this frame
+  void restart() { camera_.reset(); }                             // the next camera is that of another scene
+
+ private:
+  static constexpr double longestRest = 0.15;  // seconds
+
+  std::optional<CameraPose> camera_;  // of the last frame
+  double stillSeconds_ = 0.0;
+  bool moving_ = false;
+};
+
+// Chooses the quality of the window's frames: while something moves, as much of the chosen settings as fits into a
+// budget of milliseconds; otherwise all of them, or where that takes longer a draft that fits, then the picture or the
+// mean of pictures with offsets (view.accumulate), one in each frame or, where one takes long, over several
+// (FramePlan::tiles). docs/architecture.md says which state follows which.
+class Pace {
+ public:
+  // What the planned frame is. All but `moving` are for still pictures, or for moving ones without a budget.
+  enum class State {
+    moving,   // a picture that fits the budget, while something moves
+    changed,  // not planned yet: something else is to be shown
+    whole,    // a picture with the chosen settings
+    draft,    // a picture that fits the budget, shown until the first one of the mean is complete
+    mean,     // the next picture of the mean, or tiles of it
+    redraw,   // the last picture of a complete mean, or tiles of it: for a target that was not kept
+    done,     // the complete picture or mean as it was there before, for the panels
+  };
+
+  // `sampleCounts`: those that the device supports, as VkSampleCountFlags.
+  Pace(bool cpuDevice, unsigned sampleCounts)
+      : cpuDevice_(cpuDevice), sampleCounts_(sampleCounts), controller_(cpuDevice) {}
+
+  // Begins a frame. `contentMoves`: something besides the camera moves.
+  void begin(const CameraPose& camera, bool contentMoves, double seconds);
+  void sceneChanged() {
+    movement_.restart();
+    drawn_.clear();
+    learned_ = 0;
+    playCost_.reset();
+  }
+  bool moving() const { return movement_.moving(); }
+  // Says whether another frame is needed although nothing happens.
+  bool wantsFrame() const { return movement_.ending() || (!moving() && (!isComplete() || !slow_.finished())); }
+  // Says whether the last frame drew tiles of a picture. If so, wait for it before the next events: finished() learns
+  // from its time, and no second frame delays them.
+  bool drawsTiles() const { return fitted_.plan.tiles.has_value(); }
+  // Says whether the planned frame has a lower quality than the chosen settings.
+  bool lowers() const { return level_ > 0; }
+  // Says whether the planned frame draws the picture again that was there before.
+  bool repeats() const { return state_ == State::redraw || state_ == State::done; }
+  // Says whether the next frames are likely to draw tiles.
+  bool drawsSlowly() const { return !moving() && (slow_.begun() || !draft_.empty()); }
+
+  // Identifies what a still picture shows, besides the chosen settings.
+  struct Shown {
+    int scenes = 0;              // that were shown before this one
+    uint64_t revision = 0;       // of the scene's document
+    uint64_t shaders = 0;        // revision of the pipelines
+    std::optional<double> time;  // of a scene that moves
+    glm::ivec2 size{0};          // pixels of the picture
+
+    bool operator==(const Shown&) const = default;
+  };
+  // Pass and kind of a target.
+  using Target = std::pair<MirrorPath, TargetKind>;
+  struct Request {
+    FrameRequest frame;       // with the chosen settings
+    PicturePlanner& planner;  // is asked a few times, or not at all between tiles of a picture
+    Shown shown;
+    double budgetMs = 0.0;               // 0: nothing is lowered
+    std::span<const MotionLevel> front;  // as motionLevels takes it
+    bool input = false;                  // there is some, which a frame with tiles must not hold up
+    std::optional<Target> target;        // that the panels show and that is not there yet
+  };
+  // Plans the frame. The plan is valid until the next frame's.
+  const FittedPlan& plan(const Request& request);
+  // Leaves textures out of the frame that was planned.
+  void leaveOutTextures() { fitted_.settings.effects.textures = false; }
+
+  // Call when the frame was recorded: `cpuMs` without the `waitedMs` that its parts were waited for; `learns`: nothing
+  // but drawing took time, so the cost model may learn from it.
+  void drawn(uint64_t number, double cpuMs, double waitedMs, bool learns);
+  // Call when the frame was presented, which took `ms`.
+  void presented(double ms) { drawn_.back().presentMs = ms; }
+  // Call with the GPU's times of an earlier frame.
+  void finished(const FrameTimings& timings);
+
+  // Returns the label of a button to play a scene that this device cannot move at half of its resolution, with the
+  // frames a second and the resolution to expect; empty for a faster device, nothing until it is known.
+  const std::optional<std::string>& playCost() const { return playCost_; }
+
+  // Text for the user: what the picture gives up for its pace, or how far it has converged; empty if neither applies.
+  const std::string& text() const { return text_; }
+
+ private:
+  // These set fitted_, work_, level_ and text_.
+  void planWith(const Request& request, const Settings& settings, int picture);
+  void planWithinBudget(const Request& request);
+  // These set state_ too.
+  void planMoving(const Request& request);
+  void planStill(const Request& request);
+  void planFirst(const Request& request);
+  void planPicture(const Request& request, State state);
+  void planTiles(const Request& request);
+  bool isComplete() const { return picture_ == pictures_ && state_ != State::changed && state_ != State::moving; }
+  State stateAfter(const Request& request);
+  void forgetStill();
+  void findPlayCost(std::span<const MotionLevel> levels, const Request& request);
+  std::string tilesText(int complete) const;
+  std::string meanText(int complete) const;
+
+  using Clock = std::chrono::steady_clock;
+  struct Drawn {
+    uint64_t number = 0;
+    double cpuMs = 0.0;
+    double waitedMs = 0.0;
+    Clock::time_point begun;
+    double presentMs = 0.0;
+    double frameMs = 0.0;           // until the next frame began; 0: not yet
+    std::optional<FrameWork> work;  // none if the cost model may not learn from it
+  };
+
+  bool cpuDevice_;
+  unsigned sampleCounts_;
+  Movement movement_;
+  MotionController controller_;
+  double seconds_ = 0.0;  // since the last frame
+  Clock::time_point begun_;
+  std::deque<Drawn> drawn_;
+  int learned_ = 0;  // moving frames of this scene that were timed
+  std::optional<std::string> playCost_;
+  std::deque<double> sendMs_;  // of the last frames, what presenting took beyond drawing
+  FittedPlan fitted_;          // of the frame that was planned last
+  FrameWork work_;             // of fitted_
+  size_t level_ = 0;           // of fitted_; 0: the chosen settings
+  State state_ = State::changed;
+  // Settings and content of the still pictures; nothing while the picture moves.
+  std::optional<std::pair<Settings, Shown>> shown_;
+  int picture_ = 0;               // complete pictures of the mean
+  int pictures_ = 0;              // in the mean; 1: a single picture instead
+  std::optional<Target> target_;  // of the latest redraw
+  SlowPicture slow_;              // of which tiles are drawn, while another picture or a draft is shown
+  FrameWork slowWork_;
+  std::string draft_;  // what the draft gives up; empty: none was needed
+  std::string text_;
+  double cpuMs_ = 0.0;      // of the last frame
+  double besidesMs_ = 0.0;  // expected of a frame, besides its tiles: the program's work and the display pass
+};
+
+// Returns the number of pictures in the mean of a still picture.
+int stillPictures(const Settings& settings);
+
+// Returns quality.motion_ms or, if that is auto, 50 on a CPU and 0.8 of the monitor's refresh elsewhere.
+double motionBudget(const Settings& settings, bool cpuDevice, double refreshHz);
+
+}  // namespace speculum

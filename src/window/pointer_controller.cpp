@@ -1,0 +1,62 @@
+#include "window/pointer_controller.hpp"
+
+namespace speculum {
+
+constexpr double clickReach = 4.0;  // screen coordinates that the pointer may move by between press and release
+
+void PointerController::cancel() {
+  pressed_.reset();
+  dragging_ = false;
+}
+
+bool PointerController::button(const MouseButtonEvent& event, bool overPanels, SceneEditor& editor,
+                               const CurrentScene& view) {
+  // Ignores another button while one is held.
+  if (pressed_ ? event.button != button_ : !event.pressed) {
+    return false;
+  }
+  const bool left = event.button == MouseButton::left;
+  if (event.pressed) {
+    holdsHandle_ = holdsHandle_ && editor.dragging();
+    if (!overPanels && !editor.dragging()) {
+      pressed_ = position_;
+      button_ = event.button;
+      shift_ = event.shift;
+      const std::optional<PointedScene> shown = left ? view() : std::nullopt;
+      holdsHandle_ = shown && editor.press(*shown, pixel_);
+    }
+    return false;
+  }
+  bool clicked = false;
+  if (left && editor.dragging() && dragging_) {
+    editor.release();
+  } else if (left && pressed_ && !dragging_) {
+    if (const std::optional<PointedScene> shown = view()) {
+      editor.cancelDrag();
+      shift_ ? editor.clickAlso(*shown, pixel_) : editor.click(*shown, pixel_);
+      clicked = true;
+    }
+  }
+  cancel();
+  return clicked;
+}
+
+void PointerController::move(const glm::dvec2& position, const glm::dvec2& pixelsPerUnit, double height, bool snap,
+                             SceneEditor& editor, CameraController& camera) {
+  const glm::dvec2 by = position - (pressed_ && !dragging_ ? *pressed_ : position_);
+  position_ = position;
+  pixel_ = position * pixelsPerUnit;
+  dragging_ = dragging_ || (pressed_ && glm::distance(*pressed_, position) > clickReach);
+  if (!dragging_) {
+    return;
+  }
+  if (holdsHandle_) {
+    editor.drag(pixel_, snap);
+  } else if (button_ == MouseButton::left) {
+    camera.drag(by.x, by.y);
+  } else {
+    camera.pan(by.x, by.y, height);
+  }
+}
+
+}  // namespace speculum

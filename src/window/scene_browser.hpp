@@ -1,0 +1,58 @@
+#pragma once
+
+#include <functional>
+#include <map>
+
+#include "session/session.hpp"
+#include "ui/shown.hpp"
+#include "window/background_job.hpp"
+
+namespace speculum {
+
+// Lists the scenes to choose from, and loads one in the background.
+class SceneBrowser {
+ public:
+  SceneBrowser();  // with the files that earlier sessions opened
+  // Lists the scenes in the folder of `file`, then those that come with the program, then others that were opened
+  // before; `file` is shown.
+  void list(const std::filesystem::path& file);
+  // Marks the file as shown. Adds a file from elsewhere at the end of the list or, with `withFolder`, the scenes of its
+  // folder. A new scene is listed while it is shown. Returns true if the list changed.
+  bool show(const std::filesystem::path& file, bool withFolder);
+  std::vector<Image8> thumbnails() const;  // of the list; without pixels for a scene that has none
+  // Makes a picture of the shown scene its thumbnail, unless the scene comes with one. Returns true if it did.
+  bool storeThumbnail(const std::function<Image8()>& picture) const;
+
+  // Loads a scene or a model on a thread of its own, and cancels one that is loading.
+  void open(const std::filesystem::path& file, const Options& options);
+  static std::vector<std::filesystem::path> shippedModels();  // that come with the program
+  static std::filesystem::path newScene();                    // template of a new scene
+  static bool isNew(const std::filesystem::path& scene);
+  // Returns the first of the files that can be opened. Throws InputError if there is none.
+  static std::filesystem::path choose(const std::vector<std::filesystem::path>& files);
+  void cancelLoading() { load_.cancel(); }
+  bool busy() const { return load_.busy(); }  // true until a loaded scene or an error is taken
+  bool loaded() const { return load_.hasResult(); }
+  std::unique_ptr<LoadedScene> takeLoaded() { return load_.takeResult().value_or(nullptr); }
+  std::optional<std::string> takeError() { return load_.takeError(); }
+
+  void showPoster(bool shown) { shown_.poster = shown; }
+  void updateView();  // once a frame, for the progress of loading
+  const ShownScenes& shown() const { return shown_; }
+
+ private:
+  struct Progress {
+    std::filesystem::path file;  // that is read
+    double done = 0.0;           // share, 0 .. 1
+  };
+
+  void remember(const std::filesystem::path& file);  // among the recent ones, for later sessions too
+  size_t add(const std::filesystem::path& file);     // its index
+  void addSaved(const std::vector<SceneEntry>& scenes);
+
+  ShownScenes shown_;
+  std::map<std::filesystem::path, size_t> indices_;  // into ShownScenes::scenes, by canonical path
+  BackgroundJob<std::unique_ptr<LoadedScene>, Progress> load_;
+};
+
+}  // namespace speculum

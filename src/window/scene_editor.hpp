@@ -1,0 +1,106 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "edit/outline.hpp"
+#include "edit/pick.hpp"
+#include "edit/scene_document.hpp"
+#include "ui/shown.hpp"
+#include "window/node_drag.hpp"
+
+namespace speculum {
+
+// The scene as the window shows it, for picking.
+struct PointedScene {
+  SceneState state;
+  PictureView picture;
+  PickLimits limits;
+  double scale = 1.0;  // pixels of the picture for one at 96 dots an inch
+};
+
+// Edits the scene that the window shows: selection, handles over the picture, fields of the inspector, undo.
+class SceneEditor {
+ public:
+  // Keeps a reference to the scene, and calls `beforeChange` before each change of it. `shipped`: models that come with
+  // the program.
+  SceneEditor(Scene& scene, std::span<const std::filesystem::path> shipped, std::function<void()> beforeChange);
+
+  bool press(const PointedScene& view, const glm::dvec2& pixel);  // grips a handle; false if there is none
+  bool dragging() const { return drag_.has_value(); }
+  void drag(const glm::dvec2& pixel, bool snap);
+  void release();
+  void cancelDrag();  // puts the nodes back
+  // Selects what the pixel shows. A further click at the same place selects the mirror that it is seen in, and so on
+  // outwards, then begins again. Selects nothing where the background is seen directly.
+  void click(const PointedScene& view, const glm::dvec2& pixel);
+  // Adds the node that is seen directly at the pixel to the selection, or removes it.
+  void clickAlso(const PointedScene& view, const glm::dvec2& pixel);
+  void toggle(const Selection& node);
+  void select(const Selection& node);  // alone
+  void selectNext(int step);           // in the order of the scene, round
+  void setMode(GizmoMode mode) { mode_ = mode; }
+  void nextMode() { mode_ = static_cast<GizmoMode>((static_cast<int>(mode_) + 1) % 3); }
+
+  // Replaces a node by one of its kind. With `continued` further edits until endEdit() belong to the same step of undo.
+  // Nothing changes for an orbit whose axis has no direction.
+  void edit(const Selection& target, const SceneNode& node, bool continued);
+  void endEdit();
+  void addMirror(const PointedScene& view);  // in the middle of the view, as the next two
+  void addLight(const PointedScene& view);
+  void addObject(const PointedScene& view, int mesh);               // of the scene
+  void duplicate(const PointedScene& view, const PixelRect& free);  // `free`: where no panel covers the picture, pixels
+  void remove();
+  void addBookmark(Bookmark bookmark);
+  void removeBookmark(size_t index);
+  std::optional<SettingsStep> step(UndoWay way);  // undoes or redoes one, as SceneDocument does
+
+  // Returns the file of an AddObject command's model. Throws InputError if it does not exist.
+  std::filesystem::path modelFile(const std::filesystem::path& model) const;
+  void modelsChanged();  // call when the scene's models changed
+
+  SceneDocument& document() { return document_; }
+  const SceneDocument& document() const { return document_; }
+  bool changedSinceLastCall() { return std::exchange(shownRevision_, document_.revision()) != document_.revision(); }
+
+  // Fills the editor's part of the view.
+  void fill(ShownEdit& view) const;
+  // Returns outline and handles of the selected nodes. `pointer` is its pixel if it is over the picture.
+  ShownOverlay overlay(const PointedScene& view, const std::optional<glm::dvec2>& pointer);
+
+ private:
+  struct Clicked {
+    std::vector<Picked> found;  // from the innermost node outwards
+    glm::dvec2 pixel{0.0};
+    size_t chosen = 0;  // index into `found`
+  };
+
+  void replace(const std::string& verb, std::span<const PlacedNode> nodes);
+  void beginChange();
+  std::vector<Selection> selected() const;  // the document's first
+  void forgetPath();
+  PictureView clickedImage(const PointedScene& view) const;
+  Gizmo gizmo(const PointedScene& view) const;
+  const MeshOutline& meshOutline(const Selection& node);
+  double sideInSight(const PointedScene& view, std::span<const Selection> nodes, const PixelRect& free) const;
+  glm::dvec3 pointAhead(const PointedScene& view, double part, double least = 0.0);
+  Picker& picker();
+
+  SceneDocument document_;
+  std::span<const std::filesystem::path> shipped_;
+  std::vector<std::filesystem::path> models_;  // that an object can be added of, the scene's first
+  std::function<void()> beforeChange_;
+  std::unique_ptr<Picker> picker_;  // made when it is needed first
+  MirrorPath path_;                 // mirrors that the selected node was picked through
+  std::vector<Selection> others_;   // selected together with the document's; of objects the first copy
+  GizmoMode mode_ = GizmoMode::move;
+  std::optional<NodeDrag> drag_;
+  std::optional<Clicked> clicked_;
+  std::map<int, MeshOutline> outlines_;  // by mesh, of those that were selected
+  uint64_t shownRevision_ = 0;
+};
+
+}  // namespace speculum

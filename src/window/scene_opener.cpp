@@ -1,0 +1,209 @@
+#include "window/scene_opener.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <ctime>
+
+#include "platform/files.hpp"
+#include "scene/model_formats.hpp"
+
+namespace speculum {
+
+namespace fs = std::filesystem;
+
+SceneOpener::SceneOpener(const Options& options, const Settings& settings) : options_(options), settings_(settings) {
+  options_.sweepResults.clear();  // they belong to the first scene
+}
+
+void SceneOpener::setDocument(DocumentController& document) {
+  document_ = &document;
+  seen_.reset();
+  if (options_.frames == 0) {
+    recovery_.setScene(shownFile());
+  }
+}
+
+void SceneOpener::offerRecovery() {
+  if (const fs::path copy = recovery_.findNewest(); !copy.empty()) {
+    document_->ask(Prompt::recovery, copy);
+  }
+}
+
+// Returns the scene's folder; for a new one that of the scenes that come with the program.
+fs::path SceneOpener::folderToOpen() const {
+  const fs::path folder = wholePath(shownFile()).parent_path();
+  return (SceneBrowser::isNew(shownFile()) ? folder.parent_path() : folder) / "";
+}
+
+void SceneOpener::ask() {
+  if (!dialog_.open(folderToOpen())) {
+    document_->ask(Prompt::open, folderToOpen());
+  }
+}
+
+void SceneOpener::takeChosenFile() {
+  const std::optional<FileDialog::Answer> answer = dialog_.poll();
+  if (answer && answer->file) {
+    open(*answer->file);
+  } else if (answer && answer->failed && !document_->prompting()) {
+    document_->ask(Prompt::open, folderToOpen());
+  }
+}
+
+void SceneOpener::setProblem(const std::string& problem) {
+  problem_ = problem;
+  if (!problem.empty()) {
+    spdlog::error("{}", problem);
+  }
+}
+
+void SceneOpener::open(const fs::path& file) {
+  std::error_code none;
+  if (!fs::exists(file, none)) {
+    return setProblem(file.string() + ": there is no such file");
+  }
+  document_->closeOpenPrompt();
+  if (document_->confirmDiscard(settings_, OpenScene{file})) {
+    problem_.clear();
+    browser_.open(file, options_);
+  }
+}
+
+void SceneOpener::openDropped(const std::vector<fs::path>& files) {
+  try {
+    open(SceneBrowser::choose(files));
+  } catch (const InputError& error) {
+    setProblem(error.what());
+  }
+}
+
+void SceneOpener::cancelLoading() {
+  browser_.cancelLoading();
+  document_->forgetDiscard();
+}
+
+void SceneOpener::cancelPrompt() {
+  if (document_->prompt() == Prompt::recovery) {
+    recovery_.postpone();
+  }
+  document_->cancelPrompt();
+  if (browser_.loaded()) {
+    browser_.cancelLoading();
+  }
+}
+
+std::optional<Command> SceneOpener::discard() {
+  if (document_->prompt() == Prompt::recovery) {
+    recovery_.discardOffer();
+    document_->cancelPrompt();
+    return std::nullopt;
+  }
+  return document_->discard(settings_);
+}
+
+std::unique_ptr<LoadedScene> SceneOpener::update() {
+  takeChosenFile();
+  std::unique_ptr<LoadedScene> loaded;
+  // Prompts for changes made while the scene was loading, too.
+  if (browser_.loaded() && document_->confirmDiscard(settings_, std::nullopt)) {
+    loaded = browser_.takeLoaded();
+  } else if (const std::optional<std::string> error = browser_.takeError()) {
+    setProblem(*error);
+    document_->forgetDiscard();
+  }
+  browser_.updateView();
+  return loaded;
+}
+
+bool SceneOpener::working() const {
+  const bool waitsForAnswer = browser_.loaded() && document_->prompting();
+  return (browser_.busy() && !waitsForAnswer) || dialog_.isOpen();
+}
+
+bool SceneOpener::confirmQuit() {
+  const bool confirmed = document_->confirmDiscard(settings_, Quit{});
+  if (confirmed && options_.frames == 0) {
+    forgetCopies();
+  }
+  return confirmed;
+}
+
+void SceneOpener::forgetSaved() {
+  if (!document_->hasUnsaved(settings_)) {
+    forgetCopies();
+  }
+}
+
+void SceneOpener::forgetCopies() {
+  recovery_.forget();
+  copyDue_.reset();
+}
+
+fs::path SceneOpener::keepCopy() {
+  return recovery_.keep(shownFile().stem().string(),
+                        [this](const fs::path& file) { return document_->text(file, settings_, ReadBack::untested); });
+}
+
+void SceneOpener::keepChanges(Clock::time_point now) noexcept {
+  using namespace std::chrono_literals;
+  const std::pair shown(document_->editor().document().revision(), settings_);
+  if (std::exchange(seen_, shown) != shown) {
+    copyDue_ = copyDue_.value_or(now + std::max<Clock::duration>(1s, copyInterval_));
+  }
+  if (!copyDue_ || now < *copyDue_ || options_.frames > 0) {
+    return;
+  }
+  const std::clock_t start = std::clock();
+  copyDue_.reset();
+  try {
+    document_->hasUnsaved(settings_) ? static_cast<void>(keepCopy()) : recovery_.forget();
+    copyFailed_ = false;
+  } catch (const std::exception& error) {
+    copyDue_ = now + 10s;
+    if (!std::exchange(copyFailed_, true)) {
+      spdlog::warn("no copy of unsaved changes is kept: {}", error.what());
+    }
+  }
+  copyInterval_ = 10 * std::chrono::microseconds(std::clock() - start);  // a large scene takes long
+}
+
+void SceneOpener::keepUnsavedWork() noexcept {
+  try {
+    if (document_->hasUnsaved(settings_)) {
+      spdlog::warn("unsaved changes are kept in {}", keepCopy().string());
+    }
+  } catch (const std::exception& error) {
+    spdlog::error("unsaved changes are lost: {}", error.what());
+  }
+}
+
+bool FileDialog::open(const fs::path& folder) {
+  if (process_) {
+    return true;
+  }
+  if (const fs::path zenity = findProgram("zenity"); !zenity.empty()) {
+    process_ = std::make_unique<ChildProcess>(std::vector<std::string>{
+        zenity, "--file-selection", "--title=Open", "--filename=" + folder.string(),
+        "--file-filter=Scenes and models | *.toml " + modelPatterns(), "--file-filter=All files | *"});
+  } else if (const fs::path kdialog = findProgram("kdialog"); !kdialog.empty()) {
+    process_ = std::make_unique<ChildProcess>(std::vector<std::string>{
+        kdialog, "--title", "Open", "--getopenfilename", folder, "Scenes and models (*.toml " + modelPatterns() + ")"});
+  }
+  return process_ != nullptr;
+}
+
+// The dialog may write warnings too; the file is the last line.
+std::optional<FileDialog::Answer> FileDialog::poll() {
+  const std::optional<ProcessResult> result = process_ ? process_->poll() : std::nullopt;
+  if (!result) {
+    return std::nullopt;
+  }
+  process_.reset();
+  const std::string text = result->output.substr(0, result->output.find_last_not_of("\n") + 1);
+  if (result->exitCode == 0 && !text.empty()) {
+    return Answer{.file = text.substr(text.rfind('\n') + 1)};
+  }
+  return Answer{.file = std::nullopt, .failed = result->exitCode > 1};  // 1: the user cancelled
+}
+
+}  // namespace speculum

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "edit/recovery.hpp"
+#include "platform/process.hpp"
+#include "window/document_controller.hpp"
+#include "window/scene_browser.hpp"
+
+namespace speculum {
+
+// The desktop's dialog for a file to open (zenity or kdialog), in a child process.
+class FileDialog {
+ public:
+  struct Answer {
+    std::optional<std::filesystem::path> file;  // none if the user cancelled, or the dialog failed
+    bool failed = false;
+  };
+
+  // Opens it in that folder unless it is open. Returns false if the desktop has none.
+  bool open(const std::filesystem::path& folder);
+  bool isOpen() const { return process_ != nullptr; }
+  std::optional<Answer> poll();  // once it has closed
+
+ private:
+  std::unique_ptr<ChildProcess> process_;  // while it is open
+};
+
+// Opens scenes: asks for a file, prompts about unsaved changes first, loads in the background, and offers the copy that
+// a session that failed has kept.
+class SceneOpener {
+ public:
+  // Keeps the reference to the settings in use.
+  SceneOpener(const Options& options, const Settings& settings);
+
+  void setDocument(DocumentController& document);  // call when another scene is shown
+  void offerRecovery();
+
+  // Asks for a file: by the desktop's dialog, if it has one that can be started, else by a prompt.
+  void ask();
+  void open(const std::filesystem::path& file);
+  void openDropped(const std::vector<std::filesystem::path>& files);
+  void cancelLoading();
+  void cancelPrompt();
+  std::optional<Command> discard();  // as DocumentController::discard, or the answer to the offer
+  // Call once a frame. Returns a scene to show when it is loaded and no unsaved changes stand against it, else null.
+  std::unique_ptr<LoadedScene> update();
+  bool working() const;  // update() has work left although nothing happens
+
+  bool confirmQuit();  // as DocumentController::confirmDiscard
+  void forgetSaved();  // call after saving: the copy of saved changes is not offered again
+  using Clock = std::chrono::steady_clock;
+  // Keeps unsaved changes in a copy that the next start offers, at most a second after they were made and once a
+  // second. Call it often. Does nothing with --frames.
+  void keepChanges(Clock::time_point now) noexcept;
+  // Keeps them at once, and logs where.
+  void keepUnsavedWork() noexcept;
+
+  SceneBrowser& browser() { return browser_; }
+  const SceneBrowser& browser() const { return browser_; }
+  const std::string& problem() const { return problem_; }  // with the last scene; empty: none
+  void setProblem(const std::string& problem);             // logs it too
+
+ private:
+  std::filesystem::path keepCopy();
+  void forgetCopies();
+  const std::filesystem::path& shownFile() const { return document_->editor().document().scene().file; }
+  std::filesystem::path folderToOpen() const;
+  void takeChosenFile();
+
+  Options options_;
+  const Settings& settings_;
+  DocumentController* document_ = nullptr;
+  SceneBrowser browser_;
+  FileDialog dialog_;
+  Recovery recovery_;
+  std::string problem_;
+  std::optional<std::pair<uint64_t, Settings>> seen_;  // revision and settings that keepChanges() saw last
+  std::optional<Clock::time_point> copyDue_;           // none: the copy has all changes
+  Clock::duration copyInterval_{};
+  bool copyFailed_ = false;
+};
+
+}  // namespace speculum

@@ -1,0 +1,504 @@
+#include "window/workspace.hpp"
+
+#include "session/view_command.hpp"
+#include "settings/setting_fields.hpp"
+#include "window/pace.hpp"
+
+namespace speculum {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+template <typename... Functions>
+struct Overloaded : Functions... {
+  using Functions::operator()...;
+};
+template <typename... Functions>
+Overloaded(Functions...) -> Overloaded<Functions...>;  // clang needs it before version 17
+
+std::string windowTitle(const ShownEdit& edit, bool recording) {
+  return (recording ? "Recording, F10 stops - " : "") + edit.scene->file.stem().string() +
+         (edit.unsaved ? "* - Speculum" : " - Speculum");
+}
+
+}  // namespace
+
+Workspace::Workspace(const Options& options, WorkspaceHost& host)
+    : options_(options),
+      host_(host),
+      logCapture_(captureLog(log_)),
+      loaded_(std::make_unique<LoadedScene>(loadSceneWithSettings(options))),
+      shippedModels_(SceneBrowser::shippedModels()),
+      opener_(options, settings_),
+      accuracy_(options, loaded_->settings, loaded_->quality ? loaded_->quality->why : "") {
+  browser().list(loaded_->scene.file);
+  startDocument();
+  if (options.frames == 0) {
+    opener_.offerRecovery();
+  }
+}
+
+void Workspace::startDocument() {
+  // A scene that is being traced in the background must not change meanwhile.
+  document_ = std::make_unique<DocumentController>(*loaded_, shippedModels_, options_.frames == 0,
+                                                   [this] { accuracy_.forgetScene(); });
+  opener_.setDocument(*document_);
+  pointer_.cancel();
+  camera_.sceneChanged(scene());
+  report_.clear();
+  settings_ = loaded_->settings;
+  shownStructure_ = document_->editor().document().structureRevision();
+  edit_ = {};
+  document_->fill(edit_, settings_);
+}
+
+void Workspace::apply(const Command& command) {
+  std::visit(Overloaded{
+                 [&](const ResetCamera&) { camera_.reset(scene().camera); },
+                 [&](const ToggleCameraMode&) { camera_.toggleMode(); },
+                 [&](const SetCameraMode& c) { camera_.setMode(c.mode); },
+                 [&](const FrameSelection&) { frame(editor().document().selection()); },
+                 [&](const LookFromMirror& c) { lookFromMirror(c.side); },
+                 [&](const AddBookmark&) {
+                   editor().addBookmark(camera_.bookmark(state(time()).camera, scene().camera));
+                   camera_.setBookmark(static_cast<int>(scene().bookmarks.size()) - 1);
+                   status_.set("Added bookmark '" + scene().bookmarks.back().name + "'. Shift+M goes to the next one.");
+                 },
+                 [&](const GoToBookmark& c) { camera_.goToBookmark(c.index, scene()); },
+                 [&](const GoToNextBookmark&) { camera_.goToNextBookmark(scene()); },
+                 [&](const RemoveBookmark& c) {
+                   if (c.index < scene().bookmarks.size()) {
+                     editor().removeBookmark(c.index);
+                   }
+                 },
+                 [&](const Seek& c) { playback_.seek(c.seconds); },
+                 [&](const StepTime& c) { playback_.step(c.steps); },
+                 [&](const SetPaused& c) { playback_.setPaused(c.paused); },
+                 [&](const TogglePaused&) { playback_.setPaused(!playback_.shown().paused); },
+                 [&](const SetTimeSpeed& c) { playback_.setSpeed(c.factor); },
+                 [&](const MultiplyTimeSpeed& c) { playback_.setSpeed(c.factor * playback_.shown().speed); },
+                 [&](const SetSettings& c) { setSettings(c.settings, c.continued); },
+                 [&](const ResetSettings&) { setSettings(loaded_->settings); },
+                 [&](const NewScene&) { opener_.open(SceneBrowser::newScene()); },
+                 [&](const AskWhatToOpen&) { opener_.ask(); },
+                 [&](const OpenScene& c) { opener_.open(c.file); },
+                 [&](const OpenDropped& c) { opener_.openDropped(c.files); },
+                 [&](const CancelLoading&) { opener_.cancelLoading(); },
+                 [&](const Save&) { resume(document_->save(settings_)); },
+                 [&](const AskWhereToSave&) { document_->askWhere(); },
+                 [&](const SaveAs& c) { resume(document_->saveAs(c.file, settings_, c.copyModels)); },
+                 [&](const DiscardChanges&) { resume(opener_.discard()); },
+                 [&](const CancelPrompt&) { opener_.cancelPrompt(); },
+                 [&](const Quit&) {
+                   if (opener_.confirmQuit()) {
+                     host_.close();
+                   }
+                 },
+                 [&](const SelectNode& c) {
+                   editor().select(c.node);
+                   host_.openInspector();
+                 },
+                 [&](const ToggleNode& c) { editor().toggle(c.node); },
+                 [&](const SelectNext& c) {
+                   editor().selectNext(c.step);
+                   host_.openInspector();
+                 },
+                 [&](const SetGizmoMode& c) { editor().setMode(c.mode); },
+                 [&](const NextGizmoMode&) { editor().nextMode(); },
+                 [&](const EditNode& c) { editor().edit(c.target, c.node, c.continued); },
+                 [&](const EndEdit&) { editor().endEdit(); },
+                 [&](const AddMirror&) { addNode(&SceneEditor::addMirror); },
+                 [&](const AddLight&) { addNode(&SceneEditor::addLight); },
+                 [&](const AddObject& c) { addObject(c.model); },
+                 [&](const DuplicateSelected&) {
+                   if (const auto view = pointedScene(time())) {
+                     editor().duplicate(*view, host_.freePicture());
+                   }
+                 },
+                 [&](const RemoveSelected&) { editor().remove(); },
+                 [&](const Undo&) { step(UndoWay::back); },
+                 [&](const Redo&) { step(UndoWay::forward); },
+                 [&](const MeasureAccuracy&) { measureAccuracy(); },
+                 [&](const CancelMeasurement&) { accuracy_.cancel(); },
+                 [&](const ApplyPoint& c) {
+                   Settings settings = settings_;
+                   accuracy_.applyPoint(c.point, settings);
+                   setSettings(settings);
+                   accuracy_.pick(settings_);
+                   status_.set("Shows the picked point as it was measured: one picture, not the mean of several.");
+                 },
+                 [&](const TakeScreenshot& c) { capture_.takeScreenshot(c.withPanel); },
+                 [&](const ToggleRecording& c) {
+                   if (const auto message = capture_.toggleRecording(scene().file.stem().string(), c.withPanel)) {
+                     status_.set(*message);
+                   }
+                 },
+                 [&](const CopyCommandLine&) { copyCommandLine(); },
+                 [&](const CopyText& c) { host_.setClipboard(c.text); },
+                 [&](const SetPresentMode& c) { host_.setPresentMode(c.index); },
+                 [&](const ToggleFullScreen&) { host_.toggleFullScreen(); },
+                 [&](const TogglePanel&) {
+                   if (!host_.togglePanels()) {
+                     status_.show("Panels hidden. Tab shows them again.");
+                   }
+                 },
+                 [&](const ToggleHelp&) { host_.toggleHelp(); },
+                 [&](const ToggleInspector&) { host_.toggleInspector(); },
+                 [&](const Escape&) { escape(); },
+                 [&](const PauseHistory& c) { report_.history().setPaused(c.paused); },
+                 [&](const ClearHistory&) { report_.history().clear(); },
+                 [&](const DismissMessage&) { dismissMessage(); },
+                 [&](const ClearLog&) { log_.clear(); },
+             },
+             command);
+}
+
+void Workspace::pointerButton(const MouseButtonEvent& event, bool overPanels) {
+  const bool clicked = pointer_.button(event, overPanels, editor(), [this] { return pointedScene(time()); });
+  if (!clicked || !editor().document().selection()) {
+    return;
+  }
+  if (host_.inspectorCovers(pointer_.position())) {
+    status_.set("Selected " + describe(scene(), editor().document().selection()) + ". F2 opens the inspector.");
+  } else {
+    host_.openInspector();
+  }
+}
+
+void Workspace::pointerMoved(const glm::dvec2& position, const glm::dvec2& windowSize, bool snap) {
+  const glm::dvec2 pixelsPerUnit = glm::dvec2(host_.pictureSize()) / glm::max(windowSize, 1.0);
+  pointer_.move(position, pixelsPerUnit, windowSize.y, snap, editor(), camera_);
+}
+
+double Workspace::frameSeconds(double seconds) const {
+  return capture_.recording() ? 1.0 / Capture::framesPerSecond : seconds;
+}
+
+SceneState Workspace::state(double time) {
+  SceneState state = evaluate(scene(), time);
+  state.camera = camera_.pose(state.camera);
+  return state;
+}
+
+WatchedState Workspace::watchedState(const SceneState& shown) const {
+  return {.camera = shown.camera,
+          .movedCamera = camera_.moved(),
+          .time = shown.time,
+          .seeks = playback_.seeks(),
+          .paused = playback_.shown().paused,
+          .animated = animated()};
+}
+
+// Returns nothing while the window has no pixels.
+std::optional<PointedScene> Workspace::pointedScene(double time) {
+  const glm::ivec2 size = host_.pictureSize();
+  if (size.x == 0 || size.y == 0) {
+    return std::nullopt;
+  }
+  SceneState shown = state(time);
+  const PictureView picture(shown.camera, size.x, size.y);
+  const ReflectionSettings& reflection = settings_.reflection;
+  return PointedScene{.state = std::move(shown),
+                      .picture = picture,
+                      .limits = {reflection.maxDepth, reflection.minThroughput, report_.skipped()},
+                      .scale = host_.contentScale()};
+}
+
+double Workspace::aspect() const {
+  const glm::ivec2 size = host_.pictureSize();
+  return size.y > 0 ? static_cast<double>(size.x) / size.y : 1.0;
+}
+
+void Workspace::prepareView(double seconds, bool pointerOverPicture) {
+  document_->fill(edit_, settings_);
+  if (const std::string title = windowTitle(edit_, capture_.recording()); title_ != title) {
+    host_.setTitle(title_ = title);
+  }
+  edit_.overlay = {};
+  if (edit_.selected) {
+    if (const auto view = pointedScene(playback_.after(seconds))) {
+      const bool points = pointerOverPicture && !pointer_.dragging();
+      edit_.overlay = editor().overlay(*view, points ? std::optional(pointer_.pixel()) : std::nullopt);
+    }
+  }
+  camera_.bookmarksChanged(scene());
+  status_.update(capture_.wanted());
+}
+
+UiInput Workspace::shown(const ShownDevice& device, const std::string& message) const {
+  return {.frame = report_.shown(),
+          .device = device,
+          .browser = opener_.browser().shown(),
+          .settings = settings_,
+          .sceneSettings = loaded_->settings,
+          .camera = camera_.shown(),
+          .playback = playback_.shown(),
+          .edit = edit_,
+          .accuracy = accuracy_.shown(),
+          .status = status_.shown(),
+          .log = log_,
+          .message = message};
+}
+
+void Workspace::update() {
+  takeSceneChange();
+  if (std::unique_ptr<LoadedScene> loaded = opener_.update()) {
+    showScene(std::move(loaded));
+  }
+  // Warnings wait while a scene is read, because they may be of that one.
+  const std::string warning = browser().busy() ? std::string() : log_.takeProblem();
+  if (!warning.empty() && !problem().starts_with(warning)) {
+    status_.warn(warning);
+  }
+  accuracy_.beforeFrame(settings_);
+}
+
+// Drops cached images of the old scene that content comparison does not cover: those reused by an interval, and those
+// of mirrors whose indices changed. Also drops figures that would hide what the new scene costs; those of a drag stay
+// together, because it changes costs little by little.
+void Workspace::takeSceneChange() {
+  if (!editor().changedSinceLastCall()) {
+    return;
+  }
+  if (!editor().dragging()) {
+    report_.history().restart();
+  }
+  const int interval = mostAsked(scene(), settings_).updateInterval;
+  const uint64_t structure = editor().document().structureRevision();
+  const bool restructured = std::exchange(shownStructure_, structure) != structure;
+  if (restructured || interval > 1 || settings_.effects.environmentInterval > 1) {
+    host_.dropCachedImages();
+  }
+}
+
+void Workspace::frameDrawn(const ShownPicture& shown, const std::function<Image8()>& radiance, const Image8* captured) {
+  if (captured) {
+    Capture::Saved saved = capture_.save(scene().file.stem().string(), *captured);
+    const std::string& picture = status_.shown().picture;
+    saved.message += saved.logged && !picture.empty() ? ", " + picture : "";
+    saved.logged ? status_.set(saved.message) : status_.show(saved.message);
+  }
+  accuracy_.afterFrame(shown, watchedState(shown.state), radiance);
+  if (radiance && options_.frames == 0 && std::exchange(needsThumbnail_, false) && browser().storeThumbnail(radiance)) {
+    host_.scenesListed();
+  }
+  tookBack_ = false;
+}
+
+void Workspace::showScene(std::unique_ptr<LoadedScene> scene) {
+  accuracy_.setProblem("");  // what was said is about the last scene
+  accuracy_.forgetScene("Another scene was opened");
+  std::swap(loaded_, scene);
+  try {
+    host_.useScene(loaded_->scene);
+  } catch (const std::exception& error) {
+    opener_.setProblem(loaded_->scene.file.string() + ": " + error.what());
+    std::swap(loaded_, scene);
+    document_->forgetDiscard();
+    return host_.useScene(loaded_->scene);
+  }
+  startDocument();
+  needsThumbnail_ = true;
+  status_.sceneChanged();
+  playback_.seek(0.0);
+  if (isModelFile(loaded_->scene.file)) {
+    frame({.kind = Selection::Kind::object, .index = 0});
+  }
+  if (browser().show(loaded_->scene.file, true)) {
+    host_.scenesListed();
+  }
+}
+
+void Workspace::addNode(void (SceneEditor::*add)(const PointedScene&)) {
+  if (const std::optional<PointedScene> view = pointedScene(time())) {
+    (editor().*add)(*view);
+    reportAdded();
+  }
+}
+
+// Adds an object. Loads the model first if the scene does not have it; if that fails, the scene stays as it was.
+void Workspace::addObject(const fs::path& model) {
+  const std::optional<PointedScene> view = pointedScene(time());
+  if (!view) {
+    return;
+  }
+  Scene& scene = loaded_->scene;
+  const auto meshes = static_cast<std::ptrdiff_t>(scene.meshes.size());
+  const auto textures = static_cast<std::ptrdiff_t>(scene.textures.size());
+  const auto grown = [&] { return static_cast<std::ptrdiff_t>(scene.meshes.size()) > meshes; };
+  document_->setNote("");
+  try {
+    const fs::path file = editor().modelFile(model);
+    accuracy_.forgetScene();
+    const int mesh = addModel(scene, file);
+    if (grown()) {
+      useModels();
+    }
+    editor().addObject(*view, mesh);
+    reportAdded();
+  } catch (const std::exception& error) {
+    document_->setNote(error.what());
+    status_.set(error.what());
+    if (grown()) {
+      scene.meshes.erase(scene.meshes.begin() + meshes, scene.meshes.end());
+      scene.textures.erase(scene.textures.begin() + textures, scene.textures.end());
+      useModels();
+    }
+  }
+}
+
+void Workspace::reportAdded() {
+  status_.set("Added " + describe(scene(), editor().document().selection()));
+}
+
+void Workspace::useModels() {
+  host_.useScene(scene());
+  editor().modelsChanged();
+}
+
+void Workspace::resume(const std::optional<Command>& afterPrompt) {
+  if (document_->savedSinceLastCall()) {
+    opener_.setProblem("");
+    status_.set(document_->note());
+    opener_.forgetSaved();
+    needsThumbnail_ = true;
+    if (browser().show(scene().file, false)) {
+      host_.scenesListed();
+    }
+  }
+  if (afterPrompt) {
+    apply(*afterPrompt);
+  }
+}
+
+// Ends one thing at a time: drag, menu or list of keys, selection, message. Panels stay.
+void Workspace::escape() {
+  if (editor().dragging()) {
+    return editor().cancelDrag();
+  }
+  if (host_.closePopup()) {
+    return;
+  }
+  if (editor().document().selection()) {
+    return editor().select({});
+  }
+  dismissMessage();
+}
+
+// Messages about shaders and memory stay until their cause is gone. The panels' button hides those, Escape does not.
+void Workspace::dismissMessage() {
+  opener_.setProblem("");
+  status_.clear();
+}
+
+void Workspace::setSettings(const Settings& settings, bool continued) {
+  Settings chosen = settings;
+  accuracy_.followBudget(chosen);
+  editor().document().settingsChanged(settings_, chosen, continued);
+  settings_ = chosen;
+}
+
+void Workspace::step(UndoWay way) {
+  editor().release();
+  editor().endEdit();
+  const bool back = way == UndoWay::back;
+  const std::string step = back ? editor().document().undoLabel() : editor().document().redoLabel();
+  if (const std::optional<SettingsStep> changed = editor().step(way)) {
+    // Only these, because a measurement may have chosen others since.
+    for (const SettingField& field : settingFields()) {
+      if (!sameSetting(field, changed->before, changed->after)) {
+        copySetting(field, back ? changed->before : changed->after, settings_);
+      }
+    }
+  }
+  accuracy_.acceptBudget(settings_);
+  status_.set(step.empty() ? (back ? "Nothing to undo" : "Nothing to redo") : (back ? "Undone: " : "Redone: ") + step);
+}
+
+void Workspace::frame(const Selection& node) {
+  const Sphere bounds = boundsOf(scene(), evaluate(scene(), time()), node);
+  if (bounds.radius > 0.0) {
+    const glm::dvec2 size = glm::max(glm::dvec2(host_.pictureSize()), 1.0);
+    const PixelRect free = host_.freePicture();
+    const glm::dvec2 half = glm::dvec2(free.width, free.height) / size;
+    const glm::dvec2 corner = 2.0 * glm::dvec2(free.x, free.y) / size;
+    camera_.frame(bounds, aspect(), {.center = {corner.x + half.x - 1.0, 1.0 - corner.y - half.y}, .half = half});
+  }
+}
+
+// Reports what is seen, because a back that does not reflect looks like a fault.
+void Workspace::lookFromMirror(MirrorSide side) {
+  const int mirror = camera_.lookFromMirror(side, evaluate(scene(), time()), editor().document().selection(),
+                                            report_.shown().passes, aspect());
+  if (mirror < 0) {
+    return status_.set("The scene has no mirror to look from");
+  }
+  const std::string name = describe(scene(), {Selection::Kind::mirror, mirror});
+  if (side == MirrorSide::front) {
+    return status_.set("Looking out of " + name);
+  }
+  const bool reflects = scene().mirrors[static_cast<size_t>(mirror)].twoSided;
+  status_.set(
+      "Behind " + name +
+      (reflects ? ", which reflects on both sides" : ". Its back does not reflect; Shift+B looks out of its front"));
+}
+
+// Returns the options that draw the present view of the scene in `file`.
+Options Workspace::shownOptions(const fs::path& file) {
+  Options options = options_;
+  const glm::ivec2 size = host_.pictureSize();
+  options.scene = file.string();
+  options.size = {size.x, size.y};
+  options.time = time();
+  return options;
+}
+
+void Workspace::copyCommandLine() {
+  try {
+    const fs::path file = document_->savedOrCopy(loaded_->settings);
+    Options options = shownOptions(file);
+    if (camera_.moved()) {
+      options.camera = camera_.bookmark(state(time()).camera, scene().camera);
+    }
+    Settings settings = shownSettings();
+    settings.view.accumulate = stillPictures(settings);
+    const std::string command = viewCommand(options, file, scene(), settings);
+    host_.setClipboard(command);
+    const bool copy = file != scene().file;
+    status_.set("Copied: " + command + (copy ? "   (of a copy of the scene: it has unsaved changes)" : ""));
+  } catch (const std::runtime_error& error) {
+    status_.set("Not copied: " + std::string(error.what()));
+  }
+}
+
+void Workspace::measureAccuracy() {
+  try {
+    const SceneState shown = state(time());
+    SweepRequest request{
+        .options = shownOptions(document_->savedOrCopy(loaded_->settings)), .base = settings_, .camera = shown.camera};
+    request.options.gpu = host_.gpu();
+    accuracy_.measure(std::move(request), watchedState(shown));
+  } catch (const std::runtime_error& error) {
+    accuracy_.setProblem(error.what());
+  }
+}
+
+bool Workspace::undoFailedChange(const std::string& why) {
+  editor().release();
+  editor().endEdit();
+  const std::string label = editor().document().undoLabel();
+  if (std::exchange(tookBack_, !label.empty())) {
+    step(UndoWay::forward);  // it was not that step
+    tookBack_ = false;
+    return false;
+  }
+  if (label.empty()) {
+    return false;
+  }
+  step(UndoWay::back);
+  opener_.setProblem("Cannot " + label + ": " + why);
+  return true;
+}
+
+}  // namespace speculum

@@ -1,0 +1,176 @@
+// `speculum accuracy` and what uses its results, as scripts call them.
+#include "accuracy/sweep_json.hpp"
+#include "command_support.hpp"
+#include "picture_support.hpp"
+#include "platform/files.hpp"
+#include "scene_text.hpp"
+#include "session/session_subject.hpp"
+
+namespace speculum {
+namespace {
+
+using namespace testing_support;
+namespace fs = std::filesystem;
+
+const std::string sweep = R"([[series]]
+key = "reflection.max_depth"
+values = [0, 1, 2, 3]
+axis = "linear"
+settings = { "reflection.samples" = 1, "view.samples" = 1 }
+[[configuration]]
+name = "half <scale>"
+settings = { "reflection.scale" = 0.5 }
+[[configuration]]
+settings = { "reflection.update_interval" = 2 }
+)";
+
+class AccuracyCommand : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    out_ = std::make_unique<TemporaryDirectory>();
+    scene_ = writeScene("accuracy_command", corridorScene()).string();
+    std::ofstream(out("sweep.toml")) << sweep;
+  }
+  static void TearDownTestSuite() { out_.reset(); }
+
+  static std::string out(const std::string& name) { return (out_->path() / name).string(); }
+  static ProcessResult measure() {
+    return speculum({"accuracy", "--scene", scene_, "--out", out("report"), "--size", "64x36", "--sweep",
+                     out("sweep.toml"), "--validation", "--set", "debug.check_finite=true"});
+  }
+  // Runs the command once for all tests.
+  static const ProcessResult& measured() {
+    static const ProcessResult result = measure();
+    return result;
+  }
+  static ProcessResult render(std::vector<std::string> more) {
+    more.insert(more.begin(), {"render", "--scene", scene_, "--size", "64x36", "--out", out("p.png"), "--stats",
+                               out("s.json"), "--sweep-results", out("report/results.json")});
+    return speculum(more);
+  }
+
+  static inline std::string scene_;
+  static inline std::unique_ptr<TemporaryDirectory> out_;
+};
+
+TEST_F(AccuracyCommand, ReportsErrorsOfItsPictures) {
+  ASSERT_EQ(measured().exitCode, 0) << measured().output;
+  const SweepResults results = readSweepResults(out("report/results.json"));
+  EXPECT_EQ(results.width, 64);
+  ASSERT_EQ(results.points.size(), 7u) << "base, half scale, interval 2, four depths";
+  for (const SweepPoint& point : results.points) {
+    EXPECT_GE(point.gpuMs.repeats, 15) << point.name;
+    EXPECT_GT(point.gpuMs.minimum, 0.0) << point.name;
+    EXPECT_LE(point.gpuMs.lowerQuartile, point.gpuMs.upperQuartile) << point.name;
+  }
+  const auto& depths = results.series.at(0).points;
+  EXPECT_LT(results.points[depths[3]].mirrors->rmse, results.points[depths[0]].mirrors->rmse);
+  // The figures can be computed again from the pictures beside them.
+  const SweepPoint& point = results.points[depths[1]];
+  succeed({"compare", out("report/" + results.truthPicture), out("report/" + point.picture), "--json", out("c.json")});
+  EXPECT_NEAR(readJson(out("c.json"))["flip"].get<double>(), point.whole.flip, 1e-9);
+  EXPECT_NEAR(readJson(out("c.json"))["rmse"].get<double>(), point.whole.rmse, 1e-9);
+  EXPECT_TRUE(startsWith(readText(out("report/results.csv")), "name,settings,on_front"));
+  EXPECT_TRUE(contains(readText(out("report/index.html")), "half \\u003cscale>"));
+}
+
+TEST_F(AccuracyCommand, SecondRunMeasuresNothing) {
+  ASSERT_EQ(measured().exitCode, 0);
+  const std::string first = readText(out("report/measurements/measurements.json"));
+  ASSERT_EQ(measure().exitCode, 0);
+  EXPECT_EQ(readText(out("report/measurements/measurements.json")), first);
+}
+
+TEST_F(AccuracyCommand, StoredSweepMeetsABudget) {
+  ASSERT_EQ(measured().exitCode, 0);
+  const SweepResults results = readSweepResults(out("report/results.json"));
+  const auto chosen = [&](const std::string& bound) {
+    const ProcessResult result = render({"--set", bound});
+    EXPECT_EQ(result.exitCode, 0) << result.output;
+    EXPECT_TRUE(contains(result.output, "quality: '"));
+    return readJson(out("s.json"));
+  };
+  double bestFlip = 1.0;
+  for (const SweepPoint& point : results.points) {
+    bestFlip = std::min(bestFlip, point.whole.flip);
+  }
+  const nlohmann::json rich = chosen("quality.budget_ms=100000");
+  EXPECT_EQ(rich["quality"]["flip"].get<double>(), bestFlip);
+  EXPECT_TRUE(rich["quality"]["met"]);
+  const nlohmann::json poor = chosen("quality.budget_ms=0.000001");
+  EXPECT_FALSE(poor["quality"]["met"]);
+  for (const SweepPoint& point : results.points) {
+    if (point.name == poor["quality"]["point"].get<std::string>()) {
+      for (const SettingChange& change : point.changes) {
+        const nlohmann::json& value = poor["settings"][change.key];
+        EXPECT_EQ(value.is_string() ? value.get<std::string>() : value.dump(), change.value) << change.key;
+      }
+    }
+  }
+  EXPECT_TRUE(chosen("quality.max_error=1")["quality"]["met"]);
+}
+
+TEST_F(AccuracyCommand, MistakesAreOneLineAndExitTwo) {
+  EXPECT_TRUE(contains(mistake({"accuracy", "--scene", scene_, "--out", out("r"), "--sweep", out("absent.toml")}),
+                       "absent.toml:1: file:"));
+  std::ofstream(out("bad.toml")) << "[[configuration]]\nsettings = { \"reflection.scle\" = 1 }\n";
+  EXPECT_TRUE(contains(mistake({"accuracy", "--scene", scene_, "--out", out("r"), "--sweep", out("bad.toml")}),
+                       "did you mean 'reflection.scale'?"));
+  EXPECT_FALSE(fs::exists(out("r"))) << "bad input leaves nothing behind";
+  std::ofstream(out("file")) << "x";
+  mistake({"accuracy", "--scene", scene_, "--out", out("file"), "--sweep", out("sweep.toml")});
+  EXPECT_TRUE(contains(mistake({"render", "--scene", scene_, "--out", out("p.png"), "--set", "quality.budget_ms=3"}),
+                       "--sweep-results"));
+  EXPECT_TRUE(contains(mistake({"render", "--scene", scene_, "--out", out("p.png"), "--set", "quality.budget_ms=3",
+                                "--sweep-results", out("bad.toml")}),
+                       "not JSON"));
+}
+
+// Scenes of none to two mirrors, of which the second may stand where no path of light needs it.
+TEST(LeftOutConfigurations, DrawTheBytesOfOneThatIsKept) {
+  for (const int mirrors : {0, 1, 2}) {
+    std::string toml = wallScene.substr(0, wallScene.find("[[mirror]]"));
+    for (int i = 0; i < mirrors; ++i) {
+      toml += "[[mirror]]\n" + rectangleText({0.7 * i, 1.0, -1.5}, {0, 10.0 * i, 0}, 0.6, 0.9) + "\n";
+    }
+    Session session(headless(writeScene("left_out", toml), {64, 36}));
+    SweepPlan plan = viewSweep(sweepContext(session));
+    plan.repeats = 1;
+    const Settings base = session.settings();
+    const SceneState state = evaluate(session.scene(), 0.0);
+    SessionSubject subject(session, 0.0);
+    const TemporaryDirectory folder;
+    SweepStore store(folder.path());
+    const SweepScene scene{
+        .scene = session.scene(), .state = state, .width = 64, .height = 36, .noiseFloor = false, .truthSamples = 1};
+    SweepResults results;
+    ASSERT_TRUE(runSweep(plan, base, scene, subject, store, results, {}));
+    std::set<std::vector<uint8_t>> kept;
+    std::vector<std::pair<std::string, std::vector<uint8_t>>> leftOut;
+    for (const SweepConfiguration& configuration : plan.configurations) {
+      const bool isPoint = std::ranges::count(results.points, configuration.name, &SweepPoint::name) > 0;
+      const std::vector<uint8_t> bytes = subject.pictures(settingsWith(base, configuration.changes)).at(0).rgba;
+      if (isPoint) {
+        kept.insert(bytes);
+      } else {
+        leftOut.emplace_back(configuration.name, bytes);
+      }
+    }
+    EXPECT_EQ(std::ssize(leftOut), results.leftOut);
+    EXPECT_EQ(results.leftOut > 0, mirrors > 0) << mirrors;
+    EXPECT_GT(results.points.size(), 1u);
+    for (const auto& [name, bytes] : leftOut) {
+      EXPECT_TRUE(kept.contains(bytes)) << name << " with " << mirrors << " mirrors";
+    }
+  }
+}
+
+TEST_F(AccuracyCommand, BenchesTheReference) {
+  EXPECT_TRUE(contains(succeed({"bench", "--reference", "--json", out("b.json")}), "million rays per second"));
+  const nlohmann::json json = readJson(out("b.json"));
+  EXPECT_GT(json["triangles"], 90000);
+  EXPECT_GT(json["rays_per_second"], 0.0);
+}
+
+}  // namespace
+}  // namespace speculum

@@ -1,0 +1,65 @@
+#include "core/fixture.hpp"
+
+#include "log_capture.hpp"
+
+namespace speculum::test {
+namespace {
+
+// Draws frames with every kind of target, copies and uploads, with one kind of barrier omitted.
+std::vector<std::string> messagesWithout(std::optional<BarrierKind> kind, int samples) {
+  Device device(validated(RenderPath::renderPass));
+  Renderer renderer(device, headless(smallExtent));
+  SmallScene scene(renderer, smallExtent, samples);
+  device.barriers().omit(kind);
+  for (int i = 0; i < 4; ++i) {
+    scene.frame(i == 3);
+  }
+  renderer.waitIdle();
+  renderer.uploader().readFloats(scene.main().color());
+  const std::vector<uint16_t> texels(4 * 16 * 16, 0x3800);
+  const Image image =
+      renderer.uploader().image(std::as_bytes(std::span(texels)), {16, 16}, colorFormat, true, "upload");
+  renderer.waitIdle();
+  return device.lastValidationMessages();
+}
+
+class Barrier : public testing::TestWithParam<BarrierKind> {
+  const LogCapture log_;  // the messages are expected here; they would hide the test's own output
+};
+
+TEST_P(Barrier, IsMissedWhenLeftOut) {
+  const std::vector<std::string> messages = messagesWithout(GetParam(), 4);
+  ASSERT_FALSE(messages.empty()) << "no message without " << barrierName(GetParam());
+  EXPECT_TRUE(contains(messages.front(), "SYNC-HAZARD"));
+}
+
+// The other kinds are tested where they occur: presenting in core_window.cpp, those of compute shaders in
+// finite_watch.cpp, sampled depth in target_views.cpp.
+std::vector<BarrierKind> kindsWithoutWindow() {
+  std::vector<BarrierKind> kinds(allBarrierKinds().begin(), allBarrierKinds().end());
+  for (const BarrierKind other : {BarrierKind::swapchainToPresent, BarrierKind::targetToCheck,
+                                  BarrierKind::checkToLookUp, BarrierKind::checkToWrite, BarrierKind::surfacesToShade,
+                                  BarrierKind::shadedToDraw, BarrierKind::depthToSample}) {
+    std::erase(kinds, other);
+  }
+  return kinds;
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, Barrier, testing::ValuesIn(kindsWithoutWindow()),
+                         [](const auto& info) { return std::string(barrierName(info.param)); });
+
+TEST(Barriers, AllInPlaceGiveNoMessage) {
+  EXPECT_TRUE(messagesWithout(std::nullopt, 4).empty());
+  EXPECT_TRUE(messagesWithout(std::nullopt, 1).empty());
+}
+
+TEST(Barriers, NamesAndKindsAgree) {
+  EXPECT_EQ(allBarrierKinds().size(), size_t{barrierKindCount});
+  for (const BarrierKind kind : allBarrierKinds()) {
+    EXPECT_EQ(barrierFromName(barrierName(kind)), kind);
+  }
+  EXPECT_EQ(barrierFromName("offscreen"), std::nullopt);
+}
+
+}  // namespace
+}  // namespace speculum::test

@@ -1,0 +1,247 @@
+#include <bit>
+#include <cstring>
+#include <regex>
+#include <set>
+
+#include "core/fixture.hpp"
+#include "error_message.hpp"
+#include "platform/files.hpp"
+#include "test_paths.hpp"
+
+namespace speculum::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr VkExtent2D tinyExtent{32, 32};
+
+const fs::path glslDir = sourceDir() / "tests" / "shaders";
+
+// Draws one frame with a pipeline cache in `directory`.
+bool runWithCache(Device& device, const fs::path& directory) {
+  RendererOptions options = headless(tinyExtent);
+  options.pipelineCacheDir = directory;
+  Renderer renderer(device, options);
+  SmallScene scene(renderer, tinyExtent, 1);
+  EXPECT_TRUE(scene.frame());
+  return renderer.pipelineCache().loaded();
+}
+
+fs::path onlyFile(const fs::path& directory) {
+  return fs::directory_iterator(directory)->path();
+}
+
+using PipelineCacheTest = GpuTest;
+
+TEST_F(PipelineCacheTest, IsWrittenAndFoundAgain) {
+  const TemporaryDirectory directory;
+  EXPECT_FALSE(runWithCache(device_, directory.path()));
+  EXPECT_TRUE(runWithCache(device_, directory.path()));
+}
+
+TEST_F(PipelineCacheTest, DamagedFilesAreIgnoredAndReplaced) {
+  const TemporaryDirectory directory;
+  runWithCache(device_, directory.path());
+  const fs::path file = onlyFile(directory.path());
+  const std::vector<uint8_t> good = readFile(file);
+  ASSERT_GE(good.size(), 56u);
+
+  const std::vector<std::function<void(std::vector<uint8_t>&)>> damages = {
+      [](auto& content) { content.clear(); },      [](auto& content) { content.resize(content.size() / 2); },
+      [](auto& content) { content.push_back(0); }, [](auto& content) { content[0] ^= 1; },
+      [](auto& content) { content.back() ^= 1; },  [](auto& content) { content.assign(100000, 0xff); },
+  };
+  for (size_t i = 0; i < damages.size(); ++i) {
+    std::vector<uint8_t> content = good;
+    damages[i](content);
+    replaceFile(file, content);
+    EXPECT_FALSE(runWithCache(device_, directory.path())) << "damage " << i;
+  }
+  EXPECT_TRUE(runWithCache(device_, directory.path())) << "a damaged file was not replaced";
+}
+
+TEST_F(PipelineCacheTest, UnwritableDirectoryIsNoError) {
+  EXPECT_FALSE(runWithCache(device_, "/proc/speculum"));
+}
+
+// A scene whose shaders are copied to a directory that the renderer watches.
+class HotReload : public GpuTest {
+ protected:
+  HotReload() {
+    fs::create_directory(folder_);
+    for (const auto& entry : fs::directory_iterator(glslDir)) {
+      fs::copy_file(entry.path(), folder_ / entry.path().filename());
+    }
+    RendererOptions options = headless(tinyExtent);
+    options.shaderDir = folder_;
+    renderer_.emplace(device_, options);
+    scene_.emplace(*renderer_, tinyExtent, 1);
+  }
+
+  // Replaces `from` in a shader and gives the file a newer time.
+  void edit(const std::string& name, const std::string& from, const std::string& to) {
+    const fs::path file = folder_ / name;
+    const auto before = fs::last_write_time(file);
+    replaceFile(file, replaced(readText(file), from, to));
+    fs::last_write_time(file, before + std::chrono::seconds(++edits_));
+  }
+
+  std::array<int, 3> cornerColor() {
+    EXPECT_TRUE(scene_->frame(true));
+    const Pixels pixels = renderer_->readback();
+    const uint8_t* corner = &pixels.rgba[4 * (tinyExtent.width - 1)];
+    return {corner[0], corner[1], corner[2]};
+  }
+
+  TemporaryDirectory directory_;
+  const fs::path folder_ = directory_.path() / "with a blank: and \\ more";
+  std::optional<Renderer> renderer_;
+  std::optional<SmallScene> scene_;
+  int edits_ = 0;
+};
+
+constexpr std::array<int, 3> unedited = {64, 32, 191};
+
+TEST_F(HotReload, EditChangesThePictureAndLeaksNothing) {
+  EXPECT_EQ(cornerColor(), unedited);
+  EXPECT_EQ(cornerColor(), unedited);
+  const auto objects = liveObjects();  // after both frames in flight have made what they keep
+  edit("copy.frag", "texelFetch(source, ivec2(gl_FragCoord.xy), 0)",
+       "texelFetch(source, ivec2(gl_FragCoord.xy), 0).bgra");
+  EXPECT_TRUE(renderer_->reloadShaders());
+  EXPECT_TRUE(renderer_->pipelines().errors().empty());
+  // Swapped twice, once into the main target and once onto the display image.
+  EXPECT_EQ(cornerColor(), unedited);
+  edit("copy.frag", ".bgra", " * vec4(2.0, 1.0, 1.0, 1.0)");
+  EXPECT_TRUE(renderer_->reloadShaders());
+  EXPECT_EQ(cornerColor(), (std::array<int, 3>{255, 32, 191}));
+  EXPECT_EQ(liveObjects(), objects);
+}
+
+// Returns the values that fill.comp writes.
+std::vector<uint32_t> filled(Renderer& renderer, const Pipeline& pipeline, VkDescriptorSetLayout layout) {
+  constexpr uint32_t offset = 7;
+  const Buffer buffer(renderer.device(), 8 * sizeof(uint32_t), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, BufferMemory::host,
+                      "filled");
+  Frame frame = renderer.beginFrame().value();
+  const VkDescriptorSet set = frame.descriptors->allocate(layout);
+  DescriptorWriter().buffer(0, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, buffer.descriptor()).update(renderer.device(), set);
+  pipeline.bind(frame.commands);
+  pipeline.bindSet(frame.commands, 0, set);
+  pipeline.push(frame.commands, offset);
+  vkCmdDispatch(frame.commands, 1, 1, 1);
+  Barriers::computeToHost(frame.commands);
+  renderer.endFrame(frame);
+  renderer.waitIdle();
+  std::vector<uint32_t> values(8);
+  std::memcpy(values.data(), buffer.mapped(), buffer.bytes());
+  return values;
+}
+
+TEST_F(HotReload, ComputePipelinesSpecialiseAndAreRebuilt) {
+  const DescriptorSetLayoutHandle layout = oneBinding(device_, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
+  const Pipeline pipeline(renderer_->pipelines(), ComputePipelineDesc{.name = "fill",
+                                                                      .comp = "fill.comp",
+                                                                      .constants = {{0, 3}},
+                                                                      .setLayouts = {layout.get()},
+                                                                      .pushConstantBytes = sizeof(uint32_t)});
+  const std::vector<uint32_t> values = {7, 10, 13, 16, 19, 22, 25, 28};
+  for (uint32_t frame = 0; frame < framesInFlight; ++frame) {
+    EXPECT_EQ(filled(*renderer_, pipeline, layout.get()), values);
+  }
+  const auto objects = liveObjects();  // after both frames in flight have made what they keep
+  edit("fill.comp", "offset + ", "1000 + ");
+  EXPECT_TRUE(renderer_->reloadShaders());
+  EXPECT_EQ(filled(*renderer_, pipeline, layout.get()).back(), 1021u);
+  EXPECT_EQ(filled(*renderer_, pipeline, layout.get()).back(), 1021u);
+  EXPECT_EQ(liveObjects(), objects);
+}
+
+TEST_F(HotReload, UnchangedSpirvRebuildsNothing) {
+  EXPECT_FALSE(renderer_->reloadShaders());
+  edit("copy.frag", "void main()", "// a comment\nvoid main()");
+  EXPECT_FALSE(renderer_->reloadShaders());
+}
+
+TEST_F(HotReload, CompileErrorKeepsTheOldPipeline) {
+  edit("copy.frag", "result = ", "result = nonsense + ");
+  EXPECT_FALSE(renderer_->reloadShaders());
+  EXPECT_TRUE(contains(renderer_->pipelines().errors(), "nonsense"));
+  EXPECT_EQ(cornerColor(), unedited);
+  edit("copy.frag", "nonsense + ", "0.5 * ");
+  EXPECT_TRUE(renderer_->reloadShaders());
+  EXPECT_TRUE(renderer_->pipelines().errors().empty());
+  EXPECT_EQ(cornerColor()[0], 16);
+}
+
+TEST(ShaderLibrary, ErrorsNameTheFileOrDirectory) {
+  Device device({});
+  ShaderLibrary library(device, binaryDir() / "tests" / "shaders");
+  EXPECT_TRUE(contains(messageOf([&] { library.module("missing.frag"); }), "missing.frag.spv"));
+  EXPECT_THROW(ShaderLibrary(device, "", "/no/such/directory"), std::runtime_error);
+  const TemporaryDirectory directory;
+  replaceFile(directory.path() / "bad.frag.spv", std::vector<uint8_t>(64, 7));
+  ShaderLibrary damaged(device, directory.path());
+  EXPECT_THROW(damaged.module("bad.frag"), std::runtime_error);
+}
+
+TEST(SpecialisationConstants, EachHasANumberOfItsOwn) {
+  const std::string text = readText(sourceDir() / "shaders" / "gpu_data.h");
+  const std::regex constant("const uint (constant[A-Z]\\w*) = (\\d+);");
+  std::set<std::string> numbers;
+  for (std::sregex_iterator at(text.begin(), text.end(), constant), end; at != end; ++at) {
+    EXPECT_TRUE(numbers.insert((*at)[2]).second) << (*at)[1] << " has the number of another";
+  }
+  EXPECT_GE(numbers.size(), 24u);
+}
+
+// The left half is 1, the right half 0: every level below the first few averages to one half at the top.
+TEST_F(RendererTest, MipmapLevelsHoldTheMean) {
+  constexpr uint32_t size = 16;
+  std::vector<uint16_t> texels(size_t{4} * size * size);
+  for (size_t i = 0; i < texels.size(); ++i) {
+    texels[i] = i / 4 % size < size / 2 ? 0x3c00 : 0;
+  }
+  const Image image =
+      renderer_.uploader().image(std::as_bytes(std::span(texels)), {size, size}, colorFormat, true, "texture");
+  EXPECT_EQ(image.desc().mipLevels, 5u);
+  const SamplerHandle sampler = createSampler(device_, {.filter = VK_FILTER_NEAREST}, "texture");
+  const DescriptorSetLayoutHandle layout = oneBinding(device_, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER);
+  OffScreen target(device_, {.name = "target", .depth = false}, renderer_.retired());
+  const Pipeline pipeline(renderer_.pipelines(), GraphicsPipelineDesc{.name = "textured",
+                                                                      .vert = "full_screen.vert",
+                                                                      .frag = "textured.frag",
+                                                                      .constants = {{0, std::bit_cast<uint32_t>(4.0f)}},
+                                                                      .setLayouts = {layout.get()},
+                                                                      .depth = VK_FORMAT_UNDEFINED});
+  std::optional<Frame> frame = renderer_.beginFrame();
+  const VkDescriptorSet set = frame->descriptors->allocate(layout.get());
+  DescriptorWriter().image(0, image.descriptor(sampler.get())).update(device_, set);
+  {
+    const PassScope scope = renderer_.beginPass(*frame, fullPass("textured", target.targets()));
+    pipeline.bind(scope.commands());
+    pipeline.bindSet(scope.commands(), 0, set);
+    vkCmdDraw(scope.commands(), 3, 1, 0, 0);
+  }
+  renderer_.endFrame(*frame);
+  renderer_.waitIdle();
+  EXPECT_EQ(renderer_.uploader().readFloats(target.color()), (std::vector<float>{0.5f, 0.5f, 0.5f, 0.5f}));
+}
+
+TEST_F(GpuTest, DescriptorAllocatorReusesItsPools) {
+  const DescriptorSetLayoutHandle layout = oneBinding(device_, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 100);
+  DescriptorAllocator allocator(device_);
+  const auto allocateAll = [&] {
+    for (int i = 0; i < 200; ++i) {
+      EXPECT_NE(allocator.allocate(layout.get()), VkDescriptorSet{VK_NULL_HANDLE});
+    }
+  };
+  allocateAll();
+  const auto objects = liveObjects();
+  allocator.reset();
+  allocateAll();
+  EXPECT_EQ(liveObjects(), objects);
+}
+
+}  // namespace
+}  // namespace speculum::test

@@ -1,0 +1,44 @@
+#include "faults/scarce_memory.hpp"
+
+#include <vulkan/vulkan.h>
+
+namespace speculum::testing_support {
+
+namespace {
+
+struct Refused {
+  uint64_t fewest = 1;
+  uint64_t most = 0;
+  int count = 0;
+};
+Refused refused;
+
+}  // namespace
+
+void refuseMemory(uint64_t fewest, uint64_t most) {
+  refused.fewest = fewest;
+  refused.most = most;
+}
+
+void stopRefusingMemory() {
+  refuseMemory(1, 0);
+}
+
+int refusedAllocations() {
+  return refused.count;
+}
+
+}  // namespace speculum::testing_support
+
+// The linker takes this one before that of the Vulkan loader.
+extern "C" VKAPI_ATTR VkResult VKAPI_CALL vkAllocateMemory(VkDevice device, const VkMemoryAllocateInfo* info,
+                                                           const VkAllocationCallbacks* callbacks,
+                                                           VkDeviceMemory* memory) {
+  auto& refused = speculum::testing_support::refused;
+  if (info->allocationSize >= refused.fewest && info->allocationSize <= refused.most) {
+    ++refused.count;
+    return VK_ERROR_OUT_OF_DEVICE_MEMORY;
+  }
+  const auto next = reinterpret_cast<PFN_vkAllocateMemory>(vkGetDeviceProcAddr(device, "vkAllocateMemory"));
+  return next(device, info, callbacks, memory);
+}

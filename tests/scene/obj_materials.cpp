@@ -1,0 +1,378 @@
+#include "scene/obj_materials.hpp"
+
+#include <ctime>
+
+#include "image/color.hpp"
+#include "image/image.hpp"
+#include "image/picture_files.hpp"
+#include "scene/obj_support.hpp"
+#include "test_headers.hpp"
+
+namespace speculum {
+namespace {
+
+class MtlFile : public ObjTest {
+ protected:
+  // Returns the material m of that text, which a face has.
+  Material materialOf(const std::string& mtl) {
+    return load(squareText + "usemtl m\nf 1 2 3\n", mtl).parts.at(0).material;
+  }
+};
+
+void expectDefault(const Material& material) {
+  EXPECT_EQ(material.diffuse, glm::dvec3(0.6));
+  EXPECT_EQ(material.specular, glm::dvec3(0.0));
+  EXPECT_EQ(material.emission, glm::dvec3(0.0));
+  EXPECT_EQ(material.shininess, 1.0);
+  EXPECT_EQ(material.diffuseTexture, -1);
+}
+
+TEST_F(MtlFile, IsRead) {
+  const Mesh mesh = load(squareText + "usemtl red\nf 1 2 3\n",
+                         "newmtl red\n\tKd 0.8 0.1 0.2 # a comment\n  Ks 0.1 0.2 0.3\nKe 1 2 3\nNs 64\r\nKa 1 1 1\n");
+  const Material& material = mesh.parts.at(0).material;
+  EXPECT_EQ(material.name, "red");
+  EXPECT_NEAR(material.diffuse.x, 0.8, 1e-15);
+  EXPECT_NEAR(material.diffuse.z, 0.2, 1e-15);
+  EXPECT_NEAR(material.specular.y, 0.2, 1e-15);
+  EXPECT_EQ(material.emission, glm::dvec3(1, 2, 3));
+  EXPECT_EQ(material.shininess, 64.0);
+  EXPECT_EQ(warnings(), "");
+}
+
+TEST_F(MtlFile, OtherFormsOfNumbersAreRead) {
+  const Material material = materialOf("newmtl m\nKd 0.5\nKs xyz 0.1 0.2 0.3\nKe spectral lamp.rfl 2\nd -halo 1\n");
+  EXPECT_EQ(material.diffuse, glm::dvec3(0.5)) << "one number counts for all three";
+  EXPECT_EQ(material.specular, glm::dvec3(0.0));
+  EXPECT_EQ(warnings(),
+            "warning: m.mtl:3: Ks: is not three numbers, it is left out\n"
+            "warning: m.mtl:4: Ke: is not three numbers, it is left out\n");
+}
+
+TEST_F(MtlFile, ShininessBelowOneCountsAsOne) {
+  EXPECT_EQ(materialOf("newmtl m\nNs 0.2\n").shininess, 1.0);
+}
+
+TEST_F(MtlFile, FacesAreGroupedByFirstUse) {
+  const Mesh mesh = load(squareText + "f 1 2 3\nusemtl b\nf 1 2 3\nf 3 2 1\nusemtl a \nf 1 2 3\nusemtl b\nf 2 3 1\n",
+                         "newmtl a\nKd 1 0 0\nnewmtl unused\nmap_Kd none.png\nnewmtl b\nKd 0 1 0\n");
+  ASSERT_EQ(mesh.parts.size(), 3u);
+  expectDefault(mesh.parts[0].material);
+  EXPECT_EQ(mesh.parts[1].material.name, "b");
+  EXPECT_EQ(mesh.parts[2].material.name, "a");
+  EXPECT_EQ(mesh.parts[0].indexCount, 3u);
+  EXPECT_EQ(mesh.parts[1].firstIndex, 3u);
+  EXPECT_EQ(mesh.parts[1].indexCount, 9u);
+  EXPECT_EQ(mesh.parts[2].firstIndex, 12u);
+  EXPECT_EQ(mesh.parts[2].indexCount, 3u);
+  EXPECT_EQ(mesh.indices.size(), 15u);
+}
+
+TEST_F(MtlFile, MissingFileIsAWarning) {
+  const Mesh mesh = load("mtllib none.mtl\nusemtl x\n" + std::string(triangleObj));
+  expectDefault(mesh.parts.at(0).material);
+  EXPECT_EQ(warnings(), "warning: m.obj:1: mtllib: there is no file 'none.mtl', its faces get the default material\n");
+}
+
+TEST_F(MtlFile, MissingNameIsOneWarning) {
+  const Mesh mesh = load(squareText + "usemtl x\nf 1 2 3\nusemtl x\nf 1 2 3\n", "newmtl y\nKd 1 1 1\n");
+  expectDefault(mesh.parts.at(0).material);
+  EXPECT_EQ(warnings(), "warning: m.obj:6: usemtl: there is no material 'x', its faces get the default one\n");
+}
+
+TEST_F(MtlFile, OpacityIsAWarning) {
+  for (const char* opacity : {"d 0.5", "Tr 0.5", "map_d mask.png"}) {
+    materialOf(std::string("newmtl m\nKd 1 1 1\n") + opacity + "\n");
+    EXPECT_TRUE(contains(warnings(), "m.mtl:1: newmtl: 'm' is not opaque, it is drawn opaque\n")) << opacity;
+  }
+}
+
+TEST_F(MtlFile, TextureIsDecodedToLinear) {
+  Image8 image(2, 1);
+  image.at(1, 0)[0] = 0;
+  image.at(1, 0)[1] = 128;
+  std::filesystem::create_directory(folder_ / "images");
+  writePng(folder_ / "images/my wall.png", image);
+  EXPECT_EQ(materialOf("newmtl m\nKd 1 1 1\nmap_Kd images\\my wall.png\n").diffuseTexture, 0);
+  ASSERT_EQ(textures_.size(), 1u);
+  EXPECT_EQ(textures_[0].width, 2);
+  EXPECT_EQ(textures_[0].height, 1);
+  EXPECT_EQ(textures_[0].texels[0], glm::vec3(1.0f));
+  EXPECT_EQ(textures_[0].texels[1], glm::vec3(0.0f, static_cast<float>(srgbDecode(128.0 / 255.0)), 1.0f));
+}
+
+TEST_F(MtlFile, TextureAloneHasItsOwnColor) {
+  writePng(folder_ / "t.png", Image8(1, 1));
+  for (const char* more : {"", "map_Kd\n", "map_Kd -bm 1\n"}) {  // without a name they change nothing
+    const Material material = materialOf(std::string("newmtl black\nKd 0 0 0\nnewmtl m\nmap_Kd t.png\n") + more);
+    EXPECT_EQ(material.diffuse, glm::dvec3(1.0)) << more;
+    EXPECT_EQ(material.diffuseTexture, 0) << more;
+  }
+}
+
+TEST_F(MtlFile, TextureOptionsAreNotItsName) {
+  writePng(folder_ / "a wall.png", Image8(1, 1));
+  for (const char* options : {"-blendu on ", "-bm 0.5 -clamp off\t", "-o 1 ", "-o 1 2 3 -s 1e2147483648 -mm 0 1 "}) {
+    const Material material = materialOf(std::string("newmtl m\nmap_Kd ") + options + "a wall.png\nKd 0.5 0.5 0.5\n");
+    EXPECT_EQ(material.diffuseTexture, 0) << options;
+    EXPECT_EQ(material.diffuse, glm::dvec3(0.5)) << options;
+  }
+  EXPECT_EQ(textures_.size(), 1u);
+}
+
+TEST_F(MtlFile, UnreadableTexturesAreLeftOut) {
+  folder_.write("text.png", "no picture");
+  folder_.write("photo.webp", "RIFF....WEBPVP8 ");
+  folder_.write("scan.tif", "II*.");
+  using namespace std::string_literals;
+  folder_.write("large.png", std::string("\x89PNG\r\n\x1a\n\0\0\0\x0dIHDR\0\0\x40\0\0\0\x40\0\x08\0\0\0\0", 29));
+  for (const auto& [name, problem] :
+       {std::pair("none.png", "there is no file 'none.png'"s), std::pair("/dev/zero", "there is no file '/dev/zero'"s),
+        std::pair("text.png", "text.png: is not a picture that can be read (a PNG or JPEG file is needed)"s),
+        std::pair("photo.webp", "photo.webp: is a WebP file"s), std::pair("scan.tif", "scan.tif: is a TIFF file"s),
+        std::pair("large.png",
+                  "large.png: the picture has 16384x16384 pixels (at most 2^26, such as 8192x8192, are read)"s)}) {
+    const Mesh mesh =
+        load(squareText + "usemtl m\nf 1 2 3\n", std::string("newmtl m\nKd 1 1 1\nmap_Kd ") + name + "\n");
+    EXPECT_EQ(mesh.parts.at(0).material.diffuseTexture, -1);
+    ASSERT_EQ(mesh.defects.size(), 1u);
+    EXPECT_TRUE(contains(mesh.defects[0], "m.mtl:3: map_Kd: "));
+    EXPECT_TRUE(contains(mesh.defects[0], problem)) << mesh.defects[0];
+    EXPECT_TRUE(contains(mesh.defects[0], "the texture is left out"));
+  }
+}
+
+// 2x2 pictures: a red and a green pixel above a blue and a white one.
+TEST_F(MtlFile, TexturesOfManyFormatsAreRead) {
+  using namespace std::string_literals;
+  const std::string tga = std::string("\0\0\2\0\0\0\0\0\0\0\0\0\2\0\2\0\x18\x20", 18) + "\0\0\xff"s + "\0\xff\0"s +
+                          "\xff\0\0"s + "\xff\xff\xff";
+  const std::string bmp = "BM"s + std::string("\x46\0\0\0\0\0\0\0\x36\0\0\0\x28\0\0\0\2\0\0\0\2\0\0\0\1\0\x18\0", 28) +
+                          std::string(24, '\0') + "\xff\0\0"s + "\xff\xff\xff"s + "\0\0"s + "\0\0\xff"s + "\0\xff\0"s +
+                          "\0\0"s;
+  for (const auto& [name, bytes] : {std::pair("t.tga", tga), std::pair("t.TGA", tga), std::pair("t.bmp", bmp)}) {
+    folder_.write(name, bytes);
+    textures_.clear();
+    EXPECT_EQ(materialOf(std::string("newmtl m\nmap_Kd ") + name + "\n").diffuseTexture, 0) << warnings();
+    ASSERT_EQ(textures_.at(0).texels.size(), 4u);
+    EXPECT_EQ(textures_[0].texels[0], glm::vec3(1, 0, 0)) << name;
+    EXPECT_EQ(textures_[0].texels[1], glm::vec3(0, 1, 0)) << name;
+    EXPECT_EQ(textures_[0].texels[2], glm::vec3(0, 0, 1)) << name;
+    EXPECT_EQ(textures_[0].texels[3], glm::vec3(1, 1, 1)) << name;
+  }
+}
+
+// The file lies at `there`; the material names it in each of the ways of other machines.
+TEST_F(MtlFile, FilesAreFoundByTheirNames) {
+  for (const std::string there : {"Wall A.png", "textures/Wall A.png", "Tex/wall a.PNG", "MAPS/WALL A.PNG"}) {
+    const TemporaryFolder folder;
+    std::filesystem::create_directories((folder / there).parent_path());
+    writePng(folder / there, Image8(1, 1));
+    for (const std::string name :
+         {"wall a.png", "\"Wall A.png\"", "'wall A.png'", "C:\\models\\room\\Wall A.png", "/home/me/room/wall a.png",
+          "..\\..\\textures\\wall a.png", "D:Wall A.png", "wall a.png # the wall", "images/wall a.png"}) {
+      folder.write("m.mtl", "newmtl m\nmap_Kd " + name + "\n");
+      std::vector<Texture> textures;
+      const Mesh mesh = loadObj(folder.write("m.obj", "mtllib m.mtl\n" + squareText + "usemtl m\nf 1 2 3\n"), textures);
+      EXPECT_EQ(mesh.parts.at(0).material.diffuseTexture, 0) << there << " by " << name;
+    }
+  }
+  EXPECT_EQ(warnings(), "");
+}
+
+TEST_F(MtlFile, SearchStaysInTheModelsFolders) {
+  const TemporaryFolder folder;
+  for (const char* elsewhere : {"other/t.png", "t.png", "model/deep/t.png", "model/textures/deep/t.png"}) {
+    std::filesystem::create_directories((folder / elsewhere).parent_path());
+    writePng(folder / elsewhere, Image8(1, 1));
+  }
+  for (const char* name : {"T.png", "c:\\t.png", "/nowhere/t.png", "../model/../x/t.png", "..", ".", "textures"}) {
+    folder.write("model/m.mtl", std::string("newmtl m\nmap_Kd ") + name + "\n");
+    std::vector<Texture> textures;
+    loadObj(folder.write("model/m.obj", "mtllib m.mtl\n" + squareText + "usemtl m\nf 1 2 3\n"), textures);
+    EXPECT_TRUE(textures.empty()) << name;
+  }
+}
+
+// Textures that stand for many large ones have no texels here.
+TEST_F(MtlFile, TexturesBeyondTheBoundAreDrawnSmaller) {
+  Image8 halves(2048, 1024);
+  std::fill(halves.rgba.begin(), halves.rgba.begin() + halves.rgba.size() / 2, uint8_t{0});
+  writePng(folder_ / "halves.png", halves);
+  writePng(folder_ / "line.png", Image8(1 << 22, 1));
+  writePng(folder_ / "column.png", Image8(1, 1 << 22));
+  const auto sizes = [&](const char* name, std::vector<Texture> others) {
+    textures_ = std::move(others);
+    const size_t count = textures_.size();
+    materialOf(std::string("newmtl m\nmap_Kd ") + name + ".png\n");
+    EXPECT_EQ(textures_.at(count).texels.size(), textures_[count].width * textures_[count].height);
+    return glm::ivec2(textures_[count].width, textures_[count].height);
+  };
+  const Texture large{.width = 8192, .height = 8192};
+  EXPECT_EQ(sizes("halves", std::vector(3, large)), glm::ivec2(2048, 1024));
+  EXPECT_EQ(warnings(), "");
+  EXPECT_EQ(sizes("halves", std::vector(4, large)), glm::ivec2(1448, 724));
+  EXPECT_EQ(textures_.back().texels.front(), glm::vec3(0.0f));
+  EXPECT_NEAR(textures_.back().texels.back().g, 1.0f, 1e-6f);
+  EXPECT_TRUE(contains(warnings(),
+                       "halves.png: is drawn with 1448x724 texels: the textures before it have 2^28 texels or more\n"));
+  EXPECT_EQ(sizes("line", std::vector(4, large)), glm::ivec2(1 << 20, 1));
+  EXPECT_EQ(sizes("column", std::vector(4, large)), glm::ivec2(1, 1 << 20));
+  EXPECT_EQ(sizes("halves", std::vector(8, large)), glm::ivec2(91, 45));
+}
+
+TEST_F(MtlFile, ManyTexturesAreReadInShortTime) {
+  constexpr int count = 2000;
+  std::string obj = squareText;
+  std::string mtl;
+  writePng(folder_ / "pixel.png", Image8(1, 1));
+  const std::string png = readText(folder_ / "pixel.png");
+  for (int i = 0; i < count; ++i) {
+    const std::string name = std::to_string(i);
+    folder_.write(name + ".png", png);
+    obj.append("usemtl ").append(name).append("\nf 1 2 3\n");
+    mtl.append("newmtl ").append(name).append("\nmap_Kd ").append(name).append(".png\n");
+  }
+  const std::clock_t start = std::clock();
+  EXPECT_EQ(load(obj, mtl).parts.back().material.diffuseTexture, count - 1);
+  EXPECT_LT(std::clock() - start, 5 * CLOCKS_PER_SEC);
+}
+
+TEST_F(MtlFile, FilesAreReadOnce) {
+  folder_.write("m.mtl", repeated("newmtl a\n", 10'000));
+  const std::clock_t start = std::clock();
+  load(repeated("mtllib m.mtl\nmtllib ./m.mtl\n", 1000) + squareText + "usemtl a\nf 1 2 3\n");
+  EXPECT_LT(std::clock() - start, 5 * CLOCKS_PER_SEC) << "read 2000 times it takes minutes";
+}
+
+TEST_F(MtlFile, EveryNamedFileIsRead) {
+  folder_.write("my file.mtl", "newmtl a\nNs 7\nnewmtl b\nNs 8\n");
+  const Mesh mesh = load("mtllib none.mtl my\\ file.mtl m.mtl\n" + squareText +
+                             "usemtl a\nf 1 2 3\nusemtl b\nf 2 3 4\nusemtl c\nf 3 4 1\n",
+                         "newmtl b\nNs 1\nnewmtl c\nNs 9\n");
+  ASSERT_EQ(mesh.parts.size(), 3u);
+  EXPECT_EQ(mesh.parts[0].material.shininess, 7.0);
+  EXPECT_EQ(mesh.parts[1].material.shininess, 1.0) << "the first that defines it counts";
+  EXPECT_EQ(mesh.parts[2].material.shininess, 9.0);
+}
+
+TEST_F(MtlFile, MaterialsMayBeNamedBeforeTheirFile) {
+  folder_.write("m.mtl", "newmtl a\nKd 0 1 0\n");
+  for (const std::string& text :
+       {"usemtl a\n" + squareText + "f 1 2 3\nmtllib m.mtl\n", "usemtl a\nf 1 2 3\nmtllib m.mtl\n" + squareText,
+        squareText + "usemtl a\nf 1 2 3\nmtllib m.mtl"}) {
+    EXPECT_EQ(load(text).parts.at(0).material.diffuse, glm::dvec3(0, 1, 0)) << text;
+  }
+  EXPECT_EQ(warnings(), "");
+}
+
+TEST_F(MtlFile, KeysHaveAnyCase) {
+  writePng(folder_ / "t.png", Image8(1, 1));
+  const Material material = load("MTLLIB m.mtl\n" + squareText + "UseMtl m\nF 1 2 3\n",
+                                 "NEWMTL m\nkd 0.5 0 0\nKS 0 0.25 0\nke 0 0 3\nnS 9\nMAP_KD t.png\n")
+                                .parts.at(0)
+                                .material;
+  EXPECT_EQ(material.diffuse, glm::dvec3(0.5, 0, 0));
+  EXPECT_EQ(material.specular, glm::dvec3(0, 0.25, 0));
+  EXPECT_EQ(material.emission, glm::dvec3(0, 0, 3));
+  EXPECT_EQ(material.shininess, 9.0);
+  EXPECT_EQ(material.diffuseTexture, 0);
+}
+
+TEST_F(MtlFile, CommentsAreNoPartOfNames) {
+  writePng(folder_ / "t#1.png", Image8(1, 1));
+  const Mesh mesh =
+      load(squareText + "usemtl my red # a comment\nf 1 2 3\n", "newmtl my red # another\nmap_Kd t#1.png # a third\n");
+  EXPECT_EQ(mesh.parts.at(0).material.name, "my red");
+  EXPECT_EQ(mesh.parts.at(0).material.diffuseTexture, 0);
+  EXPECT_EQ(warnings(), "");
+}
+
+TEST_F(MtlFile, MaterialsDoNotInherit) {
+  const Mesh mesh =
+      load(squareText + "usemtl b\nf 1 2 3\n", "newmtl a\nKd 1 0 0\nKs 1 1 1\nKe 1 1 1\nNs 50\nd 0.5\nnewmtl b\n");
+  const Material& material = mesh.parts.at(0).material;
+  EXPECT_EQ(material.diffuse, glm::dvec3(0.8));
+  EXPECT_EQ(material.specular, glm::dvec3(0.0));
+  EXPECT_EQ(material.emission, glm::dvec3(0.0));
+  EXPECT_EQ(material.shininess, 1.0);
+  EXPECT_EQ(warnings(), "");
+}
+
+TEST_F(MtlFile, MostAreTenThousand) {
+  load(squareText + "f 1 2 3\n", repeated("newmtl a\n", 10'001));
+  EXPECT_EQ(warnings(), "warning: m.mtl:10001: newmtl: is one too many, 10000 materials of a file are read\n");
+}
+
+TEST_F(MtlFile, UsablePartsOfKeysAreUsed) {
+  const glm::dvec3 usual(0.8);
+  for (const auto& [key, diffuse] :
+       std::initializer_list<std::pair<const char*, glm::dvec3>>{{"Kd 1 0 0 1", {1, 0, 0}},
+                                                                 {"Kd nan 0 0", {0.8, 0, 0}},
+                                                                 {"Kd 0.5 0.5", {0.5, 0.5, 0.8}},
+                                                                 {"Kd 0 -1 0", {0, 0.8, 0}},
+                                                                 {"Kd 0 0 1e39", {0, 0, 0.8}},
+                                                                 {"Kd x 0 0", {0.8, 0, 0}},
+                                                                 {"Kd", usual},
+                                                                 {"Kd inf", usual},
+                                                                 {"Kd 0 1.#IND 0", {0, 0.8, 0}}}) {
+    EXPECT_EQ(materialOf(std::string("newmtl m\n") + key + "\n").diffuse, diffuse) << key;
+  }
+  for (const auto& [key, shininess] : std::initializer_list<std::pair<const char*, double>>{{"Ns 7 8 9", 7.0},
+                                                                                            {"Ns", 1.0},
+                                                                                            {"Ns x", 1.0},
+                                                                                            {"Ns nan", 1.0},
+                                                                                            {"Ns -5", 1.0},
+                                                                                            {"Ns 1e30", 1e6},
+                                                                                            {"Ns inf", 1.0}}) {
+    EXPECT_EQ(materialOf(std::string("newmtl m\n") + key + "\n").shininess, shininess) << key;
+  }
+  EXPECT_EQ(materialOf("newmtl m\nKs 0 -1 0\nKe 1 nan 2\n").specular, glm::dvec3(0.0));
+  EXPECT_TRUE(contains(warnings(),
+                       "warning: m.mtl:3: Ke: is not three numbers in range, the usual value stands for the others\n"));
+}
+
+TEST_F(MtlFile, DamagedFilesCostTheirMaterials) {
+  for (const std::string& mtl :
+       {std::string("newmtl a\n\0\0", 11), std::string(5000, '\\'), std::string("\xff\xfen\0e\0w\0", 8)}) {
+    EXPECT_EQ(load(squareText + "f 1 2 3\nusemtl b\nf 1 2 3\n", mtl).indices.size(), 6u);
+  }
+}
+
+TEST_F(MtlFile, LibrariesHaveBlanksAndBackslashes) {
+  for (const std::string name :
+       {"a b.mtl", "two  blanks and more .mtl", "with'quote \xff.mtl", "folder/in it/c d.mtl"}) {
+    folder_.write(name, "newmtl a\nKd 0.125 0 0\n");
+    std::string escaped;
+    for (const char c : name) {
+      escaped += (c == ' ' ? "\\" : "") + std::string(1, c);
+    }
+    std::string windows = name;
+    std::ranges::replace(windows, '/', '\\');
+    for (const std::string& written : {name, escaped, windows, "none.mtl " + escaped}) {
+      const Mesh mesh = load("mtllib " + written + "\n" + squareText + "usemtl a\nf 1 2 3\n");
+      EXPECT_EQ(mesh.parts.at(0).material.diffuse.x, 0.125) << written;
+    }
+  }
+}
+
+TEST_F(MtlFile, NumbersOfAnySizeAreFinite) {
+  for (const std::string key : {"Kd", "Ks", "Ke", "Ns", "d", "Tr"}) {
+    for (const std::string& value :
+         std::initializer_list<std::string>{"1e39", "1e300", "-1", "nan", "inf", "-inf", "1e99999999999", "1e-400",
+                                            "0e9999999999", "1" + std::string(400, '0') + "e-400"}) {
+      const Material material = materialOf("newmtl m\n" + key + " 0.5 0.5 " + value + "\n" + key + " " + value + "\n");
+      for (const glm::dvec3& color : {material.diffuse, material.specular, material.emission}) {
+        EXPECT_TRUE(glm::all(glm::greaterThanEqual(color, glm::dvec3(0.0))) && color.x + color.y + color.z < 1e39)
+            << key << value;
+      }
+      EXPECT_TRUE(material.shininess >= 1.0 && material.shininess <= 1e6) << key << value;
+    }
+  }
+  const Mesh mesh = load("usemtl a\n" + squareText + "f 1 2 3\n", "newmtl a\nNs 1e300\nKd 1e30 1e-300 0\n");
+  EXPECT_EQ(mesh.parts.at(0).material.shininess, 1e6);
+  EXPECT_NEAR(mesh.parts.at(0).material.diffuse.x, 1e30, 1e15);
+}
+
+}  // namespace
+}  // namespace speculum

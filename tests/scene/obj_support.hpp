@@ -1,0 +1,44 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "scene/support.hpp"
+#include "test_headers.hpp"
+
+namespace speculum {
+
+inline const std::string squareText = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+
+// Loads models from text. Messages name the files m.obj and m.mtl without their folder.
+class ObjTest : public testing::Test {
+ protected:
+  Mesh load(const std::string& obj) { return loadObj(folder_.write("m.obj", obj), textures_); }
+  // The first line of the OBJ file names the MTL file.
+  Mesh load(const std::string& obj, const std::string& mtl) {
+    folder_.write("m.mtl", mtl);
+    return load("mtllib m.mtl\n" + obj);
+  }
+  template <typename... Texts>
+  std::string faultOf(const Texts&... texts) {
+    return withoutFolder(messageOf<InputError>([&] { load(texts...); }));
+  }
+  std::string warnings() const { return withoutFolder(log_.text()); }
+
+  TemporaryFolder folder_;
+  std::vector<Texture> textures_;
+
+ private:
+  std::string withoutFolder(std::string text) const {
+    const std::string folder = folder_.path().string() + "/";
+    for (size_t i = text.find(folder); i != std::string::npos; i = text.find(folder)) {
+      text.erase(i, folder.size());
+    }
+    return text;
+  }
+
+  LogCapture log_;
+};
+
+}  // namespace speculum

@@ -1,0 +1,350 @@
+// Skipping hidden mirrors, clusters and unread parts of mirror images does not change pictures.
+#include <nlohmann/json.hpp>
+
+#include "cli/stats.hpp"
+#include "picture_support.hpp"
+#include "plan/occluder_shapes.hpp"
+#include "random.hpp"
+#include "sampling.hpp"
+#include "scene_text.hpp"
+#include "studio.hpp"
+#include "test_headers.hpp"
+
+namespace speculum::skipping_pictures {
+namespace {
+
+using namespace testing_support;
+
+constexpr PictureSize size{160, 90};
+constexpr int cells = 3;          // along each side of the floor
+constexpr double cellSide = 3.0;  // metres
+
+// Rooms on a lattice, with walls between most of them and a mirror on each side of some walls.
+std::filesystem::path roomsScene() {
+  std::ostringstream toml;
+  toml << R"(
+[environment] sky = { zenith = [0.1, 0.2, 0.5], horizon = [0.6, 0.5, 0.4], ground = [0.1, 0.1, 0.1] }
+  ambient = [0.3, 0.3, 0.3]
+[camera] position = [1.5, 1.5, 1.5], target = [1.5, 1.4, -4], vertical_fov = 70
+[settings] "reflection.max_passes" = 4000
+[[object]] model = "MODELS/tile.obj", position = [4.5, -0.02, 4.5], scale = [9, 1, 9], color = [0.3, 0.25, 0.2]
+)";
+  Random random(3);
+  const auto uniform = [&](double low, double high) { return random.uniform(low, high); };
+  for (int line = 0; line <= cells; ++line) {
+    for (int cell = 0; cell < cells; ++cell) {
+      for (const bool alongX : {true, false}) {
+        if (line > 0 && line < cells && uniform(0, 1) < 0.3) {
+          continue;
+        }
+        const double across = line * cellSide;
+        const double middle = (cell + 0.5) * cellSide;
+        const auto place = [&](double a, double y, double b) {
+          toml << "position = [" << (alongX ? a : b) << ", " << y << ", " << (alongX ? b : a) << "]\n";
+        };
+        toml << "[[object]]\nname = \"wall " << line << cell << alongX << "\"\nmodel = \"MODELS/box.obj\"\n";
+        place(middle, 0.0, across);
+        toml << "scale = [" << (alongX ? cellSide : 0.1) << ", 2.6, " << (alongX ? 0.1 : cellSide) << "]\ncolor = ["
+             << uniform(0.2, 0.9) << ", " << uniform(0.2, 0.9) << ", " << uniform(0.2, 0.9) << "]\n";
+        for (const double side : {-1.0, 1.0}) {
+          if (uniform(0, 1) < 0.6) {
+            const double yaw = alongX ? (side > 0 ? 0 : 180) : (side > 0 ? 90 : -90);
+            toml << "[[mirror]]\n";
+            place(middle + uniform(-0.5, 0.5), uniform(1.2, 1.5), across + side * 0.06);
+            toml << "rotation = [0.0, " << yaw << ", " << uniform(-8, 8) << "]\nsize = [" << uniform(0.6, 1.6) << ", "
+                 << uniform(0.5, 1.4) << "]\nreflectance = [0.9, 0.9, 0.85]\n";
+            toml << (uniform(0, 1) < 0.3 ? "base_color = [0.1, 0.05, 0.02]\n" : "");
+          }
+        }
+      }
+    }
+  }
+  for (int i = 0; i < 6; ++i) {
+    toml << "[[object]]\nmodel = \"MODELS/pawn.obj\"\nposition = [" << uniform(1, 8) << ", 0, " << uniform(1, 8)
+         << "]\nscale = 2\n";
+  }
+  toml << "[[light]]\nposition = [4.5, 2.4, 4.5]\nintensity = 20\n";
+  return writeScene("rooms", toml.str());
+}
+
+Image8 pictureWith(Session& session, const Settings& settings) {
+  session.setSettings(settings);
+  return draw(session);
+}
+
+nlohmann::ordered_json statsWith(Session& session, const Settings& settings) {
+  session.setSettings(settings);
+  runFrames(session);
+  return frameStats(session);
+}
+
+TEST(Skipping, CameraCutsShowWhatDrawingEverythingShows) {
+  QuietSession session(headless(roomsScene(), size));
+  Random random(11);
+  const auto uniform = [&](double low, double high) { return random.uniform(low, high); };
+  const int cuts = fullTests() ? 1000 : 12;
+  long hidden = 0;
+  size_t passes = 0;
+  size_t passesOfAll = 0;
+  int differing = 0;  // pixels, if objects are drawn whole
+  for (int cut = 0; cut < cuts; ++cut) {
+    const double side = cells * cellSide;
+    const glm::dvec3 eye(uniform(0.05, side), uniform(0.2, cut % 4 == 0 ? 5.0 : 2.4), uniform(0.05, side));
+    const glm::dvec3 target(uniform(0.0, side), uniform(0.2, 2.2), uniform(0.0, side));
+    session.setCamera(lookAt(eye, target, {0, 1, 0}, uniform(30, 100), 0.001));
+    Settings settings = session.settings();
+    settings.reflection.maxDepth = 2 + cut % 2;
+    settings.view.samples = settings.reflection.samples = cut % 3 == 0 ? 4 : 1;
+    // Thousands of large images with 4 samples would take 15 GB.
+    const double most = settings.view.samples == 1 ? 2.0 : 1.0;
+    settings.reflection.scale = cut % 5 == 3 ? 0.5 : cut % 5 == 4 ? most : 1.0;
+    settings.debug.skipHidden = settings.debug.cullClusters = true;
+    const Image8 skipping = pictureWith(session, settings);
+    hidden += std::ranges::count(session.lastFrame().plan.skipped, SkipReason::hidden, &SkippedMirror::reason);
+    passes += session.lastFrame().plan.drawnMirrors().size();
+    settings.debug.skipHidden = settings.debug.maskPasses = false;
+    const Image8 all = pictureWith(session, settings);
+    passesOfAll += session.lastFrame().plan.drawnMirrors().size();
+    ASSERT_EQ(skipping.rgba, all.rgba) << "cut " << cut;
+    if (cut % 4 == 0) {
+      settings.debug.cullClusters = false;
+      differing += difference(all, pictureWith(session, settings), 0).over;
+    }
+    settings.debug.maskPasses = true;
+    session.setSettings(settings);
+  }
+  // With other triangles in its draw, lavapipe may round a triangle's color differently. Along outlines, backs may be
+  // nearer than fronts by rounding, in any color.
+  EXPECT_LT(differing, cuts) << "of 14 400 each, in a quarter of them";
+  EXPECT_GT(hidden, cuts);
+  EXPECT_LT(passes, passesOfAll);
+  std::printf("%d cuts, %ld hidden mirrors, %zu passes for %zu; parts of objects: %d pixels differ\n", cuts, hidden,
+              passes, passesOfAll, differing);
+}
+
+// 12 mirrors that each show parts of one or two shells, which have 4 704 triangles and are no solids.
+std::filesystem::path smallMirrorsScene() {
+  std::ostringstream toml;
+  toml << "[camera]\nposition = [0, 0, 6]\ntarget = [0, 0, 0]\nvertical_fov = 40\n[[light]]\nposition = [2, 4, 5]\n"
+          "intensity = 90\n";
+  for (int i = 0; i < 6; ++i) {
+    toml << "[[object]]\nmodel = \"MODELS/ammonite.obj\"\nposition = [" << (i % 3 - 1) * 2.6 << ", "
+         << (i / 3 - 0.5) * 2.6 << ", " << -1.0 + 0.2 * i << "]\nrotation = [0, " << 25 * i << ", 0]\n"
+         << "scale = 3.2\n";
+  }
+  for (int i = 0; i < 12; ++i) {
+    toml << "[[mirror]]\nposition = [" << (i % 4 - 1.5) * 1.6 << ", " << (i / 4 - 1) * 1.2
+         << ", -6]\nsize = [0.5, 0.3]\n";
+  }
+  return writeScene("small_mirrors", toml.str());
+}
+
+TEST(Skipping, SmallMirrorsDrawSmallPartsOfObjects) {
+  QuietSession session(headless(smallMirrorsScene(), {320, 180}));
+  const auto mirrorTriangles = [&](const nlohmann::ordered_json& stats) {
+    double triangles = 0.0;
+    for (const auto& pass : stats["passes"]) {
+      triangles += pass["depth"].is_null() ? 0.0 : pass["triangles"].get<double>();
+    }
+    return triangles;
+  };
+  for (const int samples : {1, 4}) {
+    Settings settings = session.settings();
+    settings.reflection.samples = settings.view.samples = samples;
+    settings.reflection.skipUnchanged = false;  // drawn twice, to be counted
+    settings.debug.cullClusters = true;
+    const Image8 parts = pictureWith(session, settings);
+    const double drawn = mirrorTriangles(statsWith(session, settings));
+    settings.debug.cullClusters = false;
+    EXPECT_EQ(parts.rgba, pictureWith(session, settings).rgba) << samples << " samples";
+    EXPECT_LT(drawn, 0.9 * mirrorTriangles(statsWith(session, settings)));
+  }
+}
+
+// Two objects of one random shape before six mirrors of random size, and a mirror behind the eye that shows all of them
+// once more.
+std::filesystem::path shapeScene(Random& random, std::mt19937& shapes) {
+  writeModel("shape.obj", randomShape(shapes).obj());
+  std::ostringstream toml;
+  toml << "[environment]\nambient = [0.4, 0.4, 0.4]\nbackground = [0.2, 0.5, 0.7]\n"
+       << cameraText({0, 0, 4}, random.inBox(0.5)) << "[[light]]\nposition = [1, 3, 6]\nintensity = 20\n"
+       << "[[mirror]]\n"
+       << rectangleText({0, 0, 6}, {random.uniform(-10, 10), 180, 0}, 6, 4);
+  for (int i = 0; i < 2; ++i) {
+    toml << objectText("shape.obj", random.inBox(1.0), random.inBox(180.0), random.uniform(0.5, 1.5), {0.8, 0.4, 0.2});
+  }
+  for (int i = 0; i < 6; ++i) {
+    const double side = std::exp(random.uniform(std::log(0.02), std::log(1.0)));
+    toml << "[[mirror]]\n"
+         << rectangleText(random.inBox(1.5) - glm::dvec3(0, 0, 4), {0, random.uniform(-40, 40), 0}, side,
+                          side * random.uniform(0.3, 1));
+  }
+  return writeScene("shape", toml.str());
+}
+
+TEST(Skipping, RandomShapesHideNothingThatIsSeen) {
+  Random random(12);
+  std::mt19937 shapes(12);
+  const int scenes = fullTests() ? 2000 : 12;
+  long hidden = 0;
+  for (int i = 0; i < scenes; ++i) {
+    Studio studio(headless(shapeScene(random, shapes), size));
+    studio.settings.reflection.maxDepth = 2;
+    studio.settings.view.samples = studio.settings.reflection.samples = i % 3 == 0 ? 4 : 1;
+    const Image8 skipping = studio.fresh();
+    hidden += std::ranges::count(studio.plan.skipped, SkipReason::hidden, &SkippedMirror::reason);
+    studio.settings.debug.skipHidden = false;
+    const Image8 all = studio.fresh();
+    if (skipping.rgba != all.rgba) {
+      ADD_FAILURE() << "scene " << i;
+      writeEvidence(skipping, all, "shape_" + std::to_string(i));
+    }
+  }
+  EXPECT_GT(hidden, scenes / 2);
+}
+
+// Solids and others, some mirrored, before a wall mirror and cut by one in the floor. The eye is in one of them in
+// every fifth scene.
+std::filesystem::path solidScene(Random& random, int number) {
+  std::ostringstream toml;
+  toml << "[environment]\nambient = [0.4, 0.4, 0.4]\nbackground = [0.2, 0.5, 0.7]\n[[light]]\n"
+          "position = [1, 3, 2]\nintensity = 20\ncasts_shadow = true\n[[mirror]]\n"
+       << rectangleText({0, 0, 0}, {-90, 0, 0}, 6, 6) << "[[mirror]]\n"
+       << rectangleText({0, 1, -2}, {0, random.uniform(-10, 10), 0}, 4, 2);
+  const std::array models{"sphere", "queen", "torus_knot_upright", "vase", "moebius", "teapot", "ammonite"};
+  glm::dvec3 eye(random.uniform(-1, 1), random.uniform(0.1, 2), 3);
+  for (int i = 0; i < 6; ++i) {
+    const bool inside = number % 5 == 0 && i == 0;
+    const glm::dvec3 position(random.uniform(-1.5, 1.5), random.uniform(-0.5, 1), random.uniform(-1.5, 1.5));
+    const double side = random.uniform(0.8, 2.0);
+    toml << "[[object]]\nmodel = \"MODELS/" << (inside ? "sphere" : random.pick(models))
+         << ".obj\"\nposition = " << text(position) << "\nrotation = " << text(random.inBox(180.0)) << "\nscale = ["
+         << (i % 2 == 0 ? -side : side) << ", " << side << ", " << side * random.uniform(0.5, 1.5)
+         << "]\ncolor = " << random.vec(0.2, 0.9) << "\n";
+    eye = inside ? position + glm::dvec3(0, 0.1 * side, 0) : eye;
+  }
+  toml << cameraText(eye, random.inBox(0.5) + glm::dvec3(0, 0.5, 0));
+  return writeScene("solids", toml.str());
+}
+
+TEST(Skipping, BacksOfSolidsAreNotSeen) {
+  Random random(13);
+  const int scenes = fullTests() ? 2000 : 6;
+  for (int i = 0; i < scenes; ++i) {
+    Studio studio(headless(solidScene(random, i), size, {{"effects.shadow_lookup", "map"}}));
+    studio.settings.view.samples = studio.settings.reflection.samples = i % 2 == 0 ? 4 : 1;
+    const Image8 fronts = studio.fresh();
+    studio.settings.debug.cullClusters = false;
+    const Image8 all = studio.fresh();
+    // Along outlines, a back may be nearer than the front by rounding.
+    const PictureAgreement agreement = difference(fronts, all, 24);
+    if (agreement.over > 4) {
+      ADD_FAILURE() << "scene " << i << ": " << agreement.over << " of 14 400 pixels";
+      writeEvidence(fronts, all, "solids_" + std::to_string(i));
+    }
+  }
+}
+
+TEST(Skipping, SolidsShadeFewerFragments) {
+  QuietSession session(headless(sceneFile("gallery"), size));
+  const auto fragments = [&](bool culls) {
+    Settings settings = session.settings();
+    settings.debug.cullClusters = culls;
+    settings.reflection.skipUnchanged = false;
+    const nlohmann::ordered_json stats = statsWith(session, settings);
+    double sum = 0.0;
+    for (const auto& pass : stats["passes"]) {
+      sum += pass["fragments"].is_number() ? pass["fragments"].get<double>() : 0.0;
+    }
+    return sum;
+  };
+  const double all = fragments(false);
+  if (all == 0.0) {
+    GTEST_SKIP() << "the device counts no fragments";
+  }
+  EXPECT_LT(fragments(true), 0.9 * all);
+}
+
+TEST(Skipping, MaskDoesNotChangeCachedImages) {
+  Options options = headless(roomsScene(), size, {{"reflection.update_interval", "3"}});
+  std::map<bool, std::vector<std::vector<uint8_t>>> pictures;
+  for (const bool masked : {true, false}) {
+    QuietSession session(options);
+    Settings settings = session.settings();
+    settings.debug.maskPasses = masked;
+    for (int frame = 0; frame < 6; ++frame) {
+      const glm::dvec3 eye(1.4 + 0.01 * frame, 1.5, 1.6);
+      session.setCamera(lookAt(eye, {1.2, 1.3, 0.0}, {0, 1, 0}, 60, 0.001));
+      pictures[masked].push_back(pictureWith(session, settings).rgba);
+    }
+  }
+  EXPECT_TRUE(pictures[true] == pictures[false]);
+}
+
+// A tilted mirror, in a closed room or under a sky. In the room, walls and floor fill its image.
+std::filesystem::path tiltedScene(bool closed) {
+  return writeScene(closed ? "tilted_closed" : "tilted_sky", std::string(R"(
+[environment] sky = { zenith = [0.1, 0.2, 0.5], horizon = [0.6, 0.5, 0.4], ground = [0.1, 0.1, 0.1] }
+  ambient = [0.3, 0.3, 0.3]
+[camera] position = [0, 1.6, 1.5], target = [0.2, 1.6, -1.5]
+[[mirror]] position = [0.2, 1.6, -1.5], rotation = [5, 10, 30], size = [3.2, 1.8]
+[[object]] model = "MODELS/box.obj", position = [-1, 0, 4.2], scale = [0.8, 1.6, 0.8], color = [0.8, 0.4, 0.2]
+[[light]] position = [0, 2.9, 1], intensity = 20, glow = 0
+)") + (closed ? R"([[object]] model = "MODELS/room.obj", position = [0, 0, 2], scale = 1.0
+)"
+              : ""));
+}
+
+TEST(Skipping, MirrorPassesDrawOnlyWhatIsSeen) {
+  for (const bool closed : {false, true}) {
+    QuietSession session(headless(tiltedScene(closed), {640, 360}));
+    for (const int samples : {1, 4}) {
+      Settings settings;
+      settings.reflection.samples = samples;
+      const nlohmann::ordered_json masked = statsWith(session, settings)["passes"][0];
+      settings.debug.maskPasses = false;
+      const nlohmann::ordered_json whole = statsWith(session, settings)["passes"][0];
+      ASSERT_TRUE(masked["samples_drawn"].is_number()) << "the device counts no samples";
+      const double seen = masked["area_px"].get<double>() * samples;
+      EXPECT_GT(seen, 20000.0 * samples);
+      EXPECT_LE(masked["samples_drawn"].get<double>(), 1.15 * seen) << closed << samples;
+      EXPECT_GE(masked["samples_drawn"].get<double>(), seen) << closed << samples;
+      EXPECT_GT(whole["samples_drawn"].get<double>(), 1.4 * seen) << closed << samples;
+    }
+  }
+}
+
+// Rebuilds the tree of passes from their figures alone.
+TEST(Skipping, FiguresOfPassesNameTheParent) {
+  QuietSession session(headless(roomsScene(), size,
+                                {{"reflection.update_interval", "2"},
+                                 {"reflection.skip_unchanged", "false"},
+                                 {"reflection.max_depth", "3"},
+                                 {"debug.skip_hidden", "false"}}));
+  session.setCamera(lookAt({1.4, 1.5, 1.6}, {1.2, 1.3, 0.0}, {0, 1, 0}, 100, 0.001));
+  std::vector<nlohmann::ordered_json> frames;
+  std::vector<std::vector<PassId>> passes;
+  for (int frame = 0; frame < 4; ++frame) {
+    frames.push_back(statsWith(session, session.settings()));
+    passes.push_back(passIds(session));
+  }
+  frames.push_back(mergeStats(frames, passes));
+  int mirrors = 0;
+  for (const nlohmann::ordered_json& frame : frames) {
+    for (const auto& pass : frame["passes"]) {
+      if (pass["depth"].is_null()) {
+        EXPECT_TRUE(pass["parent"].is_null());
+        continue;
+      }
+      ++mirrors;
+      nlohmann::ordered_json path = frame["passes"][pass["parent"].get<size_t>()]["path"];
+      path.push_back(pass["mirror"]);
+      EXPECT_EQ(path, pass["path"]);
+    }
+  }
+  EXPECT_GT(mirrors, 8);
+  EXPECT_LT(frames[1]["passes"].size(), frames.back()["passes"].size()) << "some images were reused";
+}
+
+}  // namespace
+}  // namespace speculum::skipping_pictures
