@@ -16,6 +16,11 @@ fs::path copiesFolder() {
   return withoutLinks(userConfigDir()) / "unsaved";
 }
 
+// Returns the file beside a copy that holds the path of what it was made of.
+fs::path noteOf(const fs::path& copy) {
+  return copy.parent_path() / "original";
+}
+
 fs::file_time_type timeOf(const fs::path& file) {
   std::error_code none;
   return fs::last_write_time(file, none);
@@ -25,6 +30,10 @@ fs::file_time_type timeOf(const fs::path& file) {
 
 bool Recovery::isCopy(const fs::path& file) {
   return withoutLinks(file).parent_path().parent_path() == copiesFolder();
+}
+
+fs::path Recovery::originalOf(const fs::path& copy) {
+  return isCopy(copy) ? readTextIfAny(noteOf(copy), 1u << 16) : "";
 }
 
 // Returns the newest copy in a window's folder, without a file if there is none, without a lock if a window holds it.
@@ -76,11 +85,15 @@ Recovery::Copy Recovery::freeFolder() {
   throw FileError(copiesFolder(), "is full", "remove what is not needed");
 }
 
-fs::path Recovery::keep(const std::string& name, const std::function<std::string(const fs::path& file)>& text) {
+fs::path Recovery::keep(const std::string& name, const fs::path& original,
+                        const std::function<std::string(const fs::path& file)>& text) {
   if (!isFolder(own_.file.parent_path())) {
     own_ = freeFolder();
   }
   own_.file.replace_filename(fileNameOf(name, ".toml"));
+  if (originalOf(own_.file) != original) {
+    replaceFile(noteOf(own_.file), std::string_view(original.native()));
+  }
   replaceFile(own_.file, text(own_.file));
   return own_.file;
 }

@@ -12,6 +12,8 @@ namespace speculum {
 class Recovery {
  public:
   static bool isCopy(const std::filesystem::path& file);
+  // Returns the scene that a copy was made of; empty for a scene without a file of the user's.
+  static std::filesystem::path originalOf(const std::filesystem::path& copy);
 
   // Holds the newest copy that no window holds, and returns its path; empty if there is none.
   std::filesystem::path findNewest();
@@ -20,9 +22,9 @@ class Recovery {
 
   // Call when another scene is shown: forgets the changes of the scene before. If it is a copy, later ones replace it.
   void setScene(const std::filesystem::path& file);
-  // Replaces this window's copy by `text` of the file, once that is on the disk. `name` is the scene's. Returns the
-  // file. Throws what `text` does, and FileError.
-  std::filesystem::path keep(const std::string& name,
+  // Replaces this window's copy by `text` of the file, once that is on the disk. `name` is the scene's, and `original`
+  // what originalOf() returns of the copy. Returns the file. Throws what `text` does, and FileError.
+  std::filesystem::path keep(const std::string& name, const std::filesystem::path& original,
                              const std::function<std::string(const std::filesystem::path& file)>& text);
   void forget() { remove(own_); }  // call when the changes are saved or discarded
 

@@ -210,6 +210,10 @@ void frontSlider(PanelContext& ui) {
   dimmedText(accuracy.alone ? "Shown as measured, as one picture: mean FLIP " +
                                   significant(accuracy.points[accuracy.current].error, 3)
                             : "Not a picked point: a still view shows the mean of several pictures.");
+  ImGui::BeginDisabled(accuracy.own == ui.settings);
+  commandButton(ui, "Back to my settings", "accuracy.back", "Returns to the settings before a point was picked.",
+                SetSettings{accuracy.own});
+  ImGui::EndDisabled();
 }
 
 // Returns the first bound when one is switched on: what the settings in use were measured to take, or else the fastest

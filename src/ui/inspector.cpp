@@ -162,10 +162,13 @@ bool qualityRow(PanelContext& ui, const std::string& name, std::optional<T>& own
 bool mirrorQuality(PanelContext& ui, MirrorQuality& quality) {
   using R = ReflectionSettings;
   const int mirror = ui.input.edit.selected.index;
+  // Two lines, so that the widgets below stay in their places when the text becomes shorter.
+  const float below = ImGui::GetCursorPosY() + 2.0f * ImGui::GetTextLineHeight() + ImGui::GetStyle().ItemSpacing.y;
   dimmedText(mirrorCost(ui.input.frame, mirror));
   recordWidget(ui, "edit.mirror_cost",
                "Its images in the last frame, also those seen in other mirrors. The time is the median of the last "
                "frames, as in Performance.");
+  ImGui::SetCursorPosY(std::max(below, ImGui::GetCursorPosY()));
   ImGui::Checkbox("Show its error", &ui.state.showDifference);
   recordWidget(ui, "edit.mirror_error",
                "Compares the still picture with the traced reference, and shows where it differs. The number is the "

@@ -300,7 +300,7 @@ void loading(PanelContext& ui) {
   }
   const ImGuiIO& io = ImGui::GetIO();
   const float unit = ImGui::GetFontSize();
-  ImGui::SetNextWindowPos(ImVec2(0.5f * io.DisplaySize.x, io.DisplaySize.y - unit), ImGuiCond_Always,
+  ImGui::SetNextWindowPos(ImVec2(0.5f * io.DisplaySize.x, io.DisplaySize.y - unit - statusHeight()), ImGuiCond_Always,
                           ImVec2(0.5f, 1.0f));
   ImGui::SetNextWindowSize(ImVec2(26.0f * unit, 0.0f));
   if (ImGui::Begin("Loading", nullptr, fixedWindow)) {

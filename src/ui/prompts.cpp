@@ -210,7 +210,8 @@ void saveAs(PanelContext& ui) {
 
 void recovery(PanelContext& ui) {
   ImGui::TextUnformatted("Speculum ended with unsaved changes. Open the copy that it kept?");
-  ImGui::TextDisabled("%s", ui.input.edit.proposedFile.c_str());
+  const std::filesystem::path& copy = ui.input.edit.proposedFile;
+  ImGui::TextDisabled("%s, kept in %s", copy.filename().c_str(), copy.parent_path().c_str());
   ImGui::Spacing();
   answerButton(ui, "Open", "recovery.open", OpenScene{ui.input.edit.proposedFile});
   ImGui::SetItemDefaultFocus();

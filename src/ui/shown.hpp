@@ -167,6 +167,7 @@ struct ShownAccuracy {
   std::vector<PointRow> points;
   std::map<std::string, std::string, std::less<>> prices;  // by setting: its measured values with time and error
   std::vector<int> front;                                  // indices into points, cheapest first
+  Settings own;                                            // the last ones that were not picked as a point
   int current = -1;                                        // the point that the settings are at; -1: none
   int chosen = -1;                                         // the point that a bound chose, if they still are; -1: none
   double noiseFloor = 0.0;                                 // mean FLIP

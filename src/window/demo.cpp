@@ -123,8 +123,8 @@ void Demo::beginOpening() {
   workspace_.browser().showPoster(true);
 }
 
-void Demo::continueOpening(const FramePlan& plan) {
-  if (first_.drawn(pace_.playCost(), workspace_.animates(), endsPicture(plan) && !pace_.lowers())) {
+void Demo::continueOpening(const FramePlan& plan, double seconds) {
+  if (first_.drawn(pace_.playCost(), workspace_.animates(), endsPicture(plan) && !pace_.lowers(), seconds)) {
     apply(SetPaused{true});
     apply(Seek{0.0});
   }
@@ -226,7 +226,7 @@ void Demo::drawFrame(double seconds, double sinceLastMs) {
   }
   framesDrawn_ += framesDrawn_ < std::numeric_limits<int>::max();
   pacer_.frameDrawn();
-  continueOpening(plan);
+  continueOpening(plan, seconds);
   const bool repeats = pace_.repeats() && !settings.view.continuous && options_.frames == 0;
   workspace_.report().update({workspace_.scene(), state, settings, plan, number, cpuMs, sinceLastMs, pace_.lowers(),
                               newPipelines || compiledBefore, repeats, workspace_.settings()},

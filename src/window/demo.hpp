@@ -74,7 +74,7 @@ class Demo : private WorkspaceHost {
   bool idle();
   void updateUi(double seconds);
   void beginOpening();
-  void continueOpening(const FramePlan& plan);
+  void continueOpening(const FramePlan& plan, double seconds);
   void presentPanels();
   void endWithPanels(Frame& frame);
   void endFrame(Frame& frame);

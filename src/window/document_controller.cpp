@@ -107,7 +107,16 @@ std::optional<Command> DocumentController::save(const Settings& settings) {
 void DocumentController::askWhere() {
   const fs::path file = editor_.document().usualFile();
   findSaveFile();
-  ask(Prompt::saveAs, wholePath(saveFile_.value_or(ownFolder() / file.filename())));
+  const fs::path original = originalFile();
+  ask(Prompt::saveAs, wholePath(original.empty() ? ownFolder() / file.filename() : original));
+  if (isCopy_ && !original.empty()) {
+    refused_ = proposed_;
+    note_ = "Saving replaces this file, of which the scene is a copy.";
+  }
+}
+
+fs::path DocumentController::originalFile() const {
+  return isCopy_ ? Recovery::originalOf(loaded_.scene.file) : saveFile_ ? wholePath(*saveFile_) : "";
 }
 
 void DocumentController::ask(Prompt prompt, const fs::path& proposed) {

@@ -49,6 +49,9 @@ class DocumentController {
   const std::string& note() const { return note_; }  // result of the last save, or why a model was not added
   void setNote(const std::string& note) { note_ = note; }
   // Fills everything but the overlay.
+  // Returns the user's file that the scene is saved to or, if it is a copy of unsaved changes, that it is a copy of;
+  // empty if there is none.
+  std::filesystem::path originalFile() const;
   void fill(ShownEdit& view, const Settings& settings) const;
 
  private:

@@ -9,20 +9,23 @@ namespace speculum {
 // CPU device draws its first pictures below the scene's thumbnail.
 class FirstPictures {
  public:
-  // Begins with another scene. `moves`: by itself, at a pace. `covered`: until there is a good picture.
+  // Begins with another scene. `moves`: by itself, at a pace. `covered`: until there is a good picture, or for some
+  // seconds.
   void begin(bool moves, bool covered) {
+    coveredSeconds_ = 0.0;
     triesLeft_ = moves ? mostTries : 0;
     covered_ = covered;
     holds_ = false;
   }
-  // Call after each frame: with Pace::playCost(), whether the scene moves by itself, and whether the frame was a
-  // complete picture in full quality. Returns true if the scene is to go back and stand.
-  bool drawn(const std::optional<std::string>& playCost, bool moves, bool complete) {
+  // Call after each frame: with Pace::playCost(), whether the scene moves by itself, whether the frame was a complete
+  // picture in full quality, and the seconds since the last frame. Returns true if the scene is to go back and stand.
+  bool drawn(const std::optional<std::string>& playCost, bool moves, bool complete, double seconds) {
+    coveredSeconds_ += seconds;
     const bool tried = triesLeft_ > 0;
     triesLeft_ = moves && !playCost ? triesLeft_ - tried : 0;
     const bool stands = tried && moves && !playCost.value_or("").empty();
     holds_ = stands || (holds_ && !moves);
-    covered_ = covered_ && (tried ? triesLeft_ > 0 || stands || !moves : !complete);
+    covered_ = covered_ && coveredSeconds_ < longestCover && (tried ? triesLeft_ > 0 || stands || !moves : !complete);
     return stands;
   }
   void uncover() { covered_ = false; }  // the user acts
@@ -32,9 +35,11 @@ class FirstPictures {
 
  private:
   static constexpr int mostTries = 60;
+  static constexpr double longestCover = 5.0;  // seconds, after which a draft is shown
 
   int triesLeft_ = 0;  // frames in which the cost of playing may become known
   bool covered_ = false;
+  double coveredSeconds_ = 0.0;
   bool holds_ = false;
 };
 

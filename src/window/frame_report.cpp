@@ -175,6 +175,13 @@ void FrameReport::updateTimes(const RecordedFrame& frame, const FrameTimings& ti
   } else if (!drawn->whole) {
     shown_.timedGpuMs = 0.0;
   }
+  if (!passes.empty()) {
+    double rest = gpuMs;
+    for (const auto& [name, ms] : passes) {
+      rest -= ms;
+    }
+    passes.emplace_back("other work", std::max(rest, 0.0));
+  }
   shown_.history.addGpu(timings.frame, gpuMs, passes);
 }
 

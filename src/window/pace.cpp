@@ -27,6 +27,8 @@ constexpr double caution = 4.0;      // a tile that was never drawn may take tha
 // How much of the dearest tile's time counts a frame later. One frame may be slow for another reason, such as another
 // program that takes the processor.
 constexpr double remembered = 0.9;
+// Frames of a slow picture, besides those of its maps. On a busy machine each frame takes long, whatever it draws.
+constexpr size_t mostFrames = 128;
 
 Settings withPictures(Settings settings, int pictures) {
   settings.view.accumulate = pictures;
@@ -62,9 +64,10 @@ TileRange SlowPicture::next(double ms) {
   const bool faces = tiles_.first < faces_;
   const auto expected = [&](size_t tile) { return faces ? faceMs_ : tileMs_[tile - faces_]; };
   const size_t end = faces ? faces_ : faces_ + tileMs_.size();
+  const size_t least = faces ? 1 : tileMs_.size() / mostFrames;
   for (double sum = expected(tiles_.first); tiles_.end < end; ++tiles_.end) {
     sum += expected(tiles_.end);
-    if (sum > ms) {
+    if (sum > ms && tiles_.end - tiles_.first >= least) {
       break;
     }
   }

@@ -20,7 +20,7 @@ class SlowPicture {
   // Begins a picture of `faces` and `count` other tiles. These are expected to take `ms` if it is the first picture;
   // others are expected to take as long as the last.
   void begin(size_t faces, size_t count, double ms);
-  // Returns the next tiles, at least one, that are expected to take `ms` together.
+  // Returns the next tiles that are expected to take `ms` together, and at least one in 128 of the picture's.
   TileRange next(double ms);
   // Call with the time that they took.
   void took(double ms);

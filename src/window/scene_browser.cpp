@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/vulkan_result.hpp"
+#include "edit/recovery.hpp"
 #include "image/picture_files.hpp"
 #include "platform/files.hpp"
 #include "platform/folders.hpp"
@@ -104,7 +105,7 @@ SceneBrowser::SceneBrowser() {
 }
 
 void SceneBrowser::remember(const fs::path& file) {
-  if (isNew(file)) {
+  if (isNew(file) || Recovery::isCopy(file)) {
     return;
   }
   const fs::path whole = wholePath(file).lexically_normal();

@@ -140,7 +140,7 @@ void SceneOpener::forgetCopies() {
 }
 
 fs::path SceneOpener::keepCopy() {
-  return recovery_.keep(shownFile().stem().string(),
+  return recovery_.keep(shownFile().stem().string(), document_->originalFile(),
                         [this](const fs::path& file) { return document_->text(file, settings_, ReadBack::untested); });
 }
 

@@ -159,9 +159,10 @@ void Workspace::pointerButton(const MouseButtonEvent& event, bool overPanels) {
   if (!clicked || !editor().document().selection()) {
     return;
   }
-  if (host_.inspectorCovers(pointer_.position())) {
-    status_.set("Selected " + describe(scene(), editor().document().selection()) + ". F2 opens the inspector.");
-  } else {
+  const bool covers = host_.inspectorCovers(pointer_.position());
+  status_.set("Selected " + describe(scene(), editor().document().selection()) + ". Drag its handles to move it." +
+              (covers ? " F2 opens the inspector." : ""));
+  if (!covers) {
     host_.openInspector();
   }
 }

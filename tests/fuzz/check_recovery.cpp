@@ -19,8 +19,9 @@ bool checkRecovery(std::string_view input) {
   name = name.empty() ? "untitled" : name;
   const std::string text(input.substr(std::min(line + 1, input.size())));
 
-  const fs::path kept = Recovery().keep(name, [&](const fs::path&) { return text; });
+  const fs::path kept = Recovery().keep(name, "/scenes/" + name, [&](const fs::path&) { return text; });
   Recovery recovery;
+  require(Recovery::originalOf(kept) == "/scenes/" + name, "a copy knows its original");
   require(recovery.findNewest() == kept, "a copy that nobody holds is offered");
   require(Recovery().findNewest().empty(), "a copy is offered once");
   require(readText(kept) == text, "a copy has what was kept");
@@ -33,7 +34,7 @@ bool checkRecovery(std::string_view input) {
   if (read) {
     const SceneDocument document(scene);
     const auto again = [&](const fs::path& file) { return document.text(file, {}, ReadBack::untested); };
-    require(recovery.keep(kept.stem().string(), again) == kept, "a scene that goes on has one copy");
+    require(recovery.keep(kept.stem().string(), "", again) == kept, "a scene that goes on has one copy");
     require(readText(kept) == text, "a scene that was not changed has the same text");
   }
   recovery.forget();

@@ -447,7 +447,7 @@ class Kept : public Saving {
     std::vector<fs::path> files;
     std::error_code none;
     for (const auto& entry : fs::recursive_directory_iterator(userConfigDir() / "unsaved", none)) {
-      if (!entry.is_directory()) {
+      if (entry.path().extension() == ".toml") {
         files.push_back(entry.path());
       }
     }
@@ -465,6 +465,7 @@ class Kept : public Saving {
 
 // The process ends in a way that it cannot notice, after an edit and the second that a copy may take.
 TEST_F(Kept, ChangesOutliveEverySignal) {
+  const fs::path original = scene().file;
   for (const int signal : {SIGKILL, SIGSEGV, SIGABRT, SIGTERM, SIGQUIT}) {
     const pid_t child = ::fork();
     if (child == 0) {
@@ -491,11 +492,33 @@ TEST_F(Kept, ChangesOutliveEverySignal) {
     waitFor([&] { return scene().file == copy; });
     EXPECT_EQ(settingsOf(scene()).view.exposure, 0.25);
     EXPECT_TRUE(edit().unsaved);
+    EXPECT_FALSE(std::ranges::count(shown().browser.recent, copy)) << "it goes when it is saved";
+    send(Save{});
+    EXPECT_EQ(edit().prompt, Prompt::saveAs);
+    EXPECT_EQ(edit().proposedFile, original) << "of which it is a copy";
+    EXPECT_TRUE(contains(edit().note, "replaces this file"));
+    send(CancelPrompt{});
     send(SaveAs{home_.path() / ("saved" + std::to_string(signal))});
     EXPECT_TRUE(copies().empty()) << "they are saved";
     start();
     EXPECT_EQ(edit().prompt, Prompt::none);
   }
+}
+
+TEST_F(Kept, CopiesReplaceTheirOriginalWhenSaved) {
+  const fs::path original = scene().file;
+  removeBall();
+  step(1.0);
+  step(2.0);
+  const fs::path copy = offered();
+  send(OpenScene{copy});
+  waitFor([&] { return scene().file == copy; });
+  send(Save{});
+  send(SaveAs{edit().proposedFile});
+  EXPECT_EQ(edit().prompt, Prompt::none) << edit().note;
+  EXPECT_EQ(scene().file, original);
+  EXPECT_TRUE(loadScene(original).objects.empty());
+  EXPECT_TRUE(copies().empty());
 }
 
 TEST_F(Kept, CopyFollowsChangesWithinASecond) {
