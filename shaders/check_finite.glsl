@@ -1,7 +1,7 @@
 // Searches an image of radiance and disparity for values that are not finite or not within 0 .. 65504. CHECKED_IMAGE is
-// the image's type. A first dispatch over all pixels finds the first such value and counts them. A second one of one
-// group, with LOOK_UP, reads that value, because only after all invocations of the first is it certain which value
-// comes first.
+// the image's type. A first dispatch over all pixels finds the first such value and counts them all. A second dispatch
+// of one group, with LOOK_UP, reads the first value, because only after all invocations of the first dispatch is it
+// certain which value comes first.
 #include "gpu_data.h"
 
 layout(local_size_x = 16, local_size_y = 8) in;

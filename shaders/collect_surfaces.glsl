@@ -1,5 +1,5 @@
-// Lists the surfaces that a pass identified. Each is shaded once for all samples of a pixel that see it, or once for each
-// of them. SURFACES is the type of the pass's color target.
+// Lists the surfaces that a pass identified. Each is shaded once for all samples of a pixel that see it, or once for
+// each of these samples. SURFACES is the type of the pass's color target.
 #include "gpu_data.h"
 #include "identifiers.glsl"
 #define SHADED_SET 0
@@ -19,7 +19,7 @@ layout(set = 0, binding = 0) uniform SURFACES surfaces;
 
 shared uint found[groupSize * mostSamples];
 shared uint foundCount;
-shared uint first;  // of the group's requests
+shared uint first;  // index of the group's first request
 
 vec4 colorAt(uvec2 pixel, uint i) { return texelFetch(surfaces, area.corner + ivec2(pixel), int(i)); }
 

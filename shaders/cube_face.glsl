@@ -1,6 +1,6 @@
 #ifndef SPECULUM_CUBE_FACE
 #define SPECULUM_CUBE_FACE
-// The six images about a point: src/plan/cube_face.hpp.
+// The six images about a point, the faces of an environment map or a shadow map: src/plan/cube_face.hpp.
 
 // The face that shows a direction.
 struct FaceDirection {
@@ -16,7 +16,7 @@ FaceDirection cubeFace(vec3 d) {
   return FaceDirection(axis, component < 0.0 ? -1.0 : 1.0, abs(component));
 }
 
-// The face with this index, for a direction that it shows.
+// Returns the face with this index, for a direction that it shows.
 FaceDirection faceOf(uint index, vec3 d) {
   int axis = int(index / 2);
   return FaceDirection(axis, index % 2 == 0 ? 1.0 : -1.0, abs(d[axis]));
@@ -24,7 +24,7 @@ FaceDirection faceOf(uint index, vec3 d) {
 
 int indexOf(FaceDirection face) { return 2 * face.axis + (face.side < 0.0 ? 1 : 0); }
 
-// Components of a vector to the right and down in the face. FaceAxes has the axes.
+// Returns the components of a vector to the right and down in the face. FaceAxes has the axes.
 vec2 inFace(FaceDirection face, vec3 v) {
   return vec2(face.side * (face.axis == 0 ? v.z : face.axis == 1 ? v.x : -v.x), face.axis == 1 ? -v.z : -v.y);
 }

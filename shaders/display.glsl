@@ -5,7 +5,7 @@
 
 layout(constant_id = constantAces) const bool aces = false;
 layout(constant_id = constantShrunk) const bool shrunk = false;  // a pixel covers more than one texel
-// The sampler enlarges: on CPUs, where its weights are floats.
+// The sampler enlarges the image. Only on CPUs, whose samplers have floats as weights.
 layout(constant_id = constantSampled) const bool sampled = false;
 
 layout(set = 0, binding = 0) uniform DISPLAY_IMAGE radiance;
@@ -35,8 +35,8 @@ vec3 texelAt(ivec2 texel) {
   return texelFetch(radiance, clamp(texel, ivec2(0), textureSize(radiance, 0) - 1), 0).rgb;
 }
 
-// Interpolates bilinearly like enlarged() of image/image.hpp, by a sampler only on CPUs: those of GPUs have weights of few bits,
-// which differ between devices.
+// Interpolates bilinearly like enlarged() of image/image.hpp, by a sampler only on CPUs: samplers of GPUs have weights
+// of few bits, which differ between devices.
 vec3 radianceAt(vec2 position) {
   if (sampled) {
     return textureLod(radiance, position / vec2(textureSize(radiance, 0)), 0.0).rgb;
@@ -50,7 +50,8 @@ vec3 radianceAt(vec2 position) {
   return clamp(mix(mix(a, b, t.x), mix(c, d, t.x), t.y), min(min(a, b), min(c, d)), max(max(a, b), max(c, d)));
 }
 #else
-// Where it is shrunk, the mean of the box of texels that a pixel covers, or thin lines would come and go.
+// Where the image is shrunk, returns the mean of the box of texels that a pixel covers: without it thin lines would
+// come and go.
 vec3 radianceAt(vec2 position) {
   if (!shrunk) {
     return texelMean(radiance, ivec2(position)).rgb;

@@ -1,5 +1,6 @@
-// Reflections of a curved mirror, looked up in six images about its centre: EnvironmentMap in src/plan/frame_plan.hpp,
-// with the faces of src/plan/cube_face.hpp. The map is bound as `diffuseTexture`. Needs shading.glsl.
+// Reflections of a curved mirror, looked up in its environment map, six images about its centre: Cube in
+// src/plan/frame_plan.hpp, with the faces of src/plan/cube_face.hpp. The map is bound as `diffuseTexture`. Needs
+// shading.glsl.
 #include "cube_face.glsl"
 
 const float environmentBorder = 1.0;  // texels of a face beyond its edges
@@ -44,7 +45,7 @@ vec3 throughBox(CurvedMirrorData map, vec3 position, vec3 d) {
   return t > 0.0 ? from + t * d : d;
 }
 
-// Returns the radiance of a mirror's reflection at `surface`, seen along `direction`.
+// Returns the radiance that a curved mirror reflects at `surface`, seen along `direction`.
 vec3 environmentRadiance(CurvedMirrorData map, Surface surface, vec3 direction, vec3 reflectance) {
   // The reflection is kept above the shading normal's plane, not the triangle's: triangles may be too small for
   // derivatives.

@@ -1,6 +1,6 @@
 // Structures that C++ and the shaders share; both include this file. Members lie at the same offsets in std430 and, for
-// structures of uniform blocks, in std140: a vec3 starts at a multiple of 16 bytes, so a scalar or padding follows each,
-// and structures of uniform blocks have no arrays of scalars.
+// structures of uniform blocks, in std140: a vec3 starts at a multiple of 16 bytes, so a scalar or padding follows each
+// vec3, and structures of uniform blocks have no arrays of scalars.
 // Relative space: world space minus the eye of the pass's view, for small numbers near the eye wherever the scene lies.
 // Trace space: world space minus the eye of the main view, the same for all views of a frame.
 #ifndef SPECULUM_GPU_DATA_H
@@ -36,10 +36,10 @@ struct ViewData {
   vec4 zenith;
   vec4 horizon;
   vec3 ground;
-  uint inMap;  // a face of an environment map
+  uint inMap;  // 1: the view is a face of an environment map
   vec4 traceOffset;     // added to a relative point gives one in trace space
   vec3 throughput;      // product of the reflectances of the mirrors up to this view
-  float minThroughput;  // a bounce below it is dropped
+  float minThroughput;  // below this throughput a mirror shows the background
   uint firstLight;      // in the buffer of lights
   uint lightCount;
   uint depth;     // recursion depth of the mirrors seen in this view
@@ -57,8 +57,8 @@ struct LightData {
   uint shadowMap;  // index into shadowMaps; noShadowMap: none
 };
 
-// Metres. The alpha of color targets is disparityLength / w with w of clip space, 0 at infinity: a half float then holds
-// it from 1 um on, and what is farther than 1 km has fewer digits than a reprojection needs.
+// Metres. The alpha of color targets is the disparity disparityLength / w, with w of clip space, 0 at infinity. A half
+// float then holds the disparity from 1 um on; beyond 1 km it has fewer digits than a reprojection needs.
 const float disparityLength = 0.0625;
 
 const uint noShadowMap = 0xffffffffu;
@@ -99,7 +99,7 @@ struct MaterialChange {
 struct InstanceData {
   mat4 clipFromMesh;
   vec4 relativeFromMesh[3];  // rows
-  vec4 normalFromMesh[3];    // rows, xyz; all w: metres from the eye to the far end
+  vec4 normalFromMesh[3];    // rows, xyz; all w: metres from the eye to the far end of the instance
   vec4 clipPlane;            // in mesh space
   uint traceInstance;        // index into traceInstances
   uint curvedMirror;         // index into curvedMirrors, for a curved mirror that looks up a map
@@ -107,8 +107,8 @@ struct InstanceData {
   uint padding;
 };
 
-// A triangle whose texture repeats so often that its coordinates are no floats: linear functions of a point in trace
-// space, computed in double and reduced to small numbers near the eye.
+// A triangle whose texture repeats so often that floats of its coordinates lose digits. Instead it has linear functions
+// of a point in trace space, computed in double and reduced to small numbers near the eye.
 struct RepeatingTriangle {
   vec4 u;
   vec4 v;
@@ -128,15 +128,16 @@ struct MirrorData {
   ivec2 imageSize;  // texels of the image's used part
   float alpha;      // of GGX, where the image is blurred
   int blurSamples;  // lookups of a blurred image
-  vec4 texelFromPixel[3];  // reprojection: rows of the matrix from (pixel of the pass, 1, disparity) to a homogeneous texel
+  // Reprojection: rows of the matrix from (pixel of the pass, 1, disparity) to a homogeneous texel.
+  vec4 texelFromPixel[3];
   vec3 axisX;         // of its ripples
   float waveNumber;   // 1/m
   vec3 axisY;
   float rippleSlope;  // steepest; below 0 if waves rise against `normal`
   vec3 rippleOrigin;  // relative
   float ripplePhase;  // radians
-  uint index;         // of this, in the frame's mirrors
-  uint showsRipples;  // its image is displaced
+  uint index;         // of this mirror among the frame's mirrors
+  uint showsRipples;  // 1: ripples displace its image
   uint padding0;
   uint padding1;
 };
@@ -211,13 +212,13 @@ const uint lookupBilinear = 1;
 const uint lookupBox = 2;
 
 // A hierarchy's nodes are stored depth first, in one copy for each octant of ray directions, the nearer child first. A
-// ray that meets a node's box goes on to the next node; a ray that misses it goes to `link`, the node after the
-// subtree. A leaf's `link` is traceLeaf plus what the leaf holds. Rays of the octant enter at `near` sides.
+// ray that meets a node's box goes on to the next node; a ray that misses the box goes to `link`, the node after the
+// subtree. A leaf's `link` is traceLeaf plus what the leaf holds. Rays of the octant enter a box at its `near` sides.
 
 // A box of the hierarchy over instances and mirrors.
 struct TraceTopNode {
   vec3 near;  // trace space
-  uint link;  // leaf: an instance, or a mirror and itemMirror
+  uint link;  // leaf: index of an instance, or of a mirror plus itemMirror
   vec3 far;
   uint padding;
 };
@@ -230,7 +231,7 @@ struct TraceNode {
 
 struct TraceTriangle {
   vec3 a;         // mesh space
-  uint triangle;  // its number in the mesh
+  uint triangle;  // number of the triangle in the mesh
   vec3 b;
   uint padding;
   vec3 c;
@@ -263,7 +264,7 @@ struct TraceInstance {
   uint root;              // node
   vec3 gridScale;
   uint nodes;  // of an octant
-  vec4 normalFromMesh[3];  // rows, xyz; all w: metres from the main eye to the far end
+  vec4 normalFromMesh[3];  // rows, xyz; all w: metres from the main view's eye to the far end of the instance
   MaterialChange change;
   vec3 reflectance;  // of a curved mirror
   uint curved;       // one of the curved* constants
@@ -272,7 +273,7 @@ struct TraceInstance {
   uint firstTriangle;  // of its mesh, in traceFaces
   uint firstVertex;    // of its mesh
   uint firstRepeating;  // number, in its mesh, of the first triangle in repeatingTriangles
-  uint repeats;         // as InstanceData::repeats
+  uint repeats;         // see InstanceData::repeats
 };
 const uint traceInstanceTexelCount = 14;
 
@@ -309,8 +310,8 @@ struct LightPath {
   float radius;
   vec3 irradiance;  // at 1 m, facing the light
   uint castsShadow;
-  vec3 light;
-  uint mirror;
+  vec3 light;   // position of the light itself
+  uint mirror;  // index into traceMirrors
   float side;  // of the mirror that reflects: 1 the front, -1 the back
   uint padding[3];
 };
@@ -319,7 +320,7 @@ struct LightPath {
 struct TraceCounts {
   uint lightPaths;
   uint topNodes;  // of an octant
-  uint roughSamples;
+  uint roughSamples;  // effects.rough_samples
   uint padding;
 };
 
@@ -350,17 +351,17 @@ struct AccumulateConstants {
   uint begins;  // the picture is the first
 };
 
-// Push constants of the view of a depth image.
+// Push constants of the pass that shows a depth image.
 struct DepthViewConstants {
-  vec4 lookup;      // as above
+  vec4 lookup;      // as in DisplayConstants
   float halfDepth;  // depth shown half bright
 };
 
 // Finding of debug.check_finite in an image: result of the search, and the value looked up afterwards.
 struct CheckSearch {
   uint pixel;  // y * width + x of the first finding; all bits are set at the start
-  uint count;  // samples
-  uint any;    // 1 if there are any. A plain store: validation layer 1.3.239 does not take atomics for writes.
+  uint count;  // samples with such a value
+  uint any;    // 1 if there are any. Set by a plain store: validation layer 1.3.239 does not take atomics for writes.
 };
 
 struct CheckFound {

@@ -1,5 +1,5 @@
-// Identifiers of surfaces whose radiance takes rays. A pass draws them into its color target in the place of radiance,
-// from which the sign of red tells them apart; shade.glsl computes the radiance afterwards.
+// Identifiers of surfaces whose radiance takes rays. A pass draws them into its color target in the place of radiance;
+// the sign of red tells the two apart. shade.glsl computes the radiance afterwards.
 
 struct Identifier {
   bool mirror;     // a planar mirror, else a triangle of an object
@@ -8,7 +8,7 @@ struct Identifier {
   uint triangle;   // of the mesh; less than 2^28
 };
 
-// Half floats keep normal numbers bit by bit. From the least of them on, 2^14 patterns are finite.
+// Half-float targets keep the bits of normal numbers. From the least normal number on, 2^14 patterns are finite.
 const uint leastNormal = 0x0400;
 const uint fieldBits = 14;
 const uint fieldMask = 0x3fff;
@@ -22,8 +22,8 @@ uint decoded(vec2 halfs) {
   return ((bits & 0xffff) - leastNormal) | ((bits >> 16) - leastNormal) << fieldBits;
 }
 
-// Replaces the disparity of samples to which a triangle's reflection will be added. It depends on the triangle, so that
-// hardly any other one at the same depth adds its reflection too. Below zero and exact in a half float.
+// Replaces the disparity of samples to which a triangle's reflection will be added. The mark depends on the triangle,
+// so that hardly any other triangle at the same depth adds its reflection too. Below zero and exact in a half float.
 float reflectionMark(Identifier id) { return -1.0 - float((id.index * 0x9e3779b9u + id.triangle * 0x85ebca6bu) >> 21); }
 
 vec4 encoded(Identifier id) {

@@ -1,6 +1,6 @@
-// Buffers that FrameData (src/systems/frame_data.hpp) fills every frame, except `materials`. Values that are the same for
-// all pixels of a draw are in uniform buffers, at the dynamic offset of the pass or of the mirror, because lavapipe reads
-// a storage buffer anew for each pixel.
+// Buffers that FrameData (src/systems/frame_data.hpp) fills every frame, except `materials`. Values that are the same
+// for all pixels of a draw are in uniform buffers, at the dynamic offset of the pass or of the mirror, because lavapipe
+// reads a storage buffer anew for each pixel.
 #include "gpu_data.h"
 
 layout(set = 0, binding = 0, std140) uniform Pass {

@@ -29,9 +29,9 @@ vec2 recurrencePoint(vec2 shift, int index) {
 }
 
 // `count` points that cover the unit square evenly: the lattice (i / count, i * golden ratio), moved as a whole by a
-// shift within one of its cells. If shifts are uniform in the cell, the points together are uniform in the square, while
-// point i stays in a cell of its own: the rays of point i in neighbouring pixels go about the same way, and the pixels
-// take the same branches.
+// shift within one of its cells. If shifts are uniform in the cell, the points together are uniform in the square,
+// while point i stays in a cell of its own: the rays of point i in neighbouring pixels go about the same way, and the
+// pixels take the same branches.
 struct Lattice {
   vec2 shift;
   int count;
@@ -39,10 +39,10 @@ struct Lattice {
 
 const float golden = 0.6180339887498949;
 
-// `place` in the cell, 0 .. 1 each.
+// Returns a lattice that is shifted to `place` in the cell, 0 .. 1 along each side.
 Lattice latticeOf(vec2 place, int count) {
-  // Two successive vectors of a Fibonacci sequence span a cell. They grow in x and shrink in y; the loop ends where both
-  // sides of the cell are about equally long.
+  // Two successive vectors of a Fibonacci sequence span a cell. They grow in x and shrink in y; the loop ends where
+  // both sides of the cell are about equally long.
   vec2 a = vec2(0.0, -1.0);
   vec2 b = vec2(1.0 / float(count), golden);
   while (b.x < abs(b.y)) {
@@ -53,8 +53,8 @@ Lattice latticeOf(vec2 place, int count) {
   return Lattice(place.x * a + place.y * b, count);
 }
 
-// Returns point 0 .. count - 1. One that the shift moves across a side in x comes back as the point `count` numbers
-// away.
+// Returns point number `index`, 0 .. count - 1. A point that the shift moves across a side in x comes back as the point
+// `count` numbers away.
 vec2 latticePoint(Lattice lattice, int index) {
   float x = lattice.shift.x + float(index) / float(lattice.count);
   float sides = floor(x);
@@ -72,7 +72,7 @@ vec3 microfacet(vec3 n, float alpha, vec2 u) {
   return sine * cos(angle) * x + sine * sin(angle) * y + sqrt(cosine2) * n;
 }
 
-// Says whether m faces the viewer along `direction` and mirrors it to the plane's own side.
+// Says whether m faces the viewer, who looks along `direction`, and mirrors the direction to the plane's own side.
 bool staysAbove(vec3 direction, vec3 m, vec3 planeNormal) {
   return dot(m, direction) < 0.0 && dot(direction - 2.0 * dot(direction, m) * m, planeNormal) > 0.0;
 }

@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "interface.glsl"
 
-// A mirror drawn in two layers passes the test for equal depth only if its positions are the same.
+// A reflection that is added to a base passes the test for equal depth only if both draws have the same positions.
 invariant gl_Position;
 
 // The polygon is cut at the pass's clip plane and brought to clip space in double on the CPU.

@@ -4,7 +4,7 @@
 
 struct PlaneHit {
   vec3 ray;         // one metre long along the view's axis
-  float inward;     // its component along the normal, below zero
+  float inward;     // component of the ray along the normal, below zero
   vec3 position;    // relative
   float disparity;  // of the plane
 };

@@ -1,5 +1,5 @@
-// The fragment shader of mirrors. MIRROR_IMAGE is the type of the image. With MIRROR_OWN_SAMPLE each invocation draws one
-// sample, reads the same sample of the image and gives the reflection's share only.
+// The fragment shader of mirrors. MIRROR_IMAGE is the type of the image. With MIRROR_OWN_SAMPLE each invocation draws
+// one sample, reads the same sample of the image and gives the reflection's share only.
 #include "interface.glsl"
 #include "shading.glsl"
 #include "texels.glsl"
@@ -10,13 +10,13 @@
 layout(constant_id = constantBaseOnly) const bool baseOnly = false;  // draws the base without the reflection
 // The image is cached, and eye or mirror moved since.
 layout(constant_id = constantReprojects) const bool reprojects = false;
-layout(constant_id = constantAdded) const bool added = false;  // to the base, which is there already
-// The mirror is rough, its image is that of a smooth one.
+layout(constant_id = constantAdded) const bool added = false;  // the reflection is added to the base, drawn before
+// The mirror is rough, its image is that of a smooth mirror.
 layout(constant_id = constantBlurs) const bool blurs = false;
 layout(constant_id = constantShows) const uint shows = showsImage;
 layout(constant_id = constantLookup) const uint lookup = lookupFetch;
 layout(constant_id = constantColored) const bool colored = true;  // its back, or its base, is not black
-// The mirror is rippled, its image is that of a smooth one.
+// The mirror is rippled, its image is that of a smooth mirror.
 layout(constant_id = constantRipples) const bool ripples = false;
 
 layout(set = 1, binding = 0) uniform MIRROR_IMAGE reflection;
@@ -40,8 +40,8 @@ vec4 valueAt(ivec2 texel) { return texelMean(reflection, texel); }
 
 vec2 valuePosition() { return vec2(0.5); }
 
-// Interpolates at `position` in texels, half a texel or more inside the used part of the image. Reads no neighbour of
-// weight 0, as a sampler would: texels beside that part were never written, and 0 x NaN is NaN.
+// Interpolates at `position` in texels, half a texel or more inside the used part of the image. Unlike a sampler, reads
+// no neighbour of weight 0: texels beside the used part were never written, and 0 x NaN is NaN.
 vec4 bilinear(vec2 position) {
   vec2 corner = floor(position - 0.5);
   vec2 weight = position - 0.5 - corner;
@@ -83,7 +83,7 @@ vec4 reflected() {
 // Relation of this fragment to a cached image. docs/architecture.md: When is an image used again?
 struct Reprojection {
   vec3 direction;  // homogeneous texel of what is infinitely far
-  vec3 parallax;   // added to it per disparity
+  vec3 parallax;   // added to `direction` per disparity
   float nearest;   // disparity of the mirror's surface, behind which everything in the image lies
 };
 
@@ -182,8 +182,8 @@ struct Origin {
   float limit;     // distance beyond which nothing changes
 };
 
-// Returns what the image shows along the direction. The distance is first guessed, then taken from the image. Beyond the
-// image the background is seen.
+// Returns what the image shows along the direction. The distance is first guessed, then taken from the image. Beyond
+// the image the background is seen.
 vec3 imageAlong(vec3 direction, Origin origin) {
   vec3 behind = direction - 2.0 * dot(direction, mirror.normal) * mirror.normal;
   float far = origin.guess;
@@ -278,8 +278,8 @@ vec3 baseRadiance(vec3 position, vec3 normal) {
   return surfaceRadiance(base);
 }
 
-// Stores the disparity of the reflected surface, so that the parent's image can be reprojected too. It is the same in
-// the mirror's image and in its parent's, because views share one projection and reflection keeps lengths.
+// Stores the disparity of the reflected surface, so that the parent's image can be reprojected too. This disparity is
+// the same in the mirror's image and in its parent's, because views share one projection and reflection keeps lengths.
 void main() {
   PlaneHit hit = planeHit(mirror.normal, mirror.eyeDistance, gl_FragCoord.xy);
 #ifdef MIRROR_OWN_SAMPLE

@@ -4,7 +4,7 @@
 
 layout(location = 0) flat out uint lightIndex;
 
-// Draws a cube around the glyph. Its far faces cover the sphere on the screen from every eye, even from inside.
+// Draws a cube around the glyph. Its far faces cover the glyph on the screen from every eye, even from inside.
 void main() {
   const int corners[36] = int[](0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4, 2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6,
                                 1, 3, 5, 3, 7, 5);

@@ -7,8 +7,8 @@ layout(constant_id = constantClipAtMirror) const bool clipAtMirror = false;
 layout(location = 0) in vec3 position;  // mesh space
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec2 uv;
-// Members of the instance's InstanceData. Attributes, because lavapipe fetches them once for all vertices that it shades at
-// a time, but reads a storage buffer anew for each.
+// Members of the instance's InstanceData. They are attributes, because lavapipe fetches these once for all vertices
+// that it shades at a time, but reads a storage buffer anew for each vertex.
 layout(location = 3) in mat4 clipFromMesh;
 layout(location = 7) in vec4 relativeFromMesh[3];  // rows
 layout(location = 10) in vec4 normalFromMesh[3];   // rows
@@ -25,7 +25,7 @@ out gl_PerVertex {
   float gl_ClipDistance[1];
 };
 
-// Reflections that are added to a base pass the test for equal depth only if their positions are the same.
+// A reflection that is added to a base passes the test for equal depth only if both draws have the same positions.
 invariant gl_Position;
 
 void main() {

@@ -1,5 +1,5 @@
-// The fragment shader of objects whose light takes no rays. ENVIRONMENT draws curved mirrors, which look up a map; with
-// REFLECTION_ONLY the base under the reflection is there, because shade.glsl has shaded it. REPEATING draws
+// The fragment shader of objects whose light takes no rays. ENVIRONMENT draws curved mirrors, which look up an
+// environment map; with REFLECTION_ONLY it draws no base, because shade.glsl has shaded the base. REPEATING draws
 // RepeatingTriangles.
 #include "interface.glsl"
 #include "shading.glsl"
@@ -58,7 +58,7 @@ vec3 diffuseFactor() {
 #endif
 
 #ifdef REFLECTION_ONLY
-// Returns the samples whose base is that of this triangle.
+// Returns the mask of the samples whose base was shaded for this triangle.
 int samplesOfBase() {
   float mark = reflectionMark(Identifier(false, true, instanceIndex, draw.firstTriangle + uint(gl_PrimitiveID)));
   uint pixel = pixelNumber(uvec2(ivec2(gl_FragCoord.xy) - area.corner));
@@ -105,7 +105,7 @@ void main() {
 #else
   vec3 radiance = surfaceRadiance(surface);
 #endif
-  // gl_FragCoord.w would be that of the pixel's centre, which on a steep triangle may lie far from the shaded point.
+  // gl_FragCoord.w would belong to the pixel's centre, which on a steep triangle may lie far from the shaded point.
   float w = (view.clipFromRelative * vec4(relativePosition, 1.0)).w;
   color = storable(radiance, disparityLength / max(w, 1e-30));
 #ifdef REFLECTION_ONLY

@@ -17,7 +17,8 @@ layout(local_size_x = requestsPerGroup) in;
 
 layout(set = 1, binding = 3, std430) readonly buffer Mirrors { MirrorBlock mirrorBlocks[]; };
 
-// Positions of samples in a pixel: Vulkan specification, "Standard sample locations". Those of n samples start at n - 1.
+// Positions of samples in a pixel: Vulkan specification, "Standard sample locations". Those of n samples begin at index
+// n - 1.
 const vec2 samplePositions[] = {
   vec2(0.5, 0.5),
   vec2(0.75, 0.75), vec2(0.25, 0.25),
@@ -30,7 +31,7 @@ const vec2 samplePositions[] = {
   vec2(0.0, 0.5), vec2(0.9375, 0.25), vec2(0.875, 0.9375), vec2(0.0625, 0.0)
 };
 
-// Mean position of samples, in pixels of the target.
+// Returns the mean position of the samples in the bits of `seenBy`, in pixels of the target.
 vec2 positionOf(uvec2 pixel, uint seenBy) {
   vec2 sum = vec2(0.0);
   for (uint i = 0; i < samples; ++i) {
@@ -82,8 +83,8 @@ vec3 weightsAt(vec3 point, Corners corners) {
   return abs(area) < 1e-30 ? vec3(1.0, 0.0, 0.0) : weights / area;
 }
 
-// Weights at the point of the triangle that is nearest to those on its plane: a pixel that the triangle covers in part
-// may look past it.
+// Moves weights of a point in the triangle's plane onto the triangle: a pixel that the triangle covers in part may look
+// past it.
 vec3 onTriangle(vec3 weights) {
   weights = max(weights, vec3(0.0));
   return weights / (weights.x + weights.y + weights.z);
@@ -92,7 +93,7 @@ vec3 onTriangle(vec3 weights) {
 // A surface as a pixel sees it.
 struct Seen {
   Bounce bounce;
-  vec3 direction;  // unit, towards it
+  vec3 direction;  // unit, towards the surface
   float disparity;
   uint seed;
   Draws draws;
@@ -132,15 +133,15 @@ Seen seenMirror(Identifier id, vec2 position, uint firstSample) {
   seen.bounce = mirrorBounce(mirror.traceMirror, hit.position + view.traceOffset.xyz, direction, front, ripples);
   seen.bounce.alpha = id.baseOnly ? 0.0 : seen.bounce.alpha;
   seen.direction = direction;
-  seen.disparity = id.baseOnly && seen.bounce.reflects ? 0.0 : hit.disparity;  // that of the reflection is added
+  seen.disparity = id.baseOnly && seen.bounce.reflects ? 0.0 : hit.disparity;  // the reflection adds its own
   seen.seed = seedAt(position);
   seen.draws = Draws(view.picture, 1, 0, 1);
   if (seen.bounce.alpha > 0.0 && seen.bounce.reflects && !id.baseOnly) {
     // The samples share the pixel's points, so that many samples and few are equally smooth.
     seen.seed = seedAt(floor(position) + 0.5);
     uint wanted = (traceCounts.roughSamples + samples - 1) / samples;
-    // A mirror's edge leaves out some samples of a pixel, so each sample takes another share in each block of pixels. In
-    // one block all pixels agree, and their rays take the same branches.
+    // A mirror's edge leaves out some samples of a pixel, so each sample takes another share in each block of pixels.
+    // In one block all pixels agree, and their rays take the same branches.
     uint turn = seedAt(floor(position / 8.0)) + view.picture;
     seen.draws = Draws(view.picture, int(wanted), int((firstSample + turn) % samples), int(samples));
   }

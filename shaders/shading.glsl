@@ -7,7 +7,7 @@ layout(constant_id = constantLightCount) const uint lightCount = manyLights;
 const float pi = 3.14159265358979;
 const float halfMax = 65504.0;
 const float halfLeast = 6e-8;  // the least half float above 0
-const float radianceMax = 1e30;  // sums stay finite, and unlike infinity it gives 0 times 0
+const float radianceMax = 1e30;  // sums stay finite, and unlike infinity it gives 0 if multiplied by 0
 const float shareMax = 65472.0;  // largest value of a base or a reflection: the sum of two rounds to halfMax at most
 
 struct Surface {
@@ -22,15 +22,15 @@ struct Surface {
 };
 
 #ifdef COMPUTE
-// Always false, but no compiler can know that.
+// Says whether the invocation's result is not needed. Always false here, but no compiler can know that.
 bool isUnneeded() { return gl_LocalInvocationIndex > 0xffff; }
 #else
 bool isUnneeded() { return gl_HelperInvocation; }
 #endif
 
 // A branch or a loop that depends on uniform values alone makes lavapipe of Mesa 22.3 compile a large shader again for
-// each draw and keep it. Values are chosen with mix() instead, and loops end at this count, which is not uniform because
-// it depends on the invocation. Helper invocations need no light.
+// each draw and keep it. Values are chosen with mix() instead, and loops end at countHere(), which is not uniform
+// because it depends on the invocation. Helper invocations need no light.
 uint countHere(uint count) { return isUnneeded() ? 0 : count; }
 
 vec3 safeNormalize(vec3 v) { return v * inversesqrt(max(dot(v, v), 1e-37)); }
@@ -59,8 +59,8 @@ BilinearTexels bilinearTexels(vec2 uv, ivec2 size) {
   return BilinearTexels(low, high - size * ivec2(equal(high, size)), texel - corner);
 }
 
-// Height of a light above a surface, relative to the lengths from which it is computed, that may be rounding. A light so
-// low counts as in the surface's plane, or its side would change from pixel to pixel.
+// Largest height of a light above a surface that may be rounding, relative to the lengths from which the height is
+// computed. A light so low counts as in the surface's plane, or its side would change from pixel to pixel.
 const float leastHeight = 3e-7;
 
 // Returns the texture coordinates where a line of sight in trace space meets the triangle's plane.
@@ -71,8 +71,8 @@ vec2 repeatingUv(uint index, vec3 origin, vec3 direction) {
   return vec2(dot(at.u, point), dot(at.v, point));
 }
 
-// Returns the radiance due to a light at `toLight` from the surface; `irradiance` is at 1 m, facing the light.
-// lavapipe runs both sides of every branch, so there is none for surfaces that face away.
+// Returns the radiance due to a light at `toLight` from the surface; `irradiance` is at 1 m, facing the light. lavapipe
+// runs both sides of every branch, so no branch leaves out surfaces that face away.
 vec3 lightRadiance(vec3 toLight, float radius, vec3 irradiance, Surface surface, vec3 toViewer) {
   float distance2 = max(dot(toLight, toLight), 1e-37);
   float inverse = inversesqrt(distance2);
@@ -171,14 +171,14 @@ vec3 backgroundRadiance(vec3 direction) {
 }
 
 // Returns the value as a half-float target can store it: beyond its range some drivers store infinity, and one such
-// sample spoils a resolve. `disparity` is disparityLength / w, by which cached images are reprojected. 0: the background
-// is seen, directly or in a mirror. halfLeast: too far to store, or a mirror in an environment map that shows the
-// background, which must not be replaced by the background behind the mirror.
+// sample spoils a resolve. `disparity` is disparityLength / w, by which cached images are reprojected. 0: the
+// background is seen, directly or in a mirror. halfLeast: too far to store, or a mirror in an environment map that
+// shows the background, which must not be replaced by the background behind the mirror.
 vec4 storable(vec3 radiance, float disparity) {
   vec4 value = vec4(radiance, disparity);
   vec4 stored = clamp(value, vec4(0.0, 0.0, 0.0, disparity > 0.0 ? halfLeast : 0.0), vec4(halfMax));
-  // debug.check_finite puts back the NaN that clamp() hides. It is found by its bits, because compilers may take isnan()
-  // for false.
+  // debug.check_finite puts back the NaN that clamp() hides. NaN is found by its bits, because compilers may take
+  // isnan() for false.
   uint largest = view.checksFinite != 0 ? 0x7f800000u : 0x7fffffffu;
   return mix(stored, value, greaterThan(floatBitsToUint(value) & 0x7fffffffu, uvec4(largest)));
 }

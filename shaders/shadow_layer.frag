@@ -4,7 +4,7 @@
 
 layout(set = 1, binding = 0) uniform usampler2D layer;
 
-// Copies the planes of the layer, and the depths that belong to them.
+// Copies the layer, the still casters of a shadow map's face: its planes, and the depths that belong to them.
 layout(location = 0) out uvec2 plane;
 
 void main() {

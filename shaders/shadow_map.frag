@@ -1,6 +1,6 @@
 #version 450
-// Stores the plane that a light sees: its disparity from the light, in 1/m, and what that grows by to the next texel on
-// the right and below, as the upper halves of two floats.
+// Stores the plane that a light sees: its disparity from the light, in 1/m, and the growth of the disparity to the next
+// texel on the right and below, as the upper halves of two floats.
 
 layout(location = 0) out uvec2 plane;
 

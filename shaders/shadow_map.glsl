@@ -1,10 +1,10 @@
-// Shadows looked up in the images about a light: ShadowMap in src/plan/frame_plan.hpp. docs/numerics.md derives the
-// comparison. Needs interface.glsl.
+// Shadows looked up in a shadow map, six images about a light: Cube in src/plan/frame_plan.hpp. docs/numerics.md
+// derives the comparison. Needs interface.glsl.
 #include "cube_face.glsl"
 
 // Face that contains the whole scene, in every map.
 layout(constant_id = constantOnlyShadowFace) const uint onlyShadowFace = anyShadowFace;
-// First lights of each pass, which have a map.
+// Number of lights with a shadow map. They are the first lights of each pass.
 layout(constant_id = constantShadowedLights) const uint shadowedLights = 0;
 
 layout(set = 2, binding = 0) uniform usampler2D shadowTexels;  // what shadow_map.frag stores; 0: nothing is there
@@ -12,7 +12,7 @@ layout(set = 2, binding = 1, std140) uniform ShadowMaps { ShadowMapData shadowMa
 
 const float leastShadowCosine = 1e-6;  // steeper slopes count as this one
 const float shadowBias = 0.125;        // texels
-const float slopeError = 1.0 / 64.0;   // of planes that are rasterised or derived from pixels, texels
+const float slopeError = 1.0 / 64.0;   // texels; error of planes that are rasterised or derived from pixels
 
 // The point that shadows are looked up for, relative, and the normal of its triangle, towards the eye. Set before
 // surfaceRadiance().
@@ -41,13 +41,13 @@ vec4 windowOf(uint map, FaceDirection face) {
   return face.axis == 0 ? x : face.axis == 1 ? y : z;
 }
 
-// The planes that a light sees at four texels about a point of its map, in the order of textureGather: lower left, lower
-// right, upper right, upper left, with y downwards. Disparities are linear on a plane.
+// The planes that a light sees at four texels about a point of its map, in the order of textureGather: lower left,
+// lower right, upper right, upper left, with y downwards. Disparities are linear on a plane.
 struct SeenPlanes {
-  vec4 x;  // of the texels' centres from the point
+  vec4 x;  // texels, from the point to the texels' centres
   vec4 y;
   vec4 disparity;  // at the texels' centres; 0: nothing is there
-  vec4 rise;       // from the point to the texels' centres
+  vec4 rise;       // growth of the disparity from the point to the texels' centres
 };
 
 SeenPlanes planesAbout(vec2 at) {
@@ -63,10 +63,10 @@ SeenPlanes planesAbout(vec2 at) {
   return seen;
 }
 
-// Returns the share of the light that reaches the receiver, interpolated bilinearly between four texels. A plane seen
-// hides the receiver if it is nearer to the light than the receiver's own plane at the texel's centre and at the
-// receiver. If it is nearer at one of them only, both belong to surfaces that meet in between. If it is farther at both,
-// the light passes beside the receiver's surface, and the texel tells nothing.
+// Returns the share of the light that reaches the receiver, interpolated bilinearly between four texels. The plane seen
+// at a texel hides the receiver if it is nearer to the light than the receiver's own plane both at the texel's centre
+// and at the receiver. If it is nearer at only one of these places, the two planes belong to surfaces that meet in
+// between. If it is farther at both, the light passes beside the receiver's surface, and the texel tells nothing.
 float shadowShare(LightData light) {
   vec3 p = receiver - light.position;
   FaceDirection face = onlyShadowFace == anyShadowFace ? cubeFace(p) : faceOf(onlyShadowFace, p);
@@ -93,7 +93,8 @@ float shadowShare(LightData light) {
 
   vec4 weights = (1.0 - abs(seen.x)) * (1.0 - abs(seen.y)) * tells;
   float sum = dot(weights, vec4(1.0));
-  // Without any texel that tells, a surface that faces away from the light lies behind its own body's outline.
+  // Without any texel that tells something, a surface that faces away from the light lies behind its own body's
+  // outline.
   float share = sum > 0.0 ? 1.0 - dot(weights, hides) / sum : facesLight ? 1.0 : 0.0;
   return window.x > 0.0 ? share : 1.0;  // nothing casts a shadow in an empty face
 }

@@ -2,9 +2,9 @@
 // Needs interface.glsl and shading.glsl.
 //
 // Written for lavapipe, which runs both sides of every branch, enters every loop once, and reads a storage buffer once
-// for each pixel and component. So nodes are read through texel buffers, traversal needs no stack, and rays to all lights
-// are traced by one call. A ray tests 11 to 22 boxes of instances and mirrors and 9 to 26 of meshes, few enough not to
-// limit the speed.
+// for each pixel and component. So nodes are read through texel buffers, traversal needs no stack, and rays to all
+// lights are traced by one call. A ray tests 11 to 22 boxes of instances and mirrors and 9 to 26 of meshes, few enough
+// not to limit the speed.
 
 layout(set = 2, binding = 0) uniform usamplerBuffer traceNodes;      // TraceNode
 layout(set = 2, binding = 1) uniform usamplerBuffer traceTriangles;  // TraceTriangle
@@ -31,8 +31,8 @@ TraceVertex vertexOf(uint instance, uint triangle, uint corner) {
 const uint none = 0xffffffffu;
 const float infinity = 1e38;
 
-// Surfaces that a ray ignores: the one it starts on, and the mirror that it ends on. Of mirrors it ignores all of the
-// plane.
+// Surfaces that a ray ignores: the one it starts on, and the mirror that it ends on. A ray ignores all mirrors in the
+// plane of such a mirror.
 struct Skip {
   uint instance;
   uint triangle;
@@ -118,7 +118,7 @@ uvec4 mirrorBits(uint mirror, uint i) {
 
 vec4 mirrorTexel(uint mirror, uint i) { return uintBitsToFloat(mirrorBits(mirror, i)); }
 
-// From TraceMirror::ripplePhase to layers.
+// Returns a mirror's last texel: TraceMirror::ripplePhase, hasRipple, plane and layers.
 uvec4 mirrorPlace(uint mirror) { return mirrorBits(mirror, traceMirrorTexelCount - 1); }
 
 uint planeOf(uint mirror) { return mirrorPlace(mirror).z; }
@@ -129,7 +129,8 @@ uint layerSeen(uint mirror, vec3 direction) {
   return dot(mirrorTexel(mirror, 1).xyz, direction) < 0.0 ? layers & 0xffffu : layers >> 16;
 }
 
-// Says whether a ray that meets `other` first sees `mirror` in its place, by layer if both lie in one plane.
+// Says whether a ray that meets `other` at `otherT` sees `mirror`, which it meets at `t`, in the place of `other`: by
+// layer if both lie in one plane.
 bool covers(uint mirror, float t, uint other, float otherT, vec3 direction) {
   bool onePlane = other != none && planeOf(mirror) == planeOf(other);
   return onePlane ? layerSeen(mirror, direction) < layerSeen(other, direction) : t < otherT;
@@ -224,7 +225,7 @@ void traceMesh(uint instance, vec3 origin, vec3 direction, float near, Skip skip
       uint triangle;
       vec4 met = meetSlot(slot, ray, triangle);
       bool own = met.w < near || (instance == skip.instance && triangle == skip.triangle);
-      // Meets the first listed of surfaces that coincide.
+      // Of surfaces that coincide, the ray meets the one listed first.
       bool first = met.w < hit.t || (met.w == hit.t && instance < hit.instance);
       if (slot < end && met.w > 0.0 && first && !own) {
         hit.t = met.w;

@@ -16,7 +16,7 @@ struct Incoming {
   vec3 irradiance;  // at 1 m, with the mirror's reflectance
   bool castsShadow;
   uint mirror;     // `none`: the light itself
-  float crossing;  // part of the way to the image that leads to the mirror; 1 without
+  float crossing;  // part of the way to the light's image that leads to the mirror; 1 without a mirror
 };
 
 Incoming directLight(LightData light, vec3 position) {
@@ -48,10 +48,12 @@ Incoming incomingLight(uint i, Surface surface, vec3 tracePosition, Skip self) {
   return incoming;
 }
 
-// End of a ray to a light, as a share of its length: rounding would find a surface on which the light lies at 1 or not.
+// End of a ray to a light, as a share of its length. Up to 1, rounding would decide whether the ray meets a surface on
+// which the light lies.
 const float lightEnd = 1.0 - 1.0 / 1048576.0;
 
-// Says whether nothing blocks the light on its way to the point. An image's light comes by way of its mirror.
+// Says whether nothing blocks the light on its way to the point. The light of an image comes by way of the image's
+// mirror.
 bool unobstructed(uint i, Incoming incoming, vec3 tracePosition, Skip self) {
   Skip skip = self;
   skip.secondPlane = incoming.mirror == none ? none : planeOf(incoming.mirror);

@@ -24,7 +24,7 @@ vec3 rippled(uint mirror, vec3 tracePosition) {
                        traceMirrors[mirror].rippleSlope, traceMirrors[mirror].ripplePhase);
 }
 
-// A mirror seen along `direction`, from its front or its back, with its ripples or without.
+// Returns a planar mirror as it is seen along `direction`, from its front or its back, with its ripples or without.
 Bounce mirrorBounce(uint mirror, vec3 tracePosition, vec3 direction, bool front, bool ripples) {
   float side = front ? 1.0 : -1.0;
   vec3 position = tracePosition - view.traceOffset.xyz;
@@ -44,7 +44,7 @@ Bounce mirrorBounce(uint mirror, vec3 tracePosition, vec3 direction, bool front,
   return bounce;
 }
 
-// Turns an object's surface into a mirror's, if the object is one.
+// Turns an object's surface into that of a curved mirror, if the object is one.
 void applyCurvedMirror(uint instance, vec3 direction, inout Bounce bounce) {
   uint curved = traceInstances[instance].curved;
   bounce.reflects = curved != curvedNone;
@@ -56,7 +56,7 @@ void applyCurvedMirror(uint instance, vec3 direction, inout Bounce bounce) {
   }
 }
 
-// Color of one level of a texture, bilinear.
+// Returns the color of one level of a texture, interpolated bilinearly.
 vec3 textureColor(TraceTexture source, vec2 uv) {
   ivec2 size = ivec2(source.width, source.height);
   BilinearTexels at = bilinearTexels(uv, size);
@@ -71,7 +71,7 @@ vec3 textureColor(TraceTexture source, vec2 uv) {
   return mix(rows[0], rows[1], at.weight.y);
 }
 
-// Color of a texture between its levels; `across` and `down` are the steps of uv from pixel to pixel.
+// Returns the color of a texture between its levels; `across` and `down` are the steps of uv from pixel to pixel.
 vec3 trilinearColor(TraceTexture source, vec2 uv, vec2 across, vec2 down) {
   vec2 size = vec2(source.width, source.height);
   float texels = max(length(across * size), length(down * size));
@@ -91,7 +91,7 @@ vec3 normalFromMesh(uint instance, vec3 n) {
   return timesDirection(traceInstances[instance].normalFromMesh, n);
 }
 
-// Unit normal of a triangle of the mesh, by the winding in the model file.
+// Returns the unit normal of a triangle of the mesh, by the winding in the model file.
 vec3 facetNormal(uint instance, uint triangle) {
   vec3 a = vertexOf(instance, triangle, 0).position;
   vec3 b = vertexOf(instance, triangle, 1).position;
@@ -107,8 +107,8 @@ struct Weights {
   vec3 down;
 };
 
-// A triangle seen along `direction`, at the relative position to which the weights belong. `origin` is a point on the
-// line of sight, in trace space, `sight` its direction.
+// Returns a triangle as it is seen along `direction`, at the relative position to which the weights belong. `origin` is
+// a point on the line of sight, in trace space, `sight` its direction.
 Bounce objectBounce(uint instance, uint triangle, Weights weights, vec3 position, vec3 direction, vec3 origin,
                     vec3 sight) {
   TraceVertex a = vertexOf(instance, triangle, 0);
@@ -165,13 +165,13 @@ vec3 glyphRadiance(vec3 origin, vec3 direction, inout float t) {
 struct Draws {
   uint picture;  // pictures of a mean have other lattices
   int wanted;    // microfacets of this sample
-  int share;     // of the lattice, that the sample takes
-  int shares;
+  int share;     // number of the share of the lattice that the sample takes
+  int shares;    // number of shares of the lattice
 };
 
 struct RandomPoints {
   Lattice lattice;
-  uint seed;  // of the points that replace those that are rejected
+  uint seed;  // of the points that replace rejected ones
 };
 
 RandomPoints randomPoints(uint seed, Draws draws) {
@@ -179,8 +179,9 @@ RandomPoints randomPoints(uint seed, Draws draws) {
                       mixedBits(seed + draws.picture * uint(draws.shares) + uint(draws.share)));
 }
 
-// Returns the points of the sample's share in several rounds, so that the first ones are evenly spread too: lavapipe ends
-// loops after 65 535 iterations. Further points are independent of each other, so that rejecting some biases nothing.
+// Returns the points of the sample's share in several rounds, so that the first ones are evenly spread too: lavapipe
+// ends loops after 65 535 iterations. Further points are independent of each other, so that rejecting some biases
+// nothing.
 vec2 randomPoint(RandomPoints points, Draws draws, int drawn) {
   int rounds = min(draws.wanted & -draws.wanted, 32);  // a power of two
   int perRound = draws.wanted / rounds;
@@ -189,9 +190,9 @@ vec2 randomPoint(RandomPoints points, Draws draws, int drawn) {
                               : randomPair(mixedBits(points.seed + uint(drawn)));
 }
 
-// Draws microfacets of `bounce`, seen along `direction`, until one faces the viewer and mirrors the ray above the plane.
-// Returns false if `most` draws are used up without one. A pixel that has not `taken` any by then gets the surface's own
-// normal.
+// Draws microfacets of `bounce`, seen along `direction`, until one faces the viewer and mirrors the ray above the
+// plane. Returns false if `most` draws are used up without such a microfacet. A pixel that has not `taken` any by then
+// gets the surface's own normal.
 bool nextMicrofacet(Bounce bounce, vec3 direction, RandomPoints points, Draws draws, bool taken, int most,
                     inout int drawn, inout vec3 m) {
   bool found = false;
@@ -205,8 +206,8 @@ bool nextMicrofacet(Bounce bounce, vec3 direction, RandomPoints points, Draws dr
   return found;
 }
 
-// Returns the radiance of a surface, seen along `direction`: its base and what it reflects. A rough one reflects the
-// mean over the microfacets that `draws` describes.
+// Returns the radiance of a surface, seen along `direction`: its base and what it reflects. A rough surface reflects
+// the mean over the microfacets that `draws` describes.
 //
 // One loop follows all paths of a pixel, so that a pixel begins its next path while its neighbours still follow theirs.
 // An iteration follows one ray and shades what it meets; the first follows none and shades the surface itself. The loop

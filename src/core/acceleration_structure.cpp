@@ -14,7 +14,7 @@ VkDeviceSize aligned(VkDeviceSize bytes, VkDeviceSize alignment) {
   return (bytes + alignment - 1) / alignment * alignment;
 }
 
-// The loader exports no functions of extensions.
+// Returns a function of an extension. The Vulkan loader exports none of them.
 template <typename Function>
 Function load(const Device& device, const char* name) {
   return reinterpret_cast<Function>(vkGetDeviceProcAddr(device.get(), name));
@@ -29,7 +29,7 @@ VkAccelerationStructureBuildGeometryInfoKHR buildInfo(const StructureInput& inpu
           .pGeometries = &input.geometry};
 }
 
-// Structures one after the other in a buffer.
+// Makes `buffer` and in it, one after the other, a structure of `bytes` for each input.
 std::vector<AccelerationStructureHandle> placed(Device& device, std::span<const StructureInput> inputs,
                                                 const std::vector<VkDeviceSize>& bytes, Buffer& buffer,
                                                 const std::string& name) {

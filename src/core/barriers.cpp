@@ -57,8 +57,8 @@ constexpr VkImageLayout depthAttachment = VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHME
 constexpr VkImageLayout sampled = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
 constexpr VkImageLayout unsaid = VK_IMAGE_LAYOUT_UNDEFINED;
 
-// Rules by kind. A submission waits for the acquire semaphore of a swapchain image at the color stage, which chains it
-// to the image's barrier.
+// Rules by kind. A submission waits for the acquire semaphore of a swapchain image at the color stage, which chains the
+// semaphore to the image's barrier.
 constexpr std::array<Rule, barrierKindCount> rules = {{
     {"offscreenBeforeWrite", colorWrites, colorUses, attachment},
     {"offscreenSamplesBeforeWrite", colorWrites, colorUses, attachment},
@@ -98,7 +98,8 @@ const Rule& ruleOf(BarrierKind kind) {
   return rules[static_cast<size_t>(kind)];
 }
 
-// Returns the uses that a barrier waits for: for an attachment its earlier writes, and shaders that read it if any can.
+// Returns the earlier uses that a barrier waits for: those of the rule and, before an attachment is written, shaders
+// that sample it, if any of the images can be sampled.
 Scope before(const Rule& rule, std::span<Image* const> images) {
   const bool writes = rule.layout == attachment || rule.layout == depthAttachment;
   const bool read = std::ranges::any_of(

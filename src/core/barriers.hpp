@@ -14,20 +14,20 @@ class Image;
 enum class BarrierKind {
   offscreenBeforeWrite,         // resolved or single-sample color: earlier samplings and writes -> attachment
   offscreenSamplesBeforeWrite,  // multisampled color: earlier resolves, samplings and writes -> attachment
-  offscreenDepthBeforeWrite,    // late depth writes of the pass before -> clear
+  offscreenDepthBeforeWrite,    // depth: late writes of the pass before -> clear
   offscreenToSample,            // attachment -> fragment shader
-  mainBeforeWrite,              // the same four for the main view
-  mainSamplesBeforeWrite,
-  mainDepthBeforeWrite,
-  mainToSample,
-  depthToSample,           // depth that the Targets panel shows -> fragment shader
-  targetToCheck,           // attachment -> compute shader, also where fragment shaders sample it
-  checkToLookUp,           // results of a check -> the dispatch that looks up what was found
-  checkToWrite,            // compute shader -> next write as attachment
-  surfacesToShade,         // attachment -> compute shader, also where fragment shaders read what it wrote before
-  shadedToDraw,            // radiance that compute shaders wrote -> fragment shader, and attachment that they read
-  swapchainBeforeWrite,    // acquired image (or the last read back) -> attachment
-  swapchainBeforeOverlay,  // attachment of the pass before -> attachment that loads it
+  mainBeforeWrite,              // offscreenBeforeWrite for the main view
+  mainSamplesBeforeWrite,       // offscreenSamplesBeforeWrite for the main view
+  mainDepthBeforeWrite,         // offscreenDepthBeforeWrite for the main view
+  mainToSample,                 // offscreenToSample for the main view
+  depthToSample,                // depth that the Targets panel shows: attachment -> fragment shader
+  targetToCheck,                // color writes and samplings -> compute shader that checks or probes the target
+  checkToLookUp,                // position of a value found by a check -> compute shader that looks the value up
+  checkToWrite,                 // compute shader that checked or probed the target -> next write as attachment
+  surfacesToShade,              // identifiers drawn, radiance read by earlier fragment shaders -> compute shader
+  shadedToDraw,                 // radiance from compute shaders -> fragment shader; identifiers -> attachment
+  swapchainBeforeWrite,         // image that was acquired, or read back before -> attachment
+  swapchainBeforeOverlay,       // color writes of the pass before -> attachment that the overlay loads
   swapchainToPresent,
   readbackToCopy,    // attachment or sampled image -> transfer source
   readbackFromCopy,  // transfer source -> attachment or sampled image
@@ -48,10 +48,11 @@ std::span<const BarrierKind> allBarrierKinds();
 // and drops the dependency.
 class Barriers {
  public:
+  // Omits the dependency of a kind from now on; nothing: omits none.
   void omit(std::optional<BarrierKind> kind) { omitted_ = kind; }
 
-  // Records one command for several images of the same use, of one pass or of several that share no image. `layout` is
-  // for kinds without a layout of their own: with VK_IMAGE_LAYOUT_UNDEFINED the images keep theirs.
+  // Records one command for several images that are used alike, of one pass or of several passes that share no image.
+  // `layout` is the new layout, for kinds that set none; with VK_IMAGE_LAYOUT_UNDEFINED each image keeps its own.
   void record(VkCommandBuffer commands, BarrierKind kind, std::span<Image* const> images,
               VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED) const;
   void record(VkCommandBuffer commands, BarrierKind kind, Image& image,
@@ -66,9 +67,9 @@ class Barriers {
   static void uploadToCopy(VkCommandBuffer commands, Image& fresh);
   static void computeToHost(VkCommandBuffer commands);
   static void copyToHost(VkCommandBuffer commands);
-  static void buildToBuild(VkCommandBuffer commands);   // also to copies and queries of sizes
-  static void buildToTrace(VkCommandBuffer commands);   // ray queries of compute shaders
-  static void requestsToUse(VkCommandBuffer commands);  // between the uses of DeferredShading's requests
+  static void buildToBuild(VkCommandBuffer commands);   // a build -> next build, copy or query of sizes
+  static void buildToTrace(VkCommandBuffer commands);   // a build -> ray queries of compute shaders
+  static void requestsToUse(VkCommandBuffer commands);  // between two uses of DeferredShading's buffer of requests
 
  private:
   std::optional<BarrierKind> omitted_;

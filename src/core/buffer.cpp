@@ -74,7 +74,7 @@ Memory::Memory(Device& device, const VkMemoryRequirements& requirements, VkMemor
   if (type == types.memoryTypeCount) {
     throw std::runtime_error("the GPU has no memory of the kind that " + name + " needs");
   }
-  // Some are left for the panels.
+  // Leaves some allocations for the panels.
   const uint32_t most = device.limits().maxMemoryAllocationCount;
   if (device.allocations_ + 16 >= most) {
     throw OutOfMemoryError("allocate memory for " + name + ": the device takes " + std::to_string(most) +

@@ -12,8 +12,8 @@ namespace speculum {
 class Memory {
  public:
   Memory() = default;
-  // With `addressed`, buffers in it have device addresses. Throws OutOfMemoryError, or std::runtime_error if the GPU
-  // has no memory with the wanted properties.
+  // With `addressed`, buffers in this memory have device addresses. Throws OutOfMemoryError, or std::runtime_error if
+  // the GPU has no memory with the wanted properties.
   Memory(Device& device, const VkMemoryRequirements& requirements, VkMemoryPropertyFlags wanted,
          const std::string& name, bool addressed = false);
 
@@ -40,8 +40,8 @@ enum class BufferMemory {
 // Upper bound of the bytes of a buffer that shaders read as storage or as texels.
 VkDeviceSize largestShaderBuffer(const Device& device);
 
-// A buffer with memory of its own. `bytes` 0 is allowed and becomes 4, or 16 for texels: Vulkan has no empty
-// buffers.
+// A buffer with memory of its own; construction throws as Memory's does. `bytes` 0 is allowed and becomes 4, or 16 for
+// texels: Vulkan has no empty buffers.
 class Buffer {
  public:
   Buffer() = default;

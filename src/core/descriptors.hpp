@@ -42,12 +42,12 @@ class DescriptorAllocator {
   size_t setsInCurrent_ = 0;
 };
 
-// Collects writes and applies them at once.
+// Collects writes to a descriptor set. update() applies them all at once.
 class DescriptorWriter {
  public:
   DescriptorWriter& buffer(uint32_t binding, VkDescriptorType type, const VkDescriptorBufferInfo& info);
   DescriptorWriter& texels(uint32_t binding, VkBufferView view);
-  DescriptorWriter& image(uint32_t binding, const VkDescriptorImageInfo& info);  // with sampler
+  DescriptorWriter& image(uint32_t binding, const VkDescriptorImageInfo& info);  // combined with its sampler
   DescriptorWriter& structure(uint32_t binding, VkAccelerationStructureKHR structure);
   void update(Device& device, VkDescriptorSet set);
 

@@ -90,7 +90,7 @@ std::vector<const char*> Device::deviceExtensions(const DeviceOptions& options) 
     extensions.push_back(VK_EXT_EXTENDED_DYNAMIC_STATE_EXTENSION_NAME);
   }
   if (!gpu_.core13 && renderPath_ == RenderPath::dynamic) {
-    // The first needs the others, unless the device has Vulkan 1.2.
+    // Dynamic rendering needs the other extensions, unless the device has Vulkan 1.2.
     for (const char* name : {VK_KHR_DYNAMIC_RENDERING_EXTENSION_NAME, VK_KHR_DEPTH_STENCIL_RESOLVE_EXTENSION_NAME,
                              VK_KHR_CREATE_RENDERPASS_2_EXTENSION_NAME, VK_KHR_MULTIVIEW_EXTENSION_NAME,
                              VK_KHR_MAINTENANCE_2_EXTENSION_NAME}) {

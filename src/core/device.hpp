@@ -23,20 +23,24 @@ std::string_view renderPathName(RenderPath path);  // auto, dynamic, renderpass
 std::optional<RenderPath> renderPathFromName(std::string_view name);
 
 struct DeviceOptions {
-  std::string gpu;           // empty: the best; an index, or part of the name in any case
+  std::string gpu;           // index, or part of the name in any case; empty: the best GPU
   bool validation = false;   // core and synchronisation validation of VK_LAYER_KHRONOS_validation
   Window* window = nullptr;  // null: headless, without any surface extension
   RenderPath renderPath = RenderPath::automatic;
-  std::vector<const char*> extensions;  // of the device, besides those that it takes by itself; one missing is an error
-  void* features = nullptr;             // chain of structures for them, which outlives the constructor
+  // Device extensions besides those that Device enables by itself; the constructor throws if one is missing.
+  std::vector<const char*> extensions;
+  void* features = nullptr;  // chain of feature structures for `extensions`; must live until the constructor returns
 };
 
+// Device-local memory. A driver without VK_EXT_memory_budget gives no advice: then the budget is the size of the heaps,
+// and only what this Device has allocated counts as used.
 struct MemoryBudget {
-  uint64_t budgetBytes = 0;  // of device-local heaps: the driver's advice, or the heaps' size
-  uint64_t usedBytes = 0;    // by this process
+  uint64_t budgetBytes = 0;  // that this process may use
+  uint64_t usedBytes = 0;    // that this process uses
 };
 
-// Functions that the loader does not export: of Vulkan 1.3 or the extension before it, and null without debug labels.
+// Functions that the Vulkan loader does not export. The first four are of Vulkan 1.3 or of the extensions that became
+// part of it; the last three are null without VK_EXT_debug_utils.
 struct DeviceFunctions {
   PFN_vkCmdBeginRendering beginRendering = nullptr;
   PFN_vkCmdEndRendering endRendering = nullptr;
@@ -47,15 +51,16 @@ struct DeviceFunctions {
   PFN_vkCmdEndDebugUtilsLabelEXT endLabel = nullptr;
 };
 
-// Instance, the chosen GPU, logical device, its one queue and, where that cannot present, another that does. Outlives
-// everything made from it.
+// Instance, the chosen GPU, logical device, its one queue and, where that queue cannot present, a second one that can.
+// Must outlive everything made from it.
 class Device {
  public:
+  // Throws std::runtime_error if there is no Vulkan, no usable GPU, or if an option cannot be met.
   explicit Device(const DeviceOptions& options);
   Device(const Device&) = delete;
   Device& operator=(const Device&) = delete;
 
-  // Every GPU the loader offers, for `speculum info`. Throws as the constructor does when there is no Vulkan.
+  // Returns every GPU that the loader offers, for `speculum info`. Throws std::runtime_error if there is no Vulkan.
   static std::vector<DeviceInfo> list();
 
   VkInstance instance() const { return instance_.get(); }
@@ -63,7 +68,7 @@ class Device {
   VkDevice get() const { return device_.get(); }
   VkQueue queue() const { return queue_; }
   uint32_t queueFamily() const { return gpu_.queueFamily; }
-  VkQueue presentQueue() const { return presentQueue_; }  // queue() where that can present
+  VkQueue presentQueue() const { return presentQueue_; }  // equals queue() if that queue can present
   uint32_t presentFamily() const { return gpu_.presentFamily; }
   VkSurfaceKHR surface() const { return surface_.get(); }  // null when headless
   // Creates a new surface after VK_ERROR_SURFACE_LOST_KHR. No swapchain may exist.
@@ -75,7 +80,8 @@ class Device {
   RenderPath renderPath() const { return renderPath_; }  // dynamic or renderPass
   bool validation() const { return instance_.validation(); }
 
-  // Returns the wanted count, or the next lower one that the device has; logs that once per count.
+  // Returns the wanted number of samples a pixel, or the next lower one that the device has. Logs once for each wanted
+  // number that the device lacks.
   VkSampleCountFlagBits sampleCount(int wanted);
 
   Barriers& barriers() { return barriers_; }
@@ -89,7 +95,7 @@ class Device {
   uint32_t allocations() const { return allocations_; }
   MemoryBudget memoryBudget() const;
 
-  // Creates a named object: create(vkCreateFence, {.sType = ...}, "upload"). Throws as check() does.
+  // Creates a named object: create(vkCreateFence, {.sType = ...}, "upload"). Throws as throwVulkanError() does.
   template <typename Info, typename T>
   Handle<T> create(VkResult (*function)(VkDevice, const Info*, const VkAllocationCallbacks*, T*),
                    const std::type_identity_t<Info>& info, std::string_view name) const {
@@ -105,6 +111,7 @@ class Device {
   void setName(T object, std::string_view name) const {
     setObjectName(ObjectTraits<T>::type, reinterpret_cast<uint64_t>(object), name);
   }
+  // Begin and end a debug label in the commands; do nothing without VK_EXT_debug_utils.
   void beginLabel(VkCommandBuffer commands, std::string_view name) const;
   void endLabel(VkCommandBuffer commands) const;
   const DeviceFunctions& functions() const { return functions_; }

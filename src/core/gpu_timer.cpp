@@ -147,7 +147,7 @@ FrameTimings GpuTimer::read() const {
   }
   for (uint32_t i = 0; i < count; ++i) {
     if (passes_[i].hasStatistics) {
-      std::array<uint64_t, 2> values{};  // in the order of their bits
+      std::array<uint64_t, 2> values{};  // triangles, fragments: in the order of the statistics' bits
       check(vkGetQueryPoolResults(device_.get(), statistics_.get(), i, 1, sizeof values, values.data(), sizeof values,
                                   VK_QUERY_RESULT_64_BIT),
             "read pipeline statistics");

@@ -16,6 +16,7 @@ struct PassTiming {
   bool hasSamples = false;
   uint64_t samples = 0;  // samples that passed the depth test since beginSamples()
 
+  // Adds the figures and takes over the name.
   PassTiming& operator+=(const PassTiming& other);
 };
 
@@ -25,8 +26,8 @@ struct FrameTimings {
   std::vector<PassTiming> passes;  // in the order of recording; none if only the frame was measured
 };
 
-// What is measured: the frame's time; also the times and statistics of its passes; also the samples that they draw.
-// Counting samples has a price: lavapipe compiles each shader once more for it.
+// What is measured. frame: the frame's time; passes: also time and statistics of each pass; samples: also the samples
+// that pass the depth test. To count samples, lavapipe compiles each shader once more.
 enum class TimerDetail { frame, passes, samples };
 
 // Timestamps and pipeline statistics of one frame in flight. Both stamps of a pass are taken at the bottom of the pipe,
@@ -40,16 +41,17 @@ class GpuTimer {
   void reset(VkCommandBuffer commands, uint64_t frame, TimerDetail detail);  // at the start of the frame's commands
   // Begins the next part of the frame, between two passes. The GPU has finished the part before.
   void resume(VkCommandBuffer commands);
-  void finish(VkCommandBuffer commands);  // after its last pass
+  void finish(VkCommandBuffer commands);  // after the last pass of the frame or of its part
+  // Begins a pass. Returns its slot for the functions below, negative if the pass is not measured.
   int begin(VkCommandBuffer commands, const std::string& pass, bool statistics);
-  // Ends the statistics, if they have not ended yet, outside rendering.
+  // Ends the pass's statistics, if they have not ended yet. Call it outside rendering.
   void endStatistics(VkCommandBuffer commands, int slot);
   void end(VkCommandBuffer commands, int slot);
-  // With TimerDetail::samples, count those that pass the depth test; begin and end within one render pass. To end them
-  // again does nothing.
+  // Count the samples that pass the depth test, with TimerDetail::samples only. Both are called within one render pass;
+  // a second endSamples() does nothing.
   void beginSamples(VkCommandBuffer commands, int slot);
   void endSamples(VkCommandBuffer commands, int slot);
-  FrameTimings read() const;  // after the frame's fence
+  FrameTimings read() const;  // call it after the frame's fence
 
  private:
   static constexpr uint32_t maxPasses = 512;
@@ -63,11 +65,11 @@ class GpuTimer {
   QueryPoolHandle samples_;     // null where the device cannot count them
   uint64_t frame_ = 0;
   TimerDetail detail_ = TimerDetail::samples;
-  uint32_t stamped_ = 0;  // stamps of this part
+  uint32_t stamped_ = 0;  // stamps written in this part of the frame
   FrameTimings earlier_;  // of the frame's parts before this one
   std::vector<PassTiming> passes_;
-  bool countsStatistics_ = false;  // of the last pass, begun and not ended
-  bool countsSamples_ = false;
+  bool countsStatistics_ = false;  // the last pass's statistics have begun and not ended
+  bool countsSamples_ = false;     // the last pass's count of samples has begun and not ended
 };
 
 }  // namespace speculum

@@ -45,8 +45,9 @@ void separateShaderCaches() {
   }
 }
 
-// Some checks have no structure, and are turned on by variables that are read when the instance is made: those across
-// submissions in the layers of 2023, those of what shaders access in newer ones. A value that the user has set is kept.
+// Turns on checks for which Vulkan has no structure, by environment variables that the layer reads when the instance is
+// made: checks across submissions in the layers of 2023, checks of what shaders access in newer ones. A value that the
+// user has set is kept.
 void enableSynchronisationChecks() {
   for (const auto& [variable, value] :
        {std::pair{"VK_LAYER_ENABLES", "VALIDATION_CHECK_ENABLE_SYNCHRONIZATION_VALIDATION_QUEUE_SUBMIT"},
@@ -96,7 +97,7 @@ VkBool32 DebugMessages::receive(VkDebugUtilsMessageSeverityFlagBitsEXT severity,
                                 const VkDebugUtilsMessengerCallbackDataEXT* data, void* self) {
   const bool error = severity & VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
   std::string text = data->pMessage ? data->pMessage : "";
-  // Older layers begin the text with this name.
+  // Older layers begin the text with the message's name already.
   if (data->pMessageIdName && text.find(data->pMessageIdName) == std::string::npos) {
     text = std::string(data->pMessageIdName) + ": " + text;
   }

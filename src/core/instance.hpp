@@ -15,10 +15,11 @@ struct DeviceOptions;
 // Receives the messages of the validation layer, logs them and keeps the latest for tests.
 class DebugMessages {
  public:
-  VkDebugUtilsMessengerCreateInfoEXT createInfo();  // points here; covers instance creation too
+  // Points to this object. In the chain of the instance's create info it covers the instance's creation, too.
+  VkDebugUtilsMessengerCreateInfoEXT createInfo();
 
-  int count() const;
-  std::vector<std::string> latest() const;
+  int count() const;                        // since the start
+  std::vector<std::string> latest() const;  // at most 32, oldest first
 
  private:
   static VKAPI_ATTR VkBool32 VKAPI_CALL receive(VkDebugUtilsMessageSeverityFlagBitsEXT severity,
@@ -33,7 +34,7 @@ class DebugMessages {
   int count_ = 0;
 };
 
-// The Vulkan instance, with validation and a window's extensions if the options have them.
+// The Vulkan instance, with validation if the options ask for it, and with the extensions that their window needs.
 class Instance {
  public:
   explicit Instance(const DeviceOptions& options);

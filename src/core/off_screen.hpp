@@ -37,20 +37,20 @@ struct OffScreenDesc {
   VkExtent2D extent{1, 1};
   VkFormat format = colorFormat;
   VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
-  bool multisampledOutput = false;  // the output is the multisampled color, read sample by sample; else it is resolved
-  bool readSamples = false;         // the multisampled color can be read too, if the pass stores it
+  bool multisampledOutput = false;  // the output keeps all samples; else it is resolved to one
+  bool readSamples = false;         // shaders can read the resolved samples too, if the pass stores them
   bool depth = true;
   TargetRole role = TargetRole::offscreen;
   SharedDepth* shared = nullptr;  // outlives the target; its sample count replaces `samples`
 };
 
-// A render target that is sampled later: its color, with one sample or resolved to one or with all its samples, and
-// depth of its own or shared.
+// A render target that is sampled later. The output is a color image with one sample, resolved to one, or with all
+// samples. The depth is the target's own or shared.
 class OffScreen {
  public:
   OffScreen(Device& device, const OffScreenDesc& desc, RetireQueue& retired);
 
-  // Does nothing if the extent is the present one. Content is lost.
+  // Makes the images anew, without their content. Does nothing if the extent is the present one.
   void resize(VkExtent2D extent, RetireQueue& retired);
 
   const OffScreenDesc& desc() const { return desc_; }
@@ -62,7 +62,8 @@ class OffScreen {
   Image* samplesImage() { return samples_ ? &samples_ : nullptr; }
   VkDescriptorImageInfo samplesDescriptor() const { return samples_.descriptor(sampler_.get()); }
   PassTargets targets();
-  // Returns targets with `depth`, of the same sample count and grown to cover the target, instead of its own.
+  // Returns targets with `depth` in the place of the target's depth. `depth` must have as many samples, and grows to
+  // cover the target.
   PassTargets targets(SharedDepth& depth, RetireQueue& retired);
   VkDescriptorImageInfo descriptor() const { return color_.descriptor(sampler_.get()); }
 

@@ -30,7 +30,7 @@ bool storesColor(const PassDesc& desc) {
   return !desc.targets.resolve || desc.storeSamples;
 }
 
-// Barriers of the targets of a role.
+// Kinds of the barriers before a pass, for targets of one role.
 struct TargetBarriers {
   BarrierKind color;
   BarrierKind samples;

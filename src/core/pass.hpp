@@ -56,10 +56,10 @@ struct PassDesc {
   bool loadDepth = false;
   bool storeDepth = false;
   bool storeSamples = false;       // keeps multisampled color for passes that load or read it
-  bool keepsSamples = false;       // outside the render area too
+  bool keepsSamples = false;       // keeps multisampled color outside the render area too
   bool collectStatistics = false;  // triangles after clipping and fragment shader invocations
-  bool grouped = false;            // its barriers are those of its SharedBarriers
-  bool pauses = false;             // compute shaders read `color`, with all its samples, in PassScope::pause
+  bool grouped = false;            // SharedBarriers records the pass's barriers, not the pass itself
+  bool pauses = false;             // compute shaders read `color`, with all its samples, after PassScope::pause
   bool overlay = false;            // loads and stores the display image in a VkRenderPass, on either render path
 };
 
@@ -95,17 +95,18 @@ class PassScope {
   VkCommandBuffer commands() const { return commands_; }
   const PassDesc& desc() const { return desc_; }
   VkSampleCountFlagBits samples() const { return desc_.targets.samples(); }
-  // A label within the pass's own; ended by endLabel.
+  // Begins a debug label within the pass's own label; endLabel() ends it.
   void beginLabel(std::string_view name) const { device_.beginLabel(commands_, name); }
   void endLabel() const { device_.endLabel(commands_); }
-  // These sides of triangles are not drawn from here on.
+  // Culls these sides of triangles from here on.
   void cull(VkCullModeFlags sides) const { device_.functions().setCullMode(commands_, sides); }
   // Ends the first rendering of a pass that pauses.
   void pause();
-  // Begins the second one, which loads what the first one has stored. `desc` has the same render area.
+  // Begins the second rendering of a pass that pauses, which loads what the first one has stored. `desc` has the same
+  // render area.
   void resume(PassDesc desc);
-  // Counts the samples that pass the depth test from here to the pass's end or pause. Once a pass, with
-  // collectStatistics.
+  // Counts the samples that pass the depth test from here to the pass's end or pause. Call it at most once a pass; does
+  // nothing without PassDesc::collectStatistics.
   void countSamples();
 
  private:
@@ -123,7 +124,7 @@ class PassScope {
   GpuTimer& timer_;
   VkCommandBuffer commands_;
   PassDesc desc_;
-  std::optional<SharedBarriers> group_;  // none in a group of several
+  std::optional<SharedBarriers> group_;  // the pass's own barriers; none if it is grouped or the overlay
   bool dynamic_;
   bool rendering_ = false;
   int timerSlot_;

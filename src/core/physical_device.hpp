@@ -19,7 +19,7 @@ struct DeviceInfo {
   uint64_t memoryBytes = 0;  // of the largest device-local heap
   bool dynamicRendering = false;
   bool rayQueries = false;
-  std::optional<std::string> missing;  // feature without which the device is not usable
+  std::optional<std::string> missing;  // what the program needs and the GPU lacks; nothing if the GPU is usable
 
   bool isCpu() const { return type == VK_PHYSICAL_DEVICE_TYPE_CPU; }
 };
@@ -29,18 +29,18 @@ struct DeviceCaps {
   double timestampPeriod = 0.0;                             // nanoseconds per tick
   uint32_t timestampValidBits = 0;                          // 0: no timestamps
   bool pipelineStatistics = false;
-  bool countsSamples = false;  // exactly, in occlusion queries
+  bool countsSamples = false;  // occlusion queries count samples exactly
   bool sampleRateShading = false;
   bool depthClamp = false;
   bool fillModeNonSolid = false;
-  bool primitiveId = false;  // in fragment shaders
+  bool primitiveId = false;  // fragment shaders can read gl_PrimitiveID
   bool dynamicRendering = false;
   bool memoryBudget = false;
   bool rayQueries = false;        // VK_KHR_ray_query and what it needs
   uint32_t scratchAlignment = 0;  // bytes, of scratch memory for acceleration structures
 };
 
-// Extensions and features that ray queries need, to be asked about and to be enabled.
+// Extensions and features that ray queries need: to ask a GPU whether it has them, and to enable them.
 inline constexpr std::array rayQueryExtensions = {VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME,
                                                   VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME,
                                                   VK_KHR_RAY_QUERY_EXTENSION_NAME};
@@ -71,18 +71,20 @@ struct PhysicalDevice {
   bool extendedDynamicState = false;
   bool core13 = false;         // both GPU and loader have Vulkan 1.3
   uint32_t queueFamily = 0;    // draws and computes
-  uint32_t presentFamily = 0;  // presents to the window; queueFamily where it can
+  uint32_t presentFamily = 0;  // presents to the window; equals queueFamily if that family can
 
   bool hasExtension(std::string_view name) const;
 };
 
-// With a surface, DeviceInfo::missing of a GPU that cannot present to it says so.
+// Lists all GPUs. With a surface, DeviceInfo::missing says so of a GPU that cannot present to the surface.
 std::vector<PhysicalDevice> physicalDevices(const Instance& instance, VkSurfaceKHR surface);
 
-// Chooses by index or part of the name, or if that is empty the first usable one of the best type. Throws
-// std::runtime_error that lists the GPUs when nothing fits or the one named lacks a feature.
+// Chooses a GPU by index or part of its name or, if `wanted` is empty, the first usable one of the best type (discrete,
+// integrated, virtual, others). Throws std::runtime_error that lists the GPUs when none fits or the wanted one lacks a
+// feature.
 const PhysicalDevice& choose(const std::vector<PhysicalDevice>& devices, const std::string& wanted);
 
+// Says whether queues of the family can present to the surface.
 bool presentsTo(VkPhysicalDevice device, uint32_t queueFamily, VkSurfaceKHR surface);
 
 }  // namespace speculum

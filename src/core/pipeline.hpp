@@ -29,7 +29,7 @@ struct GraphicsPipelineDesc {
   std::vector<VkDescriptorSetLayout> setLayouts;  // outlive the pipeline
   uint32_t pushConstantBytes = 0;                 // offset 0, vertex and fragment stage
   VkFormat color = colorFormat;
-  VkFormat depth = depthFormat;  // VK_FORMAT_UNDEFINED: the pass has none
+  VkFormat depth = depthFormat;  // VK_FORMAT_UNDEFINED: the pass has no depth
   VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
   bool depthTest = true;
   bool depthWrite = true;
@@ -66,9 +66,10 @@ class PipelineFactory {
                   RetireQueue& retired)
       : device_(device), shaders_(shaders), renderPasses_(renderPasses), cache_(cache), retired_(retired) {}
 
-  // Compiles changed shaders and rebuilds the pipelines that use them; old ones are retired. Returns whether any was.
+  // Compiles changed shaders and rebuilds the pipelines that use them; old ones are retired. Returns whether any was
+  // rebuilt.
   bool reload();
-  uint64_t revision() const { return revision_; }  // counts the times that reload() rebuilt any
+  uint64_t revision() const { return revision_; }  // counts the times that reload() rebuilt pipelines
   size_t count() const { return pipelines_.size(); }
   const std::string& errors() const { return shaders_.errors(); }
   bool watching() const { return shaders_.watching(); }
@@ -98,7 +99,7 @@ class Pipeline {
   Pipeline& operator=(const Pipeline&) = delete;
 
   void bind(VkCommandBuffer commands) const { vkCmdBindPipeline(commands, bindPoint(), pipeline_.get()); }
-  // `offsets` of the set's dynamic buffers, by binding.
+  // Binds a descriptor set. `offsets` are those of its dynamic buffers, in bytes, in the order of bindings.
   void bindSet(VkCommandBuffer commands, uint32_t index, VkDescriptorSet set,
                std::span<const uint32_t> offsets = {}) const;
   template <typename T>

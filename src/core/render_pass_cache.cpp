@@ -9,7 +9,7 @@ namespace {
 
 VkAttachmentDescription attachmentOf(VkFormat format, VkSampleCountFlagBits samples, bool load, bool store,
                                      VkImageLayout layout) {
-  // Keeps the layout: barriers change layouts, not render passes.
+  // Render passes keep the layout: barriers change layouts.
   return {.format = format,
           .samples = samples,
           .loadOp = load ? VK_ATTACHMENT_LOAD_OP_LOAD : VK_ATTACHMENT_LOAD_OP_CLEAR,

@@ -35,16 +35,16 @@ class Renderer;
 
 // A frame that is being recorded. Valid from beginFrame to endFrame.
 struct Frame {
-  VkCommandBuffer commands = VK_NULL_HANDLE;   // null once Renderer::submitPart has failed: it cannot end
+  VkCommandBuffer commands = VK_NULL_HANDLE;   // null once Renderer::submitPart has failed: the frame cannot end
   uint32_t index = 0;                          // frame in flight, 0 or 1: choose per-frame buffers by it
-  uint32_t imageIndex = 0;                     // of the swapchain; 0 when headless
+  uint32_t imageIndex = 0;                     // index of the swapchain's image; 0 when headless
   uint64_t number = 0;                         // counts from 1
   VkExtent2D extent{0, 0};                     // of the display image
   DescriptorAllocator* descriptors = nullptr;  // sets from it live for this frame only
   RetireQueue* retired = nullptr;
   bool capture = false;   // set it before the display image is drawn to make Renderer::readback possible
   bool acquired = false;  // a swapchain image is acquired for this frame
-  double waitedMs = 0.0;  // in Renderer::submitPart
+  double waitedMs = 0.0;  // time spent waiting in Renderer::submitPart
 };
 
 // Two frames in flight on one queue, into a window's swapchain or an image in its place. Frames are ordered by
@@ -59,10 +59,13 @@ class Renderer {
   // Waits for the GPU as beginFrame() does, but not for the window. Input that is read afterwards is as new as the
   // frame can show.
   void waitForFrame() { finish(slots_[(frameNumber_ + 1) % framesInFlight]); }
-  // Waits for the frame before the last one. Returns nothing while the window is paused or has no swapchain.
+  // Begins a frame once the GPU has finished the frame before the last one. Returns nothing while the window is paused
+  // or gives no swapchain image.
   std::optional<Frame> beginFrame();
+  // Begins a pass of the frame. It ends when the scope is destroyed.
   PassScope beginPass(Frame& frame, const PassDesc& desc);
-  // A pass of its own that loads and stores the display image, within a VkRenderPass on either path.
+  // Begins the pass that draws over the display image: it loads and stores the image, within a VkRenderPass on either
+  // render path.
   PassScope beginOverlay(Frame& frame);
   // Submits the frame's commands so far, so that no submission takes long, and waits until the GPU has finished them,
   // which bounds the memory of many parts. Call it between two passes; `frame.commands` changes.
@@ -74,24 +77,26 @@ class Renderer {
   // next beginFrame() calls it if nobody has.
   void present();
 
-  // The display image as a pass target: UNORM color without depth. Their role is TargetRole::swapchain.
+  // Returns the display image as targets of a pass: UNORM color, no depth, TargetRole::swapchain.
   PassTargets displayTargets(Frame& frame) { return {.color = &displayImage(frame), .role = TargetRole::swapchain}; }
   VkFormat displayFormat() const { return headless() ? headlessFormat : swapChain_->format(); }
   VkExtent2D displayExtent() const { return headless() ? headlessImage_.extent() : swapChain_->extent(); }
   // At least 2, which Dear ImGui requires.
   uint32_t displayImageCount() const { return std::max(framesInFlight, headless() ? 1 : swapChain_->imageCount()); }
-  VkRenderPass overlayRenderPass();  // compatible with beginOverlay's; may change when displayFormat() does
+  VkRenderPass overlayRenderPass();  // compatible with the pass of beginOverlay(); may change when displayFormat() does
   // Present modes of the window; none when headless. A new mode applies from the next frame on.
   std::vector<PresentMode> presentModes() const;
   std::optional<PresentMode> presentMode() const;
   void setPresentMode(PresentMode mode);
+  // Throws std::logic_error if there is a window.
   void resizeHeadless(VkExtent2D extent);
 
-  // The display image of the last frame that had `capture` set. Waits. Throws std::logic_error if there was none.
+  // Returns the display image of the last frame that had `capture` set. Waits for the GPU. Throws std::logic_error if
+  // there was no such frame.
   Pixels readback();
   void waitIdle();  // also collects timings and retired objects
 
-  // Timings of the last frame that has finished; after waitIdle() of the last one recorded.
+  // Timings of the last frame that has finished; after waitIdle() that is the last one recorded.
   const FrameTimings& timings() const {
     return (slots_[0].timings.frame > slots_[1].timings.frame ? slots_[0] : slots_[1]).timings;
   }
@@ -100,7 +105,8 @@ class Renderer {
   // Applies to frames that begin from now on. TimerDetail::samples at first.
   void setTimerDetail(TimerDetail detail) { timerDetail_ = detail; }
   uint64_t frameNumber() const { return frameNumber_; }
-  // Rebuilds what changed on disk; call it between frames. Cheap when no directory is watched.
+  // Rebuilds pipelines whose shaders changed on disk, and says whether there were any. Call it between frames. Cheap
+  // when no directory is watched.
   bool reloadShaders() { return pipelines_.reload(); }
 
   Device& device() { return device_; }

@@ -21,7 +21,7 @@ class RetireQueue {
       retire(std::exchange(object, T()));
     }
   }
-  void setFrame(uint64_t frame) { frame_ = frame; }  // numbers of frames grow
+  void setFrame(uint64_t frame) { frame_ = frame; }  // number of the frame that is being recorded; numbers grow
   // Destroys what was retired in frames up to and including `finished`, in the order of retirement.
   void collect(uint64_t finished) {
     while (!entries_.empty() && entries_.front().frame <= finished) {

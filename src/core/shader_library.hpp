@@ -32,11 +32,11 @@ class ShaderLibrary {
   struct Entry {
     ShaderModuleHandle module;
     std::vector<uint8_t> code;
-    std::vector<std::filesystem::path> sources;  // GLSL it was made from, includes too; empty: a built one
+    std::vector<std::filesystem::path> sources;  // GLSL the module was made from, includes too; empty: a built module
     std::filesystem::file_time_type newest;      // of the newest source seen
     std::string error;                           // why its GLSL does not compile at present
   };
-  bool compile(const std::string& name, Entry& entry);  // whether the SPIR-V changed
+  bool compile(const std::string& name, Entry& entry);  // says whether the SPIR-V changed
   void collectErrors();
   void setCode(const std::string& name, Entry& entry, std::vector<uint8_t> code);
 

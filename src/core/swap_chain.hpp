@@ -25,13 +25,14 @@ class SwapChain {
   // Returns the index of an image for which `acquired` will be signalled; nothing when the chain is stale, or if no
   // image was free within a second, as may happen to a covered window.
   std::optional<uint32_t> acquire(VkSemaphore acquired);
+  // Shows the image once its renderFinished() is signalled.
   void present(uint32_t image);
 
   VkExtent2D extent() const { return extent_; }
   VkFormat format() const { return format_.format; }
   PresentMode presentMode() const { return mode_; }  // in use: FIFO where the wanted one is missing
   std::vector<PresentMode> presentModes() const;     // that the surface offers
-  // Makes the chain stale.
+  // Sets the mode, or FIFO if the surface does not offer it, and makes the chain stale.
   void choosePresentMode(PresentMode wanted);
   bool copyable() const { return copyable_; }  // whether its images can be read back
   Image& image(uint32_t index) { return images_[index]; }
@@ -54,7 +55,8 @@ class SwapChain {
   VkExtent2D extent_{0, 0};
   SwapchainHandle swapchain_;
   std::vector<Image> images_;
-  std::vector<SemaphoreHandle> renderFinished_;  // per image: presentation may still wait on it when a frame is reused
+  // One for each image: presentation may still wait on a semaphore when its frame in flight is used again.
+  std::vector<SemaphoreHandle> renderFinished_;
 };
 
 }  // namespace speculum

@@ -12,12 +12,12 @@
 
 namespace speculum {
 
-// A command pool and its one primary command buffer, which records anew after each reset.
+// A command pool and its one primary command buffer, which begin() records anew.
 class CommandPool {
  public:
   CommandPool(Device& device, const std::string& name);
 
-  // Empties the buffer and begins to record. The GPU has finished what was recorded before.
+  // Empties the command buffer and begins to record. The GPU must have finished the commands recorded before.
   VkCommandBuffer begin();
 
  private:
@@ -26,30 +26,32 @@ class CommandPool {
   VkCommandBuffer commands_ = VK_NULL_HANDLE;
 };
 
-// Copies that are finished on return; for loading, not for every frame.
+// Copies data to and from the GPU. All copies are finished on return: for loading, not for every frame.
 class Uploader {
  public:
   explicit Uploader(Device& device);
 
   Device& device() const { return device_; }
 
-  // A device buffer (usage gets TRANSFER_DST added) that holds `data`.
+  // Returns a device buffer that holds `data`; its usage gets TRANSFER_DST added.
   Buffer buffer(std::span<const std::byte> data, VkBufferUsageFlags usage, const std::string& name);
   Buffer buffer(const std::ranges::contiguous_range auto& data, VkBufferUsageFlags usage, const std::string& name) {
-    // Without an array's length in its type, which would call this function again.
+    // The span's type must not have the length of an array: such a span would call this template again.
     const std::span<const std::byte> bytes = std::as_bytes(std::span(data));
     return buffer(bytes, usage, name);
   }
-  // A sampled image whose level 0 is `texels` (tightly packed rows, top first), in SHADER_READ_ONLY layout. With
-  // `mipmaps` all further levels are made by halving blits, which are right only for linear formats such as RGBA16F.
+  // Returns a sampled image whose level 0 is `texels` (tightly packed rows, top first), in SHADER_READ_ONLY layout.
+  // With `mipmaps` all further levels are made by halving blits, which are right only for linear formats such as
+  // RGBA16F. Throws std::logic_error if there are too few or too many texels.
   Image image(std::span<const std::byte> texels, VkExtent2D extent, VkFormat format, bool mipmaps,
               const std::string& name);
 
-  // `pixels` of level 0, tightly packed in the image's own format. The image keeps its layout.
+  // Returns the texels of level 0, tightly packed in the image's own format. The image keeps its layout.
   std::vector<std::byte> read(Image& image);
-  std::vector<float> readFloats(Image& image);  // of an RGBA16F image: r, g, b, a per texel
+  // Returns r, g, b, a of each texel of level 0. Throws std::logic_error unless the format is RGBA16F or RGBA32F.
+  std::vector<float> readFloats(Image& image);
 
-  // Records with `record`, submits and waits.
+  // Records with `record`, submits and waits. Throws as check() does.
   void run(const std::function<void(VkCommandBuffer)>& record);
 
  private:

@@ -24,7 +24,7 @@ struct SurfaceLostError : std::runtime_error {
 
 // Throws a std::runtime_error, or one of the classes above if it fits, that says what failed, why and how to mend it.
 [[noreturn]] void throwVulkanError(VkResult result, std::string_view what);
-// Throws as above unless `result` is VK_SUCCESS.
+// Throws as throwVulkanError() does unless `result` is VK_SUCCESS.
 void check(VkResult result, std::string_view what);
 std::string resultName(VkResult result);
 

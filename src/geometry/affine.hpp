@@ -4,7 +4,7 @@
 
 namespace speculum {
 
-// a b modulo m, within m / 2 of 0 and to the last digit however large the product is.
+// Returns a b modulo m, within m / 2 of 0 and to the last digit however large the product is.
 double productModulo(double a, double b, double m);
 
 // x -> linear * x + translation, in double.

@@ -123,7 +123,7 @@ struct Bvh::Builder {
       box.add(primitives[bvh.order_[i]]);
       centers.add(primitives[bvh.order_[i]].center());
     }
-    // A ray within one of its faces is inside.
+    // Widens the box, so that a ray within one of its faces is inside.
     bvh.nodes_[nodeIndex].box = box.widened(1e-15);
     const Split split = depth < maxBinnedDepth && count > 1 ? findSplit(first, count, centers) : Split{};
     const bool leafIsCheaper = !(split.cost + traversalCost * box.halfArea() < box.halfArea() * count);

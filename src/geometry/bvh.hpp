@@ -25,7 +25,7 @@ struct Bounds {
     low = glm::min(low, b.low);
     high = glm::max(high, b.high);
   }
-  // Halves first, so that the sum stays a double.
+  // Halves the corners before the sum, which could otherwise overflow.
   glm::dvec3 center() const { return 0.5 * low + 0.5 * high; }
   double halfArea() const;             // half the surface area; 0 if empty
   Bounds widened(double share) const;  // on all sides, by a share of its largest coordinate
@@ -47,8 +47,8 @@ struct BoxTester {
   glm::dvec3 inverse;
 
   explicit BoxTester(const Ray& ray);
-  // Where the ray enters the box, or infinity if it misses it within [tMin, tMax]. Never misses because of rounding:
-  // the far distance is enlarged as in Ize, "Robust BVH Ray Traversal" (2013).
+  // Returns the parameter t where the ray enters the box, or infinity if it misses the box within [tMin, tMax]. Never
+  // misses because of rounding: the far distance is enlarged as in Ize, "Robust BVH Ray Traversal" (2013).
   double enter(const Bounds& box, double tMin, double tMax) const {
     const glm::dvec3 a = (box.low - origin) * inverse;
     const glm::dvec3 b = (box.high - origin) * inverse;
@@ -58,7 +58,7 @@ struct BoxTester {
   }
 
  private:
-  // Pass by value, because each then compiles to one instruction; std::min and std::max, which take references, become
+  // Take values, so that each compiles to one instruction: std::min and std::max, which take references, become
   // branches.
   static double smaller(double x, double y) { return x < y ? x : y; }
   static double larger(double x, double y) { return x > y ? x : y; }
@@ -74,7 +74,7 @@ class Bvh {
     uint32_t count = 0;  // primitives of a leaf; 0: inner node
   };
 
-  // Splits fall back to halves at a depth from where 2^32 primitives still fit below.
+  // From this depth on splits halve the primitives, so that 2^32 of them still fit below.
   static constexpr int maxBinnedDepth = 64;
   static constexpr int stackSize = maxBinnedDepth + 40;  // enough for a traversal that visits one child first
 

@@ -53,8 +53,8 @@ std::vector<glm::dvec3> unitSized(const std::vector<glm::dvec3>& points) {
   return scaled;
 }
 
-// Says whether `inside` lies on one side of the triangle and no point on the other. A triangle without area bounds
-// nothing.
+// Says whether `inside` lies on one side of the triangle's plane and, but for the tolerance, no point on the other
+// side. True for a triangle without area, which bounds nothing.
 bool isSupportingFace(const std::array<glm::dvec3, 3>& triangle, const glm::dvec3& inside,
                       std::span<const glm::dvec3> points) {
   const glm::dvec3 area = newellVector(triangle);
@@ -117,7 +117,7 @@ class FaceJoiner {
 
   struct Edge {
     uint32_t start = 0;    // point
-    uint32_t twin = none;  // in the opposite direction; the last one where there are several
+    uint32_t twin = none;  // neighbour's edge, in the opposite direction; the last one where there are several
     uint32_t next = 0;
     uint32_t before = 0;
     bool gone = false;
@@ -146,7 +146,7 @@ class FaceJoiner {
 
   const glm::dvec3& point(uint32_t edge) const { return welder_.points()[edges_[edge].start]; }
 
-  // Adds neighbours as long as they lie in the plane that the triangles so far span.
+  // Finds the flat part of a triangle: adds neighbours as long as they lie in the plane that the triangles so far span.
   void findPlane(uint32_t seed) {
     const glm::dvec3 origin = point(3 * seed);
     const auto number = static_cast<uint32_t>(parts_.size());
@@ -195,7 +195,8 @@ class FaceJoiner {
     return glm::dot(part.normal, turn) >= -1e-9 * part.size2;
   }
 
-  // Joins the faces on both sides of an edge, across all the edges in a row that they share.
+  // Joins the faces on both sides of an edge, across all edges in a row that the faces share, if the result is convex.
+  // Says whether it did.
   bool join(uint32_t edge) {
     const uint32_t twin = edges_[edge].twin;
     if (edges_[edge].gone || twin == none || planeOf_[edge / 3] != planeOf_[twin / 3]) {
@@ -233,7 +234,7 @@ class FaceJoiner {
   std::vector<Edge> edges_;
   std::vector<glm::dvec3> areas_;  // by triangle, see newellVector
   std::vector<uint32_t> planeOf_;  // by triangle, index into parts_
-  std::vector<uint32_t> faceOf_;   // by triangle, another of its face; the last is its own
+  std::vector<uint32_t> faceOf_;   // by triangle, another triangle of its face; the last of such a chain has itself
   std::vector<FlatPart> parts_;
 };
 

@@ -20,9 +20,9 @@ struct ConvexMesh {
     uint32_t from = 0;  // start, in the direction of its first triangle
     uint32_t to = 0;
     std::array<uint32_t, 2> triangles{};
-    bool sameDirection = false;  // of both triangles along the edge: one of them is turned inside out
+    bool sameDirection = false;  // both triangles run along the edge in one direction: one is inside out
   };
-  std::vector<glm::dvec3> points;  // each once
+  std::vector<glm::dvec3> points;  // no two are equal
   std::vector<Triangle> triangles;
   std::vector<Edge> edges;
 };

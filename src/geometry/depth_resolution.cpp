@@ -9,7 +9,7 @@ namespace {
 
 constexpr double snappingStep = 1.0 / 256.0;  // pixels
 
-// Half a unit in the last place of a float.
+// Returns half a unit in the last place of a float at x.
 double rounding(double x) {
   return x == 0.0 || !std::isfinite(x) ? 0.0 : std::ldexp(1.0, std::ilogb(x) - 24);
 }

@@ -19,7 +19,7 @@ namespace speculum {
 //
 // The error e is the sum of three terms; r(x) is half a unit in the last place of a float at x.
 // - Storage: r(D).
-// - Rounding. Clip x, y and w are linear in the position, so that wrong ones are those of a vertex moved by d, with
+// - Rounding. Clip x, y and w are linear in the position, so that wrong ones belong to a vertex moved by d, with
 //   |d_i| <= 6 r(E) + 3 r(|p_i|): five roundings of the products and sums of a matrix and a vertex at most E from its
 //   mesh's centre, one of the centre's own position, and three of the sum's (the centre, the last addition, a vertex
 //   that clipping adds). That moves the surface by n.d / n.u along the ray; z, which does not move with it, is wrong by
@@ -29,13 +29,13 @@ namespace speculum {
 //   surface n.p = k is L.q + m n.q / k.
 // - Snapping of vertices to 1/256 pixel (VkPhysicalDeviceLimits::subPixelPrecisionBits is 8 on common devices): half a
 //   step in x and in y, times that slope. Two surfaces whose vertices project to the same points are snapped
-//   alike and do without; a rasteriser may also interpolate between vertices where they were.
+//   alike and do without this term; a rasteriser may also interpolate between vertices where they were.
 //
 // Sources: Lapidous, Jiao, "Optimal Depth Buffer for Low-Cost Graphics Hardware" (1999); Upchurch, Desbrun, "Tightening
 // the Precision of Perspective Rendering" (2012); Lengyel (2005), see obliqueProjection; Higham, "Accuracy and
 // Stability of Numerical Algorithms" (2002), 3.1, for sums of products. The terms are added up, not squared.
 
-// A picture and its projection; `plane` as obliqueProjection takes it, none for the common projection.
+// A picture and its projection. `plane` is the plane of obliqueProjection(); none for the common projection.
 struct DepthProjection {
   Projection projection;
   std::optional<glm::dvec4> plane;
@@ -49,16 +49,18 @@ struct DepthSurface {
   double extent = 0.0;               // largest distance of a vertex from its mesh's centre
 };
 
-// Gaps in metres along the ray; nothing where no gap is kept in order, or where there is no such projection.
+// Gaps in metres along the ray; nothing where no gap is kept in order, or where the projection does not exist.
 struct DepthResolution {
   std::optional<double> storage;  // if only the stored depth were rounded
   std::optional<double> rounded;  // with the rounding of vertices and of interpolation
   std::optional<double> snapped;  // and with vertices snapped to 1/256 pixel: holds for any two surfaces
 };
 
+// Returns the smallest gaps behind the surface's point that the depth buffer keeps in order.
 DepthResolution depthResolution(const DepthProjection& view, const DepthSurface& surface);
 
-// Largest `snapped` of surfaces tilted by `angle` (radians) away from the eye, over 16 directions of tilt.
+// Returns the largest DepthResolution::snapped of surfaces at `point` that are tilted by `angle` (radians) away from
+// the eye, over 16 directions of tilt.
 std::optional<double> resolvableGap(const DepthProjection& view, const glm::dvec3& point, double angle, double extent);
 
 }  // namespace speculum

@@ -9,7 +9,7 @@ namespace speculum {
 
 namespace {
 
-// Part of a row or column that a texel of a smaller picture covers.
+// A row or column that a texel of a smaller picture covers, and its share of that texel.
 struct Share {
   int index;
   float weight;
@@ -38,11 +38,11 @@ MeshCluster clusterOf(std::span<const Vertex> vertices, std::span<const uint32_t
   return {first, count, box.center(), 0.5 * (box.high - box.low)};
 }
 
-// The vertices of a part, numbered from 0. One of many triangles counts as another after every few of them, since the
-// time of sorting grows with the triangles around a vertex.
+// The vertices of a part, numbered from 0. A vertex of many triangles gets another number after every 256 of them,
+// since the time of sorting grows with the triangles around a vertex.
 struct PartVertices {
-  std::vector<uint32_t> indices;     // into the others
-  std::vector<uint32_t> ofMesh;      // vertices
+  std::vector<uint32_t> indices;     // numbers of vertices: indices into the lists below
+  std::vector<uint32_t> ofMesh;      // vertex of the mesh
   std::vector<glm::vec3> positions;  // scaled to about unit size, so that floats can hold them
 
   // The number of a vertex of the mesh within the part, and how many more triangles may use that number.
@@ -51,7 +51,7 @@ struct PartVertices {
     uint32_t trianglesLeft = 0;
   };
 
-  // `last` has one for each vertex of the mesh; in all of them `trianglesLeft` is 0 before and after.
+  // `last` has an entry for each vertex of the mesh, whose `trianglesLeft` is 0 before and after.
   PartVertices(const Mesh& mesh, std::span<const uint32_t> all, std::span<Last> last) {
     constexpr uint32_t mostTriangles = 256;
     indices.reserve(all.size());

@@ -60,14 +60,14 @@ struct MeshCluster {
 };
 
 // Triangles in model space, counter-clockwise seen from outside. Positions are kept in double relative to `center`, so
-// that their conversion to float for the GPU loses nothing to a far-off origin. Positions, sizes and radius count in
-// units of the model's, so that they stay floats whatever its size; only the centre does not.
+// that their conversion to float for the GPU loses nothing to a far-off origin. Positions, sizes and radius are
+// multiples of `unit`, so that floats can hold them whatever the model's size; only `center` is not.
 struct Mesh {
   std::filesystem::path source;
   std::vector<std::filesystem::path> materialFiles;  // without symbolic links
   std::vector<std::filesystem::path> namedFiles;     // materials and textures named by relative paths: from `source`
   std::vector<std::string> defects;                  // of its files, one line a kind: `FILE:LINE: key: what is wrong`
-  double unit = 1.0;                                 // of model space; a power of two
+  double unit = 1.0;                                 // length in model space; a power of two
   glm::dvec3 center{0.0};                            // model space, of the bounding box
   glm::dvec3 halfExtent{0.0};                        // of the bounding box
   double radius = 0.0;                               // of the bounding sphere about `center`
@@ -78,7 +78,8 @@ struct Mesh {
   std::vector<std::vector<glm::dvec3>> faces;  // relative to `center`, see convexFaces()
   ConvexMesh convex;                           // relative to `center`, see convexMesh()
   bool solid = false;                          // see isSolid()
-  uint32_t repeats = 0;  // last triangles, whose texture repeats so often that floats of its coordinates lose digits
+  // Number of last triangles, whose texture repeats so often that floats of its coordinates lose digits.
+  uint32_t repeats = 0;
 };
 
 // Reorders the triangles of each part so that consecutive ones lie close together on the surface, by meshoptimizer's
@@ -86,9 +87,10 @@ struct Mesh {
 // that is too small for clusters stays as it is.
 void sortIntoClusters(Mesh& mesh);
 
-// Cuts the mesh's triangles in their order into clusters of 64. None for a mesh that is too small to gain by it.
+// Cuts the mesh's triangles in their order into clusters of 64. Returns none for a mesh that is too small to gain by
+// clusters.
 std::vector<MeshCluster> clustersOf(const Mesh& mesh);
-// Does the same for triangles that are not a Mesh; `parts` are ranges of `indices`.
+// Cuts triangles that are not a Mesh into clusters in the same way; `parts` are ranges of `indices`.
 std::vector<MeshCluster> clustersOf(std::span<const Vertex> vertices, std::span<const uint32_t> indices,
                                     std::span<const IndexRange> parts);
 

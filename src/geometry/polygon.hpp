@@ -57,14 +57,16 @@ double farthestDistance(const glm::dvec3& from, std::span<const glm::dvec3> poin
 // diameter^2, a vertex farther than 1e-4 diameters off the plane or 1e-5 diameters outside the line of an edge.
 std::optional<std::string> polygonDefect(std::span<const glm::dvec3> polygon);
 
-// Vertices farther than `least` from the one before: a vertex within rounding of it would give its edge any direction.
+// Returns the vertices that are farther than `least` from the one before: two vertices within rounding of each other
+// would give the edge between them any direction.
 Polygon distinctVertices(std::span<const glm::dvec3> polygon, double least);
 
-// The polygon of a mirror, whose vertices may lie off its plane, moved into the plane through the first. Those that
-// then coincide are left out. An oblique eye and its mirror image would see vertices off the plane at different places.
+// Returns the polygon of a mirror, whose vertices may lie off its plane, moved into the plane through the first vertex.
+// Vertices that then coincide are left out. An oblique eye and its mirror image would see vertices off the plane at
+// different places.
 std::vector<glm::dvec3> flattened(std::span<const glm::dvec3> polygon, const glm::dvec3& normal);
 
-// Sutherland-Hodgman (1974): the part of a convex polygon with dot(normal, v - point) >= 0.
+// Returns the part of a convex polygon with dot(normal, v - point) >= 0, by Sutherland-Hodgman (1974).
 Polygon clipPolygon(std::span<const glm::dvec3> polygon, const Plane& keep);
 
 }  // namespace speculum

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double eyePlane = 1e-12;
 constexpr double shortestEdge = 1e-6;    // pixels; the direction of a shorter edge is rounding
-constexpr double sharpestCorner = 0.25;  // 1 + the cosine of the angle between its edges' normals
+constexpr double sharpestCorner = 0.25;  // 1 + the cosine of the angle between the normals of a corner's edges
 
 glm::dvec2 toPixels(const glm::dvec4& clip, double width, double height) {
   return {(clip.x / clip.w * 0.5 + 0.5) * width, (clip.y / clip.w * 0.5 + 0.5) * height};
@@ -59,7 +59,7 @@ bool reaches(std::span<const glm::dvec4> polygon, const glm::dvec3& line) {
   return std::ranges::any_of(polygon, [&](const glm::dvec4& v) { return sideOf(line, v) > 0.0; });
 }
 
-// Returns the part on the positive side.
+// Returns the part of a polygon on the positive side of a line.
 std::vector<glm::dvec4> cutBy(std::span<const glm::dvec4> polygon, const glm::dvec3& line) {
   std::vector<glm::dvec4> kept;
   for (size_t i = 0; i < polygon.size(); ++i) {

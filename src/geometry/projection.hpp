@@ -24,10 +24,10 @@ struct Projection {
   bool operator==(const Projection&) const = default;
 };
 
-// The projection with its depth row replaced so that z_clip > w_clip exactly behind `plane` (view space, (n, d) with
-// n.x + d >= 0 kept): Lengyel, "Oblique View Frustum Depth Projection and Clipping" (2005), for reversed Z. Nothing
-// when it does not exist: the eye is on the kept side, or the plane misses the frustum. For comparison only: its depth
-// resolution vanishes as the eye nears the plane.
+// Returns the projection with its depth row replaced so that z_clip > w_clip exactly behind `plane` (view space, (n, d)
+// with n.x + d >= 0 kept): Lengyel, "Oblique View Frustum Depth Projection and Clipping" (2005), for reversed Z.
+// Returns nothing when this projection does not exist: the eye is on the kept side, or the plane misses the frustum.
+// For comparison only: the depth resolution of this projection vanishes as the eye nears the plane.
 std::optional<glm::dmat4> obliqueProjection(const Projection& projection, const glm::dvec4& plane);
 
 // A rectangle of pixels, origin top left.
@@ -59,8 +59,8 @@ double screenArea(std::span<const glm::dvec4> clip, double width, double height)
 // than its edges would take it; a polygon with a vertex in the eye's plane stays as it is.
 std::vector<glm::dvec4> grown(std::span<const glm::dvec4> clip, double width, double height, double pixels);
 
-// Takes what a convex polygon covers away from others in its plane, which become more and smaller convex parts.
-// Vertices are in clip space, with w >= 0; depth is interpolated.
+// Cuts away from `parts`, convex polygons in the plane of `cover`, what the convex polygon `cover` covers: they become
+// more and smaller convex parts. Vertices are in clip space, with w >= 0; new vertices have interpolated depth.
 void cutAway(std::vector<std::vector<glm::dvec4>>& parts, std::span<const glm::dvec4> cover);
 
 }  // namespace speculum

@@ -15,8 +15,9 @@ namespace speculum::recycled {
 
 namespace {
 
-constexpr size_t mostCached = size_t{16} << 20;   // bytes, by each thread
-constexpr size_t largestBlock = size_t{1} << 20;  // bytes; larger ones are rare, and rounding them up would waste much
+constexpr size_t mostCached = size_t{16} << 20;  // bytes, by each thread
+// Bytes. Larger blocks are rare, and rounding them up would waste much.
+constexpr size_t largestBlock = size_t{1} << 20;
 
 // The first bytes of a cached block. They stay readable for AddressSanitizer, whose search for leaks follows them.
 struct CachedBlock {

@@ -40,7 +40,8 @@ struct SolidTester {
   bool crossesItself();
 };
 
-// Takes three points a triangle. Returns false if two of a triangle are equal.
+// Makes vertices and triangles from three points for each triangle. Returns false if two points of a triangle are
+// equal.
 bool SolidTester::weld(std::span<const glm::dvec3> corners) {
   const Bounds box = Bounds::around(corners);
   const double side = glm::compMax(box.high - box.low);
@@ -102,7 +103,7 @@ bool SolidTester::joinEdges() {
 }
 
 bool SolidTester::isWoundOutward() {
-  constexpr double leastVolume = 1e-12;  // sixfold; far above the rounding of the sum
+  constexpr double leastVolume = 1e-12;  // six times the volume; far above the rounding of the sum
   std::vector<double> volumes(triangles.size());
   for (uint32_t t = 0; t < triangles.size(); ++t) {
     const Corners c = cornersOf(triangles[t]);
@@ -132,8 +133,8 @@ std::array<glm::dvec3, 3> edgesOf(const Corners& c) {
   return {c[1] - c[0], c[2] - c[1], c[0] - c[2]};
 }
 
-// Separating axes of two convex polygons: the normals, the products of edges, and for polygons of one plane the normals
-// of their edges in it (Gottschalk, Lin, Manocha 1996).
+// Says whether two triangles lie apart, by the separating axes of convex polygons: the normals, the products of edges,
+// and for polygons of one plane the normals of their edges in the plane (Gottschalk, Lin, Manocha 1996).
 bool areApart(const Corners& a, const Corners& b) {
   const std::array<glm::dvec3, 3> edgesA = edgesOf(a);
   const std::array<glm::dvec3, 3> edgesB = edgesOf(b);
@@ -153,7 +154,8 @@ bool areApart(const Corners& a, const Corners& b) {
 
 using Pair = std::array<glm::dvec3, 2>;  // of unit directions
 
-// Says whether a plane through the apex has `a` on it or below and `b` on it or above, and no common direction on it.
+// Says whether a plane through the apex has `a` on it or below and `b` on it or above, and the cones of both share no
+// direction on the plane.
 bool separatesCones(const glm::dvec3& normal, const Pair& a, const Pair& b) {
   // If the cones shared a direction, at most 1e-4 of it would come from the directions off the plane, so that it would
   // lie within 1e-3 of the directions on the plane.
@@ -179,7 +181,7 @@ bool separatesCones(const glm::dvec3& normal, const Pair& a, const Pair& b) {
 }
 
 // Says whether two triangles meet only in the apex that they share; `a` and `b` are the directions of their other
-// vertices. Two such triangles meet elsewhere just if their cones do.
+// vertices. Two such triangles meet elsewhere exactly if the cones of these directions do.
 bool conesAreApart(const Pair& a, const Pair& b) {
   const glm::dvec3 normalA = glm::cross(a[0], a[1]);
   const glm::dvec3 normalB = glm::cross(b[0], b[1]);
@@ -212,8 +214,8 @@ bool meet(const SolidTester& mesh, Triangle a, Triangle b) {
     return !areApart(mesh.cornersOf(a), mesh.cornersOf(b));
   }
   if (shared > 1) {
-    // Two triangles that are folded onto each other along their edge: another one at an end of the edge meets them,
-    // too.
+    // Triangles that share an edge and are folded onto each other need no test: another triangle at an end of the edge
+    // meets them, too.
     return shared == 3;
   }
   const glm::dvec3& apex = mesh.vertices[a[atA]];

@@ -73,7 +73,8 @@ std::optional<TriangleHit> TriangleMesh::intersect(const ShearedRay& ray, const 
   return TriangleHit{triangle.index, t, glm::dvec3(u, v, w) * inverse};
 }
 
-// Models that list each face twice, once for each side, have two triangles at the point that a ray leaves.
+// Also skips triangles with the same corners: models that list each face twice, once for each side, have two triangles
+// at the point that a ray leaves.
 bool TriangleMesh::isSkipped(const Triangle& triangle, int64_t skip) const {
   if (skip == noTriangle || triangle.index == skip) {
     return triangle.index == skip;

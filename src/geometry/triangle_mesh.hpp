@@ -17,7 +17,7 @@ class ShearedRay {
  public:
   explicit ShearedRay(const Ray& ray);
 
-  // x and y across the ray, z the ray's parameter t.
+  // Returns the point's coordinates across the ray in x and y, and the ray's parameter t in z.
   glm::dvec3 project(const glm::dvec3& point) const {
     const double* p = glm::value_ptr(point);
     const double along = p[kz_] - origin_.z;
@@ -48,8 +48,9 @@ class TriangleMesh {
   explicit TriangleMesh(const Mesh& mesh);
 
   Bounds bounds() const { return bvh_.bounds(); }
-  // Nearest hit with ray.tMin < t < ray.tMax on any triangle but `skip` and those with the same corners.
+  // Returns the nearest hit with ray.tMin < t < ray.tMax on any triangle but `skip` and those with the same corners.
   std::optional<TriangleHit> closest(const Ray& ray, int64_t skip = noTriangle) const;
+  // Says whether closest() would find a hit.
   bool occluded(const Ray& ray, int64_t skip = noTriangle) const;
   uint32_t partOf(uint32_t triangle) const { return parts_[triangle]; }
 
@@ -64,7 +65,7 @@ class TriangleMesh {
 
   Bvh bvh_;
   std::vector<Triangle> triangles_;  // in the BVH's order
-  std::vector<uint32_t> places_;     // in triangles_, by triangle
+  std::vector<uint32_t> places_;     // index into triangles_, by triangle
   std::vector<uint32_t> parts_;      // by triangle, index into Mesh::parts
 };
 

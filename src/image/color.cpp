@@ -13,7 +13,7 @@ double acesFit(double x) {
 }
 
 uint8_t displayCode(double linear, const DisplayCurve& curve) {
-  // The bound is the largest half float; beyond it the fit's numerator and denominator both overflow.
+  // The bound, the largest half float, keeps numerator and denominator of the fit from overflowing.
   const double x = curve.exposure * linear;
   const double exposed = x > 0.0 ? std::min(x, 65504.0) : 0.0;
   const double mapped = curve.toneMap == ToneMap::aces ? acesFit(exposed) : exposed;

@@ -8,10 +8,10 @@ namespace speculum {
 
 enum class ToneMap { clamp, aces };
 
-// IEC 61966-2-1. Both take and return [0, 1].
+// The curve of sRGB (IEC 61966-2-1) and its inverse. Both take and return [0, 1].
 double srgbEncode(double linear);
 double srgbDecode(double encoded);
-const std::array<float, 256>& srgbDecoded();  // by 8-bit code
+const std::array<float, 256>& srgbDecoded();  // srgbDecode() by 8-bit code
 
 // Settings that turn radiance into a picture, besides the sRGB curve.
 struct DisplayCurve {

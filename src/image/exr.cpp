@@ -74,9 +74,9 @@ using Bytes = std::span<const uint8_t>;
 
 constexpr int64_t mostPixels = int64_t{1} << 26;
 constexpr int64_t mostValues = int64_t{1} << 28;
-constexpr int64_t mostCoordinate = int64_t{1} << 20;  // tinyexr refuses rows beyond
+constexpr int64_t mostCoordinate = int64_t{1} << 20;  // tinyexr refuses rows beyond this
 constexpr size_t mostAttributes = 1000;               // tinyexr stops reading at 1024
-constexpr int64_t mostPerByte = 1032;                 // that deflate unpacks from one; RLE and PIZ unpack fewer
+constexpr int64_t mostPerByte = 1032;                 // bytes that deflate unpacks from one; RLE and PIZ unpack fewer
 
 enum Compression : uint8_t { none, rle, zips, zip, piz };
 
@@ -131,8 +131,8 @@ class ExrLayout {
   size_t lineOrderOffset() const { return static_cast<size_t>(attribute("lineOrder", 1).data() - file_.data()); }
 
  private:
-  // Fills the table from the chunks, which follow each other, if the writer left it empty because it was interrupted or
-  // does not seek.
+  // Fills the table from the chunks, which follow each other, if the writer left the table empty because it was
+  // interrupted or does not seek.
   void completeTable(std::vector<uint8_t>& bytes) const {
     const int64_t rows = rowsOfChunk();
     const auto chunks = static_cast<uint64_t>((height_ + rows - 1) / rows);
@@ -204,7 +204,7 @@ class ExrLayout {
     countPixels(0, 0);
   }
 
-  // Adds to the number of pixels that need memory.
+  // Adds to the number of pixels that need memory, and throws if there are too many.
   void countPixels(int64_t width, int64_t height) {
     covered_ += width * height;
     require(covered_ <= mostPixels && covered_ * std::max<int64_t>(channels_, 1) <= mostValues,
@@ -306,8 +306,8 @@ class ExrLayout {
   int64_t width_ = 0;
   int64_t height_ = 0;
   int64_t channels_ = 0;
-  int64_t pixelSize_ = 0;  // bytes
-  int64_t covered_ = 0;    // pixels
+  int64_t pixelSize_ = 0;  // bytes of a pixel in all channels
+  int64_t covered_ = 0;    // pixels that need memory
 };
 
 }  // namespace

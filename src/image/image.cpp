@@ -38,7 +38,7 @@ LinearImage enlarged(const LinearImage& image, int width, int height) {
       const glm::vec3& c = image.at(columns.first, rows.second);
       const glm::vec3& d = image.at(columns.second, rows.second);
       const glm::vec3 mean = glm::mix(glm::mix(a, b, columns.weight), glm::mix(c, d, columns.weight), rows.weight);
-      // Rounding must not leave their range.
+      // Rounding must not leave the range of the four texels.
       large.at(x, y) =
           glm::clamp(mean, glm::min(glm::min(a, b), glm::min(c, d)), glm::max(glm::max(a, b), glm::max(c, d)));
     }

@@ -46,7 +46,7 @@ struct PictureSize {
   bool operator==(const PictureSize&) const = default;
 };
 
-// What pictureSize() takes, for messages.
+// Text for messages: what pictureSize() takes.
 constexpr std::string_view pictureSizes = "WIDTHxHEIGHT in pixels, 1x1 to 16384x16384";
 
 // Parses "640x360". Returns nothing for any other text.

@@ -32,7 +32,7 @@ bool startsWith(const std::vector<uint8_t>& bytes, std::string_view magic, size_
 }
 
 // Finds the format by the signature: stb would also read a PNG in the form of an iPhone, whose header comes second, and
-// files without any signature as TGA, so that one needs the extension.
+// files without any signature as TGA, so that a TGA needs the extension.
 PictureFormat formatOf(const std::filesystem::path& file, const std::vector<uint8_t>& bytes) {
   constexpr std::string_view png("\x89PNG\r\n\x1a\n\0\0\0\x0dIHDR", 16);
   if (startsWith(bytes, png)) {
@@ -59,7 +59,7 @@ PictureFormat formatOf(const std::filesystem::path& file, const std::vector<uint
   throw FileError(file, std::string("is ") + format, "a PNG or JPEG file is needed");
 }
 
-// What the markers of a JPEG say.
+// Content of a JPEG's markers.
 struct JpegMarkers {
   int64_t scans = 0;
   bool quantized = false;  // there are quantisation tables
@@ -135,7 +135,8 @@ void checkHeader(const std::filesystem::path& file, const std::vector<uint8_t>& 
   }
 }
 
-// Bytes that a PNG of this header unpacks to at most: rows of either kind of interlacing, each after its filter.
+// Returns the most bytes that a PNG of this header unpacks to: rows of either kind of interlacing, each after its
+// filter.
 int64_t largestUnpacked(int64_t width, int64_t height, int64_t bitsPerPixel) {
   return (width * bitsPerPixel + 7) / 8 * height + 4 * height + 64;
 }
@@ -144,7 +145,7 @@ int64_t largestUnpacked(int64_t width, int64_t height, int64_t bitsPerPixel) {
 // more than the pixels need. Such files are unpacked once before, into no more than is needed.
 void checkPngChunks(const std::filesystem::path& file, const std::vector<uint8_t>& bytes) {
   constexpr size_t signature = 8;
-  constexpr int64_t mostPerByte = 1032;  // of deflate
+  constexpr int64_t mostPerByte = 1032;  // bytes that deflate unpacks from one
   constexpr int64_t harmless = int64_t{1} << 28;
   constexpr std::array<int64_t, 7> channelsOf{1, 0, 3, 1, 2, 0, 4};  // by color type
   if (bytes.size() < signature + 25) {

@@ -10,14 +10,14 @@ namespace speculum {
 
 // Reads a PNG or JPEG file of at most 2^26 pixels. Throws FileError.
 Image8 readImage8(const std::filesystem::path& file);
-// Reads a picture that a model names, also a TGA, BMP, PSD or the first picture of a GIF. Throws FileError, which names
-// the format of other pictures.
+// Reads a picture that a model names: a PNG, JPEG, TGA, BMP, PSD or the first picture of a GIF. Throws FileError, which
+// names the format of other pictures.
 Image8 readTexture(const std::filesystem::path& file);
-// Throws FileError.
+// Writes a PNG file. Throws FileError.
 void writePng(const std::filesystem::path& file, const Image8& image);
 
 // Baseline JPEG without alpha; quality 1 .. 100, chroma at half the resolution up to 90. Throws std::runtime_error for
-// a picture without pixels, one of more than 65535 in a direction, and another quality.
+// a picture without pixels, one of more than 65535 pixels in a direction, and any other quality.
 std::vector<uint8_t> encodeJpeg(const Image8& image, int quality);
 
 }  // namespace speculum

@@ -3,8 +3,8 @@
 #include <cstdlib>
 #include <string_view>
 
-// The distribution's build of stb takes memory as it is, so that damaged pictures show what it held before. Here its
-// memory is zero at first, and its palette by an option of the compiler (CMakeLists.txt).
+// The distribution's build of stb takes memory as it is, so that damaged pictures show what the memory held before.
+// Here the memory that stb allocates is zero at first, and an option of the compiler sets its palette (CMakeLists.txt).
 #define STBI_MALLOC(size) std::calloc(1, size)
 #define STBI_REALLOC(memory, size) std::realloc(memory, size)
 #define STBI_FREE(memory) std::free(memory)

@@ -16,7 +16,8 @@ std::unique_ptr<uint8_t, void (*)(void*)> decodePicture(std::span<const uint8_t>
 bool readPictureSize(std::span<const uint8_t> bytes, int& width, int& height);
 const char* decodeFailure();
 
-// Unpacks zlib's format into `unpacked`. Returns the number of bytes, negative if there are more or they are damaged.
+// Unpacks zlib's format into `unpacked`. Returns the number of bytes; negative if there are more, or if `packed` is
+// damaged.
 int unpackZlib(std::span<const char> packed, std::span<char> unpacked);
 
 }  // namespace speculum

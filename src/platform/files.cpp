@@ -95,8 +95,8 @@ fs::path folderOf(const fs::path& file) {
   return file.has_parent_path() ? file.parent_path() : fs::path(".");
 }
 
-// Returns the open descriptor that a path such as /dev/stdout or /dev/fd/3 names, else -1. It may stand for a pipe, or
-// for a file that is appended to.
+// Returns the open descriptor that a path such as /dev/stdout or /dev/fd/3 names, else -1. The descriptor may stand for
+// a pipe, or for a file that is appended to.
 int descriptorNamed(fs::path file) {
   std::error_code error;
   const fs::path descriptors = fs::canonical("/proc/self/fd", error);
@@ -130,9 +130,9 @@ void replace(const fs::path& file, std::span<const uint8_t> content, bool lastin
   }
   struct stat old {};
   const bool exists = ::stat(target.c_str(), &old) == 0;
-  // Renaming over a device or pipe would replace it.
+  // Writes to a device or pipe directly: renaming a file over it would replace it.
   if (exists && !S_ISREG(old.st_mode)) {
-    // A pipe's reader may come a little later. A file whose loss does no harm waits for none.
+    // Waits for a pipe's reader, which may come a little later, but not for a file whose loss does no harm.
     int descriptor = -1;
     for (int tries = lasting ? 40 : 1; descriptor < 0 && tries > 0; --tries) {
       descriptor = ::open(target.c_str(), O_WRONLY | O_CLOEXEC | O_NONBLOCK);

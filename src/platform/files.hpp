@@ -31,7 +31,7 @@ std::vector<uint8_t> readFile(const std::filesystem::path& file, uintmax_t most 
 std::string readText(const std::filesystem::path& file, uintmax_t most = 1u << 30);
 // Returns nothing for a file that readFile() throws for.
 std::optional<std::vector<uint8_t>> readFileIfAny(const std::filesystem::path& file, uintmax_t most = 1u << 30);
-std::string readTextIfAny(const std::filesystem::path& file, uintmax_t most = 1u << 30);  // empty for such a file
+std::string readTextIfAny(const std::filesystem::path& file, uintmax_t most = 1u << 30);  // or an empty text
 
 // Writes a new file beside `file` and renames it, once it is on the disk, so that a reader sees the old or the new
 // content and a failure leaves the old one. Keeps symbolic links, the mode and, where allowed, the owner. Devices,
@@ -42,11 +42,12 @@ void replaceFile(const std::filesystem::path& file, std::string_view text);
 bool storeFile(const std::filesystem::path& file, std::span<const uint8_t> content);
 bool storeFile(const std::filesystem::path& file, std::string_view text);
 
-// Removes entries of a folder, with what is in them, except for the `kept` newest and those that do not `count`.
+// Removes entries of a folder, with what is in them, except for the `kept` newest. Entries for which `count` is false
+// are not counted and stay.
 void keepNewest(const std::filesystem::path& folder, size_t kept,
                 const std::function<bool(const std::filesystem::path&)>& count = {});
 
-// Say what a path leads to, behind links; false if that cannot be found out.
+// Say whether a path leads, through any links, to a regular file or to a folder; false if that cannot be found out.
 bool isFile(const std::filesystem::path& path);
 bool isFolder(const std::filesystem::path& path);
 // Returns the path from the root on, or the path itself if the working folder was deleted.
@@ -56,9 +57,9 @@ std::filesystem::path withoutLinks(const std::filesystem::path& path);
 // Locks a folder while the result or a copy of it lives, and at most as long as this process, however it ends. Returns
 // null if the folder is locked already, or is none.
 std::shared_ptr<const int> lockFolder(const std::filesystem::path& folder);
-// Returns the name with an ending, cut before it to the length that file systems allow.
+// Returns the name with an ending. Cuts the name so that the whole has at most the length that file systems allow.
 std::string fileNameOf(const std::string& name, const std::string& ending);
-bool isWritable(const std::filesystem::path& file);  // the folder of a file that does not exist
+bool isWritable(const std::filesystem::path& file);  // or its folder, if the file does not exist
 
 // A folder of this process, removed with its content on destruction.
 class TemporaryDirectory {

@@ -15,8 +15,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Returns a folder below $TMPDIR that nobody else can write to, and nothing if that cannot be had. Others may have put
-// a link or a folder of theirs in its place, or move it away where names are not protected.
+// Returns a folder below $TMPDIR that nobody else can write to; nothing if there can be none: other users may have put
+// a link or a folder of theirs in its place, or may be able to rename the folder, if $TMPDIR has no sticky bit.
 std::optional<fs::path> ownTemporaryFolder() {
   const fs::path parent = temporaryFolder();
   const fs::path folder = parent / ("speculum-" + std::to_string(::geteuid()));
@@ -30,8 +30,8 @@ std::optional<fs::path> ownTemporaryFolder() {
   return safe ? std::optional(folder) : std::nullopt;
 }
 
-// Returns a folder that holds the user's others. Without $HOME it is lost when the machine starts again; if even that
-// cannot be had, it is one that cannot be created, so that nothing is kept.
+// Returns the folder that holds the user's other folders. Without $HOME, its content is lost when the machine starts
+// again. If there is no temporary folder either, it is a path that cannot be created, so that nothing is kept.
 fs::path homeFolder() {
   const fs::path home = environment("HOME");
   return home.is_absolute() ? home : ownTemporaryFolder().value_or("/proc/no-home");
@@ -43,7 +43,7 @@ fs::path userDir(const char* variable, const char* fallback) {
   return (base.is_absolute() ? base : homeFolder() / fallback) / "speculum";
 }
 
-// The folder that the file of xdg-user-dirs names: XDG_PICTURES_DIR="$HOME/..." or an absolute path.
+// Returns the folder that the file of xdg-user-dirs names: XDG_PICTURES_DIR="$HOME/..." or an absolute path.
 fs::path configuredDir(const std::string& variable, const fs::path& home) {
   std::ifstream file(userConfigDir().parent_path() / "user-dirs.dirs");
   const std::string key = variable + "=\"";

@@ -21,13 +21,13 @@ namespace speculum {
 
 namespace {
 
-std::string outOfMemory;  // what is said, made while there is memory
+std::string outOfMemory;  // message for the user, made while there is memory
 
 struct NoMemory : std::bad_alloc {
   const char* what() const noexcept override { return outOfMemory.c_str(); }
 };
 
-// Takes no memory, since a signal handler calls it.
+// Allocates no memory, since a signal handler calls it.
 [[noreturn]] void endOutOfMemory() {
   ::dprintf(STDERR_FILENO, "%s\n", outOfMemory.c_str());
   ::_exit(2);

@@ -15,13 +15,13 @@ double millisecondsSinceStart();   // of this process, to 10 ms; 0 if the system
 void keepFreedMemory();
 
 // Makes what() of each std::bad_alloc that operator new throws from now on say what would help. If the process's
-// address space is limited, also turns an abort or fault into that line and exit code 2: drivers end so where memory is
-// short.
+// address space is limited, also turns an abort or fault into that line and exit code 2: drivers abort or fault where
+// memory is short.
 void explainLackOfMemory();
-// Returns such advice, as ` (...)`; nothing if the address space is not limited.
+// Returns advice to raise the limit of the address space, as ` (...)`; an empty text if there is no limit.
 std::string memoryLimitAdvice();
 
-// Returns what is freed so far to the system. Takes some milliseconds.
+// Gives the memory that is freed so far back to the system. Takes some milliseconds.
 void releaseFreedMemory();
 
 }  // namespace speculum

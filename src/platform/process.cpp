@@ -79,7 +79,7 @@ ChildProcess::ChildProcess(const std::vector<std::string>& arguments, Input inpu
 
 ChildProcess::~ChildProcess() {
   if (child_ != 0) {
-    ::kill(child_, isIgnored(SIGTERM) ? SIGKILL : SIGTERM);  // a child ignores what this process does
+    ::kill(child_, isIgnored(SIGTERM) ? SIGKILL : SIGTERM);  // a child ignores the signals that this process ignores
     waitFor(child_);
   }
   closeInput();

@@ -27,25 +27,27 @@ class ChildProcess {
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
 
+  // Waits until the program ends. Returns its exit code and the output that readLine() has not taken.
   ProcessResult wait();
-  // Does the same without waiting: nothing while the program runs. Once one has returned a result, call neither again.
+  // Returns what wait() returns, without waiting: nothing while the program runs. Once wait() or poll() has returned a
+  // result, call neither again.
   std::optional<ProcessResult> poll();
 
-  // Takes a line from the output. Nothing if none comes within `seconds`, or if the program has ended: then running()
-  // is false, and wait() has its exit code and the rest of its output.
+  // Takes a line from the output. Returns nothing if none comes within `seconds`, or if the program has ended: then
+  // running() is false, and wait() has its exit code and the rest of its output.
   std::optional<std::string> readLine(double seconds);
   bool running() const { return child_ != 0; }
   // Writes to its Input::pipe. A program that has ended gets nothing.
   void write(std::string_view text);
   void closeInput();
-  void kill();  // at once, whatever the program does
+  void kill();  // ends the program at once, by SIGKILL
 
  private:
   bool read();  // false at the end of the output
 
   int child_ = 0;       // 0: there is none
   int descriptor_ = 0;  // of its output
-  int input_ = -1;      // -1: none that is written to
+  int input_ = -1;      // socket that the program reads as its input; -1: none
   ProcessResult result_;
 };
 

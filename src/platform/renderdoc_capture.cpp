@@ -22,7 +22,8 @@ struct RenderDocApi {
   void (*setCaptureFilePathTemplate)(const char* path);  // without number and ending
   Unused getCaptureFilePathTemplate;
   uint32_t (*getNumCaptures)();
-  // Fills path and length, with its terminating zero, of those that are not null. Returns 0 for an index too large.
+  // Fills the path, its length with the terminating zero, and the time, unless they are null. Returns 0 for an index
+  // too large.
   uint32_t (*getCapture)(uint32_t index, char* path, uint32_t* length, uint64_t* time);
   std::array<Unused, 4> triggerCaptureToSetActiveWindow;
   void (*startFrameCapture)(void* device, void* window);  // null: any

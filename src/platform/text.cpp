@@ -12,8 +12,8 @@ namespace speculum {
 
 namespace {
 
-// Returns the character that the UTF-8 begins with, and the number of its bytes: 0, after the first byte, if it is
-// none.
+// Returns the first character of a text in UTF-8, and the number of its bytes. If the text does not begin with a
+// character, returns its first byte and 0.
 std::pair<char32_t, size_t> firstCharacter(std::string_view text) {
   static constexpr std::array<char32_t, 5> least{0, 0x110000, 0x80, 0x800, 0x10000};
   const auto lead = static_cast<uint8_t>(text[0]);
@@ -26,7 +26,8 @@ std::pair<char32_t, size_t> firstCharacter(std::string_view text) {
   return valid ? std::pair(code, std::max<size_t>(ones, 1)) : std::pair<char32_t, size_t>(lead, 0);
 }
 
-// Control characters, marks that turn the direction of text, line separators, and what is no character.
+// Says whether a code is a control character, a mark that turns the direction of text, a line separator or no
+// character.
 bool isHidden(char32_t code) {
   static constexpr std::array<char32_t, 14> bounds{0,      0x20,   0x7f,   0xa0,   0x61c,  0x61d,  0x200e,
                                                    0x2010, 0x2028, 0x202f, 0x2060, 0x2070, 0xfdd0, 0xfdf0};
@@ -39,7 +40,7 @@ std::string oneLine(std::string_view text) {
   constexpr size_t longest = 4000;
   constexpr size_t lastKept = 1000;
   std::string line;
-  bool begun = false;  // with a letter, digit or mark
+  bool begun = false;  // `line` has a visible character of ASCII
   for (size_t i = 0, bytes = 0; i < text.size(); i += std::max<size_t>(bytes, 1)) {
     char32_t code = 0;
     std::tie(code, bytes) = firstCharacter(text.substr(i));

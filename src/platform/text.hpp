@@ -23,13 +23,14 @@ inline bool continuesCharacter(char byte) {
 // messages it holds: escapes control characters, marks of direction, bytes that are not UTF-8 and starts of runners'
 // commands as \x1b or \u202e, and leaves out the middle of a line of more than 4000 bytes.
 std::string oneLine(std::string_view text);
-// The same for each line of a text. Indents all but the first, so that none passes for a message of its own.
+// Applies oneLine() to each line of a text. Indents all lines but the first, so that none passes for a message of its
+// own.
 std::string indentedLines(std::string_view text);
-// Prints oneLine() and a line break. Every command prints through it.
+// Prints oneLine() and a line break. Every command prints through this function.
 void printLine(std::string_view text, std::FILE* stream = stdout);
 
-// Returns the number with this many significant digits, and never fewer than those before the decimal point. Only
-// numbers below 1e-4 have an exponent.
+// Returns the number with this many significant digits, but with all digits before the decimal point. Only numbers
+// below 1e-4 have an exponent.
 std::string significant(double value, int digits);
 
 }  // namespace speculum

@@ -145,7 +145,7 @@ void onDisplayLost(void (*last)()) {
   static void (*called)() = nullptr;
   called = last;
   using Handler = int (*)(void* display);
-  // GLFW has loaded the library if it is used.
+  // GLFW has loaded X11's library if windows use X11.
   if (void* x11 = ::dlopen("libX11.so.6", RTLD_LAZY | RTLD_NOLOAD)) {
     const auto setHandler = reinterpret_cast<Handler (*)(Handler)>(::dlsym(x11, "XSetIOErrorHandler"));
     setHandler([](void*) {

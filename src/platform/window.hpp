@@ -43,7 +43,7 @@ struct InputEvent {
   double y = 0.0;
   KeyEvent key;                                // of a key, for shortcuts
   bool shift = false;                          // of a button: Shift was held
-  bool again = false;                          // of a button: pressed soon after its last press (by InputQueue)
+  bool again = false;                          // of a button: pressed soon after its last press; set by InputQueue
   std::vector<std::filesystem::path> dropped;  // files
 };
 
@@ -55,10 +55,11 @@ struct WindowOptions {
 };
 
 // Makes GLFW open windows by "x11" or "wayland", or by what the session has. Call it before the first window. GLFW
-// before 3.4 is built for only one of them; throws std::runtime_error if that is the other.
+// before 3.4 is built for only one of the two; throws std::runtime_error if it is built for the other one.
 void chooseWindowPlatform(const std::optional<std::string>& platform);
 
-// Calls `last` before the library of X11 ends the process, as it does when the server is gone. Call it with a window.
+// Makes the library of X11 call `last` before it ends the process, as it does when the server is gone. Call this
+// function once there is a window.
 void onDisplayLost(void (*last)());
 
 // A rectangle in screen coordinates of the desktop.
@@ -90,7 +91,7 @@ class Window {
   void requestClose();
   void refuseClose();  // takes back a request to close
 
-  // As of the events polled last: asking the X server would wait for the picture that it copies.
+  // Sizes that the events polled last have reported: asking the X server would wait for the picture that it copies.
   VkExtent2D framebufferExtent() const { return framebuffer_; }  // pixels; 0x0 is possible
   VkExtent2D size() const { return size_; }                      // screen coordinates
   void resize(int width, int height);                            // screen coordinates
@@ -140,7 +141,7 @@ class Window {
   Library library_;
   std::unique_ptr<GLFWwindow, Destroy> window_;
   std::function<void(const InputEvent&)> listener_;
-  ScreenRect windowed_;  // before full screen
+  ScreenRect windowed_;  // place and size before full screen
   bool covers_ = false;  // covers a monitor as full screen
   float contentScale_ = 1.0f;
   VkExtent2D framebuffer_{};

@@ -9,7 +9,7 @@
 namespace speculum {
 
 // Sum of the pictures of a mean (view.accumulate), in linear 32-bit float. Pictures are added one at a time, one in
-// each frame, and in between the display pass shows the mean of those that are there. Nothing exists on the GPU before
+// each frame, and in between the display pass shows the mean of those added so far. Nothing exists on the GPU before
 // the first and after release().
 //
 // SceneRenderer owns it and adds the pictures it draws. To draw a mean, draw frames with view.accumulate above 1 and
@@ -20,11 +20,11 @@ class Accumulation {
   explicit Accumulation(Renderer& renderer) : renderer_(renderer), pipelines_(renderer.pipelines()) {}
 
   // Adds the picture in `radiance`, which is in the layout for being sampled, as number `picture`. Throws
-  // std::logic_error if it is neither the first nor the next one, of the same size.
+  // std::logic_error unless it is picture 0, or the next one and as large as the others.
   RecordedPass add(Frame& frame, const VkDescriptorImageInfo& radiance, VkExtent2D extent, int picture);
   void release(RetireQueue& retired);
 
-  int pictures() const { return pictures_; }  // number in the sum
+  int pictures() const { return pictures_; }  // number of pictures in the sum
   Image& sum() { return images_[current_]; }  // alpha is the number of pictures
   VkDescriptorImageInfo descriptor() const { return images_[current_].descriptor(sampler_.get()); }
 
@@ -33,9 +33,9 @@ class Accumulation {
 
   Renderer& renderer_;
   DescriptorSetLayoutHandle layout_;
-  PipelineVariants<bool> pipelines_;  // only one
+  PipelineVariants<bool> pipelines_;  // holds one pipeline
   SamplerHandle sampler_;
-  std::array<Image, 2> images_;  // one is read where the other is written: not every device blends 32-bit floats
+  std::array<Image, 2> images_;  // one is read while the other is written: not every device blends 32-bit floats
   size_t current_ = 0;
   int pictures_ = 0;
 };

@@ -9,8 +9,8 @@ namespace speculum {
 
 namespace {
 
-constexpr uint32_t groupSide = 8;  // in collect_surfaces.glsl
-// The requests' buffer begins with the arguments of the indirect dispatch and their count.
+constexpr uint32_t groupSide = 8;  // as in collect_surfaces.glsl
+// Beginning of an empty buffer of requests: the arguments of the indirect dispatch, and the number of requests.
 constexpr std::array<uint32_t, 4> noRequests{0, 1, 1, 0};
 
 }  // namespace

@@ -8,31 +8,36 @@
 namespace speculum {
 
 // Shades the surfaces whose shading needs rays. A pass draws their identifiers (shaders/identifiers.glsl) in the place
-// of radiance and pauses; a compute shader then traces rays for what the pass's samples see, and no rays for what they
-// do not; the pass goes on with the radiance. GPUs have more room for rays in compute shaders than in fragment shaders.
+// of radiance and pauses; a compute shader then traces rays for the surfaces that the pass's samples see, and none for
+// hidden ones; the pass goes on with the radiance. GPUs have more room for rays in compute shaders than in fragment
+// shaders.
 class DeferredShading {
  public:
   DeferredShading(Device& device, PipelineFactory& factory, VkDescriptorSetLayout frameLayout)
       : device_(device), frameLayout_(frameLayout), collecting_(factory), shading_(factory), drawing_(factory) {}
 
-  // Divides parts of a pass into bands whose radiance a storage buffer holds on every device, each part's lowest first.
+  // Divides parts of a pass, in pixels, into bands that are small enough for their radiance to fit into a storage
+  // buffer of any device. The lowest band of a part comes first.
   static std::vector<PixelRect> bands(std::span<const PixelRect> parts, VkSampleCountFlagBits samples);
-  // Descriptions of the two renderings of a pass that is described by `pass`.
+  // Return the descriptions of the two renderings of `pass`: of identifiers, and of radiance.
   static PassDesc identifying(PassDesc pass);
   static PassDesc shaded(PassDesc pass);
 
-  // Computes the radiance of the surfaces that the pass has identified. The scope is paused.
+  // Computes the radiance of the surfaces that the pass has identified. The scope must be paused.
   void shade(const PassScope& scope, const FrameInfo& info, const DrawList& pass);
-  // Replaces the identifiers by the radiance. The scope was resumed after shade(). Returns the number of draws.
+  // Replaces the identifiers by the radiance. Call it after shade(), when the scope is resumed. Returns the number of
+  // draws.
   uint32_t record(const PassScope& scope);
 
-  // The samples, for shaders that include shaded.glsl, and the area of the pass that they belong to.
+  // Descriptor set of the shaded samples, for shaders that include shaded.glsl, and the area of the pass that the
+  // samples belong to.
   VkDescriptorSetLayout layout() const { return layout_.get(); }
   VkDescriptorSet set() const { return set_; }
   static gpu::ShadeConstants areaOf(const PassDesc& pass);
 
   void countPipelines(EffectLedger& ledger) const;
-  // Drops what has not been used for some frames. While cached images are shown, the pipelines stay.
+  // Drops pipelines and buffers that have not been used for idleFramesKept frames. While cached images are shown, the
+  // pipelines for `trace` stay.
   void endFrame(const TraceVariant& trace, bool imagesShown, RetireQueue& retired);
   uint64_t bytes() const { return shaded_.bytes() + requests_.bytes(); }
 
@@ -40,11 +45,11 @@ class DeferredShading {
   struct Variant {
     VkSampleCountFlagBits samples;
     TraceVariant trace;
-    bool trilinear = false;  // textures
+    bool trilinear = false;  // textures are filtered between levels
     auto operator<=>(const Variant&) const = default;
   };
   void prepare(const FrameInfo& info, const PassDesc& pass);
-  // Lists the surfaces in requests_, so that no invocation is without one to shade.
+  // Lists the surfaces in requests_, so that each invocation of the shading shader has one to shade.
   void collect(const PassScope& scope, const TraceVariant& trace);
 
   Device& device_;

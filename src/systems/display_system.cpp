@@ -88,7 +88,8 @@ RecordedPass DisplaySystem::record(Frame& frame, const VkDescriptorImageInfo& ra
     const glm::vec2 scale(static_cast<float>(texels.width) / static_cast<float>(frame.extent.width),
                           static_cast<float>(texels.height) / static_cast<float>(frame.extent.height));
     variant.enlarged = !cover_ && scale != glm::vec2(1.0f);
-    // Not every device filters the floats of a mean, which is not drawn in haste.
+    // The sampler does not enlarge a mean: not every device filters its 32-bit floats, and a mean is not drawn in
+    // haste.
     variant.sampled = variant.enlarged && pictures == 0 && renderer_.device().info().isCpu();
     image.sampler = variant.sampled ? linearSampler_.get() : image.sampler;
     return draw(frame, desc, PassKind::display, variant, image,
@@ -148,7 +149,8 @@ void DisplaySystem::setCover(const Image8& picture) {
     }
     texels[i] = glm::packHalf4x16(linear);
   }
-  // Waits for frames in flight: validation layer 1.3.239 forgets their fences when it sees the wait for an upload's.
+  // Waits for frames in flight: validation layer 1.3.239 forgets their fences when it sees the wait for an upload's
+  // fence.
   renderer_.waitIdle();
   cover_ = renderer_.uploader().image(std::as_bytes(std::span(texels)), extentOf(picture.width, picture.height),
                                       colorFormat, false, "cover");

@@ -12,8 +12,8 @@
 
 namespace speculum {
 
-// Draws into the display image: the picture with exposure, tone curve and sRGB encoding, and over it the target of a
-// debug view.
+// Draws into the display image: the picture with exposure, tone curve and sRGB encoding, and over it the target that a
+// TargetDisplay asks for.
 class DisplaySystem {
  public:
   explicit DisplaySystem(Renderer& renderer);
@@ -21,20 +21,20 @@ class DisplaySystem {
   // Layout of set 0: one combined image sampler.
   VkDescriptorSetLayout layout() const { return layout_.get(); }
 
-  // See SceneRenderer::setCover.
+  // Shows `picture` instead of the scene: see SceneRenderer::setCover.
   void setCover(const Image8& picture);
 
   // Records the display pass. It shows the image of setCover(), or else `radiance`, which has `size` texels and is the
   // sum of `pictures` pictures; 0: one picture, no sum.
   RecordedPass record(Frame& frame, const VkDescriptorImageInfo& radiance, VkExtent2D size, const Settings& settings,
                       int pictures);
-  // Record a pass that shows a target of `size` texels; nothing if no part of it lies in the area.
+  // Record a pass that shows a target of `size` texels. Return nothing if no part of the target lies in `debug.area`.
   std::optional<RecordedPass> recordColor(Frame& frame, const glm::ivec2& size, const TargetDisplay& debug,
                                           const MirrorImage& radiance, const Settings& settings);
   // `near`: metres from the eye to the near plane.
   std::optional<RecordedPass> recordDepth(Frame& frame, const glm::ivec2& size, const TargetDisplay& debug,
                                           const MirrorImage& depth, double near);
-  // Drops the pipelines that only debug views need.
+  // Drops the pipelines that only target displays need.
   void releaseView();
 
   void countPipelines(EffectLedger& ledger) const;
@@ -42,10 +42,10 @@ class DisplaySystem {
  private:
   struct Variant {
     ToneMap toneMap = ToneMap::clamp;
-    bool multisampled = false;  // the image that is shown
-    bool enlarged = false;
-    bool sampled = false;                   // enlarged by the sampler
-    bool shrunk = false;                    // in a debug view
+    bool multisampled = false;              // the image has several samples a texel
+    bool enlarged = false;                  // the image has fewer texels than the display has pixels
+    bool sampled = false;                   // the sampler enlarges the image
+    bool shrunk = false;                    // a pixel covers more than one texel
     bool depth = false;                     // shows depth, not radiance
     VkFormat format = VK_FORMAT_UNDEFINED;  // of the display image
     auto operator<=>(const Variant&) const = default;

@@ -14,17 +14,19 @@ inline constexpr int idleFramesKept = 120;
 struct RayUse {
   bool traced = false;
   bool hardware = false;    // by ray queries
-  std::string_view why;     // with static lifetime
+  std::string_view why;     // reason for the choice of rays; static lifetime
   uint32_t structures = 0;  // acceleration structures, alive
   uint64_t structureBytes = 0;
 };
 
+// Costs of the effects in a frame.
 class EffectLedger {
  public:
   RayUse rays;
 
   EffectCost& operator[](EffectKind kind) { return costs_[static_cast<size_t>(kind)]; }
   const EffectCost& operator[](EffectKind kind) const { return costs_[static_cast<size_t>(kind)]; }
+  // Counts a draw for an effect, if the effect takes part in it.
   void draw(EffectKind kind, bool takesPart = true) { (*this)[kind].draws += takesPart; }
   // Adds the draws of a later picture and takes over its bytes and pipelines.
   void add(const EffectLedger& later) {

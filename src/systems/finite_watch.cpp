@@ -9,7 +9,7 @@ namespace speculum {
 
 namespace {
 
-// Distance in bytes between results of targets: no device requires a larger alignment of descriptor offsets.
+// Distance in bytes between results in the buffer: no device requires a larger alignment of descriptor offsets.
 constexpr VkDeviceSize resultStride = 256;
 constexpr VkDeviceSize targetResultBytes = 2 * resultStride;
 constexpr uint32_t groupWidth = 16;

@@ -21,27 +21,27 @@ struct NonFinite {
   int y = 0;
   int sample = 0;
   glm::vec4 value{0.0f};  // radiance, and disparity as stored: gpu::disparityLength / w
-  uint64_t count = 0;     // number of such samples in the target
+  uint64_t count = 0;     // number of samples with such values in the target
 };
 std::string describe(const NonFinite& found);  // one line
 
-// Searches targets of radiance on the GPU, as soon as their passes have drawn them: debug.check_finite. Nothing exists
-// on the GPU before begin() and after release().
+// Searches targets of radiance for NonFinite values on the GPU, as soon as their passes have drawn them:
+// debug.check_finite. Nothing exists on the GPU before begin() and after release().
 class FiniteWatch {
  public:
   explicit FiniteWatch(Renderer& renderer)
       : renderer_(renderer), device_(renderer.device()), pipelines_(renderer.pipelines()) {}
 
-  // Begins a frame in which up to `targets` are checked.
+  // Begins a frame in which up to `targets` images are checked.
   void begin(const Frame& frame, size_t targets);
   // Checks the upper left part, `used` pixels, of the image that an ended pass drew; `descriptor` is the image's. The
-  // image is then in the layout for being sampled. `samples` says that it is the multisampled image, not the resolved
-  // one.
+  // image is then in the layout for being sampled. `samples` says that the image is multisampled, not resolved.
   void check(Frame& frame, const RecordedPass& pass, bool samples, Image& image,
              const VkDescriptorImageInfo& descriptor, VkExtent2D used);
-  // Checks a target's samples, if it has any, and then their mean, which hides what is negative in one of them. Does
-  // nothing in a frame that was not begun.
+  // Checks the samples that a target resolves, if there are any, and then its output. The mean of samples alone hides
+  // negative values in one of them. Does nothing in a frame without begin().
   void check(Frame& frame, const RecordedPass& pass, OffScreen& target, VkExtent2D used);
+  // Makes the frame's results visible to the CPU, once the frame has finished.
   void end(Frame& frame) { Barriers::computeToHost(frame.commands); }
   // Releases the GPU's objects as soon as the frames that were watched have finished.
   void release();
@@ -50,7 +50,7 @@ class FiniteWatch {
   void collect();
   // Findings of the last finished frame that had any: one for each target, in the order of recording.
   const std::vector<NonFinite>& findings() const { return findings_; }
-  uint64_t findingsFrame() const { return findingsFrame_; }  // its number; 0: nothing was ever found
+  uint64_t findingsFrame() const { return findingsFrame_; }  // number of that frame; 0: nothing was ever found
   uint64_t count() const { return count_; }                  // samples found since the start
 
  private:
@@ -81,7 +81,7 @@ class FiniteWatch {
   std::vector<NonFinite> findings_;
   uint64_t findingsFrame_ = 0;
   uint64_t count_ = 0;
-  std::vector<std::pair<PassId, bool>> reported_;  // passes, and whether by their samples
+  std::vector<std::pair<PassId, bool>> reported_;  // logged passes, and whether by their samples' finding
 };
 
 }  // namespace speculum

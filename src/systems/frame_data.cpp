@@ -43,8 +43,8 @@ bool sameColors(const Object& a, const Object& b) {
   return a.color == b.color && a.specular == b.specular && a.shininess == b.shininess && a.emission == b.emission;
 }
 
-// Says whether the backs of triangles need not be drawn. Wireframes show them, and so does a near plane that cuts
-// fronts.
+// Says whether the backs of triangles need not be drawn. Wireframes show backs, and so does a near plane that cuts
+// fronts, which happens without depth clamping.
 bool cullsBacks(const Device& device, const Settings& settings, const View& view, const InstanceState& instance,
                 const Mesh& mesh) {
   return device.caps().depthClamp && settings.debug.cullClusters && !settings.view.wireframe && mesh.solid &&
@@ -129,7 +129,7 @@ void FrameData::build(Frame& frame, const SceneResources& resources, const Scene
     }
   }
 
-  // Bound in every draw, and in a frame that draws none.
+  // Both buffers are bound in every draw, so they need an element even in a frame without mirrors or draws.
   mirrors_.resize(std::max<size_t>(mirrors_.size(), 1));
   passBlocks_.resize(std::max<size_t>(passBlocks_.size(), 1));
   buffers_.write(frame, passBlocks, passBlocks_);
@@ -224,8 +224,8 @@ void FrameData::addInstances(const Source& source, const Pass& pass, const glm::
     return effects.curved && scene.objects[state.instances[i].object].mirror.has_value();
   };
   std::vector<int> order = frontToBack(pass.view, pass.instances, state);
-  // Instances of a mesh that look alike share a draw, curved mirrors another one. Each instance that is
-  // seen in part has its own.
+  // Instances of a mesh that look alike share a draw, those that are curved mirrors another one. Each instance that is
+  // seen in part has a draw of its own.
   for (auto first = order.begin(); first != order.end();) {
     const int mesh = state.instances[*first].mesh;
     const auto last = std::find_if(first, order.end(), [&](int i) { return state.instances[i].mesh != mesh; });
@@ -263,7 +263,7 @@ void FrameData::addInstances(const Source& source, const Pass& pass, const glm::
   }
 }
 
-// Adds the map that a curved mirror looks up. Faces of maps show the background instead of further maps.
+// Adds the environment map that a curved mirror looks up. In faces of such maps curved mirrors show the background.
 void FrameData::addEnvironment(const Source& source, const Pass& pass, int instance, Batch& batch) {
   const RecycledVector<Cube>& cubes = source.plan.cubes;
   const auto map = std::ranges::find(cubes, instance, &Cube::instance);

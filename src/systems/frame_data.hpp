@@ -10,7 +10,7 @@
 
 namespace speculum {
 
-// Content of a mirror and lookup of its image; specialisation constants of mirror_shading.glsl.
+// What a mirror shows, and how its image is looked up: values of specialisation constants of mirror_shading.glsl.
 enum class MirrorShows : uint32_t {
   image = gpu::showsImage,
   background = gpu::showsBackground,
@@ -28,14 +28,14 @@ struct MirrorImage {
 struct Batch {
   int mesh = 0;
   int object = 0;           // index into Scene::objects, of the first instance
-  float handedness = 1.0f;  // of all
+  float handedness = 1.0f;  // sign of the determinant of all instances' transforms
   uint32_t firstInstance = 0;
   uint32_t count = 0;
   bool cullsBacks = false;            // no back of a triangle can be seen
   bool curved = false;                // the object is a curved mirror
-  bool environment = false;           // it looks up an environment map; the batch then has one instance
-  bool colored = false;               // and its base is not black
-  int map = -1;                       // index into FramePlan::cubes; -1: it shows the background
+  bool environment = false;           // the curved mirror looks up an environment map; the batch has one instance
+  bool colored = false;               // this curved mirror's base is not black
+  int map = -1;                       // index into FramePlan::cubes of this map; -1: it shows the background
   RecycledVector<IndexRange> ranges;  // indices that are drawn; empty: all. Only a batch of one instance has ranges
 };
 
@@ -44,7 +44,7 @@ struct MirrorRange {
   uint32_t mirror = 0;  // index into the mirrors of the frame
   uint32_t firstVertex = 0;
   uint32_t vertexCount = 0;
-  int pass = -1;    // of its image; -1: none of this frame
+  int pass = -1;    // index into FramePlan::passes of the pass that rendered its image in this frame; -1: none
   int cached = -1;  // index into FramePlan::cached; -1: none
   bool reprojected = false;
   MirrorShows shows = MirrorShows::background;
@@ -52,27 +52,27 @@ struct MirrorRange {
   bool blurs = false;             // it is rough and shown by blurring its image
   bool ripples = false;           // it is rippled and shown by displacing its image
   bool byRays = false;            // its reflection is traced
-  bool rippled = false;           // by displacing its image or by rays
-  bool rough = false;             // likewise, by blurring
-  bool fresnel = false;
-  bool base = false;     // its base is not black
-  bool colored = false;  // the base, or the back if that is seen, is not black
+  bool rippled = false;           // it shows ripples, by displacing its image or by rays
+  bool rough = false;             // it shows roughness, by blurring its image or by rays
+  bool fresnel = false;           // its reflectance depends on the angle of incidence
+  bool base = false;              // its base is not black
+  bool colored = false;           // the base, or the back if that is seen, is not black
 };
 
 // Draws of one pass: indices into the buffers of FrameData.
 struct DrawList {
-  uint32_t pass = 0;        // index into the passes of the frame
+  uint32_t pass = 0;        // index into the blocks of the passes that are drawn
   bool mirrorView = false;  // the view is that of a mirror
   std::vector<Batch> batches;
-  uint32_t firstGlyph = 0;  // index into the lights of the pass
+  uint32_t firstGlyph = 0;  // index into the lights of the pass of the first one whose glyph is drawn
   uint32_t glyphCount = 0;
   std::vector<MirrorRange> mirrors;
   uint32_t maskFirstVertex = 0;
   uint32_t maskVertexCount = 0;  // 0: the whole rectangle is drawn
 };
 
-// The buffers of one frame. Everything is composed in double relative to the eye of its view and becomes float once.
-// One set of buffers for each frame in flight, grown when a frame needs more.
+// The buffers that the passes of a frame read. Everything is composed in double relative to the eye of its view and
+// becomes float once. Each frame in flight has a set of buffers, which grow when a frame needs more.
 class FrameData {
  public:
   explicit FrameData(Device& device);
@@ -82,14 +82,16 @@ class FrameData {
   // targets are made.
   void requireFits(const FramePlan& plan) const;
   // Fills the buffers of this frame in flight, for a plan that passed requireFits(). Afterwards passes()[i] belongs to
-  // plan.passes[i], with draws if that is drawn, and set() is valid until the frame has finished.
+  // plan.passes[i] and has draws if this pass is drawn. The buffers and their descriptor set are valid until the frame
+  // has finished.
   void build(Frame& frame, const SceneResources& resources, const Scene& scene, const SceneState& state,
              const Settings& settings, const Environment& environment, const FramePlan& plan);
 
   const std::vector<DrawList>& passes() const { return passes_; }
   // InstanceData::repeats of each instance of the scene; empty without repeating triangles.
   std::span<const uint32_t> repeats() const { return repeats_; }
-  // Binds the pipeline, and set 0 for draws of `pass`, or of `mirror` in it.
+  // Binds the pipeline, and descriptor set 0 for draws of `pass`. `mirror` is MirrorRange::mirror, for draws of
+  // mirrors.
   void bind(const Pipeline& pipeline, VkCommandBuffer commands, const DrawList& pass, uint32_t mirror = 0) const;
   // MirrorData by MirrorData::index, each at a multiple of 256 bytes.
   VkDescriptorBufferInfo mirrorBuffer(const Frame& frame) const { return buffers_.buffer(frame, mirrors).descriptor(); }
@@ -103,7 +105,7 @@ class FrameData {
   // A uniform block at a dynamic offset, as gpu::MirrorBlock is.
   struct alignas(256) DrawBlock {
     gpu::ViewData view;
-    gpu::LightData lights[gpu::fixedLights];  // all, if there are no more
+    gpu::LightData lights[gpu::fixedLights];  // all lights, if there are no more than these
   };
 
   static VkDescriptorType typeOf(uint32_t kind);
@@ -133,7 +135,7 @@ class FrameData {
   std::vector<gpu::MirrorBlock> mirrors_;
   std::vector<gpu::LightData> lights_;
   std::vector<glm::vec3> clearances_;  // LightData::clearance of each light of the scene
-  std::vector<uint32_t> shadowMaps_;   // LightData::shadowMap of each
+  std::vector<uint32_t> shadowMaps_;   // LightData::shadowMap of each light of the scene
   std::vector<gpu::InstanceData> instances_;
   std::vector<gpu::CurvedMirrorData> curvedMirrors_;
   std::vector<glm::vec4> mirrorVertices_;
@@ -144,7 +146,7 @@ class FrameData {
   VkBuffer instanceBuffer_ = VK_NULL_HANDLE;
 };
 
-// Says whether a mesh has gpu::RepeatingTriangles.
+// Says whether any mesh has gpu::RepeatingTriangles.
 bool hasRepeatingTriangles(const Scene& scene);
 
 // Returns the value of `lightCount` in shading.glsl for the scene's lights.

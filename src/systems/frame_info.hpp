@@ -16,16 +16,18 @@ struct FrameInfo {
   Frame& frame;
   const Scene& scene;
   const Settings& settings;
-  const Environment& environment;  // with view.clear_color applied
+  const Environment& environment;  // with view.clear_color applied, times ViewSettings::radianceScale()
   const FramePlan& plan;
   const SceneResources& resources;
   const FrameData& data;
   const TraceFrame& trace;
   const ShadowSystem& shadows;
-  EffectLedger& ledger;                 // systems enter their draws
-  std::span<const MirrorImage> images;  // of plan.passes, by index; valid while their parent is recorded
+  EffectLedger& ledger;  // in which systems enter their draws
+  // By index into plan.passes; valid while the passes that show these images are recorded.
+  std::span<const MirrorImage> images;
   std::span<const MirrorImage> cached;  // parallel to FramePlan::cached; set where an earlier frame rendered the image
-  std::span<const VkDescriptorSet> maps;  // of plan.cubes, by index; bound instead of an object's texture
+  // Environment maps by index into plan.cubes, bound in the place of an object's texture; null for shadow maps.
+  std::span<const VkDescriptorSet> maps;
 };
 
 }  // namespace speculum

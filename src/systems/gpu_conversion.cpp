@@ -63,13 +63,13 @@ glm::dmat3 unitNormalMatrix(const glm::dmat3& linear) {
 RippleConstants rippleConstants(const Ripple& ripple, double time) {
   const double k = 2.0 * std::numbers::pi / ripple.wavelength;
   constexpr double steepest = 1e15;  // its square is a float, and steeper slopes look the same
-  // The phase is reduced in double: a float of it would have lost its fraction after hours.
+  // The phase is reduced in double: a float of the whole phase would have lost its fraction after hours.
   return {static_cast<float>(k), static_cast<float>(std::min(ripple.amplitude * k, steepest)),
           static_cast<float>(k * productModulo(ripple.speed, time, ripple.wavelength))};
 }
 
 double reachOf(const InstanceState& instance, const glm::dvec3& eye) {
-  // On a larger object a lamp at a usual height would count as in the surface's plane.
+  // With a larger reach, a lamp at a usual height would count as in the surface's plane (leastHeight in shading.glsl).
   constexpr double largest = 1e6;
   return std::min(glm::length(instance.center - eye) + instance.radius, largest);
 }

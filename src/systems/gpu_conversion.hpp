@@ -25,14 +25,15 @@ glm::dmat3 unitNormalMatrix(const glm::dmat3& linear);
 
 struct RippleConstants {
   float waveNumber;  // 1/m
-  float slope;
-  float phase;  // radians
+  float slope;       // of the steepest point of a wave
+  float phase;       // radians
 };
+// Returns the constants of ripples at a time in seconds.
 RippleConstants rippleConstants(const Ripple& ripple, double time);
 
 // Returns the distance from the eye to the far end of the instance, metres, at most 1e6.
 double reachOf(const InstanceState& instance, const glm::dvec3& eye);
-// Sign of the determinant of the instance's transform.
+// Returns the sign of the determinant of the instance's transform, 1 or -1.
 float handednessOf(const InstanceState& instance);
 
 // Returns the data of an instance in a view. `clipFromRelative` takes world space minus the view's eye to clip space.
@@ -46,8 +47,8 @@ gpu::RepeatingTriangle repeatingTriangle(const Mesh& mesh, uint32_t triangle, co
 // unit square of its clip space is `overscan(view)` times the picture.
 glm::dmat4 viewProjection(const Projection& common, const View& view, ClipMethod clip);
 
-// Returns clip plane, rays and background of a view that is drawn from pixel `target` of its target on; the caller sets
-// the rest.
+// Returns clip plane, rays and background of a view whose rectangle begins at pixel `target` of its target; the caller
+// sets the other members.
 gpu::ViewData viewData(const View& view, const Projection& projection, const glm::ivec2& target,
                        const Environment& environment);
 

@@ -11,9 +11,9 @@
 
 namespace speculum {
 
-// Pool of targets for mirror images and environment maps, which keep their samples. A pass acquires a target, which is
-// released as soon as the pass that samples it is recorded, so that a frame needs no more than the images alive at one
-// time. Later frames use the targets again; those unused for framesKept frames are dropped.
+// Pool of targets for mirror images and environment maps, whose outputs keep all samples. A pass acquires a target,
+// which is released as soon as the pass that samples it is recorded, so that a frame needs no more than the images
+// alive at one time. Later frames use the targets again; those unused for framesKept frames are dropped.
 class ImagePool {
  public:
   static constexpr int framesKept = 30;
@@ -25,7 +25,7 @@ class ImagePool {
   // Returns a target that covers `extent` and is taken until release().
   OffScreen& acquire(VkExtent2D extent, RetireQueue& retired);
   void release(const OffScreen& target);
-  std::unique_ptr<OffScreen> remove(const OffScreen& target);  // gives it away
+  std::unique_ptr<OffScreen> remove(const OffScreen& target);  // gives the target to the caller
   // Returns, for each of `images`, the target of the cached image that it reuses; null if it is to be rendered.
   // `targets` are those of the cached images. What no image reuses is released.
   template <typename Cached>
@@ -44,7 +44,7 @@ class ImagePool {
   }
   void endFrame(RetireQueue& retired);
   bool empty() const { return entries_.empty(); }
-  uint64_t bytes() const;  // of all targets, without the depth
+  uint64_t bytes() const;  // of all targets, without the shared depth
 
  private:
   struct Entry {

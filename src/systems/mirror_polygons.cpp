@@ -8,13 +8,13 @@ namespace speculum {
 
 namespace {
 
-// Pixels: the error of vertices snapped to 1/256 of a pixel. A wider fringe shows at recursion depth 32.
+// In pixels: the error of vertices snapped to 1/256 of a pixel. A wider fringe shows at recursion depth 32.
 constexpr double fringeWidth = 1.0 / 256.0;
 // Depth behind everything but the background.
 constexpr double fringeDepth = 1e-25;
 
-// Returns the polygon behind those that cover it in its plane, by a thousandth of the distance, and by more than
-// rounding moves any depth in the plane.
+// Moves a mirror's polygon behind the mirrors that cover it in its plane: for each layer by a thousandth of the
+// distance, and by more than rounding moves any depth in the plane.
 ClipPolygon movedBack(ClipPolygon clip, int layer, double largestDepth) {
   for (glm::dvec4& v : clip) {
     const double step = std::max(0x1p-10 * v.z, 0x1p-16 * largestDepth * v.w);

@@ -7,7 +7,7 @@
 #include "plan/frame_plan.hpp"
 #include "scene/scene_state.hpp"
 
-// What is drawn of the mirrors of a pass.
+// The polygons to draw for the mirrors of a pass.
 namespace speculum {
 
 using ClipPolygon = std::vector<glm::dvec4>;  // convex, in clip space
@@ -15,10 +15,10 @@ using ClipPolygon = std::vector<glm::dvec4>;  // convex, in clip space
 // Returns the polygons of pass.mirrors. `projection` takes view space to clip space.
 std::vector<ClipPolygon> mirrorPolygons(const Pass& pass, const glm::dmat4& projection);
 
-// Returns what is drawn of the mirror pass.mirrors[index], whose polygons are given. Depth cannot order mirrors of one
-// plane, because it is rounded in each triangle in its own way, so what others cover is cut away. The whole mirror is
-// drawn behind its parts: it fills gaps of one sample between them, and stands for parts that would be too many. `cuts`
-// counts the cuts of a pass, whose number is limited.
+// Returns the polygons to draw for pass.mirrors[index]; `polygons` are those of mirrorPolygons(). Depth cannot order
+// mirrors of one plane, because it is rounded in each triangle in its own way, so the parts that other mirrors cover
+// are cut away. The whole mirror is drawn behind its parts: it fills gaps of one sample between them, and stands for
+// parts that would be too many. `cuts` counts the cuts of all mirrors of the pass, whose number is limited.
 std::vector<ClipPolygon> partsToDraw(const Pass& pass, const SceneState& state, std::span<const ClipPolygon> polygons,
                                      size_t index, size_t& cuts);
 
@@ -26,9 +26,9 @@ std::vector<ClipPolygon> partsToDraw(const Pass& pass, const SceneState& state, 
 void addFan(std::vector<glm::vec4>& vertices, std::span<const glm::dvec4> polygon);
 
 // Adds a fringe around the polygon that is seen only instead of the background. Where mirrors share an edge, or end at
-// a body, rounding may leave a gap of one sample; the fringe of one of them fills it. Widening the mirror itself would
-// be worse: it would hide what it ends at, and its image has nothing to show beyond its edge. `size` is the target's,
-// in pixels.
+// a body, rounding may leave a gap of one sample; the fringe of one mirror fills the gap. Widening the mirror itself
+// would be worse: it would hide the body it ends at, and its image has nothing to show beyond its edge. `size` is the
+// viewport's, in pixels.
 void addFringe(std::vector<glm::vec4>& vertices, std::span<const glm::dvec4> clip, const glm::dvec2& size);
 
 }  // namespace speculum

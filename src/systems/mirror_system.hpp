@@ -9,29 +9,32 @@ namespace speculum {
 // show the background, backs show their color. An image with the pass's samples and pixels is read sample by sample;
 // the base under the reflection, whose loop over the lights costs much more, is then a draw of its own with
 // one invocation per pixel. Rippled and rough mirrors look up their image beside their own pixels, or are shown by
-// rays. A mirror that rays show, or whose base is lit by rays, is drawn as an identifier; the image is added to the
-// base after deferred shading. A cached image is read like a new one as long as nothing moved, otherwise it is
-// reprojected.
+// rays. A mirror that rays show, or whose base is lit by rays, is drawn as an identifier; in the second case the image
+// is added to the base after deferred shading. A cached image is read like a new one as long as nothing moved,
+// otherwise it is reprojected.
 class MirrorSystem {
  public:
   MirrorSystem(Device& device, Uploader& uploader, PipelineFactory& factory, VkDescriptorSetLayout frameLayout);
 
-  // Returns the number of draws, as the other functions that record.
+  // Draws the mirrors of a pass. Returns the number of draws, as recordReflections() does.
   uint32_t record(const PassScope& scope, const FrameInfo& info, const DrawList& pass);
   // Says whether record() draws identifiers in a pass.
   static bool defers(const FrameInfo& info, const DrawList& pass);
   // Adds reflections to the bases under them, after deferred shading.
   uint32_t recordReflections(const PassScope& scope, const FrameInfo& info, const DrawList& pass);
   void countPipelines(EffectLedger& ledger) const;
-  // Drops pipelines as RenderSystem::endFrame does.
+  // Drops pipelines that have not been used for idleFramesKept frames: those of identifiers and, unless `shadowMaps`,
+  // those that look up shadows. While cached images are shown, the pipelines for `trace` stay.
   void endFrame(const TraceVariant& trace, bool shadowMaps, bool imagesShown);
 
  private:
+  // What a draw shades: from an image with one sample or without an image, from the mean of an image's samples, the
+  // base alone, from the image's sample of the same index, or nothing, for deferred shading.
   enum class Shading { single, average, base, ownSample, identifier };
   struct Variant {
     Shading shading = Shading::single;
     bool added = false;      // only the reflection, added to a base that is there
-    bool byRays = false;     // the identifier stands for base and reflection, else for the base
+    bool byRays = false;     // the identifier stands for base and reflection, else for the base alone
     bool perSample = false;  // looks up its image at each sample
     VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
     bool clampDepth = true;
@@ -51,7 +54,7 @@ class MirrorSystem {
   static bool defers(const FrameInfo& info, const MirrorRange& mirror);
   static Variant variantOf(const MirrorRange& mirror, Shading shading, bool added);
   GraphicsPipelineDesc describe(const Variant& variant, const FrameInfo& info) const;
-  // How a mirror without identifier is drawn.
+  // Returns how a mirror is drawn if not as an identifier.
   Shading shadingOf(const PassScope& scope, const MirrorRange& mirror, const MirrorImage* image) const;
   void draw(const PassScope& scope, const FrameInfo& info, const DrawList& pass, const MirrorRange& mirror,
             Variant variant);
@@ -60,12 +63,12 @@ class MirrorSystem {
   VkDescriptorSetLayout frameLayout_;
   DescriptorSetLayoutHandle imageLayout_;
   SamplerHandle sampler_;
-  Image noImage_;  // bound where a mirror has none: every set that a shader names must be bound
+  Image noImage_;  // bound for a mirror without an image: every set that a shader names must be bound
   PipelineVariants<Variant> pipelines_;
 };
 
-// Keeps a mirror pass from shading what no lookup reads. A pass with a mask clears its depth to the nearest value, so
-// that nothing passes the depth test; the mask, drawn first, opens its polygon with the farthest depth.
+// Keeps a mirror pass from shading pixels that no lookup reads. A pass with a mask clears its depth to the nearest
+// value, so that nothing passes the depth test; the mask, drawn first, opens its polygon with the farthest depth.
 class MaskSystem {
  public:
   MaskSystem(PipelineFactory& factory, VkDescriptorSetLayout frameLayout)

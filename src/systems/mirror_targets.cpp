@@ -20,10 +20,11 @@ void MirrorTargets::takeCached(const FramePlan& plan) {
   for (const OffScreen* target : cachedTargets_) {
     cachedDescriptors_.push_back(target ? MirrorImage{target->descriptor(), target->samples()} : MirrorImage{});
   }
-  cachedImages_.clear();  // an unfinished picture offers none; end() fills it
+  cachedImages_.clear();  // an unfinished picture offers none; end() fills the list
 }
 
-// While tiles are drawn, or the picture is shown again, the image stays shown; the pool may be retired meanwhile.
+// Keeps the watched image shown while tiles of the next picture are drawn or the picture is shown again. Takes the
+// image out of its pool, which may be retired meanwhile.
 void MirrorTargets::takeWatched(const FramePlan& plan, RetireQueue& retired) {
   OffScreen* image = std::exchange(watchedImage_, nullptr);
   const bool stays = plan.tiles || (plan.mainReused() && watched_);
@@ -88,7 +89,7 @@ std::vector<PassTargets> MirrorTargets::acquire(const FramePlan& plan, const Con
   return targets;
 }
 
-// Says whether a pass's image outlives its use in this frame: for the debug view, or for the next frames.
+// Says whether a pass's image outlives its use in this frame: because it is watched, or cached for later frames.
 bool MirrorTargets::isNeededLater(const FramePlan& plan, int pass) const {
   return pass == watched_ || std::ranges::find(plan.cached, pass, &CachedImage::pass) != plan.cached.end();
 }
@@ -127,7 +128,7 @@ void MirrorTargets::end(const FramePlan& plan, RetireQueue& retired) {
   }
 }
 
-// Shrinks depth images, which otherwise only grow, and drops idle ones. Keeps the first while there are targets.
+// Shrinks depth images, which otherwise only grow, and drops idle ones. Keeps the first image while there are targets.
 void MirrorTargets::fitDepth(std::vector<Depth>& depths, RetireQueue& retired) {
   size_t used = depths.size();
   for (Depth& depth : depths) {

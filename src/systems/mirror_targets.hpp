@@ -19,16 +19,19 @@ class MirrorTargets {
   const RecycledVector<CachedImage>& cachedImages() const { return cachedImages_; }
   void restart();  // drops the cached images and, in the next frame, every target
 
-  // Begins the plan's picture and takes over the cached images that it reuses. `watched` is the pass that the debug
-  // view shows. Its image is kept until the next picture is complete, or as long as this one is shown again.
+  // Begins the plan's picture and takes over the cached images that it reuses. `watched` is the pass whose image a
+  // TargetDisplay shows: the image is kept until the next picture is complete, or as long as this picture is shown
+  // again.
   void begin(const FramePlan& plan, std::optional<int> watched, RetireQueue& retired);
-  // Returns targets for the passes of a range, in order, each with a depth image of its own. The images that the range
-  // looks up stay untouched.
+  // Returns targets for the passes of a range, in order, each with a depth image that no other pass of the range has.
+  // The images that the range looks up stay untouched.
   std::vector<PassTargets> acquire(const FramePlan& plan, const ConcurrentPasses& range, RetireQueue& retired);
   // Releases the images that a recorded pass looked up.
   void releaseShown(const FramePlan& plan, const Pass& pass);
+  // Ends a complete picture: keeps the images that the next plan may reuse, and drops targets that have long been idle.
   void end(const FramePlan& plan, RetireQueue& retired);
 
+  // Target of a mirror pass that is drawn, by index into plan.passes.
   OffScreen& operator[](size_t pass) { return *targets_[pass]; }
   // Image of the watched pass in the last complete picture. It exists while tiles of the next one are drawn, or while
   // that picture is shown again; else null.
@@ -38,16 +41,17 @@ class MirrorTargets {
   std::span<const MirrorImage> cached() const { return cachedDescriptors_; }
 
  private:
-  // Depth that the passes with the same index in their ranges, among those of a sample count, use in turn.
+  // A depth image that passes use in turn. In each range, the largest pass with the image's sample count uses the first
+  // one, the next largest the second, and so on.
   struct Depth {
     std::unique_ptr<SharedDepth> image;
     int idleFrames = 0;
     VkExtent2D needed{0, 0};  // largest extent since the image was last fitted
-    int frames = 0;           // frames since then
+    int frames = 0;           // frames since the image was last fitted
   };
   // Targets of one sample count.
   struct Pool {
-    std::vector<Depth> depths;  // the first exists as long as the images
+    std::vector<Depth> depths;  // the first one exists as long as `images`
     std::unique_ptr<ImagePool> images;
   };
   VkSampleCountFlagBits samplesOf(const Pass& pass) { return device_.sampleCount(pass.quality.samples); }

@@ -19,7 +19,8 @@ struct RecordedPass : PassId {
   double areaPx = 0.0;
 };
 
-// Passes of the picture, and passes or their parts of the last frames: the GPU's timings arrive later.
+// Logs recorded passes: the passes of the picture, and for each of the last frames the passes or parts of passes that
+// it recorded, because the GPU's timings arrive later.
 class PassLog {
  public:
   void beginFrame() { frame_.clear(); }
@@ -29,7 +30,7 @@ class PassLog {
     frame_.push_back(pass);
     picture_.push_back(std::move(pass));
   }
-  // Says that the pass added last continues the pass before it in the picture. The frame's list keeps it, without
+  // Says that the pass added last continues the pass before it in the picture. The frame's list keeps the part, without
   // draws.
   void joinLast() {
     picture_.pop_back();

@@ -12,8 +12,9 @@ class PointLightSystem {
   PointLightSystem(PipelineFactory& factory, VkDescriptorSetLayout frameLayout)
       : frameLayout_(frameLayout), pipelines_(factory) {}
 
+  // Returns the number of draws.
   uint32_t record(const PassScope& scope, const FrameInfo& info, const DrawList& pass);
-  // Drops pipelines that have not been used for some frames. `stays` prevents that, while cached images show glyphs.
+  // Drops pipelines that have not been used for idleFramesKept frames, unless `stays`: while cached images show glyphs.
   void endFrame(bool stays) {
     pipelines_.endFrame([&](VkSampleCountFlagBits) { return !stays; });
   }

@@ -10,7 +10,7 @@
 
 namespace speculum {
 
-// A curved mirror that looks up a map has rays only where light falls on its base.
+// A curved mirror that looks up an environment map takes rays only for the light on its base, if the base is not black.
 bool RenderSystem::defers(const FrameInfo& info, const Batch& batch) {
   if (batch.environment) {
     return info.trace.variant().traced && batch.colored;
@@ -94,7 +94,7 @@ GraphicsPipelineDesc RenderSystem::objects(const Variant& variant, const FrameIn
 
 namespace {
 
-// Returns those indices of the part that the batch draws.
+// Returns the indices of the part that the batch draws.
 std::vector<IndexRange> drawnRanges(const MeshPart& part, const Batch& batch) {
   if (batch.ranges.empty()) {
     return {{part.firstIndex, part.indexCount}};

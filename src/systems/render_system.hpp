@@ -7,10 +7,10 @@ namespace speculum {
 
 class DeferredShading;
 
-// Adds the inputs of scene.vert.
+// Adds the vertex input of scene.vert: attributes of vertices and of instances.
 void addVertexInput(GraphicsPipelineDesc& desc);
-// Binds the batch's mesh and the frame's instances as these inputs, and culls what the batch culls until
-// PassScope::cull() says otherwise.
+// Binds the batch's mesh and the frame's instances as the input of addVertexInput(). If the batch culls backs, they are
+// culled until the next PassScope::cull().
 void bindBatch(const PassScope& scope, const FrameInfo& info, const Batch& batch);
 
 // Draws the scene's objects and, where nothing was drawn, its sky.
@@ -27,8 +27,9 @@ class RenderSystem {
   uint32_t recordReflections(const PassScope& scope, const FrameInfo& info, const DrawList& pass,
                              const DeferredShading& shading);
   void countPipelines(EffectLedger& ledger) const;
-  // Drops pipelines of traced surfaces, or that look up textures and have not been used for some frames. While cached
-  // images are shown, the pipelines that rendered them stay. `textured` is drawsTextures().
+  // Drops pipelines that have not been used for idleFramesKept frames and are for traced surfaces, curved mirrors,
+  // shadow maps (unless `shadowMaps`) or textures (unless `textured`, which is drawsTextures()). While cached images
+  // are shown, the pipelines for `trace` stay, those of curved mirrors only if `curved`.
   void endFrame(const TraceVariant& trace, bool shadowMaps, bool imagesShown, bool curved, bool textured);
 
  private:

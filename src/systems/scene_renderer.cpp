@@ -114,7 +114,7 @@ void SceneRenderer::record(Frame& frame, const SceneState& state, const Settings
   log_.endFrame(frame.number);
 }
 
-// Releases what only the debug view needs, once it is off.
+// Releases what only a TargetDisplay needs, once there is none.
 void SceneRenderer::releaseUnused(const std::optional<TargetDisplay>& debug) {
   if (!debug || !debug->probe) {
     probe_.release();
@@ -145,7 +145,8 @@ void SceneRenderer::prepareTargets(Frame& frame, const Settings& settings, const
     }
   }
   if (settings.debug.checkFinite) {
-    watch_.begin(frame, plan.passes.size() + 1);  // the main view's samples and their mean are two
+    // One more than there are passes, because the main view's samples and their mean are checked.
+    watch_.begin(frame, plan.passes.size() + 1);
   } else {
     watch_.release();
   }
@@ -157,7 +158,7 @@ OffScreen& SceneRenderer::environmentTarget(const FramePlan& plan, const Pass& f
 
 void SceneRenderer::recordPasses(const FrameInfo& info) {
   const FramePlan& plan = info.plan;
-  // Passes of a group render side by side, without the pause of deferred shading.
+  // Passes of a group render side by side, so none may pause for deferred shading.
   const bool grouped = !plan.tiles && !info.trace.set();
   const RecycledVector<ConcurrentPasses> groups =
       grouped ? independentPasses(plan) : RecycledVector<ConcurrentPasses>();
@@ -230,7 +231,8 @@ void SceneRenderer::recordEnvironment(const FrameInfo& info, size_t index) {
 
 // Releases and checks images after the whole range, because barriers are recorded only before and after it.
 void SceneRenderer::recordMirrors(const FrameInfo& info, const ConcurrentPasses& range) {
-  const TileRange tiles = tiles_[range.first];  // of all passes, or of the only one
+  // Tiles of the range's only pass. In a longer range, each pass draws all of its tiles.
+  const TileRange tiles = tiles_[range.first];
   if (tiles.first == 0) {
     passTargets_ = mirrorTargets_.acquire(info.plan, range, *info.frame.retired);
   }
@@ -256,7 +258,8 @@ void SceneRenderer::recordMirrors(const FrameInfo& info, const ConcurrentPasses&
       drawTiles(info, i, desc, {planned.id, desc.name, planned.depth, 0, planned.areaPx});
     }
   }
-  // Once its first tile is drawn: no image is acquired before its last one.
+  // Images are released in the frame that draws the first tile. They keep their content for the later tiles, because no
+  // image is acquired before the last tile is drawn.
   if (tiles.first > 0) {
     return;
   }
@@ -317,7 +320,7 @@ void SceneRenderer::recordDebug(const FrameInfo& info, const TargetDisplay& debu
   if (view && !unfinished_) {
     log_.add(*view);
   }
-  // The target of the last complete picture may have been smaller.
+  // The target that is shown, of the last complete picture, may be smaller than the one that the probe was meant for.
   if (debug.probe && glm::all(glm::lessThan(*debug.probe, target.size))) {
     probe_.probe(info.frame, texels, shown.descriptor, *debug.probe);
   }
@@ -344,7 +347,7 @@ void SceneRenderer::endRecord(const FrameInfo& info, bool textured) {
   cacheRevision_ = renderer_.pipelines().revision();
 }
 
-// Counts the draws of the first rectangle only: the others repeat them.
+// Counts the draws of the first rectangle only: the other rectangles repeat these draws.
 void SceneRenderer::drawTiles(const FrameInfo& info, size_t index, const PassDesc& desc, const RecordedPass& pass) {
   const auto [width, height] = desc.renderArea.extent;
   const TileRange& tiles = tiles_[index];

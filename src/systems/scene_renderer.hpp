@@ -22,7 +22,7 @@
 
 namespace speculum {
 
-// Draws one scene: mirror passes, main view, display pass. Owns the systems, the targets and the scene's resources.
+// Draws one scene: the passes of a plan, and the display pass. Owns the systems, the targets and the scene's resources.
 class SceneRenderer {
  public:
   SceneRenderer(Renderer& renderer, const Scene& scene);
@@ -38,11 +38,11 @@ class SceneRenderer {
   // Uploads the textures and materials that record() needs. Call it first: if it throws OutOfMemoryError, plan the
   // frame again without effects.textures.
   void uploadTextures(Frame& frame, const SceneState& state, const Settings& settings, const FramePlan& plan);
-  // Records every pass up to the display pass. `plan` was made with cache(), `settings` are those of FittedPlan. With
-  // view.accumulate above 1, adds the picture to the mean (see Accumulation) and, if `shown`, shows the mean. `debug`
-  // shows the target of the last complete picture, if keepsTarget(). The last picture of a mean can be drawn again, for
-  // another target: it is not added twice. Throws std::runtime_error, before anything is made, if the plan draws more
-  // instances than the device takes.
+  // Records the passes of the plan and, if `shown`, the display pass. `plan` was made with cache(), `settings` are
+  // those of FittedPlan. With view.accumulate above 1, adds the picture to the mean (see Accumulation), which is
+  // displayed. `debug` shows a target of the last complete picture, if keepsTarget(). The last picture of a mean can be
+  // drawn again, for another target: it is not added twice. Throws std::runtime_error, before anything is made, if the
+  // plan draws more instances than the device takes.
   void record(Frame& frame, const SceneState& state, const Settings& settings, const FramePlan& plan,
               const std::optional<TargetDisplay>& debug = std::nullopt, bool shown = true);
   // Pictures in the mean that the last recorded frame shows; 0 without one. Until plan.tiles reach the end of a
@@ -73,7 +73,7 @@ class SceneRenderer {
  private:
   void releaseUnused(const std::optional<TargetDisplay>& debug);
   void prepareTargets(Frame& frame, const Settings& settings, const FramePlan& plan, bool shown);
-  // Records the passes of the plan, those below by their index in it.
+  // Records the passes of the plan. The functions below record one pass, by its index in the plan, or a range.
   void recordPasses(const FrameInfo& info);
   void recordShadow(const FrameInfo& info, size_t index);
   void recordEnvironment(const FrameInfo& info, size_t index);
@@ -91,9 +91,9 @@ class SceneRenderer {
   void drawTiles(const FrameInfo& info, size_t index, const PassDesc& desc, const RecordedPass& pass);
   // Submits the frame's commands so far if they leave no room for so many tiles.
   void makeRoom(Frame& frame, size_t tiles);
-  // Draws pass `index` of info.data as `desc` says and adds it to the recorded ones.
+  // Draws pass `index` of info.data as `desc` says and adds it to the log.
   void drawScene(const FrameInfo& info, size_t index, const PassDesc& desc, RecordedPass pass);
-  // Returns the image of the last complete picture in which the pass was watched; null if there is none.
+  // Returns the image of the watched pass in the last complete picture; null if there is none.
   OffScreen* watchedImage(const FramePlan& plan, int pass);
 
   Renderer& renderer_;
@@ -116,7 +116,7 @@ class SceneRenderer {
   MainTargets mainTargets_;
   std::vector<TileRange> tiles_;          // tilesOfPasses() of the frame
   size_t tilesAtOnce_ = SIZE_MAX;         // tilesAtOnce() of the frame
-  size_t tilesLeft_ = SIZE_MAX;           // of these, for which its commands have room
+  size_t tilesLeft_ = SIZE_MAX;           // tiles for which the frame's commands still have room
   std::vector<PassTargets> passTargets_;  // of the mirror passes drawn last; their next tiles may follow
   double radianceScale_ = 1.0;            // ViewSettings::radianceScale() of the last complete picture
   bool unfinished_ = false;               // the last frame drew tiles, and not the last ones of its picture

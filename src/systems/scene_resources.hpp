@@ -29,9 +29,11 @@ class SceneResources {
 
   SceneResources(Device& device, Uploader& uploader, const Scene& scene);
 
-  // Begins a frame. `drawn` is drawsTextures(). Uploads are finished on return.
+  // Begins a frame: calls upload(), and drops textures that have not been drawn for idleFramesKept frames. `drawn` is
+  // drawsTextures(). Uploads are finished on return.
   void prepare(Frame& frame, const Settings& settings, bool drawn);
-  // Does the uploads of prepare(). After an OutOfMemoryError it can be called again with other arguments.
+  // Uploads the materials and, if `drawn`, the textures. After an OutOfMemoryError it can be called again with other
+  // arguments.
   void upload(Frame& frame, const Settings& settings, bool drawn);
 
   const std::vector<GpuMesh>& meshes() const { return meshes_; }
@@ -55,7 +57,7 @@ class SceneResources {
   Image noTexture_;  // a white texel
   VkDescriptorSet noTextureSet_ = VK_NULL_HANDLE;
   std::vector<Image> textures_;               // all of the scene's, or empty
-  std::vector<VkDescriptorSet> textureSets_;  // made with textures_ and kept when those are dropped
+  std::vector<VkDescriptorSet> textureSets_;  // made with textures_, kept when textures_ are dropped
   int idleFrames_ = 0;                        // since textures_ were drawn
   Buffer materials_;
   bool textured_ = false;       // whether materials_ refer to textures

@@ -11,7 +11,7 @@ namespace {
 
 std::array<float, 4> clearColor(const Environment& environment) {
   const glm::vec3 color(glm::min(environment.background, glm::dvec3(65504.0)));
-  return {color.r, color.g, color.b, 0.0f};  // infinitely far
+  return {color.r, color.g, color.b, 0.0f};  // disparity 0: infinitely far
 }
 
 VkFrontFace frontFace(const View& view) {

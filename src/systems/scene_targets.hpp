@@ -57,7 +57,7 @@ class EnvironmentTargets {
   bool restart_ = false;
 };
 
-// Places the picture so that the target's corner shows the corner of the view's rectangle.
+// Returns the viewport that places the picture so that the target's corner shows the corner of the view's rectangle.
 Viewport viewportOf(const View& view);
 // Describes a pass that draws the scene into `area` of its targets.
 PassDesc scenePass(std::string name, const PassTargets& targets, const VkRect2D& area, const Viewport& viewport,

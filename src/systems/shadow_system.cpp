@@ -45,7 +45,7 @@ void ShadowSystem::create() {
           .binding = 0, .type = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, .stages = VK_SHADER_STAGE_FRAGMENT_BIT},
       DescriptorBinding{.binding = 1, .stages = VK_SHADER_STAGE_FRAGMENT_BIT}};
   layout_ = createDescriptorSetLayout(device_, bindings, "shadow maps");
-  // Shaders gather texels and interpolate what they compare.
+  // Does not filter: shaders gather texels, compare each, and interpolate the results.
   sampler_ = createSampler(device_,
                            {.filter = VK_FILTER_NEAREST, .mipmapMode = VK_SAMPLER_MIPMAP_MODE_NEAREST, .maxLod = 0.0f},
                            "shadow maps");

@@ -9,23 +9,25 @@
 
 namespace speculum {
 
-// Renders shadow maps, all in one target, and binds them for shaders that look them up (shadow_map.glsl). Nothing
-// exists before a frame has a map, and all is released some frames after the last one.
+// Renders shadow maps, all in one target, and binds them for shaders that look them up (shadow_map.glsl). A face of a
+// map may be drawn over a layer, which holds the casters that stand still and is kept. Nothing exists before a frame
+// has a map, and all is released some frames after the last one.
 class ShadowSystem {
  public:
   ShadowSystem(Device& device, PipelineFactory& factory, VkDescriptorSetLayout frameLayout);
 
   // Makes the target of the plan's maps; call it before anything of the frame is recorded.
   void prepare(Frame& frame, const FramePlan& plan);
-  // Records a face and before it, if that is drawn too, its layer. The layer is a pass of its own for the GPU's
-  // timings; the draws returned are those of both. `index` in the plan is that of the face.
+  // Records a face and before it, if the plan draws it too, the face's layer. The layer is a pass of its own for the
+  // GPU's timings; the draws returned are those of both. `index` is that of the face in plan.passes.
   RecordedPass record(Renderer& renderer, const FrameInfo& info, size_t index);
   void endFrame(const FramePlan& plan, RetireQueue& retired);
 
   // Descriptor set 2 of pipelines that look maps up, and its layout. The set is null in a frame without maps.
   VkDescriptorSetLayout layout() const { return layout_.get(); }
   VkDescriptorSet set() const { return set_; }
-  // Constant of shadow_map.glsl. It stays the same as long as no light or object moves into another face.
+  // Value of onlyShadowFace in shadow_map.glsl. It stays the same as long as no light or object moves into another
+  // face.
   uint32_t onlyFace() const { return onlyFace_; }
   uint64_t bytes() const;
   size_t pipelineCount() const { return pipelines_.size(); }
@@ -33,9 +35,9 @@ class ShadowSystem {
  private:
   enum class Drawn { objects, mirrors, layer };
   const Pipeline& pipelineFor(Drawn drawn);
-  // Targets of the faces' layers, at the places that the faces have in target_, and with the same depth.
+  // Targets of the faces' layers. A layer lies where its face lies in target_, and uses the depth of target_.
   PassTargets layerTargets();
-  // Draws pass `pass` of info.data: a face, over its layer if it has one, or its layer. Returns the number of draws.
+  // Draws pass `pass` of info.data: a face, with `overLayer` over its layer, or a layer. Returns the number of draws.
   uint32_t draw(const PassScope& scope, const FrameInfo& info, size_t pass, bool overLayer);
   void create();
   void prepareLayers(Frame& frame, const FramePlan& plan);

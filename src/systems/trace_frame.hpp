@@ -31,9 +31,9 @@ class TraceFrame {
  public:
   TraceFrame(Device& device, Uploader& uploader, const Scene& scene);
 
-  // Storage buffers of deferred shading, with those of FrameData.
-  static constexpr uint32_t storageBuffers =
-      14;  // 4 of FrameData, 3 of DeferredShading, 4 of TraceScene, 3 of TraceFrame
+  // Number of storage buffers that the shader of deferred shading reads or writes: 4 of FrameData, 3 of
+  // DeferredShading, 4 of TraceScene, 3 of TraceFrame.
+  static constexpr uint32_t storageBuffers = 14;
 
   // Fills the buffers of this frame in flight. `effects` are those of the plan; set() is valid until the frame has
   // finished, and null if no effect is called for.
@@ -71,14 +71,14 @@ class TraceFrame {
   std::vector<gpu::TraceTopNode> topNodes_;
   std::vector<gpu::TraceInstance> instances_;
   std::vector<gpu::TraceMirror> mirrors_;
-  std::vector<glm::vec4> mirrorEdges_;  // from x, y to x, y of the mirror
+  std::vector<glm::vec4> mirrorEdges_;  // start x, y and end x, y of each edge, along MirrorState::axisX and axisY
   TraceVariant variant_;
   VkDescriptorSet set_ = VK_NULL_HANDLE;
   int idleFrames_ = 0;           // without any effect
   int structureIdleFrames_ = 0;  // without ray queries
   bool refused_ = false;         // there was no memory for acceleration structures
   bool warned_ = false;          // the log says that effects.rays = hardware is not followed
-  bool warnedOfRays_ = false;    // the log says that the driver may leave some out
+  bool warnedOfRays_ = false;    // the log says that the driver may leave some rays out
 };
 
 }  // namespace speculum

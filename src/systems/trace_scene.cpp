@@ -15,7 +15,7 @@ namespace {
 
 constexpr int trianglesPerLeaf = 4;
 
-// Appends the texture and its levels down to one texel. Of an odd size the last row or column goes.
+// Appends the texture and its levels down to one texel. Halving an odd size leaves out the last row or column.
 void appendLevels(const Texture& texture, std::vector<uint64_t>& texels) {
   std::vector<glm::vec3> level = texture.texels;
   auto width = static_cast<size_t>(texture.width);

@@ -20,7 +20,7 @@ TraceBufferBytes traceBufferLimits(const VkPhysicalDeviceLimits& limits);
 TraceBufferBytes largestTraceBuffers(const Scene& scene, size_t instances);
 
 // Hierarchies of boxes as shaders follow them, without a stack: gpu_data.h says how nodes are linked. Each has its
-// nodes once for each octant of directions; bit i of an octant: they are negative along axis i.
+// nodes once for each octant of directions; bit i of an octant: directions are negative along axis i.
 constexpr int traceOctants = 8;
 
 // Axis-aligned grid that holds the boxes of a mesh.
@@ -34,7 +34,8 @@ TraceGrid traceGrid(const Bounds& bounds);
 // each octant. The first one has index `firstNode` in the buffer. Boxes only grow by rounding.
 void visitMeshNodes(const Bvh& hierarchy, const TraceGrid& grid, uint32_t firstTriangle, uint32_t firstNode,
                     const std::function<void(const gpu::TraceNode&)>& visit);
-// Appends nodes likewise. `links` has one for each primitive, in the primitives' order before the hierarchy was built.
+// Appends the nodes of the hierarchy over instances and mirrors, for all octants. `links` has a link for each
+// primitive, in the primitives' order before the hierarchy was built.
 void appendTopNodes(const Bvh& hierarchy, std::span<const uint32_t> links, std::vector<gpu::TraceTopNode>& nodes);
 
 // Buffers for rays that stay the same while a scene is shown: triangles under hierarchies of boxes, attributes of their
@@ -46,13 +47,13 @@ class TraceScene {
     TraceGrid grid;
     uint32_t root = 0;           // node
     uint32_t nodes = 0;          // of an octant
-    uint32_t firstTriangle = 0;  // its first in `faces` and its first slot in `triangles`
+    uint32_t firstTriangle = 0;  // index of its first one in `faces`, and of its first slot in `triangles`
     uint32_t triangles = 0;
     uint32_t firstVertex = 0;
   };
   enum Kind { nodes, triangles, faces, vertices, textures, texels, kindCount };
 
-  // Throws std::runtime_error if the device's buffers cannot hold it.
+  // Throws std::runtime_error if the device's buffers cannot hold the scene.
   TraceScene(Uploader& uploader, const Scene& scene);
 
   const std::vector<MeshRange>& meshes() const { return meshes_; }
@@ -63,7 +64,7 @@ class TraceScene {
   // Uploads the bytes that `content` writes.
   void write(Uploader& uploader, Kind kind, uint64_t bytes, const char* name,
              const std::function<void(BufferWriter&)>& content);
-  void writeTriangles(Uploader& uploader, const Scene& scene);  // and their hierarchies, which give `meshes_`
+  void writeTriangles(Uploader& uploader, const Scene& scene);  // and hierarchies, and sets `meshes_`
   void writeAttributes(Uploader& uploader, const Scene& scene);
   void writeTextures(Uploader& uploader, const Scene& scene);
 

@@ -13,9 +13,10 @@
 
 namespace speculum {
 
-// The target that a debug view shows, in the picture that is drawn and in the last complete one, and its depth. Passes
-// share depth images, so the pass that is watched gets one of its own, and a second one while several frames draw it:
-// the first is shown until they end. Nothing exists on the GPU while no depth is shown.
+// The watched target, which a TargetDisplay asks for: in the picture that is drawn, and in the last complete one. Owns
+// its depth, if that is shown: passes share depth images, so the watched pass gets an image of its own, and a second
+// one while several frames draw the pass, because the first is shown until they end. Nothing exists on the GPU while no
+// depth is shown.
 class WatchedTarget {
  public:
   struct Target {
@@ -33,7 +34,8 @@ class WatchedTarget {
   void begin(const FramePlan& plan, const std::optional<TargetDisplay>& debug, RetireQueue& retired);
   // Index in FramePlan::passes of the mirror pass whose image is watched; none for the main view.
   std::optional<int> mirrorPass() const;
-  // Call it before each part of pass `index`: makes the pass write its depth here if that is watched.
+  // Call it before each part of pass `index`: if the depth of the pass is watched, makes the pass write it to an image
+  // of this object.
   void prepare(const FramePlan& plan, size_t index, PassDesc& pass, RetireQueue& retired);
   // Ends a picture, whose target can now be shown.
   void finish(const FramePlan& plan, VkCommandBuffer commands, RetireQueue& retired);
