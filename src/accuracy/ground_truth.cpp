@@ -33,7 +33,7 @@ std::vector<double> throughputBeyond(const TraceResult& trace) {
   return squares;
 }
 
-// Leaves out the pixels at a mirror's border, whose error is the main view's.
+// Returns the mask without the pixels at a mirror's border, whose error comes from the main view.
 std::vector<uint8_t> interior(const std::vector<uint8_t>& mask, int width, int height) {
   std::vector<uint8_t> inner(mask.size(), 0);
   for (int y = 1; y + 1 < height; ++y) {

@@ -12,20 +12,20 @@ namespace speculum {
 
 // Traced picture that every configuration of a sweep is compared with.
 struct GroundTruth {
-  LinearImage image;   // 8x8 samples a pixel, depth 64, throughput 0
+  LinearImage image;   // TruthRequest::samples a pixel, depth 64, throughput 0
   PixelMask mirrors;   // pixels whose centre, and those of all eight neighbours, show a mirror's reflecting side
-  ErrorFigures floor;  // error of a 9x9 grid against the 8x8 one, both as the display shows them
-  double ms = 0.0;     // wall clock time of the 8x8 grid
+  ErrorFigures floor;  // error of a grid of one more sample a side against `image`, both as the display shows them
+  double ms = 0.0;     // wall clock time of tracing `image`
   int threads = 0;
-  // Root mean square, over the mirrors' pixels, of the throughput beyond d + 1 mirrors in a row; by depth d, 0 where
-  // none gets that far. Reflections cut at depth d are wrong in proportion to it.
+  // Root mean square, over the mirrors' pixels, of the throughput beyond d + 1 mirrors in a row, by depth d; 0 in
+  // pixels with fewer mirrors in a row. Reflections cut at depth d are wrong in proportion to this throughput.
   std::vector<double> throughputBeyond;
 };
 
 struct TruthRequest {
   int width = 0;  // pixels
   int height = 0;
-  int samples = 64;  // a square; the noise floor takes a grid of one more a side
+  int samples = 64;  // a square; the noise floor takes a grid of one more sample a side
   bool noiseFloor = true;
   Settings settings;  // exposure, tone curve and clear color of the pictures compared
 };
@@ -33,7 +33,7 @@ struct TruthRequest {
 // Called with the finished fraction, 0 .. 1; false cancels.
 using FractionCallback = std::function<bool(double)>;
 
-// Returns nothing if `progress` cancelled. Blocks; may run on any thread.
+// Traces the ground truth. Returns nothing if `progress` cancelled. Blocks; may run on any thread.
 std::optional<GroundTruth> traceGroundTruth(const Scene& scene, const SceneState& state, const TruthRequest& request,
                                             const FractionCallback& progress);
 

@@ -8,7 +8,7 @@
 
 namespace speculum {
 
-// RFC 4648, with padding, without line breaks.
+// Returns the bytes as base64 text: RFC 4648, with padding, without line breaks.
 std::string base64(std::span<const uint8_t> bytes);
 
 // Returns an HTML page with the data in the place of its "@DATA@", which stands in a script element.

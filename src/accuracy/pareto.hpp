@@ -26,16 +26,16 @@ struct FrontCandidate {
 
 // Finds the candidates that are worth their price, as indices, cheapest first. Equal errors mostly mean equal pictures:
 // the first candidate stands for all of them, unless another is cheaper by more than the spread. Each candidate on the
-// front has a lower median than every more accurate one, and an upper quartile below the lower ones of those on the
-// front.
+// front has a lower median than every more accurate one, and an upper quartile below the lower quartiles of the more
+// accurate ones on the front.
 std::vector<int> paretoFront(const std::vector<FrontCandidate>& candidates);
 
-// Returns the GPU milliseconds of a frame or, on a device without timestamps, those of the whole frame.
+// Returns the GPU milliseconds of a frame or, on a device without timestamps, the milliseconds of the whole frame.
 const Spread& costSpread(const SweepPoint& point);
-double costMs(const SweepPoint& point);  // its median
+double costMs(const SweepPoint& point);  // median of costSpread()
 
-// Finds the front of an error, errorOf(point), of some of the points against costSpread(), as indices of points,
-// cheapest first. Of equally accurate points the first in `order` comes first.
+// Finds the Pareto front of the error errorOf(point) against costSpread() among the points that `order` lists, as
+// indices of points, cheapest first. Of equally accurate points the first in `order` comes first.
 template <typename Error>
 std::vector<int> paretoFront(const std::vector<SweepPoint>& points, const std::vector<int>& order,
                              const Error& errorOf) {
@@ -48,24 +48,25 @@ std::vector<int> paretoFront(const std::vector<SweepPoint>& points, const std::v
   return front;
 }
 
-// The front of mean FLIP of the whole picture. Of equally accurate points those with fewer changes come first.
+// Finds the front of mean FLIP of the whole picture. Of equally accurate points those with fewer changes come first.
 std::vector<int> paretoFront(const std::vector<SweepPoint>& points);
 
 // The measured point that a budget chooses. Points off the front count too, because their median may fit where that of
 // the next point of the front does not.
 struct BudgetChoice {
   int point = 0;    // index into SweepResults::points
-  bool met = true;  // false: no point meets the budget, and this one comes closest
+  bool met = true;  // false: no point meets the budget, and `point` comes closest
   std::string why;  // one sentence for users
 };
 struct QualityBudget {
-  double ms = 0.0;     // GPU milliseconds a frame; 0: no bound. The most accurate point whose median fits is chosen
-  double error = 0.0;  // mean FLIP; 0: no bound. The fastest point within it is chosen, with both only if it fits ms
+  double ms = 0.0;  // GPU milliseconds a frame; 0: no bound. The most accurate point whose median fits is chosen
+  // Mean FLIP; 0: no bound. The fastest point within the bound is chosen, but if `ms` is set too, only if it fits `ms`.
+  double error = 0.0;
 
   bool bounds() const { return ms > 0.0 || error > 0.0; }
   bool operator==(const QualityBudget&) const = default;
 };
-// Returns nothing without a bound or without points.
+// Chooses a point for a budget. Returns nothing without a bound or without points.
 std::optional<BudgetChoice> chooseForBudget(const SweepResults& results, const QualityBudget& budget);
 
 }  // namespace speculum

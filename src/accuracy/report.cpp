@@ -19,7 +19,8 @@ using nlohmann::ordered_json;
 constexpr int mostShown = 12;
 constexpr int pictureQuality = 88;
 constexpr int legendQuality = 95;
-// Characters that all pictures of a report together may take. Grows in proportion for pictures larger than 640x360.
+// Characters that all pictures of a report together may take. The budget grows in proportion for pictures larger than
+// 640x360.
 constexpr double pictureBudget = 1.42e6;
 constexpr double budgetPixels = 640.0 * 360.0;
 
@@ -50,7 +51,7 @@ size_t sizeOf(const ordered_json& picture) {
   return picture.is_null() ? 0 : picture["uri"].get_ref<const std::string&>().size();
 }
 
-// Embeds pictures of points up to the budget, at least of the first. All heat maps have the same legend.
+// Embeds pictures of points up to the budget, at least those of the first point. All heat maps have the same legend.
 ordered_json picturesJson(const SweepResults& results, const std::filesystem::path& folder) {
   ordered_json pictures = {{"reference", nullptr}, {"legend", nullptr}, {"shown", ordered_json::array()}};
   if (const auto reference = pictureIn(folder, results.truthPicture)) {
@@ -68,7 +69,7 @@ ordered_json picturesJson(const SweepResults& results, const std::filesystem::pa
     ordered_json shown = {{"point", point}, {"picture", embedded(*picture, pictureQuality)}, {"map", nullptr}};
     if (map) {
       const int height =
-          results.height > 0 ? std::min(results.height, map->height) : map->height;  // the legend is below
+          results.height > 0 ? std::min(results.height, map->height) : map->height;  // the legend is below the map
       shown["map"] = embedded(rows(*map, 0, height), pictureQuality);
       if (height < map->height && pictures["legend"].is_null()) {
         pictures["legend"] = embedded(rows(*map, height, map->height - height), legendQuality);

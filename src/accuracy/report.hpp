@@ -22,11 +22,12 @@ std::string reportHtml(const SweepResults& results, const std::filesystem::path&
 // Pictures are read from `folder` and embedded in full size as JPEG; a missing or damaged file gives null.
 nlohmann::ordered_json reportJson(const SweepResults& results, const std::filesystem::path& folder);
 
-// Points whose pictures go into the report, most important first, at most `most`: the base, the ends of the front, the
-// worst, the rest of the front, evenly, then the best, the cheapest and the dearest. Only points with pictures.
+// Returns the points whose pictures go into the report, most important first, at most `most`: the base, the ends of the
+// front, the worst, the rest of the front, evenly, then the best, the cheapest and the dearest. Only points with
+// pictures are listed.
 std::vector<int> shownPoints(const SweepResults& results, int most);
 
-// The page with its style sheet and scripts, and "@DATA@" where its JSON belongs. Written at build time.
+// Returns the page with its style sheet and scripts, and "@DATA@" where its JSON belongs. Written at build time.
 std::string_view reportPage();
 
 }  // namespace speculum

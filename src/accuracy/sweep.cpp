@@ -14,7 +14,7 @@ namespace speculum {
 namespace {
 
 // Least error of a point that a fit takes, in multiples of the noise floor and of the error left at the greatest depth:
-// below them other errors dominate, and a difference of squares is noise.
+// below these bounds other errors dominate, and a difference of squares is noise.
 constexpr double leastFloors = 2.0;
 constexpr double leastRests = 1.02;
 
@@ -26,7 +26,7 @@ std::string keyOf(std::initializer_list<std::string_view> parts) {
   return fingerprint.hex();
 }
 
-// Key of everything that the reference and its noise floor depend on.
+// Returns a key of everything that the reference and its noise floor depend on.
 std::string truthKey(const SweepScene& scene, const Settings& settings) {
   std::string shown = settingValue(settings, "view.clear_color");
   for (const SettingField& field : settingFields()) {
@@ -204,7 +204,8 @@ class Sweep {
   }
 
   // Fits natural logarithms over the points that stand clear of the noise floor. The error left at the greatest
-  // recursion depth comes from everything else; independent errors add as squares, so it is taken off as a square.
+  // recursion depth comes from everything else; independent errors add as squares, so this rest is taken off as a
+  // square.
   void fit(SweepSeries& series, const SweepResults& results) const {
     const double floor = results.floor.mirrors ? results.floor.mirrors->rmse : results.floor.whole.rmse;
     const double rest = series.theoryOfDepth ? seriesError(results.points[series.points.back()]) : 0.0;

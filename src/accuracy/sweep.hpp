@@ -9,7 +9,7 @@
 
 namespace speculum {
 
-// Milliseconds.
+// Times of a frame, milliseconds.
 struct FrameCost {
   double gpuMs = 0.0;  // 0 where the device has no timestamps
   double cpuMs = 0.0;
@@ -20,10 +20,11 @@ struct FrameCost {
 class SweepSubject {
  public:
   virtual ~SweepSubject() = default;
-  // Display pictures of the sweep's scene at its time: one, or with reflection.update_interval n the n that differ in
-  // the age of their mirror images.
+  // Returns display pictures of the sweep's scene at its time: one or, with reflection.update_interval n, the n
+  // pictures that differ in the age of their mirror images.
   virtual std::vector<Image8> pictures(const Settings& settings) = 0;
-  // Describes the work for the last picture. Settings that change nothing of it have the same.
+  // Returns a text that describes the work for the last picture. Settings that do not change the work give the same
+  // text.
   virtual std::string work() const { return {}; }
   // Draws a frame that does not count, then measures one; with an update interval, the mean over one interval.
   virtual FrameCost cost(const Settings& settings) = 0;
@@ -34,7 +35,7 @@ struct SweepScene {
   SceneState state;
   int width = 0;  // pixels
   int height = 0;
-  std::string identity;  // fingerprint of all but the settings: program, device, scene, time
+  std::string identity;  // fingerprint of all that results depend on but settings: program, device, scene, time
   bool noiseFloor = true;
   int truthSamples = 64;  // a square
 };
@@ -45,11 +46,11 @@ struct SweepStatus {
 };
 using SweepProgress = std::function<bool(const SweepStatus&)>;  // false cancels
 
-// Traces the reference, draws every configuration and compares it, leaves out those that draw the pictures of an
-// earlier one with the same work, then takes the times: in rounds through all configurations, so that other load on the
-// machine affects all alike. Measurements in `store` are used again; new ones are saved at once. Fills the truth, the
-// points with their front and the series with their fits in `results`. Blocks; calls `subject` on the caller's thread.
-// Returns false if cancelled.
+// Traces the reference, draws every configuration and compares it with the reference, leaves out configurations that
+// draw the pictures of an earlier one with the same work, then takes the times: in rounds through all configurations,
+// so that other load on the machine affects all alike. Measurements in `store` are used again; new measurements are
+// saved at once. Fills the truth, the points with their front and the series with their fits in `results`. Blocks;
+// calls `subject` on the caller's thread. Returns false if cancelled.
 bool runSweep(const SweepPlan& plan, const Settings& base, const SweepScene& scene, SweepSubject& subject,
               SweepStore& store, SweepResults& results, const SweepProgress& progress);
 

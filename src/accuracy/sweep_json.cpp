@@ -86,7 +86,7 @@ void members(auto&& json, Of<SweepResults> auto& results) {
 
 ordered_json parseJson(const std::vector<uint8_t>& bytes) {
   constexpr int mostMembers = 10'000;
-  std::vector<int> members;  // of the objects around
+  std::vector<int> members;  // numbers of members of the objects around
   return ordered_json::parse(bytes.begin(), bytes.end(), [&](int, ordered_json::parse_event_t event, ordered_json&) {
     if (event == ordered_json::parse_event_t::object_start) {
       members.push_back(0);

@@ -12,21 +12,22 @@
 
 namespace speculum {
 
-// Throws std::runtime_error, or nlohmann's exceptions for what is no JSON. Members of an object are found in time
-// proportional to their number, which is limited before they are read.
+// Parses a file's content. Throws std::runtime_error, or nlohmann's exceptions if it is no JSON. Finding a member of an
+// object takes time proportional to the number of members, which is limited before they are read.
 nlohmann::ordered_json parseJson(const std::vector<uint8_t>& bytes);
 
-// { "rmse", "relative_rmse", "psnr", "ssim", "flip", "max_diff", "p99_diff", "pixels_over" }. JSON has no infinity:
-// null stands for it.
+// Returns { "rmse", "relative_rmse", "psnr", "ssim", "flip", "max_diff", "p99_diff", "pixels_over" }. JSON has no
+// infinity: null stands for it.
 nlohmann::ordered_json metricsJson(const ImageMetrics& metrics);
 
-// Returns metricsJson() of the whole picture, with that of the mask under "mask" if there is one.
+// Returns metricsJson() of the whole picture, with metricsJson() of the masked pixels under "mask" if there is a mask.
 nlohmann::ordered_json comparisonJson(const Comparison& comparison);
 
 // Returns results.json of `speculum accuracy`.
 nlohmann::ordered_json sweepJson(const SweepResults& results);
 
-// Throws InputError "FILE: key: what is wrong (what would be right)" for a file that is no sweep's results.json.
+// Reads results.json. Throws InputError "FILE: key: what is wrong (what would be right)" for a file that is no sweep's
+// results.json.
 SweepResults readSweepResults(const std::filesystem::path& file);
 
 // members(json, value) lists the members of a type with their keys once, for a JsonWriter and for a JsonReader.
@@ -88,7 +89,7 @@ class JsonReader {
       : file_(file), json_(json), path_(std::move(path)) {}
 
   void operator()(const char* key, auto& value) const { read(key, member(key), value); }
-  // Finite, not negative, and no more than any figure of a sweep can be.
+  // Reads a number that is finite, not negative, and no more than any figure of a sweep can be.
   void figure(const char* key, double& value) const;
   void orInfinity(const char* key, double& value) const;
   void pair(const char* key, int& first, int& second) const;
@@ -115,7 +116,7 @@ class JsonReader {
       } catch (const nlohmann::json::exception&) {
         fail(key);
       }
-      // A name that the library does not know becomes the first one.
+      // The library turns a name that it does not know into the first enumerator.
       if (std::is_enum_v<T> && nlohmann::ordered_json(value) != json) {
         fail(key);
       }
@@ -133,7 +134,7 @@ class JsonReader {
     if (!json.is_array()) {
       fail(key);
     }
-    // One by one: the first wrong element ends a hostile file before its others take memory.
+    // Reads one by one, so that the first wrong element of a hostile file ends reading before the others take memory.
     values.clear();
     for (size_t i = 0; i < json.size(); ++i) {
       read(HasMembers<T> ? key + "[" + std::to_string(i) + "]" : key, json[i], values.emplace_back());
@@ -161,7 +162,7 @@ void members(auto&& json, Of<ImageMetrics> auto& metrics) {
   json("pixels", metrics.pixels);
 }
 
-// `mirrors` is null for a picture without any.
+// `mirrors` is null for a picture without mirrors.
 void members(auto&& json, Of<ErrorFigures> auto& errors) {
   json("whole", errors.whole);
   json("mirrors", errors.mirrors);

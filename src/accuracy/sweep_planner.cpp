@@ -13,9 +13,9 @@ namespace speculum {
 namespace {
 
 constexpr size_t mostConfigurations = 1000;
-constexpr int longestInterval = 16;  // to see every image at every age takes 1.5 times its square of frames
+constexpr int longestInterval = 16;  // frames; to see every image at every age takes 1.5 times its square of frames
 
-// Says what the settings are in the words of the panels, whose labels differ.
+// Returns a name made of the settings' labels in the panels, which all differ, and their values.
 std::string shortName(const SweepPlanner::Changes& changes) {
   std::string name;
   for (const SettingChange& change : changes) {
@@ -63,7 +63,7 @@ Changes drawn(const SweepContext& context, const std::string& count) {
   return context.mirrors ? samples(count) : Changes{{"view.samples", count}};
 }
 
-// Drafts: the whole picture at a lower resolution.
+// Adds drafts: the whole picture at a lower resolution.
 void addViewScales(SweepPlanner& planner, const SweepContext& context, bool full) {
   const Values scales = swept("view.scale", full);
   planner.series({.key = "view.scale",
@@ -77,8 +77,8 @@ void addViewScales(SweepPlanner& planner, const SweepContext& context, bool full
   }
 }
 
-// Adds means of pictures, which converge to the reference. From 16 pictures on, each has one sample, whatever is set.
-// No mean removes the error of shadow maps.
+// Adds means of pictures, which converge to the reference. From 16 pictures on, each is drawn at one sample a pixel,
+// whatever view.samples says. No mean removes the error of shadow maps.
 void addMeans(SweepPlanner& planner, const SweepContext& context) {
   Changes exact = context.mirrors ? Changes{{"reflection.max_depth", greatestDepth}} : Changes{};
   if (std::ranges::find(context.effects, "effects.shadows") != context.effects.end()) {

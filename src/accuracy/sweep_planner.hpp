@@ -10,7 +10,7 @@
 
 namespace speculum {
 
-// Values of several settings.
+// Settings by key, each with several values.
 using SettingGrid = std::vector<std::pair<std::string, std::vector<std::string>>>;
 
 // Returns every combination of one value for each setting, the last setting varying fastest; nothing if there are more
@@ -27,18 +27,18 @@ struct SweepPlan {
 
   std::string name;
   int repeats = leastRepeats;                      // timed frames of each configuration
-  std::vector<SweepConfiguration> configurations;  // the first is the base itself
+  std::vector<SweepConfiguration> configurations;  // the first has the base settings
   std::vector<SweepSeries> series;                 // not measured yet; points are indices into `configurations`
 };
 
-// Scene and device that a sweep is planned for.
+// Base settings, scene and device that a sweep is planned for.
 struct SweepContext {
   Settings base;
   std::vector<int> sampleCounts{1, 4};  // supported by the device
   bool mirrors = true;                  // the scene has mirrors
   bool animated = false;                // something moves
   bool rough = false;                   // a mirror is rough
-  int interval = 1;                     // frames; the longest of all mirrors
+  int interval = 1;                     // frames; the longest update interval of all mirrors
   std::vector<std::string> effects{};   // switches of the effects that the scene uses, such as effects.shadows
 };
 
@@ -52,10 +52,12 @@ class SweepPlanner {
   // Adds a configuration, unless one with the same settings exists, and returns its index. Throws std::invalid_argument
   // with the message of setSetting().
   int add(const Changes& changes, const std::string& name = {});
+  // Adds a configuration for each combination of values. Throws like add().
   void grid(const SettingGrid& axes);
-  // Adds one configuration for each value. Leaves series of fewer than two different configurations out.
+  // Adds one configuration for each value, with the changes `fixed`, and the series of them. Leaves series of fewer
+  // than two different configurations out.
   void series(SweepSeries series, const std::vector<std::string>& values, const Changes& fixed);
-  // Does the same with the changes of each value in `each`.
+  // Adds one configuration for each value, with its changes in `each`, and the series of them.
   void series(SweepSeries series, const std::vector<std::string>& values, const std::vector<Changes>& each);
 
   SweepPlan plan;

@@ -11,7 +11,7 @@
 
 namespace speculum {
 
-// "key=value key=value"; empty for no change.
+// Returns "key=value key=value"; empty for no change.
 std::string settingsText(const std::vector<SettingChange>& changes);
 
 // One configuration of a sweep: its error against the reference and its price.
@@ -25,28 +25,28 @@ struct SweepPoint {
   Spread frameMs;
   bool onFront = false;  // front of mean FLIP against gpuMs; see pareto.hpp
   std::string picture;   // PNG, relative to the results' folder
-  std::string heatMap;   // PNG of the FLIP error, likewise
+  std::string heatMap;   // PNG of the FLIP error, relative to the results' folder
 };
 
 // Points that differ in one setting, in ascending order of it, and the error that theory predicts.
 struct SweepSeries {
-  enum class Axis { logarithmic, linear };  // axis of the setting; the error's is logarithmic
+  enum class Axis { logarithmic, linear };  // axis of the setting; the axis of the error is logarithmic
 
   std::string key;   // setting
   std::string name;  // title
   Axis axis = Axis::logarithmic;
   std::vector<double> x;    // values of the setting
-  std::vector<int> points;  // indices into SweepResults::points, as many
+  std::vector<int> points;  // indices into SweepResults::points, one for each value
   std::string note;         // where the theoretical slope comes from
   // Slope of log(error) over log(x), or over x on a linear axis; 0 where theory gives none. Errors are RMSE over
   // mirrors, or over the whole picture without mirrors in view.
   double theorySlope = 0.0;
-  // Not in results.json: the slope is that of the throughput beyond each depth, and the greatest x that a fit takes,
-  // because another law holds beyond.
+  // Not in results.json: whether the theoretical slope is that of GroundTruth::throughputBeyond, and the greatest x
+  // that a fit takes, because another law holds beyond it.
   bool theoryOfDepth = false;
   double fitUpTo = std::numeric_limits<double>::infinity();
   std::optional<LineFit> fit;  // natural logarithms, same axes, over the points of `fitted`
-  std::vector<int> fitted;     // indices into `points` that the fit takes: those above the floor of other errors
+  std::vector<int> fitted;     // indices into `points` that the fit takes: points above the floor of other errors
 };
 
 // Returns the error of a point in a series.
@@ -64,7 +64,7 @@ struct SweepResults {
   std::string driver;
   std::string renderPath;
   std::string machine;              // processor and operating system
-  std::string version;              // Speculum's
+  std::string version;              // version of Speculum
   std::string date;                 // UTC, ISO 8601
   std::vector<SettingChange> base;  // every setting that a point's changes are relative to
 
@@ -77,7 +77,7 @@ struct SweepResults {
 
   std::vector<SweepPoint> points;
   std::vector<SweepSeries> series;
-  int leftOut = 0;  // configurations without a point: they draw what another does. Not in results.json
+  int leftOut = 0;  // configurations without a point, because they draw what another does. Not in results.json
 };
 
 // Returns a header line, then a line for each point: RFC 4180.

@@ -31,7 +31,7 @@ std::optional<ordered_json> readJson(const fs::path& file) {
   }
 }
 
-// Says whether a path relative to the folder leads to a place in it, also behind links.
+// Says whether a path relative to the folder leads to a place in the folder, also when links are followed.
 bool isInside(const fs::path& folder, const fs::path& file) {
   const fs::path relative = withoutLinks(folder / file).lexically_relative(withoutLinks(folder));
   return !relative.empty() && *relative.begin() != "..";
@@ -57,7 +57,7 @@ void members(auto&& json, Of<Measurement> auto& measurement) {
   json("error", measurement.errors);
 }
 
-// The pictures have files of their own.
+// Image and mask have files of their own.
 void members(auto&& json, Of<GroundTruth> auto& truth) {
   json("floor", truth.floor);
   json("ms", truth.ms);
@@ -80,7 +80,7 @@ SweepStore::SweepStore(fs::path folder) : folder_(std::move(folder)) {
     for (const auto& [key, value] : json->items()) {
       Measurement measurement;
       members(JsonReader(file, value), measurement);
-      // The folder may come from elsewhere, and the report embeds these pictures.
+      // The folder may come from somebody else, and the report embeds these pictures.
       const auto kept = [&](const std::string& name) { return isInside(folder_, name) && isFile(folder_ / name); };
       if (!kept(measurement.picture) || !kept(measurement.heatMap)) {
         measurement.errors.reset();

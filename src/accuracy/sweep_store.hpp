@@ -15,7 +15,7 @@ struct Measurement {
   std::string drawn;    // fingerprint of the pictures and of the work for them
   std::string picture;  // file in the store's folder
   std::string heatMap;
-  std::vector<double> gpuMs;  // one value a round, as many in each
+  std::vector<double> gpuMs;  // one value a round, as in cpuMs and frameMs
   std::vector<double> cpuMs;
   std::vector<double> frameMs;
 };
@@ -24,7 +24,8 @@ struct Measurement {
 // continues. Every write replaces a whole file; a file that cannot be read counts as absent.
 class SweepStore {
  public:
-  // Creates the folder; throws std::runtime_error if that fails, or if a file of it is a link that leads out of it.
+  // Creates the folder; throws std::runtime_error if that fails, or if a file of the folder is a link that leads out of
+  // it.
   explicit SweepStore(std::filesystem::path folder);
 
   Measurement& at(const std::string& key) { return measurements_[key]; }
@@ -33,11 +34,11 @@ class SweepStore {
   std::optional<GroundTruth> truth(const std::string& key) const;
   void keepTruth(const std::string& key, const GroundTruth& truth) const;
 
-  // Writes a picture; returns its name in the folder.
+  // Writes a picture and returns its file name in the folder.
   std::string keepPicture(const std::string& name, const Image8& image) const;
 
  private:
-  // Throws FileError for a link that leads out of the folder.
+  // Returns the path of a file in the folder. Throws FileError for a link that leads out of the folder.
   std::filesystem::path fileNamed(const std::string& name) const;
 
   std::filesystem::path folder_;

@@ -9,7 +9,7 @@
 
 namespace speculum {
 
-// A picture in both encodings that metrics use; row 0 at the top.
+// A picture in both encodings that the metrics use, linear and display; row 0 at the top.
 struct ComparedImage {
   std::string name;  // for messages
   int width = 0;
@@ -20,8 +20,8 @@ struct ComparedImage {
 
 ComparedImage comparedImage(const Image8& image, std::string name = "the picture");
 
-// Exposure 1, tone curve clamp, no rounding to 8 bits. Throws std::runtime_error with the first pixel that is not a
-// number.
+// Encodes with exposure 1 and tone curve clamp, without rounding to 8 bits. Throws std::runtime_error that names the
+// first pixel that is not a number.
 ComparedImage comparedImage(const LinearImage& image, std::string name = "the picture");
 
 // Reads a picture by its file's ending: .exr is linear, everything else 8-bit sRGB. Throws std::runtime_error with the
@@ -34,12 +34,12 @@ struct PixelMask {
   int height = 0;
   std::vector<uint8_t> selected;
 };
-// Throws std::runtime_error if the file cannot be read.
+// Reads a mask picture. Throws std::runtime_error if the file cannot be read.
 PixelMask readPixelMask(const std::filesystem::path& file);
 // Like readPixelMask(), but also throws if the mask selects no pixel.
 PixelMask readNonEmptyMask(const std::filesystem::path& file);
 
-// Throws std::runtime_error that names both pictures and both sizes, unless they are equal and not zero.
+// Throws std::runtime_error that names both pictures and both sizes, unless the sizes are equal and not zero.
 void requireSameSize(const ComparedImage& a, const ComparedImage& b);
 
 }  // namespace speculum

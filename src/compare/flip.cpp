@@ -55,7 +55,7 @@ double labCurve(double t) {
   return t > delta * delta * delta ? std::cbrt(t) : t / (3.0 * delta * delta) + 4.0 / 29.0;
 }
 
-// CIELAB with its color channels weighted by lightness (Hunt's effect).
+// Returns CIELAB with color channels weighted by lightness (Hunt's effect).
 glm::dvec3 huntLab(const glm::dvec3& rgb) {
   const glm::dvec3 r = xyzFromRgb * rgb / white;
   const glm::dvec3 f(labCurve(r.x), labCurve(r.y), labCurve(r.z));
@@ -79,7 +79,8 @@ Channels opponentChannels(const ComparedImage& image) {
   return channels;
 }
 
-// a sqrt(pi / b) exp(-pi^2 d^2 / b), d in degrees: a Gaussian in space that is a Gaussian in frequency.
+// Term of a contrast sensitivity function: a sqrt(pi / b) exp(-pi^2 d^2 / b) with d in degrees, a Gaussian in space and
+// in frequency.
 struct ContrastTerm {
   double a;
   double b;
@@ -87,7 +88,7 @@ struct ContrastTerm {
   double sigma() const { return std::sqrt(b / (2.0 * pi * pi)) * flipPixelsPerDegree; }  // pixels
 };
 
-// Two-dimensional sum of a term's samples: its share in the mix of a channel's terms.
+// Returns the two-dimensional sum of a term's samples: its share in the mix of a channel's terms.
 double termWeight(const ContrastTerm& term, int radius) {
   double sum = 0.0;
   for (int x = -radius; x <= radius; ++x) {

@@ -29,7 +29,7 @@ bool nearBorder(size_t pixel, int width, int height) {
   return x < ssimBorder || y < ssimBorder || x >= width - ssimBorder || y >= height - ssimBorder;
 }
 
-// Returns the mean SSIM of the pixels, without the picture's border unless all of them lie there.
+// Returns the mean SSIM of the pixels, without the picture's border unless all pixels lie there.
 double meanSsim(const Plane2d& map, const std::vector<size_t>& pixels) {
   double inner = 0.0;
   double all = 0.0;

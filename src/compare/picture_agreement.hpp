@@ -9,11 +9,12 @@
 
 namespace speculum {
 
-// Distinguishes pictures that agree except for stray pixels along edges from those that differ in a patch.
+// Agreement of two pictures. Distinguishes pictures that agree except for stray pixels along edges from those that
+// differ in a patch.
 struct PictureAgreement {
-  int counted = 0;
+  int counted = 0;                  // pixels that were compared
   int over = 0;                     // pixels that differ by more than the tolerance in red, green or blue
-  int largest = 0;                  // difference, 1/255
+  int largest = 0;                  // largest difference in red, green or blue, 1/255
   std::vector<bool> isOver;         // of each pixel
   std::optional<glm::ivec2> block;  // top left pixel of the first 3x3 block that lies wholly over: a patch, no edge
 
@@ -26,10 +27,10 @@ struct PictureAgreement {
 PictureAgreement difference(const Image8& a, const Image8& b, int tolerance, const std::vector<bool>& counts = {});
 
 // Returns red, green and blue of the difference times `gain`. Pixels over the tolerance also fill their neighbours, so
-// that single ones are seen.
+// that single pixels are seen.
 Image8 differencePicture(const Image8& a, const Image8& b, const PictureAgreement& agreement, double gain);
 
-// Bounds the largest group of near pixels over the tolerance. Nothing if there are none.
+// Returns the bounds of the largest group of near pixels over the tolerance; nothing if no pixel is over.
 std::optional<PixelRect> largestGroup(const PictureAgreement& agreement, int width);
 
 }  // namespace speculum

@@ -21,8 +21,8 @@ struct Plane2d {
 // Values beyond a picture's border: its outermost pixel, or the picture mirrored with the outermost pixel repeated.
 enum class Border { replicate, reflect };
 
-// Correlation with an odd number of weights, along rows or along columns. In parallel over rows; the result does not
-// depend on the number of threads.
+// Return the correlation with an odd number of weights, along rows or along columns. Rows are computed in parallel; the
+// result does not depend on the number of threads.
 Plane2d filterRows(const Plane2d& plane, std::span<const double> kernel, Border border);
 Plane2d filterColumns(const Plane2d& plane, std::span<const double> kernel, Border border);
 
@@ -30,7 +30,7 @@ inline Plane2d filterSeparable(const Plane2d& plane, std::span<const double> ker
   return filterColumns(filterRows(plane, kernel, border), kernel, border);
 }
 
-// exp(-x^2 / (2 sigma^2)) for x = -radius .. radius (pixels), of unit sum.
+// Returns exp(-x^2 / (2 sigma^2)) for x = -radius .. radius (pixels), scaled to unit sum.
 std::vector<double> gaussianKernel(double sigma, int radius);
 
 }  // namespace speculum

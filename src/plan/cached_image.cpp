@@ -7,8 +7,8 @@ namespace speculum {
 
 namespace {
 
-constexpr double eyePlane = 1e-12;
-constexpr double filterReach = 0.5;  // texels from where an image is read to the farthest centre that counts
+constexpr double eyePlane = 1e-12;   // depth over distance from which on a point counts as in front of the eye
+constexpr double filterReach = 0.5;  // texels from where an image is read to the farthest texel centre that is used
 
 // Takes view space to (x, y, w) of clip space.
 glm::dmat3 clipFromView(const Projection& projection) {

@@ -21,7 +21,7 @@ bool showsImageOf(const Pass& pass, size_t first) {
 
 RecycledVector<ConcurrentPasses> independentPasses(const FramePlan& plan) {
   RecycledVector<ConcurrentPasses> ranges;
-  double covered = 0.0;  // pixels, by the last range
+  double covered = 0.0;  // pixels that the last range covers
   for (size_t i = 0; i < plan.passes.size(); ++i) {
     const Pass& pass = plan.passes[i];
     if (pass.id.kind != PassKind::mirror || !pass.drawn()) {

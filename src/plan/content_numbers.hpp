@@ -45,7 +45,7 @@ class ContentNumbers {
   template <typename Enum>
   requires std::is_enum_v<Enum>
   void add(Enum value) { add(static_cast<double>(value)); }
-  // Adds the fields that are read where the node is drawn; SceneState has the others.
+  // Adds the fields that are read where the node is drawn. The other fields count through SceneState.
   template <Described Node>
   void add(const Node& node) {
     forEachField<Node>([&](const auto& field) {
@@ -57,12 +57,13 @@ class ContentNumbers {
   void add(const View& view) {
     addAll(view.eye, view.worldToView, view.clip, view.cone, view.rect, view.pictureSize, view.path);
   }
-  // A cached image is compared by itself; a mirror without an image shows the background.
+  // Adds how a mirror is drawn, without its image: a cached image is compared by itself, and a mirror without an image
+  // shows the background.
   void add(const MirrorDraw& draw) {
     addAll(draw.cached.has_value(), draw.mirror, draw.back, draw.byRays, draw.blurs, draw.ripples, draw.polygon,
            draw.plane, draw.layer);
   }
-  // An integer, which is compared whole.
+  // Adds an integer with all its bits.
   void addCount(uint64_t value) { numbers_.push_back(value); }
 
   RecycledVector<uint64_t> take() { return std::move(numbers_); }

@@ -8,7 +8,7 @@
 
 namespace speculum {
 
-// Directions in which the six images about a point look: +x, -x, +y, -y, +z, -z.
+// Axes of one of the six images about a point, the faces of a cube. faceAxes() lists them: +x, -x, +y, -y, +z, -z.
 struct FaceAxes {
   const char* name;
   glm::dvec3 forward;  // world
@@ -16,21 +16,23 @@ struct FaceAxes {
 };
 std::span<const FaceAxes> faceAxes();
 
-// Corner of a cube's face among the six, three to a row, in texels.
+// Returns the upper left corner of a face where the six faces of a cube stand three to a row, texels.
 glm::ivec2 faceCorner(int size, size_t face);
 
-// Axis-aligned boxes relative to a point in the world: one per instance, then one per mirror, in the state's order.
+// Returns axis-aligned bounding boxes in world space relative to `origin`: one per instance, then one per mirror, in
+// the order of `state`.
 RecycledVector<Bounds> boxesOf(const Scene& scene, const SceneState& state, const glm::dvec3& origin = glm::dvec3(0.0));
 
-// Adds the instances that the view may see, except `without`. With `cullClusters`, adds only their visible clusters.
+// Adds to the pass the instances that the view may see, except `without` (-1: none). With `cullClusters`, adds only
+// their visible clusters.
 void addVisibleInstances(const View& view, const Scene& scene, const SceneState& state, bool cullClusters, int without,
                          Pass& pass);
 
-// Adds the lights whose glyphs the view may see.
+// Adds to the pass the lights whose glyphs the view may see.
 void addVisibleLights(const View& view, const Scene& scene, const SceneState& state, const EffectSettings& effects,
                       Pass& pass);
 
-// Point and projection from which a face is seen.
+// Eye, axes and projection of the view that renders a face.
 struct CubeFace {
   glm::dvec3 center;  // world
   FaceAxes axes;
@@ -40,13 +42,14 @@ struct CubeFace {
 
 View viewOf(const CubeFace& face);
 
-// Cubes before their faces stand in a plan: six for each, in order.
+// Cubes whose faces are not in a plan yet: `faces` holds six for each cube, in the order of `cubes` and faceAxes().
 struct PlannedCubes {
   RecycledVector<Cube> cubes;
   RecycledVector<Pass> faces;
 };
 
-// Plans a face with its instances, except `without`, and with mirrors that have no image, as at reflection.max_depth.
+// Plans the pass of a face: its instances, except `without` (-1: none), and its mirrors, which have no image, as at
+// reflection.max_depth.
 Pass planFace(const CubeFace& face, const Scene& scene, const SceneState& state, bool cullClusters, int without = -1);
 
 }  // namespace speculum

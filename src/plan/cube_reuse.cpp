@@ -18,7 +18,7 @@ uint64_t largestSerial(std::span<const Cube> cubes) {
   return serial;
 }
 
-// Appends a face of the plan's last cube to the list.
+// Appends a face of the plan's last cube to the plan's list of passes.
 void addFace(FramePlan& plan, Pass face) {
   face.cube = static_cast<int>(plan.cubes.size()) - 1;
   if (!face.isLayer) {
@@ -27,7 +27,7 @@ void addFace(FramePlan& plan, Pass face) {
   plan.passes.push_back(std::move(face));
 }
 
-// Returns the face with the casters that stand still, or with the others.
+// Returns the face with only the casters that stand still, or with only those that move.
 Pass castersOf(Pass face, bool still, const Scene& scene, const SceneState& state) {
   const auto isOther = [&](int instance) {
     const int object = state.instances[static_cast<size_t>(instance)].object;
@@ -45,8 +45,8 @@ bool castsNothing(const Pass& face) {
   return face.instances.empty() && face.mirrors.empty();
 }
 
-// Returns a layer with the casters of the face that stand still, which leaves the others to the face; nothing if all
-// of them do or none does.
+// Moves the casters of the face that stand still to a layer and returns the layer; the face keeps the moving casters.
+// Returns nothing, and leaves the face as it is, if all casters stand still or all move.
 std::optional<Pass> divided(Pass& face, const ImageSurroundings& around) {
   Pass moving = castersOf(face, false, around.scene, around.state);
   Pass layer = castersOf(face, true, around.scene, around.state);
@@ -58,7 +58,7 @@ std::optional<Pass> divided(Pass& face, const ImageSurroundings& around) {
   return layer;
 }
 
-// Says whether settings make the same environment maps. reflection.* has no part in that: mirrors in maps show the
+// Says whether settings make the same environment maps. reflection.* does not count, because mirrors in maps show the
 // background.
 bool sameMaps(const Settings& a, Settings b) {
   b.reflection = a.reflection;
@@ -66,7 +66,7 @@ bool sameMaps(const Settings& a, Settings b) {
   return sameDrawing(a, b);
 }
 
-// Replaces a map by that of the frame before if it can be reused, and says whether it did.
+// Reuses the map that the frame before had of the same mirror, if possible, and says whether it did.
 bool reuseMap(Cube& map, std::span<const Pass> faces, std::span<const Cube> maps, const ImageSurroundings& around,
               const View& main) {
   const int interval = around.settings.effects.environmentInterval;
@@ -100,7 +100,7 @@ bool reuseMap(Cube& map, std::span<const Pass> faces, std::span<const Cube> maps
 }  // namespace
 
 void addShadowMaps(FramePlan& plan, PlannedCubes maps, std::span<const Cube> before, const ImageSurroundings& around) {
-  constexpr size_t mostCompared = 4'000'000;  // instances of all faces
+  constexpr size_t mostCompared = 4'000'000;  // instances of all faces together
   size_t instances = 0;
   for (const Pass& face : maps.faces) {
     instances += face.instances.size();

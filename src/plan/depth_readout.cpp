@@ -9,9 +9,9 @@ namespace speculum {
 
 namespace {
 
-// Returns the distance from the eye to which a sphere reaches within the cone. Its centre is at distance d. In a
-// direction at angle a from the centre it reaches to d cos a + sqrt(r^2 - d^2 sin^2 a), which falls with a. The
-// smallest a within the cone follows from the plane that the centre is farthest beyond.
+// Returns the distance from the eye to which a sphere reaches within the cone. The sphere's centre is at distance d. In
+// a direction at angle a from the centre the sphere reaches to d cos a + sqrt(r^2 - d^2 sin^2 a), which falls with a.
+// The smallest a within the cone follows from the plane that the centre is farthest beyond.
 double farthestSphereDistance(const View& view, const glm::dvec3& center, double radius) {
   double beyond = 0.0;
   for (const glm::dvec3& normal : view.cone) {
@@ -30,7 +30,8 @@ glm::dvec3 middleOf(const View& view, const Projection& projection) {
   return glm::normalize(glm::dvec3(ndc.x * projection.aspect / projection.focal, -ndc.y / projection.focal, -1.0));
 }
 
-// View-space direction towards a point, or the nearest one found within the cone.
+// View-space direction towards a point or, if the point is outside the cone, the nearest direction found within the
+// cone.
 glm::dvec3 directionTo(const View& view, const Projection& projection, const glm::dvec3& center) {
   constexpr int rounds = 16;
   glm::dvec3 d = center - view.eye;
@@ -40,7 +41,7 @@ glm::dvec3 directionTo(const View& view, const Projection& projection, const glm
     }
   }
   const glm::dvec3 seen = view.worldToView * d;
-  constexpr double steepest = 1e-3;  // cosine of the largest angle to the axis; a picture shows nothing beyond it
+  constexpr double steepest = 1e-3;  // cosine of the largest angle to the axis that a picture shows
   return seen.z < -steepest * glm::length(seen) ? glm::normalize(seen) : middleOf(view, projection);
 }
 

@@ -14,13 +14,13 @@ std::vector<int> frontToBack(const View& view, std::span<const int> instances, c
     int instance = 0;
     auto key() const { return std::tie(batch, mesh, distance, instance); }
   };
-  std::map<int, double> nearest;  // of the mesh's instances
+  std::map<int, double> nearest;  // by mesh: distance of its nearest instance, metres
   std::vector<Entry> entries;
   entries.reserve(instances.size());
   for (const int i : instances) {
     const InstanceState& instance = state.instances[i];
-    // To the far end of the bounding sphere, in metres. A room begins nearer to the eye than the objects in it but ends
-    // behind them, so it is drawn after them.
+    // To the far end of the bounding sphere, in metres. A room begins nearer to the eye than the objects in the room
+    // but ends behind them, so the room is drawn after them.
     const double distance = glm::length(instance.center - view.eye) + instance.radius;
     const auto [it, isNew] = nearest.try_emplace(instance.mesh, distance);
     it->second = std::min(it->second, distance);

@@ -98,7 +98,7 @@ std::vector<SettingChange> settingsWithout(const Effect& effect) {
       return {{"view.tone_map", "clamp"}};
     case EffectKind::wireframe:
       return {{"view.wireframe", "false"}};
-    default:  // switched by its name
+    default:  // switched by the setting effects.NAME
       return {{"effects." + effect.name, "false"}};
   }
 }

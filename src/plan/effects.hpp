@@ -23,7 +23,8 @@ enum class EffectKind {
   count
 };
 
-// An effect. `why` names what visible thing calls for it, or says why nothing does.
+// An effect and whether the picture calls for it. `why` names the visible node or the setting that does, or says why
+// nothing does.
 struct Effect {
   EffectKind kind = EffectKind::count;
   std::string name;
@@ -34,8 +35,8 @@ struct Effect {
 // Cost of an effect in the last recorded frame.
 struct EffectCost {
   uint32_t draws = 0;
-  uint64_t bytes = 0;      // of device objects that it needs; effects that trace rays share theirs
-  uint32_t pipelines = 0;  // alive
+  uint64_t bytes = 0;      // of device objects that the effect needs; effects that trace rays share these objects
+  uint32_t pipelines = 0;  // pipelines that exist
 };
 
 // Returns the settings (at least one) that leave an effect out of the picture.

@@ -12,7 +12,7 @@ namespace speculum {
 namespace {
 
 // Returns the box that surrounds boxes[own]. Each side lies at the near face of the farthest box on that side, such as
-// a wall, or at the far face of a box that encloses the object, such as a room; without either, at the end of the
+// a wall, or at the far face of a box that encloses the object, such as a room; without such boxes, at the end of the
 // scene.
 Bounds boxAround(size_t own, std::span<const Bounds> boxes) {
   const Bounds& inner = boxes[own];
@@ -50,7 +50,7 @@ Pass faceOf(const Scene& scene, const SceneState& state, const Cube& map, const 
   return face;
 }
 
-// Bounds the time and memory of planning: instances of the scene times faces.
+// Largest product of the scene's instances and the maps' faces: bounds the time and memory of planning.
 constexpr size_t mostFaceTests = 20'000'000;
 
 // Returns the instances of curved mirrors that the passes draw, ascending.
@@ -65,7 +65,7 @@ RecycledVector<int> drawnCurved(const Scene& scene, const SceneState& state, std
   return drawn;
 }
 
-// Keeps the instances that have maps, ascending.
+// Keeps the instances that get maps, those that look widest, ascending.
 void keepWidest(RecycledVector<int>& curved, const SceneState& state) {
   const size_t most = std::clamp<size_t>(
       mostFaceTests / (faceAxes().size() * std::max<size_t>(state.instances.size(), 1)), 1, mostEnvironmentMaps);

@@ -11,12 +11,12 @@ namespace speculum {
 
 namespace {
 
-constexpr double smallestScale = 0.125;
-constexpr double pixelsForRays = 4e5;
-constexpr int smallestMap = 16;  // texels
-constexpr int smallestShadowMap = 64;
+constexpr double smallestScale = 0.125;  // of mirror images
+constexpr double pixelsForRays = 4e5;    // texels of a mirror image, see raysAreFaster()
+constexpr int smallestMap = 16;          // texels
+constexpr int smallestShadowMap = 64;    // texels
 
-// Makes mirror images at most so large. Returns what the message says of it.
+// Bounds the scale of mirror images. Returns the words for the message, such as "reflection.scale to 0.5".
 std::string lowerScale(Settings& settings, double scale) {
   Settings largest;
   settings.limit.scale = largest.reflection.scale = scale;
@@ -25,7 +25,8 @@ std::string lowerScale(Settings& settings, double scale) {
   return (own ? "quality.scale to " : "reflection.scale to ") + settingValue(largest, "reflection.scale");
 }
 
-// `most`: that any mirror asks for.
+// Lowers one setting by one step and writes the words for the message to `what`; returns false if nothing can be
+// lowered. `most`: the largest values that any mirror asks for.
 bool lower(Settings& settings, const ReflectionSettings& most, const FramePlan& plan, std::string& what) {
   ReflectionSettings& reflection = settings.reflection;
   if (most.samples > 1) {
@@ -55,8 +56,8 @@ bool isAutomatic(const Mirror& mirror, const Settings& settings) {
 }
 
 // Says whether a GPU draws the frame faster with rays in the place of mirror images: with one sample a pixel, once a
-// mirror covers much of the picture (docs/scaling.md). More samples were not measured. Only mirrors count that are
-// automatic by `asked`.
+// mirror covers much of the picture (docs/scaling.md). More samples were not measured. Only mirrors whose method is
+// automatic in `asked` count.
 bool raysAreFaster(const FramePlan& plan, const Scene& scene, const Settings& asked) {
   return asked.view.samples == 1 && std::ranges::any_of(plan.drawnMirrors(), [&](const Pass& pass) {
            return pass.depth == 0 && pass.areaPx >= pixelsForRays &&
@@ -64,7 +65,7 @@ bool raysAreFaster(const FramePlan& plan, const Scene& scene, const Settings& as
          });
 }
 
-// Sets what automatic mirrors are drawn by.
+// Sets the method by which automatic mirrors are drawn.
 void setAutomatic(Settings& settings, const Settings& asked, ReflectionMethod method) {
   settings.limit.automatic = method;
   if (asked.reflection.method == ReflectionMethod::automatic) {

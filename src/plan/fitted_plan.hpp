@@ -9,23 +9,23 @@ namespace speculum {
 
 struct TargetLimits {
   uint64_t budgetBytes = 0;   // for all render targets together
-  int largestSide = 0;        // pixels of a picture, at any resolution
-  bool keepsPicture = false;  // the last one stays in memory while a still one is drawn, as in the window
+  int largestSide = 0;        // largest width or height of a target, pixels
+  bool keepsPicture = false;  // the last picture stays in memory while a still one is drawn, as in the window
   bool tracesRays = true;     // the device has gl_PrimitiveID in fragment shaders, and the scene fits storage buffers
   bool cpu = false;           // the device is a CPU
 };
 
 struct FittedPlan {
   FramePlan plan;
-  Settings settings;    // as passed in, or lowered
+  Settings settings;    // as requested, or lowered
   std::string message;  // what was lowered and why; empty if nothing was
 };
 
 // Plans with settings lowered until the targets fit the limits. First unchanged images are rendered instead of reused,
-// if that needs less memory. Then these are halved step by step: samples of mirror images, samples of the main view,
-// resolution of mirror images and maps. A plan that still does not fit is returned as it is. Traced effects are left
-// out where the device cannot trace, and reflection.method = auto becomes what is faster. The request's settings become
-// pictureSettings() before anything else.
+// if that needs less memory. Then the following are halved step by step: samples of mirror images, samples of the main
+// view, resolution of mirror images and maps. A plan that still does not fit is returned as it is. Traced effects are
+// left out where the device cannot trace, and reflection.method = auto becomes the faster method. Before all this, the
+// request's settings become pictureSettings().
 FittedPlan planWithin(const TargetLimits& limits, const FrameRequest& request);
 
 // Plans pictures within the limits of a device.

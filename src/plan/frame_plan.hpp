@@ -18,18 +18,20 @@ namespace speculum {
 
 class SceneChanges;
 
+// Why a mirror in a view has no pass. Each comment is about that mirror.
 enum class SkipReason {
   behind,         // behind the eye
-  backface,       // the eye sees its back, or its edge
-  outside,        // outside the view, the mirror it is seen in, or behind that mirror's plane
+  backface,       // the eye sees the mirror's back or edge
+  outside,        // outside the view or the mirror that shows it, or behind the plane of that mirror
   hidden,         // behind occluders
   minPixels,      // smaller than reflection.min_pixels
   minThroughput,  // lets less through than reflection.min_throughput
   maxDepth,       // reflection.max_depth
-  maxPasses,      // reflection.max_passes was spent on better ones
+  maxPasses,      // reflection.max_passes, or the work of planning, was spent on more important mirrors
   unchanged,      // its cached image is reused
   rays,           // rays show its reflection
 };
+// Returns the reason as `--stats` writes it, such as "min_pixels".
 std::string_view skipReasonName(SkipReason reason);
 
 // A mirror that a view draws.
@@ -37,10 +39,10 @@ struct MirrorDraw {
   int mirror = 0;                      // index into Scene::mirrors
   bool back = false;                   // its back is seen
   bool byRays = false;                 // rays show its reflection, not an image of its plane
-  bool blurs = false;                  // rough: the image of its plane is blurred
-  bool ripples = false;                // rippled: the image of its plane is looked up where ripples reflect to
+  bool blurs = false;                  // the mirror is rough: the image of its plane is blurred
+  bool ripples = false;                // the mirror is rippled: the image of its plane is read where ripples reflect to
   int pass = -1;                       // index into FramePlan::passes of the pass that renders its image; -1: none
-  std::optional<CachedLookup> cached;  // set if it reuses a cached image; with neither it shows the background
+  std::optional<CachedLookup> cached;  // set if it reuses an image; with neither pass nor image it shows the background
   Polygon polygon;                     // world, cut to what the view shows, counter-clockwise for the view's eye
   Plane plane;                         // world; facing the view's eye
   int layer = 0;                       // MirrorState::frontLayer or backLayer, by the side that is seen
@@ -49,7 +51,7 @@ struct MirrorDraw {
 struct ImageQuality {
   double scale = 1.0;  // resolution relative to the main view
   int samples = 1;
-  int interval = 1;  // frames between images of the mirror that is seen directly, with all that is seen in it
+  int interval = 1;  // frames between renderings of a mirror seen directly and of all images in it
 };
 
 enum class PassKind { mirror, environment, shadow, main, accumulation, display, targetDisplay };
@@ -57,7 +59,7 @@ enum class PassKind { mirror, environment, shadow, main, accumulation, display, 
 // Identifies a pass. Equal for the same pass of different frames.
 struct PassId {
   PassKind kind = PassKind::mirror;
-  MirrorPath path;    // empty for other passes
+  MirrorPath path;    // of a mirror pass; empty for other kinds
   int instance = -1;  // of an environment map, index into SceneState::instances
   int light = -1;     // of a shadow map, index into Scene::lights
   int face = -1;      // of an environment or shadow map, in the order of faceAxes()
@@ -65,14 +67,14 @@ struct PassId {
   bool operator==(const PassId&) const = default;
 };
 
-// How a frame comes by the image of a pass.
+// Where the image of a pass comes from in a frame.
 enum class PassSource {
   drawn,   // this frame draws it
-  reused,  // an earlier frame drew it; a MirrorDraw says whether it is reprojected
-  unread,  // nothing that is drawn reads it: a shadow map's face
+  reused,  // an earlier frame drew the image; MirrorDraw::cached says whether it is reprojected
+  unread,  // a face of a shadow map that no drawn surface reads
 };
 
-// Tiles first .. end - 1.
+// Tiles first .. end - 1 of a picture or of a pass (picture_tiles.hpp).
 struct TileRange {
   size_t first = 0;
   size_t end = 0;
@@ -95,17 +97,17 @@ struct Pass {
   PassSource source = PassSource::drawn;
   View view;
   Projection projection;
-  glm::ivec2 corner{0};  // of the view's rectangle in its target, texels
-  int cube = -1;         // index into FramePlan::cubes of the cube that it is a face of; -1: none
+  glm::ivec2 corner{0};  // upper left corner of the view's rectangle in its target, texels
+  int cube = -1;         // index into FramePlan::cubes of the cube that the pass is a face of; -1: none
   int layer = -1;        // index into FramePlan::passes of the pass whose image a shadow map's face is drawn over
-  bool isLayer = false;  // the pass is such a layer; it has the id of its face
+  bool isLayer = false;  // the pass is the layer of a shadow map's face and has the id of that face
   FaceWindow window;     // of a shadow map's face
   ImageQuality quality;
-  ImageQuality shownIn;           // of the pass that shows the image
+  ImageQuality shownIn;           // quality of the pass that shows the image
   int depth = -1;                 // recursion depth of its mirror: 0 seen directly, 1 in a mirror; -1 for other passes
   double areaPx = 0.0;            // area of the mirror's visible region, in texels of its image
-  double throughput = 1.0;        // upper bound over that region, largest channel, including this mirror
-  glm::dvec3 channels{1.0};       // upper bound of each channel
+  double throughput = 1.0;        // upper bound over the visible region, largest channel, including this mirror
+  glm::dvec3 channels{1.0};       // upper bound of the throughput of each channel
   RecycledVector<int> instances;  // visible ones, indices into SceneState::instances, ascending
   RecycledVector<PartialInstance> partial;  // instances that are seen in part, ascending
   RecycledVector<int> lights;               // lights whose glyphs are visible, indices into Scene::lights
@@ -122,7 +124,7 @@ struct Cube {
   PassKind kind = PassKind::environment;
   int light = -1;                                    // of a shadow map, index into Scene::lights
   int object = -1;                                   // of an environment map, index into Scene::objects
-  int copy = 0;                                      // of the object
+  int copy = 0;                                      // index of the object's copy
   int instance = -1;                                 // index into SceneState::instances
   RecycledString name;                               // of the light, or of the object and copy, for users
   int size = 0;                                      // texels of each side of a face
@@ -134,15 +136,17 @@ struct Cube {
   uint64_t serial = 0;  // grows each time that any cube of its kind, or a face of a shadow map, is rendered
   int age = 1;          // frames since it was rendered or last found unchanged, in the next frame
   int due = 1;          // age at which it is rendered anew
-  int cacheIndex = -1;  // of an environment map, index into FrameCache::cubes of the one that is reused; -1: none
-  // All that the texels of each face depend on, and of the layer below it; empty if there are none.
+  int cacheIndex = -1;  // of an environment map, index into FrameCache::cubes of the map that is reused; -1: none
+  // Numbers that the texels of each face, and of the layer below it, depend on. Empty if the content is not compared or
+  // there is no layer.
   std::array<RecycledVector<uint64_t>, 6> content;
   std::array<RecycledVector<uint64_t>, 6> layerContent;
 };
 
+// A mirror in a view that has no pass.
 struct SkippedMirror {
   int mirror = 0;
-  MirrorPath path;  // ends with this one
+  MirrorPath path;  // ends with `mirror`
   int depth = 0;
   SkipReason reason = SkipReason::outside;
   RecycledString detail;
@@ -156,8 +160,8 @@ struct MainImage {
 
 // Images of the frame before that this frame may reuse.
 struct FrameCache {
-  std::span<const CachedImage> images;    // FramePlan::cached of that frame
-  std::span<const Cube> cubes;            // FramePlan::cubes
+  std::span<const CachedImage> images;    // FramePlan::cached of the frame before
+  std::span<const Cube> cubes;            // FramePlan::cubes of the frame before
   const MainImage* main = nullptr;        // null: the main view is drawn in any case
   const SceneChanges* changes = nullptr;  // up to this frame; null: unchanged images are not looked for
 };
@@ -166,15 +170,16 @@ struct FrameCache {
 struct FrameRequest {
   const Scene& scene;
   const SceneState& state;
-  Settings settings;   // as they are asked for
+  Settings settings;   // as requested
   glm::ivec2 size{0};  // of the picture, pixels
-  FrameCache cache;    // what the frame before left
-  int picture = 0;     // number in the mean of view.accumulate pictures
+  FrameCache cache;    // images of the frame before
+  int picture = 0;     // index in the mean of view.accumulate pictures
 };
 
-// A frame is one list of passes. Those that draw are recorded in its order: faces of shadow maps, each after its layer,
-// faces of environment maps, mirrors, children before their parent, and the main view. Passes that the frame reuses
-// stand in the list too: what they show is on the screen. Those of mirrors stand before the mirrors that are drawn.
+// The plan of a frame: one list of passes. Passes that draw are recorded in the order of the list: faces of shadow
+// maps, each after its layer, faces of environment maps, mirrors, children before their parent, and the main view.
+// Passes that the frame reuses stand in the list too, because what they show is on the screen; reused mirrors stand
+// before those that are drawn.
 struct FramePlan {
   Projection projection;  // of all passes but faces
   int width = 0;          // pixels of the picture
@@ -186,26 +191,27 @@ struct FramePlan {
   RecycledVector<Cube> cubes;
   RecycledVector<uint64_t> mainContent;  // imageContent() of the main view if it shows cached images only; else empty
   RecycledVector<SkippedMirror> skipped;
-  RecycledVector<CachedImage> cached;  // reused or rendered by this frame; the next one may reuse them
-  TracedEffects effects;               // that all of these passes call for
-  // Tiles that this frame draws of a picture that several frames draw (picture_tiles.hpp); none: it draws all.
+  RecycledVector<CachedImage> cached;  // images that this frame reuses or renders; the next frame may reuse them
+  TracedEffects effects;               // effects that the passes call for
+  // Tiles that this frame draws if several frames draw one picture (picture_tiles.hpp); none: the frame draws all
+  // tiles.
   std::optional<TileRange> tiles;
 
   const Pass& main() const { return passes.back(); }
   Pass& main() { return passes.back(); }
-  // The frame before drew the same main view or mean, which is shown again.
+  // Says whether the main view or mean of an earlier frame is shown again, because this frame would draw the same.
   bool mainReused() const { return !main().drawn(); }
-  // Mirror passes that the frame draws. They stand side by side in the list.
+  // Returns the mirror passes that the frame draws. They stand side by side in the list.
   std::span<const Pass> drawnMirrors() const;
-  // Mirror passes of the picture that the frame shows: those that it draws or, if it shows the last picture again,
-  // those that drew that.
+  // Returns the mirror passes of the picture that the frame shows: the passes that it draws or, if it shows the last
+  // picture again, all that made that picture.
   std::span<const Pass> shownMirrors() const;
 };
 
-// Cubes of one kind, which stand side by side.
+// Returns the cubes of one kind, which stand side by side in `cubes`.
 std::span<const Cube> cubesOf(std::span<const Cube> cubes, PassKind kind);
 
-// Visits all passes but those of shadow maps: what they draw reaches the eye.
+// Visits the passes whose drawing reaches the eye: all but those of shadow maps.
 template <typename Visit>
 void forEachSeen(const FramePlan& plan, const Visit& visit) {
   for (const Pass& pass : plan.passes) {
@@ -215,27 +221,29 @@ void forEachSeen(const FramePlan& plan, const Visit& visit) {
   }
 }
 
-// Name for users, such as "mirror wall > mirror door" or "shadow map of light 'lamp' +x".
+// Returns the name of a pass for users, such as "mirror wall > mirror door" or "shadow map of light 'lamp' +x".
 std::string passName(const Scene& scene, const FramePlan& plan, const Pass& pass);
 
-// Returns the one of shownMirrors() with that path; null if there is none.
+// Returns the pass among shownMirrors() that has this path; null if there is none.
 const Pass* mirrorPass(const FramePlan& plan, std::span<const int> path);
 
-// Finds the passes that a picture needs, and why every other mirror has none. Pure. The budget of passes goes to the
-// best first, by visible pixels times throughput. The main view has view.scale times as many texels along each side,
-// rounded, and mirror images reflection.scale times as many as that, unless a mirror has a quality of its own. An image
-// in an image has no more texels and samples than the one that shows it.
+// Finds the passes that a picture needs, and why every other mirror has none. A pure function. The budget of passes
+// goes to the mirrors with the most visible pixels times throughput first. Along each side, the main view has
+// view.scale times the texels of the picture, rounded, and mirror images have reflection.scale times the texels of the
+// main view, unless a mirror has a quality of its own. An image in an image has no higher resolution and no more
+// samples than the image that shows it.
 //
 // With reflection.skip_unchanged, a mirror seen directly reuses its image in `cache.images` if everything that the
-// image depends on is exactly as it was. With reflection.update_interval above 1, it also does so while the image is
-// younger than its due age, was drawn under the same settings and covers what is seen. The budget of passes is spent as
-// if every image were rendered, so that no image depends on which others are reused.
+// image depends on is exactly as it was. With reflection.update_interval above 1, it also reuses its image while that
+// is younger than its due age, was drawn under the same settings and covers what is seen. The budget of passes is spent
+// as if every image were rendered, so that no image depends on which others are reused.
 //
-// `cache.cubes` are reused likewise, by reflection.skip_unchanged and effects.environment_interval. With
-// reflection.skip_unchanged and without view.continuous, so is the main view if it is exactly as it was.
+// Shadow and environment maps in `cache.cubes` are reused by reflection.skip_unchanged and effects.environment_interval
+// (cube_reuse.hpp). With reflection.skip_unchanged and without view.continuous, the main view in `cache.main` is reused
+// if it would be drawn exactly the same.
 //
-// A picture of a mean is planned at its offset, under pictureSettings(). If its number is view.accumulate or more, the
-// mean is complete and is shown again: mainReused().
+// A picture of a mean is planned at its pictureOffset(); the request's settings are pictureSettings() then. If
+// `picture` is view.accumulate or more, the mean is complete and is shown again: mainReused().
 FramePlan planFrame(const FrameRequest& request);
 
 }  // namespace speculum

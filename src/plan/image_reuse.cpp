@@ -92,7 +92,7 @@ void reuseIfUnchanged(CachedImage& image, std::span<const CachedImage> images, c
   image.content = imageContent(around, main, passes);
   const auto before = imageOf(images, image.mirror);
   if (before != images.end() && before->content == image.content && sameDrawing(before->settings, around.settings)) {
-    constexpr int mostFrames = 1'000'000'000;  // that are counted: days without a change
+    constexpr int mostFrames = 1'000'000'000;  // largest count: days without a change
     image.unchangedFor = std::min(before->unchangedFor + before->age, mostFrames);
     image.cacheIndex = static_cast<int>(before - images.begin());
   }

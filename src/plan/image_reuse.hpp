@@ -17,21 +17,22 @@ inline constexpr double largestMargin = 0.1;
 
 // A mirror seen directly, whose image may be reused and is cached.
 struct ReuseRequest {
-  const View& view;  // of the mirror's pass, without a margin
+  const View& view;  // view of the mirror's pass, without a margin
   const Projection& projection;
   std::span<const glm::dvec3> visible;  // world; visible region of the mirror
   const Settings& settings;
   int samples = 1;   // a texel of the image
   int interval = 1;  // frames between two images
-  int order = 0;     // number of the mirror in order of discovery; new images become due in turn by it
+  int order = 0;     // number of the mirror in order of discovery; new images become due in turn by this number
 };
 
 struct ImageChoice {
-  CachedImage image;   // a cached one if it serves; else this frame's, whose view has the margin
+  CachedImage image;   // a cached image if it can be reused; else a new one, whose view includes a margin
   bool moved = false;  // whether view or mirror moved since the cached image was rendered
 };
 
-// Chooses the image that a mirror shows, by the cached one's age, what it covers and the settings it was drawn under.
+// Chooses the image that a mirror shows, by the age of the cached image, what it covers and the settings it was drawn
+// under.
 ImageChoice chooseImage(std::span<const CachedImage> images, const ReuseRequest& request);
 
 // State that all images of a frame share.
@@ -46,11 +47,11 @@ struct ImageSurroundings {
   uint64_t shadowSerial = 0;                      // largest Cube::serial of a shadow map
 };
 
-// Returns, as numbers, everything but settings, meshes and textures that the image of a mirror depends on: views, what
-// they show, and when any of that last changed. Images with equal content, under settings that sameMirrorImages() calls
-// equal, are the same bit for bit. `passes` are the mirror's and those of all mirrors seen in it. If any of them traces
-// rays or looks up an environment map, the image depends on the whole scene, and on the time if rays may meet ripples.
-// `around` has changes.
+// Returns, as numbers, everything but settings, meshes and textures that the image of a mirror depends on: views, the
+// nodes in them, and when any of these nodes last changed. Images with equal content, under settings that
+// sameMirrorImages() calls equal, are the same bit for bit. `passes` are the pass of the mirror and the passes of all
+// mirrors seen in it. If the frame traces rays or looks up environment maps, the image depends on the whole scene, and
+// on the time if rays may meet ripples. `around.changes` must not be null.
 RecycledVector<uint64_t> imageContent(const ImageSurroundings& around, const View& main,
                                       std::span<const Pass* const> passes);
 
@@ -58,7 +59,7 @@ RecycledVector<uint64_t> imageContent(const ImageSurroundings& around, const Vie
 RecycledVector<uint64_t> shadowContent(const SceneChanges& changes, const Pass& face, const Pass& casters);
 
 // Reuses the cached image of the same mirror if `image`, which this frame would render, is the same bit for bit. `main`
-// is the view that both are seen in; `passes` are as for imageContent().
+// is the view in which the mirror is seen; `passes` are as for imageContent().
 void reuseIfUnchanged(CachedImage& image, std::span<const CachedImage> images, const ImageSurroundings& around,
                       const View& main, std::span<const Pass* const> passes);
 

@@ -24,9 +24,9 @@ struct Candidate {
   int parent = 0;       // node
   size_t draw = 0;      // index into the parent's mirrors
   Polygon visible;      // world; visible region
-  double areaPx = 0.0;  // of the picture
+  double areaPx = 0.0;  // pixels of the picture
   glm::dvec3 throughput{1.0};
-  int order = 0;  // of discovery; settles ties so that plans are reproducible
+  int order = 0;  // number in order of discovery; settles ties so that plans are reproducible
 
   bool operator<(const Candidate& other) const {
     return priority != other.priority ? priority < other.priority : order > other.order;
@@ -102,12 +102,13 @@ void MirrorSearch::fill(int node) {
   View drawn = readable;
   widen(drawn, plan_.projection, 1);
   const auto isOwn = [&](int mirror) { return !view.path.empty() && view.path.back() == mirror; };
-  // An image shows no mirror of its own mirror's plane.
+  // The image of a mirror shows no mirror that lies in the same plane.
   const auto inOwnPlane = [&](int mirror) {
     return !view.path.empty() && state_.mirrors[view.path.back()].plane == state_.mirrors[mirror].plane;
   };
-  // Rays come from the reflected eye and begin to see at the window. What crosses another mirror's plane before does
-  // not meet that mirror. Where the two mirrors share an edge, rounding would show the other's back.
+  // Lines of sight come from the reflected eye and begin to see at the window. A line that crosses another mirror's
+  // plane before the window does not meet that mirror. Where both mirrors share an edge, rounding would show the
+  // other's back.
   std::optional<Polygon> window;  // the part of the view's own mirror through which it sees
   const auto liesBefore = [&](int mirror) {
     if (!window) {
@@ -120,7 +121,7 @@ void MirrorSearch::fill(int node) {
              return height * heightAbove(state_.mirrors[mirror], p) <= 0.0;
            });
   };
-  RecycledVector<Sight> sights;  // of the mirrors that are seen; a view may look at a thousand that are not
+  RecycledVector<Sight> sights;  // of the mirrors that are seen; a thousand others may be out of view
   RecycledVector<int> seen;
   for (int i = 0; i < static_cast<int>(scene_.mirrors.size()); ++i) {
     if (!inOwnPlane(i) && !behindEye(view, state_.mirrors[i].polygon)) {
@@ -131,7 +132,7 @@ void MirrorSearch::fill(int node) {
       }
     }
   }
-  // Each mirror that is seen is kept with its polygon, and tested against the others.
+  // A mirror that is seen counts more: it is kept with its polygon, and tested against the others that are seen.
   work_ += 72 + 2 * scene_.mirrors.size() + seen.size() * (4 + std::min<size_t>(seen.size(), 512) / 4) +
            state_.instances.size() / 16 + nodes_[node].pass.instances.size() / 4 + state_.lights.size() / 8;
   occlusion_.setView(view, nodes_[node].pass.instances, std::move(seen));

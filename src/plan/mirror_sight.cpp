@@ -10,12 +10,13 @@ namespace {
 // Tracing this many samples takes about as long as rendering a pass on lavapipe (docs/scaling.md).
 constexpr double samplesOfAPass = 1500.0;
 
-// Returns the visible part of a mirror's polygon. Of one so large that cuts near the eye would be off by a part of the
-// eye's height, only what is not at the horizon is cut, in its plane.
+// Returns the visible part of a mirror's polygon. If the polygon is so large that cuts near the eye would be off by a
+// part of the eye's height, the strip at the horizon is left out first and the rest is moved exactly into the mirror's
+// plane.
 Polygon visiblePart(const View& view, const MirrorState& mirror, double height) {
-  constexpr double large = 1e12;       // heights of the eye
-  constexpr double leastMetres = 1e9;  // smaller mirrors lose no strip
-  constexpr double horizon = 1e9;
+  constexpr double large = 1e12;       // distance of a large mirror's farthest vertex, in heights of the eye
+  constexpr double leastMetres = 1e9;  // smaller mirrors lose no strip at the horizon
+  constexpr double horizon = 1e9;      // distance of the strip, in heights of the eye
   const double farthest = farthestDistance(view.eye, mirror.polygon);
   if (height == 0.0 || farthest < std::max(large * std::abs(height), leastMetres)) {
     return visiblePart(view, mirror.polygon);

@@ -25,18 +25,18 @@ bool showsBack(const Mirror& mirror, double height);
 MirrorDraw facingDraw(const MirrorState& mirror, int index, double height, bool back, const View& drawn);
 
 // Finds what a view sees of a mirror. `drawn` is the view, widened by what is drawn beyond its edge. Polygons are cut
-// by it before they are drawn, because floats are too coarse for the depth near the eye of a polygon whose vertices lie
-// far outside the view.
+// by `drawn` before they are drawn, because floats are too coarse for the depth near the eye of a polygon whose
+// vertices lie far outside the view.
 Sight sightOf(const Scene& scene, const SceneState& state, const View& view, const View& drawn, int mirror);
 
-// Upper bound of the reflectance of what is visible. Schlick's F grows towards grazing; the flattest view of a polygon
-// is that of its farthest vertex.
+// Returns an upper bound of the mirror's reflectance over its visible region. Schlick's F grows towards grazing; the
+// flattest line of sight to a polygon ends at its farthest vertex.
 glm::dvec3 reflectanceBound(const MirrorOptics& optics, const Plane& plane, const glm::dvec3& eye,
                             std::span<const glm::dvec3> visible);
 
-// Returns why rays show what a mirror with this quality of its own reflects, which is seen in `samples` samples:
-// because its method says so, or because an image of its plane cannot; empty if an image shows it. At a limit of depth
-// or throughput the mirror reflects the background alone, so only ripples count.
+// Returns why rays show the reflection of a mirror that is seen in `samples` samples: because its method (`own` or
+// reflection.method) says so, or because an image of its plane cannot show it. Empty if an image shows it. Without
+// `reflects`, at a limit of depth or throughput, the mirror reflects the background alone, so only ripples count.
 std::string_view whyRays(const MirrorQuality& own, const MirrorOptics& optics, const Settings& settings, bool reflects,
                          double samples);
 

@@ -40,7 +40,7 @@ std::optional<glm::dvec3> addEdge(OccludedRegion& region, const glm::dvec3& a, c
 }
 
 // Returns the body's outline as seen from the eye: directed edges as pairs of indices into its points. An edge belongs
-// to it if just one of its triangles faces the eye.
+// to the outline if just one of its two triangles faces the eye.
 RecycledVector<std::pair<uint32_t, uint32_t>> outline(const BodyOccluder& body, const glm::dvec3& eye) {
   RecycledVector<int> facing;  // 1 if the triangle runs counter-clockwise from the eye, -1 if clockwise
   facing.reserve(body.normals.size());

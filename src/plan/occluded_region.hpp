@@ -26,13 +26,13 @@ struct HalfSpace {
 // spaces.
 using OccludedRegion = RecycledVector<HalfSpace>;
 
-// A flat polygon, world space, and the plane through it, from whose normal the polygon runs counter-clockwise.
+// A flat polygon in world space, counter-clockwise as seen from the side to which the normal of its plane points.
 struct FlatOccluder {
   Polygon polygon;  // neighbours are more than `slack` / 100 apart
   Plane plane;
-  double slack = 0.0;      // metres by which it may stand elsewhere on the GPU
-  glm::dvec3 center{0.0};  // of a sphere around it
-  double radius = 0.0;
+  double slack = 0.0;      // metres by which rounding on the GPU may move the polygon
+  glm::dvec3 center{0.0};  // centre of a sphere around the polygon
+  double radius = 0.0;     // of that sphere, metres
 };
 
 // Finds the region behind a flat occluder. Returns false, and leaves `region` without meaning, if the view sees the
@@ -42,9 +42,9 @@ bool hiddenByFace(const FlatOccluder& occluder, const View& view, const Projecti
 // A closed mesh that is about convex, world space.
 struct BodyOccluder {
   const ConvexMesh* mesh = nullptr;    // null: nothing hides
-  RecycledVector<glm::dvec3> points;   // of the mesh's
-  RecycledVector<glm::dvec3> normals;  // of its triangles, of any length
-  double slack = 0.0;                  // metres by which the points may stand elsewhere on the GPU
+  RecycledVector<glm::dvec3> points;   // the mesh's points in world space
+  RecycledVector<glm::dvec3> normals;  // normals of the mesh's triangles, of any length
+  double slack = 0.0;                  // metres by which rounding on the GPU may move the points
 };
 
 // Region behind a body. The body hides a point within `outline` if the point lies on a plane for which isBefore() is

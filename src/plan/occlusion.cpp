@@ -12,10 +12,10 @@ namespace speculum {
 
 namespace {
 
-// Rounding of what is drawn on the GPU, as a part of its size; floats are off by 1e-7 of it.
+// Bound of rounding on the GPU, as a part of the size of what is drawn; floats are off by 1e-7 of that size.
 constexpr double roundingPart = 1e-5;
-// Largest numbers of a view's mirrors and of its instances that are tested. Testing all against each other takes time
-// in the square of their number, and those that look small hide little.
+// Largest number of mirrors, and of instances, that are tested in a view. Testing all against each other takes time in
+// the square of their number, and occluders that look small hide little.
 constexpr size_t mostTested = 512;
 // Limits of the search for several occluders: pieces of the polygon that are not hidden yet, and occluders.
 constexpr size_t mostPieces = 24;
@@ -47,9 +47,9 @@ BodyOccluder bodyOccluder(const ConvexMesh& mesh, const InstanceState& state) {
 // polygon's plane or outside the cone from the eye through its edges.
 class Prefilter {
  public:
-  // `plane` is the polygon's.
+  // `plane` is the plane of the polygon.
   Prefilter(const glm::dvec3& eye, std::span<const glm::dvec3> polygon, const Plane& plane) : polygon_(polygon) {
-    constexpr double least = 0.4;  // of the polygon's own angle
+    constexpr double least = 0.4;  // smallest apparent size of an occluder, as a part of the polygon's
     const glm::dvec3 center = vertexMean(polygon);
     leastRadius_ = least * farthestDistance(center, polygon);
     distance_ = glm::length(center - eye);
@@ -58,15 +58,15 @@ class Prefilter {
     before_.cone = coneThrough(eye, polygon);
   }
 
-  // Says whether an occluder of `radius` looks large enough at that point of the sphere that is nearest to the eye.
+  // Says whether an occluder of `radius` looks large enough at the point of the sphere that is nearest to the eye.
   bool looksLarge(const glm::dvec3& center, double sphereRadius, double radius) const {
     const glm::dvec3 fromEye = center - before_.eye;
     const double large = radius * distance_ + leastRadius_ * sphereRadius;
     return large * large >= leastRadius_ * leastRadius_ * glm::dot(fromEye, fromEye);
   }
-  // Sees what lies before the polygon.
+  // Returns a view that sees what lies before the polygon, within the cone through its edges.
   const View& before() const { return before_; }
-  // Says whether a corner lies beyond a plane.
+  // Says whether a corner of the polygon lies beyond a plane, seen from the eye.
   bool reachesBeyond(const Plane& plane) const {
     const double side = plane.distance(before_.eye);
     return std::ranges::any_of(polygon_, [&](const glm::dvec3& p) { return side * plane.distance(p) < 0.0; });
@@ -76,7 +76,7 @@ class Prefilter {
   std::span<const glm::dvec3> polygon_;
   View before_;
   double leastRadius_ = 0.0;  // of an occluder as far away as the polygon's middle
-  double distance_ = 0.0;     // from the eye to that middle
+  double distance_ = 0.0;     // from the eye to the polygon's middle
 };
 
 }  // namespace
@@ -161,7 +161,8 @@ bool Occlusion::Occluders::add(const OccludedRegion& region, const HalfSpace* al
   return false;
 }
 
-// Finds the first occluder that hides all of `polygon`, a part of `mirror`, or else those that hide a part of it.
+// Finds the first occluder that hides all of `polygon`, a part of `mirror`, or else the occluders that hide a part of
+// it.
 Occlusion::Occluders Occlusion::occludersOf(int mirror, std::span<const glm::dvec3> polygon) {
   const glm::dvec3& eye = view_->eye;
   Occluders found;
@@ -224,7 +225,7 @@ void Occlusion::setView(const View& view, std::span<const int> instances, Recycl
   if (mirrors_.empty() || !skips(view)) {
     return;
   }
-  // Keeps those that fill the widest angles at the eye, in their order.
+  // Keeps the candidates that fill the widest angles at the eye, in their order.
   const auto keepLargest = [&](RecycledVector<int>& candidates, const auto& sphereOf) {
     if (candidates.size() > mostTested) {
       const auto angle = [&](int i) {

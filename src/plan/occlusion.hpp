@@ -21,12 +21,12 @@ class Occlusion {
  public:
   Occlusion(const Scene& scene, const SceneState& state, const Settings& settings, const Projection& projection);
 
-  // Sets the view that hiddenBy() is about, to which it keeps a reference. Of the `instances` and `mirrors` that it
-  // shows, both ascending, those that look largest are tested if there are very many.
+  // Sets the view for hiddenBy() and keeps a reference to it. `instances` and `mirrors` are those that the view shows,
+  // ascending; if there are very many, only those that look largest are tested as occluders.
   void setView(const View& view, std::span<const int> instances, RecycledVector<int> mirrors);
 
   // Names the occluders that hide all of `polygon` (world), a part of `mirror`, in the view: "object NAME", "mirror
-  // NAME", or several of them; nothing if they do not.
+  // NAME", or several of them; nothing if a part of `polygon` may be visible.
   std::optional<RecycledString> hiddenBy(int mirror, std::span<const glm::dvec3> polygon);
 
  private:
@@ -40,20 +40,20 @@ class Occlusion {
   struct Body {
     RecycledVector<Face> faces;
     BodyOccluder whole;
-    int view = -1;  // as of a face
+    int view = -1;  // as Face::view
     std::optional<BodyRegion> region;
   };
   struct Occluder {
     OccludedRegion region;
     bool isMirror = false;
-    int index = 0;  // of the mirror or instance
+    int index = 0;  // index of the mirror or instance
   };
   struct Occluders {
     // Adds a region, cut by the half space `also` if there is one, unless no corner of the polygon lies in it. Returns
-    // whether it holds all of the polygon.
+    // whether the region holds all of the polygon.
     bool add(const OccludedRegion& region, const HalfSpace* also, const Occluder& of, const glm::dvec3& eye,
              std::span<const glm::dvec3> polygon);
-    std::optional<Occluder> whole;  // hides all of it; without its region
+    std::optional<Occluder> whole;  // an occluder that hides all of the polygon; its `region` is left empty
     RecycledVector<Occluder> parts;
   };
   Body& bodyOf(int instance);
@@ -71,11 +71,11 @@ class Occlusion {
   const Settings& settings_;
   const Projection& projection_;
   const View* view_ = nullptr;
-  RecycledVector<int> viewMirrors_;    // that are tested in the view, ascending
-  RecycledVector<int> viewInstances_;  // likewise
+  RecycledVector<int> viewMirrors_;    // mirrors that are tested in the view, ascending
+  RecycledVector<int> viewInstances_;  // instances that are tested in the view, ascending
   int viewNumber_ = -1;
   RecycledVector<Face> mirrors_;         // parallel to SceneState::mirrors
-  RecycledVector<double> largestFaces_;  // by mesh, radius as a part of the mesh's
+  RecycledVector<double> largestFaces_;  // by mesh: radius of the largest face over the mesh's radius
   std::unordered_map<int, Body, std::hash<int>, std::equal_to<>, RecyclingAllocator<std::pair<const int, Body>>>
       bodies_;  // by index into SceneState::instances; made on first use
 };

@@ -18,7 +18,8 @@ struct LocalPlane {
   double offset = 0.0;
 };
 
-// Returns the view's planes that cut the mesh's bounding box; planes with all of the box on their visible side are not.
+// Returns the view's planes that cut the mesh's bounding box; planes with all of the box on their visible side are left
+// out.
 RecycledVector<LocalPlane> cuttingPlanes(const View& view, const InstanceState& instance,
                                          const glm::dvec3& halfExtent) {
   RecycledVector<LocalPlane> planes;
@@ -39,7 +40,7 @@ RecycledVector<LocalPlane> cuttingPlanes(const View& view, const InstanceState& 
   return planes;
 }
 
-// How far the box reaches from its centre along a direction in world space.
+// Returns how far the mesh's box reaches from its centre along a direction in world space, metres.
 double reachOf(const InstanceState& instance, const glm::dvec3& halfExtent, const glm::dvec3& direction) {
   return glm::dot(glm::abs(direction * instance.worldFromMesh.linear), halfExtent);
 }
@@ -78,7 +79,7 @@ bool seesOnlyFronts(const View& view, const InstanceState& instance, const glm::
                      (1.0 + rounding) * reachOf(instance, halfExtent, view.clip->normal))) {
     return false;
   }
-  // Rounding moves vertices by a share of the whole size, which counts where the box is thin.
+  // Rounding moves vertices by a share of the box's whole size, which matters where the box is thin.
   const double moved = rounding * (halfExtent.x * glm::length(edges[0]) + halfExtent.y * glm::length(edges[1]) +
                                    halfExtent.z * glm::length(edges[2]));
   const glm::dvec3 toEye = view.eye - worldFromMesh.translation;

@@ -18,11 +18,11 @@ Polygon corners(const View& view) {
 }
 
 // Says whether the polygon's edges are long enough and its corners far enough from straight that no triangle of its fan
-// loses its area when the GPU snaps vertices to a grid of 1/256 of a pixel or coarser. If a draw has such a triangle,
-// lavapipe leaves out the others too.
+// loses its area when the GPU snaps vertices to a grid of 1/256 of a pixel or coarser. If a draw has a triangle without
+// area, lavapipe leaves out the others too.
 bool isWellShaped(std::span<const glm::dvec3> polygon, const glm::dvec2& step) {
-  constexpr double shortest = 1.0 / 8.0;
-  constexpr double flattest = 1.0 / 32.0;
+  constexpr double shortest = 1.0 / 8.0;   // pixels
+  constexpr double flattest = 1.0 / 32.0;  // pixels
   const size_t n = polygon.size();
   for (size_t i = 0; i < n; ++i) {
     const glm::dvec2 before = glm::dvec2(polygon[(i + n - 1) % n] - polygon[i]) / step;
@@ -73,7 +73,8 @@ std::vector<glm::dvec2> passMask(const View& view, const Projection& projection,
     if (length2 == 0.0) {
       continue;
     }
-    // Moves the cut outwards until the polygon is well shaped, or makes none: the mask may be larger than needed.
+    // Moves the cut outwards until the polygon is well shaped, or does not cut at all: the mask may be larger than
+    // needed.
     for (const double outwards : {0.0, 0.25, 0.5, 1.0}) {
       const double moved = offset + outwards * glm::length(perPixel);
       const auto inside = [&](const glm::dvec3& p) { return glm::dot(line, p) + moved >= 0.0; };

@@ -11,12 +11,12 @@ namespace speculum {
 // With `standardLocations` samples lie where Vulkan's standardSampleLocations puts them, otherwise anywhere in their
 // texel.
 double lookupReach(const Pass& pass, const Settings& settings, bool standardLocations);
-// The same of an image that is cached, or has another resolution than what shows it.
+// Returns lookupReach() for an image that is cached, or has another resolution than the pass that shows it.
 double cachedLookupReach(const ImageQuality& quality);
 
-// Mask of a pass: at least what the view's cone bounds, widened by `reach` pixels along each axis. A convex polygon in
-// the picture's device coordinates ([-1, 1], y down) without short edges or flat corners; empty if it is the view's
-// whole rectangle.
+// Returns the mask of a pass, the pixels that it shades: at least what the view's cone bounds, widened by `reach`
+// pixels along each axis. A convex polygon in the picture's device coordinates ([-1, 1], y down) without short edges or
+// flat corners; empty if the mask is the view's whole rectangle.
 std::vector<glm::dvec2> passMask(const View& view, const Projection& projection, double reach);
 
 }  // namespace speculum

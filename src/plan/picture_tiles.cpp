@@ -8,15 +8,15 @@ namespace speculum {
 
 namespace {
 
-// Each part of a pass draws the whole geometry once more: with a quarter of these rays, pool takes 1.8 times as long on
-// a H200, which traces them in some 10 ms.
+// Most rays that are submitted together. Each part of a pass draws the whole geometry once more: with a quarter of this
+// limit, the scene pool takes 1.8 times as long on an H200, which traces this many rays in some 10 ms.
 constexpr double mostRays = 1 << 27;
 
 int tilesAlong(int texels) {
   return (texels + tileSide - 1) / tileSide;
 }
 
-// Returns the number of tiles of a pass: none unless it is drawn, or with another one.
+// Returns the number of tiles of a pass: none if the pass is not drawn, or is a layer, which is drawn with its face.
 size_t tilesOf(const Pass& pass) {
   return !pass.drawn() || pass.isLayer ? 0 : pass.isFace() ? 1 : tilesIn(pass.view.rect);
 }
@@ -81,7 +81,7 @@ size_t tilesAtOnce(const FramePlan& plan, const Settings& settings, size_t raysT
   int samples = std::max(settings.view.samples, settings.reflection.samples);
   forEachSeen(plan, [&](const Pass& pass) { samples = std::max(samples, pass.quality.samples); });
   const int rough = plan.effects.roughRays ? roughRays(settings.effects, samples) : 1;
-  const int paths = std::max(perSample ? samples : 1, rough);  // of a pixel
+  const int paths = std::max(perSample ? samples : 1, rough);  // paths of rays from a pixel
   const int bounces = plan.effects.reflects() ? std::max(settings.reflection.maxDepth, 1) : 1;
   const double rays = static_cast<double>(paths) * bounces * static_cast<double>(1 + raysToLights);
   return static_cast<size_t>(std::max(1.0, mostRays / (tileSide * tileSide * rays)));

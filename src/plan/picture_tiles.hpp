@@ -12,10 +12,10 @@ namespace speculum {
 // take 1 ms for a pixel.
 inline constexpr int tileSide = 16;
 
-// Returns the number of tiles of a picture: those of its passes that are drawn, in the order of recording. A face of a
-// shadow or environment map is drawn as one tile, with the layer that it is drawn over.
+// Returns the number of tiles of a picture: the tiles of all passes that are drawn, in the order of recording. A face
+// of a shadow or environment map is drawn as one tile, with the layer that it is drawn over.
 size_t tileCount(const FramePlan& plan);
-// The tiles that are faces come first.
+// Returns the number of tiles that are faces of maps. They come first.
 size_t faceCount(const FramePlan& plan);
 // Returns the tiles of each pass that this frame draws, counted within the pass.
 std::vector<TileRange> tilesOfPasses(const FramePlan& plan);
@@ -24,8 +24,8 @@ std::vector<TileRange> tilesOfPasses(const FramePlan& plan);
 // rectangle and to the column left of it, which in this order are drawn later.
 std::vector<PixelRect> tileRects(int width, int height, const TileRange& tiles);
 // Returns the number of tiles whose commands are submitted together, at least 1, so that no system takes the GPU for
-// hung: they trace up to about 130 million rays. A picture without traced rays needs no limit (SIZE_MAX).
-// `raysToLights`: TracedEffects::raysToLights().
+// hung: tiles that trace up to about 130 million rays together. A picture without traced rays needs no limit
+// (SIZE_MAX). `raysToLights`: TracedEffects::raysToLights().
 size_t tilesAtOnce(const FramePlan& plan, const Settings& settings, size_t raysToLights);
 // Returns the number of tiles that cover a rectangle of this size.
 size_t tilesIn(const PixelRect& rect);

@@ -14,8 +14,8 @@ namespace {
 // of directions.
 constexpr double smallestWindow = 1e-3;
 
-// Widens a face where boxes beside it are told from those in it: the edge of a drawn triangle may reach beyond its box
-// by a part of a pixel.
+// Factor that widens a face for the test whether a box lies beside it: the edge of a drawn triangle may reach beyond
+// its box by a part of a pixel.
 constexpr double margin = 1.05;
 
 constexpr FaceWindow nothing{glm::dvec2(1.0), glm::dvec2(-1.0)};
@@ -28,7 +28,7 @@ FaceWindow windowOf(const Bounds& box, const glm::dvec3& center, const FaceAxes&
   bool before = false;
   bool behind = false;
   glm::bvec2 allLow(true);   // all corners lie left of, or above, the face
-  glm::bvec2 allHigh(true);  // right of it, or below
+  glm::bvec2 allHigh(true);  // all corners lie right of, or below, the face
   for (int corner = 0; corner < 8; ++corner) {
     const glm::dvec3 p =
         glm::mix(box.low, box.high, glm::bvec3((corner & 1) != 0, (corner & 2) != 0, (corner & 4) != 0)) - center;
@@ -54,7 +54,7 @@ FaceWindow windowOf(const Bounds& box, const glm::dvec3& center, const FaceAxes&
   return {glm::max(seen.low, -1.0), glm::min(seen.high, 1.0)};
 }
 
-// Moves the sides outwards to a grid, so that a window stays the same while something in it moves a little.
+// Moves the window's sides outwards to a grid, so that a window stays the same while something in it moves a little.
 FaceWindow onGrid(FaceWindow window) {
   for (int axis = 0; axis < 2; ++axis) {
     const double width = std::max(window.high[axis] - window.low[axis], smallestWindow);
@@ -97,7 +97,7 @@ std::array<glm::dvec3, 4> cornerRays(const View& view, const Projection& project
   return rays;
 }
 
-// Says whether all rays from `eye` stay on the plane's negative side.
+// Says whether all rays from an eye `height` metres above a plane stay on the plane's negative side.
 bool liesBehind(const glm::dvec3& normal, double height, std::span<const glm::dvec3> rays) {
   return height < 0.0 && std::ranges::all_of(rays, [&](const glm::dvec3& ray) { return glm::dot(normal, ray) <= 0.0; });
 }
@@ -113,7 +113,7 @@ bool mayMeet(const View& a, std::span<const glm::dvec3> raysOfA, const View& b, 
   return !separates(a, b, raysOfB) && !separates(b, a, raysOfA);
 }
 
-// Returns columns and rows of maps in their target, so that it is about a square.
+// Returns columns and rows of the maps in their target, which makes the target about a square.
 glm::ivec2 gridOf(size_t maps) {
   const int count = static_cast<int>(maps);
   const int columns = static_cast<int>(std::ceil(std::sqrt(2.0 * count / 3.0)));

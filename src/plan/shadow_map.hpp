@@ -7,28 +7,29 @@
 
 namespace speculum {
 
-// Texels on each side of a face's window: a lookup reads one beyond its own, and rounding may move it.
+// Texels on each side of a face's window: a lookup reads one texel beyond its own, and rounding may move the lookup.
 inline constexpr int shadowBorder = 2;
 
-// A pass whose surfaces look shadows up, and its view, widened by what lookups read around it.
+// A pass whose surfaces look shadows up. `readable` is its view, widened by what lookups read around its edge.
 struct ShadowReader {
   const Pass* pass = nullptr;
   View readable;
   const Projection* projection = nullptr;
 };
 
-// Plans a map for each light of shadowLights(), in which the faces that a reader looks up are to be drawn. The window
-// of a face is as small as the scene allows. A map's place in the target follows from its index.
+// Plans a shadow map for each light of shadowLights(). Faces that a reader looks up are to be drawn, the others are
+// unread. The window of a face is as small as the scene allows. A map's place in the target follows from its index.
 PlannedCubes shadowMaps(const Scene& scene, const SceneState& state, const Settings& settings,
                         std::span<const ShadowReader> readers);
 
-// Returns the index of the face that contains the whole scene in every map; nothing if there is none.
+// Returns the index of the face that contains the whole scene in every map; nothing if there is no such face.
 std::optional<size_t> onlyShadowFace(const FramePlan& plan);
 
+// Say whether the frame draws a face of a shadow map, and whether a face has a layer (Pass::layer).
 bool rendersShadows(const FramePlan& plan);
 bool hasShadowLayers(const FramePlan& plan);
 
-// Texels of the target of all maps; zero without any.
+// Returns the size in texels of the target that holds all shadow maps; zero without shadow maps.
 glm::ivec2 shadowExtent(const FramePlan& plan);
 
 }  // namespace speculum

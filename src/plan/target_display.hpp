@@ -8,7 +8,7 @@ namespace speculum {
 
 enum class TargetKind { color, depth };
 
-// Says whether a target of the pass with this path is there without being asked for: the colors of the main view are.
+// Says whether the pass with this path has this target in every frame: only the main view has, its colors.
 inline bool isAlwaysThere(const MirrorPath& path, TargetKind kind) {
   return path.empty() && kind == TargetKind::color;
 }
@@ -27,7 +27,7 @@ struct TargetDisplay {
 // Value of a target at one texel.
 struct TexelValue {
   glm::ivec2 texel{0};      // from the target's top left
-  bool depth = false;       // of a depth image, whose `value` is 0
+  bool depth = false;       // the target is a depth image; `value` is 0 then
   glm::vec4 value{0.0f};    // linear radiance, disparity in 1/m; the mean of the texel's samples
   float storedDepth = 0.0;  // of the first sample; near plane / metres along the view, 0: infinitely far
 };

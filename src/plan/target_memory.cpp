@@ -67,9 +67,10 @@ uint64_t shadedBytes(const FramePlan& plan, const Settings& settings, const Samp
   return plan.effects.any() ? std::min(samples, mostShadedSamples) * (bytesPerShadedSample + bytesPerRequest) : 0;
 }
 
-// Returns the samples of the depth images, which the ranges use one after the other: some for each sample count.
+// Returns the samples of the depth images, which the ranges use one after the other. Each sample count has depth images
+// of its own.
 uint64_t depthSamples(const FramePlan& plan, std::span<const ConcurrentPasses> ranges, const Samples& samples) {
-  std::array<RecycledVector<uint64_t>, 4> largest;  // by the logarithm of the count
+  std::array<RecycledVector<uint64_t>, 4> largest;  // samples of each image, by the logarithm of the sample count
   for (const ConcurrentPasses& range : ranges) {
     std::array<size_t, 4> places{};
     for (const size_t i : largestFirst(plan, range)) {

@@ -6,23 +6,24 @@
 
 namespace speculum {
 
-// Device memory of a plan's render targets: the main view and the sum of pictures, environment maps, the cached images
-// that it reuses, and the most mirror images that are alive at one time, with their depth.
+// Returns the device memory of a plan's render targets, bytes: the main view and the sum of pictures, environment and
+// shadow maps, the cached images that the plan reuses, and the most mirror images that are alive at one time, with
+// their depth.
 uint64_t targetBytes(const FramePlan& plan, const Settings& settings);
-// The part of it that more than one sample a pixel costs.
+// Returns the part of targetBytes() that samples beyond one a pixel cost.
 uint64_t sampleBytes(const FramePlan& plan, const Settings& settings);
 
-// Deferred shading keeps radiance and requests of a pass for at most so many samples at a time: the groups of one
-// dispatch, times requestsPerGroup in requests.glsl.
+// Most samples of a pass for which deferred shading keeps radiance and requests at a time: the groups of one dispatch,
+// times requestsPerGroup in requests.glsl.
 inline constexpr uint64_t mostShadedSamples = 65535ull * 128;
 inline constexpr uint64_t bytesPerShadedSample = 8;
 inline constexpr uint64_t bytesPerRequest = 4;
 
-// Device memory of the main view's targets with so many samples a pixel.
+// Returns the device memory of the main view's targets with `samples` samples a pixel, bytes.
 uint64_t mainBytes(const FramePlan& plan, int samples);
-// Device memory of the environment maps' targets and of the depth that they share.
+// Returns the device memory of the environment maps' targets and of the depth image that they share, bytes.
 uint64_t environmentBytes(const FramePlan& plan);
-// Bytes of the shadow maps and their depth.
+// Returns the device memory of the shadow maps, their layers and their depth image, bytes.
 uint64_t shadowBytes(const FramePlan& plan);
 
 }  // namespace speculum

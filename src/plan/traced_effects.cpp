@@ -27,7 +27,7 @@ bool mayTrace(const Scene& scene, const Settings& settings) {
 struct Lit {
   RecycledVector<bool> instances;  // by index into SceneState::instances
   bool anyInstance = false;
-  bool mirrors = false;  // a base under a reflection, or a back
+  bool mirrors = false;  // a base under a reflection, or a back, is lit
 };
 
 // Collects the effects that passes call for, and what is lit in them.
@@ -120,7 +120,7 @@ class Collector {
   }
 
   // Says whether the reflected light reaches something drawn. The light's mirror image shines through the mirror's
-  // polygon as through a window, and lights only objects that meet the cone through it.
+  // polygon as through a window, and lights only objects that meet the cone through the polygon.
   bool reachesSomething(const BouncedLight& path) const {
     if (lit_.mirrors || effects_.reflects()) {
       return true;

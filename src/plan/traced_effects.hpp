@@ -17,15 +17,15 @@ struct BouncedLight {
   int mirror = 0;  // index into Scene::mirrors
 };
 
-// Lights that cast shadows and are not black, indices into Scene::lights, ascending.
+// Returns the lights that cast shadows and are not black, as indices into Scene::lights, ascending.
 RecycledVector<int> shadowLights(const Scene& scene);
 
-// Effects that may need rays, and what of them traces rays in this frame. An effect names the first node that calls for
-// it, if anything drawn does.
+// Effects that may need rays, and whether each traces rays in this frame. The string of an effect names the first node
+// that calls for it; it is empty if nothing drawn does.
 struct TracedEffects {
   std::optional<RecycledString> shadows;
-  bool shadowMaps = false;  // what is drawn looks shadows up in maps
-  bool shadowRays = false;  // what is drawn, or what reflected rays meet, traces them
+  bool shadowMaps = false;  // surfaces that are drawn look shadows up in maps
+  bool shadowRays = false;  // surfaces that are drawn, or that reflected rays meet, trace shadow rays
   std::optional<RecycledString> roughness;
   bool roughRays = false;  // roughness is traced, not looked up in images
   std::optional<RecycledString> ripple;
@@ -47,7 +47,7 @@ struct TracedEffects {
   }
 };
 
-// Most lights whose shadows are looked up; a scene with more traces them.
+// Most lights whose shadows are looked up in maps; a scene with more such lights traces all shadows.
 inline constexpr size_t mostShadowMaps = 16;
 
 // Finds the effects that these passes call for, under settings.effects. Pure.

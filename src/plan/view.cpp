@@ -49,7 +49,7 @@ Polygon clippedPart(const View& view, std::span<const glm::dvec3> polygon) {
 // and below the distance of each object.
 double nearOf(const SceneState& state, const Projection& projection) {
   const glm::dvec3& eye = state.camera.eye;
-  // Depth is measured along the axis. In a corner of the picture that is this part of the distance.
+  // Depth is measured along the axis. In a corner of the picture, depth is this part of the distance.
   const double depthPart =
       1.0 / glm::length(glm::dvec3(projection.aspect / projection.focal, 1.0 / projection.focal, 1.0));
   double near = std::min(state.camera.near, Projection().near);
@@ -155,7 +155,7 @@ bool hullVisible(const View& view, std::span<const glm::dvec3> points) {
 }
 
 Polygon visiblePart(const View& view, std::span<const glm::dvec3> polygon) {
-  // Takes no memory: most mirrors of a large scene lie beyond one of the planes.
+  // This test takes no memory, and most mirrors of a large scene lie beyond one of the planes.
   if (!hullVisible(view, polygon)) {
     return {};
   }

@@ -11,7 +11,7 @@
 
 namespace speculum {
 
-// Mirrors from the eye, indices into Scene::mirrors; empty for the main view.
+// Mirrors that reflect a view, from the camera's eye on, as indices into Scene::mirrors; empty for the main view.
 using MirrorPath = RecycledVector<int>;
 
 // The camera, or the camera reflected in a chain of mirrors. All views of a frame share one projection, so that a
@@ -29,31 +29,31 @@ struct View {
   bool mirrored() const { return path.size() % 2 == 1; }
 };
 
-// Returns the depth along the axis of view, in metres, below which the depth test keeps no order: smaller than that of
-// anything drawn, at most the camera's near and 1 mm, and no smaller than needed, because GPUs are slow with tiny
-// depths. Within 1/1000 of its radius, an object around the eye may be drawn out of order. Uses only the focal length
-// and aspect of `projection`.
+// Returns the depth along the axis of view, in metres, below which the depth test keeps no order: smaller than the
+// depth of anything drawn, at most the camera's near and 1 mm, and no smaller than needed, because GPUs are slow with
+// tiny depths. Within 1/1000 of its radius, an object around the eye may be drawn out of order. Uses only the focal
+// length and aspect of `projection`.
 double nearOf(const SceneState& state, const Projection& projection);
 
-// The camera's view of a picture of `width` x `height` pixels.
+// Returns the camera's view of a picture of `width` x `height` pixels.
 View mainView(const CameraPose& camera, const Projection& projection, int width, int height);
 
 // Replaces the view's cone by planes through the sides of its rectangle.
 void boundByRectangle(View& view, const Projection& projection);
 
-// Moves the rectangle's sides and the cone's planes outwards on the screen.
+// Moves the sides of the view's rectangle and the planes of its cone outwards on the screen by `pixels`.
 void widen(View& view, const Projection& projection, int pixels);
 
-// Size of the drawn part of the projection plane, centred, in widths and heights of the picture: 1 where `view.rect`
-// lies within the picture, more where an image has a margin beyond the picture's border.
+// Returns the size of the drawn part of the projection plane, centred, in widths and heights of the picture: 1 where
+// `view.rect` lies within the picture, more where an image has a margin beyond the picture's border.
 glm::dvec2 overscan(const View& view);
 
 // Returns inward unit normals of the planes through the eye and the edges of a convex polygon (world); skips edges that
 // point at the eye.
 RecycledVector<glm::dvec3> coneThrough(const glm::dvec3& eye, std::span<const glm::dvec3> polygon);
 
-// `parent` reflected about a mirror's plane. `plane` faces the parent's eye; `visible` is the mirror's visible region
-// (world). `rect` and `pictureSize` are at the resolution of mirror images.
+// Returns `parent` reflected about a mirror's plane. `plane` faces the parent's eye; `visible` is the mirror's visible
+// region (world). `rect` and `pictureSize` are at the resolution of mirror images.
 View reflectedView(const View& parent, int mirror, const Plane& plane, std::span<const glm::dvec3> visible,
                    const PixelRect& rect, const glm::dvec2& pictureSize);
 
@@ -65,10 +65,10 @@ Polygon visiblePart(const View& view, std::span<const glm::dvec3> polygon);
 
 bool sphereVisible(const View& view, const glm::dvec3& center, double radius);
 
-// Says whether the view may see a part of the box with `halfExtent` about the origin of the box's own space.
+// Says whether the view may see a part of the box that reaches `halfExtent` from the origin of its own space.
 bool boxVisible(const View& view, const Affine& worldFromBox, const glm::dvec3& halfExtent);
 
-// Takes world positions to clip space, subtracting the eye first.
+// Returns world positions in clip space. Subtracts the eye first.
 RecycledVector<glm::dvec4> toClip(const View& view, const Projection& projection, std::span<const glm::dvec3> polygon);
 
 }  // namespace speculum

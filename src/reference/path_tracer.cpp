@@ -21,9 +21,9 @@ double unitInterval(uint64_t bits) {
   return static_cast<double>(bits >> 11) * 0x1.0p-53;
 }
 
-// Returns the mirror image of a ray in the plane through `position` with unit `normal`. It starts at the reflected eye
-// and, because distances stay the same, reaches the mirror at the same t. A ray that would go below the mirror's own
-// plane is turned back above it.
+// Returns the mirror image of a ray in the plane through `position` with unit `normal`. The image starts at the
+// reflected eye and, because distances stay the same, reaches the mirror at the same t. A ray that would go below the
+// mirror's own plane is turned back above it.
 Ray reflectedRay(const Ray& ray, const glm::dvec3& position, const glm::dvec3& normal, const glm::dvec3& planeNormal,
                  double t) {
   const glm::dvec3 toEye = ray.origin - position;

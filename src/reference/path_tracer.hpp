@@ -9,9 +9,9 @@
 
 namespace speculum {
 
-// Samples of the unit square for microfacets. For mirrors seen directly they come from an additive recurrence with the
-// plastic number (Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018), shifted per pixel; for
-// deeper ones from a hash, so that levels are independent of each other.
+// Samples of the unit square for microfacets. For the first rough bounce of a path (level 0) they come from an additive
+// recurrence with the plastic number (Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018),
+// shifted per pixel; for later rough bounces they come from a hash, so that levels are independent of each other.
 class MicrofacetSampler {
  public:
   MicrofacetSampler(uint32_t x, uint32_t y);
@@ -26,7 +26,7 @@ class MicrofacetSampler {
 // Consecutive reflecting sides along a ray, including the one that maxDepth cuts off.
 struct MirrorChain {
   int count = 0;            // at most 255
-  double throughput = 1.0;  // product of their reflectances, mean of the channels
+  double throughput = 1.0;  // product of the sides' reflectances, mean of the channels
   bool background = false;  // the ray meets nothing at all
 };
 
@@ -37,25 +37,26 @@ class PathTracer {
              MicrofacetSampler sampler)
       : world_(world), environment_(environment), options_(options), time_(time), sampler_(sampler) {}
 
-  // Radiance along a ray with a direction of unit length.
+  // Returns the radiance along a ray with a direction of unit length.
   glm::dvec3 radiance(const Ray& ray) { return follow({ray, {}, 0, glm::dvec3(1.0), 0}); }
 
+  // Follows the mirrors along a ray; rough mirrors count as smooth.
   MirrorChain followMirrors(Ray ray) const;
 
  private:
   struct Path {
     Ray ray;
     Skip skip;
-    int depth;              // of the next mirror
-    glm::dvec3 throughput;  // of the bounces so far
+    int depth;              // depth of the next mirror
+    glm::dvec3 throughput;  // product of the bounces so far
     int roughLevel;         // rough bounces so far
   };
   // One point of the reflecting side of a flat or curved mirror.
   struct Bounce {
-    ShadingPoint base;       // what is under the reflection; its normal includes ripples
-    glm::dvec3 planeNormal;  // unit, on the viewer's side; of a curved mirror the triangle's own
+    ShadingPoint base;       // surface under the reflection; its normal includes ripples
+    glm::dvec3 planeNormal;  // unit, on the viewer's side; of a curved mirror the normal of the triangle
     glm::dvec3 reflectance;
-    double alpha;  // of GGX; 0: smooth
+    double alpha;  // width of the GGX distribution; 0: smooth
     double t;
   };
   bool reflects(const SceneHit& hit) const;

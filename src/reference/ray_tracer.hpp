@@ -15,18 +15,18 @@ struct TraceOptions {
   int width = 1280;  // pixels
   int height = 720;
   int samples = 64;  // per pixel, a square: on a regular grid of sqrt(samples) x sqrt(samples)
-  int maxDepth = 4;  // mirrors seen directly have depth 0; those of this depth and beyond show the background
-  double minThroughput = 0.0005;         // mirrors whose throughput falls below it show the background
-  std::optional<glm::dvec3> clearColor;  // linear; replaces the environment's background and sky everywhere
-  int roughSamples = 64;  // reflected rays of a rough mirror seen directly; mirrors seen in it take fewer
+  int maxDepth = 4;  // mirrors seen directly have depth 0; mirrors of depth maxDepth and beyond show the background
+  double minThroughput = 0.0005;         // mirrors with less throughput show the background
+  std::optional<glm::dvec3> clearColor;  // linear; replaces background and sky of the scene everywhere
+  int roughSamples = 64;  // reflected rays of the first rough mirror on a path; rough mirrors seen in it take fewer
 };
 
 struct TraceResult {
   LinearImage image;
   // Per pixel, row 0 at the top, for the ray through its centre:
-  std::vector<uint8_t> backgroundMask;   // 1: it meets nothing
+  std::vector<uint8_t> backgroundMask;   // 1: the ray meets nothing
   std::vector<uint8_t> mirrorDepth;      // reflecting sides in a row, at most maxDepth + 1; roughness is ignored
-  std::vector<double> mirrorThroughput;  // product of their reflectances, mean of the channels; 1 without any
+  std::vector<double> mirrorThroughput;  // product of the sides' reflectances, mean of the channels; 1 without any
 };
 
 // Ray tracer in double precision, whose pictures are the reference: each sample is the radiance that docs/picture.md
@@ -45,15 +45,15 @@ class RayTracer {
   // Receives the finished fraction, 0 .. 1, from one thread of the arena at a time; returning false cancels.
   using Progress = std::function<bool(double)>;
 
-  // Nothing if cancelled. Throws std::invalid_argument for an empty size, samples that are no square, or less than one
-  // rough sample.
+  // Returns nothing if cancelled. Throws std::invalid_argument for an empty size, samples that are no square, or less
+  // than one rough sample.
   std::optional<TraceResult> render(const TraceOptions& options, const Progress& progress = {}) const;
 
-  // Radiance along a ray given in world space; `direction` of any length > 0.
+  // Returns the radiance along a ray given in world space; `direction` may have any length > 0.
   glm::dvec3 radiance(const TraceOptions& options, const glm::dvec3& origin, const glm::dvec3& direction) const;
 
  private:
-  // Ray through a point of the picture, pixels from the top left corner; the eye is the origin.
+  // Returns the ray through a point of the picture, pixels from the top left corner; the eye is the origin.
   Ray cameraRay(const TraceOptions& options, double x, double y) const;
   void tile(const Environment& environment, const TraceOptions& options, int x0, int y0, TraceResult& result) const;
 

@@ -27,7 +27,8 @@ glm::dvec3 lightRadiance(const ShadingPoint& point, const glm::dvec3& toLight, c
   return light.color * light.intensity * (cosine / distance2) * brdf;
 }
 
-// End of a ray to a light, as a share of its length: rounding would find a surface on which the light lies at 1 or not.
+// End of a ray to a light, as a share of its length: up to 1, rounding would decide whether the ray meets a surface on
+// which the light lies.
 constexpr double lightEnd = 1.0 - 1e-12;
 
 // Returns the start of a ray to a light, as a share of its length: surfaces that coincide with the point's, moved by
@@ -77,7 +78,7 @@ glm::dvec3 directLight(const TraceWorld& world, const ShadingPoint& point, int l
   return dark ? glm::dvec3(0.0) : lightRadiance(point, toLight, source);
 }
 
-// Interpolates linear texels bilinearly, repeated, v up; texel centres at (i + 0.5) / size.
+// Interpolates linear texels bilinearly. The texture repeats, v points up, and texel centres are at (i + 0.5) / size.
 glm::dvec3 textureColor(const Texture& texture, const glm::dvec2& uv) {
   if (texture.texels.empty()) {
     return glm::dvec3(1.0);

@@ -24,12 +24,12 @@ struct ShadingPoint {
 // by the winding in the model file, faces away from the viewer.
 ShadingPoint objectPoint(const TraceWorld& world, const Ray& ray, const SceneHit& hit);
 
-// Adds up emission, ambient light, and Phong-Blinn from every light and its images in mirrors that cast light, with
-// shadows.
+// Returns the sum of emission, ambient light, and Phong-Blinn from every light and its images in mirrors that cast
+// light, with shadows.
 glm::dvec3 surfaceRadiance(const TraceWorld& world, const ShadingPoint& point);
 
-// Returns the mirror's front normal at a world position relative to the eye: its plane's, or with ripples that of the
-// height field, which is the same from both sides.
+// Returns the mirror's front normal at a world position relative to the eye: the normal of its plane or, with ripples,
+// of the height field, which is the same from both sides.
 glm::dvec3 mirrorNormal(const Mirror& mirror, const MirrorState& state, const glm::dvec3& position, double time);
 
 }  // namespace speculum

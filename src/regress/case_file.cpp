@@ -27,14 +27,14 @@ namespace fs = std::filesystem;
 using Key = std::string_view;
 
 constexpr size_t mostCases = 10000;
-constexpr size_t mostBytes = 256 << 20;  // of all cases
-constexpr size_t longestPath = 65536;    // bytes; no system opens one that is nearly so long
+constexpr size_t mostBytes = 256 << 20;  // memory of all cases
+constexpr size_t longestPath = 65536;    // bytes; no system opens a path that is nearly so long
 constexpr Range share{.low = 0.0, .high = 1.0};
 constexpr Range seconds{.low = 0.0, .high = 86400.0, .aboveLow = true};
 
 // A table of a case on top of [defaults], before its grid is expanded.
 struct Draft {
-  RegressCase common;  // what all cases of its grid share
+  RegressCase common;  // what all cases of the table's grid share
   std::optional<std::string> name;
   std::optional<std::string> scene;
   std::string picture = "{name}.png";
@@ -114,7 +114,7 @@ std::vector<Expectation> readExpectations(const TableReader& table) {
   return expectations;
 }
 
-// Reads cases of one file.
+// Reads the cases of one file.
 class CaseReader {
  public:
   explicit CaseReader(const fs::path& file) : file_(file) {}
@@ -141,7 +141,7 @@ class CaseReader {
       }
     }
     draft.picture = textIn(table, "picture").value_or(draft.picture);
-    // settingsOf() knows what each setting takes, and names file and line of one that does not.
+    // settingsOf() knows what each setting takes; its error names file and line.
     Scene settings;
     settings.file = file_;
     settings.settings = readSettings(table);

@@ -10,10 +10,11 @@
 
 namespace speculum {
 
-// Bounds on how far a picture may be from the expected one. Nothing: not given here, or for FLIP no bound.
+// Bounds on how far a picture may be from the expected one. A member without a value is not given here or, for FLIP, no
+// bound.
 struct Tolerance {
   std::optional<int> maxDiff;     // 1/255, of the channel that differs most
-  std::optional<double> share;    // of the pixels that may be over maxDiff
+  std::optional<double> share;    // largest share of the pixels that may be over maxDiff
   std::optional<bool> block;      // true: no 3x3 block may be wholly over maxDiff
   std::optional<double> flip;     // mean
   std::optional<double> flipP99;  // 99th percentile over pixels
@@ -25,19 +26,19 @@ Tolerance merged(const Tolerance& base, const Tolerance& changes);
 
 enum class ExpectedResult { pass, fail, skip };
 
-// What is expected of the drivers that match.
+// Expected result for drivers that match `driver` and `version`.
 struct Expectation {
-  std::string driver;                  // family
-  std::optional<std::string> version;  // range; nothing: every version
+  std::string driver;                  // family, see isOfFamily()
+  std::optional<std::string> version;  // range, see isInVersions(); no value: every version
   ExpectedResult result = ExpectedResult::pass;
-  std::string reason;                            // of fail and skip
-  std::optional<std::filesystem::path> picture;  // of its own
-  Tolerance tolerance;                           // over the case's
+  std::string reason;                            // why the result is fail or skip
+  std::optional<std::filesystem::path> picture;  // expected picture of these drivers; no value: the case's
+  Tolerance tolerance;                           // bounds that replace those of the case
 };
 
 struct RegressCase {
   std::string name;  // unique; also the name of its files
-  int line = 0;      // of its table
+  int line = 0;      // line of the case's table in the file
   std::filesystem::path scene;
   double time = 0.0;                  // seconds
   std::optional<std::string> camera;  // as --camera takes it
@@ -47,24 +48,26 @@ struct RegressCase {
   double timeout = 0.0;           // seconds
   bool strict = false;            // defects of models are errors
   std::filesystem::path picture;  // expected
-  Tolerance tolerance;            // complete but for FLIP
+  Tolerance tolerance;            // all bounds are given, except that those on FLIP may be missing
   std::vector<Expectation> expect;
 };
 
-// The case as a driver is expected to draw it: with picture and tolerance of the first expectation that matches.
+// A case as a driver is expected to draw it: with picture and tolerance of the first expectation that matches the
+// driver.
 struct ExpectedCase {
   RegressCase subject;
   ExpectedResult result = ExpectedResult::pass;
   std::string reason;
 };
+// `driver` is the driver's text, as for isOfFamily().
 ExpectedCase expectedOf(const RegressCase& subject, const std::string& driver);
 
-// Cases of a TOML file, as docs/regression.md describes it. Paths are relative to the file; a scene that is not there
-// may be one that comes with the program. Throws InputError.
+// Reads the cases of a TOML file, which docs/regression.md describes. Paths are relative to the file; a scene that is
+// not there may be one that comes with the program. Throws InputError.
 std::vector<RegressCase> readCases(const std::filesystem::path& file);
 
-// Says whether a driver, such as "llvmpipe Mesa 22.3.6 (LLVM 15.0.6)", is of a family: its text holds that word, in any
-// case. "lavapipe" means llvmpipe.
+// Says whether a driver, such as "llvmpipe Mesa 22.3.6 (LLVM 15.0.6)", is of a family: its text holds the family's
+// word, in upper or lower case. "lavapipe" means llvmpipe.
 bool isOfFamily(const std::string& driver, const std::string& family);
 
 // Says whether the first dotted number of the driver's text is in a range: comparisons separated by commas, each one of

@@ -16,22 +16,22 @@ struct OutcomeFigure {
   bool over = false;
 };
 
-// Result of a case. Workers write it as a line of JSON; the commands are added afterwards.
+// Result of a case. Workers write an outcome as a line of JSON; the commands are added afterwards.
 struct Outcome {
   Verdict verdict = Verdict::passed;
-  std::string message;  // one line: why it did not simply pass
+  std::string message;  // one line: why the case did not simply pass
   std::string device;
   std::string driver;
   std::string picture;                     // file of the expected picture
-  std::vector<std::string> drawCommand;    // words of the command that draws it again
-  std::vector<std::string> acceptCommand;  // of the one that replaces the expected picture; none: not allowed
+  std::vector<std::string> drawCommand;    // words of the command that draws the case again
+  std::vector<std::string> acceptCommand;  // words of the command that replaces the expected picture; none: forbidden
   bool replaceable = false;                // --update may write the expected picture
-  bool hasFiles = false;                   // its pictures are beside the report
-  double gain = 1.0;                       // of the difference picture
+  bool hasFiles = false;                   // the pictures of the case are beside the report
+  double gain = 1.0;                       // factor on differences in the difference picture
   double seconds = 0.0;
   std::vector<int> region;  // left, top, width, height of the largest difference, pixels; empty without one
   std::vector<OutcomeFigure> figures;
-  std::vector<std::string> log;  // last lines of the worker
+  std::vector<std::string> log;  // last lines that the worker wrote
 };
 
 NLOHMANN_JSON_SERIALIZE_ENUM(Verdict, {{Verdict::passed, "passed"},
@@ -43,7 +43,7 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(OutcomeFigure, label, value, limit, over)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Outcome, verdict, message, device, driver, picture, drawCommand, acceptCommand,
                                    replaceable, hasFiles, gain, seconds, region, figures, log)
 
-// "passed" and so on.
+// Returns the name of a verdict, such as "passed".
 std::string verdictName(Verdict verdict);
 
 }  // namespace speculum

@@ -17,7 +17,8 @@ struct PictureCheck {
   std::optional<std::string> problem;  // first limit that is exceeded, as a sentence
 };
 
-// Throws std::runtime_error when sizes differ, also that of the mask.
+// Compares a picture with the expected one by the case's tolerance. Throws std::runtime_error when sizes differ, also
+// that of the mask.
 PictureCheck checkPicture(const Image8& expected, const Image8& actual, const RegressCase& subject);
 
 // Names of the files of a case in the report's folder.
@@ -30,11 +31,12 @@ struct CaseFiles {
   std::vector<std::filesystem::path> all() const { return {expected, actual, difference, flip}; }
 };
 
-// Compares and fills figures, verdict and message of the outcome. Writes the pictures unless the case passes.
+// Compares the pictures and fills figures, verdict and message of the outcome. Writes the pictures unless the case
+// passes.
 void judge(const Image8& expected, const Image8& actual, const RegressCase& subject, const CaseFiles& files,
            Outcome& outcome);
 
-// Turns a failure that is expected into success, and a success where a failure is expected into one.
+// Turns an expected failure into a success, and a success into a failure where a failure is expected.
 void applyExpectation(const ExpectedCase& expected, Outcome& outcome);
 
 }  // namespace speculum

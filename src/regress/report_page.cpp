@@ -86,7 +86,7 @@ std::string escapedCell(std::string_view text) {
   return escaped;
 }
 
-// Errors and failures first, in the order of the file.
+// Returns the order of the report: errors and failures first, each group in the order of the file.
 std::vector<size_t> reportOrder(const RegressRun& run) {
   std::vector<size_t> order(run.outcomes.size());
   std::iota(order.begin(), order.end(), size_t{0});
@@ -179,7 +179,8 @@ std::string junitXml(const RegressRun& run) {
 }
 
 std::string githubErrors(const RegressRun& run) {
-  // A relative path would be one of the repository, and the command may have been run in a folder of it.
+  // GitHub takes a relative path as one of the repository, and the command may have been run in a folder of the
+  // repository.
   const std::string file = escapedCommand(wholePath(run.file).lexically_normal().string(), true);
   std::string text;
   for (size_t i = 0; i < run.cases.size(); ++i) {

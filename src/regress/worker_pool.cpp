@@ -18,7 +18,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr size_t maxLogLines = 20;
 constexpr double pollSeconds = 0.1;   // until the next look at whether the run was interrupted
-constexpr double exitSeconds = 10.0;  // for a worker to end by itself
+constexpr double exitSeconds = 10.0;  // time for a worker to end by itself
 
 double secondsSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -56,11 +56,11 @@ class JobQueue {
  private:
   const std::vector<WorkerJob>& jobs_;
   std::set<size_t> left_;
-  std::set<std::string> taken_;  // groups that a worker has begun
+  std::set<std::string> taken_;  // groups of which a worker has begun a job
   std::mutex mutex_;
 };
 
-// Sends a job to the worker and waits for the reply; nothing when interrupted.
+// Sends a job to the worker and waits for the reply; returns nothing when interrupted.
 std::optional<WorkerReply> ask(ChildProcess& worker, const WorkerJob& job) {
   const Clock::time_point start = Clock::now();
   worker.write(job.request + "\n");
@@ -103,7 +103,7 @@ std::optional<WorkerReply> ask(ChildProcess& worker, const WorkerJob& job) {
   return std::nullopt;
 }
 
-// Ends the worker, with time to write its caches.
+// Ends the worker, but leaves it time to write its caches.
 void finish(ChildProcess& worker) {
   const Clock::time_point start = Clock::now();
   worker.closeInput();

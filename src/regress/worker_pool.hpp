@@ -8,7 +8,7 @@ namespace speculum {
 
 struct WorkerJob {
   std::string request;   // one line
-  std::string group;     // a worker prefers jobs of the group that it had last
+  std::string group;     // a worker prefers jobs of the group of its last job
   double timeout = 0.0;  // seconds
 };
 
@@ -17,7 +17,7 @@ enum class JobEnd { answered, crashed, timedOut };
 struct WorkerReply {
   JobEnd end = JobEnd::answered;
   std::string text;              // the reply, or how the worker ended
-  std::vector<std::string> log;  // last lines that the worker wrote besides
+  std::vector<std::string> log;  // last lines that the worker wrote beside the reply
   double seconds = 0.0;
 };
 

@@ -16,7 +16,7 @@ namespace speculum {
 
 namespace {
 
-// Parses lists of numbers separated by commas, the lists by colons; nothing for any other text.
+// Parses lists of numbers. Commas separate numbers, colons separate lists. Returns nothing for any other text.
 std::optional<std::vector<std::vector<double>>> parseLists(std::string_view text) {
   std::vector<std::vector<double>> lists(1);
   const char* end = text.data() + text.size();

@@ -33,7 +33,7 @@ void addValue(Fingerprint& fingerprint, const std::optional<T>& value);
 template <typename T>
 void addValue(Fingerprint& fingerprint, const std::vector<T>& values);
 
-// Adds all that is drawn of a node: no name, and of a model not its path.
+// Adds all values of a node that change the picture: not its name, and not the path of its model.
 template <Described Node>
 void addValue(Fingerprint& fingerprint, const Node& node) {
   forEachField<Node>([&](const auto& field) {

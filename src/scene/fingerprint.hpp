@@ -28,7 +28,7 @@ class Fingerprint {
 };
 
 // Adds everything that a picture of the scene depends on except settings: values of the scene, and models and textures
-// as they were read. Names and paths are left out, so that a scene saved elsewhere is the same.
+// as they were read. Names and paths are left out, so that a scene saved elsewhere has the same fingerprint.
 void addScene(Fingerprint& fingerprint, const Scene& scene);
 
 }  // namespace speculum

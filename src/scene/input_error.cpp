@@ -45,7 +45,7 @@ std::string readInputText(const std::filesystem::path& file, std::string_view ri
 }
 
 std::string nearestKeyAdvice(std::string_view key, std::span<const std::string_view> known) {
-  // A file may have keys of any length; no known key is near a longer one.
+  // A file may have keys of any length; no known key is near one longer than this.
   constexpr size_t longest = 64;
   size_t least = key.size() > longest ? 0 : std::max<size_t>(1, key.size() * 2 / 5) + 1;
   std::string_view nearest;

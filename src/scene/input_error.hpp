@@ -19,8 +19,8 @@ class InputError : public std::runtime_error {
 [[noreturn]] void throwInputError(const std::filesystem::path& file, int line, std::string_view key,
                                   std::string_view wrong, std::string_view right);
 
-// Reads an input file. Throws InputError for line 1 and key `file`; `right` says which file is needed, `most` is the
-// largest size in bytes.
+// Returns the content of an input file. Throws InputError for line 1 and key `file`; `right` says which file is needed,
+// `most` is the largest size in bytes.
 std::string readInputText(const std::filesystem::path& file, std::string_view right, uintmax_t most = 1u << 30);
 
 // Returns the advice of an error about an unknown key: "did you mean 'x'?" for the known key with the least edit

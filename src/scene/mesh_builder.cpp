@@ -17,13 +17,13 @@ namespace {
 // distance, and would leave the range of floats.
 constexpr double mostRepeats = 1e9;
 
-// Texture coordinates of this size have digits enough as floats.
+// Texture coordinates up to this size are exact enough as floats.
 constexpr double nearEnough = 16.0;
 
-// Most triangles of a mesh whose texture coordinates are computed anew in each frame.
+// Most triangles of a mesh whose texture coordinates are computed anew in each frame (Mesh::repeats).
 constexpr size_t mostRepeatingTriangles = 1 << 16;
 
-// Returns the length of a vector whose square may leave the range of a double.
+// Returns the length of a vector, even if its square leaves the range of a double.
 double length(const glm::dvec3& v) {
   const double scale = glm::compMax(glm::abs(v));
   return scale > 0.0 ? scale * glm::length(v / scale) : 0.0;
@@ -68,7 +68,7 @@ void rebase(Mesh& mesh) {
     vertex.position -= mesh.center;
     mesh.radius = std::max(mesh.radius, length(vertex.position));
   }
-  // Scales only models of extreme sizes; the bounds leave room for products of floats. Others keep their numbers.
+  // Scales only models of extreme sizes; the bounds leave room for products of floats. Other models keep their numbers.
   constexpr double largestRadius = 1e12;
   if (mesh.radius > largestRadius || mesh.radius < 1.0 / largestRadius) {
     mesh.unit = std::exp2(std::floor(std::log2(mesh.radius)));
@@ -80,8 +80,8 @@ void rebase(Mesh& mesh) {
   }
 }
 
-// Finds what may hide mirrors, flat faces and a convex mesh, and whether the mesh is solid. Objects that hide mirrors,
-// such as walls, doors and cupboards, have few triangles or a few large ones.
+// Finds the parts that may hide mirrors, flat faces and a convex mesh, and whether the mesh is solid. Objects that hide
+// mirrors, such as walls, doors and cupboards, have few triangles or a few large ones.
 void findShape(Mesh& mesh) {
   constexpr size_t mostFaces = 32;
   constexpr size_t mostTriangles = 4096;
@@ -143,8 +143,8 @@ void MeshBuilder::addFace(std::span<const FaceCorner> corners, int line) {
 }
 
 // Returns whole numbers to subtract from texture coordinates so large that a float would lose more than 1/500 of a
-// texel of a texture 2048 texels wide. The texture repeats, so it looks the same. Neighbours mostly get the same
-// numbers, and so share their vertices.
+// texel of a texture 2048 texels wide. The texture repeats, so the picture stays the same. Neighbouring faces mostly
+// get the same numbers, and so share vertices.
 glm::dvec2 MeshBuilder::uvShiftOf(std::span<const FaceCorner> corners) const {
   glm::dvec2 largest(0.0);
   for (const FaceCorner& corner : corners) {
@@ -203,7 +203,7 @@ Mesh MeshBuilder::finish(const std::function<Material(int)>& materialOf) {
   const auto repeatsOften = [&](uint32_t vertex) {
     return glm::compMax(glm::abs(mesh.vertices[vertex].uv)) > 2.0 * nearEnough;
   };
-  size_t usual = 0;  // indices of triangles that do not repeat their texture so often
+  size_t usual = 0;  // indices of triangles that do not repeat their texture often
   for (const bool repeats : {false, true}) {
     for (size_t i = 0; i < materials.size(); ++i) {
       const auto first = static_cast<uint32_t>(mesh.indices.size());

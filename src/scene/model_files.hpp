@@ -17,8 +17,8 @@ class ModelDefects {
   void add(const std::filesystem::path& file, int line, std::string_view key, std::string_view kind,
            std::string_view detail = {});
 
-  // Logs one warning for each kind, `FILE:LINE: key: kind (and N more)` with the line of the first, in the order of the
-  // first. Returns these texts and forgets the defects.
+  // Logs one warning for each kind, `FILE:LINE: key: kind (and N more)` with the line of the kind's first defect, in
+  // the order of these first defects. Returns the warnings and forgets the defects.
   std::vector<std::string> report();
 
  private:
@@ -26,7 +26,7 @@ class ModelDefects {
     std::filesystem::path file;
     std::string key;
     std::string_view kind;
-    std::string text;  // about the first
+    std::string text;  // about the first defect of the kind
     size_t count = 1;
   };
 
@@ -40,8 +40,8 @@ class ModelFiles {
   explicit ModelFiles(const std::filesystem::path& model) : modelFolder_(model.parent_path()) {}
 
   // Returns the file that `name` in `namingFile` means: as named, relative to the folder of the naming file or of the
-  // model; else the file of that name in these folders and in their folders textures, tex and maps. Nothing if there is
-  // none.
+  // model; else the file of that name in these folders and in their subfolders textures, tex and maps. Returns nothing
+  // if no such file exists.
   std::optional<std::filesystem::path> find(const std::filesystem::path& namingFile, std::string_view name);
 
  private:
@@ -61,7 +61,7 @@ struct ForeignFile {
   std::string right;
 };
 
-// Says what a file is whose content begins like that of a known format other than OBJ.
+// Returns what a file is and what is needed instead, if its content begins like a known format other than OBJ.
 std::optional<ForeignFile> foreignFile(std::string_view content);
 
 }  // namespace speculum

@@ -23,16 +23,16 @@ namespace {
 // Share of the time that reading the text of a large model takes; the rest sorts its triangles.
 constexpr double readShare = 0.65;
 
-// What a file holds beside faces, to say what it is if there are none.
+// What a file holds, so that an error can say what a file without faces is.
 struct Contents {
   bool faces = false;
   bool linesOrPoints = false;
   bool freeForm = false;  // curves and surfaces
 };
 
-// Hands tinyobjloader one line at a time, so that its callbacks know the line that they are called for. Lines are
-// joined after a backslash, which the library does not do, keywords are in lower case, and a line of nothing but its
-// keyword gets an argument, because the library would skip it, and with it the number of a vertex.
+// Hands tinyobjloader one line at a time, so that the callbacks know which line they are called for. Lines are joined
+// after a backslash, which the library does not do, keywords are in lower case, and a line of nothing but its keyword
+// gets an argument, because the library would skip it, and with it the number of a vertex.
 class LineStream : public std::streambuf {
  public:
   LineStream(LineReader& line, std::function<void()> onLine) : line_(line), onLine_(std::move(onLine)) {}
@@ -88,7 +88,7 @@ class ObjReader {
       }
     });
     std::istream stream(&lines);
-    // Without this, an exception of a callback or of `progress` would end the stream like the end of the file.
+    // Without badbit, an exception of a callback or of `progress` would end the stream like the end of the file.
     stream.exceptions(std::ios::badbit);
     Materials materials(*this);
     tinyobj::LoadObjWithCallback(stream, callbacks(), this, &materials);
@@ -105,7 +105,8 @@ class ObjReader {
     int line = 0;
   };
 
-  // The library asks for each name of a mtllib line until one can be read. The first question reads all of them.
+  // The library asks for each name of a mtllib line until one can be read. The first request reads the files of all
+  // names.
   class Materials : public tinyobj::MaterialReader {
    public:
     explicit Materials(ObjReader& reader) : reader_(reader) {}
@@ -152,7 +153,7 @@ class ObjReader {
     defects_.add(file_, line_.number(), key, kind, detail);
   }
 
-  // A damaged element is added too, so that the indices of those after it stay right.
+  // A damaged element is added too, so that the indices of later elements stay right.
   void addPosition() {
     const glm::dvec3 position(number(1), number(2), number(3));
     if (!isFinite(position)) {
@@ -235,7 +236,7 @@ class ObjReader {
 
   static bool isInRange(int index, size_t count) { return index >= 0 && index < static_cast<int>(count); }
 
-  // Appends the corner that a token names; false if it is none.
+  // Appends the corner that a token names; returns false if the token is no corner.
   bool addCorner(std::string_view token) {
     const size_t first = std::min(token.find('/'), token.size());
     const size_t second = std::min(token.find('/', std::min(first + 1, token.size())), token.size());
@@ -248,8 +249,8 @@ class ObjReader {
            (normal.empty() || readIndex(normal, mesh_.normalCount(), corner.normal));
   }
 
-  // Converts an index, which counts from 1, or backwards from -1 among the `count` elements above, to one from 0.
-  // Indices that are out of any range become nowhere. Returns false for what is no integer.
+  // Converts an index, which counts from 1, or backwards from -1 among the `count` elements above, to an index from 0.
+  // Indices that are out of any range become `nowhere`. Returns false if the token is no integer.
   static bool readIndex(std::string_view token, size_t count, int& index) {
     long long value = 0;
     const auto [end, error] = std::from_chars(token.data(), token.data() + token.size(), value);
@@ -263,8 +264,8 @@ class ObjReader {
     return true;
   }
 
-  static constexpr int noIndex = -1;  // no index
-  static constexpr int nowhere = -2;  // an index of nothing
+  static constexpr int noIndex = -1;  // the token has no such index
+  static constexpr int nowhere = -2;  // the index is out of any range
 
   const std::filesystem::path& file_;
   LineReader line_;
@@ -300,7 +301,7 @@ class ObjReader {
                   right);
 }
 
-// Reads the file into `builder` and `materials`. Returns what it holds and, if it is a file of another format, which.
+// Reads the file into `builder` and `materials`. Returns what the file holds and, if it has another format, which one.
 std::pair<Contents, std::optional<ForeignFile>> readObj(const std::filesystem::path& file, MeshBuilder& builder,
                                                         ObjMaterials& materials, ModelDefects& defects,
                                                         const LoadProgress& progress) {

@@ -36,8 +36,8 @@ Texture loadTexture(const fs::path& file, const fs::path& source) {
   return texture;
 }
 
-// Returns the number of pixels that a scene's next picture may have, given those before it. Without a bound, small
-// files of few colors fill any memory.
+// Returns the number of pixels that a scene's next texture may have, given the textures before it. Without a bound,
+// small files of few colors fill any memory.
 double mostPixels(std::span<const Texture> textures) {
   double pixels = 0.0;
   for (const Texture& texture : textures) {
@@ -53,7 +53,7 @@ Texture bounded(Texture texture, double most) {
   if (factor >= 1.0) {
     return texture;
   }
-  // A side of one texel leaves the other one more than its share.
+  // If one side shrinks to one texel, the other side may have more than its share.
   const int least = std::max(static_cast<int>(factor * texture.height), 1);
   const int width = std::clamp(static_cast<int>(most / least), 1, texture.width);
   const int height = std::clamp(static_cast<int>(most / width), 1, texture.height);
@@ -160,8 +160,8 @@ class ObjMaterials::MtlReader {
     }
   }
 
-  // Colors as spectra or CIE XYZ are left out. One number counts for all three; where one is missing or out of range,
-  // `usual` stands in its place.
+  // Colors as spectra or CIE XYZ are left out. One number counts for all three; `usual` stands in the place of a number
+  // that is missing or out of range.
   bool readColor(const char* key, const Range& range, double usual) {
     const std::vector<std::string_view>& tokens = line_.tokens();
     if (tokens.size() < 2 || tokens[1] == "spectral" || tokens[1] == "xyz") {
@@ -254,7 +254,7 @@ void ObjMaterials::read(std::string_view names, int line) {
   }
 }
 
-// Returns false if there is no such file.
+// Reads an MTL file. Returns false if there is no such file.
 bool ObjMaterials::readIfThere(std::string_view name, int line) {
   const std::optional<fs::path> file = modelFiles_.find(objFile_, name);
   if (!file) {

@@ -17,24 +17,24 @@ namespace speculum {
 // file is named.
 class ObjMaterials {
  public:
-  // Both must outlive the materials. Defects are those of the OBJ file's line or of an MTL file's.
+  // `objFile` and `defects` must outlive this object. A defect names a line of the OBJ file or of an MTL file.
   ObjMaterials(const std::filesystem::path& objFile, ModelDefects& defects)
       : objFile_(objFile), defects_(defects), modelFiles_(objFile) {}
 
   // Reads the files that a mtllib line of the OBJ file names: one name with blanks, or several names. A backslash
-  // before a blank keeps the blank; any other separates folders. A file that was read is not read again.
+  // before a blank keeps the blank; any other backslash separates folders. A file that was read is not read again.
   void read(std::string_view names, int line);
 
-  // Index of the material that a usemtl line names, for material().
+  // Returns the index of the material that a usemtl line names, for material().
   int use(std::string_view name, int line);
 
-  // The material of an index from use(), or the default one for -1 and for a name that no file defines. Appends its
-  // texture to `textures` unless it is there. Call it when all files are read.
+  // Returns the material of an index from use(), or the default material for -1 and for a name that no file defines.
+  // Appends the material's texture to `textures` unless it is there already. Call this when all files are read.
   Material material(int index, std::vector<Texture>& textures);
 
-  // Files that were read, without symbolic links.
+  // Returns the files that were read, with symbolic links resolved.
   const std::set<std::filesystem::path>& files() const { return filesRead_; }
-  // Those, and textures, that were named by relative paths only; with symbolic links.
+  // Returns the files that were read, and textures, if they were named by relative paths only; links are not resolved.
   const std::set<std::filesystem::path>& namedFiles() const { return namedFiles_; }
 
  private:
@@ -43,8 +43,8 @@ class ObjMaterials {
     bool opaque = true;
     std::string diffuseTexture;
     std::filesystem::path file;
-    int line = 0;         // of newmtl
-    int textureLine = 0;  // of map_Kd
+    int line = 0;         // line of newmtl
+    int textureLine = 0;  // line of map_Kd
   };
   struct Use {
     std::string name;

@@ -10,8 +10,8 @@
 
 namespace speculum {
 
-// The scene file's content with defaults applied, before any time is chosen. Metres, degrees, linear RGB, world space
-// right-handed with +Y up, as in docs/scene_format.md.
+// The types below hold the content of a scene file with defaults applied, before any time is chosen. Metres, degrees,
+// linear RGB, world space right-handed with +Y up, as in docs/scene_format.md.
 
 struct Sky {
   glm::dvec3 zenith, horizon, ground;
@@ -24,9 +24,9 @@ struct Environment {
   std::optional<Sky> sky;
   glm::dvec3 ambient{0.0};
 
-  // Radiance of a ray of unit direction `d` (world) that hits nothing.
+  // Returns the radiance of a ray of unit direction `d` (world) that hits nothing.
   glm::dvec3 radiance(const glm::dvec3& d) const;
-  // Returns the environment with `color`, if there is one, in the place of background and sky.
+  // Returns a copy with `color`, if it has a value, in the place of background and sky.
   Environment cleared(const std::optional<glm::dvec3>& color) const;
 
   bool operator==(const Environment&) const = default;
@@ -66,7 +66,7 @@ struct Object {
   std::string model;  // path as it stands in the scene file
   int mesh = -1;      // index into Scene::meshes
   glm::dvec3 position{0.0};
-  glm::dvec3 rotation{0.0};  // pitch, yaw, roll; R = Ry Rx Rz
+  glm::dvec3 rotation{0.0};  // degrees: pitch, yaw, roll; R = Ry Rx Rz
   glm::dvec3 scale{1.0};
   glm::dvec3 spin{0.0};  // degrees per second added to rotation
   std::optional<glm::dvec3> color;
@@ -91,9 +91,9 @@ struct PointLight {
   std::string name;
   glm::dvec3 position{0.0};
   glm::dvec3 color{1.0};
-  double intensity = 1.0;
-  double radius = 0.05;
-  double glow = 1.0;
+  double intensity = 1.0;  // irradiance at 1 m on a surface that faces the light
+  double radius = 0.05;    // metres, of the glyph; also the floor of the inverse square law
+  double glow = 1.0;       // radiance of the glyph by `color`; 0: no glyph
   bool castsShadow = false;
   std::optional<Orbit> orbit;
 
@@ -101,18 +101,18 @@ struct PointLight {
 };
 
 struct Ripple {
-  double amplitude = 0.0;  // metres
-  double wavelength = 0.5;
-  double speed = 0.2;
+  double amplitude = 0.0;   // metres
+  double wavelength = 0.5;  // metres
+  double speed = 0.2;       // of the waves, metres per second
 
   bool operator==(const Ripple&) const = default;
 };
 
-// What shows a planar mirror's reflection. raster: an image that a pass renders. automatic: whichever is likely to be
-// faster.
+// How a planar mirror's reflection is drawn. raster: a pass renders an image. rays: rays are traced. automatic:
+// whichever is likely to be faster.
 enum class ReflectionMethod { automatic, raster, rays };
 
-// Quality of a mirror's images. A member without a value is that of the settings, reflection.*.
+// Quality of a mirror's images. A member without a value follows the setting reflection.*.
 struct MirrorQuality {
   std::optional<double> scale;  // resolution relative to the main view
   std::optional<int> samples;
@@ -142,18 +142,18 @@ struct Mirror {
   bool operator==(const Mirror&) const = default;
 };
 
-// How a mirror reflects: what images, rays and the tracer read of it.
+// How a mirror reflects: the properties that images, rays and the reference tracer read.
 struct MirrorOptics {
   glm::dvec3 reflectance{0.0};
   Fresnel fresnel = Fresnel::none;
   glm::dvec3 baseColor{0.0};
   glm::dvec3 backColor{0.0};
   bool twoSided = false;
-  double alpha = 0.0;  // width of the GGX distribution of its normals; 0: smooth
+  double alpha = 0.0;  // width of the GGX distribution of microfacet normals; 0: smooth
   std::optional<Ripple> ripple;
 
-  // Reflectance F for `cosine`, the cosine between the normal and the viewer: the same at every angle, or Schlick, "An
-  // Inexpensive BRDF Model for Physically-based Rendering" (1994).
+  // Returns the reflectance for `cosine`, the cosine of the angle between normal and viewer: the same at every angle
+  // or, with Fresnel, by Schlick, "An Inexpensive BRDF Model for Physically-based Rendering" (1994).
   glm::dvec3 reflectanceAt(double cosine) const;
 };
 MirrorOptics opticsOf(const Mirror& mirror);
@@ -170,12 +170,12 @@ struct Bookmark {
   bool operator==(const Bookmark&) const = default;
 };
 
-// One entry of the scene's [settings] table, not interpreted: the keys are described in the frame library.
+// One entry of the scene's [settings] table, not interpreted: settings/setting_fields.hpp describes the keys.
 struct SettingEntry {
   std::string key;
   std::string value;  // as --set takes it
   int line = 0;
-  bool quoted = false;  // the file has a string
+  bool quoted = false;  // the value is a string in the file
 };
 
 // The part of a scene that can be edited.
@@ -201,7 +201,7 @@ struct SceneContent {
 
 struct Scene : SceneContent {
   std::filesystem::path file;
-  std::string text;  // of the file, as it was read
+  std::string text;  // content of the file, as it was read
   std::string title;
   std::vector<SettingEntry> settings;
   std::vector<Mesh> meshes;       // each model file once

@@ -18,7 +18,7 @@ struct AnyInitializer {
 };
 
 // Number of members of an aggregate: the most initializers that it takes. A description that lists the members of a
-// type compares their number with it in a static_assert, so that a missing member does not compile.
+// type compares their number with memberCount() in a static_assert, so that a missing member does not compile.
 template <typename T, typename... Initializers>
 consteval size_t memberCount(Initializers... initializers) {
   if constexpr (requires { T{initializers..., AnyInitializer{}}; }) {
@@ -28,8 +28,8 @@ consteval size_t memberCount(Initializers... initializers) {
   }
 }
 
-// Use of a field: its value is read where the node is drawn, is evaluated into SceneState, or is for users only. Only
-// fields of the first kind belong to the content of a mirror image beside SceneState.
+// Use of a field's value: it is read where the node is drawn (appearance), evaluated into SceneState (placement), or
+// for users only (label). Beside SceneState, only appearance belongs to the content of a mirror image.
 enum class FieldUse { appearance, placement, label };
 
 template <typename Owner, typename Value>
@@ -40,17 +40,17 @@ struct FieldTraits {
   double floor = anyRange.low;     // smaller numbers count as this one
   double ceiling = anyRange.high;  // larger numbers count as this one
   bool required = false;           // a file must have it
-  bool alwaysSaved = false;        // even at its default, because its table exists for it
+  bool alwaysSaved = false;        // saved even at its default, because the table exists for this key
   bool color = false;              // linear RGB
   bool uniform = false;            // one number stands for three equal ones
   FieldUse use = FieldUse::appearance;
   double step = 0.01;                            // change for a pixel of a drag in the inspector
   bool (*applies)(const Owner& node) = nullptr;  // if false, the field is neither read nor saved
-  bool (*shown)(const Owner& node) = nullptr;    // if false, the inspector has no row for it
+  bool (*shown)(const Owner& node) = nullptr;    // if false, the inspector has no row for the field
   Value start = {};                              // first value of an optional field that a user switches on
 };
 
-// One key of a scene file's table and the member that it stands for; the default is the member's.
+// One key of a scene file's table and the member that it stands for; the default is the member's initializer.
 template <typename OwnerType, typename ValueType>
 struct Field : FieldTraits<OwnerType, ValueType> {
   using Owner = OwnerType;
@@ -58,7 +58,7 @@ struct Field : FieldTraits<OwnerType, ValueType> {
 
   ValueType OwnerType::*member;
   std::string_view key;
-  std::string_view text;  // what it means, for tooltips and docs/scene_format.md
+  std::string_view text;  // what the key means, for tooltips and docs/scene_format.md
 
   bool appliesTo(const Owner& node) const { return this->applies == nullptr || this->applies(node); }
 };
@@ -70,8 +70,8 @@ Field<Owner, Value> field(Value Owner::*member, std::string_view key, std::strin
 }
 
 // The fields of each type, in the order in which they are saved. A member that is missing here does not compile.
-// Reader, writer, the content of mirror images, the inspector, docs/scene_format.md and the fuzzers' dictionary follow.
-// nullptr: T is a value without fields.
+// Reader, writer, the content of mirror images, the inspector, docs/scene_format.md and the fuzzers' dictionary follow
+// from these lists. nullptr: T is a value without fields.
 template <typename T>
 inline constexpr auto fieldsOf = nullptr;
 
@@ -221,7 +221,7 @@ inline const auto fieldsOf<Mirror> = std::tuple{
           {.applies = [](const Mirror& mirror) { return !mirror.ripple || mirror.ripple->amplitude > 0.0; },
            .start = Ripple{.amplitude = 0.002}}),
     field(&Mirror::castsLight, "casts_light", "light bounced by the mirror reaches the scene"),
-    // The inspector has rows of its own for it.
+    // The inspector has rows of its own for the quality.
     field(&Mirror::quality, "quality", "its own quality; the settings' where a key is missing",
           {.shown = [](const Mirror&) { return false; }})};
 
@@ -246,7 +246,7 @@ struct IsOptional : std::false_type {};
 template <typename T>
 struct IsOptional<std::optional<T>> : std::true_type {};
 
-// Calls `visit` with each Field of a type.
+// Calls `visit` with each Field of the type `Node`.
 template <Described Node, typename Visitor>
 void forEachField(const Visitor& visit) {
   constexpr size_t withoutField = std::is_same_v<Node, Object> ? 1 : 0;  // Object::mesh stands for the model
@@ -254,7 +254,7 @@ void forEachField(const Visitor& visit) {
   std::apply([&](const auto&... field) { (visit(field), ...); }, fieldsOf<Node>);
 }
 
-// Names of an enumeration's values in scene files, in the order of the enumerators.
+// Return the names of an enumeration's values in scene files, in the order of the enumerators.
 constexpr auto choicesOf(Fresnel) {
   return std::array<std::string_view, 2>{"none", "schlick"};
 }

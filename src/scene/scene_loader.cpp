@@ -39,7 +39,7 @@ fs::path modelFile(const fs::path& scene, const std::string& model) {
   return file;
 }
 
-// Turns the progress of each model into that of all, by their bytes.
+// Turns the progress of each model into the progress of all models, weighted by their bytes.
 class ModelProgress {
  public:
   ModelProgress(const Scene& scene, const LoadProgress& progress) : progress_(progress) {
@@ -75,7 +75,7 @@ class ModelProgress {
   double total_ = 0.0;
 };
 
-// `known` has the meshes by the paths of their files without symbolic links.
+// Returns the index of the object's mesh. `known` has the meshes by the paths of their files without symbolic links.
 int meshIndex(const TableReader& object, Scene& scene, std::map<std::string, int>& known, ModelProgress& progress) {
   const std::string model = object.text("model");
   const fs::path file = modelFile(scene.file, model);
@@ -94,7 +94,7 @@ int meshIndex(const TableReader& object, Scene& scene, std::map<std::string, int
 constexpr int mostInstances = 1'000'000;
 
 // Returns what is needed of an object that is too large; nothing if its projected vertices are still floats. Rays to
-// and from a curved mirror square them.
+// and from a curved mirror square the vertices' coordinates.
 std::optional<std::string> extentRemedy(const Object& object, const Mesh& mesh) {
   const double largest = object.mirror ? 1e18 : 1e35;  // metres
   if (glm::compMax(glm::abs(object.scale) * (glm::abs(mesh.center) + mesh.radius * mesh.unit)) <= largest) {
@@ -154,7 +154,8 @@ toml::table tomlIfAny(const fs::path& file) {
   }
 }
 
-// Adds a model, or a material file, and the files that its lines may name: by any word, and by what begins with it.
+// Adds a model or material file and the files that its lines may name: by any word, or by a word and the rest of the
+// line.
 void addFilesNamedIn(const fs::path& file, LineReader::Continuation continuation, ModelFiles& search,
                      std::set<fs::path>& files) {
   constexpr size_t longestPath = 4096;
@@ -181,8 +182,8 @@ void addFilesNamedIn(const fs::path& file, LineReader::Continuation continuation
 
 constexpr double smallest = 1e-9;  // metres, of the bounding sphere's radius
 constexpr double largest = 1e12;
-constexpr double gap = 0.03;   // radii between the model and the mirror below it
-constexpr double stage = 3.6;  // radii that the mirror measures
+constexpr double gap = 0.03;   // space between the model and the mirror below it, in radii of the model
+constexpr double stage = 3.6;  // radius of the mirror, in radii of the model
 constexpr double modelFieldOfView = 36.0;
 
 std::string disc(double radius) {
@@ -195,10 +196,11 @@ std::string disc(double radius) {
   return "[\n" + corners + "]";
 }
 
-// Writes a scene whose unit is the radius of the model's bounding sphere, with the model's centre above the origin.
+// Returns the text of a scene whose lengths scale with the radius of the model's bounding sphere, with the model's
+// centre above the origin.
 std::string sceneText(const fs::path& file, const Mesh& mesh) {
   const double r = mesh.radius * mesh.unit;
-  const double height = mesh.halfExtent.y * mesh.unit + gap * r;  // of the centre
+  const double height = mesh.halfExtent.y * mesh.unit + gap * r;  // of the model's centre
   const glm::dvec3 center(0.0, height, 0.0);
   const glm::dvec3 target = center - glm::dvec3(0.0, 0.22 * r, 0.0);
   const glm::dvec3 towards = glm::normalize(glm::dvec3(0.62, 0.36, 1.0));

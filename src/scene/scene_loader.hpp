@@ -13,7 +13,7 @@
 
 namespace speculum {
 
-// Reads a scene with its models and textures; for a model gives modelScene(). Logs the defects of models
+// Reads a scene with its models and textures; returns modelScene() for the file of a model. Logs the defects of models
 // as warnings. Throws InputError.
 Scene loadScene(const std::filesystem::path& file, const LoadProgress& progress = {});
 
@@ -21,28 +21,28 @@ Scene loadScene(const std::filesystem::path& file, const LoadProgress& progress 
 Scene parseScene(const std::filesystem::path& file, std::string text);
 
 // Returns why loadScene() would refuse a mirror with this polygon (world), as `polygon: what is wrong (what would be
-// right)`; nothing if it would not.
+// right)`; nothing if the polygon is valid.
 std::optional<std::string> mirrorPolygonProblem(std::span<const glm::dvec3> polygon);
 
-// Returns the index of the model among the scene's meshes. Adds it unless it is there under any name. Throws
-// InputError; the scene is then as before.
+// Adds the mesh of a model to the scene unless it is there under any name, and returns its index into Scene::meshes.
+// Throws InputError and leaves the scene as it was.
 int addModel(Scene& scene, const std::filesystem::path& file, const LoadProgress& progress = {});
 
-// Reads the scene's `title` without its models; empty for a file that has none or cannot be read.
+// Reads the `title` of a scene file without its models; empty for a file that has none or cannot be read.
 std::string sceneTitle(const std::filesystem::path& file);
 // Lists the file of a scene or model with the models, materials and textures that it names, also those that no face
 // uses. Takes what it can from files that cannot be drawn, and reads no number.
 std::set<std::filesystem::path> filesNamedBy(const std::filesystem::path& file);
-// Says whether the file looks like a scene file, valid or not. Models do not.
+// Says whether the file looks like a scene file, valid or not. Model files do not.
 bool isSceneFile(const std::filesystem::path& file);
 
 // Finds a scene or model that comes with the program: by its name, such as "gallery", or by its path within the
-// program's data. Nothing if there is none.
+// program's data. Returns nothing if there is no such file.
 std::optional<std::filesystem::path> shippedScene(const std::filesystem::path& wanted);
 
-// Makes a scene that shows a model of any size by itself: it stands still over a round mirror, below a sky, and two
-// lights leave no side of it dark. Throws InputError, also for a bounding sphere whose radius is not within
-// 1e-9 .. 1e12 m.
+// Makes a scene that shows a model of any size by itself: the model stands still over a round mirror, below a sky, and
+// two lights leave no side of it dark. Throws InputError, also for a bounding sphere whose radius is not within 1e-9 ..
+// 1e12 m.
 Scene modelScene(const std::filesystem::path& file, const LoadProgress& progress = {});
 
 }  // namespace speculum

@@ -16,7 +16,7 @@ namespace {
 
 using Key = std::string_view;
 
-// Bounds the time to check a polygon, which grows with its square.
+// Bounds the time to check a polygon, which grows with the square of its vertices.
 constexpr size_t mostVertices = 1000;
 
 template <typename Value, typename Field>
@@ -162,7 +162,7 @@ std::string settingText(const TableReader& settings, const toml::node& node, con
   return nlohmann::json(values).dump();
 }
 
-// `depth`: number of tables around `table` within [settings].
+// Adds the values of nested tables with dotted keys. `depth`: number of tables around `table` within [settings].
 void flatten(const TableReader& settings, const toml::table& table, const std::string& prefix, int tableLine, int depth,
              std::map<std::string, SettingEntry>& entries) {
   constexpr int deepest = 7;

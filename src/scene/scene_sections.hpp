@@ -5,7 +5,7 @@
 
 namespace speculum {
 
-// Each reads a part of a scene file from its table and throws InputError. Object::mesh is left to the caller.
+// Each function reads a part of a scene file from its table. Throws InputError. Object::mesh is left to the caller.
 Environment readEnvironment(const TableReader& file);
 CameraSpec readCamera(const TableReader& file);
 std::vector<SettingEntry> readSettings(const TableReader& file);
@@ -17,7 +17,7 @@ Bookmark readBookmark(const TableReader& table, const CameraSpec& camera);
 // Returns the values of a key of `table` as --set takes them; a plain value counts as a list of one. Throws InputError.
 std::vector<std::string> settingTexts(const TableReader& table, std::string_view key, const toml::node& node);
 
-// Keys of the table that a node is read from.
+// Returns the keys of the table that a node is read from.
 template <Described Node>
 std::span<const std::string_view> keysOf() {
   static const std::array<std::string_view, fieldCount<Node>> keys =

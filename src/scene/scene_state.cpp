@@ -40,8 +40,8 @@ LightState lightState(const PointLight& light, double time) {
           rotationAboutAxis(orbit.axis, productModulo(orbit.speed, time, 360.0)) * (light.position - orbit.center)};
 }
 
-// Returns the unit direction of the first edge with a length, projected into the plane: vertices may lie a little off
-// it.
+// Returns the unit direction of the first edge with a length, projected into the plane, because vertices may lie a
+// little off the plane.
 glm::dvec3 firstEdge(const std::vector<glm::dvec3>& polygon, const glm::dvec3& normal) {
   for (size_t i = 1; i < polygon.size(); ++i) {
     const glm::dvec3 edge = polygon[i] - polygon[i - 1];
@@ -79,18 +79,19 @@ MirrorState placedMirror(const Mirror& mirror, double time) {
   return state;
 }
 
-// `forward`, of any length, is not parallel to `up`.
+// Returns the pose of a camera that looks along `forward`, which may have any length but must not be parallel to `up`.
 CameraPose poseAlong(const glm::dvec3& eye, const glm::dvec3& forward, const glm::dvec3& up, double verticalFovDegrees,
                      double near) {
   const glm::dvec3 back = -glm::normalize(forward);
   const glm::dvec3 right = glm::normalize(glm::cross(forward, up));
-  constexpr double smallestNear = 1e-20;  // nearer ones gain nothing, and depth has to stay a float
+  constexpr double smallestNear = 1e-20;  // smaller values gain nothing, and depth has to stay a float
   CameraPose pose{.eye = eye, .verticalFov = glm::radians(verticalFovDegrees), .near = std::max(near, smallestNear)};
   pose.worldToView = glm::transpose(glm::dmat3(right, glm::cross(back, right), back));
   return pose;
 }
 
-// Rotates the direction instead of computing it from eye and target, which far from the origin may round to one point.
+// Rotates the view direction instead of computing it from eye and target, which may round to one point far from the
+// origin.
 CameraPose cameraPose(const CameraSpec& camera, double time) {
   const glm::dmat3 turn = rotationAboutAxis(camera.up, productModulo(camera.orbitSpeed, time, 360.0));
   const glm::dvec3 arm = turn * (camera.position - camera.target);
@@ -131,13 +132,13 @@ bool overlap(const Placed& a, const Placed& b) {
   return glm::compMax(gap) <= slack && !edgeSeparates(a, b, slack) && !edgeSeparates(b, a, slack);
 }
 
-// Sets the layers of the mirrors of one plane for an eye on one side of it.
+// Sets the layers of the mirrors of one plane for an eye on the side of the plane that `towardsEye` points to.
 void setLayers(std::vector<Placed>& plane, const glm::dvec3& towardsEye) {
   const auto front = [&](const Placed& p) { return glm::dot(p.state->normal, towardsEye) > 0.0; };
   const auto layer = [&](const Placed& p) -> int& { return front(p) ? p.state->frontLayer : p.state->backLayer; };
   const auto showsBack = [&](const Placed& p) { return !front(p) && !p.mirror->twoSided; };
   std::ranges::sort(plane, {}, [&](const Placed& p) { return std::pair(showsBack(p), p.mirror); });
-  // Mirrors that may cover the next one, the deepest first: the first that overlaps it gives its layer.
+  // Mirrors that may cover the next one, the deepest first: the first that overlaps the next one decides its layer.
   std::vector<const Placed*> before;
   for (const Placed& placed : plane) {
     const auto covering = std::ranges::find_if(before, [&](const Placed* other) { return overlap(*other, placed); });
@@ -175,7 +176,8 @@ void findLayers(std::span<const Mirror> mirrors, std::span<MirrorState> states) 
 constexpr double thinnestWedge = 0.01;  // sine of the angle between two planes
 constexpr double farthest = 100.0;      // from the light, in distances from the planes
 
-// Floats round by 6e-8. Rays come from points up to about a hundred times as far from the eye as the light.
+// Returns by how many metres shaders may be wrong about the light's distance from the mirror's plane. Floats round by
+// 6e-8. Rays come from points up to about a hundred times as far from the eye as the light.
 double floatRounding(const glm::dvec3& light, const MirrorState& mirror, const glm::dvec3& eye) {
   return 4e-6 * glm::length(light - eye) + 5e-7 * glm::length(light - mirror.origin);
 }
@@ -295,7 +297,7 @@ bool moves(const Scene& scene) {
 
 glm::dvec3 besideMirrors(const glm::dvec3& light, std::span<const MirrorState> mirrors,
                          const std::optional<glm::dvec3>& eye) {
-  std::vector<Plane> planes;  // that are near, facing the light
+  std::vector<Plane> planes;  // planes near the light, facing it
   double away = 0.0;          // metres
   for (size_t i = 0; i < mirrors.size(); ++i) {
     const MirrorState& mirror = mirrors[i];
@@ -306,8 +308,9 @@ glm::dvec3 besideMirrors(const glm::dvec3& light, std::span<const MirrorState> m
       away = std::max(away, distance);
     }
   }
-  // The same distance from all of them: where distances differ, rounding would decide which mirrors the light reaches
-  // by way of others. Each step keeps the distances from the planes before it, for up to three planes.
+  // Moves the light to the same distance from all planes: if distances differed, rounding would decide which mirrors
+  // the light reaches by way of others. Each step keeps the distances from the planes before it, for up to three
+  // planes.
   glm::dvec3 point = light;
   std::vector<glm::dvec3> taken;  // orthonormal
   for (const Plane& plane : planes) {
@@ -323,7 +326,8 @@ glm::dvec3 besideMirrors(const glm::dvec3& light, std::span<const MirrorState> m
   }
   const bool tooFar = glm::distance(point, light) > farthest * away;
   point = tooFar ? light : point;
-  // For more planes, or where they leave hardly any room, moving to each in turn (Kaczmarz's method) is a compromise.
+  // For more than three planes, or planes that leave hardly any room, moving to each in turn (Kaczmarz's method) is a
+  // compromise.
   for (int turn = 0; (tooFar || taken.size() < planes.size()) && turn < 50; ++turn) {
     for (const Plane& plane : planes) {
       point += (away - plane.distance(point)) * plane.normal;

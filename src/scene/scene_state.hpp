@@ -10,8 +10,8 @@
 
 namespace speculum {
 
-// Everything that moves, at one time, in world space and double. Planner, renderer and reference tracer all read it, so
-// that their positions are the same.
+// The camera at one time, in world space. The types below hold everything that moves, evaluated at one time in double
+// precision. Planner, renderer and reference tracer all read them, so that their positions are the same.
 
 struct CameraPose {
   glm::dvec3 eye{0.0};
@@ -22,7 +22,7 @@ struct CameraPose {
   bool operator==(const CameraPose&) const = default;
 };
 
-// Products with shorter vectors leave the range of doubles when they are squared.
+// Length below which a vector has no direction: squares of products with shorter vectors leave the range of doubles.
 inline constexpr double shortestLength = 1e-30;
 inline bool hasDirection(const glm::dvec3& v) {
   return glm::length(v) >= shortestLength;
@@ -32,8 +32,8 @@ inline bool hasDirection(const glm::dvec3& v) {
 CameraPose lookAt(const glm::dvec3& eye, const glm::dvec3& target, const glm::dvec3& up, double verticalFovDegrees,
                   double near);
 
-// Degrees that `spin` (degrees per second) has added to a rotation. Each is reduced before anything is added to it, so
-// that a long run loses no precision to a large sum.
+// Returns the degrees that `spin` (degrees per second) has added to a rotation after `time` seconds. Each angle is
+// reduced modulo 360 before anything is added to it, so that a long run loses no precision to a large sum.
 glm::dvec3 spunBy(const glm::dvec3& spin, double time);
 
 struct InstanceState {
@@ -45,7 +45,8 @@ struct InstanceState {
   double radius = 0.0;     // metres
 };
 
-// A light within MirrorState::slack of mirrors' planes is moved in front of the first mirror of each.
+// A light at one time. A light within MirrorState::slack of the planes of mirrors is moved in front of the first mirror
+// of each plane, if it casts shadows or any mirror casts light.
 struct LightState {
   glm::dvec3 position{0.0};  // world
 };
@@ -56,11 +57,11 @@ struct MirrorState {
   glm::dvec3 normal{0.0, 0.0, 1.0};  // world, unit, to the front
   glm::dvec3 axisX{1.0, 0.0, 0.0};   // world, unit; for ripples
   glm::dvec3 axisY{0.0, 1.0, 0.0};
-  double slack = 0.0;  // metres; how far from its plane rounding can put what lies in it
-  int plane = 0;       // first mirror of the same plane; its own index if there is none before it
+  double slack = 0.0;  // metres; how far rounding can move points of the mirror's plane off it
+  int plane = 0;       // index of the first mirror in the same plane, which may be this one
   // Where mirrors of one plane overlap, a side that reflects covers a back; otherwise the mirror listed first covers. A
   // layer is 0, or one more than the largest layer of the mirrors that cover this one.
-  int frontLayer = 0;  // seen from its front
+  int frontLayer = 0;  // seen from the mirror's front
   int backLayer = 0;
 };
 
@@ -84,19 +85,19 @@ bool spins(const Object& object);
 bool spins(const Mirror& mirror);
 bool orbits(const PointLight& light);
 
-// Says whether objects, lights or mirrors depend on the time.
+// Says whether any object, light or mirror depends on the time, also by ripples.
 bool contentMoves(const Scene& scene);
-// Returns the time that these are at; nothing if they do not depend on it.
+// Returns the time at which objects, lights and mirrors are; nothing if none depends on it.
 inline std::optional<double> contentTime(const Scene& scene, double timeSeconds) {
   return contentMoves(scene) ? std::optional(timeSeconds) : std::nullopt;
 }
 
-// Says whether they or the scene's camera do.
+// Says whether the camera, or any object, light or mirror, depends on the time.
 bool moves(const Scene& scene);
 
 // Returns the point beside a light that is farther from planes of mirrors than rounding can move it, so that light is
 // hidden on one side of a mirror only. A light within MirrorState::slack of a plane comes in front of the plane's first
-// mirror. With `eye`, the point is for shaders, whose positions are floats relative to that eye.
+// mirror. With `eye` (world), the point is for shaders, whose positions are floats relative to that eye.
 glm::dvec3 besideMirrors(const glm::dvec3& light, std::span<const MirrorState> mirrors,
                          const std::optional<glm::dvec3>& eye = {});
 

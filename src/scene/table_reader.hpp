@@ -18,8 +18,8 @@ namespace speculum {
 // of range, and for an absent key unless it takes a fallback.
 class TableReader {
  public:
-  // Throws for a key that is not among `known`, unless those are empty. `label` is the table's full key, empty for the
-  // whole file. `file` and `table` must outlive the reader.
+  // Throws InputError for a key that is not among `known`, unless `known` is empty. `label` is the table's full key,
+  // empty for the whole file. `file` and `table` must outlive the reader.
   TableReader(const std::filesystem::path& file, std::string label, const toml::table& table, int line,
               std::span<const std::string_view> known = {});
 
@@ -40,11 +40,11 @@ class TableReader {
   glm::dvec3 vec3(std::string_view key, const Range& range) const;
   glm::dvec3 numberOrVec3(std::string_view key) const;  // a number stands for three equal ones
   std::vector<glm::dvec3> points(std::string_view key) const;
-  // Index of the text in `choices`.
+  // Returns the index of the text in `choices`.
   size_t choice(std::string_view key, std::span<const std::string_view> choices) const;
 
   std::optional<TableReader> subtable(std::string_view key, std::span<const std::string_view> known = {}) const;
-  // [[key]] tables; each is labelled with its name, or else its index.
+  // Returns the [[key]] tables; the label of each has its `name` or, without one, its index.
   std::vector<TableReader> tables(std::string_view key, std::span<const std::string_view> known) const;
 
   [[noreturn]] void fail(std::string_view key, std::string_view wrong, std::string_view right) const;
@@ -66,10 +66,10 @@ class TableReader {
   int line_ = 1;
 };
 
-// The node's number, rounded to a double; nothing if it is no number.
+// Returns the node's number, rounded to a double; nothing if the node is no number.
 std::optional<double> numberIn(const toml::node& node);
 
-// "a string", "a table" ...: the name of a value's type in errors.
+// Returns the name of a value's type for errors: "a string", "a table" ...
 std::string_view typeName(const toml::node& node);
 
 }  // namespace speculum

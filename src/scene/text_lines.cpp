@@ -100,7 +100,7 @@ void LineReader::joinContinuation() {
 void LineReader::split() {
   tokens_.clear();
   size_t comment = line_.find('#');
-  // Old compilers write 1.#QNAN and -1.#IND for numbers that are none.
+  // Programs of old compilers write 1.#QNAN and -1.#IND for NaN.
   while (comment != std::string_view::npos && comment > 0 && line_[comment - 1] == '.' && comment + 1 < line_.size() &&
          (line_[comment + 1] == 'I' || line_[comment + 1] == 'Q' || line_[comment + 1] == 'S')) {
     comment = line_.find('#', comment + 1);

@@ -10,7 +10,8 @@ namespace speculum {
 // Returns `text` without leading and trailing blanks.
 std::string_view trimmed(std::string_view text);
 
-// Reads the whole of `token` as a number. Infinite and NaN values, written or from overflow, are numbers.
+// Reads the whole of `token` as a number. Infinite and NaN values, written or from overflow, are numbers. Returns
+// nothing for any other text.
 std::optional<double> parseNumber(std::string_view token);
 
 // Splits the text of an OBJ or MTL file into lines of tokens. Lines end with LF, CR LF or CR. A byte order mark,
@@ -27,8 +28,8 @@ class LineReader {
 
   const std::vector<std::string_view>& tokens() const { return tokens_; }
   std::string_view keyword() const { return tokens_[0]; }
-  // Returns the line from a token on, with blanks within. A '#' after a blank begins a comment; another belongs to a
-  // name.
+  // Returns the line from a token on, with blanks within. A '#' after a blank begins a comment; any other '#' belongs
+  // to a name.
   std::string_view from(std::string_view token) const;
   std::string_view argument() const { return from(line_.substr(keyword().data() + keyword().size() - line_.data())); }
   int number() const { return number_; }  // from 1; the first of joined lines

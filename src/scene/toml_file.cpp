@@ -42,7 +42,7 @@ size_t endOfString(std::string_view toml, size_t start) {
   return toml.size();
 }
 
-// Line of the first character outside strings and comments for which `stop` is true, or 0.
+// Returns the line of the first character outside strings and comments for which `stop` is true, or 0.
 template <typename Stop>
 int lineOf(std::string_view toml, Stop stop) {
   int line = 1;
@@ -82,13 +82,14 @@ std::string excerptOf(std::string_view toml, int line) {
   return std::string(toml.substr(0, end)) + "...";
 }
 
-// Says how TOML writes what could not be parsed. `problem` is the library's: what was being parsed, and what is wrong.
+// Says how TOML writes what could not be parsed. `problem` is the library's message: what was being parsed, and what is
+// wrong.
 std::string_view rightToml(std::string_view problem) {
   struct Rule {
-    std::string_view part;  // of the problem
+    std::string_view part;  // text that the problem contains
     std::string_view right;
   };
-  // The first one that applies, so what is wrong comes before where.
+  // The first rule that applies counts, so rules about what is wrong stand before rules about where.
   static constexpr Rule rules[] = {
       {"redefine", ", where a key stands once in its table, a table once, and [[name]] begins one of several tables"},
       {"table header:", ", where [name] begins a table, and [[name]] one of several"},

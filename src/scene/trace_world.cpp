@@ -105,8 +105,7 @@ bool TraceWorld::covers(const SceneHit& hit, const SceneHit& other) const {
   return hit.kind == HitKind::mirror && other.kind == HitKind::mirror && layer(hit) < layer(other);
 }
 
-// Uses the distance of the first mirror of the plane for all mirrors of that plane, so that rounding does not order
-// them.
+// Uses the distance of the first mirror of a plane for all mirrors of that plane, so that rounding does not order them.
 std::optional<double> TraceWorld::meetPolygon(const Ray& ray, const ShearedRay& sheared, int mirror,
                                               double tMax) const {
   const MirrorState& plane = mirrors_[mirrors_[mirror].plane];
@@ -132,7 +131,8 @@ std::optional<double> TraceWorld::meetMirror(const Ray& ray, int mirror) const {
   return meetPolygon(ray, ShearedRay(ray), mirror, ray.tMax);
 }
 
-// Uses the distance of centre and ray: the textbook discriminant cancels for small, distant glyphs.
+// Uses the distance between the glyph's centre and the ray: the textbook discriminant cancels for small, distant
+// glyphs.
 std::optional<double> TraceWorld::meetGlyph(const Ray& ray, int light, double tMax) const {
   const double radius = scene_->lights[light].radius;
   const glm::dvec3 toCenter = lights_[light].position - ray.origin;

@@ -21,7 +21,8 @@ struct SceneHit {
   bool mirrorFront = false;  // mirrors: the ray comes from the front side
 };
 
-// Surfaces that a ray ignores: the one it starts on, and the mirror that reflected it, with all mirrors of its plane.
+// Surfaces that a ray ignores: the surface that the ray starts on, and the mirror that reflected it, with all mirrors
+// of the same plane.
 struct Skip {
   int instance = -1;
   uint32_t triangle = 0;
@@ -30,26 +31,28 @@ struct Skip {
 };
 
 // Everything that a ray can meet at one time: a BVH over instances, mirrors and glyphs. Instances are intersected in
-// their mesh's space. Positions are relative to the eye of the state, because differences of world coordinates are
-// exact where coordinates far from the world's origin are not.
+// their mesh's space. Positions, also of rays, are relative to the camera's eye in the state, because differences of
+// world coordinates are exact where coordinates far from the world's origin are not.
 class TraceWorld {
  public:
   // Keeps a reference to the scene and builds the BVHs of its meshes.
   explicit TraceWorld(const Scene& scene);
+  // Takes the nodes from `state`, relative to its camera's eye, and builds the BVH over them.
   void place(const SceneState& state);
 
   std::optional<SceneHit> closest(const Ray& ray, const Skip& skip) const;
   // Says whether an object or a mirror, from either side, lies on the ray. Glyphs cast no shadow.
   bool occluded(const Ray& ray, const Skip& skip) const;
-  // Parameter t in (tMin, tMax) at which the ray meets a mirror's polygon.
+  // Returns the parameter t in (tMin, tMax) at which the ray meets a mirror's polygon; nothing if it does not.
   std::optional<double> meetMirror(const Ray& ray, int mirror) const;
 
   const Scene& scene() const { return *scene_; }
-  // Relative to the eye.
+  // Nodes of the state placed last, relative to its camera's eye.
   const std::vector<InstanceState>& instances() const { return instances_; }
   const std::vector<MirrorState>& mirrors() const { return mirrors_; }
   const std::vector<LightState>& lights() const { return lights_; }
   const glm::dmat3& normalFromMesh(int instance) const { return placements_[instance].normalFromMesh; }
+  // Returns the index into Mesh::parts of the part that was hit.
   uint32_t partOf(const SceneHit& objectHit) const;
 
  private:
@@ -63,7 +66,7 @@ class TraceWorld {
   };
   Bounds boundsOf(const Item& item) const;
   bool skipsMirror(const Skip& skip, int mirror) const;
-  // Says whether one mirror covers another at the same distance.
+  // Says whether `hit` comes before `other` at the same distance: by layer for mirrors, by index for instances.
   bool covers(const SceneHit& hit, const SceneHit& other) const;
   Ray toMesh(const Ray& ray, int instance, double tMax) const;
   std::optional<SceneHit> meet(const Item& item, const Ray& ray, const ShearedRay& sheared, double tMax,

@@ -19,13 +19,14 @@ struct Range {
 
 inline constexpr Range anyRange{};
 inline constexpr Range positiveRange{.low = 0.0, .aboveLow = true};
-// Metres, degrees, and lengths in metres. Squares of sums and products of several of them are still doubles.
+// Coordinates in metres or degrees, and lengths in metres. Squares of sums and products of several such numbers are
+// still doubles.
 inline constexpr Range coordinateRange{.low = -1e15, .high = 1e15};
 inline constexpr Range lengthRange{.low = 0.0, .high = 1e15, .aboveLow = true};
-// Degrees per second. Their product with any number of seconds is still a double.
+// Speeds in degrees per second. Their product with any number of seconds is still a double.
 inline constexpr Range turnRange{.low = -1e9, .high = 1e9};
-// Radiance and irradiance: floats, whose products with surfaces' colors are floats as well or saturate. Colors of
-// surfaces: what a float loses of a light times one is less than a screen shows.
+// Radiance and irradiance: floats, whose products with colors of surfaces are floats as well or saturate. Colors of
+// surfaces: what a float loses of the product of a light and such a color is less than a screen shows.
 inline constexpr Range radianceRange{.low = 0.0, .high = 1e38};
 inline constexpr Range surfaceColorRange{.low = 0.0, .high = 1e30};
 // Metres: slopes of ripples that are squared stay floats.

@@ -72,7 +72,7 @@ constexpr std::array<std::string_view, 2> shadowLookups{"traced", "map"};
 constexpr SettingNeed environmentMaps{"effects.curved_lookup", "environment"};
 constexpr SettingNeed shadowMaps{"effects.shadow_lookup", "map"};
 
-// Of rays, or of lookups in the image as if it were smooth.
+// Returns the error of rough mirrors, shown by rays or by lookups in the mirror's image.
 double roughError(const Settings& settings, size_t) {
   const EffectSettings& effects = settings.effects;
   const bool image = effects.roughLookup == ReflectionSource::image;
@@ -80,7 +80,7 @@ double roughError(const Settings& settings, size_t) {
   return std::hypot(image ? 0.13 : 0.0, 0.18 / std::sqrt(samples));
 }
 
-// Key, value, label, text and cost, then what is not usual.
+// Each row has key, value, label, text and cost, then the traits that differ from the default.
 constexpr SettingField fields[] = {
     setting(
         "reflection.method", choice<&R::method>(reflectionMethods), "Method",

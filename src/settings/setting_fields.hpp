@@ -9,7 +9,7 @@
 
 namespace speculum {
 
-// Where a setting's value stands within Settings.
+// Finds the value of a setting within Settings.
 template <typename T>
 struct SettingMember {
   T& (*in)(Settings& settings);
@@ -31,7 +31,7 @@ struct NumberSetting : MemberSetting<double> {
   double low = 0.0;
   double high = 1.0;
 };
-// A number from low to high, or "auto": none.
+// A number from low to high, or "auto", which has no value.
 struct AutomaticSetting : MemberSetting<std::optional<double>> {
   double low = 0.0;
   double high = 1.0;
@@ -54,7 +54,7 @@ struct TextSetting : MemberSetting<std::string> {
 using SettingKind = std::variant<NumberSetting, AutomaticSetting, IntegerSetting, BooleanSetting, ChoiceSetting,
                                  ColorSetting, TextSetting>;
 
-// The first part of a frame that a setting changes. The parts before it are the same whatever its value.
+// The first part of a frame that a setting changes. Earlier parts are the same whatever the setting's value.
 enum class FramePart { mirrorImages, mainView, display, none };
 
 // Slider of the panel; without one, numbers are typed or chosen from a list.
@@ -65,7 +65,7 @@ struct SettingSlider {
   bool logarithmic = true;
 };
 
-// A setting has an effect only while another one has this value.
+// Another setting and the value that it must have for a setting to have an effect.
 struct SettingNeed {
   std::string_view key;
   std::string_view value;
@@ -89,7 +89,7 @@ struct SettingTraits {
   std::optional<SettingNeed> needs = std::nullopt;
   Cheaper cheaper = Cheaper::neither;
   // Returns the mean FLIP that the value adds to a picture of a scene with that many mirrors, on average over the
-  // shipped scenes. Null: it was not measured, or it adds none.
+  // shipped scenes. Null: the error was not measured, or there is none.
   double (*error)(const Settings& settings, size_t mirrors) = nullptr;
   SweptValues swept = {};
 };
@@ -100,18 +100,19 @@ struct SettingField : SettingTraits {
   std::string_view key;
   SettingKind kind;
   const char* label;      // in the panel
-  std::string_view text;  // what it does, one line
-  std::string_view cost;  // what it costs or saves: no figures of a device that is not the user's
+  std::string_view text;  // what the setting does, one line
+  std::string_view cost;  // what the setting costs or saves: no figures of a device that is not the user's
 };
 
-// In the order of `--help`.
+// Returns all settings, in the order of `--help`.
 std::span<const SettingField> settingFields();
 const SettingField* findSettingField(std::string_view key);  // null: no such key
 
-// "0.125 .. 4", "1 2 4 8", "clamp | aces": what the setting takes, without its unit.
+// Returns the values that the setting takes, without its unit: "0.125 .. 4", "1 2 4 8", "clamp | aces".
 std::string settingRange(const SettingField& field);
 std::string settingRangeWithUnit(const SettingField& field);  // "texels, 0 .. 16"
-// Tooltip of a setting: what it does, what it costs, key and range; empty for an unknown key.
+// Returns the tooltip of a setting: what it does, what it costs, key and range; empty for an unknown key. `range`
+// replaces settingRangeWithUnit().
 std::string settingHelp(std::string_view key, const std::string& range = {});
 bool sameSetting(const SettingField& field, const Settings& a, const Settings& b);
 // Says whether the setting's value in `a` takes less time than that in `b`.

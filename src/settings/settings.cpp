@@ -47,7 +47,7 @@ std::optional<glm::dvec3> parseColor(std::string_view text) {
   return color;
 }
 
-// Sets the value of a setting from text; returns what is wrong with it.
+// Sets the value of a setting from text; returns what is wrong with the text.
 struct Parser {
   Settings& settings;
   const SettingField& field;

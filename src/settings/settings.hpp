@@ -48,7 +48,8 @@ struct ViewSettings {
   bool operator==(const ViewSettings&) const = default;
 };
 
-// Source of the reflection of a rough or rippled mirror: traced rays, or the image of the mirror as if it were smooth.
+// Source of the reflection of a rough or rippled mirror: traced rays, or the mirror's image, rendered as if the mirror
+// were smooth.
 enum class ReflectionSource { traced, image };
 
 // Source of a curved mirror's reflection: traced rays, or an environment map.
@@ -77,7 +78,7 @@ struct EffectSettings {
   ReflectionSource roughLookup = ReflectionSource::traced;
   ReflectionSource rippleLookup = ReflectionSource::traced;
   RayMethod rays = RayMethod::automatic;
-  bool perSample = false;  // rays at each sample of a pixel, not once a pixel
+  bool perSample = false;  // traces rays at each sample of a pixel, not once a pixel
   CurvedLookup curvedLookup = CurvedLookup::traced;
   int environmentSize = 256;    // texels of each side of an environment map's faces
   int environmentInterval = 1;  // frames
@@ -86,13 +87,13 @@ struct EffectSettings {
   bool operator==(const EffectSettings&) const = default;
 };
 
-// Return how a mirror reflects, without what these settings leave out.
+// Return how a mirror reflects, without the effects that the settings switch off: Fresnel, roughness and ripples.
 MirrorOptics opticsOf(const Mirror& mirror, const EffectSettings& effects);
 MirrorOptics opticsOf(const ObjectMirror& mirror, const EffectSettings& effects);
-// Returns the rays that a pixel of a rough mirror sends: effects.rough_samples, rounded up to equally many at each of
-// its samples, as shaders/shade.glsl does.
+// Returns the rays that a pixel of a rough mirror sends: effects.rough_samples, rounded up to the same number at each
+// of the pixel's samples, as shaders/shade.glsl does.
 int roughRays(const EffectSettings& effects, int samples);
-// Says whether a light is drawn as a sphere under these settings.
+// Says whether the glyph of a light, its visible sphere, is drawn under these settings.
 bool hasGlyph(const PointLight& light, const EffectSettings& effects);
 
 // Bounds for the choice among measured settings (accuracy/pareto.hpp), and the window's pace (docs/window.md). The
@@ -100,8 +101,8 @@ bool hasGlyph(const PointLight& light, const EffectSettings& effects);
 struct QualitySettings {
   double budgetMs = 0.0;           // GPU milliseconds a frame; 0: no bound
   double maxError = 0.0;           // mean FLIP; 0: no bound
-  std::optional<double> motionMs;  // milliseconds a frame while anything moves; 0: no bound, none: by the device
-  int stillPictures = 64;          // whose mean the window shows of a still scene
+  std::optional<double> motionMs;  // milliseconds a frame while anything moves; 0: no bound, empty: by the device
+  int stillPictures = 64;          // pictures whose mean the window shows while the scene is still
 
   bool operator==(const QualitySettings&) const = default;
 };
@@ -116,14 +117,15 @@ struct DebugSettings {
   bool operator==(const DebugSettings&) const = default;
 };
 
-// Bounds what mirrors ask for by a quality of their own. Whatever lowers settings lowers it along.
+// Bounds the quality that mirrors ask for themselves (MirrorQuality). Code that lowers reflection.* lowers the limit
+// too.
 struct QualityLimit {
   double scale = imageScaleRange.high;
   int samples = static_cast<int>(samplesRange.high);
   int leastInterval = 1;  // frames
   int mostInterval = static_cast<int>(intervalRange.high);
   bool rays = true;
-  ReflectionMethod automatic = ReflectionMethod::automatic;  // what that stands for on the device
+  ReflectionMethod automatic = ReflectionMethod::automatic;  // the method that `automatic` stands for on the device
 
   bool operator==(const QualityLimit&) const = default;
 };
@@ -134,12 +136,12 @@ struct Settings {
   EffectSettings effects;
   QualitySettings quality;
   DebugSettings debug;
-  QualityLimit limit;  // no setting: users do not see it
+  QualityLimit limit;  // not a setting: users do not see the limit
 
   bool operator==(const Settings&) const = default;
 };
 
-// Returns `settings.reflection` with the mirror's own quality, as far as the limit allows it.
+// Returns `settings.reflection` with the mirror's own quality in its place, as far as `settings.limit` allows.
 ReflectionSettings reflectionOf(const MirrorQuality& own, const Settings& settings);
 // Returns `settings.reflection` with the largest scale, sample count and interval of all mirrors.
 ReflectionSettings mostAsked(const Scene& scene, const Settings& settings);
@@ -147,10 +149,11 @@ ReflectionSettings mostAsked(const Scene& scene, const Settings& settings);
 void lowerLimit(const ReflectionSettings& before, Settings& settings);
 
 // Sets one key of settingFields(). The value is text as on a command line: numbers, true/false, names, colors as
-// "r,g,b" or "[r, g, b]". Returns what is wrong and what would be right, or nothing.
+// "r,g,b" or "[r, g, b]". Returns nothing or, if the key or value is bad, what is wrong and what would be right.
 std::optional<std::string> setSetting(Settings& settings, std::string_view key, std::string_view value);
+// Returns the value as setSetting() takes it; empty for an unknown key or a color that is not set.
 std::string settingValue(const Settings& settings, std::string_view key);
-// "key=value" of every key, a line each. Equal for equal settings.
+// Returns "key=value" of every key, a line each. The text is equal for equal settings.
 std::string settingsKey(const Settings& settings);
 
 // A setting as `--set key=value` takes it. The value is empty for a color that is not set.
@@ -159,17 +162,18 @@ struct SettingChange {
   std::string value;
   bool operator==(const SettingChange&) const = default;
 };
-// The settings of `to` that differ from `from`, in the order of settingFields().
+// Returns the settings of `to` that differ from `from`, in the order of settingFields().
 std::vector<SettingChange> settingChanges(const Settings& from, const Settings& to);
 
-// Defaults overlaid with the scene's [settings]. Throws InputError with FILE:LINE.
+// Returns the defaults overlaid with the scene's [settings]. Throws InputError with FILE:LINE.
 Settings settingsOf(const Scene& scene);
 
-// Say whether all settings that change mirror images, or the main view, are equal (SettingField::changes).
+// Say whether all settings are equal that change mirror images, or that change mirror images or the main view
+// (SettingField::changes).
 bool sameMirrorImages(const Settings& a, const Settings& b);
 bool sameMainView(const Settings& a, const Settings& b);
 
-// Every key with its value, as numbers, booleans and strings.
+// Returns every key with its value, as numbers, booleans and strings.
 nlohmann::ordered_json settingsJson(const Settings& settings);
 
 }  // namespace speculum
