@@ -53,8 +53,8 @@ double gpuMs(Session& session, const Settings& settings, double time) {
   return session.lastFrame().gpuMs;
 }
 
-// Adds the GPU milliseconds of each effect that the frame drawn last calls for: draws frames with and without the
-// effect in turn, `pairs` of them after one that is not counted. Returns false if interrupted.
+// Adds the GPU milliseconds of each effect that the frame drawn last calls for. Draws frames with and without the
+// effect in turn: `pairs` pairs, after a first pair that is not counted. Returns false if interrupted.
 bool addPrices(nlohmann::ordered_json& merged, Session& session, double time, int pairs) {
   const Settings all = session.settings();
   session.renderer().setTimerDetail(TimerDetail::frame);
@@ -77,7 +77,7 @@ bool addPrices(nlohmann::ordered_json& merged, Session& session, double time, in
   return !interruptRequested();
 }
 
-// Draws one frame at a time, so that times of frames do not mix. Returns nothing if interrupted.
+// Measures frames that are drawn one at a time, so that times of frames do not mix. Returns nothing if interrupted.
 std::optional<nlohmann::ordered_json> measureFrames(Session& session, const Options& options, int measured,
                                                     Progress& progress) {
   std::vector<nlohmann::ordered_json> frames;
@@ -126,7 +126,7 @@ std::optional<nlohmann::ordered_json> measureIntervals(Session& session, double 
 
 constexpr const char* benchRow = "{:<40} {:>6} {:>10} {:>10} {:>8} {:>10} {:>10}";
 
-// Prints a row of `merged`; a dash stands for figures that the device does not count.
+// Prints a row of the merged stats; a dash stands for figures that the device does not count.
 void printRow(const nlohmann::ordered_json& row, const std::string& frames, const std::array<const char*, 3>& figures) {
   const nlohmann::ordered_json& gpu = row["gpu_ms"];
   const auto ms = [&](const char* key) { return gpu.is_null() ? "-" : fmt::format("{:.3f}", gpu[key].get<double>()); };

@@ -82,7 +82,7 @@ bool CaseDrawer::drawAndJudge(const ExpectedCase& expected, Outcome& outcome) {
   }
   std::optional<Image8> picture;
   std::error_code none;
-  if (std::filesystem::exists(subject.picture, none)) {  // a pipe or folder is refused
+  if (std::filesystem::exists(subject.picture, none)) {  // reading refuses a pipe or folder
     picture = readImage8(subject.picture);
   }
   if (!picture || picture->width != actual.width || picture->height != actual.height) {

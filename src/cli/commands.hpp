@@ -4,8 +4,8 @@
 
 namespace speculum {
 
-// Each runs a command and returns the process's exit code: 0 success, 1 a failed comparison or check. Bad usage and bad
-// input throw UsageError or InputError, which are exit code 2.
+// Each of these functions runs a command and returns the process's exit code: 0 success, 1 a failed comparison or
+// check. Bad usage and bad input throw UsageError or InputError, which are exit code 2.
 int runRender(const Options& options);
 int runBench(const Options& options);
 int runReference(const Options& options);
@@ -13,7 +13,8 @@ int runCompare(const Options& options);
 int runAccuracy(const Options& options);
 int runRegress(const Options& options);
 
-// Parses, runs, and turns exceptions into one line on stderr and an exit code. The whole of main().
+// The whole of main(): parses the command line, runs the command, and turns exceptions into one line on stderr and an
+// exit code.
 int speculumMain(int argc, const char* const* argv);
 
 }  // namespace speculum

@@ -10,7 +10,7 @@ namespace speculum {
 namespace {
 
 constexpr double quietSeconds = 1.0;
-constexpr double atOnce = 0.2;  // seconds
+constexpr double atOnce = 0.2;  // seconds; work reported so soon is not part of the pace
 constexpr double plainInterval = 5.0;
 constexpr double barInterval = 0.1;
 
@@ -37,7 +37,7 @@ Progress::~Progress() {
 bool Progress::set(double done) {
   done_ = done;
   const Clock::time_point now = Clock::now();
-  // Leaves work that is reported at once out of the pace, because an earlier run did it.
+  // An earlier run did the work that is reported at once, so this work is not part of the pace.
   if (seconds(now - created_) < atOnce) {
     before_ = done;
     start_ = now;

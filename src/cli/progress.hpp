@@ -10,12 +10,13 @@ namespace speculum {
 // Prints nothing for work that is done within a second.
 class Progress {
  public:
+  // `what` names the work. `total`: argument of set() when all is done.
   Progress(std::string_view what, double total);
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  // Return false after Ctrl-C: the work is to end.
+  // Report what is done. Return false after Ctrl-C: the work is to end.
   bool advance() { return set(done_ + 1.0); }
   bool set(double done);
 
@@ -30,8 +31,8 @@ class Progress {
   bool terminal_;
   bool shown_ = false;
   Clock::time_point created_;
-  Clock::time_point start_;  // of the pace
-  Clock::time_point last_;
+  Clock::time_point start_;  // when measuring the pace began
+  Clock::time_point last_;   // when progress was printed last
 };
 
 }  // namespace speculum

@@ -63,7 +63,7 @@ int runWorker(const Options& options, const std::vector<RegressCase>& cases) {
   return 0;
 }
 
-// Words of a shell command. The page puts quotes around those that need them.
+// Words of a shell command. The report's page puts quotes around the words that need them.
 using Words = std::vector<std::string>;
 
 void addCommands(const RegressCase& subject, const Options& options, const std::string& picture, Outcome& outcome) {
@@ -88,7 +88,7 @@ void addCommands(const RegressCase& subject, const Options& options, const std::
   draw.insert(draw.end(), {"--out", picture});
   if (outcome.replaceable) {
     Words& accept = outcome.acceptCommand;
-    // Leaves the report that the command stands in.
+    // Writes into another folder, to keep the report that this command stands in.
     accept = {"speculum", "regress",   options.regress.cases.string(), "--out", (options.out / "accepted").string(),
               "--filter", subject.name};
     accept.insert(accept.end(), given.begin(), given.end());
@@ -110,13 +110,13 @@ Outcome outcomeOf(const WorkerReply& reply, const RegressCase& subject, int repe
   return outcome;
 }
 
-// Outcome::picture is only for messages: JSON replaces bytes that are not UTF-8.
+// Returns the expected picture's file. Outcome::picture is only for messages: JSON replaces bytes that are not UTF-8.
 std::filesystem::path pictureOf(const RegressCase& subject, const Outcome& outcome) {
   return expectedOf(subject, outcome.driver).subject.picture;
 }
 
-// Where cases share a picture, only the first of them in the file may write it, even if this run does not draw that
-// one.
+// Lets only one of the cases that share an expected picture replace it: the first one in the file of cases, even if
+// this run does not draw that case.
 void requireWriter(const std::vector<RegressCase>& cases, const RegressCase& subject, Outcome& outcome) {
   if (!outcome.replaceable) {
     return;
@@ -132,7 +132,8 @@ void requireWriter(const std::vector<RegressCase>& cases, const RegressCase& sub
   }
 }
 
-// Replaces the expected pictures of failed cases whose names match with those just drawn, but no file of `drawn`.
+// Replaces the expected pictures of failed cases whose names match --update with the pictures just drawn, but replaces
+// no file of `drawn`.
 void acceptAll(const Options& options, UsedFiles& drawn, RegressRun& run) {
   for (size_t i = 0; i < run.cases.size(); ++i) {
     Outcome& outcome = run.outcomes[i];
@@ -166,7 +167,7 @@ void writeReports(const Options& options, const RegressRun& run) {
   if (const std::string file = environment("GITHUB_STEP_SUMMARY"); !file.empty()) {
     // Other steps add to this file as well, so it is not replaced.
     std::ofstream stream;
-    if (!std::filesystem::is_fifo(std::filesystem::path(file))) {  // which might wait for a reader
+    if (!std::filesystem::is_fifo(std::filesystem::path(file))) {  // opening a pipe might wait for a reader
       stream.open(file, std::ios::app);
     }
     if (!stream.is_open() || !(stream << githubSummary(run)).flush()) {
@@ -225,7 +226,7 @@ struct FilesOfCases {
     return name + ".png";
   }
 
-  UsedFiles drawn;  // by scenes; and the file of cases
+  UsedFiles drawn;  // files that scenes are drawn from, and the file of cases
   UsedFiles masks;
   UsedFiles all;
   std::set<std::filesystem::path> names;  // without folders

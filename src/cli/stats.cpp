@@ -58,7 +58,7 @@ ordered_json depthJson(const Session& session, const MirrorPath& path) {
           {"none_m", metres(readout->plain)}};
 }
 
-// Returns the index of the pass that looks this one's image up; null if none does.
+// Returns the index of the pass that looks up the image of `pass`; null if none does.
 template <typename Passes>
 ordered_json parentJson(const Passes& passes, const PassId& pass) {
   if (pass.path.empty()) {
@@ -171,7 +171,7 @@ struct GatheredPass : PassId {
 ordered_json mergePasses(const std::vector<ordered_json>& frames, const std::vector<std::vector<PassId>>& ids) {
   std::vector<GatheredPass> gathered;
   for (size_t f = 0; f < frames.size(); ++f) {
-    std::ptrdiff_t place = 0;  // behind the pass before
+    std::ptrdiff_t place = 0;  // index behind the pass before
     for (size_t i = 0; i < ids[f].size(); ++i) {
       auto pass = std::ranges::find_if(gathered, [&](const PassId& id) { return id == ids[f][i]; });
       if (pass == gathered.end()) {

@@ -11,7 +11,8 @@ nlohmann::ordered_json frameStats(Session& session);
 
 // Merges the stats of measured frames: each *_ms becomes an object of median, min, p95 and max. `frames` are stats of
 // one scene at one time; their plans may differ in which mirror images are reused. A pass is merged over the frames in
-// which it ran; its key `frames` is their number if it did not run in all. `passes` are passIds() of the same frames.
+// which it ran; its key `frames` is the number of these frames if it did not run in all. `passes` are passIds() of the
+// same frames.
 nlohmann::ordered_json mergeStats(const std::vector<nlohmann::ordered_json>& frames,
                                   const std::vector<std::vector<PassId>>& passes);
 std::vector<PassId> passIds(Session& session);  // of the last frame

@@ -53,7 +53,7 @@ void addLine(GizmoShape& shape, const std::optional<PixelLine>& line) {
   }
 }
 
-// Fails if a corner is not on the picture.
+// Returns a filled polygon; nothing if the picture cannot show a corner.
 std::optional<GizmoShape> filled(const PictureView& picture, Grip handle, std::span<const glm::dvec3> corners) {
   GizmoShape shape{.handle = handle, .filled = true};
   for (const glm::dvec3& corner : corners) {
@@ -95,12 +95,13 @@ double distanceTo(const GizmoShape& shape, const glm::dvec2& p) {
   return nearest;
 }
 
-// Largest power of ten that is at most a tenth of `value`.
+// Returns the largest power of ten that is at most a tenth of `value`.
 double grain(double value) {
   return std::pow(10.0, std::floor(std::log10(0.1 * value)));
 }
 
-// Divides for steps below 1: that gives the double nearest to the decimal number.
+// Rounds to a multiple of `step`. For steps below 1 divides by 1 / step, which gives the double nearest to the decimal
+// number.
 double rounded(double value, double step) {
   return step < 1.0 ? std::round(value / step) / std::round(1.0 / step) : std::round(value / step) * step;
 }
@@ -242,7 +243,7 @@ GizmoDrag::GizmoDrag(const PictureView& picture, const Gizmo& gizmo, Grip handle
     normal_ = axis_;
     onScreen_ = std::abs(glm::dot(sight, axis_)) < flattestRing;
     screen_ = glm::dvec2(1.0, 0.0);
-    // A ring that is seen face on has no such direction.
+    // Pixels count along the edge of the ring as it is seen. A ring seen face on has no such direction.
     if (onScreen_) {
       const double step = picture.metresPerPixel(pivot_);
       const auto from = picture.pixel(pivot_);
@@ -262,7 +263,8 @@ GizmoDrag::GizmoDrag(const PictureView& picture, const Gizmo& gizmo, Grip handle
   lastAngle_ = angleAt(pixel).value_or(0.0);
 }
 
-// Fails along the plane, and near its horizon, where a pixel spans kilometres.
+// Returns the point where the pointer's ray meets the plane; nothing if the ray is parallel to it or meets it near its
+// horizon, where a pixel spans kilometres.
 std::optional<glm::dvec3> GizmoDrag::meet(const glm::dvec2& pixel) const {
   constexpr double farthest = 1000.0;  // times the pivot's depth
   const Ray ray = picture_.ray(pixel);
@@ -291,7 +293,7 @@ std::optional<double> GizmoDrag::factorAt(const glm::dvec2& pixel) const {
   return by ? std::optional(1.0 + glm::dot(axis_, *by) / (arm_ * picture_.metresPerPixel(pivot_))) : std::nullopt;
 }
 
-// Returns degrees; they have no bound if pixels are counted.
+// Returns the pointer's angle about the axis in degrees. It has no bound if pixels are counted.
 std::optional<double> GizmoDrag::angleAt(const glm::dvec2& pixel) const {
   if (onScreen_) {
     return glm::degrees(glm::dot(pixel - pressed_, screen_) / arm_);

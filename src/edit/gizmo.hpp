@@ -25,7 +25,8 @@ enum class Grip {
   scaleAll
 };
 
-// Returns the axis 0, 1 or 2 of a handle, or of a plane's normal; -1 for the view's plane, all axes and none.
+// Returns the axis 0, 1 or 2 of a handle, for a plane handle that of its normal; -1 for handles of the view's plane, of
+// all axes and for none.
 int axisOf(Grip handle);
 GizmoMode modeOf(Grip handle);
 constexpr bool isPlane(Grip handle) {
@@ -35,7 +36,7 @@ constexpr bool isPlane(Grip handle) {
 // Axes along which a node is scaled.
 struct ScaleAxes {
   glm::dmat3 directions{1.0};  // columns, world, unit
-  int count = 3;               // of them that have handles, the first ones
+  int count = 3;               // number of axes with handles; they come first
 };
 
 // One part of the gizmo as it is drawn over the picture.
@@ -55,9 +56,9 @@ class Gizmo {
   Gizmo(GizmoMode mode, const glm::dvec3& pivot, double arm, const ScaleAxes& scaleAxes = {})
       : mode_(mode), pivot_(pivot), arm_(arm), scaleAxes_(scaleAxes) {}
 
-  // Empty for a point that the picture cannot show.
+  // Returns the shapes to draw; those on top come last. None if the picture cannot show the pivot.
   std::vector<GizmoShape> shapes(const PictureView& picture) const;
-  // Finds the handle within `reach` pixels of a point of the picture.
+  // Returns the handle nearest to a pixel of the picture, within `reach` pixels; Grip::none if there is none.
   Grip at(const PictureView& picture, const glm::dvec2& pixel, double reach) const;
 
   double arm() const { return arm_; }
@@ -87,8 +88,9 @@ class GizmoDrag {
   GizmoDrag(const PictureView& picture, const Gizmo& gizmo, Grip handle, const glm::dvec2& pixel);
 
   Grip handle() const { return handle_; }
-  // Total change since the press. Where the pointer's ray misses the plane, as above its horizon, the last change
-  // stays. Without `snap` the change is rounded to less than a tenth of a pixel, for short numbers.
+  // Returns the total change since the press for a pointer at `pixel`. Where the pointer's ray misses the handle's
+  // plane, as above the plane's horizon, the last change stays. With `snap` the change goes in steps of moveSnap,
+  // turnSnap or scaleSnap; without, it is rounded to less than a tenth of a pixel, for short numbers.
   Change to(const glm::dvec2& pixel, bool snap);
 
  private:
@@ -104,7 +106,7 @@ class GizmoDrag {
   glm::dvec3 axis_{0.0};    // of the handle
   glm::dvec3 normal_{0.0};  // of the plane that the pointer's ray meets
   bool onScreen_ = false;   // the plane is seen edge-on: pixels are counted instead
-  glm::dvec2 screen_{0.0};  // unit direction on the picture along which they count
+  glm::dvec2 screen_{0.0};  // unit direction on the picture along which pixels count
   glm::dvec2 pressed_;      // pixels
   glm::dvec3 start_{0.0};   // where the ray met the plane at the press
   double lastAngle_ = 0.0;  // degrees

@@ -11,7 +11,7 @@ namespace speculum {
 
 namespace {
 
-// Two digits, so that sizes are what a person would type.
+// Returns the distance rounded to two digits, so that sizes are what a user would type.
 double distanceOf(const glm::dvec3& position, const glm::dvec3& viewer) {
   const double length = glm::length(viewer - position);
   // The loader refuses a mirror that is too small for its distance from the origin.
@@ -28,7 +28,7 @@ glm::dmat3 linearOf(const Object& object) {
   return linear;
 }
 
-// Half the extent of the model's box along the world's axes.
+// Returns half the extent of the model's box along the world's axes.
 glm::dvec3 halfExtent(const Object& object, const Mesh& mesh) {
   const glm::dmat3 linear = linearOf(object) * mesh.unit;
   return glm::abs(linear[0]) * mesh.halfExtent.x + glm::abs(linear[1]) * mesh.halfExtent.y +
@@ -47,7 +47,7 @@ glm::dvec3 stepInPlane(const MirrorState& state) {
   return 1.1 * (x(high) - x(low)) * state.axisX;
 }
 
-// Moves a light's orbit with it, so that it circles as before.
+// Returns a copy of the node, moved by `step`. A light's orbit moves too, so that the light circles as before.
 SceneNode copyMoved(const SceneNode& node, const glm::dvec3& step) {
   SceneNode copy = moved(node, step, 0.0);
   if (auto* light = std::get_if<PointLight>(&copy); light && light->orbit) {

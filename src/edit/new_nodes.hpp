@@ -17,8 +17,8 @@ PointLight newLight(const glm::dvec3& position, const glm::dvec3& viewer);
 // middle.
 Object newObject(const Scene& scene, int mesh, const glm::dvec3& position);
 
-// Returns the step from nodes, objects with all their copies, to a place a little beside them, on the other side for
-// -1. Throws std::out_of_range if a node does not exist.
+// Returns the step (metres, world) by which nodes, objects with all their copies, move to a place a little beside them;
+// to the other side if `side` is -1. Throws std::out_of_range if a node does not exist.
 glm::dvec3 stepBeside(const Scene& scene, std::span<const Selection> nodes, double side = 1.0);
 // Copies nodes beside the originals, all by the same step so that they stay together.
 std::vector<SceneNode> copiesBeside(const Scene& scene, std::span<const Selection> nodes, double side = 1.0);

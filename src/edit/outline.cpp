@@ -18,7 +18,8 @@ constexpr size_t mostLines = 4000;
 constexpr double lightGap = 5.0;  // pixels between a light and its circle
 constexpr int circleSteps = 48;
 
-// Convex hull, counter-clockwise: Andrew, "Another Efficient Algorithm for Convex Hulls in Two Dimensions" (1979).
+// Returns the convex hull, counter-clockwise: Andrew, "Another Efficient Algorithm for Convex Hulls in Two Dimensions"
+// (1979).
 std::vector<glm::dvec2> hullOf(std::vector<glm::dvec2> points) {
   std::ranges::sort(points,
                     [](const glm::dvec2& a, const glm::dvec2& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
@@ -102,7 +103,7 @@ std::vector<PixelLine> hullOutline(const InstanceState& instance, const glm::dve
   std::vector<glm::dvec2> pixels;
   for (const glm::dvec3& point : points) {
     const glm::dvec3 world = instance.worldFromMesh.point(point);
-    // A mirror shows only what is in front of it.
+    // A mirror shows only points in front of it.
     if (picture.view().clip && picture.view().clip->distance(world) < 0.0) {
       continue;
     }

@@ -56,7 +56,8 @@ std::vector<Picked> Picker::at(const SceneState& state, const PictureView& pictu
         largest < limits.minThroughput || isSkipped(limits, path)) {
       break;
     }
-    // Starts at the reflected eye and reaches the mirror at the same t, so that it needs no offset off the surface.
+    // The reflected ray starts at the reflected eye and reaches the mirror at the same t, so that it needs no offset
+    // off the surface.
     ray = {reflectPoint(ray.origin, {placed.origin, placed.normal}), reflectionLinear(placed.normal) * ray.direction,
            hit->t};
     skip = {.mirror = hit->index};

@@ -30,8 +30,8 @@ class Picker {
   explicit Picker(const Scene& scene) : world_(scene) {}
 
   // Returns the node on which the ray through a point of the picture ends, then the mirrors on its way, the one nearest
-  // to the eye last; nothing where the background is seen directly. Reflections are followed as planar mirrors draw
-  // them; rippled and rough mirrors count as smooth. `picture` is the camera's view of the state.
+  // to the eye last; nothing where the background or the sky is seen directly. Reflections are followed as planar
+  // mirrors draw them; rippled and rough mirrors count as smooth. `picture` is the camera's view of the state.
   std::vector<Picked> at(const SceneState& state, const PictureView& picture, const glm::dvec2& pixel,
                          const PickLimits& limits);
 

@@ -15,28 +15,29 @@ struct PixelLine {
   glm::dvec2 b{0.0};
 };
 
-// View of the picture that the user points into, or of its images in a chain of mirrors. Projects exactly as passes do.
-// Pixels run from the top left corner; the centre of the first one is at (0.5, 0.5).
+// The camera's view of the picture that the user points into, or that view reflected in a chain of mirrors. Projects
+// exactly as passes do. Pixels run from the top left corner; the centre of the first one is at (0.5, 0.5).
 class PictureView {
  public:
   PictureView(const CameraPose& camera, int width, int height);
-  // View of the world's image in these mirrors, indices into SceneState::mirrors from the eye. Fails if one does not
-  // exist or is not seen from its reflecting side.
+  // Returns the view of the world's image in these mirrors, indices into SceneState::mirrors from the eye; nothing if
+  // one of the mirrors does not exist or is not seen from its reflecting side.
   std::optional<PictureView> through(const Scene& scene, const SceneState& state, std::span<const int> path) const;
 
   const View& view() const { return view_; }
   const glm::dvec3& eye() const { return view_.eye; }  // world; reflected about the mirrors
   const MirrorPath& path() const { return view_.path; }
   glm::dvec3 forward() const;  // world, unit
-  // Ray from the eye through a point of the picture; its direction is one metre deep, not of unit length.
+  // Returns the ray (world) from the eye through a point of the picture; its direction is one metre deep, not of unit
+  // length.
   Ray ray(const glm::dvec2& pixel) const;
   double depth(const glm::dvec3& world) const;  // metres in front of the eye's plane
-  // Fails for points nearer than the near plane.
+  // Returns the pixel of a point; nothing for points nearer than the near plane.
   std::optional<glm::dvec2> pixel(const glm::dvec3& world) const;
-  double metresPerPixel(const glm::dvec3& world) const;  // at its depth
-  // Cuts a line to its part beyond the near plane.
+  double metresPerPixel(const glm::dvec3& world) const;  // at the point's depth
+  // Returns the line between two points (world), cut to its part beyond the near plane; nothing if there is none.
   std::optional<PixelLine> line(const glm::dvec3& a, const glm::dvec3& b) const;
-  // Clips a line to the picture, or to the last mirror of the path.
+  // Clips a line to the picture, or to the last mirror of the path. Returns nothing if no part of it remains.
   std::optional<PixelLine> clipped(const PixelLine& line) const;
   std::optional<PixelLine> clippedLine(const glm::dvec3& a, const glm::dvec3& b) const;  // line(), clipped
   bool sees(const glm::dvec3& center, double radius) const { return sphereVisible(view_, center, radius); }
@@ -47,7 +48,7 @@ class PictureView {
 
   View view_;
   Projection projection_;
-  std::vector<glm::dvec2> shown_;  // convex, pixels: part of the picture that shows it
+  std::vector<glm::dvec2> shown_;  // convex polygon, pixels: part of the picture that shows this view
 };
 
 }  // namespace speculum

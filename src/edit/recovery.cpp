@@ -11,7 +11,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Without links, because a scene's models are found from here when the copy is gone.
+// Returns the folder of all copies, without links, because a scene's models are found from here when the copy is gone.
 fs::path copiesFolder() {
   return withoutLinks(userConfigDir()) / "unsaved";
 }

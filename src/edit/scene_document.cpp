@@ -66,7 +66,7 @@ size_t SceneDocument::bytesOf(const Step& step) {
   return bytes;
 }
 
-// The label of changed settings is the name of the only one.
+// A step that changed a single setting is labelled with its name.
 std::string SceneDocument::labelOf(const Step& step) {
   if (const Edit* edit = std::get_if<Edit>(&step)) {
     return edit->label;

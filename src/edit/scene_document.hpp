@@ -21,11 +21,11 @@ struct SettingsStep {
   Settings after;
 };
 
-// A scene that a user edits, with undo and saving. Changes go to the scene itself; meshes, textures and settings are
-// left to others, but changes of settings are steps too.
+// A scene that a user edits, with undo and saving. Changes go to the scene itself. Meshes, textures and settings are
+// left to others, but changes of settings are steps of undo too.
 class SceneDocument {
  public:
-  // The oldest steps are dropped beyond these; the last one is always kept.
+  // Beyond these numbers the oldest steps are dropped; the last step is always kept.
   static constexpr size_t mostSteps = 1000;
   static constexpr size_t mostBytes = size_t{64} << 20;
 
@@ -34,26 +34,26 @@ class SceneDocument {
 
   const Scene& scene() const { return scene_; }
 
-  // One step: `edit` changes values of environment, camera, objects, lights, mirrors or bookmarks; none if it changes
-  // nothing. If it throws, the scene is as before. Throws std::logic_error if it adds or removes anything. Within a
-  // gesture all changes are one step, with the last label.
+  // Calls `edit`, which changes values of environment, camera, objects, lights, mirrors or bookmarks, as one step; as
+  // none if nothing changes. If `edit` throws, the scene is as before. Throws std::logic_error if `edit` adds or
+  // removes anything. Within a gesture all changes are one step, with the last label.
   void change(const std::string& label, const Selection& selection, const std::function<void(Scene&)>& edit);
 
-  // A drag, or a slider that is held: all changes until its end are one step, or none if they cancel out. Undo, redo
-  // and saving end it.
+  // A gesture is a drag, or a slider that is held: all changes until its end are one step, or none if they cancel out.
+  // Undo, redo and saving end it.
   void beginGesture();
   void endGesture();
   void cancelGesture();  // back to the beginning
   bool inGesture() const { return gesture_.has_value(); }
   bool gestureChanges() const { return gesture_ && content() != gesture_->content; }
 
-  // Each adds a node in one step, selects it and returns where it is; see new_nodes.hpp.
+  // Each of these adds a node in one step, selects it and returns where it is; see new_nodes.hpp.
   Selection addMirror(const glm::dvec3& position, const glm::dvec3& viewer) { return add(newMirror(position, viewer)); }
   Selection addLight(const glm::dvec3& position, const glm::dvec3& viewer) { return add(newLight(position, viewer)); }
   Selection addObject(int mesh, const glm::dvec3& position) { return add(newObject(scene_, mesh, position)); }
-  // Puts copies of different nodes (at least one) beside them in one step, on the other side for -1. The copies stay
-  // together; the first is selected, all are returned in the order of `nodes`. Throws std::out_of_range if a node does
-  // not exist.
+  // Puts copies of different nodes (at least one) beside them in one step, to the other side if `side` is -1. The
+  // copies stay together; the first is selected, all are returned in the order of `nodes`. Throws std::out_of_range if
+  // a node does not exist.
   std::vector<Selection> duplicate(std::span<const Selection> nodes, double side = 1.0);
   void remove(std::vector<Selection> nodes);  // nothing is selected afterwards
 
@@ -61,17 +61,18 @@ class SceneDocument {
   std::string addBookmark(Bookmark bookmark);
   void removeBookmark(size_t index);
 
-  // Call after a change of the settings. `continued`: it belongs to the step of the change before, unless another step,
-  // undo or redo came between. A step that ends with the settings of its beginning is taken away.
+  // Call after a change of the settings. `continued`: the change belongs to the step of the change before, unless
+  // another step, undo or redo came between. A step that ends with the settings of its beginning is taken away.
   void settingsChanged(const Settings& before, const Settings& after, bool continued);
 
   bool canUndo() const { return !undo_.empty(); }
   bool canRedo() const { return !redo_.empty(); }
   std::string undoLabel() const { return undo_.empty() ? "" : labelOf(undo_.back()); }  // "move object 'teapot'"
   std::string redoLabel() const { return redo_.empty() ? "" : labelOf(redo_.back()); }
-  // Says whether the next step that way changes the scene; false if there is none.
+  // Says whether the next step that way changes the scene; false if there is no step.
   bool changesScene(UndoWay way) const;
-  // Nothing happens if there is no step. A step that changed settings is returned, for the caller to restore them.
+  // Take back a step, or do it again. Nothing happens if there is no step. A step that changed settings is returned,
+  // for the caller to restore them.
   std::optional<SettingsStep> undo();
   std::optional<SettingsStep> redo();
 
@@ -92,7 +93,7 @@ class SceneDocument {
   // the file the scene's. Throws SaveError; see writeSceneFile for `overwrite`, and copyModels() for `copiesModels`.
   void save(const std::filesystem::path& file, std::span<const SettingChange> settings, bool overwrite = false,
             bool copiesModels = false);
-  // The text that save() would write.
+  // Returns the text that save() would write. Throws SaveError.
   std::string text(const std::filesystem::path& file, std::span<const SettingChange> settings,
                    ReadBack readBack = ReadBack::required) const;
 
@@ -111,7 +112,7 @@ class SceneDocument {
   SceneContent& content() { return scene_; }
   const SceneContent& content() const { return scene_; }
   void recordChange(const SceneContent& before);
-  void swapContent(Edit& edit);  // exchanges its content with the scene's
+  void swapContent(Edit& edit);  // exchanges the edit's content with the scene's
   void record(Edit edit);
   void push(Step step);
   std::optional<SettingsStep> apply(Step& step, UndoWay way);
@@ -134,7 +135,7 @@ class SceneDocument {
   std::optional<std::string> savedText_;
   uint64_t revision_ = 0;
   uint64_t structureRevision_ = 0;
-  mutable std::optional<std::pair<uint64_t, bool>> modified_;  // by revision
+  mutable std::optional<std::pair<uint64_t, bool>> modified_;  // revision, and modified() at that revision
 };
 
 }  // namespace speculum

@@ -29,7 +29,7 @@ bool leadsTo(const fs::path& path, const fs::path& file) {
   return path.lexically_normal() == file || fs::equivalent(path, file, error);
 }
 
-// Sets the models' paths for a scene in `file`. Keeps those that are still right as the user wrote them.
+// Sets the models' paths for a scene in `file`. Keeps paths that are still right as the user wrote them.
 void nameModels(const Scene& loaded, std::span<const Mesh> meshes, const fs::path& file, SceneContent& content) {
   const bool moved = withoutLinks(loaded.file).parent_path() != withoutLinks(file).parent_path();
   for (size_t i = 0; i < content.objects.size(); ++i) {
@@ -230,7 +230,7 @@ bool canCopy(const fs::path& from, const fs::path& to) {
   return isFolder(to.parent_path());
 }
 
-// Copies files below `root`, keeping their places to each other, by which they name each other. Returns the first copy.
+// Copies files below `root`, keeping their relative paths, by which they name each other. Returns the first copy.
 fs::path copyTogether(const std::vector<fs::path>& files, const fs::path& root, const fs::path& folder) {
   constexpr int mostFolders = 1000;
   for (int number = 1; number <= mostFolders; ++number) {

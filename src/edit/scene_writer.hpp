@@ -16,8 +16,8 @@ class SaveError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// Whether the text of a scene must read back as the scene. Only the copy that is kept before a failure may be untested,
-// because otherwise the changes would be lost.
+// Whether the text of a scene must read back as the scene. Only copies that Recovery keeps may be untested, because
+// otherwise the changes would be lost in a failure.
 enum class ReadBack { required, untested };
 
 // Returns the scene file's text with edited content and changed settings; an empty value takes a setting's key out.
@@ -31,21 +31,21 @@ std::string editedText(const Scene& loaded, const SceneContent& content, std::sp
 // Returns the indices of the meshes that objects use and whose files lie neither in `folder` nor below.
 std::vector<size_t> modelsOutside(const Scene& scene, const std::filesystem::path& folder);
 
-// Copies these models, with the materials and textures that they name by relative paths, to `models` in the folder.
-// Overwrites nothing: a model that would need that goes to `models-2` and so on. Returns the files of all meshes.
-// Throws SaveError.
+// Copies the models that modelsOutside() finds, with the materials and textures that they name by relative paths, to
+// `models` in the folder. Overwrites nothing: a model that would need that goes to `models-2` and so on. Returns the
+// files of all meshes. Throws SaveError.
 std::vector<std::filesystem::path> copyModels(const Scene& scene, const std::filesystem::path& folder);
 
-// Replaces the file by `text`, whole or not at all. Throws SaveError if that fails or, without `overwrite`, if the file
-// does not hold `expected`; with no expected text, if there is a file.
+// Replaces the file by `text`, whole or not at all. Throws SaveError if that fails or, without `overwrite`, if there is
+// a file that does not hold `expected`; with no expected text, if there is any file.
 void writeSceneFile(const std::filesystem::path& file, const std::string& text,
                     const std::optional<std::string>& expected, bool overwrite);
 
-// Scene file for a name that the user typed: ".toml" is added unless it is there. Names of models stay as they are, and
-// SceneDocument::save refuses them. Throws SaveError if there is no name.
+// Returns the scene file for a name that the user typed: ".toml" is added unless it is there. Names of models stay as
+// they are, and SceneDocument::save refuses them. Throws SaveError if there is no name.
 std::filesystem::path sceneFileNamed(const std::filesystem::path& file);
 
-// Throws a SaveError with the outermost missing folder of the file's path.
+// Throws a SaveError if the file's folder is missing; the message names the outermost missing folder.
 void requireFolder(const std::filesystem::path& file);
 
 }  // namespace speculum

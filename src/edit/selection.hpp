@@ -21,24 +21,24 @@ struct Selection {
   bool operator==(const Selection&) const = default;
 };
 
-// "mirror 'floor'"; "nothing" for none.
+// Describe nodes for users: "mirror 'floor'", "nothing" for none. Several nodes are "3 nodes".
 std::string describe(const Scene& scene, const Selection& selection);
-std::string describe(const Scene& scene, std::span<const Selection> nodes);  // "3 nodes"; one node as above
+std::string describe(const Scene& scene, std::span<const Selection> nodes);
 std::vector<Selection> allNodes(const Scene& scene);  // mirrors, lights, objects: the order of the lists
-// Says whether both are the same node, or copies of it.
+// Says whether both are one node, or copies of one object.
 bool sameNode(const Selection& a, const Selection& b);
 
-// A copy of a node, in the order of Selection::Kind.
+// The value of a node. The alternatives are in the order of Selection::Kind.
 using SceneNode = std::variant<std::monostate, Object, PointLight, Mirror>;
 
 inline Selection::Kind kindOf(const SceneNode& node) {
   return static_cast<Selection::Kind>(node.index());
 }
 
-// Returns the selected node; std::monostate if the scene has none there.
+// Returns the selected node; std::monostate if the scene has no such node.
 SceneNode nodeOf(const Scene& scene, const Selection& selection);
 
-// Calls visit(nodes, origins) with the scene's nodes of a kind; not at all for none.
+// Calls visit(nodes, origins) with the scene's nodes of a kind; does not call it for Kind::none.
 template <typename Content, typename Visitor>
 void withNodes(Content& scene, Selection::Kind kind, const Visitor& visit) {
   switch (kind) {

@@ -15,20 +15,21 @@ struct KeyText {
   std::string table;  // "orbit" of orbit.speed; empty for a key of the table itself
   std::string key;
   std::string text;
-  bool omissible = false;  // the loader's default
+  bool omissible = false;  // the value is the loader's default
 
   bool operator==(const KeyText&) const = default;
 };
 
-// Changes values in the text of a TOML file and keeps everything else: comments, order, blanks, line breaks. Nodes are
-// those of root(), which say where the text has them; text() applies the changes collected so far.
+// Changes values in the text of a TOML file and keeps everything else: comments, order, blanks, line breaks. Nodes that
+// functions take must be nodes of root(), which say where the text has them. text() applies the changes collected so
+// far.
 class TomlEditor {
  public:
   // `text` must have been parsed without an error.
   explicit TomlEditor(std::string text) : toml_(std::move(text)) {}
 
   const toml::table& root() const { return toml_.root(); }
-  // Element of the file's array `list`, which is one of tables.
+  // Returns an element of the file's array `list`, which is an array of tables.
   const toml::table& element(std::string_view list, size_t index) const;
 
   // Changes the table from `base`, the values of the text, to `edited`. Equal values keep their text, and new keys are
@@ -43,7 +44,7 @@ class TomlEditor {
   // Removes a value, or a table with its headers and the comments right above them.
   void remove(const toml::node& node);
 
-  // The text with the changes.
+  // Returns the text with the changes.
   std::string text() const;
 
  private:

@@ -18,7 +18,8 @@ bool isArrayOfHeaders(const toml::node& node) {
   return array && array->is_array_of_tables() && array->front().source().begin == array->source().begin;
 }
 
-// Says whether only headers of nested tables name the table; it then has the position of the first of them.
+// Says whether only headers of nested tables name the table. Such a table has the position of the first of these
+// headers.
 bool isImplicit(const toml::table& table) {
   return std::ranges::any_of(table, [&](const auto& entry) {
     const bool headed = entry.second.is_table() || isArrayOfHeaders(entry.second);

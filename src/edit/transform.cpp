@@ -22,7 +22,7 @@ glm::dvec3 tidy(const glm::dvec3& v) {
   return result;
 }
 
-// Rounds to nine digits, however small.
+// Rounds to nine digits, however small the size is.
 double tidySize(double size) {
   const double perUnit = std::pow(10.0, 8.0 - std::floor(std::log10(std::abs(size))));
   return size != 0.0 && std::isfinite(perUnit) && perUnit > 0.0 ? std::round(size * perUnit) / perUnit : size;

@@ -9,23 +9,25 @@ namespace speculum {
 // Returns the point of a node (world) at which the gizmo stands: an object's origin, or the centre of its bounding
 // sphere if the origin lies outside it; a light's centre; a mirror's middle.
 glm::dvec3 pivotOf(const Scene& scene, const SceneState& state, const Selection& selection);
-// Radius of a sphere around the pivot that holds the node, metres.
+// Returns the radius of a sphere around the pivot that holds the node, metres.
 double reachOf(const Scene& scene, const SceneState& state, const Selection& selection);
 
-// Instance of an object's copy; null if there is none.
+// Returns the instance of an object's copy; null if there is none.
 const InstanceState* instanceOf(const SceneState& state, const Selection& selection);
 
-// Returns the node moved by `by` (metres, world), where it is at `time`. All copies of an object move.
+// Returns the node moved by `by` (metres, world) from where it is at `time` (seconds). All copies of an object move.
 SceneNode moved(const SceneNode& node, const glm::dvec3& by, double time);
 
-// Returns the node turned about a point of the world, where it is at `time`. `copy` turns about the pivot, the other
-// copies about their own origins. Lights do not turn.
+// Returns the node turned about a point of the world, from where it is at `time` (seconds). The copy `copy` of an
+// object turns about the pivot, the other copies about their own origins. Lights do not turn.
 SceneNode turned(const SceneNode& node, const glm::dmat3& rotation, const glm::dvec3& pivot, int copy, double time);
 
-// Axes along which the node has a size: an object three, a mirror two, a light none, which has a radius only.
+// Returns the axes along which the node has a size: three for an object, two for a mirror, none for a light, which has
+// a radius only.
 ScaleAxes scaleAxesOf(const Scene& scene, const SceneState& state, const Selection& selection);
 
-// Returns the node scaled about its pivot by factors along its axes. A light's radius follows factors that are equal.
+// Returns the node scaled about its pivot by factors along its axes, the columns of `axes` (world). The radius of a
+// light is scaled if all factors are equal.
 SceneNode scaled(const SceneNode& node, const glm::dvec3& factors, const glm::dmat3& axes, const glm::dvec3& pivot,
                  int copy);
 

@@ -11,7 +11,8 @@ namespace speculum {
 
 namespace {
 
-// Milliseconds for a texel without lighting, a pass, a triangle, a texel, each further sample of a texel, and a ray.
+// Milliseconds for a texel without lighting, a pass, a triangle, a lit texel, each further sample of a texel, and a
+// ray.
 constexpr std::array<double, 6> cpuPrices{8e-6, 0.3, 1e-4, 3e-5, 3e-5, 1e-3};
 constexpr std::array<double, 6> gpuPrices{1e-7, 0.03, 2e-6, 2e-6, 5e-7, 1e-5};
 constexpr size_t rayKind = 5;
@@ -45,7 +46,7 @@ double trianglesOf(const Pass& pass, const Scene& scene, const SceneState& state
 void addRays(FrameWork& work, const Pass& pass, double texels, int samples, const FramePlan& plan, const Scene& scene,
              const SceneState& state, const EffectSettings& settings) {
   const TracedEffects& effects = plan.effects;
-  const double points = settings.perSample ? samples : 1.0;  // of a texel, from which rays start
+  const double points = settings.perSample ? samples : 1.0;  // of a texel that rays start from
   const auto toLights = static_cast<double>(effects.raysToLights(scene));
   const double reflected = points * (1.0 + toLights);
   if (!effects.shadowMaps) {
@@ -121,13 +122,13 @@ FrameWork scaledWork(FrameWork work, const Settings& from, const Settings& to) {
   const auto points = [](const Settings& settings) { return settings.effects.perSample ? settings.view.samples : 1.0; };
   const double rays = squared(view) * points(to) / points(from);
   const EffectSettings& effects = to.effects;
-  // If shadows were looked up in maps, all rays to lights were for light that mirrors cast, and these stay.
+  // If shadows were looked up in maps, all rays to lights were for light that mirrors cast, and these rays stay.
   const bool shadowMaps = effects.shadowLookup == ShadowLookup::map &&
                           (from.effects.shadowLookup == ShadowLookup::traced || !effects.castsLight);
   work.lightRays *= shadowMaps ? 0.0 : rays;
   const double sampleRays = squared(view) * to.view.samples / from.view.samples;
   work.rippleRays *= effects.rippleLookup == ReflectionSource::image ? 0.0 : sampleRays;
-  // If the settings did not call for rays, single mirrors do.
+  // If `from` did not call for rays, the counted rays are those of single mirrors with a method of their own, and stay.
   const bool images =
       to.reflection.method == ReflectionMethod::raster && from.reflection.method != to.reflection.method;
   work.smoothRays *= images || !to.limit.rays ? 0.0 : sampleRays;

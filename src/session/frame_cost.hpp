@@ -8,7 +8,7 @@ namespace speculum {
 
 // Amounts of work in a frame, computed from its plan before it is drawn.
 struct FrameWork {
-  double plainTexels = 0.0;   // written without lighting: by the display pass, and those of shadow maps
+  double plainTexels = 0.0;   // written without lighting: by the display pass and in shadow maps
   double passes = 0.0;        // all
   double mirrorPasses = 0.0;  // of mirrors
   double triangles = 0.0;
@@ -26,21 +26,22 @@ struct FrameWork {
   double mirrorSamples = 1.0;  // on average over the mirrors' texels
 };
 
+// Returns the work of a frame that was planned with these settings.
 FrameWork workOf(const FramePlan& plan, const Scene& scene, const SceneState& state, const Settings& settings);
 // Estimates the work with settings `to` of a frame that was planned with settings `from`. Scales the numbers of texels,
-// samples, passes and rays alone, so maps looked up instead of rays cost nothing, and effects whose rays `from` lacks
-// cost none.
+// samples, passes and rays alone, so maps that replace rays cost nothing, and neither do effects whose rays `from`
+// lacks.
 FrameWork scaledWork(FrameWork work, const Settings& from, const Settings& to);
 
 // Predicts the milliseconds of a frame: the sum over its kinds of work of amount, typical price and factor. Typical
-// prices are constants of the kind of device. A Kalman filter estimates the factors from the times of frames. They
-// start correlated, so that a device that is slow as a whole is recognised within a few frames.
+// prices are constants of the kind of device. A Kalman filter estimates the factors from the times of frames. The
+// factors start correlated, so that a device that is slow as a whole is recognised within a few frames.
 class CostModel {
  public:
   explicit CostModel(bool cpuDevice);
 
-  double predict(const FrameWork& work) const;  // milliseconds
-  void learn(const FrameWork& work, double ms);
+  double predict(const FrameWork& work) const;   // milliseconds
+  void learn(const FrameWork& work, double ms);  // from a frame that took `ms`
 
  private:
   static constexpr size_t kinds = 6;

@@ -25,8 +25,8 @@ class FramePlanner : public PicturePlanner {
   // them out from now on. Throws the error again if they are left out already, so that memory is missing for something
   // else.
   void leaveOutTextures(const std::string& why);
-  void forgetScene() { refused_.reset(); }
-  std::string message() const;  // what was lowered or left out; empty if nothing was
+  void forgetScene() { refused_.reset(); }  // textures are tried again
+  std::string message() const;              // what was lowered or left out; empty if nothing was
 
  private:
   struct Refused {
@@ -35,14 +35,14 @@ class FramePlanner : public PicturePlanner {
   };
 
   TargetLimits limits_;
-  bool tracesRays_ = true;  // the device can, if its buffers can hold the scene
+  bool tracesRays_ = true;  // the device can trace rays, if its buffers can hold the scene
   TraceBufferBytes bufferLimits_;
   bool rendersMirrors_ = false;
   bool leavesOutTextures_ = false;
-  Settings asked_;  // of the last plan
+  Settings asked_;  // settings of the last plan, before any was lowered
   std::optional<Refused> refused_;
   std::string retried_;  // problem after which textures are tried again
-  std::string lowered_;  // by the last plan
+  std::string lowered_;  // what the last plan lowered; empty: nothing
 };
 
 }  // namespace speculum

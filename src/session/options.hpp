@@ -20,7 +20,7 @@ struct WindowArguments {
 
 struct RenderArguments {
   std::filesystem::path stats;                   // empty: none
-  std::optional<std::filesystem::path> capture;  // RenderDoc's, of the first picture
+  std::optional<std::filesystem::path> capture;  // file for RenderDoc's capture of the first picture
   double fps = 30.0;
 };
 
@@ -49,7 +49,7 @@ struct RegressArguments {
   bool worker = false;                // draws the cases whose indices come on standard input
 };
 
-// The command line, parsed and checked: what several commands take, then a member for what one of them takes alone. The
+// The command line, parsed and checked: what several commands take, then a member for what a single command takes. The
 // scene's [settings] are added when the scene is loaded.
 struct Options {
   std::string command = "demo";

@@ -12,7 +12,7 @@
 
 namespace speculum {
 
-// The files that a command reads or writes. Different paths to a file, also through links, count as the same. Leaves
+// The files that a command reads or writes. Different paths to one file, also through links, count as that file. Leaves
 // out devices and pipes, because writing does not replace them.
 class UsedFiles {
  public:
@@ -36,8 +36,9 @@ class UsedFiles {
 void requireFilesOfTheirOwn(const Options& options);
 void requireFilesOfTheirOwn(const Options& options, const Scene& scene);
 
-// Names the file of each picture of a sequence. The pattern has one %d or %0Nd, or none for a single picture. Throws
-// UsageError for endings other than .png and .exr, and for a sequence without a number.
+// Names the file of each picture of a sequence. The pattern has one %d or %0Nd, or none for a single picture; with a
+// `count` of 0 it is a file name as it stands. Throws UsageError for endings other than .png and .exr, and for a
+// sequence without a number.
 class PictureSequence {
  public:
   PictureSequence(const std::filesystem::path& pattern, int count);
@@ -46,7 +47,7 @@ class PictureSequence {
  private:
   std::string before_;
   std::string after_;
-  int digits_ = 0;  // of the number between; 0: a single picture
+  int digits_ = 0;  // of the number between before_ and after_; 0: a single picture
 };
 
 }  // namespace speculum

@@ -8,24 +8,25 @@
 
 namespace speculum {
 
-// A pass with its figures of the GPU.
+// A recorded pass with the GPU's figures.
 struct TimedPass : RecordedPass {
   PassTiming timing;
 };
 
-// Passes with the sums of their draws and figures over frames, which draw parts of a picture or pictures of a mean.
+// Sums the draws and the GPU's figures of each pass over frames that draw the parts of a picture or the pictures of a
+// mean.
 class PictureSums {
  public:
   // Call before the first frame of a picture. Pictures may differ in passes at the edge of the view.
   void beginPicture() { place_ = 0; }
-  // Adds the passes of a frame by their ids. A pass that is new stands behind the one before it.
+  // Adds the figures of a frame's passes to those of the same id. A new pass is inserted behind the pass before it.
   void add(std::span<const RecordedPass> passes, const FrameTimings& timings);
 
   const std::vector<TimedPass>& passes() const { return passes_; }
 
  private:
   std::vector<TimedPass> passes_;
-  size_t place_ = 0;  // behind the last pass that was added
+  size_t place_ = 0;  // index behind the pass that was added last
 };
 
 }  // namespace speculum

@@ -17,14 +17,14 @@ inline QualityBudget budgetOf(const Settings& settings) {
 // The point of a sweep that the bounds of quality.* chose.
 struct QualityChoice {
   SweepPoint point;
-  bool met = true;
-  std::string why;
+  bool met = true;  // false: no point meets the bounds, and this one comes closest
+  std::string why;  // one sentence for users
 };
 
 // Chooses a point from the file of --sweep-results by quality.budget_ms and quality.max_error, sets `settings` to it,
 // except for keys of --set, and prints the choice on stderr. Warns if the sweep is of another scene or size. Returns
-// nothing without bounds. Throws UsageError for bounds of --set without a sweep, InputError for a file that is not a
-// sweep's.
+// nothing without bounds, or without a sweep after a warning. Throws UsageError for bounds of --set without a sweep
+// (the command demo only warns), InputError for a file that is not a sweep's.
 std::optional<QualityChoice> chooseQuality(const Options& options, const std::filesystem::path& scene,
                                            Settings& settings);
 

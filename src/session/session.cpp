@@ -197,8 +197,8 @@ void Session::drawPicture(bool capture) {
   frame_.cpuMs += millisecondsSince(recording) - frame.waitedMs;
   unfinished_.push_back(frame.number);
   renderer_.endFrame(frame);
-  // The last good shader stays in use after an error. The window says so; a command would write a wrong picture and
-  // exit with 0.
+  // After an error the last good shader stays in use. The window shows the error; a command would write a wrong picture
+  // and exit with 0.
   if (const std::string& errors = renderer_.pipelines().errors(); !errors.empty()) {
     const size_t found = errors.find("ERROR:");
     const size_t begin = found == std::string::npos ? 0 : errors.rfind('\n', found) + 1;

@@ -27,7 +27,8 @@ struct LoadedScene {
 };
 // Returns the scene's settings, with those of --set. Throws UsageError.
 Settings settingsOf(const Scene& scene, const Options& options);
-// Throws InputError too, with --strict also for a defect of a model.
+// Load a scene, that of --scene or `file`, with its settings. Throw UsageError and InputError, with --strict also for a
+// defect of a model.
 LoadedScene loadSceneWithSettings(const Options& options);
 LoadedScene loadSceneWithSettings(const std::filesystem::path& file, const Options& options,
                                   const LoadProgress& progress = {});
@@ -35,24 +36,26 @@ LoadedScene loadSceneWithSettings(const std::filesystem::path& file, const Optio
 // Throws InputError with the first defect of a model, if there is one.
 void requireNoDefects(const Scene& scene);
 
-// Returns the camera of --camera; nothing if it is not given. Throws UsageError for one without a direction.
+// Returns the camera of --camera; nothing if there is no such option. Throws UsageError for a camera without a
+// direction.
 std::optional<CameraPose> cameraOf(const Options& options, const Scene& scene);
 
 // Returns what the renderer read back as an opaque picture.
 Image8 pictureOf(Pixels pixels);
 
+// A null `window` means that nothing is presented.
 DeviceOptions deviceOptions(const Options& options, Window* window);
 RendererOptions rendererOptions(const Options& options, Window* window);
 
-// Applies debug.omit_barrier. Throws UsageError with all names for one that does not exist.
+// Applies debug.omit_barrier. Throws UsageError for a barrier that does not exist; the message lists all barriers.
 void applyDebugSettings(const Settings& settings, Device& device);
 
-// Returns the exit code of a run: 1 if the validation layer or debug.check_finite found anything; prints a line on
-// stderr for each that did.
+// Returns the exit code of a run: 1 if the validation layer or debug.check_finite found anything. Prints a line on
+// stderr for each of the two that did.
 int exitCodeOfChecks(int validationMessages, uint64_t nonFinite);
 
 // One frame as it was planned and recorded: a picture, or the mean of view.accumulate pictures. Times, draws and counts
-// are sums over its pictures; the GPU's are there after Session::finish.
+// are sums over its pictures. The figures of the GPU are there after Session::finish.
 struct DrawnFrame {
   SceneState state;
   FramePlan plan;     // of the last picture
@@ -61,7 +64,7 @@ struct DrawnFrame {
   uint64_t number = 0;   // of the renderer's last frame that has finished
   double cpuMs = 0.0;    // planning and recording
   double gpuMs = 0.0;    // see FrameTimings
-  double frameMs = 0.0;  // from its beginning until the GPU has finished
+  double frameMs = 0.0;  // from the start of Session::draw until the GPU has finished
   PictureSums sums;
   EffectLedger ledger;
 
@@ -71,18 +74,18 @@ struct DrawnFrame {
 // A scene drawn without a window.
 class Session {
  public:
-  // Draws with `device`, which must outlive it, or with one of its own.
+  // Draws with `device`, which must outlive the session, or with a device of its own.
   explicit Session(const Options& options, Device* device = nullptr);
 
-  // Replaces the scene's camera.
+  // Replaces the scene's camera; without a value the scene's is used again.
   void setCamera(const std::optional<CameraPose>& camera) { camera_ = camera; }
-  // Draws the scene at `time`. picture() needs `capture`. Calls `afterPicture` after each picture of a mean, which ends
-  // early when it returns false. Throws std::runtime_error if a shader of --shader-dir does not compile.
+  // Draws the scene at `time` (seconds). picture() needs `capture`. Calls `afterPicture` after each picture of a mean;
+  // the mean ends early when it returns false. Throws std::runtime_error if a shader of --shader-dir does not compile.
   const DrawnFrame& draw(double time, bool capture, const std::function<bool()>& afterPicture = {});
   // Drops all cached images: the next frame renders everything.
   void restart() { sceneRenderer_.restart(); }
   void resize(PictureSize size);  // from the next frame on
-  // Changes the settings from the next frame on. Throws UsageError for a debug.omit_barrier that does not exist.
+  // Changes the settings from the next frame on. Throws UsageError if debug.omit_barrier names no barrier.
   void setSettings(const Settings& settings);
   // Waits for the GPU, after which lastFrame() is complete.
   void finish();
@@ -107,7 +110,7 @@ class Session {
   PictureSize size_;
   LoadedScene loaded_;
   std::optional<CameraPose> camera_;
-  std::unique_ptr<Device> ownDevice_;  // null: another's is used
+  std::unique_ptr<Device> ownDevice_;  // null: the device was passed in
   Device& device_;
   Renderer renderer_;
   SceneRenderer sceneRenderer_;

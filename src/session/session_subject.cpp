@@ -124,7 +124,7 @@ SweepContext sweepContext(Session& session) {
   return context;
 }
 
-// Returns a text that changes with build, shaders, driver and what is measured, so that old figures are not reused.
+// The text changes with build, shaders, driver and what is measured, so that old figures are not reused.
 std::string sweepIdentity(Session& session, const Options& options) {
   Fingerprint fingerprint;
   addFile(fingerprint, executablePath());

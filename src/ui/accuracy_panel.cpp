@@ -18,7 +18,7 @@ constexpr ImU32 chosenColor = IM_COL32(60, 170, 85, 255);  // of a point off the
 constexpr ImU32 otherColor = IM_COL32(130, 150, 180, 200);
 constexpr float gridOpacity = 0.16f;
 constexpr double leastError = 1e-4;  // where a point of error 0 is drawn
-constexpr double mostRoom = 2.0;     // below the points, for a noise floor that is far from them
+constexpr double mostRoom = 2.0;     // factor by which the plot may reach below the points, for a far noise floor
 
 // A plot with logarithmic axes that fit the points, in screen coordinates.
 struct Plot {
@@ -216,8 +216,8 @@ void frontSlider(PanelContext& ui) {
   ImGui::EndDisabled();
 }
 
-// Returns the first bound when one is switched on: what the settings in use were measured to take, or else the fastest
-// of the front, rounded up to two digits.
+// Returns the bound that is set when the user switches one on: what the settings in use were measured to take, or else
+// the fastest of the front, rounded up to two digits.
 double firstBound(const ShownAccuracy& accuracy, double PointRow::*figure) {
   if (accuracy.front.empty()) {
     return 0.0;

@@ -22,7 +22,7 @@ struct SetCameraMode {
   CameraMode mode = CameraMode::orbit;
 };
 struct FrameSelection {};  // looks at the selected node, or at the whole scene
-struct LookFromMirror {    // the selected one, or the one that fills most of the picture
+struct LookFromMirror {    // the selected mirror, or the one that fills most of the picture
   MirrorSide side = MirrorSide::back;
 };
 struct AddBookmark {};
@@ -38,7 +38,7 @@ struct RemoveBookmark {
 struct Seek {
   double seconds = 0.0;
 };
-struct StepTime {  // pauses
+struct StepTime {  // pauses, and goes on by steps of timeStep
   int steps = 0;
 };
 struct SetPaused {
@@ -55,7 +55,7 @@ struct MultiplyTimeSpeed {
 // Settings.
 struct SetSettings {
   Settings settings;
-  bool continued = false;  // the widget of the SetSettings before is still held: the same step of undo
+  bool continued = false;  // the widget of the last SetSettings is still held: one step of undo
 };
 struct ResetSettings {};
 
@@ -73,7 +73,7 @@ struct Save {};
 struct AskWhereToSave {};
 struct SaveAs {
   std::filesystem::path file;
-  bool copyModels = false;  // beside it, with their materials and textures
+  bool copyModels = false;  // copies the models beside the file, with their materials and textures
 };
 struct DiscardChanges {};
 struct CancelPrompt {};
@@ -83,7 +83,7 @@ struct Quit {};
 struct SelectNode {
   Selection node;
 };
-struct ToggleNode {  // adds it to the selected ones, or takes it out
+struct ToggleNode {  // adds the node to the selected ones, or takes it out
   Selection node;
 };
 struct SelectNext {

@@ -9,8 +9,8 @@ std::string endsThatFit(const std::string& text, float room, const std::function
     return text;
   }
   for (size_t kept = text.size(); kept > 0; --kept) {
-    size_t end = (kept + 1) / 2;              // of the start
-    size_t begin = text.size() - (kept / 2);  // of the end
+    size_t end = (kept + 1) / 2;              // of the kept start
+    size_t begin = text.size() - (kept / 2);  // of the kept end
     while (end > 0 && continuesCharacter(text[end])) {
       --end;
     }

@@ -98,7 +98,7 @@ bool vertexButton(PanelContext& ui, const char* label, const std::string& key, b
   return pressed;
 }
 
-// Draws one row. Returns true if anything was changed.
+// Draws the row of vertex `i`. Returns true if the user changed anything.
 bool polygonVertex(PanelContext& ui, std::vector<glm::dvec3>& vertices, size_t i) {
   const std::string key = "polygon." + std::to_string(i);
   ImGui::PushID(static_cast<int>(i));
@@ -121,7 +121,7 @@ bool polygonVertex(PanelContext& ui, std::vector<glm::dvec3>& vertices, size_t i
 }
 
 // Edits copies of a polygon mirror's vertices, and hands them to the mirror once they are a valid polygon. Returns true
-// if it did.
+// if the mirror got them.
 bool polygonRows(PanelContext& ui, std::vector<glm::dvec3>& vertices) {
   PanelState::Polygon& polygon = ui.state.polygon;
   const int selected = ui.input.edit.selected.index;

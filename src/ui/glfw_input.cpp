@@ -20,7 +20,8 @@ glm::vec2 vectorOf(VkExtent2D extent) {
 
 }  // namespace
 
-// Tells focus at once. Leaves repeated keys out, because the panels repeat by themselves.
+// Tells ImGui of focus at once; other events wait for a frame. Leaves out repeated keys, because the panels repeat by
+// themselves.
 void GlfwInput::push(const InputEvent& event) {
   if (event.kind == InputEvent::Kind::focus) {
     ImGui_ImplGlfw_WindowFocusCallback(window_.native(), event.down);
@@ -46,7 +47,7 @@ void GlfwInput::give(const InputEvent& event) {
       if (static_cast<size_t>(event.code) < buttons_.size()) {
         buttons_[static_cast<size_t>(event.code)] = event.down;
       }
-      // A double click is known by the window's time. ImGui would take the time between the frames.
+      // The window's time decides what a double click is. ImGui would take the time between the frames.
       if (event.down) {
         ImGui::GetIO().MouseDoubleClickTime = event.again ? FLT_MAX : 0.0f;
       }
@@ -62,7 +63,7 @@ void GlfwInput::give(const InputEvent& event) {
     case InputEvent::Kind::focus:
     case InputEvent::Kind::enter:
     case InputEvent::Kind::drop:
-      return;  // push() queues none
+      return;  // push() queues none of these
   }
 }
 
@@ -74,7 +75,7 @@ void GlfwInput::newFrame() {
   for (const InputEvent& event : queue_.take()) {
     give(event);
   }
-  // The backend read these when the last frame ended.
+  // Sets time and size anew: the backend read them when the last frame ended.
   ImGuiIO& io = ImGui::GetIO();
   const auto now = std::chrono::steady_clock::now();
   io.DeltaTime = std::max(std::chrono::duration<float>(now - std::exchange(last_, now)).count(), 1e-6f);
@@ -117,7 +118,7 @@ std::vector<InputEvent> InputQueue::take() {
   bool moved = false;
   while (!events_.empty()) {
     const InputEvent event = events_.front();
-    // Letters also come as text, so a frame may skip their keys.
+    // Letters also come as text, so a frame need not show that their keys are down.
     const bool pressed = event.down && (event.kind == Kind::button || (event.kind == Kind::key && event.command));
     const bool drops = moved && event.kind == Kind::button && !event.down;
     if ((pressed && (keyReleased || buttonReleased)) || (event.kind == Kind::pointer && buttonReleased) || drops) {

@@ -11,15 +11,15 @@
 
 namespace speculum {
 
-// Input in the order in which it came, for panels that look at the state of keys and buttons once a frame: a key or
-// button that goes down and up between two frames is down in one and up in the next, where the pointer was then, and a
-// drag between two frames moves in one while the button is down.
+// Queues input for panels that look at the state of keys and buttons once a frame. A key or button that goes down and
+// up between two frames is down in one frame and up in the next, with the pointer where it was then. A drag between two
+// frames moves the pointer in one frame while the button is down.
 class InputQueue {
  public:
   using Clock = std::chrono::steady_clock;
 
-  // `now`: when the window got the event. A press becomes one of a double click by that time, because presses between
-  // two frames reach the panels frames apart.
+  // `now`: when the window got the event. This time decides whether a press belongs to a double click, because presses
+  // between two frames reach the panels frames apart.
   void push(const InputEvent& event, Clock::time_point now = Clock::now());
   // Takes the events that the next frame may handle together.
   std::vector<InputEvent> take();
@@ -27,7 +27,7 @@ class InputQueue {
 
  private:
   std::deque<InputEvent> events_;
-  int pressedButton_ = -1;  // last one; -1: none yet
+  int pressedButton_ = -1;  // button that was pressed last; -1: none yet
   Clock::time_point pressedAt_;
 };
 
@@ -52,7 +52,7 @@ class GlfwInput {
   InputQueue queue_;
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
   std::array<bool, 3> buttons_{};
-  std::optional<glm::vec2> pointer_;  // once it has moved
+  std::optional<glm::vec2> pointer_;  // screen coordinates; none until the pointer has moved
 };
 
 }  // namespace speculum

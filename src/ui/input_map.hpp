@@ -16,7 +16,7 @@ struct Shortcut {
   Key key = Key::unknown;
   bool control = false;
   bool shift = false;
-  bool repeats = false;
+  bool repeats = false;  // while the key is held
   std::optional<Command> command = std::nullopt;
 };
 struct ShortcutGroup {
@@ -26,7 +26,8 @@ struct ShortcutGroup {
 std::span<const ShortcutGroup> shortcutGroups();
 std::span<const Shortcut> gamepadHelp();
 
-const char* keysOf(const Command& command);  // "Ctrl+S": the first shortcut of that kind; empty if there is none
+// Returns the keys of the first shortcut that sends such a command, like "Ctrl+S"; empty if there is none.
+const char* keysOf(const Command& command);
 
 // Returns the command of a key that goes down. Ignores Shift for keys without a command of their own with Shift.
 std::optional<Command> commandOf(const KeyEvent& event);

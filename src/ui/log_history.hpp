@@ -27,7 +27,7 @@ class LogHistory {
   void clear();
   // Returns the lines of at least that level that contain `part` in any case, oldest first.
   std::vector<LogLine> lines(LogLevel least = LogLevel::info, std::string_view part = {}) const;
-  // The first line of the newest warning or error since the last call; empty: none came.
+  // Returns the first line of the newest warning or error since the last call; empty if none came.
   std::string takeProblem();
 
  private:
@@ -36,8 +36,8 @@ class LogHistory {
   std::string problem_;  // that takeProblem() returns next
 };
 
-// Adds log lines of level info and above to a history, which must outlive the result, while that exists. Other outputs
-// of the log keep their level. Begin and end it while no other thread logs.
+// Adds log lines of level info and above to `history` as long as the result lives; the history must outlive it. Other
+// outputs of the log keep their level. Make and destroy the result while no other thread logs.
 [[nodiscard]] std::shared_ptr<void> captureLog(LogHistory& history);
 
 std::string logText(const std::vector<LogLine>& lines);  // "warning: ...", each on a line

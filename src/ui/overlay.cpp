@@ -57,7 +57,7 @@ class Painter {
     const ImU32 edge = isPlane(shape.handle) ? color : shade;
     list_.AddPolyline(points.data(), count, edge, ImDrawFlags_Closed, 1.5f);
   }
-  // Draws the label beside the place, but within `room`.
+  // Draws the label beside `where`, but within `room`.
   void label(const std::string& text, const glm::dvec2& where, const WindowRect& room) {
     const glm::vec2 edge(6.0f, 4.0f);
     const ImVec2 letters = ImGui::CalcTextSize(text.c_str());
@@ -74,7 +74,7 @@ class Painter {
   }
 
   ImDrawList& list_;
-  ImVec2 pixels_;  // of the picture in a unit of ImGui
+  ImVec2 pixels_;  // pixels of the picture in one unit of ImGui's coordinates
 };
 
 }  // namespace

@@ -62,12 +62,13 @@ void PanelDock::remember() {
   handler.WriteAllFn = [](ImGuiContext*, ImGuiSettingsHandler* self, ImGuiTextBuffer* out) {
     out->append(static_cast<PanelDock*>(self->UserData)->saved().c_str());
   };
-  // Dear ImGui trusts the numbers of its own settings, such as a table's columns. No window here has any.
+  // Removes the handlers of Dear ImGui's own settings, which trust the numbers in a file, such as a table's columns. No
+  // window here has such settings.
   ImGui::GetCurrentContext()->SettingsHandlers.clear();
   ImGui::GetCurrentContext()->SettingsHandlers.push_back(handler);
 }
 
-// Passes over what no window can have. begin() moves the others to where they can be reached.
+// Ignores values that no window can have. begin() moves windows to where they can be reached.
 void PanelDock::read(Panel& panel, const char* line) {
   glm::vec2 v(0.0f);
   const auto reads = [&](const char* format, float least) {

@@ -22,17 +22,17 @@ class PanelDock {
   // Saves these windows in the layout file of the present ImGui context. Call it once, before the context's first
   // frame; the dock must outlive the context.
   void remember();
-  // In each ImGui frame before the first begin(). Pixels kept free: `top` above all windows, `bottom` below those of
-  // the left edge. While all windows are `hidden` they keep their order.
+  // Call it in each ImGui frame before the first begin(). Keeps pixels free: `top` above all windows, `bottom` below
+  // the windows of the left edge. While all windows are `hidden` they keep their order.
   void beginFrame(float top, float bottom, bool hidden);
-  // Calls ImGui::Begin with a size in sizes of the font; a height of 0 reaches down to the display's edge. Call
-  // ImGui::End whatever it returns.
+  // Calls ImGui::Begin for a window whose size `ems` is in sizes of the font; a height of 0 reaches down to the
+  // display's edge. Call ImGui::End whatever begin() returns.
   bool begin(const char* name, bool* open, Edge edge, const glm::vec2& ems, int windowFlags = 0);
   // Folds a window to its title, or unfolds it. Returns whether it was folded.
   bool fold(const char* name, bool folded) { return std::exchange(panels_[name].collapsed, folded); }
-  // Says whether a window that is closed would cover the place when it opens.
+  // Says whether a window that is closed would cover `place` (pixels of the display) when it opens.
   bool wouldCover(const char* name, Edge edge, const glm::vec2& ems, const glm::vec2& place) const;
-  // Display without the docked windows.
+  // Returns the part of the display that docked windows leave free, in pixels.
   WindowRect freeRect() const;
   // All windows go back to their original places.
   void reset();
@@ -42,26 +42,26 @@ class PanelDock {
     bool docked = true;
     bool collapsed = false;
     WindowRect wish;          // set by the user; of a docked window only the size, 0: none
-    glm::vec2 display{0.0f};  // size of the display when the window was put there
-    WindowRect given;         // last rectangle of the window
+    glm::vec2 display{0.0f};  // size of the display when the user put the window there
+    WindowRect given;         // rectangle that the window was given last
     WindowPlace place;        // while it is docked
     Edge edge = Edge::left;
     glm::vec2 ems{0.0f};
     bool shown = false;   // in this frame or the last
     bool folded = false;  // to its title, for want of room
-    int rank = 0;         // grows when the user opens it
+    int rank = 0;         // larger for a window that the user opened later
   };
   static Length widthOf(const Panel& panel);
-  // Width in a column of width `most`: the column's, unless the user made the window narrower.
+  // Returns the width in a column of width `most`: the column's, unless the user made the window narrower.
   static float widthIn(const Panel& panel, float most);
   static float heightOf(const Panel& panel);
-  // Widths of the windows of both edges at most, and whether all are at the left edge for want of room.
+  // Largest widths of the windows at both edges. `left`: all windows are at the left edge for want of room.
   struct Columns {
     std::array<float, 2> widths{};
     bool left = false;
     Edge edgeOf(const Panel& panel) const { return left ? Edge::left : panel.edge; }
   };
-  Columns columns(const Panel* further = nullptr) const;  // `further` included
+  Columns columns(const Panel* further = nullptr) const;  // with `further`, a window to be opened
   void arrange();
   void arrange(Edge edge, float width, float taken);
   void follow(Panel& panel);

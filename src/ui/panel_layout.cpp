@@ -8,7 +8,7 @@ namespace {
 
 struct Column {
   std::vector<size_t> windows;
-  float least = 0.0f;  // height, margins included
+  float least = 0.0f;  // least height of all its windows, margins included
   float width = 0.0f;
 };
 

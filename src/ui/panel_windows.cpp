@@ -18,7 +18,7 @@ PanelWindows::PanelWindows()
     : state_{.choices = savedPanelChoices()}, savedChoices_(state_.choices), pendingPercent_(state_.choices.percent) {}
 
 // Opens no tooltip over the widget where a drag of the picture ended, until the pointer moves or a button is pressed.
-// ImGui does the same after a key.
+// After a key, ImGui opens none either.
 void PanelWindows::quietAfterDrag() {
   const ImGuiIO& io = ImGui::GetIO();
   for (int button = 0; button < ImGuiMouseButton_COUNT; ++button) {
@@ -219,8 +219,8 @@ void PanelWindows::toggleInspector() {
   visible_ = visible_ || open;
 }
 
-// Opens the inspector, which ignores the pointer until it moves: a further click at the same place is for the picture.
-// The main panel folds meanwhile unless both leave half of the display.
+// Opens the inspector, which ignores the pointer until the pointer moves: a further click at the same place is for the
+// picture. The main panel folds while the inspector is open, unless both leave half of the display.
 void PanelWindows::openInspector() {
   if (!std::exchange(state_.choices.inspector, true)) {
     const ImVec2 pointer = ImGui::GetIO().MousePos;

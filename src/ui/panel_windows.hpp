@@ -6,7 +6,7 @@
 
 namespace speculum {
 
-// All windows of the user interface in the current Dear ImGui context. They show their input and return the user's
+// All windows of the user interface in the current Dear ImGui context. They show a UiInput and return the user's
 // actions as commands; Vulkan and GLFW are not needed.
 class PanelWindows {
  public:
@@ -25,8 +25,8 @@ class PanelWindows {
   void toggleHelp();
   void toggleInspector();
   void openInspector();
-  bool inspectorCovers(const glm::vec2& place) const;  // closed, it would open there
-  // Display without panels, in screen coordinates.
+  bool inspectorCovers(const glm::vec2& place) const;  // the inspector is closed and would open there
+  // Returns the part of the display that panels leave free, in screen coordinates.
   WindowRect freeRect() const;
   // Closes the list of keys. Returns false if it was not open.
   bool closeHelp() { return visible_ && std::exchange(state_.help, false); }
@@ -43,7 +43,7 @@ class PanelWindows {
   PanelDock dock_;
   PanelState state_;
   PanelChoices savedChoices_;
-  int pendingPercent_;  // while its slider is held
+  int pendingPercent_;  // PanelChoices::percent while its slider is held
   Thumbnails thumbnails_;
   float statusWidth_ = 0.0f;  // pixels
   float statusHeight_ = 0.0f;

@@ -180,9 +180,9 @@ void showTip(const std::string& text) {
 
 void tip(const std::string& text) {
   // A widget with the keyboard's focus counts as hovered, but its tooltip would cover the next widgets.
-  // It is also off after a drag of the picture.
+  // The flag is also set after a drag of the picture.
   const bool byKeyboard = ImGui::GetCurrentContext()->NavDisableMouseHover;
-  // Nor may it cover the value of a slider that is dragged.
+  // Nor may a tooltip cover the value of a slider that is dragged.
   const bool held = ImGui::IsItemActive();
   if (!byKeyboard && !held && ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) {
     showTip(text);
@@ -251,7 +251,7 @@ void continueRow(const char* label, float further) {
 }
 
 std::string labelFor(const std::string& label, float width) {
-  const std::string id = "###" + label;  // the same for both, so that a widget in use keeps its focus
+  const std::string id = "###" + label;  // one id for both kinds of label, so that a widget in use keeps its focus
   const ImGuiStyle& style = ImGui::GetStyle();
   const float item = ImGui::CalcItemWidth();
   const float room = ImGui::GetContentRegionAvail().x - item - style.ItemInnerSpacing.x;

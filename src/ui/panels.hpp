@@ -11,23 +11,23 @@
 
 namespace speculum {
 
-// State of the panels that only they use.
+// State that only the panels use.
 struct PanelState {
   PanelChoices choices;
   bool help = false;
-  std::optional<glm::vec2> openedAt;  // pointer when a click opened the inspector, until it moves
+  std::optional<glm::vec2> openedAt;  // pointer when a click opened the inspector; none once the pointer moved
   bool focusNodes = false;            // the list of nodes takes the keyboard in the next frame
   bool editing = false;               // a continued EditNode has not ended
   bool setting = false;               // the widget of the last SetSettings is held
   bool showDifference = false;
-  float errorGain = 1.0f;  // factor on the errors that are shown
+  float errorGain = 1.0f;  // factor on the errors of the difference map
 
   struct Targets {
     std::optional<MirrorPath> path;  // mirrors from the eye of the pass that is shown
     enum class Kind { color, depth, mask } kind = Kind::color;
-    double zoom = 0.0;       // pixels of the display a texel; 0: as large as fits
-    double shownZoom = 1.0;  // zoom that is in use, never 0
-    double halfDistance = 5.0;
+    double zoom = 0.0;                  // pixels of the display a texel; 0: as large as fits
+    double shownZoom = 1.0;             // zoom that is in use, never 0
+    double halfDistance = 5.0;          // metres, see TargetDisplay
     glm::dvec2 center{0.0};             // texel in the middle
     std::optional<glm::ivec2> pointed;  // texel under the pointer
     std::optional<WindowRect> canvas;   // where the target is drawn; none while the window is closed
@@ -36,9 +36,9 @@ struct PanelState {
   struct Rows {
     std::vector<PassRow> passes;  // rows
     std::vector<SkippedRow> skipped;
-    std::vector<PassId> order;        // of a click on a column's head; empty: the scene's
-    std::optional<std::string> step;  // of undo, when the pointer came upon them; none after an edit since
-    bool held = false;                // in their places, because the pointer is on them
+    std::vector<PassId> order;        // of rows, by a click on a column's head; empty: the scene's
+    std::optional<std::string> step;  // label of undo when the pointer came upon the rows; none after an edit
+    bool held = false;                // the rows keep their places, because the pointer is on them
   } passes;
 
   std::array<char, 64> logFilter{};  // text that a line must contain
@@ -54,16 +54,16 @@ struct PanelState {
 
   const Scene* modelsOf = nullptr;             // scene that `model` was chosen for
   std::optional<std::filesystem::path> model;  // model to add next; none: `modelFile`
-  std::string modelFile;                       // typed
+  std::string modelFile;                       // path that the user types
 
-  std::string dismissedMessage;
+  std::string dismissedMessage;  // message that the user dismissed
 
-  // Prompt::open and saveAs
+  // State of Prompt::open and Prompt::saveAs.
   struct Files {
-    enum class Focus { none, field, list } focus = Focus::field;  // which takes the keyboard in the next frame
-    std::filesystem::path folder;                                 // of typed names
-    std::filesystem::path listed;                                 // folder of what is typed
-    std::vector<std::filesystem::directory_entry> entries;        // of the listed one: folders, scenes and models
+    enum class Focus { none, field, list } focus = Focus::field;  // part that takes the keyboard in the next frame
+    std::filesystem::path folder;                                 // that typed names are relative to
+    std::filesystem::path listed;                                 // folder whose entries are listed
+    std::vector<std::filesystem::directory_entry> entries;        // of `listed`: folders, scenes and models
     std::string typed;
     std::string problem;       // why the typed file cannot be opened
     size_t modelsOutside = 0;  // number of the scene's models that are neither in the listed folder nor below
@@ -96,7 +96,7 @@ inline constexpr glm::vec2 inspectorEms{25.0f, 46.0f};
 // The main menu bar.
 void menus(PanelContext& ui);            // File, Edit and View
 void frameTime(const PanelContext& ui);  // of the last frame that drew the scene
-// ImGui::BeginMenu that is recorded as "menu." and the label, as entries are.
+// Calls ImGui::BeginMenu, and records the menu as "menu." and the label, as menu entries are recorded.
 bool menu(PanelContext& ui, const char* label, bool enabled = true);
 
 // Sections of the main panel and contents of the windows beside it, each within the current ImGui window.
@@ -111,14 +111,15 @@ void log(PanelContext& ui);
 void accuracy(PanelContext& ui);
 // Leaves its lower part transparent, because the renderer draws the target there.
 void targets(PanelContext& ui);
-bool hasTarget(const PassRow& pass);
+bool hasTarget(const PassRow& pass);  // the Targets window can show its target
 
 // Windows of their own.
 void loading(PanelContext& ui);  // while something is loaded
 void help(PanelContext& ui);
 void inspector(PanelContext& ui, PanelDock& dock);
 void message(PanelContext& ui, const WindowRect& picture);  // an error, until it is dismissed
-// What playing costs, while it is paused, `below` over the picture's edge. Only where there is room; Space plays too.
+// Draws a button that says what playing costs, while the animation is paused, `below` pixels over the picture's lower
+// edge. Only where there is room; Space plays too.
 void playOffer(PanelContext& ui, const WindowRect& picture, float below);
 void prompts(PanelContext& ui);  // over all others, while a prompt is open
 
@@ -127,14 +128,14 @@ void poster(const PanelContext& ui, const Thumbnails& thumbnails, const WindowRe
 void passOutline(const PanelContext& ui);  // around the mirror whose row is under the pointer
 // Call while the pointer is on a row of a mirror, which `path` leads to: outlines the mirror, and a click selects it.
 void mirrorRow(PanelContext& ui, const MirrorPath& path);
-void editOverlay(const ShownOverlay& overlay, const WindowRect& picture);  // `picture`: as far as panels leave it free
+void editOverlay(const ShownOverlay& overlay, const WindowRect& picture);  // `picture`: the part that panels leave free
 // Draws behind all windows, but not over the target that the Targets window shows.
 void besideTarget(const PanelContext& ui, const std::function<void()>& draw);
 
 float statusHeight();  // least height of the status line, in pixels
 // Draws the status line at the lower left edge of the display, which PanelDock keeps free, up to `right`, where windows
-// of the right edge begin. `width` is the panel's, in pixels; 0 while the panel is hidden, and the line is then as wide
-// as its text. Returns its height, in pixels.
+// of the right edge begin. `width` is the main panel's, in pixels; 0 while the panel is hidden, and the line is then as
+// wide as its text. Returns the line's height, in pixels; 0 if nothing is shown.
 float statusLine(const ShownStatus& status, float width, float right);
 
 // Call after each widget of a setting: records it, shows its tooltip, and adds a button at the line's end that resets
@@ -147,42 +148,44 @@ void showTip(const std::string& text);
 // Call after a widget: records its rectangle by name, and shows the tooltip unless it is empty.
 void recordWidget(PanelContext& ui, std::string_view key, const std::string& tip = {});
 // Draw rows for the settings whose keys begin with `prefix`, except those whose need is not met, and for the fields of
-// a node; true if the user changed a field. Rows come from the descriptions of settings and fields.
+// a node. fieldRows() returns true if the user changed a field. Rows come from the descriptions of settings and fields.
 void settingRows(PanelContext& ui, std::string_view prefix);
 void settingWidget(const PanelContext& ui, const SettingField& field, Settings& settings);  // without tooltip
 bool fieldRows(PanelContext& ui, SceneNode& node);
 // Draws a drop-down list. Returns true if the user chose another of `names`.
 bool choice(const char* label, int& index, std::span<const std::string> names);
-// Linear numbers, as files have them, up to `most`, and a swatch that opens a picker.
+// Draws a color as linear numbers up to `most`, as files have them, and a swatch that opens a picker. Returns true if
+// the user changed it.
 bool colorEdit(const char* label, glm::dvec3& linear, double most);
 
-// Call between the widgets of a row. Continues on the next line if the next widget does not fit: it is `further` pixels
-// wider than a button with this label.
+// Call between the widgets of a row. Continues on the next line if the next widget does not fit, which is `further`
+// pixels wider than a button with this label.
 void continueRow(const char* label, float further = 0.0f);
 // Returns the label for a widget that needs so many pixels; if the line has no room for both, draws the label above.
 std::string labelFor(const std::string& label, float width);
 
 float textWidth(std::string_view text);                     // pixels
-void figure(const std::string& text, bool dimmed = false);  // at the right edge of its line or cell
-// Sets up a table's column of figures: so wide, in heights of the font, or as wide as its head. `flags`: of
+void figure(const std::string& text, bool dimmed = false);  // text at the right edge of its line or cell
+// Sets up a table's column of figures, as wide as its head and at least `ems`, in sizes of the font. `flags`: of
 // ImGuiTableColumnFlags_.
 void figureColumn(const char* head, float ems, int flags = 0);
-// Its ends, if it is wider than `room`, by default the rest of the line or cell.
+// Returns `text`, or its ends if it is wider than `room` (pixels, by default the rest of the line or cell).
 std::string thatFits(const std::string& text, std::optional<float> room = {});
 std::string mebibytes(uint64_t bytes);  // without the unit
 std::string milliseconds(double ms);    // without the unit; "-" for NaN
 std::string duration(double ms);        // "3.21 ms", "757 ms", "14.20 s"
-// Text that is wrapped at the window's edge, but not within numbers; dimmed; in a color.
+// Draw text that is wrapped at the window's edge, but not within numbers: as it is, dimmed, in a color.
 void wrappedText(const std::string& text);
 void dimmedText(const std::string& text);
 inline constexpr glm::vec3 errorColor{0.92f, 0.38f, 0.28f};  // display sRGB
 inline constexpr glm::vec3 warningColor{0.85f, 0.60f, 0.10f};
 void coloredText(const glm::vec3& color, const std::string& text);
 glm::vec3 onTheme(const glm::vec3& color);  // darker on a light theme, as coloredText() shows it
-// ImGui::CollapsingHeader that is open or closed as in the user's choices, and recorded as "section." and `key`.
+// Draws an ImGui::CollapsingHeader that is open or closed as `open`, the user's choice, says, and records it as
+// "section." and `key`. Returns whether it is open.
 bool section(PanelContext& ui, std::string_view key, const std::string& label, bool& open);
-// Draws a button, records it and shows its tooltip. The second sends the command when it is pressed; the third also
-// continues the row.
+// button() draws a button, records it and shows its tooltip; it returns true if the button is pressed. commandButton()
+// sends the command then. nextButton() also continues the row.
 bool button(PanelContext& ui, const char* label, std::string_view key, const std::string& tip, bool enabled = true);
 void commandButton(PanelContext& ui, const char* label, std::string_view key, const std::string& tip, Command command,
                    bool enabled = true);

@@ -22,7 +22,7 @@ std::string pathParent(const std::string& name) {
   return last != std::string::npos ? name.substr(0, last) : "";
 }
 
-// Returns the branches with that parent, each with those below it.
+// Returns the branches below `parent`, each with its own branches.
 std::vector<TreeNode> nested(std::span<const TreeNode> branches, int parent = -1) {
   std::vector<TreeNode> children;
   for (const TreeNode& branch : branches) {
@@ -34,8 +34,8 @@ std::vector<TreeNode> nested(std::span<const TreeNode> branches, int parent = -1
   return children;
 }
 
-// Returns the median that the Performance panel shows, because times of single frames jump; where it has none of these
-// frames, or sums passes of one name, that of the timed frame.
+// Returns the milliseconds of a pass: the median that the Performance panel shows, because times of single frames jump.
+// If that panel has no such times, or sums several passes of this name, returns the time in the timed frame.
 double usualMs(const ShownFrame& frame, const PassRow& pass) {
   const bool known = !frame.history.paused() && std::ranges::count(frame.passes, pass.name, &PassRow::name) == 1;
   const double median = known ? percentile(frame.history.filledSeries(pass.name), 0.5) : std::nan("");

@@ -143,7 +143,7 @@ void passRow(PanelContext& ui, const TreeNode& node) {
   ImGui::TreePop();
 }
 
-// Draws what makes the sum of the rows the frame's time.
+// Draws a row with the rest of the frame's time, so that the rows add up to it.
 void restRow(PanelContext& ui) {
   const double rest = restOfPasses(ui.input.frame);
   if (std::isnan(rest)) {
@@ -200,7 +200,7 @@ void passes(PanelContext& ui) {
   if (!pointed) {
     rows.step = ui.input.edit.undo;
   } else if (rows.step != ui.input.edit.undo) {
-    rows.step.reset();  // an edit may have given a mirror the place of another
+    rows.step.reset();  // an edit may have given a mirror the index of another
   }
   rows.held = pointed && rows.step;
   followPasses(rows, frame);

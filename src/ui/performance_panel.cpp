@@ -12,7 +12,7 @@ namespace {
 
 constexpr size_t fewest = 60;       // least number of frames across a graph
 constexpr float largeGraph = 3.2f;  // height in sizes of the font, if there is room
-constexpr float smallGraph = 1.6f;  // that of a pass
+constexpr float smallGraph = 1.6f;  // height of a pass's graph
 
 // Draws a graph from 0 up; frames without a figure leave a gap.
 void graph(const char* name, std::vector<float> values, float height) {
@@ -25,8 +25,8 @@ void graph(const char* name, std::vector<float> values, float height) {
   ImGui::PopID();
 }
 
-// Draws one row: name, median, p95 and the graph. A nested pass is indented and shows the end of its path, others the
-// whole.
+// Draws one row: name, median, p95 and the graph. A nested pass is indented and shows the end of its path; other rows
+// show the whole name.
 void row(PanelContext& ui, const std::string& name, const std::vector<float>& values, float height, int depth = 0) {
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
@@ -48,7 +48,7 @@ void row(PanelContext& ui, const std::string& name, const std::vector<float>& va
   recordWidget(ui, "graph." + name);
 }
 
-// Draws the rows of passes, each followed by those that are seen in it.
+// Draws the rows of passes, each followed by the rows of the passes that are seen in it.
 void passRows(PanelContext& ui, const std::vector<std::string>& names, std::span<const TreeNode> branches, float height,
               int depth = 0) {
   for (const TreeNode& branch : branches) {
@@ -58,7 +58,7 @@ void passRows(PanelContext& ui, const std::vector<std::string>& names, std::span
   }
 }
 
-constexpr float fixedRows = 3.0f;  // above those of passes
+constexpr float fixedRows = 3.0f;  // rows above those of passes
 
 // Returns how high graphs are: 0: as a line of text; 1: as high as wished, if all rows then fit into the room.
 float graphShare(float room, float passes) {
@@ -70,7 +70,8 @@ float graphShare(float room, float passes) {
 
 bool beginRows(PanelContext& ui, const char* id) {
   const float em = ImGui::GetFontSize();
-  // Scrolls by itself, so that the head stays. Low enough for the lowest docked window, which would scroll as well.
+  // The table scrolls by itself, so that its head stays. It is low enough for the lowest docked window, which would
+  // scroll as well.
   const ImVec2 size(0.0f, std::max(ImGui::GetContentRegionAvail().y, 6.0f * em));
   if (!ImGui::BeginTable(id, 4, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_ScrollY,
                          size)) {

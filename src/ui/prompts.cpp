@@ -100,14 +100,14 @@ std::filesystem::path named(const PanelState::Files& files) {
   return files.folder / typedPath(files.typed);
 }
 
-// Begins with names in `folder`, typed into the field.
+// Begins the state of a prompt: `typed` stands in the field and is relative to `folder`.
 void enter(PanelState::Files& files, const std::filesystem::path& folder, const std::string& typed) {
   files = {};
   files.folder = withoutLinks(folder);
   files.typed = typed;
 }
 
-// Call before the field.
+// Gives the field the keyboard if that is due. Call it before the field is drawn.
 void focusField(PanelState::Files& files) {
   if (files.focus == Focus::field) {
     files.focus = Focus::none;
@@ -134,7 +134,7 @@ std::optional<std::filesystem::path> fileList(PanelContext& ui, const std::files
   std::optional<std::filesystem::path> chosen;
   const float others = 8.0f * ImGui::GetFrameHeightWithSpacing();  // height of the menus and of the other rows
   ImGui::BeginChild("files", {width, std::min(height, ImGui::GetIO().DisplaySize.y - others)}, true,
-                    ImGuiWindowFlags_NavFlattened);  // arrows lead into it
+                    ImGuiWindowFlags_NavFlattened);  // arrow keys lead into the list
   const auto row = [&](const std::string& name, const std::string& label, const std::filesystem::path& file,
                        bool first) {
     constexpr auto rowFlags = ImGuiSelectableFlags_AllowDoubleClick | ImGuiSelectableFlags_DontClosePopups;
@@ -205,7 +205,7 @@ void saveAs(PanelContext& ui) {
     return enter(files, named(files), ui.input.edit.proposedFile.filename().string());
   }
   ui.send(answer);
-  ImGui::CloseCurrentPopup();  // if saving fails it opens again, with the keyboard in the field
+  ImGui::CloseCurrentPopup();  // if saving fails the prompt opens again, with the keyboard in the field
 }
 
 void recovery(PanelContext& ui) {

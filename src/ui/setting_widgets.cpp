@@ -14,7 +14,7 @@ namespace {
 
 constexpr double brightest = 65504.0;  // largest value in 16-bit float targets
 
-// Draws the widget that a setting's description asks for. Texts have none.
+// Draws the widget that a setting's description asks for. A setting that is a text has none.
 struct Widget {
   const SettingField& field;
   Settings& settings;
@@ -27,8 +27,8 @@ struct Widget {
 
   std::string label() const { return labelFor(field.label, 5.0f * ImGui::GetFontSize()); }
 
-  // Moves the slider by its last digit if an arrow key did not move it: Dear ImGui moves it by a share of its length,
-  // which is less at the low end of 1 .. 1024. Returns the value.
+  // Moves the slider by its last digit if an arrow key did not move it: Dear ImGui moves a slider by a share of its
+  // length, which is less than a digit at the low end of 1 .. 1024. Returns the value.
   template <typename T>
   T moveByKey(T& value, T before) const {
     const auto pressed = [](ImGuiKey key) { return static_cast<int>(ImGui::IsKeyPressed(ImGui::GetKeyIndex(key))); };
@@ -36,7 +36,7 @@ struct Widget {
     if (value == before && ImGui::IsItemActive() && steps != 0) {
       const double step = std::pow(10.0, -ImParseFormatPrecision(field.slider->format, 0));
       value = static_cast<T>(std::clamp(value + steps * step, field.slider->low, field.slider->high));
-      ImGui::GetCurrentContext()->SliderCurrentAccum = 0.0f;  // else what it did not move adds up
+      ImGui::GetCurrentContext()->SliderCurrentAccum = 0.0f;  // else Dear ImGui adds up what it did not move
     }
     return value;
   }

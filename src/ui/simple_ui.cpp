@@ -35,7 +35,7 @@ DescriptorPoolHandle createPool(Device& device) {
                        "panel");
 }
 
-// In the user's folder, not in the working directory.
+// Returns the file of the panels' layout, in the user's folder and not in the working directory.
 std::filesystem::path layoutFile() {
   return userConfigDir() / "layout.ini";
 }
@@ -78,10 +78,10 @@ void applyTheme(Theme theme, float scale) {
   style.FrameBorderSize = theme == Theme::light ? 1.0f : 0.0f;  // light frames are white on white
   style.Colors[ImGuiCol_WindowBg].w = 0.94f;
   style.Colors[ImGuiCol_PopupBg].w = 1.0f;
-  style.Colors[ImGuiCol_TitleBgCollapsed].w = 0.94f;  // else only the picture is seen
+  style.Colors[ImGuiCol_TitleBgCollapsed].w = 0.94f;  // else only the picture would be seen there
   style.Colors[ImGuiCol_ModalWindowDimBg] = {0.0f, 0.0f, 0.0f, 0.4f};
   style.Colors[ImGuiCol_PlotHistogram] = style.Colors[ImGuiCol_SliderGrab];  // progress bars have text over them
-  // Transparent, because values are drawn over them.
+  // These colors are transparent, because values are drawn over them.
   style.Colors[ImGuiCol_SliderGrab].w = 0.5f;
   style.Colors[ImGuiCol_SliderGrabActive].w = 0.6f;
   style.Colors[ImGuiCol_HeaderHovered].w = 0.4f;
@@ -190,7 +190,7 @@ void SimpleUI::initVulkan() {
   info.MSAASamples = VK_SAMPLE_COUNT_1_BIT;
   info.CheckVkResultFn = [](VkResult result) { check(result, "the panel's drawing"); };
   const VkRenderPass renderPass = renderer_.overlayRenderPass();
-  backend_->vulkan = true;  // from here on there is something to shut down, even if it fails
+  backend_->vulkan = true;  // from here on there is something to shut down, even if ImGui_ImplVulkan_Init() fails
 #if IMGUI_VERSION_NUM >= 19030
   info.RenderPass = renderPass;
   ImGui_ImplVulkan_Init(&info);

@@ -15,22 +15,22 @@ class SimpleUI {
   SimpleUI(const SimpleUI&) = delete;
   SimpleUI& operator=(const SimpleUI&) = delete;
 
-  void push(const InputEvent& event);  // call with each of the window's
+  void push(const InputEvent& event);  // call with each event of the window
   // Lays out this frame's panels. Call it once a frame, even if nothing is drawn.
   UiOutput build(const UiInput& input);
-  void record(const PassScope& scope);
+  void record(const PassScope& scope);  // draws the panels of the last build()
   // Reads what only the window system knows, for the next build(). It may wait for an answer.
   void readWindow();
   void setThumbnails(std::vector<Image8> pictures);  // of ShownScenes::scenes, from the next frame on
   PanelWindows& windows() { return windows_; }
   const PanelWindows& windows() const { return windows_; }
 
-  // Says whether the pointer there belongs to the panels: it is over one of their windows, or they hold a widget.
-  // Screen coordinates of the window.
+  // Says whether a pointer at this point, in screen coordinates of the window, belongs to the panels: it is over one of
+  // their windows, or they hold a widget.
   bool takesPointer(double x, double y) const;
-  float scale() const;         // of texts and handles: the monitor's by the user's
+  float scale() const;         // of texts and handles: the monitor's scale times the user's
   bool holdsEscape() const;    // ImGui handles Esc itself: it closes or releases something
-  bool holdsWidget() const;    // one is being dragged, pressed or typed into
+  bool holdsWidget() const;    // a widget is being dragged, pressed or typed into
   bool wantsKeyboard() const;  // a text field is being edited
   bool navigating() const;     // a widget is chosen by keyboard or gamepad
   bool wantsFrames() const;    // something changes by itself: a text cursor, a button that is held
@@ -51,7 +51,7 @@ class SimpleUI {
   PanelWindows windows_;
   Context context_;
   Theme theme_ = Theme::dark;
-  float scale_ = 0.0f;  // of fonts and sizes: the monitor's by the user's; 0: nothing is made yet
+  float scale_ = 0.0f;  // of fonts and sizes, see scale(); 0: nothing is made yet
   DescriptorPoolHandle pool_;
   std::unique_ptr<Backend> backend_;
   IdleGuard idle_;

@@ -175,7 +175,7 @@ PixelRect inPixels(const ImRect& rect) {
           pixels(rect.GetHeight(), scale.y)};
 }
 
-// Returns the pass whose target is shown: the chosen one, or the main view if that is gone.
+// Returns the pass whose target is shown: the chosen pass, or the main view if the chosen pass is gone.
 const PassRow* shownPass(PanelContext& ui) {
   const std::vector<PassRow>& passes = ui.input.frame.passes;
   const auto pass =
@@ -226,7 +226,7 @@ void targets(PanelContext& ui) {
   Targets& targets = ui.state.targets;
   const PassRow* shown = shownPass(ui);
   // The controls are drawn first, because the canvas begins below as many lines as they take. The background around the
-  // canvas is then put under them.
+  // canvas is then put under the controls.
   ImDrawList& list = *ImGui::GetWindowDrawList();
   list.ChannelsSplit(2);
   list.ChannelsSetCurrent(1);

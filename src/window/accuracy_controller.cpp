@@ -14,8 +14,8 @@ namespace speculum {
 namespace {
 
 constexpr int heatBarSteps = 32;
-constexpr int mostSamples = 64;  // of the difference view's reference
-constexpr int roughRounds = 5;   // in all; the first points come after one
+constexpr int mostSamples = 64;  // samples a pixel of the difference map's finest reference
+constexpr int roughRounds = 5;   // rounds of times of a rough measurement; its first points are shown after one
 
 std::string momentText(const std::optional<WatchedState>& measured) {
   return measured && measured->animated ? fmt::format(" (animation at {:.2f} s)", measured->time) : "";
@@ -63,7 +63,7 @@ std::map<std::string, std::string, std::less<>> pricesOf(const SweepResults& res
 }  // namespace
 
 std::pair<std::string, double> measuringStep(int part, const SweepStatus& status) {
-  // The second part takes the reference and the pictures from the first.
+  // Part 1 takes the reference and the pictures from part 0.
   const int stage = status.stage == "times" ? 2 : part == 1 ? 3 : status.stage == "pictures" ? 1 : 0;
   const int step = part == 0 ? stage : part == 1 ? 3 : 4 + stage;
   const double done = stage == 3 || status.stage == "starting" ? 0.0 : status.fraction;
@@ -248,7 +248,7 @@ void AccuracyController::afterFrame(const ShownPicture& shown, const WatchedStat
   if (const std::optional<std::string> error = sweep_.takeError()) {
     shown_.about = *error;
   }
-  // The reference of the point's own error, so that both are the same figure.
+  // A picked point was compared with a reference of truthSamples, so the map takes as many: both then show one figure.
   const int samples = shown_.alone && !isRough_ ? results_.truthSamples : mostSamples;
   const bool changed = errorGain_ ? image && difference_.update(shown, image, samples) : difference_.reset();
   coverChanged_ = coverChanged_ || changed;

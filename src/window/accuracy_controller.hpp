@@ -10,56 +10,63 @@
 
 namespace speculum {
 
-// A view of the window, and what the user did to it.
+// The camera and the animation time of the window, and what the user did to both.
 struct WatchedState {
   CameraPose camera;
-  bool movedCamera = false;  // by the user; else it is the scene's
+  bool movedCamera = false;  // the user moved the camera; false: it is the scene's
   double time = 0.0;         // seconds of animation
   int seeks = 0;             // how often the user set the time
   bool paused = false;
   bool animated = false;  // the picture depends on the time
 };
-// Says whether the user has changed the view since it was measured: the camera, or the time by setting it or by a pause
-// elsewhere. Running animation time does not count: otherwise every frame would be another view.
+// Says whether the user has changed the view since it was measured: moved the camera, set another time, or paused at
+// another time. Running animation time does not count: otherwise every frame would be another view.
 bool isOtherView(const WatchedState& measured, const WatchedState& now);
-// Names the step of a measurement, counted on through its parts (a rough one, more rounds of its times, the whole
-// picture), and returns the share of all steps that is done.
+// Returns the name of a measurement's step, for the user, and the share of all steps that is done, 0 .. 1. Steps are
+// counted through the parts of a measurement: 0 a rough one, 1 more rounds of its times, 2 the whole picture.
 std::pair<std::string, double> measuringStep(int part, const SweepStatus& status);
-// Estimates the seconds until a stage ends of which this fraction took `elapsed` seconds; 0: too early to tell.
+// Estimates the seconds until a stage ends of which the share `fraction` (0 .. 1) took `elapsed` seconds; 0: too early
+// to tell.
 double secondsLeft(double elapsed, double fraction);
 
-// Accuracy of the view: measurements, the measured points whose settings can be applied, the budget, the difference
-// view.
+// Accuracy of the window's view: runs measurements, applies the settings of measured points, follows the budget of
+// quality.*, and shows the difference map over the picture.
 class AccuracyController {
  public:
-  // Begins with the points of --sweep-results, if there are any. `loaded` are the scene's settings, with quality.*
-  // applied; `choice` is the reason. Throws InputError for a file that holds no sweep.
+  // Begins with the points of --sweep-results, if there are any. `loaded` are the scene's settings after the choice of
+  // a point by quality.*, `choice` says why that point was chosen. Throws InputError for a file that holds no sweep.
   AccuracyController(const Options& options, const Settings& loaded, const std::string& choice);
 
+  // Starts a measurement in the background, and cancels one that runs. `view`: the state that is measured.
   void measure(SweepRequest request, const WatchedState& view);
-  void cancel();
+  void cancel();  // points of a rough measurement stay
   void setProblem(const std::string& problem) { shown_.about = problem; }
+  // Sets `settings` to those of a measured point. Does nothing for an index that no point has.
   void applyPoint(int point, Settings& settings) const;
-  // Says what of UiOutput the panels ask for.
+  // Call once a frame with UiOutput::points and UiOutput::errorGain.
   void show(bool points, std::optional<double> errorGain);
-  // Call with the settings of a point that the user picked. While they stay, shown() leaves out the mean of still
-  // pictures, which hides how points differ.
+  // Call with the settings of a point that the user picked. While these are in use, shown() returns them without the
+  // mean of still pictures, which hides how points differ.
   void pick(const Settings& settings) { picked_ = settings; }
   Settings shown(Settings settings) const;
 
-  // Call before a frame. Takes finished results; a budget that is set then chooses a point of them.
+  // Call before a frame. Takes finished results; if `settings` have a budget, it then chooses a point of them, which is
+  // applied to `settings`.
   void beforeFrame(Settings& settings);
-  // Applies the choice of quality.* if that differs from what was applied last.
+  // Applies the point that the bounds of quality.* choose, if these bounds differ from those that were applied last.
   void followBudget(Settings& settings);
-  // Takes a budget that undo restored together with the settings that it had chosen, without choosing again.
+  // Takes the budget of `settings` without choosing a point: undo restored it together with the settings that it had
+  // chosen.
   void acceptBudget(const Settings& settings) { budget_ = budgetOf(settings); }
-  // Call after a frame of the view is drawn. `image` returns its pixels; null if its picture is not finished.
+  // Call after a frame of the view is drawn. `image` returns the pixels of its picture (display sRGB); it is null if
+  // the picture is not finished.
   void afterFrame(const ShownPicture& shown, const WatchedState& view, const std::function<Image8()>& image);
-  // Returns the picture to show instead of the scene, if it changed since the last call; one without pixels shows the
-  // scene.
+  // Returns the heat map to show instead of the scene, if it changed since the last call. A picture without pixels
+  // shows the scene again.
   std::optional<Image8> takeCover();
   bool working() const;  // afterFrame() has work left although nothing changes
-  // Call before the scene changes or goes away, with what to show then instead of points.
+  // Call before the scene changes or goes away. Drops the points and the heat map, cancels a measurement, and waits for
+  // the threads that read the scene. The panel shows `why`, the first words of a sentence, instead of the points.
   void forgetScene(const std::string& why = "The scene was changed");
 
   const ShownAccuracy& shown() const { return shown_; }
@@ -75,26 +82,26 @@ class AccuracyController {
   ShownAccuracy shown_;
   struct Status : SweepStatus {
     std::shared_ptr<const SweepResults> rough;  // null until it is measured
-    int part = 0;                               // as measuringStep() takes it
+    int part = 0;                               // of the measurement, see measuringStep()
   };
   BackgroundJob<SweepResults, Status> sweep_;
-  std::shared_ptr<const SweepResults> rough_;  // last one shown
+  std::shared_ptr<const SweepResults> rough_;  // rough measurement that was shown last
   DifferenceMap difference_;
   using Clock = std::chrono::steady_clock;
   Clock::time_point stageBegan_;
-  WatchedState requested_;                // of the measurement that runs
-  std::optional<WatchedState> measured_;  // of the points; none if they were read from a file
+  WatchedState requested_;                // state that the running measurement measures
+  std::optional<WatchedState> measured_;  // state that the points were measured in; none: they were read from a file
   bool showsPoints_ = false;
-  std::optional<double> errorGain_;  // of the difference view; none: it is not shown
+  std::optional<double> errorGain_;  // of the difference map; none: the map is not shown
   std::optional<Settings> picked_;
   bool coverChanged_ = false;
   SweepResults results_;
   bool isRough_ = false;                                   // results_ are of few pixels and samples
-  std::vector<std::vector<SettingChange>> pointSettings_;  // by point, every setting that it depends on
+  std::vector<std::vector<SettingChange>> pointSettings_;  // by point: every setting that its figures depend on
   std::optional<Settings> settings_;                       // settings for which the current point was found
   std::vector<MotionLevel> frontLevels_;
-  QualityBudget budget_;    // that was applied last
-  bool setByHand_ = false;  // settings, since a budget chose them
+  QualityBudget budget_;    // applied last
+  bool setByHand_ = false;  // the user changed settings since a budget chose them
 };
 
 }  // namespace speculum

@@ -85,14 +85,14 @@ class BackgroundJob {
 
     std::mutex mutex;  // guards `progress`
     Progress progress;
-    std::optional<Result> result;  // of the thread until `ended`
+    std::optional<Result> result;  // only the thread uses it until `ended`
     std::string error;
     std::atomic<bool> ended = false;
-    std::jthread thread;  // the last member: ends before the others
+    std::jthread thread;  // the last member, so that it ends before the others are destroyed
   };
 
   std::unique_ptr<Task> task_;
-  std::vector<std::unique_ptr<Task>> cancelled_;  // whose threads may not have ended yet
+  std::vector<std::unique_ptr<Task>> cancelled_;  // their threads may not have ended yet
 };
 
 // Runs `work` with half of the processor's threads; the others remain for the window.

@@ -12,9 +12,9 @@ namespace {
 
 constexpr double degreesPerPixel = 0.25;
 constexpr double zoomPerNotch = 0.88;
-constexpr double lean = 0.15;        // tangent of an angle
-constexpr double steepest = 0.995;   // cosine of view direction and up
-constexpr double leastLight = 0.25;  // metres around a light that are shown
+constexpr double lean = 0.15;        // tangent of the angle between the view out of a floor or ceiling and its normal
+constexpr double steepest = 0.995;   // largest cosine of the angle between view direction and up
+constexpr double leastLight = 0.25;  // least radius of the sphere around a light, metres
 constexpr double turnSpeed = 90.0;   // degrees a second, of a stick
 
 Sphere boundsOfAll(const SceneState& state) {
@@ -143,7 +143,8 @@ void CameraController::turn(double yawDegrees, double pitchDegrees) {
   const glm::dvec3 right = glm::dvec3(glm::transpose(last_.worldToView)[0]);
   const glm::dmat3 yaw = rotationAboutAxis(up, -yawDegrees);
   const glm::dvec3 turned = yaw * arm;
-  // Turns towards the pole as far as allowed. A scene may start steeper than that, and must be able to turn back.
+  // Limits how far the view turns towards the pole. A scene may start steeper than the limit, and must be able to turn
+  // back.
   const double height = glm::degrees(std::asin(std::clamp(glm::dot(glm::normalize(turned), up), -1.0, 1.0)));
   const double limit = std::max(glm::degrees(std::asin(steepest)), std::abs(height));
   const double rise = orbit ? pitchDegrees : -pitchDegrees;
@@ -165,8 +166,8 @@ void CameraController::zoom(double notches) {
   const glm::dvec3 arm = eye_ - target_;
   const glm::dvec3 shorter = arm * std::pow(zoomPerNotch, notches);
   if (shown_.mode == CameraMode::orbit) {
-    // Keeps the eye from the target, where no view is defined, and from distances at which doubles cannot separate the
-    // two. A scene may start beyond these bounds.
+    // Keeps the eye from the target, where no view is defined, and from distances at which doubles cannot separate eye
+    // and target. A scene may start beyond these bounds.
     const double now = glm::length(arm);
     const double least = std::min(now, 1e-6 * (1.0 + glm::length(target_)));
     const double most = std::max(now, 1e9);
@@ -231,7 +232,7 @@ void CameraController::lookFrom(const MirrorState& mirror, MirrorSide side, doub
   const double vertical = 0.5 * glm::radians(spec_.verticalFov);
   const double narrower = std::min(vertical, std::atan(std::tan(vertical) * aspect));  // half the picture's angle
   const double distance = side == MirrorSide::back ? radius / std::sin(narrower) : 0.0;
-  // On the plane itself, rounding would decide whether the mirror shows its front.
+  // The eye stands before the mirror's plane: on it, rounding would decide whether the mirror shows its front.
   eye_ = side == MirrorSide::back ? middle - forward * distance
                                   : middle + mirror.normal * (10.0 * std::min(spec_.near, 1.0));
   target_ = eye_ + forward * std::max(distance, radius);

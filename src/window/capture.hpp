@@ -21,12 +21,12 @@ class Capture {
   std::optional<std::string> toggleRecording(const std::string& scene, bool withPanel);
 
   bool recording() const { return folder_.has_value(); }
-  bool wanted() const { return recording() || screenshot_ != Screenshot::none; }           // of the present frame
+  bool wanted() const { return recording() || screenshot_ != Screenshot::none; }  // the present frame is to be saved
   bool bare() const { return screenshot_ == Screenshot::bare || (recording() && bare_); }  // without panels
 
   struct Saved {
     std::string message;
-    bool logged = false;
+    bool logged = false;  // the message goes to the log too
   };
   // Saves the frame; call it if wanted(). A recorded picture that cannot be written ends the recording.
   Saved save(const std::string& scene, const Image8& picture);
@@ -37,10 +37,10 @@ class Capture {
   std::string record(const Image8& picture);
 
   Screenshot screenshot_ = Screenshot::none;     // of the next frame
-  std::optional<std::filesystem::path> folder_;  // of the recording
-  bool bare_ = false;
-  int frames_ = 0;
-  std::string recorded_;  // message about the frames recorded so far
+  std::optional<std::filesystem::path> folder_;  // of the recording; none: nothing is recorded
+  bool bare_ = false;                            // the recording is without panels
+  int frames_ = 0;                               // recorded so far
+  std::string recorded_;                         // says what was recorded, for the end of the recording
 };
 
 }  // namespace speculum

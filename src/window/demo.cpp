@@ -50,7 +50,7 @@ Demo::Demo(const Options& options)
 }
 
 bool Demo::step() {
-  // All exceptions of a frame are caught here.
+  // Every exception of a frame comes here, so that unsaved changes are kept before the program ends.
   try {
     const bool open = stepOnce();
     if (open) {
@@ -152,8 +152,8 @@ void Demo::endWithPanels(Frame& frame) {
   renderer_.present();
 }
 
-// Asks the window system here, while the GPU draws: after present() an answer would have to wait for the picture that
-// an X server copies.
+// Ends the frame, and asks the window system while the GPU draws: after present() an answer would have to wait for the
+// picture that an X server copies.
 void Demo::endFrame(Frame& frame) {
   renderer_.endFrame(frame);
   ui_->readWindow();
@@ -170,7 +170,7 @@ void Demo::abandonFrame(Frame& frame, const std::string& why) {
 }
 
 void Demo::drawFrame(double seconds, double sinceLastMs) {
-  // Happens between frames, because it waits for the device.
+  // Sets the cover between frames, because that waits for the device.
   if (const std::optional<Image8> cover = workspace_.accuracy().takeCover()) {
     sceneRenderer_->setCover(*cover);
   }
@@ -219,7 +219,7 @@ void Demo::drawFrame(double seconds, double sinceLastMs) {
   endFrame(*frame);
   const bool compiledBefore = std::exchange(compiled_, newPipelines);
   if (compiledBefore && !newPipelines) {
-    releaseFreedMemory();  // loading and compiling leave much
+    releaseFreedMemory();  // loading and compiling leave much freed memory
   }
   if (framesDrawn_ == 0) {
     spdlog::info("first picture submitted {:.0f} ms after the start", millisecondsSinceStart());
@@ -255,13 +255,14 @@ const FittedPlan& Demo::planFrame(Frame& frame, const SceneState& state) {
   Settings settings = workspace_.shownSettings();
   // Renders every mirror in each frame while debug.check_finite is on, which reports findings by mirror.
   settings.reflection.skipUnchanged = settings.reflection.skipUnchanged && !settings.debug.checkFinite;
-  // A mirror whose target is shown is rendered in each frame, so that the target is of the picture.
+  // While a mirror's target is shown, all mirrors are rendered in each frame, so that the target belongs to the
+  // picture.
   planner_.begin(output_.target && !output_.target->path.empty(), ui_->holdsWidget() || pace_.moving());
   FrameCache cache = sceneRenderer_->cache(state);
   if (missing) {
     cache.main = nullptr;
   }
-  const bool recorded = workspace_.capture().recording();  // without a budget
+  const bool recorded = workspace_.capture().recording();  // without a time budget
   const Scene& scene = workspace_.scene();
   const FittedPlan& fitted = pace_.plan({.frame = {.scene = scene,
                                                    .state = state,
@@ -304,8 +305,9 @@ std::string Demo::pictureText(const Scene& scene, const Settings& chosen) const 
   return pace_.lowers() || rest.empty() ? text : text + (text.empty() ? "Approximate: " : "; approximate: ") + rest;
 }
 
-// Times passes one by one only at the start and the end of a change and every few frames, because that slows a frame.
-// Tiles are timed in each frame: their sum is the time of a pass, and they are waited for anyway.
+// Says whether to time passes one by one: only at the start and the end of a change and every few frames, because
+// timing slows a frame. Tiles are timed in each frame: their sum is the time of a pass, and the window waits for them
+// anyway.
 bool Demo::timesPasses(bool movementEnded) {
   const bool times = ui_->windows().visible() &&
                      (changeBegins_ || movementEnded || untimedFrames_ >= timedInterval || pace_.drawsSlowly());

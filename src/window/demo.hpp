@@ -33,7 +33,7 @@ class Demo : private WorkspaceHost {
   int framesDrawn() const { return framesDrawn_; }
   // Saves a copy of unsaved changes and logs where.
   void keepUnsavedWork() noexcept { workspace_.keepUnsavedWork(); }
-  // Replaces the first connected gamepad.
+  // Takes the gamepad's state from `source` instead of from the first connected gamepad.
   void setGamepadSource(std::function<std::optional<GamepadState>()> source) { gamepadSource_ = std::move(source); }
   // Makes frames from now on readable by Renderer::readback, panels included.
   void setCapture(bool capture) { capture_ = capture; }
@@ -98,35 +98,35 @@ class Demo : private WorkspaceHost {
   FramePlanner planner_;
   Pace pace_;
   FirstPictures first_;
-  double refreshHz_;
+  double refreshHz_;  // of the monitor
   ShownDevice deviceView_;
   std::unique_ptr<SimpleUI> ui_;
   UiOutput output_;  // of the panels in the frame that is drawn
   FramePacer pacer_;
-  int untimedFrames_ = 0;      // since the last frame whose passes were timed one by one
-  bool changes_ = false;       // something changes in this step
-  bool changeBegins_ = false;  // something changes, and did not in the step before
-  size_t pipelines_ = 0;       // after the last frame
-  bool compiled_ = false;      // pipelines, in the last frame
-  int scenes_ = 0;             // number of scenes shown before this one
-  bool sceneIsNew_ = true;     // no picture of it was drawn
-  std::filesystem::path shownFile_;
+  int untimedFrames_ = 0;            // since the last frame whose passes were timed one by one
+  bool changes_ = false;             // something changes in this step
+  bool changeBegins_ = false;        // something changes, and did not in the step before
+  size_t pipelines_ = 0;             // number of pipelines after the last frame
+  bool compiled_ = false;            // the last frame compiled pipelines
+  int scenes_ = 0;                   // number of scenes shown before this one
+  bool sceneIsNew_ = true;           // no picture of the scene was drawn yet
+  std::filesystem::path shownFile_;  // file of the scene that is shown
   Settings frameSettings_;
   std::string message_;
-  uint64_t nonFinite_ = 0;  // of scenes shown before
+  uint64_t nonFinite_ = 0;  // samples found in the scenes shown before
   std::function<std::optional<GamepadState>()> gamepadSource_ = [this] { return window_.gamepad(); };
   GamepadState gamepad_;
   bool gamepadChanged_ = false;    // since the last step
   bool closeAfterPrompt_ = false;  // the prompt is answered: close the window
   bool working_ = false;           // background work has results to show
   std::string shaderErrors_;
-  Clock::time_point last_;
+  Clock::time_point last_;  // when the last step began
   bool capture_ = false;
   int framesDrawn_ = 0;
 };
 
-// Runs the window until it is closed or --frames are drawn. Exit code 1 if the validation layer or debug.check_finite
-// reported anything.
+// Runs the window until it is closed or --frames are drawn. Returns the exit code: 1 if the validation layer or
+// debug.check_finite reported anything.
 int runDemo(const Options& options);
 
 }  // namespace speculum

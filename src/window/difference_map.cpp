@@ -11,12 +11,13 @@
 
 namespace speculum {
 
-constexpr std::chrono::milliseconds stillFor{400};      // before tracing begins
+constexpr std::chrono::milliseconds stillFor{400};      // time without a change before tracing begins
 constexpr std::array<int, 3> references = {4, 16, 64};  // samples a pixel: a quick first result, then better ones
 
 namespace {
 
-// Returns for each mirror the mean over the pixels that look at it, as if nothing stood before it; NaN if none does.
+// Returns for each mirror the mean error of the pixels that would look at it if nothing stood before it; NaN if there
+// are none.
 std::vector<double> errorsOfMirrors(const Plane2d& map, const PictureView& picture, const SceneState& state) {
   std::vector<double> errors;
   for (const MirrorState& mirror : state.mirrors) {
@@ -78,7 +79,7 @@ void DifferenceMap::startComparing(const ShownPicture& shown, Image8 image) {
   });
 }
 
-// Returns true for a new heat map. Drops one whose settings have changed meanwhile.
+// Takes finished work. Returns true for a new heat map; drops a map whose settings have changed meanwhile.
 bool DifferenceMap::collect() {
   bool fresh = false;
   if (std::optional<Compared> result = comparing_.takeResult(); result && result->settings == compared_) {

@@ -20,14 +20,14 @@ struct ShownPicture {
 // run on other threads; any motion restarts them.
 class DifferenceMap {
  public:
-  // Call once a frame, after it is drawn. `image` returns its pixels in display sRGB; it is called only when they are
-  // needed. `samples`: of the finest reference, a pixel. Returns true when map() has changed.
+  // Call once a frame, after it is drawn. `image` returns the pixels of its picture (display sRGB) and is called only
+  // when they are needed. `samples`: samples a pixel of the finest reference. Returns true when map() has changed.
   bool update(const ShownPicture& shown, const std::function<Image8()>& image, int samples);
   // Drops everything without waiting for running work. Returns true if there was a heat map.
   bool reset();
   void stop();  // as reset(), but waits for running work
 
-  const Plane2d& map() const { return map_; }  // errors; without pixels until there are some
+  const Plane2d& map() const { return map_; }  // FLIP error by pixel; without pixels until there is a result
   // By mirror: the mean error within its outline, NaN if the eye does not see it; empty without map().
   const std::vector<double>& mirrorErrors() const { return mirrorErrors_; }
   bool working() const;        // update() has work left although nothing changes
@@ -62,14 +62,14 @@ class DifferenceMap {
 
   std::optional<View> view_;
   std::optional<Settings> compared_;  // settings of the picture compared last
-  Clock::time_point still_;
+  Clock::time_point still_;           // since when the view has not changed
   BackgroundJob<Truth> tracing_;
   BackgroundJob<Compared> comparing_;
-  size_t traced_ = 0;  // references finished
+  size_t traced_ = 0;  // number of references that are finished
   Truth truth_;
   Plane2d map_;
   ImageMetrics metrics_;
-  int pictures_ = 1;  // in the mean that was compared
+  int pictures_ = 1;  // number of pictures in the mean that was compared
   std::vector<double> mirrorErrors_;
   std::string problem_;  // error that ended the work
 };

@@ -17,12 +17,12 @@ namespace {
 
 constexpr size_t mostCopies = 100;
 
-// Returns the folder of copies that commands draw.
+// Returns the folder of the copies of scenes that copied command lines draw.
 fs::path viewsFolder() {
   return userCacheDir() / "views";
 }
 
-// Says whether the file lies in the folder of shipped scenes or in one of copies.
+// Says whether the file lies in a folder of shipped scenes or models, or of copies.
 bool isShipped(const fs::path& file) {
   const fs::path scenes = dataDirectory("scenes");
   const std::array folders{scenes, scenes.parent_path() / "models", viewsFolder()};
@@ -60,7 +60,7 @@ DocumentController::DocumentController(LoadedScene& loaded, std::span<const fs::
   findSaveFile();
 }
 
-// Call when the scene has another file. It accesses the disk.
+// Finds the file that Save writes. Call it when the scene has another file. It accesses the disk.
 void DocumentController::findSaveFile() {
   const fs::path file = editor_.document().usualFile();
   saveFile_ = !isShipped(file) && isWritable(file) ? std::optional(file) : std::nullopt;

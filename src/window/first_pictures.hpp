@@ -5,12 +5,12 @@
 
 namespace speculum {
 
-// How a scene is shown at first: it moves at once, but where that proves too slow it stands until the user plays it. A
-// CPU device draws its first pictures below the scene's thumbnail.
+// How a scene is shown at first. An animated scene moves at once, but if that proves too slow it is paused until the
+// user plays it. On a CPU device the scene's thumbnail covers the first pictures.
 class FirstPictures {
  public:
-  // Begins with another scene. `moves`: by itself, at a pace. `covered`: until there is a good picture, or for some
-  // seconds.
+  // Call when another scene is shown. `moves`: the scene moves by itself, and its frames have a time budget. `covered`:
+  // the thumbnail covers the picture until there is a good one, or for some seconds.
   void begin(bool moves, bool covered) {
     coveredSeconds_ = 0.0;
     triesLeft_ = moves ? mostTries : 0;
@@ -18,7 +18,8 @@ class FirstPictures {
     holds_ = false;
   }
   // Call after each frame: with Pace::playCost(), whether the scene moves by itself, whether the frame was a complete
-  // picture in full quality, and the seconds since the last frame. Returns true if the scene is to go back and stand.
+  // picture in full quality, and the seconds since the last frame. Returns true if the scene is to go back to its start
+  // and to be paused.
   bool drawn(const std::optional<std::string>& playCost, bool moves, bool complete, double seconds) {
     coveredSeconds_ += seconds;
     const bool tried = triesLeft_ > 0;
@@ -30,8 +31,8 @@ class FirstPictures {
   }
   void uncover() { covered_ = false; }  // the user acts
 
-  bool covered() const { return covered_; }
-  bool holds() const { return holds_; }  // the scene stands, and nobody has played it yet
+  bool covered() const { return covered_; }  // the thumbnail covers the picture
+  bool holds() const { return holds_; }      // the scene was paused for being slow, and nobody has played it yet
 
  private:
   static constexpr int mostTries = 60;

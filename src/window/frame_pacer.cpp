@@ -8,7 +8,8 @@ namespace speculum {
 
 namespace {
 
-// After a change panels need a frame to show it, another to settle, and two more because their figures are that old.
+// After a change panels need a frame to show it, another to settle, and two more because the figures in them are two
+// frames old.
 constexpr int framesAfterChange = 4;
 constexpr int longestInterval = 3600;  // frames: a map with a longer interval is meant to stay as it is
 

@@ -12,7 +12,7 @@ class FramePacer {
   void change(const Settings& settings);
   void requestFrames(int frames) { due_ = std::max(due_, frames); }
   bool due() const { return due_ > 0; }
-  void idle() { idled_ = true; }
+  void idle() { idled_ = true; }  // call when the window sleeps
 
   // Begins a frame, `seconds` after the last step. Returns the milliseconds since the last frame, NaN if the window was
   // idle.
@@ -21,7 +21,7 @@ class FramePacer {
 
  private:
   int due_ = 0;        // frames to draw, although nothing changes any more
-  bool idled_ = true;  // before the frame that is drawn next
+  bool idled_ = true;  // the window slept before the frame that is drawn next
 };
 
 }  // namespace speculum

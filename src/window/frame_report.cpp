@@ -50,7 +50,7 @@ ShownTarget targetOf(const FramePlan& plan, const Pass& pass, const Settings& se
   return target;
 }
 
-// Returns the place of a pass in a list of rows or recorded passes.
+// Finds a pass in a list of rows or recorded passes.
 template <typename Passes>
 auto placeOf(Passes& passes, const PassId& wanted) {
   return std::ranges::find_if(passes, [&](const PassId& pass) { return pass == wanted; });
@@ -113,9 +113,9 @@ void FrameReport::addFrame(const RecordedFrame& frame, const FrameTimings& timin
   picture_.number = frame.number;
 }
 
-// Frames for the panels only change no figure but the times of passes: those of the last frame that drew another
-// picture stay. A picture of several frames counts as one frame, the last; while they draw it, the figures are those of
-// the picture before.
+// Frames that draw only the panels change no figure but the times of passes: all others stay those of the last frame
+// that drew another picture. A picture of several frames counts as one frame, the last; until then the figures are
+// those of the picture before.
 void FrameReport::updateTimes(const RecordedFrame& frame, const FrameTimings& timings,
                               std::span<const RecordedPass> timed) {
   addFrame(frame, timings, timed);
@@ -132,7 +132,7 @@ void FrameReport::updateTimes(const RecordedFrame& frame, const FrameTimings& ti
     if (!std::isnan(ms) && !frame.plan.tiles) {
       average(shown_.frameMs, ms, !std::exchange(averages_, true));
     }
-    // Figures of other settings would hide what the present ones cost.
+    // Figures of other settings would hide what the present settings cost.
     if (!sameMainView(std::exchange(historySettings_, picture_.chosen), picture_.chosen)) {
       shown_.history.restart();
     }
@@ -185,7 +185,7 @@ void FrameReport::updateTimes(const RecordedFrame& frame, const FrameTimings& ti
   shown_.history.addGpu(timings.frame, gpuMs, passes);
 }
 
-// Sets the times of the listed passes, which may be those of a later picture.
+// Sets the times of the listed passes to those of `picture`. The list may be that of a later picture.
 void FrameReport::setTimes(const Picture& picture, double gpuMs) {
   shown_.timedGpuMs = gpuMs;
   timedSettings_ = picture.settings;
@@ -234,7 +234,7 @@ void FrameReport::updatePasses(const RecordedFrame& frame, std::span<const Recor
     index = row - rows.begin() + 1;
   }
   std::erase_if(rows, [&](const PassRow& row) { return row.framesAgo >= interval && !isReused(row); });
-  // Times of another quality say nothing about this picture, those of other settings little.
+  // Times of another quality say nothing about this picture, times of other settings little.
   const bool otherQuality = timedLowered_ != frame.lowered || (plan.tiles && !tilesTimed_);
   if (!plan.mainReused() && (otherQuality || !sameMainView(timedSettings_, frame.settings))) {
     shown_.timedGpuMs = 0.0;
@@ -255,11 +255,12 @@ void FrameReport::updateEffects(const RecordedFrame& frame, const EffectLedger& 
   }
   for (const Effect& effect : effectsOf(frame.scene, frame.state, frame.settings, frame.plan)) {
     EffectRow& view = shown_.effects.emplace_back(EffectRow{effect, ledger[effect.kind]});
-    view.name = findSettingField(settingsWithout(effect).front().key)->label;  // of its switch
+    view.name = findSettingField(settingsWithout(effect).front().key)->label;  // of the effect's switch
   }
 }
 
-// Outlines the part of a mirror that the view that draws it shows: where the view ends, so does the outline.
+// Outlines the part of the hovered mirror that the view in which it is drawn shows. The outline ends where that view
+// ends.
 void FrameReport::updateOutline(const RecordedFrame& frame, const MirrorPath& hovered) {
   shown_.outlinedPath.clear();
   shown_.outline.clear();
@@ -282,7 +283,7 @@ void FrameReport::updateOutline(const RecordedFrame& frame, const MirrorPath& ho
   }
 }
 
-// A plan leaves out mirrors that are seen in cached images, so those of the frame that rendered the image stay.
+// A plan does not list the mirrors skipped in cached images, so the rows of the frame that rendered such an image stay.
 void FrameReport::updateSkipped(const RecordedFrame& frame) {
   skipped_ = frame.plan.skipped;
   const std::vector<SkippedRow> before = std::exchange(shown_.skipped, {});

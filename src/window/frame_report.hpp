@@ -12,14 +12,14 @@ namespace speculum {
 struct RecordedFrame {
   const Scene& scene;
   const SceneState& state;
-  const Settings& settings;  // with which it was planned
+  const Settings& settings;  // that the frame was planned with
   const FramePlan& plan;
   uint64_t number = 0;
   double cpuMs = 0.0;
   double sinceLastMs = 0.0;  // NaN after the window was idle
-  bool lowered = false;      // its quality, for the pace
-  bool compiles = false;     // it or the frame before made pipelines, which takes long
-  bool repeats = false;      // it draws the last picture again, for the panels
+  bool lowered = false;      // the pace has lowered the quality
+  bool compiles = false;     // this frame or the one before made pipelines, which takes long
+  bool repeats = false;      // the frame draws the last picture again, for the panels
   Settings chosen = {};      // by the user; `settings` may be lowered
 };
 
@@ -31,13 +31,13 @@ class FrameReport {
   // finished.
   void update(const RecordedFrame& frame, Renderer& renderer, SceneRenderer& sceneRenderer,
               const MirrorPath& hoveredPath);
-  // Describes the requested target, and returns how to draw it over the picture; nothing if the plan lacks its pass or
-  // the target has no area.
+  // Describes the requested target, and returns how to draw it over the picture; nothing if the plan lacks the target's
+  // pass or the request does not want the target drawn.
   std::optional<TargetDisplay> target(const TargetRequest& request, const FramePlan& plan, const Settings& settings,
                                       bool standardSampleLocations);
 
-  // Parts of update() that need no device. `timed` are the passes of the frame that `timings` belong to, `passes` of
-  // this frame.
+  // Parts of update() that need no device. `timed` are the passes of the frame that `timings` belong to, `passes` those
+  // of `frame`.
   void updateTimes(const RecordedFrame& frame, const FrameTimings& timings, std::span<const RecordedPass> timed = {});
   void updatePasses(const RecordedFrame& frame, std::span<const RecordedPass> passes);
   void updateOutline(const RecordedFrame& frame, const MirrorPath& hovered);
@@ -59,7 +59,7 @@ class FrameReport {
     bool lowered = false;
     bool repeats = false;
     bool compiles = false;
-    uint64_t number = 0;  // of the last frame
+    uint64_t number = 0;  // of the last frame that drew it
     double sinceLastMs = 0.0;
     double cpuMs = 0.0;
     double gpuMs = 0.0;  // without the last frame
@@ -77,12 +77,12 @@ class FrameReport {
   std::deque<Picture> drawn_;  // latest pictures of the scene, newest first
   Picture picture_;            // that the last frame drew
   bool panelsOnly_ = false;    // the last frame drew no part of the scene
-  // The picture that the times of passes are of.
+  // About the picture that the listed times of passes belong to:
   bool tilesTimed_ = false;  // several frames drew it
   Settings timedSettings_;
   bool timedLowered_ = false;
   Settings historySettings_;  // chosen for the frames of the history
-  bool averages_ = false;     // ShownFrame::frameMs: its frames followed each other
+  bool averages_ = false;     // ShownFrame::frameMs is a mean over frames that followed each other
   RecycledVector<SkippedMirror> skipped_;
   TargetKind targetKind_ = TargetKind::color;  // of ShownFrame::target
 };

@@ -10,7 +10,7 @@ namespace {
 // Shares of the budget. Between roomToRaise and tooMuch the level stays, so that it does not change all the time.
 constexpr double aim = 0.98;          // largest share that a level may take when it is lowered
 constexpr double roomToRaise = 0.96;  // largest share that a better level may take
-constexpr double tooMuch = 1.06;      // a frame beyond it lowers the level
+constexpr double tooMuch = 1.06;      // a frame beyond this share lowers the level
 constexpr double farBelow = 0.85;     // a better level predicted to take less is tried at once
 
 constexpr double leastPatience = 0.15;  // seconds
@@ -20,8 +20,8 @@ constexpr int mostPredictions = 60;  // frames
 
 }  // namespace
 
-// Returns the first level from `first` on that is predicted to take no more than its share of the budget, else the last
-// level. Estimates the levels' work from `work`, which was planned at level_.
+// Returns the first level from `first` on that is predicted to take no more than the share `aim` of the budget, else
+// the last level. Estimates the levels' work from `work`, which was planned at level_.
 size_t MotionController::fittingLevel(std::span<const MotionLevel> levels, size_t first, const FrameWork& work) const {
   const auto fits = [&](const MotionLevel& level) {
     return model_.predict(scaledWork(work, levels[level_].settings, level.settings)) <= aim * budgetMs_;

@@ -18,8 +18,8 @@ class MotionController {
   explicit MotionController(bool cpuDevice) : model_(cpuDevice) {}
 
   // Chooses the level of the next frame, `seconds` after the last, for a budget of `budgetMs` (above 0). Plan the frame
-  // at the level that this returns, then at each level that next() returns for the work of the last plan. The last plan
-  // is the frame's.
+  // at the level that begin() returns, then at each level that next() returns for the work of the last plan. The last
+  // plan is the one to draw.
   size_t begin(std::span<const MotionLevel> levels, double budgetMs, double seconds);
   // Returns the level to plan next, or nothing if the one planned last is chosen.
   std::optional<size_t> next(std::span<const MotionLevel> levels, const FrameWork& work);
@@ -35,9 +35,9 @@ class MotionController {
   enum class Try {
     afterStanding,  // a movement begins, with the level of the movement before
     current,        // the level of the last frame, or the one that fits where a movement begins
-    lower,          // the last one planned takes too long
-    higher,         // there seems to be room for it
-    back,           // there was none
+    lower,          // the level planned last takes too long
+    higher,         // a better level seems to fit
+    back,           // the better level did not fit: the level of the last frame again
   };
   size_t fittingLevel(std::span<const MotionLevel> levels, size_t first, const FrameWork& work) const;
   std::optional<size_t> nextFromCurrent(std::span<const MotionLevel> levels, const FrameWork& work);
@@ -51,12 +51,12 @@ class MotionController {
   size_t before_ = 0;  // chosen for the last frame
   Try try_ = Try::current;
   bool moving_ = false;
-  bool begins_ = false;           // the movement, with this frame
+  bool begins_ = false;           // the movement begins with this frame
   double patience_ = 0.0;         // seconds at a level before a better one is tried
   double sinceChange_ = 0.0;      // seconds
   bool raised_ = false;           // the last change was to a better level
   bool refused_ = false;          // since the last change, a better level was planned and did not fit
-  std::deque<double> predicted_;  // milliseconds of the last frames, one update interval
+  std::deque<double> predicted_;  // predicted milliseconds of the last frames, of one update interval at most
 };
 
 }  // namespace speculum

@@ -19,14 +19,14 @@ constexpr double softScale = 0.7;
 constexpr double blurredScale = 0.4;
 // Smaller pictures are hardly faster: from a scale of 0.25 to 0.19 lavapipe draws the gallery in 0.95 of the time.
 constexpr double leastScale = 0.25;
-// Pixels. Images shrink fast in mirrors that face each other, and each takes a pass however small it is. A larger limit
-// would leave out mirrors that are seen themselves.
+// Pixels of the smallest mirror image. Images shrink fast in mirrors that face each other, and each takes a pass
+// however small it is. A larger limit would leave out mirrors that are seen directly.
 constexpr double smallImage = 1000.0;
 constexpr int smallShadowMap = 256;     // texels of a face's side
-constexpr int smallEnvironment = 64;    // likewise
+constexpr int smallEnvironment = 64;    // texels of a face's side
 constexpr int environmentInterval = 8;  // frames
 
-// Lowers each setting to the cheaper one of the two.
+// Returns `settings` with the value of `limit` for each setting in which that is cheaper.
 Settings lowered(Settings settings, const Settings& limit) {
   const ReflectionSettings before = settings.reflection;
   for (const SettingField& field : settingFields()) {
@@ -120,7 +120,8 @@ std::vector<MotionLevel> motionLevels(const Scene& scene, const Settings& chosen
     effects.environmentSize = smallEnvironment;
     effects.environmentInterval = environmentInterval;
   });
-  // Light off mirrors has no shadows in maps. Scenes that cast it are slow, so their maps are small at once.
+  // Shadow maps hold no shadows of light that mirrors cast. Scenes with such light are slow, so their maps are small at
+  // once.
   replace(rays.castsLight, [](E& effects) {
     effects.castsLight = false;
     effects.shadowLookup = ShadowLookup::map;
@@ -191,7 +192,7 @@ std::string stillText(const Scene& scene, const Settings& settings) {
   const auto add = [&](bool applies, const std::string& words) {
     text += applies ? (text.empty() ? "" : ", ") + words : "";
   };
-  // A texel of a face, which is 90 degrees wide.
+  // A face is 90 degrees wide, so a texel is 2 / size of the distance.
   add(asked.shadows && effects.shadowLookup == ShadowLookup::map && !asked.castsLight &&
           shadowLights(scene).size() <= mostShadowMaps,
       fmt::format("shadow outlines within a texel of the map, 1/{} of the distance from the light",

@@ -18,14 +18,14 @@ constexpr double cpuBudgetMs = 50.0;
 constexpr double refreshShare = 0.8;
 constexpr double longestWait = 3.0;  // budgets: slower still pictures come after a draft, tile by tile
 constexpr double tilesShare = 2.0;   // budgets for a frame with tiles and without input
-constexpr double leastShare = 0.1;   // of such a frame's time is its tiles'
+constexpr double leastShare = 0.1;   // least share of the time of a frame with tiles that counts as time of its tiles
 constexpr size_t mostDrawn = 4;      // frames whose times have not arrived
-constexpr size_t sentFrames = 8;     // frames of which one does not wait for the monitor
+constexpr size_t sentFrames = 8;     // at least one of so many frames does not wait for the monitor
 constexpr int framesToKnow = 5;      // timed moving frames after which it is known what playing costs
-constexpr double leastMoved = 0.5;   // of the resolution, at which a scene is worth moving unasked
-constexpr double caution = 4.0;      // a tile that was never drawn may take that much longer than expected
-// How much of the dearest tile's time counts a frame later. One frame may be slow for another reason, such as another
-// program that takes the processor.
+constexpr double leastMoved = 0.5;   // least share of the resolution at which a scene is worth moving unasked
+constexpr double caution = 4.0;      // a tile that was never drawn may take so many times as long as expected
+// Share of the dearest tile's time that still counts a frame later. One frame may be slow for another reason, such as
+// another program that takes the processor.
 constexpr double remembered = 0.9;
 // Frames of a slow picture, besides those of its maps. On a busy machine each frame takes long, whatever it draws.
 constexpr size_t mostFrames = 128;
@@ -35,7 +35,7 @@ Settings withPictures(Settings settings, int pictures) {
   return settings;
 }
 
-// Says whether tiles can draw the picture; debug.check_finite looks at whole ones.
+// Says whether tiles can draw the picture. debug.check_finite needs whole pictures.
 bool drawnInTiles(const FittedPlan& fitted) {
   return !fitted.plan.mainReused() && !fitted.settings.debug.checkFinite;
 }
@@ -118,7 +118,7 @@ void Pace::planWith(const Request& request, const Settings& settings, int pictur
   work_ = workOf(fitted_.plan, frame.scene, frame.state, fitted_.settings);
 }
 
-// Plans the frame within the budget. The text says what the picture gives up for that.
+// Plans the frame within the budget. text_ then says what the picture gives up.
 void Pace::planWithinBudget(const Request& request) {
   const Settings chosen = withPictures(request.frame.settings, 1);
   const std::vector<MotionLevel> levels = motionLevels(request.frame.scene, chosen, request.front, sampleCounts_);
@@ -132,7 +132,7 @@ void Pace::planWithinBudget(const Request& request) {
     findPlayCost(levels, request);
   }
   MotionLevel shown = levels[level_];
-  // A limit that leaves no image out costs no quality. Images below the chosen limit count too.
+  // A limit that leaves no image out costs no quality. Images that the chosen limit leaves out count too.
   const auto skips = [&](SkipReason reason) {
     return std::ranges::count(fitted_.plan.skipped, reason, &SkippedMirror::reason) > 0;
   };
@@ -145,7 +145,7 @@ void Pace::planWithinBudget(const Request& request) {
   text_ = motionText(chosen, shown);
 }
 
-// Looks for the best level that should fit: the controller rises to it by and by.
+// Finds what playing costs, at the best level that should fit: the controller rises to that level by and by.
 void Pace::findPlayCost(std::span<const MotionLevel> levels, const Request& request) {
   double ms = 0.0;
   const auto fits = [&](const MotionLevel& level) {
@@ -202,7 +202,7 @@ void Pace::planStill(const Request& request) {
   }
 }
 
-// Returns what follows the last frame. A target of a single picture needs no redraw: that is drawn again anyway if its
+// Returns what follows the last frame. A single picture needs no redraw for a target: it is drawn again anyway if its
 // plan cannot reuse it.
 Pace::State Pace::stateAfter(const Request& request) {
   if (!request.target) {
@@ -219,9 +219,9 @@ Pace::State Pace::stateAfter(const Request& request) {
   return missing ? State::redraw : State::done;
 }
 
-// Plans the first frame: in full quality if that is fast, else the first picture of the mean if that is fast, else a
-// draft. A slow frame would delay the mean, whose pictures have one sample; a single picture is drawn in tiles only if
-// it would hold up input for long.
+// Plans the first frame of a still view: in full quality if that is fast, else the first picture of the mean if that is
+// fast, else a draft. A slow frame would delay the mean, whose pictures have one sample; a single picture is drawn in
+// tiles only if it would hold up input for long.
 void Pace::planFirst(const Request& request) {
   const Settings whole = withPictures(request.frame.settings, 1);
   planWith(request, whole, 0);
@@ -241,7 +241,7 @@ void Pace::planFirst(const Request& request) {
   draft_ = text_ = "Draft: " + text_;
 }
 
-// Plans the next picture or, if it is slow and something else is shown, its next tiles.
+// Plans the next picture or, if it is slow and another picture is shown meanwhile, its next tiles.
 void Pace::planPicture(const Request& request, State state) {
   state_ = state;
   const int next = state == State::redraw ? pictures_ - 1 : picture_;
@@ -304,8 +304,8 @@ void Pace::drawn(uint64_t number, double cpuMs, double waitedMs, bool learns) {
 }
 
 // Learns the time of a frame. On a CPU device, drawing, the program and sending the picture to the window system share
-// the cores, so a frame takes the sum of their times, or less where they overlap; on a GPU it takes the longer of the
-// first two, unless the program waits for tiles or parts. Waiting for the monitor does not count.
+// the cores, so a frame takes the sum of their times, or less where they overlap. On a GPU it takes the longer time of
+// drawing and program, unless the program waits for tiles or parts. Waiting for the monitor does not count.
 void Pace::finished(const FrameTimings& timings) {
   const auto found = std::ranges::find(drawn_, timings.frame, &Drawn::number);
   if (found == drawn_.end()) {
@@ -322,7 +322,8 @@ void Pace::finished(const FrameTimings& timings) {
                                           : std::min(found->frameMs, sum);
   if (drawsTiles() && found + 1 == drawn_.end()) {
     slow_.took(std::max(ms - besidesMs_, leastShare * ms));
-    // The frames took longer than one would have, so their time is learned only where even that was less.
+    // The frames with tiles took longer than a single frame would have, so their time is learned only if even that was
+    // less than predicted.
     if (slow_.finished() && slow_.totalMs() < controller_.predict(slowWork_)) {
       controller_.learn(slowWork_, slow_.totalMs());
     }

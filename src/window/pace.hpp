@@ -14,25 +14,25 @@ namespace speculum {
 
 // A still picture that takes longer than a window may wait: several frames draw it, a few tiles each. Learns the time
 // of each tile, for the next pictures of the same view. Tiles that are faces of maps come first, in frames of their
-// own: they take another time, and most pictures have none.
+// own: they do not take as long as other tiles, and most pictures have none.
 class SlowPicture {
  public:
-  // Begins a picture of `faces` and `count` other tiles. These are expected to take `ms` if it is the first picture;
-  // others are expected to take as long as the last.
+  // Begins a picture of `faces` tiles that are faces of maps and `count` other tiles. The other tiles of the first
+  // picture are expected to take `ms` together, those of a further picture as long as in the picture before.
   void begin(size_t faces, size_t count, double ms);
   // Returns the next tiles that are expected to take `ms` together, and at least one in 128 of the picture's.
   TileRange next(double ms);
-  // Call with the time that they took.
+  // Call with the milliseconds that the tiles of the last next() took.
   void took(double ms);
 
-  bool begun() const { return !tileMs_.empty(); }                          // at least one picture was
+  bool begun() const { return !tileMs_.empty(); }                          // there was a picture
   bool finished() const { return tiles_.end == faces_ + tileMs_.size(); }  // all tiles are planned
   double share() const { return static_cast<double>(tiles_.end) / static_cast<double>(faces_ + tileMs_.size()); }
   double totalMs() const { return totalMs_; }
 
  private:
   size_t faces_ = 0;
-  double faceMs_ = 0.0;         // of each of the last faces
+  double faceMs_ = 0.0;         // of each of the faces drawn last
   std::vector<double> tileMs_;  // of each other tile, expected or measured
   TileRange tiles_;             // of the last next()
   size_t measured_ = 0;         // the first tiles of tileMs_ whose times were measured
@@ -63,10 +63,11 @@ class Movement {
   bool moving_ = false;
 };
 
-// Chooses the quality of the window's frames: while something moves, as much of the chosen settings as fits into a
-// budget of milliseconds; otherwise all of them, or where that takes longer a draft that fits, then the picture or the
-// mean of pictures with offsets (view.accumulate), one in each frame or, where one takes long, over several
-// (FramePlan::tiles). docs/architecture.md says which state follows which.
+// Chooses the quality of the window's frames. While something moves, a picture has as much of the chosen settings as
+// fits into a budget of milliseconds. A still picture has all of them; if it takes longer than the budget, a draft that
+// fits comes first. Then follows the picture, or the pictures of its mean (view.accumulate, each with its own offset),
+// one in each frame or, if one takes long, over several frames (FramePlan::tiles). docs/architecture.md says which
+// state follows which.
 class Pace {
  public:
   // What the planned frame is. All but `moving` are for still pictures, or for moving ones without a budget.
@@ -77,7 +78,7 @@ class Pace {
     draft,    // a picture that fits the budget, shown until the first one of the mean is complete
     mean,     // the next picture of the mean, or tiles of it
     redraw,   // the last picture of a complete mean, or tiles of it: for a target that was not kept
-    done,     // the complete picture or mean as it was there before, for the panels
+    done,     // the complete picture or mean that was there before, for the panels
   };
 
   // `sampleCounts`: those that the device supports, as VkSampleCountFlags.
@@ -95,8 +96,8 @@ class Pace {
   bool moving() const { return movement_.moving(); }
   // Says whether another frame is needed although nothing happens.
   bool wantsFrame() const { return movement_.ending() || (!moving() && (!isComplete() || !slow_.finished())); }
-  // Says whether the last frame drew tiles of a picture. If so, wait for it before the next events: finished() learns
-  // from its time, and no second frame delays them.
+  // Says whether the last frame drew tiles of a picture. If so, wait for that frame before you handle events:
+  // finished() learns from its time, and no second frame delays the events.
   bool drawsTiles() const { return fitted_.plan.tiles.has_value(); }
   // Says whether the planned frame has a lower quality than the chosen settings.
   bool lowers() const { return level_ > 0; }
@@ -107,7 +108,7 @@ class Pace {
 
   // Identifies what a still picture shows, besides the chosen settings.
   struct Shown {
-    int scenes = 0;              // that were shown before this one
+    int scenes = 0;              // number of scenes shown before this one
     uint64_t revision = 0;       // of the scene's document
     uint64_t shaders = 0;        // revision of the pipelines
     std::optional<double> time;  // of a scene that moves
@@ -122,17 +123,17 @@ class Pace {
     PicturePlanner& planner;  // is asked a few times, or not at all between tiles of a picture
     Shown shown;
     double budgetMs = 0.0;               // 0: nothing is lowered
-    std::span<const MotionLevel> front;  // as motionLevels takes it
-    bool input = false;                  // there is some, which a frame with tiles must not hold up
-    std::optional<Target> target;        // that the panels show and that is not there yet
+    std::span<const MotionLevel> front;  // of the scene's sweep, see motionLevels()
+    bool input = false;                  // there is input, which a frame with tiles must not hold up
+    std::optional<Target> target;        // target that the panels show and that is not there yet
   };
   // Plans the frame. The plan is valid until the next frame's.
   const FittedPlan& plan(const Request& request);
   // Leaves textures out of the frame that was planned.
   void leaveOutTextures() { fitted_.settings.effects.textures = false; }
 
-  // Call when the frame was recorded: `cpuMs` without the `waitedMs` that its parts were waited for; `learns`: nothing
-  // but drawing took time, so the cost model may learn from it.
+  // Call when the frame was recorded. `cpuMs`: without the `waitedMs` in which the CPU waited for parts of the frame.
+  // `learns`: nothing but drawing took time, so the cost model may learn from this frame.
   void drawn(uint64_t number, double cpuMs, double waitedMs, bool learns);
   // Call when the frame was presented, which took `ms`.
   void presented(double ms) { drawn_.back().presentMs = ms; }
@@ -147,10 +148,10 @@ class Pace {
   const std::string& text() const { return text_; }
 
  private:
-  // These set fitted_, work_, level_ and text_.
+  // Plan a frame: set fitted_, work_, level_ and text_.
   void planWith(const Request& request, const Settings& settings, int picture);
   void planWithinBudget(const Request& request);
-  // These set state_ too.
+  // Plan a frame, and set state_ too.
   void planMoving(const Request& request);
   void planStill(const Request& request);
   void planFirst(const Request& request);
@@ -180,10 +181,10 @@ class Pace {
   MotionController controller_;
   double seconds_ = 0.0;  // since the last frame
   Clock::time_point begun_;
-  std::deque<Drawn> drawn_;
-  int learned_ = 0;  // moving frames of this scene that were timed
+  std::deque<Drawn> drawn_;  // frames whose GPU times are awaited
+  int learned_ = 0;          // moving frames of this scene that were timed
   std::optional<std::string> playCost_;
-  std::deque<double> sendMs_;  // of the last frames, what presenting took beyond drawing
+  std::deque<double> sendMs_;  // of the last frames: milliseconds of presenting beyond drawing
   FittedPlan fitted_;          // of the frame that was planned last
   FrameWork work_;             // of fitted_
   size_t level_ = 0;           // of fitted_; 0: the chosen settings
@@ -193,18 +194,19 @@ class Pace {
   int picture_ = 0;               // complete pictures of the mean
   int pictures_ = 0;              // in the mean; 1: a single picture instead
   std::optional<Target> target_;  // of the latest redraw
-  SlowPicture slow_;              // of which tiles are drawn, while another picture or a draft is shown
-  FrameWork slowWork_;
-  std::string draft_;  // what the draft gives up; empty: none was needed
+  SlowPicture slow_;              // picture that is drawn in tiles while another picture or a draft is shown
+  FrameWork slowWork_;            // of the whole slow_
+  std::string draft_;             // what the draft gives up; empty: none was needed
   std::string text_;
   double cpuMs_ = 0.0;      // of the last frame
-  double besidesMs_ = 0.0;  // expected of a frame, besides its tiles: the program's work and the display pass
+  double besidesMs_ = 0.0;  // expected milliseconds of a frame besides its tiles: the program and the display pass
 };
 
 // Returns the number of pictures in the mean of a still picture.
 int stillPictures(const Settings& settings);
 
-// Returns quality.motion_ms or, if that is auto, 50 on a CPU and 0.8 of the monitor's refresh elsewhere.
+// Returns the budget of a frame in milliseconds: quality.motion_ms or, if that is auto, 50 on a CPU device and 0.8 of
+// the monitor's refresh interval elsewhere.
 double motionBudget(const Settings& settings, bool cpuDevice, double refreshHz);
 
 }  // namespace speculum

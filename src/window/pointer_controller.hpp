@@ -15,8 +15,8 @@ class PointerController {
   // Handles a press or release. `overPanels` says that the event belongs to the panels. Returns true if a click may
   // have selected something.
   bool button(const MouseButtonEvent& event, bool overPanels, SceneEditor& editor, const CurrentScene& view);
-  // Handles a move to `position` (screen coordinates of the window). A unit of them is `pixelsPerUnit` pixels of the
-  // picture; `height` is the window's, in the same units. With `snap`, drags go in steps.
+  // Handles a move to `position` (screen coordinates of the window). One screen coordinate is `pixelsPerUnit` pixels of
+  // the picture; `height` is the window's, in screen coordinates. With `snap`, drags go in steps.
   void move(const glm::dvec2& position, const glm::dvec2& pixelsPerUnit, double height, bool snap, SceneEditor& editor,
             CameraController& camera);
   void cancel();  // call when another scene is shown
@@ -27,8 +27,8 @@ class PointerController {
 
  private:
   MouseButton button_ = MouseButton::left;  // button that went down over the picture
-  bool shift_ = false;                      // Shift was held when it did
-  std::optional<glm::dvec2> pressed_;       // where
+  bool shift_ = false;                      // Shift was held at the press
+  std::optional<glm::dvec2> pressed_;       // position of the press; none: no button is down
   bool holdsHandle_ = false;                // the press gripped a handle, not the picture
   bool dragging_ = false;
   glm::dvec2 position_{0.0};

@@ -55,7 +55,7 @@ fs::path storedThumbnail(const fs::path& scene) {
   return userCacheDir() / "thumbnails" / (path.hex() + ".jpg");
 }
 
-// Returns the middle of the picture, shrunk by averages of its codes.
+// Returns the middle of the picture, shrunk by averages of its 8-bit codes.
 Image8 shrunk(const Image8& picture) {
   const glm::dvec2 size(picture.width, picture.height);
   const double scale = std::min(size.x / thumbnailSize.x, size.y / thumbnailSize.y);

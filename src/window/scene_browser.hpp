@@ -16,18 +16,19 @@ class SceneBrowser {
   // Lists the scenes in the folder of `file`, then those that come with the program, then others that were opened
   // before; `file` is shown.
   void list(const std::filesystem::path& file);
-  // Marks the file as shown. Adds a file from elsewhere at the end of the list or, with `withFolder`, the scenes of its
-  // folder. A new scene is listed while it is shown. Returns true if the list changed.
+  // Marks the file as shown. Adds a file from elsewhere at the end of the list or, with `withFolder`, lists the scenes
+  // of its folder too. A new scene is listed only while it is shown. Returns true if the list changed.
   bool show(const std::filesystem::path& file, bool withFolder);
   std::vector<Image8> thumbnails() const;  // of the list; without pixels for a scene that has none
-  // Makes a picture of the shown scene its thumbnail, unless the scene comes with one. Returns true if it did.
+  // Stores a picture of the shown scene as its thumbnail, unless the scene comes with one. Returns true if it was
+  // stored.
   bool storeThumbnail(const std::function<Image8()>& picture) const;
 
   // Loads a scene or a model on a thread of its own, and cancels one that is loading.
   void open(const std::filesystem::path& file, const Options& options);
   static std::vector<std::filesystem::path> shippedModels();  // that come with the program
   static std::filesystem::path newScene();                    // template of a new scene
-  static bool isNew(const std::filesystem::path& scene);
+  static bool isNew(const std::filesystem::path& scene);      // says whether the scene is that template
   // Returns the first of the files that can be opened. Throws InputError if there is none.
   static std::filesystem::path choose(const std::vector<std::filesystem::path>& files);
   void cancelLoading() { load_.cancel(); }
@@ -42,13 +43,13 @@ class SceneBrowser {
 
  private:
   struct Progress {
-    std::filesystem::path file;  // that is read
+    std::filesystem::path file;  // file that is read now
     double done = 0.0;           // share, 0 .. 1
   };
 
-  void remember(const std::filesystem::path& file);  // among the recent ones, for later sessions too
-  size_t add(const std::filesystem::path& file);     // its index
-  void addSaved(const std::vector<SceneEntry>& scenes);
+  void remember(const std::filesystem::path& file);      // lists the file among the recent ones, for later sessions too
+  size_t add(const std::filesystem::path& file);         // lists the file, and returns its index
+  void addSaved(const std::vector<SceneEntry>& scenes);  // all but new scenes
 
   ShownScenes shown_;
   std::map<std::filesystem::path, size_t> indices_;  // into ShownScenes::scenes, by canonical path

@@ -14,10 +14,10 @@ namespace speculum {
 
 namespace {
 
-constexpr double armPixels = 92.0;     // of the handles
-constexpr double handleReach = 7.0;    // pixels within which one is gripped
+constexpr double armPixels = 92.0;     // length of the handles
+constexpr double handleReach = 7.0;    // pixels within which a handle is gripped
 constexpr double sameSpot = 4.0;       // pixels within which a click repeats the last one
-constexpr double objectAhead = 2.5;    // least distance of an added object in half diagonals: the eye is outside it
+constexpr double objectAhead = 2.5;    // least distance of an added object in half box diagonals: the eye is outside
 constexpr double farthestAhead = 4.0;  // metres from the eye to where nodes are added
 
 // Gives copies that would all stand in one place a step beside each other.
@@ -124,7 +124,8 @@ void SceneEditor::clickAlso(const PointedScene& view, const glm::dvec2& pixel) {
   }
 }
 
-// Returns the mirror image that was clicked while any of it is seen, else the picture itself.
+// Returns the view of the mirror image in which the node was clicked, as long as the node is seen there, else the view
+// of the picture itself.
 PictureView SceneEditor::clickedImage(const PointedScene& view) const {
   const auto image = view.picture.through(document_.scene(), view.state, path_);
   const Selection& selected = document_.selection();
@@ -203,7 +204,7 @@ void SceneEditor::edit(const Selection& target, const SceneNode& node, bool cont
     document_.beginGesture();
   }
   const auto* light = std::get_if<PointLight>(&node);
-  const bool refused = light && light->orbit && !hasDirection(light->orbit->axis);  // by the loader
+  const bool refused = light && light->orbit && !hasDirection(light->orbit->axis);  // the loader would refuse it
   if (!refused) {
     replace("edit", std::array{PlacedNode(target, withCopiesApart(document_.scene(), target, node))});
   }
@@ -223,14 +224,14 @@ void SceneEditor::beginChange() {
   beforeChange_();
 }
 
-// Returns a point on the line to what the middle of the picture shows, at `part` of its distance and at least `least`
-// metres away.
+// Returns a point (world) straight ahead: at `part` of the depth of what the middle of the picture shows, and at least
+// `least` metres away.
 glm::dvec3 SceneEditor::pointAhead(const PointedScene& view, double part, double least) {
   const glm::dvec2 middle = 0.5 * view.picture.view().pictureSize;
   const std::vector<Picked> found = picker().at(view.state, view.picture, middle, {.maxDepth = 0});
   const double far = found.empty() ? farthestAhead : view.picture.depth(found[0].point);
   const double ahead = std::max(std::min(part * far, farthestAhead), least);
-  const double perMetre = std::pow(10.0, std::ceil(2.0 - std::log10(ahead)));  // hundredths of it, for short numbers
+  const double perMetre = std::pow(10.0, std::ceil(2.0 - std::log10(ahead)));  // hundredths, for short numbers
   return glm::round((view.picture.eye() + view.picture.forward() * ahead) * perMetre) / perMetre;
 }
 
@@ -251,7 +252,7 @@ void SceneEditor::addObject(const PointedScene& view, int mesh) {
   select(document_.addObject(mesh, pointAhead(view, 0.9, objectAhead * size)));
 }
 
-// Returns the side (1 or -1) on which a copy of the first node is in sight, the usual one (1) if neither is.
+// Returns the side (1 or -1) on which a copy of the first node is in sight; 1 if the copy is in sight on neither.
 double SceneEditor::sideInSight(const PointedScene& view, std::span<const Selection> nodes,
                                 const PixelRect& free) const {
   const glm::dvec3 pivot = pivotOf(document_.scene(), view.state, nodes.front());

@@ -34,14 +34,15 @@ class SceneEditor {
   void drag(const glm::dvec2& pixel, bool snap);
   void release();
   void cancelDrag();  // puts the nodes back
-  // Selects what the pixel shows. A further click at the same place selects the mirror that it is seen in, and so on
-  // outwards, then begins again. Selects nothing where the background is seen directly.
+  // Selects the node that the pixel shows. Further clicks at the same place select the mirror that the node is seen in,
+  // then the mirror around that one, and so on outwards, then begin again. Selects nothing where the background or the
+  // sky is seen directly.
   void click(const PointedScene& view, const glm::dvec2& pixel);
   // Adds the node that is seen directly at the pixel to the selection, or removes it.
   void clickAlso(const PointedScene& view, const glm::dvec2& pixel);
   void toggle(const Selection& node);
   void select(const Selection& node);  // alone
-  void selectNext(int step);           // in the order of the scene, round
+  void selectNext(int step);           // in the order of allNodes(); after the last one comes the first
   void setMode(GizmoMode mode) { mode_ = mode; }
   void nextMode() { mode_ = static_cast<GizmoMode>((static_cast<int>(mode_) + 1) % 3); }
 
@@ -49,14 +50,15 @@ class SceneEditor {
   // Nothing changes for an orbit whose axis has no direction.
   void edit(const Selection& target, const SceneNode& node, bool continued);
   void endEdit();
-  void addMirror(const PointedScene& view);  // in the middle of the view, as the next two
+  // Add a node in the middle of the view. `mesh`: index into Scene::meshes.
+  void addMirror(const PointedScene& view);
   void addLight(const PointedScene& view);
-  void addObject(const PointedScene& view, int mesh);               // of the scene
+  void addObject(const PointedScene& view, int mesh);
   void duplicate(const PointedScene& view, const PixelRect& free);  // `free`: where no panel covers the picture, pixels
-  void remove();
+  void remove();                                                    // the selected nodes
   void addBookmark(Bookmark bookmark);
   void removeBookmark(size_t index);
-  std::optional<SettingsStep> step(UndoWay way);  // undoes or redoes one, as SceneDocument does
+  std::optional<SettingsStep> step(UndoWay way);  // undoes or redoes a step, see SceneDocument
 
   // Returns the file of an AddObject command's model. Throws InputError if it does not exist.
   std::filesystem::path modelFile(const std::filesystem::path& model) const;
@@ -66,9 +68,9 @@ class SceneEditor {
   const SceneDocument& document() const { return document_; }
   bool changedSinceLastCall() { return std::exchange(shownRevision_, document_.revision()) != document_.revision(); }
 
-  // Fills the editor's part of the view.
+  // Fills the editor's part of ShownEdit.
   void fill(ShownEdit& view) const;
-  // Returns outline and handles of the selected nodes. `pointer` is its pixel if it is over the picture.
+  // Returns outline and handles of the selected nodes. `pointer`: pixel of the pointer, if that is over the picture.
   ShownOverlay overlay(const PointedScene& view, const std::optional<glm::dvec2>& pointer);
 
  private:
@@ -80,7 +82,7 @@ class SceneEditor {
 
   void replace(const std::string& verb, std::span<const PlacedNode> nodes);
   void beginChange();
-  std::vector<Selection> selected() const;  // the document's first
+  std::vector<Selection> selected() const;  // the document's selection first, then others_
   void forgetPath();
   PictureView clickedImage(const PointedScene& view) const;
   Gizmo gizmo(const PointedScene& view) const;
@@ -91,15 +93,15 @@ class SceneEditor {
 
   SceneDocument document_;
   std::span<const std::filesystem::path> shipped_;
-  std::vector<std::filesystem::path> models_;  // that an object can be added of, the scene's first
+  std::vector<std::filesystem::path> models_;  // of objects that can be added; the scene's own come first
   std::function<void()> beforeChange_;
   std::unique_ptr<Picker> picker_;  // made when it is needed first
   MirrorPath path_;                 // mirrors that the selected node was picked through
-  std::vector<Selection> others_;   // selected together with the document's; of objects the first copy
+  std::vector<Selection> others_;   // selected besides the document's selection; of an object the first copy
   GizmoMode mode_ = GizmoMode::move;
   std::optional<NodeDrag> drag_;
   std::optional<Clicked> clicked_;
-  std::map<int, MeshOutline> outlines_;  // by mesh, of those that were selected
+  std::map<int, MeshOutline> outlines_;  // by mesh, of objects that were selected
   uint64_t shownRevision_ = 0;
 };
 

@@ -12,7 +12,7 @@ namespace speculum {
 namespace fs = std::filesystem;
 
 SceneOpener::SceneOpener(const Options& options, const Settings& settings) : options_(options), settings_(settings) {
-  options_.sweepResults.clear();  // they belong to the first scene
+  options_.sweepResults.clear();  // a sweep belongs to the first scene
 }
 
 void SceneOpener::setDocument(DocumentController& document) {
@@ -29,7 +29,7 @@ void SceneOpener::offerRecovery() {
   }
 }
 
-// Returns the scene's folder; for a new one that of the scenes that come with the program.
+// Returns the folder of the scene's file; for a new scene the folder of the shipped scenes.
 fs::path SceneOpener::folderToOpen() const {
   const fs::path folder = wholePath(shownFile()).parent_path();
   return (SceneBrowser::isNew(shownFile()) ? folder.parent_path() : folder) / "";
@@ -164,7 +164,7 @@ void SceneOpener::keepChanges(Clock::time_point now) noexcept {
       spdlog::warn("no copy of unsaved changes is kept: {}", error.what());
     }
   }
-  copyInterval_ = 10 * std::chrono::microseconds(std::clock() - start);  // a large scene takes long
+  copyInterval_ = 10 * std::chrono::microseconds(std::clock() - start);  // copying a large scene takes long
 }
 
 void SceneOpener::keepUnsavedWork() noexcept {

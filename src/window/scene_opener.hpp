@@ -20,13 +20,13 @@ class FileDialog {
     bool failed = false;
   };
 
-  // Opens it in that folder unless it is open. Returns false if the desktop has none.
+  // Opens the dialog in that folder, unless it is open already. Returns false if the desktop has no such dialog.
   bool open(const std::filesystem::path& folder);
   bool isOpen() const { return process_ != nullptr; }
-  std::optional<Answer> poll();  // once it has closed
+  std::optional<Answer> poll();  // the answer, once the dialog has closed
 
  private:
-  std::unique_ptr<ChildProcess> process_;  // while it is open
+  std::unique_ptr<ChildProcess> process_;  // null: the dialog is not open
 };
 
 // Opens scenes: asks for a file, prompts about unsaved changes first, loads in the background, and offers the copy that
@@ -37,26 +37,26 @@ class SceneOpener {
   SceneOpener(const Options& options, const Settings& settings);
 
   void setDocument(DocumentController& document);  // call when another scene is shown
-  void offerRecovery();
+  void offerRecovery();                            // prompts for the newest copy of unsaved changes, if there is one
 
-  // Asks for a file: by the desktop's dialog, if it has one that can be started, else by a prompt.
+  // Asks for a file to open: by the desktop's dialog, if there is one that can be started, else by a prompt.
   void ask();
   void open(const std::filesystem::path& file);
   void openDropped(const std::vector<std::filesystem::path>& files);
   void cancelLoading();
   void cancelPrompt();
-  std::optional<Command> discard();  // as DocumentController::discard, or the answer to the offer
-  // Call once a frame. Returns a scene to show when it is loaded and no unsaved changes stand against it, else null.
+  std::optional<Command> discard();  // as DocumentController::discard, or deletes the copy that was offered
+  // Call once a frame. Returns a scene to show when it is loaded and no unsaved changes prevent that, else null.
   std::unique_ptr<LoadedScene> update();
   bool working() const;  // update() has work left although nothing happens
 
-  bool confirmQuit();  // as DocumentController::confirmDiscard
+  bool confirmQuit();  // as DocumentController::confirmDiscard; then deletes this window's copy
   void forgetSaved();  // call after saving: the copy of saved changes is not offered again
   using Clock = std::chrono::steady_clock;
-  // Keeps unsaved changes in a copy that the next start offers, at most a second after they were made and once a
-  // second. Call it often. Does nothing with --frames.
+  // Keeps unsaved changes in a copy that the next start offers: a second after a change or, if that is longer, ten
+  // times what the last copy took. Call it often. Does nothing with --frames.
   void keepChanges(Clock::time_point now) noexcept;
-  // Keeps them at once, and logs where.
+  // Keeps unsaved changes in such a copy at once, and logs where.
   void keepUnsavedWork() noexcept;
 
   SceneBrowser& browser() { return browser_; }
@@ -80,7 +80,7 @@ class SceneOpener {
   std::string problem_;
   std::optional<std::pair<uint64_t, Settings>> seen_;  // revision and settings that keepChanges() saw last
   std::optional<Clock::time_point> copyDue_;           // none: the copy has all changes
-  Clock::duration copyInterval_{};
+  Clock::duration copyInterval_{};                     // from a change to its copy, if longer than a second
   bool copyFailed_ = false;
 };
 

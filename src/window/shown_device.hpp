@@ -5,6 +5,7 @@
 
 namespace speculum {
 
+// Returns a Vulkan version as text, such as "1.3.0".
 std::string vulkanVersion(uint32_t version);
 
 // Describes the renderer's device for the device panel.

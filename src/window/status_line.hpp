@@ -12,7 +12,7 @@ namespace speculum {
 // The result of the last action, shown for some seconds, and below it how the picture is drawn.
 class StatusLine {
  public:
-  void set(const std::string& text) {  // and logs it
+  void set(const std::string& text) {  // shows the result and logs it
     spdlog::info("{}", text);
     show(text);
   }
@@ -21,7 +21,7 @@ class StatusLine {
     since_ = Clock::now();
     isWarning_ = false;
   }
-  // Shows a warning, which goes when another scene comes: it may be about what the scene asks for.
+  // Shows a warning. Another scene clears it, because it may be about what the last scene asks for.
   void warn(const std::string& text) {
     show(text);
     isWarning_ = true;

@@ -31,18 +31,18 @@ Settings baseOf(const SweepRequest& request) {
   Settings base = request.base;
   base.quality = {};
   base.reflection.updateInterval = base.limit.mostInterval = 1;  // the view stands still
-  base.debug.checkFinite = false;                                // its time would be counted
+  base.debug.checkFinite = false;                                // the time of the check would be counted
   return base;
 }
 
 // Returns the folder in which a view's measurement is kept, so that measuring the view again takes no time. Removes the
-// oldest ones.
+// oldest of such folders.
 std::filesystem::path storeFolder(Session& session, const SweepRequest& request) {
   namespace fs = std::filesystem;
   constexpr size_t mostViews = 20;
   Fingerprint view;
   Options options = request.options;
-  options.time = contentTime(session.scene(), options.time).value_or(0.0);  // the camera is given
+  options.time = contentTime(session.scene(), options.time).value_or(0.0);  // content only: `request` has the camera
   view.add(sweepIdentity(session, options));
   view.add(std::as_bytes(std::span(&request.camera.eye, 1)));
   view.add(std::as_bytes(std::span(&request.camera.worldToView, 1)));
@@ -94,7 +94,7 @@ SizedMs ViewMeasurement::sizedMs(const SweepPoint& point, PictureSize small) {
       const FrameCost cost = SessionSubject(session_, request_.options.time).cost(settingsWith(base_, point.changes));
       return cost.gpuMs > 0.0 ? cost.gpuMs : cost.frameMs;
     };
-    time(small);  // compiles its pipelines
+    time(small);  // not counted, because it compiles the point's pipelines
     known->second.small = time(small);
     known->second.whole = time(request_.options.size);
   }
@@ -124,7 +124,7 @@ SweepResults ViewMeasurement::rough(int rounds, const SweepProgress& progress) {
 }
 
 void enlargeTimes(SweepResults& results, const SizedMs& base, const SizedMs& fastest, double pixels) {
-  constexpr double leastRatio = 1.2;  // of two times that give a line, so that noise does not decide its slope
+  constexpr double leastRatio = 1.2;  // of two times that give a line: noise must not decide the line's slope
   const double proportion = base.whole / base.small;
   const bool line = base.small > leastRatio * fastest.small && base.whole > fastest.whole;
   const double slope = line ? (base.whole - fastest.whole) / (base.small - fastest.small) : proportion;

@@ -14,14 +14,14 @@ struct SweepRequest {
   CameraPose camera;
 };
 
-// Milliseconds of one configuration in two sizes.
+// Milliseconds of one configuration in two sizes of the picture.
 struct SizedMs {
   double small = 0.0;
   double whole = 0.0;
 };
 
 // Measures a view, with a scene and a device of its own; may run on any thread. The window uses the same GPU meanwhile,
-// which its times include. Results have no points if `progress` returned false.
+// and the measured times include that. Results have no points if `progress` returned false.
 class ViewMeasurement {
  public:
   // Loads the scene, and throws what loading throws.
@@ -35,7 +35,7 @@ class ViewMeasurement {
 
  private:
   struct Effort {
-    int samples = 0;  // of the reference, a pixel
+    int samples = 0;  // samples a pixel of the reference
     int rounds = SweepPlan::leastRepeats;
     bool noiseFloor = true;
   };
@@ -46,12 +46,13 @@ class ViewMeasurement {
   SweepRequest request_;
   Settings base_;
   Session session_;
-  std::map<std::string, SizedMs> sizedMs_;  // by point
+  std::map<std::string, SizedMs> sizedMs_;  // by the point's name
 };
 
-// Replaces times of a small picture by those expected of the whole one, along a line through two configurations, since
-// parts of a frame, such as shadow maps, do not depend on its size. If both take about equally long, all times grow in
-// proportion to `base`. The line's slope is kept between that proportion and `pixels`, the ratio of both sizes' pixels.
+// Replaces times of a small picture by those expected of the whole one, along a line through the configurations `base`
+// and `fastest`, since parts of a frame, such as shadow maps, do not depend on its size. If both take about equally
+// long, all times grow in proportion to `base`. The line's slope is kept between that proportion and `pixels`, the
+// ratio of both sizes' pixels.
 void enlargeTimes(SweepResults& results, const SizedMs& base, const SizedMs& fastest, double pixels);
 
 }  // namespace speculum

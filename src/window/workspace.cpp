@@ -15,7 +15,7 @@ struct Overloaded : Functions... {
   using Functions::operator()...;
 };
 template <typename... Functions>
-Overloaded(Functions...) -> Overloaded<Functions...>;  // clang needs it before version 17
+Overloaded(Functions...) -> Overloaded<Functions...>;  // clang before version 17 needs this guide
 
 std::string windowTitle(const ShownEdit& edit, bool recording) {
   return (recording ? "Recording, F10 stops - " : "") + edit.scene->file.stem().string() +
@@ -247,7 +247,7 @@ void Workspace::update() {
   if (std::unique_ptr<LoadedScene> loaded = opener_.update()) {
     showScene(std::move(loaded));
   }
-  // Warnings wait while a scene is read, because they may be of that one.
+  // Warnings wait while a scene is read, because they may be about that scene.
   const std::string warning = browser().busy() ? std::string() : log_.takeProblem();
   if (!warning.empty() && !problem().starts_with(warning)) {
     status_.warn(warning);
@@ -256,8 +256,8 @@ void Workspace::update() {
 }
 
 // Drops cached images of the old scene that content comparison does not cover: those reused by an interval, and those
-// of mirrors whose indices changed. Also drops figures that would hide what the new scene costs; those of a drag stay
-// together, because it changes costs little by little.
+// of mirrors whose indices changed. Also drops figures that would hide what the new scene costs; the figures of a drag
+// stay together, because a drag changes costs little by little.
 void Workspace::takeSceneChange() {
   if (!editor().changedSinceLastCall()) {
     return;
@@ -288,7 +288,7 @@ void Workspace::frameDrawn(const ShownPicture& shown, const std::function<Image8
 }
 
 void Workspace::showScene(std::unique_ptr<LoadedScene> scene) {
-  accuracy_.setProblem("");  // what was said is about the last scene
+  accuracy_.setProblem("");  // the problem was one of the last scene
   accuracy_.forgetScene("Another scene was opened");
   std::swap(loaded_, scene);
   try {
@@ -387,7 +387,8 @@ void Workspace::escape() {
   dismissMessage();
 }
 
-// Messages about shaders and memory stay until their cause is gone. The panels' button hides those, Escape does not.
+// Messages about shaders and memory stay until their cause is gone. The panels' button hides such a message, Escape
+// does not.
 void Workspace::dismissMessage() {
   opener_.setProblem("");
   status_.clear();
@@ -406,7 +407,7 @@ void Workspace::step(UndoWay way) {
   const bool back = way == UndoWay::back;
   const std::string step = back ? editor().document().undoLabel() : editor().document().redoLabel();
   if (const std::optional<SettingsStep> changed = editor().step(way)) {
-    // Only these, because a measurement may have chosen others since.
+    // Copies only the settings that the step changed, because a measurement may have chosen others since.
     for (const SettingField& field : settingFields()) {
       if (!sameSetting(field, changed->before, changed->after)) {
         copySetting(field, back ? changed->before : changed->after, settings_);
@@ -490,7 +491,7 @@ bool Workspace::undoFailedChange(const std::string& why) {
   editor().endEdit();
   const std::string label = editor().document().undoLabel();
   if (std::exchange(tookBack_, !label.empty())) {
-    step(UndoWay::forward);  // it was not that step
+    step(UndoWay::forward);  // the undone step was not the cause
     tookBack_ = false;
     return false;
   }

@@ -38,25 +38,25 @@ class WorkspaceHost {
  public:
   virtual ~WorkspaceHost() = default;
 
-  // Shows this scene from now on, or the same one with other models. If it throws, it is called again with the old
-  // scene.
+  // Shows this scene from now on, or the same one with other models. If useScene() throws, it is called again with the
+  // old scene.
   virtual void useScene(const Scene& scene) = 0;
   virtual void dropCachedImages() = 0;
   virtual void scenesListed() = 0;             // the list of scenes has changed
-  virtual glm::ivec2 pictureSize() const = 0;  // pixels; 0 while there is nothing to see
-  virtual PixelRect freePicture() const = 0;   // part of it that no panel covers
-  virtual double contentScale() const = 0;
-  virtual std::string gpu() const = 0;  // value of --gpu
+  virtual glm::ivec2 pictureSize() const = 0;  // pixels; 0 while the window has none
+  virtual PixelRect freePicture() const = 0;   // part of the picture that no panel covers
+  virtual double contentScale() const = 0;     // pixels for one at 96 dots an inch
+  virtual std::string gpu() const = 0;         // value of --gpu
   virtual void setClipboard(const std::string& text) = 0;
   virtual void setTitle(const std::string& title) = 0;
   virtual void close() = 0;
   virtual void toggleFullScreen() = 0;
   virtual void setPresentMode(size_t index) = 0;
-  virtual bool togglePanels() = 0;  // whether they are shown then
+  virtual bool togglePanels() = 0;  // returns whether they are shown then
   virtual void toggleHelp() = 0;
   virtual void toggleInspector() = 0;
   virtual void openInspector() = 0;
-  // Says whether the inspector is closed and would open over that place, in screen coordinates of the window.
+  // Says whether the inspector is closed and would open over `place`, in screen coordinates of the window.
   virtual bool inspectorCovers(const glm::dvec2& place) const = 0;
   // Closes an open menu or the list of keys. Returns false if neither is open.
   virtual bool closePopup() = 0;
@@ -82,12 +82,14 @@ class Workspace {
   void moveCamera(const glm::dvec3& direction, const GamepadState& pad, double seconds) {
     camera_.move(direction, pad, seconds);
   }
-  // Fills the view for the frame that is `seconds` from now. With `pointerOverPicture` the handle below the pointer
-  // lights up.
+  // Prepares what shown() returns for the frame that is `seconds` from now. With `pointerOverPicture` the handle below
+  // the pointer lights up.
   void prepareView(double seconds, bool pointerOverPicture);
   UiInput shown(const ShownDevice& device, const std::string& message) const;
   void update();  // after the frame's commands: takes finished background work
   void advance(double seconds) { playback_.advance(seconds); }
+  // Call when the frame is drawn. `radiance` returns the pixels of its picture, without panels (display sRGB); it is
+  // null if the picture is not complete. `captured`: the frame as read back for Capture; null if none is wanted.
   void frameDrawn(const ShownPicture& shown, const std::function<Image8()>& radiance, const Image8* captured);
 
   // Say whether frames are needed although nothing happens.
@@ -97,8 +99,8 @@ class Workspace {
   bool dragging() const { return document_->editor().dragging(); }
   bool statusFades() const { return status_.fades(); }
 
-  // After a frame that could not be drawn: undoes the last step and shows why. Returns false if there is none. If
-  // undoing did not help in the last frame, redoes the step and returns false.
+  // Call after a frame that could not be drawn: undoes the last step and shows why. Returns false if there is no step.
+  // If undoing did not help in the last frame, redoes the step and returns false.
   bool undoFailedChange(const std::string& why);
   // Call in every step, also without a frame: keeps unsaved changes in a copy that the next start offers.
   void keepChanges(SceneOpener::Clock::time_point now) noexcept { opener_.keepChanges(now); }
@@ -118,7 +120,7 @@ class Workspace {
   const Capture& capture() const { return capture_; }
   void setPictureText(const std::string& text) { status_.setPicture(text); }
   void setPlayCost(const std::string& cost) { playback_.setCost(animated() ? cost : ""); }
-  void setRefusedEdit(bool refused) { document_->setRefusedEdit(refused); }  // the panels show one
+  void setRefusedEdit(bool refused) { document_->setRefusedEdit(refused); }  // as in DocumentController
   FrameReport& report() { return report_; }
   const PointerController& pointer() const { return pointer_; }
   bool prompting() const { return document_->prompting(); }
@@ -129,7 +131,7 @@ class Workspace {
   void startDocument();
   void addNode(void (SceneEditor::*add)(const PointedScene&));
   void addObject(const std::filesystem::path& model);
-  void reportAdded();  // the selected node
+  void reportAdded();  // shows that the selected node was added
   void useModels();
   void resume(const std::optional<Command>& afterPrompt);
   void escape();
@@ -165,8 +167,8 @@ class Workspace {
   Settings settings_;
   ShownEdit edit_;
   std::string title_;            // of the window
-  uint64_t shownStructure_ = 0;  // of the scene, in the last frame
-  bool tookBack_ = false;        // a step, and no frame was drawn since
+  uint64_t shownStructure_ = 0;  // structureRevision() of the scene in the last frame
+  bool tookBack_ = false;        // undoFailedChange() undid a step, and no frame was drawn since
   bool needsThumbnail_ = true;   // the scene was opened or saved since the last picture
 };
 

@@ -9,7 +9,7 @@ namespace speculum::testing_support {
 // 12 points of 64x36 pixels, 7 of them on the front, and 3 series, one of them empty; no pictures.
 SweepResults exampleResults();
 
-// The same with values at the ends of what a double holds, missing ones and series that point at nothing.
+// exampleResults() with values at the ends of what a double holds, missing values, and series that point at nothing.
 SweepResults oddResults();
 
 // One point without error, mirrors or a series.

@@ -41,7 +41,7 @@ class RendererTest : public GpuTest {
 // A layout with one binding, at 0.
 DescriptorSetLayoutHandle oneBinding(Device& device, VkDescriptorType type, uint32_t count = 1);
 
-// A small frame with every kind of target: two triangles into an OffScreen, that and a third triangle into a main
+// A small frame with every kind of target: two triangles into an OffScreen, its image and a third triangle into a main
 // target, the main target onto the display image, an empty overlay.
 class SmallScene {
  public:

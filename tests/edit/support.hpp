@@ -19,7 +19,7 @@ struct TextScene {
         scene(loadScene(file)),
         document(scene) {}
 
-  // Returns the text as it would be saved.
+  // Returns the scene's text as it would be saved.
   std::string saved(const std::vector<SettingChange>& settings = {}) const { return document.text(file, settings); }
 
   TemporaryFolder folder;

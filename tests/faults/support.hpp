@@ -8,7 +8,7 @@
 
 namespace speculum::testing_support {
 
-// The program under fault_layer/fault_layer.cpp.
+// The program under the Vulkan layer of layer/fault_layer.cpp.
 class FaultTest : public testing::Test {
  protected:
   struct Kind {
@@ -21,9 +21,9 @@ class FaultTest : public testing::Test {
   struct Run {
     int exitCode = 0;
     std::string output;  // stdout and stderr
-    long lines = 0;      // of it
+    long lines = 0;      // number of lines of `output`
     std::optional<std::vector<uint8_t>> picture;
-    std::string otherFiles;  // that were left beside the picture
+    std::string otherFiles;  // files that were left beside the picture
   };
 
   // Places of the layer. outer: nearest to the program. inner: between the validation layer and the driver, so that
@@ -47,10 +47,10 @@ class FaultTest : public testing::Test {
       command.push_back("VK_INSTANCE_LAYERS=" + std::string(inner ? "VK_LAYER_KHRONOS_validation:" : "") +
                         "VK_LAYER_SPECULUM_fault");
     }
-    // The check of queue submissions, which the program turns on where this is not set, crashes in vkDeviceWaitIdle
-    // while images are presented (layer of 1.3.239).
+    // The check of queue submissions, which the program turns on unless this variable is set, crashes in
+    // vkDeviceWaitIdle while images are presented (layer of 1.3.239).
     command.push_back("VK_LAYER_ENABLES=VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT");
-    command.push_back("NODEVICE_SELECT=1");  // a layer of Mesa's that ignores errors
+    command.push_back("NODEVICE_SELECT=1");  // turns off a layer of Mesa's that ignores errors
     const auto add = [&](const std::vector<std::string>& more) {
       command.insert(command.end(), more.begin(), more.end());
     };
@@ -76,7 +76,7 @@ class FaultTest : public testing::Test {
   }
 
   void addToScene(const std::string& toml) { std::ofstream(scene_, std::ios::app) << tomlOf(toml); }
-  // Its rays count as if it filled the picture: with many, frames are submitted in parts.
+  // A mirror whose rays count as if it filled the picture: with many such mirrors, frames are submitted in parts.
   inline static const std::string smallRoughMirror =
       "[[mirror]] position = [-1, 1, 0], size = [0.1, 0.1], roughness = 0.3\n";
   static Kind withSettings(Kind kind, const std::vector<std::string>& settings) {

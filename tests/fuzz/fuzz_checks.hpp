@@ -6,10 +6,10 @@
 
 namespace speculum::fuzz {
 
-// Checks of the fuzzers and of the regression test: they read an input as a file that a user names, and use it if it is
-// accepted. An input may only be refused by an InputError of one line, a picture by such a FileError. A longer message
-// and a broken invariant throw BrokenPromise; other exceptions pass through. They return whether the input was
-// accepted.
+// Checks of the fuzzers and of the regression test: each reads an input as a file that a user names, and uses it if it
+// is accepted. An input may only be refused by an InputError of one line, a picture by a FileError of one line. A
+// longer message and a broken invariant throw BrokenPromise; other exceptions pass through. The checks return whether
+// the input was accepted.
 class BrokenPromise : public std::logic_error {
  public:
   using std::logic_error::logic_error;
@@ -21,22 +21,23 @@ inline constexpr size_t largestInput = 64u << 10;  // bytes; larger inputs are i
 // evaluated and planned at several times.
 bool checkScene(std::string_view text);
 
-// An OBJ file, behind a line `%mtl` its m.mtl. Beside them is t.png.
+// An OBJ file and, behind a line `%mtl`, its m.mtl. Beside these files is t.png.
 bool checkModel(std::string_view text);
 
 // A PNG, JPEG or EXR file.
 bool checkPicture(std::string_view bytes);
 
-// A sweep's results.json, a sweep file, and the files of a sweep's cache: every input is tried as each. No cache is
-// refused: what cannot be read counts as absent.
+// A sweep's results.json, a sweep file, and the files of a sweep's cache: every input is tried as each of them. No
+// cache is refused: what cannot be read counts as absent.
 bool checkSweep(std::string_view text);
 
 // A file of cases. Beside it are room.toml, hall.obj and mask.png. Accepted cases are matched with drivers and
 // reported.
 bool checkCase(std::string_view text);
 
-// A layout of the panels, with sections that are not theirs. None is refused: what no window can have is passed over,
-// and panels stay reachable in displays of several sizes. Counts as accepted if it says anything about a panel.
+// A layout of the panels, with sections that are not theirs. No layout is refused: values that no window can have are
+// ignored, and panels stay reachable in displays of several sizes. Counts as accepted if it says anything about a
+// panel.
 bool checkLayout(std::string_view text);
 
 // A copy of unsaved changes behind a line with the scene's name: it is kept, offered, read, kept again and forgotten.

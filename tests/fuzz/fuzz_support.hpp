@@ -12,7 +12,7 @@
 
 namespace speculum::fuzz {
 
-void require(bool kept, const char* promise);
+void require(bool kept, const char* promise);  // throws BrokenPromise unless `kept`
 
 inline bool finite(const glm::dvec2& v) {
   return std::isfinite(v.x) && std::isfinite(v.y);
@@ -24,7 +24,7 @@ inline bool unit(const glm::dvec3& v) {
   return std::abs(glm::length(v) - 1.0) <= 1e-9;
 }
 
-void checkMessage(std::string_view message);
+void checkMessage(std::string_view message);  // requires one line that ends with what would be right
 
 // Says whether `read` accepted the input. Throws BrokenPromise for a Refusal that is not one line.
 template <typename Refusal = InputError, typename Read>

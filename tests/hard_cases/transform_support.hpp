@@ -7,7 +7,8 @@
 #include "random.hpp"
 #include "systems/gpu_conversion.hpp"
 
-// Results of the vertex shader for a frame's data, and the same from the scene's own numbers in extended precision.
+// Results of the vertex shader for a frame's data, and results computed from the scene's own numbers in extended
+// precision.
 namespace speculum::hard_cases {
 
 using LongVec3 = glm::vec<3, long double, glm::highp>;
@@ -18,10 +19,10 @@ using testing_support::Random;
 // Points in the box [-1, 1]^3, as a mesh; only its vertices matter.
 Mesh pointCloud(int count, unsigned seed);
 
-// The plan of a frame at time 0 whose passes only the recursion depth limits.
+// Returns the plan of a frame at time 0, in which only the recursion depth limits the passes.
 FramePlan planOf(const Scene& scene, int width, int height, int maxDepth = 1);
 
-// scene.vert's gl_Position, in float.
+// Returns what scene.vert writes to gl_Position, in float.
 glm::vec4 shaderClip(const gpu::InstanceData& data, const Vertex& vertex);
 
 // Takes clip space to pixels, y down.
@@ -30,13 +31,13 @@ glm::dvec2 toPixel(const glm::dvec4& clip, int width, int height);
 // Returns the scene with all positions moved.
 Scene moved(Scene scene, const glm::dvec3& offset);
 
-// Instance data of `instance` in a pass's view, as the renderer computes it.
+// Returns the data of `instance` in a pass's view, as the renderer computes it.
 gpu::InstanceData dataIn(const FramePlan& plan, const View& view, const InstanceState& instance);
 
-// R = Ry Rx Rz of angles in degrees.
+// Returns R = Ry Rx Rz of angles in degrees.
 LongMat3 longRotation(const glm::dvec3& pitchYawRoll);
 
-// Rows: right, up, back.
+// Returns the rotation from world to view. Rows: right, up, back.
 LongMat3 longWorldToView(const CameraSpec& camera);
 
 // Returns the pixel of a point that is relative to the eye.

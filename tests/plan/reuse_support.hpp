@@ -8,7 +8,8 @@
 
 namespace speculum::testing_support {
 
-// A mirror with a layer of its own, a mirror in it, and, if `turning`, one that turns while the camera orbits.
+// Writes a scene with a mirror that has a layer of its own, a second mirror that is seen in the first, and, if
+// `turning`, a third one that turns while the camera orbits.
 inline std::filesystem::path roomScene(bool turning = true) {
   const std::string room = R"(
 [environment] background = [0.3, 0.4, 0.5], ambient = [0.2, 0.2, 0.2]
@@ -30,7 +31,8 @@ inline int mirrorPasses(const SceneRenderer& renderer) {
   return static_cast<int>(std::ranges::count_if(renderer.passes(), [](const auto& pass) { return pass.depth >= 0; }));
 }
 
-// Draws a frame and returns the names of its passes with that beginning. Expects that they belong to no mirror.
+// Draws a frame and returns the names of its passes that begin with `beginning`. Expects that these passes belong to no
+// mirror.
 inline std::vector<std::string> drawnMaps(const std::string& beginning, Session& session, double time = 0.0) {
   draw(session, time);
   std::vector<std::string> names;

@@ -32,7 +32,7 @@ inline Mesh cube(double halfSide, double radius) {
           .parts = {{}}};
 }
 
-// The camera stands at the origin and looks along -z.
+// Returns a scene whose camera stands at the origin and looks along -z.
 inline Scene sceneWith(std::vector<Mirror> mirrors) {
   Scene scene;
   scene.camera.target = {0, 0, -1};
@@ -76,7 +76,7 @@ inline const Pass& faceOf(const FramePlan& plan, const Cube& cube, size_t face) 
   return plan.passes[static_cast<size_t>(cube.faces[face])];
 }
 
-// Returns the mirror passes that cached images replace.
+// Returns the number of mirror passes that cached images replace.
 inline size_t reusedMirrors(const FramePlan& plan) {
   return static_cast<size_t>(std::ranges::count_if(plan.passes, [](const Pass& pass) {
     return pass.id.kind == PassKind::mirror && pass.source == PassSource::reused;
@@ -118,7 +118,7 @@ class PlanSequence {
     scene.camera.position += by;
     scene.camera.target += by;
   }
-  // Mirrors seen directly that have a pass, or a cached image that is reused.
+  // Returns the mirrors seen directly that have a pass, or a cached image that is reused.
   std::set<int> rendered() const {
     std::set<int> mirrors;
     for (const Pass& pass : plan.drawnMirrors()) {

@@ -10,7 +10,7 @@
 
 namespace speculum {
 
-// A broken input and what its error says.
+// A broken input and the error that it gives.
 struct Fault {
   const char* name;
   std::string text;
@@ -22,7 +22,7 @@ inline void PrintTo(const Fault& fault, std::ostream* stream) {
   *stream << fault.name;
 }
 
-// The least that a scene file may hold.
+// The shortest scene file that is valid.
 inline const std::string usualCamera = "[camera]\nposition = [0, 0, 4]\ntarget = [0, 0, 0]\n";
 
 inline constexpr const char* triangleObj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";

@@ -15,7 +15,8 @@ namespace speculum::testing_support {
 // Keys and values, as --set takes them.
 using SettingList = std::vector<std::pair<std::string, std::string>>;
 
-// Expects 99.9 % of the pixels within the tolerance and no 3x3 block wholly over, else writes the evidence.
+// Expects 99.9 % of the pixels within the tolerance and no 3x3 block wholly over it, else writes the evidence. If
+// `counts` is not empty, only pixels count for which it is set.
 void expectAlike(const Image8& actual, const Image8& expected, int tolerance, const std::string& name,
                  const std::vector<bool>& counts = {});
 
@@ -25,13 +26,13 @@ void writeEvidence(const Image8& actual, const Image8& expected, const std::stri
 // Options for a headless picture with validation and debug.check_finite on, and further settings.
 Options headless(const std::filesystem::path& scene, PictureSize size = {640, 360}, const SettingList& settings = {});
 
-// Adds to the settings.
+// Adds settings to those of the options.
 void set(Options& options, const SettingList& settings);
 
 // Changes settings of the session.
 void set(Session& session, const SettingList& settings);
 
-// Draws frames at a time and waits for each, without reading them back.
+// Draws so many frames at one time and waits for each, without reading them back.
 void runFrames(Session& session, int frames = 1, double time = 0.0);
 
 // Fails for a validation message and for a value in a target that is not finite or out of range.
@@ -43,10 +44,10 @@ struct QuietSession : Session {
   ~QuietSession() { expectQuiet(*this); }
 };
 
-// Draws one picture that is quiet.
+// Draws one picture and expects what expectQuiet() expects.
 Image8 draw(const Options& options, double time = 0.0);
 
-// Draws a picture with the session, waits for it and returns it, or its radiance.
+// Draw a picture with the session, wait for it and return it, or its radiance.
 Image8 draw(Session& session, double time = 0.0);
 LinearImage drawRadiance(Session& session, double time = 0.0);
 
@@ -54,19 +55,20 @@ LinearImage drawRadiance(Session& session, double time = 0.0);
 void recordFrame(Session& session, const SceneState& state, const Settings& settings, const FramePlan& plan,
                  const std::optional<TargetDisplay>& debug = {});
 
-// Root mean square difference in radiance of the pixels whose `counts` is set, by default of all.
+// Returns the root mean square difference in radiance of the pixels whose `counts` is set, by default of all.
 double rootMeanSquare(const LinearImage& a, const LinearImage& b, const std::vector<bool>& counts = {});
 
 // Says of each pixel whether it is black.
 std::vector<bool> blackPixels(const Image8& image);
 
-// A temporary directory of the running test's own: tests run side by side and may use the same names.
+// Returns a temporary directory of the running test's own: tests run side by side and may use the same names.
 std::filesystem::path sceneDirectory();
 
 // Writes a scene, as tomlOf() takes it, into sceneDirectory().
 std::filesystem::path writeScene(const std::string& name, const std::string& toml);
 
-// One of the program's shaders with `code` at the end of its main(), and those that include it, for Options::shaderDir.
+// Writes one of the program's shaders with `code` at the end of its main(), and the shaders that include it, for
+// Options::shaderDir.
 void writeShaders(const std::filesystem::path& directory, const std::string& shader, const std::string& code);
 
 std::filesystem::path sourceFile(const std::string& relative);
@@ -74,8 +76,8 @@ std::filesystem::path sourceFile(const std::string& relative);
 // Returns the file of a scene that ships, such as "gallery" or "hard/corner".
 std::filesystem::path sceneFile(const std::string& name);
 
-// Returns the names of the scenes that ship, "gallery", or with a prefix those of a folder, "hard/" gives
-// "hard/corner".
+// Returns the names of the scenes that ship, such as "gallery"; with a prefix such as "hard/" those of that folder,
+// such as "hard/corner".
 std::vector<std::string> sceneNames(const std::string& prefix = "");
 
 }  // namespace speculum::testing_support

@@ -16,7 +16,7 @@ class Random {
   double uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine_); }
   bool chance(double probability) { return uniform(0.0, 1.0) < probability; }
 
-  // Less than `count`.
+  // Returns an index below `count`.
   size_t index(size_t count) { return static_cast<size_t>(uniform(0.0, static_cast<double>(count) - 1e-9)); }
 
   template <size_t n>
@@ -41,7 +41,7 @@ class Random {
     }
   }
 
-  // As a scene file takes it.
+  // Returns a vector as a scene file takes it.
   std::string vec(double low, double high) {
     std::ostringstream out;
     out << "[" << uniform(low, high) << ", " << uniform(low, high) << ", " << uniform(low, high) << "]";

@@ -7,7 +7,7 @@
 
 #include "random.hpp"
 
-// Scene files as text, written beside those of writeScene.
+// Scene files as text, and models that tests write beside the scenes of writeScene().
 namespace speculum::testing_support {
 
 // Returns the TOML of a text in which a table may stand on one line, as "[[light]] position = [0, 1, 0], glow = 0"
@@ -23,7 +23,7 @@ extern const std::string corridorNodes;
 // The eye between two mirrors that face each other, and `nodes` between them.
 std::string corridorScene(const std::string& nodes = corridorNodes);
 
-// Numbers with all their digits.
+// Return numbers with all their digits.
 std::string text(double value);
 std::string text(const glm::dvec3& v);
 
@@ -38,14 +38,14 @@ std::string objectText(const std::string& model, const glm::dvec3& position, con
 std::string rectangleText(const glm::dvec3& position, const glm::dvec3& rotation, double width, double height);
 std::string polygonText(const std::vector<glm::dvec3>& corners);
 
-// Writes a model beside the scenes; they name it by file name.
+// Writes a model beside the scenes, which name it by its file name.
 void writeModel(const std::string& file, const std::string& obj);
 
-// quad.obj: 2 x 2 m in the plane z = 0 about the origin, facing +z.
+// Writes quad.obj: 2 x 2 m in the plane z = 0 about the origin, facing +z.
 void writeQuad();
 
-// A lumpy sphere about the origin, at most 0.85 m in radius; without normals for odd seeds, so that flat shading is met
-// as well. Returns the file.
+// Writes a lumpy sphere about the origin, at most 0.85 m in radius; without normals for odd seeds, so that flat shading
+// is met as well. Returns the file.
 std::string writeRandomMesh(unsigned seed);
 
 // The table [[object]] of a shipped model or a random mesh: at most `size` m along x, and along y that times a factor

@@ -6,7 +6,7 @@
 namespace speculum::testing_support {
 
 // The device and the renderer of all studios of a process: to make a pipeline again takes longer than most pictures.
-// They stay to the end, because the driver ends its threads before static objects go.
+// Both stay to the end, because the driver ends its threads before static objects go.
 struct Gpu {
   static Gpu& shared() {
     static Gpu* const gpu = new Gpu;
@@ -51,7 +51,7 @@ class Studio {
     gpu_.renderer.endFrame(frame);
     return pictureOf(gpu_.renderer.readback());
   }
-  // Draws it with all images rendered anew.
+  // Draws the picture with all images rendered anew.
   Image8 fresh() {
     sceneRenderer.restart();
     return draw();
@@ -62,7 +62,7 @@ class Studio {
   double time = 0.0;                 // seconds
   std::optional<CameraPose> camera;  // in place of the scene's
   bool reusesMain = false;           // reuse an unchanged main view, as the window does
-  SceneState state;                  // of the last picture, as is the plan
+  SceneState state;                  // of the last picture, as is `plan`
   FramePlan plan;
   SceneRenderer sceneRenderer;
 

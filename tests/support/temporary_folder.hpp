@@ -8,7 +8,7 @@
 
 namespace speculum {
 
-// A folder of one test, removed with it.
+// A folder of one test, which the destructor removes.
 class TemporaryFolder : public TemporaryDirectory {
  public:
   std::filesystem::path operator/(std::string_view name) const { return path() / name; }

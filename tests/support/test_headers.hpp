@@ -1,6 +1,6 @@
 #pragma once
 
-// What nearly every test needs.
+// Headers that nearly every test needs.
 #include <gtest/gtest.h>
 
 #include <algorithm>

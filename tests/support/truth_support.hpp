@@ -14,15 +14,15 @@ struct Tracing {
   TraceOptions options;
   DisplayCurve curve;
 
-  // The picture may be moved by `offset`, in pixels.
+  // Traces the picture, moved by `offset` pixels.
   TraceResult result(const glm::dvec2& offset = {0.0, 0.0}) const;
 
-  // Clamps each channel of `actual` to the range that it has in nine pictures, moved by -1/256, 0 or 1/256 pixel each
-  // way. Vulkan rounds vertices to a grid of 1/256 pixel and leaves open how, so an edge may lie anywhere within it.
+  // Clamps each channel of `actual` to the range that it has in nine traced pictures, moved by -1/256, 0 or 1/256 pixel
+  // each way. Vulkan rounds vertices to a grid of 1/256 pixel and leaves open how, so an edge may be off by that much.
   Image8 nearest(const Image8& actual) const;
 };
 
-// One sample each, with the scene's own settings.
+// Returns a tracing with one sample a pixel and the scene's own settings.
 Tracing tracingOf(const std::filesystem::path& file, PictureSize size, int maxDepth, double time = 0.0);
 
 struct Truth {
@@ -38,14 +38,14 @@ SettingList truthSettings(int maxDepth);
 Options truthOptions(const std::filesystem::path& file, PictureSize size, int maxDepth);
 
 // Expects every pixel that is not background within 2/255, except one in a thousand, but no 3x3 block of exceptions. If
-// there are more, compares with Tracing::nearest().
+// there are more exceptions, compares with Tracing::nearest().
 void expectTruth(const std::filesystem::path& file, PictureSize size, int maxDepth, const Truth& truth,
                  double time = 0.0);
 
-// The same for scenes of the same models, drawn on one device.
+// expectTruth() for scenes of the same models, drawn on one device.
 void expectTruths(const std::vector<std::filesystem::path>& files, PictureSize size, int maxDepth);
 
-// The same for a scene that a studio of truthOptions() can show.
+// expectTruth() for a scene that a studio of truthOptions() can show.
 void expectTruth(Studio& studio, const std::filesystem::path& file, const Truth& truth, double time = 0.0);
 
 // Says of each pixel whether it shows anything but the background.

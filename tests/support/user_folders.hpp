@@ -12,7 +12,8 @@
 
 namespace speculum::testing_support {
 
-// Empty folders in the place of the user's, which tests must neither read nor write. Named by environment variables.
+// Empty folders in the place of the user's own, which tests must neither read nor write. Environment variables name
+// them.
 class UserFolders {
  public:
   UserFolders(std::initializer_list<const char*> variables) {

@@ -8,7 +8,7 @@
 
 namespace speculum {
 
-// Triangles of tests, in which neighbours share positions but no vertices.
+// Triangles for tests, in which neighbours share positions but no vertices.
 struct Triangles {
   std::vector<glm::dvec3> positions;
   std::vector<uint32_t> indices;

@@ -23,7 +23,7 @@ class PanelTest : public testing::Test {
   }
   ~PanelTest() override { stop(); }
 
-  // A session of the program, with the layout that the last one left.
+  // Begins a session of the program, with the layout that the last one left.
   void start() {
     windows_ = std::make_unique<PanelWindows>();
     ImGui::CreateContext();
@@ -103,7 +103,7 @@ class PanelTest : public testing::Test {
   struct DrawnGlyph {
     char letter;
     float lineTop;  // the top of its line of text, in pixels of the display
-    int vertex;     // its first one
+    int vertex;     // index of its first vertex
   };
   // Returns the letters of a list in the order of drawing, without spaces.
   static std::vector<DrawnGlyph> glyphsOf(const ImDrawList& list) {
@@ -124,7 +124,7 @@ class PanelTest : public testing::Test {
     }
     return found;
   }
-  // What the last frame drew.
+  // Returns the draw lists of the last frame.
   static std::vector<const ImDrawList*> drawLists() {
     std::vector<const ImDrawList*> lists;
     for (int i = 0; i < ImGui::GetDrawData()->CmdListsCount; ++i) {
@@ -193,7 +193,7 @@ class PanelTest : public testing::Test {
     return shown == windows.end() ? nullptr : *shown;
   }
 
-  // Find a widget by its name, likewise.
+  // Find a widget by its name, once what has changed is laid out.
   bool has(const std::string& name) {
     return find(name) != nullptr;
   }
@@ -218,7 +218,7 @@ class PanelTest : public testing::Test {
     hold(true);
     hold(false);
   }
-  // The commands that a click on the widget makes.
+  // Clicks on the widget, at a part of its width, and returns the commands that this makes.
   std::vector<Command> click(const std::string& name, double part = 0.5) {
     hover(name, part);
     commands_.clear();
@@ -241,7 +241,7 @@ class PanelTest : public testing::Test {
     }
     hold(false);
   }
-  // The same from a part of the widget's width.
+  // Drags from a part of the widget's width.
   void drag(const std::string& name, double part, double dx, double dy = 0.0) {
     const PixelRect rect = widget(name);
     dragFrom(rect.x + rect.width * part, rect.y + rect.height / 2.0, dx, dy);
@@ -329,7 +329,7 @@ class PanelTest : public testing::Test {
   std::unique_ptr<PanelWindows> windows_;
   UiOutput output_;  // of the last frame
   std::vector<Command> commands_;
-  bool appliesEdits_ = false;  // to the selected mirror
+  bool appliesEdits_ = false;  // EditNode commands change the selected mirror
 
  private:
   const PixelRect* find(const std::string& name) {

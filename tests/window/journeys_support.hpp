@@ -24,13 +24,13 @@ class Journey : public testing::Test {
  protected:
   explicit Journey(const std::string& toml = wallScene, const Options& more = {}) : options_(more) {
     keepDriverLoaded();
-    runProcess({"xdotool", "mousemove", "640", "450"});  // as in a session that begins
+    runProcess({"xdotool", "mousemove", "640", "450"});  // where the pointer is when a session begins
     options_.scene = writeScene("journey", toml).string();
     options_.size = {width, height};
     options_.validation = true;
     options_.window.presentMode = PresentMode::immediate;
-    // Draws everything in every frame, so that run() can count frames, and moving pictures in full quality, however
-    // slow the machine is.
+    // The window draws everything in every frame, so that run() can count frames, and moving pictures in full quality,
+    // however slow the machine is.
     options_.settings.insert(options_.settings.begin(), {{"view.continuous", "true"},
                                                          {"reflection.skip_unchanged", "false"},
                                                          {"view.samples", "1"},
@@ -59,7 +59,7 @@ class Journey : public testing::Test {
     window_ = runProcess({"xdotool", "search", "--name", "Speculum$"}).output;
     window_ = window_.substr(0, window_.find('\n'));
   }
-  // Draws so many frames. A window that draws only changes stops once it sleeps.
+  // Draws so many frames. In a window that draws only changes, stops once the window sleeps.
   void run(int frames) {
     int drawn = demo_->framesDrawn();
     const int last = drawn + frames;
@@ -75,7 +75,7 @@ class Journey : public testing::Test {
   void settle() { run(1'000'000); }
   template <typename Done>
   bool waitFor(const Done& done) {
-    const auto end = Clock::now() + std::chrono::seconds(300);  // only what hangs takes that long
+    const auto end = Clock::now() + std::chrono::seconds(300);  // only a program that hangs takes that long
     while (!done() && Clock::now() < end) {
       EXPECT_TRUE(demo_->step());
     }
@@ -172,7 +172,7 @@ class Journey : public testing::Test {
   test::VirtualDisplay display_;
   Options options_;
   std::unique_ptr<Demo> demo_;
-  std::string window_;  // its id
+  std::string window_;  // X11 id of the window
   bool otherKeyboard_ = false;
   bool showsNonFinite_ = false;  // set by a test that draws values that are not finite
 };

@@ -15,7 +15,7 @@ namespace speculum::testing_support {
 inline constexpr int width = 900;
 inline constexpr int height = 700;
 
-inline constexpr double focalPixels = 0.5 * height * 1.7320508075688772;  // of 60 degrees
+inline constexpr double focalPixels = 0.5 * height * 1.7320508075688772;  // for a vertical field of view of 60 degrees
 
 inline const Selection ball{Selection::Kind::object, 0};
 inline const Selection lamp{Selection::Kind::light, 0};
@@ -61,7 +61,7 @@ class FakeHost : public WorkspaceHost {
   bool closed = false;
   bool inspector = false;
   bool popup = false;
-  double inspectorFrom = width;  // place of its left edge
+  double inspectorFrom = width;  // x of the inspector's left edge
 };
 
 // A workspace driven by commands, with folders of its own for what it writes.
@@ -73,7 +73,7 @@ class WorkspaceTest : public testing::Test {
     start();
   }
 
-  // A session of the program, after the end of the last one.
+  // Begins a session of the program, after the end of the last one.
   void start() {
     workspace_.reset();
     workspace_ = std::make_unique<Workspace>(options_, host_);
@@ -132,7 +132,7 @@ class WorkspaceTest : public testing::Test {
     press(false);
     frame();
   }
-  // Pixel of a world point. Unfold its reflections first.
+  // Returns the pixel of a world point. For a mirror image, reflect the point first.
   static glm::dvec2 pixel(const glm::dvec3& world) {
     return glm::dvec2(width, height) / 2.0 + focalPixels * glm::dvec2(world.x, 1.0 - world.y) / (1.5 - world.z);
   }
@@ -157,14 +157,14 @@ class WorkspaceTest : public testing::Test {
   void setExposure(double exposure, bool continued = false) {
     changeSettings([&](Settings& settings) { settings.view.exposure = exposure; }, continued);
   }
-  // Asks while programs are sought in these folders.
+  // Sends AskWhatToOpen while programs are looked for in these folders.
   void askWhatToOpen(const std::string& folders) {
     const std::string path = environment("PATH");
     setEnvironment("PATH", folders);
     send(AskWhatToOpen{});
     setEnvironment("PATH", path);
   }
-  // Acts as if a frame of that picture had been drawn and, if it is wanted, read back.
+  // Acts as if a frame of that picture had been drawn and, if a capture is wanted, read back.
   void drawFrame(const Image8& picture = Image8(4, 4)) {
     const SceneState state = workspace_->state(workspace_->time());
     workspace_->frameDrawn(
