@@ -254,7 +254,12 @@ std::string examplesText(const std::string& command) {
       {"info", {""}},
       {"scenes", {""}},
   };
-  std::string text = "Examples:\n";
+  std::string text =
+      command != "regress"
+          ? ""
+          : "CASES holds at least two lines, [[case]] and scene = \"room.toml\"; docs/regression.md lists all keys.\n"
+            "The first run needs --update, which writes the expected picture.\n\n";
+  text += "Examples:\n";
   for (const std::string& arguments : examples.at(command)) {
     text += "  speculum " + command + (arguments.empty() ? "" : " ") + arguments + "\n";
   }
