@@ -235,12 +235,13 @@ void Window::installCallbacks() {
     // Copies the name, because the next call of glfwGetKeyName may overwrite it.
     const std::string printed(printedOn(code, scancode));
     const bool control = (modifiers & GLFW_MOD_CONTROL) != 0;
-    of(w)->notify({.kind = InputEvent::Kind::key,
-                   .code = meantCode(code, printed),
-                   .down = action != GLFW_RELEASE,
-                   .command = isCommand(code, modifiers),
-                   .key = {meaningOfKey(static_cast<Key>(code), printed, control, printedWhereFlying()),
-                           action != GLFW_RELEASE, action == GLFW_REPEAT, (modifiers & GLFW_MOD_SHIFT) != 0, control}});
+    of(w)->notify(
+        {.kind = InputEvent::Kind::key,
+         .code = meantCode(code, printed),
+         .down = action != GLFW_RELEASE,
+         .command = isCommand(code, modifiers),
+         .key = {meaningOfKey(static_cast<Key>(code), printed, control, printedWhereFlying()), action != GLFW_RELEASE,
+                 action == GLFW_REPEAT, (modifiers & GLFW_MOD_SHIFT) != 0, control, (modifiers & GLFW_MOD_ALT) != 0}});
   });
   glfwSetMouseButtonCallback(window_.get(), [](GLFWwindow* w, int button, int action, int modifiers) {
     of(w)->notify({.kind = InputEvent::Kind::button,

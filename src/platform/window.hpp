@@ -26,6 +26,7 @@ struct KeyEvent {
   bool repeat = false;
   bool shift = false;
   bool control = false;
+  bool alt = false;
 };
 struct MouseButtonEvent {
   MouseButton button = MouseButton::left;

@@ -206,14 +206,15 @@ void frontSlider(PanelContext& ui) {
   }
   recordWidget(ui, "accuracy.slider");
   // Below the slider, which is too narrow for most names.
+  ImGui::BeginDisabled(accuracy.own == ui.settings);
+  commandButton(ui, "Back", "accuracy.back", "Returns to your settings, from before a point was picked.",
+                SetSettings{accuracy.own});
+  ImGui::EndDisabled();
+  ImGui::SameLine();
   wrappedText(accuracy.current >= 0 ? accuracy.points[accuracy.current].name : "Other settings");
   dimmedText(accuracy.alone ? "Shown as measured, as one picture: mean FLIP " +
                                   significant(accuracy.points[accuracy.current].error, 3)
                             : "Not a picked point: a still view shows the mean of several pictures.");
-  ImGui::BeginDisabled(accuracy.own == ui.settings);
-  commandButton(ui, "Back to my settings", "accuracy.back", "Returns to the settings before a point was picked.",
-                SetSettings{accuracy.own});
-  ImGui::EndDisabled();
 }
 
 // Returns the bound that is set when the user switches one on: what the settings in use were measured to take, or else

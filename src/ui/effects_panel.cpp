@@ -4,6 +4,28 @@
 
 namespace speculum::panels {
 
+namespace {
+
+// Returns where the inspector calls for an effect; empty for effects that settings or models call for.
+const char* whereAsked(EffectKind kind) {
+  switch (kind) {
+    case EffectKind::shadows:
+      return " (Inspector, light: Casts shadow)";
+    case EffectKind::roughness:
+      return " (Inspector, mirror: Roughness)";
+    case EffectKind::ripple:
+      return " (Inspector, mirror: Ripple)";
+    case EffectKind::castsLight:
+      return " (Inspector, mirror: Casts light)";
+    case EffectKind::curved:
+      return " (Inspector, object: Mirror)";
+    default:
+      return "";
+  }
+}
+
+}  // namespace
+
 void effects(PanelContext& ui) {
   int called = 0;
   for (const EffectRow& effect : ui.input.frame.effects) {
@@ -32,8 +54,9 @@ void effects(PanelContext& ui) {
   for (const EffectRow& effect : ui.input.frame.effects) {
     const bool on = effect.calledFor;
     ImGui::TableNextRow();
-    for (const std::string& text : {effect.name, effect.why, on ? std::to_string(effect.draws) : std::string(),
-                                    on ? mebibytes(effect.bytes) : std::string()}) {
+    for (const std::string& text :
+         {effect.name, effect.why + (on ? "" : whereAsked(effect.kind)),
+          on ? std::to_string(effect.draws) : std::string(), on ? mebibytes(effect.bytes) : std::string()}) {
       ImGui::TableNextColumn();
       if (!on) {
         dimmedText(text);

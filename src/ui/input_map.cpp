@@ -57,8 +57,8 @@ std::span<const ShortcutGroup> shortcutGroups() {
        {"Capture",
         {key("F12", "Save the picture", TakeScreenshot{false}),
          key("Shift+F12", "Save the picture with the panels", TakeScreenshot{true}),
-         key("F10", "Start or stop recording frames", ToggleRecording{true}),
-         key("Shift+F10", "Record frames without the panels", ToggleRecording{false})}},
+         key("F10", "Start or stop recording frames", ToggleRecording{false}),
+         key("Shift+F10", "Record frames with the panels", ToggleRecording{true})}},
        {"Edit",
         {pointer("Click", "Select, in mirrors too; click again for the mirror it is seen in"),
          pointer("Shift+click", "Add to the selection, or remove from it"),
@@ -96,7 +96,8 @@ std::optional<Command> commandOf(const KeyEvent& event) {
   const Shortcut* found = nullptr;
   for (const ShortcutGroup& group : shortcutGroups()) {
     for (const Shortcut& shortcut : group.shortcuts) {
-      const bool matches = shortcut.command && shortcut.key == event.key && shortcut.control == event.control &&
+      const bool matches = shortcut.command && !event.alt && shortcut.key == event.key &&
+                           shortcut.control == event.control &&
                            (shortcut.shift == event.shift || (event.shift && !found));
       found = matches ? &shortcut : found;
     }

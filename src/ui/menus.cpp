@@ -36,7 +36,7 @@ void fileMenu(PanelContext& ui) {
   ImGui::Separator();
   item(ui, "Save picture", TakeScreenshot{false});
   item(ui, "Save picture with panels", TakeScreenshot{true}, true, "Shift+F12");
-  item(ui, "Record frames", ToggleRecording{true});
+  item(ui, "Record frames", ToggleRecording{false});
   item(ui, "Copy command line", CopyCommandLine{});
   ImGui::Separator();
   item(ui, "Quit", Quit{});
@@ -115,7 +115,7 @@ void frameTime(const PanelContext& ui) {
   }
   const char* still = ui.input.playback.paused ? "paused" : "still";
   const std::string rate = frame.still ? still : fmt::format("{:.{}f} FPS", 1000.0 / ms, ms > 100.0 ? 1 : 0);
-  const std::string text = duration(ms) + "   " + rate;
+  const std::string text = (frame.still ? "Frame " : "") + duration(ms) + "   " + rate;
   const float left = ImGui::GetWindowWidth() - ImGui::CalcTextSize(text.c_str()).x - ImGui::GetFontSize();
   if (left > ImGui::GetCursorPosX()) {
     ImGui::SetCursorPosX(left);

@@ -175,9 +175,14 @@ PixelRect inPixels(const ImRect& rect) {
           pixels(rect.GetHeight(), scale.y)};
 }
 
-// Returns the pass whose target is shown: the chosen pass, or the main view if the chosen pass is gone.
+// Returns the pass whose target is shown: the chosen pass, at first that of the selected mirror, or the main view if
+// there is no such pass.
 const PassRow* shownPass(PanelContext& ui) {
   const std::vector<PassRow>& passes = ui.input.frame.passes;
+  const Selection& selected = ui.input.edit.selected;
+  if (!ui.state.targets.path && selected.kind == Selection::Kind::mirror) {
+    ui.state.targets.path = MirrorPath{selected.index};
+  }
   const auto pass =
       std::ranges::find_if(passes, [&](const PassRow& p) { return hasTarget(p) && ui.state.targets.path == p.path; });
   const auto main = std::ranges::find(passes, PassKind::main, &PassRow::kind);

@@ -83,9 +83,7 @@ Sphere boundsOf(const Scene& scene, const SceneState& state, const Selection& se
   SceneState shown;
   switch (selection.kind) {
     case Selection::Kind::none:
-      // Floors and walls that are mirrors reach beyond what they show.
-      shown.instances = state.instances;
-      return boundsOfAll(shown.instances.empty() ? state : shown);
+      return boundsOfAll(state);
     case Selection::Kind::light:
       return {state.lights[selection.index].position, std::max(scene.lights[selection.index].radius, leastLight)};
     case Selection::Kind::mirror:

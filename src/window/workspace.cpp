@@ -1,5 +1,6 @@
 #include "window/workspace.hpp"
 
+#include "scene/model_formats.hpp"
 #include "session/view_command.hpp"
 #include "settings/setting_fields.hpp"
 #include "window/pace.hpp"
@@ -277,7 +278,7 @@ void Workspace::frameDrawn(const ShownPicture& shown, const std::function<Image8
   if (captured) {
     Capture::Saved saved = capture_.save(scene().file.stem().string(), *captured);
     const std::string& picture = status_.shown().picture;
-    saved.message += saved.logged && !picture.empty() ? ", " + picture : "";
+    saved.message += saved.logged && !picture.empty() ? ", " + picture.substr(0, picture.find_first_of(",;")) : "";
     saved.logged ? status_.set(saved.message) : status_.show(saved.message);
   }
   accuracy_.afterFrame(shown, watchedState(shown.state), radiance);
@@ -419,7 +420,10 @@ void Workspace::step(UndoWay way) {
 }
 
 void Workspace::frame(const Selection& node) {
-  const Sphere bounds = boundsOf(scene(), evaluate(scene(), time()), node);
+  // An opened model stands on a mirror that is much larger.
+  const bool isModel = !node && isModelFile(scene().file);
+  const Selection framed = isModel ? Selection{Selection::Kind::object, 0} : node;
+  const Sphere bounds = boundsOf(scene(), evaluate(scene(), time()), framed);
   if (bounds.radius > 0.0) {
     const glm::dvec2 size = glm::max(glm::dvec2(host_.pictureSize()), 1.0);
     const PixelRect free = host_.freePicture();

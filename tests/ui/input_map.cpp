@@ -15,6 +15,7 @@ TEST(InputMap, KeysMeanTheirCommands) {
       std::holds_alternative<Redo>(*commandOf({.key = Key::z, .pressed = true, .shift = true, .control = true})));
   EXPECT_FALSE(commandOf({.key = Key::z, .pressed = true}));
   EXPECT_FALSE(commandOf({.key = Key::unknown, .pressed = true}));
+  EXPECT_FALSE(commandOf({.key = Key::f, .pressed = true, .alt = true})) << "a menu is meant";
   const auto side = [](bool shift) {
     return std::get<LookFromMirror>(*commandOf({.key = Key::b, .pressed = true, .shift = shift})).side;
   };

@@ -956,9 +956,9 @@ TEST_F(PanelTest, TooltipsSayWhatWasMeasuredHere) {
 TEST_F(PanelTest, HeaderShowsTheLastPictureWhilePaused) {
   frame_.frameMs = 14000.0;
   frame_.still = true;
-  EXPECT_TRUE(shows("14.00 s still")) << "nothing moves";
+  EXPECT_TRUE(shows("Frame 14.00 s still")) << "nothing moves";
   playback_.paused = true;
-  EXPECT_TRUE(shows("14.00 s paused"));
+  EXPECT_TRUE(shows("Frame 14.00 s paused"));
   frame_.frameMs = 20.0;
   frame_.still = false;
   EXPECT_TRUE(shows("20.0 ms 50 FPS"));
@@ -1437,6 +1437,14 @@ TEST_F(AccuracyWindow, PointsAndSliderApplySettings) {
   click("accuracy.slider", 0.05);
   ASSERT_TRUE(sent<ApplyPoint>());
   EXPECT_EQ(std::get<ApplyPoint>(commands_.front()).point, 0);
+}
+
+TEST_F(AccuracyWindow, OwnSettingsComeBack) {
+  accuracy_.own.view.exposure = 2.0;
+  EXPECT_EQ(clickFor<SetSettings>("accuracy.back").settings, accuracy_.own);
+  commands_.clear();
+  click("accuracy.back");
+  EXPECT_FALSE(sent<SetSettings>()) << "they are there";
 }
 
 TEST_F(AccuracyWindow, SliderNamesPointsOffTheFront) {

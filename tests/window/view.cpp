@@ -262,12 +262,12 @@ TEST_F(WindowView, ScreenshotsAreSavedAndReported) {
 
 TEST_F(WindowView, SavedPicturesSayHowFarTheyAre) {
   for (const bool withPanel : {false, true}) {
-    for (const char* picture : {"17 of 64 pictures averaged", "Draft: 0.5 of the resolution", ""}) {
-      workspace_->setPictureText(picture);
+    for (const std::string picture : {"17 of 64 pictures averaged", "Draft: 0.5 of the resolution", ""}) {
+      workspace_->setPictureText(picture.empty() ? "" : picture + ", next one 21 %; approximate: reflections");
       send(TakeScreenshot{withPanel});
       EXPECT_EQ(workspace_->capture().bare(), !withPanel);
       drawFrame(Image8(5, 3));
-      EXPECT_TRUE(status().ends_with(*picture ? std::string(".png, ") + picture : ".png")) << status();
+      EXPECT_TRUE(status().ends_with(picture.empty() ? ".png" : ".png, " + picture)) << status();
     }
   }
 }
@@ -560,6 +560,17 @@ TEST_F(Opening, ModelsAreFramedBetweenPanels) {
   const glm::dvec3 seen = camera().worldToView * (workspace_->state(0.0).instances.at(0).center - eye());
   const double focal = 0.5 * height / std::tan(0.5 * camera().verticalFov);
   EXPECT_NEAR(focal * seen.x / -seen.z, width / 4.0, 30.0);
+}
+
+TEST_F(Opening, ModelsAreFramedWithoutTheirFloor) {
+  drop({model("gem.obj")});
+  waitFor([&] { return shownScene() == "gem.obj"; });
+  const auto eye = [&] { return workspace_->state(0.0).camera.eye; };
+  send(FrameSelection{});
+  const glm::dvec3 all = eye();
+  send(SelectNode{{Selection::Kind::object, 0}});
+  send(FrameSelection{});
+  EXPECT_NEAR(glm::distance(eye(), all), 0.0, 1e-9);
 }
 
 TEST_F(Opening, WarningsLeaveWithTheirScene) {
