@@ -51,30 +51,26 @@ std::string waitingText(const std::optional<Command>& waiting) {
 
 }  // namespace
 
-DocumentController::DocumentController(LoadedScene& loaded, std::span<const fs::path> shippedModels, bool prompts,
-                                       std::function<void()> beforeChange)
-    : loaded_(loaded),
-      editor_(loaded.scene, shippedModels, std::move(beforeChange)),
-      prompts_(prompts),
-      settingsAtLoad_(loaded.settings) {
+DocumentController::DocumentController(LoadedScene& loaded, SceneDocument& document, SceneEditor& editor, bool prompts)
+    : loaded_(loaded), document_(document), editor_(editor), prompts_(prompts), settingsAtLoad_(loaded.settings) {
   findSaveFile();
 }
 
 // Finds the file that Save writes. Call it when the scene has another file. It accesses the disk.
 void DocumentController::findSaveFile() {
-  const fs::path file = editor_.document().usualFile();
+  const fs::path file = document_.usualFile();
   saveFile_ = !isShipped(file) && isWritable(file) ? std::optional(file) : std::nullopt;
   isCopy_ = Recovery::isCopy(file);
   isNew_ = isModelFile(loaded_.scene.file) || SceneBrowser::isNew(loaded_.scene.file);
 }
 
 bool DocumentController::hasUnsaved(const Settings& settings) const {
-  return editor_.document().modified() || settings != loaded_.settings || isCopy_;
+  return document_.modified() || settings != loaded_.settings || isCopy_;
 }
 
 bool DocumentController::confirmDiscard(const Settings& settings, std::optional<Command> then) {
   const bool alreadyDiscarded =
-      discarded_ && discarded_->revision == editor_.document().revision() && discarded_->settings == settings;
+      discarded_ && discarded_->revision == document_.revision() && discarded_->settings == settings;
   if (alreadyDiscarded || !prompts_ || (!hasUnsaved(settings) && !refusedEdit_)) {
     return true;
   }
@@ -95,7 +91,7 @@ std::optional<Command> DocumentController::save(const Settings& settings) {
     askWhere();
     return std::nullopt;
   }
-  if (saveTo(editor_.document().usualFile(), settings, false)) {
+  if (saveTo(document_.usualFile(), settings, false)) {
     return discard(settings);
   }
   const std::string why = note_;
@@ -105,7 +101,7 @@ std::optional<Command> DocumentController::save(const Settings& settings) {
 }
 
 void DocumentController::askWhere() {
-  const fs::path file = editor_.document().usualFile();
+  const fs::path file = document_.usualFile();
   findSaveFile();
   const fs::path original = originalFile();
   ask(Prompt::saveAs, wholePath(original.empty() ? ownFolder() / file.filename() : original));
@@ -132,7 +128,7 @@ std::optional<Command> DocumentController::saveAs(const fs::path& file, const Se
 
 std::optional<Command> DocumentController::discard(const Settings& settings) {
   prompt_ = Prompt::none;
-  discarded_ = Discarded{editor_.document().revision(), settings};
+  discarded_ = Discarded{document_.revision(), settings};
   return std::exchange(afterPrompt_, std::nullopt);
 }
 
@@ -154,7 +150,7 @@ bool DocumentController::saveTo(const fs::path& named, const Settings& settings,
     if (isShipped(file) && file != refused_) {
       throw SaveError(file.string() + ": not saved: it comes with the program");
     }
-    editor_.document().save(file, settingChanges(settingsAtLoad_, settings), file == refused_, copyModels);
+    document_.save(file, settingChanges(settingsAtLoad_, settings), file == refused_, copyModels);
     note_ = "Saved " + wholePath(file).lexically_normal().string();
     loaded_.settings = settings;
     refused_.reset();
@@ -174,7 +170,7 @@ bool DocumentController::saveTo(const fs::path& named, const Settings& settings,
 }
 
 std::string DocumentController::text(const fs::path& file, const Settings& settings, ReadBack readBack) const {
-  return editor_.document().text(file, settingChanges(settingsAtLoad_, settings), readBack);
+  return document_.text(file, settingChanges(settingsAtLoad_, settings), readBack);
 }
 
 fs::path DocumentController::savedOrCopy(const Settings& settings) const {

@@ -5,15 +5,12 @@
 
 namespace speculum {
 
-// The scene that is shown as a document: its editor, unsaved changes and the prompts about them, saving.
+// Unsaved changes of the scene that is shown, the prompts about them, and saving.
 class DocumentController {
  public:
-  // Keeps a reference to the scene. Without `prompts` unsaved changes are discarded without a prompt.
-  DocumentController(LoadedScene& loaded, std::span<const std::filesystem::path> shippedModels, bool prompts,
-                     std::function<void()> beforeChange);
-
-  SceneEditor& editor() { return editor_; }
-  const SceneEditor& editor() const { return editor_; }
+  // Keeps its references: `document` and `editor` are of the scene. Without `prompts` unsaved changes are discarded
+  // without a prompt.
+  DocumentController(LoadedScene& loaded, SceneDocument& document, SceneEditor& editor, bool prompts);
 
   // Says whether the scene may be replaced: true if nothing is unsaved or the user has discarded the changes. Otherwise
   // shows the prompt, and keeps the command `then` to carry out once the prompt is answered.
@@ -66,7 +63,8 @@ class DocumentController {
   void findSaveFile();
 
   LoadedScene& loaded_;
-  SceneEditor editor_;
+  SceneDocument& document_;
+  SceneEditor& editor_;
   bool prompts_;
   Settings settingsAtLoad_;                        // before the user changed any
   std::optional<std::filesystem::path> saveFile_;  // the scene's file; none: it is shipped or cannot be written

@@ -33,9 +33,9 @@ SceneNode withCopiesApart(const Scene& scene, const Selection& target, SceneNode
 
 }  // namespace
 
-SceneEditor::SceneEditor(Scene& scene, std::span<const std::filesystem::path> shipped,
+SceneEditor::SceneEditor(SceneDocument& document, std::span<const std::filesystem::path> shipped,
                          std::function<void()> beforeChange)
-    : document_(scene),
+    : document_(document),
       shipped_(shipped),
       beforeChange_(std::move(beforeChange)),
       shownRevision_(document_.revision()) {

@@ -25,9 +25,10 @@ struct PointedScene {
 // Edits the scene that the window shows: selection, handles over the picture, fields of the inspector, undo.
 class SceneEditor {
  public:
-  // Keeps a reference to the scene, and calls `beforeChange` before each change of it. `shipped`: models that come with
-  // the program.
-  SceneEditor(Scene& scene, std::span<const std::filesystem::path> shipped, std::function<void()> beforeChange);
+  // Keeps a reference to the document, and calls `beforeChange` before each change of it. `shipped`: models that come
+  // with the program.
+  SceneEditor(SceneDocument& document, std::span<const std::filesystem::path> shipped,
+              std::function<void()> beforeChange);
 
   bool press(const PointedScene& view, const glm::dvec2& pixel);  // grips a handle; false if there is none
   bool dragging() const { return drag_.has_value(); }
@@ -64,8 +65,6 @@ class SceneEditor {
   std::filesystem::path modelFile(const std::filesystem::path& model) const;
   void modelsChanged();  // call when the scene's models changed
 
-  SceneDocument& document() { return document_; }
-  const SceneDocument& document() const { return document_; }
   bool changedSinceLastCall() { return std::exchange(shownRevision_, document_.revision()) != document_.revision(); }
 
   // Fills the editor's part of ShownEdit.
@@ -91,7 +90,7 @@ class SceneEditor {
   glm::dvec3 pointAhead(const PointedScene& view, double part, double least = 0.0);
   Picker& picker();
 
-  SceneDocument document_;
+  SceneDocument& document_;
   std::span<const std::filesystem::path> shipped_;
   std::vector<std::filesystem::path> models_;  // of objects that can be added; the scene's own come first
   std::function<void()> beforeChange_;

@@ -15,7 +15,8 @@ SceneOpener::SceneOpener(const Options& options, const Settings& settings) : opt
   options_.sweepResults.clear();  // a sweep belongs to the first scene
 }
 
-void SceneOpener::setDocument(DocumentController& document) {
+void SceneOpener::setDocument(const SceneDocument& scene, DocumentController& document) {
+  scene_ = &scene;
   document_ = &document;
   seen_.reset();
   if (options_.frames == 0) {
@@ -146,7 +147,7 @@ fs::path SceneOpener::keepCopy() {
 
 void SceneOpener::keepChanges(Clock::time_point now) noexcept {
   using namespace std::chrono_literals;
-  const std::pair shown(document_->editor().document().revision(), settings_);
+  const std::pair shown(scene_->revision(), settings_);
   if (std::exchange(seen_, shown) != shown) {
     copyDue_ = copyDue_.value_or(now + std::max<Clock::duration>(1s, copyInterval_));
   }

@@ -36,8 +36,8 @@ class SceneOpener {
   // Keeps the reference to the settings in use.
   SceneOpener(const Options& options, const Settings& settings);
 
-  void setDocument(DocumentController& document);  // call when another scene is shown
-  void offerRecovery();                            // prompts for the newest copy of unsaved changes, if there is one
+  void setDocument(const SceneDocument& scene, DocumentController& document);  // call when another scene is shown
+  void offerRecovery();  // prompts for the newest copy of unsaved changes, if there is one
 
   // Asks for a file to open: by the desktop's dialog, if there is one that can be started, else by a prompt.
   void ask();
@@ -67,12 +67,13 @@ class SceneOpener {
  private:
   std::filesystem::path keepCopy();
   void forgetCopies();
-  const std::filesystem::path& shownFile() const { return document_->editor().document().scene().file; }
+  const std::filesystem::path& shownFile() const { return scene_->scene().file; }
   std::filesystem::path folderToOpen() const;
   void takeChosenFile();
 
   Options options_;
   const Settings& settings_;
+  const SceneDocument* scene_ = nullptr;
   DocumentController* document_ = nullptr;
   SceneBrowser browser_;
   FileDialog dialog_;

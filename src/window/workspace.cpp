@@ -42,16 +42,19 @@ Workspace::Workspace(const Options& options, WorkspaceHost& host)
 
 void Workspace::startDocument() {
   // A scene that is being traced in the background must not change meanwhile.
-  document_ = std::make_unique<DocumentController>(*loaded_, shippedModels_, options_.frames == 0,
-                                                   [this] { accuracy_.forgetScene(); });
-  opener_.setDocument(*document_);
+  auto document = std::make_unique<SceneDocument>(loaded_->scene);
+  auto editor = std::make_unique<SceneEditor>(*document, shippedModels_, [this] { accuracy_.forgetScene(); });
+  saving_ = std::make_unique<DocumentController>(*loaded_, *document, *editor, options_.frames == 0);
+  editor_ = std::move(editor);
+  document_ = std::move(document);
+  opener_.setDocument(*document_, *saving_);
   pointer_.cancel();
   camera_.sceneChanged(scene());
   report_.clear();
   settings_ = loaded_->settings;
-  shownStructure_ = document_->editor().document().structureRevision();
+  shownStructure_ = document_->structureRevision();
   edit_ = {};
-  document_->fill(edit_, settings_);
+  saving_->fill(edit_, settings_);
 }
 
 void Workspace::apply(const Command& command) {
@@ -59,10 +62,10 @@ void Workspace::apply(const Command& command) {
                  [&](const ResetCamera&) { camera_.reset(scene().camera); },
                  [&](const ToggleCameraMode&) { camera_.toggleMode(); },
                  [&](const SetCameraMode& c) { camera_.setMode(c.mode); },
-                 [&](const FrameSelection&) { frame(editor().document().selection()); },
+                 [&](const FrameSelection&) { frame(document_->selection()); },
                  [&](const LookFromMirror& c) { lookFromMirror(c.side); },
                  [&](const AddBookmark&) {
-                   editor().addBookmark(camera_.bookmark(state(time()).camera, scene().camera));
+                   editor_->addBookmark(camera_.bookmark(state(time()).camera, scene().camera));
                    camera_.setBookmark(static_cast<int>(scene().bookmarks.size()) - 1);
                    status_.set("Added bookmark '" + scene().bookmarks.back().name + "'. Shift+M goes to the next one.");
                  },
@@ -70,7 +73,7 @@ void Workspace::apply(const Command& command) {
                  [&](const GoToNextBookmark&) { camera_.goToNextBookmark(scene()); },
                  [&](const RemoveBookmark& c) {
                    if (c.index < scene().bookmarks.size()) {
-                     editor().removeBookmark(c.index);
+                     editor_->removeBookmark(c.index);
                    }
                  },
                  [&](const Seek& c) { playback_.seek(c.seconds); },
@@ -86,9 +89,9 @@ void Workspace::apply(const Command& command) {
                  [&](const OpenScene& c) { opener_.open(c.file); },
                  [&](const OpenDropped& c) { opener_.openDropped(c.files); },
                  [&](const CancelLoading&) { opener_.cancelLoading(); },
-                 [&](const Save&) { resume(document_->save(settings_)); },
-                 [&](const AskWhereToSave&) { document_->askWhere(); },
-                 [&](const SaveAs& c) { resume(document_->saveAs(c.file, settings_, c.copyModels)); },
+                 [&](const Save&) { resume(saving_->save(settings_)); },
+                 [&](const AskWhereToSave&) { saving_->askWhere(); },
+                 [&](const SaveAs& c) { resume(saving_->saveAs(c.file, settings_, c.copyModels)); },
                  [&](const DiscardChanges&) { resume(opener_.discard()); },
                  [&](const CancelPrompt&) { opener_.cancelPrompt(); },
                  [&](const Quit&) {
@@ -97,27 +100,27 @@ void Workspace::apply(const Command& command) {
                    }
                  },
                  [&](const SelectNode& c) {
-                   editor().select(c.node);
+                   editor_->select(c.node);
                    host_.openInspector();
                  },
-                 [&](const ToggleNode& c) { editor().toggle(c.node); },
+                 [&](const ToggleNode& c) { editor_->toggle(c.node); },
                  [&](const SelectNext& c) {
-                   editor().selectNext(c.step);
+                   editor_->selectNext(c.step);
                    host_.openInspector();
                  },
-                 [&](const SetGizmoMode& c) { editor().setMode(c.mode); },
-                 [&](const NextGizmoMode&) { editor().nextMode(); },
-                 [&](const EditNode& c) { editor().edit(c.target, c.node, c.continued); },
-                 [&](const EndEdit&) { editor().endEdit(); },
+                 [&](const SetGizmoMode& c) { editor_->setMode(c.mode); },
+                 [&](const NextGizmoMode&) { editor_->nextMode(); },
+                 [&](const EditNode& c) { editor_->edit(c.target, c.node, c.continued); },
+                 [&](const EndEdit&) { editor_->endEdit(); },
                  [&](const AddMirror&) { addNode(&SceneEditor::addMirror); },
                  [&](const AddLight&) { addNode(&SceneEditor::addLight); },
                  [&](const AddObject& c) { addObject(c.model); },
                  [&](const DuplicateSelected&) {
                    if (const auto view = pointedScene(time())) {
-                     editor().duplicate(*view, host_.freePicture());
+                     editor_->duplicate(*view, host_.freePicture());
                    }
                  },
-                 [&](const RemoveSelected&) { editor().remove(); },
+                 [&](const RemoveSelected&) { editor_->remove(); },
                  [&](const Undo&) { step(UndoWay::back); },
                  [&](const Redo&) { step(UndoWay::forward); },
                  [&](const MeasureAccuracy&) { measureAccuracy(); },
@@ -156,12 +159,12 @@ void Workspace::apply(const Command& command) {
 }
 
 void Workspace::pointerButton(const MouseButtonEvent& event, bool overPanels) {
-  const bool clicked = pointer_.button(event, overPanels, editor(), [this] { return pointedScene(time()); });
-  if (!clicked || !editor().document().selection()) {
+  const bool clicked = pointer_.button(event, overPanels, *editor_, [this] { return pointedScene(time()); });
+  if (!clicked || !document_->selection()) {
     return;
   }
   const bool covers = host_.inspectorCovers(pointer_.position());
-  status_.set("Selected " + describe(scene(), editor().document().selection()) + ". Drag its handles to move it." +
+  status_.set("Selected " + describe(scene(), document_->selection()) + ". Drag its handles to move it." +
               (covers ? " F2 opens the inspector." : ""));
   if (!covers) {
     host_.openInspector();
@@ -170,7 +173,7 @@ void Workspace::pointerButton(const MouseButtonEvent& event, bool overPanels) {
 
 void Workspace::pointerMoved(const glm::dvec2& position, const glm::dvec2& windowSize, bool snap) {
   const glm::dvec2 pixelsPerUnit = glm::dvec2(host_.pictureSize()) / glm::max(windowSize, 1.0);
-  pointer_.move(position, pixelsPerUnit, windowSize.y, snap, editor(), camera_);
+  pointer_.move(position, pixelsPerUnit, windowSize.y, snap, *editor_, camera_);
 }
 
 double Workspace::frameSeconds(double seconds) const {
@@ -213,7 +216,7 @@ double Workspace::aspect() const {
 }
 
 void Workspace::prepareView(double seconds, bool pointerOverPicture) {
-  document_->fill(edit_, settings_);
+  saving_->fill(edit_, settings_);
   if (const std::string title = windowTitle(edit_, capture_.recording()); title_ != title) {
     host_.setTitle(title_ = title);
   }
@@ -221,7 +224,7 @@ void Workspace::prepareView(double seconds, bool pointerOverPicture) {
   if (edit_.selected) {
     if (const auto view = pointedScene(playback_.after(seconds))) {
       const bool points = pointerOverPicture && !pointer_.dragging();
-      edit_.overlay = editor().overlay(*view, points ? std::optional(pointer_.pixel()) : std::nullopt);
+      edit_.overlay = editor_->overlay(*view, points ? std::optional(pointer_.pixel()) : std::nullopt);
     }
   }
   camera_.bookmarksChanged(scene());
@@ -260,14 +263,14 @@ void Workspace::update() {
 // of mirrors whose indices changed. Also drops figures that would hide what the new scene costs; the figures of a drag
 // stay together, because a drag changes costs little by little.
 void Workspace::takeSceneChange() {
-  if (!editor().changedSinceLastCall()) {
+  if (!editor_->changedSinceLastCall()) {
     return;
   }
-  if (!editor().dragging()) {
+  if (!editor_->dragging()) {
     report_.history().restart();
   }
   const int interval = mostAsked(scene(), settings_).updateInterval;
-  const uint64_t structure = editor().document().structureRevision();
+  const uint64_t structure = document_->structureRevision();
   const bool restructured = std::exchange(shownStructure_, structure) != structure;
   if (restructured || interval > 1 || settings_.effects.environmentInterval > 1) {
     host_.dropCachedImages();
@@ -297,7 +300,7 @@ void Workspace::showScene(std::unique_ptr<LoadedScene> scene) {
   } catch (const std::exception& error) {
     opener_.setProblem(loaded_->scene.file.string() + ": " + error.what());
     std::swap(loaded_, scene);
-    document_->forgetDiscard();
+    saving_->forgetDiscard();
     return host_.useScene(loaded_->scene);
   }
   startDocument();
@@ -314,7 +317,7 @@ void Workspace::showScene(std::unique_ptr<LoadedScene> scene) {
 
 void Workspace::addNode(void (SceneEditor::*add)(const PointedScene&)) {
   if (const std::optional<PointedScene> view = pointedScene(time())) {
-    (editor().*add)(*view);
+    ((*editor_).*add)(*view);
     reportAdded();
   }
 }
@@ -329,18 +332,18 @@ void Workspace::addObject(const fs::path& model) {
   const auto meshes = static_cast<std::ptrdiff_t>(scene.meshes.size());
   const auto textures = static_cast<std::ptrdiff_t>(scene.textures.size());
   const auto grown = [&] { return static_cast<std::ptrdiff_t>(scene.meshes.size()) > meshes; };
-  document_->setNote("");
+  saving_->setNote("");
   try {
-    const fs::path file = editor().modelFile(model);
+    const fs::path file = editor_->modelFile(model);
     accuracy_.forgetScene();
     const int mesh = addModel(scene, file);
     if (grown()) {
       useModels();
     }
-    editor().addObject(*view, mesh);
+    editor_->addObject(*view, mesh);
     reportAdded();
   } catch (const std::exception& error) {
-    document_->setNote(error.what());
+    saving_->setNote(error.what());
     status_.set(error.what());
     if (grown()) {
       scene.meshes.erase(scene.meshes.begin() + meshes, scene.meshes.end());
@@ -351,18 +354,18 @@ void Workspace::addObject(const fs::path& model) {
 }
 
 void Workspace::reportAdded() {
-  status_.set("Added " + describe(scene(), editor().document().selection()));
+  status_.set("Added " + describe(scene(), document_->selection()));
 }
 
 void Workspace::useModels() {
   host_.useScene(scene());
-  editor().modelsChanged();
+  editor_->modelsChanged();
 }
 
 void Workspace::resume(const std::optional<Command>& afterPrompt) {
-  if (document_->savedSinceLastCall()) {
+  if (saving_->savedSinceLastCall()) {
     opener_.setProblem("");
-    status_.set(document_->note());
+    status_.set(saving_->note());
     opener_.forgetSaved();
     needsThumbnail_ = true;
     if (browser().show(scene().file, false)) {
@@ -376,14 +379,14 @@ void Workspace::resume(const std::optional<Command>& afterPrompt) {
 
 // Ends one thing at a time: drag, menu or list of keys, selection, message. Panels stay.
 void Workspace::escape() {
-  if (editor().dragging()) {
-    return editor().cancelDrag();
+  if (editor_->dragging()) {
+    return editor_->cancelDrag();
   }
   if (host_.closePopup()) {
     return;
   }
-  if (editor().document().selection()) {
-    return editor().select({});
+  if (document_->selection()) {
+    return editor_->select({});
   }
   dismissMessage();
 }
@@ -398,16 +401,16 @@ void Workspace::dismissMessage() {
 void Workspace::setSettings(const Settings& settings, bool continued) {
   Settings chosen = settings;
   accuracy_.followBudget(chosen);
-  editor().document().settingsChanged(settings_, chosen, continued);
+  document_->settingsChanged(settings_, chosen, continued);
   settings_ = chosen;
 }
 
 void Workspace::step(UndoWay way) {
-  editor().release();
-  editor().endEdit();
+  editor_->release();
+  editor_->endEdit();
   const bool back = way == UndoWay::back;
-  const std::string step = back ? editor().document().undoLabel() : editor().document().redoLabel();
-  if (const std::optional<SettingsStep> changed = editor().step(way)) {
+  const std::string step = back ? document_->undoLabel() : document_->redoLabel();
+  if (const std::optional<SettingsStep> changed = editor_->step(way)) {
     // Copies only the settings that the step changed, because a measurement may have chosen others since.
     for (const SettingField& field : settingFields()) {
       if (!sameSetting(field, changed->before, changed->after)) {
@@ -435,8 +438,8 @@ void Workspace::frame(const Selection& node) {
 
 // Reports what is seen, because a back that does not reflect looks like a fault.
 void Workspace::lookFromMirror(MirrorSide side) {
-  const int mirror = camera_.lookFromMirror(side, evaluate(scene(), time()), editor().document().selection(),
-                                            report_.shown().passes, aspect());
+  const int mirror =
+      camera_.lookFromMirror(side, evaluate(scene(), time()), document_->selection(), report_.shown().passes, aspect());
   if (mirror < 0) {
     return status_.set("The scene has no mirror to look from");
   }
@@ -462,7 +465,7 @@ Options Workspace::shownOptions(const fs::path& file) {
 
 void Workspace::copyCommandLine() {
   try {
-    const fs::path file = document_->savedOrCopy(loaded_->settings);
+    const fs::path file = saving_->savedOrCopy(loaded_->settings);
     Options options = shownOptions(file);
     if (camera_.moved()) {
       options.camera = camera_.bookmark(state(time()).camera, scene().camera);
@@ -482,7 +485,7 @@ void Workspace::measureAccuracy() {
   try {
     const SceneState shown = state(time());
     SweepRequest request{
-        .options = shownOptions(document_->savedOrCopy(loaded_->settings)), .base = settings_, .camera = shown.camera};
+        .options = shownOptions(saving_->savedOrCopy(loaded_->settings)), .base = settings_, .camera = shown.camera};
     request.options.gpu = host_.gpu();
     accuracy_.measure(std::move(request), watchedState(shown));
   } catch (const std::runtime_error& error) {
@@ -491,9 +494,9 @@ void Workspace::measureAccuracy() {
 }
 
 bool Workspace::undoFailedChange(const std::string& why) {
-  editor().release();
-  editor().endEdit();
-  const std::string label = editor().document().undoLabel();
+  editor_->release();
+  editor_->endEdit();
+  const std::string label = document_->undoLabel();
   if (std::exchange(tookBack_, !label.empty())) {
     step(UndoWay::forward);  // the undone step was not the cause
     tookBack_ = false;

@@ -95,8 +95,8 @@ class Workspace {
   // Say whether frames are needed although nothing happens.
   bool animates() const { return !playback_.shown().paused && animated(); }
   bool working() const { return accuracy_.working() || opener_.working(); }
-  uint64_t revision() const { return document_->editor().document().revision(); }
-  bool dragging() const { return document_->editor().dragging(); }
+  uint64_t revision() const { return document_->revision(); }
+  bool dragging() const { return editor_->dragging(); }
   bool statusFades() const { return status_.fades(); }
 
   // Call after a frame that could not be drawn: undoes the last step and shows why. Returns false if there is no step.
@@ -120,11 +120,12 @@ class Workspace {
   const Capture& capture() const { return capture_; }
   void setPictureText(const std::string& text) { status_.setPicture(text); }
   void setPlayCost(const std::string& cost) { playback_.setCost(animated() ? cost : ""); }
-  void setRefusedEdit(bool refused) { document_->setRefusedEdit(refused); }  // as in DocumentController
+  void setRefusedEdit(bool refused) { saving_->setRefusedEdit(refused); }  // as in DocumentController
   FrameReport& report() { return report_; }
   const PointerController& pointer() const { return pointer_; }
-  bool prompting() const { return document_->prompting(); }
-  const DocumentController& document() const { return *document_; }
+  bool prompting() const { return saving_->prompting(); }
+  const SceneDocument& document() const { return *document_; }
+  const DocumentController& saving() const { return *saving_; }
 
  private:
   void showScene(std::unique_ptr<LoadedScene> scene);
@@ -147,7 +148,6 @@ class Workspace {
   std::optional<PointedScene> pointedScene(double time);
   Options shownOptions(const std::filesystem::path& file);
   double aspect() const;
-  SceneEditor& editor() { return document_->editor(); }
 
   Options options_;
   WorkspaceHost& host_;
@@ -155,7 +155,9 @@ class Workspace {
   std::shared_ptr<void> logCapture_;
   std::unique_ptr<LoadedScene> loaded_;
   std::vector<std::filesystem::path> shippedModels_;
-  std::unique_ptr<DocumentController> document_;  // of loaded_
+  std::unique_ptr<SceneDocument> document_;  // of loaded_
+  std::unique_ptr<SceneEditor> editor_;
+  std::unique_ptr<DocumentController> saving_;
   SceneOpener opener_;
   AccuracyController accuracy_;
   CameraController camera_;

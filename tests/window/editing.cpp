@@ -8,7 +8,7 @@ using namespace testing_support;
 
 class Editing : public WorkspaceTest {
  protected:
-  std::string text() const { return workspace_->document().editor().document().text(options_.scene, {}); }
+  std::string text() const { return workspace_->document().text(options_.scene, {}); }
   const Scene& saved() {
     send(Save{});
     saved_ = onDisk();
@@ -161,7 +161,8 @@ TEST_F(Editing, OtherButtonsDoNotDisturbADrag) {
 TEST_F(Editing, ClickOnAHandleChangesNothing) {
   Scene scene = onDisk();
   int changes = 0;
-  SceneEditor editor(scene, {}, [&] { ++changes; });
+  SceneDocument document(scene);
+  SceneEditor editor(document, {}, [&] { ++changes; });
   const SceneState state = evaluate(scene, 0.0);
   const PointedScene view{.state = state, .picture = PictureView(state.camera, width, height)};
   editor.select(ball);

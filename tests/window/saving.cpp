@@ -485,7 +485,7 @@ TEST_F(Kept, ChangesOutliveEverySignal) {
     send(CancelPrompt{});
     removeBall();
     setExposure(0.25);
-    EXPECT_EQ(readText(copy), workspace_->document().text(copy, workspace_->settings(), ReadBack::required));
+    EXPECT_EQ(readText(copy), workspace_->saving().text(copy, workspace_->settings(), ReadBack::required));
     EXPECT_TRUE(loadScene(copy).objects.empty());
     ASSERT_EQ(offered(), copy);
     send(OpenScene{copy});
