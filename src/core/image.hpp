@@ -1,5 +1,6 @@
 #pragma once
 
+#include <stdexcept>
 #include <string>
 
 #include "core/buffer.hpp"
@@ -17,6 +18,24 @@ struct ImageDesc {
 
 inline constexpr VkFormat colorFormat = VK_FORMAT_R16G16B16A16_SFLOAT;  // linear radiance
 inline constexpr VkFormat depthFormat = VK_FORMAT_D32_SFLOAT;           // reversed Z: 0 is infinitely far
+
+// Bytes of a texel. Throws std::logic_error for a format that the program does not use.
+constexpr VkDeviceSize bytesOfTexel(VkFormat format) {
+  switch (format) {
+    case VK_FORMAT_R8G8B8A8_UNORM:
+    case VK_FORMAT_B8G8R8A8_UNORM:
+    case VK_FORMAT_D32_SFLOAT:
+    case VK_FORMAT_R32_SFLOAT:
+      return 4;
+    case VK_FORMAT_R16G16B16A16_SFLOAT:
+    case VK_FORMAT_R32G32_UINT:
+      return 8;
+    case VK_FORMAT_R32G32B32A32_SFLOAT:
+      return 16;
+    default:
+      throw std::logic_error("the size of format " + std::to_string(format) + " is not known");
+  }
+}
 
 uint32_t mipLevelCount(VkExtent2D extent);  // down to 1x1
 

@@ -9,22 +9,6 @@ namespace speculum {
 
 namespace {
 
-VkDeviceSize texelBytes(VkFormat format) {
-  switch (format) {
-    case VK_FORMAT_R8G8B8A8_UNORM:
-    case VK_FORMAT_B8G8R8A8_UNORM:
-    case VK_FORMAT_D32_SFLOAT:
-    case VK_FORMAT_R32_SFLOAT:
-      return 4;
-    case VK_FORMAT_R16G16B16A16_SFLOAT:
-      return 8;
-    case VK_FORMAT_R32G32B32A32_SFLOAT:
-      return 16;
-    default:
-      throw std::logic_error("the size of format " + std::to_string(format) + " is not known");
-  }
-}
-
 VkBufferImageCopy wholeLevel0(const Image& image) {
   return {.imageSubresource = {image.aspect(), 0, 0, 1},
           .imageExtent = {image.extent().width, image.extent().height, 1}};
@@ -60,7 +44,7 @@ Buffer Uploader::buffer(std::span<const std::byte> data, VkBufferUsageFlags usag
 
 Image Uploader::image(std::span<const std::byte> texels, VkExtent2D extent, VkFormat format, bool mipmaps,
                       const std::string& name) {
-  const VkDeviceSize expected = areaOf(extent) * texelBytes(format);
+  const VkDeviceSize expected = areaOf(extent) * bytesOfTexel(format);
   if (texels.size() != expected) {
     throw std::logic_error("image " + name + " needs " + std::to_string(expected) + " bytes of texels, not " +
                            std::to_string(texels.size()));
@@ -154,7 +138,7 @@ Buffer BufferWriter::finish() {
 }
 
 std::vector<std::byte> Uploader::read(Image& image) {
-  const VkDeviceSize bytes = areaOf(image.extent()) * texelBytes(image.format());
+  const VkDeviceSize bytes = areaOf(image.extent()) * bytesOfTexel(image.format());
   const Buffer staging(device_, bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, BufferMemory::host,
                        "read-back of " + image.desc().name);
   run([&](VkCommandBuffer commands) {

@@ -12,11 +12,6 @@ namespace speculum {
 
 namespace {
 
-constexpr uint64_t colorBytes = 8;        // RGBA16F
-constexpr uint64_t depthBytes = 4;        // D32F
-constexpr uint64_t sumBytes = 2 * 16;     // two images of RGBA32F
-constexpr uint64_t shadowPlaneBytes = 8;  // R32G32
-
 uint64_t pixels(const PixelRect& rect) {
   return static_cast<uint64_t>(rect.area());
 }

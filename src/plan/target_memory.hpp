@@ -6,6 +6,13 @@
 
 namespace speculum {
 
+// Bytes of a texel of render targets, of both sums of a mean, and of shadow maps. The systems check that their formats
+// have these sizes, since the plan knows no Vulkan.
+inline constexpr uint64_t colorBytes = 8;
+inline constexpr uint64_t depthBytes = 4;
+inline constexpr uint64_t sumBytes = 2 * 16;
+inline constexpr uint64_t shadowPlaneBytes = 8;
+
 // Returns the device memory of a plan's render targets, bytes: the main view and the sum of pictures, environment and
 // shadow maps, the cached images that the plan reuses, and the most mirror images that are alive at one time, with
 // their depth.

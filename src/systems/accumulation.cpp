@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 
+#include "plan/target_memory.hpp"
 #include "shaders/gpu_data.h"
 
 namespace speculum {
@@ -9,6 +10,7 @@ namespace speculum {
 namespace {
 
 constexpr VkFormat sumFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
+static_assert(2 * bytesOfTexel(sumFormat) == sumBytes);
 
 }  // namespace
 

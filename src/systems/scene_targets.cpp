@@ -3,9 +3,12 @@
 #include <array>
 #include <utility>
 
+#include "plan/target_memory.hpp"
 #include "scene/scene.hpp"
 
 namespace speculum {
+
+static_assert(bytesOfTexel(colorFormat) == colorBytes && bytesOfTexel(depthFormat) == depthBytes);
 
 namespace {
 

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "plan/shadow_map.hpp"
+#include "plan/target_memory.hpp"
 #include "systems/image_pool.hpp"
 #include "systems/render_system.hpp"
 
@@ -12,6 +13,7 @@ namespace speculum {
 namespace {
 
 constexpr VkFormat planeFormat = VK_FORMAT_R32G32_UINT;
+static_assert(bytesOfTexel(planeFormat) == shadowPlaneBytes);
 constexpr std::array shadowBufferNames = {"shadow maps"};
 
 std::array<gpu::ShadowMapData, gpu::mostShadowMaps> mapData(const FramePlan& plan) {
