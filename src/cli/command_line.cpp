@@ -40,7 +40,8 @@ void addCommon(CLI::App& app, Options& options, Raw& raw) {
 }
 
 void addScene(CLI::App& app, Options& options, Raw& raw, const std::string& usualSize = "1280x720") {
-  app.add_option("--scene", options.scene, "scene file, model (OBJ), or the name of a scene of `speculum scenes`")
+  app.add_option("--scene", options.scene,
+                 "scene file, model (" + modelFormatNames() + "), or the name of a scene of `speculum scenes`")
       ->check([](const std::string& name) { return name.empty() ? "an empty name (a file or a scene's name)" : ""; });
   app.add_option("--size", raw.size, "WIDTHxHEIGHT in pixels, " + usualSize + " unless given");
 }

@@ -7,6 +7,7 @@
 
 #include "platform/files.hpp"
 #include "platform/text.hpp"
+#include "scene/model_formats.hpp"
 #include "scene/text_lines.hpp"
 
 namespace speculum {
@@ -74,44 +75,44 @@ std::optional<ForeignFile> foreignFile(std::string_view content) {
   struct Beginning {
     std::string_view text;
     const char* wrong;
-    const char* right;
+    const char* right = nullptr;  // null: another format
   };
-  static constexpr const char* asObj = "save it as a Wavefront OBJ file";
+  const std::string asModel = "save it as a " + modelFormatNames() + " file";
   static constexpr std::array beginnings{
       Beginning{"version https://git-lfs", "is a Git LFS pointer, not the model itself",
                 "fetch it with 'git lfs pull'"},
       Beginning{"\xff\xfe", "is UTF-16 text", "save it as UTF-8"},
       Beginning{"\xfe\xff", "is UTF-16 text", "save it as UTF-8"},
-      Beginning{"solid", "is an STL file", asObj},
-      Beginning{"ply\n", "is a PLY file", asObj},
-      Beginning{"ply\r", "is a PLY file", asObj},
-      Beginning{"OFF", "is an OFF file", asObj},
-      Beginning{"COFF", "is an OFF file", asObj},
-      Beginning{"glTF", "is a glTF file", asObj},
-      Beginning{"Kaydara FBX", "is an FBX file", asObj},
-      Beginning{"; FBX", "is an FBX file", asObj},
-      Beginning{"BLENDER", "is a Blender file", asObj},
+      Beginning{"solid", "is an STL file"},
+      Beginning{"ply\n", "is a PLY file"},
+      Beginning{"ply\r", "is a PLY file"},
+      Beginning{"OFF", "is an OFF file"},
+      Beginning{"COFF", "is an OFF file"},
+      Beginning{"glTF", "is a glTF file"},
+      Beginning{"Kaydara FBX", "is an FBX file"},
+      Beginning{"; FBX", "is an FBX file"},
+      Beginning{"BLENDER", "is a Blender file"},
       Beginning{"PK\x03\x04", "is a ZIP archive", "unpack it"},
       Beginning{"\x1f\x8b", "is compressed with gzip", "unpack it"},
-      Beginning{"MM", "is a 3DS file", asObj},
-      Beginning{"<?xml", "is an XML file", asObj},
+      Beginning{"MM", "is a 3DS file"},
+      Beginning{"<?xml", "is an XML file"},
       Beginning{"<!DOCTYPE", "is a web page", "download the file itself"},
       Beginning{"<html", "is a web page", "download the file itself"},
-      Beginning{"ISO-10303", "is a STEP file", asObj},
-      Beginning{"#VRML", "is a VRML file", asObj},
-      Beginning{"#usda", "is a USD file", asObj},
-      Beginning{"PXR-USDC", "is a USD file", asObj},
+      Beginning{"ISO-10303", "is a STEP file"},
+      Beginning{"#VRML", "is a VRML file"},
+      Beginning{"#usda", "is a USD file"},
+      Beginning{"PXR-USDC", "is a USD file"},
   };
   if (trimmed(content).empty()) {
-    return ForeignFile{"is empty", "a Wavefront OBJ file is needed"};
+    return ForeignFile{"is empty", "a " + modelFormatNames() + " file is needed"};
   }
   const auto found =
       std::ranges::find_if(beginnings, [&](const Beginning& beginning) { return content.starts_with(beginning.text); });
   if (found != beginnings.end()) {
-    return ForeignFile{found->wrong, found->right};
+    return ForeignFile{found->wrong, found->right ? found->right : asModel};
   }
   if (trimmed(content).starts_with("{") && content.substr(0, 4096).find("\"asset\"") != std::string_view::npos) {
-    return ForeignFile{"is a glTF file", asObj};
+    return ForeignFile{"is a glTF file", asModel};
   }
   // A binary STL file has 80 bytes of any text, the number of its triangles, and 50 bytes for each.
   if (content.size() >= 84) {
@@ -120,11 +121,11 @@ std::optional<ForeignFile> foreignFile(std::string_view content) {
       triangles = triangles * 256 + static_cast<unsigned char>(content[80 + i]);
     }
     if (content.size() == 84 + 50 * triangles) {
-      return ForeignFile{"is an STL file", asObj};
+      return ForeignFile{"is an STL file", asModel};
     }
   }
   if (content.find('\0') != std::string_view::npos) {
-    return ForeignFile{"is not a text file", "a Wavefront OBJ file is needed"};
+    return ForeignFile{"is not a text file", "a " + modelFormatNames() + " file is needed"};
   }
   return std::nullopt;
 }

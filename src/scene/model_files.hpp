@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -8,6 +9,10 @@
 #include <vector>
 
 namespace speculum {
+
+// Called now and then with the file that is being read and the finished share of all files, 0 .. 1. An exception from
+// the callback ends the loading.
+using LoadProgress = std::function<void(const std::filesystem::path& file, double done)>;
 
 // Counts the defects of a model and of the files that it names, so that each kind of a file is one warning.
 class ModelDefects {

@@ -9,11 +9,16 @@ namespace speculum {
 
 namespace {
 
-constexpr std::array formats{ModelFormat{".obj", "Wavefront OBJ", &loadObj}};
+constexpr std::array formats{ModelFormat{".obj", "Wavefront OBJ", &loadObj, &addFilesOfObj}};
 
 const ModelFormat* formatOf(const std::filesystem::path& file) {
   const auto found = std::ranges::find(formats, lowerCase(file.extension().string()), &ModelFormat::extension);
   return found == formats.end() ? nullptr : &*found;
+}
+
+const ModelFormat& formatOrFirst(const std::filesystem::path& file) {
+  const ModelFormat* format = formatOf(file);
+  return format == nullptr ? formats.front() : *format;
 }
 
 }  // namespace
@@ -23,8 +28,11 @@ bool isModelFile(const std::filesystem::path& file) {
 }
 
 Mesh loadModel(const std::filesystem::path& file, std::vector<Texture>& textures, const LoadProgress& progress) {
-  const ModelFormat* format = formatOf(file);
-  return (format == nullptr ? formats.front() : *format).load(file, textures, progress);
+  return formatOrFirst(file).load(file, textures, progress);
+}
+
+void addModelFiles(const std::filesystem::path& model, std::set<std::filesystem::path>& files) {
+  formatOrFirst(model).addFiles(model, files);
 }
 
 std::string modelFormatNames() {

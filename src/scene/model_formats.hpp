@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,6 +17,8 @@ struct ModelFormat {
   // Loads a model and appends its textures to `textures`. Throws InputError if nothing is left to draw or the file
   // cannot be read.
   Mesh (*load)(const std::filesystem::path& file, std::vector<Texture>& textures, const LoadProgress& progress);
+  // Adds the file and the existing files that it names.
+  void (*addFiles)(const std::filesystem::path& file, std::set<std::filesystem::path>& files);
 };
 
 // Says whether the file's extension is that of a format, in upper or lower case.
@@ -23,6 +26,9 @@ bool isModelFile(const std::filesystem::path& file);
 
 // Loads a model by its extension; a file with an unknown extension is read as the first format.
 Mesh loadModel(const std::filesystem::path& file, std::vector<Texture>& textures, const LoadProgress& progress = {});
+
+// Adds a model's file and the existing files that it names.
+void addModelFiles(const std::filesystem::path& model, std::set<std::filesystem::path>& files);
 
 // Returns the names of the formats: "Wavefront OBJ".
 std::string modelFormatNames();

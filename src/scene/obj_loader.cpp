@@ -9,6 +9,7 @@
 #include <streambuf>
 #include <utility>
 
+#include "platform/files.hpp"
 #include "platform/text.hpp"
 #include "scene/input_error.hpp"
 #include "scene/mesh_builder.hpp"
@@ -309,6 +310,32 @@ std::pair<Contents, std::optional<ForeignFile>> readObj(const std::filesystem::p
   return {ObjReader(file, text, builder, materials, defects).read(progress), foreignFile(text)};
 }
 
+// Adds a model or material file and the files that its lines may name: by any word, or by a word and the rest of the
+// line.
+void addFilesNamedIn(const std::filesystem::path& file, LineReader::Continuation continuation, ModelFiles& search,
+                     std::set<std::filesystem::path>& files) {
+  constexpr size_t longestPath = 4096;
+  files.insert(file);
+  const std::string text = readTextIfAny(file);
+  LineReader line(text, continuation);
+  while (line.next()) {
+    const std::string keyword = lowerCase(std::string(line.keyword()));
+    const bool materials = keyword == "mtllib";
+    for (size_t i = 1; i < line.tokens().size() && (materials || keyword.starts_with("map_")); ++i) {
+      for (const std::string_view words : {line.from(line.tokens()[i]), line.tokens()[i]}) {
+        std::string name(words.substr(0, longestPath));
+        for (size_t at = 0; (at = name.find("\\ ", at)) != std::string::npos;) {
+          name.erase(at, 1);
+        }
+        const std::optional<std::filesystem::path> named = search.find(file, name);
+        if (named && files.insert(*named).second && materials) {
+          addFilesNamedIn(*named, LineReader::Continuation::none, search, files);
+        }
+      }
+    }
+  }
+}
+
 }  // namespace
 
 Mesh loadObj(const std::filesystem::path& file, std::vector<Texture>& textures, const LoadProgress& progress) {
@@ -332,6 +359,11 @@ Mesh loadObj(const std::filesystem::path& file, std::vector<Texture>& textures, 
     throwNothingToDraw(file, foreign, contents, mesh.defects);
   }
   return mesh;
+}
+
+void addFilesOfObj(const std::filesystem::path& file, std::set<std::filesystem::path>& files) {
+  ModelFiles search(file);
+  addFilesNamedIn(file, LineReader::Continuation::backslash, search, files);
 }
 
 }  // namespace speculum

@@ -124,7 +124,7 @@ inline const auto fieldsOf<ObjectMirror> =
 template <>
 inline const auto fieldsOf<Object> = std::tuple{
     field(&Object::name, "name", "shown in lists and messages", {.use = FieldUse::label}),
-    field(&Object::model, "model", "OBJ file, relative to the scene file",
+    field(&Object::model, "model", "model file, relative to the scene file",
           {.required = true, .use = FieldUse::label, .shown = [](const Object&) { return false; }}),
     field(&Object::position, "position", "of the model's origin",
           {.unit = "m", .range = coordinateRange, .use = FieldUse::placement}),

@@ -154,32 +154,6 @@ toml::table tomlIfAny(const fs::path& file) {
   }
 }
 
-// Adds a model or material file and the files that its lines may name: by any word, or by a word and the rest of the
-// line.
-void addFilesNamedIn(const fs::path& file, LineReader::Continuation continuation, ModelFiles& search,
-                     std::set<fs::path>& files) {
-  constexpr size_t longestPath = 4096;
-  files.insert(file);
-  const std::string text = readTextIfAny(file);
-  LineReader line(text, continuation);
-  while (line.next()) {
-    const std::string keyword = lowerCase(std::string(line.keyword()));
-    const bool materials = keyword == "mtllib";
-    for (size_t i = 1; i < line.tokens().size() && (materials || keyword.starts_with("map_")); ++i) {
-      for (const std::string_view words : {line.from(line.tokens()[i]), line.tokens()[i]}) {
-        std::string name(words.substr(0, longestPath));
-        for (size_t at = 0; (at = name.find("\\ ", at)) != std::string::npos;) {
-          name.erase(at, 1);
-        }
-        const std::optional<fs::path> named = search.find(file, name);
-        if (named && files.insert(*named).second && materials) {
-          addFilesNamedIn(*named, LineReader::Continuation::none, search, files);
-        }
-      }
-    }
-  }
-}
-
 constexpr double smallest = 1e-9;  // metres, of the bounding sphere's radius
 constexpr double largest = 1e12;
 constexpr double gap = 0.03;   // space between the model and the mirror below it, in radii of the model
@@ -296,8 +270,7 @@ std::set<fs::path> filesNamedBy(const fs::path& file) {
     models.insert(modelFile(file, root["object"][i]["model"].value_or(std::string())));
   }
   for (const fs::path& model : models) {
-    ModelFiles search(model);
-    addFilesNamedIn(model, LineReader::Continuation::backslash, search, files);
+    addModelFiles(model, files);
   }
   return files;
 }
@@ -326,7 +299,7 @@ Scene modelScene(const fs::path& file, const LoadProgress& progress) {
   Mesh mesh = loadModel(file, textures, progress);
   const double radius = mesh.radius * mesh.unit;
   if (!(radius >= smallest && radius <= largest)) {
-    throwInputError(file, 1, "v", fmt::format("the model's bounding sphere has a radius of {} m", radius),
+    throwInputError(file, 1, "model", fmt::format("the model's bounding sphere has a radius of {} m", radius),
                     "1e-9 .. 1e12 is needed, or a scene that scales the model");
   }
   Scene scene = parseScene(file, sceneText(file, mesh));

@@ -73,7 +73,7 @@ void modelChoice(PanelContext& ui) {
   }
   if (!chosen) {
     ImGui::SetNextItemWidth(-FLT_MIN);
-    ImGui::InputTextWithHint("##model file", "OBJ file", &ui.state.modelFile);
+    ImGui::InputTextWithHint("##model file", "Model file", &ui.state.modelFile);
     recordWidget(ui, "edit.model_file");
   }
 }

@@ -9,6 +9,7 @@
 #include "platform/folders.hpp"
 #include "platform/text.hpp"
 #include "scene/input_error.hpp"
+#include "scene/model_formats.hpp"
 
 namespace speculum {
 
@@ -321,7 +322,7 @@ std::filesystem::path SceneEditor::modelFile(const std::filesystem::path& model)
   }
   const std::filesystem::path file = (document_.scene().file.parent_path() / typedPath(model)).lexically_normal();
   if (!isFile(file)) {
-    throw InputError(oneLine(file.string() + ": there is no such file (name a Wavefront OBJ file)"));
+    throw InputError(oneLine(file.string() + ": there is no such file (name a " + modelFormatNames() + " file)"));
   }
   return file;
 }

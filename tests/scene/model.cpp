@@ -109,7 +109,7 @@ TEST(ModelScene, RefusesImpossibleModels) {
   const TemporaryFolder folder;
   const fs::path tiny = folder.write("tiny.obj", box(1e-12));
   const std::string message = messageOf<InputError>([&] { loadScene(tiny); });
-  EXPECT_TRUE(startsWith(message, tiny.string() + ":1: v: the model's bounding sphere"));
+  EXPECT_TRUE(startsWith(message, tiny.string() + ":1: model: the model's bounding sphere"));
   const std::string missing = messageOf<InputError>([&] { loadScene(folder / "none.obj"); });
   EXPECT_TRUE(contains(missing, "none.obj:1: file: cannot be read"));
 }

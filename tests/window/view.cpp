@@ -626,7 +626,7 @@ TEST_F(Opening, FailureShowsALineAndKeepsScene) {
   send(DismissMessage{});
   EXPECT_EQ(workspace_->problem(), "");
   drop({"/tmp/notes.txt"});
-  EXPECT_EQ(workspace_->problem(), "/tmp/notes.txt: not a scene (a .toml scene or an .obj model is needed)");
+  EXPECT_EQ(workspace_->problem(), "/tmp/notes.txt: not a scene (a .toml scene or a model is needed: *.obj *.OBJ)");
   drop({model("none.obj")});
   EXPECT_TRUE(contains(workspace_->problem(), "none.obj: there is no such file"));
   EXPECT_EQ(shown().log.lines(LogLevel::err, "").size(), 4u) << "each is logged";
