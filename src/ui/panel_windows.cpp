@@ -50,6 +50,9 @@ UiOutput PanelWindows::build(const UiInput& input) {
     sideWindows(ui);
     panels::besideTarget(ui, [&] { panels::passOutline(ui); });
     panels::help(ui);
+    if (state_.widgetDemo) {
+      ImGui::ShowDemoWindow(&state_.widgetDemo);
+    }
     panels::inspector(ui, dock_);
     panels::playOffer(ui, freeRect(), below);
   }
@@ -108,6 +111,8 @@ void PanelWindows::menuBar(PanelContext& ui) {
   }
   if (panels::menu(ui, "Help")) {
     ImGui::MenuItem("Keys", keysOf(ToggleHelp{}), &state_.help);
+    ImGui::MenuItem("Dear ImGui demo", nullptr, &state_.widgetDemo);
+    panels::recordWidget(ui, "help.widgets");
     ImGui::EndMenu();
   }
   panels::frameTime(ui);

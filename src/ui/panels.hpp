@@ -15,6 +15,7 @@ namespace speculum {
 struct PanelState {
   PanelChoices choices;
   bool help = false;
+  bool widgetDemo = false;            // the window that Dear ImGui brings along to show its widgets
   std::optional<glm::vec2> openedAt;  // pointer when a click opened the inspector; none once the pointer moved
   bool focusNodes = false;            // the list of nodes takes the keyboard in the next frame
   bool editing = false;               // a continued EditNode has not ended

@@ -82,6 +82,10 @@ std::vector<MotionLevel> motionLevels(const Scene& scene, const Settings& chosen
     add(settings, std::hypot(measured.error, addedError(measured.settings, settings, scene.mirrors.size())));
   };
   const auto scaleTo = [&](double least) {
+    // Lines would become as thick as the pixels.
+    if (chosen.view.wireframe) {
+      return;
+    }
     for (double scale = levels.back().settings.view.scale * scaleStep; scale >= least; scale *= scaleStep) {
       step([&](Settings& s) { s.view.scale = scale; });
     }

@@ -387,6 +387,16 @@ TEST_F(PanelTest, MenusSendTheirCommands) {
   EXPECT_EQ(clickFor<LookFromMirror>("menu.Look out of mirror").side, MirrorSide::front);
 }
 
+TEST_F(PanelTest, HelpShowsTheDemoOfTheWidgets) {
+  click("menu.Help");
+  click("help.widgets", 0.1);
+  const ImGuiWindow* demo = ImGui::FindWindowByName("Dear ImGui Demo");
+  ASSERT_TRUE(demo && demo->Active);
+  click("menu.Help");
+  click("help.widgets", 0.1);
+  EXPECT_FALSE(demo->Active);
+}
+
 TEST_F(PanelTest, MenuSaysWhatIsFramed) {
   click("menu.View");
   EXPECT_TRUE(has("menu.Frame scene"));

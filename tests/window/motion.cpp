@@ -259,6 +259,14 @@ TEST(MotionLevels, NoLevelExceedsTheFirst) {
   }
 }
 
+TEST(MotionLevels, WireframeKeepsItsResolution) {
+  Settings chosen;
+  chosen.view.wireframe = true;
+  const std::vector<MotionLevel> levels = motionLevels({}, chosen, {}, 1 + 2 + 4);
+  EXPECT_GT(levels.size(), 1u);
+  EXPECT_TRUE(std::ranges::all_of(levels, [](const MotionLevel& level) { return level.settings.view.scale == 1.0; }));
+}
+
 // Whatever mirrors ask for themselves, no level raises it, and the last one draws them as cheaply as the others.
 TEST(MotionLevels, LowerTheQualityOfSingleMirrors) {
   Scene scene;
