@@ -45,7 +45,11 @@ Values texts(const std::vector<int>& values) {
 Values swept(std::string_view key, bool full) {
   const SweptValues& values = findSettingField(key)->swept;
   std::istringstream words{std::string(full ? values.full : values.quick)};
-  return {std::istream_iterator<std::string>(words), {}};
+  Values list{std::istream_iterator<std::string>(words), {}};
+  if (list.empty()) {
+    throw std::logic_error("the description of " + std::string(key) + " has no values for sweeps");
+  }
+  return list;
 }
 
 Changes samples(const std::string& count) {

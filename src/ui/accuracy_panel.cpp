@@ -206,9 +206,9 @@ void frontSlider(PanelContext& ui) {
   }
   recordWidget(ui, "accuracy.slider");
   // Below the slider, which is too narrow for most names.
-  ImGui::BeginDisabled(accuracy.own == ui.settings);
+  ImGui::BeginDisabled(!accuracy.own || accuracy.own == ui.settings);
   commandButton(ui, "Back", "accuracy.back", "Returns to your settings, from before a point was picked.",
-                SetSettings{accuracy.own});
+                SetSettings{accuracy.own.value_or(ui.settings)});
   ImGui::EndDisabled();
   ImGui::SameLine();
   wrappedText(accuracy.current >= 0 ? accuracy.points[accuracy.current].name : "Other settings");

@@ -6,19 +6,22 @@ namespace speculum::panels {
 
 namespace {
 
-// Returns where the inspector calls for an effect; empty for effects that settings or models call for.
-const char* whereAsked(EffectKind kind) {
+// Returns how to call for an effect, if the inspector or a setting does that.
+std::string howToAsk(EffectKind kind, const EffectSettings& settings) {
+  const auto text = [](bool on, const char* where) {
+    return on ? std::string(" (Inspector, ") + where + ")" : std::string(" (the setting is off)");
+  };
   switch (kind) {
     case EffectKind::shadows:
-      return " (Inspector, light: Casts shadow)";
+      return text(settings.shadows, "light: Casts shadow");
     case EffectKind::roughness:
-      return " (Inspector, mirror: Roughness)";
+      return text(settings.roughness, "mirror: Roughness");
     case EffectKind::ripple:
-      return " (Inspector, mirror: Ripple)";
+      return text(settings.ripple, "mirror: Ripple");
     case EffectKind::castsLight:
-      return " (Inspector, mirror: Casts light)";
+      return text(settings.castsLight, "mirror: Casts light");
     case EffectKind::curved:
-      return " (Inspector, object: Mirror)";
+      return text(settings.curved, "object: Mirror");
     default:
       return "";
   }
@@ -55,7 +58,7 @@ void effects(PanelContext& ui) {
     const bool on = effect.calledFor;
     ImGui::TableNextRow();
     for (const std::string& text :
-         {effect.name, effect.why + (on ? "" : whereAsked(effect.kind)),
+         {effect.name, effect.why + (on ? "" : howToAsk(effect.kind, ui.settings.effects)),
           on ? std::to_string(effect.draws) : std::string(), on ? mebibytes(effect.bytes) : std::string()}) {
       ImGui::TableNextColumn();
       if (!on) {

@@ -167,14 +167,14 @@ struct ShownAccuracy {
   std::vector<PointRow> points;
   std::map<std::string, std::string, std::less<>> prices;  // by setting: its measured values with time and error
   std::vector<int> front;                                  // indices into points, cheapest first
-  Settings own;                                            // the last settings that were not picked as a point
-  int current = -1;                                        // index of the point that the settings are at; -1: none
-  int chosen = -1;           // index of the point that a bound chose, while the settings are at it; -1: none
-  double noiseFloor = 0.0;   // mean FLIP
-  std::string about;         // what was measured, where
-  bool alone = false;        // the picture shows the current point, as one picture without a mean
-  bool otherView = false;    // the user changed camera or time since the measurement
-  double secondsLeft = 0.0;  // until the stage that runs ends; 0: not known
+  std::optional<Settings> own;  // settings from before the user picked a point; none: no point was picked
+  int current = -1;             // index of the point that the settings are at; -1: none
+  int chosen = -1;              // index of the point that a bound chose, while the settings are at it; -1: none
+  double noiseFloor = 0.0;      // mean FLIP
+  std::string about;            // what was measured, where
+  bool alone = false;           // the picture shows the current point, as one picture without a mean
+  bool otherView = false;       // the user changed camera or time since the measurement
+  double secondsLeft = 0.0;     // until the stage that runs ends; 0: not known
   bool measuring = false;
   std::string stage;                 // of the measurement that runs
   double progress = 0.0;             // of the measurement, 0 .. 1

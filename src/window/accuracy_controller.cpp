@@ -222,7 +222,6 @@ void AccuracyController::findCurrentPoint(const Settings& settings) {
     return;
   }
   settings_ = settings;
-  shown_.own = picked_ == settings ? shown_.own : settings;
   const auto at = std::ranges::find_if(pointSettings_, [&](const auto& point) { return isAtPoint(settings, point); });
   shown_.current = at == pointSettings_.end() ? -1 : static_cast<int>(at - pointSettings_.begin());
   if (shown_.current != shown_.chosen) {

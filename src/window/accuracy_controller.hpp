@@ -47,7 +47,14 @@ class AccuracyController {
   void show(bool points, std::optional<double> errorGain);
   // Call with the settings of a point that the user picked. While these are in use, shown() returns them without the
   // mean of still pictures, which hides how points differ.
-  void pick(const Settings& settings) { picked_ = settings; }
+  void pick(const Settings& before, const Settings& settings) {
+    shown_.own = picked_ == before ? shown_.own : before;
+    picked_ = settings;
+  }
+  void forgetPick() {  // call when another scene is shown
+    shown_.own.reset();
+    picked_.reset();
+  }
   Settings shown(Settings settings) const;
 
   // Call before a frame. Takes finished results; if `settings` have a budget, it then chooses a point of them, which is

@@ -119,11 +119,13 @@ void Demo::beginOpening() {
   }
   const bool paced = options_.frames == 0 && budgetMs() > 0.0;
   first_.begin(paced && workspace_.animates(), paced && device_.info().isCpu());
+  opened_ = Clock::now();
   workspace_.setPlayCost("");
   workspace_.browser().showPoster(true);
 }
 
-void Demo::continueOpening(const FramePlan& plan, double seconds) {
+void Demo::continueOpening(const FramePlan& plan) {
+  const double seconds = std::chrono::duration<double>(Clock::now() - opened_).count();
   if (first_.drawn(pace_.playCost(), workspace_.animates(), endsPicture(plan) && !pace_.lowers(), seconds)) {
     apply(SetPaused{true});
     apply(Seek{0.0});
@@ -226,7 +228,7 @@ void Demo::drawFrame(double seconds, double sinceLastMs) {
   }
   framesDrawn_ += framesDrawn_ < std::numeric_limits<int>::max();
   pacer_.frameDrawn();
-  continueOpening(plan, seconds);
+  continueOpening(plan);
   const bool repeats = pace_.repeats() && !settings.view.continuous && options_.frames == 0;
   workspace_.report().update({workspace_.scene(), state, settings, plan, number, cpuMs, sinceLastMs, pace_.lowers(),
                               newPipelines || compiledBefore, repeats, workspace_.settings()},

@@ -74,7 +74,7 @@ class Demo : private WorkspaceHost {
   bool idle();
   void updateUi(double seconds);
   void beginOpening();
-  void continueOpening(const FramePlan& plan, double seconds);
+  void continueOpening(const FramePlan& plan);
   void presentPanels();
   void endWithPanels(Frame& frame);
   void endFrame(Frame& frame);
@@ -120,7 +120,8 @@ class Demo : private WorkspaceHost {
   bool closeAfterPrompt_ = false;  // the prompt is answered: close the window
   bool working_ = false;           // background work has results to show
   std::string shaderErrors_;
-  Clock::time_point last_;  // when the last step began
+  Clock::time_point last_;    // when the last step began
+  Clock::time_point opened_;  // when the scene was shown first
   bool capture_ = false;
   int framesDrawn_ = 0;
 };

@@ -103,16 +103,12 @@ std::optional<Command> DocumentController::save(const Settings& settings) {
 void DocumentController::askWhere() {
   const fs::path file = document_.usualFile();
   findSaveFile();
-  const fs::path original = originalFile();
-  ask(Prompt::saveAs, wholePath(original.empty() ? ownFolder() / file.filename() : original));
-  if (isCopy_ && !original.empty()) {
-    refused_ = proposed_;
-    note_ = "Saving replaces this file, of which the scene is a copy.";
-  }
+  const fs::path usual = isCopy_ ? originalFile() : saveFile_.value_or("");
+  ask(Prompt::saveAs, wholePath(usual.empty() ? ownFolder() / file.filename() : usual));
 }
 
 fs::path DocumentController::originalFile() const {
-  return isCopy_ ? Recovery::originalOf(loaded_.scene.file) : saveFile_ ? wholePath(*saveFile_) : "";
+  return isCopy_ ? Recovery::originalOf(loaded_.scene.file) : saveFile_ && !isNew_ ? wholePath(*saveFile_) : "";
 }
 
 void DocumentController::ask(Prompt prompt, const fs::path& proposed) {

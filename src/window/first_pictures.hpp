@@ -12,21 +12,19 @@ class FirstPictures {
   // Call when another scene is shown. `moves`: the scene moves by itself, and its frames have a time budget. `covered`:
   // the thumbnail covers the picture until there is a good one, or for some seconds.
   void begin(bool moves, bool covered) {
-    coveredSeconds_ = 0.0;
     triesLeft_ = moves ? mostTries : 0;
     covered_ = covered;
     holds_ = false;
   }
   // Call after each frame: with Pace::playCost(), whether the scene moves by itself, whether the frame was a complete
-  // picture in full quality, and the seconds since the last frame. Returns true if the scene is to go back to its start
+  // picture in full quality, and the seconds since begin(). Returns true if the scene is to go back to its start
   // and to be paused.
   bool drawn(const std::optional<std::string>& playCost, bool moves, bool complete, double seconds) {
-    coveredSeconds_ += seconds;
     const bool tried = triesLeft_ > 0;
     triesLeft_ = moves && !playCost ? triesLeft_ - tried : 0;
     const bool stands = tried && moves && !playCost.value_or("").empty();
     holds_ = stands || (holds_ && !moves);
-    covered_ = covered_ && coveredSeconds_ < longestCover && (tried ? triesLeft_ > 0 || stands || !moves : !complete);
+    covered_ = covered_ && seconds < longestCover && (tried ? triesLeft_ > 0 || stands || !moves : !complete);
     return stands;
   }
   void uncover() { covered_ = false; }  // the user acts
@@ -40,7 +38,6 @@ class FirstPictures {
 
   int triesLeft_ = 0;  // frames in which the cost of playing may become known
   bool covered_ = false;
-  double coveredSeconds_ = 0.0;
   bool holds_ = false;
 };
 

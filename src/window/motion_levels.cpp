@@ -66,7 +66,10 @@ std::vector<MotionLevel> motionLevels(const Scene& scene, const Settings& chosen
     return std::ranges::any_of(scene.mirrors, [&](const Mirror& mirror) { return mirror.quality.method == method; });
   };
   std::vector<MotionLevel> levels{{chosen}};
-  const auto add = [&](const Settings& settings, double error) {
+  const auto add = [&](Settings settings, double error) {
+    if (chosen.view.wireframe) {
+      settings.view.scale = chosen.view.scale;  // lines would become as thick as the pixels
+    }
     if (!sameMainView(settings, levels.back().settings)) {
       levels.push_back({settings, error});
     }
@@ -82,10 +85,6 @@ std::vector<MotionLevel> motionLevels(const Scene& scene, const Settings& chosen
     add(settings, std::hypot(measured.error, addedError(measured.settings, settings, scene.mirrors.size())));
   };
   const auto scaleTo = [&](double least) {
-    // Lines would become as thick as the pixels.
-    if (chosen.view.wireframe) {
-      return;
-    }
     for (double scale = levels.back().settings.view.scale * scaleStep; scale >= least; scale *= scaleStep) {
       step([&](Settings& s) { s.view.scale = scale; });
     }

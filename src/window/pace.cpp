@@ -27,7 +27,7 @@ constexpr double caution = 4.0;      // a tile that was never drawn may take so 
 // Share of the dearest tile's time that still counts a frame later. One frame may be slow for another reason, such as
 // another program that takes the processor.
 constexpr double remembered = 0.9;
-// Frames of a slow picture, besides those of its maps. On a busy machine each frame takes long, whatever it draws.
+// Frames of a slow picture, besides those of its maps, on a busy machine, where a frame takes long whatever it draws.
 constexpr size_t mostFrames = 128;
 
 Settings withPictures(Settings settings, int pictures) {
@@ -46,6 +46,8 @@ void SlowPicture::begin(size_t faces, size_t count, double ms) {
   tiles_ = {};
   faces_ = faces;
   faceMs_ = std::numeric_limits<double>::infinity();
+  pays_ = true;
+  lastCount_ = 0;
   totalMs_ = 0.0;
   const std::vector<double> before = std::exchange(tileMs_, std::vector<double>(count));
   if (before.empty()) {
@@ -59,12 +61,13 @@ void SlowPicture::begin(size_t faces, size_t count, double ms) {
   measured_ = measured_ * count / before.size();
 }
 
-TileRange SlowPicture::next(double ms) {
+TileRange SlowPicture::next(double ms, bool input) {
   tiles_ = {tiles_.end, tiles_.end + 1};
   const bool faces = tiles_.first < faces_;
   const auto expected = [&](size_t tile) { return faces ? faceMs_ : tileMs_[tile - faces_]; };
   const size_t end = faces ? faces_ : faces_ + tileMs_.size();
-  const size_t least = faces ? 1 : tileMs_.size() / mostFrames;
+  const bool mayWait = !faces && !input && pays_;
+  const size_t least = mayWait ? std::min((tileMs_.size() + mostFrames - 1) / mostFrames, 2 * lastCount_) : 1;
   for (double sum = expected(tiles_.first); tiles_.end < end; ++tiles_.end) {
     sum += expected(tiles_.end);
     if (sum > ms && tiles_.end - tiles_.first >= least) {
@@ -76,11 +79,20 @@ TileRange SlowPicture::next(double ms) {
 
 void SlowPicture::took(double ms) {
   totalMs_ += ms;
-  const double tileMs = ms / static_cast<double>(tiles_.end - tiles_.first);
+  const size_t count = tiles_.end - tiles_.first;
+  const double tileMs = ms / static_cast<double>(count);
   if (tiles_.first < faces_) {
     faceMs_ = tileMs;
     return;
   }
+  if (count != lastCount_ && lastCount_ > 0) {
+    // A tile takes as long as in the last frame if tiles take all of a frame's time. It takes a share that falls with
+    // their number if they take none of it. The limit is halfway between.
+    const double limit = 0.5 * lastTileMs_ * (1.0 + static_cast<double>(lastCount_) / static_cast<double>(count));
+    pays_ = count > lastCount_ ? tileMs < limit : tileMs > limit;
+  }
+  lastCount_ = count;
+  lastTileMs_ = tileMs;
   std::fill(tileMs_.data() + tiles_.first - faces_, tileMs_.data() + tiles_.end - faces_, tileMs);
   measured_ = std::max(measured_, tiles_.end - faces_);
   dearestMs_ = std::max(remembered * dearestMs_, tileMs);
@@ -273,7 +285,7 @@ void Pace::planTiles(const Request& request) {
   besidesMs_ = cpuMs_ + controller_.predict({.plainTexels = pixels});
   const double most = (request.input ? 1.0 : tilesShare) * request.budgetMs;
   // At least half of the time goes to the tiles, whatever the rest of a frame takes.
-  fitted_.plan.tiles = slow_.next(std::max(most - besidesMs_, besidesMs_));
+  fitted_.plan.tiles = slow_.next(std::max(most - besidesMs_, besidesMs_), request.input);
 }
 
 std::string Pace::tilesText(int complete) const {

@@ -20,8 +20,9 @@ class SlowPicture {
   // Begins a picture of `faces` tiles that are faces of maps and `count` other tiles. The other tiles of the first
   // picture are expected to take `ms` together, those of a further picture as long as in the picture before.
   void begin(size_t faces, size_t count, double ms);
-  // Returns the next tiles that are expected to take `ms` together, and at least one in 128 of the picture's.
-  TileRange next(double ms);
+  // Returns the next tiles, at least one, that are expected to take `ms` together. Without `input` these are more, up
+  // to one in 128, as long as that makes each faster.
+  TileRange next(double ms, bool input = false);
   // Call with the milliseconds that the tiles of the last next() took.
   void took(double ms);
 
@@ -35,6 +36,9 @@ class SlowPicture {
   double faceMs_ = 0.0;         // of each of the faces drawn last
   std::vector<double> tileMs_;  // of each other tile, expected or measured
   TileRange tiles_;             // of the last next()
+  bool pays_ = true;            // more tiles in a frame take less time each
+  size_t lastCount_ = 0;        // tiles of the last frame; 0: none of this picture
+  double lastTileMs_ = 0.0;     // of each of these
   size_t measured_ = 0;         // the first tiles of tileMs_ whose times were measured
   double dearestMs_ = 0.0;      // longest measured time of a tile, fading from frame to frame
   double totalMs_ = 0.0;        // of the picture's tiles so far

@@ -220,7 +220,7 @@ fs::path SceneBrowser::choose(const std::vector<fs::path>& files) {
       files, [](const fs::path& candidate) { return isModelFile(candidate) || mayBeScene(candidate); });
   if (file == files.end()) {
     throw InputError((files.empty() ? std::string("nothing") : files.front().string()) +
-                     ": not a scene (a .toml scene or a model is needed: " + modelPatterns() + ")");
+                     ": not a scene (a .toml scene or a " + modelFormatNames() + " model is needed)");
   }
   return *file;
 }

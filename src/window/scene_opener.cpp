@@ -15,9 +15,9 @@ SceneOpener::SceneOpener(const Options& options, const Settings& settings) : opt
   options_.sweepResults.clear();  // a sweep belongs to the first scene
 }
 
-void SceneOpener::setDocument(const SceneDocument& scene, DocumentController& document) {
-  scene_ = &scene;
+void SceneOpener::setDocument(const SceneDocument& document, DocumentController& saving) {
   document_ = &document;
+  saving_ = &saving;
   seen_.reset();
   if (options_.frames == 0) {
     recovery_.setScene(shownFile());
@@ -26,7 +26,7 @@ void SceneOpener::setDocument(const SceneDocument& scene, DocumentController& do
 
 void SceneOpener::offerRecovery() {
   if (const fs::path copy = recovery_.findNewest(); !copy.empty()) {
-    document_->ask(Prompt::recovery, copy);
+    saving_->ask(Prompt::recovery, copy);
   }
 }
 
@@ -38,7 +38,7 @@ fs::path SceneOpener::folderToOpen() const {
 
 void SceneOpener::ask() {
   if (!dialog_.open(folderToOpen())) {
-    document_->ask(Prompt::open, folderToOpen());
+    saving_->ask(Prompt::open, folderToOpen());
   }
 }
 
@@ -46,8 +46,8 @@ void SceneOpener::takeChosenFile() {
   const std::optional<FileDialog::Answer> answer = dialog_.poll();
   if (answer && answer->file) {
     open(*answer->file);
-  } else if (answer && answer->failed && !document_->prompting()) {
-    document_->ask(Prompt::open, folderToOpen());
+  } else if (answer && answer->failed && !saving_->prompting()) {
+    saving_->ask(Prompt::open, folderToOpen());
   }
 }
 
@@ -63,8 +63,8 @@ void SceneOpener::open(const fs::path& file) {
   if (!fs::exists(file, none)) {
     return setProblem(file.string() + ": there is no such file");
   }
-  document_->closeOpenPrompt();
-  if (document_->confirmDiscard(settings_, OpenScene{file})) {
+  saving_->closeOpenPrompt();
+  if (saving_->confirmDiscard(settings_, OpenScene{file})) {
     problem_.clear();
     browser_.open(file, options_);
   }
@@ -80,49 +80,49 @@ void SceneOpener::openDropped(const std::vector<fs::path>& files) {
 
 void SceneOpener::cancelLoading() {
   browser_.cancelLoading();
-  document_->forgetDiscard();
+  saving_->forgetDiscard();
 }
 
 void SceneOpener::cancelPrompt() {
-  if (document_->prompt() == Prompt::recovery) {
+  if (saving_->prompt() == Prompt::recovery) {
     recovery_.postpone();
   }
-  document_->cancelPrompt();
+  saving_->cancelPrompt();
   if (browser_.loaded()) {
     browser_.cancelLoading();
   }
 }
 
 std::optional<Command> SceneOpener::discard() {
-  if (document_->prompt() == Prompt::recovery) {
+  if (saving_->prompt() == Prompt::recovery) {
     recovery_.discardOffer();
-    document_->cancelPrompt();
+    saving_->cancelPrompt();
     return std::nullopt;
   }
-  return document_->discard(settings_);
+  return saving_->discard(settings_);
 }
 
 std::unique_ptr<LoadedScene> SceneOpener::update() {
   takeChosenFile();
   std::unique_ptr<LoadedScene> loaded;
   // Prompts for changes made while the scene was loading, too.
-  if (browser_.loaded() && document_->confirmDiscard(settings_, std::nullopt)) {
+  if (browser_.loaded() && saving_->confirmDiscard(settings_, std::nullopt)) {
     loaded = browser_.takeLoaded();
   } else if (const std::optional<std::string> error = browser_.takeError()) {
     setProblem(*error);
-    document_->forgetDiscard();
+    saving_->forgetDiscard();
   }
   browser_.updateView();
   return loaded;
 }
 
 bool SceneOpener::working() const {
-  const bool waitsForAnswer = browser_.loaded() && document_->prompting();
+  const bool waitsForAnswer = browser_.loaded() && saving_->prompting();
   return (browser_.busy() && !waitsForAnswer) || dialog_.isOpen();
 }
 
 bool SceneOpener::confirmQuit() {
-  const bool confirmed = document_->confirmDiscard(settings_, Quit{});
+  const bool confirmed = saving_->confirmDiscard(settings_, Quit{});
   if (confirmed && options_.frames == 0) {
     forgetCopies();
   }
@@ -130,7 +130,7 @@ bool SceneOpener::confirmQuit() {
 }
 
 void SceneOpener::forgetSaved() {
-  if (!document_->hasUnsaved(settings_)) {
+  if (!saving_->hasUnsaved(settings_)) {
     forgetCopies();
   }
 }
@@ -141,13 +141,13 @@ void SceneOpener::forgetCopies() {
 }
 
 fs::path SceneOpener::keepCopy() {
-  return recovery_.keep(shownFile().stem().string(), document_->originalFile(),
-                        [this](const fs::path& file) { return document_->text(file, settings_, ReadBack::untested); });
+  return recovery_.keep(shownFile().stem().string(), saving_->originalFile(),
+                        [this](const fs::path& file) { return saving_->text(file, settings_, ReadBack::untested); });
 }
 
 void SceneOpener::keepChanges(Clock::time_point now) noexcept {
   using namespace std::chrono_literals;
-  const std::pair shown(scene_->revision(), settings_);
+  const std::pair shown(document_->revision(), settings_);
   if (std::exchange(seen_, shown) != shown) {
     copyDue_ = copyDue_.value_or(now + std::max<Clock::duration>(1s, copyInterval_));
   }
@@ -157,7 +157,7 @@ void SceneOpener::keepChanges(Clock::time_point now) noexcept {
   const std::clock_t start = std::clock();
   copyDue_.reset();
   try {
-    document_->hasUnsaved(settings_) ? static_cast<void>(keepCopy()) : recovery_.forget();
+    saving_->hasUnsaved(settings_) ? static_cast<void>(keepCopy()) : recovery_.forget();
     copyFailed_ = false;
   } catch (const std::exception& error) {
     copyDue_ = now + 10s;
@@ -170,7 +170,7 @@ void SceneOpener::keepChanges(Clock::time_point now) noexcept {
 
 void SceneOpener::keepUnsavedWork() noexcept {
   try {
-    if (document_->hasUnsaved(settings_)) {
+    if (saving_->hasUnsaved(settings_)) {
       spdlog::warn("unsaved changes are kept in {}", keepCopy().string());
     }
   } catch (const std::exception& error) {

@@ -36,7 +36,7 @@ class SceneOpener {
   // Keeps the reference to the settings in use.
   SceneOpener(const Options& options, const Settings& settings);
 
-  void setDocument(const SceneDocument& scene, DocumentController& document);  // call when another scene is shown
+  void setDocument(const SceneDocument& document, DocumentController& saving);  // call when another scene is shown
   void offerRecovery();  // prompts for the newest copy of unsaved changes, if there is one
 
   // Asks for a file to open: by the desktop's dialog, if there is one that can be started, else by a prompt.
@@ -67,14 +67,14 @@ class SceneOpener {
  private:
   std::filesystem::path keepCopy();
   void forgetCopies();
-  const std::filesystem::path& shownFile() const { return scene_->scene().file; }
+  const std::filesystem::path& shownFile() const { return document_->scene().file; }
   std::filesystem::path folderToOpen() const;
   void takeChosenFile();
 
   Options options_;
   const Settings& settings_;
-  const SceneDocument* scene_ = nullptr;
-  DocumentController* document_ = nullptr;
+  const SceneDocument* document_ = nullptr;
+  DocumentController* saving_ = nullptr;
   SceneBrowser browser_;
   FileDialog dialog_;
   Recovery recovery_;

@@ -49,6 +49,7 @@ void Workspace::startDocument() {
   document_ = std::move(document);
   opener_.setDocument(*document_, *saving_);
   pointer_.cancel();
+  accuracy_.forgetPick();
   camera_.sceneChanged(scene());
   report_.clear();
   settings_ = loaded_->settings;
@@ -126,10 +127,11 @@ void Workspace::apply(const Command& command) {
                  [&](const MeasureAccuracy&) { measureAccuracy(); },
                  [&](const CancelMeasurement&) { accuracy_.cancel(); },
                  [&](const ApplyPoint& c) {
+                   const Settings before = settings_;
                    Settings settings = settings_;
                    accuracy_.applyPoint(c.point, settings);
                    setSettings(settings);
-                   accuracy_.pick(settings_);
+                   accuracy_.pick(before, settings_);
                    status_.set("Shows the picked point as it was measured: one picture, not the mean of several.");
                  },
                  [&](const TakeScreenshot& c) { capture_.takeScreenshot(c.withPanel); },
@@ -164,7 +166,7 @@ void Workspace::pointerButton(const MouseButtonEvent& event, bool overPanels) {
     return;
   }
   const bool covers = host_.inspectorCovers(pointer_.position());
-  status_.set("Selected " + describe(scene(), document_->selection()) + ". Drag its handles to move it." +
+  status_.set("Selected " + describe(scene(), document_->selection()) + ". Its handles move, turn or scale it." +
               (covers ? " F2 opens the inspector." : ""));
   if (!covers) {
     host_.openInspector();
@@ -281,7 +283,7 @@ void Workspace::frameDrawn(const ShownPicture& shown, const std::function<Image8
   if (captured) {
     Capture::Saved saved = capture_.save(scene().file.stem().string(), *captured);
     const std::string& picture = status_.shown().picture;
-    saved.message += saved.logged && !picture.empty() ? ", " + picture.substr(0, picture.find_first_of(",;")) : "";
+    saved.message += saved.logged && !picture.empty() ? ", " + picture : "";
     saved.logged ? status_.set(saved.message) : status_.show(saved.message);
   }
   accuracy_.afterFrame(shown, watchedState(shown.state), radiance);
@@ -423,10 +425,11 @@ void Workspace::step(UndoWay way) {
 }
 
 void Workspace::frame(const Selection& node) {
-  // An opened model stands on a mirror that is much larger.
-  const bool isModel = !node && isModelFile(scene().file);
-  const Selection framed = isModel ? Selection{Selection::Kind::object, 0} : node;
-  const Sphere bounds = boundsOf(scene(), evaluate(scene(), time()), framed);
+  SceneState state = evaluate(scene(), time());
+  if (!node && isModelFile(scene().file) && !state.instances.empty()) {
+    state.mirrors.clear();  // an opened model stands on a mirror that is much larger
+  }
+  const Sphere bounds = boundsOf(scene(), state, node);
   if (bounds.radius > 0.0) {
     const glm::dvec2 size = glm::max(glm::dvec2(host_.pictureSize()), 1.0);
     const PixelRect free = host_.freePicture();

@@ -1450,8 +1450,10 @@ TEST_F(AccuracyWindow, PointsAndSliderApplySettings) {
 }
 
 TEST_F(AccuracyWindow, OwnSettingsComeBack) {
-  accuracy_.own.view.exposure = 2.0;
-  EXPECT_EQ(clickFor<SetSettings>("accuracy.back").settings, accuracy_.own);
+  click("accuracy.back");
+  EXPECT_FALSE(sent<SetSettings>()) << "no point was picked";
+  accuracy_.own.emplace().view.exposure = 2.0;
+  EXPECT_EQ(clickFor<SetSettings>("accuracy.back").settings, *accuracy_.own);
   commands_.clear();
   click("accuracy.back");
   EXPECT_FALSE(sent<SetSettings>()) << "they are there";
@@ -1642,6 +1644,13 @@ TEST_F(TargetsWindow, ShowsTheMainViewZoomsAndPans) {
   EXPECT_EQ(windows_->state().targets.zoom, 0.0);
   toggle("Targets");
   EXPECT_FALSE(target());
+}
+
+TEST_F(TargetsWindow, OpensOnTheSelectedMirror) {
+  edit_.selected = {Selection::Kind::mirror, 0};
+  toggle("Targets");
+  ASSERT_TRUE(target());
+  EXPECT_EQ(target()->path, MirrorPath{0});
 }
 
 TEST_F(TargetsWindow, NothingIsCutWhereTextIsLarge) {

@@ -46,7 +46,7 @@ TEST_F(Editing, InspectorNeverCoversWhatWasClicked) {
   clickBall();
   EXPECT_EQ(edit().selected, ball);
   EXPECT_FALSE(host_.inspector);
-  EXPECT_EQ(status(), "Selected object 'ball'. Drag its handles to move it. F2 opens the inspector.");
+  EXPECT_EQ(status(), "Selected object 'ball'. Its handles move, turn or scale it. F2 opens the inspector.");
   click(lampAt_);
   EXPECT_TRUE(host_.inspector);
 }

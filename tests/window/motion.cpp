@@ -262,7 +262,10 @@ TEST(MotionLevels, NoLevelExceedsTheFirst) {
 TEST(MotionLevels, WireframeKeepsItsResolution) {
   Settings chosen;
   chosen.view.wireframe = true;
-  const std::vector<MotionLevel> levels = motionLevels({}, chosen, {}, 1 + 2 + 4);
+  std::vector<MotionLevel> front(1);
+  front[0].settings.view.scale = 0.25;
+  front[0].settings.view.samples = 1;
+  const std::vector<MotionLevel> levels = motionLevels({}, chosen, front, 1 + 2 + 4);
   EXPECT_GT(levels.size(), 1u);
   EXPECT_TRUE(std::ranges::all_of(levels, [](const MotionLevel& level) { return level.settings.view.scale == 1.0; }));
 }
@@ -700,11 +703,11 @@ TEST(FirstPictures, StaysCoveredUntilThereIsAGoodPicture) {
   }
   EXPECT_FALSE(opening.covered());
   opening.begin(false, true);
-  for (int i = 0; i < 4; ++i) {
-    opening.drawn(std::nullopt, false, false, 1.2);
+  for (const double seconds : {0.1, 1.0, 4.9}) {
+    opening.drawn(std::nullopt, false, false, seconds);
     EXPECT_TRUE(opening.covered());
   }
-  opening.drawn(std::nullopt, false, false, 1.2);
+  opening.drawn(std::nullopt, false, false, 5.1);
   EXPECT_FALSE(opening.covered()) << "the first picture takes long, and a draft is there";
 }
 
@@ -910,14 +913,25 @@ TEST(SlowPicture, OneSlowFrameIsSoonForgotten) {
 // As on a machine that other programs keep busy: a frame takes a second, however few tiles it draws.
 TEST(SlowPicture, SlowFramesDrawManyTiles) {
   SlowPicture slow;
-  for (const size_t tiles : {1u, 100u, 128u, 1000u, 20000u}) {
+  for (const size_t tiles : {1u, 100u, 128u, 255u, 1000u, 20000u}) {
     int frames = 0;
     for (slow.begin(3, tiles, 100.0); !slow.finished(); ++frames) {
       slow.next(50.0);
       slow.took(1000.0);
     }
-    EXPECT_LE(frames, 3 + 2 * 128) << tiles;
+    EXPECT_LE(frames, 3 + 128 + 10) << tiles;
     EXPECT_GE(frames, std::min<int>(static_cast<int>(tiles), 100)) << "each leaves time for input";
+  }
+}
+
+TEST(SlowPicture, SlowTilesLeaveTimeForInput) {
+  SlowPicture slow;
+  slow.begin(0, 3600, 60'000.0);
+  for (int frame = 0; !slow.finished(); ++frame) {
+    const TileRange tiles = slow.next(100.0, frame % 3 == 0);
+    const double ms = 300.0 * static_cast<double>(tiles.end - tiles.first);
+    EXPECT_LE(ms, frame % 3 == 0 ? 300.0 : 600.0) << frame;
+    slow.took(ms);
   }
 }
 

@@ -263,7 +263,7 @@ TEST_F(WindowView, ScreenshotsAreSavedAndReported) {
 TEST_F(WindowView, SavedPicturesSayHowFarTheyAre) {
   for (const bool withPanel : {false, true}) {
     for (const std::string picture : {"17 of 64 pictures averaged", "Draft: 0.5 of the resolution", ""}) {
-      workspace_->setPictureText(picture.empty() ? "" : picture + ", next one 21 %; approximate: reflections");
+      workspace_->setPictureText(picture);
       send(TakeScreenshot{withPanel});
       EXPECT_EQ(workspace_->capture().bare(), !withPanel);
       drawFrame(Image8(5, 3));
@@ -363,7 +363,13 @@ TEST_F(BudgetView, PointsChosenByHandAreSaid) {
   setBudget(1e-3);
   EXPECT_TRUE(contains(choice(), "no measured point fits 0.001 ms"));
   EXPECT_TRUE(shown().accuracy.choiceMisses);
+  const Settings before = workspace_->settings();
   send(ApplyPoint{shown().accuracy.front.back()});
+  ASSERT_TRUE(shown().accuracy.own);
+  EXPECT_EQ(*shown().accuracy.own, before);
+  send(ApplyPoint{shown().accuracy.front.front()});
+  send(ApplyPoint{shown().accuracy.front.back()});
+  EXPECT_EQ(*shown().accuracy.own, before) << "from before all points";
   EXPECT_EQ(choice(), "Set by hand. Change a bound to let it choose again.");
   EXPECT_FALSE(shown().accuracy.choiceMisses);
   setBudget(2e-3);
@@ -626,7 +632,7 @@ TEST_F(Opening, FailureShowsALineAndKeepsScene) {
   send(DismissMessage{});
   EXPECT_EQ(workspace_->problem(), "");
   drop({"/tmp/notes.txt"});
-  EXPECT_EQ(workspace_->problem(), "/tmp/notes.txt: not a scene (a .toml scene or a model is needed: *.obj *.OBJ)");
+  EXPECT_EQ(workspace_->problem(), "/tmp/notes.txt: not a scene (a .toml scene or a Wavefront OBJ model is needed)");
   drop({model("none.obj")});
   EXPECT_TRUE(contains(workspace_->problem(), "none.obj: there is no such file"));
   EXPECT_EQ(shown().log.lines(LogLevel::err, "").size(), 4u) << "each is logged";
