@@ -80,7 +80,8 @@ class Server {
     if (pipe(ends) != 0) {
       throw std::runtime_error("no pipe");
     }
-    server_ = start({"Xvfb", "-displayfd", std::to_string(ends[1]), "-screen", "0", "1280x900x24", "-nolisten", "tcp"});
+    server_ = start(
+        {"Xvfb", "-displayfd", std::to_string(ends[1]), "-screen", "0", "1280x900x24", "-nolisten", "tcp", "-noreset"});
     close(ends[1]);
     const std::string number = readLine(ends[0]);
     close(ends[0]);

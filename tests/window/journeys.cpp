@@ -463,7 +463,8 @@ TEST_F(Journey, LayoutIsReadAndWrittenLikeOtherFiles) {
 // `begin` is its first part.
 ProcessResult endEditedWindow(const std::string& end, const std::string& begin = "") {
   const UserFolders home{"XDG_CONFIG_HOME", "XDG_CACHE_HOME"};
-  const std::string start = R"(coproc X { exec Xvfb -displayfd 1 -screen 0 640x480x24 -nolisten tcp 2>/dev/null; }
+  const std::string start =
+      R"(coproc X { exec Xvfb -displayfd 1 -screen 0 640x480x24 -nolisten tcp -noreset 2>/dev/null; }
     server=$X_PID; read -r number <&${X[0]}; export DISPLAY=:$number
     "$0" --scene "$1" --size 320x240 --set view.samples=1 --set reflection.samples=1 & pid=$!
     window=$(xdotool search --sync --onlyvisible --pid $pid | head -1)
