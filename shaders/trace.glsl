@@ -225,7 +225,7 @@ void traceMesh(uint instance, vec3 origin, vec3 direction, float near, Skip skip
       uint triangle;
       vec4 met = meetSlot(slot, ray, triangle);
       bool own = met.w < near || (instance == skip.instance && triangle == skip.triangle);
-      // Of surfaces that coincide, the ray meets the one listed first.
+      // Where surfaces coincide, the ray meets the instance that is listed first.
       bool first = met.w < hit.t || (met.w == hit.t && instance < hit.instance);
       if (slot < end && met.w > 0.0 && first && !own) {
         hit.t = met.w;

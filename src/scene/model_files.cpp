@@ -62,7 +62,7 @@ const ModelFiles::Listing& ModelFiles::listing(const fs::path& folder) {
   for (int count = 0; entry != fs::directory_iterator() && count < mostEntries; entry.increment(none), ++count) {
     const fs::path name = entry->path().filename();
     auto& paths = isFolder(entry->path()) ? listing.folders : listing.files;
-    // Of names that differ in case alone, keeps the first by name, whatever the order in which the folder lists them.
+    // Names may differ in case alone. The one that sorts first is kept, so that the order of listing does not matter.
     const auto [other, isFirst] = paths.try_emplace(lowerCase(name.string()), folder / name);
     if (!isFirst) {
       other->second = std::min(other->second, folder / name);

@@ -764,7 +764,7 @@ TEST_F(PacedScene, MeansBeginAnewAfterMovementWithoutBudget) {
   EXPECT_EQ(pictureOf(), std::pair(3, 0));
 }
 
-TEST_F(PacedScene, FrameWithoutAnImageAfterMovementIsMadeUpFor) {
+TEST_F(PacedScene, LostLastFrameOfMovementIsMadeUpFor) {
   chosen_.quality.stillPictures = 1;
   budgetMs_ = budget;
   frame(true);
