@@ -214,12 +214,15 @@ Image8 readImage8(const std::filesystem::path& file) {
 }
 
 Image8 readTexture(const std::filesystem::path& file) {
-  const std::vector<uint8_t> bytes = readFile(file);
-  const PictureFormat format = formatOf(file, bytes);
+  return decodeTexture(file, readFile(file));
+}
+
+Image8 decodeTexture(const std::filesystem::path& name, const std::vector<uint8_t>& bytes) {
+  const PictureFormat format = formatOf(name, bytes);
   if (format == PictureFormat::unknown) {
-    throwUnknown(file, bytes);
+    throwUnknown(name, bytes);
   }
-  return decoded(file, bytes, format);
+  return decoded(name, bytes, format);
 }
 
 void writePng(const std::filesystem::path& file, const Image8& image) {

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include "geometry/mesh.hpp"
+
+namespace speculum {
+
+// Returns the index of the texture of a picture file. Appends it to `textures` unless it is there already; shrinks it
+// if the textures before it fill the memory that a scene's may take. Throws FileError.
+int textureIndex(const std::filesystem::path& file, std::vector<Texture>& textures);
+// Does the same for the content of a picture that stands in another file; `source` names it.
+int textureIndex(const std::filesystem::path& source, const std::vector<uint8_t>& picture,
+                 std::vector<Texture>& textures);
+
+}  // namespace speculum
