@@ -84,7 +84,11 @@ struct MaterialData {
   float shininess;
   vec3 emission;
   uint textureIndex;  // index into traceTextures, if hasTexture
+  uint firstColor;  // number of the color of its mesh's first vertex, see TraceScene::firstColorsOf(); noColors: none
+  uint padding[3];
 };
+
+const uint noColors = 0xffffffffu;
 
 // Colors of an object that replace those of its material.
 struct MaterialChange {
@@ -197,6 +201,7 @@ const uint constantCastsLight = 20;
 const uint constantAces = 21;
 const uint constantShrunk = 22;
 const uint constantSampled = 23;
+const uint constantVertexColors = 24;
 
 // Values of specialisation constants: texture of an object, number of lights, content of a mirror and lookup of its
 // image.
@@ -389,7 +394,8 @@ static_assert(offsetof(ViewData, clipPlane) == 112 && offsetof(ViewData, hasSky)
               offsetof(ViewData, traceOffset) == 208 && offsetof(ViewData, firstLight) == 240 && sizeof(ViewData) == 256);
 static_assert(offsetof(LightData, irradiance) == 16 && offsetof(LightData, clearance) == 48 && sizeof(LightData) == 64);
 static_assert(sizeof(ShadowMapData) == 96);
-static_assert(offsetof(MaterialData, specular) == 16 && sizeof(MaterialData) == 48);
+static_assert(offsetof(MaterialData, specular) == 16 && offsetof(MaterialData, firstColor) == 48 &&
+              sizeof(MaterialData) == 64);
 static_assert(offsetof(InstanceData, normalFromMesh) == 112 && offsetof(InstanceData, traceInstance) == 176 &&
               sizeof(InstanceData) == 192);
 static_assert(offsetof(DrawConstants, handedness) == 28 && sizeof(DrawConstants) == 48);

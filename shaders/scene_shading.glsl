@@ -1,6 +1,6 @@
 // The fragment shader of objects whose light takes no rays. ENVIRONMENT draws curved mirrors, which look up an
 // environment map; with REFLECTION_ONLY it draws no base, because shade.glsl has shaded the base. REPEATING draws
-// RepeatingTriangles.
+// RepeatingTriangles, VERTEX_COLORS meshes with colors of their vertices.
 #include "interface.glsl"
 #include "shading.glsl"
 
@@ -31,6 +31,9 @@ layout(location = 1) centroid in vec3 relativeNormal;
 layout(location = 2) centroid in vec2 textureUv;
 layout(location = 3) flat in uint instanceIndex;
 layout(location = 4) flat in float reach;
+#ifdef VERTEX_COLORS
+layout(location = 5) centroid in vec3 vertexColor;
+#endif
 
 layout(location = 0) out vec4 color;
 
@@ -81,6 +84,9 @@ void main() {
   if (diffuseLookup != textureNone) {
     surface.diffuse *= diffuseFactor();
   }
+#endif
+#ifdef VERTEX_COLORS
+  surface.diffuse *= vertexColor;
 #endif
 #ifdef SHADOW_MAPS
   setReceiver(relativePosition, surface.normal);

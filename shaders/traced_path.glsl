@@ -4,6 +4,7 @@
 layout(constant_id = constantTrilinear) const bool trilinear = false;  // between levels of textures
 layout(constant_id = constantRough) const bool rough = false;  // some mirror of the scene is rough
 layout(constant_id = constantRepeating) const bool repeating = false;  // there are repeatingTriangles
+layout(constant_id = constantVertexColors) const bool vertexColors = false;  // some mesh has colors of its vertices
 
 struct Bounce {
   Surface surface;  // relative; of a mirror, the base under the reflection
@@ -87,6 +88,12 @@ vec3 trilinearColor(TraceTexture source, vec2 uv, vec2 across, vec2 down) {
   return source.width * source.height > 1 ? mix(fine, textureColor(next, uv), fract(level)) : fine;
 }
 
+// Returns color `number`. Colors stand behind the vertices of all meshes, two in the place of a vertex.
+vec3 colorOf(uint number) {
+  TraceVertex two = traceVertices[number >> 1];
+  return (number & 1) == 0 ? two.position : two.normal;
+}
+
 vec3 normalFromMesh(uint instance, vec3 n) {
   return timesDirection(traceInstances[instance].normalFromMesh, n);
 }
@@ -131,6 +138,11 @@ Bounce objectBounce(uint instance, uint triangle, Weights weights, vec3 position
     }
     surface.diffuse *= trilinear ? trilinearColor(source, uv, corners * weights.across, corners * weights.down)
                                  : textureColor(source, uv);
+  }
+  if (vertexColors && material.firstColor != noColors) {
+    uint corners[3] = traceFaces[traceInstances[instance].firstTriangle + triangle].vertices;
+    surface.diffuse *= w.x * colorOf(material.firstColor + corners[0]) + w.y * colorOf(material.firstColor + corners[1]) +
+                       w.z * colorOf(material.firstColor + corners[2]);
   }
   Skip self = Skip(instance, triangle, none, none, nearOf(position));
   Bounce bounce = Bounce(surface, self, false, away ? -geometric : geometric, vec3(0.0), 0.0);

@@ -106,10 +106,14 @@ void sortVertices(Mesh& mesh) {
     while (places[i] != i) {
       const uint32_t place = places[i];
       std::swap(mesh.vertices[i], mesh.vertices[place]);
+      if (!mesh.colors.empty()) {
+        std::swap(mesh.colors[i], mesh.colors[place]);
+      }
       std::swap(places[i], places[place]);
     }
   }
   mesh.vertices.resize(used);
+  mesh.colors.resize(mesh.colors.empty() ? 0 : used);
 }
 
 }  // namespace

@@ -72,6 +72,7 @@ struct Mesh {
   glm::dvec3 halfExtent{0.0};                        // of the bounding box
   double radius = 0.0;                               // of the bounding sphere about `center`
   std::vector<Vertex> vertices;
+  std::vector<glm::vec3> colors;  // of the vertices, linear RGB; they multiply Kd. Empty: none
   std::vector<uint32_t> indices;
   std::vector<MeshPart> parts;
   std::vector<MeshCluster> clusters;           // see clustersOf()

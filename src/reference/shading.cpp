@@ -149,6 +149,10 @@ ShadingPoint objectPoint(const TraceWorld& world, const Ray& ray, const SceneHit
   const Material& material = mesh.parts.empty() ? defaultMaterial : mesh.parts[world.partOf(hit)].material;
   applyMaterial(world.scene(), world.scene().objects[instance.object], material, w.x * a.uv + w.y * b.uv + w.z * c.uv,
                 point);
+  if (!mesh.colors.empty()) {
+    point.diffuse *= w.x * glm::dvec3(mesh.colors[index[0]]) + w.y * glm::dvec3(mesh.colors[index[1]]) +
+                     w.z * glm::dvec3(mesh.colors[index[2]]);
+  }
   return point;
 }
 

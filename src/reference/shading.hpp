@@ -13,7 +13,7 @@ struct ShadingPoint {
   glm::dvec3 normal{0.0};    // unit, on the viewer's side; zero if the model's normals cancel
   glm::dvec3 toViewer{0.0};  // unit
   glm::dvec3 facet{0.0};     // unit normal of the triangle itself, on the viewer's side; zero for mirrors
-  glm::dvec3 diffuse{0.0};   // with the texture applied
+  glm::dvec3 diffuse{0.0};   // with texture and vertex colors applied
   glm::dvec3 specular{0.0};
   glm::dvec3 emission{0.0};
   double shininess = 1.0;

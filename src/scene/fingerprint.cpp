@@ -62,6 +62,7 @@ void addValue(Fingerprint& fingerprint, const std::vector<T>& values) {
 void addMesh(Fingerprint& fingerprint, const Mesh& mesh) {
   addValue(fingerprint, mesh.center);
   fingerprint.add(std::as_bytes(std::span(mesh.vertices)));
+  fingerprint.add(std::as_bytes(std::span(mesh.colors)));
   fingerprint.add(std::as_bytes(std::span(mesh.indices)));
   for (const MeshPart& part : mesh.parts) {
     fingerprint.add(part.firstIndex);

@@ -1,6 +1,7 @@
 #include "scene/mesh_builder.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/gtx/component_wise.hpp>
 
@@ -19,6 +20,9 @@ constexpr double mostRepeats = 1e9;
 
 // Texture coordinates up to this size are exact enough as floats.
 constexpr double nearEnough = 16.0;
+
+// FaceCorner::normal of a corner with the smooth normal 0; further ones count downwards.
+constexpr int firstSmooth = -2;
 
 // Most triangles of a mesh whose texture coordinates are computed anew in each frame (Mesh::repeats).
 constexpr size_t mostRepeatingTriangles = 1 << 16;
@@ -53,6 +57,13 @@ TriangleShape shapeOf(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3
   const glm::dvec3 area = glm::cross(u, v);
   const double longest = std::max({glm::dot(u, u), glm::dot(v, v), glm::dot(v - u, v - u)});
   return {unit(area), glm::length(area) / longest};
+}
+
+// Returns the angle at `a`, radians.
+double angleAt(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+  const glm::dvec3 u = unit(b - a);
+  const glm::dvec3 v = unit(c - a);
+  return std::atan2(glm::length(glm::cross(u, v)), glm::dot(u, v));
 }
 
 void rebase(Mesh& mesh) {
@@ -105,6 +116,14 @@ size_t MeshBuilder::CornerHash::operator()(const FaceCorner& corner) const {
   size_t hash = static_cast<size_t>(corner.position);
   hash = hash * 0x9e3779b97f4a7c15u + static_cast<size_t>(corner.texcoord + 1);
   return hash * 0x9e3779b97f4a7c15u + static_cast<size_t>(corner.normal + 1);
+}
+
+void MeshBuilder::addPosition(const glm::dvec3& position, const std::optional<glm::vec3>& color) {
+  if (color) {
+    colors_.resize(positions_.size(), glm::vec3(1.0f));
+    colors_.push_back(*color);
+  }
+  positions_.push_back(position);
 }
 
 void MeshBuilder::addNormal(const glm::dvec3& normal) {
@@ -175,16 +194,49 @@ void MeshBuilder::addTriangle(const FaceCorner& a, const FaceCorner& b, const Fa
       materialOrder_.push_back(material_);
     }
   }
-  for (const FaceCorner& corner : {a, b, c}) {
-    indices_->push_back(vertexOf(corner, shape.normal));
+  std::array corners{a, b, c};
+  for (size_t i = 0; i < 3; ++i) {
+    if (smoothing_ != 0 && !hasNormal(corners[i])) {
+      const int position = corners[i].position;
+      const double angle = angleAt(positions_[position], positions_[corners[(i + 1) % 3].position],
+                                   positions_[corners[(i + 2) % 3].position]);
+      corners[i].normal = addToSmoothNormal(position, angle * shape.normal);
+    }
+    indices_->push_back(vertexOf(corners[i], shape.normal));
+  }
+}
+
+bool MeshBuilder::hasNormal(const FaceCorner& corner) const {
+  return corner.normal >= 0 && normals_[corner.normal] != glm::dvec3(0.0);
+}
+
+// Returns the FaceCorner::normal of a corner of the present smoothing group.
+int MeshBuilder::addToSmoothNormal(int position, const glm::dvec3& weightedNormal) {
+  const uint64_t key = uint64_t{smoothing_} << 32 | static_cast<uint32_t>(position);
+  const auto [found, isNew] = smoothIndices_.try_emplace(key, static_cast<int>(smoothNormals_.size()));
+  if (isNew) {
+    smoothNormals_.emplace_back(0.0);
+  }
+  smoothNormals_[found->second] += weightedNormal;
+  return firstSmooth - found->second;
+}
+
+// Vertices whose triangles' normals cancel keep the normal of the first one.
+void MeshBuilder::smoothNormals() {
+  for (const auto& [vertex, index] : smoothVertices_) {
+    const glm::dvec3& sum = smoothNormals_[index];
+    if (glm::length(sum) > 1e-6) {
+      vertices_[vertex].normal = glm::normalize(sum);
+    }
   }
 }
 
 uint32_t MeshBuilder::vertexOf(const FaceCorner& corner, const glm::dvec3& triangleNormal) {
   const auto index = static_cast<uint32_t>(vertices_.size());
-  const bool usable = corner.normal >= 0 && normals_[corner.normal] != glm::dvec3(0.0);
+  const bool given = hasNormal(corner);
+  const bool smooth = corner.normal <= firstSmooth;
   const glm::dvec2 uv = glm::clamp(uvOf(corner) - uvShift_, -mostRepeats, mostRepeats);
-  if (usable) {
+  if (given || smooth) {
     const auto [found, isNew] = sharedVertices_.try_emplace(corner, index);
     if (!isNew && vertices_[found->second].uv == uv) {
       return found->second;
@@ -192,12 +244,21 @@ uint32_t MeshBuilder::vertexOf(const FaceCorner& corner, const glm::dvec3& trian
     found->second = index;
   }
   vertices_.push_back(
-      {.position = positions_[corner.position], .normal = usable ? normals_[corner.normal] : triangleNormal, .uv = uv});
+      {.position = positions_[corner.position], .normal = given ? normals_[corner.normal] : triangleNormal, .uv = uv});
+  if (smooth) {
+    smoothVertices_.emplace_back(index, firstSmooth - corner.normal);
+  }
+  if (static_cast<size_t>(corner.position) < colors_.size()) {
+    vertexColors_.resize(index, glm::vec3(1.0f));
+    vertexColors_.push_back(colors_[corner.position]);
+  }
   return index;
 }
 
 Mesh MeshBuilder::finish(const std::function<Material(int)>& materialOf) {
-  Mesh mesh{.source = file_, .vertices = std::move(vertices_)};
+  smoothNormals();
+  vertexColors_.resize(vertexColors_.empty() ? 0 : vertices_.size(), glm::vec3(1.0f));
+  Mesh mesh{.source = file_, .vertices = std::move(vertices_), .colors = std::move(vertexColors_)};
   std::vector<Material> materials;
   std::ranges::transform(materialOrder_, std::back_inserter(materials), materialOf);
   const auto repeatsOften = [&](uint32_t vertex) {
@@ -225,6 +286,10 @@ Mesh MeshBuilder::finish(const std::function<Material(int)>& materialOf) {
   positions_ = {};
   texcoords_ = {};
   normals_ = {};
+  colors_ = {};
+  smoothIndices_ = {};
+  smoothNormals_ = {};
+  smoothVertices_ = {};
   materialIndices_.clear();
   sharedVertices_ = {};
   rebase(mesh);

@@ -5,8 +5,10 @@
 #include <functional>
 #include <glm/glm.hpp>
 #include <map>
+#include <optional>
 #include <span>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "geometry/mesh.hpp"
@@ -30,19 +32,25 @@ class MeshBuilder {
   // `file` and `defects` must outlive the builder. Elements that are dropped or doubtful become defects of `file`.
   MeshBuilder(const std::filesystem::path& file, ModelDefects& defects) : file_(file), defects_(defects) {}
 
-  void addPosition(const glm::dvec3& position) { positions_.push_back(position); }
+  // `color`: of the vertex, linear RGB. Positions without one are white if any has one.
+  void addPosition(const glm::dvec3& position, const std::optional<glm::vec3>& color = {});
   void addTexcoord(const glm::dvec2& texcoord) { texcoords_.push_back(texcoord); }
   void addNormal(const glm::dvec3& normal);  // any length
   // Sets the material of the faces that follow; -1: the default material.
   void setMaterial(int material);
+  // Sets the smoothing group of the faces that follow; 0: none. Corners of a group without a usable normal get the mean
+  // of the normals of the group's triangles at their position, weighted by the triangles' angles there.
+  void setSmoothing(uint32_t group) { smoothing_ = group; }
   // Triangulates a face of at least three corners, which stands in this line of the file. Corners without a usable
-  // normal get the normal of their triangle, corners without a finite texture coordinate get (0, 0). Drops faces with
-  // positions that are not finite, triangles without an area, and faces that would take too long to triangulate.
+  // normal and smoothing group get the normal of their triangle, corners without a finite texture coordinate get (0,
+  // 0). Drops faces with positions that are not finite, triangles without an area, and faces that would take too long
+  // to triangulate.
   void addFace(std::span<const FaceCorner> corners, int line);
 
   size_t positionCount() const { return positions_.size(); }
   size_t texcoordCount() const { return texcoords_.size(); }
   size_t normalCount() const { return normals_.size(); }
+  bool hasColors() const { return !colors_.empty(); }
 
   // Returns the mesh: its triangles are grouped by material in the order of first use; it may have none. Call it once,
   // last.
@@ -57,6 +65,9 @@ class MeshBuilder {
   glm::dvec2 uvShiftOf(std::span<const FaceCorner> corners) const;
   void addTriangle(const FaceCorner& a, const FaceCorner& b, const FaceCorner& c, int line);
   uint32_t vertexOf(const FaceCorner& corner, const glm::dvec3& triangleNormal);
+  bool hasNormal(const FaceCorner& corner) const;
+  int addToSmoothNormal(int position, const glm::dvec3& weightedNormal);
+  void smoothNormals();
 
   const std::filesystem::path& file_;
   ModelDefects& defects_;
@@ -71,7 +82,13 @@ class MeshBuilder {
   std::vector<int> materialOrder_;
   std::unordered_map<FaceCorner, uint32_t, CornerHash> sharedVertices_;
   std::vector<Vertex> vertices_;
-  double cornerPairs_ = 0.0;  // sum of squared corner counts, over faces with many corners
+  std::vector<glm::vec3> colors_;        // by position; may end before the last; empty: none
+  std::vector<glm::vec3> vertexColors_;  // by vertex, as colors_
+  uint32_t smoothing_ = 0;
+  std::unordered_map<uint64_t, int> smoothIndices_;       // by position and group: index into smoothNormals_
+  std::vector<glm::dvec3> smoothNormals_;                 // sums
+  std::vector<std::pair<uint32_t, int>> smoothVertices_;  // vertices with an index into smoothNormals_
+  double cornerPairs_ = 0.0;                              // sum of squared corner counts, over faces with many corners
 };
 
 }  // namespace speculum

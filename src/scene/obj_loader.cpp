@@ -68,7 +68,7 @@ class LineStream : public std::streambuf {
 // again from the line's tokens, because the library
 // - does not round to the nearest double, and reads nan and words as 0;
 // - reads the index that follows "1/ 2" as a texture coordinate, and any integer for one that is too large;
-// - reads no colors of vertices in this interface.
+// - reads no colors of vertices and no smoothing groups in this interface.
 class ObjReader {
  public:
   ObjReader(const std::filesystem::path& file, std::string_view text, MeshBuilder& mesh, ObjMaterials& materials,
@@ -84,6 +84,7 @@ class ObjReader {
     int count = 0;
     LineStream lines(line_, [&] {
       noteContents();
+      readSmoothing();
       if (progress && ++count % linesBetweenCalls == 0) {
         progress(file_, readShare * line_.done());
       }
@@ -103,6 +104,7 @@ class ObjReader {
     size_t first = 0;
     size_t count = 0;
     int material = -1;
+    uint32_t smoothing = 0;
     int line = 0;
   };
 
@@ -144,6 +146,15 @@ class ObjReader {
     contents_.freeForm = contents_.freeForm || keyword == "curv" || keyword == "curv2" || keyword == "surf";
   }
 
+  // A line `s 1` begins a smoothing group; `s 0`, `s off` and any other word end it.
+  void readSmoothing() {
+    if (line_.keyword() == "s" || line_.keyword() == "S") {
+      const double group = number(1);
+      smoothing_ = group >= 1.0 && group < 4e9 ? static_cast<uint32_t>(group) : 0;
+      mesh_.setSmoothing(smoothing_);
+    }
+  }
+
   // The number in a token of the line; NaN if there is none.
   double number(size_t token) const {
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
@@ -160,7 +171,23 @@ class ObjReader {
     if (!isFinite(position)) {
       add("v", "is not a point of three finite numbers, faces with it are left out");
     }
-    mesh_.addPosition(position);
+    mesh_.addPosition(position, vertexColor());
+  }
+
+  // Three numbers behind the coordinates are a color; a single one would be a weight.
+  std::optional<glm::vec3> vertexColor() {
+    if (line_.tokens().size() < 7) {
+      return std::nullopt;
+    }
+    const glm::dvec3 color(number(4), number(5), number(6));
+    if (!isFinite(color)) {
+      add("v", "has a color that is not three finite numbers, it counts as white");
+      return std::nullopt;
+    }
+    if (color != glm::clamp(color, 0.0, 1.0)) {
+      add("v", "has a color outside 0 .. 1, the nearest one is used");
+    }
+    return glm::vec3(glm::clamp(color, 0.0, 1.0));
   }
 
   void addTexcoord() {
@@ -196,7 +223,7 @@ class ObjReader {
     if (corners_.size() < 3) {
       add("f", "has fewer than three corners, the face is left out");
     } else if (std::ranges::any_of(corners_, [&](const FaceCorner& corner) { return isLater(corner); })) {
-      later_.push_back({laterCorners_.size(), corners_.size(), material_, line_.number()});
+      later_.push_back({laterCorners_.size(), corners_.size(), material_, smoothing_, line_.number()});
       laterCorners_.insert(laterCorners_.end(), corners_.begin(), corners_.end());
     } else {
       addFace(corners_, line_.number());
@@ -212,6 +239,7 @@ class ObjReader {
   void addLaterFaces() {
     for (const LaterFace& face : later_) {
       mesh_.setMaterial(face.material);
+      mesh_.setSmoothing(face.smoothing);
       addFace(std::span(laterCorners_).subspan(face.first, face.count), face.line);
     }
   }
@@ -275,6 +303,7 @@ class ObjReader {
   ModelDefects& defects_;
   Contents contents_;
   int material_ = -1;
+  uint32_t smoothing_ = 0;
   std::vector<FaceCorner> corners_;
   std::vector<LaterFace> later_;
   std::vector<FaceCorner> laterCorners_;
@@ -349,7 +378,7 @@ Mesh loadObj(const std::filesystem::path& file, std::vector<Texture>& textures, 
   if (progress) {
     progress(file, readShare);
   }
-  Mesh mesh = builder.finish([&](int index) { return materials.material(index, textures); });
+  Mesh mesh = builder.finish([&](int index) { return materials.material(index, builder.hasColors(), textures); });
   mesh.materialFiles.assign(materials.files().begin(), materials.files().end());
   for (const std::filesystem::path& named : materials.namedFiles()) {
     mesh.namedFiles.push_back(named.lexically_relative(file.lexically_normal().parent_path()));

@@ -88,7 +88,7 @@ class ObjMaterials::MtlReader {
 
   void readLine(const std::string& key) {
     if (key == "kd") {
-      hasDiffuse_ = readColor("Kd", surfaceColorRange, usualDiffuse) || hasDiffuse_;
+      entry_->hasDiffuse = readColor("Kd", surfaceColorRange, usualDiffuse) || entry_->hasDiffuse;
     } else if (key == "ks") {
       readColor("Ks", surfaceColorRange, 0.0);
     } else if (key == "ke") {
@@ -160,9 +160,8 @@ class ObjMaterials::MtlReader {
     const tinyobj::material_t& from = read.at(0);
     Material& material = entry_->material;
     material.name = name_;
-    material.diffuse = std::exchange(hasDiffuse_, false)
-                           ? glm::dvec3(from.diffuse[0], from.diffuse[1], from.diffuse[2])
-                           : glm::dvec3(from.diffuse_texname.empty() ? usualDiffuse : 1.0);
+    material.diffuse = entry_->hasDiffuse ? glm::dvec3(from.diffuse[0], from.diffuse[1], from.diffuse[2])
+                                          : glm::dvec3(from.diffuse_texname.empty() ? usualDiffuse : 1.0);
     material.specular = {from.specular[0], from.specular[1], from.specular[2]};
     material.emission = {from.emission[0], from.emission[1], from.emission[2]};
     material.shininess = std::clamp<double>(from.shininess, leastShininess, mostShininess);
@@ -180,7 +179,6 @@ class ObjMaterials::MtlReader {
   std::optional<Entry> entry_;  // the material that is being read
   std::string name_;
   std::string text_;  // for tinyobjloader
-  bool hasDiffuse_ = false;
 };
 
 void ObjMaterials::read(std::string_view names, int line) {
@@ -232,9 +230,11 @@ int ObjMaterials::use(std::string_view name, int line) {
   return useIndices_.emplace(std::string(name), static_cast<int>(uses_.size()) - 1).first->second;
 }
 
-Material ObjMaterials::material(int index, std::vector<Texture>& textures) {
+Material ObjMaterials::material(int index, bool colored, std::vector<Texture>& textures) {
+  Material usual;
+  usual.diffuse = colored ? glm::dvec3(1.0) : usual.diffuse;
   if (index < 0) {
-    return {};
+    return usual;
   }
   const Use& use = uses_[index];
   const auto found = entries_.find(use.name);
@@ -242,10 +242,11 @@ Material ObjMaterials::material(int index, std::vector<Texture>& textures) {
     if (!missingFile_) {
       defects_.add(objFile_, use.line, "usemtl", "there is no material '{}', its faces get the default one", use.name);
     }
-    return {};
+    return usual;
   }
   const Entry& entry = found->second;
   Material material = entry.material;
+  material.diffuse = colored && !entry.hasDiffuse ? glm::dvec3(1.0) : material.diffuse;
   if (!entry.opaque) {
     defects_.add(entry.file, entry.line, "newmtl", "'{}' is not opaque, it is drawn opaque", material.name);
   }

@@ -29,8 +29,9 @@ class ObjMaterials {
   int use(std::string_view name, int line);
 
   // Returns the material of an index from use(), or the default material for -1 and for a name that no file defines.
-  // Appends the material's texture to `textures` unless it is there already. Call this when all files are read.
-  Material material(int index, std::vector<Texture>& textures);
+  // Where no Kd is given it is 1 if the model is `colored` by its vertices. Appends the material's texture to
+  // `textures` unless it is there already. Call this when all files are read.
+  Material material(int index, bool colored, std::vector<Texture>& textures);
 
   // Returns the files that were read, with symbolic links resolved.
   const std::set<std::filesystem::path>& files() const { return filesRead_; }
@@ -40,6 +41,7 @@ class ObjMaterials {
  private:
   struct Entry {
     Material material;  // without its texture
+    bool hasDiffuse = false;
     bool opaque = true;
     std::string diffuseTexture;
     std::filesystem::path file;

@@ -134,7 +134,7 @@ inline const auto fieldsOf<Object> = std::tuple{
           {.uniform = true, .use = FieldUse::placement}),
     field(&Object::spin, "spin", "added to the rotation",
           {.unit = "deg/s", .range = turnRange, .use = FieldUse::placement, .step = 0.5}),
-    field(&Object::color, "color", "replaces the model's diffuse color (Kd); textures multiply it",
+    field(&Object::color, "color", "replaces the model's diffuse color (Kd); textures and vertex colors multiply it",
           {.range = surfaceColorRange, .color = true, .start = glm::dvec3(0.6)}),
     field(&Object::specular, "specular", "replaces the model's specular color (Ks)",
           {.range = surfaceColorRange, .color = true, .start = glm::dvec3(0.2)}),

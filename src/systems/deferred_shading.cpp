@@ -113,7 +113,8 @@ void DeferredShading::shade(const PassScope& scope, const FrameInfo& info, const
                                              {gpu::constantShadows, trace.shadows},
                                              {gpu::constantCastsLight, trace.castsLight},
                                              {gpu::constantRough, trace.rough},
-                                             {gpu::constantRepeating, trace.repeating}},
+                                             {gpu::constantRepeating, trace.repeating},
+                                             {gpu::constantVertexColors, trace.vertexColors}},
                                .setLayouts = {frameLayout_, layout_.get(), info.trace.layout()},
                                .pushConstantBytes = sizeof(gpu::ShadeConstants)};
   });

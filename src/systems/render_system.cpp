@@ -69,10 +69,11 @@ GraphicsPipelineDesc RenderSystem::objects(const Variant& variant, const FrameIn
                             .lines = variant.wireframe};
   if (variant.deferred) {
     desc.frag = "scene_identifier.frag";
-  } else if (variant.environment) {
-    desc.frag = "scene_environment.frag";
-  } else if (variant.repeating) {
-    desc.frag = "scene_repeating.frag";
+  } else {
+    desc.vert = variant.vertexColors ? "scene_colored.vert" : "scene.vert";
+    desc.frag = std::string("scene") + (variant.environment ? "_environment" : "") +
+                (variant.vertexColors ? "_colored" : "") + (variant.repeating ? "_repeating" : "") +
+                (variant.shadowed ? "_shadowed" : "") + ".frag";
   }
   if (variant.added) {
     desc.frag = "scene_environment_reflection.frag";
@@ -83,12 +84,13 @@ GraphicsPipelineDesc RenderSystem::objects(const Variant& variant, const FrameIn
     desc.adds = true;
   }
   if (variant.shadowed) {
-    desc.frag = variant.environment ? "scene_environment_shadowed.frag"
-                : variant.repeating ? "scene_repeating_shadowed.frag"
-                                    : "scene_shadowed.frag";
     desc.setLayouts.push_back(info.shadows.layout());
   }
   addVertexInput(desc);
+  if (variant.vertexColors) {
+    desc.vertexBindings.push_back({2, sizeof(glm::vec3), VK_VERTEX_INPUT_RATE_VERTEX});
+    desc.vertexAttributes.push_back({14, 2, VK_FORMAT_R32G32B32_SFLOAT, 0});
+  }
   return desc;
 }
 
@@ -138,6 +140,12 @@ uint32_t RenderSystem::recordBatch(const PassScope& scope, const FrameInfo& info
   variant.lightCount = variant.deferred || variant.added ? gpu::manyLights : fixedLightCount(info.scene);
   const Mesh& mesh = info.scene.meshes[batch.mesh];
   bindBatch(scope, info, batch);
+  variant.vertexColors = !variant.deferred && !batch.environment && !mesh.colors.empty();
+  if (variant.vertexColors) {
+    const VkBuffer colors = info.resources.meshes()[batch.mesh].colors.get();
+    constexpr VkDeviceSize offset = 0;
+    vkCmdBindVertexBuffers(commands, 2, 1, &colors, &offset);
+  }
   uint32_t draws = 0;
   scope.beginLabel(nameOf("object", info.scene.objects[batch.object].name, batch.object));
   for (size_t p = 0; p < mesh.parts.size(); ++p) {

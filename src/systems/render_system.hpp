@@ -47,6 +47,7 @@ class RenderSystem {
     bool deferred = false;        // draws identifiers
     bool added = false;           // only the reflection, added to the base that DeferredShading has drawn
     bool repeating = false;       // draws RepeatingTriangles
+    bool vertexColors = false;    // the mesh has them
     bool shadowed = false;        // looks shadows up in maps
     uint32_t shadowedLights = 0;  // constants of shadow_map.glsl
     uint32_t onlyShadowFace = gpu::anyShadowFace;

@@ -7,6 +7,7 @@
 
 #include "systems/effect_ledger.hpp"
 #include "systems/gpu_conversion.hpp"
+#include "systems/trace_scene.hpp"
 
 namespace speculum {
 
@@ -21,14 +22,15 @@ std::vector<uint64_t> halfTexels(const Texture& texture) {
   return texels;
 }
 
-gpu::MaterialData materialData(const Material& material, bool textured, double radianceScale) {
+gpu::MaterialData materialData(const Material& material, bool textured, double radianceScale, uint32_t firstColor) {
   const bool hasTexture = textured && material.diffuseTexture >= 0;
   return {.diffuse = glm::vec3(material.diffuse),
           .hasTexture = hasTexture,
           .specular = glm::vec3(material.specular),
           .shininess = static_cast<float>(material.shininess),
           .emission = radiance(radianceScale * material.emission),
-          .textureIndex = hasTexture ? static_cast<uint32_t>(material.diffuseTexture) : 0};
+          .textureIndex = hasTexture ? static_cast<uint32_t>(material.diffuseTexture) : 0,
+          .firstColor = firstColor};
 }
 
 Buffer uploadVertices(Uploader& uploader, const std::vector<Vertex>& vertices, const std::string& name) {
@@ -112,6 +114,9 @@ void SceneResources::createMeshes() {
     const std::string name = mesh.source.filename().string();
     GpuMesh& gpu = meshes_.emplace_back();
     gpu.vertices = uploadVertices(uploader_, mesh.vertices, name + " vertices");
+    if (!mesh.colors.empty()) {
+      gpu.colors = uploader_.buffer(mesh.colors, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, name + " colors");
+    }
     gpu.indices = uploader_.buffer(mesh.indices, VK_BUFFER_USAGE_INDEX_BUFFER_BIT, name + " indices");
   }
 }
@@ -119,9 +124,10 @@ void SceneResources::createMeshes() {
 // Makes the materials of all parts, in the order of the meshes.
 void SceneResources::createMaterials(bool textured, double radianceScale) {
   std::vector<gpu::MaterialData> materials;
-  for (const Mesh& mesh : scene_.meshes) {
-    for (const MeshPart& part : mesh.parts) {
-      materials.push_back(materialData(part.material, textured, radianceScale));
+  const std::vector<uint32_t> firstColors = TraceScene::firstColorsOf(scene_);
+  for (size_t i = 0; i < scene_.meshes.size(); ++i) {
+    for (const MeshPart& part : scene_.meshes[i].parts) {
+      materials.push_back(materialData(part.material, textured, radianceScale, firstColors[i]));
     }
   }
   materials.resize(std::max<size_t>(materials.size(), 1));

@@ -111,7 +111,8 @@ void TraceFrame::build(Frame& frame, const SceneState& state, const Settings& se
               .shadows = effects.shadowRays,
               .castsLight = effects.castsLight.has_value(),
               .perSample = settings.effects.perSample && effects.traces(),
-              .repeating = hasRepeatingTriangles(scene_)};
+              .repeating = hasRepeatingTriangles(scene_),
+              .vertexColors = std::ranges::any_of(scene_.meshes, [](const Mesh& m) { return !m.colors.empty(); })};
   addMirrors(state, settings);
   prepareStructures(frame, state, settings.effects.rays, effects.traces());
   variant_.hardware = rays_.hardware;

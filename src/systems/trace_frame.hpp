@@ -18,9 +18,10 @@ struct TraceVariant {
   bool shadows = false;
   bool castsLight = false;
   bool perSample = false;
-  bool hardware = false;   // rays are ray queries
-  bool rough = false;      // rays may be reflected by rough mirrors
-  bool repeating = false;  // there are RepeatingTriangles
+  bool hardware = false;      // rays are ray queries
+  bool rough = false;         // rays may be reflected by rough mirrors
+  bool repeating = false;     // there are RepeatingTriangles
+  bool vertexColors = false;  // some mesh has them
 
   auto operator<=>(const TraceVariant&) const = default;
 };

@@ -45,6 +45,7 @@ void appendLevels(const Texture& texture, std::vector<uint64_t>& texels) {
 struct Totals {
   uint64_t triangles = 0;
   uint64_t vertices = 0;
+  uint64_t colors = 0;  // pairs, each in the place of a vertex
 };
 
 Totals totalsOf(const Scene& scene) {
@@ -52,6 +53,7 @@ Totals totalsOf(const Scene& scene) {
   for (const Mesh& mesh : scene.meshes) {
     totals.triangles += mesh.indices.size() / 3;
     totals.vertices += mesh.vertices.size();
+    totals.colors += (mesh.colors.size() + 1) / 2;
   }
   return totals;
 }
@@ -107,7 +109,7 @@ TraceBufferBytes traceBufferLimits(const VkPhysicalDeviceLimits& limits) {
 }
 
 TraceBufferBytes largestTraceBuffers(const Scene& scene, size_t instances) {
-  const auto [triangles, vertices] = totalsOf(scene);
+  const auto [triangles, vertices, colors] = totalsOf(scene);
   uint64_t texels = 0;
   for (const Texture& texture : scene.textures) {
     texels += 2 * texture.texels.size();  // with the levels
@@ -118,7 +120,7 @@ TraceBufferBytes largestTraceBuffers(const Scene& scene, size_t instances) {
                                     16 * (instances + scene.mirrors.size()) * sizeof(gpu::TraceTopNode));
   return {
       .texels = std::max({16 * triangles * sizeof(gpu::TraceNode), triangles * sizeof(gpu::TraceTriangle), ofFrame}),
-      .storage = std::max({vertices * sizeof(gpu::TraceVertex), triangles * sizeof(gpu::TraceFace),
+      .storage = std::max({(vertices + colors) * sizeof(gpu::TraceVertex), triangles * sizeof(gpu::TraceFace),
                            texels * sizeof(uint64_t), ofFrame})};
 }
 
@@ -184,6 +186,16 @@ void TraceScene::writeTriangles(Uploader& uploader, const Scene& scene) {
   });
 }
 
+std::vector<uint32_t> TraceScene::firstColorsOf(const Scene& scene) {
+  uint64_t next = 2 * totalsOf(scene).vertices;
+  std::vector<uint32_t> first;
+  for (const Mesh& mesh : scene.meshes) {
+    first.push_back(mesh.colors.empty() ? gpu::noColors : static_cast<uint32_t>(next));
+    next += (mesh.colors.size() + 1) / 2 * 2;
+  }
+  return first;
+}
+
 void TraceScene::writeAttributes(Uploader& uploader, const Scene& scene) {
   const Totals totals = totalsOf(scene);
   write(uploader, faces, totals.triangles * sizeof(gpu::TraceFace), "trace faces", [&](BufferWriter& writer) {
@@ -197,13 +209,20 @@ void TraceScene::writeAttributes(Uploader& uploader, const Scene& scene) {
       materials += static_cast<uint32_t>(mesh.parts.size());
     }
   });
-  write(uploader, vertices, totals.vertices * sizeof(gpu::TraceVertex), "trace vertices", [&](BufferWriter& writer) {
+  const uint64_t vertexBytes = (totals.vertices + totals.colors) * sizeof(gpu::TraceVertex);
+  write(uploader, vertices, vertexBytes, "trace vertices", [&](BufferWriter& writer) {
     for (const Mesh& mesh : scene.meshes) {
       for (const Vertex& vertex : mesh.vertices) {
         writer.add(gpu::TraceVertex{.position = glm::vec3(vertex.position),
                                     .u = static_cast<float>(vertex.uv.x),
                                     .normal = glm::vec3(vertex.normal),
                                     .v = static_cast<float>(vertex.uv.y)});
+      }
+    }
+    for (const Mesh& mesh : scene.meshes) {
+      for (size_t i = 0; i < mesh.colors.size(); i += 2) {
+        writer.add(gpu::TraceVertex{.position = mesh.colors[i],
+                                    .normal = mesh.colors[std::min(i + 1, mesh.colors.size() - 1)]});
       }
     }
   });

@@ -53,6 +53,9 @@ class TraceScene {
   };
   enum Kind { nodes, triangles, faces, vertices, textures, texels, kindCount };
 
+  // Returns MaterialData::firstColor of each mesh.
+  static std::vector<uint32_t> firstColorsOf(const Scene& scene);
+
   // Throws std::runtime_error if the device's buffers cannot hold the scene.
   TraceScene(Uploader& uploader, const Scene& scene);
 

@@ -37,6 +37,76 @@ TEST_F(ObjLoader, TriangleWithoutNormalsIsFlat) {
   EXPECT_EQ(warnings(), "");
 }
 
+// Two squares that meet at a right angle along the edge from (0, 0, 0) to (0, 1, 0), and normals of their corners
+// there.
+const std::string foldText = "v 0 0 0\nv 0 1 0\nv 1 0 0\nv 1 1 0\nv 0 0 -1\nv 0 1 -1\n";
+
+std::vector<glm::dvec3> normalsOfFold(const Mesh& mesh) {
+  std::vector<glm::dvec3> normals;
+  for (const uint32_t index : mesh.indices) {
+    const glm::dvec3 p = mesh.center + mesh.vertices[index].position;
+    if (p.x == 0.0 && p.z == 0.0) {
+      normals.push_back(mesh.vertices[index].normal);
+    }
+  }
+  return normals;
+}
+
+TEST_F(ObjLoader, SmoothingGroupsWeightNormalsByAngles) {
+  const Mesh mesh = load("s 1\n" + foldText + "f 1 3 4 2\nf 2 6 5\nf 1 2 5\n");
+  ASSERT_EQ(normalsOfFold(mesh).size(), 6u);
+  for (const glm::dvec3& normal : normalsOfFold(mesh)) {
+    EXPECT_NEAR(glm::distance(normal, glm::normalize(glm::dvec3(-1, 0, 1))), 0.0, 1e-15);
+  }
+  EXPECT_EQ(mesh.vertices.size(), 6u) << "the corners of a group are shared";
+}
+
+TEST_F(ObjLoader, NormalsOfSmoothingGroupsKeepApart) {
+  for (const std::string lines : {"s 1\nf 1 3 4 2\ns 2\nf 2 6 5 1\n", "s 1\nf 1 3 4 2\ns off\nf 2 6 5 1\n",
+                                  "s 0\nf 1 3 4 2\nf 2 6 5 1\n", "f 1 3 4 2\nf 2 6 5 1\ns 1\n"}) {
+    for (const glm::dvec3& normal : normalsOfFold(load(foldText + lines))) {
+      EXPECT_EQ(std::abs(normal.x) + std::abs(normal.z), 1.0) << lines;
+    }
+  }
+}
+
+TEST_F(ObjLoader, GivenNormalsAndLaterVerticesGoWithSmoothingGroups) {
+  const Mesh given = load(foldText + "vn 0 1 0\ns 1\nf 1//1 3 4 2\nf 2 6 5 1\n");
+  EXPECT_EQ(given.vertices[0].normal, glm::dvec3(0, 1, 0));
+  const Mesh later = load("s 1\nf 1 3 4 2\nf 2 6 5 1\ns off\n" + foldText);
+  for (const glm::dvec3& normal : normalsOfFold(later)) {
+    EXPECT_LT(normal.x, -0.3);
+  }
+}
+
+TEST_F(ObjLoader, OppositeNormalsOfAGroupStayFlat) {
+  const Mesh mesh = load("s 1\n" + squareText + "f 1 2 3 4\nf 4 3 2 1\n");
+  for (const Vertex& vertex : mesh.vertices) {
+    EXPECT_EQ(std::abs(vertex.normal.z), 1.0);
+  }
+}
+
+TEST_F(ObjLoader, VertexColorsAreRead) {
+  const Mesh mesh = load("v 0 0 0 1 0.5 0.25\nv 1 0 0 0.5\nv 0 1 0 0 0 1 0.5\nvt 0 0\nf 1 2 3\nf 1/1 2/1 3/1\n");
+  ASSERT_EQ(mesh.colors.size(), mesh.vertices.size());
+  for (size_t i = 0; i < mesh.indices.size(); i += 3) {
+    EXPECT_EQ(mesh.colors[mesh.indices[i]], glm::vec3(1, 0.5, 0.25));
+    EXPECT_EQ(mesh.colors[mesh.indices[i + 1]], glm::vec3(1)) << "a single number is a weight";
+    EXPECT_EQ(mesh.colors[mesh.indices[i + 2]], glm::vec3(0, 0, 1));
+  }
+  EXPECT_EQ(warnings(), "");
+  EXPECT_EQ(mesh.parts.at(0).material.diffuse, glm::dvec3(1.0)) << "nothing darkens the colors";
+  EXPECT_TRUE(load(triangleObj).colors.empty());
+}
+
+TEST_F(ObjLoader, DamagedVertexColorsAreMended) {
+  const Mesh mesh = load("v 0 0 0 255 0 -1\nv 1 0 0 a b c\nv 0 1 0\nf 1 2 3\n");
+  EXPECT_EQ(mesh.colors, (std::vector<glm::vec3>{{1, 0, 0}, {1, 1, 1}, {1, 1, 1}}));
+  EXPECT_EQ(warnings(),
+            "warning: m.obj:1: v: has a color outside 0 .. 1, the nearest one is used\n"
+            "warning: m.obj:2: v: has a color that is not three finite numbers, it counts as white\n");
+}
+
 TEST_F(ObjLoader, IsRebasedToItsBoxCentre) {
   const Mesh mesh = load("v 10000000.25 0 0\nv 10000001.25 0 0\nv 10000000.25 3 0\nf 1 2 3\n");
   EXPECT_EQ(mesh.center, glm::dvec3(10000000.75, 1.5, 0));

@@ -5,6 +5,7 @@
 #include "image/color.hpp"
 #include "image/image.hpp"
 #include "image/picture_files.hpp"
+#include "scene/metal_roughness.hpp"
 #include "scene/obj_support.hpp"
 #include "test_headers.hpp"
 
@@ -47,6 +48,22 @@ TEST_F(MtlFile, OtherFormsOfNumbersAreRead) {
   EXPECT_EQ(warnings(),
             "warning: m.mtl:3: Ks: is not three numbers, it is left out\n"
             "warning: m.mtl:4: Ke: is not three numbers, it is left out\n");
+}
+
+TEST(MetalRoughness, BecomesDiffuseAndSpecular) {
+  Material material;
+  const glm::dvec3 base(0.8, 0.4, 0.2);
+  setMetalRoughness(material, base, 0.0, 0.5);
+  EXPECT_EQ(material.diffuse, base);
+  EXPECT_EQ(material.specular, glm::dvec3(0.04));
+  EXPECT_DOUBLE_EQ(material.shininess, 30.0);
+  setMetalRoughness(material, base, 1.0, 1.0);
+  EXPECT_EQ(material.diffuse, glm::dvec3(0.0));
+  EXPECT_EQ(material.specular, base);
+  EXPECT_EQ(material.shininess, 1.0);
+  setMetalRoughness(material, base, 7.0, -1.0);
+  EXPECT_EQ(material.specular, base);
+  EXPECT_EQ(material.shininess, 1e6);
 }
 
 TEST_F(MtlFile, ShininessBelowOneCountsAsOne) {

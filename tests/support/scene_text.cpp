@@ -125,7 +125,13 @@ std::string writeRandomMesh(unsigned seed) {
       const double theta = std::numbers::pi * i / rings;
       const double phi = 2.0 * std::numbers::pi * j / sectors;
       const glm::dvec3 n(std::sin(theta) * std::cos(phi), std::cos(theta), std::sin(theta) * std::sin(phi));
-      vector("v", (0.5 + depth * std::sin(waves * theta) * std::cos(waves * phi)) * n);
+      const glm::dvec3 p = (0.5 + depth * std::sin(waves * theta) * std::cos(waves * phi)) * n;
+      if (seed % 3 == 0) {
+        out << "v " << p.x << ' ' << p.y << ' ' << p.z << ' ' << random.uniform(0, 1) << " 0.5 " << random.uniform(0, 1)
+            << '\n';
+      } else {
+        vector("v", p);
+      }
       vector("vn", n);
     }
   }
@@ -134,6 +140,7 @@ std::string writeRandomMesh(unsigned seed) {
     return ' ' + (seed % 2 == 0 ? index + "//" + index : index);
   };
   for (int i = 0; i < rings; ++i) {
+    out << "s " << (seed % 4 == 1 ? i / 4 : 0) << '\n';
     for (int j = 0; j < sectors; ++j) {
       out << 'f' << corner(i, j) << corner(i, j + 1) << corner(i + 1, j + 1) << corner(i + 1, j) << '\n';
     }

@@ -44,8 +44,8 @@ void writeModel(const std::string& file, const std::string& obj);
 // Writes quad.obj: 2 x 2 m in the plane z = 0 about the origin, facing +z.
 void writeQuad();
 
-// Writes a lumpy sphere about the origin, at most 0.85 m in radius; without normals for odd seeds, so that flat shading
-// is met as well. Returns the file.
+// Writes a lumpy sphere about the origin, at most 0.85 m in radius. Odd seeds have no normals, half of these have
+// smoothing groups; a third of all seeds has vertex colors. Returns the file.
 std::string writeRandomMesh(unsigned seed);
 
 // The table [[object]] of a shipped model or a random mesh: at most `size` m along x, and along y that times a factor
