@@ -52,7 +52,7 @@ struct LightData {
   vec3 irradiance;  // at 1 m, facing the light
   uint castsShadow;
   vec3 glow;  // radiance of the glyph
-  uint hasGlyph;
+  uint hasGlyph;  // for reflected rays
   vec3 clearance;  // from the light to the point that shadow rays lead to
   uint shadowMap;  // index into shadowMaps; noShadowMap: none
 };
@@ -223,7 +223,7 @@ const uint lookupBox = 2;
 // A box of the hierarchy over instances and mirrors.
 struct TraceTopNode {
   vec3 near;  // trace space
-  uint link;  // leaf: index of an instance, or of a mirror plus itemMirror
+  uint link;  // leaf: index of an instance, plus itemUnreflected if no mirror shows it, or of a mirror plus itemMirror
   vec3 far;
   uint padding;
 };
@@ -331,6 +331,11 @@ struct TraceCounts {
 
 const uint traceLeaf = 0x80000000u;   // bits of a link
 const uint itemMirror = 0x40000000u;
+const uint itemUnreflected = 0x20000000u;
+
+// Bits of the masks of ray queries: what reflected rays meet, and what rays to lights meet.
+const uint maskReflected = 1;
+const uint maskShadows = 2;
 
 // Push constants of deferred shading: pixels of the target that a pass drew.
 struct ShadeConstants {

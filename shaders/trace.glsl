@@ -244,7 +244,8 @@ void traceMesh(uint instance, vec3 origin, vec3 direction, float near, Skip skip
   }
 }
 
-// Finds the first surface that a ray in trace space meets before tMax; with `any`, one of them.
+// Finds the first surface that a reflected ray in trace space meets before tMax; with `any`, one of those that a ray to
+// a light meets.
 Hit traceRay(vec3 origin, vec3 direction, float tMax, Skip skip, bool any) {
   Hit hit = Hit(tMax, none, 0, vec3(0.0), none);
   if (traceCounts.topNodes == 0) {
@@ -267,7 +268,7 @@ Hit traceRay(vec3 origin, vec3 direction, float tMax, Skip skip, bool any) {
         break;
       }
     }
-    uint index = item & ~(traceLeaf | itemMirror);
+    uint index = item & ~(traceLeaf | itemMirror | itemUnreflected);
     if ((item & itemMirror) != 0) {
       uint plane = planeOf(index);
       if (plane != skip.plane && plane != skip.secondPlane) {
@@ -278,7 +279,7 @@ Hit traceRay(vec3 origin, vec3 direction, float tMax, Skip skip, bool any) {
           hit.mirror = index;
         }
       }
-    } else if (item != 0) {
+    } else if (item != 0 && (any || (item & itemUnreflected) == 0)) {
       traceMesh(index, origin, direction, near, skip, any, hit);
     }
     if (node == last || (any && (hit.instance != none || hit.mirror != none))) {

@@ -7,7 +7,8 @@ bool ignores(Skip skip, uint instance, uint slot, float t, float near) {
   return t < near || (instance == skip.instance && triangleTexel(slot, 0).w == skip.triangle);
 }
 
-// Finds the first surface that a ray in trace space meets before tMax; with `any`, one of them.
+// Finds the first surface that a reflected ray in trace space meets before tMax; with `any`, one of those that a ray to
+// a light meets.
 Hit traceRay(vec3 origin, vec3 direction, float tMax, Skip skip, bool any) {
   Hit hit = Hit(tMax, none, 0, vec3(0.0), none);
   vec3 size = abs(direction);
@@ -19,7 +20,7 @@ Hit traceRay(vec3 origin, vec3 direction, float tMax, Skip skip, bool any) {
   // Only a ray that starts on an object has to look at candidates.
   uint flags = (any ? gl_RayFlagsTerminateOnFirstHitEXT : 0) | (skip.instance == none ? gl_RayFlagsOpaqueEXT : 0);
   rayQueryEXT query;
-  rayQueryInitializeEXT(query, traceStructure, flags, 0xff, origin, 0.0, direction, tMax);
+  rayQueryInitializeEXT(query, traceStructure, flags, any ? maskShadows : maskReflected, origin, 0.0, direction, tMax);
   while (rayQueryProceedEXT(query)) {
     uint index = rayQueryGetIntersectionInstanceCustomIndexEXT(query, false);
     if (rayQueryGetIntersectionTypeEXT(query, false) == gl_RayQueryCandidateIntersectionTriangleEXT) {

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "geometry/affine.hpp"
 #include "scene/scene_state.hpp"
 
 namespace speculum {
@@ -20,17 +19,9 @@ double distanceOf(const glm::dvec3& position, const glm::dvec3& viewer) {
   return std::round(distance * perUnit) / perUnit;
 }
 
-glm::dmat3 linearOf(const Object& object) {
-  glm::dmat3 linear = rotationFromDegrees(object.rotation);
-  for (int i = 0; i < 3; ++i) {
-    linear[i] *= object.scale[i];
-  }
-  return linear;
-}
-
 // Returns half the extent of the model's box along the world's axes.
 glm::dvec3 halfExtent(const Object& object, const Mesh& mesh) {
-  const glm::dmat3 linear = linearOf(object) * mesh.unit;
+  const glm::dmat3 linear = modelTransform(object, 0.0) * mesh.unit;
   return glm::abs(linear[0]) * mesh.halfExtent.x + glm::abs(linear[1]) * mesh.halfExtent.y +
          glm::abs(linear[2]) * mesh.halfExtent.z;
 }
@@ -105,7 +96,7 @@ PointLight newLight(const glm::dvec3& position, const glm::dvec3& viewer) {
 Object newObject(const Scene& scene, int mesh, const glm::dvec3& position) {
   const Mesh& model = scene.meshes.at(mesh);
   Object object{.name = model.source.stem().string(), .mesh = mesh};
-  const glm::dvec3 center = linearOf(object) * model.center;
+  const glm::dvec3 center = modelTransform(object, 0.0) * model.center;
   object.position = position - center + glm::dvec3(0.0, halfExtent(object, model).y, 0.0);
   return object;
 }

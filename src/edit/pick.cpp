@@ -42,7 +42,7 @@ std::vector<Picked> Picker::at(const SceneState& state, const PictureView& pictu
   std::vector<Picked> found;
   MirrorPath path;
   glm::dvec3 throughput(1.0);
-  while (const auto hit = world_.closest(ray, skip)) {
+  while (const auto hit = world_.closest(ray, skip, path.empty() ? Onlooker::eye : Onlooker::mirror)) {
     found.push_back({selectionOf(*hit, world_), path, eye + ray.at(hit->t)});
     if (hit->kind != HitKind::mirror) {
       break;

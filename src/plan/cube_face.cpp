@@ -35,12 +35,13 @@ RecycledVector<Bounds> boxesOf(const Scene& scene, const SceneState& state, cons
   return boxes;
 }
 
-void addVisibleInstances(const View& view, const Scene& scene, const SceneState& state, bool cullClusters, int without,
-                         Pass& pass) {
+void addVisibleInstances(const View& view, Onlooker onlooker, const Scene& scene, const SceneState& state,
+                         bool cullClusters, int without, Pass& pass) {
   for (int i = 0; i < static_cast<int>(state.instances.size()); ++i) {
     const InstanceState& instance = state.instances[i];
     const Mesh& mesh = scene.meshes[instance.mesh];
-    if (i == without || !boundsVisible(view, instance, mesh.halfExtent)) {
+    if (i == without || !sees(onlooker, scene.objects[instance.object].visible) ||
+        !boundsVisible(view, instance, mesh.halfExtent)) {
       continue;
     }
     RecycledVector<IndexRange> ranges =
@@ -55,11 +56,12 @@ void addVisibleInstances(const View& view, const Scene& scene, const SceneState&
   }
 }
 
-void addVisibleLights(const View& view, const Scene& scene, const SceneState& state, const EffectSettings& effects,
-                      Pass& pass) {
+void addVisibleLights(const View& view, Onlooker onlooker, const Scene& scene, const SceneState& state,
+                      const EffectSettings& effects, Pass& pass) {
   for (size_t i = 0; i < scene.lights.size(); ++i) {
     const PointLight& light = scene.lights[i];
-    if (hasGlyph(light, effects) && sphereVisible(view, state.lights[i].position, light.radius)) {
+    if (hasGlyph(light, effects) && sees(onlooker, light.visible) &&
+        sphereVisible(view, state.lights[i].position, light.radius)) {
       pass.lights.push_back(static_cast<int>(i));
     }
   }
@@ -78,12 +80,13 @@ View viewOf(const CubeFace& face) {
   return mainView(pose, face.projection, face.size, face.size);
 }
 
-Pass planFace(const CubeFace& face, const Scene& scene, const SceneState& state, bool cullClusters, int without) {
+Pass planFace(const CubeFace& face, Onlooker onlooker, const Scene& scene, const SceneState& state, bool cullClusters,
+              int without) {
   Pass pass;
   pass.view = viewOf(face);
   pass.projection = face.projection;
   pass.areaPx = pass.view.rect.area();
-  addVisibleInstances(pass.view, scene, state, cullClusters, without, pass);
+  addVisibleInstances(pass.view, onlooker, scene, state, cullClusters, without, pass);
   View drawn = pass.view;
   widen(drawn, face.projection, 1);
   for (size_t i = 0; i < scene.mirrors.size(); ++i) {

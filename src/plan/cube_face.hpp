@@ -23,14 +23,14 @@ glm::ivec2 faceCorner(int size, size_t face);
 // the order of `state`.
 RecycledVector<Bounds> boxesOf(const Scene& scene, const SceneState& state, const glm::dvec3& origin = glm::dvec3(0.0));
 
-// Adds to the pass the instances that the view may see, except `without` (-1: none). With `cullClusters`, adds only
-// their visible clusters.
-void addVisibleInstances(const View& view, const Scene& scene, const SceneState& state, bool cullClusters, int without,
-                         Pass& pass);
+// Adds to the pass the instances that the onlooker may see in the view, except `without` (-1: none). With
+// `cullClusters`, adds only their visible clusters.
+void addVisibleInstances(const View& view, Onlooker onlooker, const Scene& scene, const SceneState& state,
+                         bool cullClusters, int without, Pass& pass);
 
-// Adds to the pass the lights whose glyphs the view may see.
-void addVisibleLights(const View& view, const Scene& scene, const SceneState& state, const EffectSettings& effects,
-                      Pass& pass);
+// Adds to the pass the lights whose glyphs the onlooker may see in the view.
+void addVisibleLights(const View& view, Onlooker onlooker, const Scene& scene, const SceneState& state,
+                      const EffectSettings& effects, Pass& pass);
 
 // Eye, axes and projection of the view that renders a face.
 struct CubeFace {
@@ -50,6 +50,7 @@ struct PlannedCubes {
 
 // Plans the pass of a face: its instances, except `without` (-1: none), and its mirrors, which have no image, as at
 // reflection.max_depth.
-Pass planFace(const CubeFace& face, const Scene& scene, const SceneState& state, bool cullClusters, int without = -1);
+Pass planFace(const CubeFace& face, Onlooker onlooker, const Scene& scene, const SceneState& state, bool cullClusters,
+              int without = -1);
 
 }  // namespace speculum

@@ -11,9 +11,9 @@ namespace speculum {
 
 namespace {
 
-// Returns the box that surrounds boxes[own]. Each side lies at the near face of the farthest box on that side, such as
-// a wall, or at the far face of a box that encloses the object, such as a room; without such boxes, at the end of the
-// scene.
+// Returns the box that surrounds boxes[own]; empty boxes do not count. Each side lies at the near face of the farthest
+// box on that side, such as a wall, or at the far face of a box that encloses the object, such as a room; without such
+// boxes, at the end of the scene.
 Bounds boxAround(size_t own, std::span<const Bounds> boxes) {
   const Bounds& inner = boxes[own];
   Bounds all = inner;
@@ -22,6 +22,9 @@ Bounds boxAround(size_t own, std::span<const Bounds> boxes) {
   glm::bvec3 highFound(false);
   for (size_t i = 0; i < boxes.size(); ++i) {
     const Bounds& box = boxes[i];
+    if (box.low.x > box.high.x) {
+      continue;
+    }
     all.add(box);
     const glm::bvec3 above = glm::greaterThanEqual(box.low, inner.high);
     const glm::bvec3 below = glm::lessThanEqual(box.high, inner.low);
@@ -43,10 +46,11 @@ Bounds boxAround(size_t own, std::span<const Bounds> boxes) {
 }
 
 Pass faceOf(const Scene& scene, const SceneState& state, const Cube& map, const Projection& projection, size_t index) {
-  Pass face = planFace({map.center, faceAxes()[index], projection, map.size}, scene, state, false, map.instance);
+  Pass face = planFace({map.center, faceAxes()[index], projection, map.size}, Onlooker::mirror, scene, state, false,
+                       map.instance);
   face.id = {.kind = PassKind::environment, .instance = map.instance, .face = static_cast<int>(index)};
   face.corner = faceCorner(map.size, index);
-  addVisibleLights(face.view, scene, state, map.settings.effects, face);
+  addVisibleLights(face.view, Onlooker::mirror, scene, state, map.settings.effects, face);
   return face;
 }
 
@@ -97,10 +101,16 @@ EnvironmentMaps environmentMaps(const Scene& scene, const SceneState& state, con
   if (!settings.effects.curved || settings.effects.curvedLookup != CurvedLookup::environment) {
     return maps;
   }
-  const RecycledVector<Bounds> boxes = boxesOf(scene, state);
+  RecycledVector<Bounds> boxes = boxesOf(scene, state);
   RecycledVector<int> curved = drawnCurved(scene, state, passes);
   const size_t drawn = curved.size();
   keepWidest(curved, state);
+  for (size_t i = 0; i < state.instances.size(); ++i) {
+    const bool reflected = sees(Onlooker::mirror, scene.objects[state.instances[i].object].visible);
+    if (!reflected && !std::ranges::binary_search(curved, static_cast<int>(i))) {
+      boxes[i] = Bounds();
+    }
+  }
   maps.omitted = drawn - curved.size();
   for (const int i : curved) {
     const InstanceState& instance = state.instances[i];

@@ -96,8 +96,9 @@ class MirrorSearch {
 void MirrorSearch::fill(int node) {
   const View view = nodes_[node].pass.view;
   const View readable = readableView(nodes_[node].pass, plan_.projection);
-  addVisibleInstances(readable, scene_, state_, allSettings_.debug.cullClusters, -1, nodes_[node].pass);
-  addVisibleLights(readable, scene_, state_, allSettings_.effects, nodes_[node].pass);
+  const Onlooker onlooker = view.path.empty() ? Onlooker::eye : Onlooker::mirror;
+  addVisibleInstances(readable, onlooker, scene_, state_, allSettings_.debug.cullClusters, -1, nodes_[node].pass);
+  addVisibleLights(readable, onlooker, scene_, state_, allSettings_.effects, nodes_[node].pass);
   // Polygons are cut one pixel farther out, so that no cut edge lies where the image is read.
   View drawn = readable;
   widen(drawn, plan_.projection, 1);

@@ -161,7 +161,7 @@ class FacePlanner {
       }
     }
     if (!near.empty()) {
-      face = planFace(cube, scene_, state_, settings_.debug.cullClusters);
+      face = planFace(cube, Onlooker::light, scene_, state_, settings_.debug.cullClusters);
       const bool read = std::ranges::any_of(near, [&](const Pass* pass) { return hasReceiver(face, *pass); });
       face.source = read ? PassSource::drawn : PassSource::unread;
     }

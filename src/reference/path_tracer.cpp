@@ -146,7 +146,7 @@ glm::dvec3 PathTracer::follow(Path path) {
   glm::dvec3 sum(0.0);
   glm::dvec3 weight(1.0);
   for (;;) {
-    const auto hit = world_.closest(path.ray, path.skip);
+    const auto hit = world_.closest(path.ray, path.skip, path.depth == 0 ? Onlooker::eye : Onlooker::mirror);
     if (!hit) {
       return sum + weight * environment_.radiance(glm::normalize(path.ray.direction));
     }
@@ -182,7 +182,7 @@ MirrorChain PathTracer::followMirrors(Ray ray) const {
   glm::dvec3 throughput(1.0);
   const int most = std::min(255, std::max(options_.maxDepth, 0) + 1);
   while (chain.count < most) {
-    const auto hit = world_.closest(ray, skip);
+    const auto hit = world_.closest(ray, skip, chain.count == 0 ? Onlooker::eye : Onlooker::mirror);
     chain.background = chain.background || (chain.count == 0 && !hit);
     if (!hit || !reflects(*hit)) {
       break;

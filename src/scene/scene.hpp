@@ -50,6 +50,19 @@ struct Copies {
   bool operator==(const Copies&) const = default;
 };
 
+// Views that show an object or a light's glyph: all of them, those that are not seen in a mirror, or only those that
+// are. Objects cast shadows whatever shows them.
+enum class Visibility { everywhere, eye, mirrors };
+
+// What a view or a ray is for: the eye, the reflection of a mirror, flat or curved, or the shadows of a light.
+enum class Onlooker { eye, mirror, light };
+
+// Says whether the onlooker sees what has this visibility.
+constexpr bool sees(Onlooker onlooker, Visibility visibility) {
+  return (onlooker != Onlooker::eye || visibility != Visibility::mirrors) &&
+         (onlooker != Onlooker::mirror || visibility != Visibility::eye);
+}
+
 enum class Fresnel { none, schlick };
 
 // Properties of an object that is a curved mirror.
@@ -61,6 +74,9 @@ struct ObjectMirror {
   bool operator==(const ObjectMirror&) const = default;
 };
 
+// The axis of a model that points up.
+enum class UpAxis { y, z };
+
 struct Object {
   std::string name;
   std::string model;  // path as it stands in the scene file
@@ -68,11 +84,13 @@ struct Object {
   glm::dvec3 position{0.0};
   glm::dvec3 rotation{0.0};  // degrees: pitch, yaw, roll; R = Ry Rx Rz
   glm::dvec3 scale{1.0};
-  glm::dvec3 spin{0.0};  // degrees per second added to rotation
+  UpAxis up = UpAxis::y;  // z: the model is turned by -90 degrees about X before all else
+  glm::dvec3 spin{0.0};   // degrees per second added to rotation
   std::optional<glm::dvec3> color;
   std::optional<glm::dvec3> specular;
   std::optional<double> shininess;
   std::optional<glm::dvec3> emission;
+  Visibility visible = Visibility::everywhere;
   Copies copies;
   std::optional<ObjectMirror> mirror;
 
@@ -95,6 +113,7 @@ struct PointLight {
   double radius = 0.05;    // metres, of the glyph; also the floor of the inverse square law
   double glow = 1.0;       // radiance of the glyph by `color`; 0: no glyph
   bool castsShadow = false;
+  Visibility visible = Visibility::everywhere;  // of the glyph
   std::optional<Orbit> orbit;
 
   bool operator==(const PointLight&) const = default;

@@ -132,6 +132,8 @@ inline const auto fieldsOf<Object> = std::tuple{
           {.unit = "deg", .range = coordinateRange, .use = FieldUse::placement, .step = 0.5}),
     field(&Object::scale, "scale", "along the model's own axes; negative mirrors it, zero is an error",
           {.uniform = true, .use = FieldUse::placement}),
+    field(&Object::up, "up", "the model's axis that points up; z: it is turned by -90 degrees about X first",
+          {.use = FieldUse::placement}),
     field(&Object::spin, "spin", "added to the rotation",
           {.unit = "deg/s", .range = turnRange, .use = FieldUse::placement, .step = 0.5}),
     field(&Object::color, "color", "replaces the model's diffuse color (Kd); textures and vertex colors multiply it",
@@ -142,6 +144,7 @@ inline const auto fieldsOf<Object> = std::tuple{
           {.floor = leastShininess, .ceiling = mostShininess, .step = 1.0, .start = 50.0}),
     field(&Object::emission, "emission", "replaces the model's emission (Ke): radiance that lights nothing else",
           {.range = radianceRange, .color = true, .start = glm::dvec3(1.0)}),
+    field(&Object::visible, "visible", "eye: in no mirror; mirrors: only in mirrors; it casts its shadows either way"),
     field(&Object::mirror, "mirror", "makes the object a curved mirror", {.start = ObjectMirror()}),
     field(&Object::copies, "copies", "the k-th instance is moved by k times the step", {.use = FieldUse::placement})};
 
@@ -166,6 +169,7 @@ inline const auto fieldsOf<PointLight> = std::tuple{
           {.unit = "m", .range = lengthRange, .step = 0.002}),
     field(&PointLight::glow, "glow", "radiance of the sphere by its color; 0 draws none", {.range = radianceRange}),
     field(&PointLight::castsShadow, "casts_shadow", "objects and mirrors cast its shadows"),
+    field(&PointLight::visible, "visible", "eye: its sphere is in no mirror; mirrors: only in mirrors"),
     field(&PointLight::orbit, "orbit", "circles around an axis", {.use = FieldUse::placement})};
 
 template <>
@@ -257,6 +261,14 @@ void forEachField(const Visitor& visit) {
 // Return the names of an enumeration's values in scene files, in the order of the enumerators.
 constexpr auto choicesOf(Fresnel) {
   return std::array<std::string_view, 2>{"none", "schlick"};
+}
+
+constexpr auto choicesOf(UpAxis) {
+  return std::array<std::string_view, 2>{"y", "z"};
+}
+
+constexpr auto choicesOf(Visibility) {
+  return std::array<std::string_view, 3>{"everywhere", "eye", "mirrors"};
 }
 
 constexpr auto choicesOf(ReflectionMethod) {

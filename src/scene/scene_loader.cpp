@@ -97,7 +97,9 @@ constexpr int mostInstances = 1'000'000;
 // and from a curved mirror square the vertices' coordinates.
 std::optional<std::string> extentRemedy(const Object& object, const Mesh& mesh) {
   const double largest = object.mirror ? 1e18 : 1e35;  // metres
-  if (glm::compMax(glm::abs(object.scale) * (glm::abs(mesh.center) + mesh.radius * mesh.unit)) <= largest) {
+  const glm::dvec3& c = mesh.center;
+  const glm::dvec3 center = object.up == UpAxis::z ? glm::dvec3(c.x, c.z, c.y) : c;
+  if (glm::compMax(glm::abs(object.scale) * (glm::abs(center) + mesh.radius * mesh.unit)) <= largest) {
     return std::nullopt;
   }
   return fmt::format("at most {:g} m are needed{}", largest, object.mirror ? " of a curved mirror" : "");

@@ -16,9 +16,7 @@ namespace {
 void addInstances(const Scene& scene, int objectIndex, double time, std::vector<InstanceState>& instances) {
   const Object& object = scene.objects[objectIndex];
   const Mesh& mesh = scene.meshes[object.mesh];
-  const glm::dmat3 rotation = rotationFromDegrees(object.rotation + spunBy(object.spin, time));
-  const glm::dmat3 linear =
-      glm::dmat3(rotation[0] * object.scale.x, rotation[1] * object.scale.y, rotation[2] * object.scale.z);
+  const glm::dmat3 linear = modelTransform(object, time);
   const double largestScale = glm::compMax(glm::abs(object.scale));
   const glm::dvec3 center = linear * mesh.center;
   for (int copy = 0; copy < object.copies.count; ++copy) {
@@ -239,6 +237,12 @@ CameraPose lookAt(const glm::dvec3& eye, const glm::dvec3& target, const glm::dv
     throw std::invalid_argument("the camera's target is its position, or lies along its up vector");
   }
   return poseAlong(eye, forward, up, verticalFovDegrees, near);
+}
+
+glm::dmat3 modelTransform(const Object& object, double time) {
+  const glm::dmat3 turn = rotationFromDegrees(object.rotation + spunBy(object.spin, time));
+  const glm::dmat3 scaled(turn[0] * object.scale.x, turn[1] * object.scale.y, turn[2] * object.scale.z);
+  return object.up == UpAxis::z ? glm::dmat3(scaled[0], -scaled[2], scaled[1]) : scaled;
 }
 
 SceneState evaluate(const Scene& scene, double timeSeconds) {

@@ -36,6 +36,9 @@ CameraPose lookAt(const glm::dvec3& eye, const glm::dvec3& target, const glm::dv
 // reduced modulo 360 before anything is added to it, so that a long run loses no precision to a large sum.
 glm::dvec3 spunBy(const glm::dvec3& spin, double time);
 
+// Returns the linear transform from the object's model to the world: `up`, then scale, then rotation and spin.
+glm::dmat3 modelTransform(const Object& object, double time);
+
 struct InstanceState {
   int object = 0;  // index into Scene::objects
   int copy = 0;

@@ -84,6 +84,12 @@ Bounds TraceWorld::boundsOf(const Item& item) const {
   return box;
 }
 
+Visibility TraceWorld::visibilityOf(const Item& item) const {
+  return item.kind == HitKind::object  ? scene_->objects[instances_[item.index].object].visible
+         : item.kind == HitKind::glyph ? scene_->lights[item.index].visible
+                                       : Visibility::everywhere;
+}
+
 Ray TraceWorld::toMesh(const Ray& ray, int instance, double tMax) const {
   const glm::dmat3& linear = placements_[instance].meshFromWorld;
   return {linear * (ray.origin - instances_[instance].worldFromMesh.translation), linear * ray.direction, ray.tMin,
@@ -177,12 +183,13 @@ std::optional<SceneHit> TraceWorld::meet(const Item& item, const Ray& ray, const
   return hit;
 }
 
-std::optional<SceneHit> TraceWorld::closest(const Ray& ray, const Skip& skip) const {
+std::optional<SceneHit> TraceWorld::closest(const Ray& ray, const Skip& skip, Onlooker onlooker) const {
   const ShearedRay sheared(ray);
   std::optional<SceneHit> best;
   bvh_.traverse(ray, [&](uint32_t first, uint32_t count, double& tMax) {
     for (uint32_t i = first; i < first + count; ++i) {
-      const auto hit = meet(items_[i], ray, sheared, tMax, skip);
+      const bool seen = sees(onlooker, visibilityOf(items_[i]));
+      const auto hit = seen ? meet(items_[i], ray, sheared, tMax, skip) : std::nullopt;
       if (hit && (!best || hit->t < best->t || (hit->t == best->t && covers(*hit, *best)))) {
         best = hit;
         tMax = hit->t;

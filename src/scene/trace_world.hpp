@@ -40,7 +40,8 @@ class TraceWorld {
   // Takes the nodes from `state`, relative to its camera's eye, and builds the BVH over them.
   void place(const SceneState& state);
 
-  std::optional<SceneHit> closest(const Ray& ray, const Skip& skip) const;
+  // Returns the first surface or glyph on the ray that the onlooker sees.
+  std::optional<SceneHit> closest(const Ray& ray, const Skip& skip, Onlooker onlooker = Onlooker::eye) const;
   // Says whether an object or a mirror, from either side, lies on the ray. Glyphs cast no shadow.
   bool occluded(const Ray& ray, const Skip& skip) const;
   // Returns the parameter t in (tMin, tMax) at which the ray meets a mirror's polygon; nothing if it does not.
@@ -65,6 +66,7 @@ class TraceWorld {
     glm::dmat3 normalFromMesh;
   };
   Bounds boundsOf(const Item& item) const;
+  Visibility visibilityOf(const Item& item) const;
   bool skipsMirror(const Skip& skip, int mirror) const;
   // Says whether `hit` comes before `other` at the same distance: by layer for mirrors, by index for instances.
   bool covers(const SceneHit& hit, const SceneHit& other) const;

@@ -207,7 +207,7 @@ void FrameData::addLights(const Source& source, const Pass& pass, DrawBlock& blo
                        .irradiance = radiance(scale * light.color * light.intensity),
                        .castsShadow = light.castsShadow,
                        .glow = radiance(scale * light.color * light.glow),
-                       .hasGlyph = hasGlyph(light, source.settings.effects),
+                       .hasGlyph = hasGlyph(light, source.settings.effects) && sees(Onlooker::mirror, light.visible),
                        .clearance = clearances_[i],
                        .shadowMap = shadowMaps_[i]});
   }

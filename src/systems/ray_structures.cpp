@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "core/uploader.hpp"
+#include "shaders/gpu_data.h"
 
 namespace speculum {
 
@@ -51,10 +52,10 @@ VkTransformMatrixKHR transformOf(const glm::dmat3& linear, const glm::dvec3& tra
 }
 
 VkAccelerationStructureInstanceKHR instanceOf(const glm::dmat3& linear, const glm::dvec3& translation, size_t index,
-                                              VkDeviceAddress structure) {
+                                              VkDeviceAddress structure, bool reflected = true) {
   return {.transform = transformOf(linear, translation),
           .instanceCustomIndex = static_cast<uint32_t>(index) & 0xffffffu,
-          .mask = 0xff,
+          .mask = reflected ? gpu::maskReflected | gpu::maskShadows : gpu::maskShadows,
           .accelerationStructureReference = structure};
 }
 
@@ -128,14 +129,15 @@ bool RayStructures::canHold(const SceneState& state) {
          });
 }
 
-std::vector<VkAccelerationStructureInstanceKHR> RayStructures::instances(const SceneState& state) const {
+std::vector<VkAccelerationStructureInstanceKHR> RayStructures::instances(const Scene& scene,
+                                                                         const SceneState& state) const {
   const glm::dvec3& eye = state.camera.eye;
   std::vector<VkAccelerationStructureInstanceKHR> all;
   for (size_t i = 0; i < state.instances.size(); ++i) {
     const InstanceState& instance = state.instances[i];
     if (meshes_[instance.mesh] != 0) {
       all.push_back(instanceOf(instance.worldFromMesh.linear, instance.worldFromMesh.translation - eye, i,
-                               meshes_[instance.mesh]));
+                               meshes_[instance.mesh], sees(Onlooker::mirror, scene.objects[instance.object].visible)));
     }
   }
   // Allows for rounding, which moves a ray by some 1e-7 of the largest coordinate. The shader tests the polygon itself.
@@ -171,9 +173,9 @@ void RayStructures::grow(Top& top, uint32_t count) const {
   top = std::move(larger);
 }
 
-void RayStructures::build(const Frame& frame, const SceneState& state) {
+void RayStructures::build(const Frame& frame, const Scene& scene, const SceneState& state) {
   Top& top = tops_[frame.index];
-  std::vector<VkAccelerationStructureInstanceKHR> wanted = instances(state);
+  std::vector<VkAccelerationStructureInstanceKHR> wanted = instances(scene, state);
   if (top.structure && sameBytes(top.built, wanted)) {
     return;
   }

@@ -22,7 +22,7 @@ class RayStructures {
 
   // Records an update of the frame's structure if transforms have changed, or a build if it cannot be updated; nothing
   // if all transforms are the same.
-  void build(const Frame& frame, const SceneState& state);
+  void build(const Frame& frame, const Scene& scene, const SceneState& state);
 
   VkAccelerationStructureKHR top(const Frame& frame) const { return tops_[frame.index].structure.get(); }
   uint32_t count() const;
@@ -38,7 +38,7 @@ class RayStructures {
     std::vector<VkAccelerationStructureInstanceKHR> built;
     int updates = 0;  // since the last build
   };
-  std::vector<VkAccelerationStructureInstanceKHR> instances(const SceneState& state) const;
+  std::vector<VkAccelerationStructureInstanceKHR> instances(const Scene& scene, const SceneState& state) const;
   StructureInput inputOf(const Top& top, uint32_t count) const;
   void grow(Top& top, uint32_t count) const;
 

@@ -187,7 +187,7 @@ void TraceFrame::prepareStructures(Frame& frame, const SceneState& state, RayMet
       check(vkQueueWaitIdle(device_.queue()), "wait for the queue");
       structures_.emplace(device_, uploader_, *traceScene_);
     }
-    structures_->build(frame, state);
+    structures_->build(frame, scene_, state);
   } catch (const OutOfMemoryError&) {
     refused_ = true;
     frame.retired->take(structures_);
@@ -261,7 +261,9 @@ void TraceFrame::addHierarchy(const SceneState& state) {
     const bool isMirror = i >= instances;
     if (isMirror || !scene_.meshes[state.instances[i].mesh].indices.empty()) {
       boxes.push_back(all[i]);
-      found.push_back(static_cast<uint32_t>(isMirror ? (i - instances) | gpu::itemMirror : i));
+      const bool reflected = isMirror || sees(Onlooker::mirror, scene_.objects[state.instances[i].object].visible);
+      found.push_back(static_cast<uint32_t>(isMirror ? (i - instances) | gpu::itemMirror : i) |
+                      (reflected ? 0 : gpu::itemUnreflected));
     }
   }
   appendTopNodes(Bvh(boxes, 1), found, topNodes_);

@@ -30,11 +30,14 @@ bool meets(const glm::dvec3& eye, const glm::dvec3& point, const std::array<glm:
   return (left || right) && sum != 0.0 && whole / sum > 0.0 && whole / sum < 1.0;
 }
 
-// Only mirrors outside the path cover the last one.
+// Only mirrors outside the path cover the last one, and only objects that the path's last view shows.
 bool isCovered(const Scene& scene, const SceneState& state, const glm::dvec3& eye, const glm::dvec3& point,
                const MirrorPath& path) {
   for (const InstanceState& instance : state.instances) {
     const Mesh& mesh = scene.meshes[instance.mesh];
+    if (!sees(path.size() > 1 ? Onlooker::mirror : Onlooker::eye, scene.objects[instance.object].visible)) {
+      continue;
+    }
     const auto corner = [&](size_t i) { return instance.worldFromMesh.point(mesh.vertices[mesh.indices[i]].position); };
     for (size_t i = 0; i < mesh.indices.size(); i += 3) {
       if (meets(eye, point, {corner(i), corner(i + 1), corner(i + 2)})) {
@@ -159,6 +162,7 @@ class Occluders : public ::testing::Test {
     scene.meshes = {meshOf(shape.positions, shape.indices)};
     for (int i = 0; i < objects; ++i) {
       scene.objects.push_back(place(0));
+      scene.objects.back().visible = visibility_;
     }
     const SceneState placed = evaluate(scene, 0.0);
     for (int i = 0; i < 6; ++i) {
@@ -176,7 +180,8 @@ class Occluders : public ::testing::Test {
   }
 
   std::mt19937 engine_{17};
-  int together_ = 0;  // mirrors that several objects hide
+  Visibility visibility_ = Visibility::everywhere;  // of the shapes
+  int together_ = 0;                                // mirrors that several objects hide
 };
 
 TEST_F(Occluders, RandomShapesHideNothingVisible) {
@@ -203,6 +208,23 @@ TEST_F(Occluders, RandomShapesHideNothingVisibleInMirrors) {
     hidden += hiddenBehind(randomShape(engine_), 2, scene, {0, 0, plane + 4}, 1);
   }
   EXPECT_GT(hidden, 50);
+}
+
+// Shapes that the eye does not see hide nothing from it, but do in mirrors; and the other way round.
+TEST_F(Occluders, UnseenObjectsHideNothing) {
+  for (const Visibility visible : {Visibility::eye, Visibility::mirrors}) {
+    visibility_ = visible;
+    int fromEye = 0;
+    int inMirrors = 0;
+    for (int round = 0; round < 60; ++round) {
+      fromEye += hiddenBehind(randomShape(engine_), 2, testing_support::sceneWith({}), glm::dvec3(0.0), 0);
+      Scene scene = testing_support::sceneWith({wall({0, 0, 2}, 180, {20, 20})});
+      scene.camera.position = {0, 0, -2};
+      scene.camera.target = {0, 0, 2};
+      inMirrors += hiddenBehind(randomShape(engine_), 2, scene, {0, 0, 6}, 1);
+    }
+    EXPECT_GT(visible == Visibility::eye ? fromEye : inMirrors, 20);
+  }
 }
 
 TEST_F(Occluders, BoxesAndPanesHideNothingVisibleTogether) {

@@ -48,6 +48,13 @@ TEST(Evaluate, ObjectIsScaledThenTurnedThenMoved) {
   expectNear(instance.center, instance.worldFromMesh.point(glm::dvec3(0.0)), 0.0);
 }
 
+TEST(Evaluate, ModelsWithZUpAreTurnedBeforeTheyAreScaled) {
+  const Scene scene =
+      sceneWithObject({.position = {100, 0, 0}, .rotation = {0, 90, 0}, .scale = {1, 2, -3}, .up = UpAxis::z});
+  // Model space (11, 22, 33) -> turned about X by -90 degrees (11, 33, -22) -> scaled (11, 66, 66) -> turned about Y.
+  expectNear(evaluate(scene, 0.0).instances.at(0).worldFromMesh.point({1, 2, 3}), {100 + 66, 66, -11}, 1e-12);
+}
+
 TEST(Evaluate, RotationOrderIsYawPitchRoll) {
   Scene scene = sceneWithObject({.rotation = {90, 90, 90}});
   scene.meshes[0].center = glm::dvec3(0.0);

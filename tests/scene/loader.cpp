@@ -41,11 +41,12 @@ const std::string everythingText =
     "camera = { position = [0, 1.6, 4], target = [0, 1, 0], up = [0, 1, 1], vertical_fov = 45, near = 0.01, "
     "orbit_speed = -3 }\n"
     "object = [{ name = 'knot', model = 'triangle.obj', position = [0, 1, 0], rotation = [0, 30, 0], "
-    "scale = [-1, 2, 3.5], spin = [0, 20, 0], color = [0.8, 0.2, 0.1], specular = [0.04, 0.05, 0.06], "
+    "scale = [-1, 2, 3.5], up = 'z', visible = 'mirrors', spin = [0, 20, 0], color = [0.8, 0.2, 0.1], specular = "
+    "[0.04, 0.05, 0.06], "
     "shininess = 0.5, emission = [0, 0, 2], copies = { count = 100, step = [1, 0, 0] }, "
     "mirror = { reflectance = [0.5, 0.6, 0.7], fresnel = 'schlick', base_color = [0, 0.1, 0] } }]\n"
     "light = [{ name = 'key', position = [1, 2, 1], color = [1, 0.9, 0.8], intensity = 8, radius = 0.1, glow = 0, "
-    "casts_shadow = true, orbit = { center = [0, 2, 0], axis = [0, 0, 1], speed = 20 } }]\n"
+    "casts_shadow = true, visible = 'eye', orbit = { center = [0, 2, 0], axis = [0, 0, 1], speed = 20 } }]\n"
     "mirror = [{ name = 'left', position = [0, 1, -2], rotation = [0, 90, 0], spin = [0, 10, 0], size = [2, 1.5], "
     "reflectance = [0.9, 0.8, 0.7], fresnel = 'schlick', base_color = [0.1, 0.2, 0.3], roughness = 0.25, "
     "ripple = { amplitude = 0.02, wavelength = 0.4, speed = -0.1 }, two_sided = true, back_color = [0, 1, 2], "
@@ -69,11 +70,13 @@ TEST(SceneLoader, ReadsEveryField) {
                                          .position = {0, 1, 0},
                                          .rotation = {0, 30, 0},
                                          .scale = {-1, 2, 3.5},
+                                         .up = UpAxis::z,
                                          .spin = {0, 20, 0},
                                          .color = glm::dvec3(0.8, 0.2, 0.1),
                                          .specular = glm::dvec3(0.04, 0.05, 0.06),
                                          .shininess = 1.0,  // below 1 counts as 1
                                          .emission = glm::dvec3(0, 0, 2),
+                                         .visible = Visibility::mirrors,
                                          .copies = {100, {1, 0, 0}},
                                          .mirror = ObjectMirror{{0.5, 0.6, 0.7}, Fresnel::schlick, {0, 0.1, 0}}}));
   EXPECT_EQ(scene.lights.at(0), (PointLight{.name = "key",
@@ -83,6 +86,7 @@ TEST(SceneLoader, ReadsEveryField) {
                                             .radius = 0.1,
                                             .glow = 0,
                                             .castsShadow = true,
+                                            .visible = Visibility::eye,
                                             .orbit = Orbit{{0, 2, 0}, {0, 0, 1}, 20}}));
   EXPECT_EQ(scene.mirrors.at(0), (Mirror{.name = "left",
                                          .position = {0, 1, -2},

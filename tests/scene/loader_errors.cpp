@@ -128,6 +128,8 @@ const std::vector<Fault> faults = {
     {"MirrorReflectanceAboveOne", mirrorText + "reflectance = [1, 1.01, 1]\n",
      "6: mirror[0].reflectance[1]:", "0 .. 1"},
     {"MirrorReflectanceIsNumber", mirrorText + "reflectance = 1\n", "6: mirror[0].reflectance:", "array of 3 numbers"},
+    {"ObjectVisibleUnknown", objectText + "visible = 'mirror'\n", "6: object[0].visible:", "did you mean 'mirrors'?"},
+    {"ObjectUpUnknown", objectText + "up = 'x'\n", "6: object[0].up:", "did you mean 'y'?"},
     {"MirrorFresnelUnknown", mirrorText + "fresnel = 'shlick'\n", "6: mirror[0].fresnel:", "did you mean 'schlick'?"},
     {"MirrorNameCannotBreakTheLine", mirrorText + "name = \"a\\nb\"\nfresnel = 1\n",
      "7: mirror[a\\x0ab].fresnel:", "is an integer"},

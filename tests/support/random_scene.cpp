@@ -24,6 +24,7 @@ class Builder {
       : random(seed),
         shapes_(seed),
         qualities_(seed + 1'000'000),
+        visibilities_(seed + 2'000'000),
         seed_(seed),
         tidy(random.chance(0.4)),
         alike_(random.chance(0.3)),
@@ -83,7 +84,7 @@ class Builder {
       if (random.chance(0.3)) {
         out << "spin = " << random.vec(-90, 90) << "\n";
       }
-      out << effect(0.15, "mirror = { reflectance = [0.9, 0.8, 0.7] }");
+      out << visibility() << effect(0.15, "mirror = { reflectance = [0.9, 0.8, 0.7] }");
     }
   }
   void shape(const std::string& position, double scale) {
@@ -99,7 +100,7 @@ class Builder {
         out << "orbit = { center = " << text(origin_) << ", axis = " << text(random.direction())
             << ", speed = " << random.uniform(-90, 90) << " }\n";
       }
-      out << effect(0.3, "casts_shadow = true");
+      out << visibility() << effect(0.3, "casts_shadow = true");
     }
   }
   // Adds a view from `eye` to `target`, or now and then from close to the plane of a mirror.
@@ -154,6 +155,12 @@ class Builder {
     return text.str();
   }
 
+  // Returns the line of an object or light that not every view shows, or nothing.
+  std::string visibility() {
+    const bool some = visibilities_.chance(0.25);
+    return some ? std::string("visible = ") + (visibilities_.chance(0.5) ? "\"eye\"\n" : "\"mirrors\"\n") : "";
+  }
+
   // Returns the line of a mirror with a quality of its own, or nothing.
   std::string quality() {
     static constexpr std::array<const char*, 4> scales{"0.25", "0.5", "1", "2"};
@@ -176,7 +183,8 @@ class Builder {
   }
 
   std::mt19937 shapes_;
-  Random qualities_;  // of its own, so that a seed's scene is the same without them
+  Random qualities_;  // of their own, so that a seed's scene is the same without them
+  Random visibilities_;
   unsigned seed_;
 
  public:

@@ -66,6 +66,11 @@ std::string tracedEffectsOf(const Options& options, double time) {
 
 const std::string nearBall = "[[object]]\nmodel = \"MODELS/sphere.obj\"\nposition = [0.2, 0.6, 1.2]\nscale = 0.4\n";
 
+// A teapot that no mirror shows and a knot that only mirrors show.
+const std::string ghosts =
+    "[[object]]\nmodel = \"MODELS/teapot.obj\"\nposition = [-0.9, 0.1, -0.7]\nscale = 0.5\nvisible = \"eye\"\n"
+    "[[object]]\nmodel = \"MODELS/torus_knot.obj\"\nposition = [1.3, 0.6, -0.6]\nscale = 0.4\nvisible = \"mirrors\"\n";
+
 // All cases have these models.
 class ExactEffects : public testing::TestWithParam<Case> {
  protected:
@@ -115,6 +120,15 @@ INSTANTIATE_TEST_SUITE_P(
              shadowLight + wall + "casts_light = true\n" + side + "fresnel = \"schlick\"\ntwo_sided = true\n" + pool +
                  ripple + byRays,
              "shadows ripple casts_light "},
+        Case{"visibility",
+             shadowLight + "visible = \"eye\"\nradius = 0.15\n" + plainLight +
+                 "visible = \"mirrors\"\nradius = 0.15\n" + wall + side + nearBall + "visible = \"mirrors\"\n" + ghosts,
+             "shadows "},
+        Case{"visibility_by_rays",
+             shadowLight + "visible = \"eye\"\nradius = 0.15\n" + plainLight +
+                 "visible = \"mirrors\"\nradius = 0.15\n" + wall + side + nearBall +
+                 "visible = \"eye\"\nmirror = {}\n" + ghosts + byRays,
+             "shadows curved "},
         Case{"curved_mirror_with_all",
              shadowLight + plainLight + wall + "casts_light = true\n" + pool + ripple +
                  "[[object]]\nmodel = \"MODELS/torus_knot.obj\"\nposition = [0.2, 0.7, 1.2]\nscale = 0.4\n"
