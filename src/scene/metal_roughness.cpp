@@ -1,18 +1,31 @@
 #include "scene/metal_roughness.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "scene/value_range.hpp"
 
 namespace speculum {
 
-void setMetalRoughness(Material& material, const glm::dvec3& baseColor, double metal, double roughness) {
+glm::dvec3 meanColor(const Texture& texture) {
+  glm::dvec3 sum(0.0);
+  for (const glm::vec3& texel : texture.texels) {
+    sum += texel;
+  }
+  return sum / std::max(static_cast<double>(texture.texels.size()), 1.0);
+}
+
+void setMetalRoughness(Material& material, glm::dvec3 baseColor, double metal, double roughness,
+                       const glm::dvec3& texture) {
   const double share = std::clamp(metal, 0.0, 1.0);
-  const double rough = std::clamp(roughness, 0.0, 1.0);
+  const double alpha = std::pow(std::clamp(roughness, 0.0, 1.0), 2.0);
   material.diffuse = (1.0 - share) * baseColor;
-  material.specular = glm::mix(glm::dvec3(0.04), baseColor, share);
-  material.shininess =
-      std::clamp(2.0 / std::max(rough * rough * rough * rough, 1e-9) - 2.0, leastShininess, mostShininess);
+  material.specular = glm::mix(glm::dvec3(0.04), baseColor * texture, share);
+  material.shininess = std::clamp(2.0 / std::max(alpha * alpha, 1e-9) - 2.0, leastShininess, mostShininess);
+}
+
+double roughnessOf(double shininess) {
+  return std::pow(2.0 / (shininess + 2.0), 0.25);
 }
 
 }  // namespace speculum

@@ -12,6 +12,7 @@
 
 #include "platform/files.hpp"
 #include "platform/text.hpp"
+#include "scene/metal_roughness.hpp"
 #include "scene/text_lines.hpp"
 #include "scene/textures.hpp"
 #include "scene/value_range.hpp"
@@ -92,16 +93,23 @@ class ObjMaterials::MtlReader {
     } else if (key == "ks") {
       readColor("Ks", surfaceColorRange, 0.0);
     } else if (key == "ke") {
-      readColor("Ke", radianceRange, 0.0);
+      hasEmission_ = readColor("Ke", radianceRange, 0.0) || hasEmission_;
     } else if (key == "ns") {
       readNumber("Ns");
     } else if (key == "d") {
       readNumber("d");
     } else if (key == "tr") {
       readNumber("Tr");
+    } else if (key == "pr" || key == "pm") {
+      entry_->metalRoughness = readNumber(key == "pr" ? "Pr" : "Pm") || entry_->metalRoughness;
+      hasRoughness_ = hasRoughness_ || key == "pr";
     } else if (key == "map_kd") {
       if (readTexture("map_Kd")) {
         entry_->textureLine = line_.number();
+      }
+    } else if (key == "map_ke") {
+      if (readTexture("map_Ke")) {
+        entry_->emissionLine = line_.number();
       }
     } else if (key == "map_d") {
       readTexture("map_d");
@@ -130,15 +138,16 @@ class ObjMaterials::MtlReader {
   }
 
   // With -halo, d fades with the angle, and the number behind that option counts.
-  void readNumber(const char* key) {
+  bool readNumber(const char* key) {
     const std::vector<std::string_view>& tokens = line_.tokens();
     const size_t at = tokens.size() > 1 && tokens[1] == "-halo" ? 2 : 1;
     const double value = at < tokens.size() ? numberOf(tokens[at]) : std::nan("");
     if (!std::isfinite(value)) {
       add(key, "is not a finite number, it is left out");
-      return;
+      return false;
     }
     text_ += fmt::format("{} {}\n", key, value);
+    return true;
   }
 
   bool readTexture(const char* key) {
@@ -166,7 +175,13 @@ class ObjMaterials::MtlReader {
     material.emission = {from.emission[0], from.emission[1], from.emission[2]};
     material.shininess = std::clamp<double>(from.shininess, leastShininess, mostShininess);
     entry_->opaque = !(from.dissolve < 1.0) && from.alpha_texname.empty();
+    entry_->metal = from.metallic;
+    entry_->roughness = std::exchange(hasRoughness_, false) ? from.roughness : roughnessOf(material.shininess);
     entry_->diffuseTexture = from.diffuse_texname;
+    entry_->emissionTexture = from.emissive_texname;
+    if (!std::exchange(hasEmission_, false) && !from.emissive_texname.empty()) {
+      material.emission = glm::dvec3(1.0);
+    }
     materials_.entries_.try_emplace(name_, std::move(*entry_));
     entry_.reset();
   }
@@ -179,6 +194,8 @@ class ObjMaterials::MtlReader {
   std::optional<Entry> entry_;  // the material that is being read
   std::string name_;
   std::string text_;  // for tinyobjloader
+  bool hasEmission_ = false;
+  bool hasRoughness_ = false;
 };
 
 void ObjMaterials::read(std::string_view names, int line) {
@@ -250,26 +267,50 @@ Material ObjMaterials::material(int index, bool colored, std::vector<Texture>& t
   if (!entry.opaque) {
     defects_.add(entry.file, entry.line, "newmtl", "'{}' is not opaque, it is drawn opaque", material.name);
   }
-  if (!entry.diffuseTexture.empty()) {
-    addTexture(entry, material, textures);
+  material.diffuseTexture = entry.diffuseTexture.empty() ? -1 : addTexture(entry, textures);
+  if (entry.metalRoughness) {
+    const glm::dvec3 mean =
+        material.diffuseTexture < 0 ? glm::dvec3(1.0) : meanColor(textures[material.diffuseTexture]);
+    setMetalRoughness(material, material.diffuse, entry.metal, entry.roughness, mean);
+  }
+  if (!entry.emissionTexture.empty()) {
+    applyEmissionTexture(entry, material);
   }
   return material;
 }
 
-void ObjMaterials::addTexture(const Entry& entry, Material& material, std::vector<Texture>& textures) {
-  const std::optional<fs::path> picture = modelFiles_.find(entry.file, entry.diffuseTexture);
+std::optional<fs::path> ObjMaterials::findTexture(const Entry& entry, int line, std::string_view key,
+                                                  const std::string& name) {
+  const std::optional<fs::path> picture = modelFiles_.find(entry.file, name);
   if (!picture) {
-    defects_.add(entry.file, entry.textureLine, "map_Kd", "there is no file '{}', the texture is left out",
-                 entry.diffuseTexture);
-    return;
-  }
-  if (!fs::path(entry.diffuseTexture).is_absolute() && namedFiles_.contains(entry.file)) {
+    defects_.add(entry.file, line, key, "there is no file '{}', the texture is left out", name);
+  } else if (!fs::path(name).is_absolute() && namedFiles_.contains(entry.file)) {
     namedFiles_.insert(*picture);
   }
+  return picture;
+}
+
+// Returns the index of the diffuse texture, -1 if it cannot be read.
+int ObjMaterials::addTexture(const Entry& entry, std::vector<Texture>& textures) {
+  const auto picture = findTexture(entry, entry.textureLine, "map_Kd", entry.diffuseTexture);
   try {
-    material.diffuseTexture = textureIndex(*picture, textures);
+    return picture ? textureIndex(*picture, textures) : -1;
   } catch (const FileError& error) {
     defects_.add(entry.file, entry.textureLine, "map_Kd", "{}, the texture is left out", error.what());
+    return -1;
+  }
+}
+
+// Emission has one color on a surface: the texture's mean multiplies it.
+void ObjMaterials::applyEmissionTexture(const Entry& entry, Material& material) {
+  const auto picture = findTexture(entry, entry.emissionLine, "map_Ke", entry.emissionTexture);
+  try {
+    if (picture) {
+      std::vector<Texture> textures;
+      material.emission *= meanColor(textures[static_cast<size_t>(textureIndex(*picture, textures))]);
+    }
+  } catch (const FileError& error) {
+    defects_.add(entry.file, entry.emissionLine, "map_Ke", "{}, the texture is left out", error.what());
   }
 }
 

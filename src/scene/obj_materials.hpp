@@ -43,10 +43,15 @@ class ObjMaterials {
     Material material;  // without its texture
     bool hasDiffuse = false;
     bool opaque = true;
+    bool metalRoughness = false;  // Pr or Pm is given
+    double metal = 0.0;
+    double roughness = 0.0;
     std::string diffuseTexture;
+    std::string emissionTexture;
     std::filesystem::path file;
-    int line = 0;         // line of newmtl
-    int textureLine = 0;  // line of map_Kd
+    int line = 0;          // line of newmtl
+    int textureLine = 0;   // line of map_Kd
+    int emissionLine = 0;  // line of map_Ke
   };
   struct Use {
     std::string name;
@@ -55,7 +60,11 @@ class ObjMaterials {
   class MtlReader;
 
   bool readIfThere(std::string_view name, int line);
-  void addTexture(const Entry& entry, Material& material, std::vector<Texture>& textures);
+  // Returns the file of a texture that a line of the entry's file names; nothing, with a defect, if it is not there.
+  std::optional<std::filesystem::path> findTexture(const Entry& entry, int line, std::string_view key,
+                                                   const std::string& name);
+  int addTexture(const Entry& entry, std::vector<Texture>& textures);
+  void applyEmissionTexture(const Entry& entry, Material& material);
 
   const std::filesystem::path& objFile_;
   ModelDefects& defects_;

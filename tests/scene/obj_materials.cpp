@@ -5,6 +5,7 @@
 #include "image/color.hpp"
 #include "image/image.hpp"
 #include "image/picture_files.hpp"
+#include "made_pictures.hpp"
 #include "scene/metal_roughness.hpp"
 #include "scene/obj_support.hpp"
 #include "test_headers.hpp"
@@ -64,6 +65,37 @@ TEST(MetalRoughness, BecomesDiffuseAndSpecular) {
   setMetalRoughness(material, base, 7.0, -1.0);
   EXPECT_EQ(material.specular, base);
   EXPECT_EQ(material.shininess, 1e6);
+}
+
+TEST_F(MtlFile, MetalAndRoughnessReplaceColors) {
+  const Material metal = materialOf("newmtl m\nKd 0.8 0.4 0.2\nKs 1 1 1\nPm 1\nPr 0.5\n");
+  EXPECT_EQ(metal.diffuse, glm::dvec3(0.0));
+  EXPECT_NEAR(glm::distance(metal.specular, glm::dvec3(0.8, 0.4, 0.2)), 0.0, 1e-12);
+  EXPECT_NEAR(metal.shininess, 30.0, 1e-9);
+  const Material plastic = materialOf("newmtl m\nKd 0.8 0.4 0.2\nNs 30\npm 0\n");
+  EXPECT_NEAR(glm::distance(plastic.diffuse, glm::dvec3(0.8, 0.4, 0.2)), 0.0, 1e-12);
+  EXPECT_EQ(plastic.specular, glm::dvec3(0.04));
+  EXPECT_NEAR(plastic.shininess, 30.0, 1e-9) << "without Pr the roughness follows from Ns";
+  EXPECT_EQ(materialOf("newmtl m\nPr what\n").specular, glm::dvec3(0.0));
+  EXPECT_EQ(warnings(), "warning: m.mtl:2: Pr: is not a finite number, it is left out\n");
+}
+
+TEST_F(MtlFile, TexturedMetalsHaveHighlightsOfTheMeanColor) {
+  writePng(folder_.path() / "t.png",
+           testing_support::madePicture(2, 1, [](int x, int) { return glm::ivec4(255 * x, 0, 255, 255); }));
+  const Material metal = materialOf("newmtl m\nmap_Kd t.png\nKd 0.5 0.5 0.5\nPm 1\n");
+  EXPECT_EQ(metal.specular, glm::dvec3(0.25, 0.0, 0.5));
+  EXPECT_EQ(metal.diffuseTexture, 0);
+}
+
+TEST_F(MtlFile, EmissionTexturesCountByTheirMean) {
+  writePng(folder_.path() / "t.png",
+           testing_support::madePicture(2, 1, [](int x, int) { return glm::ivec4(255 * x, 0, 255, 255); }));
+  EXPECT_EQ(materialOf("newmtl m\nmap_Ke t.png\n").emission, glm::dvec3(0.5, 0.0, 1.0));
+  EXPECT_EQ(materialOf("newmtl m\nmap_Ke t.png\nKe 4\n").emission, glm::dvec3(2.0, 0.0, 4.0));
+  EXPECT_EQ(materialOf("newmtl m\nKe 1 2 3\nmap_Ke none.png\n").emission, glm::dvec3(1.0, 2.0, 3.0));
+  EXPECT_TRUE(textures_.empty());
+  EXPECT_EQ(warnings(), "warning: m.mtl:3: map_Ke: there is no file 'none.png', the texture is left out\n");
 }
 
 TEST_F(MtlFile, ShininessBelowOneCountsAsOne) {
