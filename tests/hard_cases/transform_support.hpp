@@ -22,7 +22,7 @@ Mesh pointCloud(int count, unsigned seed);
 // Returns the plan of a frame at time 0, in which only the recursion depth limits the passes.
 FramePlan planOf(const Scene& scene, int width, int height, int maxDepth = 1);
 
-// Returns what scene.vert writes to gl_Position, in float.
+// Returns what scene_vertex.glsl writes to gl_Position, in float.
 glm::vec4 shaderClip(const gpu::InstanceData& data, const Vertex& vertex);
 
 // Takes clip space to pixels, y down.
