@@ -46,7 +46,7 @@ if(TARGET speculum AND NOT SPECULUM_SANITIZE)
   add_custom_target(package_extras ALL DEPENDS ${extras})
 endif()
 
-# cpack -G DEB. Shared libraries become dependencies by themselves.
+# cpack -G DEB. Shared libraries become dependencies by themselves, except the Vulkan loader, which is opened at run time.
 set(CPACK_GENERATOR DEB)
 # The domain is reserved by RFC 2606: the project has no address. Who repackages it gives their own with -D.
 set(CPACK_PACKAGE_CONTACT "The Speculum authors <noreply@example.org>" CACHE STRING "Maintainer of the package")
@@ -62,7 +62,7 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_PROJECT_CONFIG_FILE ${package}/cpack.cmake)
 set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
-set(CPACK_DEBIAN_PACKAGE_DEPENDS "mesa-vulkan-drivers | vulkan-icd, fonts-dejavu-core")
+set(CPACK_DEBIAN_PACKAGE_DEPENDS "libvulkan1, mesa-vulkan-drivers | vulkan-icd, fonts-dejavu-core")
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "glslang-tools, vulkan-validationlayers")
 file(READ ${PROJECT_SOURCE_DIR}/LICENSE license)
 string(REGEX REPLACE "^.*(Permission is hereby)" "\\1" license "${license}")

@@ -411,6 +411,34 @@ TEST_F(CommandLine, HelpAndVersionExitZero) {
   EXPECT_TRUE(startsWith(succeed({"--version"}), "speculum "));
 }
 
+// The system's Vulkan loader is hidden by an empty file of its name.
+TEST_F(CommandLine, WhatNeedsNoDeviceWorksWithoutVulkan) {
+  replaceFile(out("libvulkan.so.1"), "");
+  const auto run = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {"env", "LD_LIBRARY_PATH=" + out_.path().string(), program});
+    return runProcess(arguments);
+  };
+  const std::string picture = out("r.png");
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"--help"},
+        {"--version"},
+        {"scenes"},
+        {"regress", "--help"},
+        {"reference", "--scene", scene_, "--size", "16x9", "--samples", "1", "--out", picture},
+        {"compare", picture, picture}}) {
+    const ProcessResult result = run(arguments);
+    EXPECT_EQ(result.exitCode, 0) << arguments.front() << ": " << result.output;
+  }
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"info"}, {"render", "--scene", scene_, "--out", out("x.png")}}) {
+    const ProcessResult result = run(arguments);
+    EXPECT_EQ(result.exitCode, 2) << result.output;
+    EXPECT_TRUE(startsWith(result.output, "Vulkan is missing: ")) << result.output;
+    EXPECT_TRUE(contains(result.output, "install libvulkan1")) << result.output;
+    EXPECT_EQ(occurrences(result.output, "\n"), 1) << result.output;
+  }
+}
+
 TEST_F(CommandLine, InfoAndScenesList) {
   EXPECT_TRUE(contains(succeed({"info"}), "llvmpipe"));
   const std::string scenes = succeed({"scenes"});

@@ -1,0 +1,5 @@
+/* The code of stb's headers, for systems that package the headers only. */
+#define STB_IMAGE_IMPLEMENTATION
+#include <stb_image.h>
+#define STB_IMAGE_WRITE_IMPLEMENTATION
+#include <stb_image_write.h>
