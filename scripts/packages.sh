@@ -27,17 +27,72 @@ fuzz_packages=(clang-14 libclang-rt-14-dev)
 # For scripts/check_metrics only.
 metrics_packages=(python3-skimage)
 
-# install_missing PACKAGE...: silent when everything is there.
+# Names on other systems: Debian's, Fedora's, Arch's and openSUSE's; commas join several, - is none that is needed.
+other_names='
+build-essential         gcc-c++                    base-devel                        gcc-c++
+cmake                   cmake                      cmake                             cmake
+ninja-build             ninja-build                ninja                             ninja
+ccache                  ccache                     ccache                            ccache
+git                     git                        git                               git
+pkg-config              pkgconf-pkg-config         pkgconf                           pkgconf-pkg-config
+libvulkan-dev           vulkan-headers,vulkan-loader-devel vulkan-headers,vulkan-icd-loader vulkan-headers,vulkan-devel
+libglfw3-dev            glfw-devel                 glfw                              libglfw-devel
+libglm-dev              glm-devel                  glm                               glm-devel
+libimgui-dev            imgui-devel                imgui                             imgui-devel
+libstb-dev              stb-devel                  stb                               stb-devel
+libfreetype-dev         freetype-devel             freetype2                         freetype2-devel
+glslang-tools           glslang                    glslang                           glslang-devel
+spirv-tools             spirv-tools                spirv-tools                       spirv-tools
+libtinyobjloader-dev    tinyobjloader-devel        tinyobjloader                     tinyobjloader-devel
+libtinyexr-dev          tinyexr-devel              tinyexr                           tinyexr-devel
+libtomlplusplus-dev     tomlplusplus-devel         tomlplusplus                      tomlplusplus-devel
+nlohmann-json3-dev      json-devel                 nlohmann-json                     nlohmann_json-devel
+libcli11-dev            cli11-devel                cli11                             cli11-devel
+libspdlog-dev           spdlog-devel               spdlog                            spdlog-devel
+libfmt-dev              fmt-devel                  fmt                               fmt-devel
+libtbb-dev              tbb-devel                  onetbb                            tbb-devel
+libmeshoptimizer-dev    meshoptimizer-devel        meshoptimizer                     meshoptimizer-devel
+mesa-vulkan-drivers     mesa-vulkan-drivers        vulkan-swrast                     libvulkan_lvp
+fonts-dejavu-core       dejavu-sans-fonts          ttf-dejavu                        dejavu-fonts
+'
+
+# Prints, on a system without apt-get, the command that installs what is missing of the packages, and fails; succeeds if
+# nothing is. Packages without a name in the table (tests' tools) are given by Debian's.
+advise_missing() {
+  local command query column missing=() package name
+  if command -v dnf >/dev/null; then
+    command='dnf install' query='rpm -q' column=2
+  elif command -v pacman >/dev/null; then
+    command='pacman -S --needed' query='pacman -Q' column=3
+  elif command -v zypper >/dev/null; then
+    command='zypper install' query='rpm -q' column=4
+  else
+    echo "The packages for this system are not known; Debian calls what is needed $*" >&2
+    return 0
+  fi
+  for package in "$@"; do
+    name=$(awk -v package="$package" -v column=$column '$1 == package { print $column }' <<<"$other_names")
+    for name in $(tr , ' ' <<<"${name:-$package}"); do
+      [ "$name" = - ] || $query "$name" >/dev/null 2>&1 || missing+=("$name")
+    done
+  done
+  [ ${#missing[@]} -eq 0 ] && return 0
+  echo "Packages are missing. As root: $command ${missing[*]}" >&2
+  echo "(These names were not tried. CMake names what is still missing; IMGUI_DIR takes Dear ImGui's sources.)" >&2
+  return 1
+}
+
+# install_missing PACKAGE...: silent when everything is there. Without apt-get it says what to install.
 install_missing() {
   local missing=() package
+  if ! command -v apt-get >/dev/null; then
+    advise_missing "$@"
+    return
+  fi
   for package in "$@"; do
     dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null | grep -qx installed || missing+=("$package")
   done
   [ ${#missing[@]} -eq 0 ] && return 0
-  if ! command -v apt-get >/dev/null; then
-    echo "These packages are missing and there is no apt-get to install them: ${missing[*]}" >&2
-    return 1
-  fi
   local as_root=()
   if [ "$(id -u)" -ne 0 ]; then
     as_root=(sudo)

@@ -3,6 +3,7 @@
 #include <imgui.h>
 #include <imgui_impl_glfw.h>
 #include <imgui_impl_vulkan.h>
+#include <imgui_versions.hpp>
 
 #include <algorithm>
 
@@ -13,13 +14,12 @@ namespace {
 constexpr float mostTurn = 1.1f;  // radians; the camera stays before the mirror
 
 DescriptorPoolHandle createPool(Device& device) {
-  const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1};  // the font
   return device.create(vkCreateDescriptorPool,
                        {.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
                         .flags = VK_DESCRIPTOR_POOL_CREATE_FREE_DESCRIPTOR_SET_BIT,
-                        .maxSets = 1,
-                        .poolSizeCount = 1,
-                        .pPoolSizes = &size},
+                        .maxSets = 16,
+                        .poolSizeCount = static_cast<uint32_t>(imgui::poolSizes.size()),
+                        .pPoolSizes = imgui::poolSizes.data()},
                        "panel");
 }
 
@@ -41,19 +41,9 @@ SimpleUI::SimpleUI(Renderer& renderer, Window& window)
   info.DescriptorPool = pool_.get();
   info.MinImageCount = 2;
   info.ImageCount = std::max(renderer.displayImageCount(), 3u);
-  info.MSAASamples = VK_SAMPLE_COUNT_1_BIT;
   info.CheckVkResultFn = [](VkResult result) { check(result, "the panel's drawing"); };
-#if IMGUI_VERSION_NUM >= 19030
-  info.RenderPass = renderer.overlayRenderPass();
-  ImGui_ImplVulkan_Init(&info);
-#else
-  ImGui_ImplVulkan_Init(&info, renderer.overlayRenderPass());
-#endif
-#if IMGUI_VERSION_NUM < 19000
-  // Later backends upload the font themselves.
-  renderer.uploader().run([](VkCommandBuffer commands) { ImGui_ImplVulkan_CreateFontsTexture(commands); });
-  ImGui_ImplVulkan_DestroyFontUploadObjects();
-#endif
+  imgui::initVulkan(info, renderer.displayFormat(), inRenderPass() ? renderer.overlayRenderPass() : VK_NULL_HANDLE);
+  imgui::uploadFonts([&](const auto& record) { renderer.uploader().run(record); });
 }
 
 SimpleUI::~SimpleUI() {
@@ -87,7 +77,12 @@ void SimpleUI::build(UiState& state) {
   ImGui::Render();
 }
 
-void SimpleUI::record(const PassScope& overlay) const {
+bool SimpleUI::inRenderPass() const {
+  return imgui::needsRenderPass || renderer_.device().renderPath() == RenderPath::renderPass;
+}
+
+void SimpleUI::record(Frame& frame) const {
+  const PassScope overlay = renderer_.beginOverlay(frame, inRenderPass());
   ImGui_ImplVulkan_RenderDrawData(ImGui::GetDrawData(), overlay.commands());
 }
 

@@ -10,7 +10,7 @@ namespace speculum::examples {
 // Values that the panel shows and changes.
 struct UiState {
   glm::vec3 clearColor{0.0f};  // linear
-  bool settings = false;       // the Settings checkbox: opens a window with the rows below
+  bool settings = false;       // the Settings checkbox: shows the rows below
   bool* naive = nullptr;       // null: no such row
   int* depth = nullptr;
   int mostDepth = 0;
@@ -28,11 +28,13 @@ class SimpleUI {
   SimpleUI(const SimpleUI&) = delete;
   SimpleUI& operator=(const SimpleUI&) = delete;
 
-  void build(UiState& state);  // once a frame
-  void record(const PassScope& overlay) const;
+  void build(UiState& state);           // once a frame
+  void record(Frame& frame) const;      // draws the panel over the display image
   float turn() const { return turn_; }  // radians that the mouse has turned the camera by, dragging the picture
 
  private:
+  bool inRenderPass() const;
+
   Renderer& renderer_;
   DescriptorPoolHandle pool_;
   float turn_ = 0.0f;

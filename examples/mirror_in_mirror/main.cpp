@@ -1,5 +1,5 @@
-// Mirror in mirror. What a mirror shows in another one is drawn before what that one shows: a list of passes, deepest
-// first, each of which fetches its pixels from those before it.
+// Mirror in mirror. Before a mirror's picture is drawn, there must be the pictures of the mirrors that are seen in it.
+// So the passes are a list, deepest first, each of which fetches pixels from those before it.
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <map>
@@ -36,6 +36,7 @@ struct Mirror {
 };
 
 constexpr glm::vec3 background{0.10f, 0.11f, 0.19f};
+constexpr glm::vec3 mirrorSize{1.95f, 1.3f, 1.0f};
 
 // Where a mirror hangs; scene.toml has the same values.
 struct Place {
@@ -90,12 +91,12 @@ View reflectedView(const View& seen, const Place& mirror) {
 
 // Says whether a view sees the mirror's front. It sees nothing of it if all corners lie beyond one side of the picture.
 bool isSeen(const Place& mirror, const View& view) {
-  const glm::mat4 corners{{-0.5f, -0.5f, 0, 1}, {0.5f, -0.5f, 0, 1}, {0.5f, 0.5f, 0, 1}, {-0.5f, 0.5f, 0, 1}};
-  const glm::mat4 worldFromMirror = placed(mirror.center, {1.95f, 1.3f, 1.0f}, mirror.yaw);
-  const glm::mat4 clip = glm::transpose(view.clipFromWorld * worldFromMirror * corners);  // x of all, y of all, ...
-  const auto beyond = [&](const glm::vec4& side) { return glm::all(glm::greaterThan(side, clip[3])); };
-  return glm::dot(mirror.normal, glm::vec3(view.eye) - mirror.center) > 0.0f && !beyond(clip[0]) && !beyond(-clip[0]) &&
-         !beyond(clip[1]) && !beyond(-clip[1]);
+  glm::bvec4 beyond(true);  // right, above, left, below
+  for (const glm::vec2& corner : {glm::vec2(-0.5f, -0.5f), {0.5f, -0.5f}, {0.5f, 0.5f}, {-0.5f, 0.5f}}) {
+    const glm::vec4 p = view.clipFromWorld * placed(mirror.center, mirrorSize, mirror.yaw) * glm::vec4(corner, 0, 1);
+    beyond = beyond && glm::greaterThan(glm::vec4(p.x, -p.y, -p.x, p.y), glm::vec4(p.w));
+  }
+  return glm::dot(mirror.normal, glm::vec3(view.eye) - mirror.center) > 0.0f && !glm::any(beyond);
 }
 
 // The core: GPU, frames in flight with the SwapChain, and what is drawn into.
@@ -105,7 +106,7 @@ struct Core {
   Device device;
   Renderer renderer;
   SharedDepth depth;  // of all passes, one after the other
-  OffScreen beyond;   // one pixel of the background, which mirrors show where the list ends
+  OffScreen noImage;  // one pixel of the background, which mirrors show that have no pass in the list
   std::map<std::pair<int, size_t>, OffScreen> offScreens;  // by depth and mirror
 
   explicit Core(const Options& asked)
@@ -114,30 +115,29 @@ struct Core {
         device(options.device(window.get())),
         renderer(device, options.renderer(window.get())),
         depth(device, VK_SAMPLE_COUNT_1_BIT, "shared"),
-        beyond(device, {.name = "background", .depth = false}, renderer.retired()) {}
+        noImage(device, {.name = "background", .depth = false}, renderer.retired()) {}
 };
 
 using Images = std::array<OffScreen*, places.size()>;  // what each mirror shows in a view
 
 struct ImagePass {
-  View view;
+  View reflected;
   OffScreen* target;
-  Images images;  // what mirrors show in it
-  bool flipped;   // by an odd number of reflections
+  Images shown;  // by the mirrors in it
+  bool flipped;  // by an odd number of reflections
 };
 
 // Lists the passes for all mirrors that a view sees, each after those that it needs. Returns what the mirrors show.
-Images listPasses(Core& core, const View& seen, int depth, int most, bool naive, std::vector<ImagePass>& passes) {
+Images listPasses(Core& core, const View& from, int depth, int most, bool naive, std::vector<ImagePass>& passes) {
   Images images;
-  images.fill(&core.beyond);
+  images.fill(&core.noImage);
   for (size_t m = 0; m < places.size(); ++m) {
-    if (depth < most && isSeen(places[m], seen)) {
-      const View view = naive ? seen : reflectedView(seen, places[m]);
-      const Images nested = listPasses(core, view, depth + 1, naive ? 0 : most, naive, passes);
+    if (depth < most && isSeen(places[m], from)) {
+      const View view = naive ? from : reflectedView(from, places[m]);
+      const Images nested = listPasses(core, view, depth + 1, naive ? 0 : most, naive, passes);  // naive: no bounces
       const OffScreenDesc desc{.name = "offscreen", .shared = &core.depth};
-      const auto made = core.offScreens.try_emplace({depth, m}, core.device, desc, core.renderer.retired());
-      images[m] = &made.first->second;
-      passes.push_back({view, images[m], nested, !naive && depth % 2 == 0});
+      images[m] = &core.offScreens.try_emplace({depth, m}, core.device, desc, core.renderer.retired()).first->second;
+      passes.push_back({view, images[m], nested, !naive && (depth + 1) % 2 == 1});
     }
   }
   return images;
@@ -213,7 +213,8 @@ class MirrorSystem {
 
   void record(const PassScope& pass, VkDescriptorSet view, const Place& at, bool naive) const {
     shaders_.bind(pass, view);
-    shaders_.push(pass, Mirror{.worldFromMirror = placed(at.center, {1.95f, 1.3f, 1.0f}, at.yaw), .naive = naive});
+    pass.cull(VK_CULL_MODE_BACK_BIT);  // seen from behind, it is not drawn
+    shaders_.push(pass, Mirror{.worldFromMirror = placed(at.center, mirrorSize, at.yaw), .naive = naive});
     vkCmdDraw(pass.commands(), 6, 1, 0, 0);
   }
 
@@ -231,12 +232,12 @@ Drawn run(const Options& options) {
   bool naive = options.naive;
   int depth = 8;
   UiState state{.clearColor = background, .naive = &naive, .depth = &depth, .mostDepth = 16};
-  const IdleGuard idle(core.device);
+  const IdleGuard idle(core.device);  // waits for the GPU before what is above is destroyed
 
   for (Loop loop(options, core.window.get()); loop.next();) {
     std::optional<Frame> frame = core.renderer.beginFrame();  // waits for the frame before the last one
     if (!frame) {
-      continue;  // the window has no pixels
+      continue;  // no image to draw into: minimised, or the swapchain is being made anew
     }
     frame->capture = !core.window;
     if (ui) {
@@ -247,16 +248,16 @@ Drawn run(const Options& options) {
     const View eye = viewFrom({1.5f, 0.65f, 2.7f}, loop.time(), aspect, ui ? ui->turn() : 0.0f);
     std::vector<ImagePass> passes;
     const Images images = listPasses(core, eye, 0, depth, naive, passes);
-    PassDesc end = fullPass("background", core.beyond.targets());
-    end.clearColor = radiance(state.clearColor);
-    core.renderer.beginPass(*frame, end);
+    PassDesc clear = fullPass("background", core.noImage.targets());
+    clear.clearColor = radiance(state.clearColor);
+    core.renderer.beginPass(*frame, clear);  // ends at once, with the statement
     for (const auto& [reflected, target, shown, flipped] : passes) {
       target->resize(naive ? VkExtent2D{512, 512} : frame->extent, core.renderer.retired());
       PassDesc desc = fullPass("offscreen", target->targets());
       desc.clearColor = radiance(state.clearColor);
       // A reflection turns left into right, so corners that ran counter-clockwise run clockwise.
       desc.frontFace = flipped ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE;
-      // Before the pass waits whatever still reads the OffScreen; its end makes the OffScreen readable.
+      // Its beginning waits for what still reads the OffScreen. Its end, at the brace, makes the OffScreen readable.
       const PassScope pass = core.renderer.beginPass(*frame, desc);
       const VkDescriptorSet view = views.write(*frame, reflected);
       renderSystem.record(pass, view, loop.time());
@@ -278,7 +279,7 @@ Drawn run(const Options& options) {
       pointLightSystem.record(pass, view);
     }
     if (ui) {
-      ui->record(core.renderer.beginOverlay(*frame));
+      ui->record(*frame);
     }
     core.renderer.endFrame(*frame);  // submits; the image is shown when it is drawn
   }

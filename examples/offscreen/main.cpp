@@ -27,6 +27,7 @@ struct Object {
 };
 
 constexpr glm::vec3 background{0.10f, 0.11f, 0.19f};
+constexpr glm::vec3 mirrorSize{1.95f, 1.3f, 1.0f};
 constexpr glm::vec3 mirrorCenter{0.0f, 1.0f, -1.4756f};
 
 glm::mat4 placed(const glm::vec3& position, const glm::vec3& scale, float yaw = 0.0f) {
@@ -125,7 +126,8 @@ class MirrorSystem {
 
   void record(const PassScope& pass, VkDescriptorSet view) const {
     shaders_.bind(pass, view);
-    shaders_.push(pass, Object{.worldFromModel = placed(mirrorCenter, {1.95f, 1.3f, 1.0f})});
+    pass.cull(VK_CULL_MODE_BACK_BIT);  // seen from behind, it is not drawn
+    shaders_.push(pass, Object{.worldFromModel = placed(mirrorCenter, mirrorSize)});
     vkCmdDraw(pass.commands(), 6, 1, 0, 0);
   }
 
@@ -141,12 +143,12 @@ Drawn run(const Options& options) {
   const MirrorSystem mirrorSystem(core, views.layout());
   const std::unique_ptr<SimpleUI> ui = SimpleUI::forWindow(core.renderer, core.window.get());
   UiState state{.clearColor = background};
-  const IdleGuard idle(core.device);
+  const IdleGuard idle(core.device);  // waits for the GPU before what is above is destroyed
 
   for (Loop loop(options, core.window.get()); loop.next();) {
     std::optional<Frame> frame = core.renderer.beginFrame();  // waits for the frame before the last one
     if (!frame) {
-      continue;  // the window has no pixels
+      continue;  // no image to draw into: minimised, or the swapchain is being made anew
     }
     frame->capture = !core.window;
     if (ui) {
@@ -160,7 +162,7 @@ Drawn run(const Options& options) {
       core.offScreen.resize({512, 512}, core.renderer.retired());
       PassDesc desc = fullPass("offscreen", core.offScreen.targets());
       desc.clearColor = radiance(state.clearColor);
-      // Before the pass waits whatever still reads the OffScreen; its end makes the OffScreen readable.
+      // Its beginning waits for what still reads the OffScreen. Its end, at the brace, makes the OffScreen readable.
       const PassScope pass = core.renderer.beginPass(*frame, desc);
       const VkDescriptorSet view = views.write(*frame, other);
       renderSystem.record(pass, view, loop.time());
@@ -177,7 +179,7 @@ Drawn run(const Options& options) {
       pointLightSystem.record(pass, view);
     }
     if (ui) {
-      ui->record(core.renderer.beginOverlay(*frame));
+      ui->record(*frame);
     }
     core.renderer.endFrame(*frame);  // submits; the image is shown when it is drawn
   }

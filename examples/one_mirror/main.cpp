@@ -35,6 +35,7 @@ struct Mirror {
 };
 
 constexpr glm::vec3 background{0.10f, 0.11f, 0.19f};
+constexpr glm::vec3 mirrorSize{1.95f, 1.3f, 1.0f};
 
 // Where a mirror hangs; scene.toml has the same values.
 struct Place {
@@ -169,7 +170,8 @@ class MirrorSystem {
 
   void record(const PassScope& pass, VkDescriptorSet view, const Place& at, bool naive) const {
     shaders_.bind(pass, view);
-    shaders_.push(pass, Mirror{.worldFromMirror = placed(at.center, {1.95f, 1.3f, 1.0f}, at.yaw), .naive = naive});
+    pass.cull(VK_CULL_MODE_BACK_BIT);  // seen from behind, it is not drawn
+    shaders_.push(pass, Mirror{.worldFromMirror = placed(at.center, mirrorSize, at.yaw), .naive = naive});
     vkCmdDraw(pass.commands(), 6, 1, 0, 0);
   }
 
@@ -186,12 +188,12 @@ Drawn run(const Options& options) {
   const std::unique_ptr<SimpleUI> ui = SimpleUI::forWindow(core.renderer, core.window.get());
   bool naive = options.naive;
   UiState state{.clearColor = background, .naive = &naive};
-  const IdleGuard idle(core.device);
+  const IdleGuard idle(core.device);  // waits for the GPU before what is above is destroyed
 
   for (Loop loop(options, core.window.get()); loop.next();) {
     std::optional<Frame> frame = core.renderer.beginFrame();  // waits for the frame before the last one
     if (!frame) {
-      continue;  // the window has no pixels
+      continue;  // no image to draw into: minimised, or the swapchain is being made anew
     }
     frame->capture = !core.window;
     if (ui) {
@@ -206,8 +208,8 @@ Drawn run(const Options& options) {
       PassDesc desc = fullPass("offscreen", core.offScreen.targets());
       desc.clearColor = radiance(state.clearColor);
       // A reflection turns left into right, so corners that ran counter-clockwise run clockwise.
-      desc.frontFace = naive ? VK_FRONT_FACE_COUNTER_CLOCKWISE : VK_FRONT_FACE_CLOCKWISE;
-      // Before the pass waits whatever still reads the OffScreen; its end makes the OffScreen readable.
+      desc.frontFace = !naive ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE;
+      // Its beginning waits for what still reads the OffScreen. Its end, at the brace, makes the OffScreen readable.
       const PassScope pass = core.renderer.beginPass(*frame, desc);
       const VkDescriptorSet view = views.write(*frame, reflected);
       renderSystem.record(pass, view, loop.time());
@@ -224,7 +226,7 @@ Drawn run(const Options& options) {
       pointLightSystem.record(pass, view);
     }
     if (ui) {
-      ui->record(core.renderer.beginOverlay(*frame));
+      ui->record(*frame);
     }
     core.renderer.endFrame(*frame);  // submits; the image is shown when it is drawn
   }

@@ -88,12 +88,12 @@ Drawn run(const Options& options) {
   const RenderSystem renderSystem(core, views.layout());
   const std::unique_ptr<SimpleUI> ui = SimpleUI::forWindow(core.renderer, core.window.get());
   UiState state{.clearColor = background};
-  const IdleGuard idle(core.device);
+  const IdleGuard idle(core.device);  // waits for the GPU before what is above is destroyed
 
   for (Loop loop(options, core.window.get()); loop.next();) {
     std::optional<Frame> frame = core.renderer.beginFrame();  // waits for the frame before the last one
     if (!frame) {
-      continue;  // the window has no pixels
+      continue;  // no image to draw into: minimised, or the swapchain is being made anew
     }
     frame->capture = !core.window;
     if (ui) {
@@ -111,7 +111,7 @@ Drawn run(const Options& options) {
       renderSystem.record(pass, view, loop.time());
     }
     if (ui) {
-      ui->record(core.renderer.beginOverlay(*frame));
+      ui->record(*frame);
     }
     core.renderer.endFrame(*frame);  // submits; the image is shown when it is drawn
   }

@@ -123,7 +123,7 @@ PassScope::PassScope(Device& device, RenderPassCache& renderPasses, RetireQueue&
       timer_(timer),
       commands_(commands),
       desc_(std::move(desc)),
-      dynamic_(!desc_.overlay && device.renderPath() == RenderPath::dynamic) {
+      dynamic_(!desc_.inRenderPass && device.renderPath() == RenderPath::dynamic) {
   device_.beginLabel(commands_, desc_.name);
   timerSlot_ = timer_.begin(commands_, desc_.name, desc_.collectStatistics);
   begin();
@@ -186,12 +186,13 @@ PassScope::~PassScope() {
 
 void PassScope::beginDynamic() {
   const PassTargets& targets = desc_.targets;
-  VkRenderingAttachmentInfo color{.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
-                                  .imageView = targets.color->view(),
-                                  .imageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
-                                  .loadOp = desc_.loadColor ? VK_ATTACHMENT_LOAD_OP_LOAD : VK_ATTACHMENT_LOAD_OP_CLEAR,
-                                  .storeOp = storeOp(storesColor(desc_)),
-                                  .clearValue = colorClear(desc_)};
+  VkRenderingAttachmentInfo color{
+      .sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
+      .imageView = targets.color->view(),
+      .imageLayout = desc_.overlay ? overlayLayout : VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+      .loadOp = desc_.loadColor ? VK_ATTACHMENT_LOAD_OP_LOAD : VK_ATTACHMENT_LOAD_OP_CLEAR,
+      .storeOp = storeOp(storesColor(desc_)),
+      .clearValue = colorClear(desc_)};
   if (targets.resolve) {
     color.resolveMode = VK_RESOLVE_MODE_AVERAGE_BIT;
     color.resolveImageView = targets.resolve->view();

@@ -60,7 +60,8 @@ struct PassDesc {
   bool collectStatistics = false;  // triangles after clipping and fragment shader invocations
   bool grouped = false;            // SharedBarriers records the pass's barriers, not the pass itself
   bool pauses = false;             // compute shaders read `color`, with all its samples, after PassScope::pause
-  bool overlay = false;            // loads and stores the display image in a VkRenderPass, on either render path
+  bool overlay = false;            // loads and stores the display image
+  bool inRenderPass = false;       // a VkRenderPass on either render path
 };
 
 // Describes a pass over all of `targets`: render area, viewport and scissor cover the output.

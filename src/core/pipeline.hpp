@@ -20,7 +20,7 @@ struct SpecialisedConstant {
   uint32_t value = 0;
 };
 
-// State of a graphics pipeline. Only viewport, scissor and front face are dynamic.
+// State of a graphics pipeline. Dynamic are viewport, scissor, front face and cull mode.
 struct GraphicsPipelineDesc {
   std::string name;
   std::string vert;                               // e.g. "scene.vert"

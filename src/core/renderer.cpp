@@ -129,10 +129,11 @@ PassScope Renderer::beginPass(Frame& frame, const PassDesc& desc) {
   return PassScope(device_, renderPasses_, retired_, slots_[frame.index].timer, frame.commands, desc);
 }
 
-PassScope Renderer::beginOverlay(Frame& frame) {
+PassScope Renderer::beginOverlay(Frame& frame, bool inRenderPass) {
   PassDesc desc = fullPass("overlay", displayTargets(frame));
   desc.loadColor = true;
   desc.overlay = true;
+  desc.inRenderPass = inRenderPass;
   return beginPass(frame, desc);
 }
 

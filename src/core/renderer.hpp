@@ -64,9 +64,9 @@ class Renderer {
   std::optional<Frame> beginFrame();
   // Begins a pass of the frame. It ends when the scope is destroyed.
   PassScope beginPass(Frame& frame, const PassDesc& desc);
-  // Begins the pass that draws over the display image: it loads and stores the image, within a VkRenderPass on either
-  // render path.
-  PassScope beginOverlay(Frame& frame);
+  // Begins the pass that draws over the display image, which it loads and stores. `inRenderPass`: within a VkRenderPass
+  // on either render path.
+  PassScope beginOverlay(Frame& frame, bool inRenderPass);
   // Submits the frame's commands so far, so that no submission takes long, and waits until the GPU has finished them,
   // which bounds the memory of many parts. Call it between two passes; `frame.commands` changes.
   void submitPart(Frame& frame);
@@ -83,7 +83,8 @@ class Renderer {
   VkExtent2D displayExtent() const { return headless() ? headlessImage_.extent() : swapChain_->extent(); }
   // At least 2, which Dear ImGui requires.
   uint32_t displayImageCount() const { return std::max(framesInFlight, headless() ? 1 : swapChain_->imageCount()); }
-  VkRenderPass overlayRenderPass();  // compatible with the pass of beginOverlay(); may change when displayFormat() does
+  // Returns a render pass that fits beginOverlay(). It may change when displayFormat() does.
+  VkRenderPass overlayRenderPass();
   // Present modes of the window; none when headless. A new mode applies from the next frame on.
   std::vector<PresentMode> presentModes() const;
   std::optional<PresentMode> presentMode() const;

@@ -2,6 +2,7 @@
 
 #include <imgui.h>
 #include <imgui_internal.h>
+#include <imgui_versions.hpp>
 
 #include <algorithm>
 #include <tuple>
@@ -23,7 +24,7 @@ void PanelWindows::quietAfterDrag() {
   const ImGuiIO& io = ImGui::GetIO();
   for (int button = 0; button < ImGuiMouseButton_COUNT; ++button) {
     if (ImGui::IsMouseReleased(button) && !io.MouseDownOwned[button]) {
-      ImGui::GetCurrentContext()->NavDisableMouseHover = true;
+      imgui::focusIsHovered() = true;
     }
   }
 }

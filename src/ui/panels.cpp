@@ -4,6 +4,7 @@
 #include <imgui_internal.h>
 #include <spdlog/fmt/fmt.h>
 #include <spdlog/fmt/ranges.h>
+#include <imgui_versions.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -181,7 +182,7 @@ void showTip(const std::string& text) {
 void tip(const std::string& text) {
   // A widget with the keyboard's focus counts as hovered, but its tooltip would cover the next widgets.
   // The flag is also set after a drag of the picture.
-  const bool byKeyboard = ImGui::GetCurrentContext()->NavDisableMouseHover;
+  const bool byKeyboard = imgui::focusIsHovered();
   // Nor may a tooltip cover the value of a slider that is dragged.
   const bool held = ImGui::IsItemActive();
   if (!byKeyboard && !held && ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) {

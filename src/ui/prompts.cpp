@@ -2,6 +2,7 @@
 #include <imgui.h>
 #include <imgui_internal.h>
 #include <imgui_stdlib.h>
+#include <imgui_versions.hpp>
 
 #include <algorithm>
 #include <utility>
@@ -32,15 +33,9 @@ bool beginPrompt(const char* title, bool recenter) {
   return ImGui::BeginPopupModal(title, nullptr, flags);
 }
 
-#if IMGUI_VERSION_NUM < 18700
-constexpr ImGuiKey keypadEnter = ImGuiKey_KeyPadEnter;
-#else
-constexpr ImGuiKey keypadEnter = ImGuiKey_KeypadEnter;
-#endif
-
 bool enterPressed() {
-  const auto pressed = [](ImGuiKey key) { return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key), false); };
-  return !ImGui::IsWindowAppearing() && (pressed(ImGuiKey_Enter) || pressed(keypadEnter));
+  return !ImGui::IsWindowAppearing() &&
+         (imgui::isPressed(ImGuiKey_Enter, false) || imgui::isPressed(imgui::keypadEnter, false));
 }
 
 void answerButton(PanelContext& ui, const char* label, std::string_view key, Command command) {
@@ -133,8 +128,7 @@ std::optional<std::filesystem::path> fileList(PanelContext& ui, const std::files
   ImGui::PopTextWrapPos();
   std::optional<std::filesystem::path> chosen;
   const float others = 8.0f * ImGui::GetFrameHeightWithSpacing();  // height of the menus and of the other rows
-  ImGui::BeginChild("files", {width, std::min(height, ImGui::GetIO().DisplaySize.y - others)}, true,
-                    ImGuiWindowFlags_NavFlattened);  // arrow keys lead into the list
+  imgui::beginList("files", {width, std::min(height, ImGui::GetIO().DisplaySize.y - others)});
   const auto row = [&](const std::string& name, const std::string& label, const std::filesystem::path& file,
                        bool first) {
     constexpr auto rowFlags = ImGuiSelectableFlags_AllowDoubleClick | ImGuiSelectableFlags_DontClosePopups;
@@ -145,7 +139,7 @@ std::optional<std::filesystem::path> fileList(PanelContext& ui, const std::files
     if (first && files.focus == Focus::list) {
       files.focus = Focus::none;
       ImGui::SetFocusID(ImGui::GetItemID(), ImGui::GetCurrentWindow());
-      ImGui::GetCurrentContext()->NavDisableHighlight = false;
+      imgui::showFocus();
     }
     recordWidget(ui, "open." + name);
   };

@@ -1,5 +1,6 @@
 #include <imgui.h>
 #include <imgui_internal.h>
+#include <imgui_versions.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -31,8 +32,7 @@ struct Widget {
   // length, which is less than a digit at the low end of 1 .. 1024. Returns the value.
   template <typename T>
   T moveByKey(T& value, T before) const {
-    const auto pressed = [](ImGuiKey key) { return static_cast<int>(ImGui::IsKeyPressed(ImGui::GetKeyIndex(key))); };
-    const int steps = pressed(ImGuiKey_RightArrow) - pressed(ImGuiKey_LeftArrow);
+    const int steps = imgui::isPressed(ImGuiKey_RightArrow) - imgui::isPressed(ImGuiKey_LeftArrow);
     if (value == before && ImGui::IsItemActive() && steps != 0) {
       const double step = std::pow(10.0, -ImParseFormatPrecision(field.slider->format, 0));
       value = static_cast<T>(std::clamp(value + steps * step, field.slider->low, field.slider->high));

@@ -5,6 +5,7 @@
 #include <imgui_impl_vulkan.h>
 #include <imgui_internal.h>
 #include <spdlog/spdlog.h>
+#include <imgui_versions.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -25,13 +26,12 @@ constexpr float fontPixels = 15.0f;
 constexpr float edgeReach = 4.0f;  // screen coordinates around a window that belong to it, as in ImGui
 
 DescriptorPoolHandle createPool(Device& device) {
-  const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 64};
   return device.create(vkCreateDescriptorPool,
                        {.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
                         .flags = VK_DESCRIPTOR_POOL_CREATE_FREE_DESCRIPTOR_SET_BIT,
-                        .maxSets = size.descriptorCount,
-                        .poolSizeCount = 1,
-                        .pPoolSizes = &size},
+                        .maxSets = 16,
+                        .poolSizeCount = static_cast<uint32_t>(imgui::poolSizes.size()),
+                        .pPoolSizes = imgui::poolSizes.data()},
                        "panel");
 }
 
@@ -187,22 +187,10 @@ void SimpleUI::initVulkan() {
   info.DescriptorPool = pool_.get();
   info.MinImageCount = 2;
   info.ImageCount = std::max(renderer_.displayImageCount(), 3u);
-  info.MSAASamples = VK_SAMPLE_COUNT_1_BIT;
   info.CheckVkResultFn = [](VkResult result) { check(result, "the panel's drawing"); };
-  const VkRenderPass renderPass = renderer_.overlayRenderPass();
   backend_->vulkan = true;  // from here on there is something to shut down, even if ImGui_ImplVulkan_Init() fails
-#if IMGUI_VERSION_NUM >= 19030
-  info.RenderPass = renderPass;
-  ImGui_ImplVulkan_Init(&info);
-#else
-  ImGui_ImplVulkan_Init(&info, renderPass);
-#endif
-#if IMGUI_VERSION_NUM < 19000
-  // Later backends upload the fonts themselves.
-  renderer_.uploader().run([](VkCommandBuffer commands) { ImGui_ImplVulkan_CreateFontsTexture(commands); });
-  ImGui_ImplVulkan_DestroyFontUploadObjects();
-  ImGui::GetIO().Fonts->ClearTexData();
-#endif
+  imgui::initVulkan(info, renderer_.displayFormat(), inRenderPass() ? renderer_.overlayRenderPass() : VK_NULL_HANDLE);
+  imgui::uploadFonts([&](const auto& record) { renderer_.uploader().run(record); });
 }
 
 void SimpleUI::push(const InputEvent& event) {
@@ -222,7 +210,12 @@ UiOutput SimpleUI::build(const UiInput& input) {
   return output;
 }
 
-void SimpleUI::record(const PassScope& scope) {
+bool SimpleUI::inRenderPass() const {
+  return imgui::needsRenderPass || renderer_.device().renderPath() == RenderPath::renderPass;
+}
+
+void SimpleUI::record(Frame& frame) {
+  const PassScope scope = renderer_.beginOverlay(frame, inRenderPass());
   ImDrawData& data = *ImGui::GetDrawData();
   // The backend sizes its buffers by these totals. It destroys a buffer that is too small before it makes a larger one,
   // and once more at its end if there was no memory for that; buffers of this size are never replaced.

@@ -149,7 +149,7 @@ void Demo::presentPanels() {
 
 void Demo::endWithPanels(Frame& frame) {
   { const PassScope black = renderer_.beginPass(frame, fullPass("no picture", renderer_.displayTargets(frame))); }
-  ui_->record(renderer_.beginOverlay(frame));
+  ui_->record(frame);
   endFrame(frame);
   renderer_.present();
 }
@@ -210,7 +210,7 @@ void Demo::drawFrame(double seconds, double sinceLastMs) {
   const FramePlan& plan = fitted->plan;
   const Settings& settings = fitted->settings;
   if (!bare) {
-    ui_->record(renderer_.beginOverlay(*frame));
+    ui_->record(*frame);
   }
   const Clock::time_point end = Clock::now();
   const double cpuMs = milliseconds(end - start) - frame->waitedMs;

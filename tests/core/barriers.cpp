@@ -33,7 +33,7 @@ TEST_P(Barrier, IsMissedWhenLeftOut) {
   EXPECT_TRUE(contains(messages.front(), "SYNC-HAZARD"));
 }
 
-// The other kinds are tested where they occur: presenting in core_window.cpp, those of compute shaders in
+// The other kinds are tested where they occur: presenting in window.cpp, those of compute shaders in
 // finite_watch.cpp, sampled depth in target_views.cpp.
 std::vector<BarrierKind> kindsWithoutWindow() {
   std::vector<BarrierKind> kinds(allBarrierKinds().begin(), allBarrierKinds().end());
