@@ -107,7 +107,7 @@ void SmallScene::draw(Frame& frame) {
     const PassScope scope = renderer_.beginPass(frame, fullPass("display", renderer_.displayTargets(frame)));
     copy(frame, scope.commands(), display_, main_);
   }
-  const PassScope overlay = renderer_.beginOverlay(frame);
+  const PassScope overlay = renderer_.beginOverlay(frame, true);
 }
 
 bool SmallScene::frame(bool capture) {
