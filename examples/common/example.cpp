@@ -54,12 +54,8 @@ bool Loop::next() {
       return false;
     }
   } while (window_->paused());
+  shown_ = std::chrono::steady_clock::now() - start_;
   return !options_.frames || frames_++ < *options_.frames;
-}
-
-double Loop::time() const {
-  const std::chrono::duration<double> shown = std::chrono::steady_clock::now() - start_;
-  return options_.time.value_or(window_ ? shown.count() : 0.0);
 }
 
 std::array<float, 4> radiance(const glm::vec3& linear) {

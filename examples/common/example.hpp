@@ -37,13 +37,14 @@ class Loop {
  public:
   Loop(const Options& options, Window* window) : options_(options), window_(window) {}
 
-  bool next();          // says whether there is a frame to draw
-  double time() const;  // seconds of animation
+  bool next();                                                            // says whether there is a frame to draw
+  double time() const { return options_.time.value_or(shown_.count()); }  // seconds of animation, one value a frame
 
  private:
   const Options& options_;
   Window* window_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  std::chrono::duration<double> shown_{0.0};  // from start_ to this frame
   int frames_ = 0;
 };
 

@@ -96,7 +96,8 @@ void ShaderObjects::bind(const PassScope& pass, VkDescriptorSet set) const {
   const VkShaderStageFlagBits stages[] = {VK_SHADER_STAGE_VERTEX_BIT, VK_SHADER_STAGE_FRAGMENT_BIT,
                                           VK_SHADER_STAGE_GEOMETRY_BIT};
   const VkShaderEXT shaders[] = {shaders_[0], shaders_[1], VK_NULL_HANDLE};
-  bindShaders_(pass.commands(), device_.caps().primitiveId ? 3 : 2, stages, shaders);  // needs geometry shaders
+  // An enabled geometry stage must be bound, to none.
+  bindShaders_(pass.commands(), device_.caps().primitiveId ? 3 : 2, stages, shaders);
   setState(pass);
   vkCmdBindDescriptorSets(pass.commands(), VK_PIPELINE_BIND_POINT_GRAPHICS, layout_.get(), 0, 1, &set, 0, nullptr);
 }

@@ -77,7 +77,7 @@ View viewFrom(const glm::vec3& offset, double time, float aspect, float turn) {
           .ambient = glm::vec4(0.07f, 0.07f, 0.09f, 0.0f)};
 }
 
-// The mirror shows what an eye behind it sees, which is the eye's own reflection. Moving the eye there is the same as
+// The mirror shows what an eye behind it sees, which is the eye's own reflection. Reflecting the eye is the same as
 // reflecting the world: first reflect, then go on as before, with the same projection.
 View reflectedView(const View& seen, const Place& mirror) {
   const glm::mat4 reflect = reflection(mirror.center, mirror.normal);
@@ -123,7 +123,7 @@ using Images = std::array<OffScreen*, places.size()>;  // what each mirror shows
 struct ImagePass {
   View reflected;
   OffScreen* target;
-  Images shown;  // by the mirrors in it
+  Images shown;  // what the mirrors in it show
   bool flipped;  // by an odd number of reflections
 };
 
@@ -198,6 +198,7 @@ class PointLightSystem {
 
   void record(const PassScope& pass, VkDescriptorSet view) const {
     shaders_.bind(pass, view);
+    pass.cull(VK_CULL_MODE_NONE);
     vkCmdDraw(pass.commands(), 6, 1, 0, 0);
   }
 
@@ -230,14 +231,14 @@ Drawn run(const Options& options) {
   const MirrorSystem mirrorSystem(core, views.layout());
   const std::unique_ptr<SimpleUI> ui = SimpleUI::forWindow(core.renderer, core.window.get());
   bool naive = options.naive;
-  int depth = 8;
-  UiState state{.clearColor = background, .naive = &naive, .depth = &depth, .mostDepth = 16};
+  int bounces = 8;
+  UiState state{.clearColor = background, .naive = &naive, .depth = &bounces, .mostDepth = 16};
   const IdleGuard idle(core.device);  // waits for the GPU before what is above is destroyed
 
   for (Loop loop(options, core.window.get()); loop.next();) {
     std::optional<Frame> frame = core.renderer.beginFrame();  // waits for the frame before the last one
     if (!frame) {
-      continue;  // no image to draw into: minimised, or the swapchain is being made anew
+      continue;  // no image to draw into, as while the window is minimised
     }
     frame->capture = !core.window;
     if (ui) {
@@ -247,7 +248,7 @@ Drawn run(const Options& options) {
     const float aspect = static_cast<float>(frame->extent.width) / static_cast<float>(frame->extent.height);
     const View eye = viewFrom({1.5f, 0.65f, 2.7f}, loop.time(), aspect, ui ? ui->turn() : 0.0f);
     std::vector<ImagePass> passes;
-    const Images images = listPasses(core, eye, 0, depth, naive, passes);
+    const Images images = listPasses(core, eye, 0, bounces, naive, passes);
     PassDesc clear = fullPass("background", core.noImage.targets());
     clear.clearColor = radiance(state.clearColor);
     core.renderer.beginPass(*frame, clear);  // ends at once, with the statement
@@ -281,7 +282,7 @@ Drawn run(const Options& options) {
     if (ui) {
       ui->record(*frame);
     }
-    core.renderer.endFrame(*frame);  // submits; the image is shown when it is drawn
+    core.renderer.endFrame(*frame);  // submits; the next beginFrame presents the image
   }
   return finish(core.renderer);
 }

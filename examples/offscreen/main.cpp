@@ -111,6 +111,7 @@ class PointLightSystem {
 
   void record(const PassScope& pass, VkDescriptorSet view) const {
     shaders_.bind(pass, view);
+    pass.cull(VK_CULL_MODE_NONE);
     vkCmdDraw(pass.commands(), 6, 1, 0, 0);
   }
 
@@ -148,7 +149,7 @@ Drawn run(const Options& options) {
   for (Loop loop(options, core.window.get()); loop.next();) {
     std::optional<Frame> frame = core.renderer.beginFrame();  // waits for the frame before the last one
     if (!frame) {
-      continue;  // no image to draw into: minimised, or the swapchain is being made anew
+      continue;  // no image to draw into, as while the window is minimised
     }
     frame->capture = !core.window;
     if (ui) {
@@ -157,7 +158,7 @@ Drawn run(const Options& options) {
     core.depth.require(frame->extent, core.renderer.retired());
     const float aspect = static_cast<float>(frame->extent.width) / static_cast<float>(frame->extent.height);
     const View eye = viewFrom({1.5f, 0.65f, 2.7f}, loop.time(), aspect, ui ? ui->turn() : 0.0f);
-    const View other = viewFrom({-1.5f, 1.0f, 2.5f}, loop.time(), 1.5f, 0.0f);
+    const View other = viewFrom({-1.5f, 1.0f, 2.5f}, loop.time(), 1.5f, 0.0f);  // 1.5: width to height of the screen
     {
       core.offScreen.resize({512, 512}, core.renderer.retired());
       PassDesc desc = fullPass("offscreen", core.offScreen.targets());
@@ -181,7 +182,7 @@ Drawn run(const Options& options) {
     if (ui) {
       ui->record(*frame);
     }
-    core.renderer.endFrame(*frame);  // submits; the image is shown when it is drawn
+    core.renderer.endFrame(*frame);  // submits; the next beginFrame presents the image
   }
   return finish(core.renderer);
 }

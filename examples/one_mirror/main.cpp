@@ -75,7 +75,7 @@ View viewFrom(const glm::vec3& offset, double time, float aspect, float turn) {
           .ambient = glm::vec4(0.07f, 0.07f, 0.09f, 0.0f)};
 }
 
-// The mirror shows what an eye behind it sees, which is the eye's own reflection. Moving the eye there is the same as
+// The mirror shows what an eye behind it sees, which is the eye's own reflection. Reflecting the eye is the same as
 // reflecting the world: first reflect, then go on as before, with the same projection.
 View reflectedView(const View& seen, const Place& mirror) {
   const glm::mat4 reflect = reflection(mirror.center, mirror.normal);
@@ -155,6 +155,7 @@ class PointLightSystem {
 
   void record(const PassScope& pass, VkDescriptorSet view) const {
     shaders_.bind(pass, view);
+    pass.cull(VK_CULL_MODE_NONE);
     vkCmdDraw(pass.commands(), 6, 1, 0, 0);
   }
 
@@ -193,7 +194,7 @@ Drawn run(const Options& options) {
   for (Loop loop(options, core.window.get()); loop.next();) {
     std::optional<Frame> frame = core.renderer.beginFrame();  // waits for the frame before the last one
     if (!frame) {
-      continue;  // no image to draw into: minimised, or the swapchain is being made anew
+      continue;  // no image to draw into, as while the window is minimised
     }
     frame->capture = !core.window;
     if (ui) {
@@ -208,7 +209,7 @@ Drawn run(const Options& options) {
       PassDesc desc = fullPass("offscreen", core.offScreen.targets());
       desc.clearColor = radiance(state.clearColor);
       // A reflection turns left into right, so corners that ran counter-clockwise run clockwise.
-      desc.frontFace = !naive ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE;
+      desc.frontFace = naive ? VK_FRONT_FACE_COUNTER_CLOCKWISE : VK_FRONT_FACE_CLOCKWISE;
       // Its beginning waits for what still reads the OffScreen. Its end, at the brace, makes the OffScreen readable.
       const PassScope pass = core.renderer.beginPass(*frame, desc);
       const VkDescriptorSet view = views.write(*frame, reflected);
@@ -228,7 +229,7 @@ Drawn run(const Options& options) {
     if (ui) {
       ui->record(*frame);
     }
-    core.renderer.endFrame(*frame);  // submits; the image is shown when it is drawn
+    core.renderer.endFrame(*frame);  // submits; the next beginFrame presents the image
   }
   return finish(core.renderer);
 }

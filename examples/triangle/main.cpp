@@ -93,7 +93,7 @@ Drawn run(const Options& options) {
   for (Loop loop(options, core.window.get()); loop.next();) {
     std::optional<Frame> frame = core.renderer.beginFrame();  // waits for the frame before the last one
     if (!frame) {
-      continue;  // no image to draw into: minimised, or the swapchain is being made anew
+      continue;  // no image to draw into, as while the window is minimised
     }
     frame->capture = !core.window;
     if (ui) {
@@ -113,7 +113,7 @@ Drawn run(const Options& options) {
     if (ui) {
       ui->record(*frame);
     }
-    core.renderer.endFrame(*frame);  // submits; the image is shown when it is drawn
+    core.renderer.endFrame(*frame);  // submits; the next beginFrame presents the image
   }
   return finish(core.renderer);
 }
