@@ -126,7 +126,7 @@ struct MirrorData {
   vec3 reflectance;
   uint schlick;    // reflectance is that at normal incidence
   vec3 baseColor;  // or color of the back
-  uint traceMirror;   // index into traceMirrors
+  uint traceMirror;   // index into traceMirrors; of a mirror in several pieces, of the first
   vec2 lookupScale;   // texel of the image = pixel of the pass * lookupScale + lookupOffset
   vec2 lookupOffset;
   ivec2 imageSize;  // texels of the image's used part
@@ -286,7 +286,7 @@ const uint curvedNone = 0;
 const uint curvedConstant = 1;
 const uint curvedSchlick = 2;
 
-// A planar mirror in trace space, read as texels of 16 bytes.
+// A convex piece of a planar mirror in trace space, read as texels of 16 bytes.
 struct TraceMirror {
   vec3 origin;
   uint firstVertex;

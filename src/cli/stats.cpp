@@ -23,7 +23,7 @@ namespace {
 
 // Returns the mirror's name, or its index as a number.
 ordered_json mirrorJson(const Scene& scene, int mirror) {
-  const std::string& name = scene.mirrors[mirror].name;
+  const std::string& name = scene.mirror(mirror).name;
   return name.empty() ? ordered_json(mirror) : ordered_json(name);
 }
 

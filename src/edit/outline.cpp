@@ -8,6 +8,7 @@
 #include <set>
 
 #include "edit/transform.hpp"
+#include "geometry/polygon.hpp"
 #include "geometry/weld.hpp"
 
 namespace speculum {
@@ -17,32 +18,6 @@ namespace {
 constexpr size_t mostLines = 4000;
 constexpr double lightGap = 5.0;  // pixels between a light and its circle
 constexpr int circleSteps = 48;
-
-// Returns the convex hull, counter-clockwise: Andrew, "Another Efficient Algorithm for Convex Hulls in Two Dimensions"
-// (1979).
-std::vector<glm::dvec2> hullOf(std::vector<glm::dvec2> points) {
-  std::ranges::sort(points,
-                    [](const glm::dvec2& a, const glm::dvec2& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
-  std::vector<glm::dvec2> hull;
-  const auto add = [&](const glm::dvec2& p, size_t first) {
-    while (hull.size() >= first + 2) {
-      const glm::dvec2& start = hull[hull.size() - 2];
-      if (cross(hull.back() - start, p - start) > 0.0) {
-        break;
-      }
-      hull.pop_back();
-    }
-    hull.push_back(p);
-  };
-  for (const glm::dvec2& p : points) {
-    add(p, 0);
-  }
-  const size_t lower = hull.empty() ? 0 : hull.size() - 1;
-  for (auto p = points.rbegin(); p != points.rend(); ++p) {
-    add(*p, lower);
-  }
-  return hull;
-}
 
 void add(std::vector<PixelLine>& lines, const std::optional<PixelLine>& line) {
   if (line) {
@@ -114,7 +89,7 @@ std::vector<PixelLine> hullOutline(const InstanceState& instance, const glm::dve
     pixels.push_back(*pixel);
   }
   std::vector<PixelLine> lines;
-  addEdges(hullOf(std::move(pixels)), picture, lines);
+  addEdges(convexHull(std::move(pixels)), picture, lines);
   return lines;
 }
 

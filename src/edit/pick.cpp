@@ -15,7 +15,7 @@ Selection selectionOf(const SceneHit& hit, const TraceWorld& world) {
       return {Selection::Kind::object, instance.object, instance.copy};
     }
     case HitKind::mirror:
-      return {Selection::Kind::mirror, hit.index};
+      return mirrorNode(world.scene(), hit.index);
     case HitKind::glyph:
       return {Selection::Kind::light, hit.index};
   }
@@ -47,7 +47,7 @@ std::vector<Picked> Picker::at(const SceneState& state, const PictureView& pictu
     if (hit->kind != HitKind::mirror) {
       break;
     }
-    const Mirror& mirror = world_.scene().mirrors[hit->index];
+    const Mirror& mirror = world_.scene().mirror(hit->index);
     const MirrorState& placed = world_.mirrors()[hit->index];
     path.push_back(hit->index);
     throughput *= opticsOf(mirror).reflectanceAt(std::abs(glm::dot(placed.normal, ray.direction)));

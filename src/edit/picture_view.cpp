@@ -24,7 +24,7 @@ std::optional<PictureView> PictureView::through(const Scene& scene, const SceneS
     Plane plane{mirror.origin, mirror.normal};
     const double height = plane.distance(seen.eye());
     const Polygon visible = visiblePart(seen.view_, mirror.polygon);
-    if (visible.empty() || height == 0.0 || (height < 0.0 && !scene.mirrors[index].twoSided)) {
+    if (visible.empty() || height == 0.0 || (height < 0.0 && !scene.mirror(index).twoSided)) {
       return std::nullopt;
     }
     plane.normal *= height < 0.0 ? -1.0 : 1.0;

@@ -7,6 +7,7 @@
 #include "platform/files.hpp"
 #include "platform/text.hpp"
 #include "scene/input_error.hpp"
+#include "scene/material_mirrors.hpp"
 #include "scene/scene_loader.hpp"
 #include "settings/setting_fields.hpp"
 
@@ -16,12 +17,13 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Says whether the lists hold the same nodes in the same order.
+// Says whether the lists hold the same nodes in the same order, whose materials make mirrors of the same.
 bool sameStructure(const SceneContent& a, const SceneContent& b) {
   return a.origins.objects == b.origins.objects && a.origins.lights == b.origins.lights &&
          a.origins.mirrors == b.origins.mirrors &&
          std::ranges::equal(a.objects, b.objects, [](const Object& x, const Object& y) {
-           return x.mesh == y.mesh && x.copies.count == y.copies.count;
+           return x.mesh == y.mesh && x.copies.count == y.copies.count && x.visible == y.visible &&
+                  x.mirrorsFromMaterials == y.mirrorsFromMaterials && x.mirror.has_value() == y.mirror.has_value();
          });
 }
 
@@ -82,6 +84,7 @@ std::string SceneDocument::labelOf(const Step& step) {
 }
 
 void SceneDocument::recordChange(const SceneContent& before) {
+  placeMaterialMirrors(scene_);
   ++revision_;
   structureRevision_ += sameStructure(before, content()) ? 0 : 1;
 }

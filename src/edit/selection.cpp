@@ -30,6 +30,18 @@ SceneNode nodeOf(const Scene& scene, const Selection& selection) {
   return node;
 }
 
+Selection mirrorNode(const Scene& scene, int mirror) {
+  const auto index = static_cast<size_t>(mirror);
+  if (index < scene.mirrors.size()) {
+    return {Selection::Kind::mirror, mirror};
+  }
+  if (index >= scene.mirrorCount()) {
+    return {};  // an index from before an edit
+  }
+  const MaterialMirror& made = scene.materialMirrors[index - scene.mirrors.size()];
+  return {Selection::Kind::object, made.object, made.copy};
+}
+
 std::vector<Selection> allNodes(const Scene& scene) {
   std::vector<Selection> nodes;
   const auto add = [&](Selection::Kind kind, size_t count) {

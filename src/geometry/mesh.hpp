@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <glm/glm.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -30,6 +31,7 @@ struct Material {
   glm::dvec3 emission{0.0};  // Ke
   double shininess = 1.0;    // Ns, >= 1
   int diffuseTexture = -1;   // index into Scene::textures, -1: none
+  std::optional<glm::dvec3> mirror;  // reflectance, 0 .. 1, of a material that says mirror
 };
 
 struct Vertex {
@@ -59,6 +61,22 @@ struct MeshCluster {
   glm::dvec3 halfExtent{0.0};
 };
 
+// Faces in one plane whose material says mirror.
+struct FlatMirror {
+  std::vector<std::vector<glm::dvec3>> pieces;  // convex, relative to Mesh::center, counter-clockwise from the front
+  std::vector<glm::dvec3> outline;              // the convex hull of the pieces
+  bool convex = false;                          // the pieces fill their hull
+  Material material;
+};
+
+// How a mesh is cut if materials that say mirror make mirrors. The others are indices into Scene::meshes.
+struct MirrorParts {
+  int rest = -1;                 // what makes no mirror; it may have no triangle
+  std::vector<FlatMirror> flat;  // planar mirrors
+  std::vector<int> curved;       // curved mirrors
+  std::vector<int> flatMeshes;   // `flat` for objects that have no planar mirrors: curved mirrors
+};
+
 // Triangles in model space, counter-clockwise seen from outside. Positions are kept in double relative to `center`, so
 // that their conversion to float for the GPU loses nothing to a far-off origin. Positions, sizes and radius are
 // multiples of `unit`, so that floats can hold them whatever the model's size; only `center` is not.
@@ -81,6 +99,8 @@ struct Mesh {
   bool solid = false;                          // see isSolid()
   // Number of last triangles, whose texture repeats so often that floats of its coordinates lose digits.
   uint32_t repeats = 0;
+  bool curvedMirror = false;               // cut out of another mesh: a curved mirror by the material of its one part
+  std::optional<MirrorParts> mirrorParts;  // of a mesh with materials that say mirror
 };
 
 // Reorders the triangles of each part so that consecutive ones lie close together on the surface, by meshoptimizer's

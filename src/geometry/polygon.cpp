@@ -38,6 +38,30 @@ bool isConvex(std::span<const glm::dvec3> polygon, const glm::dvec3& normal, dou
 
 }  // namespace
 
+std::vector<glm::dvec2> convexHull(std::vector<glm::dvec2> points) {
+  std::ranges::sort(points,
+                    [](const glm::dvec2& a, const glm::dvec2& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
+  std::vector<glm::dvec2> hull;
+  const auto add = [&](const glm::dvec2& p, size_t first) {
+    while (hull.size() >= first + 2) {
+      const glm::dvec2& start = hull[hull.size() - 2];
+      if (cross(hull.back() - start, p - start) > 0.0) {
+        break;
+      }
+      hull.pop_back();
+    }
+    hull.push_back(p);
+  };
+  for (const glm::dvec2& p : points) {
+    add(p, 0);
+  }
+  const size_t lower = hull.empty() ? 0 : hull.size() - 1;
+  for (auto p = points.rbegin(); p != points.rend(); ++p) {
+    add(*p, lower);
+  }
+  return hull;
+}
+
 glm::dvec3 newellVector(std::span<const glm::dvec3> polygon) {
   glm::dvec3 sum(0.0);
   for (size_t i = 1; i + 1 < polygon.size(); ++i) {

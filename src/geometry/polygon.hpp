@@ -32,6 +32,10 @@ inline double twiceArea(std::span<const glm::dvec2> corners) {
   return twiceArea(corners.size(), [&](size_t i) { return corners[i]; });
 }
 
+// Returns the convex hull, counter-clockwise with y up: Andrew, "Another Efficient Algorithm for Convex Hulls in Two
+// Dimensions" (1979).
+std::vector<glm::dvec2> convexHull(std::vector<glm::dvec2> points);
+
 // A plane as a point on it and a unit normal. The form n.x = d would lose |d| * 2^-53 far from the origin.
 struct Plane {
   glm::dvec3 point{0.0};

@@ -61,7 +61,7 @@ class ContentNumbers {
   // shows the background.
   void add(const MirrorDraw& draw) {
     addAll(draw.cached.has_value(), draw.mirror, draw.back, draw.byRays, draw.blurs, draw.ripples, draw.polygon,
-           draw.plane, draw.layer);
+           draw.pieces, draw.plane, draw.layer);
   }
   // Adds an integer with all its bits.
   void addCount(uint64_t value) { numbers_.push_back(value); }

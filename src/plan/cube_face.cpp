@@ -89,10 +89,10 @@ Pass planFace(const CubeFace& face, Onlooker onlooker, const Scene& scene, const
   addVisibleInstances(pass.view, onlooker, scene, state, cullClusters, without, pass);
   View drawn = pass.view;
   widen(drawn, face.projection, 1);
-  for (size_t i = 0; i < scene.mirrors.size(); ++i) {
+  for (size_t i = 0; i < scene.mirrorCount(); ++i) {
     const MirrorState& mirror = state.mirrors[i];
     const double height = glm::dot(mirror.normal, pass.view.eye - mirror.origin);
-    const bool back = height < 0.0 && !scene.mirrors[i].twoSided;
+    const bool back = height < 0.0 && !scene.mirror(i).twoSided;
     MirrorDraw draw = facingDraw(mirror, static_cast<int>(i), height, back, drawn);
     if (height != 0.0 && !draw.polygon.empty()) {
       pass.mirrors.push_back(std::move(draw));

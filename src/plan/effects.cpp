@@ -4,6 +4,7 @@
 #include <set>
 
 #include "plan/scene_names.hpp"
+#include "scene/material_mirrors.hpp"
 
 namespace speculum {
 
@@ -33,14 +34,14 @@ Visible visibleIn(const FramePlan& plan) {
 Effect fresnel(const Scene& scene, const SceneState& state, const Settings& settings, const Visible& visible) {
   for (const int i : visible.instances) {
     const int object = state.instances[i].object;
-    const std::optional<ObjectMirror>& mirror = scene.objects[object].mirror;
+    const std::optional<ObjectMirror> mirror = curvedMirrorOf(scene, state.instances[i]);
     if (settings.effects.curved && mirror && opticsOf(*mirror, settings.effects).fresnel == Fresnel::schlick) {
       return {EffectKind::fresnel, "fresnel", true, nameOf("object", scene.objects[object].name, object)};
     }
   }
   for (const int i : visible.mirrorFronts) {
-    if (opticsOf(scene.mirrors[i], settings.effects).fresnel == Fresnel::schlick) {
-      return {EffectKind::fresnel, "fresnel", true, nameOf("mirror", scene.mirrors[i].name, i)};
+    if (opticsOf(scene.mirror(i), settings.effects).fresnel == Fresnel::schlick) {
+      return {EffectKind::fresnel, "fresnel", true, nameOf("mirror", scene.mirror(i).name, i)};
     }
   }
   return {EffectKind::fresnel, "fresnel", false, "no visible mirror asks for it"};

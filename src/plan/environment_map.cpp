@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "plan/scene_names.hpp"
+#include "scene/material_mirrors.hpp"
 
 namespace speculum {
 
@@ -62,7 +63,7 @@ RecycledVector<int> drawnCurved(const Scene& scene, const SceneState& state, std
   RecycledVector<int> drawn;
   for (const Pass* pass : passes) {
     std::ranges::copy_if(pass->instances, std::back_inserter(drawn),
-                         [&](int i) { return scene.objects[state.instances[i].object].mirror.has_value(); });
+                         [&](int i) { return curvedMirrorOf(scene, state.instances[i]).has_value(); });
   }
   std::ranges::sort(drawn);
   drawn.erase(std::unique(drawn.begin(), drawn.end()), drawn.end());  // Clang 14 does not take std::ranges::unique

@@ -232,7 +232,7 @@ void Planner::reuseImage(MirrorDraw& draw, const MirrorNode& node) {
 
 // Drops skipped mirrors that are seen only in cached images.
 void Planner::dropSkipsInReused() {
-  RecycledVector<bool> reused(scene_.mirrors.size(), false);
+  RecycledVector<bool> reused(scene_.mirrorCount(), false);
   for (const CachedImage& image : plan_.cached) {
     reused[image.mirror] = image.cacheIndex >= 0;
   }

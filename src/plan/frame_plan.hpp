@@ -44,6 +44,7 @@ struct MirrorDraw {
   int pass = -1;                       // index into FramePlan::passes of the pass that renders its image; -1: none
   std::optional<CachedLookup> cached;  // set if it reuses an image; with neither pass nor image it shows the background
   Polygon polygon;                     // world, cut to what the view shows, counter-clockwise for the view's eye
+  RecycledVector<Polygon> pieces;      // in the place of `polygon`, of a mirror that is not convex
   Plane plane;                         // world; facing the view's eye
   int layer = 0;                       // MirrorState::frontLayer or backLayer, by the side that is seen
 };

@@ -124,7 +124,7 @@ void MirrorSearch::fill(int node) {
   };
   RecycledVector<Sight> sights;  // of the mirrors that are seen; a thousand others may be out of view
   RecycledVector<int> seen;
-  for (int i = 0; i < static_cast<int>(scene_.mirrors.size()); ++i) {
+  for (int i = 0; i < static_cast<int>(scene_.mirrorCount()); ++i) {
     if (!inOwnPlane(i) && !behindEye(view, state_.mirrors[i].polygon)) {
       Sight sight = sightOf(scene_, state_, view, drawn, i);
       if (!sight.visible.empty() && !liesBefore(i)) {
@@ -134,11 +134,11 @@ void MirrorSearch::fill(int node) {
     }
   }
   // A mirror that is seen counts more: it is kept with its polygon, and tested against the others that are seen.
-  work_ += 72 + 2 * scene_.mirrors.size() + seen.size() * (4 + std::min<size_t>(seen.size(), 512) / 4) +
+  work_ += 72 + 2 * scene_.mirrorCount() + seen.size() * (4 + std::min<size_t>(seen.size(), 512) / 4) +
            state_.instances.size() / 16 + nodes_[node].pass.instances.size() / 4 + state_.lights.size() / 8;
   occlusion_.setView(view, nodes_[node].pass.instances, std::move(seen));
   size_t next = 0;
-  for (int i = 0; i < static_cast<int>(scene_.mirrors.size()); ++i) {
+  for (int i = 0; i < static_cast<int>(scene_.mirrorCount()); ++i) {
     if (next < sights.size() && sights[next].draw.mirror == i) {
       consider(node, std::move(sights[next++]));
     } else if (!isOwn(i)) {
@@ -158,7 +158,7 @@ void MirrorSearch::skipUnseen(const View& view, int mirror) {
     return skipMirror(plan_, view, mirror, SkipReason::behind);
   }
   const double height = heightAbove(placed, view.eye);
-  if (showsBack(scene_.mirrors[mirror], height)) {
+  if (showsBack(scene_.mirror(mirror), height)) {
     return skipBack(view, mirror, height);
   }
   skipMirror(plan_, view, mirror, SkipReason::outside);
@@ -190,7 +190,7 @@ void MirrorSearch::propose(int node, Sight sight) {
   Pass& pass = nodes_[node].pass;
   const View& view = pass.view;
   const int mirror = sight.draw.mirror;
-  const Mirror& material = scene_.mirrors[mirror];
+  const Mirror& material = scene_.mirror(mirror);
   const MirrorOptics optics = opticsOf(material, allSettings_.effects);
   const double area = screenArea(toClip(view, plan_.projection, sight.visible), plan_.width, plan_.height);
   const glm::dvec3 throughput = pass.channels * reflectanceBound(optics, sight.draw.plane, view.eye, sight.visible);
@@ -221,7 +221,7 @@ void MirrorSearch::propose(int node, Sight sight) {
 }
 
 ImageQuality MirrorSearch::qualityOf(int mirror, const Pass& shownIn) const {
-  const ReflectionSettings own = reflectionOf(scene_.mirrors[mirror].quality, allSettings_);
+  const ReflectionSettings own = reflectionOf(scene_.mirror(mirror).quality, allSettings_);
   if (shownIn.view.path.empty()) {
     return {own.scale, own.samples, own.updateInterval};
   }

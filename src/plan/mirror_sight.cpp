@@ -10,18 +10,18 @@ namespace {
 // Tracing this many samples takes about as long as rendering a pass on lavapipe (docs/scaling.md).
 constexpr double samplesOfAPass = 1500.0;
 
-// Returns the visible part of a mirror's polygon. If the polygon is so large that cuts near the eye would be off by a
+// Returns the visible part of a polygon in a mirror's plane. If the polygon is so large that cuts near the eye would be off by a
 // part of the eye's height, the strip at the horizon is left out first and the rest is moved exactly into the mirror's
 // plane.
-Polygon visiblePart(const View& view, const MirrorState& mirror, double height) {
+Polygon visiblePart(const View& view, const MirrorState& mirror, std::span<const glm::dvec3> polygon, double height) {
   constexpr double large = 1e12;       // distance of a large mirror's farthest vertex, in heights of the eye
   constexpr double leastMetres = 1e9;  // smaller mirrors lose no strip at the horizon
   constexpr double horizon = 1e9;      // distance of the strip, in heights of the eye
-  const double farthest = farthestDistance(view.eye, mirror.polygon);
+  const double farthest = farthestDistance(view.eye, polygon);
   if (height == 0.0 || farthest < std::max(large * std::abs(height), leastMetres)) {
-    return visiblePart(view, mirror.polygon);
+    return visiblePart(view, polygon);
   }
-  Polygon part(mirror.polygon.begin(), mirror.polygon.end());
+  Polygon part(polygon.begin(), polygon.end());
   for (const glm::dvec3& axis : {mirror.axisX, -mirror.axisX, mirror.axisY, -mirror.axisY}) {
     part = clipPolygon(part, {view.eye + horizon * std::abs(height) * axis, -axis});
   }
@@ -46,10 +46,14 @@ MirrorDraw facingDraw(const MirrorState& mirror, int index, double height, bool 
   MirrorDraw draw{.mirror = index, .plane = {mirror.origin, mirror.normal}};
   draw.back = back;
   draw.layer = height < 0.0 ? mirror.backLayer : mirror.frontLayer;
-  draw.polygon = visiblePart(drawn, mirror, height);
+  draw.polygon = visiblePart(drawn, mirror, mirror.polygon, height);
+  for (const std::vector<glm::dvec3>& piece : mirror.pieces) {
+    draw.pieces.push_back(visiblePart(drawn, mirror, piece, height));
+  }
   if (height < 0.0) {
     draw.plane.normal = -draw.plane.normal;
     std::ranges::reverse(draw.polygon);
+    std::ranges::for_each(draw.pieces, [](Polygon& piece) { std::ranges::reverse(piece); });
   }
   return draw;
 }
@@ -57,9 +61,9 @@ MirrorDraw facingDraw(const MirrorState& mirror, int index, double height, bool 
 Sight sightOf(const Scene& scene, const SceneState& state, const View& view, const View& drawn, int mirror) {
   const MirrorState& geometry = state.mirrors[mirror];
   Sight sight{.height = heightAbove(geometry, view.eye)};
-  sight.visible = visiblePart(view, geometry, sight.height);
+  sight.visible = visiblePart(view, geometry, geometry.polygon, sight.height);
   if (!sight.visible.empty()) {
-    sight.draw = facingDraw(geometry, mirror, sight.height, showsBack(scene.mirrors[mirror], sight.height), drawn);
+    sight.draw = facingDraw(geometry, mirror, sight.height, showsBack(scene.mirror(mirror), sight.height), drawn);
   }
   return sight;
 }

@@ -89,7 +89,7 @@ Occlusion::Occlusion(const Scene& scene, const SceneState& state, const Settings
     for (const glm::dvec3& p : mirror.polygon) {
       size = std::max(size, glm::length(p - mirror.polygon[0]));
     }
-    mirrors_.push_back({.occluder = flatOccluder(mirror.polygon, size)});
+    mirrors_.push_back({.occluder = flatOccluder(mirror.piece(0), size)});
   }
   for (const Mesh& mesh : scene.meshes) {
     double largest = 0.0;
@@ -204,7 +204,7 @@ Occlusion::Occluders Occlusion::occludersOf(int mirror, std::span<const glm::dve
 
 RecycledString Occlusion::nameOfOccluder(const Occluder& occluder) const {
   if (occluder.isMirror) {
-    return nameOf<RecycledString>("mirror", scene_.mirrors[occluder.index].name, occluder.index);
+    return nameOf<RecycledString>("mirror", scene_.mirror(occluder.index).name, occluder.index);
   }
   const int object = state_.instances[occluder.index].object;
   return nameOf<RecycledString>("object", scene_.objects[object].name, object);

@@ -19,7 +19,7 @@ struct PlacementParts {
 
 void SceneChanges::update(const Scene& scene, const SceneState& state) {
   ++update_;
-  if (placements_.size() != state.instances.size() || mirrors_.size() != scene.mirrors.size()) {
+  if (placements_.size() != state.instances.size() || mirrors_.size() != scene.mirrorCount()) {
     any_ = update_;
   }
   objects_.resize(scene.objects.size());
@@ -43,11 +43,11 @@ void SceneChanges::update(const Scene& scene, const SceneState& state) {
     }
     drawn_[i] = std::max(placed_[i], objects_[static_cast<size_t>(instance.object)].changed);
   }
-  mirrors_.resize(scene.mirrors.size());
-  for (size_t i = 0; i < scene.mirrors.size(); ++i) {
+  mirrors_.resize(scene.mirrorCount());
+  for (size_t i = 0; i < scene.mirrorCount(); ++i) {
     const MirrorState& placed = state.mirrors[i];
     ContentNumbers content;
-    content.addAll(placed.polygon, placed.origin, placed.normal, placed.axisX, placed.axisY, scene.mirrors[i]);
+    content.addAll(placed.polygon, placed.origin, placed.normal, placed.axisX, placed.axisY, scene.mirror(i));
     note(content.take(), mirrors_[i]);
     any_ = std::max(any_, mirrors_[i].changed);
   }

@@ -22,7 +22,7 @@ String nameOf(std::string_view kind, std::string_view name, int index) {
 
 // Name of a mirror for users: its `name`, or its index.
 inline std::string mirrorName(const Scene& scene, int mirror) {
-  const std::string& name = scene.mirrors[mirror].name;
+  const std::string& name = scene.mirror(mirror).name;
   return name.empty() ? std::to_string(mirror) : name;
 }
 

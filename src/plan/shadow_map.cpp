@@ -175,7 +175,7 @@ class FacePlanner {
     const RecycledVector<int>& drawn = face.instances;
     return std::ranges::any_of(pass.instances, [&](int i) { return std::ranges::binary_search(drawn, i); }) ||
            std::ranges::any_of(pass.mirrors, [&](const MirrorDraw& draw) {
-             const Mirror& mirror = scene_.mirrors[static_cast<size_t>(draw.mirror)];
+             const Mirror& mirror = scene_.mirror(static_cast<size_t>(draw.mirror));
              return (draw.back ? mirror.backColor : mirror.baseColor) != glm::dvec3(0.0) &&
                     std::ranges::any_of(face.mirrors, [&](const MirrorDraw& in) { return in.mirror == draw.mirror; });
            });

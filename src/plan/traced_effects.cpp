@@ -5,6 +5,7 @@
 #include "geometry/reflection.hpp"
 #include "plan/frame_plan.hpp"
 #include "plan/scene_names.hpp"
+#include "scene/material_mirrors.hpp"
 
 namespace speculum {
 
@@ -17,7 +18,7 @@ bool isBlack(const glm::dvec3& color) {
 bool mayTrace(const Scene& scene, const Settings& settings) {
   return settings.reflection.method != ReflectionMethod::raster ||
          std::ranges::any_of(scene.lights, &PointLight::castsShadow) ||
-         std::ranges::any_of(scene.objects, [](const Object& o) { return o.mirror.has_value(); }) ||
+         hasCurvedMirrors(scene) ||
          std::ranges::any_of(scene.mirrors, [](const Mirror& m) {
            return m.roughness > 0.0 || m.ripple || m.castsLight || m.quality.method;
          });
@@ -43,7 +44,7 @@ class Collector {
       lit_.instances[i] = true;
       lit_.anyInstance = true;
       const int object = state_.instances[i].object;
-      if (settings_.curved && scene_.objects[object].mirror && !effects_.curved) {
+      if (settings_.curved && !effects_.curved && curvedMirrorOf(scene_, state_.instances[i])) {
         effects_.curvedRays = settings_.curvedLookup == CurvedLookup::traced;
         effects_.curved = nameOf<RecycledString>("object", scene_.objects[object].name, object);
       }
@@ -61,7 +62,7 @@ class Collector {
 
  private:
   void add(const MirrorDraw& draw) {
-    const Mirror& mirror = scene_.mirrors[draw.mirror];
+    const Mirror& mirror = scene_.mirror(draw.mirror);
     const MirrorOptics optics = opticsOf(mirror, settings_);
     lit_.mirrors = lit_.mirrors || !isBlack(draw.back ? optics.backColor : optics.baseColor);
     const bool rough = optics.alpha > 0.0 && (draw.byRays || draw.blurs);
@@ -93,8 +94,8 @@ class Collector {
   }
 
   void addBouncedLights() {
-    for (size_t m = 0; settings_.castsLight && anythingLit() && m < scene_.mirrors.size(); ++m) {
-      for (size_t i = 0; scene_.mirrors[m].castsLight && i < scene_.lights.size(); ++i) {
+    for (size_t m = 0; settings_.castsLight && anythingLit() && m < scene_.mirrorCount(); ++m) {
+      for (size_t i = 0; scene_.mirror(m).castsLight && i < scene_.lights.size(); ++i) {
         const BouncedLight path{static_cast<int>(i), static_cast<int>(m)};
         if (bounces(path) && reachesSomething(path)) {
           effects_.bouncedLights.push_back(path);
@@ -103,7 +104,7 @@ class Collector {
     }
     if (!effects_.bouncedLights.empty()) {
       const int mirror = effects_.bouncedLights.front().mirror;
-      effects_.castsLight = nameOf<RecycledString>("mirror", scene_.mirrors[mirror].name, mirror);
+      effects_.castsLight = nameOf<RecycledString>("mirror", scene_.mirror(mirror).name, mirror);
     }
   }
 
@@ -116,7 +117,7 @@ class Collector {
     const PointLight& light = scene_.lights[path.light];
     const double height = heightOf(path);
     return !isBlack(light.color * light.intensity) &&
-           (height > 0.0 || (height < 0.0 && scene_.mirrors[path.mirror].twoSided));
+           (height > 0.0 || (height < 0.0 && scene_.mirror(path.mirror).twoSided));
   }
 
   // Says whether the reflected light reaches something drawn. The light's mirror image shines through the mirror's
@@ -182,9 +183,7 @@ TracedEffects tracedEffects(const Scene& scene, const SceneState& state, const S
 
 AskedEffects askedEffects(const Scene& scene, const EffectSettings& settings) {
   AskedEffects asked{.shadows = settings.shadows && !shadowLights(scene).empty(),
-                     .curved = settings.curved && std::ranges::any_of(scene.objects, [](const Object& object) {
-                                 return object.mirror.has_value();
-                               })};
+                     .curved = settings.curved && hasCurvedMirrors(scene)};
   for (const Mirror& mirror : scene.mirrors) {
     const MirrorOptics optics = opticsOf(mirror, settings);
     asked.castsLight = asked.castsLight || (settings.castsLight && mirror.castsLight);

@@ -5,6 +5,8 @@
 #include <glm/gtx/component_wise.hpp>
 #include <numbers>
 
+#include "scene/material_mirrors.hpp"
+
 namespace speculum {
 
 namespace {
@@ -68,13 +70,13 @@ glm::dvec2 MicrofacetSampler::next(int level) {
 
 bool PathTracer::reflects(const SceneHit& hit) const {
   if (hit.kind == HitKind::object) {
-    return world_.scene().objects[world_.instances()[hit.index].object].mirror.has_value();
+    return curvedMirrorOf(world_.scene(), world_.instances()[hit.index]).has_value();
   }
-  return hit.kind == HitKind::mirror && (hit.mirrorFront || world_.scene().mirrors[hit.index].twoSided);
+  return hit.kind == HitKind::mirror && (hit.mirrorFront || world_.scene().mirror(hit.index).twoSided);
 }
 
 PathTracer::Bounce PathTracer::mirrorBounce(const Ray& ray, const SceneHit& hit) const {
-  const Mirror& mirror = world_.scene().mirrors[hit.index];
+  const Mirror& mirror = world_.scene().mirror(hit.index);
   const MirrorOptics optics = opticsOf(mirror);
   const MirrorState& state = world_.mirrors()[hit.index];
   const double side = hit.mirrorFront ? 1.0 : -1.0;
@@ -92,7 +94,7 @@ PathTracer::Bounce PathTracer::mirrorBounce(const Ray& ray, const SceneHit& hit)
 }
 
 PathTracer::Bounce PathTracer::curvedBounce(const Ray& ray, const SceneHit& hit) const {
-  const MirrorOptics optics = opticsOf(*world_.scene().objects[world_.instances()[hit.index].object].mirror);
+  const MirrorOptics optics = opticsOf(*curvedMirrorOf(world_.scene(), world_.instances()[hit.index]));
   const ShadingPoint point = objectPoint(world_, ray, hit);
   return {.base = {.position = point.position,
                    .normal = point.normal,
@@ -113,7 +115,7 @@ glm::dvec3 PathTracer::backSide(const Ray& ray, const SceneHit& hit) const {
   return surfaceRadiance(world_, {.position = ray.at(hit.t),
                                   .normal = -world_.mirrors()[hit.index].normal,
                                   .toViewer = -ray.direction,
-                                  .diffuse = world_.scene().mirrors[hit.index].backColor,
+                                  .diffuse = world_.scene().mirror(hit.index).backColor,
                                   .self = {.mirror = hit.index}});
 }
 

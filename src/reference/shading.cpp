@@ -40,7 +40,7 @@ double lightStart(const ShadingPoint& point, const glm::dvec3& toLight) {
 // Returns the radiance due to a light by way of one mirror: along the straight line from the point to the light's image
 // behind the mirror.
 glm::dvec3 bouncedLight(const TraceWorld& world, const ShadingPoint& point, int light, int mirror) {
-  const Mirror& material = world.scene().mirrors[mirror];
+  const Mirror& material = world.scene().mirror(mirror);
   const MirrorState& plane = world.mirrors()[mirror];
   const PointLight& source = world.scene().lights[light];
   const glm::dvec3& position = world.lights()[light].position;
@@ -164,8 +164,8 @@ glm::dvec3 surfaceRadiance(const TraceWorld& world, const ShadingPoint& point) {
   }
   for (size_t light = 0; light < scene.lights.size(); ++light) {
     radiance += directLight(world, point, static_cast<int>(light));
-    for (size_t mirror = 0; mirror < scene.mirrors.size(); ++mirror) {
-      if (scene.mirrors[mirror].castsLight) {
+    for (size_t mirror = 0; mirror < scene.mirrorCount(); ++mirror) {
+      if (scene.mirror(mirror).castsLight) {
         radiance += bouncedLight(world, point, static_cast<int>(light), static_cast<int>(mirror));
       }
     }

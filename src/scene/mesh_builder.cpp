@@ -108,6 +108,12 @@ void findShape(Mesh& mesh) {
 
 }  // namespace
 
+void finishShape(Mesh& mesh) {
+  findShape(mesh);
+  sortIntoClusters(mesh);
+  mesh.clusters = clustersOf(mesh);
+}
+
 bool isFinite(const glm::dvec3& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
@@ -293,9 +299,7 @@ Mesh MeshBuilder::finish(const std::function<Material(int)>& materialOf) {
   materialIndices_.clear();
   sharedVertices_ = {};
   rebase(mesh);
-  findShape(mesh);
-  sortIntoClusters(mesh);
-  mesh.clusters = clustersOf(mesh);
+  finishShape(mesh);
   return mesh;
 }
 

@@ -18,6 +18,9 @@ namespace speculum {
 
 bool isFinite(const glm::dvec3& v);
 
+// Completes a mesh that has its vertices, triangles and bounds: finds occluders and clusters, and sorts triangles.
+void finishShape(Mesh& mesh);
+
 // Corner of a face: indices from 0 into the elements of MeshBuilder added so far; -1: none.
 struct FaceCorner {
   int position = -1;

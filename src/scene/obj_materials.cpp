@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/gtx/component_wise.hpp>
 #include <limits>
 #include <sstream>
 #include <utility>
@@ -98,6 +99,8 @@ class ObjMaterials::MtlReader {
       readNumber("Ns");
     } else if (key == "d") {
       readNumber("d");
+    } else if (key == "illum") {
+      readNumber("illum");
     } else if (key == "tr") {
       readNumber("Tr");
     } else if (key == "pr" || key == "pm") {
@@ -177,6 +180,9 @@ class ObjMaterials::MtlReader {
     entry_->opaque = !(from.dissolve < 1.0) && from.alpha_texname.empty();
     entry_->metal = from.metallic;
     entry_->roughness = std::exchange(hasRoughness_, false) ? from.roughness : roughnessOf(material.shininess);
+    if (from.illum >= 3 && glm::compMax(material.specular) >= 0.5 && from.shininess >= 500.0 && entry_->opaque) {
+      material.mirror = glm::min(material.specular, 1.0);
+    }
     entry_->diffuseTexture = from.diffuse_texname;
     entry_->emissionTexture = from.emissive_texname;
     if (!std::exchange(hasEmission_, false) && !from.emissive_texname.empty()) {

@@ -93,6 +93,7 @@ struct Object {
   Visibility visible = Visibility::everywhere;
   Copies copies;
   std::optional<ObjectMirror> mirror;
+  bool mirrorsFromMaterials = true;
 
   bool operator==(const Object&) const = default;
 };
@@ -218,13 +219,31 @@ struct SceneContent {
   bool operator==(const SceneContent&) const = default;
 };
 
+// A planar mirror that a model's material makes, one for each copy of its object.
+struct MaterialMirror {
+  Mirror mirror;  // without a place, which follows from the object
+  int object = 0;
+  int copy = 0;
+  int flat = 0;  // index into MirrorParts::flat of the object's mesh
+
+  bool operator==(const MaterialMirror&) const = default;
+};
+
 struct Scene : SceneContent {
   std::filesystem::path file;
   std::string text;  // content of the file, as it was read
   std::string title;
   std::vector<SettingEntry> settings;
-  std::vector<Mesh> meshes;       // each model file once
+  std::vector<Mesh> meshes;       // each model file once, and meshes that MirrorParts names
   std::vector<Texture> textures;  // each picture file once
+  // The planar mirrors that objects' materials make; see placeMaterialMirrors().
+  std::vector<MaterialMirror> materialMirrors;
+
+  // Mirrors by the index that SceneState and plans use: those of the file, then those that materials make.
+  size_t mirrorCount() const { return mirrors.size() + materialMirrors.size(); }
+  const Mirror& mirror(size_t index) const {
+    return index < mirrors.size() ? mirrors[index] : materialMirrors[index - mirrors.size()].mirror;
+  }
 };
 
 }  // namespace speculum

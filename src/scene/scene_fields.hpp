@@ -146,6 +146,7 @@ inline const auto fieldsOf<Object> = std::tuple{
           {.range = radianceRange, .color = true, .start = glm::dvec3(1.0)}),
     field(&Object::visible, "visible", "eye: in no mirror; mirrors: only in mirrors; it casts its shadows either way"),
     field(&Object::mirror, "mirror", "makes the object a curved mirror", {.start = ObjectMirror()}),
+    field(&Object::mirrorsFromMaterials, "mirrors_from_materials", "parts whose material says mirror become mirrors"),
     field(&Object::copies, "copies", "the k-th instance is moved by k times the step", {.use = FieldUse::placement})};
 
 template <>

@@ -14,6 +14,7 @@
 #include "platform/folders.hpp"
 #include "platform/text.hpp"
 #include "scene/input_error.hpp"
+#include "scene/material_mirrors.hpp"
 #include "scene/model_files.hpp"
 #include "scene/model_formats.hpp"
 #include "scene/scene_sections.hpp"
@@ -147,6 +148,12 @@ Scene readScene(const TableReader& reader, const fs::path& file, std::string tex
   return scene;
 }
 
+void addMaterialMirrors(Scene& scene) {
+  cutMirrorParts(scene, 0);
+  placeMaterialMirrors(scene);
+  logMaterialMirrors(scene);
+}
+
 // Returns nothing for a file that cannot be read.
 toml::table tomlIfAny(const fs::path& file) {
   try {
@@ -232,6 +239,7 @@ Scene loadScene(const fs::path& file, const LoadProgress& progress) {
       table.fail("scale", "makes the model too large", *remedy);
     }
   }
+  addMaterialMirrors(scene);
   return scene;
 }
 
@@ -254,7 +262,9 @@ int addModel(Scene& scene, const fs::path& file, const LoadProgress& progress) {
     scene.textures.resize(textures);
     throw;
   }
-  return static_cast<int>(scene.meshes.size()) - 1;
+  const size_t added = scene.meshes.size() - 1;
+  cutMirrorParts(scene, added);
+  return static_cast<int>(added);
 }
 
 std::string sceneTitle(const fs::path& file) {
@@ -308,6 +318,7 @@ Scene modelScene(const fs::path& file, const LoadProgress& progress) {
   scene.objects[0].mesh = 0;
   scene.meshes.push_back(std::move(mesh));
   scene.textures = std::move(textures);
+  addMaterialMirrors(scene);
   return scene;
 }
 

@@ -8,19 +8,21 @@
 
 #include "geometry/bvh.hpp"
 #include "geometry/polygon.hpp"
+#include "scene/material_mirrors.hpp"
 
 namespace speculum {
 
 namespace {
 
-void addInstances(const Scene& scene, int objectIndex, double time, std::vector<InstanceState>& instances) {
+void addInstances(const Scene& scene, int objectIndex, int meshIndex, double time,
+                  std::vector<InstanceState>& instances) {
   const Object& object = scene.objects[objectIndex];
-  const Mesh& mesh = scene.meshes[object.mesh];
+  const Mesh& mesh = scene.meshes[meshIndex];
   const glm::dmat3 linear = modelTransform(object, time);
   const double largestScale = glm::compMax(glm::abs(object.scale));
   const glm::dvec3 center = linear * mesh.center;
   for (int copy = 0; copy < object.copies.count; ++copy) {
-    InstanceState instance{.object = objectIndex, .copy = copy, .mesh = object.mesh};
+    InstanceState instance{.object = objectIndex, .copy = copy, .mesh = meshIndex};
     const glm::dvec3 position = object.position + static_cast<double>(copy) * object.copies.step;
     instance.worldFromMesh = {linear * mesh.unit, position + center};
     instance.center = instance.worldFromMesh.translation;
@@ -56,16 +58,21 @@ double slackOf(const std::vector<glm::dvec3>& polygon) {
   return 1e-9 * farthestDistance(center, polygon) + 1e-15 * glm::length(center);
 }
 
-MirrorState placedMirror(const Mirror& mirror, double time) {
+MirrorState placedPolygon(const std::vector<glm::dvec3>& polygon) {
   MirrorState state;
+  state.origin = polygon[0];
+  state.normal = glm::normalize(newellVector(polygon));
+  state.polygon = flattened(polygon, state.normal);
+  state.axisX = firstEdge(polygon, state.normal);
+  state.axisY = glm::cross(state.normal, state.axisX);
+  return state;
+}
+
+MirrorState placedMirror(const Mirror& mirror, double time) {
   if (!mirror.polygon.empty()) {
-    state.origin = mirror.polygon[0];
-    state.normal = glm::normalize(newellVector(mirror.polygon));
-    state.polygon = flattened(mirror.polygon, state.normal);
-    state.axisX = firstEdge(mirror.polygon, state.normal);
-    state.axisY = glm::cross(state.normal, state.axisX);
-    return state;
+    return placedPolygon(mirror.polygon);
   }
+  MirrorState state;
   const glm::dmat3 rotation = rotationFromDegrees(mirror.rotation + spunBy(mirror.spin, time));
   state.origin = mirror.position;
   state.axisX = rotation[0];
@@ -74,6 +81,33 @@ MirrorState placedMirror(const Mirror& mirror, double time) {
   const glm::dvec3 x = 0.5 * mirror.size.x * state.axisX;
   const glm::dvec3 y = 0.5 * mirror.size.y * state.axisY;
   state.polygon = {state.origin - x - y, state.origin + x - y, state.origin + x + y, state.origin - x + y};
+  return state;
+}
+
+// The front stays the side from which the model winds its faces counter-clockwise, also with negative scale.
+MirrorState placedMirror(const Scene& scene, const MaterialMirror& made, double time) {
+  const Object& object = scene.objects[made.object];
+  const Mesh& mesh = scene.meshes[object.mesh];
+  const FlatMirror& flat = mesh.mirrorParts->flat[made.flat];
+  const glm::dmat3 linear = modelTransform(object, time);
+  const glm::dvec3 offset = object.position + static_cast<double>(made.copy) * object.copies.step + linear * mesh.center;
+  const auto placed = [&](const std::vector<glm::dvec3>& polygon) {
+    std::vector<glm::dvec3> points;
+    for (const glm::dvec3& p : polygon) {
+      points.push_back(linear * (mesh.unit * p) + offset);
+    }
+    if (glm::determinant(linear) < 0.0) {
+      std::ranges::reverse(points);
+    }
+    return points;
+  };
+  MirrorState state = placedPolygon(placed(flat.outline));
+  for (size_t i = 0; !flat.convex && i < flat.pieces.size(); ++i) {
+    std::vector<glm::dvec3>& piece = state.pieces.emplace_back(placed(flat.pieces[i]));
+    for (glm::dvec3& p : piece) {
+      p -= glm::dot(p - state.origin, state.normal) * state.normal;
+    }
+  }
   return state;
 }
 
@@ -97,7 +131,8 @@ CameraPose cameraPose(const CameraSpec& camera, double time) {
 }
 
 struct Placed {
-  const Mirror* mirror = nullptr;
+  size_t index = 0;
+  bool twoSided = false;
   MirrorState* state = nullptr;
   Bounds bounds;
 };
@@ -134,8 +169,8 @@ bool overlap(const Placed& a, const Placed& b) {
 void setLayers(std::vector<Placed>& plane, const glm::dvec3& towardsEye) {
   const auto front = [&](const Placed& p) { return glm::dot(p.state->normal, towardsEye) > 0.0; };
   const auto layer = [&](const Placed& p) -> int& { return front(p) ? p.state->frontLayer : p.state->backLayer; };
-  const auto showsBack = [&](const Placed& p) { return !front(p) && !p.mirror->twoSided; };
-  std::ranges::sort(plane, {}, [&](const Placed& p) { return std::pair(showsBack(p), p.mirror); });
+  const auto showsBack = [&](const Placed& p) { return !front(p) && !p.twoSided; };
+  std::ranges::sort(plane, {}, [&](const Placed& p) { return std::pair(showsBack(p), p.index); });
   // Mirrors that may cover the next one, the deepest first: the first that overlaps the next one decides its layer.
   std::vector<const Placed*> before;
   for (const Placed& placed : plane) {
@@ -149,16 +184,16 @@ void setLayers(std::vector<Placed>& plane, const glm::dvec3& towardsEye) {
 
 // Sets plane and layers of all mirrors; the layers must be 0 before. Mirrors count as lying in one plane if they are no
 // farther apart than rounding can put them.
-void findLayers(std::span<const Mirror> mirrors, std::span<MirrorState> states) {
+void findLayers(const Scene& scene, std::span<MirrorState> states) {
   std::vector<std::vector<Placed>> planes;
   for (size_t i = 0; i < states.size(); ++i) {
     states[i].plane = static_cast<int>(i);
-    const Placed placed{&mirrors[i], &states[i], Bounds::around(states[i].polygon)};
+    const Placed placed{i, scene.mirror(i).twoSided, &states[i], Bounds::around(states[i].polygon)};
     const auto same = std::ranges::find_if(planes, [&](const auto& plane) { return inOnePlane(plane[0], placed); });
     if (same == planes.end()) {
       planes.push_back({placed});
     } else {
-      states[i].plane = static_cast<int>((*same)[0].mirror - mirrors.data());
+      states[i].plane = static_cast<int>((*same)[0].index);
       same->push_back(placed);
     }
   }
@@ -248,7 +283,9 @@ glm::dmat3 modelTransform(const Object& object, double time) {
 SceneState evaluate(const Scene& scene, double timeSeconds) {
   SceneState state{.time = timeSeconds, .camera = cameraPose(scene.camera, timeSeconds)};
   for (size_t i = 0; i < scene.objects.size(); ++i) {
-    addInstances(scene, static_cast<int>(i), timeSeconds, state.instances);
+    forEachDrawnMesh(scene, static_cast<int>(i), [&](int mesh) {
+      addInstances(scene, static_cast<int>(i), mesh, timeSeconds, state.instances);
+    });
   }
   std::ranges::stable_sort(state.instances,
                            [](const InstanceState& a, const InstanceState& b) { return a.mesh < b.mesh; });
@@ -256,10 +293,18 @@ SceneState evaluate(const Scene& scene, double timeSeconds) {
     state.lights.push_back(lightState(light, timeSeconds));
   }
   for (const Mirror& mirror : scene.mirrors) {
-    MirrorState& placed = state.mirrors.emplace_back(placedMirror(mirror, timeSeconds));
-    placed.slack = slackOf(placed.polygon);
+    state.mirrors.push_back(placedMirror(mirror, timeSeconds));
   }
-  findLayers(scene.mirrors, state.mirrors);
+  for (const MaterialMirror& mirror : scene.materialMirrors) {
+    state.mirrors.push_back(placedMirror(scene, mirror, timeSeconds));
+  }
+  size_t pieces = 0;
+  for (MirrorState& placed : state.mirrors) {
+    placed.slack = slackOf(placed.polygon);
+    placed.firstPiece = static_cast<int>(pieces);
+    pieces += placed.pieceCount();
+  }
+  findLayers(scene, state.mirrors);
   const bool bounces = std::ranges::any_of(scene.mirrors, &Mirror::castsLight);
   for (size_t i = 0; i < scene.lights.size(); ++i) {
     if (bounces || scene.lights[i].castsShadow) {

@@ -56,6 +56,9 @@ struct LightState {
 
 struct MirrorState {
   std::vector<glm::dvec3> polygon;   // world, counter-clockwise seen from the front
+  // Convex pieces of the mirror, if it is not convex; `polygon` is their hull then.
+  std::vector<std::vector<glm::dvec3>> pieces;
+  int firstPiece = 0;  // number of the pieces of all mirrors before this one
   glm::dvec3 origin{0.0};            // local (0, 0): the centre, or a polygon's first vertex
   glm::dvec3 normal{0.0, 0.0, 1.0};  // world, unit, to the front
   glm::dvec3 axisX{1.0, 0.0, 0.0};   // world, unit; for ripples
@@ -66,14 +69,19 @@ struct MirrorState {
   // layer is 0, or one more than the largest layer of the mirrors that cover this one.
   int frontLayer = 0;  // seen from the mirror's front
   int backLayer = 0;
+
+  // The convex polygons that make up the mirror, and their number.
+  size_t pieceCount() const { return pieces.empty() ? 1 : pieces.size(); }
+  const std::vector<glm::dvec3>& piece(size_t i) const { return pieces.empty() ? polygon : pieces[i]; }
 };
 
 struct SceneState {
   double time = 0.0;  // seconds
   CameraPose camera;
-  std::vector<InstanceState> instances;  // sorted by mesh, then object, then copy
+  // Sorted by mesh, then object, then copy. An object whose materials make mirrors has an instance of each of its parts.
+  std::vector<InstanceState> instances;
   std::vector<LightState> lights;        // parallel to Scene::lights
-  std::vector<MirrorState> mirrors;      // parallel to Scene::mirrors
+  std::vector<MirrorState> mirrors;      // by the index of Scene::mirror()
 };
 
 // Places the scene's nodes at a time. Angles are reduced in double, so that 1e6 s of animation are as exact as one

@@ -2,6 +2,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -13,6 +14,21 @@ namespace {
 glm::dmat3 inverseOf(const glm::dmat3& m) {
   const double scale = 1.0 / largestEntry(m);
   return glm::inverse(m * scale) * scale;
+}
+
+// Says whether the line of the ray meets a convex polygon.
+bool meetsPolygon(const ShearedRay& ray, const std::vector<glm::dvec3>& polygon) {
+  bool left = false;
+  bool right = false;
+  glm::dvec3 a = ray.project(polygon.back());
+  for (const glm::dvec3& p : polygon) {
+    const glm::dvec3 b = ray.project(p);
+    const double side = a.x * b.y - a.y * b.x;
+    left = left || side > 0.0;
+    right = right || side < 0.0;
+    a = b;
+  }
+  return !(left && right);
 }
 
 }  // namespace
@@ -43,6 +59,9 @@ void TraceWorld::place(const SceneState& state) {
     mirrors_[i].origin -= eye;
     for (glm::dvec3& p : mirrors_[i].polygon) {
       p -= eye;
+    }
+    for (std::vector<glm::dvec3>& piece : mirrors_[i].pieces) {
+      std::ranges::for_each(piece, [&](glm::dvec3& p) { p -= eye; });
     }
     items.push_back({HitKind::mirror, static_cast<int>(i)});
   }
@@ -119,18 +138,12 @@ std::optional<double> TraceWorld::meetPolygon(const Ray& ray, const ShearedRay& 
   if (!(t > ray.tMin && t <= tMax && t < ray.tMax)) {
     return std::nullopt;
   }
-  bool left = false;
-  bool right = false;
-  const std::vector<glm::dvec3>& polygon = mirrors_[mirror].polygon;
-  glm::dvec3 a = sheared.project(polygon.back());
-  for (const glm::dvec3& p : polygon) {
-    const glm::dvec3 b = sheared.project(p);
-    const double side = a.x * b.y - a.y * b.x;
-    left = left || side > 0.0;
-    right = right || side < 0.0;
-    a = b;
+  for (size_t i = 0; i < mirrors_[mirror].pieceCount(); ++i) {
+    if (meetsPolygon(sheared, mirrors_[mirror].piece(i))) {
+      return t;
+    }
   }
-  return left && right ? std::nullopt : std::optional(t);
+  return std::nullopt;
 }
 
 std::optional<double> TraceWorld::meetMirror(const Ray& ray, int mirror) const {

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "plan/mirror_sight.hpp"
+#include "scene/material_mirrors.hpp"
 
 namespace speculum {
 
@@ -54,7 +55,7 @@ void addRays(FrameWork& work, const Pass& pass, double texels, int samples, cons
   }
   for (const MirrorDraw& draw : pass.mirrors) {
     if (draw.byRays && !draw.back) {
-      const MirrorOptics optics = opticsOf(scene.mirrors[static_cast<size_t>(draw.mirror)], settings);
+      const MirrorOptics optics = opticsOf(scene.mirror(static_cast<size_t>(draw.mirror)), settings);
       const bool rough = optics.alpha > 0.0;
       const double area = screenArea(toClip(pass.view, plan.projection, draw.polygon), pass.view.pictureSize.x,
                                      pass.view.pictureSize.y);
@@ -65,7 +66,7 @@ void addRays(FrameWork& work, const Pass& pass, double texels, int samples, cons
   }
   for (const int i : pass.instances) {
     const InstanceState& instance = state.instances[static_cast<size_t>(i)];
-    if (effects.curvedRays && scene.objects[static_cast<size_t>(instance.object)].mirror) {
+    if (effects.curvedRays && curvedMirrorOf(scene, instance)) {
       const double distance = glm::length(instance.center - pass.view.eye);
       const double radius =
           instance.radius / std::max(distance, 1e-9) * 0.5 * plan.projection.focal * pass.view.pictureSize.y;

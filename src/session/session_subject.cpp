@@ -109,7 +109,7 @@ SweepContext sweepContext(Session& session) {
   const AskedEffects asked = askedEffects(session.scene());
   SweepContext context{.base = session.settings(),
                        .sampleCounts = sampleCountsOf(session.device()),
-                       .mirrors = !session.scene().mirrors.empty(),
+                       .mirrors = session.scene().mirrorCount() > 0,
                        .animated = moves(session.scene()),
                        .rough = asked.rough,
                        .interval = mostAsked(session.scene(), session.settings()).updateInterval};

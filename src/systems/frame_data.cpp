@@ -5,6 +5,7 @@
 
 #include "plan/draw_order.hpp"
 #include "plan/pass_mask.hpp"
+#include "scene/material_mirrors.hpp"
 #include "scene/scene_state.hpp"
 #include "systems/gpu_conversion.hpp"
 #include "systems/mirror_polygons.hpp"
@@ -221,7 +222,7 @@ void FrameData::addInstances(const Source& source, const Pass& pass, const glm::
   const SceneState& state = source.state;
   const EffectSettings& effects = source.settings.effects;
   const auto isCurved = [&](int i) {
-    return effects.curved && scene.objects[state.instances[i].object].mirror.has_value();
+    return effects.curved && curvedMirrorOf(scene, state.instances[i]).has_value();
   };
   std::vector<int> order = frontToBack(pass.view, pass.instances, state);
   // Instances of a mesh that look alike share a draw, those that are curved mirrors another one. Each instance that is
@@ -269,7 +270,7 @@ void FrameData::addEnvironment(const Source& source, const Pass& pass, int insta
   const auto map = std::ranges::find(cubes, instance, &Cube::instance);
   const bool exists = map != cubes.end() && !pass.isFace();
   const MirrorOptics optics =
-      opticsOf(*source.scene.objects[source.state.instances[instance].object].mirror, source.settings.effects);
+      opticsOf(*curvedMirrorOf(source.scene, source.state.instances[instance]), source.settings.effects);
   gpu::CurvedMirrorData data{.hasMap = exists,
                              .reflectance = glm::vec3(optics.reflectance),
                              .schlick = optics.fresnel == Fresnel::schlick,
@@ -291,7 +292,7 @@ void FrameData::addEnvironment(const Source& source, const Pass& pass, int insta
 void FrameData::addMirrors(const Source& source, const Pass& pass, const glm::dmat4& projection, DrawList& data) {
   const auto& [scene, state, settings, environment, plan] = source;
   const EffectSettings& effects = settings.effects;
-  const std::vector<ClipPolygon> polygons = mirrorPolygons(pass, projection);
+  const std::vector<std::vector<ClipPolygon>> polygons = mirrorPolygons(pass, projection);
   size_t cuts = 0;
   for (size_t i = 0; i < pass.mirrors.size(); ++i) {
     const MirrorDraw& draw = pass.mirrors[i];
@@ -299,7 +300,7 @@ void FrameData::addMirrors(const Source& source, const Pass& pass, const glm::dm
     if (parts.empty()) {
       continue;
     }
-    const Mirror& mirror = scene.mirrors[draw.mirror];
+    const Mirror& mirror = scene.mirror(draw.mirror);
     const MirrorOptics optics = opticsOf(mirror, effects);
     const View* image = imageView(draw, plan);
     const bool ripples = draw.ripples && image;
@@ -324,7 +325,9 @@ void FrameData::addMirrors(const Source& source, const Pass& pass, const glm::dm
     for (const ClipPolygon& part : parts) {
       addFan(mirrorVertices_, part);
     }
-    addFringe(mirrorVertices_, polygons[i], pass.view.pictureSize * overscan(pass.view));
+    for (const ClipPolygon& polygon : polygons[i]) {
+      addFringe(mirrorVertices_, polygon, pass.view.pictureSize * overscan(pass.view));
+    }
     range.vertexCount = static_cast<uint32_t>(mirrorVertices_.size()) - range.firstVertex;
     data.mirrors.push_back(range);
   }

@@ -170,7 +170,7 @@ gpu::MirrorData mirrorData(const MirrorDraw& draw, const MirrorOptics& optics, c
                        .reflectance = glm::vec3(optics.reflectance),
                        .schlick = optics.fresnel == Fresnel::schlick,
                        .baseColor = glm::vec3(draw.back ? optics.backColor : optics.baseColor),
-                       .traceMirror = static_cast<uint32_t>(draw.mirror)};
+                       .traceMirror = static_cast<uint32_t>(state.mirrors[draw.mirror].firstPiece)};
   if (image) {
     const glm::dvec2 ratio = image->pictureSize / view.pictureSize;
     const PixelRect& rect = image->rect;

@@ -25,23 +25,27 @@ ClipPolygon movedBack(ClipPolygon clip, int layer, double largestDepth) {
 
 }  // namespace
 
-std::vector<ClipPolygon> mirrorPolygons(const Pass& pass, const glm::dmat4& projection) {
-  std::vector<ClipPolygon> polygons;
+std::vector<std::vector<ClipPolygon>> mirrorPolygons(const Pass& pass, const glm::dmat4& projection) {
+  std::vector<std::vector<ClipPolygon>> polygons;
   for (const MirrorDraw& draw : pass.mirrors) {
-    ClipPolygon& clip = polygons.emplace_back();
-    for (const glm::dvec3& p : draw.polygon) {
-      clip.push_back(projection * glm::dvec4(pass.view.worldToView * (p - pass.view.eye), 1.0));
+    std::vector<ClipPolygon>& own = polygons.emplace_back();
+    const std::span<const Polygon> pieces = draw.pieces.empty() ? std::span(&draw.polygon, 1) : std::span(draw.pieces);
+    for (const Polygon& piece : pieces) {
+      ClipPolygon& clip = own.emplace_back();
+      for (const glm::dvec3& p : piece) {
+        clip.push_back(projection * glm::dvec4(pass.view.worldToView * (p - pass.view.eye), 1.0));
+      }
     }
   }
   return polygons;
 }
 
-std::vector<ClipPolygon> partsToDraw(const Pass& pass, const SceneState& state, std::span<const ClipPolygon> polygons,
-                                     size_t index, size_t& cuts) {
+std::vector<ClipPolygon> partsToDraw(const Pass& pass, const SceneState& state,
+                                     std::span<const std::vector<ClipPolygon>> polygons, size_t index, size_t& cuts) {
   constexpr size_t mostParts = 1024;
   constexpr size_t mostCuts = 100'000;  // about 10 ms
   const MirrorDraw& draw = pass.mirrors[index];
-  std::vector<ClipPolygon> parts{polygons[index]};
+  std::vector<ClipPolygon> parts = polygons[index];
   if (draw.layer == 0) {
     return parts;
   }
@@ -51,12 +55,14 @@ std::vector<ClipPolygon> partsToDraw(const Pass& pass, const SceneState& state, 
     if (state.mirrors[other.mirror].plane != state.mirrors[draw.mirror].plane) {
       continue;
     }
-    for (const glm::dvec4& v : polygons[i]) {
-      largestDepth = std::max(largestDepth, v.z / v.w);
-    }
-    if (other.layer < draw.layer && parts.size() <= mostParts && cuts <= mostCuts) {
-      cuts += parts.size();
-      cutAway(parts, polygons[i]);
+    for (const ClipPolygon& polygon : polygons[i]) {
+      for (const glm::dvec4& v : polygon) {
+        largestDepth = std::max(largestDepth, v.z / v.w);
+      }
+      if (other.layer < draw.layer && parts.size() <= mostParts && cuts <= mostCuts) {
+        cuts += parts.size();
+        cutAway(parts, polygon);
+      }
     }
   }
   if (parts.size() > mostParts || cuts > mostCuts) {
@@ -64,7 +70,9 @@ std::vector<ClipPolygon> partsToDraw(const Pass& pass, const SceneState& state, 
   } else if (parts.empty()) {
     return parts;
   }
-  parts.push_back(movedBack(polygons[index], draw.layer, largestDepth));
+  for (const ClipPolygon& polygon : polygons[index]) {
+    parts.push_back(movedBack(polygon, draw.layer, largestDepth));
+  }
   return parts;
 }
 

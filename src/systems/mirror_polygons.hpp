@@ -12,15 +12,16 @@ namespace speculum {
 
 using ClipPolygon = std::vector<glm::dvec4>;  // convex, in clip space
 
-// Returns the polygons of pass.mirrors. `projection` takes view space to clip space.
-std::vector<ClipPolygon> mirrorPolygons(const Pass& pass, const glm::dmat4& projection);
+// Returns the polygons of each of pass.mirrors, several for a mirror that is not convex. `projection` takes view space
+// to clip space.
+std::vector<std::vector<ClipPolygon>> mirrorPolygons(const Pass& pass, const glm::dmat4& projection);
 
 // Returns the polygons to draw for pass.mirrors[index]; `polygons` are those of mirrorPolygons(). Depth cannot order
 // mirrors of one plane, because it is rounded in each triangle in its own way, so the parts that other mirrors cover
 // are cut away. The whole mirror is drawn behind its parts: it fills gaps of one sample between them, and stands for
 // parts that would be too many. `cuts` counts the cuts of all mirrors of the pass, whose number is limited.
-std::vector<ClipPolygon> partsToDraw(const Pass& pass, const SceneState& state, std::span<const ClipPolygon> polygons,
-                                     size_t index, size_t& cuts);
+std::vector<ClipPolygon> partsToDraw(const Pass& pass, const SceneState& state,
+                                     std::span<const std::vector<ClipPolygon>> polygons, size_t index, size_t& cuts);
 
 // Adds the triangles of a convex polygon in clip space.
 void addFan(std::vector<glm::vec4>& vertices, std::span<const glm::dvec4> polygon);

@@ -59,12 +59,13 @@ VkAccelerationStructureInstanceKHR instanceOf(const glm::dmat3& linear, const gl
           .accelerationStructureReference = structure};
 }
 
-// Places the box from -1 to 1 about the mirror's polygon, `pad` wider on each side.
-VkAccelerationStructureInstanceKHR mirrorInstance(const MirrorState& mirror, const glm::dvec3& eye, double pad,
-                                                  size_t index, VkDeviceAddress box) {
+// Places the box from -1 to 1 about a polygon of the mirror, `pad` wider on each side.
+VkAccelerationStructureInstanceKHR mirrorInstance(const MirrorState& mirror, std::span<const glm::dvec3> polygon,
+                                                  const glm::dvec3& eye, double pad, size_t index,
+                                                  VkDeviceAddress box) {
   glm::dvec2 low(std::numeric_limits<double>::infinity());
   glm::dvec2 high = -low;
-  for (const glm::dvec3& p : mirror.polygon) {
+  for (const glm::dvec3& p : polygon) {
     const glm::dvec2 local(glm::dot(p - mirror.origin, mirror.axisX), glm::dot(p - mirror.origin, mirror.axisY));
     low = glm::min(low, local);
     high = glm::max(high, local);
@@ -142,8 +143,10 @@ std::vector<VkAccelerationStructureInstanceKHR> RayStructures::instances(const S
   }
   // Allows for rounding, which moves a ray by some 1e-7 of the largest coordinate. The shader tests the polygon itself.
   const double pad = 1e-5 * reachOf(state);
-  for (size_t i = 0; i < state.mirrors.size(); ++i) {
-    all.push_back(mirrorInstance(state.mirrors[i], eye, pad, i, mirror_));
+  for (const MirrorState& mirror : state.mirrors) {
+    for (size_t k = 0; k < mirror.pieceCount(); ++k) {
+      all.push_back(mirrorInstance(mirror, mirror.piece(k), eye, pad, mirror.firstPiece + k, mirror_));
+    }
   }
   return all;
 }

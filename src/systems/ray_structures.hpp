@@ -10,8 +10,8 @@
 namespace speculum {
 
 // Acceleration structures for ray queries: one for the triangles of each mesh, one box that stands for every mirror,
-// and for each frame in flight one over instances and mirrors, relative to the eye of the main view. Custom indices are
-// those of SceneState.
+// and for each frame in flight one over instances and mirrors, relative to the eye of the main view. Custom indices of
+// instances are those of SceneState, those of mirrors count pieces (MirrorState::firstPiece).
 class RayStructures {
  public:
   // Builds the meshes' structures, compacted, from the triangles of `trace`. Waits for the GPU.

@@ -11,6 +11,7 @@
 #include "geometry/reflection.hpp"
 #include "plan/cube_face.hpp"
 #include "plan/mirror_sight.hpp"
+#include "scene/material_mirrors.hpp"
 #include "scene/scene_state.hpp"
 #include "systems/frame_data.hpp"
 #include "systems/gpu_conversion.hpp"
@@ -247,23 +248,30 @@ void TraceFrame::addInstances(const SceneState& state, const Settings& settings)
     data.repeats = repeating - data.firstRepeating;
     repeating += scene_.meshes[instance.mesh].repeats;
     data.change.emission *= settings.view.radianceScale();
-    setMirror(object.mirror, settings.effects, data);
+    setMirror(curvedMirrorOf(scene_, instance), settings.effects, data);
     instances_.push_back(data);
   }
 }
 
 void TraceFrame::addHierarchy(const SceneState& state) {
-  const auto all = boxesOf(scene_, state, state.camera.eye);
-  const size_t instances = state.instances.size();
+  const glm::dvec3& eye = state.camera.eye;
+  const auto all = boxesOf(scene_, state, eye);
   std::vector<Bounds> boxes;
   std::vector<uint32_t> found;
-  for (size_t i = 0; i < all.size(); ++i) {
-    const bool isMirror = i >= instances;
-    if (isMirror || !scene_.meshes[state.instances[i].mesh].indices.empty()) {
+  for (size_t i = 0; i < state.instances.size(); ++i) {
+    const InstanceState& instance = state.instances[i];
+    if (!scene_.meshes[instance.mesh].indices.empty()) {
+      const bool reflected = sees(Onlooker::mirror, scene_.objects[instance.object].visible);
       boxes.push_back(all[i]);
-      const bool reflected = isMirror || sees(Onlooker::mirror, scene_.objects[state.instances[i].object].visible);
-      found.push_back(static_cast<uint32_t>(isMirror ? (i - instances) | gpu::itemMirror : i) |
-                      (reflected ? 0 : gpu::itemUnreflected));
+      found.push_back(static_cast<uint32_t>(i) | (reflected ? 0 : gpu::itemUnreflected));
+    }
+  }
+  uint32_t piece = 0;
+  for (const MirrorState& mirror : state.mirrors) {
+    for (size_t k = 0; k < mirror.pieceCount(); ++k) {
+      Bounds& box = boxes.emplace_back();
+      std::ranges::for_each(mirror.piece(k), [&](const glm::dvec3& p) { box.add(p - eye); });
+      found.push_back(piece++ | gpu::itemMirror);
     }
   }
   appendTopNodes(Bvh(boxes, 1), found, topNodes_);
@@ -272,13 +280,11 @@ void TraceFrame::addHierarchy(const SceneState& state) {
 void TraceFrame::addMirrors(const SceneState& state, const Settings& settings) {
   mirrors_.clear();
   mirrorEdges_.clear();
-  for (size_t i = 0; i < scene_.mirrors.size(); ++i) {
-    const MirrorOptics optics = opticsOf(scene_.mirrors[i], settings.effects);
+  for (size_t i = 0; i < scene_.mirrorCount(); ++i) {
+    const MirrorOptics optics = opticsOf(scene_.mirror(i), settings.effects);
     const MirrorState& placed = state.mirrors[i];
-    mirrors_.push_back({.origin = glm::vec3(placed.origin - state.camera.eye),
-                        .firstVertex = static_cast<uint32_t>(mirrorEdges_.size()),
+    gpu::TraceMirror data{.origin = glm::vec3(placed.origin - state.camera.eye),
                         .normal = glm::vec3(placed.normal),
-                        .vertexCount = static_cast<uint32_t>(placed.polygon.size()),
                         .axisX = glm::vec3(placed.axisX),
                         .axisY = glm::vec3(placed.axisY),
                         .reflectance = glm::vec3(optics.reflectance),
@@ -288,23 +294,29 @@ void TraceFrame::addMirrors(const SceneState& state, const Settings& settings) {
                         .backColor = glm::vec3(optics.backColor),
                         .alpha = static_cast<float>(optics.alpha),
                         .plane = static_cast<uint32_t>(placed.plane),
-                        .layers = layersOf(placed)});
+                        .layers = layersOf(placed)};
     if (optics.ripple) {
       const RippleConstants ripple = rippleConstants(*optics.ripple, state.time);
-      mirrors_.back().hasRipple = 1;
-      mirrors_.back().waveNumber = ripple.waveNumber;
-      mirrors_.back().rippleSlope = ripple.slope;
-      mirrors_.back().ripplePhase = ripple.phase;
+      data.hasRipple = 1;
+      data.waveNumber = ripple.waveNumber;
+      data.rippleSlope = ripple.slope;
+      data.ripplePhase = ripple.phase;
     }
     const auto localOf = [&](const glm::dvec3& p) {
       const glm::dvec3 local = p - placed.origin;
       return glm::vec2(glm::dot(local, placed.axisX), glm::dot(local, placed.axisY));
     };
-    glm::vec2 from = localOf(placed.polygon.back());
-    for (const glm::dvec3& p : placed.polygon) {
-      const glm::vec2 to = localOf(p);
-      mirrorEdges_.emplace_back(from, to);
-      from = to;
+    for (size_t k = 0; k < placed.pieceCount(); ++k) {
+      const std::vector<glm::dvec3>& polygon = placed.piece(k);
+      data.firstVertex = static_cast<uint32_t>(mirrorEdges_.size());
+      data.vertexCount = static_cast<uint32_t>(polygon.size());
+      mirrors_.push_back(data);
+      glm::vec2 from = localOf(polygon.back());
+      for (const glm::dvec3& p : polygon) {
+        const glm::vec2 to = localOf(p);
+        mirrorEdges_.emplace_back(from, to);
+        from = to;
+      }
     }
   }
 }
@@ -325,7 +337,7 @@ std::vector<std::byte> TraceFrame::lightPathBytes(const SceneState& state, const
                      .irradiance = radiance(settings.view.radianceScale() * light.color * light.intensity),
                      .castsShadow = light.castsShadow && settings.effects.shadows,
                      .light = glm::vec3(position - state.camera.eye),
-                     .mirror = static_cast<uint32_t>(bounced.mirror),
+                     .mirror = static_cast<uint32_t>(mirror.firstPiece),
                      .side = glm::dot(mirror.normal, position - mirror.origin) > 0.0 ? 1.0f : -1.0f});
   }
   std::vector<std::byte> bytes(sizeof header + paths.size() * sizeof(gpu::LightPath));

@@ -116,8 +116,12 @@ TraceBufferBytes largestTraceBuffers(const Scene& scene, size_t instances) {
   }
   // A binary tree has fewer than twice as many nodes as leaves, and a leaf holds at least one triangle. The frame's
   // buffers are read as texels and as storage, so both limits apply to them.
+  size_t pieces = scene.mirrors.size();
+  for (const MaterialMirror& made : scene.materialMirrors) {
+    pieces += scene.meshes[scene.objects[made.object].mesh].mirrorParts->flat[made.flat].pieces.size();
+  }
   const uint64_t ofFrame = std::max(instances * sizeof(gpu::TraceInstance),
-                                    16 * (instances + scene.mirrors.size()) * sizeof(gpu::TraceTopNode));
+                                    16 * (instances + pieces) * sizeof(gpu::TraceTopNode));
   return {
       .texels = std::max({16 * triangles * sizeof(gpu::TraceNode), triangles * sizeof(gpu::TraceTriangle), ofFrame}),
       .storage = std::max({(vertices + colors) * sizeof(gpu::TraceVertex), triangles * sizeof(gpu::TraceFace),

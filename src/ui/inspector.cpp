@@ -110,7 +110,7 @@ void throughButtons(PanelContext& ui) {
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted("Seen in:");
   for (size_t i = 0; i < ui.input.edit.through.size(); ++i) {
-    const Selection mirror{Selection::Kind::mirror, ui.input.edit.through[i]};
+    const Selection mirror = mirrorNode(*ui.input.edit.scene, ui.input.edit.through[i]);
     const std::string name = speculum::describe(*ui.input.edit.scene, mirror);
     continueRow(name.c_str());
     ImGui::PushID(static_cast<int>(i));  // a mirror may come twice

@@ -187,9 +187,9 @@ void header(PanelContext& ui) {
 void mirrorRow(PanelContext& ui, const MirrorPath& path) {
   ui.output.hoveredPath = path;
   // The path is that of the last frame; an edit may have removed mirrors since.
-  const bool exists = static_cast<size_t>(path.back()) < ui.input.edit.scene->mirrors.size();
+  const bool exists = static_cast<size_t>(path.back()) < ui.input.edit.scene->mirrorCount();
   if (exists && ImGui::IsMouseClicked(ImGuiMouseButton_Left)) {
-    ui.send(SelectNode{{Selection::Kind::mirror, path.back()}});
+    ui.send(SelectNode{mirrorNode(*ui.input.edit.scene, path.back())});
   }
 }
 

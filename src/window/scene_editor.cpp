@@ -330,7 +330,9 @@ std::filesystem::path SceneEditor::modelFile(const std::filesystem::path& model)
 void SceneEditor::modelsChanged() {
   models_.clear();
   for (const Mesh& mesh : document_.scene().meshes) {
-    models_.push_back(mesh.source);
+    if (std::ranges::find(models_, mesh.source) == models_.end()) {  // a model may be several meshes
+      models_.push_back(mesh.source);
+    }
   }
   const std::vector<std::filesystem::path> own = models_;
   std::error_code none;

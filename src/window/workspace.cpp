@@ -446,11 +446,11 @@ void Workspace::lookFromMirror(MirrorSide side) {
   if (mirror < 0) {
     return status_.set("The scene has no mirror to look from");
   }
-  const std::string name = describe(scene(), {Selection::Kind::mirror, mirror});
+  const std::string name = describe(scene(), mirrorNode(scene(), mirror));
   if (side == MirrorSide::front) {
     return status_.set("Looking out of " + name);
   }
-  const bool reflects = scene().mirrors[static_cast<size_t>(mirror)].twoSided;
+  const bool reflects = scene().mirror(static_cast<size_t>(mirror)).twoSided;
   status_.set(
       "Behind " + name +
       (reflects ? ", which reflects on both sides" : ". Its back does not reflect; Shift+B looks out of its front"));

@@ -228,7 +228,7 @@ TEST(MirrorsOfOnePlane, CutsAreLimited) {
   constexpr int strips = 300;
   Pass pass;
   SceneState state;
-  std::vector<ClipPolygon> polygons;
+  std::vector<std::vector<ClipPolygon>> polygons;
   for (int i = 0; i < 2 * strips; ++i) {
     const bool across = i >= strips;
     const double low = 2.0 * (i % strips) / strips - 1.0;
@@ -236,7 +236,7 @@ TEST(MirrorsOfOnePlane, CutsAreLimited) {
     const auto corner = [&](double along, double side) {
       return across ? glm::dvec4(side, along, 0.5, 1.0) : glm::dvec4(along, side, 0.5, 1.0);
     };
-    polygons.push_back({corner(-1, low), corner(1, low), corner(1, high), corner(-1, high)});
+    polygons.push_back({{corner(-1, low), corner(1, low), corner(1, high), corner(-1, high)}});
     state.mirrors.emplace_back().plane = 0;
     pass.mirrors.emplace_back().mirror = i;
     pass.mirrors.back().layer = across;

@@ -200,8 +200,9 @@ void expectQualityOfOneMirror(Drawn& drawn, const Settings& settings, const std:
   expectSame(drawn.drawWithQuality({asked.scale, asked.samples, asked.updateInterval, asked.method}, settings), usual,
              name + "_quality_of_all");
   const Image8 picture = drawn.drawWith(settings);
-  const auto seen =
-      std::ranges::find_if(drawn.plan.main().mirrors, [](const MirrorDraw& draw) { return draw.pass >= 0; });
+  const auto seen = std::ranges::find_if(drawn.plan.main().mirrors, [&](const MirrorDraw& draw) {
+    return draw.pass >= 0 && static_cast<size_t>(draw.mirror) < drawn.scene.mirrors.size();
+  });
   if (seen == drawn.plan.main().mirrors.end()) {
     return;
   }

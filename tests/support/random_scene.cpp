@@ -25,6 +25,7 @@ class Builder {
         shapes_(seed),
         qualities_(seed + 1'000'000),
         visibilities_(seed + 2'000'000),
+        panes_(seed + 3'000'000),
         seed_(seed),
         tidy(random.chance(0.4)),
         alike_(random.chance(0.3)),
@@ -86,6 +87,26 @@ class Builder {
       }
       out << visibility() << effect(0.15, "mirror = { reflectance = [0.9, 0.8, 0.7] }");
     }
+  }
+  // Adds, now and then, an object whose material says mirror: two panes, an L or a ring in one plane, and a smooth fold.
+  void panes(double reach) {
+    static constexpr std::array<const char*, 3> outlines{
+        "f 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n", "f 1 2 6 5\nf 1 5 8 4\n", "f 1 2 6 5\nf 3 4 8 7\n"};
+    if (!panes_.chance(0.4)) {
+      return;
+    }
+    const std::string file = "panes" + std::to_string(seed_);
+    writeModel(file + ".mtl", "newmtl m\nKd 0.3 0.2 0.1\nKs 0.9 0.7 0.8\nNs 800\nillum 3\n");
+    writeModel(file + ".obj", "mtllib " + file +
+                                  ".mtl\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nv -0.5 -0.4 0\nv 0.6 -0.4 0\n"
+                                  "v 0.6 0.5 0\nv -0.5 0.5 0\nv 1.6 0 0.5\nv 1.7 -1 -0.3\nusemtl m\n" +
+                                  panes_.pick(outlines) + (panes_.chance(0.5) ? "s 1\nf 2 9 3\nf 2 10 9\n" : ""));
+    const glm::dvec3 place = panes_.inBox(reach);
+    const glm::dvec3 angles = panes_.inBox(180.0);
+    const glm::dmat3 turn = glm::transpose(frame_) * rotationFromDegrees(angles);
+    out << "[[object]]\nmodel = \"" << file << ".obj\"\nposition = " << text(at(place)) << "\nrotation = " << text(angles)
+        << "\nscale = [" << (panes_.chance(0.3) ? -1 : 1) << ", 0.8, 1]\n";
+    planes_.push_back({place, place + turn[0], place + turn[1]});
   }
   void shape(const std::string& position, double scale) {
     const std::string file = "shape" + std::to_string(seed_) + "_" + std::to_string(shapes++) + ".obj";
@@ -185,6 +206,7 @@ class Builder {
   std::mt19937 shapes_;
   Random qualities_;  // of their own, so that a seed's scene is the same without them
   Random visibilities_;
+  Random panes_;
   unsigned seed_;
 
  public:
@@ -349,6 +371,7 @@ RandomScene randomScene(unsigned seed) {
           << ", ground = " << random.vec(0, 1) << " }\n";
   }
   const Sight sight = kind.build(b);
+  b.panes(1.0);
   for (int i = 0; i < 8; ++i) {
     const double moved = i == 0 ? 0.0 : 0.5;
     b.view(sight.eye + random.inBox(moved), sight.target + random.inBox(moved));

@@ -71,5 +71,62 @@ TEST(SmoothedAndColored, ShadowMapsKeepTheColors) {
   }
 }
 
+// A panel with a ring, two squares and a triangle as mirrors, and a smooth ball, turned about and inside out.
+std::filesystem::path dressingTable(const std::string& name, const std::string& keys, const std::string& rest) {
+  std::ofstream(sceneDirectory() / "dressing.mtl")
+      << "newmtl wood\nKd 0.6 0.4 0.2\nnewmtl mirror\nKd 0.3 0.3 0.2\nKs 0.8 0.9 0.7\nNs 1000\nillum 3\n";
+  std::ostringstream obj;
+  obj << "mtllib dressing.mtl\nv -2 -1 0\nv 1 -1 0\nv 1 2 0\nv -2 2 0\nv -1 0 0\nv 0 0 0\nv 0 1 0\nv -1 1 0\n"
+         "v 1.2 -1 0\nv 1.9 -1 0\nv 1.9 0 0\nv 1.2 0 0\nv 1.2 0.5 0.2\nv 2.2 0.5 0.9\nv 1.2 1.9 0.2\n"
+         "v -2 -1.2 0\nv 2 -1.2 0\nv 2 -1.2 2\nv -2 -1.2 2\nusemtl mirror\n"
+         "f 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\nf 9 10 11 12\nf 13 14 15\nusemtl wood\nf 19 18 17 16\n"
+         "usemtl mirror\ns 1\n";
+  constexpr int sides = 12;
+  for (int i = 0; i < sides; ++i) {
+    for (int j = 0; j <= sides / 2; ++j) {
+      const double a = glm::radians(360.0) * i / sides;
+      const double b = glm::radians(360.0) * j / sides;
+      obj << "v " << -0.5 + 0.45 * std::sin(b) * std::cos(a) << ' ' << -0.6 + 0.45 * std::cos(b) << ' '
+          << 1.2 + 0.45 * std::sin(b) * std::sin(a) << '\n';
+    }
+  }
+  constexpr int rows = sides / 2 + 1;
+  for (int i = 0; i < sides; ++i) {
+    for (int j = 0; j + 1 < rows; ++j) {
+      const auto corner = [&](int x, int y) { return " " + std::to_string(20 + x % sides * rows + y); };
+      obj << "f" << corner(i, j) << corner(i + 1, j) << corner(i + 1, j + 1) << corner(i, j + 1) << '\n';
+    }
+  }
+  writeModel("dressing.obj", obj.str());
+  return writeScene(name, R"([environment] background = [0.2, 0.3, 0.4], ambient = [0.3, 0.3, 0.3]
+[camera] position = [0.4, 0.9, 5], target = [0, 0.3, 0]
+[[object]] model = "dressing.obj", )" + keys + R"(
+[[object]] model = "MODELS/teapot.obj", position = [1, -0.6, 1.6], scale = 0.5
+[[object]] model = "MODELS/box.obj", position = [-0.5, 0.5, -0.8], scale = 0.4, color = [0.2, 0.7, 0.3]
+[[mirror]] position = [0, 0.5, 7], rotation = [0, 180, 0], size = [6, 5]
+)" + rest);
+}
+
+TEST(MirrorsFromMaterials, EqualTheTracer) {
+  const std::vector<std::filesystem::path> files{
+      dressingTable("dressing", "rotation = [0, 5, 0]", lamp),
+      dressingTable("dressing_shadows", "rotation = [0, 5, 0], scale = [-1, 1, 1]", shadowLamp),
+      dressingTable("dressing_behind", "rotation = [0, 165, 0]", shadowLamp),
+      dressingTable("dressing_copies", "scale = 0.5, copies = { count = 2, step = [1.2, 0.4, -0.6] }", lamp),
+      dressingTable("dressing_eye", "visible = \"eye\"", lamp),
+      dressingTable("dressing_rays", "rotation = [0, 5, 0]",
+                    shadowLamp + "[settings]\n\"reflection.method\" = \"rays\"\n")};
+  for (const std::filesystem::path& file : files) {
+    expectTruth(file, size, 3, trace(file, size, 3));
+  }
+}
+
+TEST(MirrorsFromMaterials, PiecesOfOnePlaneShareAnImage) {
+  const std::filesystem::path file = dressingTable("dressing_passes", "rotation = [0, 5, 0]", "");
+  Studio studio(truthOptions(file, size, 1));
+  studio.draw();
+  EXPECT_EQ(studio.plan.drawnMirrors().size(), 2u) << "ring and square in one plane, and the triangle";
+}
+
 }  // namespace
 }  // namespace speculum

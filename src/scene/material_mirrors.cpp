@@ -1,0 +1,316 @@
+#include "scene/material_mirrors.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <cmath>
+
+#include "geometry/bvh.hpp"
+#include "geometry/convex_mesh.hpp"
+#include "geometry/polygon.hpp"
+#include "platform/text.hpp"
+#include "scene/mesh_builder.hpp"
+#include "scene/scene_state.hpp"
+
+namespace speculum {
+
+namespace {
+
+// Bounds of the work on a model and of what it makes: flat triangles of a material, materials that make mirrors, planes,
+// and convex pieces of a material.
+constexpr size_t mostFlatTriangles = 1 << 16;
+constexpr size_t mostMaterials = 32;
+constexpr size_t mostPlanes = 32;
+constexpr size_t mostPieces = 256;
+// Bounds of what each frame places: copies of an object that materials cut, and planar mirrors of a scene.
+constexpr int mostCopies = 10'000;
+constexpr size_t mostPlanar = 1000;
+
+// Distance from a plane, in radii of the model, within which faces count as flat and in one plane.
+constexpr double flatness = 1e-5;
+
+struct TrianglePart {
+  Material material;
+  std::vector<uint32_t> indices;  // of the vertices of the mesh that is cut
+};
+
+// Says whether the triangle is shaded as a flat one.
+bool isFlat(const Mesh& mesh, const uint32_t* corners) {
+  const std::array<Vertex, 3> v{mesh.vertices[corners[0]], mesh.vertices[corners[1]], mesh.vertices[corners[2]]};
+  const glm::dvec3 normal =
+      glm::normalize(glm::cross(v[1].position - v[0].position, v[2].position - v[0].position));
+  return std::ranges::all_of(v, [&](const Vertex& a) { return std::abs(glm::dot(a.normal, normal)) > 1.0 - 1e-6; });
+}
+
+bool liesIn(const Plane& plane, double tolerance, std::span<const glm::dvec3> polygon) {
+  return glm::dot(plane.normal, newellVector(polygon)) > 0.9 * glm::length(newellVector(polygon)) &&
+         std::ranges::all_of(polygon, [&](const glm::dvec3& p) { return std::abs(plane.distance(p)) <= tolerance; });
+}
+
+bool contains(std::span<const glm::dvec3> polygon, const glm::dvec3& normal, const glm::dvec3& point) {
+  for (size_t i = 0; i < polygon.size(); ++i) {
+    const glm::dvec3 edge = polygon[(i + 1) % polygon.size()] - polygon[i];
+    const glm::dvec3 inward = glm::cross(normal, edge);
+    if (glm::dot(inward, point - polygon[i]) < -1e-9 * glm::dot(edge, edge)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+// A plane of a mirror's faces.
+struct FlatGroup {
+  Plane plane;
+  FlatMirror mirror;
+};
+
+void findOutline(FlatGroup& group) {
+  const glm::dvec3& normal = group.plane.normal;
+  const glm::dvec3 helper = std::abs(normal.x) < 0.5 ? glm::dvec3(1.0, 0.0, 0.0) : glm::dvec3(0.0, 1.0, 0.0);
+  const glm::dvec3 x = glm::normalize(glm::cross(helper, normal));
+  const glm::dvec3 y = glm::cross(normal, x);
+  std::vector<glm::dvec2> points;
+  double area = 0.0;
+  for (const std::vector<glm::dvec3>& piece : group.mirror.pieces) {
+    area += polygonArea(piece);
+    for (const glm::dvec3& p : piece) {
+      points.emplace_back(glm::dot(p - group.plane.point, x), glm::dot(p - group.plane.point, y));
+    }
+  }
+  for (const glm::dvec2& p : convexHull(std::move(points))) {
+    group.mirror.outline.push_back(group.plane.point + p.x * x + p.y * y);
+  }
+  group.mirror.convex = group.mirror.pieces.size() == 1 || area >= (1.0 - 1e-6) * polygonArea(group.mirror.outline);
+}
+
+// Joins flat triangles of a material to planar mirrors, the largest first. Leaves small ones out.
+std::vector<FlatGroup> flatGroups(const Mesh& mesh, const TrianglePart& flat, size_t most) {
+  std::vector<glm::dvec3> positions(mesh.vertices.size());
+  std::ranges::transform(mesh.vertices, positions.begin(), &Vertex::position);
+  const double tolerance = flatness * mesh.radius;
+  const double leastArea = 1e-4 * mesh.radius * mesh.radius;
+  std::vector<FlatGroup> groups;
+  for (std::vector<glm::dvec3>& face : convexFaces(positions, flat.indices, mostPieces, mostFlatTriangles)) {
+    auto group = std::ranges::find_if(groups, [&](const FlatGroup& g) { return liesIn(g.plane, tolerance, face); });
+    if (group == groups.end()) {
+      if (groups.size() == most || polygonArea(face) < leastArea) {
+        continue;
+      }
+      groups.push_back({.plane = {vertexMean(face), glm::normalize(newellVector(face))},
+                        .mirror = {.material = flat.material}});
+      group = groups.end() - 1;
+    }
+    for (glm::dvec3& p : face) {
+      p -= group->plane.distance(p) * group->plane.normal;
+    }
+    group->mirror.pieces.push_back(std::move(face));
+  }
+  std::ranges::for_each(groups, findOutline);
+  std::erase_if(groups, [](const FlatGroup& group) { return polygonDefect(group.mirror.outline).has_value(); });
+  return groups;
+}
+
+bool covers(const FlatGroup& group, double tolerance, std::span<const glm::dvec3> triangle) {
+  return liesIn(group.plane, 2.0 * tolerance, triangle) &&
+         std::ranges::any_of(group.mirror.pieces, [&](const std::vector<glm::dvec3>& piece) {
+           return contains(piece, group.plane.normal, vertexMean(triangle));
+         });
+}
+
+// Returns a mesh of these triangles, in the space of `mesh` and with its bounds.
+Mesh partOf(const Mesh& mesh, std::span<const TrianglePart> parts) {
+  Mesh part{.source = mesh.source,
+            .unit = mesh.unit,
+            .center = mesh.center,
+            .halfExtent = mesh.halfExtent,
+            .radius = mesh.radius};
+  std::vector<uint32_t> newIndex(mesh.vertices.size(), ~0u);
+  for (const TrianglePart& from : parts) {
+    part.parts.push_back({.firstIndex = static_cast<uint32_t>(part.indices.size()),
+                          .indexCount = static_cast<uint32_t>(from.indices.size()),
+                          .material = from.material});
+    for (const uint32_t index : from.indices) {
+      if (newIndex[index] == ~0u) {
+        newIndex[index] = static_cast<uint32_t>(part.vertices.size());
+        part.vertices.push_back(mesh.vertices[index]);
+        if (!mesh.colors.empty()) {
+          part.colors.push_back(mesh.colors[index]);
+        }
+      }
+      part.indices.push_back(newIndex[index]);
+    }
+  }
+  return part;
+}
+
+// Returns a curved mirror of these triangles, with bounds and an environment map of its own.
+Mesh curvedPart(const Mesh& mesh, const TrianglePart& triangles) {
+  Mesh part = partOf(mesh, {&triangles, 1});
+  Bounds box;
+  std::ranges::for_each(part.vertices, [&](const Vertex& vertex) { box.add(vertex.position); });
+  const glm::dvec3 moved = box.center();
+  part.center += part.unit * moved;
+  part.halfExtent = glm::dvec3(0.0);
+  part.radius = 0.0;
+  for (Vertex& vertex : part.vertices) {
+    vertex.position -= moved;
+    part.halfExtent = glm::max(part.halfExtent, glm::abs(vertex.position));
+    part.radius = std::max(part.radius, glm::length(vertex.position));
+  }
+  part.curvedMirror = true;
+  finishShape(part);
+  return part;
+}
+
+// Parts of a mesh before they have indices among the scene's meshes.
+struct Cut {
+  Mesh rest;
+  std::vector<FlatMirror> flat;
+  std::vector<Mesh> curved;
+  std::vector<Mesh> flatMeshes;
+};
+
+// Cuts the triangles of a material that says mirror into planar and curved mirrors.
+void cutMirror(const Mesh& mesh, const MeshPart& part, Cut& cut) {
+  TrianglePart flat{part.material, {}};
+  TrianglePart curved{part.material, {}};
+  const auto from = mesh.indices.begin() + part.firstIndex;
+  for (auto corner = from; corner != from + part.indexCount; corner += 3) {
+    std::vector<uint32_t>& list = isFlat(mesh, &*corner) ? flat.indices : curved.indices;
+    list.insert(list.end(), corner, corner + 3);
+  }
+  const std::vector<FlatGroup> groups = flatGroups(mesh, flat, mostPlanes - std::min(mostPlanes, cut.flat.size()));
+  TrianglePart planar{part.material, {}};
+  for (size_t i = 0; i < flat.indices.size(); i += 3) {
+    std::array<glm::dvec3, 3> triangle;
+    std::transform(&flat.indices[i], &flat.indices[i] + 3, triangle.begin(),
+                   [&](uint32_t index) { return mesh.vertices[index].position; });
+    const bool covered = std::ranges::any_of(
+        groups, [&](const FlatGroup& group) { return covers(group, flatness * mesh.radius, triangle); });
+    std::vector<uint32_t>& list = covered ? planar.indices : curved.indices;
+    list.insert(list.end(), &flat.indices[i], &flat.indices[i] + 3);
+  }
+  std::ranges::transform(groups, std::back_inserter(cut.flat), &FlatGroup::mirror);
+  if (!curved.indices.empty()) {
+    cut.curved.push_back(curvedPart(mesh, curved));
+  }
+  if (!planar.indices.empty()) {
+    cut.flatMeshes.push_back(curvedPart(mesh, planar));
+  }
+}
+
+Cut cutMesh(const Mesh& mesh) {
+  Cut cut;
+  std::vector<TrianglePart> rest;
+  size_t materials = 0;
+  const uint32_t usual = static_cast<uint32_t>(mesh.indices.size()) - 3 * mesh.repeats;
+  uint32_t repeats = 0;
+  for (const MeshPart& part : mesh.parts) {
+    if (part.material.mirror && ++materials <= mostMaterials) {
+      cutMirror(mesh, part, cut);
+      continue;
+    }
+    const auto first = mesh.indices.begin() + part.firstIndex;
+    rest.push_back({part.material, {first, first + part.indexCount}});
+    repeats += part.firstIndex >= usual ? part.indexCount / 3 : 0;
+  }
+  cut.rest = partOf(mesh, rest);
+  cut.rest.repeats = repeats;
+  finishShape(cut.rest);
+  return cut;
+}
+
+ObjectMirror mirrorOf(const Object& object, const Material& material) {
+  return {.reflectance = glm::clamp(object.specular.value_or(*material.mirror), 0.0, 1.0),
+          .baseColor = object.color.value_or(material.diffuse)};
+}
+
+std::string nameOf(const Scene& scene, const Object& object) {
+  return (object.name.empty() ? scene.meshes[object.mesh].source.stem().string() : object.name) + " mirror";
+}
+
+}  // namespace
+
+void cutMirrorParts(Scene& scene, size_t first) {
+  const size_t end = scene.meshes.size();
+  for (size_t i = first; i < end; ++i) {
+    if (std::ranges::none_of(scene.meshes[i].parts, [](const MeshPart& p) { return p.material.mirror.has_value(); })) {
+      continue;
+    }
+    Cut cut = cutMesh(scene.meshes[i]);
+    MirrorParts parts{.flat = std::move(cut.flat)};
+    const auto append = [&](Mesh& mesh) {
+      scene.meshes.push_back(std::move(mesh));
+      return static_cast<int>(scene.meshes.size()) - 1;
+    };
+    parts.rest = append(cut.rest);
+    std::ranges::transform(cut.curved, std::back_inserter(parts.curved), append);
+    std::ranges::transform(cut.flatMeshes, std::back_inserter(parts.flatMeshes), append);
+    scene.meshes[i].mirrorParts = std::move(parts);
+  }
+}
+
+bool makesMirrors(const Scene& scene, const Object& object) {
+  return object.mirrorsFromMaterials && !object.mirror && object.copies.count <= mostCopies && object.mesh >= 0 &&
+         scene.meshes[object.mesh].mirrorParts;
+}
+
+void placeMaterialMirrors(Scene& scene) {
+  scene.materialMirrors.clear();
+  for (size_t i = 0; i < scene.objects.size(); ++i) {
+    const Object& object = scene.objects[i];
+    if (!makesMirrors(scene, object) || object.visible != Visibility::everywhere) {
+      continue;
+    }
+    const std::vector<FlatMirror>& flat = scene.meshes[object.mesh].mirrorParts->flat;
+    const size_t count = flat.size() * static_cast<size_t>(object.copies.count);
+    if (scene.materialMirrors.size() + count > mostPlanar) {
+      continue;
+    }
+    for (size_t k = 0; k < count; ++k) {
+      const FlatMirror& from = flat[k % flat.size()];
+      const ObjectMirror optics = mirrorOf(object, from.material);
+      const std::string number = count > 1 ? " " + std::to_string(k) : "";
+      scene.materialMirrors.push_back({.mirror = {.name = nameOf(scene, object) + number,
+                                                  .spin = object.spin,
+                                                  .reflectance = optics.reflectance,
+                                                  .baseColor = optics.baseColor,
+                                                  .backColor = optics.baseColor},
+                                       .object = static_cast<int>(i),
+                                       .copy = static_cast<int>(k / flat.size()),
+                                       .flat = static_cast<int>(k % flat.size())});
+    }
+  }
+}
+
+void logMaterialMirrors(const Scene& scene) {
+  for (size_t i = 0; i < scene.meshes.size(); ++i) {
+    const Mesh& mesh = scene.meshes[i];
+    const bool used = std::ranges::any_of(scene.objects, [&](const Object& object) {
+      return object.mesh == static_cast<int>(i) && makesMirrors(scene, object);
+    });
+    if (used) {
+      spdlog::info(oneLine(fmt::format(
+          "{}: its materials make {} planar and {} curved mirrors (mirrors_from_materials = false: none)",
+          mesh.source.string(), mesh.mirrorParts->flat.size(), mesh.mirrorParts->curved.size())));
+    }
+  }
+}
+
+std::optional<ObjectMirror> curvedMirrorOf(const Scene& scene, const InstanceState& instance) {
+  const Mesh& mesh = scene.meshes[instance.mesh];
+  const Object& object = scene.objects[instance.object];
+  return mesh.curvedMirror ? mirrorOf(object, mesh.parts[0].material) : object.mirror;
+}
+
+bool hasCurvedMirrors(const Scene& scene) {
+  for (size_t i = 0; i < scene.objects.size(); ++i) {
+    bool curved = scene.objects[i].mirror.has_value();
+    forEachDrawnMesh(scene, static_cast<int>(i), [&](int mesh) { curved = curved || scene.meshes[mesh].curvedMirror; });
+    if (curved) {
+      return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace speculum
