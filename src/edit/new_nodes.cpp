@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtx/component_wise.hpp>
 #include <limits>
 
 #include "scene/scene_state.hpp"
@@ -98,6 +99,26 @@ Object newObject(const Scene& scene, int mesh, const glm::dvec3& position) {
   Object object{.name = model.source.stem().string(), .mesh = mesh};
   const glm::dvec3 center = modelTransform(object, 0.0) * model.center;
   object.position = position - center + glm::dvec3(0.0, halfExtent(object, model).y, 0.0);
+  return object;
+}
+
+bool liesOnBack(const Scene& scene, const Object& object) {
+  const Mesh& mesh = scene.meshes.at(object.mesh);
+  const glm::dvec3 low = mesh.center - mesh.unit * mesh.halfExtent;
+  const glm::dvec3 high = mesh.center + mesh.unit * mesh.halfExtent;
+  const double size = 2.0 * mesh.unit * glm::compMax(mesh.halfExtent);
+  return object.up == UpAxis::y && object.rotation == glm::dvec3(0.0) && std::abs(low.z) < 0.01 * size &&
+         high.z > 0.05 * size && low.y < -0.05 * size && high.y > 0.05 * size;
+}
+
+Object stoodUp(const Scene& scene, Object object) {
+  const Mesh& mesh = scene.meshes.at(object.mesh);
+  const auto foot = [&] {
+    return modelTransform(object, 0.0) * mesh.center - glm::dvec3(0.0, halfExtent(object, mesh).y, 0.0);
+  };
+  const glm::dvec3 before = foot();
+  object.up = UpAxis::z;
+  object.position += before - foot();
   return object;
 }
 

@@ -9,6 +9,7 @@
 #include <tuple>
 #include <utility>
 
+#include "edit/new_nodes.hpp"
 #include "ui/panels.hpp"
 #include "ui/pass_tree.hpp"
 
@@ -218,6 +219,9 @@ void selectedNode(PanelContext& ui) {
                LookFromMirror{MirrorSide::back});
     edited = mirrorQuality(ui, std::get<Mirror>(node).quality);
   }
+  if (edit.selected.kind == Selection::Kind::object) {
+    standUpButton(ui, edit.selected, "edit.stand_up");
+  }
   gizmoMode(ui);
   ImGui::PushItemWidth(-9.2f * ImGui::GetFontSize());
   edited = fieldRows(ui, node) || edited;
@@ -229,6 +233,16 @@ void selectedNode(PanelContext& ui) {
 }
 
 }  // namespace
+
+void standUpButton(PanelContext& ui, const Selection& object, const std::string& name) {
+  const Scene& scene = *ui.input.edit.scene;
+  const SceneNode node = nodeOf(scene, object);
+  if (const Object* lying = std::get_if<Object>(&node); lying && liesOnBack(scene, *lying)) {
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextUnformatted("It seems to lie on its back.");
+    nextButton(ui, "Stand it up", name, "Makes the model's Z axis point up.", EditNode{object, stoodUp(scene, *lying)});
+  }
+}
 
 void inspector(PanelContext& ui, PanelDock& dock) {
   if (!ui.state.choices.inspector) {

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "scene/model_formats.hpp"
 #include "settings/setting_fields.hpp"
 #include "ui/elide.hpp"
 
@@ -371,6 +372,9 @@ std::string duration(double ms) {
 
 void scene(PanelContext& ui) {
   sceneChoice(ui);
+  if (const Scene* opened = ui.input.edit.scene; opened && isModelFile(opened->file)) {
+    standUpButton(ui, {Selection::Kind::object, 0}, "scene.stand_up");
+  }
   cameraMode(ui);
   bookmarks(ui);
   timeControls(ui);

@@ -139,6 +139,9 @@ float statusHeight();  // least height of the status line, in pixels
 // wide as its text. Returns the line's height, in pixels; 0 if nothing is shown.
 float statusLine(const ShownStatus& status, float width, float right);
 
+// Offers to stand an object up that seems to lie on its back.
+void standUpButton(PanelContext& ui, const Selection& object, const std::string& name);
+
 // Call after each widget of a setting: records it, shows its tooltip, and adds a button at the line's end that resets
 // it to the scene's value if it differs. The button is recorded as "reset." and the key.
 void describe(PanelContext& ui, std::string_view key);
