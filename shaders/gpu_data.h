@@ -144,12 +144,15 @@ struct MirrorData {
   uint showsRipples;  // 1: ripples displace its image
   uint padding0;
   uint padding1;
+  // Coordinates of its reflectance map at the relative point p: (mapU.xyz.p + mapU.w, mapV.xyz.p + mapV.w).
+  vec4 mapU;
+  vec4 mapV;
 };
 
 // A mirror at a dynamic offset of a uniform buffer. No device requires offsets to be multiples of more than 256 bytes.
 struct MirrorBlock {
   MirrorData mirror;
-  vec4 padding[4];
+  vec4 padding[2];
 };
 
 // A curved mirror in one view, with the environment map that it looks up.
@@ -202,6 +205,7 @@ const uint constantAces = 21;
 const uint constantShrunk = 22;
 const uint constantSampled = 23;
 const uint constantVertexColors = 24;
+const uint constantMapped = 25;
 
 // Values of specialisation constants: texture of an object, number of lights, content of a mirror and lookup of its
 // image.
@@ -306,8 +310,12 @@ struct TraceMirror {
   uint hasRipple;
   uint plane;   // MirrorState::plane
   uint layers;  // MirrorState::frontLayer and, in the upper half, backLayer
+  vec4 mapBox;  // of its reflectance map: 1 / size, -low / size, along the axes
+  uint map;     // index into traceTextures; noMap: none
+  uint padding[3];
 };
-const uint traceMirrorTexelCount = 8;
+const uint traceMirrorTexelCount = 10;
+const uint noMap = 0xffffffffu;
 
 // A light's image in a mirror that casts light, in trace space.
 struct LightPath {
@@ -405,7 +413,7 @@ static_assert(offsetof(InstanceData, normalFromMesh) == 112 && offsetof(Instance
               sizeof(InstanceData) == 192);
 static_assert(offsetof(DrawConstants, handedness) == 28 && sizeof(DrawConstants) == 48);
 static_assert(offsetof(MirrorData, lookupScale) == 48 && offsetof(MirrorData, texelFromPixel) == 80 &&
-              offsetof(MirrorData, rippleOrigin) == 160 && sizeof(MirrorData) == 192 && sizeof(MirrorBlock) == 256);
+              offsetof(MirrorData, rippleOrigin) == 160 && sizeof(MirrorData) == 224 && sizeof(MirrorBlock) == 256);
 static_assert(offsetof(CurvedMirrorData, high) == 32 && sizeof(CurvedMirrorData) == 80);
 static_assert(offsetof(TraceTopNode, far) == 16 && sizeof(TraceTopNode) == 32 && sizeof(TraceNode) == 16);
 static_assert(offsetof(TraceTriangle, c) == 32 && sizeof(TraceTriangle) == 48 && sizeof(TraceFace) == 16);

@@ -19,7 +19,10 @@ layout(constant_id = constantColored) const bool colored = true;  // its back, o
 // The mirror is rippled, its image is that of a smooth mirror.
 layout(constant_id = constantRipples) const bool ripples = false;
 
+layout(constant_id = constantMapped) const bool mapped = false;  // a map multiplies its reflectance
+
 layout(set = 1, binding = 0) uniform MIRROR_IMAGE reflection;
+layout(set = 1, binding = 1) uniform sampler2D reflectanceMap;
 
 layout(location = 0) out vec4 color;
 
@@ -266,6 +269,15 @@ vec3 mirrorNormal(vec3 position) {
 }
 #endif
 
+// Returns the share by which the map multiplies the reflectance.
+vec3 mapShare(vec3 position) {
+  if (!mapped) {
+    return vec3(1.0);
+  }
+  vec2 uv = vec2(dot(mirror.mapU.xyz, position) + mirror.mapU.w, dot(mirror.mapV.xyz, position) + mirror.mapV.w);
+  return bilinearColor(reflectanceMap, withinBorder(uv, vec2(textureSize(reflectanceMap, 0))));
+}
+
 vec3 baseRadiance(vec3 position, vec3 normal) {
   if (!colored) {
     return vec3(0.0);
@@ -284,13 +296,14 @@ void main() {
   PlaneHit hit = planeHit(mirror.normal, mirror.eyeDistance, gl_FragCoord.xy);
 #ifdef MIRROR_OWN_SAMPLE
   float cosine = -hit.inward * inversesqrt(max(dot(hit.ray, hit.ray), 1e-30));
-  vec3 f = reflectanceAt(mirror.reflectance, mirror.schlick, cosine);
+  vec3 f = mapShare(hit.position) * reflectanceAt(mirror.reflectance, mirror.schlick, cosine);
   vec4 image = reprojects ? reprojected(hit.disparity) : reflected();
   color = storable(f * min(image.rgb, shareMax), image.a);
 #else
   vec3 normal = mirrorNormal(hit.position);
   float inward = ripples ? dot(normal, hit.ray) : hit.inward;
-  vec3 f = reflectanceAt(mirror.reflectance, mirror.schlick, -inward * inversesqrt(max(dot(hit.ray, hit.ray), 1e-30)));
+  float cosine = -inward * inversesqrt(max(dot(hit.ray, hit.ray), 1e-30));
+  vec3 f = mapShare(hit.position) * reflectanceAt(mirror.reflectance, mirror.schlick, cosine);
   vec3 base = baseRadiance(hit.position, normal);
   if (shows == showsBack) {
     color = storable(base, hit.disparity);

@@ -37,15 +37,6 @@ layout(location = 5) centroid in vec3 vertexColor;
 
 layout(location = 0) out vec4 color;
 
-vec3 bilinearLevel0(vec2 uv) {
-  BilinearTexels at = bilinearTexels(uv, textureSize(diffuseTexture, 0));
-  vec3 a = texelFetch(diffuseTexture, at.low, 0).rgb;
-  vec3 b = texelFetch(diffuseTexture, ivec2(at.high.x, at.low.y), 0).rgb;
-  vec3 c = texelFetch(diffuseTexture, ivec2(at.low.x, at.high.y), 0).rgb;
-  vec3 d = texelFetch(diffuseTexture, at.high, 0).rgb;
-  return mix(mix(a, b, at.weight.x), mix(c, d, at.weight.x), at.weight.y);
-}
-
 vec3 diffuseFactor() {
 #ifdef REPEATING
   uint index = instances[instanceIndex].repeats + draw.firstTriangle + uint(gl_PrimitiveID);
@@ -53,7 +44,7 @@ vec3 diffuseFactor() {
 #else
   vec2 uv = textureUv;
 #endif
-  return diffuseLookup == textureTrilinear ? texture(diffuseTexture, vec2(uv.x, 1.0 - uv.y)).rgb : bilinearLevel0(uv);
+  return diffuseLookup == textureTrilinear ? texture(diffuseTexture, vec2(uv.x, 1.0 - uv.y)).rgb : bilinearColor(diffuseTexture, uv);
 }
 
 #ifdef ENVIRONMENT

@@ -59,6 +59,19 @@ BilinearTexels bilinearTexels(vec2 uv, ivec2 size) {
   return BilinearTexels(low, high - size * ivec2(equal(high, size)), texel - corner);
 }
 
+// Returns the color of a texture's first level, interpolated bilinearly.
+vec3 bilinearColor(sampler2D image, vec2 uv) {
+  BilinearTexels at = bilinearTexels(uv, textureSize(image, 0));
+  vec3 a = texelFetch(image, at.low, 0).rgb;
+  vec3 b = texelFetch(image, ivec2(at.high.x, at.low.y), 0).rgb;
+  vec3 c = texelFetch(image, ivec2(at.low.x, at.high.y), 0).rgb;
+  vec3 d = texelFetch(image, at.high, 0).rgb;
+  return mix(mix(a, b, at.weight.x), mix(c, d, at.weight.x), at.weight.y);
+}
+
+// Keeps the coordinates of a texture that does not repeat from mixing its opposite borders.
+vec2 withinBorder(vec2 uv, vec2 size) { return clamp(uv, 0.5 / size, 1.0 - 0.5 / size); }
+
 // Largest height of a light above a surface that may be rounding, relative to the lengths from which the height is
 // computed. A light so low counts as in the surface's plane, or its side would change from pixel to pixel.
 const float leastHeight = 3e-7;

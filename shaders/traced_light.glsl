@@ -3,8 +3,20 @@
 layout(constant_id = constantShadows) const bool shadows = false;
 layout(constant_id = constantCastsLight) const bool castsLight = false;
 
-vec3 tracedMirrorReflectance(uint mirror, float cosine) {
-  return reflectanceAt(traceMirrors[mirror].reflectance, traceMirrors[mirror].schlick, cosine);
+vec3 textureColor(TraceTexture source, vec2 uv);
+
+// Returns the reflectance of a mirror at a point in trace space, with its map.
+vec3 tracedMirrorReflectance(uint mirror, vec3 tracePosition, float cosine) {
+  vec3 reflectance = reflectanceAt(traceMirrors[mirror].reflectance, traceMirrors[mirror].schlick, cosine);
+  uint map = traceMirrors[mirror].map;
+  if (map != noMap) {
+    TraceTexture source = traceTextures[map];
+    vec3 local = tracePosition - traceMirrors[mirror].origin;
+    vec2 along = vec2(dot(local, traceMirrors[mirror].axisX), dot(local, traceMirrors[mirror].axisY));
+    vec2 uv = along * traceMirrors[mirror].mapBox.xy + traceMirrors[mirror].mapBox.zw;
+    reflectance *= textureColor(source, withinBorder(uv, vec2(source.width, source.height)));
+  }
+  return reflectance;
 }
 
 // A light, or its image in a mirror, as it illuminates a point.
@@ -33,7 +45,8 @@ Incoming bouncedLight(LightPath path, vec3 tracePosition, Skip self) {
   vec3 toLight = path.image - tracePosition;
   float crossing = meetMirror(mirror, tracePosition, toLight);
   bool arrives = sameSide && self.plane != planeOf(mirror) && crossing > 0.0 && crossing < 1.0;
-  vec3 reflectance = tracedMirrorReflectance(mirror, abs(dot(normal, safeNormalize(toLight))));
+  vec3 reflectance = tracedMirrorReflectance(mirror, tracePosition + crossing * toLight,
+                                             abs(dot(normal, safeNormalize(toLight))));
   return Incoming(arrives, toLight, vec3(0.0), path.radius, path.irradiance * reflectance, path.castsShadow != 0, mirror,
                   crossing);
 }

@@ -41,7 +41,7 @@ Bounce mirrorBounce(uint mirror, vec3 tracePosition, vec3 direction, bool front,
   }
   vec3 normal = side * (ripples ? rippled(mirror, tracePosition) : traceMirrors[mirror].normal);
   bounce.surface = mirrorBase(position, normal, traceMirrors[mirror].baseColor, length(position));
-  bounce.reflectance = tracedMirrorReflectance(mirror, -dot(normal, direction));
+  bounce.reflectance = tracedMirrorReflectance(mirror, tracePosition, -dot(normal, direction));
   return bounce;
 }
 

@@ -299,7 +299,7 @@ fs::path SceneDocument::usualFile() const {
 
 std::string SceneDocument::text(const fs::path& file, std::span<const SettingChange> settings,
                                 ReadBack readBack) const {
-  return editedText(loaded_, content(), scene_.meshes, settings, file, readBack);
+  return editedText(loaded_, content(), scene_.meshes, scene_.textures, settings, file, readBack);
 }
 
 void SceneDocument::save(const fs::path& file, std::span<const SettingChange> settings, bool overwrite,
@@ -309,11 +309,13 @@ void SceneDocument::save(const fs::path& file, std::span<const SettingChange> se
     throw SaveError(oneLine(file.string() + ": not saved: it is the name of a model (name a file such as " +
                             fs::path(file).replace_extension(".toml").filename().string() + ")"));
   }
-  std::vector<fs::path> sources =
-      copiesModels ? copyModels(scene_, wholePath(file).parent_path()) : std::vector<fs::path>();
+  SourceFiles sources = copiesModels ? copyModels(scene_, wholePath(file).parent_path()) : SourceFiles();
   const auto exchangeSources = [&] {
-    for (size_t i = 0; i < sources.size(); ++i) {
-      std::swap(scene_.meshes[i].source, sources[i]);
+    for (size_t i = 0; i < sources.meshes.size(); ++i) {
+      std::swap(scene_.meshes[i].source, sources.meshes[i]);
+    }
+    for (size_t i = 0; i < sources.textures.size(); ++i) {
+      std::swap(scene_.textures[i].source, sources.textures[i]);
     }
   };
   std::string text;

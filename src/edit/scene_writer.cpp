@@ -46,6 +46,21 @@ void nameModels(const Scene& loaded, std::span<const Mesh> meshes, const fs::pat
   }
 }
 
+// Sets the maps' paths in the same way.
+void nameMaps(const Scene& loaded, std::span<const Texture> textures, const fs::path& file, SceneContent& content) {
+  const bool moved = withoutLinks(loaded.file).parent_path() != withoutLinks(file).parent_path();
+  for (Mirror& mirror : content.mirrors) {
+    if (mirror.map < 0) {
+      continue;
+    }
+    const fs::path& source = textures[mirror.map].source;
+    const fs::path before = mirror.reflectanceMap;
+    if ((moved && !before.is_absolute()) || !leadsTo(loaded.file.parent_path() / before, source)) {
+      mirror.reflectanceMap = pathFrom(file.parent_path(), source);
+    }
+  }
+}
+
 template <typename Field, typename Value>
 std::string textOf(const Field& field, const Value& value) {
   if constexpr (std::is_same_v<Value, glm::dvec3>) {
@@ -195,7 +210,7 @@ bool readsBack(const Scene& read, const SceneContent& content) {
 }
 
 void check(const fs::path& file, const std::string& text, const SceneContent& content, std::span<const Mesh> meshes,
-           const Settings& settings) {
+           std::span<const Texture> textures, const Settings& settings) {
   const std::string remedy = "undo the last changes; the file is as it was";
   try {
     const Scene read = parseScene(file, text);
@@ -205,12 +220,19 @@ void check(const fs::path& file, const std::string& text, const SceneContent& co
   } catch (const InputError& error) {
     refuse(file, "the scene is not one that can be read: " + std::string(error.what()), remedy);
   }
-  for (const Object& object : content.objects) {
+  const auto checkFound = [&](const std::string& kind, const fs::path& source, const std::string& name) {
     std::error_code error;
-    if (isFolder(wholePath(file).parent_path()) &&
-        !fs::equivalent(file.parent_path() / object.model, meshes[object.mesh].source, error)) {
-      refuse(file, "its model " + meshes[object.mesh].source.string() + " would not be found as '" + object.model + "'",
-             "put the model back, or save into another folder");
+    if (isFolder(wholePath(file).parent_path()) && !fs::equivalent(file.parent_path() / name, source, error)) {
+      refuse(file, "its " + kind + " " + source.string() + " would not be found as '" + name + "'",
+             "put the " + kind + " back, or save into another folder");
+    }
+  };
+  for (const Object& object : content.objects) {
+    checkFound("model", meshes[object.mesh].source, object.model);
+  }
+  for (const Mirror& mirror : content.mirrors) {
+    if (mirror.map >= 0) {
+      checkFound("map", textures[mirror.map].source, mirror.reflectanceMap);
     }
   }
 }
@@ -262,9 +284,23 @@ std::vector<size_t> modelsOutside(const Scene& scene, const fs::path& folder) {
   return meshes;
 }
 
-std::vector<fs::path> copyModels(const Scene& scene, const fs::path& folder) try {
-  std::vector<fs::path> sources;
+std::vector<size_t> mapsOutside(const Scene& scene, const fs::path& folder) {
+  const fs::path inside = withoutLinks(folder);
+  std::vector<size_t> maps;
+  for (size_t i = 0; i < scene.textures.size(); ++i) {
+    if (std::ranges::count(scene.mirrors, static_cast<int>(i), &Mirror::map) > 0 &&
+        !isBelow(withoutLinks(scene.textures[i].source), inside)) {
+      maps.push_back(i);
+    }
+  }
+  return maps;
+}
+
+SourceFiles copyModels(const Scene& scene, const fs::path& folder) try {
+  SourceFiles copied;
+  std::vector<fs::path>& sources = copied.meshes;
   std::ranges::transform(scene.meshes, std::back_inserter(sources), &Mesh::source);
+  std::ranges::transform(scene.textures, std::back_inserter(copied.textures), &Texture::source);
   for (const size_t i : modelsOutside(scene, folder)) {
     std::vector<fs::path> files{wholePath(sources[i]).lexically_normal()};
     fs::path root = files[0].parent_path();
@@ -276,15 +312,21 @@ std::vector<fs::path> copyModels(const Scene& scene, const fs::path& folder) try
     }
     sources[i] = copyTogether(files, root, folder);
   }
-  return sources;
+  for (const size_t i : mapsOutside(scene, folder)) {
+    const fs::path file = wholePath(copied.textures[i]).lexically_normal();
+    copied.textures[i] = withoutLinks(copyTogether({file}, file.parent_path(), folder));
+  }
+  return copied;
 } catch (const FileError& error) {
   throw SaveError("not saved: " + std::string(error.what()));
 }
 
 std::string editedText(const Scene& loaded, const SceneContent& edited, std::span<const Mesh> meshes,
-                       std::span<const SettingChange> settings, const fs::path& file, ReadBack readBack) {
+                       std::span<const Texture> textures, std::span<const SettingChange> settings, const fs::path& file,
+                       ReadBack readBack) {
   SceneContent content = edited;
   nameModels(loaded, meshes, file, content);
+  nameMaps(loaded, textures, file, content);
   Settings wanted = settingsOf(loaded);
   const Settings before = wanted;
   for (const SettingChange& change : settings) {
@@ -302,7 +344,7 @@ std::string editedText(const Scene& loaded, const SceneContent& edited, std::spa
   editList(editor, "bookmark", loaded.bookmarks, content.bookmarks, content.origins.bookmarks);
   std::string text = editor.text();
   if (readBack == ReadBack::required) {
-    check(file, text, content, meshes, wanted);
+    check(file, text, content, meshes, textures, wanted);
   }
   return text;
 }

@@ -21,20 +21,28 @@ class SaveError : public std::runtime_error {
 enum class ReadBack { required, untested };
 
 // Returns the scene file's text with edited content and changed settings; an empty value takes a setting's key out.
-// `loaded` has the original text and file, `meshes` the models of Object::mesh. Unchanged values keep their text,
-// comments and order; paths of models are relative to the folder of `file`. Throws SaveError if the text is required to
-// read back as exactly this content but would not.
+// `loaded` has the original text and file, `meshes` and `textures` those of Object::mesh and Mirror::map. Unchanged
+// values keep their text, comments and order; paths of models are relative to the folder of `file`. Throws SaveError if
+// the text is required to read back as exactly this content but would not.
 std::string editedText(const Scene& loaded, const SceneContent& content, std::span<const Mesh> meshes,
-                       std::span<const SettingChange> settings, const std::filesystem::path& file,
-                       ReadBack readBack = ReadBack::required);
+                       std::span<const Texture> textures, std::span<const SettingChange> settings,
+                       const std::filesystem::path& file, ReadBack readBack = ReadBack::required);
 
-// Returns the indices of the meshes that objects use and whose files lie neither in `folder` nor below.
+// Return the indices of the meshes that objects use, and of the textures that are maps of mirrors, whose files lie
+// neither in `folder` nor below.
 std::vector<size_t> modelsOutside(const Scene& scene, const std::filesystem::path& folder);
+std::vector<size_t> mapsOutside(const Scene& scene, const std::filesystem::path& folder);
 
-// Copies the models that modelsOutside() finds, with the materials and textures that they name by relative paths, to
-// `models` in the folder. Overwrites nothing: a model that would need that goes to `models-2` and so on. Returns the
-// files of all meshes. Throws SaveError.
-std::vector<std::filesystem::path> copyModels(const Scene& scene, const std::filesystem::path& folder);
+// Files of a scene's meshes and textures.
+struct SourceFiles {
+  std::vector<std::filesystem::path> meshes;
+  std::vector<std::filesystem::path> textures;
+};
+
+// Copies the models and maps that modelsOutside() and mapsOutside() find, models with the materials and textures that
+// they name by relative paths, to `models` in the folder. Overwrites nothing: a model that would need that goes to
+// `models-2` and so on. Returns the files of all meshes and textures. Throws SaveError.
+SourceFiles copyModels(const Scene& scene, const std::filesystem::path& folder);
 
 // Replaces the file by `text`, whole or not at all. Throws SaveError if that fails or, without `overwrite`, if there is
 // a file that does not hold `expected`; with no expected text, if there is any file.

@@ -24,7 +24,8 @@ struct Selection {
 // Describe nodes for users: "mirror 'floor'", "nothing" for none. Several nodes are "3 nodes".
 std::string describe(const Scene& scene, const Selection& selection);
 std::string describe(const Scene& scene, std::span<const Selection> nodes);
-// Returns the node that has a mirror, by the index of Scene::mirror(): the mirror, or the object whose material makes it.
+// Returns the node that has a mirror, by the index of Scene::mirror(): the mirror, or the object whose material makes
+// it.
 Selection mirrorNode(const Scene& scene, int mirror);
 std::vector<Selection> allNodes(const Scene& scene);  // mirrors, lights, objects: the order of the lists
 // Says whether both are one node, or copies of one object.

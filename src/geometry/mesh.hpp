@@ -15,6 +15,7 @@ namespace speculum {
 // Texels decoded to linear RGB, row 0 at the top of the picture (v = 1).
 struct Texture {
   std::filesystem::path source;  // without symbolic links
+  bool linear = false;           // the picture's values are linear, not sRGB
   int width = 0;
   int height = 0;
   std::vector<glm::vec3> texels;
@@ -26,11 +27,11 @@ Texture shrunk(const Texture& texture, int width, int height);
 // Phong-Blinn material, linear RGB; see docs/picture.md for the radiance it gives.
 struct Material {
   std::string name;
-  glm::dvec3 diffuse{0.6};   // Kd
-  glm::dvec3 specular{0.0};  // Ks
-  glm::dvec3 emission{0.0};  // Ke
-  double shininess = 1.0;    // Ns, >= 1
-  int diffuseTexture = -1;   // index into Scene::textures, -1: none
+  glm::dvec3 diffuse{0.6};           // Kd
+  glm::dvec3 specular{0.0};          // Ks
+  glm::dvec3 emission{0.0};          // Ke
+  double shininess = 1.0;            // Ns, >= 1
+  int diffuseTexture = -1;           // index into Scene::textures, -1: none
   std::optional<glm::dvec3> mirror;  // reflectance, 0 .. 1, of a material that says mirror
 };
 

@@ -35,9 +35,8 @@ Pass castersOf(Pass face, bool still, const Scene& scene, const SceneState& stat
   };
   std::erase_if(face.instances, isOther);
   std::erase_if(face.partial, [&](const PartialInstance& partial) { return isOther(partial.instance); });
-  std::erase_if(face.mirrors, [&](const MirrorDraw& draw) {
-    return spins(scene.mirror(static_cast<size_t>(draw.mirror))) == still;
-  });
+  std::erase_if(face.mirrors,
+                [&](const MirrorDraw& draw) { return spins(scene.mirror(static_cast<size_t>(draw.mirror))) == still; });
   return face;
 }
 

@@ -64,7 +64,12 @@ Effect textures(const Scene& scene, const SceneState& state, const Settings& set
       }
     }
   }
-  return {EffectKind::textures, "textures", false, "no visible object has one"};
+  for (const int i : visible.mirrorFronts) {
+    if (opticsOf(scene.mirror(i), settings.effects).map >= 0) {
+      return {EffectKind::textures, "textures", true, nameOf("mirror", scene.mirror(i).name, i)};
+    }
+  }
+  return {EffectKind::textures, "textures", false, "no visible object or mirror has one"};
 }
 
 Effect glyphs(const Scene& scene, const Visible& visible) {

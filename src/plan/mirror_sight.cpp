@@ -10,9 +10,9 @@ namespace {
 // Tracing this many samples takes about as long as rendering a pass on lavapipe (docs/scaling.md).
 constexpr double samplesOfAPass = 1500.0;
 
-// Returns the visible part of a polygon in a mirror's plane. If the polygon is so large that cuts near the eye would be off by a
-// part of the eye's height, the strip at the horizon is left out first and the rest is moved exactly into the mirror's
-// plane.
+// Returns the visible part of a polygon in a mirror's plane. If the polygon is so large that cuts near the eye would be
+// off by a part of the eye's height, the strip at the horizon is left out first and the rest is moved exactly into the
+// mirror's plane.
 Polygon visiblePart(const View& view, const MirrorState& mirror, std::span<const glm::dvec3> polygon, double height) {
   constexpr double large = 1e12;       // distance of a large mirror's farthest vertex, in heights of the eye
   constexpr double leastMetres = 1e9;  // smaller mirrors lose no strip at the horizon

@@ -47,7 +47,8 @@ void SceneChanges::update(const Scene& scene, const SceneState& state) {
   for (size_t i = 0; i < scene.mirrorCount(); ++i) {
     const MirrorState& placed = state.mirrors[i];
     ContentNumbers content;
-    content.addAll(placed.polygon, placed.origin, placed.normal, placed.axisX, placed.axisY, scene.mirror(i));
+    content.addAll(placed.polygon, placed.pieces, placed.origin, placed.normal, placed.axisX, placed.axisY,
+                   scene.mirror(i));
     note(content.take(), mirrors_[i]);
     any_ = std::max(any_, mirrors_[i].changed);
   }

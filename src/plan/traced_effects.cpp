@@ -17,8 +17,7 @@ bool isBlack(const glm::dvec3& color) {
 
 bool mayTrace(const Scene& scene, const Settings& settings) {
   return settings.reflection.method != ReflectionMethod::raster ||
-         std::ranges::any_of(scene.lights, &PointLight::castsShadow) ||
-         hasCurvedMirrors(scene) ||
+         std::ranges::any_of(scene.lights, &PointLight::castsShadow) || hasCurvedMirrors(scene) ||
          std::ranges::any_of(scene.mirrors, [](const Mirror& m) {
            return m.roughness > 0.0 || m.ripple || m.castsLight || m.quality.method;
          });

@@ -88,7 +88,8 @@ PathTracer::Bounce PathTracer::mirrorBounce(const Ray& ray, const SceneHit& hit)
                    .diffuse = optics.baseColor,
                    .self = {.mirror = hit.index}},
           .planeNormal = side * state.normal,
-          .reflectance = optics.reflectanceAt(-glm::dot(normal, ray.direction)),
+          .reflectance = mapShare(world_.scene(), mirror, state, position) *
+                         optics.reflectanceAt(-glm::dot(normal, ray.direction)),
           .alpha = optics.alpha,
           .t = hit.t};
 }

@@ -67,7 +67,8 @@ glm::dvec3 bouncedLight(const TraceWorld& world, const ShadingPoint& point, int 
     }
   }
   const double cosine = std::abs(glm::dot(plane.normal, safeNormalize(toImage)));
-  return opticsOf(material).reflectanceAt(cosine) * lightRadiance(point, toImage, source);
+  return mapShare(world.scene(), material, plane, leg.at(*crossing)) * opticsOf(material).reflectanceAt(cosine) *
+         lightRadiance(point, toImage, source);
 }
 
 glm::dvec3 directLight(const TraceWorld& world, const ShadingPoint& point, int light) {
@@ -111,6 +112,18 @@ void applyMaterial(const Scene& scene, const Object& object, const Material& mat
 }
 
 }  // namespace
+
+glm::dvec3 mapShare(const Scene& scene, const Mirror& mirror, const MirrorState& state, const glm::dvec3& position) {
+  if (mirror.map < 0) {
+    return glm::dvec3(1.0);
+  }
+  const Texture& map = scene.textures[mirror.map];
+  const MapBox box = mapBoxOf(state);
+  const glm::dvec3 local = position - state.origin;
+  const glm::dvec2 uv = (glm::dvec2(glm::dot(local, state.axisX), glm::dot(local, state.axisY)) - box.low) / box.size;
+  const glm::dvec2 edge = 0.5 / glm::dvec2(map.width, map.height);  // the outermost texels reach to the border
+  return textureColor(map, glm::clamp(uv, edge, 1.0 - edge));
+}
 
 glm::dvec3 mirrorNormal(const Mirror& mirror, const MirrorState& state, const glm::dvec3& position, double time) {
   if (!mirror.ripple || mirror.ripple->amplitude == 0.0) {

@@ -28,6 +28,10 @@ ShadingPoint objectPoint(const TraceWorld& world, const Ray& ray, const SceneHit
 // light, with shadows.
 glm::dvec3 surfaceRadiance(const TraceWorld& world, const ShadingPoint& point);
 
+// Returns the share by which the mirror's map multiplies its reflectance at a position relative to the eye; 1 without a
+// map.
+glm::dvec3 mapShare(const Scene& scene, const Mirror& mirror, const MirrorState& state, const glm::dvec3& position);
+
 // Returns the mirror's front normal at a world position relative to the eye: the normal of its plane or, with ripples,
 // of the height field, which is the same from both sides.
 glm::dvec3 mirrorNormal(const Mirror& mirror, const MirrorState& state, const glm::dvec3& position, double time);

@@ -37,7 +37,7 @@ void addValue(Fingerprint& fingerprint, const std::vector<T>& values);
 template <Described Node>
 void addValue(Fingerprint& fingerprint, const Node& node) {
   forEachField<Node>([&](const auto& field) {
-    if (field.use != FieldUse::label && field.key != "model") {
+    if (field.use != FieldUse::label && field.key != "model" && field.key != "reflectance_map") {
       addValue(fingerprint, node.*field.member);
     }
   });
@@ -97,6 +97,9 @@ void addScene(Fingerprint& fingerprint, const Scene& scene) {
   addValue(fingerprint, scene.mirrors);
   for (const Object& object : scene.objects) {
     fingerprint.add(object.mesh);
+  }
+  for (const Mirror& mirror : scene.mirrors) {
+    fingerprint.add(mirror.map);
   }
   for (const Mesh& mesh : scene.meshes) {
     addMesh(fingerprint, mesh);

@@ -2,7 +2,9 @@
 
 #include <spdlog/spdlog.h>
 
+#include <array>
 #include <cmath>
+#include <glm/gtx/component_wise.hpp>
 
 #include "geometry/bvh.hpp"
 #include "geometry/convex_mesh.hpp"
@@ -15,15 +17,22 @@ namespace speculum {
 
 namespace {
 
-// Bounds of the work on a model and of what it makes: flat triangles of a material, materials that make mirrors, planes,
-// and convex pieces of a material.
+// Bounds of the work on a model and of what it makes: flat triangles of a material, materials that make mirrors,
+// planes, and convex pieces of a material.
 constexpr size_t mostFlatTriangles = 1 << 16;
 constexpr size_t mostMaterials = 32;
 constexpr size_t mostPlanes = 32;
 constexpr size_t mostPieces = 256;
+constexpr size_t mostVertices = 1000;  // of a piece or an outline, as of a mirror in a file
 // Bounds of what each frame places: copies of an object that materials cut, and planar mirrors of a scene.
 constexpr int mostCopies = 10'000;
 constexpr size_t mostPlanar = 1000;
+
+// Metres, of objects whose parts become mirrors, and the distance from the origin in radii of the smallest extent:
+// rounding leaves their polygons flat and convex.
+constexpr double largestExtent = 1e15;
+constexpr double smallestExtent = 1e-12;
+constexpr double farthest = 1e8;
 
 // Distance from a plane, in radii of the model, within which faces count as flat and in one plane.
 constexpr double flatness = 1e-5;
@@ -36,8 +45,7 @@ struct TrianglePart {
 // Says whether the triangle is shaded as a flat one.
 bool isFlat(const Mesh& mesh, const uint32_t* corners) {
   const std::array<Vertex, 3> v{mesh.vertices[corners[0]], mesh.vertices[corners[1]], mesh.vertices[corners[2]]};
-  const glm::dvec3 normal =
-      glm::normalize(glm::cross(v[1].position - v[0].position, v[2].position - v[0].position));
+  const glm::dvec3 normal = glm::normalize(glm::cross(v[1].position - v[0].position, v[2].position - v[0].position));
   return std::ranges::all_of(v, [&](const Vertex& a) { return std::abs(glm::dot(a.normal, normal)) > 1.0 - 1e-6; });
 }
 
@@ -95,8 +103,8 @@ std::vector<FlatGroup> flatGroups(const Mesh& mesh, const TrianglePart& flat, si
       if (groups.size() == most || polygonArea(face) < leastArea) {
         continue;
       }
-      groups.push_back({.plane = {vertexMean(face), glm::normalize(newellVector(face))},
-                        .mirror = {.material = flat.material}});
+      groups.push_back(
+          {.plane = {vertexMean(face), glm::normalize(newellVector(face))}, .mirror = {.material = flat.material}});
       group = groups.end() - 1;
     }
     for (glm::dvec3& p : face) {
@@ -105,7 +113,11 @@ std::vector<FlatGroup> flatGroups(const Mesh& mesh, const TrianglePart& flat, si
     group->mirror.pieces.push_back(std::move(face));
   }
   std::ranges::for_each(groups, findOutline);
-  std::erase_if(groups, [](const FlatGroup& group) { return polygonDefect(group.mirror.outline).has_value(); });
+  std::erase_if(groups, [](const FlatGroup& group) {
+    const auto isLong = [](const std::vector<glm::dvec3>& polygon) { return polygon.size() > mostVertices; };
+    return polygonDefect(group.mirror.outline).has_value() || isLong(group.mirror.outline) ||
+           std::ranges::any_of(group.mirror.pieces, isLong);
+  });
   return groups;
 }
 
@@ -250,8 +262,17 @@ void cutMirrorParts(Scene& scene, size_t first) {
 }
 
 bool makesMirrors(const Scene& scene, const Object& object) {
-  return object.mirrorsFromMaterials && !object.mirror && object.copies.count <= mostCopies && object.mesh >= 0 &&
-         scene.meshes[object.mesh].mirrorParts;
+  if (!object.mirrorsFromMaterials || object.mirror || object.copies.count > mostCopies || object.mesh < 0 ||
+      !scene.meshes[object.mesh].mirrorParts) {
+    return false;
+  }
+  const Mesh& mesh = scene.meshes[object.mesh];
+  const glm::dvec3 scale = glm::abs(object.scale);
+  const double middle = glm::compMax(scale) * glm::length(mesh.center);
+  const double largest = glm::compMax(scale) * mesh.radius * mesh.unit;
+  const double smallest = glm::compMin(scale) * mesh.radius * mesh.unit;
+  const double away = glm::length(object.position) + object.copies.count * glm::length(object.copies.step) + middle;
+  return middle + largest <= largestExtent && smallest >= smallestExtent && away <= farthest * smallest;
 }
 
 void placeMaterialMirrors(Scene& scene) {
@@ -289,9 +310,9 @@ void logMaterialMirrors(const Scene& scene) {
       return object.mesh == static_cast<int>(i) && makesMirrors(scene, object);
     });
     if (used) {
-      spdlog::info(oneLine(fmt::format(
-          "{}: its materials make {} planar and {} curved mirrors (mirrors_from_materials = false: none)",
-          mesh.source.string(), mesh.mirrorParts->flat.size(), mesh.mirrorParts->curved.size())));
+      spdlog::info(oneLine(
+          fmt::format("{}: its materials make {} planar and {} curved mirrors (mirrors_from_materials = false: none)",
+                      mesh.source.string(), mesh.mirrorParts->flat.size(), mesh.mirrorParts->curved.size())));
     }
   }
 }

@@ -25,8 +25,8 @@ void logMaterialMirrors(const Scene& scene);
 // Says whether materials make mirrors of parts of the object.
 bool makesMirrors(const Scene& scene, const Object& object);
 
-// Calls visit(mesh) with the indices of the meshes that draw an object: its model, or the parts that it is cut into. The
-// first has the bounds of the whole model.
+// Calls visit(mesh) with the indices of the meshes that draw an object: its model, or the parts that it is cut into.
+// The first has the bounds of the whole model.
 template <typename Visit>
 void forEachDrawnMesh(const Scene& scene, int object, const Visit& visit) {
   const int mesh = scene.objects[object].mesh;

@@ -180,7 +180,7 @@ class ObjMaterials::MtlReader {
     entry_->opaque = !(from.dissolve < 1.0) && from.alpha_texname.empty();
     entry_->metal = from.metallic;
     entry_->roughness = std::exchange(hasRoughness_, false) ? from.roughness : roughnessOf(material.shininess);
-    if (from.illum >= 3 && glm::compMax(material.specular) >= 0.5 && from.shininess >= 500.0 && entry_->opaque) {
+    if (from.illum >= 3 && glm::compMax(material.specular) >= 0.5 && from.shininess >= 500.0) {
       material.mirror = glm::min(material.specular, 1.0);
     }
     entry_->diffuseTexture = from.diffuse_texname;
@@ -278,6 +278,9 @@ Material ObjMaterials::material(int index, bool colored, std::vector<Texture>& t
     const glm::dvec3 mean =
         material.diffuseTexture < 0 ? glm::dvec3(1.0) : meanColor(textures[material.diffuseTexture]);
     setMetalRoughness(material, material.diffuse, entry.metal, entry.roughness, mean);
+  }
+  if (!entry.opaque) {
+    material.mirror.reset();
   }
   if (!entry.emissionTexture.empty()) {
     applyEmissionTexture(entry, material);

@@ -151,6 +151,8 @@ struct Mirror {
   std::vector<glm::dvec3> polygon;  // world; empty when position, rotation, size are used
   glm::dvec3 reflectance{0.95};
   Fresnel fresnel = Fresnel::none;
+  std::string reflectanceMap;  // path as it stands in the scene file; empty: none
+  int map = -1;                // its index into Scene::textures
   glm::dvec3 baseColor{0.0};
   double roughness = 0.0;
   std::optional<Ripple> ripple;
@@ -171,9 +173,10 @@ struct MirrorOptics {
   bool twoSided = false;
   double alpha = 0.0;  // width of the GGX distribution of microfacet normals; 0: smooth
   std::optional<Ripple> ripple;
+  int map = -1;  // index into Scene::textures of the picture that multiplies the reflectance; -1: none
 
-  // Returns the reflectance for `cosine`, the cosine of the angle between normal and viewer: the same at every angle
-  // or, with Fresnel, by Schlick, "An Inexpensive BRDF Model for Physically-based Rendering" (1994).
+  // Returns the reflectance, without the map, for `cosine`, the cosine of the angle between normal and viewer: the same
+  // at every angle or, with Fresnel, by Schlick, "An Inexpensive BRDF Model for Physically-based Rendering" (1994).
   glm::dvec3 reflectanceAt(double cosine) const;
 };
 MirrorOptics opticsOf(const Mirror& mirror);

@@ -214,6 +214,8 @@ inline const auto fieldsOf<Mirror> = std::tuple{
     field(&Mirror::reflectance, "reflectance", "share of light reflected, the tint; with Fresnel at normal incidence",
           {.label = "Reflectance (tint)", .range = unitRange, .color = true}),
     field(&Mirror::fresnel, "fresnel", "schlick: more at grazing angles"),
+    field(&Mirror::reflectanceMap, "reflectance_map", "PNG over the mirror that multiplies the reflectance; not sRGB",
+          {.shown = [](const Mirror&) { return false; }}),
     field(&Mirror::baseColor, "base_color", "diffuse layer under the reflection",
           {.label = "Diffuse color", .range = surfaceColorRange, .color = true}),
     field(&Mirror::twoSided, "two_sided", "reflects on its back too"),
@@ -254,7 +256,8 @@ struct IsOptional<std::optional<T>> : std::true_type {};
 // Calls `visit` with each Field of the type `Node`.
 template <Described Node, typename Visitor>
 void forEachField(const Visitor& visit) {
-  constexpr size_t withoutField = std::is_same_v<Node, Object> ? 1 : 0;  // Object::mesh stands for the model
+  // Object::mesh stands for the model, Mirror::map for the reflectance map.
+  constexpr size_t withoutField = std::is_same_v<Node, Object> || std::is_same_v<Node, Mirror> ? 1 : 0;
   static_assert(fieldCount<Node> + withoutField == memberCount<Node>(), "a member is missing in fieldsOf");
   std::apply([&](const auto&... field) { (visit(field), ...); }, fieldsOf<Node>);
 }

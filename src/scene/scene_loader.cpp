@@ -19,6 +19,7 @@
 #include "scene/model_formats.hpp"
 #include "scene/scene_sections.hpp"
 #include "scene/text_lines.hpp"
+#include "scene/textures.hpp"
 #include "scene/toml_file.hpp"
 #include "scene/toml_text.hpp"
 
@@ -28,7 +29,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Returns the file of a model's path in a scene file.
+// Returns the file of a path in a scene file.
 fs::path modelFile(const fs::path& scene, const std::string& model) {
   const fs::path named = scene.parent_path() / model;
   fs::path file = named.lexically_normal();
@@ -89,6 +90,23 @@ int meshIndex(const TableReader& object, Scene& scene, std::map<std::string, int
     scene.meshes.push_back(loadModel(file, scene.textures, progress.ofOne(file)));
   }
   return entry->second;
+}
+
+// Reads the reflectance maps of the file's mirrors.
+void addMaps(const TableReader& reader, Scene& scene) {
+  size_t index = 0;
+  for (const TableReader& table : reader.tables("mirror", keysOf<Mirror>())) {
+    Mirror& mirror = scene.mirrors[index++];
+    if (mirror.reflectanceMap.empty()) {
+      continue;
+    }
+    const fs::path file = modelFile(scene.file, mirror.reflectanceMap);
+    try {
+      mirror.map = linearTextureIndex(file, scene.textures);
+    } catch (const FileError& error) {
+      table.fail("reflectance_map", error.what(), "name a PNG or JPEG file, relative to the scene file");
+    }
+  }
 }
 
 // Bounds the memory that copies take in every frame.
@@ -239,6 +257,7 @@ Scene loadScene(const fs::path& file, const LoadProgress& progress) {
       table.fail("scale", "makes the model too large", *remedy);
     }
   }
+  addMaps(reader, scene);
   addMaterialMirrors(scene);
   return scene;
 }
@@ -283,6 +302,12 @@ std::set<fs::path> filesNamedBy(const fs::path& file) {
   }
   for (const fs::path& model : models) {
     addModelFiles(model, files);
+  }
+  for (size_t i = 0; root["mirror"][i]; ++i) {
+    const fs::path map = modelFile(file, root["mirror"][i]["reflectance_map"].value_or(std::string()));
+    if (isFile(map)) {
+      files.insert(map);
+    }
   }
   return files;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtx/component_wise.hpp>
+#include <limits>
 #include <stdexcept>
 #include <vector>
 
@@ -90,7 +91,8 @@ MirrorState placedMirror(const Scene& scene, const MaterialMirror& made, double 
   const Mesh& mesh = scene.meshes[object.mesh];
   const FlatMirror& flat = mesh.mirrorParts->flat[made.flat];
   const glm::dmat3 linear = modelTransform(object, time);
-  const glm::dvec3 offset = object.position + static_cast<double>(made.copy) * object.copies.step + linear * mesh.center;
+  const glm::dvec3 offset =
+      object.position + static_cast<double>(made.copy) * object.copies.step + linear * mesh.center;
   const auto placed = [&](const std::vector<glm::dvec3>& polygon) {
     std::vector<glm::dvec3> points;
     for (const glm::dvec3& p : polygon) {
@@ -241,7 +243,8 @@ MirrorOptics opticsOf(const Mirror& mirror) {
           .backColor = mirror.backColor,
           .twoSided = mirror.twoSided,
           .alpha = mirror.roughness * mirror.roughness,
-          .ripple = mirror.ripple};
+          .ripple = mirror.ripple,
+          .map = mirror.map};
 }
 
 MirrorOptics opticsOf(const ObjectMirror& mirror) {
@@ -274,6 +277,17 @@ CameraPose lookAt(const glm::dvec3& eye, const glm::dvec3& target, const glm::dv
   return poseAlong(eye, forward, up, verticalFovDegrees, near);
 }
 
+MapBox mapBoxOf(const MirrorState& mirror) {
+  glm::dvec2 low(std::numeric_limits<double>::infinity());
+  glm::dvec2 high = -low;
+  for (const glm::dvec3& p : mirror.polygon) {
+    const glm::dvec2 local(glm::dot(p - mirror.origin, mirror.axisX), glm::dot(p - mirror.origin, mirror.axisY));
+    low = glm::min(low, local);
+    high = glm::max(high, local);
+  }
+  return {low, high - low};
+}
+
 glm::dmat3 modelTransform(const Object& object, double time) {
   const glm::dmat3 turn = rotationFromDegrees(object.rotation + spunBy(object.spin, time));
   const glm::dmat3 scaled(turn[0] * object.scale.x, turn[1] * object.scale.y, turn[2] * object.scale.z);
@@ -283,9 +297,8 @@ glm::dmat3 modelTransform(const Object& object, double time) {
 SceneState evaluate(const Scene& scene, double timeSeconds) {
   SceneState state{.time = timeSeconds, .camera = cameraPose(scene.camera, timeSeconds)};
   for (size_t i = 0; i < scene.objects.size(); ++i) {
-    forEachDrawnMesh(scene, static_cast<int>(i), [&](int mesh) {
-      addInstances(scene, static_cast<int>(i), mesh, timeSeconds, state.instances);
-    });
+    forEachDrawnMesh(scene, static_cast<int>(i),
+                     [&](int mesh) { addInstances(scene, static_cast<int>(i), mesh, timeSeconds, state.instances); });
   }
   std::ranges::stable_sort(state.instances,
                            [](const InstanceState& a, const InstanceState& b) { return a.mesh < b.mesh; });

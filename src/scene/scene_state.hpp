@@ -55,10 +55,10 @@ struct LightState {
 };
 
 struct MirrorState {
-  std::vector<glm::dvec3> polygon;   // world, counter-clockwise seen from the front
+  std::vector<glm::dvec3> polygon;  // world, counter-clockwise seen from the front
   // Convex pieces of the mirror, if it is not convex; `polygon` is their hull then.
   std::vector<std::vector<glm::dvec3>> pieces;
-  int firstPiece = 0;  // number of the pieces of all mirrors before this one
+  int firstPiece = 0;                // number of the pieces of all mirrors before this one
   glm::dvec3 origin{0.0};            // local (0, 0): the centre, or a polygon's first vertex
   glm::dvec3 normal{0.0, 0.0, 1.0};  // world, unit, to the front
   glm::dvec3 axisX{1.0, 0.0, 0.0};   // world, unit; for ripples
@@ -75,13 +75,21 @@ struct MirrorState {
   const std::vector<glm::dvec3>& piece(size_t i) const { return pieces.empty() ? polygon : pieces[i]; }
 };
 
+// Returns the box around the mirror along its axes X and Y, metres from its origin. A reflectance map covers it.
+struct MapBox {
+  glm::dvec2 low;
+  glm::dvec2 size;
+};
+MapBox mapBoxOf(const MirrorState& mirror);
+
 struct SceneState {
   double time = 0.0;  // seconds
   CameraPose camera;
-  // Sorted by mesh, then object, then copy. An object whose materials make mirrors has an instance of each of its parts.
+  // Sorted by mesh, then object, then copy. An object whose materials make mirrors has an instance of each of its
+  // parts.
   std::vector<InstanceState> instances;
-  std::vector<LightState> lights;        // parallel to Scene::lights
-  std::vector<MirrorState> mirrors;      // by the index of Scene::mirror()
+  std::vector<LightState> lights;    // parallel to Scene::lights
+  std::vector<MirrorState> mirrors;  // by the index of Scene::mirror()
 };
 
 // Places the scene's nodes at a time. Angles are reduced in double, so that 1e6 s of animation are as exact as one

@@ -3,7 +3,6 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
 #include <span>
@@ -18,12 +17,14 @@ namespace fs = std::filesystem;
 
 namespace {
 
-Texture textureOf(const Image8& image, const fs::path& source) {
-  const std::array<float, 256>& linear = srgbDecoded();
-  Texture texture{.source = source, .width = image.width, .height = image.height};
+Texture textureOf(const Image8& image, const fs::path& source, bool linear) {
+  Texture texture{.source = source, .linear = linear, .width = image.width, .height = image.height};
   texture.texels.reserve(image.rgba.size() / 4);
+  const auto decoded = [&](uint8_t value) {
+    return linear ? static_cast<float>(value) / 255.0f : srgbDecoded()[value];
+  };
   for (size_t i = 0; i < image.rgba.size(); i += 4) {
-    texture.texels.emplace_back(linear[image.rgba[i]], linear[image.rgba[i + 1]], linear[image.rgba[i + 2]]);
+    texture.texels.emplace_back(decoded(image.rgba[i]), decoded(image.rgba[i + 1]), decoded(image.rgba[i + 2]));
   }
   return texture;
 }
@@ -55,12 +56,13 @@ Texture bounded(Texture texture, double most) {
   return small;
 }
 
-int indexOf(const fs::path& source, const std::function<Image8()>& read, std::vector<Texture>& textures) {
-  const auto known = std::ranges::find_if(
-      textures, [&](const Texture& texture) { return texture.source.native() == source.native(); });
+int indexOf(const fs::path& source, bool linear, const std::function<Image8()>& read, std::vector<Texture>& textures) {
+  const auto known = std::ranges::find_if(textures, [&](const Texture& texture) {
+    return texture.source.native() == source.native() && texture.linear == linear;
+  });
   const auto index = static_cast<int>(known - textures.begin());
   if (known == textures.end()) {
-    textures.push_back(bounded(textureOf(read(), source), mostPixels(textures)));
+    textures.push_back(bounded(textureOf(read(), source, linear), mostPixels(textures)));
   }
   return index;
 }
@@ -69,12 +71,17 @@ int indexOf(const fs::path& source, const std::function<Image8()>& read, std::ve
 
 int textureIndex(const fs::path& file, std::vector<Texture>& textures) {
   return indexOf(
-      withoutLinks(file), [&] { return readTexture(file); }, textures);
+      withoutLinks(file), false, [&] { return readTexture(file); }, textures);
+}
+
+int linearTextureIndex(const fs::path& file, std::vector<Texture>& textures) {
+  return indexOf(
+      withoutLinks(file), true, [&] { return readImage8(file); }, textures);
 }
 
 int textureIndex(const fs::path& source, const std::vector<uint8_t>& picture, std::vector<Texture>& textures) {
   return indexOf(
-      source, [&] { return decodeTexture(source, picture); }, textures);
+      source, false, [&] { return decodeTexture(source, picture); }, textures);
 }
 
 }  // namespace speculum

@@ -14,5 +14,7 @@ int textureIndex(const std::filesystem::path& file, std::vector<Texture>& textur
 // Does the same for the content of a picture that stands in another file; `source` names it.
 int textureIndex(const std::filesystem::path& source, const std::vector<uint8_t>& picture,
                  std::vector<Texture>& textures);
+// Does the same for a picture file whose values are linear shares, 0 .. 1.
+int linearTextureIndex(const std::filesystem::path& file, std::vector<Texture>& textures);
 
 }  // namespace speculum

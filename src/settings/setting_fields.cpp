@@ -231,7 +231,7 @@ constexpr SettingField fields[] = {
             "Costs nothing; without it they seem infinitely far.", {.needs = environmentMaps}),
     setting("effects.fresnel", BooleanSetting{at<&E::fresnel>}, "Fresnel",
             "mirrors that reflect more at grazing angles", "Costs next to nothing."),
-    setting("effects.textures", BooleanSetting{at<&E::textures>}, "Textures", "textures of objects",
+    setting("effects.textures", BooleanSetting{at<&E::textures>}, "Textures", "textures of objects and maps of mirrors",
             "Takes memory for all while one is in view."),
     setting("effects.glyphs", BooleanSetting{at<&E::glyphs>}, "Glowing lights", "spheres of lights that glow",
             "One draw a pass."),

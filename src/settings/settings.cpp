@@ -162,6 +162,7 @@ MirrorOptics withEffects(MirrorOptics optics, const EffectSettings& effects) {
   optics.fresnel = effects.fresnel ? optics.fresnel : Fresnel::none;
   optics.alpha = effects.roughness ? optics.alpha : 0.0;
   optics.ripple = effects.ripple ? optics.ripple : std::nullopt;
+  optics.map = effects.textures ? optics.map : -1;
   return optics;
 }
 

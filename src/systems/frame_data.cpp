@@ -221,9 +221,7 @@ void FrameData::addInstances(const Source& source, const Pass& pass, const glm::
   const Scene& scene = source.scene;
   const SceneState& state = source.state;
   const EffectSettings& effects = source.settings.effects;
-  const auto isCurved = [&](int i) {
-    return effects.curved && curvedMirrorOf(scene, state.instances[i]).has_value();
-  };
+  const auto isCurved = [&](int i) { return effects.curved && curvedMirrorOf(scene, state.instances[i]).has_value(); };
   std::vector<int> order = frontToBack(pass.view, pass.instances, state);
   // Instances of a mesh that look alike share a draw, those that are curved mirrors another one. Each instance that is
   // seen in part has a draw of its own.
@@ -315,6 +313,7 @@ void FrameData::addMirrors(const Source& source, const Pass& pass, const glm::dm
                       .rippled = ripples || (draw.byRays && optics.ripple),
                       .rough = draw.blurs || (draw.byRays && optics.alpha > 0.0),
                       .fresnel = !draw.back && optics.fresnel == Fresnel::schlick,
+                      .map = draw.back ? -1 : optics.map,
                       .base = optics.baseColor != glm::dvec3(0.0)};
     range.shows = draw.back ? MirrorShows::back : image ? MirrorShows::image : MirrorShows::background;
     range.colored = draw.back ? optics.backColor != glm::dvec3(0.0) : range.base;

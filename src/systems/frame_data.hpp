@@ -55,6 +55,7 @@ struct MirrorRange {
   bool rippled = false;           // it shows ripples, by displacing its image or by rays
   bool rough = false;             // it shows roughness, by blurring its image or by rays
   bool fresnel = false;           // its reflectance depends on the angle of incidence
+  int map = -1;                   // index into Scene::textures of its reflectance map; -1: none
   bool base = false;              // its base is not black
   bool colored = false;           // the base, or the back if that is seen, is not black
 };

@@ -184,6 +184,15 @@ gpu::MirrorData mirrorData(const MirrorDraw& draw, const MirrorOptics& optics, c
           row(draw.cached->texelFromPixel, r, draw.cached->texelFromDisparity[r] / gpu::disparityLength);
     }
   }
+  if (optics.map >= 0) {
+    const MirrorState& placed = state.mirrors[draw.mirror];
+    const MapBox box = mapBoxOf(placed);
+    const auto coordinate = [&](const glm::dvec3& axis, double low, double size) {
+      return glm::vec4(glm::dvec4(axis / size, (glm::dot(view.eye - placed.origin, axis) - low) / size));
+    };
+    data.mapU = coordinate(placed.axisX, box.low.x, box.size.x);
+    data.mapV = coordinate(placed.axisY, box.low.y, box.size.y);
+  }
   if (draw.blurs) {
     data.alpha = static_cast<float>(optics.alpha);
     data.blurSamples = effects.roughSamples;

@@ -17,8 +17,9 @@ const MirrorImage* imageOf(const MirrorRange& mirror, const FrameInfo& info) {
 MirrorSystem::MirrorSystem(Device& device, Uploader& uploader, PipelineFactory& factory,
                            VkDescriptorSetLayout frameLayout)
     : device_(device), frameLayout_(frameLayout), pipelines_(factory) {
-  imageLayout_ = createDescriptorSetLayout(device, {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER},
-                                           VK_SHADER_STAGE_FRAGMENT_BIT, "mirror image");
+  imageLayout_ = createDescriptorSetLayout(
+      device, {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER},
+      VK_SHADER_STAGE_FRAGMENT_BIT, "mirror image");
   sampler_ = createSampler(device, {}, "no mirror image");
   const uint64_t black = 0;
   noImage_ = uploader.image(std::as_bytes(std::span(&black, 1)), {1, 1}, colorFormat, false, "no mirror image");
@@ -44,6 +45,7 @@ GraphicsPipelineDesc MirrorSystem::describe(const Variant& variant, const FrameI
                                           {gpu::constantShows, static_cast<uint32_t>(variant.shows)},
                                           {gpu::constantLookup, static_cast<uint32_t>(variant.lookup)},
                                           {gpu::constantColored, variant.colored},
+                                          {gpu::constantMapped, variant.mapped},
                                           {gpu::constantOnlyShadowFace, variant.onlyShadowFace},
                                           {gpu::constantLightCount, variant.lightCount},
                                           {gpu::constantShadowedLights, variant.shadowedLights}},
@@ -78,13 +80,15 @@ void MirrorSystem::countPipelines(EffectLedger& ledger) const {
     ledger.pipeline(EffectKind::castsLight, variant.trace.castsLight);
     ledger.pipeline(EffectKind::ripple, variant.ripples);
     ledger.pipeline(EffectKind::roughness, variant.blurs);
+    ledger.pipeline(EffectKind::textures, variant.mapped);
   });
 }
 
-void MirrorSystem::endFrame(const TraceVariant& trace, bool shadowMaps, bool imagesShown) {
+void MirrorSystem::endFrame(const TraceVariant& trace, bool shadowMaps, bool imagesShown, bool textured) {
   pipelines_.endFrame([&](const Variant& variant) {
     const bool stays = imagesShown && variant.trace == trace;
-    return (!stays && variant.shading == Shading::identifier) || (!shadowMaps && variant.shadowed);
+    return (!stays && variant.shading == Shading::identifier) || (!shadowMaps && variant.shadowed) ||
+           (!textured && variant.mapped);
   });
 }
 
@@ -101,6 +105,7 @@ MirrorSystem::Shading MirrorSystem::shadingOf(const PassScope& scope, const Mirr
 // Sets only what this shading's shader reads, so that mirrors that differ in other ways share a pipeline.
 MirrorSystem::Variant MirrorSystem::variantOf(const MirrorRange& mirror, Shading shading, bool added) {
   Variant variant{.shading = shading, .added = added};
+  variant.mapped = mirror.map >= 0 && shading != Shading::identifier;
   switch (shading) {
     case Shading::single:
     case Shading::average:
@@ -174,7 +179,10 @@ void MirrorSystem::draw(const PassScope& scope, const FrameInfo& info, const Dra
   const MirrorImage* image = imageOf(mirror, info);
   const bool reads = image && !identifies && variant.shading != Shading::base;
   const VkDescriptorSet set = info.frame.descriptors->allocate(imageLayout_.get());
-  DescriptorWriter().image(0, reads ? image->descriptor : noImage_.descriptor(sampler_.get())).update(device_, set);
+  DescriptorWriter()
+      .image(0, reads ? image->descriptor : noImage_.descriptor(sampler_.get()))
+      .image(1, info.resources.image(mirror.map))
+      .update(device_, set);
   info.data.bind(pipeline, scope.commands(), pass, mirror.mirror);
   pipeline.bindSet(scope.commands(), 1, set);
   if (variant.shadowed) {
@@ -186,6 +194,7 @@ void MirrorSystem::draw(const PassScope& scope, const FrameInfo& info, const Dra
   info.ledger.draw(EffectKind::ripple, mirror.rippled);
   info.ledger.draw(EffectKind::roughness, mirror.rough);
   info.ledger.draw(EffectKind::fresnel, mirror.fresnel);
+  info.ledger.draw(EffectKind::textures, mirror.map >= 0);
   info.ledger.draw(EffectKind::shadows, variant.trace.shadows || variant.shadowed);
   info.ledger.draw(EffectKind::castsLight, variant.trace.castsLight);
 }

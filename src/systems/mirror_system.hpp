@@ -23,9 +23,9 @@ class MirrorSystem {
   // Adds reflections to the bases under them, after deferred shading.
   uint32_t recordReflections(const PassScope& scope, const FrameInfo& info, const DrawList& pass);
   void countPipelines(EffectLedger& ledger) const;
-  // Drops pipelines that have not been used for idleFramesKept frames: those of identifiers and, unless `shadowMaps`,
-  // those that look up shadows. While cached images are shown, the pipelines for `trace` stay.
-  void endFrame(const TraceVariant& trace, bool shadowMaps, bool imagesShown);
+  // Drops pipelines that have not been used for idleFramesKept frames: those of identifiers and, unless `shadowMaps`
+  // or `textured`, those that look up shadows or maps. While cached images are shown, the pipelines for `trace` stay.
+  void endFrame(const TraceVariant& trace, bool shadowMaps, bool imagesShown, bool textured);
 
  private:
   // What a draw shades: from an image with one sample or without an image, from the mean of an image's samples, the
@@ -44,6 +44,7 @@ class MirrorSystem {
     MirrorShows shows = MirrorShows::image;
     Lookup lookup = Lookup::fetch;
     bool colored = false;
+    bool mapped = false;
     uint32_t lightCount = gpu::manyLights;
     TraceVariant trace;
     bool shadowed = false;        // looks shadows up in maps

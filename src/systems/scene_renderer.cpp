@@ -336,7 +336,7 @@ void SceneRenderer::endRecord(const FrameInfo& info, bool textured) {
       std::ranges::any_of(plan.passes, [&](const Pass& pass) { return isShown(pass) && !pass.lights.empty(); });
   const bool shadowMaps = !cubesOf(plan.cubes, PassKind::shadow).empty();
   renderSystem_.endFrame(trace_.variant(), shadowMaps, imagesShown, plan.effects.curved.has_value(), textured);
-  mirrorSystem_.endFrame(trace_.variant(), shadowMaps, imagesShown && plan.effects.any());
+  mirrorSystem_.endFrame(trace_.variant(), shadowMaps, imagesShown && plan.effects.any(), textured);
   deferredShading_.endFrame(trace_.variant(), imagesShown && plan.effects.any(), retired);
   pointLightSystem_.endFrame(glyphsShown);
   if (!plan.mainReused()) {

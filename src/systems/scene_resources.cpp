@@ -144,6 +144,10 @@ uint64_t SceneResources::textureBytes() const {
   return bytes;
 }
 
+VkDescriptorImageInfo SceneResources::image(int texture) const {
+  return (texture < 0 || textures_.empty() ? noTexture_ : textures_[texture]).descriptor(sampler_.get());
+}
+
 VkDescriptorSet SceneResources::texture(const Material& material) const {
   return material.diffuseTexture < 0 || textures_.empty() ? noTextureSet_ : textureSets_[material.diffuseTexture];
 }

@@ -41,6 +41,8 @@ class SceneResources {
   const Buffer& materials() const { return materials_; }
   uint64_t textureBytes() const;  // of the uploaded textures, with all mip levels
   VkDescriptorSet texture(const Material& material) const;
+  // Returns the descriptor of a texture of the scene; of a white texel while no texture is drawn.
+  VkDescriptorImageInfo image(int texture) const;
   VkDescriptorSetLayout textureLayout() const { return textureLayout_.get(); }
 
  private:

@@ -284,17 +284,22 @@ void TraceFrame::addMirrors(const SceneState& state, const Settings& settings) {
     const MirrorOptics optics = opticsOf(scene_.mirror(i), settings.effects);
     const MirrorState& placed = state.mirrors[i];
     gpu::TraceMirror data{.origin = glm::vec3(placed.origin - state.camera.eye),
-                        .normal = glm::vec3(placed.normal),
-                        .axisX = glm::vec3(placed.axisX),
-                        .axisY = glm::vec3(placed.axisY),
-                        .reflectance = glm::vec3(optics.reflectance),
-                        .schlick = optics.fresnel == Fresnel::schlick,
-                        .baseColor = glm::vec3(optics.baseColor),
-                        .twoSided = optics.twoSided,
-                        .backColor = glm::vec3(optics.backColor),
-                        .alpha = static_cast<float>(optics.alpha),
-                        .plane = static_cast<uint32_t>(placed.plane),
-                        .layers = layersOf(placed)};
+                          .normal = glm::vec3(placed.normal),
+                          .axisX = glm::vec3(placed.axisX),
+                          .axisY = glm::vec3(placed.axisY),
+                          .reflectance = glm::vec3(optics.reflectance),
+                          .schlick = optics.fresnel == Fresnel::schlick,
+                          .baseColor = glm::vec3(optics.baseColor),
+                          .twoSided = optics.twoSided,
+                          .backColor = glm::vec3(optics.backColor),
+                          .alpha = static_cast<float>(optics.alpha),
+                          .plane = static_cast<uint32_t>(placed.plane),
+                          .layers = layersOf(placed)};
+    data.map = optics.map < 0 ? gpu::noMap : static_cast<uint32_t>(optics.map);
+    if (optics.map >= 0) {
+      const MapBox box = mapBoxOf(placed);
+      data.mapBox = glm::vec4(glm::dvec4(1.0 / box.size, -box.low / box.size));
+    }
     if (optics.ripple) {
       const RippleConstants ripple = rippleConstants(*optics.ripple, state.time);
       data.hasRipple = 1;

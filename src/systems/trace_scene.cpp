@@ -120,8 +120,8 @@ TraceBufferBytes largestTraceBuffers(const Scene& scene, size_t instances) {
   for (const MaterialMirror& made : scene.materialMirrors) {
     pieces += scene.meshes[scene.objects[made.object].mesh].mirrorParts->flat[made.flat].pieces.size();
   }
-  const uint64_t ofFrame = std::max(instances * sizeof(gpu::TraceInstance),
-                                    16 * (instances + pieces) * sizeof(gpu::TraceTopNode));
+  const uint64_t ofFrame =
+      std::max(instances * sizeof(gpu::TraceInstance), 16 * (instances + pieces) * sizeof(gpu::TraceTopNode));
   return {
       .texels = std::max({16 * triangles * sizeof(gpu::TraceNode), triangles * sizeof(gpu::TraceTriangle), ofFrame}),
       .storage = std::max({(vertices + colors) * sizeof(gpu::TraceVertex), triangles * sizeof(gpu::TraceFace),

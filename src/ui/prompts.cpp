@@ -120,7 +120,8 @@ std::optional<std::filesystem::path> fileList(PanelContext& ui, const std::files
   bool scrolls = edited && !begun.empty();
   if (folder != files.listed) {
     list(files, folder, models);
-    files.modelsOutside = modelsOutside(*ui.input.edit.scene, folder).size();
+    files.modelsOutside =
+        modelsOutside(*ui.input.edit.scene, folder).size() + mapsOutside(*ui.input.edit.scene, folder).size();
   }
   const float width = fieldWidth();
   ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + width);

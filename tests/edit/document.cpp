@@ -31,6 +31,32 @@ auto moveTeapot(double x) {
   return [x](Scene& scene) { scene.objects[0].position.x = x; };
 }
 
+// A pane whose material says mirror.
+TEST(MirrorsFromMaterials, FollowTheDocument) {
+  const TemporaryFolder folder;
+  folder.write("m.mtl", "newmtl m\nKs 1 1 1\nNs 1000\nillum 3\n");
+  folder.write("m.obj", "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n");
+  Scene scene = loadScene(
+      folder.write("s.toml", "[camera]\nposition = [0, 1, 4]\ntarget = [0, 0, 0]\n[[object]]\nmodel = \"m.obj\"\n"));
+  SceneDocument document(scene);
+  const uint64_t structure = document.structureRevision();
+  ASSERT_EQ(scene.mirrorCount(), 1u);
+  document.change("off", teapot, [](Scene& s) { s.objects[0].mirrorsFromMaterials = false; });
+  EXPECT_EQ(scene.mirrorCount(), 0u);
+  EXPECT_NE(document.structureRevision(), structure);
+  document.undo();
+  EXPECT_EQ(scene.mirrorCount(), 1u);
+  document.duplicate({&teapot, 1});
+  EXPECT_EQ(scene.mirrorCount(), 2u);
+  EXPECT_EQ(scene.mirrors.size(), 0u) << "they are no nodes of their own";
+  EXPECT_EQ(mirrorNode(scene, 1), (Selection{Kind::object, 1}));
+  EXPECT_EQ(mirrorNode(scene, 2), Selection());
+  document.remove({{Kind::object, 0}});
+  EXPECT_EQ(mirrorNode(scene, 0), (Selection{Kind::object, 0}));
+  EXPECT_EQ(evaluate(scene, 0.0).mirrors.size(), 1u);
+  EXPECT_EQ(document.text(scene.file, {}).find("[[mirror]]"), std::string::npos);
+}
+
 class SceneDocumentTest : public testing::Test, protected TextScene {
  protected:
   SceneDocumentTest() : TextScene(sceneText) {}

@@ -230,6 +230,22 @@ TEST_F(Corridor, LightsArePickedByTheirGlow) {
   EXPECT_TRUE(picker_.at(state_, picture_, {2.0, 2.0}, {}).empty()) << "the background";
 }
 
+// A triangle whose material says mirror is a part of its object, and shows what it reflects.
+TEST(PickedMaterial, IsTheObjectAndReflects) {
+  writeModel("pane.mtl", "newmtl m\nKs 1 1 1\nNs 1000\nillum 3\n");
+  writeModel("pane.obj", "mtllib pane.mtl\nv -2 -2 0\nv 2 -2 0\nv 0 3 0\nusemtl m\nf 1 2 3\n");
+  const Scene scene = loadScene(writeScene("pane", R"([camera] position = [0, 0, 2], target = [0, 0, 0]
+[[object]] model = "pane.obj", copies = { count = 2, step = [0, 0, -9] }
+[[object]] model = "MODELS/sphere.obj", position = [0, 0, 4], visible = "mirrors"
+)"));
+  const SceneState state = evaluate(scene, 0.0);
+  const std::vector<Picked> found = Picker(scene).at(state, {state.camera, 90, 90}, {45, 45}, {});
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_EQ(found[0].what, (Selection{Selection::Kind::object, 1}));
+  EXPECT_EQ(found[0].path, MirrorPath({0}));
+  EXPECT_EQ(found[1].what, (Selection{Selection::Kind::object, 0, 0}));
+}
+
 TEST_F(Corridor, MirrorsReflectOnTheirFrontOnly) {
   EXPECT_TRUE(picture_.through(scene_, state_, std::vector<int>{0, 1, 0}));
   EXPECT_FALSE(picture_.through(scene_, state_, std::vector<int>{1})) << "behind the eye";

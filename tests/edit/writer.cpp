@@ -3,6 +3,7 @@
 
 #include "edit/support.hpp"
 #include "error_message.hpp"
+#include "image/picture_files.hpp"
 #include "settings/field_changes.hpp"
 #include "settings/setting_fields.hpp"
 
@@ -140,6 +141,33 @@ TEST(SaveScene, ModelsAreFoundFromAnotherFolder) {
   moveObject(text.document, 0);
   text.document.save(text.file, {}, true);
   EXPECT_EQ(readText(text.file), fileText) << "back home all is as it was";
+}
+
+TEST(SaveScene, MapsOfMirrorsAreFoundAndCopied) {
+  const TemporaryFolder folder;
+  fs::create_directories(folder / "elsewhere/deep");
+  fs::create_directories(folder / "maps");
+  writePng(folder / "maps/dirt.png", Image8(2, 2));
+  const fs::path file = folder.write("home/scene.toml",
+                                     "[camera]\nposition = [0, 1, 4]\ntarget = [0, 0, 0]\n[[mirror]]\nsize = [1, 1]\n"
+                                     "reflectance_map = \"../maps/./dirt.png\"\n");
+  Scene scene = loadScene(file);
+  ASSERT_EQ(scene.mirrors[0].map, 0);
+  SceneDocument document(scene);
+  const Selection mirror{Kind::mirror, 0};
+  document.duplicate({&mirror, 1});
+  document.save(folder / "elsewhere/moved.toml", {});
+  for (const Mirror& read : loadScene(folder / "elsewhere/moved.toml").mirrors) {
+    EXPECT_EQ(read.reflectanceMap, "../maps/dirt.png");
+  }
+  EXPECT_EQ(filesNamedBy(folder / "elsewhere/moved.toml").size(), 2u);
+  EXPECT_EQ(mapsOutside(scene, folder / "elsewhere"), std::vector<size_t>{0});
+  document.save(folder / "elsewhere/deep/packed.toml", {}, false, true);
+  const Scene packed = loadScene(folder / "elsewhere/deep/packed.toml");
+  EXPECT_EQ(packed.mirrors[0].reflectanceMap, "models/dirt.png");
+  EXPECT_TRUE(mapsOutside(packed, folder / "elsewhere/deep").empty());
+  document.save(file, {}, true);
+  EXPECT_EQ(loadScene(file).mirrors[1].map, 0);
 }
 
 TEST(SaveScene, AbsolutePathsStay) {

@@ -1,6 +1,9 @@
 #include "fuzz_support.hpp"
 #include "image/image.hpp"
 #include "image/picture_files.hpp"
+#include "scene/material_mirrors.hpp"
+#include "scene/scene_loader.hpp"
+#include "scene/scene_state.hpp"
 
 namespace speculum::fuzz {
 
@@ -35,6 +38,26 @@ void checkMesh(const Mesh& mesh, size_t textureCount) {
   checkParts(mesh, textureCount);
 }
 
+void checkMirrors(Mesh mesh, size_t textureCount) {
+  Scene scene;
+  scene.meshes.push_back(std::move(mesh));
+  cutMirrorParts(scene, 0);
+  if (!scene.meshes[0].mirrorParts) {
+    return;
+  }
+  size_t triangles = 0;
+  for (size_t i = 1; i < scene.meshes.size(); ++i) {
+    triangles += scene.meshes[i].indices.size() / 3;
+    checkParts(scene.meshes[i], textureCount);
+  }
+  require(triangles == scene.meshes[0].indices.size() / 3, "no triangle is lost or drawn twice");
+  scene.objects.push_back({.mesh = 0});
+  placeMaterialMirrors(scene);
+  for (const MirrorState& mirror : evaluate(scene, 0.0).mirrors) {
+    require(!mirrorPolygonProblem(mirror.polygon) && unit(mirror.normal), "mirrors are valid");
+  }
+}
+
 }  // namespace
 
 bool checkModel(std::string_view text) {
@@ -55,6 +78,7 @@ bool checkModel(std::string_view text) {
   }
   require(hasTexture, "the texture is there");
   checkMesh(mesh, textures.size());
+  checkMirrors(std::move(mesh), textures.size());
   return true;
 }
 

@@ -9,7 +9,8 @@
 namespace speculum {
 namespace {
 
-const std::string mirrorMtl = "newmtl matt\nKd 0.5 0.5 0.5\nnewmtl mirror\nKd 0.125 0.25 0.375\nKs 0.875 0.75 0.625\nNs 900\nillum 3\n";
+const std::string mirrorMtl =
+    "newmtl matt\nKd 0.5 0.5 0.5\nnewmtl mirror\nKd 0.125 0.25 0.375\nKs 0.875 0.75 0.625\nNs 900\nillum 3\n";
 // Two squares beside each other, one of each material.
 const std::string panesObj =
     "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\nv 2 1 0\nusemtl matt\nf 1 2 3 4\nusemtl mirror\n"
@@ -38,6 +39,13 @@ TEST_F(MaterialMirrors, IllumSpecularAndExponentSayMirror) {
   EXPECT_FALSE(makes("Ks 0.49 0.49 0.49\nNs 1000\nillum 3\n"));
   EXPECT_FALSE(makes("Ks 0.9 0.9 0.9\nNs 499\nillum 3\n"));
   EXPECT_FALSE(makes("Ks 0.9 0.9 0.9\nNs 1000\nillum 4\nd 0.3\n")) << "glass";
+  EXPECT_TRUE(makes("Kd 0.9 0.7 0.4\nPm 1\nPr 0.05\n"));
+  EXPECT_FALSE(makes("Kd 0.9 0.7 0.4\nPm 1\nPr 0.06\n"));
+  EXPECT_FALSE(makes("Kd 0.9 0.7 0.4\nPm 0.9\nPr 0\n"));
+  EXPECT_FALSE(makes("Kd 0.9 0.7 0.4\nPm 1\nPr 0\nd 0.5\n"));
+  const Mirror gold = load(panesObj, "newmtl matt\nnewmtl mirror\nKd 0.75 0.5 0.25\nPm 1\nPr 0\n").mirror(0);
+  EXPECT_EQ(gold.reflectance, glm::dvec3(0.75, 0.5, 0.25));
+  EXPECT_EQ(gold.baseColor, glm::dvec3(0.0));
 }
 
 TEST_F(MaterialMirrors, FlatPartIsAPlanarMirrorAndTheRestAnObject) {

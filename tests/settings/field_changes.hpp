@@ -49,7 +49,7 @@ void changeValue(const Field& field, Value& value) {
 template <Described Node>
 void changeFields(Node& node) {
   forEachField<Node>([&](const auto& field) {
-    if (field.appliesTo(node) && field.key != "model") {
+    if (field.appliesTo(node) && field.key != "model" && field.key != "reflectance_map") {
       changeValue(field, node.*field.member);
     }
   });

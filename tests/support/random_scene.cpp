@@ -88,10 +88,11 @@ class Builder {
       out << visibility() << effect(0.15, "mirror = { reflectance = [0.9, 0.8, 0.7] }");
     }
   }
-  // Adds, now and then, an object whose material says mirror: two panes, an L or a ring in one plane, and a smooth fold.
+  // Adds, now and then, an object whose material says mirror: two panes, an L or a ring in one plane, and a smooth
+  // fold.
   void panes(double reach) {
-    static constexpr std::array<const char*, 3> outlines{
-        "f 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n", "f 1 2 6 5\nf 1 5 8 4\n", "f 1 2 6 5\nf 3 4 8 7\n"};
+    static constexpr std::array<const char*, 3> outlines{"f 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n",
+                                                         "f 1 2 6 5\nf 1 5 8 4\n", "f 1 2 6 5\nf 3 4 8 7\n"};
     if (!panes_.chance(0.4)) {
       return;
     }
@@ -104,8 +105,8 @@ class Builder {
     const glm::dvec3 place = panes_.inBox(reach);
     const glm::dvec3 angles = panes_.inBox(180.0);
     const glm::dmat3 turn = glm::transpose(frame_) * rotationFromDegrees(angles);
-    out << "[[object]]\nmodel = \"" << file << ".obj\"\nposition = " << text(at(place)) << "\nrotation = " << text(angles)
-        << "\nscale = [" << (panes_.chance(0.3) ? -1 : 1) << ", 0.8, 1]\n";
+    out << "[[object]]\nmodel = \"" << file << ".obj\"\nposition = " << text(at(place))
+        << "\nrotation = " << text(angles) << "\nscale = [" << (panes_.chance(0.3) ? -1 : 1) << ", 0.8, 1]\n";
     planes_.push_back({place, place + turn[0], place + turn[1]});
   }
   void shape(const std::string& position, double scale) {

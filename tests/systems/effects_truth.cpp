@@ -3,6 +3,7 @@
 #include "effect_scenes.hpp"
 #include "image/color.hpp"
 #include "image/picture_files.hpp"
+#include "made_pictures.hpp"
 #include "plan/reuse_support.hpp"
 #include "sampling.hpp"
 #include "truth_support.hpp"
@@ -135,6 +136,68 @@ INSTANTIATE_TEST_SUITE_P(
                  "mirror = { reflectance = [0.2, 0.2, 0.2], fresnel = \"schlick\" }\n",
              "shadows ripple casts_light curved "}),
     [](const auto& info) { return std::string(info.param.name); });
+
+// A picture of linear shares without symmetry, some of them 0 and 1.
+std::string mapKey() {
+  writePng(sceneDirectory() / "map.png",
+           madePicture(5, 4, [](int x, int y) { return glm::ivec4(60 * x, 85 * y, x == y ? 0 : 255, 255); }));
+  return "reflectance_map = \"map.png\"\n";
+}
+
+TEST(ReflectanceMap, EqualsTheTracer) {
+  const std::string map = mapKey();
+  const std::string pentagon =
+      "[[mirror]]\npolygon = [[-2, 0.2, -1], [0, 0, -1.6], [1, 0.5, -1.9], [0.4, 2, -1.72], [-1.4, 1.8, -1.18]]\n" +
+      map;
+  const std::vector<std::filesystem::path> files{
+      corner("map", plainLight + wall + map + side + map + "two_sided = true\nfresnel = \"schlick\"\n"),
+      corner("map_base", plainLight + wall + map + "base_color = [0.4, 0.3, 0.2]\n"),
+      corner("map_polygon", plainLight + pentagon + "base_color = [0.1, 0.3, 0.2]\n"),
+      corner("map_shadows", shadowLight + wall + map + "base_color = [0.4, 0.3, 0.2]\n" + side),
+      corner("map_ripples", plainLight + pool + ripple + map + wall),
+      corner("map_casts_light", shadowLight + wall + map + "casts_light = true\n"),
+      corner("map_rays", shadowLight + wall + map + side + map + "two_sided = true\n" + byRays)};
+  for (const std::filesystem::path& file : files) {
+    expectTruth(file, size, 3, trace(file, size, 3, 1.7), 1.7);
+  }
+}
+
+TEST(ReflectanceMap, WithSamplesEqualsTheTracer) {
+  const std::filesystem::path file = corner("map_samples", plainLight + wall + mapKey() + side + mapKey());
+  Options options = truthOptions(file, size, 3);
+  set(options, {{"view.samples", "4"}, {"reflection.samples", "4"}});
+  Tracing tracing = tracingOf(file, size, 3);
+  tracing.options.samples = 16;
+  EXPECT_LT(difference(draw(options), toDisplay(tracing.result().image), 40).share(), 0.02);
+}
+
+// A mirror that fills the view reflects nothing but a white background.
+TEST(ReflectanceMap, IsUprightSeenFromTheFront) {
+  const std::filesystem::path file = writeScene("map_upright", R"([environment] background = [1, 1, 1]
+[camera] position = [0, 0, 1], target = [0, 0, 0], vertical_fov = 90
+[[mirror]] size = [2, 2], reflectance = [0.5, 1, 1]
+)" + mapKey());
+  const LinearImage picture = tracingOf(file, {5, 5}, 1).result().image;
+  EXPECT_NEAR(picture.pixels[2].r, 0.5 * 120 / 255.0, 1e-3) << "the value in the file is the share";
+  EXPECT_LT(picture.pixels[0].r, picture.pixels[4].r) << "red grows to the right";
+  EXPECT_LT(picture.pixels[0].g, picture.pixels[20].g) << "green grows downwards";
+}
+
+TEST(ReflectanceMap, IsATexture) {
+  const std::filesystem::path file = corner("map_effect", plainLight + wall + mapKey());
+  const Scene scene = loadScene(file);
+  const auto called = [&](const std::string& keys) {
+    const SceneState state = evaluate(loadScene(corner("map_effect_" + std::to_string(keys.size()), keys)), 0.0);
+    const Scene other = loadScene(corner("map_effect_" + std::to_string(keys.size()), keys));
+    const FramePlan plan = planFrame({other, state, Settings(), {size.width, size.height}});
+    return drawsTextures(other, state, Settings(), plan);
+  };
+  EXPECT_TRUE(called(plainLight + wall + mapKey()));
+  EXPECT_FALSE(called(plainLight + wall));
+  Settings without;
+  without.effects.textures = false;
+  EXPECT_EQ(opticsOf(scene.mirrors[0], without.effects).map, -1);
+}
 
 class MirrorsByRays : public testing::TestWithParam<const char*> {};
 

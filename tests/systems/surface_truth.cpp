@@ -100,7 +100,8 @@ std::filesystem::path dressingTable(const std::string& name, const std::string& 
   writeModel("dressing.obj", obj.str());
   return writeScene(name, R"([environment] background = [0.2, 0.3, 0.4], ambient = [0.3, 0.3, 0.3]
 [camera] position = [0.4, 0.9, 5], target = [0, 0.3, 0]
-[[object]] model = "dressing.obj", )" + keys + R"(
+[[object]] model = "dressing.obj", )" +
+                              keys + R"(
 [[object]] model = "MODELS/teapot.obj", position = [1, -0.6, 1.6], scale = 0.5
 [[object]] model = "MODELS/box.obj", position = [-0.5, 0.5, -0.8], scale = 0.4, color = [0.2, 0.7, 0.3]
 [[mirror]] position = [0, 0.5, 7], rotation = [0, 180, 0], size = [6, 5]
