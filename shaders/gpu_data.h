@@ -79,15 +79,18 @@ const uint fixedLights = 16;
 
 struct MaterialData {
   vec3 diffuse;
-  uint hasTexture;
+  uint texture;  // index into traceTextures; noTexture: none
   vec3 specular;
   float shininess;
   vec3 emission;
-  uint textureIndex;  // index into traceTextures, if hasTexture
+  uint clamps;  // its textures do, instead of repeating
   uint firstColor;  // number of the color of its mesh's first vertex, see TraceScene::firstColorsOf(); noColors: none
-  uint padding[3];
+  float opacity;
+  float cutoff;         // as Material::cutoff
+  uint opacityTexture;  // as `texture`
 };
 
+const uint noTexture = 0xffffffffu;
 const uint noColors = 0xffffffffu;
 
 // Colors of an object that replace those of its material.
@@ -179,6 +182,13 @@ struct DrawConstants {
   uint firstTriangle;  // of the draw, in its mesh
 };
 
+// Push constants of a draw of objects whose material has coverage.
+struct CoverageConstants {
+  DrawConstants draw;
+  float opacity;
+  float cutoff;  // as Material::cutoff
+};
+
 // Numbers of specialisation constants. Each has one meaning, in whatever shader it stands.
 const uint constantDiffuseLookup = 0;
 const uint constantGlossy = 1;
@@ -206,6 +216,8 @@ const uint constantShrunk = 22;
 const uint constantSampled = 23;
 const uint constantVertexColors = 24;
 const uint constantMapped = 25;
+const uint constantTransparency = 26;
+const uint constantClamps = 27;
 
 // Values of specialisation constants: texture of an object, number of lights, content of a mirror and lookup of its
 // image.
@@ -242,7 +254,7 @@ struct TraceTriangle {
   vec3 a;         // mesh space
   uint triangle;  // number of the triangle in the mesh
   vec3 b;
-  uint padding;
+  uint coverage;  // 1 + index into materials, if the material has coverage; 0: opaque
   vec3 c;
   uint padding2;
 };

@@ -1,19 +1,6 @@
 // Normals of rippled mirrors, and random directions of rough ones, the same on every run. Needs shading.glsl.
 
-uint mixedBits(uint x) {
-  x ^= x >> 16;
-  x *= 0x7feb352du;
-  x ^= x >> 15;
-  x *= 0x846ca68bu;
-  return x ^ (x >> 16);
-}
-
-float unitInterval(uint bits) { return float(bits >> 8) * (1.0 / 16777216.0); }
-
-vec2 randomPair(uint seed) { return vec2(unitInterval(seed), unitInterval(mixedBits(seed))); }
-
-// Returns a seed for a position in pixels, in steps of 1/16.
-uint seedAt(vec2 position) { return mixedBits(uint(position.x * 16.0) + mixedBits(uint(position.y * 16.0))); }
+#include "random.glsl"
 
 // Returns a shift for recurrencePoint() that continues the sequence of a seed at point number `first`. Whole numbers
 // keep it exact.

@@ -275,7 +275,7 @@ vec3 mapShare(vec3 position) {
     return vec3(1.0);
   }
   vec2 uv = vec2(dot(mirror.mapU.xyz, position) + mirror.mapU.w, dot(mirror.mapV.xyz, position) + mirror.mapV.w);
-  return bilinearColor(reflectanceMap, withinBorder(uv, vec2(textureSize(reflectanceMap, 0))));
+  return bilinearColor(reflectanceMap, withinBorder(uv, vec2(textureSize(reflectanceMap, 0))), false);
 }
 
 vec3 baseRadiance(vec3 position, vec3 normal) {

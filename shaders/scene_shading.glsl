@@ -1,6 +1,7 @@
 // The fragment shader of objects whose light takes no rays. ENVIRONMENT draws curved mirrors, which look up an
 // environment map; with REFLECTION_ONLY it draws no base, because shade.glsl has shaded the base. REPEATING draws
-// RepeatingTriangles, VERTEX_COLORS meshes with colors of their vertices.
+// RepeatingTriangles, VERTEX_COLORS meshes with colors of their vertices, COVERED
+// materials with coverage.
 #include "interface.glsl"
 #include "shading.glsl"
 
@@ -20,8 +21,14 @@ layout(push_constant) uniform Draw {
 #define SHADED_ACCESS readonly
 #define SHADED_BY_DRAWS
 #include "shaded.glsl"
+#elif defined(COVERED)
+#include "covered_draw.glsl"
+layout(constant_id = constantRepeating) const bool repeating = false;
 #else
 layout(push_constant) uniform Draw { DrawConstants draw; };
+#endif
+#ifndef COVERED
+layout(constant_id = constantClamps) const bool clamps = false;
 #endif
 
 layout(set = 1, binding = 0) uniform sampler2D diffuseTexture;  // linear radiance factors; with ENVIRONMENT the map
@@ -37,15 +44,32 @@ layout(location = 5) centroid in vec3 vertexColor;
 
 layout(location = 0) out vec4 color;
 
-vec3 diffuseFactor() {
-#ifdef REPEATING
-  uint index = instances[instanceIndex].repeats + draw.firstTriangle + uint(gl_PrimitiveID);
-  vec2 uv = repeatingUv(index, view.traceOffset.xyz, rayThrough(gl_FragCoord.xy));
-#else
-  vec2 uv = textureUv;
-#endif
-  return diffuseLookup == textureTrilinear ? texture(diffuseTexture, vec2(uv.x, 1.0 - uv.y)).rgb : bilinearColor(diffuseTexture, uv);
+vec3 trilinear(vec2 uv) {
+  vec2 place = vec2(uv.x, 1.0 - uv.y);
+  if (clamps) {
+    // The sampler repeats. Half a texel of the coarser level from the edge it reads no texel of the other edge.
+    float level = ceil(max(textureQueryLod(diffuseTexture, place).x, 0.0));
+    vec2 edge = min(0.5 * exp2(level) / vec2(textureSize(diffuseTexture, 0)), 0.5);
+    return textureGrad(diffuseTexture, clamp(place, edge, 1.0 - edge), dFdx(place), dFdy(place)).rgb;
+  }
+  return texture(diffuseTexture, place).rgb;
 }
+
+vec2 uvHere() {
+#if defined(REPEATING) || defined(COVERED)
+#ifdef COVERED
+  if (!repeating) {
+    return textureUv;
+  }
+#endif
+  uint index = instances[instanceIndex].repeats + draw.firstTriangle + uint(gl_PrimitiveID);
+  return repeatingUv(index, view.traceOffset.xyz, rayThrough(gl_FragCoord.xy));
+#else
+  return textureUv;
+#endif
+}
+
+vec3 diffuseFactor(vec2 uv) { return diffuseLookup == textureTrilinear ? trilinear(uv) : bilinearColor(diffuseTexture, uv, clamps); }
 
 #ifdef ENVIRONMENT
 #include "environment.glsl"
@@ -73,7 +97,7 @@ void main() {
                             glossy ? draw.specular : vec3(0.0), draw.emission, draw.shininess, glossy, reach);
 #ifndef ENVIRONMENT
   if (diffuseLookup != textureNone) {
-    surface.diffuse *= diffuseFactor();
+    surface.diffuse *= diffuseFactor(uvHere());
   }
 #endif
 #ifdef VERTEX_COLORS
@@ -107,5 +131,8 @@ void main() {
   color = storable(radiance, disparityLength / max(w, 1e-30));
 #ifdef REFLECTION_ONLY
   gl_SampleMask[0] = samplesOfBase();
+#endif
+#ifdef COVERED
+  keepCovered(uvHere(), instances[instanceIndex].traceInstance, draw.firstTriangle + uint(gl_PrimitiveID));
 #endif
 }

@@ -8,6 +8,8 @@
 #include "shaded.glsl"
 #include "requests.glsl"
 #include "mirror_plane.glsl"
+#include "sample_positions.glsl"
+#include "coverage.glsl"
 #include "trace.glsl"
 #include "traced_light.glsl"
 #include "microfacet.glsl"
@@ -17,25 +19,11 @@ layout(local_size_x = requestsPerGroup) in;
 
 layout(set = 1, binding = 3, std430) readonly buffer Mirrors { MirrorBlock mirrorBlocks[]; };
 
-// Positions of samples in a pixel: Vulkan specification, "Standard sample locations". Those of n samples begin at index
-// n - 1.
-const vec2 samplePositions[] = {
-  vec2(0.5, 0.5),
-  vec2(0.75, 0.75), vec2(0.25, 0.25),
-  vec2(0.375, 0.125), vec2(0.875, 0.375), vec2(0.125, 0.625), vec2(0.625, 0.875),
-  vec2(0.5625, 0.3125), vec2(0.4375, 0.6875), vec2(0.8125, 0.5625), vec2(0.3125, 0.1875),
-  vec2(0.1875, 0.8125), vec2(0.0625, 0.4375), vec2(0.6875, 0.9375), vec2(0.9375, 0.0625),
-  vec2(0.5625, 0.5625), vec2(0.4375, 0.3125), vec2(0.3125, 0.625), vec2(0.75, 0.4375),
-  vec2(0.1875, 0.375), vec2(0.625, 0.8125), vec2(0.8125, 0.6875), vec2(0.6875, 0.1875),
-  vec2(0.375, 0.875), vec2(0.5, 0.0625), vec2(0.25, 0.125), vec2(0.125, 0.75),
-  vec2(0.0, 0.5), vec2(0.9375, 0.25), vec2(0.875, 0.9375), vec2(0.0625, 0.0)
-};
-
 // Returns the mean position of the samples in the bits of `seenBy`, in pixels of the target.
 vec2 positionOf(uvec2 pixel, uint seenBy) {
   vec2 sum = vec2(0.0);
   for (uint i = 0; i < samples; ++i) {
-    sum += (seenBy & 1 << i) != 0 ? samplePositions[samples - 1 + i] : vec2(0.0);
+    sum += (seenBy & 1 << i) != 0 ? samplePosition(samples, i) : vec2(0.0);
   }
   return vec2(area.corner + ivec2(pixel)) + sum / float(bitCount(seenBy));
 }

@@ -41,7 +41,7 @@ vec3 timesPoint(vec4 rows[3], vec3 p) {
 }
 vec3 timesDirection(vec4 rows[3], vec3 d) { return vec3(dot(rows[0].xyz, d), dot(rows[1].xyz, d), dot(rows[2].xyz, d)); }
 
-// The four texels that a bilinear lookup mixes, in a texture that repeats, with v upwards. A sampler's weights may
+// The four texels that a bilinear lookup mixes, in a texture that repeats or clamps, with v upwards. A sampler's weights may
 // have only 8 bits, which shows where texels differ much.
 struct BilinearTexels {
   ivec2 low;
@@ -49,8 +49,9 @@ struct BilinearTexels {
   vec2 weight;
 };
 
-BilinearTexels bilinearTexels(vec2 uv, ivec2 size) {
-  vec2 texel = fract(vec2(uv.x, 1.0 - uv.y)) * vec2(size) - 0.5;
+BilinearTexels bilinearTexels(vec2 uv, ivec2 size, bool clamped) {
+  vec2 place = vec2(uv.x, 1.0 - uv.y);
+  vec2 texel = clamped ? clamp(place * vec2(size), vec2(0.5), vec2(size) - 0.5) - 0.5 : fract(place) * vec2(size) - 0.5;
   vec2 corner = floor(texel);
   // Integer divisions cost lavapipe more than the rest of the lookup.
   ivec2 low = ivec2(corner);
@@ -60,8 +61,8 @@ BilinearTexels bilinearTexels(vec2 uv, ivec2 size) {
 }
 
 // Returns the color of a texture's first level, interpolated bilinearly.
-vec3 bilinearColor(sampler2D image, vec2 uv) {
-  BilinearTexels at = bilinearTexels(uv, textureSize(image, 0));
+vec3 bilinearColor(sampler2D image, vec2 uv, bool clamped) {
+  BilinearTexels at = bilinearTexels(uv, textureSize(image, 0), clamped);
   vec3 a = texelFetch(image, at.low, 0).rgb;
   vec3 b = texelFetch(image, ivec2(at.high.x, at.low.y), 0).rgb;
   vec3 c = texelFetch(image, ivec2(at.low.x, at.high.y), 0).rgb;

@@ -1,11 +1,5 @@
 #version 450
-// Stores the plane that a light sees: its disparity from the light, in 1/m, and the growth of the disparity to the next
-// texel on the right and below, as the upper halves of two floats.
+#extension GL_GOOGLE_include_directive : require
+#include "shadow_plane.glsl"
 
-layout(location = 0) out uvec2 plane;
-
-void main() {
-  float disparity = gl_FragCoord.w;
-  uvec2 rise = floatBitsToUint(clamp(vec2(dFdx(disparity), dFdy(disparity)), -1e37, 1e37)) + 0x8000u;
-  plane = uvec2(floatBitsToUint(disparity), (rise.x & 0xffff0000u) | rise.y >> 16);
-}
+void main() { storePlane(); }

@@ -1,5 +1,5 @@
 // Rays through the scene: a hierarchy of boxes over instances and mirrors, and one over the triangles of each mesh.
-// Needs interface.glsl and shading.glsl.
+// Needs interface.glsl, shading.glsl and coverage.glsl.
 //
 // Written for lavapipe, which runs both sides of every branch, enters every loop once, and reads a storage buffer once
 // for each pixel and component. So nodes are read through texel buffers, traversal needs no stack, and rays to all
@@ -22,6 +22,9 @@ layout(set = 2, binding = 10, std430) readonly buffer LightPaths {
 };
 layout(set = 2, binding = 11) uniform usamplerBuffer traceInstanceTexels;
 layout(set = 2, binding = 12) uniform usamplerBuffer traceMirrorTexels;
+
+layout(constant_id = constantRepeating) const bool repeating = false;  // there are repeatingTriangles
+layout(constant_id = constantTransparency) const bool transparency = false;  // some material has coverage
 
 TraceVertex vertexOf(uint instance, uint triangle, uint corner) {
   uint vertex = traceFaces[traceInstances[instance].firstTriangle + triangle].vertices[corner];
@@ -178,6 +181,47 @@ uvec4 instanceTexel(uint instance, uint i) {
 
 uvec4 triangleTexel(uint slot, uint i) { return texelFetch(traceTriangles, int(3 * slot + i)); }
 
+// Returns the texture coordinates of a point of a triangle, which a ray from `origin` along `direction` meets.
+vec2 uvOf(uint instance, uint triangle, vec3 w, vec3 origin, vec3 direction) {
+  if (repeating && triangle >= traceInstances[instance].firstRepeating) {
+    return repeatingUv(traceInstances[instance].repeats + triangle, origin, direction);
+  }
+  TraceVertex a = vertexOf(instance, triangle, 0);
+  TraceVertex b = vertexOf(instance, triangle, 1);
+  TraceVertex c = vertexOf(instance, triangle, 2);
+  return mat3x2(a.u, a.v, b.u, b.v, c.u, c.v) * w;
+}
+
+// Returns the opacity of the first level of a texture, interpolated bilinearly.
+float textureOpacity(TraceTexture source, vec2 uv, bool clamped) {
+  ivec2 size = ivec2(source.width, source.height);
+  BilinearTexels at = bilinearTexels(uv, size, clamped);
+  float rows[2];
+  for (int i = 0; i < 2; ++i) {
+    int y = i == 0 ? at.low.y : at.high.y;
+    uint left = traceTexels[source.firstTexel + uint(y * size.x + at.low.x)].y;
+    uint right = traceTexels[source.firstTexel + uint(y * size.x + at.high.x)].y;
+    rows[i] = mix(unpackHalf2x16(left).y, unpackHalf2x16(right).y, at.weight.x);
+  }
+  return mix(rows[0], rows[1], at.weight.y);
+}
+
+// Says whether the triangle in a slot is there for a ray with this seed. Curved mirrors are.
+bool meetsSurface(uint instance, uint slot, vec3 weights, vec3 origin, vec3 direction, uint seed) {
+  uint coverage = triangleTexel(slot, 1).w;
+  if (coverage == 0 || traceInstances[instance].curved != curvedNone) {
+    return true;
+  }
+  MaterialData material = materials[coverage - 1];
+  uint triangle = triangleTexel(slot, 0).w;
+  float opacity = material.opacity;
+  if (material.opacityTexture != noTexture) {
+    vec2 uv = uvOf(instance, triangle, weights, origin, direction);
+    opacity *= textureOpacity(traceTextures[material.opacityTexture], uv, material.clamps != 0);
+  }
+  return isThere(opacity, material.cutoff, view.picture, seed, instance, triangle);
+}
+
 #ifdef RAY_QUERY
 #include "trace_ray_query.glsl"
 #else
@@ -196,7 +240,8 @@ vec4 meetSlot(uint slot, LocalRay ray, out uint triangle) {
 
 // Follows the ray through a mesh. In the loops here and below, each iteration sets or keeps the variables that hold the
 // result: lavapipe of Mesa 22.3 changes others for pixels that have left a loop while their neighbours go on.
-void traceMesh(uint instance, vec3 origin, vec3 direction, float near, Skip skip, bool any, inout Hit hit) {
+void traceMesh(uint instance, vec3 origin, vec3 direction, float near, Skip skip, bool any, uint seed,
+               inout Hit hit) {
   vec4 rows[3] = meshRows(instance);
   vec3 meshOrigin = timesPoint(rows, origin);
   vec3 meshDirection = timesDirection(rows, direction);
@@ -227,7 +272,11 @@ void traceMesh(uint instance, vec3 origin, vec3 direction, float near, Skip skip
       bool own = met.w < near || (instance == skip.instance && triangle == skip.triangle);
       // Where surfaces coincide, the ray meets the instance that is listed first.
       bool first = met.w < hit.t || (met.w == hit.t && instance < hit.instance);
-      if (slot < end && met.w > 0.0 && first && !own) {
+      bool meets = slot < end && met.w > 0.0 && first && !own;
+      if (transparency && meets) {
+        meets = meetsSurface(instance, slot, met.xyz, origin, direction, seed);
+      }
+      if (meets) {
         hit.t = met.w;
         hit.instance = instance;
         hit.slot = slot;
@@ -245,8 +294,8 @@ void traceMesh(uint instance, vec3 origin, vec3 direction, float near, Skip skip
 }
 
 // Finds the first surface that a reflected ray in trace space meets before tMax; with `any`, one of those that a ray to
-// a light meets.
-Hit traceRay(vec3 origin, vec3 direction, float tMax, Skip skip, bool any) {
+// a light meets. `seed` decides which surfaces with coverage are there.
+Hit traceRay(vec3 origin, vec3 direction, float tMax, Skip skip, bool any, uint seed) {
   Hit hit = Hit(tMax, none, 0, vec3(0.0), none);
   if (traceCounts.topNodes == 0) {
     return hit;
@@ -280,7 +329,7 @@ Hit traceRay(vec3 origin, vec3 direction, float tMax, Skip skip, bool any) {
         }
       }
     } else if (item != 0 && (any || (item & itemUnreflected) == 0)) {
-      traceMesh(index, origin, direction, near, skip, any, hit);
+      traceMesh(index, origin, direction, near, skip, any, seed, hit);
     }
     if (node == last || (any && (hit.instance != none || hit.mirror != none))) {
       break;

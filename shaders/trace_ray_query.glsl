@@ -8,8 +8,8 @@ bool ignores(Skip skip, uint instance, uint slot, float t, float near) {
 }
 
 // Finds the first surface that a reflected ray in trace space meets before tMax; with `any`, one of those that a ray to
-// a light meets.
-Hit traceRay(vec3 origin, vec3 direction, float tMax, Skip skip, bool any) {
+// a light meets. `seed` decides which surfaces with coverage are there.
+Hit traceRay(vec3 origin, vec3 direction, float tMax, Skip skip, bool any, uint seed) {
   Hit hit = Hit(tMax, none, 0, vec3(0.0), none);
   vec3 size = abs(direction);
   float largest = max(size.x, max(size.y, size.z));
@@ -17,15 +17,21 @@ Hit traceRay(vec3 origin, vec3 direction, float tMax, Skip skip, bool any) {
     return hit;  // with these values a query would be undefined
   }
   float near = skip.near / max(length(direction), 1e-30);
-  // Only a ray that starts on an object has to look at candidates.
-  uint flags = (any ? gl_RayFlagsTerminateOnFirstHitEXT : 0) | (skip.instance == none ? gl_RayFlagsOpaqueEXT : 0);
+  // Only a ray that starts on an object, or that may pass a surface, has to look at candidates.
+  bool opaque = !transparency && skip.instance == none;
+  uint flags = (any ? gl_RayFlagsTerminateOnFirstHitEXT : 0) | (opaque ? gl_RayFlagsOpaqueEXT : 0);
   rayQueryEXT query;
   rayQueryInitializeEXT(query, traceStructure, flags, any ? maskShadows : maskReflected, origin, 0.0, direction, tMax);
   while (rayQueryProceedEXT(query)) {
     uint index = rayQueryGetIntersectionInstanceCustomIndexEXT(query, false);
     if (rayQueryGetIntersectionTypeEXT(query, false) == gl_RayQueryCandidateIntersectionTriangleEXT) {
       uint slot = traceInstances[index].firstTriangle + rayQueryGetIntersectionPrimitiveIndexEXT(query, false);
-      if (!ignores(skip, index, slot, rayQueryGetIntersectionTEXT(query, false), near)) {
+      bool meets = !ignores(skip, index, slot, rayQueryGetIntersectionTEXT(query, false), near);
+      if (transparency && meets) {
+        vec2 w = rayQueryGetIntersectionBarycentricsEXT(query, false);
+        meets = meetsSurface(index, slot, vec3(1.0 - w.x - w.y, w), origin, direction, seed);
+      }
+      if (meets) {
         rayQueryConfirmIntersectionEXT(query);
       }
     } else if (planeOf(index) != skip.plane && planeOf(index) != skip.secondPlane) {

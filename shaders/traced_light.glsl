@@ -67,7 +67,7 @@ const float lightEnd = 1.0 - 1.0 / 1048576.0;
 
 // Says whether nothing blocks the light on its way to the point. The light of an image comes by way of the image's
 // mirror.
-bool unobstructed(uint i, Incoming incoming, vec3 tracePosition, Skip self) {
+bool unobstructed(uint i, Incoming incoming, vec3 tracePosition, Skip self, uint seed) {
   Skip skip = self;
   skip.secondPlane = incoming.mirror == none ? none : planeOf(incoming.mirror);
   vec3 origin = tracePosition;
@@ -76,7 +76,7 @@ bool unobstructed(uint i, Incoming incoming, vec3 tracePosition, Skip self) {
   float tMax = last ? lightEnd : incoming.crossing;
   bool hidden = false;
   for (;;) {
-    Hit hit = traceRay(origin, direction, tMax, skip, true);
+    Hit hit = traceRay(origin, direction, tMax, skip, true, mixedBits(seed + 2 * i + uint(last)));
     if (hit.instance != none || hit.mirror != none) {
       hidden = true;
     }
@@ -92,10 +92,11 @@ bool unobstructed(uint i, Incoming incoming, vec3 tracePosition, Skip self) {
   return !hidden;
 }
 
-// Returns surfaceRadiance() with shadows and with the lights' images in mirrors. `self` identifies the surface.
+// Returns surfaceRadiance() with shadows and with the lights' images in mirrors. `self` identifies the surface, and
+// `seed` gives its rays their random numbers.
 // The inner loop passes over lights until one needs rays, which are followed after it: a driver that runs both sides of
 // every branch, such as lavapipe, then follows no rays for the other lights.
-vec3 tracedSurfaceRadiance(Surface surface, vec3 toViewer, Skip self) {
+vec3 tracedSurfaceRadiance(Surface surface, vec3 toViewer, Skip self, uint seed) {
   vec3 tracePosition = surface.position + view.traceOffset.xyz;
   uint paths = view.lightCount + (castsLight ? traceCounts.lightPaths : 0);
   vec3 radiance = surface.emission + view.ambient * surface.diffuse;
@@ -117,7 +118,8 @@ vec3 tracedSurfaceRadiance(Surface surface, vec3 toViewer, Skip self) {
       ++next;
     }
     if (shadows && waiting != none) {
-      if (unobstructed(waiting, incomingLight(waiting, surface, tracePosition, self), tracePosition, self)) {
+      Incoming incoming = incomingLight(waiting, surface, tracePosition, self);
+      if (unobstructed(waiting, incoming, tracePosition, self, seed)) {
         radiance += arriving;
       }
     }

@@ -3,7 +3,6 @@
 
 layout(constant_id = constantTrilinear) const bool trilinear = false;  // between levels of textures
 layout(constant_id = constantRough) const bool rough = false;  // some mirror of the scene is rough
-layout(constant_id = constantRepeating) const bool repeating = false;  // there are repeatingTriangles
 layout(constant_id = constantVertexColors) const bool vertexColors = false;  // some mesh has colors of its vertices
 
 struct Bounce {
@@ -58,9 +57,9 @@ void applyCurvedMirror(uint instance, vec3 direction, inout Bounce bounce) {
 }
 
 // Returns the color of one level of a texture, interpolated bilinearly.
-vec3 textureColor(TraceTexture source, vec2 uv) {
+vec3 textureColor(TraceTexture source, vec2 uv, bool clamped) {
   ivec2 size = ivec2(source.width, source.height);
-  BilinearTexels at = bilinearTexels(uv, size);
+  BilinearTexels at = bilinearTexels(uv, size, clamped);
   vec3 rows[2];
   for (int i = 0; i < 2; ++i) {
     int y = i == 0 ? at.low.y : at.high.y;
@@ -73,7 +72,7 @@ vec3 textureColor(TraceTexture source, vec2 uv) {
 }
 
 // Returns the color of a texture between its levels; `across` and `down` are the steps of uv from pixel to pixel.
-vec3 trilinearColor(TraceTexture source, vec2 uv, vec2 across, vec2 down) {
+vec3 trilinearColor(TraceTexture source, vec2 uv, bool clamped, vec2 across, vec2 down) {
   vec2 size = vec2(source.width, source.height);
   float texels = max(length(across * size), length(down * size));
   float level = clamp(log2(max(texels, 1.0)), 0.0, log2(max(size.x, size.y)));
@@ -82,10 +81,10 @@ vec3 trilinearColor(TraceTexture source, vec2 uv, vec2 across, vec2 down) {
     source.width = max(source.width / 2, 1);
     source.height = max(source.height / 2, 1);
   }
-  vec3 fine = textureColor(source, uv);
+  vec3 fine = textureColor(source, uv, clamped);
   TraceTexture next = TraceTexture(source.firstTexel + source.width * source.height, max(source.width / 2, 1),
                                    max(source.height / 2, 1));
-  return source.width * source.height > 1 ? mix(fine, textureColor(next, uv), fract(level)) : fine;
+  return source.width * source.height > 1 ? mix(fine, textureColor(next, uv, clamped), fract(level)) : fine;
 }
 
 // Returns color `number`. Colors stand behind the vertices of all meshes, two in the place of a vertex.
@@ -129,15 +128,14 @@ Bounce objectBounce(uint instance, uint triangle, Weights weights, vec3 position
   Surface surface = objectSurface(position, away ? -normal : normal, material, traceInstances[instance].change,
                                   traceInstances[instance].shininess,
                                   traceInstances[instance].normalFromMesh[0].w + length(position));
-  if (material.hasTexture != 0) {
+  if (material.texture != noTexture) {
     mat3x2 corners = mat3x2(a.u, a.v, b.u, b.v, c.u, c.v);
-    TraceTexture source = traceTextures[material.textureIndex];
-    vec2 uv = corners * w;
-    if (repeating && triangle >= traceInstances[instance].firstRepeating) {
-      uv = repeatingUv(traceInstances[instance].repeats + triangle, origin, sight);
-    }
-    surface.diffuse *= trilinear ? trilinearColor(source, uv, corners * weights.across, corners * weights.down)
-                                 : textureColor(source, uv);
+    TraceTexture source = traceTextures[material.texture];
+    vec2 uv = uvOf(instance, triangle, w, origin, sight);
+    bool clamped = material.clamps != 0;
+    surface.diffuse *= trilinear
+                           ? trilinearColor(source, uv, clamped, corners * weights.across, corners * weights.down)
+                           : textureColor(source, uv, clamped);
   }
   if (vertexColors && material.firstColor != noColors) {
     uint corners[3] = traceFaces[traceInstances[instance].firstTriangle + triangle].vertices;
@@ -266,7 +264,7 @@ vec3 tracedRadiance(Bounce surface, vec3 direction, uint seed, Draws draws) {
       vec3 glow = vec3(0.0);
       bool glows = false;
       if (!last) {
-        hit = traceRay(origin, towards, infinity, bounce.self, false);
+        hit = traceRay(origin, towards, infinity, bounce.self, false, mixedBits(pathSeed + depth));
         float t = hit.t;
         glow = glyphRadiance(bounce.surface.position, towards, t);
         glows = t < hit.t;
@@ -292,7 +290,7 @@ vec3 tracedRadiance(Bounce surface, vec3 direction, uint seed, Draws draws) {
     vec3 own = vec3(0.0);
     bool black = all(equal(bounce.surface.diffuse + bounce.surface.specular + bounce.surface.emission, vec3(0.0)));
     if (meets && !black) {
-      own = tracedSurfaceRadiance(bounce.surface, -towards, bounce.self);
+      own = tracedSurfaceRadiance(bounce.surface, -towards, bounce.self, mixedBits(pathSeed - depth));
       own *= bounce.reflects ? 1.0 - bounce.reflectance : vec3(1.0);
     }
     base = first ? own : base;

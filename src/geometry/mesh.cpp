@@ -2,6 +2,7 @@
 
 #include <meshoptimizer.h>
 #include <algorithm>
+#include <cmath>
 
 #include "geometry/bvh.hpp"
 
@@ -118,22 +119,54 @@ void sortVertices(Mesh& mesh) {
 
 }  // namespace
 
+glm::dvec4 textureAt(const Texture& texture, const glm::dvec2& uv, bool clamps) {
+  if (texture.texels.empty()) {
+    return glm::dvec4(1.0);
+  }
+  const auto place = [&](double along, int size) {
+    return clamps ? std::clamp(along * size, 0.5, size - 0.5) - 0.5 : (along - std::floor(along)) * size - 0.5;
+  };
+  const auto wrap = [](int i, int size) { return ((i % size) + size) % size; };
+  const double x = place(uv.x, texture.width);
+  const double y = place(1.0 - uv.y, texture.height);
+  const double cornerX = std::floor(x);
+  const double cornerY = std::floor(y);
+  const auto texel = [&](int dx, int dy) {
+    const int column = wrap(static_cast<int>(cornerX) + dx, texture.width);
+    const int row = wrap(static_cast<int>(cornerY) + dy, texture.height);
+    const size_t i = static_cast<size_t>(row) * static_cast<size_t>(texture.width) + static_cast<size_t>(column);
+    return glm::dvec4(texture.texels[i], texture.opacity.empty() ? 1.0f : texture.opacity[i]);
+  };
+  const double wx = x - cornerX;
+  const double wy = y - cornerY;
+  return glm::mix(glm::mix(texel(0, 0), texel(1, 0), wx), glm::mix(texel(0, 1), texel(1, 1), wx), wy);
+}
+
 Texture shrunk(const Texture& texture, int width, int height) {
-  Texture small{.source = texture.source, .width = width, .height = height};
+  Texture small{.source = texture.source, .width = width, .height = height, .isMask = texture.isMask};
   for (int y = 0; y < small.height; ++y) {
     for (int x = 0; x < small.width; ++x) {
       glm::vec3 sum(0.0f);
+      float opacity = 0.0f;
       for (const Share& row : sharesOf(y, small.height, texture.height)) {
         for (const Share& column : sharesOf(x, small.width, texture.width)) {
-          sum += row.weight * column.weight *
-                 texture.texels[static_cast<size_t>(row.index) * static_cast<size_t>(texture.width) +
-                                static_cast<size_t>(column.index)];
+          const size_t i =
+              static_cast<size_t>(row.index) * static_cast<size_t>(texture.width) + static_cast<size_t>(column.index);
+          sum += row.weight * column.weight * texture.texels[i];
+          opacity += texture.opacity.empty() ? 0.0f : row.weight * column.weight * texture.opacity[i];
         }
       }
       small.texels.push_back(sum);
+      if (!texture.opacity.empty()) {
+        small.opacity.push_back(opacity);
+      }
     }
   }
   return small;
+}
+
+bool Mesh::isTransparent() const {
+  return std::ranges::any_of(parts, [](const MeshPart& part) { return part.material.isTransparent(); });
 }
 
 void sortIntoClusters(Mesh& mesh) {

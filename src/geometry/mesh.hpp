@@ -19,7 +19,13 @@ struct Texture {
   int width = 0;
   int height = 0;
   std::vector<glm::vec3> texels;
+  std::vector<float> opacity;  // of the texels, 0 .. 1; empty: opaque
+  bool isMask = false;         // its texels are white, their opacity is the picture's brightness
 };
+
+// Returns color and opacity at (u, v), v up, of the texels interpolated bilinearly. Texel centres are at (i + 0.5) /
+// size. The texture repeats or, if it `clamps`, its edge goes on.
+glm::dvec4 textureAt(const Texture& texture, const glm::dvec2& uv, bool clamps);
 
 // Returns the texture with fewer texels, each the mean of the texels that it covers.
 Texture shrunk(const Texture& texture, int width, int height);
@@ -32,7 +38,14 @@ struct Material {
   glm::dvec3 emission{0.0};          // Ke
   double shininess = 1.0;            // Ns, >= 1
   int diffuseTexture = -1;           // index into Scene::textures, -1: none
+  bool clamps = false;               // its textures clamp instead of repeating
   std::optional<glm::dvec3> mirror;  // reflectance, 0 .. 1, of a material that says mirror
+  // Coverage: the share of the surface that is there. The rest shows what is behind.
+  double opacity = 1.0;     // 0 .. 1
+  int opacityTexture = -1;  // index into Scene::textures, whose opacity multiplies `opacity`; -1: none
+  double cutoff = -1.0;     // least product that counts as 1, any other as 0; below 0: products count as they are
+
+  bool isTransparent() const { return opacity < 1.0 || opacityTexture >= 0; }
 };
 
 struct Vertex {
@@ -102,6 +115,8 @@ struct Mesh {
   uint32_t repeats = 0;
   bool curvedMirror = false;               // cut out of another mesh: a curved mirror by the material of its one part
   std::optional<MirrorParts> mirrorParts;  // of a mesh with materials that say mirror
+
+  bool isTransparent() const;  // some part is
 };
 
 // Reorders the triangles of each part so that consecutive ones lie close together on the surface, by meshoptimizer's

@@ -101,15 +101,21 @@ std::optional<TriangleHit> TriangleMesh::closest(const Ray& ray, int64_t skip) c
 }
 
 bool TriangleMesh::occluded(const Ray& ray, int64_t skip) const {
-  const ShearedRay sheared(ray);
   bool found = false;
-  bvh_.traverse(ray, [&](uint32_t first, uint32_t count, double& tMax) {
-    for (uint32_t i = first; i < first + count && !found; ++i) {
-      found = intersect(sheared, triangles_[i], ray.tMin, tMax).has_value() && !isSkipped(triangles_[i], skip);
-    }
-    return found;
-  });
+  visit(ray, skip, [&](const TriangleHit&) { return found = true; });
   return found;
+}
+
+void TriangleMesh::visit(const Ray& ray, int64_t skip, const std::function<bool(const TriangleHit&)>& meet) const {
+  const ShearedRay sheared(ray);
+  bool ends = false;
+  bvh_.traverse(ray, [&](uint32_t first, uint32_t count, double& tMax) {
+    for (uint32_t i = first; i < first + count && !ends; ++i) {
+      const auto hit = intersect(sheared, triangles_[i], ray.tMin, tMax);
+      ends = hit && !isSkipped(triangles_[i], skip) && meet(*hit);
+    }
+    return ends;
+  });
 }
 
 }  // namespace speculum

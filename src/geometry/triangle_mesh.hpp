@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <glm/glm.hpp>
 #include <glm/gtc/type_ptr.hpp>
 #include <optional>
@@ -52,6 +53,8 @@ class TriangleMesh {
   std::optional<TriangleHit> closest(const Ray& ray, int64_t skip = noTriangle) const;
   // Says whether closest() would find a hit.
   bool occluded(const Ray& ray, int64_t skip = noTriangle) const;
+  // Calls `meet` with all hits that closest() chooses from, in any order, until it returns true.
+  void visit(const Ray& ray, int64_t skip, const std::function<bool(const TriangleHit&)>& meet) const;
   uint32_t partOf(uint32_t triangle) const { return parts_[triangle]; }
 
  private:

@@ -52,24 +52,42 @@ Effect tracedEffect(EffectKind kind, const std::string& name, const std::optiona
   return {kind, name, caller.has_value(), caller ? std::string(*caller) : otherwise};
 }
 
-Effect textures(const Scene& scene, const SceneState& state, const Settings& settings, const Visible& visible) {
-  for (const int i : settings.effects.textures ? visible.instances : std::set<int>()) {
+// Returns the effect that the first visible object calls for that has a material with the property.
+template <typename Predicate>
+Effect ofMaterials(EffectKind kind, const std::string& name, const std::string& otherwise, const Scene& scene,
+                   const SceneState& state, const Visible& visible, const Predicate& callsFor) {
+  for (const int i : visible.instances) {
     const InstanceState& instance = state.instances[i];
     const Mesh& mesh = scene.meshes[instance.mesh];
-    for (const MeshPart& part : mesh.parts) {
-      if (part.material.diffuseTexture >= 0) {
-        return {EffectKind::textures, "textures", true,
-                nameOf("object", scene.objects[instance.object].name, instance.object) + " with " +
-                    mesh.source.filename().string()};
-      }
+    const auto calls = [&](const MeshPart& part) { return callsFor(scene.objects[instance.object], part.material); };
+    if (std::ranges::any_of(mesh.parts, calls)) {
+      return {kind, name, true,
+              nameOf("object", scene.objects[instance.object].name, instance.object) + " with " +
+                  mesh.source.filename().string()};
     }
   }
+  return {kind, name, false, otherwise};
+}
+
+Effect textures(const Scene& scene, const SceneState& state, const Settings& settings, const Visible& visible) {
   for (const int i : visible.mirrorFronts) {
     if (opticsOf(scene.mirror(i), settings.effects).map >= 0) {
       return {EffectKind::textures, "textures", true, nameOf("mirror", scene.mirror(i).name, i)};
     }
   }
-  return {EffectKind::textures, "textures", false, "no visible object or mirror has one"};
+  return ofMaterials(
+      EffectKind::textures, "textures", "no visible object or mirror has one", scene, state, visible,
+      [&](const Object&, const Material& material) {
+        return settings.effects.textures &&
+               (material.diffuseTexture >= 0 || (material.opacityTexture >= 0 && settings.effects.transparency));
+      });
+}
+
+Effect transparency(const Scene& scene, const SceneState& state, const Settings& settings, const Visible& visible) {
+  return ofMaterials(EffectKind::transparency, "transparency", "no visible object is transparent", scene, state,
+                     visible, [&](const Object& object, const Material& material) {
+                       return isTransparent(material, settings.effects) && !(object.mirror && settings.effects.curved);
+                     });
 }
 
 Effect glyphs(const Scene& scene, const Visible& visible) {
@@ -113,6 +131,10 @@ bool drawsTextures(const Scene& scene, const SceneState& state, const Settings& 
   return !scene.textures.empty() && textures(scene, state, settings, visibleIn(plan)).calledFor;
 }
 
+bool drawsTransparency(const Scene& scene, const SceneState& state, const Settings& settings, const FramePlan& plan) {
+  return transparency(scene, state, settings, visibleIn(plan)).calledFor;
+}
+
 std::vector<Effect> effectsOf(const Scene& scene, const SceneState& state, const Settings& settings,
                               const FramePlan& plan) {
   const Visible visible = visibleIn(plan);
@@ -126,6 +148,7 @@ std::vector<Effect> effectsOf(const Scene& scene, const SceneState& state, const
       tracedEffect(EffectKind::castsLight, "casts_light", traced.castsLight, "no mirror casts light on what is drawn"),
       fresnel(scene, state, settings, visible),
       textures(scene, state, settings, visible),
+      transparency(scene, state, settings, visible),
       multisampling(settings, plan),
       {EffectKind::toneMap, "tone_map", aces, aces ? "view.tone_map = aces" : "view.tone_map = clamp"},
       glyphs(scene, visible),

@@ -15,6 +15,7 @@ enum class EffectKind {
   castsLight,
   fresnel,
   textures,
+  transparency,
   msaa,
   toneMap,
   glyphs,
@@ -44,6 +45,9 @@ std::vector<SettingChange> settingsWithout(const Effect& effect);
 
 // Says whether an object with a texture is drawn, or seen in a cached image.
 bool drawsTextures(const Scene& scene, const SceneState& state, const Settings& settings, const FramePlan& plan);
+
+// Says the same of objects with a material that is drawn with coverage.
+bool drawsTransparency(const Scene& scene, const SceneState& state, const Settings& settings, const FramePlan& plan);
 
 // Returns all effects, in a fixed order.
 std::vector<Effect> effectsOf(const Scene& scene, const SceneState& state, const Settings& settings,

@@ -97,6 +97,7 @@ Occlusion::Occlusion(const Scene& scene, const SceneState& state, const Settings
       largest = std::max(largest, farthestDistance(vertexMean(face), face));
     }
     largestFaces_.push_back(mesh.radius > 0.0 ? largest / mesh.radius : 0.0);
+    transparent_.push_back(isTransparent(mesh, settings.effects));
   }
 }
 
@@ -184,7 +185,7 @@ Occlusion::Occluders Occlusion::occludersOf(int mirror, std::span<const glm::dve
     const InstanceState& instance = state_.instances[i];
     const Mesh& mesh = scene_.meshes[instance.mesh];
     const double widest = mesh.convex.points.empty() ? instance.radius * largestFaces_[instance.mesh] : instance.radius;
-    if (!prefilter.looksLarge(instance.center, instance.radius, widest) ||
+    if (transparent_[instance.mesh] || !prefilter.looksLarge(instance.center, instance.radius, widest) ||
         !boxVisible(prefilter.before(), instance.worldFromMesh, mesh.halfExtent)) {
       continue;
     }

@@ -76,6 +76,7 @@ class Occlusion {
   int viewNumber_ = -1;
   RecycledVector<Face> mirrors_;         // parallel to SceneState::mirrors
   RecycledVector<double> largestFaces_;  // by mesh: radius of the largest face over the mesh's radius
+  RecycledVector<bool> transparent_;     // by mesh: its instances hide nothing
   std::unordered_map<int, Body, std::hash<int>, std::equal_to<>, RecyclingAllocator<std::pair<const int, Body>>>
       bodies_;  // by index into SceneState::instances; made on first use
 };

@@ -157,9 +157,20 @@ glm::dvec3 PathTracer::follow(Path path) {
       const PointLight& light = world_.scene().lights[hit->index];
       return sum + weight * light.color * light.glow;
     }
+    if (hit->kind == HitKind::mirror && !reflects(*hit)) {
+      return sum + weight * backSide(path.ray, *hit);
+    }
     if (!reflects(*hit)) {
-      return sum + weight * (hit->kind == HitKind::object ? surfaceRadiance(world_, objectPoint(world_, path.ray, *hit))
-                                                          : backSide(path.ray, *hit));
+      const double coverage = world_.coverageOf(*hit);
+      if (coverage > 0.0) {
+        sum += coverage * weight * surfaceRadiance(world_, objectPoint(world_, path.ray, *hit));
+      }
+      if (coverage == 1.0) {
+        return sum;
+      }
+      weight *= 1.0 - coverage;
+      path.ray.tMin = hit->t;  // what is behind
+      continue;
     }
     const Bounce bounce = bounceAt(path.ray, *hit);
     if (bounce.base.diffuse != glm::dvec3(0.0)) {

@@ -56,55 +56,35 @@ glm::dvec3 bouncedLight(const TraceWorld& world, const ShadingPoint& point, int 
   if (!crossing || glm::dot(point.normal, toImage) <= 0.0) {
     return glm::dvec3(0.0);
   }
+  double passes = 1.0;  // share of the light
   if (source.castsShadow) {
     Skip first = point.self;
     first.secondMirror = mirror;
     const glm::dvec3 bounce = leg.at(*crossing);
     const Skip second{.mirror = mirror};
-    if (world.occluded({point.position, toImage, lightStart(point, toImage), *crossing}, first) ||
-        world.occluded({bounce, position - bounce, 0.0, lightEnd}, second)) {
-      return glm::dvec3(0.0);
-    }
+    passes = world.transmittance({point.position, toImage, lightStart(point, toImage), *crossing}, first);
+    passes *= passes > 0.0 ? world.transmittance({bounce, position - bounce, 0.0, lightEnd}, second) : 0.0;
   }
   const double cosine = std::abs(glm::dot(plane.normal, safeNormalize(toImage)));
-  return mapShare(world.scene(), material, plane, leg.at(*crossing)) * opticsOf(material).reflectanceAt(cosine) *
-         lightRadiance(point, toImage, source);
+  return passes * mapShare(world.scene(), material, plane, leg.at(*crossing)) *
+         opticsOf(material).reflectanceAt(cosine) * lightRadiance(point, toImage, source);
 }
 
 glm::dvec3 directLight(const TraceWorld& world, const ShadingPoint& point, int light) {
   const PointLight& source = world.scene().lights[light];
   const glm::dvec3 toLight = world.lights()[light].position - point.position;
   const Ray ray{point.position, toLight, lightStart(point, toLight), lightEnd};
-  const bool dark = glm::dot(point.normal, toLight) <= 0.0 || (source.castsShadow && world.occluded(ray, point.self));
-  return dark ? glm::dvec3(0.0) : lightRadiance(point, toLight, source);
-}
-
-// Interpolates linear texels bilinearly. The texture repeats, v points up, and texel centres are at (i + 0.5) / size.
-glm::dvec3 textureColor(const Texture& texture, const glm::dvec2& uv) {
-  if (texture.texels.empty()) {
-    return glm::dvec3(1.0);
+  if (glm::dot(point.normal, toLight) <= 0.0) {
+    return glm::dvec3(0.0);
   }
-  const auto wrap = [](int i, int size) { return ((i % size) + size) % size; };
-  const double x = (uv.x - std::floor(uv.x)) * texture.width - 0.5;
-  const double v = 1.0 - uv.y;
-  const double y = (v - std::floor(v)) * texture.height - 0.5;
-  const double cornerX = std::floor(x);
-  const double cornerY = std::floor(y);
-  const auto texel = [&](int dx, int dy) {
-    const int column = wrap(static_cast<int>(cornerX) + dx, texture.width);
-    const int row = wrap(static_cast<int>(cornerY) + dy, texture.height);
-    return glm::dvec3(texture.texels[static_cast<size_t>(row) * texture.width + column]);
-  };
-  const double wx = x - cornerX;
-  const double wy = y - cornerY;
-  return glm::mix(glm::mix(texel(0, 0), texel(1, 0), wx), glm::mix(texel(0, 1), texel(1, 1), wx), wy);
+  return (source.castsShadow ? world.transmittance(ray, point.self) : 1.0) * lightRadiance(point, toLight, source);
 }
 
 void applyMaterial(const Scene& scene, const Object& object, const Material& material, const glm::dvec2& uv,
                    ShadingPoint& point) {
   point.diffuse = object.color.value_or(material.diffuse);
   if (material.diffuseTexture >= 0) {
-    point.diffuse *= textureColor(scene.textures[material.diffuseTexture], uv);
+    point.diffuse *= glm::dvec3(textureAt(scene.textures[material.diffuseTexture], uv, material.clamps));
   }
   point.specular = object.specular.value_or(material.specular);
   point.shininess = std::max(1.0, object.shininess.value_or(material.shininess));

@@ -71,6 +71,10 @@ void addMesh(Fingerprint& fingerprint, const Mesh& mesh) {
     addValue(fingerprint, part.material.emission);
     fingerprint.add(part.material.shininess);
     fingerprint.add(part.material.diffuseTexture);
+    fingerprint.add(part.material.clamps);
+    fingerprint.add(part.material.opacity);
+    fingerprint.add(part.material.opacityTexture);
+    fingerprint.add(part.material.cutoff);
   }
 }
 
@@ -107,6 +111,7 @@ void addScene(Fingerprint& fingerprint, const Scene& scene) {
   for (const Texture& texture : scene.textures) {
     fingerprint.add(texture.width);
     fingerprint.add(std::as_bytes(std::span(texture.texels)));
+    fingerprint.add(std::as_bytes(std::span(texture.opacity)));
   }
 }
 

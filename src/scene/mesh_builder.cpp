@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <glm/gtx/component_wise.hpp>
+#include <tuple>
 
 #include "geometry/bvh.hpp"
 #include "geometry/convex_mesh.hpp"
@@ -57,6 +58,12 @@ TriangleShape shapeOf(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3
   const glm::dvec3 area = glm::cross(u, v);
   const double longest = std::max({glm::dot(u, u), glm::dot(v, v), glm::dot(v - u, v - u)});
   return {unit(area), glm::length(area) / longest};
+}
+
+// Returns whole numbers to subtract from texture coordinates, of which `largest` has the largest sizes: 0 if these are
+// exact enough.
+glm::dvec2 shiftOf(const glm::dvec2& largest, const glm::dvec2& first) {
+  return std::max(largest.x, largest.y) > nearEnough ? nearEnough * glm::floor(first / nearEnough) : glm::dvec2(0.0);
 }
 
 // Returns the angle at `a`, radians.
@@ -175,8 +182,38 @@ glm::dvec2 MeshBuilder::uvShiftOf(std::span<const FaceCorner> corners) const {
   for (const FaceCorner& corner : corners) {
     largest = glm::max(largest, glm::abs(uvOf(corner)));
   }
-  return std::max(largest.x, largest.y) > nearEnough ? nearEnough * glm::floor(uvOf(corners[0]) / nearEnough)
-                                                     : glm::dvec2(0.0);
+  return shiftOf(largest, uvOf(corners[0]));
+}
+
+// Gives the part's triangles vertices of their own with the texture coordinates that its material means.
+void MeshBuilder::transformTexcoords(const PartMaterial& part, std::span<uint32_t> indices, Mesh& mesh) const {
+  constexpr double finite = 1e300;
+  std::map<std::tuple<uint32_t, double, double>, uint32_t> made;  // by vertex and shift
+  for (size_t first = 0; first < indices.size(); first += 3) {
+    std::array<glm::dvec2, 3> uv;
+    glm::dvec2 largest(0.0);
+    for (size_t k = 0; k < 3; ++k) {
+      const uint32_t vertex = indices[first + k];
+      const glm::dvec2 shift = vertex < uvShifts_.size() ? uvShifts_[vertex] : glm::dvec2(0.0);
+      const glm::dvec2 named = mesh.vertices[vertex].uv + shift;
+      uv[k] = glm::clamp(part.textureScale * named + part.textureOffset, -finite, finite);
+      largest = glm::max(largest, glm::abs(uv[k]));
+    }
+    const glm::dvec2 shift = part.material.clamps ? glm::dvec2(0.0) : shiftOf(largest, uv[0]);
+    for (size_t k = 0; k < 3; ++k) {
+      uint32_t& vertex = indices[first + k];
+      const auto next = static_cast<uint32_t>(mesh.vertices.size());
+      const auto [found, isNew] = made.try_emplace({vertex, shift.x, shift.y}, next);
+      if (isNew) {
+        mesh.vertices.push_back(mesh.vertices[vertex]);
+        mesh.vertices.back().uv = glm::clamp(uv[k] - shift, -mostRepeats, mostRepeats);
+        if (!mesh.colors.empty()) {
+          mesh.colors.push_back(mesh.colors[vertex]);
+        }
+      }
+      vertex = found->second;
+    }
+  }
 }
 
 glm::dvec2 MeshBuilder::uvOf(const FaceCorner& corner) const {
@@ -251,6 +288,10 @@ uint32_t MeshBuilder::vertexOf(const FaceCorner& corner, const glm::dvec3& trian
   }
   vertices_.push_back(
       {.position = positions_[corner.position], .normal = given ? normals_[corner.normal] : triangleNormal, .uv = uv});
+  if (uvShift_ != glm::dvec2(0.0)) {
+    uvShifts_.resize(index, glm::dvec2(0.0));
+    uvShifts_.push_back(uvShift_);
+  }
   if (smooth) {
     smoothVertices_.emplace_back(index, firstSmooth - corner.normal);
   }
@@ -261,12 +302,18 @@ uint32_t MeshBuilder::vertexOf(const FaceCorner& corner, const glm::dvec3& trian
   return index;
 }
 
-Mesh MeshBuilder::finish(const std::function<Material(int)>& materialOf) {
+Mesh MeshBuilder::finish(const std::function<PartMaterial(int)>& materialOf) {
   smoothNormals();
   vertexColors_.resize(vertexColors_.empty() ? 0 : vertices_.size(), glm::vec3(1.0f));
   Mesh mesh{.source = file_, .vertices = std::move(vertices_), .colors = std::move(vertexColors_)};
   std::vector<Material> materials;
-  std::ranges::transform(materialOrder_, std::back_inserter(materials), materialOf);
+  for (const int index : materialOrder_) {
+    const PartMaterial part = materialOf(index);
+    materials.push_back(part.material);
+    if (part.material.clamps || part.textureScale != glm::dvec2(1.0) || part.textureOffset != glm::dvec2(0.0)) {
+      transformTexcoords(part, materialIndices_[index], mesh);
+    }
+  }
   const auto repeatsOften = [&](uint32_t vertex) {
     return glm::compMax(glm::abs(mesh.vertices[vertex].uv)) > 2.0 * nearEnough;
   };
@@ -275,8 +322,10 @@ Mesh MeshBuilder::finish(const std::function<Material(int)>& materialOf) {
     for (size_t i = 0; i < materials.size(); ++i) {
       const auto first = static_cast<uint32_t>(mesh.indices.size());
       const std::vector<uint32_t>& indices = materialIndices_[materialOrder_[i]];
+      const bool mayRepeat =
+          !materials[i].clamps && (materials[i].diffuseTexture >= 0 || materials[i].opacityTexture >= 0);
       for (auto triangle = indices.begin(); triangle != indices.end(); triangle += 3) {
-        if (repeats == (materials[i].diffuseTexture >= 0 && std::any_of(triangle, triangle + 3, repeatsOften))) {
+        if (repeats == (mayRepeat && std::any_of(triangle, triangle + 3, repeatsOften))) {
           mesh.indices.insert(mesh.indices.end(), triangle, triangle + 3);
         }
       }
@@ -293,6 +342,7 @@ Mesh MeshBuilder::finish(const std::function<Material(int)>& materialOf) {
   texcoords_ = {};
   normals_ = {};
   colors_ = {};
+  uvShifts_ = {};
   smoothIndices_ = {};
   smoothNormals_ = {};
   smoothVertices_ = {};

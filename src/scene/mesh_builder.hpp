@@ -29,6 +29,16 @@ struct FaceCorner {
   bool operator==(const FaceCorner&) const = default;
 };
 
+// A material, and how it takes texture coordinates of the file: scale * (u, v) + offset.
+struct PartMaterial {
+  PartMaterial(Material ofPart, const glm::dvec2& scale = glm::dvec2(1.0), const glm::dvec2& offset = glm::dvec2(0.0))
+      : material(std::move(ofPart)), textureScale(scale), textureOffset(offset) {}
+
+  Material material;
+  glm::dvec2 textureScale;
+  glm::dvec2 textureOffset;
+};
+
 // Builds a mesh from the elements of a model file in their order.
 class MeshBuilder {
  public:
@@ -57,7 +67,7 @@ class MeshBuilder {
 
   // Returns the mesh: its triangles are grouped by material in the order of first use; it may have none. Call it once,
   // last.
-  Mesh finish(const std::function<Material(int)>& materialOf);
+  Mesh finish(const std::function<PartMaterial(int)>& materialOf);
 
  private:
   struct CornerHash {
@@ -66,6 +76,7 @@ class MeshBuilder {
 
   glm::dvec2 uvOf(const FaceCorner& corner) const;
   glm::dvec2 uvShiftOf(std::span<const FaceCorner> corners) const;
+  void transformTexcoords(const PartMaterial& part, std::span<uint32_t> indices, Mesh& mesh) const;
   void addTriangle(const FaceCorner& a, const FaceCorner& b, const FaceCorner& c, int line);
   uint32_t vertexOf(const FaceCorner& corner, const glm::dvec3& triangleNormal);
   bool hasNormal(const FaceCorner& corner) const;
@@ -76,9 +87,10 @@ class MeshBuilder {
   ModelDefects& defects_;
   std::vector<glm::dvec3> positions_;
   std::vector<glm::dvec2> texcoords_;
-  std::vector<glm::dvec3> normals_;  // unit, or zero: unusable
-  std::vector<glm::dvec3> points_;   // of the face being added
-  glm::dvec2 uvShift_{0.0};          // subtracted from the texture coordinates of that face
+  std::vector<glm::dvec3> normals_;   // unit, or zero: unusable
+  std::vector<glm::dvec3> points_;    // of the face being added
+  glm::dvec2 uvShift_{0.0};           // subtracted from the texture coordinates of that face
+  std::vector<glm::dvec2> uvShifts_;  // by vertex; may end before the last
   int material_ = -1;
   std::vector<uint32_t>* indices_ = nullptr;              // of material_; null until its next triangle
   std::map<int, std::vector<uint32_t>> materialIndices_;  // by material

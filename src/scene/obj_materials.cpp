@@ -34,17 +34,34 @@ int wordsOf(std::string_view option) {
   return option == "-mm" ? 2 : std::ranges::find(one, option) != one.end() ? 1 : -1;
 }
 
-// Returns the file name after the options. It may hold blanks.
-std::string_view textureName(const LineReader& line) {
+// A texture as a line names it. Its coordinates are scale * (u, v) + offset.
+struct NamedTexture {
+  std::string_view name;  // may hold blanks
+  glm::dvec2 scale{1.0};
+  glm::dvec2 offset{0.0};
+  bool clamps = false;
+};
+
+// Reads the name and those of the options before it that count: -s, -o and -clamp.
+NamedTexture namedTexture(const LineReader& line) {
+  constexpr Range range{.low = -1e9, .high = 1e9};
   const std::vector<std::string_view>& tokens = line.tokens();
+  NamedTexture texture;
   size_t i = 1;
   while (i < tokens.size() && wordsOf(tokens[i]) >= 0) {
+    const std::string_view option = tokens[i];
     const int most = wordsOf(tokens[i++]);
     for (int word = 0; word < most && i < tokens.size() && (most < 3 || parseNumber(tokens[i])); ++word) {
+      const double value = parseNumber(tokens[i]).value_or(0.0);
+      if (word < 2 && range.contains(value) && (option == "-s" || option == "-o")) {
+        (option == "-s" ? texture.scale : texture.offset)[word] = value;
+      }
+      texture.clamps = option == "-clamp" ? tokens[i] == "on" : texture.clamps;
       ++i;
     }
   }
-  return i < tokens.size() ? line.from(tokens[i]) : std::string_view();
+  texture.name = i < tokens.size() ? line.from(tokens[i]) : std::string_view();
+  return texture;
 }
 
 double numberOf(std::string_view token) {
@@ -115,7 +132,9 @@ class ObjMaterials::MtlReader {
         entry_->emissionLine = line_.number();
       }
     } else if (key == "map_d") {
-      readTexture("map_d");
+      if (readTexture("map_d")) {
+        entry_->opacityLine = line_.number();
+      }
     }
   }
 
@@ -154,11 +173,18 @@ class ObjMaterials::MtlReader {
   }
 
   bool readTexture(const char* key) {
-    const std::string_view name = textureName(line_);
-    if (!name.empty()) {
-      text_.append(key).append(" ").append(name).append("\n");
+    const NamedTexture texture = namedTexture(line_);
+    if (texture.name.empty()) {
+      return false;
     }
-    return !name.empty();
+    text_.append(key).append(" ").append(texture.name).append("\n");
+    // Both textures have the options of the diffuse one, if there is one.
+    if (std::string_view(key) == "map_Kd" || (std::string_view(key) == "map_d" && entry_->textureLine == 0)) {
+      entry_->textureScale = texture.scale;
+      entry_->textureOffset = texture.offset;
+      entry_->material.clamps = texture.clamps;
+    }
+    return true;
   }
 
   void finishMaterial() {
@@ -177,7 +203,8 @@ class ObjMaterials::MtlReader {
     material.specular = {from.specular[0], from.specular[1], from.specular[2]};
     material.emission = {from.emission[0], from.emission[1], from.emission[2]};
     material.shininess = std::clamp<double>(from.shininess, leastShininess, mostShininess);
-    entry_->opaque = !(from.dissolve < 1.0) && from.alpha_texname.empty();
+    material.opacity = std::clamp<double>(from.dissolve, 0.0, 1.0);
+    entry_->opacityTexture = from.alpha_texname;
     entry_->metal = from.metallic;
     entry_->roughness = std::exchange(hasRoughness_, false) ? from.roughness : roughnessOf(material.shininess);
     if (from.illum >= 3 && glm::compMax(material.specular) >= 0.5 && from.shininess >= 500.0) {
@@ -253,7 +280,7 @@ int ObjMaterials::use(std::string_view name, int line) {
   return useIndices_.emplace(std::string(name), static_cast<int>(uses_.size()) - 1).first->second;
 }
 
-Material ObjMaterials::material(int index, bool colored, std::vector<Texture>& textures) {
+PartMaterial ObjMaterials::material(int index, bool colored, std::vector<Texture>& textures) {
   Material usual;
   usual.diffuse = colored ? glm::dvec3(1.0) : usual.diffuse;
   if (index < 0) {
@@ -270,9 +297,6 @@ Material ObjMaterials::material(int index, bool colored, std::vector<Texture>& t
   const Entry& entry = found->second;
   Material material = entry.material;
   material.diffuse = colored && !entry.hasDiffuse ? glm::dvec3(1.0) : material.diffuse;
-  if (!entry.opaque) {
-    defects_.add(entry.file, entry.line, "newmtl", "'{}' is not opaque, it is drawn opaque", material.name);
-  }
   material.diffuseTexture = entry.diffuseTexture.empty() ? -1 : addTexture(entry, textures);
   if (entry.metalRoughness) {
     const glm::dvec3 mean =
@@ -285,7 +309,8 @@ Material ObjMaterials::material(int index, bool colored, std::vector<Texture>& t
   if (!entry.emissionTexture.empty()) {
     applyEmissionTexture(entry, material);
   }
-  return material;
+  addOpacity(entry, material, textures);
+  return {material, entry.textureScale, entry.textureOffset};
 }
 
 std::optional<fs::path> ObjMaterials::findTexture(const Entry& entry, int line, std::string_view key,
@@ -310,11 +335,29 @@ int ObjMaterials::addTexture(const Entry& entry, std::vector<Texture>& textures)
   }
 }
 
+// Adds the opacity of map_d, or else that of the diffuse texture. An opaque material with a cut-out is a cut-out.
+void ObjMaterials::addOpacity(const Entry& entry, Material& material, std::vector<Texture>& textures) {
+  if (!entry.opacityTexture.empty()) {
+    const auto picture = findTexture(entry, entry.opacityLine, "map_d", entry.opacityTexture);
+    try {
+      material.opacityTexture = picture ? opacityTextureIndex(*picture, textures) : -1;
+    } catch (const FileError& error) {
+      defects_.add(entry.file, entry.opacityLine, "map_d", "{}, the texture is left out", error.what());
+    }
+  } else if (material.diffuseTexture >= 0 && !textures[material.diffuseTexture].opacity.empty()) {
+    material.opacityTexture = material.diffuseTexture;
+  }
+  if (material.opacity == 1.0 && material.opacityTexture >= 0 && isCutOut(textures[material.opacityTexture])) {
+    material.cutoff = 0.5;
+  }
+}
+
 // Emission has one color on a surface: the texture's mean multiplies it.
 void ObjMaterials::applyEmissionTexture(const Entry& entry, Material& material) {
   const auto picture = findTexture(entry, entry.emissionLine, "map_Ke", entry.emissionTexture);
   try {
     if (picture) {
+      filesRead_.insert(withoutLinks(*picture));
       std::vector<Texture> textures;
       material.emission *= meanColor(textures[static_cast<size_t>(textureIndex(*picture, textures))]);
     }

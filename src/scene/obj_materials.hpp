@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "geometry/mesh.hpp"
+#include "scene/mesh_builder.hpp"
 #include "scene/model_files.hpp"
 
 namespace speculum {
@@ -29,9 +30,9 @@ class ObjMaterials {
   int use(std::string_view name, int line);
 
   // Returns the material of an index from use(), or the default material for -1 and for a name that no file defines.
-  // Where no Kd is given it is 1 if the model is `colored` by its vertices. Appends the material's texture to
-  // `textures` unless it is there already. Call this when all files are read.
-  Material material(int index, bool colored, std::vector<Texture>& textures);
+  // Where no Kd is given it is 1 if the model is `colored` by its vertices. Appends the material's textures to
+  // `textures` unless they are there already. Call this when all files are read.
+  PartMaterial material(int index, bool colored, std::vector<Texture>& textures);
 
   // Returns the files that were read, with symbolic links resolved.
   const std::set<std::filesystem::path>& files() const { return filesRead_; }
@@ -40,18 +41,21 @@ class ObjMaterials {
 
  private:
   struct Entry {
-    Material material;  // without its texture
+    Material material;  // without its textures
     bool hasDiffuse = false;
-    bool opaque = true;
     bool metalRoughness = false;  // Pr or Pm is given
     double metal = 0.0;
     double roughness = 0.0;
     std::string diffuseTexture;
     std::string emissionTexture;
+    std::string opacityTexture;
+    glm::dvec2 textureScale{1.0};
+    glm::dvec2 textureOffset{0.0};
     std::filesystem::path file;
     int line = 0;          // line of newmtl
     int textureLine = 0;   // line of map_Kd
     int emissionLine = 0;  // line of map_Ke
+    int opacityLine = 0;   // line of map_d
   };
   struct Use {
     std::string name;
@@ -64,6 +68,7 @@ class ObjMaterials {
   std::optional<std::filesystem::path> findTexture(const Entry& entry, int line, std::string_view key,
                                                    const std::string& name);
   int addTexture(const Entry& entry, std::vector<Texture>& textures);
+  void addOpacity(const Entry& entry, Material& material, std::vector<Texture>& textures);
   void applyEmissionTexture(const Entry& entry, Material& material);
 
   const std::filesystem::path& objFile_;

@@ -17,6 +17,23 @@ namespace fs = std::filesystem;
 
 namespace {
 
+bool hasAlpha(const Image8& image) {
+  for (size_t i = 3; i < image.rgba.size(); i += 4) {
+    if (image.rgba[i] != 255) {
+      return true;
+    }
+  }
+  return false;
+}
+
+std::vector<float> channelOf(const Image8& image, size_t channel) {
+  std::vector<float> values;
+  for (size_t i = channel; i < image.rgba.size(); i += 4) {
+    values.push_back(static_cast<float>(image.rgba[i]) / 255.0f);
+  }
+  return values;
+}
+
 Texture textureOf(const Image8& image, const fs::path& source, bool linear) {
   Texture texture{.source = source, .linear = linear, .width = image.width, .height = image.height};
   texture.texels.reserve(image.rgba.size() / 4);
@@ -25,6 +42,9 @@ Texture textureOf(const Image8& image, const fs::path& source, bool linear) {
   };
   for (size_t i = 0; i < image.rgba.size(); i += 4) {
     texture.texels.emplace_back(decoded(image.rgba[i]), decoded(image.rgba[i + 1]), decoded(image.rgba[i + 2]));
+  }
+  if (hasAlpha(image)) {
+    texture.opacity = channelOf(image, 3);
   }
   return texture;
 }
@@ -58,7 +78,7 @@ Texture bounded(Texture texture, double most) {
 
 int indexOf(const fs::path& source, bool linear, const std::function<Image8()>& read, std::vector<Texture>& textures) {
   const auto known = std::ranges::find_if(textures, [&](const Texture& texture) {
-    return texture.source.native() == source.native() && texture.linear == linear;
+    return !texture.isMask && texture.linear == linear && texture.source.native() == source.native();
   });
   const auto index = static_cast<int>(known - textures.begin());
   if (known == textures.end()) {
@@ -82,6 +102,33 @@ int linearTextureIndex(const fs::path& file, std::vector<Texture>& textures) {
 int textureIndex(const fs::path& source, const std::vector<uint8_t>& picture, std::vector<Texture>& textures) {
   return indexOf(
       source, false, [&] { return decodeTexture(source, picture); }, textures);
+}
+
+int opacityTextureIndex(const fs::path& file, std::vector<Texture>& textures) {
+  const fs::path source = withoutLinks(file);
+  const auto known = std::ranges::find_if(textures, [&](const Texture& texture) {
+    return !texture.opacity.empty() && texture.source.native() == source.native();
+  });
+  if (known != textures.end()) {
+    return static_cast<int>(known - textures.begin());
+  }
+  const Image8 image = readTexture(file);
+  if (hasAlpha(image)) {
+    return indexOf(
+        source, false, [&] { return image; }, textures);
+  }
+  Texture mask{.source = source, .width = image.width, .height = image.height, .isMask = true};
+  mask.texels.assign(image.rgba.size() / 4, glm::vec3(1.0f));
+  mask.opacity = channelOf(image, 0);
+  textures.push_back(bounded(std::move(mask), mostPixels(textures)));
+  return static_cast<int>(textures.size()) - 1;
+}
+
+bool isCutOut(const Texture& texture) {
+  constexpr double leastShare = 0.875;
+  const auto isClear = [](float opacity) { return opacity < 0.1f || opacity > 0.9f; };
+  const auto clear = static_cast<double>(std::ranges::count_if(texture.opacity, isClear));
+  return clear >= leastShare * static_cast<double>(texture.opacity.size());
 }
 
 }  // namespace speculum

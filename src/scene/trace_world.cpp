@@ -34,6 +34,9 @@ bool meetsPolygon(const ShearedRay& ray, const std::vector<glm::dvec3>& polygon)
 }  // namespace
 
 TraceWorld::TraceWorld(const Scene& scene) : scene_(&scene), meshes_(scene.meshes.size()) {
+  for (const Mesh& mesh : scene.meshes) {
+    transparent_.push_back(mesh.isTransparent());
+  }
   tbb::parallel_for(size_t{0}, meshes_.size(), [&](size_t i) { meshes_[i] = TriangleMesh(scene.meshes[i]); });
 }
 
@@ -213,22 +216,53 @@ std::optional<SceneHit> TraceWorld::closest(const Ray& ray, const Skip& skip, On
   return best;
 }
 
-bool TraceWorld::occluded(const Ray& ray, const Skip& skip) const {
+double TraceWorld::transmittance(const Ray& ray, const Skip& skip) const {
   const ShearedRay sheared(ray);
-  bool found = false;
+  double passes = 1.0;
   bvh_.traverse(ray, [&](uint32_t first, uint32_t count, double&) {
-    for (uint32_t i = first; i < first + count && !found; ++i) {
+    for (uint32_t i = first; i < first + count && passes > 0.0; ++i) {
       const auto& [kind, index] = items_[i];
       if (kind == HitKind::object) {
-        const int64_t own = skip.instance == index ? int64_t{skip.triangle} : TriangleMesh::noTriangle;
-        found = meshes_[instances_[index].mesh].occluded(toMesh(ray, index, ray.tMax), own);
+        passes *= transmittance(ray, index, skip.instance == index ? int64_t{skip.triangle} : TriangleMesh::noTriangle);
       } else if (kind == HitKind::mirror && !skipsMirror(skip, index)) {
-        found = meetPolygon(ray, sheared, index, ray.tMax).has_value();
+        passes *= meetPolygon(ray, sheared, index, ray.tMax) ? 0.0 : 1.0;
       }
     }
-    return found;
+    return passes == 0.0;
   });
-  return found;
+  return passes;
+}
+
+double TraceWorld::transmittance(const Ray& ray, int instance, int64_t own) const {
+  const InstanceState& state = instances_[instance];
+  const Ray local = toMesh(ray, instance, ray.tMax);
+  if (!transparent_[state.mesh] || scene_->objects[state.object].mirror) {
+    return meshes_[state.mesh].occluded(local, own) ? 0.0 : 1.0;
+  }
+  double passes = 1.0;
+  meshes_[state.mesh].visit(local, own, [&](const TriangleHit& hit) {
+    passes *= 1.0 - coverageOf({.index = instance, .triangle = hit.triangle, .weights = hit.weights});
+    return passes == 0.0;
+  });
+  return passes;
+}
+
+double TraceWorld::coverageOf(const SceneHit& objectHit) const {
+  const InstanceState& instance = instances_[objectHit.index];
+  const Mesh& mesh = scene_->meshes[instance.mesh];
+  if (!transparent_[instance.mesh] || scene_->objects[instance.object].mirror) {
+    return 1.0;
+  }
+  const Material& material = mesh.parts[partOf(objectHit)].material;
+  double opacity = material.opacity;
+  if (material.opacityTexture >= 0) {
+    glm::dvec2 uv(0.0);
+    for (int k = 0; k < 3; ++k) {
+      uv += objectHit.weights[k] * mesh.vertices[mesh.indices[size_t{objectHit.triangle} * 3 + k]].uv;
+    }
+    opacity *= textureAt(scene_->textures[material.opacityTexture], uv, material.clamps).a;
+  }
+  return material.cutoff < 0.0 ? opacity : opacity >= material.cutoff ? 1.0 : 0.0;
 }
 
 uint32_t TraceWorld::partOf(const SceneHit& objectHit) const {

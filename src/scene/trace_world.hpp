@@ -42,8 +42,12 @@ class TraceWorld {
 
   // Returns the first surface or glyph on the ray that the onlooker sees.
   std::optional<SceneHit> closest(const Ray& ray, const Skip& skip, Onlooker onlooker = Onlooker::eye) const;
-  // Says whether an object or a mirror, from either side, lies on the ray. Glyphs cast no shadow.
-  bool occluded(const Ray& ray, const Skip& skip) const;
+  // Returns the share of light that passes the objects and mirrors, from either side, on the ray. Glyphs cast no
+  // shadow.
+  double transmittance(const Ray& ray, const Skip& skip) const;
+  // Returns the share of the surface that is there at a point of an object, 0 .. 1: the material's coverage. Curved
+  // mirrors are there wholly.
+  double coverageOf(const SceneHit& objectHit) const;
   // Returns the parameter t in (tMin, tMax) at which the ray meets a mirror's polygon; nothing if it does not.
   std::optional<double> meetMirror(const Ray& ray, int mirror) const;
 
@@ -76,8 +80,11 @@ class TraceWorld {
   std::optional<double> meetPolygon(const Ray& ray, const ShearedRay& sheared, int mirror, double tMax) const;
   std::optional<double> meetGlyph(const Ray& ray, int light, double tMax) const;
 
+  double transmittance(const Ray& ray, int instance, int64_t own) const;
+
   const Scene* scene_;
   std::vector<TriangleMesh> meshes_;  // parallel to Scene::meshes
+  std::vector<bool> transparent_;     // by mesh: some material is
   std::vector<InstanceState> instances_;
   std::vector<Placement> placements_;
   std::vector<MirrorState> mirrors_;

@@ -3,6 +3,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "session/options.hpp"
 #include "systems/trace_frame.hpp"
@@ -20,6 +21,7 @@ FramePlanner::FramePlanner(const Device& device, bool keepsPicture) {
   limits_.keepsPicture = keepsPicture;
   tracesRays_ =
       device.caps().primitiveId && device.limits().maxPerStageDescriptorStorageBuffers >= TraceFrame::storageBuffers;
+  drawsCoverage_ = device.caps().primitiveId;
   bufferLimits_ = traceBufferLimits(device.limits());
 }
 
@@ -45,6 +47,10 @@ FittedPlan FramePlanner::plan(const FrameRequest& request) {
     refused_.reset();
   }
   asked.settings.effects.textures = asked_.effects.textures && !refused_;
+  if (!drawsCoverage_ && std::exchange(asked.settings.effects.transparency, false) &&
+      std::ranges::any_of(request.scene.meshes, &Mesh::isTransparent) && !std::exchange(warnedOfCoverage_, true)) {
+    spdlog::warn("what is transparent is drawn opaque: the device has no geometryShader");
+  }
   const TraceBufferBytes needed = largestTraceBuffers(request.scene, request.state.instances.size());
   limits_.tracesRays = tracesRays_ && needed.texels <= bufferLimits_.texels && needed.storage <= bufferLimits_.storage;
   FittedPlan fitted = planWithin(limits_, asked);

@@ -35,7 +35,9 @@ class FramePlanner : public PicturePlanner {
   };
 
   TargetLimits limits_;
-  bool tracesRays_ = true;  // the device can trace rays, if its buffers can hold the scene
+  bool tracesRays_ = true;     // the device can trace rays, if its buffers can hold the scene
+  bool drawsCoverage_ = true;  // else effects.transparency is left out
+  bool warnedOfCoverage_ = false;
   TraceBufferBytes bufferLimits_;
   bool rendersMirrors_ = false;
   bool leavesOutTextures_ = false;

@@ -116,7 +116,8 @@ SweepContext sweepContext(Session& session) {
   for (const auto& [key, wanted] :
        {std::pair("effects.shadows", asked.shadows), std::pair("effects.roughness", asked.rough),
         std::pair("effects.ripple", asked.ripple), std::pair("effects.casts_light", asked.castsLight),
-        std::pair("effects.curved", asked.curved)}) {
+        std::pair("effects.curved", asked.curved),
+        std::pair("effects.transparency", std::ranges::any_of(session.scene().meshes, &Mesh::isTransparent))}) {
     if (wanted) {
       context.effects.emplace_back(key);
     }

@@ -233,6 +233,8 @@ constexpr SettingField fields[] = {
             "mirrors that reflect more at grazing angles", "Costs next to nothing."),
     setting("effects.textures", BooleanSetting{at<&E::textures>}, "Textures", "textures of objects and maps of mirrors",
             "Takes memory for all while one is in view."),
+    setting("effects.transparency", BooleanSetting{at<&E::transparency>}, "Transparency",
+            "cut-outs and other materials that are not opaque", "Such objects hide nothing."),
     setting("effects.glyphs", BooleanSetting{at<&E::glyphs>}, "Glowing lights", "spheres of lights that glow",
             "One draw a pass."),
 

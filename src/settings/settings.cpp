@@ -187,6 +187,14 @@ int roughRays(const EffectSettings& effects, int samples) {
   return (effects.roughSamples + samples - 1) / samples * samples;
 }
 
+bool isTransparent(const Material& material, const EffectSettings& effects) {
+  return effects.transparency && (material.opacity < 1.0 || (material.opacityTexture >= 0 && effects.textures));
+}
+
+bool isTransparent(const Mesh& mesh, const EffectSettings& effects) {
+  return std::ranges::any_of(mesh.parts, [&](const MeshPart& part) { return isTransparent(part.material, effects); });
+}
+
 bool hasGlyph(const PointLight& light, const EffectSettings& effects) {
   return effects.glyphs && light.glow > 0.0;
 }

@@ -71,6 +71,7 @@ struct EffectSettings {
   bool curved = true;
   bool fresnel = true;
   bool textures = true;
+  bool transparency = true;
   bool glyphs = true;
   ShadowLookup shadowLookup = ShadowLookup::traced;
   int shadowMapSize = 1024;  // texels of each side of a shadow map's faces
@@ -93,6 +94,9 @@ MirrorOptics opticsOf(const ObjectMirror& mirror, const EffectSettings& effects)
 // Returns the rays that a pixel of a rough mirror sends: effects.rough_samples, rounded up to the same number at each
 // of the pixel's samples, as shaders/shade.glsl does.
 int roughRays(const EffectSettings& effects, int samples);
+// Say whether a surface with the material, or some surface of the mesh, is drawn with coverage under these settings.
+bool isTransparent(const Material& material, const EffectSettings& effects);
+bool isTransparent(const Mesh& mesh, const EffectSettings& effects);
 // Says whether the glyph of a light, its visible sphere, is drawn under these settings.
 bool hasGlyph(const PointLight& light, const EffectSettings& effects);
 

@@ -114,6 +114,7 @@ void DeferredShading::shade(const PassScope& scope, const FrameInfo& info, const
                                              {gpu::constantCastsLight, trace.castsLight},
                                              {gpu::constantRough, trace.rough},
                                              {gpu::constantRepeating, trace.repeating},
+                                             {gpu::constantTransparency, trace.transparency},
                                              {gpu::constantVertexColors, trace.vertexColors}},
                                .setLayouts = {frameLayout_, layout_.get(), info.trace.layout()},
                                .pushConstantBytes = sizeof(gpu::ShadeConstants)};
@@ -150,6 +151,7 @@ void DeferredShading::countPipelines(EffectLedger& ledger) const {
   shading_.forEach([&](const Variant& variant) {
     ledger.pipeline(EffectKind::shadows, variant.trace.shadows);
     ledger.pipeline(EffectKind::castsLight, variant.trace.castsLight);
+    ledger.pipeline(EffectKind::transparency, variant.trace.transparency);
     ledger.pipeline(EffectKind::textures, ledger[EffectKind::textures].draws > 0);
   });
 }

@@ -49,7 +49,7 @@ bool sameColors(const Object& a, const Object& b) {
 bool cullsBacks(const Device& device, const Settings& settings, const View& view, const InstanceState& instance,
                 const Mesh& mesh) {
   return device.caps().depthClamp && settings.debug.cullClusters && !settings.view.wireframe && mesh.solid &&
-         seesOnlyFronts(view, instance, mesh.halfExtent);
+         !isTransparent(mesh, settings.effects) && seesOnlyFronts(view, instance, mesh.halfExtent);
 }
 
 }  // namespace

@@ -28,6 +28,10 @@ glm::vec3 radiance(const glm::dvec3& product) {
   return glm::vec3(glm::min(product, radianceRange.high));
 }
 
+glm::vec4 texelOf(const Texture& texture, size_t index) {
+  return {texture.texels[index], texture.opacity.empty() ? 1.0f : texture.opacity[index]};
+}
+
 Environment scaled(Environment environment, double scale) {
   Sky sky = environment.sky.value_or(Sky{});
   for (glm::dvec3* color : {&environment.background, &environment.ambient, &sky.zenith, &sky.horizon, &sky.ground}) {

@@ -13,6 +13,8 @@ namespace speculum {
 glm::vec4 row(const glm::dmat3& m, int r, double w);
 // Rounds a product of radiances to floats, at most radianceRange.high.
 glm::vec3 radiance(const glm::dvec3& product);
+// Returns color and opacity of a texel.
+glm::vec4 texelOf(const Texture& texture, size_t index);
 // Returns the environment with its radiances times `scale`.
 Environment scaled(Environment environment, double scale);
 // Returns the colors that replace those of the object's material.

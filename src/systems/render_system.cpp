@@ -61,7 +61,9 @@ GraphicsPipelineDesc RenderSystem::objects(const Variant& variant, const FrameIn
                                           {gpu::constantSamples, variant.samples},
                                           {gpu::constantOnlyShadowFace, variant.onlyShadowFace},
                                           {gpu::constantLightCount, variant.lightCount},
-                                          {gpu::constantShadowedLights, variant.shadowedLights}},
+                                          {gpu::constantShadowedLights, variant.shadowedLights},
+                                          {gpu::constantClamps, variant.clamps},
+                                          {gpu::constantRepeating, variant.repeating}},
                             .setLayouts = {frameLayout_, textureLayout_},
                             .pushConstantBytes = sizeof(gpu::DrawConstants),
                             .samples = variant.samples,
@@ -86,6 +88,13 @@ GraphicsPipelineDesc RenderSystem::objects(const Variant& variant, const FrameIn
   if (variant.shadowed) {
     desc.setLayouts.push_back(info.shadows.layout());
   }
+  if (variant.covered) {
+    addCoverage(desc,
+                variant.deferred ? "scene_identifier_covered.frag"
+                                 : std::string("scene_covered") + (variant.vertexColors ? "_colored" : "") +
+                                       (variant.shadowed ? "_shadowed" : "") + ".frag",
+                textureLayout_);
+  }
   addVertexInput(desc);
   if (variant.vertexColors) {
     desc.vertexBindings.push_back({2, sizeof(glm::vec3), VK_VERTEX_INPUT_RATE_VERTEX});
@@ -94,9 +103,6 @@ GraphicsPipelineDesc RenderSystem::objects(const Variant& variant, const FrameIn
   return desc;
 }
 
-namespace {
-
-// Returns the indices of the part that the batch draws.
 std::vector<IndexRange> drawnRanges(const MeshPart& part, const Batch& batch) {
   if (batch.ranges.empty()) {
     return {{part.firstIndex, part.indexCount}};
@@ -112,6 +118,23 @@ std::vector<IndexRange> drawnRanges(const MeshPart& part, const Batch& batch) {
   return drawn;
 }
 
+void addCoverage(GraphicsPipelineDesc& desc, const std::string& frag, VkDescriptorSetLayout textureLayout) {
+  desc.frag = frag;
+  desc.setLayouts.resize(4, textureLayout);
+  desc.pushConstantBytes = sizeof(gpu::CoverageConstants);
+}
+
+void bindOpacity(const Pipeline& pipeline, VkCommandBuffer commands, const FrameInfo& info, const Material& material) {
+  const int texture = info.settings.effects.textures ? material.opacityTexture : -1;
+  pipeline.bindSet(commands, 3, info.resources.texture(texture));
+}
+
+gpu::CoverageConstants coverageConstants(const gpu::DrawConstants& draw, const Material& material) {
+  return {draw, static_cast<float>(material.opacity), static_cast<float>(material.cutoff)};
+}
+
+namespace {
+
 uint32_t lookupOf(bool textured, TextureFilter filter) {
   return !textured                            ? gpu::textureNone
          : filter == TextureFilter::trilinear ? gpu::textureTrilinear
@@ -125,6 +148,7 @@ void RenderSystem::countDraw(EffectLedger& ledger, const Variant& variant) {
   ledger.draw(EffectKind::castsLight, variant.trace.castsLight);
   ledger.draw(EffectKind::curved, variant.curved);
   ledger.draw(EffectKind::wireframe, variant.wireframe);
+  ledger.draw(EffectKind::transparency, variant.covered || variant.trace.transparency);
 }
 
 uint32_t RenderSystem::recordBatch(const PassScope& scope, const FrameInfo& info, const DrawList& pass,
@@ -156,9 +180,12 @@ uint32_t RenderSystem::recordBatch(const PassScope& scope, const FrameInfo& info
     if (!variant.deferred) {
       variant.diffuseLookup = lookupOf(textured && !batch.environment, info.settings.view.textureFilter);
       variant.glossy = constants.specular != glm::vec3(0.0f);
-      variant.repeating = variant.diffuseLookup != gpu::textureNone && !info.data.repeats().empty() &&
-                          mesh.parts[p].firstIndex + 3 * mesh.repeats >= mesh.indices.size();
     }
+    variant.covered = !batch.curved && isTransparent(material, info.settings.effects);
+    variant.repeating = (variant.covered || variant.diffuseLookup != gpu::textureNone) &&
+                        !info.data.repeats().empty() &&
+                        mesh.parts[p].firstIndex + 3 * mesh.repeats >= mesh.indices.size();
+    variant.clamps = material.clamps && (variant.covered || variant.diffuseLookup != gpu::textureNone);
     const Pipeline& pipeline = objects_.get(variant, [&] { return objects(variant, info, shading); });
     info.data.bind(pipeline, commands, pass);
     pipeline.bindSet(commands, 1, batch.map >= 0 ? info.maps[batch.map] : info.resources.texture(material));
@@ -167,10 +194,15 @@ uint32_t RenderSystem::recordBatch(const PassScope& scope, const FrameInfo& info
     } else if (variant.added) {
       pipeline.bindSet(commands, 2, shading->set());
     }
+    if (variant.covered) {
+      bindOpacity(pipeline, commands, info, material);
+    }
     for (const IndexRange& range : drawnRanges(mesh.parts[p], batch)) {
       constants.firstTriangle = range.first / 3;
       if (variant.added) {
         pipeline.push(commands, gpu::ReflectionConstants{constants, DeferredShading::areaOf(scope.desc())});
+      } else if (variant.covered) {
+        pipeline.push(commands, coverageConstants(constants, material));
       } else {
         pipeline.push(commands, constants);
       }
@@ -190,15 +222,17 @@ void RenderSystem::countPipelines(EffectLedger& ledger) const {
     ledger.pipeline(EffectKind::castsLight, variant.trace.castsLight);
     ledger.pipeline(EffectKind::curved, variant.curved);
     ledger.pipeline(EffectKind::wireframe, variant.wireframe);
+    ledger.pipeline(EffectKind::transparency, variant.covered || variant.trace.transparency);
     ledger.pipeline(EffectKind::textures, variant.diffuseLookup != gpu::textureNone);
   });
 }
 
-void RenderSystem::endFrame(const TraceVariant& trace, bool shadowMaps, bool imagesShown, bool curved, bool textured) {
+void RenderSystem::endFrame(const TraceVariant& trace, bool shadowMaps, bool imagesShown, bool curved, bool textured,
+                            bool transparent) {
   objects_.endFrame([&](const Variant& variant) {
     const bool stays = imagesShown && variant.trace == trace && (curved || !variant.curved);
     return (!stays && (variant.curved || variant.trace.traced)) || (!shadowMaps && variant.shadowed) ||
-           (!textured && variant.diffuseLookup != gpu::textureNone);
+           (!transparent && variant.covered) || (!textured && variant.diffuseLookup != gpu::textureNone);
   });
 }
 

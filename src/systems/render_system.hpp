@@ -13,6 +13,15 @@ void addVertexInput(GraphicsPipelineDesc& desc);
 // culled until the next PassScope::cull().
 void bindBatch(const PassScope& scope, const FrameInfo& info, const Batch& batch);
 
+// Returns the indices of the part that the batch draws.
+std::vector<IndexRange> drawnRanges(const MeshPart& part, const Batch& batch);
+// Makes the description that of a pipeline for materials with coverage, whose fragment shader is `frag` and whose
+// descriptor set 3 is the opacity texture.
+void addCoverage(GraphicsPipelineDesc& desc, const std::string& frag, VkDescriptorSetLayout textureLayout);
+// Binds the opacity texture of a material for such a pipeline.
+void bindOpacity(const Pipeline& pipeline, VkCommandBuffer commands, const FrameInfo& info, const Material& material);
+gpu::CoverageConstants coverageConstants(const gpu::DrawConstants& draw, const Material& material);
+
 // Draws the scene's objects and, where nothing was drawn, its sky.
 class RenderSystem {
  public:
@@ -28,9 +37,11 @@ class RenderSystem {
                              const DeferredShading& shading);
   void countPipelines(EffectLedger& ledger) const;
   // Drops pipelines that have not been used for idleFramesKept frames and are for traced surfaces, curved mirrors,
-  // shadow maps (unless `shadowMaps`) or textures (unless `textured`, which is drawsTextures()). While cached images
-  // are shown, the pipelines for `trace` stay, those of curved mirrors only if `curved`.
-  void endFrame(const TraceVariant& trace, bool shadowMaps, bool imagesShown, bool curved, bool textured);
+  // shadow maps (unless `shadowMaps`), textures (unless `textured`, which is drawsTextures()) or coverage (unless
+  // `transparent`, which is drawsTransparency()). While cached images are shown, the pipelines for `trace` stay, those
+  // of curved mirrors only if `curved`.
+  void endFrame(const TraceVariant& trace, bool shadowMaps, bool imagesShown, bool curved, bool textured,
+                bool transparent);
 
  private:
   struct Variant {
@@ -48,6 +59,8 @@ class RenderSystem {
     bool added = false;           // only the reflection, added to the base that DeferredShading has drawn
     bool repeating = false;       // draws RepeatingTriangles
     bool vertexColors = false;    // the mesh has them
+    bool covered = false;         // the material has coverage
+    bool clamps = false;          // the material's textures do
     bool shadowed = false;        // looks shadows up in maps
     uint32_t shadowedLights = 0;  // constants of shadow_map.glsl
     uint32_t onlyShadowFace = gpu::anyShadowFace;

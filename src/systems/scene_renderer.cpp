@@ -109,7 +109,7 @@ void SceneRenderer::record(Frame& frame, const SceneState& state, const Settings
     recordDisplay(info, debug);
   }
   if (!unfinished_) {
-    endRecord(info, textured);
+    endRecord(info, textured, drawsTransparency(scene_, state, settings, plan));
   }
   log_.endFrame(frame.number);
 }
@@ -327,7 +327,7 @@ void SceneRenderer::recordDebug(const FrameInfo& info, const TargetDisplay& debu
 }
 
 // Keeps what the next frame may reuse, and releases what no frame needed for a while.
-void SceneRenderer::endRecord(const FrameInfo& info, bool textured) {
+void SceneRenderer::endRecord(const FrameInfo& info, bool textured, bool transparent) {
   const FramePlan& plan = info.plan;
   RetireQueue& retired = *info.frame.retired;
   const auto isShown = [](const Pass& pass) { return pass.source == PassSource::reused && !pass.isFace(); };
@@ -335,7 +335,8 @@ void SceneRenderer::endRecord(const FrameInfo& info, bool textured) {
   const bool glyphsShown =
       std::ranges::any_of(plan.passes, [&](const Pass& pass) { return isShown(pass) && !pass.lights.empty(); });
   const bool shadowMaps = !cubesOf(plan.cubes, PassKind::shadow).empty();
-  renderSystem_.endFrame(trace_.variant(), shadowMaps, imagesShown, plan.effects.curved.has_value(), textured);
+  renderSystem_.endFrame(trace_.variant(), shadowMaps, imagesShown, plan.effects.curved.has_value(), textured,
+                         transparent);
   mirrorSystem_.endFrame(trace_.variant(), shadowMaps, imagesShown && plan.effects.any(), textured);
   deferredShading_.endFrame(trace_.variant(), imagesShown && plan.effects.any(), retired);
   pointLightSystem_.endFrame(glyphsShown);

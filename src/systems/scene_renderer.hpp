@@ -84,7 +84,7 @@ class SceneRenderer {
   void recordSum(const FrameInfo& info);
   void recordDisplay(const FrameInfo& info, const std::optional<TargetDisplay>& debug);
   void recordDebug(const FrameInfo& info, const TargetDisplay& debug, const WatchedTarget::Target& target);
-  void endRecord(const FrameInfo& info, bool textured);
+  void endRecord(const FrameInfo& info, bool textured, bool transparent);
   void finishLedger(const FrameInfo& info);
 
   // Draws the frame's tiles of a mirror pass or the main view.

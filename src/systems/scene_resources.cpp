@@ -16,21 +16,27 @@ namespace {
 std::vector<uint64_t> halfTexels(const Texture& texture) {
   std::vector<uint64_t> texels;
   texels.reserve(texture.texels.size());
-  for (const glm::vec3& texel : texture.texels) {
-    texels.push_back(glm::packHalf4x16(glm::vec4(texel, 1.0f)));
+  for (size_t i = 0; i < texture.texels.size(); ++i) {
+    texels.push_back(glm::packHalf4x16(texelOf(texture, i)));
   }
   return texels;
 }
 
-gpu::MaterialData materialData(const Material& material, bool textured, double radianceScale, uint32_t firstColor) {
-  const bool hasTexture = textured && material.diffuseTexture >= 0;
+gpu::MaterialData materialData(const Material& material, const EffectSettings& effects, double radianceScale,
+                               uint32_t firstColor) {
+  const auto textureOf = [&](int index, bool drawn) {
+    return index >= 0 && drawn && effects.textures ? static_cast<uint32_t>(index) : gpu::noTexture;
+  };
   return {.diffuse = glm::vec3(material.diffuse),
-          .hasTexture = hasTexture,
+          .texture = textureOf(material.diffuseTexture, true),
           .specular = glm::vec3(material.specular),
           .shininess = static_cast<float>(material.shininess),
           .emission = radiance(radianceScale * material.emission),
-          .textureIndex = hasTexture ? static_cast<uint32_t>(material.diffuseTexture) : 0,
-          .firstColor = firstColor};
+          .clamps = material.clamps,
+          .firstColor = firstColor,
+          .opacity = effects.transparency ? static_cast<float>(material.opacity) : 1.0f,
+          .cutoff = static_cast<float>(material.cutoff),
+          .opacityTexture = textureOf(material.opacityTexture, effects.transparency)};
 }
 
 Buffer uploadVertices(Uploader& uploader, const std::vector<Vertex>& vertices, const std::string& name) {
@@ -57,14 +63,15 @@ SceneResources::SceneResources(Device& device, Uploader& uploader, const Scene& 
 void SceneResources::upload(Frame& frame, const Settings& settings, bool drawn) {
   const bool textured = settings.effects.textures && !scene_.textures.empty();
   const double scale = settings.view.radianceScale();
-  const bool changed = !materials_ || textured != textured_ || scale != radianceScale_;
+  const bool changed =
+      !materials_ || textured != textured_ || settings.effects.transparency != transparent_ || scale != radianceScale_;
   if (changed || (drawn && textures_.empty())) {
     // Waits for frames in flight before the upload, which waits only for its own fence.
     check(vkQueueWaitIdle(device_.queue()), "wait for the queue");
   }
   if (changed) {
     frame.retired->take(materials_);
-    createMaterials(textured, scale);
+    createMaterials(settings.effects, scale);
   }
   if (drawn && textures_.empty()) {
     createTextures();
@@ -122,17 +129,18 @@ void SceneResources::createMeshes() {
 }
 
 // Makes the materials of all parts, in the order of the meshes.
-void SceneResources::createMaterials(bool textured, double radianceScale) {
+void SceneResources::createMaterials(const EffectSettings& effects, double radianceScale) {
   std::vector<gpu::MaterialData> materials;
   const std::vector<uint32_t> firstColors = TraceScene::firstColorsOf(scene_);
   for (size_t i = 0; i < scene_.meshes.size(); ++i) {
     for (const MeshPart& part : scene_.meshes[i].parts) {
-      materials.push_back(materialData(part.material, textured, radianceScale, firstColors[i]));
+      materials.push_back(materialData(part.material, effects, radianceScale, firstColors[i]));
     }
   }
   materials.resize(std::max<size_t>(materials.size(), 1));
   materials_ = uploader_.buffer(materials, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "materials");
-  textured_ = textured;
+  textured_ = effects.textures && !scene_.textures.empty();
+  transparent_ = effects.transparency;
   radianceScale_ = radianceScale;
 }
 
@@ -148,8 +156,8 @@ VkDescriptorImageInfo SceneResources::image(int texture) const {
   return (texture < 0 || textures_.empty() ? noTexture_ : textures_[texture]).descriptor(sampler_.get());
 }
 
-VkDescriptorSet SceneResources::texture(const Material& material) const {
-  return material.diffuseTexture < 0 || textures_.empty() ? noTextureSet_ : textureSets_[material.diffuseTexture];
+VkDescriptorSet SceneResources::texture(int index) const {
+  return index < 0 || textures_.empty() ? noTextureSet_ : textureSets_[index];
 }
 
 }  // namespace speculum

@@ -40,8 +40,10 @@ class SceneResources {
   const std::vector<GpuMesh>& meshes() const { return meshes_; }
   const Buffer& materials() const { return materials_; }
   uint64_t textureBytes() const;  // of the uploaded textures, with all mip levels
-  VkDescriptorSet texture(const Material& material) const;
-  // Returns the descriptor of a texture of the scene; of a white texel while no texture is drawn.
+  VkDescriptorSet texture(const Material& material) const { return texture(material.diffuseTexture); }
+  // Returns the texture of an index into Scene::textures; a white, opaque one for -1 and while none is uploaded.
+  VkDescriptorSet texture(int index) const;
+  // Returns the descriptor of such a texture.
   VkDescriptorImageInfo image(int texture) const;
   VkDescriptorSetLayout textureLayout() const { return textureLayout_.get(); }
 
@@ -49,7 +51,7 @@ class SceneResources {
   Image upload(const Texture& texture, const std::string& name);
   void createTextures();
   void createMeshes();
-  void createMaterials(bool textured, double radianceScale);
+  void createMaterials(const EffectSettings& effects, double radianceScale);
 
   Device& device_;
   Uploader& uploader_;
@@ -64,6 +66,7 @@ class SceneResources {
   int idleFrames_ = 0;                        // since textures_ were drawn
   Buffer materials_;
   bool textured_ = false;       // whether materials_ refer to textures
+  bool transparent_ = false;    // whether materials_ have coverage
   double radianceScale_ = 1.0;  // of emission in materials_
   std::vector<GpuMesh> meshes_;
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "plan/shadow_map.hpp"
 #include "plan/target_memory.hpp"
@@ -31,6 +32,10 @@ std::array<gpu::ShadowMapData, gpu::mostShadowMaps> mapData(const FramePlan& pla
 }
 
 }  // namespace
+
+bool ShadowSystem::isCovered(Drawn drawn) {
+  return drawn == Drawn::covered || drawn == Drawn::coveredClamping;
+}
 
 ShadowSystem::ShadowSystem(Device& device, PipelineFactory& factory, VkDescriptorSetLayout frameLayout)
     : device_(device),
@@ -102,16 +107,20 @@ PassTargets ShadowSystem::layerTargets() {
   return targets;
 }
 
-const Pipeline& ShadowSystem::pipelineFor(Drawn drawn) {
+const Pipeline& ShadowSystem::pipelineFor(Drawn drawn, const FrameInfo& info) {
   return pipelines_.get(drawn, [&] {
     GraphicsPipelineDesc desc{.name = "shadow map",
                               .vert = "mirror.vert",
                               .frag = "shadow_map.frag",
                               .setLayouts = {frameLayout_},
                               .color = planeFormat};
-    if (drawn == Drawn::objects) {
+    if (drawn == Drawn::objects || isCovered(drawn)) {
       desc.vert = "scene.vert";
       addVertexInput(desc);
+      if (isCovered(drawn)) {
+        addCoverage(desc, "shadow_map_covered.frag", info.resources.textureLayout());
+        desc.constants = {{gpu::constantClamps, drawn == Drawn::coveredClamping}};
+      }
     } else if (drawn == Drawn::layer) {
       desc.vert = "full_screen.vert";
       desc.frag = "shadow_layer.frag";
@@ -126,17 +135,23 @@ uint32_t ShadowSystem::draw(const PassScope& scope, const FrameInfo& info, size_
   const DrawList& data = info.data.passes()[pass];
   uint32_t draws = 0;
   if (overLayer) {
-    const Pipeline& pipeline = pipelineFor(Drawn::layer);
+    const Pipeline& pipeline = pipelineFor(Drawn::layer, info);
     info.data.bind(pipeline, commands, data);
     pipeline.bindSet(commands, 1, layerSet_);
     vkCmdDraw(commands, 3, 1, 0, 0);
     ++draws;
   }
-  if (!data.batches.empty()) {
-    info.data.bind(pipelineFor(Drawn::objects), commands, data);
-  }
+  bool bound = false;  // the pipeline of opaque objects
   for (const Batch& batch : data.batches) {
     bindBatch(scope, info, batch);
+    if (!batch.curved && isTransparent(info.scene.meshes[batch.mesh], info.settings.effects)) {
+      draws += drawParts(scope, info, data, batch);
+      bound = false;
+      continue;
+    }
+    if (!std::exchange(bound, true)) {
+      info.data.bind(pipelineFor(Drawn::objects, info), commands, data);
+    }
     const RecycledVector<IndexRange> all{allOf(info.scene.meshes[batch.mesh])};
     for (const IndexRange& range : batch.ranges.empty() ? all : batch.ranges) {
       vkCmdDrawIndexed(commands, range.count, batch.count, range.first, 0, batch.firstInstance);
@@ -145,9 +160,35 @@ uint32_t ShadowSystem::draw(const PassScope& scope, const FrameInfo& info, size_
   }
   scope.cull(VK_CULL_MODE_NONE);
   for (const MirrorRange& mirror : data.mirrors) {
-    info.data.bind(pipelineFor(Drawn::mirrors), commands, data, mirror.mirror);
+    info.data.bind(pipelineFor(Drawn::mirrors, info), commands, data, mirror.mirror);
     vkCmdDraw(commands, mirror.vertexCount, 1, mirror.firstVertex, 0);
     ++draws;
+  }
+  return draws;
+}
+
+// Draws a batch part by part, those with coverage with their opacity.
+uint32_t ShadowSystem::drawParts(const PassScope& scope, const FrameInfo& info, const DrawList& data,
+                                 const Batch& batch) {
+  const VkCommandBuffer commands = scope.commands();
+  uint32_t draws = 0;
+  for (const MeshPart& part : info.scene.meshes[batch.mesh].parts) {
+    const bool covered = isTransparent(part.material, info.settings.effects);
+    covered_ = covered_ || covered;
+    const Drawn drawn = !covered ? Drawn::objects : part.material.clamps ? Drawn::coveredClamping : Drawn::covered;
+    const Pipeline& pipeline = pipelineFor(drawn, info);
+    info.data.bind(pipeline, commands, data);
+    if (covered) {
+      bindOpacity(pipeline, commands, info, part.material);
+    }
+    for (const IndexRange& range : drawnRanges(part, batch)) {
+      if (covered) {
+        pipeline.push(commands, coverageConstants({.firstTriangle = range.first / 3}, part.material));
+      }
+      vkCmdDrawIndexed(commands, range.count, batch.count, range.first, 0, batch.firstInstance);
+      info.ledger.draw(EffectKind::transparency, covered);
+      ++draws;
+    }
   }
   return draws;
 }
@@ -185,6 +226,8 @@ void ShadowSystem::release(RetireQueue& retired) {
 }
 
 void ShadowSystem::endFrame(const FramePlan& plan, RetireQueue& retired) {
+  pipelines_.endFrame([&](Drawn drawn) { return isCovered(drawn) && !covered_; });
+  covered_ = false;
   idleFrames_ = cubesOf(plan.cubes, PassKind::shadow).empty() ? std::min(idleFrames_, ImagePool::framesKept) + 1 : 0;
   if (target_ && idleFrames_ > ImagePool::framesKept) {
     release(retired);

@@ -33,8 +33,10 @@ class ShadowSystem {
   size_t pipelineCount() const { return pipelines_.size(); }
 
  private:
-  enum class Drawn { objects, mirrors, layer };
-  const Pipeline& pipelineFor(Drawn drawn);
+  enum class Drawn { objects, covered, coveredClamping, mirrors, layer };
+  static bool isCovered(Drawn drawn);
+  const Pipeline& pipelineFor(Drawn drawn, const FrameInfo& info);
+  uint32_t drawParts(const PassScope& scope, const FrameInfo& info, const DrawList& data, const Batch& batch);
   // Targets of the faces' layers. A layer lies where its face lies in target_, and uses the depth of target_.
   PassTargets layerTargets();
   // Draws pass `pass` of info.data: a face, with `overLayer` over its layer, or a layer. Returns the number of draws.
@@ -55,6 +57,7 @@ class ShadowSystem {
   VkDescriptorSet layerSet_ = VK_NULL_HANDLE;
   uint32_t onlyFace_ = gpu::anyShadowFace;
   int idleFrames_ = 0;
+  bool covered_ = false;  // this frame has drawn coverage
 };
 
 }  // namespace speculum

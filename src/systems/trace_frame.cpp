@@ -113,6 +113,8 @@ void TraceFrame::build(Frame& frame, const SceneState& state, const Settings& se
               .castsLight = effects.castsLight.has_value(),
               .perSample = settings.effects.perSample && effects.traces(),
               .repeating = hasRepeatingTriangles(scene_),
+              .transparency =
+                  std::ranges::any_of(scene_.meshes, [&](const Mesh& m) { return isTransparent(m, settings.effects); }),
               .vertexColors = std::ranges::any_of(scene_.meshes, [](const Mesh& m) { return !m.colors.empty(); })};
   addMirrors(state, settings);
   prepareStructures(frame, state, settings.effects.rays, effects.traces());

@@ -21,6 +21,7 @@ struct TraceVariant {
   bool hardware = false;      // rays are ray queries
   bool rough = false;         // rays may be reflected by rough mirrors
   bool repeating = false;     // there are RepeatingTriangles
+  bool transparency = false;  // some mesh has coverage
   bool vertexColors = false;  // some mesh has them
 
   auto operator<=>(const TraceVariant&) const = default;

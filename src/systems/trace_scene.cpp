@@ -8,6 +8,7 @@
 
 #include "core/acceleration_structure.hpp"
 #include "geometry/triangle_mesh.hpp"
+#include "systems/gpu_conversion.hpp"
 
 namespace speculum {
 
@@ -17,12 +18,16 @@ constexpr int trianglesPerLeaf = 4;
 
 // Appends the texture and its levels down to one texel. Halving an odd size leaves out the last row or column.
 void appendLevels(const Texture& texture, std::vector<uint64_t>& texels) {
-  std::vector<glm::vec3> level = texture.texels;
+  std::vector<glm::vec4> level;
+  level.reserve(texture.texels.size());
+  for (size_t i = 0; i < texture.texels.size(); ++i) {
+    level.push_back(texelOf(texture, i));
+  }
   auto width = static_cast<size_t>(texture.width);
   auto height = static_cast<size_t>(texture.height);
   for (;;) {
-    for (const glm::vec3& texel : level) {
-      texels.push_back(glm::packHalf4x16(glm::vec4(texel, 1.0f)));
+    for (const glm::vec4& texel : level) {
+      texels.push_back(glm::packHalf4x16(texel));
     }
     if (level.size() <= 1) {
       return;
@@ -177,15 +182,23 @@ void TraceScene::writeTriangles(Uploader& uploader, const Scene& scene) {
     }
   });
   write(uploader, triangles, triangleCount * sizeof(gpu::TraceTriangle), "trace triangles", [&](BufferWriter& writer) {
+    uint32_t materials = 0;  // of the meshes before, as SceneResources counts them
     for (size_t i = 0; i < hierarchies.size(); ++i) {
       const Mesh& mesh = scene.meshes[i];
+      const std::vector<uint32_t> parts = mesh.isTransparent() ? partsOfTriangles(mesh) : std::vector<uint32_t>();
+      const auto coverageOf = [&](uint32_t triangle) {
+        const bool transparent = !parts.empty() && mesh.parts[parts[triangle]].material.isTransparent();
+        return transparent ? 1 + materials + parts[triangle] : 0;
+      };
       for (const uint32_t triangle : hierarchies[i].order()) {
         const uint32_t* index = &mesh.indices[size_t{triangle} * 3];
         writer.add(gpu::TraceTriangle{.a = glm::vec3(mesh.vertices[index[0]].position),
                                       .triangle = triangle,
                                       .b = glm::vec3(mesh.vertices[index[1]].position),
+                                      .coverage = coverageOf(triangle),
                                       .c = glm::vec3(mesh.vertices[index[2]].position)});
       }
+      materials += static_cast<uint32_t>(mesh.parts.size());
     }
   });
 }

@@ -35,7 +35,8 @@ bool isCovered(const Scene& scene, const SceneState& state, const glm::dvec3& ey
                const MirrorPath& path) {
   for (const InstanceState& instance : state.instances) {
     const Mesh& mesh = scene.meshes[instance.mesh];
-    if (!sees(path.size() > 1 ? Onlooker::mirror : Onlooker::eye, scene.objects[instance.object].visible)) {
+    if (mesh.isTransparent() ||
+        !sees(path.size() > 1 ? Onlooker::mirror : Onlooker::eye, scene.objects[instance.object].visible)) {
       continue;
     }
     const auto corner = [&](size_t i) { return instance.worldFromMesh.point(mesh.vertices[mesh.indices[i]].position); };
@@ -102,7 +103,8 @@ class Occluders : public ::testing::Test {
     const auto checkPass = [&](const Pass& pass) {
       for (const int i : pass.instances) {
         const InstanceState& instance = state.instances[i];
-        for (const std::vector<glm::dvec3>& face : scene.meshes[instance.mesh].faces) {
+        const Mesh& mesh = scene.meshes[instance.mesh];
+        for (const std::vector<glm::dvec3>& face : mesh.faces) {
           FlatOccluder occluder{.slack = 1e-4 * instance.radius};
           for (const glm::dvec3& p : face) {
             occluder.polygon.push_back(instance.worldFromMesh.point(p));
@@ -115,7 +117,7 @@ class Occluders : public ::testing::Test {
               return std::ranges::all_of(draw.polygon,
                                          [&](const glm::dvec3& p) { return half.at(p - pass.view.eye) > 0.0; });
             };
-            EXPECT_FALSE(hides && std::ranges::all_of(region, holds))
+            EXPECT_FALSE(hides && !mesh.isTransparent() && std::ranges::all_of(region, holds))
                 << what << " does not hide mirror " << draw.mirror;
           }
         }
@@ -159,9 +161,10 @@ class Occluders : public ::testing::Test {
 
   // Places the shape and six mirrors beyond it, seen from `eye`, in the scene. Returns the number of those hidden.
   int hiddenBehind(const OccluderShape& shape, int objects, Scene scene, const glm::dvec3& eye, int depth) {
-    scene.meshes = {meshOf(shape.positions, shape.indices)};
+    scene.meshes = {meshOf(shape.positions, shape.indices), meshOf(shape.positions, shape.indices)};
+    scene.meshes[0].parts[0].material.opacity = opacity_;
     for (int i = 0; i < objects; ++i) {
-      scene.objects.push_back(place(0));
+      scene.objects.push_back(place(i % 2));
       scene.objects.back().visible = visibility_;
     }
     const SceneState placed = evaluate(scene, 0.0);
@@ -179,6 +182,7 @@ class Occluders : public ::testing::Test {
     return pass == plan.drawnMirrors().end() ? plan.main().view : pass->view;
   }
 
+  double opacity_ = 1.0;  // of the first mesh
   std::mt19937 engine_{17};
   Visibility visibility_ = Visibility::everywhere;  // of the shapes
   int together_ = 0;                                // mirrors that several objects hide
@@ -225,6 +229,17 @@ TEST_F(Occluders, UnseenObjectsHideNothing) {
     }
     EXPECT_GT(visible == Visibility::eye ? fromEye : inMirrors, 20);
   }
+}
+
+// One of two shapes is glass.
+TEST_F(Occluders, TransparentObjectsHideNothing) {
+  opacity_ = 0.5;
+  int hidden = 0;
+  for (int round = 0; round < 60; ++round) {
+    EXPECT_EQ(hiddenBehind(randomShape(engine_), 1, testing_support::sceneWith({}), glm::dvec3(0.0), 0), 0);
+    hidden += hiddenBehind(randomShape(engine_), 2, testing_support::sceneWith({}), glm::dvec3(0.0), 0);
+  }
+  EXPECT_GT(hidden, 10) << "the other shape hides mirrors";
 }
 
 TEST_F(Occluders, BoxesAndPanesHideNothingVisibleTogether) {

@@ -129,11 +129,53 @@ TEST_F(MtlFile, MissingNameIsOneWarning) {
   EXPECT_EQ(warnings(), "warning: m.obj:6: usemtl: there is no material 'x', its faces get the default one\n");
 }
 
-TEST_F(MtlFile, OpacityIsAWarning) {
-  for (const char* opacity : {"d 0.5", "Tr 0.5", "map_d mask.png"}) {
-    materialOf(std::string("newmtl m\nKd 1 1 1\n") + opacity + "\n");
-    EXPECT_TRUE(contains(warnings(), "m.mtl:1: newmtl: 'm' is not opaque, it is drawn opaque\n")) << opacity;
+TEST_F(MtlFile, OpacityIsRead) {
+  EXPECT_EQ(materialOf("newmtl m\nd 0.25\n").opacity, 0.25);
+  EXPECT_EQ(materialOf("newmtl m\nd -halo 0.25\n").opacity, 0.25);
+  EXPECT_EQ(materialOf("newmtl m\nTr 0.25\n").opacity, 0.75);
+  EXPECT_EQ(materialOf("newmtl m\nd 7\n").opacity, 1.0);
+  EXPECT_FALSE(materialOf("newmtl m\nd 1\n").isTransparent());
+  EXPECT_EQ(warnings(), "");
+}
+
+TEST_F(MtlFile, TexturesGiveOpacity) {
+  const auto write = [&](const char* name, const auto& color) {
+    writePng(folder_.path() / name, testing_support::madePicture(4, 4, color));
+  };
+  write("leaf.png", [](int x, int) { return glm::ivec4(255, 255, 255, x < 2 ? 0 : 255); });
+  write("veil.png", [](int x, int) { return glm::ivec4(255, 255, 255, 64 * x); });
+  write("mask.png", [](int x, int) { return glm::ivec4(51 * x, 0, 0, 255); });
+  const Material leaf = materialOf("newmtl m\nmap_Kd leaf.png\n");
+  EXPECT_EQ(leaf.opacityTexture, leaf.diffuseTexture);
+  EXPECT_EQ(leaf.cutoff, 0.5);
+  EXPECT_LT(materialOf("newmtl m\nmap_Kd leaf.png\nd 0.5\n").cutoff, 0.0);
+  const Material veil = materialOf("newmtl m\nmap_Kd veil.png\n");
+  EXPECT_LT(veil.cutoff, 0.0);
+  EXPECT_TRUE(veil.isTransparent());
+  const Material mask = materialOf("newmtl m\nmap_Kd mask.png\nmap_d mask.png\n");
+  EXPECT_NE(mask.opacityTexture, mask.diffuseTexture);
+  EXPECT_EQ(textures_[static_cast<size_t>(mask.opacityTexture)].opacity[1], 0.2f);
+  EXPECT_TRUE(textures_[static_cast<size_t>(mask.diffuseTexture)].opacity.empty());
+  EXPECT_FALSE(materialOf("newmtl m\nmap_d none.png\n").isTransparent());
+  EXPECT_EQ(warnings(), "warning: m.mtl:2: map_d: there is no file 'none.png', the texture is left out\n");
+}
+
+TEST_F(MtlFile, TexturesMayBeMovedAndClamped) {
+  writePng(folder_.path() / "t.png", Image8(2, 2));
+  const std::string obj = squareText + "vt 1 2\nvt 100 0\nvt 0 0\nusemtl m\nf 1/1 2/2 3/3\n";
+  const Mesh moved = load(obj, "newmtl m\nmap_Kd -s 2 -1 -o 0.5 1 t.png\n");
+  std::vector<glm::dvec2> uv;
+  for (const uint32_t index : moved.indices) {
+    uv.push_back(moved.vertices[index].uv - moved.vertices[moved.indices[0]].uv);
   }
+  EXPECT_EQ(uv[1], glm::dvec2(198, 2));
+  EXPECT_EQ(uv[2], glm::dvec2(-2, 2));
+  EXPECT_EQ(glm::fract(moved.vertices[moved.indices[0]].uv), glm::dvec2(0.5, 0));
+  EXPECT_FALSE(moved.parts[0].material.clamps);
+  const Mesh clamped = load(obj, "newmtl m\nmap_Kd -clamp on t.png\n");
+  EXPECT_TRUE(clamped.parts[0].material.clamps);
+  EXPECT_EQ(clamped.vertices[clamped.indices[1]].uv, glm::dvec2(100, 0)) << "whole numbers count";
+  EXPECT_EQ(clamped.repeats, 0u);
 }
 
 TEST_F(MtlFile, TextureIsDecodedToLinear) {

@@ -100,6 +100,9 @@ void PrintTo(const Case& c, std::ostream* out) {
 }
 
 std::filesystem::path sceneWith(const std::string& name, const std::string& rest) {
+  std::ofstream(sceneDirectory() / "pane.mtl") << "newmtl m\nd 0.5\n";
+  std::ofstream(sceneDirectory() / "pane.obj")
+      << "mtllib pane.mtl\nusemtl m\nv -1 0 0\nv 1 0 0\nv 1 2 0\nv -1 2 0\nf 1 2 3 4\n";
   return writeScene("ledger_" + name, R"(
 [environment] background = [0.3, 0.4, 0.5], ambient = [0.1, 0.1, 0.1]
 [camera] position = [0, 1, 3], target = [0, 0.5, 0]
@@ -230,6 +233,10 @@ const std::vector<Case> cases = {
          "[[object]] model = 'MODELS/chequer.obj', position = [0, 0, 9]\n",
          "[[object]] model = 'MODELS/chequer.obj'\n",
          {"Image", "Pipeline"}},
+    Case{"transparency",
+         "[[object]] model = 'pane.obj', position = [0, 0, 9]\n",
+         "[[object]] model = 'pane.obj', position = [0, 0, 1]\n",
+         {"Pipeline"}},
     Case{"glyphs",
          "[[light]] position = [0, 1, 5], radius = 0.2, glow = 2\n",
          "[[light]] position = [0, 1, 1], radius = 0.2, glow = 2\n",

@@ -495,7 +495,8 @@ TEST(Effects, EffectsWithoutRaysCanBeSwitchedOff) {
     set(of, {{key, value}});
     return draw(of);
   };
-  const std::vector<std::string> effects = {"effects.fresnel", "effects.textures", "effects.glyphs"};
+  const std::vector<std::string> effects = {"effects.fresnel", "effects.transparency", "effects.textures",
+                                            "effects.glyphs"};
   for (const char* lookup : {"traced", "environment"}) {
     Image8 last = drawn(session, "effects.curved_lookup", lookup);
     for (const std::string& key : effects) {

@@ -4,6 +4,9 @@
 
 #include "image/picture_files.hpp"
 #include "made_pictures.hpp"
+#include "random.hpp"
+#include "sampling.hpp"
+#include "scene_text.hpp"
 #include "truth_support.hpp"
 
 namespace speculum {
@@ -127,6 +130,164 @@ TEST(MirrorsFromMaterials, PiecesOfOnePlaneShareAnImage) {
   Studio studio(truthOptions(file, size, 1));
   studio.draw();
   EXPECT_EQ(studio.plan.drawnMirrors().size(), 2u) << "ring and square in one plane, and the triangle";
+}
+
+// Writes NAME.obj, a box about the origin with texture coordinates of 0 .. 1 on each side, and its material m.
+std::string writeBox(const std::string& name, const glm::dvec3& half, const std::string& material) {
+  std::ofstream(sceneDirectory() / (name + ".mtl")) << "newmtl m\n" << material;
+  std::ostringstream obj;
+  obj << "mtllib " << name << ".mtl\nusemtl m\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n";
+  for (int i = 0; i < 8; ++i) {
+    obj << "v " << ((i & 1) != 0 ? half.x : -half.x) << ' ' << ((i & 2) != 0 ? half.y : -half.y) << ' '
+        << ((i & 4) != 0 ? half.z : -half.z) << '\n';
+  }
+  obj << "f 5/1 6/2 8/3 7/4\nf 2/1 1/2 3/3 4/4\nf 6/1 2/2 4/3 8/4\nf 1/1 5/2 7/3 3/4\nf 7/1 8/2 4/3 3/4\n"
+         "f 1/1 2/2 6/3 5/4\n";
+  writeModel(name + ".obj", obj.str());
+  return name + ".obj";
+}
+
+// A leaf with a smoothed outline: a cut-out. A veil: opacity from side to side. A mask without alpha of its own.
+void writeOpacities() {
+  const auto write = [](const char* name, const auto& color) {
+    writePng(sceneDirectory() / name, madePicture(32, 32, color));
+  };
+  const auto radius = [](int x, int y) { return std::hypot(x - 15.5, y - 15.5); };
+  write("leaf.png", [&](int x, int y) {
+    return glm::ivec4(40 + 6 * x, 220, 60, std::clamp(static_cast<int>(255 * (13.0 - radius(x, y)) + 127), 0, 255));
+  });
+  write("veil.png", [](int x, int y) { return glm::ivec4(255, 8 * y, 255 - 8 * x, 8 * x); });
+  write("mask.png",
+        [&](int x, int y) { return glm::ivec4(glm::ivec3(radius(x, y) < 6.0 || radius(x, y) > 12.0 ? 255 : 0), 255); });
+}
+
+const std::string coverView = R"([environment] background = [0.2, 0.3, 0.4], ambient = [0.3, 0.3, 0.3]
+[camera] position = [0.4, 0.7, 3.2], target = [0, 0.1, 0]
+[[object]] model = "MODELS/torus_knot.obj", position = [0, 0.1, -0.9], scale = 0.4, color = [0.8, 0.3, 0.2]
+[[mirror]] name = "back", position = [0, 0, -1.6], size = [5, 3]
+[[mirror]] name = "floor", position = [0, -1, 0], rotation = [-90, 0, 0], size = [5, 4], base_color = [0.4, 0.4, 0.4]
+)";
+
+TEST(CutOuts, EqualTheTracer) {
+  writeOpacities();
+  const std::vector<std::string> materials{
+      "map_Kd leaf.png\n", "Kd 0.7 0.6 0.2\nKs 0.3 0.3 0.3\nNs 30\nmap_d mask.png\n",
+      "map_Kd -clamp on -s 2 3 -o -0.5 -1 leaf.png\n", "map_Kd -s 30 30 leaf.png\nmap_d leaf.png\n"};
+  for (size_t i = 0; i < materials.size(); ++i) {
+    const std::string box = "[[object]] rotation = [10, 30, 0], model = \"" +
+                            writeBox("cut" + std::to_string(i), {0.6, 0.5, 0.4}, materials[i]) + "\"\n";
+    for (const std::string& light : {lamp, shadowLamp + ball}) {
+      const std::filesystem::path file =
+          writeScene("cut" + std::to_string(i) + (light == lamp ? "" : "_rays"), coverView + box + light);
+      expectTruth(file, size, 3, trace(file, size, 3));
+    }
+  }
+}
+
+// The mean of 64 pictures and the tracer's picture of 64 samples take the same points of each pixel.
+double errorOfMean(const std::filesystem::path& file, PictureSize drawnSize, const SettingList& settings = {}) {
+  Options options = truthOptions(file, drawnSize, 3);
+  set(options, {{"view.accumulate", "64"}});
+  set(options, settings);
+  QuietSession session(options);
+  Tracing tracing = tracingOf(file, drawnSize, 3);
+  tracing.options.samples = 64;
+  return rootMeanSquare(drawRadiance(session), tracing.result().image);
+}
+
+TEST(Coverage, IsTheShareOfTheSurface) {
+  const std::string wall = writeBox("wall", {5, 5, 1e-3}, "Kd 0 1 0\n");
+  std::ofstream(sceneDirectory() / "flat.mtl") << "newmtl m\nKd 1 0 0\nd 0.25\n";
+  writeModel("flat.obj", "mtllib flat.mtl\nusemtl m\nv -4 -4 0\nv 4 -4 0\nv 4 4 0\nv -4 4 0\nf 1 2 3 4\n");
+  const std::string flat = "[[object]] model = \"flat.obj\", position = [0, 0, ";
+  const std::filesystem::path file = writeScene(
+      "panes", "[environment] ambient = [1, 1, 1]\n[camera] position = [0, 0, 3], target = [0, 0, 0]\n" + flat +
+                   "0]\n" + flat + "0.2]\n[[object]] model = \"" + wall + "\", position = [0, 0, -1]\n");
+  const Tracing tracing = tracingOf(file, {8, 8}, 3);
+  const glm::vec3 traced = tracing.result().image.at(3, 3);
+  EXPECT_NEAR(traced.r, 0.25 + 0.75 * 0.25, 1e-6);
+  EXPECT_NEAR(traced.g, 0.75 * 0.75, 1e-6);
+  for (const int samples : {1, 4}) {
+    Options options = truthOptions(file, {8, 8}, 3);
+    set(options, {{"view.accumulate", samples == 1 ? "64" : "15"}, {"view.samples", std::to_string(samples)}});
+    QuietSession session(options);
+    const LinearImage drawn = drawRadiance(session);
+    glm::dvec3 mean(0.0);
+    for (const glm::vec3& pixel : drawn.pixels) {
+      mean += glm::dvec3(pixel) / 64.0;
+      EXPECT_NEAR(pixel.r, traced.r, 0.1) << samples;
+    }
+    EXPECT_NEAR(mean.r, traced.r, 0.01) << samples;
+    EXPECT_NEAR(mean.g, traced.g, 0.01) << samples;
+  }
+}
+
+// Boxes and panes of random coverage before and beside mirrors.
+std::filesystem::path randomCover(unsigned seed) {
+  Random random(seed + 700);
+  writeOpacities();
+  std::ostringstream out;
+  out << coverView;
+  static constexpr std::array<const char*, 7> opacities{
+      "d 0.3\n",          "d 0.8\nKs 0.4 0.4 0.4\nNs 50\n", "map_Kd veil.png\n",       "map_Kd leaf.png\n",
+      "map_d mask.png\n", "map_Kd leaf.png\nd 0.5\n",       "Tr 0.4\nmap_d veil.png\n"};
+  for (int i = 0; i < 4; ++i) {
+    std::ostringstream material;
+    material << "Kd " << random.uniform(0, 1) << ' ' << random.uniform(0, 1) << " 0.5\n" << random.pick(opacities);
+    const glm::dvec3 half(random.uniform(0.1, 0.7), random.uniform(0.1, 0.7), random.chance(0.5) ? 0.02 : 0.4);
+    const std::string name = "cover" + std::to_string(seed) + "_" + std::to_string(i);
+    out << "[[object]]\nmodel = \"" << writeBox(name, half, material.str()) << "\"\nposition = ["
+        << random.uniform(-1.2, 1.2) << ", " << random.uniform(-0.6, 0.7) << ", " << random.uniform(-1.2, 1.2)
+        << "]\nrotation = " << random.vec(-180, 180) << "\n";
+  }
+  out << (random.chance(0.6) ? shadowLamp : lamp) << (random.chance(0.4) ? ball : "");
+  return writeScene("cover_" + std::to_string(seed), out.str());
+}
+
+class RandomCoverage : public testing::TestWithParam<unsigned> {};
+
+TEST_P(RandomCoverage, ConvergesToTheTracer) {
+  const std::filesystem::path file = randomCover(GetParam());
+  EXPECT_LT(errorOfMean(file, {64, 48}), 0.02);
+  EXPECT_GT(errorOfMean(file, {64, 48}, {{"effects.transparency", "false"}}), 0.025) << "the scene shows no coverage";
+}
+
+TEST_P(RandomCoverage, ShadowMapsConvergeToTraced) {
+  EXPECT_LT(errorOfMean(randomCover(GetParam()), {64, 48}, {{"effects.shadow_lookup", "map"}}), 0.05);
+}
+
+TEST_P(RandomCoverage, SkippingChangesNothing) {
+  for (const char* samples : {"1", "4"}) {
+    Options options = truthOptions(randomCover(GetParam()), size, 3);
+    set(options, {{"view.samples", samples}, {"reflection.samples", samples}});
+    QuietSession session(options);
+    const Image8 skipped = draw(session);
+    EXPECT_EQ(draw(session).rgba, skipped.rgba) << "images are used again";
+    set(session, {{"debug.skip_hidden", "false"}, {"reflection.skip_unchanged", "false"}});
+    EXPECT_EQ(draw(session).rgba, skipped.rgba);
+    set(session, {{"debug.cull_clusters", "false"}});
+    expectAlike(draw(session), skipped, 2, "cover_whole");  // outlines may differ
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, RandomCoverage, testing::ValuesIn(sampledSeeds(20, 5)),
+                         testing::PrintToStringParamName());
+
+// A closed box before a mirror hides it, unless it is glass.
+TEST(Coverage, HidesNothing) {
+  const auto reasons = [](const std::string& material) {
+    const std::string box = writeBox("crate", {2, 2, 0.5}, material);
+    const std::filesystem::path file = writeScene("crate", R"([environment] background = [0.2, 0.3, 0.4]
+[camera] position = [0, 0, 4], target = [0, 0, 0]
+[[object]] model = ")" + box + R"("
+[[object]] model = "MODELS/sphere.obj", position = [0, 0, 5]
+[[mirror]] position = [0, 0, -2], size = [1, 1]
+)");
+    const Scene scene = loadScene(file);
+    return planFrame({scene, evaluate(scene, 0.0), Settings(), {size.width, size.height}}).skipped.size();
+  };
+  EXPECT_EQ(reasons("Kd 1 0 0\n"), 1u);
+  EXPECT_EQ(reasons("Kd 1 0 0\nd 0.5\n"), 0u);
 }
 
 }  // namespace

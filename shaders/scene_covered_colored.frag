@@ -1,0 +1,5 @@
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#define COVERED
+#define VERTEX_COLORS
+#include "scene_shading.glsl"

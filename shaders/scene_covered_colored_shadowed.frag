@@ -1,0 +1,6 @@
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#define COVERED
+#define VERTEX_COLORS
+#define SHADOW_MAPS
+#include "scene_shading.glsl"
