@@ -4,8 +4,8 @@ build_packages=(
   build-essential cmake ninja-build ccache git pkg-config
   libvulkan-dev libglfw3-dev libglm-dev libimgui-dev libstb-dev libfreetype-dev
   glslang-tools spirv-tools
-  libtinyobjloader-dev libtinyexr-dev libtomlplusplus-dev nlohmann-json3-dev libcli11-dev libspdlog-dev libfmt-dev
-  libtbb-dev libmeshoptimizer-dev
+  libtinyobjloader-dev libtinygltf-dev libtinyexr-dev libtomlplusplus-dev nlohmann-json3-dev libcli11-dev libspdlog-dev
+  libfmt-dev libtbb-dev libmeshoptimizer-dev
 )
 run_packages=(mesa-vulkan-drivers fonts-dejavu-core)
 test_packages=(
@@ -52,6 +52,7 @@ libspdlog-dev           spdlog-devel               spdlog                       
 libfmt-dev              fmt-devel                  fmt                               fmt-devel
 libtbb-dev              tbb-devel                  onetbb                            tbb-devel
 libmeshoptimizer-dev    meshoptimizer-devel        meshoptimizer                     meshoptimizer-devel
+libtinygltf-dev         tinygltf-devel             tinygltf                          tinygltf-devel
 mesa-vulkan-drivers     mesa-vulkan-drivers        vulkan-swrast                     libvulkan_lvp
 fonts-dejavu-core       dejavu-sans-fonts          ttf-dejavu                        dejavu-fonts
 '

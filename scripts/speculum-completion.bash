@@ -10,15 +10,15 @@ _speculum_settings() {
 }
 
 _speculum() {
-  local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]}
+  local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]} ending
   local commands="demo render reference compare accuracy regress bench info scenes" command="" scenes
   [[ " $commands " == *" ${COMP_WORDS[1]} "* ]] && [ "$COMP_CWORD" -gt 1 ] && command=${COMP_WORDS[1]}
   COMPREPLY=()
   case $before in
     --scene)
       scenes=$("${COMP_WORDS[0]}" scenes 2>/dev/null | sed -n 's/^\([^ ]*\) .*/\1/p')
-      mapfile -t COMPREPLY < <(compgen -W "$scenes" -- "$word"; compgen -f -X '!*.toml' -- "$word"; compgen -f -X '!*.obj' -- "$word"
-        compgen -d -- "$word")
+      mapfile -t COMPREPLY < <(compgen -W "$scenes" -- "$word"; compgen -d -- "$word"
+        for ending in toml obj gltf glb; do compgen -f -X "!*.$ending" -- "$word"; done)
       return
       ;;
     --set)

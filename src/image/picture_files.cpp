@@ -214,10 +214,10 @@ Image8 readImage8(const std::filesystem::path& file) {
 }
 
 Image8 readTexture(const std::filesystem::path& file) {
-  return decodeTexture(file, readFile(file));
+  return readTexture(file, readFile(file));
 }
 
-Image8 decodeTexture(const std::filesystem::path& name, const std::vector<uint8_t>& bytes) {
+Image8 readTexture(const std::filesystem::path& name, const std::vector<uint8_t>& bytes) {
   const PictureFormat format = formatOf(name, bytes);
   if (format == PictureFormat::unknown) {
     throwUnknown(name, bytes);

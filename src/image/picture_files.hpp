@@ -14,7 +14,7 @@ Image8 readImage8(const std::filesystem::path& file);
 // names the format of other pictures.
 Image8 readTexture(const std::filesystem::path& file);
 // Does the same for the content of a picture; `name` stands in messages, and a TGA is known by its extension.
-Image8 decodeTexture(const std::filesystem::path& name, const std::vector<uint8_t>& bytes);
+Image8 readTexture(const std::filesystem::path& name, const std::vector<uint8_t>& bytes);
 // Writes a PNG file. Throws FileError.
 void writePng(const std::filesystem::path& file, const Image8& image);
 

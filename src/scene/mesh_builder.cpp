@@ -155,7 +155,7 @@ void MeshBuilder::addFace(std::span<const FaceCorner> corners, int line) {
   points_.clear();
   for (const FaceCorner& corner : corners) {
     if (!isFinite(positions_[corner.position])) {
-      defects_.add(file_, line, "f", "has a vertex that is not finite, the face is left out");
+      defects_.add(file_, line, faceKey_, "has a vertex that is not finite, the face is left out");
       return;
     }
     points_.push_back(positions_[corner.position]);
@@ -163,7 +163,7 @@ void MeshBuilder::addFace(std::span<const FaceCorner> corners, int line) {
   if (corners.size() > fewCorners && !isFan(points_)) {
     cornerPairs_ += static_cast<double>(corners.size()) * static_cast<double>(corners.size());
     if (cornerPairs_ > mostPairs) {
-      defects_.add(file_, line, "f",
+      defects_.add(file_, line, faceKey_,
                    "has too many corners for a face that is no fan about its first, the face is left out");
       return;
     }
@@ -224,11 +224,11 @@ glm::dvec2 MeshBuilder::uvOf(const FaceCorner& corner) const {
 void MeshBuilder::addTriangle(const FaceCorner& a, const FaceCorner& b, const FaceCorner& c, int line) {
   const TriangleShape shape = shapeOf(positions_[a.position], positions_[b.position], positions_[c.position]);
   if (!(shape.quality >= 1e-10)) {
-    defects_.add(file_, line, "f", "a triangle without an area is left out");
+    defects_.add(file_, line, faceKey_, "a triangle without an area is left out");
     return;
   }
   if (shape.quality < 1e-5) {
-    defects_.add(file_, line, "f", "a triangle is a sliver, its normal is inexact");
+    defects_.add(file_, line, faceKey_, "a triangle is a sliver, its normal is inexact");
   }
   if (indices_ == nullptr) {
     const auto [found, isNew] = materialIndices_.try_emplace(material_);

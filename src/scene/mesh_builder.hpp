@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -42,8 +43,10 @@ struct PartMaterial {
 // Builds a mesh from the elements of a model file in their order.
 class MeshBuilder {
  public:
-  // `file` and `defects` must outlive the builder. Elements that are dropped or doubtful become defects of `file`.
-  MeshBuilder(const std::filesystem::path& file, ModelDefects& defects) : file_(file), defects_(defects) {}
+  // `file`, `defects` and `faceKey` must outlive the builder. Faces that are dropped or doubtful become defects of
+  // `file` with that key.
+  MeshBuilder(const std::filesystem::path& file, ModelDefects& defects, std::string_view faceKey)
+      : file_(file), defects_(defects), faceKey_(faceKey) {}
 
   // `color`: of the vertex, linear RGB. Positions without one are white if any has one.
   void addPosition(const glm::dvec3& position, const std::optional<glm::vec3>& color = {});
@@ -85,6 +88,7 @@ class MeshBuilder {
 
   const std::filesystem::path& file_;
   ModelDefects& defects_;
+  std::string_view faceKey_;
   std::vector<glm::dvec3> positions_;
   std::vector<glm::dvec2> texcoords_;
   std::vector<glm::dvec3> normals_;   // unit, or zero: unusable

@@ -88,7 +88,7 @@ std::optional<ForeignFile> foreignFile(std::string_view content) {
       Beginning{"ply\r", "is a PLY file"},
       Beginning{"OFF", "is an OFF file"},
       Beginning{"COFF", "is an OFF file"},
-      Beginning{"glTF", "is a glTF file"},
+      Beginning{"glTF", "is a glTF file", "let its name end with .glb"},
       Beginning{"Kaydara FBX", "is an FBX file"},
       Beginning{"; FBX", "is an FBX file"},
       Beginning{"BLENDER", "is a Blender file"},
@@ -112,7 +112,7 @@ std::optional<ForeignFile> foreignFile(std::string_view content) {
     return ForeignFile{found->wrong, found->right ? found->right : asModel};
   }
   if (trimmed(content).starts_with("{") && content.substr(0, 4096).find("\"asset\"") != std::string_view::npos) {
-    return ForeignFile{"is a glTF file", asModel};
+    return ForeignFile{"is a glTF file", "let its name end with .gltf"};
   }
   // A binary STL file has 80 bytes of any text, the number of its triangles, and 50 bytes for each.
   if (content.size() >= 84) {

@@ -66,7 +66,8 @@ struct ForeignFile {
   std::string right;
 };
 
-// Returns what a file is and what is needed instead, if its content begins like a known format other than OBJ.
+// Returns what a file is and what is needed instead, if its content begins like a known format other
+// than OBJ.
 std::optional<ForeignFile> foreignFile(std::string_view content);
 
 }  // namespace speculum

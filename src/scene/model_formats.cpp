@@ -4,12 +4,21 @@
 #include <array>
 
 #include "platform/text.hpp"
+#include "scene/gltf_file.hpp"
+#include "scene/gltf_loader.hpp"
+#include "scene/obj_loader.hpp"
 
 namespace speculum {
 
 namespace {
 
-constexpr std::array formats{ModelFormat{".obj", "Wavefront OBJ", &loadObj, &addFilesOfObj}};
+Model loadObjModel(const std::filesystem::path& file, std::vector<Texture>& textures, const LoadProgress& progress) {
+  return {.mesh = loadObj(file, textures, progress)};
+}
+
+constexpr std::array formats{ModelFormat{".obj", "Wavefront OBJ", &loadObjModel, &addFilesOfObj},
+                             ModelFormat{".gltf", "glTF 2.0", &loadGltf, &addFilesOfGltf},
+                             ModelFormat{".glb", "glTF 2.0", &loadGltf, &addFilesOfGltf}};
 
 const ModelFormat* formatOf(const std::filesystem::path& file) {
   const auto found = std::ranges::find(formats, lowerCase(file.extension().string()), &ModelFormat::extension);
@@ -27,7 +36,7 @@ bool isModelFile(const std::filesystem::path& file) {
   return formatOf(file) != nullptr;
 }
 
-Mesh loadModel(const std::filesystem::path& file, std::vector<Texture>& textures, const LoadProgress& progress) {
+Model loadModel(const std::filesystem::path& file, std::vector<Texture>& textures, const LoadProgress& progress) {
   return formatOrFirst(file).load(file, textures, progress);
 }
 
@@ -38,7 +47,9 @@ void addModelFiles(const std::filesystem::path& model, std::set<std::filesystem:
 std::string modelFormatNames() {
   std::string names;
   for (const ModelFormat& format : formats) {
-    names.append(names.empty() ? "" : " or ").append(format.name);
+    if (names.find(format.name) == std::string::npos) {
+      names.append(names.empty() ? "" : " or ").append(format.name);
+    }
   }
   return names;
 }

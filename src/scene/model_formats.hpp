@@ -6,7 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "scene/obj_loader.hpp"
+#include "scene/model_files.hpp"
+#include "scene/scene.hpp"
 
 namespace speculum {
 
@@ -16,7 +17,7 @@ struct ModelFormat {
   std::string_view name;       // for messages: "Wavefront OBJ"
   // Loads a model and appends its textures to `textures`. Throws InputError if nothing is left to draw or the file
   // cannot be read.
-  Mesh (*load)(const std::filesystem::path& file, std::vector<Texture>& textures, const LoadProgress& progress);
+  Model (*load)(const std::filesystem::path& file, std::vector<Texture>& textures, const LoadProgress& progress);
   // Adds the file and the existing files that it names.
   void (*addFiles)(const std::filesystem::path& file, std::set<std::filesystem::path>& files);
 };
@@ -25,14 +26,14 @@ struct ModelFormat {
 bool isModelFile(const std::filesystem::path& file);
 
 // Loads a model by its extension; a file with an unknown extension is read as the first format.
-Mesh loadModel(const std::filesystem::path& file, std::vector<Texture>& textures, const LoadProgress& progress = {});
+Model loadModel(const std::filesystem::path& file, std::vector<Texture>& textures, const LoadProgress& progress = {});
 
 // Adds a model's file and the existing files that it names.
 void addModelFiles(const std::filesystem::path& model, std::set<std::filesystem::path>& files);
 
-// Returns the names of the formats: "Wavefront OBJ".
+// Returns the names of the formats, each once: "Wavefront OBJ or glTF 2.0".
 std::string modelFormatNames();
-// Returns the patterns for a file dialog, in lower and upper case: "*.obj *.OBJ".
+// Returns the patterns for a file dialog, in lower and upper case: "*.obj *.OBJ *.gltf *.GLTF *.glb *.GLB".
 std::string modelPatterns();
 
 }  // namespace speculum

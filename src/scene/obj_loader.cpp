@@ -372,7 +372,7 @@ Mesh loadObj(const std::filesystem::path& file, std::vector<Texture>& textures, 
     progress(file, 0.0);
   }
   ModelDefects defects;
-  MeshBuilder builder(file, defects);
+  MeshBuilder builder(file, defects, "f");
   ObjMaterials materials(file, defects);
   const auto [contents, foreign] = readObj(file, builder, materials, defects, progress);
   if (progress) {

@@ -120,6 +120,13 @@ struct PointLight {
   bool operator==(const PointLight&) const = default;
 };
 
+// The content of a model file, in model space.
+struct Model {
+  Mesh mesh;
+  std::optional<CameraSpec> camera;
+  std::vector<PointLight> lights;
+};
+
 struct Ripple {
   double amplitude = 0.0;   // metres
   double wavelength = 0.5;  // metres

@@ -87,7 +87,7 @@ int meshIndex(const TableReader& object, Scene& scene, std::map<std::string, int
   }
   const auto [entry, isNew] = known.try_emplace(withoutLinks(file).string(), static_cast<int>(scene.meshes.size()));
   if (isNew) {
-    scene.meshes.push_back(loadModel(file, scene.textures, progress.ofOne(file)));
+    scene.meshes.push_back(loadModel(file, scene.textures, progress.ofOne(file)).mesh);
   }
   return entry->second;
 }
@@ -197,33 +197,70 @@ std::string disc(double radius) {
   return "[\n" + corners + "]";
 }
 
+// Returns the camera of the model, or one that sees it from above.
+CameraSpec cameraOf(const Model& model, const glm::dvec3& center) {
+  CameraSpec camera{.verticalFov = modelFieldOfView};
+  if (model.camera) {
+    camera = *model.camera;
+    camera.position += center - model.mesh.center;
+    camera.target += center - model.mesh.center;
+  } else {
+    const double r = model.mesh.radius * model.mesh.unit;
+    const glm::dvec3 towards = glm::normalize(glm::dvec3(0.62, 0.36, 1.0));
+    camera.target = center - glm::dvec3(0.0, 0.22 * r, 0.0);
+    camera.position = camera.target + 1.3 * r / std::sin(glm::radians(0.5 * modelFieldOfView)) * towards;
+  }
+  return camera;
+}
+
+// Returns the lights of the model, or two that leave no side of it dark.
+std::vector<PointLight> lightsOf(const Model& model, const glm::dvec3& center) {
+  std::vector<PointLight> lights = model.lights;
+  for (PointLight& light : lights) {
+    light.position += center - model.mesh.center;
+  }
+  if (lights.empty()) {
+    const double r = model.mesh.radius * model.mesh.unit;
+    lights = {{.name = "key",
+               .position = center + r * glm::dvec3(-2.2, 3.2, 2.6),
+               .color = {1.0, 0.95, 0.88},
+               .intensity = 58.0 * r * r,
+               .radius = 0.05 * r,
+               .castsShadow = true},
+              {.name = "rim",
+               .position = center + r * glm::dvec3(2.8, 2.6, -2.2),
+               .color = {0.75, 0.85, 1.0},
+               .intensity = 42.0 * r * r,
+               .radius = 0.05 * r}};
+  }
+  return lights;
+}
+
 // Returns the text of a scene whose lengths scale with the radius of the model's bounding sphere, with the model's
 // centre above the origin.
-std::string sceneText(const fs::path& file, const Mesh& mesh) {
+std::string sceneText(const fs::path& file, const Model& model) {
+  const Mesh& mesh = model.mesh;
   const double r = mesh.radius * mesh.unit;
-  const double height = mesh.halfExtent.y * mesh.unit + gap * r;  // of the model's centre
-  const glm::dvec3 center(0.0, height, 0.0);
-  const glm::dvec3 target = center - glm::dvec3(0.0, 0.22 * r, 0.0);
-  const glm::dvec3 towards = glm::normalize(glm::dvec3(0.62, 0.36, 1.0));
-  const glm::dvec3 eye = target + 1.3 * r / std::sin(glm::radians(0.5 * modelFieldOfView)) * towards;
+  const glm::dvec3 center(0.0, mesh.halfExtent.y * mesh.unit + gap * r, 0.0);
   std::string toml = fmt::format("# {} by itself, over a mirror of its size.\ntitle = {}\n\n",
                                  tomlText(file.filename().string()), tomlText(file.stem().string()));
   toml +=
       "[environment]\n"
       "sky     = { zenith = [0.1, 0.21, 0.45], horizon = [0.8, 0.8, 0.78], ground = [0.5, 0.5, 0.5] }\n"
       "ambient = [0.22, 0.235, 0.26]\n\n";
-  toml += fmt::format("[camera]\nposition     = {}\ntarget       = {}\nvertical_fov = {}\nnear         = {}\n\n",
-                      tomlText(eye), tomlText(target), modelFieldOfView, 1e-3 * r);
+  const CameraSpec camera = cameraOf(model, center);
+  toml += fmt::format("[camera]\nposition     = {}\ntarget       = {}\nvertical_fov = {}\nnear         = {}\n",
+                      tomlText(camera.position), tomlText(camera.target), camera.verticalFov, 1e-3 * r);
+  toml += fmt::format("{}\n", model.camera ? "up           = " + tomlText(camera.up) + "\n" : "");
   toml += fmt::format("[[object]]\nname     = {}\nmodel    = {}\nposition = {}\n\n", tomlText(file.stem().string()),
                       tomlText(file.filename().string()), tomlText(center - mesh.center));
-  toml += fmt::format(
-      "[[light]]\nname         = \"key\"\nposition     = {}\nintensity    = {}\nradius       = {}\n"
-      "glow         = 0\ncolor        = [1, 0.95, 0.88]\ncasts_shadow = true\n\n",
-      tomlText(center + r * glm::dvec3(-2.2, 3.2, 2.6)), 58.0 * r * r, 0.05 * r);
-  toml += fmt::format(
-      "[[light]]\nname      = \"rim\"\nposition  = {}\nintensity = {}\nradius    = {}\n"
-      "glow      = 0\ncolor     = [0.75, 0.85, 1]\n\n",
-      tomlText(center + r * glm::dvec3(2.8, 2.6, -2.2)), 42.0 * r * r, 0.05 * r);
+  for (const PointLight& light : lightsOf(model, center)) {
+    toml += fmt::format(
+        "[[light]]\nname         = {}\nposition     = {}\nintensity    = {}\nradius       = {}\n"
+        "glow         = 0\ncolor        = {}\ncasts_shadow = {}\n\n",
+        tomlText(light.name), tomlText(light.position), light.intensity, light.radius, tomlText(light.color),
+        tomlText(light.castsShadow));
+  }
   toml += fmt::format(
       "[[mirror]]\nname        = \"floor\"\npolygon     = {}\nreflectance = [0.34, 0.35, 0.36]\n"
       "base_color  = [0.2, 0.2, 0.205]\ntwo_sided   = true\n",
@@ -272,7 +309,7 @@ int addModel(Scene& scene, const fs::path& file, const LoadProgress& progress) {
   }
   const size_t textures = scene.textures.size();
   try {
-    Mesh mesh = loadModel(file, scene.textures, progress);
+    Mesh mesh = loadModel(file, scene.textures, progress).mesh;
     if (const std::optional<std::string> remedy = extentRemedy({}, mesh)) {
       throwInputError(file, 1, "v", "makes the model too large", *remedy);
     }
@@ -333,13 +370,14 @@ std::optional<std::filesystem::path> shippedScene(const std::filesystem::path& w
 
 Scene modelScene(const fs::path& file, const LoadProgress& progress) {
   std::vector<Texture> textures;
-  Mesh mesh = loadModel(file, textures, progress);
+  Model model = loadModel(file, textures, progress);
+  Mesh& mesh = model.mesh;
   const double radius = mesh.radius * mesh.unit;
   if (!(radius >= smallest && radius <= largest)) {
     throwInputError(file, 1, "model", fmt::format("the model's bounding sphere has a radius of {} m", radius),
                     "1e-9 .. 1e12 is needed, or a scene that scales the model");
   }
-  Scene scene = parseScene(file, sceneText(file, mesh));
+  Scene scene = parseScene(file, sceneText(file, model));
   scene.objects[0].mesh = 0;
   scene.meshes.push_back(std::move(mesh));
   scene.textures = std::move(textures);

@@ -101,7 +101,7 @@ int linearTextureIndex(const fs::path& file, std::vector<Texture>& textures) {
 
 int textureIndex(const fs::path& source, const std::vector<uint8_t>& picture, std::vector<Texture>& textures) {
   return indexOf(
-      source, false, [&] { return decodeTexture(source, picture); }, textures);
+      source, false, [&] { return readTexture(source, picture); }, textures);
 }
 
 int opacityTextureIndex(const fs::path& file, std::vector<Texture>& textures) {

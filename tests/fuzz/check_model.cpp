@@ -24,6 +24,8 @@ void checkParts(const Mesh& mesh, size_t textureCount) {
   require(next == mesh.indices.size(), "parts cover all indices");
 }
 
+}  // namespace
+
 void checkMesh(const Mesh& mesh, size_t textureCount) {
   require(!mesh.indices.empty() && mesh.indices.size() % 3 == 0, "a mesh has triangles");
   require(finite(mesh.center) && finite(mesh.halfExtent) && std::isfinite(mesh.radius), "a mesh's bounds are finite");
@@ -37,6 +39,8 @@ void checkMesh(const Mesh& mesh, size_t textureCount) {
   }
   checkParts(mesh, textureCount);
 }
+
+namespace {
 
 void checkMirrors(Mesh mesh, size_t textureCount) {
   Scene scene;

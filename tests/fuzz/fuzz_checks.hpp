@@ -24,6 +24,9 @@ bool checkScene(std::string_view text);
 // An OBJ file and, behind a line `%mtl`, its m.mtl. Beside these files is t.png.
 bool checkModel(std::string_view text);
 
+// A glTF file, as text or binary. Beside it are t.png and t.bin. Accepted models are opened as scenes.
+bool checkGltf(std::string_view content);
+
 // A PNG, JPEG or EXR file.
 bool checkPicture(std::string_view bytes);
 

@@ -61,9 +61,9 @@ TEST_P(FuzzInputs, Regressions) {
 
 INSTANTIATE_TEST_SUITE_P(Each, FuzzInputs,
                          testing::Values(Subject{"scene", checkScene}, Subject{"model", checkModel},
-                                         Subject{"picture", checkPicture}, Subject{"sweep", checkSweep},
-                                         Subject{"case", checkCase}, Subject{"layout", checkLayout},
-                                         Subject{"recovery", checkRecovery}),
+                                         Subject{"gltf", checkGltf}, Subject{"picture", checkPicture},
+                                         Subject{"sweep", checkSweep}, Subject{"case", checkCase},
+                                         Subject{"layout", checkLayout}, Subject{"recovery", checkRecovery}),
                          [](const auto& info) { return std::string(info.param.name); });
 
 TEST(FuzzHeapWatch, CountsAllocations) {

@@ -24,6 +24,9 @@ inline bool unit(const glm::dvec3& v) {
   return std::abs(glm::length(v) - 1.0) <= 1e-9;
 }
 
+// Requires what drawing takes for granted of a loaded mesh.
+void checkMesh(const Mesh& mesh, size_t textureCount);
+
 void checkMessage(std::string_view message);  // requires one line that ends with what would be right
 
 // Says whether `read` accepted the input. Throws BrokenPromise for a Refusal that is not one line.

@@ -472,7 +472,8 @@ TEST_F(Editing, ModelsAreAddedFromAnyFile) {
   EXPECT_EQ(host_.scenesUsed, 1);
   const Object vase = object();
   send(AddObject{"nowhere.obj"});
-  EXPECT_EQ(edit().note, (folder / "nowhere.obj").string() + ": there is no such file (name a Wavefront OBJ file)");
+  EXPECT_EQ(edit().note,
+            (folder / "nowhere.obj").string() + ": there is no such file (name a Wavefront OBJ or glTF 2.0 file)");
   EXPECT_EQ(status(), edit().note);
   std::ofstream(folder / "empty.obj") << "v 0 0 0\n";
   send(AddObject{"empty.obj"});

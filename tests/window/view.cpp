@@ -632,7 +632,8 @@ TEST_F(Opening, FailureShowsALineAndKeepsScene) {
   send(DismissMessage{});
   EXPECT_EQ(workspace_->problem(), "");
   drop({"/tmp/notes.txt"});
-  EXPECT_EQ(workspace_->problem(), "/tmp/notes.txt: not a scene (a .toml scene or a Wavefront OBJ model is needed)");
+  EXPECT_EQ(workspace_->problem(),
+            "/tmp/notes.txt: not a scene (a .toml scene or a Wavefront OBJ or glTF 2.0 model is needed)");
   drop({model("none.obj")});
   EXPECT_TRUE(contains(workspace_->problem(), "none.obj: there is no such file"));
   EXPECT_EQ(shown().log.lines(LogLevel::err, "").size(), 4u) << "each is logged";

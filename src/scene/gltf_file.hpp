@@ -1,0 +1,96 @@
+#pragma once
+
+#include <tiny_gltf.h>
+
+#include <cstdint>
+#include <deque>
+#include <filesystem>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scene/model_files.hpp"
+
+namespace speculum {
+
+inline bool isIndex(int index, size_t count) {
+  return index >= 0 && static_cast<size_t>(index) < count;
+}
+
+// A glTF 2.0 file, as text (.gltf) or binary (.glb), with its buffers. tinygltf reads the objects of the JSON. Buffers
+// and pictures are read here, because the library
+// - looks for their files in the working folder too;
+// - refuses a file that is longer than its buffer, and most kinds of data URIs;
+// - decodes pictures that nothing uses.
+class GltfFile {
+ public:
+  struct Picture {
+    std::filesystem::path name;                   // its file, or a name of its place in a file
+    std::optional<std::vector<uint8_t>> content;  // if it is no file of its own
+  };
+
+  // Reads the file and its buffers. `file` and `defects` must outlive this object. Throws InputError if the file is no
+  // glTF 2.0, is damaged, or requires an extension that is not read.
+  GltfFile(const std::filesystem::path& file, ModelDefects& defects);
+
+  const tinygltf::Model& model() const { return model_; }
+  bool hasMotion() const { return hasMotion_; }      // animations or skins
+  uint64_t byteCount() const { return byteCount_; }  // of the file and its buffers
+  // Return the files that were read: of buffers, with symbolic links resolved; of buffers and pictures, as found.
+  const std::set<std::filesystem::path>& bufferFiles() const { return bufferFiles_; }
+  const std::set<std::filesystem::path>& namedFiles() const { return namedFiles_; }
+
+  // Returns the number of an accessor's elements, 0 if there is no such accessor. Damaged files may claim any number.
+  uint64_t countOf(int accessor) const;
+  // Returns the numbers of an accessor with `components` for each element; normalized integers become 0 .. 1 or -1 ..
+  // 1. Counts a defect and returns nothing if the accessor has another type, or elements outside of its data. Check the
+  // number of elements first.
+  std::optional<std::vector<double>> numbers(int accessor, int components);
+
+  // Finds the picture of an image. Counts a defect and returns nothing if there is none.
+  std::optional<Picture> picture(int image);
+
+ private:
+  // Names the bytes of a buffer or picture.
+  struct Source {
+    std::string uri;
+    int bufferView = -1;
+  };
+  struct ElementType {
+    int componentType = 0;  // TINYGLTF_COMPONENT_TYPE_*
+    int components = 1;
+    bool normalized = false;
+  };
+
+  void readJson(std::string_view text, std::vector<Source>& buffers);
+  void readBuffers(const std::vector<Source>& sources, std::string_view binary);
+  std::optional<std::filesystem::path> find(const std::string& uri);
+  std::optional<std::span<const uint8_t>> viewBytes(int view) const;
+  bool readSparse(const tinygltf::Accessor& accessor, const ElementType& type, std::vector<double>& values) const;
+  // Calls store(i, number) for each component of `count` elements. Returns false, before the first call, if they are
+  // not all there.
+  template <typename Store>
+  bool readElements(int view, uint64_t offset, const ElementType& type, uint64_t count, const Store& store) const;
+
+  const std::filesystem::path& file_;
+  ModelDefects& defects_;
+  ModelFiles modelFiles_;
+  tinygltf::Model model_;
+  bool hasMotion_ = false;
+  uint64_t byteCount_ = 0;
+  std::string text_;                               // content of the file
+  std::deque<std::vector<uint8_t>> storage_;       // content of other buffers
+  std::vector<std::span<const uint8_t>> buffers_;  // within these; empty: not there
+  std::vector<Source> images_;
+  std::set<std::filesystem::path> bufferFiles_;
+  std::set<std::filesystem::path> namedFiles_;
+};
+
+// Adds the file, and the files that its buffers and pictures name, as far as they exist. Throws nothing for damaged
+// files.
+void addFilesOfGltf(const std::filesystem::path& file, std::set<std::filesystem::path>& files);
+
+}  // namespace speculum

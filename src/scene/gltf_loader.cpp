@@ -1,0 +1,580 @@
+#include "scene/gltf_loader.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/gtc/type_ptr.hpp>
+#include <map>
+#include <utility>
+
+#include "image/color.hpp"
+#include "image/picture_files.hpp"
+#include "platform/files.hpp"
+#include "scene/gltf_file.hpp"
+#include "scene/input_error.hpp"
+#include "scene/mesh_builder.hpp"
+#include "scene/metal_roughness.hpp"
+#include "scene/textures.hpp"
+#include "scene/value_range.hpp"
+
+namespace speculum {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// Returns a member of an extension; a null value if there is none.
+const tinygltf::Value& member(const tinygltf::ExtensionMap& extensions, const char* name, const char* key) {
+  static const tinygltf::Value none;
+  const auto found = extensions.find(name);
+  return found == extensions.end() || !found->second.IsObject() ? none : found->second.Get(key);
+}
+
+double numberOf(const tinygltf::Value& value, double usual) {
+  return value.IsNumber() ? value.GetNumberAsDouble() : usual;
+}
+
+glm::dvec2 pairOf(const tinygltf::Value& value, double usual) {
+  return value.ArrayLen() == 2 ? glm::dvec2(numberOf(value.Get(0), usual), numberOf(value.Get(1), usual))
+                               : glm::dvec2(usual);
+}
+
+// Returns a color within the range, or white if there are too few numbers.
+glm::dvec3 colorOf(const std::vector<double>& values, const Range& range) {
+  return values.size() < 3 ? glm::dvec3(1.0)
+                           : glm::clamp(glm::dvec3(values[0], values[1], values[2]), range.low, range.high);
+}
+
+// Returns the unit vector along v; zero for zero.
+glm::dvec3 direction(const glm::dvec3& v) {
+  const double length = glm::length(v);
+  return length > 0.0 ? v / length : glm::dvec3(0.0);
+}
+
+// Says whether rounding leaves a camera or light at `v` its place relative to the mesh, wherever the model is moved.
+bool isPlace(const glm::dvec3& v, const Mesh& mesh) {
+  const double radius = mesh.radius * mesh.unit;
+  return glm::distance(v, mesh.center) <= 1e6 * radius && glm::length(v) <= std::min(1e10 * radius, 1e14);
+}
+
+glm::dmat4 transformOf(const tinygltf::Node& node) {
+  if (node.matrix.size() == 16) {
+    return glm::make_mat4(node.matrix.data());
+  }
+  glm::dmat4 transform(1.0);
+  if (node.translation.size() == 3) {
+    transform[3] = glm::dvec4(glm::make_vec3(node.translation.data()), 1.0);
+  }
+  if (node.rotation.size() == 4) {
+    const glm::dquat rotation(node.rotation[3], node.rotation[0], node.rotation[1], node.rotation[2]);
+    transform *= glm::mat4_cast(glm::normalize(rotation));
+  }
+  if (node.scale.size() == 3) {
+    transform = glm::scale(transform, glm::make_vec3(node.scale.data()));
+  }
+  return transform;
+}
+
+// Where the base color's texture lies on a surface.
+struct TexturePlacement {
+  std::string texcoords;  // name of the attribute
+  glm::dvec2 offset{0.0};
+  glm::dvec2 scale{1.0};
+  double rotation = 0.0;  // radians
+
+  explicit TexturePlacement(const tinygltf::TextureInfo& texture) {
+    constexpr const char* extension = "KHR_texture_transform";
+    const tinygltf::Value& set = member(texture.extensions, extension, "texCoord");
+    texcoords = "TEXCOORD_" + std::to_string(set.IsInt() ? set.GetNumberAsInt() : texture.texCoord);
+    offset = pairOf(member(texture.extensions, extension, "offset"), 0.0);
+    scale = pairOf(member(texture.extensions, extension, "scale"), 1.0);
+    rotation = numberOf(member(texture.extensions, extension, "rotation"), 0.0);
+  }
+
+  // Returns the texture coordinate, v up, of the attribute's, v down.
+  glm::dvec2 apply(const glm::dvec2& uv) const {
+    const glm::dvec2 scaled = scale * uv;
+    const glm::dvec2 turned(std::cos(rotation) * scaled.x + std::sin(rotation) * scaled.y,
+                            std::cos(rotation) * scaled.y - std::sin(rotation) * scaled.x);
+    return {turned.x + offset.x, 1.0 - (turned.y + offset.y)};
+  }
+};
+
+// Calls add(a, b, c) with the places of each triangle's corners among `count` vertices.
+template <typename Add>
+void forEachTriangle(int mode, size_t count, const Add& add) {
+  const size_t step = mode == TINYGLTF_MODE_TRIANGLES ? 3 : 1;
+  for (size_t i = 0; i + 2 < count; i += step) {
+    if (mode == TINYGLTF_MODE_TRIANGLE_FAN) {
+      add(i + 1, i + 2, 0);
+    } else {
+      const bool turned = mode == TINYGLTF_MODE_TRIANGLE_STRIP && i % 2 == 1;
+      add(i, i + (turned ? 2 : 1), i + (turned ? 1 : 2));
+    }
+  }
+}
+
+// Materials of the file, as the mesh's parts need them.
+class GltfMaterials {
+ public:
+  GltfMaterials(const fs::path& file, GltfFile& content, ModelDefects& defects, std::vector<Texture>& textures)
+      : file_(file), content_(content), defects_(defects), textures_(textures) {}
+
+  // Returns a material; for another index the default one, which is white for a mesh with colors.
+  Material material(int index, bool colored) {
+    if (!isIndex(index, content_.model().materials.size())) {
+      return colored ? Material{.diffuse = glm::dvec3(1.0)} : Material();
+    }
+    const tinygltf::Material& from = content_.model().materials[index];
+    const tinygltf::PbrMetallicRoughness& surface = from.pbrMetallicRoughness;
+    Material material{.name = from.name};
+    const auto load = [&](const auto&... picture) { return textureIndex(picture..., textures_); };
+    material.diffuseTexture = readPicture(surface.baseColorTexture.index, load).value_or(-1);
+    setSurface(material, surface);
+    material.emission = emissionOf(from);
+    if (from.alphaMode == "MASK" || from.alphaMode == "BLEND") {
+      add("'{}' is not opaque, it is drawn opaque", from.name);
+    }
+    if (from.normalTexture.index >= 0 || from.occlusionTexture.index >= 0) {
+      add("'{}' has a normal or occlusion texture, it is left out", from.name);
+    }
+    return material;
+  }
+
+ private:
+  // Means of a picture's pixels: of its bytes as 0 .. 1, and decoded from sRGB.
+  struct Means {
+    glm::dvec3 numbers{1.0};
+    glm::dvec3 colors{1.0};
+  };
+
+  void add(std::string_view kind, std::string_view detail) { defects_.add(file_, 1, "materials", kind, detail); }
+
+  // Sets the colors of a material whose texture is set.
+  void setSurface(Material& material, const tinygltf::PbrMetallicRoughness& surface) {
+    double metal = surface.metallicFactor;
+    double roughness = surface.roughnessFactor;
+    if (surface.metallicRoughnessTexture.index >= 0) {
+      add("'{}' has a texture of metal and roughness, its mean is drawn", material.name);
+      const glm::dvec3 mean = meanOf(surface.metallicRoughnessTexture.index, false);
+      roughness *= mean.y;
+      metal *= mean.z;
+    }
+    const glm::dvec3 base = colorOf(surface.baseColorFactor, surfaceColorRange);
+    const glm::dvec3 tint =
+        material.diffuseTexture < 0 ? glm::dvec3(1.0) : meanColor(textures_[material.diffuseTexture]);
+    setMetalRoughness(material, base, metal, roughness, tint);
+  }
+
+  glm::dvec3 emissionOf(const tinygltf::Material& from) {
+    const double strength =
+        numberOf(member(from.extensions, "KHR_materials_emissive_strength", "emissiveStrength"), 1.0);
+    glm::dvec3 emission = strength * colorOf(from.emissiveFactor, radianceRange);
+    if (emission != glm::dvec3(0.0) && from.emissiveTexture.index >= 0) {
+      add("'{}' has an emissive texture, its mean is drawn", from.name);
+      emission *= meanOf(from.emissiveTexture.index, true);
+    }
+    return glm::clamp(emission, radianceRange.low, radianceRange.high);
+  }
+
+  // Returns the mean of a texture's pixels, which may be colors in sRGB; 1 without a picture.
+  glm::dvec3 meanOf(int texture, bool isColor) {
+    const Means means =
+        readPicture(texture, [&](const auto&... picture) { return meansOf(picture...); }).value_or(Means());
+    return isColor ? means.colors : means.numbers;
+  }
+
+  // Reads a picture unless it was read before.
+  template <typename... Content>
+  Means meansOf(const fs::path& name, const Content&... content) {
+    if (const auto known = means_.find(name); known != means_.end()) {
+      return known->second;
+    }
+    const Image8 image = readTexture(name, content...);
+    Means sums{glm::dvec3(0.0), glm::dvec3(0.0)};
+    for (size_t i = 0; i < image.rgba.size(); ++i) {
+      if (const auto channel = static_cast<int>(i % 4); channel < 3) {
+        sums.numbers[channel] += image.rgba[i] / 255.0;
+        sums.colors[channel] += srgbDecoded()[image.rgba[i]];
+      }
+    }
+    const double count = static_cast<double>(image.rgba.size()) / 4.0;
+    return means_[name] = {sums.numbers / count, sums.colors / count};
+  }
+
+  // Returns read(file) or read(name, content) for a texture's picture; nothing if there is none.
+  template <typename Read>
+  auto readPicture(int texture, const Read& read) -> std::optional<decltype(read(fs::path()))> {
+    if (!isIndex(texture, content_.model().textures.size())) {
+      if (texture != -1) {
+        add("there is no texture {}, it is left out", std::to_string(texture));
+      }
+      return std::nullopt;
+    }
+    const std::optional<GltfFile::Picture> picture = content_.picture(content_.model().textures[texture].source);
+    if (!picture) {
+      return std::nullopt;
+    }
+    try {
+      return picture->content ? read(picture->name, *picture->content) : read(picture->name);
+    } catch (const FileError& error) {
+      add("{}, the texture is left out", error.what());
+      return std::nullopt;
+    }
+  }
+
+  const fs::path& file_;
+  GltfFile& content_;
+  ModelDefects& defects_;
+  std::vector<Texture>& textures_;
+  std::map<fs::path, Means> means_;  // by the pictures' names
+};
+
+// Reads the nodes of the default scene into one mesh in the scene's space.
+class GltfReader {
+ public:
+  GltfReader(const fs::path& file, GltfFile& content, ModelDefects& defects)
+      : file_(file), content_(content), defects_(defects), builder_(file, defects, "triangles") {
+    // A small file may name the same vertices any number of times.
+    constexpr uint64_t cornersOfAny = 1 << 20;
+    constexpr uint64_t cornersPerByte = 16;
+    constexpr uint64_t most = 1 << 30;
+    cornersLeft_ = std::min(cornersOfAny + cornersPerByte * content.byteCount(), most);
+  }
+
+  void read(const LoadProgress& progress) {
+    constexpr double readShare = 0.65;  // of the time that loading takes; the rest sorts the triangles
+    const std::vector<tinygltf::Node>& nodes = content_.model().nodes;
+    std::vector<Placed> open;
+    addRoots(open);
+    std::vector<bool> seen(nodes.size());
+    for (size_t done = 0; !open.empty(); ++done) {
+      const Placed placed = open.back();
+      open.pop_back();
+      if (!isIndex(placed.index, nodes.size()) || seen[placed.index]) {
+        add("nodes", "node {} is not there, or has two parents, it is left out here", placed.index);
+        continue;
+      }
+      seen[placed.index] = true;
+      const tinygltf::Node& node = nodes[placed.index];
+      const glm::dmat4 sceneFromNode = placed.transform * transformOf(node);
+      for (auto child = node.children.rbegin(); child != node.children.rend(); ++child) {
+        open.push_back({*child, sceneFromNode});
+      }
+      addNode(node, sceneFromNode);
+      if (progress) {
+        progress(file_, readShare * std::min(static_cast<double>(done) / static_cast<double>(nodes.size()), 1.0));
+      }
+    }
+  }
+
+  Model finish(GltfMaterials& materials) {
+    Model model{.mesh = builder_.finish([&](int index) { return materials.material(index, builder_.hasColors()); })};
+    if (!model.mesh.indices.empty()) {
+      model.camera = cameraOf(model.mesh);
+      std::ranges::for_each(lights_, [&](const Placed& light) { addLight(light, model); });
+    }
+    return model;
+  }
+
+  bool hasLinesOrPoints() const { return hasLinesOrPoints_; }
+
+ private:
+  // A node, camera or light, and the transform to the scene's space of its own or its parent's.
+  struct Placed {
+    int index = -1;
+    glm::dmat4 transform{1.0};
+  };
+
+  void add(std::string_view key, std::string_view kind, int index) {
+    defects_.add(file_, 1, key, kind, std::to_string(index));
+  }
+
+  // Lists the roots of the default scene, the last first. A file without scenes has those that are no children.
+  void addRoots(std::vector<Placed>& roots) const {
+    const tinygltf::Model& model = content_.model();
+    if (!model.scenes.empty()) {
+      for (const int node :
+           model.scenes[isIndex(model.defaultScene, model.scenes.size()) ? model.defaultScene : 0].nodes) {
+        roots.push_back({node});
+      }
+    } else {
+      std::vector<bool> isChild(model.nodes.size());
+      for (const tinygltf::Node& node : model.nodes) {
+        for (const int child : node.children) {
+          if (isIndex(child, isChild.size())) {
+            isChild[child] = true;
+          }
+        }
+      }
+      for (size_t i = 0; i < isChild.size(); ++i) {
+        if (!isChild[i]) {
+          roots.push_back({static_cast<int>(i)});
+        }
+      }
+    }
+    std::ranges::reverse(roots);
+  }
+
+  void addNode(const tinygltf::Node& node, const glm::dmat4& sceneFromNode) {
+    const tinygltf::Model& model = content_.model();
+    if (isIndex(node.mesh, model.meshes.size())) {
+      for (const tinygltf::Primitive& primitive : model.meshes[node.mesh].primitives) {
+        addPrimitive(primitive, node.mesh, sceneFromNode);
+      }
+    } else if (node.mesh != -1) {
+      add("nodes", "there is no mesh {}, it is left out", node.mesh);
+    }
+    if (camera_.index == -1 && isIndex(node.camera, model.cameras.size()) &&
+        model.cameras[node.camera].type == "perspective") {
+      camera_ = {node.camera, sceneFromNode};
+    }
+    if (const tinygltf::Value& light = member(node.extensions, lightsExtension, "light"); light.IsInt()) {
+      lights_.push_back({light.GetNumberAsInt(), sceneFromNode});
+    }
+  }
+
+  void addPrimitive(const tinygltf::Primitive& primitive, int mesh, const glm::dmat4& sceneFromNode) {
+    if (primitive.mode >= TINYGLTF_MODE_POINTS && primitive.mode <= TINYGLTF_MODE_LINE_STRIP) {
+      hasLinesOrPoints_ = true;
+      add("meshes", "mesh {} has lines or points, they are left out", mesh);
+      return;
+    }
+    const auto position = primitive.attributes.find("POSITION");
+    if (primitive.mode < 0 || primitive.mode > TINYGLTF_MODE_TRIANGLE_FAN || position == primitive.attributes.end()) {
+      add("meshes", "mesh {} has a primitive of an unknown mode or without POSITION, it is left out", mesh);
+      return;
+    }
+    if (!primitive.targets.empty()) {
+      add("meshes", "mesh {} has morph targets, they are left out", mesh);
+    }
+    const uint64_t count = content_.countOf(position->second);
+    const uint64_t corners = primitive.indices == -1 ? count : content_.countOf(primitive.indices);
+    const uint64_t taken = count + (primitive.mode == TINYGLTF_MODE_TRIANGLES ? 1 : 3) * corners;
+    if (std::max({count, corners, taken}) > cornersLeft_) {
+      add("meshes", "mesh {} has, as often as it is drawn, too many vertices for a file of this size, it is left out",
+          mesh);
+      return;
+    }
+    cornersLeft_ -= taken;
+    const auto positions = content_.numbers(position->second, 3);
+    const auto indices = primitive.indices == -1 ? std::nullopt : content_.numbers(primitive.indices, 1);
+    if (positions && (indices || primitive.indices == -1)) {
+      const FaceCorner first = addVertices(primitive, *positions, sceneFromNode);
+      addTriangles(primitive, mesh, first, glm::determinant(glm::dmat3(sceneFromNode)) < 0.0, indices, count);
+    }
+  }
+
+  // Adds the vertices of a primitive. Returns the first of them.
+  FaceCorner addVertices(const tinygltf::Primitive& primitive, const std::vector<double>& positions,
+                         const glm::dmat4& sceneFromNode) {
+    const size_t count = positions.size() / 3;
+    FaceCorner first{.position = static_cast<int>(builder_.positionCount())};
+    const int channels = colorChannels(primitive);
+    const auto colors = attribute(primitive, colorName, channels, count);
+    for (size_t i = 0; i < count; ++i) {
+      std::optional<glm::vec3> color;
+      if (colors) {
+        const glm::dvec3 given = glm::make_vec3(&(*colors)[channels * i]);
+        color = isFinite(given) ? glm::clamp(given, 0.0, 1.0) : glm::dvec3(1.0);
+      }
+      builder_.addPosition(glm::dvec3(sceneFromNode * glm::dvec4(glm::make_vec3(&positions[3 * i]), 1.0)), color);
+    }
+    if (const auto normals = attribute(primitive, "NORMAL", 3, count)) {
+      first.normal = static_cast<int>(builder_.normalCount());
+      // The inverse transpose but for its length, also where there is no inverse.
+      const glm::dmat3 m(sceneFromNode);
+      const double side = glm::determinant(m) < 0.0 ? -1.0 : 1.0;
+      const glm::dmat3 turn(side * glm::cross(m[1], m[2]), side * glm::cross(m[2], m[0]),
+                            side * glm::cross(m[0], m[1]));
+      for (size_t i = 0; i < count; ++i) {
+        builder_.addNormal(turn * glm::make_vec3(&(*normals)[3 * i]));
+      }
+    }
+    if (isIndex(primitive.material, content_.model().materials.size())) {
+      addTexcoords(primitive, content_.model().materials[primitive.material].pbrMetallicRoughness.baseColorTexture,
+                   count, first);
+    }
+    return first;
+  }
+
+  void addTexcoords(const tinygltf::Primitive& primitive, const tinygltf::TextureInfo& texture, size_t count,
+                    FaceCorner& first) {
+    const TexturePlacement placement(texture);
+    const auto texcoords = texture.index == -1 ? std::nullopt : attribute(primitive, placement.texcoords, 2, count);
+    if (!texcoords) {
+      return;
+    }
+    first.texcoord = static_cast<int>(builder_.texcoordCount());
+    bool leavesPicture = false;
+    for (size_t i = 0; i < count; ++i) {
+      const glm::dvec2 uv = placement.apply(glm::make_vec2(&(*texcoords)[2 * i]));
+      leavesPicture = leavesPicture || glm::distance(uv, glm::clamp(uv, 0.0, 1.0)) > 1e-3;
+      builder_.addTexcoord(uv);
+    }
+    if (leavesPicture && !repeats(texture.index)) {
+      add("samplers", "texture {} is clamped or mirrored outside of its picture, it is drawn repeated", texture.index);
+    }
+  }
+
+  bool repeats(int texture) const {
+    const tinygltf::Model& model = content_.model();
+    const int sampler = isIndex(texture, model.textures.size()) ? model.textures[texture].sampler : -1;
+    return !isIndex(sampler, model.samplers.size()) || (model.samplers[sampler].wrapS == TINYGLTF_TEXTURE_WRAP_REPEAT &&
+                                                        model.samplers[sampler].wrapT == TINYGLTF_TEXTURE_WRAP_REPEAT);
+  }
+
+  // Returns the components of each color: 4 with alpha, else 3.
+  int colorChannels(const tinygltf::Primitive& primitive) const {
+    const std::vector<tinygltf::Accessor>& accessors = content_.model().accessors;
+    const auto found = primitive.attributes.find(colorName);
+    const bool hasAlpha = found != primitive.attributes.end() && isIndex(found->second, accessors.size()) &&
+                          accessors[found->second].type == TINYGLTF_TYPE_VEC4;
+    return hasAlpha ? 4 : 3;
+  }
+
+  // Returns the numbers of an attribute; nothing if it is missing or not usable.
+  std::optional<std::vector<double>> attribute(const tinygltf::Primitive& primitive, const std::string& name,
+                                               int components, size_t count) {
+    const auto found = primitive.attributes.find(name);
+    if (found == primitive.attributes.end()) {
+      return std::nullopt;
+    }
+    if (content_.countOf(found->second) != count) {
+      add("accessors", "{} has not as many elements as POSITION, it counts as missing", found->second);
+      return std::nullopt;
+    }
+    return content_.numbers(found->second, components);
+  }
+
+  void addTriangles(const tinygltf::Primitive& primitive, int mesh, const FaceCorner& first, bool mirrored,
+                    const std::optional<std::vector<double>>& indices, size_t vertexCount) {
+    builder_.setMaterial(isIndex(primitive.material, content_.model().materials.size()) ? primitive.material : -1);
+    const auto cornerOf = [&](size_t i) {
+      const auto vertex = static_cast<int>(indices ? (*indices)[i] : static_cast<double>(i));
+      return FaceCorner{.position = first.position + vertex,
+                        .texcoord = first.texcoord < 0 ? -1 : first.texcoord + vertex,
+                        .normal = first.normal < 0 ? -1 : first.normal + vertex};
+    };
+    const auto isVertex = [&](size_t i) {
+      return !indices || ((*indices)[i] >= 0.0 && (*indices)[i] < static_cast<double>(vertexCount));
+    };
+    forEachTriangle(primitive.mode, indices ? indices->size() : vertexCount, [&](size_t a, size_t b, size_t c) {
+      if (!isVertex(a) || !isVertex(b) || !isVertex(c)) {
+        add("meshes", "mesh {} has a triangle with a vertex that is not there, it is left out", mesh);
+        return;
+      }
+      const std::array<FaceCorner, 3> corners{cornerOf(a), cornerOf(mirrored ? c : b), cornerOf(mirrored ? b : c)};
+      // Strips repeat vertices where they turn.
+      const bool turns = primitive.mode == TINYGLTF_MODE_TRIANGLE_STRIP &&
+                         (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0]);
+      if (!turns) {
+        builder_.addFace(corners, 1);
+      }
+    });
+  }
+
+  // Returns the file's camera, which looks at the point before it that is nearest to the mesh's centre.
+  std::optional<CameraSpec> cameraOf(const Mesh& mesh) {
+    if (camera_.index == -1) {
+      return std::nullopt;
+    }
+    const double radius = mesh.radius * mesh.unit;
+    CameraSpec camera{.position = glm::dvec3(camera_.transform[3]), .up = direction(glm::dvec3(camera_.transform[1]))};
+    const glm::dvec3 forward = -direction(glm::dvec3(camera_.transform[2]));
+    const double distance = glm::dot(mesh.center - camera.position, forward);
+    camera.target = camera.position + (distance > 0.01 * radius ? distance : radius) * forward;
+    camera.verticalFov = std::clamp(glm::degrees(content_.model().cameras[camera_.index].perspective.yfov),
+                                    fieldOfViewRange.low, fieldOfViewRange.high);
+    if (!isPlace(camera.position, mesh) || !(glm::length(glm::cross(forward, camera.up)) > 1e-3)) {
+      add("cameras", "camera {} has no usable place, it is left out", camera_.index);
+      return std::nullopt;
+    }
+    return camera;
+  }
+
+  void addLight(const Placed& placed, Model& model) {
+    constexpr size_t mostLights = 32;
+    constexpr size_t mostWithShadows = 4;
+    constexpr double farOff = 100.0;  // distance that stands for infinity, in radii of the model
+    const double radius = model.mesh.radius * model.mesh.unit;
+    const glm::dmat4& transform = placed.transform;
+    if (!isIndex(placed.index, content_.model().lights.size()) || model.lights.size() == mostLights) {
+      add("lights", "light {} is not there, or comes after 32 others, it is left out", placed.index);
+      return;
+    }
+    const tinygltf::Light& from = content_.model().lights[placed.index];
+    PointLight light{.name = from.name,
+                     .position = glm::dvec3(transform[3]),
+                     .color = colorOf(from.color, radianceRange),
+                     .intensity = from.intensity,
+                     .radius = 0.01 * radius,
+                     .glow = 0.0,
+                     .castsShadow = model.lights.size() < mostWithShadows};
+    if (from.type == "directional") {
+      light.position = model.mesh.center + farOff * radius * direction(glm::dvec3(transform[2]));
+      light.intensity *= farOff * radius * farOff * radius;
+    } else if (from.type == "spot") {
+      add("lights", "light {} is a spot, it shines to all sides", placed.index);
+    }
+    light.intensity = std::clamp(light.intensity, radianceRange.low, radianceRange.high);
+    if (isPlace(light.position, model.mesh)) {
+      model.lights.push_back(std::move(light));
+    } else {
+      add("lights", "light {} has no usable place, it is left out", placed.index);
+    }
+  }
+
+  static constexpr const char* lightsExtension = "KHR_lights_punctual";
+  static constexpr const char* colorName = "COLOR_0";
+
+  const fs::path& file_;
+  GltfFile& content_;
+  ModelDefects& defects_;
+  MeshBuilder builder_;
+  uint64_t cornersLeft_ = 0;
+  bool hasLinesOrPoints_ = false;
+  Placed camera_;
+  std::vector<Placed> lights_;
+};
+
+[[noreturn]] void throwNothingToDraw(const fs::path& file, bool hasLinesOrPoints,
+                                     const std::vector<std::string>& defects) {
+  if (!hasLinesOrPoints && !defects.empty()) {
+    throw InputError(defects.front() + " (no triangle is left to draw)");
+  }
+  throwInputError(file, 1, "meshes",
+                  hasLinesOrPoints ? "the model has lines or points, but no triangle" : "the model has no triangle",
+                  "at least one triangle with an area is needed");
+}
+
+}  // namespace
+
+Model loadGltf(const fs::path& file, std::vector<Texture>& textures, const LoadProgress& progress) {
+  if (progress) {
+    progress(file, 0.0);
+  }
+  ModelDefects defects;
+  GltfFile content(file, defects);
+  if (content.hasMotion()) {
+    defects.add(file, 1, "animations", "skins and animations are left out, the model stands still");
+  }
+  GltfReader reader(file, content, defects);
+  reader.read(progress);
+  GltfMaterials materials(file, content, defects, textures);
+  Model model = reader.finish(materials);
+  Mesh& mesh = model.mesh;
+  mesh.materialFiles.assign(content.bufferFiles().begin(), content.bufferFiles().end());
+  for (const fs::path& named : content.namedFiles()) {
+    mesh.namedFiles.push_back(named.lexically_relative(file.lexically_normal().parent_path()));
+  }
+  mesh.defects = defects.report();
+  if (mesh.indices.empty()) {
+    throwNothingToDraw(file, reader.hasLinesOrPoints(), mesh.defects);
+  }
+  return model;
+}
+
+}  // namespace speculum
