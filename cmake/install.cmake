@@ -9,6 +9,7 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/models/ DESTINATION ${SPECULUM_DATA_DIR}
         FILES_MATCHING PATTERN "*.obj" PATTERN "*.mtl" PATTERN "*.png" PATTERN "*.jpg")
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/scenes/ DESTINATION ${SPECULUM_DATA_DIR}/scenes
         FILES_MATCHING PATTERN "*.toml" PATTERN "*.jpg")
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/lessons/ DESTINATION ${SPECULUM_DATA_DIR}/lessons FILES_MATCHING PATTERN "*.toml")
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples/ DESTINATION ${SPECULUM_DATA_DIR}/examples)
 # The examples' programs; what they need of their folders is among the data above.
 set(examples ${CMAKE_INSTALL_LIBEXECDIR}/speculum/examples)

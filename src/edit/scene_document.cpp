@@ -80,7 +80,7 @@ std::string SceneDocument::labelOf(const Step& step) {
       label = label.empty() ? std::string("change ") + field.label : "change settings";
     }
   }
-  return label;
+  return label + (settings.half < 0 ? "" : settings.half == 0 ? " of A" : " of B");
 }
 
 void SceneDocument::recordChange(const SceneContent& before) {
@@ -203,13 +203,13 @@ void SceneDocument::removeBookmark(size_t index) {
   });
 }
 
-void SceneDocument::settingsChanged(const Settings& before, const Settings& after, bool continued) {
+void SceneDocument::settingsChanged(const Settings& before, const Settings& after, bool continued, int half) {
   if (before == after) {
     return;
   }
   redo_.clear();
-  if (!continued || !settingsStepOpen_) {
-    push(SettingsStep{.before = before, .after = after});
+  if (!continued || !settingsStepOpen_ || std::get<SettingsStep>(undo_.back()).half != half) {
+    push(SettingsStep{.before = before, .after = after, .half = half});
     settingsStepOpen_ = true;
   }
   auto& step = std::get<SettingsStep>(undo_.back());
@@ -219,6 +219,19 @@ void SceneDocument::settingsChanged(const Settings& before, const Settings& afte
     undo_.pop_back();
     settingsStepOpen_ = false;
   }
+}
+
+void SceneDocument::forgetHalves() {
+  const auto isOfHalf = [](const Step& step) {
+    const auto* settings = std::get_if<SettingsStep>(&step);
+    return settings && settings->half >= 0;
+  };
+  for (const Step& step : undo_) {
+    undoBytes_ -= isOfHalf(step) ? bytesOf(step) : 0;
+  }
+  std::erase_if(undo_, isOfHalf);
+  std::erase_if(redo_, isOfHalf);
+  settingsStepOpen_ = false;
 }
 
 void SceneDocument::beginGesture() {

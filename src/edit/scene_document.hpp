@@ -19,6 +19,7 @@ enum class UndoWay { back, forward };
 struct SettingsStep {
   Settings before;
   Settings after;
+  int half = -1;  // whose settings these are: of a half of A | B, 0 or 1; -1: the scene's
 };
 
 // A scene that a user edits, with undo and saving. Changes go to the scene itself. Meshes, textures and settings are
@@ -61,9 +62,12 @@ class SceneDocument {
   std::string addBookmark(Bookmark bookmark);
   void removeBookmark(size_t index);
 
-  // Call after a change of the settings. `continued`: the change belongs to the step of the change before, unless
-  // another step, undo or redo came between. A step that ends with the settings of its beginning is taken away.
-  void settingsChanged(const Settings& before, const Settings& after, bool continued);
+  // Call after a change of the settings of SettingsStep::half. `continued`: the change belongs to the step of the
+  // change before, unless another step, undo or redo came between. A step that ends with the settings of its beginning
+  // is taken away.
+  void settingsChanged(const Settings& before, const Settings& after, bool continued, int half = -1);
+  // Takes away all steps that changed settings of a half.
+  void forgetHalves();
 
   bool canUndo() const { return !undo_.empty(); }
   bool canRedo() const { return !redo_.empty(); }

@@ -7,7 +7,7 @@ namespace speculum {
 namespace {
 
 constexpr std::string_view flyingKeys = "WASDQE";
-constexpr std::string_view otherKeys = "BMRFGNOYZ,.[]";
+constexpr std::string_view otherKeys = "BCMRFGNOXYZ,.[]";
 
 bool isAmong(std::string_view characters, Key key) {
   const int code = static_cast<int>(key);

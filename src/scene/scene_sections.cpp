@@ -204,9 +204,9 @@ CameraSpec readCamera(const TableReader& file) {
   return camera;
 }
 
-std::vector<SettingEntry> readSettings(const TableReader& file) {
+std::vector<SettingEntry> readSettings(const TableReader& file, Key key) {
   std::vector<SettingEntry> entries;
-  const std::optional<TableReader> settings = file.subtable("settings");
+  const std::optional<TableReader> settings = file.subtable(key);
   if (!settings) {
     return entries;
   }

@@ -8,7 +8,7 @@ namespace speculum {
 // Each function reads a part of a scene file from its table. Throws InputError. Object::mesh is left to the caller.
 Environment readEnvironment(const TableReader& file);
 CameraSpec readCamera(const TableReader& file);
-std::vector<SettingEntry> readSettings(const TableReader& file);
+std::vector<SettingEntry> readSettings(const TableReader& file, std::string_view key = "settings");
 Object readObject(const TableReader& table);
 PointLight readLight(const TableReader& table);
 Mirror readMirror(const TableReader& table);

@@ -13,7 +13,7 @@ namespace speculum {
 FramePlanner::FramePlanner(const Device& device, bool keepsPicture) {
   // Leaves a quarter for meshes, textures and other programs. Reads the budget only once, so that plans of equal frames
   // are equal.
-  limits_.budgetBytes = device.memoryBudget().budgetBytes / 4 * 3;
+  budgetBytes_ = limits_.budgetBytes = device.memoryBudget().budgetBytes / 4 * 3;
   limits_.largestSide =
       static_cast<int>(std::min({device.limits().maxImageDimension2D, device.limits().maxViewportDimensions[0],
                                  device.limits().maxViewportDimensions[1]}));
@@ -25,7 +25,8 @@ FramePlanner::FramePlanner(const Device& device, bool keepsPicture) {
   bufferLimits_ = traceBufferLimits(device.limits());
 }
 
-void FramePlanner::begin(bool rendersMirrors, bool leavesOutTextures) {
+void FramePlanner::begin(bool rendersMirrors, bool leavesOutTextures, unsigned planners) {
+  limits_.budgetBytes = budgetBytes_ / planners;
   rendersMirrors_ = rendersMirrors;
   leavesOutTextures_ = leavesOutTextures;
 }

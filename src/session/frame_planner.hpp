@@ -18,7 +18,8 @@ class FramePlanner : public PicturePlanner {
 
   // Call before the plans of a frame. With `rendersMirrors` no mirror shows the image of an earlier frame. With
   // `leavesOutTextures` textures that were left out are not tried again, because each trial waits for the device.
-  void begin(bool rendersMirrors, bool leavesOutTextures);
+  // `planners`: number of planners whose pictures share the device's memory.
+  void begin(bool rendersMirrors, bool leavesOutTextures, unsigned planners = 1);
   // Logs when it begins to lower settings. Throws UsageError for a picture that is larger than the device draws.
   FittedPlan plan(const FrameRequest& request) override;
   // Call in the handler of the OutOfMemoryError if the textures of the last plan could not be uploaded: plans leave
@@ -35,6 +36,7 @@ class FramePlanner : public PicturePlanner {
   };
 
   TargetLimits limits_;
+  uint64_t budgetBytes_ = 0;   // for the targets of all planners
   bool tracesRays_ = true;     // the device can trace rays, if its buffers can hold the scene
   bool drawsCoverage_ = true;  // else effects.transparency is left out
   bool warnedOfCoverage_ = false;

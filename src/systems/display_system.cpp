@@ -54,8 +54,8 @@ DisplaySystem::DisplaySystem(Renderer& renderer) : renderer_(renderer), pipeline
   linearSampler_ = createSampler(renderer.device(), {}, "display");
 }
 
-RecordedPass DisplaySystem::draw(Frame& frame, const PassDesc& desc, PassKind kind, Variant variant,
-                                 const VkDescriptorImageInfo& image, const auto& constants) {
+void DisplaySystem::draw(const Frame& frame, const PassScope& scope, Variant variant,
+                         const VkDescriptorImageInfo& image, const auto& constants) {
   variant.format = renderer_.displayFormat();
   const Pipeline& pipeline = pipelines_.get(variant, [&] {
     const char* color = variant.multisampled ? "display_average.frag"
@@ -75,44 +75,61 @@ RecordedPass DisplaySystem::draw(Frame& frame, const PassDesc& desc, PassKind ki
   });
   const VkDescriptorSet set = frame.descriptors->allocate(layout_.get());
   DescriptorWriter().image(0, image).update(renderer_.device(), set);
-  const PassScope scope = renderer_.beginPass(frame, desc);
   pipeline.bind(scope.commands(), set, constants);
   vkCmdDraw(scope.commands(), 3, 1, 0, 0);
-  return {{.kind = kind}, desc.name, -1, 1};
 }
 
-RecordedPass DisplaySystem::record(Frame& frame, const VkDescriptorImageInfo& radiance, VkExtent2D size,
-                                   const Settings& settings, int pictures) {
+// The sampler does not enlarge a mean: not every device filters its 32-bit floats, and a mean is not drawn in haste.
+DisplayedPicture DisplaySystem::picture(const VkDescriptorImageInfo& radiance, VkExtent2D size,
+                                        const DisplayCurve& curve, int pictures) const {
+  if (cover_) {
+    return {.image = cover_.descriptor(linearSampler_.get()), .size = cover_.extent(), .stretches = false};
+  }
+  return {.image = radiance,
+          .size = size,
+          .curve = {curve.exposure / std::max(pictures, 1), curve.toneMap},
+          .filtered = pictures == 0};
+}
+
+RecordedPass DisplaySystem::record(Frame& frame, std::span<const DisplayedPicture> pictures) {
   const PassDesc desc = fullPass("display", renderer_.displayTargets(frame));
-  const auto show = [&](VkExtent2D texels, Variant variant, VkDescriptorImageInfo image, double exposure) {
-    const glm::vec2 scale(static_cast<float>(texels.width) / static_cast<float>(frame.extent.width),
-                          static_cast<float>(texels.height) / static_cast<float>(frame.extent.height));
-    variant.enlarged = !cover_ && scale != glm::vec2(1.0f);
-    // The sampler does not enlarge a mean: not every device filters its 32-bit floats, and a mean is not drawn in
-    // haste.
-    variant.sampled = variant.enlarged && pictures == 0 && renderer_.device().info().isCpu();
+  const PassScope scope = renderer_.beginPass(frame, desc);
+  for (const DisplayedPicture& picture : pictures) {
+    const glm::vec2 scale(static_cast<float>(picture.size.width) / static_cast<float>(frame.extent.width),
+                          static_cast<float>(picture.size.height) / static_cast<float>(frame.extent.height));
+    Variant variant{.toneMap = picture.curve.toneMap};
+    variant.enlarged = picture.stretches && scale != glm::vec2(1.0f);
+    variant.sampled = variant.enlarged && picture.filtered && renderer_.device().info().isCpu();
+    VkDescriptorImageInfo image = picture.image;
     image.sampler = variant.sampled ? linearSampler_.get() : image.sampler;
-    return draw(frame, desc, PassKind::display, variant, image,
-                gpu::DisplayConstants{
-                    glm::vec4(scale, 0.0f, 0.0f), {texels.width, texels.height}, static_cast<float>(exposure)});
-  };
-  return cover_
-             ? show(cover_.extent(), {}, cover_.descriptor(linearSampler_.get()), 1.0)
-             : show(size, {.toneMap = settings.view.toneMap}, radiance, settings.view.exposure / std::max(pictures, 1));
+    vkCmdSetScissor(scope.commands(), 0, 1, &picture.area);
+    draw(frame, scope, variant, image,
+         gpu::DisplayConstants{glm::vec4(scale, 0.0f, 0.0f),
+                               {picture.size.width, picture.size.height},
+                               static_cast<float>(picture.curve.exposure)});
+  }
+  return {{.kind = PassKind::display}, desc.name, -1, static_cast<uint32_t>(pictures.size())};
+}
+
+RecordedPass DisplaySystem::drawTarget(Frame& frame, const VkRect2D& area, const Variant& variant,
+                                       const VkDescriptorImageInfo& image, const auto& constants) {
+  const PassDesc desc = viewPass(renderer_.displayTargets(frame), area);
+  draw(frame, renderer_.beginPass(frame, desc), variant, image, constants);
+  return {{.kind = PassKind::targetDisplay}, desc.name, -1, 1};
 }
 
 std::optional<RecordedPass> DisplaySystem::recordColor(Frame& frame, const glm::ivec2& size, const TargetDisplay& debug,
-                                                       const MirrorImage& radiance, const Settings& settings) {
+                                                       const MirrorImage& radiance, const DisplayCurve& curve) {
   const std::optional<Placement> placement = placementOf(frame.extent, size, debug);
   if (!placement) {
     return std::nullopt;
   }
-  return draw(frame, viewPass(renderer_.displayTargets(frame), placement->area), PassKind::targetDisplay,
-              {.toneMap = settings.view.toneMap,
-               .multisampled = radiance.samples != VK_SAMPLE_COUNT_1_BIT,
-               .shrunk = placement->lookup.x > 1.0f},
-              radiance.descriptor,
-              gpu::DisplayConstants{placement->lookup, size, static_cast<float>(settings.view.exposure)});
+  return drawTarget(frame, placement->area,
+                    {.toneMap = curve.toneMap,
+                     .multisampled = radiance.samples != VK_SAMPLE_COUNT_1_BIT,
+                     .shrunk = placement->lookup.x > 1.0f},
+                    radiance.descriptor,
+                    gpu::DisplayConstants{placement->lookup, size, static_cast<float>(curve.exposure)});
 }
 
 // The depth image is not filtered where it is shrunk, because depth has no mean where surfaces meet.
@@ -122,9 +139,9 @@ std::optional<RecordedPass> DisplaySystem::recordDepth(Frame& frame, const glm::
   if (!placement) {
     return std::nullopt;
   }
-  return draw(frame, viewPass(renderer_.displayTargets(frame), placement->area), PassKind::targetDisplay,
-              {.multisampled = depth.samples != VK_SAMPLE_COUNT_1_BIT, .depth = true}, depth.descriptor,
-              gpu::DepthViewConstants{placement->lookup, static_cast<float>(near / debug.halfDistance)});
+  return drawTarget(frame, placement->area, {.multisampled = depth.samples != VK_SAMPLE_COUNT_1_BIT, .depth = true},
+                    depth.descriptor,
+                    gpu::DepthViewConstants{placement->lookup, static_cast<float>(near / debug.halfDistance)});
 }
 
 void DisplaySystem::releaseView() {

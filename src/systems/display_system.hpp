@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 
 #include "image/color.hpp"
 #include "image/image.hpp"
@@ -11,6 +12,16 @@
 #include "systems/pipeline_variants.hpp"
 
 namespace speculum {
+
+// A picture as the display pass shows it.
+struct DisplayedPicture {
+  VkDescriptorImageInfo image{};  // linear radiance
+  VkExtent2D size{0, 0};          // texels
+  DisplayCurve curve;             // its exposure is a factor on the texels
+  bool stretches = true;          // interpolates where the display has another size
+  bool filtered = false;          // the device's samplers can interpolate it
+  VkRect2D area{};                // pixels of the display; the whole picture is as large as the display
+};
 
 // Draws into the display image: the picture with exposure, tone curve and sRGB encoding, and over it the target that a
 // TargetDisplay asks for.
@@ -24,13 +35,15 @@ class DisplaySystem {
   // Shows `picture` instead of the scene: see SceneRenderer::setCover.
   void setCover(const Image8& picture);
 
-  // Records the display pass. It shows the image of setCover(), or else `radiance`, which has `size` texels and is the
-  // sum of `pictures` pictures; 0: one picture, no sum.
-  RecordedPass record(Frame& frame, const VkDescriptorImageInfo& radiance, VkExtent2D size, const Settings& settings,
-                      int pictures);
+  // Returns what record() takes, without an area: the image of setCover(), or else `radiance`, which has `size` texels
+  // and is the sum of `pictures` pictures; 0: one picture, no sum.
+  DisplayedPicture picture(const VkDescriptorImageInfo& radiance, VkExtent2D size, const DisplayCurve& curve,
+                           int pictures) const;
+  // Records the display pass. The areas of the pictures cover the display.
+  RecordedPass record(Frame& frame, std::span<const DisplayedPicture> pictures);
   // Record a pass that shows a target of `size` texels. Return nothing if no part of the target lies in `debug.area`.
   std::optional<RecordedPass> recordColor(Frame& frame, const glm::ivec2& size, const TargetDisplay& debug,
-                                          const MirrorImage& radiance, const Settings& settings);
+                                          const MirrorImage& radiance, const DisplayCurve& curve);
   // `near`: metres from the eye to the near plane.
   std::optional<RecordedPass> recordDepth(Frame& frame, const glm::ivec2& size, const TargetDisplay& debug,
                                           const MirrorImage& depth, double near);
@@ -51,8 +64,11 @@ class DisplaySystem {
     auto operator<=>(const Variant&) const = default;
   };
   // Draws with the variant for the present display image.
-  RecordedPass draw(Frame& frame, const PassDesc& desc, PassKind kind, Variant variant,
-                    const VkDescriptorImageInfo& image, const auto& constants);
+  void draw(const Frame& frame, const PassScope& scope, Variant variant, const VkDescriptorImageInfo& image,
+            const auto& constants);
+  // Shows a target in a pass of its own.
+  RecordedPass drawTarget(Frame& frame, const VkRect2D& area, const Variant& variant,
+                          const VkDescriptorImageInfo& image, const auto& constants);
 
   Renderer& renderer_;
   DescriptorSetLayoutHandle layout_;

@@ -16,10 +16,9 @@ bool defers(const FrameInfo& info, const DrawList& pass) {
   return MirrorSystem::defers(info, pass) || RenderSystem::defers(info, pass);
 }
 
-// Returns the settings with the exposure of a picture whose radiances are stored times `radianceScale`.
-Settings displayed(Settings settings, double radianceScale) {
-  settings.view.exposure /= radianceScale;
-  return settings;
+// Returns the curve of a picture whose radiances are stored times `radianceScale`.
+DisplayCurve displayed(const DisplayCurve& curve, double radianceScale) {
+  return {curve.exposure / radianceScale, curve.toneMap};
 }
 
 }  // namespace
@@ -60,7 +59,8 @@ void SceneRenderer::uploadTextures(Frame& frame, const SceneState& state, const 
 }
 
 void SceneRenderer::record(Frame& frame, const SceneState& state, const Settings& settings, const FramePlan& plan,
-                           const std::optional<TargetDisplay>& debug, bool shown) {
+                           const std::optional<TargetDisplay>& debug, bool shown,
+                           const std::optional<SplitDisplay>& split) {
   data_.requireFits(plan);
   const double radianceScale = settings.view.radianceScale();
   const Environment environment = scaled(scene_.environment.cleared(settings.view.clearColor), radianceScale);
@@ -71,6 +71,7 @@ void SceneRenderer::record(Frame& frame, const SceneState& state, const Settings
   const bool textured = drawsTextures(scene_, state, settings, plan);
   resources_.prepare(frame, settings, textured);
   pictureSize_ = {plan.width, plan.height};
+  curve_ = settings.view.displayCurve();
   tiles_ = tilesOfPasses(plan);
   tilesLeft_ = tilesAtOnce_ = tilesAtOnce(plan, settings, plan.effects.raysToLights(scene_));
   data_.build(frame, resources_, scene_, state, settings, environment, plan);
@@ -106,7 +107,7 @@ void SceneRenderer::record(Frame& frame, const SceneState& state, const Settings
     radianceScale_ = radianceScale;
   }
   if (shown) {
-    recordDisplay(info, debug);
+    recordDisplay(info, debug, split);
   }
   if (!unfinished_) {
     endRecord(info, textured, drawsTransparency(scene_, state, settings, plan));
@@ -291,39 +292,53 @@ void SceneRenderer::recordSum(const FrameInfo& info) {
   }
 }
 
-void SceneRenderer::recordDisplay(const FrameInfo& info, const std::optional<TargetDisplay>& debug) {
+DisplayedPicture SceneRenderer::picture() {
   const int pictures = accumulated();
-  const RecordedPass display =
-      display_.record(info.frame, pictures > 0 ? accumulation_.descriptor() : mainTargets_.shown().descriptor(),
-                      mainTargets_.shown().extent(), displayed(info.settings, radianceScale_), pictures);
+  return display_.picture(pictures > 0 ? accumulation_.descriptor() : mainTargets_.shown().descriptor(),
+                          mainTargets_.shown().extent(), displayed(curve_, radianceScale_), pictures);
+}
+
+void SceneRenderer::recordDisplay(const FrameInfo& info, const std::optional<TargetDisplay>& debug,
+                                  const std::optional<SplitDisplay>& split) {
+  const VkExtent2D display = info.frame.extent;
+  const bool divides = split && split->other.pictureSize_.x > 0;
+  const uint32_t left = divides ? std::min(split->divider, display.width) : display.width;
+  const std::array areas{VkRect2D{{0, 0}, {left, display.height}},
+                         VkRect2D{{static_cast<int32_t>(left), 0}, {display.width - left, display.height}}};
+  std::array pictures{picture(), divides ? split->other.picture() : DisplayedPicture()};
+  pictures[0].area = areas[divides && split->right];
+  pictures[1].area = areas[divides && !split->right];
+  const RecordedPass pass = display_.record(info.frame, std::span(pictures).first(divides ? 2 : 1));
+  const std::optional<RecordedPass> target = debug ? showTarget(info.frame, info.plan, *debug) : std::nullopt;
   if (!unfinished_) {
-    log_.add(display);
-  }
-  const WatchedTarget::Target* target = debug ? watched_.shown(info.plan, *debug) : nullptr;
-  if (target != nullptr) {
-    recordDebug(info, *debug, *target);
+    log_.add(pass);
+    if (target) {
+      log_.add(*target);
+    }
   }
 }
 
-void SceneRenderer::recordDebug(const FrameInfo& info, const TargetDisplay& debug,
-                                const WatchedTarget::Target& target) {
-  OffScreen* image = watchedImage(info.plan, debug.pass);
+std::optional<RecordedPass> SceneRenderer::showTarget(Frame& frame, const FramePlan& plan, const TargetDisplay& debug) {
+  const WatchedTarget::Target* watched = watched_.shown(plan, debug);
+  if (!watched) {
+    return std::nullopt;
+  }
+  const WatchedTarget::Target& target = *watched;
+  OffScreen* image = watchedImage(plan, debug.pass);
   const bool showsDepth = target.kind == TargetKind::depth;
   if (showsDepth ? !watched_.hasDepth() : !image) {
-    return;
+    return std::nullopt;
   }
   Image& texels = showsDepth ? watched_.depth() : image->color();
   const MirrorImage shown{showsDepth ? watched_.depthDescriptor() : image->descriptor(), texels.samples()};
-  const auto view = showsDepth ? display_.recordDepth(info.frame, target.size, debug, shown, target.near)
-                               : display_.recordColor(info.frame, target.size, debug, shown,
-                                                      displayed(info.settings, radianceScale_));
-  if (view && !unfinished_) {
-    log_.add(*view);
-  }
+  const auto view = showsDepth
+                        ? display_.recordDepth(frame, target.size, debug, shown, target.near)
+                        : display_.recordColor(frame, target.size, debug, shown, displayed(curve_, radianceScale_));
   // The target that is shown, of the last complete picture, may be smaller than the one that the probe was meant for.
   if (debug.probe && glm::all(glm::lessThan(*debug.probe, target.size))) {
-    probe_.probe(info.frame, texels, shown.descriptor, *debug.probe);
+    probe_.probe(frame, texels, shown.descriptor, *debug.probe);
   }
+  return view;
 }
 
 // Keeps what the next frame may reuse, and releases what no frame needed for a while.

@@ -22,6 +22,16 @@
 
 namespace speculum {
 
+class SceneRenderer;
+
+// Says where the display shows a picture: to one side of a divider. To the other side it shows the picture that another
+// renderer of the same scene drew last, or this picture too until there is one.
+struct SplitDisplay {
+  SceneRenderer& other;
+  bool right = false;    // this picture is to the right
+  uint32_t divider = 0;  // first column of pixels to the right of the divider
+};
+
 // Draws one scene: the passes of a plan, and the display pass. Owns the systems, the targets and the scene's resources.
 class SceneRenderer {
  public:
@@ -44,7 +54,11 @@ class SceneRenderer {
   // drawn again, for another target: it is not added twice. Throws std::runtime_error, before anything is made, if the
   // plan draws more instances than the device takes.
   void record(Frame& frame, const SceneState& state, const Settings& settings, const FramePlan& plan,
-              const std::optional<TargetDisplay>& debug = std::nullopt, bool shown = true);
+              const std::optional<TargetDisplay>& debug = std::nullopt, bool shown = true,
+              const std::optional<SplitDisplay>& split = std::nullopt);
+  // Shows a target of the last complete picture, as record() does, in a frame that another renderer records. `plan` is
+  // that of the last record(). Returns nothing if the target was not kept or no part of it is in sight.
+  std::optional<RecordedPass> showTarget(Frame& frame, const FramePlan& plan, const TargetDisplay& debug);
   // Pictures in the mean that the last recorded frame shows; 0 without one. Until plan.tiles reach the end of a
   // picture, its frames show what was there before, the mean of the pictures before it or else the main view.
   int accumulated() const { return accumulation_.pictures(); }
@@ -82,7 +96,10 @@ class SceneRenderer {
   // Target of the environment map that the pass is a face of.
   OffScreen& environmentTarget(const FramePlan& plan, const Pass& face);
   void recordSum(const FrameInfo& info);
-  void recordDisplay(const FrameInfo& info, const std::optional<TargetDisplay>& debug);
+  void recordDisplay(const FrameInfo& info, const std::optional<TargetDisplay>& debug,
+                     const std::optional<SplitDisplay>& split);
+  // Picture that the last recorded frame shows, without an area.
+  DisplayedPicture picture();
   void recordDebug(const FrameInfo& info, const TargetDisplay& debug, const WatchedTarget::Target& target);
   void endRecord(const FrameInfo& info, bool textured, bool transparent);
   void finishLedger(const FrameInfo& info);
@@ -120,7 +137,8 @@ class SceneRenderer {
   std::vector<PassTargets> passTargets_;  // of the mirror passes drawn last; their next tiles may follow
   double radianceScale_ = 1.0;            // ViewSettings::radianceScale() of the last complete picture
   bool unfinished_ = false;               // the last frame drew tiles, and not the last ones of its picture
-  glm::ivec2 pictureSize_{0};             // of the last recorded frame
+  glm::ivec2 pictureSize_{0};             // of the last recorded frame; 0: none yet
+  DisplayCurve curve_;                    // of the last recorded frame
   MirrorTargets mirrorTargets_;
   uint64_t cacheRevision_ = 0;  // of the pipelines that rendered the cached images
   SceneChanges changes_;

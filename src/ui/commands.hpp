@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -59,11 +60,25 @@ struct SetSettings {
 };
 struct ResetSettings {};
 
+// A | B.
+struct ToggleSplit {   // begins with the present settings on the left, or ends
+  bool naive = false;  // B begins with the settings of usual samples, else with the present ones
+};
+struct ChooseHalf {  // whose settings SetSettings changes
+  int half = 0;      // 0 is A, 1 is B
+};
+struct ChooseOtherHalf {};
+struct MoveDivider {
+  double share = 0.5;  // of the picture's width, to the left
+};
+struct KeepHalf {};  // the chosen half's settings become those of the scene, and A | B ends
+
 // Files.
 struct NewScene {};
 struct AskWhatToOpen {};
 struct OpenScene {
   std::filesystem::path file;
+  std::optional<size_t> lesson = {};  // begins this one of ShownSplit::lessons, whose scene the file is
 };
 struct OpenDropped {
   std::vector<std::filesystem::path> files;
@@ -145,14 +160,15 @@ struct ClearHistory {};
 struct ClearLog {};
 
 // One action of the user. Panels, keys and the gamepad make commands; Workspace::apply carries them out.
-using Command = std::variant<ResetCamera, ToggleCameraMode, SetCameraMode, FrameSelection, LookFromMirror, AddBookmark,
-                             GoToBookmark, GoToNextBookmark, RemoveBookmark, Seek, StepTime, SetPaused, TogglePaused,
-                             SetTimeSpeed, MultiplyTimeSpeed, SetSettings, ResetSettings, NewScene, AskWhatToOpen,
-                             OpenScene, OpenDropped, CancelLoading, Save, AskWhereToSave, SaveAs, DiscardChanges,
-                             CancelPrompt, Quit, SelectNode, ToggleNode, SelectNext, SetGizmoMode, NextGizmoMode,
-                             EditNode, EndEdit, AddMirror, AddLight, AddObject, DuplicateSelected, RemoveSelected, Undo,
-                             Redo, MeasureAccuracy, CancelMeasurement, ApplyPoint, TakeScreenshot, ToggleRecording,
-                             CopyCommandLine, CopyText, SetPresentMode, ToggleFullScreen, TogglePanel, ToggleHelp,
-                             ToggleInspector, Escape, DismissMessage, PauseHistory, ClearHistory, ClearLog>;
+using Command =
+    std::variant<ResetCamera, ToggleCameraMode, SetCameraMode, FrameSelection, LookFromMirror, AddBookmark,
+                 GoToBookmark, GoToNextBookmark, RemoveBookmark, Seek, StepTime, SetPaused, TogglePaused, SetTimeSpeed,
+                 MultiplyTimeSpeed, SetSettings, ResetSettings, ToggleSplit, ChooseHalf, ChooseOtherHalf, MoveDivider,
+                 KeepHalf, NewScene, AskWhatToOpen, OpenScene, OpenDropped, CancelLoading, Save, AskWhereToSave, SaveAs,
+                 DiscardChanges, CancelPrompt, Quit, SelectNode, ToggleNode, SelectNext, SetGizmoMode, NextGizmoMode,
+                 EditNode, EndEdit, AddMirror, AddLight, AddObject, DuplicateSelected, RemoveSelected, Undo, Redo,
+                 MeasureAccuracy, CancelMeasurement, ApplyPoint, TakeScreenshot, ToggleRecording, CopyCommandLine,
+                 CopyText, SetPresentMode, ToggleFullScreen, TogglePanel, ToggleHelp, ToggleInspector, Escape,
+                 DismissMessage, PauseHistory, ClearHistory, ClearLog>;
 
 }  // namespace speculum

@@ -65,7 +65,8 @@ void help(PanelContext& ui) {
       }
       ImGui::BeginGroup();
       for (const ShortcutGroup& group : shortcutGroups()) {
-        if ((std::string_view(group.name) == "Edit") == right) {
+        const std::string_view name = group.name;
+        if ((name == "Edit" || name == "Capture") == right) {
           helpTable(group.name, group.shortcuts, text);
         }
       }

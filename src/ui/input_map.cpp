@@ -49,7 +49,10 @@ std::span<const ShortcutGroup> shortcutGroups() {
          key("B", "Look from behind the selected mirror, or the largest", LookFromMirror{MirrorSide::back}),
          key("Shift+B", "Look out of that mirror", LookFromMirror{MirrorSide::front}),
          key("M", "Bookmark the view (saved with the scene)", AddBookmark{}),
-         key("Shift+M", "Go to the next bookmark", GoToNextBookmark{})}},
+         key("Shift+M", "Go to the next bookmark", GoToNextBookmark{}),
+         key("C", "A | B: two sets of settings side by side; again: end", ToggleSplit{}),
+         key("Shift+C", "A | B with the settings of usual samples as B", ToggleSplit{true}),
+         key("X", "Edit the settings of the other half", ChooseOtherHalf{})}},
        {"Time",
         {key("Space", "Pause or play", TogglePaused{}), repeated(".", "Step forward by 1/60 s", StepTime{1}),
          repeated(",", "Step back by 1/60 s", StepTime{-1}), key("[", "Halve the speed", MultiplyTimeSpeed{0.5}),
@@ -76,7 +79,7 @@ std::span<const ShortcutGroup> shortcutGroups() {
          pointer("Ctrl+Tab", "Go to another window of the panels"),
          pointer("Arrows", "Walk through the panel's widgets; Space presses"),
          key("F1", "Show or hide this list", ToggleHelp{}),
-         key("Esc", "Cancel the drag, close a menu, deselect", Escape{}), key("Ctrl+Q", "Quit", Quit{})}}}};
+         key("Esc", "Cancel the drag, close a menu, deselect, end A | B", Escape{}), key("Ctrl+Q", "Quit", Quit{})}}}};
   return groups;
 }
 

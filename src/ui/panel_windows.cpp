@@ -58,6 +58,7 @@ UiOutput PanelWindows::build(const UiInput& input) {
     panels::playOffer(ui, freeRect(), below);
   }
   panels::besideTarget(ui, [&] { panels::editOverlay(input.edit.overlay, freeRect()); });
+  panels::divider(ui, freeRect());
   panels::poster(ui, thumbnails_, freeRect());
   if (state_.choices != savedChoices_) {
     savedChoices_ = state_.choices;
@@ -94,6 +95,7 @@ void PanelWindows::mainPanel(PanelContext& ui) {
     statusWidth_ = ImGui::GetWindowWidth();
     panels::scene(ui);
     windowChoices(ui);
+    panels::splitChoice(ui);
     panels::settings(ui);
     panels::effects(ui);
     ImGui::PopItemWidth();
@@ -112,6 +114,7 @@ void PanelWindows::menuBar(PanelContext& ui) {
   }
   if (panels::menu(ui, "Help")) {
     ImGui::MenuItem("Keys", keysOf(ToggleHelp{}), &state_.help);
+    panels::lessonMenu(ui);
     ImGui::MenuItem("Dear ImGui demo", nullptr, &state_.widgetDemo);
     panels::recordWidget(ui, "help.widgets");
     ImGui::EndMenu();
@@ -185,16 +188,24 @@ void PanelWindows::presentModes(PanelContext& ui) {
 }
 
 void PanelWindows::sideWindows(PanelContext& ui) {
-  const auto window = [&](const char* name, bool& open, const glm::vec2& ems, const auto& content, int flags = 0) {
+  const auto window = [&](const char* name, bool& open, const glm::vec2& ems, const auto& content, int flags = 0,
+                          PanelDock::Edge edge = PanelDock::Edge::right) {
     if (open) {
       ImGui::SetNextWindowBgAlpha(1.0f);  // opaque, because figures over the picture are hard to read
-      if (dock_.begin(name, &open, PanelDock::Edge::right, ems, flags)) {
+      if (dock_.begin(name, &open, edge, ems, flags)) {
         content();
       }
       ImGui::End();
     }
   };
   PanelChoices& choices = state_.choices;
+  bool lesson = ui.input.split.lesson.has_value();
+  // At the left edge, so that both halves stay in sight.
+  window(
+      "Lesson", lesson, {28.0f, 24.0f}, [&] { panels::lesson(ui); }, 0, PanelDock::Edge::left);
+  if (!lesson && ui.input.split.lesson) {
+    ui.send(ToggleSplit{});
+  }
   window("Scenes", choices.scenes, {24.2f, 46.5f}, [&] { panels::gallery(ui, thumbnails_); });
   window("Performance", choices.performance, {27.0f, 30.0f}, [&] { panels::performance(ui); });
   window("Accuracy", choices.accuracy, {27.0f, 40.0f}, [&] { panels::accuracy(ui); });

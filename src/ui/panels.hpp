@@ -89,6 +89,7 @@ namespace panels {
 
 inline constexpr const char* helpTitle = "Keys";
 inline constexpr const char* inspectorTitle = "Inspector";
+inline constexpr const char* dividerTitle = "##divider";  // of the window that has the labels of A | B too
 // Returns a size in sizes of the font for a window that would be so large on a large display; on a small one it takes
 // no more of the width than necessary and a quarter of the display. A height of 0 stays.
 glm::vec2 modestEms(const glm::vec2& ems);
@@ -102,8 +103,11 @@ bool menu(PanelContext& ui, const char* label, bool enabled = true);
 
 // Sections of the main panel and contents of the windows beside it, each within the current ImGui window.
 void scene(PanelContext& ui);
+void splitChoice(PanelContext& ui);  // half of A | B whose settings follow, if there is A | B
 void settings(PanelContext& ui);
 void effects(PanelContext& ui);
+void lesson(PanelContext& ui);
+void lessonMenu(PanelContext& ui);
 void passes(PanelContext& ui);
 void gallery(PanelContext& ui, const Thumbnails& thumbnails);
 void performance(PanelContext& ui);
@@ -123,6 +127,8 @@ void message(PanelContext& ui, const WindowRect& picture);  // an error, until i
 // edge. Only where there is room; Space plays too.
 void playOffer(PanelContext& ui, const WindowRect& picture, float below);
 void prompts(PanelContext& ui);  // over all others, while a prompt is open
+// The divider of A | B, which can be dragged, and a label on each side of it. Does nothing without A | B.
+void divider(PanelContext& ui, const WindowRect& picture);
 
 // Drawn over the picture, behind all windows.
 void poster(const PanelContext& ui, const Thumbnails& thumbnails, const WindowRect& picture);  // instead of the picture

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <map>
 #include <optional>
 #include <string>
@@ -185,6 +186,29 @@ struct ShownAccuracy {
   std::vector<glm::vec3> heatBar;    // colors from no error to an error of 1, display sRGB
 };
 
+// A | B: two sets of settings, side by side, and the lessons that show such pairs.
+struct ShownSplit {
+  bool on = false;
+  int chosen = 1;        // half whose settings the panels edit: 0 is A, on the left, 1 is B
+  double divider = 0.5;  // share of the picture's width to its left
+  struct Half {
+    std::vector<SettingChange> differs;  // its values of the settings that differ from the other half's
+    double gpuMs = 0.0;                  // of its last frame that drew the scene; 0: not known
+    std::optional<double> error;         // mean FLIP; none until both still pictures are complete and compared
+    bool ofReference = false;            // `error` is against the reference, else against the other half
+    std::string picture;                 // what it gives up, or how far it has converged
+  };
+  std::array<Half, 2> halves;
+  struct LessonEntry {
+    std::filesystem::path scene;
+    std::string title;
+    std::string text;
+    std::string lookFor;
+  };
+  std::vector<LessonEntry> lessons;
+  std::optional<size_t> lesson;  // index of the one that is shown
+};
+
 struct ShownStatus {
   std::string text;
   double age = 0.0;           // seconds
@@ -199,12 +223,13 @@ struct UiInput {
   const ShownFrame& frame;
   const ShownDevice& device;
   const ShownScenes& browser;
-  const Settings& settings;
+  const Settings& settings;       // of A | B: those of the chosen half
   const Settings& sceneSettings;  // values of the scene and the command line, to which a reset returns
   const ShownCamera& camera;
   const ShownPlayback& playback;
   const ShownEdit& edit;
   const ShownAccuracy& accuracy;
+  const ShownSplit& split;
   const ShownStatus& status;
   const LogHistory& log;
   std::string message;  // an error to show until the next one, e.g. of a shader or a scene

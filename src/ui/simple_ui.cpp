@@ -214,9 +214,14 @@ bool SimpleUI::inRenderPass() const {
   return imgui::needsRenderPass || renderer_.device().renderPath() == RenderPath::renderPass;
 }
 
-void SimpleUI::record(Frame& frame) {
+void SimpleUI::record(Frame& frame, bool dividerOnly) {
   const PassScope scope = renderer_.beginOverlay(frame, inRenderPass());
   ImDrawData& data = *ImGui::GetDrawData();
+  for (int i = 0; dividerOnly && i < data.CmdListsCount; ++i) {
+    if (data.CmdLists[i]->_OwnerName != std::string_view(panels::dividerTitle)) {
+      data.CmdLists[i]->CmdBuffer.resize(0);
+    }
+  }
   // The backend sizes its buffers by these totals. It destroys a buffer that is too small before it makes a larger one,
   // and once more at its end if there was no memory for that; buffers of this size are never replaced.
   data.TotalVtxCount = std::max(data.TotalVtxCount, 100'000);

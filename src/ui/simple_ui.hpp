@@ -18,7 +18,8 @@ class SimpleUI {
   void push(const InputEvent& event);  // call with each event of the window
   // Lays out this frame's panels. Call it once a frame, even if nothing is drawn.
   UiOutput build(const UiInput& input);
-  void record(Frame& frame);  // draws the panels of the last build() over the display image
+  // Draws the panels of the last build() over the display image, or only the divider and the labels of A | B.
+  void record(Frame& frame, bool dividerOnly = false);
   // Reads what only the window system knows, for the next build(). It may wait for an answer.
   void readWindow();
   void setThumbnails(std::vector<Image8> pictures);  // of ShownScenes::scenes, from the next frame on

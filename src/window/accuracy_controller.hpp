@@ -72,6 +72,10 @@ class AccuracyController {
   // shows the scene again.
   std::optional<Image8> takeCover();
   bool working() const;  // afterFrame() has work left although nothing changes
+  // Shows the heat map again: call when another picture takes the place of the one that it was made for.
+  void showAgain() { coverChanged_ = coverChanged_ || difference_.map().width > 0; }
+  // Reference of the view that is shown, as far as the difference map has traced one; null without it.
+  std::shared_ptr<const GroundTruth> reference() const { return difference_.reference(); }
   // Call before the scene changes or goes away. Drops the points and the heat map, cancels a measurement, and waits for
   // the threads that read the scene. The panel shows `why`, the first words of a sentence, instead of the points.
   void forgetScene(const std::string& why = "The scene was changed");

@@ -245,14 +245,18 @@ int CameraController::lookFromMirror(MirrorSide side, const SceneState& state, c
   return lastMirror_;
 }
 
+void CameraController::goTo(const Bookmark& view, const Scene& scene) {
+  spec_ = cameraOf(view, scene.camera);
+  pivot_.reset();
+  eye_ = spec_.position;
+  target_ = spec_.target;
+  touched_ = true;
+}
+
 void CameraController::goToBookmark(size_t index, const Scene& scene) {
   if (index < scene.bookmarks.size()) {
     shown_.bookmark = static_cast<int>(index);
-    spec_ = cameraOf(scene.bookmarks[index], scene.camera);
-    pivot_.reset();
-    eye_ = spec_.position;
-    target_ = spec_.target;
-    touched_ = true;
+    goTo(scene.bookmarks[index], scene);
   }
 }
 

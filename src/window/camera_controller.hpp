@@ -59,6 +59,7 @@ class CameraController {
   int lookFromMirror(MirrorSide side, const SceneState& state, const Selection& selected,
                      std::span<const PassRow> passes, double aspect);
 
+  void goTo(const Bookmark& view, const Scene& scene);
   void goToBookmark(size_t index, const Scene& scene);
   void goToNextBookmark(const Scene& scene);
   // Returns `pose` as a bookmark. The bookmark has an up and a field of view only if they differ from those of `usual`,

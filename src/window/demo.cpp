@@ -3,6 +3,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <limits>
 #include <memory>
@@ -30,15 +31,18 @@ double milliseconds(std::chrono::steady_clock::duration duration) {
 
 }  // namespace
 
+Demo::Half::Half(Renderer& renderer, const Scene& scene)
+    : renderer(std::make_unique<SceneRenderer>(renderer, scene)),
+      planner(renderer.device(), true),
+      pace(renderer.device().info().isCpu(), renderer.device().caps().sampleCounts) {}
+
 Demo::Demo(const Options& options)
     : options_(options),
       workspace_(options, *this),
       window_({.title = "Speculum", .width = options.size.width, .height = options.size.height}),
       device_(deviceOptions(options, &window_)),
       renderer_(device_, rendererOptions(options, &window_)),
-      sceneRenderer_(std::make_unique<SceneRenderer>(renderer_, workspace_.scene())),
-      planner_(device_, true),
-      pace_(device_.info().isCpu(), device_.caps().sampleCounts),
+      halves_{std::make_unique<Half>(renderer_, workspace_.scene())},
       refreshHz_(window_.refreshRate()),
       deviceView_(shownDevice(renderer_, device_)),
       last_(Clock::now()) {
@@ -64,7 +68,7 @@ bool Demo::step() {
 }
 
 bool Demo::stepOnce() {
-  if (pace_.drawsTiles()) {
+  if (half().pace.drawsTiles()) {
     renderer_.waitIdle();
   } else if (pacer_.due()) {
     renderer_.waitForFrame();  // first, so that the events of this frame are as new as possible
@@ -80,10 +84,11 @@ bool Demo::stepOnce() {
   const bool changes = changing();
   const bool changed = std::exchange(changes_, changes);
   changeBegins_ = changes && !changed;
-  if (changes || pace_.wantsFrame()) {
+  const auto wantsFrame = [](const std::unique_ptr<Half>& half) { return half && half->pace.wantsFrame(); };
+  if (changes || std::ranges::any_of(halves_, wantsFrame)) {
     Settings shown = workspace_.settings();
     shown.reflection = mostAsked(workspace_.scene(), shown);
-    pacer_.change(shown);
+    pacer_.change(shown, halves_[1] ? 2 : 1);
   }
   if (!pacer_.due() && !idle()) {
     return !shouldClose();
@@ -93,9 +98,11 @@ bool Demo::stepOnce() {
     presentPanels();
   }
   const double sinceLastMs = pacer_.beginFrame(seconds);
-  const double frameSeconds = workspace_.frameSeconds(std::min(seconds, longestStep));
-  updateUi(frameSeconds);
-  drawFrame(frameSeconds, sinceLastMs);
+  // Both halves of A | B show the same time, so it stands still in every second frame.
+  const double passed = std::min(seconds, longestStep);
+  heldSeconds_ += passed;
+  updateUi(endsPair() ? 0.0 : workspace_.frameSeconds(std::exchange(heldSeconds_, 0.0)));
+  drawFrame(workspace_.frameSeconds(passed), sinceLastMs);
   return !shouldClose();
 }
 
@@ -114,7 +121,7 @@ void Demo::updateUi(double seconds) {
 }
 
 void Demo::beginOpening() {
-  if (first_.holds()) {
+  if (first_.holds() && !workspace_.split().on()) {
     apply(SetPaused{false});
   }
   const bool paced = options_.frames == 0 && budgetMs() > 0.0;
@@ -126,11 +133,12 @@ void Demo::beginOpening() {
 
 void Demo::continueOpening(const FramePlan& plan) {
   const double seconds = std::chrono::duration<double>(Clock::now() - opened_).count();
-  if (first_.drawn(pace_.playCost(), workspace_.animates(), endsPicture(plan) && !pace_.lowers(), seconds)) {
+  const Pace& pace = half().pace;
+  if (first_.drawn(pace.playCost(), workspace_.animates(), endsPicture(plan) && !pace.lowers(), seconds)) {
     apply(SetPaused{true});
     apply(Seek{0.0});
   }
-  workspace_.setPlayCost(pace_.playCost().value_or(""));
+  workspace_.setPlayCost(pace.playCost().value_or(""));
   workspace_.browser().showPoster(first_.covered());
 }
 
@@ -172,14 +180,22 @@ void Demo::abandonFrame(Frame& frame, const std::string& why) {
 }
 
 void Demo::drawFrame(double seconds, double sinceLastMs) {
-  // Sets the cover between frames, because that waits for the device.
-  if (const std::optional<Image8> cover = workspace_.accuracy().takeCover()) {
-    sceneRenderer_->setCover(*cover);
+  try {
+    takeTurns();
+  } catch (const OutOfMemoryError& error) {
+    workspace_.undoFailedChange(error.what());
+    return;
   }
+  showCover();
   const SceneState state = workspace_.state(workspace_.time());
-  const bool movedBefore = pace_.moving();
-  pace_.begin(state.camera, workspace_.animates() || workspace_.dragging(), seconds);
-  const bool timed = timesPasses(movedBefore && !pace_.moving());
+  Half& half = this->half();
+  const bool movedBefore = half.pace.moving();
+  for (const std::unique_ptr<Half>& each : halves_) {
+    if (each) {
+      each->pace.begin(state.camera, workspace_.animates() || workspace_.dragging(), seconds);
+    }
+  }
+  const bool timed = timesPasses(movedBefore && !half.pace.moving());
   renderer_.setTimerDetail(timed ? TimerDetail::passes : TimerDetail::frame);
   const Clock::time_point waits = Clock::now();
   std::optional<Frame> frame = renderer_.beginFrame();
@@ -187,19 +203,26 @@ void Demo::drawFrame(double seconds, double sinceLastMs) {
     return;
   }
   const Clock::time_point start = Clock::now();
-  pace_.finished(renderer_.timings());
-  const bool captured = workspace_.capture().wanted();
+  half.pace.finished(timings());
+  const bool captured = workspace_.capture().wanted() && (!workspace_.split().on() || half_ == 1);
   frame->capture = capture_ || captured;
   const bool bare = workspace_.capture().bare();
   const FittedPlan* fitted = nullptr;
   try {
     fitted = &planFrame(*frame, state);
+    // The Targets panel shows a target of the half whose figures the panels show, whichever half is drawn.
+    Half& shown = *halves_[static_cast<size_t>(workspace_.shownHalf())];
+    const FittedPlan& its = shown.pace.planned();
     const std::optional<TargetRequest>& target = output_.target;
     const std::optional<TargetDisplay> debug =
-        target ? workspace_.report().target(*target, fitted->plan, fitted->settings,
-                                            device_.limits().standardSampleLocations)
-               : std::nullopt;
-    sceneRenderer_->record(*frame, state, fitted->settings, fitted->plan, bare ? std::nullopt : debug);
+        target && (isShown() || shown.frame > 0)
+            ? workspace_.report().target(*target, its.plan, its.settings, device_.limits().standardSampleLocations)
+            : std::nullopt;
+    half.renderer->record(*frame, state, fitted->settings, fitted->plan, bare || !isShown() ? std::nullopt : debug,
+                          true, splitDisplay(*frame));
+    if (debug && !bare && !isShown()) {
+      shown.renderer->showTarget(*frame, its.plan, *debug);
+    }
   } catch (const DeviceLostError&) {
     throw;
   } catch (const SurfaceLostError&) {
@@ -209,14 +232,14 @@ void Demo::drawFrame(double seconds, double sinceLastMs) {
   }
   const FramePlan& plan = fitted->plan;
   const Settings& settings = fitted->settings;
-  if (!bare) {
-    ui_->record(*frame);
+  if (!bare || workspace_.split().on()) {
+    ui_->record(*frame, bare);
   }
   const Clock::time_point end = Clock::now();
   const double cpuMs = milliseconds(end - start) - frame->waitedMs;
   const bool newPipelines = std::exchange(pipelines_, renderer_.pipelines().count()) != pipelines_;
-  pace_.drawn(frame->number, milliseconds(waits - last_) + cpuMs, frame->waitedMs,
-              !timed && !newPipelines && !plan.mainReused() && !plan.tiles);
+  half.pace.drawn(frame->number, milliseconds(waits - last_) + cpuMs, frame->waitedMs,
+                  !timed && !newPipelines && !plan.mainReused() && !plan.tiles);
   const uint64_t number = frame->number;
   endFrame(*frame);
   const bool compiledBefore = std::exchange(compiled_, newPipelines);
@@ -228,83 +251,172 @@ void Demo::drawFrame(double seconds, double sinceLastMs) {
   }
   framesDrawn_ += framesDrawn_ < std::numeric_limits<int>::max();
   pacer_.frameDrawn();
-  continueOpening(plan);
-  const bool repeats = pace_.repeats() && !settings.view.continuous && options_.frames == 0;
-  workspace_.report().update({workspace_.scene(), state, settings, plan, number, cpuMs, sinceLastMs, pace_.lowers(),
-                              newPipelines || compiledBefore, repeats, workspace_.settings()},
-                             renderer_, *sceneRenderer_, output_.hoveredPath);
-  const auto radiance = [&] { return toDisplay(sceneRenderer_->radiance(), settings.view.displayCurve()); };
+  if (isShown()) {
+    continueOpening(plan);
+  }
+  const bool repeats = half.pace.repeats() && !settings.view.continuous && options_.frames == 0;
+  workspace_.report(half_).update(
+      {workspace_.scene(), state, settings, plan, number, cpuMs, sinceLastMs, half.pace.lowers(),
+       newPipelines || compiledBefore, repeats, workspace_.shownSettings(half_)},
+      timings(), device_, *half.renderer, output_.hoveredPath);
+  half.frame = number;
+  const auto radiance = [&] { return toDisplay(half.renderer->radiance(), settings.view.displayCurve()); };
   const std::optional<Image8> picture = captured ? std::optional(pictureOf(renderer_.readback())) : std::nullopt;
   workspace_.frameDrawn({workspace_.scene(), state, settings, plan.width, plan.height},
-                        endsPicture(plan) ? radiance : std::function<Image8()>(), picture ? &*picture : nullptr);
+                        endsPicture(plan) ? radiance : std::function<Image8()>(), picture ? &*picture : nullptr, half_);
+  describeHalf();
   frameSettings_ = settings;
   message_ = currentMessage();
   const Clock::time_point presents = Clock::now();
   renderer_.present();
-  pace_.presented(milliseconds(Clock::now() - presents));
+  half.pace.presented(milliseconds(Clock::now() - presents));
+}
+
+// Makes what draws B, or drops it, and chooses the half to draw: both take turns.
+void Demo::takeTurns() {
+  const bool split = workspace_.split().on();
+  if (split && !halves_[1]) {
+    renderer_.waitIdle();
+    halves_[1] = std::make_unique<Half>(renderer_, workspace_.scene());
+  } else if (!split && halves_[1]) {
+    dropSecondHalf();
+  }
+  half_ = split ? 1 - half_ : 0;
+}
+
+void Demo::dropSecondHalf() {
+  renderer_.waitIdle();
+  if (const std::unique_ptr<Half> dropped = std::exchange(halves_[1], nullptr)) {
+    nonFinite_ += dropped->renderer->finiteWatch().count();
+  }
+  workspace_.split().forgetPictures();
+  half_ = covered_ = 0;
+}
+
+// Returns the times of the last frame that drew this half and has finished.
+const FrameTimings& Demo::timings() const {
+  static const FrameTimings none;
+  const FrameTimings* found = halves_[1] ? renderer_.timingsOf(half().frame) : &renderer_.timings();
+  return found ? *found : none;
+}
+
+// Sets the cover between frames, because that waits for the device.
+void Demo::showCover() {
+  if (const int shown = workspace_.shownHalf(); std::exchange(covered_, shown) != shown) {
+    halves_[static_cast<size_t>(1 - shown)]->renderer->setCover({});
+  }
+  if (const std::optional<Image8> cover = workspace_.accuracy().takeCover()) {
+    halves_[static_cast<size_t>(covered_)]->renderer->setCover(*cover);
+  }
+}
+
+std::optional<SplitDisplay> Demo::splitDisplay(const Frame& frame) {
+  if (!halves_[1]) {
+    return std::nullopt;
+  }
+  const double divider = std::round(workspace_.split().divider() * frame.extent.width);
+  return SplitDisplay{*halves_[static_cast<size_t>(1 - half_)]->renderer, half_ == 1, static_cast<uint32_t>(divider)};
+}
+
+// Tells A | B how its half was drawn.
+void Demo::describeHalf() {
+  if (!halves_[1]) {
+    return;
+  }
+  const auto planned = [this](int of) { return halves_[static_cast<size_t>(of)]->pace.planned().settings; };
+  const auto picture = [&](int of) {
+    return toDisplay(halves_[static_cast<size_t>(of)]->renderer->radiance(), planned(of).view.displayCurve());
+  };
+  workspace_.split().frameDrawn({.half = half_,
+                                 .gpuMs = workspace_.report(half_).shown().gpuMs,
+                                 .text = half().pace.text(),
+                                 .still = half().pace.completeStill()},
+                                workspace_.accuracy().reference(), picture, planned);
+}
+
+void Demo::dropCachedImages() {
+  for (const std::unique_ptr<Half>& half : halves_) {
+    if (half) {
+      half->renderer->restart();
+    }
+  }
+}
+
+uint64_t Demo::nonFinite() {
+  uint64_t count = nonFinite_;
+  for (const std::unique_ptr<Half>& half : halves_) {
+    count += half && half->renderer ? half->renderer->finiteWatch().count() : 0;
+  }
+  return count;
 }
 
 // Returns the target that the panels show if a picture has to be drawn for it.
 std::optional<Pace::Target> Demo::missingTarget() const {
   const std::optional<TargetRequest>& target = output_.target;
-  const bool missing = target && target->drawn && !isAlwaysThere(target->path, target->display.kind) &&
-                       !sceneRenderer_->keepsTarget(target->path, target->display.kind);
+  const bool missing = target && target->drawn && isShown() && !isAlwaysThere(target->path, target->display.kind) &&
+                       !half().renderer->keepsTarget(target->path, target->display.kind);
   return missing ? std::optional(Pace::Target(target->path, target->display.kind)) : std::nullopt;
 }
 
 const FittedPlan& Demo::planFrame(Frame& frame, const SceneState& state) {
   const std::optional<Pace::Target> missing = missingTarget();
-  Settings settings = workspace_.shownSettings();
+  Half& half = this->half();
+  Settings settings = workspace_.shownSettings(half_);
   // Renders every mirror in each frame while debug.check_finite is on, which reports findings by mirror.
   settings.reflection.skipUnchanged = settings.reflection.skipUnchanged && !settings.debug.checkFinite;
   // While a mirror's target is shown, all mirrors are rendered in each frame, so that the target belongs to the
   // picture.
-  planner_.begin(output_.target && !output_.target->path.empty(), ui_->holdsWidget() || pace_.moving());
-  FrameCache cache = sceneRenderer_->cache(state);
+  half.planner.begin(isShown() && output_.target && !output_.target->path.empty(),
+                     ui_->holdsWidget() || half.pace.moving(), halves_[1] ? 2 : 1);
+  FrameCache cache = half.renderer->cache(state);
   if (missing) {
     cache.main = nullptr;
   }
   const bool recorded = workspace_.capture().recording();  // without a time budget
   const Scene& scene = workspace_.scene();
-  const FittedPlan& fitted = pace_.plan({.frame = {.scene = scene,
-                                                   .state = state,
-                                                   .settings = settings,
-                                                   .size = glm::ivec2(frame.extent.width, frame.extent.height),
-                                                   .cache = cache},
-                                         .planner = planner_,
-                                         .shown = {.scenes = scenes_,
-                                                   .revision = workspace_.revision(),
-                                                   .shaders = renderer_.pipelines().revision(),
-                                                   .time = contentTime(scene, state.time),
-                                                   .size = pictureSize()},
-                                         .budgetMs = recorded ? 0.0 : budgetMs(),
-                                         .front = workspace_.accuracy().front(),
-                                         .input = changes_,
-                                         .target = missing});
+  const FittedPlan& fitted = half.pace.plan({.frame = {.scene = scene,
+                                                       .state = state,
+                                                       .settings = settings,
+                                                       .size = glm::ivec2(frame.extent.width, frame.extent.height),
+                                                       .cache = cache},
+                                             .planner = half.planner,
+                                             .shown = {.scenes = scenes_,
+                                                       .revision = workspace_.revision(),
+                                                       .shaders = renderer_.pipelines().revision(),
+                                                       .time = contentTime(scene, state.time),
+                                                       .size = pictureSize()},
+                                             .budgetMs = recorded ? 0.0 : budgetMs(),
+                                             .front = workspace_.accuracy().front(),
+                                             .input = changes_,
+                                             .target = missing});
   uploadTextures(frame, state, fitted);
-  workspace_.setPictureText(first_.covered() ? drawingText() : pictureText(scene, settings));
+  if (isShown()) {
+    workspace_.setPictureText(first_.covered() ? drawingText() : pictureText(scene, settings));
+  }
   return fitted;
 }
 
 // Uploads the textures of a plan, or leaves them out of it if there is no memory for them.
 void Demo::uploadTextures(Frame& frame, const SceneState& state, const FittedPlan& fitted) {
+  Half& half = this->half();
   try {
-    sceneRenderer_->uploadTextures(frame, state, fitted.settings, fitted.plan);
+    half.renderer->uploadTextures(frame, state, fitted.settings, fitted.plan);
   } catch (const OutOfMemoryError& error) {
-    planner_.leaveOutTextures(error.what());
-    pace_.leaveOutTextures();
-    sceneRenderer_->uploadTextures(frame, state, fitted.settings, fitted.plan);
+    half.planner.leaveOutTextures(error.what());
+    half.pace.leaveOutTextures();
+    half.renderer->uploadTextures(frame, state, fitted.settings, fitted.plan);
   }
 }
 
 // Returns the pace's text and what the picture approximates, or would if the animation were paused.
 std::string Demo::pictureText(const Scene& scene, const Settings& chosen) const {
-  const std::string& text = pace_.text();
+  const std::string& text = half().pace.text();
   const std::string rest = stillText(scene, chosen);
   if (!text.empty() && workspace_.animates()) {
     return text + ". Space: pause for the " + (rest.empty() ? "exact picture" : "whole picture (" + rest + ")");
   }
-  return pace_.lowers() || rest.empty() ? text : text + (text.empty() ? "Approximate: " : "; approximate: ") + rest;
+  return half().pace.lowers() || rest.empty() ? text
+                                              : text + (text.empty() ? "Approximate: " : "; approximate: ") + rest;
 }
 
 // Says whether to time passes one by one: only at the start and the end of a change and every few frames, because
@@ -312,7 +424,7 @@ std::string Demo::pictureText(const Scene& scene, const Settings& chosen) const 
 // anyway.
 bool Demo::timesPasses(bool movementEnded) {
   const bool times = ui_->windows().visible() &&
-                     (changeBegins_ || movementEnded || untimedFrames_ >= timedInterval || pace_.drawsSlowly());
+                     (changeBegins_ || movementEnded || untimedFrames_ >= timedInterval || half().pace.drawsSlowly());
   untimedFrames_ = times ? 0 : std::min(untimedFrames_ + 1, timedInterval);
   return times;
 }
@@ -324,11 +436,11 @@ std::string Demo::currentMessage() {
   if (!renderer_.pipelines().errors().empty()) {
     return renderer_.pipelines().errors();
   }
-  const FiniteWatch& watch = sceneRenderer_->finiteWatch();
-  if (watch.findingsFrame() > 0 && watch.findingsFrame() == renderer_.timings().frame) {
+  const FiniteWatch& watch = half().renderer->finiteWatch();
+  if (watch.findingsFrame() > 0 && watch.findingsFrame() == timings().frame) {
     return describe(watch.findings().front());
   }
-  return planner_.message();
+  return half().planner.message();
 }
 
 // Says whether the next frame could differ from the last one.
@@ -340,7 +452,8 @@ bool Demo::changing() {
   const bool finished = std::exchange(working_, working) && !working;
   return window_.takeActivity() || shaders || finished || gamepadChanged_ || gamepad_.used() ||
          workspace_.capture().recording() || heldDirection() != glm::dvec3(0.0) ||
-         workspace_.settings().view.continuous || options_.frames > 0 || workspace_.animates();
+         workspace_.shownSettings(0).view.continuous || workspace_.shownSettings(1).view.continuous ||
+         options_.frames > 0 || workspace_.animates();
 }
 
 // Sleeps while nothing changes. Returns true if a frame has to be drawn for something that changes slowly.
@@ -373,14 +486,16 @@ void Demo::close() {
 }
 
 void Demo::useScene(const Scene& scene) {
-  renderer_.waitIdle();
+  dropSecondHalf();
+  Half& half = this->half();
   nonFinite_ = nonFinite();
-  sceneRenderer_.reset();
-  planner_.forgetScene();
+  half.renderer.reset();
+  half.planner.forgetScene();
   output_ = {};  // it may request a target of the old scene
-  sceneRenderer_ = std::make_unique<SceneRenderer>(renderer_, scene);
+  half.renderer = std::make_unique<SceneRenderer>(renderer_, scene);
+  half.frame = 0;
   ++scenes_;
-  pace_.sceneChanged();
+  half.pace.sceneChanged();
   sceneIsNew_ = std::exchange(shownFile_, scene.file) != scene.file;
 }
 

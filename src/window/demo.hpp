@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <chrono>
 
 #include "session/frame_planner.hpp"
@@ -29,7 +30,7 @@ class Demo : private WorkspaceHost {
   Device& device() { return device_; }
   Renderer& renderer() { return renderer_; }
   // Samples that debug.check_finite found in the frames that have finished, of every scene that was shown.
-  uint64_t nonFinite() { return nonFinite_ + (sceneRenderer_ ? sceneRenderer_->finiteWatch().count() : 0); }
+  uint64_t nonFinite();
   int framesDrawn() const { return framesDrawn_; }
   // Saves a copy of unsaved changes and logs where.
   void keepUnsavedWork() noexcept { workspace_.keepUnsavedWork(); }
@@ -41,11 +42,22 @@ class Demo : private WorkspaceHost {
  private:
   using Clock = std::chrono::steady_clock;
 
+  // What draws the picture: the only one, or a half of A | B. Only one half is drawn in each frame, so that the
+  // device's times are those of one set of settings.
+  struct Half {
+    Half(Renderer& renderer, const Scene& scene);
+
+    std::unique_ptr<SceneRenderer> renderer;
+    FramePlanner planner;
+    Pace pace;
+    uint64_t frame = 0;  // number of the last frame that drew it; 0: none yet
+  };
+
   bool stepOnce();
 
   // WorkspaceHost
   void useScene(const Scene& scene) override;
-  void dropCachedImages() override { sceneRenderer_->restart(); }
+  void dropCachedImages() override;
   void scenesListed() override { ui_->setThumbnails(workspace_.browser().thumbnails()); }
   glm::ivec2 pictureSize() const override;
   PixelRect freePicture() const override;
@@ -80,12 +92,22 @@ class Demo : private WorkspaceHost {
   void endFrame(Frame& frame);
   void abandonFrame(Frame& frame, const std::string& why);
   void drawFrame(double seconds, double sinceLastMs);
+  void takeTurns();
+  void dropSecondHalf();
+  bool endsPair() const { return workspace_.split().on() && halves_[1] && half_ == 0; }
+  Half& half() { return *halves_[static_cast<size_t>(half_)]; }
+  const Half& half() const { return *halves_[static_cast<size_t>(half_)]; }
+  bool isShown() const { return half_ == workspace_.shownHalf(); }
+  const FrameTimings& timings() const;
+  void showCover();
+  std::optional<SplitDisplay> splitDisplay(const Frame& frame);
+  void describeHalf();
   std::optional<Pace::Target> missingTarget() const;
   const FittedPlan& planFrame(Frame& frame, const SceneState& state);
   void uploadTextures(Frame& frame, const SceneState& state, const FittedPlan& fitted);
   std::string drawingText() const { return "Drawing " + workspace_.scene().file.filename().string() + "..."; }
   std::string pictureText(const Scene& scene, const Settings& chosen) const;
-  double budgetMs() const { return motionBudget(workspace_.settings(), device_.info().isCpu(), refreshHz_); }
+  double budgetMs() const { return motionBudget(workspace_.shownSettings(half_), device_.info().isCpu(), refreshHz_); }
   bool timesPasses(bool movementEnded);
   std::string currentMessage();
 
@@ -94,9 +116,10 @@ class Demo : private WorkspaceHost {
   Window window_;
   Device device_;
   Renderer renderer_;
-  std::unique_ptr<SceneRenderer> sceneRenderer_;
-  FramePlanner planner_;
-  Pace pace_;
+  std::array<std::unique_ptr<Half>, 2> halves_;  // the second one only while there is A | B
+  int half_ = 0;                                 // that is drawn in this frame, or was in the last one
+  int covered_ = 0;                              // half that has the accuracy's heat map as its cover
+  double heldSeconds_ = 0.0;                     // of animation, since the last frame that began a pair of halves
   FirstPictures first_;
   double refreshHz_;  // of the monitor
   ShownDevice deviceView_;

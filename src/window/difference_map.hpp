@@ -28,6 +28,7 @@ class DifferenceMap {
   void stop();  // as reset(), but waits for running work
 
   const Plane2d& map() const { return map_; }  // FLIP error by pixel; without pixels until there is a result
+  const std::shared_ptr<const GroundTruth>& reference() const { return truth_; }  // of the view; null: not traced yet
   // By mirror: the mean error within its outline, NaN if the eye does not see it; empty without map().
   const std::vector<double>& mirrorErrors() const { return mirrorErrors_; }
   bool working() const;        // update() has work left although nothing changes

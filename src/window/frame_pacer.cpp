@@ -23,8 +23,8 @@ int framesUntilFresh(const Settings& settings) {
 
 }  // namespace
 
-void FramePacer::change(const Settings& settings) {
-  due_ = framesAfterChange + framesUntilFresh(settings);
+void FramePacer::change(const Settings& settings, int halves) {
+  due_ = halves * (framesAfterChange + framesUntilFresh(settings));
 }
 
 double FramePacer::beginFrame(double seconds) {

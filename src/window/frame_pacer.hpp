@@ -8,8 +8,8 @@ namespace speculum {
 // is idle.
 class FramePacer {
  public:
-  // Call when something changed or is changing.
-  void change(const Settings& settings);
+  // Call when something changed or is changing. `halves`: pictures that are drawn in turn.
+  void change(const Settings& settings, int halves = 1);
   void requestFrames(int frames) { due_ = std::max(due_, frames); }
   bool due() const { return due_ > 0; }
   void idle() { idled_ = true; }  // call when the window sleeps

@@ -74,10 +74,8 @@ void FrameReport::clear() {
   skipped_.clear();
 }
 
-void FrameReport::update(const RecordedFrame& frame, Renderer& renderer, SceneRenderer& sceneRenderer,
-                         const MirrorPath& hoveredPath) {
-  const FrameTimings& timings = renderer.timings();
-  Device& device = renderer.device();
+void FrameReport::update(const RecordedFrame& frame, const FrameTimings& timings, Device& device,
+                         SceneRenderer& sceneRenderer, const MirrorPath& hoveredPath) {
   const MemoryBudget budget = device.memoryBudget();
   shown_.deviceBytes = device.allocatedBytes();
   shown_.budgetBytes = budget.budgetBytes;

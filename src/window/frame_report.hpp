@@ -27,9 +27,8 @@ struct RecordedFrame {
 class FrameReport {
  public:
   void clear();  // call when another scene is shown
-  // `hoveredPath`: path of the mirror to outline; empty: none. The GPU's figures are those of the last frame that has
-  // finished.
-  void update(const RecordedFrame& frame, Renderer& renderer, SceneRenderer& sceneRenderer,
+  // `timings`: of a frame that has finished. `hoveredPath`: path of the mirror to outline; empty: none.
+  void update(const RecordedFrame& frame, const FrameTimings& timings, Device& device, SceneRenderer& sceneRenderer,
               const MirrorPath& hoveredPath);
   // Describes the requested target, and returns how to draw it over the picture; nothing if the plan lacks the target's
   // pass or the request does not want the target drawn.

@@ -180,6 +180,7 @@ void Pace::planMoving(const Request& request) {
 }
 
 void Pace::forgetStill() {
+  ++still_;
   state_ = State::changed;
   picture_ = 0;
   target_.reset();

@@ -105,6 +105,11 @@ class Pace {
   bool drawsTiles() const { return fitted_.plan.tiles.has_value(); }
   // Says whether the planned frame has a lower quality than the chosen settings.
   bool lowers() const { return level_ > 0; }
+  // Returns a number that each still picture has of its own, once it is complete.
+  std::optional<uint64_t> completeStill() const {
+    return !moving() && isComplete() && slow_.finished() ? std::optional(still_) : std::nullopt;
+  }
+  const FittedPlan& planned() const { return fitted_; }  // by the last plan()
   // Says whether the planned frame draws the picture again that was there before.
   bool repeats() const { return state_ == State::redraw || state_ == State::done; }
   // Says whether the next frames are likely to draw tiles.
@@ -195,6 +200,7 @@ class Pace {
   State state_ = State::changed;
   // Settings and content of the still pictures; nothing while the picture moves.
   std::optional<std::pair<Settings, Shown>> shown_;
+  uint64_t still_ = 0;            // still views begun so far
   int picture_ = 0;               // complete pictures of the mean
   int pictures_ = 0;              // in the mean; 1: a single picture instead
   std::optional<Target> target_;  // of the latest redraw

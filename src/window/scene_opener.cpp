@@ -45,7 +45,7 @@ void SceneOpener::ask() {
 void SceneOpener::takeChosenFile() {
   const std::optional<FileDialog::Answer> answer = dialog_.poll();
   if (answer && answer->file) {
-    open(*answer->file);
+    open({*answer->file});
   } else if (answer && answer->failed && !saving_->prompting()) {
     saving_->ask(Prompt::open, folderToOpen());
   }
@@ -58,21 +58,22 @@ void SceneOpener::setProblem(const std::string& problem) {
   }
 }
 
-void SceneOpener::open(const fs::path& file) {
+void SceneOpener::open(const OpenScene& wanted) {
   std::error_code none;
-  if (!fs::exists(file, none)) {
-    return setProblem(file.string() + ": there is no such file");
+  if (!fs::exists(wanted.file, none)) {
+    return setProblem(wanted.file.string() + ": there is no such file");
   }
   saving_->closeOpenPrompt();
-  if (saving_->confirmDiscard(settings_, OpenScene{file})) {
+  if (saving_->confirmDiscard(settings_, wanted)) {
     problem_.clear();
-    browser_.open(file, options_);
+    lesson_ = wanted.lesson;
+    browser_.open(wanted.file, options_);
   }
 }
 
 void SceneOpener::openDropped(const std::vector<fs::path>& files) {
   try {
-    open(SceneBrowser::choose(files));
+    open({SceneBrowser::choose(files)});
   } catch (const InputError& error) {
     setProblem(error.what());
   }

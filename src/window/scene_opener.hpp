@@ -41,7 +41,7 @@ class SceneOpener {
 
   // Asks for a file to open: by the desktop's dialog, if there is one that can be started, else by a prompt.
   void ask();
-  void open(const std::filesystem::path& file);
+  void open(const OpenScene& wanted);
   void openDropped(const std::vector<std::filesystem::path>& files);
   void cancelLoading();
   void cancelPrompt();
@@ -59,6 +59,7 @@ class SceneOpener {
   // Keeps unsaved changes in such a copy at once, and logs where.
   void keepUnsavedWork() noexcept;
 
+  const std::optional<size_t>& lesson() const { return lesson_; }  // that the scene was opened for
   SceneBrowser& browser() { return browser_; }
   const SceneBrowser& browser() const { return browser_; }
   const std::string& problem() const { return problem_; }  // with the last scene; empty: none
@@ -77,6 +78,7 @@ class SceneOpener {
   DocumentController* saving_ = nullptr;
   SceneBrowser browser_;
   FileDialog dialog_;
+  std::optional<size_t> lesson_;  // OpenScene::lesson of the scene that is loading or was loaded
   Recovery recovery_;
   std::string problem_;
   std::optional<std::pair<uint64_t, Settings>> seen_;  // revision and settings that keepChanges() saw last

@@ -51,7 +51,8 @@ void Workspace::startDocument() {
   pointer_.cancel();
   accuracy_.forgetPick();
   camera_.sceneChanged(scene());
-  report_.clear();
+  split_.end();
+  std::ranges::for_each(reports_, &FrameReport::clear);
   settings_ = loaded_->settings;
   shownStructure_ = document_->structureRevision();
   edit_ = {};
@@ -85,9 +86,14 @@ void Workspace::apply(const Command& command) {
                  [&](const MultiplyTimeSpeed& c) { playback_.setSpeed(c.factor * playback_.shown().speed); },
                  [&](const SetSettings& c) { setSettings(c.settings, c.continued); },
                  [&](const ResetSettings&) { setSettings(loaded_->settings); },
-                 [&](const NewScene&) { opener_.open(SceneBrowser::newScene()); },
+                 [&](const ToggleSplit& c) { toggleSplit(c.naive); },
+                 [&](const ChooseHalf& c) { chooseHalf(c.half); },
+                 [&](const ChooseOtherHalf&) { chooseHalf(1 - split_.chosen()); },
+                 [&](const MoveDivider& c) { split_.moveDivider(c.share); },
+                 [&](const KeepHalf&) { keepHalf(); },
+                 [&](const NewScene&) { opener_.open({SceneBrowser::newScene()}); },
                  [&](const AskWhatToOpen&) { opener_.ask(); },
-                 [&](const OpenScene& c) { opener_.open(c.file); },
+                 [&](const OpenScene& c) { opener_.open(c); },
                  [&](const OpenDropped& c) { opener_.openDropped(c.files); },
                  [&](const CancelLoading&) { opener_.cancelLoading(); },
                  [&](const Save&) { resume(saving_->save(settings_)); },
@@ -127,11 +133,13 @@ void Workspace::apply(const Command& command) {
                  [&](const MeasureAccuracy&) { measureAccuracy(); },
                  [&](const CancelMeasurement&) { accuracy_.cancel(); },
                  [&](const ApplyPoint& c) {
-                   const Settings before = settings_;
-                   Settings settings = settings_;
+                   const Settings before = settings();
+                   Settings settings = before;
                    accuracy_.applyPoint(c.point, settings);
+                   // A half shows the point as it was measured, whichever half is chosen.
+                   settings.quality.stillPictures = split_.on() ? 1 : settings.quality.stillPictures;
                    setSettings(settings);
-                   accuracy_.pick(before, settings_);
+                   accuracy_.pick(before, settings);
                    status_.set("Shows the picked point as it was measured: one picture, not the mean of several.");
                  },
                  [&](const TakeScreenshot& c) { capture_.takeScreenshot(c.withPanel); },
@@ -152,8 +160,8 @@ void Workspace::apply(const Command& command) {
                  [&](const ToggleHelp&) { host_.toggleHelp(); },
                  [&](const ToggleInspector&) { host_.toggleInspector(); },
                  [&](const Escape&) { escape(); },
-                 [&](const PauseHistory& c) { report_.history().setPaused(c.paused); },
-                 [&](const ClearHistory&) { report_.history().clear(); },
+                 [&](const PauseHistory& c) { report().history().setPaused(c.paused); },
+                 [&](const ClearHistory&) { report().history().clear(); },
                  [&](const DismissMessage&) { dismissMessage(); },
                  [&](const ClearLog&) { log_.clear(); },
              },
@@ -205,11 +213,13 @@ std::optional<PointedScene> Workspace::pointedScene(double time) {
   }
   SceneState shown = state(time);
   const PictureView picture(shown.camera, size.x, size.y);
-  const ReflectionSettings& reflection = settings_.reflection;
-  return PointedScene{.state = std::move(shown),
-                      .picture = picture,
-                      .limits = {reflection.maxDepth, reflection.minThroughput, report_.skipped()},
-                      .scale = host_.contentScale()};
+  const int half = split_.on() ? split_.halfAt(pointer_.pixel().x / size.x) : 0;
+  const ReflectionSettings reflection = shownSettings(half).reflection;
+  return PointedScene{
+      .state = std::move(shown),
+      .picture = picture,
+      .limits = {reflection.maxDepth, reflection.minThroughput, reports_[static_cast<size_t>(half)].skipped()},
+      .scale = host_.contentScale()};
 }
 
 double Workspace::aspect() const {
@@ -234,15 +244,16 @@ void Workspace::prepareView(double seconds, bool pointerOverPicture) {
 }
 
 UiInput Workspace::shown(const ShownDevice& device, const std::string& message) const {
-  return {.frame = report_.shown(),
+  return {.frame = reports_[static_cast<size_t>(shownHalf())].shown(),
           .device = device,
           .browser = opener_.browser().shown(),
-          .settings = settings_,
+          .settings = settings(),
           .sceneSettings = loaded_->settings,
           .camera = camera_.shown(),
           .playback = playback_.shown(),
           .edit = edit_,
           .accuracy = accuracy_.shown(),
+          .split = split_.shown(),
           .status = status_.shown(),
           .log = log_,
           .message = message};
@@ -258,7 +269,8 @@ void Workspace::update() {
   if (!warning.empty() && !problem().starts_with(warning)) {
     status_.warn(warning);
   }
-  accuracy_.beforeFrame(settings_);
+  accuracy_.beforeFrame(panelSettings());
+  split_.update();
 }
 
 // Drops cached images of the old scene that content comparison does not cover: those reused by an interval, and those
@@ -269,25 +281,33 @@ void Workspace::takeSceneChange() {
     return;
   }
   if (!editor_->dragging()) {
-    report_.history().restart();
+    report().history().restart();
   }
-  const int interval = mostAsked(scene(), settings_).updateInterval;
+  bool interval = false;
+  for (const int half : {0, 1}) {
+    const Settings shown = shownSettings(half);
+    interval = interval || mostAsked(scene(), shown).updateInterval > 1 || shown.effects.environmentInterval > 1;
+  }
   const uint64_t structure = document_->structureRevision();
   const bool restructured = std::exchange(shownStructure_, structure) != structure;
-  if (restructured || interval > 1 || settings_.effects.environmentInterval > 1) {
+  if (restructured || interval) {
     host_.dropCachedImages();
   }
 }
 
-void Workspace::frameDrawn(const ShownPicture& shown, const std::function<Image8()>& radiance, const Image8* captured) {
+void Workspace::frameDrawn(const ShownPicture& shown, const std::function<Image8()>& radiance, const Image8* captured,
+                           int half) {
   if (captured) {
     Capture::Saved saved = capture_.save(scene().file.stem().string(), *captured);
     const std::string& picture = status_.shown().picture;
     saved.message += saved.logged && !picture.empty() ? ", " + picture : "";
     saved.logged ? status_.set(saved.message) : status_.show(saved.message);
   }
-  accuracy_.afterFrame(shown, watchedState(shown.state), radiance);
-  if (radiance && options_.frames == 0 && std::exchange(needsThumbnail_, false) && browser().storeThumbnail(radiance)) {
+  if (half == shownHalf()) {
+    accuracy_.afterFrame(shown, watchedState(shown.state), radiance);
+  }
+  const bool draws = radiance && options_.frames == 0 && !split_.on();
+  if (draws && std::exchange(needsThumbnail_, false) && browser().storeThumbnail(radiance)) {
     host_.scenesListed();
   }
   tookBack_ = false;
@@ -314,6 +334,9 @@ void Workspace::showScene(std::unique_ptr<LoadedScene> scene) {
   }
   if (browser().show(loaded_->scene.file, true)) {
     host_.scenesListed();
+  }
+  if (opener_.lesson()) {
+    beginLesson(*opener_.lesson());
   }
 }
 
@@ -379,7 +402,7 @@ void Workspace::resume(const std::optional<Command>& afterPrompt) {
   }
 }
 
-// Ends one thing at a time: drag, menu or list of keys, selection, message. Panels stay.
+// Ends one thing at a time: drag, menu or list of keys, selection, A | B, message. Panels stay.
 void Workspace::escape() {
   if (editor_->dragging()) {
     return editor_->cancelDrag();
@@ -390,7 +413,7 @@ void Workspace::escape() {
   if (document_->selection()) {
     return editor_->select({});
   }
-  dismissMessage();
+  split_.on() ? endSplit() : dismissMessage();
 }
 
 // Messages about shaders and memory stay until their cause is gone. The panels' button hides such a message, Escape
@@ -403,8 +426,59 @@ void Workspace::dismissMessage() {
 void Workspace::setSettings(const Settings& settings, bool continued) {
   Settings chosen = settings;
   accuracy_.followBudget(chosen);
-  document_->settingsChanged(settings_, chosen, continued);
-  settings_ = chosen;
+  document_->settingsChanged(panelSettings(), chosen, continued, split_.on() ? split_.chosen() : -1);
+  panelSettings() = chosen;
+}
+
+void Workspace::toggleSplit(bool naive) {
+  if (split_.on()) {
+    return endSplit();
+  }
+  split_.begin(settings_, naive ? naiveSettings(settings_) : settings_, middleOfFreePicture());
+  reports_[1] = {};
+  chooseHalf(split_.chosen());
+  status_.set("A | B: the panel changes the settings of B. X changes to A, Esc ends it.");
+}
+
+void Workspace::chooseHalf(int half) {
+  if (split_.on()) {
+    split_.choose(half);
+    accuracy_.acceptBudget(settings());
+    accuracy_.showAgain();
+  }
+}
+
+void Workspace::keepHalf() {
+  if (split_.on()) {
+    Settings kept = settings();
+    kept.limit = settings_.limit;  // no user set it, and no step would take it back
+    endSplit();
+    setSettings(kept);
+  }
+}
+
+void Workspace::endSplit() {
+  split_.end();
+  document_->forgetHalves();
+  accuracy_.acceptBudget(settings_);
+  accuracy_.showAgain();
+}
+
+void Workspace::beginLesson(size_t index) {
+  const Lesson& lesson = split_.lessons()[index];
+  if (lesson.camera) {
+    camera_.goTo(*lesson.camera, scene());
+  }
+  playback_.seek(lesson.time);
+  playback_.setPaused(true);
+  split_.beginLesson(index, loaded_->settings, middleOfFreePicture());
+  reports_[1] = {};
+  chooseHalf(split_.chosen());
+}
+
+double Workspace::middleOfFreePicture() const {
+  const PixelRect free = host_.freePicture();
+  return (free.x + 0.5 * free.width) / std::max(host_.pictureSize().x, 1);
 }
 
 void Workspace::step(UndoWay way) {
@@ -413,14 +487,18 @@ void Workspace::step(UndoWay way) {
   const bool back = way == UndoWay::back;
   const std::string step = back ? document_->undoLabel() : document_->redoLabel();
   if (const std::optional<SettingsStep> changed = editor_->step(way)) {
+    if (changed->half >= 0) {
+      chooseHalf(changed->half);
+    }
     // Copies only the settings that the step changed, because a measurement may have chosen others since.
+    Settings& settings = changed->half >= 0 ? panelSettings() : settings_;
     for (const SettingField& field : settingFields()) {
       if (!sameSetting(field, changed->before, changed->after)) {
-        copySetting(field, back ? changed->before : changed->after, settings_);
+        copySetting(field, back ? changed->before : changed->after, settings);
       }
     }
   }
-  accuracy_.acceptBudget(settings_);
+  accuracy_.acceptBudget(settings());
   status_.set(step.empty() ? (back ? "Nothing to undo" : "Nothing to redo") : (back ? "Undone: " : "Redone: ") + step);
 }
 
@@ -441,8 +519,8 @@ void Workspace::frame(const Selection& node) {
 
 // Reports what is seen, because a back that does not reflect looks like a fault.
 void Workspace::lookFromMirror(MirrorSide side) {
-  const int mirror =
-      camera_.lookFromMirror(side, evaluate(scene(), time()), document_->selection(), report_.shown().passes, aspect());
+  const int mirror = camera_.lookFromMirror(side, evaluate(scene(), time()), document_->selection(),
+                                            report().shown().passes, aspect());
   if (mirror < 0) {
     return status_.set("The scene has no mirror to look from");
   }
@@ -473,7 +551,7 @@ void Workspace::copyCommandLine() {
     if (camera_.moved()) {
       options.camera = camera_.bookmark(state(time()).camera, scene().camera);
     }
-    Settings settings = shownSettings();
+    Settings settings = shownSettings(shownHalf());
     settings.view.accumulate = stillPictures(settings);
     const std::string command = viewCommand(options, file, scene(), settings);
     host_.setClipboard(command);
@@ -488,7 +566,7 @@ void Workspace::measureAccuracy() {
   try {
     const SceneState shown = state(time());
     SweepRequest request{
-        .options = shownOptions(saving_->savedOrCopy(loaded_->settings)), .base = settings_, .camera = shown.camera};
+        .options = shownOptions(saving_->savedOrCopy(loaded_->settings)), .base = settings(), .camera = shown.camera};
     request.options.gpu = host_.gpu();
     accuracy_.measure(std::move(request), watchedState(shown));
   } catch (const std::runtime_error& error) {
@@ -499,6 +577,11 @@ void Workspace::measureAccuracy() {
 bool Workspace::undoFailedChange(const std::string& why) {
   editor_->release();
   editor_->endEdit();
+  if (split_.on()) {
+    endSplit();
+    opener_.setProblem("A | B has ended: " + why);
+    return true;
+  }
   const std::string label = document_->undoLabel();
   if (std::exchange(tookBack_, !label.empty())) {
     step(UndoWay::forward);  // the undone step was not the cause

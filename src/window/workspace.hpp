@@ -5,6 +5,7 @@
 #include "window/frame_report.hpp"
 #include "window/pointer_controller.hpp"
 #include "window/scene_opener.hpp"
+#include "window/split_view.hpp"
 #include "window/status_line.hpp"
 
 namespace speculum {
@@ -90,11 +91,13 @@ class Workspace {
   void advance(double seconds) { playback_.advance(seconds); }
   // Call when the frame is drawn. `radiance` returns the pixels of its picture, without panels (display sRGB); it is
   // null if the picture is not complete. `captured`: the frame as read back for Capture; null if none is wanted.
-  void frameDrawn(const ShownPicture& shown, const std::function<Image8()>& radiance, const Image8* captured);
+  // `half`: of A | B, that the frame drew.
+  void frameDrawn(const ShownPicture& shown, const std::function<Image8()>& radiance, const Image8* captured,
+                  int half = 0);
 
   // Say whether frames are needed although nothing happens.
   bool animates() const { return !playback_.shown().paused && animated(); }
-  bool working() const { return accuracy_.working() || opener_.working(); }
+  bool working() const { return accuracy_.working() || opener_.working() || split_.working(); }
   uint64_t revision() const { return document_->revision(); }
   bool dragging() const { return editor_->dragging(); }
   bool statusFades() const { return status_.fades(); }
@@ -109,8 +112,14 @@ class Workspace {
   void keepUnsavedWork() noexcept { opener_.keepUnsavedWork(); }
 
   const Scene& scene() const { return loaded_->scene; }
-  const Settings& settings() const { return settings_; }
-  Settings shownSettings() const { return accuracy_.shown(settings_); }  // with which the picture is drawn
+  // Settings that the panels show: the scene's or, of A | B, those of the chosen half.
+  const Settings& settings() const { return split_.on() ? split_.settings(split_.chosen()) : settings_; }
+  // Settings with which the picture, or a half of A | B, is drawn.
+  Settings shownSettings(int half = 0) const {
+    return split_.on() ? split_.settings(half) : accuracy_.shown(settings_);
+  }
+  SplitView& split() { return split_; }
+  const SplitView& split() const { return split_; }
   double time() const { return playback_.shown().time; }
   SceneState state(double time);  // with the camera of the window
   WatchedState watchedState(const SceneState& shown) const;
@@ -121,7 +130,9 @@ class Workspace {
   void setPictureText(const std::string& text) { status_.setPicture(text); }
   void setPlayCost(const std::string& cost) { playback_.setCost(animated() ? cost : ""); }
   void setRefusedEdit(bool refused) { saving_->setRefusedEdit(refused); }  // as in DocumentController
-  FrameReport& report() { return report_; }
+  FrameReport& report(int half) { return reports_[static_cast<size_t>(half)]; }
+  FrameReport& report() { return report(shownHalf()); }
+  int shownHalf() const { return split_.on() ? split_.chosen() : 0; }  // whose figures the panels show
   const PointerController& pointer() const { return pointer_; }
   bool prompting() const { return saving_->prompting(); }
   const SceneDocument& document() const { return *document_; }
@@ -138,6 +149,13 @@ class Workspace {
   void escape();
   void dismissMessage();
   void setSettings(const Settings& settings, bool continued = false);
+  Settings& panelSettings() { return split_.on() ? split_.settings(split_.chosen()) : settings_; }
+  void toggleSplit(bool naive);
+  void chooseHalf(int half);
+  void keepHalf();
+  void endSplit();
+  void beginLesson(size_t index);
+  double middleOfFreePicture() const;  // share of the picture's width
   void step(UndoWay way);
   void copyCommandLine();
   void measureAccuracy();
@@ -165,7 +183,8 @@ class Workspace {
   Playback playback_;
   Capture capture_;
   StatusLine status_;
-  FrameReport report_;
+  std::array<FrameReport, 2> reports_;  // of the picture or, of A | B, of both halves
+  SplitView split_{shippedLessons()};
   Settings settings_;
   ShownEdit edit_;
   std::string title_;            // of the window

@@ -134,6 +134,27 @@ TEST_F(SceneDocumentTest, RevertedDragOfSettingAddsNoStep) {
   EXPECT_FALSE(document.canUndo());
 }
 
+TEST_F(SceneDocumentTest, StepsOfHalvesAreForgottenTogether) {
+  document.change("move object 'teapot'", teapot, moveTeapot(1));
+  const Settings before;
+  Settings after;
+  after.view.exposure = 2.0;
+  document.settingsChanged(before, after, false, 0);
+  document.settingsChanged(before, after, true, 1);
+  EXPECT_EQ(document.undoLabel(), "change Exposure of B") << "a drag does not go on in the other half";
+  EXPECT_EQ(document.undo()->half, 1);
+  EXPECT_EQ(document.undoLabel(), "change Exposure of A");
+  document.change("move object 'teapot'", teapot, moveTeapot(2));
+  document.settingsChanged(before, after, false, 1);
+  document.forgetHalves();
+  for (const double x : {1.0, 0.0}) {
+    EXPECT_EQ(document.undoLabel(), "move object 'teapot'");
+    EXPECT_FALSE(document.undo());
+    EXPECT_EQ(scene.objects[0].position.x, x);
+  }
+  EXPECT_FALSE(document.canUndo());
+}
+
 TEST_F(SceneDocumentTest, SettingDragContinuesOnlyItsStep) {
   const Settings start;
   Settings samples;

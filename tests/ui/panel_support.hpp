@@ -75,6 +75,7 @@ class PanelTest : public testing::Test {
                           .playback = playback_,
                           .edit = edit_,
                           .accuracy = accuracy_,
+                          .split = split_,
                           .status = status_,
                           .log = log_,
                           .message = message_};
@@ -323,6 +324,7 @@ class PanelTest : public testing::Test {
   ShownPlayback playback_;
   ShownEdit edit_;
   ShownAccuracy accuracy_;
+  ShownSplit split_;
   ShownStatus status_;
   LogHistory log_;
   std::string message_;

@@ -1,0 +1,99 @@
+// Lessons: the files that ship, as both halves show them, and files that are refused.
+#include "accuracy/ground_truth.hpp"
+#include "picture_support.hpp"
+#include "platform/files.hpp"
+#include "session/lesson.hpp"
+#include "test_headers.hpp"
+
+namespace speculum {
+namespace {
+
+using namespace testing_support;
+
+class LessonPictures : public testing::TestWithParam<int> {};
+
+TEST_P(LessonPictures, RightHalfIsNearerToTheReference) {
+  constexpr PictureSize size{160, 90};
+  const Lesson lesson = shippedLessons().at(static_cast<size_t>(GetParam()));
+  Options options = headless(lesson.scene, size);
+  options.camera = lesson.camera;
+  QuietSession session(options);
+  const Settings ofScene = session.settings();
+  const SceneState state = [&] {
+    SceneState evaluated = evaluate(session.scene(), lesson.time);
+    evaluated.camera = cameraOf(options, session.scene()).value_or(evaluated.camera);
+    return evaluated;
+  }();
+  session.setCamera(state.camera);
+  const auto truth = traceGroundTruth(
+      session.scene(), state,
+      {.width = size.width, .height = size.height, .samples = 16, .noiseFloor = false, .settings = ofScene},
+      [](double) { return true; });
+  ASSERT_TRUE(truth);
+  std::array<Image8, 2> pictures;
+  std::array<double, 2> errors{};
+  for (const int half : {0, 1}) {
+    Settings settings = lesson.settingsOf(half, ofScene);
+    settings.view.accumulate = std::min(settings.quality.stillPictures, 16);
+    session.setSettings(settings);
+    pictures[half] = draw(session, lesson.time);
+    errors[half] = errorsAgainst(*truth, pictures[half], settings).whole.flip;
+  }
+  EXPECT_GT(difference(pictures[0], pictures[1], 8).over, 20) << lesson.title;
+  EXPECT_LT(errors[1], 0.9 * errors[0]) << lesson.title;
+}
+
+INSTANTIATE_TEST_SUITE_P(Shipped, LessonPictures, testing::Range(0, 10));
+
+TEST(Lessons, AllFilesAreRead) {
+  size_t files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(sourceFile("lessons"))) {
+    const Lesson lesson = readLesson(entry.path());
+    EXPECT_TRUE(lesson.lookFor.ends_with('.')) << entry.path();
+    ++files;
+  }
+  const std::vector<Lesson> lessons = shippedLessons();
+  EXPECT_EQ(lessons.size(), files);
+  EXPECT_EQ(files, 10u);
+  EXPECT_EQ(lessons.front().title, "A mirror has the pixels of the picture") << "by the names of their files";
+  EXPECT_EQ(lessons.front().settingsOf(0, {}).reflection.scale, 0.25);
+  EXPECT_EQ(lessons.front().settingsOf(1, {}), Settings());
+}
+
+TEST(Lessons, BadFilesAreRefusedInOneLine) {
+  const std::string head = "title = 't'\nscene = 'gallery'\ntext = 'a'\nlook_for = 'b'\n";
+  const std::string good = head + "[a]\nview.samples = 1\n";
+  const std::filesystem::path file = sceneDirectory() / "lesson.toml";
+  const auto faultOf = [&](const std::string& text) {
+    replaceFile(file, std::string_view(text));
+    try {
+      readLesson(file);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(faultOf(good), "");
+  EXPECT_EQ(faultOf(good + "[b]\nreflection.samples = 8\n"), "");
+  const std::vector<std::pair<std::string, std::string>> faults = {
+      {"scene = 'gallery'\n", ":1: title: is missing"},
+      {"title = ''\nscene = 'gallery'\ntext = 'a'\nlook_for = 'b'\n", ":1: title: is empty"},
+      {head, ":1: b: has the settings of a"},
+      {head + "[a]\nview.sample = 1\n", ":6: view.sample: "},
+      {head + "[a]\nview.samples = 3\n", ":6: view.samples: "},
+      {head + "[c]\n", ":5: c: "},
+      {head + "time = -1\n", ":5: time: "},
+      {head + "camera = 'door'\n", ":5: camera: "},
+      {"title = 't'\nscene = 'galery'\ntext = 'a'\nlook_for = 'b'\n", ":2: scene: is 'galery'"},
+      {"title = 't'\nscene = [\n", ":"},
+  };
+  for (const auto& [text, expected] : faults) {
+    const std::string fault = faultOf(text);
+    EXPECT_TRUE(startsWith(fault, file.string() + expected)) << fault << "\nexpected " << expected;
+    EXPECT_FALSE(contains(fault, "\n"));
+    EXPECT_TRUE(fault.ends_with(')')) << fault;
+  }
+}
+
+}  // namespace
+}  // namespace speculum

@@ -1,0 +1,86 @@
+// A | B and lessons in the panels.
+#include "ui/panel_support.hpp"
+
+namespace speculum {
+namespace {
+
+using namespace testing_support;
+
+class SplitPanels : public PanelTest {
+ protected:
+  SplitPanels() {
+    split_.lessons = {{"/scenes/one.toml", "First", "Text one.", "this."},
+                      {"/scenes/two.toml", "Second", "Text two.", "that."}};
+  }
+  void begin() {
+    split_.on = true;
+    split_.divider = 0.7;
+    split_.halves[0].differs = {{"reflection.scale", "0.25"}};
+    split_.halves[1].differs = {{"reflection.scale", "1.0"}, {"view.clear_color", ""}};
+  }
+};
+
+TEST_F(SplitPanels, DividerIsDraggedAndLabelled) {
+  EXPECT_FALSE(has("divider"));
+  EXPECT_FALSE(has("split.a"));
+  begin();
+  EXPECT_TRUE(shows("reflection.scale = 0.25"));
+  EXPECT_TRUE(shows("view.clear_color = the scene's"));
+  EXPECT_FALSE(shows("FLIP"));
+  EXPECT_FALSE(shows("GPU"));
+  split_.halves[0].gpuMs = 3.214;
+  split_.halves[0].error = 0.0312;
+  split_.halves[0].picture = "Draft";
+  EXPECT_TRUE(shows("GPU 3.21 ms"));
+  EXPECT_TRUE(shows("FLIP 0.0312 against B"));
+  EXPECT_TRUE(shows("Draft"));
+  split_.halves[0].ofReference = true;
+  EXPECT_TRUE(shows("FLIP 0.0312 against the reference"));
+  drag("divider", 0.5, 45, 0);
+  double share = 0.0;
+  for (const Command& command : commands_) {
+    const auto* moved = std::get_if<MoveDivider>(&command);
+    share = moved ? moved->share : share;
+  }
+  EXPECT_NEAR(share, 0.75, 0.01);
+  windows_->toggleVisible();
+  EXPECT_TRUE(shows("reflection.scale = 0.25")) << "without panels too";
+}
+
+TEST_F(SplitPanels, HalfIsChosenKeptOrLeft) {
+  begin();
+  EXPECT_TRUE(shows("Settings of B, the right half"));
+  EXPECT_EQ(clickFor<ChooseHalf>("split.a", 0.1).half, 0);
+  split_.chosen = 0;
+  EXPECT_TRUE(shows("Settings of A, the left half"));
+  clickFor<KeepHalf>("split.keep");
+  clickFor<ToggleSplit>("split.end");
+  click("menu.View");
+  clickFor<ToggleSplit>("menu.End A | B");
+  click("menu.View");
+  clickFor<ChooseOtherHalf>("menu.Edit other half");
+}
+
+TEST_F(SplitPanels, LessonsAreOpenedAndWalkedThrough) {
+  click("menu.Help");
+  click("menu.Lessons");
+  const OpenScene opened = clickFor<OpenScene>("lesson.1");
+  EXPECT_EQ(opened.file, "/scenes/two.toml");
+  EXPECT_EQ(opened.lesson, 1u);
+  EXPECT_FALSE(shows("Text two."));
+  begin();
+  const WindowRect free = windows_->freeRect();
+  split_.lesson = 1;
+  run(5);
+  EXPECT_EQ(windows_->freeRect().corner.x, free.corner.x) << "both halves stay in sight";
+  EXPECT_EQ(windows_->freeRect().size.x, free.size.x);
+  EXPECT_TRUE(shows("2 of 2: Second"));
+  EXPECT_TRUE(shows("Text two."));
+  EXPECT_TRUE(shows("Look for: that."));
+  click("lesson.next");
+  EXPECT_FALSE(sent<OpenScene>()) << "it is the last one";
+  EXPECT_EQ(clickFor<OpenScene>("lesson.previous").lesson, 0u);
+}
+
+}  // namespace
+}  // namespace speculum
