@@ -44,7 +44,7 @@ layout(location = 5) centroid in vec3 vertexColor;
 
 layout(location = 0) out vec4 color;
 
-vec3 trilinear(vec2 uv) {
+vec3 filtered(vec2 uv) {
   vec2 place = vec2(uv.x, 1.0 - uv.y);
   if (clamps) {
     // The sampler repeats. Half a texel of the coarser level from the edge it reads no texel of the other edge.
@@ -69,7 +69,12 @@ vec2 uvHere() {
 #endif
 }
 
-vec3 diffuseFactor(vec2 uv) { return diffuseLookup == textureTrilinear ? trilinear(uv) : bilinearColor(diffuseTexture, uv, clamps); }
+vec3 diffuseFactor(vec2 uv) {
+  if (diffuseLookup == textureNearest) {
+    return texelFetch(diffuseTexture, nearestTexel(uv, textureSize(diffuseTexture, 0), clamps), 0).rgb;
+  }
+  return diffuseLookup == textureBilinear ? bilinearColor(diffuseTexture, uv, clamps) : filtered(uv);
+}
 
 #ifdef ENVIRONMENT
 #include "environment.glsl"

@@ -95,7 +95,7 @@ Seen seenObject(Identifier id, vec2 position) {
   vec3 onPlane = weightsAt(point, corners);
   vec3 w = onTriangle(onPlane);
   Weights weights = Weights(w, vec3(0.0), vec3(0.0));
-  if (trilinear) {
+  if (textureFilter == textureTrilinear || textureFilter == textureAnisotropic) {
     float ahead = length(point);
     weights.across = weightsAt(ahead * safeNormalize(rayThrough(position + vec2(1.0, 0.0))), corners) - onPlane;
     weights.down = weightsAt(ahead * safeNormalize(rayThrough(position + vec2(0.0, 1.0))), corners) - onPlane;

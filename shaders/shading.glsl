@@ -73,6 +73,12 @@ vec3 bilinearColor(sampler2D image, vec2 uv, bool clamped) {
 // Keeps the coordinates of a texture that does not repeat from mixing its opposite borders.
 vec2 withinBorder(vec2 uv, vec2 size) { return clamp(uv, 0.5 / size, 1.0 - 0.5 / size); }
 
+// Returns the texel of the first level that holds `uv`.
+ivec2 nearestTexel(vec2 uv, ivec2 size, bool clamped) {
+  vec2 place = vec2(uv.x, 1.0 - uv.y);
+  return min(ivec2((clamped ? clamp(place, 0.0, 1.0) : fract(place)) * vec2(size)), size - 1);
+}
+
 // Largest height of a light above a surface that may be rounding, relative to the lengths from which the height is
 // computed. A light so low counts as in the surface's plane, or its side would change from pixel to pixel.
 const float leastHeight = 3e-7;

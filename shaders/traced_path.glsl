@@ -1,7 +1,7 @@
 // Computes the radiance that a surface reflects by following rays from mirror to mirror, as docs/picture.md defines it:
 // for curved mirrors, and for planar ones that rays show. Needs trace.glsl, traced_light.glsl and microfacet.glsl.
 
-layout(constant_id = constantTrilinear) const bool trilinear = false;  // between levels of textures
+layout(constant_id = constantTextureFilter) const uint textureFilter = textureBilinear;
 layout(constant_id = constantRough) const bool rough = false;  // some mirror of the scene is rough
 layout(constant_id = constantVertexColors) const bool vertexColors = false;  // some mesh has colors of its vertices
 
@@ -56,9 +56,14 @@ void applyCurvedMirror(uint instance, vec3 direction, inout Bounce bounce) {
   }
 }
 
-// Returns the color of one level of a texture, interpolated bilinearly.
+// Returns the color of one level of a texture, interpolated bilinearly or of the nearest texel.
 vec3 textureColor(TraceTexture source, vec2 uv, bool clamped) {
   ivec2 size = ivec2(source.width, source.height);
+  if (textureFilter == textureNearest) {
+    ivec2 texel = nearestTexel(uv, size, clamped);
+    uvec2 halfs = traceTexels[source.firstTexel + uint(texel.y * size.x + texel.x)];
+    return vec3(unpackHalf2x16(halfs.x), unpackHalf2x16(halfs.y).x);
+  }
   BilinearTexels at = bilinearTexels(uv, size, clamped);
   vec3 rows[2];
   for (int i = 0; i < 2; ++i) {
@@ -85,6 +90,22 @@ vec3 trilinearColor(TraceTexture source, vec2 uv, bool clamped, vec2 across, vec
   TraceTexture next = TraceTexture(source.firstTexel + source.width * source.height, max(source.width / 2, 1),
                                    max(source.height / 2, 1));
   return source.width * source.height > 1 ? mix(fine, textureColor(next, uv, clamped), fract(level)) : fine;
+}
+
+// Returns the mean of lookups along the longer side of the pixel's footprint: Vulkan specification, "Texel Anisotropic
+// Filtering".
+vec3 anisotropicColor(TraceTexture source, vec2 uv, bool clamped, vec2 across, vec2 down) {
+  vec2 size = vec2(source.width, source.height);
+  bool along = length(across * size) > length(down * size);
+  vec2 major = along ? across : down;
+  float texels = length(major * size);
+  int count = int(clamp(ceil(texels / max(length((along ? down : across) * size), 1.0)), 1.0, float(mostAnisotropy)));
+  vec3 sum = vec3(0.0);
+  for (int i = 1; i <= count; ++i) {
+    vec2 place = uv + major * (float(i) / float(count + 1) - 0.5);
+    sum += trilinearColor(source, place, clamped, major / float(count), vec2(0.0));
+  }
+  return sum / float(count);
 }
 
 // Returns color `number`. Colors stand behind the vertices of all meshes, two in the place of a vertex.
@@ -133,9 +154,13 @@ Bounce objectBounce(uint instance, uint triangle, Weights weights, vec3 position
     TraceTexture source = traceTextures[material.texture];
     vec2 uv = uvOf(instance, triangle, w, origin, sight);
     bool clamped = material.clamps != 0;
-    surface.diffuse *= trilinear
-                           ? trilinearColor(source, uv, clamped, corners * weights.across, corners * weights.down)
-                           : textureColor(source, uv, clamped);
+    if (textureFilter == textureTrilinear) {
+      surface.diffuse *= trilinearColor(source, uv, clamped, corners * weights.across, corners * weights.down);
+    } else if (textureFilter == textureAnisotropic) {
+      surface.diffuse *= anisotropicColor(source, uv, clamped, corners * weights.across, corners * weights.down);
+    } else {
+      surface.diffuse *= textureColor(source, uv, clamped);
+    }
   }
   if (vertexColors && material.firstColor != noColors) {
     uint corners[3] = traceFaces[traceInstances[instance].firstTriangle + triangle].vertices;

@@ -69,27 +69,27 @@ ShaderObjects::ShaderObjects(Device& device, const std::filesystem::path& spirvD
                 .pPushConstantRanges = &range,
                 .pSpecializationInfo = i == 0 ? nullptr : &constants};
   }
-  check(function<PFN_vkCreateShadersEXT>("vkCreateShadersEXT")(device.get(), 2, infos, nullptr, shaders_),
+  check(device.function<PFN_vkCreateShadersEXT>("vkCreateShadersEXT")(device.get(), 2, infos, nullptr, shaders_),
         "create the shader objects of " + desc.name);
 }
 
 ShaderObjects::~ShaderObjects() {
-  const auto destroy = function<PFN_vkDestroyShaderEXT>("vkDestroyShaderEXT");
   for (const VkShaderEXT shader : shaders_) {
-    destroy(device_.get(), shader, nullptr);
+    destroy_(device_.get(), shader, nullptr);
   }
 }
 
 void ShaderObjects::loadFunctions() {
-  bindShaders_ = function<PFN_vkCmdBindShadersEXT>("vkCmdBindShadersEXT");
-  setVertexInput_ = function<PFN_vkCmdSetVertexInputEXT>("vkCmdSetVertexInputEXT");
-  setPolygonMode_ = function<PFN_vkCmdSetPolygonModeEXT>("vkCmdSetPolygonModeEXT");
-  setSamples_ = function<PFN_vkCmdSetRasterizationSamplesEXT>("vkCmdSetRasterizationSamplesEXT");
-  setSampleMask_ = function<PFN_vkCmdSetSampleMaskEXT>("vkCmdSetSampleMaskEXT");
-  setAlphaToCoverage_ = function<PFN_vkCmdSetAlphaToCoverageEnableEXT>("vkCmdSetAlphaToCoverageEnableEXT");
-  setDepthClamp_ = function<PFN_vkCmdSetDepthClampEnableEXT>("vkCmdSetDepthClampEnableEXT");
-  setBlend_ = function<PFN_vkCmdSetColorBlendEnableEXT>("vkCmdSetColorBlendEnableEXT");
-  setWriteMask_ = function<PFN_vkCmdSetColorWriteMaskEXT>("vkCmdSetColorWriteMaskEXT");
+  destroy_ = device_.function<PFN_vkDestroyShaderEXT>("vkDestroyShaderEXT");
+  bindShaders_ = device_.function<PFN_vkCmdBindShadersEXT>("vkCmdBindShadersEXT");
+  setVertexInput_ = device_.function<PFN_vkCmdSetVertexInputEXT>("vkCmdSetVertexInputEXT");
+  setPolygonMode_ = device_.function<PFN_vkCmdSetPolygonModeEXT>("vkCmdSetPolygonModeEXT");
+  setSamples_ = device_.function<PFN_vkCmdSetRasterizationSamplesEXT>("vkCmdSetRasterizationSamplesEXT");
+  setSampleMask_ = device_.function<PFN_vkCmdSetSampleMaskEXT>("vkCmdSetSampleMaskEXT");
+  setAlphaToCoverage_ = device_.function<PFN_vkCmdSetAlphaToCoverageEnableEXT>("vkCmdSetAlphaToCoverageEnableEXT");
+  setDepthClamp_ = device_.function<PFN_vkCmdSetDepthClampEnableEXT>("vkCmdSetDepthClampEnableEXT");
+  setBlend_ = device_.function<PFN_vkCmdSetColorBlendEnableEXT>("vkCmdSetColorBlendEnableEXT");
+  setWriteMask_ = device_.function<PFN_vkCmdSetColorWriteMaskEXT>("vkCmdSetColorWriteMaskEXT");
 }
 
 void ShaderObjects::bind(const PassScope& pass, VkDescriptorSet set) const {

@@ -23,10 +23,6 @@ class ShaderObjects {
   void push(const PassScope& pass, const void* data, uint32_t bytes) const;
 
  private:
-  template <typename F>
-  F function(const char* name) const {
-    return reinterpret_cast<F>(vkGetDeviceProcAddr(device_.get(), name));
-  }
   void loadFunctions();
   void setState(const PassScope& pass) const;
 
@@ -34,6 +30,7 @@ class ShaderObjects {
   GraphicsPipelineDesc desc_;
   PipelineLayoutHandle layout_;
   VkShaderEXT shaders_[2] = {};  // vertex, fragment
+  PFN_vkDestroyShaderEXT destroy_ = nullptr;
   PFN_vkCmdBindShadersEXT bindShaders_ = nullptr;
   PFN_vkCmdSetVertexInputEXT setVertexInput_ = nullptr;
   PFN_vkCmdSetPolygonModeEXT setPolygonMode_ = nullptr;

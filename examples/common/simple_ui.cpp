@@ -38,6 +38,7 @@ SimpleUI::SimpleUI(Renderer& renderer, Window& window)
   info.Device = device.get();
   info.QueueFamily = device.queueFamily();
   info.Queue = device.queue();
+  info.PipelineCache = renderer.pipelineCache().get();
   info.DescriptorPool = pool_.get();
   info.MinImageCount = 2;
   info.ImageCount = std::max(renderer.displayImageCount(), 3u);

@@ -14,12 +14,6 @@ VkDeviceSize aligned(VkDeviceSize bytes, VkDeviceSize alignment) {
   return (bytes + alignment - 1) / alignment * alignment;
 }
 
-// Returns a function of an extension. The Vulkan loader exports none of them.
-template <typename Function>
-Function load(const Device& device, const char* name) {
-  return reinterpret_cast<Function>(vkGetDeviceProcAddr(device.get(), name));
-}
-
 VkAccelerationStructureBuildGeometryInfoKHR buildInfo(const StructureInput& input) {
   return {.sType = VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_BUILD_GEOMETRY_INFO_KHR,
           .type = input.type,
@@ -53,7 +47,7 @@ StructureSizes structureSizes(const Device& device, const StructureInput& input)
   const VkAccelerationStructureBuildGeometryInfoKHR info = buildInfo(input);
   VkAccelerationStructureBuildSizesInfoKHR sizes{.sType =
                                                      VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_BUILD_SIZES_INFO_KHR};
-  load<PFN_vkGetAccelerationStructureBuildSizesKHR>(device, "vkGetAccelerationStructureBuildSizesKHR")(
+  device.function<PFN_vkGetAccelerationStructureBuildSizesKHR>("vkGetAccelerationStructureBuildSizesKHR")(
       device.get(), VK_ACCELERATION_STRUCTURE_BUILD_TYPE_DEVICE_KHR, &info, &input.count, &sizes);
   return {aligned(sizes.accelerationStructureSize, structureAlignment),
           std::max(sizes.buildScratchSize, sizes.updateScratchSize) + device.caps().scratchAlignment};
@@ -62,7 +56,7 @@ StructureSizes structureSizes(const Device& device, const StructureInput& input)
 AccelerationStructureHandle createStructure(const Device& device, VkAccelerationStructureTypeKHR type,
                                             const Buffer& buffer, VkDeviceSize offset, VkDeviceSize bytes,
                                             const std::string& name) {
-  const auto create = load<PFN_vkCreateAccelerationStructureKHR>(device, "vkCreateAccelerationStructureKHR");
+  const auto create = device.function<PFN_vkCreateAccelerationStructureKHR>("vkCreateAccelerationStructureKHR");
   return device.create(create,
                        {.sType = VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_CREATE_INFO_KHR,
                         .buffer = buffer.get(),
@@ -76,7 +70,7 @@ VkDeviceAddress addressOf(const Device& device, const AccelerationStructureHandl
   const VkAccelerationStructureDeviceAddressInfoKHR info{
       .sType = VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_DEVICE_ADDRESS_INFO_KHR,
       .accelerationStructure = structure.get()};
-  return load<PFN_vkGetAccelerationStructureDeviceAddressKHR>(device, "vkGetAccelerationStructureDeviceAddressKHR")(
+  return device.function<PFN_vkGetAccelerationStructureDeviceAddressKHR>("vkGetAccelerationStructureDeviceAddressKHR")(
       device.get(), &info);
 }
 
@@ -91,8 +85,8 @@ void recordBuild(const Device& device, VkCommandBuffer commands, const Structure
   info.scratchData.deviceAddress = aligned(scratch.address(), std::max(device.caps().scratchAlignment, 1u));
   const VkAccelerationStructureBuildRangeInfoKHR range{.primitiveCount = input.count};
   const VkAccelerationStructureBuildRangeInfoKHR* ranges = &range;
-  load<PFN_vkCmdBuildAccelerationStructuresKHR>(device, "vkCmdBuildAccelerationStructuresKHR")(commands, 1, &info,
-                                                                                               &ranges);
+  device.function<PFN_vkCmdBuildAccelerationStructuresKHR>("vkCmdBuildAccelerationStructuresKHR")(commands, 1, &info,
+                                                                                                  &ranges);
 }
 
 std::vector<AccelerationStructureHandle> buildCompacted(Device& device, Uploader& uploader,
@@ -123,7 +117,7 @@ std::vector<AccelerationStructureHandle> buildCompacted(Device& device, Uploader
       handles.push_back(loose[i].get());
     }
     Barriers::buildToBuild(commands);
-    load<PFN_vkCmdWriteAccelerationStructuresPropertiesKHR>(device, "vkCmdWriteAccelerationStructuresPropertiesKHR")(
+    device.function<PFN_vkCmdWriteAccelerationStructuresPropertiesKHR>("vkCmdWriteAccelerationStructuresPropertiesKHR")(
         commands, count, handles.data(), VK_QUERY_TYPE_ACCELERATION_STRUCTURE_COMPACTED_SIZE_KHR, queries.get(), 0);
   });
   check(vkGetQueryPoolResults(device.get(), queries.get(), 0, count, count * sizeof(VkDeviceSize), bytes.data(),
@@ -131,7 +125,7 @@ std::vector<AccelerationStructureHandle> buildCompacted(Device& device, Uploader
         "read the sizes of " + name);
   std::vector<AccelerationStructureHandle> compacted = placed(device, inputs, bytes, buffer, name);
   uploader.run([&](VkCommandBuffer commands) {
-    const auto copy = load<PFN_vkCmdCopyAccelerationStructureKHR>(device, "vkCmdCopyAccelerationStructureKHR");
+    const auto copy = device.function<PFN_vkCmdCopyAccelerationStructureKHR>("vkCmdCopyAccelerationStructureKHR");
     Barriers::buildToBuild(commands);
     for (uint32_t i = 0; i < count; ++i) {
       const VkCopyAccelerationStructureInfoKHR info{.sType = VK_STRUCTURE_TYPE_COPY_ACCELERATION_STRUCTURE_INFO_KHR,

@@ -41,6 +41,7 @@ constexpr Scope computeReads{computeStage, VK_ACCESS_SHADER_READ_BIT};
 constexpr Scope computeWrites{computeStage, VK_ACCESS_SHADER_WRITE_BIT};
 constexpr Scope copyReads{transferStage, VK_ACCESS_TRANSFER_READ_BIT};
 constexpr Scope copyWrites{transferStage, VK_ACCESS_TRANSFER_WRITE_BIT};
+constexpr Scope colorAndCopyWrites{colorStage | transferStage, colorWrites.access | copyWrites.access};
 constexpr Scope drawReads{
     VK_PIPELINE_STAGE_VERTEX_INPUT_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT | sampleStage | computeStage,
     VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_UNIFORM_READ_BIT | VK_ACCESS_INDEX_READ_BIT |
@@ -76,7 +77,10 @@ constexpr std::array<Rule, barrierKindCount> rules = {{
     {"shadedToDraw", computeWrites, {sampleStage | colorStage, VK_ACCESS_SHADER_READ_BIT}, unsaid},
     {"swapchainBeforeWrite", colorWrites, colorUses, attachment},
     {"swapchainBeforeOverlay", colorWrites, colorUses, overlayLayout},
-    {"swapchainToPresent", colorWrites, {VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, 0}, VK_IMAGE_LAYOUT_PRESENT_SRC_KHR},
+    {"swapchainToPresent",
+     colorAndCopyWrites,
+     {VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, 0},
+     VK_IMAGE_LAYOUT_PRESENT_SRC_KHR},
     {"readbackToCopy", colorWritesAndSamplings, copyReads, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL},
     {"readbackFromCopy",
      {transferStage, 0},
@@ -108,6 +112,9 @@ Scope before(const Rule& rule, std::span<Image* const> images) {
 }
 
 VkImageMemoryBarrier imageBarrier(const Image& image, const Scope& before, const Scope& after, VkImageLayout layout) {
+  // Depth and stencil change their layouts together.
+  const bool stencil = image.format() == VK_FORMAT_D32_SFLOAT_S8_UINT;
+  const VkImageAspectFlags aspects = image.aspect() | (stencil ? VkImageAspectFlags{VK_IMAGE_ASPECT_STENCIL_BIT} : 0u);
   return {.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER,
           .srcAccessMask = before.access,
           .dstAccessMask = after.access,
@@ -116,7 +123,7 @@ VkImageMemoryBarrier imageBarrier(const Image& image, const Scope& before, const
           .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
           .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
           .image = image.get(),
-          .subresourceRange = {image.aspect(), 0, image.desc().mipLevels, 0, 1}};
+          .subresourceRange = {aspects, 0, image.desc().mipLevels, 0, 1}};
 }
 
 void recordImages(VkCommandBuffer commands, const Scope& before, const Scope& after,
@@ -201,6 +208,15 @@ void Barriers::uploadToCopy(VkCommandBuffer commands, Image& fresh) {
   const VkImageMemoryBarrier barrier = imageBarrier(fresh, nothing, copyWrites, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
   recordImages(commands, nothing, copyWrites, {&barrier, 1});
   fresh.setLayout(VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+}
+
+void Barriers::acquiredToCopy(VkCommandBuffer commands, Image& acquired) {
+  constexpr Scope acquire{colorStage, 0};  // where the submission waits for the semaphore
+  acquired.setLayout(VK_IMAGE_LAYOUT_UNDEFINED);
+  const VkImageMemoryBarrier barrier =
+      imageBarrier(acquired, acquire, copyWrites, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+  recordImages(commands, acquire, copyWrites, {&barrier, 1});
+  acquired.setLayout(VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
 }
 
 void Barriers::computeToHost(VkCommandBuffer commands) {

@@ -28,11 +28,11 @@ enum class BarrierKind {
   shadedToDraw,                 // radiance from compute shaders -> fragment shader; identifiers -> attachment
   swapchainBeforeWrite,         // image that was acquired, or read back before -> attachment
   swapchainBeforeOverlay,       // color writes of the pass before -> attachment that the overlay loads
-  swapchainToPresent,
-  readbackToCopy,    // attachment or sampled image -> transfer source
-  readbackFromCopy,  // transfer source -> attachment or sampled image
-  uploadToRead,      // transfer write -> shader, index and vertex reads
-  mipmapToBlit,      // a level written -> source of the next level's blit
+  swapchainToPresent,           // attachment, or transfer destination -> presentation
+  readbackToCopy,               // attachment or sampled image -> transfer source
+  readbackFromCopy,             // transfer source -> attachment or sampled image
+  uploadToRead,                 // transfer write -> shader, index and vertex reads
+  mipmapToBlit,                 // a level written -> source of the next level's blit
 };
 inline constexpr int barrierKindCount = static_cast<int>(BarrierKind::mipmapToBlit) + 1;
 
@@ -65,6 +65,7 @@ class Barriers {
   // Barriers that cannot be omitted, because validation would not report them: nothing has used the image yet, the host
   // reads, or the layer 1.3.239 does not follow atomics and builds of acceleration structures.
   static void uploadToCopy(VkCommandBuffer commands, Image& fresh);
+  static void acquiredToCopy(VkCommandBuffer commands, Image& acquired);  // a swapchain image -> transfer destination
   static void computeToHost(VkCommandBuffer commands);
   static void copyToHost(VkCommandBuffer commands);
   static void buildToBuild(VkCommandBuffer commands);   // a build -> next build, copy or query of sizes

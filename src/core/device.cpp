@@ -5,9 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cstdlib>
+#include <ctime>
 #include <set>
 #include <stdexcept>
 
+#include "platform/text.hpp"
 #include "platform/window.hpp"
 
 namespace speculum {
@@ -20,6 +23,8 @@ VkPhysicalDeviceFeatures usedFeatures(const VkPhysicalDeviceFeatures& available)
       .sampleRateShading = available.sampleRateShading,
       .depthClamp = available.depthClamp,
       .fillModeNonSolid = available.fillModeNonSolid,
+      .wideLines = available.wideLines,
+      .samplerAnisotropy = available.samplerAnisotropy,
       .occlusionQueryPrecise = available.occlusionQueryPrecise,
       .pipelineStatisticsQuery = available.pipelineStatisticsQuery,
       .shaderClipDistance = VK_TRUE,
@@ -58,6 +63,9 @@ Device::Device(const DeviceOptions& options) : instance_(options) {
   createDevice(options);
   loadFunctions();
   setName(queue_, "graphics queue");
+  if (caps().depthFormat == depthFormats.back()) {
+    spdlog::warn("{} has no 32 bit depth: with 24 bits, far surfaces may cross", info().name);
+  }
   spdlog::info("GPU {}: {}, {}, render path {}", info().index, info().name, info().driver, renderPathName(renderPath_));
 }
 
@@ -89,6 +97,9 @@ std::vector<const char*> Device::deviceExtensions(const DeviceOptions& options) 
   if (!gpu_.core13) {
     extensions.push_back(VK_EXT_EXTENDED_DYNAMIC_STATE_EXTENSION_NAME);
   }
+  if (gpu_.caps.dynamicPolygonMode) {
+    extensions.push_back(VK_EXT_EXTENDED_DYNAMIC_STATE_3_EXTENSION_NAME);
+  }
   if (!gpu_.core13 && renderPath_ == RenderPath::dynamic) {
     // Dynamic rendering needs the other extensions, unless the device has Vulkan 1.2.
     for (const char* name : {VK_KHR_DYNAMIC_RENDERING_EXTENSION_NAME, VK_KHR_DEPTH_STENCIL_RESOLVE_EXTENSION_NAME,
@@ -108,7 +119,13 @@ void Device::createDevice(const DeviceOptions& options) {
       .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DYNAMIC_RENDERING_FEATURES, .dynamicRendering = VK_TRUE};
   VkPhysicalDeviceExtendedDynamicStateFeaturesEXT state{
       .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_EXTENDED_DYNAMIC_STATE_FEATURES_EXT, .extendedDynamicState = VK_TRUE};
+  VkPhysicalDeviceExtendedDynamicState3FeaturesEXT state3{
+      .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_EXTENDED_DYNAMIC_STATE_3_FEATURES_EXT,
+      .extendedDynamicState3PolygonMode = VK_TRUE};
   void* next = options.features;
+  if (gpu_.caps.dynamicPolygonMode) {
+    state3.pNext = std::exchange(next, &state3);
+  }
   if (renderPath_ == RenderPath::dynamic) {
     dynamic.pNext = std::exchange(next, &dynamic);
   }
@@ -147,15 +164,20 @@ void Device::createDevice(const DeviceOptions& options) {
 
 void Device::loadFunctions() {
   const auto load = [&]<typename F>(F& function, const char* core, const char* extension) {
-    function = reinterpret_cast<F>(vkGetDeviceProcAddr(device_.get(), gpu_.core13 ? core : extension));
+    function = this->function<F>(gpu_.core13 ? core : extension);
   };
-  load(functions_.beginRendering, "vkCmdBeginRendering", "vkCmdBeginRenderingKHR");
-  load(functions_.endRendering, "vkCmdEndRendering", "vkCmdEndRenderingKHR");
+  if (renderPath_ == RenderPath::dynamic) {
+    load(functions_.beginRendering, "vkCmdBeginRendering", "vkCmdBeginRenderingKHR");
+    load(functions_.endRendering, "vkCmdEndRendering", "vkCmdEndRenderingKHR");
+  }
   load(functions_.setFrontFace, "vkCmdSetFrontFace", "vkCmdSetFrontFaceEXT");
   load(functions_.setCullMode, "vkCmdSetCullMode", "vkCmdSetCullModeEXT");
+  if (gpu_.caps.dynamicPolygonMode) {
+    functions_.setPolygonMode = function<PFN_vkCmdSetPolygonModeEXT>("vkCmdSetPolygonModeEXT");
+  }
   if (instance_.hasDebugUtils()) {
     const auto loadInstance = [this]<typename F>(F& function, const char* name) {
-      function = reinterpret_cast<F>(vkGetInstanceProcAddr(instance_.get(), name));
+      function = reinterpret_cast<F>(requireFunction(vkGetInstanceProcAddr(instance_.get(), name), name));
     };
     loadInstance(functions_.setName, "vkSetDebugUtilsObjectNameEXT");
     loadInstance(functions_.beginLabel, "vkCmdBeginDebugUtilsLabelEXT");
@@ -171,6 +193,33 @@ void Device::renewSurface(const Window& window) {
   }
 }
 
+// The minute is divided, so that a time in which the process was stopped counts as one second.
+void Device::await(VkFence fence, std::string_view what) {
+  constexpr uint64_t second = 1'000'000'000;
+  constexpr int patience = 60;
+  VkResult result = VK_TIMEOUT;
+  for (int waited = 0; result == VK_TIMEOUT; ++waited) {
+    if (waited == patience) {
+      stuck_ = std::string(what) + ": " + info().name +
+               " has not finished within a minute (see the kernel's log, or choose another GPU with --gpu)";
+      throw std::runtime_error(stuck_);
+    }
+    const std::clock_t before = std::clock();  // of all threads, among them those of a driver for CPUs
+    result = vkWaitForFences(get(), 1, &fence, VK_TRUE, second);
+    waited = info().isCpu() && std::clock() - before > CLOCKS_PER_SEC / 100 ? 0 : waited;
+  }
+  check(result, what);
+  check(vkResetFences(get(), 1, &fence), "reset a fence");
+}
+
+void Device::settle() const {
+  if (!stuck_.empty()) {
+    printLine(stuck_, stderr);
+    std::_Exit(2);
+  }
+  vkDeviceWaitIdle(device_.get());
+}
+
 VkSampleCountFlagBits Device::sampleCount(int wanted) {
   const auto asked = static_cast<VkSampleCountFlags>(std::clamp(wanted, 1, 64));
   const VkSampleCountFlags count = std::bit_floor(gpu_.caps.sampleCounts & (2 * std::bit_floor(asked) - 1));
@@ -179,6 +228,21 @@ VkSampleCountFlagBits Device::sampleCount(int wanted) {
     spdlog::warn("{} has no {} samples per pixel: {} are used", gpu_.info.name, wanted, count);
   }
   return static_cast<VkSampleCountFlagBits>(count);
+}
+
+float Device::anisotropy(float wanted) {
+  if (!gpu_.caps.anisotropy && !std::exchange(reportedAnisotropy_, true)) {
+    spdlog::warn("{} has no anisotropic filter: textures are filtered trilinearly", gpu_.info.name);
+  }
+  return gpu_.caps.anisotropy ? std::min(wanted, limits().maxSamplerAnisotropy) : 1.0f;
+}
+
+float Device::lineWidth(float wanted) {
+  const float width = std::min(wanted, gpu_.caps.wideLines ? limits().lineWidthRange[1] : 1.0f);
+  if (width < wanted && !std::exchange(reportedLineWidth_, true)) {
+    spdlog::warn("{} has no lines {} pixels wide: {} is used", gpu_.info.name, wanted, width);
+  }
+  return width;
 }
 
 MemoryBudget Device::memoryBudget() const {

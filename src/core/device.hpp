@@ -40,12 +40,13 @@ struct MemoryBudget {
 };
 
 // Functions that the Vulkan loader does not export. The first four are of Vulkan 1.3 or of the extensions that became
-// part of it; the last three are null without VK_EXT_debug_utils.
+// part of it; setPolygonMode is null without DeviceCaps::dynamicPolygonMode, the last three without VK_EXT_debug_utils.
 struct DeviceFunctions {
   PFN_vkCmdBeginRendering beginRendering = nullptr;
   PFN_vkCmdEndRendering endRendering = nullptr;
   PFN_vkCmdSetFrontFace setFrontFace = nullptr;
   PFN_vkCmdSetCullMode setCullMode = nullptr;
+  PFN_vkCmdSetPolygonModeEXT setPolygonMode = nullptr;
   PFN_vkSetDebugUtilsObjectNameEXT setName = nullptr;
   PFN_vkCmdBeginDebugUtilsLabelEXT beginLabel = nullptr;
   PFN_vkCmdEndDebugUtilsLabelEXT endLabel = nullptr;
@@ -83,9 +84,21 @@ class Device {
   // Returns the wanted number of samples a pixel, or the next lower one that the device has. Logs once for each wanted
   // number that the device lacks.
   VkSampleCountFlagBits sampleCount(int wanted);
+  // Returns the wanted anisotropy of a sampler, or the greatest that the device has; 1: none. Logs once if there is
+  // none.
+  float anisotropy(float wanted);
+  // Returns the wanted width of lines (pixels, at least 1), or the widest that the device has. Logs once if it lacks
+  // it.
+  float lineWidth(float wanted);
 
   Barriers& barriers() { return barriers_; }
   void waitIdle() const { check(vkDeviceWaitIdle(device_.get()), "wait for the GPU"); }
+  // Waits for the fence and resets it. Throws std::runtime_error if the GPU does not finish within a minute; `what`
+  // says what is waited for. A driver for CPUs has as much time as it computes.
+  void await(VkFence fence, std::string_view what);
+  // Waits until nothing is in use, so that objects may be destroyed. After an await() in vain this would take for ever:
+  // it ends the process instead, with one line and exit code 2.
+  void settle() const;
 
   // Warnings and errors of the validation layer since the start; 0 is the only good figure.
   int validationMessages() const { return instance_.messages().count(); }
@@ -115,6 +128,11 @@ class Device {
   void beginLabel(VkCommandBuffer commands, std::string_view name) const;
   void endLabel(VkCommandBuffer commands) const;
   const DeviceFunctions& functions() const { return functions_; }
+  // Returns a function that the loader does not export. Throws std::runtime_error with its name if there is none.
+  template <typename F>
+  F function(const char* name) const {
+    return reinterpret_cast<F>(requireFunction(vkGetDeviceProcAddr(get(), name), name));
+  }
 
  private:
   friend class Memory;
@@ -141,13 +159,16 @@ class Device {
   std::atomic<uint64_t> allocatedBytes_{0};
   std::atomic<uint32_t> allocations_{0};
   VkSampleCountFlags reportedSampleCounts_ = 0;
+  bool reportedLineWidth_ = false;
+  bool reportedAnisotropy_ = false;
+  std::string stuck_;  // why the GPU is not waited for any more; empty as long as it is
 };
 
 // Waits for the GPU when it is destroyed. Make it the last member of a class that owns objects of frames in flight.
 class IdleGuard {
  public:
   explicit IdleGuard(const Device& device) : device_(device) {}
-  ~IdleGuard() { vkDeviceWaitIdle(device_.get()); }
+  ~IdleGuard() { device_.settle(); }
   IdleGuard(const IdleGuard&) = delete;
   IdleGuard& operator=(const IdleGuard&) = delete;
 

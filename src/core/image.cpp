@@ -11,6 +11,7 @@ uint32_t mipLevelCount(VkExtent2D extent) {
 }
 
 Image::Image(Device& device, const ImageDesc& desc) : desc_(desc) {
+  desc_.format = desc.format == depthFormat ? device.caps().depthFormat : desc.format;
   const uint32_t largest = device.limits().maxImageDimension2D;
   if (std::max(desc.extent.width, desc.extent.height) > largest) {
     throw std::runtime_error(desc.name + " of " + std::to_string(desc.extent.width) + "x" +
@@ -20,7 +21,7 @@ Image::Image(Device& device, const ImageDesc& desc) : desc_(desc) {
   owned_ = device.create(vkCreateImage,
                          {.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO,
                           .imageType = VK_IMAGE_TYPE_2D,
-                          .format = desc.format,
+                          .format = desc_.format,
                           .extent = {desc.extent.width, desc.extent.height, 1},
                           .mipLevels = desc.mipLevels,
                           .arrayLayers = 1,
@@ -52,7 +53,8 @@ Image& Image::operator=(Image&& other) noexcept {
 }
 
 VkImageAspectFlags Image::aspect() const {
-  return desc_.format == depthFormat ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
+  return std::ranges::find(depthFormats, desc_.format) != depthFormats.end() ? VK_IMAGE_ASPECT_DEPTH_BIT
+                                                                             : VK_IMAGE_ASPECT_COLOR_BIT;
 }
 
 void Image::createView(Device& device) {
@@ -74,6 +76,8 @@ SamplerHandle createSampler(Device& device, const SamplerDesc& desc, const std::
                         .addressModeU = desc.addressMode,
                         .addressModeV = desc.addressMode,
                         .addressModeW = desc.addressMode,
+                        .anisotropyEnable = desc.anisotropy > 1.0f,
+                        .maxAnisotropy = desc.anisotropy,
                         .maxLod = desc.maxLod},
                        name);
 }

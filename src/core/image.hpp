@@ -17,14 +17,18 @@ struct ImageDesc {
 };
 
 inline constexpr VkFormat colorFormat = VK_FORMAT_R16G16B16A16_SFLOAT;  // linear radiance
-inline constexpr VkFormat depthFormat = VK_FORMAT_D32_SFLOAT;           // reversed Z: 0 is infinitely far
+inline constexpr VkFormat depthFormat = VK_FORMAT_D32_SFLOAT;  // reversed Z: 0 is infinitely far. Images and pipelines
+                                                               // get DeviceCaps::depthFormat in its place
 
-// Bytes of a texel. Throws std::logic_error for a format that the program does not use.
+// Bytes of a texel, without stencil. Throws std::logic_error for a format that the program does not use.
 constexpr VkDeviceSize bytesOfTexel(VkFormat format) {
   switch (format) {
     case VK_FORMAT_R8G8B8A8_UNORM:
     case VK_FORMAT_B8G8R8A8_UNORM:
+    case VK_FORMAT_R8G8B8A8_SRGB:
     case VK_FORMAT_D32_SFLOAT:
+    case VK_FORMAT_D32_SFLOAT_S8_UINT:
+    case VK_FORMAT_X8_D24_UNORM_PACK32:
     case VK_FORMAT_R32_SFLOAT:
       return 4;
     case VK_FORMAT_R16G16B16A16_SFLOAT:
@@ -64,7 +68,7 @@ class Image {
   VkExtent2D extent() const { return desc_.extent; }
   VkFormat format() const { return desc_.format; }
   VkSampleCountFlagBits samples() const { return desc_.samples; }
-  VkImageAspectFlags aspect() const;
+  VkImageAspectFlags aspect() const;  // color or depth
   uint64_t bytes() const { return memory_.bytes(); }
   explicit operator bool() const { return static_cast<bool>(view_); }
 
@@ -92,6 +96,7 @@ struct SamplerDesc {
   VkSamplerMipmapMode mipmapMode = VK_SAMPLER_MIPMAP_MODE_LINEAR;
   VkSamplerAddressMode addressMode = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
   float maxLod = VK_LOD_CLAMP_NONE;  // 0: level 0 only
+  float anisotropy = 1.0f;           // most lookups along a pixel's footprint, at most Device::anisotropy()
 };
 inline constexpr SamplerDesc nearestSampler{
     .filter = VK_FILTER_NEAREST, .mipmapMode = VK_SAMPLER_MIPMAP_MODE_NEAREST, .maxLod = 0.0f};

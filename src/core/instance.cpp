@@ -149,8 +149,9 @@ Instance::Instance(const DeviceOptions& options) : version_(usedVersion()) {
   check(vkCreateInstance(&info, nullptr, &instance), "create the Vulkan instance");
   instance_.reset(instance);
   if (options.validation) {
+    constexpr const char* name = "vkCreateDebugUtilsMessengerEXT";
     const auto create = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(
-        vkGetInstanceProcAddr(instance, "vkCreateDebugUtilsMessengerEXT"));
+        requireFunction(vkGetInstanceProcAddr(instance, name), name));
     VkDebugUtilsMessengerEXT messenger = VK_NULL_HANDLE;
     check(create(instance, &messengerInfo, nullptr, &messenger), "create the debug messenger");
     messenger_ = {instance, messenger};

@@ -149,6 +149,13 @@ void PassScope::begin() {
   cull(VK_CULL_MODE_NONE);
 }
 
+void PassScope::drawLines(bool lines, float width) const {
+  if (device_.functions().setPolygonMode) {
+    device_.functions().setPolygonMode(commands_, lines ? VK_POLYGON_MODE_LINE : VK_POLYGON_MODE_FILL);
+  }
+  vkCmdSetLineWidth(commands_, lines ? device_.lineWidth(width) : 1.0f);
+}
+
 void PassScope::countSamples() {
   if (desc_.collectStatistics) {
     timer_.beginSamples(commands_, timerSlot_);

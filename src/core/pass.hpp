@@ -99,6 +99,10 @@ class PassScope {
   // Begins a debug label within the pass's own label; endLabel() ends it.
   void beginLabel(std::string_view name) const { device_.beginLabel(commands_, name); }
   void endLabel() const { device_.endLabel(commands_); }
+  // Draws edges of triangles, `width` pixels wide, or fills triangles. Call it after a pipeline with
+  // GraphicsPipelineDesc::mayDrawLines is bound; without DeviceCaps::dynamicPolygonMode it only sets the width.
+  void drawLines(bool lines, float width) const;
+  bool drawsEither() const { return device_.caps().dynamicPolygonMode; }
   // Culls these sides of triangles from here on.
   void cull(VkCullModeFlags sides) const { device_.functions().setCullMode(commands_, sides); }
   // Ends the first rendering of a pass that pauses.

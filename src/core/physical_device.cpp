@@ -42,7 +42,12 @@ void readFeatures(PhysicalDevice& device) {
                                                        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DYNAMIC_RENDERING_FEATURES};
   VkPhysicalDeviceExtendedDynamicStateFeaturesEXT state{
       .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_EXTENDED_DYNAMIC_STATE_FEATURES_EXT};
+  VkPhysicalDeviceExtendedDynamicState3FeaturesEXT state3{
+      .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_EXTENDED_DYNAMIC_STATE_3_FEATURES_EXT};
   void* next = nullptr;
+  if (device.hasExtension(VK_EXT_EXTENDED_DYNAMIC_STATE_3_EXTENSION_NAME)) {
+    state3.pNext = std::exchange(next, &state3);
+  }
   if (device.core13 || device.hasExtension(VK_KHR_DYNAMIC_RENDERING_EXTENSION_NAME)) {
     dynamic.pNext = std::exchange(next, &dynamic);
   }
@@ -54,6 +59,7 @@ void readFeatures(PhysicalDevice& device) {
   device.features = features.features;
   device.extendedDynamicState = device.core13 || state.extendedDynamicState;
   device.caps.dynamicRendering = dynamic.dynamicRendering;
+  device.caps.dynamicPolygonMode = state3.extendedDynamicState3PolygonMode && device.features.fillModeNonSolid;
 }
 
 std::string driverText(const PhysicalDevice& device) {
@@ -120,7 +126,7 @@ std::optional<std::string> missing(const PhysicalDevice& device) {
     return "Vulkan 1.3 or VK_EXT_extended_dynamic_state";
   }
   if (!(device.caps.sampleCounts & VK_SAMPLE_COUNT_1_BIT)) {
-    return "RGBA16F color and D32F depth attachments";
+    return "RGBA16F color and 24 or 32 bit depth attachments";
   }
   return std::nullopt;
 }
@@ -134,10 +140,17 @@ PhysicalDevice inspect(VkPhysicalDevice handle, int index, uint32_t instanceVers
   readFeatures(device);
   readRayQueries(device, instanceVersion);
   DeviceCaps& caps = device.caps;
+  const auto depthCounts = [&](VkFormat format) {
+    return sampleCounts(handle, format, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT);
+  };
+  const auto depth = std::ranges::find_if(depthFormats, [&](VkFormat format) { return depthCounts(format) != 0; });
+  caps.depthFormat = depth == depthFormats.end() ? VK_FORMAT_UNDEFINED : *depth;
   caps.sampleCounts =
-      sampleCounts(handle, colorFormat, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT) &
-      sampleCounts(handle, depthFormat, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT) &
-      device.properties.limits.framebufferColorSampleCounts & device.properties.limits.framebufferDepthSampleCounts;
+      depth == depthFormats.end()
+          ? 0
+          : sampleCounts(handle, colorFormat, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT) &
+                depthCounts(*depth) & device.properties.limits.framebufferColorSampleCounts &
+                device.properties.limits.framebufferDepthSampleCounts;
   caps.timestampPeriod = device.properties.limits.timestampPeriod;
   caps.pipelineStatistics = device.features.pipelineStatisticsQuery;
   caps.countsSamples = device.features.occlusionQueryPrecise;
@@ -145,6 +158,8 @@ PhysicalDevice inspect(VkPhysicalDevice handle, int index, uint32_t instanceVers
   caps.depthClamp = device.features.depthClamp;
   caps.primitiveId = device.features.geometryShader;
   caps.fillModeNonSolid = device.features.fillModeNonSolid;
+  caps.wideLines = device.features.wideLines;
+  caps.anisotropy = device.features.samplerAnisotropy;
   caps.memoryBudget = device.hasExtension(VK_EXT_MEMORY_BUDGET_EXTENSION_NAME);
   device.info = {.index = index,
                  .name = device.properties.deviceName,

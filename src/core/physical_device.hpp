@@ -24,8 +24,13 @@ struct DeviceInfo {
   bool isCpu() const { return type == VK_PHYSICAL_DEVICE_TYPE_CPU; }
 };
 
+// Formats of depth, the best first. The last one is not as precise, but a device without D32F must have it.
+inline constexpr std::array depthFormats{VK_FORMAT_D32_SFLOAT, VK_FORMAT_D32_SFLOAT_S8_UINT,
+                                         VK_FORMAT_X8_D24_UNORM_PACK32};
+
 struct DeviceCaps {
-  VkSampleCountFlags sampleCounts = VK_SAMPLE_COUNT_1_BIT;  // for RGBA16F color and D32F depth alike
+  VkFormat depthFormat = VK_FORMAT_UNDEFINED;               // the first of depthFormats that the device has
+  VkSampleCountFlags sampleCounts = VK_SAMPLE_COUNT_1_BIT;  // for RGBA16F color and that depth alike
   double timestampPeriod = 0.0;                             // nanoseconds per tick
   uint32_t timestampValidBits = 0;                          // 0: no timestamps
   bool pipelineStatistics = false;
@@ -33,7 +38,10 @@ struct DeviceCaps {
   bool sampleRateShading = false;
   bool depthClamp = false;
   bool fillModeNonSolid = false;
-  bool primitiveId = false;  // fragment shaders can read gl_PrimitiveID
+  bool wideLines = false;
+  bool anisotropy = false;          // of samplers
+  bool dynamicPolygonMode = false;  // pipelines may leave open whether they draw lines
+  bool primitiveId = false;         // fragment shaders can read gl_PrimitiveID
   bool dynamicRendering = false;
   bool memoryBudget = false;
   bool rayQueries = false;        // VK_KHR_ray_query and what it needs

@@ -46,12 +46,6 @@ class Stage {
   VkPipelineShaderStageCreateInfo info_{};
 };
 
-constexpr std::array dynamicStates = {VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR, VK_DYNAMIC_STATE_FRONT_FACE,
-                                      VK_DYNAMIC_STATE_CULL_MODE};
-constexpr VkPipelineDynamicStateCreateInfo dynamicState{.sType = VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO,
-                                                        .dynamicStateCount = dynamicStates.size(),
-                                                        .pDynamicStates = dynamicStates.data()};
-
 constexpr VkColorComponentFlags allColor =
     VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT;
 
@@ -119,6 +113,17 @@ VkPipeline PipelineFactory::buildPipeline(const GraphicsPipelineDesc& desc, VkPi
     stages.push_back(frag->info());
   }
   const DeviceCaps& caps = device_.caps();
+  std::vector<VkDynamicState> dynamicStates = {VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR,
+                                               VK_DYNAMIC_STATE_FRONT_FACE, VK_DYNAMIC_STATE_CULL_MODE};
+  if (desc.mayDrawLines && caps.dynamicPolygonMode) {
+    dynamicStates.push_back(VK_DYNAMIC_STATE_POLYGON_MODE_EXT);
+  }
+  if (desc.lines || desc.mayDrawLines) {
+    dynamicStates.push_back(VK_DYNAMIC_STATE_LINE_WIDTH);
+  }
+  const VkPipelineDynamicStateCreateInfo dynamicState{.sType = VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO,
+                                                      .dynamicStateCount = static_cast<uint32_t>(dynamicStates.size()),
+                                                      .pDynamicStates = dynamicStates.data()};
   const VkPipelineVertexInputStateCreateInfo vertexInput{
       .sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO,
       .vertexBindingDescriptionCount = static_cast<uint32_t>(desc.vertexBindings.size()),
@@ -140,7 +145,8 @@ VkPipeline PipelineFactory::buildPipeline(const GraphicsPipelineDesc& desc, VkPi
       .rasterizationSamples = desc.samples,
       .sampleShadingEnable = desc.sampleShading && caps.sampleRateShading,
       .minSampleShading = 1.0f};
-  const bool hasDepth = desc.depth != VK_FORMAT_UNDEFINED;
+  const VkFormat depthUsed = desc.depth == depthFormat ? caps.depthFormat : desc.depth;
+  const bool hasDepth = depthUsed != VK_FORMAT_UNDEFINED;
   const VkPipelineDepthStencilStateCreateInfo depth{.sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO,
                                                     .depthTestEnable = hasDepth && desc.depthTest,
                                                     .depthWriteEnable = hasDepth && desc.depthWrite,
@@ -171,12 +177,12 @@ VkPipeline PipelineFactory::buildPipeline(const GraphicsPipelineDesc& desc, VkPi
   const VkPipelineRenderingCreateInfo rendering{.sType = VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO,
                                                 .colorAttachmentCount = 1,
                                                 .pColorAttachmentFormats = &desc.color,
-                                                .depthAttachmentFormat = desc.depth};
+                                                .depthAttachmentFormat = depthUsed};
   if (device_.renderPath() == RenderPath::dynamic) {
     info.pNext = &rendering;
   } else {
     info.renderPass = renderPasses_.renderPass({.color = desc.color,
-                                                .depth = desc.depth,
+                                                .depth = depthUsed,
                                                 .samples = desc.samples,
                                                 .resolve = desc.samples != VK_SAMPLE_COUNT_1_BIT});
   }

@@ -20,7 +20,7 @@ struct SpecialisedConstant {
   uint32_t value = 0;
 };
 
-// State of a graphics pipeline. Dynamic are viewport, scissor, front face and cull mode.
+// State of a graphics pipeline. Viewport, scissor, front face, cull mode and the width of lines are dynamic.
 struct GraphicsPipelineDesc {
   std::string name;
   std::string vert;                               // e.g. "scene.vert"
@@ -38,6 +38,7 @@ struct GraphicsPipelineDesc {
   bool sampleShading = false;                        // one invocation per sample; ignored where not supported
   bool adds = false;                                 // additive blending of color and alpha; else they replace
   bool lines = false;                                // wireframe; filled where not supported
+  bool mayDrawLines = false;  // PassScope::drawLines decides instead, with DeviceCaps::dynamicPolygonMode
   std::vector<VkVertexInputBindingDescription> vertexBindings;
   std::vector<VkVertexInputAttributeDescription> vertexAttributes;
 };

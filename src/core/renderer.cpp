@@ -51,16 +51,10 @@ void Renderer::finish(Slot& slot) {
   if (slot.number == 0) {
     return;
   }
-  await(slot);
+  device_.await(slot.finished.get(), "wait for a frame");
   slot.timings = slot.timer.read();
   retired_.collect(slot.number);
   slot.number = 0;
-}
-
-void Renderer::await(Slot& slot) {
-  const VkFence fence = slot.finished.get();
-  check(vkWaitForFences(device_.get(), 1, &fence, VK_TRUE, UINT64_MAX), "wait for a frame");
-  check(vkResetFences(device_.get(), 1, &fence), "reset a frame's fence");
 }
 
 const FrameTimings* Renderer::timingsOf(uint64_t frame) const {
@@ -146,7 +140,7 @@ void Renderer::submitPart(Frame& frame) {
       .sType = VK_STRUCTURE_TYPE_SUBMIT_INFO, .commandBufferCount = 1, .pCommandBuffers = &commands};
   const auto start = std::chrono::steady_clock::now();
   check(vkQueueSubmit(device_.queue(), 1, &info, slot.finished.get()), "submit a part of a frame");
-  await(slot);
+  device_.await(slot.finished.get(), "wait for a part of a frame");
   frame.waitedMs += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   const VkCommandBuffer next = slot.pool.begin();
   slot.timer.resume(next);
@@ -159,9 +153,12 @@ void Renderer::endFrame(Frame& frame) {
   if (frame.capture) {
     recordCapture(slot, frame);
   }
-  const bool presents = !headless() && !drawsAside(frame);
+  const bool presents = !headless() && (copiesDisplay() || !drawsAside(frame));
   if (presents) {
-    device_.barriers().record(frame.commands, BarrierKind::swapchainToPresent, displayImage(frame));
+    if (copiesDisplay()) {
+      copyToSwapChain(frame);
+    }
+    device_.barriers().record(frame.commands, BarrierKind::swapchainToPresent, swapChain_->image(frame.imageIndex));
   }
   check(vkEndCommandBuffer(frame.commands), "end a frame's commands");
   submit(slot, frame, presents);
@@ -169,6 +166,19 @@ void Renderer::endFrame(Frame& frame) {
   recording_ = false;
   unusedImage_ = headless() || presents ? std::nullopt : std::optional(frame.imageIndex);
   submittedImage_ = presents ? std::optional(frame.imageIndex) : std::nullopt;
+}
+
+void Renderer::copyToSwapChain(Frame& frame) {
+  Image& picture = displayImage(frame);
+  Image& shown = swapChain_->image(frame.imageIndex);
+  device_.barriers().record(frame.commands, BarrierKind::readbackToCopy, picture);
+  Barriers::acquiredToCopy(frame.commands, shown);
+  const VkImageSubresourceLayers all{VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+  const VkImageCopy region{
+      .srcSubresource = all, .dstSubresource = all, .extent = {picture.extent().width, picture.extent().height, 1}};
+  vkCmdCopyImage(frame.commands, picture.get(), picture.layout(), shown.get(), shown.layout(), 1, &region);
+  device_.barriers().record(frame.commands, BarrierKind::readbackFromCopy, picture,
+                            VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
 }
 
 void Renderer::present() {

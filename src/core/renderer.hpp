@@ -79,6 +79,8 @@ class Renderer {
 
   // Returns the display image as targets of a pass: UNORM color, no depth, TargetRole::swapchain.
   PassTargets displayTargets(Frame& frame) { return {.color = &displayImage(frame), .role = TargetRole::swapchain}; }
+  // Says whether pictures are copied into the window's images, which are sRGB.
+  bool copiesDisplay() const { return !headless() && swapChain_->copied(); }
   VkFormat displayFormat() const { return headless() ? headlessFormat : swapChain_->format(); }
   VkExtent2D displayExtent() const { return headless() ? headlessImage_.extent() : swapChain_->extent(); }
   // At least 2, which Dear ImGui requires.
@@ -132,11 +134,13 @@ class Renderer {
     VkExtent2D captureExtent{0, 0};
   };
   void finish(Slot& slot);
-  void await(Slot& slot);
   std::optional<uint32_t> acquireImage(Slot& slot);
   Image& displayImage(const Frame& frame);
-  // Says whether the frame is drawn into an image of its own, because the swapchain's cannot be copied.
-  bool drawsAside(const Frame& frame) const { return frame.capture && !headless() && !swapChain_->copyable(); }
+  // Says whether the frame is drawn into an image of its own, because the swapchain's cannot be copied or is sRGB.
+  bool drawsAside(const Frame& frame) const {
+    return !headless() && (swapChain_->copied() || (frame.capture && !swapChain_->copyable()));
+  }
+  void copyToSwapChain(Frame& frame);
   void recordCapture(Slot& slot, const Frame& frame);
   void submit(Slot& slot, const Frame& frame, bool presents);
   Image makeDisplayImage(VkExtent2D extent, VkFormat format);

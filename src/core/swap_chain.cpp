@@ -60,15 +60,19 @@ SwapChain::SwapChain(Device& device, Window& window, PresentMode mode) : device_
 void SwapChain::chooseFormat() {
   const auto formats = enumerate<VkSurfaceFormatKHR>("list formats", vkGetPhysicalDeviceSurfaceFormatsKHR,
                                                      device_.physical(), device_.surface());
-  for (const VkFormat wanted : {VK_FORMAT_B8G8R8A8_UNORM, VK_FORMAT_R8G8B8A8_UNORM}) {
+  for (const auto& [offered, drawn] : {std::pair{VK_FORMAT_B8G8R8A8_UNORM, VK_FORMAT_B8G8R8A8_UNORM},
+                                       {VK_FORMAT_R8G8B8A8_UNORM, VK_FORMAT_R8G8B8A8_UNORM},
+                                       {VK_FORMAT_B8G8R8A8_SRGB, VK_FORMAT_B8G8R8A8_UNORM},
+                                       {VK_FORMAT_R8G8B8A8_SRGB, VK_FORMAT_R8G8B8A8_UNORM}}) {
     for (const VkSurfaceFormatKHR& format : formats) {
-      if (format.format == wanted && format.colorSpace == VK_COLOR_SPACE_SRGB_NONLINEAR_KHR) {
-        format_ = format;
+      if (format.format == offered && format.colorSpace == VK_COLOR_SPACE_SRGB_NONLINEAR_KHR) {
+        surfaceFormat_ = format;
+        format_ = drawn;
         return;
       }
     }
   }
-  throw std::runtime_error("the window's surface has no 8 bit UNORM format (use the render command)");
+  throw std::runtime_error("the window's surface has no format of 8 bits, UNORM or sRGB (use the render command)");
 }
 
 std::vector<PresentMode> SwapChain::presentModes() const {
@@ -115,15 +119,20 @@ void SwapChain::create() {
     return;
   }
   copyable_ = caps.supportedUsageFlags & VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
-  const VkImageUsageFlags copies = copyable_ ? VK_IMAGE_USAGE_TRANSFER_SRC_BIT : 0;
+  if (copied() && !(caps.supportedUsageFlags & VK_IMAGE_USAGE_TRANSFER_DST_BIT)) {
+    throw std::runtime_error(
+        "the window's surface has sRGB formats only, into which no picture can be copied (use the render command)");
+  }
+  const VkImageUsageFlags copies =
+      (copyable_ ? VK_IMAGE_USAGE_TRANSFER_SRC_BIT : 0) | (copied() ? VK_IMAGE_USAGE_TRANSFER_DST_BIT : 0);
   const uint32_t families[] = {device_.queueFamily(), device_.presentFamily()};
   const bool shared = families[0] != families[1];
   const VkSwapchainCreateInfoKHR info{
       .sType = VK_STRUCTURE_TYPE_SWAPCHAIN_CREATE_INFO_KHR,
       .surface = device_.surface(),
       .minImageCount = chooseImageCount(caps),
-      .imageFormat = format_.format,
-      .imageColorSpace = format_.colorSpace,
+      .imageFormat = surfaceFormat_.format,
+      .imageColorSpace = surfaceFormat_.colorSpace,
       .imageExtent = extent_,
       .imageArrayLayers = 1,
       .imageUsage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | copies,
@@ -139,11 +148,13 @@ void SwapChain::create() {
   for (VkImage image :
        enumerate<VkImage>("list swapchain images", vkGetSwapchainImagesKHR, device_.get(), swapchain_.get())) {
     const std::string name = "swapchain image " + std::to_string(images_.size());
-    images_.emplace_back(device_, image, ImageDesc{.extent = extent_, .format = format_.format, .name = name});
+    images_.emplace_back(device_, image, ImageDesc{.extent = extent_, .format = surfaceFormat_.format, .name = name});
     renderFinished_.push_back(device_.create(vkCreateSemaphore, {.sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO},
                                              name + " render finished"));
   }
   stale_ = false;
+  spdlog::info("swapchain of {} images, {}x{}, {}{}", images_.size(), extent_.width, extent_.height,
+               presentModeName(mode_), copied() ? ", sRGB" : "");
 }
 
 bool SwapChain::check(VkResult result, std::string_view what) {
@@ -162,6 +173,10 @@ std::optional<uint32_t> SwapChain::acquire(VkSemaphore acquired) {
   uint32_t index = 0;
   const VkResult result =
       vkAcquireNextImageKHR(device_.get(), swapchain_.get(), patience, acquired, VK_NULL_HANDLE, &index);
+  timeouts_ = result == VK_TIMEOUT || result == VK_NOT_READY ? timeouts_ + 1 : 0;
+  if (timeouts_ == 60) {
+    spdlog::warn("the window has got no image to draw into for a minute: is it covered?");
+  }
   // A suboptimal image is still drawn: the semaphore will be signalled.
   return check(result, "acquire a swapchain image") ? std::optional(index) : std::nullopt;
 }

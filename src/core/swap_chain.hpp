@@ -12,7 +12,7 @@ namespace speculum {
 enum class PresentMode { fifo, mailbox, immediate };
 std::string_view presentModeName(PresentMode mode);  // fifo, mailbox, immediate
 
-// The window's images, UNORM. Made anew when the window's size changes or the surface says so.
+// The window's images. Made anew when the window's size changes or the surface says so.
 class SwapChain {
  public:
   SwapChain(Device& device, Window& window, PresentMode mode);
@@ -23,13 +23,16 @@ class SwapChain {
   bool stale() const { return stale_; }  // must be recreated
 
   // Returns the index of an image for which `acquired` will be signalled; nothing when the chain is stale, or if no
-  // image was free within a second, as may happen to a covered window.
+  // image was free within a second, as may happen to a covered window. Logs once if that lasts for a minute.
   std::optional<uint32_t> acquire(VkSemaphore acquired);
   // Shows the image once its renderFinished() is signalled.
   void present(uint32_t image);
 
   VkExtent2D extent() const { return extent_; }
-  VkFormat format() const { return format_.format; }
+  VkFormat format() const { return format_; }  // UNORM, of what is drawn
+  // Says whether the surface has sRGB formats only. They would encode once more what is drawn, so a picture of format()
+  // is copied into an image instead, bit by bit.
+  bool copied() const { return surfaceFormat_.format != format_; }
   PresentMode presentMode() const { return mode_; }  // in use: FIFO where the wanted one is missing
   std::vector<PresentMode> presentModes() const;     // that the surface offers
   // Sets the mode, or FIFO if the surface does not offer it, and makes the chain stale.
@@ -51,7 +54,9 @@ class SwapChain {
   PresentMode mode_ = PresentMode::fifo;
   bool stale_ = true;
   bool copyable_ = false;
-  VkSurfaceFormatKHR format_{};
+  int timeouts_ = 0;  // of acquire(), one after the other
+  VkSurfaceFormatKHR surfaceFormat_{};
+  VkFormat format_ = VK_FORMAT_UNDEFINED;
   VkExtent2D extent_{0, 0};
   SwapchainHandle swapchain_;
   std::vector<Image> images_;

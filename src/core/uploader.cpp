@@ -28,12 +28,12 @@ void Uploader::run(const std::function<void(VkCommandBuffer)>& record) {
   const VkSubmitInfo submit{
       .sType = VK_STRUCTURE_TYPE_SUBMIT_INFO, .commandBufferCount = 1, .pCommandBuffers = &commands};
   check(vkQueueSubmit(device_.queue(), 1, &submit, fence_.get()), "submit an upload");
-  const VkFence fence = fence_.get();
-  if (const VkResult result = vkWaitForFences(device_.get(), 1, &fence, VK_TRUE, UINT64_MAX); result != VK_SUCCESS) {
-    vkDeviceWaitIdle(device_.get());  // after this, the caller may destroy the objects that `record` used
-    throwVulkanError(result, "wait for an upload");
+  try {
+    device_.await(fence_.get(), "wait for an upload");
+  } catch (...) {
+    device_.settle();  // after this, the caller may destroy the objects that `record` used
+    throw;
   }
-  check(vkResetFences(device_.get(), 1, &fence), "reset the upload fence");
 }
 
 Buffer Uploader::buffer(std::span<const std::byte> data, VkBufferUsageFlags usage, const std::string& name) {
@@ -135,6 +135,38 @@ Buffer BufferWriter::finish() {
     flush();
   }
   return std::move(target_);
+}
+
+std::array<float, 256> Uploader::decodedSrgb() {
+  std::array<uint32_t, 256> codes;
+  for (uint32_t i = 0; i < codes.size(); ++i) {
+    codes[i] = 0x010101u * i;
+  }
+  const VkExtent2D extent{codes.size(), 1};
+  Image source = image(std::as_bytes(std::span(codes)), extent, VK_FORMAT_R8G8B8A8_SRGB, true, "sRGB codes");
+  Image target(device_,
+               {.extent = extent,
+                .format = VK_FORMAT_R32G32B32A32_SFLOAT,
+                .usage = VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
+                .name = "decoded sRGB"});
+  run([&](VkCommandBuffer commands) {
+    device_.barriers().record(commands, BarrierKind::readbackToCopy, source);
+    Barriers::uploadToCopy(commands, target);
+    const VkOffset3D end{static_cast<int32_t>(codes.size()), 1, 1};
+    const VkImageBlit region{.srcSubresource = {source.aspect(), 0, 0, 1},
+                             .srcOffsets = {{}, end},
+                             .dstSubresource = {target.aspect(), 0, 0, 1},
+                             .dstOffsets = {{}, end}};
+    vkCmdBlitImage(commands, source.get(), source.layout(), target.get(), target.layout(), 1, &region,
+                   VK_FILTER_NEAREST);
+    device_.barriers().record(commands, BarrierKind::uploadToRead, target);
+  });
+  const std::vector<float> texels = readFloats(target);
+  std::array<float, 256> decoded;
+  for (size_t i = 0; i < decoded.size(); ++i) {
+    decoded[i] = texels[4 * i];
+  }
+  return decoded;
 }
 
 std::vector<std::byte> Uploader::read(Image& image) {

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <functional>
+#include <optional>
 #include <ranges>
 #include <span>
 #include <string>
@@ -41,11 +43,15 @@ class Uploader {
     return buffer(bytes, usage, name);
   }
   // Returns a sampled image whose level 0 is `texels` (tightly packed rows, top first), in SHADER_READ_ONLY layout.
-  // With `mipmaps` all further levels are made by halving blits, which are right only for linear formats such as
-  // RGBA16F. Throws std::logic_error if there are too few or too many texels.
+  // With `mipmaps` all further levels are made by halving blits, which average what the texels stand for, not sRGB
+  // codes. Throws std::logic_error if there are too few or too many texels.
   Image image(std::span<const std::byte> texels, VkExtent2D extent, VkFormat format, bool mipmaps,
               const std::string& name);
 
+  // Returns what the device reads from each code of 8 bits in R8G8B8A8_SRGB: devices decode with different precision.
+  std::array<float, 256> decodedSrgb();
+  // Whether that is as precise as half floats; empty: nobody has looked yet.
+  std::optional<bool> exactSrgb;
   // Returns the texels of level 0, tightly packed in the image's own format. The image keeps its layout.
   std::vector<std::byte> read(Image& image);
   // Returns r, g, b, a of each texel of level 0. Throws std::logic_error unless the format is RGBA16F or RGBA32F.

@@ -68,6 +68,14 @@ void throwVulkanError(VkResult result, std::string_view what) {
   throw std::runtime_error(text);
 }
 
+PFN_vkVoidFunction requireFunction(PFN_vkVoidFunction function, std::string_view name) {
+  if (!function) {
+    throw std::runtime_error("the Vulkan driver does not return " + std::string(name) +
+                             ", though it must (update the driver and libvulkan1)");
+  }
+  return function;
+}
+
 void check(VkResult result, std::string_view what) {
   if (result != VK_SUCCESS) {
     throwVulkanError(result, what);

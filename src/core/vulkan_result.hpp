@@ -27,6 +27,8 @@ struct SurfaceLostError : std::runtime_error {
 // Throws as throwVulkanError() does unless `result` is VK_SUCCESS.
 void check(VkResult result, std::string_view what);
 std::string resultName(VkResult result);
+// Returns `function`. Throws std::runtime_error with its name if it is null: the loader or the driver has no such one.
+PFN_vkVoidFunction requireFunction(PFN_vkVoidFunction function, std::string_view name);
 
 // Lists what Vulkan enumerates in two calls: query(first..., &count, nullptr) says how many, query(first..., &count,
 // data) which. Repeats both if the number grew in between.

@@ -43,6 +43,13 @@ const std::array<float, 256>& srgbDecoded() {
   return decoded;
 }
 
+std::optional<uint8_t> srgbCode(float linear) {
+  const std::array<float, 256>& decoded = srgbDecoded();
+  const auto found = std::ranges::lower_bound(decoded, linear);
+  return found != decoded.end() && *found == linear ? std::optional(static_cast<uint8_t>(found - decoded.begin()))
+                                                    : std::nullopt;
+}
+
 Image8 toDisplay(const LinearImage& image, const DisplayCurve& curve) {
   Image8 display(image.width, image.height);
   for (size_t i = 0; i < image.pixels.size(); ++i) {

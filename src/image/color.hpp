@@ -1,6 +1,8 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
+#include <optional>
 
 #include "image/image.hpp"
 
@@ -12,6 +14,8 @@ enum class ToneMap { clamp, aces };
 double srgbEncode(double linear);
 double srgbDecode(double encoded);
 const std::array<float, 256>& srgbDecoded();  // srgbDecode() by 8-bit code
+// Returns the 8-bit code for which srgbDecoded() has exactly this value; nothing if there is none.
+std::optional<uint8_t> srgbCode(float linear);
 
 // Settings that turn radiance into a picture, besides the sRGB curve.
 struct DisplayCurve {

@@ -200,6 +200,10 @@ struct FramePlan {
 
   const Pass& main() const { return passes.back(); }
   Pass& main() { return passes.back(); }
+  // Returns the width of wireframe lines in a view, in its texels.
+  double lineWidth(const View& view, const ViewSettings& settings) const {
+    return std::max(1.0, settings.lineWidth * view.pictureSize.x / width);
+  }
   // Says whether the main view or mean of an earlier frame is shown again, because this frame would draw the same.
   bool mainReused() const { return !main().drawn(); }
   // Returns the mirror passes that the frame draws. They stand side by side in the list.

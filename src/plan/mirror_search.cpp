@@ -97,7 +97,11 @@ void MirrorSearch::fill(int node) {
   const View view = nodes_[node].pass.view;
   const View readable = readableView(nodes_[node].pass, plan_.projection);
   const Onlooker onlooker = view.path.empty() ? Onlooker::eye : Onlooker::mirror;
-  addVisibleInstances(readable, onlooker, scene_, state_, allSettings_.debug.cullClusters, -1, nodes_[node].pass);
+  View reached = readable;  // by wide lines of triangles outside it
+  if (allSettings_.view.wireframe && allSettings_.view.lineWidth > 1.0) {
+    widen(reached, plan_.projection, static_cast<int>(std::ceil(plan_.lineWidth(view, allSettings_.view))));
+  }
+  addVisibleInstances(reached, onlooker, scene_, state_, allSettings_.debug.cullClusters, -1, nodes_[node].pass);
   addVisibleLights(readable, onlooker, scene_, state_, allSettings_.effects, nodes_[node].pass);
   // Polygons are cut one pixel farther out, so that no cut edge lies where the image is read.
   View drawn = readable;

@@ -2,12 +2,14 @@
 
 #include <GLFW/glfw3.h>
 #include <dlfcn.h>
+#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <array>
 #include <stdexcept>
 
 #include "platform/process.hpp"
+#include "platform/text.hpp"
 
 namespace speculum {
 
@@ -157,6 +159,8 @@ void onDisplayLost(void (*last)()) {
 }
 
 Window::Library::Library() {
+  // No warning: GLFW reports what a window system lacks too, and what ends the program is said there.
+  glfwSetErrorCallback([](int, const char* text) { spdlog::info("GLFW: {}", oneLine(text)); });
   if (!glfwInit()) {
     fail("no window system", "is DISPLAY set? without a display use the render command");
   }

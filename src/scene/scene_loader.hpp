@@ -24,6 +24,9 @@ Scene parseScene(const std::filesystem::path& file, std::string text);
 // right)`; nothing if the polygon is valid.
 std::optional<std::string> mirrorPolygonProblem(std::span<const glm::dvec3> polygon);
 
+// The same for a camera that gives no view. Does not look at the ranges of its numbers.
+std::optional<std::string> cameraProblem(const CameraSpec& camera);
+
 // Adds the mesh of a model to the scene unless it is there under any name, and returns its index into Scene::meshes.
 // Throws InputError and leaves the scene as it was.
 int addModel(Scene& scene, const std::filesystem::path& file, const LoadProgress& progress = {});

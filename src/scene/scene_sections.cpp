@@ -108,18 +108,31 @@ void checkRectangle(const TableReader& table, const Mirror& mirror) {
   }
 }
 
-void checkDirections(const TableReader& table, const CameraSpec& camera) {
+// Why a camera gives no view.
+struct CameraDefect {
+  Key key;
+  const char* wrong;
+  const char* right;
+};
+
+std::optional<CameraDefect> cameraDefect(const CameraSpec& camera) {
   if (!hasDirection(camera.target - camera.position)) {
-    table.fail("target", "has no direction from position", "a point away from position is needed");
+    return CameraDefect{"target", "has no direction from position", "a point away from position is needed"};
   }
   if (!hasDirection(camera.up)) {
-    table.fail("up", "has no direction", "a vector that is not zero, such as [0, 1, 0], is needed");
+    return CameraDefect{"up", "has no direction", "a vector that is not zero, such as [0, 1, 0], is needed"};
   }
   try {
     lookAt(camera.position, camera.target, camera.up, camera.verticalFov, camera.near);
   } catch (const std::invalid_argument&) {
-    table.fail(table.has("up") ? "up" : "target", "the view direction is parallel to up",
-               "up and target - position must not be parallel");
+    return CameraDefect{"up", "the view direction is parallel to up", "up and target - position must not be parallel"};
+  }
+  return std::nullopt;
+}
+
+void checkDirections(const TableReader& table, const CameraSpec& camera) {
+  if (const std::optional<CameraDefect> defect = cameraDefect(camera)) {
+    table.fail(table.has(defect->key) ? defect->key : "target", defect->wrong, defect->right);
   }
 }
 
@@ -276,6 +289,12 @@ Mirror readMirror(const TableReader& table) {
     mirror.ripple.reset();
   }
   return mirror;
+}
+
+std::optional<std::string> cameraProblem(const CameraSpec& camera) {
+  const std::optional<CameraDefect> defect = cameraDefect(camera);
+  return defect ? std::optional(std::string(defect->key) + ": " + defect->wrong + " (" + defect->right + ")")
+                : std::nullopt;
 }
 
 std::optional<std::string> mirrorPolygonProblem(std::span<const glm::dvec3> polygon) {

@@ -64,7 +64,7 @@ constexpr SettingField setting(std::string_view key, const SettingKind& kind, co
 constexpr auto reflectionMethods = choicesOf(ReflectionMethod());
 constexpr std::array<std::string_view, 3> clipMethods{"clip_distance", "oblique", "none"};
 constexpr std::array<std::string_view, 2> toneMaps{"clamp", "aces"};
-constexpr std::array<std::string_view, 2> textureFilters{"bilinear", "trilinear"};
+constexpr std::array<std::string_view, 4> textureFilters{"bilinear", "trilinear", "nearest", "anisotropic"};
 constexpr std::array<std::string_view, 2> reflectionSources{"traced", "image"};
 constexpr std::array<std::string_view, 3> rayMethods{"auto", "hardware", "software"};
 constexpr std::array<std::string_view, 2> curvedLookups{"traced", "environment"};
@@ -160,10 +160,18 @@ constexpr SettingField fields[] = {
     setting("view.clear_color", ColorSetting{at<&V::clearColor>}, "Clear color",
             "replaces the scene's background and sky, unless it is empty", "Costs nothing.", {.subject = true}),
     setting("view.texture_filter", choice<&V::textureFilter>(textureFilters), "Texture filter",
-            "how textures are sampled", "trilinear reads twice the texels; far textures are calmer.",
-            {.swept = {"trilinear"}}),
+            "how textures are sampled",
+            "nearest reads a quarter of the texels; trilinear reads twice as many, anisotropic up to 32 times, and far "
+            "textures are calmer.",
+            {.swept = {"nearest trilinear anisotropic"}}),
     setting("view.wireframe", BooleanSetting{at<&V::wireframe>}, "Wireframe", "edges of triangles only",
             "A device without wireframe fills triangles.", {.subject = true}),
+    setting("view.line_width", NumberSetting{at<&V::lineWidth>, 1.0, 64.0}, "Line width", "width of wireframe lines",
+            "A device without wide lines draws them one pixel wide.",
+            {.unit = "pixels",
+             .subject = true,
+             .slider = SettingSlider{1.0, 16.0, "%.1f", false},
+             .needs = SettingNeed{"view.wireframe", "true"}}),
     setting("view.continuous", BooleanSetting{at<&V::continuous>}, "Draw continuously",
             "the window draws even without changes", "Uses power.", {.changes = mainView}),
 

@@ -14,7 +14,7 @@
 namespace speculum {
 
 enum class ClipMethod { clipDistance, oblique, none };
-enum class TextureFilter { bilinear, trilinear };
+enum class TextureFilter { bilinear, trilinear, nearest, anisotropic };
 
 struct ReflectionSettings {
   ReflectionMethod method = ReflectionMethod::raster;
@@ -40,6 +40,7 @@ struct ViewSettings {
   std::optional<glm::dvec3> clearColor;  // linear; replaces background and sky of the scene
   TextureFilter textureFilter = TextureFilter::bilinear;
   bool wireframe = false;
+  double lineWidth = 1.0;   // of wireframe, pixels of the picture
   bool continuous = false;  // the window draws all the time
 
   DisplayCurve displayCurve() const { return {exposure, toneMap}; }

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "plan/target_memory.hpp"
+#include "systems/gpu_conversion.hpp"
 
 namespace speculum {
 
@@ -104,12 +105,12 @@ void DeferredShading::shade(const PassScope& scope, const FrameInfo& info, const
   const TraceVariant& trace = info.trace.variant();
   collect(scope, trace);
   const VkSampleCountFlagBits samples = scope.samples();
-  const bool trilinear = info.settings.view.textureFilter == TextureFilter::trilinear;
-  const Pipeline& pipeline = shading_.get({samples, trace, trilinear}, [&] {
+  const uint32_t filter = textureLookup(info.settings.view.textureFilter);
+  const Pipeline& pipeline = shading_.get({samples, trace, filter}, [&] {
     return ComputePipelineDesc{.name = "deferred shading",
                                .comp = trace.hardware ? "shade_ray_query.comp" : "shade.comp",
                                .constants = {{gpu::constantSamples, samples},
-                                             {gpu::constantTrilinear, trilinear},
+                                             {gpu::constantTextureFilter, filter},
                                              {gpu::constantShadows, trace.shadows},
                                              {gpu::constantCastsLight, trace.castsLight},
                                              {gpu::constantRough, trace.rough},

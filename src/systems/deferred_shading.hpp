@@ -45,7 +45,7 @@ class DeferredShading {
   struct Variant {
     VkSampleCountFlagBits samples;
     TraceVariant trace;
-    bool trilinear = false;  // textures are filtered between levels
+    uint32_t textureFilter = gpu::textureBilinear;
     auto operator<=>(const Variant&) const = default;
   };
   void prepare(const FrameInfo& info, const PassDesc& pass);

@@ -164,6 +164,7 @@ void FrameData::addPass(const Source& source, const Pass& pass, DrawList& data) 
   const glm::dmat4 projection = viewProjection(pass.projection, pass.view, settings.reflection.clip);
   data.pass = static_cast<uint32_t>(passBlocks_.size());
   data.mirrorView = !pass.view.path.empty();
+  data.lineWidth = static_cast<float>(plan.lineWidth(pass.view, settings.view));
   gpu::ViewData& view = passBlocks_.emplace_back().view;
   view = viewData(pass.view, pass.projection, pass.corner, environment);
   view.inMap = pass.id.kind == PassKind::environment;

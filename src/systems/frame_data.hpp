@@ -64,6 +64,7 @@ struct MirrorRange {
 struct DrawList {
   uint32_t pass = 0;        // index into the blocks of the passes that are drawn
   bool mirrorView = false;  // the view is that of a mirror
+  float lineWidth = 1.0f;   // of wireframe, texels
   std::vector<Batch> batches;
   uint32_t firstGlyph = 0;  // index into the lights of the pass of the first one whose glyph is drawn
   uint32_t glyphCount = 0;

@@ -41,6 +41,12 @@ Environment scaled(Environment environment, double scale) {
   return environment;
 }
 
+uint32_t textureLookup(TextureFilter filter) {
+  constexpr std::array lookups{gpu::textureBilinear, gpu::textureTrilinear, gpu::textureNearest,
+                               gpu::textureAnisotropic};
+  return lookups[static_cast<size_t>(filter)];
+}
+
 gpu::MaterialChange materialChange(const Object& object) {
   return {.diffuse = glm::vec3(object.color.value_or(glm::dvec3(0.0))),
           .replacesDiffuse = object.color.has_value(),

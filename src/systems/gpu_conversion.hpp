@@ -17,6 +17,8 @@ glm::vec3 radiance(const glm::dvec3& product);
 glm::vec4 texelOf(const Texture& texture, size_t index);
 // Returns the environment with its radiances times `scale`.
 Environment scaled(Environment environment, double scale);
+// Returns the constant of shaders/gpu_data.h that chooses the filter.
+uint32_t textureLookup(TextureFilter filter);
 // Returns the colors that replace those of the object's material.
 gpu::MaterialChange materialChange(const Object& object);
 // Returns the constants for drawing a part of an object; the caller sets firstTriangle.

@@ -68,7 +68,8 @@ GraphicsPipelineDesc RenderSystem::objects(const Variant& variant, const FrameIn
                             .pushConstantBytes = sizeof(gpu::DrawConstants),
                             .samples = variant.samples,
                             .depthClamp = variant.clampDepth,
-                            .lines = variant.wireframe};
+                            .lines = variant.wireframe,
+                            .mayDrawLines = true};
   if (variant.deferred) {
     desc.frag = "scene_identifier.frag";
   } else {
@@ -133,21 +134,10 @@ gpu::CoverageConstants coverageConstants(const gpu::DrawConstants& draw, const M
   return {draw, static_cast<float>(material.opacity), static_cast<float>(material.cutoff)};
 }
 
-namespace {
-
-uint32_t lookupOf(bool textured, TextureFilter filter) {
-  return !textured                            ? gpu::textureNone
-         : filter == TextureFilter::trilinear ? gpu::textureTrilinear
-                                              : gpu::textureBilinear;
-}
-
-}  // namespace
-
 void RenderSystem::countDraw(EffectLedger& ledger, const Variant& variant) {
   ledger.draw(EffectKind::shadows, variant.trace.shadows || variant.shadowed);
   ledger.draw(EffectKind::castsLight, variant.trace.castsLight);
   ledger.draw(EffectKind::curved, variant.curved);
-  ledger.draw(EffectKind::wireframe, variant.wireframe);
   ledger.draw(EffectKind::transparency, variant.covered || variant.trace.transparency);
 }
 
@@ -178,7 +168,8 @@ uint32_t RenderSystem::recordBatch(const PassScope& scope, const FrameInfo& info
     gpu::DrawConstants constants = drawConstants(material, info.scene.objects[batch.object], batch.handedness);
     constants.emission *= info.settings.view.radianceScale();
     if (!variant.deferred) {
-      variant.diffuseLookup = lookupOf(textured && !batch.environment, info.settings.view.textureFilter);
+      variant.diffuseLookup =
+          textured && !batch.environment ? textureLookup(info.settings.view.textureFilter) : gpu::textureNone;
       variant.glossy = constants.specular != glm::vec3(0.0f);
     }
     variant.covered = !batch.curved && isTransparent(material, info.settings.effects);
@@ -188,6 +179,7 @@ uint32_t RenderSystem::recordBatch(const PassScope& scope, const FrameInfo& info
     variant.clamps = material.clamps && (variant.covered || variant.diffuseLookup != gpu::textureNone);
     const Pipeline& pipeline = objects_.get(variant, [&] { return objects(variant, info, shading); });
     info.data.bind(pipeline, commands, pass);
+    scope.drawLines(info.settings.view.wireframe, pass.lineWidth);
     pipeline.bindSet(commands, 1, batch.map >= 0 ? info.maps[batch.map] : info.resources.texture(material));
     if (variant.shadowed) {
       pipeline.bindSet(commands, 2, info.shadows.set());
@@ -210,6 +202,7 @@ uint32_t RenderSystem::recordBatch(const PassScope& scope, const FrameInfo& info
       ++draws;
       countDraw(info.ledger, variant);
       info.ledger.draw(EffectKind::textures, textured);
+      info.ledger.draw(EffectKind::wireframe, info.settings.view.wireframe);
     }
   }
   scope.endLabel();
@@ -256,7 +249,7 @@ RenderSystem::Variant RenderSystem::variantOf(const PassScope& scope, const Fram
   return {.samples = scope.samples(),
           .clipDistance = pass.mirrorView && clip == ClipMethod::clipDistance,
           .clampDepth = !(pass.mirrorView && clip == ClipMethod::oblique),
-          .wireframe = info.settings.view.wireframe};
+          .wireframe = info.settings.view.wireframe && !scope.drawsEither()};
 }
 
 uint32_t RenderSystem::record(const PassScope& scope, const FrameInfo& info, const DrawList& pass) {

@@ -48,7 +48,7 @@ class RenderSystem {
     VkSampleCountFlagBits samples;
     bool clipDistance;
     bool clampDepth;
-    bool wireframe;
+    bool wireframe;  // always false where the polygon mode is dynamic
     bool curved;
     bool environment;        // curved mirrors that look up an environment map
     uint32_t diffuseLookup;  // constants of scene_shading.glsl and shading.glsl

@@ -3,8 +3,10 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <cmath>
 #include <glm/gtc/packing.hpp>
 
+#include "image/color.hpp"
 #include "systems/effect_ledger.hpp"
 #include "systems/gpu_conversion.hpp"
 #include "systems/trace_scene.hpp"
@@ -20,6 +22,34 @@ std::vector<uint64_t> halfTexels(const Texture& texture) {
     texels.push_back(glm::packHalf4x16(texelOf(texture, i)));
   }
   return texels;
+}
+
+// Returns the largest relative error of values that a device decoded from sRGB codes of 8 bits. Light multiplies it, so
+// dark texels count as much as others.
+float decodingError(const std::array<float, 256>& decoded) {
+  float error = 0.0f;
+  for (size_t code = 1; code < decoded.size(); ++code) {
+    error = std::max(error, std::abs(decoded[code] / srgbDecoded()[code] - 1.0f));
+  }
+  return error;
+}
+
+// Returns the sRGB codes of the texels with their opacity; nothing unless codes of 8 bits stand for all exactly.
+std::optional<std::vector<uint32_t>> srgbCodes(const Texture& texture) {
+  std::vector<uint32_t> codes;
+  codes.reserve(texture.texels.size());
+  for (size_t i = 0; i < texture.texels.size(); ++i) {
+    const glm::vec4 texel = texelOf(texture, i);
+    const std::optional<uint8_t> red = srgbCode(texel.r);
+    const std::optional<uint8_t> green = srgbCode(texel.g);
+    const std::optional<uint8_t> blue = srgbCode(texel.b);
+    const float alpha = std::round(255.0f * texel.a);
+    if (!red || !green || !blue || texel.a != alpha / 255.0f) {
+      return std::nullopt;
+    }
+    codes.push_back(static_cast<uint32_t>(alpha) << 24 | uint32_t{*blue} << 16 | uint32_t{*green} << 8 | *red);
+  }
+  return codes;
 }
 
 gpu::MaterialData materialData(const Material& material, const EffectSettings& effects, double radianceScale,
@@ -53,10 +83,10 @@ SceneResources::SceneResources(Device& device, Uploader& uploader, const Scene& 
     : device_(device), uploader_(uploader), scene_(scene), descriptors_(device) {
   textureLayout_ = createDescriptorSetLayout(device, {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER},
                                              VK_SHADER_STAGE_FRAGMENT_BIT, "texture");
-  sampler_ = createSampler(device, {.addressMode = VK_SAMPLER_ADDRESS_MODE_REPEAT}, "texture");
+  makeSampler(false);
   noTexture_ = upload(Texture{.width = 1, .height = 1, .texels = {glm::vec3(1.0f)}}, "no texture");
   noTextureSet_ = descriptors_.allocate(textureLayout_.get());
-  DescriptorWriter().image(0, noTexture_.descriptor(sampler_.get())).update(device_, noTextureSet_);
+  writeTextureSets();
   createMeshes();
 }
 
@@ -65,7 +95,8 @@ void SceneResources::upload(Frame& frame, const Settings& settings, bool drawn) 
   const double scale = settings.view.radianceScale();
   const bool changed =
       !materials_ || textured != textured_ || settings.effects.transparency != transparent_ || scale != radianceScale_;
-  if (changed || (drawn && textures_.empty())) {
+  const bool anisotropic = settings.view.textureFilter == TextureFilter::anisotropic;
+  if (changed || anisotropic != anisotropic_ || (drawn && textures_.empty())) {
     // Waits for frames in flight before the upload, which waits only for its own fence.
     check(vkQueueWaitIdle(device_.queue()), "wait for the queue");
   }
@@ -73,9 +104,22 @@ void SceneResources::upload(Frame& frame, const Settings& settings, bool drawn) 
     frame.retired->take(materials_);
     createMaterials(settings.effects, scale);
   }
+  if (anisotropic != anisotropic_) {
+    makeSampler(anisotropic);
+    writeTextureSets();
+  }
   if (drawn && textures_.empty()) {
     createTextures();
   }
+}
+
+void SceneResources::makeSampler(bool anisotropic) {
+  sampler_ =
+      createSampler(device_,
+                    {.addressMode = VK_SAMPLER_ADDRESS_MODE_REPEAT,
+                     .anisotropy = anisotropic ? device_.anisotropy(static_cast<float>(gpu::mostAnisotropy)) : 1.0f},
+                    "texture");
+  anisotropic_ = anisotropic;
 }
 
 void SceneResources::prepare(Frame& frame, const Settings& settings, bool drawn) {
@@ -97,17 +141,31 @@ Image SceneResources::upload(const Texture& texture, const std::string& name) {
                  small.width, small.height, largest);
     return upload(small, name);
   }
+  const VkExtent2D extent = extentOf(texture.width, texture.height);
+  if (const auto codes = uploader_.exactSrgb.value_or(false) ? srgbCodes(texture) : std::nullopt) {
+    return uploader_.image(std::as_bytes(std::span(*codes)), extent, VK_FORMAT_R8G8B8A8_SRGB, true, name);
+  }
   const std::vector<uint64_t> texels = halfTexels(texture);
-  return uploader_.image(std::as_bytes(std::span(texels)), extentOf(texture.width, texture.height), colorFormat, true,
-                         name);
+  return uploader_.image(std::as_bytes(std::span(texels)), extent, colorFormat, true, name);
 }
 
 void SceneResources::createTextures() {
+  if (!uploader_.exactSrgb) {
+    const float error = decodingError(uploader_.decodedSrgb());
+    uploader_.exactSrgb = error <= 0x1p-10f;
+    spdlog::info("textures are {}: the device decodes sRGB with an error of {:.3g} %",
+                 *uploader_.exactSrgb ? "sRGB of 8 bits" : "half floats", 100.0f * error);
+  }
   std::vector<Image> uploaded;  // moved into textures_ once all are there
   for (const Texture& texture : scene_.textures) {
     uploaded.push_back(upload(texture, "texture " + texture.source.filename().string()));
   }
   textures_ = std::move(uploaded);
+  writeTextureSets();
+}
+
+void SceneResources::writeTextureSets() {
+  DescriptorWriter().image(0, noTexture_.descriptor(sampler_.get())).update(device_, noTextureSet_);
   for (size_t i = 0; i < textures_.size(); ++i) {
     if (i == textureSets_.size()) {
       textureSets_.push_back(descriptors_.allocate(textureLayout_.get()));
@@ -147,7 +205,7 @@ void SceneResources::createMaterials(const EffectSettings& effects, double radia
 uint64_t SceneResources::textureBytes() const {
   uint64_t bytes = 0;
   for (const Image& texture : textures_) {
-    bytes += 8 * areaOf(texture.extent()) * 4 / 3;  // RGBA16F; mip levels add a third
+    bytes += bytesOfTexel(texture.format()) * areaOf(texture.extent()) * 4 / 3;  // mip levels add a third
   }
   return bytes;
 }

@@ -50,6 +50,8 @@ class SceneResources {
  private:
   Image upload(const Texture& texture, const std::string& name);
   void createTextures();
+  void makeSampler(bool anisotropic);
+  void writeTextureSets();
   void createMeshes();
   void createMaterials(const EffectSettings& effects, double radianceScale);
 
@@ -65,6 +67,7 @@ class SceneResources {
   std::vector<VkDescriptorSet> textureSets_;  // made with textures_, kept when textures_ are dropped
   int idleFrames_ = 0;                        // since textures_ were drawn
   Buffer materials_;
+  bool anisotropic_ = false;    // sampler_ filters so
   bool textured_ = false;       // whether materials_ refer to textures
   bool transparent_ = false;    // whether materials_ have coverage
   double radianceScale_ = 1.0;  // of emission in materials_

@@ -105,7 +105,7 @@ void TexelProbe::probe(Frame& frame, Image& image, const VkDescriptorImageInfo& 
     slot.result = Buffer(device_, sizeof(gpu::ProbedTexel), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, BufferMemory::host,
                          "probe texel " + std::to_string(frame.index));
   }
-  slot.pending = {.texel = texel, .depth = image.format() == depthFormat};
+  slot.pending = {.texel = texel, .depth = image.aspect() == VK_IMAGE_ASPECT_DEPTH_BIT};
   slot.frame = frame.number;
   const VkDescriptorSet set = frame.descriptors->allocate(layout_.get());
   DescriptorWriter()

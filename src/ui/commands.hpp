@@ -113,6 +113,11 @@ struct EditNode {
   SceneNode node;          // of the target's kind
   bool continued = false;  // a widget is held: edits until EndEdit belong to one step of undo
 };
+struct EditCamera {
+  CameraSpec camera;
+  bool continued = false;  // as of EditNode
+};
+struct TakeView {};  // makes the view of the window the scene's camera
 struct EndEdit {};
 struct AddMirror {};
 struct AddLight {};
@@ -166,9 +171,9 @@ using Command =
                  MultiplyTimeSpeed, SetSettings, ResetSettings, ToggleSplit, ChooseHalf, ChooseOtherHalf, MoveDivider,
                  KeepHalf, NewScene, AskWhatToOpen, OpenScene, OpenDropped, CancelLoading, Save, AskWhereToSave, SaveAs,
                  DiscardChanges, CancelPrompt, Quit, SelectNode, ToggleNode, SelectNext, SetGizmoMode, NextGizmoMode,
-                 EditNode, EndEdit, AddMirror, AddLight, AddObject, DuplicateSelected, RemoveSelected, Undo, Redo,
-                 MeasureAccuracy, CancelMeasurement, ApplyPoint, TakeScreenshot, ToggleRecording, CopyCommandLine,
-                 CopyText, SetPresentMode, ToggleFullScreen, TogglePanel, ToggleHelp, ToggleInspector, Escape,
-                 DismissMessage, PauseHistory, ClearHistory, ClearLog>;
+                 EditNode, EditCamera, TakeView, EndEdit, AddMirror, AddLight, AddObject, DuplicateSelected,
+                 RemoveSelected, Undo, Redo, MeasureAccuracy, CancelMeasurement, ApplyPoint, TakeScreenshot,
+                 ToggleRecording, CopyCommandLine, CopyText, SetPresentMode, ToggleFullScreen, TogglePanel, ToggleHelp,
+                 ToggleInspector, Escape, DismissMessage, PauseHistory, ClearHistory, ClearLog>;
 
 }  // namespace speculum

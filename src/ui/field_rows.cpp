@@ -221,6 +221,10 @@ class FieldRows {
 
 }  // namespace
 
+bool fieldRows(PanelContext& ui, CameraSpec& camera) {
+  return FieldRows(ui).edit(camera, "camera.");
+}
+
 bool fieldRows(PanelContext& ui, SceneNode& node) {
   return std::visit(
       [&](auto& fields) {

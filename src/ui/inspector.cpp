@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "edit/new_nodes.hpp"
+#include "scene/scene_loader.hpp"
 #include "ui/panels.hpp"
 #include "ui/pass_tree.hpp"
 
@@ -197,6 +198,41 @@ bool mirrorQuality(PanelContext& ui, MirrorQuality& quality) {
   return edited;
 }
 
+// Draws the scene's camera. Numbers that give no view stay in the panel, with the reason.
+void cameraRows(PanelContext& ui) {
+  const CameraSpec& taken = ui.input.edit.scene->camera;
+  std::optional<PanelState::RefusedCamera>& refused = ui.state.refusedCamera;
+  if (refused && refused->taken != taken) {
+    refused.reset();
+  }
+  const bool open = ImGui::CollapsingHeader("Camera");
+  recordWidget(ui, "edit.camera", "The view with which the scene opens, and to which Reset camera returns.");
+  if (!open) {
+    return;
+  }
+  commandButton(ui, "Take this view", "edit.camera.take",
+                "Makes the window's view the scene's camera. If the camera orbited, it stands still.", TakeView{});
+  CameraSpec camera = refused ? refused->camera : taken;
+  ImGui::PushItemWidth(-9.2f * ImGui::GetFontSize());
+  if (fieldRows(ui, camera)) {
+    if (cameraProblem(camera)) {
+      refused = {camera, taken};
+    } else {
+      refused.reset();
+      ui.state.editing = ImGui::IsAnyItemActive();
+      ui.send(EditCamera{camera, ui.state.editing});
+    }
+  }
+  ImGui::PopItemWidth();
+  if (refused) {
+    ui.output.refusedEdit = true;
+    coloredText(errorColor, "Not applied: " + *cameraProblem(refused->camera));
+    if (button(ui, "Revert", "edit.camera.reset", "Returns to the scene's camera.")) {
+      refused.reset();
+    }
+  }
+}
+
 void selectedNode(PanelContext& ui) {
   const ShownEdit& edit = ui.input.edit;
   if (!edit.selected) {
@@ -258,6 +294,7 @@ void inspector(PanelContext& ui, PanelDock& dock) {
     addButtons(ui);
     historyButtons(ui);
     ImGui::Separator();
+    cameraRows(ui);
     selectedNode(ui);
   }
   ImGui::End();

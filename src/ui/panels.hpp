@@ -53,6 +53,13 @@ struct PanelState {
     std::optional<std::string> problem;  // why `vertices` are not a valid polygon: one line
   } polygon;
 
+  // A camera that was typed and gives no view.
+  struct RefusedCamera {
+    CameraSpec camera;
+    CameraSpec taken;  // the scene's camera meanwhile
+  };
+  std::optional<RefusedCamera> refusedCamera;
+
   const Scene* modelsOf = nullptr;             // scene that `model` was chosen for
   std::optional<std::filesystem::path> model;  // model to add next; none: `modelFile`
   std::string modelFile;                       // path that the user types
@@ -162,6 +169,7 @@ void recordWidget(PanelContext& ui, std::string_view key, const std::string& tip
 void settingRows(PanelContext& ui, std::string_view prefix);
 void settingWidget(const PanelContext& ui, const SettingField& field, Settings& settings);  // without tooltip
 bool fieldRows(PanelContext& ui, SceneNode& node);
+bool fieldRows(PanelContext& ui, CameraSpec& camera);
 // Draws a drop-down list. Returns true if the user chose another of `names`.
 bool choice(const char* label, int& index, std::span<const std::string> names);
 // Draws a color as linear numbers up to `most`, as files have them, and a swatch that opens a picker. Returns true if

@@ -184,6 +184,7 @@ void SimpleUI::initVulkan() {
   info.Device = device.get();
   info.QueueFamily = device.queueFamily();
   info.Queue = device.queue();
+  info.PipelineCache = renderer_.pipelineCache().get();
   info.DescriptorPool = pool_.get();
   info.MinImageCount = 2;
   info.ImageCount = std::max(renderer_.displayImageCount(), 3u);

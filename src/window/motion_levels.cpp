@@ -69,6 +69,7 @@ std::vector<MotionLevel> motionLevels(const Scene& scene, const Settings& chosen
   const auto add = [&](Settings settings, double error) {
     if (chosen.view.wireframe) {
       settings.view.scale = chosen.view.scale;  // lines would become as thick as the pixels
+      settings.reflection.scale = chosen.reflection.scale;
     }
     if (!sameMainView(settings, levels.back().settings)) {
       levels.push_back({settings, error});

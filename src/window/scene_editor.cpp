@@ -214,6 +214,17 @@ void SceneEditor::edit(const Selection& target, const SceneNode& node, bool cont
   }
 }
 
+void SceneEditor::editCamera(const CameraSpec& camera, bool continued) {
+  if (continued && !document_.inGesture()) {
+    document_.beginGesture();
+  }
+  beforeChange_();
+  document_.change("edit the camera", document_.selection(), [&](Scene& scene) { scene.camera = camera; });
+  if (!continued) {
+    endEdit();
+  }
+}
+
 void SceneEditor::endEdit() {
   if (!drag_ && document_.inGesture()) {
     document_.endGesture();

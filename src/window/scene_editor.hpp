@@ -47,6 +47,8 @@ class SceneEditor {
   void setMode(GizmoMode mode) { mode_ = mode; }
   void nextMode() { mode_ = static_cast<GizmoMode>((static_cast<int>(mode_) + 1) % 3); }
 
+  // Replaces the scene's camera by one that gives a view; `continued` as of edit().
+  void editCamera(const CameraSpec& camera, bool continued);
   // Replaces a node by one of its kind. With `continued` further edits until endEdit() belong to the same step of undo.
   // Nothing changes for an orbit whose axis has no direction.
   void edit(const Selection& target, const SceneNode& node, bool continued);

@@ -44,8 +44,15 @@ ShownDevice shownDevice(const Renderer& renderer, const Device& device) {
                    feature("sample shading", caps.sampleRateShading, "samples share a shading"),
                    feature("depth clamp", caps.depthClamp, "the near plane cuts"),
                    feature("wireframe", caps.fillModeNonSolid, "no wireframe"),
+                   feature("wide lines", caps.wideLines, "wireframe is one pixel wide"),
+                   feature("anisotropic filter", caps.anisotropy, "textures are filtered trilinearly"),
+                   feature("dynamic polygon mode", caps.dynamicPolygonMode, "wireframe has pipelines of its own"),
                    feature("ray queries", caps.rayQueries, "shaders trace all rays"),
                    feature("memory budget", caps.memoryBudget, "the size of the heaps is used")};
+  if (!renderer.headless()) {
+    view.features.push_back(
+        feature("UNORM surface", !renderer.copiesDisplay(), "sRGB only: pictures are copied into it"));
+  }
   const std::vector<PresentMode> modes = renderer.presentModes();
   for (const PresentMode mode : modes) {
     view.presentModes.emplace_back(presentModeName(mode));

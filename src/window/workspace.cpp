@@ -118,6 +118,14 @@ void Workspace::apply(const Command& command) {
                  [&](const SetGizmoMode& c) { editor_->setMode(c.mode); },
                  [&](const NextGizmoMode&) { editor_->nextMode(); },
                  [&](const EditNode& c) { editor_->edit(c.target, c.node, c.continued); },
+                 [&](const EditCamera& c) {
+                   editor_->editCamera(c.camera, c.continued);
+                   camera_.reset(scene().camera);
+                 },
+                 [&](const TakeView&) {
+                   const Bookmark view = camera_.bookmark(state(time()).camera, scene().camera);
+                   apply(EditCamera{cameraOf(view, scene().camera)});
+                 },
                  [&](const EndEdit&) { editor_->endEdit(); },
                  [&](const AddMirror&) { addNode(&SceneEditor::addMirror); },
                  [&](const AddLight&) { addNode(&SceneEditor::addLight); },
@@ -486,6 +494,7 @@ void Workspace::step(UndoWay way) {
   editor_->endEdit();
   const bool back = way == UndoWay::back;
   const std::string step = back ? document_->undoLabel() : document_->redoLabel();
+  const CameraSpec camera = scene().camera;
   if (const std::optional<SettingsStep> changed = editor_->step(way)) {
     if (changed->half >= 0) {
       chooseHalf(changed->half);
@@ -497,6 +506,9 @@ void Workspace::step(UndoWay way) {
         copySetting(field, back ? changed->before : changed->after, settings);
       }
     }
+  }
+  if (scene().camera != camera) {
+    camera_.reset(scene().camera);
   }
   accuracy_.acceptBudget(settings());
   status_.set(step.empty() ? (back ? "Nothing to undo" : "Nothing to redo") : (back ? "Undone: " : "Redone: ") + step);

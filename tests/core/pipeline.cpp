@@ -174,6 +174,48 @@ TEST_F(HotReload, CompileErrorKeepsTheOldPipeline) {
   EXPECT_EQ(cornerColor()[0], 16);
 }
 
+TEST_F(RendererTest, CopiesAndShadersDecodeSrgbAlike) {
+  std::array<uint32_t, 256> codes;
+  for (uint32_t i = 0; i < codes.size(); ++i) {
+    codes[i] = 0x010101u * i;
+  }
+  const Image image =
+      renderer_.uploader().image(std::as_bytes(std::span(codes)), {256, 1}, VK_FORMAT_R8G8B8A8_SRGB, false, "codes");
+  const SamplerHandle sampler = createSampler(device_, nearestSampler, "codes");
+  const Buffer buffer(device_, 256 * sizeof(float), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, BufferMemory::host, "decoded");
+  const DescriptorSetLayoutHandle layout =
+      createDescriptorSetLayout(device_, {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
+                                VK_SHADER_STAGE_COMPUTE_BIT, "decode");
+  const Pipeline pipeline(renderer_.pipelines(),
+                          ComputePipelineDesc{.name = "decode", .comp = "decode.comp", .setLayouts = {layout.get()}});
+  Frame frame = renderer_.beginFrame().value();
+  const VkDescriptorSet set = frame.descriptors->allocate(layout.get());
+  DescriptorWriter()
+      .image(0, image.descriptor(sampler.get()))
+      .buffer(1, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, buffer.descriptor())
+      .update(device_, set);
+  pipeline.bind(frame.commands);
+  pipeline.bindSet(frame.commands, 0, set);
+  vkCmdDispatch(frame.commands, 1, 1, 1);
+  Barriers::computeToHost(frame.commands);
+  renderer_.endFrame(frame);
+  renderer_.waitIdle();
+  std::array<float, 256> read;
+  std::memcpy(read.data(), buffer.mapped(), buffer.bytes());
+  const std::array<float, 256> copied = renderer_.uploader().decodedSrgb();
+  double apart = 0.0;
+  double error = 0.0;  // in steps of 8 bits
+  for (size_t i = 0; i < read.size(); ++i) {
+    const double x = read[i];
+    const double code = 255.0 * (x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1.0 / 2.4) - 0.055);
+    error = std::max(error, std::abs(code - static_cast<double>(i)));
+    apart = std::max(apart, std::abs(x - static_cast<double>(copied[i])) / std::max(x, 1e-4));
+  }
+  std::printf("sRGB is decoded with an error of %.3f of a step; copies differ by %.2e\n", error, apart);
+  EXPECT_LT(error, 0.5) << "codes survive";
+  EXPECT_LT(apart, 1e-3);
+}
+
 TEST(ShaderLibrary, ErrorsNameTheFileOrDirectory) {
   Device device({});
   ShaderLibrary library(device, binaryDir() / "tests" / "shaders");

@@ -147,6 +147,58 @@ TEST(WindowCapture, NeedsNoCopyableSwapchain) {
   unsetenv("VK_INSTANCE_LAYERS");
 }
 
+// What is read back is what is copied into the window.
+TEST(WindowFormats, SurfacesWithSrgbOnlyShowTheSame) {
+  const VirtualDisplay display;
+  Window window(WindowOptions{.width = 64, .height = 48});
+  const DeviceOptions options = deviceFor(window);
+  const auto draw = [&](const std::string& hidden) {
+    setEnvironment("VK_ADD_LAYER_PATH", (binaryDir() / "tests" / "fault_layer").string());
+    setEnvironment("VK_INSTANCE_LAYERS", "VK_LAYER_SPECULUM_fault");
+    setEnvironment("SPECULUM_HIDE", hidden);
+    std::vector<uint8_t> pixels;
+    {
+      Device device(options);
+      Renderer renderer(device, inWindow(window));
+      EXPECT_EQ(renderer.copiesDisplay(), contains(hidden, "unorm_formats"));
+      SmallScene scene(renderer, renderer.displayExtent(), 4);
+      for (int i = 0; i < 9; ++i) {
+        window.pollEvents();
+        EXPECT_TRUE(scene.frame(i % 4 > 1)) << i;
+      }
+      pixels = renderer.readback().rgba;
+      EXPECT_EQ(device.validationMessages(), 0) << messagesOf(device);
+    }
+    unsetenv("VK_INSTANCE_LAYERS");
+    return pixels;
+  };
+  const std::vector<uint8_t> plain = draw("");
+  EXPECT_EQ(draw("unorm_formats"), plain);
+  EXPECT_EQ(draw("unorm_formats transfer_src"), plain);
+}
+
+TEST(WindowLog, NewSwapchainsAndErrorsOfGlfwAreSaid) {
+  const VirtualDisplay display;
+  const LogCapture log;
+  Window window(WindowOptions{.width = 64, .height = 48});
+  Device device(deviceFor(window));
+  Renderer renderer(device, inWindow(window));
+  EXPECT_TRUE(contains(log.text(), "info: swapchain of ")) << log.text();
+  EXPECT_TRUE(contains(log.text(), ", 64x48, immediate")) << log.text();
+  window.resize(80, 60);
+  ASSERT_TRUE(waitUntil(window, [&] {
+    renderer.waitIdle();
+    if (std::optional<Frame> frame = renderer.beginFrame()) {
+      { const PassScope pass = renderer.beginPass(*frame, fullPass("test", renderer.displayTargets(*frame))); }
+      renderer.endFrame(*frame);
+    }
+    return renderer.displayExtent().width == 80;
+  }));
+  EXPECT_TRUE(contains(log.text(), ", 80x60, immediate")) << log.text();
+  glfwWindowHint(-1, 0);
+  EXPECT_TRUE(contains(log.text(), "info: GLFW: Invalid window hint")) << log.text();
+}
+
 TEST(WindowOptions, FifoIsAlwaysOffered) {
   const VirtualDisplay display;
   Window window(WindowOptions{.width = 64, .height = 48});

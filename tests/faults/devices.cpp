@@ -1,5 +1,6 @@
 // Devices that lack what others have: hidden by fault_layer/fault_layer.cpp.
 #include "faults/support.hpp"
+#include "image/picture_files.hpp"
 
 namespace speculum {
 namespace {
@@ -28,10 +29,11 @@ TEST_F(Devices, WithoutWhatIsOptionalDrawAll) {
   auto withoutRays = render;
   withoutRays.options.insert(withoutRays.options.end(), {"--set", "effects.shadows=false"});
   const Run plain = run(withoutRays, {});
-  const Run poor = run(withoutRays,
-                       {"SPECULUM_HIDE=storage_buffers=4 timestamps statistics precise_counts primitive_id depth_clamp "
-                        "sample_shading lines VK_EXT_memory_budget"},
-                       Place::inner);
+  const Run poor =
+      run(withoutRays,
+          {"SPECULUM_HIDE=storage_buffers=4 timestamps statistics precise_counts primitive_id depth_clamp "
+           "sample_shading lines wide_lines anisotropy VK_EXT_extended_dynamic_state3 VK_EXT_memory_budget"},
+          Place::inner);
   expectQuiet(poor);
   EXPECT_TRUE(poor.picture == plain.picture);
 }
@@ -99,6 +101,7 @@ TEST_F(Devices, TooLittleIsOneLine) {
        {Case{render, "clip_distance", "lacks shaderClipDistance"}, Case{render, "graphics", "lacks a queue that draws"},
         Case{window, "present", "lacks a queue that presents to this window"},
         Case{render, "allocations=30", "the device takes 30 allocations"},
+        Case{render, "signals", "has not finished within a minute"},
         Case{render, "image_side=40", "the device takes at most 40 a side"}}) {
     const Run poor = run(kind, {"SPECULUM_HIDE=" + lacks}, Place::inner);
     EXPECT_EQ(poor.exitCode, 2) << lacks;
@@ -106,6 +109,72 @@ TEST_F(Devices, TooLittleIsOneLine) {
     EXPECT_TRUE(contains(poor.output, says));
     EXPECT_FALSE(poor.picture) << lacks;
   }
+}
+
+TEST_F(Devices, MissingFunctionsAreNamed) {
+  for (const std::string function : {"vkCmdSetCullMode", "vkCmdBeginRendering"}) {
+    const Run poor = run(render, {"SPECULUM_HIDE=" + function});
+    EXPECT_EQ(poor.exitCode, 2) << function;
+    EXPECT_EQ(poor.lines, 1) << poor.output;
+    EXPECT_TRUE(contains(poor.output, "does not return " + function)) << poor.output;
+  }
+}
+
+TEST_F(Devices, OtherDepthFormatsDraw) {
+  const Run plain = run(render, {});
+  for (const char* path : {"dynamic", "renderpass"}) {
+    Kind kind = render;
+    kind.options.insert(kind.options.end(), {"--render-path", path});
+    const Run stencil = run(kind, {"SPECULUM_HIDE=D32"}, Place::inner);
+    expectQuiet(stencil);
+    EXPECT_TRUE(stencil.picture == plain.picture) << path;
+    const Run fixed = run(kind, {"SPECULUM_HIDE=D32 D32_S8"}, Place::inner);
+    EXPECT_EQ(fixed.exitCode, 0);
+    EXPECT_EQ(fixed.lines, 1) << fixed.output;
+    EXPECT_TRUE(contains(fixed.output, "has no 32 bit depth")) << fixed.output;
+    ASSERT_TRUE(fixed.picture);
+    const PictureAgreement agreement =
+        difference(decodeTexture("fixed", *fixed.picture), decodeTexture("plain", plain.picture.value()), 2);
+    EXPECT_TRUE(agreement.holds()) << path << ": " << agreement.over;
+  }
+}
+
+TEST_F(Devices, WithoutWideLinesSaySo) {
+  const auto wire = [&](const char* width) {
+    return withSettings(render, {"view.wireframe=true", std::string("view.line_width=") + width});
+  };
+  const Run thin = run(wire("1"), {});
+  const Run poor = run(wire("5"), {"SPECULUM_HIDE=wide_lines"}, Place::inner);
+  EXPECT_EQ(poor.exitCode, 0);
+  EXPECT_EQ(poor.lines, 1) << poor.output;
+  EXPECT_TRUE(contains(poor.output, "has no lines 5 pixels wide: 1 is used")) << poor.output;
+  EXPECT_TRUE(poor.picture == thin.picture);
+  expectQuiet(run(wire("5"), {"SPECULUM_HIDE=VK_EXT_extended_dynamic_state3"}, Place::inner));
+}
+
+TEST_F(Devices, WithoutAnisotropicFilterAreTrilinear) {
+  const auto with = [&](const char* filter) {
+    return withSettings(render, {std::string("view.texture_filter=") + filter, "effects.shadows=false"});
+  };
+  const Run trilinear = run(with("trilinear"), {});
+  const Run poor = run(with("anisotropic"), {"SPECULUM_HIDE=anisotropy"}, Place::inner);
+  EXPECT_EQ(poor.exitCode, 0);
+  EXPECT_EQ(poor.lines, 1) << poor.output;
+  EXPECT_TRUE(contains(poor.output, "has no anisotropic filter")) << poor.output;
+  EXPECT_TRUE(poor.picture == trilinear.picture);
+}
+
+TEST_F(Devices, NoImageForAMinuteIsSaid) {
+  const Run covered = run(window, {"SPECULUM_HIDE=images=70"}, Place::inner);
+  EXPECT_EQ(covered.exitCode, 0);
+  EXPECT_EQ(covered.lines, 1) << covered.output;
+  EXPECT_TRUE(contains(covered.output, "no image to draw into for a minute")) << covered.output;
+}
+
+TEST_F(Devices, EveryPipelineGoesThroughTheCache) {
+  std::map<std::string, int> calls = callsOf(window);
+  EXPECT_GT(calls["vkCreateGraphicsPipelines"], 3);
+  EXPECT_EQ(calls.at("pipelines_without_cache"), 0) << "those of Dear ImGui too";
 }
 
 // Also in the window, without a budget and while debug.check_finite is on, so that no system ends a draw for taking

@@ -1,4 +1,8 @@
 #include "image/color.hpp"
+
+#include <cmath>
+#include <limits>
+
 #include "image/image.hpp"
 #include "test_headers.hpp"
 
@@ -33,6 +37,18 @@ TEST(Srgb, EveryCodeSurvivesDecodingAndDisplay) {
     LinearImage image(1, 1);
     image.at(0, 0) = glm::vec3(static_cast<float>(srgbDecode(code / 255.0)));
     EXPECT_EQ(toDisplay(image).at(0, 0)[0], code);
+  }
+}
+
+TEST(Srgb, CodesAreFoundByTheirExactValue) {
+  for (int code = 0; code < 256; ++code) {
+    const float value = srgbDecoded()[static_cast<size_t>(code)];
+    EXPECT_EQ(srgbCode(value), code);
+    EXPECT_EQ(srgbCode(std::nextafter(value, 2.0f)), std::nullopt) << code;
+    EXPECT_EQ(srgbCode(std::nextafter(value, -1.0f)), std::nullopt) << code;
+  }
+  for (const float value : {-0.5f, 0.3f, 1.5f, std::numeric_limits<float>::infinity(), std::nanf("")}) {
+    EXPECT_EQ(srgbCode(value), std::nullopt) << value;
   }
 }
 

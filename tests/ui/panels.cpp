@@ -1216,6 +1216,28 @@ TEST_F(Inspector, DraggedNumbersAreOneContinuedEdit) {
   EXPECT_NE(std::get<Mirror>(clickFor<EditNode>("edit.two_sided", 0.1).node).twoSided, scene_.mirrors[0].twoSided);
 }
 
+TEST_F(Inspector, CameraHasNumbers) {
+  scene_.camera = {.position = {0, 0, 1}, .target = {0, 0, 0}};
+  run(2);
+  click("edit.camera");
+  for (const char* row : {"position", "target", "up", "vertical_fov", "near", "orbit_speed"}) {
+    EXPECT_TRUE(has(std::string("edit.camera.") + row)) << row;
+  }
+  drag("edit.camera.target", 0.1, 40);
+  ASSERT_TRUE(sent<EditCamera>());
+  const auto& first = std::get<EditCamera>(commands_.front());
+  EXPECT_TRUE(first.continued);
+  EXPECT_GT(first.camera.target.x, 0.0);
+  EXPECT_TRUE(sent<EndEdit>());
+  clickFor<TakeView>("edit.camera.take");
+  commands_.clear();
+  typeNumber("edit.camera.up", 0.38, "0");
+  EXPECT_FALSE(sent<EditCamera>());
+  EXPECT_TRUE(shows("Not applied: up: has no direction"));
+  click("edit.camera.reset");
+  EXPECT_FALSE(shows("Not applied"));
+}
+
 TEST_F(Inspector, ClickedNumbersAreTyped) {
   selectMirror(0);
   const glm::dvec3 before = scene_.mirrors[0].position;

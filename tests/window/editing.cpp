@@ -227,6 +227,40 @@ TEST_F(Editing, DuplicatesAndFramesStayBetweenPanels) {
   EXPECT_NEAR(focalPixels * seen.x / -seen.z, -width / 4.0, 30.0);
 }
 
+TEST_F(Editing, CameraIsEditedUndoneAndSaved) {
+  const CameraSpec before = scene().camera;
+  CameraSpec edited = before;
+  for (int i = 1; i <= 3; ++i) {
+    edited.position.x += 0.25;
+    edited.verticalFov += 5.0;
+    send(EditCamera{edited, true});
+  }
+  send(EndEdit{});
+  EXPECT_EQ(scene().camera, edited);
+  EXPECT_EQ(camera().eye, edited.position) << "the window shows it";
+  EXPECT_EQ(edit().undo, "edit the camera");
+  EXPECT_EQ(saved().camera, edited);
+  send(Undo{});
+  EXPECT_EQ(scene().camera, before);
+  EXPECT_EQ(camera().eye, before.position);
+  send(Redo{});
+  EXPECT_EQ(camera().eye, edited.position);
+  EXPECT_EQ(camera().verticalFov, glm::radians(edited.verticalFov));
+}
+
+TEST_F(Editing, CameraTakesTheView) {
+  workspace_->moveCamera({1.0, 0.5, -0.25}, {}, 0.5);
+  frame();
+  const CameraPose moved = camera();
+  ASSERT_NE(moved.eye, scene().camera.position);
+  send(TakeView{});
+  EXPECT_EQ(scene().camera.position, moved.eye);
+  send(ResetCamera{});
+  expectNear(camera().eye, moved.eye);
+  expectNear(glm::dvec3(glm::transpose(camera().worldToView)[2]), glm::dvec3(glm::transpose(moved.worldToView)[2]));
+  expectNear(saved().camera.position, moved.eye);
+}
+
 TEST_F(Editing, ContinuedEditsAreOneStep) {
   clickBall();
   Object edited = object();

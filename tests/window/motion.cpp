@@ -263,11 +263,13 @@ TEST(MotionLevels, WireframeKeepsItsResolution) {
   Settings chosen;
   chosen.view.wireframe = true;
   std::vector<MotionLevel> front(1);
-  front[0].settings.view.scale = 0.25;
+  front[0].settings.view.scale = front[0].settings.reflection.scale = 0.25;
   front[0].settings.view.samples = 1;
   const std::vector<MotionLevel> levels = motionLevels({}, chosen, front, 1 + 2 + 4);
   EXPECT_GT(levels.size(), 1u);
-  EXPECT_TRUE(std::ranges::all_of(levels, [](const MotionLevel& level) { return level.settings.view.scale == 1.0; }));
+  EXPECT_TRUE(std::ranges::all_of(levels, [](const MotionLevel& level) {
+    return level.settings.view.scale == 1.0 && level.settings.reflection.scale == 1.0;
+  }));
 }
 
 // Whatever mirrors ask for themselves, no level raises it, and the last one draws them as cheaply as the others.

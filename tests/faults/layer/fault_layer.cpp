@@ -2,8 +2,10 @@
 //   SPECULUM_FAULT        "FUNCTION N RESULT": the N-th call (from 1) returns RESULT, a number; VK_INCOMPLETE from the
 //                         first call from there on that asks for more than a count
 //   SPECULUM_FAULT_AFTER  a file: calls before it exists do not fail
-//   SPECULUM_FAULT_CALLS  a file that gets a line "FUNCTION CALLS" for each function when the instance ends
-//   SPECULUM_HIDE         words for what the devices lack: NAME, NAME=VALUE, NAME@DEVICE; see hidden() and limited()
+//   SPECULUM_FAULT_CALLS  a file that gets a line "FUNCTION CALLS" for each function when the instance ends, and a line
+//                         "pipelines_without_cache CALLS"
+//   SPECULUM_HIDE         words for what the devices lack: NAME, NAME=VALUE, NAME@DEVICE; see hidden() and limited().
+//                         The name of a function: there is none
 // It supports one instance with one device at a time.
 #include <unistd.h>
 #include <vulkan/vk_layer.h>
@@ -91,7 +93,8 @@ struct State {
   PFN_vkGetDeviceProcAddr nextDeviceProc = nullptr;
   std::vector<VkPhysicalDevice> devices;
   bool lost = false;
-  bool addsFamily = false;  // to the device
+  bool addsFamily = false;            // to the device
+  std::atomic<int> withoutCache = 0;  // graphics pipelines
   VkQueue queue = VK_NULL_HANDLE;
   PresentQueue presentQueue;
 };
@@ -139,6 +142,8 @@ void hide(VkPhysicalDevice device, VkPhysicalDeviceFeatures& features) {
   off("sample_shading", features.sampleRateShading);
   off("depth_clamp", features.depthClamp);
   off("lines", features.fillModeNonSolid);
+  off("wide_lines", features.wideLines);
+  off("anisotropy", features.samplerAnisotropy);
   off("precise_counts", features.occlusionQueryPrecise);
   off("statistics", features.pipelineStatisticsQuery);
 }
@@ -241,7 +246,9 @@ VkResult forward(vkGetPhysicalDeviceImageFormatProperties_, VkPhysicalDevice dev
   const char* sampled =
       usage & VK_IMAGE_USAGE_SAMPLED_BIT ? depth ? "sampled_depth_samples" : "sampled_color_samples" : "";
   properties->sampleCounts &= limited(sampled, device).value_or(~0u);
-  return result;
+  const bool lacks = (format == VK_FORMAT_D32_SFLOAT && hidden("D32", device)) ||
+                     (format == VK_FORMAT_D32_SFLOAT_S8_UINT && hidden("D32_S8", device));
+  return lacks ? VK_ERROR_FORMAT_NOT_SUPPORTED : result;
 }
 VkResult forward(vkGetPhysicalDeviceSurfaceSupportKHR_, VkPhysicalDevice device, uint32_t family, VkSurfaceKHR surface,
                  VkBool32* presents) {
@@ -263,6 +270,23 @@ VkResult forward(vkGetPhysicalDeviceSurfaceCapabilitiesKHR_, VkPhysicalDevice de
   return result;
 }
 
+VkResult forward(vkGetPhysicalDeviceSurfaceFormatsKHR_, VkPhysicalDevice device, VkSurfaceKHR surface, uint32_t* count,
+                 VkSurfaceFormatKHR* formats) {
+  if (!hidden("unorm_formats", device)) {
+    return next<vkGetPhysicalDeviceSurfaceFormatsKHR_>(device, surface, count, formats);
+  }
+  std::array<VkSurfaceFormatKHR, 64> all;
+  uint32_t found = all.size();
+  const VkResult result = next<vkGetPhysicalDeviceSurfaceFormatsKHR_>(device, surface, &found, all.data());
+  const auto end = std::remove_if(all.begin(), all.begin() + found, [](const VkSurfaceFormatKHR& format) {
+    return format.format == VK_FORMAT_B8G8R8A8_UNORM || format.format == VK_FORMAT_R8G8B8A8_UNORM;
+  });
+  const auto left = static_cast<uint32_t>(end - all.begin());
+  *count = formats ? std::min(*count, left) : left;
+  std::copy_n(all.begin(), formats ? *count : 0, formats);
+  return result;
+}
+
 void forward(vkGetDeviceQueue_, VkDevice device, uint32_t family, uint32_t index, VkQueue* queue) {
   const bool made = state.addsFamily && family == 1;
   next<vkGetDeviceQueue_>(device, made ? 0 : family, index, queue);
@@ -272,11 +296,26 @@ void forward(vkGetDeviceQueue_, VkDevice device, uint32_t family, uint32_t index
     *queue = reinterpret_cast<VkQueue>(&state.presentQueue);
   }
 }
-// Refuses to wait for ever, as a window that is covered would.
-VkResult forward(vkAcquireNextImageKHR_, VkDevice device, VkSwapchainKHR swapchain, uint64_t timeout,
+// With images=N, no image is free at first, N times.
+VkResult forward(vkAcquireNextImageKHR_ tag, VkDevice device, VkSwapchainKHR swapchain, uint64_t timeout,
                  VkSemaphore semaphore, VkFence fence, uint32_t* index) {
+  if (decltype(tag)::function.calls <= static_cast<int>(limited("images", VK_NULL_HANDLE).value_or(0))) {
+    return VK_TIMEOUT;
+  }
+  // Refuses to wait for ever, as a window that is covered would.
   return timeout == UINT64_MAX ? VK_ERROR_UNKNOWN
                                : next<vkAcquireNextImageKHR_>(device, swapchain, timeout, semaphore, fence, index);
+}
+// With signals, no fence is ever signalled, and time flies.
+VkResult forward(vkWaitForFences_, VkDevice device, uint32_t count, const VkFence* fences, VkBool32 all,
+                 uint64_t timeout) {
+  return hidden("signals", VK_NULL_HANDLE) ? VK_TIMEOUT : next<vkWaitForFences_>(device, count, fences, all, timeout);
+}
+VkResult forward(vkCreateGraphicsPipelines_, VkDevice device, VkPipelineCache cache, uint32_t count,
+                 const VkGraphicsPipelineCreateInfo* infos, const VkAllocationCallbacks* callbacks,
+                 VkPipeline* pipelines) {
+  state.withoutCache += cache == VK_NULL_HANDLE;
+  return next<vkCreateGraphicsPipelines_>(device, cache, count, infos, callbacks, pipelines);
 }
 VkResult forward(vkQueuePresentKHR_, VkQueue queue, const VkPresentInfoKHR* info) {
   const bool made = queue == reinterpret_cast<VkQueue>(&state.presentQueue);
@@ -374,6 +413,7 @@ void forward(vkDestroyInstance_, VkInstance instance, const VkAllocationCallback
     for (const Function* function : functions) {
       stream << function->name << ' ' << function->calls << '\n';
     }
+    stream << "pipelines_without_cache " << state.withoutCache << '\n';
   }
   for (Function* function : functions) {
     function->next = nullptr;
@@ -424,7 +464,7 @@ VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL deviceProc(VkDevice device, const char*
   if (std::strcmp(name, "vkGetDeviceProcAddr") == 0) {
     return reinterpret_cast<PFN_vkVoidFunction>(&deviceProc);
   }
-  const PFN_vkVoidFunction below = state.nextDeviceProc(device, name);
+  const PFN_vkVoidFunction below = hidden(name, VK_NULL_HANDLE) ? nullptr : state.nextDeviceProc(device, name);
   Function* function = find(name);
   if (!below || !function) {
     return below;
@@ -441,8 +481,9 @@ VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL instanceProc(VkInstance instance, const
     return reinterpret_cast<PFN_vkVoidFunction>(&deviceProc);
   }
   Function* function = find(name);
-  const PFN_vkVoidFunction below =
-      instance && state.nextInstanceProc ? state.nextInstanceProc(instance, name) : nullptr;
+  const PFN_vkVoidFunction below = instance && state.nextInstanceProc && !hidden(name, VK_NULL_HANDLE)
+                                       ? state.nextInstanceProc(instance, name)
+                                       : nullptr;
   if (!function || (!below && instance && function != &vkCreateInstance_::function)) {
     return below;
   }

@@ -1,0 +1,105 @@
+#include "image/color.hpp"
+#include "image/picture_files.hpp"
+#include "made_pictures.hpp"
+#include "scene_text.hpp"
+#include "studio.hpp"
+
+namespace speculum {
+namespace {
+
+using namespace testing_support;
+
+constexpr PictureSize floorSize{160, 90};
+
+// A square of two metres with a texture, repeated so many times; `rest` adds camera and lights.
+std::filesystem::path squareWith(const std::string& name, const Image8& texture, int repeats, const std::string& rest) {
+  writePng(sceneDirectory() / (name + ".png"), texture);
+  writeModel(name + ".mtl", "newmtl m\nKd 1 1 1\nmap_Kd " + name + ".png\n");
+  const std::string n = std::to_string(repeats);
+  writeModel(name + ".obj", "mtllib " + name + ".mtl\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nvt 0 0\nvt " + n +
+                                " 0\nvt " + n + " " + n + "\nvt 0 " + n + "\nusemtl m\nf 1/1 2/2 3/3 4/4\n");
+  return writeScene(name, rest);
+}
+
+// Shadows of a dim light are traced, so that rays shade everything.
+const std::string byRays = "[[light]]\nposition = [0, 5, 5]\nintensity = 0.01\ncasts_shadow = true\n";
+
+class TextureFilters : public testing::TestWithParam<bool> {
+ protected:
+  std::string rest() const { return GetParam() ? byRays : ""; }
+};
+
+TEST_P(TextureFilters, NearestShowsTexels) {
+  const Image8 texture = madePicture(8, 4, [](int x, int y) { return glm::ivec4(30 * x + 5, 60 * y + 9, 200, 255); });
+  Studio studio(headless(squareWith("texels", texture, 1,
+                                    "[camera]\nposition = [0, 0, 1]\ntarget = [0, 0, 0]\n"
+                                    "vertical_fov = 90\n[environment]\nambient = [1, 1, 1]\n[[object]]\n"
+                                    "model = \"texels.obj\"\n" +
+                                        rest()),
+                         {96, 96}, {{"view.texture_filter", "nearest"}, {"view.samples", "1"}}));
+  const Image8 picture = studio.fresh();
+  EXPECT_EQ(studio.plan.effects.any(), GetParam());
+  for (int y = 0; y < 96; ++y) {
+    for (int x = 0; x < 96; ++x) {
+      const uint8_t* expected = texture.at(x * 8 / 96, y * 4 / 96);
+      for (int channel = 0; channel < 3; ++channel) {
+        ASSERT_NEAR(picture.at(x, y)[channel], expected[channel], 1) << x << " " << y;
+      }
+    }
+  }
+}
+
+// Stripes along a floor that is seen at a grazing angle.
+TEST_P(TextureFilters, AnisotropicIsSharperThanTrilinear) {
+  const Image8 texture =
+      madePicture(32, 32, [](int x, int) { return glm::ivec4(glm::ivec3(x % 16 < 8 ? 20 : 230), 255); });
+  const std::filesystem::path file =
+      squareWith("stripes", texture, 12,
+                 "[camera]\nposition = [0, 0.12, 1.2]\ntarget = [0, 0, 0]\n[environment]\n"
+                 "ambient = [1, 1, 1]\n[[object]]\nmodel = \"stripes.obj\"\nrotation = [-90, 0, 0]\n" +
+                     rest());
+  const auto drawn = [&](const char* filter, const char* pictures) {
+    QuietSession session(headless(file, floorSize, {{"view.texture_filter", filter}, {"view.accumulate", pictures}}));
+    return drawRadiance(session);
+  };
+  const LinearImage truth = drawn("bilinear", "64");
+  const auto errorOf = [&](const char* filter) { return rootMeanSquare(drawn(filter, "1"), truth); };
+  const double trilinear = errorOf("trilinear");
+  EXPECT_GT(trilinear, 0.01);
+  EXPECT_LT(errorOf("anisotropic"), 0.8 * trilinear);
+  EXPECT_GT(errorOf("nearest"), errorOf("bilinear"));
+}
+
+INSTANTIATE_TEST_SUITE_P(Shading, TextureFilters, testing::Values(false, true),
+                         [](const auto& info) { return info.param ? "Rays" : "Draws"; });
+
+TEST(TextureFormat, EightBitsStayWhereTheDeviceDecodesThemExactly) {
+  Uploader& uploader = Gpu::shared().renderer.uploader();
+  const Image8 texture = madePicture(64, 64, [](int x, int y) { return glm::ivec4(4 * x, 4 * y, x ^ y, 255); });
+  const std::filesystem::path file = squareWith("codes", texture, 1,
+                                                "[camera]\nposition = [0, 0, 1]\ntarget = [0, 0, 0]\n"
+                                                "vertical_fov = 90\n[environment]\nambient = [1, 1, 1]\n[[object]]\n"
+                                                "model = \"codes.obj\"\n");
+  const auto bytesPerTexel = [&](std::optional<bool> exact) {
+    uploader.exactSrgb = exact;
+    Studio studio(headless(file, {64, 64}, {{"view.samples", "1"}, {"debug.check_finite", "false"}}));
+    const Image8 picture = studio.fresh();
+    for (int i = 0; i < 64 * 64; ++i) {
+      for (int channel = 0; channel < 3; ++channel) {
+        EXPECT_NEAR(picture.rgba[4 * i + channel], texture.rgba[4 * i + channel], 1) << i;
+      }
+    }
+    return studio.sceneRenderer.ledger()[EffectKind::textures].bytes * 3 / 4 / (64 * 64);
+  };
+  EXPECT_EQ(bytesPerTexel(true), 4u);
+  EXPECT_EQ(bytesPerTexel(false), 8u);
+  double error = 0.0;
+  const std::array<float, 256> decoded = uploader.decodedSrgb();
+  for (size_t code = 1; code < decoded.size(); ++code) {
+    error = std::max(error, std::abs(decoded[code] / srgbDecode(static_cast<double>(code) / 255.0) - 1.0));
+  }
+  EXPECT_EQ(bytesPerTexel(std::nullopt), error <= 0x1p-10 ? 4u : 8u) << "error " << error;
+}
+
+}  // namespace
+}  // namespace speculum

@@ -1,0 +1,96 @@
+#include "sampling.hpp"
+#include "scene_text.hpp"
+#include "studio.hpp"
+
+namespace speculum {
+namespace {
+
+using namespace testing_support;
+
+constexpr PictureSize wireSize{240, 136};
+
+long lit(const Image8& picture) {
+  const std::vector<bool> black = blackPixels(picture);
+  return std::ranges::count(black, false);
+}
+
+// Random objects behind the eye, which a mirror shows; some are too near its edges to be seen but for thick lines.
+std::filesystem::path sceneBehind(Random& random) {
+  std::ostringstream toml;
+  toml << "[camera]\nposition = [0, 0, 4]\ntarget = [0, 0, 0]\nvertical_fov = 60\n[environment]\n"
+          "ambient = [1, 1, 1]\n[[mirror]]\nposition = [0, 0, -2]\nsize = [1.5, 1.1]\n";
+  const std::array models{"block", "torus_knot", "teapot", "sphere"};
+  for (int i = 0; i < 8; ++i) {
+    toml << "[[object]]\nmodel = \"MODELS/" << models[static_cast<size_t>(i) % models.size()] << ".obj\"\nposition = "
+         << text(glm::dvec3(random.uniform(-3, 3), random.uniform(-2, 2), random.uniform(6, 9)))
+         << "\nrotation = " << text(random.inBox(180.0)) << "\nscale = " << random.uniform(0.2, 1.2) << "\n";
+  }
+  return writeScene("behind", toml.str());
+}
+
+// An image as large as a wall shows, at the pixels of a small mirror, what the mirror shows.
+TEST(Wireframe, WideLinesReachIntoImages) {
+  Random random(21);
+  const int scenes = fullTests() ? 200 : 6;
+  for (int i = 0; i < scenes; ++i) {
+    Studio studio(headless(sceneBehind(random), wireSize, {{"view.wireframe", "true"}, {"view.line_width", "13"}}));
+    studio.settings.view.samples = studio.settings.reflection.samples = i % 2 == 0 ? 1 : 4;
+    studio.settings.debug.cullClusters = i % 3 != 0;
+    const Image8 small = studio.fresh();
+    studio.scene.mirrors[0].size = {30.0, 30.0};
+    studio.settings.debug.cullClusters = studio.settings.debug.maskPasses = false;
+    const Image8 wall = studio.fresh();
+    const double scale = wireSize.height / (2.0 * std::tan(glm::radians(30.0)) * 6.0);  // pixels a metre in the mirror
+    const glm::ivec2 half(glm::floor(0.5 * scale * glm::dvec2(1.5, 1.1) - 2.0));
+    std::vector<bool> counts(static_cast<size_t>(wireSize.width * wireSize.height));
+    for (int y = -half.y; y < half.y; ++y) {
+      for (int x = -half.x; x < half.x; ++x) {
+        counts[static_cast<size_t>((wireSize.height / 2 + y) * wireSize.width + wireSize.width / 2 + x)] = true;
+      }
+    }
+    const PictureAgreement agreement = difference(small, wall, 1, counts);
+    EXPECT_GT(agreement.counted, 500u);
+    if (agreement.over > 0) {
+      ADD_FAILURE() << "scene " << i << ": " << agreement.over << " pixels";
+      writeEvidence(small, wall, "wide_lines_" + std::to_string(i));
+    }
+  }
+}
+
+TEST(Wireframe, LinesAreAsWideAsAsked) {
+  Studio studio(headless(writeScene("block", R"(
+[camera] position = [0, 0, 4], target = [0, 0, 0]
+[environment] ambient = [1, 1, 1]
+[[object]] model = "MODELS/block.obj", rotation = [20, 30, 0]
+[[mirror]] position = [0, 0, -2], size = [9, 9]
+)"),
+                         wireSize, {{"view.wireframe", "true"}, {"view.samples", "1"}, {"reflection.samples", "1"}}));
+  const auto litAt = [&](double width, double viewScale = 1.0, double mirrorScale = 1.0) {
+    studio.settings.view.lineWidth = width;
+    studio.settings.view.scale = viewScale;
+    studio.settings.reflection.scale = mirrorScale;
+    return static_cast<double>(lit(studio.fresh()));
+  };
+  const double thin = litAt(1.0);
+  const double wide = litAt(5.0);
+  EXPECT_GT(wide, 3.0 * thin);
+  EXPECT_LT(wide, 5.5 * thin);
+  EXPECT_NEAR(litAt(5.0, 0.5), wide, 0.2 * wide) << "pixels of the picture, whatever its resolution";
+  EXPECT_NEAR(litAt(5.0, 1.0, 0.5), wide, 0.2 * wide);
+}
+
+TEST(Wireframe, NeedsNoPipelinesWhereThePolygonModeIsDynamic) {
+  Studio studio(headless(sceneFile("gallery"), wireSize, {{"debug.check_finite", "false"}}));
+  const PipelineFactory& pipelines = Gpu::shared().renderer.pipelines();
+  const Image8 filled = studio.fresh();
+  const size_t before = pipelines.count();
+  studio.settings.view.wireframe = true;
+  const Image8 lines = studio.fresh();
+  EXPECT_NE(lines.rgba, filled.rgba);
+  EXPECT_EQ(pipelines.count() == before, Gpu::shared().device.caps().dynamicPolygonMode);
+  studio.settings.view.wireframe = false;
+  EXPECT_EQ(studio.fresh().rgba, filled.rgba);
+}
+
+}  // namespace
+}  // namespace speculum
