@@ -26,14 +26,14 @@ struct ViewData {
   mat4 clipFromRelative;
   vec3 rayX;  // relative direction of the ray through a pixel: rayX * x + rayY * y + rayOrigin, not normalised
   uint checksFinite;  // debug.check_finite
-  vec4 rayY;
-  vec4 rayOrigin;
+  vec4 rayY;       // w: halfTurn() of this view
+  vec4 rayOrigin;  // w: 1 in the later pictures of a mean, whose stored radiance is dithered; else 0
   vec4 clipPlane;  // (n, h): a relative point p is drawn where n.p + h >= 0
   vec3 ambient;
   uint picture;  // index in a mean of pictures; seeds random numbers
   vec3 background;
   uint hasSky;  // the background is a gradient of the next three colors
-  vec4 zenith;
+  vec4 zenith;  // w: twice the mean share that the device takes away from sums when it rounds them down; else 0
   vec4 horizon;
   vec3 ground;
   uint inMap;  // 1: the view is a face of an environment map
@@ -377,6 +377,12 @@ struct DisplayConstants {
   vec4 lookup;
   uvec2 size;  // texels
   float exposure;
+};
+
+// Push constants of the pass that averages the samples of a target.
+struct MeanConstants {
+  float turn;    // as ViewData::rayY.w
+  float dither;  // as ViewData::rayOrigin.w
 };
 
 // Push constants of the pass that adds a picture to a sum.

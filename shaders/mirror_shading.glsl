@@ -298,7 +298,8 @@ void main() {
   float cosine = -hit.inward * inversesqrt(max(dot(hit.ray, hit.ray), 1e-30));
   vec3 f = mapShare(hit.position) * reflectanceAt(mirror.reflectance, mirror.schlick, cosine);
   vec4 image = reprojects ? reprojected(hit.disparity) : reflected();
-  color = storable(f * min(image.rgb, shareMax), image.a);
+  vec3 radiance = f * min(image.rgb, shareMax);
+  color = added ? addable(radiance, image.a, gl_FragCoord.xy) : storable(radiance, image.a, gl_FragCoord.xy);
 #else
   vec3 normal = mirrorNormal(hit.position);
   float inward = ripples ? dot(normal, hit.ray) : hit.inward;
@@ -306,11 +307,11 @@ void main() {
   vec3 f = mapShare(hit.position) * reflectanceAt(mirror.reflectance, mirror.schlick, cosine);
   vec3 base = baseRadiance(hit.position, normal);
   if (shows == showsBack) {
-    color = storable(base, hit.disparity);
+    color = storable(base, hit.disparity, gl_FragCoord.xy);
     return;
   }
   if (baseOnly) {
-    color = storable((1.0 - f) * min(base, shareMax), 0.0);
+    color = storable(sumFactor(gl_FragCoord.xy) * (1.0 - f) * min(base, shareMax), 0.0, gl_FragCoord.xy);
     return;
   }
   vec4 image = vec4(0.0, 0.0, 0.0, float(view.inMap) * halfLeast);
@@ -323,6 +324,7 @@ void main() {
   } else {
     image.rgb = backgroundRadiance(reflect(hit.ray, mirror.normal));
   }
-  color = storable(f * (added ? min(image.rgb, shareMax) : image.rgb) + (1.0 - f) * base, image.a);
+  color = added ? addable(f * min(image.rgb, shareMax), image.a, gl_FragCoord.xy)
+                : storable(f * image.rgb + (1.0 - f) * base, image.a, gl_FragCoord.xy);
 #endif
 }

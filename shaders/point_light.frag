@@ -28,5 +28,5 @@ void main() {
   }
   vec4 clip = view.clipFromRelative * vec4(ray * t, 1.0);
   gl_FragDepth = clamp(clip.z / clip.w, 0.0, 1.0);
-  color = storable(light.glow, disparityLength / max(clip.w, 1e-30));
+  color = storable(light.glow, disparityLength / max(clip.w, 1e-30), gl_FragCoord.xy);
 }

@@ -133,8 +133,10 @@ void main() {
 #endif
   // gl_FragCoord.w would belong to the pixel's centre, which on a steep triangle may lie far from the shaded point.
   float w = (view.clipFromRelative * vec4(relativePosition, 1.0)).w;
-  color = storable(radiance, disparityLength / max(w, 1e-30));
-#ifdef REFLECTION_ONLY
+#ifndef REFLECTION_ONLY
+  color = storable(radiance, disparityLength / max(w, 1e-30), gl_FragCoord.xy);
+#else
+  color = addable(radiance, disparityLength / max(w, 1e-30), gl_FragCoord.xy);
   gl_SampleMask[0] = samplesOfBase();
 #endif
 #ifdef COVERED

@@ -151,7 +151,8 @@ void shade(uint pixel, uint seenBy) {
   vec3 share = addsReflection ? 1.0 - seen.bounce.reflectance : vec3(1.0);
   seen.bounce.reflects = seen.bounce.reflects && !id.baseOnly;
   vec3 radiance = tracedRadiance(seen.bounce, seen.direction, seen.seed, seen.draws);
-  vec4 value = storable(addsReflection ? share * min(radiance, shareMax) : radiance, max(seen.disparity, 0.0));
+  vec3 stored = addsReflection ? sumFactor(position) * share * min(radiance, shareMax) : radiance;
+  vec4 value = storable(stored, max(seen.disparity, 0.0), position);
   value.a = seen.disparity < 0.0 ? seen.disparity : value.a;
   uvec2 halfs = uvec2(packHalf2x16(value.rg), packHalf2x16(value.ba));
   for (uint i = 0; i < samples; ++i) {

@@ -1,5 +1,6 @@
 // Radiance of a surface and of the background, as docs/picture.md defines them. Needs interface.glsl.
 #extension GL_EXT_control_flow_attributes : require
+#include "half_float.glsl"
 
 // The value of view.lightCount, if it is at most fixedLights.
 layout(constant_id = constantLightCount) const uint lightCount = manyLights;
@@ -190,17 +191,43 @@ vec3 backgroundRadiance(vec3 direction) {
   return bounded(mix(view.background, sky, bvec3(view.hasSky != 0)));
 }
 
-// Returns the value as a half-float target can store it: beyond its range some drivers store infinity, and one such
-// sample spoils a resolve. `disparity` is disparityLength / w, by which cached images are reprojected. 0: the
-// background is seen, directly or in a mirror. halfLeast: too far to store, or a mirror in an environment map that
-// shows the background, which must not be replaced by the background behind the mirror.
-vec4 storable(vec3 radiance, float disparity) {
+// Returns the value within the range of half floats: beyond it some drivers store infinity, and one such sample spoils a
+// mean. `disparity` is disparityLength / w, by which cached images are reprojected. 0: the background is seen, directly
+// or in a mirror. halfLeast: too far to store, or a mirror in an environment map that shows the background, which must
+// not be replaced by the background behind the mirror.
+vec4 inHalfRange(vec3 radiance, float disparity) {
+  return clamp(vec4(radiance, disparity), vec4(0.0, 0.0, 0.0, disparity > 0.0 ? halfLeast : 0.0), vec4(halfMax));
+}
+
+// Puts back the NaN that clamp() hides, for debug.check_finite. NaN is found by its bits, because compilers may take
+// isnan() for false.
+vec4 keepingNan(vec4 stored, vec3 radiance, float disparity) {
   vec4 value = vec4(radiance, disparity);
-  vec4 stored = clamp(value, vec4(0.0, 0.0, 0.0, disparity > 0.0 ? halfLeast : 0.0), vec4(halfMax));
-  // debug.check_finite puts back the NaN that clamp() hides. NaN is found by its bits, because compilers may take
-  // isnan() for false.
   uint largest = view.checksFinite != 0 ? 0x7f800000u : 0x7fffffffu;
   return mix(stored, value, greaterThan(floatBitsToUint(value) & 0x7fffffffu, uvec4(largest)));
+}
+
+// Returns the value as a target stores it, whatever the device rounds to: the nearest half float. In the later pictures
+// of a mean, radiance is moved by up to half a step before, because rounding that all pictures shared would stay in the
+// mean. `pixel` is the position in the target.
+vec4 storable(vec3 radiance, float disparity, vec2 pixel) {
+  float part = view.rayOrigin.w * storeNoise(pixel, view.rayY.w);
+  return keepingNan(nearestHalf(inHalfRange(radiance, disparity), vec4(part, part, part, 0.0)), radiance, disparity);
+}
+
+// Factor on the base and on the reflection of a mirror that the device adds in the target. 1, unless the device rounds
+// sums down (Renderer::roundsSumsDown()): then, on the mean over sums, as much more as rounding takes away.
+float sumFactor(vec2 pixel) {
+  return 1.0 + view.zenith.w * (0.5 + view.rayOrigin.w * storeNoise(pixel.yx, 7.0 * view.rayY.w));
+}
+
+// Returns a reflection that the device adds to a base. It is not rounded where the device rounds the sum down, because
+// sumFactor() takes the digits of the sum for random.
+vec4 addable(vec3 radiance, float disparity, vec2 pixel) {
+  vec4 value = inHalfRange(radiance * sumFactor(pixel), disparity);
+  float part = view.rayOrigin.w * storeNoise(pixel, view.rayY.w);
+  vec4 rounded = nearestHalf(value, vec4(part, part, part, 0.0));
+  return keepingNan(mix(rounded, value, bvec4(view.zenith.w > 0.0)), radiance, disparity);
 }
 
 // Returns the disparity that storable() stored; 0, infinitely far, for halfLeast.

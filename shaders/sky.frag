@@ -6,5 +6,5 @@
 layout(location = 0) out vec4 color;
 
 void main() {
-  color = storable(backgroundRadiance(rayThrough(gl_FragCoord.xy)), 0.0);
+  color = storable(backgroundRadiance(rayThrough(gl_FragCoord.xy)), 0.0, gl_FragCoord.xy);
 }

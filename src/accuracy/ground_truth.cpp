@@ -56,12 +56,11 @@ std::optional<GroundTruth> traceGroundTruth(const Scene& scene, const SceneState
   TraceOptions options{.width = request.width,
                        .height = request.height,
                        .samples = request.samples,
+                       .lattice = request.lattice,
                        .maxDepth = truthDepth,
                        .minThroughput = 0.0,
                        .clearColor = request.settings.view.clearColor};
-  const int side = static_cast<int>(std::lround(std::sqrt(request.samples)));
-  const int finer = request.noiseFloor ? (side + 1) * (side + 1) : 0;
-  const double total = request.samples + finer;
+  const double total = request.samples + request.floorSamples;
   const auto start = std::chrono::steady_clock::now();
   std::optional<TraceResult> trace =
       tracer.render(options, [&](double part) { return !progress || progress(part * request.samples / total); });
@@ -73,12 +72,14 @@ std::optional<GroundTruth> traceGroundTruth(const Scene& scene, const SceneState
   truth.throughputBeyond = throughputBeyond(*trace);
   truth.mirrors = {request.width, request.height, interior(trace->mirrorDepth, request.width, request.height)};
   truth.image = std::move(trace->image);
-  if (!request.noiseFloor) {
+  if (request.floorSamples == 0) {
     return truth;
   }
-  options.samples = finer;
-  const std::optional<TraceResult> second = tracer.render(
-      options, [&](double part) { return !progress || progress((request.samples + part * finer) / total); });
+  options.samples = request.floorSamples;
+  options.lattice = false;
+  const std::optional<TraceResult> second = tracer.render(options, [&](double part) {
+    return !progress || progress((request.samples + part * request.floorSamples) / total);
+  });
   if (!second) {
     return std::nullopt;
   }

@@ -14,7 +14,7 @@ namespace speculum {
 struct GroundTruth {
   LinearImage image;   // TruthRequest::samples a pixel, depth 64, throughput 0
   PixelMask mirrors;   // pixels whose centre, and those of all eight neighbours, show a mirror's reflecting side
-  ErrorFigures floor;  // error of a grid of one more sample a side against `image`, both as the display shows them
+  ErrorFigures floor;  // error of a grid of TruthRequest::floorSamples against `image`, both as the display shows them
   double ms = 0.0;     // wall clock time of tracing `image`
   int threads = 0;
   // Root mean square, over the mirrors' pixels, of the throughput beyond d + 1 mirrors in a row, by depth d; 0 in
@@ -25,9 +25,10 @@ struct GroundTruth {
 struct TruthRequest {
   int width = 0;  // pixels
   int height = 0;
-  int samples = 64;  // a square; the noise floor takes a grid of one more sample a side
-  bool noiseFloor = true;
-  Settings settings;  // exposure, tone curve and clear color of the pictures compared
+  int samples = 256;       // a square; on a grid of 16x16
+  bool lattice = false;    // TraceOptions::lattice. A mean of pictures has the 8x8 grid, so a reference must not
+  int floorSamples = 225;  // a square; 0: no noise floor
+  Settings settings;       // exposure, tone curve and clear color of the pictures compared
 };
 
 // Called with the finished fraction, 0 .. 1; false cancels.

@@ -34,7 +34,8 @@ std::string truthKey(const SweepScene& scene, const Settings& settings) {
       shown += ";" + settingValue(settings, field.key);
     }
   }
-  return keyOf({scene.identity, shown, std::to_string(scene.truthSamples), scene.noiseFloor ? "floor" : "", "truth"});
+  return keyOf({scene.identity, shown, std::to_string(scene.truthSamples), scene.lattice ? "lattice" : "",
+                std::to_string(scene.floorSamples), "truth"});
 }
 
 // Returns the mean over the phases of an update interval. Averages roots of mean squares as squares.
@@ -120,7 +121,8 @@ class Sweep {
       const TruthRequest request{.width = scene_.width,
                                  .height = scene_.height,
                                  .samples = scene_.truthSamples,
-                                 .noiseFloor = scene_.noiseFloor,
+                                 .lattice = scene_.lattice,
+                                 .floorSamples = scene_.floorSamples,
                                  .settings = base_};
       truth = traceGroundTruth(scene_.scene, scene_.state, request,
                                [&](double fraction) { return report(stage, fraction); });

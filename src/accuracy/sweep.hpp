@@ -36,8 +36,10 @@ struct SweepScene {
   int width = 0;  // pixels
   int height = 0;
   std::string identity;  // fingerprint of all that results depend on but settings: program, device, scene, time
-  bool noiseFloor = true;
-  int truthSamples = 64;  // a square
+  // As in TruthRequest.
+  int truthSamples = 256;
+  bool lattice = false;
+  int floorSamples = 225;
 };
 
 struct SweepStatus {

@@ -68,11 +68,11 @@ struct SweepResults {
   std::string date;                 // UTC, ISO 8601
   std::vector<SettingChange> base;  // every setting that a point's changes are relative to
 
-  // The reference: traced on a square grid of samples a pixel, depth 64, throughput 0.
-  int truthSamples = 64;
+  // The reference: traced with so many samples a pixel, depth 64, throughput 0.
+  int truthSamples = 256;
   double truthMs = 0.0;  // wall clock
   int truthThreads = 0;
-  ErrorFigures floor;        // error of a grid with one more sample a side: smaller errors mean nothing
+  ErrorFigures floor;        // error of about as many other samples: smaller errors mean nothing
   std::string truthPicture;  // PNG, relative to the results' folder
 
   std::vector<SweepPoint> points;

@@ -47,11 +47,16 @@ int runAccuracy(const Options& options) {
   const std::string folder = "measurements";
   SweepStore store(options.out / folder);
   SessionSubject subject(session, options.time);
-  const SweepScene scene{.scene = session.scene(),
-                         .state = state,
-                         .width = options.size.width,
-                         .height = options.size.height,
-                         .identity = sweepIdentity(session, options)};
+  SweepScene scene{.scene = session.scene(),
+                   .state = state,
+                   .width = options.size.width,
+                   .height = options.size.height,
+                   .identity = sweepIdentity(session, options)};
+  if (options.sweep == "quick") {
+    scene.truthSamples = 64;
+    scene.lattice = true;
+    scene.floorSamples = 81;
+  }
   SweepResults results = describeSweep(session, plan, options.time);
   installInterruptHandler();
   std::string stage;

@@ -87,7 +87,6 @@ constexpr std::array<Rule, barrierKindCount> rules = {{
      {colorStage | sampleStage, colorAccess | VK_ACCESS_SHADER_READ_BIT},
      unsaid},
     {"uploadToRead", copyWrites, drawReads, sampled},
-    {"mipmapToBlit", copyWrites, copyReads, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL},
 }};
 
 constexpr auto kinds = [] {
@@ -191,17 +190,6 @@ void Barriers::record(VkCommandBuffer commands, BarrierKind kind, const VkDescri
                                       .offset = buffer.offset,
                                       .size = buffer.range};
   vkCmdPipelineBarrier(commands, rule.before.stages, rule.after.stages, 0, 0, nullptr, 1, &barrier, 0, nullptr);
-}
-
-void Barriers::recordLevel(VkCommandBuffer commands, BarrierKind kind, Image& image, uint32_t level) const {
-  const Rule& rule = ruleOf(kind);
-  const Scope waited = omitted_ == kind ? nothing : rule.before;
-  VkImageMemoryBarrier barrier = imageBarrier(image, waited, rule.after, rule.layout);
-  barrier.subresourceRange = {image.aspect(), level, 1, 0, 1};
-  recordImages(commands, waited, rule.after, {&barrier, 1});
-  if (level + 1 == image.desc().mipLevels) {
-    image.setLayout(rule.layout);
-  }
 }
 
 void Barriers::uploadToCopy(VkCommandBuffer commands, Image& fresh) {

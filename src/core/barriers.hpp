@@ -32,9 +32,8 @@ enum class BarrierKind {
   readbackToCopy,               // attachment or sampled image -> transfer source
   readbackFromCopy,             // transfer source -> attachment or sampled image
   uploadToRead,                 // transfer write -> shader, index and vertex reads
-  mipmapToBlit,                 // a level written -> source of the next level's blit
 };
-inline constexpr int barrierKindCount = static_cast<int>(BarrierKind::mipmapToBlit) + 1;
+inline constexpr int barrierKindCount = static_cast<int>(BarrierKind::uploadToRead) + 1;
 
 // Layout of the overlay's pass. Validation layer 1.3.239 treats color writes and loads of different render passes as
 // ordered by rasterisation, and reports a missing dependency between them only at a change of layout.
@@ -58,9 +57,6 @@ class Barriers {
   void record(VkCommandBuffer commands, BarrierKind kind, Image& image,
               VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED) const;
   void record(VkCommandBuffer commands, BarrierKind kind, const VkDescriptorBufferInfo& buffer) const;
-  // Records a barrier of one mip level. Call it for the levels in order; after the last the whole image is in the
-  // kind's layout.
-  void recordLevel(VkCommandBuffer commands, BarrierKind kind, Image& image, uint32_t level) const;
 
   // Barriers that cannot be omitted, because validation would not report them: nothing has used the image yet, the host
   // reads, or the layer 1.3.239 does not follow atomics and builds of acceleration structures.

@@ -119,6 +119,31 @@ std::optional<Frame> Renderer::beginFrame() {
                .acquired = !headless() && !unusedImage_};
 }
 
+bool Renderer::roundsSumsDown() {
+  if (!roundsSumsDown_) {
+    Image sum(device_, {.extent = {1, 1},
+                        .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
+                                 VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
+                        .name = "rounding"});
+    const Pipeline pipeline(pipelines_, GraphicsPipelineDesc{.name = "rounding",
+                                                             .vert = "full_screen.vert",
+                                                             .frag = "sum_rounding.frag",
+                                                             .depth = VK_FORMAT_UNDEFINED,
+                                                             .adds = true});
+    PassDesc desc = fullPass("rounding", {.color = &sum});
+    desc.clearColor.fill(1.0f);
+    GpuTimer timer(device_, desc.name);
+    uploader_.run([&](VkCommandBuffer commands) {
+      timer.reset(commands, 0, timerDetail_);
+      const PassScope scope(device_, renderPasses_, retired_, timer, commands, desc);
+      pipeline.bind(commands);
+      vkCmdDraw(commands, 3, 1, 0, 0);
+    });
+    roundsSumsDown_ = uploader_.readFloats(sum)[0] == 1.0f;
+  }
+  return *roundsSumsDown_;
+}
+
 PassScope Renderer::beginPass(Frame& frame, const PassDesc& desc) {
   return PassScope(device_, renderPasses_, retired_, slots_[frame.index].timer, frame.commands, desc);
 }

@@ -112,6 +112,10 @@ class Renderer {
   // when no directory is watched.
   bool reloadShaders() { return pipelines_.reload(); }
 
+  // Says whether the device rounds down when it adds to a 16-bit float target or averages its samples. Draws one pixel
+  // to find out, when it is first asked, and waits for the GPU then.
+  bool roundsSumsDown();
+
   Device& device() { return device_; }
   PipelineFactory& pipelines() { return pipelines_; }
   Uploader& uploader() { return uploader_; }
@@ -162,6 +166,7 @@ class Renderer {
   TimerDetail timerDetail_ = TimerDetail::samples;
   uint64_t frameNumber_ = 0;
   bool recording_ = false;
+  std::optional<bool> roundsSumsDown_;
   std::optional<uint32_t> captureSlot_;  // slot of the latest capture
   IdleGuard idle_;
 };

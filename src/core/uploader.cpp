@@ -7,15 +7,6 @@
 
 namespace speculum {
 
-namespace {
-
-VkBufferImageCopy wholeLevel0(const Image& image) {
-  return {.imageSubresource = {image.aspect(), 0, 0, 1},
-          .imageExtent = {image.extent().width, image.extent().height, 1}};
-}
-
-}  // namespace
-
 Uploader::Uploader(Device& device)
     : device_(device),
       pool_(device, "uploads"),
@@ -44,51 +35,35 @@ Buffer Uploader::buffer(std::span<const std::byte> data, VkBufferUsageFlags usag
 
 Image Uploader::image(std::span<const std::byte> texels, VkExtent2D extent, VkFormat format, bool mipmaps,
                       const std::string& name) {
-  const VkDeviceSize expected = areaOf(extent) * bytesOfTexel(format);
+  Image target(device_,
+               {.extent = extent,
+                .format = format,
+                .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
+                .mipLevels = mipmaps ? mipLevelCount(extent) : 1,
+                .name = name});
+  std::vector<VkBufferImageCopy> levels;
+  VkDeviceSize expected = 0;
+  for (uint32_t level = 0; level < target.desc().mipLevels; ++level) {
+    const VkExtent2D size{std::max(extent.width >> level, 1u), std::max(extent.height >> level, 1u)};
+    levels.push_back({.bufferOffset = expected,
+                      .imageSubresource = {target.aspect(), level, 0, 1},
+                      .imageExtent = {size.width, size.height, 1}});
+    expected += areaOf(size) * bytesOfTexel(format);
+  }
   if (texels.size() != expected) {
     throw std::logic_error("image " + name + " needs " + std::to_string(expected) + " bytes of texels, not " +
                            std::to_string(texels.size()));
   }
-  const VkImageUsageFlags sources = mipmaps ? VK_IMAGE_USAGE_TRANSFER_SRC_BIT : 0;
-  Image target(device_, {.extent = extent,
-                         .format = format,
-                         .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT | sources,
-                         .mipLevels = mipmaps ? mipLevelCount(extent) : 1,
-                         .name = name});
   const Buffer staging(device_, texels.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT, BufferMemory::host,
                        "staging of " + name);
   staging.write(texels);
   run([&](VkCommandBuffer commands) {
     Barriers::uploadToCopy(commands, target);
-    const VkBufferImageCopy region = wholeLevel0(target);
-    vkCmdCopyBufferToImage(commands, staging.get(), target.get(), target.layout(), 1, &region);
-    if (mipmaps) {
-      generateMipmaps(commands, target);
-    }
+    vkCmdCopyBufferToImage(commands, staging.get(), target.get(), target.layout(), static_cast<uint32_t>(levels.size()),
+                           levels.data());
     device_.barriers().record(commands, BarrierKind::uploadToRead, target);
   });
   return target;
-}
-
-void Uploader::generateMipmaps(VkCommandBuffer commands, Image& image) {
-  auto width = static_cast<int32_t>(image.extent().width);
-  auto height = static_cast<int32_t>(image.extent().height);
-  for (uint32_t level = 0; level < image.desc().mipLevels; ++level) {
-    device_.barriers().recordLevel(commands, BarrierKind::mipmapToBlit, image, level);
-    if (level + 1 == image.desc().mipLevels) {
-      break;
-    }
-    const int32_t halfWidth = std::max(width / 2, 1);
-    const int32_t halfHeight = std::max(height / 2, 1);
-    const VkImageBlit region{.srcSubresource = {image.aspect(), level, 0, 1},
-                             .srcOffsets = {{0, 0, 0}, {width, height, 1}},
-                             .dstSubresource = {image.aspect(), level + 1, 0, 1},
-                             .dstOffsets = {{0, 0, 0}, {halfWidth, halfHeight, 1}}};
-    vkCmdBlitImage(commands, image.get(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, image.get(),
-                   VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region, VK_FILTER_LINEAR);
-    width = halfWidth;
-    height = halfHeight;
-  }
 }
 
 BufferWriter::BufferWriter(Uploader& uploader, VkDeviceSize bytes, VkBufferUsageFlags usage, const std::string& name)
@@ -143,7 +118,7 @@ std::array<float, 256> Uploader::decodedSrgb() {
     codes[i] = 0x010101u * i;
   }
   const VkExtent2D extent{codes.size(), 1};
-  Image source = image(std::as_bytes(std::span(codes)), extent, VK_FORMAT_R8G8B8A8_SRGB, true, "sRGB codes");
+  Image source = image(std::as_bytes(std::span(codes)), extent, VK_FORMAT_R8G8B8A8_SRGB, false, "sRGB codes");
   Image target(device_,
                {.extent = extent,
                 .format = VK_FORMAT_R32G32B32A32_SFLOAT,
@@ -176,7 +151,8 @@ std::vector<std::byte> Uploader::read(Image& image) {
   run([&](VkCommandBuffer commands) {
     const VkImageLayout layout = image.layout();
     device_.barriers().record(commands, BarrierKind::readbackToCopy, image);
-    const VkBufferImageCopy region = wholeLevel0(image);
+    const VkBufferImageCopy region{.imageSubresource = {image.aspect(), 0, 0, 1},
+                                   .imageExtent = {image.extent().width, image.extent().height, 1}};
     vkCmdCopyImageToBuffer(commands, image.get(), image.layout(), staging.get(), 1, &region);
     device_.barriers().record(commands, BarrierKind::readbackFromCopy, image, layout);
     Barriers::copyToHost(commands);

@@ -42,9 +42,9 @@ class Uploader {
     const std::span<const std::byte> bytes = std::as_bytes(std::span(data));
     return buffer(bytes, usage, name);
   }
-  // Returns a sampled image whose level 0 is `texels` (tightly packed rows, top first), in SHADER_READ_ONLY layout.
-  // With `mipmaps` all further levels are made by halving blits, which average what the texels stand for, not sRGB
-  // codes. Throws std::logic_error if there are too few or too many texels.
+  // Returns a sampled image of `texels` (tightly packed rows, top first), in SHADER_READ_ONLY layout. With `mipmaps`
+  // all further levels follow, each half as wide and high, rounded down, but at least 1 texel: blits of devices may
+  // round halves down. Throws std::logic_error if there are too few or too many texels.
   Image image(std::span<const std::byte> texels, VkExtent2D extent, VkFormat format, bool mipmaps,
               const std::string& name);
 
@@ -61,8 +61,6 @@ class Uploader {
   void run(const std::function<void(VkCommandBuffer)>& record);
 
  private:
-  void generateMipmaps(VkCommandBuffer commands, Image& image);
-
   Device& device_;
   CommandPool pool_;
   FenceHandle fence_;

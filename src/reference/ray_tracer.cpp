@@ -6,6 +6,7 @@
 #include <atomic>
 #include <cmath>
 #include <mutex>
+#include <numbers>
 #include <stdexcept>
 
 #include "reference/path_tracer.hpp"
@@ -35,6 +36,16 @@ void check(const TraceOptions& options) {
   gridSize(options.samples);
 }
 
+// Returns the position of sample `k` in the pixel, 0 .. 1.
+glm::dvec2 samplePosition(const TraceOptions& options, int side, int k) {
+  if (options.lattice) {
+    // Fibonacci lattice about the pixel's centre.
+    const double fromMiddle = k - 0.5 * (options.samples - 1);
+    return {0.5 + fromMiddle / options.samples, glm::fract(0.5 + fromMiddle * (std::numbers::phi - 1.0))};
+  }
+  return {(k % side + 0.5) / side, (k / side + 0.5) / side};
+}
+
 }  // namespace
 
 Ray RayTracer::cameraRay(const TraceOptions& options, double x, double y) const {
@@ -54,7 +65,8 @@ void RayTracer::tile(const Environment& environment, const TraceOptions& options
                         MicrofacetSampler(static_cast<uint32_t>(x), static_cast<uint32_t>(y)));
       glm::dvec3 sum(0.0);
       for (int k = 0; k < options.samples; ++k) {
-        sum += tracer.radiance(cameraRay(options, x + (k % side + 0.5) / side, y + (k / side + 0.5) / side));
+        const glm::dvec2 at = samplePosition(options, side, k);
+        sum += tracer.radiance(cameraRay(options, x + at.x, y + at.y));
       }
       result.image.pixels[i] = glm::vec3(sum / static_cast<double>(options.samples));
       const MirrorChain chain = tracer.followMirrors(cameraRay(options, x + 0.5, y + 0.5));

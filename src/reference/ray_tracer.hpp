@@ -14,8 +14,9 @@ namespace speculum {
 struct TraceOptions {
   int width = 1280;  // pixels
   int height = 720;
-  int samples = 64;  // per pixel, a square: on a regular grid of sqrt(samples) x sqrt(samples)
-  int maxDepth = 4;  // mirrors seen directly have depth 0; mirrors of depth maxDepth and beyond show the background
+  int samples = 64;      // per pixel, a square: on a regular grid of sqrt(samples) x sqrt(samples)
+  bool lattice = false;  // instead of the grid, a lattice that has no point in common with a smaller or equal grid
+  int maxDepth = 4;      // mirrors seen directly have depth 0; mirrors of depth maxDepth and beyond show the background
   double minThroughput = 0.0005;         // mirrors with less throughput show the background
   std::optional<glm::dvec3> clearColor;  // linear; replaces background and sky of the scene everywhere
   int roughSamples = 64;  // reflected rays of the first rough mirror on a path; rough mirrors seen in it take fewer

@@ -5,6 +5,7 @@
 
 #include "image/color.hpp"
 #include "shaders/gpu_data.h"
+#include "systems/gpu_conversion.hpp"
 
 namespace speculum {
 
@@ -56,11 +57,12 @@ DisplaySystem::DisplaySystem(Renderer& renderer) : renderer_(renderer), pipeline
 
 void DisplaySystem::draw(const Frame& frame, const PassScope& scope, Variant variant,
                          const VkDescriptorImageInfo& image, const auto& constants) {
-  variant.format = renderer_.displayFormat();
+  variant.format = variant.mean ? colorFormat : renderer_.displayFormat();
   const Pipeline& pipeline = pipelines_.get(variant, [&] {
-    const char* color = variant.multisampled ? "display_average.frag"
-                        : variant.enlarged   ? "display_enlarge.frag"
-                                             : "display.frag";
+    const char* color = variant.mean           ? "sample_mean.frag"
+                        : variant.multisampled ? "display_average.frag"
+                        : variant.enlarged     ? "display_enlarge.frag"
+                                               : "display.frag";
     const char* depth = variant.multisampled ? "display_depth_samples.frag" : "display_depth.frag";
     return GraphicsPipelineDesc{.name = variant.depth ? "display depth" : "display",
                                 .vert = "full_screen.vert",
@@ -130,6 +132,19 @@ std::optional<RecordedPass> DisplaySystem::recordColor(Frame& frame, const glm::
                      .shrunk = placement->lookup.x > 1.0f},
                     radiance.descriptor,
                     gpu::DisplayConstants{placement->lookup, size, static_cast<float>(curve.exposure)});
+}
+
+std::optional<RecordedPass> DisplaySystem::recordMean(Frame& frame, OffScreen& target, int picture) {
+  if (!target.samplesImage()) {
+    pipelines_.dropIf([](const Variant& variant) { return variant.mean; });
+    return std::nullopt;
+  }
+  constexpr size_t beyondMirrors = 64;  // in whose place this pass reads the main view
+  const PassTargets mean{.color = &target.color(), .role = TargetRole::main};
+  const PassDesc desc = fullPass(target.desc().name, mean);
+  draw(frame, renderer_.beginPass(frame, desc), {.mean = true}, target.samplesDescriptor(),
+       gpu::MeanConstants{halfTurn(beyondMirrors, picture), picture > 0 ? 1.0f : 0.0f});
+  return RecordedPass{{.kind = PassKind::main}, desc.name, -1, 1};
 }
 
 // The depth image is not filtered where it is shrunk, because depth has no mean where surfaces meet.

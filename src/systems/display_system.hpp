@@ -47,6 +47,9 @@ class DisplaySystem {
   // `near`: metres from the eye to the near plane.
   std::optional<RecordedPass> recordDepth(Frame& frame, const glm::ivec2& size, const TargetDisplay& debug,
                                           const MirrorImage& depth, double near);
+  // Records the pass that draws the mean of the target's samples, which are stored, into its color; `picture` is the
+  // index in a mean of pictures. A target without samples needs none.
+  std::optional<RecordedPass> recordMean(Frame& frame, OffScreen& target, int picture);
   // Drops the pipelines that only target displays need.
   void releaseView();
 
@@ -60,10 +63,11 @@ class DisplaySystem {
     bool sampled = false;                   // the sampler enlarges the image
     bool shrunk = false;                    // a pixel covers more than one texel
     bool depth = false;                     // shows depth, not radiance
+    bool mean = false;                      // recordMean()
     VkFormat format = VK_FORMAT_UNDEFINED;  // of the display image
     auto operator<=>(const Variant&) const = default;
   };
-  // Draws with the variant for the present display image.
+  // Draws with the variant, for the present display image unless it is recordMean()'s.
   void draw(const Frame& frame, const PassScope& scope, Variant variant, const VkDescriptorImageInfo& image,
             const auto& constants);
   // Shows a target in a pass of its own.

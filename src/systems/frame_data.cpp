@@ -1,6 +1,8 @@
 #include "systems/frame_data.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "plan/draw_order.hpp"
@@ -89,8 +91,11 @@ VkShaderStageFlags FrameData::stagesOf(uint32_t kind) {
   }
 }
 
-FrameData::FrameData(Device& device)
+FrameData::FrameData(Device& device, bool roundsSumsDown)
     : device_(device),
+      // A step is 2^-10 of the power of two below a number, which on the mean over logarithms is 1/1.44 of the number,
+      // and rounding down takes half a step.
+      lostInSums_(roundsSumsDown ? std::exp2(-10.0f) * std::numbers::ln2_v<float> : 0.0f),
       buffers_(device, frameBufferNames, "fewer copies of objects, fewer lights, or a lower reflection.max_passes") {
   std::array<DescriptorBinding, kindCount + 1> bindings{};  // the last for the materials
   for (uint32_t i = 0; i < bindings.size(); ++i) {
@@ -179,6 +184,9 @@ void FrameData::addPass(const Source& source, const Pass& pass, DrawList& data) 
   view.throughput = glm::vec3(pass.channels);
   view.minThroughput = static_cast<float>(settings.reflection.minThroughput);
   view.depth = static_cast<uint32_t>(pass.view.path.size());
+  view.zenith.w = lostInSums_;
+  view.rayY.w = halfTurn(view.depth, plan.picture);
+  view.rayOrigin.w = plan.picture > 0 ? 1.0f : 0.0f;
   view.maxDepth = static_cast<uint32_t>(settings.reflection.maxDepth);
   addLights(source, pass, passBlocks_.back(), data);
   data.glyphCount = static_cast<uint32_t>(pass.lights.size());

@@ -77,7 +77,7 @@ struct DrawList {
 // becomes float once. Each frame in flight has a set of buffers, which grow when a frame needs more.
 class FrameData {
  public:
-  explicit FrameData(Device& device);
+  FrameData(Device& device, bool roundsSumsDown);  // Renderer::roundsSumsDown()
 
   VkDescriptorSetLayout layout() const { return layout_.get(); }
   // Throws std::runtime_error if the plan draws more instances than a buffer of the device takes. Call it before
@@ -131,6 +131,7 @@ class FrameData {
   void addMask(const Pass& pass, const FramePlan& plan, const Settings& settings, DrawList& data);
 
   Device& device_;
+  float lostInSums_;  // ViewData::zenith.w
   DescriptorSetLayoutHandle layout_;
   FrameBuffers buffers_;
   std::vector<DrawBlock> passBlocks_;

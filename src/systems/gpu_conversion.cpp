@@ -1,6 +1,8 @@
 #include "systems/gpu_conversion.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <glm/gtc/packing.hpp>
 #include <numbers>
 
 #include "geometry/affine.hpp"
@@ -30,6 +32,51 @@ glm::vec3 radiance(const glm::dvec3& product) {
 
 glm::vec4 texelOf(const Texture& texture, size_t index) {
   return {texture.texels[index], texture.opacity.empty() ? 1.0f : texture.opacity[index]};
+}
+
+void forLevels(const Texture& texture, const std::function<void(std::span<const glm::vec4>)>& take) {
+  std::vector<glm::vec4> level;
+  level.reserve(texture.texels.size());
+  for (size_t i = 0; i < texture.texels.size(); ++i) {
+    level.push_back(texelOf(texture, i));
+  }
+  auto width = static_cast<size_t>(texture.width);
+  auto height = static_cast<size_t>(texture.height);
+  for (;;) {
+    take(level);
+    if (level.size() <= 1) {
+      return;
+    }
+    const size_t right = width > 1 ? 1 : 0;
+    const size_t below = height > 1 ? width : 0;
+    const size_t halfWidth = std::max<size_t>(width / 2, 1);
+    const size_t halfHeight = std::max<size_t>(height / 2, 1);
+    for (size_t i = 0; i < halfWidth * halfHeight; ++i) {
+      const size_t from = 2 * (i / halfWidth) * width + 2 * (i % halfWidth);
+      level[i] = 0.25f * (level[from] + level[from + right] + level[from + below] + level[from + right + below]);
+    }
+    level.resize(halfWidth * halfHeight);
+    width = halfWidth;
+    height = halfHeight;
+  }
+}
+
+void appendLevels(const Texture& texture, std::vector<uint64_t>& texels) {
+  forLevels(texture, [&](std::span<const glm::vec4> level) {
+    for (const glm::vec4& texel : level) {
+      texels.push_back(glm::packHalf4x16(texel));
+    }
+  });
+}
+
+float halfTurn(size_t depth, int picture) {
+  // 4 depth + 6 is even and no multiple of 4, hence no square: the root is irrational, and its multiples spread evenly.
+  return static_cast<float>(glm::fract(picture * std::sqrt(4.0 * static_cast<double>(depth) + 6.0) / 2.0));
+}
+
+float storedRadiance(double value, int picture, float turn) {
+  const double step = std::exp2(std::max(std::ilogb(std::max(value, 1e-30)), -14) - 10);
+  return static_cast<float>(std::min(step * std::nearbyint(value / step + (picture > 0 ? turn - 0.5 : 0.0)), 65504.0));
 }
 
 Environment scaled(Environment environment, double scale) {

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <functional>
 #include <glm/glm.hpp>
+#include <span>
 
 #include "plan/frame_plan.hpp"
 #include "shaders/gpu_data.h"
@@ -13,8 +15,18 @@ namespace speculum {
 glm::vec4 row(const glm::dmat3& m, int r, double w);
 // Rounds a product of radiances to floats, at most radianceRange.high.
 glm::vec3 radiance(const glm::dvec3& product);
-// Returns color and opacity of a texel.
-glm::vec4 texelOf(const Texture& texture, size_t index);
+// Gives `take` the texels of each level, with color and opacity, from the first down to one texel. Halving an odd size
+// leaves out the last row or column.
+void forLevels(const Texture& texture, const std::function<void(std::span<const glm::vec4>)>& take);
+// Appends all levels, RGBA as half floats.
+void appendLevels(const Texture& texture, std::vector<uint64_t>& texels);
+// Returns the part of a step, 0 .. 1, by which the noise of nearestHalf() (shaders/shading.glsl) is moved in picture
+// `picture` of a mean, for views behind `depth` mirrors. Pictures differ, and so do views that show each other's
+// images.
+float halfTurn(size_t depth, int picture);
+// Returns a radiance of at most 65504 as a target can store it: at the nearest half float or, in the later pictures of
+// a mean, above or below by `turn`. How devices round a clear color is not specified.
+float storedRadiance(double value, int picture, float turn);
 // Returns the environment with its radiances times `scale`.
 Environment scaled(Environment environment, double scale);
 // Returns the constant of shaders/gpu_data.h that chooses the filter.

@@ -28,7 +28,7 @@ SceneRenderer::SceneRenderer(Renderer& renderer, const Scene& scene)
       device_(renderer.device()),
       scene_(scene),
       resources_(device_, renderer.uploader(), scene),
-      data_(device_),
+      data_(device_, renderer.roundsSumsDown()),
       trace_(device_, renderer.uploader(), scene),
       maskSystem_(renderer.pipelines(), data_.layout()),
       renderSystem_(renderer.pipelines(), data_.layout(), resources_.textureLayout()),
@@ -132,7 +132,8 @@ void SceneRenderer::prepareTargets(Frame& frame, const Settings& settings, const
     }
     mirrorTargets_.begin(plan, watched_.mirrorPass(), *frame.retired);
     const bool mainIsShown = accumulated() == 0 || keepsTarget({}, TargetKind::color);
-    mainTargets_.begin(settings, plan, shown && !unfinished_ && mainIsShown, *frame.retired);
+    mainTargets_.begin(settings, plan, renderer_.roundsSumsDown(), shown && !unfinished_ && mainIsShown,
+                       *frame.retired);
     environmentTargets_.prepare(plan, *frame.retired);
   }
   shadowSystem_.prepare(frame, plan);
@@ -212,8 +213,9 @@ void SceneRenderer::recordEnvironment(const FrameInfo& info, size_t index) {
   const VkExtent2D size = extentOf(face.view.rect.width, face.view.rect.height);
   const Viewport viewport{static_cast<float>(face.corner.x), static_cast<float>(face.corner.y),
                           static_cast<float>(size.width), static_cast<float>(size.height)};
-  const PassDesc desc = scenePass(passName(scene_, info.plan, face), target.targets(),
-                                  {{face.corner.x, face.corner.y}, size}, viewport, face.view, info.environment);
+  const PassDesc desc =
+      scenePass(passName(scene_, info.plan, face), target.targets(), {{face.corner.x, face.corner.y}, size}, viewport,
+                face.view, info.environment, info.plan.picture);
   const uint32_t drawsBefore = ledger_[EffectKind::curved].draws;
   RecordedPass pass{face.id, desc.name};
   pass.areaPx = face.areaPx;
@@ -240,9 +242,10 @@ void SceneRenderer::recordMirrors(const FrameInfo& info, const ConcurrentPasses&
   std::vector<PassDesc> descs;
   for (size_t i = range.first; i < range.end; ++i) {
     const View& view = info.plan.passes[i].view;
-    PassDesc& desc = descs.emplace_back(
-        scenePass(passName(scene_, info.plan, info.plan.passes[i]), passTargets_[i - range.first],
-                  {{0, 0}, extentOf(view.rect.width, view.rect.height)}, viewportOf(view), view, info.environment));
+    PassDesc& desc =
+        descs.emplace_back(scenePass(passName(scene_, info.plan, info.plan.passes[i]), passTargets_[i - range.first],
+                                     {{0, 0}, extentOf(view.rect.width, view.rect.height)}, viewportOf(view), view,
+                                     info.environment, info.plan.picture));
     desc.clearDepth = MaskSystem::clearDepth(info.data.passes()[i]);
     desc.grouped = range.end > range.first + 1;
     watched_.prepare(info.plan, i, desc, *info.frame.retired);
@@ -274,10 +277,20 @@ void SceneRenderer::recordMirrors(const FrameInfo& info, const ConcurrentPasses&
 void SceneRenderer::recordMain(const FrameInfo& info, size_t index) {
   const Pass& main = info.plan.passes[index];
   const PassDesc whole = fullPass(passName(scene_, info.plan, main), mainTargets_.drawn().targets());
-  PassDesc desc = scenePass(whole.name, whole.targets, whole.renderArea, whole.viewport, main.view, info.environment);
+  PassDesc desc = scenePass(whole.name, whole.targets, whole.renderArea, whole.viewport, main.view, info.environment,
+                            info.plan.picture);
+  if (renderer_.roundsSumsDown()) {
+    desc.targets.resolve = nullptr;  // recordMean() stands in
+  }
   desc.storeSamples = info.settings.debug.checkFinite;
   watched_.prepare(info.plan, index, desc, *info.frame.retired);
   drawTiles(info, index, desc, {main.id, desc.name, -1, 0, main.areaPx});
+  if (renderer_.roundsSumsDown() && endsPicture(info.plan)) {
+    if (const auto mean = display_.recordMean(info.frame, mainTargets_.drawn(), info.plan.picture)) {
+      log_.add(*mean);
+      log_.joinLast();
+    }
+  }
   watch_.check(info.frame, log_.passes().back(), mainTargets_.drawn(), mainTargets_.drawn().extent());
   mirrorTargets_.releaseShown(info.plan, main);
 }

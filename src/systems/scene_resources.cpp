@@ -3,8 +3,9 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <glm/gtc/packing.hpp>
+#include <iterator>
 
 #include "image/color.hpp"
 #include "systems/effect_ledger.hpp"
@@ -14,15 +15,6 @@
 namespace speculum {
 
 namespace {
-
-std::vector<uint64_t> halfTexels(const Texture& texture) {
-  std::vector<uint64_t> texels;
-  texels.reserve(texture.texels.size());
-  for (size_t i = 0; i < texture.texels.size(); ++i) {
-    texels.push_back(glm::packHalf4x16(texelOf(texture, i)));
-  }
-  return texels;
-}
 
 // Returns the largest relative error of values that a device decoded from sRGB codes of 8 bits. Light multiplies it, so
 // dark texels count as much as others.
@@ -34,21 +26,25 @@ float decodingError(const std::array<float, 256>& decoded) {
   return error;
 }
 
-// Returns the sRGB codes of the texels with their opacity; nothing unless codes of 8 bits stand for all exactly.
-std::optional<std::vector<uint32_t>> srgbCodes(const Texture& texture) {
-  std::vector<uint32_t> codes;
-  codes.reserve(texture.texels.size());
-  for (size_t i = 0; i < texture.texels.size(); ++i) {
-    const glm::vec4 texel = texelOf(texture, i);
-    const std::optional<uint8_t> red = srgbCode(texel.r);
-    const std::optional<uint8_t> green = srgbCode(texel.g);
-    const std::optional<uint8_t> blue = srgbCode(texel.b);
-    const float alpha = std::round(255.0f * texel.a);
-    if (!red || !green || !blue || texel.a != alpha / 255.0f) {
-      return std::nullopt;
-    }
-    codes.push_back(static_cast<uint32_t>(alpha) << 24 | uint32_t{*blue} << 16 | uint32_t{*green} << 8 | *red);
+uint32_t nearestCode(const glm::vec4& texel) {
+  const auto coded = [](double value) { return static_cast<uint32_t>(std::lround(255.0 * value)); };
+  return coded(texel.a) << 24 | coded(srgbEncode(texel.b)) << 16 | coded(srgbEncode(texel.g)) << 8 |
+         coded(srgbEncode(texel.r));
+}
+
+// Returns the nearest sRGB codes of all levels, with opacity; nothing unless they stand for the first level exactly.
+std::optional<std::vector<uint32_t>> srgbLevels(const Texture& texture) {
+  const auto isExact = [](const glm::vec3& texel) {
+    return srgbCode(texel.r) && srgbCode(texel.g) && srgbCode(texel.b);
+  };
+  const auto isCode = [](float opacity) { return opacity == std::round(255.0f * opacity) / 255.0f; };
+  if (!std::ranges::all_of(texture.texels, isExact) || !std::ranges::all_of(texture.opacity, isCode)) {
+    return std::nullopt;
   }
+  std::vector<uint32_t> codes;
+  forLevels(texture, [&](std::span<const glm::vec4> level) {
+    std::ranges::transform(level, std::back_inserter(codes), nearestCode);
+  });
   return codes;
 }
 
@@ -142,10 +138,11 @@ Image SceneResources::upload(const Texture& texture, const std::string& name) {
     return upload(small, name);
   }
   const VkExtent2D extent = extentOf(texture.width, texture.height);
-  if (const auto codes = uploader_.exactSrgb.value_or(false) ? srgbCodes(texture) : std::nullopt) {
+  if (const auto codes = uploader_.exactSrgb.value_or(false) ? srgbLevels(texture) : std::nullopt) {
     return uploader_.image(std::as_bytes(std::span(*codes)), extent, VK_FORMAT_R8G8B8A8_SRGB, true, name);
   }
-  const std::vector<uint64_t> texels = halfTexels(texture);
+  std::vector<uint64_t> texels;
+  appendLevels(texture, texels);
   return uploader_.image(std::as_bytes(std::span(texels)), extent, colorFormat, true, name);
 }
 

@@ -5,6 +5,7 @@
 
 #include "plan/target_memory.hpp"
 #include "scene/scene.hpp"
+#include "systems/gpu_conversion.hpp"
 
 namespace speculum {
 
@@ -12,9 +13,11 @@ static_assert(bytesOfTexel(colorFormat) == colorBytes && bytesOfTexel(depthForma
 
 namespace {
 
-std::array<float, 4> clearColor(const Environment& environment) {
-  const glm::vec3 color(glm::min(environment.background, glm::dvec3(65504.0)));
-  return {color.r, color.g, color.b, 0.0f};  // disparity 0: infinitely far
+std::array<float, 4> clearColor(const Environment& environment, const View& view, int picture) {
+  const float turn = halfTurn(view.path.size(), picture);
+  const auto stored = [&](double value) { return storedRadiance(value, picture, turn); };
+  const glm::dvec3& color = environment.background;
+  return {stored(color.r), stored(color.g), stored(color.b), 0.0f};  // disparity 0: infinitely far
 }
 
 VkFrontFace frontFace(const View& view) {
@@ -23,7 +26,8 @@ VkFrontFace frontFace(const View& view) {
 
 }  // namespace
 
-void MainTargets::begin(const Settings& settings, const FramePlan& plan, bool displayed, RetireQueue& retired) {
+void MainTargets::begin(const Settings& settings, const FramePlan& plan, bool samplesRead, bool displayed,
+                        RetireQueue& retired) {
   if (!plan.tiles) {
     finish(retired);
   } else if (displayed && !earlier_) {
@@ -31,7 +35,8 @@ void MainTargets::begin(const Settings& settings, const FramePlan& plan, bool di
   }
   const VkExtent2D extent = extentOf(plan.main().view.rect.width, plan.main().view.rect.height);
   const VkSampleCountFlagBits samples = device_.sampleCount(settings.view.samples);
-  const bool readSamples = (settings.debug.checkFinite || plan.effects.any()) && samples != VK_SAMPLE_COUNT_1_BIT;
+  const bool readSamples =
+      (samplesRead || settings.debug.checkFinite || plan.effects.any()) && samples != VK_SAMPLE_COUNT_1_BIT;
   if (!drawn_ || drawn_->samples() != samples || drawn_->desc().readSamples != readSamples) {
     const OffScreenDesc desc{.name = "main view",
                              .extent = extent,
@@ -90,14 +95,14 @@ Viewport viewportOf(const View& view) {
 }
 
 PassDesc scenePass(std::string name, const PassTargets& targets, const VkRect2D& area, const Viewport& viewport,
-                   const View& view, const Environment& environment) {
+                   const View& view, const Environment& environment, int picture) {
   return {.name = std::move(name),
           .targets = targets,
           .renderArea = area,
           .viewport = viewport,
           .scissor = area,
           .frontFace = frontFace(view),
-          .clearColor = clearColor(environment),
+          .clearColor = clearColor(environment, view, picture),
           .collectStatistics = true};
 }
 

@@ -18,9 +18,9 @@ class MainTargets {
  public:
   explicit MainTargets(Device& device) : device_(device) {}
 
-  // Begins a picture of the plan. `displayed`: the display shows drawn(). If the plan has tiles, that target then stays
-  // shown() until finish(), and drawn() is another one.
-  void begin(const Settings& settings, const FramePlan& plan, bool displayed, RetireQueue& retired);
+  // Begins a picture of the plan. `samplesRead`: shaders read the samples. `displayed`: the display shows drawn(). If
+  // the plan has tiles, that target then stays shown() until finish(), and drawn() is another one.
+  void begin(const Settings& settings, const FramePlan& plan, bool samplesRead, bool displayed, RetireQueue& retired);
   // Shows the picture, whose last tile is drawn.
   void finish(RetireQueue& retired) { retired.take(earlier_); }
 
@@ -59,8 +59,8 @@ class EnvironmentTargets {
 
 // Returns the viewport that places the picture so that the target's corner shows the corner of the view's rectangle.
 Viewport viewportOf(const View& view);
-// Describes a pass that draws the scene into `area` of its targets.
+// Describes a pass that draws the scene into `area` of its targets, in picture `picture` of a mean.
 PassDesc scenePass(std::string name, const PassTargets& targets, const VkRect2D& area, const Viewport& viewport,
-                   const View& view, const Environment& environment);
+                   const View& view, const Environment& environment, int picture);
 
 }  // namespace speculum

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/gtc/packing.hpp>
 #include <glm/gtx/component_wise.hpp>
 #include <stdexcept>
 
@@ -15,36 +14,6 @@ namespace speculum {
 namespace {
 
 constexpr int trianglesPerLeaf = 4;
-
-// Appends the texture and its levels down to one texel. Halving an odd size leaves out the last row or column.
-void appendLevels(const Texture& texture, std::vector<uint64_t>& texels) {
-  std::vector<glm::vec4> level;
-  level.reserve(texture.texels.size());
-  for (size_t i = 0; i < texture.texels.size(); ++i) {
-    level.push_back(texelOf(texture, i));
-  }
-  auto width = static_cast<size_t>(texture.width);
-  auto height = static_cast<size_t>(texture.height);
-  for (;;) {
-    for (const glm::vec4& texel : level) {
-      texels.push_back(glm::packHalf4x16(texel));
-    }
-    if (level.size() <= 1) {
-      return;
-    }
-    const size_t right = width > 1 ? 1 : 0;
-    const size_t below = height > 1 ? width : 0;
-    const size_t halfWidth = std::max<size_t>(width / 2, 1);
-    const size_t halfHeight = std::max<size_t>(height / 2, 1);
-    for (size_t i = 0; i < halfWidth * halfHeight; ++i) {
-      const size_t from = 2 * (i / halfWidth) * width + 2 * (i % halfWidth);
-      level[i] = 0.25f * (level[from] + level[from + right] + level[from + below] + level[from + right + below]);
-    }
-    level.resize(halfWidth * halfHeight);
-    width = halfWidth;
-    height = halfHeight;
-  }
-}
 
 // Sums over all meshes.
 struct Totals {

@@ -59,7 +59,7 @@ void DifferenceMap::stop() {
 
 void DifferenceMap::startTracing(const ShownPicture& shown) {
   TruthRequest request{
-      .width = shown.width, .height = shown.height, .samples = references[traced_], .noiseFloor = false};
+      .width = shown.width, .height = shown.height, .samples = references[traced_], .lattice = true, .floorSamples = 0};
   request.settings = shown.settings;
   tracing_.start(0.0, [&scene = shown.scene, state = shown.state, request](const auto& report) {
     std::optional<GroundTruth> truth;

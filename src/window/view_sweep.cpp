@@ -15,8 +15,9 @@ namespace speculum {
 
 namespace {
 
-// Samples a pixel: enough to rank errors, in a fraction of the time of a report's 64.
-constexpr int truthSamples = 16;
+// Samples a pixel: enough to rank errors, in a fraction of the time of a report's 256.
+constexpr int truthSamples = 64;
+constexpr int floorSamples = 81;
 constexpr int roughSamples = 4;
 constexpr double roughPixels = 160.0 * 90.0;
 
@@ -75,8 +76,9 @@ SweepResults ViewMeasurement::measure(PictureSize size, const Effort& effort, co
                          .state = state,
                          .width = size.width,
                          .height = size.height,
-                         .noiseFloor = effort.noiseFloor,
-                         .truthSamples = effort.samples};
+                         .truthSamples = effort.samples,
+                         .lattice = true,
+                         .floorSamples = effort.floorSamples};
   SweepResults results = describeSweep(session_, plan, request_.options.time);
   bool finished = false;
   inBackground([&] { finished = runSweep(plan, base_, scene, subject, store, results, progress); });
@@ -102,7 +104,7 @@ SizedMs ViewMeasurement::sizedMs(const SweepPoint& point, PictureSize small) {
 }
 
 SweepResults ViewMeasurement::whole(const SweepProgress& progress) {
-  return measure(request_.options.size, {.samples = truthSamples}, progress);
+  return measure(request_.options.size, {.samples = truthSamples, .floorSamples = floorSamples}, progress);
 }
 
 SweepResults ViewMeasurement::rough(int rounds, const SweepProgress& progress) {
@@ -110,7 +112,7 @@ SweepResults ViewMeasurement::rough(int rounds, const SweepProgress& progress) {
   const double scale = std::min(1.0, std::sqrt(roughPixels / (whole.width * whole.height)));
   const PictureSize small{std::max(1, static_cast<int>(whole.width * scale)),
                           std::max(1, static_cast<int>(whole.height * scale))};
-  SweepResults results = measure(small, {.samples = roughSamples, .rounds = rounds, .noiseFloor = false}, progress);
+  SweepResults results = measure(small, {.samples = roughSamples, .rounds = rounds}, progress);
   if (results.points.empty()) {
     return results;
   }

@@ -37,7 +37,7 @@ class ViewMeasurement {
   struct Effort {
     int samples = 0;  // samples a pixel of the reference
     int rounds = SweepPlan::leastRepeats;
-    bool noiseFloor = true;
+    int floorSamples = 0;  // of its noise floor; 0: none
   };
   SweepResults measure(PictureSize size, const Effort& effort, const SweepProgress& progress);
   // Returns what a point takes in both sizes, timed one after the other.

@@ -297,8 +297,13 @@ reflectance = [0.8, 0.8, 0.8]
   Run run(const fs::path& folder, const SweepProgress& progress = {}, const std::string& identity = "one") {
     TracingSubject subject(scene_, state_);
     SweepStore store(folder);
-    const SweepScene scene{
-        .scene = scene_, .state = state_, .width = 48, .height = 27, .identity = identity, .truthSamples = 16};
+    const SweepScene scene{.scene = scene_,
+                           .state = state_,
+                           .width = 48,
+                           .height = 27,
+                           .identity = identity,
+                           .truthSamples = 16,
+                           .floorSamples = 25};
     Run result;
     result.finished = runSweep(plan_, Settings(), scene, subject, store, result.results, progress);
     result.drawn = subject.drawn;

@@ -142,7 +142,7 @@ TEST(LeftOutConfigurations, DrawTheBytesOfOneThatIsKept) {
     const TemporaryDirectory folder;
     SweepStore store(folder.path());
     const SweepScene scene{
-        .scene = session.scene(), .state = state, .width = 64, .height = 36, .noiseFloor = false, .truthSamples = 1};
+        .scene = session.scene(), .state = state, .width = 64, .height = 36, .truthSamples = 1, .floorSamples = 0};
     SweepResults results;
     ASSERT_TRUE(runSweep(plan, base, scene, subject, store, results, {}));
     std::set<std::vector<uint8_t>> kept;

@@ -16,7 +16,7 @@ std::vector<std::string> messagesWithout(std::optional<BarrierKind> kind, int sa
   }
   renderer.waitIdle();
   renderer.uploader().readFloats(scene.main().color());
-  const std::vector<uint16_t> texels(4 * 16 * 16, 0x3800);
+  const std::vector<uint16_t> texels(4 * (256 + 64 + 16 + 4 + 1), 0x3800);
   const Image image =
       renderer.uploader().image(std::as_bytes(std::span(texels)), {16, 16}, colorFormat, true, "upload");
   renderer.waitIdle();

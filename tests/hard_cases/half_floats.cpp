@@ -3,6 +3,7 @@
 
 #include "image/color.hpp"
 #include "shaders/gpu_data.h"
+#include "systems/gpu_conversion.hpp"
 #include "test_headers.hpp"
 
 namespace speculum {
@@ -29,6 +30,27 @@ TEST(HalfFloatTargets, RadianceCostsHalfAStepAtMost) {
       worst = std::max(worst, std::abs(steps(stored(radiance) / 8.0, exposure) - steps(radiance / 8.0, exposure)));
     }
     EXPECT_LE(worst, 0.5) << "exposure " << exposure;
+  }
+}
+
+// A clear color, which the CPU rounds: the nearest half float in a single picture; in a mean, what the pictures share
+// is a small part of a step, for views behind any number of mirrors.
+TEST(HalfFloatTargets, ClearColorsOfAMeanAverageOut) {
+  EXPECT_EQ(storedRadiance(1e9, 0, 0.0f), largest);
+  EXPECT_EQ(storedRadiance(0.0, 7, halfTurn(0, 7)), 0.0f);
+  for (double value = 1e-6; value < 6e4; value *= 1.37) {
+    const double step = std::exp2(std::max(std::floor(std::log2(value)), -14.0) - 10.0);
+    EXPECT_EQ(storedRadiance(value, 0, 0.3f), stored(value)) << value;
+    for (const size_t depth : {0, 1, 2, 5, 31}) {
+      double sum = 0.0;
+      for (int picture = 0; picture < 64; ++picture) {
+        const float rounded = storedRadiance(value, picture, halfTurn(depth, picture));
+        EXPECT_EQ(stored(rounded), rounded) << "a half float";
+        EXPECT_LE(std::abs(rounded - value), step);
+        sum += rounded;
+      }
+      EXPECT_NEAR(sum / 64.0, value, 0.06 * step) << value << " behind " << depth << " mirrors";
+    }
   }
 }
 

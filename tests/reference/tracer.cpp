@@ -59,6 +59,32 @@ TEST(ReferenceTracer, NumberOfThreadsChangesNoBit) {
   }
 }
 
+// A floor whose edge crosses the pixels from left to right, nowhere at the height of the samples of a grid.
+TEST(ReferenceTracer, LatticeHasAsManyHeightsAsSamples) {
+  Scene scene = floorScene(diffuse({1, 1, 1}));
+  scene.environment.ambient = glm::dvec3(1.0);
+  scene.camera = testing::cameraAt({0, 0.7, 3}, {0, 0.3, 0});
+  scene.camera.up = {0.02, 1, 0};
+  const SceneState state = evaluate(scene, 0.0);
+  const RayTracer tracer(scene, state);
+  const auto traced = [&](int samples, bool lattice) {
+    return tracer.render({.width = 33, .height = 21, .samples = samples, .lattice = lattice})->image.pixels;
+  };
+  EXPECT_EQ(traced(1, true), traced(1, false)) << "the pixel's centre";
+  const std::vector<glm::vec3> truth = traced(32 * 32, false);
+  const std::vector<glm::vec3> grid = traced(64, false);
+  const std::vector<glm::vec3> lattice = traced(64, true);
+  double gridError = 0.0;
+  double latticeError = 0.0;
+  for (size_t i = 0; i < truth.size(); ++i) {
+    gridError += std::abs(grid[i].r - truth[i].r);
+    latticeError += std::abs(lattice[i].r - truth[i].r);
+    EXPECT_NEAR(lattice[i].r, truth[i].r, 3.0 / 64.0);
+  }
+  EXPECT_GT(gridError, 0.0);
+  EXPECT_LT(latticeError, 0.5 * gridError) << "edges almost along the rows of a grid";
+}
+
 TEST(ReferenceTracer, MasksSayWhatPixelCentresMeet) {
   const Scene scene = mixedScene();
   const SceneState state = evaluate(scene, 0.0);

@@ -36,6 +36,28 @@ std::string corridorScene(const std::string& nodes) {
 )";
 }
 
+std::string plainScene(unsigned seed, PlainMirrors mirrors, const std::string& mirrorKeys) {
+  Random random(seed);
+  const auto color = [&](double low, double high) {
+    const double r = random.uniform(low, high);
+    const double g = random.uniform(low, high);
+    return text(glm::dvec3(r, g, random.uniform(low, high)));
+  };
+  std::string toml = "[environment]\nambient = [1, 1, 1]\nbackground = " + color(0.1, 1.0) + "\n" +
+                     cameraText({0, 0, random.uniform(-0.3, 0.3)}, {random.uniform(-0.2, 0.2), 0.1, -2});
+  for (int i = 0; i < 4; ++i) {
+    const glm::dvec3 at(random.uniform(-1.6, 1.6), random.uniform(-0.9, 0.9), i % 2 == 0 ? -0.6 : 0.8);
+    toml += "[[object]]\nmodel = \"quad.obj\"\nposition = " + text(at) + "\nscale = " + text(random.uniform(0.2, 0.5)) +
+            "\ncolor = " + color(0.05, 1.0) + "\n";
+  }
+  const auto mirror = [&](const glm::dvec3& position, double turned) {
+    return "[[mirror]]\n" + rectangleText(position, {0, turned, 0}, 30, 30) + "reflectance = " + color(0.8, 0.98) +
+           "\n" + mirrorKeys;
+  };
+  toml += mirror({0, 0, -1}, 0);
+  return toml + (mirrors == PlainMirrors::facing ? mirror({0, 0, 1}, 180) : mirror({-1.2, 0, 0}, 90));
+}
+
 // Breaks lines after the header of a table and at commas between its keys.
 static std::string keyPerLine(const std::string& text) {
   std::string lines;

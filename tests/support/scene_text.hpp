@@ -23,6 +23,11 @@ extern const std::string corridorNodes;
 // The eye between two mirrors that face each other, and `nodes` between them.
 std::string corridorScene(const std::string& nodes = corridorNodes);
 
+// Flat colors in the light from all sides, seen in two large mirrors. Few edges, no texture, so that rounding is most
+// of what is wrong with a picture. writeQuad() writes its model.
+enum class PlainMirrors { facing, corner };
+std::string plainScene(unsigned seed, PlainMirrors mirrors, const std::string& mirrorKeys = "");
+
 // Return numbers with all their digits.
 std::string text(double value);
 std::string text(const glm::dvec3& v);

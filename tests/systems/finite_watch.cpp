@@ -170,7 +170,7 @@ class BrokenPass : public Watch, public testing::WithParamInterface<BrokenSample
   const bool negative_ = GetParam().negative;
   // NaN goes through storable(), which must not hide it.
   const char* const value_ =
-      negative_ ? "-0.25" : "storable(vec3(uintBitsToFloat(0x7fc00000u | view.firstLight)), 0.0).g";
+      negative_ ? "-0.25" : "storable(vec3(uintBitsToFloat(0x7fc00000u | view.firstLight)), 0.0, gl_FragCoord.xy).g";
   void expectFinding(const NonFinite& found, int x, int y) const {
     EXPECT_EQ(std::tuple(found.x, found.y, found.sample, found.count), std::tuple(x, y, samples_ - 1, uint64_t{1}));
     EXPECT_TRUE(negative_ ? found.value.g == -0.25f : std::isnan(found.value.g)) << found.value.g;
