@@ -56,14 +56,9 @@ void applyCurvedMirror(uint instance, vec3 direction, inout Bounce bounce) {
   }
 }
 
-// Returns the color of one level of a texture, interpolated bilinearly or of the nearest texel.
-vec3 textureColor(TraceTexture source, vec2 uv, bool clamped) {
+// Returns the color of one level of a texture, interpolated bilinearly.
+vec3 bilinearTraced(TraceTexture source, vec2 uv, bool clamped) {
   ivec2 size = ivec2(source.width, source.height);
-  if (textureFilter == textureNearest) {
-    ivec2 texel = nearestTexel(uv, size, clamped);
-    uvec2 halfs = traceTexels[source.firstTexel + uint(texel.y * size.x + texel.x)];
-    return vec3(unpackHalf2x16(halfs.x), unpackHalf2x16(halfs.y).x);
-  }
   BilinearTexels at = bilinearTexels(uv, size, clamped);
   vec3 rows[2];
   for (int i = 0; i < 2; ++i) {
@@ -76,6 +71,12 @@ vec3 textureColor(TraceTexture source, vec2 uv, bool clamped) {
   return mix(rows[0], rows[1], at.weight.y);
 }
 
+vec3 nearestTraced(TraceTexture source, vec2 uv, bool clamped) {
+  ivec2 texel = nearestTexel(uv, ivec2(source.width, source.height), clamped);
+  uvec2 halfs = traceTexels[source.firstTexel + uint(texel.y * int(source.width) + texel.x)];
+  return vec3(unpackHalf2x16(halfs.x), unpackHalf2x16(halfs.y).x);
+}
+
 // Returns the color of a texture between its levels; `across` and `down` are the steps of uv from pixel to pixel.
 vec3 trilinearColor(TraceTexture source, vec2 uv, bool clamped, vec2 across, vec2 down) {
   vec2 size = vec2(source.width, source.height);
@@ -86,10 +87,10 @@ vec3 trilinearColor(TraceTexture source, vec2 uv, bool clamped, vec2 across, vec
     source.width = max(source.width / 2, 1);
     source.height = max(source.height / 2, 1);
   }
-  vec3 fine = textureColor(source, uv, clamped);
+  vec3 fine = bilinearTraced(source, uv, clamped);
   TraceTexture next = TraceTexture(source.firstTexel + source.width * source.height, max(source.width / 2, 1),
                                    max(source.height / 2, 1));
-  return source.width * source.height > 1 ? mix(fine, textureColor(next, uv, clamped), fract(level)) : fine;
+  return source.width * source.height > 1 ? mix(fine, bilinearTraced(next, uv, clamped), fract(level)) : fine;
 }
 
 // Returns the mean of lookups along the longer side of the pixel's footprint: Vulkan specification, "Texel Anisotropic
@@ -159,7 +160,8 @@ Bounce objectBounce(uint instance, uint triangle, Weights weights, vec3 position
     } else if (textureFilter == textureAnisotropic) {
       surface.diffuse *= anisotropicColor(source, uv, clamped, corners * weights.across, corners * weights.down);
     } else {
-      surface.diffuse *= textureColor(source, uv, clamped);
+      surface.diffuse *= textureFilter == textureNearest ? nearestTraced(source, uv, clamped)
+                                                         : bilinearTraced(source, uv, clamped);
     }
   }
   if (vertexColors && material.firstColor != noColors) {

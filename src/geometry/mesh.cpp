@@ -2,7 +2,9 @@
 
 #include <meshoptimizer.h>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 
 #include "geometry/bvh.hpp"
 
@@ -72,10 +74,35 @@ struct PartVertices {
   }
 };
 
+// Says whether many triangles lie in one place, going by some of them. Sorting compares each of these with all others.
+bool coincide(const PartVertices& part) {
+  constexpr size_t samples = 4096;
+  constexpr ptrdiff_t most = samples / 64;
+  const size_t triangles = part.indices.size() / 3;
+  std::vector<std::array<float, 3>> places;
+  for (size_t i = 0; i < samples && triangles >= samples; ++i) {
+    const uint32_t* triangle = &part.indices[i * triangles / samples * 3];
+    const glm::vec3 place = part.positions[triangle[0]] + part.positions[triangle[1]] + part.positions[triangle[2]];
+    places.push_back({place.x, place.y, place.z});
+  }
+  std::ranges::sort(places);
+  for (auto first = places.begin(); first != places.end();) {
+    const auto next = std::upper_bound(first, places.end(), *first);
+    if (next - first > most) {
+      return true;
+    }
+    first = next;
+  }
+  return false;
+}
+
 void sortTriangles(const Mesh& mesh, std::span<uint32_t> indices, std::span<PartVertices::Last> last) {
   constexpr size_t triangles = clusterIndices / 3;
   constexpr size_t vertices = 64;
   const PartVertices part(mesh, indices, last);
+  if (coincide(part)) {
+    return;
+  }
   const size_t most = meshopt_buildMeshletsBound(indices.size(), vertices, triangles);
   std::vector<meshopt_Meshlet> meshlets(most);
   std::vector<uint32_t> meshletVertices(most * vertices);

@@ -121,7 +121,7 @@ struct Mesh {
 
 // Reorders the triangles of each part so that consecutive ones lie close together on the surface, by meshoptimizer's
 // meshlets, and the vertices by their first use: clusters become small, and fewer vertices are shaded twice. A mesh
-// that is too small for clusters stays as it is.
+// that is too small for clusters, or has many triangles in one place, stays as it is.
 void sortIntoClusters(Mesh& mesh);
 
 // Cuts the mesh's triangles in their order into clusters of 64. Returns none for a mesh that is too small to gain by

@@ -12,10 +12,11 @@ namespace speculum {
 
 namespace {
 
-// Returns the box that surrounds boxes[own]; empty boxes do not count. Each side lies at the near face of the farthest
-// box on that side, such as a wall, or at the far face of a box that encloses the object, such as a room; without such
-// boxes, at the end of the scene.
-Bounds boxAround(size_t own, std::span<const Bounds> boxes) {
+// Returns the box that surrounds boxes[own]; boxes that are not reflected do not count. Each side lies at the near face
+// of the farthest box on that side, such as a wall, or at the far face of a box that encloses the object, such as a
+// room; without such boxes, at the end of the scene.
+template <typename Predicate>
+Bounds boxAround(size_t own, std::span<const Bounds> boxes, const Predicate& isReflected) {
   const Bounds& inner = boxes[own];
   Bounds all = inner;
   Bounds around = inner;
@@ -23,7 +24,7 @@ Bounds boxAround(size_t own, std::span<const Bounds> boxes) {
   glm::bvec3 highFound(false);
   for (size_t i = 0; i < boxes.size(); ++i) {
     const Bounds& box = boxes[i];
-    if (box.low.x > box.high.x) {
+    if (i != own && !isReflected(i)) {
       continue;
     }
     all.add(box);
@@ -102,20 +103,18 @@ EnvironmentMaps environmentMaps(const Scene& scene, const SceneState& state, con
   if (!settings.effects.curved || settings.effects.curvedLookup != CurvedLookup::environment) {
     return maps;
   }
-  RecycledVector<Bounds> boxes = boxesOf(scene, state);
+  const RecycledVector<Bounds> boxes = boxesOf(scene, state);
   RecycledVector<int> curved = drawnCurved(scene, state, passes);
   const size_t drawn = curved.size();
   keepWidest(curved, state);
-  for (size_t i = 0; i < state.instances.size(); ++i) {
-    const bool reflected = sees(Onlooker::mirror, scene.objects[state.instances[i].object].visible);
-    if (!reflected && !std::ranges::binary_search(curved, static_cast<int>(i))) {
-      boxes[i] = Bounds();
-    }
-  }
+  // Behind the boxes of instances stand those of mirrors.
+  const auto isReflected = [&](size_t i) {
+    return i >= state.instances.size() || sees(Onlooker::mirror, scene.objects[state.instances[i].object].visible);
+  };
   maps.omitted = drawn - curved.size();
   for (const int i : curved) {
     const InstanceState& instance = state.instances[i];
-    const Bounds box = boxAround(static_cast<size_t>(i), boxes);
+    const Bounds box = boxAround(static_cast<size_t>(i), boxes, isReflected);
     Cube map{.kind = PassKind::environment,
              .object = instance.object,
              .copy = instance.copy,

@@ -102,7 +102,7 @@ glm::dvec3 mapShare(const Scene& scene, const Mirror& mirror, const MirrorState&
   const glm::dvec3 local = position - state.origin;
   const glm::dvec2 uv = (glm::dvec2(glm::dot(local, state.axisX), glm::dot(local, state.axisY)) - box.low) / box.size;
   const glm::dvec2 edge = 0.5 / glm::dvec2(map.width, map.height);  // the outermost texels reach to the border
-  return textureColor(map, glm::clamp(uv, edge, 1.0 - edge));
+  return textureAt(map, glm::clamp(uv, edge, 1.0 - edge), false);
 }
 
 glm::dvec3 mirrorNormal(const Mirror& mirror, const MirrorState& state, const glm::dvec3& position, double time) {

@@ -116,6 +116,14 @@ void forEachTriangle(int mode, size_t count, const Add& add) {
   }
 }
 
+// Says whether a texture continues in this way outside of its picture, in both directions.
+bool wraps(const tinygltf::Model& model, int texture, int way) {
+  const int sampler = isIndex(texture, model.textures.size()) ? model.textures[texture].sampler : -1;
+  return isIndex(sampler, model.samplers.size())
+             ? model.samplers[sampler].wrapS == way && model.samplers[sampler].wrapT == way
+             : way == TINYGLTF_TEXTURE_WRAP_REPEAT;
+}
+
 // Materials of the file, as the mesh's parts need them.
 class GltfMaterials {
  public:
@@ -132,10 +140,11 @@ class GltfMaterials {
     Material material{.name = from.name};
     const auto load = [&](const auto&... picture) { return textureIndex(picture..., textures_); };
     material.diffuseTexture = readPicture(surface.baseColorTexture.index, load).value_or(-1);
+    material.clamps = wraps(content_.model(), surface.baseColorTexture.index, TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE);
     setSurface(material, surface);
     material.emission = emissionOf(from);
     if (from.alphaMode == "MASK" || from.alphaMode == "BLEND") {
-      add("'{}' is not opaque, it is drawn opaque", from.name);
+      setCoverage(material, from);
     }
     if (from.normalTexture.index >= 0 || from.occlusionTexture.index >= 0) {
       add("'{}' has a normal or occlusion texture, it is left out", from.name);
@@ -163,9 +172,26 @@ class GltfMaterials {
       metal *= mean.z;
     }
     const glm::dvec3 base = colorOf(surface.baseColorFactor, surfaceColorRange);
-    const glm::dvec3 tint =
-        material.diffuseTexture < 0 ? glm::dvec3(1.0) : meanColor(textures_[material.diffuseTexture]);
-    setMetalRoughness(material, base, metal, roughness, tint);
+    const auto [tint, isNew] = tints_.try_emplace(material.diffuseTexture, 1.0);
+    if (isNew && material.diffuseTexture >= 0) {
+      tint->second = meanColor(textures_[material.diffuseTexture]);
+    }
+    setMetalRoughness(material, base, metal, roughness, tint->second);
+  }
+
+  // Sets the coverage of a material whose texture is set.
+  void setCoverage(Material& material, const tinygltf::Material& from) {
+    const std::vector<double>& factor = from.pbrMetallicRoughness.baseColorFactor;
+    material.opacity = factor.size() == 4 && factor[3] >= 0.0 ? std::min(factor[3], 1.0) : 1.0;
+    if (material.diffuseTexture >= 0 && !textures_[material.diffuseTexture].opacity.empty()) {
+      material.opacityTexture = material.diffuseTexture;
+    }
+    if (from.alphaMode == "MASK") {
+      material.cutoff = std::isfinite(from.alphaCutoff) ? std::clamp(from.alphaCutoff, 0.0, 2.0) : 0.5;
+    }
+    if (material.isTransparent()) {
+      material.mirror.reset();
+    }
   }
 
   glm::dvec3 emissionOf(const tinygltf::Material& from) {
@@ -230,6 +256,7 @@ class GltfMaterials {
   ModelDefects& defects_;
   std::vector<Texture>& textures_;
   std::map<fs::path, Means> means_;  // by the pictures' names
+  std::map<int, glm::dvec3> tints_;  // mean colors, by index into textures_; -1: 1
 };
 
 // Reads the nodes of the default scene into one mesh in the scene's space.
@@ -414,16 +441,11 @@ class GltfReader {
       leavesPicture = leavesPicture || glm::distance(uv, glm::clamp(uv, 0.0, 1.0)) > 1e-3;
       builder_.addTexcoord(uv);
     }
-    if (leavesPicture && !repeats(texture.index)) {
-      add("samplers", "texture {} is clamped or mirrored outside of its picture, it is drawn repeated", texture.index);
-    }
-  }
-
-  bool repeats(int texture) const {
     const tinygltf::Model& model = content_.model();
-    const int sampler = isIndex(texture, model.textures.size()) ? model.textures[texture].sampler : -1;
-    return !isIndex(sampler, model.samplers.size()) || (model.samplers[sampler].wrapS == TINYGLTF_TEXTURE_WRAP_REPEAT &&
-                                                        model.samplers[sampler].wrapT == TINYGLTF_TEXTURE_WRAP_REPEAT);
+    if (leavesPicture && !wraps(model, texture.index, TINYGLTF_TEXTURE_WRAP_REPEAT) &&
+        !wraps(model, texture.index, TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE)) {
+      add("samplers", "texture {} is mirrored, or clamped in one direction, it is drawn repeated", texture.index);
+    }
   }
 
   // Returns the components of each color: 4 with alpha, else 3.
@@ -558,9 +580,6 @@ Model loadGltf(const fs::path& file, std::vector<Texture>& textures, const LoadP
   }
   ModelDefects defects;
   GltfFile content(file, defects);
-  if (content.hasMotion()) {
-    defects.add(file, 1, "animations", "skins and animations are left out, the model stands still");
-  }
   GltfReader reader(file, content, defects);
   reader.read(progress);
   GltfMaterials materials(file, content, defects, textures);
@@ -569,6 +588,9 @@ Model loadGltf(const fs::path& file, std::vector<Texture>& textures, const LoadP
   mesh.materialFiles.assign(content.bufferFiles().begin(), content.bufferFiles().end());
   for (const fs::path& named : content.namedFiles()) {
     mesh.namedFiles.push_back(named.lexically_relative(file.lexically_normal().parent_path()));
+  }
+  if (content.hasMotion() && !mesh.indices.empty()) {
+    defects.add(file, 1, "animations", "skins and animations are left out, the model stands still");
   }
   mesh.defects = defects.report();
   if (mesh.indices.empty()) {

@@ -23,7 +23,7 @@ constexpr size_t mostFlatTriangles = 1 << 16;
 constexpr size_t mostMaterials = 32;
 constexpr size_t mostPlanes = 32;
 constexpr size_t mostPieces = 256;
-constexpr size_t mostVertices = 1000;  // of a piece or an outline, as of a mirror in a file
+constexpr size_t mostCorners = 1000;  // of a piece or an outline, as of a mirror in a file
 // Bounds of what each frame places: copies of an object that materials cut, and planar mirrors of a scene.
 constexpr int mostCopies = 10'000;
 constexpr size_t mostPlanar = 1000;
@@ -32,7 +32,7 @@ constexpr size_t mostPlanar = 1000;
 // rounding leaves their polygons flat and convex.
 constexpr double largestExtent = 1e15;
 constexpr double smallestExtent = 1e-12;
-constexpr double farthest = 1e8;
+constexpr double farthestAway = 1e8;
 
 // Distance from a plane, in radii of the model, within which faces count as flat and in one plane.
 constexpr double flatness = 1e-5;
@@ -114,7 +114,7 @@ std::vector<FlatGroup> flatGroups(const Mesh& mesh, const TrianglePart& flat, si
   }
   std::ranges::for_each(groups, findOutline);
   std::erase_if(groups, [](const FlatGroup& group) {
-    const auto isLong = [](const std::vector<glm::dvec3>& polygon) { return polygon.size() > mostVertices; };
+    const auto isLong = [](const std::vector<glm::dvec3>& polygon) { return polygon.size() > mostCorners; };
     return polygonDefect(group.mirror.outline).has_value() || isLong(group.mirror.outline) ||
            std::ranges::any_of(group.mirror.pieces, isLong);
   });
@@ -272,7 +272,7 @@ bool makesMirrors(const Scene& scene, const Object& object) {
   const double largest = glm::compMax(scale) * mesh.radius * mesh.unit;
   const double smallest = glm::compMin(scale) * mesh.radius * mesh.unit;
   const double away = glm::length(object.position) + object.copies.count * glm::length(object.copies.step) + middle;
-  return middle + largest <= largestExtent && smallest >= smallestExtent && away <= farthest * smallest;
+  return middle + largest <= largestExtent && smallest >= smallestExtent && away <= farthestAway * smallest;
 }
 
 void placeMaterialMirrors(Scene& scene) {

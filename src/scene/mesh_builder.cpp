@@ -243,7 +243,7 @@ void MeshBuilder::addTriangle(const FaceCorner& a, const FaceCorner& b, const Fa
       const int position = corners[i].position;
       const double angle = angleAt(positions_[position], positions_[corners[(i + 1) % 3].position],
                                    positions_[corners[(i + 2) % 3].position]);
-      corners[i].normal = addToSmoothNormal(position, angle * shape.normal);
+      corners[i].normal = addToSmoothNormal(position, shape.normal, angle);
     }
     indices_->push_back(vertexOf(corners[i], shape.normal));
   }
@@ -254,24 +254,53 @@ bool MeshBuilder::hasNormal(const FaceCorner& corner) const {
 }
 
 // Returns the FaceCorner::normal of a corner of the present smoothing group.
-int MeshBuilder::addToSmoothNormal(int position, const glm::dvec3& weightedNormal) {
+int MeshBuilder::addToSmoothNormal(int position, const glm::dvec3& normal, double weight) {
   const uint64_t key = uint64_t{smoothing_} << 32 | static_cast<uint32_t>(position);
   const auto [found, isNew] = smoothIndices_.try_emplace(key, static_cast<int>(smoothNormals_.size()));
   if (isNew) {
     smoothNormals_.emplace_back(0.0);
   }
-  smoothNormals_[found->second] += weightedNormal;
+  smoothNormals_[found->second] += weight * glm::dvec4(normal, 1.0);
   return firstSmooth - found->second;
 }
 
-// Vertices whose triangles' normals cancel keep the normal of the first one.
 void MeshBuilder::smoothNormals() {
+  constexpr double leastShare = 1e-3;  // of the weights, that does not cancel
+  std::vector<bool> cancelled(smoothVertices_.empty() ? 0 : vertices_.size());
   for (const auto& [vertex, index] : smoothVertices_) {
-    const glm::dvec3& sum = smoothNormals_[index];
-    if (glm::length(sum) > 1e-6) {
-      vertices_[vertex].normal = glm::normalize(sum);
+    const glm::dvec3 sum(smoothNormals_[index]);
+    cancelled[vertex] = !(glm::length(sum) > leastShare * smoothNormals_[index].w);
+    vertices_[vertex].normal = cancelled[vertex] ? glm::dvec3(0.0) : glm::normalize(sum);
+  }
+  if (std::ranges::find(cancelled, true) == cancelled.end()) {
+    return;
+  }
+  for (auto& [material, indices] : materialIndices_) {
+    for (size_t first = 0; first < indices.size(); first += 3) {
+      const auto position = [&](size_t k) { return vertices_[indices[first + k]].position; };
+      const glm::dvec3 own = shapeOf(position(0), position(1), position(2)).normal;
+      for (size_t k = first; k < first + 3; ++k) {
+        if (indices[k] < cancelled.size() && cancelled[indices[k]]) {
+          indices[k] = copyOf(indices[k]);
+          vertices_[indices[k]].normal = own;
+        }
+      }
     }
   }
+}
+
+uint32_t MeshBuilder::copyOf(uint32_t vertex) {
+  const auto index = static_cast<uint32_t>(vertices_.size());
+  vertices_.push_back(Vertex(vertices_[vertex]));
+  if (vertex < uvShifts_.size()) {
+    uvShifts_.resize(index, glm::dvec2(0.0));
+    uvShifts_.push_back(glm::dvec2(uvShifts_[vertex]));
+  }
+  if (vertex < vertexColors_.size()) {
+    vertexColors_.resize(index, glm::vec3(1.0f));
+    vertexColors_.push_back(glm::vec3(vertexColors_[vertex]));
+  }
+  return index;
 }
 
 uint32_t MeshBuilder::vertexOf(const FaceCorner& corner, const glm::dvec3& triangleNormal) {
@@ -304,7 +333,8 @@ uint32_t MeshBuilder::vertexOf(const FaceCorner& corner, const glm::dvec3& trian
 
 Mesh MeshBuilder::finish(const std::function<PartMaterial(int)>& materialOf) {
   smoothNormals();
-  vertexColors_.resize(vertexColors_.empty() ? 0 : vertices_.size(), glm::vec3(1.0f));
+  colored_ = !vertexColors_.empty();
+  vertexColors_.resize(colored_ ? vertices_.size() : 0, glm::vec3(1.0f));
   Mesh mesh{.source = file_, .vertices = std::move(vertices_), .colors = std::move(vertexColors_)};
   std::vector<Material> materials;
   for (const int index : materialOrder_) {

@@ -55,18 +55,20 @@ class MeshBuilder {
   // Sets the material of the faces that follow; -1: the default material.
   void setMaterial(int material);
   // Sets the smoothing group of the faces that follow; 0: none. Corners of a group without a usable normal get the mean
-  // of the normals of the group's triangles at their position, weighted by the triangles' angles there.
+  // of the normals of the triangles to which such corners at the position belong, weighted by the angles there. Where
+  // the normals cancel, as on sheets with two sides, each triangle keeps its own.
   void setSmoothing(uint32_t group) { smoothing_ = group; }
-  // Triangulates a face of at least three corners, which stands in this line of the file. Corners without a usable
-  // normal and smoothing group get the normal of their triangle, corners without a finite texture coordinate get (0,
-  // 0). Drops faces with positions that are not finite, triangles without an area, and faces that would take too long
-  // to triangulate.
+  // Triangulates a face of at least three corners, which stands in this line of the file. Corners that have
+  // neither a usable normal nor a smoothing group get the normal of their triangle, corners without a finite texture
+  // coordinate get (0, 0). Drops faces with positions that are not finite, triangles without an area, and faces that
+  // would take too long to triangulate.
   void addFace(std::span<const FaceCorner> corners, int line);
 
   size_t positionCount() const { return positions_.size(); }
   size_t texcoordCount() const { return texcoords_.size(); }
   size_t normalCount() const { return normals_.size(); }
-  bool hasColors() const { return !colors_.empty(); }
+  // Says whether a triangle has vertex colors, for the function that finish() calls.
+  bool hasColors() const { return colored_; }
 
   // Returns the mesh: its triangles are grouped by material in the order of first use; it may have none. Call it once,
   // last.
@@ -83,8 +85,9 @@ class MeshBuilder {
   void addTriangle(const FaceCorner& a, const FaceCorner& b, const FaceCorner& c, int line);
   uint32_t vertexOf(const FaceCorner& corner, const glm::dvec3& triangleNormal);
   bool hasNormal(const FaceCorner& corner) const;
-  int addToSmoothNormal(int position, const glm::dvec3& weightedNormal);
+  int addToSmoothNormal(int position, const glm::dvec3& normal, double weight);
   void smoothNormals();
+  uint32_t copyOf(uint32_t vertex);
 
   const std::filesystem::path& file_;
   ModelDefects& defects_;
@@ -103,9 +106,10 @@ class MeshBuilder {
   std::vector<Vertex> vertices_;
   std::vector<glm::vec3> colors_;        // by position; may end before the last; empty: none
   std::vector<glm::vec3> vertexColors_;  // by vertex, as colors_
+  bool colored_ = false;
   uint32_t smoothing_ = 0;
   std::unordered_map<uint64_t, int> smoothIndices_;       // by position and group: index into smoothNormals_
-  std::vector<glm::dvec3> smoothNormals_;                 // sums
+  std::vector<glm::dvec4> smoothNormals_;                 // sums, and in w the sum of the weights
   std::vector<std::pair<uint32_t, int>> smoothVertices_;  // vertices with an index into smoothNormals_
   double cornerPairs_ = 0.0;                              // sum of squared corner counts, over faces with many corners
 };

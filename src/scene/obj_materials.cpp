@@ -111,7 +111,7 @@ class ObjMaterials::MtlReader {
     } else if (key == "ks") {
       readColor("Ks", surfaceColorRange, 0.0);
     } else if (key == "ke") {
-      hasEmission_ = readColor("Ke", radianceRange, 0.0) || hasEmission_;
+      readColor("Ke", radianceRange, 0.0);
     } else if (key == "ns") {
       readNumber("Ns");
     } else if (key == "d") {
@@ -121,8 +121,9 @@ class ObjMaterials::MtlReader {
     } else if (key == "tr") {
       readNumber("Tr");
     } else if (key == "pr" || key == "pm") {
-      entry_->metalRoughness = readNumber(key == "pr" ? "Pr" : "Pm") || entry_->metalRoughness;
-      hasRoughness_ = hasRoughness_ || key == "pr";
+      const bool read = readNumber(key == "pr" ? "Pr" : "Pm", Range{0.0, 1.0});
+      entry_->metalRoughness = read || entry_->metalRoughness;
+      hasRoughness_ = (read && key == "pr") || hasRoughness_;
     } else if (key == "map_kd") {
       if (readTexture("map_Kd")) {
         entry_->textureLine = line_.number();
@@ -159,14 +160,19 @@ class ObjMaterials::MtlReader {
     return true;
   }
 
-  // With -halo, d fades with the angle, and the number behind that option counts.
-  bool readNumber(const char* key) {
+  // With -halo, d fades with the angle, and the number behind that option counts. Of a number out of range, the nearest
+  // one in range counts.
+  bool readNumber(const char* key, const std::optional<Range>& range = {}) {
     const std::vector<std::string_view>& tokens = line_.tokens();
     const size_t at = tokens.size() > 1 && tokens[1] == "-halo" ? 2 : 1;
-    const double value = at < tokens.size() ? numberOf(tokens[at]) : std::nan("");
+    double value = at < tokens.size() ? numberOf(tokens[at]) : std::nan("");
     if (!std::isfinite(value)) {
       add(key, "is not a finite number, it is left out");
       return false;
+    }
+    if (range && !range->contains(value)) {
+      add(key, "is out of range, the nearest number in range counts");
+      value = std::clamp(value, range->low, range->high);
     }
     text_ += fmt::format("{} {}\n", key, value);
     return true;
@@ -212,9 +218,6 @@ class ObjMaterials::MtlReader {
     }
     entry_->diffuseTexture = from.diffuse_texname;
     entry_->emissionTexture = from.emissive_texname;
-    if (!std::exchange(hasEmission_, false) && !from.emissive_texname.empty()) {
-      material.emission = glm::dvec3(1.0);
-    }
     materials_.entries_.try_emplace(name_, std::move(*entry_));
     entry_.reset();
   }
@@ -227,7 +230,6 @@ class ObjMaterials::MtlReader {
   std::optional<Entry> entry_;  // the material that is being read
   std::string name_;
   std::string text_;  // for tinyobjloader
-  bool hasEmission_ = false;
   bool hasRoughness_ = false;
 };
 
@@ -299,17 +301,16 @@ PartMaterial ObjMaterials::material(int index, bool colored, std::vector<Texture
   material.diffuse = colored && !entry.hasDiffuse ? glm::dvec3(1.0) : material.diffuse;
   material.diffuseTexture = entry.diffuseTexture.empty() ? -1 : addTexture(entry, textures);
   if (entry.metalRoughness) {
-    const glm::dvec3 mean =
-        material.diffuseTexture < 0 ? glm::dvec3(1.0) : meanColor(textures[material.diffuseTexture]);
+    const glm::dvec3 mean = material.diffuseTexture < 0 ? glm::dvec3(1.0) : meanOf(textures[material.diffuseTexture]);
     setMetalRoughness(material, material.diffuse, entry.metal, entry.roughness, mean);
-  }
-  if (!entry.opaque) {
-    material.mirror.reset();
   }
   if (!entry.emissionTexture.empty()) {
     applyEmissionTexture(entry, material);
   }
   addOpacity(entry, material, textures);
+  if (material.isTransparent()) {
+    material.mirror.reset();
+  }
   return {material, entry.textureScale, entry.textureOffset};
 }
 
@@ -352,15 +353,30 @@ void ObjMaterials::addOpacity(const Entry& entry, Material& material, std::vecto
   }
 }
 
-// Emission has one color on a surface: the texture's mean multiplies it.
+// A texture may belong to many materials.
+glm::dvec3 ObjMaterials::meanOf(const Texture& texture) {
+  const auto [found, isNew] = means_.try_emplace(texture.source);
+  if (isNew) {
+    found->second = meanColor(texture);
+  }
+  return found->second;
+}
+
+// Emission has one color on a surface: the texture's mean multiplies it. Exporters write Ke 0 beside a texture.
 void ObjMaterials::applyEmissionTexture(const Entry& entry, Material& material) {
   const auto picture = findTexture(entry, entry.emissionLine, "map_Ke", entry.emissionTexture);
   try {
-    if (picture) {
-      filesRead_.insert(withoutLinks(*picture));
-      std::vector<Texture> textures;
-      material.emission *= meanColor(textures[static_cast<size_t>(textureIndex(*picture, textures))]);
+    if (!picture) {
+      return;
     }
+    const fs::path source = withoutLinks(*picture);
+    filesRead_.insert(source);
+    if (!means_.contains(source)) {
+      std::vector<Texture> textures;
+      textureIndex(*picture, textures);
+      meanOf(textures.front());
+    }
+    material.emission = means_[source] * (material.emission == glm::dvec3(0.0) ? glm::dvec3(1.0) : material.emission);
   } catch (const FileError& error) {
     defects_.add(entry.file, entry.emissionLine, "map_Ke", "{}, the texture is left out", error.what());
   }

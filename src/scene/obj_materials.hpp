@@ -30,7 +30,7 @@ class ObjMaterials {
   int use(std::string_view name, int line);
 
   // Returns the material of an index from use(), or the default material for -1 and for a name that no file defines.
-  // Where no Kd is given it is 1 if the model is `colored` by its vertices. Appends the material's textures to
+  // `colored`: the model has vertex colors, and a missing Kd is 1. Appends the material's textures to
   // `textures` unless they are there already. Call this when all files are read.
   PartMaterial material(int index, bool colored, std::vector<Texture>& textures);
 
@@ -69,6 +69,7 @@ class ObjMaterials {
                                                    const std::string& name);
   int addTexture(const Entry& entry, std::vector<Texture>& textures);
   void addOpacity(const Entry& entry, Material& material, std::vector<Texture>& textures);
+  glm::dvec3 meanOf(const Texture& texture);
   void applyEmissionTexture(const Entry& entry, Material& material);
 
   const std::filesystem::path& objFile_;
@@ -79,6 +80,7 @@ class ObjMaterials {
   std::map<std::string, int, std::less<>> useIndices_;  // by name
   std::set<std::filesystem::path> filesRead_;
   std::set<std::filesystem::path> namedFiles_;
+  std::map<std::filesystem::path, glm::dvec3> means_;  // colors of textures, by Texture::source
   bool missingFile_ = false;
 };
 

@@ -50,8 +50,8 @@ struct Copies {
   bool operator==(const Copies&) const = default;
 };
 
-// Views that show an object or a light's glyph: all of them, those that are not seen in a mirror, or only those that
-// are. Objects cast shadows whatever shows them.
+// Where an object or a light's glyph is seen: everywhere, only directly, or only in mirrors. Objects cast shadows
+// wherever they are seen.
 enum class Visibility { everywhere, eye, mirrors };
 
 // What a view or a ray is for: the eye, the reflection of a mirror, flat or curved, or the shadows of a light.

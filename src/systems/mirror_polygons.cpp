@@ -31,6 +31,9 @@ std::vector<std::vector<ClipPolygon>> mirrorPolygons(const Pass& pass, const glm
     std::vector<ClipPolygon>& own = polygons.emplace_back();
     const std::span<const Polygon> pieces = draw.pieces.empty() ? std::span(&draw.polygon, 1) : std::span(draw.pieces);
     for (const Polygon& piece : pieces) {
+      if (piece.empty()) {
+        continue;  // outside the view
+      }
       ClipPolygon& clip = own.emplace_back();
       for (const glm::dvec3& p : piece) {
         clip.push_back(projection * glm::dvec4(pass.view.worldToView * (p - pass.view.eye), 1.0));

@@ -16,7 +16,7 @@ const std::string sweep = R"([[series]]
 key = "reflection.max_depth"
 values = [0, 1, 2, 3]
 axis = "linear"
-settings = { "reflection.samples" = 1, "view.samples" = 1 }
+settings = { "reflection.samples" = 4, "view.samples" = 4 }
 [[configuration]]
 name = "half <scale>"
 settings = { "reflection.scale" = 0.5 }

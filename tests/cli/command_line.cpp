@@ -496,7 +496,7 @@ TEST_F(CommandLine, StatsFollowTheirContract) {
   EXPECT_EQ(stats["skipped"][0]["depth"], 0);
   EXPECT_EQ(stats["skipped"][0]["reason"], "behind");
   EXPECT_EQ(stats["skipped"][1]["path"], nlohmann::json({"wall", 1}));
-  EXPECT_EQ(stats["effects"].size(), 11u);
+  EXPECT_EQ(stats["effects"].size(), 12u);
   for (const char* key : {"cpu_ms", "gpu_ms", "frame_ms", "device_bytes", "peak_rss_bytes", "pipelines"}) {
     EXPECT_GT(stats["totals"][key], 0) << key;
   }

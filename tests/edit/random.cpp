@@ -114,7 +114,7 @@ void editField(Node& node) {
   const int chosen = whole(0, static_cast<int>(fieldCount<Node>));
   int index = 0;
   forEachField<Node>([&](const auto& field) {
-    if (index++ == chosen && field.appliesTo(node) && field.key != "model") {
+    if (index++ == chosen && field.appliesTo(node) && field.key != "model" && field.key != "reflectance_map") {
       randomize(field, node.*field.member);
     }
   });

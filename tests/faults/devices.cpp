@@ -134,7 +134,7 @@ TEST_F(Devices, OtherDepthFormatsDraw) {
     EXPECT_TRUE(contains(fixed.output, "has no 32 bit depth")) << fixed.output;
     ASSERT_TRUE(fixed.picture);
     const PictureAgreement agreement =
-        difference(decodeTexture("fixed", *fixed.picture), decodeTexture("plain", plain.picture.value()), 2);
+        difference(readTexture("fixed", *fixed.picture), readTexture("plain", plain.picture.value()), 2);
     EXPECT_TRUE(agreement.holds()) << path << ": " << agreement.over;
   }
 }

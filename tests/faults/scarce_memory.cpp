@@ -30,15 +30,18 @@ int refusedAllocations() {
 
 }  // namespace speculum::testing_support
 
-// The linker takes this one before that of the Vulkan loader.
-extern "C" VKAPI_ATTR VkResult VKAPI_CALL vkAllocateMemory(VkDevice device, const VkMemoryAllocateInfo* info,
-                                                           const VkAllocationCallbacks* callbacks,
-                                                           VkDeviceMemory* memory) {
+extern "C" VKAPI_ATTR VkResult VKAPI_CALL __real_vkAllocateMemory(VkDevice device, const VkMemoryAllocateInfo* info,
+                                                                  const VkAllocationCallbacks* callbacks,
+                                                                  VkDeviceMemory* memory);
+
+// The linker's --wrap=vkAllocateMemory puts this one in the place of the real one.
+extern "C" VKAPI_ATTR VkResult VKAPI_CALL __wrap_vkAllocateMemory(VkDevice device, const VkMemoryAllocateInfo* info,
+                                                                  const VkAllocationCallbacks* callbacks,
+                                                                  VkDeviceMemory* memory) {
   auto& refused = speculum::testing_support::refused;
   if (info->allocationSize >= refused.fewest && info->allocationSize <= refused.most) {
     ++refused.count;
     return VK_ERROR_OUT_OF_DEVICE_MEMORY;
   }
-  const auto next = reinterpret_cast<PFN_vkAllocateMemory>(vkGetDeviceProcAddr(device, "vkAllocateMemory"));
-  return next(device, info, callbacks, memory);
+  return __real_vkAllocateMemory(device, info, callbacks, memory);
 }

@@ -5,7 +5,7 @@
 namespace speculum::testing_support {
 
 // Makes allocations of device memory of `fewest` to `most` bytes fail, as on a device without free memory. For test
-// programs that link scarce_memory.cpp, whose vkAllocateMemory replaces the loader's.
+// programs that link scarce_memory.cpp, which wraps vkAllocateMemory.
 void refuseMemory(uint64_t fewest, uint64_t most);
 void stopRefusingMemory();  // allocations succeed as usual again
 int refusedAllocations();   // so far

@@ -81,8 +81,13 @@ TEST_F(ObjLoader, GivenNormalsAndLaterVerticesGoWithSmoothingGroups) {
 
 TEST_F(ObjLoader, OppositeNormalsOfAGroupStayFlat) {
   const Mesh mesh = load("s 1\n" + squareText + "f 1 2 3 4\nf 4 3 2 1\n");
-  for (const Vertex& vertex : mesh.vertices) {
-    EXPECT_EQ(std::abs(vertex.normal.z), 1.0);
+  for (size_t i = 0; i < mesh.indices.size(); i += 3) {
+    const auto corner = [&](size_t k) { return mesh.vertices[mesh.indices[i + k]]; };
+    const glm::dvec3 across =
+        glm::cross(corner(1).position - corner(0).position, corner(2).position - corner(0).position);
+    for (size_t k = 0; k < 3; ++k) {
+      EXPECT_EQ(corner(k).normal, glm::normalize(across));
+    }
   }
 }
 
@@ -97,6 +102,8 @@ TEST_F(ObjLoader, VertexColorsAreRead) {
   EXPECT_EQ(warnings(), "");
   EXPECT_EQ(mesh.parts.at(0).material.diffuse, glm::dvec3(1.0)) << "nothing darkens the colors";
   EXPECT_TRUE(load(triangleObj).colors.empty());
+  EXPECT_EQ(load(std::string(triangleObj) + "v 9 9 9 1 1 1\n").parts.at(0).material.diffuse, glm::dvec3(0.6))
+      << "no face has it";
 }
 
 TEST_F(ObjLoader, DamagedVertexColorsAreMended) {

@@ -78,6 +78,9 @@ TEST_F(MtlFile, MetalAndRoughnessReplaceColors) {
   EXPECT_NEAR(plastic.shininess, 30.0, 1e-9) << "without Pr the roughness follows from Ns";
   EXPECT_EQ(materialOf("newmtl m\nPr what\n").specular, glm::dvec3(0.0));
   EXPECT_EQ(warnings(), "warning: m.mtl:2: Pr: is not a finite number, it is left out\n");
+  EXPECT_NEAR(materialOf("newmtl m\nNs 30\nPm 0\nPr what\n").shininess, 30.0, 1e-9);
+  EXPECT_EQ(materialOf("newmtl m\nPm 7\n").diffuse, glm::dvec3(0.0));
+  EXPECT_TRUE(contains(warnings(), "m.mtl:2: Pm: is out of range, the nearest number in range counts"));
 }
 
 TEST_F(MtlFile, TexturedMetalsHaveHighlightsOfTheMeanColor) {
@@ -93,9 +96,11 @@ TEST_F(MtlFile, EmissionTexturesCountByTheirMean) {
            testing_support::madePicture(2, 1, [](int x, int) { return glm::ivec4(255 * x, 0, 255, 255); }));
   EXPECT_EQ(materialOf("newmtl m\nmap_Ke t.png\n").emission, glm::dvec3(0.5, 0.0, 1.0));
   EXPECT_EQ(materialOf("newmtl m\nmap_Ke t.png\nKe 4\n").emission, glm::dvec3(2.0, 0.0, 4.0));
+  EXPECT_EQ(materialOf("newmtl m\nKe 0 0 0\nmap_Ke t.png\n").emission, glm::dvec3(0.5, 0.0, 1.0));
   EXPECT_EQ(materialOf("newmtl m\nKe 1 2 3\nmap_Ke none.png\n").emission, glm::dvec3(1.0, 2.0, 3.0));
   EXPECT_TRUE(textures_.empty());
   EXPECT_EQ(warnings(), "warning: m.mtl:3: map_Ke: there is no file 'none.png', the texture is left out\n");
+  EXPECT_EQ(materialOf("newmtl m\nmap_Ke none.png\n").emission, glm::dvec3(0.0));
 }
 
 TEST_F(MtlFile, ShininessBelowOneCountsAsOne) {

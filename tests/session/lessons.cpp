@@ -27,7 +27,7 @@ TEST_P(LessonPictures, RightHalfIsNearerToTheReference) {
   session.setCamera(state.camera);
   const auto truth = traceGroundTruth(
       session.scene(), state,
-      {.width = size.width, .height = size.height, .samples = 16, .noiseFloor = false, .settings = ofScene},
+      {.width = size.width, .height = size.height, .samples = 16, .floorSamples = 0, .settings = ofScene},
       [](double) { return true; });
   ASSERT_TRUE(truth);
   std::array<Image8, 2> pictures;
