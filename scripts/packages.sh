@@ -55,10 +55,20 @@ libmeshoptimizer-dev    meshoptimizer-devel        meshoptimizer                
 libtinygltf-dev         tinygltf-devel             tinygltf                          tinygltf-devel
 mesa-vulkan-drivers     mesa-vulkan-drivers        vulkan-swrast                     libvulkan_lvp
 fonts-dejavu-core       dejavu-sans-fonts          ttf-dejavu                        dejavu-fonts
+vulkan-validationlayers vulkan-validation-layers   vulkan-validation-layers          vulkan-validationlayers
+libgtest-dev            gtest-devel                gtest                             gtest
+librapidcheck-dev       rapidcheck-devel           rapidcheck                        rapidcheck-devel
+libembree-dev           embree-devel               embree                            embree-devel
+xvfb                    xorg-x11-server-Xvfb       xorg-server-xvfb                  xorg-x11-server-Xvfb
+x11-xkb-utils           xkbcomp                    xorg-xkbcomp                      xkbcomp
+x11-utils               xprop                      xorg-xprop                        xprop
+chromium-driver         chromedriver               -                                 chromedriver
+python3                 python3                    python                            python3
+python3-selenium        python3-selenium           python-selenium                   python3-selenium
 '
 
 # Prints, on a system without apt-get, the command that installs what is missing of the packages, and fails; succeeds if
-# nothing is. Packages without a name in the table (tests' tools) are given by Debian's.
+# nothing is. Packages without a name in the table keep Debian's.
 advise_missing() {
   local command query column missing=() package name
   if command -v dnf >/dev/null; then

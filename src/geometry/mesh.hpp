@@ -45,7 +45,7 @@ struct Material {
   int opacityTexture = -1;  // index into Scene::textures, whose opacity multiplies `opacity`; -1: none
   double cutoff = -1.0;     // least product that counts as 1, any other as 0; below 0: products count as they are
 
-  bool isTransparent() const { return opacity < 1.0 || opacityTexture >= 0; }
+  bool isTransparent() const { return opacity < 1.0 || opacityTexture >= 0 || cutoff > 1.0; }
 };
 
 struct Vertex {

@@ -73,8 +73,9 @@ bool reuseMap(Cube& map, std::span<const Pass> faces, std::span<const Cube> maps
     const Pass* face = &faces[i];
     map.content[i] = imageContent(around, main, {&face, 1});
   }
-  const auto before = std::ranges::find_if(
-      maps, [&](const Cube& other) { return other.object == map.object && other.copy == map.copy; });
+  const auto before = std::ranges::find_if(maps, [&](const Cube& other) {
+    return other.object == map.object && other.copy == map.copy && other.mesh == map.mesh;
+  });
   if (before == maps.end() || !sameMaps(before->settings, around.settings)) {
     map.due = interval - map.instance % interval;  // so that maps become due in turn
     return false;
@@ -116,7 +117,7 @@ void addShadowMaps(FramePlan& plan, PlannedCubes maps, std::span<const Cube> bef
     for (size_t f = 0; f < map.faces.size(); ++f) {
       Pass& face = maps.faces[i * map.faces.size() + f];
       if (face.source != PassSource::unread) {
-        map.content[f] = compares ? shadowContent(*around.changes, face, face) : RecycledVector<uint64_t>();
+        map.content[f] = compares ? shadowContent(around, plan.picture, face, face) : RecycledVector<uint64_t>();
         const bool same = skips && old && old->content[f] == map.content[f];
         face.source = same ? PassSource::reused : PassSource::drawn;
         map.serial = same ? map.serial : next;
@@ -131,7 +132,7 @@ void addShadowMaps(FramePlan& plan, PlannedCubes maps, std::span<const Cube> bef
         layer = divided(face, around);
       }
       if (layer) {
-        map.layerContent[f] = shadowContent(*around.changes, face, *layer);
+        map.layerContent[f] = shadowContent(around, plan.picture, face, *layer);
         layer->source = old->layerContent[f] == map.layerContent[f] ? PassSource::reused : PassSource::drawn;
         face.layer = static_cast<int>(plan.passes.size());
         addFace(plan, std::move(*layer));

@@ -128,7 +128,19 @@ std::vector<SettingChange> settingsWithout(const Effect& effect) {
 }
 
 bool drawsTextures(const Scene& scene, const SceneState& state, const Settings& settings, const FramePlan& plan) {
-  return !scene.textures.empty() && textures(scene, state, settings, visibleIn(plan)).calledFor;
+  if (scene.textures.empty() || !settings.effects.textures) {
+    return false;
+  }
+  // What casts a shadow need not be seen.
+  const auto castsByTexture = [&](int i) {
+    return std::ranges::any_of(scene.meshes[state.instances[i].mesh].parts, [&](const MeshPart& part) {
+      return part.material.opacityTexture >= 0 && isTransparent(part.material, settings.effects);
+    });
+  };
+  return textures(scene, state, settings, visibleIn(plan)).calledFor ||
+         std::ranges::any_of(plan.passes, [&](const Pass& pass) {
+           return pass.id.kind == PassKind::shadow && std::ranges::any_of(pass.instances, castsByTexture);
+         });
 }
 
 bool drawsTransparency(const Scene& scene, const SceneState& state, const Settings& settings, const FramePlan& plan) {

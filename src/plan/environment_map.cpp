@@ -118,6 +118,7 @@ EnvironmentMaps environmentMaps(const Scene& scene, const SceneState& state, con
     Cube map{.kind = PassKind::environment,
              .object = instance.object,
              .copy = instance.copy,
+             .mesh = instance.mesh,
              .instance = i,
              .name = mapName(scene, instance),
              .size = settings.effects.environmentSize,

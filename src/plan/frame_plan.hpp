@@ -126,6 +126,7 @@ struct Cube {
   int light = -1;                                    // of a shadow map, index into Scene::lights
   int object = -1;                                   // of an environment map, index into Scene::objects
   int copy = 0;                                      // index of the object's copy
+  int mesh = -1;                                     // of the object's part, index into Scene::meshes
   int instance = -1;                                 // index into SceneState::instances
   RecycledString name;                               // of the light, or of the object and copy, for users
   int size = 0;                                      // texels of each side of a face

@@ -141,8 +141,15 @@ RecycledVector<uint64_t> imageContent(const ImageSurroundings& around, const Vie
   return numbers.take();
 }
 
-RecycledVector<uint64_t> shadowContent(const SceneChanges& changes, const Pass& face, const Pass& casters) {
+RecycledVector<uint64_t> shadowContent(const ImageSurroundings& around, int picture, const Pass& face,
+                                       const Pass& casters) {
+  const SceneChanges& changes = *around.changes;
+  const EffectSettings& effects = around.settings.effects;
+  const bool covered = std::ranges::any_of(casters.instances, [&](int i) {
+    return isTransparent(around.scene.meshes[around.state.instances[i].mesh], effects);
+  });
   ContentNumbers numbers;
+  numbers.addCount(covered ? 2 * static_cast<uint64_t>(picture) + (effects.textures ? 2 : 1) : 0);
   numbers.addAll(casters.view, face.window.low, face.window.high, face.projection.near, casters.instances);
   uint64_t changed = 0;
   for (const int i : casters.instances) {

@@ -56,7 +56,9 @@ RecycledVector<uint64_t> imageContent(const ImageSurroundings& around, const Vie
                                       std::span<const Pass* const> passes);
 
 // Returns, as numbers, everything that the texels of a shadow map's face depend on if `casters` are drawn into it.
-RecycledVector<uint64_t> shadowContent(const SceneChanges& changes, const Pass& face, const Pass& casters);
+// `picture`: index in a mean of pictures, on which the coverage of casters depends. `around.changes` is not null.
+RecycledVector<uint64_t> shadowContent(const ImageSurroundings& around, int picture, const Pass& face,
+                                       const Pass& casters);
 
 // Reuses the cached image of the same mirror if `image`, which this frame would render, is the same bit for bit. `main`
 // is the view in which the mirror is seen; `passes` are as for imageContent().

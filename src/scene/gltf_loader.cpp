@@ -139,7 +139,11 @@ class GltfMaterials {
     const tinygltf::PbrMetallicRoughness& surface = from.pbrMetallicRoughness;
     Material material{.name = from.name};
     const auto load = [&](const auto&... picture) { return textureIndex(picture..., textures_); };
-    material.diffuseTexture = readPicture(surface.baseColorTexture.index, load).value_or(-1);
+    const auto [known, isNew] = diffuse_.try_emplace(surface.baseColorTexture.index, -1);
+    if (isNew) {
+      known->second = readPicture(surface.baseColorTexture.index, load).value_or(-1);
+    }
+    material.diffuseTexture = known->second;
     material.clamps = wraps(content_.model(), surface.baseColorTexture.index, TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE);
     setSurface(material, surface);
     material.emission = emissionOf(from);
@@ -207,9 +211,12 @@ class GltfMaterials {
 
   // Returns the mean of a texture's pixels, which may be colors in sRGB; 1 without a picture.
   glm::dvec3 meanOf(int texture, bool isColor) {
-    const Means means =
-        readPicture(texture, [&](const auto&... picture) { return meansOf(picture...); }).value_or(Means());
-    return isColor ? means.colors : means.numbers;
+    const auto [known, isNew] = textureMeans_.try_emplace(texture);
+    if (isNew) {
+      known->second =
+          readPicture(texture, [&](const auto&... picture) { return meansOf(picture...); }).value_or(Means());
+    }
+    return isColor ? known->second.colors : known->second.numbers;
   }
 
   // Reads a picture unless it was read before.
@@ -256,6 +263,9 @@ class GltfMaterials {
   ModelDefects& defects_;
   std::vector<Texture>& textures_;
   std::map<fs::path, Means> means_;  // by the pictures' names
+  // By the index of the file's texture, so that no picture is decoded for each material.
+  std::map<int, int> diffuse_;  // index into textures_; -1: not readable
+  std::map<int, Means> textureMeans_;
   std::map<int, glm::dvec3> tints_;  // mean colors, by index into textures_; -1: 1
 };
 
@@ -267,7 +277,7 @@ class GltfReader {
     // A small file may name the same vertices any number of times.
     constexpr uint64_t cornersOfAny = 1 << 20;
     constexpr uint64_t cornersPerByte = 16;
-    constexpr uint64_t most = 1 << 30;
+    constexpr uint64_t most = 1 << 28;
     cornersLeft_ = std::min(cornersOfAny + cornersPerByte * content.byteCount(), most);
   }
 

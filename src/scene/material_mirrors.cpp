@@ -19,7 +19,7 @@ namespace {
 
 // Bounds of the work on a model and of what it makes: flat triangles of a material, materials that make mirrors,
 // planes, and convex pieces of a material.
-constexpr size_t mostFlatTriangles = 1 << 16;
+constexpr size_t mostFlatTriangles = 1 << 14;
 constexpr size_t mostMaterials = 32;
 constexpr size_t mostPlanes = 32;
 constexpr size_t mostPieces = 256;
@@ -87,7 +87,8 @@ void findOutline(FlatGroup& group) {
   for (const glm::dvec2& p : convexHull(std::move(points))) {
     group.mirror.outline.push_back(group.plane.point + p.x * x + p.y * y);
   }
-  group.mirror.convex = group.mirror.pieces.size() == 1 || area >= (1.0 - 1e-6) * polygonArea(group.mirror.outline);
+  const double hull = polygonArea(group.mirror.outline);
+  group.mirror.convex = group.mirror.pieces.size() == 1 || std::abs(area - hull) <= 1e-6 * hull;
 }
 
 // Joins flat triangles of a material to planar mirrors, the largest first. Leaves small ones out.
@@ -107,6 +108,12 @@ std::vector<FlatGroup> flatGroups(const Mesh& mesh, const TrianglePart& flat, si
           {.plane = {vertexMean(face), glm::normalize(newellVector(face))}, .mirror = {.material = flat.material}});
       group = groups.end() - 1;
     }
+    // Faces come with the largest first, so one within another is there twice.
+    if (std::ranges::any_of(group->mirror.pieces, [&](const std::vector<glm::dvec3>& piece) {
+          return contains(piece, group->plane.normal, vertexMean(face));
+        })) {
+      continue;
+    }
     for (glm::dvec3& p : face) {
       p -= group->plane.distance(p) * group->plane.normal;
     }
@@ -115,8 +122,8 @@ std::vector<FlatGroup> flatGroups(const Mesh& mesh, const TrianglePart& flat, si
   std::ranges::for_each(groups, findOutline);
   std::erase_if(groups, [](const FlatGroup& group) {
     const auto isLong = [](const std::vector<glm::dvec3>& polygon) { return polygon.size() > mostCorners; };
-    return polygonDefect(group.mirror.outline).has_value() || isLong(group.mirror.outline) ||
-           std::ranges::any_of(group.mirror.pieces, isLong);
+    return isLong(group.mirror.outline) || std::ranges::any_of(group.mirror.pieces, isLong) ||
+           polygonDefect(group.mirror.outline).has_value();
   });
   return groups;
 }
@@ -272,7 +279,8 @@ bool makesMirrors(const Scene& scene, const Object& object) {
   const double largest = glm::compMax(scale) * mesh.radius * mesh.unit;
   const double smallest = glm::compMin(scale) * mesh.radius * mesh.unit;
   const double away = glm::length(object.position) + object.copies.count * glm::length(object.copies.step) + middle;
-  return middle + largest <= largestExtent && smallest >= smallestExtent && away <= farthestAway * smallest;
+  return middle + largest <= largestExtent && smallest >= smallestExtent &&
+         std::max(away, largest) <= farthestAway * smallest;
 }
 
 void placeMaterialMirrors(Scene& scene) {

@@ -50,7 +50,7 @@ FittedPlan FramePlanner::plan(const FrameRequest& request) {
   asked.settings.effects.textures = asked_.effects.textures && !refused_;
   if (!drawsCoverage_ && std::exchange(asked.settings.effects.transparency, false) &&
       std::ranges::any_of(request.scene.meshes, &Mesh::isTransparent) && !std::exchange(warnedOfCoverage_, true)) {
-    spdlog::warn("what is transparent is drawn opaque: the device has no geometryShader");
+    spdlog::warn("transparent materials are drawn opaque, because the device has no geometry shaders");
   }
   const TraceBufferBytes needed = largestTraceBuffers(request.scene, request.state.instances.size());
   limits_.tracesRays = tracesRays_ && needed.texels <= bufferLimits_.texels && needed.storage <= bufferLimits_.storage;

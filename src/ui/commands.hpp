@@ -62,7 +62,7 @@ struct ResetSettings {};
 
 // A | B.
 struct ToggleSplit {   // begins with the present settings on the left, or ends
-  bool naive = false;  // B begins with the settings of usual samples, else with the present ones
+  bool naive = false;  // B begins with the settings of most mirror demos, else with the present ones
 };
 struct ChooseHalf {  // whose settings SetSettings changes
   int half = 0;      // 0 is A, 1 is B

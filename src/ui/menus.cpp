@@ -79,9 +79,9 @@ void viewMenu(PanelContext& ui) {
   item(ui, "Next bookmark", GoToNextBookmark{}, !ui.input.edit.scene->bookmarks.empty());
   ImGui::Separator();
   const ShownSplit& split = ui.input.split;
-  item(ui, split.on ? "End A | B" : "A | B", ToggleSplit{});
-  item(ui, "A | B with usual samples", ToggleSplit{true}, !split.on, "Shift+C");
-  item(ui, "Edit other half", ChooseOtherHalf{}, split.on);
+  item(ui, split.on ? "End A | B" : "Compare settings (A | B)", ToggleSplit{});
+  item(ui, "Compare with a simple mirror demo", ToggleSplit{true}, !split.on, "Shift+C");
+  item(ui, "Edit the other half's settings", ChooseOtherHalf{}, split.on);
   ImGui::Separator();
   item(ui, ui.input.playback.paused ? "Play" : "Pause", TogglePaused{});
   item(ui, "Full screen", ToggleFullScreen{});

@@ -86,9 +86,12 @@ bool Demo::stepOnce() {
   changeBegins_ = changes && !changed;
   const auto wantsFrame = [](const std::unique_ptr<Half>& half) { return half && half->pace.wantsFrame(); };
   if (changes || std::ranges::any_of(halves_, wantsFrame)) {
-    Settings shown = workspace_.settings();
-    shown.reflection = mostAsked(workspace_.scene(), shown);
-    pacer_.change(shown, halves_[1] ? 2 : 1);
+    std::vector<Settings> shown;
+    for (int half = 0; half < (halves_[1] ? 2 : 1); ++half) {
+      shown.push_back(workspace_.shownSettings(half));
+      shown.back().reflection = mostAsked(workspace_.scene(), shown.back());
+    }
+    pacer_.change(shown);
   }
   if (!pacer_.due() && !idle()) {
     return !shouldClose();
@@ -121,7 +124,9 @@ void Demo::updateUi(double seconds) {
 }
 
 void Demo::beginOpening() {
-  if (first_.holds() && !workspace_.split().on()) {
+  if (first_.holds() && workspace_.split().on()) {
+    workspace_.releasePause();
+  } else if (first_.holds()) {
     apply(SetPaused{false});
   }
   const bool paced = options_.frames == 0 && budgetMs() > 0.0;
@@ -440,7 +445,12 @@ std::string Demo::currentMessage() {
   if (watch.findingsFrame() > 0 && watch.findingsFrame() == timings().frame) {
     return describe(watch.findings().front());
   }
-  return half().planner.message();
+  for (size_t i = 0; i < halves_.size(); ++i) {
+    if (halves_[i] && !halves_[i]->planner.message().empty()) {
+      return (!halves_[1] ? "" : i == 0 ? "A: " : "B: ") + halves_[i]->planner.message();
+    }
+  }
+  return "";
 }
 
 // Says whether the next frame could differ from the last one.

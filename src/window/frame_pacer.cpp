@@ -23,8 +23,12 @@ int framesUntilFresh(const Settings& settings) {
 
 }  // namespace
 
-void FramePacer::change(const Settings& settings, int halves) {
-  due_ = halves * (framesAfterChange + framesUntilFresh(settings));
+void FramePacer::change(std::span<const Settings> halves) {
+  int fresh = 0;
+  for (const Settings& settings : halves) {
+    fresh = std::max(fresh, framesUntilFresh(settings));
+  }
+  due_ = static_cast<int>(halves.size()) * (framesAfterChange + fresh);
 }
 
 double FramePacer::beginFrame(double seconds) {

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <algorithm>
+#include <span>
+
 #include "settings/settings.hpp"
 
 namespace speculum {
@@ -8,8 +11,8 @@ namespace speculum {
 // is idle.
 class FramePacer {
  public:
-  // Call when something changed or is changing. `halves`: pictures that are drawn in turn.
-  void change(const Settings& settings, int halves = 1);
+  // Call when something changed or is changing. `halves`: settings of the pictures that are drawn in turn.
+  void change(std::span<const Settings> halves);
   void requestFrames(int frames) { due_ = std::max(due_, frames); }
   bool due() const { return due_ > 0; }
   void idle() { idled_ = true; }  // call when the window sleeps

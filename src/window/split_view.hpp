@@ -13,7 +13,7 @@
 
 namespace speculum {
 
-// Returns the settings with the quality of usual samples of mirrors: one small image for each mirror, nothing in it
+// Returns the settings with the quality of most mirror demos: one small image for each mirror, nothing in it
 // reflects, one sample a pixel, maps in the place of rays.
 Settings naiveSettings(const Settings& settings);
 

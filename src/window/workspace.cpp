@@ -80,8 +80,8 @@ void Workspace::apply(const Command& command) {
                  },
                  [&](const Seek& c) { playback_.seek(c.seconds); },
                  [&](const StepTime& c) { playback_.step(c.steps); },
-                 [&](const SetPaused& c) { playback_.setPaused(c.paused); },
-                 [&](const TogglePaused&) { playback_.setPaused(!playback_.shown().paused); },
+                 [&](const SetPaused& c) { pause(c.paused); },
+                 [&](const TogglePaused&) { pause(!playback_.shown().paused); },
                  [&](const SetTimeSpeed& c) { playback_.setSpeed(c.factor); },
                  [&](const MultiplyTimeSpeed& c) { playback_.setSpeed(c.factor * playback_.shown().speed); },
                  [&](const SetSettings& c) { setSettings(c.settings, c.continued); },
@@ -289,7 +289,7 @@ void Workspace::takeSceneChange() {
     return;
   }
   if (!editor_->dragging()) {
-    report().history().restart();
+    std::ranges::for_each(reports_, [](FrameReport& report) { report.history().restart(); });
   }
   bool interval = false;
   for (const int half : {0, 1}) {
@@ -321,6 +321,11 @@ void Workspace::frameDrawn(const ShownPicture& shown, const std::function<Image8
   tookBack_ = false;
 }
 
+void Workspace::pause(bool paused) {
+  playback_.setPaused(paused);
+  pausedForUser_ = false;
+}
+
 void Workspace::showScene(std::unique_ptr<LoadedScene> scene) {
   accuracy_.setProblem("");  // the problem was one of the last scene
   accuracy_.forgetScene("Another scene was opened");
@@ -337,6 +342,9 @@ void Workspace::showScene(std::unique_ptr<LoadedScene> scene) {
   needsThumbnail_ = true;
   status_.sceneChanged();
   playback_.seek(0.0);
+  if (std::exchange(pausedForUser_, false)) {
+    playback_.setPaused(false);
+  }
   if (isModelFile(loaded_->scene.file)) {
     frame({.kind = Selection::Kind::object, .index = 0});
   }
@@ -450,6 +458,9 @@ void Workspace::toggleSplit(bool naive) {
 
 void Workspace::chooseHalf(int half) {
   if (split_.on()) {
+    if (half != split_.chosen()) {
+      accuracy_.forgetPick();  // it was one of the other half
+    }
     split_.choose(half);
     accuracy_.acceptBudget(settings());
     accuracy_.showAgain();
@@ -461,12 +472,14 @@ void Workspace::keepHalf() {
     Settings kept = settings();
     kept.limit = settings_.limit;  // no user set it, and no step would take it back
     endSplit();
+    accuracy_.acceptBudget(kept);
     setSettings(kept);
   }
 }
 
 void Workspace::endSplit() {
   split_.end();
+  accuracy_.forgetPick();
   document_->forgetHalves();
   accuracy_.acceptBudget(settings_);
   accuracy_.showAgain();
@@ -478,6 +491,7 @@ void Workspace::beginLesson(size_t index) {
     camera_.goTo(*lesson.camera, scene());
   }
   playback_.seek(lesson.time);
+  pausedForUser_ = pausedForUser_ || !playback_.shown().paused;
   playback_.setPaused(true);
   split_.beginLesson(index, loaded_->settings, middleOfFreePicture());
   reports_[1] = {};
@@ -495,7 +509,9 @@ void Workspace::step(UndoWay way) {
   const bool back = way == UndoWay::back;
   const std::string step = back ? document_->undoLabel() : document_->redoLabel();
   const CameraSpec camera = scene().camera;
+  bool hidden = false;  // a step of the scene's settings, which A | B does not show
   if (const std::optional<SettingsStep> changed = editor_->step(way)) {
+    hidden = split_.on() && changed->half < 0;
     if (changed->half >= 0) {
       chooseHalf(changed->half);
     }
@@ -511,7 +527,9 @@ void Workspace::step(UndoWay way) {
     camera_.reset(scene().camera);
   }
   accuracy_.acceptBudget(settings());
-  status_.set(step.empty() ? (back ? "Nothing to undo" : "Nothing to redo") : (back ? "Undone: " : "Redone: ") + step);
+  status_.set(step.empty() ? (back ? "Nothing to undo" : "Nothing to redo")
+                           : (back ? "Undone: " : "Redone: ") + step +
+                                 (hidden ? " (of the scene; A | B keeps its own settings)" : ""));
 }
 
 void Workspace::frame(const Selection& node) {

@@ -138,7 +138,11 @@ class Workspace {
   const SceneDocument& document() const { return *document_; }
   const DocumentController& saving() const { return *saving_; }
 
+  // Call if the program has paused the animation of the scene that leaves: the next scene plays again.
+  void releasePause() { pausedForUser_ = true; }
+
  private:
+  void pause(bool paused);
   void showScene(std::unique_ptr<LoadedScene> scene);
   void startDocument();
   void addNode(void (SceneEditor::*add)(const PointedScene&));
@@ -183,6 +187,7 @@ class Workspace {
   Playback playback_;
   Capture capture_;
   StatusLine status_;
+  bool pausedForUser_ = false;          // the program paused the animation, not the user: the next scene plays again
   std::array<FrameReport, 2> reports_;  // of the picture or, of A | B, of both halves
   SplitView split_{shippedLessons()};
   Settings settings_;

@@ -58,7 +58,7 @@ TEST_F(SplitPanels, HalfIsChosenKeptOrLeft) {
   click("menu.View");
   clickFor<ToggleSplit>("menu.End A | B");
   click("menu.View");
-  clickFor<ChooseOtherHalf>("menu.Edit other half");
+  clickFor<ChooseOtherHalf>("menu.Edit the other half's settings");
 }
 
 TEST_F(SplitPanels, LessonsAreOpenedAndWalkedThrough) {

@@ -109,7 +109,7 @@ TEST(FramePacer, DrawsUntilReusedImagesAreFresh) {
   EXPECT_FALSE(pacer.due());
   Settings settings;
   settings.reflection.updateInterval = 9;
-  pacer.change(settings);
+  pacer.change({&settings, 1});
   int frames = 0;
   for (; pacer.due(); ++frames) {
     pacer.frameDrawn();
