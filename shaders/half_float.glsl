@@ -12,5 +12,6 @@ vec4 nearestHalf(vec4 v, vec4 part) {
   vec4 large = uintBitsToFloat(max(floatBitsToUint(v) & 0x7f800000u, uvec4(0x38800000u)) + 0x06800000u);
   precise vec4 sum = v + large * (part * exp2(-23.0)) + large;
   precise vec4 rounded = sum - large;
-  return min(rounded, vec4(65504.0));  // noise must not lead beyond the largest half float
+  // Noise must not lead beyond the largest half float; NaN stays what it is.
+  return mix(rounded, vec4(65504.0), greaterThan(rounded, vec4(65504.0)));
 }
