@@ -192,16 +192,17 @@ vec2 uvOf(uint instance, uint triangle, vec3 w, vec3 origin, vec3 direction) {
   return mat3x2(a.u, a.v, b.u, b.v, c.u, c.v) * w;
 }
 
-// Returns the opacity of the first level of a texture, interpolated bilinearly.
-float textureOpacity(TraceTexture source, vec2 uv, bool clamped) {
+// Returns the color and opacity of one level of a texture, interpolated bilinearly.
+vec4 bilinearTraced(TraceTexture source, vec2 uv, bool clamped) {
   ivec2 size = ivec2(source.width, source.height);
   BilinearTexels at = bilinearTexels(uv, size, clamped);
-  float rows[2];
+  vec4 rows[2];
   for (int i = 0; i < 2; ++i) {
     int y = i == 0 ? at.low.y : at.high.y;
-    uint left = traceTexels[source.firstTexel + uint(y * size.x + at.low.x)].y;
-    uint right = traceTexels[source.firstTexel + uint(y * size.x + at.high.x)].y;
-    rows[i] = mix(unpackHalf2x16(left).y, unpackHalf2x16(right).y, at.weight.x);
+    uvec2 left = traceTexels[source.firstTexel + uint(y * size.x + at.low.x)];
+    uvec2 right = traceTexels[source.firstTexel + uint(y * size.x + at.high.x)];
+    rows[i] = mix(vec4(unpackHalf2x16(left.x), unpackHalf2x16(left.y)),
+                  vec4(unpackHalf2x16(right.x), unpackHalf2x16(right.y)), at.weight.x);
   }
   return mix(rows[0], rows[1], at.weight.y);
 }
@@ -217,7 +218,7 @@ bool meetsSurface(uint instance, uint slot, vec3 weights, vec3 origin, vec3 dire
   float opacity = material.opacity;
   if (material.opacityTexture != noTexture) {
     vec2 uv = uvOf(instance, triangle, weights, origin, direction);
-    opacity *= textureOpacity(traceTextures[material.opacityTexture], uv, material.clamps != 0);
+    opacity *= bilinearTraced(traceTextures[material.opacityTexture], uv, material.clamps != 0).a;
   }
   return isThere(opacity, material.cutoff, view.picture, seed, instance, triangle);
 }

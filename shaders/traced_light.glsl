@@ -3,8 +3,6 @@
 layout(constant_id = constantShadows) const bool shadows = false;
 layout(constant_id = constantCastsLight) const bool castsLight = false;
 
-vec3 bilinearTraced(TraceTexture source, vec2 uv, bool clamped);
-
 // Returns the reflectance of a mirror at a point in trace space, with its map.
 vec3 tracedMirrorReflectance(uint mirror, vec3 tracePosition, float cosine) {
   vec3 reflectance = reflectanceAt(traceMirrors[mirror].reflectance, traceMirrors[mirror].schlick, cosine);
@@ -14,7 +12,7 @@ vec3 tracedMirrorReflectance(uint mirror, vec3 tracePosition, float cosine) {
     vec3 local = tracePosition - traceMirrors[mirror].origin;
     vec2 along = vec2(dot(local, traceMirrors[mirror].axisX), dot(local, traceMirrors[mirror].axisY));
     vec2 uv = along * traceMirrors[mirror].mapBox.xy + traceMirrors[mirror].mapBox.zw;
-    reflectance *= bilinearTraced(source, withinBorder(uv, vec2(source.width, source.height)), false);
+    reflectance *= bilinearTraced(source, withinBorder(uv, vec2(source.width, source.height)), false).rgb;
   }
   return reflectance;
 }

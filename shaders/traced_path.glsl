@@ -56,21 +56,6 @@ void applyCurvedMirror(uint instance, vec3 direction, inout Bounce bounce) {
   }
 }
 
-// Returns the color of one level of a texture, interpolated bilinearly.
-vec3 bilinearTraced(TraceTexture source, vec2 uv, bool clamped) {
-  ivec2 size = ivec2(source.width, source.height);
-  BilinearTexels at = bilinearTexels(uv, size, clamped);
-  vec3 rows[2];
-  for (int i = 0; i < 2; ++i) {
-    int y = i == 0 ? at.low.y : at.high.y;
-    uvec2 left = traceTexels[source.firstTexel + uint(y * size.x + at.low.x)];
-    uvec2 right = traceTexels[source.firstTexel + uint(y * size.x + at.high.x)];
-    rows[i] = mix(vec3(unpackHalf2x16(left.x), unpackHalf2x16(left.y).x),
-                  vec3(unpackHalf2x16(right.x), unpackHalf2x16(right.y).x), at.weight.x);
-  }
-  return mix(rows[0], rows[1], at.weight.y);
-}
-
 vec3 nearestTraced(TraceTexture source, vec2 uv, bool clamped) {
   ivec2 texel = nearestTexel(uv, ivec2(source.width, source.height), clamped);
   uvec2 halfs = traceTexels[source.firstTexel + uint(texel.y * int(source.width) + texel.x)];
@@ -87,10 +72,10 @@ vec3 trilinearColor(TraceTexture source, vec2 uv, bool clamped, vec2 across, vec
     source.width = max(source.width / 2, 1);
     source.height = max(source.height / 2, 1);
   }
-  vec3 fine = bilinearTraced(source, uv, clamped);
+  vec3 fine = bilinearTraced(source, uv, clamped).rgb;
   TraceTexture next = TraceTexture(source.firstTexel + source.width * source.height, max(source.width / 2, 1),
                                    max(source.height / 2, 1));
-  return source.width * source.height > 1 ? mix(fine, bilinearTraced(next, uv, clamped), fract(level)) : fine;
+  return source.width * source.height > 1 ? mix(fine, bilinearTraced(next, uv, clamped).rgb, fract(level)) : fine;
 }
 
 // Returns the mean of lookups along the longer side of the pixel's footprint: Vulkan specification, "Texel Anisotropic
@@ -161,7 +146,7 @@ Bounce objectBounce(uint instance, uint triangle, Weights weights, vec3 position
       surface.diffuse *= anisotropicColor(source, uv, clamped, corners * weights.across, corners * weights.down);
     } else {
       surface.diffuse *= textureFilter == textureNearest ? nearestTraced(source, uv, clamped)
-                                                         : bilinearTraced(source, uv, clamped);
+                                                         : bilinearTraced(source, uv, clamped).rgb;
     }
   }
   if (vertexColors && material.firstColor != noColors) {
