@@ -170,7 +170,12 @@ glm::dvec4 textureAt(const Texture& texture, const glm::dvec2& uv, bool clamps) 
 }
 
 Texture shrunk(const Texture& texture, int width, int height) {
-  Texture small{.source = texture.source, .width = width, .height = height, .isMask = texture.isMask};
+  Texture small{.source = texture.source,
+                .linear = texture.linear,
+                .width = width,
+                .height = height,
+                .mean = texture.mean,
+                .isMask = texture.isMask};
   for (int y = 0; y < small.height; ++y) {
     for (int x = 0; x < small.width; ++x) {
       glm::vec3 sum(0.0f);

@@ -19,6 +19,7 @@ struct Texture {
   int width = 0;
   int height = 0;
   std::vector<glm::vec3> texels;
+  glm::dvec3 mean{1.0};        // of the texels of its picture
   std::vector<float> opacity;  // of the texels, 0 .. 1; empty: opaque
   bool isMask = false;         // its texels are white, their opacity is the picture's brightness
 };

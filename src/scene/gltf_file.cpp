@@ -196,6 +196,16 @@ double numberAt(const uint8_t* bytes, int componentType, bool normalized) {
 
 }  // namespace
 
+const tinygltf::Value& extensionMember(const tinygltf::ExtensionMap& extensions, const char* name, const char* key) {
+  static const tinygltf::Value none;
+  const auto found = extensions.find(name);
+  return found == extensions.end() || !found->second.IsObject() ? none : found->second.Get(key);
+}
+
+double numberOf(const tinygltf::Value& value, double usual) {
+  return value.IsNumber() ? value.GetNumberAsDouble() : usual;
+}
+
 GltfFile::GltfFile(const fs::path& file, ModelDefects& defects) : file_(file), defects_(defects), modelFiles_(file) {
   text_ = readInputText(file, "a glTF 2.0 file is needed");
   byteCount_ = text_.size();

@@ -20,6 +20,10 @@ inline bool isIndex(int index, size_t count) {
   return index >= 0 && static_cast<size_t>(index) < count;
 }
 
+// Returns a member of an extension; a null value if there is none.
+const tinygltf::Value& extensionMember(const tinygltf::ExtensionMap& extensions, const char* name, const char* key);
+double numberOf(const tinygltf::Value& value, double usual);
+
 // A glTF 2.0 file, as text (.gltf) or binary (.glb), with its buffers. tinygltf reads the objects of the JSON. Buffers
 // and pictures are read here, because the library
 // - looks for their files in the working folder too;

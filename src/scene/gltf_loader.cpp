@@ -6,17 +6,12 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/gtc/type_ptr.hpp>
-#include <map>
 #include <utility>
 
-#include "image/color.hpp"
-#include "image/picture_files.hpp"
-#include "platform/files.hpp"
 #include "scene/gltf_file.hpp"
+#include "scene/gltf_materials.hpp"
 #include "scene/input_error.hpp"
 #include "scene/mesh_builder.hpp"
-#include "scene/metal_roughness.hpp"
-#include "scene/textures.hpp"
 #include "scene/value_range.hpp"
 
 namespace speculum {
@@ -25,26 +20,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Returns a member of an extension; a null value if there is none.
-const tinygltf::Value& member(const tinygltf::ExtensionMap& extensions, const char* name, const char* key) {
-  static const tinygltf::Value none;
-  const auto found = extensions.find(name);
-  return found == extensions.end() || !found->second.IsObject() ? none : found->second.Get(key);
-}
-
-double numberOf(const tinygltf::Value& value, double usual) {
-  return value.IsNumber() ? value.GetNumberAsDouble() : usual;
-}
-
 glm::dvec2 pairOf(const tinygltf::Value& value, double usual) {
   return value.ArrayLen() == 2 ? glm::dvec2(numberOf(value.Get(0), usual), numberOf(value.Get(1), usual))
                                : glm::dvec2(usual);
-}
-
-// Returns a color within the range, or white if there are too few numbers.
-glm::dvec3 colorOf(const std::vector<double>& values, const Range& range) {
-  return values.size() < 3 ? glm::dvec3(1.0)
-                           : glm::clamp(glm::dvec3(values[0], values[1], values[2]), range.low, range.high);
 }
 
 // Returns the unit vector along v; zero for zero.
@@ -86,11 +64,11 @@ struct TexturePlacement {
 
   explicit TexturePlacement(const tinygltf::TextureInfo& texture) {
     constexpr const char* extension = "KHR_texture_transform";
-    const tinygltf::Value& set = member(texture.extensions, extension, "texCoord");
+    const tinygltf::Value& set = extensionMember(texture.extensions, extension, "texCoord");
     texcoords = "TEXCOORD_" + std::to_string(set.IsInt() ? set.GetNumberAsInt() : texture.texCoord);
-    offset = pairOf(member(texture.extensions, extension, "offset"), 0.0);
-    scale = pairOf(member(texture.extensions, extension, "scale"), 1.0);
-    rotation = numberOf(member(texture.extensions, extension, "rotation"), 0.0);
+    offset = pairOf(extensionMember(texture.extensions, extension, "offset"), 0.0);
+    scale = pairOf(extensionMember(texture.extensions, extension, "scale"), 1.0);
+    rotation = numberOf(extensionMember(texture.extensions, extension, "rotation"), 0.0);
   }
 
   // Returns the texture coordinate, v up, of the attribute's, v down.
@@ -115,159 +93,6 @@ void forEachTriangle(int mode, size_t count, const Add& add) {
     }
   }
 }
-
-// Says whether a texture continues in this way outside of its picture, in both directions.
-bool wraps(const tinygltf::Model& model, int texture, int way) {
-  const int sampler = isIndex(texture, model.textures.size()) ? model.textures[texture].sampler : -1;
-  return isIndex(sampler, model.samplers.size())
-             ? model.samplers[sampler].wrapS == way && model.samplers[sampler].wrapT == way
-             : way == TINYGLTF_TEXTURE_WRAP_REPEAT;
-}
-
-// Materials of the file, as the mesh's parts need them.
-class GltfMaterials {
- public:
-  GltfMaterials(const fs::path& file, GltfFile& content, ModelDefects& defects, std::vector<Texture>& textures)
-      : file_(file), content_(content), defects_(defects), textures_(textures) {}
-
-  // Returns a material; for another index the default one, which is white for a mesh with colors.
-  Material material(int index, bool colored) {
-    if (!isIndex(index, content_.model().materials.size())) {
-      return colored ? Material{.diffuse = glm::dvec3(1.0)} : Material();
-    }
-    const tinygltf::Material& from = content_.model().materials[index];
-    const tinygltf::PbrMetallicRoughness& surface = from.pbrMetallicRoughness;
-    Material material{.name = from.name};
-    const auto load = [&](const auto&... picture) { return textureIndex(picture..., textures_); };
-    const auto [known, isNew] = diffuse_.try_emplace(surface.baseColorTexture.index, -1);
-    if (isNew) {
-      known->second = readPicture(surface.baseColorTexture.index, load).value_or(-1);
-    }
-    material.diffuseTexture = known->second;
-    material.clamps = wraps(content_.model(), surface.baseColorTexture.index, TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE);
-    setSurface(material, surface);
-    material.emission = emissionOf(from);
-    if (from.alphaMode == "MASK" || from.alphaMode == "BLEND") {
-      setCoverage(material, from);
-    }
-    if (from.normalTexture.index >= 0 || from.occlusionTexture.index >= 0) {
-      add("'{}' has a normal or occlusion texture, it is left out", from.name);
-    }
-    return material;
-  }
-
- private:
-  // Means of a picture's pixels: of its bytes as 0 .. 1, and decoded from sRGB.
-  struct Means {
-    glm::dvec3 numbers{1.0};
-    glm::dvec3 colors{1.0};
-  };
-
-  void add(std::string_view kind, std::string_view detail) { defects_.add(file_, 1, "materials", kind, detail); }
-
-  // Sets the colors of a material whose texture is set.
-  void setSurface(Material& material, const tinygltf::PbrMetallicRoughness& surface) {
-    double metal = surface.metallicFactor;
-    double roughness = surface.roughnessFactor;
-    if (surface.metallicRoughnessTexture.index >= 0) {
-      add("'{}' has a texture of metal and roughness, its mean is drawn", material.name);
-      const glm::dvec3 mean = meanOf(surface.metallicRoughnessTexture.index, false);
-      roughness *= mean.y;
-      metal *= mean.z;
-    }
-    const glm::dvec3 base = colorOf(surface.baseColorFactor, surfaceColorRange);
-    const auto [tint, isNew] = tints_.try_emplace(material.diffuseTexture, 1.0);
-    if (isNew && material.diffuseTexture >= 0) {
-      tint->second = meanColor(textures_[material.diffuseTexture]);
-    }
-    setMetalRoughness(material, base, metal, roughness, tint->second);
-  }
-
-  // Sets the coverage of a material whose texture is set.
-  void setCoverage(Material& material, const tinygltf::Material& from) {
-    const std::vector<double>& factor = from.pbrMetallicRoughness.baseColorFactor;
-    material.opacity = factor.size() == 4 && factor[3] >= 0.0 ? std::min(factor[3], 1.0) : 1.0;
-    if (material.diffuseTexture >= 0 && !textures_[material.diffuseTexture].opacity.empty()) {
-      material.opacityTexture = material.diffuseTexture;
-    }
-    if (from.alphaMode == "MASK") {
-      material.cutoff = std::isfinite(from.alphaCutoff) ? std::clamp(from.alphaCutoff, 0.0, 2.0) : 0.5;
-    }
-    if (material.isTransparent()) {
-      material.mirror.reset();
-    }
-  }
-
-  glm::dvec3 emissionOf(const tinygltf::Material& from) {
-    const double strength =
-        numberOf(member(from.extensions, "KHR_materials_emissive_strength", "emissiveStrength"), 1.0);
-    glm::dvec3 emission = strength * colorOf(from.emissiveFactor, radianceRange);
-    if (emission != glm::dvec3(0.0) && from.emissiveTexture.index >= 0) {
-      add("'{}' has an emissive texture, its mean is drawn", from.name);
-      emission *= meanOf(from.emissiveTexture.index, true);
-    }
-    return glm::clamp(emission, radianceRange.low, radianceRange.high);
-  }
-
-  // Returns the mean of a texture's pixels, which may be colors in sRGB; 1 without a picture.
-  glm::dvec3 meanOf(int texture, bool isColor) {
-    const auto [known, isNew] = textureMeans_.try_emplace(texture);
-    if (isNew) {
-      known->second =
-          readPicture(texture, [&](const auto&... picture) { return meansOf(picture...); }).value_or(Means());
-    }
-    return isColor ? known->second.colors : known->second.numbers;
-  }
-
-  // Reads a picture unless it was read before.
-  template <typename... Content>
-  Means meansOf(const fs::path& name, const Content&... content) {
-    if (const auto known = means_.find(name); known != means_.end()) {
-      return known->second;
-    }
-    const Image8 image = readTexture(name, content...);
-    Means sums{glm::dvec3(0.0), glm::dvec3(0.0)};
-    for (size_t i = 0; i < image.rgba.size(); ++i) {
-      if (const auto channel = static_cast<int>(i % 4); channel < 3) {
-        sums.numbers[channel] += image.rgba[i] / 255.0;
-        sums.colors[channel] += srgbDecoded()[image.rgba[i]];
-      }
-    }
-    const double count = static_cast<double>(image.rgba.size()) / 4.0;
-    return means_[name] = {sums.numbers / count, sums.colors / count};
-  }
-
-  // Returns read(file) or read(name, content) for a texture's picture; nothing if there is none.
-  template <typename Read>
-  auto readPicture(int texture, const Read& read) -> std::optional<decltype(read(fs::path()))> {
-    if (!isIndex(texture, content_.model().textures.size())) {
-      if (texture != -1) {
-        add("there is no texture {}, it is left out", std::to_string(texture));
-      }
-      return std::nullopt;
-    }
-    const std::optional<GltfFile::Picture> picture = content_.picture(content_.model().textures[texture].source);
-    if (!picture) {
-      return std::nullopt;
-    }
-    try {
-      return picture->content ? read(picture->name, *picture->content) : read(picture->name);
-    } catch (const FileError& error) {
-      add("{}, the texture is left out", error.what());
-      return std::nullopt;
-    }
-  }
-
-  const fs::path& file_;
-  GltfFile& content_;
-  ModelDefects& defects_;
-  std::vector<Texture>& textures_;
-  std::map<fs::path, Means> means_;  // by the pictures' names
-  // By the index of the file's texture, so that no picture is decoded for each material.
-  std::map<int, int> diffuse_;  // index into textures_; -1: not readable
-  std::map<int, Means> textureMeans_;
-  std::map<int, glm::dvec3> tints_;  // mean colors, by index into textures_; -1: 1
-};
 
 // Reads the nodes of the default scene into one mesh in the scene's space.
 class GltfReader {
@@ -368,7 +193,7 @@ class GltfReader {
         model.cameras[node.camera].type == "perspective") {
       camera_ = {node.camera, sceneFromNode};
     }
-    if (const tinygltf::Value& light = member(node.extensions, lightsExtension, "light"); light.IsInt()) {
+    if (const tinygltf::Value& light = extensionMember(node.extensions, lightsExtension, "light"); light.IsInt()) {
       lights_.push_back({light.GetNumberAsInt(), sceneFromNode});
     }
   }

@@ -7,14 +7,6 @@
 
 namespace speculum {
 
-glm::dvec3 meanColor(const Texture& texture) {
-  glm::dvec3 sum(0.0);
-  for (const glm::vec3& texel : texture.texels) {
-    sum += texel;
-  }
-  return sum / std::max(static_cast<double>(texture.texels.size()), 1.0);
-}
-
 void setMetalRoughness(Material& material, glm::dvec3 baseColor, double metal, double roughness,
                        const glm::dvec3& texture) {
   const double share = std::clamp(metal, 0.0, 1.0);

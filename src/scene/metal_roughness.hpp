@@ -6,9 +6,6 @@
 
 namespace speculum {
 
-// Returns the mean of the texels, linear RGB.
-glm::dvec3 meanColor(const Texture& texture);
-
 // Sets Kd, Ks and Ns of `material` from the metal-roughness model of glTF 2.0 (appendix B): linear base color, metal
 // and roughness of 0 .. 1. Other values count as the nearest in range. `texture` is the mean color of the base color's
 // texture, white without one.

@@ -299,9 +299,12 @@ PartMaterial ObjMaterials::material(int index, bool colored, std::vector<Texture
   const Entry& entry = found->second;
   Material material = entry.material;
   material.diffuse = colored && !entry.hasDiffuse ? glm::dvec3(1.0) : material.diffuse;
-  material.diffuseTexture = entry.diffuseTexture.empty() ? -1 : addTexture(entry, textures);
+  if (!entry.diffuseTexture.empty()) {
+    const auto load = [&](const fs::path& picture) { return textureIndex(picture, textures); };
+    material.diffuseTexture = readPicture(entry, entry.textureLine, "map_Kd", entry.diffuseTexture, load).value_or(-1);
+  }
   if (entry.metalRoughness) {
-    const glm::dvec3 mean = material.diffuseTexture < 0 ? glm::dvec3(1.0) : meanOf(textures[material.diffuseTexture]);
+    const glm::dvec3 mean = material.diffuseTexture < 0 ? glm::dvec3(1.0) : textures[material.diffuseTexture].mean;
     setMetalRoughness(material, material.diffuse, entry.metal, entry.roughness, mean);
   }
   if (!entry.emissionTexture.empty()) {
@@ -314,37 +317,30 @@ PartMaterial ObjMaterials::material(int index, bool colored, std::vector<Texture
   return {material, entry.textureScale, entry.textureOffset};
 }
 
-std::optional<fs::path> ObjMaterials::findTexture(const Entry& entry, int line, std::string_view key,
-                                                  const std::string& name) {
+template <typename Read>
+auto ObjMaterials::readPicture(const Entry& entry, int line, std::string_view key, const std::string& name,
+                               const Read& read) -> std::optional<decltype(read(fs::path()))> {
   const std::optional<fs::path> picture = modelFiles_.find(entry.file, name);
   if (!picture) {
     defects_.add(entry.file, line, key, "there is no file '{}', the texture is left out", name);
-  } else if (!fs::path(name).is_absolute() && namedFiles_.contains(entry.file)) {
+    return std::nullopt;
+  }
+  if (!fs::path(name).is_absolute() && namedFiles_.contains(entry.file)) {
     namedFiles_.insert(*picture);
   }
-  return picture;
-}
-
-// Returns the index of the diffuse texture, -1 if it cannot be read.
-int ObjMaterials::addTexture(const Entry& entry, std::vector<Texture>& textures) {
-  const auto picture = findTexture(entry, entry.textureLine, "map_Kd", entry.diffuseTexture);
   try {
-    return picture ? textureIndex(*picture, textures) : -1;
+    return read(*picture);
   } catch (const FileError& error) {
-    defects_.add(entry.file, entry.textureLine, "map_Kd", "{}, the texture is left out", error.what());
-    return -1;
+    defects_.add(entry.file, line, key, "{}, the texture is left out", error.what());
+    return std::nullopt;
   }
 }
 
 // Adds the opacity of map_d, or else that of the diffuse texture. An opaque material with a cut-out is a cut-out.
 void ObjMaterials::addOpacity(const Entry& entry, Material& material, std::vector<Texture>& textures) {
   if (!entry.opacityTexture.empty()) {
-    const auto picture = findTexture(entry, entry.opacityLine, "map_d", entry.opacityTexture);
-    try {
-      material.opacityTexture = picture ? opacityTextureIndex(*picture, textures) : -1;
-    } catch (const FileError& error) {
-      defects_.add(entry.file, entry.opacityLine, "map_d", "{}, the texture is left out", error.what());
-    }
+    const auto load = [&](const fs::path& picture) { return opacityTextureIndex(picture, textures); };
+    material.opacityTexture = readPicture(entry, entry.opacityLine, "map_d", entry.opacityTexture, load).value_or(-1);
   } else if (material.diffuseTexture >= 0 && !textures[material.diffuseTexture].opacity.empty()) {
     material.opacityTexture = material.diffuseTexture;
   }
@@ -353,32 +349,16 @@ void ObjMaterials::addOpacity(const Entry& entry, Material& material, std::vecto
   }
 }
 
-// A texture may belong to many materials.
-glm::dvec3 ObjMaterials::meanOf(const Texture& texture) {
-  const auto [found, isNew] = means_.try_emplace(texture.source);
-  if (isNew) {
-    found->second = meanColor(texture);
-  }
-  return found->second;
-}
-
 // Emission has one color on a surface: the texture's mean multiplies it. Exporters write Ke 0 beside a texture.
 void ObjMaterials::applyEmissionTexture(const Entry& entry, Material& material) {
-  const auto picture = findTexture(entry, entry.emissionLine, "map_Ke", entry.emissionTexture);
-  try {
-    if (!picture) {
-      return;
-    }
-    const fs::path source = withoutLinks(*picture);
-    filesRead_.insert(source);
-    if (!means_.contains(source)) {
-      std::vector<Texture> textures;
-      textureIndex(*picture, textures);
-      meanOf(textures.front());
-    }
-    material.emission = means_[source] * (material.emission == glm::dvec3(0.0) ? glm::dvec3(1.0) : material.emission);
-  } catch (const FileError& error) {
-    defects_.add(entry.file, entry.emissionLine, "map_Ke", "{}, the texture is left out", error.what());
+  const auto mean =
+      readPicture(entry, entry.emissionLine, "map_Ke", entry.emissionTexture, [&](const fs::path& picture) {
+        const fs::path source = withoutLinks(picture);
+        filesRead_.insert(source);
+        return means_.of(source).colors;
+      });
+  if (mean) {
+    material.emission = *mean * (material.emission == glm::dvec3(0.0) ? glm::dvec3(1.0) : material.emission);
   }
 }
 

@@ -11,6 +11,7 @@
 #include "geometry/mesh.hpp"
 #include "scene/mesh_builder.hpp"
 #include "scene/model_files.hpp"
+#include "scene/textures.hpp"
 
 namespace speculum {
 
@@ -64,12 +65,12 @@ class ObjMaterials {
   class MtlReader;
 
   bool readIfThere(std::string_view name, int line);
-  // Returns the file of a texture that a line of the entry's file names; nothing, with a defect, if it is not there.
-  std::optional<std::filesystem::path> findTexture(const Entry& entry, int line, std::string_view key,
-                                                   const std::string& name);
-  int addTexture(const Entry& entry, std::vector<Texture>& textures);
+  // Returns read(file) for the picture that a line of the entry's file names; nothing, with a defect, if it is not
+  // there or not readable.
+  template <typename Read>
+  auto readPicture(const Entry& entry, int line, std::string_view key, const std::string& name, const Read& read)
+      -> std::optional<decltype(read(std::filesystem::path()))>;
   void addOpacity(const Entry& entry, Material& material, std::vector<Texture>& textures);
-  glm::dvec3 meanOf(const Texture& texture);
   void applyEmissionTexture(const Entry& entry, Material& material);
 
   const std::filesystem::path& objFile_;
@@ -80,7 +81,7 @@ class ObjMaterials {
   std::map<std::string, int, std::less<>> useIndices_;  // by name
   std::set<std::filesystem::path> filesRead_;
   std::set<std::filesystem::path> namedFiles_;
-  std::map<std::filesystem::path, glm::dvec3> means_;  // colors of textures, by Texture::source
+  MeansOfPictures means_;  // of emission
   bool missingFile_ = false;
 };
 

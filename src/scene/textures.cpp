@@ -40,9 +40,12 @@ Texture textureOf(const Image8& image, const fs::path& source, bool linear) {
   const auto decoded = [&](uint8_t value) {
     return linear ? static_cast<float>(value) / 255.0f : srgbDecoded()[value];
   };
+  glm::dvec3 sum(0.0);
   for (size_t i = 0; i < image.rgba.size(); i += 4) {
     texture.texels.emplace_back(decoded(image.rgba[i]), decoded(image.rgba[i + 1]), decoded(image.rgba[i + 2]));
+    sum += texture.texels.back();
   }
+  texture.mean = sum / static_cast<double>(texture.texels.size());
   if (hasAlpha(image)) {
     texture.opacity = channelOf(image, 3);
   }
@@ -87,6 +90,18 @@ int indexOf(const fs::path& source, bool linear, const std::function<Image8()>& 
   return index;
 }
 
+PictureMeans meansOf(const Image8& image) {
+  PictureMeans sums{glm::dvec3(0.0), glm::dvec3(0.0)};
+  for (size_t i = 0; i < image.rgba.size(); ++i) {
+    if (const auto channel = static_cast<int>(i % 4); channel < 3) {
+      sums.numbers[channel] += image.rgba[i] / 255.0;
+      sums.colors[channel] += srgbDecoded()[image.rgba[i]];
+    }
+  }
+  const double count = static_cast<double>(image.rgba.size()) / 4.0;
+  return {sums.numbers / count, sums.colors / count};
+}
+
 }  // namespace
 
 int textureIndex(const fs::path& file, std::vector<Texture>& textures) {
@@ -122,6 +137,17 @@ int opacityTextureIndex(const fs::path& file, std::vector<Texture>& textures) {
   mask.opacity = channelOf(image, 0);
   textures.push_back(bounded(std::move(mask), mostPixels(textures)));
   return static_cast<int>(textures.size()) - 1;
+}
+
+const PictureMeans& MeansOfPictures::of(const fs::path& file) {
+  const auto known = known_.find(file);
+  return known != known_.end() ? known->second : known_.emplace(file, meansOf(readTexture(file))).first->second;
+}
+
+const PictureMeans& MeansOfPictures::of(const fs::path& source, const std::vector<uint8_t>& picture) {
+  const auto known = known_.find(source);
+  return known != known_.end() ? known->second
+                               : known_.emplace(source, meansOf(readTexture(source, picture))).first->second;
 }
 
 bool isCutOut(const Texture& texture) {

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <vector>
 
 #include "geometry/mesh.hpp"
@@ -22,5 +23,23 @@ int linearTextureIndex(const std::filesystem::path& file, std::vector<Texture>& 
 
 // Says whether nearly all texels are either there or not, so that those between are the smoothed edge of a cut-out.
 bool isCutOut(const Texture& texture);
+
+// Means of a picture's pixels: of its bytes as 0 .. 1, and of the linear colors that they stand for in sRGB.
+struct PictureMeans {
+  glm::dvec3 numbers{1.0};
+  glm::dvec3 colors{1.0};
+};
+
+// Means of pictures of which nothing else is drawn. No picture is read twice.
+class MeansOfPictures {
+ public:
+  // Returns the means of a picture file. Throws FileError.
+  const PictureMeans& of(const std::filesystem::path& file);
+  // Does the same for the content of a picture that stands in another file; `source` names it.
+  const PictureMeans& of(const std::filesystem::path& source, const std::vector<uint8_t>& picture);
+
+ private:
+  std::map<std::filesystem::path, PictureMeans> known_;
+};
 
 }  // namespace speculum

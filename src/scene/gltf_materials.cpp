@@ -1,0 +1,118 @@
+#include "scene/gltf_materials.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "platform/files.hpp"
+#include "scene/metal_roughness.hpp"
+
+namespace speculum {
+
+namespace fs = std::filesystem;
+
+glm::dvec3 colorOf(const std::vector<double>& values, const Range& range) {
+  return values.size() < 3 ? glm::dvec3(1.0)
+                           : glm::clamp(glm::dvec3(values[0], values[1], values[2]), range.low, range.high);
+}
+
+bool wraps(const tinygltf::Model& model, int texture, int way) {
+  const int sampler = isIndex(texture, model.textures.size()) ? model.textures[texture].sampler : -1;
+  return isIndex(sampler, model.samplers.size())
+             ? model.samplers[sampler].wrapS == way && model.samplers[sampler].wrapT == way
+             : way == TINYGLTF_TEXTURE_WRAP_REPEAT;
+}
+
+template <typename Read>
+auto GltfMaterials::readPicture(int texture, const Read& read) -> std::optional<decltype(read(fs::path()))> {
+  if (!isIndex(texture, content_.model().textures.size())) {
+    if (texture != -1) {
+      add("there is no texture {}, it is left out", std::to_string(texture));
+    }
+    return std::nullopt;
+  }
+  const std::optional<GltfFile::Picture> picture = content_.picture(content_.model().textures[texture].source);
+  if (!picture) {
+    return std::nullopt;
+  }
+  try {
+    return picture->content ? read(picture->name, *picture->content) : read(picture->name);
+  } catch (const FileError& error) {
+    add("{}, the texture is left out", error.what());
+    return std::nullopt;
+  }
+}
+
+Material GltfMaterials::material(int index, bool colored) {
+  if (!isIndex(index, content_.model().materials.size())) {
+    return colored ? Material{.diffuse = glm::dvec3(1.0)} : Material();
+  }
+  const tinygltf::Material& from = content_.model().materials[index];
+  const tinygltf::PbrMetallicRoughness& surface = from.pbrMetallicRoughness;
+  Material material{.name = from.name};
+  const auto load = [&](const auto&... picture) { return textureIndex(picture..., textures_); };
+  const auto [known, isNew] = diffuse_.try_emplace(surface.baseColorTexture.index, -1);
+  if (isNew) {
+    known->second = readPicture(surface.baseColorTexture.index, load).value_or(-1);
+  }
+  material.diffuseTexture = known->second;
+  material.clamps = wraps(content_.model(), surface.baseColorTexture.index, TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE);
+  setSurface(material, surface);
+  material.emission = emissionOf(from);
+  if (from.alphaMode == "MASK" || from.alphaMode == "BLEND") {
+    setCoverage(material, from);
+  }
+  if (from.normalTexture.index >= 0 || from.occlusionTexture.index >= 0) {
+    add("'{}' has a normal or occlusion texture, it is left out", from.name);
+  }
+  return material;
+}
+
+void GltfMaterials::setSurface(Material& material, const tinygltf::PbrMetallicRoughness& surface) {
+  double metal = surface.metallicFactor;
+  double roughness = surface.roughnessFactor;
+  if (surface.metallicRoughnessTexture.index >= 0) {
+    add("'{}' has a texture of metal and roughness, its mean is drawn", material.name);
+    const glm::dvec3& mean = meansOf(surface.metallicRoughnessTexture.index).numbers;
+    roughness *= mean.y;
+    metal *= mean.z;
+  }
+  const glm::dvec3 base = colorOf(surface.baseColorFactor, surfaceColorRange);
+  const glm::dvec3 mean = material.diffuseTexture < 0 ? glm::dvec3(1.0) : textures_[material.diffuseTexture].mean;
+  setMetalRoughness(material, base, metal, roughness, mean);
+}
+
+void GltfMaterials::setCoverage(Material& material, const tinygltf::Material& from) const {
+  const std::vector<double>& factor = from.pbrMetallicRoughness.baseColorFactor;
+  material.opacity = factor.size() == 4 && factor[3] >= 0.0 ? std::min(factor[3], 1.0) : 1.0;
+  if (material.diffuseTexture >= 0 && !textures_[material.diffuseTexture].opacity.empty()) {
+    material.opacityTexture = material.diffuseTexture;
+  }
+  if (from.alphaMode == "MASK") {
+    material.cutoff = std::isfinite(from.alphaCutoff) ? std::clamp(from.alphaCutoff, 0.0, 2.0) : 0.5;
+  }
+  if (material.isTransparent()) {
+    material.mirror.reset();
+  }
+}
+
+glm::dvec3 GltfMaterials::emissionOf(const tinygltf::Material& from) {
+  const double strength =
+      numberOf(extensionMember(from.extensions, "KHR_materials_emissive_strength", "emissiveStrength"), 1.0);
+  glm::dvec3 emission = strength * colorOf(from.emissiveFactor, radianceRange);
+  if (emission != glm::dvec3(0.0) && from.emissiveTexture.index >= 0) {
+    add("'{}' has an emissive texture, its mean is drawn", from.name);
+    emission *= meansOf(from.emissiveTexture.index).colors;
+  }
+  return glm::clamp(emission, radianceRange.low, radianceRange.high);
+}
+
+const PictureMeans& GltfMaterials::meansOf(int texture) {
+  const auto [known, isNew] = means_.try_emplace(texture);
+  if (isNew) {
+    const auto read = [&](const auto&... picture) { return pictureMeans_.of(picture...); };
+    known->second = readPicture(texture, read).value_or(PictureMeans());
+  }
+  return known->second;
+}
+
+}  // namespace speculum
