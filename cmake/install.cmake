@@ -1,5 +1,14 @@
-include(GNUInstallDirs)
-set(SPECULUM_DATA_DIR ${CMAKE_INSTALL_DATADIR}/speculum)
+# Windows: one folder that can be put anywhere.
+if(WIN32)
+  set(CMAKE_INSTALL_BINDIR .)
+  set(CMAKE_INSTALL_DOCDIR .)
+  set(SPECULUM_DATA_DIR .)
+  set(examples examples)
+else()
+  include(GNUInstallDirs)
+  set(SPECULUM_DATA_DIR ${CMAKE_INSTALL_DATADIR}/speculum)
+  set(examples ${CMAKE_INSTALL_LIBEXECDIR}/speculum/examples)
+endif()
 if(TARGET speculum)
   install(TARGETS speculum RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endif()
@@ -12,10 +21,12 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/scenes/ DESTINATION ${SPECULUM_DATA_DIR}
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/lessons/ DESTINATION ${SPECULUM_DATA_DIR}/lessons FILES_MATCHING PATTERN "*.toml")
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples/ DESTINATION ${SPECULUM_DATA_DIR}/examples)
 # The examples' programs; what they need of their folders is among the data above.
-set(examples ${CMAKE_INSTALL_LIBEXECDIR}/speculum/examples)
 install(TARGETS triangle offscreen one_mirror mirror_in_mirror RUNTIME DESTINATION ${examples})
 install(DIRECTORY ${PROJECT_BINARY_DIR}/examples/shaders DESTINATION ${examples} FILES_MATCHING PATTERN "*.spv")
 install(FILES ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+if(WIN32)
+  return()
+endif()
 install(FILES ${PROJECT_SOURCE_DIR}/scripts/speculum-completion.bash
         DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME speculum)
 

@@ -1,10 +1,15 @@
 # Flags shared by every target of this project.
 add_library(speculum_flags INTERFACE)
-target_compile_options(speculum_flags INTERFACE -Wall -Wextra -Wno-missing-field-initializers)
+if(MSVC)
+  target_compile_options(speculum_flags INTERFACE /W3 /utf-8 /bigobj /EHsc /Zc:__cplusplus)
+  target_compile_definitions(speculum_flags INTERFACE _CRT_SECURE_NO_WARNINGS)
+else()
+  target_compile_options(speculum_flags INTERFACE -Wall -Wextra -Wno-missing-field-initializers)
+endif()
 # GCC 12 sees overlapping copies in plain string concatenation (GCC bug 105651).
 target_compile_options(speculum_flags INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
 # Same expression, same bits on every CPU: no contraction into fused multiply-adds.
-target_compile_options(speculum_flags INTERFACE -ffp-contract=off)
+target_compile_options(speculum_flags INTERFACE $<IF:$<BOOL:${MSVC}>,/fp:precise,-ffp-contract=off>)
 if(SPECULUM_WARNINGS_AS_ERRORS)
   target_compile_options(speculum_flags INTERFACE -Werror)
 endif()
@@ -38,12 +43,20 @@ function(use_precompiled target name)
   endif()
 endfunction()
 
+# Sources whose names end like this are the half of another system.
+if(WIN32)
+  set(foreign_system posix)
+else()
+  set(foreign_system win32)
+endif()
+
 # speculum_library(NAME PUBLIC dep... PRIVATE dep... [LIGHT]): the static library of src/NAME. Its headers are included as
 # "NAME/header.hpp", and only by targets that link NAME: the include path holds nothing but that one folder. A LIGHT one
 # waits for the user or the GPU: optimising it takes longer than it saves.
 function(speculum_library name)
   cmake_parse_arguments(ARG "LIGHT" "" "PUBLIC;PRIVATE" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+  list(FILTER sources EXCLUDE REGEX "_${foreign_system}\\.cpp$")
   set(include_dir ${PROJECT_BINARY_DIR}/include/${name})
   file(MAKE_DIRECTORY ${include_dir})
   file(CREATE_LINK ${CMAKE_CURRENT_SOURCE_DIR} ${include_dir}/${name} SYMBOLIC COPY_ON_ERROR)

@@ -21,6 +21,8 @@ fi
 package_packages=(dpkg-dev file librsvg2-bin lintian)
 # For scripts/bench-mirrors only.
 bench_packages=(python3)
+# For scripts/windows only, with the build's; Xvfb and its tools are for --test.
+windows_packages=(g++-mingw-w64-x86-64-posix libz-mingw-w64-dev dpkg-dev zip wine wine64 libgtest-dev googletest xvfb xdotool)
 # For scripts/fuzz only.
 fuzz_packages=(clang-14 libclang-rt-14-dev)
 

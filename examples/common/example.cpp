@@ -14,6 +14,7 @@
 #include "image/picture_files.hpp"
 #include "platform/files.hpp"
 #include "platform/folders.hpp"
+#include "platform/process.hpp"
 #include "platform/text.hpp"
 #include "reference/ray_tracer.hpp"
 #include "scene/scene_loader.hpp"
@@ -84,7 +85,7 @@ void setUpLog() {
   spdlog::set_default_logger(logger);
 }
 
-Options parse(int argc, char** argv, const std::string& name) {
+Options parse(int argc, const char* const* argv, const std::string& name) {
   Options options{.name = name};
   std::string size, path = "auto", shaders = "pipelines";
   CLI::App app("One step of docs/learn.md", name);
@@ -163,9 +164,10 @@ int runExample(Options options, Drawn (*run)(const Options&)) {
 }  // namespace
 
 int exampleMain(int argc, char** argv, const std::string& name, Drawn (*run)(const Options&)) {
+  const std::vector<const char*> arguments = prepareProcess(argc, argv);
   try {
     setUpLog();
-    return runExample(parse(argc, argv, name), run);
+    return runExample(parse(static_cast<int>(arguments.size()), arguments.data(), name), run);
   } catch (const CLI::CallForHelp&) {
     std::printf(
         "%s [--out F.png] [--size WxH] [--time S] [--frames N] [--naive] [--shaders pipelines|objects]\n"

@@ -66,7 +66,7 @@ int runScenes(const Options&) {
   for (const auto& [file, title] : titles) {
     // Names scenes as --scene takes them: hard/corner for a scene in a folder.
     const std::filesystem::path name = std::filesystem::path(file).lexically_relative(dataDirectory("scenes"));
-    printLine(fmt::format("{:<24} {}", std::filesystem::path(name).replace_extension().string(), title));
+    printLine(fmt::format("{:<24} {}", std::filesystem::path(name).replace_extension().generic_string(), title));
     printLine(fmt::format("{:25}{}", "", file));
   }
   return 0;
@@ -90,6 +90,7 @@ int runCommand(const Options& options) {
 
 int fail(const std::string& message) {
   printLine(message, stderr);
+  showFailure(oneLine(message));
   return 2;
 }
 

@@ -1,4 +1,3 @@
-#include <fnmatch.h>
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
@@ -31,19 +30,15 @@ namespace {
 
 constexpr int usualWorkers = 4;
 
-bool matches(const std::string& glob, const std::string& name) {
-  return ::fnmatch(glob.c_str(), name.c_str(), 0) == 0;
-}
-
 std::vector<RegressCase> selectedCases(std::vector<RegressCase> cases, const Options& options) {
   const auto requireMatch = [&](const std::string& option, const std::string& glob) {
-    if (std::ranges::none_of(cases, [&](const RegressCase& one) { return matches(glob, one.name); })) {
+    if (std::ranges::none_of(cases, [&](const RegressCase& one) { return matchesGlob(glob, one.name); })) {
       throw UsageError(fmt::format("{}: no case of {} has a name like '{}' (* stands for any text)", option,
                                    options.regress.cases.string(), glob));
     }
   };
   requireMatch("--filter", options.regress.filter);
-  std::erase_if(cases, [&](const RegressCase& subject) { return !matches(options.regress.filter, subject.name); });
+  std::erase_if(cases, [&](const RegressCase& subject) { return !matchesGlob(options.regress.filter, subject.name); });
   if (options.regress.update) {
     requireMatch("--update", *options.regress.update);
   }
@@ -138,7 +133,7 @@ void acceptAll(const Options& options, UsedFiles& drawn, RegressRun& run) {
   for (size_t i = 0; i < run.cases.size(); ++i) {
     Outcome& outcome = run.outcomes[i];
     const std::string& name = run.cases[i].name;
-    if (!outcome.replaceable || !matches(*options.regress.update, name)) {
+    if (!outcome.replaceable || !matchesGlob(*options.regress.update, name)) {
       continue;
     }
     try {
@@ -242,7 +237,7 @@ struct FilesOfCases {
 void requireFilesOfItsOwn(const Options& options, const std::vector<RegressCase>& drawn, FilesOfCases& files) {
   std::vector<std::filesystem::path> report{options.out / "index.html"};
   for (const RegressCase& subject : drawn) {
-    if (options.regress.update && matches(*options.regress.update, subject.name)) {
+    if (options.regress.update && matchesGlob(*options.regress.update, subject.name)) {
       for (const std::filesystem::path& picture : picturesOf(subject)) {
         files.masks.requireUnused("--update", picture);
       }

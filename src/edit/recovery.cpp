@@ -92,7 +92,7 @@ fs::path Recovery::keep(const std::string& name, const fs::path& original,
   }
   own_.file.replace_filename(fileNameOf(name, ".toml"));
   if (originalOf(own_.file) != original) {
-    replaceFile(noteOf(own_.file), std::string_view(original.native()));
+    replaceFile(noteOf(own_.file), std::string_view(original.string()));
   }
   replaceFile(own_.file, text(own_.file));
   return own_.file;

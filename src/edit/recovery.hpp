@@ -34,7 +34,7 @@ class Recovery {
  private:
   struct Copy {
     std::filesystem::path file;  // empty: there is none
-    std::shared_ptr<const int> lock;
+    std::shared_ptr<const void> lock;
   };
   static Copy held(const std::filesystem::path& folder);
   static Copy freeFolder();

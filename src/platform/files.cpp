@@ -1,18 +1,11 @@
 #include "platform/files.hpp"
 
-#include <fcntl.h>
-#include <sys/file.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cerrno>
-#include <charconv>
-#include <cstdlib>
 #include <cstring>
 #include <fstream>
 
-#include "platform/folders.hpp"
+#include "platform/system_files.hpp"
 #include "platform/text.hpp"
 
 namespace speculum {
@@ -51,137 +44,30 @@ std::span<const uint8_t> bytesOf(std::string_view text) {
   return {reinterpret_cast<const uint8_t*>(text.data()), text.size()};
 }
 
-[[noreturn]] void failToWrite(const fs::path& file, int error) {
-  throw FileError(file, std::string("cannot be written: ") + std::strerror(error),
-                  "check the folder's permissions and free space");
-}
-
-// Writes and closes the descriptor; with `lasting` waits until the content has reached the disk. `file` is for
-// messages.
-void writeAndClose(int descriptor, const fs::path& file, std::span<const uint8_t> content, bool lasting) {
-  int error = 0;
-  while (!content.empty() && error == 0) {
-    const ssize_t count = ::write(descriptor, content.data(), content.size());
-    if (count >= 0) {
-      content = content.subspan(static_cast<size_t>(count));
-    } else if (errno != EINTR) {
-      error = errno;
-    }
-  }
-  if (error == 0 && lasting && ::fsync(descriptor) != 0) {
-    error = errno;
-  }
-  if (::close(descriptor) != 0 && error == 0) {
-    error = errno;
-  }
-  if (error != 0) {
-    failToWrite(file, error);
-  }
-}
-
-// Returns the file that symbolic links at the end of the path lead to, whether or not it exists.
-fs::path behindLinks(fs::path file) {
-  std::error_code error;
-  for (int links = 0; links < 40 && fs::is_symlink(file, error); ++links) {
-    file = file.parent_path() / fs::read_symlink(file, error);
-  }
-  if (fs::is_symlink(file, error)) {
-    failToWrite(file, ELOOP);
-  }
-  return file;
-}
+}  // namespace
 
 fs::path folderOf(const fs::path& file) {
   return file.has_parent_path() ? file.parent_path() : fs::path(".");
 }
 
-// Returns the open descriptor that a path such as /dev/stdout or /dev/fd/3 names, else -1. The descriptor may stand for
-// a pipe, or for a file that is appended to.
-int descriptorNamed(fs::path file) {
-  std::error_code error;
-  const fs::path descriptors = fs::canonical("/proc/self/fd", error);
-  for (int links = 0; links < 40 && !error; ++links) {
-    const std::string name = file.filename().string();
-    int number = -1;
-    if (fs::weakly_canonical(folderOf(file), error) == descriptors &&
-        std::from_chars(name.data(), name.data() + name.size(), number).ec == std::errc()) {
-      return number;
-    }
-    if (!fs::is_symlink(file, error)) {
-      break;
-    }
-    file = file.parent_path() / fs::read_symlink(file, error);
-  }
-  return -1;
+void failToWrite(const fs::path& file, const std::string& reason) {
+  throw FileError(file, "cannot be written: " + reason, "check the folder's permissions and free space");
 }
 
-void replace(const fs::path& file, std::span<const uint8_t> content, bool lasting) {
-  std::error_code error;
-  if (const int own = descriptorNamed(file); own >= 0) {
-    return writeAndClose(::dup(own), file, content, false);
-  }
-  const fs::path target = behindLinks(file);
-  const fs::path folder = folderOf(target);
-  if (!fs::is_directory(folder, error)) {
+void requirePlaceFor(const fs::path& file, const fs::path& target) {
+  if (const fs::path folder = folderOf(target); !isFolder(folder)) {
     throw FileError(file, "cannot be written: there is no folder '" + folder.string() + "'", "create it first");
   }
-  if (fs::is_directory(target, error)) {
+  if (isFolder(target)) {
     throw FileError(file, "cannot be written: it is a folder", "name a file");
-  }
-  struct stat old {};
-  const bool exists = ::stat(target.c_str(), &old) == 0;
-  // Writes to a device or pipe directly: renaming a file over it would replace it.
-  if (exists && !S_ISREG(old.st_mode)) {
-    // Waits for a pipe's reader, which may come a little later, but not for a file whose loss does no harm.
-    int descriptor = -1;
-    for (int tries = lasting ? 40 : 1; descriptor < 0 && tries > 0; --tries) {
-      descriptor = ::open(target.c_str(), O_WRONLY | O_CLOEXEC | O_NONBLOCK);
-      if (descriptor < 0 && errno != ENXIO) {
-        failToWrite(file, errno);
-      }
-      ::usleep(descriptor < 0 ? 50'000 : 0);
-    }
-    if (descriptor < 0) {
-      throw FileError(file, "cannot be written: it is a pipe that nobody reads", "start its reader, or name a file");
-    }
-    if (lasting) {
-      ::fcntl(descriptor, F_SETFL, ::fcntl(descriptor, F_GETFL) & ~O_NONBLOCK);
-    }
-    return writeAndClose(descriptor, file, content, false);
-  }
-  // Leaves room for the ending, since a file system bounds names to 255 bytes.
-  const std::string name = target.filename().string().substr(0, 200);
-  fs::path partial;
-  int descriptor = -1;
-  for (int number = 0; descriptor < 0; ++number) {
-    partial = folder / (name + ".part" + std::to_string(number));
-    descriptor = ::open(partial.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (descriptor < 0 && errno != EEXIST) {
-      failToWrite(file, errno);
-    }
-  }
-  try {
-    if (exists) {
-      // Only root may give a file to another owner.
-      [[maybe_unused]] const int result = ::fchown(descriptor, old.st_uid, old.st_gid);
-      ::fchmod(descriptor, old.st_mode & 07777);
-    }
-    writeAndClose(descriptor, file, content, lasting);
-    if (::rename(partial.c_str(), target.c_str()) != 0) {
-      failToWrite(file, errno);
-    }
-    if (lasting) {
-      const int names = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-      ::fsync(names);
-      ::close(names);
-    }
-  } catch (...) {
-    fs::remove(partial, error);
-    throw;
   }
 }
 
-}  // namespace
+fs::path partialName(const fs::path& target, int number) {
+  // Leaves room for the ending, since a file system bounds names to 255 bytes.
+  const std::string name = target.filename().string();
+  return folderOf(target) / (name.substr(0, 200) + ".part" + std::to_string(number));
+}
 
 FileError::FileError(const fs::path& file, std::string problem, std::string remedy)
     : std::runtime_error(oneLine(file.string() + ": " + problem + " (" + remedy + ")")),
@@ -268,24 +154,6 @@ fs::path withoutLinks(const fs::path& path) {
   return error ? path : target;
 }
 
-bool isWritable(const fs::path& file) {
-  std::error_code ignored;
-  return ::access((fs::exists(file, ignored) ? file : folderOf(file)).c_str(), W_OK) == 0;
-}
-
-std::shared_ptr<const int> lockFolder(const fs::path& folder) {
-  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
-  // A file system without locks cannot say that another process is there.
-  if (descriptor < 0 || (::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)) {
-    ::close(descriptor);
-    return nullptr;
-  }
-  return {new int(descriptor), [](const int* held) {
-            ::close(*held);
-            delete held;
-          }};
-}
-
 std::string fileNameOf(const std::string& name, const std::string& ending) {
   constexpr size_t longest = 255;  // bytes, in usual file systems
   const size_t most = std::min(name.size(), longest - ending.size());
@@ -297,13 +165,7 @@ std::string fileNameOf(const std::string& name, const std::string& ending) {
   return name.substr(0, most - length > longestRest ? most : length) + ending;
 }
 
-TemporaryDirectory::TemporaryDirectory() {
-  std::string name = (temporaryFolder() / "speculum-XXXXXX").string();
-  if (!::mkdtemp(name.data())) {
-    throw std::runtime_error("no temporary directory could be made at " + name + " (name a writable folder in TMPDIR)");
-  }
-  path_ = name;
-}
+TemporaryDirectory::TemporaryDirectory() : path_(newTemporaryFolder()) {}
 
 TemporaryDirectory::~TemporaryDirectory() {
   std::error_code ignored;

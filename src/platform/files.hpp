@@ -56,7 +56,7 @@ std::filesystem::path wholePath(const std::filesystem::path& path);
 std::filesystem::path withoutLinks(const std::filesystem::path& path);
 // Locks a folder while the result or a copy of it lives, and at most as long as this process, however it ends. Returns
 // null if the folder is locked already, or is none.
-std::shared_ptr<const int> lockFolder(const std::filesystem::path& folder);
+std::shared_ptr<const void> lockFolder(const std::filesystem::path& folder);
 // Returns the name with an ending. Cuts the name so that the whole has at most the length that file systems allow.
 std::string fileNameOf(const std::string& name, const std::string& ending);
 bool isWritable(const std::filesystem::path& file);  // or its folder, if the file does not exist

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -9,7 +10,7 @@
 namespace speculum {
 
 struct ProcessResult {
-  int exitCode = -1;   // 127 when the program was not found
+  int exitCode = -1;   // 127: not found; 128 + N: ended by signal N, or on Windows by the exception that stands for it
   std::string output;  // stdout and stderr, interleaved
 };
 // Runs a program found on PATH, without a shell. Blocks until it ends.
@@ -17,10 +18,20 @@ ProcessResult runProcess(const std::vector<std::string>& arguments);
 
 std::filesystem::path findProgram(const std::string& name);  // in PATH; empty if it is not there
 
+// Call it first in a program. Returns the arguments in UTF-8, which live as long as the process. On Windows, also makes
+// the console take UTF-8, and leaves a console that was opened for this program alone, by a double click.
+std::vector<const char*> prepareProcess(int argc, const char* const* argv);
+// Shows the message that a program ends with in a box, if Windows has no console or file that takes it.
+void showFailure(const std::string& message);
+
+extern const char* const renderDocLibrary;  // file name on this system
+// Returns a function of a library (its file name) that is loaded already; null if there is none.
+void* loadedFunction(const char* library, const char* name);
+
 // A program that runs beside this one. Destruction ends it.
 class ChildProcess {
  public:
-  enum class Input { inherited, pipe };
+  enum class Input { inherited, pipe };  // Windows inherits no input
 
   explicit ChildProcess(const std::vector<std::string>& arguments, Input input = Input::inherited);
   ~ChildProcess();
@@ -40,14 +51,15 @@ class ChildProcess {
   // Writes to its Input::pipe. A program that has ended gets nothing.
   void write(std::string_view text);
   void closeInput();
-  void kill();  // ends the program at once, by SIGKILL
+  void kill();  // ends the program at once
 
  private:
   bool read();  // false at the end of the output
 
-  int child_ = 0;       // 0: there is none
-  int descriptor_ = 0;  // of its output
-  int input_ = -1;      // socket that the program reads as its input; -1: none
+  // Process id and file descriptors, the input's that of a socket; on Windows handles.
+  intptr_t child_ = 0;        // 0: there is none
+  intptr_t descriptor_ = -1;  // of its output
+  intptr_t input_ = -1;       // of what the program reads as its input; -1: none
   ProcessResult result_;
 };
 

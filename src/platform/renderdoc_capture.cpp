@@ -1,7 +1,6 @@
 #include "platform/renderdoc_capture.hpp"
 #include "platform/files.hpp"
-
-#include <dlfcn.h>
+#include "platform/process.hpp"
 
 #include <array>
 #include <cstddef>
@@ -33,13 +32,12 @@ struct RenderDocApi {
 };
 static_assert(offsetof(RenderDocApi, startFrameCapture) == 19 * sizeof(void*));
 
-// RENDERDOC_GetAPI, which librenderdoc.so exports. Returns 1 on success.
+// RENDERDOC_GetAPI, which RenderDoc's library exports. Returns 1 on success.
 using GetRenderDocApi = int (*)(int version, void** api);
 
 // Returns RenderDoc's interface; null if RenderDoc is not loaded.
 const RenderDocApi* loadedApi() {
-  void* library = ::dlopen("librenderdoc.so", RTLD_NOW | RTLD_NOLOAD);
-  const auto getApi = library ? reinterpret_cast<GetRenderDocApi>(::dlsym(library, "RENDERDOC_GetAPI")) : nullptr;
+  const auto getApi = reinterpret_cast<GetRenderDocApi>(loadedFunction(renderDocLibrary, "RENDERDOC_GetAPI"));
   void* api = nullptr;
   return getApi && getApi(RenderDocApi::version, &api) == 1 ? static_cast<const RenderDocApi*>(api) : nullptr;
 }
@@ -64,7 +62,7 @@ void captureWithRenderDoc(const std::filesystem::path& file, const std::function
         "--capture: RenderDoc is not loaded (install it and set ENABLE_VULKAN_RENDERDOC_CAPTURE=1 for the command)");
   }
   // RenderDoc appends its own suffix to the name.
-  api->setCaptureFilePathTemplate(wholePath(file).replace_extension().c_str());
+  api->setCaptureFilePathTemplate(wholePath(file).replace_extension().string().c_str());
   api->startFrameCapture(nullptr, nullptr);
   try {
     draw();

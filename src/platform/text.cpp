@@ -34,7 +34,60 @@ bool isHidden(char32_t code) {
   return (std::ranges::upper_bound(bounds, code) - bounds.begin()) % 2 == 1 || (code & 0xfffeu) == 0xfffeu;
 }
 
+// Reads one element of a pattern, at `glob`, but no *. Returns its length, and whether it stands for the byte. A set
+// that does not end is a bracket.
+std::pair<size_t, bool> matchElement(std::string_view glob, char byte) {
+  if (glob[0] == '?') {
+    return {1, true};
+  }
+  if (glob[0] == '[') {
+    const bool negated = glob.size() > 1 && (glob[1] == '!' || glob[1] == '^');
+    const size_t first = negated ? 2 : 1;
+    const auto code = [](char c) { return static_cast<unsigned char>(c); };
+    bool found = false;
+    for (size_t i = first; i < glob.size(); ++i) {
+      if (glob[i] == ']' && i > first) {
+        return {i + 1, found != negated};
+      }
+      i += glob[i] == '\\' && i + 1 < glob.size();
+      const char low = glob[i];
+      if (i + 2 < glob.size() && glob[i + 1] == '-' && glob[i + 2] != ']') {
+        i += 2;
+        i += glob[i] == '\\' && i + 1 < glob.size();
+      }
+      found = found || (code(low) <= code(byte) && code(byte) <= code(glob[i]));
+    }
+  }
+  const size_t escape = glob[0] == '\\' && glob.size() > 1 ? 1 : 0;
+  return {escape + 1, glob[escape] == byte};
+}
+
 }  // namespace
+
+bool matchesGlob(std::string_view glob, std::string_view text) {
+  size_t star = std::string_view::npos;  // after the last * so far
+  size_t tried = 0;                      // first byte of the text that this * does not stand for
+  size_t g = 0;
+  for (size_t t = 0; t < text.size() || g < glob.size();) {
+    if (g < glob.size() && glob[g] == '*') {
+      star = ++g;
+      tried = t;
+      continue;
+    }
+    const auto [length, matches] =
+        g < glob.size() && t < text.size() ? matchElement(glob.substr(g), text[t]) : std::pair<size_t, bool>();
+    if (matches) {
+      g += length;
+      ++t;
+    } else if (star != std::string_view::npos && tried < text.size()) {
+      g = star;
+      t = ++tried;
+    } else {
+      return false;
+    }
+  }
+  return true;
+}
 
 std::string oneLine(std::string_view text) {
   constexpr size_t longest = 4000;

@@ -19,6 +19,10 @@ inline bool continuesCharacter(char byte) {
   return (static_cast<unsigned char>(byte) & 0xc0u) == 0x80u;
 }
 
+// Says whether the whole text matches the pattern: * stands for any bytes, ? for one, [a-z] and [!a-z] for one of a
+// set, and a backslash takes the special meaning from the next byte.
+bool matchesGlob(std::string_view glob, std::string_view text);
+
 // Makes a text one line that does nothing to the terminal or CI runner that it is printed to, whatever names, keys and
 // messages it holds: escapes control characters, marks of direction, bytes that are not UTF-8 and starts of runners'
 // commands as \x1b or \u202e, and leaves out the middle of a line of more than 4000 bytes.

@@ -1,7 +1,6 @@
 #include "platform/window.hpp"
 
 #include <GLFW/glfw3.h>
-#include <dlfcn.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
@@ -131,7 +130,7 @@ void chooseWindowPlatform(const std::optional<std::string>& platform) {
   const bool wayland = platform == "wayland";
 #if GLFW_VERSION_MAJOR > 3 || GLFW_VERSION_MINOR >= 4
   // Wayland's library complains on standard error if it is tried without this variable.
-  if (platform || environment("XDG_RUNTIME_DIR").empty()) {
+  if (platform || (glfwPlatformSupported(GLFW_PLATFORM_X11) && environment("XDG_RUNTIME_DIR").empty())) {
     glfwInitHint(GLFW_PLATFORM, wayland ? GLFW_PLATFORM_WAYLAND : GLFW_PLATFORM_X11);
   }
 #else
@@ -148,13 +147,12 @@ void onDisplayLost(void (*last)()) {
   called = last;
   using Handler = int (*)(void* display);
   // GLFW has loaded X11's library if windows use X11.
-  if (void* x11 = ::dlopen("libX11.so.6", RTLD_LAZY | RTLD_NOLOAD)) {
-    const auto setHandler = reinterpret_cast<Handler (*)(Handler)>(::dlsym(x11, "XSetIOErrorHandler"));
+  if (const auto setHandler =
+          reinterpret_cast<Handler (*)(Handler)>(loadedFunction("libX11.so.6", "XSetIOErrorHandler"))) {
     setHandler([](void*) {
       called();
       return 0;
     });
-    ::dlclose(x11);
   }
 }
 
@@ -176,7 +174,8 @@ void Window::Destroy::operator()(GLFWwindow* window) const {
 
 Window::Window(const WindowOptions& options) {
   if (!glfwVulkanSupported()) {
-    fail("the window system offers no Vulkan surface", "install a Vulkan driver, e.g. mesa-vulkan-drivers");
+    fail("the window system offers no Vulkan surface",
+         "install the driver of the graphics card, or Mesa's: mesa-vulkan-drivers");
   }
   glfwDefaultWindowHints();
   glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
@@ -415,7 +414,8 @@ std::vector<const char*> Window::requiredInstanceExtensions() const {
   uint32_t count = 0;
   const char** names = glfwGetRequiredInstanceExtensions(&count);
   if (!names) {
-    fail("the window system offers no Vulkan surface", "install a Vulkan driver, e.g. mesa-vulkan-drivers");
+    fail("the window system offers no Vulkan surface",
+         "install the driver of the graphics card, or Mesa's: mesa-vulkan-drivers");
   }
   return {names, names + count};
 }
@@ -423,7 +423,8 @@ std::vector<const char*> Window::requiredInstanceExtensions() const {
 VkSurfaceKHR Window::createSurface(VkInstance instance) const {
   VkSurfaceKHR surface = VK_NULL_HANDLE;
   if (glfwCreateWindowSurface(instance, window_.get(), nullptr, &surface) != VK_SUCCESS) {
-    fail("the window's Vulkan surface could not be made", "install a Vulkan driver, e.g. mesa-vulkan-drivers");
+    fail("the window's Vulkan surface could not be made",
+         "install the driver of the graphics card, or Mesa's: mesa-vulkan-drivers");
   }
   return surface;
 }

@@ -49,7 +49,7 @@ std::string quoted(const std::string& argument) {
 std::string sceneText(const std::filesystem::path& file) {
   const std::filesystem::path path = withoutLinks(file);
   const std::filesystem::path name = path.lexically_relative(withoutLinks(dataDirectory("scenes")));
-  return name.empty() || *name.begin() == ".." ? path.string() : (name.parent_path() / name.stem()).string();
+  return name.empty() || *name.begin() == ".." ? path.string() : (name.parent_path() / name.stem()).generic_string();
 }
 
 }  // namespace

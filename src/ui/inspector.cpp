@@ -58,7 +58,7 @@ void modelChoice(PanelContext& ui) {
   constexpr const char* fileName = "File...";
   ImGui::SetNextItemWidth(-FLT_MIN);
   const bool open =
-      ImGui::BeginCombo("##model", chosen ? chosen->stem().c_str() : fileName, ImGuiComboFlags_HeightLargest);
+      ImGui::BeginCombo("##model", chosen ? chosen->stem().string().c_str() : fileName, ImGuiComboFlags_HeightLargest);
   recordWidget(ui, "edit.model");
   if (open) {
     for (size_t i = 0; i <= models.size(); ++i) {

@@ -25,7 +25,7 @@ void fileMenu(PanelContext& ui) {
   const std::vector<std::filesystem::path>& recent = ui.input.browser.recent;
   if (menu(ui, "Open recent", !recent.empty())) {
     for (const std::filesystem::path& file : recent) {
-      item(ui, file.c_str(), OpenScene{file}, true, "");
+      item(ui, file.string().c_str(), OpenScene{file}, true, "");
     }
     ImGui::EndMenu();
   }
@@ -59,8 +59,8 @@ void editMenu(PanelContext& ui) {
   item(ui, "Add light", AddLight{});
   if (menu(ui, "Add object")) {
     for (const std::filesystem::path& model : edit.models) {
-      ImGui::PushID(model.c_str());  // names may repeat
-      item(ui, model.stem().c_str(), AddObject{model}, true, "");
+      ImGui::PushID(model.string().c_str());  // names may repeat
+      item(ui, model.stem().string().c_str(), AddObject{model}, true, "");
       ImGui::PopID();
     }
     ImGui::EndMenu();

@@ -52,7 +52,7 @@ void unsavedChanges(PanelContext& ui) {
   const ShownEdit& edit = ui.input.edit;
   const float before = ImGui::CalcTextSize("Save the changes before ?").x;
   ImGui::Text("Save the changes before %s?", thatFits(edit.afterPrompt, fieldWidth() - before).c_str());
-  ImGui::TextDisabled("%s", (edit.saveFile ? *edit.saveFile : edit.scene->file.stem()).c_str());
+  ImGui::TextDisabled("%s", (edit.saveFile ? *edit.saveFile : edit.scene->file.stem()).string().c_str());
   if (ui.output.refusedEdit) {
     coloredText(warningColor, "The vertices that were typed are not applied: they cannot be saved.");
   }
@@ -125,7 +125,7 @@ std::optional<std::filesystem::path> fileList(PanelContext& ui, const std::files
   }
   const float width = fieldWidth();
   ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + width);
-  ImGui::TextDisabled("%s", files.listed.c_str());
+  ImGui::TextDisabled("%s", files.listed.string().c_str());
   ImGui::PopTextWrapPos();
   std::optional<std::filesystem::path> chosen;
   const float others = 8.0f * ImGui::GetFrameHeightWithSpacing();  // height of the menus and of the other rows
@@ -206,7 +206,7 @@ void saveAs(PanelContext& ui) {
 void recovery(PanelContext& ui) {
   ImGui::TextUnformatted("Speculum ended with unsaved changes. Open the copy that it kept?");
   const std::filesystem::path& copy = ui.input.edit.proposedFile;
-  ImGui::TextDisabled("%s, kept in %s", copy.filename().c_str(), copy.parent_path().c_str());
+  ImGui::TextDisabled("%s, kept in %s", copy.filename().string().c_str(), copy.parent_path().string().c_str());
   ImGui::Spacing();
   answerButton(ui, "Open", "recovery.open", OpenScene{ui.input.edit.proposedFile});
   ImGui::SetItemDefaultFocus();

@@ -40,22 +40,8 @@ std::filesystem::path layoutFile() {
   return userConfigDir() / "layout.ini";
 }
 
-// Returns a sans serif font of the system whose digits are equally wide; empty if there is none.
-std::filesystem::path findFont() {
-  for (const char* file : {"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf", "/usr/share/fonts/TTF/DejaVuSans.ttf",
-                           "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf",
-                           "/usr/share/fonts/truetype/roboto/unhinted/RobotoTTF/Roboto-Regular.ttf",
-                           "/usr/share/fonts/truetype/noto/NotoSans-Regular.ttf"}) {
-    if (isFile(file)) {
-      return file;
-    }
-  }
-  const ProcessResult found = runProcess({"fc-match", "-f", "%{file}", "sans-serif:fontformat=TrueType"});
-  return found.exitCode == 0 && isFile(found.output) ? std::filesystem::path(found.output) : std::filesystem::path();
-}
-
 void addFont(ImFontAtlas& atlas, float pixels) {
-  static const std::filesystem::path file = findFont();
+  static const std::string file = systemFont().string();
   // Names of scenes: Latin, Greek and Cyrillic.
   static constexpr ImWchar characters[] = {0x20, 0x17f, 0x391, 0x3c9, 0x400, 0x45f, 0x2010, 0x2026, 0};
   if (!file.empty() && atlas.AddFontFromFileTTF(file.c_str(), pixels, nullptr, characters)) {

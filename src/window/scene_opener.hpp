@@ -6,28 +6,11 @@
 #include <optional>
 
 #include "edit/recovery.hpp"
-#include "platform/process.hpp"
+#include "platform/file_dialog.hpp"
 #include "window/document_controller.hpp"
 #include "window/scene_browser.hpp"
 
 namespace speculum {
-
-// The desktop's dialog for a file to open (zenity or kdialog), in a child process.
-class FileDialog {
- public:
-  struct Answer {
-    std::optional<std::filesystem::path> file;  // none if the user cancelled, or the dialog failed
-    bool failed = false;
-  };
-
-  // Opens the dialog in that folder, unless it is open already. Returns false if the desktop has no such dialog.
-  bool open(const std::filesystem::path& folder);
-  bool isOpen() const { return process_ != nullptr; }
-  std::optional<Answer> poll();  // the answer, once the dialog has closed
-
- private:
-  std::unique_ptr<ChildProcess> process_;  // null: the dialog is not open
-};
 
 // Opens scenes: asks for a file, prompts about unsaved changes first, loads in the background, and offers the copy that
 // a session that failed has kept.

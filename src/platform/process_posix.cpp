@@ -64,8 +64,10 @@ ChildProcess::ChildProcess(const std::vector<std::string>& arguments, Input inpu
   }
   ::posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
   ::posix_spawn_file_actions_adddup2(&actions, ends[1], STDERR_FILENO);
-  if (::posix_spawnp(&child_, argv[0], &actions, nullptr, argv.data(), environ) != 0) {
-    child_ = 0;
+  pid_t child = 0;
+  if (::posix_spawnp(&child, argv[0], &actions, nullptr, argv.data(), environ) == 0) {
+    child_ = child;
+  } else {
     result_ = {127, arguments.front() + ": cannot be run"};
   }
   ::posix_spawn_file_actions_destroy(&actions);
@@ -106,7 +108,7 @@ ProcessResult ChildProcess::wait() {
 }
 
 std::optional<ProcessResult> ChildProcess::poll() {
-  pollfd output{.fd = descriptor_, .events = POLLIN};
+  pollfd output{.fd = static_cast<int>(descriptor_), .events = POLLIN};
   while (child_ != 0 && ::poll(&output, 1, 0) > 0) {
     if (!read()) {
       return wait();
@@ -127,7 +129,7 @@ std::optional<std::string> ChildProcess::readLine(double seconds) {
       return line;
     }
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(end - Clock::now());
-    pollfd output{.fd = descriptor_, .events = POLLIN};
+    pollfd output{.fd = static_cast<int>(descriptor_), .events = POLLIN};
     if (child_ == 0 || left.count() < 0 || ::poll(&output, 1, static_cast<int>(left.count())) == 0) {
       return std::nullopt;
     }
@@ -172,6 +174,19 @@ std::filesystem::path findProgram(const std::string& name) {
     }
   }
   return {};
+}
+
+std::vector<const char*> prepareProcess(int argc, const char* const* argv) {
+  return {argv, argv + argc};
+}
+
+void showFailure(const std::string&) {}
+
+const char* const renderDocLibrary = "librenderdoc.so";
+
+void* loadedFunction(const char* library, const char* name) {
+  void* const loaded = ::dlopen(library, RTLD_NOW | RTLD_NOLOAD);
+  return loaded ? ::dlsym(loaded, name) : nullptr;
 }
 
 void setEnvironment(const std::string& name, const std::string& value) {

@@ -1,0 +1,48 @@
+#include "platform/file_dialog.hpp"
+#include "platform/process.hpp"
+
+namespace speculum {
+
+struct FileDialog::Shown {
+  ChildProcess process;
+};
+
+FileDialog::FileDialog() = default;
+FileDialog::~FileDialog() = default;
+
+bool FileDialog::open(const std::filesystem::path& folder, const Filter& filter) {
+  if (shown_) {
+    return true;
+  }
+  std::vector<std::string> command;
+  if (const std::filesystem::path zenity = findProgram("zenity"); !zenity.empty()) {
+    command = {zenity,
+               "--file-selection",
+               "--title=Open",
+               "--filename=" + folder.string(),
+               "--file-filter=" + filter.name + " | " + filter.patterns,
+               "--file-filter=All files | *"};
+  } else if (const std::filesystem::path kdialog = findProgram("kdialog"); !kdialog.empty()) {
+    command = {kdialog, "--title", "Open", "--getopenfilename", folder, filter.name + " (" + filter.patterns + ")"};
+  } else {
+    return false;
+  }
+  shown_ = std::make_unique<Shown>(command);
+  return true;
+}
+
+// The dialog may write warnings too; the file is the last line.
+std::optional<FileDialog::Answer> FileDialog::poll() {
+  const std::optional<ProcessResult> result = shown_ ? shown_->process.poll() : std::nullopt;
+  if (!result) {
+    return std::nullopt;
+  }
+  shown_.reset();
+  const std::string text = result->output.substr(0, result->output.find_last_not_of("\n") + 1);
+  if (result->exitCode == 0 && !text.empty()) {
+    return Answer{.file = text.substr(text.rfind('\n') + 1)};
+  }
+  return Answer{.file = std::nullopt, .failed = result->exitCode > 1};  // 1: the user cancelled
+}
+
+}  // namespace speculum

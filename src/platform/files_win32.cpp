@@ -1,0 +1,125 @@
+#include <algorithm>
+
+#include <atomic>
+#include <span>
+
+#include "platform/files.hpp"
+#include "platform/fnv1a.hpp"
+#include "platform/folders.hpp"
+#include "platform/process.hpp"
+#include "platform/system_files.hpp"
+#include "platform/win32.hpp"
+
+namespace speculum {
+
+namespace fs = std::filesystem;
+using win32::Handle;
+
+namespace {
+
+void write(HANDLE handle, const fs::path& file, std::span<const uint8_t> content, bool lasting) {
+  while (!content.empty()) {
+    constexpr size_t most = 1u << 30;  // bytes that one call can write
+    DWORD count = 0;
+    if (!::WriteFile(handle, content.data(), static_cast<DWORD>(std::min(content.size(), most)), &count, nullptr)) {
+      failToWrite(file, win32::messageOf(::GetLastError()));
+    }
+    content = content.subspan(count);
+  }
+  if (lasting && !::FlushFileBuffers(handle)) {
+    failToWrite(file, win32::messageOf(::GetLastError()));
+  }
+}
+
+// Renames over the old file. Programs that watch folders, such as virus scanners, may hold a file for a moment.
+void renameOver(const fs::path& partial, const fs::path& target, const fs::path& file, bool lasting) {
+  const DWORD flags = MOVEFILE_REPLACE_EXISTING | (lasting ? MOVEFILE_WRITE_THROUGH : 0);
+  for (int tries = 40; !::MoveFileExW(partial.c_str(), target.c_str(), flags); --tries) {
+    const DWORD error = ::GetLastError();
+    const bool passes = error == ERROR_SHARING_VIOLATION || error == ERROR_ACCESS_DENIED;
+    if (!passes || tries == 0 || !isWritable(target)) {
+      failToWrite(file, win32::messageOf(error));
+    }
+    ::Sleep(25);
+  }
+}
+
+}  // namespace
+
+void replace(const fs::path& file, std::span<const uint8_t> content, bool lasting) {
+  std::error_code error;
+  fs::path target = fs::is_symlink(file, error) ? fs::canonical(file, error) : file;
+  target = target.empty() ? file : target;
+  // Writes to a device or pipe, such as NUL or \\.\pipe\NAME, directly.
+  if (Handle device = win32::own(::CreateFileW(target.c_str(), GENERIC_WRITE, FILE_SHARE_READ | FILE_SHARE_WRITE,
+                                               nullptr, OPEN_EXISTING, 0, nullptr));
+      device && ::GetFileType(device.get()) != FILE_TYPE_DISK) {
+    return write(device.get(), file, content, false);
+  }
+  requirePlaceFor(file, target);
+  fs::path partial;
+  Handle handle;
+  for (int number = 0; !handle; ++number) {
+    partial = partialName(target, number);
+    handle = win32::own(
+        ::CreateFileW(partial.c_str(), GENERIC_WRITE, 0, nullptr, CREATE_NEW, FILE_ATTRIBUTE_NORMAL, nullptr));
+    if (const DWORD reason = ::GetLastError(); !handle && reason != ERROR_FILE_EXISTS) {
+      failToWrite(file, win32::messageOf(reason));
+    }
+  }
+  try {
+    write(handle.get(), file, content, lasting);
+    handle.reset();
+    renameOver(partial, target, file, lasting);
+  } catch (...) {
+    handle.reset();
+    fs::remove(partial, error);
+    throw;
+  }
+}
+
+bool isWritable(const fs::path& file) {
+  const DWORD attributes = ::GetFileAttributesW(file.c_str());
+  if (attributes == INVALID_FILE_ATTRIBUTES) {
+    return ::GetFileAttributesW(folderOf(file).c_str()) != INVALID_FILE_ATTRIBUTES;
+  }
+  // Rights are in access lists, which nothing but opening the file evaluates; of a folder the bit says nothing.
+  if ((attributes & FILE_ATTRIBUTE_DIRECTORY) != 0) {
+    return true;
+  }
+  return win32::own(::CreateFileW(file.c_str(), GENERIC_WRITE, FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE,
+                                  nullptr, OPEN_EXISTING, 0, nullptr)) != nullptr;
+}
+
+// Windows cannot lock a folder and still list it. The lock is a mutex whose name stands for the folder.
+std::shared_ptr<const void> lockFolder(const fs::path& folder) {
+  std::error_code error;
+  const std::wstring path = fs::canonical(folder, error).make_preferred().wstring();
+  if (error || !isFolder(folder) || fs::is_symlink(folder, error)) {
+    return nullptr;
+  }
+  const std::string name = "Global\\speculum-" + std::to_string(fnv1a(std::as_bytes(std::span(path))));
+  Handle mutex = win32::own(::CreateMutexW(nullptr, FALSE, win32::wide(name).c_str()));
+  if (::GetLastError() == ERROR_ALREADY_EXISTS) {
+    mutex.reset();
+  }
+  return std::shared_ptr<const void>(std::move(mutex));
+}
+
+fs::path newTemporaryFolder() {
+  static std::atomic<uint64_t> number{::GetTickCount64()};
+  const fs::path parent = temporaryFolder();
+  for (;;) {
+    const fs::path folder =
+        parent / ("speculum-" + std::to_string(::GetCurrentProcessId()) + "-" + std::to_string(number++));
+    if (::CreateDirectoryW(folder.c_str(), nullptr)) {
+      return folder;
+    }
+    if (::GetLastError() != ERROR_ALREADY_EXISTS) {
+      throw std::runtime_error("no temporary directory could be made at " + folder.string() +
+                               " (name a writable folder in TMP)");
+    }
+  }
+}
+
+}  // namespace speculum

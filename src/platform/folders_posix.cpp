@@ -1,0 +1,101 @@
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <optional>
+
+#include "platform/files.hpp"
+#include "platform/folders.hpp"
+#include "platform/process.hpp"
+#include "platform/system_folders.hpp"
+
+namespace speculum {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// Returns a folder below $TMPDIR that nobody else can write to; nothing if there can be none: other users may have put
+// a link or a folder of theirs in its place, or may be able to rename the folder, if $TMPDIR has no sticky bit.
+std::optional<fs::path> ownTemporaryFolder() {
+  const fs::path parent = temporaryFolder();
+  const fs::path folder = parent / ("speculum-" + std::to_string(::geteuid()));
+  struct stat around {};
+  struct stat own {};
+  ::mkdir(folder.c_str(), 0700);
+  const bool safe = ::stat(parent.c_str(), &around) == 0 && ::lstat(folder.c_str(), &own) == 0 &&
+                    ((around.st_mode & S_IWOTH) == 0 || (around.st_mode & S_ISVTX) != 0) &&
+                    (around.st_uid == 0 || around.st_uid == own.st_uid) && S_ISDIR(own.st_mode) &&
+                    own.st_uid == ::geteuid() && (own.st_mode & 077) == 0;
+  return safe ? std::optional(folder) : std::nullopt;
+}
+
+// Returns the folder that holds the user's other folders. Without $HOME, its content is lost when the machine starts
+// again. If there is no temporary folder either, it is a path that cannot be created, so that nothing is kept.
+fs::path homeFolder() {
+  const fs::path home = environment("HOME");
+  return home.is_absolute() ? home : ownTemporaryFolder().value_or("/proc/no-home");
+}
+
+// Returns the folder that the file of xdg-user-dirs names: XDG_PICTURES_DIR="$HOME/..." or an absolute path.
+fs::path configuredDir(const std::string& variable, const fs::path& home) {
+  std::ifstream file(userConfigDir().parent_path() / "user-dirs.dirs");
+  const std::string key = variable + "=\"";
+  for (std::string line; std::getline(file, line);) {
+    const size_t end = line.rfind('"');
+    if (!line.starts_with(key) || end < key.size()) {
+      continue;
+    }
+    const std::string value = line.substr(key.size(), end - key.size());
+    return value.starts_with("$HOME/") ? home / value.substr(6) : fs::path(value);
+  }
+  return {};
+}
+
+fs::path desktopDir(const std::string& variable, const char* fallback) {
+  const fs::path home = homeFolder();
+  const fs::path folder = configuredDir(variable, home);
+  return folder.is_absolute() ? folder : home / fallback;
+}
+
+}  // namespace
+
+const char* const homeVariable = "HOME";
+
+fs::path systemFolder(UserFolder folder) {
+  switch (folder) {
+    case UserFolder::cache:
+      return homeFolder() / ".cache";
+    case UserFolder::config:
+      return homeFolder() / ".config";
+    case UserFolder::pictures:
+      return desktopDir("XDG_PICTURES_DIR", "Pictures");
+    case UserFolder::documents:
+      break;
+  }
+  return desktopDir("XDG_DOCUMENTS_DIR", "Documents");
+}
+
+fs::path temporaryFolder() {
+  const fs::path folder = environment("TMPDIR");
+  return folder.empty() ? fs::path("/tmp") : folder;
+}
+
+fs::path executablePath() {
+  return fs::read_symlink("/proc/self/exe");
+}
+
+fs::path systemFont() {
+  for (const char* file : {"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf", "/usr/share/fonts/TTF/DejaVuSans.ttf",
+                           "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf",
+                           "/usr/share/fonts/truetype/roboto/unhinted/RobotoTTF/Roboto-Regular.ttf",
+                           "/usr/share/fonts/truetype/noto/NotoSans-Regular.ttf"}) {
+    if (isFile(file)) {
+      return file;
+    }
+  }
+  const ProcessResult found = runProcess({"fc-match", "-f", "%{file}", "sans-serif:fontformat=TrueType"});
+  return found.exitCode == 0 && isFile(found.output) ? fs::path(found.output) : fs::path();
+}
+
+}  // namespace speculum

@@ -1,0 +1,292 @@
+#include "platform/process.hpp"
+
+#include <fcntl.h>
+#include <io.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+
+#include "platform/files.hpp"
+#include "platform/win32.hpp"
+
+namespace speculum {
+
+using win32::Handle;
+
+namespace {
+
+std::atomic<bool> interruptFlag{false};
+bool ownConsole = false;  // was opened for this process alone
+
+HANDLE handleOf(intptr_t value) {
+  return reinterpret_cast<HANDLE>(value);
+}
+
+// Quotes an argument as CommandLineToArgvW reads it: backslashes count only before a quote.
+void appendQuoted(std::string& line, const std::string& argument) {
+  line += line.empty() ? "\"" : " \"";
+  size_t slashes = 0;
+  for (const char c : argument) {
+    line.append(c == '"' ? slashes + 1 : 0, '\\');
+    slashes = c == '\\' ? slashes + 1 : 0;
+    line += c;
+  }
+  line.append(slashes, '\\') += '"';
+}
+
+// A pipe of which the process that is started may inherit one end.
+struct Pipe {
+  Handle theirs;
+  Handle ours;
+};
+
+Pipe pipeThatIs(bool readByUs, const std::string& program) {
+  HANDLE reads = nullptr;
+  HANDLE writes = nullptr;
+  if (!::CreatePipe(&reads, &writes, nullptr, 0)) {
+    throw std::runtime_error("no pipe could be made for " + program);
+  }
+  Pipe pipe{.theirs = Handle(readByUs ? writes : reads), .ours = Handle(readByUs ? reads : writes)};
+  ::SetHandleInformation(pipe.theirs.get(), HANDLE_FLAG_INHERIT, HANDLE_FLAG_INHERIT);
+  return pipe;
+}
+
+// Starts a program that inherits these handles and no others: another child that had them would keep the pipes open.
+Handle start(const std::filesystem::path& program, std::wstring line, STARTUPINFOEXW& startup,
+             std::vector<HANDLE> inherited) {
+  SIZE_T size = 0;
+  ::InitializeProcThreadAttributeList(nullptr, 1, 0, &size);
+  std::vector<std::byte> attributes(size);
+  startup.lpAttributeList = reinterpret_cast<LPPROC_THREAD_ATTRIBUTE_LIST>(attributes.data());
+  PROCESS_INFORMATION process{};
+  if (::InitializeProcThreadAttributeList(startup.lpAttributeList, 1, 0, &size)) {
+    ::UpdateProcThreadAttribute(startup.lpAttributeList, 0, PROC_THREAD_ATTRIBUTE_HANDLE_LIST, inherited.data(),
+                                inherited.size() * sizeof(HANDLE), nullptr, nullptr);
+    ::CreateProcessW(program.c_str(), line.data(), nullptr, nullptr, TRUE,
+                     EXTENDED_STARTUPINFO_PRESENT | CREATE_NO_WINDOW, nullptr, nullptr, &startup.StartupInfo, &process);
+    ::DeleteProcThreadAttributeList(startup.lpAttributeList);
+  }
+  Handle(process.hThread).reset();
+  return Handle(process.hProcess);
+}
+
+int waitFor(intptr_t child) {
+  const Handle process(handleOf(child));
+  DWORD code = 0;
+  ::WaitForSingleObject(process.get(), INFINITE);
+  ::GetExitCodeProcess(process.get(), &code);
+  // An exception that nobody handled is the exit code.
+  return code == STATUS_ACCESS_VIOLATION ? 128 + SIGSEGV : code >= 0xc0000000u ? 128 + SIGABRT : static_cast<int>(code);
+}
+
+// Ctrl-C and the end of the console or session.
+BOOL WINAPI requestInterrupt(DWORD event) {
+  const bool first = !interruptFlag.exchange(true);
+  if (event != CTRL_C_EVENT && event != CTRL_BREAK_EVENT) {
+    ::Sleep(INFINITE);  // the process ends when this function returns, or a few seconds from now
+  }
+  return first ? TRUE : FALSE;
+}
+
+}  // namespace
+
+ChildProcess::ChildProcess(const std::vector<std::string>& arguments, Input input) {
+  const std::string& name = arguments.front();
+  Pipe output = pipeThatIs(true, name);
+  Pipe fed = input == Input::pipe ? pipeThatIs(false, name) : Pipe{};
+  std::string line;
+  for (const std::string& argument : arguments) {
+    appendQuoted(line, argument);
+  }
+  STARTUPINFOEXW startup{.StartupInfo = {.cb = sizeof startup, .dwFlags = STARTF_USESTDHANDLES}};
+  startup.StartupInfo.hStdInput = fed.theirs.get();
+  startup.StartupInfo.hStdOutput = startup.StartupInfo.hStdError = output.theirs.get();
+  std::vector<HANDLE> inherited{output.theirs.get()};
+  if (fed.theirs) {
+    inherited.push_back(fed.theirs.get());
+  }
+  const std::filesystem::path typed = name;
+  const std::filesystem::path program = typed.has_parent_path() ? typed : findProgram(name);
+  if (Handle child = program.empty() ? nullptr : start(program, win32::wide(line), startup, inherited)) {
+    child_ = reinterpret_cast<intptr_t>(child.release());
+  } else {
+    result_ = {127, name + ": cannot be run"};
+  }
+  descriptor_ = reinterpret_cast<intptr_t>(output.ours.release());
+  input_ = fed.ours ? reinterpret_cast<intptr_t>(fed.ours.release()) : -1;
+}
+
+ChildProcess::~ChildProcess() {
+  if (child_ != 0) {
+    kill();
+    waitFor(child_);
+  }
+  closeInput();
+  ::CloseHandle(handleOf(descriptor_));
+}
+
+bool ChildProcess::read() {
+  std::array<char, 4096> block;
+  DWORD count = 0;
+  const bool more = ::ReadFile(handleOf(descriptor_), block.data(), block.size(), &count, nullptr) != 0;
+  result_.output.append(block.data(), count);
+  return more;
+}
+
+ProcessResult ChildProcess::wait() {
+  if (child_ != 0) {
+    while (read()) {
+    }
+    result_.exitCode = waitFor(std::exchange(child_, 0));
+  }
+  return result_;
+}
+
+std::optional<ProcessResult> ChildProcess::poll() {
+  for (DWORD waiting = 1; child_ != 0 && waiting > 0;) {
+    if (!::PeekNamedPipe(handleOf(descriptor_), nullptr, 0, nullptr, &waiting, nullptr) || (waiting > 0 && !read())) {
+      return wait();
+    }
+  }
+  return child_ == 0 ? std::optional(result_) : std::nullopt;
+}
+
+std::optional<std::string> ChildProcess::readLine(double seconds) {
+  constexpr DWORD pause = 2;  // milliseconds; nothing can wait for an anonymous pipe
+  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(std::max(0.0, seconds));
+  for (;;) {
+    const size_t length = result_.output.find('\n');
+    if (length != std::string::npos) {
+      std::string line = result_.output.substr(0, length);
+      result_.output.erase(0, length + 1);
+      return line;
+    }
+    DWORD waiting = 0;
+    if (child_ == 0) {
+      return std::nullopt;
+    }
+    if (!::PeekNamedPipe(handleOf(descriptor_), nullptr, 0, nullptr, &waiting, nullptr) || (waiting > 0 && !read())) {
+      result_.exitCode = waitFor(std::exchange(child_, 0));
+    } else if (waiting == 0) {
+      if (std::chrono::steady_clock::now() > end) {
+        return std::nullopt;
+      }
+      ::Sleep(pause);
+    }
+  }
+}
+
+void ChildProcess::write(std::string_view text) {
+  DWORD count = 0;
+  while (!text.empty() &&
+         ::WriteFile(handleOf(input_), text.data(), static_cast<DWORD>(text.size()), &count, nullptr)) {
+    text.remove_prefix(count);
+  }
+}
+
+void ChildProcess::closeInput() {
+  if (input_ >= 0) {
+    ::CloseHandle(handleOf(std::exchange(input_, -1)));
+  }
+}
+
+void ChildProcess::kill() {
+  if (child_ != 0) {
+    ::TerminateProcess(handleOf(child_), 128 + 9);  // as SIGKILL leaves it
+  }
+}
+
+ProcessResult runProcess(const std::vector<std::string>& arguments) {
+  return ChildProcess(arguments).wait();
+}
+
+// Looks at the folders of PATH only: the system's own search begins in the working folder, which may hold anything.
+std::filesystem::path findProgram(const std::string& name) {
+  std::istringstream folders(environment("PATH"));
+  for (std::string folder; std::getline(folders, folder, ';');) {
+    const std::filesystem::path file = std::filesystem::path(folder) / (name + ".exe");
+    if (!folder.empty() && isFile(file)) {
+      return file;
+    }
+  }
+  return {};
+}
+
+std::vector<const char*> prepareProcess(int, const char* const*) {
+  static std::vector<std::string> texts;
+  int count = 0;
+  wchar_t** const wides = ::CommandLineToArgvW(::GetCommandLineW(), &count);
+  for (int i = 0; i < count; ++i) {
+    texts.push_back(win32::utf8(wides[i]));
+  }
+  ::LocalFree(wides);
+  for (std::FILE* stream : {stdin, stdout, stderr}) {
+    ::_setmode(::_fileno(stream), _O_BINARY);  // lines end as everywhere: scripts compare them
+  }
+  ::SetConsoleOutputCP(CP_UTF8);
+  DWORD process = 0;
+  ownConsole = ::GetConsoleProcessList(&process, 1) == 1;
+  // Started by a double click, or with a file that was dropped on it.
+  if (ownConsole && count <= 2) {
+    ::FreeConsole();
+    for (std::FILE* stream : {stdout, stderr}) {
+      static_cast<void>(std::freopen("NUL", "w", stream));
+    }
+  }
+  std::vector<const char*> arguments;
+  for (const std::string& text : texts) {
+    arguments.push_back(text.c_str());
+  }
+  return arguments;
+}
+
+void showFailure(const std::string& message) {
+  if (ownConsole || ::GetFileType(::GetStdHandle(STD_ERROR_HANDLE)) == FILE_TYPE_UNKNOWN) {
+    ::MessageBoxW(nullptr, win32::wide(message).c_str(), L"Speculum", MB_OK | MB_ICONERROR);
+  }
+}
+
+const char* const renderDocLibrary = "renderdoc.dll";
+
+void* loadedFunction(const char* library, const char* name) {
+  const HMODULE loaded = ::GetModuleHandleW(win32::wide(library).c_str());
+  return loaded ? reinterpret_cast<void*>(::GetProcAddress(loaded, name)) : nullptr;
+}
+
+// The C library keeps variables of its own beside the system's.
+void setEnvironment(const std::string& name, const std::string& value) {
+  ::_wputenv_s(win32::wide(name).c_str(), win32::wide(value).c_str());
+}
+
+std::string environment(const std::string& name) {
+  const wchar_t* value = ::_wgetenv(win32::wide(name).c_str());
+  return value ? win32::utf8(value) : "";
+}
+
+bool isTerminal(int fileDescriptor) {
+  DWORD mode = 0;
+  return ::GetConsoleMode(reinterpret_cast<HANDLE>(::_get_osfhandle(fileDescriptor)), &mode) != 0;
+}
+
+void installInterruptHandler() {
+  ::SetConsoleCtrlHandler(&requestInterrupt, TRUE);
+}
+
+bool interruptRequested() {
+  return interruptFlag;
+}
+
+// Windows has no signals for these: such writes fail anyway.
+void letLargeWritesFail() {}
+void letBrokenPipesFail() {}
+
+}  // namespace speculum

@@ -1,0 +1,35 @@
+#pragma once
+
+#ifndef NOMINMAX
+#define NOMINMAX
+#endif
+#define WIN32_LEAN_AND_MEAN
+#include <windows.h>
+
+// These need the header above.
+#include <commdlg.h>
+#include <psapi.h>
+#include <shellapi.h>
+#include <shlobj.h>
+
+#include <memory>
+#include <string>
+#include <string_view>
+
+// What the halves for Windows share.
+namespace speculum::win32 {
+
+struct Close {
+  void operator()(void* handle) const { ::CloseHandle(handle); }
+};
+using Handle = std::unique_ptr<void, Close>;
+// Windows names a missing handle in two ways; both become null.
+inline Handle own(HANDLE handle) {
+  return Handle(handle == INVALID_HANDLE_VALUE ? nullptr : handle);
+}
+
+std::wstring wide(std::string_view text);  // of UTF-8
+std::string utf8(std::wstring_view text);
+std::string messageOf(DWORD error);  // the system's text for an error, without a line break
+
+}  // namespace speculum::win32
