@@ -14,5 +14,6 @@ set(CMAKE_DISABLE_FIND_PACKAGE_PkgConfig ON)
 set(CMAKE_CROSSCOMPILING_EMULATOR wine)
 # The program carries all that it needs. Without a time of linking in it, two builds give the same bytes.
 set(CMAKE_EXE_LINKER_FLAGS_INIT "-static -Wl,--no-insert-timestamp")
+set(ZLIB_USE_STATIC_LIBS ON)
 # FindVulkan asks for an import library, which nothing links: the loader is opened at run time.
 set(Vulkan_LIBRARY vulkan-1)

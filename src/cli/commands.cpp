@@ -10,6 +10,7 @@
 #include <iostream>
 #include <map>
 
+#include "cli/command_line.hpp"
 #include "platform/folders.hpp"
 #include "platform/machine.hpp"
 #include "platform/process.hpp"

@@ -4,6 +4,7 @@
 namespace speculum {
 
 struct FileDialog::Shown {
+  explicit Shown(const std::vector<std::string>& command) : process(command) {}
   ChildProcess process;
 };
 
