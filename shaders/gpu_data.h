@@ -387,7 +387,9 @@ struct MeanConstants {
 
 // Push constants of the pass that adds a picture to a sum.
 struct AccumulateConstants {
-  uint begins;  // the picture is the first
+  uint begins;    // the picture is the first
+  uint columns;   // tiles in a row of those that are refined; 0: the whole picture was drawn
+  uint tileSide;  // texels
 };
 
 // Push constants of the pass that shows a depth image.

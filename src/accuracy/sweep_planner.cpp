@@ -83,7 +83,7 @@ void addViewScales(SweepPlanner& planner, const SweepContext& context, bool full
 
 // Adds means of pictures, which converge to the reference. From 16 pictures on, each is drawn at one sample a pixel,
 // whatever view.samples says. No mean removes the error of shadow maps.
-void addMeans(SweepPlanner& planner, const SweepContext& context) {
+void addMeans(SweepPlanner& planner, const SweepContext& context, bool full) {
   Changes exact = context.mirrors ? Changes{{"reflection.max_depth", greatestDepth}} : Changes{};
   if (std::ranges::find(context.effects, "effects.shadows") != context.effects.end()) {
     exact.push_back({"effects.shadow_lookup", "traced"});
@@ -94,6 +94,10 @@ void addMeans(SweepPlanner& planner, const SweepContext& context) {
                   .theorySlope = -0.75},
                  swept("view.accumulate", true), joined(drawn(context, "1"), exact));
   planner.add(joined(joined(drawn(context, "4"), exact), {{"view.accumulate", "4"}}));
+  for (const std::string& error : swept("view.accumulate_error", full)) {
+    planner.add(
+        joined(joined(drawn(context, "1"), exact), {{"view.accumulate", "64"}, {"view.accumulate_error", error}}));
+  }
 }
 
 void addScaleSeries(SweepPlanner& planner, const SweepContext& context, bool full) {
@@ -147,7 +151,7 @@ void addSeries(SweepPlanner& planner, const SweepContext& context, bool full) {
   }
   planner.series(std::move(msaa), counts, each);
   addViewScales(planner, context, full);
-  addMeans(planner, context);
+  addMeans(planner, context, full);
   if (context.rough) {
     addRoughSeries(planner, context, full);
   }

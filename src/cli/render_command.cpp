@@ -30,9 +30,11 @@ int runRender(const Options& options) {
   Session session(options);
   session.renderer().setTimerDetail(options.render.stats.empty() ? TimerDetail::frame : TimerDetail::samples);
   installInterruptHandler();
-  Progress progress("render", count * session.settings().view.accumulate);
-  const auto advance = [&] { return progress.advance(); };
+  const int pictures = session.settings().view.accumulate;
+  Progress progress("render", count * pictures);
   for (int i = 0; i < count; ++i) {
+    // A mean that has converged is complete before its last picture.
+    const auto advance = [&] { return progress.set(i * pictures + session.lastFrame().pictures); };
     const auto draw = [&] {
       session.draw(options.time + i / options.render.fps, true, advance);
       session.finish();
@@ -42,7 +44,7 @@ int runRender(const Options& options) {
     } else {
       draw();
     }
-    if (session.lastFrame().pictures < session.settings().view.accumulate) {
+    if (session.lastFrame().pictures < pictures) {
       return 1;  // interrupted
     }
     savePicture(session, files.at(i));

@@ -44,7 +44,7 @@ struct Frame {
   RetireQueue* retired = nullptr;
   bool capture = false;   // set it before the display image is drawn to make Renderer::readback possible
   bool acquired = false;  // a swapchain image is acquired for this frame
-  double waitedMs = 0.0;  // time spent waiting in Renderer::submitPart
+  double waitedMs = 0.0;  // time spent waiting for the GPU within the frame
 };
 
 // Two frames in flight on one queue, into a window's swapchain or an image in its place. Frames are ordered by

@@ -13,14 +13,18 @@ double acesFit(double x) {
 }
 
 uint8_t displayCode(double linear, const DisplayCurve& curve) {
+  return static_cast<uint8_t>(std::floor(255.0 * displayValue(linear, curve) + 0.5));
+}
+
+}  // namespace
+
+double displayValue(double linear, const DisplayCurve& curve) {
   // The bound, the largest half float, keeps numerator and denominator of the fit from overflowing.
   const double x = curve.exposure * linear;
   const double exposed = x > 0.0 ? std::min(x, 65504.0) : 0.0;
   const double mapped = curve.toneMap == ToneMap::aces ? acesFit(exposed) : exposed;
-  return static_cast<uint8_t>(std::floor(255.0 * srgbEncode(std::min(mapped, 1.0)) + 0.5));
+  return srgbEncode(std::min(mapped, 1.0));
 }
-
-}  // namespace
 
 double srgbEncode(double linear) {
   const double x = std::clamp(linear, 0.0, 1.0);

@@ -23,7 +23,9 @@ struct DisplayCurve {
   ToneMap toneMap = ToneMap::clamp;
 };
 
-// Applies exposure, tone curve and sRGB curve and rounds to the nearest 8 bits, as shaders/display.glsl does.
+// Applies exposure, tone curve and sRGB curve to one channel. Returns [0, 1]; 0 for what is no number.
+double displayValue(double linear, const DisplayCurve& curve);
+// Does so for a picture and rounds to the nearest 8 bits, as shaders/display.glsl does.
 Image8 toDisplay(const LinearImage& image, const DisplayCurve& curve = {});
 
 }  // namespace speculum

@@ -37,6 +37,9 @@ class Planner {
     size_ = {texels(plan_.width), texels(plan_.height)};
     if (plan_.picture < allSettings_.view.accumulate) {
       plan_.projection.offset = -2.0 * pictureOffset(plan_.picture, allSettings_) / glm::dvec2(size_);
+      if (cache_.refined && plan_.picture == cache_.accumulated && cache_.refined->texels == size_) {
+        plan_.refined = cache_.refined;
+      }
     }
     changes_ = settings_.skipUnchanged ? cache_.changes : nullptr;
   }

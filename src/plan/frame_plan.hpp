@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -10,6 +11,7 @@
 #include "geometry/recycled_memory.hpp"
 #include "plan/cached_image.hpp"
 #include "plan/partial_instances.hpp"
+#include "plan/refined_tiles.hpp"
 #include "plan/traced_effects.hpp"
 #include "plan/view.hpp"
 #include "settings/settings.hpp"
@@ -162,10 +164,13 @@ struct MainImage {
 
 // Images of the frame before that this frame may reuse.
 struct FrameCache {
-  std::span<const CachedImage> images;    // FramePlan::cached of the frame before
-  std::span<const Cube> cubes;            // FramePlan::cubes of the frame before
-  const MainImage* main = nullptr;        // null: the main view is drawn in any case
-  const SceneChanges* changes = nullptr;  // up to this frame; null: unchanged images are not looked for
+  std::span<const CachedImage> images;          // FramePlan::cached of the frame before
+  std::span<const Cube> cubes;                  // FramePlan::cubes of the frame before
+  const MainImage* main = nullptr;              // null: the main view is drawn in any case
+  const SceneChanges* changes = nullptr;        // up to this frame; null: unchanged images are not looked for
+  std::shared_ptr<const RefinedTiles> refined;  // tiles of the mean that its next picture is drawn for; null: all
+  int accumulated = 0;                          // pictures in that mean
+  double waitedMs = 0.0;                        // time in which the GPU was waited for, to find the tiles
 };
 
 // A picture to plan: a scene at one moment.
@@ -198,6 +203,9 @@ struct FramePlan {
   // Tiles that this frame draws if several frames draw one picture (picture_tiles.hpp); none: the frame draws all
   // tiles.
   std::optional<TileRange> tiles;
+  // Tiles of the main view in which this picture of a mean is drawn. Elsewhere it has no meaning: nothing is drawn
+  // there, in mirror images neither. Null: all.
+  std::shared_ptr<const RefinedTiles> refined;
 
   const Pass& main() const { return passes.back(); }
   Pass& main() { return passes.back(); }
@@ -248,8 +256,9 @@ const Pass* mirrorPass(const FramePlan& plan, std::span<const int> path);
 // (cube_reuse.hpp). With reflection.skip_unchanged and without view.continuous, the main view in `cache.main` is reused
 // if it would be drawn exactly the same.
 //
-// A picture of a mean is planned at its pictureOffset(); the request's settings are pictureSettings() then. If
-// `picture` is view.accumulate or more, the mean is complete and is shown again: mainReused().
+// A picture of a mean is planned at its pictureOffset(); the request's settings are pictureSettings() then. If it is
+// the next one of `cache.accumulated`, it is drawn in the tiles `cache.refined` only. If `picture` is view.accumulate
+// or more, the mean is complete and is shown again: mainReused().
 FramePlan planFrame(const FrameRequest& request);
 
 }  // namespace speculum

@@ -100,4 +100,43 @@ std::vector<glm::dvec2> passMask(const View& view, const Projection& projection,
   return mask;
 }
 
+std::vector<std::vector<PixelRect>> convergedParts(const FramePlan& plan) {
+  std::vector<std::vector<PixelRect>> parts(plan.passes.size());
+  if (!plan.refined) {
+    return parts;
+  }
+  constexpr double everywhere = INFINITY;
+  std::vector<double> margins(plan.passes.size(), 0.0);  // texels of the main view from refined tiles to what is read
+  for (size_t i = plan.passes.size(); i-- > 0;) {
+    const Pass& pass = plan.passes[i];
+    if (pass.isFace() || !pass.drawn()) {
+      continue;
+    }
+    for (const MirrorDraw& draw : pass.mirrors) {
+      if (draw.pass >= 0) {
+        const ImageQuality& image = plan.passes[draw.pass].quality;
+        // Of an image of another size, one texel more is drawn where a tile's edge lies within it.
+        const double reach = draw.blurs || draw.ripples ? everywhere
+                             : image.scale == 1.0 && pass.quality.scale == 1.0
+                                 ? 0.0
+                                 : (cachedLookupReach(image) + 1.0) / image.scale;
+        margins[draw.pass] = std::max(margins[draw.pass], margins[i] + reach);
+      }
+    }
+    if (margins[i] == everywhere) {
+      continue;
+    }
+    const glm::dvec2 size = pass.view.pictureSize / plan.main().view.pictureSize;
+    for (const PixelRect& rect : convergedRects(*plan.refined, static_cast<int>(std::ceil(margins[i])))) {
+      const glm::ivec2 low(glm::ceil(size * glm::dvec2(rect.x, rect.y)));
+      const glm::ivec2 high(glm::floor(size * glm::dvec2(rect.x + rect.width, rect.y + rect.height)));
+      const PixelRect part = intersect({low.x, low.y, high.x - low.x, high.y - low.y}, pass.view.rect);
+      if (!part.empty()) {
+        parts[i].push_back(part);
+      }
+    }
+  }
+  return parts;
+}
+
 }  // namespace speculum

@@ -19,4 +19,10 @@ double cachedLookupReach(const ImageQuality& quality);
 // flat corners; empty if the mask is the view's whole rectangle.
 std::vector<glm::dvec2> passMask(const View& view, const Projection& projection, double reach);
 
+// Returns for each pass the rectangles that it need not draw because no refined tile of the main view shows them, in
+// texels of the view's whole picture; none if plan.refined is null. Blurred and rippled images are read anywhere, so
+// they and all that is seen in them have none; other images are read at the pixel that shows them, or beside it if they
+// have another resolution.
+std::vector<std::vector<PixelRect>> convergedParts(const FramePlan& plan);
+
 }  // namespace speculum

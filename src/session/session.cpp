@@ -178,11 +178,14 @@ const DrawnFrame& Session::draw(double time, bool capture, const std::function<b
 }
 
 void Session::drawPicture(bool capture) {
-  const bool last = frame_.pictures + 1 == loaded_.settings.view.accumulate;
   Frame frame = renderer_.beginFrame().value();
   collectFinished();
   const Clock::time_point recording = Clock::now();
   FrameCache cache = sceneRenderer_.cache(frame_.state);
+  frame.waitedMs += cache.waitedMs;
+  const int all = loaded_.settings.view.accumulate;
+  const bool converged = frame_.pictures > 0 && cache.refined && cache.refined->none();
+  frame_.pictures = converged ? all : frame_.pictures;  // shows the mean again
   cache.main = nullptr;  // the main view is drawn in every frame, so that its pass is reported
   FittedPlan fitted = planner_.plan({.scene = loaded_.scene,
                                      .state = frame_.state,
@@ -190,6 +193,7 @@ void Session::drawPicture(bool capture) {
                                      .size = {size_.width, size_.height},
                                      .cache = cache,
                                      .picture = frame_.pictures});
+  const bool last = frame_.pictures + 1 >= all;
   frame_.plan = std::move(fitted.plan);
   frame_.settings = fitted.settings;
   frame.capture = capture && last;
@@ -205,7 +209,7 @@ void Session::drawPicture(bool capture) {
     throw std::runtime_error("--shader-dir: " + errors.substr(begin, errors.find('\n', begin) - begin));
   }
   frame_.ledger.add(sceneRenderer_.ledger());
-  ++frame_.pictures;
+  frame_.pictures = std::min(frame_.pictures + 1, all);
 }
 
 void Session::collectFinished() {

@@ -35,6 +35,8 @@ struct ViewSettings {
   double scale = 1.0;  // resolution of the main view relative to the picture; mirror images follow it
   int samples = 4;
   int accumulate = 1;  // pictures whose mean is shown
+  // Estimated error, in steps of 8 bits, below which parts of the mean are not drawn again; 0: all are.
+  double accumulateError = 0.0;
   double exposure = 1.0;
   ToneMap toneMap = ToneMap::clamp;
   std::optional<glm::dvec3> clearColor;  // linear; replaces background and sky of the scene
@@ -108,6 +110,7 @@ struct QualitySettings {
   double maxError = 0.0;           // mean FLIP; 0: no bound
   std::optional<double> motionMs;  // milliseconds a frame while anything moves; 0: no bound, empty: by the device
   int stillPictures = 64;          // pictures whose mean the window shows while the scene is still
+  double stillError = 0.25;        // view.accumulate_error of that mean, unless that setting is larger
 
   bool operator==(const QualitySettings&) const = default;
 };

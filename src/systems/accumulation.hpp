@@ -1,8 +1,13 @@
 #pragma once
 
 #include <array>
+#include <map>
+#include <memory>
+#include <vector>
 
 #include "core/renderer.hpp"
+#include "plan/refined_tiles.hpp"
+#include "systems/frame_buffers.hpp"
 #include "systems/pass_log.hpp"
 #include "systems/pipeline_variants.hpp"
 
@@ -15,13 +20,22 @@ namespace speculum {
 // SceneRenderer owns it and adds the pictures it draws. To draw a mean, draw frames with view.accumulate above 1 and
 // plans made for pictures 0, 1, 2, ...; picture 0 begins a new mean. Scene, time, camera, settings and size must stay
 // the same between them. A plan for a picture beyond the last shows the mean again and draws nothing.
+//
+// With view.accumulate_error, later pictures are drawn in the tiles that refined() has. The sum of a texel of another
+// tile grows by its mean with each picture, so that all texels have the same number of pictures.
 class Accumulation {
  public:
-  explicit Accumulation(Renderer& renderer) : renderer_(renderer), pipelines_(renderer.pipelines()) {}
+  explicit Accumulation(Renderer& renderer);
 
   // Adds the picture in `radiance`, which is in the layout for being sampled, as number `picture`. Throws
-  // std::logic_error unless it is picture 0, or the next one and as large as the others.
-  RecordedPass add(Frame& frame, const VkDescriptorImageInfo& radiance, VkExtent2D extent, int picture);
+  // std::logic_error unless it is picture 0, or the next one and as large as the others. `refined`: the tiles that were
+  // drawn; null: all.
+  RecordedPass add(Frame& frame, const VkDescriptorImageInfo& radiance, VkExtent2D extent, int picture,
+                   const RefinedTiles* refined);
+  // Returns the tiles for which the next picture is to be drawn; null: all. `curve` displays the mean. Reads the sum
+  // back after the pictures of decidesTiles() and startsHalf(); adds the time to `waitedMs`.
+  std::shared_ptr<const RefinedTiles> refined(const DisplayCurve& curve, const ViewSettings& settings,
+                                              double& waitedMs);
   void release(RetireQueue& retired);
 
   int pictures() const { return pictures_; }  // number of pictures in the sum
@@ -38,6 +52,9 @@ class Accumulation {
   std::array<Image, 2> images_;  // one is read while the other is written: not every device blends 32-bit floats
   size_t current_ = 0;
   int pictures_ = 0;
+  FrameBuffers tiles_;
+  std::map<int, std::vector<float>> halves_;  // sums that later decisions need, by their number of pictures
+  std::shared_ptr<RefinedTiles> refined_;     // null: nothing was decided
 };
 
 }  // namespace speculum

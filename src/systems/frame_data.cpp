@@ -129,9 +129,11 @@ void FrameData::build(Frame& frame, const SceneResources& resources, const Scene
   for (size_t map = 0; map < maps.size(); ++map) {
     shadowMaps_[maps[map].light] = static_cast<uint32_t>(map);
   }
+  const std::vector<std::vector<PixelRect>> converged = convergedParts(plan);
   for (size_t i = 0; i < plan.passes.size(); ++i) {
     if (plan.passes[i].drawn()) {
       addPass(source, plan.passes[i], passes_[i]);
+      addMask(source, plan.passes[i], converged[i], passes_[i]);
     }
   }
 
@@ -192,7 +194,6 @@ void FrameData::addPass(const Source& source, const Pass& pass, DrawList& data) 
   data.glyphCount = static_cast<uint32_t>(pass.lights.size());
   addInstances(source, pass, clipFromRelative, data);
   addMirrors(source, pass, projection, data);
-  addMask(pass, plan, settings, data);
 }
 
 // Lights with a shadow map come first, so that passes share pipelines. In both groups, lights whose glyphs are visible
@@ -357,18 +358,36 @@ void FrameData::addRepeating(const Scene& scene, const SceneState& state, const 
   }
 }
 
-void FrameData::addMask(const Pass& pass, const FramePlan& plan, const Settings& settings, DrawList& data) {
-  if (pass.view.path.empty() || !settings.debug.maskPasses) {
+void FrameData::addMask(const Source& source, const Pass& pass, std::span<const PixelRect> converged, DrawList& data) {
+  if (!source.settings.debug.maskPasses) {
+    return;
+  }
+  double left = pass.view.rect.area();
+  std::ranges::for_each(converged, [&](const PixelRect& part) { left -= part.area(); });
+  if (left == 0.0) {
+    data.batches.clear();
+    data.mirrors.clear();
+    data.glyphCount = 0;
     return;
   }
   const glm::dvec2 drawn = overscan(pass.view);
-  const double reach = lookupReach(pass, settings, device_.limits().standardSampleLocations);
-  ClipPolygon clip;
-  for (const glm::dvec2& p : passMask(pass.view, plan.projection, reach)) {
-    clip.emplace_back(p / drawn, 0.0, 1.0);  // infinitely far
-  }
   data.maskFirstVertex = static_cast<uint32_t>(mirrorVertices_.size());
-  addFan(mirrorVertices_, clip);
+  if (!pass.view.path.empty()) {
+    const double reach = lookupReach(pass, source.settings, device_.limits().standardSampleLocations);
+    ClipPolygon clip;
+    for (const glm::dvec2& p : passMask(pass.view, source.plan.projection, reach)) {
+      clip.emplace_back(p / drawn, 0.0, 1.0);  // infinitely far
+    }
+    addFan(mirrorVertices_, clip);
+    data.maskOpens = !clip.empty();
+  }
+  for (const PixelRect& part : converged) {
+    const glm::dvec2 step = 2.0 / (pass.view.pictureSize * drawn);
+    const glm::dvec2 low = glm::dvec2(part.x, part.y) * step - 1.0 / drawn;
+    const glm::dvec2 high = low + glm::dvec2(part.width, part.height) * step;
+    const ClipPolygon nearest{{low, 1.0, 1.0}, {high.x, low.y, 1.0, 1.0}, {high, 1.0, 1.0}, {low.x, high.y, 1.0, 1.0}};
+    addFan(mirrorVertices_, nearest);
+  }
   data.maskVertexCount = static_cast<uint32_t>(mirrorVertices_.size()) - data.maskFirstVertex;
 }
 

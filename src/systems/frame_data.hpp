@@ -71,6 +71,7 @@ struct DrawList {
   std::vector<MirrorRange> mirrors;
   uint32_t maskFirstVertex = 0;
   uint32_t maskVertexCount = 0;  // 0: the whole rectangle is drawn
+  bool maskOpens = false;        // the mask begins with the polygon that is drawn; else the whole rectangle is
 };
 
 // The buffers that the passes of a frame read. Everything is composed in double relative to the eye of its view and
@@ -128,7 +129,8 @@ class FrameData {
   void addEnvironment(const Source& source, const Pass& pass, int instance, Batch& batch);
   void addMirrors(const Source& source, const Pass& pass, const glm::dmat4& projection, DrawList& data);
   void addRepeating(const Scene& scene, const SceneState& state, const glm::dvec3& eye);
-  void addMask(const Pass& pass, const FramePlan& plan, const Settings& settings, DrawList& data);
+  // `converged`: parts of the pass that are not drawn.
+  void addMask(const Source& source, const Pass& pass, std::span<const PixelRect> converged, DrawList& data);
 
   Device& device_;
   float lostInSums_;  // ViewData::zenith.w

@@ -68,15 +68,16 @@ class MirrorSystem {
   PipelineVariants<Variant> pipelines_;
 };
 
-// Keeps a mirror pass from shading pixels that no lookup reads. A pass with a mask clears its depth to the nearest
-// value, so that nothing passes the depth test; the mask, drawn first, opens its polygon with the farthest depth.
+// Keeps a pass from shading pixels that nothing reads. A mirror pass with a mask clears its depth to the nearest value,
+// so that nothing passes the depth test; the mask, drawn first, opens its polygon with the farthest depth. Then it
+// closes what has converged, with the nearest depth again.
 class MaskSystem {
  public:
   MaskSystem(PipelineFactory& factory, VkDescriptorSetLayout frameLayout)
       : frameLayout_(frameLayout), pipelines_(factory) {}
 
   // Value that a pass clears its depth to.
-  static float clearDepth(const DrawList& pass) { return pass.maskVertexCount > 0 ? 1.0f : 0.0f; }
+  static float clearDepth(const DrawList& pass) { return pass.maskOpens ? 1.0f : 0.0f; }
   uint32_t record(const PassScope& scope, const FrameInfo& info, const DrawList& pass);
 
  private:

@@ -71,7 +71,7 @@ void SceneRenderer::record(Frame& frame, const SceneState& state, const Settings
   const bool textured = drawsTextures(scene_, state, settings, plan);
   resources_.prepare(frame, settings, textured);
   pictureSize_ = {plan.width, plan.height};
-  curve_ = settings.view.displayCurve();
+  shown_ = settings.view;
   tiles_ = tilesOfPasses(plan);
   tilesLeft_ = tilesAtOnce_ = tilesAtOnce(plan, settings, plan.effects.raysToLights(scene_));
   data_.build(frame, resources_, scene_, state, settings, environment, plan);
@@ -94,6 +94,7 @@ void SceneRenderer::record(Frame& frame, const SceneState& state, const Settings
     cubes_.clear();
     if (!plan.mainReused()) {
       ledger_ = {};
+      drewTiles_ = plan.refined != nullptr;
     }
   }
   recordPasses(info);
@@ -301,14 +302,14 @@ void SceneRenderer::recordSum(const FrameInfo& info) {
   } else if (const bool again = info.plan.picture > 0 && info.plan.picture + 1 == accumulated();
              !info.plan.mainReused() && !again) {
     log_.add(accumulation_.add(info.frame, mainTargets_.drawn().descriptor(), mainTargets_.drawn().extent(),
-                               info.plan.picture));
+                               info.plan.picture, info.plan.refined.get()));
   }
 }
 
 DisplayedPicture SceneRenderer::picture() {
   const int pictures = accumulated();
   return display_.picture(pictures > 0 ? accumulation_.descriptor() : mainTargets_.shown().descriptor(),
-                          mainTargets_.shown().extent(), displayed(curve_, radianceScale_), pictures);
+                          mainTargets_.shown().extent(), displayed(shown_.displayCurve(), radianceScale_), pictures);
 }
 
 void SceneRenderer::recordDisplay(const FrameInfo& info, const std::optional<TargetDisplay>& debug,
@@ -344,9 +345,9 @@ std::optional<RecordedPass> SceneRenderer::showTarget(Frame& frame, const FrameP
   }
   Image& texels = showsDepth ? watched_.depth() : image->color();
   const MirrorImage shown{showsDepth ? watched_.depthDescriptor() : image->descriptor(), texels.samples()};
-  const auto view = showsDepth
-                        ? display_.recordDepth(frame, target.size, debug, shown, target.near)
-                        : display_.recordColor(frame, target.size, debug, shown, displayed(curve_, radianceScale_));
+  const auto view = showsDepth ? display_.recordDepth(frame, target.size, debug, shown, target.near)
+                               : display_.recordColor(frame, target.size, debug, shown,
+                                                      displayed(shown_.displayCurve(), radianceScale_));
   // The target that is shown, of the last complete picture, may be smaller than the one that the probe was meant for.
   if (debug.probe && glm::all(glm::lessThan(*debug.probe, target.size))) {
     probe_.probe(frame, texels, shown.descriptor, *debug.probe);
@@ -469,13 +470,14 @@ void SceneRenderer::finishLedger(const FrameInfo& info) {
 
 FrameCache SceneRenderer::cache(const SceneState& state) {
   changes_.update(scene_, state);
-  if (cacheRevision_ != renderer_.pipelines().revision()) {
-    return {.changes = &changes_};
+  FrameCache cache{.changes = &changes_, .accumulated = accumulated()};
+  cache.refined = accumulation_.refined(displayed(shown_.displayCurve(), radianceScale_), shown_, cache.waitedMs);
+  if (cacheRevision_ == renderer_.pipelines().revision()) {
+    cache.images = mirrorTargets_.cachedImages();
+    cache.cubes = cubes_;
+    cache.main = mainImage_.content.empty() ? nullptr : &mainImage_;
   }
-  return {.images = mirrorTargets_.cachedImages(),
-          .cubes = cubes_,
-          .main = mainImage_.content.empty() ? nullptr : &mainImage_,
-          .changes = &changes_};
+  return cache;
 }
 
 void SceneRenderer::restart() {

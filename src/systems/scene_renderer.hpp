@@ -66,6 +66,9 @@ class SceneRenderer {
   // Says whether the last frame kept that target of the last complete picture, for TargetDisplay.
   bool keepsTarget(const MirrorPath& path, TargetKind kind) const { return watched_.keeps(path, kind); }
 
+  // Says whether the last picture was drawn in FramePlan::refined only, so that its targets have gaps.
+  bool drewTiles() const { return drewTiles_; }
+
   // Shows `picture` (display sRGB) instead of the scene, stretched to the display, from the next frame on. A picture
   // without pixels shows the scene again.
   void setCover(const Image8& picture) { display_.setCover(picture); }
@@ -136,9 +139,10 @@ class SceneRenderer {
   size_t tilesLeft_ = SIZE_MAX;           // tiles for which the frame's commands still have room
   std::vector<PassTargets> passTargets_;  // of the mirror passes drawn last; their next tiles may follow
   double radianceScale_ = 1.0;            // ViewSettings::radianceScale() of the last complete picture
-  bool unfinished_ = false;               // the last frame drew tiles, and not the last ones of its picture
-  glm::ivec2 pictureSize_{0};             // of the last recorded frame; 0: none yet
-  DisplayCurve curve_;                    // of the last recorded frame
+  bool drewTiles_ = false;
+  bool unfinished_ = false;    // the last frame drew tiles, and not the last ones of its picture
+  glm::ivec2 pictureSize_{0};  // of the last recorded frame; 0: none yet
+  ViewSettings shown_;         // of the last recorded frame
   MirrorTargets mirrorTargets_;
   uint64_t cacheRevision_ = 0;  // of the pipelines that rendered the cached images
   SceneChanges changes_;

@@ -389,7 +389,7 @@ void settings(PanelContext& ui) {
   if (section(ui, "view", "View", ui.state.choices.viewSection)) {
     settingRows(ui, "view.");
     settingRows(ui, "quality.motion_ms");
-    settingRows(ui, "quality.still_pictures");
+    settingRows(ui, "quality.still_");
   }
   if (section(ui, "reflections", "Reflections", ui.state.choices.reflectionsSection)) {
     settingRows(ui, "reflection.");

@@ -358,8 +358,11 @@ uint64_t Demo::nonFinite() {
 // Returns the target that the panels show if a picture has to be drawn for it.
 std::optional<Pace::Target> Demo::missingTarget() const {
   const std::optional<TargetRequest>& target = output_.target;
-  const bool missing = target && target->drawn && isShown() && !isAlwaysThere(target->path, target->display.kind) &&
-                       !half().renderer->keepsTarget(target->path, target->display.kind);
+  const SceneRenderer& renderer = *half().renderer;
+  const auto isMissing = [&](const MirrorPath& path, TargetKind kind) {
+    return isAlwaysThere(path, kind) ? renderer.drewTiles() : !renderer.keepsTarget(path, kind);
+  };
+  const bool missing = target && target->drawn && isShown() && isMissing(target->path, target->display.kind);
   return missing ? std::optional(Pace::Target(target->path, target->display.kind)) : std::nullopt;
 }
 
@@ -374,6 +377,10 @@ const FittedPlan& Demo::planFrame(Frame& frame, const SceneState& state) {
   half.planner.begin(isShown() && output_.target && !output_.target->path.empty(),
                      ui_->holdsWidget() || half.pace.moving(), halves_[1] ? 2 : 1);
   FrameCache cache = half.renderer->cache(state);
+  frame.waitedMs += cache.waitedMs;
+  if (isShown() && output_.target) {
+    cache.refined = nullptr;  // the whole target is shown
+  }
   if (missing) {
     cache.main = nullptr;
   }

@@ -32,6 +32,7 @@ constexpr size_t mostFrames = 128;
 
 Settings withPictures(Settings settings, int pictures) {
   settings.view.accumulate = pictures;
+  settings.view.accumulateError = pictures > 1 ? stillError(settings) : 0.0;
   return settings;
 }
 
@@ -257,7 +258,13 @@ void Pace::planFirst(const Request& request) {
 // Plans the next picture or, if it is slow and another picture is shown meanwhile, its next tiles.
 void Pace::planPicture(const Request& request, State state) {
   state_ = state;
-  const int next = state == State::redraw ? pictures_ - 1 : picture_;
+  const FrameCache& cache = request.frame.cache;
+  if (state == State::mean && slow_.finished() && picture_ > 0 && cache.refined && cache.refined->none()) {
+    picture_ = pictures_;  // the mean has converged and is shown again
+  }
+  const int next = state != State::redraw ? picture_ : (cache.accumulated > 0 ? cache.accumulated : pictures_) - 1;
+  refined_ =
+      state == State::mean && cache.refined && picture_ > 0 ? std::optional(cache.refined->share()) : std::nullopt;
   if (slow_.finished()) {
     planWith(request, withPictures(request.frame.settings, pictures_), pictures_ == 1 ? 0 : next);
     const bool covers = request.budgetMs > 0.0 && (picture_ > 0 || !draft_.empty());
@@ -301,7 +308,10 @@ std::string Pace::tilesText(int complete) const {
 }
 
 std::string Pace::meanText(int complete) const {
-  return fmt::format("{} of {} pictures averaged", complete, pictures_);
+  const std::string averaged = fmt::format("{} of {} pictures averaged", complete, pictures_);
+  return !refined_ || complete == pictures_
+             ? averaged
+             : fmt::format("{}, refining {:.0f} %", averaged, std::ceil(100.0 * *refined_));
 }
 
 void Pace::drawn(uint64_t number, double cpuMs, double waitedMs, bool learns) {
@@ -310,7 +320,7 @@ void Pace::drawn(uint64_t number, double cpuMs, double waitedMs, bool learns) {
                     .cpuMs = cpuMs,
                     .waitedMs = waitedMs,
                     .begun = begun_,
-                    .work = learns ? std::optional(work_) : std::nullopt});
+                    .work = learns && !fitted_.plan.refined ? std::optional(work_) : std::nullopt});
   if (drawn_.size() > mostDrawn) {
     drawn_.pop_front();
   }
@@ -337,7 +347,7 @@ void Pace::finished(const FrameTimings& timings) {
     slow_.took(std::max(ms - besidesMs_, leastShare * ms));
     // The frames with tiles took longer than a single frame would have, so their time is learned only if even that was
     // less than predicted.
-    if (slow_.finished() && slow_.totalMs() < controller_.predict(slowWork_)) {
+    if (slow_.finished() && !fitted_.plan.refined && slow_.totalMs() < controller_.predict(slowWork_)) {
       controller_.learn(slowWork_, slow_.totalMs());
     }
   } else if (found->work && timings.passes.empty()) {
@@ -349,6 +359,10 @@ void Pace::finished(const FrameTimings& timings) {
 
 int stillPictures(const Settings& settings) {
   return std::max(settings.view.accumulate, settings.quality.stillPictures);
+}
+
+double stillError(const Settings& settings) {
+  return std::max(settings.view.accumulateError, settings.quality.stillError);
 }
 
 double motionBudget(const Settings& settings, bool cpuDevice, double refreshHz) {

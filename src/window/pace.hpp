@@ -200,13 +200,14 @@ class Pace {
   State state_ = State::changed;
   // Settings and content of the still pictures; nothing while the picture moves.
   std::optional<std::pair<Settings, Shown>> shown_;
-  uint64_t still_ = 0;            // still views begun so far
-  int picture_ = 0;               // complete pictures of the mean
-  int pictures_ = 0;              // in the mean; 1: a single picture instead
-  std::optional<Target> target_;  // of the latest redraw
-  SlowPicture slow_;              // picture that is drawn in tiles while another picture or a draft is shown
-  FrameWork slowWork_;            // of the whole slow_
-  std::string draft_;             // what the draft gives up; empty: none was needed
+  uint64_t still_ = 0;             // still views begun so far
+  int picture_ = 0;                // complete pictures of the mean
+  int pictures_ = 0;               // in the mean; 1: a single picture instead
+  std::optional<Target> target_;   // of the latest redraw
+  SlowPicture slow_;               // picture that is drawn in tiles while another picture or a draft is shown
+  FrameWork slowWork_;             // of the whole slow_
+  std::string draft_;              // what the draft gives up; empty: none was needed
+  std::optional<double> refined_;  // share of the mean's tiles that its next picture is drawn for; none: not decided
   std::string text_;
   double cpuMs_ = 0.0;      // of the last frame
   double besidesMs_ = 0.0;  // expected milliseconds of a frame besides its tiles: the program and the display pass
@@ -214,6 +215,8 @@ class Pace {
 
 // Returns the number of pictures in the mean of a still picture.
 int stillPictures(const Settings& settings);
+// Returns view.accumulate_error of that mean.
+double stillError(const Settings& settings);
 
 // Returns the budget of a frame in milliseconds: quality.motion_ms or, if that is auto, 50 on a CPU device and 0.8 of
 // the monitor's refresh interval elsewhere.

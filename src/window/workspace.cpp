@@ -583,6 +583,7 @@ void Workspace::copyCommandLine() {
     }
     Settings settings = shownSettings(shownHalf());
     settings.view.accumulate = stillPictures(settings);
+    settings.view.accumulateError = stillError(settings);
     const std::string command = viewCommand(options, file, scene(), settings);
     host_.setClipboard(command);
     const bool copy = file != scene().file;

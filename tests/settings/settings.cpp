@@ -53,10 +53,11 @@ TEST(Settings, PicturesFollowFromWhatChangesThem) {
   const std::set<std::string_view> othersThanImages{"reflection.update_interval",
                                                     "reflection.skip_unchanged",
                                                     "view.samples",
+                                                    "view.accumulate_error",
                                                     "view.exposure",
                                                     "view.tone_map",
                                                     "view.continuous"};
-  const std::set<std::string_view> othersThanMainView{"view.exposure", "view.tone_map"};
+  const std::set<std::string_view> othersThanMainView{"view.accumulate_error", "view.exposure", "view.tone_map"};
   for (const SettingField& field : settingFields()) {
     const Settings settings = changed(field);
     const bool quality = field.key.starts_with("quality.");

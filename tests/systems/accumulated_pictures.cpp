@@ -307,6 +307,96 @@ std::vector<std::tuple<const char*, const char*>> longDraws() {
 
 INSTANTIATE_TEST_SUITE_P(Values, LongDraws, testing::ValuesIn(longDraws()));
 
+// A mean that is drawn on where it has not converged: at each texel it is the whole mean of the pictures up to where
+// its tile stopped, whatever the mirrors show, and whether or not what has converged is left out of passes.
+struct RefinedScene {
+  const char* name;
+  SettingList settings;
+};
+
+class RefinedMeans : public testing::TestWithParam<RefinedScene> {};
+
+TEST_P(RefinedMeans, AreWholeMeansUpToWhereTheyStopped) {
+  constexpr int all = 24;
+  Options options = inTiles(GetParam().name);
+  set(options, {{"view.accumulate", std::to_string(all)}});
+  set(options, GetParam().settings);
+  QuietSession session(options);
+  std::map<int, LinearImage> whole;
+  session.draw(0.0, false, [&] {
+    const int pictures = session.lastFrame().pictures;
+    if (decidesTiles(pictures) || pictures == all) {
+      whole[pictures] = session.radiance();
+    }
+    return true;
+  });
+  const auto samples = [&] {
+    session.draw(0.0, true);
+    session.finish();
+    double sum = 0.0;
+    std::ranges::for_each(session.lastFrame().passes(), [&](const TimedPass& p) { sum += p.timing.samples; });
+    return sum;
+  };
+  const double wholeSamples = samples();
+  set(session, {{"view.accumulate_error", "2"}});
+  std::map<int, std::shared_ptr<const RefinedTiles>> decisions;
+  session.draw(0.0, true, [&] {
+    if (const auto& refined = session.lastFrame().plan.refined) {
+      decisions[refined->decidedAfter] = refined;
+    }
+    return true;
+  });
+  const LinearImage mean = session.radiance();
+  const Image8 picture = session.picture();
+  ASSERT_FALSE(decisions.empty());
+  int stopped = 0;
+  for (int y = 0; y < mean.height; ++y) {
+    for (int x = 0; x < mean.width; ++x) {
+      int pictures = all;
+      for (const auto& [after, refined] : decisions) {
+        const int tile = y / refinedSide * refined->grid().x + x / refinedSide;
+        pictures = refined->tiles[static_cast<size_t>(tile)] == 0 ? std::min(pictures, after) : pictures;
+      }
+      stopped += pictures < all;
+      const glm::vec3 off = glm::abs(mean.at(x, y) - whole[pictures].at(x, y));
+      ASSERT_LE(std::max({off.r, off.g, off.b}), 1e-5f * (1.0f + glm::length(mean.at(x, y))))
+          << x << ", " << y << " of " << pictures << " pictures";
+    }
+  }
+  EXPECT_GT(stopped, 0);
+  EXPECT_LT(stopped, mean.width * mean.height);
+  EXPECT_LT(samples(), 0.99 * wholeSamples);
+  EXPECT_EQ(session.picture().rgba, picture.rgba);
+  set(session, {{"debug.mask_passes", "false"}});
+  EXPECT_EQ(draw(session).rgba, picture.rgba);
+  options.renderPath = RenderPath::renderPass;
+  set(options, {{"view.accumulate_error", "2"}});
+  QuietSession other(options);
+  EXPECT_EQ(draw(other).rgba, picture.rgba) << "the same on both render paths";
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Scenes, RefinedMeans,
+    testing::Values(RefinedScene{"gallery", {}}, RefinedScene{"facing_mirrors", {{"reflection.scale", "0.5"}}},
+                    RefinedScene{"facing_mirrors", {{"reflection.scale", "2"}, {"reflection.max_depth", "6"}}},
+                    RefinedScene{"rough", {{"effects.rough_lookup", "image"}}},
+                    RefinedScene{"pool", {{"effects.ripple_lookup", "image"}}}, RefinedScene{"mirror_ball", {}},
+                    RefinedScene{"shadows", {{"effects.shadow_lookup", "map"}}}),
+    [](const auto& info) { return std::string(info.param.name) + std::to_string(info.index); });
+
+// A picture that has converged everywhere is complete, and is shown without further pictures.
+TEST(Accumulation, EndsWhereEverythingHasConverged) {
+  QuietSession session(headless(writeScene("flat", "[environment]\nbackground = [0.2, 0.3, 0.4]\n"), size,
+                                {{"view.accumulate", "64"}, {"view.accumulate_error", "0.25"}}));
+  int frames = 0;
+  session.draw(0.0, true, [&] { return ++frames > 0; });
+  EXPECT_EQ(frames, 9) << "eight pictures, and the mean again";
+  EXPECT_EQ(session.lastFrame().pictures, 64);
+  const Image8 picture = session.picture();
+  set(session, {{"view.accumulate_error", "0"}});
+  EXPECT_EQ(draw(session).rgba, picture.rgba);
+}
+
 // Rough mirrors trace other rays in each picture, so that the mean is as smooth as with more rays a pixel.
 TEST(Accumulation, RoughMirrorsDrawNewRandomNumbers) {
   for (const char* lookup : {"traced", "image"}) {

@@ -504,7 +504,7 @@ class PacedScene : public testing::Test, private PicturePlanner {
  protected:
   FittedPlan frame(bool moves = false) {
     pace_.begin({}, moves, seconds_);
-    return pace_.plan({.frame = {scene_, state_, chosen_},
+    return pace_.plan({.frame = {scene_, state_, chosen_, {}, {.refined = refined_, .accumulated = accumulated_}},
                        .planner = *this,
                        .shown = {.revision = revision_},
                        .budgetMs = budgetMs_,
@@ -539,6 +539,8 @@ class PacedScene : public testing::Test, private PicturePlanner {
   double seconds_ = 0.1;  // between frames
   uint64_t revision_ = 1;
   double budgetMs_ = 0.0;
+  std::shared_ptr<const RefinedTiles> refined_;
+  int accumulated_ = 0;                 // pictures in the renderer's mean
   std::optional<Pace::Target> target_;  // not kept yet
   bool input_ = false;
   bool leavesOut_ = false;  // reflection.max_passes leaves mirrors without a pass
@@ -753,6 +755,31 @@ TEST_F(PacedScene, TargetsKeepTheMean) {
   target_.reset();
   frame();
   EXPECT_EQ(pace_.text(), "3 of 3 pictures averaged");
+}
+
+TEST_F(PacedScene, MeansEndWhereTheyHaveConverged) {
+  chosen_.quality.stillPictures = 64;
+  chosen_.quality.stillError = 0.5;
+  frame();
+  for (accumulated_ = 0; accumulated_ < 8; ++accumulated_) {
+    EXPECT_EQ(pictureOf(), std::pair(64, accumulated_));
+    EXPECT_EQ(planned_.view.accumulateError, 0.5);
+  }
+  refined_ = std::make_shared<RefinedTiles>(RefinedTiles{8, {32, 8}, {0, 1, 0, 0}});
+  for (; accumulated_ < 12; ++accumulated_) {
+    EXPECT_EQ(pictureOf(), std::pair(64, accumulated_));
+    EXPECT_EQ(pace_.text(), std::to_string(accumulated_ + 1) + " of 64 pictures averaged, refining 25 %");
+  }
+  refined_ = std::make_shared<RefinedTiles>(RefinedTiles{12, {32, 8}, {0, 0, 0, 0}});
+  EXPECT_EQ(pictureOf(), std::pair(64, 64)) << "the mean again";
+  EXPECT_EQ(pace_.text(), "64 of 64 pictures averaged");
+  EXPECT_FALSE(pace_.wantsFrame());
+  target_.emplace(MirrorPath{0}, TargetKind::color);
+  EXPECT_EQ(pictureOf(), std::pair(64, 11)) << "the last picture that was drawn";
+  chosen_.view.accumulateError = 1.0;
+  frame();
+  EXPECT_EQ(pictureOf(), std::pair(64, 0));
+  EXPECT_EQ(planned_.view.accumulateError, 1.0) << "the larger of both";
 }
 
 // As while frames are recorded, or with quality.motion_ms at 0.

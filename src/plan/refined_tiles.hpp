@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+#include "geometry/projection.hpp"
+#include "image/color.hpp"
+
+namespace speculum {
+
+// Side in texels of the tiles of a mean that are drawn on or not. A multiple of 4, the side of lavapipe's blocks.
+inline constexpr int refinedSide = 8;
+
+// The tiles of a mean of pictures that further pictures are drawn for: those that have not converged.
+struct RefinedTiles {
+  int decidedAfter = 0;         // pictures
+  glm::ivec2 texels{0};         // size of the main view
+  std::vector<uint32_t> tiles;  // 1: refined, 0: converged; row by row
+
+  glm::ivec2 grid() const { return (texels + refinedSide - 1) / refinedSide; }
+  double share() const;  // of the tiles that are refined
+  bool none() const { return share() == 0.0; }
+};
+
+// Says whether tiles are decided after so many pictures: after 8, 12, 16, 24, 32, 48, 64, 96 and so on, where the mean
+// of the first half can be compared with that of the second, and both are spread evenly over the pixel.
+bool decidesTiles(int pictures);
+// Says whether the sum of so many pictures is needed to decide later: it is the first half of a decision.
+bool startsHalf(int pictures);
+
+// Sums of the pictures of a mean, as Accumulation has them: four floats a texel, row by row, of which the fourth does
+// not count.
+struct PictureSum {
+  int pictures = 0;
+  std::span<const float> texels;
+};
+
+// Decides which tiles of a mean go on. `half` is the sum of the first half of the pictures in `whole`, `before` the
+// last decision of the same mean or nothing at the first; what has converged stays so. A tile has converged if the
+// error of the mean is estimated to be below `step` steps of 8 bits, as a root mean square over the tile and half a
+// tile around it.
+//
+// The estimate at a texel, for each channel after `curve`: A and B, the means of both halves, have the errors of
+// independent sets of n/2 samples each, so the mean of all has half the error of A - B. (The offsets of both halves
+// complement each other, so it has less.) The neighbourhood counts because one texel may have A = B by chance, and
+// because what few samples hit, such as a thin wire or the edge of a highlight, is found in one texel of several. The
+// largest channel counts. Deterministic.
+RefinedTiles refineTiles(const PictureSum& half, const PictureSum& whole, const glm::ivec2& texels,
+                         const DisplayCurve& curve, double step, const RefinedTiles* before);
+
+// Returns rectangles without a refined tile, in texels of the main view, each as far as possible from refined tiles: at
+// least `margin` texels. Together they hold most of such texels, at least all that lie in runs of two tiles.
+std::vector<PixelRect> convergedRects(const RefinedTiles& refined, int margin);
+
+}  // namespace speculum
