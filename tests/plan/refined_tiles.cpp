@@ -158,8 +158,13 @@ Signal coverage(std::mt19937& random) {
 }
 
 constexpr SignalClass classes[] = {
-    {"flat", flat, 0.0},           {"shaded", shaded, 0.0},   {"edge", edge, 0.002},         {"wire", wire, 0.01},
-    {"highlight", highlight, 0.0}, {"texture", texture, 0.0}, {"coverage", coverage, 0.001},
+    {"flat", flat, 0.0},
+    {"shaded", shaded, 0.0},
+    {"edge", edge, 0.004},
+    {"wire", wire, 0.004},
+    {"highlight", highlight, 0.0005},
+    {"texture", texture, 0.0},
+    {"coverage", coverage, 0.0005},
 };
 
 class RefinedSignals : public testing::TestWithParam<SignalClass> {};
