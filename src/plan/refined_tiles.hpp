@@ -50,8 +50,8 @@ struct PictureSum {
 RefinedTiles refineTiles(const PictureSum& half, const PictureSum& whole, const glm::ivec2& texels,
                          const DisplayCurve& curve, double step, const RefinedTiles* before);
 
-// Returns rectangles without a refined tile, in texels of the main view, each as far as possible from refined tiles: at
-// least `margin` texels. Together they hold most of such texels, at least all that lie in runs of two tiles.
+// Returns rectangles, in texels of the main view, that lie at least `margin` texels from every refined tile. They are
+// made of the runs of two and more converged tiles in each row.
 std::vector<PixelRect> convergedRects(const RefinedTiles& refined, int margin);
 
 }  // namespace speculum
