@@ -275,7 +275,8 @@ void MeshBuilder::smoothNormals() {
   if (std::ranges::find(cancelled, true) == cancelled.end()) {
     return;
   }
-  for (auto& [material, indices] : materialIndices_) {
+  for (auto& entry : materialIndices_) {
+    std::vector<uint32_t>& indices = entry.second;
     for (size_t first = 0; first < indices.size(); first += 3) {
       const auto position = [&](size_t k) { return vertices_[indices[first + k]].position; };
       const glm::dvec3 own = shapeOf(position(0), position(1), position(2)).normal;
