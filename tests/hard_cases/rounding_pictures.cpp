@@ -2,6 +2,7 @@
 // when it stores a float.
 #include "image/color.hpp"
 #include "reference/ray_tracer.hpp"
+#include "sampling.hpp"
 #include "scene_text.hpp"
 #include "studio.hpp"
 #include "test_headers.hpp"
@@ -11,7 +12,7 @@ namespace {
 
 using namespace testing_support;
 
-constexpr PictureSize size{96, 54};
+const PictureSize size = fullTests() ? PictureSize{96, 54} : PictureSize{64, 36};
 constexpr int mirrorsDeep = 5;
 
 // Returns the mean of actual - expected over all pixels and channels, in steps of 8 bits before they are rounded.

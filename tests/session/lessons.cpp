@@ -2,6 +2,7 @@
 #include "accuracy/ground_truth.hpp"
 #include "picture_support.hpp"
 #include "platform/files.hpp"
+#include "sampling.hpp"
 #include "session/lesson.hpp"
 #include "test_headers.hpp"
 
@@ -13,7 +14,7 @@ using namespace testing_support;
 class LessonPictures : public testing::TestWithParam<int> {};
 
 TEST_P(LessonPictures, RightHalfIsNearerToTheReference) {
-  constexpr PictureSize size{160, 90};
+  const PictureSize size = fullTests() ? PictureSize{160, 90} : PictureSize{112, 63};
   const Lesson lesson = shippedLessons().at(static_cast<size_t>(GetParam()));
   Options options = headless(lesson.scene, size);
   options.camera = lesson.camera;
@@ -25,16 +26,19 @@ TEST_P(LessonPictures, RightHalfIsNearerToTheReference) {
     return evaluated;
   }();
   session.setCamera(state.camera);
-  const auto truth = traceGroundTruth(
-      session.scene(), state,
-      {.width = size.width, .height = size.height, .samples = 16, .floorSamples = 0, .settings = ofScene},
-      [](double) { return true; });
+  const auto truth = traceGroundTruth(session.scene(), state,
+                                      {.width = size.width,
+                                       .height = size.height,
+                                       .samples = fullTests() ? 16 : 9,
+                                       .floorSamples = 0,
+                                       .settings = ofScene},
+                                      [](double) { return true; });
   ASSERT_TRUE(truth);
   std::array<Image8, 2> pictures;
   std::array<double, 2> errors{};
   for (const int half : {0, 1}) {
     Settings settings = lesson.settingsOf(half, ofScene);
-    settings.view.accumulate = std::min(settings.quality.stillPictures, 16);
+    settings.view.accumulate = std::min(settings.quality.stillPictures, fullTests() ? 16 : 8);
     session.setSettings(settings);
     pictures[half] = draw(session, lesson.time);
     errors[half] = errorsAgainst(*truth, pictures[half], settings).whole.flip;

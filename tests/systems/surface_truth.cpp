@@ -244,16 +244,19 @@ std::filesystem::path randomCover(unsigned seed) {
   return writeScene("cover_" + std::to_string(seed), out.str());
 }
 
-class RandomCoverage : public testing::TestWithParam<unsigned> {};
+class RandomCoverage : public testing::TestWithParam<unsigned> {
+ protected:
+  const PictureSize meanSize_ = fullTests() ? PictureSize{64, 48} : PictureSize{40, 30};
+};
 
 TEST_P(RandomCoverage, ConvergesToTheTracer) {
   const std::filesystem::path file = randomCover(GetParam());
-  EXPECT_LT(errorOfMean(file, {64, 48}), 0.02);
-  EXPECT_GT(errorOfMean(file, {64, 48}, {{"effects.transparency", "false"}}), 0.025) << "the scene shows no coverage";
+  EXPECT_LT(errorOfMean(file, meanSize_), 0.02);
+  EXPECT_GT(errorOfMean(file, meanSize_, {{"effects.transparency", "false"}}), 0.025) << "the scene shows no coverage";
 }
 
 TEST_P(RandomCoverage, ShadowMapsConvergeToTraced) {
-  EXPECT_LT(errorOfMean(randomCover(GetParam()), {64, 48}, {{"effects.shadow_lookup", "map"}}), 0.05);
+  EXPECT_LT(errorOfMean(randomCover(GetParam()), meanSize_, {{"effects.shadow_lookup", "map"}}), 0.05);
 }
 
 TEST_P(RandomCoverage, SkippingChangesNothing) {
