@@ -15,13 +15,13 @@ class ViewSets {
  public:
   explicit ViewSets(Renderer& renderer)
       : device_(renderer.device()),
-        layout_(createDescriptorSetLayout(
-            device_, {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER},
-            VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, "view")),
+        layout_(descriptorSetLayout(device_,
+                                    {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER},
+                                    VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, "view")),
         none_(renderer.uploader().image(std::array<std::byte, 4>{}, {1, 1}, VK_FORMAT_R8G8B8A8_UNORM, false, "none")),
         sampler_(createSampler(device_, nearestSampler, "none")) {}
 
-  VkDescriptorSetLayout layout() const { return layout_.get(); }
+  VkDescriptorSetLayout layout() const { return layout_; }
 
   VkDescriptorSet write(Frame& frame, const View& view, const OffScreen* image = nullptr) {
     used_ = frame.number == number_ ? used_ + 1 : 0;
@@ -31,7 +31,7 @@ class ViewSets {
       buffers.emplace_back(device_, sizeof(View), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, BufferMemory::host, "view");
     }
     buffers[used_].write(std::as_bytes(std::span(&view, 1)));
-    const VkDescriptorSet set = frame.descriptors->allocate(layout_.get());
+    const VkDescriptorSet set = frame.descriptors->allocate(layout_);
     DescriptorWriter()
         .buffer(0, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, buffers[used_].descriptor())
         .image(1, image ? image->descriptor() : none_.descriptor(sampler_.get()))
@@ -41,7 +41,7 @@ class ViewSets {
 
  private:
   Device& device_;
-  DescriptorSetLayoutHandle layout_;
+  VkDescriptorSetLayout layout_ = VK_NULL_HANDLE;
   Image none_;  // for shaders that look up no image: lavapipe of Mesa 22.3 reads all descriptors of a set
   SamplerHandle sampler_;
   std::array<std::vector<Buffer>, framesInFlight> buffers_;

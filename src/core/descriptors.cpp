@@ -1,30 +1,38 @@
 #include "core/descriptors.hpp"
 
+#include <array>
+
 namespace speculum {
 
-DescriptorSetLayoutHandle createDescriptorSetLayout(Device& device, std::span<const DescriptorBinding> bindings,
-                                                    const std::string& name) {
+VkDescriptorSetLayout descriptorSetLayout(Device& device, std::span<const DescriptorBinding> bindings,
+                                          const std::string& name) {
   std::vector<VkDescriptorSetLayoutBinding> layoutBindings;
+  std::vector<std::array<uint32_t, 4>> key;
   for (const DescriptorBinding& binding : bindings) {
     layoutBindings.push_back({.binding = binding.binding,
                               .descriptorType = binding.type,
                               .descriptorCount = binding.count,
                               .stageFlags = binding.stages});
+    key.push_back({binding.binding, static_cast<uint32_t>(binding.type), binding.count, binding.stages});
   }
-  return device.create(vkCreateDescriptorSetLayout,
-                       {.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
-                        .bindingCount = static_cast<uint32_t>(layoutBindings.size()),
-                        .pBindings = layoutBindings.data()},
-                       name);
+  DescriptorSetLayoutHandle& layout = device.setLayouts()[key];
+  if (!layout) {
+    layout = device.create(vkCreateDescriptorSetLayout,
+                           {.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
+                            .bindingCount = static_cast<uint32_t>(layoutBindings.size()),
+                            .pBindings = layoutBindings.data()},
+                           name);
+  }
+  return layout.get();
 }
 
-DescriptorSetLayoutHandle createDescriptorSetLayout(Device& device, std::initializer_list<VkDescriptorType> types,
-                                                    VkShaderStageFlags stages, const std::string& name) {
+VkDescriptorSetLayout descriptorSetLayout(Device& device, std::initializer_list<VkDescriptorType> types,
+                                          VkShaderStageFlags stages, const std::string& name) {
   std::vector<DescriptorBinding> bindings;
   for (const VkDescriptorType type : types) {
     bindings.push_back({.binding = static_cast<uint32_t>(bindings.size()), .type = type, .stages = stages});
   }
-  return createDescriptorSetLayout(device, bindings, name);
+  return descriptorSetLayout(device, bindings, name);
 }
 
 DescriptorPoolHandle DescriptorAllocator::createPool() const {

@@ -18,11 +18,12 @@ struct DescriptorBinding {
   VkShaderStageFlags stages = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
 };
 
-DescriptorSetLayoutHandle createDescriptorSetLayout(Device& device, std::span<const DescriptorBinding> bindings,
-                                                    const std::string& name);
-// Makes a layout with bindings 0, 1, ... of these types.
-DescriptorSetLayoutHandle createDescriptorSetLayout(Device& device, std::initializer_list<VkDescriptorType> types,
-                                                    VkShaderStageFlags stages, const std::string& name);
+// Returns the device's layout with these bindings, which lasts as long as the device. Whoever asks first names it.
+VkDescriptorSetLayout descriptorSetLayout(Device& device, std::span<const DescriptorBinding> bindings,
+                                          const std::string& name);
+// Does the same for bindings 0, 1, ... of these types.
+VkDescriptorSetLayout descriptorSetLayout(Device& device, std::initializer_list<VkDescriptorType> types,
+                                          VkShaderStageFlags stages, const std::string& name);
 
 // Hands out sets and grows by whole pools of 64 sets with 1024 image descriptors; a set must fit into one pool. Sets
 // live until reset() or the allocator's end; they are not freed singly.

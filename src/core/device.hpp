@@ -2,7 +2,9 @@
 
 #include <vulkan/vulkan.h>
 
+#include <array>
 #include <atomic>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -12,6 +14,7 @@
 #include "core/barriers.hpp"
 #include "core/handle.hpp"
 #include "core/physical_device.hpp"
+#include "core/spare_pipelines.hpp"
 #include "core/vulkan_result.hpp"
 
 namespace speculum {
@@ -51,6 +54,9 @@ struct DeviceFunctions {
   PFN_vkCmdBeginDebugUtilsLabelEXT beginLabel = nullptr;
   PFN_vkCmdEndDebugUtilsLabelEXT endLabel = nullptr;
 };
+
+// Layouts by the binding, type, count and stages of each of their bindings.
+using SetLayouts = std::map<std::vector<std::array<uint32_t, 4>>, DescriptorSetLayoutHandle>;
 
 // Instance, the chosen GPU, logical device, its one queue and, where that queue cannot present, a second one that can.
 // Must outlive everything made from it.
@@ -92,6 +98,9 @@ class Device {
   float lineWidth(float wanted);
 
   Barriers& barriers() { return barriers_; }
+  // For descriptorSetLayout() and PipelineFactory. One thread at a time.
+  SetLayouts& setLayouts() { return setLayouts_; }
+  SparePipelines& sparePipelines() { return sparePipelines_; }
   void waitIdle() const { check(vkDeviceWaitIdle(device_.get()), "wait for the GPU"); }
   // Waits for the fence and resets it. Throws std::runtime_error if the GPU does not finish within a minute; `what`
   // says what is waited for. A driver for CPUs has as much time as it computes.
@@ -156,6 +165,8 @@ class Device {
   VkQueue presentQueue_ = VK_NULL_HANDLE;
   DeviceFunctions functions_;
   Barriers barriers_;
+  SetLayouts setLayouts_;
+  SparePipelines sparePipelines_;
   std::atomic<uint64_t> allocatedBytes_{0};
   std::atomic<uint32_t> allocations_{0};
   VkSampleCountFlags reportedSampleCounts_ = 0;

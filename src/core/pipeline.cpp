@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <array>
+#include <type_traits>
+#include <utility>
 
 namespace speculum {
 
@@ -72,7 +74,64 @@ bool uses(const PipelineDesc& desc, const std::vector<std::string>& shaders) {
   return listed(graphics.vert) || (graphics.frag && listed(*graphics.frag));
 }
 
+template <typename T>
+void append(std::string& key, const T& value) {
+  static_assert(std::has_unique_object_representations_v<T>, "bytes between members would count");
+  key.append(reinterpret_cast<const char*>(&value), sizeof value);
+}
+template <typename T>
+void append(std::string& key, const std::vector<T>& values) {
+  append(key, values.size());
+  for (const T& value : values) {
+    append(key, value);
+  }
+}
+
+// A pipeline whose last frame has finished when this is destroyed.
+struct Retired {
+  Device& device;
+  std::string key;
+  SparePipelines::Spare spare;
+
+  Retired(Device& owner, std::string itsKey, SparePipelines::Spare itsSpare)
+      : device(owner), key(std::move(itsKey)), spare(std::move(itsSpare)) {}
+  Retired(Retired&&) = default;
+  ~Retired() {
+    if (spare.pipeline) {
+      device.sparePipelines().keep(std::move(key), std::move(spare));
+    }
+  }
+};
+
 }  // namespace
+
+std::string PipelineFactory::keyOf(const PipelineDesc& desc) {
+  std::string key = nameOf(desc) + '\0';
+  // Whoever adds a member to a description is stopped here by the compiler.
+  if (const auto* compute = std::get_if<ComputePipelineDesc>(&desc)) {
+    const auto& [name, comp, constants, setLayouts, pushConstantBytes] = *compute;
+    append(key, shaders_.fingerprint(comp));
+    append(key, constants);
+    append(key, setLayouts);
+    append(key, pushConstantBytes);
+  } else {
+    const auto& [name, vert, frag, constants, setLayouts, pushConstantBytes, color, depth, samples, depthTest,
+                 depthWrite, depthCompare, depthClamp, sampleShading, adds, lines, mayDrawLines, vertexBindings,
+                 vertexAttributes] = std::get<GraphicsPipelineDesc>(desc);
+    append(key, shaders_.fingerprint(vert));
+    append(key, frag ? shaders_.fingerprint(*frag) : 0);
+    append(key, constants);
+    append(key, setLayouts);
+    append(key, pushConstantBytes);
+    append(key, std::array{color, depth});
+    append(key, samples);
+    append(key, depthCompare);
+    append(key, std::array{depthTest, depthWrite, depthClamp, sampleShading, adds, lines, mayDrawLines});
+    append(key, vertexBindings);
+    append(key, vertexAttributes);
+  }
+  return key;
+}
 
 bool PipelineFactory::reload() {
   const std::vector<std::string> changed = shaders_.poll();
@@ -80,6 +139,7 @@ bool PipelineFactory::reload() {
   for (Pipeline* pipeline : pipelines_) {
     if (uses(pipeline->desc_, changed)) {
       retired_.retire(std::exchange(pipeline->pipeline_, build(pipeline->desc_, pipeline->layout_.get())));
+      pipeline->key_ = keyOf(pipeline->desc_);
       spdlog::info("pipeline {} was rebuilt", nameOf(pipeline->desc_));
       rebuilt = true;
     }
@@ -193,17 +253,20 @@ VkPipeline PipelineFactory::buildPipeline(const GraphicsPipelineDesc& desc, VkPi
 }
 
 Pipeline::Pipeline(PipelineFactory& factory, PipelineDesc desc)
-    : factory_(factory),
-      desc_(std::move(desc)),
-      layout_(createLayout(factory.device_, desc_)),
-      pipeline_(factory.build(desc_, layout_.get())) {
+    : factory_(factory), desc_(std::move(desc)), key_(factory.keyOf(desc_)) {
+  SparePipelines::Spare spare = factory.device_.sparePipelines().take(key_);
+  if (!spare.pipeline) {
+    spare.layout = createLayout(factory.device_, desc_);
+    spare.pipeline = factory.build(desc_, spare.layout.get());
+  }
+  layout_ = std::move(spare.layout);
+  pipeline_ = std::move(spare.pipeline);
   factory_.pipelines_.push_back(this);
 }
 
 Pipeline::~Pipeline() {
   std::erase(factory_.pipelines_, this);
-  factory_.retired_.retire(std::move(pipeline_));
-  factory_.retired_.retire(std::move(layout_));
+  factory_.retired_.retire(Retired{factory_.device_, std::move(key_), {std::move(layout_), std::move(pipeline_)}});
 }
 
 VkPipelineBindPoint Pipeline::bindPoint() const {

@@ -26,7 +26,7 @@ struct GraphicsPipelineDesc {
   std::string vert;                               // e.g. "scene.vert"
   std::optional<std::string> frag;                // none: only depth is written
   std::vector<SpecialisedConstant> constants;     // of both shaders, each of which takes those that it declares
-  std::vector<VkDescriptorSetLayout> setLayouts;  // outlive the pipeline
+  std::vector<VkDescriptorSetLayout> setLayouts;  // of descriptorSetLayout()
   uint32_t pushConstantBytes = 0;                 // offset 0, vertex and fragment stage
   VkFormat color = colorFormat;
   VkFormat depth = depthFormat;  // VK_FORMAT_UNDEFINED: the pass has no depth
@@ -47,7 +47,7 @@ struct ComputePipelineDesc {
   std::string name;
   std::string comp;  // e.g. "check_finite.comp"
   std::vector<SpecialisedConstant> constants;
-  std::vector<VkDescriptorSetLayout> setLayouts;  // outlive the pipeline
+  std::vector<VkDescriptorSetLayout> setLayouts;  // of descriptorSetLayout()
   uint32_t pushConstantBytes = 0;                 // offset 0
 };
 
@@ -77,6 +77,8 @@ class PipelineFactory {
 
  private:
   friend class Pipeline;
+  // Returns what tells the pipelines of a device apart.
+  std::string keyOf(const PipelineDesc& desc);
   PipelineHandle build(const PipelineDesc& desc, VkPipelineLayout layout);
   VkPipeline buildPipeline(const GraphicsPipelineDesc& desc, VkPipelineLayout layout);
   VkPipeline buildPipeline(const ComputePipelineDesc& desc, VkPipelineLayout layout);
@@ -90,12 +92,12 @@ class PipelineFactory {
   uint64_t revision_ = 0;
 };
 
-// A graphics or compute pipeline and its layout. It must not move, because hot reload keeps its address; hold it by
-// unique_ptr or std::optional. The factory outlives it.
+// A graphics or compute pipeline and its layout, made or taken from the device's spare ones. It must not move, because
+// hot reload keeps its address; hold it by unique_ptr or std::optional. The factory outlives it.
 class Pipeline {
  public:
   Pipeline(PipelineFactory& factory, PipelineDesc desc);
-  ~Pipeline();  // the Vulkan objects go to the retire queue
+  ~Pipeline();  // the Vulkan objects go to the retire queue, and then to the device's spare ones
   Pipeline(const Pipeline&) = delete;
   Pipeline& operator=(const Pipeline&) = delete;
 
@@ -122,6 +124,7 @@ class Pipeline {
 
   PipelineFactory& factory_;
   PipelineDesc desc_;
+  std::string key_;
   PipelineLayoutHandle layout_;
   PipelineHandle pipeline_;
 };

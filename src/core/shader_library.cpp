@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cstring>
+#include <span>
 #include <stdexcept>
 
 #include "platform/files.hpp"
+#include "platform/fnv1a.hpp"
 #include "platform/process.hpp"
 
 namespace speculum {
@@ -87,6 +89,11 @@ VkShaderModule ShaderLibrary::module(const std::string& name) {
     setCode(name, entry, std::move(*code));
   }
   return entry.module.get();
+}
+
+uint64_t ShaderLibrary::fingerprint(const std::string& name) {
+  module(name);
+  return fnv1a(std::as_bytes(std::span(entries_[name].code)));
 }
 
 std::vector<std::string> ShaderLibrary::poll() {

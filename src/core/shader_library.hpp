@@ -20,6 +20,8 @@ class ShaderLibrary {
 
   // Throws std::runtime_error naming the file when there is no such module or it is not SPIR-V.
   VkShaderModule module(const std::string& name);
+  // Returns a number that another content of the module would change. Throws as module() does.
+  uint64_t fingerprint(const std::string& name);
 
   bool watching() const { return !glslDir_.empty(); }
   // Compiles files that are newer than their modules and returns the names whose SPIR-V is new, e.g. "mirror.frag". A

@@ -25,8 +25,8 @@ void Accumulation::begin(VkExtent2D extent, RetireQueue& retired) {
   Device& device = renderer_.device();
   if (!layout_) {
     constexpr VkDescriptorType image = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
-    layout_ = createDescriptorSetLayout(device, {image, image, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
-                                        VK_SHADER_STAGE_FRAGMENT_BIT, "accumulate");
+    layout_ = descriptorSetLayout(device, {image, image, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
+                                  VK_SHADER_STAGE_FRAGMENT_BIT, "accumulate");
     sampler_ = createSampler(device, nearestSampler, "sum");
   }
   halves_.clear();
@@ -54,7 +54,7 @@ RecordedPass Accumulation::add(Frame& frame, const VkDescriptorImageInfo& radian
                            std::to_string(pictures_) + " others of its size");
   }
   tiles_.write(frame, 0, refined ? refined->tiles : std::vector<uint32_t>{1});
-  const VkDescriptorSet set = frame.descriptors->allocate(layout_.get());
+  const VkDescriptorSet set = frame.descriptors->allocate(layout_);
   DescriptorWriter()
       .image(0, radiance)
       .image(1, picture == 0 ? radiance : descriptor())
@@ -66,7 +66,7 @@ RecordedPass Accumulation::add(Frame& frame, const VkDescriptorImageInfo& radian
     return GraphicsPipelineDesc{.name = "accumulate",
                                 .vert = "full_screen.vert",
                                 .frag = "accumulate.frag",
-                                .setLayouts = {layout_.get()},
+                                .setLayouts = {layout_},
                                 .pushConstantBytes = sizeof(gpu::AccumulateConstants),
                                 .color = sumFormat,
                                 .depth = VK_FORMAT_UNDEFINED};
@@ -113,7 +113,6 @@ void Accumulation::release(RetireQueue& retired) {
     retired.take(image);
   }
   retired.take(sampler_);
-  retired.take(layout_);
 }
 
 }  // namespace speculum

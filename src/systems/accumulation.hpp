@@ -46,7 +46,7 @@ class Accumulation {
   void begin(VkExtent2D extent, RetireQueue& retired);
 
   Renderer& renderer_;
-  DescriptorSetLayoutHandle layout_;
+  VkDescriptorSetLayout layout_ = VK_NULL_HANDLE;
   PipelineVariants<bool> pipelines_;  // holds one pipeline
   SamplerHandle sampler_;
   std::array<Image, 2> images_;  // one is read while the other is written: not every device blends 32-bit floats

@@ -55,7 +55,7 @@ void DeferredShading::prepare(const FrameInfo& info, const PassDesc& pass) {
     const std::array bindings = {DescriptorBinding{0, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, compute},
                                  DescriptorBinding{1, storage, 1, compute | VK_SHADER_STAGE_FRAGMENT_BIT},
                                  DescriptorBinding{2, storage, 1, compute}, DescriptorBinding{3, storage, 1, compute}};
-    layout_ = createDescriptorSetLayout(device_, bindings, "deferred shading");
+    layout_ = descriptorSetLayout(device_, bindings, "deferred shading");
     sampler_ = createSampler(device_, {.maxLod = 0.0f}, "deferred shading");
   }
   const uint64_t samples = speculum::areaOf(pass.renderArea.extent) * pass.targets.samples();
@@ -69,7 +69,7 @@ void DeferredShading::prepare(const FrameInfo& info, const PassDesc& pass) {
         VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
         BufferMemory::device, "surfaces to shade");
   }
-  set_ = info.frame.descriptors->allocate(layout_.get());
+  set_ = info.frame.descriptors->allocate(layout_);
   DescriptorWriter()
       .image(0, pass.targets.color->descriptor(sampler_.get()))
       .buffer(1, storage, shaded_.descriptor())
@@ -86,7 +86,7 @@ void DeferredShading::collect(const PassScope& scope, const TraceVariant& trace)
         .name = "collect surfaces",
         .comp = samples == VK_SAMPLE_COUNT_1_BIT ? "collect_surfaces.comp" : "collect_surfaces_samples.comp",
         .constants = {{gpu::constantSamples, samples}, {gpu::constantPerSample, trace.perSample}},
-        .setLayouts = {layout_.get()},
+        .setLayouts = {layout_},
         .pushConstantBytes = sizeof(gpu::ShadeConstants)};
   });
   Barriers::requestsToUse(commands);
@@ -117,7 +117,7 @@ void DeferredShading::shade(const PassScope& scope, const FrameInfo& info, const
                                              {gpu::constantRepeating, trace.repeating},
                                              {gpu::constantTransparency, trace.transparency},
                                              {gpu::constantVertexColors, trace.vertexColors}},
-                               .setLayouts = {frameLayout_, layout_.get(), info.trace.layout()},
+                               .setLayouts = {frameLayout_, layout_, info.trace.layout()},
                                .pushConstantBytes = sizeof(gpu::ShadeConstants)};
   });
   const VkCommandBuffer commands = scope.commands();
@@ -137,7 +137,7 @@ uint32_t DeferredShading::record(const PassScope& scope) {
                                 .vert = "shaded.vert",
                                 .frag = "shaded.frag",
                                 .constants = {{gpu::constantSamples, static_cast<uint32_t>(samples)}},
-                                .setLayouts = {layout_.get()},
+                                .setLayouts = {layout_},
                                 .pushConstantBytes = sizeof(gpu::ShadeConstants),
                                 .samples = samples,
                                 .depthTest = false,

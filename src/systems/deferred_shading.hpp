@@ -31,7 +31,7 @@ class DeferredShading {
 
   // Descriptor set of the shaded samples, for shaders that include shaded.glsl, and the area of the pass that the
   // samples belong to.
-  VkDescriptorSetLayout layout() const { return layout_.get(); }
+  VkDescriptorSetLayout layout() const { return layout_; }
   VkDescriptorSet set() const { return set_; }
   static gpu::ShadeConstants areaOf(const PassDesc& pass);
 
@@ -54,7 +54,7 @@ class DeferredShading {
 
   Device& device_;
   VkDescriptorSetLayout frameLayout_;
-  DescriptorSetLayoutHandle layout_;
+  VkDescriptorSetLayout layout_ = VK_NULL_HANDLE;
   SamplerHandle sampler_;
   PipelineVariants<Variant> collecting_;
   PipelineVariants<Variant> shading_;

@@ -50,8 +50,8 @@ PassDesc viewPass(const PassTargets& targets, const VkRect2D& area) {
 }  // namespace
 
 DisplaySystem::DisplaySystem(Renderer& renderer) : renderer_(renderer), pipelines_(renderer.pipelines()) {
-  layout_ = createDescriptorSetLayout(renderer.device(), {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER},
-                                      VK_SHADER_STAGE_FRAGMENT_BIT, "display");
+  layout_ = descriptorSetLayout(renderer.device(), {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER},
+                                VK_SHADER_STAGE_FRAGMENT_BIT, "display");
   linearSampler_ = createSampler(renderer.device(), {}, "display");
 }
 
@@ -70,12 +70,12 @@ void DisplaySystem::draw(const Frame& frame, const PassScope& scope, Variant var
                                 .constants = {{gpu::constantAces, variant.toneMap == ToneMap::aces},
                                               {gpu::constantShrunk, variant.shrunk},
                                               {gpu::constantSampled, variant.sampled}},
-                                .setLayouts = {layout_.get()},
+                                .setLayouts = {layout_},
                                 .pushConstantBytes = sizeof constants,
                                 .color = variant.format,
                                 .depth = VK_FORMAT_UNDEFINED};
   });
-  const VkDescriptorSet set = frame.descriptors->allocate(layout_.get());
+  const VkDescriptorSet set = frame.descriptors->allocate(layout_);
   DescriptorWriter().image(0, image).update(renderer_.device(), set);
   pipeline.bind(scope.commands(), set, constants);
   vkCmdDraw(scope.commands(), 3, 1, 0, 0);

@@ -30,7 +30,7 @@ class DisplaySystem {
   explicit DisplaySystem(Renderer& renderer);
 
   // Layout of set 0: one combined image sampler.
-  VkDescriptorSetLayout layout() const { return layout_.get(); }
+  VkDescriptorSetLayout layout() const { return layout_; }
 
   // Shows `picture` instead of the scene: see SceneRenderer::setCover.
   void setCover(const Image8& picture);
@@ -75,7 +75,7 @@ class DisplaySystem {
                           const VkDescriptorImageInfo& image, const auto& constants);
 
   Renderer& renderer_;
-  DescriptorSetLayoutHandle layout_;
+  VkDescriptorSetLayout layout_ = VK_NULL_HANDLE;
   PipelineVariants<Variant> pipelines_;
   SamplerHandle linearSampler_;
   Image cover_;  // empty: none

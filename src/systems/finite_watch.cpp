@@ -44,8 +44,8 @@ void FiniteWatch::begin(const Frame& frame, size_t targets) {
   collect();
   if (!layout_) {
     constexpr VkDescriptorType storage = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-    layout_ = createDescriptorSetLayout(device_, {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, storage, storage},
-                                        VK_SHADER_STAGE_COMPUTE_BIT, "check finite");
+    layout_ = descriptorSetLayout(device_, {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, storage, storage},
+                                  VK_SHADER_STAGE_COMPUTE_BIT, "check finite");
   }
   Slot& slot = slots_[frame.index];
   if (slot.results.bytes() < targets * targetResultBytes) {
@@ -65,7 +65,7 @@ const Pipeline& FiniteWatch::pipeline(const Variant& variant) {
     return ComputePipelineDesc{.name = variant.looksUp ? "look up what is not finite" : "check finite",
                                .comp = std::string(variant.looksUp ? "check_finite_look_up" : "check_finite") +
                                        (variant.multisampled ? "_samples.comp" : ".comp"),
-                               .setLayouts = {layout_.get()},
+                               .setLayouts = {layout_},
                                .pushConstantBytes = sizeof(gpu::CheckConstants)};
   });
 }
@@ -76,7 +76,7 @@ void FiniteWatch::check(Frame& frame, const RecordedPass& pass, bool samples, Im
   const VkDescriptorBufferInfo search = searchOf(slot.results, slot.targets.size());
   const VkDescriptorBufferInfo found = foundOf(slot.results, slot.targets.size());
   slot.targets.push_back({pass, samples, pass.name + (samples ? " (samples)" : ""), used});
-  const VkDescriptorSet set = frame.descriptors->allocate(layout_.get());
+  const VkDescriptorSet set = frame.descriptors->allocate(layout_);
   DescriptorWriter()
       .image(0, descriptor)
       .buffer(1, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, search)
@@ -112,7 +112,6 @@ void FiniteWatch::release() {
     return;
   }
   pipelines_.clear();
-  layout_.reset();
   slots_ = {};
 }
 

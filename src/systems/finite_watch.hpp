@@ -75,7 +75,7 @@ class FiniteWatch {
 
   Renderer& renderer_;
   Device& device_;
-  DescriptorSetLayoutHandle layout_;
+  VkDescriptorSetLayout layout_ = VK_NULL_HANDLE;
   PipelineVariants<Variant> pipelines_;
   std::array<Slot, framesInFlight> slots_;
   std::vector<NonFinite> findings_;

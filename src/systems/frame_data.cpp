@@ -101,7 +101,7 @@ FrameData::FrameData(Device& device, bool roundsSumsDown)
   for (uint32_t i = 0; i < bindings.size(); ++i) {
     bindings[i] = {.binding = i, .type = typeOf(i), .stages = stagesOf(i)};
   }
-  layout_ = createDescriptorSetLayout(device, bindings, "frame");
+  layout_ = descriptorSetLayout(device, bindings, "frame");
 }
 
 void FrameData::requireFits(const FramePlan& plan) const {
@@ -148,7 +148,7 @@ void FrameData::build(Frame& frame, const SceneResources& resources, const Scene
   buffers_.write(frame, mirrorVertices, mirrorVertices_);
   buffers_.write(frame, repeating, repeating_);
   instanceBuffer_ = buffers_.buffer(frame, instances).get();
-  set_ = frame.descriptors->allocate(layout_.get());
+  set_ = frame.descriptors->allocate(layout_);
   DescriptorWriter writer;
   for (uint32_t kind = 0; kind < kindCount; ++kind) {
     VkDescriptorBufferInfo buffer = buffers_.buffer(frame, kind).descriptor();

@@ -80,7 +80,7 @@ class FrameData {
  public:
   FrameData(Device& device, bool roundsSumsDown);  // Renderer::roundsSumsDown()
 
-  VkDescriptorSetLayout layout() const { return layout_.get(); }
+  VkDescriptorSetLayout layout() const { return layout_; }
   // Throws std::runtime_error if the plan draws more instances than a buffer of the device takes. Call it before
   // targets are made.
   void requireFits(const FramePlan& plan) const;
@@ -134,7 +134,7 @@ class FrameData {
 
   Device& device_;
   float lostInSums_;  // ViewData::zenith.w
-  DescriptorSetLayoutHandle layout_;
+  VkDescriptorSetLayout layout_ = VK_NULL_HANDLE;
   FrameBuffers buffers_;
   std::vector<DrawBlock> passBlocks_;
   std::vector<gpu::MirrorBlock> mirrors_;

@@ -17,7 +17,7 @@ const MirrorImage* imageOf(const MirrorRange& mirror, const FrameInfo& info) {
 MirrorSystem::MirrorSystem(Device& device, Uploader& uploader, PipelineFactory& factory,
                            VkDescriptorSetLayout frameLayout)
     : device_(device), frameLayout_(frameLayout), pipelines_(factory) {
-  imageLayout_ = createDescriptorSetLayout(
+  imageLayout_ = descriptorSetLayout(
       device, {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER},
       VK_SHADER_STAGE_FRAGMENT_BIT, "mirror image");
   sampler_ = createSampler(device, {}, "no mirror image");
@@ -49,7 +49,7 @@ GraphicsPipelineDesc MirrorSystem::describe(const Variant& variant, const FrameI
                                           {gpu::constantOnlyShadowFace, variant.onlyShadowFace},
                                           {gpu::constantLightCount, variant.lightCount},
                                           {gpu::constantShadowedLights, variant.shadowedLights}},
-                            .setLayouts = {frameLayout_, imageLayout_.get()},
+                            .setLayouts = {frameLayout_, imageLayout_},
                             .samples = variant.samples,
                             .depthClamp = variant.clampDepth};
   if (shading == Shading::average) {
@@ -178,7 +178,7 @@ void MirrorSystem::draw(const PassScope& scope, const FrameInfo& info, const Dra
   const Pipeline& pipeline = pipelines_.get(variant, [&] { return describe(variant, info); });
   const MirrorImage* image = imageOf(mirror, info);
   const bool reads = image && !identifies && variant.shading != Shading::base;
-  const VkDescriptorSet set = info.frame.descriptors->allocate(imageLayout_.get());
+  const VkDescriptorSet set = info.frame.descriptors->allocate(imageLayout_);
   DescriptorWriter()
       .image(0, reads ? image->descriptor : noImage_.descriptor(sampler_.get()))
       .image(1, info.resources.image(mirror.map))

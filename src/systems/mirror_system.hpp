@@ -62,7 +62,7 @@ class MirrorSystem {
 
   Device& device_;
   VkDescriptorSetLayout frameLayout_;
-  DescriptorSetLayoutHandle imageLayout_;
+  VkDescriptorSetLayout imageLayout_ = VK_NULL_HANDLE;
   SamplerHandle sampler_;
   Image noImage_;  // bound for a mirror without an image: every set that a shader names must be bound
   PipelineVariants<Variant> pipelines_;

@@ -77,11 +77,11 @@ Buffer uploadVertices(Uploader& uploader, const std::vector<Vertex>& vertices, c
 
 SceneResources::SceneResources(Device& device, Uploader& uploader, const Scene& scene)
     : device_(device), uploader_(uploader), scene_(scene), descriptors_(device) {
-  textureLayout_ = createDescriptorSetLayout(device, {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER},
-                                             VK_SHADER_STAGE_FRAGMENT_BIT, "texture");
+  textureLayout_ =
+      descriptorSetLayout(device, {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER}, VK_SHADER_STAGE_FRAGMENT_BIT, "texture");
   makeSampler(false);
   noTexture_ = upload(Texture{.width = 1, .height = 1, .texels = {glm::vec3(1.0f)}}, "no texture");
-  noTextureSet_ = descriptors_.allocate(textureLayout_.get());
+  noTextureSet_ = descriptors_.allocate(textureLayout_);
   writeTextureSets();
   createMeshes();
 }
@@ -165,7 +165,7 @@ void SceneResources::writeTextureSets() {
   DescriptorWriter().image(0, noTexture_.descriptor(sampler_.get())).update(device_, noTextureSet_);
   for (size_t i = 0; i < textures_.size(); ++i) {
     if (i == textureSets_.size()) {
-      textureSets_.push_back(descriptors_.allocate(textureLayout_.get()));
+      textureSets_.push_back(descriptors_.allocate(textureLayout_));
     }
     DescriptorWriter().image(0, textures_[i].descriptor(sampler_.get())).update(device_, textureSets_[i]);
   }

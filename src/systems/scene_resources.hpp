@@ -45,7 +45,7 @@ class SceneResources {
   VkDescriptorSet texture(int index) const;
   // Returns the descriptor of such a texture.
   VkDescriptorImageInfo image(int texture) const;
-  VkDescriptorSetLayout textureLayout() const { return textureLayout_.get(); }
+  VkDescriptorSetLayout textureLayout() const { return textureLayout_; }
 
  private:
   Image upload(const Texture& texture, const std::string& name);
@@ -58,7 +58,7 @@ class SceneResources {
   Device& device_;
   Uploader& uploader_;
   const Scene& scene_;
-  DescriptorSetLayoutHandle textureLayout_;
+  VkDescriptorSetLayout textureLayout_ = VK_NULL_HANDLE;
   SamplerHandle sampler_;
   DescriptorAllocator descriptors_;
   Image noTexture_;  // a white texel

@@ -51,7 +51,7 @@ void ShadowSystem::create() {
       DescriptorBinding{
           .binding = 0, .type = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, .stages = VK_SHADER_STAGE_FRAGMENT_BIT},
       DescriptorBinding{.binding = 1, .stages = VK_SHADER_STAGE_FRAGMENT_BIT}};
-  layout_ = createDescriptorSetLayout(device_, bindings, "shadow maps");
+  layout_ = descriptorSetLayout(device_, bindings, "shadow maps");
   // Does not filter: shaders gather texels, compare each, and interpolate the results.
   sampler_ = createSampler(device_,
                            {.filter = VK_FILTER_NEAREST, .mipmapMode = VK_SAMPLER_MIPMAP_MODE_NEAREST, .maxLod = 0.0f},
@@ -77,7 +77,7 @@ void ShadowSystem::prepare(Frame& frame, const FramePlan& plan) {
   }
   const auto data = mapData(plan);
   buffers_.write(frame, 0, std::as_bytes(std::span(data)));
-  set_ = frame.descriptors->allocate(layout_.get());
+  set_ = frame.descriptors->allocate(layout_);
   VkDescriptorBufferInfo buffer = buffers_.buffer(frame, 0).descriptor();
   buffer.range = sizeof data;
   DescriptorWriter()
@@ -97,7 +97,7 @@ void ShadowSystem::prepareLayers(Frame& frame, const FramePlan& plan) {
         .name = "shadow layers", .extent = target_->extent(), .format = planeFormat, .depth = false};
     layers_ = std::make_unique<OffScreen>(device_, desc, *frame.retired);
   }
-  layerSet_ = frame.descriptors->allocate(layout_.get());
+  layerSet_ = frame.descriptors->allocate(layout_);
   DescriptorWriter().image(0, layers_->color().descriptor(sampler_.get())).update(device_, layerSet_);
 }
 
@@ -124,7 +124,7 @@ const Pipeline& ShadowSystem::pipelineFor(Drawn drawn, const FrameInfo& info) {
     } else if (drawn == Drawn::layer) {
       desc.vert = "full_screen.vert";
       desc.frag = "shadow_layer.frag";
-      desc.setLayouts.push_back(layout_.get());
+      desc.setLayouts.push_back(layout_);
     }
     return desc;
   });

@@ -24,7 +24,7 @@ class ShadowSystem {
   void endFrame(const FramePlan& plan, RetireQueue& retired);
 
   // Descriptor set 2 of pipelines that look maps up, and its layout. The set is null in a frame without maps.
-  VkDescriptorSetLayout layout() const { return layout_.get(); }
+  VkDescriptorSetLayout layout() const { return layout_; }
   VkDescriptorSet set() const { return set_; }
   // Value of onlyShadowFace in shadow_map.glsl. It stays the same as long as no light or object moves into another
   // face.
@@ -47,7 +47,7 @@ class ShadowSystem {
 
   Device& device_;
   VkDescriptorSetLayout frameLayout_;
-  DescriptorSetLayoutHandle layout_;
+  VkDescriptorSetLayout layout_ = VK_NULL_HANDLE;
   SamplerHandle sampler_;
   FrameBuffers buffers_;
   PipelineVariants<Drawn> pipelines_;

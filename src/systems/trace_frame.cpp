@@ -85,7 +85,7 @@ void TraceFrame::create() {
                         .type = VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR,
                         .stages = VK_SHADER_STAGE_COMPUTE_BIT});
   }
-  layout_ = createDescriptorSetLayout(device_, bindings, "trace");
+  layout_ = descriptorSetLayout(device_, bindings, "trace");
 }
 
 void TraceFrame::release(RetireQueue& retired) {
@@ -199,7 +199,7 @@ void TraceFrame::prepareStructures(Frame& frame, const SceneState& state, RayMet
 }
 
 void TraceFrame::allocateSet(Frame& frame) {
-  set_ = frame.descriptors->allocate(layout_.get());
+  set_ = frame.descriptors->allocate(layout_);
   DescriptorWriter writer;
   std::array<const Buffer*, structureBinding> bound{};
   for (uint32_t i = 0; i < sceneBindings; ++i) {

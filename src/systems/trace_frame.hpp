@@ -41,7 +41,7 @@ class TraceFrame {
   // finished, and null if no effect is called for.
   void build(Frame& frame, const SceneState& state, const Settings& settings, const TracedEffects& effects);
 
-  VkDescriptorSetLayout layout() const { return layout_.get(); }
+  VkDescriptorSetLayout layout() const { return layout_; }
   VkDescriptorSet set() const { return set_; }
   const TraceVariant& variant() const { return variant_; }
   uint64_t bytes() const;  // of all its buffers, and of acceleration structures
@@ -65,7 +65,7 @@ class TraceFrame {
   Device& device_;
   Uploader& uploader_;
   const Scene& scene_;
-  DescriptorSetLayoutHandle layout_;
+  VkDescriptorSetLayout layout_ = VK_NULL_HANDLE;
   std::optional<TraceScene> traceScene_;
   std::optional<RayStructures> structures_;
   RayUse rays_;

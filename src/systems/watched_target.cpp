@@ -96,9 +96,9 @@ void WatchedTarget::releaseDepth(RetireQueue& retired) {
 void TexelProbe::probe(Frame& frame, Image& image, const VkDescriptorImageInfo& descriptor, const glm::ivec2& texel) {
   collect();
   if (!layout_) {
-    layout_ = createDescriptorSetLayout(device_,
-                                        {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
-                                        VK_SHADER_STAGE_COMPUTE_BIT, "probe texel");
+    layout_ =
+        descriptorSetLayout(device_, {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
+                            VK_SHADER_STAGE_COMPUTE_BIT, "probe texel");
   }
   Slot& slot = slots_[frame.index];
   if (!slot.result) {
@@ -107,7 +107,7 @@ void TexelProbe::probe(Frame& frame, Image& image, const VkDescriptorImageInfo& 
   }
   slot.pending = {.texel = texel, .depth = image.aspect() == VK_IMAGE_ASPECT_DEPTH_BIT};
   slot.frame = frame.number;
-  const VkDescriptorSet set = frame.descriptors->allocate(layout_.get());
+  const VkDescriptorSet set = frame.descriptors->allocate(layout_);
   DescriptorWriter()
       .image(0, descriptor)
       .buffer(1, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, slot.result.descriptor())
@@ -116,7 +116,7 @@ void TexelProbe::probe(Frame& frame, Image& image, const VkDescriptorImageInfo& 
   const Pipeline& pipeline = pipelines_.get(multisampled, [&] {
     return ComputePipelineDesc{.name = "probe texel",
                                .comp = multisampled ? "probe_texel_samples.comp" : "probe_texel.comp",
-                               .setLayouts = {layout_.get()},
+                               .setLayouts = {layout_},
                                .pushConstantBytes = sizeof(gpu::ProbeConstants)};
   });
   device_.beginLabel(frame.commands, "probe texel");
@@ -135,7 +135,6 @@ void TexelProbe::release() {
     return;
   }
   pipelines_.clear();
-  layout_.reset();
   slots_ = {};
 }
 

@@ -83,7 +83,7 @@ class TexelProbe {
 
   Renderer& renderer_;
   Device& device_;
-  DescriptorSetLayoutHandle layout_;
+  VkDescriptorSetLayout layout_ = VK_NULL_HANDLE;
   PipelineVariants<bool> pipelines_;  // for an image with several samples, or with one
   std::array<Slot, framesInFlight> slots_;
   std::optional<TexelValue> value_;

@@ -47,6 +47,7 @@ Demo::Demo(const Options& options)
       deviceView_(shownDevice(renderer_, device_)),
       last_(Clock::now()) {
   applyDebugSettings(workspace_.settings(), device_);
+  device_.sparePipelines().keepAtMost(32);
   shownFile_ = workspace_.scene().file;
   ui_ = std::make_unique<SimpleUI>(renderer_, window_);
   window_.setListener([this](const InputEvent& event) { takeInput(event); });

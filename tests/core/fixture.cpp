@@ -50,10 +50,10 @@ std::string messagesOf(const Device& device) {
   return text;
 }
 
-DescriptorSetLayoutHandle oneBinding(Device& device, VkDescriptorType type, uint32_t count) {
+VkDescriptorSetLayout oneBinding(Device& device, VkDescriptorType type, uint32_t count) {
   const DescriptorBinding binding{
       .type = type, .count = count, .stages = VK_SHADER_STAGE_FRAGMENT_BIT | VK_SHADER_STAGE_COMPUTE_BIT};
-  return createDescriptorSetLayout(device, {&binding, 1}, "test");
+  return descriptorSetLayout(device, {&binding, 1}, "test");
 }
 
 SmallScene::SmallScene(Renderer& renderer, VkExtent2D extent, int samples)
@@ -69,8 +69,8 @@ SmallScene::SmallScene(Renderer& renderer, VkExtent2D extent, int samples)
                                                            .frag = "triangle.frag",
                                                            .pushConstantBytes = sizeof(TrianglePush),
                                                            .samples = shared_.samples()}),
-      copyToMain_(renderer.pipelines(), mainCopy(layout_.get(), shared_.samples())),
-      display_(renderer.pipelines(), displayCopy(layout_.get(), renderer.displayFormat())),
+      copyToMain_(renderer.pipelines(), mainCopy(layout_, shared_.samples())),
+      display_(renderer.pipelines(), displayCopy(layout_, renderer.displayFormat())),
       idle_(renderer.device()) {}
 
 void SmallScene::drawTriangles(Frame& frame, OffScreen& target, const std::string& name,
@@ -91,7 +91,7 @@ void SmallScene::drawTriangles(Frame& frame, OffScreen& target, const std::strin
 }
 
 void SmallScene::copy(Frame& frame, VkCommandBuffer commands, const Pipeline& pipeline, OffScreen& source) {
-  const VkDescriptorSet set = frame.descriptors->allocate(layout_.get());
+  const VkDescriptorSet set = frame.descriptors->allocate(layout_);
   DescriptorWriter().image(0, source.descriptor()).update(renderer_.device(), set);
   pipeline.bind(commands);
   pipeline.bindSet(commands, 0, set);

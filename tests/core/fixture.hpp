@@ -39,7 +39,7 @@ class RendererTest : public GpuTest {
 };
 
 // A layout with one binding, at 0.
-DescriptorSetLayoutHandle oneBinding(Device& device, VkDescriptorType type, uint32_t count = 1);
+VkDescriptorSetLayout oneBinding(Device& device, VkDescriptorType type, uint32_t count = 1);
 
 // A small frame with every kind of target: two triangles into an OffScreen, its image and a third triangle into a main
 // target, the main target onto the display image, an empty overlay.
@@ -65,7 +65,7 @@ class SmallScene {
   SharedDepth shared_;
   OffScreen mirror_;
   OffScreen main_;
-  DescriptorSetLayoutHandle layout_;
+  VkDescriptorSetLayout layout_ = VK_NULL_HANDLE;
   Pipeline triangle_;
   Pipeline copyToMain_;
   Pipeline display_;

@@ -139,22 +139,57 @@ std::vector<uint32_t> filled(Renderer& renderer, const Pipeline& pipeline, VkDes
 }
 
 TEST_F(HotReload, ComputePipelinesSpecialiseAndAreRebuilt) {
-  const DescriptorSetLayoutHandle layout = oneBinding(device_, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
+  const VkDescriptorSetLayout layout = oneBinding(device_, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
   const Pipeline pipeline(renderer_->pipelines(), ComputePipelineDesc{.name = "fill",
                                                                       .comp = "fill.comp",
                                                                       .constants = {{0, 3}},
-                                                                      .setLayouts = {layout.get()},
+                                                                      .setLayouts = {layout},
                                                                       .pushConstantBytes = sizeof(uint32_t)});
   const std::vector<uint32_t> values = {7, 10, 13, 16, 19, 22, 25, 28};
   for (uint32_t frame = 0; frame < framesInFlight; ++frame) {
-    EXPECT_EQ(filled(*renderer_, pipeline, layout.get()), values);
+    EXPECT_EQ(filled(*renderer_, pipeline, layout), values);
   }
   const auto objects = liveObjects();  // after both frames in flight have made what they keep
   edit("fill.comp", "offset + ", "1000 + ");
   EXPECT_TRUE(renderer_->reloadShaders());
-  EXPECT_EQ(filled(*renderer_, pipeline, layout.get()).back(), 1021u);
-  EXPECT_EQ(filled(*renderer_, pipeline, layout.get()).back(), 1021u);
+  EXPECT_EQ(filled(*renderer_, pipeline, layout).back(), 1021u);
+  EXPECT_EQ(filled(*renderer_, pipeline, layout).back(), 1021u);
   EXPECT_EQ(liveObjects(), objects);
+}
+
+TEST_F(HotReload, SparePipelinesServeTheSameDescriptionAndShader) {
+  const VkDescriptorSetLayout layout = oneBinding(device_, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
+  EXPECT_EQ(oneBinding(device_, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER), layout);
+  EXPECT_NE(oneBinding(device_, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 2), layout);
+  constexpr size_t most = 20;
+  device_.sparePipelines().keepAtMost(most);
+  const auto secondValue = [&](uint32_t step) {
+    uint32_t value = 0;
+    {
+      const Pipeline pipeline(renderer_->pipelines(), ComputePipelineDesc{.name = "fill",
+                                                                          .comp = "fill.comp",
+                                                                          .constants = {{0, step}},
+                                                                          .setLayouts = {layout},
+                                                                          .pushConstantBytes = sizeof(uint32_t)});
+      value = filled(*renderer_, pipeline, layout).at(1);
+    }
+    renderer_->waitIdle();
+    return value;
+  };
+  EXPECT_EQ(secondValue(3), 10u);
+  const int64_t alive = liveHandles<VkPipeline>;
+  EXPECT_EQ(secondValue(3), 10u);
+  EXPECT_EQ(liveHandles<VkPipeline>, alive);
+  EXPECT_EQ(secondValue(4), 11u);
+  EXPECT_EQ(liveHandles<VkPipeline>, alive + 1) << "another constant";
+  edit("fill.comp", "offset + ", "1000 + ");
+  renderer_->reloadShaders();
+  EXPECT_EQ(secondValue(3), 1003u);
+  EXPECT_EQ(liveHandles<VkPipeline>, alive + 2) << "another shader";
+  for (uint32_t step = 5; step < 50; ++step) {
+    EXPECT_EQ(secondValue(step), 1000u + step);
+  }
+  EXPECT_EQ(liveHandles<VkPipeline>, alive - 1 + static_cast<int64_t>(most));
 }
 
 TEST_F(HotReload, UnchangedSpirvRebuildsNothing) {
@@ -183,13 +218,13 @@ TEST_F(RendererTest, CopiesAndShadersDecodeSrgbAlike) {
       renderer_.uploader().image(std::as_bytes(std::span(codes)), {256, 1}, VK_FORMAT_R8G8B8A8_SRGB, false, "codes");
   const SamplerHandle sampler = createSampler(device_, nearestSampler, "codes");
   const Buffer buffer(device_, 256 * sizeof(float), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, BufferMemory::host, "decoded");
-  const DescriptorSetLayoutHandle layout =
-      createDescriptorSetLayout(device_, {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
-                                VK_SHADER_STAGE_COMPUTE_BIT, "decode");
+  const VkDescriptorSetLayout layout =
+      descriptorSetLayout(device_, {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
+                          VK_SHADER_STAGE_COMPUTE_BIT, "decode");
   const Pipeline pipeline(renderer_.pipelines(),
-                          ComputePipelineDesc{.name = "decode", .comp = "decode.comp", .setLayouts = {layout.get()}});
+                          ComputePipelineDesc{.name = "decode", .comp = "decode.comp", .setLayouts = {layout}});
   Frame frame = renderer_.beginFrame().value();
-  const VkDescriptorSet set = frame.descriptors->allocate(layout.get());
+  const VkDescriptorSet set = frame.descriptors->allocate(layout);
   DescriptorWriter()
       .image(0, image.descriptor(sampler.get()))
       .buffer(1, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, buffer.descriptor())
@@ -247,16 +282,16 @@ TEST_F(RendererTest, MipmapLevelsAreUploaded) {
       renderer_.uploader().image(std::as_bytes(std::span(texels)), {size, size}, colorFormat, true, "texture");
   EXPECT_EQ(image.desc().mipLevels, 5u);
   const SamplerHandle sampler = createSampler(device_, {.filter = VK_FILTER_NEAREST}, "texture");
-  const DescriptorSetLayoutHandle layout = oneBinding(device_, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER);
+  const VkDescriptorSetLayout layout = oneBinding(device_, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER);
   OffScreen target(device_, {.name = "target", .depth = false}, renderer_.retired());
   const Pipeline pipeline(renderer_.pipelines(), GraphicsPipelineDesc{.name = "textured",
                                                                       .vert = "full_screen.vert",
                                                                       .frag = "textured.frag",
                                                                       .constants = {{0, std::bit_cast<uint32_t>(4.0f)}},
-                                                                      .setLayouts = {layout.get()},
+                                                                      .setLayouts = {layout},
                                                                       .depth = VK_FORMAT_UNDEFINED});
   std::optional<Frame> frame = renderer_.beginFrame();
-  const VkDescriptorSet set = frame->descriptors->allocate(layout.get());
+  const VkDescriptorSet set = frame->descriptors->allocate(layout);
   DescriptorWriter().image(0, image.descriptor(sampler.get())).update(device_, set);
   {
     const PassScope scope = renderer_.beginPass(*frame, fullPass("textured", target.targets()));
@@ -270,11 +305,11 @@ TEST_F(RendererTest, MipmapLevelsAreUploaded) {
 }
 
 TEST_F(GpuTest, DescriptorAllocatorReusesItsPools) {
-  const DescriptorSetLayoutHandle layout = oneBinding(device_, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 100);
+  const VkDescriptorSetLayout layout = oneBinding(device_, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 100);
   DescriptorAllocator allocator(device_);
   const auto allocateAll = [&] {
     for (int i = 0; i < 200; ++i) {
-      EXPECT_NE(allocator.allocate(layout.get()), VkDescriptorSet{VK_NULL_HANDLE});
+      EXPECT_NE(allocator.allocate(layout), VkDescriptorSet{VK_NULL_HANDLE});
     }
   };
   allocateAll();

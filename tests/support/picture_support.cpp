@@ -90,6 +90,31 @@ void expectQuiet(Session& session) {
   EXPECT_EQ(watch.count(), 0u) << session.scene().file << ": " << describe(watch.findings().front());
 }
 
+Device& sharedDevice(RenderPath path) {
+  static std::map<RenderPath, Device*> devices;
+  Device*& device = devices[path];
+  if (!device) {
+    Options options = headless("");
+    options.renderPath = path;
+    device = new Device(deviceOptions(options, nullptr));
+    device->sparePipelines().keepAtMost(512);
+  }
+  return *device;
+}
+
+namespace {
+
+Device* deviceFor(const Options& options) {
+  const bool leavesOutBarriers =
+      std::ranges::any_of(options.settings, [](const auto& setting) { return setting.first == "debug.omit_barrier"; });
+  return options.validation && options.gpu.empty() && !leavesOutBarriers ? &sharedDevice(options.renderPath) : nullptr;
+}
+
+}  // namespace
+
+QuietSession::QuietSession(const Options& options, Device* device)
+    : Session(options, device ? device : deviceFor(options)) {}
+
 Image8 draw(const Options& options, double time) {
   if (options.validation && options.renderPath == RenderPath::automatic && options.shaderDir.empty()) {
     Studio studio(options);

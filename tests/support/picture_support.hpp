@@ -38,9 +38,15 @@ void runFrames(Session& session, int frames = 1, double time = 0.0);
 // Fails for a validation message and for a value in a target that is not finite or out of range.
 void expectQuiet(Session& session);
 
-// A session that calls expectQuiet() at its end.
+// Returns the device of all pictures of a process that are drawn by this render path, so that pipelines are made once:
+// that takes longer than most pictures. It stays to the end, because the driver ends its threads before static objects
+// go.
+Device& sharedDevice(RenderPath path);
+
+// A session that calls expectQuiet() at its end. Unless it is given a device, it draws with the shared one, or with one
+// of its own if its options ask for what others must not meet.
 struct QuietSession : Session {
-  using Session::Session;
+  explicit QuietSession(const Options& options, Device* device = nullptr);
   ~QuietSession() { expectQuiet(*this); }
 };
 

@@ -5,15 +5,14 @@
 
 namespace speculum::testing_support {
 
-// The device and the renderer of all studios of a process: to make a pipeline again takes longer than most pictures.
-// Both stay to the end, because the driver ends its threads before static objects go.
+// The shared device and the renderer of all studios of a process, which stays to the end like the device.
 struct Gpu {
   static Gpu& shared() {
     static Gpu* const gpu = new Gpu;
     return *gpu;
   }
 
-  Device device{deviceOptions(headless(""), nullptr)};
+  Device& device = sharedDevice(RenderPath::automatic);
   Renderer renderer{device, {.extent = {1, 1}}};
 };
 

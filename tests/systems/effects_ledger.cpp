@@ -124,6 +124,15 @@ Options without(Options options, const std::string& effect) {
   return options;
 }
 
+// A session with a device of its own, which keeps nothing of other pictures.
+struct OwnDevice {
+  Device own;
+};
+struct FreshSession : OwnDevice, QuietSession {
+  explicit FreshSession(const Options& options)
+      : OwnDevice{Device(deviceOptions(options, nullptr))}, QuietSession(options, &own) {}
+};
+
 // Frames after which everything idle is released, and those after which targets are.
 constexpr int untilIdle = 130;
 constexpr int untilTargetsAreFreed = 40;
@@ -172,7 +181,7 @@ nlohmann::ordered_json effectStats(Session& session, const std::string& effect) 
 void expectFree(const Options& options, const std::string& effect) {
   const auto run = [](const Options& drawn) {
     counts = {};
-    QuietSession session(drawn);
+    FreshSession session(drawn);
     std::vector<uint8_t> picture = drawFrames(session, 1).picture;
     return std::tuple(counts.created, counts.draws, picture);
   };
@@ -190,7 +199,7 @@ TEST_P(Ledger, UncalledEffectCostsNothing) {
 
 TEST_P(Ledger, CalledEffectIsListedAndReleased) {
   counts = {};
-  QuietSession session(without(optionsFor(sceneWith(effect_ + "_called", GetParam().called)), effect_));
+  FreshSession session(without(optionsFor(sceneWith(effect_ + "_called", GetParam().called)), effect_));
   const Drawn before = drawWith(session, effect_, false, 3);
   const Drawn during = drawWith(session, effect_, true, 1);
   for (const std::string& kind : GetParam().objects) {
@@ -248,7 +257,7 @@ class UnseenLedger : public Ledger {};
 
 TEST_P(UnseenLedger, EffectIsReleased) {
   counts = {};
-  QuietSession session(without(optionsFor(sceneWith(effect_ + "_unseen", GetParam().called)), effect_));
+  FreshSession session(without(optionsFor(sceneWith(effect_ + "_unseen", GetParam().called)), effect_));
   const Drawn before = drawFrames(session, 3);
   const CameraPose away = lookAt({0, 1, 3}, {0, 1, 9}, {0, 1, 0}, 60, 0.001);
   session.setCamera(away);
@@ -281,11 +290,11 @@ TEST(Ledger, EachEffectReleasesItsOwn) {
   counts = {};
   Drawn never;
   {
-    Session session(optionsFor(file));
+    FreshSession session(optionsFor(file));
     never = drawWith(session, "shadows", false, 3);
   }
   counts = {};
-  Session session(optionsFor(file));
+  FreshSession session(optionsFor(file));
   const EffectLedger& ledger = session.sceneRenderer().ledger();
   drawWith(session, "shadows", true, 3);
   EXPECT_GT(ledger[EffectKind::shadows].pipelines, 0u);
@@ -310,7 +319,7 @@ TEST(Ledger, RoughnessWithoutReflectionCostsNothing) {
 EffectCost expectMapReleased(const Options& options, EffectKind kind, const std::string& effect, int buffers,
                              uint64_t texelBytes, bool keepsPipeline) {
   counts = {};
-  QuietSession session(without(options, effect));
+  FreshSession session(without(options, effect));
   const Drawn before = drawWith(session, effect, false, 3);
   const Drawn during = drawWith(session, effect, true, 1);
   const EffectCost cost = session.sceneRenderer().ledger()[kind];
@@ -360,7 +369,7 @@ TEST(Ledger, VisibleLightsNeedNoPipelines) {
     lights += "[[light]]\nposition = [" + x +
               ", 0.5, 1]\nradius = 0.1\ncasts_shadow = " + (x == "0" ? "true" : "false") + "\n";
   }
-  QuietSession session(optionsFor(sceneWith("visible_lights", lights),
+  FreshSession session(optionsFor(sceneWith("visible_lights", lights),
                                   {{"effects.shadow_lookup", "map"}, {"effects.shadow_map_size", "256"}}));
   std::vector<int> pipelines;
   for (const double x : {-1.2, 0.0, 1.2}) {
