@@ -16,3 +16,15 @@
 #undef FAR
 #define NEAR
 #define FAR
+
+#ifdef __MINGW32__
+#include <filesystem>
+// A path made of char is UTF-8, as path::string() is. The library of GCC 12 takes each byte for a character.
+template <>
+inline auto std::filesystem::path::_S_convert<char>(const char* first, const char* last) {
+  const int bytes = static_cast<int>(last - first);
+  std::wstring wide(static_cast<size_t>(bytes), L'\0');
+  wide.resize(static_cast<size_t>(::MultiByteToWideChar(CP_UTF8, 0, first, bytes, wide.data(), bytes)));
+  return wide;
+}
+#endif

@@ -234,7 +234,8 @@ std::vector<const char*> prepareProcess(int, const char* const*) {
   }
   ::SetConsoleOutputCP(CP_UTF8);
   DWORD process = 0;
-  ownConsole = ::GetConsoleProcessList(&process, 1) == 1;
+  // A child of another program may have a hidden console, and write to pipes.
+  ownConsole = ::GetConsoleProcessList(&process, 1) == 1 && isTerminal(1) && isTerminal(2);
   // Started by a double click, or with a file that was dropped on it.
   if (ownConsole && count <= 2) {
     ::FreeConsole();

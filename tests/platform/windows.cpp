@@ -35,6 +35,9 @@ TEST_F(WindowsFiles, ReplaceLeavesOnlyTheNewContent) {
 TEST_F(WindowsFiles, ReadOnlyFilesAreKept) {
   replaceFile(file_, std::string_view("old"));
   fs::permissions(file_, fs::perms::owner_read);
+  if (std::ofstream(file_, std::ios::app)) {
+    GTEST_SKIP() << "this user may write to files that are read-only, as root under wine";
+  }
   EXPECT_FALSE(isWritable(file_));
   EXPECT_THROW(replaceFile(file_, std::string_view("new")), FileError);
   EXPECT_EQ(readText(file_), "old");
@@ -104,9 +107,9 @@ TEST(WindowsMachine, IsDescribed) {
 }
 
 TEST(WindowsProcess, GivesOutputAndExitCode) {
-  const ProcessResult result = runProcess({"cmd", "/c", "echo out& exit 3"});
+  const ProcessResult result = runProcess({executablePath().string(), "--fail"});
   EXPECT_EQ(result.exitCode, 3);
-  EXPECT_EQ(result.output, "out\r\n");
+  EXPECT_EQ(result.output, "out\nerr\n");
   EXPECT_EQ(runProcess({"a-program-that-does-not-exist"}).exitCode, 127);
   EXPECT_EQ(findProgram("cmd").filename(), "cmd.exe");
 }
@@ -168,6 +171,11 @@ int helper(const std::string& what, const std::vector<const char*>& arguments) {
     }
     std::printf("rest");
     return 4;
+  } else if (what == "--fail") {
+    std::printf("out\n");
+    std::fflush(stdout);
+    std::fprintf(stderr, "err\n");
+    return 3;
   } else if (what == "--crash") {
     volatile int* nowhere = nullptr;
     *nowhere = 1;
@@ -180,7 +188,7 @@ int helper(const std::string& what, const std::vector<const char*>& arguments) {
 
 int main(int argc, char** argv) {
   const std::vector<const char*> arguments = speculum::prepareProcess(argc, argv);
-  for (const char* helper : {"--print-arguments", "--echo", "--crash"}) {
+  for (const char* helper : {"--print-arguments", "--echo", "--fail", "--crash"}) {
     if (argc > 1 && arguments[1] == std::string_view(helper)) {
       return speculum::test::helper(helper, arguments);
     }
