@@ -219,6 +219,9 @@ const uint constantMapped = 25;
 const uint constantTransparency = 26;
 const uint constantClamps = 27;
 
+// Stored in the place of a plane's growth in a shadow map: a caster's edge is seen (shadow_edge.frag).
+const uint shadowEdge = 0xffffffffu;
+
 // Values of specialisation constants: texture of an object, number of lights, content of a mirror and lookup of its
 // image.
 const uint textureNone = 0;

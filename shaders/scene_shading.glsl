@@ -1,7 +1,7 @@
 // The fragment shader of objects whose light takes no rays. ENVIRONMENT draws curved mirrors, which look up an
 // environment map; with REFLECTION_ONLY it draws no base, because shade.glsl has shaded the base. REPEATING draws
 // RepeatingTriangles, VERTEX_COLORS meshes with colors of their vertices, COVERED
-// materials with coverage.
+// materials with coverage. ASKS draws the identifiers of surfaces whose light shadow maps do not decide.
 #include "interface.glsl"
 #include "shading.glsl"
 
@@ -79,6 +79,9 @@ vec3 diffuseFactor(vec2 uv) {
 #ifdef ENVIRONMENT
 #include "environment.glsl"
 #endif
+#ifdef ASKS
+#include "identifiers.glsl"
+#endif
 
 #ifdef REFLECTION_ONLY
 // Returns the mask of the samples whose base was shaded for this triangle.
@@ -138,6 +141,9 @@ void main() {
 #else
   color = addable(radiance, disparityLength / max(w, 1e-30), gl_FragCoord.xy);
   gl_SampleMask[0] = samplesOfBase();
+#endif
+#ifdef ASKS
+  color = asks ? encoded(Identifier(false, false, instanceIndex, draw.firstTriangle + uint(gl_PrimitiveID))) : color;
 #endif
 #ifdef COVERED
   keepCovered(uvHere(), instances[instanceIndex].traceInstance, draw.firstTriangle + uint(gl_PrimitiveID));

@@ -1,4 +1,5 @@
-// Deferred shading: computes the radiance of the surfaces that collect_surfaces.glsl listed, with rays.
+// Deferred shading: computes the radiance of the surfaces that collect_surfaces.glsl listed, with rays. With ASKS, shadow
+// maps decide most light.
 #define COMPUTE
 #include "interface.glsl"
 #include "shading.glsl"
@@ -11,6 +12,9 @@
 #include "sample_positions.glsl"
 #include "coverage.glsl"
 #include "trace.glsl"
+#ifdef ASKS
+#include "shadow_map.glsl"
+#endif
 #include "traced_light.glsl"
 #include "microfacet.glsl"
 #include "traced_path.glsl"
@@ -150,6 +154,10 @@ void shade(uint pixel, uint seenBy) {
   bool addsReflection = id.baseOnly && seen.bounce.reflects;
   vec3 share = addsReflection ? 1.0 - seen.bounce.reflectance : vec3(1.0);
   seen.bounce.reflects = seen.bounce.reflects && !id.baseOnly;
+#ifdef ASKS
+  receiver = seen.bounce.surface.position;
+  receiverNormal = seen.bounce.planeNormal;
+#endif
   vec3 radiance = tracedRadiance(seen.bounce, seen.direction, seen.seed, seen.draws);
   vec3 stored = addsReflection ? sumFactor(position) * share * min(radiance, shareMax) : radiance;
   vec4 value = storable(stored, max(seen.disparity, 0.0), position);

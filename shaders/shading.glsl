@@ -127,6 +127,16 @@ vec3 bounded(vec3 radiance) { return mix(radiance, vec3(radianceMax), greaterTha
 float litShare(uint index, LightData light) { return 1.0; }
 #endif
 
+// Returns the radiance due to light `index` of the pass, with shadows.
+vec3 litBy(uint index, LightData light, Surface surface, vec3 toViewer) {
+  vec3 lit = lightRadiance(light, surface, toViewer);
+  float share = litShare(index, light);
+#if defined(SHADOW_MAPS) && defined(ASKS)
+  asks = asks || (share == undecided && any(greaterThan(lit, vec3(0.0))));
+#endif
+  return share * lit;
+}
+
 vec3 surfaceRadiance(Surface surface) {
   vec3 toViewer = safeNormalize(-surface.position);
   vec3 radiance = surface.emission + view.ambient * surface.diffuse;
@@ -134,11 +144,11 @@ vec3 surfaceRadiance(Surface surface) {
     uint count = countHere(view.lightCount);
     for (uint i = 0; i < count; ++i) {
       LightData light = lights[view.firstLight + i];
-      radiance += litShare(i, light) * lightRadiance(light, surface, toViewer);
+      radiance += litBy(i, light, surface, toViewer);
     }
   } else {
     [[unroll]] for (uint i = 0; i < lightCount; ++i) {
-      radiance += litShare(i, passLights[i]) * lightRadiance(passLights[i], surface, toViewer);
+      radiance += litBy(i, passLights[i], surface, toViewer);
     }
   }
   return bounded(radiance);

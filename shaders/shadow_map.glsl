@@ -1,5 +1,11 @@
 // Shadows looked up in a shadow map, six images about a light: Cube in src/plan/frame_plan.hpp. docs/numerics.md
-// derives the comparison. Needs interface.glsl.
+// derives the comparison. With ASKS, light is left to rays where the map does not decide it; the map then has marks of
+// edges. Needs interface.glsl.
+#ifdef COMPUTE
+#define SHADOW_SET 3
+#else
+#define SHADOW_SET 2
+#endif
 #include "cube_face.glsl"
 
 // Face that contains the whole scene, in every map.
@@ -7,8 +13,8 @@ layout(constant_id = constantOnlyShadowFace) const uint onlyShadowFace = anyShad
 // Number of lights with a shadow map. They are the first lights of each pass.
 layout(constant_id = constantShadowedLights) const uint shadowedLights = 0;
 
-layout(set = 2, binding = 0) uniform usampler2D shadowTexels;  // what shadow_map.frag stores; 0: nothing is there
-layout(set = 2, binding = 1, std140) uniform ShadowMaps { ShadowMapData shadowMaps[mostShadowMaps]; };
+layout(set = SHADOW_SET, binding = 0) uniform usampler2D shadowTexels;  // what shadow_map.frag stores; 0: nothing is there
+layout(set = SHADOW_SET, binding = 1, std140) uniform ShadowMaps { ShadowMapData shadowMaps[mostShadowMaps]; };
 
 const float leastShadowCosine = 1e-6;  // steeper slopes count as this one
 const float shadowBias = 0.125;        // texels
@@ -19,6 +25,20 @@ const float slopeError = 1.0 / 64.0;   // texels; error of planes that are raste
 vec3 receiver;
 vec3 receiverNormal;
 
+#ifdef ASKS
+const float undecided = -1.0;  // a share of light
+
+bool hasPlane = true;  // the receiver's triangle has a plane
+#ifndef COMPUTE
+layout(constant_id = constantPerSample) const bool perSample = false;
+
+vec3 pixelAcross;  // from the receiver to where the next pixels see its plane
+vec3 pixelDown;
+bool asks = false;  // light that would reach the surface is undecided
+#endif
+#endif
+
+#ifndef COMPUTE
 // Sets the receiver from a triangle's interpolated position. Where the triangle covers a pixel in part, some drivers
 // put that position off its plane, so the plane is derived from pixel centres. Needs uniform control flow.
 void setReceiver(vec3 position, vec3 shadingNormal) {
@@ -26,10 +46,16 @@ void setReceiver(vec3 position, vec3 shadingNormal) {
   vec3 facet = cross(dFdx(center), dFdy(center));
   float along = dot(facet, center) / dot(facet, position);  // not a number for a triangle without a plane
   bool found = along > 0.5 && along < 2.0;
+#ifdef ASKS
+  hasPlane = found;
+  pixelAcross = along * dFdx(center);
+  pixelDown = along * dFdy(center);
+#endif
   receiver = found ? along * position : position;
   receiverNormal = found ? safeNormalize(facet * inversesqrt(max(dot(facet, facet), 1e-30))) : shadingNormal;
   receiverNormal = dot(receiverNormal, position) > 0.0 ? -receiverNormal : receiverNormal;
 }
+#endif
 
 // Chooses among loads at uniform addresses, because lavapipe reads any other address once for each pixel.
 vec4 windowOf(uint map, FaceDirection face) {
@@ -48,6 +74,9 @@ struct SeenPlanes {
   vec4 y;
   vec4 disparity;  // at the texels' centres; 0: nothing is there
   vec4 rise;       // growth of the disparity from the point to the texels' centres
+#ifdef ASKS
+  vec4 edge;       // 1: an edge is seen, and the disparity is that of a point of it within the texel
+#endif
 };
 
 SeenPlanes planesAbout(vec2 at) {
@@ -59,16 +88,21 @@ SeenPlanes planesAbout(vec2 at) {
   corner /= vec2(textureSize(shadowTexels, 0));
   seen.disparity = uintBitsToFloat(textureGather(shadowTexels, corner, 0));
   uvec4 slopes = textureGather(shadowTexels, corner, 1);
+#ifdef ASKS
+  bvec4 edge = equal(slopes, uvec4(shadowEdge));
+  seen.edge = vec4(edge);
+  slopes = mix(slopes, uvec4(0), edge);
+#endif
   seen.rise = uintBitsToFloat(slopes & 0xffff0000u) * seen.x + uintBitsToFloat(slopes << 16) * seen.y;
   return seen;
 }
 
-// Returns the share of the light that reaches the receiver, interpolated bilinearly between four texels. The plane seen
-// at a texel hides the receiver if it is nearer to the light than the receiver's own plane both at the texel's centre
-// and at the receiver. If it is nearer at only one of these places, the two planes belong to surfaces that meet in
-// between. If it is farther at both, the light passes beside the receiver's surface, and the texel tells nothing.
-float shadowShare(LightData light) {
-  vec3 p = receiver - light.position;
+// Returns the share of the light that reaches point `p` of the receiver's plane, from the light, interpolated bilinearly
+// between four texels. The plane seen at a texel hides the receiver if it is nearer to the light than the receiver's own
+// plane both at the texel's centre and at the receiver. If it is nearer at only one of these places, the two planes
+// belong to surfaces that meet in between. If it is farther at both, the light passes beside the receiver's surface, and
+// the texel tells nothing.
+float shareAt(LightData light, vec3 p) {
   FaceDirection face = onlyShadowFace == anyShadowFace ? cubeFace(p) : faceOf(onlyShadowFace, p);
   vec4 window = windowOf(light.shadowMap, face);
   float disparity = 1.0 / max(face.along, 1e-30);
@@ -86,6 +120,18 @@ float shadowShare(LightData light) {
   vec4 covers = vec4(greaterThan(nearerHere, rounding));
   vec4 hides = covers * vec4(greaterThan(nearerAtTexel, error));
   vec4 tells = vec4(greaterThan(max(nearerHere, nearerAtTexel), -error)) * vec4(greaterThan(seen.disparity, vec4(0.0)));
+#ifdef ASKS
+  // Dark and lit are decided only where all four texels agree, and none sees an edge before the receiver's plane. Neither
+  // is decided where a plane may lie before the receiver's, but by less than the margin.
+  vec4 least = disparity * slopeError / min(window.x, window.y) + slopeError * (abs(seen.rise) + abs(rise));
+  vec4 close = covers * vec4(greaterThan(nearerAtTexel, least));
+  vec4 reach = error + abs(slope.x) + abs(slope.y);  // an edge's point lies up to a texel from the centre
+  vec4 unclear = mix(close - hides, vec4(greaterThan(nearerAtTexel, reach)), seen.edge);
+  hides *= 1.0 - seen.edge;
+  bool open = dot(hides + unclear, vec4(1.0)) == 0.0;
+  bool decided = hasPlane && window.x > 0.0 && light.clearance == vec3(0.0);
+  return !decided ? undecided : dot(hides, vec4(1.0)) == 4.0 ? 0.0 : open && facesLight ? 1.0 : undecided;
+#else
   // A plane that also hides the receiver from another texel crosses the receiver's plane and does not end there.
   vec4 hiding = hides * nearerHere;
   float nearest = max(max(hiding.x, hiding.y), max(hiding.z, hiding.w));
@@ -97,6 +143,23 @@ float shadowShare(LightData light) {
   // outline.
   float share = sum > 0.0 ? 1.0 - dot(weights, hides) / sum : facesLight ? 1.0 : 0.0;
   return window.x > 0.0 ? share : 1.0;  // nothing casts a shadow in an empty face
+#endif
+}
+
+#ifndef COMPUTE
+float shadowShare(LightData light) {
+  vec3 p = receiver - light.position;
+#ifdef ASKS
+  if (perSample) {
+    // The samples lie within the square of the pixel.
+    float a = shareAt(light, p - 0.5 * (pixelAcross + pixelDown));
+    float b = shareAt(light, p + 0.5 * (pixelAcross - pixelDown));
+    float c = shareAt(light, p - 0.5 * (pixelAcross - pixelDown));
+    float d = shareAt(light, p + 0.5 * (pixelAcross + pixelDown));
+    return a == b && a == c && a == d ? a : undecided;
+  }
+#endif
+  return shareAt(light, p);
 }
 
 // Returns the share of light `index` of the pass that reaches the receiver.
@@ -104,3 +167,4 @@ float litShare(uint index, LightData light) {
   bool shadowed = lightCount == manyLights ? light.shadowMap != noShadowMap : index < shadowedLights;
   return shadowed ? shadowShare(light) : 1.0;
 }
+#endif

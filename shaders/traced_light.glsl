@@ -90,11 +90,22 @@ bool unobstructed(uint i, Incoming incoming, vec3 tracePosition, Skip self, uint
   return !hidden;
 }
 
+// Returns the share of the light that reaches the surface: 1, 0 or, if it takes rays, below 0. Only surfaces that are
+// drawn have a receiver().
+float shareOf(uint i, bool isDrawn) {
+#ifdef ASKS
+  LightData light = lights[view.firstLight + i];
+  return isDrawn && light.shadowMap != noShadowMap ? shareAt(light, receiver - light.position) : undecided;
+#else
+  return -1.0;
+#endif
+}
+
 // Returns surfaceRadiance() with shadows and with the lights' images in mirrors. `self` identifies the surface, and
-// `seed` gives its rays their random numbers.
+// `seed` gives its rays their random numbers. `isDrawn`: it is the receiver of shadow_map.glsl.
 // The inner loop passes over lights until one needs rays, which are followed after it: a driver that runs both sides of
 // every branch, such as lavapipe, then follows no rays for the other lights.
-vec3 tracedSurfaceRadiance(Surface surface, vec3 toViewer, Skip self, uint seed) {
+vec3 tracedSurfaceRadiance(Surface surface, vec3 toViewer, Skip self, uint seed, bool isDrawn) {
   vec3 tracePosition = surface.position + view.traceOffset.xyz;
   uint paths = view.lightCount + (castsLight ? traceCounts.lightPaths : 0);
   vec3 radiance = surface.emission + view.ambient * surface.diffuse;
@@ -106,11 +117,12 @@ vec3 tracedSurfaceRadiance(Surface surface, vec3 toViewer, Skip self, uint seed)
       Incoming incoming = incomingLight(next, surface, tracePosition, self);
       vec3 lit = lightRadiance(incoming.toLight, incoming.radius, incoming.irradiance, surface, toViewer);
       if (incoming.arrives && max(lit.r, max(lit.g, lit.b)) > 0.0) {
-        if (shadows && incoming.castsShadow) {
+        float share = shadows && incoming.castsShadow ? shareOf(next, isDrawn) : 1.0;
+        if (share < 0.0) {
           waiting = next;
           arriving = lit;
         } else {
-          radiance += lit;
+          radiance += share * lit;
         }
       }
       ++next;

@@ -302,7 +302,7 @@ vec3 tracedRadiance(Bounce surface, vec3 direction, uint seed, Draws draws) {
     vec3 own = vec3(0.0);
     bool black = all(equal(bounce.surface.diffuse + bounce.surface.specular + bounce.surface.emission, vec3(0.0)));
     if (meets && !black) {
-      own = tracedSurfaceRadiance(bounce.surface, -towards, bounce.self, mixedBits(pathSeed - depth));
+      own = tracedSurfaceRadiance(bounce.surface, -towards, bounce.self, mixedBits(pathSeed - depth), first);
       own *= bounce.reflects ? 1.0 - bounce.reflectance : vec3(1.0);
     }
     base = first ? own : base;

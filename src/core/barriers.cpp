@@ -37,6 +37,7 @@ constexpr Scope colorWritesAndSamplings{colorStage | sampleStage, VK_ACCESS_COLO
 constexpr Scope depthWrites{depthStages, VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT};
 constexpr Scope depthUses{depthStages, VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_READ_BIT | depthWrites.access};
 constexpr Scope samplings{sampleStage, VK_ACCESS_SHADER_READ_BIT};
+constexpr Scope allSamplings{sampleStage | computeStage, VK_ACCESS_SHADER_READ_BIT};
 constexpr Scope computeReads{computeStage, VK_ACCESS_SHADER_READ_BIT};
 constexpr Scope computeWrites{computeStage, VK_ACCESS_SHADER_WRITE_BIT};
 constexpr Scope copyReads{transferStage, VK_ACCESS_TRANSFER_READ_BIT};
@@ -64,7 +65,7 @@ constexpr std::array<Rule, barrierKindCount> rules = {{
     {"offscreenBeforeWrite", colorWrites, colorUses, attachment},
     {"offscreenSamplesBeforeWrite", colorWrites, colorUses, attachment},
     {"offscreenDepthBeforeWrite", depthWrites, depthUses, depthAttachment},
-    {"offscreenToSample", colorWrites, samplings, sampled},
+    {"offscreenToSample", colorWrites, allSamplings, sampled},
     {"mainBeforeWrite", colorWrites, colorUses, attachment},
     {"mainSamplesBeforeWrite", colorWrites, colorUses, attachment},
     {"mainDepthBeforeWrite", depthWrites, depthUses, depthAttachment},

@@ -42,8 +42,8 @@ bool lower(Settings& settings, const ReflectionSettings& most, const FramePlan& 
   } else if (!cubesOf(plan.cubes, PassKind::environment).empty() && settings.effects.environmentSize > smallestMap) {
     settings.effects.environmentSize /= 2;
     what = "effects.environment_size to " + std::to_string(settings.effects.environmentSize);
-  } else if (!cubesOf(plan.cubes, PassKind::shadow).empty() && settings.effects.shadowMapSize > smallestShadowMap) {
-    settings.effects.shadowMapSize /= 2;
+  } else if (const int size = shadowMapSize(plan); size > smallestShadowMap) {
+    settings.effects.shadowMapSize = size / 2;
     what = "effects.shadow_map_size to " + std::to_string(settings.effects.shadowMapSize);
   } else {
     return false;
@@ -65,6 +65,26 @@ bool raysAreFaster(const FramePlan& plan, const Scene& scene, const Settings& as
          });
 }
 
+// Says whether hybrid shadows should take less time than traced ones, by the prices of session/frame_cost.cpp: a ray
+// costs as much as 100 texels of a map, and a pass as much as 1000 rays. Counts all faces of maps that are read, as if
+// each frame drew them, so that the answer does not depend on what earlier frames drew.
+bool mapsAreFaster(const FramePlan& plan, const Scene& scene, const Settings& settings) {
+  constexpr double asking = 0.1;  // share of the points that hybrid shadows trace rays from
+  const double lights = static_cast<double>(shadowLights(scene).size());
+  double maps = 0.0;  // in rays
+  double rays = 0.0;
+  for (const Pass& pass : plan.passes) {
+    const double texels = pass.id.kind == PassKind::mirror ? pass.areaPx : static_cast<double>(pass.view.rect.area());
+    if (pass.id.kind == PassKind::shadow) {
+      maps += pass.source == PassSource::unread ? 0.0 : texels / 100.0 + 1000.0;
+    } else {
+      rays +=
+          texels * lights * (settings.effects.perSample ? std::max(pass.quality.samples, settings.view.samples) : 1);
+    }
+  }
+  return maps < (1.0 - asking) * rays;
+}
+
 // Sets the method by which automatic mirrors are drawn.
 void setAutomatic(Settings& settings, const Settings& asked, ReflectionMethod method) {
   settings.limit.automatic = method;
@@ -76,7 +96,8 @@ void setAutomatic(Settings& settings, const Settings& asked, ReflectionMethod me
 void leaveOutRays(Settings& settings, const Scene& scene) {
   EffectSettings& effects = settings.effects;
   effects.shadows =
-      effects.shadows && effects.shadowLookup == ShadowLookup::map && shadowLights(scene).size() <= mostShadowMaps;
+      effects.shadows && effects.shadowLookup != ShadowLookup::traced && shadowLights(scene).size() <= mostShadowMaps;
+  effects.shadowLookup = ShadowLookup::map;
   effects.roughness = effects.roughness && effects.roughLookup == ReflectionSource::image;
   effects.ripple = effects.ripple && effects.rippleLookup == ReflectionSource::image;
   effects.castsLight = false;
@@ -112,6 +133,15 @@ FittedPlan planWithin(const TargetLimits& limits, const FrameRequest& request) {
         " times the main view's size are larger than the device's " + std::to_string(limits.largestSide) +
         " pixels: lowered " + lowerScale(fitted.settings, largestScale));
   }
+  ShadowLookup& lookup = fitted.settings.effects.shadowLookup;
+  const bool automaticShadows = lookup == ShadowLookup::automatic;
+  lookup = automaticShadows ? ShadowLookup::hybrid : lookup;
+  if (lookup == ShadowLookup::hybrid && !limits.drawsLines) {
+    lookup = ShadowLookup::traced;
+    if (!automaticShadows) {
+      say("effects.shadow_lookup=hybrid is replaced by traced: the device draws no lines");
+    }
+  }
   if (!limits.cpu || !limits.tracesRays) {
     setAutomatic(fitted.settings, settings, ReflectionMethod::raster);
   }
@@ -126,14 +156,18 @@ FittedPlan planWithin(const TargetLimits& limits, const FrameRequest& request) {
         "buffers, or room in them for the scene");
     plan();
   }
-  int& shadowMapSize = fitted.settings.effects.shadowMapSize;
-  const int wantedSize = shadowMapSize;
-  for (glm::ivec2 extent = shadowExtent(fitted.plan); std::max(extent.x, extent.y) > limits.largestSide; extent /= 2) {
-    shadowMapSize /= 2;
+  if (automaticShadows && fitted.plan.effects.hybridShadows && !mapsAreFaster(fitted.plan, scene, fitted.settings)) {
+    lookup = ShadowLookup::traced;
+    plan();
   }
-  if (shadowMapSize < wantedSize) {
+  int mapSize = shadowMapSize(fitted.plan);
+  for (glm::ivec2 extent = shadowExtent(fitted.plan); std::max(extent.x, extent.y) > limits.largestSide; extent /= 2) {
+    mapSize /= 2;
+  }
+  if (mapSize < shadowMapSize(fitted.plan)) {
     say("shadow maps exceed the device's " + std::to_string(limits.largestSide) +
-        " pixels: lowered effects.shadow_map_size to " + std::to_string(shadowMapSize));
+        " pixels: lowered effects.shadow_map_size to " + std::to_string(mapSize));
+    fitted.settings.effects.shadowMapSize = mapSize;
     plan();
   }
   // The picture that stays shown was drawn with the samples that were asked for, or as many as fitted.
@@ -157,6 +191,9 @@ FittedPlan planWithin(const TargetLimits& limits, const FrameRequest& request) {
          lower(fitted.settings, mostAsked(scene, fitted.settings), fitted.plan, what)) {
     lowered += (lowered.empty() ? "" : ", ") + what;
     plan();
+  }
+  if (automaticShadows && fitted.plan.effects.shadows) {
+    fitted.plan.effects.shadows->append("; auto: ").append(settingValue(fitted.settings, "effects.shadow_lookup"));
   }
   if (!lowered.empty()) {
     say("targets of " + mebibytes(wanted) + " do not fit the device's " + mebibytes(limits.budgetBytes) + ": lowered " +

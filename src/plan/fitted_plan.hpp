@@ -13,6 +13,7 @@ struct TargetLimits {
   bool keepsPicture = false;  // the last picture stays in memory while a still one is drawn, as in the window
   bool tracesRays = true;     // the device has gl_PrimitiveID in fragment shaders, and the scene fits storage buffers
   bool cpu = false;           // the device is a CPU
+  bool drawsLines = true;     // the device draws edges of triangles
 };
 
 struct FittedPlan {
@@ -24,8 +25,8 @@ struct FittedPlan {
 // Plans with settings lowered until the targets fit the limits. First unchanged images are rendered instead of reused,
 // if that needs less memory. Then the following are halved step by step: samples of mirror images, samples of the main
 // view, resolution of mirror images and maps. A plan that still does not fit is returned as it is. Traced effects are
-// left out where the device cannot trace, and reflection.method = auto becomes the faster method. Before all this, the
-// request's settings become pictureSettings().
+// left out where the device cannot trace, and reflection.method and effects.shadow_lookup = auto become the faster
+// method. Before all this, the request's settings become pictureSettings().
 FittedPlan planWithin(const TargetLimits& limits, const FrameRequest& request);
 
 // Plans pictures within the limits of a device.

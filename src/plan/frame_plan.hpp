@@ -125,13 +125,13 @@ struct Pass {
 // docs/effects.md describes both.
 struct Cube {
   PassKind kind = PassKind::environment;
-  int light = -1;                                    // of a shadow map, index into Scene::lights
-  int object = -1;                                   // of an environment map, index into Scene::objects
-  int copy = 0;                                      // index of the object's copy
-  int mesh = -1;                                     // of the object's part, index into Scene::meshes
-  int instance = -1;                                 // index into SceneState::instances
-  RecycledString name;                               // of the light, or of the object and copy, for users
-  int size = 0;                                      // texels of each side of a face
+  int light = -1;       // of a shadow map, index into Scene::lights
+  int object = -1;      // of an environment map, index into Scene::objects
+  int copy = 0;         // index of the object's copy
+  int mesh = -1;        // of the object's part, index into Scene::meshes
+  int instance = -1;    // index into SceneState::instances
+  RecycledString name;  // of the light, or of the object and copy, for users
+  int size = 0;         // texels of each side of a face; of the largest face of all maps if it is a shadow map's
   std::array<int, 6> faces{-1, -1, -1, -1, -1, -1};  // indices into FramePlan::passes, in the order of faceAxes()
   glm::dvec3 center{0.0};                            // world, when it was rendered
   glm::dvec3 low{0.0};                               // world, box of what surrounds the mirror in the present frame

@@ -39,7 +39,8 @@ auto imageOf(std::span<const CachedImage> images, int mirror) {
 void addEffects(const ImageSurroundings& around, const View& main, ContentNumbers& numbers) {
   const TracedEffects& effects = around.effects;
   numbers.addAll(effects.any(), effects.traces(), effects.shadows.has_value(), effects.shadowMaps,
-                 effects.castsLight.has_value(), static_cast<double>(effects.bouncedLights.size()));
+                 effects.hybridShadows, effects.castsLight.has_value(),
+                 static_cast<double>(effects.bouncedLights.size()));
   const bool waves = around.settings.effects.ripple && std::ranges::any_of(around.scene.mirrors, [](const Mirror& m) {
                        return m.ripple && m.ripple->speed != 0.0;
                      });
@@ -150,7 +151,8 @@ RecycledVector<uint64_t> shadowContent(const ImageSurroundings& around, int pict
   });
   ContentNumbers numbers;
   numbers.addCount(covered ? 2 * static_cast<uint64_t>(picture) + (effects.textures ? 2 : 1) : 0);
-  numbers.addAll(casters.view, face.window.low, face.window.high, face.projection.near, casters.instances);
+  numbers.addAll(around.effects.hybridShadows, casters.view, face.window.low, face.window.high, face.projection.near,
+                 casters.instances);
   uint64_t changed = 0;
   for (const int i : casters.instances) {
     changed = std::max(changed, changes.placeChanged(i));

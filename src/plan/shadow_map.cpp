@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <numeric>
 
 #include "plan/scene_names.hpp"
 
@@ -17,6 +19,10 @@ constexpr double smallestWindow = 1e-3;
 // Factor that widens a face for the test whether a box lies beside it: the edge of a drawn triangle may reach beyond
 // its box by a part of a pixel.
 constexpr double margin = 1.05;
+
+// Texels of the sides of faces with effects.shadow_map_size = auto.
+constexpr int smallestAutomatic = 64;
+constexpr int largestAutomatic = 2048;
 
 constexpr FaceWindow nothing{glm::dvec2(1.0), glm::dvec2(-1.0)};
 
@@ -149,20 +155,23 @@ class FacePlanner {
       return face;
     }
     window = onGrid(window);
-    const int size = settings_.effects.shadowMapSize;
-    face.projection = projectionOf(window, size, nearOf(state_, Projection()));  // of a whole face of the cube
-    const CubeFace cube{center, axes, face.projection, size};
+    const int asked = settings_.effects.shadowMapSize;
+    CubeFace cube = faceOf(center, axes, window, asked == 0 ? largestAutomatic : asked);
+    face.projection = cube.projection;
     face.view = viewOf(cube);
-    const std::array<glm::dvec3, 4> rays = cornerRays(face.view, face.projection);
-    RecycledVector<const Pass*> near;
+    const std::array<glm::dvec3, 4> rays = cornerRays(face.view, cube.projection);
+    RecycledVector<const ShadowReader*> near;
     for (size_t i = 0; i < readers_.size(); ++i) {
       if (mayMeet(face.view, rays, readers_[i].readable, rays_[i])) {
-        near.push_back(readers_[i].pass);
+        near.push_back(&readers_[i]);
       }
     }
     if (!near.empty()) {
+      if (asked == 0) {
+        cube = faceOf(center, axes, window, sizeFor(cube, window, near));
+      }
       face = planFace(cube, Onlooker::light, scene_, state_, settings_.debug.cullClusters);
-      const bool read = std::ranges::any_of(near, [&](const Pass* pass) { return hasReceiver(face, *pass); });
+      const bool read = std::ranges::any_of(near, [&](const auto* reader) { return hasReceiver(face, *reader->pass); });
       face.source = read ? PassSource::drawn : PassSource::unread;
     }
     face.window = window;
@@ -170,6 +179,56 @@ class FacePlanner {
   }
 
  private:
+  CubeFace faceOf(const glm::dvec3& center, const FaceAxes& axes, const FaceWindow& window, int size) const {
+    // The near plane is that of a whole face of the cube.
+    return {center, axes, projectionOf(window, size, nearOf(state_, Projection())), size};
+  }
+
+  // Returns the size at which the face's texels are about as large as the pixels that look them up: on the mean over
+  // points of the boxes that both the light and a reader see, weighted by the pixels that they stand for.
+  int sizeFor(const CubeFace& face, const FaceWindow& window, std::span<const ShadowReader* const> readers) const {
+    double weights = 0.0;
+    double sum = 0.0;
+    for (const ShadowReader* reader : readers) {
+      const View& view = reader->readable;
+      const double pixels = 0.5 * reader->projection->focal * view.pictureSize.y;  // in the plane at 1 m, a metre
+      const auto add = [&](const glm::dvec3& p, double area) {
+        const double depth = glm::dot(p - face.center, face.axes.forward);
+        const double distance = glm::length(p - view.eye);
+        if (depth > 0.0 && distance > 0.0 && std::ranges::all_of(view.cone, [&](const glm::dvec3& normal) {
+              return glm::dot(normal, p - view.eye) >= 0.0;
+            })) {
+          const double weight = area / (distance * distance);
+          weights += weight;
+          sum += weight * pixels * depth / distance;
+        }
+      };
+      for (const int i : reader->pass->instances) {
+        forEachPoint(boxes_[static_cast<size_t>(i)], view.eye, add);
+      }
+    }
+    const glm::dvec2 width = window.high - window.low;
+    const double texels = weights > 0.0 ? std::max(width.x, width.y) * sum / weights : 0.0;
+    return static_cast<int>(
+        std::bit_ceil(static_cast<unsigned>(std::clamp<double>(texels, smallestAutomatic, largestAutomatic))));
+  }
+
+  // Visits points of the box, more if it is large as seen from the eye, each with its share of the box's surface.
+  template <typename Visit>
+  static void forEachPoint(const Bounds& box, const glm::dvec3& eye, const Visit& visit) {
+    const glm::dvec3 size = box.high - box.low;
+    const double distance = glm::length(glm::clamp(eye, box.low, box.high) - eye);
+    const glm::ivec3 count(glm::clamp(glm::ceil(2.0 * size / std::max(distance, 1e-9)), 1.0, 8.0));
+    const double area = 2.0 * (size.x * size.y + size.y * size.z + size.z * size.x) / (count.x * count.y * count.z);
+    for (int x = 0; x < count.x; ++x) {
+      for (int y = 0; y < count.y; ++y) {
+        for (int z = 0; z < count.z; ++z) {
+          visit(box.low + size * (glm::dvec3(x, y, z) + 0.5) / glm::dvec3(count), area);
+        }
+      }
+    }
+  }
+
   // Says whether the face contains something that the pass draws and that the light may fall on.
   bool hasReceiver(const Pass& face, const Pass& pass) const {
     const RecycledVector<int>& drawn = face.instances;
@@ -207,8 +266,18 @@ PlannedCubes shadowMaps(const Scene& scene, const SceneState& state, const Setti
     for (size_t face = 0; face < map.faces.size(); ++face) {
       Pass& pass = maps.faces.emplace_back(planner.plan(center, faceAxes()[face]));
       pass.id = {.kind = PassKind::shadow, .light = light, .face = static_cast<int>(face)};
-      pass.corner = shadowCorner(lights.size(), map.size, maps.cubes.size() - 1, face);
     }
+  }
+  const auto largest = [&](int size, const Pass& face) {
+    return face.source == PassSource::unread ? size : std::max(size, face.view.rect.width);
+  };
+  const int size =
+      std::max(std::accumulate(maps.faces.begin(), maps.faces.end(), settings.effects.shadowMapSize, largest),
+               smallestAutomatic);
+  for (size_t i = 0; i < maps.faces.size(); ++i) {
+    const size_t map = i / maps.cubes[0].faces.size();
+    maps.cubes[map].size = size;
+    maps.faces[i].corner = shadowCorner(lights.size(), size, map, i % maps.cubes[0].faces.size());
   }
   return maps;
 }
@@ -237,6 +306,11 @@ bool hasShadowLayers(const FramePlan& plan) {
   return std::ranges::any_of(plan.cubes, [](const Cube& cube) {
     return std::ranges::any_of(cube.layerContent, [](const auto& content) { return !content.empty(); });
   });
+}
+
+int shadowMapSize(const FramePlan& plan) {
+  const std::span<const Cube> maps = cubesOf(plan.cubes, PassKind::shadow);
+  return maps.empty() ? 0 : maps[0].size;
 }
 
 glm::ivec2 shadowExtent(const FramePlan& plan) {

@@ -18,7 +18,8 @@ struct ShadowReader {
 };
 
 // Plans a shadow map for each light of shadowLights(). Faces that a reader looks up are to be drawn, the others are
-// unread. The window of a face is as small as the scene allows. A map's place in the target follows from its index.
+// unread. The window of a face is as small as the scene allows. A map's place in the target follows from its index
+// and the size of the largest face of all maps.
 PlannedCubes shadowMaps(const Scene& scene, const SceneState& state, const Settings& settings,
                         std::span<const ShadowReader> readers);
 
@@ -28,6 +29,9 @@ std::optional<size_t> onlyShadowFace(const FramePlan& plan);
 // Say whether the frame draws a face of a shadow map, and whether a face has a layer (Pass::layer).
 bool rendersShadows(const FramePlan& plan);
 bool hasShadowLayers(const FramePlan& plan);
+
+// Returns the texels of each side of the largest face; zero without shadow maps.
+int shadowMapSize(const FramePlan& plan);
 
 // Returns the size in texels of the target that holds all shadow maps; zero without shadow maps.
 glm::ivec2 shadowExtent(const FramePlan& plan);

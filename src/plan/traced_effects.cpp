@@ -88,8 +88,9 @@ class Collector {
     effects_.shadows = nameOf<RecycledString>("light", scene_.lights[lights.front()].name, lights.front());
     // Light that a mirror reflects is shadowed before and after the mirror, which no map of the light shows.
     effects_.shadowMaps =
-        settings_.shadowLookup == ShadowLookup::map && lights.size() <= mostShadowMaps && !effects_.castsLight;
-    effects_.shadowRays = !effects_.shadowMaps || effects_.reflects();
+        settings_.shadowLookup != ShadowLookup::traced && lights.size() <= mostShadowMaps && !effects_.castsLight;
+    effects_.hybridShadows = effects_.shadowMaps && settings_.shadowLookup != ShadowLookup::map;
+    effects_.shadowRays = !effects_.shadowMaps || effects_.hybridShadows || effects_.reflects();
   }
 
   void addBouncedLights() {

@@ -24,8 +24,9 @@ RecycledVector<int> shadowLights(const Scene& scene);
 // that calls for it; it is empty if nothing drawn does.
 struct TracedEffects {
   std::optional<RecycledString> shadows;
-  bool shadowMaps = false;  // surfaces that are drawn look shadows up in maps
-  bool shadowRays = false;  // surfaces that are drawn, or that reflected rays meet, trace shadow rays
+  bool shadowMaps = false;     // surfaces that are drawn look shadows up in maps
+  bool hybridShadows = false;  // shadow rays are traced where these maps do not decide
+  bool shadowRays = false;     // surfaces that are drawn, or that reflected rays meet, trace shadow rays
   std::optional<RecycledString> roughness;
   bool roughRays = false;  // roughness is traced, not looked up in images
   std::optional<RecycledString> ripple;

@@ -17,6 +17,7 @@ namespace {
 constexpr std::array<double, 6> cpuPrices{8e-6, 0.3, 1e-4, 3e-5, 3e-5, 1e-3};
 constexpr std::array<double, 6> gpuPrices{1e-7, 0.03, 2e-6, 2e-6, 5e-7, 1e-5};
 constexpr size_t rayKind = 5;
+constexpr double hybridRays = 0.1;  // share of the points for which hybrid shadows trace rays
 
 // Relative standard deviations.
 constexpr double speedSpread = 1.0;   // of the device's speed at first
@@ -50,9 +51,7 @@ void addRays(FrameWork& work, const Pass& pass, double texels, int samples, cons
   const double points = settings.perSample ? samples : 1.0;  // of a texel that rays start from
   const auto toLights = static_cast<double>(effects.raysToLights(scene));
   const double reflected = points * (1.0 + toLights);
-  if (!effects.shadowMaps) {
-    work.lightRays += texels * points * toLights;
-  }
+  work.lightRays += texels * points * toLights * (effects.hybridShadows ? hybridRays : effects.shadowMaps ? 0.0 : 1.0);
   for (const MirrorDraw& draw : pass.mirrors) {
     if (draw.byRays && !draw.back) {
       const MirrorOptics optics = opticsOf(scene.mirror(static_cast<size_t>(draw.mirror)), settings);
@@ -123,10 +122,13 @@ FrameWork scaledWork(FrameWork work, const Settings& from, const Settings& to) {
   const auto points = [](const Settings& settings) { return settings.effects.perSample ? settings.view.samples : 1.0; };
   const double rays = squared(view) * points(to) / points(from);
   const EffectSettings& effects = to.effects;
+  const auto share = [](ShadowLookup lookup) {
+    return lookup == ShadowLookup::traced ? 1.0 : lookup == ShadowLookup::map ? 0.0 : hybridRays;
+  };
   // If shadows were looked up in maps, all rays to lights were for light that mirrors cast, and these rays stay.
-  const bool shadowMaps = effects.shadowLookup == ShadowLookup::map &&
-                          (from.effects.shadowLookup == ShadowLookup::traced || !effects.castsLight);
-  work.lightRays *= shadowMaps ? 0.0 : rays;
+  const ShadowLookup before = from.effects.shadowLookup;
+  const bool stay = before == effects.shadowLookup || (before != ShadowLookup::traced && effects.castsLight);
+  work.lightRays *= stay ? rays : rays * share(effects.shadowLookup) / std::max(share(before), hybridRays);
   const double sampleRays = squared(view) * to.view.samples / from.view.samples;
   work.rippleRays *= effects.rippleLookup == ReflectionSource::image ? 0.0 : sampleRays;
   // If `from` did not call for rays, the counted rays are those of single mirrors with a method of their own, and stay.

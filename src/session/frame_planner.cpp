@@ -21,6 +21,7 @@ FramePlanner::FramePlanner(const Device& device, bool keepsPicture) {
   limits_.keepsPicture = keepsPicture;
   tracesRays_ =
       device.caps().primitiveId && device.limits().maxPerStageDescriptorStorageBuffers >= TraceFrame::storageBuffers;
+  limits_.drawsLines = device.caps().fillModeNonSolid;
   drawsCoverage_ = device.caps().primitiveId;
   bufferLimits_ = traceBufferLimits(device.limits());
 }

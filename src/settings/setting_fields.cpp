@@ -68,9 +68,9 @@ constexpr std::array<std::string_view, 4> textureFilters{"bilinear", "trilinear"
 constexpr std::array<std::string_view, 2> reflectionSources{"traced", "image"};
 constexpr std::array<std::string_view, 3> rayMethods{"auto", "hardware", "software"};
 constexpr std::array<std::string_view, 2> curvedLookups{"traced", "environment"};
-constexpr std::array<std::string_view, 2> shadowLookups{"traced", "map"};
+constexpr std::array<std::string_view, 4> shadowLookups{"auto", "traced", "hybrid", "map"};
 constexpr SettingNeed environmentMaps{"effects.curved_lookup", "environment"};
-constexpr SettingNeed shadowMaps{"effects.shadow_lookup", "map"};
+constexpr SettingNeed shadowMaps{"effects.shadow_lookup", "traced", true};
 
 // Returns the error of rough mirrors, shown by rays or by lookups in the mirror's image.
 double roughError(const Settings& settings, size_t) {
@@ -182,17 +182,23 @@ constexpr SettingField fields[] = {
     setting("effects.shadows", BooleanSetting{at<&E::shadows>}, "Shadows", "shadows of lights that cast them",
             "Traces rays wherever lights reach."),
     setting("effects.shadow_lookup", choice<&E::shadowLookup>(shadowLookups), "Shadow lookup",
-            "shadows by rays or from maps", "map renders only what changed.", {.cheaper = higher, .swept = {"map"}}),
-    setting("effects.shadow_map_size", IntegerSetting{at<&E::shadowMapSize>, 64, 4096, true}, "Shadow map size",
-            "side of a shadow map's images", "Memory grows with its square; edges get sharper.",
-            {.unit = "texels",
-             .needs = shadowMaps,
-             .cheaper = lower,
-             .error =
-                 [](const Settings& s, size_t) {
-                   return s.effects.shadowLookup == ShadowLookup::map ? 15.0 / s.effects.shadowMapSize : 0.0;
-                 },
-             .swept = {"256 1024 4096"}}),
+            "shadows by rays, from maps, or from maps with rays where these do not decide (hybrid); auto: traced or "
+            "hybrid, whichever should be faster",
+            "Maps render only what changed; hybrid adds rays along outlines.",
+            {.cheaper = higher, .swept = {"hybrid map"}}),
+    setting(
+        "effects.shadow_map_size", IntegerSetting{at<&E::shadowMapSize>, 64, 4096, true, true}, "Shadow map size",
+        "side of a shadow map's images; auto: for each image, texels about as large as the pixels that look them up",
+        "Memory grows with its square; edges get sharper.",
+        {.unit = "texels",
+         .needs = shadowMaps,
+         .cheaper = lower,
+         .error =
+             [](const Settings& s, size_t) {
+               const int size = s.effects.shadowMapSize == 0 ? 1024 : s.effects.shadowMapSize;
+               return s.effects.shadowLookup == ShadowLookup::map ? 15.0 / size : 0.0;
+             },
+         .swept = {"auto 256 1024", "auto 256 1024 4096"}}),
     setting("effects.roughness", BooleanSetting{at<&E::roughness>}, "Roughness", "blur of rough mirrors",
             "Traces rays there."),
     setting("effects.rough_samples", IntegerSetting{at<&E::roughSamples>, 1, 4096}, "Rough samples",
@@ -310,8 +316,9 @@ std::string settingRange(const SettingField& field) {
     std::string operator()(const NumberSetting& n) const { return Range{n.low, n.high}.shortText(); }
     std::string operator()(const AutomaticSetting& n) const { return "auto | " + Range{n.low, n.high}.shortText(); }
     std::string operator()(const IntegerSetting& n) const {
-      return n.powersOfTwo ? Range{.low = 1.0 * n.low, .high = 1.0 * n.high, .powersOfTwo = true}.shortText()
-                           : std::to_string(n.low) + " .. " + std::to_string(n.high);
+      return (n.automatic ? "auto " : "") +
+             (n.powersOfTwo ? Range{.low = 1.0 * n.low, .high = 1.0 * n.high, .powersOfTwo = true}.shortText()
+                            : std::to_string(n.low) + " .. " + std::to_string(n.high));
     }
     std::string operator()(const BooleanSetting&) const { return "true | false"; }
     std::string operator()(const ChoiceSetting& choice) const {

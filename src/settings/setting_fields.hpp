@@ -40,6 +40,7 @@ struct IntegerSetting : MemberSetting<int> {
   int low = 0;
   int high = 1;
   bool powersOfTwo = false;
+  bool automatic = false;  // takes "auto" too, which is 0
 };
 struct BooleanSetting : MemberSetting<bool> {};
 struct ChoiceSetting {
@@ -65,10 +66,11 @@ struct SettingSlider {
   bool logarithmic = true;
 };
 
-// Another setting and the value that it must have for a setting to have an effect.
+// Another setting and the value that it must have, or must not have, for a setting to have an effect.
 struct SettingNeed {
   std::string_view key;
   std::string_view value;
+  bool isOther = false;  // the setting must have another value
 };
 
 // Which values of a setting take less time. Numbers are compared by size, choices by their order, false is below true.

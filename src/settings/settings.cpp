@@ -79,7 +79,8 @@ struct Parser {
     const std::optional<double> value = parseNumber(text);
     const bool whole = value && *value >= integer.low && *value <= integer.high && *value == std::floor(*value);
     const int n = whole ? static_cast<int>(*value) : 0;
-    if (!whole || (integer.powersOfTwo && (n & (n - 1)) != 0)) {
+    const bool automatic = integer.automatic && text == "auto";
+    if (!automatic && (!whole || (integer.powersOfTwo && (n & (n - 1)) != 0))) {
       return wrong("one of the whole numbers allowed");
     }
     integer.value.of(settings) = n;
@@ -127,6 +128,10 @@ struct JsonValue {
     const std::optional<double>& value = number.value.of(settings);
     return value ? ordered_json(*value) : ordered_json("auto");
   }
+  ordered_json operator()(const IntegerSetting& integer) const {
+    const int value = integer.value.of(settings);
+    return integer.automatic && value == 0 ? ordered_json("auto") : ordered_json(value);
+  }
   ordered_json operator()(const ColorSetting& color) const {
     const std::optional<glm::dvec3>& c = color.value.of(settings);
     return c ? ordered_json::array({c->x, c->y, c->z}) : ordered_json();
@@ -147,8 +152,9 @@ std::string unknownKey(std::string_view key) {
 }
 
 bool takesText(const SettingField& field) {
-  return std::holds_alternative<ChoiceSetting>(field.kind) || std::holds_alternative<TextSetting>(field.kind) ||
-         std::holds_alternative<AutomaticSetting>(field.kind);
+  const auto* integer = std::get_if<IntegerSetting>(&field.kind);
+  return (integer && integer->automatic) || std::holds_alternative<ChoiceSetting>(field.kind) ||
+         std::holds_alternative<TextSetting>(field.kind) || std::holds_alternative<AutomaticSetting>(field.kind);
 }
 
 // Says whether all settings are equal that change the part `last` of a frame or an earlier part.

@@ -58,8 +58,9 @@ enum class ReflectionSource { traced, image };
 // Source of a curved mirror's reflection: traced rays, or an environment map.
 enum class CurvedLookup { traced, environment };
 
-// Source of the shadows of lights: traced rays, or shadow maps.
-enum class ShadowLookup { traced, map };
+// Source of the shadows of lights: traced rays, shadow maps, or maps with rays where a map does not decide (hybrid).
+// automatic: traced or hybrid, whichever should be faster.
+enum class ShadowLookup { automatic, traced, hybrid, map };
 
 // What traces rays. automatic: as hardware, but shaders on CPU drivers; hardware: ray queries if the device has them,
 // else shaders; software: shaders.
@@ -77,7 +78,7 @@ struct EffectSettings {
   bool transparency = true;
   bool glyphs = true;
   ShadowLookup shadowLookup = ShadowLookup::traced;
-  int shadowMapSize = 1024;  // texels of each side of a shadow map's faces
+  int shadowMapSize = 1024;  // texels of each side of a shadow map's faces; 0: as large as views ask for
   int roughSamples = 16;     // rays a pixel of rough mirrors
   ReflectionSource roughLookup = ReflectionSource::traced;
   ReflectionSource rippleLookup = ReflectionSource::traced;

@@ -5,6 +5,7 @@
 
 #include "plan/target_memory.hpp"
 #include "systems/gpu_conversion.hpp"
+#include "systems/shadow_system.hpp"
 
 namespace speculum {
 
@@ -107,23 +108,31 @@ void DeferredShading::shade(const PassScope& scope, const FrameInfo& info, const
   const VkSampleCountFlagBits samples = scope.samples();
   const uint32_t filter = textureLookup(info.settings.view.textureFilter);
   const Pipeline& pipeline = shading_.get({samples, trace, filter}, [&] {
-    return ComputePipelineDesc{.name = "deferred shading",
-                               .comp = trace.hardware ? "shade_ray_query.comp" : "shade.comp",
-                               .constants = {{gpu::constantSamples, samples},
-                                             {gpu::constantTextureFilter, filter},
-                                             {gpu::constantShadows, trace.shadows},
-                                             {gpu::constantCastsLight, trace.castsLight},
-                                             {gpu::constantRough, trace.rough},
-                                             {gpu::constantRepeating, trace.repeating},
-                                             {gpu::constantTransparency, trace.transparency},
-                                             {gpu::constantVertexColors, trace.vertexColors}},
-                               .setLayouts = {frameLayout_, layout_, info.trace.layout()},
-                               .pushConstantBytes = sizeof(gpu::ShadeConstants)};
+    std::vector<VkDescriptorSetLayout> layouts{frameLayout_, layout_, info.trace.layout()};
+    if (trace.asks) {
+      layouts.push_back(info.shadows.layout());
+    }
+    return ComputePipelineDesc{
+        .name = "deferred shading",
+        .comp = std::string("shade") + (trace.asks ? "_asking" : "") + (trace.hardware ? "_ray_query.comp" : ".comp"),
+        .constants = {{gpu::constantSamples, samples},
+                      {gpu::constantTextureFilter, filter},
+                      {gpu::constantShadows, trace.shadows},
+                      {gpu::constantCastsLight, trace.castsLight},
+                      {gpu::constantRough, trace.rough},
+                      {gpu::constantRepeating, trace.repeating},
+                      {gpu::constantTransparency, trace.transparency},
+                      {gpu::constantVertexColors, trace.vertexColors}},
+        .setLayouts = layouts,
+        .pushConstantBytes = sizeof(gpu::ShadeConstants)};
   });
   const VkCommandBuffer commands = scope.commands();
   info.data.bind(pipeline, commands, pass);
   pipeline.bindSet(commands, 1, set_);
   pipeline.bindSet(commands, 2, info.trace.set());
+  if (trace.asks) {
+    pipeline.bindSet(commands, 3, info.shadows.set());
+  }
   pipeline.push(commands, areaOf(scope.desc()));
   vkCmdDispatchIndirect(commands, requests_.get(), 0);
   scope.endLabel();

@@ -10,6 +10,10 @@
 
 namespace speculum {
 
+bool RenderSystem::asks(const FrameInfo& info, const Batch& batch) {
+  return info.plan.effects.hybridShadows && !batch.curved && !batch.environment;
+}
+
 // A curved mirror that looks up an environment map takes rays only for the light on its base, if the base is not black.
 bool RenderSystem::defers(const FrameInfo& info, const Batch& batch) {
   if (batch.environment) {
@@ -63,6 +67,7 @@ GraphicsPipelineDesc RenderSystem::objects(const Variant& variant, const FrameIn
                                           {gpu::constantLightCount, variant.lightCount},
                                           {gpu::constantShadowedLights, variant.shadowedLights},
                                           {gpu::constantClamps, variant.clamps},
+                                          {gpu::constantPerSample, variant.trace.perSample},
                                           {gpu::constantRepeating, variant.repeating}},
                             .setLayouts = {frameLayout_, textureLayout_},
                             .pushConstantBytes = sizeof(gpu::DrawConstants),
@@ -76,7 +81,10 @@ GraphicsPipelineDesc RenderSystem::objects(const Variant& variant, const FrameIn
     desc.vert = variant.vertexColors ? "scene_colored.vert" : "scene.vert";
     desc.frag = std::string("scene") + (variant.environment ? "_environment" : "") +
                 (variant.vertexColors ? "_colored" : "") + (variant.repeating ? "_repeating" : "") +
-                (variant.shadowed ? "_shadowed" : "") + ".frag";
+                (variant.asks       ? "_asking"
+                 : variant.shadowed ? "_shadowed"
+                                    : "") +
+                ".frag";
   }
   if (variant.added) {
     desc.frag = "scene_environment_reflection.frag";
@@ -93,7 +101,10 @@ GraphicsPipelineDesc RenderSystem::objects(const Variant& variant, const FrameIn
     addCoverage(desc,
                 variant.deferred ? "scene_identifier_covered.frag"
                                  : std::string("scene_covered") + (variant.vertexColors ? "_colored" : "") +
-                                       (variant.shadowed ? "_shadowed" : "") + ".frag",
+                                       (variant.asks       ? "_asking"
+                                        : variant.shadowed ? "_shadowed"
+                                                           : "") +
+                                       ".frag",
                 textureLayout_);
   }
   addVertexInput(desc);
@@ -146,7 +157,8 @@ uint32_t RenderSystem::recordBatch(const PassScope& scope, const FrameInfo& info
   const VkCommandBuffer commands = scope.commands();
   variant.curved = batch.curved;
   variant.environment = batch.environment;
-  variant.trace = variant.deferred ? info.trace.variant() : TraceVariant{};
+  variant.asks = !variant.deferred && asks(info, batch);
+  variant.trace = variant.deferred || variant.asks ? info.trace.variant() : TraceVariant{};
   variant.shadowed = !variant.deferred && !variant.added && info.shadows.set() != VK_NULL_HANDLE;
   variant.shadowedLights =
       variant.shadowed ? static_cast<uint32_t>(cubesOf(info.plan.cubes, PassKind::shadow).size()) : 0;
@@ -256,7 +268,7 @@ uint32_t RenderSystem::record(const PassScope& scope, const FrameInfo& info, con
   Variant variant = variantOf(scope, info, pass);
   uint32_t draws = 0;
   for (const Batch& batch : pass.batches) {
-    variant.deferred = defers(info, batch);
+    variant.deferred = defers(info, batch) && !asks(info, batch);
     draws += recordBatch(scope, info, pass, batch, variant);
   }
   scope.cull(VK_CULL_MODE_NONE);

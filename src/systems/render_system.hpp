@@ -62,11 +62,13 @@ class RenderSystem {
     bool covered = false;         // the material has coverage
     bool clamps = false;          // the material's textures do
     bool shadowed = false;        // looks shadows up in maps
+    bool asks = false;            // and draws identifiers where these do not decide
     uint32_t shadowedLights = 0;  // constants of shadow_map.glsl
     uint32_t onlyShadowFace = gpu::anyShadowFace;
     auto operator<=>(const Variant&) const = default;
   };
   GraphicsPipelineDesc objects(const Variant& variant, const FrameInfo& info, const DeferredShading* shading) const;
+  static bool asks(const FrameInfo& info, const Batch& batch);
   static bool defers(const FrameInfo& info, const Batch& batch);
   static void countDraw(EffectLedger& ledger, const Variant& variant);
   static Variant variantOf(const PassScope& scope, const FrameInfo& info, const DrawList& pass);

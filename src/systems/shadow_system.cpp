@@ -15,6 +15,7 @@ namespace {
 
 constexpr VkFormat planeFormat = VK_FORMAT_R32G32_UINT;
 static_assert(bytesOfTexel(planeFormat) == shadowPlaneBytes);
+constexpr float edgeWidth = 1.0f;  // texels
 constexpr std::array shadowBufferNames = {"shadow maps"};
 
 std::array<gpu::ShadowMapData, gpu::mostShadowMaps> mapData(const FramePlan& plan) {
@@ -22,7 +23,7 @@ std::array<gpu::ShadowMapData, gpu::mostShadowMaps> mapData(const FramePlan& pla
   std::array<gpu::ShadowMapData, gpu::mostShadowMaps> data{};
   for (const Pass& face : plan.passes) {
     if (face.id.kind == PassKind::shadow && !face.isLayer && face.source != PassSource::unread) {
-      const double texels = static_cast<double>(plan.cubes[face.cube].size - 2 * shadowBorder);
+      const double texels = static_cast<double>(face.view.rect.width - 2 * shadowBorder);
       const glm::dvec2 scale = texels / (face.window.high - face.window.low);
       const glm::dvec2 corner = glm::dvec2(face.corner + shadowBorder) - face.window.low * scale;
       data[face.cube].faces[face.id.face] = glm::vec4(glm::dvec4(scale, corner));
@@ -47,10 +48,10 @@ void ShadowSystem::create() {
   if (layout_) {
     return;
   }
+  constexpr VkShaderStageFlags stages = VK_SHADER_STAGE_FRAGMENT_BIT | VK_SHADER_STAGE_COMPUTE_BIT;
   const std::array bindings{
-      DescriptorBinding{
-          .binding = 0, .type = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, .stages = VK_SHADER_STAGE_FRAGMENT_BIT},
-      DescriptorBinding{.binding = 1, .stages = VK_SHADER_STAGE_FRAGMENT_BIT}};
+      DescriptorBinding{.binding = 0, .type = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, .stages = stages},
+      DescriptorBinding{.binding = 1, .stages = stages}};
   layout_ = descriptorSetLayout(device_, bindings, "shadow maps");
   // Does not filter: shaders gather texels, compare each, and interpolate the results.
   sampler_ = createSampler(device_,
@@ -114,7 +115,11 @@ const Pipeline& ShadowSystem::pipelineFor(Drawn drawn, const FrameInfo& info) {
                               .frag = "shadow_map.frag",
                               .setLayouts = {frameLayout_},
                               .color = planeFormat};
-    if (drawn == Drawn::objects || isCovered(drawn)) {
+    desc.lines = drawn == Drawn::edges || drawn == Drawn::mirrorEdges;
+    if (desc.lines || drawn == Drawn::coveredEdges) {
+      desc.frag = "shadow_edge.frag";
+    }
+    if (drawn == Drawn::objects || drawn == Drawn::edges || drawn == Drawn::coveredEdges || isCovered(drawn)) {
       desc.vert = "scene.vert";
       addVertexInput(desc);
       if (isCovered(drawn)) {
@@ -164,10 +169,34 @@ uint32_t ShadowSystem::draw(const PassScope& scope, const FrameInfo& info, size_
     vkCmdDraw(commands, mirror.vertexCount, 1, mirror.firstVertex, 0);
     ++draws;
   }
+  return draws + (info.plan.effects.hybridShadows ? drawEdges(scope, info, data) : 0);
+}
+
+uint32_t ShadowSystem::drawEdges(const PassScope& scope, const FrameInfo& info, const DrawList& data) {
+  const VkCommandBuffer commands = scope.commands();
+  uint32_t draws = 0;
+  scope.drawLines(true, edgeWidth);
+  for (const Batch& batch : data.batches) {
+    bindBatch(scope, info, batch);
+    // Of a solid, the backs alone: their edges lie behind the fronts, except along outlines. Clusters of backs are not
+    // in the batch's ranges.
+    const VkCullModeFlags fronts = batch.handedness > 0.0f ? VK_CULL_MODE_FRONT_BIT : VK_CULL_MODE_BACK_BIT;
+    scope.cull(batch.cullsBacks ? fronts : VkCullModeFlags{VK_CULL_MODE_NONE});
+    info.data.bind(pipelineFor(Drawn::edges, info), commands, data);
+    const IndexRange all = allOf(info.scene.meshes[batch.mesh]);
+    vkCmdDrawIndexed(commands, all.count, batch.count, all.first, 0, batch.firstInstance);
+    ++draws;
+  }
+  scope.cull(VK_CULL_MODE_NONE);
+  for (const MirrorRange& mirror : data.mirrors) {
+    info.data.bind(pipelineFor(Drawn::mirrorEdges, info), commands, data, mirror.mirror);
+    vkCmdDraw(commands, mirror.vertexCount, 1, mirror.firstVertex, 0);
+    ++draws;
+  }
   return draws;
 }
 
-// Draws a batch part by part, those with coverage with their opacity.
+// Draws a batch part by part, those with coverage with their opacity or, for lookups that ask, as a mark of an edge.
 uint32_t ShadowSystem::drawParts(const PassScope& scope, const FrameInfo& info, const DrawList& data,
                                  const Batch& batch) {
   const VkCommandBuffer commands = scope.commands();
@@ -175,14 +204,18 @@ uint32_t ShadowSystem::drawParts(const PassScope& scope, const FrameInfo& info, 
   for (const MeshPart& part : info.scene.meshes[batch.mesh].parts) {
     const bool covered = isTransparent(part.material, info.settings.effects);
     covered_ = covered_ || covered;
-    const Drawn drawn = !covered ? Drawn::objects : part.material.clamps ? Drawn::coveredClamping : Drawn::covered;
+    const bool asks = covered && info.plan.effects.hybridShadows;
+    const Drawn drawn = !covered               ? Drawn::objects
+                        : asks                 ? Drawn::coveredEdges
+                        : part.material.clamps ? Drawn::coveredClamping
+                                               : Drawn::covered;
     const Pipeline& pipeline = pipelineFor(drawn, info);
     info.data.bind(pipeline, commands, data);
-    if (covered) {
+    if (covered && !asks) {
       bindOpacity(pipeline, commands, info, part.material);
     }
     for (const IndexRange& range : drawnRanges(part, batch)) {
-      if (covered) {
+      if (covered && !asks) {
         pipeline.push(commands, coverageConstants({.firstTriangle = range.first / 3}, part.material));
       }
       vkCmdDrawIndexed(commands, range.count, batch.count, range.first, 0, batch.firstInstance);

@@ -33,9 +33,11 @@ class ShadowSystem {
   size_t pipelineCount() const { return pipelines_.size(); }
 
  private:
-  enum class Drawn { objects, covered, coveredClamping, mirrors, layer };
+  enum class Drawn { objects, covered, coveredClamping, mirrors, layer, edges, coveredEdges, mirrorEdges };
   static bool isCovered(Drawn drawn);
   const Pipeline& pipelineFor(Drawn drawn, const FrameInfo& info);
+  // Draws marks of the edges of what draw() has drawn, for lookups that ask (shadow_edge.frag).
+  uint32_t drawEdges(const PassScope& scope, const FrameInfo& info, const DrawList& data);
   uint32_t drawParts(const PassScope& scope, const FrameInfo& info, const DrawList& data, const Batch& batch);
   // Targets of the faces' layers. A layer lies where its face lies in target_, and uses the depth of target_.
   PassTargets layerTargets();

@@ -108,8 +108,9 @@ void TraceFrame::build(Frame& frame, const SceneState& state, const Settings& se
   if (!traceScene_) {
     create();
   }
-  variant_ = {.traced = (effects.shadowRays && !effects.shadowMaps) || effects.castsLight,
+  variant_ = {.traced = (effects.shadowRays && !effects.shadowMaps) || effects.hybridShadows || effects.castsLight,
               .shadows = effects.shadowRays,
+              .asks = effects.hybridShadows,
               .castsLight = effects.castsLight.has_value(),
               .perSample = settings.effects.perSample && effects.traces(),
               .repeating = hasRepeatingTriangles(scene_),

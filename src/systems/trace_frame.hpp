@@ -16,6 +16,7 @@ namespace speculum {
 struct TraceVariant {
   bool traced = false;  // what is drawn traces shadow rays, or shows light that mirrors bounce
   bool shadows = false;
+  bool asks = false;  // shadows are traced only where maps do not decide
   bool castsLight = false;
   bool perSample = false;
   bool hardware = false;      // rays are ray queries

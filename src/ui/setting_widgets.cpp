@@ -77,6 +77,10 @@ struct Widget {
     const bool ofDevice = field.key.ends_with(".samples");
     std::vector<int> powers;
     std::vector<std::string> names;
+    if (integer.automatic) {
+      powers.push_back(0);
+      names.emplace_back("auto");
+    }
     for (int power = integer.low; power <= integer.high; power *= 2) {
       const bool offered = !ofDevice || std::ranges::count(samples, power) > 0;
       if (offered || power == value) {
@@ -178,7 +182,8 @@ void settingWidget(const PanelContext& ui, const SettingField& field, Settings& 
 void settingRows(PanelContext& ui, std::string_view prefix) {
   const Environment& environment = ui.input.edit.scene->environment;
   for (const SettingField& field : settingFields()) {
-    const bool needed = !field.needs || settingValue(ui.settings, field.needs->key) == field.needs->value;
+    const bool needed =
+        !field.needs || (settingValue(ui.settings, field.needs->key) == field.needs->value) != field.needs->isOther;
     if (needed && field.key.starts_with(prefix) && !std::holds_alternative<TextSetting>(field.kind)) {
       ImGui::PushID(field.key.data(), field.key.data() + field.key.size());
       settingWidget(ui, field, ui.settings);

@@ -199,8 +199,10 @@ std::string stillText(const Scene& scene, const Settings& settings) {
   // A face is 90 degrees wide, so a texel is 2 / size of the distance.
   add(asked.shadows && effects.shadowLookup == ShadowLookup::map && !asked.castsLight &&
           shadowLights(scene).size() <= mostShadowMaps,
-      fmt::format("shadow outlines within a texel of the map, 1/{} of the distance from the light",
-                  effects.shadowMapSize / 2));
+      effects.shadowMapSize == 0 ? "shadow outlines within about a pixel"
+                                 : fmt::format("shadow outlines within a texel of the map, 1/{} of the distance from "
+                                               "the light",
+                                               effects.shadowMapSize / 2));
   add(asked.curved && effects.curvedLookup == CurvedLookup::environment,
       fmt::format("curved mirrors from maps of {} texels a side", effects.environmentSize));
   add((asked.ripple && effects.rippleLookup == ReflectionSource::image) ||

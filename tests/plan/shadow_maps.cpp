@@ -248,6 +248,71 @@ TEST(ShadowMap, VisiblePointsLieInReadFaces) {
   EXPECT_GT(unread, 500);
 }
 
+// Says how many texels of the lamp's lower face a pixel spans at a point of the floor.
+double texelsOfAPixel(const FramePlan& plan, const glm::dvec3& p) {
+  const Cube& map = testing_support::shadowMapsOf(plan)[0];
+  const Pass& face = testing_support::faceOf(plan, map, 3);
+  const View& main = plan.main().view;
+  const double pixel = glm::length(p - main.eye) / (0.5 * plan.projection.focal * main.pictureSize.y);
+  return pixel * (face.view.rect.width - 2 * shadowBorder) /
+         ((face.window.high.x - face.window.low.x) * (map.center.y - p.y));
+}
+
+TEST(ShadowMap, AutomaticSizeFollowsThePixels) {
+  ShadowFrames frames(lampRoom());
+  frames.settings.effects.shadowMapSize = 0;
+  std::vector<int> sizes;
+  for (const double back : {0.0, 6.0, 30.0}) {
+    frames.scene.camera.position = {0, 0.5, back};
+    frames.scene.camera.target = {0, -0.9, -5};
+    frames.next();
+    const double texels = texelsOfAPixel(frames.plan, {0, -0.9, -5});
+    EXPECT_GT(texels, 0.3) << back;
+    EXPECT_LT(texels, 3.0) << back;
+    sizes.push_back(testing_support::shadowMapsOf(frames.plan)[0].size);
+    for (const int face : testing_support::shadowMapsOf(frames.plan)[0].faces) {
+      const Pass& pass = frames.plan.passes[static_cast<size_t>(face)];
+      EXPECT_TRUE(!pass.drawn() || pass.view.rect.width <= sizes.back());
+    }
+  }
+  EXPECT_GT(sizes[0], sizes[1]);
+  EXPECT_GT(sizes[1], sizes[2]);
+  EXPECT_TRUE(frames.rendered().empty()) << "nothing changed";
+}
+
+TEST(ShadowMap, HybridDrawsMapsAndTraces) {
+  ShadowFrames frames(lampRoom());
+  const std::vector<int> faces = frames.rendered();
+  frames.settings.effects.shadowLookup = ShadowLookup::hybrid;
+  EXPECT_EQ(frames.rendered(), faces) << "the maps get marks of edges";
+  EXPECT_TRUE(frames.plan.effects.shadowMaps && frames.plan.effects.hybridShadows);
+  EXPECT_TRUE(frames.plan.effects.traces());
+  EXPECT_TRUE(frames.rendered().empty());
+}
+
+TEST(ShadowMap, AutomaticLookupTakesTheFasterOne) {
+  const Scene scene = lampRoom();
+  const SceneState state = evaluate(scene, 0.0);
+  Settings settings;
+  settings.effects.shadowLookup = ShadowLookup::automatic;
+  const auto chosen = [&](const glm::ivec2& size, bool drawsLines = true) {
+    const FittedPlan fitted = planWithin({.budgetBytes = 1ull << 40, .largestSide = 16384, .drawsLines = drawsLines},
+                                         {scene, state, settings, size});
+    EXPECT_EQ(std::string(fitted.plan.effects.shadows.value_or("")),
+              "light 0; auto: " + settingValue(fitted.settings, "effects.shadow_lookup"));
+    EXPECT_TRUE(fitted.message.empty()) << fitted.message;
+    return fitted.settings.effects.shadowLookup;
+  };
+  EXPECT_EQ(chosen({1280, 720}), ShadowLookup::hybrid);
+  EXPECT_EQ(chosen({64, 48}), ShadowLookup::traced) << "fewer rays than texels of the maps";
+  EXPECT_EQ(chosen({1280, 720}, false), ShadowLookup::traced);
+  settings.effects.shadowLookup = ShadowLookup::hybrid;
+  const FittedPlan without = planWithin({.budgetBytes = 1ull << 40, .largestSide = 16384, .drawsLines = false},
+                                        {scene, state, settings, {64, 48}});
+  EXPECT_EQ(without.settings.effects.shadowLookup, ShadowLookup::traced);
+  EXPECT_NE(without.message.find("effects.shadow_lookup=hybrid"), std::string::npos);
+}
+
 TEST(ShadowMap, MemoryIncludesItAndLowersIt) {
   ShadowFrames frames(lampRoom());
   frames.next();

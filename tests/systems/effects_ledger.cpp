@@ -362,6 +362,23 @@ TEST(Ledger, ShadowMapsAreListedAndReleased) {
   EXPECT_GE(cost.pipelines, 2u) << "of the faces and of the teapot";
 }
 
+TEST(Ledger, HybridShadowsAreReleased) {
+  const Options options =
+      optionsFor(sceneWith("hybrid_shadows", "[[light]]\nposition = [1, 2, 1]\nintensity = 9\ncasts_shadow = true\n"),
+                 {{"effects.shadow_lookup", "hybrid"}, {"effects.shadow_map_size", "auto"}});
+  counts = {};
+  QuietSession session(without(options, "shadows"));
+  const Drawn before = drawWith(session, "shadows", false, 3);
+  const Drawn during = drawWith(session, "shadows", true, 1);
+  EXPECT_NE(during.picture, before.picture);
+  const EffectCost cost = session.sceneRenderer().ledger()[EffectKind::shadows];
+  EXPECT_GE(cost.pipelines, 4u) << "of the faces, their edges, the teapot and deferred shading";
+  const Drawn after = drawWith(session, "shadows", false, untilIdle);
+  EXPECT_EQ(after.released(before), before.alive);
+  EXPECT_EQ(after.picture, before.picture);
+  EXPECT_EQ(session.sceneRenderer().ledger()[EffectKind::shadows].bytes, 0u);
+}
+
 // Drivers that compile shaders while they draw would stutter.
 TEST(Ledger, VisibleLightsNeedNoPipelines) {
   std::string lights;

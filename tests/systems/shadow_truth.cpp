@@ -150,13 +150,16 @@ struct Agreement {
 };
 
 // Draws the scene with maps and with traced shadows.
-Agreement compareShadows(const std::filesystem::path& file, const std::string& mapSize) {
-  Studio studio(headless(file, size, {{"view.samples", "1"}, {"effects.shadow_map_size", mapSize}}));
+Agreement compareShadows(const std::filesystem::path& file, const std::string& mapSize,
+                         ShadowLookup lookup = ShadowLookup::map, const SettingList& more = {}) {
+  Options options = headless(file, size, {{"view.samples", "1"}, {"effects.shadow_map_size", mapSize}});
+  set(options, more);
+  Studio studio(options);
   const Image8 traced = studio.draw();
   studio.settings.effects.shadows = false;
   const Image8 lit = studio.draw();
   studio.settings.effects.shadows = true;
-  studio.settings.effects.shadowLookup = ShadowLookup::map;
+  studio.settings.effects.shadowLookup = lookup;
   const Image8 mapped = studio.draw();
   std::vector<bool> counts = nearOutline(difference(traced, lit, 8).isOver, 2);
   counts.flip();
@@ -202,6 +205,68 @@ TEST(ShadowMaps, ThinWallsLeakNoLight) {
     Random random(seed);
     EXPECT_LE(compareShadows(corner(random, seed), "256").all.over, 12) << "seed " << seed;
   }
+}
+
+// Draws scenes with hybrid shadows and returns the share of their pixels that differ from traced ones.
+template <typename MakeScene>
+double wrongShare(unsigned first, unsigned count, const MakeScene& scene, const char* mapSize,
+                  const SettingList& settings = {}) {
+  int pixels = 0;
+  int wrong = 0;
+  for (const unsigned seed : sampledSeeds(first, count)) {
+    Random random(seed);
+    const PictureAgreement agreement = compareShadows(scene(random, seed), mapSize, ShadowLookup::hybrid, settings).all;
+    if (agreement.over > 0) {
+      std::printf("seed %u: %d wrong\n", seed, agreement.over);
+    }
+    pixels += agreement.counted;
+    wrong += agreement.over;
+  }
+  std::printf("%.4f %% of the pixels are wrong\n", 100.0 * wrong / pixels);
+  return static_cast<double>(wrong) / pixels;
+}
+
+TEST(HybridShadows, EqualTracedOnRandomSurfaces) {
+  EXPECT_LT(wrongShare(1000, 90, surfaceScene, "512"), 2e-5);
+}
+
+TEST(HybridShadows, EqualTracedBetweenThinWalls) {
+  writeQuad();
+  EXPECT_LT(wrongShare(100, 50, corner, "256"), 2e-5);
+}
+
+// Rods, sheets and points of pyramids that are thinner than a texel of the map, over a floor.
+std::filesystem::path thinThings(Random& random, unsigned seed) {
+  std::ostringstream out;
+  out << "[environment]\nambient = [0.1, 0.1, 0.1]\n"
+      << cameraText({1.5, 2.0, 1.8}, {0, 0, 0})
+      << "[[object]]\nmodel = \"MODELS/block.obj\"\nposition = [0, -0.2, 0]\nscale = [8, 0.2, 8]\n";
+  for (int i = 0; i < 12; ++i) {
+    const double thickness = random.uniform(0.001, 0.02);
+    const std::array scales{glm::dvec3(thickness, thickness, random.uniform(0.2, 1.5)),
+                            glm::dvec3(thickness, random.uniform(0.2, 0.8), 0.6),
+                            glm::dvec3(random.uniform(0.002, 0.03))};
+    const glm::dvec3 scale = scales.at(random.index(scales.size()));
+    constexpr std::array models{"block", "sphere", "gem"};
+    const glm::dvec3 position = random.inBox(1.0);
+    out << "[[object]]\nmodel = \"MODELS/" << random.pick(models)
+        << ".obj\"\nposition = " << text(glm::dvec3(position.x, 0.5 + 0.45 * position.y, position.z))
+        << "\nrotation = " << random.vec(-180, 180) << "\nscale = " << text(scale) << "\n";
+  }
+  out << "[[light]]\nposition = " << text(glm::dvec3(random.uniform(-2, 2), random.uniform(1.5, 4), 0.5))
+      << "\nintensity = 30\nglow = 0\ncasts_shadow = true\n";
+  return writeScene("thin_" + std::to_string(seed), out.str());
+}
+
+TEST(HybridShadows, FindCastersThinnerThanATexel) {
+  EXPECT_LT(wrongShare(200, 40, thinThings, "128"), 2e-4);
+}
+
+// Shadows that cross a pixel between its corners are missed; with texels as large as pixels, few do.
+TEST(HybridShadows, EqualTracedAtEverySample) {
+  const SettingList settings{{"effects.per_sample", "true"}, {"view.samples", "4"}};
+  EXPECT_LT(wrongShare(1000, 30, surfaceScene, "auto", settings), 3e-4);
+  EXPECT_LT(wrongShare(200, 20, thinThings, "auto", settings), 3e-4);
 }
 
 }  // namespace

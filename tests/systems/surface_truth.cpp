@@ -184,6 +184,45 @@ TEST(CutOuts, EqualTheTracer) {
   }
 }
 
+// Options for a floor in the shadow of a cut-out that stands above the view, from a map.
+Options shadowOfALeaf() {
+  writeOpacities();
+  const std::string leaf = writeBox("leaf_above", {0.3, 0.02, 0.3}, "map_Kd leaf.png\n");
+  const std::filesystem::path file = writeScene("leaf_above", R"([environment] ambient = [0.1, 0.1, 0.1]
+[camera] position = [0, 1.2, 1.5], target = [0, 0, 0], vertical_fov = 50
+[[object]] model = "MODELS/block.obj", position = [0, -0.2, 0], scale = [8, 0.2, 8]
+[[object]] model = ")" + leaf + R"(", position = [0, 2, 0]
+[[light]] position = [0.1, 4, 0], intensity = 20, glow = 0, casts_shadow = true
+)");
+  return headless(file, size, {{"effects.shadow_lookup", "map"}});
+}
+
+TEST(CutOuts, CastTheirShadowsFromOutOfView) {
+  const Options options = shadowOfALeaf();
+  QuietSession session(options);
+  const Image8 mapped = draw(session);
+  EXPECT_TRUE(session.lastFrame().plan.main().instances.size() == 1) << "the leaf is seen";
+  set(session, {{"effects.shadow_lookup", "traced"}});
+  const Image8 traced = draw(session);
+  set(session, {{"effects.transparency", "false"}});
+  const int opaque = difference(draw(session), traced, 8).over;
+  EXPECT_GT(opaque, size.width * size.height / 50);
+  EXPECT_LT(difference(mapped, traced, 8).over, opaque / 2);
+}
+
+TEST(CutOuts, ShadowMapsFollowTheSwitchOfTransparency) {
+  Options options = shadowOfALeaf();
+  QuietSession session(options);
+  const Image8 cut = draw(session);
+  set(session, {{"effects.transparency", "false"}});
+  const Image8 opaque = draw(session);
+  EXPECT_GT(difference(opaque, cut, 8).over, 0);
+  set(options, {{"effects.transparency", "false"}});
+  EXPECT_EQ(opaque.rgba, draw(options).rgba);
+  set(session, {{"effects.transparency", "true"}});
+  EXPECT_EQ(draw(session).rgba, cut.rgba);
+}
+
 // The mean of 64 pictures and the tracer's picture of 64 samples take the same points of each pixel.
 double errorOfMean(const std::filesystem::path& file, PictureSize drawnSize, const SettingList& settings = {}) {
   Options options = truthOptions(file, drawnSize, 3);

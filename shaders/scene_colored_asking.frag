@@ -1,0 +1,6 @@
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#define VERTEX_COLORS
+#define SHADOW_MAPS
+#define ASKS
+#include "scene_shading.glsl"
