@@ -137,9 +137,10 @@ FittedPlan planWithin(const TargetLimits& limits, const FrameRequest& request) {
   const bool automaticShadows = lookup == ShadowLookup::automatic;
   lookup = automaticShadows ? ShadowLookup::hybrid : lookup;
   if (lookup == ShadowLookup::hybrid && !limits.drawsLines) {
-    lookup = ShadowLookup::traced;
+    lookup = limits.tracesRays ? ShadowLookup::traced : ShadowLookup::map;
     if (!automaticShadows) {
-      say("effects.shadow_lookup=hybrid is replaced by traced: the device draws no lines");
+      say("effects.shadow_lookup=hybrid is replaced by " + settingValue(fitted.settings, "effects.shadow_lookup") +
+          ": the device draws no lines");
     }
   }
   if (!limits.cpu || !limits.tracesRays) {

@@ -209,8 +209,8 @@ class FacePlanner {
     }
     const glm::dvec2 width = window.high - window.low;
     const double texels = weights > 0.0 ? std::max(width.x, width.y) * sum / weights : 0.0;
-    return static_cast<int>(
-        std::bit_ceil(static_cast<unsigned>(std::clamp<double>(texels, smallestAutomatic, largestAutomatic))));
+    const double size = std::min(std::max<double>(smallestAutomatic, texels), 1.0 * largestAutomatic);  // not NaN
+    return static_cast<int>(std::bit_ceil(static_cast<unsigned>(size)));
   }
 
   // Visits points of the box, more if it is large as seen from the eye, each with its share of the box's surface.

@@ -32,8 +32,10 @@ std::string settingsList(std::string_view group) {
   std::string list;
   for (const SettingField& field : settingFields()) {
     if (field.key.starts_with(group)) {
-      const std::string need =
-          field.needs ? ", with `" + std::string(field.needs->key) + "=" + std::string(field.needs->value) + "`" : "";
+      const std::string need = field.needs
+                                   ? std::string(field.needs->isOther ? ", without `" : ", with `") +
+                                         std::string(field.needs->key) + "=" + std::string(field.needs->value) + "`"
+                                   : "";
       list += "- `" + std::string(field.key) + "` (" + settingValues(field) + "): " + std::string(field.text) + need +
               ". " + std::string(field.cost) + "\n";
     }
