@@ -277,7 +277,8 @@ SweepPlanner::SweepPlanner(std::string name, const SweepContext& context) : base
 int SweepPlanner::add(const Changes& changes, const std::string& name) {
   for (const SettingChange& change : changes) {
     const SettingField* field = findSettingField(change.key);
-    if (change.key.starts_with("quality.") || change.key.starts_with("debug.") || (field && field->subject)) {
+    if (change.key.starts_with("quality.") || change.key.starts_with("debug.") || change.key.starts_with("ui.") ||
+        (field && field->subject)) {
       throw std::invalid_argument(change.key + ": cannot be swept");
     }
   }

@@ -83,7 +83,7 @@ std::string viewCommand(const Options& options, const std::filesystem::path& fil
     arguments.insert(arguments.end(), {"--camera", cameraText(*options.camera, scene.camera)});
   }
   for (const SettingChange& change : settingChanges(settingsOf(scene), settings)) {
-    if (change.key != "view.continuous" && !change.key.starts_with("quality.")) {
+    if (change.key != "view.continuous" && !change.key.starts_with("quality.") && !change.key.starts_with("ui.")) {
       arguments.insert(arguments.end(), {"--set", change.key + "=" + change.value});
     }
   }

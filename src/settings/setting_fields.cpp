@@ -16,6 +16,7 @@ using V = ViewSettings;
 using E = EffectSettings;
 using Q = QualitySettings;
 using D = DebugSettings;
+using U = UiSettings;
 using enum FramePart;
 using enum Cheaper;
 
@@ -39,6 +40,8 @@ template <>
 constexpr auto groupOf<Q> = &Settings::quality;
 template <>
 constexpr auto groupOf<D> = &Settings::debug;
+template <>
+constexpr auto groupOf<U> = &Settings::ui;
 
 template <typename Group, typename T>
 Group ownerOf(T Group::*);
@@ -285,6 +288,10 @@ constexpr SettingField fields[] = {
             "Saves vertices and shading; costs draw calls.", {.changes = mainView}),
     setting("debug.mask_passes", BooleanSetting{at<&D::maskPasses>}, "Mask passes",
             "only visible regions of mirror images are shaded", "Saves shading.", {.changes = mainView}),
+
+    setting("ui.scale", NumberSetting{at<&U::scale>, 0.5, 4.0}, "Size of panels",
+            "size of the window's panels and texts, beside the monitor's own and Window > Text size", "Costs nothing.",
+            {.changes = none}),
 };
 
 template <typename Group>
@@ -298,7 +305,8 @@ static_assert(describes<V>("view."), "describe every member of ViewSettings abov
 static_assert(describes<E>("effects."), "describe every member of EffectSettings above");
 static_assert(describes<Q>("quality."), "describe every member of QualitySettings above");
 static_assert(describes<D>("debug."), "describe every member of DebugSettings above");
-static_assert(memberCount<Settings>() == 6, "name the group of settings above; all but `limit` are settings");
+static_assert(describes<U>("ui."), "describe every member of UiSettings above");
+static_assert(memberCount<Settings>() == 7, "name the group of settings above; all but `limit` are settings");
 
 }  // namespace
 

@@ -126,6 +126,12 @@ struct DebugSettings {
   bool operator==(const DebugSettings&) const = default;
 };
 
+struct UiSettings {
+  double scale = 1.0;  // of panels and texts, beside the monitor's scale and Window > Text size
+
+  bool operator==(const UiSettings&) const = default;
+};
+
 // Bounds the quality that mirrors ask for themselves (MirrorQuality). Code that lowers reflection.* lowers the limit
 // too.
 struct QualityLimit {
@@ -145,6 +151,7 @@ struct Settings {
   EffectSettings effects;
   QualitySettings quality;
   DebugSettings debug;
+  UiSettings ui;
   QualityLimit limit;  // not a setting: users do not see the limit
 
   bool operator==(const Settings&) const = default;

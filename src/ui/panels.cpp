@@ -390,6 +390,7 @@ void settings(PanelContext& ui) {
     settingRows(ui, "view.");
     settingRows(ui, "quality.motion_ms");
     settingRows(ui, "quality.still_");
+    settingRows(ui, "ui.");
   }
   if (section(ui, "reflections", "Reflections", ui.state.choices.reflectionsSection)) {
     settingRows(ui, "reflection.");

@@ -137,7 +137,7 @@ void SimpleUI::setThumbnails(std::vector<Image8> pictures) {
 }
 
 float SimpleUI::scale() const {
-  return window_.contentScale() * static_cast<float>(windows_.state().choices.percent) / 100.0f;
+  return window_.contentScale() * static_cast<float>(windows_.state().choices.percent) / 100.0f * settingScale_;
 }
 
 // Call between frames, because a frame that is laid out keeps its sizes and colors.
@@ -185,6 +185,7 @@ void SimpleUI::push(const InputEvent& event) {
 }
 
 UiOutput SimpleUI::build(const UiInput& input) {
+  settingScale_ = static_cast<float>(input.settings.ui.scale);
   prepareTheme();
   ImGui_ImplVulkan_NewFrame();
   backend_->input.newFrame();

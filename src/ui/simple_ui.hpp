@@ -29,7 +29,7 @@ class SimpleUI {
   // Says whether a pointer at this point, in screen coordinates of the window, belongs to the panels: it is over one of
   // their windows, or they hold a widget.
   bool takesPointer(double x, double y) const;
-  float scale() const;         // of texts and handles: the monitor's scale times the user's
+  float scale() const;         // of texts and handles: the monitor's, Window > Text size and ui.scale, multiplied
   bool holdsEscape() const;    // ImGui handles Esc itself: it closes or releases something
   bool holdsWidget() const;    // a widget is being dragged, pressed or typed into
   bool wantsKeyboard() const;  // a text field is being edited
@@ -53,7 +53,8 @@ class SimpleUI {
   PanelWindows windows_;
   Context context_;
   Theme theme_ = Theme::dark;
-  float scale_ = 0.0f;  // of fonts and sizes, see scale(); 0: nothing is made yet
+  float settingScale_ = 1.0f;  // ui.scale
+  float scale_ = 0.0f;         // of fonts and sizes, see scale(); 0: nothing is made yet
   DescriptorPoolHandle pool_;
   std::unique_ptr<Backend> backend_;
   IdleGuard idle_;

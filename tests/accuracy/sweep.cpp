@@ -389,7 +389,8 @@ TEST(SweepPlans, NamesAreTheWordsOfThePanels) {
   std::set<std::string> labels;
   SweepPlanner planner("test", contextOf(true, false));
   for (const SettingField& field : settingFields()) {
-    if (!field.subject && !field.key.starts_with("quality.") && !field.key.starts_with("debug.")) {
+    if (!field.subject && !field.key.starts_with("quality.") && !field.key.starts_with("debug.") &&
+        !field.key.starts_with("ui.")) {
       EXPECT_TRUE(labels.insert(field.label).second) << field.label << " would be two settings";
       const auto* truth = std::get_if<BooleanSetting>(&field.kind);
       if (truth) {

@@ -164,7 +164,7 @@ void expectList(const std::string& page, const std::string& name, const std::str
 }
 
 TEST(Descriptions, MakeTheListOfSettings) {
-  for (const std::string group : {"reflection", "view", "effects", "quality", "debug"}) {
+  for (const std::string group : {"reflection", "view", "effects", "quality", "debug", "ui"}) {
     expectList("settings.md", group, settingsList(group + "."));
   }
 }

@@ -60,7 +60,7 @@ TEST(Settings, PicturesFollowFromWhatChangesThem) {
   const std::set<std::string_view> othersThanMainView{"view.accumulate_error", "view.exposure", "view.tone_map"};
   for (const SettingField& field : settingFields()) {
     const Settings settings = changed(field);
-    const bool quality = field.key.starts_with("quality.");
+    const bool quality = field.key.starts_with("quality.") || field.key.starts_with("ui.");
     EXPECT_EQ(sameMirrorImages(settings, Settings()),
               quality || othersThanImages.contains(field.key) || field.key.starts_with("debug."))
         << field.key;

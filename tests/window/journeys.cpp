@@ -433,6 +433,12 @@ TEST_F(Journey, SizesFollowTheScaleOfTheMonitor) {
   demo_->window().followContentScale(1.0f);  // to another monitor
   run(3);
   EXPECT_EQ(widget("time").height, before.height);
+  setSetting("ui.scale", "1.5");
+  run(3);
+  EXPECT_NEAR(widget("time").height, 1.5 * before.height, 2);
+  setSetting("ui.scale", "1");
+  run(3);
+  EXPECT_EQ(widget("time").height, before.height);
   runProcess({"xprop", "-root", "-remove", "RESOURCE_MANAGER"});
   EXPECT_TRUE(std::filesystem::exists(home_.path() / "XDG_CONFIG_HOME" / "speculum" / "layout.ini"));
   EXPECT_FALSE(std::filesystem::exists("imgui.ini"));
