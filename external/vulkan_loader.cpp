@@ -20,7 +20,7 @@ struct Loader {
 
 #ifdef _WIN32
 Loader openLoader() {
-  return {::LoadLibraryW(L"vulkan-1.dll"), "vulkan-1.dll cannot be loaded"};
+  return {::LoadLibraryExW(L"vulkan-1.dll", nullptr, LOAD_LIBRARY_SEARCH_DEFAULT_DIRS), "vulkan-1.dll cannot be loaded"};
 }
 
 void* addressOf(void* library, const char* name) {

@@ -329,7 +329,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
   Options options;
   Raw raw;
   CLI::App app("Speculum: planar mirrors in Vulkan that can be trusted", "speculum");
-  app.allow_windows_style_options(false);  // /work/scene.toml is a path
+  app.allow_windows_style_options(false);  // /home/me/scene.toml is a path
   app.set_version_flag("--version", std::string("speculum ") + versionString);
   app.require_subcommand(0, 1);
   addDemo(app, options, raw);

@@ -87,8 +87,10 @@ bool isWritable(const fs::path& file) {
   if ((attributes & FILE_ATTRIBUTE_DIRECTORY) != 0) {
     return true;
   }
+  // A file that another program reads at present is writable later.
   return win32::own(::CreateFileW(file.c_str(), GENERIC_WRITE, FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE,
-                                  nullptr, OPEN_EXISTING, 0, nullptr)) != nullptr;
+                                  nullptr, OPEN_EXISTING, 0, nullptr)) != nullptr ||
+         ::GetLastError() == ERROR_SHARING_VIOLATION;
 }
 
 // Windows cannot lock a folder and still list it. The lock is a mutex whose name stands for the folder.

@@ -85,7 +85,8 @@ int waitFor(intptr_t child) {
   ::WaitForSingleObject(process.get(), INFINITE);
   ::GetExitCodeProcess(process.get(), &code);
   // An exception that nobody handled is the exit code.
-  return code == STATUS_ACCESS_VIOLATION ? 128 + SIGSEGV : code >= 0xc0000000u ? 128 + SIGABRT : static_cast<int>(code);
+  constexpr int aborted = 6;  // SIGABRT elsewhere
+  return code == STATUS_ACCESS_VIOLATION ? 128 + SIGSEGV : code >= 0xc0000000u ? 128 + aborted : static_cast<int>(code);
 }
 
 // Ctrl-C and the end of the console or session.
@@ -232,7 +233,9 @@ std::vector<const char*> prepareProcess(int, const char* const*) {
   for (std::FILE* stream : {stdin, stdout, stderr}) {
     ::_setmode(::_fileno(stream), _O_BINARY);  // lines end as everywhere: scripts compare them
   }
+  static const UINT codePage = ::GetConsoleOutputCP();
   ::SetConsoleOutputCP(CP_UTF8);
+  std::atexit([] { ::SetConsoleOutputCP(codePage); });  // the console's other programs expect theirs
   DWORD process = 0;
   // A child of another program may have a hidden console, and write to pipes.
   ownConsole = ::GetConsoleProcessList(&process, 1) == 1 && isTerminal(1) && isTerminal(2);
