@@ -23,7 +23,7 @@ Accumulation::Accumulation(Renderer& renderer)
 
 void Accumulation::begin(VkExtent2D extent, RetireQueue& retired) {
   Device& device = renderer_.device();
-  if (!layout_) {
+  if (!sampler_) {
     constexpr VkDescriptorType image = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
     layout_ = descriptorSetLayout(device, {image, image, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
                                   VK_SHADER_STAGE_FRAGMENT_BIT, "accumulate");
