@@ -150,7 +150,9 @@ RecycledVector<uint64_t> shadowContent(const ImageSurroundings& around, int pict
     return isTransparent(around.scene.meshes[around.state.instances[i].mesh], effects);
   });
   ContentNumbers numbers;
-  numbers.addCount(covered ? 2 * static_cast<uint64_t>(picture) + (effects.textures ? 2 : 1) : 0);
+  // Marks of edges show neither opacity nor its thresholds.
+  const bool thresholds = covered && !around.effects.hybridShadows;
+  numbers.addCount(thresholds ? 2 * static_cast<uint64_t>(picture) + (effects.textures ? 2 : 1) : covered);
   numbers.addAll(around.effects.hybridShadows, casters.view, face.window.low, face.window.high, face.projection.near,
                  casters.instances);
   uint64_t changed = 0;

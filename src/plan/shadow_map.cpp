@@ -195,9 +195,11 @@ class FacePlanner {
       const auto add = [&](const glm::dvec3& p, double area) {
         const double depth = glm::dot(p - face.center, face.axes.forward);
         const double distance = glm::length(p - view.eye);
-        if (depth > 0.0 && distance > 0.0 && std::ranges::all_of(view.cone, [&](const glm::dvec3& normal) {
-              return glm::dot(normal, p - view.eye) >= 0.0;
-            })) {
+        const double aside = std::max(std::abs(glm::dot(p - face.center, face.axes.right)),
+                                      std::abs(glm::dot(p - face.center, face.axes.up)));
+        if (depth > 0.0 && aside <= depth && distance > 0.0 &&
+            std::ranges::all_of(view.cone,
+                                [&](const glm::dvec3& normal) { return glm::dot(normal, p - view.eye) >= 0.0; })) {
           const double weight = area / (distance * distance);
           weights += weight;
           sum += weight * pixels * depth / distance;
@@ -208,7 +210,8 @@ class FacePlanner {
       }
     }
     const glm::dvec2 width = window.high - window.low;
-    const double texels = weights > 0.0 ? std::max(width.x, width.y) * sum / weights : 0.0;
+    // Mirrors have no such points.
+    const double texels = weights > 0.0 ? std::max(width.x, width.y) * sum / weights : EffectSettings().shadowMapSize;
     const double size = std::min(std::max<double>(smallestAutomatic, texels), 1.0 * largestAutomatic);  // not NaN
     return static_cast<int>(std::bit_ceil(static_cast<unsigned>(size)));
   }

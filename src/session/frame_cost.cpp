@@ -127,7 +127,9 @@ FrameWork scaledWork(FrameWork work, const Settings& from, const Settings& to) {
   };
   // If shadows were looked up in maps, all rays to lights were for light that mirrors cast, and these rays stay.
   const ShadowLookup before = from.effects.shadowLookup;
-  const bool stay = before == effects.shadowLookup || (before != ShadowLookup::traced && effects.castsLight);
+  const bool stay = (before == effects.shadowLookup && from.effects.castsLight == effects.castsLight) ||
+                    (before != ShadowLookup::traced && effects.castsLight) ||
+                    effects.shadowLookup == ShadowLookup::automatic;
   work.lightRays *= stay ? rays : rays * share(effects.shadowLookup) / std::max(share(before), hybridRays);
   const double sampleRays = squared(view) * to.view.samples / from.view.samples;
   work.rippleRays *= effects.rippleLookup == ReflectionSource::image ? 0.0 : sampleRays;

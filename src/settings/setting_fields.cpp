@@ -354,7 +354,13 @@ bool isCheaper(const SettingField& field, const Settings& a, const Settings& b) 
   const Settings& low = field.cheaper == lower ? a : b;
   const Settings& high = field.cheaper == lower ? b : a;
   const auto less = [&](const auto& kind) {
-    if constexpr (requires { bool(kind.get(low) < kind.get(high)); }) {
+    if constexpr (requires { kind.automatic; }) {
+      const auto size = [&](const Settings& settings) {
+        const int value = kind.get(settings);
+        return kind.automatic && value == 0 ? kind.get(Settings()) : value;
+      };
+      return size(low) < size(high);
+    } else if constexpr (requires { bool(kind.get(low) < kind.get(high)); }) {
       return kind.get(low) < kind.get(high);
     }
     return false;

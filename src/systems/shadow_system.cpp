@@ -203,8 +203,8 @@ uint32_t ShadowSystem::drawParts(const PassScope& scope, const FrameInfo& info, 
   uint32_t draws = 0;
   for (const MeshPart& part : info.scene.meshes[batch.mesh].parts) {
     const bool covered = isTransparent(part.material, info.settings.effects);
-    covered_ = covered_ || covered;
     const bool asks = covered && info.plan.effects.hybridShadows;
+    covered_ = covered_ || (covered && !asks);
     const Drawn drawn = !covered               ? Drawn::objects
                         : asks                 ? Drawn::coveredEdges
                         : part.material.clamps ? Drawn::coveredClamping
@@ -259,7 +259,10 @@ void ShadowSystem::release(RetireQueue& retired) {
 }
 
 void ShadowSystem::endFrame(const FramePlan& plan, RetireQueue& retired) {
-  pipelines_.endFrame([&](Drawn drawn) { return isCovered(drawn) && !covered_; });
+  pipelines_.endFrame([&](Drawn drawn) {
+    const bool edges = drawn == Drawn::edges || drawn == Drawn::coveredEdges || drawn == Drawn::mirrorEdges;
+    return edges ? !plan.effects.hybridShadows : isCovered(drawn) && !covered_;
+  });
   covered_ = false;
   idleFrames_ = cubesOf(plan.cubes, PassKind::shadow).empty() ? std::min(idleFrames_, ImagePool::framesKept) + 1 : 0;
   if (target_ && idleFrames_ > ImagePool::framesKept) {

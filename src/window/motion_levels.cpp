@@ -164,7 +164,8 @@ std::string motionText(const Settings& chosen, const MotionLevel& level) {
   add(chosen.reflection.method == ReflectionMethod::rays && reflection.method != ReflectionMethod::rays,
       "mirrors from images");
   add(effects.castsLight != chosen.effects.castsLight, "no light off mirrors");
-  add(effects.shadowLookup != chosen.effects.shadowLookup, "shadows from maps");
+  add(effects.shadowLookup != chosen.effects.shadowLookup && effects.shadowLookup == ShadowLookup::map,
+      "shadows from maps");
   add(effects.curvedLookup != chosen.effects.curvedLookup, "curved mirrors from maps");
   add(effects.rippleLookup != chosen.effects.rippleLookup, "ripples from images");
   const bool images = effects.roughLookup != chosen.effects.roughLookup;

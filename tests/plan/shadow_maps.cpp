@@ -295,9 +295,10 @@ TEST(ShadowMap, AutomaticLookupTakesTheFasterOne) {
   const SceneState state = evaluate(scene, 0.0);
   Settings settings;
   settings.effects.shadowLookup = ShadowLookup::automatic;
-  const auto chosen = [&](const glm::ivec2& size, bool drawsLines = true) {
-    const FittedPlan fitted = planWithin({.budgetBytes = 1ull << 40, .largestSide = 16384, .drawsLines = drawsLines},
-                                         {scene, state, settings, size});
+  const auto chosen = [&](const glm::ivec2& size, bool drawsLines = true, bool cpu = true) {
+    const FittedPlan fitted =
+        planWithin({.budgetBytes = 1ull << 40, .largestSide = 16384, .cpu = cpu, .drawsLines = drawsLines},
+                   {scene, state, settings, size});
     EXPECT_EQ(std::string(fitted.plan.effects.shadows.value_or("")),
               "light 0; auto: " + settingValue(fitted.settings, "effects.shadow_lookup"));
     EXPECT_TRUE(fitted.message.empty()) << fitted.message;
@@ -306,6 +307,7 @@ TEST(ShadowMap, AutomaticLookupTakesTheFasterOne) {
   EXPECT_EQ(chosen({1280, 720}), ShadowLookup::hybrid);
   EXPECT_EQ(chosen({64, 48}), ShadowLookup::traced) << "fewer rays than texels of the maps";
   EXPECT_EQ(chosen({1280, 720}, false), ShadowLookup::traced);
+  EXPECT_EQ(chosen({1280, 720}, true, false), ShadowLookup::traced) << "GPUs trace";
   settings.effects.shadowLookup = ShadowLookup::hybrid;
   const FittedPlan without = planWithin({.budgetBytes = 1ull << 40, .largestSide = 16384, .drawsLines = false},
                                         {scene, state, settings, {64, 48}});
