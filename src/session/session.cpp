@@ -208,7 +208,9 @@ void Session::drawPicture(bool capture) {
     const size_t begin = found == std::string::npos ? 0 : errors.rfind('\n', found) + 1;
     throw std::runtime_error("--shader-dir: " + errors.substr(begin, errors.find('\n', begin) - begin));
   }
-  frame_.ledger.add(sceneRenderer_.ledger());
+  if (!frame_.plan.mainReused()) {  // else the ledger is still that of the picture before
+    frame_.ledger.add(sceneRenderer_.ledger());
+  }
   frame_.pictures = std::min(frame_.pictures + 1, all);
 }
 

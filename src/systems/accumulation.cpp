@@ -1,6 +1,7 @@
 #include "systems/accumulation.hpp"
 
 #include <chrono>
+#include <new>
 #include <stdexcept>
 
 #include "plan/target_memory.hpp"
@@ -87,16 +88,24 @@ std::shared_ptr<const RefinedTiles> Accumulation::refined(const DisplayCurve& cu
   if (decides || starts) {
     const auto start = std::chrono::steady_clock::now();
     renderer_.waitIdle();
-    std::vector<float> texels = renderer_.uploader().readFloats(sum());
-    if (decides) {
-      const glm::ivec2 size(sum().extent().width, sum().extent().height);
-      refined_ =
-          std::make_shared<RefinedTiles>(refineTiles({pictures_ / 2, halves_.at(pictures_ / 2)}, {pictures_, texels},
-                                                     size, curve, settings.accumulateError, refined_.get()));
-      halves_.erase(pictures_ / 2);
-    }
-    if (starts) {
-      halves_[pictures_] = std::move(texels);
+    try {
+      std::vector<float> texels = renderer_.uploader().readFloats(sum());
+      if (decides) {
+        const glm::ivec2 size(sum().extent().width, sum().extent().height);
+        refined_ =
+            std::make_shared<RefinedTiles>(refineTiles({pictures_ / 2, halves_.at(pictures_ / 2)}, {pictures_, texels},
+                                                       size, curve, settings.accumulateError, refined_.get()));
+        halves_.erase(pictures_ / 2);
+      }
+      if (refined_ && refined_->none()) {
+        halves_.clear();
+      } else if (starts) {
+        halves_[pictures_] = std::move(texels);
+      }
+    } catch (const OutOfMemoryError&) {
+      halves_.clear();  // the mean goes on without an estimate
+    } catch (const std::bad_alloc&) {
+      halves_.clear();
     }
     waitedMs += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   }

@@ -44,7 +44,9 @@ struct Widget {
   void operator()(const NumberSetting& number) const {
     double& value = number.value.of(settings);
     if (!field.slider) {
-      ImGui::InputDouble(label().c_str(), &value, 0.0, 0.0, "%.4f", ImGuiInputTextFlags_EnterReturnsTrue);
+      if (ImGui::InputDouble(label().c_str(), &value, 0.0, 0.0, "%.4f", ImGuiInputTextFlags_EnterReturnsTrue)) {
+        value = std::clamp(value, number.low, number.high);
+      }
       return;
     }
     const float before = static_cast<float>(value);

@@ -137,7 +137,9 @@ void SimpleUI::setThumbnails(std::vector<Image8> pictures) {
 }
 
 float SimpleUI::scale() const {
-  return window_.contentScale() * static_cast<float>(windows_.state().choices.percent) / 100.0f * settingScale_;
+  constexpr float largest = 9.0f;  // beyond it the font's texture might exceed what devices have
+  const float chosen = static_cast<float>(windows_.state().choices.percent) / 100.0f * settingScale_;
+  return std::min(window_.contentScale() * chosen, largest);
 }
 
 // Call between frames, because a frame that is laid out keeps its sizes and colors.

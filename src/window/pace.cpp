@@ -282,7 +282,7 @@ void Pace::planPicture(const Request& request, State state) {
       return;
     }
   }
-  picture_ = std::min(next + 1, pictures_);
+  picture_ = state == State::redraw ? pictures_ : std::min(next + 1, pictures_);
   if (pictures_ > 1) {
     text_ = meanText(picture_);
   }

@@ -31,6 +31,7 @@ Options optionsOf(const SweepRequest& request) {
 Settings baseOf(const SweepRequest& request) {
   Settings base = request.base;
   base.quality = {};
+  base.ui = {};
   base.reflection.updateInterval = base.limit.mostInterval = 1;  // the view stands still
   base.debug.checkFinite = false;                                // the time of the check would be counted
   return base;

@@ -583,7 +583,7 @@ void Workspace::copyCommandLine() {
     }
     Settings settings = shownSettings(shownHalf());
     settings.view.accumulate = stillPictures(settings);
-    settings.view.accumulateError = stillError(settings);
+    settings.view.accumulateError = settings.view.accumulate > 1 ? stillError(settings) : 0.0;
     const std::string command = viewCommand(options, file, scene(), settings);
     host_.setClipboard(command);
     const bool copy = file != scene().file;
