@@ -367,7 +367,7 @@ TEST(Ledger, HybridShadowsAreReleased) {
       optionsFor(sceneWith("hybrid_shadows", "[[light]]\nposition = [1, 2, 1]\nintensity = 9\ncasts_shadow = true\n"),
                  {{"effects.shadow_lookup", "hybrid"}, {"effects.shadow_map_size", "auto"}});
   counts = {};
-  QuietSession session(without(options, "shadows"));
+  FreshSession session(without(options, "shadows"));
   const Drawn before = drawWith(session, "shadows", false, 3);
   const Drawn during = drawWith(session, "shadows", true, 1);
   EXPECT_NE(during.picture, before.picture);
