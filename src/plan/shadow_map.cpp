@@ -195,8 +195,9 @@ class FacePlanner {
       const auto add = [&](const glm::dvec3& p, double area) {
         const double depth = glm::dot(p - face.center, face.axes.forward);
         const double distance = glm::length(p - view.eye);
-        const double aside = std::max(std::abs(glm::dot(p - face.center, face.axes.right)),
-                                      std::abs(glm::dot(p - face.center, face.axes.up)));
+        const glm::dvec3 right = glm::cross(face.axes.forward, face.axes.up);
+        const double aside =
+            std::max(std::abs(glm::dot(p - face.center, right)), std::abs(glm::dot(p - face.center, face.axes.up)));
         if (depth > 0.0 && aside <= depth && distance > 0.0 &&
             std::ranges::all_of(view.cone,
                                 [&](const glm::dvec3& normal) { return glm::dot(normal, p - view.eye) >= 0.0; })) {
