@@ -185,7 +185,7 @@ class FacePlanner {
   }
 
   // Returns the size at which the face's texels are about as large as the pixels that look them up: on the mean over
-  // points of the boxes that both the light and a reader see, weighted by the pixels that they stand for.
+  // points of the boxes before the face and in a reader's view, weighted by the pixels that they stand for.
   int sizeFor(const CubeFace& face, const FaceWindow& window, std::span<const ShadowReader* const> readers) const {
     double weights = 0.0;
     double sum = 0.0;
@@ -195,12 +195,9 @@ class FacePlanner {
       const auto add = [&](const glm::dvec3& p, double area) {
         const double depth = glm::dot(p - face.center, face.axes.forward);
         const double distance = glm::length(p - view.eye);
-        const glm::dvec3 right = glm::cross(face.axes.forward, face.axes.up);
-        const double aside =
-            std::max(std::abs(glm::dot(p - face.center, right)), std::abs(glm::dot(p - face.center, face.axes.up)));
-        if (depth > 0.0 && aside <= depth && distance > 0.0 &&
-            std::ranges::all_of(view.cone,
-                                [&](const glm::dvec3& normal) { return glm::dot(normal, p - view.eye) >= 0.0; })) {
+        if (depth > 0.0 && distance > 0.0 && std::ranges::all_of(view.cone, [&](const glm::dvec3& normal) {
+              return glm::dot(normal, p - view.eye) >= 0.0;
+            })) {
           const double weight = area / (distance * distance);
           weights += weight;
           sum += weight * pixels * depth / distance;
@@ -211,8 +208,7 @@ class FacePlanner {
       }
     }
     const glm::dvec2 width = window.high - window.low;
-    // Mirrors have no such points.
-    const double texels = weights > 0.0 ? std::max(width.x, width.y) * sum / weights : EffectSettings().shadowMapSize;
+    const double texels = weights > 0.0 ? std::max(width.x, width.y) * sum / weights : 0.0;
     const double size = std::min(std::max<double>(smallestAutomatic, texels), 1.0 * largestAutomatic);  // not NaN
     return static_cast<int>(std::bit_ceil(static_cast<unsigned>(size)));
   }

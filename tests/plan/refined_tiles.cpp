@@ -175,7 +175,7 @@ TEST_P(RefinedSignals, StopNearTheWholeMean) {
   std::mt19937 random(7);
   double saved = 0.0;
   std::vector<double> off;
-  const int cases = fullTests() ? 1000 : 200;
+  const int cases = fullTests() ? 1000 : 100;
   for (int i = 0; i < cases; ++i) {
     const RefinedMean mean = refine(GetParam().make(random), step);
     const std::vector<double> tiles = offWhole(mean);

@@ -317,7 +317,7 @@ struct RefinedScene {
 class RefinedMeans : public testing::TestWithParam<RefinedScene> {};
 
 TEST_P(RefinedMeans, AreWholeMeansUpToWhereTheyStopped) {
-  constexpr int all = 24;
+  const int all = fullTests() ? 24 : 13;
   Options options = inTiles(GetParam().name);
   set(options, {{"view.accumulate", std::to_string(all)}});
   set(options, GetParam().settings);
@@ -331,7 +331,6 @@ TEST_P(RefinedMeans, AreWholeMeansUpToWhereTheyStopped) {
     return true;
   });
   const auto samples = [&] {
-    session.draw(0.0, true);
     session.finish();
     double sum = 0.0;
     std::ranges::for_each(session.lastFrame().passes(), [&](const TimedPass& p) { sum += p.timing.samples; });
@@ -346,6 +345,7 @@ TEST_P(RefinedMeans, AreWholeMeansUpToWhereTheyStopped) {
     }
     return true;
   });
+  EXPECT_LT(samples(), wholeSamples);
   const LinearImage mean = session.radiance();
   const Image8 picture = session.picture();
   ASSERT_FALSE(decisions.empty());
@@ -365,8 +365,6 @@ TEST_P(RefinedMeans, AreWholeMeansUpToWhereTheyStopped) {
   }
   EXPECT_GT(stopped, 0);
   EXPECT_LT(stopped, mean.width * mean.height);
-  EXPECT_LT(samples(), wholeSamples);
-  EXPECT_EQ(session.picture().rgba, picture.rgba);
   set(session, {{"debug.mask_passes", "false"}});
   EXPECT_EQ(draw(session).rgba, picture.rgba);
   options.renderPath = RenderPath::renderPass;
