@@ -319,6 +319,7 @@ class RefinedMeans : public testing::TestWithParam<RefinedScene> {};
 TEST_P(RefinedMeans, AreWholeMeansUpToWhereTheyStopped) {
   const int all = fullTests() ? 24 : 13;
   Options options = inTiles(GetParam().name);
+  options.size = fullTests() ? options.size : PictureSize{90, 50};
   set(options, {{"view.accumulate", std::to_string(all)}});
   set(options, GetParam().settings);
   QuietSession session(options);
