@@ -106,7 +106,7 @@ void addShadowMaps(FramePlan& plan, PlannedCubes maps, std::span<const Cube> bef
     instances += face.instances.size();
   }
   const bool compares = around.changes && instances <= mostCompared;
-  // Of a mean, whose settings reuse nothing, the maps are drawn once: its pictures have one scene and time.
+  // Draws the maps of a mean once, although its settings reuse no images: its pictures share scene and time.
   const bool skips = compares && (around.settings.reflection.skipUnchanged || plan.picture > 0);
   const bool reuses = std::ranges::equal(
       maps.cubes, before, [](const Cube& a, const Cube& b) { return a.light == b.light && a.size == b.size; });

@@ -115,7 +115,7 @@ std::vector<std::vector<PixelRect>> convergedParts(const FramePlan& plan) {
     for (const MirrorDraw& draw : pass.mirrors) {
       if (draw.pass >= 0) {
         const ImageQuality& image = plan.passes[draw.pass].quality;
-        // Of an image of another size, one texel more is drawn where a tile's edge lies within it.
+        // A tile's edge may lie within a texel of an image of another size. That texel is drawn too.
         const double reach = draw.blurs || draw.ripples ? everywhere
                              : image.scale == 1.0 && pass.quality.scale == 1.0
                                  ? 0.0

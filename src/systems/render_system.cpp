@@ -75,16 +75,13 @@ GraphicsPipelineDesc RenderSystem::objects(const Variant& variant, const FrameIn
                             .depthClamp = variant.clampDepth,
                             .lines = variant.wireframe,
                             .mayDrawLines = true};
+  const std::string lookup = variant.asks ? "_asking" : variant.shadowed ? "_shadowed" : "";
   if (variant.deferred) {
     desc.frag = "scene_identifier.frag";
   } else {
     desc.vert = variant.vertexColors ? "scene_colored.vert" : "scene.vert";
     desc.frag = std::string("scene") + (variant.environment ? "_environment" : "") +
-                (variant.vertexColors ? "_colored" : "") + (variant.repeating ? "_repeating" : "") +
-                (variant.asks       ? "_asking"
-                 : variant.shadowed ? "_shadowed"
-                                    : "") +
-                ".frag";
+                (variant.vertexColors ? "_colored" : "") + (variant.repeating ? "_repeating" : "") + lookup + ".frag";
   }
   if (variant.added) {
     desc.frag = "scene_environment_reflection.frag";
@@ -99,12 +96,9 @@ GraphicsPipelineDesc RenderSystem::objects(const Variant& variant, const FrameIn
   }
   if (variant.covered) {
     addCoverage(desc,
-                variant.deferred ? "scene_identifier_covered.frag"
-                                 : std::string("scene_covered") + (variant.vertexColors ? "_colored" : "") +
-                                       (variant.asks       ? "_asking"
-                                        : variant.shadowed ? "_shadowed"
-                                                           : "") +
-                                       ".frag",
+                variant.deferred
+                    ? "scene_identifier_covered.frag"
+                    : std::string("scene_covered") + (variant.vertexColors ? "_colored" : "") + lookup + ".frag",
                 textureLayout_);
   }
   addVertexInput(desc);

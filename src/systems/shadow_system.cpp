@@ -178,8 +178,8 @@ uint32_t ShadowSystem::drawEdges(const PassScope& scope, const FrameInfo& info, 
   scope.drawLines(true, edgeWidth);
   for (const Batch& batch : data.batches) {
     bindBatch(scope, info, batch);
-    // Of a solid, the backs alone: their edges lie behind the fronts, except along outlines. Clusters of backs are not
-    // in the batch's ranges.
+    // Draws a solid's backs alone: their edges lie behind the fronts, except along outlines. The batch's ranges leave
+    // out clusters of backs.
     const VkCullModeFlags fronts = batch.handedness > 0.0f ? VK_CULL_MODE_FRONT_BIT : VK_CULL_MODE_BACK_BIT;
     scope.cull(batch.cullsBacks ? fronts : VkCullModeFlags{VK_CULL_MODE_NONE});
     info.data.bind(pipelineFor(Drawn::edges, info), commands, data);
