@@ -62,7 +62,7 @@ TEST_P(TextureFilters, AnisotropicIsSharperThanTrilinear) {
     QuietSession session(headless(file, floorSize, {{"view.texture_filter", filter}, {"view.accumulate", pictures}}));
     return drawRadiance(session);
   };
-  const LinearImage truth = drawn("bilinear", "64");
+  const LinearImage truth = drawn("bilinear", "25");
   const auto errorOf = [&](const char* filter) { return rootMeanSquare(drawn(filter, "1"), truth); };
   const double trilinear = errorOf("trilinear");
   EXPECT_GT(trilinear, 0.01);
