@@ -221,6 +221,7 @@ ordered_json frameStats(Session& session) {
                     {"pictures", frame.pictures},
                     {"skipped_mirrors", frame.plan.skipped.size()},
                     {"device_bytes", device.allocatedBytes()},
+                    {"device_allocations", device.allocations()},
                     {"peak_rss_bytes", peakResidentBytes()},
                     {"pipelines", session.renderer().pipelines().count()},
                     {"validation_messages", device.validationMessages()}};

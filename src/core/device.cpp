@@ -251,7 +251,7 @@ MemoryBudget Device::memoryBudget() const {
   VkPhysicalDeviceMemoryProperties2 properties{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MEMORY_PROPERTIES_2,
                                                .pNext = gpu_.caps.memoryBudget ? &budget : nullptr};
   vkGetPhysicalDeviceMemoryProperties2(gpu_.handle, &properties);
-  MemoryBudget result{.usedBytes = gpu_.caps.memoryBudget ? 0 : allocatedBytes()};
+  MemoryBudget result{.usedBytes = gpu_.caps.memoryBudget ? 0 : memory_.bytes()};
   for (uint32_t heap = 0; heap < properties.memoryProperties.memoryHeapCount; ++heap) {
     const VkMemoryHeap& description = properties.memoryProperties.memoryHeaps[heap];
     if (description.flags & VK_MEMORY_HEAP_DEVICE_LOCAL_BIT) {

@@ -3,7 +3,6 @@
 #include <vulkan/vulkan.h>
 
 #include <array>
-#include <atomic>
 #include <map>
 #include <memory>
 #include <optional>
@@ -12,6 +11,7 @@
 #include <vector>
 
 #include "core/barriers.hpp"
+#include "core/device_memory.hpp"
 #include "core/handle.hpp"
 #include "core/physical_device.hpp"
 #include "core/spare_pipelines.hpp"
@@ -113,8 +113,9 @@ class Device {
   int validationMessages() const { return instance_.messages().count(); }
   std::vector<std::string> lastValidationMessages() const { return instance_.messages().latest(); }  // 32, oldest first
 
-  uint64_t allocatedBytes() const { return allocatedBytes_; }  // live memory of this device
-  uint32_t allocations() const { return allocations_; }
+  MemoryBlocks& memory() { return memory_; }
+  uint64_t allocatedBytes() const { return memory_.usedBytes(); }  // of live buffers and images
+  uint32_t allocations() const { return memory_.allocations(); }   // of memory, which may hold many of these
   MemoryBudget memoryBudget() const;
 
   // Creates a named object: create(vkCreateFence, {.sType = ...}, "upload"). Throws as throwVulkanError() does.
@@ -144,7 +145,6 @@ class Device {
   }
 
  private:
-  friend class Memory;
   struct Destroy {
     using pointer = VkDevice;
     void operator()(VkDevice device) const { vkDestroyDevice(device, nullptr); }
@@ -167,8 +167,7 @@ class Device {
   Barriers barriers_;
   SetLayouts setLayouts_;
   SparePipelines sparePipelines_;
-  std::atomic<uint64_t> allocatedBytes_{0};
-  std::atomic<uint32_t> allocations_{0};
+  MemoryBlocks memory_;
   VkSampleCountFlags reportedSampleCounts_ = 0;
   bool reportedLineWidth_ = false;
   bool reportedAnisotropy_ = false;

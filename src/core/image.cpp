@@ -32,10 +32,7 @@ Image::Image(Device& device, const ImageDesc& desc) : desc_(desc) {
                           .initialLayout = VK_IMAGE_LAYOUT_UNDEFINED},
                          desc.name);
   image_ = owned_.get();
-  VkMemoryRequirements requirements{};
-  vkGetImageMemoryRequirements(device.get(), image_, &requirements);
-  memory_ = Memory(device, requirements, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, desc.name);
-  check(vkBindImageMemory(device.get(), image_, memory_.get(), 0), "bind the memory of " + desc.name);
+  memory_ = Memory(device, image_, desc.name);
   createView(device);
 }
 

@@ -13,8 +13,39 @@ Uploader::Uploader(Device& device)
       fence_(device.create(vkCreateFence, {.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO}, "uploads")) {}
 
 void Uploader::run(const std::function<void(VkCommandBuffer)>& record) {
-  const VkCommandBuffer commands = pool_.begin();
-  record(commands);
+  together([&] {
+    record(commands());
+    submit();
+  });
+}
+
+void Uploader::together(const std::function<void()>& work) {
+  ++nested_;
+  try {
+    work();
+    if (nested_ == 1) {
+      submit();
+    }
+  } catch (...) {
+    commands_ = VK_NULL_HANDLE;  // what they use may be gone: pool_.begin() empties them
+    staged_ = 0;
+    --nested_;
+    throw;
+  }
+  --nested_;
+}
+
+VkCommandBuffer Uploader::commands() {
+  commands_ = commands_ ? commands_ : pool_.begin();
+  return commands_;
+}
+
+void Uploader::submit() {
+  const VkCommandBuffer commands = std::exchange(commands_, VK_NULL_HANDLE);
+  staged_ = 0;
+  if (!commands) {
+    return;
+  }
   check(vkEndCommandBuffer(commands), "end an upload");
   const VkSubmitInfo submit{
       .sType = VK_STRUCTURE_TYPE_SUBMIT_INFO, .commandBufferCount = 1, .pCommandBuffers = &commands};
@@ -22,9 +53,23 @@ void Uploader::run(const std::function<void(VkCommandBuffer)>& record) {
   try {
     device_.await(fence_.get(), "wait for an upload");
   } catch (...) {
-    device_.settle();  // after this, the caller may destroy the objects that `record` used
+    device_.settle();  // after this, the caller may destroy the objects that the commands used
     throw;
   }
+}
+
+Uploader::Staged Uploader::stage(VkDeviceSize bytes, VkDeviceSize unit) {
+  constexpr VkDeviceSize alignment = 16;  // of texels of any format
+  if (!staging_) {
+    staging_ = Buffer(device_, stagingBytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, BufferMemory::host, "staging");
+  }
+  if (stagingBytes - staged_ < std::min(bytes, unit)) {
+    submit();
+  }
+  const VkDeviceSize count = std::min(bytes, (stagingBytes - staged_) / unit * unit);
+  const Staged piece{{staging_.mapped() + staged_, static_cast<size_t>(count)}, staged_};
+  staged_ = std::min((staged_ + count + alignment - 1) / alignment * alignment, stagingBytes);
+  return piece;
 }
 
 Buffer Uploader::buffer(std::span<const std::byte> data, VkBufferUsageFlags usage, const std::string& name) {
@@ -41,27 +86,36 @@ Image Uploader::image(std::span<const std::byte> texels, VkExtent2D extent, VkFo
                 .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
                 .mipLevels = mipmaps ? mipLevelCount(extent) : 1,
                 .name = name});
-  std::vector<VkBufferImageCopy> levels;
+  const auto sizeOf = [&](uint32_t level) {
+    return VkExtent2D{std::max(extent.width >> level, 1u), std::max(extent.height >> level, 1u)};
+  };
   VkDeviceSize expected = 0;
   for (uint32_t level = 0; level < target.desc().mipLevels; ++level) {
-    const VkExtent2D size{std::max(extent.width >> level, 1u), std::max(extent.height >> level, 1u)};
-    levels.push_back({.bufferOffset = expected,
-                      .imageSubresource = {target.aspect(), level, 0, 1},
-                      .imageExtent = {size.width, size.height, 1}});
-    expected += areaOf(size) * bytesOfTexel(format);
+    expected += areaOf(sizeOf(level)) * bytesOfTexel(format);
   }
   if (texels.size() != expected) {
     throw std::logic_error("image " + name + " needs " + std::to_string(expected) + " bytes of texels, not " +
                            std::to_string(texels.size()));
   }
-  const Buffer staging(device_, texels.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT, BufferMemory::host,
-                       "staging of " + name);
-  staging.write(texels);
-  run([&](VkCommandBuffer commands) {
-    Barriers::uploadToCopy(commands, target);
-    vkCmdCopyBufferToImage(commands, staging.get(), target.get(), target.layout(), static_cast<uint32_t>(levels.size()),
-                           levels.data());
-    device_.barriers().record(commands, BarrierKind::uploadToRead, target);
+  together([&] {
+    Barriers::uploadToCopy(commands(), target);
+    for (uint32_t level = 0; level < target.desc().mipLevels; ++level) {
+      const VkExtent2D size = sizeOf(level);
+      const VkDeviceSize rowBytes = size.width * bytesOfTexel(format);
+      for (uint32_t row = 0; row < size.height;) {
+        const Staged piece = stage((size.height - row) * rowBytes, rowBytes);
+        std::memcpy(piece.bytes.data(), texels.data(), piece.bytes.size());
+        texels = texels.subspan(piece.bytes.size());
+        const auto rows = static_cast<uint32_t>(piece.bytes.size() / rowBytes);
+        const VkBufferImageCopy region{.bufferOffset = piece.offset,
+                                       .imageSubresource = {target.aspect(), level, 0, 1},
+                                       .imageOffset = {0, static_cast<int32_t>(row), 0},
+                                       .imageExtent = {size.width, rows, 1}};
+        vkCmdCopyBufferToImage(commands(), staging_.get(), target.get(), target.layout(), 1, &region);
+        row += rows;
+      }
+    }
+    device_.barriers().record(commands(), BarrierKind::uploadToRead, target);
   });
   return target;
 }
@@ -69,46 +123,45 @@ Image Uploader::image(std::span<const std::byte> texels, VkExtent2D extent, VkFo
 BufferWriter::BufferWriter(Uploader& uploader, VkDeviceSize bytes, VkBufferUsageFlags usage, const std::string& name)
     : uploader_(uploader),
       bytes_(bytes),
-      target_(uploader.device(), bytes, usage | VK_BUFFER_USAGE_TRANSFER_DST_BIT, BufferMemory::device, name) {
-  if (bytes > 0) {
-    staging_ = Buffer(uploader.device(), std::min(bytes, pieceBytes), VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
-                      BufferMemory::host, "staging of " + name);
-  }
-}
+      target_(uploader.device(), bytes, usage | VK_BUFFER_USAGE_TRANSFER_DST_BIT, BufferMemory::device, name) {}
 
 void BufferWriter::write(std::span<const std::byte> data) {
-  if (data.size() > bytes_ - flushed_ - staged_) {
+  if (data.size() > bytes_ - flushed_ - filled_) {
     throw std::out_of_range("more bytes than the buffer has");
   }
   while (!data.empty()) {
-    const auto count = static_cast<size_t>(std::min<VkDeviceSize>(data.size(), staging_.bytes() - staged_));
-    std::memcpy(staging_.mapped() + staged_, data.data(), count);
-    staged_ += count;
-    data = data.subspan(count);
-    if (staged_ == staging_.bytes()) {
+    if (filled_ == piece_.bytes.size()) {
       flush();
+      piece_ = uploader_.stage(bytes_ - flushed_, 1);
     }
+    const size_t count = std::min(data.size(), piece_.bytes.size() - filled_);
+    std::memcpy(piece_.bytes.data() + filled_, data.data(), count);
+    filled_ += count;
+    data = data.subspan(count);
   }
 }
 
 void BufferWriter::flush() {
-  uploader_.run([&](VkCommandBuffer commands) {
-    const VkBufferCopy region{.dstOffset = flushed_, .size = staged_};
-    vkCmdCopyBuffer(commands, staging_.get(), target_.get(), 1, &region);
+  if (filled_ == 0) {
+    return;
+  }
+  uploader_.together([&] {
+    const VkCommandBuffer commands = uploader_.commands();
+    const VkBufferCopy region{.srcOffset = piece_.offset, .dstOffset = flushed_, .size = filled_};
+    vkCmdCopyBuffer(commands, uploader_.staging_.get(), target_.get(), 1, &region);
     uploader_.device().barriers().record(commands, BarrierKind::uploadToRead, target_.descriptor());
   });
-  flushed_ += staged_;
-  staged_ = 0;
+  flushed_ += filled_;
+  filled_ = 0;
+  piece_ = {};
 }
 
 Buffer BufferWriter::finish() {
-  if (flushed_ + staged_ != bytes_) {
+  if (flushed_ + filled_ != bytes_) {
     throw std::logic_error("a buffer of " + std::to_string(bytes_) + " bytes got " +
-                           std::to_string(flushed_ + staged_));
+                           std::to_string(flushed_ + filled_));
   }
-  if (staged_ > 0) {
-    flush();
-  }
+  flush();
   return std::move(target_);
 }
 

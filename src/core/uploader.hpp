@@ -31,6 +31,9 @@ class CommandPool {
 // Copies data to and from the GPU. All copies are finished on return: for loading, not for every frame.
 class Uploader {
  public:
+  // Bytes of the staging buffer, and thereby of the largest piece that is copied at once.
+  static constexpr VkDeviceSize stagingBytes = VkDeviceSize{4} << 20;
+
   explicit Uploader(Device& device);
 
   Device& device() const { return device_; }
@@ -59,19 +62,36 @@ class Uploader {
 
   // Records with `record`, submits and waits. Throws as check() does.
   void run(const std::function<void(VkCommandBuffer)>& record);
+  // Calls `work`, whose buffers and images are finished on return: they are copied together, a staging buffer at a
+  // time. They must outlive this call, also if it throws; what is copied in `work` may not be read there by other means
+  // than this uploader's.
+  void together(const std::function<void()>& work);
 
  private:
+  friend class BufferWriter;
+  struct Staged {
+    std::span<std::byte> bytes;  // to be written before the next call
+    VkDeviceSize offset = 0;     // in the staging buffer
+  };
+  // Returns room in the staging buffer for `bytes` or, if there is less, for as many multiples of `unit` as fit. Their
+  // copy is to be recorded in commands().
+  Staged stage(VkDeviceSize bytes, VkDeviceSize unit);
+  VkCommandBuffer commands();
+  void submit();
+
   Device& device_;
   CommandPool pool_;
   FenceHandle fence_;
+  Buffer staging_;                             // made for the first copy
+  VkDeviceSize staged_ = 0;                    // bytes of staging_ that commands_ read
+  VkCommandBuffer commands_ = VK_NULL_HANDLE;  // that are being recorded
+  int nested_ = 0;                             // calls of together()
 };
 
-// Writes a device buffer from front to back. The host holds a piece of at most `pieceBytes`, however large the buffer.
-// Each full piece is submitted and waited for, so all functions throw what Uploader::run() throws.
+// Writes a device buffer from front to back, in pieces of the uploader's staging buffer, which nothing else may use
+// meanwhile. All functions throw what Uploader::run() throws.
 class BufferWriter {
  public:
-  static constexpr VkDeviceSize pieceBytes = VkDeviceSize{4} << 20;
-
   // `bytes`, which may be 0, and `usage` are those of a Buffer; TRANSFER_DST is added. Keeps a reference to the
   // uploader.
   BufferWriter(Uploader& uploader, VkDeviceSize bytes, VkBufferUsageFlags usage, const std::string& name);
@@ -90,9 +110,9 @@ class BufferWriter {
   Uploader& uploader_;
   VkDeviceSize bytes_;
   Buffer target_;
-  Buffer staging_;
+  Uploader::Staged piece_;
   VkDeviceSize flushed_ = 0;  // bytes in the target
-  VkDeviceSize staged_ = 0;   // bytes in the staging buffer
+  VkDeviceSize filled_ = 0;   // bytes of the piece
 };
 
 }  // namespace speculum

@@ -154,9 +154,11 @@ void SceneResources::createTextures() {
                  *uploader_.exactSrgb ? "sRGB of 8 bits" : "half floats", 100.0f * error);
   }
   std::vector<Image> uploaded;  // moved into textures_ once all are there
-  for (const Texture& texture : scene_.textures) {
-    uploaded.push_back(upload(texture, "texture " + texture.source.filename().string()));
-  }
+  uploader_.together([&] {
+    for (const Texture& texture : scene_.textures) {
+      uploaded.push_back(upload(texture, "texture " + texture.source.filename().string()));
+    }
+  });
   textures_ = std::move(uploaded);
   writeTextureSets();
 }
@@ -172,15 +174,17 @@ void SceneResources::writeTextureSets() {
 }
 
 void SceneResources::createMeshes() {
-  for (const Mesh& mesh : scene_.meshes) {
-    const std::string name = mesh.source.filename().string();
-    GpuMesh& gpu = meshes_.emplace_back();
-    gpu.vertices = uploadVertices(uploader_, mesh.vertices, name + " vertices");
-    if (!mesh.colors.empty()) {
-      gpu.colors = uploader_.buffer(mesh.colors, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, name + " colors");
+  uploader_.together([&] {
+    for (const Mesh& mesh : scene_.meshes) {
+      const std::string name = mesh.source.filename().string();
+      GpuMesh& gpu = meshes_.emplace_back();
+      gpu.vertices = uploadVertices(uploader_, mesh.vertices, name + " vertices");
+      if (!mesh.colors.empty()) {
+        gpu.colors = uploader_.buffer(mesh.colors, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, name + " colors");
+      }
+      gpu.indices = uploader_.buffer(mesh.indices, VK_BUFFER_USAGE_INDEX_BUFFER_BIT, name + " indices");
     }
-    gpu.indices = uploader_.buffer(mesh.indices, VK_BUFFER_USAGE_INDEX_BUFFER_BIT, name + " indices");
-  }
+  });
 }
 
 // Makes the materials of all parts, in the order of the meshes.

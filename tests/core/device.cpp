@@ -64,15 +64,15 @@ TEST(Device, SampleCountIsTheNextLowerOne) {
 }
 
 TEST_F(GpuTest, CountsItsMemory) {
-  const uint64_t before = device_.allocatedBytes();
   {
     const Buffer buffer(device_, 100000, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, BufferMemory::host, "test");
-    EXPECT_GE(device_.allocatedBytes(), before + 100000);
+    EXPECT_GE(device_.allocatedBytes(), 100000u);
+    EXPECT_LT(device_.allocatedBytes(), 200000u);
     EXPECT_EQ(device_.allocations(), 1u);
     EXPECT_EQ(Device({}).allocations(), 0u);
   }
-  EXPECT_EQ(device_.allocatedBytes(), before);
-  EXPECT_EQ(device_.allocations(), 0u);
+  EXPECT_EQ(device_.allocatedBytes(), 0u);
+  EXPECT_EQ(device_.allocations(), 1u) << "an empty block is kept";
   EXPECT_GT(device_.memoryBudget().budgetBytes, 0u);
 }
 
@@ -118,7 +118,7 @@ TEST_F(GpuTest, UploadedFloatsAreReadBack) {
 
 TEST_F(GpuTest, BuffersAreWrittenInPieces) {
   Uploader uploader(device_);
-  constexpr VkDeviceSize piece = BufferWriter::pieceBytes;
+  constexpr VkDeviceSize piece = Uploader::stagingBytes;
   std::vector<uint8_t> values(2 * piece + 3);
   for (size_t i = 0; i < values.size(); ++i) {
     values[i] = static_cast<uint8_t>(i * 2654435761u >> 24);

@@ -13,6 +13,13 @@ struct Refused {
 };
 Refused refused;
 
+constexpr VkDeviceSize refusedBytes = VkDeviceSize{1} << 48;
+
+void refuse(VkMemoryRequirements2& needed) {
+  VkDeviceSize& bytes = needed.memoryRequirements.size;
+  bytes += bytes >= refused.fewest && bytes <= refused.most ? refusedBytes : 0;
+}
+
 }  // namespace
 
 void refuseMemory(uint64_t fewest, uint64_t most) {
@@ -30,18 +37,36 @@ int refusedAllocations() {
 
 }  // namespace speculum::testing_support
 
-extern "C" VKAPI_ATTR VkResult VKAPI_CALL __real_vkAllocateMemory(VkDevice device, const VkMemoryAllocateInfo* info,
-                                                                  const VkAllocationCallbacks* callbacks,
-                                                                  VkDeviceMemory* memory);
+// The linker's --wrap puts these in the place of the real functions. Blocks hold many resources, so a refused one says
+// that it needs more memory than there is anywhere.
+extern "C" {
+VKAPI_ATTR VkResult VKAPI_CALL __real_vkAllocateMemory(VkDevice device, const VkMemoryAllocateInfo* info,
+                                                       const VkAllocationCallbacks* callbacks, VkDeviceMemory* memory);
+VKAPI_ATTR void VKAPI_CALL __real_vkGetBufferMemoryRequirements2(VkDevice device,
+                                                                 const VkBufferMemoryRequirementsInfo2* info,
+                                                                 VkMemoryRequirements2* needed);
+VKAPI_ATTR void VKAPI_CALL __real_vkGetImageMemoryRequirements2(VkDevice device,
+                                                                const VkImageMemoryRequirementsInfo2* info,
+                                                                VkMemoryRequirements2* needed);
 
-// The linker's --wrap=vkAllocateMemory puts this one in the place of the real one.
-extern "C" VKAPI_ATTR VkResult VKAPI_CALL __wrap_vkAllocateMemory(VkDevice device, const VkMemoryAllocateInfo* info,
-                                                                  const VkAllocationCallbacks* callbacks,
-                                                                  VkDeviceMemory* memory) {
-  auto& refused = speculum::testing_support::refused;
-  if (info->allocationSize >= refused.fewest && info->allocationSize <= refused.most) {
-    ++refused.count;
+VKAPI_ATTR VkResult VKAPI_CALL __wrap_vkAllocateMemory(VkDevice device, const VkMemoryAllocateInfo* info,
+                                                       const VkAllocationCallbacks* callbacks, VkDeviceMemory* memory) {
+  if (info->allocationSize >= speculum::testing_support::refusedBytes) {
+    ++speculum::testing_support::refused.count;
     return VK_ERROR_OUT_OF_DEVICE_MEMORY;
   }
   return __real_vkAllocateMemory(device, info, callbacks, memory);
+}
+VKAPI_ATTR void VKAPI_CALL __wrap_vkGetBufferMemoryRequirements2(VkDevice device,
+                                                                 const VkBufferMemoryRequirementsInfo2* info,
+                                                                 VkMemoryRequirements2* needed) {
+  __real_vkGetBufferMemoryRequirements2(device, info, needed);
+  speculum::testing_support::refuse(*needed);
+}
+VKAPI_ATTR void VKAPI_CALL __wrap_vkGetImageMemoryRequirements2(VkDevice device,
+                                                                const VkImageMemoryRequirementsInfo2* info,
+                                                                VkMemoryRequirements2* needed) {
+  __real_vkGetImageMemoryRequirements2(device, info, needed);
+  speculum::testing_support::refuse(*needed);
+}
 }
