@@ -25,7 +25,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr auto untilInterrupted = [] { return !interruptRequested(); };
-constexpr std::array totals = {"cpu_ms", "gpu_ms", "frame_ms", "interval_ms"};
+constexpr std::array totals = {"cpu_ms", "plan_ms", "gpu_ms", "frame_ms", "interval_ms"};
 
 // Measures rays per second and core of the double-precision tracer.
 int benchReference(const Options& options) {

@@ -216,6 +216,7 @@ ordered_json frameStats(Session& session) {
                        {"why", quality->why}};
   }
   json["totals"] = {{"cpu_ms", frame.cpuMs},
+                    {"plan_ms", frame.planMs},
                     {"gpu_ms", frame.gpuMs},
                     {"frame_ms", frame.frameMs},
                     {"pictures", frame.pictures},

@@ -193,6 +193,7 @@ void Session::drawPicture(bool capture) {
                                      .size = {size_.width, size_.height},
                                      .cache = cache,
                                      .picture = frame_.pictures});
+  frame_.planMs += millisecondsSince(recording) - frame.waitedMs;
   const bool last = frame_.pictures + 1 >= all;
   frame_.plan = std::move(fitted.plan);
   frame_.settings = fitted.settings;

@@ -63,6 +63,7 @@ struct DrawnFrame {
   int pictures = 0;
   uint64_t number = 0;   // of the renderer's last frame that has finished
   double cpuMs = 0.0;    // planning and recording
+  double planMs = 0.0;   // planning alone
   double gpuMs = 0.0;    // see FrameTimings
   double frameMs = 0.0;  // from the start of Session::draw until the GPU has finished
   PictureSums sums;
