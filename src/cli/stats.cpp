@@ -6,6 +6,7 @@
 
 #include "compare/statistics.hpp"
 #include "plan/depth_readout.hpp"
+#include "plan/skipped_mirrors.hpp"
 #include "platform/machine.hpp"
 
 namespace speculum {
@@ -99,11 +100,10 @@ ordered_json passesJson(Session& session) {
   return passes;
 }
 
-ordered_json skippedJson(const Scene& scene, const FramePlan& plan) {
+ordered_json skippedJson(const Scene& scene, const SceneState& state, const FramePlan& plan) {
   constexpr size_t most = 100'000;  // about 25 MB
-  const std::span<const SkippedMirror> listed(plan.skipped.data(), std::min(plan.skipped.size(), most));
   ordered_json skipped = ordered_json::array();
-  for (const SkippedMirror& skip : listed) {
+  for (const SkippedMirror& skip : skippedMirrors(scene, state, plan, most)) {
     skipped.push_back({{"mirror", mirrorJson(scene, skip.mirror)},
                        {"path", pathJson(scene, skip.path)},
                        {"depth", skip.depth},
@@ -205,7 +205,7 @@ ordered_json frameStats(Session& session) {
   json["render_path"] = renderPathName(device.renderPath());
   json["settings"] = settingsJson(frame.settings);
   json["passes"] = passesJson(session);
-  json["skipped"] = skippedJson(session.scene(), frame.plan);
+  json["skipped"] = skippedJson(session.scene(), frame.state, frame.plan);
   json["effects"] = effectsJson(session);
   json["rays"] = raysJson(frame.ledger.rays);
   if (const std::optional<QualityChoice>& quality = session.quality()) {
@@ -220,7 +220,7 @@ ordered_json frameStats(Session& session) {
                     {"gpu_ms", frame.gpuMs},
                     {"frame_ms", frame.frameMs},
                     {"pictures", frame.pictures},
-                    {"skipped_mirrors", frame.plan.skipped.size()},
+                    {"skipped_mirrors", skippedCount(frame.plan)},
                     {"device_bytes", device.allocatedBytes()},
                     {"device_allocations", device.allocations()},
                     {"peak_rss_bytes", peakResidentBytes()},

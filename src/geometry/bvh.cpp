@@ -80,6 +80,7 @@ struct Bvh::Builder {
   std::span<const Bounds> primitives;
   Bvh& bvh;
   uint32_t leafSize;
+  RecycledVector<uint32_t> right{};  // primitives that partition() moves to the end
 
   Split findSplit(uint32_t first, uint32_t count, const Bounds& centers) const {
     Split best;
@@ -110,10 +111,14 @@ struct Bvh::Builder {
     const double low = centers.low[split.axis];
     const double extent = centers.high[split.axis] - low;
     const auto begin = bvh.order_.begin() + first;
-    const auto middle = std::stable_partition(begin, begin + count, [&](uint32_t i) {
-      return binOf(primitives[i].center()[split.axis], low, extent) <= split.bin;
-    });
-    return static_cast<uint32_t>(middle - begin);
+    auto left = begin;
+    right.clear();
+    for (auto i = begin; i != begin + count; ++i) {
+      const bool goesLeft = binOf(primitives[*i].center()[split.axis], low, extent) <= split.bin;
+      goesLeft ? void(*left++ = *i) : right.push_back(*i);
+    }
+    std::ranges::copy(right, left);
+    return static_cast<uint32_t>(left - begin);
   }
 
   void build(uint32_t nodeIndex, uint32_t first, uint32_t count, int depth) {

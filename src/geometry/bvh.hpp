@@ -6,7 +6,8 @@
 #include <glm/glm.hpp>
 #include <limits>
 #include <span>
-#include <vector>
+
+#include "geometry/recycled_memory.hpp"
 
 namespace speculum {
 
@@ -82,7 +83,7 @@ class Bvh {
   explicit Bvh(std::span<const Bounds> primitives, int leafSize = 4);
 
   // The k-th primitive of the leaves is order()[k] of the input.
-  const std::vector<uint32_t>& order() const { return order_; }
+  const RecycledVector<uint32_t>& order() const { return order_; }
   Bounds bounds() const { return nodes_.empty() ? Bounds{} : nodes_[0].box; }
   std::span<const Node> nodes() const { return nodes_; }  // the root first; none without primitives
 
@@ -90,11 +91,14 @@ class Bvh {
   // tMax as it finds hits, and returns true to end the traversal.
   template <typename Leaf>
   void traverse(const Ray& ray, Leaf&& leaf) const;
+  // Calls leaf(i) for the i-th primitive of the input unless meets(box) is false for a box around its leaf.
+  template <typename Meets, typename Leaf>
+  void visit(const Meets& meets, const Leaf& leaf) const;
 
  private:
   struct Builder;
-  std::vector<Node> nodes_;
-  std::vector<uint32_t> order_;
+  RecycledVector<Node> nodes_;
+  RecycledVector<uint32_t> order_;
 };
 
 template <typename Leaf>
@@ -132,6 +136,25 @@ void Bvh::traverse(const Ray& ray, Leaf&& leaf) const {
     }
     if (near.enter != std::numeric_limits<double>::infinity()) {
       stack[size++] = near;
+    }
+  }
+}
+
+template <typename Meets, typename Leaf>
+void Bvh::visit(const Meets& meets, const Leaf& leaf) const {
+  std::array<uint32_t, stackSize> stack{};  // the root first
+  int size = nodes_.empty() ? 0 : 1;
+  while (size > 0) {
+    const Node& node = nodes_[stack[--size]];
+    if (!meets(node.box)) {
+      continue;
+    }
+    for (uint32_t i = node.first; i < node.first + node.count; ++i) {
+      leaf(order_[i]);
+    }
+    if (node.count == 0) {
+      stack[size++] = node.first + 1;
+      stack[size++] = node.first;
     }
   }
 }

@@ -12,6 +12,7 @@
 #include "plan/picture_offset.hpp"
 #include "plan/scene_names.hpp"
 #include "plan/shadow_map.hpp"
+#include "plan/skipped_mirrors.hpp"
 
 namespace speculum {
 
@@ -229,7 +230,8 @@ void Planner::reuseImage(MirrorDraw& draw, const MirrorNode& node) {
   if (frames != 1) {
     which.append(std::to_string(frames)).append(" frames ago");
   }
-  skipMirror(plan_, parent, image.mirror, SkipReason::unchanged, which.append(moved ? ", reprojected" : ""));
+  plan_.skipped.push_back(
+      skippedMirror(parent, image.mirror, SkipReason::unchanged, which.append(moved ? ", reprojected" : "")));
   plan_.cached.push_back(image);
 }
 

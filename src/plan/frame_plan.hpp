@@ -115,6 +115,7 @@ struct Pass {
   RecycledVector<PartialInstance> partial;  // instances that are seen in part, ascending
   RecycledVector<int> lights;               // lights whose glyphs are visible, indices into Scene::lights
   RecycledVector<MirrorDraw> mirrors;       // in the order of Scene::mirrors
+  uint32_t unseen = 0;                      // mirrors that a main or mirror view does not see, without its own
 
   bool drawn() const { return source == PassSource::drawn; }
   bool isFace() const { return id.kind == PassKind::shadow || id.kind == PassKind::environment; }
@@ -196,10 +197,10 @@ struct FramePlan {
   // Shadow maps of the lights that may cast shadows, in the order of lights, then environment maps of the curved
   // mirrors that are drawn, `instance` ascending.
   RecycledVector<Cube> cubes;
-  RecycledVector<uint64_t> mainContent;  // imageContent() of the main view if it shows cached images only; else empty
-  RecycledVector<SkippedMirror> skipped;
-  RecycledVector<CachedImage> cached;  // images that this frame reuses or renders; the next frame may reuse them
-  TracedEffects effects;               // effects that the passes call for
+  RecycledVector<uint64_t> mainContent;   // imageContent() of the main view if it shows cached images only; else empty
+  RecycledVector<SkippedMirror> skipped;  // mirrors that a view sees; skippedMirrors() adds the others
+  RecycledVector<CachedImage> cached;     // images that this frame reuses or renders; the next frame may reuse them
+  TracedEffects effects;                  // effects that the passes call for
   // Tiles that this frame draws if several frames draw one picture (picture_tiles.hpp); none: the frame draws all
   // tiles.
   std::optional<TileRange> tiles;

@@ -13,6 +13,7 @@
 #include "plan/mirror_sight.hpp"
 #include "plan/occlusion.hpp"
 #include "plan/pass_mask.hpp"
+#include "plan/skipped_mirrors.hpp"
 
 namespace speculum {
 
@@ -43,6 +44,15 @@ RecycledString number(double value) {
   return {text.data(), end};
 }
 
+// Returns the boxes of the mirrors, with room for the rounding of what is cut from them.
+RecycledVector<Bounds> mirrorBoxes(const SceneState& state) {
+  RecycledVector<Bounds> boxes;
+  for (const MirrorState& mirror : state.mirrors) {
+    boxes.push_back(Bounds::around(mirror.polygon).widened(1e-9));
+  }
+  return boxes;
+}
+
 class MirrorSearch {
  public:
   MirrorSearch(const Scene& scene, const SceneState& state, const Settings& settings, const FrameCache& cache,
@@ -53,7 +63,8 @@ class MirrorSearch {
         settings_(settings.reflection),
         cache_(cache),
         plan_(plan),
-        occlusion_(scene, state, settings, plan.projection) {}
+        hierarchy_(mirrorBoxes(state)),
+        occlusion_(scene, state, settings, plan.projection, hierarchy_) {}
 
   RecycledVector<MirrorNode> nodes(const glm::ivec2& size) {
     MirrorNode& root = nodes_.emplace_back();
@@ -71,13 +82,13 @@ class MirrorSearch {
 
  private:
   void fill(int node);
-  void skipUnseen(const View& view, int mirror);
-  void skipBack(const View& view, int mirror, double height);
+  void skip(const View& view, int mirror, SkipReason reason, RecycledString detail = {}) {
+    plan_.skipped.push_back(skippedMirror(view, mirror, reason, std::move(detail)));
+  }
   void consider(int node, Sight sight);
   void propose(int node, Sight sight);
   void expand(const Candidate& candidate);
   ImageQuality qualityOf(int mirror, const Pass& shownIn) const;
-  bool behindEye(const View& view, std::span<const glm::dvec3> polygon) const;
 
   const Scene& scene_;
   const SceneState& state_;
@@ -87,6 +98,7 @@ class MirrorSearch {
   FramePlan& plan_;
   RecycledVector<MirrorNode> nodes_;
   std::priority_queue<Candidate, RecycledVector<Candidate>> candidates_;
+  Bvh hierarchy_;  // of mirrors
   Occlusion occlusion_;
   int discovered_ = 0;
   size_t work_ = 0;  // 2 for each mirror looked at, and other steps in proportion to their time and memory
@@ -106,7 +118,6 @@ void MirrorSearch::fill(int node) {
   // Polygons are cut one pixel farther out, so that no cut edge lies where the image is read.
   View drawn = readable;
   widen(drawn, plan_.projection, 1);
-  const auto isOwn = [&](int mirror) { return !view.path.empty() && view.path.back() == mirror; };
   // The image of a mirror shows no mirror that lies in the same plane.
   const auto inOwnPlane = [&](int mirror) {
     return !view.path.empty() && state_.mirrors[view.path.back()].plane == state_.mirrors[mirror].plane;
@@ -126,10 +137,14 @@ void MirrorSearch::fill(int node) {
              return height * heightAbove(state_.mirrors[mirror], p) <= 0.0;
            });
   };
-  RecycledVector<Sight> sights;  // of the mirrors that are seen; a thousand others may be out of view
+  RecycledVector<int> near;  // mirrors whose boxes the view may see
+  hierarchy_.visit([&](const Bounds& box) { return boxVisible(view, box); },
+                   [&](uint32_t i) { near.push_back(static_cast<int>(i)); });
+  std::ranges::sort(near);
+  RecycledVector<Sight> sights;  // of the mirrors that are seen
   RecycledVector<int> seen;
-  for (int i = 0; i < static_cast<int>(scene_.mirrorCount()); ++i) {
-    if (!inOwnPlane(i) && !behindEye(view, state_.mirrors[i].polygon)) {
+  for (const int i : near) {
+    if (!inOwnPlane(i) && !isBehindEye(view, state_.mirrors[i].polygon)) {
       Sight sight = sightOf(scene_, state_, view, drawn, i);
       if (!sight.visible.empty() && !liesBefore(i)) {
         sights.push_back(std::move(sight));
@@ -140,36 +155,11 @@ void MirrorSearch::fill(int node) {
   // A mirror that is seen counts more: it is kept with its polygon, and tested against the others that are seen.
   work_ += 72 + 2 * scene_.mirrorCount() + seen.size() * (4 + std::min<size_t>(seen.size(), 512) / 4) +
            state_.instances.size() / 16 + nodes_[node].pass.instances.size() / 4 + state_.lights.size() / 8;
+  nodes_[node].pass.unseen = static_cast<uint32_t>(scene_.mirrorCount() - !view.path.empty() - seen.size());
   occlusion_.setView(view, nodes_[node].pass.instances, std::move(seen));
-  size_t next = 0;
-  for (int i = 0; i < static_cast<int>(scene_.mirrorCount()); ++i) {
-    if (next < sights.size() && sights[next].draw.mirror == i) {
-      consider(node, std::move(sights[next++]));
-    } else if (!isOwn(i)) {
-      skipUnseen(view, i);
-    }
+  for (Sight& sight : sights) {
+    consider(node, std::move(sight));
   }
-}
-
-bool MirrorSearch::behindEye(const View& view, std::span<const glm::dvec3> polygon) const {
-  return std::ranges::all_of(polygon,
-                             [&](const glm::dvec3& p) { return (view.worldToView * (p - view.eye)).z >= 0.0; });
-}
-
-void MirrorSearch::skipUnseen(const View& view, int mirror) {
-  const MirrorState& placed = state_.mirrors[mirror];
-  if (behindEye(view, placed.polygon)) {
-    return skipMirror(plan_, view, mirror, SkipReason::behind);
-  }
-  const double height = heightAbove(placed, view.eye);
-  if (showsBack(scene_.mirror(mirror), height)) {
-    return skipBack(view, mirror, height);
-  }
-  skipMirror(plan_, view, mirror, SkipReason::outside);
-}
-
-void MirrorSearch::skipBack(const View& view, int mirror, double height) {
-  skipMirror(plan_, view, mirror, SkipReason::backface, height == 0.0 ? "the eye is in its plane" : "");
 }
 
 void MirrorSearch::consider(int node, Sight sight) {
@@ -181,10 +171,10 @@ void MirrorSearch::consider(int node, Sight sight) {
     if (sight.height < 0.0 && !occluder) {
       pass.mirrors.push_back(std::move(sight.draw));
     }
-    return skipBack(view, mirror, sight.height);
+    return plan_.skipped.push_back(skippedBack(view, mirror, sight.height));
   }
   if (occluder) {
-    return skipMirror(plan_, view, mirror, SkipReason::hidden, "behind " + *occluder);
+    return skip(view, mirror, SkipReason::hidden, "behind " + *occluder);
   }
   propose(node, std::move(sight));
 }
@@ -208,17 +198,17 @@ void MirrorSearch::propose(int node, Sight sight) {
   sight.draw.ripples = reflects && !sight.draw.byRays && optics.ripple;
   pass.mirrors.push_back(std::move(sight.draw));
   if (deep) {
-    return skipMirror(plan_, view, mirror, SkipReason::maxDepth,
-                      RecycledString("max_depth ").append(std::to_string(settings_.maxDepth)));
+    return skip(view, mirror, SkipReason::maxDepth,
+                RecycledString("max_depth ").append(std::to_string(settings_.maxDepth)));
   }
   if (rays.empty() && area < settings_.minPixels) {
-    return skipMirror(plan_, view, mirror, SkipReason::minPixels, number(area) + " px");
+    return skip(view, mirror, SkipReason::minPixels, number(area) + " px");
   }
   if (glm::compMax(throughput) < settings_.minThroughput) {
-    return skipMirror(plan_, view, mirror, SkipReason::minThroughput, number(glm::compMax(throughput)));
+    return skip(view, mirror, SkipReason::minThroughput, number(glm::compMax(throughput)));
   }
   if (!rays.empty()) {
-    return skipMirror(plan_, view, mirror, SkipReason::rays, RecycledString(rays));
+    return skip(view, mirror, SkipReason::rays, RecycledString(rays));
   }
   candidates_.push({area * glm::compMax(throughput), node, pass.mirrors.size() - 1, std::move(sight.visible), area,
                     throughput, discovered_++});
@@ -237,11 +227,11 @@ void MirrorSearch::expand(const Candidate& candidate) {
   const View& parent = nodes_[candidate.parent].pass.view;
   const MirrorDraw& draw = nodes_[candidate.parent].pass.mirrors[candidate.draw];
   if (static_cast<int>(nodes_.size()) > settings_.maxPasses) {
-    return skipMirror(plan_, parent, draw.mirror, SkipReason::maxPasses,
-                      RecycledString("max_passes ").append(std::to_string(settings_.maxPasses)));
+    return skip(parent, draw.mirror, SkipReason::maxPasses,
+                RecycledString("max_passes ").append(std::to_string(settings_.maxPasses)));
   }
   if (work_ > mostWork) {
-    return skipMirror(plan_, parent, draw.mirror, SkipReason::maxPasses, "too many to plan");
+    return skip(parent, draw.mirror, SkipReason::maxPasses, "too many to plan");
   }
   MirrorNode node;
   node.pass.shownIn = nodes_[candidate.parent].pass.quality;
@@ -256,7 +246,7 @@ void MirrorSearch::expand(const Candidate& candidate) {
   const PixelRect rect =
       screenRect(toClip(parent, plan_.projection, candidate.visible), picture.x, picture.y, {x0, y0, x1 - x0, y1 - y0});
   if (rect.empty()) {
-    return skipMirror(plan_, parent, draw.mirror, SkipReason::outside);
+    return skip(parent, draw.mirror, SkipReason::outside);
   }
   node.pass.view = reflectedView(parent, draw.mirror, draw.plane, candidate.visible, rect, picture);
   const bool displacesLookup = draw.blurs || draw.ripples;
@@ -298,12 +288,6 @@ View readableView(const Pass& pass, const Projection& projection) {
     widen(readable, projection, static_cast<int>(std::ceil(1.5 * cachedLookupReach(pass.quality))) + 1);
   }
   return readable;
-}
-
-void skipMirror(FramePlan& plan, const View& view, int mirror, SkipReason reason, RecycledString detail) {
-  SkippedMirror skipped{mirror, view.path, static_cast<int>(view.path.size()), reason, std::move(detail)};
-  skipped.path.push_back(mirror);
-  plan.skipped.push_back(std::move(skipped));
 }
 
 }  // namespace speculum

@@ -14,7 +14,8 @@ struct MirrorNode {
 };
 
 // Finds the mirrors that get a pass within the budget of passes. The first node is the main view of `size` texels. Adds
-// every other mirror to plan.skipped, with the reason. Reads the projection and the picture's size from `plan`.
+// every other mirror that a view sees to plan.skipped, with the reason. Reads the projection and the picture's size
+// from `plan`.
 RecycledVector<MirrorNode> findPasses(const Scene& scene, const SceneState& state, const Settings& settings,
                                       const FrameCache& cache, const glm::ivec2& size, FramePlan& plan);
 
@@ -22,8 +23,5 @@ RecycledVector<MirrorNode> findPasses(const Scene& scene, const SceneState& stat
 // region. All views get the margin that cached images need, the widest of all, so that every update interval draws the
 // same things in the same order.
 View readableView(const Pass& pass, const Projection& projection);
-
-// Adds a mirror in a view that has no pass to plan.skipped.
-void skipMirror(FramePlan& plan, const View& view, int mirror, SkipReason reason, RecycledString detail = {});
 
 }  // namespace speculum

@@ -38,6 +38,11 @@ double heightAbove(const MirrorState& mirror, const glm::dvec3& eye) {
   return std::abs(height) > 1e-15 * (glm::length(eye) + glm::length(mirror.origin)) ? height : 0.0;
 }
 
+bool isBehindEye(const View& view, std::span<const glm::dvec3> polygon) {
+  return std::ranges::all_of(polygon,
+                             [&](const glm::dvec3& p) { return (view.worldToView * (p - view.eye)).z >= 0.0; });
+}
+
 bool showsBack(const Mirror& mirror, double height) {
   return height <= 0.0 && !(mirror.twoSided && height < 0.0);
 }

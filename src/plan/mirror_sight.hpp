@@ -17,6 +17,9 @@ struct Sight {
 // rounding cannot tell the side. Coordinates are rounded, so the threshold grows with their distance from the origin.
 double heightAbove(const MirrorState& mirror, const glm::dvec3& eye);
 
+// Says whether all of a polygon (world) lies behind the view's eye.
+bool isBehindEye(const View& view, std::span<const glm::dvec3> polygon);
+
 // Says whether an eye `height` metres before the mirror's front sees no reflection, but its back or its edge.
 bool showsBack(const Mirror& mirror, double height);
 

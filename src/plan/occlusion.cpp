@@ -17,6 +17,8 @@ constexpr double roundingPart = 1e-5;
 // Largest number of mirrors, and of instances, that are tested in a view. Testing all against each other takes time in
 // the square of their number, and occluders that look small hide little.
 constexpr size_t mostTested = 512;
+// Number of mirrors in a view up to which all are tested, because looking at the hierarchy takes longer.
+constexpr size_t fewMirrors = 32;
 // Limits of the search for several occluders: pieces of the polygon that are not hidden yet, and occluders.
 constexpr size_t mostPieces = 24;
 constexpr size_t mostOccluders = 64;
@@ -82,8 +84,8 @@ class Prefilter {
 }  // namespace
 
 Occlusion::Occlusion(const Scene& scene, const SceneState& state, const Settings& settings,
-                     const Projection& projection)
-    : scene_(scene), state_(state), settings_(settings), projection_(projection) {
+                     const Projection& projection, const Bvh& mirrors)
+    : scene_(scene), state_(state), settings_(settings), projection_(projection), hierarchy_(mirrors) {
   for (const MirrorState& mirror : state.mirrors) {
     double size = 0.0;
     for (const glm::dvec3& p : mirror.polygon) {
@@ -169,15 +171,22 @@ Occlusion::Occluders Occlusion::occludersOf(int mirror, std::span<const glm::dve
   Occluders found;
   const Prefilter prefilter(eye, polygon, mirrors_[mirror].occluder.plane);
   const auto addFace = [&](Face& face, const Occluder& of) {
-    if (!prefilter.looksLarge(face.occluder.center, face.occluder.radius, face.occluder.radius) ||
-        !hullVisible(prefilter.before(), face.occluder.polygon) || !prefilter.reachesBeyond(face.occluder.plane)) {
+    const FlatOccluder& occluder = face.occluder;
+    if (!prefilter.looksLarge(occluder.center, occluder.radius, occluder.radius) ||
+        !prefilter.reachesBeyond(occluder.plane) || !hullVisible(prefilter.before(), occluder.polygon)) {
       return false;
     }
     const OccludedRegion* region = regionOf(face);
     return region && found.add(*region, nullptr, of, eye, polygon);
   };
-  for (const int i : viewMirrors_) {
-    if (i != mirror && addFace(mirrors_[i], {.isMirror = true, .index = i})) {
+  RecycledVector<int> near;
+  if (viewMirrors_.size() > fewMirrors) {
+    hierarchy_.visit([&](const Bounds& box) { return boxVisible(prefilter.before(), box); },
+                     [&](uint32_t i) { near.push_back(static_cast<int>(i)); });
+    std::ranges::sort(near);
+  }
+  for (const int i : near.empty() ? viewMirrors_ : near) {
+    if (i != mirror && mirrors_[i].tested == viewNumber_ && addFace(mirrors_[i], {.isMirror = true, .index = i})) {
       return found;
     }
   }
@@ -243,6 +252,9 @@ void Occlusion::setView(const View& view, std::span<const int> instances, Recycl
               [&](size_t i) { return std::pair(mirrors_[i].occluder.center, mirrors_[i].occluder.radius); });
   keepLargest(viewInstances_,
               [&](size_t i) { return std::pair(state_.instances[i].center, state_.instances[i].radius); });
+  for (const int i : viewMirrors_) {
+    mirrors_[i].tested = viewNumber_;
+  }
 }
 
 std::optional<RecycledString> Occlusion::hiddenBy(int mirror, std::span<const glm::dvec3> polygon) {

@@ -19,7 +19,9 @@ namespace speculum {
 // nothing. Objects and mirrors are opaque on both sides.
 class Occlusion {
  public:
-  Occlusion(const Scene& scene, const SceneState& state, const Settings& settings, const Projection& projection);
+  // Keeps references. `mirrors` is a hierarchy over boxes around the mirrors, with room for rounding.
+  Occlusion(const Scene& scene, const SceneState& state, const Settings& settings, const Projection& projection,
+            const Bvh& mirrors);
 
   // Sets the view for hiddenBy() and keeps a reference to it. `instances` and `mirrors` are those that the view shows,
   // ascending; if there are very many, only those that look largest are tested as occluders.
@@ -35,6 +37,7 @@ class Occlusion {
     FlatOccluder occluder;
     int view = -1;          // number of the view that `region` is for; -1: none yet
     bool hides = false;     // else `region` has no meaning
+    int tested = -1;        // number of the last view in which the face, of a mirror, is tested
     OccludedRegion region;  // keeps its memory from view to view
   };
   struct Body {
@@ -71,6 +74,7 @@ class Occlusion {
   const Settings& settings_;
   const Projection& projection_;
   const View* view_ = nullptr;
+  const Bvh& hierarchy_;
   RecycledVector<int> viewMirrors_;    // mirrors that are tested in the view, ascending
   RecycledVector<int> viewInstances_;  // instances that are tested in the view, ascending
   int viewNumber_ = -1;

@@ -195,6 +195,17 @@ bool boxVisible(const View& view, const Affine& worldFromBox, const glm::dvec3& 
   });
 }
 
+bool boxVisible(const View& view, const Bounds& box) {
+  const glm::dvec3 center = box.center();
+  const glm::dvec3 half = box.high - center;
+  const auto reaches = [&](const glm::dvec3& normal, const glm::dvec3& point) {
+    const double rounding = 1e-12 * glm::compAdd(glm::abs(center) + half + glm::abs(point));
+    return glm::dot(normal, center - point) + glm::dot(glm::abs(normal), half) >= -rounding;
+  };
+  return (!view.clip || reaches(view.clip->normal, view.clip->point)) &&
+         std::ranges::all_of(view.cone, [&](const glm::dvec3& normal) { return reaches(normal, view.eye); });
+}
+
 RecycledVector<glm::dvec4> toClip(const View& view, const Projection& projection, std::span<const glm::dvec3> polygon) {
   RecycledVector<glm::dvec4> clip;
   clip.reserve(polygon.size());

@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 
+#include "geometry/bvh.hpp"
 #include "geometry/polygon.hpp"
 #include "geometry/projection.hpp"
 #include "geometry/recycled_memory.hpp"
@@ -67,6 +68,9 @@ bool sphereVisible(const View& view, const glm::dvec3& center, double radius);
 
 // Says whether the view may see a part of the box that reaches `halfExtent` from the origin of its own space.
 bool boxVisible(const View& view, const Affine& worldFromBox, const glm::dvec3& halfExtent);
+
+// Says the same of a box in world space. True wherever hullVisible() is for points in the box.
+bool boxVisible(const View& view, const Bounds& box);
 
 // Returns world positions in clip space. Subtracts the eye first.
 RecycledVector<glm::dvec4> toClip(const View& view, const Projection& projection, std::span<const glm::dvec3> polygon);

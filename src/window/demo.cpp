@@ -263,7 +263,7 @@ void Demo::drawFrame(double seconds, double sinceLastMs) {
   const bool repeats = half.pace.repeats() && !settings.view.continuous && options_.frames == 0;
   workspace_.report(half_).update(
       {workspace_.scene(), state, settings, plan, number, cpuMs, sinceLastMs, half.pace.lowers(),
-       newPipelines || compiledBefore, repeats, workspace_.shownSettings(half_)},
+       newPipelines || compiledBefore, repeats, workspace_.shownSettings(half_), ui_->windows().visible()},
       timings(), device_, *half.renderer, output_.hoveredPath);
   half.frame = number;
   const auto radiance = [&] { return toDisplay(half.renderer->radiance(), settings.view.displayCurve()); };

@@ -10,6 +10,7 @@
 #include "plan/pass_mask.hpp"
 #include "plan/picture_tiles.hpp"
 #include "plan/scene_names.hpp"
+#include "plan/skipped_mirrors.hpp"
 #include "settings/setting_fields.hpp"
 
 namespace speculum {
@@ -90,7 +91,10 @@ void FrameReport::update(const RecordedFrame& frame, const FrameTimings& timings
     updateEffects(frame, sceneRenderer.ledger());
   }
   updateOutline(frame, hoveredPath);
-  updateSkipped(frame);
+  skipped_ = frame.plan.skipped;
+  if (frame.panels) {
+    updateSkipped(frame);
+  }
 }
 
 void FrameReport::addFrame(const RecordedFrame& frame, const FrameTimings& timings,
@@ -283,9 +287,10 @@ void FrameReport::updateOutline(const RecordedFrame& frame, const MirrorPath& ho
 
 // A plan does not list the mirrors skipped in cached images, so the rows of the frame that rendered such an image stay.
 void FrameReport::updateSkipped(const RecordedFrame& frame) {
-  skipped_ = frame.plan.skipped;
+  constexpr size_t most = 100'000;
+  const RecycledVector<SkippedMirror> skipped = skippedMirrors(frame.scene, frame.state, frame.plan, most);
   const std::vector<SkippedRow> before = std::exchange(shown_.skipped, {});
-  for (const SkippedMirror& skip : skipped_) {
+  for (const SkippedMirror& skip : skipped) {
     shown_.skipped.push_back({mirrorPathName(frame.scene, skip.path), skip.path, std::string(reasonText(skip.reason)),
                               std::string(skip.detail), skip.reason == SkipReason::rays});
   }
@@ -296,7 +301,7 @@ void FrameReport::updateSkipped(const RecordedFrame& frame) {
     }
   }
   std::set<MirrorPath> listed;
-  for (const SkippedMirror& skip : skipped_) {
+  for (const SkippedMirror& skip : skipped) {
     if (reused.contains(skip.path.front())) {
       listed.insert(skip.path);
     }

@@ -21,6 +21,7 @@ struct RecordedFrame {
   bool compiles = false;     // this frame or the one before made pipelines, which takes long
   bool repeats = false;      // the frame draws the last picture again, for the panels
   Settings chosen = {};      // by the user; `settings` may be lowered
+  bool panels = true;        // they are shown, so the rows of skipped mirrors are needed
 };
 
 // Collects the figures of frames for the panels.
@@ -44,7 +45,7 @@ class FrameReport {
   void updateSkipped(const RecordedFrame& frame);
 
   FrameHistory& history() { return shown_.history; }
-  std::span<const SkippedMirror> skipped() const { return skipped_; }  // in the last frame
+  std::span<const SkippedMirror> skipped() const { return skipped_; }  // of the last plan
   const ShownFrame& shown() const { return shown_; }
 
  private:

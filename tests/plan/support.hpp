@@ -7,6 +7,7 @@
 #include "geometry/convex_mesh.hpp"
 #include "plan/frame_plan.hpp"
 #include "plan/scene_changes.hpp"
+#include "plan/skipped_mirrors.hpp"
 
 namespace speculum::testing_support {
 
@@ -61,8 +62,12 @@ inline Mesh meshOf(const std::vector<glm::dvec3>& positions, const std::vector<u
   return mesh;
 }
 
+// Returns the plan at time 0; `skipped` lists mirrors that views do not see too.
 inline FramePlan planOf(const Scene& scene, const Settings& settings = {}) {
-  return planFrame({scene, evaluate(scene, 0.0), settings, {width, height}});
+  const SceneState state = evaluate(scene, 0.0);
+  FramePlan plan = planFrame({scene, state, settings, {width, height}});
+  plan.skipped = skippedMirrors(scene, state, plan, SIZE_MAX);
+  return plan;
 }
 
 inline std::span<const Cube> shadowMapsOf(const FramePlan& plan) {
