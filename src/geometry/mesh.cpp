@@ -201,6 +201,49 @@ bool Mesh::isTransparent() const {
   return std::ranges::any_of(parts, [](const MeshPart& part) { return part.material.isTransparent(); });
 }
 
+void countFlat(Mesh& mesh) {
+  const auto isFlat = [](const Vertex& vertex) { return vertex.normal == glm::dvec3(0.0); };
+  mesh.flatVertices = static_cast<uint32_t>(std::ranges::count_if(mesh.vertices, isFlat));
+  mesh.flatCorners = 0;
+  for (size_t i = 0; i < mesh.indices.size() && mesh.flatVertices > 0; ++i) {
+    mesh.flatCorners += isFlat(mesh.vertices[mesh.indices[i]]);
+  }
+}
+
+std::array<glm::dvec3, 3> cornerNormals(const Mesh& mesh, const uint32_t* triangle) {
+  const std::array corners{&mesh.vertices[triangle[0]], &mesh.vertices[triangle[1]], &mesh.vertices[triangle[2]]};
+  std::array normals{corners[0]->normal, corners[1]->normal, corners[2]->normal};
+  if (std::ranges::find(normals, glm::dvec3(0.0)) != normals.end()) {
+    const glm::dvec3 own = glm::normalize(
+        glm::cross(corners[1]->position - corners[0]->position, corners[2]->position - corners[0]->position));
+    std::ranges::replace(normals, glm::dvec3(0.0), own);
+  }
+  return normals;
+}
+
+ShadedVertices::ShadedVertices(const Mesh& mesh) : mesh_(mesh) {
+  if (mesh.flatVertices == 0) {
+    return;
+  }
+  std::vector<uint32_t> places(mesh.vertices.size());
+  uint32_t next = 0;
+  for (size_t i = 0; i < places.size(); ++i) {
+    places[i] = mesh.vertices[i].normal == glm::dvec3(0.0) ? ~0u : next++;
+  }
+  indices_.reserve(mesh.indices.size());
+  for (const uint32_t index : mesh.indices) {
+    indices_.push_back(places[index] == ~0u ? next++ : places[index]);
+  }
+}
+
+std::vector<glm::vec3> ShadedVertices::colors() const {
+  std::vector<glm::vec3> colors;
+  if (!mesh_.colors.empty()) {
+    forEach([&](const Vertex&, uint32_t i) { colors.push_back(mesh_.colors[i]); });
+  }
+  return colors;
+}
+
 void sortIntoClusters(Mesh& mesh) {
   if (mesh.indices.size() < fewestClusters * clusterIndices) {
     return;

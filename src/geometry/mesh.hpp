@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <glm/glm.hpp>
@@ -51,7 +52,7 @@ struct Material {
 
 struct Vertex {
   glm::dvec3 position;  // model space, relative to Mesh::center
-  glm::dvec3 normal;    // model space, unit length
+  glm::dvec3 normal;    // model space, unit length; zero: the normal of each of its triangles (Mesh::flatVertices)
   glm::dvec2 uv;        // v up
 };
 
@@ -107,6 +108,8 @@ struct Mesh {
   std::vector<Vertex> vertices;
   std::vector<glm::vec3> colors;  // of the vertices, linear RGB; they multiply Kd. Empty: none
   std::vector<uint32_t> indices;
+  uint32_t flatVertices = 0;  // whose normals are zero
+  uint32_t flatCorners = 0;   // of triangles, at these vertices
   std::vector<MeshPart> parts;
   std::vector<MeshCluster> clusters;           // see clustersOf()
   std::vector<std::vector<glm::dvec3>> faces;  // relative to `center`, see convexFaces()
@@ -118,6 +121,47 @@ struct Mesh {
   std::optional<MirrorParts> mirrorParts;  // of a mesh with materials that say mirror
 
   bool isTransparent() const;  // some part is
+};
+
+// Sets `flatVertices` and `flatCorners`.
+void countFlat(Mesh& mesh);
+
+// Returns the unit normals of the corners of a triangle, whose indices begin at `triangle`.
+std::array<glm::dvec3, 3> cornerNormals(const Mesh& mesh, const uint32_t* triangle);
+
+// The vertices of a mesh for readers that need a normal in each: first those that have one, then one for each corner at
+// a vertex without. For a mesh without flat vertices they are the mesh's own. Refers to the mesh.
+class ShadedVertices {
+ public:
+  explicit ShadedVertices(const Mesh& mesh);
+
+  static size_t countOf(const Mesh& mesh) { return mesh.vertices.size() - mesh.flatVertices + mesh.flatCorners; }
+  std::span<const uint32_t> indices() const { return mesh_.flatVertices == 0 ? mesh_.indices : indices_; }
+  std::vector<glm::vec3> colors() const;  // none if the mesh has none
+
+  // Calls take(vertex, its index in the mesh) for each, in order.
+  template <typename Take>
+  void forEach(Take&& take) const {
+    for (uint32_t i = 0; i < mesh_.vertices.size(); ++i) {
+      if (mesh_.flatVertices == 0 || mesh_.vertices[i].normal != glm::dvec3(0.0)) {
+        take(mesh_.vertices[i], i);
+      }
+    }
+    for (size_t first = 0; first < indices_.size(); first += 3) {
+      const std::array<glm::dvec3, 3> normals = cornerNormals(mesh_, &mesh_.indices[first]);
+      for (size_t k = 0; k < 3; ++k) {
+        const uint32_t i = mesh_.indices[first + k];
+        if (Vertex vertex = mesh_.vertices[i]; vertex.normal == glm::dvec3(0.0)) {
+          vertex.normal = normals[k];
+          take(vertex, i);
+        }
+      }
+    }
+  }
+
+ private:
+  const Mesh& mesh_;
+  std::vector<uint32_t> indices_;  // of a mesh with flat vertices
 };
 
 // Reorders the triangles of each part so that consecutive ones lie close together on the surface, by meshoptimizer's

@@ -133,7 +133,8 @@ ShadingPoint objectPoint(const TraceWorld& world, const Ray& ray, const SceneHit
   point.position = instance.worldFromMesh.point(w.x * a.position + w.y * b.position + w.z * c.position);
   point.toViewer = safeNormalize(-ray.direction);
   const glm::dvec3 geometric = normalFromMesh * glm::cross(b.position - a.position, c.position - a.position);
-  const glm::dvec3 shading = safeNormalize(normalFromMesh * (w.x * a.normal + w.y * b.normal + w.z * c.normal));
+  const auto [normalA, normalB, normalC] = cornerNormals(mesh, index);
+  const glm::dvec3 shading = safeNormalize(normalFromMesh * (w.x * normalA + w.y * normalB + w.z * normalC));
   const double side = glm::dot(geometric, point.toViewer) < 0.0 ? -1.0 : 1.0;
   point.normal = side * shading;
   point.facet = side * safeNormalize(geometric);

@@ -46,7 +46,8 @@ struct TrianglePart {
 bool isFlat(const Mesh& mesh, const uint32_t* corners) {
   const std::array<Vertex, 3> v{mesh.vertices[corners[0]], mesh.vertices[corners[1]], mesh.vertices[corners[2]]};
   const glm::dvec3 normal = glm::normalize(glm::cross(v[1].position - v[0].position, v[2].position - v[0].position));
-  return std::ranges::all_of(v, [&](const Vertex& a) { return std::abs(glm::dot(a.normal, normal)) > 1.0 - 1e-6; });
+  return std::ranges::all_of(cornerNormals(mesh, corners),
+                             [&](const glm::dvec3& own) { return std::abs(glm::dot(own, normal)) > 1.0 - 1e-6; });
 }
 
 bool liesIn(const Plane& plane, double tolerance, std::span<const glm::dvec3> polygon) {

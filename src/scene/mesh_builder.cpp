@@ -119,6 +119,7 @@ void finishShape(Mesh& mesh) {
   findShape(mesh);
   sortIntoClusters(mesh);
   mesh.clusters = clustersOf(mesh);
+  countFlat(mesh);
 }
 
 bool isFinite(const glm::dvec3& v) {
@@ -304,6 +305,18 @@ uint32_t MeshBuilder::copyOf(uint32_t vertex) {
   return index;
 }
 
+// Returns where the vertex stands that triangles share at a corner without a normal; null if each gets a vertex of its
+// own, with its normal. Small models get these: to share saves them little, and their normals are of the file's
+// numbers.
+uint32_t* MeshBuilder::flatVertexOf(const FaceCorner& corner) {
+  constexpr size_t fewVertices = 1 << 17;
+  if (vertices_.size() < fewVertices || uvShift_ != glm::dvec2(0.0)) {
+    return nullptr;
+  }
+  flatVertices_.resize(std::max(flatVertices_.size(), positions_.size()), ~0u);
+  return &flatVertices_[corner.position];
+}
+
 uint32_t MeshBuilder::vertexOf(const FaceCorner& corner, const glm::dvec3& triangleNormal) {
   const auto index = static_cast<uint32_t>(vertices_.size());
   const bool given = hasNormal(corner);
@@ -316,8 +329,16 @@ uint32_t MeshBuilder::vertexOf(const FaceCorner& corner, const glm::dvec3& trian
     }
     found->second = index;
   }
+  uint32_t* flat = given || smooth ? nullptr : flatVertexOf(corner);
+  if (flat) {
+    if (*flat != ~0u && vertices_[*flat].uv == uv) {
+      return *flat;
+    }
+    *flat = index;
+  }
+  const glm::dvec3 own = flat ? glm::dvec3(0.0) : triangleNormal;
   vertices_.push_back(
-      {.position = positions_[corner.position], .normal = given ? normals_[corner.normal] : triangleNormal, .uv = uv});
+      {.position = positions_[corner.position], .normal = given ? normals_[corner.normal] : own, .uv = uv});
   if (uvShift_ != glm::dvec2(0.0)) {
     uvShifts_.resize(index, glm::dvec2(0.0));
     uvShifts_.push_back(uvShift_);
@@ -379,6 +400,7 @@ Mesh MeshBuilder::finish(const std::function<PartMaterial(int)>& materialOf) {
   smoothVertices_ = {};
   materialIndices_.clear();
   sharedVertices_ = {};
+  flatVertices_ = {};
   rebase(mesh);
   finishShape(mesh);
   return mesh;

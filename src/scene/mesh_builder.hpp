@@ -19,7 +19,8 @@ namespace speculum {
 
 bool isFinite(const glm::dvec3& v);
 
-// Completes a mesh that has its vertices, triangles and bounds: finds occluders and clusters, and sorts triangles.
+// Completes a mesh that has its vertices, triangles and bounds: finds occluders and clusters, sorts triangles and
+// counts flat vertices.
 void finishShape(Mesh& mesh);
 
 // Corner of a face: indices from 0 into the elements of MeshBuilder added so far; -1: none.
@@ -84,6 +85,7 @@ class MeshBuilder {
   void transformTexcoords(const PartMaterial& part, std::span<uint32_t> indices, Mesh& mesh) const;
   void addTriangle(const FaceCorner& a, const FaceCorner& b, const FaceCorner& c, int line);
   uint32_t vertexOf(const FaceCorner& corner, const glm::dvec3& triangleNormal);
+  uint32_t* flatVertexOf(const FaceCorner& corner);
   bool hasNormal(const FaceCorner& corner) const;
   int addToSmoothNormal(int position, const glm::dvec3& normal, double weight);
   void smoothNormals();
@@ -103,6 +105,7 @@ class MeshBuilder {
   std::map<int, std::vector<uint32_t>> materialIndices_;  // by material
   std::vector<int> materialOrder_;
   std::unordered_map<FaceCorner, uint32_t, CornerHash> sharedVertices_;
+  std::vector<uint32_t> flatVertices_;  // by position: last vertex there without a normal, or ~0u; may end early
   std::vector<Vertex> vertices_;
   std::vector<glm::vec3> colors_;        // by position; may end before the last; empty: none
   std::vector<glm::vec3> vertexColors_;  // by vertex, as colors_

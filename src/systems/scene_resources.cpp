@@ -65,11 +65,11 @@ gpu::MaterialData materialData(const Material& material, const EffectSettings& e
           .opacityTexture = textureOf(material.opacityTexture, effects.transparency)};
 }
 
-Buffer uploadVertices(Uploader& uploader, const std::vector<Vertex>& vertices, const std::string& name) {
-  BufferWriter writer(uploader, vertices.size() * sizeof(GpuVertex), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, name);
-  for (const Vertex& vertex : vertices) {
+Buffer uploadVertices(Uploader& uploader, const ShadedVertices& vertices, size_t count, const std::string& name) {
+  BufferWriter writer(uploader, count * sizeof(GpuVertex), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, name);
+  vertices.forEach([&](const Vertex& vertex, uint32_t) {
     writer.add(GpuVertex{glm::vec3(vertex.position), glm::vec3(vertex.normal), glm::vec2(vertex.uv)});
-  }
+  });
   return writer.finish();
 }
 
@@ -178,11 +178,12 @@ void SceneResources::createMeshes() {
     for (const Mesh& mesh : scene_.meshes) {
       const std::string name = mesh.source.filename().string();
       GpuMesh& gpu = meshes_.emplace_back();
-      gpu.vertices = uploadVertices(uploader_, mesh.vertices, name + " vertices");
+      const ShadedVertices vertices(mesh);
+      gpu.vertices = uploadVertices(uploader_, vertices, ShadedVertices::countOf(mesh), name + " vertices");
       if (!mesh.colors.empty()) {
-        gpu.colors = uploader_.buffer(mesh.colors, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, name + " colors");
+        gpu.colors = uploader_.buffer(vertices.colors(), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, name + " colors");
       }
-      gpu.indices = uploader_.buffer(mesh.indices, VK_BUFFER_USAGE_INDEX_BUFFER_BIT, name + " indices");
+      gpu.indices = uploader_.buffer(vertices.indices(), VK_BUFFER_USAGE_INDEX_BUFFER_BIT, name + " indices");
     }
   });
 }

@@ -26,8 +26,9 @@ Totals totalsOf(const Scene& scene) {
   Totals totals;
   for (const Mesh& mesh : scene.meshes) {
     totals.triangles += mesh.indices.size() / 3;
-    totals.vertices += mesh.vertices.size();
-    totals.colors += (mesh.colors.size() + 1) / 2;
+    const size_t vertices = ShadedVertices::countOf(mesh);
+    totals.vertices += vertices;
+    totals.colors += mesh.colors.empty() ? 0 : (vertices + 1) / 2;
   }
   return totals;
 }
@@ -142,7 +143,7 @@ void TraceScene::writeTriangles(Uploader& uploader, const Scene& scene) {
                                                             .firstVertex = static_cast<uint32_t>(vertexCount)});
     nodeCount += size_t{traceOctants} * range.nodes;
     triangleCount += range.triangles;
-    vertexCount += mesh.vertices.size();
+    vertexCount += ShadedVertices::countOf(mesh);
   }
   write(uploader, nodes, nodeCount * sizeof(gpu::TraceNode), "trace nodes", [&](BufferWriter& writer) {
     for (size_t i = 0; i < hierarchies.size(); ++i) {
@@ -177,7 +178,7 @@ std::vector<uint32_t> TraceScene::firstColorsOf(const Scene& scene) {
   std::vector<uint32_t> first;
   for (const Mesh& mesh : scene.meshes) {
     first.push_back(mesh.colors.empty() ? gpu::noColors : static_cast<uint32_t>(next));
-    next += (mesh.colors.size() + 1) / 2 * 2;
+    next += mesh.colors.empty() ? 0 : (ShadedVertices::countOf(mesh) + 1) / 2 * 2;
   }
   return first;
 }
@@ -187,7 +188,8 @@ void TraceScene::writeAttributes(Uploader& uploader, const Scene& scene) {
   write(uploader, faces, totals.triangles * sizeof(gpu::TraceFace), "trace faces", [&](BufferWriter& writer) {
     uint32_t materials = 0;  // of the meshes before, as SceneResources counts them
     for (const Mesh& mesh : scene.meshes) {
-      const uint32_t* index = mesh.indices.data();
+      const ShadedVertices vertices(mesh);
+      const uint32_t* index = vertices.indices().data();
       for (const uint32_t part : partsOfTriangles(mesh)) {
         writer.add(gpu::TraceFace{{index[0], index[1], index[2]}, materials + part});
         index += 3;
@@ -198,17 +200,17 @@ void TraceScene::writeAttributes(Uploader& uploader, const Scene& scene) {
   const uint64_t vertexBytes = (totals.vertices + totals.colors) * sizeof(gpu::TraceVertex);
   write(uploader, vertices, vertexBytes, "trace vertices", [&](BufferWriter& writer) {
     for (const Mesh& mesh : scene.meshes) {
-      for (const Vertex& vertex : mesh.vertices) {
+      ShadedVertices(mesh).forEach([&](const Vertex& vertex, uint32_t) {
         writer.add(gpu::TraceVertex{.position = glm::vec3(vertex.position),
                                     .u = static_cast<float>(vertex.uv.x),
                                     .normal = glm::vec3(vertex.normal),
                                     .v = static_cast<float>(vertex.uv.y)});
-      }
+      });
     }
     for (const Mesh& mesh : scene.meshes) {
-      for (size_t i = 0; i < mesh.colors.size(); i += 2) {
-        writer.add(gpu::TraceVertex{.position = mesh.colors[i],
-                                    .normal = mesh.colors[std::min(i + 1, mesh.colors.size() - 1)]});
+      const std::vector<glm::vec3> colors = ShadedVertices(mesh).colors();
+      for (size_t i = 0; i < colors.size(); i += 2) {
+        writer.add(gpu::TraceVertex{.position = colors[i], .normal = colors[std::min(i + 1, colors.size() - 1)]});
       }
     }
   });

@@ -37,6 +37,65 @@ TEST_F(ObjLoader, TriangleWithoutNormalsIsFlat) {
   EXPECT_EQ(warnings(), "");
 }
 
+// A bumpy grid of 180 000 triangles, with colors, texture coordinates and a seam of these along its middle.
+TEST_F(ObjLoader, FlatTrianglesOfLargeModelsShareVertices) {
+  constexpr int side = 301;
+  const auto heightAt = [](int x, int z) { return (x * 7 + z * 13) % 5 * 0.25; };
+  std::string text;
+  for (int z = 0; z < side; ++z) {
+    for (int x = 0; x < side; ++x) {
+      text += fmt::format("v {} {} {} {} 0 1\n", x, heightAt(x, z), z, x / 512.0);
+    }
+  }
+  for (int i = 0; i < 2 * side; ++i) {
+    text += fmt::format("vt {} 0\n", i / 1024.0);
+  }
+  for (int z = 0; z + 1 < side; ++z) {
+    for (int x = 0; x + 1 < side; ++x) {
+      const auto corner = [&](int dx, int dz) {
+        return fmt::format(" {}/{}", (z + dz) * side + x + dx + 1, x + dx + 1 + (z >= side / 2 ? side : 0));
+      };
+      text +=
+          "f" + corner(0, 0) + corner(0, 1) + corner(1, 0) + "\nf" + corner(1, 0) + corner(0, 1) + corner(1, 1) + "\n";
+    }
+  }
+  const Mesh mesh = load(text);
+  constexpr size_t triangles = size_t{2} * (side - 1) * (side - 1);
+  ASSERT_EQ(mesh.indices.size(), 3 * triangles);
+  EXPECT_LT(mesh.vertices.size(), triangles * 6 / 5) << "of three times as many corners";
+  const ShadedVertices shaded(mesh);
+  std::vector<Vertex> vertices;
+  shaded.forEach([&](const Vertex& vertex, uint32_t index) {
+    EXPECT_EQ(vertex.position, mesh.vertices[index].position);
+    vertices.push_back(vertex);
+  });
+  const std::vector<glm::vec3> colors = shaded.colors();
+  ASSERT_EQ(vertices.size(), ShadedVertices::countOf(mesh));
+  ASSERT_EQ(colors.size(), vertices.size());
+  ASSERT_EQ(shaded.indices().size(), mesh.indices.size());
+  std::set<std::array<double, 3>> places;  // of the triangles
+  for (size_t i = 0; i < mesh.indices.size(); i += 3) {
+    std::array<glm::dvec3, 3> points;
+    for (size_t k = 0; k < 3; ++k) {
+      points[k] = vertices[shaded.indices()[i + k]].position;
+      ASSERT_EQ(points[k], mesh.vertices[mesh.indices[i + k]].position);
+    }
+    const glm::dvec3 normal = glm::normalize(glm::cross(points[1] - points[0], points[2] - points[0]));
+    ASSERT_GT(normal.y, 0.0);
+    const glm::dvec3 middle = mesh.center + (points[0] + points[1] + points[2]) / 3.0;
+    places.insert({middle.x, middle.y, middle.z});
+    for (size_t k = 0; k < 3; ++k) {
+      const uint32_t index = shaded.indices()[i + k];
+      const double x = mesh.center.x + points[k].x;
+      ASSERT_LT(glm::distance(vertices[index].normal, normal), 1e-12);
+      ASSERT_EQ(cornerNormals(mesh, &mesh.indices[i])[k], vertices[index].normal);
+      ASSERT_EQ(vertices[index].uv.x, (x + (middle.z > side / 2 ? side : 0)) / 1024.0);
+      ASSERT_EQ(colors[index], glm::vec3(x / 512.0, 0, 1));
+    }
+  }
+  EXPECT_EQ(places.size(), triangles) << "each is there once";
+}
+
 // Two squares that meet at a right angle along the edge from (0, 0, 0) to (0, 1, 0), and normals of their corners
 // there.
 const std::string foldText = "v 0 0 0\nv 0 1 0\nv 1 0 0\nv 1 1 0\nv 0 0 -1\nv 0 1 -1\n";

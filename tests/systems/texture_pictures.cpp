@@ -1,6 +1,7 @@
 #include "image/color.hpp"
 #include "image/picture_files.hpp"
 #include "made_pictures.hpp"
+#include "picture_support.hpp"
 #include "scene_text.hpp"
 #include "studio.hpp"
 
@@ -70,6 +71,64 @@ TEST_P(TextureFilters, AnisotropicIsSharperThanTrilinear) {
   EXPECT_GT(errorOf("nearest"), errorOf("bilinear"));
 }
 
+// A bumpy floor of 88 200 triangles, whose normals stand in the file or are left to the loader.
+std::string bumpyFloor(bool normals) {
+  constexpr int side = 211;
+  const auto pointAt = [](int x, int z) {
+    return glm::dvec3(x / 105.0 - 1.0, 0.04 * std::sin(0.3 * x) * std::cos(0.37 * z), z / 105.0 - 1.0);
+  };
+  std::ostringstream vertices;
+  std::ostringstream faces;
+  vertices.precision(17);
+  for (int i = 0; i < side * side; ++i) {
+    const glm::dvec3 p = pointAt(i % side, i / side);
+    vertices << "v " << p.x << " " << p.y << " " << p.z << "\n";
+  }
+  int faceCount = 0;
+  for (int i = 0; i < side * (side - 1); ++i) {
+    const glm::ivec2 at(i % side, i / side);
+    for (const std::array<glm::ivec2, 3>& corners :
+         {std::array{at, at + glm::ivec2(0, 1), at + glm::ivec2(1, 0)},
+          std::array{at + glm::ivec2(1, 0), at + glm::ivec2(0, 1), at + glm::ivec2(1, 1)}}) {
+      if (at.x + 1 == side) {
+        continue;
+      }
+      ++faceCount;
+      faces << "f";
+      for (const glm::ivec2& corner : corners) {
+        faces << " " << corner.y * side + corner.x + 1;
+        faces << (normals ? "//" + std::to_string(faceCount) : "");
+      }
+      faces << "\n";
+      const auto p = [&](int k) { return pointAt(corners[k].x, corners[k].y); };
+      const glm::dvec3 normal = glm::normalize(glm::cross(p(1) - p(0), p(2) - p(0)));
+      vertices << "vn " << normal.x << " " << normal.y << " " << normal.z << "\n";
+    }
+  }
+  return vertices.str() + faces.str();
+}
+
+class FlatShading : public TextureFilters {};
+
+TEST_P(FlatShading, SharedCornersOfFlatTrianglesDrawTheSame) {
+  const auto pictureWith = [&](bool normals) {
+    const std::string name = normals ? "with_normals" : "without_normals";
+    writeModel(name + ".obj", bumpyFloor(normals));
+    Studio studio(headless(writeScene(name,
+                                      "[camera]\nposition = [0, 0.7, 1.2]\ntarget = [0, 0, 0]\n[[light]]\n"
+                                      "position = [1, 1, 0.5]\nintensity = 2\n[[mirror]]\nposition = [0, 0.3, -1]\n"
+                                      "size = [2, 1]\n[[object]]\nmodel = \"" +
+                                          name + ".obj\"\n" + rest()),
+                           floorSize));
+    EXPECT_EQ(studio.scene.meshes[0].flatVertices > 0, !normals);
+    return studio.fresh();
+  };
+  const PictureAgreement agreement = difference(pictureWith(true), pictureWith(false), 1);
+  EXPECT_TRUE(agreement.holds()) << agreement.over;
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, FlatShading, testing::Bool(),
+                         [](const auto& info) { return info.param ? "Rays" : "Draws"; });
 INSTANTIATE_TEST_SUITE_P(Shading, TextureFilters, testing::Values(false, true),
                          [](const auto& info) { return info.param ? "Rays" : "Draws"; });
 
