@@ -141,53 +141,40 @@ MemoryBlocks::Block* MemoryBlocks::allocate(const Device& device, const Request&
   return blocks_.emplace_back(std::move(block)).get();
 }
 
-// Keeps one empty block of a kind, the smallest, for what comes next.
+// Empty blocks of the smallest size, of which a kind has few, are kept for what comes next.
 void MemoryBlocks::give(const Place& place, VkDeviceSize bytes) {
   const std::scoped_lock lock(mutex_);
   usedBytes_ -= bytes;
-  const Block* unused = place.block;
-  if (unused->free) {
-    place.block->free->give(place.offset, bytes);
-    const auto isEmpty = [&](const auto& block) {
-      return block->free && block->free->nothingTaken() && block->type == place.block->type &&
-             block->use == place.block->use;
-    };
-    unused = nullptr;
-    int empty = 0;
-    for (const auto& block : blocks_) {
-      if (isEmpty(block)) {
-        ++empty;
-        unused = unused && unused->bytes >= block->bytes ? unused : block.get();
-      }
-    }
-    unused = empty > 1 ? unused : nullptr;
+  Block& block = *place.block;
+  if (block.free) {
+    block.free->give(place.offset, bytes);
   }
-  if (unused) {
-    bytes_ -= unused->bytes;
+  if (!block.free || (block.free->nothingTaken() && block.bytes > smallestBlock)) {
+    bytes_ -= block.bytes;
     --allocations_;
-    std::erase_if(blocks_, [&](const auto& block) { return block.get() == unused; });
+    std::erase_if(blocks_, [&](const auto& other) { return other.get() == &block; });
   }
 }
 
-namespace {
-
-bool wantsMemoryApart(const VkMemoryDedicatedRequirements& dedicated) {
-  return dedicated.prefersDedicatedAllocation || dedicated.requiresDedicatedAllocation;
-}
-
-}  // namespace
-
-Memory::Memory(Device& device, VkBuffer buffer, bool forHost, bool addressed, const std::string& name) {
+template <typename Info>
+MemoryBlocks::Request MemoryBlocks::requestOf(const Device& device, MemoryUse use, const Info& info,
+                                              void (*ask)(VkDevice, const Info*, VkMemoryRequirements2*),
+                                              const std::string& name) {
   VkMemoryDedicatedRequirements dedicated{.sType = VK_STRUCTURE_TYPE_MEMORY_DEDICATED_REQUIREMENTS};
   VkMemoryRequirements2 needed{.sType = VK_STRUCTURE_TYPE_MEMORY_REQUIREMENTS_2, .pNext = &dedicated};
+  ask(device.get(), &info, &needed);
+  return {.requirements = needed.memoryRequirements,
+          .wanted = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT,
+          .use = use,
+          .apart = dedicated.prefersDedicatedAllocation || dedicated.requiresDedicatedAllocation,
+          .name = name};
+}
+
+Memory::Memory(Device& device, VkBuffer buffer, bool forHost, bool addressed, const std::string& name) {
   const VkBufferMemoryRequirementsInfo2 info{.sType = VK_STRUCTURE_TYPE_BUFFER_MEMORY_REQUIREMENTS_INFO_2,
                                              .buffer = buffer};
-  vkGetBufferMemoryRequirements2(device.get(), &info, &needed);
-  MemoryBlocks::Request request{.requirements = needed.memoryRequirements,
-                                .wanted = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT,
-                                .use = addressed ? MemoryUse::addressedBuffers : MemoryUse::buffers,
-                                .apart = wantsMemoryApart(dedicated),
-                                .name = name};
+  MemoryBlocks::Request request = MemoryBlocks::requestOf(
+      device, addressed ? MemoryUse::addressedBuffers : MemoryUse::buffers, info, vkGetBufferMemoryRequirements2, name);
   if (forHost) {
     request.wanted = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
   }
@@ -197,16 +184,10 @@ Memory::Memory(Device& device, VkBuffer buffer, bool forHost, bool addressed, co
 }
 
 Memory::Memory(Device& device, VkImage image, const std::string& name) {
-  VkMemoryDedicatedRequirements dedicated{.sType = VK_STRUCTURE_TYPE_MEMORY_DEDICATED_REQUIREMENTS};
-  VkMemoryRequirements2 needed{.sType = VK_STRUCTURE_TYPE_MEMORY_REQUIREMENTS_2, .pNext = &dedicated};
   const VkImageMemoryRequirementsInfo2 info{.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_REQUIREMENTS_INFO_2,
                                             .image = image};
-  vkGetImageMemoryRequirements2(device.get(), &info, &needed);
-  MemoryBlocks::Request request{.requirements = needed.memoryRequirements,
-                                .wanted = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT,
-                                .use = MemoryUse::images,
-                                .apart = wantsMemoryApart(dedicated),
-                                .name = name};
+  MemoryBlocks::Request request =
+      MemoryBlocks::requestOf(device, MemoryUse::images, info, vkGetImageMemoryRequirements2, name);
   request.resource.image = image;
   take(device, request);
   check(vkBindImageMemory(device.get(), image, memory(), offset()), "bind the memory of " + name);

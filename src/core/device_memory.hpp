@@ -83,6 +83,9 @@ class MemoryBlocks {
     void operator()(MemoryBlocks* blocks) const { blocks->give(place, bytes); }
   };
 
+  template <typename Info>
+  static Request requestOf(const Device& device, MemoryUse use, const Info& info,
+                           void (*ask)(VkDevice, const Info*, VkMemoryRequirements2*), const std::string& name);
   Place take(const Device& device, const Request& request);
   Place takeOfType(const Device& device, const Request& request, uint32_t type);
   Block* allocate(const Device& device, const Request& request, uint32_t type, std::optional<VkDeviceSize> shared);

