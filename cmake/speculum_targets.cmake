@@ -10,6 +10,13 @@ endif()
 target_compile_options(speculum_flags INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
 # Same expression, same bits on every CPU: no contraction into fused multiply-adds.
 target_compile_options(speculum_flags INTERFACE $<IF:$<BOOL:${MSVC}>,/fp:precise,-ffp-contract=off>)
+if(WIN32)
+  # Precompiled headers begin with this one; what has none begins with it too.
+  set(names ${PROJECT_SOURCE_DIR}/external/windows_names.hpp)
+  set(precompiled $<TARGET_PROPERTY:PRECOMPILE_HEADERS>$<TARGET_PROPERTY:PRECOMPILE_HEADERS_REUSE_FROM>)
+  target_compile_options(speculum_flags INTERFACE
+    "$<$<OR:$<BOOL:${CMAKE_DISABLE_PRECOMPILE_HEADERS}>,$<STREQUAL:${precompiled},>>:SHELL:$<IF:$<BOOL:${MSVC}>,/FI,-include> ${names}>")
+endif()
 if(SPECULUM_WARNINGS_AS_ERRORS)
   target_compile_options(speculum_flags INTERFACE -Werror)
 endif()

@@ -34,8 +34,9 @@ std::optional<std::vector<uint8_t>> readFileIfAny(const std::filesystem::path& f
 std::string readTextIfAny(const std::filesystem::path& file, uintmax_t most = 1u << 30);  // or an empty text
 
 // Writes a new file beside `file` and renames it, once it is on the disk, so that a reader sees the old or the new
-// content and a failure leaves the old one. Keeps symbolic links, the mode and, where allowed, the owner. Devices,
-// pipes with a reader and /dev/fd/N are written to. Throws FileError, also when the folder is missing.
+// content and a failure leaves the old one. Keeps symbolic links, the mode and, where allowed, the owner; on Windows
+// the access list, and links that lead to a file. Devices, pipes with a reader and /dev/fd/N are written to. Throws
+// FileError, also when the folder is missing.
 void replaceFile(const std::filesystem::path& file, std::span<const uint8_t> content);
 void replaceFile(const std::filesystem::path& file, std::string_view text);
 // Writes a file whose loss does no harm: creates the folder too, does not wait for the disk, returns false on failure.

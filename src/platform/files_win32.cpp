@@ -31,6 +31,32 @@ void write(HANDLE handle, const fs::path& file, std::span<const uint8_t> content
   }
 }
 
+// Returns the file that the links of a path lead to. A link that leads nowhere is replaced itself.
+fs::path behindLinks(const fs::path& file) {
+  const DWORD attributes = ::GetFileAttributesW(file.c_str());
+  if (attributes == INVALID_FILE_ATTRIBUTES || (attributes & FILE_ATTRIBUTE_REPARSE_POINT) == 0) {
+    return file;
+  }
+  constexpr DWORD all = FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE;
+  const Handle target =
+      win32::own(::CreateFileW(file.c_str(), 0, all, nullptr, OPEN_EXISTING, FILE_FLAG_BACKUP_SEMANTICS, nullptr));
+  std::wstring name(1u << 15, L'\0');  // the longest that Windows has
+  const DWORD length =
+      target ? ::GetFinalPathNameByHandleW(target.get(), name.data(), static_cast<DWORD>(name.size()), 0) : 0;
+  return length > 0 && length < name.size() ? fs::path(name.substr(0, length)) : file;
+}
+
+// Gives a new file the access list of the old one, as a mode is kept elsewhere. A file system without lists has none to
+// give.
+void copyAccess(const fs::path& from, const fs::path& to) {
+  DWORD size = 0;
+  ::GetFileSecurityW(from.c_str(), DACL_SECURITY_INFORMATION, nullptr, 0, &size);
+  std::vector<std::byte> access(size);
+  if (::GetFileSecurityW(from.c_str(), DACL_SECURITY_INFORMATION, access.data(), size, &size)) {
+    ::SetFileSecurityW(to.c_str(), DACL_SECURITY_INFORMATION, access.data());
+  }
+}
+
 // Renames over the old file. Programs that watch folders, such as virus scanners, may hold a file for a moment.
 void renameOver(const fs::path& partial, const fs::path& target, const fs::path& file, bool lasting) {
   const DWORD flags = MOVEFILE_REPLACE_EXISTING | (lasting ? MOVEFILE_WRITE_THROUGH : 0);
@@ -48,8 +74,7 @@ void renameOver(const fs::path& partial, const fs::path& target, const fs::path&
 
 void replace(const fs::path& file, std::span<const uint8_t> content, bool lasting) {
   std::error_code error;
-  fs::path target = fs::is_symlink(file, error) ? fs::canonical(file, error) : file;
-  target = target.empty() ? file : target;
+  const fs::path target = behindLinks(file);
   // Writes to a device or pipe, such as NUL or \\.\pipe\NAME, directly.
   if (Handle device = win32::own(::CreateFileW(target.c_str(), GENERIC_WRITE, FILE_SHARE_READ | FILE_SHARE_WRITE,
                                                nullptr, OPEN_EXISTING, 0, nullptr));
@@ -70,6 +95,7 @@ void replace(const fs::path& file, std::span<const uint8_t> content, bool lastin
   try {
     write(handle.get(), file, content, lasting);
     handle.reset();
+    copyAccess(target, partial);
     renameOver(partial, target, file, lasting);
   } catch (...) {
     handle.reset();

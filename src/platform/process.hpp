@@ -16,6 +16,11 @@ struct ProcessResult {
 // Runs a program found on PATH, without a shell. Blocks until it ends.
 ProcessResult runProcess(const std::vector<std::string>& arguments);
 
+// Returns the argument as it is typed into the system's shell, in quotes where it needs them: for sh, on Windows for
+// cmd.exe. Control characters and marks of direction are escaped, since a terminal acts on them when they are pasted;
+// cmd.exe has no notation for these, and takes the escapes as they stand.
+std::string shellWord(const std::string& argument);
+
 std::filesystem::path findProgram(const std::string& name);  // in PATH; empty if it is not there
 
 // Call it first in a program. Returns the arguments in UTF-8, which live as long as the process. On Windows, also makes
@@ -54,7 +59,9 @@ class ChildProcess {
   void kill();  // ends the program at once
 
  private:
-  bool read();  // false at the end of the output
+  bool read();                            // false at the end of the output
+  std::optional<std::string> takeLine();  // of the output that was read
+  static int waitFor(intptr_t child);     // returns its exit code
 
   // Process id and file descriptors, the input's that of a socket; on Windows handles.
   intptr_t child_ = 0;        // 0: there is none

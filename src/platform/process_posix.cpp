@@ -5,6 +5,7 @@
 #include <poll.h>
 #include <signal.h>
 #include <spawn.h>
+#include <spdlog/fmt/fmt.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -16,7 +17,10 @@
 #include <cstdlib>
 #include <sstream>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
+
+#include "platform/text.hpp"
 
 namespace speculum {
 
@@ -24,22 +28,22 @@ namespace {
 
 std::atomic<bool> interruptFlag{false};
 
-int waitFor(pid_t child) {
-  int status = 0;
-  while (::waitpid(child, &status, 0) < 0) {
-    if (errno != EINTR) {
-      return -1;
-    }
-  }
-  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-}
-
 bool isIgnored(int signal) {
   struct sigaction action {};
   return ::sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
 }
 
 }  // namespace
+
+int ChildProcess::waitFor(intptr_t child) {
+  int status = 0;
+  while (::waitpid(static_cast<pid_t>(child), &status, 0) < 0) {
+    if (errno != EINTR) {
+      return -1;
+    }
+  }
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
 
 ChildProcess::ChildProcess(const std::vector<std::string>& arguments, Input input) {
   std::vector<char*> argv;
@@ -98,15 +102,6 @@ bool ChildProcess::read() {
   return count > 0;
 }
 
-ProcessResult ChildProcess::wait() {
-  if (child_ != 0) {
-    while (read()) {
-    }
-    result_.exitCode = waitFor(std::exchange(child_, 0));
-  }
-  return result_;
-}
-
 std::optional<ProcessResult> ChildProcess::poll() {
   pollfd output{.fd = static_cast<int>(descriptor_), .events = POLLIN};
   while (child_ != 0 && ::poll(&output, 1, 0) > 0) {
@@ -122,10 +117,7 @@ std::optional<std::string> ChildProcess::readLine(double seconds) {
   const Clock::time_point end =
       Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(std::max(0.0, seconds)));
   for (;;) {
-    const size_t length = result_.output.find('\n');
-    if (length != std::string::npos) {
-      std::string line = result_.output.substr(0, length);
-      result_.output.erase(0, length + 1);
+    if (std::optional<std::string> line = takeLine()) {
       return line;
     }
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(end - Clock::now());
@@ -161,8 +153,22 @@ void ChildProcess::kill() {
   }
 }
 
-ProcessResult runProcess(const std::vector<std::string>& arguments) {
-  return ChildProcess(arguments).wait();
+std::string shellWord(const std::string& argument) {
+  const auto plain = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+           std::string_view("-_./:,=+%@").find(c) != std::string_view::npos;
+  };
+  if (!argument.empty() && std::ranges::all_of(argument, plain)) {
+    return argument;
+  }
+  const bool hidden = oneLine(argument) != argument;
+  std::string text = hidden ? "$'" : "'";
+  for (const char c : argument) {
+    text += hidden && !plain(c) ? fmt::format("\\{:03o}", static_cast<unsigned char>(c))
+            : c == '\''         ? std::string("'\\''")
+                                : std::string(1, c);
+  }
+  return text + "'";
 }
 
 std::filesystem::path findProgram(const std::string& name) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cctype>
 #include <chrono>
 #include <cmath>
 #include <csignal>
@@ -16,6 +17,7 @@
 #include <utility>
 
 #include "platform/files.hpp"
+#include "platform/text.hpp"
 #include "platform/win32.hpp"
 
 namespace speculum {
@@ -79,16 +81,6 @@ Handle start(const std::filesystem::path& program, std::wstring line, STARTUPINF
   return Handle(process.hProcess);
 }
 
-int waitFor(intptr_t child) {
-  const Handle process(handleOf(child));
-  DWORD code = 0;
-  ::WaitForSingleObject(process.get(), INFINITE);
-  ::GetExitCodeProcess(process.get(), &code);
-  // An exception that nobody handled is the exit code.
-  constexpr int aborted = 6;  // SIGABRT elsewhere
-  return code == STATUS_ACCESS_VIOLATION ? 128 + SIGSEGV : code >= 0xc0000000u ? 128 + aborted : static_cast<int>(code);
-}
-
 // Ctrl-C and the end of the console or session.
 BOOL WINAPI requestInterrupt(DWORD event) {
   const bool first = !interruptFlag.exchange(true);
@@ -99,6 +91,16 @@ BOOL WINAPI requestInterrupt(DWORD event) {
 }
 
 }  // namespace
+
+int ChildProcess::waitFor(intptr_t child) {
+  const Handle process(handleOf(child));
+  DWORD code = 0;
+  ::WaitForSingleObject(process.get(), INFINITE);
+  ::GetExitCodeProcess(process.get(), &code);
+  // An exception that nobody handled is the exit code.
+  constexpr int aborted = 6;  // SIGABRT elsewhere
+  return code == STATUS_ACCESS_VIOLATION ? 128 + SIGSEGV : code >= 0xc0000000u ? 128 + aborted : static_cast<int>(code);
+}
 
 ChildProcess::ChildProcess(const std::vector<std::string>& arguments, Input input) {
   const std::string& name = arguments.front();
@@ -143,15 +145,6 @@ bool ChildProcess::read() {
   return more;
 }
 
-ProcessResult ChildProcess::wait() {
-  if (child_ != 0) {
-    while (read()) {
-    }
-    result_.exitCode = waitFor(std::exchange(child_, 0));
-  }
-  return result_;
-}
-
 std::optional<ProcessResult> ChildProcess::poll() {
   for (DWORD waiting = 1; child_ != 0 && waiting > 0;) {
     if (!::PeekNamedPipe(handleOf(descriptor_), nullptr, 0, nullptr, &waiting, nullptr) || (waiting > 0 && !read())) {
@@ -165,10 +158,7 @@ std::optional<std::string> ChildProcess::readLine(double seconds) {
   constexpr DWORD pause = 2;  // milliseconds; nothing can wait for an anonymous pipe
   const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(std::max(0.0, seconds));
   for (;;) {
-    const size_t length = result_.output.find('\n');
-    if (length != std::string::npos) {
-      std::string line = result_.output.substr(0, length);
-      result_.output.erase(0, length + 1);
+    if (std::optional<std::string> line = takeLine()) {
       return line;
     }
     DWORD waiting = 0;
@@ -206,8 +196,22 @@ void ChildProcess::kill() {
   }
 }
 
-ProcessResult runProcess(const std::vector<std::string>& arguments) {
-  return ChildProcess(arguments).wait();
+// Within quotes cmd.exe still replaces %NAME%. A caret after the quotes makes a name that no variable has.
+std::string shellWord(const std::string& argument) {
+  const std::string shown = oneLine(argument);
+  const auto plain = [](unsigned char c) {
+    return c < 0x80 &&
+           (std::isalnum(c) || std::string_view("-_./\\:=+").find(static_cast<char>(c)) != std::string_view::npos);
+  };
+  if (!shown.empty() && std::ranges::all_of(shown, plain)) {
+    return shown;
+  }
+  std::string word;
+  appendQuoted(word, shown);
+  for (size_t at = word.find('%'); at != std::string::npos; at = word.find('%', at + 4)) {
+    word.replace(at, 1, "\"^%\"");
+  }
+  return word;
 }
 
 // Looks at the folders of PATH only: the system's own search begins in the working folder, which may hold anything.

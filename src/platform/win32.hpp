@@ -7,7 +7,6 @@
 #include <windows.h>
 
 // These need the header above.
-#include <commdlg.h>
 #include <psapi.h>
 #include <shellapi.h>
 #include <shlobj.h>

@@ -2,12 +2,9 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include <algorithm>
-#include <string_view>
-
 #include "platform/files.hpp"
 #include "platform/folders.hpp"
-#include "platform/text.hpp"
+#include "platform/process.hpp"
 
 namespace speculum {
 
@@ -24,25 +21,6 @@ std::string cameraText(const Bookmark& camera, const CameraSpec& usual) {
     text += ":" + pointText(camera.up.value_or(usual.up));
   }
   return text + (camera.verticalFov ? fmt::format(":{}", *camera.verticalFov) : "");
-}
-
-std::string quoted(const std::string& argument) {
-  const auto plain = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-           std::string_view("-_./:,=+%@").find(c) != std::string_view::npos;
-  };
-  if (!argument.empty() && std::ranges::all_of(argument, plain)) {
-    return argument;
-  }
-  // A terminal acts on control characters that are pasted, even within quotes.
-  const bool hidden = oneLine(argument) != argument;
-  std::string text = hidden ? "$'" : "'";
-  for (const char c : argument) {
-    text += hidden && !plain(c) ? fmt::format("\\{:03o}", static_cast<unsigned char>(c))
-            : c == '\''         ? std::string("'\\''")
-                                : std::string(1, c);
-  }
-  return text + "'";
 }
 
 // Returns the name of a scene that comes with the program, else the path.
@@ -91,7 +69,7 @@ std::string viewCommand(const Options& options, const std::filesystem::path& fil
   arguments.insert(arguments.end(), {"--out", scene.file.stem().string() + ".view.png"});
   std::string text;
   for (const std::string& argument : arguments) {
-    text += (text.empty() ? "" : " ") + quoted(argument);
+    text += (text.empty() ? "" : " ") + shellWord(argument);
   }
   return text;
 }

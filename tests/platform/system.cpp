@@ -370,6 +370,18 @@ TEST(Process, GivesOutputAndExitCode) {
   EXPECT_EQ(runProcess({"a-program-that-does-not-exist"}).exitCode, 127);
 }
 
+TEST(Process, ShellWordsSurviveTheShell) {
+  EXPECT_EQ(shellWord("a-b_c./d:e,f=g+h%i@j"), "a-b_c./d:e,f=g+h%i@j");
+  std::string line = "printf '%s|'";
+  std::string expected;
+  for (const std::string word : {"", "a b", "it's $HOME", "\"", "\\", "*", "a\x1b[2J\n'b\\", "\xc3\xa4 \xe9\x8f\xa1"}) {
+    line += ' ' + shellWord(word);
+    expected += word + '|';
+  }
+  EXPECT_EQ(line.find('\x1b'), std::string::npos) << "a terminal acts on it";
+  EXPECT_EQ(runProcess({"bash", "-c", line}).output, expected);
+}
+
 TEST(Process, TalksLineByLine) {
   ChildProcess child({"sh", "-c", "while read line; do echo \"got $line\"; done; printf rest; exit 4"},
                      ChildProcess::Input::pipe);

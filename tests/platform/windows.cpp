@@ -1,14 +1,17 @@
 // The halves of src/platform for Windows. scripts/windows --test runs this program under wine.
+#include <atomic>
 #include <chrono>
-#include <fstream>
 #include <thread>
 
 #include "platform/files.hpp"
 #include "platform/folders.hpp"
 #include "platform/machine.hpp"
 #include "platform/process.hpp"
+#include "platform/win32.hpp"
 #include "temporary_folder.hpp"
 #include "test_headers.hpp"
+
+#include <sddl.h>  // needs win32.hpp
 
 namespace speculum::test {
 namespace {
@@ -49,13 +52,57 @@ TEST_F(WindowsFiles, ReadOnlyFilesAreKept) {
 // A scanner opens new files for a moment and denies others to delete them.
 TEST_F(WindowsFiles, ReplaceWaitsForAFileInUse) {
   replaceFile(file_, std::string_view("old"));
-  std::optional<std::ifstream> reader(std::in_place, file_);
+  replaceFile(directory_.path() / "other", std::string_view("other"));
+  HANDLE reader = ::CreateFileW(file_.c_str(), GENERIC_READ, FILE_SHARE_READ, nullptr, OPEN_EXISTING, 0, nullptr);
+  ASSERT_NE(reader, INVALID_HANDLE_VALUE);
+  EXPECT_FALSE(::MoveFileExW((directory_.path() / "other").c_str(), file_.c_str(), MOVEFILE_REPLACE_EXISTING))
+      << "a file in use can be replaced at once, so this test shows nothing";
+  std::atomic<bool> closed = false;
   std::thread closing([&] {
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
-    reader.reset();
+    closed = true;
+    ::CloseHandle(reader);
   });
   replaceFile(file_, std::string_view("new"));
+  EXPECT_TRUE(closed);
   closing.join();
+  EXPECT_EQ(readText(file_), "new");
+}
+
+std::vector<std::byte> accessOf(const fs::path& file) {
+  DWORD size = 0;
+  ::GetFileSecurityW(file.c_str(), DACL_SECURITY_INFORMATION, nullptr, 0, &size);
+  std::vector<std::byte> access(size);
+  ::GetFileSecurityW(file.c_str(), DACL_SECURITY_INFORMATION, access.data(), size, &size);
+  return access;
+}
+
+TEST_F(WindowsFiles, ReplaceKeepsTheAccessList) {
+  replaceFile(file_, std::string_view("old"));
+  const std::vector<std::byte> usual = accessOf(file_);
+  PSECURITY_DESCRIPTOR own = nullptr;
+  ASSERT_TRUE(::ConvertStringSecurityDescriptorToSecurityDescriptorW(L"D:P(A;;FA;;;OW)(A;;FA;;;BA)", SDDL_REVISION_1,
+                                                                     &own, nullptr));
+  ASSERT_TRUE(::SetFileSecurityW(file_.c_str(), DACL_SECURITY_INFORMATION, own));
+  ::LocalFree(own);
+  const std::vector<std::byte> narrow = accessOf(file_);
+  ASSERT_NE(narrow, usual);
+  replaceFile(file_, std::string_view("new"));
+  EXPECT_EQ(accessOf(file_), narrow);
+  EXPECT_EQ(readText(file_), "new");
+}
+
+TEST_F(WindowsFiles, ReplaceKeepsLinks) {
+  const fs::path link = directory_.path() / "link";
+  replaceFile(file_, std::string_view("old"));
+  constexpr DWORD withoutRights = 2;  // SYMBOLIC_LINK_FLAG_ALLOW_UNPRIVILEGED_CREATE
+  ::CreateSymbolicLinkW(link.c_str(), file_.c_str(), withoutRights);
+  const DWORD attributes = ::GetFileAttributesW(link.c_str());
+  if (attributes == INVALID_FILE_ATTRIBUTES || (attributes & FILE_ATTRIBUTE_REPARSE_POINT) == 0) {
+    GTEST_SKIP() << "no link can be made: by this user, or by wine";
+  }
+  replaceFile(link, std::string_view("new"));
+  EXPECT_NE(::GetFileAttributesW(link.c_str()) & FILE_ATTRIBUTE_REPARSE_POINT, 0u);
   EXPECT_EQ(readText(file_), "new");
 }
 
@@ -68,8 +115,15 @@ TEST_F(WindowsFiles, ReplaceNeedsAFolderAndAFile) {
 }
 
 TEST_F(WindowsFiles, DevicesAreWrittenNotReplaced) {
-  replaceFile("NUL", std::string_view("gone"));
-  EXPECT_FALSE(fs::exists(directory_.path() / "NUL.part0"));
+  const std::wstring name = L"\\\\.\\pipe\\speculum-test-" + std::to_wstring(::GetCurrentProcessId());
+  HANDLE pipe = ::CreateNamedPipeW(name.c_str(), PIPE_ACCESS_INBOUND, PIPE_TYPE_BYTE, 1, 100, 100, 0, nullptr);
+  ASSERT_NE(pipe, INVALID_HANDLE_VALUE);
+  replaceFile(name, std::string_view("content"));
+  std::array<char, 100> read{};
+  DWORD count = 0;
+  EXPECT_TRUE(::ReadFile(pipe, read.data(), read.size(), &count, nullptr));
+  EXPECT_EQ(std::string_view(read.data(), count), "content");
+  ::CloseHandle(pipe);
 }
 
 TEST_F(WindowsFiles, AFolderIsLockedOnce) {
@@ -123,6 +177,25 @@ TEST(WindowsProcess, ArgumentsArriveAsTheyAre) {
     expected += argument + "\n";
   }
   EXPECT_EQ(runProcess(command).output, expected);
+}
+
+// cmd.exe itself takes the words apart.
+TEST(WindowsProcess, ShellWordsSurviveTheShell) {
+  EXPECT_EQ(shellWord("C:\\a.png"), "C:\\a.png");
+  EXPECT_EQ(shellWord(""), "\"\"");
+  EXPECT_EQ(shellWord("a\x1b"), "a\\x1b") << "a terminal acts on it";
+  EXPECT_EQ(shellWord("%PATH%"), "\"\"^%\"PATH\"^%\"\"");  // wine's cmd.exe takes carets after quotes as they are
+  const TemporaryDirectory directory;
+  const fs::path output = directory.path() / "output";
+  std::string line = shellWord(executablePath().string()) + " --print-arguments";
+  std::string expected;
+  for (const std::string word : {"a b", "1,0,0", "&", "tail\\ \\", "^", "\xc3\xa4 \xe9\x8f\xa1"}) {
+    line += ' ' + shellWord(word);
+    expected += word + "\n";
+  }
+  // A line that begins with a quote would lose it.
+  ::_wsystem(win32::wide("cd . & " + line + " > " + shellWord(output.string())).c_str());
+  EXPECT_EQ(readText(output), expected);
 }
 
 TEST(WindowsProcess, TalksLineByLine) {

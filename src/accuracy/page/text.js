@@ -25,12 +25,17 @@ function columnDecimals(values) {
   return Math.min(6, Math.max(0, ...needed));
 }
 
-// One word of a shell, in quotes only where they are needed. A terminal acts on control characters that are pasted.
-const hidden = /[\p{Cc}\p{Cf}\p{Zl}\p{Zp}'\\]/gu;
-const shellWord = text => /^[A-Za-z0-9_.\/=,:+@%-]+$/.test(text) ? text
-  : /[\p{Cc}\p{Cf}\p{Zl}\p{Zp}]/u.test(text)
-    ? `$'${text.replace(hidden, c => `\\U${c.codePointAt(0).toString(16).padStart(8, '0')}`)}'`
+// One word of a shell, in quotes only where they are needed: for sh, on Windows for cmd.exe, which replaces %NAME% within
+// quotes. A terminal acts on control characters that are pasted; cmd.exe has no notation for them.
+const control = /[\p{Cc}\p{Cf}\p{Zl}\p{Zp}]/gu;
+const codeOf = c => c.codePointAt(0).toString(16).padStart(8, '0');
+const shWord = text => /^[A-Za-z0-9_.\/=,:+@%-]+$/.test(text) ? text
+  : text.match(control) ? `$'${text.replace(/[\p{Cc}\p{Cf}\p{Zl}\p{Zp}'\\]/gu, c => `\\U${codeOf(c)}`)}'`
     : `'${text.replaceAll("'", "'\\''")}'`;
+const cmdWord = text => /^[A-Za-z0-9_.\/\\=:+@-]+$/.test(text) ? text
+  : `"${text.replace(control, c => `\\U${codeOf(c)}`).replace(/(\\*)("|$)/g, (_, slashes, end) => slashes + slashes + (end && '\\"'))
+    .replaceAll('%', '"^%"')}"`;
+const shellWord = navigator.userAgent.includes('Windows') ? cmdWord : shWord;
 
 const setOption = (key, value) => `--set ${shellWord(`${key}=${value}`)}`;
 const setOptions = settings => Object.entries(settings).map(([key, value]) => setOption(key, value)).join(' ');
