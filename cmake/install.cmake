@@ -1,9 +1,9 @@
-# Windows: one folder that can be put anywhere.
-if(WIN32)
+# An archive: one folder that can be put anywhere.
+if(SPECULUM_ARCHIVE)
   set(CMAKE_INSTALL_BINDIR .)
   set(CMAKE_INSTALL_DOCDIR .)
   set(SPECULUM_DATA_DIR .)
-  set(examples examples)
+  set(examples examples/bin)
 else()
   include(GNUInstallDirs)
   set(SPECULUM_DATA_DIR ${CMAKE_INSTALL_DATADIR}/speculum)
@@ -24,7 +24,7 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples/ DESTINATION ${SPECULUM_DATA_DI
 install(TARGETS triangle offscreen one_mirror mirror_in_mirror RUNTIME DESTINATION ${examples})
 install(DIRECTORY ${PROJECT_BINARY_DIR}/examples/shaders DESTINATION ${examples} FILES_MATCHING PATTERN "*.spv")
 install(FILES ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
-if(WIN32)
+if(SPECULUM_ARCHIVE)
   return()
 endif()
 install(FILES ${PROJECT_SOURCE_DIR}/scripts/speculum-completion.bash

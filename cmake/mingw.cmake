@@ -11,7 +11,7 @@ set(CMAKE_FIND_ROOT_PATH_MODE_INCLUDE ONLY)
 set(CMAKE_FIND_ROOT_PATH_MODE_PACKAGE ONLY)
 # The host's pkg-config knows the host's libraries only.
 set(CMAKE_DISABLE_FIND_PACKAGE_PkgConfig ON)
-set(CMAKE_CROSSCOMPILING_EMULATOR wine)
+set(CMAKE_CROSSCOMPILING_EMULATOR ${CMAKE_CURRENT_LIST_DIR}/windows/run-wine)
 # The program carries all that it needs. Without a time of linking in it, two builds give the same bytes.
 set(CMAKE_EXE_LINKER_FLAGS_INIT "-static -Wl,--no-insert-timestamp")
 set(ZLIB_USE_STATIC_LIBS ON)

@@ -21,6 +21,9 @@ fi
 package_packages=(dpkg-dev file librsvg2-bin lintian)
 # For scripts/bench-mirrors only.
 bench_packages=(python3)
+# For scripts/linux-archive only, with the build's.
+archive_packages=(dpkg-dev xz-utils binutils zlib1g-dev libwayland-dev wayland-protocols libxkbcommon-dev libxrandr-dev
+  libxinerama-dev libxcursor-dev libxi-dev)
 # For scripts/windows only, with the build's; Xvfb and its tools are for --test.
 windows_packages=(g++-mingw-w64-x86-64-posix libz-mingw-w64-dev dpkg-dev zip wine wine64 libgtest-dev googletest xvfb xdotool)
 # For scripts/fuzz only.
