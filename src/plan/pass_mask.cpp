@@ -35,6 +35,14 @@ bool isWellShaped(std::span<const glm::dvec3> polygon, const glm::dvec2& step) {
   return n >= 3;
 }
 
+// Returns by how many pixels the rounding of the mirror's corners, which is that of the eye's position, may turn the
+// planes of a mirror image's cone: more than one if the eye is far from the origin and very near the mirror.
+double roundingOfCone(const View& view, const Projection& projection) {
+  const double height = view.clip ? std::abs(view.clip->distance(view.eye)) : INFINITY;
+  const double pixel = 2.0 * height / (projection.focal * view.pictureSize.y);
+  return pixel > 0.0 ? 1e-15 * glm::length(view.eye) / pixel : 0.0;
+}
+
 }  // namespace
 
 // At the screen's resolution a pixel reads one texel. The mask holds all samples of that texel, because a driver may
@@ -50,6 +58,22 @@ double lookupReach(const Pass& pass, const Settings& settings, bool standardLoca
   const auto farthest = [&](int samples) { return standardLocations ? 0.5 - 0.5 / std::min(samples, 8) : 0.5; };
   const int most = std::max({image.samples, pass.shownIn.samples, settings.view.samples});
   return farthest(most) + farthest(image.samples);
+}
+
+std::vector<double> lookupReaches(const FramePlan& plan, const Settings& settings, bool standardLocations) {
+  std::vector<double> reaches(plan.passes.size(), 0.0);
+  for (size_t i = plan.passes.size(); i-- > 0;) {
+    const Pass& pass = plan.passes[i];
+    for (const MirrorDraw& draw : pass.mirrors) {
+      if (draw.pass >= 0) {
+        const Pass& shown = plan.passes[draw.pass];
+        const double texels = shown.view.pictureSize.x / pass.view.pictureSize.x;
+        reaches[draw.pass] = lookupReach(shown, settings, standardLocations) +
+                             roundingOfCone(shown.view, plan.projection) + reaches[i] * texels;
+      }
+    }
+  }
+  return reaches;
 }
 
 double cachedLookupReach(const ImageQuality& quality) {

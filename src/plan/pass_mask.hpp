@@ -11,6 +11,10 @@ namespace speculum {
 // With `standardLocations` samples lie where Vulkan's standardSampleLocations puts them, otherwise anywhere in their
 // texel.
 double lookupReach(const Pass& pass, const Settings& settings, bool standardLocations);
+// Returns for each pass how far its image is read beyond the view's cone, in its texels: lookupReach(), the rounding of
+// the cone, and how far the pass that shows the image is read, which shows more of the mirror there than the cone
+// bounds.
+std::vector<double> lookupReaches(const FramePlan& plan, const Settings& settings, bool standardLocations);
 // Returns lookupReach() for an image that is cached, or has another resolution than the pass that shows it.
 double cachedLookupReach(const ImageQuality& quality);
 

@@ -129,11 +129,12 @@ void FrameData::build(Frame& frame, const SceneResources& resources, const Scene
   for (size_t map = 0; map < maps.size(); ++map) {
     shadowMaps_[maps[map].light] = static_cast<uint32_t>(map);
   }
+  const std::vector<double> reaches = lookupReaches(plan, settings, device_.limits().standardSampleLocations);
   const std::vector<std::vector<PixelRect>> converged = convergedParts(plan);
   for (size_t i = 0; i < plan.passes.size(); ++i) {
     if (plan.passes[i].drawn()) {
       addPass(source, plan.passes[i], passes_[i]);
-      addMask(source, plan.passes[i], converged[i], passes_[i]);
+      addMask(source, plan.passes[i], reaches[i], converged[i], passes_[i]);
     }
   }
 
@@ -358,7 +359,8 @@ void FrameData::addRepeating(const Scene& scene, const SceneState& state, const 
   }
 }
 
-void FrameData::addMask(const Source& source, const Pass& pass, std::span<const PixelRect> converged, DrawList& data) {
+void FrameData::addMask(const Source& source, const Pass& pass, double reach, std::span<const PixelRect> converged,
+                        DrawList& data) {
   if (!source.settings.debug.maskPasses) {
     return;
   }
@@ -373,7 +375,6 @@ void FrameData::addMask(const Source& source, const Pass& pass, std::span<const 
   const glm::dvec2 drawn = overscan(pass.view);
   data.maskFirstVertex = static_cast<uint32_t>(mirrorVertices_.size());
   if (!pass.view.path.empty()) {
-    const double reach = lookupReach(pass, source.settings, device_.limits().standardSampleLocations);
     ClipPolygon clip;
     for (const glm::dvec2& p : passMask(pass.view, source.plan.projection, reach)) {
       clip.emplace_back(p / drawn, 0.0, 1.0);  // infinitely far

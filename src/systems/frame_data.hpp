@@ -130,7 +130,8 @@ class FrameData {
   void addMirrors(const Source& source, const Pass& pass, const glm::dmat4& projection, DrawList& data);
   void addRepeating(const Scene& scene, const SceneState& state, const glm::dvec3& eye);
   // `converged`: parts of the pass that are not drawn.
-  void addMask(const Source& source, const Pass& pass, std::span<const PixelRect> converged, DrawList& data);
+  void addMask(const Source& source, const Pass& pass, double reach, std::span<const PixelRect> converged,
+               DrawList& data);
 
   Device& device_;
   float lostInSums_;  // ViewData::zenith.w

@@ -31,7 +31,8 @@ ShownTarget targetOf(const FramePlan& plan, const Pass& pass, const Settings& se
                      .size = {view.rect.width, view.rect.height},
                      .near = plan.projection.near};
   if (!view.path.empty() && settings.debug.maskPasses) {
-    for (const glm::dvec2& p : passMask(view, plan.projection, lookupReach(pass, settings, standardSampleLocations))) {
+    const double reach = lookupReaches(plan, settings, standardSampleLocations)[&pass - plan.passes.data()];
+    for (const glm::dvec2& p : passMask(view, plan.projection, reach)) {
       target.mask.push_back(texel(p));
     }
   }

@@ -321,6 +321,26 @@ TEST(PassMask, ReachesAsFarAsLookupsDo) {
   EXPECT_DOUBLE_EQ(lookupReach(pass, settings, true), 5.0);
 }
 
+// A pixel beside a mirror's edge is read too, and may show another mirror beyond the edge at which that one was cut.
+TEST(PassMask, AddsHowFarTheShowingImageIsRead) {
+  FramePlan plan;
+  plan.passes.resize(3);
+  Pass& nested = plan.passes[0];
+  nested.quality.scale = 1.0;
+  nested.shownIn.scale = 2.0;
+  nested.view.pictureSize = {100, 50};
+  Pass& outer = plan.passes[1];
+  outer.quality.scale = 2.0;
+  outer.view.pictureSize = {200, 100};
+  outer.mirrors.push_back({});
+  outer.mirrors[0].pass = 0;
+  Pass& main = plan.passes[2];
+  main.view.pictureSize = {100, 50};
+  main.mirrors.push_back({});
+  main.mirrors[0].pass = 1;
+  EXPECT_EQ(lookupReaches(plan, {}, true), (std::vector{2.0 + 0.5 * 3.0, 3.0, 0.0}));
+}
+
 TEST(PassMask, FollowsTheMarginOfACachedImage) {
   const Scene scene = sceneWith({wall({0, 0, -5}, 20, {2, 2})}, {});
   View view = planOf(scene).drawnMirrors()[0].view;

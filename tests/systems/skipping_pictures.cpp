@@ -122,6 +122,37 @@ TEST(Skipping, CameraCutsShowWhatDrawingEverythingShows) {
               passes, passesOfAll, differing);
 }
 
+// Three mirrors meet in a corner, and the image of one has twice the resolution. Along its edges it is read a few
+// texels beyond them, where it shows the others.
+TEST(Skipping, MasksReachBeyondTheImagesThatShowThem) {
+  QuietSession session(headless(writeScene("corner", R"([environment]
+background = [0.8, 0.1, 0.4]
+[[mirror]]
+polygon = [[0.97334338336639559, 2.3574790383861086, -1.2862845012753470], [0.15408369572388, -1.3826467940933118, -2.4439858105188015], [-0.27379392510832606, -2.4591214733643119, 1.3365175084277792], [0.54546576253418944, 1.281004359115109, 2.4942188176712339]]
+[[mirror]]
+polygon = [[0.15408369572388, -1.3826467940933118, -2.4439858105188015], [-0.42951311742126658, 2.4401746480022317, -1.4215128370171166], [-0.85739073825347267, 1.3636999687312319, 2.3589904819294638], [-0.27379392510832606, -2.4591214733643119, 1.3365175084277792]]
+reflectance = [0.6, 0.6, 0.76]
+two_sided = true
+[[mirror]]
+polygon = [[0.97334338336639559, 2.3574790383861086, -1.286284501275347], [-0.42951311742126658, 2.4401746480022317, -1.4215128370171166], [0.15408369572388, -1.3826467940933118, -2.4439858105188015]]
+base_color = [0.17, 0.22, 0.4]
+quality = { scale = 2 }
+[camera]
+position = [0.085095282971913044, 1.1097201629776134, 0.65532960305834675]
+target = [-0.30603561351554165, -1.6629344509679911, -0.1011446305787041]
+up = [-1.6943106966158621, 0.83877125147564291, -2.1982582417355419]
+vertical_fov = 89.917016879310893
+)"),
+                                {160, 90},
+                                {{"view.samples", "1"},
+                                 {"reflection.samples", "1"},
+                                 {"reflection.max_depth", "3"},
+                                 {"reflection.max_passes", "1000"}}));
+  const Image8 masked = draw(session);
+  set(session, {{"debug.mask_passes", "false"}});
+  EXPECT_EQ(difference(masked, draw(session), 0).over, 0);
+}
+
 // 12 mirrors that each show parts of one or two shells, which have 4 704 triangles and are no solids.
 std::filesystem::path smallMirrorsScene() {
   std::ostringstream toml;
