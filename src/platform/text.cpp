@@ -92,6 +92,7 @@ bool matchesGlob(std::string_view glob, std::string_view text) {
 std::string oneLine(std::string_view text) {
   constexpr size_t longest = 4000;
   constexpr size_t lastKept = 1000;
+  constexpr std::string_view gap = " ... ";
   std::string line;
   bool begun = false;  // `line` has a visible character of ASCII
   for (size_t i = 0, bytes = 0; i < text.size(); i += std::max<size_t>(bytes, 1)) {
@@ -109,7 +110,7 @@ std::string oneLine(std::string_view text) {
     begun = begun || (line.back() > 0x20 && line.back() < 0x7f);
   }
   if (line.size() > longest) {
-    size_t begin = longest - lastKept;
+    size_t begin = longest - lastKept - gap.size();
     size_t end = line.size() - lastKept;
     while (begin > 0 && continuesCharacter(line[begin])) {
       --begin;
@@ -117,7 +118,7 @@ std::string oneLine(std::string_view text) {
     while (end < line.size() && continuesCharacter(line[end])) {
       ++end;
     }
-    line.replace(begin, end - begin, " ... ");
+    line.replace(begin, end - begin, gap);
   }
   return line;
 }
