@@ -283,7 +283,8 @@ void MeshBuilder::smoothNormals() {
       const glm::dvec3 own = shapeOf(position(0), position(1), position(2)).normal;
       for (size_t k = first; k < first + 3; ++k) {
         if (indices[k] < cancelled.size() && cancelled[indices[k]]) {
-          indices[k] = copyOf(indices[k]);
+          const bool taken = vertices_[indices[k]].normal != glm::dvec3(0.0);  // by a triangle before
+          indices[k] = taken ? copyOf(indices[k]) : indices[k];
           vertices_[indices[k]].normal = own;
         }
       }
