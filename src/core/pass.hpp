@@ -96,6 +96,7 @@ class PassScope {
   VkCommandBuffer commands() const { return commands_; }
   const PassDesc& desc() const { return desc_; }
   VkSampleCountFlagBits samples() const { return desc_.targets.samples(); }
+  bool hasLabels() const { return device_.functions().beginLabel != nullptr; }
   // Begins a debug label within the pass's own label; endLabel() ends it.
   void beginLabel(std::string_view name) const { device_.beginLabel(commands_, name); }
   void endLabel() const { device_.endLabel(commands_); }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <utility>
 
 #include "plan/scene_names.hpp"
 #include "systems/deferred_shading.hpp"
@@ -43,14 +45,20 @@ void addVertexInput(GraphicsPipelineDesc& desc) {
   add(13, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(gpu::InstanceData, clipPlane), 1);
 }
 
-void bindBatch(const PassScope& scope, const FrameInfo& info, const Batch& batch) {
-  const SceneResources::GpuMesh& mesh = info.resources.meshes()[batch.mesh];
-  const std::array buffers{mesh.vertices.get(), info.data.instanceBuffer()};
-  constexpr std::array<VkDeviceSize, 2> offsets{};
-  vkCmdBindVertexBuffers(scope.commands(), 0, buffers.size(), buffers.data(), offsets.data());
-  vkCmdBindIndexBuffer(scope.commands(), mesh.indices.get(), 0, VK_INDEX_TYPE_UINT32);
-  const VkCullModeFlags backs = batch.handedness > 0.0f ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_FRONT_BIT;
-  scope.cull(batch.cullsBacks ? backs : VkCullModeFlags{VK_CULL_MODE_NONE});
+void bindBatch(const PassScope& scope, const FrameInfo& info, const Batch& batch, const Batch* before) {
+  if (!before || before->mesh != batch.mesh) {
+    const SceneResources::GpuMesh& mesh = info.resources.meshes()[batch.mesh];
+    const std::array buffers{mesh.vertices.get(), info.data.instanceBuffer()};
+    constexpr std::array<VkDeviceSize, 2> offsets{};
+    vkCmdBindVertexBuffers(scope.commands(), 0, buffers.size(), buffers.data(), offsets.data());
+    vkCmdBindIndexBuffer(scope.commands(), mesh.indices.get(), 0, VK_INDEX_TYPE_UINT32);
+  }
+  const auto culled = [](const Batch& of) -> VkCullModeFlags {
+    return !of.cullsBacks ? VK_CULL_MODE_NONE : of.handedness > 0.0f ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_FRONT_BIT;
+  };
+  if (!before || culled(*before) != culled(batch)) {
+    scope.cull(culled(batch));
+  }
 }
 
 GraphicsPipelineDesc RenderSystem::objects(const Variant& variant, const FrameInfo& info,
@@ -147,7 +155,7 @@ void RenderSystem::countDraw(EffectLedger& ledger, const Variant& variant) {
 }
 
 uint32_t RenderSystem::recordBatch(const PassScope& scope, const FrameInfo& info, const DrawList& pass,
-                                   const Batch& batch, Variant variant, const DeferredShading* shading) {
+                                   const Batch& batch, Variant variant, Bound& bound, const DeferredShading* shading) {
   const VkCommandBuffer commands = scope.commands();
   variant.curved = batch.curved;
   variant.environment = batch.environment;
@@ -159,7 +167,7 @@ uint32_t RenderSystem::recordBatch(const PassScope& scope, const FrameInfo& info
   variant.onlyShadowFace = variant.shadowed ? info.shadows.onlyFace() : gpu::anyShadowFace;
   variant.lightCount = variant.deferred || variant.added ? gpu::manyLights : fixedLightCount(info.scene);
   const Mesh& mesh = info.scene.meshes[batch.mesh];
-  bindBatch(scope, info, batch);
+  bindBatch(scope, info, batch, std::exchange(bound.batch, &batch));
   variant.vertexColors = !variant.deferred && !batch.environment && !mesh.colors.empty();
   if (variant.vertexColors) {
     const VkBuffer colors = info.resources.meshes()[batch.mesh].colors.get();
@@ -167,7 +175,9 @@ uint32_t RenderSystem::recordBatch(const PassScope& scope, const FrameInfo& info
     vkCmdBindVertexBuffers(commands, 2, 1, &colors, &offset);
   }
   uint32_t draws = 0;
-  scope.beginLabel(nameOf("object", info.scene.objects[batch.object].name, batch.object));
+  if (scope.hasLabels()) {
+    scope.beginLabel(nameOf("object", info.scene.objects[batch.object].name, batch.object));
+  }
   for (size_t p = 0; p < mesh.parts.size(); ++p) {
     const Material& material = mesh.parts[p].material;
     const bool textured = material.diffuseTexture >= 0 && info.settings.effects.textures;
@@ -183,26 +193,38 @@ uint32_t RenderSystem::recordBatch(const PassScope& scope, const FrameInfo& info
                         !info.data.repeats().empty() &&
                         mesh.parts[p].firstIndex + 3 * mesh.repeats >= mesh.indices.size();
     variant.clamps = material.clamps && (variant.covered || variant.diffuseLookup != gpu::textureNone);
-    const Pipeline& pipeline = objects_.get(variant, [&] { return objects(variant, info, shading); });
-    info.data.bind(pipeline, commands, pass);
-    scope.drawLines(info.settings.view.wireframe, pass.lineWidth);
-    pipeline.bindSet(commands, 1, batch.map >= 0 ? info.maps[batch.map] : info.resources.texture(material));
-    if (variant.shadowed) {
-      pipeline.bindSet(commands, 2, info.shadows.set());
-    } else if (variant.added) {
-      pipeline.bindSet(commands, 2, shading->set());
+    if (!bound.pipeline || bound.variant != variant) {
+      bound.pipeline = &objects_.get(variant, [&] { return objects(variant, info, shading); });
+      bound.variant = variant;
+      bound.texture = VK_NULL_HANDLE;
+      bound.constants.reset();
+      info.data.bind(*bound.pipeline, commands, pass);
+      scope.drawLines(info.settings.view.wireframe, pass.lineWidth);
+      if (variant.shadowed) {
+        bound.pipeline->bindSet(commands, 2, info.shadows.set());
+      } else if (variant.added) {
+        bound.pipeline->bindSet(commands, 2, shading->set());
+      }
+    }
+    const Pipeline& pipeline = *bound.pipeline;
+    const VkDescriptorSet texture = batch.map >= 0 ? info.maps[batch.map] : info.resources.texture(material);
+    if (std::exchange(bound.texture, texture) != texture) {
+      pipeline.bindSet(commands, 1, texture);
     }
     if (variant.covered) {
       bindOpacity(pipeline, commands, info, material);
     }
+    // Other shaders do not ask which triangle they shade.
+    const bool asksTriangle = variant.deferred || variant.asks || variant.added || variant.covered || variant.repeating;
     for (const IndexRange& range : drawnRanges(mesh.parts[p], batch)) {
-      constants.firstTriangle = range.first / 3;
+      constants.firstTriangle = asksTriangle ? range.first / 3 : 0;
       if (variant.added) {
         pipeline.push(commands, gpu::ReflectionConstants{constants, DeferredShading::areaOf(scope.desc())});
       } else if (variant.covered) {
         pipeline.push(commands, coverageConstants(constants, material));
-      } else {
+      } else if (const auto bytes = std::bit_cast<Bound::Constants>(constants); bound.constants != bytes) {
         pipeline.push(commands, constants);
+        bound.constants = bytes;
       }
       vkCmdDrawIndexed(commands, range.count, batch.count, range.first, 0, batch.firstInstance);
       ++draws;
@@ -260,10 +282,11 @@ RenderSystem::Variant RenderSystem::variantOf(const PassScope& scope, const Fram
 
 uint32_t RenderSystem::record(const PassScope& scope, const FrameInfo& info, const DrawList& pass) {
   Variant variant = variantOf(scope, info, pass);
+  Bound bound;
   uint32_t draws = 0;
   for (const Batch& batch : pass.batches) {
     variant.deferred = defers(info, batch) && !asks(info, batch);
-    draws += recordBatch(scope, info, pass, batch, variant);
+    draws += recordBatch(scope, info, pass, batch, variant, bound);
   }
   scope.cull(VK_CULL_MODE_NONE);
   return draws + (info.environment.sky ? recordSky(scope, info, pass) : 0);
@@ -273,10 +296,11 @@ uint32_t RenderSystem::recordReflections(const PassScope& scope, const FrameInfo
                                          const DeferredShading& shading) {
   Variant variant = variantOf(scope, info, pass);
   variant.added = true;
+  Bound bound;
   uint32_t draws = 0;
   for (const Batch& batch : pass.batches) {
     if (batch.environment && defers(info, batch)) {
-      draws += recordBatch(scope, info, pass, batch, variant, &shading);
+      draws += recordBatch(scope, info, pass, batch, variant, bound, &shading);
     }
   }
   scope.cull(VK_CULL_MODE_NONE);

@@ -1,5 +1,9 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <optional>
+
 #include "systems/frame_info.hpp"
 #include "systems/pipeline_variants.hpp"
 
@@ -10,8 +14,9 @@ class DeferredShading;
 // Adds the vertex input of scene.vert: attributes of vertices and of instances.
 void addVertexInput(GraphicsPipelineDesc& desc);
 // Binds the batch's mesh and the frame's instances as the input of addVertexInput(). If the batch culls backs, they are
-// culled until the next PassScope::cull().
-void bindBatch(const PassScope& scope, const FrameInfo& info, const Batch& batch);
+// culled until the next PassScope::cull(). Leaves out what `before`, the batch that was bound last in the pass, shares;
+// null: none was.
+void bindBatch(const PassScope& scope, const FrameInfo& info, const Batch& batch, const Batch* before);
 
 // Returns the indices of the part that the batch draws.
 std::vector<IndexRange> drawnRanges(const MeshPart& part, const Batch& batch);
@@ -67,13 +72,22 @@ class RenderSystem {
     uint32_t onlyShadowFace = gpu::anyShadowFace;
     auto operator<=>(const Variant&) const = default;
   };
+  // State that the draws of a pass have bound so far. It is bound again only where it changes.
+  struct Bound {
+    const Batch* batch = nullptr;
+    const Pipeline* pipeline = nullptr;
+    Variant variant{};  // of the pipeline
+    VkDescriptorSet texture = VK_NULL_HANDLE;
+    using Constants = std::array<std::byte, sizeof(gpu::DrawConstants)>;
+    std::optional<Constants> constants;
+  };
   GraphicsPipelineDesc objects(const Variant& variant, const FrameInfo& info, const DeferredShading* shading) const;
   static bool asks(const FrameInfo& info, const Batch& batch);
   static bool defers(const FrameInfo& info, const Batch& batch);
   static void countDraw(EffectLedger& ledger, const Variant& variant);
   static Variant variantOf(const PassScope& scope, const FrameInfo& info, const DrawList& pass);
   uint32_t recordBatch(const PassScope& scope, const FrameInfo& info, const DrawList& pass, const Batch& batch,
-                       Variant variant, const DeferredShading* shading = nullptr);
+                       Variant variant, Bound& bound, const DeferredShading* shading = nullptr);
   uint32_t recordSky(const PassScope& scope, const FrameInfo& info, const DrawList& pass);
 
   VkDescriptorSetLayout frameLayout_;

@@ -147,8 +147,9 @@ uint32_t ShadowSystem::draw(const PassScope& scope, const FrameInfo& info, size_
     ++draws;
   }
   bool bound = false;  // the pipeline of opaque objects
+  const Batch* before = nullptr;
   for (const Batch& batch : data.batches) {
-    bindBatch(scope, info, batch);
+    bindBatch(scope, info, batch, std::exchange(before, &batch));
     if (!batch.curved && isTransparent(info.scene.meshes[batch.mesh], info.settings.effects)) {
       draws += drawParts(scope, info, data, batch);
       bound = false;
@@ -177,7 +178,7 @@ uint32_t ShadowSystem::drawEdges(const PassScope& scope, const FrameInfo& info, 
   uint32_t draws = 0;
   scope.drawLines(true, edgeWidth);
   for (const Batch& batch : data.batches) {
-    bindBatch(scope, info, batch);
+    bindBatch(scope, info, batch, nullptr);
     // Draws a solid's backs alone: their edges lie behind the fronts, except along outlines. The batch's ranges leave
     // out clusters of backs.
     const VkCullModeFlags fronts = batch.handedness > 0.0f ? VK_CULL_MODE_FRONT_BIT : VK_CULL_MODE_BACK_BIT;
