@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <cstdint>
 #include <optional>
@@ -41,7 +42,10 @@ class ContentNumbers {
     (add(values), ...);
   }
 
-  void add(const std::string& text) { add(RecycledVector<double>(text.begin(), text.end())); }
+  void add(const std::string& text) {
+    add(static_cast<double>(text.size()));
+    std::ranges::for_each(text, [&](char c) { add(static_cast<double>(c)); });
+  }
   template <typename Enum>
   requires std::is_enum_v<Enum>
   void add(Enum value) { add(static_cast<double>(value)); }
@@ -67,6 +71,8 @@ class ContentNumbers {
   void addCount(uint64_t value) { numbers_.push_back(value); }
 
   RecycledVector<uint64_t> take() { return std::move(numbers_); }
+  const RecycledVector<uint64_t>& numbers() const { return numbers_; }
+  void clear() { numbers_.clear(); }  // keeps the memory
 
  private:
   RecycledVector<uint64_t> numbers_;

@@ -22,11 +22,17 @@ void SceneChanges::update(const Scene& scene, const SceneState& state) {
   if (placements_.size() != state.instances.size() || mirrors_.size() != scene.mirrorCount()) {
     any_ = update_;
   }
+  ContentNumbers content;
+  const auto note = [&](Tracked& tracked) {
+    if (tracked.changed == 0 || content.numbers() != tracked.content) {
+      tracked = {content.numbers(), update_};
+    }
+    content.clear();
+  };
   objects_.resize(scene.objects.size());
   for (size_t i = 0; i < scene.objects.size(); ++i) {
-    ContentNumbers content;
     content.add(scene.objects[i]);
-    note(content.take(), objects_[i]);
+    note(objects_[i]);
     any_ = std::max(any_, objects_[i].changed);
   }
   const size_t known = std::min(placements_.size(), state.instances.size());
@@ -46,23 +52,15 @@ void SceneChanges::update(const Scene& scene, const SceneState& state) {
   mirrors_.resize(scene.mirrorCount());
   for (size_t i = 0; i < scene.mirrorCount(); ++i) {
     const MirrorState& placed = state.mirrors[i];
-    ContentNumbers content;
     content.addAll(placed.polygon, placed.pieces, placed.origin, placed.normal, placed.axisX, placed.axisY,
                    scene.mirror(i));
-    note(content.take(), mirrors_[i]);
+    note(mirrors_[i]);
     any_ = std::max(any_, mirrors_[i].changed);
   }
-  ContentNumbers lights;
   for (size_t i = 0; i < scene.lights.size(); ++i) {
-    lights.addAll(state.lights[i].position, scene.lights[i]);
+    content.addAll(state.lights[i].position, scene.lights[i]);
   }
-  note(lights.take(), lights_);
-}
-
-void SceneChanges::note(RecycledVector<uint64_t> content, Tracked& tracked) {
-  if (tracked.changed == 0 || content != tracked.content) {
-    tracked = {std::move(content), update_};
-  }
+  note(lights_);
 }
 
 }  // namespace speculum

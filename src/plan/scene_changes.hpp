@@ -33,8 +33,6 @@ class SceneChanges {
     uint64_t changed = 0;
   };
 
-  void note(RecycledVector<uint64_t> content, Tracked& tracked);
-
   uint64_t update_ = 0;  // number of the last update
   uint64_t any_ = 0;
   std::vector<Placement> placements_;  // of the instances
