@@ -161,10 +161,14 @@ bool edgeSeparates(const Placed& a, const Placed& b, double slack) {
   return false;
 }
 
+// Returns the distance of two boxes along the axis on which they are farthest apart; below 0 where they overlap.
+double gapBetween(const Bounds& a, const Bounds& b) {
+  return glm::compMax(glm::max(a.low - b.high, b.low - a.high));
+}
+
 bool overlap(const Placed& a, const Placed& b) {
   const double slack = std::max(a.state->slack, b.state->slack);
-  const glm::dvec3 gap = glm::max(a.bounds.low - b.bounds.high, b.bounds.low - a.bounds.high);
-  return glm::compMax(gap) <= slack && !edgeSeparates(a, b, slack) && !edgeSeparates(b, a, slack);
+  return gapBetween(a.bounds, b.bounds) <= slack && !edgeSeparates(a, b, slack) && !edgeSeparates(b, a, slack);
 }
 
 // Sets the layers of the mirrors of one plane for an eye on the side of the plane that `towardsEye` points to.
@@ -173,14 +177,21 @@ void setLayers(std::vector<Placed>& plane, const glm::dvec3& towardsEye) {
   const auto layer = [&](const Placed& p) -> int& { return front(p) ? p.state->frontLayer : p.state->backLayer; };
   const auto showsBack = [&](const Placed& p) { return !front(p) && !p.twoSided; };
   std::ranges::sort(plane, {}, [&](const Placed& p) { return std::pair(showsBack(p), p.index); });
-  // Mirrors that may cover the next one, the deepest first: the first that overlaps the next one decides its layer.
-  std::vector<const Placed*> before;
+  RecycledVector<Bounds> boxes;
+  double slack = 0.0;
   for (const Placed& placed : plane) {
-    const auto covering = std::ranges::find_if(before, [&](const Placed* other) { return overlap(*other, placed); });
-    layer(placed) = covering == before.end() ? 0 : layer(**covering) + 1;
-    const auto shallower =
-        std::ranges::find_if(before, [&](const Placed* other) { return layer(*other) <= layer(placed); });
-    before.insert(shallower, &placed);
+    boxes.push_back(placed.bounds);
+    slack = std::max(slack, placed.state->slack);
+  }
+  const Bvh hierarchy(boxes);
+  // The deepest mirror among those before that overlap the next one decides its layer.
+  for (uint32_t i = 0; i < plane.size(); ++i) {
+    hierarchy.visit([&](const Bounds& box) { return gapBetween(box, boxes[i]) <= slack; },
+                    [&](uint32_t j) {
+                      if (j < i && overlap(plane[j], plane[i])) {
+                        layer(plane[i]) = std::max(layer(plane[i]), layer(plane[j]) + 1);
+                      }
+                    });
   }
 }
 

@@ -255,6 +255,41 @@ TEST(BesideMirrors, IsAsFarFromEachPlane) {
   EXPECT_GT(compared, 1400);
 }
 
+// Two mirrors of one plane get layers in their order, those that show their backs last, unless nothing overlaps.
+TEST(Layers, AreThoseOfALookAtEveryPair) {
+  Random random(17);
+  int deepest = 0;
+  for (int round = 0; round < 60; ++round) {
+    Scene scene = sceneWithCamera();
+    const int count = static_cast<int>(random.uniform(2, 120));
+    for (int i = 0; i < count; ++i) {
+      scene.mirrors.push_back({.position = {random.uniform(-9, 9), random.uniform(-9, 9), -5},
+                               .size = {random.uniform(0.2, 4), random.uniform(0.2, 4)},
+                               .twoSided = random.chance(0.5)});
+    }
+    const std::vector<MirrorState> states = evaluate(scene, 0.0).mirrors;
+    const auto overlap = [&](int a, int b) {
+      const glm::dvec3 gap = glm::abs(scene.mirrors[a].position - scene.mirrors[b].position);
+      const glm::dvec2 reach = 0.5 * (scene.mirrors[a].size + scene.mirrors[b].size);
+      return gap.x < reach.x && gap.y < reach.y;
+    };
+    std::vector<int> order(scene.mirrors.size());
+    std::iota(order.begin(), order.end(), 0);
+    for (const auto side : {&MirrorState::frontLayer, &MirrorState::backLayer}) {
+      for (auto i = order.begin(); i != order.end(); ++i) {
+        int layer = 0;
+        for (auto j = order.begin(); j != i; ++j) {
+          layer = overlap(*i, *j) ? std::max(layer, states[*j].*side + 1) : layer;
+        }
+        ASSERT_EQ(states[*i].*side, layer) << "round " << round << ", mirror " << *i;
+        deepest = std::max(deepest, layer);
+      }
+      std::ranges::stable_sort(order, {}, [&](int i) { return !scene.mirrors[i].twoSided; });
+    }
+  }
+  EXPECT_GT(deepest, 5);
+}
+
 TEST(Environment, BackgroundWithoutSky) {
   const Environment environment{.background = {1, 2, 3}};
   EXPECT_EQ(environment.radiance({0, 1, 0}), glm::dvec3(1, 2, 3));
