@@ -7,7 +7,7 @@ build_packages=(
   libtinyobjloader-dev libtinygltf-dev libtinyexr-dev libtomlplusplus-dev nlohmann-json3-dev libcli11-dev libspdlog-dev
   libfmt-dev libtbb-dev libmeshoptimizer-dev
 )
-run_packages=(mesa-vulkan-drivers fonts-dejavu-core)
+run_packages=(mesa-vulkan-drivers fonts-dejavu-core fontconfig)
 test_packages=(
   vulkan-validationlayers libgtest-dev librapidcheck-dev libembree-dev
   xvfb x11-xkb-utils xdotool wmctrl x11-utils openbox util-linux python3
@@ -60,6 +60,7 @@ libmeshoptimizer-dev    meshoptimizer-devel        meshoptimizer                
 libtinygltf-dev         tinygltf-devel             tinygltf                          tinygltf-devel
 mesa-vulkan-drivers     mesa-vulkan-drivers        vulkan-swrast                     libvulkan_lvp
 fonts-dejavu-core       dejavu-sans-fonts          ttf-dejavu                        dejavu-fonts
+fontconfig              fontconfig                 fontconfig                        fontconfig
 vulkan-validationlayers vulkan-validation-layers   vulkan-validation-layers          vulkan-validationlayers
 libgtest-dev            gtest-devel                gtest                             gtest
 librapidcheck-dev       rapidcheck-devel           rapidcheck                        rapidcheck-devel

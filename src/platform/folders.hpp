@@ -1,7 +1,9 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace speculum {
 
@@ -21,6 +23,14 @@ std::filesystem::path typedPath(const std::filesystem::path& typed);
 
 // Returns a sans serif font of the system whose digits are equally wide; empty if there is none.
 std::filesystem::path systemFont();
+
+struct FontFace {
+  std::filesystem::path file;
+  int index = 0;  // of the face in a file that holds several
+};
+// Returns outline fonts of the system that together have the characters, as far as it has them; those to prefer come
+// first. Asks fontconfig (some 10 ms a font); on Windows, the fonts that come with it, whether or not they help.
+std::vector<FontFace> fontsFor(std::u32string characters);
 
 // Returns the directory of shipped data `name` ("shaders", "scenes", "models"): beside the executable, in
 // <prefix>/share/speculum, or up to three folders above the executable. Throws std::runtime_error that lists where it

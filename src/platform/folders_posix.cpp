@@ -1,8 +1,13 @@
+#include <spdlog/fmt/fmt.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cstdlib>
 #include <fstream>
 #include <optional>
+#include <sstream>
+#include <utility>
 
 #include "platform/files.hpp"
 #include "platform/folders.hpp"
@@ -58,6 +63,19 @@ fs::path desktopDir(const std::string& variable, const char* fallback) {
   return folder.is_absolute() ? folder : home / fallback;
 }
 
+// Returns the ranges of a set of characters as fontconfig prints it: "20-7e a0 1f600".
+std::vector<std::pair<char32_t, char32_t>> rangesIn(const std::string& charset) {
+  std::vector<std::pair<char32_t, char32_t>> ranges;
+  std::istringstream words(charset);
+  for (std::string word; words >> word;) {
+    char* end = nullptr;
+    const unsigned long first = std::strtoul(word.c_str(), &end, 16);
+    const unsigned long last = *end == '-' ? std::strtoul(end + 1, nullptr, 16) : first;
+    ranges.emplace_back(static_cast<char32_t>(first), static_cast<char32_t>(last));
+  }
+  return ranges;
+}
+
 }  // namespace
 
 const char* const homeVariable = "HOME";
@@ -96,6 +114,35 @@ fs::path systemFont() {
   }
   const ProcessResult found = runProcess({"fc-match", "-f", "%{file}", "sans-serif:fontformat=TrueType"});
   return found.exitCode == 0 && isFile(found.output) ? fs::path(found.output) : fs::path();
+}
+
+// Fontconfig answers with the font that lacks the fewest of the characters, which may be all.
+std::vector<FontFace> fontsFor(std::u32string characters) {
+  std::vector<FontFace> fonts;
+  constexpr size_t most = 16;  // each takes memory and time
+  while (!characters.empty() && fonts.size() < most) {
+    std::string pattern = "sans-serif:outline=true:color=false:charset=";
+    for (const char32_t character : characters) {
+      pattern += fmt::format("{:x} ", uint32_t{character});
+    }
+    const ProcessResult found =
+        runProcess({"fc-match", "-f", "%{file}\n%{index}\n%{outline}%{color}\n%{charset}", pattern});
+    std::istringstream lines(found.exitCode == 0 ? found.output : "");
+    std::string file, index, kind, charset;
+    std::getline(lines, file) && std::getline(lines, index) && std::getline(lines, kind) &&
+        std::getline(lines, charset);
+    const auto ranges = rangesIn(charset);
+    const size_t helped = std::erase_if(characters, [&](char32_t character) {
+      return std::ranges::any_of(
+          ranges, [&](const auto& range) { return range.first <= character && character <= range.second; });
+    });
+    if (helped == 0 || !kind.starts_with("TrueFalse") || !isFile(file)) {
+      break;
+    }
+    constexpr unsigned long faceBits = 0xffff;  // the others name a variant of the face
+    fonts.push_back({file, static_cast<int>(std::strtoul(index.c_str(), nullptr, 10) & faceBits)});
+  }
+  return fonts;
 }
 
 }  // namespace speculum

@@ -66,4 +66,17 @@ fs::path systemFont() {
   return {};
 }
 
+std::vector<FontFace> fontsFor(std::u32string) {
+  const fs::path folder = knownFolder(FOLDERID_Fonts);
+  std::vector<FontFace> fonts;
+  // Chinese, Japanese, Korean; scripts of India, of Southeast Asia and of Africa; symbols.
+  for (const char* name : {"msyh.ttc", "YuGothM.ttc", "malgun.ttf", "msjh.ttc", "Nirmala.ttf", "Nirmala.ttc",
+                           "LeelawUI.ttf", "ebrima.ttf", "segoeui.ttf", "seguisym.ttf"}) {
+    if (isFile(folder / name)) {
+      fonts.push_back({folder / name});
+    }
+  }
+  return fonts;
+}
+
 }  // namespace speculum

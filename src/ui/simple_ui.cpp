@@ -16,6 +16,7 @@
 #include "platform/files.hpp"
 #include "platform/folders.hpp"
 #include "platform/process.hpp"
+#include "ui/foreign_glyphs.hpp"
 #include "ui/glfw_input.hpp"
 
 namespace speculum {
@@ -42,9 +43,7 @@ std::filesystem::path layoutFile() {
 
 void addFont(ImFontAtlas& atlas, float pixels) {
   static const std::string file = systemFont().string();
-  // Names of scenes: Latin, Greek and Cyrillic.
-  static constexpr ImWchar characters[] = {0x20, 0x17f, 0x391, 0x3c9, 0x400, 0x45f, 0x2010, 0x2026, 0};
-  if (!file.empty() && atlas.AddFontFromFileTTF(file.c_str(), pixels, nullptr, characters)) {
+  if (!file.empty() && atlas.AddFontFromFileTTF(file.c_str(), pixels, nullptr, ForeignGlyphs::own())) {
     return;
   }
   static std::once_flag warned;
@@ -114,7 +113,11 @@ struct SimpleUI::Backend {
 };
 
 SimpleUI::SimpleUI(Renderer& renderer, Window& window)
-    : renderer_(renderer), window_(window), backend_(std::make_unique<Backend>(window)), idle_(renderer.device()) {
+    : renderer_(renderer),
+      window_(window),
+      glyphs_(std::make_unique<ForeignGlyphs>()),
+      backend_(std::make_unique<Backend>(window)),
+      idle_(renderer.device()) {
   windows_.rememberLayout();
   const std::string layout = readTextIfAny(layoutFile(), 1u << 16);
   ImGui::LoadIniSettingsFromMemory(layout.data(), layout.size());
@@ -146,12 +149,13 @@ float SimpleUI::scale() const {
 void SimpleUI::prepareTheme() {
   const float scale = this->scale();
   const Theme theme = windows_.state().choices.theme;
-  if (scale == scale_ && theme == theme_) {
+  const bool newGlyphs = glyphs_->takeNew();
+  if (scale == scale_ && theme == theme_ && !newGlyphs) {
     return;
   }
   theme_ = theme;
   applyTheme(theme, scale);
-  if (std::exchange(scale_, scale) == scale) {
+  if (std::exchange(scale_, scale) == scale && !newGlyphs) {
     return;
   }
   renderer_.waitIdle();
@@ -159,8 +163,17 @@ void SimpleUI::prepareTheme() {
   ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
   atlas.Clear();
   addFont(atlas, std::floor(fontPixels * scale_));
+  glyphs_->addTo(atlas, std::floor(fontPixels * scale_));
   windows_.thumbnails().addTo(atlas);
   initVulkan();
+}
+
+void SimpleUI::noteGlyphs(const UiInput& input) {
+  glyphs_->noteNames(input);
+  for (const ImWchar typed : ImGui::GetIO().InputQueueCharacters) {
+    glyphs_->note(typed);
+  }
+  glyphs_->noteFiles(windows_.state().files);
 }
 
 void SimpleUI::initVulkan() {
@@ -188,6 +201,7 @@ void SimpleUI::push(const InputEvent& event) {
 
 UiOutput SimpleUI::build(const UiInput& input) {
   settingScale_ = static_cast<float>(input.settings.ui.scale);
+  noteGlyphs(input);
   prepareTheme();
   ImGui_ImplVulkan_NewFrame();
   backend_->input.newFrame();

@@ -7,6 +7,8 @@
 
 namespace speculum {
 
+class ForeignGlyphs;
+
 // The panels over the picture: Dear ImGui with its GLFW and Vulkan backends. One instance a process.
 class SimpleUI {
  public:
@@ -40,6 +42,7 @@ class SimpleUI {
   void initVulkan();
   bool inRenderPass() const;
   void saveLayout();
+  void noteGlyphs(const UiInput& input);
   void prepareTheme();
 
   struct Context {
@@ -53,6 +56,7 @@ class SimpleUI {
   PanelWindows windows_;
   Context context_;
   Theme theme_ = Theme::dark;
+  std::unique_ptr<ForeignGlyphs> glyphs_;
   float settingScale_ = 1.0f;  // ui.scale
   float scale_ = 0.0f;         // of fonts and sizes, see scale(); 0: nothing is made yet
   DescriptorPoolHandle pool_;

@@ -156,6 +156,13 @@ long faultsOfAllocating() {
   return faults;
 }
 
+TEST(Folders, FontsHaveTheCharacters) {
+  const std::vector<FontFace> fonts = fontsFor(U"\u10db\u10d8\U0010fffe");  // the last is no character
+  ASSERT_EQ(fonts.size(), 1u);
+  EXPECT_TRUE(isFile(fonts.front().file));
+  EXPECT_TRUE(fontsFor(U"\U0010fffe").empty());
+}
+
 TEST(Machine, KeepsFreedMemory) {
   ::unsetenv("MALLOC_TRIM_THRESHOLD_");
   ::unsetenv("MALLOC_MMAP_THRESHOLD_");
