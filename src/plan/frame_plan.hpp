@@ -107,6 +107,7 @@ struct Pass {
   FaceWindow window;     // of a shadow map's face
   ImageQuality quality;
   ImageQuality shownIn;           // quality of the pass that shows the image
+  double shownBeyond = 0.0;       // texels beyond the view's cone at which the image may be shown, lookups apart
   int depth = -1;                 // recursion depth of its mirror: 0 seen directly, 1 in a mirror; -1 for other passes
   double areaPx = 0.0;            // area of the mirror's visible region, in texels of its image
   double throughput = 1.0;        // upper bound over the visible region, largest channel, including this mirror

@@ -89,6 +89,7 @@ class MirrorSearch {
   void propose(int node, Sight sight);
   void expand(const Candidate& candidate);
   ImageQuality qualityOf(int mirror, const Pass& shownIn) const;
+  double shownBeyond(const Pass& shownIn, const View& view) const;
 
   const Scene& scene_;
   const SceneState& state_;
@@ -223,6 +224,14 @@ ImageQuality MirrorSearch::qualityOf(int mirror, const Pass& shownIn) const {
   return {std::min(own.scale, scale), std::min(own.samples, samples), interval};
 }
 
+// A pass is read beyond its view's cone, and shows other mirrors there.
+double MirrorSearch::shownBeyond(const Pass& shownIn, const View& view) const {
+  constexpr double most = 1e4;  // far outside any picture
+  const double read = shownIn.view.path.empty() ? 0.0 : lookupReach(shownIn, allSettings_, false);
+  const double texels = view.pictureSize.x / shownIn.view.pictureSize.x;
+  return std::min(texels * (shownIn.shownBeyond + read) + roundingOfCone(view, plan_.projection), most);
+}
+
 void MirrorSearch::expand(const Candidate& candidate) {
   const View& parent = nodes_[candidate.parent].pass.view;
   const MirrorDraw& draw = nodes_[candidate.parent].pass.mirrors[candidate.draw];
@@ -257,6 +266,7 @@ void MirrorSearch::expand(const Candidate& candidate) {
   node.pass.areaPx = candidate.areaPx * (picture.x / plan_.width) * (picture.y / plan_.height);
   node.pass.throughput = glm::compMax(candidate.throughput);
   node.pass.channels = candidate.throughput;
+  node.pass.shownBeyond = shownBeyond(nodes_[candidate.parent].pass, node.pass.view);
   node.draw = candidate.draw;
   // An image that is read beside a pixel's own texel cannot be reprojected.
   const int interval = displacesLookup ? 1 : node.pass.quality.interval;
@@ -285,7 +295,8 @@ RecycledVector<MirrorNode> findPasses(const Scene& scene, const SceneState& stat
 View readableView(const Pass& pass, const Projection& projection) {
   View readable = pass.view;
   if (!readable.path.empty()) {
-    widen(readable, projection, static_cast<int>(std::ceil(1.5 * cachedLookupReach(pass.quality))) + 1);
+    widen(readable, projection,
+          static_cast<int>(std::ceil(1.5 * cachedLookupReach(pass.quality) + pass.shownBeyond)) + 1);
   }
   return readable;
 }

@@ -35,15 +35,13 @@ bool isWellShaped(std::span<const glm::dvec3> polygon, const glm::dvec2& step) {
   return n >= 3;
 }
 
-// Returns by how many pixels the rounding of the mirror's corners, which is that of the eye's position, may turn the
-// planes of a mirror image's cone: more than one if the eye is far from the origin and very near the mirror.
+}  // namespace
+
 double roundingOfCone(const View& view, const Projection& projection) {
-  const double height = view.clip ? std::abs(view.clip->distance(view.eye)) : INFINITY;
+  const double height = view.clip ? std::abs(view.clip->distance(view.eye)) : INFINITY;  // above 0, see heightAbove()
   const double pixel = 2.0 * height / (projection.focal * view.pictureSize.y);
   return pixel > 0.0 ? 1e-15 * glm::length(view.eye) / pixel : 0.0;
 }
-
-}  // namespace
 
 // At the screen's resolution a pixel reads one texel. The mask holds all samples of that texel, because a driver may
 // shade at another point where only some of them pass the depth test. At other resolutions, and in cached images, a
@@ -62,7 +60,7 @@ double lookupReach(const Pass& pass, const Settings& settings, bool standardLoca
 
 std::vector<double> lookupReaches(const FramePlan& plan, const Settings& settings, bool standardLocations) {
   std::vector<double> reaches(plan.passes.size(), 0.0);
-  for (size_t i = plan.passes.size(); i-- > 0;) {
+  for (size_t i = plan.passes.size(); i-- > 0;) {  // an image comes before the one pass that shows it
     const Pass& pass = plan.passes[i];
     for (const MirrorDraw& draw : pass.mirrors) {
       if (draw.pass >= 0) {

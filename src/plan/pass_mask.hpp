@@ -15,6 +15,10 @@ double lookupReach(const Pass& pass, const Settings& settings, bool standardLoca
 // the cone, and how far the pass that shows the image is read, which shows more of the mirror there than the cone
 // bounds.
 std::vector<double> lookupReaches(const FramePlan& plan, const Settings& settings, bool standardLocations);
+// Returns by how many pixels rounding may turn the planes of a mirror image's cone. Near a mirror its corners are
+// rounded as the eye's position is: by more than a pixel if the eye is far from the origin and micrometres from the
+// mirror.
+double roundingOfCone(const View& view, const Projection& projection);
 // Returns lookupReach() for an image that is cached, or has another resolution than the pass that shows it.
 double cachedLookupReach(const ImageQuality& quality);
 

@@ -282,12 +282,14 @@ TEST(MirrorPolygons, ReachAsFarAsImagesAreRead) {
     scene.camera.verticalFov = fov;
     Settings settings;
     settings.reflection.scale = 0.05;
+    settings.reflection.maxDepth = 8;
     const SceneState state = evaluate(scene, 0.0);
     const FramePlan plan = planOf(scene, settings);
     ASSERT_GE(plan.drawnMirrors().size(), 2u);
+    const std::vector<double> reaches = lookupReaches(plan, settings, false);
     for (const Pass& pass : plan.drawnMirrors()) {
       View read = pass.view;
-      widen(read, plan.projection, static_cast<int>(std::ceil(lookupReach(pass, settings, false))));
+      widen(read, plan.projection, static_cast<int>(std::ceil(reaches[&pass - plan.passes.data()])));
       for (const MirrorDraw& draw : pass.mirrors) {
         const double all = polygonArea(visiblePart(read, state.mirrors[draw.mirror].polygon));
         EXPECT_NEAR(polygonArea(visiblePart(read, draw.polygon)), all, 1e-9 * all) << fov;
