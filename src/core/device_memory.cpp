@@ -1,10 +1,13 @@
 #include "core/device_memory.hpp"
 
+#include <spdlog/spdlog.h>
+
 #include <algorithm>
 #include <bit>
 #include <exception>
 #include <iterator>
 #include <stdexcept>
+#include <utility>
 
 #include "core/device.hpp"
 
@@ -74,6 +77,10 @@ MemoryBlocks::Place MemoryBlocks::take(const Device& device, const Request& requ
   for (const uint32_t type : types) {
     try {
       const Place place = takeOfType(device, request, type);
+      if (lack && !std::exchange(spilled_, true)) {
+        spdlog::warn("the GPU's own memory is full: {} and others lie in memory that it reaches more slowly",
+                     request.name);
+      }
       usedBytes_ += request.requirements.size;
       return place;
     } catch (const OutOfMemoryError&) {
@@ -90,7 +97,7 @@ MemoryBlocks::Place MemoryBlocks::takeOfType(const Device& device, const Request
   VkDeviceSize sum = 0;
   for (const auto& block : blocks_) {
     const bool fits = block->type == type && block->use == request.use;
-    sum += fits ? block->bytes : 0;
+    sum += fits && block->free ? block->bytes : 0;
     if (fits && block->free && !request.apart && bytes <= largestBlock / 2) {
       if (const std::optional<VkDeviceSize> offset = block->free->take(bytes, alignment)) {
         return {block.get(), *offset};
@@ -175,6 +182,11 @@ Memory::Memory(Device& device, VkBuffer buffer, bool forHost, bool addressed, co
                                              .buffer = buffer};
   MemoryBlocks::Request request = MemoryBlocks::requestOf(
       device, addressed ? MemoryUse::addressedBuffers : MemoryUse::buffers, info, vkGetBufferMemoryRequirements2, name);
+  if (addressed) {
+    // What reads a buffer by its address may want more than the driver asks for buffers, such as 16 bytes for
+    // instances.
+    request.requirements.alignment = std::max<VkDeviceSize>(request.requirements.alignment, 256);
+  }
   if (forHost) {
     request.wanted = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
   }

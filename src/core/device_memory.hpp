@@ -94,6 +94,7 @@ class MemoryBlocks {
   std::mutex mutex_;
   std::vector<std::unique_ptr<Block>> blocks_;
   std::atomic<uint64_t> usedBytes_{0};
+  bool spilled_ = false;  // a resource lies in memory of the second choice
   std::atomic<uint64_t> bytes_{0};
   std::atomic<uint32_t> allocations_{0};
 };

@@ -28,7 +28,8 @@ class CommandPool {
   VkCommandBuffer commands_ = VK_NULL_HANDLE;
 };
 
-// Copies data to and from the GPU. All copies are finished on return: for loading, not for every frame.
+// Copies data to and from the GPU. All copies are finished on return, or on that of together(): for loading, not for
+// every frame.
 class Uploader {
  public:
   // Bytes of the staging buffer, and thereby of the largest piece that is copied at once.

@@ -1,5 +1,8 @@
 #include "core/device_memory.hpp"
 
+#include <cstring>
+
+#include "core/barriers.hpp"
 #include "core/fixture.hpp"
 
 namespace speculum::test {
@@ -106,6 +109,13 @@ TEST_F(BlocksTest, LargeResourcesLieApart) {
   EXPECT_EQ(device_.allocations(), 1u) << "it is freed at once";
 }
 
+TEST_F(BlocksTest, DoNotGrowWithLargeResources) {
+  const Buffer large = buffer(40 * mebibyte);
+  const Buffer small = buffer(1000);
+  EXPECT_EQ(device_.allocations(), 2u);
+  EXPECT_LT(device_.memory().bytes(), 45 * mebibyte);
+}
+
 TEST_F(BlocksTest, MappedBuffersKeepTheirBytes) {
   std::mt19937 random(1);
   struct Filled {
@@ -137,18 +147,27 @@ TEST_F(BlocksTest, UploadsTogetherArriveWhole) {
   };
   const std::vector<uint32_t> sides = {512, 1, 700, 1500, 3, 900, 512};
   std::vector<Image> images;
-  Buffer between;
+  std::vector<Buffer> buffers;
+  std::vector<std::vector<uint32_t>> values;  // of the buffers
   uploader.together([&] {
     for (const uint32_t side : sides) {
       images.push_back(uploader.image(std::as_bytes(std::span<const uint32_t>(texelsOf(side, side))), {side, side},
                                       VK_FORMAT_R8G8B8A8_UNORM, false, "test"));
-      between = uploader.buffer(texelsOf(1000, 7), VK_BUFFER_USAGE_TRANSFER_SRC_BIT, "test");
+      values.push_back(texelsOf(100, side));
+      buffers.push_back(uploader.buffer(values.back(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT, "test"));
     }
   });
   for (size_t i = 0; i < sides.size(); ++i) {
     const std::vector<uint32_t> expected = texelsOf(sides[i], sides[i]);
     const std::vector<std::byte> read = uploader.read(images[i]);
     EXPECT_TRUE(std::ranges::equal(read, std::as_bytes(std::span(expected)))) << sides[i];
+    const Buffer copy(device_, buffers[i].bytes(), VK_BUFFER_USAGE_TRANSFER_DST_BIT, BufferMemory::host, "copy");
+    uploader.run([&](VkCommandBuffer commands) {
+      const VkBufferCopy region{.size = copy.bytes()};
+      vkCmdCopyBuffer(commands, buffers[i].get(), copy.get(), 1, &region);
+      Barriers::copyToHost(commands);
+    });
+    EXPECT_EQ(std::memcmp(copy.mapped(), values[i].data(), copy.bytes()), 0) << sides[i];
   }
   EXPECT_THROW(uploader.together([&] {
     const Image lost = uploader.image(std::as_bytes(std::span<const uint32_t>(texelsOf(3, 1))), {3, 3},
