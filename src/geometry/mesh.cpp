@@ -214,8 +214,10 @@ std::array<glm::dvec3, 3> cornerNormals(const Mesh& mesh, const uint32_t* triang
   const std::array corners{&mesh.vertices[triangle[0]], &mesh.vertices[triangle[1]], &mesh.vertices[triangle[2]]};
   std::array normals{corners[0]->normal, corners[1]->normal, corners[2]->normal};
   if (std::ranges::find(normals, glm::dvec3(0.0)) != normals.end()) {
-    const glm::dvec3 own = glm::normalize(
-        glm::cross(corners[1]->position - corners[0]->position, corners[2]->position - corners[0]->position));
+    const glm::dvec3 area =
+        glm::cross(corners[1]->position - corners[0]->position, corners[2]->position - corners[0]->position);
+    const double size = glm::length(area);
+    const glm::dvec3 own = size > 0.0 ? area / size : glm::dvec3(0.0, 1.0, 0.0);  // of a sliver that rounding flattened
     std::ranges::replace(normals, glm::dvec3(0.0), own);
   }
   return normals;

@@ -31,9 +31,14 @@ void checkMesh(const Mesh& mesh, size_t textureCount) {
   require(finite(mesh.center) && finite(mesh.halfExtent) && std::isfinite(mesh.radius), "a mesh's bounds are finite");
   for (const Vertex& vertex : mesh.vertices) {
     require(finite(vertex.position) && finite(vertex.normal) && finite(vertex.uv), "vertices are finite");
-    require(unit(vertex.normal), "normals are of unit length");
     require(glm::all(glm::lessThanEqual(glm::abs(vertex.position), mesh.halfExtent)), "vertices are in the box");
   }
+  size_t shaded = 0;
+  ShadedVertices(mesh).forEach([&](const Vertex& vertex, uint32_t) {
+    require(unit(vertex.normal), "normals are of unit length");
+    ++shaded;
+  });
+  require(shaded == ShadedVertices::countOf(mesh), "shaded vertices are counted");
   for (const uint32_t index : mesh.indices) {
     require(index < mesh.vertices.size(), "indices are in range");
   }
