@@ -95,6 +95,8 @@ void FrameReport::update(const RecordedFrame& frame, const FrameTimings& timings
   skipped_ = frame.plan.skipped;
   if (frame.panels) {
     updateSkipped(frame);
+  } else {
+    shown_.skipped.clear();  // rows of cached images would not follow what changes until panels are shown again
   }
 }
 
