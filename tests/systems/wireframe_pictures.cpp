@@ -32,6 +32,7 @@ std::filesystem::path sceneBehind(Random& random) {
 TEST(Wireframe, WideLinesReachIntoImages) {
   Random random(21);
   const int scenes = fullTests() ? 200 : 6;
+  int covered = 0;
   for (int i = 0; i < scenes; ++i) {
     Studio studio(headless(sceneBehind(random), wireSize, {{"view.wireframe", "true"}, {"view.line_width", "13"}}));
     studio.settings.view.samples = studio.settings.reflection.samples = i % 2 == 0 ? 1 : 4;
@@ -42,20 +43,24 @@ TEST(Wireframe, WideLinesReachIntoImages) {
     const Image8 wall = studio.fresh();
     const double scale = wireSize.height / (2.0 * std::tan(glm::radians(30.0)) * 6.0);  // pixels a metre in the mirror
     const glm::ivec2 half(glm::floor(0.5 * scale * glm::dvec2(1.5, 1.1) - 2.0));
-    std::vector<bool> counts(static_cast<size_t>(wireSize.width * wireSize.height));
+    // Which pixels lines cover: those of equal depth change their order, and so colors, with the rectangle drawn.
+    const std::vector<bool> black = blackPixels(small);
+    const std::vector<bool> expected = blackPixels(wall);
+    int different = 0;
     for (int y = -half.y; y < half.y; ++y) {
       for (int x = -half.x; x < half.x; ++x) {
-        counts[static_cast<size_t>((wireSize.height / 2 + y) * wireSize.width + wireSize.width / 2 + x)] = true;
+        const auto k = static_cast<size_t>((wireSize.height / 2 + y) * wireSize.width + wireSize.width / 2 + x);
+        covered += !expected[k];
+        different += black[k] != expected[k];
       }
     }
-    const PictureAgreement agreement = difference(small, wall, 1, counts);
-    EXPECT_GT(agreement.counted, 300);
-    // Lines of equal depth may change their order with the rectangle that is drawn.
-    if (agreement.over > 12) {
-      ADD_FAILURE() << "scene " << i << ": " << agreement.over << " pixels";
+    // Ends of lines move by rounding with the rectangle; a line that is left out has 13 pixels across.
+    if (different > 6) {
+      ADD_FAILURE() << "scene " << i << ": " << different << " pixels";
       writeEvidence(small, wall, "wide_lines_" + std::to_string(i));
     }
   }
+  EXPECT_GT(covered, 50 * scenes);
 }
 
 TEST(Wireframe, LinesAreAsWideAsAsked) {
