@@ -43,7 +43,15 @@ fs::path behindLinks(const fs::path& file) {
   std::wstring name(1u << 15, L'\0');  // the longest that Windows has
   const DWORD length =
       target ? ::GetFinalPathNameByHandleW(target.get(), name.data(), static_cast<DWORD>(name.size()), 0) : 0;
-  return length > 0 && length < name.size() ? fs::path(name.substr(0, length)) : file;
+  if (length == 0 || length >= name.size()) {
+    return file;
+  }
+  name.resize(length);
+  // The C library takes the question mark of these names for a wildcard.
+  if (name.starts_with(LR"(\\?\UNC\)")) {
+    return L"\\" + name.substr(7);
+  }
+  return name.starts_with(LR"(\\?\)") ? name.substr(4) : name;
 }
 
 // Gives a new file the access list of the old one, as a mode is kept elsewhere. A file system without lists has none to
@@ -93,9 +101,9 @@ void replace(const fs::path& file, std::span<const uint8_t> content, bool lastin
     }
   }
   try {
+    copyAccess(target, partial);  // before there is anything to read
     write(handle.get(), file, content, lasting);
     handle.reset();
-    copyAccess(target, partial);
     renameOver(partial, target, file, lasting);
   } catch (...) {
     handle.reset();

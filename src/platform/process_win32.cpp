@@ -196,7 +196,8 @@ void ChildProcess::kill() {
   }
 }
 
-// Within quotes cmd.exe still replaces %NAME%. A caret after the quotes makes a name that no variable has.
+// Within quotes cmd.exe still replaces %NAME%, and it ends quotes at a quote with a backslash before it, which programs
+// take as a part of the word. Both characters stand outside of quotes, behind a caret: no variable has such a name.
 std::string shellWord(const std::string& argument) {
   const std::string shown = oneLine(argument);
   const auto plain = [](unsigned char c) {
@@ -206,12 +207,18 @@ std::string shellWord(const std::string& argument) {
   if (!shown.empty() && std::ranges::all_of(shown, plain)) {
     return shown;
   }
-  std::string word;
-  appendQuoted(word, shown);
-  for (size_t at = word.find('%'); at != std::string::npos; at = word.find('%', at + 4)) {
-    word.replace(at, 1, "\"^%\"");
+  std::string word = "\"";
+  size_t slashes = 0;  // before this character; before a quote each counts half
+  for (const char c : shown) {
+    if (c == '"' || c == '%') {
+      word.append(std::exchange(slashes, 0), '\\');
+      word += c == '"' ? "\"\\^\"\"" : "\"^%\"";
+    } else {
+      slashes = c == '\\' ? slashes + 1 : 0;
+      word += c;
+    }
   }
-  return word;
+  return word.append(slashes, '\\') + '"';
 }
 
 // Looks at the folders of PATH only: the system's own search begins in the working folder, which may hold anything.

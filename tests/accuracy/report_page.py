@@ -439,8 +439,8 @@ class ReportPage(Page):
         self.assertEqual(self.js("return [\"it's $5\", ''].map(shellWord)"), ["'it'\\''s $5'", "''"])
         self.assertEqual(self.js("return shellWord('a\\u001b[2J\\u202e\\nb')"),
                          r"$'a\U0000001b[2J\U0000202e\U0000000ab'")
-        self.assertEqual(self.js(r'return ["C:\\a.png", "a b\\", "", "50%", "\\\"", "1,0,0"].map(cmdWord)'),
-                         [r"C:\a.png", '"a b\\\\"', '""', '"50"^%""', r'"\\\""', '"1,0,0"'])
+        self.assertEqual(self.js(r'return ["C:\\a.png", "a b\\", "", "50%", "C:\\%x", "\\\"", "1,0,0"].map(cmdWord)'),
+                         [r"C:\a.png", '"a b\\\\"', '""', '"50"^%""', r'"C:\\"^%"x"', r'"\\"\^"""', '"1,0,0"'])
 
 
 if __name__ == "__main__":

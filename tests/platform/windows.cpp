@@ -184,6 +184,8 @@ TEST(WindowsProcess, ShellWordsSurviveTheShell) {
   EXPECT_EQ(shellWord("C:\\a.png"), "C:\\a.png");
   EXPECT_EQ(shellWord(""), "\"\"");
   EXPECT_EQ(shellWord("a\x1b"), "a\\x1b") << "a terminal acts on it";
+  EXPECT_EQ(shellWord("C:\\%x"), "\"C:\\\\\"^%\"x\"");
+  EXPECT_EQ(shellWord("a\"&b"), "\"a\"\\^\"\"&b\"") << "cmd.exe does not know backslashes before quotes";
   EXPECT_EQ(shellWord("%PATH%"), "\"\"^%\"PATH\"^%\"\"");  // wine's cmd.exe takes carets after quotes as they are
   const TemporaryDirectory directory;
   const fs::path output = directory.path() / "output";

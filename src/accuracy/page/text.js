@@ -26,15 +26,15 @@ function columnDecimals(values) {
 }
 
 // One word of a shell, in quotes only where they are needed: for sh, on Windows for cmd.exe, which replaces %NAME% within
-// quotes. A terminal acts on control characters that are pasted; cmd.exe has no notation for them.
+// quotes and ends them at \". A terminal acts on control characters that are pasted; cmd.exe has no notation for them.
 const control = /[\p{Cc}\p{Cf}\p{Zl}\p{Zp}]/gu;
 const codeOf = c => c.codePointAt(0).toString(16).padStart(8, '0');
 const shWord = text => /^[A-Za-z0-9_.\/=,:+@%-]+$/.test(text) ? text
   : text.match(control) ? `$'${text.replace(/[\p{Cc}\p{Cf}\p{Zl}\p{Zp}'\\]/gu, c => `\\U${codeOf(c)}`)}'`
     : `'${text.replaceAll("'", "'\\''")}'`;
 const cmdWord = text => /^[A-Za-z0-9_.\/\\=:+@-]+$/.test(text) ? text
-  : `"${text.replace(control, c => `\\U${codeOf(c)}`).replace(/(\\*)("|$)/g, (_, slashes, end) => slashes + slashes + (end && '\\"'))
-    .replaceAll('%', '"^%"')}"`;
+  : `"${text.replace(control, c => `\\U${codeOf(c)}`)
+    .replace(/(\\*)(["%]|$)/g, (_, slashes, end) => slashes + slashes + ({ '"': '"\\^""', '%': '"^%"' }[end] ?? ''))}"`;
 const shellWord = navigator.userAgent.includes('Windows') ? cmdWord : shWord;
 
 const setOption = (key, value) => `--set ${shellWord(`${key}=${value}`)}`;
