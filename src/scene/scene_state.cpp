@@ -184,14 +184,27 @@ void setLayers(std::vector<Placed>& plane, const glm::dvec3& towardsEye) {
     slack = std::max(slack, placed.state->slack);
   }
   const Bvh hierarchy(boxes);
-  // The deepest mirror among those before that overlap the next one decides its layer.
+  // The deepest mirror among those before that overlap the next one decides its layer. Where many overlap, it is among
+  // the deepest of all; elsewhere the hierarchy finds it.
+  constexpr size_t few = 64;
+  std::vector<const Placed*> before;  // the deepest first
   for (uint32_t i = 0; i < plane.size(); ++i) {
-    hierarchy.visit([&](const Bounds& box) { return gapBetween(box, boxes[i]) <= slack; },
-                    [&](uint32_t j) {
-                      if (j < i && overlap(plane[j], plane[i])) {
-                        layer(plane[i]) = std::max(layer(plane[i]), layer(plane[j]) + 1);
-                      }
-                    });
+    const Placed& placed = plane[i];
+    const std::span<const Placed*> deepest(before.data(), std::min(before.size(), few));
+    const auto covering = std::ranges::find_if(deepest, [&](const Placed* other) { return overlap(*other, placed); });
+    if (covering != deepest.end()) {
+      layer(placed) = layer(**covering) + 1;
+    } else {
+      hierarchy.visit([&](const Bounds& box) { return gapBetween(box, boxes[i]) <= slack; },
+                      [&](uint32_t j) {
+                        if (j < i && layer(plane[j]) >= layer(placed) && overlap(plane[j], placed)) {
+                          layer(placed) = layer(plane[j]) + 1;
+                        }
+                      });
+    }
+    const auto shallower =
+        std::ranges::partition_point(before, [&](const Placed* other) { return layer(*other) > layer(placed); });
+    before.insert(shallower, &placed);
   }
 }
 
