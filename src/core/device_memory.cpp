@@ -77,7 +77,8 @@ MemoryBlocks::Place MemoryBlocks::take(const Device& device, const Request& requ
   for (const uint32_t type : types) {
     try {
       const Place place = takeOfType(device, request, type);
-      if (lack && !std::exchange(spilled_, true)) {
+      const bool local = memory.memoryTypes[type].propertyFlags & VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
+      if (lack && !local && !std::exchange(spilled_, true)) {
         spdlog::warn("the GPU's own memory is full: {} and others lie in memory that it reaches more slowly",
                      request.name);
       }

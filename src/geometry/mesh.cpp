@@ -217,7 +217,8 @@ std::array<glm::dvec3, 3> cornerNormals(const Mesh& mesh, const uint32_t* triang
     const glm::dvec3 area =
         glm::cross(corners[1]->position - corners[0]->position, corners[2]->position - corners[0]->position);
     const double size = glm::length(area);
-    const glm::dvec3 own = size > 0.0 ? area / size : glm::dvec3(0.0, 1.0, 0.0);  // of a sliver that rounding flattened
+    const glm::dvec3 own =
+        size > 1e-150 ? area / size : glm::dvec3(0.0, 1.0, 0.0);  // of a sliver that rounding flattened
     std::ranges::replace(normals, glm::dvec3(0.0), own);
   }
   return normals;

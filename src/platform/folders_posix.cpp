@@ -119,16 +119,18 @@ fs::path systemFont() {
 // Fontconfig answers with the font that lacks the fewest of the characters, which may be all.
 std::vector<FontFace> fontsFor(std::u32string characters) {
   std::vector<FontFace> fonts;
-  constexpr size_t most = 16;  // each takes memory and time
-  while (!characters.empty() && fonts.size() < most) {
-    std::string pattern = "sans-serif:outline=true:color=false:charset=";
+  constexpr int most = 16;  // fonts that are asked for: each takes memory and time
+  for (int asked = 0; !characters.empty() && asked < most; ++asked) {
+    std::string pattern = "sans-serif:scalable=true:outline=true:color=false:charset=";
     for (const char32_t character : characters) {
       pattern += fmt::format("{:x} ", uint32_t{character});
     }
     const ProcessResult found =
-        runProcess({"fc-match", "-f", "%{file}\n%{index}\n%{outline}%{color}\n%{charset}", pattern});
+        runProcess({"fc-match", "-f", "\nfont\n%{file}\n%{index}\n%{outline}%{color}\n%{charset}", pattern});
     std::istringstream lines(found.exitCode == 0 ? found.output : "");
     std::string file, index, kind, charset;
+    while (std::getline(lines, file) && file != "font") {  // warnings may come before it
+    }
     std::getline(lines, file) && std::getline(lines, index) && std::getline(lines, kind) &&
         std::getline(lines, charset);
     const auto ranges = rangesIn(charset);
@@ -136,8 +138,11 @@ std::vector<FontFace> fontsFor(std::u32string characters) {
       return std::ranges::any_of(
           ranges, [&](const auto& range) { return range.first <= character && character <= range.second; });
     });
-    if (helped == 0 || !kind.starts_with("TrueFalse") || !isFile(file)) {
+    if (helped == 0) {
       break;
+    }
+    if (!kind.starts_with("TrueFalse") || !isFile(file)) {
+      continue;
     }
     constexpr unsigned long faceBits = 0xffff;  // the others name a variant of the face
     fonts.push_back({file, static_cast<int>(std::strtoul(index.c_str(), nullptr, 10) & faceBits)});

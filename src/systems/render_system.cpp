@@ -193,12 +193,14 @@ uint32_t RenderSystem::recordBatch(const PassScope& scope, const FrameInfo& info
                         !info.data.repeats().empty() &&
                         mesh.parts[p].firstIndex + 3 * mesh.repeats >= mesh.indices.size();
     variant.clamps = material.clamps && (variant.covered || variant.diffuseLookup != gpu::textureNone);
+    const VkDescriptorSet texture = batch.map >= 0 ? info.maps[batch.map] : info.resources.texture(material);
     if (!bound.pipeline || bound.variant != variant) {
       bound.pipeline = &objects_.get(variant, [&] { return objects(variant, info, shading); });
       bound.variant = variant;
-      bound.texture = VK_NULL_HANDLE;
+      bound.texture = texture;
       bound.constants.reset();
       info.data.bind(*bound.pipeline, commands, pass);
+      bound.pipeline->bindSet(commands, 1, texture);
       scope.drawLines(info.settings.view.wireframe, pass.lineWidth);
       if (variant.shadowed) {
         bound.pipeline->bindSet(commands, 2, info.shadows.set());
@@ -207,7 +209,6 @@ uint32_t RenderSystem::recordBatch(const PassScope& scope, const FrameInfo& info
       }
     }
     const Pipeline& pipeline = *bound.pipeline;
-    const VkDescriptorSet texture = batch.map >= 0 ? info.maps[batch.map] : info.resources.texture(material);
     if (std::exchange(bound.texture, texture) != texture) {
       pipeline.bindSet(commands, 1, texture);
     }

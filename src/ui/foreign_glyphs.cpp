@@ -3,17 +3,57 @@
 #include <imgui_internal.h>
 #include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
+#include <fstream>
+#include <iterator>
 #include <utility>
 
 namespace speculum {
 
 namespace {
 
-constexpr size_t most = 4000;  // characters: more might not fit the texture that a device can have
+constexpr size_t most = 4000;          // characters that are taken down
+constexpr float texels = 4096 * 3000;  // of all glyphs, so that each device can have their texture
 
 bool isOwn(ImWchar character) {
   for (const ImWchar* range = ForeignGlyphs::own(); range[0] != 0; range += 2) {
     if (range[0] <= character && character <= range[1]) {
+      return true;
+    }
+  }
+  return false;
+}
+
+uint32_t bigEndian(std::string_view bytes) {
+  uint32_t value = 0;
+  for (const char byte : bytes) {
+    value = value << 8 | static_cast<unsigned char>(byte);
+  }
+  return value;
+}
+
+// Says whether the face has outlines that Dear ImGui reads: it asserts on files of other formats.
+bool isReadable(const FontFace& font) {
+  std::ifstream file(font.file, std::ios::binary);
+  const auto read = [&](uint32_t offset, size_t bytes) {
+    std::string data(bytes, '\0');
+    file.seekg(offset);
+    file.read(data.data(), static_cast<std::streamsize>(bytes));
+    return file ? data : std::string();
+  };
+  uint32_t begin = 0;
+  if (read(0, 4) == "ttcf") {
+    begin = static_cast<uint32_t>(font.index) < bigEndian(read(8, 4))
+                ? bigEndian(read(12 + 4 * static_cast<uint32_t>(font.index), 4))
+                : UINT32_MAX;
+  }
+  const std::string version = read(begin, 4);
+  if (version != std::string("\0\1\0\0", 4) && version != "true" && version != "OTTO") {
+    return false;
+  }
+  const uint32_t tables = bigEndian(read(begin + 4, 2));
+  for (uint32_t i = 0; i < tables; ++i) {
+    if (const std::string name = read(begin + 12 + 16 * i, 4); name == "glyf" || name == "CFF ") {
       return true;
     }
   }
@@ -82,10 +122,11 @@ void ForeignGlyphs::noteNames(const UiInput& input) {
 }
 
 void ForeignGlyphs::noteFiles(const PanelState::Files& files) {
-  if (files.listed == listed_) {
+  if (files.listed == listed_ && files.entries.size() == entries_) {
     return;
   }
   listed_ = files.listed;
+  entries_ = files.entries.size();
   note(listed_.string());
   for (const std::filesystem::directory_entry& entry : files.entries) {
     note(entry.path().filename().string());
@@ -98,7 +139,13 @@ bool ForeignGlyphs::takeNew() {
 
 void ForeignGlyphs::addTo(ImFontAtlas& atlas, float pixels) {
   ranges_.clear();
-  for (const ImWchar character : wanted_) {
+  const auto fit = static_cast<size_t>(texels / (pixels * pixels));
+  const std::u32string shown(wanted_.begin(), std::next(wanted_.begin(), std::min(wanted_.size(), fit)));
+  if (shown.empty()) {
+    return;
+  }
+  for (const char32_t code : shown) {
+    const auto character = static_cast<ImWchar>(code);
     if (!ranges_.empty() && ranges_.back() + 1 == character) {
       ranges_.back() = character;
     } else {
@@ -108,9 +155,12 @@ void ForeignGlyphs::addTo(ImFontAtlas& atlas, float pixels) {
   ranges_.push_back(0);
   ImFontConfig config;
   config.MergeMode = true;
-  for (const FontFace& font : fontsFor({wanted_.begin(), wanted_.end()})) {
-    config.FontNo = font.index;
-    atlas.AddFontFromFileTTF(font.file.string().c_str(), pixels, &config, ranges_.data());
+  config.OversampleH = 1;
+  for (const FontFace& font : fontsFor(shown)) {
+    if (isReadable(font)) {
+      config.FontNo = font.index;
+      atlas.AddFontFromFileTTF(font.file.string().c_str(), pixels, &config, ranges_.data());
+    }
   }
 }
 

@@ -35,6 +35,7 @@ class ForeignGlyphs {
   size_t known_ = 0;  // number of `wanted_` at the last takeNew()
   std::string edit_;  // stands for the state of the scene that was read last
   std::filesystem::path listed_;
+  size_t entries_ = 0;  // of the folder `listed_`
   std::vector<ImWchar> ranges_;
 };
 

@@ -170,9 +170,6 @@ void SimpleUI::prepareTheme() {
 
 void SimpleUI::noteGlyphs(const UiInput& input) {
   glyphs_->noteNames(input);
-  for (const ImWchar typed : ImGui::GetIO().InputQueueCharacters) {
-    glyphs_->note(typed);
-  }
   glyphs_->noteFiles(windows_.state().files);
 }
 
@@ -196,6 +193,9 @@ void SimpleUI::initVulkan() {
 }
 
 void SimpleUI::push(const InputEvent& event) {
+  if (event.kind == InputEvent::Kind::text && event.code <= IM_UNICODE_CODEPOINT_MAX) {
+    glyphs_->note(static_cast<ImWchar>(event.code));
+  }
   backend_->input.push(event);
 }
 

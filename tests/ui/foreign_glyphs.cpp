@@ -1,5 +1,6 @@
 #include "ui/foreign_glyphs.hpp"
 
+#include "temporary_folder.hpp"
 #include "test_headers.hpp"
 
 namespace speculum::test {
@@ -21,13 +22,25 @@ TEST(ForeignGlyphs, ComeFromTheSystemsFonts) {
   EXPECT_FALSE(font->FindGlyphNoFallback(0x10d9)) << "nothing shows it";
 }
 
+// Fontconfig may name a font of a format that Dear ImGui asserts on: some systems have these in Type 1 alone.
+TEST(ForeignGlyphs, FontsOfOtherFormatsAreLeftOut) {
+  ForeignGlyphs glyphs;
+  glyphs.note("\xef\x9b\x99\xef\x9b\x9a");  // U+F6D9, U+F6DA
+  ImFontAtlas atlas;
+  atlas.AddFontDefault();
+  glyphs.addTo(atlas, 15.0f);
+  EXPECT_TRUE(atlas.Build());
+}
+
 TEST(ForeignGlyphs, AFoldersNamesAreReadOnceItIsListed) {
+  const TemporaryFolder folder;
+  folder.write("\xe9\x8f\xa1.toml", "");
   ForeignGlyphs glyphs;
   PanelState::Files files;
-  files.listed = "/a";
+  files.listed = folder.path();
   glyphs.noteFiles(files);
   EXPECT_FALSE(glyphs.takeNew());
-  files.listed = "/\xe9\x8f\xa1";
+  files.entries.assign(std::filesystem::directory_iterator(folder.path()), {});
   glyphs.noteFiles(files);
   EXPECT_TRUE(glyphs.takeNew());
 }
