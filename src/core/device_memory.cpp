@@ -57,10 +57,11 @@ std::vector<uint32_t> memoryTypes(const VkPhysicalDeviceMemoryProperties& memory
       types.push_back(type);
     }
   }
-  const auto others = std::ranges::stable_partition(
-      types, [&](uint32_t type) { return (memory.memoryTypes[type].propertyFlags & wanted) == wanted; });
+  const auto others = std::stable_partition(types.begin(), types.end(), [&](uint32_t type) {
+    return (memory.memoryTypes[type].propertyFlags & wanted) == wanted;
+  });
   if (wanted != VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT) {
-    types.erase(others.begin(), others.end());
+    types.erase(others, types.end());
   }
   return types;
 }
