@@ -101,9 +101,8 @@ ordered_json passesJson(Session& session) {
 }
 
 ordered_json skippedJson(const Scene& scene, const SceneState& state, const FramePlan& plan) {
-  constexpr size_t most = 100'000;  // about 25 MB
   ordered_json skipped = ordered_json::array();
-  for (const SkippedMirror& skip : skippedMirrors(scene, state, plan, most)) {
+  for (const SkippedMirror& skip : skippedMirrors(scene, state, plan, mostListed)) {
     skipped.push_back({{"mirror", mirrorJson(scene, skip.mirror)},
                        {"path", pathJson(scene, skip.path)},
                        {"depth", skip.depth},

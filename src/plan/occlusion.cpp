@@ -179,13 +179,14 @@ Occlusion::Occluders Occlusion::occludersOf(int mirror, std::span<const glm::dve
     const OccludedRegion* region = regionOf(face);
     return region && found.add(*region, nullptr, of, eye, polygon);
   };
+  const bool searches = viewMirrors_.size() > fewMirrors;
   RecycledVector<int> near;
-  if (viewMirrors_.size() > fewMirrors) {
+  if (searches) {
     hierarchy_.visit([&](const Bounds& box) { return boxVisible(prefilter.before(), box); },
                      [&](uint32_t i) { near.push_back(static_cast<int>(i)); });
     std::ranges::sort(near);
   }
-  for (const int i : near.empty() ? viewMirrors_ : near) {
+  for (const int i : searches ? near : viewMirrors_) {
     if (i != mirror && mirrors_[i].tested == viewNumber_ && addFace(mirrors_[i], {.isMirror = true, .index = i})) {
       return found;
     }

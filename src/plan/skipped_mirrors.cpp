@@ -53,22 +53,25 @@ RecycledVector<SkippedMirror> skippedMirrors(const Scene& scene, const SceneStat
                                              size_t most) {
   RecycledVector<SkippedMirror> all = plan.skipped;
   std::ranges::sort(all, isBefore, &SkippedMirror::path);
-  const size_t seen = all.size();
+  const auto seen = static_cast<std::ptrdiff_t>(all.size());
   for (const Pass* pass : listedPasses(plan)) {
     const View& view = pass->view;
-    for (int i = 0; pass->unseen > 0 && all.size() - seen < most && i < static_cast<int>(scene.mirrorCount()); ++i) {
+    for (int i = 0;
+         pass->unseen > 0 && all.size() - static_cast<size_t>(seen) < most && i < static_cast<int>(scene.mirrorCount());
+         ++i) {
       const bool own = !view.path.empty() && view.path.back() == i;
       if (own || std::ranges::binary_search(pass->mirrors, i, {}, &MirrorDraw::mirror)) {
         continue;
       }
       SkippedMirror unseen = unseenMirror(scene, state, view, i);
-      if (!std::binary_search(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(seen), unseen,
+      if (!std::binary_search(all.begin(), all.begin() + seen, unseen,
                               [](const auto& a, const auto& b) { return isBefore(a.path, b.path); })) {
         all.push_back(std::move(unseen));
       }
     }
   }
-  std::ranges::sort(all, isBefore, &SkippedMirror::path);
+  // Both parts are in order: passes are, and so are the mirrors of each.
+  std::ranges::inplace_merge(all, all.begin() + seen, isBefore, &SkippedMirror::path);
   all.resize(std::min(all.size(), most));
   return all;
 }

@@ -9,6 +9,9 @@ SkippedMirror skippedMirror(const View& view, int mirror, SkipReason reason, Rec
 // Returns it as one whose back is seen by the view's eye, `height` metres before its front.
 SkippedMirror skippedBack(const View& view, int mirror, double height);
 
+// Length at which the lists that users see end: about 25 MB as JSON.
+constexpr size_t mostListed = 100'000;
+
 // Returns the mirrors in views that have no pass, ascending by depth, then by path: those of FramePlan::skipped and,
 // with their reasons, those that the views do not see. Returns the first `most` of them. Does not list mirrors in
 // cached images. `scene` and `state` are those that were planned.

@@ -290,8 +290,7 @@ void FrameReport::updateOutline(const RecordedFrame& frame, const MirrorPath& ho
 
 // A plan does not list the mirrors skipped in cached images, so the rows of the frame that rendered such an image stay.
 void FrameReport::updateSkipped(const RecordedFrame& frame) {
-  constexpr size_t most = 100'000;
-  const RecycledVector<SkippedMirror> skipped = skippedMirrors(frame.scene, frame.state, frame.plan, most);
+  const RecycledVector<SkippedMirror> skipped = skippedMirrors(frame.scene, frame.state, frame.plan, mostListed);
   const std::vector<SkippedRow> before = std::exchange(shown_.skipped, {});
   for (const SkippedMirror& skip : skipped) {
     shown_.skipped.push_back({mirrorPathName(frame.scene, skip.path), skip.path, std::string(reasonText(skip.reason)),

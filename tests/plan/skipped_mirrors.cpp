@@ -107,7 +107,7 @@ TEST_P(SkippedMirrors, AreThoseOfALookAtEveryMirror) {
 INSTANTIATE_TEST_SUITE_P(Seeds, SkippedMirrors, testing::ValuesIn(sampledSeeds(300, 15)),
                          testing::PrintToStringParamName());
 
-TEST(SkippedMirrorList, IsInTheOrderOfPathsAndEndsAtTheLimit) {
+TEST(SkippedMirrorList, IsOrderedByPathUpToTheLimit) {
   const Scene scene = corridor();
   const SceneState state = evaluate(scene, 0.0);
   const FramePlan plan = planFrame({scene, state, {}, {width, height}});
