@@ -240,9 +240,12 @@ ShadedVertices::ShadedVertices(const Mesh& mesh) : mesh_(mesh) {
 }
 
 std::vector<glm::vec3> ShadedVertices::colors() const {
-  std::vector<glm::vec3> colors;
-  if (!mesh_.colors.empty()) {
-    forEach([&](const Vertex&, uint32_t i) { colors.push_back(mesh_.colors[i]); });
+  if (mesh_.colors.empty() || mesh_.flatVertices == 0) {
+    return mesh_.colors;
+  }
+  std::vector<glm::vec3> colors(countOf(mesh_));
+  for (size_t i = 0; i < indices_.size(); ++i) {
+    colors[indices_[i]] = mesh_.colors[mesh_.indices[i]];
   }
   return colors;
 }
