@@ -32,7 +32,7 @@ TEST(ForeignGlyphs, FontsOfOtherFormatsAreLeftOut) {
   EXPECT_TRUE(atlas.Build());
 }
 
-TEST(ForeignGlyphs, AFoldersNamesAreReadOnceItIsListed) {
+TEST(ForeignGlyphs, NamesOfAListedFolderAreRead) {
   const TemporaryFolder folder;
   folder.write("\xe9\x8f\xa1.toml", "");
   ForeignGlyphs glyphs;
