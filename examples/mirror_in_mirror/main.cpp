@@ -13,7 +13,7 @@
 namespace speculum::examples {
 namespace {
 
-// Where a pass looks from, and what lights it. view.glsl has the same members.
+// Where a pass looks from, and what lights the scene. view.glsl has the same members, and says what they are.
 struct View {
   glm::mat4 clipFromWorld{1.0f};
   glm::vec4 eye{0.0f, 0.0f, 0.0f, 1.0f};
@@ -58,7 +58,7 @@ glm::mat4 projection(float verticalFov, float aspect) {
   return {{focal / aspect, 0, 0, 0}, {0, -focal, 0, 0}, {0, 0, 0, -1}, {0, 0, near, 0}};
 }
 
-// Takes every point to the other side of the plane: p - 2 n (n . (p - q)).
+// Takes every point x to the other side of the plane: x - 2 n (n . (x - q)).
 glm::mat4 reflection(const glm::vec3& q, const glm::vec3& n) {
   const glm::mat3 linear = glm::mat3(1.0f) - 2.0f * glm::outerProduct(n, n);
   glm::mat4 matrix(linear);
@@ -240,11 +240,11 @@ Drawn run(const Options& options) {
     if (!frame) {
       continue;  // no image to draw into, as while the window is minimised
     }
-    frame->capture = !core.window;
+    frame->capture = !core.window;  // keeps the picture, for --out
     if (ui) {
       ui->build(state);
     }
-    core.depth.require(frame->extent, core.renderer.retired());
+    core.depth.require(frame->extent, core.renderer.retired());  // retired() frees the old one when no frame uses it
     const float aspect = static_cast<float>(frame->extent.width) / static_cast<float>(frame->extent.height);
     const View eye = viewFrom({1.5f, 0.65f, 2.7f}, loop.time(), aspect, ui ? ui->turn() : 0.0f);
     std::vector<ImagePass> passes;

@@ -10,7 +10,7 @@
 namespace speculum::examples {
 namespace {
 
-// Where a pass looks from, and what lights it. view.glsl has the same members.
+// Where a pass looks from, and what lights the scene. view.glsl has the same members, and says what they are.
 struct View {
   glm::mat4 clipFromWorld{1.0f};
   glm::vec4 eye{0.0f, 0.0f, 0.0f, 1.0f};
@@ -95,11 +95,11 @@ Drawn run(const Options& options) {
     if (!frame) {
       continue;  // no image to draw into, as while the window is minimised
     }
-    frame->capture = !core.window;
+    frame->capture = !core.window;  // keeps the picture, for --out
     if (ui) {
       ui->build(state);
     }
-    core.depth.require(frame->extent, core.renderer.retired());
+    core.depth.require(frame->extent, core.renderer.retired());  // retired() frees the old one when no frame uses it
     const float aspect = static_cast<float>(frame->extent.width) / static_cast<float>(frame->extent.height);
     const View eye = viewFrom({1.5f, 0.65f, 2.7f}, loop.time(), aspect, ui ? ui->turn() : 0.0f);
     {
