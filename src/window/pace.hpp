@@ -70,8 +70,7 @@ class Movement {
 // Chooses the quality of the window's frames. While something moves, a picture has as much of the chosen settings as
 // fits into a budget of milliseconds. A still picture has all of them; if it takes longer than the budget, a draft that
 // fits comes first. Then follows the picture, or the pictures of its mean (view.accumulate, each with its own offset),
-// one in each frame or, if one takes long, over several frames (FramePlan::tiles). docs/architecture.md says which
-// state follows which.
+// one in each frame or, if one takes long, over several frames (FramePlan::tiles).
 class Pace {
  public:
   // What the planned frame is. All but `moving` are for still pictures, or for moving ones without a budget.
