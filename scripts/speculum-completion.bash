@@ -30,7 +30,8 @@ _speculum() {
     --present-mode) mapfile -t COMPREPLY < <(compgen -W "fifo mailbox immediate" -- "$word") && return ;;
     --platform) mapfile -t COMPREPLY < <(compgen -W "x11 wayland" -- "$word") && return ;;
     --log-level) mapfile -t COMPREPLY < <(compgen -W "trace debug info warn error off" -- "$word") && return ;;
-    --sweep) mapfile -t COMPREPLY < <(compgen -W "quick full" -- "$word"; compgen -f -X '!*.toml' -- "$word") && return ;;
+    --sweep) mapfile -t COMPREPLY < <(compgen -W "quick full motion" -- "$word"; compgen -f -X '!*.toml' -- "$word") && return ;;
+    --motion) mapfile -t COMPREPLY < <(compgen -W "scene" -- "$word"; compgen -f -X '!*.toml' -- "$word") && return ;;
     --shader-dir) mapfile -t COMPREPLY < <(compgen -d -- "$word") && return ;;
     --size | --time | --camera | --frames | --fps | --samples | --warmup | --gpu | --max-flip | --max-diff | --filter | --jobs | --repeat | --update) return ;;
     --out | --stats | --json | --mask | --heatmap | --sweep-results | --junit | --capture)

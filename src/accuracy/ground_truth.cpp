@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "compare/flip.hpp"
 #include "image/color.hpp"
 #include "reference/ray_tracer.hpp"
 
@@ -83,18 +84,23 @@ std::optional<GroundTruth> traceGroundTruth(const Scene& scene, const SceneState
   if (!second) {
     return std::nullopt;
   }
-  truth.floor = errorsAgainst(truth, toDisplay(second->image, request.settings.view.displayCurve()), request.settings);
+  truth.second = toDisplay(second->image, request.settings.view.displayCurve());
+  truth.floor = errorsAgainst(truth, truth.second, request.settings);
   return truth;
 }
 
-ErrorFigures errorsAgainst(const GroundTruth& truth, const Image8& picture, const Settings& settings, Plane2d* map) {
-  const Image8 shown = toDisplay(truth.image, settings.view.displayCurve());
-  const CompareOptions options{.mask = &truth.mirrors};
-  Comparison comparison = compareImages(comparedImage(shown, "the reference"), comparedImage(picture), options);
+ErrorFigures errorsAgainst(const GroundTruth& truth, const Image8& picture, const Settings& settings, Plane2d* map,
+                           std::vector<glm::dvec3>* perceived) {
+  const ComparedImage reference = comparedImage(toDisplay(truth.image, settings.view.displayCurve()), "the reference");
+  const ComparedImage test = comparedImage(picture);
+  Comparison comparison = compareImages(reference, test, {.mask = &truth.mirrors});
+  if (perceived != nullptr) {
+    *perceived = perceivedErrors(reference, test);
+  }
   if (map != nullptr) {
     *map = std::move(comparison.flip);
   }
-  return {comparison.whole, comparison.masked};
+  return {.whole = comparison.whole, .mirrors = comparison.masked};
 }
 
 }  // namespace speculum

@@ -14,7 +14,8 @@ namespace speculum {
 struct GroundTruth {
   LinearImage image;   // TruthRequest::samples a pixel, depth 64, throughput 0
   PixelMask mirrors;   // pixels whose centre, and those of all eight neighbours, show a mirror's reflecting side
-  ErrorFigures floor;  // error of a grid of TruthRequest::floorSamples against `image`, both as the display shows them
+  ErrorFigures floor;  // error of `second` against `image`, both as the display shows them
+  Image8 second;       // a grid of TruthRequest::floorSamples, as the display shows it; empty without a noise floor
   double ms = 0.0;     // wall clock time of tracing `image`
   int threads = 0;
   // Root mean square, over the mirrors' pixels, of the throughput beyond d + 1 mirrors in a row, by depth d; 0 in
@@ -38,8 +39,9 @@ using FractionCallback = std::function<bool(double)>;
 std::optional<GroundTruth> traceGroundTruth(const Scene& scene, const SceneState& state, const TruthRequest& request,
                                             const FractionCallback& progress);
 
-// Compares a display picture with the truth under the same exposure and tone curve; `map` receives the FLIP map.
+// Compares a display picture with the truth under the same exposure and tone curve; `map` receives the FLIP map,
+// `perceived` the perceivedErrors().
 ErrorFigures errorsAgainst(const GroundTruth& truth, const Image8& picture, const Settings& settings,
-                           Plane2d* map = nullptr);
+                           Plane2d* map = nullptr, std::vector<glm::dvec3>* perceived = nullptr);
 
 }  // namespace speculum

@@ -67,6 +67,10 @@ double costMs(const SweepPoint& point) {
   return costSpread(point).median;
 }
 
+std::vector<int> indicesByCost(const std::vector<SweepPoint>& points) {
+  return indicesBy(points.size(), [&](int i) { return costMs(points[i]); });
+}
+
 std::optional<BudgetChoice> chooseForBudget(const SweepResults& results, const QualityBudget& budget) {
   const auto& points = results.points;
   if (points.empty() || (budget.ms <= 0.0 && budget.error <= 0.0)) {

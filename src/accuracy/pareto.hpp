@@ -33,6 +33,7 @@ std::vector<int> paretoFront(const std::vector<FrontCandidate>& candidates);
 // Returns the GPU milliseconds of a frame or, on a device without timestamps, the milliseconds of the whole frame.
 const Spread& costSpread(const SweepPoint& point);
 double costMs(const SweepPoint& point);  // median of costSpread()
+std::vector<int> indicesByCost(const std::vector<SweepPoint>& points);
 
 // Finds the Pareto front of the error errorOf(point) against costSpread() among the points that `order` lists, as
 // indices of points, cheapest first. Of equally accurate points the first in `order` comes first.

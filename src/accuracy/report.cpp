@@ -22,6 +22,7 @@ constexpr int legendQuality = 95;
 // Characters that all pictures of a report together may take. The budget grows in proportion for pictures larger than
 // 640x360.
 constexpr double pictureBudget = 1.42e6;
+constexpr double framesBudget = 4.0;  // characters of a movement's frames, as a multiple of that budget
 constexpr double budgetPixels = 640.0 * 360.0;
 
 Image8 rows(const Image8& image, int first, int count) {
@@ -51,14 +52,34 @@ size_t sizeOf(const ordered_json& picture) {
   return picture.is_null() ? 0 : picture["uri"].get_ref<const std::string&>().size();
 }
 
+// Embeds a movement's frames as far as the budget allows it, and lowers the budget. No frames are embedded of a
+// configuration whose frames do not all fit.
+ordered_json framesJson(const std::vector<std::string>& files, const std::filesystem::path& folder, double& budget) {
+  ordered_json frames = ordered_json::array();
+  double size = 0.0;
+  for (const std::string& file : files) {
+    const auto frame = pictureIn(folder, file);
+    frames.push_back(frame ? embedded(*frame, pictureQuality) : ordered_json());
+    size += static_cast<double>(sizeOf(frames.back()));
+    if (size > budget) {
+      return ordered_json::array();
+    }
+  }
+  budget -= size;
+  return frames;
+}
+
 // Embeds pictures of points up to the budget, at least those of the first point. All heat maps have the same legend.
 ordered_json picturesJson(const SweepResults& results, const std::filesystem::path& folder) {
-  ordered_json pictures = {{"reference", nullptr}, {"legend", nullptr}, {"shown", ordered_json::array()}};
+  ordered_json pictures = {
+      {"reference", nullptr}, {"legend", nullptr}, {"shown", ordered_json::array()}, {"frames", ordered_json::array()}};
   if (const auto reference = pictureIn(folder, results.truthPicture)) {
     pictures["reference"] = embedded(*reference, pictureQuality);
   }
   const double pixels = static_cast<double>(results.width) * results.height;
   const double budget = pictureBudget * std::max(1.0, pixels / budgetPixels);
+  double forFrames = framesBudget * budget;
+  pictures["frames"] = framesJson(results.truthFrames, folder, forFrames);
   size_t size = sizeOf(pictures["reference"]);
   for (const int point : shownPoints(results, mostShown)) {
     const auto picture = pictureIn(folder, results.points[point].picture);
@@ -66,7 +87,10 @@ ordered_json picturesJson(const SweepResults& results, const std::filesystem::pa
     if (!picture) {
       continue;
     }
-    ordered_json shown = {{"point", point}, {"picture", embedded(*picture, pictureQuality)}, {"map", nullptr}};
+    ordered_json shown = {{"point", point},
+                          {"picture", embedded(*picture, pictureQuality)},
+                          {"map", nullptr},
+                          {"frames", framesJson(results.points[point].frames, folder, forFrames)}};
     if (map) {
       const int height =
           results.height > 0 ? std::min(results.height, map->height) : map->height;  // the legend is below the map
@@ -84,10 +108,6 @@ ordered_json picturesJson(const SweepResults& results, const std::filesystem::pa
   return pictures;
 }
 
-std::vector<int> indicesByCost(const std::vector<SweepPoint>& points) {
-  return indicesBy(points.size(), [&](int i) { return costMs(points[i]); });
-}
-
 std::vector<int> flipFront(const SweepResults& results) {
   std::vector<int> front = indicesByCost(results.points);
   std::erase_if(front, [&](int i) { return !results.points[i].onFront; });
@@ -99,9 +119,12 @@ ordered_json frontsJson(const SweepResults& results) {
   const std::vector<int> all = indicesBy(points.size(), [](int i) { return i; });
   std::vector<int> withMirrors = all;
   std::erase_if(withMirrors, [&](int i) { return !points[i].mirrors; });
+  std::vector<int> inMotion = all;
+  std::erase_if(inMotion, [&](int i) { return !points[i].flicker; });
   return {{"flip", flipFront(results)},
           {"rmse", paretoFront(points, all, [](const SweepPoint& point) { return point.whole.rmse; })},
-          {"mirrors", paretoFront(points, withMirrors, [](const SweepPoint& point) { return point.mirrors->rmse; })}};
+          {"mirrors", paretoFront(points, withMirrors, [](const SweepPoint& point) { return point.mirrors->rmse; })},
+          {"flicker", paretoFront(points, inMotion, [](const SweepPoint& point) { return *point.flicker; })}};
 }
 
 ordered_json changedSettings(const SweepResults& results) {
@@ -145,6 +168,10 @@ std::vector<int> shownPoints(const SweepResults& results, int most) {
   const auto [best, worst] =
       std::ranges::minmax_element(byCost, [&](int a, int b) { return points[a].whole.flip < points[b].whole.flip; });
   add(*worst);
+  const auto flickering = std::ranges::max_element(byCost, {}, [&](int i) { return points[i].flicker; });
+  if (points[*flickering].flicker) {
+    add(*flickering);
+  }
   const size_t room = static_cast<size_t>(std::max(1, most - static_cast<int>(shown.size())));
   const size_t step = std::max<size_t>(1, (front.size() + room - 1) / room);
   for (size_t start = 0; start < step; ++start) {

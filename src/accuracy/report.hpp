@@ -16,15 +16,17 @@ std::string reportHtml(const SweepResults& results, const std::filesystem::path&
 
 // Data of the page:
 //   results   as in results.json
-//   fronts    { flip, rmse, mirrors }: indices of points on the front of each error, cheapest first
+//   fronts    { flip, rmse, mirrors, flicker }: indices of points on the front of each error, cheapest first
 //   changed   base settings that are not the program's defaults
-//   pictures  { reference, legend, shown: [{ point, picture, map }] }, each picture { width, height, uri } or null
+//   pictures  { reference, legend, shown: [{ point, picture, map, frames: [picture] }], frames: [picture] }, each
+//             picture { width, height, uri } or null; frames are those of a movement, outside of `shown` the
+//             reference's
 // Pictures are read from `folder` and embedded in full size as JPEG; a missing or damaged file gives null.
 nlohmann::ordered_json reportJson(const SweepResults& results, const std::filesystem::path& folder);
 
 // Returns the points whose pictures go into the report, most important first, at most `most`: the base, the ends of the
-// front, the worst, the rest of the front, evenly, then the best, the cheapest and the dearest. Only points with
-// pictures are listed.
+// front, the worst, the one that flickers most, the rest of the front, evenly, then the best, the cheapest and the
+// dearest. Only points with pictures are listed.
 std::vector<int> shownPoints(const SweepResults& results, int most);
 
 // Returns the page with its style sheet and scripts, and "@DATA@" where its JSON belongs. Written at build time.

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 
 #include "accuracy/pareto.hpp"
+#include "compare/flip.hpp"
 #include "compare/heat_map.hpp"
 #include "scene/fingerprint.hpp"
 #include "settings/setting_fields.hpp"
@@ -26,8 +28,8 @@ std::string keyOf(std::initializer_list<std::string_view> parts) {
   return fingerprint.hex();
 }
 
-// Returns a key of everything that the reference and its noise floor depend on.
-std::string truthKey(const SweepScene& scene, const Settings& settings) {
+// Returns a key of everything that the reference of a frame and its noise floor depend on.
+std::string truthKey(const SweepScene& scene, const Settings& settings, int frame) {
   std::string shown = settingValue(settings, "view.clear_color");
   for (const SettingField& field : settingFields()) {
     if (field.changes == FramePart::display) {
@@ -35,10 +37,10 @@ std::string truthKey(const SweepScene& scene, const Settings& settings) {
     }
   }
   return keyOf({scene.identity, shown, std::to_string(scene.truthSamples), scene.lattice ? "lattice" : "",
-                std::to_string(scene.floorSamples), "truth"});
+                std::to_string(scene.floorSamples), "truth", std::to_string(frame)});
 }
 
-// Returns the mean over the phases of an update interval. Averages roots of mean squares as squares.
+// Returns the mean over the phases of an update interval or over frames. Averages roots of mean squares as squares.
 ImageMetrics meanMetrics(const std::vector<ImageMetrics>& all) {
   ImageMetrics mean{.pixels = all.front().pixels};
   const double share = 1.0 / static_cast<double>(all.size());
@@ -75,10 +77,13 @@ class Sweep {
   void fill(SweepResults& results) {
     results.width = scene_.width;
     results.height = scene_.height;
-    results.truthMs = truth_.ms;
-    results.truthThreads = truth_.threads;
+    results.truthMs = 0.0;
+    for (const GroundTruth& truth : truths_) {
+      results.truthMs += truth.ms / static_cast<double>(truths_.size());
+    }
+    results.truthThreads = truths_.back().threads;
     results.truthSamples = scene_.truthSamples;
-    results.floor = truth_.floor;
+    results.floor = floor();
     results.points.clear();
     results.leftOut = std::ssize(keys_) - std::ssize(kept_);
     for (const size_t i : kept_) {
@@ -87,11 +92,13 @@ class Sweep {
                                 .changes = plan_.configurations[i].changes,
                                 .whole = measurement.errors->whole,
                                 .mirrors = measurement.errors->mirrors,
+                                .flicker = measurement.errors->flicker,
                                 .gpuMs = spreadOf(measurement.gpuMs),
                                 .cpuMs = spreadOf(measurement.cpuMs),
                                 .frameMs = spreadOf(measurement.frameMs),
                                 .picture = measurement.picture,
-                                .heatMap = measurement.heatMap});
+                                .heatMap = measurement.heatMap,
+                                .frames = measurement.frames});
     }
     const bool stamped =
         std::ranges::all_of(results.points, [](const SweepPoint& point) { return point.gpuMs.median > 0.0; });
@@ -108,52 +115,99 @@ class Sweep {
       std::ranges::transform(series.points, series.points.begin(), [&](int i) { return pointOf_[i]; });
       fit(series, results);
     }
-    const Image8 shown = toDisplay(truth_.image, base_.view.displayCurve());
-    results.truthPicture = store_.keepPicture("truth.png", shown);
+    const auto shown = [&](const GroundTruth& truth) { return toDisplay(truth.image, base_.view.displayCurve()); };
+    results.truthPicture = store_.keepPicture("truth.png", shown(truths_.back()));
+    std::vector<Image8> frames;
+    for (int i = 0; i < keptFrames(); ++i) {
+      frames.push_back(shown(truths_[i]));
+    }
+    results.truthFrames = keepFrames("truth", frames);
   }
 
  private:
   bool trace() {
-    const char* stage = "reference";
-    const std::string key = truthKey(scene_, base_);
-    std::optional<GroundTruth> truth = store_.truth(key);
-    if (!truth) {
-      const TruthRequest request{.width = scene_.width,
-                                 .height = scene_.height,
-                                 .samples = scene_.truthSamples,
-                                 .lattice = scene_.lattice,
-                                 .floorSamples = scene_.floorSamples,
-                                 .settings = base_};
-      truth = traceGroundTruth(scene_.scene, scene_.state, request,
-                               [&](double fraction) { return report(stage, fraction); });
+    const TruthRequest request{.width = scene_.width,
+                               .height = scene_.height,
+                               .samples = scene_.truthSamples,
+                               .lattice = scene_.lattice,
+                               .floorSamples = scene_.floorSamples,
+                               .settings = base_};
+    for (int frame = 0; frame < scene_.frames; ++frame) {
+      const auto progress = [&](double part) { return report("reference", (frame + part) / scene_.frames); };
+      const std::string key = truthKey(scene_, base_, frame);
+      std::optional<GroundTruth> truth = store_.truth(key);
       if (!truth) {
+        truth = traceGroundTruth(scene_.scene, scene_.stateOf(frame), request, progress);
+        if (!truth) {
+          return false;
+        }
+        store_.keepTruth(key, *truth);
+      }
+      truths_.push_back(std::move(*truth));
+      if (!progress(1.0)) {
         return false;
       }
-      store_.keepTruth(key, *truth);
     }
-    truth_ = std::move(*truth);
-    return report(stage, 1.0);
+    return true;
+  }
+
+  bool moves() const { return scene_.frames > 1; }
+  int keptFrames() const { return moves() ? std::min(scene_.frames, mostFramesKept) : 0; }
+
+  // Keeps the first of the frames. Returns the names of their files.
+  std::vector<std::string> keepFrames(const std::string& name, std::span<const Image8> frames) const {
+    std::vector<std::string> files;
+    for (const Image8& frame : frames.first(keptFrames())) {
+      files.push_back(store_.keepPicture(name + "-frame" + std::to_string(files.size()) + ".png", frame));
+    }
+    return files;
+  }
+
+  // Compares pictures that differ in the age of mirror images with the one reference, or frames each with its own.
+  // `map` receives the FLIP map of the last.
+  ErrorFigures errorsOf(const std::vector<Image8>& pictures, const Settings& settings, Plane2d& map) const {
+    std::vector<ImageMetrics> whole;
+    std::vector<ImageMetrics> mirrors;
+    std::vector<glm::dvec3> before;
+    double flicker = 0.0;
+    for (size_t i = 0; i < pictures.size(); ++i) {
+      std::vector<glm::dvec3> perceived;
+      const ErrorFigures errors =
+          errorsAgainst(truths_[moves() ? i : 0], pictures[i], settings, &map, moves() ? &perceived : nullptr);
+      whole.push_back(errors.whole);
+      if (errors.mirrors) {
+        mirrors.push_back(*errors.mirrors);
+      }
+      flicker += moves() && i > 0 ? flickerOf(before, perceived) : 0.0;
+      before = std::move(perceived);
+    }
+    return {.whole = meanMetrics(whole),
+            .mirrors = mirrors.empty() ? std::nullopt : std::optional(meanMetrics(mirrors)),
+            .flicker = moves() ? std::optional(flicker / (scene_.frames - 1)) : std::nullopt};
+  }
+
+  ErrorFigures floor() const {
+    if (!moves() || scene_.floorSamples == 0) {
+      return truths_.back().floor;
+    }
+    std::vector<Image8> seconds;
+    std::ranges::transform(truths_, std::back_inserter(seconds), &GroundTruth::second);
+    Plane2d map;
+    return errorsOf(seconds, base_, map);
   }
 
   void measureErrors(size_t index) {
     Measurement& measurement = store_.at(keys_[index]);
-    std::vector<ImageMetrics> whole;
-    std::vector<ImageMetrics> mirrors;
     const std::vector<Image8> pictures = subject_.pictures(settings_[index]);
     Plane2d flip;
     Fingerprint drawn;
     drawn.add(subject_.work());
     for (const Image8& picture : pictures) {
       drawn.add(std::as_bytes(std::span(picture.rgba)));
-      const ErrorFigures errors = errorsAgainst(truth_, picture, settings_[index], &flip);
-      whole.push_back(errors.whole);
-      if (errors.mirrors) {
-        mirrors.push_back(*errors.mirrors);
-      }
     }
-    measurement.errors =
-        ErrorFigures{meanMetrics(whole), mirrors.empty() ? std::nullopt : std::optional(meanMetrics(mirrors))};
+    measurement.errors = errorsOf(pictures, settings_[index], flip);
     measurement.drawn = drawn.hex();
+    measurement.frames = keepFrames(keys_[index], pictures);
     measurement.picture = store_.keepPicture(keys_[index] + ".png", pictures.back());
     measurement.heatMap = store_.keepPicture(keys_[index] + "-flip.png", heatMap(flip));
   }
@@ -211,6 +265,7 @@ class Sweep {
   void fit(SweepSeries& series, const SweepResults& results) const {
     const double floor = results.floor.mirrors ? results.floor.mirrors->rmse : results.floor.whole.rmse;
     const double rest = series.theoryOfDepth ? seriesError(results.points[series.points.back()]) : 0.0;
+    const std::vector<double>& beyond = truths_.back().throughputBeyond;
     std::vector<glm::dvec2> samples;
     std::vector<glm::dvec2> expected;
     for (size_t i = 0; i < series.points.size(); ++i) {
@@ -222,8 +277,8 @@ class Sweep {
       series.fitted.push_back(static_cast<int>(i));
       samples.push_back({x, 0.5 * std::log(error * error - rest * rest)});
       const auto depth = static_cast<size_t>(series.x[i]);
-      if (series.theoryOfDepth && depth < truth_.throughputBeyond.size() && truth_.throughputBeyond[depth] > 0.0) {
-        expected.push_back({x, std::log(truth_.throughputBeyond[depth])});
+      if (series.theoryOfDepth && depth < beyond.size() && beyond[depth] > 0.0) {
+        expected.push_back({x, std::log(beyond[depth])});
       }
     }
     series.fit = fitLine(samples);
@@ -240,11 +295,11 @@ class Sweep {
   SweepSubject& subject_;
   SweepStore& store_;
   const SweepProgress& progress_;
-  std::vector<Settings> settings_;  // by configuration
-  std::vector<std::string> keys_;   // by configuration
-  std::vector<size_t> kept_;        // configurations that are points
-  std::vector<int> pointOf_;        // by configuration, index into kept_
-  GroundTruth truth_;
+  std::vector<Settings> settings_;   // by configuration
+  std::vector<std::string> keys_;    // by configuration
+  std::vector<size_t> kept_;         // configurations that are points
+  std::vector<int> pointOf_;         // by configuration, index into kept_
+  std::vector<GroundTruth> truths_;  // by frame
 };
 
 }  // namespace

@@ -35,12 +35,20 @@ void members(auto&& json, Of<SweepPoint> auto& point) {
   json.object("error", [&](auto&& error) {
     error("whole", point.whole);
     error("mirrors", point.mirrors);
+    error.sometimes("flicker", point.flicker);
   });
   json("gpu_ms", point.gpuMs);
   json("cpu_ms", point.cpuMs);
   json("frame_ms", point.frameMs);
   json("picture", point.picture);
   json("heat_map", point.heatMap);
+  json.sometimes("frames", point.frames);
+}
+
+void members(auto&& json, Of<SweepMotion> auto& motion) {
+  json("path", motion.path);
+  json("frames", motion.frames);
+  json.figure("fps", motion.fps);
 }
 
 void members(auto&& json, Of<LineFit> auto& fit) {
@@ -66,6 +74,7 @@ void members(auto&& json, Of<SweepResults> auto& results) {
   json("sweep", results.sweep);
   json.pair("size", results.width, results.height);
   json("time", results.time);
+  json.sometimes("motion", results.motion);
   json("device", results.device);
   json("driver", results.driver);
   json("render_path", results.renderPath);
@@ -79,6 +88,7 @@ void members(auto&& json, Of<SweepResults> auto& results) {
     truth("threads", results.truthThreads);
     truth("noise_floor", results.floor);
     truth("picture", results.truthPicture);
+    truth.sometimes("frames", results.truthFrames);
   });
   json("points", results.points);
   json("series", results.series);

@@ -47,6 +47,13 @@ class JsonWriter {
     written[key] = std::isfinite(value) ? nlohmann::ordered_json(value) : nullptr;
   }
   void pair(const char* key, int first, int second) { written[key] = {first, second}; }
+  // Leaves out a value that says nothing.
+  template <typename T>
+  void sometimes(const char* key, const T& value) {
+    if (value != T()) {
+      (*this)(key, value);
+    }
+  }
   void object(const char* key, const auto& membersOf) {
     JsonWriter inner;
     membersOf(inner);
@@ -93,6 +100,11 @@ class JsonReader {
   void figure(const char* key, double& value) const;
   void orInfinity(const char* key, double& value) const;
   void pair(const char* key, int& first, int& second) const;
+  void sometimes(const char* key, auto& value) const {
+    if (json_.is_object() && json_.contains(key)) {
+      (*this)(key, value);
+    }
+  }
   void object(const char* key, const auto& membersOf) const {
     membersOf(JsonReader(file_, member(key), path_ + key + "."));
   }
@@ -166,6 +178,7 @@ void members(auto&& json, Of<ImageMetrics> auto& metrics) {
 void members(auto&& json, Of<ErrorFigures> auto& errors) {
   json("whole", errors.whole);
   json("mirrors", errors.mirrors);
+  json.sometimes("flicker", errors.flicker);
 }
 
 }  // namespace speculum

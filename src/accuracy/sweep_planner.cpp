@@ -231,6 +231,28 @@ SweepPlan builtIn(const std::string& name, const SweepContext& context) {
   return std::move(planner.plan);
 }
 
+// Plans what a window trades for its pace: old mirror images, resolution, samples, and the motion controller, which
+// chooses settings for each frame.
+SweepPlan motionSweep(const SweepContext& context) {
+  SweepPlanner planner("motion", context);
+  planner.plan.repeats = 5;  // each is a mean over all frames
+  for (const std::string& count : {texts(context.sampleCounts).front(), std::string("4")}) {
+    SettingGrid axes{{"view.scale", {"0.25", "0.5", "1"}}, {"view.samples", {count}}};
+    if (context.mirrors) {
+      axes.insert(axes.begin(), {"reflection.update_interval", {"1", "2", "4"}});
+      axes.emplace_back("reflection.samples", Values{count});
+    }
+    planner.grid(axes);
+  }
+  if (context.mirrors) {
+    planner.grid({{"reflection.scale", {"0.25", "0.5"}}});
+  }
+  for (const std::string ms : {"5", "15", "50"}) {
+    planner.add({{"quality.motion_ms", ms}}, "at most " + ms + " ms");
+  }
+  return std::move(planner.plan);
+}
+
 }  // namespace
 
 std::optional<std::vector<std::vector<SettingChange>>> combinations(const SettingGrid& grid, size_t most) {
@@ -265,7 +287,8 @@ Settings settingsWith(const Settings& base, const std::vector<SettingChange>& ch
   return settings;
 }
 
-SweepPlanner::SweepPlanner(std::string name, const SweepContext& context) : base_(context.base) {
+SweepPlanner::SweepPlanner(std::string name, const SweepContext& context)
+    : base_(context.base), motion_(context.motion) {
   plan.name = std::move(name);
   add({});
   if (context.interval > longestInterval) {
@@ -277,8 +300,8 @@ SweepPlanner::SweepPlanner(std::string name, const SweepContext& context) : base
 int SweepPlanner::add(const Changes& changes, const std::string& name) {
   for (const SettingChange& change : changes) {
     const SettingField* field = findSettingField(change.key);
-    if (change.key.starts_with("quality.") || change.key.starts_with("debug.") || change.key.starts_with("ui.") ||
-        (field && field->subject)) {
+    const bool quality = change.key.starts_with("quality.") && !(motion_ && change.key == "quality.motion_ms");
+    if (quality || change.key.starts_with("debug.") || change.key.starts_with("ui.") || (field && field->subject)) {
       throw std::invalid_argument(change.key + ": cannot be swept");
     }
   }
@@ -361,6 +384,9 @@ SweepPlan viewSweep(const SweepContext& context) {
 }
 
 SweepPlan sweepPlan(const std::string& wanted, const SweepContext& context) {
+  if (wanted == "motion" && context.motion) {
+    return motionSweep(context);
+  }
   return wanted == "quick" || wanted == "full" ? builtIn(wanted, context) : readSweepPlan(wanted, context);
 }
 

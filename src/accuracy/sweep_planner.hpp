@@ -38,6 +38,7 @@ struct SweepContext {
   bool mirrors = true;                  // the scene has mirrors
   bool animated = false;                // something moves
   bool rough = false;                   // a mirror is rough
+  bool motion = false;                  // a movement is measured, so quality.motion_ms can vary too
   int interval = 1;                     // frames; the longest update interval of all mirrors
   std::vector<std::string> effects{};   // switches of the effects that the scene uses, such as effects.shadows
 };
@@ -64,6 +65,7 @@ class SweepPlanner {
 
  private:
   Settings base_;
+  bool motion_ = false;
 };
 
 // Returns the changes of `first`, then those of `second`.
@@ -73,7 +75,8 @@ SweepPlanner::Changes joined(SweepPlanner::Changes first, const SweepPlanner::Ch
 // setSetting().
 Settings settingsWith(const Settings& base, const std::vector<SettingChange>& changes);
 
-// Returns the built-in sweep "quick" or "full", or reads `wanted` as a file with readSweepPlan().
+// Returns the built-in sweep "quick" or "full", or "motion" if one is measured, or reads `wanted` as a file with
+// readSweepPlan().
 SweepPlan sweepPlan(const std::string& wanted, const SweepContext& context);
 
 // Reads a sweep from a TOML file such as examples/sweep.toml. Configurations with equal settings are one. Throws

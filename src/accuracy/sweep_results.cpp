@@ -60,7 +60,7 @@ std::string sweepCsv(const SweepResults& results) {
       text += "," + std::string(prefix) + key;
     }
   }
-  text += "\r\n";
+  text += results.motion ? ",flicker\r\n" : "\r\n";
   for (const SweepPoint& point : results.points) {
     text += csvField(point.name) + "," + csvField(settingsText(point.changes)) + (point.onFront ? ",1" : ",0");
     for (const Spread& spread : {point.gpuMs, point.cpuMs, point.frameMs}) {
@@ -69,7 +69,7 @@ std::string sweepCsv(const SweepResults& results) {
     text += "," + std::to_string(point.gpuMs.repeats);
     appendMetrics(text, point.whole);
     appendMetrics(text, point.mirrors);
-    text += "\r\n";
+    text += (results.motion ? "," + ordered_json(point.flicker.value_or(0.0)).dump() : "") + "\r\n";
   }
   return text;
 }

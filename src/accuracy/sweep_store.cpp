@@ -51,6 +51,7 @@ void members(auto&& json, Of<Measurement> auto& measurement) {
   json("drawn", measurement.drawn);
   json("picture", measurement.picture);
   json("heat_map", measurement.heatMap);
+  json.sometimes("frames", measurement.frames);
   json("gpu_ms", measurement.gpuMs);
   json("cpu_ms", measurement.cpuMs);
   json("frame_ms", measurement.frameMs);
@@ -82,7 +83,7 @@ SweepStore::SweepStore(fs::path folder) : folder_(std::move(folder)) {
       members(JsonReader(file, value), measurement);
       // The folder may come from somebody else, and the report embeds these pictures.
       const auto kept = [&](const std::string& name) { return isInside(folder_, name) && isFile(folder_ / name); };
-      if (!kept(measurement.picture) || !kept(measurement.heatMap)) {
+      if (!kept(measurement.picture) || !kept(measurement.heatMap) || !std::ranges::all_of(measurement.frames, kept)) {
         measurement.errors.reset();
       }
       measurements_[key] = std::move(measurement);
@@ -112,6 +113,9 @@ std::optional<GroundTruth> SweepStore::truth(const std::string& key) const {
     GroundTruth truth{.image = readExr(fileNamed(base + ".exr")),
                       .mirrors = readPixelMask(fileNamed(base + "-mirrors.png"))};
     members(JsonReader(fileNamed(base + ".json"), *json), truth);
+    if (truth.floor.whole.pixels > 0) {
+      truth.second = readImage8(fileNamed(base + "-second.png"));
+    }
     return truth;
   } catch (const std::exception& problem) {
     spdlog::warn("{}", problem.what());
@@ -123,6 +127,9 @@ void SweepStore::keepTruth(const std::string& key, const GroundTruth& truth) con
   const std::string base = "truth-" + key;
   writeExr(fileNamed(base + ".exr"), truth.image);
   writePng(fileNamed(base + "-mirrors.png"), maskImage(truth.mirrors));
+  if (truth.second.width > 0) {
+    writePng(fileNamed(base + "-second.png"), truth.second);
+  }
   JsonWriter json;
   members(json, truth);
   // This file comes last: its presence means that the others are complete.

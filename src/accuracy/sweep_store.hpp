@@ -15,7 +15,8 @@ struct Measurement {
   std::string drawn;    // fingerprint of the pictures and of the work for them
   std::string picture;  // file in the store's folder
   std::string heatMap;
-  std::vector<double> gpuMs;  // one value a round, as in cpuMs and frameMs
+  std::vector<std::string> frames;  // as picture; of a movement
+  std::vector<double> gpuMs;        // one value a round, as in cpuMs and frameMs
   std::vector<double> cpuMs;
   std::vector<double> frameMs;
 };

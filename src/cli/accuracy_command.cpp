@@ -1,5 +1,6 @@
 #include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "accuracy/report.hpp"
@@ -9,55 +10,69 @@
 #include "cli/stats.hpp"
 #include "platform/process.hpp"
 #include "platform/text.hpp"
-#include "session/session_subject.hpp"
+#include "window/paced_subject.hpp"
 
 namespace speculum {
 
 namespace {
 
 void writeReport(const Options& options, SweepResults& results, const std::string& folder) {
+  const auto inFolder = [&](std::string& file) { file = folder + "/" + file; };
   for (SweepPoint& point : results.points) {
-    point.picture = folder + "/" + point.picture;
-    point.heatMap = folder + "/" + point.heatMap;
+    inFolder(point.picture);
+    inFolder(point.heatMap);
+    std::ranges::for_each(point.frames, inFolder);
   }
-  results.truthPicture = folder + "/" + results.truthPicture;
+  inFolder(results.truthPicture);
+  std::ranges::for_each(results.truthFrames, inFolder);
   writeJson(options.out / "results.json", sweepJson(results));
   writeText(options.out / "results.csv", sweepCsv(results));
   writeText(options.out / "index.html", reportHtml(results, options.out));
 }
 
 void printFront(const SweepResults& results) {
-  printLine(fmt::format("{:<44} {:>10} {:>10} {:>10}", "on the front", "GPU ms", "mean FLIP", "RMSE"));
-  for (const int index : paretoFront(results.points)) {
+  const auto flicker = [&](const std::optional<double>& value) {
+    return results.motion ? fmt::format(" {:>10.5f}", value.value_or(0.0)) : "";
+  };
+  printLine(fmt::format("{:<44} {:>10} {:>10} {:>10}{}", results.motion ? "cheapest first" : "on the front", "GPU ms",
+                        "mean FLIP", "RMSE", results.motion ? "    flicker" : ""));
+  // Of a movement all are listed, because error and flicker have fronts of their own.
+  for (const int index : results.motion ? indicesByCost(results.points) : paretoFront(results.points)) {
     const SweepPoint& point = results.points[index];
-    printLine(fmt::format("{:<44} {:>10.3f} {:>10.5f} {:>10.5f}", point.name, costMs(point), point.whole.flip,
-                          point.whole.rmse));
+    printLine(fmt::format("{:<44} {:>10.3f} {:>10.5f} {:>10.5f}{}", point.name, costMs(point), point.whole.flip,
+                          point.whole.rmse, flicker(point.flicker)));
   }
-  printLine(fmt::format("{:<44} {:>10.0f} {:>10.5f} {:>10.5f}", "reference (and its noise floor)", results.truthMs,
-                        results.floor.whole.flip, results.floor.whole.rmse));
+  printLine(fmt::format("{:<44} {:>10.0f} {:>10.5f} {:>10.5f}{}", "reference (and its noise floor)", results.truthMs,
+                        results.floor.whole.flip, results.floor.whole.rmse, flicker(results.floor.flicker)));
 }
 
 }  // namespace
 
 int runAccuracy(const Options& options) {
   Session session(options);
-  const SceneState state = evaluate(session.scene(), options.time);
-  const SweepContext context = sweepContext(session);
+  const bool moving = !options.motion.empty();
+  const MotionPath path = moving ? motionPath(options, session.scene()) : MotionPath{.start = options.time};
+  SweepContext context = sweepContext(session);
+  context.motion = moving;
   const SweepPlan plan = sweepPlan(options.sweep, context);
   const std::string folder = "measurements";
   SweepStore store(options.out / folder);
-  SessionSubject subject(session, options.time);
+  PacedSubject subject(session, path);
   SweepScene scene{.scene = session.scene(),
-                   .state = state,
+                   .stateOf = [&](int frame) { return stateOf(session.scene(), path, frame); },
+                   .frames = path.frames,
                    .width = options.size.width,
                    .height = options.size.height,
                    .identity = sweepIdentity(session, options)};
-  if (options.sweep == "quick") {
+  if (options.sweep == "quick" || moving) {
     scene.truthSamples = 64;
     scene.lattice = true;
     scene.floorSamples = 81;
   }
   SweepResults results = describeSweep(session, plan, options.time);
+  if (moving) {
+    results.motion = {.path = options.motion, .frames = path.frames, .fps = path.fps};
+  }
   installInterruptHandler();
   std::string stage;
   std::optional<Progress> progress;  // a bar for each stage, one after the other

@@ -86,7 +86,7 @@ void addRender(CLI::App& app, Options& options, Raw& raw) {
   app.add_option("--stats", options.render.stats, "JSON: passes, skipped mirrors, effects, totals");
   app.add_option("--capture", options.render.capture, "F.rdc: the first picture for RenderDoc, which must be loaded");
   app.add_option("--frames", options.frames, "a sequence of so many pictures")->check(CLI::Range(1, 1000000));
-  app.add_option("--fps", options.render.fps, "pictures per second of animation")->check(CLI::Range(1e-6, 1e6));
+  app.add_option("--fps", options.fps, "pictures per second of animation")->check(CLI::Range(1e-6, 1e6));
 }
 
 void addReference(CLI::App& app, Options& options, Raw& raw) {
@@ -110,7 +110,16 @@ void addAccuracy(CLI::App& app, Options& options, Raw& raw) {
   addScene(app, options, raw, "640x360");
   addTime(app, options);
   app.add_option("--out", options.out, "folder of the report; a sweep that was interrupted goes on there")->required();
-  app.add_option("--sweep", options.sweep, "quick | full | F.toml");
+  app.add_option("--sweep", options.sweep, "quick | full | F.toml; with --motion also motion, its default");
+  CLI::Option* motion = app.add_option(
+      "--motion", options.motion,
+      "error and flicker of a movement: scene, for its animation, or F.toml, a camera path (docs/accuracy.md)");
+  app.add_option("--frames", options.frames, "frames of the movement, 24 unless given")
+      ->check(CLI::Range(2, 1000))
+      ->needs(motion);
+  app.add_option("--fps", options.fps, "frames per second of the movement, 30 unless given")
+      ->check(CLI::Range(1e-6, 1e6))
+      ->needs(motion);
 }
 
 void addCompare(CLI::App& app, Options& options) {
@@ -172,6 +181,9 @@ void applyRaw(const Raw& raw, Options& options) {
   } else if (options.command == "accuracy") {
     options.size = {640, 360};
   }
+  if (options.sweep.empty()) {
+    options.sweep = options.motion.empty() ? "quick" : "motion";
+  }
   if (!raw.camera.empty()) {
     setCamera(options, raw.camera);
   }
@@ -180,7 +192,7 @@ void applyRaw(const Raw& raw, Options& options) {
                                  timeRange.shortText()));
   }
   // Finds NaN, which passes range checks because no comparison with it holds.
-  if (!std::isfinite(options.render.fps)) {
+  if (!std::isfinite(options.fps)) {
     throw UsageError("--fps: not a finite number (pictures per second, such as 30)");
   }
   if (options.compare.maxFlip && !std::isfinite(*options.compare.maxFlip)) {
@@ -245,7 +257,9 @@ std::string examplesText(const std::string& command) {
       {"reference", {"--scene gallery --size 640x360 --samples 64 --out truth.png"}},
       {"compare",
        {"truth.png gallery.png", "truth.png gallery.png --heatmap error.png --json error.json --max-flip 0.05"}},
-      {"accuracy", {"--scene gallery --out report", "--scene gallery --size 320x180 --sweep full --out report"}},
+      {"accuracy",
+       {"--scene gallery --out report", "--scene gallery --size 320x180 --sweep full --out report",
+        "--scene gallery --size 320x180 --motion scene --out report"}},
       {"regress",
        {"cases.toml --out report", "cases.toml --filter 'gallery*' --jobs 2 --junit report/junit.xml",
         "cases.toml --update gallery", "cases.toml --repeat 10"}},

@@ -36,7 +36,7 @@ int runRender(const Options& options) {
     // A mean that has converged is complete before its last picture.
     const auto advance = [&] { return progress.set(i * pictures + session.lastFrame().pictures); };
     const auto draw = [&] {
-      session.draw(options.time + i / options.render.fps, true, advance);
+      session.draw(options.time + i / options.fps, true, advance);
       session.finish();
     };
     if (options.render.capture && i == 0) {

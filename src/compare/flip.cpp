@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <numbers>
+#include <numeric>
 
 #include "image/color.hpp"
 
@@ -126,8 +128,8 @@ std::vector<glm::dvec3> perceivedColors(const Channels& channels) {
   return colors;
 }
 
-double colorError(const glm::dvec3& a, const glm::dvec3& b) {
-  const glm::dvec3 d = a - b;
+// Returns the error, 0 to 1, of colors that differ by `d`.
+double colorError(const glm::dvec3& d) {
   const double hyab = std::abs(d.x) + std::hypot(d.y, d.z);
   const double error = std::pow(hyab, colorExponent);
   constexpr double knee = colorKnee * largestColorError;
@@ -197,9 +199,23 @@ Plane2d flipMap(const ComparedImage& reference, const ComparedImage& test) {
     const double edge = std::abs(a.edges.values[i] - b.edges.values[i]);
     const double point = std::abs(a.points.values[i] - b.points.values[i]);
     const double feature = std::pow(std::max(edge, point) / std::numbers::sqrt2, featureExponent);
-    error.values[i] = std::pow(colorError(referenceColors[i], testColors[i]), 1.0 - std::min(feature, 1.0));
+    error.values[i] = std::pow(colorError(referenceColors[i] - testColors[i]), 1.0 - std::min(feature, 1.0));
   });
   return error;
+}
+
+std::vector<glm::dvec3> perceivedErrors(const ComparedImage& reference, const ComparedImage& test) {
+  requireSameSize(reference, test);
+  const std::vector<glm::dvec3> right = perceivedColors(opponentChannels(reference));
+  std::vector<glm::dvec3> errors = perceivedColors(opponentChannels(test));
+  std::ranges::transform(errors, right, errors.begin(), std::minus());
+  return errors;
+}
+
+double flickerOf(std::span<const glm::dvec3> before, std::span<const glm::dvec3> now) {
+  const auto change = [](const glm::dvec3& a, const glm::dvec3& b) { return colorError(b - a); };
+  return std::transform_reduce(before.begin(), before.end(), now.begin(), 0.0, std::plus(), change) /
+         static_cast<double>(now.size());
 }
 
 }  // namespace speculum

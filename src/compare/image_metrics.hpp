@@ -24,6 +24,7 @@ struct ImageMetrics {
 struct ErrorFigures {
   ImageMetrics whole;
   std::optional<ImageMetrics> mirrors;  // over the inside of mirrors, if any is in view
+  std::optional<double> flicker;        // of a movement: mean flickerOf() its frames
 };
 
 struct Comparison {

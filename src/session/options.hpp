@@ -21,7 +21,6 @@ struct WindowArguments {
 struct RenderArguments {
   std::filesystem::path stats;                   // empty: none
   std::optional<std::filesystem::path> capture;  // file for RenderDoc's capture of the first picture
-  double fps = 30.0;
 };
 
 struct CompareArguments {
@@ -68,6 +67,7 @@ struct Options {
   std::optional<Bookmark> camera;      // replaces the scene's; without a name
   std::string bookmark;                // name of a bookmark whose view replaces the camera's; empty: none
   int frames = 0;                      // 0: the command's default
+  double fps = 30.0;                   // frames per second of animation
   bool strict = false;                 // defects of models are errors
   std::filesystem::path out;           // empty: none
   std::filesystem::path json;          // empty: none
@@ -77,7 +77,8 @@ struct Options {
   RenderArguments render;
   int referenceSamples = 64;  // a pixel
   CompareArguments compare;
-  std::string sweep = "quick";  // accuracy: quick, full or a file
+  std::string sweep;   // accuracy: quick, full, motion or a file
+  std::string motion;  // accuracy: scene, or a file of a camera path; empty: a still picture
   RegressArguments regress;
   BenchArguments bench;
 };

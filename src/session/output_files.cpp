@@ -87,7 +87,7 @@ fs::path UsedFiles::resolved(const fs::path& file) {
 void requireFilesOfTheirOwn(const Options& options) {
   UsedFiles used;
   for (const auto& [option, file] :
-       {NamedFile{"--scene", options.scene}, NamedFile{"--sweep", options.sweep},
+       {NamedFile{"--scene", options.scene}, NamedFile{"--sweep", options.sweep}, NamedFile{"--motion", options.motion},
         NamedFile{"--mask", options.compare.mask}, NamedFile{"--sweep-results", options.sweepResults},
         NamedFile{"reference", options.compare.reference}, NamedFile{"test", options.compare.test},
         NamedFile{"cases", options.regress.cases}}) {

@@ -66,6 +66,14 @@ void applyPoint(const SweepResults& results, int point, const std::set<std::stri
   }
 }
 
+SweepResults readStillSweep(const std::filesystem::path& file) {
+  SweepResults results = readSweepResults(file);
+  if (results.motion) {
+    throw InputError(file.string() + ": motion: measured in motion (results of accuracy without --motion are needed)");
+  }
+  return results;
+}
+
 std::optional<QualityChoice> chooseQuality(const Options& options, const std::filesystem::path& scene,
                                            Settings& settings) {
   if (!budgetOf(settings).bounds()) {
@@ -86,7 +94,7 @@ std::optional<QualityChoice> chooseQuality(const Options& options, const std::fi
     spdlog::warn("{} for a measurement (Accuracy > Measure this view)", bounds);
     return std::nullopt;
   }
-  const SweepResults results = readSweepResults(options.sweepResults);
+  const SweepResults results = readStillSweep(options.sweepResults);
   const std::optional<BudgetChoice> choice = chooseForBudget(results, budgetOf(settings));
   if (!choice) {
     throw InputError(options.sweepResults.string() + ": points: none (a sweep with at least one point is needed)");

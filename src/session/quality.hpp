@@ -21,6 +21,10 @@ struct QualityChoice {
   std::string why;  // one sentence for users
 };
 
+// Reads the file of --sweep-results. Throws InputError as readSweepResults() does, and for a sweep in motion, whose
+// points may not name the settings that its frames had.
+SweepResults readStillSweep(const std::filesystem::path& file);
+
 // Chooses a point from the file of --sweep-results by quality.budget_ms and quality.max_error, sets `settings` to it,
 // except for keys of --set, and prints the choice on stderr. Warns if the sweep is of another scene or size. Returns
 // nothing without bounds, or without a sweep after a warning. Throws UsageError for bounds of --set without a sweep

@@ -187,12 +187,13 @@ void Session::drawPicture(bool capture) {
   const bool converged = frame_.pictures > 0 && cache.refined && cache.refined->none();
   frame_.pictures = converged ? all : frame_.pictures;  // shows the mean again
   cache.main = nullptr;  // the main view is drawn in every frame, so that its pass is reported
-  FittedPlan fitted = planner_.plan({.scene = loaded_.scene,
-                                     .state = frame_.state,
-                                     .settings = loaded_.settings,
-                                     .size = {size_.width, size_.height},
-                                     .cache = cache,
-                                     .picture = frame_.pictures});
+  const FrameRequest asked{.scene = loaded_.scene,
+                           .state = frame_.state,
+                           .settings = loaded_.settings,
+                           .size = {size_.width, size_.height},
+                           .cache = cache,
+                           .picture = frame_.pictures};
+  FittedPlan fitted = planning_ ? planning_(asked, planner_) : planner_.plan(asked);
   frame_.planMs += millisecondsSince(recording) - frame.waitedMs;
   const bool last = frame_.pictures + 1 >= all;
   frame_.plan = std::move(fitted.plan);

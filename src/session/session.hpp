@@ -86,6 +86,10 @@ class Session {
   // Drops all cached images: the next frame renders everything.
   void restart() { sceneRenderer_.restart(); }
   void resize(PictureSize size);  // from the next frame on
+  // Plans pictures with `planning` from now on, which is given what is asked for and the session's planner; with an
+  // empty one, as asked for.
+  using Planning = std::function<FittedPlan(const FrameRequest& asked, PicturePlanner& planner)>;
+  void setPlanning(Planning planning) { planning_ = std::move(planning); }
   // Changes the settings from the next frame on. Throws UsageError if debug.omit_barrier names no barrier.
   void setSettings(const Settings& settings);
   // Waits for the GPU, after which lastFrame() is complete.
@@ -116,6 +120,7 @@ class Session {
   Renderer renderer_;
   SceneRenderer sceneRenderer_;
   FramePlanner planner_;
+  Planning planning_;
   DrawnFrame frame_;
   std::deque<uint64_t> unfinished_;  // the renderer's frames whose figures are not in frame_ yet
   std::chrono::steady_clock::time_point start_;

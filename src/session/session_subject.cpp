@@ -19,8 +19,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double secondsBetweenFrames = 1.0 / 30.0;
-
 void addFile(Fingerprint& fingerprint, const fs::path& file) {
   if (const std::optional<std::vector<uint8_t>> bytes = readFileIfAny(file)) {
     fingerprint.add(std::as_bytes(std::span(*bytes)));
@@ -39,31 +37,10 @@ void addFolder(Fingerprint& fingerprint, const fs::path& folder) {
   }
 }
 
-}  // namespace
-
-void SessionSubject::drawEarlierFrame(int framesBefore, bool capture, bool whole) {
-  session_.draw(time_ - framesBefore * secondsBetweenFrames, capture, [&] { return whole; });
-  session_.finish();
-}
-
-std::vector<Image8> SessionSubject::pictures(const Settings& settings) {
-  session_.setSettings(settings);
-  const int interval = mostAsked(session_.scene(), settings).updateInterval;
-  std::vector<Image8> pictures;
-  // After one interval mirrors become due in turn, so n frames in a row show each mirror at every age.
-  for (int last = interval > 1 ? interval : 0; last < (interval > 1 ? 2 * interval : 1); ++last) {
-    session_.restart();
-    for (int frame = 0; frame <= last; ++frame) {
-      drawEarlierFrame(last - frame, frame == last, true);
-    }
-    pictures.push_back(session_.picture());
-  }
-  return pictures;
-}
-
-std::string SessionSubject::work() const {
-  const DrawnFrame& frame = session_.lastFrame();
-  FrameWork work = workOf(frame.plan, session_.scene(), frame.state, frame.settings);
+// Returns a text that describes the work for the session's last frame.
+std::string workOf(Session& session) {
+  const DrawnFrame& frame = session.lastFrame();
+  FrameWork work = workOf(frame.plan, session.scene(), frame.state, frame.settings);
   work.mirrorSamples *= work.mirrorPasses > 0.0;
   Fingerprint fingerprint;
   fingerprint.add(std::as_bytes(std::span(&work, 1)));
@@ -71,21 +48,82 @@ std::string SessionSubject::work() const {
   return fingerprint.hex();
 }
 
+void addTo(FrameCost& cost, const DrawnFrame& frame, double share) {
+  cost.gpuMs += share * frame.gpuMs;
+  cost.cpuMs += share * frame.cpuMs;
+  cost.frameMs += share * frame.frameMs;
+}
+
+}  // namespace
+
+void SessionSubject::drawFrame(int frame, bool capture, bool whole) {
+  if (!path_.cameras.empty()) {
+    session_.setCamera(path_.cameras[std::max(0, frame)]);
+  }
+  session_.draw(path_.timeOf(frame), capture, [&] { return whole; });
+  session_.finish();
+}
+
+void SessionSubject::follow(const Settings& settings, bool capture, const std::function<void()>& drawn) {
+  session_.setSettings(settings);
+  session_.restart();
+  const int interval = mostAsked(session_.scene(), settings).updateInterval;
+  for (int frame = interval > 1 ? -interval : 0; frame < path_.frames; ++frame) {
+    drawFrame(frame, capture && frame >= 0, true);
+    if (drawn && frame >= 0) {
+      drawn();
+    }
+  }
+}
+
+std::vector<Image8> SessionSubject::pictures(const Settings& settings) {
+  if (path_.frames == 1) {
+    std::vector<Image8> pictures = stillPictures(settings);
+    work_ = workOf(session_);
+    return pictures;
+  }
+  std::vector<Image8> pictures;
+  Fingerprint work;
+  follow(settings, true, [&] {
+    pictures.push_back(session_.picture());
+    work.add(workOf(session_));
+  });
+  work_ = work.hex();
+  return pictures;
+}
+
+std::vector<Image8> SessionSubject::stillPictures(const Settings& settings) {
+  session_.setSettings(settings);
+  const int interval = mostAsked(session_.scene(), settings).updateInterval;
+  std::vector<Image8> pictures;
+  // After one interval mirrors become due in turn, so n frames in a row show each mirror at every age.
+  for (int last = interval > 1 ? interval : 0; last < (interval > 1 ? 2 * interval : 1); ++last) {
+    session_.restart();
+    for (int frame = 0; frame <= last; ++frame) {
+      drawFrame(frame - last, frame == last, true);
+    }
+    pictures.push_back(session_.picture());
+  }
+  return pictures;
+}
+
 FrameCost SessionSubject::cost(const Settings& settings) {
   session_.renderer().setTimerDetail(TimerDetail::frame);
+  FrameCost cost;
+  if (path_.frames > 1) {
+    follow(settings, false, [&] { addTo(cost, session_.lastFrame(), 1.0 / path_.frames); });
+    return cost;
+  }
   Settings measured = settings;
   measured.reflection.skipUnchanged = false;
   session_.setSettings(measured);
   session_.restart();
   const int counted = mostAsked(session_.scene(), settings).updateInterval;
-  FrameCost cost;
   for (int frame = 2 * counted - 1; frame >= 0; --frame) {
     const bool counts = frame < counted;
-    drawEarlierFrame(counted == 1 ? 0 : frame, false, counts);
+    drawFrame(counted == 1 ? 0 : -frame, false, counts);
     if (counts) {
-      cost.gpuMs += session_.lastFrame().gpuMs / counted;
-      cost.cpuMs += session_.lastFrame().cpuMs / counted;
-      cost.frameMs += session_.lastFrame().frameMs / counted;
+      addTo(cost, session_.lastFrame(), 1.0 / counted);
     }
   }
   return cost;
@@ -143,6 +181,12 @@ std::string sweepIdentity(Session& session, const Options& options) {
   fingerprint.add(session.size().width);
   fingerprint.add(session.size().height);
   fingerprint.add(options.time);
+  if (!options.motion.empty()) {
+    fingerprint.add(options.motion);
+    addFile(fingerprint, options.motion);
+    fingerprint.add(options.frames);
+    fingerprint.add(options.fps);
+  }
   return fingerprint.hex();
 }
 

@@ -4,27 +4,37 @@
 
 #include "accuracy/sweep.hpp"
 #include "accuracy/sweep_planner.hpp"
+#include "session/motion_path.hpp"
 #include "session/session.hpp"
 
 namespace speculum {
 
-// A session's scene at one time, for a sweep to measure.
+// A session's scene at one time or along a path, for a sweep to measure.
 class SessionSubject : public SweepSubject {
  public:
   // Keeps a reference to the session.
-  SessionSubject(Session& session, double time) : session_(session), time_(time) {}
+  SessionSubject(Session& session, MotionPath path) : session_(session), path_(std::move(path)) {}
+  SessionSubject(Session& session, double time) : SessionSubject(session, MotionPath{.start = time}) {}
 
-  // With an update interval, frames are 1/30 s apart, and the last one is at the sweep's time.
+  // With an update interval, frames of a still picture are 1/30 s apart, and the last one is at the sweep's time.
   std::vector<Image8> pictures(const Settings& settings) override;
-  std::string work() const override;
+  std::string work() const override { return work_; }
   FrameCost cost(const Settings& settings) override;
 
- private:
-  // Draws the frame that comes `framesBefore` frames before the last one: the `whole` mean, or only its first picture.
-  void drawEarlierFrame(int framesBefore, bool capture, bool whole);
+ protected:
+  // Draws a frame of the path, where negative ones come before it: the `whole` mean, or only its first picture.
+  virtual void drawFrame(int frame, bool capture, bool whole);
+  // Draws the frames of the path, each with the images of the one before, as a moving window does. Calls `drawn` after
+  // each. Frames before the path see that mirrors are due in turn.
+  void follow(const Settings& settings, bool capture, const std::function<void()>& drawn = {});
 
   Session& session_;
-  double time_;
+  MotionPath path_;
+
+ private:
+  std::vector<Image8> stillPictures(const Settings& settings);
+
+  std::string work_;
 };
 
 // Returns the sample counts among 1, 2, 4 and 8 that the device has.
@@ -37,7 +47,7 @@ SweepContext sweepContext(Session& session);
 SweepResults describeSweep(Session& session, const SweepPlan& plan, double time);
 
 // Returns a fingerprint of everything that pictures and times depend on, except the settings: this build with its
-// shaders, scene, device, machine, size, time, validation.
+// shaders, scene, device, machine, size, time or movement, validation.
 std::string sweepIdentity(Session& session, const Options& options);
 
 std::string utcNow();  // ISO 8601, with seconds

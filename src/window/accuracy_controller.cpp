@@ -87,7 +87,7 @@ AccuracyController::AccuracyController(const Options& options, const Settings& l
     shown_.heatBar.emplace_back(heatColor((i + 0.5) / heatBarSteps));
   }
   if (!options.sweepResults.empty()) {
-    setResults(readSweepResults(options.sweepResults));
+    setResults(readStillSweep(options.sweepResults));
     Settings scratch;
     for (size_t i = 0; i < results_.points.size(); ++i) {
       applyPoint(static_cast<int>(i), scratch);  // throws now if a point cannot be applied

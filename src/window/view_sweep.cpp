@@ -74,7 +74,7 @@ SweepResults ViewMeasurement::measure(PictureSize size, const Effort& effort, co
   SessionSubject subject(session_, request_.options.time);
   SweepStore store(storeFolder(session_, request_));
   const SweepScene scene{.scene = session_.scene(),
-                         .state = state,
+                         .stateOf = [&](int) { return state; },
                          .width = size.width,
                          .height = size.height,
                          .truthSamples = effort.samples,

@@ -65,6 +65,26 @@ TEST(AccuracyReport, HasTheFrontOfEachError) {
   }
 }
 
+TEST(AccuracyReport, MovementsHaveFlickerAndFrames) {
+  const TemporaryFolder folder;
+  SweepResults results = movingResults();
+  writePictures(results, folder / "");
+  const ordered_json json = reportJson(results, folder / "");
+  std::vector<FrontCandidate> candidates;
+  for (const SweepPoint& point : results.points) {
+    candidates.push_back({*point.flicker, point.gpuMs});
+  }
+  EXPECT_EQ(json["fronts"]["flicker"], paretoFront(candidates));
+  EXPECT_NE(json["fronts"]["flicker"], json["fronts"]["flip"]) << "the base flickers little";
+  EXPECT_EQ(json["pictures"]["frames"].size(), 3u);
+  EXPECT_EQ(json["pictures"]["shown"][0]["point"], 0);
+  EXPECT_EQ(json["pictures"]["shown"][0]["frames"], json["pictures"]["frames"]);
+  EXPECT_TRUE(json["pictures"]["shown"][1]["frames"].empty());
+  const ordered_json still = reportJson(exampleResults(), "nowhere");
+  EXPECT_TRUE(still["fronts"]["flicker"].empty());
+  EXPECT_TRUE(still["pictures"]["frames"].empty());
+}
+
 TEST(AccuracyReport, NamesBaseSettingsThatAreNoDefaults) {
   EXPECT_EQ(reportJson(exampleResults(), "nowhere")["changed"].dump(), R"({"view.samples":"8"})");
 }
@@ -105,6 +125,11 @@ TEST(AccuracyReport, StaysSmallWithManyLargePictures) {
   }
   const std::string html = reportHtml(results, folder / "");
   EXPECT_LT(html.size(), 1600000u);
+  for (SweepPoint& point : results.points) {
+    point.frames.assign(24, "noise.png");
+  }
+  results.truthFrames.assign(24, "noise.png");
+  EXPECT_LT(reportHtml(results, folder / "").size(), 7'500'000u);
   EXPECT_GE(ordered_json::parse(embeddedJson(html))["pictures"]["shown"].size(), 1u);
 }
 

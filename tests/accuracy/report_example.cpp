@@ -125,6 +125,17 @@ SweepResults oddResults() {
   return results;
 }
 
+SweepResults movingResults() {
+  SweepResults results = exampleResults();
+  results.motion = SweepMotion{"a path.toml", 3, 30.0};
+  results.floor.flicker = 0.002;
+  for (SweepPoint& point : results.points) {
+    point.flicker = 0.5 * point.whole.flip;
+  }
+  results.points[0].flicker = 0.003;
+  return results;
+}
+
 SweepResults singleResult() {
   SweepResults results;
   results.points.push_back(point("only", 1.0, 0.0, {}));
@@ -141,6 +152,12 @@ void writePictures(SweepResults& results, const std::filesystem::path& folder) {
     results.points[i].heatMap = std::to_string(i) + ".flip.png";
     writePng(folder / results.points[i].picture, picture(static_cast<int>(i)));
     writePng(folder / results.points[i].heatMap, heatMap(Plane2d(width, height)));
+  }
+  for (int frame = 0; results.motion && frame < results.motion->frames; ++frame) {
+    const std::string file = "frame" + std::to_string(frame) + ".png";
+    writePng(folder / file, picture(20 + frame));
+    results.truthFrames.push_back(file);
+    results.points[0].frames.push_back(file);
   }
 }
 

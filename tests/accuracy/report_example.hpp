@@ -12,6 +12,9 @@ SweepResults exampleResults();
 // exampleResults() with values at the ends of what a double holds, missing values, and series that point at nothing.
 SweepResults oddResults();
 
+// exampleResults() of a movement of three frames.
+SweepResults movingResults();
+
 // One point without error, mirrors or a series.
 SweepResults singleResult();
 

@@ -208,6 +208,31 @@ class ReportPage(Page):
         self.assertEqual(len(self.find("#series .theory path")), 2)
         self.assertEqual(self.keys("tbody tr.front"), list("1723456"))
 
+    def test_movement_has_flicker_and_frames(self):
+        self.open("example")
+        self.assertFalse(self.find("#motion")[0].is_displayed())
+        self.open("motion")
+        self.assert_sound()
+        self.assertEqual(len(self.find("#front-figures svg.plot")), 4)
+        front = self.js("return JSON.parse(document.getElementById('data').textContent).fronts.flicker")
+        self.assertEqual(set(self.keys("#front-figures figure:nth-child(2) .mark.front[data-key]")), set(map(str, front)))
+        self.assertIn("--motion 'a path.toml' --frames 3 --fps 30", self.text("[data-fill=sweepCommand]"))
+        self.assertEqual(len(self.find(".strip img")), 6, "of the reference and of the base settings")
+        shown = lambda: self.js("return [...document.querySelectorAll('#strip .frame img')].map(i => i.alt)")
+        self.assertEqual(shown(), ["Frame 1, ray traced", "Frame 1, base"])
+        self.js("document.querySelector('#strip .stepper').focus()")
+        self.browser.press(ARROW_RIGHT)
+        self.assertEqual(shown(), ["Frame 2, ray traced", "Frame 2, base"])
+        self.js("document.querySelectorAll('.strip img')[5].click()")
+        self.assertEqual(shown(), ["Frame 3, ray traced", "Frame 3, base"])
+        self.assertEqual(self.text("#strip output"), "3 of 3")
+        self.js("document.querySelector('#strip button').click()")
+        self.browser.wait("return document.querySelector('#strip output').textContent === '1 of 3'")
+        self.js("document.querySelector('#strip button').click()")
+        self.js("document.querySelector('tbody tr[data-key=\"3\"] .name').click()")
+        self.assertEqual(len(self.find(".strip img")), 3)
+        self.assertIn("not in this report", self.text("#strip .panes"))
+
     def test_plots_fit_a_narrow_window(self):
         self.open("example")
         try:

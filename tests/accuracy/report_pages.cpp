@@ -67,6 +67,9 @@ int main(int, char** arguments) {
   writePage(folder, "missing.html", example);
   writePage(folder, "bare.html", exampleResults());
   writePage(folder, "odd.html", oddResults());
+  SweepResults moving = movingResults();
+  writePictures(moving, folder);
+  writePage(folder, "motion.html", moving);
   writePage(folder, "empty.html", {});
   SweepResults single = singleResult();
   writePage(folder, "single.html", single);

@@ -298,7 +298,7 @@ reflectance = [0.8, 0.8, 0.8]
     TracingSubject subject(scene_, state_);
     SweepStore store(folder);
     const SweepScene scene{.scene = scene_,
-                           .state = state_,
+                           .stateOf = [&](int) { return state_; },
                            .width = 48,
                            .height = 27,
                            .identity = identity,
@@ -331,6 +331,141 @@ TEST_F(SmallSweep, ErrorFallsAsTheThroughputBeyondDepth) {
   EXPECT_GT(results.truthMs, 0.0);
   EXPECT_EQ(results.points[0].gpuMs.repeats, 15);
   EXPECT_TRUE(std::ranges::any_of(results.points, [](auto& p) { return p.onFront; }));
+}
+
+// Renders frames of a movement by ray tracing, and each picture again for as many frames as the update interval has.
+class MovingSubject : public SweepSubject {
+ public:
+  MovingSubject(const SweepScene& scene) : scene_(scene) {}
+
+  std::vector<Image8> pictures(const Settings& settings) override {
+    std::vector<Image8> pictures;
+    for (int frame = 0; frame < scene_.frames; ++frame) {
+      ++drawn;
+      const RayTracer tracer(scene_.scene, scene_.stateOf(frame - frame % settings.reflection.updateInterval));
+      const auto result =
+          tracer.render({.width = 48, .height = 27, .samples = 16, .maxDepth = 64, .minThroughput = 0.0});
+      pictures.push_back(toDisplay(result->image, settings.view.displayCurve()));
+    }
+    return pictures;
+  }
+  FrameCost cost(const Settings& settings) override { return {4.0 / settings.reflection.updateInterval, 0.1, 5.0}; }
+  int drawn = 0;
+
+ private:
+  const SweepScene& scene_;
+};
+
+class SmallMotion : public SmallSweep {
+ protected:
+  // Runs a sweep over update intervals, with the camera moving by `step` metres a frame.
+  SweepResults move(double step, const SweepProgress& progress = {}) {
+    SweepPlanner planner("motion", {.motion = true});
+    planner.grid({{"reflection.update_interval", {"1", "2", "4"}}});
+    planner.plan.repeats = 1;
+    const SweepScene scene{.scene = scene_,
+                           .stateOf =
+                               [&](int frame) {
+                                 SceneState state = state_;
+                                 state.camera.eye.x += step * frame;
+                                 return state;
+                               },
+                           .frames = 6,
+                           .width = 48,
+                           .height = 27,
+                           .identity = std::to_string(step),
+                           .truthSamples = 16,
+                           .floorSamples = 25};
+    MovingSubject subject(scene);
+    SweepStore store(folder_ / "motion");
+    SweepResults results{.motion = SweepMotion{"scene", 6, 30.0}};
+    finished_ = runSweep(planner.plan, Settings(), scene, subject, store, results, progress);
+    drawn_ = subject.drawn;
+    return results;
+  }
+
+  bool finished_ = false;
+  int drawn_ = 0;
+};
+
+TEST_F(SmallMotion, OldImagesFlicker) {
+  const SweepResults results = move(0.02);
+  ASSERT_EQ(results.points.size(), 3u);
+  EXPECT_EQ(results.points[0].whole.flip, 0.0) << "every frame is its own reference";
+  EXPECT_EQ(results.points[0].flicker, 0.0);
+  EXPECT_GT(results.points[1].flicker.value(), 0.01);
+  EXPECT_GT(results.points[1].whole.flip, 0.005);
+  EXPECT_GT(results.points[2].whole.flip, results.points[1].whole.flip);
+  EXPECT_GT(results.floor.flicker.value(), 0.0) << "the reference's own noise changes with the view";
+  EXPECT_LT(results.floor.flicker.value(), 0.5 * results.points[1].flicker.value());
+  EXPECT_EQ(results.truthFrames.size(), 6u);
+  for (const std::string& file : results.points[2].frames) {
+    EXPECT_TRUE(fs::is_regular_file(folder_ / "motion" / file));
+  }
+  const std::vector<std::string>& frames = results.points[2].frames;
+  ASSERT_EQ(frames.size(), 6u);
+  const auto picture = [&](int i) { return readImage8(folder_ / "motion" / frames[i]).rgba; };
+  EXPECT_EQ(picture(0), picture(3));
+  EXPECT_NE(picture(3), picture(4));
+}
+
+TEST_F(SmallMotion, StandingStillHasNoFlicker) {
+  const SweepResults results = move(0.0);
+  EXPECT_EQ(results.points.size(), 1u) << "all intervals draw the same frames";
+  EXPECT_EQ(results.points[0].flicker, 0.0);
+  EXPECT_EQ(results.floor.flicker, 0.0);
+  EXPECT_GT(results.floor.whole.flip, 0.0);
+}
+
+TEST_F(SmallMotion, InterruptedMotionContinues) {
+  move(0.02, [](const SweepStatus& status) { return status.stage != "reference" || status.fraction < 0.6; });
+  EXPECT_FALSE(finished_);
+  bool traced = false;
+  double least = 1.0;
+  move(0.02, [&](const SweepStatus& status) {
+    traced = traced || status.stage == "reference";
+    least = status.stage == "reference" && std::fmod(6.0 * status.fraction, 1.0) > 0.01
+                ? std::min(least, status.fraction)
+                : least;
+    return true;
+  });
+  EXPECT_TRUE(finished_);
+  EXPECT_TRUE(traced);
+  EXPECT_GT(least, 0.45) << "references of the first frames are stored";
+  EXPECT_EQ(drawn_, 18);
+  const SweepResults again = move(0.02);
+  EXPECT_EQ(drawn_, 0);
+  EXPECT_GT(again.floor.flicker.value(), 0.0) << "stored references have their noise floor";
+}
+
+TEST_F(SmallMotion, ResultsSurviveTheirFile) {
+  const SweepResults results = move(0.02);
+  const std::string text = sweepJson(results).dump();
+  const SweepResults read = readSweepResults(folder_.write("results.json", text));
+  EXPECT_EQ(sweepJson(read).dump(), text);
+  EXPECT_EQ(read.motion, results.motion);
+  EXPECT_EQ(read.points[1].flicker, results.points[1].flicker);
+  EXPECT_TRUE(contains(sweepCsv(results), ",flicker\r\n"));
+}
+
+TEST(SweepPlans, MotionVariesWhatAWindowTradesForItsPace) {
+  SweepContext context = contextOf(true, true);
+  EXPECT_THROW(SweepPlanner("own", context).add({{"quality.motion_ms", "5"}}), std::invalid_argument);
+  EXPECT_THROW(sweepPlan("motion", context), InputError) << "a file's name without --motion";
+  context.motion = true;
+  const auto names = [&] {
+    std::string text;
+    for (const SweepConfiguration& configuration : sweepPlan("motion", context).configurations) {
+      text += settingsText(configuration.changes) + "\n";
+    }
+    return text;
+  };
+  for (const char* part :
+       {"reflection.update_interval=4", "view.scale=0.25", "quality.motion_ms=15", "view.samples=1"}) {
+    EXPECT_TRUE(contains(names(), part)) << part;
+  }
+  context.mirrors = false;
+  EXPECT_FALSE(contains(names(), "reflection."));
 }
 
 TEST_F(SmallSweep, InterruptedSweepContinues) {

@@ -1,10 +1,13 @@
 // `speculum accuracy` and what uses its results, as scripts call them.
 #include "accuracy/sweep_json.hpp"
 #include "command_support.hpp"
+#include "error_message.hpp"
 #include "picture_support.hpp"
 #include "platform/files.hpp"
+#include "scene/input_error.hpp"
+#include "scene/scene_loader.hpp"
 #include "scene_text.hpp"
-#include "session/session_subject.hpp"
+#include "window/paced_subject.hpp"
 
 namespace speculum {
 namespace {
@@ -141,8 +144,12 @@ TEST(LeftOutConfigurations, DrawTheBytesOfOneThatIsKept) {
     SessionSubject subject(session, 0.0);
     const TemporaryDirectory folder;
     SweepStore store(folder.path());
-    const SweepScene scene{
-        .scene = session.scene(), .state = state, .width = 64, .height = 36, .truthSamples = 1, .floorSamples = 0};
+    const SweepScene scene{.scene = session.scene(),
+                           .stateOf = [&](int) { return state; },
+                           .width = 64,
+                           .height = 36,
+                           .truthSamples = 1,
+                           .floorSamples = 0};
     SweepResults results;
     ASSERT_TRUE(runSweep(plan, base, scene, subject, store, results, {}));
     std::set<std::vector<uint8_t>> kept;
@@ -163,6 +170,129 @@ TEST(LeftOutConfigurations, DrawTheBytesOfOneThatIsKept) {
       EXPECT_TRUE(kept.contains(bytes)) << name << " with " << mirrors << " mirrors";
     }
   }
+}
+
+const std::string path = R"([[view]]
+time = 0
+position = [-0.3, 1, 1.4]
+target = [0, 1, -2]
+[[view]]
+time = 0.2
+position = [0.3, 1.1, 1.4]
+target = [0, 1, -2]
+up = [0.1, 1, 0]
+vertical_fov = 70
+)";
+
+TEST_F(AccuracyCommand, MovementHasErrorAndFlicker) {
+  // Images that are moved to where a new view sees them cannot show that the lamp has moved in them.
+  const std::string scene = writeScene("movement", corridorScene(corridorNodes + R"(
+[[light]] position = [0.6, 1, 0], radius = 0.25, glow = 5, orbit = { center = [0, 1, 0], axis = [0, 1, 0], speed = 400 }
+)"))
+                                .string();
+  std::ofstream(out("path.toml")) << path;
+  std::ofstream(out("moving.toml"))
+      << "[[grid]]\nsettings = { \"reflection.update_interval\" = [1, 4] }\n"
+         "[[configuration]]\nname = \"paced\"\nsettings = { \"quality.motion_ms\" = 2 }\n";
+  const std::string text = succeed({"accuracy", "--scene", scene, "--size", "64x36", "--motion", out("path.toml"),
+                                    "--frames", "6", "--set", "view.samples=4", "--set", "reflection.samples=4",
+                                    "--sweep", out("moving.toml"), "--validation", "--out", out("m")});
+  EXPECT_TRUE(contains(text, "flicker"));
+  const SweepResults results = readSweepResults(out("m/results.json"));
+  EXPECT_EQ(results.motion, (SweepMotion{out("path.toml"), 6, 30.0}));
+  ASSERT_EQ(results.points.size(), 3u);
+  const SweepPoint& base = results.points[0];
+  const auto named = [&](const std::string& part) {
+    return *std::ranges::find_if(results.points, [&](auto& p) { return contains(p.name, part); });
+  };
+  EXPECT_GT(base.flicker.value(), 0.0);
+  EXPECT_GT(named("Update interval").flicker.value(), base.flicker.value());
+  EXPECT_GT(named("paced").whole.flip, 0.0);
+  EXPECT_EQ(base.frames.size(), 6u);
+  // Each frame is the one that a window draws there: the first has no image of a frame before.
+  succeed({"render", "--scene", scene, "--size", "64x36", "--camera", "-0.3,1,1.4:0,1,-2", "--set", "view.samples=4",
+           "--set", "reflection.samples=4", "--out", out("first.png")});
+  succeed({"compare", out("first.png"), out("m/" + base.frames[0]), "--max-diff", "0"});
+  EXPECT_TRUE(contains(mistake({"render", "--scene", scene, "--out", out("p.png"), "--set", "quality.budget_ms=3",
+                                "--sweep-results", out("m/results.json")}),
+                       "measured in motion"));
+}
+
+TEST_F(AccuracyCommand, StandingStillHasNoFlicker) {
+  const std::string view = path.substr(0, path.find("[[view]]", 1));
+  std::ofstream(out("still.toml")) << view << "[[view]]\ntime = 1" << view.substr(view.find("\nposition"));
+  succeed({"accuracy", "--scene", scene_, "--size", "64x36", "--motion", out("still.toml"), "--frames", "3", "--sweep",
+           out("sweep.toml"), "--out", out("still")});
+  for (const SweepPoint& point : readSweepResults(out("still/results.json")).points) {
+    EXPECT_EQ(point.flicker, 0.0) << point.name;
+    EXPECT_GT(point.whole.flip, 0.0) << point.name;
+  }
+}
+
+TEST(MotionPaths, CameraGoesStraightFromViewToView) {
+  const TemporaryDirectory folder;
+  std::ofstream(folder.path() / "path.toml") << path;
+  Options options;
+  options.motion = (folder.path() / "path.toml").string();
+  options.time = 3.0;
+  options.frames = 9;
+  Scene scene = loadScene(writeScene("motion_paths", corridorScene()));
+  const MotionPath moved = motionPath(options, scene);
+  ASSERT_EQ(moved.cameras.size(), 9u);
+  const auto isNear = [](const glm::dvec3& a, const glm::dvec3& b) { return glm::distance(a, b) < 1e-12; };
+  EXPECT_TRUE(isNear(moved.cameras[0].eye, {-0.3, 1.0, 1.4}));
+  EXPECT_TRUE(isNear(moved.cameras[3].eye, {0.0, 1.05, 1.4})) << "halfway, after 0.1 s";
+  EXPECT_TRUE(isNear(moved.cameras[8].eye, {0.3, 1.1, 1.4})) << "stands after the last view";
+  EXPECT_NEAR(moved.cameras[8].verticalFov, glm::radians(70.0), 1e-12);
+  EXPECT_DOUBLE_EQ(moved.timeOf(3), 3.1);
+  EXPECT_EQ(stateOf(scene, moved, 3).camera, moved.cameras[3]);
+  options.motion = "scene";
+  EXPECT_TRUE(contains(messageOf<UsageError>([&] { motionPath(options, scene); }), "nothing in the scene moves"));
+  scene.camera.orbitSpeed = 90.0;
+  EXPECT_TRUE(motionPath(options, scene).cameras.empty());
+  EXPECT_EQ(stateOf(scene, motionPath(options, scene), 3).camera, evaluate(scene, 3.1).camera);
+  options.size = {4096, 4096};
+  EXPECT_TRUE(contains(messageOf<UsageError>([&] { motionPath(options, scene); }), "--frames: 9 frames of 4096x4096"));
+}
+
+TEST(MotionPaths, MistakesNameTheLine) {
+  const TemporaryDirectory folder;
+  const Scene scene = loadScene(writeScene("motion_paths", corridorScene()));
+  Options options;
+  options.motion = (folder.path() / "path.toml").string();
+  options.fps = 4.0;
+  const auto problem = [&](const std::string& text) {
+    std::ofstream(options.motion) << text;
+    return messageOf<InputError>([&] { motionPath(options, scene); }).substr(folder.path().string().size() + 1);
+  };
+  const std::string first = path.substr(0, path.find("[[view]]", 1));  // of four lines
+  EXPECT_EQ(problem(""),
+            "path.toml:1: view: stands 0 times (2 to 10000 [[view]] with time, position and target are needed)");
+  EXPECT_TRUE(contains(problem(first), "stands 1 times"));
+  EXPECT_TRUE(contains(problem(first + first), "path.toml:6: view[1].time: is not after")) << problem(first + first);
+  EXPECT_TRUE(contains(problem("[[vew]]"), "path.toml:1: vew: is not a known key (did you mean 'view'?"));
+  EXPECT_TRUE(contains(problem("[[view]]\ntime = 0\nposition = [0, 0]\n"), "path.toml:3: view[0].position"));
+  EXPECT_TRUE(contains(problem("[[view]]\ntime = nan\n"), "path.toml:2: view[0].time"));
+  EXPECT_TRUE(contains(problem("[[view]]\ntime = 0\nposition = [0, 0, 0]\ntarget = [0, 0, 0]\n"),
+                       "path.toml:1: view: target: has no direction"));
+  EXPECT_TRUE(contains(problem(first + "[[view]]\ntime = 0.5\nposition = [-0.3, 1, -6]\ntarget = [0, 1, -2]\n"
+                                       "up = [0, -1, 0]\n"),
+                       "path.toml:1: after"))
+      << "upside down: up vanishes halfway";
+  EXPECT_TRUE(contains(problem("nonsense"), "path.toml:1: toml"));
+}
+
+TEST_F(AccuracyCommand, MovementsAreChecked) {
+  const std::vector<std::string> command = {"accuracy", "--scene", scene_, "--out", out("bad")};
+  const auto refused = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), command.begin(), command.end());
+    return mistake(more);
+  };
+  EXPECT_TRUE(contains(refused({"--frames", "4"}), "--motion"));
+  EXPECT_TRUE(contains(refused({"--fps", "4"}), "--motion"));
+  EXPECT_TRUE(contains(refused({"--motion", out("absent.toml")}), "absent.toml:1: file:"));
+  EXPECT_TRUE(contains(refused({"--motion", "scene", "--frames", "1"}), "--frames"));
+  EXPECT_FALSE(fs::exists(out("bad"))) << "bad input leaves nothing behind";
 }
 
 TEST_F(AccuracyCommand, BenchesTheReference) {

@@ -47,6 +47,46 @@ TEST(Flip, IsZeroForEqualPicturesAndSymmetric) {
   EXPECT_NEAR(meanFlip(a, b), meanFlip(b, a), 1e-12);
 }
 
+// Returns the flicker of two frames, each { reference, test }.
+double flicker(const std::pair<ComparedImage, ComparedImage>& before,
+               const std::pair<ComparedImage, ComparedImage>& now) {
+  return flickerOf(perceivedErrors(before.first, before.second), perceivedErrors(now.first, now.second));
+}
+
+TEST(Flicker, ErrorsThatStayCountNothing) {
+  const auto dark = picture([](int x, int y) { return 0.7 * checker(x, y); });
+  EXPECT_EQ(flicker({picture(checker), dark}, {picture(checker), dark}), 0.0);
+  const auto moved = picture([](int x, int y) { return checker(x + 3, y); });
+  EXPECT_EQ(flicker({picture(checker), picture(checker)}, {moved, moved}), 0.0) << "a movement that is drawn right";
+}
+
+TEST(Flicker, ErrorOfEveryOtherFrameCountsAsInFlip) {
+  const auto grey = constant(glm::dvec3(0.2));
+  for (const glm::dvec3& wrong : {glm::dvec3(0.0), glm::dvec3(0.25, 0.2, 0.2), glm::dvec3(1.0)}) {
+    const double once = flicker({grey, grey}, {grey, constant(wrong)});
+    EXPECT_NEAR(once, meanFlip(grey, constant(wrong)), 1e-9);
+    EXPECT_NEAR(flicker({grey, constant(wrong)}, {grey, grey}), once, 1e-12);
+  }
+}
+
+TEST(Flicker, GrowsWithTheChangeOfTheError) {
+  const auto black = constant(glm::dvec3(0.0));
+  double last = 0.0;
+  for (const double level : {0.1, 0.3, 0.9}) {
+    const double now = flicker({black, black}, {black, constant(glm::dvec3(level))});
+    EXPECT_GT(now, last);
+    last = now;
+  }
+}
+
+// What moves too late by a frame flickers, and a picture that stands still while the reference moves does.
+TEST(Flicker, ChangesThatTheReferenceLacksAndTheOtherWayRoundAreEqual) {
+  const auto a = picture(checker);
+  const auto b = picture([](int x, int y) { return checker(x + 3, y); });
+  EXPECT_GT(flicker({a, a}, {b, a}), 0.01);
+  EXPECT_NEAR(flicker({a, a}, {b, a}), flicker({a, a}, {a, b}), 1e-12);
+}
+
 TEST(Flip, WorksOnPicturesSmallerThanItsFilters) {
   Image8 one(1, 1);
   Image8 other(1, 1);

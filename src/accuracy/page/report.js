@@ -15,6 +15,7 @@ const measures = {
   flip: { name: 'mean FLIP', of: error => error.whole.flip },
   rmse: { name: 'RMSE', of: error => error.whole.rmse },
   mirrors: { name: 'RMSE over mirrors', of: error => error.mirrors?.rmse ?? null },
+  flicker: { name: 'flicker', of: error => error.flicker ?? null },
 };
 
 const priceText = point => `${numberText(costOf(point).median)} ms and mean FLIP ${numberText(point.error.whole.flip)}`;
@@ -50,6 +51,8 @@ function facts(results) {
   const entries = {
     Scene: results.scene,
     Picture: `${results.size.join(' × ')}\u00a0pixels, time\u00a0${results.time}\u00a0s`,
+    ...results.motion ? { Motion: `${results.motion.path}, ${plural(results.motion.frames, 'frame')} at ` +
+                                  `${numberText(results.motion.fps)} a second` } : {},
     Sweep: `${results.sweep}, ${plural(results.points.length, 'configuration')}`,
     Device: results.device,
     Driver: results.driver,
@@ -149,6 +152,9 @@ function frontFigures({ results, fronts }) {
   const figures = [
     { style: 'main', title: 'Visible error against time', text: 'Mean FLIP of the whole picture. Lower left is better.',
       plot: frontPlot(results, fronts.flip, measures.flip), aspect: 0.53 },
+    ...results.motion ? [{
+      style: 'main', title: 'Flicker against time', text: 'Error of what changes from frame to frame, on the scale of FLIP.',
+      plot: frontPlot(results, fronts.flicker, measures.flicker), aspect: 0.53 }] : [],
     { style: 'half', title: 'Linear error against time', text: 'Root mean square error of linear light, whole picture.',
       plot: frontPlot(results, fronts.rmse, measures.rmse), aspect: 0.79 },
   ];
@@ -241,12 +247,13 @@ function settingsCell({ point }) {
 
 function pointTable(results, selection) {
   const { points, ground_truth: truth } = results;
-  const errors = columnsOfErrors.map(column => errorColumn(column, points));
+  const columns = results.motion ? [{ heading: 'Flicker', of: measures.flicker.of }, ...columnsOfErrors] : columnsOfErrors;
+  const errors = columns.map(column => errorColumn(column, points));
   return makeTable({
     caption: ['Every configuration, blue dots: on the front. ', make('span', { class: 'hint' },
       'The headings sort; a name shows its picture and marks it in the plots.')],
     label: 'All configurations',
-    groups: [['', 1], ['Configuration', 2], ['Median ms a frame', 2], ['Whole picture', 5], ['Difference, 1/255', 3],
+    groups: [['', 1], ['Configuration', 2], ['Median ms a frame', 2], ['Whole picture', results.motion ? 6 : 5], ['Difference, 1/255', 3],
              ['Mirrors', 1]],
     columns: [
       { heading: 'Front', title: 'on the front of mean FLIP', style: 'mark', descendingFirst: true, cell: ({ point }) => ({
@@ -314,6 +321,14 @@ function pictureViewer({ results, fronts, pictures }, selection) {
   }, selection);
 }
 
+function frameStrip({ results, pictures }, selection) {
+  const frames = new Map(pictures.shown.map(entry => [String(entry.point), entry.frames]));
+  return makeStrip({
+    reference: pictures.frames, framesOf: key => frames.get(key) ?? [], nameOf: key => results.points[key].name,
+    size: results.size.join('/'), fps: results.motion.fps,
+  }, selection);
+}
+
 // Fills the elements of the page that carry a name in data-fill.
 function fillTexts(texts) {
   for (const element of document.querySelectorAll('[data-fill]')) {
@@ -326,6 +341,8 @@ function texts({ results, changed }) {
   const repeats = Math.max(0, ...points.map(point => costOf(point).repeats));
   const scene = `--scene ${shellWord(results.scene)} --size ${results.size.join('x')} --time ${results.time}`;
   const base = Object.keys(changed).length ? ` ${setOptions(changed)}` : '';
+  const motion = results.motion
+    ? ` --motion ${shellWord(results.motion.path)} --frames ${results.motion.frames} --fps ${results.motion.fps}` : '';
   return {
     title: results.title || results.scene,
     summary: summary(results),
@@ -335,7 +352,7 @@ function texts({ results, changed }) {
     clock: timedOnGpu(results)
       ? 'GPU times come from the device’s timestamps; CPU times are the processor’s share of a frame.'
       : 'The device has no timestamps, so the time of the whole frame stands in for the GPU’s.',
-    sweepCommand: `speculum accuracy ${scene} --sweep ${shellWord(results.sweep)}${base} --out FOLDER`,
+    sweepCommand: `speculum accuracy ${scene}${motion} --sweep ${shellWord(results.sweep)}${base} --out FOLDER`,
     pictureCommand: `speculum render ${scene}${base} --out FOLDER/picture.png --set …`,
     baseSettings: Object.entries(results.settings).map(([key, value]) => `${key} = ${value || '(the scene’s)'}\n`).join(''),
     made: `Made by Speculum ${results.version} from results.json${results.date ? `, ${results.date}` : ''}.`,
@@ -359,6 +376,8 @@ function showReport(report) {
   const selection = makeSelection(String(key));
   place('viewer').append(pictureViewer(report, selection));
   place('table').append(pointTable(results, selection));
+  place('motion').hidden = !report.pictures.frames.length;
+  if (report.pictures.frames.length) place('strip').append(frameStrip(report, selection));
   showFigures(place('front-figures'), frontFigures(report), selection);
   showFigures(place('series-figures'), series, selection);
 }
