@@ -62,7 +62,24 @@ void passChoice(PanelContext& ui, const PassRow* shown) {
     }
     ImGui::EndCombo();
   }
-  recordWidget(ui, "targets.pass", "Pass whose target is shown.");
+  recordWidget(ui, "targets.pass", "Pass whose target is shown, in the order of drawing.");
+}
+
+// Draws a button that goes to the next pass with a target, in the order of drawing: forward or back.
+void stepButton(PanelContext& ui, const PassRow* shown, bool forward) {
+  const std::vector<PassRow>& passes = ui.input.frame.passes;
+  std::vector<const PassRow*> drawn;
+  for (const PassRow& pass : passes) {
+    if (hasTarget(pass)) {
+      drawn.push_back(&pass);
+    }
+  }
+  const auto at = std::ranges::find(drawn, shown);
+  const bool more = at != drawn.end() && (forward ? at + 1 != drawn.end() : at != drawn.begin());
+  if (button(ui, forward ? ">" : "<", forward ? "targets.next" : "targets.previous",
+             forward ? "Steps to the pass that is drawn next." : "Steps to the pass that is drawn before.", more)) {
+    ui.state.targets.path = (*(forward ? at + 1 : at - 1))->path;
+  }
 }
 
 void controls(PanelContext& ui, const PassRow* shown) {
@@ -87,6 +104,10 @@ void controls(PanelContext& ui, const PassRow* shown) {
     }
     recordWidget(ui, std::string("targets.") + choice.name, choice.about);
   }
+  continueRow("< >", 2.0f * ImGui::GetStyle().FramePadding.x + ImGui::GetStyle().ItemSpacing.x);
+  stepButton(ui, shown, false);
+  ImGui::SameLine();
+  stepButton(ui, shown, true);
   continueRow("Fit 1:1", 2.0f * ImGui::GetStyle().FramePadding.x + ImGui::GetStyle().ItemSpacing.x);
   if (button(ui, "Fit", "targets.fit", "Shows the whole image.")) {
     targets.zoom = 0.0;

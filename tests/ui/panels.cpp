@@ -1693,6 +1693,21 @@ TEST_F(TargetsWindow, OpensOnTheSelectedMirror) {
   EXPECT_EQ(target()->path, MirrorPath{0});
 }
 
+TEST_F(TargetsWindow, PassesAreSteppedThrough) {
+  const PassRow inner{{.path = {0, 1}}, "mirror wall > door"};
+  const PassRow display{{.kind = PassKind::display}, "display"};
+  frame_.passes = {inner, frame_.passes[0], frame_.passes[1], display};
+  toggle("Targets");
+  click("targets.next");
+  EXPECT_TRUE(target()->path.empty()) << "the main view has the last target";
+  for (const MirrorPath& path : {MirrorPath{0}, MirrorPath{0, 1}, MirrorPath{0, 1}}) {
+    click("targets.previous");
+    EXPECT_EQ(target()->path, path);
+  }
+  click("targets.next");
+  EXPECT_EQ(target()->path, MirrorPath{0});
+}
+
 TEST_F(TargetsWindow, NothingIsCutWhereTextIsLarge) {
   frame_.passes[1].name = "mirror door of the long corridor behind the kitchen > mirror wall opposite";
   toggle("Targets");
