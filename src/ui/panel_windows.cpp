@@ -92,7 +92,6 @@ UiOutput PanelWindows::build(const UiInput& input) {
 void PanelWindows::mainPanel(PanelContext& ui) {
   if (dock_.begin(mainTitle, nullptr, PanelDock::Edge::left, panels::modestEms({28.0f, 0.0f}))) {
     ImGui::PushItemWidth(-10.5f * ImGui::GetFontSize());  // the rest is for the labels
-    statusWidth_ = ImGui::GetWindowWidth();
     panels::scene(ui);
     windowChoices(ui);
     panels::splitChoice(ui);
@@ -100,6 +99,7 @@ void PanelWindows::mainPanel(PanelContext& ui) {
     panels::effects(ui);
     ImGui::PopItemWidth();
   }
+  statusWidth_ = ImGui::GetWindowWidth();  // also of a folded panel
   ImGui::End();
 }
 

@@ -124,9 +124,7 @@ std::optional<std::filesystem::path> fileList(PanelContext& ui, const std::files
         modelsOutside(*ui.input.edit.scene, folder).size() + mapsOutside(*ui.input.edit.scene, folder).size();
   }
   const float width = fieldWidth();
-  ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + width);
   ImGui::TextDisabled("%s", files.listed.string().c_str());
-  ImGui::PopTextWrapPos();
   std::optional<std::filesystem::path> chosen;
   const float others = 8.0f * ImGui::GetFrameHeightWithSpacing();  // height of the menus and of the other rows
   imgui::beginList("files", {width, std::min(height, ImGui::GetIO().DisplaySize.y - others)});
@@ -280,7 +278,9 @@ void prompts(PanelContext& ui) {
       ImGui::OpenPopup(title);
     }
     if (beginPrompt(title, resized)) {
+      ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + fieldWidth());
       asked ? content(ui) : ImGui::CloseCurrentPopup();
+      ImGui::PopTextWrapPos();
       ImGui::EndPopup();
     }
   }

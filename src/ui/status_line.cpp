@@ -35,8 +35,9 @@ float statusLine(const ShownStatus& status, float width, float right) {
   const float margin = std::floor(0.8f * ImGui::GetFontSize());
   // Paths cannot wrap, so the line may be wider than the panel.
   const float text = ImGui::CalcTextSize(shown.c_str()).x + 3.0f * ImGui::GetStyle().FramePadding.x;
-  const float most = std::max(width, std::min(mostWidth * display.x, right - 2.0f * margin));
-  const float across = std::clamp(text, width, most);
+  const float least = std::min(width, display.x - 2.0f * margin);
+  const float most = std::max(least, std::min(mostWidth * display.x, right - 2.0f * margin));
+  const float across = std::clamp(text, least, most);
   const ImVec2 padding = ImGui::GetStyle().FramePadding;
   shown = brokenAtSpaces(shown, across - 2.0f * padding.x, textWidth);
   const float height =

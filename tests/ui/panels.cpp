@@ -349,6 +349,16 @@ TEST_F(PanelTest, LongStatusLinesLieBelowThePanel) {
   EXPECT_LE(panel->Pos.y + panel->Size.y, line->Pos.y);
 }
 
+TEST_F(PanelTest, StatusLinesFitSmallWindows) {
+  status_.picture = "4 of 64 pictures averaged, next one 15 %; approximate: shadow outlines within a texel of the map";
+  for (const auto& [width, height] :
+       {std::pair(900.0f, 700.0f), std::pair(300.0f, 120.0f), std::pair(220.0f, 500.0f)}) {
+    resize(width, height);  // the second folds the panel
+    const ImGuiWindow* line = ImGui::FindWindowByName("##status");
+    EXPECT_LE(line->Pos.x + line->Size.x, width);
+  }
+}
+
 TEST_F(PanelTest, SamplesAreThoseOfTheDevice) {
   device_.samples = {1, 4};
   const auto choose = [&](int row) {
@@ -551,6 +561,13 @@ TEST_F(PanelTest, PromptsFitNarrowWindows) {
     ask(prompt, config_.path());
     EXPECT_GE(widget(field).x, 0);
     EXPECT_LT(widget(field).x + widget(field).width, 300);
+    ask(Prompt::none);
+  }
+  edit_.saveFile = "/home/somebody/Documents/Speculum/a room with a mirror and a window.toml";
+  for (const auto& [prompt, title] : {std::pair(Prompt::recovery, "Unsaved changes of the last session"),
+                                      std::pair(Prompt::unsavedChanges, "Unsaved changes")}) {
+    ask(prompt, "/home/somebody/.config/speculum/unsaved/1/gallery.toml");
+    EXPECT_LE(ImGui::FindWindowByName(title)->ContentSize.x, 290.0f) << title;
     ask(Prompt::none);
   }
 }
