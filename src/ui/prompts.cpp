@@ -221,8 +221,8 @@ void openFile(PanelContext& ui) {
   }
   focusField(files);
   ImGui::SetNextItemWidth(fieldWidth());
-  bool opens =
-      ImGui::InputTextWithHint("##typed", "Scene or model", &files.typed, ImGuiInputTextFlags_EnterReturnsTrue);
+  bool opens = ImGui::InputTextWithHint("##typed", "Scene or model", &files.typed,
+                                        ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
   const bool edited = ImGui::IsItemEdited();
   if (edited) {
     files.problem.clear();
@@ -245,7 +245,7 @@ void openFile(PanelContext& ui) {
   opens = button(ui, "Open", "open.open", "", !files.typed.empty()) || opens;
   ImGui::SameLine();
   answerButton(ui, "Cancel", "open.cancel", CancelPrompt{});
-  const std::filesystem::path file = named(files);
+  std::filesystem::path file = named(files);
   std::error_code none;
   if (!opens) {
     return;
@@ -255,8 +255,12 @@ void openFile(PanelContext& ui) {
     files.focus = chosen && enterPressed() ? Focus::list : files.focus;
     return;
   }
+  if (!std::filesystem::exists(file, none) && std::filesystem::exists(file.string() + ".toml", none)) {
+    file += ".toml";
+  }
   if (!std::filesystem::exists(file, none)) {
     files.problem = "There is no file " + file.string();
+    files.focus = Focus::field;
     return;
   }
   ui.send(OpenScene{file});

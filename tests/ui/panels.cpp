@@ -481,6 +481,20 @@ TEST_F(PanelTest, ListFollowsTheTypedFolder) {
   EXPECT_TRUE(std::filesystem::equivalent(only<OpenScene>().file, folder / "ring.obj"));
 }
 
+TEST_F(PanelTest, MistypedNamesAreTypedAgain) {
+  std::ofstream(config_.path() / "room.toml") << "";
+  ask(Prompt::open, config_.path() / "");
+  type("roof");
+  tap(ImGuiKey_Enter);
+  EXPECT_NE(windows_->state().files.problem, "");
+  EXPECT_TRUE(ImGui::GetIO().WantTextInput);
+  type("room");
+  EXPECT_EQ(windows_->state().files.typed, "room") << "what was there is replaced";
+  commands_.clear();
+  tap(ImGuiKey_Enter);
+  EXPECT_EQ(only<OpenScene>().file.filename(), "room.toml") << "scenes are opened by their names";
+}
+
 TEST_F(PanelTest, ListScrollsToTypedNames) {
   for (int i = 0; i < 60; ++i) {
     std::ofstream(config_.path() / ("room " + std::to_string(i) + ".toml")) << "";
