@@ -262,6 +262,10 @@ void selectedNode(PanelContext& ui) {
   ImGui::PushItemWidth(-9.2f * ImGui::GetFontSize());
   edited = fieldRows(ui, node) || edited;
   ImGui::PopItemWidth();
+  if (edit.selected.kind == Selection::Kind::mirror) {
+    dimmedText(
+        "A mirror is flat. For a curved one add an object, such as a sphere, and check Mirror among its fields.");
+  }
   if (edited) {
     ui.state.editing = ImGui::IsAnyItemActive();
     ui.send(EditNode{edit.selected, std::move(node), ui.state.editing});

@@ -44,6 +44,7 @@ class SceneEditor {
   void toggle(const Selection& node);
   void select(const Selection& node);  // alone
   void selectNext(int step);           // in the order of allNodes(); after the last one comes the first
+  bool selectedInMirror() const { return !path_.empty(); }  // the selected node was picked through a mirror
   void setMode(GizmoMode mode) { mode_ = mode; }
   void nextMode() { mode_ = static_cast<GizmoMode>((static_cast<int>(mode_) + 1) % 3); }
 

@@ -183,6 +183,7 @@ void Workspace::pointerButton(const MouseButtonEvent& event, bool overPanels) {
   }
   const bool covers = host_.inspectorCovers(pointer_.position());
   status_.set("Selected " + describe(scene(), document_->selection()) + ". Its handles move, turn or scale it." +
+              (editor_->selectedInMirror() ? " A click at the same place selects the mirror." : "") +
               (covers ? " F2 opens the inspector." : ""));
   if (!covers) {
     host_.openInspector();

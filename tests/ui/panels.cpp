@@ -1357,6 +1357,11 @@ TEST_F(Inspector, ReflectanceIsTypedAsInTheFile) {
   EXPECT_DOUBLE_EQ(scene_.mirrors[0].reflectance.r, 0.404);
 }
 
+TEST_F(Inspector, MirrorsSayWhatIsCurved) {
+  selectMirror(0);
+  EXPECT_TRUE(shows("For a curved one add an object"));
+}
+
 TEST_F(Inspector, CurvedMirrorsExplainTheirTint) {
   ASSERT_FALSE(scene_.objects.empty());
   scene_.objects[0].mirror = ObjectMirror();
