@@ -49,12 +49,12 @@ inline constexpr std::array poolSizes{VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_CO
                                       VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_SAMPLER, 8}};
 
 // Begins a child window with a border, into which the arrow keys lead.
-inline void beginList(const char* name, const ImVec2& size) {
+inline void beginList(const char* name, const ImVec2& size, ImGuiWindowFlags flags = 0) {
 #if IMGUI_VERSION_NUM >= 19090
   constexpr ImGuiChildFlags border = 1;  // its name differs
-  ImGui::BeginChild(name, size, border | ImGuiChildFlags_NavFlattened);
+  ImGui::BeginChild(name, size, border | ImGuiChildFlags_NavFlattened, flags);
 #else
-  ImGui::BeginChild(name, size, true, ImGuiWindowFlags_NavFlattened);
+  ImGui::BeginChild(name, size, true, flags | ImGuiWindowFlags_NavFlattened);
 #endif
 }
 

@@ -1,7 +1,9 @@
 // The window that edits the scene.
 #include <imgui.h>
+#include <imgui_internal.h>
 #include <imgui_stdlib.h>
 #include <spdlog/fmt/fmt.h>
+#include <imgui_versions.hpp>
 
 #include <algorithm>
 #include <cfloat>
@@ -25,8 +27,9 @@ void nodeList(PanelContext& ui) {
   }
   const float line = ImGui::GetTextLineHeightWithSpacing();
   const float height = std::clamp(0.25f * ImGui::GetContentRegionAvail().y, 3.5f * line, 7.5f * line);
-  ImGui::BeginChild("nodes", ImVec2(0.0f, height), true, ui.state.openedAt ? ImGuiWindowFlags_NoMouseInputs : 0);
+  imgui::beginList("nodes", {0.0f, height}, ui.state.openedAt ? ImGuiWindowFlags_NoMouseInputs : 0);
   int* shown = ImGui::GetStateStorage()->GetIntRef(ImGui::GetID("shown"), -1);  // the row that was scrolled to
+  *shown = edit.selected ? *shown : -1;
   int row = 0;
   for (const Selection& node : allNodes(*edit.scene)) {
     const bool selected = sameNode(node, edit.selected);
@@ -37,8 +40,15 @@ void nodeList(PanelContext& ui) {
       const ImGuiIO& io = ImGui::GetIO();
       ui.send(io.KeyShift || io.KeyCtrl ? Command(ToggleNode{node}) : Command(SelectNode{node}));
     }
+    if (ImGui::GetIO().NavVisible && ImGui::IsItemFocused() && enterPressed()) {
+      ui.send(SelectNode{node});
+      ui.state.focusFields = true;
+    }
     if (selected && std::exchange(*shown, row) != row) {
       ImGui::SetScrollHereY();
+      if (ImGui::GetCurrentContext()->NavWindow == ImGui::GetCurrentWindow()) {
+        focusItem();  // arrow keys and Enter go on from here
+      }
     }
     recordWidget(ui, "edit.node." + std::to_string(row));
     ImGui::PopID();
@@ -131,6 +141,9 @@ void gizmoMode(PanelContext& ui) {
         std::tuple("Scale", "edit.scale_handles", GizmoMode::scale)}) {
     if (ImGui::RadioButton(label, ui.input.edit.mode == mode)) {
       ui.send(SetGizmoMode{mode});
+    }
+    if (std::exchange(ui.state.focusFields, false)) {
+      focusItem();
     }
     recordWidget(ui, key, "G switches between the handles. Hold Ctrl while dragging to snap.");
     ImGui::SameLine();

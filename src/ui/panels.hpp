@@ -18,6 +18,7 @@ struct PanelState {
   bool widgetDemo = false;            // the window that Dear ImGui brings along to show its widgets
   std::optional<glm::vec2> openedAt;  // pointer when a click opened the inspector; none once the pointer moved
   bool focusNodes = false;            // the list of nodes takes the keyboard in the next frame
+  bool focusFields = false;           // the fields of the selected node take the keyboard in the next frame
   bool editing = false;               // a continued EditNode has not ended
   bool setting = false;               // the widget of the last SetSettings is held
   bool showDifference = false;
@@ -158,6 +159,10 @@ void standUpButton(PanelContext& ui, const Selection& object, const std::string&
 // Call after each widget of a setting: records it, shows its tooltip, and adds a button at the line's end that resets
 // it to the scene's value if it differs. The button is recorded as "reset." and the key.
 void describe(PanelContext& ui, std::string_view key);
+// Says whether Enter was pressed, but not the press that opened this window.
+bool enterPressed();
+// Call after a widget: gives it the keyboard's focus.
+void focusItem();
 // Call after a widget: shows a tooltip while the pointer is on it.
 void tip(const std::string& text);
 // Shows a tooltip about the last widget, but not over it: beside the window or, without room there, below or above.

@@ -15,6 +15,16 @@
 
 namespace speculum::panels {
 
+bool enterPressed() {
+  return !ImGui::IsWindowAppearing() &&
+         (imgui::isPressed(ImGuiKey_Enter, false) || imgui::isPressed(imgui::keypadEnter, false));
+}
+
+void focusItem() {
+  ImGui::SetFocusID(ImGui::GetItemID(), ImGui::GetCurrentWindow());
+  imgui::showFocus();
+}
+
 namespace {
 
 using Focus = PanelState::Files::Focus;
@@ -31,11 +41,6 @@ bool beginPrompt(const char* title, bool recenter) {
   ImGui::SetNextWindowPos(ImGui::GetMainViewport()->GetCenter(), recenter ? ImGuiCond_Always : ImGuiCond_Appearing,
                           ImVec2(0.5f, 0.5f));
   return ImGui::BeginPopupModal(title, nullptr, flags);
-}
-
-bool enterPressed() {
-  return !ImGui::IsWindowAppearing() &&
-         (imgui::isPressed(ImGuiKey_Enter, false) || imgui::isPressed(imgui::keypadEnter, false));
 }
 
 void answerButton(PanelContext& ui, const char* label, std::string_view key, Command command) {
@@ -137,8 +142,7 @@ std::optional<std::filesystem::path> fileList(PanelContext& ui, const std::files
     }
     if (first && files.focus == Focus::list) {
       files.focus = Focus::none;
-      ImGui::SetFocusID(ImGui::GetItemID(), ImGui::GetCurrentWindow());
-      imgui::showFocus();
+      focusItem();
     }
     recordWidget(ui, "open." + name);
   };

@@ -1164,6 +1164,49 @@ TEST_F(Inspector, ListSelectsAndToggles) {
   clickFor<ToggleNode>("edit.node.0");
 }
 
+// Says whether the keyboard's focus is in the list of nodes.
+bool focusInList() {
+  return contains(ImGui::GetCurrentContext()->NavWindow->Name, "nodes");
+}
+
+TEST_F(Inspector, ArrowsLeaveTheList) {
+  EXPECT_TRUE(focusInList()) << "F2 opened it";
+  for (int i = 0; i < 100 && focusInList(); ++i) {
+    tap(ImGuiKey_DownArrow);
+  }
+  commands_.clear();
+  tap(ImGuiKey_Space);
+  EXPECT_TRUE(sent<AddMirror>()) << "the button below the list";
+}
+
+TEST_F(Inspector, EnterOnARowGoesToItsFields) {
+  tap(ImGuiKey_DownArrow);
+  selectMirror(1);  // by N
+  commands_.clear();
+  tap(ImGuiKey_Enter);
+  EXPECT_EQ(only<SelectNode>().node, (Selection{Selection::Kind::mirror, 1})) << "the focus follows the selection";
+  run(2);
+  appliesEdits_ = true;
+  tap(ImGuiKey_DownArrow);
+  tap(ImGuiKey_DownArrow);
+  tap(ImGuiKey_Enter);
+  type("1.75");
+  tap(ImGuiKey_Enter);
+  EXPECT_EQ(scene_.mirrors[1].position.x, 1.75) << "below the kind of handles and the name";
+}
+
+TEST_F(Inspector, ListShowsWhatIsSelectedAgain) {
+  scene_.objects.resize(40);
+  selectMirror(0);
+  const int top = widget("edit.node.0").y;
+  hover("edit.node.3");
+  wheel(-20.0);
+  EXPECT_LT(widget("edit.node.0").y, top);
+  select({});
+  selectMirror(0);
+  EXPECT_EQ(widget("edit.node.0").y, top);
+}
+
 TEST_F(Inspector, ClickAfterItOpenedIsThePictures) {
   const PixelRect node = widget("edit.node.1");
   windows_->toggleInspector();
