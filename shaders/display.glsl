@@ -1,6 +1,7 @@
 // Converts linear radiance to display-referred sRGB, after the samples are averaged. DISPLAY_IMAGE is the image's type.
 // With DISPLAY_ENLARGED the image has fewer texels than the display has pixels.
 #include "gpu_data.h"
+#include "srgb.glsl"
 #include "texels.glsl"
 
 layout(constant_id = constantAces) const bool aces = false;
@@ -19,15 +20,10 @@ vec3 toneCurve(vec3 x) {
   return min(aces ? x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14) : x, vec3(1.0));
 }
 
-// IEC 61966-2-1.
-vec3 srgbEncode(vec3 x) {
-  return mix(12.92 * x, 1.055 * pow(max(x, vec3(1e-8)), vec3(1.0 / 2.4)) - 0.055, greaterThan(x, vec3(0.0031308)));
-}
-
 // Rounds to steps of 8 bits, a tie up. Vulkan does not specify how devices round ties.
 vec3 rounded(vec3 x) {
   precise vec3 steps = 255.0 * x;
-  return floor(steps + 0.5) / 255.0;
+  return floor(steps + 0.5) * (1.0 / 255.0);
 }
 
 #ifdef DISPLAY_ENLARGED
