@@ -194,6 +194,11 @@ void Device::renewSurface(const Window& window) {
 }
 
 // The minute is divided, so that a time in which the process was stopped counts as one second.
+void Device::submit(const VkSubmitInfo& commands, VkFence fence, std::string_view what) {
+  check(vkResetFences(get(), 1, &fence), "reset a fence");
+  check(vkQueueSubmit(queue(), 1, &commands, fence), what);
+}
+
 void Device::await(VkFence fence, std::string_view what) {
   constexpr uint64_t second = 1'000'000'000;
   constexpr int patience = 60;
@@ -209,7 +214,6 @@ void Device::await(VkFence fence, std::string_view what) {
     waited = info().isCpu() && std::clock() - before > CLOCKS_PER_SEC / 100 ? 0 : waited;
   }
   check(result, what);
-  check(vkResetFences(get(), 1, &fence), "reset a fence");
 }
 
 void Device::settle() const {

@@ -102,8 +102,11 @@ class Device {
   SetLayouts& setLayouts() { return setLayouts_; }
   SparePipelines& sparePipelines() { return sparePipelines_; }
   void waitIdle() const { check(vkDeviceWaitIdle(device_.get()), "wait for the GPU"); }
-  // Waits for the fence and resets it. Throws std::runtime_error if the GPU does not finish within a minute; `what`
-  // says what is waited for. A driver for CPUs has as much time as it computes.
+  // Submits commands that signal the fence. It is reset first, not after a wait, so that a wait in vain leaves no fence
+  // that the next submission could not use.
+  void submit(const VkSubmitInfo& commands, VkFence fence, std::string_view what);
+  // Waits for the fence. Throws std::runtime_error if the GPU does not finish within a minute; `what` says what is
+  // waited for. A driver for CPUs has as much time as it computes.
   void await(VkFence fence, std::string_view what);
   // Waits until nothing is in use, so that objects may be destroyed. After an await() in vain this would take for ever:
   // it ends the process instead, with one line and exit code 2.

@@ -164,7 +164,7 @@ void Renderer::submitPart(Frame& frame) {
   const VkSubmitInfo info{
       .sType = VK_STRUCTURE_TYPE_SUBMIT_INFO, .commandBufferCount = 1, .pCommandBuffers = &commands};
   const auto start = std::chrono::steady_clock::now();
-  check(vkQueueSubmit(device_.queue(), 1, &info, slot.finished.get()), "submit a part of a frame");
+  device_.submit(info, slot.finished.get(), "submit a part of a frame");
   device_.await(slot.finished.get(), "wait for a part of a frame");
   frame.waitedMs += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   const VkCommandBuffer next = slot.pool.begin();
@@ -224,7 +224,7 @@ void Renderer::submit(Slot& slot, const Frame& frame, bool presents) {
                           .pCommandBuffers = &frame.commands,
                           .signalSemaphoreCount = presents,
                           .pSignalSemaphores = &finished};
-  check(vkQueueSubmit(device_.queue(), 1, &info, slot.finished.get()), "submit a frame");
+  device_.submit(info, slot.finished.get(), "submit a frame");
 }
 
 Image& Renderer::displayImage(const Frame& frame) {

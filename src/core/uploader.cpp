@@ -49,7 +49,7 @@ void Uploader::submit() {
   check(vkEndCommandBuffer(commands), "end an upload");
   const VkSubmitInfo submit{
       .sType = VK_STRUCTURE_TYPE_SUBMIT_INFO, .commandBufferCount = 1, .pCommandBuffers = &commands};
-  check(vkQueueSubmit(device_.queue(), 1, &submit, fence_.get()), "submit an upload");
+  device_.submit(submit, fence_.get(), "submit an upload");
   try {
     device_.await(fence_.get(), "wait for an upload");
   } catch (...) {
