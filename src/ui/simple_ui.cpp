@@ -187,8 +187,9 @@ void SimpleUI::initVulkan() {
   info.MinImageCount = 2;
   info.ImageCount = std::max(renderer_.displayImageCount(), 3u);
   info.CheckVkResultFn = [](VkResult result) { check(result, "the panel's drawing"); };
+  const VkRenderPass renderPass = inRenderPass() ? renderer_.overlayRenderPass() : VK_NULL_HANDLE;
   backend_->vulkan = true;  // from here on there is something to shut down, even if ImGui_ImplVulkan_Init() fails
-  imgui::initVulkan(info, renderer_.displayFormat(), inRenderPass() ? renderer_.overlayRenderPass() : VK_NULL_HANDLE);
+  imgui::initVulkan(info, renderer_.displayFormat(), renderPass);
   imgui::uploadFonts([&](const auto& record) { renderer_.uploader().run(record); });
 }
 
