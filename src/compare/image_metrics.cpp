@@ -62,7 +62,9 @@ ImageMetrics metricsOf(const ComparedImage& reference, const ComparedImage& test
   }
   const double count = static_cast<double>(pixels.size());
   metrics.rmse = std::sqrt(linearError / (3.0 * count));
-  metrics.relativeRmse = linearError == 0.0 ? 0.0 : std::sqrt(linearError / linearPower);
+  metrics.relativeRmse = linearError == 0.0   ? 0.0
+                         : linearPower == 0.0 ? infinity
+                                              : std::sqrt(linearError / linearPower);
   metrics.psnr = displayError == 0.0 ? infinity : -10.0 * std::log10(displayError / (3.0 * count));
   metrics.ssim = meanSsim(maps.ssim, pixels);
   metrics.flip /= count;

@@ -118,7 +118,7 @@ std::string mirrorCost(const ShownFrame& frame, int mirror) {
   if (passes > 0) {
     const double median = percentile(frame.history.series(FrameHistory::Figure::gpu), 0.5);
     const double all = std::isnan(median) ? frame.gpuMs : median;
-    const std::string share = all >= ms ? fmt::format(", {:.0f} % of the frame", 100.0 * ms / all) : "";
+    const std::string share = ms > 0.0 && all >= ms ? fmt::format(", {:.0f} % of the frame", 100.0 * ms / all) : "";
     return fmt::format("{} {}, {:.0f} pixels", passes, passes == 1 ? "pass" : "passes", pixels) +
            (reused     ? ", reused"
             : ms > 0.0 ? ", " + panels::duration(ms) + " on the GPU" + share

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <utility>
 
 #include "edit/picture_view.hpp"
@@ -32,7 +33,7 @@ std::vector<double> errorsOfMirrors(const Plane2d& map, const PictureView& pictu
       sum += meets ? map.values[i] : 0.0;
       count += meets;
     }
-    errors.push_back(sum / count);
+    errors.push_back(count > 0 ? sum / count : std::numeric_limits<double>::quiet_NaN());
   }
   return errors;
 }
