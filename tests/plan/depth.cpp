@@ -17,7 +17,7 @@ void addBody(Scene& scene, SceneState& state, const glm::dvec3& center, double r
                          .radius = radius};
   instance.worldFromMesh.translation = center;
   scene.meshes.push_back({.halfExtent = glm::dvec3(radius), .radius = radius});
-  scene.objects.emplace_back();
+  scene.objects.emplace_back().mesh = instance.mesh;
   state.instances.push_back(instance);
 }
 

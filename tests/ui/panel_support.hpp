@@ -29,7 +29,7 @@ class PanelTest : public testing::Test {
     ImGui::CreateContext();
     ImGuiIO& io = ImGui::GetIO();
     iniFile_ = (config_.path() / "layout.ini").string();
-    io.IniFilename = iniFile_.c_str();
+    io.IniFilename = nullptr;
     io.DisplaySize = {900.0f, 700.0f};
     io.DeltaTime = 1.0f / 60.0f;
     io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
@@ -45,10 +45,15 @@ class PanelTest : public testing::Test {
     }
 #endif
     windows_->rememberLayout();
+    const std::string layout = readTextIfAny(iniFile_);
+    ImGui::LoadIniSettingsFromMemory(layout.data(), layout.size());
     run(4);
   }
   void stop() {
     if (windows_) {
+      size_t bytes = 0;
+      const char* layout = ImGui::SaveIniSettingsToMemory(&bytes);
+      std::ofstream(iniFile_) << std::string_view(layout, bytes);
       ImGui::DestroyContext();
       windows_.reset();
     }

@@ -400,7 +400,8 @@ TEST_F(Report, MirrorsSeenInReusedImagesStayListed) {
 
 TEST_F(Report, TimesOfTilesAddUp) {
   const std::vector<RecordedPass> passes = {{{.path = {0}}, "mirror a"}, {{.kind = PassKind::main}, "main view"}};
-  testing_support::addMirror(plan, {0}).view.rect = plan.main().view.rect = {0, 0, tileSide, tileSide};
+  testing_support::addMirror(plan, {0}).view.rect = {0, 0, tileSide, tileSide};
+  plan.main().view.rect = {0, 0, tileSide, tileSide};
   const auto frame = [&](uint64_t number, const FrameTimings& timings, const std::vector<RecordedPass>& timed) {
     report.updateTimes(frameOf(number, 1.0, 1.0), timings, timed);
     if (endsPicture(plan)) {
