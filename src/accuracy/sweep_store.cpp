@@ -115,6 +115,9 @@ std::optional<GroundTruth> SweepStore::truth(const std::string& key) const {
     members(JsonReader(fileNamed(base + ".json"), *json), truth);
     if (truth.floor.whole.pixels > 0) {
       truth.second = readImage8(fileNamed(base + "-second.png"));
+      if (truth.second.width != truth.image.width || truth.second.height != truth.image.height) {
+        throw FileError(fileNamed(base + "-second.png"), "has another size than the reference", "it is traced again");
+      }
     }
     return truth;
   } catch (const std::exception& problem) {

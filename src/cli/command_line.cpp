@@ -39,10 +39,15 @@ void addCommon(CLI::App& app, Options& options, Raw& raw) {
       ->check(CLI::ExistingDirectory);
 }
 
+// Checks that a text names something; `what` says what it may name.
+auto named(const std::string& what) {
+  return [what](const std::string& text) { return text.empty() ? "an empty name (" + what + ")" : std::string(); };
+}
+
 void addScene(CLI::App& app, Options& options, Raw& raw, const std::string& usualSize = "1280x720") {
   app.add_option("--scene", options.scene,
                  "scene file, model (" + modelFormatNames() + "), or the name of a scene of `speculum scenes`")
-      ->check([](const std::string& name) { return name.empty() ? "an empty name (a file or a scene's name)" : ""; });
+      ->check(named("a file or a scene's name"));
   app.add_option("--size", raw.size, "WIDTHxHEIGHT in pixels, " + usualSize + " unless given");
 }
 
@@ -110,10 +115,12 @@ void addAccuracy(CLI::App& app, Options& options, Raw& raw) {
   addScene(app, options, raw, "640x360");
   addTime(app, options);
   app.add_option("--out", options.out, "folder of the report; a sweep that was interrupted goes on there")->required();
-  app.add_option("--sweep", options.sweep, "quick | full | F.toml; with --motion also motion, its default");
+  app.add_option("--sweep", options.sweep, "quick | full | F.toml; with --motion also motion, its default")
+      ->check(named("quick, full or a file"));
   CLI::Option* motion = app.add_option(
       "--motion", options.motion,
       "error and flicker of a movement: scene, for its animation, or F.toml, a camera path (docs/accuracy.md)");
+  motion->check(named("scene or a file"));
   app.add_option("--frames", options.frames, "frames of the movement, 24 unless given")
       ->check(CLI::Range(2, 1000))
       ->needs(motion);

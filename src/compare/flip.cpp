@@ -128,13 +128,14 @@ std::vector<glm::dvec3> perceivedColors(const Channels& channels) {
   return colors;
 }
 
-// Returns the error, 0 to 1, of colors that differ by `d`.
+// Returns the error, 0 to 1, of colors that differ by `d`. Changes of errors may differ by more than colors do: 1.
 double colorError(const glm::dvec3& d) {
   const double hyab = std::abs(d.x) + std::hypot(d.y, d.z);
   const double error = std::pow(hyab, colorExponent);
   constexpr double knee = colorKnee * largestColorError;
-  return error < knee ? error * colorKneeError / knee
-                      : colorKneeError + (error - knee) / (largestColorError - knee) * (1.0 - colorKneeError);
+  return error < knee
+             ? error * colorKneeError / knee
+             : std::min(colorKneeError + (error - knee) / (largestColorError - knee) * (1.0 - colorKneeError), 1.0);
 }
 
 // Scales positive and negative weights each to a sum of 1.

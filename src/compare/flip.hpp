@@ -20,7 +20,8 @@ std::vector<glm::dvec3> perceivedErrors(const ComparedImage& reference, const Co
 
 // Returns the flicker between two frames of a movement, 0 to 1, from their perceivedErrors(): the mean over pixels of
 // FLIP's error of color, taken of (now - before). That is how far the picture's change from frame to frame is from the
-// reference's: an error that stays counts nothing, and a pixel that is wrong in one of the frames counts as in FLIP.
+// reference's: an error that stays counts nothing, and a pixel that is wrong in one of the frames counts as in FLIP
+// without the part for edges and points.
 double flickerOf(std::span<const glm::dvec3> before, std::span<const glm::dvec3> now);
 
 }  // namespace speculum

@@ -80,11 +80,14 @@ MotionPath motionPath(const Options& options, const Scene& scene) {
   path.frames = options.frames > 0 ? options.frames : usualFrames;
   const int64_t most = mostPixels / (int64_t{options.size.width} * options.size.height);
   if (path.frames > most) {
-    throw UsageError(fmt::format("--frames: {} frames of {}x{} are too many (at most {} pixels together)", path.frames,
-                                 options.size.width, options.size.height, mostPixels));
+    throw UsageError(fmt::format("--frames: {} of {}x{} are too many (at most {} of this size)", path.frames,
+                                 options.size.width, options.size.height, most));
   }
-  if (!timeRange.contains(path.timeOf(path.frames))) {
-    throw UsageError("--fps: the last frame's time is out of range (more frames per second, such as 30)");
+  if (!timeRange.contains(path.timeOf(path.frames - 1))) {
+    throw UsageError(
+        fmt::format("--fps: the last frame's time is out of range ({}; an earlier --time, or more frames per "
+                    "second, such as 30)",
+                    timeRange.shortText()));
   }
   if (options.motion == "scene") {
     if (!moves(scene)) {

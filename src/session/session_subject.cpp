@@ -68,7 +68,9 @@ void SessionSubject::follow(const Settings& settings, bool capture, const std::f
   session_.setSettings(settings);
   session_.restart();
   const int interval = mostAsked(session_.scene(), settings).updateInterval;
-  for (int frame = interval > 1 ? -interval : 0; frame < path_.frames; ++frame) {
+  // Without pictures, one frame before the first makes the targets and maps that later frames use.
+  const int before = interval > 1 ? interval : capture ? 0 : 1;
+  for (int frame = -before; frame < path_.frames; ++frame) {
     drawFrame(frame, capture && frame >= 0, true);
     if (drawn && frame >= 0) {
       drawn();

@@ -5,7 +5,7 @@ namespace speculum {
 template <typename Measure>
 auto PacedSubject::paced(const Settings& settings, const Measure& measure) {
   session_.renderer().setTimerDetail(TimerDetail::frame);
-  const double budgetMs = settings.quality.motionMs.value_or(0.0);
+  const double budgetMs = path_.frames > 1 ? settings.quality.motionMs.value_or(0.0) : 0.0;
   if (budgetMs == 0.0) {
     return measure(settings);
   }

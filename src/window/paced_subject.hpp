@@ -7,8 +7,9 @@
 
 namespace speculum {
 
-// A session's scene along a path, for a sweep to measure. Where quality.motion_ms is a number above 0, the window's
-// Pace chooses the settings of each frame, with the times of this device.
+// A session's scene along a path, for a sweep to measure. If there are several frames and quality.motion_ms is a number
+// above 0, the window's Pace chooses the settings of each frame, with the times of this device. It goes on learning, so
+// the frames that are timed may have other settings than those whose error is measured.
 class PacedSubject : public SessionSubject {
  public:
   // Keeps a reference to the session.

@@ -193,7 +193,7 @@ TEST_F(AccuracyCommand, MovementHasErrorAndFlicker) {
   std::ofstream(out("path.toml")) << path;
   std::ofstream(out("moving.toml"))
       << "[[grid]]\nsettings = { \"reflection.update_interval\" = [1, 4] }\n"
-         "[[configuration]]\nname = \"paced\"\nsettings = { \"quality.motion_ms\" = 2 }\n";
+         "[[configuration]]\nname = \"paced\"\nsettings = { \"quality.motion_ms\" = 0.01 }\n";
   const std::string text = succeed({"accuracy", "--scene", scene, "--size", "64x36", "--motion", out("path.toml"),
                                     "--frames", "6", "--set", "view.samples=4", "--set", "reflection.samples=4",
                                     "--sweep", out("moving.toml"), "--validation", "--out", out("m")});
@@ -207,7 +207,7 @@ TEST_F(AccuracyCommand, MovementHasErrorAndFlicker) {
   };
   EXPECT_GT(base.flicker.value(), 0.0);
   EXPECT_GT(named("Update interval").flicker.value(), base.flicker.value());
-  EXPECT_GT(named("paced").whole.flip, 0.0);
+  EXPECT_GT(named("paced").whole.flip, base.whole.flip);
   EXPECT_EQ(base.frames.size(), 6u);
   // Each frame is the one that a window draws there: the first has no image of a frame before.
   succeed({"render", "--scene", scene, "--size", "64x36", "--camera", "-0.3,1,1.4:0,1,-2", "--set", "view.samples=4",
@@ -216,6 +216,23 @@ TEST_F(AccuracyCommand, MovementHasErrorAndFlicker) {
   EXPECT_TRUE(contains(mistake({"render", "--scene", scene, "--out", out("p.png"), "--set", "quality.budget_ms=3",
                                 "--sweep-results", out("m/results.json")}),
                        "measured in motion"));
+}
+
+TEST_F(AccuracyCommand, BudgetOfMotionLeavesStillPictures) {
+  const auto measured = [&](const std::string& folder, const std::vector<std::string>& more) {
+    std::vector<std::string> command = {
+        "accuracy", "--scene",           scene_,  "--size",   "64x36", "--sweep", out("sweep.toml"),
+        "--set",    "view.accumulate=2", "--out", out(folder)};
+    command.insert(command.end(), more.begin(), more.end());
+    succeed(command);
+    return readSweepResults(out(folder + "/results.json"));
+  };
+  const SweepResults usual = measured("usual", {});
+  const SweepResults budgeted = measured("budgeted", {"--set", "quality.motion_ms=0.01"});
+  ASSERT_EQ(budgeted.points.size(), usual.points.size());
+  for (size_t i = 0; i < usual.points.size(); ++i) {
+    EXPECT_EQ(budgeted.points[i].whole.flip, usual.points[i].whole.flip) << usual.points[i].name;
+  }
 }
 
 TEST_F(AccuracyCommand, StandingStillHasNoFlicker) {
@@ -252,7 +269,8 @@ TEST(MotionPaths, CameraGoesStraightFromViewToView) {
   EXPECT_TRUE(motionPath(options, scene).cameras.empty());
   EXPECT_EQ(stateOf(scene, motionPath(options, scene), 3).camera, evaluate(scene, 3.1).camera);
   options.size = {4096, 4096};
-  EXPECT_TRUE(contains(messageOf<UsageError>([&] { motionPath(options, scene); }), "--frames: 9 frames of 4096x4096"));
+  EXPECT_TRUE(contains(messageOf<UsageError>([&] { motionPath(options, scene); }),
+                       "--frames: 9 of 4096x4096 are too many (at most 2 of this size)"));
 }
 
 TEST(MotionPaths, MistakesNameTheLine) {
@@ -292,6 +310,8 @@ TEST_F(AccuracyCommand, MovementsAreChecked) {
   EXPECT_TRUE(contains(refused({"--fps", "4"}), "--motion"));
   EXPECT_TRUE(contains(refused({"--motion", out("absent.toml")}), "absent.toml:1: file:"));
   EXPECT_TRUE(contains(refused({"--motion", "scene", "--frames", "1"}), "--frames"));
+  EXPECT_TRUE(contains(refused({"--motion", ""}), "--motion: an empty name"));
+  EXPECT_TRUE(contains(refused({"--sweep", ""}), "--sweep: an empty name"));
   EXPECT_FALSE(fs::exists(out("bad"))) << "bad input leaves nothing behind";
 }
 

@@ -79,6 +79,20 @@ TEST(Flicker, GrowsWithTheChangeOfTheError) {
   }
 }
 
+TEST(Flicker, OppositeErrorsCountAtMostOne) {
+  const auto green = constant({0.0, 1.0, 0.0});
+  const auto blue = constant({0.0, 0.0, 1.0});
+  EXPECT_DOUBLE_EQ(flicker({blue, green}, {green, blue}), 1.0);
+}
+
+TEST(Flicker, EdgesAndPointsCountLessThanInFlip) {
+  const auto grey = constant(glm::dvec3(0.2));
+  const auto wrong = picture(checker);
+  const double once = flicker({grey, grey}, {grey, wrong});
+  EXPECT_GT(once, 0.0);
+  EXPECT_LT(once, meanFlip(grey, wrong));
+}
+
 // What moves too late by a frame flickers, and a picture that stands still while the reference moves does.
 TEST(Flicker, ChangesThatTheReferenceLacksAndTheOtherWayRoundAreEqual) {
   const auto a = picture(checker);

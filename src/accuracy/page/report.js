@@ -50,7 +50,8 @@ function facts(results) {
   const truth = results.ground_truth;
   const entries = {
     Scene: results.scene,
-    Picture: `${results.size.join(' × ')}\u00a0pixels, time\u00a0${results.time}\u00a0s`,
+    Picture: `${results.size.join(' × ')}\u00a0pixels, ` +
+             (results.motion ? 'the last frame of the movement' : `time\u00a0${results.time}\u00a0s`),
     ...results.motion ? { Motion: `${results.motion.path}, ${plural(results.motion.frames, 'frame')} at ` +
                                   `${numberText(results.motion.fps)} a second` } : {},
     Sweep: `${results.sweep}, ${plural(results.points.length, 'configuration')}`,
@@ -367,6 +368,7 @@ function showReport(report) {
   fillTexts(texts(report));
   place('facts').append(...facts(results));
   for (const id of ['front', 'pictures', 'all']) place(id).hidden = !results.points.length;
+  place('again-picture').hidden = Boolean(results.motion);  // its pictures depend on the frames before
   place('base').hidden = !Object.keys(results.settings).length;
   const series = results.series.filter(one => one.points.length).map(one => seriesFigure(results, one));
   place('series').hidden = !series.length;
