@@ -191,7 +191,10 @@ void Pace::forgetStill() {
 
 void Pace::planStill(const Request& request) {
   // The mean begins anew when nothing moves any more, even if nothing else has changed.
-  const auto shown = moving() ? std::nullopt : std::optional(std::pair(request.frame.settings, request.shown));
+  auto shown = moving() ? std::nullopt : std::optional(std::pair(request.frame.settings, request.shown));
+  if (shown) {
+    shown->first.ui = {};  // panels of another size change no pixel of the picture
+  }
   if (std::exchange(shown_, shown) != shown || moving()) {
     forgetStill();
   }

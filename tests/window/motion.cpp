@@ -727,6 +727,8 @@ TEST_F(PacedScene, StillPicturesConvergeOnce) {
   EXPECT_FALSE(pace_.wantsFrame());
   EXPECT_FALSE(pace_.drawsSlowly()) << "each took one frame";
   EXPECT_EQ(pictureOf(), std::pair(3, 3)) << "the mean again";
+  chosen_.ui.scale = 2.0;
+  EXPECT_EQ(pictureOf(), std::pair(3, 3)) << "the size of panels changes no pixel";
   revision_ = 2;
   EXPECT_EQ(pictureOf(), std::pair(1, 0)) << "something else is shown";
   revision_ = 3;
