@@ -239,6 +239,22 @@ TEST_F(Saving, NewScenesShowThingsAndTheirImages) {
   EXPECT_TRUE(scene().environment.sky);
 }
 
+TEST_F(Saving, NewScenesHaveNothingInAMirrorsPlane) {
+  send(NewScene{});
+  waitFor([&] { return shownScene() == "untitled"; });
+  const SceneState state = evaluate(scene(), 0.0);
+  for (const MirrorState& mirror : state.mirrors) {
+    int within = 0;
+    for (const InstanceState& instance : state.instances) {
+      for (const Vertex& vertex : scene().meshes[instance.mesh].vertices) {
+        const glm::dvec3 place = instance.worldFromMesh.point(vertex.position);
+        within += std::abs(glm::dot(place - mirror.origin, mirror.normal)) < 1e-4 ? 1 : 0;
+      }
+    }
+    EXPECT_EQ(within, 0) << "its back would be seen in patches";
+  }
+}
+
 TEST_F(Saving, NewScenesAreListedWhileShown) {
   send(NewScene{});
   waitFor([&] { return shownScene() == "untitled"; });
