@@ -238,6 +238,11 @@ void Window::installCallbacks() {
     // Copies the name, because the next call of glfwGetKeyName may overwrite it.
     const std::string printed(printedOn(code, scancode));
     const bool control = (modifiers & GLFW_MOD_CONTROL) != 0;
+    if (action == GLFW_PRESS && control) {
+      of(w)->withControl_.insert(code);
+    } else if (action != GLFW_REPEAT) {
+      of(w)->withControl_.erase(code);
+    }
     of(w)->notify(
         {.kind = InputEvent::Kind::key,
          .code = meantCode(code, printed),
@@ -395,6 +400,10 @@ std::optional<GamepadState> Window::gamepad() const {
 
 bool Window::keyDown(Key key) const {
   return glfwGetKey(window_.get(), static_cast<int>(key)) == GLFW_PRESS;
+}
+
+bool Window::keyDownAlone(Key key) const {
+  return keyDown(key) && !withControl_.contains(static_cast<int>(key));
 }
 
 void Window::setTitle(const std::string& title) {

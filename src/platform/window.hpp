@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <utility>
@@ -115,6 +116,7 @@ class Window {
   void followMonitors(std::span<const ScreenRect> workAreas);
   void followContentScale(float scale);  // call when the window is on a monitor of another scale
   bool keyDown(Key key) const;
+  bool keyDownAlone(Key key) const;  // it is down, and Ctrl was not when it was pressed
   void setTitle(const std::string& title);
   void setClipboard(const std::string& text);
   std::string clipboard() const;  // empty if it holds no text
@@ -142,8 +144,9 @@ class Window {
   Library library_;
   std::unique_ptr<GLFWwindow, Destroy> window_;
   std::function<void(const InputEvent&)> listener_;
-  ScreenRect windowed_;  // place and size before full screen
-  bool covers_ = false;  // covers a monitor as full screen
+  ScreenRect windowed_;        // place and size before full screen
+  std::set<int> withControl_;  // GLFW's codes of keys that were pressed with Ctrl and are down
+  bool covers_ = false;        // covers a monitor as full screen
   float contentScale_ = 1.0f;
   VkExtent2D framebuffer_{};
   VkExtent2D size_{};

@@ -598,13 +598,14 @@ bool Demo::controlHeld() const {
   return window_.keyDown(Key::leftControl) || window_.keyDown(Key::rightControl);
 }
 
-// Returns the direction of the held fly keys, along right, up and backwards of the view.
+// Returns the direction of the held fly keys, along right, up and backwards of the view. A shortcut's letter does not
+// fly if it is released after Ctrl.
 glm::dvec3 Demo::heldDirection() const {
   if (ui_->wantsKeyboard() || controlHeld() || workspace_.prompting()) {
     return glm::dvec3(0.0);
   }
   const auto axis = [&](Key positive, Key negative) {
-    return static_cast<double>(window_.keyDown(positive)) - static_cast<double>(window_.keyDown(negative));
+    return static_cast<double>(window_.keyDownAlone(positive)) - static_cast<double>(window_.keyDownAlone(negative));
   };
   return {axis(Key::d, Key::a), axis(Key::e, Key::q), axis(Key::s, Key::w)};
 }

@@ -113,6 +113,23 @@ TEST_F(Journey, ShortcutsAvoidFlyKeysOnDvorak) {
   EXPECT_NEAR(shown().playback.time, time - timeStep, 1e-12);
 }
 
+TEST_F(Journey, LettersOfShortcutsDoNotFly) {
+  const glm::dvec3 before = demo_->camera().eye;
+  const auto send = [&](const char* action, const char* key) { xdotool({action, "--window", window_, key}); };
+  send("keydown", "ctrl");
+  send("keydown", "d");
+  run(2);
+  send("keyup", "ctrl");  // before the letter, as fingers do
+  run(4);
+  EXPECT_EQ(demo_->camera().eye, before);
+  send("keyup", "d");
+  run(2);
+  send("keydown", "d");
+  run(4);
+  send("keyup", "d");
+  EXPECT_GT(demo_->camera().eye.x, before.x) << "alone it flies";
+}
+
 TEST_F(Journey, RandomResizesLeakNothing) {
   std::mt19937 random(42);
   std::uniform_int_distribution<int> side(1, 500);
