@@ -4,6 +4,7 @@
 
 #include <cfloat>
 
+#include "ui/elide.hpp"
 #include "ui/input_map.hpp"
 #include "ui/panels.hpp"
 
@@ -22,10 +23,18 @@ void item(PanelContext& ui, const char* label, Command command, bool enabled = t
 void fileMenu(PanelContext& ui) {
   item(ui, "New", NewScene{});
   item(ui, "Open...", AskWhatToOpen{});
+  // A list that does not fit beside this menu would cover it, so that the click that opens the list chose a file.
+  const ImGuiStyle& style = ImGui::GetStyle();
+  const float right = ImGui::GetWindowPos().x + ImGui::GetWindowWidth() + style.DisplaySafeAreaPadding.x;
+  const float frame = 2.0f * (style.WindowPadding.x + style.ItemSpacing.x + ImGui::GetFontSize());  // and a mark
+  const float beside = ImGui::GetIO().DisplaySize.x - right - frame;
   const std::vector<std::filesystem::path>& recent = ui.input.browser.recent;
   if (menu(ui, "Open recent", !recent.empty())) {
     for (const std::filesystem::path& file : recent) {
-      item(ui, file.string().c_str(), OpenScene{file}, true, "");
+      ImGui::PushID(file.string().c_str());  // cut names may repeat
+      item(ui, endsThatFit(file.string(), beside, textWidth).c_str(), OpenScene{file}, true, "");
+      ImGui::PopID();
+      tip(file.string());
     }
     ImGui::EndMenu();
   }

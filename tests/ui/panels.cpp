@@ -397,6 +397,27 @@ TEST_F(PanelTest, MenusSendTheirCommands) {
   EXPECT_EQ(clickFor<LookFromMirror>("menu.Look out of mirror").side, MirrorSide::front);
 }
 
+TEST_F(PanelTest, LongPathsLeaveTheFileMenuFree) {
+  browser_.recent = {"/home/somebody/Documents/of several years/models/Speculum/first.toml",
+                     "/home/somebody/Documents/of several years/models/Speculum/other.toml"};
+  for (const float scale : {1.0f, 2.0f, 2.5f}) {
+    ImGui::GetIO().FontGlobalScale = scale;
+    resize(900, 700);
+    click("menu.File");
+    click("menu.Open recent");
+    EXPECT_FALSE(sent<OpenScene>()) << scale;
+    const ImGuiWindow* file = ImGui::FindWindowByName("##Menu_00");
+    const ImGuiWindow* recent = ImGui::FindWindowByName("##Menu_01");
+    ASSERT_TRUE(file && recent && recent->Active);
+    EXPECT_GE(recent->Pos.x, file->Rect().Max.x - ImGui::GetStyle().ItemInnerSpacing.x - 1.0f) << scale;
+    EXPECT_LE(recent->Rect().Max.x, 900.0f) << scale;
+    moveTo(recent->Pos.x + 0.5 * recent->Size.x, recent->Pos.y + 0.75 * recent->Size.y);
+    commands_.clear();
+    press();
+    EXPECT_EQ(only<OpenScene>().file, browser_.recent[1]) << scale;
+  }
+}
+
 TEST_F(PanelTest, HelpShowsTheDemoOfTheWidgets) {
   click("menu.Help");
   click("help.widgets", 0.1);
