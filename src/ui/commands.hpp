@@ -97,6 +97,7 @@ struct Quit {};
 // Editing.
 struct SelectNode {
   Selection node;
+  bool inspect = true;  // opens the inspector
 };
 struct ToggleNode {  // adds the node to the selected ones, or takes it out
   Selection node;

@@ -20,7 +20,8 @@ namespace speculum::panels {
 
 namespace {
 
-void nodeList(PanelContext& ui) {
+// Draws the list of all nodes. Returns true if it has the keyboard.
+bool nodeList(PanelContext& ui) {
   const ShownEdit& edit = ui.input.edit;
   if (std::exchange(ui.state.focusNodes, false)) {
     ImGui::SetNextWindowFocus();
@@ -28,6 +29,7 @@ void nodeList(PanelContext& ui) {
   const float line = ImGui::GetTextLineHeightWithSpacing();
   const float height = std::clamp(0.25f * ImGui::GetContentRegionAvail().y, 3.5f * line, 7.5f * line);
   imgui::beginList("nodes", {0.0f, height}, ui.state.openedAt ? ImGuiWindowFlags_NoMouseInputs : 0);
+  const bool focused = ImGui::IsWindowFocused();
   int* shown = ImGui::GetStateStorage()->GetIntRef(ImGui::GetID("shown"), -1);  // the row that was scrolled to
   *shown = edit.selected ? *shown : -1;
   int row = 0;
@@ -55,6 +57,7 @@ void nodeList(PanelContext& ui) {
     ++row;
   }
   ImGui::EndChild();
+  return focused;
 }
 
 void modelChoice(PanelContext& ui) {
@@ -211,6 +214,15 @@ bool mirrorQuality(PanelContext& ui, MirrorQuality& quality) {
   return edited;
 }
 
+// Scrolls to the fields of a node that was selected elsewhere than in the list, unless they are high in the window.
+void scrollToFields(PanelContext& ui, bool inList) {
+  const Selection& selected = ui.input.edit.selected;
+  const bool changed = !sameNode(std::exchange(ui.state.fieldsOf, selected), selected);
+  if (changed && selected && !inList && ImGui::GetCursorPosY() > 0.6f * ImGui::GetWindowHeight()) {
+    ImGui::SetScrollFromPosY(ImGui::GetCursorPosY() - ImGui::GetScrollY(), 0.0f);
+  }
+}
+
 // Draws the scene's camera. Numbers that give no view stay in the panel, with the reason.
 void cameraRows(PanelContext& ui) {
   const CameraSpec& taken = ui.input.edit.scene->camera;
@@ -307,11 +319,12 @@ void inspector(PanelContext& ui, PanelDock& dock) {
   ImGui::SetNextWindowBgAlpha(1.0f);
   if (dock.begin(inspectorTitle, &ui.state.choices.inspector, PanelDock::Edge::right, modestEms(inspectorEms),
                  ui.state.openedAt ? ImGuiWindowFlags_NoMouseInputs : 0)) {
-    nodeList(ui);
+    const bool inList = nodeList(ui);
     addButtons(ui);
     historyButtons(ui);
     ImGui::Separator();
     cameraRows(ui);
+    scrollToFields(ui, inList);
     selectedNode(ui);
   }
   ImGui::End();

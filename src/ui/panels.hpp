@@ -19,6 +19,7 @@ struct PanelState {
   std::optional<glm::vec2> openedAt;  // pointer when a click opened the inspector; none once the pointer moved
   bool focusNodes = false;            // the list of nodes takes the keyboard in the next frame
   bool focusFields = false;           // the fields of the selected node take the keyboard in the next frame
+  Selection fieldsOf;                 // node that the inspector showed last
   bool editing = false;               // a continued EditNode has not ended
   bool setting = false;               // the widget of the last SetSettings is held
   bool showDifference = false;

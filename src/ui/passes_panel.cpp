@@ -16,6 +16,14 @@ namespace speculum::panels {
 
 namespace {
 
+// Selects the last mirror of the path. The path is that of the last frame; an edit may have removed mirrors since.
+void selectMirror(PanelContext& ui, const MirrorPath& path, bool inspect) {
+  const Scene& scene = *ui.input.edit.scene;
+  if (!path.empty() && static_cast<size_t>(path.back()) < scene.mirrorCount()) {
+    ui.send(SelectNode{mirrorNode(scene, path.back()), inspect});
+  }
+}
+
 std::string metres(const std::optional<double>& value) {
   return value ? significant(*value, 2) : "never";
 }
@@ -116,10 +124,12 @@ void passRow(PanelContext& ui, const TreeNode& node) {
     ui.output.hoveredPath = pass.path;
   }
   recordWidget(ui, "pass." + pass.name);
-  tip(pass.name + (hasTarget(pass) ? "\nA click shows what it drew." : ""));
+  tip(pass.name + (hasTarget(pass) ? "\nA click shows what it drew" : "") +
+      (hasTarget(pass) ? pass.path.empty() ? "." : ", and selects the mirror." : ""));
   if (hasTarget(pass) && ImGui::IsItemClicked() && !ImGui::IsItemToggledOpen()) {
     target = shown ? std::nullopt : std::optional(pass.path);
     ui.state.choices.targets = !shown;
+    selectMirror(ui, pass.path, false);  // the inspector would cover what it drew
   }
   ImGui::TableNextColumn();
   figure(milliseconds(pass.gpuMs), pass.reused || !pass.timed);
@@ -186,10 +196,8 @@ void header(PanelContext& ui) {
 
 void mirrorRow(PanelContext& ui, const MirrorPath& path) {
   ui.output.hoveredPath = path;
-  // The path is that of the last frame; an edit may have removed mirrors since.
-  const bool exists = static_cast<size_t>(path.back()) < ui.input.edit.scene->mirrorCount();
-  if (exists && ImGui::IsMouseClicked(ImGuiMouseButton_Left)) {
-    ui.send(SelectNode{mirrorNode(*ui.input.edit.scene, path.back())});
+  if (ImGui::IsMouseClicked(ImGuiMouseButton_Left)) {
+    selectMirror(ui, path, true);
   }
 }
 

@@ -108,7 +108,9 @@ void Workspace::apply(const Command& command) {
                  },
                  [&](const SelectNode& c) {
                    editor_->select(c.node);
-                   host_.openInspector();
+                   if (c.inspect) {
+                     host_.openInspector();
+                   }
                  },
                  [&](const ToggleNode& c) { editor_->toggle(c.node); },
                  [&](const SelectNext& c) {

@@ -196,6 +196,31 @@ TEST_F(FirstClick, LeavesMostOfTheWindowToTheScene) {
   }
 }
 
+TEST_F(FirstClick, FieldsOfTheNodeAreInSight) {
+  show(1280, 720, 2.0f);
+  clickNode();
+  const auto inSight = [&](const std::string& name) {
+    const PixelRect rect = widget(name);
+    const ImRect& clip = ImGui::FindWindowByName(panels::inspectorTitle)->InnerClipRect;
+    return rect.y >= clip.Min.y && rect.y + rect.height <= clip.Max.y;
+  };
+  EXPECT_TRUE(inSight("edit.quality"));
+  hover("edit.quality");
+  wheel(100);
+  EXPECT_TRUE(inSight("edit.add_mirror"));
+  edit_.selected = clickFor<SelectNode>("edit.node.1").node;
+  EXPECT_TRUE(inSight("edit.add_mirror")) << "the list is in use";
+  moveTo(300, 400);
+  press();
+  clickNode();
+  EXPECT_TRUE(inSight("edit.quality"));
+  show(1280, 720, 1.0f);
+  hover("edit.name");
+  wheel(100);
+  edit_.selected = {Selection::Kind::mirror, 2};
+  EXPECT_TRUE(inSight("edit.add_mirror") && inSight("edit.quality")) << "all has room";
+}
+
 TEST_F(FirstClick, FoldedPanelIsUnfoldedByAClick) {
   show(1280, 720, 1.0f);
   clickNode();
@@ -1844,7 +1869,9 @@ TEST_F(TargetsWindow, IncompleteTargetsAreAnnounced) {
 }
 
 TEST_F(TargetsWindow, ClickedPassOpensAndClosesIt) {
-  click("pass.mirror wall", 0.3);
+  const SelectNode& select = clickFor<SelectNode>("pass.mirror wall", 0.3);
+  EXPECT_EQ(select.node, (Selection{Selection::Kind::mirror, 0})) << "as a click in Performance does";
+  EXPECT_FALSE(select.inspect) << "what it drew stays in sight";
   run(2);
   ASSERT_TRUE(target());
   EXPECT_EQ(target()->path, MirrorPath{0});
@@ -1853,6 +1880,7 @@ TEST_F(TargetsWindow, ClickedPassOpensAndClosesIt) {
   run(2);
   EXPECT_TRUE(target()->path.empty()) << "the main view takes the place of a pass that is gone";
   click("pass.main view", 0.3);
+  EXPECT_FALSE(sent<SelectNode>());
   run(2);
   EXPECT_FALSE(target());
 }

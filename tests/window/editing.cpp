@@ -42,6 +42,12 @@ TEST_F(Editing, ClickSelectsDirectlyAndInMirrors) {
   EXPECT_FALSE(edit().selected) << "the background";
 }
 
+TEST_F(Editing, NodesAreSelectedWithoutTheInspector) {
+  send(SelectNode{ball, false});
+  EXPECT_EQ(edit().selected, ball);
+  EXPECT_FALSE(host_.inspector);
+}
+
 TEST_F(Editing, InspectorNeverCoversWhatWasClicked) {
   host_.inspectorFrom = ballAt_.x - 20.0;
   clickBall();
