@@ -29,7 +29,8 @@ std::string brokenAtSpaces(std::string text, float room, const std::function<flo
   size_t line = 0;                   // its first character
   size_t space = std::string::npos;  // its last space
   for (size_t end = 0; end <= text.size(); ++end) {
-    if (end < text.size() && text[end] != ' ' && text[end] != '\n') {
+    const bool unit = end + 1 < text.size() && text[end] == ' ' && text[end + 1] == '%';  // stays with its number
+    if (end < text.size() && ((text[end] != ' ' && text[end] != '\n') || unit)) {
       continue;
     }
     if (space != std::string::npos && widthOf(std::string_view(text).substr(line, end - line)) > room) {

@@ -10,7 +10,8 @@ namespace speculum {
 // `widthOf` is in the units of `room`.
 std::string endsThatFit(const std::string& text, float room, const std::function<float(std::string_view)>& widthOf);
 
-// Returns `text` with line breaks in place of spaces, so that no line is wider than `room` unless one word is.
+// Returns `text` with line breaks in place of spaces, so that no line is wider than `room` unless one word is. A number
+// and its % are one word.
 std::string brokenAtSpaces(std::string text, float room, const std::function<float(std::string_view)>& widthOf);
 
 }  // namespace speculum

@@ -184,7 +184,7 @@ void Workspace::pointerButton(const MouseButtonEvent& event, bool overPanels) {
     return;
   }
   const bool covers = host_.inspectorCovers(pointer_.position());
-  status_.set("Selected " + describe(scene(), document_->selection()) + ". Its handles move, turn or scale it." +
+  status_.set("Selected " + describe(scene(), document_->selection()) + ". Drag its handles (G: move, rotate, scale)." +
               (editor_->selectedInMirror() ? " A click at the same place selects the mirror." : "") +
               (covers ? " F2 opens the inspector." : ""));
   if (!covers) {
@@ -398,7 +398,7 @@ void Workspace::addObject(const fs::path& model) {
 }
 
 void Workspace::reportAdded() {
-  status_.set("Added " + describe(scene(), document_->selection()));
+  status_.set("Added " + describe(scene(), document_->selection()) + ". The inspector (F2) changes it.");
 }
 
 void Workspace::useModels() {

@@ -39,6 +39,7 @@ TEST(Elide, LinesBreakAtSpacesOnly) {
   EXPECT_EQ(brokenAtSpaces("about 0.2", 90.0f, widthOf), "about 0.2");
   EXPECT_EQ(brokenAtSpaces("a word\nof 3", 60.0f, widthOf), "a word\nof 3") << "lines are counted anew";
   EXPECT_EQ(brokenAtSpaces("reflections of", 50.0f, widthOf), "reflections\nof");
+  EXPECT_EQ(brokenAtSpaces("next one 30 %; more", 110.0f, widthOf), "next one\n30 %; more");
 }
 
 using Passes = std::vector<std::pair<std::string, double>>;

@@ -53,7 +53,7 @@ TEST_F(Editing, InspectorNeverCoversWhatWasClicked) {
   clickBall();
   EXPECT_EQ(edit().selected, ball);
   EXPECT_FALSE(host_.inspector);
-  EXPECT_EQ(status(), "Selected object 'ball'. Its handles move, turn or scale it. F2 opens the inspector.");
+  EXPECT_EQ(status(), "Selected object 'ball'. Drag its handles (G: move, rotate, scale). F2 opens the inspector.");
   click(lampAt_);
   EXPECT_TRUE(host_.inspector);
 }
@@ -325,6 +325,7 @@ TEST_F(Editing, NodesAreAddedAndSelectedInOrder) {
   send(AddMirror{});
   const glm::dvec3 place = 1000.0 * scene().mirrors.back().position;
   EXPECT_LT(glm::length(place - glm::round(place)), 1e-6) << "as a person would type it";
+  EXPECT_EQ(status(), "Added mirror 'mirror'. The inspector (F2) changes it.");
   send(AddLight{});
   send(AddObject{edit().models.front()});
   EXPECT_EQ(scene().mirrors.size() + scene().lights.size() + scene().objects.size(), 7u);
