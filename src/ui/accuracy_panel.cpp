@@ -31,7 +31,9 @@ struct Plot {
   }
   float x(double ms) const { return corner.x + size.x * part(std::clamp(ms, lowMs, highMs), lowMs, highMs); }
   float y(double error) const {
-    return corner.y + size.y * (1.0f - part(std::clamp(error, lowError, highError), lowError, highError));
+    const float title = ImGui::GetFontSize();  // of an axis; points are drawn neither over it nor over the other one
+    const float share = part(std::clamp(error, lowError, highError), lowError, highError);
+    return corner.y + title + std::max(size.y - 2.0f * title, 0.0f) * (1.0f - share);
   }
   ImVec2 at(const PointRow& point) const { return {x(point.ms), y(point.error)}; }
 };
@@ -49,8 +51,8 @@ Plot plotOf(const ShownAccuracy& accuracy, const ImVec2& corner, const ImVec2& s
   }
   plot.lowMs = std::max(plot.lowMs, 1e-4) / 1.15;
   plot.highMs = std::max(plot.highMs, plot.lowMs) * 1.3;
-  plot.lowError /= 1.3;
-  plot.highError *= 1.3;
+  plot.lowError /= 1.1;
+  plot.highError *= 1.1;
   return plot;
 }
 
@@ -182,9 +184,8 @@ void plot(PanelContext& ui) {
     }
   }
   dimmedText(
-      "A click picks a point: its settings, drawn as one picture. Its bar spans the middle half of its times; points "
-      "whose bars overlap count as equally "
-      "fast. No point beats an orange one.");
+      "A click picks a point: its settings, as one picture. Orange: none is more accurate in its time. Bars: the "
+      "middle half of the times; if they overlap, points count as equally fast.");
   tip("Both axes are logarithmic.\nMean FLIP: mean perceived difference from the reference, 0 (none) to 1.\n"
       "One picture: in full quality, as measured. While something moves, settings may be lowered to keep the pace; a "
       "still window shows the mean of several, with less error, unless a point was picked.");

@@ -1606,6 +1606,25 @@ TEST_F(AccuracyWindow, TextsOfRowsStandOnOneLine) {
   }
 }
 
+TEST_F(AccuracyWindow, PointsLieOverNoAxisTitle) {
+  for (const float scale : {1.0f, 2.0f}) {
+    ImGui::GetIO().FontGlobalScale = scale;
+    resize(1280, 720);
+    const PixelRect plot = widget("accuracy.plot");
+    const double em = ImGui::GetFontSize();
+    for (const PointRow& point : accuracy_.points) {
+      const PixelRect place = widget("accuracy.point " + point.name);
+      EXPECT_GE(place.y, plot.y + em) << point.name << " at " << scale;
+      EXPECT_LE(place.y + place.height, plot.y + plot.height - 2.2 * em) << point.name << " at " << scale;
+    }
+  }
+}
+
+TEST_F(AccuracyWindow, LegendExplainsColorsAndBars) {
+  EXPECT_TRUE(shows("Orange: none is more accurate in its time."));
+  EXPECT_TRUE(shows("Bars: the middle half of the times"));
+}
+
 TEST_F(AccuracyWindow, PointsAndSliderApplySettings) {
   EXPECT_EQ(clickFor<ApplyPoint>("accuracy.point exact").point, 1);
   accuracy_.current = 1;
