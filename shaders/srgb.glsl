@@ -1,7 +1,7 @@
 // The curve of sRGB, IEC 61966-2-1, which takes linear values of 0 .. 1. Above its straight part the power 5/12 is a
 // polynomial of the fourth root, wrong by less than 1/4000 of a step of 8 bits: on CPUs, powers took most of the display
-// pass. Among the polynomials that come as close, this one keeps farthest from ties of rounding, so that every half
-// float gets the code of the exact curve.
+// pass. Among the polynomials that come as close, this one keeps farthest from ties of rounding: where roots are
+// exact, every half float gets the code of the exact curve.
 vec3 srgbEncode(vec3 x) {
   vec3 t = sqrt(sqrt(x));
   vec3 high = -0.0698053017 * t + 0.367823631;

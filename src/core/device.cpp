@@ -193,12 +193,12 @@ void Device::renewSurface(const Window& window) {
   }
 }
 
-// The minute is divided, so that a time in which the process was stopped counts as one second.
 void Device::submit(const VkSubmitInfo& commands, VkFence fence, std::string_view what) {
   check(vkResetFences(get(), 1, &fence), "reset a fence");
   check(vkQueueSubmit(queue(), 1, &commands, fence), what);
 }
 
+// The minute is divided, so that a time in which the process was stopped counts as one second.
 void Device::await(VkFence fence, std::string_view what) {
   constexpr uint64_t second = 1'000'000'000;
   constexpr int patience = 60;

@@ -38,17 +38,18 @@ bool nodeList(PanelContext& ui) {
     const bool other =
         std::ranges::any_of(edit.others, [&](const Selection& selection) { return sameNode(selection, node); });
     ImGui::PushID(row);
-    if (ImGui::Selectable(describe(*edit.scene, node).c_str(), selected || other)) {
-      const ImGuiIO& io = ImGui::GetIO();
-      ui.send(io.KeyShift || io.KeyCtrl ? Command(ToggleNode{node}) : Command(SelectNode{node}));
-    }
-    if (ImGui::GetIO().NavVisible && ImGui::IsItemFocused() && enterPressed()) {
-      ui.send(SelectNode{node});
-      ui.state.focusFields = true;
+    const ImGuiIO& io = ImGui::GetIO();
+    const bool chosen = ImGui::Selectable(describe(*edit.scene, node).c_str(), selected || other);
+    // Later versions of Dear ImGui press a row by Enter too.
+    const bool entered = io.NavVisible && ImGui::IsItemFocused() && enterPressed();
+    if (chosen || entered) {
+      const bool toggles = !entered && (io.KeyShift || io.KeyCtrl);
+      ui.send(toggles ? Command(ToggleNode{node}) : Command(SelectNode{node}));
+      ui.state.focusFields = entered;
     }
     if (selected && std::exchange(*shown, row) != row) {
       ImGui::SetScrollHereY();
-      if (ImGui::GetCurrentContext()->NavWindow == ImGui::GetCurrentWindow()) {
+      if (io.NavVisible && ImGui::GetCurrentContext()->NavWindow == ImGui::GetCurrentWindow()) {
         focusItem();  // arrow keys and Enter go on from here
       }
     }
@@ -147,6 +148,7 @@ void gizmoMode(PanelContext& ui) {
     }
     if (std::exchange(ui.state.focusFields, false)) {
       focusItem();
+      ImGui::SetScrollHereY();
     }
     recordWidget(ui, key, "G switches between the handles. Hold Ctrl while dragging to snap.");
     ImGui::SameLine();

@@ -259,8 +259,10 @@ void openFile(PanelContext& ui) {
     files.focus = chosen && enterPressed() ? Focus::list : files.focus;
     return;
   }
-  if (!std::filesystem::exists(file, none) && std::filesystem::exists(file.string() + ".toml", none)) {
-    file += ".toml";
+  std::filesystem::path scene = file;
+  scene += ".toml";
+  if (!std::filesystem::exists(file, none) && std::filesystem::exists(scene, none) && !isFolder(scene)) {
+    file = std::move(scene);
   }
   if (!std::filesystem::exists(file, none)) {
     files.problem = "There is no file " + file.string();

@@ -185,7 +185,7 @@ void Workspace::pointerButton(const MouseButtonEvent& event, bool overPanels) {
   }
   const bool covers = host_.inspectorCovers(pointer_.position());
   status_.set("Selected " + describe(scene(), document_->selection()) + ". Drag its handles (G: move, rotate, scale)." +
-              (editor_->selectedInMirror() ? " A click at the same place selects the mirror." : "") +
+              (editor_->selectedInMirror() ? " A click at the same place selects the mirror that shows it." : "") +
               (covers ? " F2 opens the inspector." : ""));
   if (!covers) {
     host_.openInspector();

@@ -1241,6 +1241,13 @@ TEST_F(Inspector, EnterOnARowGoesToItsFields) {
   EXPECT_EQ(scene_.mirrors[1].position.x, 1.75) << "below the kind of handles and the name";
 }
 
+TEST_F(Inspector, ClicksOnRowsLeaveTheKeyboardAlone) {
+  click("edit.node.1");
+  selectMirror(1);
+  run(2);
+  EXPECT_FALSE(ImGui::GetIO().NavVisible) << "Space would press the row instead of pausing";
+}
+
 TEST_F(Inspector, ListShowsWhatIsSelectedAgain) {
   scene_.objects.resize(40);
   selectMirror(0);

@@ -32,7 +32,7 @@ TEST_F(Editing, ClickSelectsDirectlyAndInMirrors) {
   click(imageAt_);
   EXPECT_EQ(edit().selected, ball);
   EXPECT_EQ(edit().through, MirrorPath{0});
-  EXPECT_TRUE(contains(status(), "A click at the same place selects the mirror.")) << status();
+  EXPECT_TRUE(contains(status(), "A click at the same place selects the mirror that shows it.")) << status();
   click(pixel({0.3, 1.0, -7.5}) - glm::dvec2(4.0, 0.0));
   EXPECT_EQ(edit().selected, ball);
   EXPECT_EQ(edit().through, (MirrorPath{0, 1}));
