@@ -39,6 +39,15 @@ std::optional<Placement> placementOf(const VkExtent2D& display, const glm::dvec2
                    glm::vec4(glm::dvec4(1.0 / zoom, 1.0 / zoom, -corner / zoom))};
 }
 
+// Returns what the display shows of a picture of one color, rounded by toDisplay().
+std::array<float, 4> flatColor(const DisplayedPicture& picture) {
+  LinearImage texel(1, 1);
+  texel.pixels[0] = *picture.flat;
+  const Image8 shown = toDisplay(texel, picture.curve);
+  const uint8_t* code = shown.at(0, 0);
+  return {code[0] / 255.0f, code[1] / 255.0f, code[2] / 255.0f, 1.0f};
+}
+
 PassDesc viewPass(const PassTargets& targets, const VkRect2D& area) {
   PassDesc desc = fullPass("debug view", targets);
   desc.renderArea = area;
@@ -83,20 +92,33 @@ void DisplaySystem::draw(const Frame& frame, const PassScope& scope, Variant var
 
 // The sampler does not enlarge a mean: not every device filters its 32-bit floats, and a mean is not drawn in haste.
 DisplayedPicture DisplaySystem::picture(const VkDescriptorImageInfo& radiance, VkExtent2D size,
-                                        const DisplayCurve& curve, int pictures) const {
+                                        const DisplayCurve& curve, int pictures,
+                                        const std::optional<glm::vec3>& flat) const {
   if (cover_) {
     return {.image = cover_.descriptor(linearSampler_.get()), .size = cover_.extent(), .stretches = false};
   }
   return {.image = radiance,
           .size = size,
           .curve = {curve.exposure / std::max(pictures, 1), curve.toneMap},
-          .filtered = pictures == 0};
+          .filtered = pictures == 0,
+          .flat = flat};
 }
 
 RecordedPass DisplaySystem::record(Frame& frame, std::span<const DisplayedPicture> pictures) {
-  const PassDesc desc = fullPass("display", renderer_.displayTargets(frame));
+  PassDesc desc = fullPass("display", renderer_.displayTargets(frame));
+  desc.clearColor = pictures[0].flat ? flatColor(pictures[0]) : desc.clearColor;
   const PassScope scope = renderer_.beginPass(frame, desc);
+  uint32_t draws = 0;
   for (const DisplayedPicture& picture : pictures) {
+    if (picture.flat) {
+      VkClearAttachment clear{.aspectMask = VK_IMAGE_ASPECT_COLOR_BIT};
+      std::ranges::copy(flatColor(picture), clear.clearValue.color.float32);
+      const VkClearRect area{picture.area, 0, 1};
+      if (&picture != &pictures[0]) {  // whose color the pass is cleared with
+        vkCmdClearAttachments(scope.commands(), 1, &clear, 1, &area);
+      }
+      continue;
+    }
     const glm::vec2 scale(static_cast<float>(picture.size.width) / static_cast<float>(frame.extent.width),
                           static_cast<float>(picture.size.height) / static_cast<float>(frame.extent.height));
     Variant variant{.toneMap = picture.curve.toneMap};
@@ -109,8 +131,9 @@ RecordedPass DisplaySystem::record(Frame& frame, std::span<const DisplayedPictur
          gpu::DisplayConstants{glm::vec4(scale, 0.0f, 0.0f),
                                {picture.size.width, picture.size.height},
                                static_cast<float>(picture.curve.exposure)});
+    ++draws;
   }
-  return {{.kind = PassKind::display}, desc.name, -1, static_cast<uint32_t>(pictures.size())};
+  return {{.kind = PassKind::display}, desc.name, -1, draws};
 }
 
 RecordedPass DisplaySystem::drawTarget(Frame& frame, const VkRect2D& area, const Variant& variant,

@@ -20,6 +20,7 @@ struct DisplayedPicture {
   DisplayCurve curve;             // its exposure is a factor on the texels
   bool stretches = true;          // interpolates where the display has another size
   bool filtered = false;          // the device's samplers can interpolate it
+  std::optional<glm::vec3> flat;  // all texels have this radiance, and the image is not read
   VkRect2D area{};                // pixels of the display; the whole picture is as large as the display
 };
 
@@ -36,9 +37,9 @@ class DisplaySystem {
   void setCover(const Image8& picture);
 
   // Returns what record() takes, without an area: the image of setCover(), or else `radiance`, which has `size` texels
-  // and is the sum of `pictures` pictures; 0: one picture, no sum.
+  // and is the sum of `pictures` pictures; 0: one picture, no sum. `flat`: see DisplayedPicture.
   DisplayedPicture picture(const VkDescriptorImageInfo& radiance, VkExtent2D size, const DisplayCurve& curve,
-                           int pictures) const;
+                           int pictures, const std::optional<glm::vec3>& flat) const;
   // Records the display pass. The areas of the pictures cover the display.
   RecordedPass record(Frame& frame, std::span<const DisplayedPicture> pictures);
   // Record a pass that shows a target of `size` texels. Return nothing if no part of the target lies in `debug.area`.

@@ -94,8 +94,12 @@ void SceneRenderer::record(Frame& frame, const SceneState& state, const Settings
     cubes_.clear();
     if (!plan.mainReused()) {
       ledger_ = {};
-      drewTiles_ = plan.refined != nullptr;
+      hasGaps_ = plan.refined != nullptr;
     }
+  }
+  if (!plan.mainReused() && endsPicture(plan)) {
+    flat_ = flatColor(info);
+    hasGaps_ = hasGaps_ || flat_;
   }
   recordPasses(info);
   unfinished_ = !endsPicture(plan);
@@ -275,6 +279,16 @@ void SceneRenderer::recordMirrors(const FrameInfo& info, const ConcurrentPasses&
   }
 }
 
+std::optional<glm::vec3> SceneRenderer::flatColor(const FrameInfo& info) const {
+  const Pass& main = info.plan.main();
+  const bool shows = info.environment.sky || !main.instances.empty() || !main.lights.empty() || !main.mirrors.empty();
+  if (shows || info.plan.tiles || info.settings.view.accumulate > 1 || info.settings.debug.checkFinite ||
+      watched_.watches()) {
+    return std::nullopt;
+  }
+  return storedBackground(info.environment, main.view, info.plan.picture);
+}
+
 void SceneRenderer::recordMain(const FrameInfo& info, size_t index) {
   const Pass& main = info.plan.passes[index];
   const PassDesc whole = fullPass(passName(scene_, info.plan, main), mainTargets_.drawn().targets());
@@ -284,6 +298,11 @@ void SceneRenderer::recordMain(const FrameInfo& info, size_t index) {
     desc.targets.resolve = nullptr;  // recordMean() stands in
   }
   desc.storeSamples = info.settings.debug.checkFinite;
+  if (flat_ && !info.plan.tiles) {
+    desc.renderArea = desc.scissor = {{0, 0}, {1, 1}};  // one texel, for the pass to have its place among the others
+    drawScene(info, index, desc, {main.id, desc.name, -1, 0, main.areaPx});
+    return mirrorTargets_.releaseShown(info.plan, main);
+  }
   watched_.prepare(info.plan, index, desc, *info.frame.retired);
   drawTiles(info, index, desc, {main.id, desc.name, -1, 0, main.areaPx});
   if (renderer_.roundsSumsDown() && endsPicture(info.plan)) {
@@ -309,7 +328,8 @@ void SceneRenderer::recordSum(const FrameInfo& info) {
 DisplayedPicture SceneRenderer::picture() {
   const int pictures = accumulated();
   return display_.picture(pictures > 0 ? accumulation_.descriptor() : mainTargets_.shown().descriptor(),
-                          mainTargets_.shown().extent(), displayed(shown_.displayCurve(), radianceScale_), pictures);
+                          mainTargets_.shown().extent(), displayed(shown_.displayCurve(), radianceScale_), pictures,
+                          flat_);
 }
 
 void SceneRenderer::recordDisplay(const FrameInfo& info, const std::optional<TargetDisplay>& debug,
@@ -433,8 +453,8 @@ void SceneRenderer::drawScene(const FrameInfo& info, size_t index, const PassDes
 }
 
 OffScreen* SceneRenderer::watchedImage(const FramePlan& plan, int pass) {
-  return plan.passes[static_cast<size_t>(pass)].id.kind == PassKind::main ? &mainTargets_.shown()
-         : unfinished_ || plan.mainReused()                               ? mirrorTargets_.earlierWatched()
+  return plan.passes[static_cast<size_t>(pass)].id.kind == PassKind::main ? flat_ ? nullptr : &mainTargets_.shown()
+         : unfinished_ || plan.mainReused() ? mirrorTargets_.earlierWatched()
                                                                           : &mirrorTargets_[static_cast<size_t>(pass)];
 }
 
@@ -499,11 +519,12 @@ LinearImage SceneRenderer::radiance() {
   renderer_.waitIdle();
   const int pictures = accumulated();
   const std::vector<float> texels =
-      renderer_.uploader().readFloats(pictures > 0 ? accumulation_.sum() : mainTargets_.shown().color());
+      flat_ ? std::vector<float>()
+            : renderer_.uploader().readFloats(pictures > 0 ? accumulation_.sum() : mainTargets_.shown().color());
   const VkExtent2D extent = mainTargets_.shown().color().extent();
   LinearImage image(static_cast<int>(extent.width), static_cast<int>(extent.height));
   for (size_t i = 0; i < image.pixels.size(); ++i) {
-    image.pixels[i] = {texels[4 * i], texels[4 * i + 1], texels[4 * i + 2]};
+    image.pixels[i] = flat_ ? *flat_ : glm::vec3(texels[4 * i], texels[4 * i + 1], texels[4 * i + 2]);
     image.pixels[i] /= static_cast<float>(std::max(pictures, 1) * radianceScale_);
   }
   return enlarged(image, pictureSize_.x, pictureSize_.y);

@@ -66,8 +66,9 @@ class SceneRenderer {
   // Says whether the last frame kept that target of the last complete picture, for TargetDisplay.
   bool keepsTarget(const MirrorPath& path, TargetKind kind) const { return watched_.keeps(path, kind); }
 
-  // Says whether the last picture was drawn in FramePlan::refined only, so that its targets have gaps.
-  bool drewTiles() const { return drewTiles_; }
+  // Says whether the last picture was drawn in FramePlan::refined only, or shows nothing, so that its targets have
+  // gaps.
+  bool hasGaps() const { return hasGaps_; }
 
   // Shows `picture` (display sRGB) instead of the scene, stretched to the display, from the next frame on. A picture
   // without pixels shows the scene again.
@@ -96,6 +97,8 @@ class SceneRenderer {
   void recordEnvironment(const FrameInfo& info, size_t index);
   void recordMirrors(const FrameInfo& info, const ConcurrentPasses& range);
   void recordMain(const FrameInfo& info, size_t index);
+  // Returns the stored radiance of all texels of a main view in which nothing is seen; nothing if it has to be drawn.
+  std::optional<glm::vec3> flatColor(const FrameInfo& info) const;
   // Target of the environment map that the pass is a face of.
   OffScreen& environmentTarget(const FramePlan& plan, const Pass& face);
   void recordSum(const FrameInfo& info);
@@ -139,10 +142,11 @@ class SceneRenderer {
   size_t tilesLeft_ = SIZE_MAX;           // tiles for which the frame's commands still have room
   std::vector<PassTargets> passTargets_;  // of the mirror passes drawn last; their next tiles may follow
   double radianceScale_ = 1.0;            // ViewSettings::radianceScale() of the last complete picture
-  bool drewTiles_ = false;
-  bool unfinished_ = false;    // the last frame drew tiles, and not the last ones of its picture
-  glm::ivec2 pictureSize_{0};  // of the last recorded frame; 0: none yet
-  ViewSettings shown_;         // of the last recorded frame
+  bool hasGaps_ = false;
+  std::optional<glm::vec3> flat_;  // flatColor() of the last complete picture, whose main target then is not drawn
+  bool unfinished_ = false;        // the last frame drew tiles, and not the last ones of its picture
+  glm::ivec2 pictureSize_{0};      // of the last recorded frame; 0: none yet
+  ViewSettings shown_;             // of the last recorded frame
   MirrorTargets mirrorTargets_;
   uint64_t cacheRevision_ = 0;  // of the pipelines that rendered the cached images
   SceneChanges changes_;

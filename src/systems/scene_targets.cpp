@@ -13,13 +13,6 @@ static_assert(bytesOfTexel(colorFormat) == colorBytes && bytesOfTexel(depthForma
 
 namespace {
 
-std::array<float, 4> clearColor(const Environment& environment, const View& view, int picture) {
-  const float turn = halfTurn(view.path.size(), picture);
-  const auto stored = [&](double value) { return storedRadiance(value, picture, turn); };
-  const glm::dvec3& color = environment.background;
-  return {stored(color.r), stored(color.g), stored(color.b), 0.0f};  // disparity 0: infinitely far
-}
-
 VkFrontFace frontFace(const View& view) {
   return view.mirrored() ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE;
 }
@@ -87,6 +80,13 @@ void EnvironmentTargets::endFrame(RetireQueue& retired) {
   }
 }
 
+glm::vec3 storedBackground(const Environment& environment, const View& view, int picture) {
+  const float turn = halfTurn(view.path.size(), picture);
+  const auto stored = [&](double value) { return storedRadiance(value, picture, turn); };
+  const glm::dvec3& color = environment.background;
+  return {stored(color.r), stored(color.g), stored(color.b)};
+}
+
 Viewport viewportOf(const View& view) {
   const glm::dvec2 size = overscan(view) * view.pictureSize;
   const glm::dvec2 corner = 0.5 * (view.pictureSize - size) - glm::dvec2(view.rect.x, view.rect.y);
@@ -96,13 +96,14 @@ Viewport viewportOf(const View& view) {
 
 PassDesc scenePass(std::string name, const PassTargets& targets, const VkRect2D& area, const Viewport& viewport,
                    const View& view, const Environment& environment, int picture) {
+  const glm::vec3 background = storedBackground(environment, view, picture);
   return {.name = std::move(name),
           .targets = targets,
           .renderArea = area,
           .viewport = viewport,
           .scissor = area,
           .frontFace = frontFace(view),
-          .clearColor = clearColor(environment, view, picture),
+          .clearColor = {background.r, background.g, background.b, 0.0f},  // disparity 0: infinitely far
           .collectStatistics = true};
 }
 

@@ -59,6 +59,8 @@ class EnvironmentTargets {
 
 // Returns the viewport that places the picture so that the target's corner shows the corner of the view's rectangle.
 Viewport viewportOf(const View& view);
+// Returns the color that scenePass() clears with: the background, as a target stores it in picture `picture` of a mean.
+glm::vec3 storedBackground(const Environment& environment, const View& view, int picture);
 // Describes a pass that draws the scene into `area` of its targets, in picture `picture` of a mean.
 PassDesc scenePass(std::string name, const PassTargets& targets, const VkRect2D& area, const Viewport& viewport,
                    const View& view, const Environment& environment, int picture);

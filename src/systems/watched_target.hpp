@@ -32,6 +32,7 @@ class WatchedTarget {
   // Begins a frame of the plan. A target is watched from the beginning of a picture on. A picture that is shown again
   // keeps the target that was watched in it, unless the target that is asked for isAlwaysThere().
   void begin(const FramePlan& plan, const std::optional<TargetDisplay>& debug, RetireQueue& retired);
+  bool watches() const { return watched_.has_value(); }
   // Index in FramePlan::passes of the mirror pass whose image is watched; none for the main view.
   std::optional<int> mirrorPass() const;
   // Call it before each part of pass `index`: if the depth of the pass is watched, makes the pass write it to an image

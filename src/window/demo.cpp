@@ -361,7 +361,7 @@ std::optional<Pace::Target> Demo::missingTarget() const {
   const std::optional<TargetRequest>& target = output_.target;
   const SceneRenderer& renderer = *half().renderer;
   const auto isMissing = [&](const MirrorPath& path, TargetKind kind) {
-    return isAlwaysThere(path, kind) ? renderer.drewTiles() : !renderer.keepsTarget(path, kind);
+    return isAlwaysThere(path, kind) ? renderer.hasGaps() : !renderer.keepsTarget(path, kind);
   };
   const bool missing = target && target->drawn && isShown() && isMissing(target->path, target->display.kind);
   return missing ? std::optional(Pace::Target(target->path, target->display.kind)) : std::nullopt;

@@ -377,5 +377,107 @@ TEST(Skipping, FiguresOfPassesNameTheParent) {
   EXPECT_LT(frames[1]["passes"].size(), frames.back()["passes"].size()) << "some images were reused";
 }
 
+// Views in all directions about a few nodes, many of which show none.
+struct ViewsOfLittle {
+  explicit ViewsOfLittle(RenderPath path = RenderPath::automatic)
+      : session([&] {
+          Options options = headless(writeScene("little", R"(
+[environment] background = [0.21, 0.4, 0.017], ambient = [0.3, 0.3, 0.3]
+[camera] position = [0, 0, 0], target = [0, 0, 1]
+[[object]] model = "MODELS/box.obj", position = [0, 0, -3]
+[[light]] position = [0, 3, 0], intensity = 9, glow = 2
+[[mirror]] position = [3, 0, 0], rotation = [0, -90, 0], size = [1, 1]
+)"),
+                                     {64, 36});
+          options.renderPath = path;
+          return options;
+        }()) {}
+
+  // Draws the view, and returns what the display and the main view show.
+  std::pair<std::vector<uint8_t>, std::vector<glm::vec3>> draw(bool whole) {
+    Settings settings = session.settings();
+    settings.debug.checkFinite = whole;
+    session.setSettings(settings);
+    const Image8 picture = testing_support::draw(session);
+    return {picture.rgba, session.radiance().pixels};
+  }
+
+  // Says whether the last frame drew into the display image.
+  bool drewDisplay() { return session.sceneRenderer().passes().back().draws > 0; }
+
+  QuietSession session;
+};
+
+TEST(Skipping, ViewsOfNothingAreNotDrawn) {
+  for (const RenderPath path : {RenderPath::dynamic, RenderPath::renderPass}) {
+    ViewsOfLittle views(path);
+    Random random(7);
+    std::array<int, 2> found{};
+    for (int view = 0; view < 40; ++view) {
+      Settings settings = views.session.settings();
+      settings.view.exposure = random.uniform(0.1, 3.0);
+      settings.view.toneMap = random.chance(0.5) ? ToneMap::aces : ToneMap::clamp;
+      settings.view.samples = random.chance(0.5) ? 4 : 1;
+      settings.view.scale = random.chance(0.3) ? 0.5 : 1.0;
+      if (random.chance(0.5)) {
+        settings.view.clearColor = {random.uniform(0.0, 1.5), random.uniform(0.0, 0.01), random.uniform(0.0, 1.0)};
+      }
+      views.session.setSettings(settings);
+      views.session.setCamera(lookAt({0, 0, 0}, random.direction(), {0, 1, 0}, 40, 0.01));
+      const auto whole = views.draw(true);
+      EXPECT_TRUE(views.drewDisplay());
+      EXPECT_EQ(views.draw(false), whole) << "view " << view;
+      ++found[views.drewDisplay()];
+    }
+    EXPECT_GE(found[false], 8);
+    EXPECT_GE(found[true], 8);
+  }
+}
+
+// What is asked for after a view of nothing: the same picture again, beside another one, a target.
+TEST(Skipping, ViewsOfNothingAreShownAgain) {
+  ViewsOfLittle views;
+  Session& session = views.session;
+  session.setCamera(lookAt({0, 0, 0}, {0, 0, 1}, {0, 1, 0}, 40, 0.01));
+  const auto nothing = views.draw(false);
+  EXPECT_FALSE(views.drewDisplay());
+  EXPECT_TRUE(session.sceneRenderer().hasGaps());
+  const DrawnFrame frame = session.lastFrame();
+  FramePlan again = frame.plan;
+  again.main().source = PassSource::reused;
+  recordFrame(session, frame.state, frame.settings, again);
+  EXPECT_EQ(session.picture().rgba, nothing.first);
+  const TargetDisplay target{.pass = 0, .area = {0, 0, 64, 36}, .kind = TargetKind::color, .zoom = 1.0};
+  recordFrame(session, frame.state, frame.settings, again, target);
+  EXPECT_EQ(session.picture().rgba, nothing.first) << "a target that was not drawn is not shown";
+  recordFrame(session, frame.state, frame.settings, frame.plan, target);
+  EXPECT_EQ(session.picture().rgba, nothing.first);
+  EXPECT_FALSE(session.sceneRenderer().hasGaps());
+
+  // The other half of A | B shows the box.
+  SceneRenderer other(session.renderer(), session.scene());
+  views.draw(false);
+  const DrawnFrame flat = session.lastFrame();
+  session.setCamera(lookAt({0, 0, 0}, {0, 0, -1}, {0, 1, 0}, 40, 0.01));
+  const auto box = views.draw(true).first;
+  const DrawnFrame drawn = session.lastFrame();
+  for (const bool right : {false, true}) {
+    Frame first = session.renderer().beginFrame().value();
+    other.record(first, flat.state, flat.settings, flat.plan);
+    session.renderer().endFrame(first);
+    Frame second = session.renderer().beginFrame().value();
+    second.capture = true;
+    session.sceneRenderer().record(second, drawn.state, drawn.settings, drawn.plan, {}, true,
+                                   SplitDisplay{other, right, 20});
+    session.renderer().endFrame(second);
+    const Image8 picture = session.picture();
+    for (size_t i = 0; i < picture.rgba.size(); ++i) {
+      const bool ofBox = (i / 4 % 64 >= 20) == right;
+      ASSERT_EQ(picture.rgba[i], (ofBox ? box : nothing.first)[i]) << i << right;
+    }
+  }
+  session.renderer().waitIdle();
+}
+
 }  // namespace
 }  // namespace speculum::skipping_pictures
