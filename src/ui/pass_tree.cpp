@@ -116,8 +116,10 @@ std::string mirrorCost(const ShownFrame& frame, int mirror) {
     }
   }
   if (passes > 0) {
-    const double median = percentile(frame.history.series(FrameHistory::Figure::gpu), 0.5);
-    const double all = std::isnan(median) ? frame.gpuMs : median;
+    const bool inHistory = !frame.history.passNames().empty();  // drafts have no times of passes
+    const double median = inHistory ? percentile(frame.history.series(FrameHistory::Figure::gpu), 0.5) : std::nan("");
+    const double timed = frame.timedGpuMs > 0.0 ? frame.timedGpuMs : frame.gpuMs;
+    const double all = std::isnan(median) ? timed : median;
     const std::string share = ms > 0.0 && all >= ms ? fmt::format(", {:.0f} % of the frame", 100.0 * ms / all) : "";
     return fmt::format("{} {}, {:.0f} pixels", passes, passes == 1 ? "pass" : "passes", pixels) +
            (reused     ? ", reused"

@@ -264,6 +264,17 @@ TEST(MirrorCost, TimeIsTheMedianOfTheLastFrames) {
       << "the history may be of other frames";
 }
 
+TEST(MirrorCost, ShareIsThatOfTheTimedFrame) {
+  ShownFrame frame;
+  frame.passes.push_back({{.path = {0}}, "mirror wall"});
+  frame.passes[0].timed = true;
+  frame.passes[0].gpuMs = 50.0;
+  frame.timedGpuMs = 1000.0;
+  frame.history.add(1, 210.0, 1.0, true);
+  frame.history.addGpu(1, 200.0, {});
+  EXPECT_EQ(mirrorCost(frame, 0), "1 pass, 0 pixels, 50.0 ms on the GPU, 5 % of the frame") << "not of the draft's";
+}
+
 TEST(RestOfPasses, IsWhatTheFrameTookBesides) {
   ShownFrame frame;
   frame.passes.resize(2);
