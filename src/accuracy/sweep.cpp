@@ -307,11 +307,15 @@ class Sweep {
 bool runSweep(const SweepPlan& plan, const Settings& base, const SweepScene& scene, SweepSubject& subject,
               SweepStore& store, SweepResults& results, const SweepProgress& progress) {
   Sweep sweep(plan, base, scene, subject, store, progress);
-  const bool finished = sweep.run();
-  if (finished) {
-    sweep.fill(results);
+  try {
+    if (sweep.run()) {
+      sweep.fill(results);
+      return true;
+    }
+  } catch (const SweepCancelled&) {
+    store.save();
   }
-  return finished;
+  return false;
 }
 
 }  // namespace speculum

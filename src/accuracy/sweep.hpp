@@ -16,6 +16,9 @@ struct FrameCost {
   double frameMs = 0.0;
 };
 
+// Thrown by a subject to cancel the sweep: what is complete so far is kept.
+struct SweepCancelled {};
+
 // The renderer that a sweep measures.
 class SweepSubject {
  public:

@@ -82,7 +82,7 @@ struct SweepResults {
 
   // The reference: traced with so many samples a pixel, depth 64, throughput 0.
   int truthSamples = 256;
-  double truthMs = 0.0;  // wall clock
+  double truthMs = 0.0;  // wall clock, a frame
   int truthThreads = 0;
   ErrorFigures floor;                    // error of about as many other samples: smaller errors mean nothing
   std::string truthPicture;              // PNG, relative to the results' folder

@@ -8,6 +8,7 @@
 #include "plan/traced_effects.hpp"
 #include "platform/folders.hpp"
 #include "platform/machine.hpp"
+#include "platform/process.hpp"
 #include "scene/fingerprint.hpp"
 #include "session/frame_cost.hpp"
 #include "session/version.hpp"
@@ -72,6 +73,9 @@ void SessionSubject::follow(const Settings& settings, bool capture, const std::f
   const int before = interval > 1 ? interval : capture ? 0 : 1;
   for (int frame = -before; frame < path_.frames; ++frame) {
     drawFrame(frame, capture && frame >= 0, true);
+    if (interruptRequested()) {
+      throw SweepCancelled();
+    }
     if (drawn && frame >= 0) {
       drawn();
     }

@@ -25,7 +25,7 @@ class SessionSubject : public SweepSubject {
   // Draws a frame of the path, where negative ones come before it: the `whole` mean, or only its first picture.
   virtual void drawFrame(int frame, bool capture, bool whole);
   // Draws the frames of the path, each with the images of the one before, as a moving window does. Calls `drawn` after
-  // each. Frames before the path see that mirrors are due in turn.
+  // each. Frames before the path see that mirrors are due in turn. Throws SweepCancelled after Ctrl-C.
   void follow(const Settings& settings, bool capture, const std::function<void()>& drawn = {});
 
   Session& session_;

@@ -341,6 +341,9 @@ class MovingSubject : public SweepSubject {
   std::vector<Image8> pictures(const Settings& settings) override {
     std::vector<Image8> pictures;
     for (int frame = 0; frame < scene_.frames; ++frame) {
+      if (drawn == most) {
+        throw SweepCancelled();
+      }
       ++drawn;
       const RayTracer tracer(scene_.scene, scene_.stateOf(frame - frame % settings.reflection.updateInterval));
       const auto result =
@@ -351,6 +354,7 @@ class MovingSubject : public SweepSubject {
   }
   FrameCost cost(const Settings& settings) override { return {4.0 / settings.reflection.updateInterval, 0.1, 5.0}; }
   int drawn = 0;
+  int most = -1;  // frames after which it cancels; -1: never
 
  private:
   const SweepScene& scene_;
@@ -359,7 +363,7 @@ class MovingSubject : public SweepSubject {
 class SmallMotion : public SmallSweep {
  protected:
   // Runs a sweep over update intervals, with the camera moving by `step` metres a frame.
-  SweepResults move(double step, const SweepProgress& progress = {}) {
+  SweepResults move(double step, const SweepProgress& progress = {}, int most = -1) {
     SweepPlanner planner("motion", {.motion = true});
     planner.grid({{"reflection.update_interval", {"1", "2", "4"}}});
     planner.plan.repeats = 1;
@@ -377,6 +381,7 @@ class SmallMotion : public SmallSweep {
                            .truthSamples = 16,
                            .floorSamples = 25};
     MovingSubject subject(scene);
+    subject.most = most;
     SweepStore store(folder_ / "motion");
     SweepResults results{.motion = SweepMotion{"scene", 6, 30.0}};
     finished_ = runSweep(planner.plan, Settings(), scene, subject, store, results, progress);
@@ -436,6 +441,15 @@ TEST_F(SmallMotion, InterruptedMotionContinues) {
   const SweepResults again = move(0.02);
   EXPECT_EQ(drawn_, 0);
   EXPECT_GT(again.floor.flicker.value(), 0.0) << "stored references have their noise floor";
+}
+
+TEST_F(SmallMotion, CancelledConfigurationIsDrawnAgain) {
+  move(0.02, {}, 9);
+  EXPECT_FALSE(finished_);
+  EXPECT_EQ(drawn_, 9);
+  move(0.02);
+  EXPECT_TRUE(finished_);
+  EXPECT_EQ(drawn_, 12) << "the first configuration was complete";
 }
 
 TEST_F(SmallMotion, ResultsSurviveTheirFile) {

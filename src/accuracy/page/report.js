@@ -254,8 +254,8 @@ function pointTable(results, selection) {
     caption: ['Every configuration, blue dots: on the front. ', make('span', { class: 'hint' },
       'The headings sort; a name shows its picture and marks it in the plots.')],
     label: 'All configurations',
-    groups: [['', 1], ['Configuration', 2], ['Median ms a frame', 2], ['Whole picture', results.motion ? 6 : 5], ['Difference, 1/255', 3],
-             ['Mirrors', 1]],
+    groups: [['', 1], ['Configuration', 2], ['Median ms a frame', 2], ['Whole picture', columns.length - 4],
+             ['Difference, 1/255', 3], ['Mirrors', 1]],
     columns: [
       { heading: 'Front', title: 'on the front of mean FLIP', style: 'mark', descendingFirst: true, cell: ({ point }) => ({
         content: point.on_front ? make('span', { role: 'img', 'aria-label': 'on the front' }, '●') : '',

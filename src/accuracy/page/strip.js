@@ -11,7 +11,7 @@ function makeStrip({ reference, framesOf, nameOf, size, fps }, selection) {
   const play = make('button', { type: 'button', 'aria-pressed': 'false' }, 'play');
   const large = make('div', { class: 'panes' });
   const strip = make('div', { class: 'strip' });
-  const frames = () => [[`ray traced`, reference], [nameOf(selection.key), framesOf(selection.key)]];
+  const frames = () => [['ray traced', reference], [nameOf(selection.key), framesOf(selection.key)]];
   const alt = (name, frame) => `Frame ${frame + 1}, ${name}`;
 
   const showMoment = () => {
