@@ -37,7 +37,8 @@ struct ViewData {
   vec4 horizon;
   vec3 ground;
   uint inMap;  // 1: the view is a face of an environment map
-  vec4 traceOffset;     // added to a relative point gives one in trace space
+  vec3 traceOffset;     // added to a relative point gives one in trace space
+  uint lightsPerGroup;  // at least 1
   vec3 throughput;      // product of the reflectances of the mirrors up to this view
   float minThroughput;  // below this throughput a mirror shows the background
   uint firstLight;      // in the buffer of lights
@@ -76,6 +77,9 @@ struct ShadowMapData {
 // Number of lights up to which shaders read a pass's lights at addresses that are known when they are compiled.
 // lavapipe reads any other address once for each pixel.
 const uint fixedLights = 16;
+
+// Number of groups of a pass's lights. A group is a run of ViewData::lightsPerGroup lights; only the last may have fewer.
+const uint mostLightGroups = 32;
 
 struct MaterialData {
   vec3 diffuse;
@@ -218,6 +222,8 @@ const uint constantVertexColors = 24;
 const uint constantMapped = 25;
 const uint constantTransparency = 26;
 const uint constantClamps = 27;
+const uint constantBranches = 28;
+const uint constantLightGroups = 29;
 
 // Stored in the place of a plane's growth in a shadow map: a caster's edge is seen (shadow_edge.frag).
 const uint shadowEdge = 0xffffffffu;

@@ -5,6 +5,9 @@
 // The value of view.lightCount, if it is at most fixedLights.
 layout(constant_id = constantLightCount) const uint lightCount = manyLights;
 
+// The device leaves out code that a branch passes over. lavapipe runs both sides of a branch.
+layout(constant_id = constantBranches) const bool branches = false;
+
 const float pi = 3.14159265358979;
 const float halfMax = 65504.0;
 const float halfLeast = 6e-8;  // the least half float above 0
@@ -92,13 +95,22 @@ vec2 repeatingUv(uint index, vec3 origin, vec3 direction) {
   return vec2(dot(at.u, point), dot(at.v, point));
 }
 
-// Returns the radiance due to a light at `toLight` from the surface; `irradiance` is at 1 m, facing the light. lavapipe
-// runs both sides of every branch, so no branch leaves out surfaces that face away.
+// Says whether lightRadiance() is 0 for all lights in a sphere (center, radius), because they lie below the surface's
+// plane. The last term is what rounding may take away from the sum; leastHeight makes up for that of the light's height.
+bool liesBelow(vec4 sphere, Surface surface) {
+  vec3 toCenter = sphere.xyz - surface.position;
+  return dot(surface.normal, toCenter) + sphere.w <= -1e-6 * dot(abs(toCenter), vec3(1.0));
+}
+
+// Returns the radiance due to a light at `toLight` from the surface; `irradiance` is at 1 m, facing the light.
 vec3 lightRadiance(vec3 toLight, float radius, vec3 irradiance, Surface surface, vec3 toViewer) {
   float distance2 = max(dot(toLight, toLight), 1e-37);
   float inverse = inversesqrt(distance2);
   float height = dot(surface.normal, toLight);
   bool above = height > leastHeight * (surface.reach + distance2 * inverse);
+  if (branches && height <= 0.0) {
+    return vec3(0.0);
+  }
   float cosine = above ? clamp(height * inverse, 0.0, 1.0) : 0.0;
   vec3 brdf = surface.diffuse / pi;
   if (surface.glossy) {
@@ -142,9 +154,13 @@ vec3 surfaceRadiance(Surface surface) {
   vec3 radiance = surface.emission + view.ambient * surface.diffuse;
   if (lightCount == manyLights) {
     uint count = countHere(view.lightCount);
-    for (uint i = 0; i < count; ++i) {
-      LightData light = lights[view.firstLight + i];
-      radiance += litBy(i, light, surface, toViewer);
+    uint group = 0;
+    for (uint first = 0; first < count; first += view.lightsPerGroup) {
+      uint end = liesBelow(lightGroups[group++], surface) ? first : min(first + view.lightsPerGroup, count);
+      for (uint i = first; i < end; ++i) {
+        LightData light = lights[view.firstLight + i];
+        radiance += litBy(i, light, surface, toViewer);
+      }
     }
   } else {
     [[unroll]] for (uint i = 0; i < lightCount; ++i) {

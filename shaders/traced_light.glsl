@@ -2,6 +2,7 @@
 
 layout(constant_id = constantShadows) const bool shadows = false;
 layout(constant_id = constantCastsLight) const bool castsLight = false;
+layout(constant_id = constantLightGroups) const bool asksGroups = false;  // there are more than fixedLights lights
 
 // Returns the reflectance of a mirror at a point in trace space, with its map.
 vec3 tracedMirrorReflectance(uint mirror, vec3 tracePosition, float cosine) {
@@ -101,6 +102,29 @@ float shareOf(uint i, bool isDrawn) {
 #endif
 }
 
+// The sum over the lights and light paths up to `next`.
+struct LightSum {
+  vec3 radiance;
+  uint next;
+  uint waiting;   // light or path that needs rays, not in the sum; `none`
+  vec3 arriving;  // its radiance
+};
+
+void addNext(inout LightSum sum, Surface surface, vec3 toViewer, vec3 tracePosition, Skip self, bool isDrawn) {
+  Incoming incoming = incomingLight(sum.next, surface, tracePosition, self);
+  vec3 lit = lightRadiance(incoming.toLight, incoming.radius, incoming.irradiance, surface, toViewer);
+  if (incoming.arrives && max(lit.r, max(lit.g, lit.b)) > 0.0) {
+    float share = shadows && incoming.castsShadow ? shareOf(sum.next, isDrawn) : 1.0;
+    if (share < 0.0) {
+      sum.waiting = sum.next;
+      sum.arriving = lit;
+    } else {
+      sum.radiance += share * lit;
+    }
+  }
+  ++sum.next;
+}
+
 // Returns surfaceRadiance() with shadows and with the lights' images in mirrors. `self` identifies the surface, and
 // `seed` gives its rays their random numbers. `isDrawn`: it is the receiver of shadow_map.glsl.
 // The inner loop passes over lights until one needs rays, which are followed after it: a driver that runs both sides of
@@ -108,34 +132,34 @@ float shareOf(uint i, bool isDrawn) {
 vec3 tracedSurfaceRadiance(Surface surface, vec3 toViewer, Skip self, uint seed, bool isDrawn) {
   vec3 tracePosition = surface.position + view.traceOffset.xyz;
   uint paths = view.lightCount + (castsLight ? traceCounts.lightPaths : 0);
-  vec3 radiance = surface.emission + view.ambient * surface.diffuse;
-  uint next = 0;
+  LightSum sum = LightSum(surface.emission + view.ambient * surface.diffuse, 0, none, vec3(0.0));
+  uint group = 0;
+  uint end = 0;  // of the group of lights, or of the light paths, that `next` is in
   for (;;) {
-    uint waiting = none;
-    vec3 arriving = vec3(0.0);
-    while (next < paths && waiting == none) {
-      Incoming incoming = incomingLight(next, surface, tracePosition, self);
-      vec3 lit = lightRadiance(incoming.toLight, incoming.radius, incoming.irradiance, surface, toViewer);
-      if (incoming.arrives && max(lit.r, max(lit.g, lit.b)) > 0.0) {
-        float share = shadows && incoming.castsShadow ? shareOf(next, isDrawn) : 1.0;
-        if (share < 0.0) {
-          waiting = next;
-          arriving = lit;
-        } else {
-          radiance += share * lit;
+    sum.waiting = none;
+    while (sum.next < paths && sum.waiting == none) {
+      if (!asksGroups) {
+        addNext(sum, surface, toViewer, tracePosition, self, isDrawn);
+      } else {
+        if (sum.next == end) {
+          bool direct = sum.next < view.lightCount;
+          end = direct ? min(sum.next + view.lightsPerGroup, view.lightCount) : paths;
+          sum.next = direct && liesBelow(lightGroups[group++], surface) ? end : sum.next;
+        }
+        while (sum.next < end && sum.waiting == none) {
+          addNext(sum, surface, toViewer, tracePosition, self, isDrawn);
         }
       }
-      ++next;
     }
-    if (shadows && waiting != none) {
-      Incoming incoming = incomingLight(waiting, surface, tracePosition, self);
-      if (unobstructed(waiting, incoming, tracePosition, self, seed)) {
-        radiance += arriving;
+    if (shadows && sum.waiting != none) {
+      Incoming incoming = incomingLight(sum.waiting, surface, tracePosition, self);
+      if (unobstructed(sum.waiting, incoming, tracePosition, self, seed)) {
+        sum.radiance += sum.arriving;
       }
     }
-    if (next >= paths) {
+    if (sum.next >= paths) {
       break;
     }
   }
-  return bounded(radiance);
+  return bounded(sum.radiance);
 }

@@ -286,6 +286,8 @@ constexpr SettingField fields[] = {
     setting("debug.cull_clusters", BooleanSetting{at<&D::cullClusters>}, "Cull clusters",
             "clusters outside a view and backs of solids are not drawn",
             "Saves vertices and shading; costs draw calls.", {.changes = mainView}),
+    setting("debug.skip_lights", BooleanSetting{at<&D::skipLights>}, "Skip lights below surfaces",
+            "surfaces pass over groups of lights that lie below their plane", "Saves shading.", {.changes = mainView}),
     setting("debug.mask_passes", BooleanSetting{at<&D::maskPasses>}, "Mask passes",
             "only visible regions of mirror images are shaded", "Saves shading.", {.changes = mainView}),
 

@@ -121,6 +121,7 @@ struct DebugSettings {
   bool checkFinite = false;  // searches every target of radiance for values that are negative or not finite
   bool skipHidden = true;    // mirrors hidden by occluders have no pass
   bool cullClusters = true;  // draws only what a view may see of an object: clusters in it, and fronts of solids
+  bool skipLights = true;    // passes over groups of lights that lie below a surface
   bool maskPasses = true;    // shades only the texels of a mirror image that are looked up
 
   bool operator==(const DebugSettings&) const = default;

@@ -107,7 +107,8 @@ void DeferredShading::shade(const PassScope& scope, const FrameInfo& info, const
   collect(scope, trace);
   const VkSampleCountFlagBits samples = scope.samples();
   const uint32_t filter = textureLookup(info.settings.view.textureFilter);
-  const Pipeline& pipeline = shading_.get({samples, trace, filter}, [&] {
+  const bool asksGroups = fixedLightCount(info.scene) == gpu::manyLights;
+  const Pipeline& pipeline = shading_.get({samples, trace, filter, asksGroups}, [&] {
     std::vector<VkDescriptorSetLayout> layouts{frameLayout_, layout_, info.trace.layout()};
     if (trace.asks) {
       layouts.push_back(info.shadows.layout());
@@ -117,6 +118,8 @@ void DeferredShading::shade(const PassScope& scope, const FrameInfo& info, const
         .comp = std::string("shade") + (trace.asks ? "_asking" : "") + (trace.hardware ? "_ray_query.comp" : ".comp"),
         .constants = {{gpu::constantSamples, samples},
                       {gpu::constantTextureFilter, filter},
+                      {gpu::constantBranches, info.data.branches()},
+                      {gpu::constantLightGroups, asksGroups},
                       {gpu::constantShadows, trace.shadows},
                       {gpu::constantCastsLight, trace.castsLight},
                       {gpu::constantRough, trace.rough},

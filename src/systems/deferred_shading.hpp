@@ -46,6 +46,7 @@ class DeferredShading {
     VkSampleCountFlagBits samples;
     TraceVariant trace;
     uint32_t textureFilter = gpu::textureBilinear;
+    bool asksGroups = false;
     auto operator<=>(const Variant&) const = default;
   };
   void prepare(const FrameInfo& info, const PassDesc& pass);

@@ -42,6 +42,32 @@ std::vector<glm::vec3> clearancesOf(const Scene& scene, const SceneState& state)
   return clearances;
 }
 
+// A surface asks each group, then the lights of groups that it faces. With about as many groups as lights in each this
+// takes the least questions. Shaders ask no groups if there are at most fixedLights lights.
+size_t lightsPerGroup(size_t lights) {
+  const auto root = static_cast<size_t>(std::ceil(std::sqrt(static_cast<double>(lights))));
+  return std::max({size_t{1}, root, (lights + gpu::mostLightGroups - 1) / gpu::mostLightGroups});
+}
+
+constexpr glm::vec4 everywhere{0.0f, 0.0f, 0.0f, 1e30f};  // a sphere that lies below no surface
+
+// Returns center and radius of a sphere that holds the lights. The radius also makes up for normals that are a little
+// longer than 1.
+glm::vec4 sphereAround(std::span<const gpu::LightData> lights) {
+  glm::vec3 low = lights[0].position;
+  glm::vec3 high = low;
+  for (const gpu::LightData& light : lights) {
+    low = glm::min(low, light.position);
+    high = glm::max(high, light.position);
+  }
+  const glm::vec3 center = 0.5f * low + 0.5f * high;
+  double radius = 0.0;
+  for (const gpu::LightData& light : lights) {
+    radius = std::max(radius, glm::distance(glm::dvec3(light.position), glm::dvec3(center)));
+  }
+  return {center, 1.000002 * radius};
+}
+
 bool sameColors(const Object& a, const Object& b) {
   return a.color == b.color && a.specular == b.specular && a.shininess == b.shininess && a.emission == b.emission;
 }
@@ -183,7 +209,7 @@ void FrameData::addPass(const Source& source, const Pass& pass, DrawList& data) 
   }
   view.checksFinite = settings.debug.checkFinite;
   view.picture = static_cast<uint32_t>(plan.picture);
-  view.traceOffset = glm::vec4(glm::dvec4(pass.view.eye - plan.main().view.eye, 0.0));
+  view.traceOffset = glm::vec3(pass.view.eye - plan.main().view.eye);
   view.throughput = glm::vec3(pass.channels);
   view.minThroughput = static_cast<float>(settings.reflection.minThroughput);
   view.depth = static_cast<uint32_t>(pass.view.path.size());
@@ -223,8 +249,14 @@ void FrameData::addLights(const Source& source, const Pass& pass, DrawBlock& blo
                        .clearance = clearances_[i],
                        .shadowMap = shadowMaps_[i]});
   }
-  std::copy_n(lights_.end() - static_cast<std::ptrdiff_t>(order.size()),
-              std::min<size_t>(order.size(), gpu::fixedLights), block.lights);
+  const std::span<const gpu::LightData> ordered = std::span(lights_).last(order.size());
+  std::ranges::copy(ordered.first(std::min<size_t>(ordered.size(), gpu::fixedLights)), block.lights);
+  const size_t perGroup = lightsPerGroup(ordered.size());
+  block.view.lightsPerGroup = static_cast<uint32_t>(perGroup);
+  for (size_t first = 0; first < ordered.size(); first += perGroup) {
+    const auto group = ordered.subspan(first, std::min(perGroup, ordered.size() - first));
+    block.lightGroups[first / perGroup] = source.settings.debug.skipLights ? sphereAround(group) : everywhere;
+  }
 }
 
 void FrameData::addInstances(const Source& source, const Pass& pass, const glm::dmat4& clipFromRelative,

@@ -91,6 +91,8 @@ class FrameData {
              const Settings& settings, const Environment& environment, const FramePlan& plan);
 
   const std::vector<DrawList>& passes() const { return passes_; }
+  // Value of `branches` in shading.glsl.
+  bool branches() const { return !device_.info().isCpu(); }
   // InstanceData::repeats of each instance of the scene; empty without repeating triangles.
   std::span<const uint32_t> repeats() const { return repeats_; }
   // Binds the pipeline, and descriptor set 0 for draws of `pass`. `mirror` is MirrorRange::mirror, for draws of
@@ -109,6 +111,7 @@ class FrameData {
   struct alignas(256) DrawBlock {
     gpu::ViewData view;
     gpu::LightData lights[gpu::fixedLights];  // all lights, if there are no more than these
+    glm::vec4 lightGroups[gpu::mostLightGroups];
   };
 
   static VkDescriptorType typeOf(uint32_t kind);

@@ -48,6 +48,7 @@ GraphicsPipelineDesc MirrorSystem::describe(const Variant& variant, const FrameI
                                           {gpu::constantMapped, variant.mapped},
                                           {gpu::constantOnlyShadowFace, variant.onlyShadowFace},
                                           {gpu::constantLightCount, variant.lightCount},
+                                          {gpu::constantBranches, info.data.branches()},
                                           {gpu::constantShadowedLights, variant.shadowedLights}},
                             .setLayouts = {frameLayout_, imageLayout_},
                             .samples = variant.samples,

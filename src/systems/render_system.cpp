@@ -73,6 +73,7 @@ GraphicsPipelineDesc RenderSystem::objects(const Variant& variant, const FrameIn
                                           {gpu::constantSamples, variant.samples},
                                           {gpu::constantOnlyShadowFace, variant.onlyShadowFace},
                                           {gpu::constantLightCount, variant.lightCount},
+                                          {gpu::constantBranches, info.data.branches()},
                                           {gpu::constantShadowedLights, variant.shadowedLights},
                                           {gpu::constantClamps, variant.clamps},
                                           {gpu::constantPerSample, variant.trace.perSample},

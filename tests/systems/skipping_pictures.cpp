@@ -312,6 +312,107 @@ TEST(Skipping, MaskDoesNotChangeCachedImages) {
   EXPECT_TRUE(pictures[true] == pictures[false]);
 }
 
+// Swarms of lights about a few places: before and behind a turned quad, in its plane or next to it, and in bodies. Two
+// mirrors show all of that once more, and their bases are lit too.
+std::string swarmScene(Random& random) {
+  const glm::dvec3 rotation = random.inBox(180.0);
+  const glm::dmat3 turn = rotationFromDegrees(rotation);
+  const glm::dvec3 center = random.inBox(random.chance(0.8) ? 1.0 : 1e5);
+  const auto at = [&](double x, double y, double z) { return center + turn * glm::dvec3(x, y, z); };
+  std::ostringstream scene;
+  scene << "[environment]\nambient = [0.05, 0.05, 0.05]\nbackground = [0.1, 0.2, 0.3]\n"
+        << cameraText(at(random.uniform(-1, 1), 0.3, 2.6), at(0.1, 0.1, 0))
+        << objectText("quad.obj", center, rotation, random.uniform(1.0, 3.0), {0.7, 0.6, 0.5})
+        << "specular = [0.3, 0.3, 0.3]\n"
+        << objectText("MODELS/box.obj", at(-0.6, 0.3, 0.2), random.inBox(180.0), 0.5, {0.8, 0.4, 0.2})
+        << objectText("MODELS/torus_knot.obj", at(0.6, 0.2, 0.5), random.inBox(180.0), 0.4, {0.2, 0.5, 0.8});
+  for (const double x : {-1.0, 1.0}) {
+    scene << "[[mirror]]\nbase_color = [0.4, 0.5, 0.2]\nreflectance = [0.6, 0.6, 0.6]\n"
+          << rectangleText(at(0.8 * x, -0.4, 0.3), rotation, 0.9, 0.6)
+          << (random.chance(0.3) ? "ripple = { amplitude = 0.01, wavelength = 0.4 }\n" : "");
+  }
+  for (int swarm = 0; swarm < 5; ++swarm) {
+    const double height =
+        std::stod(random.pick(std::array{"0", "1e-7", "-1e-7", "1e-3", "-0.01", "-0.3", "0.8", "-3"}));
+    const glm::dvec3 place(random.uniform(-1, 1), random.uniform(-1, 1), height);
+    const double reach = std::stod(random.pick(std::array{"0", "0", "1e-6", "0.01", "0.3", "2"}));
+    const bool shadows = random.chance(0.1);
+    for (size_t i = 2 + random.index(20); i > 0; --i) {
+      const glm::dvec3 light = place + random.inBox(reach) * glm::dvec3(1, 1, random.chance(0.5) ? 1 : 0);
+      scene << "[[light]]\nposition = " << text(at(light.x, light.y, light.z))
+            << "\nintensity = 0.2\nradius = 0.01\nglow = " << random.index(2)
+            << "\ncasts_shadow = " << (shadows && i % 8 == 0 ? "true\n" : "false\n");
+      if (random.chance(0.2)) {
+        scene << "orbit = { center = " << text(at(place.x, place.y, place.z)) << ", axis = " << text(random.direction())
+              << ", speed = 300 }\n";
+      }
+    }
+  }
+  return scene.str();
+}
+
+TEST(Skipping, LightsBelowSurfacesAddNothing) {
+  writeQuad();
+  Random random(14);
+  const int scenes = fullTests() ? 1000 : 16;
+  for (int i = 0; i < scenes; ++i) {
+    const std::filesystem::path file = writeScene("swarm", swarmScene(random));
+    Studio studio(headless(file, {96, 54}, {{"effects.rays", "software"}}));
+    studio.settings.reflection.method = i % 4 == 1 ? ReflectionMethod::rays : ReflectionMethod::automatic;
+    studio.settings.effects.shadowLookup = i % 4 == 2 ? ShadowLookup::map : ShadowLookup::automatic;
+    studio.settings.view.samples = studio.settings.reflection.samples = i % 3 == 0 ? 4 : 1;
+    studio.settings.view.exposure = i % 2 == 0 ? 1.0 : 1e6;
+    studio.settings.reflection.skipUnchanged = false;
+    for (studio.time = 0.0; studio.time < 0.5; studio.time += 0.4) {
+      studio.settings.debug.skipLights = true;
+      const Image8 skipping = studio.fresh();
+      studio.settings.debug.skipLights = false;
+      const Image8 all = studio.fresh();
+      if (skipping.rgba != all.rgba) {
+        ADD_FAILURE() << "scene " << i << " at " << studio.time << " s";
+        writeEvidence(skipping, all, "swarm_" + std::to_string(i));
+      }
+    }
+  }
+}
+
+// Shaders that add 0.001 to the picture for each light that a surface asks, on any device.
+void writeCountingShaders(const std::filesystem::path& directory) {
+  writeShaders(directory, "shading.glsl", "");
+  std::string text = readText(directory / "shading.glsl");
+  const auto replace = [&](const std::string& from, const std::string& to) {
+    text.replace(text.find(from), from.size(), to);
+  };
+  replace("branches && height", "false && height");
+  replace("return min(irradiance", "return 0.001 + min(irradiance");
+  std::ofstream(directory / "shading.glsl") << text;
+}
+
+// Behind a wall, 144 lights in 12 groups, and none before it.
+TEST(Skipping, LightsBelowSurfacesAreNotAsked) {
+  writeQuad();
+  std::ostringstream scene;
+  scene << "[environment]\nambient = [0, 0, 0]\n"
+        << cameraText({0, 0, 1}, {0, 0, 0}) << objectText("quad.obj", {0, 0, 0}, {0, 0, 0}, 20.0, {0.5, 0.5, 0.5})
+        << "[[mirror]]\n"
+        << rectangleText({0.5, 0, 0.1}, {0, 0, 0}, 0.2, 0.2);
+  for (int i = 0; i < 144; ++i) {
+    scene << "[[light]]\nposition = [" << i % 12 - 5 << ", " << i / 12 - 5 << ", -1]\nglow = 0\n";
+  }
+  TemporaryDirectory shaders;
+  writeCountingShaders(shaders.path());
+  for (const std::string method : {"raster", "rays"}) {
+    Options options = headless(writeScene("dark_lights", scene.str()), {32, 18}, {{"reflection.method", method}});
+    options.shaderDir = shaders.path();
+    QuietSession session(options);
+    Settings settings = session.settings();
+    for (const bool skips : {true, false}) {
+      settings.debug.skipLights = skips;
+      EXPECT_EQ(pictureWith(session, settings).at(4, 9)[1] > 0, !skips) << method;
+    }
+  }
+}
+
 // A tilted mirror, in a closed room or under a sky. In the room, walls and floor fill its image.
 std::filesystem::path tiltedScene(bool closed) {
   return writeScene(closed ? "tilted_closed" : "tilted_sky", std::string(R"(
