@@ -397,7 +397,7 @@ TEST(Skipping, LightsBelowSurfacesAreNotAsked) {
         << "[[mirror]]\n"
         << rectangleText({0.5, 0, 0.1}, {0, 0, 0}, 0.2, 0.2);
   for (int i = 0; i < 144; ++i) {
-    scene << "[[light]]\nposition = [" << i % 12 - 5 << ", " << i / 12 - 5 << ", -1]\nglow = 0\n";
+    scene << "[[light]]\nposition = [" << i % 12 - 5 << ", " << i / 12 - 5 << ", -8]\nglow = 0\n";
   }
   TemporaryDirectory shaders;
   writeCountingShaders(shaders.path());
