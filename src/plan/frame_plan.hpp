@@ -217,6 +217,8 @@ struct FramePlan {
   }
   // Says whether the main view or mean of an earlier frame is shown again, because this frame would draw the same.
   bool mainReused() const { return !main().drawn(); }
+  // Says whether the main view shows the background or the sky only.
+  bool showsNothing() const { return main().instances.empty() && main().lights.empty() && main().mirrors.empty(); }
   // Returns the mirror passes that the frame draws. They stand side by side in the list.
   std::span<const Pass> drawnMirrors() const;
   // Returns the mirror passes of the picture that the frame shows: the passes that it draws or, if it shows the last

@@ -39,13 +39,19 @@ std::optional<Placement> placementOf(const VkExtent2D& display, const glm::dvec2
                    glm::vec4(glm::dvec4(1.0 / zoom, 1.0 / zoom, -corner / zoom))};
 }
 
-// Returns what the display shows of a picture of one color, rounded by toDisplay().
-std::array<float, 4> flatColor(const DisplayedPicture& picture) {
-  LinearImage texel(1, 1);
-  texel.pixels[0] = *picture.flat;
-  const Image8 shown = toDisplay(texel, picture.curve);
-  const uint8_t* code = shown.at(0, 0);
-  return {code[0] / 255.0f, code[1] / 255.0f, code[2] / 255.0f, 1.0f};
+// Returns what the display shows of a picture of one color; nothing for other pictures, and where a channel is so close
+// to a tie that the shader's rounding may differ.
+std::optional<VkClearColorValue> flatColor(const DisplayedPicture& picture) {
+  constexpr double closest = 1.0 / 256.0;  // steps; the shader's curve is off by less than 1/4000
+  VkClearColorValue color{.float32 = {0.0f, 0.0f, 0.0f, 1.0f}};
+  for (int channel = 0; picture.flat && channel < 3; ++channel) {
+    const double steps = 255.0 * displayValue((*picture.flat)[channel], picture.curve) + 0.5;
+    if (std::abs(steps - std::round(steps)) < closest) {
+      return std::nullopt;
+    }
+    color.float32[channel] = static_cast<float>(std::floor(steps)) / 255.0f;
+  }
+  return picture.flat ? std::optional(color) : std::nullopt;
 }
 
 PassDesc viewPass(const PassTargets& targets, const VkRect2D& area) {
@@ -105,16 +111,19 @@ DisplayedPicture DisplaySystem::picture(const VkDescriptorImageInfo& radiance, V
 }
 
 RecordedPass DisplaySystem::record(Frame& frame, std::span<const DisplayedPicture> pictures) {
+  const glm::vec4 cornerOnly(0.0f, 0.0f, 0.5f, 0.5f);  // each pixel looks up the first texel
   PassDesc desc = fullPass("display", renderer_.displayTargets(frame));
-  desc.clearColor = pictures[0].flat ? flatColor(pictures[0]) : desc.clearColor;
+  if (const std::optional<VkClearColorValue> color = flatColor(pictures[0])) {
+    std::ranges::copy(color->float32, desc.clearColor.begin());
+  }
   const PassScope scope = renderer_.beginPass(frame, desc);
   uint32_t draws = 0;
   for (const DisplayedPicture& picture : pictures) {
-    if (picture.flat) {
-      VkClearAttachment clear{.aspectMask = VK_IMAGE_ASPECT_COLOR_BIT};
-      std::ranges::copy(flatColor(picture), clear.clearValue.color.float32);
-      const VkClearRect area{picture.area, 0, 1};
-      if (&picture != &pictures[0]) {  // whose color the pass is cleared with
+    if (const std::optional<VkClearColorValue> color = flatColor(picture)) {
+      if (&picture != &pictures[0] &&
+          picture.area.extent.width > 0) {  // the pass is cleared with the first one's color
+        const VkClearAttachment clear{.aspectMask = VK_IMAGE_ASPECT_COLOR_BIT, .clearValue = {.color = *color}};
+        const VkClearRect area{picture.area, 0, 1};
         vkCmdClearAttachments(scope.commands(), 1, &clear, 1, &area);
       }
       continue;
@@ -122,13 +131,13 @@ RecordedPass DisplaySystem::record(Frame& frame, std::span<const DisplayedPictur
     const glm::vec2 scale(static_cast<float>(picture.size.width) / static_cast<float>(frame.extent.width),
                           static_cast<float>(picture.size.height) / static_cast<float>(frame.extent.height));
     Variant variant{.toneMap = picture.curve.toneMap};
-    variant.enlarged = picture.stretches && scale != glm::vec2(1.0f);
+    variant.enlarged = !picture.flat && picture.stretches && scale != glm::vec2(1.0f);
     variant.sampled = variant.enlarged && picture.filtered && renderer_.device().info().isCpu();
     VkDescriptorImageInfo image = picture.image;
     image.sampler = variant.sampled ? linearSampler_.get() : image.sampler;
     vkCmdSetScissor(scope.commands(), 0, 1, &picture.area);
     draw(frame, scope, variant, image,
-         gpu::DisplayConstants{glm::vec4(scale, 0.0f, 0.0f),
+         gpu::DisplayConstants{picture.flat ? cornerOnly : glm::vec4(scale, 0.0f, 0.0f),
                                {picture.size.width, picture.size.height},
                                static_cast<float>(picture.curve.exposure)});
     ++draws;

@@ -20,7 +20,7 @@ struct DisplayedPicture {
   DisplayCurve curve;             // its exposure is a factor on the texels
   bool stretches = true;          // interpolates where the display has another size
   bool filtered = false;          // the device's samplers can interpolate it
-  std::optional<glm::vec3> flat;  // all texels have this radiance, and the image is not read
+  std::optional<glm::vec3> flat;  // all pixels have this radiance; only the first texel of the image is read
   VkRect2D area{};                // pixels of the display; the whole picture is as large as the display
 };
 

@@ -281,9 +281,8 @@ void SceneRenderer::recordMirrors(const FrameInfo& info, const ConcurrentPasses&
 
 std::optional<glm::vec3> SceneRenderer::flatColor(const FrameInfo& info) const {
   const Pass& main = info.plan.main();
-  const bool shows = info.environment.sky || !main.instances.empty() || !main.lights.empty() || !main.mirrors.empty();
-  if (shows || info.plan.tiles || info.settings.view.accumulate > 1 || info.settings.debug.checkFinite ||
-      watched_.watches()) {
+  if (info.environment.sky || !info.plan.showsNothing() || info.plan.tiles || info.settings.view.accumulate > 1 ||
+      info.settings.debug.checkFinite || watched_.watches()) {
     return std::nullopt;
   }
   return storedBackground(info.environment, main.view, info.plan.picture);
@@ -294,15 +293,15 @@ void SceneRenderer::recordMain(const FrameInfo& info, size_t index) {
   const PassDesc whole = fullPass(passName(scene_, info.plan, main), mainTargets_.drawn().targets());
   PassDesc desc = scenePass(whole.name, whole.targets, whole.renderArea, whole.viewport, main.view, info.environment,
                             info.plan.picture);
+  if (flat_ && !info.plan.tiles) {
+    desc.renderArea = desc.scissor = {{0, 0}, {1, 1}};  // the texel that the display may read
+    drawScene(info, index, desc, {main.id, desc.name, -1, 0, 1.0});
+    return mirrorTargets_.releaseShown(info.plan, main);
+  }
   if (renderer_.roundsSumsDown()) {
     desc.targets.resolve = nullptr;  // recordMean() stands in
   }
   desc.storeSamples = info.settings.debug.checkFinite;
-  if (flat_ && !info.plan.tiles) {
-    desc.renderArea = desc.scissor = {{0, 0}, {1, 1}};  // one texel, for the pass to have its place among the others
-    drawScene(info, index, desc, {main.id, desc.name, -1, 0, main.areaPx});
-    return mirrorTargets_.releaseShown(info.plan, main);
-  }
   watched_.prepare(info.plan, index, desc, *info.frame.retired);
   drawTiles(info, index, desc, {main.id, desc.name, -1, 0, main.areaPx});
   if (renderer_.roundsSumsDown() && endsPicture(info.plan)) {
@@ -453,9 +452,11 @@ void SceneRenderer::drawScene(const FrameInfo& info, size_t index, const PassDes
 }
 
 OffScreen* SceneRenderer::watchedImage(const FramePlan& plan, int pass) {
-  return plan.passes[static_cast<size_t>(pass)].id.kind == PassKind::main ? flat_ ? nullptr : &mainTargets_.shown()
-         : unfinished_ || plan.mainReused() ? mirrorTargets_.earlierWatched()
-                                                                          : &mirrorTargets_[static_cast<size_t>(pass)];
+  if (plan.passes[static_cast<size_t>(pass)].id.kind == PassKind::main) {
+    return flat_ ? nullptr : &mainTargets_.shown();
+  }
+  return unfinished_ || plan.mainReused() ? mirrorTargets_.earlierWatched()
+                                          : &mirrorTargets_[static_cast<size_t>(pass)];
 }
 
 // Enters in the ledger the costs that are not entered with each draw.

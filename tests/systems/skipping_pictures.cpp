@@ -535,6 +535,28 @@ TEST(Skipping, ViewsOfNothingAreNotDrawn) {
   }
 }
 
+// The shader rounds these colors otherwise than exact curves do.
+TEST(Skipping, ViewsOfNothingRoundAsTheShaderDoes) {
+  ViewsOfLittle views;
+  views.session.setCamera(lookAt({0, 0, 0}, {0, 0, 1}, {0, 1, 0}, 40, 0.01));
+  for (const auto& [toneMap, exposure, color] :
+       {std::tuple(ToneMap::aces, 2.18, 0.046630859375), std::tuple(ToneMap::clamp, 0.84, 0.69921875),
+        std::tuple(ToneMap::clamp, 2.31, 0.35791015625)}) {
+    Settings settings = views.session.settings();
+    settings.view.toneMap = toneMap;
+    settings.view.exposure = exposure;
+    settings.view.clearColor = {color, color, color};
+    for (const int samples : {1, 4}) {
+      settings.view.samples = samples;
+      settings.view.scale = samples == 4 ? 0.5 : 1.0;
+      views.session.setSettings(settings);
+      const auto whole = views.draw(true);
+      EXPECT_EQ(views.draw(false), whole) << exposure;
+      EXPECT_TRUE(views.drewDisplay()) << "one texel everywhere";
+    }
+  }
+}
+
 // What is asked for after a view of nothing: the same picture again, beside another one, a target.
 TEST(Skipping, ViewsOfNothingAreShownAgain) {
   ViewsOfLittle views;
