@@ -245,7 +245,7 @@ void Demo::drawFrame(double seconds, double sinceLastMs) {
   const double cpuMs = milliseconds(end - start) - frame->waitedMs;
   const bool newPipelines = std::exchange(pipelines_, renderer_.pipelines().count()) != pipelines_;
   half.pace.drawn(frame->number, milliseconds(waits - last_) + cpuMs, frame->waitedMs,
-                  !timed && !newPipelines && !plan.mainReused() && !plan.tiles);
+                  !timed && !newPipelines && !plan.mainReused() && !plan.tiles && !plan.showsNothing());
   const uint64_t number = frame->number;
   endFrame(*frame);
   const bool compiledBefore = std::exchange(compiled_, newPipelines);

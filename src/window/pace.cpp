@@ -319,12 +319,11 @@ std::string Pace::meanText(int complete) const {
 
 void Pace::drawn(uint64_t number, double cpuMs, double waitedMs, bool learns) {
   cpuMs_ = cpuMs;
-  drawn_.push_back(
-      {.number = number,
-       .cpuMs = cpuMs,
-       .waitedMs = waitedMs,
-       .begun = begun_,
-       .work = learns && !fitted_.plan.refined && !fitted_.plan.showsNothing() ? std::optional(work_) : std::nullopt});
+  drawn_.push_back({.number = number,
+                    .cpuMs = cpuMs,
+                    .waitedMs = waitedMs,
+                    .begun = begun_,
+                    .work = learns && !fitted_.plan.refined ? std::optional(work_) : std::nullopt});
   if (drawn_.size() > mostDrawn) {
     drawn_.pop_front();
   }

@@ -39,6 +39,7 @@ bool readsCache(const TemporaryFolder& folder, std::string_view text) {
   [[maybe_unused]] static const bool written = [&] {
     writeExr(folder / "truth-a.exr", LinearImage(2, 2));
     writePng(folder / "truth-a-mirrors.png", Image8(2, 2));
+    writePng(folder / "truth-a-second.png", Image8(2, 2));
     return true;
   }();
   folder.write("truth-a.json", text);
