@@ -5,7 +5,6 @@
 #include <chrono>
 #include <cmath>
 
-#include "compare/flip.hpp"
 #include "image/color.hpp"
 #include "reference/ray_tracer.hpp"
 
@@ -93,10 +92,7 @@ ErrorFigures errorsAgainst(const GroundTruth& truth, const Image8& picture, cons
                            std::vector<glm::dvec3>* perceived) {
   const ComparedImage reference = comparedImage(toDisplay(truth.image, settings.view.displayCurve()), "the reference");
   const ComparedImage test = comparedImage(picture);
-  Comparison comparison = compareImages(reference, test, {.mask = &truth.mirrors});
-  if (perceived != nullptr) {
-    *perceived = perceivedErrors(reference, test);
-  }
+  Comparison comparison = compareImages(reference, test, {.mask = &truth.mirrors, .perceived = perceived});
   if (map != nullptr) {
     *map = std::move(comparison.flip);
   }

@@ -40,7 +40,7 @@ std::optional<GroundTruth> traceGroundTruth(const Scene& scene, const SceneState
                                             const FractionCallback& progress);
 
 // Compares a display picture with the truth under the same exposure and tone curve; `map` receives the FLIP map,
-// `perceived` the perceivedErrors().
+// `perceived` what flipMap() perceives.
 ErrorFigures errorsAgainst(const GroundTruth& truth, const Image8& picture, const Settings& settings,
                            Plane2d* map = nullptr, std::vector<glm::dvec3>* perceived = nullptr);
 

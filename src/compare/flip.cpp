@@ -187,7 +187,7 @@ Features featuresOf(Plane2d luminance) {
 
 }  // namespace
 
-Plane2d flipMap(const ComparedImage& reference, const ComparedImage& test) {
+Plane2d flipMap(const ComparedImage& reference, const ComparedImage& test, std::vector<glm::dvec3>* perceived) {
   requireSameSize(reference, test);
   const Channels referenceChannels = opponentChannels(reference);
   const Channels testChannels = opponentChannels(test);
@@ -196,21 +196,20 @@ Plane2d flipMap(const ComparedImage& reference, const ComparedImage& test) {
   const Features a = featuresOf(referenceChannels[0]);
   const Features b = featuresOf(testChannels[0]);
   Plane2d error(reference.width, reference.height);
+  if (perceived != nullptr) {
+    perceived->resize(error.values.size());
+  }
   forEachPixel(error.width, error.height, [&](size_t i) {
     const double edge = std::abs(a.edges.values[i] - b.edges.values[i]);
     const double point = std::abs(a.points.values[i] - b.points.values[i]);
     const double feature = std::pow(std::max(edge, point) / std::numbers::sqrt2, featureExponent);
-    error.values[i] = std::pow(colorError(referenceColors[i] - testColors[i]), 1.0 - std::min(feature, 1.0));
+    const glm::dvec3 difference = testColors[i] - referenceColors[i];
+    error.values[i] = std::pow(colorError(difference), 1.0 - std::min(feature, 1.0));
+    if (perceived != nullptr) {
+      (*perceived)[i] = difference;
+    }
   });
   return error;
-}
-
-std::vector<glm::dvec3> perceivedErrors(const ComparedImage& reference, const ComparedImage& test) {
-  requireSameSize(reference, test);
-  const std::vector<glm::dvec3> right = perceivedColors(opponentChannels(reference));
-  std::vector<glm::dvec3> errors = perceivedColors(opponentChannels(test));
-  std::ranges::transform(errors, right, errors.begin(), std::minus());
-  return errors;
 }
 
 double flickerOf(std::span<const glm::dvec3> before, std::span<const glm::dvec3> now) {

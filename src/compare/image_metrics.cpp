@@ -137,7 +137,7 @@ Comparison compareImages(const ComparedImage& reference, const ComparedImage& te
     throw std::runtime_error(fmt::format("the mask is {}x{}, but {} is {}x{} (both must have the same size)",
                                          mask->width, mask->height, reference.name, reference.width, reference.height));
   }
-  Maps maps{flipMap(reference, test), ssimMap(reference, test)};
+  Maps maps{flipMap(reference, test, options.perceived), ssimMap(reference, test)};
   const size_t count = reference.display.size();
   Comparison result;
   result.whole = metricsOf(reference, test, maps, selectedPixels(count, nullptr), options.tolerance);

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "compare/compared_image.hpp"
 #include "compare/plane.hpp"
@@ -34,8 +35,9 @@ struct Comparison {
 };
 
 struct CompareOptions {
-  double tolerance = 2.0;           // 1/255
-  const PixelMask* mask = nullptr;  // for Comparison::masked; maps always cover the whole picture
+  double tolerance = 2.0;                        // 1/255
+  const PixelMask* mask = nullptr;               // for Comparison::masked; maps always cover the whole picture
+  std::vector<glm::dvec3>* perceived = nullptr;  // as for flipMap()
 };
 
 // Compares two pictures. Throws std::runtime_error when sizes differ or a picture has no pixels.
