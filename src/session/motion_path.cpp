@@ -55,22 +55,21 @@ std::vector<TimedView> readViews(const std::filesystem::path& file, const Camera
   return views;
 }
 
-// Returns the camera at a time, straight between two views; before the first and after the last it stands still.
-CameraSpec cameraAt(const std::vector<TimedView>& views, double time) {
+// Returns the view at a time, straight between two views; before the first and after the last it stands still. Its line
+// is that of the view before.
+TimedView viewAt(const std::vector<TimedView>& views, double time) {
   const auto next = std::ranges::upper_bound(views, time, {}, &TimedView::time);
   if (next == views.begin() || next == views.end()) {
-    return next == views.begin() ? views.front().camera : views.back().camera;
+    return next == views.begin() ? views.front() : views.back();
   }
-  const TimedView& before = *(next - 1);
-  const double share = (time - before.time) / (next->time - before.time);
-  const CameraSpec& a = before.camera;
-  const CameraSpec& b = next->camera;
-  CameraSpec camera = a;
-  camera.position = glm::mix(a.position, b.position, share);
-  camera.target = glm::mix(a.target, b.target, share);
-  camera.up = glm::mix(a.up, b.up, share);
-  camera.verticalFov = glm::mix(a.verticalFov, b.verticalFov, share);
-  return camera;
+  TimedView view = *(next - 1);
+  const double share = (time - view.time) / (next->time - view.time);
+  CameraSpec& camera = view.camera;
+  camera.position = glm::mix(camera.position, next->camera.position, share);
+  camera.target = glm::mix(camera.target, next->camera.target, share);
+  camera.up = glm::mix(camera.up, next->camera.up, share);
+  camera.verticalFov = glm::mix(camera.verticalFov, next->camera.verticalFov, share);
+  return view;
 }
 
 }  // namespace
@@ -100,10 +99,9 @@ MotionPath motionPath(const Options& options, const Scene& scene) {
   const std::vector<TimedView> views = readViews(options.motion, usual);
   for (int frame = 0; frame < path.frames; ++frame) {
     const double time = frame / path.fps;
-    const CameraSpec camera = cameraAt(views, time);
-    const auto before = std::ranges::upper_bound(views, time, {}, &TimedView::time);
-    requireCamera(camera, options.motion, before == views.begin() ? views.front().line : (before - 1)->line,
-                  fmt::format("after {} s, between two views, ", time));
+    const TimedView view = viewAt(views, time);
+    const CameraSpec& camera = view.camera;
+    requireCamera(camera, options.motion, view.line, fmt::format("after {} s, between two views, ", time));
     path.cameras.push_back(lookAt(camera.position, camera.target, camera.up, camera.verticalFov, camera.near));
   }
   return path;
