@@ -124,8 +124,8 @@ void passRow(PanelContext& ui, const TreeNode& node) {
     ui.output.hoveredPath = pass.path;
   }
   recordWidget(ui, "pass." + pass.name);
-  tip(pass.name + (hasTarget(pass) ? "\nA click shows what it drew" : "") +
-      (hasTarget(pass) ? pass.path.empty() ? "." : ", and selects the mirror." : ""));
+  const char* selects = pass.path.empty() ? "" : ", and selects the mirror";
+  tip(pass.name + (hasTarget(pass) ? fmt::format("\nA click shows what it drew{}.", selects) : ""));
   if (hasTarget(pass) && ImGui::IsItemClicked() && !ImGui::IsItemToggledOpen()) {
     target = shown ? std::nullopt : std::optional(pass.path);
     ui.state.choices.targets = !shown;
