@@ -36,7 +36,7 @@ void printFront(const SweepResults& results) {
   };
   printLine(fmt::format("{:<44} {:>10} {:>10} {:>10}{}", results.motion ? "cheapest first" : "on the front", "GPU ms",
                         "mean FLIP", "RMSE", results.motion ? "    flicker" : ""));
-  // Of a movement all are listed, because error and flicker have fronts of their own.
+  // A movement has two fronts, of error and of flicker. The list has all of its points, not those of one front.
   for (const int index : results.motion ? indicesByCost(results.points) : paretoFront(results.points)) {
     const SweepPoint& point = results.points[index];
     printLine(fmt::format("{:<44} {:>10.3f} {:>10.5f} {:>10.5f}{}", point.name, costMs(point), point.whole.flip,

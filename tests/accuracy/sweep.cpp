@@ -462,7 +462,7 @@ TEST_F(SmallMotion, ResultsSurviveTheirFile) {
   EXPECT_TRUE(contains(sweepCsv(results), ",flicker\r\n"));
 }
 
-TEST(SweepPlans, MotionVariesWhatAWindowTradesForItsPace) {
+TEST(SweepPlans, MotionVariesWhatPaceTrades) {
   SweepContext context = contextOf(true, true);
   EXPECT_THROW(SweepPlanner("own", context).add({{"quality.motion_ms", "5"}}), std::invalid_argument);
   EXPECT_THROW(sweepPlan("motion", context), InputError) << "a file's name without --motion";
