@@ -97,7 +97,7 @@ Options parse(int argc, const char* const* argv, const std::string& name) {
   app.add_option("--render-path", path, "auto | dynamic | renderpass")
       ->check(CLI::IsMember({"auto", "dynamic", "renderpass"}));
   app.add_flag("--validation", options.validation, "validation layer with synchronisation validation");
-  app.add_flag("--naive", options.naive, "draws the mirror as most samples do, and compares");
+  app.add_flag("--naive", options.naive, "draws the mirror as most demos do, and compares");
   app.parse(argc, argv);
   if (!options.out.empty() && options.out.extension() != ".png") {
     throw std::runtime_error("--out: '" + options.out.string() + "' must end in .png (the picture is a PNG)");

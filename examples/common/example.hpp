@@ -20,7 +20,7 @@ struct Options {
   VkExtent2D size{1280, 720};  // pixels
   std::optional<double> time;  // seconds; without it a window plays, and a picture shows the beginning
   std::optional<int> frames;   // without it a window stays open, and a picture takes one
-  bool naive = false;          // draws the mirror as most samples do
+  bool naive = false;          // draws the mirror as most demos do
   bool shaderObjects = false;  // in the place of pipelines
   RenderPath renderPath = RenderPath::automatic;
   bool validation = false;

@@ -23,6 +23,7 @@ class ViewSets {
 
   VkDescriptorSetLayout layout() const { return layout_; }
 
+  // Copies `view` into a buffer of the frame, and returns a set of that buffer and `image`.
   VkDescriptorSet write(Frame& frame, const View& view, const OffScreen* image = nullptr) {
     used_ = frame.number == number_ ? used_ + 1 : 0;
     number_ = frame.number;

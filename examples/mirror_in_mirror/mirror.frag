@@ -12,7 +12,7 @@ layout(push_constant) uniform Mirror {
 
 layout(location = 0) in vec2 uv;
 
-// Most samples stretch a picture over the mirror, flip it, and blur it a little.
+// Most demos stretch a picture over the mirror, flip it, and blur it a little.
 vec3 stretched() {
   vec3 sum = vec3(0.0);
   for (int i = 0; i < 9; ++i) {
@@ -22,9 +22,9 @@ vec3 stretched() {
   return sum / 9.0;
 }
 
-// Both views share one projection: what the reflected eye sees at this pixel is what the mirror shows at this pixel.
+// A point of the mirror has the same pixel in both views, so the texel there is what the mirror shows at this point.
 void main() {
-  // An image of one pixel stands for the background, wherever it is seen.
+  // An image of one pixel is the background: every fragment fetches that pixel.
   ivec2 texel = min(ivec2(gl_FragCoord.xy), textureSize(image, 0) - 1);
   vec3 reflected = mirror.naive != 0 ? stretched() : texelFetch(image, texel, 0).rgb;
   show(mirror.reflectance.rgb * reflected);

@@ -25,7 +25,7 @@ struct View {
 struct Object {
   glm::mat4 worldFromModel{1.0f};
   glm::vec4 diffuse{1.0f};
-  glm::vec4 specular{0.04f, 0.04f, 0.04f, 60.0f};
+  glm::vec4 specular{0.04f, 0.04f, 0.04f, 60.0f};  // and the shininess
 };
 
 struct Mirror {
@@ -75,19 +75,19 @@ View viewFrom(const glm::vec3& offset, double time, float aspect, float turn) {
           .ambient = glm::vec4(0.07f, 0.07f, 0.09f, 0.0f)};
 }
 
-// The mirror shows what an eye behind it sees, which is the eye's own reflection. Reflecting the eye is the same as
-// reflecting the world: first reflect, then go on as before, with the same projection.
+// Makes the view of the reflected eye, which is what the mirror shows. It is the world that is reflected, because that
+// gives the same picture: first reflect, then go on as before, with the same camera.
 View reflectedView(const View& seen, const Place& mirror) {
   const glm::mat4 reflect = reflection(mirror.center, mirror.normal);
   View view = seen;
   view.clipFromWorld = seen.clipFromWorld * reflect;
   view.eye = reflect * seen.eye;
-  // Between that eye and the mirror stands what is behind the mirror, which must not hide what is before it.
+  // Between that eye and the mirror stands what is behind the mirror, which must not hide what is in front of it.
   view.clipPlane = glm::vec4(mirror.normal, -glm::dot(mirror.normal, mirror.center));
   return view;
 }
 
-// The core: GPU, frames in flight with the SwapChain, and what is drawn into.
+// The GPU, the frames in flight with their SwapChain, and the images that passes draw into.
 struct Core {
   const Options& options;
   std::unique_ptr<Window> window;
@@ -163,7 +163,7 @@ class PointLightSystem {
   ShaderPair shaders_;
 };
 
-// Draws a mirror, which looks up an OffScreen.
+// Draws a mirror, which fetches its pixels from the OffScreen in the set `view`.
 class MirrorSystem {
  public:
   MirrorSystem(Core& core, VkDescriptorSetLayout views)

@@ -12,7 +12,7 @@ layout(push_constant) uniform Mirror {
 
 layout(location = 0) in vec2 uv;
 
-// Most samples stretch a picture over the mirror, flip it, and blur it a little.
+// Most demos stretch a picture over the mirror, flip it, and blur it a little.
 vec3 stretched() {
   vec3 sum = vec3(0.0);
   for (int i = 0; i < 9; ++i) {
@@ -22,7 +22,7 @@ vec3 stretched() {
   return sum / 9.0;
 }
 
-// Both views share one projection: what the reflected eye sees at this pixel is what the mirror shows at this pixel.
+// A point of the mirror has the same pixel in both views, so the texel there is what the mirror shows at this point.
 void main() {
   vec3 reflected = mirror.naive != 0 ? stretched() : texelFetch(image, ivec2(gl_FragCoord.xy), 0).rgb;
   show(mirror.reflectance.rgb * reflected);

@@ -22,7 +22,7 @@ struct View {
 struct Object {
   glm::mat4 worldFromModel{1.0f};
   glm::vec4 diffuse{1.0f};
-  glm::vec4 specular{0.04f, 0.04f, 0.04f, 60.0f};
+  glm::vec4 specular{0.04f, 0.04f, 0.04f, 60.0f};  // and the shininess
 };
 
 constexpr glm::vec3 background{0.10f, 0.11f, 0.19f};
@@ -49,7 +49,7 @@ View viewFrom(const glm::vec3& offset, double time, float aspect, float turn) {
           .ambient = glm::vec4(0.07f, 0.07f, 0.09f, 0.0f)};
 }
 
-// The core: GPU, frames in flight with the SwapChain, and what is drawn into.
+// The GPU, the frames in flight with their SwapChain, and the images that passes draw into.
 struct Core {
   const Options& options;
   std::unique_ptr<Window> window;
