@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <deque>
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <set>
 #include <span>
@@ -28,9 +29,13 @@ double numberOf(const tinygltf::Value& value, double usual);
 // and pictures are read here, because the library
 // - looks for their files in the working folder too;
 // - refuses a file that is longer than its buffer, and most kinds of data URIs;
-// - decodes pictures that nothing uses.
+// - decodes pictures that nothing uses;
+// - refuses a file for one object that it cannot read, and for indices of a primitive that it cannot find.
 class GltfFile {
  public:
+  // Attribute of a primitive in model() that names the accessor of its indices. Primitive::indices is not set.
+  static constexpr const char* indicesName = "indices";
+
   struct Picture {
     std::filesystem::path name;                   // its file, or a name of its place in a file
     std::optional<std::vector<uint8_t>> content;  // if it is no file of its own
@@ -70,6 +75,8 @@ class GltfFile {
   };
 
   void readJson(std::string_view text, std::vector<Source>& buffers);
+  void prepareMeshes(nlohmann::json& root);
+  void leaveOutDamaged(nlohmann::json& root);
   void readBuffers(const std::vector<Source>& sources, std::string_view binary);
   std::optional<std::filesystem::path> find(const std::string& uri);
   std::optional<std::span<const uint8_t>> viewBytes(int view) const;

@@ -213,7 +213,9 @@ class GltfReader {
       add("meshes", "mesh {} has morph targets, they are left out", mesh);
     }
     const uint64_t count = content_.countOf(position->second);
-    const uint64_t corners = primitive.indices == -1 ? count : content_.countOf(primitive.indices);
+    const auto indexed = primitive.attributes.find(GltfFile::indicesName);
+    const bool hasIndices = indexed != primitive.attributes.end();
+    const uint64_t corners = hasIndices ? content_.countOf(indexed->second) : count;
     const uint64_t taken = count + (primitive.mode == TINYGLTF_MODE_TRIANGLES ? 1 : 3) * corners;
     if (std::max({count, corners, taken}) > cornersLeft_) {
       add("meshes", "mesh {} has, as often as it is drawn, too many vertices for a file of this size, it is left out",
@@ -222,8 +224,8 @@ class GltfReader {
     }
     cornersLeft_ -= taken;
     const auto positions = content_.numbers(position->second, 3);
-    const auto indices = primitive.indices == -1 ? std::nullopt : content_.numbers(primitive.indices, 1);
-    if (positions && (indices || primitive.indices == -1)) {
+    const auto indices = hasIndices ? content_.numbers(indexed->second, 1) : std::nullopt;
+    if (positions && (indices || !hasIndices)) {
       const FaceCorner first = addVertices(primitive, *positions, sceneFromNode);
       addTriangles(primitive, mesh, first, glm::determinant(glm::dmat3(sceneFromNode)) < 0.0, indices, count);
     }

@@ -210,6 +210,12 @@ class ObjMaterials::MtlReader {
     material.emission = {from.emission[0], from.emission[1], from.emission[2]};
     material.shininess = std::clamp<double>(from.shininess, leastShininess, mostShininess);
     material.opacity = std::clamp<double>(from.dissolve, 0.0, 1.0);
+    if (material.opacity == 0.0) {
+      // Exporters write Tr 1 for opaque, or d 0 beside a texture of opacity.
+      materials_.defects_.add(file_, entry_->line, "newmtl", "'{}' has no opacity at all, it is drawn as with d 1",
+                              name_);
+      material.opacity = 1.0;
+    }
     entry_->opacityTexture = from.alpha_texname;
     entry_->metal = from.metallic;
     entry_->roughness = std::exchange(hasRoughness_, false) ? from.roughness : roughnessOf(material.shininess);

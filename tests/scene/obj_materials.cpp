@@ -143,6 +143,14 @@ TEST_F(MtlFile, OpacityIsRead) {
   EXPECT_EQ(warnings(), "");
 }
 
+// Exporters write Tr 1, and d 0, for materials that are meant to be seen.
+TEST_F(MtlFile, MaterialsWithoutOpacityAreDrawnAsOpaque) {
+  for (const std::string line : {"d 0", "Tr 1", "Tr 1.000", "d -3", "d 0\nmap_Kd none.png"}) {
+    EXPECT_EQ(materialOf("newmtl m\n" + line + "\n").opacity, 1.0) << line;
+  }
+  EXPECT_TRUE(contains(warnings(), "m.mtl:1: newmtl: 'm' has no opacity at all, it is drawn as with d 1"));
+}
+
 TEST_F(MtlFile, TexturesGiveOpacity) {
   const auto write = [&](const char* name, const auto& color) {
     writePng(folder_.path() / name, testing_support::madePicture(4, 4, color));
