@@ -1,10 +1,9 @@
 // Converts linear radiance to display-referred sRGB, after the samples are averaged. DISPLAY_IMAGE is the image's type.
 // With DISPLAY_ENLARGED the image has fewer texels than the display has pixels.
 #include "gpu_data.h"
-#include "srgb.glsl"
+#include "encoding.glsl"
 #include "texels.glsl"
 
-layout(constant_id = constantAces) const bool aces = false;
 layout(constant_id = constantShrunk) const bool shrunk = false;  // a pixel covers more than one texel
 // The sampler enlarges the image. Only on CPUs, whose samplers have floats as weights.
 layout(constant_id = constantSampled) const bool sampled = false;
@@ -14,17 +13,6 @@ layout(set = 0, binding = 0) uniform DISPLAY_IMAGE radiance;
 layout(push_constant) uniform Constants { DisplayConstants display; };
 
 layout(location = 0) out vec4 color;
-
-// Narkowicz, "ACES Filmic Tone Mapping Curve" (2016).
-vec3 toneCurve(vec3 x) {
-  return min(aces ? x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14) : x, vec3(1.0));
-}
-
-// Rounds to steps of 8 bits, a tie up. Vulkan does not specify how devices round ties.
-vec3 rounded(vec3 x) {
-  precise vec3 steps = 255.0 * x;
-  return floor(steps + 0.5) * (1.0 / 255.0);
-}
 
 #ifdef DISPLAY_ENLARGED
 vec3 texelAt(ivec2 texel) {
@@ -68,6 +56,5 @@ vec3 radianceAt(vec2 position) {
 #endif
 
 void main() {
-  vec3 x = display.exposure * radianceAt(gl_FragCoord.xy * display.lookup.xy + display.lookup.zw);
-  color = vec4(rounded(srgbEncode(toneCurve(x))), 1.0);
+  color = displayColor(display.exposure * radianceAt(gl_FragCoord.xy * display.lookup.xy + display.lookup.zw));
 }

@@ -34,7 +34,7 @@ struct ViewData {
   vec3 background;
   uint hasSky;  // the background is a gradient of the next three colors
   vec4 zenith;  // w: twice the mean share that the device takes away from sums when it rounds them down; else 0
-  vec4 horizon;
+  vec4 horizon;  // w: exposure of the picture, times radiance as it is stored
   vec3 ground;
   uint inMap;  // 1: the view is a face of an environment map
   vec3 traceOffset;     // added to a relative point gives one in trace space
@@ -215,7 +215,7 @@ const uint constantRough = 17;
 const uint constantRepeating = 18;
 const uint constantShadows = 19;
 const uint constantCastsLight = 20;
-const uint constantAces = 21;
+const uint constantEncoding = 21;
 const uint constantShrunk = 22;
 const uint constantSampled = 23;
 const uint constantVertexColors = 24;
@@ -229,7 +229,7 @@ const uint constantLightGroups = 29;
 const uint shadowEdge = 0xffffffffu;
 
 // Values of specialisation constants: texture of an object, number of lights, content of a mirror and lookup of its
-// image.
+// image, and what a pass draws: linear radiance, or colors of the display with a tone curve.
 const uint textureNone = 0;
 const uint textureBilinear = 1;  // of the first level, exact
 const uint textureTrilinear = 2;
@@ -243,6 +243,9 @@ const uint showsBack = 2;
 const uint lookupFetch = 0;
 const uint lookupBilinear = 1;
 const uint lookupBox = 2;
+const uint encodingNone = 0;
+const uint encodingClamp = 1;
+const uint encodingAces = 2;
 
 // A hierarchy's nodes are stored depth first, in one copy for each octant of ray directions, the nearer child first. A
 // ray that meets a node's box goes on to the next node; a ray that misses the box goes to `link`, the node after the

@@ -1,5 +1,6 @@
 // Radiance of a surface and of the background, as docs/picture.md defines them. Needs interface.glsl.
 #extension GL_EXT_control_flow_attributes : require
+#include "encoding.glsl"
 #include "half_float.glsl"
 
 // The value of view.lightCount, if it is at most fixedLights.
@@ -235,10 +236,13 @@ vec4 keepingNan(vec4 stored, vec3 radiance, float disparity) {
 
 // Returns the value as a target stores it, whatever the device rounds to: the nearest half float. In the later pictures
 // of a mean, radiance is moved by up to half a step before, because rounding that all pictures shared would stay in the
-// mean. `pixel` is the position in the target.
+// mean. `pixel` is the position in the target. A pass that draws colors of the display encodes what would be stored, so
+// that it shows what the display pass would.
 vec4 storable(vec3 radiance, float disparity, vec2 pixel) {
   float part = view.rayOrigin.w * storeNoise(pixel, view.rayY.w);
-  return keepingNan(nearestHalf(inHalfRange(radiance, disparity), vec4(part, part, part, 0.0)), radiance, disparity);
+  vec4 stored = nearestHalf(inHalfRange(radiance, disparity), vec4(part, part, part, 0.0));
+  stored = keepingNan(stored, radiance, disparity);
+  return encoding == encodingNone ? stored : displayColor(view.horizon.w * stored.rgb);
 }
 
 // Factor on the base and on the reflection of a mirror that the device adds in the target. 1, unless the device rounds

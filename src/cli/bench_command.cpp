@@ -164,6 +164,7 @@ int runBench(const Options& options) {
   }
   const int measured = options.frames > 0 ? options.frames : 60;
   Session session(options);
+  session.showOnly();
   if (std::ranges::count(std::views::keys(options.settings), "reflection.skip_unchanged") == 0) {
     // All frames have the same time, so with reuse only the first would render mirror images.
     Settings settings = session.settings();

@@ -105,6 +105,7 @@ Image8 CaseDrawer::draw(const RegressCase& subject, Outcome& outcome) {
   if (!session_ || session_->scene().file != subject.scene || session_->size() != subject.size) {
     session_.reset();
     session_ = std::make_unique<Session>(options, &*device_);
+    session_->showOnly();
   } else if (options.strict) {
     requireNoDefects(session_->scene());
   }

@@ -28,6 +28,9 @@ int runRender(const Options& options) {
   const int count = std::max(1, options.frames);
   const PictureSequence files(options.out, options.frames > 0 ? count : 0);
   Session session(options);
+  if (options.out.extension() != ".exr") {
+    session.showOnly();
+  }
   session.renderer().setTimerDetail(options.render.stats.empty() ? TimerDetail::frame : TimerDetail::samples);
   installInterruptHandler();
   const int pictures = session.settings().view.accumulate;

@@ -57,7 +57,7 @@ void OffScreen::resize(VkExtent2D extent, RetireQueue& retired) {
   if (desc_.shared) {
     desc_.shared->require(extent, retired);
   }
-  if (!sameExtent(extent, desc_.extent) || !color_) {
+  if (!sameExtent(extent, desc_.extent) || (!color_ && desc_.color)) {
     desc_.extent = extent;
     retire(retired);
     create(retired);
@@ -72,9 +72,11 @@ void OffScreen::retire(RetireQueue& retired) {
 }
 
 void OffScreen::create(RetireQueue& retired) {
-  sampler_ = createSampler(*device_, {.maxLod = 0.0f}, desc_.name);
-  color_ = makeColor(*device_, desc_, Use::output);
-  if (color_.samples() != desc_.samples) {
+  if (desc_.color) {
+    sampler_ = createSampler(*device_, {.maxLod = 0.0f}, desc_.name);
+    color_ = makeColor(*device_, desc_, Use::output);
+  }
+  if (desc_.color && color_.samples() != desc_.samples) {
     samples_ = makeColor(*device_, desc_, Use::resolved);
   }
   if (desc_.shared) {

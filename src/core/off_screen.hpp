@@ -39,6 +39,7 @@ struct OffScreenDesc {
   VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
   bool multisampledOutput = false;  // the output keeps all samples; else it is resolved to one
   bool readSamples = false;         // shaders can read the resolved samples too, if the pass stores them
+  bool color = true;                // else the color images are empty, and there is no descriptor
   bool depth = true;
   TargetRole role = TargetRole::offscreen;
   SharedDepth* shared = nullptr;  // outlives the target; its sample count replaces `samples`

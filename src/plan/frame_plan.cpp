@@ -25,7 +25,8 @@ class Planner {
         state_(request.state),
         allSettings_(request.settings),
         settings_(request.settings.reflection),
-        cache_(request.cache) {
+        cache_(request.cache),
+        shownOnly_(request.shownOnly) {
     const CameraPose& camera = state_.camera;
     plan_.width = request.size.x;
     plan_.height = request.size.y;
@@ -56,9 +57,10 @@ class Planner {
     dropSkipsInReused();
     if (meanIsComplete()) {
       std::ranges::for_each(plan_.passes, [](Pass& pass) { pass.source = PassSource::reused; });
-    } else if (changes_ && !allSettings_.view.continuous) {
-      reuseMain(plan_, cache_.main, surroundings());
+      return std::move(plan_);
     }
+    const bool stays = changes_ && !allSettings_.view.continuous && reuseMain(plan_, cache_.main, surroundings());
+    plan_.encodes = shownOnly_ && !stays && canEncode();
     return std::move(plan_);
   }
 
@@ -75,6 +77,11 @@ class Planner {
   void append(int node, PassSource source);
   void reuseImage(MirrorDraw& draw, const MirrorNode& node);
   void dropSkipsInReused();
+  bool canEncode() const {
+    const DebugSettings& debug = allSettings_.debug;
+    const bool drawsAny = !plan_.showsNothing() || scene_.environment.cleared(allSettings_.view.clearColor).sky;
+    return mayEncode(allSettings_.view) && debug.encodeEarly && !debug.checkFinite && !plan_.effects.any() && drawsAny;
+  }
   bool meanIsComplete() const {
     return allSettings_.view.accumulate > 1 && plan_.picture >= allSettings_.view.accumulate;
   }
@@ -84,6 +91,7 @@ class Planner {
   const Settings& allSettings_;
   const ReflectionSettings& settings_;
   const FrameCache& cache_;
+  const bool shownOnly_;
   const SceneChanges* changes_ = nullptr;  // null without reflection.skip_unchanged
   FramePlan plan_;
   glm::ivec2 size_{0};  // texels of the main view
@@ -252,6 +260,10 @@ std::string_view skipReasonName(SkipReason reason) {
       "behind",         "backface",  "outside",    "hidden",    "min_pixels",
       "min_throughput", "max_depth", "max_passes", "unchanged", "rays"};
   return names[static_cast<size_t>(reason)];
+}
+
+bool mayEncode(const ViewSettings& view) {
+  return view.samples == 1 && view.scale == 1.0 && view.accumulate == 1;
 }
 
 std::span<const Pass> FramePlan::drawnMirrors() const {

@@ -162,6 +162,7 @@ struct SkippedMirror {
 struct MainImage {
   Settings settings;
   RecycledVector<uint64_t> content;  // FramePlan::mainContent
+  bool encoded = false;              // FramePlan::encodes: the same view is drawn once more before it can be reused
 };
 
 // Images of the frame before that this frame may reuse.
@@ -183,6 +184,9 @@ struct FrameRequest {
   glm::ivec2 size{0};  // of the picture, pixels
   FrameCache cache;    // images of the frame before
   int picture = 0;     // index in the mean of view.accumulate pictures
+  // Only the display shows the main view, alone, in pixels of its own: no other half or cover, no target of the main
+  // view, and nothing reads its radiance later.
+  bool shownOnly = false;
 };
 
 // The plan of a frame: one list of passes. Passes that draw are recorded in the order of the list: faces of shadow
@@ -205,6 +209,9 @@ struct FramePlan {
   // Tiles that this frame draws if several frames draw one picture (picture_tiles.hpp); none: the frame draws all
   // tiles.
   std::optional<TileRange> tiles;
+  // The main view is drawn into the display image, in colors of the display. It has no target of radiance, and the
+  // display pass is left out.
+  bool encodes = false;
   // Tiles of the main view in which this picture of a mean is drawn. Elsewhere it has no meaning: nothing is drawn
   // there, in mirror images neither. Null: all.
   std::shared_ptr<const RefinedTiles> refined;
@@ -228,6 +235,9 @@ struct FramePlan {
 
 // Returns the cubes of one kind, which stand side by side in `cubes`.
 std::span<const Cube> cubesOf(std::span<const Cube> cubes, PassKind kind);
+
+// Says whether a main view with these settings has one sample for each pixel of the display.
+bool mayEncode(const ViewSettings& view);
 
 // Visits the passes whose drawing reaches the eye: all but those of shadow maps.
 template <typename Visit>
@@ -259,6 +269,10 @@ const Pass* mirrorPass(const FramePlan& plan, std::span<const int> path);
 // Shadow and environment maps in `cache.cubes` are reused by reflection.skip_unchanged and effects.environment_interval
 // (cube_reuse.hpp). With reflection.skip_unchanged and without view.continuous, the main view in `cache.main` is reused
 // if it would be drawn exactly the same.
+//
+// A main view that is shown only is encoded early if it has one sample for each pixel of the display, none of its
+// surfaces are shaded after the pass, and the last frame did not draw the same. So a picture that stays is drawn twice
+// and then reused.
 //
 // A picture of a mean is planned at its pictureOffset(); the request's settings are pictureSettings() then. If it is
 // the next one of `cache.accumulated`, it is drawn in the tiles `cache.refined` only. If `picture` is view.accumulate

@@ -99,18 +99,19 @@ void reuseIfUnchanged(CachedImage& image, std::span<const CachedImage> images, c
   }
 }
 
-void reuseMain(FramePlan& plan, const MainImage* before, const ImageSurroundings& around) {
+bool reuseMain(FramePlan& plan, const MainImage* before, const ImageSurroundings& around) {
   const bool renders =
       std::ranges::any_of(plan.passes, [&](const Pass& pass) { return pass.drawn() && &pass != &plan.main(); });
   const bool reprojects = std::ranges::any_of(plan.main().mirrors,
                                               [](const MirrorDraw& draw) { return draw.cached && draw.cached->moved; });
   if (renders || reprojects) {
-    return;
+    return false;
   }
   const Pass* main = &plan.main();
   plan.mainContent = imageContent(around, main->view, {&main, 1});
   const bool same = before && before->content == plan.mainContent && sameMainView(before->settings, around.settings);
-  plan.main().source = same ? PassSource::reused : PassSource::drawn;
+  plan.main().source = same && !before->encoded ? PassSource::reused : PassSource::drawn;
+  return same;
 }
 
 RecycledVector<uint64_t> imageContent(const ImageSurroundings& around, const View& main,

@@ -65,9 +65,9 @@ RecycledVector<uint64_t> shadowContent(const ImageSurroundings& around, int pict
 void reuseIfUnchanged(CachedImage& image, std::span<const CachedImage> images, const ImageSurroundings& around,
                       const View& main, std::span<const Pass* const> passes);
 
-// Reuses the main view `before` of the last frame (null: none) if the plan, whose passes must be complete, would draw
-// the same main view with the same images.
-void reuseMain(FramePlan& plan, const MainImage* before, const ImageSurroundings& around);
+// Says whether the plan, whose passes must be complete, would draw the same main view with the same images as `before`,
+// that of the last frame (null: none). If so, reuses it, unless it was encoded.
+bool reuseMain(FramePlan& plan, const MainImage* before, const ImageSurroundings& around);
 
 // Says whether settings draw the same image bit for bit. debug.* counts too, which sameMirrorImages leaves out.
 bool sameDrawing(const Settings& a, const Settings& b);

@@ -95,7 +95,8 @@ uint64_t bytesWith(const FramePlan& plan, const Settings& settings, const Sample
 uint64_t mainBytes(const FramePlan& plan, int sampleCount) {
   const auto samples = static_cast<uint64_t>(sampleCount);
   const uint64_t multisampled = samples > 1 ? samples * colorBytes : 0;
-  return pixels(plan.main().view.rect) * (colorBytes + multisampled + samples * depthBytes);
+  const uint64_t output = plan.encodes ? 0 : colorBytes;
+  return pixels(plan.main().view.rect) * (output + multisampled + samples * depthBytes);
 }
 
 uint64_t environmentBytes(const FramePlan& plan) {

@@ -77,7 +77,7 @@ void addRays(FrameWork& work, const Pass& pass, double texels, int samples, cons
 }  // namespace
 
 FrameWork workOf(const FramePlan& plan, const Scene& scene, const SceneState& state, const Settings& settings) {
-  FrameWork work{.plainTexels = static_cast<double>(plan.width) * plan.height,
+  FrameWork work{.displayTexels = plan.encodes ? 0.0 : static_cast<double>(plan.width) * plan.height,
                  .mainTexels = static_cast<double>(plan.main().view.rect.area()),
                  .viewSamples = settings.view.samples,
                  .interval = mostAsked(scene, settings).updateInterval,
@@ -91,7 +91,7 @@ FrameWork workOf(const FramePlan& plan, const Scene& scene, const SceneState& st
     ++work.passes;
     work.triangles += trianglesOf(pass, scene, state);
     if (kind == PassKind::shadow) {
-      work.plainTexels += static_cast<double>(pass.view.rect.area());
+      work.shadowTexels += static_cast<double>(pass.view.rect.area());
       continue;
     }
     const double texels = kind == PassKind::main ? work.mainTexels : pass.areaPx;
@@ -112,6 +112,9 @@ FrameWork workOf(const FramePlan& plan, const Scene& scene, const SceneState& st
 FrameWork scaledWork(FrameWork work, const Settings& from, const Settings& to) {
   const auto squared = [](double ratio) { return ratio * ratio; };
   const double view = to.view.scale / from.view.scale;
+  if (work.displayTexels == 0.0 && mayEncode(from.view) && !mayEncode(to.view)) {
+    work.displayTexels = work.mainTexels;
+  }
   work.mainTexels *= squared(view);
   work.mirrorTexels *= squared(view * to.reflection.scale / from.reflection.scale);
   const double kept = std::min(work.mirrorPasses, static_cast<double>(to.reflection.maxPasses));
@@ -159,9 +162,12 @@ CostModel::CostModel(bool cpuDevice) : typicalPrices_(cpuDevice ? cpuPrices : gp
 
 CostModel::Vector CostModel::typicalMs(const FrameWork& work) const {
   const double further = work.mainTexels * (work.viewSamples - 1) + work.mirrorTexels * (work.mirrorSamples - 1);
-  Vector ms{work.plainTexels, work.passes,
-            work.triangles,   work.mainTexels + work.mirrorTexels + work.mapTexels,
-            further,          work.lightRays + work.rippleRays + work.smoothRays + work.curvedRays + work.roughRays};
+  Vector ms{work.displayTexels + work.shadowTexels,
+            work.passes,
+            work.triangles,
+            work.mainTexels + work.mirrorTexels + work.mapTexels,
+            further,
+            work.lightRays + work.rippleRays + work.smoothRays + work.curvedRays + work.roughRays};
   std::ranges::transform(ms, typicalPrices_, ms.begin(), std::multiplies());
   return ms;
 }

@@ -8,9 +8,10 @@ namespace speculum {
 
 // Amounts of work in a frame, computed from its plan before it is drawn.
 struct FrameWork {
-  double plainTexels = 0.0;   // written without lighting: by the display pass and in shadow maps
-  double passes = 0.0;        // all
-  double mirrorPasses = 0.0;  // of mirrors
+  double displayTexels = 0.0;  // written by the display pass; 0: there is none
+  double shadowTexels = 0.0;   // written in shadow maps
+  double passes = 0.0;         // all
+  double mirrorPasses = 0.0;   // of mirrors
   double triangles = 0.0;
   double mainTexels = 0.0;
   double mirrorTexels = 0.0;

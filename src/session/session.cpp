@@ -192,7 +192,8 @@ void Session::drawPicture(bool capture) {
                            .settings = loaded_.settings,
                            .size = {size_.width, size_.height},
                            .cache = cache,
-                           .picture = frame_.pictures};
+                           .picture = frame_.pictures,
+                           .shownOnly = shownOnly_};
   FittedPlan fitted = planning_ ? planning_(asked, planner_) : planner_.plan(asked);
   frame_.planMs += millisecondsSince(recording) - frame.waitedMs;
   const bool last = frame_.pictures + 1 >= all;

@@ -83,6 +83,8 @@ class Session {
   // Draws the scene at `time` (seconds). picture() needs `capture`. Calls `afterPicture` after each picture of a mean;
   // the mean ends early when it returns false. Throws std::runtime_error if a shader of --shader-dir does not compile.
   const DrawnFrame& draw(double time, bool capture, const std::function<bool()>& afterPicture = {});
+  // Says that radiance() is not called, from the next frame on.
+  void showOnly() { shownOnly_ = true; }
   // Drops all cached images: the next frame renders everything.
   void restart() { sceneRenderer_.restart(); }
   void resize(PictureSize size);  // from the next frame on
@@ -121,6 +123,7 @@ class Session {
   SceneRenderer sceneRenderer_;
   FramePlanner planner_;
   Planning planning_;
+  bool shownOnly_ = false;
   DrawnFrame frame_;
   std::deque<uint64_t> unfinished_;  // the renderer's frames whose figures are not in frame_ yet
   std::chrono::steady_clock::time_point start_;

@@ -13,7 +13,7 @@ namespace speculum {
 class SessionSubject : public SweepSubject {
  public:
   // Keeps a reference to the session.
-  SessionSubject(Session& session, MotionPath path) : session_(session), path_(std::move(path)) {}
+  SessionSubject(Session& session, MotionPath path) : session_(session), path_(std::move(path)) { session_.showOnly(); }
   SessionSubject(Session& session, double time) : SessionSubject(session, MotionPath{.start = time}) {}
 
   // With an update interval, frames of a still picture are 1/30 s apart, and the last one is at the sweep's time.

@@ -290,6 +290,9 @@ constexpr SettingField fields[] = {
             "surfaces pass over groups of lights that lie below their plane", "Saves shading.", {.changes = mainView}),
     setting("debug.mask_passes", BooleanSetting{at<&D::maskPasses>}, "Mask passes",
             "only visible regions of mirror images are shaded", "Saves shading.", {.changes = mainView}),
+    setting("debug.encode_early", BooleanSetting{at<&D::encodeEarly>}, "Encode early",
+            "the main view is drawn into the display image if it has its pixels, one sample each, and no other reader",
+            "Saves the display pass.", {.changes = mainView}),
 
     setting("ui.scale", NumberSetting{at<&U::scale>, 0.5, 4.0}, "Size of panels",
             "size of the window's panels and texts, beside the monitor's own and Window > Text size", "Costs nothing.",

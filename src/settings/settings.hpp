@@ -123,6 +123,7 @@ struct DebugSettings {
   bool cullClusters = true;  // draws only what a view may see of an object: clusters in it, and fronts of solids
   bool skipLights = true;    // passes over groups of lights that lie below a surface
   bool maskPasses = true;    // shades only the texels of a mirror image that are looked up
+  bool encodeEarly = true;   // draws the main view into the display image if nothing else reads it
 
   bool operator==(const DebugSettings&) const = default;
 };

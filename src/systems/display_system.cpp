@@ -39,19 +39,9 @@ std::optional<Placement> placementOf(const VkExtent2D& display, const glm::dvec2
                    glm::vec4(glm::dvec4(1.0 / zoom, 1.0 / zoom, -corner / zoom))};
 }
 
-// Returns what the display shows of a picture of one color; nothing for other pictures, and where a channel is so close
-// to a tie that the shader's rounding may differ.
+// Returns what the display shows of a picture of one color that a shader need not draw; nothing for other pictures.
 std::optional<VkClearColorValue> flatColor(const DisplayedPicture& picture) {
-  constexpr double closest = 1.0 / 256.0;  // steps; the shader's curve is off by less than 1/4000
-  VkClearColorValue color{.float32 = {0.0f, 0.0f, 0.0f, 1.0f}};
-  for (int channel = 0; picture.flat && channel < 3; ++channel) {
-    const double steps = 255.0 * displayValue((*picture.flat)[channel], picture.curve) + 0.5;
-    if (std::abs(steps - std::round(steps)) < closest) {
-      return std::nullopt;
-    }
-    color.float32[channel] = static_cast<float>(std::floor(steps)) / 255.0f;
-  }
-  return picture.flat ? std::optional(color) : std::nullopt;
+  return picture.flat ? displayColor(*picture.flat, picture.curve) : std::nullopt;
 }
 
 PassDesc viewPass(const PassTargets& targets, const VkRect2D& area) {
@@ -63,6 +53,19 @@ PassDesc viewPass(const PassTargets& targets, const VkRect2D& area) {
 }
 
 }  // namespace
+
+std::optional<VkClearColorValue> displayColor(const glm::vec3& radiance, const DisplayCurve& curve) {
+  constexpr double closest = 1.0 / 256.0;  // steps; the shader's curve is off by less than 1/4000
+  VkClearColorValue color{.float32 = {0.0f, 0.0f, 0.0f, 1.0f}};
+  for (int channel = 0; channel < 3; ++channel) {
+    const double steps = 255.0 * displayValue(radiance[channel], curve) + 0.5;
+    if (std::abs(steps - std::round(steps)) < closest) {
+      return std::nullopt;
+    }
+    color.float32[channel] = static_cast<float>(std::floor(steps)) / 255.0f;
+  }
+  return color;
+}
 
 DisplaySystem::DisplaySystem(Renderer& renderer) : renderer_(renderer), pipelines_(renderer.pipelines()) {
   layout_ = descriptorSetLayout(renderer.device(), {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER},
@@ -82,7 +85,7 @@ void DisplaySystem::draw(const Frame& frame, const PassScope& scope, Variant var
     return GraphicsPipelineDesc{.name = variant.depth ? "display depth" : "display",
                                 .vert = "full_screen.vert",
                                 .frag = variant.depth ? depth : color,
-                                .constants = {{gpu::constantAces, variant.toneMap == ToneMap::aces},
+                                .constants = {{gpu::constantEncoding, encodingOf(variant.toneMap)},
                                               {gpu::constantShrunk, variant.shrunk},
                                               {gpu::constantSampled, variant.sampled}},
                                 .setLayouts = {layout_},

@@ -24,6 +24,10 @@ struct DisplayedPicture {
   VkRect2D area{};                // pixels of the display; the whole picture is as large as the display
 };
 
+// Returns the color of the display that shows a radiance under a curve whose exposure is a factor on it. Nothing if a
+// channel is so close to a tie that the shader's rounding may differ.
+std::optional<VkClearColorValue> displayColor(const glm::vec3& radiance, const DisplayCurve& curve);
+
 // Draws into the display image: the picture with exposure, tone curve and sRGB encoding, and over it the target that a
 // TargetDisplay asks for.
 class DisplaySystem {

@@ -214,6 +214,7 @@ void FrameData::addPass(const Source& source, const Pass& pass, DrawList& data) 
   view.minThroughput = static_cast<float>(settings.reflection.minThroughput);
   view.depth = static_cast<uint32_t>(pass.view.path.size());
   view.zenith.w = lostInSums_;
+  view.horizon.w = static_cast<float>(settings.view.exposure / settings.view.radianceScale());
   view.rayY.w = halfTurn(view.depth, plan.picture);
   view.rayOrigin.w = plan.picture > 0 ? 1.0f : 0.0f;
   view.maxDepth = static_cast<uint32_t>(settings.reflection.maxDepth);

@@ -51,7 +51,6 @@ GraphicsPipelineDesc MirrorSystem::describe(const Variant& variant, const FrameI
                                           {gpu::constantBranches, info.data.branches()},
                                           {gpu::constantShadowedLights, variant.shadowedLights}},
                             .setLayouts = {frameLayout_, imageLayout_},
-                            .samples = variant.samples,
                             .depthClamp = variant.clampDepth};
   if (shading == Shading::average) {
     desc.frag = "mirror_average.frag";
@@ -72,7 +71,7 @@ GraphicsPipelineDesc MirrorSystem::describe(const Variant& variant, const FrameI
     desc.frag = shading == Shading::average ? "mirror_average_shadowed.frag" : "mirror_shadowed.frag";
     desc.setLayouts.push_back(info.shadows.layout());
   }
-  return desc;
+  return variant.format.describe(desc);
 }
 
 void MirrorSystem::countPipelines(EffectLedger& ledger) const {
@@ -82,6 +81,7 @@ void MirrorSystem::countPipelines(EffectLedger& ledger) const {
     ledger.pipeline(EffectKind::ripple, variant.ripples);
     ledger.pipeline(EffectKind::roughness, variant.blurs);
     ledger.pipeline(EffectKind::textures, variant.mapped);
+    ledger.pipeline(EffectKind::toneMap, variant.format.encoding == gpu::encodingAces);
   });
 }
 
@@ -167,7 +167,7 @@ uint32_t MirrorSystem::recordReflections(const PassScope& scope, const FrameInfo
 void MirrorSystem::draw(const PassScope& scope, const FrameInfo& info, const DrawList& pass, const MirrorRange& mirror,
                         Variant variant) {
   const bool identifies = variant.shading == Shading::identifier;
-  variant.samples = scope.samples();
+  variant.format = formatOf(scope.desc(), info.settings);
   variant.perSample = !identifies && info.trace.variant().perSample && (variant.blurs || variant.ripples);
   variant.clampDepth = !(pass.mirrorView && info.settings.reflection.clip == ClipMethod::oblique);
   variant.trace = identifies ? info.trace.variant() : TraceVariant{};

@@ -36,7 +36,7 @@ class MirrorSystem {
     bool added = false;      // only the reflection, added to a base that is there
     bool byRays = false;     // the identifier stands for base and reflection, else for the base alone
     bool perSample = false;  // looks up its image at each sample
-    VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
+    PassFormat format;
     bool clampDepth = true;
     bool reprojected = false;
     bool blurs = false;

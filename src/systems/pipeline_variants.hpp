@@ -3,10 +3,39 @@
 #include <map>
 #include <memory>
 
+#include "core/pass.hpp"
 #include "core/pipeline.hpp"
+#include "settings/settings.hpp"
+#include "shaders/gpu_data.h"
 #include "systems/effect_ledger.hpp"
 
 namespace speculum {
+
+// What the pipelines of a pass have in common.
+struct PassFormat {
+  VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
+  VkFormat color = colorFormat;
+  uint32_t encoding = gpu::encodingNone;
+
+  auto operator<=>(const PassFormat&) const = default;
+  // Returns the description for such a pass.
+  GraphicsPipelineDesc describe(GraphicsPipelineDesc desc) const {
+    desc.samples = samples;
+    desc.color = color;
+    desc.constants.push_back({gpu::constantEncoding, encoding});
+    return desc;
+  }
+};
+// Returns the constant of shaders/gpu_data.h that chooses the curve.
+inline uint32_t encodingOf(ToneMap toneMap) {
+  return toneMap == ToneMap::aces ? gpu::encodingAces : gpu::encodingClamp;
+}
+// A scene that is drawn into the display image is encoded.
+inline PassFormat formatOf(const PassDesc& pass, const Settings& settings) {
+  const bool encodes = pass.targets.role == TargetRole::swapchain;
+  return {pass.targets.samples(), pass.targets.color->format(),
+          encodes ? encodingOf(settings.view.toneMap) : gpu::encodingNone};
+}
 
 // Pipelines of one system, one for each value of Variant. Each is made on its first use.
 template <typename Variant>

@@ -6,13 +6,13 @@ uint32_t PointLightSystem::record(const PassScope& scope, const FrameInfo& info,
   if (pass.glyphCount == 0) {
     return 0;
   }
-  const Pipeline& pipeline = pipelines_.get(scope.samples(), [&] {
-    return GraphicsPipelineDesc{.name = "point_light",
-                                .vert = "point_light.vert",
-                                .frag = "point_light.frag",
-                                .setLayouts = {frameLayout_},
-                                .samples = scope.samples(),
-                                .sampleShading = scope.samples() != VK_SAMPLE_COUNT_1_BIT};
+  const PassFormat format = formatOf(scope.desc(), info.settings);
+  const Pipeline& pipeline = pipelines_.get(format, [&] {
+    return format.describe({.name = "point_light",
+                            .vert = "point_light.vert",
+                            .frag = "point_light.frag",
+                            .setLayouts = {frameLayout_},
+                            .sampleShading = scope.samples() != VK_SAMPLE_COUNT_1_BIT});
   });
   info.data.bind(pipeline, scope.commands(), pass);
   scope.cull(VK_CULL_MODE_FRONT_BIT);

@@ -16,13 +16,13 @@ class PointLightSystem {
   uint32_t record(const PassScope& scope, const FrameInfo& info, const DrawList& pass);
   // Drops pipelines that have not been used for idleFramesKept frames, unless `stays`: while cached images show glyphs.
   void endFrame(bool stays) {
-    pipelines_.endFrame([&](VkSampleCountFlagBits) { return !stays; });
+    pipelines_.endFrame([&](const PassFormat&) { return !stays; });
   }
   size_t pipelineCount() const { return pipelines_.size(); }
 
  private:
   VkDescriptorSetLayout frameLayout_;
-  PipelineVariants<VkSampleCountFlagBits> pipelines_;
+  PipelineVariants<PassFormat> pipelines_;
 };
 
 }  // namespace speculum

@@ -70,7 +70,7 @@ GraphicsPipelineDesc RenderSystem::objects(const Variant& variant, const FrameIn
                                           {gpu::constantDiffuseLookup, variant.diffuseLookup},
                                           {gpu::constantGlossy, variant.glossy},
                                           {gpu::constantBaseOnly, variant.environment},
-                                          {gpu::constantSamples, variant.samples},
+                                          {gpu::constantSamples, variant.format.samples},
                                           {gpu::constantOnlyShadowFace, variant.onlyShadowFace},
                                           {gpu::constantLightCount, variant.lightCount},
                                           {gpu::constantBranches, info.data.branches()},
@@ -80,7 +80,6 @@ GraphicsPipelineDesc RenderSystem::objects(const Variant& variant, const FrameIn
                                           {gpu::constantRepeating, variant.repeating}},
                             .setLayouts = {frameLayout_, textureLayout_},
                             .pushConstantBytes = sizeof(gpu::DrawConstants),
-                            .samples = variant.samples,
                             .depthClamp = variant.clampDepth,
                             .lines = variant.wireframe,
                             .mayDrawLines = true};
@@ -115,7 +114,7 @@ GraphicsPipelineDesc RenderSystem::objects(const Variant& variant, const FrameIn
     desc.vertexBindings.push_back({2, sizeof(glm::vec3), VK_VERTEX_INPUT_RATE_VERTEX});
     desc.vertexAttributes.push_back({14, 2, VK_FORMAT_R32G32B32_SFLOAT, 0});
   }
-  return desc;
+  return variant.format.describe(desc);
 }
 
 std::vector<IndexRange> drawnRanges(const MeshPart& part, const Batch& batch) {
@@ -247,6 +246,7 @@ void RenderSystem::countPipelines(EffectLedger& ledger) const {
     ledger.pipeline(EffectKind::wireframe, variant.wireframe);
     ledger.pipeline(EffectKind::transparency, variant.covered || variant.trace.transparency);
     ledger.pipeline(EffectKind::textures, variant.diffuseLookup != gpu::textureNone);
+    ledger.pipeline(EffectKind::toneMap, variant.format.encoding == gpu::encodingAces);
   });
 }
 
@@ -260,14 +260,14 @@ void RenderSystem::endFrame(const TraceVariant& trace, bool shadowMaps, bool ima
 }
 
 uint32_t RenderSystem::recordSky(const PassScope& scope, const FrameInfo& info, const DrawList& pass) {
-  const Pipeline& pipeline = skies_.get(scope.samples(), [&] {
-    return GraphicsPipelineDesc{.name = "sky",
-                                .vert = "full_screen.vert",
-                                .frag = "sky.frag",
-                                .setLayouts = {frameLayout_},
-                                .samples = scope.samples(),
-                                .depthWrite = false,
-                                .depthCompare = VK_COMPARE_OP_GREATER_OR_EQUAL};
+  const PassFormat format = formatOf(scope.desc(), info.settings);
+  const Pipeline& pipeline = skies_.get(format, [&] {
+    return format.describe({.name = "sky",
+                            .vert = "full_screen.vert",
+                            .frag = "sky.frag",
+                            .setLayouts = {frameLayout_},
+                            .depthWrite = false,
+                            .depthCompare = VK_COMPARE_OP_GREATER_OR_EQUAL});
   });
   info.data.bind(pipeline, scope.commands(), pass);
   vkCmdDraw(scope.commands(), 3, 1, 0, 0);
@@ -276,7 +276,7 @@ uint32_t RenderSystem::recordSky(const PassScope& scope, const FrameInfo& info, 
 
 RenderSystem::Variant RenderSystem::variantOf(const PassScope& scope, const FrameInfo& info, const DrawList& pass) {
   const ClipMethod clip = info.settings.reflection.clip;
-  return {.samples = scope.samples(),
+  return {.format = formatOf(scope.desc(), info.settings),
           .clipDistance = pass.mirrorView && clip == ClipMethod::clipDistance,
           .clampDepth = !(pass.mirrorView && clip == ClipMethod::oblique),
           .wireframe = info.settings.view.wireframe && !scope.drawsEither()};
@@ -291,7 +291,9 @@ uint32_t RenderSystem::record(const PassScope& scope, const FrameInfo& info, con
     draws += recordBatch(scope, info, pass, batch, variant, bound);
   }
   scope.cull(VK_CULL_MODE_NONE);
-  return draws + (info.environment.sky ? recordSky(scope, info, pass) : 0);
+  const bool encodes = variant.format.encoding != gpu::encodingNone;
+  const bool drawsBackground = info.environment.sky || (encodes && !info.encodedBackground);
+  return draws + (drawsBackground ? recordSky(scope, info, pass) : 0);
 }
 
 uint32_t RenderSystem::recordReflections(const PassScope& scope, const FrameInfo& info, const DrawList& pass,

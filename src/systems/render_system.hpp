@@ -27,7 +27,8 @@ void addCoverage(GraphicsPipelineDesc& desc, const std::string& frag, VkDescript
 void bindOpacity(const Pipeline& pipeline, VkCommandBuffer commands, const FrameInfo& info, const Material& material);
 gpu::CoverageConstants coverageConstants(const gpu::DrawConstants& draw, const Material& material);
 
-// Draws the scene's objects and, where nothing was drawn, its sky.
+// Draws the scene's objects and, where nothing was drawn, its sky, or its background if the pass cannot be cleared with
+// it.
 class RenderSystem {
  public:
   RenderSystem(PipelineFactory& factory, VkDescriptorSetLayout frameLayout, VkDescriptorSetLayout textureLayout)
@@ -50,7 +51,7 @@ class RenderSystem {
 
  private:
   struct Variant {
-    VkSampleCountFlagBits samples;
+    PassFormat format;
     bool clipDistance;
     bool clampDepth;
     bool wireframe;  // always false where the polygon mode is dynamic
@@ -93,7 +94,7 @@ class RenderSystem {
   VkDescriptorSetLayout frameLayout_;
   VkDescriptorSetLayout textureLayout_;
   PipelineVariants<Variant> objects_;
-  PipelineVariants<VkSampleCountFlagBits> skies_;
+  PipelineVariants<PassFormat> skies_;
 };
 
 }  // namespace speculum

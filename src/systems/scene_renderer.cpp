@@ -1,6 +1,7 @@
 #include "systems/scene_renderer.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 #include <utility>
 
 #include "plan/cube_face.hpp"
@@ -88,6 +89,8 @@ void SceneRenderer::record(Frame& frame, const SceneState& state, const Settings
                        .ledger = ledger_,
                        .images = mirrorTargets_.images(),
                        .cached = mirrorTargets_.cached(),
+                       .encodedBackground = displayColor(storedBackground(environment, plan.main().view, plan.picture),
+                                                         displayed(settings.view.displayCurve(), radianceScale)),
                        .maps = mapSets_};
   if (beginsPicture(plan)) {
     log_.beginPicture();
@@ -99,7 +102,8 @@ void SceneRenderer::record(Frame& frame, const SceneState& state, const Settings
   }
   if (!plan.mainReused() && endsPicture(plan)) {
     flat_ = flatColor(info);
-    hasGaps_ = hasGaps_ || flat_;
+    encoded_ = plan.encodes;
+    hasGaps_ = hasGaps_ || flat_ || encoded_;
   }
   recordPasses(info);
   unfinished_ = !endsPicture(plan);
@@ -137,7 +141,7 @@ void SceneRenderer::prepareTargets(Frame& frame, const Settings& settings, const
     }
     mirrorTargets_.begin(plan, watched_.mirrorPass(), *frame.retired);
     const bool mainIsShown = accumulated() == 0 || keepsTarget({}, TargetKind::color);
-    mainTargets_.begin(settings, plan, renderer_.roundsSumsDown(), shown && !unfinished_ && mainIsShown,
+    mainTargets_.begin(settings, plan, renderer_.roundsSumsDown(), shown && !unfinished_ && !encoded_ && mainIsShown,
                        *frame.retired);
     environmentTargets_.prepare(plan, *frame.retired);
   }
@@ -281,8 +285,8 @@ void SceneRenderer::recordMirrors(const FrameInfo& info, const ConcurrentPasses&
 
 std::optional<glm::vec3> SceneRenderer::flatColor(const FrameInfo& info) const {
   const Pass& main = info.plan.main();
-  if (info.environment.sky || !info.plan.showsNothing() || info.plan.tiles || info.settings.view.accumulate > 1 ||
-      info.settings.debug.checkFinite || watched_.watches()) {
+  if (info.environment.sky || !info.plan.showsNothing() || info.plan.encodes || info.plan.tiles ||
+      info.settings.view.accumulate > 1 || info.settings.debug.checkFinite || watched_.watches()) {
     return std::nullopt;
   }
   return storedBackground(info.environment, main.view, info.plan.picture);
@@ -290,9 +294,16 @@ std::optional<glm::vec3> SceneRenderer::flatColor(const FrameInfo& info) const {
 
 void SceneRenderer::recordMain(const FrameInfo& info, size_t index) {
   const Pass& main = info.plan.passes[index];
-  const PassDesc whole = fullPass(passName(scene_, info.plan, main), mainTargets_.drawn().targets());
+  PassTargets targets = mainTargets_.drawn().targets();
+  if (info.plan.encodes) {
+    targets = {renderer_.displayTargets(info.frame).color, nullptr, targets.depth, TargetRole::swapchain};
+  }
+  const PassDesc whole = fullPass(passName(scene_, info.plan, main), targets);
   PassDesc desc = scenePass(whole.name, whole.targets, whole.renderArea, whole.viewport, main.view, info.environment,
                             info.plan.picture);
+  if (info.plan.encodes && info.encodedBackground) {
+    std::ranges::copy(info.encodedBackground->float32, desc.clearColor.begin());
+  }
   if (flat_ && !info.plan.tiles) {
     desc.renderArea = desc.scissor = {{0, 0}, {1, 1}};  // the texel that the display may read
     drawScene(info, index, desc, {main.id, desc.name, -1, 0, 1.0});
@@ -334,20 +345,22 @@ DisplayedPicture SceneRenderer::picture() {
 void SceneRenderer::recordDisplay(const FrameInfo& info, const std::optional<TargetDisplay>& debug,
                                   const std::optional<SplitDisplay>& split) {
   const VkExtent2D display = info.frame.extent;
-  const bool divides = split && split->other.pictureSize_.x > 0;
+  const bool divides = split && split->other.pictureSize_.x > 0 && !split->other.encoded_;
   const uint32_t left = divides ? std::min(split->divider, display.width) : display.width;
   const std::array areas{VkRect2D{{0, 0}, {left, display.height}},
                          VkRect2D{{static_cast<int32_t>(left), 0}, {display.width - left, display.height}}};
-  std::array pictures{picture(), divides ? split->other.picture() : DisplayedPicture()};
-  pictures[0].area = areas[divides && split->right];
-  pictures[1].area = areas[divides && !split->right];
-  const RecordedPass pass = display_.record(info.frame, std::span(pictures).first(divides ? 2 : 1));
-  const std::optional<RecordedPass> target = debug ? showTarget(info.frame, info.plan, *debug) : std::nullopt;
-  if (!unfinished_) {
-    log_.add(pass);
-    if (target) {
-      log_.add(*target);
-    }
+  std::vector<RecordedPass> passes;
+  if (!info.plan.encodes) {
+    std::array pictures{picture(), divides ? split->other.picture() : DisplayedPicture()};
+    pictures[0].area = areas[divides && split->right];
+    pictures[1].area = areas[divides && !split->right];
+    passes.push_back(display_.record(info.frame, std::span(pictures).first(divides ? 2 : 1)));
+  }
+  if (const auto target = debug ? showTarget(info.frame, info.plan, *debug) : std::nullopt) {
+    passes.push_back(*target);
+  }
+  for (size_t i = 0; i < passes.size() && !unfinished_; ++i) {
+    log_.add(passes[i]);
   }
 }
 
@@ -391,7 +404,7 @@ void SceneRenderer::endRecord(const FrameInfo& info, bool textured, bool transpa
   if (!plan.mainReused()) {
     finishLedger(info);
   }
-  mainImage_ = {info.settings, plan.mainContent};
+  mainImage_ = {info.settings, plan.mainContent, encoded_};
   mirrorTargets_.end(plan, retired);
   cacheRevision_ = renderer_.pipelines().revision();
 }
@@ -453,7 +466,7 @@ void SceneRenderer::drawScene(const FrameInfo& info, size_t index, const PassDes
 
 OffScreen* SceneRenderer::watchedImage(const FramePlan& plan, int pass) {
   if (plan.passes[static_cast<size_t>(pass)].id.kind == PassKind::main) {
-    return flat_ ? nullptr : &mainTargets_.shown();
+    return flat_ || encoded_ ? nullptr : &mainTargets_.shown();
   }
   return unfinished_ || plan.mainReused() ? mirrorTargets_.earlierWatched()
                                           : &mirrorTargets_[static_cast<size_t>(pass)];
@@ -517,6 +530,9 @@ std::optional<TexelValue> SceneRenderer::probed() {
 }
 
 LinearImage SceneRenderer::radiance() {
+  if (encoded_) {
+    throw std::logic_error("radiance of a picture that is shown only (FrameRequest::shownOnly)");
+  }
   renderer_.waitIdle();
   const int pictures = accumulated();
   const std::vector<float> texels =

@@ -48,11 +48,11 @@ class SceneRenderer {
   // Uploads the textures and materials that record() needs. Call it first: if it throws OutOfMemoryError, plan the
   // frame again without effects.textures.
   void uploadTextures(Frame& frame, const SceneState& state, const Settings& settings, const FramePlan& plan);
-  // Records the passes of the plan and, if `shown`, the display pass. `plan` was made with cache(), `settings` are
-  // those of FittedPlan. With view.accumulate above 1, adds the picture to the mean (see Accumulation), which is
-  // displayed. `debug` shows a target of the last complete picture, if keepsTarget(). The last picture of a mean can be
-  // drawn again, for another target: it is not added twice. Throws std::runtime_error, before anything is made, if the
-  // plan draws more instances than the device takes.
+  // Records the passes of the plan and, if `shown` and the plan does not encode the main view, the display pass. `plan`
+  // was made with cache(), `settings` are those of FittedPlan. With view.accumulate above 1, adds the picture to the
+  // mean (see Accumulation), which is displayed. `debug` shows a target of the last complete picture, if keepsTarget().
+  // The last picture of a mean can be drawn again, for another target: it is not added twice. Throws
+  // std::runtime_error, before anything is made, if the plan draws more instances than the device takes.
   void record(Frame& frame, const SceneState& state, const Settings& settings, const FramePlan& plan,
               const std::optional<TargetDisplay>& debug = std::nullopt, bool shown = true,
               const std::optional<SplitDisplay>& split = std::nullopt);
@@ -66,8 +66,8 @@ class SceneRenderer {
   // Says whether the last frame kept that target of the last complete picture, for TargetDisplay.
   bool keepsTarget(const MirrorPath& path, TargetKind kind) const { return watched_.keeps(path, kind); }
 
-  // Says whether the last picture was drawn in FramePlan::refined only, or shows nothing, so that its targets have
-  // gaps.
+  // Says whether the last picture was drawn in FramePlan::refined only, shows nothing, or was encoded, so that its
+  // targets have gaps.
   bool hasGaps() const { return hasGaps_; }
 
   // Shows `picture` (display sRGB) instead of the scene, stretched to the display, from the next frame on. A picture
@@ -85,7 +85,7 @@ class SceneRenderer {
   // Cost of each effect in the last recorded frame that drew the main view.
   const EffectLedger& ledger() const { return ledger_; }
   // Linear radiance of the main view, or of the mean, in the last recorded frame, enlarged to the picture. Waits for
-  // the GPU.
+  // the GPU. Throws std::logic_error if the picture was encoded, because there is no radiance then.
   LinearImage radiance();
 
  private:
@@ -144,6 +144,7 @@ class SceneRenderer {
   double radianceScale_ = 1.0;            // ViewSettings::radianceScale() of the last complete picture
   bool hasGaps_ = false;
   std::optional<glm::vec3> flat_;  // flatColor() of the last complete picture, whose main target then is not drawn
+  bool encoded_ = false;           // FramePlan::encodes of the last complete picture, which has no radiance
   bool unfinished_ = false;        // the last frame drew tiles, and not the last ones of its picture
   glm::ivec2 pictureSize_{0};      // of the last recorded frame; 0: none yet
   ViewSettings shown_;             // of the last recorded frame

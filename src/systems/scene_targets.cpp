@@ -30,11 +30,13 @@ void MainTargets::begin(const Settings& settings, const FramePlan& plan, bool sa
   const VkSampleCountFlagBits samples = device_.sampleCount(settings.view.samples);
   const bool readSamples =
       (samplesRead || settings.debug.checkFinite || plan.effects.any()) && samples != VK_SAMPLE_COUNT_1_BIT;
-  if (!drawn_ || drawn_->samples() != samples || drawn_->desc().readSamples != readSamples) {
+  if (!drawn_ || drawn_->samples() != samples || drawn_->desc().readSamples != readSamples ||
+      drawn_->desc().color == plan.encodes) {
     const OffScreenDesc desc{.name = "main view",
                              .extent = extent,
                              .samples = samples,
                              .readSamples = readSamples,
+                             .color = !plan.encodes,
                              .role = TargetRole::main};
     std::unique_ptr<OffScreen> before = std::exchange(drawn_, std::make_unique<OffScreen>(device_, desc, retired));
     retired.take(before);

@@ -19,7 +19,8 @@ class MainTargets {
   explicit MainTargets(Device& device) : device_(device) {}
 
   // Begins a picture of the plan. `samplesRead`: shaders read the samples. `displayed`: the display shows drawn(). If
-  // the plan has tiles, that target then stays shown() until finish(), and drawn() is another one.
+  // the plan has tiles, that target then stays shown() until finish(), and drawn() is another one. If the plan encodes
+  // the main view, drawn() has depth only.
   void begin(const Settings& settings, const FramePlan& plan, bool samplesRead, bool displayed, RetireQueue& retired);
   // Shows the picture, whose last tile is drawn.
   void finish(RetireQueue& retired) { retired.take(earlier_); }

@@ -269,7 +269,8 @@ void Demo::drawFrame(double seconds, double sinceLastMs) {
   const auto radiance = [&] { return toDisplay(half.renderer->radiance(), settings.view.displayCurve()); };
   const std::optional<Image8> picture = captured ? std::optional(pictureOf(renderer_.readback())) : std::nullopt;
   workspace_.frameDrawn({workspace_.scene(), state, settings, plan.width, plan.height},
-                        endsPicture(plan) ? radiance : std::function<Image8()>(), picture ? &*picture : nullptr, half_);
+                        endsPicture(plan) && !plan.encodes ? radiance : std::function<Image8()>(),
+                        picture ? &*picture : nullptr, half_);
   describeHalf();
   frameSettings_ = settings;
   message_ = currentMessage();
@@ -367,6 +368,12 @@ std::optional<Pace::Target> Demo::missingTarget() const {
   return missing ? std::optional(Pace::Target(target->path, target->display.kind)) : std::nullopt;
 }
 
+// Says whether nothing but the display reads the main view that is planned. Still pictures are shown again, compared
+// and stored.
+bool Demo::isShownOnly() const {
+  return half().pace.moving() && !halves_[1] && !output_.target && !output_.errorGain;
+}
+
 const FittedPlan& Demo::planFrame(Frame& frame, const SceneState& state) {
   const std::optional<Pace::Target> missing = missingTarget();
   Half& half = this->half();
@@ -391,7 +398,8 @@ const FittedPlan& Demo::planFrame(Frame& frame, const SceneState& state) {
                                                        .state = state,
                                                        .settings = settings,
                                                        .size = glm::ivec2(frame.extent.width, frame.extent.height),
-                                                       .cache = cache},
+                                                       .cache = cache,
+                                                       .shownOnly = isShownOnly()},
                                              .planner = half.planner,
                                              .shown = {.scenes = scenes_,
                                                        .revision = workspace_.revision(),

@@ -103,6 +103,7 @@ class Demo : private WorkspaceHost {
   std::optional<SplitDisplay> splitDisplay(const Frame& frame);
   void describeHalf();
   std::optional<Pace::Target> missingTarget() const;
+  bool isShownOnly() const;
   const FittedPlan& planFrame(Frame& frame, const SceneState& state);
   void uploadTextures(Frame& frame, const SceneState& state, const FittedPlan& fitted);
   std::string drawingText() const { return "Drawing " + workspace_.scene().file.filename().string() + "..."; }

@@ -293,7 +293,7 @@ void Pace::planPicture(const Request& request, State state) {
 
 void Pace::planTiles(const Request& request) {
   const double pixels = static_cast<double>(request.shown.size.x) * request.shown.size.y;
-  besidesMs_ = cpuMs_ + controller_.predict({.plainTexels = pixels});
+  besidesMs_ = cpuMs_ + controller_.predict({.displayTexels = pixels});
   const double most = (request.input ? 1.0 : tilesShare) * request.budgetMs;
   // At least half of the time goes to the tiles, whatever the rest of a frame takes.
   fitted_.plan.tiles = slow_.next(std::max(most - besidesMs_, besidesMs_), request.input);

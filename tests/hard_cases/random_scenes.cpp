@@ -88,11 +88,13 @@ class RandomScenes : public testing::TestWithParam<unsigned> {
     // scripts/test-gpu runs each scene in a process of its own, and a single one may have few views.
     if (scenes_ > 3) {
       EXPECT_GE(2 * views_, mostViews() * scenes_) << "few views see a mirror";
+      EXPECT_GE(4 * encoded_, views_) << "few views are encoded early";
     }
   }
 
   static inline int scenes_ = 0;
-  static inline int views_ = 0;  // that see a mirror
+  static inline int views_ = 0;    // that see a mirror
+  static inline int encoded_ = 0;  // of these: FramePlan::encodes
 };
 
 // Counts pixels at silhouettes and other steps, which a difference in rounding may move by a pixel.
@@ -228,8 +230,22 @@ void expectQualityOfOneMirror(Drawn& drawn, const Settings& settings, const std:
   expectSame(lower, expected, name + "_quality_of_one", 0, traces ? 1 : 0);
 }
 
-// Returns how many of its views saw a mirror.
-int compare(const RandomScene& scene) {
+// Expects that the display pass would show the same. Says whether the plan leaves it out.
+bool expectEncodedAlike(Drawn& drawn, Settings settings, const std::string& name) {
+  settings.debug.checkFinite = false;
+  settings.view.samples = 1;
+  settings.view.scale = 1.0;
+  drawn.shownOnly = true;
+  const Image8 picture = drawn.drawWith(settings);
+  const bool encodes = drawn.plan.encodes;
+  settings.debug.encodeEarly = false;
+  expectSame(picture, drawn.drawWith(settings), name + "_encoded_early");
+  drawn.shownOnly = false;
+  return encodes;
+}
+
+// Returns how many of its views saw a mirror, and how many of these were encoded early.
+std::pair<int, int> compare(const RandomScene& scene) {
   const Settings settings = settingsWith(scene.settings);
   Drawn plain(scene.file, scene.time);
   std::optional<Drawn> withEffects;
@@ -237,6 +253,7 @@ int compare(const RandomScene& scene) {
     withEffects.emplace(scene.withEffects, scene.time);
   }
   int views = 0;
+  int encoded = 0;
   for (size_t view = 0; view < plain.views() && views < mostViews(); ++view) {
     const std::string name = scene.name + "_" + scene.kind + "_" + std::to_string(view);
     plain.look(view);
@@ -250,6 +267,7 @@ int compare(const RandomScene& scene) {
     drawn.look(view);
     const Image8 picture = expectNoSwitchMatters(drawn, settings, name);
     expectQualityOfOneMirror(plain, settings, name);
+    encoded += expectEncodedAlike(drawn, settings, name);
     const bool approximates =
         hasCurvedMirrors(plain.scene) && settings.effects.curvedLookup == CurvedLookup::environment;
     if (!withEffects && !approximates && settings.view.scale == 1.0) {
@@ -263,13 +281,15 @@ int compare(const RandomScene& scene) {
       }
     }
   }
-  return views;
+  return {views, encoded};
 }
 
 TEST_P(RandomScenes, AreDrawnAsTraced) {
   const RandomScene scene = randomScene(GetParam());
   scenes_ += 1;
-  views_ += compare(scene);
+  const auto [views, encoded] = compare(scene);
+  views_ += views;
+  encoded_ += encoded;
   if (HasFailure()) {
     std::printf("Reducing %s\n", scene.file.c_str());
     std::fflush(stdout);

@@ -115,8 +115,10 @@ class PlanSequence {
                       {.images = plan.cached,
                        .cubes = plan.cubes,
                        .main = main.content.empty() ? nullptr : &main,
-                       .changes = &changes}});
-    main = {settings, plan.mainContent};
+                       .changes = &changes},
+                      0,
+                      shownOnly});
+    main = {settings, plan.mainContent, plan.encodes};
     return plan;
   }
   void moveCamera(const glm::dvec3& by) {
@@ -143,6 +145,7 @@ class PlanSequence {
 
   Scene scene;
   Settings settings;
+  bool shownOnly = false;
   FramePlan plan;
   MainImage main;
   SceneChanges changes;

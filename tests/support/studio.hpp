@@ -44,7 +44,7 @@ class Studio {
     state.camera = camera.value_or(state.camera);
     FrameCache cache = sceneRenderer.cache(state);
     cache.main = reusesMain ? cache.main : nullptr;
-    plan = planFrame({scene, state, settings, {size_.width, size_.height}, cache});
+    plan = planFrame({scene, state, settings, {size_.width, size_.height}, cache, 0, shownOnly});
     frame.capture = true;
     sceneRenderer.record(frame, state, settings, plan);
     gpu_.renderer.endFrame(frame);
@@ -61,6 +61,7 @@ class Studio {
   double time = 0.0;                 // seconds
   std::optional<CameraPose> camera;  // in place of the scene's
   bool reusesMain = false;           // reuse an unchanged main view, as the window does
+  bool shownOnly = false;            // FrameRequest::shownOnly
   SceneState state;                  // of the last picture, as is `plan`
   FramePlan plan;
   SceneRenderer sceneRenderer;

@@ -266,6 +266,40 @@ TEST_F(Journey, TimesOfFramesAreComplete) {
   EXPECT_EQ(demo_->renderer().presentMode(), demo_->renderer().presentModes()[0]);
 }
 
+class TurningMirror : public Journey {
+ protected:
+  TurningMirror() : Journey(wallScene + "spin = [0, 90, 0]\n") {}
+
+  bool encodes() {
+    run(4);
+    return std::ranges::count(shown().frame.passes, PassKind::display, &PassRow::kind) == 0;
+  }
+};
+
+TEST_F(TurningMirror, IsEncodedWhileNothingReadsItsRadiance) {
+  EXPECT_TRUE(encodes());
+  click("panel.Targets");
+  run(3);
+  click("targets.one");
+  EXPECT_FALSE(encodes()) << "the panel shows it";
+  const PixelRect canvas = widget("targets.canvas");
+  moveTo(canvas.x + canvas.width / 2.0, canvas.y + canvas.height / 2.0);
+  run(4);
+  EXPECT_TRUE(shown().frame.target.value);
+  click("panel.Targets");
+  EXPECT_TRUE(encodes());
+  press("c");
+  EXPECT_FALSE(encodes()) << "A | B shows two pictures";
+  press("c");
+  EXPECT_TRUE(encodes());
+  demo_->apply(SetPaused{true});
+  run(20);
+  EXPECT_FALSE(encodes()) << "the still picture is shown again";
+  const Image8 still = barePicture();
+  setSetting("debug.encode_early", "false");
+  EXPECT_TRUE(barePicture().rgba == still.rgba);
+}
+
 // The wall mirror shows the door, whose back is seen directly.
 class TwoMirrors : public Journey {
  protected:

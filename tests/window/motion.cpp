@@ -25,8 +25,9 @@ struct Device {
 
   double frameMs(const FrameWork& work, std::mt19937& random) const {
     const double samples = work.mainTexels * (work.viewSamples - 1) + work.mirrorTexels * (work.mirrorSamples - 1);
-    const double ms = picture * work.plainTexels + pass * work.passes + triangle * work.triangles +
-                      texel * (work.mainTexels + work.mirrorTexels) + sample * samples + ray * work.lightRays;
+    const double ms = picture * (work.displayTexels + work.shadowTexels) + pass * work.passes +
+                      triangle * work.triangles + texel * (work.mainTexels + work.mirrorTexels) + sample * samples +
+                      ray * work.lightRays;
     return ms * std::exp(noise * std::normal_distribution<>()(random));
   }
 };
@@ -53,7 +54,7 @@ struct Window {
   FrameWork work(const Settings& settings) const {
     const double texels = 1280.0 * 720.0 * settings.view.scale * settings.view.scale;
     const double passes = std::min(8.0 * mirrors, static_cast<double>(settings.reflection.maxPasses));
-    return {.plainTexels = 1280.0 * 720.0,
+    return {.displayTexels = 1280.0 * 720.0,
             .passes = 1.0 + passes,
             .mirrorPasses = passes,
             .triangles = 1e5 * (1.0 + mirrors),
@@ -404,6 +405,23 @@ TEST(FrameWork, CountsTheRaysOfEffects) {
   EXPECT_EQ(scaledWork(work, settings, to).roughRays, 0.0);
   plan.effects.shadowMaps = true;
   EXPECT_EQ(workOf(plan, scene, state, settings).lightRays, 0.0);
+}
+
+TEST(FrameWork, HasNoDisplayPassWhereTheMainViewIsEncoded) {
+  FramePlan plan{.projection = Projection(1.0, 1.0, 0.1), .width = 100, .height = 50};
+  plan.main().view = mainView({}, plan.projection, 100, 50);
+  Settings settings;
+  settings.view.samples = 1;
+  EXPECT_EQ(workOf(plan, {}, {}, settings).displayTexels, 5000.0);
+  plan.encodes = true;
+  const FrameWork work = workOf(plan, {}, {}, settings);
+  EXPECT_EQ(work.displayTexels, 0.0);
+  Settings to = settings;
+  to.reflection.scale = 0.5;
+  EXPECT_EQ(scaledWork(work, settings, to).displayTexels, 0.0);
+  to.view.scale = 0.5;
+  EXPECT_EQ(scaledWork(work, settings, to).displayTexels, 5000.0) << "the main view is enlarged";
+  EXPECT_EQ(scaledWork(work, settings, to).mainTexels, 1250.0);
 }
 
 TEST(FrameWork, FollowsTheBoundOnPasses) {
