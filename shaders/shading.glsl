@@ -237,12 +237,14 @@ vec4 keepingNan(vec4 stored, vec3 radiance, float disparity) {
 // Returns the value as a target stores it, whatever the device rounds to: the nearest half float. In the later pictures
 // of a mean, radiance is moved by up to half a step before, because rounding that all pictures shared would stay in the
 // mean. `pixel` is the position in the target. A pass that draws colors of the display encodes what would be stored, so
-// that it shows what the display pass would.
+// that it shows what the display pass would. It draws no mean, and debug.check_finite is off.
 vec4 storable(vec3 radiance, float disparity, vec2 pixel) {
+  if (encoding != encodingNone) {
+    return displayColor(view.horizon.w * nearestHalf(inHalfRange(radiance, disparity), vec4(0.0)).rgb);
+  }
   float part = view.rayOrigin.w * storeNoise(pixel, view.rayY.w);
   vec4 stored = nearestHalf(inHalfRange(radiance, disparity), vec4(part, part, part, 0.0));
-  stored = keepingNan(stored, radiance, disparity);
-  return encoding == encodingNone ? stored : displayColor(view.horizon.w * stored.rgb);
+  return keepingNan(stored, radiance, disparity);
 }
 
 // Factor on the base and on the reflection of a mirror that the device adds in the target. 1, unless the device rounds
