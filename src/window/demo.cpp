@@ -371,7 +371,7 @@ std::optional<Pace::Target> Demo::missingTarget() const {
 // Says whether nothing but the display reads the main view that is planned. Still pictures are shown again, compared
 // and stored.
 bool Demo::isShownOnly() const {
-  return half().pace.moving() && !halves_[1] && !output_.target && !output_.errorGain;
+  return half().pace.moving() && !halves_[1] && !output_.target && !output_.errorGain && !workspace_.needsThumbnail();
 }
 
 const FittedPlan& Demo::planFrame(Frame& frame, const SceneState& state) {

@@ -317,8 +317,8 @@ void Workspace::frameDrawn(const ShownPicture& shown, const std::function<Image8
   if (half == shownHalf()) {
     accuracy_.afterFrame(shown, watchedState(shown.state), radiance);
   }
-  const bool draws = radiance && options_.frames == 0 && !split_.on();
-  if (draws && std::exchange(needsThumbnail_, false) && browser().storeThumbnail(radiance)) {
+  if (radiance && needsThumbnail() && !split_.on() && std::exchange(needsThumbnail_, false) &&
+      browser().storeThumbnail(radiance)) {
     host_.scenesListed();
   }
   tookBack_ = false;

@@ -89,9 +89,11 @@ class Workspace {
   UiInput shown(const ShownDevice& device, const std::string& message) const;
   void update();  // after the frame's commands: takes finished background work
   void advance(double seconds) { playback_.advance(seconds); }
+  // Says whether the next frameDrawn() reads `radiance` for the scene's thumbnail.
+  bool needsThumbnail() const { return needsThumbnail_ && options_.frames == 0; }
   // Call when the frame is drawn. `radiance` returns the pixels of its picture, without panels (display sRGB); it is
-  // null if the picture is not complete. `captured`: the frame as read back for Capture; null if none is wanted.
-  // `half`: of A | B, that the frame drew.
+  // null if the picture is not complete, or encoded. `captured`: the frame as read back for Capture; null if none is
+  // wanted. `half`: of A | B, that the frame drew.
   void frameDrawn(const ShownPicture& shown, const std::function<Image8()>& radiance, const Image8* captured,
                   int half = 0);
 

@@ -6,6 +6,7 @@
 #include "core/handle.hpp"
 #include "image/color.hpp"
 #include "image/picture_files.hpp"
+#include "platform/folders.hpp"
 #include "sampling.hpp"
 #include "scene/scene_loader.hpp"
 #include "test_paths.hpp"
@@ -278,6 +279,13 @@ class TurningMirror : public Journey {
 
 TEST_F(TurningMirror, IsEncodedWhileNothingReadsItsRadiance) {
   EXPECT_TRUE(encodes());
+  const auto before = std::filesystem::file_time_type::clock::now() - std::chrono::milliseconds(20);
+  demo_->apply(OpenScene{writeScene("turning", wallScene + "spin = [0, 90, 0]\n")});
+  ASSERT_TRUE(waitFor([&] { return shownScene().name == "turning"; }));
+  EXPECT_TRUE(encodes());
+  EXPECT_TRUE(std::ranges::any_of(std::filesystem::directory_iterator(userCacheDir() / "thumbnails"),
+                                  [&](const auto& file) { return file.last_write_time() >= before; }))
+      << "the first picture, which is stored, was not encoded";
   click("panel.Targets");
   run(3);
   click("targets.one");
