@@ -158,7 +158,13 @@ void onDisplayLost(void (*last)()) {
 
 Window::Library::Library() {
   // No warning: GLFW reports what a window system lacks too, and what ends the program is said there.
-  glfwSetErrorCallback([](int, const char* text) { spdlog::info("GLFW: {}", oneLine(text)); });
+  // Each is said once, because under Wayland every frame asks for something that it lacks, the window's position.
+  glfwSetErrorCallback([](int, const char* text) {
+    static std::set<std::string> said;
+    if (said.insert(text).second) {
+      spdlog::info("GLFW: {}", oneLine(text));
+    }
+  });
   if (!glfwInit()) {
     fail("no window system", "is DISPLAY set? without a display use the render command");
   }
@@ -180,18 +186,19 @@ Window::Window(const WindowOptions& options) {
   glfwDefaultWindowHints();
   glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
   glfwWindowHint(GLFW_VISIBLE, options.visible ? GLFW_TRUE : GLFW_FALSE);
+  // By these names desktops find the file speculum.desktop, and with it the window's icon.
+  glfwWindowHintString(GLFW_X11_CLASS_NAME, "speculum");
+  glfwWindowHintString(GLFW_X11_INSTANCE_NAME, "speculum");
+#ifdef GLFW_WAYLAND_APP_ID
+  glfwWindowHintString(GLFW_WAYLAND_APP_ID, "speculum");
+#endif
   window_.reset(glfwCreateWindow(options.width, options.height, options.title.c_str(), nullptr, nullptr));
   if (!window_) {
     fail("the window could not be opened", "without a display use the render command");
   }
   float unused = 1.0f;
   glfwGetWindowContentScale(window_.get(), &contentScale_, &unused);
-  int width = 0;
-  int height = 0;
-  glfwGetFramebufferSize(window_.get(), &width, &height);
-  framebuffer_ = extentOf(width, height);
-  glfwGetWindowSize(window_.get(), &width, &height);
-  size_ = extentOf(width, height);
+  readSizes();
   installCallbacks();
   openWindows().push_back(this);
 }
@@ -207,12 +214,12 @@ Window* Window::of(GLFWwindow* window) {
 
 void Window::installCallbacks() {
   glfwSetWindowUserPointer(window_.get(), this);
-  glfwSetFramebufferSizeCallback(window_.get(), [](GLFWwindow* w, int width, int height) {
-    of(w)->framebuffer_ = extentOf(width, height);
+  // Under Wayland, GLFW calls only the first of these two for a size that the program has set.
+  glfwSetFramebufferSizeCallback(window_.get(), [](GLFWwindow* w, int, int) {
+    of(w)->readSizes();
     of(w)->resized_ = of(w)->active_ = true;
   });
-  glfwSetWindowSizeCallback(window_.get(),
-                            [](GLFWwindow* w, int width, int height) { of(w)->size_ = extentOf(width, height); });
+  glfwSetWindowSizeCallback(window_.get(), [](GLFWwindow* w, int, int) { of(w)->readSizes(); });
   glfwSetWindowRefreshCallback(window_.get(), [](GLFWwindow* w) { of(w)->active_ = true; });
   glfwSetWindowFocusCallback(window_.get(), [](GLFWwindow* w, int focused) {
     of(w)->notify({.kind = InputEvent::Kind::focus, .down = focused == GLFW_TRUE});
@@ -266,6 +273,15 @@ void Window::installCallbacks() {
   glfwSetScrollCallback(window_.get(), [](GLFWwindow* w, double dx, double dy) {
     of(w)->notify({.kind = InputEvent::Kind::wheel, .x = dx, .y = dy});
   });
+}
+
+void Window::readSizes() {
+  int width = 0;
+  int height = 0;
+  glfwGetFramebufferSize(window_.get(), &width, &height);
+  framebuffer_ = extentOf(width, height);
+  glfwGetWindowSize(window_.get(), &width, &height);
+  size_ = extentOf(width, height);
 }
 
 void Window::notify(const InputEvent& event) {

@@ -137,6 +137,7 @@ class Window {
   };
   static Window* of(GLFWwindow* window);
   void installCallbacks();
+  void readSizes();
   void notify(const InputEvent& event);
   ScreenRect place() const;
   void setPlace(const ScreenRect& place);
