@@ -75,9 +75,9 @@ void OffScreen::create(RetireQueue& retired) {
   if (desc_.color) {
     sampler_ = createSampler(*device_, {.maxLod = 0.0f}, desc_.name);
     color_ = makeColor(*device_, desc_, Use::output);
-  }
-  if (desc_.color && color_.samples() != desc_.samples) {
-    samples_ = makeColor(*device_, desc_, Use::resolved);
+    if (color_.samples() != desc_.samples) {
+      samples_ = makeColor(*device_, desc_, Use::resolved);
+    }
   }
   if (desc_.shared) {
     desc_.shared->require(desc_.extent, retired);

@@ -26,7 +26,7 @@ struct FrameInfo {
   // By index into plan.passes; valid while the passes that show these images are recorded.
   std::span<const MirrorImage> images;
   std::span<const MirrorImage> cached;  // parallel to FramePlan::cached; set where an earlier frame rendered the image
-  // The color that the main view is cleared with if the plan encodes it. None: the background is drawn.
+  // The color that an encoded main view is cleared with. None: the background is drawn, or the plan does not encode.
   std::optional<VkClearColorValue> encodedBackground;
   // Environment maps by index into plan.cubes, bound in the place of an object's texture; null for shadow maps.
   std::span<const VkDescriptorSet> maps;

@@ -77,21 +77,23 @@ void SceneRenderer::record(Frame& frame, const SceneState& state, const Settings
   tilesLeft_ = tilesAtOnce_ = tilesAtOnce(plan, settings, plan.effects.raysToLights(scene_));
   data_.build(frame, resources_, scene_, state, settings, environment, plan);
   trace_.build(frame, state, settings, plan.effects);
-  const FrameInfo info{.frame = frame,
-                       .scene = scene_,
-                       .settings = settings,
-                       .environment = environment,
-                       .plan = plan,
-                       .resources = resources_,
-                       .data = data_,
-                       .trace = trace_,
-                       .shadows = shadowSystem_,
-                       .ledger = ledger_,
-                       .images = mirrorTargets_.images(),
-                       .cached = mirrorTargets_.cached(),
-                       .encodedBackground = displayColor(storedBackground(environment, plan.main().view, plan.picture),
-                                                         displayed(settings.view.displayCurve(), radianceScale)),
-                       .maps = mapSets_};
+  const FrameInfo info{
+      .frame = frame,
+      .scene = scene_,
+      .settings = settings,
+      .environment = environment,
+      .plan = plan,
+      .resources = resources_,
+      .data = data_,
+      .trace = trace_,
+      .shadows = shadowSystem_,
+      .ledger = ledger_,
+      .images = mirrorTargets_.images(),
+      .cached = mirrorTargets_.cached(),
+      .encodedBackground = plan.encodes ? displayColor(storedBackground(environment, plan.main().view, plan.picture),
+                                                       displayed(settings.view.displayCurve(), radianceScale))
+                                        : std::nullopt,
+      .maps = mapSets_};
   if (beginsPicture(plan)) {
     log_.beginPicture();
     cubes_.clear();
@@ -301,7 +303,7 @@ void SceneRenderer::recordMain(const FrameInfo& info, size_t index) {
   const PassDesc whole = fullPass(passName(scene_, info.plan, main), targets);
   PassDesc desc = scenePass(whole.name, whole.targets, whole.renderArea, whole.viewport, main.view, info.environment,
                             info.plan.picture);
-  if (info.plan.encodes && info.encodedBackground) {
+  if (info.encodedBackground) {
     std::ranges::copy(info.encodedBackground->float32, desc.clearColor.begin());
   }
   if (flat_ && !info.plan.tiles) {
@@ -349,18 +351,19 @@ void SceneRenderer::recordDisplay(const FrameInfo& info, const std::optional<Tar
   const uint32_t left = divides ? std::min(split->divider, display.width) : display.width;
   const std::array areas{VkRect2D{{0, 0}, {left, display.height}},
                          VkRect2D{{static_cast<int32_t>(left), 0}, {display.width - left, display.height}}};
-  std::vector<RecordedPass> passes;
+  const auto log = [&](const RecordedPass& pass) {
+    if (!unfinished_) {
+      log_.add(pass);
+    }
+  };
   if (!info.plan.encodes) {
     std::array pictures{picture(), divides ? split->other.picture() : DisplayedPicture()};
     pictures[0].area = areas[divides && split->right];
     pictures[1].area = areas[divides && !split->right];
-    passes.push_back(display_.record(info.frame, std::span(pictures).first(divides ? 2 : 1)));
+    log(display_.record(info.frame, std::span(pictures).first(divides ? 2 : 1)));
   }
   if (const auto target = debug ? showTarget(info.frame, info.plan, *debug) : std::nullopt) {
-    passes.push_back(*target);
-  }
-  for (size_t i = 0; i < passes.size() && !unfinished_; ++i) {
-    log_.add(passes[i]);
+    log(*target);
   }
 }
 

@@ -27,7 +27,7 @@ FramePlan shownOnly(const Scene& scene, const Settings& settings, int picture = 
   return planFrame({scene, evaluate(scene, 0.0), settings, {width, height}, {}, picture, true});
 }
 
-TEST(Encoding, NeedsOneSampleForEachPixelAndNoOtherReader) {
+TEST(Encoding, NeedsOneSampleAndNoOtherReader) {
   const Scene scene = room();
   ASSERT_TRUE(shownOnly(scene, oneSample()).encodes);
   EXPECT_FALSE(planFrame({scene, evaluate(scene, 0.0), oneSample(), {width, height}}).encodes) << "radiance is read";
@@ -59,7 +59,7 @@ TEST(Encoding, NeedsOneSampleForEachPixelAndNoOtherReader) {
 }
 
 // A picture that stays is drawn once more with its radiance, which is then shown again.
-TEST(Encoding, PicturesThatStayAreReusedAfterASecondDrawing) {
+TEST(Encoding, StillPicturesAreReusedAfterTwoDrawings) {
   PlanSequence frames(room());
   frames.settings = oneSample();
   frames.shownOnly = true;

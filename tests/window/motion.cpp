@@ -407,7 +407,7 @@ TEST(FrameWork, CountsTheRaysOfEffects) {
   EXPECT_EQ(workOf(plan, scene, state, settings).lightRays, 0.0);
 }
 
-TEST(FrameWork, HasNoDisplayPassWhereTheMainViewIsEncoded) {
+TEST(FrameWork, HasNoDisplayPassWhereViewsAreEncoded) {
   FramePlan plan{.projection = Projection(1.0, 1.0, 0.1), .width = 100, .height = 50};
   plan.main().view = mainView({}, plan.projection, 100, 50);
   Settings settings;
