@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "platform/files.hpp"
+#include "scene/gltf_repair.hpp"
 #include "scene/input_error.hpp"
 #include "scene/text_lines.hpp"
 
@@ -21,8 +22,6 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 namespace {
-
-constexpr std::string_view validFile = "a valid glTF 2.0 file is needed";
 
 // The two parts of a file; a text file has no binary part.
 struct Parts {
@@ -47,10 +46,10 @@ Parts partsOf(const fs::path& file, std::string_view text) {
     return {text, {}};
   }
   if (text.size() < header + chunkHeader) {
-    throwInputError(file, 1, "file", "ends within its header", validFile);
+    throwInputError(file, 1, "file", "ends within its header", validGltf);
   }
   if (const uint32_t version = littleEndian(text.substr(4)); version != 2) {
-    throwInputError(file, 1, "version", fmt::format("is {}", version), validFile);
+    throwInputError(file, 1, "version", fmt::format("is {}", version), validGltf);
   }
   Parts parts;
   for (size_t at = header; text.size() - at >= chunkHeader;) {
@@ -73,38 +72,13 @@ const json& member(const json& object, const char* key) {
   return found == object.end() ? none : *found;
 }
 
-// Returns the elements of an object's array; none if there is no such array.
-std::span<json> elementsOf(json& object, const char* key) {
-  const auto found = object.find(key);
-  auto* array = found == object.end() ? nullptr : found->get_ptr<json::array_t*>();
-  return array ? std::span(*array) : std::span<json>();
-}
-
-// Reads a model by the library. Returns what it says against it, in one line; nothing if it is read.
-std::string faultOf(const json& root, tinygltf::Model& model) {
-  constexpr size_t mostShown = 200;
-  const std::string text = root.dump();
-  std::string errors;
-  std::string warnings;
-  try {
-    model = {};
-    if (tinygltf::TinyGLTF().LoadASCIIFromString(&model, &errors, &warnings, text.data(),
-                                                 static_cast<unsigned>(text.size()), "")) {
-      return {};
-    }
-  } catch (const json::exception& error) {  // some values of a wrong type
-    errors = error.what();
-  }
-  return errors.substr(0, std::min({errors.find('\n'), errors.size(), mostShown}));
-}
-
 json parsedJson(const fs::path& file, std::string_view text) {
   // tinygltf and the writer of JSON call themselves for each level.
   constexpr int mostLevels = 64;
   constexpr size_t mostShown = 200;
   const auto checkDepth = [&](int depth, json::parse_event_t, json&) {
     if (depth > mostLevels) {
-      throwInputError(file, 1, "json", "has more than 64 levels", validFile);
+      throwInputError(file, 1, "json", "has more than 64 levels", validGltf);
     }
     return true;
   };
@@ -116,19 +90,19 @@ json parsedJson(const fs::path& file, std::string_view text) {
       throwInputError(file, 1, "file", foreign->wrong, foreign->right);
     }
     throwInputError(file, static_cast<int>(line) + 1, "json", std::string(error.what()).substr(0, mostShown),
-                    validFile);
+                    validGltf);
   } catch (const json::exception& error) {  // such as a number that is out of range
-    throwInputError(file, 1, "json", std::string(error.what()).substr(0, mostShown), validFile);
+    throwInputError(file, 1, "json", std::string(error.what()).substr(0, mostShown), validGltf);
   }
 }
 
 void checkVersion(const fs::path& file, const json& root) {
   const json& version = member(member(root, "asset"), "version");
   if (!version.is_string()) {
-    throwInputError(file, 1, "asset.version", "is missing", validFile);
+    throwInputError(file, 1, "asset.version", "is missing", validGltf);
   }
   if (const auto& text = version.get_ref<const std::string&>(); !text.starts_with("2.")) {
-    throwInputError(file, 1, "asset.version", "is '" + text.substr(0, 20) + "'", validFile);
+    throwInputError(file, 1, "asset.version", "is '" + text.substr(0, 20) + "'", validGltf);
   }
 }
 
@@ -256,67 +230,7 @@ void GltfFile::readJson(std::string_view text, std::vector<Source>& buffers) {
   for (const char* key : {"animations", "skins", "buffers", "images"}) {
     root.erase(key);
   }
-  prepareMeshes(root);
-  if (!faultOf(root, model_).empty()) {
-    leaveOutDamaged(root);
-    if (const std::string fault = faultOf(root, model_); !fault.empty()) {
-      throwInputError(file_, 1, "json", fault, validFile);
-    }
-  }
-}
-
-// Brings the primitives into a form that the library reads, whatever they say.
-void GltfFile::prepareMeshes(json& root) {
-  for (json& mesh : elementsOf(root, "meshes")) {
-    for (json& primitive : elementsOf(mesh, "primitives")) {
-      if (!primitive.is_object()) {
-        primitive = json::object();
-      }
-      json attributes = json::object();
-      for (const auto& [name, accessor] : member(primitive, "attributes").items()) {
-        attributes[name] = accessor.is_number_integer() ? accessor : json(-1);
-      }
-      attributes.erase(indicesName);
-      if (const auto indices = primitive.find("indices"); indices != primitive.end()) {
-        attributes[indicesName] = indices->is_number_integer() ? *indices : json(-1);
-        primitive.erase(indices);
-      }
-      primitive["attributes"] = std::move(attributes);
-    }
-  }
-}
-
-// Replaces objects that the library cannot read by such as nothing is drawn of.
-void GltfFile::leaveOutDamaged(json& root) {
-  const std::array<std::pair<const char*, json>, 9> usual{
-      {{"bufferViews", {{"buffer", -1}, {"byteLength", 1}}},
-       {"accessors", {{"componentType", TINYGLTF_COMPONENT_TYPE_FLOAT}, {"count", 1}, {"type", "MAT4"}}},
-       {"cameras", {{"type", "orthographic"}, {"orthographic", {{"xmag", 1}, {"ymag", 1}, {"znear", 1}, {"zfar", 2}}}}},
-       {"meshes", json::object()},
-       {"nodes", json::object()},
-       {"scenes", json::object()},
-       {"materials", json::object()},
-       {"textures", json::object()},
-       {"samplers", json::object()}}};
-  tinygltf::Model read;
-  const auto faultOfPart = [&](const char* key, const json& part) {
-    return faultOf(json::object({{"asset", root["asset"]}, {key, part}}), read);
-  };
-  for (const auto& [key, empty] : usual) {
-    int index = 0;
-    for (json& element : elementsOf(root, key)) {
-      if (const std::string fault = faultOfPart(key, json::array({element})); !fault.empty()) {
-        defects_.add(file_, 1, key, "{} cannot be read, what uses it is left out",
-                     fmt::format("{} ({})", index, fault));
-        element = empty;
-      }
-      ++index;
-    }
-  }
-  if (const std::string fault = faultOfPart("extensions", member(root, "extensions")); !fault.empty()) {
-    defects_.add(file_, 1, "extensions", "cannot be read ({}), lights are left out", fault);
-    root.erase("extensions");
-  }
+  model_ = readRepaired(file_, std::move(root), defects_);
 }
 
 void GltfFile::readBuffers(const std::vector<Source>& sources, std::string_view binary) {

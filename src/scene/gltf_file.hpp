@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <deque>
 #include <filesystem>
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <set>
 #include <span>
@@ -25,17 +24,13 @@ inline bool isIndex(int index, size_t count) {
 const tinygltf::Value& extensionMember(const tinygltf::ExtensionMap& extensions, const char* name, const char* key);
 double numberOf(const tinygltf::Value& value, double usual);
 
-// A glTF 2.0 file, as text (.gltf) or binary (.glb), with its buffers. tinygltf reads the objects of the JSON. Buffers
-// and pictures are read here, because the library
+// A glTF 2.0 file, as text (.gltf) or binary (.glb), with its buffers. tinygltf reads the objects of the JSON
+// (readRepaired). Buffers and pictures are read here, because the library
 // - looks for their files in the working folder too;
 // - refuses a file that is longer than its buffer, and most kinds of data URIs;
-// - decodes pictures that nothing uses;
-// - refuses a file for one object that it cannot read, and for indices of a primitive that it cannot find.
+// - decodes pictures that nothing uses.
 class GltfFile {
  public:
-  // Attribute of a primitive in model() that names the accessor of its indices. Primitive::indices is not set.
-  static constexpr const char* indicesName = "indices";
-
   struct Picture {
     std::filesystem::path name;                   // its file, or a name of its place in a file
     std::optional<std::vector<uint8_t>> content;  // if it is no file of its own
@@ -45,9 +40,9 @@ class GltfFile {
   // glTF 2.0, is damaged, or requires an extension that is not read.
   GltfFile(const std::filesystem::path& file, ModelDefects& defects);
 
-  const tinygltf::Model& model() const { return model_; }
-  bool hasMotion() const { return hasMotion_; }      // animations or skins
-  uint64_t byteCount() const { return byteCount_; }  // of the file and its buffers
+  const tinygltf::Model& model() const { return model_; }  // with indicesAttribute
+  bool hasMotion() const { return hasMotion_; }            // animations or skins
+  uint64_t byteCount() const { return byteCount_; }        // of the file and its buffers
   // Return the files that were read: of buffers, with symbolic links resolved; of buffers and pictures, as found.
   const std::set<std::filesystem::path>& bufferFiles() const { return bufferFiles_; }
   const std::set<std::filesystem::path>& namedFiles() const { return namedFiles_; }
@@ -75,8 +70,6 @@ class GltfFile {
   };
 
   void readJson(std::string_view text, std::vector<Source>& buffers);
-  void prepareMeshes(nlohmann::json& root);
-  void leaveOutDamaged(nlohmann::json& root);
   void readBuffers(const std::vector<Source>& sources, std::string_view binary);
   std::optional<std::filesystem::path> find(const std::string& uri);
   std::optional<std::span<const uint8_t>> viewBytes(int view) const;

@@ -10,6 +10,7 @@
 
 #include "scene/gltf_file.hpp"
 #include "scene/gltf_materials.hpp"
+#include "scene/gltf_repair.hpp"
 #include "scene/input_error.hpp"
 #include "scene/mesh_builder.hpp"
 #include "scene/value_range.hpp"
@@ -213,7 +214,7 @@ class GltfReader {
       add("meshes", "mesh {} has morph targets, they are left out", mesh);
     }
     const uint64_t count = content_.countOf(position->second);
-    const auto indexed = primitive.attributes.find(GltfFile::indicesName);
+    const auto indexed = primitive.attributes.find(indicesAttribute);
     const bool hasIndices = indexed != primitive.attributes.end();
     const uint64_t corners = hasIndices ? content_.countOf(indexed->second) : count;
     const uint64_t taken = count + (primitive.mode == TINYGLTF_MODE_TRIANGLES ? 1 : 3) * corners;
