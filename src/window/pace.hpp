@@ -92,6 +92,7 @@ class Pace {
   void begin(const CameraPose& camera, bool contentMoves, double seconds);
   void sceneChanged() {
     movement_.restart();
+    shown_.reset();
     drawn_.clear();
     learned_ = 0;
     playCost_.reset();
@@ -116,7 +117,6 @@ class Pace {
 
   // Identifies what a still picture shows, besides the chosen settings.
   struct Shown {
-    int scenes = 0;              // number of scenes shown before this one
     uint64_t revision = 0;       // of the scene's document
     uint64_t shaders = 0;        // revision of the pipelines
     std::optional<double> time;  // of a scene that moves

@@ -1,0 +1,77 @@
+#include "window/picture_halves.hpp"
+
+#include "image/color.hpp"
+
+namespace speculum {
+
+PictureHalf::PictureHalf(Renderer& renderer, const Scene& scene)
+    : renderer(std::make_unique<SceneRenderer>(renderer, scene)),
+      planner(renderer.device(), true),
+      pace(renderer.device().info().isCpu(), renderer.device().caps().sampleCounts) {}
+
+const FittedPlan& PictureHalf::plan(Frame& frame, const Pace::Request& request) {
+  const FittedPlan& fitted = pace.plan(request);
+  const auto upload = [&] { renderer->uploadTextures(frame, request.frame.state, fitted.settings, fitted.plan); };
+  try {
+    upload();
+  } catch (const OutOfMemoryError& error) {
+    planner.leaveOutTextures(error.what());
+    pace.leaveOutTextures();
+    upload();
+  }
+  return fitted;
+}
+
+Image8 PictureHalf::pixels() {
+  return toDisplay(renderer->radiance(), pace.planned().settings.view.displayCurve());
+}
+
+void PictureHalves::takeTurns(bool split, const Scene& scene) {
+  if (!split) {
+    return dropB();
+  }
+  if (!this->split()) {
+    renderer_.waitIdle();
+    halves_.emplace_back(renderer_, scene);
+  }
+  drawn_ = 1 - drawn_;
+}
+
+void PictureHalves::dropB() {
+  if (split()) {
+    renderer_.waitIdle();
+    nonFinite_ += halves_.back().renderer->finiteWatch().count();
+    halves_.pop_back();
+  }
+  drawn_ = 0;
+}
+
+void PictureHalves::useScene(const Scene& scene) {
+  dropB();
+  PictureHalf& half = drawn();
+  if (half.renderer) {  // none if the last call has failed
+    renderer_.waitIdle();
+    nonFinite_ = nonFinite();
+  }
+  half.renderer.reset();
+  half.planner.forgetScene();
+  half.renderer = std::make_unique<SceneRenderer>(renderer_, scene);
+  half.frame = 0;
+  half.pace.sceneChanged();
+}
+
+const FrameTimings& PictureHalves::timings() {
+  static const FrameTimings none;
+  const FrameTimings* found = split() ? renderer_.timingsOf(drawn().frame) : &renderer_.timings();
+  return found ? *found : none;
+}
+
+uint64_t PictureHalves::nonFinite() {
+  uint64_t sum = nonFinite_;
+  for (const PictureHalf& half : halves_) {
+    sum += half.renderer->finiteWatch().count();
+  }
+  return sum;
+}
+
+}  // namespace speculum

@@ -1,0 +1,84 @@
+#include "window/window_input.hpp"
+
+#include <utility>
+
+#include "ui/input_map.hpp"
+
+namespace speculum {
+
+bool WindowInput::take(const InputEvent& event) {
+  using Kind = InputEvent::Kind;
+  if (event.kind == Kind::key) {
+    takeKey(event.key);
+  } else if (event.kind == Kind::button && event.code <= static_cast<int>(MouseButton::middle)) {
+    workspace_.pointerButton({static_cast<MouseButton>(event.code), event.down, event.shift}, overPanels());
+  } else if (event.kind == Kind::pointer) {
+    const VkExtent2D size = window_.size();
+    workspace_.pointerMoved({event.x, event.y}, {size.width, size.height}, controlHeld());
+  } else if (event.kind == Kind::wheel && !overPanels()) {
+    workspace_.scrolled(event.y);
+  } else if (event.kind == Kind::drop) {
+    workspace_.apply(OpenDropped{event.dropped});
+  }
+  ui_.push(event);
+  return event.kind == Kind::wheel || (event.down && (event.kind == Kind::key || event.kind == Kind::button));
+}
+
+bool WindowInput::overPanels() const {
+  const glm::dvec2& position = workspace_.pointer().position();
+  return ui_.takesPointer(position.x, position.y);
+}
+
+// Applies the command of a key, unless a prompt or a text field has the keyboard.
+void WindowInput::takeKey(const KeyEvent& event) {
+  const std::optional<Command> command = event.pressed ? commandOf(event) : std::nullopt;
+  if (!command) {
+    return;
+  }
+  if (workspace_.prompting()) {
+    return std::holds_alternative<Escape>(*command) ? workspace_.apply(CancelPrompt{}) : void();
+  }
+  const bool typed = ui_.wantsKeyboard() && !std::holds_alternative<Quit>(*command);
+  const bool presses = ui_.navigating() && std::holds_alternative<TogglePaused>(*command);
+  if (!typed && !presses) {
+    workspace_.apply(*command);
+  }
+}
+
+// Applies the commands of gamepad buttons. The direction pad navigates the panels (by Dear ImGui), which then have
+// sticks and buttons too.
+void WindowInput::takeGamepad(const GamepadState& gamepad) {
+  const GamepadState before = std::exchange(gamepad_, gamepad);
+  gamepadChanged_ = gamepad_ != before;
+  for (int i = 0; i < static_cast<int>(GamepadButton::count); ++i) {
+    const auto button = static_cast<GamepadButton>(i);
+    const GamepadCommand bound = commandOf(button);
+    if (gamepad_.down(button) && !before.down(button) && !workspace_.prompting() &&
+        (bound.inPanels || !ui_.navigating())) {
+      workspace_.apply(bound.command);
+    }
+  }
+}
+
+void WindowInput::moveCamera(double seconds) {
+  const bool sticks = !ui_.navigating() && !workspace_.prompting();
+  workspace_.moveCamera(direction(), sticks ? gamepad_ : GamepadState{}, seconds);
+}
+
+bool WindowInput::controlHeld() const {
+  return window_.keyDown(Key::leftControl) || window_.keyDown(Key::rightControl);
+}
+
+// Returns the direction of the held fly keys, along right, up and backwards of the view. A shortcut's letter does not
+// fly if it is released after Ctrl.
+glm::dvec3 WindowInput::direction() const {
+  if (ui_.wantsKeyboard() || controlHeld() || workspace_.prompting()) {
+    return glm::dvec3(0.0);
+  }
+  const auto axis = [&](Key positive, Key negative) {
+    return static_cast<double>(window_.keyDownAlone(positive)) - static_cast<double>(window_.keyDownAlone(negative));
+  };
+  return {axis(Key::d, Key::a), axis(Key::e, Key::q), axis(Key::s, Key::w)};
+}
+
+}  // namespace speculum

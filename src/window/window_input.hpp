@@ -1,0 +1,33 @@
+#pragma once
+
+#include "ui/simple_ui.hpp"
+#include "window/workspace.hpp"
+
+namespace speculum {
+
+// Passes the user's input on: events to the panels and, where these do not take them, as commands to the workspace.
+class WindowInput {
+ public:
+  WindowInput(Window& window, SimpleUI& ui, Workspace& workspace) : window_(window), ui_(ui), workspace_(workspace) {}
+
+  // Takes an event of the window. Says whether the user presses a key or a button, or turns the wheel.
+  bool take(const InputEvent& event);
+  void takeGamepad(const GamepadState& gamepad);  // once a step
+  // Says whether something is held, or changed in the last step, that needs frames although there is no event.
+  bool held() const { return gamepadChanged_ || gamepad_.used() || direction() != glm::dvec3(0.0); }
+  void moveCamera(double seconds);  // by keys and sticks that are held
+  bool overPanels() const;          // the pointer is
+
+ private:
+  void takeKey(const KeyEvent& event);
+  bool controlHeld() const;
+  glm::dvec3 direction() const;
+
+  Window& window_;
+  SimpleUI& ui_;
+  Workspace& workspace_;
+  GamepadState gamepad_;
+  bool gamepadChanged_ = false;
+};
+
+}  // namespace speculum
