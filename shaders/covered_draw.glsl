@@ -1,4 +1,4 @@
-// Coverage in the fragment shaders of objects: Needs interface.glsl and shading.glsl's bilinearTexels().
+// Coverage in the fragment shaders of objects. VERTEX_COLORS draws meshes with colors of their vertices. Needs interface.glsl and shading.glsl's bilinearTexels().
 #include "coverage.glsl"
 #include "sample_positions.glsl"
 
@@ -13,6 +13,14 @@ layout(push_constant) uniform Draw {
 
 layout(set = 3, binding = 0) uniform sampler2D opacityTexture;
 
+#ifdef VERTEX_COLORS
+layout(constant_id = constantVertexAlpha) const bool hasVertexAlpha = false;
+layout(location = 6) centroid in float vertexAlpha;
+float alphaHere() { return hasVertexAlpha ? vertexAlpha : 1.0; }
+#else
+float alphaHere() { return 1.0; }
+#endif
+
 float opacityAt(vec2 uv) {
   BilinearTexels at = bilinearTexels(uv, textureSize(opacityTexture, 0), clamps);
   float a = texelFetch(opacityTexture, at.low, 0).a;
@@ -26,10 +34,12 @@ float opacityAt(vec2 uv) {
 void keepCovered(vec2 uv, uint instance, uint triangle) {
   vec2 across = dFdx(uv);
   vec2 down = dFdy(uv);
+  float alpha = alphaHere();
+  vec2 growth = vec2(dFdx(alpha), dFdy(alpha));
   int mask = 0;
   for (uint i = 0; i < samples; ++i) {
     vec2 offset = samplePosition(samples, i) - 0.5;
-    float here = opacityAt(uv + offset.x * across + offset.y * down);
+    float here = (alpha + dot(offset, growth)) * opacityAt(uv + offset.x * across + offset.y * down);
     mask |= int(isThere(here, cutoff, view.picture * samples + i, seedAt(gl_FragCoord.xy), instance, triangle)) << i;
   }
   if (mask == 0) {

@@ -1,21 +1,3 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
-#include "interface.glsl"
-#include "shading.glsl"
-#include "covered_draw.glsl"
-#include "identifiers.glsl"
-
-layout(constant_id = constantRepeating) const bool repeating = false;
-
-layout(location = 2) centroid in vec2 textureUv;
-layout(location = 3) flat in uint instanceIndex;
-
-layout(location = 0) out vec4 color;
-
-void main() {
-  uint triangle = draw.firstTriangle + uint(gl_PrimitiveID);
-  uint index = instances[instanceIndex].repeats + triangle;
-  vec2 uv = repeating ? repeatingUv(index, view.traceOffset.xyz, rayThrough(gl_FragCoord.xy)) : textureUv;
-  color = encoded(Identifier(false, false, instanceIndex, triangle));
-  keepCovered(uv, instances[instanceIndex].traceInstance, triangle);
-}
+#include "scene_identifier_covered.glsl"

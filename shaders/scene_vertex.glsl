@@ -13,7 +13,7 @@ layout(location = 7) in vec4 relativeFromMesh[3];  // rows
 layout(location = 10) in vec4 normalFromMesh[3];   // rows
 layout(location = 13) in vec4 clipPlane;           // in mesh space
 #ifdef VERTEX_COLORS
-layout(location = 14) in vec3 color;
+layout(location = 14) in vec4 color;  // alpha 1 unless the mesh's colors have it
 #endif
 
 layout(location = 0) centroid out vec3 relativePosition;
@@ -23,6 +23,7 @@ layout(location = 3) flat out uint instanceIndex;
 layout(location = 4) flat out float reach;
 #ifdef VERTEX_COLORS
 layout(location = 5) centroid out vec3 vertexColor;
+layout(location = 6) centroid out float vertexAlpha;
 #endif
 
 out gl_PerVertex {
@@ -43,7 +44,8 @@ void main() {
   reach = normalFromMesh[0].w;
   textureUv = uv;
 #ifdef VERTEX_COLORS
-  vertexColor = color;
+  vertexColor = color.rgb;
+  vertexAlpha = color.a;
 #endif
   gl_Position = clipFromMesh * p;
   // A vertex nearer to the eye than its rounding error has no reliable direction; the triangle is clipped there.

@@ -1,14 +1,3 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
-#include "interface.glsl"
-#include "shading.glsl"
-#include "covered_draw.glsl"
-#include "shadow_plane.glsl"
-
-layout(location = 2) centroid in vec2 textureUv;
-layout(location = 3) flat in uint instanceIndex;
-
-void main() {
-  storePlane();
-  keepCovered(textureUv, instances[instanceIndex].traceInstance, draw.firstTriangle + uint(gl_PrimitiveID));
-}
+#include "shadow_map_covered.glsl"

@@ -24,6 +24,7 @@ layout(set = 2, binding = 11) uniform usamplerBuffer traceInstanceTexels;
 layout(set = 2, binding = 12) uniform usamplerBuffer traceMirrorTexels;
 
 layout(constant_id = constantRepeating) const bool repeating = false;  // there are repeatingTriangles
+layout(constant_id = constantVertexAlpha) const bool vertexAlpha = false;  // colors of some mesh have alpha that counts
 layout(constant_id = constantTransparency) const bool transparency = false;  // some material has coverage
 
 TraceVertex vertexOf(uint instance, uint triangle, uint corner) {
@@ -207,6 +208,17 @@ vec4 bilinearTraced(TraceTexture source, vec2 uv, bool clamped) {
   return mix(rows[0], rows[1], at.weight.y);
 }
 
+// Returns the alpha of the corners' colors.
+vec3 alphasOf(uint instance, uint triangle, uint firstColor) {
+  vec3 alphas;
+  for (int i = 0; i < 3; ++i) {
+    uint number = firstColor + traceFaces[traceInstances[instance].firstTriangle + triangle].vertices[i];
+    TraceVertex pair = traceVertices[number / 2];
+    alphas[i] = number % 2 == 0 ? pair.u : pair.v;
+  }
+  return alphas;
+}
+
 // Says whether the triangle in a slot is there for a ray with this seed. Curved mirrors are.
 bool meetsSurface(uint instance, uint slot, vec3 weights, vec3 origin, vec3 direction, uint seed) {
   uint coverage = triangleTexel(slot, 1).w;
@@ -216,6 +228,9 @@ bool meetsSurface(uint instance, uint slot, vec3 weights, vec3 origin, vec3 dire
   MaterialData material = materials[coverage - 1];
   uint triangle = triangleTexel(slot, 0).w;
   float opacity = material.opacity;
+  if (vertexAlpha && material.firstColor != noColors) {
+    opacity *= dot(weights, alphasOf(instance, triangle, material.firstColor));
+  }
   if (material.opacityTexture != noTexture) {
     vec2 uv = uvOf(instance, triangle, weights, origin, direction);
     opacity *= bilinearTraced(traceTextures[material.opacityTexture], uv, material.clamps != 0).a;

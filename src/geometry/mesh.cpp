@@ -201,6 +201,10 @@ bool Mesh::isTransparent() const {
   return std::ranges::any_of(parts, [](const MeshPart& part) { return part.material.isTransparent(); });
 }
 
+bool Mesh::hasVertexAlpha() const {
+  return std::ranges::any_of(parts, [](const MeshPart& part) { return part.material.vertexAlpha; });
+}
+
 void countFlat(Mesh& mesh) {
   const auto isFlat = [](const Vertex& vertex) { return vertex.normal == glm::dvec3(0.0); };
   mesh.flatVertices = static_cast<uint32_t>(std::ranges::count_if(mesh.vertices, isFlat));
@@ -239,11 +243,11 @@ ShadedVertices::ShadedVertices(const Mesh& mesh) : mesh_(mesh) {
   }
 }
 
-std::vector<glm::vec3> ShadedVertices::colors() const {
+std::vector<glm::vec4> ShadedVertices::colors() const {
   if (mesh_.colors.empty() || mesh_.flatVertices == 0) {
     return mesh_.colors;
   }
-  std::vector<glm::vec3> colors(countOf(mesh_));
+  std::vector<glm::vec4> colors(countOf(mesh_));
   for (size_t i = 0; i < indices_.size(); ++i) {
     colors[indices_[i]] = mesh_.colors[mesh_.indices[i]];
   }

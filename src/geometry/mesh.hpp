@@ -43,11 +43,12 @@ struct Material {
   bool clamps = false;               // its textures clamp instead of repeating
   std::optional<glm::dvec3> mirror;  // reflectance, 0 .. 1, of a material that says mirror
   // Coverage: the share of the surface that is there. The rest shows what is behind.
-  double opacity = 1.0;     // 0 .. 1
-  int opacityTexture = -1;  // index into Scene::textures, whose opacity multiplies `opacity`; -1: none
-  double cutoff = -1.0;     // least product that counts as 1, any other as 0; below 0: products count as they are
+  double opacity = 1.0;      // 0 .. 1
+  int opacityTexture = -1;   // index into Scene::textures, whose opacity multiplies `opacity`; -1: none
+  double cutoff = -1.0;      // least product that counts as 1, any other as 0; below 0: products count as they are
+  bool vertexAlpha = false;  // the alpha of Mesh::colors multiplies `opacity` too, and is somewhere below 1
 
-  bool isTransparent() const { return opacity < 1.0 || opacityTexture >= 0 || cutoff > 1.0; }
+  bool isTransparent() const { return opacity < 1.0 || opacityTexture >= 0 || cutoff > 1.0 || vertexAlpha; }
 };
 
 struct Vertex {
@@ -106,7 +107,7 @@ struct Mesh {
   glm::dvec3 halfExtent{0.0};                        // of the bounding box
   double radius = 0.0;                               // of the bounding sphere about `center`
   std::vector<Vertex> vertices;
-  std::vector<glm::vec3> colors;  // of the vertices, linear RGB; they multiply Kd. Empty: none
+  std::vector<glm::vec4> colors;  // of the vertices, linear RGB and alpha; they multiply Kd and opacity. Empty: none
   std::vector<uint32_t> indices;
   uint32_t flatVertices = 0;  // whose normals are zero
   uint32_t flatCorners = 0;   // of triangles, at these vertices
@@ -120,7 +121,8 @@ struct Mesh {
   bool curvedMirror = false;               // cut out of another mesh: a curved mirror by the material of its one part
   std::optional<MirrorParts> mirrorParts;  // of a mesh with materials that say mirror
 
-  bool isTransparent() const;  // some part is
+  bool isTransparent() const;   // some part is
+  bool hasVertexAlpha() const;  // some part has
 };
 
 // Sets `flatVertices` and `flatCorners`.
@@ -137,7 +139,7 @@ class ShadedVertices {
 
   static size_t countOf(const Mesh& mesh) { return mesh.vertices.size() - mesh.flatVertices + mesh.flatCorners; }
   std::span<const uint32_t> indices() const { return mesh_.flatVertices == 0 ? mesh_.indices : indices_; }
-  std::vector<glm::vec3> colors() const;  // none if the mesh has none
+  std::vector<glm::vec4> colors() const;  // none if the mesh has none
 
   // Calls take(vertex, its index in the mesh) for each, in order.
   template <typename Take>

@@ -75,6 +75,7 @@ void addMesh(Fingerprint& fingerprint, const Mesh& mesh) {
     fingerprint.add(part.material.opacity);
     fingerprint.add(part.material.opacityTexture);
     fingerprint.add(part.material.cutoff);
+    fingerprint.add(part.material.vertexAlpha);
   }
 }
 

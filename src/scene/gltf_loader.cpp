@@ -6,6 +6,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/gtc/type_ptr.hpp>
+#include <set>
 #include <utility>
 
 #include "scene/gltf_file.hpp"
@@ -134,7 +135,9 @@ class GltfReader {
   }
 
   Model finish(GltfMaterials& materials) {
-    Model model{.mesh = builder_.finish([&](int index) { return materials.material(index, builder_.hasColors()); })};
+    Model model{.mesh = builder_.finish([&](int index) {
+      return materials.material(index, builder_.hasColors(), materialsWithAlpha_.contains(index));
+    })};
     if (!model.mesh.indices.empty()) {
       model.camera = cameraOf(model.mesh);
       std::ranges::for_each(lights_, [&](const Placed& light) { addLight(light, model); });
@@ -239,13 +242,20 @@ class GltfReader {
     FaceCorner first{.position = static_cast<int>(builder_.positionCount())};
     const int channels = colorChannels(primitive);
     const auto colors = attribute(primitive, colorName, channels, count);
+    bool hasAlpha = false;
     for (size_t i = 0; i < count; ++i) {
-      std::optional<glm::vec3> color;
+      std::optional<glm::vec4> color;
       if (colors) {
-        const glm::dvec3 given = glm::make_vec3(&(*colors)[channels * i]);
-        color = isFinite(given) ? glm::clamp(given, 0.0, 1.0) : glm::dvec3(1.0);
+        const double* given = &(*colors)[channels * i];
+        const double alpha = channels == 4 && std::isfinite(given[3]) ? std::clamp(given[3], 0.0, 1.0) : 1.0;
+        const glm::dvec3 rgb = glm::make_vec3(given);
+        color = glm::vec4(isFinite(rgb) ? glm::clamp(rgb, 0.0, 1.0) : glm::dvec3(1.0), alpha);
+        hasAlpha = hasAlpha || color->a < 1.0f;
       }
       builder_.addPosition(glm::dvec3(sceneFromNode * glm::dvec4(glm::make_vec3(&positions[3 * i]), 1.0)), color);
+    }
+    if (hasAlpha) {
+      materialsWithAlpha_.insert(primitive.material);
     }
     if (const auto normals = attribute(primitive, "NORMAL", 3, count)) {
       first.normal = static_cast<int>(builder_.normalCount());
@@ -395,6 +405,7 @@ class GltfReader {
   ModelDefects& defects_;
   MeshBuilder builder_;
   uint64_t cornersLeft_ = 0;
+  std::set<int> materialsWithAlpha_;  // of vertices whose colors have alpha below 1
   bool hasLinesOrPoints_ = false;
   Placed camera_;
   std::vector<Placed> lights_;

@@ -42,7 +42,7 @@ auto GltfMaterials::readPicture(int texture, const Read& read) -> std::optional<
   }
 }
 
-Material GltfMaterials::material(int index, bool colored) {
+Material GltfMaterials::material(int index, bool colored, bool withAlpha) {
   if (!isIndex(index, content_.model().materials.size())) {
     return colored ? Material{.diffuse = glm::dvec3(1.0)} : Material();
   }
@@ -59,6 +59,7 @@ Material GltfMaterials::material(int index, bool colored) {
   setSurface(material, surface);
   material.emission = emissionOf(from);
   if (from.alphaMode == "MASK" || from.alphaMode == "BLEND") {
+    material.vertexAlpha = withAlpha;
     setCoverage(material, from);
   }
   if (from.normalTexture.index >= 0 || from.occlusionTexture.index >= 0) {

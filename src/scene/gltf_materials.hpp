@@ -25,8 +25,9 @@ class GltfMaterials {
                 std::vector<Texture>& textures)
       : file_(file), content_(content), defects_(defects), textures_(textures) {}
 
-  // Returns a material; for another index the default one, which is white for a mesh with colors.
-  Material material(int index, bool colored);
+  // Returns a material; for another index the default one, which is white for a mesh with colors. `withAlpha`: its
+  // vertices have colors with alpha below 1.
+  Material material(int index, bool colored, bool withAlpha);
 
  private:
   void add(std::string_view kind, std::string_view detail) { defects_.add(file_, 1, "materials", kind, detail); }

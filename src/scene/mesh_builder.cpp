@@ -132,9 +132,9 @@ size_t MeshBuilder::CornerHash::operator()(const FaceCorner& corner) const {
   return hash * 0x9e3779b97f4a7c15u + static_cast<size_t>(corner.normal + 1);
 }
 
-void MeshBuilder::addPosition(const glm::dvec3& position, const std::optional<glm::vec3>& color) {
+void MeshBuilder::addPosition(const glm::dvec3& position, const std::optional<glm::vec4>& color) {
   if (color) {
-    colors_.resize(positions_.size(), glm::vec3(1.0f));
+    colors_.resize(positions_.size(), glm::vec4(1.0f));
     colors_.push_back(*color);
   }
   positions_.push_back(position);
@@ -300,8 +300,8 @@ uint32_t MeshBuilder::copyOf(uint32_t vertex) {
     uvShifts_.push_back(glm::dvec2(uvShifts_[vertex]));
   }
   if (vertex < vertexColors_.size()) {
-    vertexColors_.resize(index, glm::vec3(1.0f));
-    vertexColors_.push_back(glm::vec3(vertexColors_[vertex]));
+    vertexColors_.resize(index, glm::vec4(1.0f));
+    vertexColors_.push_back(glm::vec4(vertexColors_[vertex]));
   }
   return index;
 }
@@ -348,7 +348,7 @@ uint32_t MeshBuilder::vertexOf(const FaceCorner& corner, const glm::dvec3& trian
     smoothVertices_.emplace_back(index, firstSmooth - corner.normal);
   }
   if (static_cast<size_t>(corner.position) < colors_.size()) {
-    vertexColors_.resize(index, glm::vec3(1.0f));
+    vertexColors_.resize(index, glm::vec4(1.0f));
     vertexColors_.push_back(colors_[corner.position]);
   }
   return index;
@@ -357,7 +357,7 @@ uint32_t MeshBuilder::vertexOf(const FaceCorner& corner, const glm::dvec3& trian
 Mesh MeshBuilder::finish(const std::function<PartMaterial(int)>& materialOf) {
   smoothNormals();
   colored_ = !vertexColors_.empty();
-  vertexColors_.resize(colored_ ? vertices_.size() : 0, glm::vec3(1.0f));
+  vertexColors_.resize(colored_ ? vertices_.size() : 0, glm::vec4(1.0f));
   Mesh mesh{.source = file_, .vertices = std::move(vertices_), .colors = std::move(vertexColors_)};
   std::vector<Material> materials;
   for (const int index : materialOrder_) {

@@ -49,8 +49,8 @@ class MeshBuilder {
   MeshBuilder(const std::filesystem::path& file, ModelDefects& defects, std::string_view faceKey)
       : file_(file), defects_(defects), faceKey_(faceKey) {}
 
-  // `color`: of the vertex, linear RGB. Positions without one are white if any has one.
-  void addPosition(const glm::dvec3& position, const std::optional<glm::vec3>& color = {});
+  // `color`: of the vertex, linear RGB and alpha. Positions without one are white if any has one.
+  void addPosition(const glm::dvec3& position, const std::optional<glm::vec4>& color = {});
   void addTexcoord(const glm::dvec2& texcoord) { texcoords_.push_back(texcoord); }
   void addNormal(const glm::dvec3& normal);  // any length
   // Sets the material of the faces that follow; -1: the default material.
@@ -107,8 +107,8 @@ class MeshBuilder {
   std::unordered_map<FaceCorner, uint32_t, CornerHash> sharedVertices_;
   std::vector<uint32_t> flatVertices_;  // by position: last vertex there without a normal, or ~0u; may end early
   std::vector<Vertex> vertices_;
-  std::vector<glm::vec3> colors_;        // by position; may end before the last; empty: none
-  std::vector<glm::vec3> vertexColors_;  // by vertex, as colors_
+  std::vector<glm::vec4> colors_;        // by position; may end before the last; empty: none
+  std::vector<glm::vec4> vertexColors_;  // by vertex, as colors_
   bool colored_ = false;
   uint32_t smoothing_ = 0;
   std::unordered_map<uint64_t, int> smoothIndices_;       // by position and group: index into smoothNormals_

@@ -175,7 +175,7 @@ class ObjReader {
   }
 
   // Three numbers behind the coordinates are a color; a single one would be a weight.
-  std::optional<glm::vec3> vertexColor() {
+  std::optional<glm::vec4> vertexColor() {
     if (line_.tokens().size() < 7) {
       return std::nullopt;
     }
@@ -187,7 +187,7 @@ class ObjReader {
     if (color != glm::clamp(color, 0.0, 1.0)) {
       add("v", "has a color outside 0 .. 1, the nearest one is used");
     }
-    return glm::vec3(glm::clamp(color, 0.0, 1.0));
+    return glm::vec4(glm::clamp(color, 0.0, 1.0), 1.0);
   }
 
   void addTexcoord() {

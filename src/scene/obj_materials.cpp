@@ -114,12 +114,10 @@ class ObjMaterials::MtlReader {
       readColor("Ke", radianceRange, 0.0);
     } else if (key == "ns") {
       readNumber("Ns");
-    } else if (key == "d") {
-      readNumber("d");
+    } else if (key == "d" || key == "tr") {
+      hasOpacity_ = readNumber(key == "d" ? "d" : "Tr") || hasOpacity_;
     } else if (key == "illum") {
-      readNumber("illum");
-    } else if (key == "tr") {
-      readNumber("Tr");
+      hasIllum_ = readNumber("illum") || hasIllum_;
     } else if (key == "pr" || key == "pm") {
       const bool read = readNumber(key == "pr" ? "Pr" : "Pm", Range{0.0, 1.0});
       entry_->metalRoughness = read || entry_->metalRoughness;
@@ -216,6 +214,10 @@ class ObjMaterials::MtlReader {
                               name_);
       material.opacity = 1.0;
     }
+    constexpr std::array transparentModes{4, 6, 7, 9};  // of illum
+    const bool opaqueMode = std::ranges::find(transparentModes, from.illum) == transparentModes.end();
+    entry_->opaque = hasOpacity_ && from.dissolve >= 1.0f && hasIllum_ && opaqueMode;
+    hasOpacity_ = hasIllum_ = false;
     entry_->opacityTexture = from.alpha_texname;
     entry_->metal = from.metallic;
     entry_->roughness = std::exchange(hasRoughness_, false) ? from.roughness : roughnessOf(material.shininess);
@@ -236,7 +238,10 @@ class ObjMaterials::MtlReader {
   std::optional<Entry> entry_;  // the material that is being read
   std::string name_;
   std::string text_;  // for tinyobjloader
+  // Of that material: the keys that stand there.
   bool hasRoughness_ = false;
+  bool hasOpacity_ = false;
+  bool hasIllum_ = false;
 };
 
 void ObjMaterials::read(std::string_view names, int line) {
@@ -342,12 +347,14 @@ auto ObjMaterials::readPicture(const Entry& entry, int line, std::string_view ke
   }
 }
 
-// Adds the opacity of map_d, or else that of the diffuse texture. An opaque material with a cut-out is a cut-out.
+// Adds the opacity of map_d, or else that of the diffuse texture: not if the material says that it is opaque, because
+// exporters that write this name a texture of opacity too, and other programs take the alpha as meant for something
+// else. An opaque material with a cut-out is a cut-out.
 void ObjMaterials::addOpacity(const Entry& entry, Material& material, std::vector<Texture>& textures) {
   if (!entry.opacityTexture.empty()) {
     const auto load = [&](const fs::path& picture) { return opacityTextureIndex(picture, textures); };
     material.opacityTexture = readPicture(entry, entry.opacityLine, "map_d", entry.opacityTexture, load).value_or(-1);
-  } else if (material.diffuseTexture >= 0 && !textures[material.diffuseTexture].opacity.empty()) {
+  } else if (!entry.opaque && material.diffuseTexture >= 0 && !textures[material.diffuseTexture].opacity.empty()) {
     material.opacityTexture = material.diffuseTexture;
   }
   if (material.opacity == 1.0 && material.opacityTexture >= 0 && isCutOut(textures[material.opacityTexture])) {

@@ -45,6 +45,7 @@ class ObjMaterials {
     Material material;  // without its textures
     bool hasDiffuse = false;
     bool metalRoughness = false;  // Pr or Pm is given
+    bool opaque = false;          // d or Tr, and illum, say so
     double metal = 0.0;
     double roughness = 0.0;
     std::string diffuseTexture;

@@ -254,12 +254,15 @@ double TraceWorld::coverageOf(const SceneHit& objectHit) const {
     return 1.0;
   }
   const Material& material = mesh.parts[partOf(objectHit)].material;
-  double opacity = material.opacity;
+  glm::dvec2 uv(0.0);
+  double alpha = 0.0;
+  for (int k = 0; k < 3; ++k) {
+    const uint32_t vertex = mesh.indices[size_t{objectHit.triangle} * 3 + k];
+    uv += objectHit.weights[k] * mesh.vertices[vertex].uv;
+    alpha += material.vertexAlpha ? objectHit.weights[k] * mesh.colors[vertex].a : 0.0;
+  }
+  double opacity = material.opacity * (material.vertexAlpha ? alpha : 1.0);
   if (material.opacityTexture >= 0) {
-    glm::dvec2 uv(0.0);
-    for (int k = 0; k < 3; ++k) {
-      uv += objectHit.weights[k] * mesh.vertices[mesh.indices[size_t{objectHit.triangle} * 3 + k]].uv;
-    }
     opacity *= textureAt(scene_->textures[material.opacityTexture], uv, material.clamps).a;
   }
   return material.cutoff < 0.0 ? opacity : opacity >= material.cutoff ? 1.0 : 0.0;

@@ -194,8 +194,8 @@ int roughRays(const EffectSettings& effects, int samples) {
 }
 
 bool isTransparent(const Material& material, const EffectSettings& effects) {
-  return effects.transparency &&
-         (material.opacity < 1.0 || material.cutoff > 1.0 || (material.opacityTexture >= 0 && effects.textures));
+  return effects.transparency && (material.opacity < 1.0 || material.cutoff > 1.0 || material.vertexAlpha ||
+                                  (material.opacityTexture >= 0 && effects.textures));
 }
 
 bool isTransparent(const Mesh& mesh, const EffectSettings& effects) {

@@ -125,7 +125,8 @@ void DeferredShading::shade(const PassScope& scope, const FrameInfo& info, const
                       {gpu::constantRough, trace.rough},
                       {gpu::constantRepeating, trace.repeating},
                       {gpu::constantTransparency, trace.transparency},
-                      {gpu::constantVertexColors, trace.vertexColors}},
+                      {gpu::constantVertexColors, trace.vertexColors},
+                      {gpu::constantVertexAlpha, trace.vertexAlpha}},
         .setLayouts = layouts,
         .pushConstantBytes = sizeof(gpu::ShadeConstants)};
   });

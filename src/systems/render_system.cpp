@@ -45,6 +45,20 @@ void addVertexInput(GraphicsPipelineDesc& desc) {
   add(13, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(gpu::InstanceData, clipPlane), 1);
 }
 
+void addVertexColors(GraphicsPipelineDesc& desc, bool withAlpha) {
+  desc.vert = "scene_colored.vert";
+  constexpr uint32_t bytes = sizeof(glm::vec4);
+  constexpr uint32_t opaqueBytes = sizeof(glm::vec3);
+  desc.vertexBindings.push_back({2, withAlpha ? bytes : opaqueBytes, VK_VERTEX_INPUT_RATE_VERTEX});
+  desc.vertexAttributes.push_back({14, 2, withAlpha ? VK_FORMAT_R32G32B32A32_SFLOAT : VK_FORMAT_R32G32B32_SFLOAT, 0});
+}
+
+void bindColors(VkCommandBuffer commands, const FrameInfo& info, const Batch& batch) {
+  const VkBuffer colors = info.resources.meshes()[batch.mesh].colors.get();
+  constexpr VkDeviceSize offset = 0;
+  vkCmdBindVertexBuffers(commands, 2, 1, &colors, &offset);
+}
+
 void bindBatch(const PassScope& scope, const FrameInfo& info, const Batch& batch, const Batch* before) {
   if (!before || before->mesh != batch.mesh) {
     const SceneResources::GpuMesh& mesh = info.resources.meshes()[batch.mesh];
@@ -77,6 +91,7 @@ GraphicsPipelineDesc RenderSystem::objects(const Variant& variant, const FrameIn
                                           {gpu::constantShadowedLights, variant.shadowedLights},
                                           {gpu::constantClamps, variant.clamps},
                                           {gpu::constantPerSample, variant.trace.perSample},
+                                          {gpu::constantVertexAlpha, variant.vertexAlpha},
                                           {gpu::constantRepeating, variant.repeating}},
                             .setLayouts = {frameLayout_, textureLayout_},
                             .pushConstantBytes = sizeof(gpu::DrawConstants),
@@ -87,7 +102,6 @@ GraphicsPipelineDesc RenderSystem::objects(const Variant& variant, const FrameIn
   if (variant.deferred) {
     desc.frag = "scene_identifier.frag";
   } else {
-    desc.vert = variant.vertexColors ? "scene_colored.vert" : "scene.vert";
     desc.frag = std::string("scene") + (variant.environment ? "_environment" : "") +
                 (variant.vertexColors ? "_colored" : "") + (variant.repeating ? "_repeating" : "") + lookup + ".frag";
   }
@@ -104,15 +118,13 @@ GraphicsPipelineDesc RenderSystem::objects(const Variant& variant, const FrameIn
   }
   if (variant.covered) {
     addCoverage(desc,
-                variant.deferred
-                    ? "scene_identifier_covered.frag"
-                    : std::string("scene_covered") + (variant.vertexColors ? "_colored" : "") + lookup + ".frag",
+                std::string(variant.deferred ? "scene_identifier_covered" : "scene_covered") +
+                    (variant.vertexColors ? "_colored" : "") + lookup + ".frag",
                 textureLayout_);
   }
   addVertexInput(desc);
   if (variant.vertexColors) {
-    desc.vertexBindings.push_back({2, sizeof(glm::vec3), VK_VERTEX_INPUT_RATE_VERTEX});
-    desc.vertexAttributes.push_back({14, 2, VK_FORMAT_R32G32B32_SFLOAT, 0});
+    addVertexColors(desc, variant.vertexAlpha);
   }
   return variant.format.describe(desc);
 }
@@ -168,11 +180,10 @@ uint32_t RenderSystem::recordBatch(const PassScope& scope, const FrameInfo& info
   variant.lightCount = variant.deferred || variant.added ? gpu::manyLights : fixedLightCount(info.scene);
   const Mesh& mesh = info.scene.meshes[batch.mesh];
   bindBatch(scope, info, batch, std::exchange(bound.batch, &batch));
-  variant.vertexColors = !variant.deferred && !batch.environment && !mesh.colors.empty();
-  if (variant.vertexColors) {
-    const VkBuffer colors = info.resources.meshes()[batch.mesh].colors.get();
-    constexpr VkDeviceSize offset = 0;
-    vkCmdBindVertexBuffers(commands, 2, 1, &colors, &offset);
+  variant.vertexAlpha = mesh.hasVertexAlpha();
+  const bool mayBeColored = !batch.environment && !mesh.colors.empty();
+  if (mayBeColored && (!variant.deferred || variant.vertexAlpha)) {
+    bindColors(commands, info, batch);
   }
   uint32_t draws = 0;
   if (scope.hasLabels()) {
@@ -189,6 +200,7 @@ uint32_t RenderSystem::recordBatch(const PassScope& scope, const FrameInfo& info
       variant.glossy = constants.specular != glm::vec3(0.0f);
     }
     variant.covered = !batch.curved && isTransparent(material, info.settings.effects);
+    variant.vertexColors = mayBeColored && (!variant.deferred || (variant.covered && variant.vertexAlpha));
     variant.repeating = (variant.covered || variant.diffuseLookup != gpu::textureNone) &&
                         !info.data.repeats().empty() &&
                         mesh.parts[p].firstIndex + 3 * mesh.repeats >= mesh.indices.size();

@@ -18,6 +18,11 @@ void addVertexInput(GraphicsPipelineDesc& desc);
 // null: none was.
 void bindBatch(const PassScope& scope, const FrameInfo& info, const Batch& batch, const Batch* before);
 
+// Makes the vertex input that of scene_colored.vert, for meshes whose colors have alpha or have none.
+void addVertexColors(GraphicsPipelineDesc& desc, bool withAlpha);
+// Binds the colors of the batch's mesh for it.
+void bindColors(VkCommandBuffer commands, const FrameInfo& info, const Batch& batch);
+
 // Returns the indices of the part that the batch draws.
 std::vector<IndexRange> drawnRanges(const MeshPart& part, const Batch& batch);
 // Makes the description that of a pipeline for materials with coverage, whose fragment shader is `frag` and whose
@@ -64,7 +69,8 @@ class RenderSystem {
     bool deferred = false;        // draws identifiers
     bool added = false;           // only the reflection, added to the base that DeferredShading has drawn
     bool repeating = false;       // draws RepeatingTriangles
-    bool vertexColors = false;    // the mesh has them
+    bool vertexColors = false;    // the shader takes those of the mesh
+    bool vertexAlpha = false;     // the mesh's colors have alpha
     bool covered = false;         // the material has coverage
     bool clamps = false;          // the material's textures do
     bool shadowed = false;        // looks shadows up in maps

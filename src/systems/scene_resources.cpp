@@ -73,6 +73,12 @@ Buffer uploadVertices(Uploader& uploader, const ShadedVertices& vertices, size_t
   return writer.finish();
 }
 
+Buffer uploadColors(Uploader& uploader, const std::vector<glm::vec4>& colors, bool withAlpha, const std::string& name) {
+  return withAlpha ? uploader.buffer(colors, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, name)
+                   : uploader.buffer(std::vector<glm::vec3>(colors.begin(), colors.end()),
+                                     VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, name);
+}
+
 }  // namespace
 
 SceneResources::SceneResources(Device& device, Uploader& uploader, const Scene& scene)
@@ -181,7 +187,7 @@ void SceneResources::createMeshes() {
       const ShadedVertices vertices(mesh);
       gpu.vertices = uploadVertices(uploader_, vertices, ShadedVertices::countOf(mesh), name + " vertices");
       if (!mesh.colors.empty()) {
-        gpu.colors = uploader_.buffer(vertices.colors(), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, name + " colors");
+        gpu.colors = uploadColors(uploader_, vertices.colors(), mesh.hasVertexAlpha(), name + " colors");
       }
       gpu.indices = uploader_.buffer(vertices.indices(), VK_BUFFER_USAGE_INDEX_BUFFER_BIT, name + " indices");
     }

@@ -24,7 +24,7 @@ class SceneResources {
  public:
   struct GpuMesh {
     Buffer vertices;
-    Buffer colors;   // vec3 of each vertex; none: the mesh has no colors
+    Buffer colors;   // vec3 of each vertex, vec4 if Mesh::hasVertexAlpha(); none: the mesh has no colors
     Buffer indices;  // uint32
   };
 

@@ -34,10 +34,6 @@ std::array<gpu::ShadowMapData, gpu::mostShadowMaps> mapData(const FramePlan& pla
 
 }  // namespace
 
-bool ShadowSystem::isCovered(Drawn drawn) {
-  return drawn == Drawn::covered || drawn == Drawn::coveredClamping;
-}
-
 ShadowSystem::ShadowSystem(Device& device, PipelineFactory& factory, VkDescriptorSetLayout frameLayout)
     : device_(device),
       frameLayout_(frameLayout),
@@ -108,8 +104,9 @@ PassTargets ShadowSystem::layerTargets() {
   return targets;
 }
 
-const Pipeline& ShadowSystem::pipelineFor(Drawn drawn, const FrameInfo& info) {
-  return pipelines_.get(drawn, [&] {
+const Pipeline& ShadowSystem::pipelineFor(const Variant& variant, const FrameInfo& info) {
+  const Drawn drawn = variant.drawn;
+  return pipelines_.get(variant, [&] {
     GraphicsPipelineDesc desc{.name = "shadow map",
                               .vert = "mirror.vert",
                               .frag = "shadow_map.frag",
@@ -119,12 +116,16 @@ const Pipeline& ShadowSystem::pipelineFor(Drawn drawn, const FrameInfo& info) {
     if (desc.lines || drawn == Drawn::coveredEdges) {
       desc.frag = "shadow_edge.frag";
     }
-    if (drawn == Drawn::objects || drawn == Drawn::edges || drawn == Drawn::coveredEdges || isCovered(drawn)) {
+    if (drawn == Drawn::objects || drawn == Drawn::edges || drawn == Drawn::coveredEdges || drawn == Drawn::covered) {
       desc.vert = "scene.vert";
       addVertexInput(desc);
-      if (isCovered(drawn)) {
-        addCoverage(desc, "shadow_map_covered.frag", info.resources.textureLayout());
-        desc.constants = {{gpu::constantClamps, drawn == Drawn::coveredClamping}};
+      if (drawn == Drawn::covered) {
+        addCoverage(desc, variant.vertexAlpha ? "shadow_map_covered_colored.frag" : "shadow_map_covered.frag",
+                    info.resources.textureLayout());
+        desc.constants = {{gpu::constantClamps, variant.clamps}, {gpu::constantVertexAlpha, variant.vertexAlpha}};
+        if (variant.vertexAlpha) {
+          addVertexColors(desc, true);
+        }
       }
     } else if (drawn == Drawn::layer) {
       desc.vert = "full_screen.vert";
@@ -140,7 +141,7 @@ uint32_t ShadowSystem::draw(const PassScope& scope, const FrameInfo& info, size_
   const DrawList& data = info.data.passes()[pass];
   uint32_t draws = 0;
   if (overLayer) {
-    const Pipeline& pipeline = pipelineFor(Drawn::layer, info);
+    const Pipeline& pipeline = pipelineFor({Drawn::layer}, info);
     info.data.bind(pipeline, commands, data);
     pipeline.bindSet(commands, 1, layerSet_);
     vkCmdDraw(commands, 3, 1, 0, 0);
@@ -156,7 +157,7 @@ uint32_t ShadowSystem::draw(const PassScope& scope, const FrameInfo& info, size_
       continue;
     }
     if (!std::exchange(bound, true)) {
-      info.data.bind(pipelineFor(Drawn::objects, info), commands, data);
+      info.data.bind(pipelineFor({Drawn::objects}, info), commands, data);
     }
     const RecycledVector<IndexRange> all{allOf(info.scene.meshes[batch.mesh])};
     for (const IndexRange& range : batch.ranges.empty() ? all : batch.ranges) {
@@ -166,7 +167,7 @@ uint32_t ShadowSystem::draw(const PassScope& scope, const FrameInfo& info, size_
   }
   scope.cull(VK_CULL_MODE_NONE);
   for (const MirrorRange& mirror : data.mirrors) {
-    info.data.bind(pipelineFor(Drawn::mirrors, info), commands, data, mirror.mirror);
+    info.data.bind(pipelineFor({Drawn::mirrors}, info), commands, data, mirror.mirror);
     vkCmdDraw(commands, mirror.vertexCount, 1, mirror.firstVertex, 0);
     ++draws;
   }
@@ -183,14 +184,14 @@ uint32_t ShadowSystem::drawEdges(const PassScope& scope, const FrameInfo& info, 
     // out clusters of backs.
     const VkCullModeFlags fronts = batch.handedness > 0.0f ? VK_CULL_MODE_FRONT_BIT : VK_CULL_MODE_BACK_BIT;
     scope.cull(batch.cullsBacks ? fronts : VkCullModeFlags{VK_CULL_MODE_NONE});
-    info.data.bind(pipelineFor(Drawn::edges, info), commands, data);
+    info.data.bind(pipelineFor({Drawn::edges}, info), commands, data);
     const IndexRange all = allOf(info.scene.meshes[batch.mesh]);
     vkCmdDrawIndexed(commands, all.count, batch.count, all.first, 0, batch.firstInstance);
     ++draws;
   }
   scope.cull(VK_CULL_MODE_NONE);
   for (const MirrorRange& mirror : data.mirrors) {
-    info.data.bind(pipelineFor(Drawn::mirrorEdges, info), commands, data, mirror.mirror);
+    info.data.bind(pipelineFor({Drawn::mirrorEdges}, info), commands, data, mirror.mirror);
     vkCmdDraw(commands, mirror.vertexCount, 1, mirror.firstVertex, 0);
     ++draws;
   }
@@ -202,15 +203,18 @@ uint32_t ShadowSystem::drawParts(const PassScope& scope, const FrameInfo& info, 
                                  const Batch& batch) {
   const VkCommandBuffer commands = scope.commands();
   uint32_t draws = 0;
-  for (const MeshPart& part : info.scene.meshes[batch.mesh].parts) {
+  const Mesh& mesh = info.scene.meshes[batch.mesh];
+  const bool vertexAlpha = mesh.hasVertexAlpha();
+  if (vertexAlpha) {
+    bindColors(commands, info, batch);
+  }
+  for (const MeshPart& part : mesh.parts) {
     const bool covered = isTransparent(part.material, info.settings.effects);
     const bool asks = covered && info.plan.effects.hybridShadows;
     covered_ = covered_ || (covered && !asks);
-    const Drawn drawn = !covered               ? Drawn::objects
-                        : asks                 ? Drawn::coveredEdges
-                        : part.material.clamps ? Drawn::coveredClamping
-                                               : Drawn::covered;
-    const Pipeline& pipeline = pipelineFor(drawn, info);
+    const Variant variant = covered && !asks ? Variant{Drawn::covered, part.material.clamps, vertexAlpha}
+                                             : Variant{covered ? Drawn::coveredEdges : Drawn::objects};
+    const Pipeline& pipeline = pipelineFor(variant, info);
     info.data.bind(pipeline, commands, data);
     if (covered && !asks) {
       bindOpacity(pipeline, commands, info, part.material);
@@ -260,9 +264,10 @@ void ShadowSystem::release(RetireQueue& retired) {
 }
 
 void ShadowSystem::endFrame(const FramePlan& plan, RetireQueue& retired) {
-  pipelines_.endFrame([&](Drawn drawn) {
+  pipelines_.endFrame([&](const Variant& variant) {
+    const Drawn drawn = variant.drawn;
     const bool edges = drawn == Drawn::edges || drawn == Drawn::coveredEdges || drawn == Drawn::mirrorEdges;
-    return edges ? !plan.effects.hybridShadows : isCovered(drawn) && !covered_;
+    return edges ? !plan.effects.hybridShadows : drawn == Drawn::covered && !covered_;
   });
   covered_ = false;
   idleFrames_ = cubesOf(plan.cubes, PassKind::shadow).empty() ? std::min(idleFrames_, ImagePool::framesKept) + 1 : 0;

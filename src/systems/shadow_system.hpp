@@ -33,9 +33,14 @@ class ShadowSystem {
   size_t pipelineCount() const { return pipelines_.size(); }
 
  private:
-  enum class Drawn { objects, covered, coveredClamping, mirrors, layer, edges, coveredEdges, mirrorEdges };
-  static bool isCovered(Drawn drawn);
-  const Pipeline& pipelineFor(Drawn drawn, const FrameInfo& info);
+  enum class Drawn { objects, covered, mirrors, layer, edges, coveredEdges, mirrorEdges };
+  struct Variant {
+    Drawn drawn;
+    bool clamps = false;       // of `covered`: the material's textures do
+    bool vertexAlpha = false;  // of `covered`: the mesh's colors have alpha
+    auto operator<=>(const Variant&) const = default;
+  };
+  const Pipeline& pipelineFor(const Variant& variant, const FrameInfo& info);
   // Draws marks of the edges of what draw() has drawn, for lookups that ask (shadow_edge.frag).
   uint32_t drawEdges(const PassScope& scope, const FrameInfo& info, const DrawList& data);
   uint32_t drawParts(const PassScope& scope, const FrameInfo& info, const DrawList& data, const Batch& batch);
@@ -52,7 +57,7 @@ class ShadowSystem {
   VkDescriptorSetLayout layout_ = VK_NULL_HANDLE;
   SamplerHandle sampler_;
   FrameBuffers buffers_;
-  PipelineVariants<Drawn> pipelines_;
+  PipelineVariants<Variant> pipelines_;
   std::unique_ptr<OffScreen> target_;
   std::unique_ptr<OffScreen> layers_;  // null without a layer
   VkDescriptorSet set_ = VK_NULL_HANDLE;

@@ -108,15 +108,17 @@ void TraceFrame::build(Frame& frame, const SceneState& state, const Settings& se
   if (!traceScene_) {
     create();
   }
-  variant_ = {.traced = (effects.shadowRays && !effects.shadowMaps) || effects.hybridShadows || effects.castsLight,
-              .shadows = effects.shadowRays,
-              .asks = effects.hybridShadows,
-              .castsLight = effects.castsLight.has_value(),
-              .perSample = settings.effects.perSample && effects.traces(),
-              .repeating = hasRepeatingTriangles(scene_),
-              .transparency =
-                  std::ranges::any_of(scene_.meshes, [&](const Mesh& m) { return isTransparent(m, settings.effects); }),
-              .vertexColors = std::ranges::any_of(scene_.meshes, [](const Mesh& m) { return !m.colors.empty(); })};
+  variant_ = {
+      .traced = (effects.shadowRays && !effects.shadowMaps) || effects.hybridShadows || effects.castsLight,
+      .shadows = effects.shadowRays,
+      .asks = effects.hybridShadows,
+      .castsLight = effects.castsLight.has_value(),
+      .perSample = settings.effects.perSample && effects.traces(),
+      .repeating = hasRepeatingTriangles(scene_),
+      .transparency =
+          std::ranges::any_of(scene_.meshes, [&](const Mesh& m) { return isTransparent(m, settings.effects); }),
+      .vertexColors = std::ranges::any_of(scene_.meshes, [](const Mesh& m) { return !m.colors.empty(); }),
+      .vertexAlpha = settings.effects.transparency && std::ranges::any_of(scene_.meshes, &Mesh::hasVertexAlpha)};
   addMirrors(state, settings);
   prepareStructures(frame, state, settings.effects.rays, effects.traces());
   variant_.hardware = rays_.hardware;

@@ -24,6 +24,7 @@ struct TraceVariant {
   bool repeating = false;     // there are RepeatingTriangles
   bool transparency = false;  // some mesh has coverage
   bool vertexColors = false;  // some mesh has them
+  bool vertexAlpha = false;   // their alpha counts somewhere
 
   auto operator<=>(const TraceVariant&) const = default;
 };

@@ -208,9 +208,11 @@ void TraceScene::writeAttributes(Uploader& uploader, const Scene& scene) {
       });
     }
     for (const Mesh& mesh : scene.meshes) {
-      const std::vector<glm::vec3> colors = ShadedVertices(mesh).colors();
+      const std::vector<glm::vec4> colors = ShadedVertices(mesh).colors();
       for (size_t i = 0; i < colors.size(); i += 2) {
-        writer.add(gpu::TraceVertex{.position = colors[i], .normal = colors[std::min(i + 1, colors.size() - 1)]});
+        const glm::vec4& next = colors[std::min(i + 1, colors.size() - 1)];
+        writer.add(gpu::TraceVertex{
+            .position = glm::vec3(colors[i]), .u = colors[i].a, .normal = glm::vec3(next), .v = next.a});
       }
     }
   });

@@ -323,8 +323,8 @@ TEST_F(GltfLoader, VertexColorsOfEveryType) {
     made.addMesh({{"POSITION", positions}, {"COLOR_0", color}});
     const Mesh mesh = meshOf(made);
     ASSERT_EQ(mesh.colors.size(), 3u);
-    EXPECT_LE(glm::distance(mesh.colors[mesh.indices[0]], glm::vec3(1, 0, 0.2f)), 1e-6f);
-    EXPECT_LE(glm::distance(mesh.colors[mesh.indices[2]], glm::vec3(0, 1, 0.2f)), 1e-6f);
+    EXPECT_LE(glm::distance(glm::vec3(mesh.colors[mesh.indices[0]]), glm::vec3(1, 0, 0.2f)), 1e-6f);
+    EXPECT_LE(glm::distance(glm::vec3(mesh.colors[mesh.indices[2]]), glm::vec3(0, 1, 0.2f)), 1e-6f);
   }
 }
 
@@ -432,6 +432,30 @@ TEST_F(GltfTextures, AlphaIsCoverageUnlessOpaque) {
   EXPECT_EQ(read().cutoff, 0.5);
   material["alphaCutoff"] = 0.25;
   EXPECT_EQ(read().cutoff, 0.25);
+}
+
+TEST_F(GltfLoader, AlphaOfVertexColorsCountsUnlessOpaque) {
+  MadeGltf made;
+  const int positions = made.addNumbers(triangleNumbers, "VEC3");
+  const int clear = made.addNumbers<uint8_t>({255, 0, 0, 0, 255, 0, 0, 51, 255, 0, 0, 255}, "VEC4", true);
+  const int dense = made.addNumbers<float>({1, 0, 0, 1, 1, 0, 0, 7, 1, 0, 0, 1}, "VEC4");
+  made.add("materials", {{"alphaMode", "OPAQUE"}});
+  made.add("materials", {{"alphaMode", "BLEND"}});
+  made.add("materials", {{"alphaMode", "MASK"}});
+  made.add("materials", {{"alphaMode", "BLEND"}, {"name", "dense"}});
+  for (int material = 0; material < 4; ++material) {
+    made.add("nodes", {{"mesh", made.addMesh({{"POSITION", positions}, {"COLOR_0", material < 3 ? clear : dense}},
+                                             {{"material", material}})}});
+  }
+  const Mesh mesh = meshOf(made);
+  ASSERT_EQ(mesh.parts.size(), 4u);
+  EXPECT_FALSE(mesh.parts[0].material.isTransparent());
+  EXPECT_TRUE(mesh.parts[1].material.vertexAlpha && mesh.parts[1].material.isTransparent());
+  EXPECT_TRUE(mesh.parts[2].material.vertexAlpha);
+  EXPECT_EQ(mesh.parts[2].material.cutoff, 0.5);
+  EXPECT_FALSE(mesh.parts[3].material.isTransparent()) << "no alpha is below 1";
+  EXPECT_TRUE(mesh.hasVertexAlpha());
+  EXPECT_EQ(mesh.colors[mesh.indices[1]], glm::vec4(1, 0, 0, 0.2f));
 }
 
 TEST_F(GltfTextures, MissingOrUnreadablePicturesAreLeftOut) {

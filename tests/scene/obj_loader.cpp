@@ -69,7 +69,7 @@ TEST_F(ObjLoader, FlatTrianglesOfLargeModelsShareVertices) {
     EXPECT_EQ(vertex.position, mesh.vertices[index].position);
     vertices.push_back(vertex);
   });
-  const std::vector<glm::vec3> colors = shaded.colors();
+  const std::vector<glm::vec4> colors = shaded.colors();
   ASSERT_EQ(vertices.size(), ShadedVertices::countOf(mesh));
   ASSERT_EQ(colors.size(), vertices.size());
   ASSERT_EQ(shaded.indices().size(), mesh.indices.size());
@@ -90,7 +90,7 @@ TEST_F(ObjLoader, FlatTrianglesOfLargeModelsShareVertices) {
       ASSERT_LT(glm::distance(vertices[index].normal, normal), 1e-12);
       ASSERT_EQ(cornerNormals(mesh, &mesh.indices[i])[k], vertices[index].normal);
       ASSERT_EQ(vertices[index].uv.x, (x + (middle.z > side / 2 ? side : 0)) / 1024.0);
-      ASSERT_EQ(colors[index], glm::vec3(x / 512.0, 0, 1));
+      ASSERT_EQ(colors[index], glm::vec4(x / 512.0, 0, 1, 1));
     }
   }
   EXPECT_EQ(places.size(), triangles) << "each is there once";
@@ -154,9 +154,9 @@ TEST_F(ObjLoader, VertexColorsAreRead) {
   const Mesh mesh = load("v 0 0 0 1 0.5 0.25\nv 1 0 0 0.5\nv 0 1 0 0 0 1 0.5\nvt 0 0\nf 1 2 3\nf 1/1 2/1 3/1\n");
   ASSERT_EQ(mesh.colors.size(), mesh.vertices.size());
   for (size_t i = 0; i < mesh.indices.size(); i += 3) {
-    EXPECT_EQ(mesh.colors[mesh.indices[i]], glm::vec3(1, 0.5, 0.25));
-    EXPECT_EQ(mesh.colors[mesh.indices[i + 1]], glm::vec3(1)) << "a single number is a weight";
-    EXPECT_EQ(mesh.colors[mesh.indices[i + 2]], glm::vec3(0, 0, 1));
+    EXPECT_EQ(mesh.colors[mesh.indices[i]], glm::vec4(1, 0.5, 0.25, 1));
+    EXPECT_EQ(mesh.colors[mesh.indices[i + 1]], glm::vec4(1)) << "a single number is a weight";
+    EXPECT_EQ(mesh.colors[mesh.indices[i + 2]], glm::vec4(0, 0, 1, 1));
   }
   EXPECT_EQ(warnings(), "");
   EXPECT_EQ(mesh.parts.at(0).material.diffuse, glm::dvec3(1.0)) << "nothing darkens the colors";
@@ -167,7 +167,7 @@ TEST_F(ObjLoader, VertexColorsAreRead) {
 
 TEST_F(ObjLoader, DamagedVertexColorsAreMended) {
   const Mesh mesh = load("v 0 0 0 255 0 -1\nv 1 0 0 a b c\nv 0 1 0\nf 1 2 3\n");
-  EXPECT_EQ(mesh.colors, (std::vector<glm::vec3>{{1, 0, 0}, {1, 1, 1}, {1, 1, 1}}));
+  EXPECT_EQ(mesh.colors, (std::vector<glm::vec4>{{1, 0, 0, 1}, {1, 1, 1, 1}, {1, 1, 1, 1}}));
   EXPECT_EQ(warnings(),
             "warning: m.obj:1: v: has a color outside 0 .. 1, the nearest one is used\n"
             "warning: m.obj:2: v: has a color that is not three finite numbers, it counts as white\n");

@@ -173,6 +173,21 @@ TEST_F(MtlFile, TexturesGiveOpacity) {
   EXPECT_EQ(warnings(), "warning: m.mtl:2: map_d: there is no file 'none.png', the texture is left out\n");
 }
 
+// Blender and others write d, illum and, for textures of opacity, map_d.
+TEST_F(MtlFile, AlphaOfTheDiffuseTextureIsNoOpacityOfMaterialsThatSayOpaque) {
+  writePng(folder_.path() / "gloss.png",
+           testing_support::madePicture(4, 4, [](int x, int) { return glm::ivec4(255, 255, 255, x < 2 ? 0 : 255); }));
+  const std::string keys = "newmtl m\nmap_Kd gloss.png\n";
+  for (const char* opaque : {"d 1\nillum 2\n", "illum 0\nTr 0.000\n", "D 1\nIllum 3\n"}) {
+    EXPECT_FALSE(materialOf(keys + opaque).isTransparent()) << opaque;
+    EXPECT_TRUE(materialOf(keys + opaque + "map_d gloss.png\n").isTransparent()) << opaque;
+    EXPECT_TRUE(materialOf("newmtl x\n" + std::string(opaque) + keys).isTransparent()) << "another material's keys";
+  }
+  for (const char* open : {"", "d 1\n", "illum 2\n", "d 1\nillum 4\n", "d 0\nillum 2\n", "d 0.5\nillum 2\n"}) {
+    EXPECT_TRUE(materialOf(keys + open).isTransparent()) << open;
+  }
+}
+
 TEST_F(MtlFile, TexturesMayBeMovedAndClamped) {
   writePng(folder_.path() / "t.png", Image8(2, 2));
   const std::string obj = squareText + "vt 1 2\nvt 100 0\nvt 0 0\nusemtl m\nf 1/1 2/2 3/3\n";

@@ -3,6 +3,7 @@
 #include <sstream>
 
 #include "image/picture_files.hpp"
+#include "made_gltf.hpp"
 #include "made_pictures.hpp"
 #include "random.hpp"
 #include "sampling.hpp"
@@ -13,6 +14,7 @@ namespace speculum {
 namespace {
 
 using namespace testing_support;
+using nlohmann::json;
 
 constexpr PictureSize size{160, 120};
 
@@ -234,14 +236,59 @@ double errorOfMean(const std::filesystem::path& file, PictureSize drawnSize, con
   return rootMeanSquare(drawRadiance(session), tracing.result().image);
 }
 
+// Writes NAME.glb, a square of `columns` x `columns` fields in the plane z = 0 with the colors of their corners, row by
+// row. The picture veil.png lies on it if `textured`.
+std::string writePane(const std::string& name, int columns, float half, const std::vector<float>& colors, json material,
+                      bool textured) {
+  MadeGltf made;
+  std::vector<float> positions;
+  std::vector<float> texcoords;
+  std::vector<uint32_t> indices;
+  for (int i = 0; i < (columns + 1) * (columns + 1); ++i) {
+    const glm::ivec2 place(i % (columns + 1), i / (columns + 1));
+    const glm::vec2 uv = glm::vec2(place) / static_cast<float>(columns);
+    positions.insert(positions.end(), {half * (2.0f * uv.x - 1.0f), half * (2.0f * uv.y - 1.0f), 0.0f});
+    texcoords.insert(texcoords.end(), {uv.x, uv.y});
+    if (place.x < columns && place.y < columns) {
+      const auto first = static_cast<uint32_t>(i);
+      const auto above = static_cast<uint32_t>(i + columns + 1);
+      indices.insert(indices.end(), {first, first + 1, above + 1, first, above + 1, above});
+    }
+  }
+  json surface = material.value("pbrMetallicRoughness", json::object());
+  surface["metallicFactor"] = 0;
+  if (textured) {
+    made.add("images", {{"uri", "veil.png"}});
+    made.add("textures", {{"source", 0}});
+    surface["baseColorTexture"] = {{"index", 0}};
+  }
+  material["pbrMetallicRoughness"] = surface;
+  made.add("materials", material);
+  made.addMesh({{"POSITION", made.addNumbers(positions, "VEC3")},
+                {"TEXCOORD_0", made.addNumbers(texcoords, "VEC2")},
+                {"COLOR_0", made.addNumbers(colors, "VEC4")}},
+               {{"indices", made.addNumbers(indices, "SCALAR")}, {"material", 0}});
+  made.add("nodes", {{"mesh", 0}});
+  writeModel(name + ".glb", made.binary());
+  return name + ".glb";
+}
+
 TEST(Coverage, IsTheShareOfTheSurface) {
   const std::string wall = writeBox("wall", {5, 5, 1e-3}, "Kd 0 1 0\n");
   std::ofstream(sceneDirectory() / "flat.mtl") << "newmtl m\nKd 1 0 0\nd 0.25\n";
   writeModel("flat.obj", "mtllib flat.mtl\nusemtl m\nv -4 -4 0\nv 4 -4 0\nv 4 4 0\nv -4 4 0\nf 1 2 3 4\n");
-  const std::string flat = "[[object]] model = \"flat.obj\", position = [0, 0, ";
+  std::vector<float> red;
+  for (int corner = 0; corner < 4; ++corner) {
+    red.insert(red.end(), {1.0f, 0.0f, 0.0f, 0.5f});
+  }
+  const std::string ofVertices =
+      writePane("flat", 1, 4.0f, red,
+                {{"alphaMode", "BLEND"}, {"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1, 0.5}}}}}, false);
   const std::filesystem::path file = writeScene(
-      "panes", "[environment] ambient = [1, 1, 1]\n[camera] position = [0, 0, 3], target = [0, 0, 0]\n" + flat +
-                   "0]\n" + flat + "0.2]\n[[object]] model = \"" + wall + "\", position = [0, 0, -1]\n");
+      "panes",
+      "[environment] ambient = [1, 1, 1]\n[camera] position = [0, 0, 3], target = [0, 0, 0]\n[[object]] model = "
+      "\"flat.obj\", position = [0, 0, 0]\n[[object]] model = \"" +
+          ofVertices + "\", position = [0, 0, 0.2]\n[[object]] model = \"" + wall + "\", position = [0, 0, -1]\n");
   const Tracing tracing = tracingOf(file, {8, 8}, 3);
   const glm::vec3 traced = tracing.result().image.at(3, 3);
   EXPECT_NEAR(traced.r, 0.25 + 0.75 * 0.25, 1e-6);
@@ -259,6 +306,35 @@ TEST(Coverage, IsTheShareOfTheSurface) {
     EXPECT_NEAR(mean.r, traced.r, 0.01) << samples;
     EXPECT_NEAR(mean.g, traced.g, 0.01) << samples;
   }
+}
+
+// A bent row of fields whose vertices have random colors and alpha.
+std::string randomPane(const std::string& name, Random& random, const char* mode) {
+  constexpr int columns = 3;
+  std::vector<float> colors;
+  for (int i = 0; i < (columns + 1) * (columns + 1); ++i) {
+    for (int channel = 0; channel < 3; ++channel) {
+      colors.push_back(static_cast<float>(random.uniform(0.2, 1)));
+    }
+    colors.push_back(static_cast<float>(random.chance(0.3) ? random.chance(0.5) : random.uniform(0, 1)));
+  }
+  return writePane(name, columns, static_cast<float>(random.uniform(0.4, 0.8)), colors,
+                   {{"alphaMode", mode}, {"alphaCutoff", random.uniform(0.2, 0.6)}}, random.chance(0.5));
+}
+
+std::filesystem::path randomPanes(unsigned seed, const char* mode) {
+  Random random(seed + 900);
+  writeOpacities();
+  std::ostringstream out;
+  out << coverView;
+  for (int i = 0; i < 3; ++i) {
+    const std::string name = std::string("pane_") + mode + std::to_string(seed) + "_" + std::to_string(i);
+    out << "[[object]]\nmodel = \"" << randomPane(name, random, mode) << "\"\nposition = [" << random.uniform(-1, 1)
+        << ", " << random.uniform(-0.5, 0.6) << ", " << random.uniform(-1.2, 1)
+        << "]\nrotation = " << random.vec(-180, 180) << "\n";
+  }
+  out << (random.chance(0.6) ? shadowLamp : lamp) << (random.chance(0.4) ? ball : "");
+  return writeScene(std::string("panes_") + mode + std::to_string(seed), out.str());
 }
 
 // Boxes and panes of random coverage before and beside mirrors.
@@ -310,6 +386,22 @@ TEST_P(RandomCoverage, SkippingChangesNothing) {
     set(session, {{"debug.cull_clusters", "false"}});
     expectAlike(draw(session), skipped, 2, "cover_whole");  // outlines may differ
   }
+}
+
+TEST_P(RandomCoverage, AlphaOfVerticesConverges) {
+  const std::filesystem::path file = randomPanes(GetParam(), "BLEND");
+  EXPECT_LT(errorOfMean(file, meanSize_), 0.02);
+  EXPECT_GT(errorOfMean(file, meanSize_, {{"effects.transparency", "false"}}), 0.025) << "the scene shows no coverage";
+  EXPECT_LT(errorOfMean(file, meanSize_, {{"effects.shadow_lookup", "map"}}), 0.05);
+}
+
+TEST_P(RandomCoverage, AlphaOfVerticesCutsOut) {
+  const std::filesystem::path file = randomPanes(GetParam(), "MASK");
+  expectTruth(file, size, 3, trace(file, size, 3));
+  Options options = truthOptions(file, size, 3);
+  const Image8 drawn = draw(options);
+  options.settings.push_back({"effects.transparency", "false"});
+  EXPECT_GT(difference(draw(options), drawn, 8).share(), 0.005) << "the scene shows no cut-out";
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomCoverage, testing::ValuesIn(sampledSeeds(20, 5)),
