@@ -23,6 +23,9 @@ using nlohmann::json;
 
 namespace {
 
+constexpr const char* specularGlossiness = "KHR_materials_pbrSpecularGlossiness";
+constexpr const char* unlit = "KHR_materials_unlit";
+
 // The two parts of a file; a text file has no binary part.
 struct Parts {
   std::string_view json;
@@ -106,18 +109,55 @@ void checkVersion(const fs::path& file, const json& root) {
   }
 }
 
-void checkExtensions(const fs::path& file, const json& root) {
-  constexpr std::array<std::string_view, 4> known{"KHR_texture_transform", "KHR_mesh_quantization",
-                                                  "KHR_lights_punctual", "KHR_materials_emissive_strength"};
+// Refuses files whose triangles are not to be had without an extension. Without others a model looks different.
+void checkExtensions(const fs::path& file, const json& root, ModelDefects& defects) {
+  constexpr std::array<std::string_view, 6> known{
+      "KHR_texture_transform", "KHR_mesh_quantization",           "KHR_lights_punctual",
+      specularGlossiness,      "KHR_materials_emissive_strength", unlit};
+  constexpr std::array<std::string_view, 4> textures{"KHR_texture_basisu", "EXT_texture_webp", "EXT_texture_avif",
+                                                     "MSFT_texture_dds"};
   std::vector<std::string> unknown;
   for (const json& name : member(root, "extensionsRequired")) {
-    if (name.is_string() && std::ranges::find(known, name.get_ref<const std::string&>()) == known.end()) {
-      unknown.push_back(name);
+    if (!name.is_string() || std::ranges::find(known, name.get_ref<const std::string&>()) != known.end()) {
+      continue;
+    }
+    if (const auto& text = name.get_ref<const std::string&>();
+        text.starts_with("KHR_materials_") || std::ranges::find(textures, text) != textures.end()) {
+      defects.add(file, 1, "extensionsRequired", "{} cannot be read, the model is drawn without it", text);
+    } else {
+      unknown.push_back(text);
     }
   }
   if (!unknown.empty()) {
     throwInputError(file, 1, "extensionsRequired", fmt::format("{} cannot be read", fmt::join(unknown, ", ")),
                     "export the model without them");
+  }
+}
+
+// Writes base colors that extensions name into the materials' own keys.
+void useBaseColors(json& root) {
+  if (!member(root, "materials").is_array()) {
+    return;
+  }
+  for (json& material : root["materials"]) {
+    const json& extensions = member(material, "extensions");
+    const json& glossy = member(extensions, specularGlossiness);
+    json surface = member(material, "pbrMetallicRoughness");
+    if (glossy.is_object()) {
+      const json& gloss = member(glossy, "glossinessFactor");
+      surface = {{"metallicFactor", 0}, {"roughnessFactor", gloss.is_number() ? 1.0 - gloss.get<double>() : 0.0}};
+      for (const auto& [key, usual] :
+           {std::pair("diffuseFactor", "baseColorFactor"), std::pair("diffuseTexture", "baseColorTexture")}) {
+        if (glossy.contains(key)) {
+          surface[usual] = glossy[key];
+        }
+      }
+    } else if (member(extensions, unlit).is_object() && (surface.is_object() || surface.is_null())) {
+      surface["metallicFactor"] = 0;  // draws the color, which is lit
+    } else {
+      continue;
+    }
+    material["pbrMetallicRoughness"] = surface;
   }
 }
 
@@ -217,7 +257,8 @@ GltfFile::GltfFile(const fs::path& file, ModelDefects& defects) : file_(file), d
 void GltfFile::readJson(std::string_view text, std::vector<Source>& buffers) {
   json root = parsedJson(file_, text);
   checkVersion(file_, root);
-  checkExtensions(file_, root);
+  checkExtensions(file_, root, defects_);
+  useBaseColors(root);
   hasMotion_ = !member(root, "animations").empty() || !member(root, "skins").empty();
   for (const auto& [key, sources] : {std::pair("buffers", &buffers), std::pair("images", &images_)}) {
     for (const json& entry : member(root, key)) {

@@ -434,6 +434,35 @@ TEST_F(GltfTextures, AlphaIsCoverageUnlessOpaque) {
   EXPECT_EQ(read().cutoff, 0.25);
 }
 
+TEST_F(GltfLoader, MaterialsOfExtensionsHaveTheirBaseColor) {
+  MadeGltf made;
+  made.add("materials", {{"extensions",
+                          {{"KHR_materials_pbrSpecularGlossiness",
+                            {{"diffuseFactor", {0.2, 0.4, 0.6, 0.5}}, {"glossinessFactor", 0.25}}}}},
+                         {"alphaMode", "BLEND"}});
+  made.add("materials", {{"extensions", {{"KHR_materials_unlit", json::object()}}},
+                         {"pbrMetallicRoughness", {{"baseColorFactor", {0.1, 0.9, 0.5, 1}}}}});
+  made.add("materials", {{"extensions", {{"KHR_materials_clearcoat", json::object()}}}});
+  made.add("materials", 7);
+  made.root["extensionsRequired"] = {"KHR_materials_unlit", "KHR_materials_pbrSpecularGlossiness",
+                                     "KHR_materials_clearcoat", "KHR_texture_basisu"};
+  for (int material = 0; material < 3; ++material) {
+    const int positions = made.addNumbers(triangleNumbers, "VEC3");
+    made.add("nodes", {{"mesh", made.addMesh({{"POSITION", positions}}, {{"material", material}})}});
+  }
+  const Mesh mesh = meshOf(made);
+  ASSERT_EQ(mesh.parts.size(), 3u);
+  EXPECT_EQ(mesh.parts[0].material.diffuse, glm::dvec3(0.2, 0.4, 0.6));
+  EXPECT_EQ(mesh.parts[0].material.opacity, 0.5);
+  EXPECT_NEAR(mesh.parts[0].material.shininess, 2 / std::pow(0.75, 4) - 2, 1e-9);
+  EXPECT_EQ(mesh.parts[1].material.diffuse, glm::dvec3(0.1, 0.9, 0.5));
+  ASSERT_FALSE(mesh.defects.empty());
+  EXPECT_TRUE(contains(mesh.defects.front(),
+                       "extensionsRequired: KHR_materials_clearcoat cannot be read, the model is drawn without it "
+                       "(and 1 more)"))
+      << mesh.defects.front();
+}
+
 TEST_F(GltfLoader, AlphaOfVertexColorsCountsUnlessOpaque) {
   MadeGltf made;
   const int positions = made.addNumbers(triangleNumbers, "VEC3");
