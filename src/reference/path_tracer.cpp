@@ -170,6 +170,7 @@ glm::dvec3 PathTracer::follow(Path path) {
       }
       weight *= 1.0 - coverage;
       path.ray.tMin = hit->t;  // what is behind
+      path.skip.passed = hit->index;
       continue;
     }
     const Bounce bounce = bounceAt(path.ray, *hit);

@@ -176,8 +176,9 @@ std::optional<SceneHit> TraceWorld::meet(const Item& item, const Ray& ray, const
   if (item.kind == HitKind::object) {
     const int64_t own = skip.instance == item.index ? int64_t{skip.triangle} : TriangleMesh::noTriangle;
     constexpr double infinity = std::numeric_limits<double>::infinity();  // includes a hit at tMax
-    const auto found =
-        meshes_[instances_[item.index].mesh].closest(toMesh(ray, item.index, std::nextafter(tMax, infinity)), own);
+    Ray local = toMesh(ray, item.index, std::nextafter(tMax, infinity));
+    local.tMin = item.index > skip.passed ? std::nextafter(local.tMin, -infinity) : local.tMin;
+    const auto found = meshes_[instances_[item.index].mesh].closest(local, own);
     if (!found) {
       return std::nullopt;
     }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -28,6 +29,7 @@ struct Skip {
   uint32_t triangle = 0;
   int mirror = -1;
   int secondMirror = -1;
+  int passed = std::numeric_limits<int>::max();  // instance seen through at Ray::tMin, where later ones are still met
 };
 
 // Everything that a ray can meet at one time: a BVH over instances, mirrors and glyphs. Instances are intersected in

@@ -308,7 +308,26 @@ TEST(Coverage, IsTheShareOfTheSurface) {
   }
 }
 
-// A bent row of fields whose vertices have random colors and alpha.
+TEST(Coverage, CopiesInOnePlaceShowThroughEachOther) {
+  std::ofstream(sceneDirectory() / "copied.mtl") << "newmtl m\nKd 1 0 0\nd 0.25\n";
+  writeModel("copied.obj", "mtllib copied.mtl\nusemtl m\nv -4 -4 0\nv 5 -4 0\nv 4 4 0\nv -4 4 0\nf 1 2 3 4\n");
+  const std::filesystem::path file =
+      writeScene("copied",
+                 "[environment] ambient = [1, 1, 1]\n[camera] position = [0, 0, 3], target = [0, 0, 0]\n"
+                 "[[object]] model = \"copied.obj\", rotation = [10, 20, 0], copies = { count = 3 }\n");
+  const double share = 1.0 - 0.75 * 0.75 * 0.75;
+  EXPECT_NEAR(tracingOf(file, {8, 8}, 3).result().image.at(3, 3).r, share, 1e-6);
+  Options options = truthOptions(file, {8, 8}, 3);
+  set(options, {{"view.accumulate", "64"}});
+  QuietSession session(options);
+  double mean = 0.0;
+  for (const glm::vec3& pixel : drawRadiance(session).pixels) {
+    mean += pixel.r / 64.0;
+  }
+  EXPECT_NEAR(mean, share, 0.01);
+}
+
+// A pane whose vertices have random colors and alpha.
 std::string randomPane(const std::string& name, Random& random, const char* mode) {
   constexpr int columns = 3;
   std::vector<float> colors;
