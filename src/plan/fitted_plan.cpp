@@ -112,99 +112,141 @@ std::string mebibytes(uint64_t bytes) {
   return std::to_string(bytes >> 20) + " MiB";
 }
 
+// The steps of planWithin().
+class PlanFitter {
+ public:
+  PlanFitter(const TargetLimits& limits, const FrameRequest& request)
+      : limits_(limits), asked_(request), chosen_(request.settings), fitted_{{}, pictureSettings(chosen_), {}} {}
+
+  FittedPlan fit() {
+    boundImages();
+    const bool automaticShadows = lookup() == ShadowLookup::automatic;
+    chooseShadows();
+    chooseReflections();
+    // On an H200 a frame with hybrid shadows takes 1.75 of the time with traced ones in `shadows`, 0.91 in the gallery.
+    if (automaticShadows && lookup() == ShadowLookup::hybrid && fitted_.plan.effects.shadows &&
+        !(limits_.cpu && fitted_.plan.effects.hybridShadows &&
+          mapsAreFaster(fitted_.plan, asked_.scene, fitted_.settings))) {
+      lookup() = ShadowLookup::traced;
+      plan();
+    }
+    boundShadowMaps();
+    fitMemory();
+    if (automaticShadows && fitted_.plan.effects.shadows) {
+      fitted_.plan.effects.shadows->append("; auto: ").append(settingValue(fitted_.settings, "effects.shadow_lookup"));
+    }
+    return std::move(fitted_);
+  }
+
+ private:
+  void plan() {
+    asked_.settings = fitted_.settings;
+    fitted_.plan = planFrame(asked_);
+  }
+
+  void say(const std::string& what) { fitted_.message += (fitted_.message.empty() ? "" : "; ") + what; }
+  ShadowLookup& lookup() { return fitted_.settings.effects.shadowLookup; }
+
+  void boundImages() {
+    const ReflectionSettings most = mostAsked(asked_.scene, fitted_.settings);
+    const double margins = most.updateInterval > 1 ? 2.0 * largestMargin * asked_.size.y : 0.0;
+    const double largestScale =
+        limits_.largestSide / (chosen_.view.scale * (std::max(asked_.size.x, asked_.size.y) + margins));
+    if (most.scale > largestScale) {
+      Settings largest;
+      largest.reflection.scale = most.scale;
+      say("mirror images of " + settingValue(largest, "reflection.scale") +
+          " times the main view's size are larger than the device's " + std::to_string(limits_.largestSide) +
+          " pixels: lowered " + lowerScale(fitted_.settings, largestScale));
+    }
+  }
+
+  void chooseShadows() {
+    const bool automatic = lookup() == ShadowLookup::automatic;
+    lookup() = automatic ? ShadowLookup::hybrid : lookup();
+    if (lookup() == ShadowLookup::hybrid && !limits_.drawsLines) {
+      lookup() = limits_.tracesRays ? ShadowLookup::traced : ShadowLookup::map;
+      if (!automatic) {
+        say("effects.shadow_lookup=hybrid is replaced by " + settingValue(fitted_.settings, "effects.shadow_lookup") +
+            ": the device draws no lines");
+      }
+    }
+  }
+
+  // Makes the first plan.
+  void chooseReflections() {
+    if (!limits_.cpu || !limits_.tracesRays) {
+      setAutomatic(fitted_.settings, chosen_, ReflectionMethod::raster);
+    }
+    plan();
+    if (!limits_.cpu && limits_.tracesRays && raysAreFaster(fitted_.plan, asked_.scene, pictureSettings(chosen_))) {
+      setAutomatic(fitted_.settings, chosen_, ReflectionMethod::rays);
+      plan();
+    }
+    if (!limits_.tracesRays && fitted_.plan.effects.any()) {
+      leaveOutRays(fitted_.settings, asked_.scene);
+      say("effects.* that trace rays, and reflection.method=rays, are left out: the device lacks geometryShader, "
+          "storage buffers, or room in them for the scene");
+      plan();
+    }
+  }
+
+  void boundShadowMaps() {
+    int size = shadowMapSize(fitted_.plan);
+    glm::ivec2 extent = shadowExtent(fitted_.plan);
+    for (; std::max(extent.x, extent.y) > limits_.largestSide; extent /= 2) {
+      size /= 2;
+    }
+    if (size < shadowMapSize(fitted_.plan)) {
+      say("shadow maps exceed the device's " + std::to_string(limits_.largestSide) +
+          " pixels: lowered effects.shadow_map_size to " + std::to_string(size));
+      fitted_.settings.effects.shadowMapSize = size;
+      plan();
+    }
+  }
+
+  // Returns the bytes of the picture that stays shown: it was drawn with the samples that were asked for, or as many as
+  // fitted.
+  uint64_t keptBytes() const {
+    int samples = chosen_.view.samples;
+    while (samples > 1 && mainBytes(fitted_.plan, samples) > limits_.budgetBytes) {
+      samples /= 2;
+    }
+    const bool keeps = limits_.keepsPicture && (chosen_.view.accumulate > 1 || chosen_.quality.stillPictures == 1);
+    return keeps ? mainBytes(fitted_.plan, samples) : 0;
+  }
+
+  void fitMemory() {
+    const uint64_t kept = keptBytes();
+    const auto needed = [&] { return kept + targetBytes(fitted_.plan, fitted_.settings); };
+    if (needed() > limits_.budgetBytes && mostAsked(asked_.scene, fitted_.settings).updateInterval == 1) {
+      asked_.cache.images = {};
+      plan();
+    }
+    const uint64_t wanted = needed();
+    std::string what;
+    std::string lowered;
+    while (needed() > limits_.budgetBytes &&
+           lower(fitted_.settings, mostAsked(asked_.scene, fitted_.settings), fitted_.plan, what)) {
+      lowered += (lowered.empty() ? "" : ", ") + what;
+      plan();
+    }
+    if (!lowered.empty()) {
+      say("targets of " + mebibytes(wanted) + " do not fit the device's " + mebibytes(limits_.budgetBytes) +
+          ": lowered " + lowered);
+    }
+  }
+
+  const TargetLimits& limits_;
+  FrameRequest asked_;      // of the last plan
+  const Settings& chosen_;  // of the request
+  FittedPlan fitted_;
+};
+
 }  // namespace
 
 FittedPlan planWithin(const TargetLimits& limits, const FrameRequest& request) {
-  const Scene& scene = request.scene;
-  const Settings& settings = request.settings;
-  FrameRequest asked = request;
-  FittedPlan fitted{{}, pictureSettings(settings), {}};
-  const ReflectionSettings most = mostAsked(scene, fitted.settings);
-  const double margins = most.updateInterval > 1 ? 2.0 * largestMargin * request.size.y : 0.0;
-  const auto plan = [&] {
-    asked.settings = fitted.settings;
-    fitted.plan = planFrame(asked);
-  };
-  const auto say = [&](const std::string& what) { fitted.message += (fitted.message.empty() ? "" : "; ") + what; };
-  const double largestScale =
-      limits.largestSide / (settings.view.scale * (std::max(request.size.x, request.size.y) + margins));
-  if (most.scale > largestScale) {
-    Settings largest;
-    largest.reflection.scale = most.scale;
-    say("mirror images of " + settingValue(largest, "reflection.scale") +
-        " times the main view's size are larger than the device's " + std::to_string(limits.largestSide) +
-        " pixels: lowered " + lowerScale(fitted.settings, largestScale));
-  }
-  ShadowLookup& lookup = fitted.settings.effects.shadowLookup;
-  const bool automaticShadows = lookup == ShadowLookup::automatic;
-  lookup = automaticShadows ? ShadowLookup::hybrid : lookup;
-  if (lookup == ShadowLookup::hybrid && !limits.drawsLines) {
-    lookup = limits.tracesRays ? ShadowLookup::traced : ShadowLookup::map;
-    if (!automaticShadows) {
-      say("effects.shadow_lookup=hybrid is replaced by " + settingValue(fitted.settings, "effects.shadow_lookup") +
-          ": the device draws no lines");
-    }
-  }
-  if (!limits.cpu || !limits.tracesRays) {
-    setAutomatic(fitted.settings, settings, ReflectionMethod::raster);
-  }
-  plan();
-  if (!limits.cpu && limits.tracesRays && raysAreFaster(fitted.plan, scene, pictureSettings(settings))) {
-    setAutomatic(fitted.settings, settings, ReflectionMethod::rays);
-    plan();
-  }
-  if (!limits.tracesRays && fitted.plan.effects.any()) {
-    leaveOutRays(fitted.settings, scene);
-    say("effects.* that trace rays, and reflection.method=rays, are left out: the device lacks geometryShader, storage "
-        "buffers, or room in them for the scene");
-    plan();
-  }
-  // On an H200 a frame with hybrid shadows takes 1.75 of the time with traced ones in `shadows`, 0.91 in the gallery.
-  if (automaticShadows && lookup == ShadowLookup::hybrid && fitted.plan.effects.shadows &&
-      !(limits.cpu && fitted.plan.effects.hybridShadows && mapsAreFaster(fitted.plan, scene, fitted.settings))) {
-    lookup = ShadowLookup::traced;
-    plan();
-  }
-  int mapSize = shadowMapSize(fitted.plan);
-  for (glm::ivec2 extent = shadowExtent(fitted.plan); std::max(extent.x, extent.y) > limits.largestSide; extent /= 2) {
-    mapSize /= 2;
-  }
-  if (mapSize < shadowMapSize(fitted.plan)) {
-    say("shadow maps exceed the device's " + std::to_string(limits.largestSide) +
-        " pixels: lowered effects.shadow_map_size to " + std::to_string(mapSize));
-    fitted.settings.effects.shadowMapSize = mapSize;
-    plan();
-  }
-  // The picture that stays shown was drawn with the samples that were asked for, or as many as fitted.
-  uint64_t kept = 0;
-  if (limits.keepsPicture && (settings.view.accumulate > 1 || settings.quality.stillPictures == 1)) {
-    int samples = settings.view.samples;
-    while (samples > 1 && mainBytes(fitted.plan, samples) > limits.budgetBytes) {
-      samples /= 2;
-    }
-    kept = mainBytes(fitted.plan, samples);
-  }
-  const auto needed = [&] { return kept + targetBytes(fitted.plan, fitted.settings); };
-  if (needed() > limits.budgetBytes && most.updateInterval == 1) {
-    asked.cache.images = {};
-    plan();
-  }
-  const uint64_t wanted = needed();
-  std::string what;
-  std::string lowered;
-  while (needed() > limits.budgetBytes &&
-         lower(fitted.settings, mostAsked(scene, fitted.settings), fitted.plan, what)) {
-    lowered += (lowered.empty() ? "" : ", ") + what;
-    plan();
-  }
-  if (automaticShadows && fitted.plan.effects.shadows) {
-    fitted.plan.effects.shadows->append("; auto: ").append(settingValue(fitted.settings, "effects.shadow_lookup"));
-  }
-  if (!lowered.empty()) {
-    say("targets of " + mebibytes(wanted) + " do not fit the device's " + mebibytes(limits.budgetBytes) + ": lowered " +
-        lowered);
-  }
-  return fitted;
+  return PlanFitter(limits, request).fit();
 }
 
 }  // namespace speculum
