@@ -1,5 +1,7 @@
 #include "window/paced_subject.hpp"
 
+#include <memory>
+
 namespace speculum {
 
 template <typename Measure>
@@ -14,6 +16,10 @@ auto PacedSubject::paced(const Settings& settings, const Measure& measure) {
   const auto [pace, isNew] = paces_.try_emplace(budgetMs, session_.device().info().isCpu(),
                                                 static_cast<unsigned>(session_.device().caps().sampleCounts));
   pace_ = &pace->second;
+  const std::unique_ptr<PacedSubject, void (*)(PacedSubject*)> planning(this, [](PacedSubject* subject) {
+    subject->session_.setPlanning({});
+    subject->pace_ = nullptr;
+  });
   session_.setPlanning([this, budgetMs](const FrameRequest& asked, PicturePlanner& planner) {
     pace_->begin(asked.state.camera, true, 1.0 / path_.fps);
     return pace_->plan({.frame = asked, .planner = planner, .shown = {}, .budgetMs = budgetMs, .front = {}});
@@ -21,10 +27,7 @@ auto PacedSubject::paced(const Settings& settings, const Measure& measure) {
   if (isNew) {
     follow(moving, false);
   }
-  auto measured = measure(moving);
-  session_.setPlanning({});
-  pace_ = nullptr;
-  return measured;
+  return measure(moving);
 }
 
 std::vector<Image8> PacedSubject::pictures(const Settings& settings) {

@@ -129,6 +129,33 @@ TEST_F(AccuracyCommand, MistakesAreOneLineAndExitTwo) {
                        "not JSON"));
 }
 
+// Ctrl-C ends a measurement at any frame.
+TEST(PacedSubject, CancelLeavesTheSessionUnpaced) {
+  struct Cancelled : PacedSubject {
+    using PacedSubject::PacedSubject;
+    void drawFrame(int frame, bool capture, bool whole) override {
+      PacedSubject::drawFrame(frame, capture, whole);
+      if (capture && frame == 4) {
+        throw SweepCancelled();
+      }
+    }
+  };
+  Session session(headless(writeScene("cancelled", wallScene), {64, 36}));
+  Settings settings = session.settings();
+  settings.quality.motionMs = 0.01;
+  const auto picture = [&] {
+    session.restart();
+    session.draw(0.0, true);
+    return session.picture().rgba;
+  };
+  session.setSettings(settings);
+  const std::vector<uint8_t> before = picture();
+  Cancelled subject(session, MotionPath{.frames = 6});
+  EXPECT_THROW(subject.pictures(settings), SweepCancelled);
+  session.setSettings(settings);
+  EXPECT_EQ(picture(), before);
+}
+
 // Scenes of none to two mirrors, of which the second may stand where no path of light needs it.
 TEST(LeftOutConfigurations, DrawTheBytesOfOneThatIsKept) {
   for (const int mirrors : {0, 1, 2}) {
