@@ -486,7 +486,7 @@ void SceneRenderer::finishLedger(const FrameInfo& info) {
     ledger_[EffectKind::msaa].draws += planned && planned->quality.samples > 1 ? pass.draws : 0;
   }
   ledger_[EffectKind::textures].bytes = ledger_[EffectKind::textures].draws > 0 ? resources_.textureBytes() : 0;
-  ledger_[EffectKind::toneMap].draws = settings.view.toneMap == ToneMap::aces ? 1 : 0;
+  ledger_[EffectKind::toneMap].draws = settings.view.toneMap == ToneMap::aces && !flat_ ? 1 : 0;
   for (const auto& [kind, traces] :
        {std::pair(EffectKind::shadows, effects.shadowRays), std::pair(EffectKind::roughness, effects.roughRays),
         std::pair(EffectKind::ripple, effects.rippleRays),

@@ -305,6 +305,17 @@ TEST(Ledger, EachEffectReleasesItsOwn) {
   EXPECT_EQ(after.alive.at("Pipeline"), never.alive.at("Pipeline"));
 }
 
+TEST(Ledger, BackgroundAloneIsClearedNotToneMapped) {
+  FreshSession session(optionsFor(sceneWith("cleared", ""), {{"view.tone_map", "aces"}}));
+  const auto draws = [&] {
+    session.draw(0.0, true);
+    return session.sceneRenderer().ledger()[EffectKind::toneMap].draws;
+  };
+  EXPECT_EQ(draws(), 1u);
+  session.setCamera(lookAt({0, 1, 3}, {0, 1, 9}, {0, 1, 0}, 60, 0.001));
+  EXPECT_EQ(draws(), 0u);
+}
+
 // At the depth limit a rough mirror has no reflection that could be blurred.
 TEST(Ledger, RoughnessWithoutReflectionCostsNothing) {
   expectFree(optionsFor(sceneWith("rough_deep",
