@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "image/stb_decoder.hpp"
+#include "platform/byte_order.hpp"
 #include "platform/files.hpp"
 #include "platform/text.hpp"
 
@@ -19,8 +20,8 @@ namespace {
 
 constexpr const char* completeFile = "a complete PNG or JPEG file is needed";
 
-int64_t bigEndian(const uint8_t* bytes) {
-  return int64_t{bytes[0]} << 24 | int64_t{bytes[1]} << 16 | int64_t{bytes[2]} << 8 | bytes[3];
+int64_t numberAt(const std::vector<uint8_t>& bytes, size_t at) {
+  return bigEndian(std::span(bytes).subspan(at, 4));
 }
 
 enum class PictureFormat { png, jpeg, other, unknown };
@@ -96,7 +97,7 @@ JpegMarkers markersOf(const std::vector<uint8_t>& bytes) {
 std::pair<int64_t, int64_t> sizeOf(const std::filesystem::path& file, const std::vector<uint8_t>& bytes,
                                    PictureFormat format) {
   if (format == PictureFormat::png && bytes.size() >= 24) {
-    return {bigEndian(&bytes[16]), bigEndian(&bytes[20])};
+    return {numberAt(bytes, 16), numberAt(bytes, 20)};
   }
   int width = 0;
   int height = 0;
@@ -154,11 +155,11 @@ void checkPngChunks(const std::filesystem::path& file, const std::vector<uint8_t
   const size_t header = signature + 8;
   const int64_t channels = bytes[header + 9] < channelsOf.size() ? channelsOf[bytes[header + 9]] : 0;
   // Some files hold a little more than they need.
-  const int64_t most = (int64_t{1} << 26) + largestUnpacked(bigEndian(&bytes[header]), bigEndian(&bytes[header + 4]),
+  const int64_t most = (int64_t{1} << 26) + largestUnpacked(numberAt(bytes, header), numberAt(bytes, header + 4),
                                                             channels * bytes[header + 8]);
   std::vector<char> packed;
   for (size_t at = signature; at + 8 <= bytes.size();) {
-    const auto size = static_cast<size_t>(bigEndian(&bytes[at]));
+    const auto size = static_cast<size_t>(numberAt(bytes, at));
     const std::string_view kind(reinterpret_cast<const char*>(&bytes[at + 4]), 4);
     if (kind == "IEND") {
       break;

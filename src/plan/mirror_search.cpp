@@ -228,8 +228,7 @@ ImageQuality MirrorSearch::qualityOf(int mirror, const Pass& shownIn) const {
 double MirrorSearch::shownBeyond(const Pass& shownIn, const View& view) const {
   constexpr double most = 1e4;  // far outside any picture
   const double read = shownIn.view.path.empty() ? 0.0 : lookupReach(shownIn, allSettings_, false);
-  const double texels = view.pictureSize.x / shownIn.view.pictureSize.x;
-  return std::min(texels * (shownIn.shownBeyond + read) + roundingOfCone(view, plan_.projection), most);
+  return std::min(seenBeyond(view, plan_.projection, shownIn.view, shownIn.shownBeyond + read), most);
 }
 
 void MirrorSearch::expand(const Candidate& candidate) {

@@ -43,6 +43,10 @@ double roundingOfCone(const View& view, const Projection& projection) {
   return pixel > 0.0 ? 1e-15 * glm::length(view.eye) / pixel : 0.0;
 }
 
+double seenBeyond(const View& view, const Projection& projection, const View& shownIn, double reach) {
+  return view.pictureSize.x / shownIn.pictureSize.x * reach + roundingOfCone(view, projection);
+}
+
 // At the screen's resolution a pixel reads one texel. The mask holds all samples of that texel, because a driver may
 // shade at another point where only some of them pass the depth test. At other resolutions, and in cached images, a
 // pixel reads a box about its centre, which may lie half a pixel outside the edge. The box is as wide as a pixel, or as
@@ -65,9 +69,8 @@ std::vector<double> lookupReaches(const FramePlan& plan, const Settings& setting
     for (const MirrorDraw& draw : pass.mirrors) {
       if (draw.pass >= 0) {
         const Pass& shown = plan.passes[draw.pass];
-        const double texels = shown.view.pictureSize.x / pass.view.pictureSize.x;
         reaches[draw.pass] = lookupReach(shown, settings, standardLocations) +
-                             roundingOfCone(shown.view, plan.projection) + reaches[i] * texels;
+                             seenBeyond(shown.view, plan.projection, pass.view, reaches[i]);
       }
     }
   }

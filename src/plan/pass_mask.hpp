@@ -11,14 +11,16 @@ namespace speculum {
 // With `standardLocations` samples lie where Vulkan's standardSampleLocations puts them, otherwise anywhere in their
 // texel.
 double lookupReach(const Pass& pass, const Settings& settings, bool standardLocations);
-// Returns for each pass how far its image is read beyond the view's cone, in its texels: lookupReach(), the rounding of
-// the cone, and how far the pass that shows the image is read, which shows more of the mirror there than the cone
-// bounds.
+// Returns for each pass how far its image is read beyond the view's cone, in its texels: lookupReach() and
+// seenBeyond().
 std::vector<double> lookupReaches(const FramePlan& plan, const Settings& settings, bool standardLocations);
 // Returns by how many pixels rounding may turn the planes of a mirror image's cone. Near a mirror its corners are
 // rounded as the eye's position is: by more than a pixel if the eye is far from the origin and micrometres from the
 // mirror.
 double roundingOfCone(const View& view, const Projection& projection);
+// Returns how many texels beyond its cone the view is seen, lookups apart, if the view that shows it is read `reach`
+// texels beyond its own: by as much, where it shows more of the mirror than the cone bounds, and by roundingOfCone().
+double seenBeyond(const View& view, const Projection& projection, const View& shownIn, double reach);
 // Returns lookupReach() for an image that is cached, or has another resolution than the pass that shows it.
 double cachedLookupReach(const ImageQuality& quality);
 

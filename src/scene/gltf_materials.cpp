@@ -110,7 +110,7 @@ glm::dvec3 GltfMaterials::emissionOf(const tinygltf::Material& from) {
 const PictureMeans& GltfMaterials::meansOf(int texture) {
   const auto [known, isNew] = means_.try_emplace(texture);
   if (isNew) {
-    const auto read = [&](const auto&... picture) { return pictureMeans_.of(picture...); };
+    const auto read = [&](const auto& source, const auto&... content) { return pictureMeans_.of(source, &content...); };
     known->second = readPicture(texture, read).value_or(PictureMeans());
   }
   return known->second;

@@ -139,15 +139,12 @@ int opacityTextureIndex(const fs::path& file, std::vector<Texture>& textures) {
   return static_cast<int>(textures.size()) - 1;
 }
 
-const PictureMeans& MeansOfPictures::of(const fs::path& file) {
-  const auto known = known_.find(file);
-  return known != known_.end() ? known->second : known_.emplace(file, meansOf(readTexture(file))).first->second;
-}
-
-const PictureMeans& MeansOfPictures::of(const fs::path& source, const std::vector<uint8_t>& picture) {
+const PictureMeans& MeansOfPictures::of(const fs::path& source, const std::vector<uint8_t>* content) {
   const auto known = known_.find(source);
-  return known != known_.end() ? known->second
-                               : known_.emplace(source, meansOf(readTexture(source, picture))).first->second;
+  if (known != known_.end()) {
+    return known->second;
+  }
+  return known_.emplace(source, meansOf(content ? readTexture(source, *content) : readTexture(source))).first->second;
 }
 
 bool isCutOut(const Texture& texture) {

@@ -33,10 +33,9 @@ struct PictureMeans {
 // Means of pictures of which nothing else is drawn. No picture is read twice.
 class MeansOfPictures {
  public:
-  // Returns the means of a picture file. Throws FileError.
-  const PictureMeans& of(const std::filesystem::path& file);
-  // Does the same for the content of a picture that stands in another file; `source` names it.
-  const PictureMeans& of(const std::filesystem::path& source, const std::vector<uint8_t>& picture);
+  // Returns the means of a picture file or, with `content`, of a picture in another file, where `source` names it.
+  // Throws FileError.
+  const PictureMeans& of(const std::filesystem::path& source, const std::vector<uint8_t>* content = nullptr);
 
  private:
   std::map<std::filesystem::path, PictureMeans> known_;

@@ -8,6 +8,8 @@
 #include <iterator>
 #include <utility>
 
+#include "platform/byte_order.hpp"
+
 namespace speculum {
 
 namespace {
@@ -22,14 +24,6 @@ bool isOwn(ImWchar character) {
     }
   }
   return false;
-}
-
-uint32_t bigEndian(std::string_view bytes) {
-  uint32_t value = 0;
-  for (const char byte : bytes) {
-    value = value << 8 | static_cast<unsigned char>(byte);
-  }
-  return value;
 }
 
 // Says whether the face has outlines that Dear ImGui reads: it asserts on files of other formats.

@@ -90,9 +90,16 @@ bool Demo::stepOnce() {
   return !shouldClose();
 }
 
-// Requests frames if something changes in this step.
+// Requests frames if the next one could differ from the last one.
 void Demo::requestFrames() {
-  const bool changed = std::exchange(changes_, changing());
+  const bool rebuilt = renderer_.reloadShaders();
+  const std::string& errors = renderer_.pipelines().errors();
+  const bool shaders = std::exchange(shaderErrors_, errors) != errors || rebuilt;
+  const bool worked = std::exchange(working_, workspace_.working());
+  const bool changed = changes_;
+  changes_ = window_.takeActivity() || shaders || (worked && !working_) || input_.held() ||
+             workspace_.capture().recording() || workspace_.shownSettings(0).view.continuous ||
+             workspace_.shownSettings(1).view.continuous || options_.frames > 0 || workspace_.animates();
   changeBegins_ = changes_ && !changed;
   const auto wantsFrame = [](const PictureHalf& half) { return half.pace.wantsFrame(); };
   if (changes_ || std::ranges::any_of(halves_, wantsFrame)) {
@@ -421,18 +428,6 @@ std::string Demo::message() {
     }
   }
   return "";
-}
-
-// Says whether the next frame could differ from the last one.
-bool Demo::changing() {
-  const bool rebuilt = renderer_.reloadShaders();
-  const std::string& errors = renderer_.pipelines().errors();
-  const bool shaders = std::exchange(shaderErrors_, errors) != errors || rebuilt;
-  const bool working = workspace_.working();
-  const bool finished = std::exchange(working_, working) && !working;
-  return window_.takeActivity() || shaders || finished || input_.held() || workspace_.capture().recording() ||
-         workspace_.shownSettings(0).view.continuous || workspace_.shownSettings(1).view.continuous ||
-         options_.frames > 0 || workspace_.animates();
 }
 
 // Sleeps while nothing changes. Returns true if a frame has to be drawn for something that changes slowly.

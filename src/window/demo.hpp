@@ -64,7 +64,6 @@ class Demo : private WorkspaceHost {
   bool closePopup() override { return ui_.holdsEscape() || ui_.windows().closeHelp(); }
 
   bool shouldClose();
-  bool changing();
   void requestFrames();
   bool idle();
   void updateUi(double seconds);
