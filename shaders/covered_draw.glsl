@@ -1,4 +1,5 @@
-// Coverage in the fragment shaders of objects. VERTEX_COLORS draws meshes with colors of their vertices. Needs interface.glsl and shading.glsl's bilinearTexels().
+// Coverage in the fragment shaders of objects. VERTEX_COLORS draws meshes with colors of their vertices. Needs
+// interface.glsl and shading.glsl's bilinearTexels().
 #include "coverage.glsl"
 #include "sample_positions.glsl"
 
