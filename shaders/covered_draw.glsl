@@ -1,5 +1,5 @@
-// Coverage in the fragment shaders of objects. VERTEX_COLORS draws meshes with colors of their vertices. Needs
-// interface.glsl and shading.glsl's bilinearTexels().
+// Keeps or discards the samples of surfaces with coverage. With VERTEX_COLORS the alpha of the vertices' colors counts
+// too. Needs interface.glsl and bilinearTexels() of shading.glsl.
 #include "coverage.glsl"
 #include "sample_positions.glsl"
 

@@ -8,7 +8,7 @@ namespace speculum {
 
 namespace {
 
-static_assert(sizeof(Vertex) == 8 * sizeof(double) && sizeof(glm::vec3) == 3 * sizeof(float),
+static_assert(sizeof(Vertex) == 8 * sizeof(double) && sizeof(glm::vec4) == 4 * sizeof(float),
               "padding would make equal content differ");
 
 void addValue(Fingerprint& fingerprint, const std::string& text) {

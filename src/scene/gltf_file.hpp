@@ -40,7 +40,7 @@ class GltfFile {
   // glTF 2.0, is damaged, or requires an extension that is not read.
   GltfFile(const std::filesystem::path& file, ModelDefects& defects);
 
-  const tinygltf::Model& model() const { return model_; }  // with indicesAttribute
+  const tinygltf::Model& model() const { return model_; }  // indices are the attribute indicesAttribute
   bool hasMotion() const { return hasMotion_; }            // animations or skins
   uint64_t byteCount() const { return byteCount_; }        // of the file and its buffers
   // Return the files that were read: of buffers, with symbolic links resolved; of buffers and pictures, as found.

@@ -6,7 +6,6 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/gtc/type_ptr.hpp>
-#include <set>
 #include <utility>
 
 #include "scene/gltf_file.hpp"
@@ -136,7 +135,7 @@ class GltfReader {
 
   Model finish(GltfMaterials& materials) {
     Model model{.mesh = builder_.finish([&](int index) {
-      return materials.material(index, builder_.hasColors(), materialsWithAlpha_.contains(index));
+      return materials.material(index, builder_.hasColors(), builder_.hasAlpha(index));
     })};
     if (!model.mesh.indices.empty()) {
       model.camera = cameraOf(model.mesh);
@@ -242,7 +241,6 @@ class GltfReader {
     FaceCorner first{.position = static_cast<int>(builder_.positionCount())};
     const int channels = colorChannels(primitive);
     const auto colors = attribute(primitive, colorName, channels, count);
-    bool hasAlpha = false;
     for (size_t i = 0; i < count; ++i) {
       std::optional<glm::vec4> color;
       if (colors) {
@@ -250,12 +248,8 @@ class GltfReader {
         const double alpha = channels == 4 && std::isfinite(given[3]) ? std::clamp(given[3], 0.0, 1.0) : 1.0;
         const glm::dvec3 rgb = glm::make_vec3(given);
         color = glm::vec4(isFinite(rgb) ? glm::clamp(rgb, 0.0, 1.0) : glm::dvec3(1.0), alpha);
-        hasAlpha = hasAlpha || color->a < 1.0f;
       }
       builder_.addPosition(glm::dvec3(sceneFromNode * glm::dvec4(glm::make_vec3(&positions[3 * i]), 1.0)), color);
-    }
-    if (hasAlpha) {
-      materialsWithAlpha_.insert(primitive.material);
     }
     if (const auto normals = attribute(primitive, "NORMAL", 3, count)) {
       first.normal = static_cast<int>(builder_.normalCount());
@@ -405,7 +399,6 @@ class GltfReader {
   ModelDefects& defects_;
   MeshBuilder builder_;
   uint64_t cornersLeft_ = 0;
-  std::set<int> materialsWithAlpha_;  // of vertices whose colors have alpha below 1
   bool hasLinesOrPoints_ = false;
   Placed camera_;
   std::vector<Placed> lights_;

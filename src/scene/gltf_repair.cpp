@@ -62,7 +62,7 @@ void prepareMeshes(json& root) {
   }
 }
 
-// Replaces objects that the library cannot read by such as nothing is drawn of.
+// Replaces objects that the library cannot read by empty ones, of which nothing is drawn.
 void leaveOutDamaged(const fs::path& file, json& root, ModelDefects& defects) {
   const std::array<std::pair<const char*, json>, 9> usual{
       {{"bufferViews", {{"buffer", -1}, {"byteLength", 1}}},

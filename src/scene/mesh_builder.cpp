@@ -187,7 +187,7 @@ glm::dvec2 MeshBuilder::uvShiftOf(std::span<const FaceCorner> corners) const {
 }
 
 // Gives the part's triangles vertices of their own with the texture coordinates that its material means.
-void MeshBuilder::transformTexcoords(const PartMaterial& part, std::span<uint32_t> indices, Mesh& mesh) const {
+void MeshBuilder::transformTexcoords(const PartMaterial& part, std::span<uint32_t> indices, Mesh& mesh) {
   constexpr double finite = 1e300;
   std::map<std::tuple<uint32_t, double, double>, uint32_t> made;  // by vertex and shift
   for (size_t first = 0; first < indices.size(); first += 3) {
@@ -208,8 +208,8 @@ void MeshBuilder::transformTexcoords(const PartMaterial& part, std::span<uint32_
       if (isNew) {
         mesh.vertices.push_back(mesh.vertices[vertex]);
         mesh.vertices.back().uv = glm::clamp(uv[k] - shift, -mostRepeats, mostRepeats);
-        if (!mesh.colors.empty()) {
-          mesh.colors.push_back(mesh.colors[vertex]);
+        if (colored_) {
+          vertexColors_.push_back(glm::vec4(vertexColors_[vertex]));
         }
       }
       vertex = found->second;
@@ -354,11 +354,16 @@ uint32_t MeshBuilder::vertexOf(const FaceCorner& corner, const glm::dvec3& trian
   return index;
 }
 
+bool MeshBuilder::hasAlpha(int material) const {
+  return colored_ && std::ranges::any_of(materialIndices_.at(material),
+                                         [&](uint32_t vertex) { return vertexColors_[vertex].a < 1.0f; });
+}
+
 Mesh MeshBuilder::finish(const std::function<PartMaterial(int)>& materialOf) {
   smoothNormals();
   colored_ = !vertexColors_.empty();
   vertexColors_.resize(colored_ ? vertices_.size() : 0, glm::vec4(1.0f));
-  Mesh mesh{.source = file_, .vertices = std::move(vertices_), .colors = std::move(vertexColors_)};
+  Mesh mesh{.source = file_, .vertices = std::move(vertices_)};
   std::vector<Material> materials;
   for (const int index : materialOrder_) {
     const PartMaterial part = materialOf(index);
@@ -367,6 +372,7 @@ Mesh MeshBuilder::finish(const std::function<PartMaterial(int)>& materialOf) {
       transformTexcoords(part, materialIndices_[index], mesh);
     }
   }
+  mesh.colors = std::move(vertexColors_);
   const auto repeatsOften = [&](uint32_t vertex) {
     return glm::compMax(glm::abs(mesh.vertices[vertex].uv)) > 2.0 * nearEnough;
   };

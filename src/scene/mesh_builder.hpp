@@ -68,8 +68,10 @@ class MeshBuilder {
   size_t positionCount() const { return positions_.size(); }
   size_t texcoordCount() const { return texcoords_.size(); }
   size_t normalCount() const { return normals_.size(); }
-  // Says whether a triangle has vertex colors, for the function that finish() calls.
+  // For the function that finish() calls: say whether a triangle has vertex colors, and whether one of this material
+  // has vertex colors with alpha below 1.
   bool hasColors() const { return colored_; }
+  bool hasAlpha(int material) const;
 
   // Returns the mesh: its triangles are grouped by material in the order of first use; it may have none. Call it once,
   // last.
@@ -82,7 +84,7 @@ class MeshBuilder {
 
   glm::dvec2 uvOf(const FaceCorner& corner) const;
   glm::dvec2 uvShiftOf(std::span<const FaceCorner> corners) const;
-  void transformTexcoords(const PartMaterial& part, std::span<uint32_t> indices, Mesh& mesh) const;
+  void transformTexcoords(const PartMaterial& part, std::span<uint32_t> indices, Mesh& mesh);
   void addTriangle(const FaceCorner& a, const FaceCorner& b, const FaceCorner& c, int line);
   uint32_t vertexOf(const FaceCorner& corner, const glm::dvec3& triangleNormal);
   uint32_t* flatVertexOf(const FaceCorner& corner);

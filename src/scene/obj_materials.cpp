@@ -348,8 +348,8 @@ auto ObjMaterials::readPicture(const Entry& entry, int line, std::string_view ke
 }
 
 // Adds the opacity of map_d, or else that of the diffuse texture: not if the material says that it is opaque, because
-// exporters that write this name a texture of opacity too, and other programs take the alpha as meant for something
-// else. An opaque material with a cut-out is a cut-out.
+// exporters whose alpha means opacity also write map_d, and other programs take the alpha as meant for something else.
+// An opaque material with a cut-out is a cut-out.
 void ObjMaterials::addOpacity(const Entry& entry, Material& material, std::vector<Texture>& textures) {
   if (!entry.opacityTexture.empty()) {
     const auto load = [&](const fs::path& picture) { return opacityTextureIndex(picture, textures); };

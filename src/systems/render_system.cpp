@@ -180,9 +180,9 @@ uint32_t RenderSystem::recordBatch(const PassScope& scope, const FrameInfo& info
   variant.lightCount = variant.deferred || variant.added ? gpu::manyLights : fixedLightCount(info.scene);
   const Mesh& mesh = info.scene.meshes[batch.mesh];
   bindBatch(scope, info, batch, std::exchange(bound.batch, &batch));
-  variant.vertexAlpha = mesh.hasVertexAlpha();
+  const bool hasAlpha = mesh.hasVertexAlpha();
   const bool mayBeColored = !batch.environment && !mesh.colors.empty();
-  if (mayBeColored && (!variant.deferred || variant.vertexAlpha)) {
+  if (mayBeColored && (!variant.deferred || hasAlpha)) {
     bindColors(commands, info, batch);
   }
   uint32_t draws = 0;
@@ -200,7 +200,8 @@ uint32_t RenderSystem::recordBatch(const PassScope& scope, const FrameInfo& info
       variant.glossy = constants.specular != glm::vec3(0.0f);
     }
     variant.covered = !batch.curved && isTransparent(material, info.settings.effects);
-    variant.vertexColors = mayBeColored && (!variant.deferred || (variant.covered && variant.vertexAlpha));
+    variant.vertexColors = mayBeColored && (!variant.deferred || (variant.covered && hasAlpha));
+    variant.vertexAlpha = variant.vertexColors && hasAlpha;
     variant.repeating = (variant.covered || variant.diffuseLookup != gpu::textureNone) &&
                         !info.data.repeats().empty() &&
                         mesh.parts[p].firstIndex + 3 * mesh.repeats >= mesh.indices.size();

@@ -74,9 +74,12 @@ Buffer uploadVertices(Uploader& uploader, const ShadedVertices& vertices, size_t
 }
 
 Buffer uploadColors(Uploader& uploader, const std::vector<glm::vec4>& colors, bool withAlpha, const std::string& name) {
-  return withAlpha ? uploader.buffer(colors, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, name)
-                   : uploader.buffer(std::vector<glm::vec3>(colors.begin(), colors.end()),
-                                     VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, name);
+  if (withAlpha) {
+    return uploader.buffer(colors, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, name);
+  }
+  BufferWriter writer(uploader, colors.size() * sizeof(glm::vec3), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, name);
+  std::ranges::for_each(colors, [&](const glm::vec4& color) { writer.add(glm::vec3(color)); });
+  return writer.finish();
 }
 
 }  // namespace

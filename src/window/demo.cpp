@@ -112,13 +112,13 @@ void Demo::requestFrames() {
   }
 }
 
-// What the window does in a frame, `seconds` after the last step.
+// Draws a frame of the window, `seconds` after the last step.
 void Demo::drawFrame(double seconds) {
   const double sinceLastMs = pacer_.beginFrame(seconds);
   const double passed = std::min(seconds, longestStep);
   heldSeconds_ += passed;
   // Both halves of A | B show the same time, so it stands still in every second frame.
-  const bool endsPair = workspace_.split().on() && halves_.index() == 0;
+  const bool endsPair = workspace_.split().on() && halves_.split() && halves_.index() == 0;
   updateUi(endsPair ? 0.0 : workspace_.frameSeconds(std::exchange(heldSeconds_, 0.0)));
   if (!takeTurns()) {
     return;
@@ -139,7 +139,7 @@ void Demo::drawFrame(double seconds) {
   if (const bool bare = workspace_.capture().bare(); !bare || workspace_.split().on()) {
     ui_.record(*frame, bare);
   }
-  const auto& [plan, settings, lowered] = half.pace.planned();
+  const auto& [plan, settings, message] = half.pace.planned();
   const double cpuMs = milliseconds(Clock::now() - begins) - frame->waitedMs;
   const bool compiles = renderer_.pipelines().count() != pipelines_;
   half.pace.drawn(frame->number, milliseconds(waits - last_) + cpuMs, frame->waitedMs,
@@ -238,7 +238,7 @@ bool Demo::takeTurns() {
 bool Demo::recordPicture(Frame& frame, const SceneState& state) {
   frame.capture = capture_ || capturesFrame();
   try {
-    const auto& [plan, settings, lowered] = planFrame(frame, state);
+    const auto& [plan, settings, message] = planFrame(frame, state);
     const std::optional<TargetDisplay> target = shownTarget();
     std::optional<SplitDisplay> split;
     if (const int index = halves_.index(); halves_.split()) {
@@ -418,13 +418,21 @@ std::string Demo::message() {
   if (!renderer_.pipelines().errors().empty()) {
     return renderer_.pipelines().errors();
   }
-  const FiniteWatch& watch = halves_.drawn().renderer->finiteWatch();
-  if (watch.findingsFrame() > 0 && watch.findingsFrame() >= halves_.timings().frame) {
-    return describe(watch.findings().front());
+  const auto prefix = [this](const PictureHalf& half) {
+    return std::string(!halves_.split() ? "" : &half == &halves_.at(0) ? "A: " : "B: ");
+  };
+  // The last frame may not have finished, so a finding of the frame before it counts too. A half of A | B is drawn in
+  // every second frame.
+  const uint64_t step = halves_.split() ? 2 : 1;
+  for (const PictureHalf& half : halves_) {
+    const FiniteWatch& watch = half.renderer->finiteWatch();
+    if (watch.findingsFrame() > 0 && watch.findingsFrame() + step >= half.frame) {
+      return prefix(half) + describe(watch.findings().front());
+    }
   }
   for (const PictureHalf& half : halves_) {
     if (!half.planner.message().empty()) {
-      return (!halves_.split() ? "" : &half == &halves_.at(0) ? "A: " : "B: ") + half.planner.message();
+      return prefix(half) + half.planner.message();
     }
   }
   return "";

@@ -49,10 +49,8 @@ void PictureHalves::dropB() {
 void PictureHalves::useScene(const Scene& scene) {
   dropB();
   PictureHalf& half = drawn();
-  if (half.renderer) {  // none if the last call has failed
-    renderer_.waitIdle();
-    nonFinite_ = nonFinite();
-  }
+  renderer_.waitIdle();
+  nonFinite_ = nonFinite();
   half.renderer.reset();
   half.planner.forgetScene();
   half.renderer = std::make_unique<SceneRenderer>(renderer_, scene);
@@ -69,7 +67,7 @@ const FrameTimings& PictureHalves::timings() {
 uint64_t PictureHalves::nonFinite() {
   uint64_t sum = nonFinite_;
   for (const PictureHalf& half : halves_) {
-    sum += half.renderer->finiteWatch().count();
+    sum += half.renderer ? half.renderer->finiteWatch().count() : 0;  // none if useScene() has failed
   }
   return sum;
 }

@@ -23,7 +23,7 @@ struct PictureHalf {
   uint64_t frame = 0;  // number of the last frame that drew it; 0: none yet
 };
 
-// What draws the window's picture, or the halves of A | B. Each frame draws only one half, so that the device's times
+// Draws the window's picture, or the two of A | B in turn. Each frame draws only one half, so that the device's times
 // are those of one set of settings.
 class PictureHalves {
  public:

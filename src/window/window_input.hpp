@@ -13,10 +13,10 @@ class WindowInput {
   // Takes an event of the window. Says whether the user presses a key or a button, or turns the wheel.
   bool take(const InputEvent& event);
   void takeGamepad(const GamepadState& gamepad);  // once a step
-  // Says whether something is held, or changed in the last step, that needs frames although there is no event.
+  // Says whether frames are needed without an event: a key or stick is held, or a stick changed in the last step.
   bool held() const { return gamepadChanged_ || gamepad_.used() || direction() != glm::dvec3(0.0); }
   void moveCamera(double seconds);  // by keys and sticks that are held
-  bool overPanels() const;          // the pointer is
+  bool overPanels() const;          // says whether the pointer is
 
  private:
   void takeKey(const KeyEvent& event);

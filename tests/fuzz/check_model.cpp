@@ -42,6 +42,8 @@ void checkMesh(const Mesh& mesh, size_t textureCount) {
   for (const uint32_t index : mesh.indices) {
     require(index < mesh.vertices.size(), "indices are in range");
   }
+  require(mesh.colors.empty() || mesh.colors.size() == mesh.vertices.size(), "each vertex has a color, or none has");
+  require(!mesh.colors.empty() || !mesh.hasVertexAlpha(), "alpha that counts is there");
   checkParts(mesh, textureCount);
 }
 

@@ -76,6 +76,10 @@ TEST(Reports, ForeignTextStaysText) {
     }
     return count;
   };
+  const auto isError = [](const std::string& line) {
+    const bool absolute = line.starts_with("::error file=/") || line.substr(0, 17).ends_with("%3A");  // a drive
+    return line.starts_with("::error file=") && absolute;
+  };
   for (int i = 0; i < 500; ++i) {
     RegressRun run{.file = "cases" + text() + ".toml"};
     for (const Verdict verdict : {Verdict::failed, Verdict::error, Verdict::skipped}) {
@@ -89,7 +93,7 @@ TEST(Reports, ForeignTextStaysText) {
     EXPECT_FALSE(contains(xml, "\xef\xbf\xbe"));
     EXPECT_FALSE(contains(xml, "\xef\xbf\xbf"));
     const std::string errors = githubErrors(run);
-    EXPECT_EQ(linesThat(errors, [](const std::string& line) { return line.starts_with("::error file="); }), 2);
+    EXPECT_EQ(linesThat(errors, isError), 2);
     EXPECT_EQ(std::ranges::count(errors, '\n'), 2) << errors;
     const std::string table = githubSummary(run);
     EXPECT_EQ(linesThat(table, [](const std::string& line) { return line.starts_with("| "); }), 4) << table;

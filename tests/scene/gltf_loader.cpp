@@ -487,6 +487,20 @@ TEST_F(GltfLoader, AlphaOfVertexColorsCountsUnlessOpaque) {
   EXPECT_EQ(mesh.colors[mesh.indices[1]], glm::vec4(1, 0, 0, 0.2f));
 }
 
+TEST_F(GltfLoader, AlphaOfTrianglesLeftOutIsNone) {
+  MadeGltf made;
+  const int positions = made.addNumbers(triangleNumbers, "VEC3");
+  const int clear = made.addNumbers<uint8_t>({255, 0, 0, 0, 255, 0, 0, 0, 255, 0, 0, 0}, "VEC4", true);
+  made.add("materials", {{"alphaMode", "BLEND"}});
+  const int hidden = made.addMesh({{"POSITION", positions}, {"COLOR_0", clear}}, {{"material", 0}});
+  made.add("nodes", {{"mesh", hidden}, {"scale", {0, 0, 0}}});
+  made.add("nodes", {{"mesh", made.addMesh({{"POSITION", positions}}, {{"material", 0}})}});
+  const Mesh mesh = meshOf(made);
+  ASSERT_EQ(mesh.indices.size(), 3u);
+  EXPECT_TRUE(mesh.colors.empty());
+  EXPECT_FALSE(mesh.hasVertexAlpha());
+}
+
 TEST_F(GltfTextures, MissingOrUnreadablePicturesAreLeftOut) {
   folder_.write("text.png", "no picture");
   for (const auto& [image, problem] :

@@ -327,7 +327,7 @@ TEST(Coverage, CopiesInOnePlaceShowThroughEachOther) {
   EXPECT_NEAR(mean, share, 0.01);
 }
 
-// A pane whose vertices have random colors and alpha.
+// Writes a square of 3 x 3 fields whose vertices have random colors and alpha.
 std::string randomPane(const std::string& name, Random& random, const char* mode) {
   constexpr int columns = 3;
   std::vector<float> colors;
@@ -337,8 +337,10 @@ std::string randomPane(const std::string& name, Random& random, const char* mode
     }
     colors.push_back(static_cast<float>(random.chance(0.3) ? random.chance(0.5) : random.uniform(0, 1)));
   }
-  return writePane(name, columns, static_cast<float>(random.uniform(0.4, 0.8)), colors,
-                   {{"alphaMode", mode}, {"alphaCutoff", random.uniform(0.2, 0.6)}}, random.chance(0.5));
+  const auto half = static_cast<float>(random.uniform(0.4, 0.8));
+  const double cutoff = random.uniform(0.2, 0.6);
+  const bool textured = random.chance(0.5);
+  return writePane(name, columns, half, colors, {{"alphaMode", mode}, {"alphaCutoff", cutoff}}, textured);
 }
 
 std::filesystem::path randomPanes(unsigned seed, const char* mode) {
