@@ -145,8 +145,9 @@ void Demo::drawFrame(double seconds) {
   half.pace.drawn(frame->number, milliseconds(waits - last_) + cpuMs, frame->waitedMs,
                   !timed && !compiles && !plan.mainReused() && !plan.tiles && !plan.showsNothing());
   endFrame(*frame);
-  report({workspace_.scene(), state, settings, plan, frame->number, cpuMs, sinceLastMs, half.pace.lowers(),
-          countFrame(), half.pace.repeats() && !settings.view.continuous && options_.frames == 0,
+  const bool compiled = countFrame();
+  report({workspace_.scene(), state, settings, plan, frame->number, cpuMs, sinceLastMs, half.pace.lowers(), compiled,
+          half.pace.repeats() && !settings.view.continuous && options_.frames == 0,
           workspace_.shownSettings(halves_.index()), ui_.windows().visible()});
   const Clock::time_point presents = Clock::now();
   renderer_.present();
@@ -421,12 +422,9 @@ std::string Demo::message() {
   const auto prefix = [this](const PictureHalf& half) {
     return std::string(!halves_.split() ? "" : &half == &halves_.at(0) ? "A: " : "B: ");
   };
-  // The last frame may not have finished, so a finding of the frame before it counts too. A half of A | B is drawn in
-  // every second frame.
-  const uint64_t step = halves_.split() ? 2 : 1;
   for (const PictureHalf& half : halves_) {
     const FiniteWatch& watch = half.renderer->finiteWatch();
-    if (watch.findingsFrame() > 0 && watch.findingsFrame() + step >= half.frame) {
+    if (watch.findingsFrame() > 0 && watch.findingsFrame() >= halves_.finishedFrame(half)) {
       return prefix(half) + describe(watch.findings().front());
     }
   }

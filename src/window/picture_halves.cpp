@@ -64,6 +64,14 @@ const FrameTimings& PictureHalves::timings() {
   return found ? *found : none;
 }
 
+uint64_t PictureHalves::finishedFrame(const PictureHalf& half) const {
+  if (!split()) {
+    return renderer_.timings().frame;
+  }
+  constexpr uint64_t turn = 2;  // frames from one that draws the half to the next
+  return renderer_.timingsOf(half.frame) ? half.frame : half.frame - std::min(half.frame, turn);
+}
+
 uint64_t PictureHalves::nonFinite() {
   uint64_t sum = nonFinite_;
   for (const PictureHalf& half : halves_) {

@@ -40,8 +40,9 @@ class PictureHalves {
   auto begin() { return halves_.begin(); }
   auto end() { return halves_.end(); }
 
-  const FrameTimings& timings();  // of the last frame that drew this half and has finished
-  uint64_t nonFinite();           // samples that debug.check_finite found, of all scenes
+  const FrameTimings& timings();                          // of the last frame that drew this half and has finished
+  uint64_t finishedFrame(const PictureHalf& half) const;  // number of the last frame that drew it and has finished
+  uint64_t nonFinite();                                   // samples that debug.check_finite found, of all scenes
 
  private:
   void dropB();
