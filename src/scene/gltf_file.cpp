@@ -109,7 +109,8 @@ void checkVersion(const fs::path& file, const json& root) {
   }
 }
 
-// Refuses files whose triangles are not to be had without an extension. Without others a model looks different.
+// Refuses a file that requires an extension that is not read, except those of materials and of formats of textures:
+// without these the model can still be drawn.
 void checkExtensions(const fs::path& file, const json& root, ModelDefects& defects) {
   constexpr std::array<std::string_view, 6> known{
       "KHR_texture_transform", "KHR_mesh_quantization",           "KHR_lights_punctual",
@@ -134,8 +135,8 @@ void checkExtensions(const fs::path& file, const json& root, ModelDefects& defec
   }
 }
 
-// Writes base colors that extensions name into the materials' own keys.
-void useBaseColors(json& root) {
+// Writes what extensions say of a material into its own keys, as far as these can say it: color, metal and roughness.
+void useBaseColors(const fs::path& file, json& root, ModelDefects& defects) {
   if (!member(root, "materials").is_array()) {
     return;
   }
@@ -143,7 +144,10 @@ void useBaseColors(json& root) {
     const json& extensions = member(material, "extensions");
     const json& glossy = member(extensions, specularGlossiness);
     json surface = member(material, "pbrMetallicRoughness");
-    if (glossy.is_object()) {
+    if (glossy.is_object() && surface.is_null()) {  // else the file has a description for readers like this one
+      if (glossy.contains("specularFactor") || glossy.contains("specularGlossinessTexture")) {
+        defects.add(file, 1, "materials", "specular colors and textures of {} are left out", specularGlossiness);
+      }
       const json& gloss = member(glossy, "glossinessFactor");
       surface = {{"metallicFactor", 0}, {"roughnessFactor", gloss.is_number() ? 1.0 - gloss.get<double>() : 0.0}};
       for (const auto& [key, usual] :
@@ -258,7 +262,7 @@ void GltfFile::readJson(std::string_view text, std::vector<Source>& buffers) {
   json root = parsedJson(file_, text);
   checkVersion(file_, root);
   checkExtensions(file_, root, defects_);
-  useBaseColors(root);
+  useBaseColors(file_, root, defects_);
   hasMotion_ = !member(root, "animations").empty() || !member(root, "skins").empty();
   for (const auto& [key, sources] : {std::pair("buffers", &buffers), std::pair("images", &images_)}) {
     for (const json& entry : member(root, key)) {

@@ -153,11 +153,11 @@ void MeshBuilder::addFace(std::span<const FaceCorner> corners, int line) {
   // Triangulation of a polygon that is not convex takes time in the square of its corners.
   constexpr size_t fewCorners = 1000;
   constexpr double mostPairs = 1 << 30;
-  constexpr double room = 1e8;  // for sums and lengths of positions, which have to be finite too
+  constexpr double farthest = 1e300;  // sums and lengths of positions have to be finite too
   points_.clear();
   for (const FaceCorner& corner : corners) {
-    if (!isFinite(room * positions_[corner.position])) {
-      defects_.add(file_, line, faceKey_, "has a vertex that is not finite, the face is left out");
+    if (!(glm::compMax(glm::abs(positions_[corner.position])) < farthest)) {
+      defects_.add(file_, line, faceKey_, "has a vertex that is not finite or beyond 1e300, the face is left out");
       return;
     }
     points_.push_back(positions_[corner.position]);

@@ -61,8 +61,8 @@ class MeshBuilder {
   void setSmoothing(uint32_t group) { smoothing_ = group; }
   // Triangulates a face of at least three corners, which stands in this line of the file. Corners that have
   // neither a usable normal nor a smoothing group get the normal of their triangle, corners without a finite texture
-  // coordinate get (0, 0). Drops faces with positions that are not finite, triangles without an area, and faces that
-  // would take too long to triangulate.
+  // coordinate get (0, 0). Drops faces with positions that are not finite or beyond 1e300, triangles without an area,
+  // and faces that would take too long to triangulate.
   void addFace(std::span<const FaceCorner> corners, int line);
 
   size_t positionCount() const { return positions_.size(); }

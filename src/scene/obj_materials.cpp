@@ -115,13 +115,13 @@ class ObjMaterials::MtlReader {
     } else if (key == "ns") {
       readNumber("Ns");
     } else if (key == "d" || key == "tr") {
-      hasOpacity_ = readNumber(key == "d" ? "d" : "Tr") || hasOpacity_;
+      entry_->hasOpacity = readNumber(key == "d" ? "d" : "Tr") || entry_->hasOpacity;
     } else if (key == "illum") {
-      hasIllum_ = readNumber("illum") || hasIllum_;
+      entry_->hasIllum = readNumber("illum") || entry_->hasIllum;
     } else if (key == "pr" || key == "pm") {
       const bool read = readNumber(key == "pr" ? "Pr" : "Pm", Range{0.0, 1.0});
       entry_->metalRoughness = read || entry_->metalRoughness;
-      hasRoughness_ = (read && key == "pr") || hasRoughness_;
+      entry_->hasRoughness = (read && key == "pr") || entry_->hasRoughness;
     } else if (key == "map_kd") {
       if (readTexture("map_Kd")) {
         entry_->textureLine = line_.number();
@@ -216,11 +216,10 @@ class ObjMaterials::MtlReader {
     }
     constexpr std::array transparentModes{4, 6, 7, 9};  // of illum
     const bool opaqueMode = std::ranges::find(transparentModes, from.illum) == transparentModes.end();
-    entry_->opaque = hasOpacity_ && from.dissolve >= 1.0f && hasIllum_ && opaqueMode;
-    hasOpacity_ = hasIllum_ = false;
+    entry_->opaque = entry_->hasOpacity && from.dissolve >= 1.0f && entry_->hasIllum && opaqueMode;
     entry_->opacityTexture = from.alpha_texname;
     entry_->metal = from.metallic;
-    entry_->roughness = std::exchange(hasRoughness_, false) ? from.roughness : roughnessOf(material.shininess);
+    entry_->roughness = entry_->hasRoughness ? from.roughness : roughnessOf(material.shininess);
     if (from.illum >= 3 && glm::compMax(material.specular) >= 0.5 && from.shininess >= 500.0) {
       material.mirror = glm::min(material.specular, 1.0);
     }
@@ -238,10 +237,6 @@ class ObjMaterials::MtlReader {
   std::optional<Entry> entry_;  // the material that is being read
   std::string name_;
   std::string text_;  // for tinyobjloader
-  // Of that material: the keys that stand there.
-  bool hasRoughness_ = false;
-  bool hasOpacity_ = false;
-  bool hasIllum_ = false;
 };
 
 void ObjMaterials::read(std::string_view names, int line) {
@@ -347,9 +342,9 @@ auto ObjMaterials::readPicture(const Entry& entry, int line, std::string_view ke
   }
 }
 
-// Adds the opacity of map_d, or else that of the diffuse texture: not if the material says that it is opaque, because
-// exporters whose alpha means opacity also write map_d, and other programs take the alpha as meant for something else.
-// An opaque material with a cut-out is a cut-out.
+// Adds the opacity of map_d, or else the alpha of the diffuse texture. That alpha does not count if the material says
+// that it is opaque: exporters that mean opacity write map_d too. An opaque material whose texture is a cut-out becomes
+// a cut-out.
 void ObjMaterials::addOpacity(const Entry& entry, Material& material, std::vector<Texture>& textures) {
   if (!entry.opacityTexture.empty()) {
     const auto load = [&](const fs::path& picture) { return opacityTextureIndex(picture, textures); };

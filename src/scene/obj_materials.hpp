@@ -42,8 +42,11 @@ class ObjMaterials {
 
  private:
   struct Entry {
-    Material material;  // without its textures
-    bool hasDiffuse = false;
+    Material material;        // without its textures
+    bool hasDiffuse = false;  // Kd is given; likewise below
+    bool hasRoughness = false;
+    bool hasOpacity = false;
+    bool hasIllum = false;
     bool metalRoughness = false;  // Pr or Pm is given
     bool opaque = false;          // d or Tr, and illum, say so
     double metal = 0.0;

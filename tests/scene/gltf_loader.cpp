@@ -443,15 +443,20 @@ TEST_F(GltfLoader, MaterialsOfExtensionsHaveTheirBaseColor) {
   made.add("materials", {{"extensions", {{"KHR_materials_unlit", json::object()}}},
                          {"pbrMetallicRoughness", {{"baseColorFactor", {0.1, 0.9, 0.5, 1}}}}});
   made.add("materials", {{"extensions", {{"KHR_materials_clearcoat", json::object()}}}});
+  made.add("materials", {{"extensions",
+                          {{"KHR_materials_pbrSpecularGlossiness",
+                            {{"diffuseFactor", {0, 0, 0, 1}}, {"specularFactor", {0.9, 0.9, 0.9}}}}}},
+                         {"pbrMetallicRoughness", {{"baseColorFactor", {0.5, 0.25, 1, 1}}, {"metallicFactor", 0}}}});
   made.add("materials", 7);
   made.root["extensionsRequired"] = {"KHR_materials_unlit", "KHR_materials_pbrSpecularGlossiness",
                                      "KHR_materials_clearcoat", "KHR_texture_basisu"};
-  for (int material = 0; material < 3; ++material) {
+  for (int material = 0; material < 4; ++material) {
     const int positions = made.addNumbers(triangleNumbers, "VEC3");
     made.add("nodes", {{"mesh", made.addMesh({{"POSITION", positions}}, {{"material", material}})}});
   }
   const Mesh mesh = meshOf(made);
-  ASSERT_EQ(mesh.parts.size(), 3u);
+  ASSERT_EQ(mesh.parts.size(), 4u);
+  EXPECT_EQ(mesh.parts[3].material.diffuse, glm::dvec3(0.5, 0.25, 1)) << "the file's own description";
   EXPECT_EQ(mesh.parts[0].material.diffuse, glm::dvec3(0.2, 0.4, 0.6));
   EXPECT_EQ(mesh.parts[0].material.opacity, 0.5);
   EXPECT_NEAR(mesh.parts[0].material.shininess, 2 / std::pow(0.75, 4) - 2, 1e-9);

@@ -241,9 +241,10 @@ TEST_F(ObjLoader, FacesWithNonFiniteVerticesAreDropped) {
       "v 0 0 0\nv 1 0 0\nv 0 1 0\nv nan 0 0\nv 0 inf 0\nv 0 0 1e999\n"
       "f 1 2 3\nf 1 2 4\nf 1 2 5\nf 1 2 6 3\n");
   EXPECT_EQ(mesh.indices.size(), 3u);
-  EXPECT_EQ(warnings(),
-            "warning: m.obj:4: v: is not a point of three finite numbers, faces with it are left out (and 2 more)\n"
-            "warning: m.obj:8: f: has a vertex that is not finite, the face is left out (and 2 more)\n");
+  EXPECT_EQ(
+      warnings(),
+      "warning: m.obj:4: v: is not a point of three finite numbers, faces with it are left out (and 2 more)\n"
+      "warning: m.obj:8: f: has a vertex that is not finite or beyond 1e300, the face is left out (and 2 more)\n");
 }
 
 TEST_F(ObjLoader, DegenerateTrianglesAreDropped) {
