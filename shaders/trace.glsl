@@ -208,13 +208,17 @@ vec4 bilinearTraced(TraceTexture source, vec2 uv, bool clamped) {
   return mix(rows[0], rows[1], at.weight.y);
 }
 
+// Returns color `number`. Colors stand behind the vertices of all meshes, two in the place of a vertex.
+vec4 colorOf(uint number) {
+  TraceVertex two = traceVertices[number >> 1];
+  return (number & 1) == 0 ? vec4(two.position, two.u) : vec4(two.normal, two.v);
+}
+
 // Returns the alpha of the corners' colors.
 vec3 alphasOf(uint instance, uint triangle, uint firstColor) {
   vec3 alphas;
   for (int i = 0; i < 3; ++i) {
-    uint number = firstColor + traceFaces[traceInstances[instance].firstTriangle + triangle].vertices[i];
-    TraceVertex pair = traceVertices[number / 2];
-    alphas[i] = number % 2 == 0 ? pair.u : pair.v;
+    alphas[i] = colorOf(firstColor + traceFaces[traceInstances[instance].firstTriangle + triangle].vertices[i]).a;
   }
   return alphas;
 }

@@ -94,12 +94,6 @@ vec3 anisotropicColor(TraceTexture source, vec2 uv, bool clamped, vec2 across, v
   return sum / float(count);
 }
 
-// Returns color `number`. Colors stand behind the vertices of all meshes, two in the place of a vertex.
-vec3 colorOf(uint number) {
-  TraceVertex two = traceVertices[number >> 1];
-  return (number & 1) == 0 ? two.position : two.normal;
-}
-
 vec3 normalFromMesh(uint instance, vec3 n) {
   return timesDirection(traceInstances[instance].normalFromMesh, n);
 }
@@ -151,8 +145,9 @@ Bounce objectBounce(uint instance, uint triangle, Weights weights, vec3 position
   }
   if (vertexColors && material.firstColor != noColors) {
     uint corners[3] = traceFaces[traceInstances[instance].firstTriangle + triangle].vertices;
-    surface.diffuse *= w.x * colorOf(material.firstColor + corners[0]) + w.y * colorOf(material.firstColor + corners[1]) +
-                       w.z * colorOf(material.firstColor + corners[2]);
+    surface.diffuse *= w.x * colorOf(material.firstColor + corners[0]).rgb +
+                       w.y * colorOf(material.firstColor + corners[1]).rgb +
+                       w.z * colorOf(material.firstColor + corners[2]).rgb;
   }
   Skip self = Skip(instance, triangle, none, none, nearOf(position));
   Bounce bounce = Bounce(surface, self, false, away ? -geometric : geometric, vec3(0.0), 0.0);

@@ -136,7 +136,7 @@ void checkExtensions(const fs::path& file, const json& root, ModelDefects& defec
 }
 
 // Writes what extensions say of a material into its own keys, as far as these can say it: color, metal and roughness.
-void useBaseColors(const fs::path& file, json& root, ModelDefects& defects) {
+void useMaterialExtensions(const fs::path& file, json& root, ModelDefects& defects) {
   if (!member(root, "materials").is_array()) {
     return;
   }
@@ -262,7 +262,7 @@ void GltfFile::readJson(std::string_view text, std::vector<Source>& buffers) {
   json root = parsedJson(file_, text);
   checkVersion(file_, root);
   checkExtensions(file_, root, defects_);
-  useBaseColors(file_, root, defects_);
+  useMaterialExtensions(file_, root, defects_);
   hasMotion_ = !member(root, "animations").empty() || !member(root, "skins").empty();
   for (const auto& [key, sources] : {std::pair("buffers", &buffers), std::pair("images", &images_)}) {
     for (const json& entry : member(root, key)) {

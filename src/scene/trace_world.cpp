@@ -255,15 +255,20 @@ double TraceWorld::coverageOf(const SceneHit& objectHit) const {
     return 1.0;
   }
   const Material& material = mesh.parts[partOf(objectHit)].material;
-  glm::dvec2 uv(0.0);
-  double alpha = 0.0;
-  for (int k = 0; k < 3; ++k) {
-    const uint32_t vertex = mesh.indices[size_t{objectHit.triangle} * 3 + k];
-    uv += objectHit.weights[k] * mesh.vertices[vertex].uv;
-    alpha += material.vertexAlpha ? objectHit.weights[k] * mesh.colors[vertex].a : 0.0;
+  const uint32_t* corners = &mesh.indices[size_t{objectHit.triangle} * 3];
+  double opacity = material.opacity;
+  if (material.vertexAlpha) {
+    double alpha = 0.0;
+    for (int k = 0; k < 3; ++k) {
+      alpha += objectHit.weights[k] * mesh.colors[corners[k]].a;
+    }
+    opacity *= alpha;
   }
-  double opacity = material.opacity * (material.vertexAlpha ? alpha : 1.0);
   if (material.opacityTexture >= 0) {
+    glm::dvec2 uv(0.0);
+    for (int k = 0; k < 3; ++k) {
+      uv += objectHit.weights[k] * mesh.vertices[corners[k]].uv;
+    }
     opacity *= textureAt(scene_->textures[material.opacityTexture], uv, material.clamps).a;
   }
   return material.cutoff < 0.0 ? opacity : opacity >= material.cutoff ? 1.0 : 0.0;

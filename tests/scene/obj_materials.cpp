@@ -174,7 +174,7 @@ TEST_F(MtlFile, TexturesGiveOpacity) {
 }
 
 // Blender and others write d, illum and, for textures of opacity, map_d.
-TEST_F(MtlFile, AlphaOfTheDiffuseTextureIsNoOpacityOfMaterialsThatSayOpaque) {
+TEST_F(MtlFile, AlphaIsIgnoredWhereMaterialsSayOpaque) {
   writePng(folder_.path() / "gloss.png",
            testing_support::madePicture(4, 4, [](int x, int) { return glm::ivec4(255, 255, 255, x < 2 ? 0 : 255); }));
   const std::string keys = "newmtl m\nmap_Kd gloss.png\n";
