@@ -1,4 +1,5 @@
-# Sourced by scripts/windows and scripts/linux-archive: static libraries for an archive that runs without any package.
+# Sourced by scripts/windows and scripts/linux-archive: static libraries for an archive that runs without any package. And
+# by scripts/release, for the version.
 # Expects `root` and `build` (the build tree).
 deps=$build/deps
 libraries=(fmtlib spdlog meshoptimizer onetbb tinygltf tinyexr tinyobjloader libstb imgui)

@@ -141,11 +141,12 @@ void Demo::drawFrame(double seconds) {
   }
   const auto& [plan, settings, message] = half.pace.planned();
   const double cpuMs = milliseconds(Clock::now() - begins) - frame->waitedMs;
-  const bool compiles = renderer_.pipelines().count() != pipelines_;
+  const size_t pipelines = std::exchange(pipelines_, renderer_.pipelines().count());
+  const bool compiles = pipelines_ != pipelines;
   half.pace.drawn(frame->number, milliseconds(waits - last_) + cpuMs, frame->waitedMs,
                   !timed && !compiles && !plan.mainReused() && !plan.tiles && !plan.showsNothing());
   endFrame(*frame);
-  const bool compiled = countFrame();
+  const bool compiled = countFrame(compiles);
   report({workspace_.scene(), state, settings, plan, frame->number, cpuMs, sinceLastMs, half.pace.lowers(), compiled,
           half.pace.repeats() && !settings.view.continuous && options_.frames == 0,
           workspace_.shownSettings(halves_.index()), ui_.windows().visible()});
@@ -279,10 +280,9 @@ std::optional<TargetDisplay> Demo::shownTarget() {
   return workspace_.capture().bare() ? std::nullopt : target;
 }
 
-// Counts the frame that was drawn. Says whether it or the one before made pipelines.
-bool Demo::countFrame() {
-  const size_t before = std::exchange(pipelines_, renderer_.pipelines().count());
-  const bool compiled = std::exchange(compiled_, pipelines_ != before);
+// Counts the frame that was drawn, which made pipelines or did not. Says whether it or the one before did.
+bool Demo::countFrame(bool compiles) {
+  const bool compiled = std::exchange(compiled_, compiles);
   if (compiled && !compiled_) {
     releaseFreedMemory();  // loading and compiling leave much freed memory
   }

@@ -80,7 +80,7 @@ class Demo : private WorkspaceHost {
   const FittedPlan& planFrame(Frame& frame, const SceneState& state);
   bool recordPicture(Frame& frame, const SceneState& state);
   std::optional<TargetDisplay> shownTarget();
-  bool countFrame();
+  bool countFrame(bool compiles);
   void report(const RecordedFrame& frame);
   std::string pictureText(const Settings& chosen);
   std::string drawingText() const { return "Drawing " + workspace_.scene().file.filename().string() + "..."; }
