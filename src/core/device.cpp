@@ -156,7 +156,10 @@ void Device::createDevice(const DeviceOptions& options) {
                                 .ppEnabledExtensionNames = extensions.data(),
                                 .pEnabledFeatures = &features};
   VkDevice device = VK_NULL_HANDLE;
-  check(vkCreateDevice(gpu_.handle, &info, nullptr, &device), "create the logical device of " + gpu_.info.name);
+  {
+    const std::lock_guard lock(loaderMutex());
+    check(vkCreateDevice(gpu_.handle, &info, nullptr, &device), "create the logical device of " + gpu_.info.name);
+  }
   device_.reset(device);
   vkGetDeviceQueue(device, gpu_.queueFamily, 0, &queue_);
   vkGetDeviceQueue(device, gpu_.presentFamily, 0, &presentQueue_);
@@ -176,6 +179,7 @@ void Device::loadFunctions() {
     functions_.setPolygonMode = function<PFN_vkCmdSetPolygonModeEXT>("vkCmdSetPolygonModeEXT");
   }
   if (instance_.hasDebugUtils()) {
+    const std::shared_lock lock(loaderMutex());
     const auto loadInstance = [this]<typename F>(F& function, const char* name) {
       function = reinterpret_cast<F>(requireFunction(vkGetInstanceProcAddr(instance_.get(), name), name));
     };
@@ -273,6 +277,7 @@ void Device::setObjectName(VkObjectType type, uint64_t object, std::string_view 
                                              .objectType = type,
                                              .objectHandle = object,
                                              .pObjectName = text.c_str()};
+    const std::shared_lock lock(loaderMutex());
     functions_.setName(device_.get(), &info);  // ignores failure: the name is for debugging only
   }
 }

@@ -144,13 +144,17 @@ class Device {
   // Returns a function that the loader does not export. Throws std::runtime_error with its name if there is none.
   template <typename F>
   F function(const char* name) const {
+    const std::shared_lock lock(loaderMutex());
     return reinterpret_cast<F>(requireFunction(vkGetDeviceProcAddr(get(), name), name));
   }
 
  private:
   struct Destroy {
     using pointer = VkDevice;
-    void operator()(VkDevice device) const { vkDestroyDevice(device, nullptr); }
+    void operator()(VkDevice device) const {
+      const std::lock_guard lock(loaderMutex());
+      vkDestroyDevice(device, nullptr);
+    }
   };
 
   void choosePath(RenderPath wanted);

@@ -1,15 +1,21 @@
 #include "core/handle.hpp"
 
+#include "core/vulkan_result.hpp"
+
 namespace speculum {
 
 void destroyAccelerationStructure(VkDevice device, VkAccelerationStructureKHR structure,
                                   const VkAllocationCallbacks* allocator) {
-  const auto destroy = reinterpret_cast<PFN_vkDestroyAccelerationStructureKHR>(
-      vkGetDeviceProcAddr(device, "vkDestroyAccelerationStructureKHR"));
+  const auto destroy = [device] {
+    const std::shared_lock lock(loaderMutex());
+    return reinterpret_cast<PFN_vkDestroyAccelerationStructureKHR>(
+        vkGetDeviceProcAddr(device, "vkDestroyAccelerationStructureKHR"));
+  }();
   destroy(device, structure, allocator);
 }
 
 void destroyMessenger(VkInstance instance, VkDebugUtilsMessengerEXT messenger, const VkAllocationCallbacks* allocator) {
+  const std::shared_lock lock(loaderMutex());
   const auto destroy = reinterpret_cast<PFN_vkDestroyDebugUtilsMessengerEXT>(
       vkGetInstanceProcAddr(instance, "vkDestroyDebugUtilsMessengerEXT"));
   destroy(instance, messenger, allocator);

@@ -146,9 +146,13 @@ Instance::Instance(const DeviceOptions& options) : version_(usedVersion()) {
                                   .enabledExtensionCount = static_cast<uint32_t>(extensions.size()),
                                   .ppEnabledExtensionNames = extensions.data()};
   VkInstance instance = VK_NULL_HANDLE;
-  check(vkCreateInstance(&info, nullptr, &instance), "create the Vulkan instance");
+  {
+    const std::lock_guard lock(loaderMutex());
+    check(vkCreateInstance(&info, nullptr, &instance), "create the Vulkan instance");
+  }
   instance_.reset(instance);
   if (options.validation) {
+    const std::shared_lock lock(loaderMutex());
     constexpr const char* name = "vkCreateDebugUtilsMessengerEXT";
     const auto create = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(
         requireFunction(vkGetInstanceProcAddr(instance, name), name));

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/handle.hpp"
+#include "core/vulkan_result.hpp"
 
 namespace speculum {
 
@@ -48,7 +49,10 @@ class Instance {
  private:
   struct Destroy {
     using pointer = VkInstance;
-    void operator()(VkInstance instance) const { vkDestroyInstance(instance, nullptr); }
+    void operator()(VkInstance instance) const {
+      const std::lock_guard lock(loaderMutex());
+      vkDestroyInstance(instance, nullptr);
+    }
   };
 
   DebugMessages messages_;

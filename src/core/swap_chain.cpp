@@ -144,7 +144,11 @@ void SwapChain::create() {
       .presentMode = vulkanMode(mode_),
       .clipped = VK_TRUE,
       .oldSwapchain = old.get()};
-  swapchain_ = device_.create(vkCreateSwapchainKHR, info, "swapchain");
+  const auto createSwapchain = [](auto... arguments) {
+    const std::shared_lock lock(loaderMutex());
+    return vkCreateSwapchainKHR(arguments...);
+  };
+  swapchain_ = device_.create<VkSwapchainCreateInfoKHR, VkSwapchainKHR>(createSwapchain, info, "swapchain");
   for (VkImage image :
        enumerate<VkImage>("list swapchain images", vkGetSwapchainImagesKHR, device_.get(), swapchain_.get())) {
     const std::string name = "swapchain image " + std::to_string(images_.size());

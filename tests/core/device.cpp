@@ -1,6 +1,9 @@
 #include <array>
+#include <atomic>
 #include <cctype>
 #include <cstring>
+#include <memory>
+#include <thread>
 
 #include "core/fixture.hpp"
 #include "error_message.hpp"
@@ -88,6 +91,23 @@ TEST(Device, RenderPathNames) {
     EXPECT_EQ(renderPathFromName(renderPathName(path)), path);
   }
   EXPECT_EQ(renderPathFromName("fast"), std::nullopt);
+}
+
+// The loader keeps one list of all devices, which it walks to name an object, and frees entries of it without a lock
+// that the naming thread holds.
+TEST(Device, ThreadsHaveDevicesOfTheirOwn) {
+  std::atomic<bool> done = false;
+  const auto device = std::make_unique<Device>(validated());
+  std::jthread other([&done] {
+    for (int i = 0; i < 20; ++i) {
+      const Device device(validated());
+    }
+    done = true;
+  });
+  while (!done) {
+    const FenceHandle fence = device->create(vkCreateFence, {.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO}, "named");
+  }
+  EXPECT_EQ(device->validationMessages(), 0) << messagesOf(*device);
 }
 
 TEST(Device, MissingDriverSaysHowToMendIt) {
