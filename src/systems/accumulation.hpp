@@ -17,9 +17,9 @@ namespace speculum {
 // each frame, and in between the display pass shows the mean of those added so far. Nothing exists on the GPU before
 // the first and after release().
 //
-// SceneRenderer owns it and adds the pictures it draws. To draw a mean, draw frames with view.accumulate above 1 and
-// plans made for pictures 0, 1, 2, ...; picture 0 begins a new mean. Scene, time, camera, settings and size must stay
-// the same between them. A plan for a picture beyond the last shows the mean again and draws nothing.
+// MainPicture owns it and adds the pictures that are drawn. To draw a mean, draw frames with view.accumulate above 1
+// and plans made for pictures 0, 1, 2, ...; picture 0 begins a new mean. Scene, time, camera, settings and size must
+// stay the same between them. A plan for a picture beyond the last shows the mean again and draws nothing.
 //
 // With view.accumulate_error, later pictures are drawn in the tiles that refined() has. The sum of a texel of another
 // tile grows by its mean with each picture, so that all texels have the same number of pictures.

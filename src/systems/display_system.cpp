@@ -44,14 +44,6 @@ std::optional<VkClearColorValue> flatColor(const DisplayedPicture& picture) {
   return picture.flat ? displayColor(*picture.flat, picture.curve) : std::nullopt;
 }
 
-PassDesc viewPass(const PassTargets& targets, const VkRect2D& area) {
-  PassDesc desc = fullPass("debug view", targets);
-  desc.renderArea = area;
-  desc.scissor = area;
-  desc.loadColor = true;
-  return desc;
-}
-
 }  // namespace
 
 std::optional<VkClearColorValue> displayColor(const glm::vec3& radiance, const DisplayCurve& curve) {
@@ -99,18 +91,11 @@ void DisplaySystem::draw(const Frame& frame, const PassScope& scope, Variant var
   vkCmdDraw(scope.commands(), 3, 1, 0, 0);
 }
 
-// The sampler does not enlarge a mean: not every device filters its 32-bit floats, and a mean is not drawn in haste.
-DisplayedPicture DisplaySystem::picture(const VkDescriptorImageInfo& radiance, VkExtent2D size,
-                                        const DisplayCurve& curve, int pictures,
-                                        const std::optional<glm::vec3>& flat) const {
-  if (cover_) {
-    return {.image = cover_.descriptor(linearSampler_.get()), .size = cover_.extent(), .stretches = false};
-  }
-  return {.image = radiance,
-          .size = size,
-          .curve = {curve.exposure / std::max(pictures, 1), curve.toneMap},
-          .filtered = pictures == 0,
-          .flat = flat};
+DisplayedPicture DisplaySystem::covered(const DisplayedPicture& picture) const {
+  return cover_ ? DisplayedPicture{.image = cover_.descriptor(linearSampler_.get()),
+                                   .size = cover_.extent(),
+                                   .stretches = false}
+                : picture;
 }
 
 RecordedPass DisplaySystem::record(Frame& frame, std::span<const DisplayedPicture> pictures) {
@@ -148,25 +133,30 @@ RecordedPass DisplaySystem::record(Frame& frame, std::span<const DisplayedPictur
   return {{.kind = PassKind::display}, desc.name, -1, draws};
 }
 
-RecordedPass DisplaySystem::drawTarget(Frame& frame, const VkRect2D& area, const Variant& variant,
-                                       const VkDescriptorImageInfo& image, const auto& constants) {
-  const PassDesc desc = viewPass(renderer_.displayTargets(frame), area);
-  draw(frame, renderer_.beginPass(frame, desc), variant, image, constants);
-  return {{.kind = PassKind::targetDisplay}, desc.name, -1, 1};
-}
-
-std::optional<RecordedPass> DisplaySystem::recordColor(Frame& frame, const glm::ivec2& size, const TargetDisplay& debug,
-                                                       const MirrorImage& radiance, const DisplayCurve& curve) {
-  const std::optional<Placement> placement = placementOf(frame.extent, size, debug);
+// A depth image is not filtered where it is shrunk, because depth has no mean where surfaces meet.
+std::optional<RecordedPass> DisplaySystem::recordTarget(Frame& frame, const WatchedTarget::Target& target,
+                                                        const TargetDisplay& debug, const MirrorImage& image,
+                                                        const DisplayCurve& curve) {
+  const std::optional<Placement> placement = placementOf(frame.extent, target.size, debug);
   if (!placement) {
     return std::nullopt;
   }
-  return drawTarget(frame, placement->area,
-                    {.toneMap = curve.toneMap,
-                     .multisampled = radiance.samples != VK_SAMPLE_COUNT_1_BIT,
-                     .shrunk = placement->lookup.x > 1.0f},
-                    radiance.descriptor,
-                    gpu::DisplayConstants{placement->lookup, size, static_cast<float>(curve.exposure)});
+  const glm::vec4& lookup = placement->lookup;
+  PassDesc desc = fullPass("debug view", renderer_.displayTargets(frame));
+  desc.renderArea = desc.scissor = placement->area;
+  desc.loadColor = true;
+  const PassScope scope = renderer_.beginPass(frame, desc);
+  Variant variant{.multisampled = image.samples != VK_SAMPLE_COUNT_1_BIT, .depth = target.kind == TargetKind::depth};
+  if (variant.depth) {
+    draw(frame, scope, variant, image.descriptor,
+         gpu::DepthViewConstants{lookup, static_cast<float>(target.near / debug.halfDistance)});
+  } else {
+    variant.toneMap = curve.toneMap;
+    variant.shrunk = lookup.x > 1.0f;
+    draw(frame, scope, variant, image.descriptor,
+         gpu::DisplayConstants{lookup, target.size, static_cast<float>(curve.exposure)});
+  }
+  return RecordedPass{{.kind = PassKind::targetDisplay}, desc.name, -1, 1};
 }
 
 std::optional<RecordedPass> DisplaySystem::recordMean(Frame& frame, OffScreen& target, int picture) {
@@ -180,18 +170,6 @@ std::optional<RecordedPass> DisplaySystem::recordMean(Frame& frame, OffScreen& t
   draw(frame, renderer_.beginPass(frame, desc), {.mean = true}, target.samplesDescriptor(),
        gpu::MeanConstants{halfTurn(beyondMirrors, picture), picture > 0 ? 1.0f : 0.0f});
   return RecordedPass{{.kind = PassKind::main}, desc.name, -1, 1};
-}
-
-// The depth image is not filtered where it is shrunk, because depth has no mean where surfaces meet.
-std::optional<RecordedPass> DisplaySystem::recordDepth(Frame& frame, const glm::ivec2& size, const TargetDisplay& debug,
-                                                       const MirrorImage& depth, double near) {
-  const std::optional<Placement> placement = placementOf(frame.extent, size, debug);
-  if (!placement) {
-    return std::nullopt;
-  }
-  return drawTarget(frame, placement->area, {.multisampled = depth.samples != VK_SAMPLE_COUNT_1_BIT, .depth = true},
-                    depth.descriptor,
-                    gpu::DepthViewConstants{placement->lookup, static_cast<float>(near / debug.halfDistance)});
 }
 
 void DisplaySystem::releaseView() {

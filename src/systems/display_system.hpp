@@ -5,11 +5,11 @@
 
 #include "image/color.hpp"
 #include "image/image.hpp"
-#include "plan/target_display.hpp"
 #include "systems/effect_ledger.hpp"
 #include "systems/frame_data.hpp"
 #include "systems/pass_log.hpp"
 #include "systems/pipeline_variants.hpp"
+#include "systems/watched_target.hpp"
 
 namespace speculum {
 
@@ -40,18 +40,15 @@ class DisplaySystem {
   // Shows `picture` instead of the scene: see SceneRenderer::setCover.
   void setCover(const Image8& picture);
 
-  // Returns what record() takes, without an area: the image of setCover(), or else `radiance`, which has `size` texels
-  // and is the sum of `pictures` pictures; 0: one picture, no sum. `flat`: see DisplayedPicture.
-  DisplayedPicture picture(const VkDescriptorImageInfo& radiance, VkExtent2D size, const DisplayCurve& curve,
-                           int pictures, const std::optional<glm::vec3>& flat) const;
+  // Returns the picture of setCover() or, without one, `picture`.
+  DisplayedPicture covered(const DisplayedPicture& picture) const;
   // Records the display pass. The areas of the pictures cover the display.
   RecordedPass record(Frame& frame, std::span<const DisplayedPicture> pictures);
-  // Record a pass that shows a target of `size` texels. Return nothing if no part of the target lies in `debug.area`.
-  std::optional<RecordedPass> recordColor(Frame& frame, const glm::ivec2& size, const TargetDisplay& debug,
-                                          const MirrorImage& radiance, const DisplayCurve& curve);
-  // `near`: metres from the eye to the near plane.
-  std::optional<RecordedPass> recordDepth(Frame& frame, const glm::ivec2& size, const TargetDisplay& debug,
-                                          const MirrorImage& depth, double near);
+  // Records a pass that shows a target, with `curve` if it is not a depth. Returns nothing if no part of the target
+  // lies in `debug.area`.
+  std::optional<RecordedPass> recordTarget(Frame& frame, const WatchedTarget::Target& target,
+                                           const TargetDisplay& debug, const MirrorImage& image,
+                                           const DisplayCurve& curve);
   // Records the pass that draws the mean of the target's samples, which are stored, into its color; `picture` is the
   // index in a mean of pictures. A target without samples needs none.
   std::optional<RecordedPass> recordMean(Frame& frame, OffScreen& target, int picture);
@@ -75,9 +72,6 @@ class DisplaySystem {
   // Draws with the variant, for the present display image unless it is recordMean()'s.
   void draw(const Frame& frame, const PassScope& scope, Variant variant, const VkDescriptorImageInfo& image,
             const auto& constants);
-  // Shows a target in a pass of its own.
-  RecordedPass drawTarget(Frame& frame, const VkRect2D& area, const Variant& variant,
-                          const VkDescriptorImageInfo& image, const auto& constants);
 
   Renderer& renderer_;
   VkDescriptorSetLayout layout_ = VK_NULL_HANDLE;

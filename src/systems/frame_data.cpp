@@ -9,6 +9,7 @@
 #include "plan/pass_mask.hpp"
 #include "scene/material_mirrors.hpp"
 #include "scene/scene_state.hpp"
+#include "systems/frame_info.hpp"
 #include "systems/gpu_conversion.hpp"
 #include "systems/mirror_polygons.hpp"
 
@@ -138,8 +139,9 @@ void FrameData::requireFits(const FramePlan& plan) const {
   buffers_.checkSize(instances, instanceCount * sizeof(gpu::InstanceData));
 }
 
-void FrameData::build(Frame& frame, const SceneResources& resources, const Scene& scene, const SceneState& state,
-                      const Settings& settings, const Environment& environment, const FramePlan& plan) {
+void FrameData::build(const FrameInfo& info) {
+  const FramePlan& plan = info.plan;
+  Frame& frame = info.frame;
   passBlocks_.clear();
   mirrors_.clear();
   lights_.clear();
@@ -147,20 +149,19 @@ void FrameData::build(Frame& frame, const SceneResources& resources, const Scene
   curvedMirrors_.clear();
   mirrorVertices_.clear();
   passes_.assign(plan.passes.size(), {});
-  addRepeating(scene, state, plan.main().view.eye);
-  const Source source{scene, state, settings, environment, plan};
-  clearances_ = clearancesOf(scene, state);
-  shadowMaps_.assign(scene.lights.size(), gpu::noShadowMap);
+  addRepeating(info);
+  clearances_ = clearancesOf(info.scene, info.state);
+  shadowMaps_.assign(info.scene.lights.size(), gpu::noShadowMap);
   const std::span<const Cube> maps = cubesOf(plan.cubes, PassKind::shadow);
   for (size_t map = 0; map < maps.size(); ++map) {
     shadowMaps_[maps[map].light] = static_cast<uint32_t>(map);
   }
-  const std::vector<double> reaches = lookupReaches(plan, settings, device_.limits().standardSampleLocations);
+  const std::vector<double> reaches = lookupReaches(plan, info.settings, device_.limits().standardSampleLocations);
   const std::vector<std::vector<PixelRect>> converged = convergedParts(plan);
   for (size_t i = 0; i < plan.passes.size(); ++i) {
     if (plan.passes[i].drawn()) {
-      addPass(source, plan.passes[i], passes_[i]);
-      addMask(source, plan.passes[i], reaches[i], converged[i], passes_[i]);
+      addPass(info, plan.passes[i], passes_[i]);
+      addMask(info, plan.passes[i], reaches[i], converged[i], passes_[i]);
     }
   }
 
@@ -182,7 +183,7 @@ void FrameData::build(Frame& frame, const SceneResources& resources, const Scene
     buffer.range = kind == passBlocks ? sizeof(DrawBlock) : kind == mirrors ? sizeof(gpu::MirrorBlock) : buffer.range;
     writer.buffer(kind, typeOf(kind), buffer);
   }
-  writer.buffer(kindCount, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, resources.materials().descriptor());
+  writer.buffer(kindCount, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, info.resources.materials().descriptor());
   writer.update(device_, set_);
 }
 
@@ -193,14 +194,15 @@ void FrameData::bind(const Pipeline& pipeline, VkCommandBuffer commands, const D
   pipeline.bindSet(commands, 0, set_, offsets);
 }
 
-void FrameData::addPass(const Source& source, const Pass& pass, DrawList& data) {
-  const auto& [scene, state, settings, environment, plan] = source;
+void FrameData::addPass(const FrameInfo& info, const Pass& pass, DrawList& data) {
+  const Settings& settings = info.settings;
+  const FramePlan& plan = info.plan;
   const glm::dmat4 projection = viewProjection(pass.projection, pass.view, settings.reflection.clip);
   data.pass = static_cast<uint32_t>(passBlocks_.size());
   data.mirrorView = !pass.view.path.empty();
   data.lineWidth = static_cast<float>(plan.lineWidth(pass.view, settings.view));
   gpu::ViewData& view = passBlocks_.emplace_back().view;
-  view = viewData(pass.view, pass.projection, pass.corner, environment);
+  view = viewData(pass.view, pass.projection, pass.corner, info.environment);
   view.inMap = pass.id.kind == PassKind::environment;
   const glm::dmat4 clipFromRelative = projection * glm::dmat4(pass.view.worldToView);
   view.clipFromRelative = glm::mat4(clipFromRelative);
@@ -218,17 +220,17 @@ void FrameData::addPass(const Source& source, const Pass& pass, DrawList& data) 
   view.rayY.w = halfTurn(view.depth, plan.picture);
   view.rayOrigin.w = plan.picture > 0 ? 1.0f : 0.0f;
   view.maxDepth = static_cast<uint32_t>(settings.reflection.maxDepth);
-  addLights(source, pass, passBlocks_.back(), data);
+  addLights(info, pass, passBlocks_.back(), data);
   data.glyphCount = static_cast<uint32_t>(pass.lights.size());
-  addInstances(source, pass, clipFromRelative, data);
-  addMirrors(source, pass, projection, data);
+  addInstances(info, pass, clipFromRelative, data);
+  addMirrors(info, pass, projection, data);
 }
 
 // Lights with a shadow map come first, so that passes share pipelines. In both groups, lights whose glyphs are visible
 // stand where the groups meet, so that one instanced draw covers them.
-void FrameData::addLights(const Source& source, const Pass& pass, DrawBlock& block, DrawList& data) {
-  const Scene& scene = source.scene;
-  const double scale = source.settings.view.radianceScale();
+void FrameData::addLights(const FrameInfo& info, const Pass& pass, DrawBlock& block, DrawList& data) {
+  const Scene& scene = info.scene;
+  const double scale = info.settings.view.radianceScale();
   block.view.firstLight = static_cast<uint32_t>(lights_.size());
   block.view.lightCount = static_cast<uint32_t>(scene.lights.size());
   const auto hasMap = [&](int i) { return shadowMaps_[i] != gpu::noShadowMap; };
@@ -241,12 +243,12 @@ void FrameData::addLights(const Source& source, const Pass& pass, DrawBlock& blo
   data.firstGlyph = static_cast<uint32_t>(shown - order.begin());
   for (const int i : order) {
     const PointLight& light = scene.lights[i];
-    lights_.push_back({.position = glm::vec3(source.state.lights[i].position - pass.view.eye),
+    lights_.push_back({.position = glm::vec3(info.state.lights[i].position - pass.view.eye),
                        .radius = static_cast<float>(light.radius),
                        .irradiance = radiance(scale * light.color * light.intensity),
                        .castsShadow = light.castsShadow,
                        .glow = radiance(scale * light.color * light.glow),
-                       .hasGlyph = hasGlyph(light, source.settings.effects) && sees(Onlooker::mirror, light.visible),
+                       .hasGlyph = hasGlyph(light, info.settings.effects) && sees(Onlooker::mirror, light.visible),
                        .clearance = clearances_[i],
                        .shadowMap = shadowMaps_[i]});
   }
@@ -256,15 +258,15 @@ void FrameData::addLights(const Source& source, const Pass& pass, DrawBlock& blo
   block.view.lightsPerGroup = static_cast<uint32_t>(perGroup);
   for (size_t first = 0; first < ordered.size(); first += perGroup) {
     const auto group = ordered.subspan(first, std::min(perGroup, ordered.size() - first));
-    block.lightGroups[first / perGroup] = source.settings.debug.skipLights ? sphereAround(group) : everywhere;
+    block.lightGroups[first / perGroup] = info.settings.debug.skipLights ? sphereAround(group) : everywhere;
   }
 }
 
-void FrameData::addInstances(const Source& source, const Pass& pass, const glm::dmat4& clipFromRelative,
+void FrameData::addInstances(const FrameInfo& info, const Pass& pass, const glm::dmat4& clipFromRelative,
                              DrawList& data) {
-  const Scene& scene = source.scene;
-  const SceneState& state = source.state;
-  const EffectSettings& effects = source.settings.effects;
+  const Scene& scene = info.scene;
+  const SceneState& state = info.state;
+  const EffectSettings& effects = info.settings.effects;
   const auto isCurved = [&](int i) { return effects.curved && curvedMirrorOf(scene, state.instances[i]).has_value(); };
   std::vector<int> order = frontToBack(pass.view, pass.instances, state);
   // Instances of a mesh that look alike share a draw, those that are curved mirrors another one. Each instance that is
@@ -283,7 +285,7 @@ void FrameData::addInstances(const Source& source, const Pass& pass, const glm::
     const PartialInstance* part = partOf(pass.partial, i);
     const float handedness = handednessOf(instance);
     const Mesh& mesh = scene.meshes[instance.mesh];
-    const bool culls = cullsBacks(device_, source.settings, pass.view, instance, mesh);
+    const bool culls = cullsBacks(device_, info.settings, pass.view, instance, mesh);
     const Batch* last = data.batches.empty() ? nullptr : &data.batches.back();
     if (!last || last->mesh != instance.mesh || last->curved != curved || last->handedness != handedness ||
         last->cullsBacks != culls || !sameColors(scene.objects[last->object], object) || environment || part ||
@@ -301,18 +303,18 @@ void FrameData::addInstances(const Source& source, const Pass& pass, const glm::
     instances_.back().traceInstance = static_cast<uint32_t>(i);
     instances_.back().repeats = repeats_.empty() ? 0 : repeats_[i];
     if (environment) {
-      addEnvironment(source, pass, i, data.batches.back());
+      addEnvironment(info, pass, i, data.batches.back());
     }
   }
 }
 
 // Adds the environment map that a curved mirror looks up. In faces of such maps curved mirrors show the background.
-void FrameData::addEnvironment(const Source& source, const Pass& pass, int instance, Batch& batch) {
-  const RecycledVector<Cube>& cubes = source.plan.cubes;
+void FrameData::addEnvironment(const FrameInfo& info, const Pass& pass, int instance, Batch& batch) {
+  const RecycledVector<Cube>& cubes = info.plan.cubes;
   const auto map = std::ranges::find(cubes, instance, &Cube::instance);
   const bool exists = map != cubes.end() && !pass.isFace();
   const MirrorOptics optics =
-      opticsOf(*curvedMirrorOf(source.scene, source.state.instances[instance]), source.settings.effects);
+      opticsOf(*curvedMirrorOf(info.scene, info.state.instances[instance]), info.settings.effects);
   gpu::CurvedMirrorData data{.hasMap = exists,
                              .reflectance = glm::vec3(optics.reflectance),
                              .schlick = optics.fresnel == Fresnel::schlick,
@@ -321,7 +323,7 @@ void FrameData::addEnvironment(const Source& source, const Pass& pass, int insta
     data.center = glm::vec3(map->center - pass.view.eye);
     data.low = glm::vec3(map->low - map->center);
     data.high = glm::vec3(map->high - map->center);
-    data.hasBox = source.settings.effects.environmentBox;
+    data.hasBox = info.settings.effects.environmentBox;
     data.faceSize = map->size;
   }
   batch.environment = true;
@@ -331,20 +333,19 @@ void FrameData::addEnvironment(const Source& source, const Pass& pass, int insta
   curvedMirrors_.push_back(data);
 }
 
-void FrameData::addMirrors(const Source& source, const Pass& pass, const glm::dmat4& projection, DrawList& data) {
-  const auto& [scene, state, settings, environment, plan] = source;
-  const EffectSettings& effects = settings.effects;
+void FrameData::addMirrors(const FrameInfo& info, const Pass& pass, const glm::dmat4& projection, DrawList& data) {
+  const EffectSettings& effects = info.settings.effects;
   const std::vector<std::vector<ClipPolygon>> polygons = mirrorPolygons(pass, projection);
   size_t cuts = 0;
   for (size_t i = 0; i < pass.mirrors.size(); ++i) {
     const MirrorDraw& draw = pass.mirrors[i];
-    const std::vector<ClipPolygon> parts = partsToDraw(pass, state, polygons, i, cuts);
+    const std::vector<ClipPolygon> parts = partsToDraw(pass, info.state, polygons, i, cuts);
     if (parts.empty()) {
       continue;
     }
-    const Mirror& mirror = scene.mirror(draw.mirror);
+    const Mirror& mirror = info.scene.mirror(draw.mirror);
     const MirrorOptics optics = opticsOf(mirror, effects);
-    const View* image = imageView(draw, plan);
+    const View* image = imageView(draw, info.plan);
     const bool ripples = draw.ripples && image;
     MirrorRange range{.mirror = static_cast<uint32_t>(mirrors_.size()),
                       .firstVertex = static_cast<uint32_t>(mirrorVertices_.size()),
@@ -362,7 +363,7 @@ void FrameData::addMirrors(const Source& source, const Pass& pass, const glm::dm
     range.shows = draw.back ? MirrorShows::back : image ? MirrorShows::image : MirrorShows::background;
     range.colored = draw.back ? optics.backColor != glm::dvec3(0.0) : range.base;
     range.lookup = image ? lookupFor(image->pictureSize / pass.view.pictureSize) : Lookup::fetch;
-    mirrors_.push_back({.mirror = mirrorData(draw, optics, state, effects, pass.view, image)});
+    mirrors_.push_back({.mirror = mirrorData(draw, optics, info.state, effects, pass.view, image)});
     mirrors_.back().mirror.index = range.mirror;
     mirrors_.back().mirror.showsRipples = ripples;
     for (const ClipPolygon& part : parts) {
@@ -376,25 +377,25 @@ void FrameData::addMirrors(const Source& source, const Pass& pass, const glm::dm
   }
 }
 
-void FrameData::addRepeating(const Scene& scene, const SceneState& state, const glm::dvec3& eye) {
+void FrameData::addRepeating(const FrameInfo& info) {
   repeating_.clear();
   repeats_.clear();
-  if (!device_.caps().primitiveId || !hasRepeatingTriangles(scene)) {
+  if (!device_.caps().primitiveId || !hasRepeatingTriangles(info.scene)) {
     return;
   }
-  for (const InstanceState& instance : state.instances) {
-    const Mesh& mesh = scene.meshes[instance.mesh];
+  for (const InstanceState& instance : info.state.instances) {
+    const Mesh& mesh = info.scene.meshes[instance.mesh];
     const auto end = static_cast<uint32_t>(mesh.indices.size() / 3);
     repeats_.push_back(static_cast<uint32_t>(repeating_.size()) - (end - mesh.repeats));
     for (uint32_t triangle = end - mesh.repeats; triangle < end; ++triangle) {
-      repeating_.push_back(repeatingTriangle(mesh, triangle, instance, eye));
+      repeating_.push_back(repeatingTriangle(mesh, triangle, instance, info.plan.main().view.eye));
     }
   }
 }
 
-void FrameData::addMask(const Source& source, const Pass& pass, double reach, std::span<const PixelRect> converged,
+void FrameData::addMask(const FrameInfo& info, const Pass& pass, double reach, std::span<const PixelRect> converged,
                         DrawList& data) {
-  if (!source.settings.debug.maskPasses) {
+  if (!info.settings.debug.maskPasses) {
     return;
   }
   double left = pass.view.rect.area();
@@ -409,7 +410,7 @@ void FrameData::addMask(const Source& source, const Pass& pass, double reach, st
   data.maskFirstVertex = static_cast<uint32_t>(mirrorVertices_.size());
   if (!pass.view.path.empty()) {
     ClipPolygon clip;
-    for (const glm::dvec2& p : passMask(pass.view, source.plan.projection, reach)) {
+    for (const glm::dvec2& p : passMask(pass.view, info.plan.projection, reach)) {
       clip.emplace_back(p / drawn, 0.0, 1.0);  // infinitely far
     }
     addFan(mirrorVertices_, clip);

@@ -6,9 +6,10 @@
 #include "plan/frame_plan.hpp"
 #include "shaders/gpu_data.h"
 #include "systems/frame_buffers.hpp"
-#include "systems/scene_resources.hpp"
 
 namespace speculum {
+
+struct FrameInfo;
 
 // What a mirror shows, and how its image is looked up: values of specialisation constants of mirror_shading.glsl.
 enum class MirrorShows : uint32_t {
@@ -87,8 +88,7 @@ class FrameData {
   // Fills the buffers of this frame in flight, for a plan that passed requireFits(). Afterwards passes()[i] belongs to
   // plan.passes[i] and has draws if this pass is drawn. The buffers and their descriptor set are valid until the frame
   // has finished.
-  void build(Frame& frame, const SceneResources& resources, const Scene& scene, const SceneState& state,
-             const Settings& settings, const Environment& environment, const FramePlan& plan);
+  void build(const FrameInfo& info);
 
   const std::vector<DrawList>& passes() const { return passes_; }
   // Value of `branches` in shading.glsl.
@@ -117,23 +117,15 @@ class FrameData {
   static VkDescriptorType typeOf(uint32_t kind);
   static VkShaderStageFlags stagesOf(uint32_t kind);
 
-  // Inputs that all passes of a frame share.
-  struct Source {
-    const Scene& scene;
-    const SceneState& state;
-    const Settings& settings;
-    const Environment& environment;
-    const FramePlan& plan;
-  };
-  void addPass(const Source& source, const Pass& pass, DrawList& data);
-  void addLights(const Source& source, const Pass& pass, DrawBlock& block, DrawList& data);
-  void addInstances(const Source& source, const Pass& pass, const glm::dmat4& clipFromRelative, DrawList& data);
+  void addPass(const FrameInfo& info, const Pass& pass, DrawList& data);
+  void addLights(const FrameInfo& info, const Pass& pass, DrawBlock& block, DrawList& data);
+  void addInstances(const FrameInfo& info, const Pass& pass, const glm::dmat4& clipFromRelative, DrawList& data);
   // Makes the instance's batch look up its environment map.
-  void addEnvironment(const Source& source, const Pass& pass, int instance, Batch& batch);
-  void addMirrors(const Source& source, const Pass& pass, const glm::dmat4& projection, DrawList& data);
-  void addRepeating(const Scene& scene, const SceneState& state, const glm::dvec3& eye);
+  void addEnvironment(const FrameInfo& info, const Pass& pass, int instance, Batch& batch);
+  void addMirrors(const FrameInfo& info, const Pass& pass, const glm::dmat4& projection, DrawList& data);
+  void addRepeating(const FrameInfo& info);
   // `converged`: parts of the pass that are not drawn.
-  void addMask(const Source& source, const Pass& pass, double reach, std::span<const PixelRect> converged,
+  void addMask(const FrameInfo& info, const Pass& pass, double reach, std::span<const PixelRect> converged,
                DrawList& data);
 
   Device& device_;

@@ -4,20 +4,12 @@
 #include <span>
 #include <vector>
 
-#include "image/image.hpp"
 #include "plan/scene_changes.hpp"
-#include "systems/accumulation.hpp"
-#include "systems/deferred_shading.hpp"
-#include "systems/display_system.hpp"
 #include "systems/finite_watch.hpp"
-#include "systems/frame_info.hpp"
-#include "systems/mirror_system.hpp"
+#include "systems/main_picture.hpp"
 #include "systems/mirror_targets.hpp"
-#include "systems/pass_log.hpp"
-#include "systems/point_light_system.hpp"
-#include "systems/render_system.hpp"
+#include "systems/pass_recorder.hpp"
 #include "systems/scene_targets.hpp"
-#include "systems/shadow_system.hpp"
 #include "systems/watched_target.hpp"
 
 namespace speculum {
@@ -32,7 +24,8 @@ struct SplitDisplay {
   uint32_t divider = 0;  // first column of pixels to the right of the divider
 };
 
-// Draws one scene: the passes of a plan, and the display pass. Owns the systems, the targets and the scene's resources.
+// Draws one scene: the passes of a plan, and the display pass. Owns the scene's resources and the targets, which it
+// gives to the passes that PassRecorder records.
 class SceneRenderer {
  public:
   SceneRenderer(Renderer& renderer, const Scene& scene);
@@ -61,14 +54,14 @@ class SceneRenderer {
   std::optional<RecordedPass> showTarget(Frame& frame, const FramePlan& plan, const TargetDisplay& debug);
   // Pictures in the mean that the last recorded frame shows; 0 without one. Until plan.tiles reach the end of a
   // picture, its frames show what was there before, the mean of the pictures before it or else the main view.
-  int accumulated() const { return accumulation_.pictures(); }
+  int accumulated() const { return main_.mean().pictures(); }
 
   // Says whether the last frame kept that target of the last complete picture, for TargetDisplay.
   bool keepsTarget(const MirrorPath& path, TargetKind kind) const { return watched_.keeps(path, kind); }
 
   // Says whether the last picture was drawn in FramePlan::refined only, shows nothing, or was encoded, so that its
   // targets have gaps.
-  bool hasGaps() const { return hasGaps_; }
+  bool hasGaps() const { return main_.hasGaps(); }
 
   // Shows `picture` (display sRGB) instead of the scene, stretched to the display, from the next frame on. A picture
   // without pixels shows the scene again.
@@ -86,36 +79,22 @@ class SceneRenderer {
   const EffectLedger& ledger() const { return ledger_; }
   // Linear radiance of the main view, or of the mean, in the last recorded frame, enlarged to the picture. Waits for
   // the GPU. Throws std::logic_error if the picture was encoded, because there is no radiance then.
-  LinearImage radiance();
+  LinearImage radiance() { return main_.radiance(); }
 
  private:
   void releaseUnused(const std::optional<TargetDisplay>& debug);
   void prepareTargets(Frame& frame, const Settings& settings, const FramePlan& plan, bool shown);
+  FrameInfo infoOf(Frame& frame, const SceneState& state, const Settings& settings, const FramePlan& plan);
+  void beginPicture(const FrameInfo& info);
   // Records the passes of the plan. The functions below record one pass, by its index in the plan, or a range.
   void recordPasses(const FrameInfo& info);
-  void recordShadow(const FrameInfo& info, size_t index);
   void recordEnvironment(const FrameInfo& info, size_t index);
   void recordMirrors(const FrameInfo& info, const ConcurrentPasses& range);
   void recordMain(const FrameInfo& info, size_t index);
-  // Returns the stored radiance of all texels of a main view in which nothing is seen; nothing if it has to be drawn.
-  std::optional<glm::vec3> flatColor(const FrameInfo& info) const;
-  // Target of the environment map that the pass is a face of.
-  OffScreen& environmentTarget(const FramePlan& plan, const Pass& face);
-  void recordSum(const FrameInfo& info);
+  void endPicture(const FrameInfo& info);
   void recordDisplay(const FrameInfo& info, const std::optional<TargetDisplay>& debug,
                      const std::optional<SplitDisplay>& split);
-  // Picture that the last recorded frame shows, without an area.
-  DisplayedPicture picture();
-  void recordDebug(const FrameInfo& info, const TargetDisplay& debug, const WatchedTarget::Target& target);
-  void endRecord(const FrameInfo& info, bool textured, bool transparent);
-  void finishLedger(const FrameInfo& info);
-
-  // Draws the frame's tiles of a mirror pass or the main view.
-  void drawTiles(const FrameInfo& info, size_t index, const PassDesc& desc, const RecordedPass& pass);
-  // Submits the frame's commands so far if they leave no room for so many tiles.
-  void makeRoom(Frame& frame, size_t tiles);
-  // Draws pass `index` of info.data as `desc` says and adds it to the log.
-  void drawScene(const FrameInfo& info, size_t index, const PassDesc& desc, RecordedPass pass);
+  void keepImages(const FrameInfo& info);
   // Returns the image of the watched pass in the last complete picture; null if there is none.
   OffScreen* watchedImage(const FramePlan& plan, int pass);
 
@@ -125,36 +104,18 @@ class SceneRenderer {
   SceneResources resources_;
   FrameData data_;
   TraceFrame trace_;
-  MaskSystem maskSystem_;
-  RenderSystem renderSystem_;
-  PointLightSystem pointLightSystem_;
-  MirrorSystem mirrorSystem_;
-  ShadowSystem shadowSystem_;
-  DeferredShading deferredShading_;
+  PassRecorder recorder_;
   FiniteWatch watch_;
   DisplaySystem display_;
-  Accumulation accumulation_;
   WatchedTarget watched_;
   TexelProbe probe_;
-  MainTargets mainTargets_;
-  std::vector<TileRange> tiles_;          // tilesOfPasses() of the frame
-  size_t tilesAtOnce_ = SIZE_MAX;         // tilesAtOnce() of the frame
-  size_t tilesLeft_ = SIZE_MAX;           // tiles for which the frame's commands still have room
-  std::vector<PassTargets> passTargets_;  // of the mirror passes drawn last; their next tiles may follow
-  double radianceScale_ = 1.0;            // ViewSettings::radianceScale() of the last complete picture
-  bool hasGaps_ = false;
-  std::optional<glm::vec3> flat_;  // flatColor() of the last complete picture, whose main target then is not drawn
-  bool encoded_ = false;           // FramePlan::encodes of the last complete picture, which has no radiance
-  bool unfinished_ = false;        // the last frame drew tiles, and not the last ones of its picture
-  glm::ivec2 pictureSize_{0};      // of the last recorded frame; 0: none yet
-  ViewSettings shown_;             // of the last recorded frame
+  MainPicture main_;
   MirrorTargets mirrorTargets_;
-  uint64_t cacheRevision_ = 0;  // of the pipelines that rendered the cached images
-  SceneChanges changes_;
-  MainImage mainImage_;  // content is empty if the main view must not be reused
   EnvironmentTargets environmentTargets_;
-  std::vector<VkDescriptorSet> mapSets_;  // of the present plan's cubes; null for shadow maps
-  RecycledVector<Cube> cubes_;            // that the next plan may reuse; none before all faces of a picture are drawn
+  std::vector<PassTargets> passTargets_;  // of the mirror passes drawn last; their next tiles may follow
+  SceneChanges changes_;
+  uint64_t cacheRevision_ = 0;  // of the pipelines that rendered the cached images
+  RecycledVector<Cube> cubes_;  // that the next plan may reuse; none before all faces of a picture are drawn
   PassLog log_;
   EffectLedger ledger_;
   IdleGuard idle_;

@@ -19,31 +19,6 @@ VkFrontFace frontFace(const View& view) {
 
 }  // namespace
 
-void MainTargets::begin(const Settings& settings, const FramePlan& plan, bool samplesRead, bool displayed,
-                        RetireQueue& retired) {
-  if (!plan.tiles) {
-    finish(retired);
-  } else if (displayed && !earlier_) {
-    earlier_ = std::move(drawn_);
-  }
-  const VkExtent2D extent = extentOf(plan.main().view.rect.width, plan.main().view.rect.height);
-  const VkSampleCountFlagBits samples = device_.sampleCount(settings.view.samples);
-  const bool readSamples =
-      (samplesRead || settings.debug.checkFinite || plan.effects.any()) && samples != VK_SAMPLE_COUNT_1_BIT;
-  if (!drawn_ || drawn_->samples() != samples || drawn_->desc().readSamples != readSamples ||
-      drawn_->desc().color == plan.encodes) {
-    const OffScreenDesc desc{.name = "main view",
-                             .extent = extent,
-                             .samples = samples,
-                             .readSamples = readSamples,
-                             .color = !plan.encodes,
-                             .role = TargetRole::main};
-    std::unique_ptr<OffScreen> before = std::exchange(drawn_, std::make_unique<OffScreen>(device_, desc, retired));
-    retired.take(before);
-  }
-  drawn_->resize(extent, retired);
-}
-
 void EnvironmentTargets::restart() {
   targets_.clear();
   restart_ = true;
@@ -73,6 +48,16 @@ void EnvironmentTargets::prepare(const FramePlan& plan, RetireQueue& retired) {
   }
 }
 
+std::span<const VkDescriptorSet> EnvironmentTargets::bind(const Frame& frame, const FramePlan& plan,
+                                                          VkDescriptorSetLayout layout) {
+  sets_.assign(shadowMaps(plan), VK_NULL_HANDLE);
+  for (const OffScreen* target : targets_) {
+    sets_.push_back(frame.descriptors->allocate(layout));
+    DescriptorWriter().image(0, target->descriptor()).update(device_, sets_.back());
+  }
+  return sets_;
+}
+
 void EnvironmentTargets::endFrame(RetireQueue& retired) {
   if (pool_) {
     pool_->endFrame(retired);
@@ -96,15 +81,15 @@ Viewport viewportOf(const View& view) {
           static_cast<float>(size.y)};
 }
 
-PassDesc scenePass(std::string name, const PassTargets& targets, const VkRect2D& area, const Viewport& viewport,
-                   const View& view, const Environment& environment, int picture) {
-  const glm::vec3 background = storedBackground(environment, view, picture);
-  return {.name = std::move(name),
+PassDesc scenePass(const FrameInfo& info, const Pass& pass, const PassTargets& targets, const VkRect2D& area,
+                   const Viewport& viewport) {
+  const glm::vec3 background = storedBackground(info.environment, pass.view, info.plan.picture);
+  return {.name = passName(info.scene, info.plan, pass),
           .targets = targets,
           .renderArea = area,
           .viewport = viewport,
           .scissor = area,
-          .frontFace = frontFace(view),
+          .frontFace = frontFace(pass.view),
           .clearColor = {background.r, background.g, background.b, 0.0f},  // disparity 0: infinitely far
           .collectStatistics = true};
 }

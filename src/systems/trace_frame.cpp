@@ -13,7 +13,7 @@
 #include "plan/mirror_sight.hpp"
 #include "scene/material_mirrors.hpp"
 #include "scene/scene_state.hpp"
-#include "systems/frame_data.hpp"
+#include "systems/frame_info.hpp"
 #include "systems/gpu_conversion.hpp"
 
 namespace speculum {
@@ -94,7 +94,11 @@ void TraceFrame::release(RetireQueue& retired) {
   buffers_.retire(retired);
 }
 
-void TraceFrame::build(Frame& frame, const SceneState& state, const Settings& settings, const TracedEffects& effects) {
+void TraceFrame::build(const FrameInfo& info) {
+  Frame& frame = info.frame;
+  const SceneState& state = info.state;
+  const Settings& settings = info.settings;
+  const TracedEffects& effects = info.plan.effects;
   set_ = VK_NULL_HANDLE;
   variant_ = {};
   rays_ = {};

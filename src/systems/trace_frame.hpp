@@ -12,6 +12,8 @@
 
 namespace speculum {
 
+struct FrameInfo;
+
 // Traced effects of a frame, as specialisation constants of pipelines.
 struct TraceVariant {
   bool traced = false;  // what is drawn traces shadow rays, or shows light that mirrors bounce
@@ -39,9 +41,9 @@ class TraceFrame {
   // DeferredShading, 4 of TraceScene, 3 of TraceFrame.
   static constexpr uint32_t storageBuffers = 14;
 
-  // Fills the buffers of this frame in flight. `effects` are those of the plan; set() is valid until the frame has
-  // finished, and null if no effect is called for.
-  void build(Frame& frame, const SceneState& state, const Settings& settings, const TracedEffects& effects);
+  // Fills the buffers of this frame in flight. set() is valid until the frame has finished, and null if no effect is
+  // called for.
+  void build(const FrameInfo& info);
 
   VkDescriptorSetLayout layout() const { return layout_; }
   VkDescriptorSet set() const { return set_; }
