@@ -2,7 +2,6 @@
 
 #include "scene/model_formats.hpp"
 #include "session/view_command.hpp"
-#include "settings/setting_fields.hpp"
 #include "window/pace.hpp"
 
 namespace speculum {
@@ -31,8 +30,8 @@ Workspace::Workspace(const Options& options, WorkspaceHost& host)
       logCapture_(captureLog(log_)),
       loaded_(std::make_unique<LoadedScene>(loadSceneWithSettings(options))),
       shippedModels_(SceneBrowser::shippedModels()),
-      opener_(options, settings_),
-      accuracy_(options, loaded_->settings, loaded_->quality ? loaded_->quality->why : "") {
+      settings_(options, *loaded_),
+      opener_(options, settings_.ofScene()) {
   browser().list(loaded_->scene.file);
   startDocument();
   if (options.frames == 0) {
@@ -43,62 +42,64 @@ Workspace::Workspace(const Options& options, WorkspaceHost& host)
 void Workspace::startDocument() {
   // A scene that is being traced in the background must not change meanwhile.
   auto document = std::make_unique<SceneDocument>(loaded_->scene);
-  auto editor = std::make_unique<SceneEditor>(*document, shippedModels_, [this] { accuracy_.forgetScene(); });
+  auto editor =
+      std::make_unique<SceneEditor>(*document, shippedModels_, [this] { settings_.accuracy().forgetScene(); });
   saving_ = std::make_unique<DocumentController>(*loaded_, *document, *editor, options_.frames == 0);
   editor_ = std::move(editor);
   document_ = std::move(document);
   opener_.setDocument(*document_, *saving_);
   pointer_.cancel();
-  accuracy_.forgetPick();
-  camera_.sceneChanged(scene());
-  split_.end();
+  settings_.setDocument(*document_, loaded_->settings);
+  view_.camera.sceneChanged(scene());
   std::ranges::for_each(reports_, &FrameReport::clear);
-  settings_ = loaded_->settings;
   shownStructure_ = document_->structureRevision();
   edit_ = {};
-  saving_->fill(edit_, settings_);
+  saving_->fill(edit_, settings_.ofScene());
 }
 
 void Workspace::apply(const Command& command) {
   std::visit(Overloaded{
-                 [&](const ResetCamera&) { camera_.reset(scene().camera); },
-                 [&](const ToggleCameraMode&) { camera_.toggleMode(); },
-                 [&](const SetCameraMode& c) { camera_.setMode(c.mode); },
+                 [&](const ResetCamera&) { view_.camera.reset(scene().camera); },
+                 [&](const ToggleCameraMode&) { view_.camera.toggleMode(); },
+                 [&](const SetCameraMode& c) { view_.camera.setMode(c.mode); },
                  [&](const FrameSelection&) { frame(document_->selection()); },
-                 [&](const LookFromMirror& c) { lookFromMirror(c.side); },
+                 [&](const LookFromMirror& c) {
+                   status_.set(view_.lookFromMirror(scene(), c.side, document_->selection(), report().shown().passes,
+                                                    host_.pictureSize()));
+                 },
                  [&](const AddBookmark&) {
-                   editor_->addBookmark(camera_.bookmark(state(time()).camera, scene().camera));
-                   camera_.setBookmark(static_cast<int>(scene().bookmarks.size()) - 1);
+                   editor_->addBookmark(view_.bookmark(scene()));
+                   view_.camera.setBookmark(static_cast<int>(scene().bookmarks.size()) - 1);
                    status_.set("Added bookmark '" + scene().bookmarks.back().name + "'. Shift+M goes to the next one.");
                  },
-                 [&](const GoToBookmark& c) { camera_.goToBookmark(c.index, scene()); },
-                 [&](const GoToNextBookmark&) { camera_.goToNextBookmark(scene()); },
+                 [&](const GoToBookmark& c) { view_.camera.goToBookmark(c.index, scene()); },
+                 [&](const GoToNextBookmark&) { view_.camera.goToNextBookmark(scene()); },
                  [&](const RemoveBookmark& c) {
                    if (c.index < scene().bookmarks.size()) {
                      editor_->removeBookmark(c.index);
                    }
                  },
-                 [&](const Seek& c) { playback_.seek(c.seconds); },
-                 [&](const StepTime& c) { playback_.step(c.steps); },
-                 [&](const SetPaused& c) { pause(c.paused); },
-                 [&](const TogglePaused&) { pause(!playback_.shown().paused); },
-                 [&](const SetTimeSpeed& c) { playback_.setSpeed(c.factor); },
-                 [&](const MultiplyTimeSpeed& c) { playback_.setSpeed(c.factor * playback_.shown().speed); },
-                 [&](const SetSettings& c) { setSettings(c.settings, c.continued); },
-                 [&](const ResetSettings&) { setSettings(loaded_->settings); },
+                 [&](const Seek& c) { view_.playback.seek(c.seconds); },
+                 [&](const StepTime& c) { view_.playback.step(c.steps); },
+                 [&](const SetPaused& c) { view_.playback.setPaused(c.paused); },
+                 [&](const TogglePaused&) { view_.playback.setPaused(!view_.playback.shown().paused); },
+                 [&](const SetTimeSpeed& c) { view_.playback.setSpeed(c.factor); },
+                 [&](const MultiplyTimeSpeed& c) { view_.playback.setSpeed(c.factor * view_.playback.shown().speed); },
+                 [&](const SetSettings& c) { settings_.set(c.settings, c.continued); },
+                 [&](const ResetSettings&) { settings_.set(loaded_->settings); },
                  [&](const ToggleSplit& c) { toggleSplit(c.naive); },
-                 [&](const ChooseHalf& c) { chooseHalf(c.half); },
-                 [&](const ChooseOtherHalf&) { chooseHalf(1 - split_.chosen()); },
-                 [&](const MoveDivider& c) { split_.moveDivider(c.share); },
-                 [&](const KeepHalf&) { keepHalf(); },
+                 [&](const ChooseHalf& c) { settings_.chooseHalf(c.half); },
+                 [&](const ChooseOtherHalf&) { settings_.chooseHalf(1 - split().chosen()); },
+                 [&](const MoveDivider& c) { split().moveDivider(c.share); },
+                 [&](const KeepHalf&) { settings_.keepHalf(); },
                  [&](const NewScene&) { opener_.open({SceneBrowser::newScene()}); },
                  [&](const AskWhatToOpen&) { opener_.ask(); },
                  [&](const OpenScene& c) { opener_.open(c); },
                  [&](const OpenDropped& c) { opener_.openDropped(c.files); },
                  [&](const CancelLoading&) { opener_.cancelLoading(); },
-                 [&](const Save&) { resume(saving_->save(settings_)); },
+                 [&](const Save&) { resume(saving_->save(settings_.ofScene())); },
                  [&](const AskWhereToSave&) { saving_->askWhere(); },
-                 [&](const SaveAs& c) { resume(saving_->saveAs(c.file, settings_, c.copyModels)); },
+                 [&](const SaveAs& c) { resume(saving_->saveAs(c.file, settings_.ofScene(), c.copyModels)); },
                  [&](const DiscardChanges&) { resume(opener_.discard()); },
                  [&](const CancelPrompt&) { opener_.cancelPrompt(); },
                  [&](const Quit&) {
@@ -122,12 +123,9 @@ void Workspace::apply(const Command& command) {
                  [&](const EditNode& c) { editor_->edit(c.target, c.node, c.continued); },
                  [&](const EditCamera& c) {
                    editor_->editCamera(c.camera, c.continued);
-                   camera_.reset(scene().camera);
+                   view_.camera.reset(scene().camera);
                  },
-                 [&](const TakeView&) {
-                   const Bookmark view = camera_.bookmark(state(time()).camera, scene().camera);
-                   apply(EditCamera{cameraOf(view, scene().camera)});
-                 },
+                 [&](const TakeView&) { apply(EditCamera{cameraOf(view_.bookmark(scene()), scene().camera)}); },
                  [&](const EndEdit&) { editor_->endEdit(); },
                  [&](const AddMirror&) { addNode(&SceneEditor::addMirror); },
                  [&](const AddLight&) { addNode(&SceneEditor::addLight); },
@@ -141,15 +139,9 @@ void Workspace::apply(const Command& command) {
                  [&](const Undo&) { step(UndoWay::back); },
                  [&](const Redo&) { step(UndoWay::forward); },
                  [&](const MeasureAccuracy&) { measureAccuracy(); },
-                 [&](const CancelMeasurement&) { accuracy_.cancel(); },
+                 [&](const CancelMeasurement&) { accuracy().cancel(); },
                  [&](const ApplyPoint& c) {
-                   const Settings before = settings();
-                   Settings settings = before;
-                   accuracy_.applyPoint(c.point, settings);
-                   // A half shows the point as it was measured, whichever half is chosen.
-                   settings.quality.stillPictures = split_.on() ? 1 : settings.quality.stillPictures;
-                   setSettings(settings);
-                   accuracy_.pick(before, settings);
+                   settings_.applyPoint(c.point);
                    status_.set("Shows the picked point as it was measured: one picture, not the mean of several.");
                  },
                  [&](const TakeScreenshot& c) { capture_.takeScreenshot(c.withPanel); },
@@ -194,26 +186,11 @@ void Workspace::pointerButton(const MouseButtonEvent& event, bool overPanels) {
 
 void Workspace::pointerMoved(const glm::dvec2& position, const glm::dvec2& windowSize, bool snap) {
   const glm::dvec2 pixelsPerUnit = glm::dvec2(host_.pictureSize()) / glm::max(windowSize, 1.0);
-  pointer_.move(position, pixelsPerUnit, windowSize.y, snap, *editor_, camera_);
+  pointer_.move(position, pixelsPerUnit, windowSize.y, snap, *editor_, view_.camera);
 }
 
 double Workspace::frameSeconds(double seconds) const {
   return capture_.recording() ? 1.0 / Capture::framesPerSecond : seconds;
-}
-
-SceneState Workspace::state(double time) {
-  SceneState state = evaluate(scene(), time);
-  state.camera = camera_.pose(state.camera);
-  return state;
-}
-
-WatchedState Workspace::watchedState(const SceneState& shown) const {
-  return {.camera = shown.camera,
-          .movedCamera = camera_.moved(),
-          .time = shown.time,
-          .seeks = playback_.seeks(),
-          .paused = playback_.shown().paused,
-          .animated = animated()};
 }
 
 // Returns nothing while the window has no pixels.
@@ -224,7 +201,7 @@ std::optional<PointedScene> Workspace::pointedScene(double time) {
   }
   SceneState shown = state(time);
   const PictureView picture(shown.camera, size.x, size.y);
-  const int half = split_.on() ? split_.halfAt(pointer_.pixel().x / size.x) : 0;
+  const int half = split().on() ? split().halfAt(pointer_.pixel().x / size.x) : 0;
   const ReflectionSettings reflection = shownSettings(half).reflection;
   return PointedScene{
       .state = std::move(shown),
@@ -233,24 +210,19 @@ std::optional<PointedScene> Workspace::pointedScene(double time) {
       .scale = host_.contentScale()};
 }
 
-double Workspace::aspect() const {
-  const glm::ivec2 size = host_.pictureSize();
-  return size.y > 0 ? static_cast<double>(size.x) / size.y : 1.0;
-}
-
 void Workspace::prepareView(double seconds, bool pointerOverPicture) {
-  saving_->fill(edit_, settings_);
+  saving_->fill(edit_, settings_.ofScene());
   if (const std::string title = windowTitle(edit_, capture_.recording()); title_ != title) {
     host_.setTitle(title_ = title);
   }
   edit_.overlay = {};
   if (edit_.selected) {
-    if (const auto view = pointedScene(playback_.after(seconds))) {
+    if (const auto view = pointedScene(view_.playback.after(seconds))) {
       const bool points = pointerOverPicture && !pointer_.dragging();
       edit_.overlay = editor_->overlay(*view, points ? std::optional(pointer_.pixel()) : std::nullopt);
     }
   }
-  camera_.bookmarksChanged(scene());
+  view_.camera.bookmarksChanged(scene());
   status_.update(capture_.wanted());
 }
 
@@ -260,11 +232,11 @@ UiInput Workspace::shown(const ShownDevice& device, const std::string& message) 
           .browser = opener_.browser().shown(),
           .settings = settings(),
           .sceneSettings = loaded_->settings,
-          .camera = camera_.shown(),
-          .playback = playback_.shown(),
+          .camera = view_.camera.shown(),
+          .playback = view_.playback.shown(),
           .edit = edit_,
-          .accuracy = accuracy_.shown(),
-          .split = split_.shown(),
+          .accuracy = settings_.accuracy().shown(),
+          .split = settings_.split().shown(),
           .status = status_.shown(),
           .log = log_,
           .message = message};
@@ -280,8 +252,7 @@ void Workspace::update() {
   if (!warning.empty() && !problem().starts_with(warning)) {
     status_.warn(warning);
   }
-  accuracy_.beforeFrame(panelSettings());
-  split_.update();
+  settings_.update();
 }
 
 // Drops cached images of the old scene that content comparison does not cover: those reused by an interval, and those
@@ -315,23 +286,18 @@ void Workspace::frameDrawn(const ShownPicture& shown, const std::function<Image8
     saved.logged ? status_.set(saved.message) : status_.show(saved.message);
   }
   if (half == shownHalf()) {
-    accuracy_.afterFrame(shown, watchedState(shown.state), radiance);
+    accuracy().afterFrame(shown, watchedState(shown.state), radiance);
   }
-  if (radiance && needsThumbnail() && !split_.on() && std::exchange(needsThumbnail_, false) &&
+  if (radiance && needsThumbnail() && !split().on() && std::exchange(needsThumbnail_, false) &&
       browser().storeThumbnail(radiance)) {
     host_.scenesListed();
   }
   tookBack_ = false;
 }
 
-void Workspace::pause(bool paused) {
-  playback_.setPaused(paused);
-  pausedForUser_ = false;
-}
-
 void Workspace::showScene(std::unique_ptr<LoadedScene> scene) {
-  accuracy_.setProblem("");  // the problem was one of the last scene
-  accuracy_.forgetScene("Another scene was opened");
+  accuracy().setProblem("");  // the problem was one of the last scene
+  accuracy().forgetScene("Another scene was opened");
   std::swap(loaded_, scene);
   try {
     host_.useScene(loaded_->scene);
@@ -344,10 +310,7 @@ void Workspace::showScene(std::unique_ptr<LoadedScene> scene) {
   startDocument();
   needsThumbnail_ = true;
   status_.sceneChanged();
-  playback_.seek(0.0);
-  if (std::exchange(pausedForUser_, false)) {
-    playback_.setPaused(false);
-  }
+  view_.playback.sceneChanged();
   if (isModelFile(loaded_->scene.file)) {
     frame({.kind = Selection::Kind::object, .index = 0});
   }
@@ -379,7 +342,7 @@ void Workspace::addObject(const fs::path& model) {
   saving_->setNote("");
   try {
     const fs::path file = editor_->modelFile(model);
-    accuracy_.forgetScene();
+    accuracy().forgetScene();
     const int mesh = addModel(scene, file);
     if (grown()) {
       useModels();
@@ -432,7 +395,7 @@ void Workspace::escape() {
   if (document_->selection()) {
     return editor_->select({});
   }
-  split_.on() ? endSplit() : dismissMessage();
+  split().on() ? settings_.endSplit() : dismissMessage();
 }
 
 // Messages about shaders and memory stay until their cause is gone. The panels' button hides such a message, Escape
@@ -442,63 +405,24 @@ void Workspace::dismissMessage() {
   status_.clear();
 }
 
-void Workspace::setSettings(const Settings& settings, bool continued) {
-  Settings chosen = settings;
-  accuracy_.followBudget(chosen);
-  document_->settingsChanged(panelSettings(), chosen, continued, split_.on() ? split_.chosen() : -1);
-  panelSettings() = chosen;
-}
-
 void Workspace::toggleSplit(bool naive) {
-  if (split_.on()) {
-    return endSplit();
+  if (split().on()) {
+    return settings_.endSplit();
   }
-  split_.begin(settings_, naive ? naiveSettings(settings_) : settings_, middleOfFreePicture());
+  settings_.beginSplit(naive, middleOfFreePicture());
   reports_[1] = {};
-  chooseHalf(split_.chosen());
   status_.set("A | B: the panel changes the settings of B. X changes to A, Esc ends it.");
 }
 
-void Workspace::chooseHalf(int half) {
-  if (split_.on()) {
-    if (half != split_.chosen()) {
-      accuracy_.forgetPick();  // it was one of the other half
-    }
-    split_.choose(half);
-    accuracy_.acceptBudget(settings());
-    accuracy_.showAgain();
-  }
-}
-
-void Workspace::keepHalf() {
-  if (split_.on()) {
-    Settings kept = settings();
-    kept.limit = settings_.limit;  // no user set it, and no step would take it back
-    endSplit();
-    accuracy_.acceptBudget(kept);
-    setSettings(kept);
-  }
-}
-
-void Workspace::endSplit() {
-  split_.end();
-  accuracy_.forgetPick();
-  document_->forgetHalves();
-  accuracy_.acceptBudget(settings_);
-  accuracy_.showAgain();
-}
-
 void Workspace::beginLesson(size_t index) {
-  const Lesson& lesson = split_.lessons()[index];
+  const Lesson& lesson = split().lessons()[index];
   if (lesson.camera) {
-    camera_.goTo(*lesson.camera, scene());
+    view_.camera.goTo(*lesson.camera, scene());
   }
-  playback_.seek(lesson.time);
-  pausedForUser_ = pausedForUser_ || !playback_.shown().paused;
-  playback_.setPaused(true);
-  split_.beginLesson(index, loaded_->settings, middleOfFreePicture());
+  view_.playback.seek(lesson.time);
+  view_.playback.hold();
+  settings_.beginLesson(index, loaded_->settings, middleOfFreePicture());
   reports_[1] = {};
-  chooseHalf(split_.chosen());
 }
 
 double Workspace::middleOfFreePicture() const {
@@ -512,59 +436,17 @@ void Workspace::step(UndoWay way) {
   const bool back = way == UndoWay::back;
   const std::string step = back ? document_->undoLabel() : document_->redoLabel();
   const CameraSpec camera = scene().camera;
-  bool hidden = false;  // a step of the scene's settings, which A | B does not show
-  if (const std::optional<SettingsStep> changed = editor_->step(way)) {
-    hidden = split_.on() && changed->half < 0;
-    if (changed->half >= 0) {
-      chooseHalf(changed->half);
-    }
-    // Copies only the settings that the step changed, because a measurement may have chosen others since.
-    Settings& settings = changed->half >= 0 ? panelSettings() : settings_;
-    for (const SettingField& field : settingFields()) {
-      if (!sameSetting(field, changed->before, changed->after)) {
-        copySetting(field, back ? changed->before : changed->after, settings);
-      }
-    }
-  }
+  const bool hidden = settings_.follow(editor_->step(way), back);
   if (scene().camera != camera) {
-    camera_.reset(scene().camera);
+    view_.camera.reset(scene().camera);
   }
-  accuracy_.acceptBudget(settings());
   status_.set(step.empty() ? (back ? "Nothing to undo" : "Nothing to redo")
                            : (back ? "Undone: " : "Redone: ") + step +
                                  (hidden ? " (of the scene; A | B keeps its own settings)" : ""));
 }
 
 void Workspace::frame(const Selection& node) {
-  SceneState state = evaluate(scene(), time());
-  if (!node && isModelFile(scene().file) && !state.instances.empty()) {
-    state.mirrors.clear();  // an opened model stands on a mirror that is much larger
-  }
-  const Sphere bounds = boundsOf(scene(), state, node);
-  if (bounds.radius > 0.0) {
-    const glm::dvec2 size = glm::max(glm::dvec2(host_.pictureSize()), 1.0);
-    const PixelRect free = host_.freePicture();
-    const glm::dvec2 half = glm::dvec2(free.width, free.height) / size;
-    const glm::dvec2 corner = 2.0 * glm::dvec2(free.x, free.y) / size;
-    camera_.frame(bounds, aspect(), {.center = {corner.x + half.x - 1.0, 1.0 - corner.y - half.y}, .half = half});
-  }
-}
-
-// Reports what is seen, because a back that does not reflect looks like a fault.
-void Workspace::lookFromMirror(MirrorSide side) {
-  const int mirror = camera_.lookFromMirror(side, evaluate(scene(), time()), document_->selection(),
-                                            report().shown().passes, aspect());
-  if (mirror < 0) {
-    return status_.set("The scene has no mirror to look from");
-  }
-  const std::string name = describe(scene(), mirrorNode(scene(), mirror));
-  if (side == MirrorSide::front) {
-    return status_.set("Looking out of " + name);
-  }
-  const bool reflects = scene().mirror(static_cast<size_t>(mirror)).twoSided;
-  status_.set(
-      "Behind " + name +
-      (reflects ? ", which reflects on both sides" : ". Its back does not reflect; Shift+B looks out of its front"));
+  view_.frame(scene(), node, host_.pictureSize(), host_.freePicture());
 }
 
 // Returns the options that draw the present view of the scene in `file`.
@@ -581,8 +463,8 @@ void Workspace::copyCommandLine() {
   try {
     const fs::path file = saving_->savedOrCopy(loaded_->settings);
     Options options = shownOptions(file);
-    if (camera_.moved()) {
-      options.camera = camera_.bookmark(state(time()).camera, scene().camera);
+    if (view_.camera.moved()) {
+      options.camera = view_.bookmark(scene());
     }
     Settings settings = shownSettings(shownHalf());
     settings.view.accumulate = stillPictures(settings);
@@ -602,17 +484,17 @@ void Workspace::measureAccuracy() {
     SweepRequest request{
         .options = shownOptions(saving_->savedOrCopy(loaded_->settings)), .base = settings(), .camera = shown.camera};
     request.options.gpu = host_.gpu();
-    accuracy_.measure(std::move(request), watchedState(shown));
+    accuracy().measure(std::move(request), watchedState(shown));
   } catch (const std::runtime_error& error) {
-    accuracy_.setProblem(error.what());
+    accuracy().setProblem(error.what());
   }
 }
 
 bool Workspace::undoFailedChange(const std::string& why) {
   editor_->release();
   editor_->endEdit();
-  if (split_.on()) {
-    endSplit();
+  if (split().on()) {
+    settings_.endSplit();
     opener_.setProblem("A | B has ended: " + why);
     return true;
   }

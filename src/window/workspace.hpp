@@ -1,38 +1,14 @@
 #pragma once
 
-#include "window/accuracy_controller.hpp"
 #include "window/capture.hpp"
 #include "window/frame_report.hpp"
 #include "window/pointer_controller.hpp"
 #include "window/scene_opener.hpp"
-#include "window/split_view.hpp"
+#include "window/settings_controller.hpp"
 #include "window/status_line.hpp"
+#include "window/view_controller.hpp"
 
 namespace speculum {
-
-// The time of the animation.
-class Playback {
- public:
-  void seek(double seconds) {
-    shown_.time = std::max(0.0, seconds);
-    ++seeks_;
-  }
-  void step(int steps) {
-    shown_.paused = true;
-    seek(shown_.time + steps * timeStep);
-  }
-  void setPaused(bool paused) { shown_.paused = paused; }
-  void setCost(const std::string& cost) { shown_.cost = cost; }
-  void setSpeed(double speed) { shown_.speed = std::clamp(speed, slowestTime, fastestTime); }
-  double after(double seconds) const { return shown_.time + (shown_.paused ? 0.0 : seconds * shown_.speed); }
-  void advance(double seconds) { shown_.time = after(seconds); }
-  const ShownPlayback& shown() const { return shown_; }
-  int seeks() const { return seeks_; }  // how often the time was set
-
- private:
-  ShownPlayback shown_;
-  int seeks_ = 0;
-};
 
 // The part of the window that a workspace uses.
 class WorkspaceHost {
@@ -76,19 +52,19 @@ class Workspace {
   // Handle the pointer, in screen coordinates of the window. `overPanels` says that the event belongs to the panels.
   void pointerButton(const MouseButtonEvent& event, bool overPanels);
   void pointerMoved(const glm::dvec2& position, const glm::dvec2& windowSize, bool snap);
-  void scrolled(double notches) { camera_.zoom(notches); }
+  void scrolled(double notches) { view_.camera.zoom(notches); }
 
   // The stages of a frame, in this order. `seconds` since the last frame.
   double frameSeconds(double seconds) const;  // animation time of the frame: fixed while frames are recorded
   void moveCamera(const glm::dvec3& direction, const GamepadState& pad, double seconds) {
-    camera_.move(direction, pad, seconds);
+    view_.camera.move(direction, pad, seconds);
   }
   // Prepares what shown() returns for the frame that is `seconds` from now. With `pointerOverPicture` the handle below
   // the pointer lights up.
   void prepareView(double seconds, bool pointerOverPicture);
   UiInput shown(const ShownDevice& device, const std::string& message) const;
   void update();  // after the frame's commands: takes finished background work
-  void advance(double seconds) { playback_.advance(seconds); }
+  void advance(double seconds) { view_.playback.advance(seconds); }
   // Says whether the next frameDrawn() reads `radiance` for the scene's thumbnail.
   bool needsThumbnail() const { return needsThumbnail_ && options_.frames == 0; }
   // Call when the frame is drawn. `radiance` returns the pixels of its picture, without panels (display sRGB); it is
@@ -98,8 +74,8 @@ class Workspace {
                   int half = 0);
 
   // Say whether frames are needed although nothing happens.
-  bool animates() const { return !playback_.shown().paused && animated(); }
-  bool working() const { return accuracy_.working() || opener_.working() || split_.working(); }
+  bool animates() const { return !view_.playback.shown().paused && animated(); }
+  bool working() const { return accuracy().working() || opener_.working() || split().working(); }
   uint64_t revision() const { return document_->revision(); }
   bool dragging() const { return editor_->dragging(); }
   bool statusFades() const { return status_.fades(); }
@@ -114,37 +90,33 @@ class Workspace {
   void keepUnsavedWork() noexcept { opener_.keepUnsavedWork(); }
 
   const Scene& scene() const { return loaded_->scene; }
-  // Settings that the panels show: the scene's or, of A | B, those of the chosen half.
-  const Settings& settings() const { return split_.on() ? split_.settings(split_.chosen()) : settings_; }
-  // Settings with which the picture, or a half of A | B, is drawn.
-  Settings shownSettings(int half = 0) const {
-    return split_.on() ? split_.settings(half) : accuracy_.shown(settings_);
-  }
-  SplitView& split() { return split_; }
-  const SplitView& split() const { return split_; }
-  double time() const { return playback_.shown().time; }
-  SceneState state(double time);  // with the camera of the window
-  WatchedState watchedState(const SceneState& shown) const;
+  const Settings& settings() const { return settings_.chosen(); }
+  Settings shownSettings(int half = 0) const { return settings_.shown(half); }
+  int shownHalf() const { return settings_.shownHalf(); }
+  SplitView& split() { return settings_.split(); }
+  const SplitView& split() const { return settings_.split(); }
+  AccuracyController& accuracy() { return settings_.accuracy(); }
+  const AccuracyController& accuracy() const { return settings_.accuracy(); }
+  double time() const { return view_.time(); }
+  SceneState state(double time) { return view_.state(scene(), time); }
+  WatchedState watchedState(const SceneState& shown) const { return view_.watchedState(scene(), shown); }
   const std::string& problem() const { return opener_.problem(); }
-  AccuracyController& accuracy() { return accuracy_; }
   SceneBrowser& browser() { return opener_.browser(); }
   const Capture& capture() const { return capture_; }
   void setPictureText(const std::string& text) { status_.setPicture(text); }
-  void setPlayCost(const std::string& cost) { playback_.setCost(animated() ? cost : ""); }
+  void setPlayCost(const std::string& cost) { view_.playback.setCost(animated() ? cost : ""); }
   void setRefusedEdit(bool refused) { saving_->setRefusedEdit(refused); }  // as in DocumentController
   FrameReport& report(int half) { return reports_[static_cast<size_t>(half)]; }
   FrameReport& report() { return report(shownHalf()); }
-  int shownHalf() const { return split_.on() ? split_.chosen() : 0; }  // whose figures the panels show
   const PointerController& pointer() const { return pointer_; }
   bool prompting() const { return saving_->prompting(); }
   const SceneDocument& document() const { return *document_; }
   const DocumentController& saving() const { return *saving_; }
 
   // Call if the program has paused the animation of the scene that leaves: the next scene plays again.
-  void releasePause() { pausedForUser_ = true; }
+  void releasePause() { view_.playback.playNext(); }
 
  private:
-  void pause(bool paused);
   void showScene(std::unique_ptr<LoadedScene> scene);
   void startDocument();
   void addNode(void (SceneEditor::*add)(const PointedScene&));
@@ -154,24 +126,17 @@ class Workspace {
   void resume(const std::optional<Command>& afterPrompt);
   void escape();
   void dismissMessage();
-  void setSettings(const Settings& settings, bool continued = false);
-  Settings& panelSettings() { return split_.on() ? split_.settings(split_.chosen()) : settings_; }
   void toggleSplit(bool naive);
-  void chooseHalf(int half);
-  void keepHalf();
-  void endSplit();
   void beginLesson(size_t index);
   double middleOfFreePicture() const;  // share of the picture's width
   void step(UndoWay way);
   void copyCommandLine();
   void measureAccuracy();
   void frame(const Selection& node);  // none: the whole scene
-  void lookFromMirror(MirrorSide side);
   void takeSceneChange();
-  bool animated() const { return camera_.moved() ? contentMoves(scene()) : moves(scene()); }
+  bool animated() const { return view_.animated(scene()); }
   std::optional<PointedScene> pointedScene(double time);
   Options shownOptions(const std::filesystem::path& file);
-  double aspect() const;
 
   Options options_;
   WorkspaceHost& host_;
@@ -182,17 +147,13 @@ class Workspace {
   std::unique_ptr<SceneDocument> document_;  // of loaded_
   std::unique_ptr<SceneEditor> editor_;
   std::unique_ptr<DocumentController> saving_;
+  SettingsController settings_;
   SceneOpener opener_;
-  AccuracyController accuracy_;
-  CameraController camera_;
+  ViewController view_;
   PointerController pointer_;
-  Playback playback_;
   Capture capture_;
   StatusLine status_;
-  bool pausedForUser_ = false;          // the program paused the animation, not the user: the next scene plays again
   std::array<FrameReport, 2> reports_;  // of the picture or, of A | B, of both halves
-  SplitView split_{shippedLessons()};
-  Settings settings_;
   ShownEdit edit_;
   std::string title_;            // of the window
   uint64_t shownStructure_ = 0;  // structureRevision() of the scene in the last frame
