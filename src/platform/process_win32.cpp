@@ -33,6 +33,17 @@ HANDLE handleOf(intptr_t value) {
   return reinterpret_cast<HANDLE>(value);
 }
 
+// Returns the word as oneLine() prints it within a line, but with :: and ##, which shellWord() keeps from runners.
+std::string withoutHidden(const std::string& word) {
+  std::string shown;
+  for (size_t first = 0, end = 0; first < word.size(); first = end) {
+    const size_t pair = word.find("##", first);
+    end = pair == std::string::npos ? word.size() : pair + 1;
+    shown += oneLine('.' + word.substr(first, end - first)).substr(1);
+  }
+  return shown;
+}
+
 // Quotes an argument as CommandLineToArgvW reads it: backslashes count only before a quote.
 void appendQuoted(std::string& line, const std::string& argument) {
   line += line.empty() ? "\"" : " \"";
@@ -197,9 +208,10 @@ void ChildProcess::kill() {
 }
 
 // Within quotes cmd.exe still replaces %NAME%, and it ends quotes at a quote with a backslash before it, which programs
-// take as a part of the word. Both characters stand outside of quotes, behind a caret: no variable has such a name.
+// take as a part of the word. Both characters stand outside of quotes, behind a caret: no variable has such a name. So
+// does a second #, because runners act on ##.
 std::string shellWord(const std::string& argument) {
-  const std::string shown = oneLine(argument);
+  const std::string shown = withoutHidden(argument);
   const auto plain = [](unsigned char c) {
     return c < 0x80 &&
            (std::isalnum(c) || std::string_view("-_./\\:=+").find(static_cast<char>(c)) != std::string_view::npos);
@@ -209,10 +221,11 @@ std::string shellWord(const std::string& argument) {
   }
   std::string word = "\"";
   size_t slashes = 0;  // before this character; before a quote each counts half
-  for (const char c : shown) {
-    if (c == '"' || c == '%') {
+  for (size_t i = 0; i < shown.size(); ++i) {
+    const char c = shown[i];
+    if (c == '"' || c == '%' || (c == '#' && i > 0 && shown[i - 1] == '#')) {
       word.append(std::exchange(slashes, 0), '\\');
-      word += c == '"' ? "\"\\^\"\"" : "\"^%\"";
+      word += c == '"' ? "\"\\^\"\"" : std::string("\"^") + c + '"';
     } else {
       slashes = c == '\\' ? slashes + 1 : 0;
       word += c;

@@ -185,13 +185,14 @@ TEST(WindowsProcess, ShellWordsSurviveTheShell) {
   EXPECT_EQ(shellWord(""), "\"\"");
   EXPECT_EQ(shellWord("a\x1b"), "a\\x1b") << "a terminal acts on it";
   EXPECT_EQ(shellWord("C:\\%x"), "\"C:\\\\\"^%\"x\"");
+  EXPECT_EQ(shellWord("a##b"), "\"a#\"^#\"b\"") << "a CI runner acts on ##";
   EXPECT_EQ(shellWord("a\"&b"), "\"a\"\\^\"\"&b\"") << "cmd.exe does not know backslashes before quotes";
   EXPECT_EQ(shellWord("%PATH%"), "\"\"^%\"PATH\"^%\"\"");  // wine's cmd.exe takes carets after quotes as they are
   const TemporaryDirectory directory;
   const fs::path output = directory.path() / "output";
   std::string line = shellWord(executablePath().string()) + " --print-arguments";
   std::string expected;
-  for (const std::string word : {"a b", "1,0,0", "&", "tail\\ \\", "^", "\xc3\xa4 \xe9\x8f\xa1"}) {
+  for (const std::string word : {"a b", "1,0,0", "&", "tail\\ \\", "^", "::a", "\xc3\xa4 \xe9\x8f\xa1"}) {
     line += ' ' + shellWord(word);
     expected += word + "\n";
   }
