@@ -45,7 +45,8 @@ Demo::Demo(const Options& options)
   device_.sparePipelines().keepAtMost(32);
   shownFile_ = workspace_.scene().file;
   window_.setListener([this](const InputEvent& event) {
-    if (input_.take(event)) {
+    input_.take(event);
+    if (isAction(event)) {
       first_.uncover();
     }
   });
@@ -123,6 +124,9 @@ void Demo::drawFrame(double seconds) {
   if (!takeTurns()) {
     return;
   }
+  // Of A | B every second frame is saved, which shows both halves at the same time.
+  saved_ = workspace_.capture().wanted() && (!workspace_.split().on() || halves_.index() == 1);
+  bare_ = workspace_.capture().bare();
   const SceneState state = workspace_.state(workspace_.time());
   PictureHalf& half = halves_.drawn();
   const bool timed = beginPace(state, workspace_.frameSeconds(passed));
@@ -136,8 +140,8 @@ void Demo::drawFrame(double seconds) {
   if (!recordPicture(*frame, state)) {
     return;
   }
-  if (const bool bare = workspace_.capture().bare(); !bare || workspace_.split().on()) {
-    ui_.record(*frame, bare);
+  if (!bare_ || workspace_.split().on()) {
+    ui_.record(*frame, bare_);
   }
   const auto& [plan, settings, message] = half.pace.planned();
   const double cpuMs = milliseconds(Clock::now() - begins) - frame->waitedMs;
@@ -238,7 +242,7 @@ bool Demo::takeTurns() {
 // Plans the picture and records it. If that fails, takes back the user's last step, which may have been the cause, ends
 // the frame with the panels alone and returns false. Throws if there is no such step, or no frame to end.
 bool Demo::recordPicture(Frame& frame, const SceneState& state) {
-  frame.capture = capture_ || capturesFrame();
+  frame.capture = capture_ || saved_;
   try {
     const auto& [plan, settings, message] = planFrame(frame, state);
     const std::optional<TargetDisplay> target = shownTarget();
@@ -277,7 +281,7 @@ std::optional<TargetDisplay> Demo::shownTarget() {
   const FittedPlan& fitted = shown.pace.planned();
   const std::optional<TargetDisplay> target = workspace_.report().target(*output_.target, fitted.plan, fitted.settings,
                                                                          device_.limits().standardSampleLocations);
-  return workspace_.capture().bare() ? std::nullopt : target;
+  return bare_ ? std::nullopt : target;
 }
 
 // Counts the frame that was drawn, which made pipelines or did not. Says whether it or the one before did.
@@ -305,8 +309,7 @@ void Demo::report(const RecordedFrame& frame) {
   half.frame = frame.number;
   const auto pixels = [this](int of) { return halves_.at(of).pixels(); };
   const auto picture = std::function([&] { return pixels(index); });
-  const std::optional<Image8> captured =
-      capturesFrame() ? std::optional(pictureOf(renderer_.readback())) : std::nullopt;
+  const std::optional<Image8> captured = saved_ ? std::optional(pictureOf(renderer_.readback())) : std::nullopt;
   workspace_.frameDrawn({frame.scene, frame.state, frame.settings, frame.plan.width, frame.plan.height},
                         endsPicture(frame.plan) && !frame.plan.encodes ? picture : nullptr,
                         captured ? &*captured : nullptr, index);
@@ -320,13 +323,8 @@ void Demo::report(const RecordedFrame& frame) {
   }
 }
 
-// Says whether the frame is saved: of A | B every second one, which shows both halves at the same time.
-bool Demo::capturesFrame() const {
-  return workspace_.capture().wanted() && (!workspace_.split().on() || halves_.index() == 1);
-}
-
 // Returns the target that the panels show if a picture has to be drawn for it.
-std::optional<Pace::Target> Demo::missingTarget() {
+std::optional<Pace::Target> Demo::missingTarget() const {
   const std::optional<TargetRequest>& target = output_.target;
   if (!target || !target->drawn || !isShown()) {
     return std::nullopt;
@@ -384,7 +382,7 @@ const FittedPlan& Demo::planFrame(Frame& frame, const SceneState& state) {
 }
 
 // Returns the pace's text and what the picture approximates, or would if the animation were paused.
-std::string Demo::pictureText(const Settings& chosen) {
+std::string Demo::pictureText(const Settings& chosen) const {
   const Pace& pace = halves_.drawn().pace;
   const std::string rest = stillText(workspace_.scene(), chosen);
   if (!pace.text().empty() && workspace_.animates()) {

@@ -23,11 +23,11 @@ class Demo : private WorkspaceHost {
   const PanelState& panels() const { return ui_.windows().state(); }
   CameraPose camera() { return workspace_.state(workspace_.time()).camera; }  // of the next frame
   // Settings of the last frame; the pace may have lowered them.
-  const Settings& frameSettings() { return halves_.drawn().pace.planned().settings; }
+  const Settings& frameSettings() const { return halves_.drawn().pace.planned().settings; }
   Window& window() { return window_; }
   Device& device() { return device_; }
   Renderer& renderer() { return renderer_; }
-  uint64_t nonFinite() { return halves_.nonFinite(); }
+  uint64_t nonFinite() const { return halves_.nonFinite(); }
   int framesDrawn() const { return framesDrawn_; }
   // Saves a copy of unsaved changes and logs where.
   void keepUnsavedWork() noexcept { workspace_.keepUnsavedWork(); }
@@ -74,15 +74,14 @@ class Demo : private WorkspaceHost {
   void drawFrame(double seconds);
   bool takeTurns();
   bool beginPace(const SceneState& state, double seconds);
-  bool capturesFrame() const;
   bool isShown() const { return halves_.index() == workspace_.shownHalf(); }
-  std::optional<Pace::Target> missingTarget();
+  std::optional<Pace::Target> missingTarget() const;
   const FittedPlan& planFrame(Frame& frame, const SceneState& state);
   bool recordPicture(Frame& frame, const SceneState& state);
   std::optional<TargetDisplay> shownTarget();
   bool countFrame(bool compiles);
   void report(const RecordedFrame& frame);
-  std::string pictureText(const Settings& chosen);
+  std::string pictureText(const Settings& chosen) const;
   std::string drawingText() const { return "Drawing " + workspace_.scene().file.filename().string() + "..."; }
   double budgetMs() const;
   std::string message();
@@ -115,6 +114,8 @@ class Demo : private WorkspaceHost {
   Clock::time_point last_;    // when the last step began
   Clock::time_point opened_;  // when the scene was shown first
   bool capture_ = false;
+  bool saved_ = false;  // the frame that is drawn is saved by Capture
+  bool bare_ = false;   // and without panels
   int framesDrawn_ = 0;
 };
 

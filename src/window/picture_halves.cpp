@@ -58,7 +58,7 @@ void PictureHalves::useScene(const Scene& scene) {
   half.pace.sceneChanged();
 }
 
-const FrameTimings& PictureHalves::timings() {
+const FrameTimings& PictureHalves::timings() const {
   static const FrameTimings none;
   const FrameTimings* found = split() ? renderer_.timingsOf(drawn().frame) : &renderer_.timings();
   return found ? *found : none;
@@ -72,7 +72,7 @@ uint64_t PictureHalves::finishedFrame(const PictureHalf& half) const {
   return renderer_.timingsOf(half.frame) ? half.frame : half.frame - std::min(half.frame, turn);
 }
 
-uint64_t PictureHalves::nonFinite() {
+uint64_t PictureHalves::nonFinite() const {
   uint64_t sum = nonFinite_;
   for (const PictureHalf& half : halves_) {
     sum += half.renderer ? half.renderer->finiteWatch().count() : 0;  // none if useScene() has failed

@@ -36,13 +36,17 @@ class PictureHalves {
   bool split() const { return halves_.size() > 1; }
   int index() const { return drawn_; }  // of the half that is drawn in this frame, or was in the last one
   PictureHalf& drawn() { return at(drawn_); }
+  const PictureHalf& drawn() const { return at(drawn_); }
   PictureHalf& at(int half) { return halves_.at(static_cast<size_t>(half)); }
+  const PictureHalf& at(int half) const { return halves_.at(static_cast<size_t>(half)); }
   auto begin() { return halves_.begin(); }
+  auto begin() const { return halves_.begin(); }
   auto end() { return halves_.end(); }
+  auto end() const { return halves_.end(); }
 
-  const FrameTimings& timings();                          // of the last frame that drew this half and has finished
+  const FrameTimings& timings() const;                    // of the last frame that drew this half and has finished
   uint64_t finishedFrame(const PictureHalf& half) const;  // number of the last frame that drew it and has finished
-  uint64_t nonFinite();                                   // samples that debug.check_finite found, of all scenes
+  uint64_t nonFinite() const;                             // samples that debug.check_finite found, of all scenes
 
  private:
   void dropB();

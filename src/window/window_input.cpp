@@ -6,7 +6,7 @@
 
 namespace speculum {
 
-bool WindowInput::take(const InputEvent& event) {
+void WindowInput::take(const InputEvent& event) {
   using Kind = InputEvent::Kind;
   if (event.kind == Kind::key) {
     takeKey(event.key);
@@ -21,7 +21,6 @@ bool WindowInput::take(const InputEvent& event) {
     workspace_.apply(OpenDropped{event.dropped});
   }
   ui_.push(event);
-  return event.kind == Kind::wheel || (event.down && (event.kind == Kind::key || event.kind == Kind::button));
 }
 
 bool WindowInput::overPanels() const {

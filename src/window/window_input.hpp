@@ -5,13 +5,18 @@
 
 namespace speculum {
 
+// Says whether the user presses a key or a button, or turns the wheel.
+inline bool isAction(const InputEvent& event) {
+  using Kind = InputEvent::Kind;
+  return event.kind == Kind::wheel || (event.down && (event.kind == Kind::key || event.kind == Kind::button));
+}
+
 // Passes the user's input on: events to the panels and, where these do not take them, as commands to the workspace.
 class WindowInput {
  public:
   WindowInput(Window& window, SimpleUI& ui, Workspace& workspace) : window_(window), ui_(ui), workspace_(workspace) {}
 
-  // Takes an event of the window. Says whether the user presses a key or a button, or turns the wheel.
-  bool take(const InputEvent& event);
+  void take(const InputEvent& event);             // of the window
   void takeGamepad(const GamepadState& gamepad);  // once a step
   // Says whether frames are needed without an event: a key or stick is held, or a stick changed in the last step.
   bool held() const { return gamepadChanged_ || gamepad_.used() || direction() != glm::dvec3(0.0); }
