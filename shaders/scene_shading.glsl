@@ -44,6 +44,33 @@ layout(location = 5) centroid in vec3 vertexColor;
 
 layout(location = 0) out vec4 color;
 
+#ifdef ASKS
+#include "identifiers.glsl"
+#ifndef COVERED
+#include "sample_positions.glsl"
+layout(constant_id = constantSamples) const uint samples = 1;
+#endif
+
+// Returns the mean position of the samples that the triangle covers, from the pixel's centre. Deferred shading computes
+// the light at the same place; drivers choose other places for `centroid`.
+vec2 coveredMean() {
+  vec2 sum = vec2(0.0);
+  float count = 0.0;
+  for (uint i = 0; i < samples; ++i) {
+    float covered = float(gl_SampleMaskIn[0] >> i & 1);
+    sum += covered * (samplePosition(samples, i) - 0.5);
+    count += covered;
+  }
+  return sum / max(count, 1.0);
+}
+
+#define SHADED(input) interpolateAtOffset(input, shadedAt)
+#else
+#define SHADED(input) input
+#endif
+
+vec2 shadedAt = vec2(0.0);  // point that is shaded, from the pixel's centre
+
 vec3 filtered(vec2 uv) {
   vec2 place = vec2(uv.x, 1.0 - uv.y);
   if (clamps) {
@@ -55,17 +82,18 @@ vec3 filtered(vec2 uv) {
   return texture(diffuseTexture, place).rgb;
 }
 
-vec2 uvHere() {
+// Returns the texture coordinates where the line of sight through `pixel` meets the triangle, or `interpolated` ones.
+vec2 uvAt(vec2 interpolated, vec2 pixel) {
 #if defined(REPEATING) || defined(COVERED)
 #ifdef COVERED
   if (!repeating) {
-    return textureUv;
+    return interpolated;
   }
 #endif
   uint index = instances[instanceIndex].repeats + draw.firstTriangle + uint(gl_PrimitiveID);
-  return repeatingUv(index, view.traceOffset.xyz, rayThrough(gl_FragCoord.xy));
+  return repeatingUv(index, view.traceOffset.xyz, rayThrough(pixel));
 #else
-  return textureUv;
+  return interpolated;
 #endif
 }
 
@@ -78,9 +106,6 @@ vec3 diffuseFactor(vec2 uv) {
 
 #ifdef ENVIRONMENT
 #include "environment.glsl"
-#endif
-#ifdef ASKS
-#include "identifiers.glsl"
 #endif
 
 #ifdef REFLECTION_ONLY
@@ -98,21 +123,26 @@ int samplesOfBase() {
 #endif
 
 void main() {
+#ifdef ASKS
+  shadedAt = coveredMean();
+#endif
+  vec3 position = SHADED(relativePosition);
+  vec3 normal = SHADED(relativeNormal);
   // The side that faces the viewer is lit, by the winding in the model file. gl_FrontFacing already follows the view's
   // handedness; the sign of the instance's determinant corrects it for mirrored instances.
   bool front = gl_FrontFacing == (draw.handedness > 0.0);
-  Surface surface = Surface(relativePosition, safeNormalize(front ? relativeNormal : -relativeNormal), draw.diffuse,
+  Surface surface = Surface(position, safeNormalize(front ? normal : -normal), draw.diffuse,
                             glossy ? draw.specular : vec3(0.0), draw.emission, draw.shininess, glossy, reach);
 #ifndef ENVIRONMENT
   if (diffuseLookup != textureNone) {
-    surface.diffuse *= diffuseFactor(uvHere());
+    surface.diffuse *= diffuseFactor(uvAt(SHADED(textureUv), gl_FragCoord.xy + shadedAt));
   }
 #endif
 #ifdef VERTEX_COLORS
-  surface.diffuse *= vertexColor;
+  surface.diffuse *= SHADED(vertexColor);
 #endif
 #ifdef SHADOW_MAPS
-  setReceiver(relativePosition, surface.normal);
+  setReceiver(position, surface.normal);
 #endif
 #ifdef ENVIRONMENT
   CurvedMirrorData map = curvedMirrors[instances[instanceIndex].curvedMirror];
@@ -135,7 +165,7 @@ void main() {
   vec3 radiance = surfaceRadiance(surface);
 #endif
   // gl_FragCoord.w would belong to the pixel's centre, which on a steep triangle may lie far from the shaded point.
-  float w = (view.clipFromRelative * vec4(relativePosition, 1.0)).w;
+  float w = (view.clipFromRelative * vec4(position, 1.0)).w;
 #ifndef REFLECTION_ONLY
   color = storable(radiance, disparityLength / max(w, 1e-30), gl_FragCoord.xy);
 #else
@@ -146,6 +176,6 @@ void main() {
   color = asks ? encoded(Identifier(false, false, instanceIndex, draw.firstTriangle + uint(gl_PrimitiveID))) : color;
 #endif
 #ifdef COVERED
-  keepCovered(uvHere(), instances[instanceIndex].traceInstance, draw.firstTriangle + uint(gl_PrimitiveID));
+  keepCovered(uvAt(textureUv, gl_FragCoord.xy), instances[instanceIndex].traceInstance, draw.firstTriangle + uint(gl_PrimitiveID));
 #endif
 }

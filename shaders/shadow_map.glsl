@@ -45,11 +45,13 @@ void setReceiver(vec3 position, vec3 shadingNormal) {
   vec3 center = rayThrough(gl_FragCoord.xy) / max(gl_FragCoord.w, 1e-30);
   vec3 facet = cross(dFdx(center), dFdy(center));
   float along = dot(facet, center) / dot(facet, position);  // not a number for a triangle without a plane
-  bool found = along > 0.5 && along < 2.0;
 #ifdef ASKS
+  bool found = abs(along - 1.0) < 2e-4;  // seen at grazing angle, the derived plane is too uncertain to decide
   hasPlane = found;
   pixelAcross = along * dFdx(center);
   pixelDown = along * dFdy(center);
+#else
+  bool found = along > 0.5 && along < 2.0;
 #endif
   receiver = found ? along * position : position;
   receiverNormal = found ? safeNormalize(facet * inversesqrt(max(dot(facet, facet), 1e-30))) : shadingNormal;

@@ -164,11 +164,11 @@ class PlanFitter {
   void chooseShadows() {
     const bool automatic = lookup() == ShadowLookup::automatic;
     lookup() = automatic ? ShadowLookup::hybrid : lookup();
-    if (lookup() == ShadowLookup::hybrid && !limits_.drawsLines) {
+    if (lookup() == ShadowLookup::hybrid && !limits_.hybridShadows) {
       lookup() = limits_.tracesRays ? ShadowLookup::traced : ShadowLookup::map;
       if (!automatic) {
         say("effects.shadow_lookup=hybrid is replaced by " + settingValue(fitted_.settings, "effects.shadow_lookup") +
-            ": the device draws no lines");
+            ": the device draws no lines or has no sampleRateShading");
       }
     }
   }

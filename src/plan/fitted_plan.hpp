@@ -13,7 +13,7 @@ struct TargetLimits {
   bool keepsPicture = false;  // the last picture stays in memory while a still one is drawn, as in the window
   bool tracesRays = true;     // the device has gl_PrimitiveID in fragment shaders, and the scene fits storage buffers
   bool cpu = false;           // the device is a CPU
-  bool drawsLines = true;     // the device draws edges of triangles
+  bool hybridShadows = true;  // the device draws edges of triangles, and interpolates inputs at any place
 };
 
 struct FittedPlan {

@@ -21,7 +21,7 @@ FramePlanner::FramePlanner(const Device& device, bool keepsPicture) {
   limits_.keepsPicture = keepsPicture;
   tracesRays_ =
       device.caps().primitiveId && device.limits().maxPerStageDescriptorStorageBuffers >= TraceFrame::storageBuffers;
-  limits_.drawsLines = device.caps().fillModeNonSolid;
+  limits_.hybridShadows = device.caps().fillModeNonSolid && device.caps().sampleRateShading;
   drawsCoverage_ = device.caps().primitiveId;
   bufferLimits_ = traceBufferLimits(device.limits());
 }

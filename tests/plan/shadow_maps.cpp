@@ -295,9 +295,9 @@ TEST(ShadowMap, AutomaticLookupTakesTheFasterOne) {
   const SceneState state = evaluate(scene, 0.0);
   Settings settings;
   settings.effects.shadowLookup = ShadowLookup::automatic;
-  const auto chosen = [&](const glm::ivec2& size, bool drawsLines = true, bool cpu = true) {
+  const auto chosen = [&](const glm::ivec2& size, bool hybridShadows = true, bool cpu = true) {
     const FittedPlan fitted =
-        planWithin({.budgetBytes = 1ull << 40, .largestSide = 16384, .cpu = cpu, .drawsLines = drawsLines},
+        planWithin({.budgetBytes = 1ull << 40, .largestSide = 16384, .cpu = cpu, .hybridShadows = hybridShadows},
                    {scene, state, settings, size});
     EXPECT_EQ(std::string(fitted.plan.effects.shadows.value_or("")),
               "light 0; auto: " + settingValue(fitted.settings, "effects.shadow_lookup"));
@@ -309,7 +309,7 @@ TEST(ShadowMap, AutomaticLookupTakesTheFasterOne) {
   EXPECT_EQ(chosen({1280, 720}, false), ShadowLookup::traced);
   EXPECT_EQ(chosen({1280, 720}, true, false), ShadowLookup::traced) << "GPUs trace";
   settings.effects.shadowLookup = ShadowLookup::hybrid;
-  const FittedPlan without = planWithin({.budgetBytes = 1ull << 40, .largestSide = 16384, .drawsLines = false},
+  const FittedPlan without = planWithin({.budgetBytes = 1ull << 40, .largestSide = 16384, .hybridShadows = false},
                                         {scene, state, settings, {64, 48}});
   EXPECT_EQ(without.settings.effects.shadowLookup, ShadowLookup::traced);
   EXPECT_NE(without.message.find("effects.shadow_lookup=hybrid"), std::string::npos);

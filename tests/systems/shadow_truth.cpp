@@ -263,6 +263,12 @@ TEST(HybridShadows, FindCastersThinnerThanATexel) {
   EXPECT_LT(wrongShare(200, 40, thinThings, "128"), 2e-4);
 }
 
+TEST(HybridShadows, EqualTracedWithFourSamples) {
+  const SettingList settings{{"view.samples", "4"}};
+  EXPECT_LT(wrongShare(1000, 60, surfaceScene, "512", settings), 1e-4);
+  EXPECT_LT(wrongShare(200, 30, thinThings, "128", settings), 2e-4);
+}
+
 // Where a map decides, a surface is shaded once a pixel. Shadows that cross a pixel between its corners are missed, and
 // so are those of casters less than a texel before the floor; a texel is as large as these few pixels.
 TEST(HybridShadows, EqualTracedAtEverySample) {
