@@ -267,6 +267,25 @@ ConvexMesh convexMesh(std::span<const glm::dvec3> positions, std::span<const uin
   return mesh;
 }
 
+// Looks at so many edges only, because each takes time in proportion to the corners.
+ConvexFace::ConvexFace(std::vector<glm::dvec3> polygon)
+    : corners(std::move(polygon)), center(vertexMean(corners)), radius(farthestDistance(center, corners)) {
+  constexpr size_t mostEdges = 64;
+  width = 2.0 * radius;
+  const size_t step = corners.size() / mostEdges + 1;
+  for (size_t i = 0; i < corners.size(); i += step) {
+    const glm::dvec3& from = corners[i];
+    const glm::dvec3 edge = corners[(i + 1) % corners.size()] - from;
+    double farthest = 0.0;  // from the edge, times the edge's length
+    for (const glm::dvec3& p : corners) {
+      farthest = std::max(farthest, glm::length(glm::cross(edge, p - from)));
+    }
+    if (const double length = glm::length(edge); length > 0.0) {
+      width = std::min(width, farthest / length);
+    }
+  }
+}
+
 std::vector<std::vector<glm::dvec3>> convexFaces(std::span<const glm::dvec3> positions,
                                                  std::span<const uint32_t> indices, size_t most, size_t mostTriangles) {
   if (indices.size() / 3 > mostTriangles) {

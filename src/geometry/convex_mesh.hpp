@@ -31,6 +31,16 @@ struct ConvexMesh {
 // positions are one point.
 ConvexMesh convexMesh(std::span<const glm::dvec3> positions, std::span<const uint32_t> indices, size_t mostTriangles);
 
+// A flat convex polygon of a mesh.
+struct ConvexFace {
+  explicit ConvexFace(std::vector<glm::dvec3> polygon);
+
+  std::vector<glm::dvec3> corners;
+  glm::dvec3 center{0.0};  // of a sphere around the face
+  double radius = 0.0;     // of that sphere
+  double width = 0.0;      // distance of two parallel lines that the face lies between, about the smallest
+};
+
 // Finds flat convex faces of a triangle mesh, the largest first and at most `most`. Triangles are joined across common
 // edges (equal positions, opposite directions) as long as the face stays convex and within 1e-6 of its size of one
 // plane; a face that cannot grow is a triangle. The triangles of a face cover it without a gap. Returns none for a mesh

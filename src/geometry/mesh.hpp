@@ -112,10 +112,10 @@ struct Mesh {
   uint32_t flatVertices = 0;  // whose normals are zero
   uint32_t flatCorners = 0;   // of triangles, at these vertices
   std::vector<MeshPart> parts;
-  std::vector<MeshCluster> clusters;           // see clustersOf()
-  std::vector<std::vector<glm::dvec3>> faces;  // relative to `center`, see convexFaces()
-  ConvexMesh convex;                           // relative to `center`, see convexMesh()
-  bool solid = false;                          // see isSolid()
+  std::vector<MeshCluster> clusters;  // see clustersOf()
+  std::vector<ConvexFace> faces;      // relative to `center`, see convexFaces()
+  ConvexMesh convex;                  // relative to `center`, see convexMesh()
+  bool solid = false;                 // see isSolid()
   // Number of last triangles, whose texture repeats so often that floats of its coordinates lose digits.
   uint32_t repeats = 0;
   bool curvedMirror = false;               // cut out of another mesh: a curved mirror by the material of its one part

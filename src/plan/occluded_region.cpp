@@ -24,14 +24,22 @@ struct Axis {
   double pixel;
 };
 
+// A corner of an outline, and its distance from the eye.
+struct Corner {
+  explicit Corner(const glm::dvec3& from) : fromEye(from), distance(glm::length(from)) {}
+
+  glm::dvec3 fromEye;
+  double distance;
+};
+
 // Adds the half space on the left of the edge from a to b, as seen from the eye, narrowed by `margin`, which is
 // measured across the view at unit depth. Returns the unit normal of the plane through eye and edge; nothing if the
 // edge points at the eye or `inside` is not on its left. All vectors start at the eye.
-std::optional<glm::dvec3> addEdge(OccludedRegion& region, const glm::dvec3& a, const glm::dvec3& b,
-                                  const glm::dvec3& inside, double margin, const Axis& axis) {
-  glm::dvec3 normal = glm::cross(b, a);
+std::optional<glm::dvec3> addEdge(OccludedRegion& region, const Corner& a, const Corner& b, const glm::dvec3& inside,
+                                  double margin, const Axis& axis) {
+  glm::dvec3 normal = glm::cross(b.fromEye, a.fromEye);
   const double length = glm::length(normal);
-  if (!(length > 1e-9 * glm::length(a) * glm::length(b))) {
+  if (!(length > 1e-9 * a.distance * b.distance)) {
     return std::nullopt;
   }
   normal /= length;
@@ -59,6 +67,12 @@ RecycledVector<std::pair<uint32_t, uint32_t>> outline(const BodyOccluder& body, 
 }
 
 }  // namespace
+
+// The mean of the corners lies within half the width of an edge, and so within that distance of the plane through the
+// edge and the eye.
+double narrowestFace(const View& view, const Projection& projection) {
+  return 2.0 * marginPixels * Axis(view, projection).pixel;
+}
 
 bool hiddenByFace(const FlatOccluder& occluder, const View& view, const Projection& projection,
                   OccludedRegion& region) {
@@ -91,16 +105,20 @@ bool hiddenByFace(const FlatOccluder& occluder, const View& view, const Projecti
                  {eye * axis.forward - (1.0 + depthPart) * projection.near * toPlane, 0.0}});
   region.reserve(region.size() + 2 * drawn.size());
   const glm::dvec3 inside = vertexMean(drawn) - view.eye;
+  const size_t last = drawn.size() - 1;
   const auto corner = [&](size_t i) {  // counter-clockwise as seen from the eye
-    i %= drawn.size();
-    return drawn[height < 0.0 ? drawn.size() - 1 - i : i] - view.eye;
+    return Corner(drawn[height < 0.0 ? last - i : i] - view.eye);
   };
-  for (size_t i = 0; i < drawn.size(); ++i) {
-    const auto normal = addEdge(region, corner(i), corner(i + 1), inside, marginPixels * axis.pixel, axis);
+  const Corner first = corner(0);
+  Corner from = first;
+  for (size_t i = 0; i <= last; ++i) {
+    const Corner to = i < last ? corner(i + 1) : first;
+    const auto normal = addEdge(region, from, to, inside, marginPixels * axis.pixel, axis);
     if (!normal) {
       return false;
     }
     region.push_back({eye * *normal - occluder.slack * toPlane, 0.0});
+    from = to;
   }
   return true;
 }
@@ -125,7 +143,8 @@ std::optional<BodyRegion> hiddenByBody(const BodyOccluder& body, const View& vie
   // A displacement by `slack`, at depth `nearest` or beyond, is seen as slack / nearest at most.
   const double margin = marginPixels * axis.pixel + body.slack / nearest;
   for (const auto& [from, to] : outline(body, view.eye)) {
-    if (!addEdge(region.outline, body.points[from] - view.eye, body.points[to] - view.eye, inside, margin, axis)) {
+    if (!addEdge(region.outline, Corner(body.points[from] - view.eye), Corner(body.points[to] - view.eye), inside,
+                 margin, axis)) {
       return std::nullopt;
     }
   }
@@ -139,28 +158,31 @@ bool isBefore(const BodyOccluder& body, const FlatOccluder& target, const glm::d
       body.points, [&](const glm::dvec3& p) { return (height > 0.0 ? 1.0 : -1.0) * target.plane.distance(p) > least; });
 }
 
-RecycledVector<Polygon> outside(const OccludedRegion& region, const glm::dvec3& eye,
+RecycledVector<Polygon> outside(const OccludedRegion& region, const HalfSpace* also, const glm::dvec3& eye,
                                 const RecycledVector<Polygon>& polygons) {
   RecycledVector<Polygon> pieces;
   for (const Polygon& polygon : polygons) {
     const size_t before = pieces.size();
     Polygon within = polygon;
-    for (const HalfSpace& half : region) {
-      const auto inside = [&](const glm::dvec3& p) { return half.at(p - eye) > 0.0; };
-      if (std::ranges::all_of(within, inside)) {
-        continue;
+    // Moves what lies outside the half space to the pieces. Returns false if the polygon lies outside the region.
+    const auto cut = [&](const HalfSpace& half) {
+      const auto inside = std::ranges::count_if(within, [&](const glm::dvec3& p) { return half.at(p - eye) > 0.0; });
+      if (inside == std::ssize(within)) {
+        return true;
       }
       const double slope2 = glm::dot(half.gradient, half.gradient);
-      const bool apart = !(slope2 > 0.0) || std::ranges::none_of(within, inside);
-      if (apart) {
-        pieces.resize(before);
-        pieces.push_back(polygon);
-        break;
+      if (!(slope2 > 0.0) || inside == 0) {
+        return false;
       }
       const glm::dvec3 point = eye - half.gradient * (half.constant / slope2);
       const glm::dvec3 normal = half.gradient / std::sqrt(slope2);
       pieces.push_back(clipPolygon(within, {point, -normal}));
       within = clipPolygon(within, {point, normal});
+      return true;
+    };
+    if ((also && !cut(*also)) || !std::ranges::all_of(region, cut)) {
+      pieces.resize(before);
+      pieces.push_back(polygon);
     }
   }
   return pieces;

@@ -39,6 +39,10 @@ struct FlatOccluder {
 // occluder edge-on or narrower than the margin, or clips it away.
 bool hiddenByFace(const FlatOccluder& occluder, const View& view, const Projection& projection, OccludedRegion& region);
 
+// Returns the width, for each metre of depth along the view's axis, up to which a face is too narrow for
+// hiddenByFace(). A part of the face is no wider.
+double narrowestFace(const View& view, const Projection& projection);
+
 // A closed mesh that is about convex, world space.
 struct BodyOccluder {
   const ConvexMesh* mesh = nullptr;    // null: nothing hides
@@ -59,8 +63,9 @@ std::optional<BodyRegion> hiddenByBody(const BodyOccluder& body, const View& vie
 // Says whether the whole body is nearer to the eye than the plane of `target`.
 bool isBefore(const BodyOccluder& body, const FlatOccluder& target, const glm::dvec3& eye);
 
-// Cuts a region out of convex polygons (world space) and returns the convex pieces that are left.
-RecycledVector<Polygon> outside(const OccludedRegion& region, const glm::dvec3& eye,
+// Cuts a region, or the part of it in the half space `also` (null: all of it), out of convex polygons (world space) and
+// returns the convex pieces that are left.
+RecycledVector<Polygon> outside(const OccludedRegion& region, const HalfSpace* also, const glm::dvec3& eye,
                                 const RecycledVector<Polygon>& polygons);
 
 }  // namespace speculum

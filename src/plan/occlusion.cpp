@@ -14,6 +14,8 @@ namespace {
 
 // Bound of rounding on the GPU, as a part of the size of what is drawn; floats are off by 1e-7 of that size.
 constexpr double roundingPart = 1e-5;
+// Factor for bounds of a face, to make up for rounding.
+constexpr double roomForRounding = 1.0 + 1e-6;
 // Largest number of mirrors, and of instances, that are tested in a view. Testing all against each other takes time in
 // the square of their number, and occluders that look small hide little.
 constexpr size_t mostTested = 512;
@@ -45,43 +47,61 @@ BodyOccluder bodyOccluder(const ConvexMesh& mesh, const InstanceState& state) {
   return whole;
 }
 
-// Filters occluders at little cost. Keeps those that look large enough to matter, unless they lie wholly behind the
-// polygon's plane or outside the cone from the eye through its edges.
-class Prefilter {
+}  // namespace
+
+// Filters occluders of a target, the polygon or one of its corners, at little cost. Keeps those that look large enough
+// to matter for the polygon, unless they lie wholly behind its plane or outside the cone from the eye through the
+// target.
+class Occlusion::Prefilter {
  public:
   // `plane` is the plane of the polygon.
-  Prefilter(const glm::dvec3& eye, std::span<const glm::dvec3> polygon, const Plane& plane) : polygon_(polygon) {
+  Prefilter(const glm::dvec3& eye, std::span<const glm::dvec3> polygon, const Plane& plane) {
     constexpr double least = 0.4;  // smallest apparent size of an occluder, as a part of the polygon's
     const glm::dvec3 center = vertexMean(polygon);
     leastRadius_ = least * farthestDistance(center, polygon);
     distance_ = glm::length(center - eye);
     before_.eye = eye;
     before_.clip = {plane.point, plane.distance(eye) < 0.0 ? -plane.normal : plane.normal};
-    before_.cone = coneThrough(eye, polygon);
   }
 
+  void aimAt(std::span<const glm::dvec3> polygon) {
+    target_ = polygon;
+    before_.cone = coneThrough(before_.eye, polygon);
+  }
+  // The planes of the cone meet in the line of sight, the first one along `up`.
+  void aimAt(const glm::dvec3& corner, const glm::dvec3& up) {
+    target_ = {&corner, 1};
+    const glm::dvec3 sight = corner - before_.eye;
+    before_.cone.clear();
+    if (glm::dvec3 normal = glm::cross(sight, up); glm::length(normal) > 1e-6 * glm::length(sight)) {
+      for (const glm::dvec3& n : {glm::normalize(normal), glm::normalize(glm::cross(sight, normal))}) {
+        before_.cone.push_back(n);
+        before_.cone.push_back(-n);
+      }
+    }
+  }
+
+  std::span<const glm::dvec3> target() const { return target_; }
   // Says whether an occluder of `radius` looks large enough at the point of the sphere that is nearest to the eye.
   bool looksLarge(const glm::dvec3& center, double sphereRadius, double radius) const {
     const glm::dvec3 fromEye = center - before_.eye;
     const double large = radius * distance_ + leastRadius_ * sphereRadius;
     return large * large >= leastRadius_ * leastRadius_ * glm::dot(fromEye, fromEye);
   }
-  // Returns a view that sees what lies before the polygon, within the cone through its edges.
+  // Returns a view that sees what lies before the polygon, within the cone through the target.
   const View& before() const { return before_; }
-  // Says whether a corner of the polygon lies beyond a plane, seen from the eye.
+  // Says whether a part of the target lies beyond a plane, seen from the eye.
   bool reachesBeyond(const Plane& plane) const {
     const double side = plane.distance(before_.eye);
-    return std::ranges::any_of(polygon_, [&](const glm::dvec3& p) { return side * plane.distance(p) < 0.0; });
+    return std::ranges::any_of(target_, [&](const glm::dvec3& p) { return side * plane.distance(p) < 0.0; });
   }
 
  private:
-  std::span<const glm::dvec3> polygon_;
+  std::span<const glm::dvec3> target_;
   View before_;
   double leastRadius_ = 0.0;  // of an occluder as far away as the polygon's middle
   double distance_ = 0.0;     // from the eye to the polygon's middle
 };
-
-}  // namespace
 
 Occlusion::Occlusion(const Scene& scene, const SceneState& state, const Settings& settings,
                      const Projection& projection, const Bvh& mirrors)
@@ -93,14 +113,20 @@ Occlusion::Occlusion(const Scene& scene, const SceneState& state, const Settings
     }
     mirrors_.push_back({.occluder = flatOccluder(mirror.piece(0), size)});
   }
-  for (const Mesh& mesh : scene.meshes) {
-    double largest = 0.0;
-    for (const std::vector<glm::dvec3>& face : mesh.faces) {
-      largest = std::max(largest, farthestDistance(vertexMean(face), face));
+  shapes_.resize(scene.meshes.size());
+}
+
+const Occlusion::Shape& Occlusion::shapeOf(int mesh) {
+  Shape& shape = shapes_[mesh];
+  if (!std::exchange(shape.known, true)) {
+    const Mesh& of = scene_.meshes[mesh];
+    shape.transparent = isTransparent(of, settings_.effects);
+    for (const ConvexFace& face : of.faces) {
+      shape.largest = std::max(shape.largest, face.radius / of.radius);
+      shape.widest = std::max(shape.widest, roomForRounding * face.width / of.radius);
     }
-    largestFaces_.push_back(mesh.radius > 0.0 ? largest / mesh.radius : 0.0);
-    transparent_.push_back(isTransparent(mesh, settings.effects));
   }
+  return shape;
 }
 
 Occlusion::Body& Occlusion::bodyOf(int instance) {
@@ -112,19 +138,29 @@ Occlusion::Body& Occlusion::bodyOf(int instance) {
     if (!mesh.convex.triangles.empty()) {
       body.whole = bodyOccluder(mesh.convex, state);
     }
-    body.faces.reserve(mesh.faces.size());
-    Polygon polygon;
-    for (const std::vector<glm::dvec3>& face : mesh.faces) {
-      polygon.clear();
-      for (const glm::dvec3& p : face) {
-        polygon.push_back(state.worldFromMesh.point(p));
-      }
-      if (std::isnormal(polygonArea(polygon))) {
-        body.faces.push_back({.occluder = flatOccluder(polygon, state.radius)});
-      }
+    const double scale = roomForRounding * state.radius / mesh.radius;
+    body.bounds.reserve(mesh.faces.size());
+    for (const ConvexFace& face : mesh.faces) {
+      body.bounds.push_back({state.worldFromMesh.point(face.center), scale * face.radius, scale * face.width});
     }
+    body.faces.resize(mesh.faces.size());
   }
   return body;
+}
+
+Occlusion::Face& Occlusion::faceOf(Body& body, int instance, size_t index) const {
+  Face& face = body.faces[index];
+  if (!std::exchange(face.placed, true)) {
+    const InstanceState& state = state_.instances[instance];
+    Polygon polygon;
+    for (const glm::dvec3& p : scene_.meshes[state.mesh].faces[index].corners) {
+      polygon.push_back(state.worldFromMesh.point(p));
+    }
+    if (std::isnormal(polygonArea(polygon))) {
+      face.occluder = flatOccluder(polygon, state.radius);
+    }
+  }
+  return face;
 }
 
 const OccludedRegion* Occlusion::regionOf(Face& face) const {
@@ -141,43 +177,59 @@ const BodyRegion* Occlusion::regionOf(Body& body) const {
   return body.region ? &*body.region : nullptr;
 }
 
-bool Occlusion::Occluders::add(const OccludedRegion& region, const HalfSpace* also, const Occluder& of,
-                               const glm::dvec3& eye, std::span<const glm::dvec3> polygon) {
+bool Occlusion::Occluder::hides(const glm::dvec3& fromEye) const {
+  const auto holds = [&](const HalfSpace& half) { return half.at(fromEye) > 0.0; };
+  return (!also || holds(*also)) && std::ranges::all_of(*region, holds);
+}
+
+bool Occlusion::Occluders::add(const Occluder& occluder, const glm::dvec3& eye, std::span<const glm::dvec3> polygon) {
   bool all = true;
   const auto meets = [&](const HalfSpace& half) {
     const auto within = std::ranges::count_if(polygon, [&](const glm::dvec3& p) { return half.at(p - eye) > 0.0; });
     all = all && within == std::ssize(polygon);
     return within > 0;
   };
-  if ((also && !meets(*also)) || !std::ranges::all_of(region, meets)) {
+  if ((occluder.also && !meets(*occluder.also)) || !std::ranges::all_of(*occluder.region, meets)) {
     return false;
   }
   if (all) {
-    whole = of;
-    return true;
+    whole = occluder;
+  } else {
+    parts.push_back(occluder);
   }
-  Occluder& part = parts.emplace_back(of);
-  if (also) {
-    part.region.push_back(*also);
-  }
-  part.region.insert(part.region.end(), region.begin(), region.end());
-  return false;
+  return all;
 }
 
-// Finds the first occluder that hides all of `polygon`, a part of `mirror`, or else the occluders that hide a part of
+// Keeps the order of `viewInstances_`.
+RecycledVector<int> Occlusion::largeInstances(const Prefilter& prefilter) {
+  RecycledVector<int> large;
+  for (const int i : viewInstances_) {
+    const InstanceState& instance = state_.instances[i];
+    const Shape& shape = shapeOf(instance.mesh);
+    const bool hasBody = !scene_.meshes[instance.mesh].convex.points.empty();
+    const double largest = hasBody ? instance.radius : instance.radius * shape.largest;
+    if (!shape.transparent && prefilter.looksLarge(instance.center, instance.radius, largest) &&
+        (hasBody || !looksNarrow(instance.center, instance.radius, instance.radius * shape.widest))) {
+      large.push_back(i);
+    }
+  }
+  return large;
+}
+
+// Finds the first occluder that hides all of the target, a part of `mirror`, or else the occluders that hide a part of
 // it.
-Occlusion::Occluders Occlusion::occludersOf(int mirror, std::span<const glm::dvec3> polygon) {
+Occlusion::Occluders Occlusion::occludersOf(int mirror, const Prefilter& prefilter, std::span<const int> instances) {
   const glm::dvec3& eye = view_->eye;
+  const std::span<const glm::dvec3> target = prefilter.target();
   Occluders found;
-  const Prefilter prefilter(eye, polygon, mirrors_[mirror].occluder.plane);
-  const auto addFace = [&](Face& face, const Occluder& of) {
+  const auto addFace = [&](Face& face, bool isMirror, int index) {
     const FlatOccluder& occluder = face.occluder;
-    if (!prefilter.looksLarge(occluder.center, occluder.radius, occluder.radius) ||
+    if (occluder.polygon.empty() || !prefilter.looksLarge(occluder.center, occluder.radius, occluder.radius) ||
         !prefilter.reachesBeyond(occluder.plane) || !hullVisible(prefilter.before(), occluder.polygon)) {
       return false;
     }
     const OccludedRegion* region = regionOf(face);
-    return region && found.add(*region, nullptr, of, eye, polygon);
+    return region && found.add({isMirror, index, region}, eye, target);
   };
   const bool searches = viewMirrors_.size() > fewMirrors;
   RecycledVector<int> near;
@@ -187,27 +239,28 @@ Occlusion::Occluders Occlusion::occludersOf(int mirror, std::span<const glm::dve
     std::ranges::sort(near);
   }
   for (const int i : searches ? near : viewMirrors_) {
-    if (i != mirror && mirrors_[i].tested == viewNumber_ && addFace(mirrors_[i], {.isMirror = true, .index = i})) {
+    if (i != mirror && mirrors_[i].tested == viewNumber_ && addFace(mirrors_[i], true, i)) {
       return found;
     }
   }
-  for (const int i : viewInstances_) {
+  for (const int i : instances) {
     const InstanceState& instance = state_.instances[i];
-    const Mesh& mesh = scene_.meshes[instance.mesh];
-    const double widest = mesh.convex.points.empty() ? instance.radius * largestFaces_[instance.mesh] : instance.radius;
-    if (transparent_[instance.mesh] || !prefilter.looksLarge(instance.center, instance.radius, widest) ||
-        !boxVisible(prefilter.before(), instance.worldFromMesh, mesh.halfExtent)) {
+    if (!boxVisible(prefilter.before(), instance.worldFromMesh, scene_.meshes[instance.mesh].halfExtent)) {
       continue;
     }
     Body& body = bodyOf(i);
     if (const BodyRegion* region = regionOf(body)) {
       const bool before = isBefore(body.whole, mirrors_[mirror].occluder, eye);
-      if (found.add(region->outline, before ? nullptr : &region->beyond, {.index = i}, eye, polygon)) {
+      if (found.add({false, i, &region->outline, before ? nullptr : &region->beyond}, eye, target)) {
         return found;
       }
     }
-    if (std::ranges::any_of(body.faces, [&](Face& face) { return addFace(face, {.index = i}); })) {
-      return found;
+    for (size_t k = 0; k < body.bounds.size(); ++k) {
+      const auto& [center, radius, width] = body.bounds[k];
+      if (prefilter.looksLarge(center, radius, radius) && !looksNarrow(center, radius, width) &&
+          addFace(faceOf(body, i, k), false, i)) {
+        return found;
+      }
     }
   }
   return found;
@@ -230,6 +283,8 @@ bool Occlusion::skips(const View& view) const {
 void Occlusion::setView(const View& view, std::span<const int> instances, RecycledVector<int> mirrors) {
   view_ = &view;
   ++viewNumber_;
+  forward_ = -glm::transpose(view.worldToView)[2];
+  narrowest_ = narrowestFace(view, projection_);
   // Mirrors are drawn only where the view shows them, not in the margin that is read around it.
   viewMirrors_ = std::move(mirrors);
   viewInstances_.assign(instances.begin(), instances.end());
@@ -262,7 +317,29 @@ std::optional<RecycledString> Occlusion::hiddenBy(int mirror, std::span<const gl
   if (!skips(*view_) || polygon.empty()) {
     return std::nullopt;
   }
-  const Occluders found = occludersOf(mirror, polygon);
+  Prefilter prefilter(view_->eye, polygon, mirrors_[mirror].occluder.plane);
+  const RecycledVector<int> instances = largeInstances(prefilter);
+  // A polygon is visible if one of its corners is. An occluder that hides all of it is the first one to hide a corner,
+  // or comes after that one. Both are found in less time than all occluders of the polygon.
+  const glm::dvec3 up = glm::transpose(view_->worldToView)[1];
+  const auto hides = [&](const Occluder& occluder, const glm::dvec3& p) { return occluder.hides(p - view_->eye); };
+  RecycledVector<Occluder> ofCorners;
+  for (const glm::dvec3& corner : polygon) {
+    if (std::ranges::any_of(ofCorners, [&](const Occluder& occluder) { return hides(occluder, corner); })) {
+      continue;
+    }
+    prefilter.aimAt(corner, up);
+    const std::optional<Occluder> first = occludersOf(mirror, prefilter, instances).whole;
+    if (!first) {
+      return std::nullopt;
+    }
+    if (std::ranges::all_of(polygon, [&](const glm::dvec3& p) { return hides(*first, p); })) {
+      return nameOfOccluder(*first);
+    }
+    ofCorners.push_back(*first);
+  }
+  prefilter.aimAt(polygon);
+  const Occluders found = occludersOf(mirror, prefilter, instances);
   return found.whole ? nameOfOccluder(*found.whole) : hiddenTogether(found.parts, polygon);
 }
 
@@ -272,7 +349,7 @@ std::optional<RecycledString> Occlusion::hiddenTogether(std::span<const Occluder
   RecycledVector<Polygon> pieces = {{polygon.begin(), polygon.end()}};
   RecycledVector<const Occluder*> used;
   for (const Occluder& occluder : occluders.first(std::min(occluders.size(), mostOccluders))) {
-    RecycledVector<Polygon> left = outside(occluder.region, view_->eye, pieces);
+    RecycledVector<Polygon> left = outside(*occluder.region, occluder.also, view_->eye, pieces);
     if (left == pieces || left.size() > mostPieces) {
       continue;
     }

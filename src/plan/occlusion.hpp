@@ -34,35 +34,59 @@ class Occlusion {
  private:
   // The region that an occluder hides is found when a view first needs it.
   struct Face {
-    FlatOccluder occluder;
+    FlatOccluder occluder;  // without a polygon: hides nothing
+    bool placed = false;    // a face of an object is placed on first use
     int view = -1;          // number of the view that `region` is for; -1: none yet
     bool hides = false;     // else `region` has no meaning
     int tested = -1;        // number of the last view in which the face, of a mirror, is tested
     OccludedRegion region;  // keeps its memory from view to view
   };
+  // Bounds of a face, a little larger than it is.
+  struct FaceBounds {
+    glm::dvec3 center{0.0};  // world, of a sphere
+    double radius = 0.0;     // metres
+    double width = 0.0;      // metres, see ConvexFace::width
+  };
   struct Body {
+    RecycledVector<FaceBounds> bounds;  // of each face
     RecycledVector<Face> faces;
     BodyOccluder whole;
     int view = -1;  // as Face::view
     std::optional<BodyRegion> region;
   };
   struct Occluder {
-    OccludedRegion region;
     bool isMirror = false;
-    int index = 0;  // index of the mirror or instance
+    int index = 0;                           // index of the mirror or instance
+    const OccludedRegion* region = nullptr;  // in the present view
+    const HalfSpace* also = nullptr;         // cuts the region; null: nothing does
+
+    bool hides(const glm::dvec3& fromEye) const;
   };
   struct Occluders {
-    // Adds a region, cut by the half space `also` if there is one, unless no corner of the polygon lies in it. Returns
-    // whether the region holds all of the polygon.
-    bool add(const OccludedRegion& region, const HalfSpace* also, const Occluder& of, const glm::dvec3& eye,
-             std::span<const glm::dvec3> polygon);
-    std::optional<Occluder> whole;  // an occluder that hides all of the polygon; its `region` is left empty
+    // Adds an occluder unless no corner of the polygon lies in its region. Returns whether it hides all of the polygon.
+    bool add(const Occluder& occluder, const glm::dvec3& eye, std::span<const glm::dvec3> polygon);
+    std::optional<Occluder> whole;  // an occluder that hides all of the polygon
     RecycledVector<Occluder> parts;
   };
+  // Facts about a mesh, found on first use.
+  struct Shape {
+    bool known = false;
+    bool transparent = false;  // its instances hide nothing
+    double largest = 0.0;      // radius of the largest face over the mesh's radius
+    double widest = 0.0;       // width of the widest face over the mesh's radius
+  };
+  const Shape& shapeOf(int mesh);
   Body& bodyOf(int instance);
+  Face& faceOf(Body& body, int instance, size_t index) const;
+  // Says whether a face of this width, within a sphere, is too narrow to hide anything.
+  bool looksNarrow(const glm::dvec3& center, double radius, double width) const {
+    return width < narrowest_ * (glm::dot(forward_, center - view_->eye) - radius);
+  }
   const OccludedRegion* regionOf(Face& face) const;  // null: hides nothing
   const BodyRegion* regionOf(Body& body) const;
-  Occluders occludersOf(int mirror, std::span<const glm::dvec3> polygon);
+  class Prefilter;
+  RecycledVector<int> largeInstances(const Prefilter& prefilter);
+  Occluders occludersOf(int mirror, const Prefilter& prefilter, std::span<const int> instances);
   bool skips(const View& view) const;
   RecycledString nameOfOccluder(const Occluder& occluder) const;
   RecycledString namesOf(std::span<const Occluder* const> occluders) const;
@@ -78,9 +102,10 @@ class Occlusion {
   RecycledVector<int> viewMirrors_;    // mirrors that are tested in the view, ascending
   RecycledVector<int> viewInstances_;  // instances that are tested in the view, ascending
   int viewNumber_ = -1;
-  RecycledVector<Face> mirrors_;         // parallel to SceneState::mirrors
-  RecycledVector<double> largestFaces_;  // by mesh: radius of the largest face over the mesh's radius
-  RecycledVector<bool> transparent_;     // by mesh: its instances hide nothing
+  glm::dvec3 forward_{0.0};       // axis of the view
+  double narrowest_ = 0.0;        // narrowestFace() of the view
+  RecycledVector<Face> mirrors_;  // parallel to SceneState::mirrors
+  RecycledVector<Shape> shapes_;  // by mesh
   std::unordered_map<int, Body, std::hash<int>, std::equal_to<>, RecyclingAllocator<std::pair<const int, Body>>>
       bodies_;  // by index into SceneState::instances; made on first use
 };

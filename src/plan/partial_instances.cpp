@@ -15,6 +15,7 @@ constexpr double rounding = 1e-5;         // relative to the sizes involved; bou
 // A plane in the space of Vertex::position. Points with dot(normal, p) + offset >= 0 are seen.
 struct LocalPlane {
   glm::dvec3 normal{0.0};
+  glm::dvec3 reach{0.0};  // absolute values of the normal
   double offset = 0.0;
 };
 
@@ -25,9 +26,10 @@ RecycledVector<LocalPlane> cuttingPlanes(const View& view, const InstanceState& 
   RecycledVector<LocalPlane> planes;
   const auto add = [&](const glm::dvec3& normal, double distance) {
     const glm::dvec3 local = normal * instance.worldFromMesh.linear;
-    const double reach = glm::dot(glm::abs(local), halfExtent);
+    const glm::dvec3 size = glm::abs(local);
+    const double reach = glm::dot(size, halfExtent);
     if (distance < reach * (1.0 + rounding)) {
-      planes.push_back({local, distance + rounding * reach});
+      planes.push_back({local, size, distance + rounding * reach});
     }
   };
   const glm::dvec3& center = instance.worldFromMesh.translation;
@@ -47,9 +49,7 @@ double reachOf(const InstanceState& instance, const glm::dvec3& halfExtent, cons
 
 bool visible(const MeshCluster& cluster, const RecycledVector<LocalPlane>& planes) {
   return std::ranges::all_of(planes, [&](const LocalPlane& plane) {
-    return glm::dot(plane.normal, cluster.center) + glm::dot(glm::abs(plane.normal), cluster.halfExtent) +
-               plane.offset >=
-           0.0;
+    return glm::dot(plane.normal, cluster.center) + glm::dot(plane.reach, cluster.halfExtent) + plane.offset >= 0.0;
   });
 }
 

@@ -1,6 +1,7 @@
 #include "plan/view.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <glm/gtx/component_wise.hpp>
 
@@ -17,12 +18,11 @@ constexpr double shortestEdge = 1e-9;
 // Returns the vector times a power of two, exactly, with its largest coordinate between 1 and 2: products of such
 // vectors cannot underflow.
 glm::dvec3 scaledToOne(const glm::dvec3& v) {
-  const double largest = glm::compMax(glm::abs(v));
-  if (largest == 0.0) {
-    return v;
-  }
-  const int exponent = std::ilogb(largest);
-  return {std::scalbn(v.x, -exponent), std::scalbn(v.y, -exponent), std::scalbn(v.z, -exponent)};
+  constexpr uint64_t exponentBits = 0x7ffull << 52;
+  const uint64_t exponent = std::bit_cast<uint64_t>(glm::compMax(glm::abs(v))) & exponentBits;
+  // The exponents of a number and of its inverse add up to twice that of 1, so 0 and subnormal numbers have no inverse.
+  constexpr uint64_t twice = 2ull * 0x3ff << 52;
+  return exponent > 0 && exponent < twice ? v * std::bit_cast<double>(twice - exponent) : v;
 }
 
 // Returns the polygon cut by the clip plane alone.
@@ -181,29 +181,34 @@ bool sphereVisible(const View& view, const glm::dvec3& center, double radius) {
 }
 
 bool boxVisible(const View& view, const Affine& worldFromBox, const glm::dvec3& halfExtent) {
-  const glm::dvec3 axes(glm::length(worldFromBox.linear[0]), glm::length(worldFromBox.linear[1]),
-                        glm::length(worldFromBox.linear[2]));
-  const double rounding = 1e-5 * glm::dot(axes, halfExtent);  // bound of float rounding on the GPU
-  const auto reach = [&](const glm::dvec3& normal) {
-    return glm::dot(glm::abs(normal * worldFromBox.linear), halfExtent) + rounding;
+  const auto reaches = [&](const glm::dvec3& normal, double distance) {
+    const double reach = glm::dot(glm::abs(normal * worldFromBox.linear), halfExtent);
+    if (distance >= -reach) {
+      return true;
+    }
+    const glm::dvec3 axes(glm::length(worldFromBox.linear[0]), glm::length(worldFromBox.linear[1]),
+                          glm::length(worldFromBox.linear[2]));
+    const double rounding = 1e-5 * glm::dot(axes, halfExtent);  // bound of float rounding on the GPU
+    return distance >= -(reach + rounding);
   };
-  if (view.clip && view.clip->distance(worldFromBox.translation) < -reach(view.clip->normal)) {
-    return false;
-  }
-  return std::ranges::all_of(view.cone, [&](const glm::dvec3& normal) {
-    return glm::dot(normal, worldFromBox.translation - view.eye) >= -reach(normal);
-  });
+  const glm::dvec3 fromEye = worldFromBox.translation - view.eye;
+  return (!view.clip || reaches(view.clip->normal, view.clip->distance(worldFromBox.translation))) &&
+         std::ranges::all_of(view.cone,
+                             [&](const glm::dvec3& normal) { return reaches(normal, glm::dot(normal, fromEye)); });
 }
 
 bool boxVisible(const View& view, const Bounds& box) {
   const glm::dvec3 center = box.center();
   const glm::dvec3 half = box.high - center;
-  const auto reaches = [&](const glm::dvec3& normal, const glm::dvec3& point) {
-    const double rounding = 1e-12 * glm::compAdd(glm::abs(center) + half + glm::abs(point));
-    return glm::dot(normal, center - point) + glm::dot(glm::abs(normal), half) >= -rounding;
+  const glm::dvec3 farthest = glm::abs(center) + half;
+  const auto reaches = [&](const glm::dvec3& normal, const glm::dvec3& fromPoint, double rounding) {
+    return glm::dot(normal, fromPoint) + glm::dot(glm::abs(normal), half) >= -rounding;
   };
-  return (!view.clip || reaches(view.clip->normal, view.clip->point)) &&
-         std::ranges::all_of(view.cone, [&](const glm::dvec3& normal) { return reaches(normal, view.eye); });
+  const auto roundingFrom = [&](const glm::dvec3& point) { return 1e-12 * glm::compAdd(farthest + glm::abs(point)); };
+  const glm::dvec3 fromEye = center - view.eye;
+  const double rounding = roundingFrom(view.eye);
+  return (!view.clip || reaches(view.clip->normal, center - view.clip->point, roundingFrom(view.clip->point))) &&
+         std::ranges::all_of(view.cone, [&](const glm::dvec3& normal) { return reaches(normal, fromEye, rounding); });
 }
 
 RecycledVector<glm::dvec4> toClip(const View& view, const Projection& projection, std::span<const glm::dvec3> polygon) {

@@ -108,7 +108,9 @@ void findShape(Mesh& mesh) {
   }
   std::vector<glm::dvec3> positions(mesh.vertices.size());
   std::ranges::transform(mesh.vertices, positions.begin(), &Vertex::position);
-  mesh.faces = convexFaces(positions, mesh.indices, mostFaces, mostTriangles);
+  for (std::vector<glm::dvec3>& face : convexFaces(positions, mesh.indices, mostFaces, mostTriangles)) {
+    mesh.faces.emplace_back(std::move(face));
+  }
   mesh.convex = convexMesh(positions, mesh.indices, mostTriangles);
   mesh.solid = isSolid(positions, mesh.indices);
 }

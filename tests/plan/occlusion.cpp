@@ -104,9 +104,9 @@ class Occluders : public ::testing::Test {
       for (const int i : pass.instances) {
         const InstanceState& instance = state.instances[i];
         const Mesh& mesh = scene.meshes[instance.mesh];
-        for (const std::vector<glm::dvec3>& face : mesh.faces) {
+        for (const ConvexFace& face : mesh.faces) {
           FlatOccluder occluder{.slack = 1e-4 * instance.radius};
-          for (const glm::dvec3& p : face) {
+          for (const glm::dvec3& p : face.corners) {
             occluder.polygon.push_back(instance.worldFromMesh.point(p));
           }
           occluder.plane = {occluder.polygon[0], glm::normalize(newellVector(occluder.polygon))};

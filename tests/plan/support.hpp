@@ -57,7 +57,9 @@ inline Mesh meshOf(const std::vector<glm::dvec3>& positions, const std::vector<u
     mesh.halfExtent = glm::max(mesh.halfExtent, glm::abs(p));
     mesh.radius = std::max(mesh.radius, glm::length(p));
   }
-  mesh.faces = convexFaces(positions, indices, 32, 4096);
+  for (std::vector<glm::dvec3>& face : convexFaces(positions, indices, 32, 4096)) {
+    mesh.faces.emplace_back(std::move(face));
+  }
   mesh.convex = convexMesh(positions, indices, 4096);
   return mesh;
 }
