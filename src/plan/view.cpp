@@ -107,8 +107,7 @@ void widen(View& view, const Projection& projection, int pixels) {
 glm::dvec2 overscan(const View& view) {
   const glm::dvec2 low(view.rect.x, view.rect.y);
   const glm::dvec2 high = low + glm::dvec2(view.rect.width, view.rect.height) - view.pictureSize;
-  // Rectangles are whole pixels and so may exceed a picture size that is not whole; floor() drops the excess.
-  const glm::dvec2 beyond = glm::max(-low, glm::floor(high));
+  const glm::dvec2 beyond = glm::max(-low, high);
   return 1.0 + 2.0 * glm::max(beyond, 0.0) / view.pictureSize;
 }
 

@@ -402,6 +402,29 @@ TEST(ViewScale, DrawsTheSmallerPictureEnlarged) {
 
 // Blurring reads the image beside the visible region, so that part must be drawn too. In a scene of one color the
 // mirror then has that color.
+// An image whose size is no whole number of texels is drawn up to its last texel, which ripples spread.
+TEST(MirrorPictures, ImagesOfAnySizeReachTheirBorder) {
+  const std::filesystem::path file = writeScene("border", R"(
+[environment] sky = { zenith = [0.4, 0.5, 0.6], horizon = [0.4, 0.5, 0.6], ground = [0.4, 0.5, 0.6] }
+[camera] position = [0, 0, 3], target = [0, 0, 0]
+[settings] "effects.ripple_lookup" = "image"
+[[mirror]] size = [60, 60], reflectance = [1, 1, 1], ripple = { amplitude = 0.02 }
+)");
+  Random random(55);
+  for (int i = 0; i < 24; ++i) {
+    const PictureSize any{20 + static_cast<int>(random.index(200)), 20 + static_cast<int>(random.index(120))};
+    const SettingList settings{{"reflection.scale", std::to_string(random.uniform(0.1, 3.0))},
+                               {"view.scale", std::to_string(random.uniform(0.3, 1.0))},
+                               {"effects.ripple", random.chance(0.5) ? "true" : "false"}};
+    const Image8 picture = draw(headless(file, any, settings));
+    int different = 0;
+    for (size_t k = 0; k < picture.rgba.size(); ++k) {
+      different += std::abs(picture.rgba[k] - picture.rgba[k % 4]) > 1;
+    }
+    EXPECT_EQ(different, 0) << any.width << "x" << any.height << ", scale " << settings[0].second;
+  }
+}
+
 TEST(MirrorPictures, BlurredImagesAreDrawnBesideTheirMirror) {
   const std::filesystem::path file = writeScene("one_color", R"(
 [environment] sky = { zenith = [0.4, 0.5, 0.6], horizon = [0.4, 0.5, 0.6], ground = [0.4, 0.5, 0.6] }
