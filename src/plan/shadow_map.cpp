@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <glm/gtx/component_wise.hpp>
 #include <numeric>
 
 #include "plan/scene_names.hpp"
@@ -151,7 +152,10 @@ class FacePlanner {
         window = {glm::min(window.low, seen.low), glm::max(window.high, seen.high)};
       }
     }
-    if (window.empty()) {
+    // From a light so far away, texels may be larger than casters. Hybrid shadows take rays where there is no face.
+    const bool tooNarrow =
+        settings_.effects.shadowLookup != ShadowLookup::map && glm::compMax(window.high - window.low) < smallestWindow;
+    if (window.empty() || tooNarrow) {
       return face;
     }
     window = onGrid(window);

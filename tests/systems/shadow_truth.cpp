@@ -269,6 +269,26 @@ TEST(HybridShadows, EqualTracedWithFourSamples) {
   EXPECT_LT(wrongShare(200, 30, thinThings, "128", settings), 2e-4);
 }
 
+// A sphere and a block over a floor, and a light that is up to 1e13 m away.
+std::filesystem::path farLight(Random& random, unsigned seed) {
+  const double distance = std::pow(10.0, random.uniform(2.0, 13.0));
+  const glm::dvec3 light = distance * glm::normalize(glm::dvec3(random.uniform(-1, 1), 1.0, random.uniform(-1, 1)));
+  std::ostringstream out;
+  out << "[environment]\nambient = [0.1, 0.1, 0.1]\n"
+      << cameraText({1.5, 2.0, 1.8}, {0, 0, 0})
+      << "[[object]]\nmodel = \"MODELS/block.obj\"\nposition = [0, -0.2, 0]\nscale = [8, 0.2, 8]\n"
+      << "[[object]]\nmodel = \"MODELS/block.obj\"\nposition = [-0.4, 0, 0]\nrotation = " << random.vec(-180, 180)
+      << "\nscale = 0.4\n"
+      << "[[object]]\nmodel = \"MODELS/sphere.obj\"\nposition = [0.4, 0.5, 0.2]\nscale = 0.3\n"
+      << "[[light]]\nposition = " << text(light) << "\nintensity = " << 3.0 * distance * distance
+      << "\nglow = 0\ncasts_shadow = true\n";
+  return writeScene("far_light_" + std::to_string(seed), out.str());
+}
+
+TEST(HybridShadows, EqualTracedUnderFarLights) {
+  EXPECT_LT(wrongShare(200, 30, farLight, "256"), 5e-5);
+}
+
 // Where a map decides, a surface is shaded once a pixel. Shadows that cross a pixel between its corners are missed, and
 // so are those of casters less than a texel before the floor; a texel is as large as these few pixels.
 TEST(HybridShadows, EqualTracedAtEverySample) {
