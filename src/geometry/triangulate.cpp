@@ -10,11 +10,21 @@ namespace speculum {
 
 namespace {
 
+// Triangles of lower quality, 2 area / longest edge^2, are slivers: their normals are inexact.
+constexpr double leastGoodQuality = 1e-5;
+
+double longestSquared(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+  return std::max({glm::length2(b - a), glm::length2(c - b), glm::length2(a - c)});
+}
+
+// Takes no ear that is a sliver, nor one beside whose new edge a vertex lies, as long as there is another. Vertices of
+// a straight edge, which rounding moves off it, would else make slivers.
 class EarClipper {
  public:
   explicit EarClipper(std::span<const glm::dvec3> polygon)
       : points_(polygon),
         normal_(newellVector(polygon)),
+        normalLength_(glm::length(normal_)),
         left_(polygon.size()),
         isLeft_(polygon.size(), true),
         searches_(polygon.size()) {
@@ -47,11 +57,15 @@ class EarClipper {
     return glm::dot(normal_, glm::cross(points_[b] - points_[a], points_[c] - points_[b]));
   }
 
+  // Twice the area, times the length of the normal, of a sliver with this longest edge.
+  double sliverTurn(double squaredEdge) const { return leastQuality_ * squaredEdge * normalLength_; }
+
   bool inside(int p, int a, int b, int c) const {
     if (points_[p] == points_[a] || points_[p] == points_[b] || points_[p] == points_[c]) {
       return false;
     }
-    return turn(a, b, p) >= 0.0 && turn(b, c, p) >= 0.0 && turn(c, a, p) >= 0.0;
+    return turn(a, b, p) >= 0.0 && turn(b, c, p) >= 0.0 &&
+           turn(c, a, p) >= -sliverTurn(glm::length2(points_[a] - points_[c]));
   }
 
   bool isEar(size_t i) {
@@ -59,7 +73,8 @@ class EarClipper {
     const int a = left_[(i + n - 1) % n];
     const int b = left_[i];
     const int c = left_[(i + 1) % n];
-    if (turn(a, b, c) <= 0.0) {
+    const double area = turn(a, b, c);
+    if (area <= 0.0 || area < sliverTurn(longestSquared(points_[a], points_[b], points_[c]))) {
       return false;
     }
     Search& search = searches_[b];
@@ -74,7 +89,8 @@ class EarClipper {
 
   int follower(int vertex) const { return vertex + 1 == static_cast<int>(points_.size()) ? 0 : vertex + 1; }
 
-  // Starts at the second vertex, which makes fans of convex polygons. If there is no ear, takes the second vertex.
+  // Starts at the second vertex, which makes fans of convex polygons. If there is no ear, takes slivers from then on,
+  // and if there is none of these, the second vertex.
   size_t findEar() {
     for (size_t k = 0; k < left_.size(); ++k) {
       const size_t i = (k + 1) % left_.size();
@@ -82,31 +98,42 @@ class EarClipper {
         return i;
       }
     }
-    return 1;
+    if (leastQuality_ == 0.0) {
+      return 1;
+    }
+    leastQuality_ = 0.0;
+    searches_.assign(searches_.size(), {});
+    return findEar();
   }
 
   std::span<const glm::dvec3> points_;
   glm::dvec3 normal_;
+  double normalLength_ = 0.0;
+  double leastQuality_ = leastGoodQuality;
   std::vector<int> left_;
   std::vector<bool> isLeft_;
   std::vector<Search> searches_;
 };
 
-// Says whether the triangles' diagonal lies inside the quad, which need not be convex.
-bool isInside(std::span<const glm::dvec3> quad, const std::array<std::array<int, 3>, 2>& triangles) {
+// Returns the quality of the worse triangle; negative if their diagonal leaves the quad, which need not be convex.
+double qualityOf(std::span<const glm::dvec3> quad, const std::array<std::array<int, 3>, 2>& triangles) {
   const glm::dvec3 normal = newellVector(quad);
-  return std::ranges::all_of(triangles, [&](const std::array<int, 3>& t) {
-    return glm::dot(normal, glm::cross(quad[t[1]] - quad[t[0]], quad[t[2]] - quad[t[0]])) >= 0.0;
-  });
+  const auto quality = [&](const std::array<int, 3>& t) {
+    return glm::dot(normal, glm::cross(quad[t[1]] - quad[t[0]], quad[t[2]] - quad[t[0]])) /
+           longestSquared(quad[t[0]], quad[t[1]], quad[t[2]]);
+  };
+  return std::min(quality(triangles[0]), quality(triangles[1])) / glm::length(normal);
 }
 
+// Cuts along the shorter diagonal, unless only the other one leaves two good triangles.
 std::vector<std::array<int, 3>> triangulateQuad(std::span<const glm::dvec3> quad) {
   constexpr std::array<std::array<int, 3>, 2> fromFirst{{{0, 1, 2}, {0, 2, 3}}};
   constexpr std::array<std::array<int, 3>, 2> fromSecond{{{0, 1, 3}, {1, 2, 3}}};
   const bool firstIsShorter = glm::length2(quad[2] - quad[0]) < glm::length2(quad[3] - quad[1]);
   const auto& shorter = firstIsShorter ? fromFirst : fromSecond;
   const auto& other = firstIsShorter ? fromSecond : fromFirst;
-  const auto& chosen = !isInside(quad, shorter) && isInside(quad, other) ? other : shorter;
+  const double quality = qualityOf(quad, shorter);
+  const auto& chosen = quality < leastGoodQuality && qualityOf(quad, other) > quality ? other : shorter;
   return {chosen.begin(), chosen.end()};
 }
 

@@ -173,8 +173,15 @@ void MeshBuilder::addFace(std::span<const FaceCorner> corners, int line) {
     }
   }
   uvShift_ = uvShiftOf(corners);
+  // Of a face with more corners, a triangle without an area is due to how it was cut.
+  double quality = 0.0;
   for (const auto& [a, b, c] : triangulate(points_)) {
-    addTriangle(corners[a], corners[b], corners[c], line);
+    quality = std::max(quality, addTriangle(corners[a], corners[b], corners[c]));
+  }
+  if (quality == 0.0) {
+    defects_.add(file_, line, faceKey_, "a triangle without an area is left out");
+  } else if (quality < 1e-5) {
+    defects_.add(file_, line, faceKey_, "a triangle is a sliver, its normal is inexact");
   }
 }
 
@@ -225,14 +232,11 @@ glm::dvec2 MeshBuilder::uvOf(const FaceCorner& corner) const {
   return isFinite(glm::dvec3(uv, 0.0)) ? uv : glm::dvec2(0.0);
 }
 
-void MeshBuilder::addTriangle(const FaceCorner& a, const FaceCorner& b, const FaceCorner& c, int line) {
+// Returns the triangle's quality; 0 if it has no area and is left out.
+double MeshBuilder::addTriangle(const FaceCorner& a, const FaceCorner& b, const FaceCorner& c) {
   const TriangleShape shape = shapeOf(positions_[a.position], positions_[b.position], positions_[c.position]);
   if (!(shape.quality >= 1e-10)) {
-    defects_.add(file_, line, faceKey_, "a triangle without an area is left out");
-    return;
-  }
-  if (shape.quality < 1e-5) {
-    defects_.add(file_, line, faceKey_, "a triangle is a sliver, its normal is inexact");
+    return 0.0;
   }
   if (indices_ == nullptr) {
     const auto [found, isNew] = materialIndices_.try_emplace(material_);
@@ -251,6 +255,7 @@ void MeshBuilder::addTriangle(const FaceCorner& a, const FaceCorner& b, const Fa
     }
     indices_->push_back(vertexOf(corners[i], shape.normal));
   }
+  return shape.quality;
 }
 
 bool MeshBuilder::hasNormal(const FaceCorner& corner) const {

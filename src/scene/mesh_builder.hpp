@@ -85,7 +85,7 @@ class MeshBuilder {
   glm::dvec2 uvOf(const FaceCorner& corner) const;
   glm::dvec2 uvShiftOf(std::span<const FaceCorner> corners) const;
   void transformTexcoords(const PartMaterial& part, std::span<uint32_t> indices, Mesh& mesh);
-  void addTriangle(const FaceCorner& a, const FaceCorner& b, const FaceCorner& c, int line);
+  double addTriangle(const FaceCorner& a, const FaceCorner& b, const FaceCorner& c);
   uint32_t vertexOf(const FaceCorner& corner, const glm::dvec3& triangleNormal);
   uint32_t* flatVertexOf(const FaceCorner& corner);
   bool hasNormal(const FaceCorner& corner) const;

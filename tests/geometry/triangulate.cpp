@@ -72,7 +72,48 @@ TEST(Triangulate, QuadsThatAreNotConvexAreTiled) {
   }
 }
 
-// Clips ears without keeping anything from one ear to the next.
+// Quality of the worst triangle, 2 area / longest edge^2.
+double worstQuality(const std::vector<glm::dvec3>& polygon) {
+  double worst = 1.0;
+  for (const auto& [a, b, c] : triangulate(polygon)) {
+    const std::array<glm::dvec3, 3> t{polygon[a], polygon[b], polygon[c]};
+    const double longest = std::max({glm::distance(t[0], t[1]), glm::distance(t[1], t[2]), glm::distance(t[2], t[0])});
+    worst = std::min(worst, 2.0 * polygonArea(t) / (longest * longest));
+  }
+  return worst;
+}
+
+// Corners of random triangles and quads with more vertices on their edges, rounded to six digits, from each vertex on.
+TEST(Triangulate, VerticesOnStraightEdgesMakeNoSlivers) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> part(0.2, 0.8);
+  for (int i = 0; i < 300; ++i) {
+    const std::vector<glm::dvec3> corners =
+        i % 2 == 0 ? std::vector<glm::dvec3>{{0, 0, 0}, {1, part(random), 0}, {part(random) - 0.5, 1, part(random)}}
+                   : std::vector<glm::dvec3>{{0, 0, 0}, {1, 0, 0.5}, {1, part(random) + 0.5, 0.5}, {0, 1, 0}};
+    std::vector<glm::dvec3> polygon;
+    for (size_t k = 0; k < corners.size(); ++k) {
+      polygon.push_back(corners[k]);
+      const glm::dvec3 next = corners[(k + 1) % corners.size()];
+      const auto more = random() % 3;
+      for (unsigned j = 1; j <= more; ++j) {
+        polygon.push_back(glm::mix(corners[k], next, j / (more + 1.0)));
+      }
+    }
+    if (polygon.size() == corners.size()) {
+      polygon.insert(polygon.begin() + 1, glm::mix(corners[0], corners[1], 0.5));
+    }
+    std::rotate(polygon.begin(), polygon.begin() + i % static_cast<int>(polygon.size()), polygon.end());
+    for (const double digits : {1e6, 1e15}) {
+      std::vector<glm::dvec3> rounded;
+      std::ranges::transform(polygon, std::back_inserter(rounded),
+                             [&](const glm::dvec3& p) { return glm::round(p * digits) / digits; });
+      EXPECT_GT(worstQuality(rounded), 1e-3) << i;
+    }
+  }
+}
+
+// Clips ears without keeping anything from one ear to the next. Slivers count only once there is no other ear.
 std::vector<std::array<int, 3>> earsByTheRule(const std::vector<glm::dvec3>& points) {
   const glm::dvec3 normal = newellVector(points);
   const auto turn = [&](int a, int b, int c) {
@@ -80,20 +121,28 @@ std::vector<std::array<int, 3>> earsByTheRule(const std::vector<glm::dvec3>& poi
   };
   std::vector<int> left(points.size());
   std::iota(left.begin(), left.end(), 0);
+  const auto squared = [&](int a, int b) { return glm::dot(points[b] - points[a], points[b] - points[a]); };
+  double sliver = 1e-5 * glm::length(normal);
   const auto isEar = [&](int a, int b, int c) {
-    return turn(a, b, c) > 0.0 && std::ranges::none_of(left, [&](int p) {
+    const double least = sliver * std::max({squared(a, b), squared(b, c), squared(c, a)});
+    return turn(a, b, c) > 0.0 && turn(a, b, c) >= least && std::ranges::none_of(left, [&](int p) {
              return points[p] != points[a] && points[p] != points[b] && points[p] != points[c] &&
-                    turn(a, b, p) >= 0.0 && turn(b, c, p) >= 0.0 && turn(c, a, p) >= 0.0;
+                    turn(a, b, p) >= 0.0 && turn(b, c, p) >= 0.0 && turn(c, a, p) >= -sliver * squared(c, a);
            });
   };
   std::vector<std::array<int, 3>> triangles;
   while (left.size() >= 3) {
     const size_t n = left.size();
-    size_t ear = 1;
+    std::optional<size_t> found;
     for (size_t k = n; k-- > 0;) {
       const size_t i = (k + 1) % n;
-      ear = isEar(left[(i + n - 1) % n], left[i], left[(i + 1) % n]) ? i : ear;
+      found = isEar(left[(i + n - 1) % n], left[i], left[(i + 1) % n]) ? i : found;
     }
+    if (!found && sliver > 0.0) {
+      sliver = 0.0;
+      continue;
+    }
+    const size_t ear = found.value_or(1);
     triangles.push_back({left[(ear + n - 1) % n], left[ear], left[(ear + 1) % n]});
     left.erase(left.begin() + static_cast<std::ptrdiff_t>(ear));
   }

@@ -253,6 +253,14 @@ TEST_F(ObjLoader, DegenerateTrianglesAreDropped) {
   EXPECT_EQ(warnings(), "warning: m.obj:7: f: a triangle without an area is left out (and 2 more)\n");
 }
 
+// The second face has a vertex in the middle of an edge, the third repeats one: their corners are all drawn.
+TEST_F(ObjLoader, CutsOfFacesAreNoDefects) {
+  const Mesh mesh =
+      load("v 0 0 0\nv 2 0 0\nv 0 2 0\nv 1 1 0\nv 1 0 0\nv 3 0 0\nf 1 2 3\nf 1 2 4 3\nf 1 1 2 3\nf 1 5 2 6\n");
+  EXPECT_EQ(mesh.indices.size(), 3u + 6u + 3u);
+  EXPECT_EQ(warnings(), "warning: m.obj:10: f: a triangle without an area is left out\n");
+}
+
 TEST_F(ObjLoader, RepeatedTexturesShareVertices) {
   const Mesh mesh = load(
       "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nvn 0 0 1\nvt 20 0\nvt 21 0\nvt 20 1\nvt 21 1\n"
