@@ -64,6 +64,18 @@ std::pair<size_t, bool> matchElement(std::string_view glob, char byte) {
 
 }  // namespace
 
+std::string utf8(std::string_view text) {
+  std::string result;
+  result.reserve(text.size());
+  for (size_t i = 0, bytes = 0; i < text.size(); i += std::max<size_t>(bytes, 1)) {
+    char32_t code = 0;
+    std::tie(code, bytes) = firstCharacter(text.substr(i));
+    result += bytes > 0 ? std::string(text.substr(i, bytes))
+                        : std::string{static_cast<char>(0xc0u | code >> 6), static_cast<char>(0x80u | (code & 0x3fu))};
+  }
+  return result;
+}
+
 bool matchesGlob(std::string_view glob, std::string_view text) {
   size_t star = std::string_view::npos;  // after the last * so far
   size_t tried = 0;                      // first byte of the text that this * does not stand for

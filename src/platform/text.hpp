@@ -19,6 +19,10 @@ inline bool continuesCharacter(char byte) {
   return (static_cast<unsigned char>(byte) & 0xc0u) == 0x80u;
 }
 
+// Returns the text in UTF-8: a byte that does not belong to a character of it becomes the character that it is in
+// Latin-1, which old programs write.
+std::string utf8(std::string_view text);
+
 // Says whether the whole text matches the pattern: * stands for any bytes, ? for one, [a-z] and [!a-z] for one of a
 // set, and a backslash takes the special meaning from the next byte. Names of classes in a set, as [[:digit:]], are not
 // known.

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "platform/files.hpp"
+#include "platform/text.hpp"
 #include "scene/gltf_repair.hpp"
 #include "scene/input_error.hpp"
 #include "scene/text_lines.hpp"
@@ -75,7 +76,8 @@ const json& member(const json& object, const char* key) {
   return found == object.end() ? none : *found;
 }
 
-json parsedJson(const fs::path& file, std::string_view text) {
+// Text that is not UTF-8 counts as Latin-1, with a defect if `defects` is given.
+json parsedJson(const fs::path& file, std::string_view text, ModelDefects* defects) {
   // tinygltf and the writer of JSON call themselves for each level.
   constexpr int mostLevels = 64;
   constexpr size_t mostShown = 200;
@@ -88,6 +90,12 @@ json parsedJson(const fs::path& file, std::string_view text) {
   try {
     return json::parse(text.begin(), text.end(), checkDepth);
   } catch (const json::parse_error& error) {
+    if (const std::string whole = utf8(text); whole != text) {
+      if (defects != nullptr) {
+        defects->add(file, 1, "json", "has bytes that are not UTF-8, they count as Latin-1");
+      }
+      return parsedJson(file, whole, nullptr);
+    }
     const auto line = std::count(text.begin(), text.begin() + std::min(error.byte, text.size()), '\n');
     if (const auto foreign = trimmed(text).starts_with("{") ? std::nullopt : foreignFile(text)) {
       throwInputError(file, 1, "file", foreign->wrong, foreign->right);
@@ -112,9 +120,13 @@ void checkVersion(const fs::path& file, const json& root) {
 // Refuses a file that requires an extension that is not read, except those of materials and of formats of textures:
 // without these the model can still be drawn.
 void checkExtensions(const fs::path& file, const json& root, ModelDefects& defects) {
-  constexpr std::array<std::string_view, 6> known{
-      "KHR_texture_transform", "KHR_mesh_quantization",           "KHR_lights_punctual",
-      specularGlossiness,      "KHR_materials_emissive_strength", unlit};
+  constexpr std::array<std::string_view, 7> known{"KHR_texture_transform",
+                                                  "KHR_mesh_quantization",
+                                                  "KHR_lights_punctual",
+                                                  "KHR_node_visibility",
+                                                  specularGlossiness,
+                                                  "KHR_materials_emissive_strength",
+                                                  unlit};
   constexpr std::array<std::string_view, 4> textures{"KHR_texture_basisu", "EXT_texture_webp", "EXT_texture_avif",
                                                      "MSFT_texture_dds"};
   std::vector<std::string> unknown;
@@ -259,7 +271,7 @@ GltfFile::GltfFile(const fs::path& file, ModelDefects& defects) : file_(file), d
 }
 
 void GltfFile::readJson(std::string_view text, std::vector<Source>& buffers) {
-  json root = parsedJson(file_, text);
+  json root = parsedJson(file_, text, &defects_);
   checkVersion(file_, root);
   checkExtensions(file_, root, defects_);
   useMaterialExtensions(file_, root, defects_);
@@ -432,7 +444,7 @@ void addFilesOfGltf(const fs::path& file, std::set<fs::path>& files) {
   files.insert(file);
   try {
     const std::string text = readTextIfAny(file);
-    const json root = parsedJson(file, partsOf(file, text).json);
+    const json root = parsedJson(file, partsOf(file, text).json, nullptr);
     ModelFiles search(file);
     for (const char* key : {"buffers", "images"}) {
       for (const json& entry : member(root, key)) {

@@ -122,6 +122,13 @@ class GltfReader {
       }
       seen[placed.index] = true;
       const tinygltf::Node& node = nodes[placed.index];
+      if (const tinygltf::Value& visible = extensionMember(node.extensions, "KHR_node_visibility", "visible");
+          visible.IsBool() && !visible.Get<bool>()) {
+        continue;
+      }
+      if (node.mesh != -1 && node.extensions.contains("EXT_mesh_gpu_instancing")) {
+        add("nodes", "node {} has instances by EXT_mesh_gpu_instancing, it is drawn once", placed.index);
+      }
       const glm::dmat4 sceneFromNode = placed.transform * transformOf(node);
       for (auto child = node.children.rbegin(); child != node.children.rend(); ++child) {
         open.push_back({*child, sceneFromNode});
@@ -210,6 +217,12 @@ class GltfReader {
     const auto position = primitive.attributes.find("POSITION");
     if (primitive.mode < 0 || primitive.mode > TINYGLTF_MODE_TRIANGLE_FAN || position == primitive.attributes.end()) {
       add("meshes", "mesh {} has a primitive of an unknown mode or without POSITION, it is left out", mesh);
+      return;
+    }
+    const std::vector<tinygltf::Accessor>& accessors = content_.model().accessors;
+    if (primitive.extensions.contains("KHR_draco_mesh_compression") && isIndex(position->second, accessors.size()) &&
+        accessors[position->second].bufferView == -1) {
+      add("meshes", "mesh {} is compressed by KHR_draco_mesh_compression, it is left out", mesh);
       return;
     }
     if (!primitive.targets.empty()) {
@@ -370,6 +383,9 @@ class GltfReader {
       return;
     }
     const tinygltf::Light& from = content_.model().lights[placed.index];
+    if (from.type == noLight) {
+      return;
+    }
     PointLight light{.name = from.name,
                      .position = glm::dvec3(transform[3]),
                      .color = colorOf(from.color, radianceRange),

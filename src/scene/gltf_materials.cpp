@@ -30,7 +30,12 @@ auto GltfMaterials::readPicture(int texture, const Read& read) -> std::optional<
     }
     return std::nullopt;
   }
-  const std::optional<GltfFile::Picture> picture = content_.picture(content_.model().textures[texture].source);
+  const tinygltf::Texture& from = content_.model().textures[texture];
+  if (from.source == -1 && !from.extensions.empty()) {
+    add("a texture has no picture but that of {}, it is left out", from.extensions.begin()->first);
+    return std::nullopt;
+  }
+  const std::optional<GltfFile::Picture> picture = content_.picture(from.source);
   if (!picture) {
     return std::nullopt;
   }

@@ -78,15 +78,23 @@ void leaveOutDamaged(const fs::path& file, json& root, ModelDefects& defects) {
   const auto faultOfPart = [&](const char* key, const json& part) {
     return faultOf(json::object({{"asset", root["asset"]}, {key, part}}), read);
   };
-  for (const auto& [key, empty] : usual) {
-    int index = 0;
-    for (json& element : elementsOf(root, key)) {
-      if (const std::string fault = faultOfPart(key, json::array({element})); !fault.empty()) {
-        defects.add(file, 1, key, "{} cannot be read, what uses it is left out", fmt::format("{} ({})", index, fault));
-        element = empty;
+  // Reads each element as the only one of its kind.
+  const auto repair = [&](const char* kind, std::span<json> elements, const json& empty, const auto& faultOfOne) {
+    for (size_t i = 0; i < elements.size(); ++i) {
+      if (const std::string fault = faultOfOne(json::array({elements[i]})); !fault.empty()) {
+        defects.add(file, 1, kind, "{} cannot be read, what uses it is left out", fmt::format("{} ({})", i, fault));
+        elements[i] = empty;
       }
-      ++index;
     }
+  };
+  for (const auto& [key, empty] : usual) {
+    repair(key, elementsOf(root, key), empty, [&, name = key](const json& one) { return faultOfPart(name, one); });
+  }
+  const json::json_pointer lights("/extensions/KHR_lights_punctual/lights");
+  if (root.contains(lights)) {
+    repair("lights", elementsOf(root[lights.parent_pointer()], "lights"), {{"type", noLight}}, [&](const json& one) {
+      return faultOfPart("extensions", {{"KHR_lights_punctual", {{"lights", one}}}});
+    });
   }
   if (const std::string fault = faultOfPart("extensions", root.value("extensions", json())); !fault.empty()) {
     defects.add(file, 1, "extensions", "cannot be read ({}), lights are left out", fault);

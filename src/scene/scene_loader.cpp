@@ -1,6 +1,6 @@
 #include "scene/scene_loader.hpp"
 
-#include <spdlog/fmt/fmt.h>
+#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <array>
@@ -104,7 +104,7 @@ void addMaps(const TableReader& reader, Scene& scene) {
     try {
       mirror.map = linearTextureIndex(file, scene.textures);
     } catch (const FileError& error) {
-      table.fail("reflectance_map", error.what(), "name a PNG or JPEG file, relative to the scene file");
+      table.fail("reflectance_map", fmt::format("{}: {}", file.string(), error.problem()), error.remedy());
     }
   }
 }
@@ -234,6 +234,23 @@ std::vector<PointLight> lightsOf(const Model& model, const glm::dvec3& center) {
                .radius = 0.05 * r}};
   }
   return lights;
+}
+
+// Says which exposure suits lights that reach the model with far more than the usual irradiance, of about 4. glTF files
+// give intensities in candela, so that every lamp in real units is such a light.
+void logExposure(const fs::path& file, const Model& model) {
+  constexpr double usual = 4.0;
+  constexpr double most = 100.0;
+  double irradiance = 0.0;
+  for (const PointLight& light : model.lights) {
+    const double distance = std::max(glm::distance(light.position, model.mesh.center), light.radius);
+    irradiance += glm::compMax(light.color) * light.intensity / (distance * distance);
+  }
+  if (irradiance > most) {
+    spdlog::info(
+        oneLine(fmt::format("{}: its lights, as in real units, are very bright: --set view.exposure={:.2g} suits them",
+                            file.string(), usual / irradiance)));
+  }
 }
 
 // Returns the text of a scene whose lengths scale with the radius of the model's bounding sphere, with the model's
@@ -377,6 +394,7 @@ Scene modelScene(const fs::path& file, const LoadProgress& progress) {
     throwInputError(file, 1, "model", fmt::format("the model's bounding sphere has a radius of {} m", radius),
                     "1e-9 .. 1e12 is needed, or a scene that scales the model");
   }
+  logExposure(file, model);
   Scene scene = parseScene(file, sceneText(file, model));
   scene.objects[0].mesh = 0;
   scene.meshes.push_back(std::move(mesh));

@@ -521,6 +521,8 @@ TEST_F(GltfTextures, MissingOrUnreadablePicturesAreLeftOut) {
   MadeGltf made = this->made({{"uri", "none.png"}});
   made.root["textures"][0] = json::object();
   EXPECT_TRUE(contains(meshOf(made).defects.at(0), "there is no image -1"));
+  made.root["textures"][0]["extensions"]["EXT_texture_webp"] = {{"source", 0}};
+  EXPECT_TRUE(contains(meshOf(made).defects.at(0), "has no picture but that of EXT_texture_webp, it is left out"));
   textureOf(made)["index"] = 5;
   EXPECT_TRUE(contains(meshOf(made).defects.at(0), "there is no texture 5"));
 }
@@ -619,6 +621,62 @@ TEST_F(GltfLoader, CameraAndLightsBecomeThoseOfTheScene) {
   // As an object of a scene, a model brings neither.
   const Scene other = loadScene(folder_.write("other.toml", usualCamera + "[[object]]\nmodel = \"m.glb\"\n"));
   EXPECT_TRUE(other.lights.empty());
+}
+
+TEST_F(GltfLoader, EachLightIsRepairedAlone) {
+  MadeGltf made;
+  made.add("nodes", {{"mesh", made.addTriangle()}});
+  const std::vector<json> lights{{{"type", "point"}}, {{"type", "spot"}}, {{"intensity", 5}}, 7, {{"type", "point"}}};
+  for (size_t i = 0; i < lights.size(); ++i) {
+    made.root["extensions"]["KHR_lights_punctual"]["lights"].push_back(lights[i]);
+    made.add("nodes", {{"translation", {i, 0, 2}}, {"extensions", {{"KHR_lights_punctual", {{"light", i}}}}}});
+  }
+  const Scene scene = loadScene(folder_.write("m.glb", made.binary()));
+  ASSERT_EQ(scene.lights.size(), 2u);
+  EXPECT_NEAR(scene.lights[1].position.x - scene.lights[0].position.x, 4.0, 1e-9);
+  EXPECT_TRUE(contains(warnings(), "lights: 1 (")) << warnings();
+  EXPECT_TRUE(contains(warnings(), "cannot be read, what uses it is left out (and 2 more)"));
+}
+
+TEST_F(GltfLoader, LightsInRealUnitsNameTheirExposure) {
+  MadeGltf made;
+  made.add("nodes", {{"mesh", made.addTriangle()}});
+  made.add("nodes", {{"translation", {0.5, 0.5, 5}}, {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+  json& light = made.root["extensions"]["KHR_lights_punctual"]["lights"][0];
+  for (const auto& [candela, exposure] :
+       {std::pair(50.0, ""), std::pair(50'000.0, "--set view.exposure=0.002 suits")}) {
+    light = {{"type", "point"}, {"intensity", candela}};
+    loadScene(folder_.write("m.glb", made.binary()));
+    EXPECT_EQ(contains(log_.text(), "view.exposure"), exposure[0] != 0);
+    EXPECT_TRUE(contains(log_.text(), exposure)) << log_.text();
+  }
+}
+
+TEST_F(GltfLoader, HiddenNodesAreNotDrawn) {
+  MadeGltf made;
+  const int mesh = made.addTriangle();
+  made.add("nodes", {{"children", {1, 2}}});
+  made.add("nodes", {{"mesh", mesh}, {"children", {3}}});
+  made.add("nodes", {{"mesh", mesh}});
+  made.add("nodes", {{"mesh", mesh}});
+  made.add("scenes", {{"nodes", {0}}});
+  made.root["extensionsRequired"] = {"KHR_node_visibility"};
+  for (const auto& [visible, triangles] :
+       {std::pair(json(true), 3), std::pair(json(false), 1), std::pair(json(0), 3)}) {
+    made.root["nodes"][1]["extensions"]["KHR_node_visibility"]["visible"] = visible;
+    EXPECT_EQ(meshOf(made).indices.size(), 3u * triangles) << visible;
+  }
+  EXPECT_EQ(warnings(), "");
+}
+
+TEST_F(GltfLoader, TextThatIsNotUtf8CountsAsLatin1) {
+  MadeGltf made;
+  made.add("nodes", {{"mesh", made.addTriangle()}, {"name", "K@rper"}});
+  made.add("materials", {{"name", "h\u00fcgel"}});
+  std::string text = made.text();
+  text[text.find('@')] = '\xf6';
+  EXPECT_EQ(load(text).mesh.indices.size(), 3u);
+  EXPECT_EQ(warnings(), "warning: m.gltf:1: json: has bytes that are not UTF-8, they count as Latin-1\n");
 }
 
 TEST_F(GltfLoader, CamerasWithoutAUsablePlaceAreLeftOut) {
@@ -765,7 +823,19 @@ INSTANTIATE_TEST_SUITE_P(
                  r["extensions"]["KHR_lights_punctual"]["lights"] = {1};
                  r["scenes"][0]["nodes"] = {1};
                },
-               "lights are left out"},
+               "lights: 0 ("},
+        Damage{"CompressedButNotRequired",
+               [](json& r) {
+                 r["meshes"][1]["primitives"][0]["extensions"]["KHR_draco_mesh_compression"] = {{"bufferView", 0}};
+                 r["accessors"][1].erase("bufferView");
+               },
+               "mesh 1 is compressed by KHR_draco_mesh_compression, it is left out"},
+        Damage{"InstancesOfANode",
+               [](json& r) {
+                 r["nodes"][1]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = json::object();
+                 r["scenes"][0]["nodes"] = {1};
+               },
+               "nodes: node 1 has instances by EXT_mesh_gpu_instancing, it is drawn once"},
         Damage{"Version", [](json& r) { r["asset"]["version"] = "1.0"; }, "asset.version: is '1.0'", true},
         Damage{"NoAsset", [](json& r) { r.erase("asset"); }, "asset.version: is missing", true},
         Damage{"RequiredExtensions",
