@@ -20,12 +20,12 @@ namespace {
 // Bounds of the work on a model and of what it makes: flat triangles of a material, materials that make mirrors,
 // planes, and convex pieces of a material.
 constexpr size_t mostFlatTriangles = 1 << 14;
-constexpr size_t mostMaterials = 32;
+constexpr size_t mostMaterials = 256;
 constexpr size_t mostPlanes = 32;
 constexpr size_t mostPieces = 256;
 constexpr size_t mostCorners = 1000;  // of a piece or an outline, as of a mirror in a file
-// Bounds of what each frame places: copies of an object that materials cut, and planar mirrors of a scene.
-constexpr int mostCopies = 10'000;
+// Bounds of what each frame places: parts of all copies of an object that materials cut, and planar mirrors of a scene.
+constexpr size_t mostCopiedParts = 1 << 17;
 constexpr size_t mostPlanar = 1000;
 
 // Metres, of objects whose parts become mirrors, and the distance from the origin in radii of the smallest extent:
@@ -37,17 +37,26 @@ constexpr double farthestAway = 1e8;
 // Distance from a plane, in radii of the model, within which faces count as flat and in one plane.
 constexpr double flatness = 1e-5;
 
+bool saysMirror(const MeshPart& part) {
+  return part.material.mirror.has_value();
+}
+
 struct TrianglePart {
   Material material;
   std::vector<uint32_t> indices;  // of the vertices of the mesh that is cut
 };
 
-// Says whether the triangle is shaded as a flat one.
+// Says whether the triangle is shaded as a flat one: with one normal, nearly its own. Files round normals to 8 bits or
+// two decimals, which turns them by up to half a degree, but all that are equal by the same angle.
 bool isFlat(const Mesh& mesh, const uint32_t* corners) {
+  constexpr double one = 1.0 - 4e-6;       // cosines: of 0.16 degrees
+  constexpr double nearly = 1.0 - 1.5e-4;  // of one degree
   const std::array<Vertex, 3> v{mesh.vertices[corners[0]], mesh.vertices[corners[1]], mesh.vertices[corners[2]]};
   const glm::dvec3 normal = glm::normalize(glm::cross(v[1].position - v[0].position, v[2].position - v[0].position));
-  return std::ranges::all_of(cornerNormals(mesh, corners),
-                             [&](const glm::dvec3& own) { return std::abs(glm::dot(own, normal)) > 1.0 - 1e-6; });
+  const std::array<glm::dvec3, 3> own = cornerNormals(mesh, corners);
+  return std::ranges::all_of(own, [&](const glm::dvec3& n) {
+    return std::abs(glm::dot(n, normal)) > nearly && std::abs(glm::dot(n, own[0])) > one;
+  });
 }
 
 bool liesIn(const Plane& plane, double tolerance, std::span<const glm::dvec3> polygon) {
@@ -70,6 +79,7 @@ bool contains(std::span<const glm::dvec3> polygon, const glm::dvec3& normal, con
 struct FlatGroup {
   Plane plane;
   FlatMirror mirror;
+  double area = 0.0;  // of the pieces
 };
 
 void findOutline(FlatGroup& group) {
@@ -78,9 +88,8 @@ void findOutline(FlatGroup& group) {
   const glm::dvec3 x = glm::normalize(glm::cross(helper, normal));
   const glm::dvec3 y = glm::cross(normal, x);
   std::vector<glm::dvec2> points;
-  double area = 0.0;
   for (const std::vector<glm::dvec3>& piece : group.mirror.pieces) {
-    area += polygonArea(piece);
+    group.area += polygonArea(piece);
     for (const glm::dvec3& p : piece) {
       points.emplace_back(glm::dot(p - group.plane.point, x), glm::dot(p - group.plane.point, y));
     }
@@ -89,20 +98,18 @@ void findOutline(FlatGroup& group) {
     group.mirror.outline.push_back(group.plane.point + p.x * x + p.y * y);
   }
   const double hull = polygonArea(group.mirror.outline);
-  group.mirror.convex = group.mirror.pieces.size() == 1 || std::abs(area - hull) <= 1e-6 * hull;
+  group.mirror.convex = group.mirror.pieces.size() == 1 || std::abs(group.area - hull) <= 1e-6 * hull;
 }
 
-// Joins flat triangles of a material to planar mirrors, the largest first. Leaves small ones out.
-std::vector<FlatGroup> flatGroups(const Mesh& mesh, const TrianglePart& flat, size_t most) {
-  std::vector<glm::dvec3> positions(mesh.vertices.size());
-  std::ranges::transform(mesh.vertices, positions.begin(), &Vertex::position);
+// Joins flat triangles of a material to planar mirrors. Leaves small ones out.
+std::vector<FlatGroup> flatGroups(const Mesh& mesh, std::span<const glm::dvec3> positions, const TrianglePart& flat) {
   const double tolerance = flatness * mesh.radius;
   const double leastArea = 1e-4 * mesh.radius * mesh.radius;
   std::vector<FlatGroup> groups;
   for (std::vector<glm::dvec3>& face : convexFaces(positions, flat.indices, mostPieces, mostFlatTriangles)) {
     auto group = std::ranges::find_if(groups, [&](const FlatGroup& g) { return liesIn(g.plane, tolerance, face); });
     if (group == groups.end()) {
-      if (groups.size() == most || polygonArea(face) < leastArea) {
+      if (polygonArea(face) < leastArea) {
         continue;
       }
       groups.push_back(
@@ -189,29 +196,60 @@ struct Cut {
   std::vector<Mesh> flatMeshes;
 };
 
-// Cuts the triangles of a material that says mirror into planar and curved mirrors.
-void cutMirror(const Mesh& mesh, const MeshPart& part, Cut& cut) {
-  TrianglePart flat{part.material, {}};
-  TrianglePart curved{part.material, {}};
+// Triangles of a material that says mirror.
+struct MirrorTriangles {
+  TrianglePart flat;
+  TrianglePart curved;
+  std::vector<FlatGroup> groups;  // planes of `flat`
+};
+
+MirrorTriangles mirrorTriangles(const Mesh& mesh, std::span<const glm::dvec3> positions, const MeshPart& part) {
+  MirrorTriangles triangles{{part.material, {}}, {part.material, {}}, {}};
   const auto from = mesh.indices.begin() + part.firstIndex;
   for (auto corner = from; corner != from + part.indexCount; corner += 3) {
-    std::vector<uint32_t>& list = isFlat(mesh, &*corner) ? flat.indices : curved.indices;
+    std::vector<uint32_t>& list = (isFlat(mesh, &*corner) ? triangles.flat : triangles.curved).indices;
     list.insert(list.end(), corner, corner + 3);
   }
-  const std::vector<FlatGroup> groups = flatGroups(mesh, flat, mostPlanes - std::min(mostPlanes, cut.flat.size()));
-  TrianglePart planar{part.material, {}};
-  for (size_t i = 0; i < flat.indices.size(); i += 3) {
+  triangles.groups = flatGroups(mesh, positions, triangles.flat);
+  return triangles;
+}
+
+// Keeps the largest planes of all materials.
+void keepLargest(std::vector<MirrorTriangles>& mirrors) {
+  std::vector<double> areas;
+  for (const MirrorTriangles& mirror : mirrors) {
+    std::ranges::transform(mirror.groups, std::back_inserter(areas), &FlatGroup::area);
+  }
+  if (areas.size() <= mostPlanes) {
+    return;
+  }
+  std::ranges::sort(areas, std::greater());
+  const double least = areas[mostPlanes - 1];
+  auto ties = static_cast<std::ptrdiff_t>(mostPlanes) -  // planes of this area that stay: the first
+              (std::ranges::find(areas, least) - areas.begin());
+  for (MirrorTriangles& mirror : mirrors) {
+    std::erase_if(mirror.groups,
+                  [&](const FlatGroup& group) { return group.area < least || (group.area == least && --ties < 0); });
+  }
+}
+
+// Cuts the triangles into planar and curved mirrors.
+void cutMirror(const Mesh& mesh, MirrorTriangles& mirror, Cut& cut) {
+  std::vector<uint32_t>& curved = mirror.curved.indices;
+  TrianglePart planar{mirror.flat.material, {}};
+  const std::vector<uint32_t>& flat = mirror.flat.indices;
+  for (size_t i = 0; i < flat.size(); i += 3) {
     std::array<glm::dvec3, 3> triangle;
-    std::transform(&flat.indices[i], &flat.indices[i] + 3, triangle.begin(),
+    std::transform(&flat[i], &flat[i] + 3, triangle.begin(),
                    [&](uint32_t index) { return mesh.vertices[index].position; });
     const bool covered = std::ranges::any_of(
-        groups, [&](const FlatGroup& group) { return covers(group, flatness * mesh.radius, triangle); });
-    std::vector<uint32_t>& list = covered ? planar.indices : curved.indices;
-    list.insert(list.end(), &flat.indices[i], &flat.indices[i] + 3);
+        mirror.groups, [&](const FlatGroup& group) { return covers(group, flatness * mesh.radius, triangle); });
+    std::vector<uint32_t>& list = covered ? planar.indices : curved;
+    list.insert(list.end(), &flat[i], &flat[i] + 3);
   }
-  std::ranges::transform(groups, std::back_inserter(cut.flat), &FlatGroup::mirror);
-  if (!curved.indices.empty()) {
-    cut.curved.push_back(curvedPart(mesh, curved));
+  std::ranges::transform(mirror.groups, std::back_inserter(cut.flat), &FlatGroup::mirror);
+  if (!curved.empty()) {
+    cut.curved.push_back(curvedPart(mesh, mirror.curved));
   }
   if (!planar.indices.empty()) {
     cut.flatMeshes.push_back(curvedPart(mesh, planar));
@@ -221,18 +259,22 @@ void cutMirror(const Mesh& mesh, const MeshPart& part, Cut& cut) {
 Cut cutMesh(const Mesh& mesh) {
   Cut cut;
   std::vector<TrianglePart> rest;
-  size_t materials = 0;
+  std::vector<MirrorTriangles> mirrors;
+  std::vector<glm::dvec3> positions(mesh.vertices.size());
+  std::ranges::transform(mesh.vertices, positions.begin(), &Vertex::position);
   const uint32_t usual = static_cast<uint32_t>(mesh.indices.size()) - 3 * mesh.repeats;
   uint32_t repeats = 0;
   for (const MeshPart& part : mesh.parts) {
-    if (part.material.mirror && ++materials <= mostMaterials) {
-      cutMirror(mesh, part, cut);
+    if (saysMirror(part) && mirrors.size() < mostMaterials) {
+      mirrors.push_back(mirrorTriangles(mesh, positions, part));
       continue;
     }
     const auto first = mesh.indices.begin() + part.firstIndex;
     rest.push_back({part.material, {first, first + part.indexCount}});
     repeats += part.firstIndex >= usual ? part.indexCount / 3 : 0;
   }
+  keepLargest(mirrors);
+  std::ranges::for_each(mirrors, [&](MirrorTriangles& mirror) { cutMirror(mesh, mirror, cut); });
   cut.rest = partOf(mesh, rest);
   cut.rest.repeats = repeats;
   finishShape(cut.rest);
@@ -244,6 +286,27 @@ ObjectMirror mirrorOf(const Object& object, const Material& material) {
           .baseColor = object.color.value_or(material.diffuse)};
 }
 
+// Says whether the materials of the object's model are to make mirrors.
+bool wantsMirrors(const Scene& scene, const Object& object) {
+  return object.mirrorsFromMaterials && !object.mirror && object.mesh >= 0 && scene.meshes[object.mesh].mirrorParts;
+}
+
+// Returns why a model that wants to make mirrors makes none of this object; null if it does.
+const char* obstacleTo(const Mesh& mesh, const Object& object) {
+  const size_t parts = 1 + mesh.mirrorParts->curved.size() + mesh.mirrorParts->flatMeshes.size();
+  if (parts * static_cast<size_t>(object.copies.count) > mostCopiedParts) {
+    return "its copies would have more than 2^17 parts";
+  }
+  const glm::dvec3 scale = glm::abs(object.scale);
+  const double middle = glm::compMax(scale) * glm::length(mesh.center);
+  const double largest = glm::compMax(scale) * mesh.radius * mesh.unit;
+  const double smallest = glm::compMin(scale) * mesh.radius * mesh.unit;
+  const double away = glm::length(object.position) + object.copies.count * glm::length(object.copies.step) + middle;
+  const bool fits = middle + largest <= largestExtent && smallest >= smallestExtent &&
+                    std::max(away, largest) <= farthestAway * smallest;
+  return fits ? nullptr : "it is too large, too small or too far away";
+}
+
 std::string nameOf(const Scene& scene, const Object& object) {
   return (object.name.empty() ? scene.meshes[object.mesh].source.stem().string() : object.name) + " mirror";
 }
@@ -253,7 +316,7 @@ std::string nameOf(const Scene& scene, const Object& object) {
 void cutMirrorParts(Scene& scene, size_t first) {
   const size_t end = scene.meshes.size();
   for (size_t i = first; i < end; ++i) {
-    if (std::ranges::none_of(scene.meshes[i].parts, [](const MeshPart& p) { return p.material.mirror.has_value(); })) {
+    if (std::ranges::none_of(scene.meshes[i].parts, saysMirror)) {
       continue;
     }
     Cut cut = cutMesh(scene.meshes[i]);
@@ -270,18 +333,7 @@ void cutMirrorParts(Scene& scene, size_t first) {
 }
 
 bool makesMirrors(const Scene& scene, const Object& object) {
-  if (!object.mirrorsFromMaterials || object.mirror || object.copies.count > mostCopies || object.mesh < 0 ||
-      !scene.meshes[object.mesh].mirrorParts) {
-    return false;
-  }
-  const Mesh& mesh = scene.meshes[object.mesh];
-  const glm::dvec3 scale = glm::abs(object.scale);
-  const double middle = glm::compMax(scale) * glm::length(mesh.center);
-  const double largest = glm::compMax(scale) * mesh.radius * mesh.unit;
-  const double smallest = glm::compMin(scale) * mesh.radius * mesh.unit;
-  const double away = glm::length(object.position) + object.copies.count * glm::length(object.copies.step) + middle;
-  return middle + largest <= largestExtent && smallest >= smallestExtent &&
-         std::max(away, largest) <= farthestAway * smallest;
+  return wantsMirrors(scene, object) && obstacleTo(scene.meshes[object.mesh], object) == nullptr;
 }
 
 void placeMaterialMirrors(Scene& scene) {
@@ -312,16 +364,33 @@ void placeMaterialMirrors(Scene& scene) {
   }
 }
 
-void logMaterialMirrors(const Scene& scene) {
+void logMaterialMirrors(Scene& scene) {
   for (size_t i = 0; i < scene.meshes.size(); ++i) {
-    const Mesh& mesh = scene.meshes[i];
-    const bool used = std::ranges::any_of(scene.objects, [&](const Object& object) {
-      return object.mesh == static_cast<int>(i) && makesMirrors(scene, object);
-    });
+    Mesh& mesh = scene.meshes[i];
+    const auto warn = [&](std::string_view text) {
+      mesh.defects.push_back(oneLine(fmt::format("{}: {}", mesh.source.string(), text)));
+      spdlog::warn("{}", mesh.defects.back());
+    };
+    bool used = false;
+    const char* obstacle = nullptr;
+    for (const Object& object : scene.objects) {
+      if (object.mesh == static_cast<int>(i) && wantsMirrors(scene, object)) {
+        const char* found = obstacleTo(mesh, object);
+        used = used || found == nullptr;
+        obstacle = found != nullptr ? found : obstacle;
+      }
+    }
     if (used) {
       spdlog::info(oneLine(
           fmt::format("{}: its materials make {} planar and {} curved mirrors (mirrors_from_materials = false: none)",
                       mesh.source.string(), mesh.mirrorParts->flat.size(), mesh.mirrorParts->curved.size())));
+      const auto count = std::ranges::count_if(mesh.parts, saysMirror);
+      if (count > static_cast<std::ptrdiff_t>(mostMaterials)) {
+        warn(fmt::format("{} materials say mirror, the first {} make mirrors", count, mostMaterials));
+      }
+    }
+    if (obstacle != nullptr) {
+      warn(fmt::format("its materials make no mirrors of an object: {}", obstacle));
     }
   }
 }

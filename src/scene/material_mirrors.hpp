@@ -19,8 +19,9 @@ void cutMirrorParts(Scene& scene, size_t first);
 // an object is not visible everywhere, its flat parts become curved mirrors, which reflect the same.
 void placeMaterialMirrors(Scene& scene);
 
-// Logs a line for each model whose materials make mirrors of an object.
-void logMaterialMirrors(const Scene& scene);
+// Logs a line for each model whose materials make mirrors of an object. Mirrors that a limit leaves out are warnings
+// and defects of the model.
+void logMaterialMirrors(Scene& scene);
 
 // Says whether materials make mirrors of parts of the object.
 bool makesMirrors(const Scene& scene, const Object& object);

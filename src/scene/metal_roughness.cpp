@@ -13,6 +13,7 @@ void setMetalRoughness(Material& material, glm::dvec3 baseColor, double metal, d
   const double alpha = std::pow(std::clamp(roughness, 0.0, 1.0), 2.0);
   material.diffuse = (1.0 - share) * baseColor;
   material.specular = glm::mix(glm::dvec3(0.04), baseColor * texture, share);
+  material.mirror.reset();
   if (share == 1.0 && roughness <= 0.05 + 1e-9) {  // tinyobjloader does not round to the nearest double
     material.mirror = glm::clamp(material.specular, 0.0, 1.0);
   }

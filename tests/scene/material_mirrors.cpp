@@ -43,6 +43,9 @@ TEST_F(MaterialMirrors, IllumSpecularAndExponentSayMirror) {
   EXPECT_FALSE(makes("Kd 0.9 0.7 0.4\nPm 1\nPr 0.06\n"));
   EXPECT_FALSE(makes("Kd 0.9 0.7 0.4\nPm 0.9\nPr 0\n"));
   EXPECT_FALSE(makes("Kd 0.9 0.7 0.4\nPm 1\nPr 0\nd 0.5\n"));
+  for (const char* rough : {"Pm 0.1\nPr 0.25\n", "Pm 1\nPr 1\n", "Pr 0\n"}) {
+    EXPECT_FALSE(makes(std::string("Ks 0.9\nNs 1000\nillum 3\n") + rough)) << "metal-roughness replaces Ks and Ns";
+  }
   const Mirror gold = load(panesObj, "newmtl matt\nnewmtl mirror\nKd 0.75 0.5 0.25\nPm 1\nPr 0\n").mirror(0);
   EXPECT_NEAR(glm::distance(gold.reflectance, {0.75, 0.5, 0.25}), 0.0, 1e-12);
   EXPECT_EQ(gold.baseColor, glm::dvec3(0.0));
@@ -114,8 +117,69 @@ TEST_F(MaterialMirrors, SmoothPartsAreCurvedMirrors) {
   EXPECT_TRUE(hasCurvedMirrors(scene));
 }
 
+// Files round normals to two decimals or to bytes; the square leans, so that rounding turns its normal.
+TEST_F(MaterialMirrors, RoundedNormalsAreFlat) {
+  const auto square = [](const std::string& normals) {
+    return "mtllib m.mtl\nv 0 0 0\nv 1 0 0.3\nv 1 1 0.5\nv 0 1 0.2\n" + normals +
+           "usemtl mirror\nf 1//1 2//2 3//3 4//4\n";
+  };
+  const auto planar = [&](const std::string& normals) { return load(square(normals)).mirrorCount(); };
+  EXPECT_EQ(planar(repeated("vn -0.28 -0.19 0.94\n", 4)), 1u);
+  EXPECT_EQ(planar(repeated("vn -36 -24 119\n", 4)), 1u) << "of bytes";
+  EXPECT_EQ(planar(repeated("vn -0.31 -0.19 0.94\n", 4)), 0u) << "more than rounding turns it";
+  EXPECT_EQ(planar(repeated("vn -0.28 -0.19 0.94\nvn -0.285 -0.185 0.94\n", 2)), 0u) << "it is shaded as a curve";
+}
+
+// Squares at distances of their own, each of a material of its own, which grow from the first to the last.
+std::string squaresObj(int count, const char* materials = nullptr) {
+  std::string obj = "mtllib m.mtl\n";
+  for (int i = 0; i < count; ++i) {
+    const std::string z = std::to_string(0.1 * i);
+    const std::string side = std::to_string(1.0 + 0.01 * i);
+    obj += "v 0 0 " + z + "\nv " + side + " 0 " + z + "\nv " + side + " " + side + " " + z + "\nv 0 " + side + " " + z;
+    obj += "\nusemtl " + (materials ? std::string(materials) : "c" + std::to_string(i)) + "\nf -4 -3 -2 -1\n";
+  }
+  return obj;
+}
+
+std::string mirrorMaterials(int count) {
+  std::string mtl = mirrorMtl;
+  for (int i = 0; i < count; ++i) {
+    mtl += "newmtl c" + std::to_string(i) + "\nPm 1\nPr 0\nKd 0.9\n";
+  }
+  return mtl;
+}
+
+TEST_F(MaterialMirrors, LargestPlanesOfTheModelCount) {
+  for (const char* material : {"mirror", static_cast<const char*>(nullptr)}) {
+    const Scene scene = load(squaresObj(40, material), mirrorMaterials(40));
+    ASSERT_EQ(scene.mirrorCount(), 32u);
+    const SceneState state = evaluate(scene, 0.0);
+    for (const MirrorState& mirror : state.mirrors) {
+      EXPECT_GT(polygonArea(mirror.polygon), 1.07 * 1.07) << "eight smaller ones are curved mirrors";
+    }
+    size_t triangles = 0;
+    for (const InstanceState& instance : state.instances) {
+      triangles += curvedMirrorOf(scene, instance) ? scene.meshes[instance.mesh].indices.size() / 3 : 0;
+    }
+    EXPECT_EQ(triangles, 16u);
+  }
+  EXPECT_FALSE(contains(log_.text(), "warning")) << log_.text();
+}
+
+TEST_F(MaterialMirrors, MaterialsBeyondTheLimitAreWarnedAbout) {
+  const Scene scene = load(squaresObj(260), mirrorMaterials(260));
+  EXPECT_EQ(scene.mirrorCount(), 32u);
+  const SceneState state = evaluate(scene, 0.0);
+  EXPECT_EQ(scene.meshes[state.instances.at(0).mesh].indices.size(), 4u * 6u) << "four are surfaces";
+  EXPECT_EQ(state.instances.size(), 1u + 256u - 32u);
+  EXPECT_TRUE(contains(log_.text(), "m.obj: 260 materials say mirror, the first 256 make mirrors")) << log_.text();
+  EXPECT_EQ(scene.meshes[0].defects.size(), 1u);
+}
+
 TEST_F(MaterialMirrors, FlatPartsAreCurvedMirrorsWherePlanarOnesCannotBe) {
-  for (const char* keys : {"visible = 'eye'\n", "copies = { count = 1001, step = [3, 0, 0] }\n"}) {
+  for (const char* keys : {"visible = 'eye'\n", "copies = { count = 1001, step = [3, 0, 0] }\n",
+                           "copies = { count = 10001, step = [3, 0, 0] }\n"}) {
     const Scene scene = load(panesObj, mirrorMtl, keys);
     EXPECT_EQ(scene.mirrorCount(), 0u) << keys;
     EXPECT_TRUE(hasCurvedMirrors(scene)) << keys;
@@ -130,7 +194,7 @@ TEST_F(MaterialMirrors, FlatPartsAreCurvedMirrorsWherePlanarOnesCannotBe) {
 
 TEST_F(MaterialMirrors, AreLeftOutOnDemand) {
   for (const char* keys :
-       {"mirrors_from_materials = false\n", "mirror = {}\n", "copies = { count = 10001, step = [3, 0, 0] }\n"}) {
+       {"mirrors_from_materials = false\n", "mirror = {}\n", "copies = { count = 70000, step = [3, 0, 0] }\n"}) {
     const Scene scene = load(panesObj, mirrorMtl, keys);
     const SceneState state = evaluate(scene, 0.0);
     EXPECT_EQ(scene.mirrorCount(), 0u) << keys;
@@ -138,6 +202,7 @@ TEST_F(MaterialMirrors, AreLeftOutOnDemand) {
     EXPECT_EQ(hasCurvedMirrors(scene), scene.objects[0].mirror.has_value()) << keys;
     EXPECT_EQ(log_.text().find("planar"), std::string::npos) << keys;
   }
+  EXPECT_TRUE(contains(log_.text(), "make no mirrors of an object: its copies would have more than 2^17 parts"));
 }
 
 TEST_F(MaterialMirrors, ObjectsColorsReplaceThoseOfTheMaterial) {
