@@ -22,6 +22,7 @@ struct Texture {
   std::vector<glm::vec3> texels;
   glm::dvec3 mean{1.0};        // of the texels of its picture
   std::vector<float> opacity;  // of the texels, 0 .. 1; empty: opaque
+  bool hasAlpha = false;       // its picture has an alpha channel, which may be opaque
   bool isMask = false;         // its texels are white, their opacity is the picture's brightness
 };
 

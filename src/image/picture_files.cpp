@@ -24,7 +24,7 @@ int64_t numberAt(const std::vector<uint8_t>& bytes, size_t at) {
   return bigEndian(std::span(bytes).subspan(at, 4));
 }
 
-enum class PictureFormat { png, jpeg, other, unknown };
+enum class PictureFormat { png, jpeg, bmp, gif, psd, tga, unknown };
 
 bool startsWith(const std::vector<uint8_t>& bytes, std::string_view magic, size_t at = 0) {
   return bytes.size() >= at + magic.size() &&
@@ -36,15 +36,15 @@ bool startsWith(const std::vector<uint8_t>& bytes, std::string_view magic, size_
 // files without any signature as TGA, so that a TGA needs the extension.
 PictureFormat formatOf(const std::filesystem::path& file, const std::vector<uint8_t>& bytes) {
   constexpr std::string_view png("\x89PNG\r\n\x1a\n\0\0\0\x0dIHDR", 16);
-  if (startsWith(bytes, png)) {
-    return PictureFormat::png;
-  }
-  if (startsWith(bytes, "\xff\xd8\xff")) {
-    return PictureFormat::jpeg;
-  }
-  const bool other = startsWith(bytes, "BM") || startsWith(bytes, "GIF8") || startsWith(bytes, "8BPS") ||
-                     lowerCase(file.extension().string()) == ".tga";
-  return other ? PictureFormat::other : PictureFormat::unknown;
+  constexpr std::array<std::pair<std::string_view, PictureFormat>, 5> signatures{{{png, PictureFormat::png},
+                                                                                  {"\xff\xd8\xff", PictureFormat::jpeg},
+                                                                                  {"BM", PictureFormat::bmp},
+                                                                                  {"GIF8", PictureFormat::gif},
+                                                                                  {"8BPS", PictureFormat::psd}}};
+  const auto found = std::ranges::find_if(signatures, [&](const auto& one) { return startsWith(bytes, one.first); });
+  return found != signatures.end()                        ? found->second
+         : lowerCase(file.extension().string()) == ".tga" ? PictureFormat::tga
+                                                          : PictureFormat::unknown;
 }
 
 [[noreturn]] void throwUnknown(const std::filesystem::path& file, const std::vector<uint8_t>& bytes) {
@@ -58,6 +58,56 @@ PictureFormat formatOf(const std::filesystem::path& file, const std::vector<uint
                        : startsWith(bytes, "version https://git-lfs") ? "a Git LFS pointer"
                                                                       : "not a picture that can be read";
   throw FileError(file, std::string("is ") + format, "a PNG or JPEG file is needed");
+}
+
+// Returns a byte; 0 behind the end.
+int byteAt(const std::vector<uint8_t>& bytes, size_t at) {
+  return at < bytes.size() ? bytes[at] : 0;
+}
+
+// Says whether a PSD is RGB of a depth that the decoder reads: of 8 bits, or of 16 that are not compressed.
+bool isPlainPsd(const std::vector<uint8_t>& bytes) {
+  constexpr int rgb = 3;
+  size_t at = 26;  // of three sections, each after its size; then stands the compression
+  for (int section = 0; section < 3 && at + 4 <= bytes.size(); ++section) {
+    at += 4 + static_cast<size_t>(numberAt(bytes, at));
+  }
+  const int depth = byteAt(bytes, 23);
+  return byteAt(bytes, 25) == rgb && (depth == 8 || (depth == 16 && byteAt(bytes, at + 1) == 0));
+}
+
+// Refuses valid files of kinds that the decoder calls damaged or reads wrongly.
+void checkKind(const std::filesystem::path& file, const std::vector<uint8_t>& bytes, PictureFormat format) {
+  constexpr int fromRight = 0x10;
+  const bool bmp = format == PictureFormat::bmp && byteAt(bytes, 14) >= 40;  // older headers have no compression
+  const int compression = bmp ? byteAt(bytes, 30) : 0;
+  const char* kind = compression != 0 && compression != 3                    ? "a compressed BMP file"
+                     : format == PictureFormat::psd && byteAt(bytes, 5) == 2 ? "a PSB file"
+                     : format == PictureFormat::psd && bytes.size() > 26 && !isPlainPsd(bytes)
+                         ? "a PSD file that is not RGB of 8 bits a channel"
+                     : format == PictureFormat::tga && (byteAt(bytes, 17) & fromRight) != 0
+                         ? "a TGA file whose rows begin at the right"
+                         : nullptr;
+  if (kind != nullptr) {
+    throw FileError(file, std::string("is ") + kind, "a PNG or JPEG file is needed");
+  }
+}
+
+// Says whether a decoded picture has an alpha channel. The decoder counts four channels of every GIF and PSD, of BMPs
+// with an unused byte in each pixel, and of TGAs whose header says that the bits beside the colors are no alpha.
+bool hasAlpha(const std::vector<uint8_t>& bytes, PictureFormat format, int channels, const Image8& image) {
+  if (format == PictureFormat::bmp || format == PictureFormat::gif) {
+    for (size_t i = 3; i < image.rgba.size(); i += 4) {
+      if (image.rgba[i] != 255) {
+        return true;
+      }
+    }
+    return false;
+  }
+  const bool ofPalette = byteAt(bytes, 1) == 1;
+  return format == PictureFormat::psd   ? byteAt(bytes, 13) > 3
+         : format == PictureFormat::tga ? channels % 2 == 0 && (ofPalette || (byteAt(bytes, 17) & 0x0f) != 0)
+                                        : channels % 2 == 0;
 }
 
 // Content of a JPEG's markers.
@@ -182,18 +232,24 @@ void checkPngChunks(const std::filesystem::path& file, const std::vector<uint8_t
 }
 
 Image8 decoded(const std::filesystem::path& file, const std::vector<uint8_t>& bytes, PictureFormat format) {
+  checkKind(file, bytes, format);
   checkHeader(file, bytes, format);
   if (format == PictureFormat::png) {
     checkPngChunks(file, bytes);
   }
   int width = 0;
   int height = 0;
-  const auto pixels = decodePicture(bytes, width, height);
+  int channels = 0;
+  const auto pixels = decodePicture(bytes, width, height, channels);
   if (!pixels) {
     throwDamaged(file, decodeFailure());
   }
   Image8 image(width, height);
   std::copy_n(pixels.get(), image.rgba.size(), image.rgba.begin());
+  image.hasAlpha = hasAlpha(bytes, format, channels, image);
+  for (size_t i = 3; format == PictureFormat::tga && !image.hasAlpha && i < image.rgba.size(); i += 4) {
+    image.rgba[i] = 255;
+  }
   return image;
 }
 

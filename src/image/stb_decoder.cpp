@@ -19,8 +19,8 @@
 
 namespace speculum {
 
-std::unique_ptr<uint8_t, void (*)(void*)> decodePicture(std::span<const uint8_t> bytes, int& width, int& height) {
-  int channels = 0;
+std::unique_ptr<uint8_t, void (*)(void*)> decodePicture(std::span<const uint8_t> bytes, int& width, int& height,
+                                                        int& channels) {
   return {stbi_load_from_memory(bytes.data(), static_cast<int>(bytes.size()), &width, &height, &channels, 4),
           &stbi_image_free};
 }

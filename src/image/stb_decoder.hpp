@@ -9,9 +9,10 @@ namespace speculum {
 // Inputs have at most INT_MAX bytes.
 
 // Decodes a PNG, JPEG, TGA, BMP, PSD or the first picture of a GIF to rows of 8-bit RGBA. What a damaged picture leaves
-// out does not depend on what the memory held before. Returns null, and decodeFailure() of the same thread says why, if
-// it cannot be decoded; the size is then unset.
-std::unique_ptr<uint8_t, void (*)(void*)> decodePicture(std::span<const uint8_t> bytes, int& width, int& height);
+// out does not depend on what the memory held before. `channels` are those that the decoder counts in the file. Returns
+// null, and decodeFailure() of the same thread says why, if it cannot be decoded; the numbers are then unset.
+std::unique_ptr<uint8_t, void (*)(void*)> decodePicture(std::span<const uint8_t> bytes, int& width, int& height,
+                                                        int& channels);
 // Reads the size alone; false if it cannot be read.
 bool readPictureSize(std::span<const uint8_t> bytes, int& width, int& height);
 const char* decodeFailure();

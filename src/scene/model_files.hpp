@@ -39,7 +39,8 @@ class ModelDefects {
 };
 
 // Finds the files that a model names. Models come from other machines, so names may be in quotes, have backslashes,
-// begin with a drive or folder that is not here, or differ in case.
+// begin with a drive or folder that is not here, or differ in case. If there is no such file, a '#' after a blank
+// begins a comment.
 class ModelFiles {
  public:
   explicit ModelFiles(const std::filesystem::path& model) : modelFolder_(model.parent_path()) {}
@@ -50,6 +51,8 @@ class ModelFiles {
   std::optional<std::filesystem::path> find(const std::filesystem::path& namingFile, std::string_view name);
 
  private:
+  std::optional<std::filesystem::path> findWhole(const std::filesystem::path& namingFile, std::string_view name);
+
   // Files and folders by their names in lower case.
   struct Listing {
     std::map<std::string, std::filesystem::path> files;

@@ -350,8 +350,9 @@ void addFilesNamedIn(const std::filesystem::path& file, LineReader::Continuation
   while (line.next()) {
     const std::string keyword = lowerCase(std::string(line.keyword()));
     const bool materials = keyword == "mtllib";
-    for (size_t i = 1; i < line.tokens().size() && (materials || keyword.starts_with("map_")); ++i) {
-      for (const std::string_view words : {line.from(line.tokens()[i]), line.tokens()[i]}) {
+    // A '#' hides the tokens behind it.
+    for (size_t i = 0; i < line.tokens().size() && (materials || keyword.starts_with("map_")); ++i) {
+      for (const std::string_view words : {line.after(line.tokens()[i]), line.tokens()[i]}) {
         std::string name(words.substr(0, longestPath));
         for (size_t at = 0; (at = name.find("\\ ", at)) != std::string::npos;) {
           name.erase(at, 1);

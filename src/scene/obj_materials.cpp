@@ -34,19 +34,11 @@ int wordsOf(std::string_view option) {
   return option == "-mm" ? 2 : std::ranges::find(one, option) != one.end() ? 1 : -1;
 }
 
-// A texture as a line names it. Its coordinates are scale * (u, v) + offset.
-struct NamedTexture {
-  std::string_view name;  // may hold blanks
-  glm::dvec2 scale{1.0};
-  glm::dvec2 offset{0.0};
-  bool clamps = false;
-};
-
-// Reads the name and those of the options before it that count: -s, -o and -clamp.
-NamedTexture namedTexture(const LineReader& line) {
+// Reads the name, which may hold blanks, and those of the options before it that count: -s, -o and -clamp.
+std::pair<std::string_view, TextureOptions> namedTexture(const LineReader& line) {
   constexpr Range range{.low = -1e9, .high = 1e9};
   const std::vector<std::string_view>& tokens = line.tokens();
-  NamedTexture texture;
+  TextureOptions options;
   size_t i = 1;
   while (i < tokens.size() && wordsOf(tokens[i]) >= 0) {
     const std::string_view option = tokens[i];
@@ -54,14 +46,13 @@ NamedTexture namedTexture(const LineReader& line) {
     for (int word = 0; word < most && i < tokens.size() && (most < 3 || parseNumber(tokens[i])); ++word) {
       const double value = parseNumber(tokens[i]).value_or(0.0);
       if (word < 2 && range.contains(value) && (option == "-s" || option == "-o")) {
-        (option == "-s" ? texture.scale : texture.offset)[word] = value;
+        (option == "-s" ? options.scale : options.offset)[word] = value;
       }
-      texture.clamps = option == "-clamp" ? tokens[i] == "on" : texture.clamps;
+      options.clamps = option == "-clamp" ? tokens[i] == "on" : options.clamps;
       ++i;
     }
   }
-  texture.name = i < tokens.size() ? line.from(tokens[i]) : std::string_view();
-  return texture;
+  return {line.after(tokens[i - 1]), options};
 }
 
 double numberOf(std::string_view token) {
@@ -177,16 +168,13 @@ class ObjMaterials::MtlReader {
   }
 
   bool readTexture(const char* key) {
-    const NamedTexture texture = namedTexture(line_);
-    if (texture.name.empty()) {
+    const auto [name, options] = namedTexture(line_);
+    if (name.empty()) {
       return false;
     }
-    text_.append(key).append(" ").append(texture.name).append("\n");
-    // Both textures have the options of the diffuse one, if there is one.
-    if (std::string_view(key) == "map_Kd" || (std::string_view(key) == "map_d" && entry_->textureLine == 0)) {
-      entry_->textureScale = texture.scale;
-      entry_->textureOffset = texture.offset;
-      entry_->material.clamps = texture.clamps;
+    text_.append(key).append(" ").append(name).append("\n");
+    if (std::string_view(key) != "map_Ke") {
+      (std::string_view(key) == "map_Kd" ? entry_->textureOptions : entry_->opacityOptions) = options;
     }
     return true;
   }
@@ -223,8 +211,17 @@ class ObjMaterials::MtlReader {
     if (from.illum >= 3 && glm::compMax(material.specular) >= 0.5 && from.shininess >= 500.0) {
       material.mirror = glm::min(material.specular, 1.0);
     }
+    // A surface has one set of coordinates.
+    if (entry_->textureLine == 0) {
+      entry_->textureOptions = entry_->opacityOptions;
+    } else if (entry_->opacityLine != 0 && entry_->textureOptions != entry_->opacityOptions) {
+      materials_.defects_.add(file_, entry_->opacityLine, "map_d",
+                              "'{}' has other options than map_Kd, those of map_Kd count for both", from.alpha_texname);
+    }
+    material.clamps = entry_->textureOptions.clamps;
     entry_->diffuseTexture = from.diffuse_texname;
     entry_->emissionTexture = from.emissive_texname;
+    materials_.bareNames_.try_emplace(std::string(withoutComment(name_)), name_);
     materials_.entries_.try_emplace(name_, std::move(*entry_));
     entry_.reset();
   }
@@ -243,6 +240,7 @@ void ObjMaterials::read(std::string_view names, int line) {
   if (names.find(' ') != std::string_view::npos && readIfThere(names, line)) {
     return;
   }
+  names = withoutComment(names).empty() ? names : withoutComment(names);
   std::string name;
   for (size_t i = 0; i <= names.size(); ++i) {
     if (i == names.size() || names[i] == ' ') {
@@ -295,15 +293,16 @@ PartMaterial ObjMaterials::material(int index, bool colored, std::vector<Texture
     return usual;
   }
   const Use& use = uses_[index];
-  const auto found = entries_.find(use.name);
-  if (found == entries_.end()) {
+  const auto [name, found] = entryOf(use.name);
+  if (found == nullptr) {
     if (!missingFile_) {
       defects_.add(objFile_, use.line, "usemtl", "there is no material '{}', its faces get the default one", use.name);
     }
     return usual;
   }
-  const Entry& entry = found->second;
+  const Entry& entry = *found;
   Material material = entry.material;
+  material.name = name;
   material.diffuse = colored && !entry.hasDiffuse ? glm::dvec3(1.0) : material.diffuse;
   if (!entry.diffuseTexture.empty()) {
     const auto load = [&](const fs::path& picture) { return textureIndex(picture, textures); };
@@ -320,7 +319,19 @@ PartMaterial ObjMaterials::material(int index, bool colored, std::vector<Texture
   if (material.isTransparent()) {
     material.mirror.reset();
   }
-  return {material, entry.textureScale, entry.textureOffset};
+  return {material, entry.textureOptions.scale, entry.textureOptions.offset};
+}
+
+// Finds a material by a whole name, or by the name before a comment in either line. Returns the name that is common.
+std::pair<std::string, const ObjMaterials::Entry*> ObjMaterials::entryOf(const std::string& name) const {
+  const std::string bare(withoutComment(name));
+  for (const std::string& known : {name, bare}) {
+    if (const auto entry = entries_.find(known); entry != entries_.end()) {
+      return {known, &entry->second};
+    }
+  }
+  const auto commented = bareNames_.find(bare);
+  return {bare, commented == bareNames_.end() || bare.empty() ? nullptr : &entries_.at(commented->second)};
 }
 
 template <typename Read>
@@ -342,15 +353,43 @@ auto ObjMaterials::readPicture(const Entry& entry, int line, std::string_view ke
   }
 }
 
+// Returns the index of the texture of map_d; -1 if it is opaque. A picture without alpha that gives the color too is
+// named by exporters that write both lines for every texture: its red is not meant.
+int ObjMaterials::opacityIndex(const Entry& entry, const fs::path& picture, const Material& material,
+                               std::vector<Texture>& textures) {
+  const fs::path source = withoutLinks(picture);
+  if (material.diffuseTexture >= 0 && textures[material.diffuseTexture].source.native() == source.native()) {
+    const Texture& colors = textures[material.diffuseTexture];
+    if (!colors.hasAlpha) {
+      defects_.add(entry.file, entry.opacityLine, "map_d", "'{}' is that of map_Kd and has no alpha, it is left out",
+                   entry.opacityTexture);
+    }
+    return colors.opacity.empty() ? -1 : material.diffuseTexture;
+  }
+  const auto [known, isNew] = opacityIndices_.try_emplace(source, -1);
+  if (isNew) {
+    known->second = opacityTextureIndex(picture, textures).value_or(-1);
+  }
+  if (known->second < 0) {
+    filesRead_.insert(source);
+  }
+  return known->second;
+}
+
 // Adds the opacity of map_d, or else the alpha of the diffuse texture. That alpha does not count if the material says
 // that it is opaque: exporters that mean opacity write map_d too. An opaque material whose texture is a cut-out becomes
 // a cut-out.
 void ObjMaterials::addOpacity(const Entry& entry, Material& material, std::vector<Texture>& textures) {
   if (!entry.opacityTexture.empty()) {
-    const auto load = [&](const fs::path& picture) { return opacityTextureIndex(picture, textures); };
+    const auto load = [&](const fs::path& picture) { return opacityIndex(entry, picture, material, textures); };
     material.opacityTexture = readPicture(entry, entry.opacityLine, "map_d", entry.opacityTexture, load).value_or(-1);
   } else if (!entry.opaque && material.diffuseTexture >= 0 && !textures[material.diffuseTexture].opacity.empty()) {
     material.opacityTexture = material.diffuseTexture;
+  }
+  if (material.opacityTexture >= 0 && !isSeen(textures[material.opacityTexture])) {
+    defects_.add(entry.file, entry.line, "newmtl", "'{}' has a texture without any opacity, it is drawn as opaque",
+                 material.name);
+    material.opacityTexture = -1;
   }
   if (material.opacity == 1.0 && material.opacityTexture >= 0 && isCutOut(textures[material.opacityTexture])) {
     material.cutoff = 0.5;

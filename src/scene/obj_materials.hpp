@@ -15,6 +15,14 @@
 
 namespace speculum {
 
+// Options of a texture. Its coordinates are scale * (u, v) + offset.
+struct TextureOptions {
+  glm::dvec2 scale{1.0};
+  glm::dvec2 offset{0.0};
+  bool clamps = false;
+  bool operator==(const TextureOptions&) const = default;
+};
+
 // Materials of the MTL files that an OBJ file names, as tinyobjloader reads them. Faces may name a material before its
 // file is named.
 class ObjMaterials {
@@ -54,8 +62,8 @@ class ObjMaterials {
     std::string diffuseTexture;
     std::string emissionTexture;
     std::string opacityTexture;
-    glm::dvec2 textureScale{1.0};
-    glm::dvec2 textureOffset{0.0};
+    TextureOptions textureOptions;  // of map_Kd, or else of map_d
+    TextureOptions opacityOptions;  // of map_d
     std::filesystem::path file;
     int line = 0;          // line of newmtl
     int textureLine = 0;   // line of map_Kd
@@ -69,23 +77,28 @@ class ObjMaterials {
   class MtlReader;
 
   bool readIfThere(std::string_view name, int line);
+  std::pair<std::string, const Entry*> entryOf(const std::string& name) const;
   // Returns read(file) for the picture that a line of the entry's file names; nothing, with a defect, if it is not
   // there or not readable.
   template <typename Read>
   auto readPicture(const Entry& entry, int line, std::string_view key, const std::string& name, const Read& read)
       -> std::optional<decltype(read(std::filesystem::path()))>;
+  int opacityIndex(const Entry& entry, const std::filesystem::path& picture, const Material& material,
+                   std::vector<Texture>& textures);
   void addOpacity(const Entry& entry, Material& material, std::vector<Texture>& textures);
   void applyEmissionTexture(const Entry& entry, Material& material);
 
   const std::filesystem::path& objFile_;
   ModelDefects& defects_;
   ModelFiles modelFiles_;
-  std::map<std::string, Entry> entries_;  // by name
+  std::map<std::string, Entry> entries_;          // by name
+  std::map<std::string, std::string> bareNames_;  // names of entries by the same without a comment
   std::vector<Use> uses_;
   std::map<std::string, int, std::less<>> useIndices_;  // by name
   std::set<std::filesystem::path> filesRead_;
   std::set<std::filesystem::path> namedFiles_;
-  MeansOfPictures means_;  // of emission
+  std::map<std::filesystem::path, int> opacityIndices_;  // by picture: texture of opacity, -1 if it is opaque
+  MeansOfPictures means_;                                // of emission
   bool missingFile_ = false;
 };
 

@@ -24,6 +24,15 @@ std::string_view trimmed(std::string_view text) {
   return text;
 }
 
+std::string_view withoutComment(std::string_view name) {
+  for (size_t i = 0; i < name.size(); ++i) {
+    if (name[i] == '#' && (i == 0 || isBlank(name[i - 1]))) {
+      name = name.substr(0, i);
+    }
+  }
+  return trimmed(name);
+}
+
 std::optional<double> parseNumber(std::string_view token) {
   if (token.starts_with('+')) {
     token.remove_prefix(1);
@@ -61,16 +70,6 @@ bool LineReader::next() {
     }
   }
   return false;
-}
-
-std::string_view LineReader::from(std::string_view token) const {
-  std::string_view text = line_.substr(token.data() - line_.data());
-  for (size_t i = 0; i < text.size(); ++i) {
-    if (text[i] == '#' && (i == 0 || isBlank(text[i - 1]))) {
-      text = text.substr(0, i);
-    }
-  }
-  return trimmed(text);
 }
 
 std::string_view LineReader::takeLine() {

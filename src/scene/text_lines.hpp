@@ -10,6 +10,10 @@ namespace speculum {
 // Returns `text` without leading and trailing blanks.
 std::string_view trimmed(std::string_view text);
 
+// Returns a name without the comment behind it: without a '#' after a blank, or at the beginning, and what follows. It
+// may be part of the name as well, so the whole name comes first wherever names are looked up.
+std::string_view withoutComment(std::string_view name);
+
 // Reads the whole of `token` as a number. Infinite and NaN values, written or from overflow, are numbers. Returns
 // nothing for any other text.
 std::optional<double> parseNumber(std::string_view token);
@@ -28,10 +32,10 @@ class LineReader {
 
   const std::vector<std::string_view>& tokens() const { return tokens_; }
   std::string_view keyword() const { return tokens_[0]; }
-  // Returns the line from a token on, with blanks within. A '#' after a blank begins a comment; any other '#' belongs
-  // to a name.
-  std::string_view from(std::string_view token) const;
-  std::string_view argument() const { return from(line_.substr(keyword().data() + keyword().size() - line_.data())); }
+  // Returns the rest of the line, with blanks within and with any comment.
+  std::string_view from(std::string_view token) const { return trimmed(line_.substr(token.data() - line_.data())); }
+  std::string_view after(std::string_view token) const { return from({token.data() + token.size(), 0}); }
+  std::string_view argument() const { return after(keyword()); }
   int number() const { return number_; }  // from 1; the first of joined lines
   double done() const { return 1.0 - static_cast<double>(rest_.size()) / static_cast<double>(size_); }
 

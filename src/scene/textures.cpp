@@ -17,21 +17,14 @@ namespace fs = std::filesystem;
 
 namespace {
 
-bool hasAlpha(const Image8& image) {
-  for (size_t i = 3; i < image.rgba.size(); i += 4) {
-    if (image.rgba[i] != 255) {
-      return true;
-    }
-  }
-  return false;
-}
-
-std::vector<float> channelOf(const Image8& image, size_t channel) {
+// Returns a channel as opacities; none if all are 1.
+std::vector<float> opacityOf(const Image8& image, size_t channel) {
   std::vector<float> values;
+  values.reserve(image.rgba.size() / 4);
   for (size_t i = channel; i < image.rgba.size(); i += 4) {
     values.push_back(static_cast<float>(image.rgba[i]) / 255.0f);
   }
-  return values;
+  return std::ranges::all_of(values, [](float value) { return value == 1.0f; }) ? std::vector<float>() : values;
 }
 
 Texture textureOf(const Image8& image, const fs::path& source, bool linear) {
@@ -46,8 +39,9 @@ Texture textureOf(const Image8& image, const fs::path& source, bool linear) {
     sum += texture.texels.back();
   }
   texture.mean = sum / static_cast<double>(texture.texels.size());
-  if (hasAlpha(image)) {
-    texture.opacity = channelOf(image, 3);
+  texture.hasAlpha = image.hasAlpha;
+  if (image.hasAlpha) {
+    texture.opacity = opacityOf(image, 3);
   }
   return texture;
 }
@@ -119,7 +113,7 @@ int textureIndex(const fs::path& source, const std::vector<uint8_t>& picture, st
       source, false, [&] { return readTexture(source, picture); }, textures);
 }
 
-int opacityTextureIndex(const fs::path& file, std::vector<Texture>& textures) {
+std::optional<int> opacityTextureIndex(const fs::path& file, std::vector<Texture>& textures) {
   const fs::path source = withoutLinks(file);
   const auto known = std::ranges::find_if(textures, [&](const Texture& texture) {
     return !texture.opacity.empty() && texture.source.native() == source.native();
@@ -128,13 +122,16 @@ int opacityTextureIndex(const fs::path& file, std::vector<Texture>& textures) {
     return static_cast<int>(known - textures.begin());
   }
   const Image8 image = readTexture(file);
-  if (hasAlpha(image)) {
+  Texture mask{.source = source, .width = image.width, .height = image.height, .isMask = true};
+  mask.opacity = opacityOf(image, image.hasAlpha ? 3 : 0);
+  if (mask.opacity.empty()) {
+    return std::nullopt;
+  }
+  if (image.hasAlpha) {
     return indexOf(
         source, false, [&] { return image; }, textures);
   }
-  Texture mask{.source = source, .width = image.width, .height = image.height, .isMask = true};
   mask.texels.assign(image.rgba.size() / 4, glm::vec3(1.0f));
-  mask.opacity = channelOf(image, 0);
   textures.push_back(bounded(std::move(mask), mostPixels(textures)));
   return static_cast<int>(textures.size()) - 1;
 }
@@ -145,6 +142,10 @@ const PictureMeans& MeansOfPictures::of(const fs::path& source, const std::vecto
     return known->second;
   }
   return known_.emplace(source, meansOf(content ? readTexture(source, *content) : readTexture(source))).first->second;
+}
+
+bool isSeen(const Texture& texture) {
+  return texture.opacity.empty() || std::ranges::any_of(texture.opacity, [](float opacity) { return opacity > 0.0f; });
 }
 
 bool isCutOut(const Texture& texture) {

@@ -170,6 +170,52 @@ double rmsDifference(const Image8& a, const Image8& b) {
   return std::sqrt(sum / (0.75 * static_cast<double>(a.rgba.size())));
 }
 
+// A header with these bytes at these places, and enough behind it.
+std::string headerOf(std::string begin, std::initializer_list<std::pair<size_t, int>> bytes) {
+  begin.resize(200);
+  for (const auto& [at, value] : bytes) {
+    begin[at] = static_cast<char>(value);
+  }
+  return begin;
+}
+
+// The decoder calls them damaged, or reads them wrongly.
+TEST(ImageFiles, KindsThatAreNotReadAreNamed) {
+  const TemporaryFolder folder;
+  const std::string tga = tgaFile(gradient(3, 2), 24, 0);
+  std::string turned = tga;
+  turned[17] |= 0x10;
+  const auto psd = [&](int version, int depth, int mode, int compression) {
+    return headerOf("8BPS", {{5, version}, {13, 3}, {17, 1}, {21, 1}, {23, depth}, {25, mode}, {39, compression}});
+  };
+  for (const auto& [name, bytes, kind] :
+       {std::tuple("a.bmp", headerOf("BM", {{14, 40}, {30, 1}}), "is a compressed BMP file"),
+        std::tuple("a.psb", psd(2, 8, 3, 0), "is a PSB file"),
+        std::tuple("grey.psd", psd(1, 8, 1, 0), "is a PSD file that is not RGB"),
+        std::tuple("cmyk.psd", psd(1, 8, 4, 0), "is a PSD file that is not RGB"),
+        std::tuple("rle16.psd", psd(1, 16, 3, 1), "is a PSD file that is not RGB"),
+        std::tuple("a.tga", turned, "is a TGA file whose rows begin at the right")}) {
+    const fs::path file = folder.write(name, bytes);
+    expectFileFault([&] { readTexture(file); }, file, kind);
+  }
+  EXPECT_EQ(readTexture(folder.write("raw16.psd", psd(1, 16, 3, 0))).width, 1);
+  EXPECT_EQ(readTexture(folder.write("a.tga", tga)).at(2, 1)[0], 14);
+}
+
+TEST(ImageFiles, AlphaIsThatOfTheFile) {
+  const TemporaryFolder folder;
+  writePng(folder / "a.png", Image8(2, 2));
+  EXPECT_TRUE(readTexture(folder / "a.png").hasAlpha);
+  const Image8 picture = gradient(2, 2);
+  const std::vector<uint8_t> jpeg = encodeJpeg(picture, 95);
+  EXPECT_FALSE(readTexture("a.jpg", jpeg).hasAlpha);
+  for (const auto& [bits, alphaBits] : {std::pair(24, 0), std::pair(32, 0), std::pair(32, 8)}) {
+    const Image8 read = readTexture(folder.write("a.tga", tgaFile(picture, bits, alphaBits)));
+    EXPECT_EQ(read.hasAlpha, alphaBits == 8) << bits;
+    EXPECT_EQ(read.at(1, 1)[3], alphaBits == 8 ? 254 : 255) << bits;
+  }
+}
+
 TEST(Jpeg, KeepsSizeAndColorAndDropsAlpha) {
   for (const auto& [width, height] : {std::pair{1, 1}, std::pair{37, 19}, std::pair{160, 90}, std::pair{300, 1}}) {
     const Image8 image = smoothPicture(width, height);

@@ -157,7 +157,8 @@ TEST_F(MtlFile, TexturesGiveOpacity) {
   };
   write("leaf.png", [](int x, int) { return glm::ivec4(255, 255, 255, x < 2 ? 0 : 255); });
   write("veil.png", [](int x, int) { return glm::ivec4(255, 255, 255, 64 * x); });
-  write("mask.png", [](int x, int) { return glm::ivec4(51 * x, 0, 0, 255); });
+  const auto reds = [](int x, int) { return glm::ivec4(51 * x, 0, 0, 255); };
+  folder_.write("mask.tga", testing_support::tgaFile(testing_support::madePicture(4, 4, reds), 24, 0));
   const Material leaf = materialOf("newmtl m\nmap_Kd leaf.png\n");
   EXPECT_EQ(leaf.opacityTexture, leaf.diffuseTexture);
   EXPECT_EQ(leaf.cutoff, 0.5);
@@ -165,12 +166,58 @@ TEST_F(MtlFile, TexturesGiveOpacity) {
   const Material veil = materialOf("newmtl m\nmap_Kd veil.png\n");
   EXPECT_LT(veil.cutoff, 0.0);
   EXPECT_TRUE(veil.isTransparent());
-  const Material mask = materialOf("newmtl m\nmap_Kd mask.png\nmap_d mask.png\n");
+  const Material mask = materialOf("newmtl m\nmap_Kd leaf.png\nmap_d mask.tga\n");
   EXPECT_NE(mask.opacityTexture, mask.diffuseTexture);
   EXPECT_EQ(textures_[static_cast<size_t>(mask.opacityTexture)].opacity[1], 0.2f);
-  EXPECT_TRUE(textures_[static_cast<size_t>(mask.diffuseTexture)].opacity.empty());
   EXPECT_FALSE(materialOf("newmtl m\nmap_d none.png\n").isTransparent());
   EXPECT_EQ(warnings(), "warning: m.mtl:2: map_d: there is no file 'none.png', the texture is left out\n");
+}
+
+// Whether a picture has alpha is a matter of its file, not of its pixels.
+TEST_F(MtlFile, OpaqueTexturesAreNoCoverage) {
+  const auto reds = [](int x, int) { return glm::ivec4(51 * x, 0, 0, 255); };
+  const Image8 red = testing_support::madePicture(4, 4, reds);
+  writePng(folder_ / "alpha.png", red);
+  folder_.write("alpha.tga", testing_support::tgaFile(red, 32, 8));
+  folder_.write("white.tga", testing_support::tgaFile(Image8(4, 4), 24, 0));
+  for (const std::string picture : {"alpha.png", "alpha.tga", "white.tga"}) {
+    for (const std::string& keys : {"map_d " + picture, "map_Kd " + picture + "\nmap_d " + picture}) {
+      EXPECT_FALSE(materialOf("newmtl m\nNs 900\n" + keys + "\n").isTransparent()) << keys;
+    }
+  }
+  const Mesh two = load(squareText + "usemtl m\nf 1 2 3\nusemtl n\nf 1 3 4\n",
+                        "newmtl m\nmap_d white.tga\nnewmtl n\nillum 3\nKs 1\nNs 900\nmap_d white.tga\n");
+  EXPECT_TRUE(two.parts.at(1).material.mirror) << "an opaque picture is no coverage of a mirror";
+  EXPECT_TRUE(contains(two.materialFiles.back().string(), "white.tga")) << "a change of the file is noticed";
+  EXPECT_EQ(warnings(), "warning: m.mtl:4: map_d: 'white.tga' is that of map_Kd and has no alpha, it is left out\n");
+}
+
+// Exporters name one picture as color and as opacity, whether it has alpha or not.
+TEST_F(MtlFile, ColorsAreNoOpacity) {
+  const auto colors = [](int x, int) { return glm::ivec4(51 * x, 0, 0, 85 * x); };
+  const Image8 picture = testing_support::madePicture(4, 4, colors);
+  folder_.write("rgb.tga", testing_support::tgaFile(picture, 24, 0));
+  folder_.write("rgba.tga", testing_support::tgaFile(picture, 32, 8));
+  EXPECT_FALSE(materialOf("newmtl m\nmap_Kd rgb.tga\nmap_d RGB.TGA\n").isTransparent());
+  EXPECT_EQ(warnings(), "warning: m.mtl:3: map_d: 'RGB.TGA' is that of map_Kd and has no alpha, it is left out\n");
+  const Material both = materialOf("newmtl m\nmap_Kd rgba.tga\nmap_d rgba.tga\n");
+  EXPECT_EQ(both.opacityTexture, both.diffuseTexture);
+  EXPECT_TRUE(both.isTransparent());
+}
+
+// The fourth byte of a pixel is unused, or an exporter left it zero.
+TEST_F(MtlFile, TexturesWithoutOpacityAreDrawnAsOpaque) {
+  const auto clear = [](int x, int) { return glm::ivec4(51 * x, 0, 0, 0); };
+  const Image8 picture = testing_support::madePicture(4, 4, clear);
+  folder_.write("unused.tga", testing_support::tgaFile(picture, 32, 0));
+  EXPECT_FALSE(materialOf("newmtl m\nmap_Kd unused.tga\n").isTransparent());
+  EXPECT_EQ(warnings(), "");
+  folder_.write("zero.tga", testing_support::tgaFile(picture, 32, 8));
+  writePng(folder_ / "zero.png", picture);
+  for (const std::string keys : {"map_Kd zero.tga", "map_Kd zero.png", "map_d zero.png"}) {
+    EXPECT_FALSE(materialOf("newmtl m\n" + keys + "\n").isTransparent()) << keys;
+  }
+  EXPECT_TRUE(contains(warnings(), "m.mtl:1: newmtl: 'm' has a texture without any opacity, it is drawn as opaque"));
 }
 
 // Blender and others write d, illum and, for textures of opacity, map_d.
@@ -405,6 +452,51 @@ TEST_F(MtlFile, CommentsAreNoPartOfNames) {
   EXPECT_EQ(mesh.parts.at(0).material.name, "my red");
   EXPECT_EQ(mesh.parts.at(0).material.diffuseTexture, 0);
   EXPECT_EQ(warnings(), "");
+}
+
+// 3ds Max names its materials so.
+TEST_F(MtlFile, NamesMayHoldNumberSigns) {
+  const std::string names = "newmtl Material #25\nKd 1 0 0\nnewmtl Material #26\nKd 0 1 0\nnewmtl #FF0000\nKd 0 0 1\n";
+  const auto colorOf = [&](const std::string& name) {
+    return load(squareText + "usemtl " + name + "\nf 1 2 3\n", names).parts.at(0).material.diffuse;
+  };
+  EXPECT_EQ(colorOf("Material #25"), glm::dvec3(1, 0, 0));
+  EXPECT_EQ(colorOf("Material #26"), glm::dvec3(0, 1, 0));
+  EXPECT_EQ(colorOf("#FF0000"), glm::dvec3(0, 0, 1));
+  EXPECT_EQ(colorOf("#FF0000 # red"), glm::dvec3(0.6)) << "a comment begins at the first one";
+  EXPECT_TRUE(contains(warnings(), "there is no material '#FF0000 # red'"));
+  for (const std::string name : {"wall #1.png", "#1.png", "deep #2/a b.png"}) {
+    std::filesystem::create_directories((folder_ / name).parent_path());
+    writePng(folder_ / name, Image8(1, 1));
+    for (const std::string options : {"", "-s 1 1 1 ", "-clamp on "}) {
+      EXPECT_GE(materialOf("newmtl m\nmap_Kd " + options + name + "\n").diffuseTexture, 0) << name;
+    }
+    folder_.write("n #3.mtl", "newmtl m\nmap_Kd " + name + "\n");
+    const std::filesystem::path model =
+        folder_.write("n.obj", "mtllib n #3.mtl\n" + squareText + "usemtl m\nf 1 2 3\n");
+    EXPECT_GE(loadObj(model, textures_).parts.at(0).material.diffuseTexture, 0) << name;
+    std::set<std::filesystem::path> files;
+    addFilesOfObj(model, files);
+    EXPECT_TRUE(files.contains(folder_ / name)) << name;
+  }
+}
+
+TEST_F(MtlFile, MasksHaveTheOptionsOfTheColors) {
+  writePng(folder_ / "t.png", Image8(2, 2));
+  writePng(folder_ / "d.png", testing_support::madePicture(2, 2, [](int x, int) { return glm::ivec4(99 * x); }));
+  const std::string obj = squareText + "vt 1 2\nvt 3 0\nvt 0 0\nusemtl m\nf 1/1 2/2 3/3\n";
+  const auto scaleOf = [&](const std::string& keys) {
+    const Mesh mesh = load(obj, "newmtl m\n" + keys);
+    return mesh.vertices[mesh.indices[1]].uv.x / 3.0;
+  };
+  EXPECT_EQ(scaleOf("map_Kd -s 2 2 t.png\nmap_d -s 2 2 d.png\n"), 2.0);
+  EXPECT_EQ(scaleOf("map_d -s 4 4 d.png\n"), 4.0) << "it is alone";
+  EXPECT_EQ(warnings(), "");
+  EXPECT_EQ(scaleOf("map_d -s 4 4 d.png\nmap_Kd -s 2 2 t.png\n"), 2.0);
+  EXPECT_EQ(warnings(),
+            "warning: m.mtl:2: map_d: 'd.png' has other options than map_Kd, those of map_Kd count for both\n");
+  EXPECT_FALSE(load(obj, "newmtl m\nmap_Kd t.png\nmap_d -clamp on d.png\n").parts.at(0).material.clamps);
+  EXPECT_TRUE(load(obj, "newmtl m\nmap_d -clamp on d.png\n").parts.at(0).material.clamps);
 }
 
 TEST_F(MtlFile, MaterialsDoNotInherit) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "image/image.hpp"
 
 namespace speculum::testing_support {
@@ -15,6 +17,19 @@ Image8 madePicture(int width, int height, const Color& color) {
     }
   }
   return image;
+}
+
+// Returns a TGA file without compression, of 24 or 32 bits a pixel, whose header says how many of these are alpha.
+inline std::string tgaFile(const Image8& image, int bits, int alphaBits) {
+  const auto byte = [](int value) { return static_cast<char>(value); };
+  std::string file("\0\0\2\0\0\0\0\0\0\0\0\0", 12);
+  file += {byte(image.width % 256), byte(image.width / 256), byte(image.height % 256), byte(image.height / 256)};
+  file += {byte(bits), byte(0x20 | alphaBits)};  // the first row at the top
+  for (size_t i = 0; i < image.rgba.size(); i += 4) {
+    file += {byte(image.rgba[i + 2]), byte(image.rgba[i + 1]), byte(image.rgba[i])};
+    file += bits == 32 ? std::string(1, byte(image.rgba[i + 3])) : "";
+  }
+  return file;
 }
 
 // An opaque picture of one grey.

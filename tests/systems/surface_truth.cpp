@@ -159,8 +159,10 @@ void writeOpacities() {
     return glm::ivec4(40 + 6 * x, 220, 60, std::clamp(static_cast<int>(255 * (13.0 - radius(x, y)) + 127), 0, 255));
   });
   write("veil.png", [](int x, int y) { return glm::ivec4(255, 8 * y, 255 - 8 * x, 8 * x); });
-  write("mask.png",
-        [&](int x, int y) { return glm::ivec4(glm::ivec3(radius(x, y) < 6.0 || radius(x, y) > 12.0 ? 255 : 0), 255); });
+  const auto ring = [&](int x, int y) {
+    return glm::ivec4(glm::ivec3(radius(x, y) < 6.0 || radius(x, y) > 12.0 ? 255 : 0), 255);
+  };
+  std::ofstream(sceneDirectory() / "mask.tga", std::ios::binary) << tgaFile(madePicture(32, 32, ring), 24, 0);
 }
 
 const std::string coverView = R"([environment] background = [0.2, 0.3, 0.4], ambient = [0.3, 0.3, 0.3]
@@ -173,7 +175,7 @@ const std::string coverView = R"([environment] background = [0.2, 0.3, 0.4], amb
 TEST(CutOuts, EqualTheTracer) {
   writeOpacities();
   const std::vector<std::string> materials{
-      "map_Kd leaf.png\n", "Kd 0.7 0.6 0.2\nKs 0.3 0.3 0.3\nNs 30\nmap_d mask.png\n",
+      "map_Kd leaf.png\n", "Kd 0.7 0.6 0.2\nKs 0.3 0.3 0.3\nNs 30\nmap_d mask.tga\n",
       "map_Kd -clamp on -s 2 3 -o -0.5 -1 leaf.png\n", "map_Kd -s 30 30 leaf.png\nmap_d leaf.png\n"};
   for (size_t i = 0; i < materials.size(); ++i) {
     const std::string box = "[[object]] rotation = [10, 30, 0], model = \"" +
@@ -366,7 +368,7 @@ std::filesystem::path randomCover(unsigned seed) {
   out << coverView;
   static constexpr std::array<const char*, 7> opacities{
       "d 0.3\n",          "d 0.8\nKs 0.4 0.4 0.4\nNs 50\n", "map_Kd veil.png\n",       "map_Kd leaf.png\n",
-      "map_d mask.png\n", "map_Kd leaf.png\nd 0.5\n",       "Tr 0.4\nmap_d veil.png\n"};
+      "map_d mask.tga\n", "map_Kd leaf.png\nd 0.5\n",       "Tr 0.4\nmap_d veil.png\n"};
   for (int i = 0; i < 4; ++i) {
     std::ostringstream material;
     material << "Kd " << random.uniform(0, 1) << ' ' << random.uniform(0, 1) << " 0.5\n" << random.pick(opacities);
