@@ -51,10 +51,15 @@ float unitScale(vec3 point, Corners corners) {
   return 1.0 / max(size, 1e-30);
 }
 
+// Returns the triangle's normal, of any length.
+vec3 normalOf(Corners corners) {
+  float scale = unitScale(corners.a, corners);
+  return cross((corners.b - corners.a) * scale, (corners.c - corners.a) * scale);
+}
+
 // Returns a point on the line of sight that is near the triangle's plane, and not beyond the triangle.
 vec3 pointAhead(vec3 sight, Corners corners) {
-  float scale = unitScale(corners.a, corners);
-  vec3 normal = cross((corners.b - corners.a) * scale, (corners.c - corners.a) * scale);
+  vec3 normal = normalOf(corners);
   float farthest = sqrt(max(dot(corners.a, corners.a), max(dot(corners.b, corners.b), dot(corners.c, corners.c))));
   float t = dot(normal, corners.a) / dot(normal, sight);
   return sight * (t >= 0.0 && t <= farthest ? t : farthest);
@@ -82,6 +87,16 @@ vec3 onTriangle(vec3 weights) {
   return weights / (weights.x + weights.y + weights.z);
 }
 
+// Moves a point of the triangle's plane along the plane to the line of sight. Weights of a triangle that is much longer
+// than wide are so rounded that the point they give may lie metres beside it.
+vec3 backToSight(vec3 point, vec3 sight, Corners corners) {
+  const float farBeside = 1e-5;  // of the distance; a pixel is some hundred times wider
+  vec3 beside = point - sight * dot(sight, point);
+  vec3 normal = normalOf(corners);
+  float t = dot(normal, point) / dot(normal, sight);
+  return dot(beside, beside) > farBeside * farBeside * dot(point, point) && t > 0.0 ? sight * t : point;
+}
+
 // A surface as a pixel sees it.
 struct Seen {
   Bounce bounce;
@@ -105,6 +120,7 @@ Seen seenObject(Identifier id, vec2 position) {
     weights.down = weightsAt(ahead * safeNormalize(rayThrough(position + vec2(0.0, 1.0))), corners) - onPlane;
   }
   point += w.x * (corners.a - point) + w.y * (corners.b - point) + w.z * (corners.c - point);
+  point = all(greaterThanEqual(onPlane, vec3(0.0))) ? backToSight(point, sight, corners) : point;
   vec3 direction = safeNormalize(point);
   Bounce bounce = objectBounce(instances[id.index].traceInstance, id.triangle, weights, point, direction,
                                view.traceOffset.xyz, sight);

@@ -231,6 +231,28 @@ TEST(ExactEffects, EqualTheTracerFarFromOrigin) {
   expectTruth(file, size, 3, trace(file, size, 3));
 }
 
+// Roads of up to 100 km under a light with shadows, some of them mirrors by rays. Rounding of weights must not move
+// what is shaded along the road.
+TEST(ExactEffects, LongThinTrianglesEqualTheTracer) {
+  Random random(3);
+  for (int i = 0; i < 8; ++i) {
+    const double length = std::pow(10.0, random.uniform(2.0, 5.0));
+    std::ostringstream road;
+    road << "v -3 0 " << -length << "\nv 3 0 " << -length << "\nv 3 0 " << length << "\nv -3 0 " << length
+         << "\nf 4 3 2 1\n";
+    const std::string name = "road_" + std::to_string(i);
+    writeModel(name + ".obj", road.str());
+    const std::filesystem::path file = writeScene(
+        name, "[environment]\nbackground = [0.3, 0.5, 0.8]\nambient = [0.1, 0.1, 0.1]\n" +
+                  cameraText({0, 1.6, 4}, {0, 0.6, 0}) +
+                  objectText("MODELS/block.obj", {0, 0, 0}, {0, 30, 0}, 0.8, {0.8, 0.5, 0.3}) +
+                  objectText(name + ".obj", {0, -0.01, 0}, {0, random.uniform(0, 90), 0}, 1.0, {0.7, 0.7, 0.7}) +
+                  (random.chance(0.4) ? "mirror = {}\n" : "") +
+                  "[[light]]\nposition = [1, 3, 2]\nintensity = 15\ncasts_shadow = true\n");
+    expectTruth(file, small, 2, trace(file, small, 2));
+  }
+}
+
 // Rays at every sample smooth the edges of shadows and of what curved mirrors show, which lowers the mean error against
 // the tracer.
 TEST(ExactEffects, RaysAtEverySampleReduceError) {
