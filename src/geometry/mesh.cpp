@@ -175,6 +175,7 @@ Texture shrunk(const Texture& texture, int width, int height) {
                 .width = width,
                 .height = height,
                 .mean = texture.mean,
+                .hasAlpha = texture.hasAlpha,
                 .isMask = texture.isMask};
   for (int y = 0; y < small.height; ++y) {
     for (int x = 0; x < small.width; ++x) {

@@ -23,6 +23,7 @@ struct Texture {
   glm::dvec3 mean{1.0};        // of the texels of its picture
   std::vector<float> opacity;  // of the texels, 0 .. 1; empty: opaque
   bool hasAlpha = false;       // its picture has an alpha channel, which may be opaque
+  std::string shrinkage;       // says why it has fewer texels than its picture; empty: it has all
   bool isMask = false;         // its texels are white, their opacity is the picture's brightness
 };
 

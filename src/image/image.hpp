@@ -27,7 +27,7 @@ struct Image8 {
   int width = 0;
   int height = 0;
   std::vector<uint8_t> rgba;
-  bool hasAlpha = false;  // the file that it was read from has an alpha channel; else alpha is 255
+  bool hasAlpha = false;  // the file that it was read from has an alpha channel
 
   Image8() = default;
   Image8(int w, int h) : width(w), height(h), rgba(static_cast<size_t>(w) * h * 4, 255) {}

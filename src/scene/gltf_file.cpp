@@ -90,7 +90,7 @@ json parsedJson(const fs::path& file, std::string_view text, ModelDefects* defec
   try {
     return json::parse(text.begin(), text.end(), checkDepth);
   } catch (const json::parse_error& error) {
-    if (const std::string whole = utf8(text); whole != text) {
+    if (const std::string whole = utf8(text); whole != text && trimmed(text).starts_with("{")) {
       if (defects != nullptr) {
         defects->add(file, 1, "json", "has bytes that are not UTF-8, they count as Latin-1");
       }

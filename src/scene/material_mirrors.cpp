@@ -214,22 +214,17 @@ MirrorTriangles mirrorTriangles(const Mesh& mesh, std::span<const glm::dvec3> po
   return triangles;
 }
 
-// Keeps the largest planes of all materials.
+// Keeps the largest planes of all materials; of equal ones the first.
 void keepLargest(std::vector<MirrorTriangles>& mirrors) {
-  std::vector<double> areas;
-  for (const MirrorTriangles& mirror : mirrors) {
-    std::ranges::transform(mirror.groups, std::back_inserter(areas), &FlatGroup::area);
-  }
-  if (areas.size() <= mostPlanes) {
-    return;
-  }
-  std::ranges::sort(areas, std::greater());
-  const double least = areas[mostPlanes - 1];
-  auto ties = static_cast<std::ptrdiff_t>(mostPlanes) -  // planes of this area that stay: the first
-              (std::ranges::find(areas, least) - areas.begin());
+  std::vector<FlatGroup*> groups;
   for (MirrorTriangles& mirror : mirrors) {
-    std::erase_if(mirror.groups,
-                  [&](const FlatGroup& group) { return group.area < least || (group.area == least && --ties < 0); });
+    std::ranges::transform(mirror.groups, std::back_inserter(groups), [](FlatGroup& group) { return &group; });
+  }
+  std::ranges::stable_sort(groups, std::greater(), &FlatGroup::area);
+  std::for_each(groups.begin() + std::min(groups.size(), mostPlanes), groups.end(),
+                [](FlatGroup* group) { group->mirror.pieces.clear(); });
+  for (MirrorTriangles& mirror : mirrors) {
+    std::erase_if(mirror.groups, [](const FlatGroup& group) { return group.mirror.pieces.empty(); });
   }
 }
 
@@ -291,22 +286,6 @@ bool wantsMirrors(const Scene& scene, const Object& object) {
   return object.mirrorsFromMaterials && !object.mirror && object.mesh >= 0 && scene.meshes[object.mesh].mirrorParts;
 }
 
-// Returns why a model that wants to make mirrors makes none of this object; null if it does.
-const char* obstacleTo(const Mesh& mesh, const Object& object) {
-  const size_t parts = 1 + mesh.mirrorParts->curved.size() + mesh.mirrorParts->flatMeshes.size();
-  if (parts * static_cast<size_t>(object.copies.count) > mostCopiedParts) {
-    return "its copies would have more than 2^17 parts";
-  }
-  const glm::dvec3 scale = glm::abs(object.scale);
-  const double middle = glm::compMax(scale) * glm::length(mesh.center);
-  const double largest = glm::compMax(scale) * mesh.radius * mesh.unit;
-  const double smallest = glm::compMin(scale) * mesh.radius * mesh.unit;
-  const double away = glm::length(object.position) + object.copies.count * glm::length(object.copies.step) + middle;
-  const bool fits = middle + largest <= largestExtent && smallest >= smallestExtent &&
-                    std::max(away, largest) <= farthestAway * smallest;
-  return fits ? nullptr : "it is too large, too small or too far away";
-}
-
 std::string nameOf(const Scene& scene, const Object& object) {
   return (object.name.empty() ? scene.meshes[object.mesh].source.stem().string() : object.name) + " mirror";
 }
@@ -333,7 +312,18 @@ void cutMirrorParts(Scene& scene, size_t first) {
 }
 
 bool makesMirrors(const Scene& scene, const Object& object) {
-  return wantsMirrors(scene, object) && obstacleTo(scene.meshes[object.mesh], object) == nullptr;
+  if (!wantsMirrors(scene, object)) {
+    return false;
+  }
+  const Mesh& mesh = scene.meshes[object.mesh];
+  const size_t parts = 1 + mesh.mirrorParts->curved.size() + mesh.mirrorParts->flatMeshes.size();
+  const glm::dvec3 scale = glm::abs(object.scale);
+  const double middle = glm::compMax(scale) * glm::length(mesh.center);
+  const double largest = glm::compMax(scale) * mesh.radius * mesh.unit;
+  const double smallest = glm::compMin(scale) * mesh.radius * mesh.unit;
+  const double away = glm::length(object.position) + object.copies.count * glm::length(object.copies.step) + middle;
+  return parts * static_cast<size_t>(object.copies.count) <= mostCopiedParts && middle + largest <= largestExtent &&
+         smallest >= smallestExtent && std::max(away, largest) <= farthestAway * smallest;
 }
 
 void placeMaterialMirrors(Scene& scene) {
@@ -368,29 +358,27 @@ void logMaterialMirrors(Scene& scene) {
   for (size_t i = 0; i < scene.meshes.size(); ++i) {
     Mesh& mesh = scene.meshes[i];
     const auto warn = [&](std::string_view text) {
-      mesh.defects.push_back(oneLine(fmt::format("{}: {}", mesh.source.string(), text)));
+      mesh.defects.push_back(oneLine(fmt::format("{}:1: materials: {}", mesh.source.string(), text)));
       spdlog::warn("{}", mesh.defects.back());
     };
-    bool used = false;
-    const char* obstacle = nullptr;
+    size_t used = 0;
+    size_t unused = 0;
     for (const Object& object : scene.objects) {
       if (object.mesh == static_cast<int>(i) && wantsMirrors(scene, object)) {
-        const char* found = obstacleTo(mesh, object);
-        used = used || found == nullptr;
-        obstacle = found != nullptr ? found : obstacle;
+        ++(makesMirrors(scene, object) ? used : unused);
       }
     }
-    if (used) {
+    if (used > 0) {
       spdlog::info(oneLine(
           fmt::format("{}: its materials make {} planar and {} curved mirrors (mirrors_from_materials = false: none)",
                       mesh.source.string(), mesh.mirrorParts->flat.size(), mesh.mirrorParts->curved.size())));
       const auto count = std::ranges::count_if(mesh.parts, saysMirror);
       if (count > static_cast<std::ptrdiff_t>(mostMaterials)) {
-        warn(fmt::format("{} materials say mirror, the first {} make mirrors", count, mostMaterials));
+        warn(fmt::format("{} say mirror, the first {} make mirrors", count, mostMaterials));
       }
     }
-    if (obstacle != nullptr) {
-      warn(fmt::format("its materials make no mirrors of an object: {}", obstacle));
+    if (unused > 0) {
+      warn("make no mirrors of objects that are too large, too small, too far away or copied too often");
     }
   }
 }

@@ -173,7 +173,7 @@ void MeshBuilder::addFace(std::span<const FaceCorner> corners, int line) {
     }
   }
   uvShift_ = uvShiftOf(corners);
-  // Of a face with more corners, a triangle without an area is due to how it was cut.
+  // Cutting a face of more corners may make triangles without an area, which are no defect of the file.
   double quality = 0.0;
   for (const auto& [a, b, c] : triangulate(points_)) {
     quality = std::max(quality, addTriangle(corners[a], corners[b], corners[c]));

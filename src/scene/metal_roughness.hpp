@@ -16,8 +16,8 @@ namespace speculum {
 // Ns gives the lobe the width of a GGX lobe with alpha = roughness^2: Walter et al., "Microfacet Models for Refraction
 // through Rough Surfaces" (2007), section 5.2. Ks is the reflectance at normal incidence: it does not grow towards
 // grazing angles, and reflects lights alone. The texture itself multiplies Kd only, so the highlights of a textured
-// metal have one color. A metal of 1 with a roughness of 0.05 or less says mirror, and nothing else does:
-// the caller takes that back (Material::mirror) if the material is not opaque.
+// metal have one color. A metal of 1 with a roughness of 0.05 or less says mirror, and nothing else does: the caller
+// takes that back (Material::mirror) if the material is not opaque.
 void setMetalRoughness(Material& material, glm::dvec3 baseColor, double metal, double roughness,
                        const glm::dvec3& texture = glm::dvec3(1.0));
 // Returns the roughness that setMetalRoughness() turns into `shininess`.

@@ -14,6 +14,15 @@ namespace speculum {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+// Returns what is equal for names that differ in the case of letters of ASCII, or in being UTF-8 or Latin-1.
+std::string keyOf(const fs::path& name) {
+  return lowerCase(utf8(name.string()));
+}
+
+}  // namespace
+
 std::optional<fs::path> ModelFiles::find(const fs::path& namingFile, std::string_view name) {
   const std::optional<fs::path> whole = findWhole(namingFile, name);
   const std::string_view bare = withoutComment(name);
@@ -36,24 +45,33 @@ std::optional<fs::path> ModelFiles::findWhole(const fs::path& namingFile, std::s
       return file;
     }
   }
-  const std::string lower = lowerCase(path.substr(path.find_last_of("/:") + 1));
+  const std::string last = path.substr(path.find_last_of("/:") + 1);
   for (const fs::path& folder : folders) {
-    const Listing& here = listing(folder);
-    if (const auto file = here.files.find(lower); file != here.files.end()) {
-      return file->second;
-    }
-    for (const char* below : {"textures", "tex", "maps"}) {
-      const auto found = here.folders.find(below);
-      if (found == here.folders.end()) {
-        continue;
-      }
-      const Listing& there = listing(found->second);
-      if (const auto file = there.files.find(lower); file != there.files.end()) {
-        return file->second;
+    for (const std::string& below : {path, last, "textures/" + last, "tex/" + last, "maps/" + last}) {
+      if (const auto file = follow(folder, below)) {
+        return file;
       }
     }
   }
   return std::nullopt;
+}
+
+std::optional<fs::path> ModelFiles::follow(fs::path folder, const fs::path& path) {
+  const fs::path below = path.lexically_normal();
+  if (below.empty() || below.has_root_path()) {
+    return std::nullopt;
+  }
+  for (const fs::path& name : below.parent_path()) {
+    const Listing& here = listing(folder);
+    const auto found = here.folders.find(keyOf(name));
+    if (found == here.folders.end()) {  // as for "..": no search leaves the model's folders
+      return std::nullopt;
+    }
+    folder = found->second;
+  }
+  const Listing& here = listing(folder);
+  const auto file = here.files.find(keyOf(below.filename()));
+  return file == here.files.end() ? std::nullopt : std::optional(file->second);
 }
 
 const ModelFiles::Listing& ModelFiles::listing(const fs::path& folder) {
@@ -69,7 +87,7 @@ const ModelFiles::Listing& ModelFiles::listing(const fs::path& folder) {
     const fs::path name = entry->path().filename();
     auto& paths = isFolder(entry->path()) ? listing.folders : listing.files;
     // Names may differ in case alone. The one that sorts first is kept, so that the order of listing does not matter.
-    const auto [other, isFirst] = paths.try_emplace(lowerCase(name.string()), folder / name);
+    const auto [other, isFirst] = paths.try_emplace(keyOf(name), folder / name);
     if (!isFirst) {
       other->second = std::min(other->second, folder / name);
     }
@@ -116,6 +134,9 @@ std::optional<ForeignFile> foreignFile(std::string_view content) {
       std::ranges::find_if(beginnings, [&](const Beginning& beginning) { return content.starts_with(beginning.text); });
   if (found != beginnings.end()) {
     return ForeignFile{found->wrong, found->right ? found->right : asModel};
+  }
+  if (content.starts_with("newmtl ") || content.find("\nnewmtl ") != std::string_view::npos) {
+    return ForeignFile{"is a material file", "name the OBJ file that uses it"};
   }
   if (trimmed(content).starts_with("{") && content.substr(0, 4096).find("\"asset\"") != std::string_view::npos) {
     return ForeignFile{"is a glTF file", "let its name end with .gltf"};

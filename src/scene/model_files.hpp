@@ -39,26 +39,28 @@ class ModelDefects {
 };
 
 // Finds the files that a model names. Models come from other machines, so names may be in quotes, have backslashes,
-// begin with a drive or folder that is not here, or differ in case. If there is no such file, a '#' after a blank
-// begins a comment.
+// begin with a drive or folder that is not here, differ in case, or be Latin-1. If there is no such file, a '#' after a
+// blank begins a comment.
 class ModelFiles {
  public:
   explicit ModelFiles(const std::filesystem::path& model) : modelFolder_(model.parent_path()) {}
 
   // Returns the file that `name` in `namingFile` means: as named, relative to the folder of the naming file or of the
-  // model; else the file of that name in these folders and in their subfolders textures, tex and maps. Returns nothing
-  // if no such file exists.
+  // model; else, without regard to case, below these folders, or by its file name in these folders and in their
+  // subfolders textures, tex and maps. Returns nothing if no such file exists.
   std::optional<std::filesystem::path> find(const std::filesystem::path& namingFile, std::string_view name);
 
  private:
   std::optional<std::filesystem::path> findWhole(const std::filesystem::path& namingFile, std::string_view name);
 
-  // Files and folders by their names in lower case.
+  // Files and folders by their names in UTF-8 and lower case.
   struct Listing {
     std::map<std::string, std::filesystem::path> files;
     std::map<std::string, std::filesystem::path> folders;
   };
   const Listing& listing(const std::filesystem::path& folder);
+  // Follows a path below a folder without regard to case.
+  std::optional<std::filesystem::path> follow(std::filesystem::path folder, const std::filesystem::path& path);
 
   std::filesystem::path modelFolder_;
   std::map<std::filesystem::path, Listing> listings_;

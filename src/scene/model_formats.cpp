@@ -37,7 +37,14 @@ bool isModelFile(const std::filesystem::path& file) {
 }
 
 Model loadModel(const std::filesystem::path& file, std::vector<Texture>& textures, const LoadProgress& progress) {
-  return formatOrFirst(file).load(file, textures, progress);
+  const size_t known = textures.size();
+  Model model = formatOrFirst(file).load(file, textures, progress);
+  for (size_t i = known; i < textures.size(); ++i) {
+    if (!textures[i].shrinkage.empty()) {
+      model.mesh.defects.push_back(textures[i].shrinkage);
+    }
+  }
+  return model;
 }
 
 void addModelFiles(const std::filesystem::path& model, std::set<std::filesystem::path>& files) {

@@ -80,7 +80,7 @@ class ObjMaterials::MtlReader {
           add("newmtl", "is one too many, 10000 materials of a file are read");
           return;
         }
-        name_ = line_.argument();
+        name_ = utf8(line_.argument());
         entry_.emplace();
         entry_->file = file_;
         entry_->line = line_.number();
@@ -269,7 +269,11 @@ bool ObjMaterials::readIfThere(std::string_view name, int line) {
     return true;
   }
   try {
-    MtlReader(*this, *file, readText(*file)).read();
+    const std::string text = readText(*file);
+    if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff")) {
+      throw FileError(*file, "is UTF-16 text", "save it as UTF-8");
+    }
+    MtlReader(*this, *file, text).read();
   } catch (const FileError& error) {
     defects_.add(objFile_, line, "mtllib", "{}, its faces get the default material", error.what());
     missingFile_ = true;
@@ -278,12 +282,11 @@ bool ObjMaterials::readIfThere(std::string_view name, int line) {
 }
 
 int ObjMaterials::use(std::string_view name, int line) {
-  const auto known = useIndices_.find(name);
-  if (known != useIndices_.end()) {
-    return known->second;
+  const auto [known, isNew] = useIndices_.try_emplace(utf8(name), static_cast<int>(uses_.size()));
+  if (isNew) {
+    uses_.push_back({known->first, line});
   }
-  uses_.push_back({std::string(name), line});
-  return useIndices_.emplace(std::string(name), static_cast<int>(uses_.size()) - 1).first->second;
+  return known->second;
 }
 
 PartMaterial ObjMaterials::material(int index, bool colored, std::vector<Texture>& textures) {

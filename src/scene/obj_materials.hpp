@@ -94,7 +94,7 @@ class ObjMaterials {
   std::map<std::string, Entry> entries_;          // by name
   std::map<std::string, std::string> bareNames_;  // names of entries by the same without a comment
   std::vector<Use> uses_;
-  std::map<std::string, int, std::less<>> useIndices_;  // by name
+  std::map<std::string, int> useIndices_;  // by name
   std::set<std::filesystem::path> filesRead_;
   std::set<std::filesystem::path> namedFiles_;
   std::map<std::filesystem::path, int> opacityIndices_;  // by picture: texture of opacity, -1 if it is opaque

@@ -247,7 +247,7 @@ void logExposure(const fs::path& file, const Model& model) {
     irradiance += glm::compMax(light.color) * light.intensity / (distance * distance);
   }
   if (irradiance > most) {
-    spdlog::info(
+    spdlog::warn(
         oneLine(fmt::format("{}: its lights, as in real units, are very bright: --set view.exposure={:.2g} suits them",
                             file.string(), usual / irradiance)));
   }
@@ -295,6 +295,12 @@ Scene parseScene(const fs::path& file, std::string text) {
 Scene loadScene(const fs::path& file, const LoadProgress& progress) {
   if (isModelFile(file)) {
     return modelScene(file, progress);
+  }
+  if (lowerCase(file.extension().string()) != ".toml") {
+    const std::string content = readInputText(file, "a scene file is needed");
+    if (const auto foreign = content.empty() ? std::nullopt : foreignFile(content)) {
+      throwInputError(file, 1, "file", foreign->wrong, foreign->right);
+    }
   }
   std::string text = readTomlText(file, "scene file");
   const toml::table root = parseToml(file, text, "scene file");

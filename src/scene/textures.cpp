@@ -10,6 +10,7 @@
 #include "image/color.hpp"
 #include "image/picture_files.hpp"
 #include "platform/files.hpp"
+#include "platform/text.hpp"
 
 namespace speculum {
 
@@ -68,8 +69,10 @@ Texture bounded(Texture texture, double most) {
   const int width = std::clamp(static_cast<int>(most / least), 1, texture.width);
   const int height = std::clamp(static_cast<int>(most / width), 1, texture.height);
   Texture small = shrunk(texture, width, height);
-  spdlog::warn("{}: is drawn with {}x{} texels: the textures before it have 2^28 texels or more",
-               texture.source.string(), small.width, small.height);
+  small.shrinkage =
+      oneLine(fmt::format("{}: is drawn with {}x{} texels: the textures before it have 2^28 texels or more",
+                          texture.source.string(), small.width, small.height));
+  spdlog::warn("{}", small.shrinkage);
   return small;
 }
 

@@ -11,7 +11,7 @@
 namespace speculum {
 
 // Returns the index of the texture of a picture file. Appends it to `textures` unless it is there already; shrinks it
-// if the textures before it fill the memory that a scene's may take. Throws FileError.
+// (Texture::shrinkage) if the textures before it fill the memory that a scene's may take. Throws FileError.
 int textureIndex(const std::filesystem::path& file, std::vector<Texture>& textures);
 // Does the same for a picture that gives opacities: by its alpha channel or, if the file has none, by its red, which
 // counts as a linear number. Returns nothing if it is opaque throughout.

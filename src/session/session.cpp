@@ -160,6 +160,14 @@ Session::Session(const Options& options, Device* device)
       sceneRenderer_(renderer_, loaded_.scene),
       planner_(device_) {
   applyDebugSettings(loaded_.settings, device_);
+  const auto largest = static_cast<int>(device_.limits().maxImageDimension2D);
+  for (const Texture& texture : loaded_.scene.textures) {
+    if (options.strict && std::max(texture.width, texture.height) > largest) {
+      throw InputError(oneLine(
+          fmt::format("{}: has {}x{} texels, the device's largest side is {} (strict: a picture that fits is needed)",
+                      texture.source.string(), texture.width, texture.height, largest)));
+    }
+  }
 }
 
 const DrawnFrame& Session::draw(double time, bool capture, const std::function<bool()>& afterPicture) {

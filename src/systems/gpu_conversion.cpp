@@ -34,30 +34,40 @@ glm::vec4 texelOf(const Texture& texture, size_t index) {
   return {texture.texels[index], texture.opacity.empty() ? 1.0f : texture.opacity[index]};
 }
 
-void forLevels(const Texture& texture, const std::function<void(std::span<const glm::vec4>)>& take) {
-  std::vector<glm::vec4> level;
-  level.reserve(texture.texels.size());
-  for (size_t i = 0; i < texture.texels.size(); ++i) {
-    level.push_back(texelOf(texture, i));
+// Appends the means of four texels each, of rows of this width, or of two where there is one row or column.
+void appendHalved(std::span<const glm::vec4> from, size_t width, size_t height, std::vector<glm::vec4>& level) {
+  const size_t right = width > 1 ? 1 : 0;
+  const size_t below = height > 1 ? width : 0;
+  const size_t halfWidth = std::max<size_t>(width / 2, 1);
+  for (size_t i = 0; i < halfWidth * std::max<size_t>(height / 2, 1); ++i) {
+    const glm::vec4* first = &from[2 * (i / halfWidth) * width + 2 * (i % halfWidth)];
+    level.push_back(0.25f * (first[0] + first[right] + first[below] + first[right + below]));
   }
+}
+
+void forLevels(const Texture& texture, const std::function<void(std::span<const glm::vec4>)>& take) {
   auto width = static_cast<size_t>(texture.width);
   auto height = static_cast<size_t>(texture.height);
-  for (;;) {
+  std::vector<glm::vec4> level;
+  std::vector<glm::vec4> rows;  // two of the first level, which as a whole would take more memory than all others
+  for (size_t y = 0; y < height; y += 2) {
+    const size_t count = std::min<size_t>(2, height - y);
+    rows.clear();
+    for (size_t i = y * width; i < (y + count) * width; ++i) {
+      rows.push_back(texelOf(texture, i));
+    }
+    take(rows);
+    if (count == 2 || height == 1) {
+      appendHalved(rows, width, count, level);
+    }
+  }
+  while (width * height > 1) {
     take(level);
-    if (level.size() <= 1) {
-      return;
-    }
-    const size_t right = width > 1 ? 1 : 0;
-    const size_t below = height > 1 ? width : 0;
-    const size_t halfWidth = std::max<size_t>(width / 2, 1);
-    const size_t halfHeight = std::max<size_t>(height / 2, 1);
-    for (size_t i = 0; i < halfWidth * halfHeight; ++i) {
-      const size_t from = 2 * (i / halfWidth) * width + 2 * (i % halfWidth);
-      level[i] = 0.25f * (level[from] + level[from + right] + level[from + below] + level[from + right + below]);
-    }
-    level.resize(halfWidth * halfHeight);
-    width = halfWidth;
-    height = halfHeight;
+    width = std::max<size_t>(width / 2, 1);
+    height = std::max<size_t>(height / 2, 1);
+    rows.clear();
+    appendHalved(level, width, height, rows);
+    std::swap(level, rows);
   }
 }
 

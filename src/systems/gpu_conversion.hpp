@@ -15,8 +15,8 @@ namespace speculum {
 glm::vec4 row(const glm::dmat3& m, int r, double w);
 // Rounds a product of radiances to floats, at most radianceRange.high.
 glm::vec3 radiance(const glm::dvec3& product);
-// Gives `take` the texels of each level, with color and opacity, from the first down to one texel. Halving an odd size
-// leaves out the last row or column.
+// Gives `take` the texels of each level in order, with color and opacity, from the first, in parts, down to one texel.
+// Halving an odd size leaves out the last row or column.
 void forLevels(const Texture& texture, const std::function<void(std::span<const glm::vec4>)>& take);
 // Appends all levels, RGBA as half floats.
 void appendLevels(const Texture& texture, std::vector<uint64_t>& texels);

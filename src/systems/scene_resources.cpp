@@ -42,6 +42,7 @@ std::optional<std::vector<uint32_t>> srgbLevels(const Texture& texture) {
     return std::nullopt;
   }
   std::vector<uint32_t> codes;
+  codes.reserve(texture.texels.size() * 4 / 3 + 32);
   forLevels(texture, [&](std::span<const glm::vec4> level) {
     std::ranges::transform(level, std::back_inserter(codes), nearestCode);
   });

@@ -126,6 +126,17 @@ TEST_F(CommandLine, StrictRefusesModelsWithDefects) {
   }
 }
 
+// No device has images of 2^20 texels a side.
+TEST_F(CommandLine, StrictRefusesPicturesBeyondTheDevice) {
+  writePng(out("line.png"), Image8(1 << 20, 1));
+  replaceFile(out("m.mtl"), std::string("newmtl m\nmap_Kd line.png\n"));
+  replaceFile(out("line.obj"), std::string("mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n"));
+  std::vector<std::string> arguments{"render", "--scene", out("line.obj"), "--size", "8x8", "--out", out("p.png")};
+  EXPECT_TRUE(contains(succeed(arguments), "texels, the device's largest side is"));
+  arguments.emplace_back("--strict");
+  EXPECT_TRUE(contains(mistake(arguments), "line.png: has 1048576x1 texels, the device's largest side is"));
+}
+
 TEST_F(CommandLine, MessagesCanBeReadWhateverTheyName) {
   for (const std::string& text : {std::string("\x1b[2J\n\x7f"), std::string(100'000, 'x')}) {
     const std::string file = out(text + ".toml");

@@ -677,6 +677,7 @@ TEST_F(GltfLoader, TextThatIsNotUtf8CountsAsLatin1) {
   text[text.find('@')] = '\xf6';
   EXPECT_EQ(load(text).mesh.indices.size(), 3u);
   EXPECT_EQ(warnings(), "warning: m.gltf:1: json: has bytes that are not UTF-8, they count as Latin-1\n");
+  EXPECT_TRUE(contains(faultOf("\xff\xfe{"), "is UTF-16 text"));
 }
 
 TEST_F(GltfLoader, CamerasWithoutAUsablePlaceAreLeftOut) {

@@ -181,6 +181,20 @@ TEST(SceneFaults, GarbageIsAnError) {
   expectFault("a = " + std::string(100'000, '['), "1: toml:", "a TOML 1.0 file is needed");
 }
 
+TEST(SceneFaults, ModelsOfOtherFormatsAreNamed) {
+  const TemporaryFolder folder;
+  for (const auto& [name, content, kind] :
+       {std::tuple("a.stl", "solid a\n", "is an STL file (save it as a "),
+        std::tuple("a.ply", "ply\nformat", "is a PLY file"), std::tuple("a.dae", "<?xml version", "is an XML file"),
+        std::tuple("a.fbx", "Kaydara FBX Binary", "is an FBX file"),
+        std::tuple("a.usdz", "PK\x03\x04", "is a ZIP archive (unpack it)"),
+        std::tuple("a.mtl", "# made by hand\nnewmtl m\n", "is a material file (name the OBJ file that uses it)")}) {
+    const std::string message = messageOf<InputError>([&, file = folder.write(name, content)] { loadScene(file); });
+    EXPECT_TRUE(contains(message, std::string(name) + ":1: file: " + kind)) << message;
+  }
+  EXPECT_TRUE(contains(messageOf<InputError>([&] { loadScene(folder.write("a.scene", "camera = 3\n")); }), "camera:"));
+}
+
 TEST(SceneFaults, ModelErrorsNameTheModelFile) {
   const TemporaryFolder folder;
   folder.write("models/bad.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n");

@@ -7,6 +7,7 @@
 #include "image/picture_files.hpp"
 #include "made_pictures.hpp"
 #include "scene/metal_roughness.hpp"
+#include "scene/model_formats.hpp"
 #include "scene/obj_support.hpp"
 #include "test_headers.hpp"
 
@@ -346,6 +347,34 @@ TEST_F(MtlFile, FilesAreFoundByTheirNames) {
   EXPECT_EQ(warnings(), "");
 }
 
+// Names of materials and files come from systems without regard to case, and from programs that write Latin-1.
+TEST_F(MtlFile, FoldersHaveAnyCase) {
+  std::filesystem::create_directories(folder_ / "Images/Deep");
+  writePng(folder_ / "Images/Deep/wall.png", Image8(1, 1));
+  for (const char* name : {"images\\deep\\Wall.PNG", "IMAGES/DEEP/wall.png", "./images/../Images/deep/wall.png"}) {
+    EXPECT_EQ(materialOf(std::string("newmtl m\nmap_Kd ") + name + "\n").diffuseTexture, 0) << name;
+  }
+  EXPECT_EQ(warnings(), "");
+}
+
+TEST_F(MtlFile, NamesAreUtf8OrLatin1) {
+  for (const std::string first : {"K\xf6ln", "K\xc3\xb6ln"}) {
+    for (const std::string second : {"K\xf6ln", "K\xc3\xb6ln"}) {
+      const Material material =
+          load(squareText + "usemtl " + first + "\nf 1 2 3\n", "newmtl " + second + "\nKd 1 0 0\n")
+              .parts.at(0)
+              .material;
+      EXPECT_EQ(material.diffuse, glm::dvec3(1, 0, 0));
+      EXPECT_EQ(material.name, "K\xc3\xb6ln");
+    }
+  }
+  writePng(folder_ / "K\xc3\xb6ln.png", Image8(1, 1));
+  EXPECT_EQ(materialOf("newmtl m\nmap_Kd k\xf6ln.PNG\n").diffuseTexture, 0);
+  load(squareText + "usemtl m\nf 1 2 3\n", std::string("\xff\xfen\0e\0w\0", 8));
+  EXPECT_EQ(warnings(),
+            "warning: m.obj:1: mtllib: m.mtl: is UTF-16 text (save it as UTF-8), its faces get the default material\n");
+}
+
 TEST_F(MtlFile, SearchStaysInTheModelsFolders) {
   const TemporaryFolder folder;
   for (const char* elsewhere : {"other/t.png", "t.png", "model/deep/t.png", "model/textures/deep/t.png"}) {
@@ -370,8 +399,11 @@ TEST_F(MtlFile, TexturesBeyondTheBoundAreDrawnSmaller) {
   const auto sizes = [&](const char* name, std::vector<Texture> others) {
     textures_ = std::move(others);
     const size_t count = textures_.size();
-    materialOf(std::string("newmtl m\nmap_Kd ") + name + ".png\n");
+    folder_.write("m.mtl", std::string("newmtl m\nmap_Kd ") + name + ".png\n");
+    const std::string obj = "mtllib m.mtl\n" + squareText + "usemtl m\nf 1 2 3\n";
+    const std::vector<std::string> defects = loadModel(folder_.write("m.obj", obj), textures_).mesh.defects;
     EXPECT_EQ(textures_.at(count).texels.size(), textures_[count].width * textures_[count].height);
+    EXPECT_EQ(textures_[count].shrinkage.empty() ? 0u : 1u, defects.size()) << "--strict refuses them";
     return glm::ivec2(textures_[count].width, textures_[count].height);
   };
   const Texture large{.width = 8192, .height = 8192};
