@@ -11,7 +11,7 @@ namespace {
 
 // Returns sine and cosine, exact at multiples of 90 degrees, where most walls stand, after any number of turns.
 std::pair<double, double> sineCosine(double degrees) {
-  const double reduced = std::remainder(degrees, 360.0);
+  const double reduced = std::abs(degrees) <= 180.0 ? degrees : std::remainder(degrees, 360.0);
   const double quarter = std::round(reduced / 90.0);
   const double rest = glm::radians(reduced - 90.0 * quarter);
   const double s = std::sin(rest);

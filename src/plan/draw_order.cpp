@@ -1,7 +1,7 @@
 #include "plan/draw_order.hpp"
 
 #include <algorithm>
-#include <map>
+#include <cmath>
 #include <tuple>
 
 namespace speculum {
@@ -14,7 +14,7 @@ std::vector<int> frontToBack(const View& view, std::span<const int> instances, c
     int instance = 0;
     auto key() const { return std::tie(batch, mesh, distance, instance); }
   };
-  std::map<int, double> nearest;  // by mesh: distance of its nearest instance, metres
+  RecycledVector<double> nearest;  // by mesh: distance of its nearest instance, metres
   std::vector<Entry> entries;
   entries.reserve(instances.size());
   for (const int i : instances) {
@@ -22,8 +22,8 @@ std::vector<int> frontToBack(const View& view, std::span<const int> instances, c
     // To the far end of the bounding sphere, in metres. A room begins nearer to the eye than the objects in the room
     // but ends behind them, so the room is drawn after them.
     const double distance = glm::length(instance.center - view.eye) + instance.radius;
-    const auto [it, isNew] = nearest.try_emplace(instance.mesh, distance);
-    it->second = std::min(it->second, distance);
+    nearest.resize(std::max<size_t>(nearest.size(), instance.mesh + 1), INFINITY);
+    nearest[instance.mesh] = std::min(nearest[instance.mesh], distance);
     entries.push_back({.mesh = instance.mesh, .distance = distance, .instance = i});
   }
   for (Entry& entry : entries) {

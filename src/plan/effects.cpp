@@ -1,7 +1,6 @@
 #include "plan/effects.hpp"
 
 #include <algorithm>
-#include <set>
 
 #include "plan/scene_names.hpp"
 #include "scene/material_mirrors.hpp"
@@ -10,25 +9,34 @@ namespace speculum {
 
 namespace {
 
-// Nodes that at least one pass of the plan draws. Passes that cached images replace count too.
+// Nodes that at least one pass of the plan draws, ascending. Passes that cached images replace count too.
 struct Visible {
-  std::set<int> instances;
-  std::set<int> lights;
-  std::set<int> mirrorFronts;
+  RecycledVector<int> instances;
+  RecycledVector<int> lights;
+  RecycledVector<int> mirrorFronts;
 };
 
-Visible visibleIn(const FramePlan& plan) {
-  Visible visible;
+Visible visibleIn(const Scene& scene, const SceneState& state, const FramePlan& plan) {
+  RecycledVector<bool> instances(state.instances.size());
+  RecycledVector<bool> lights(scene.lights.size());
+  RecycledVector<bool> fronts(scene.mirrorCount());
   forEachSeen(plan, [&](const Pass& pass) {
-    visible.instances.insert(pass.instances.begin(), pass.instances.end());
-    visible.lights.insert(pass.lights.begin(), pass.lights.end());
+    std::ranges::for_each(pass.instances, [&](int i) { instances[i] = true; });
+    std::ranges::for_each(pass.lights, [&](int i) { lights[i] = true; });
     for (const MirrorDraw& draw : pass.mirrors) {
-      if (!draw.back) {
-        visible.mirrorFronts.insert(draw.mirror);
-      }
+      fronts[draw.mirror] = fronts[draw.mirror] || !draw.back;
     }
   });
-  return visible;
+  const auto indices = [](const RecycledVector<bool>& chosen) {
+    RecycledVector<int> list;
+    for (size_t i = 0; i < chosen.size(); ++i) {
+      if (chosen[i]) {
+        list.push_back(static_cast<int>(i));
+      }
+    }
+    return list;
+  };
+  return {indices(instances), indices(lights), indices(fronts)};
 }
 
 Effect fresnel(const Scene& scene, const SceneState& state, const Settings& settings, const Visible& visible) {
@@ -94,7 +102,7 @@ Effect glyphs(const Scene& scene, const Visible& visible) {
   if (visible.lights.empty()) {
     return {EffectKind::glyphs, "glyphs", false, "no light's glyph is in view"};
   }
-  const int first = *visible.lights.begin();
+  const int first = visible.lights.front();
   return {EffectKind::glyphs, "glyphs", true, nameOf("light", scene.lights[first].name, first)};
 }
 
@@ -137,19 +145,20 @@ bool drawsTextures(const Scene& scene, const SceneState& state, const Settings& 
       return part.material.opacityTexture >= 0 && isTransparent(part.material, settings.effects);
     });
   };
-  return textures(scene, state, settings, visibleIn(plan)).calledFor ||
+  return textures(scene, state, settings, visibleIn(scene, state, plan)).calledFor ||
          std::ranges::any_of(plan.passes, [&](const Pass& pass) {
            return pass.id.kind == PassKind::shadow && std::ranges::any_of(pass.instances, castsByTexture);
          });
 }
 
 bool drawsTransparency(const Scene& scene, const SceneState& state, const Settings& settings, const FramePlan& plan) {
-  return transparency(scene, state, settings, visibleIn(plan)).calledFor;
+  return std::ranges::any_of(scene.meshes, [&](const Mesh& mesh) { return isTransparent(mesh, settings.effects); }) &&
+         transparency(scene, state, settings, visibleIn(scene, state, plan)).calledFor;
 }
 
 std::vector<Effect> effectsOf(const Scene& scene, const SceneState& state, const Settings& settings,
                               const FramePlan& plan) {
-  const Visible visible = visibleIn(plan);
+  const Visible visible = visibleIn(scene, state, plan);
   const TracedEffects& traced = plan.effects;
   const bool aces = settings.view.toneMap == ToneMap::aces;
   const bool wire = settings.view.wireframe;

@@ -24,22 +24,14 @@ struct Axis {
   double pixel;
 };
 
-// A corner of an outline, and its distance from the eye.
-struct Corner {
-  explicit Corner(const glm::dvec3& from) : fromEye(from), distance(glm::length(from)) {}
-
-  glm::dvec3 fromEye;
-  double distance;
-};
-
 // Adds the half space on the left of the edge from a to b, as seen from the eye, narrowed by `margin`, which is
 // measured across the view at unit depth. Returns the unit normal of the plane through eye and edge; nothing if the
 // edge points at the eye or `inside` is not on its left. All vectors start at the eye.
-std::optional<glm::dvec3> addEdge(OccludedRegion& region, const Corner& a, const Corner& b, const glm::dvec3& inside,
-                                  double margin, const Axis& axis) {
-  glm::dvec3 normal = glm::cross(b.fromEye, a.fromEye);
+std::optional<glm::dvec3> addEdge(OccludedRegion& region, const glm::dvec3& a, const glm::dvec3& b,
+                                  const glm::dvec3& inside, double margin, const Axis& axis) {
+  glm::dvec3 normal = glm::cross(b, a);
   const double length = glm::length(normal);
-  if (!(length > 1e-9 * a.distance * b.distance)) {
+  if (!(length > 1e-9 * glm::length(a) * glm::length(b))) {
     return std::nullopt;
   }
   normal /= length;
@@ -105,20 +97,16 @@ bool hiddenByFace(const FlatOccluder& occluder, const View& view, const Projecti
                  {eye * axis.forward - (1.0 + depthPart) * projection.near * toPlane, 0.0}});
   region.reserve(region.size() + 2 * drawn.size());
   const glm::dvec3 inside = vertexMean(drawn) - view.eye;
-  const size_t last = drawn.size() - 1;
   const auto corner = [&](size_t i) {  // counter-clockwise as seen from the eye
-    return Corner(drawn[height < 0.0 ? last - i : i] - view.eye);
+    i %= drawn.size();
+    return drawn[height < 0.0 ? drawn.size() - 1 - i : i] - view.eye;
   };
-  const Corner first = corner(0);
-  Corner from = first;
-  for (size_t i = 0; i <= last; ++i) {
-    const Corner to = i < last ? corner(i + 1) : first;
-    const auto normal = addEdge(region, from, to, inside, marginPixels * axis.pixel, axis);
+  for (size_t i = 0; i < drawn.size(); ++i) {
+    const auto normal = addEdge(region, corner(i), corner(i + 1), inside, marginPixels * axis.pixel, axis);
     if (!normal) {
       return false;
     }
     region.push_back({eye * *normal - occluder.slack * toPlane, 0.0});
-    from = to;
   }
   return true;
 }
@@ -143,8 +131,7 @@ std::optional<BodyRegion> hiddenByBody(const BodyOccluder& body, const View& vie
   // A displacement by `slack`, at depth `nearest` or beyond, is seen as slack / nearest at most.
   const double margin = marginPixels * axis.pixel + body.slack / nearest;
   for (const auto& [from, to] : outline(body, view.eye)) {
-    if (!addEdge(region.outline, Corner(body.points[from] - view.eye), Corner(body.points[to] - view.eye), inside,
-                 margin, axis)) {
+    if (!addEdge(region.outline, body.points[from] - view.eye, body.points[to] - view.eye, inside, margin, axis)) {
       return std::nullopt;
     }
   }

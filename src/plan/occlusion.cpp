@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "geometry/polygon.hpp"
+#include "plan/partial_instances.hpp"
 #include "plan/scene_names.hpp"
 
 namespace speculum {
@@ -25,8 +26,9 @@ constexpr size_t fewMirrors = 32;
 constexpr size_t mostPieces = 24;
 constexpr size_t mostOccluders = 64;
 
-FlatOccluder flatOccluder(std::span<const glm::dvec3> polygon, double size) {
-  FlatOccluder made{.plane = {polygon[0], glm::normalize(newellVector(polygon))}, .slack = roundingPart * size};
+// `area` is the polygon's newellVector().
+FlatOccluder flatOccluder(std::span<const glm::dvec3> polygon, const glm::dvec3& area, double size) {
+  FlatOccluder made{.plane = {polygon[0], glm::normalize(area)}, .slack = roundingPart * size};
   for (const glm::dvec3& p : polygon) {
     made.slack = std::max(made.slack, 2.0 * std::abs(made.plane.distance(p)));
   }
@@ -49,7 +51,7 @@ BodyOccluder bodyOccluder(const ConvexMesh& mesh, const InstanceState& state) {
 
 }  // namespace
 
-// Filters occluders of a target, the polygon or one of its corners, at little cost. Keeps those that look large enough
+// Filters occluders of a target, the polygon or one of its points, at little cost. Keeps those that look large enough
 // to matter for the polygon, unless they lie wholly behind its plane or outside the cone from the eye through the
 // target.
 class Occlusion::Prefilter {
@@ -69,9 +71,9 @@ class Occlusion::Prefilter {
     before_.cone = coneThrough(before_.eye, polygon);
   }
   // The planes of the cone meet in the line of sight, the first one along `up`.
-  void aimAt(const glm::dvec3& corner, const glm::dvec3& up) {
-    target_ = {&corner, 1};
-    const glm::dvec3 sight = corner - before_.eye;
+  void aimAt(const glm::dvec3& point, const glm::dvec3& up) {
+    target_ = {&point, 1};
+    const glm::dvec3 sight = point - before_.eye;
     before_.cone.clear();
     if (glm::dvec3 normal = glm::cross(sight, up); glm::length(normal) > 1e-6 * glm::length(sight)) {
       for (const glm::dvec3& n : {glm::normalize(normal), glm::normalize(glm::cross(sight, normal))}) {
@@ -111,7 +113,8 @@ Occlusion::Occlusion(const Scene& scene, const SceneState& state, const Settings
     for (const glm::dvec3& p : mirror.polygon) {
       size = std::max(size, glm::length(p - mirror.polygon[0]));
     }
-    mirrors_.push_back({.occluder = flatOccluder(mirror.piece(0), size)});
+    const std::vector<glm::dvec3>& piece = mirror.piece(0);
+    mirrors_.push_back({.occluder = flatOccluder(piece, newellVector(piece), size)});
   }
   shapes_.resize(scene.meshes.size());
 }
@@ -123,8 +126,8 @@ const Occlusion::Shape& Occlusion::shapeOf(int mesh) {
     shape.transparent = isTransparent(of, settings_.effects);
     for (const ConvexFace& face : of.faces) {
       shape.largest = std::max(shape.largest, face.radius / of.radius);
-      shape.widest = std::max(shape.widest, roomForRounding * face.width / of.radius);
     }
+    shape.largest = of.convex.points.empty() ? shape.largest : 1.0;
   }
   return shape;
 }
@@ -152,12 +155,12 @@ Occlusion::Face& Occlusion::faceOf(Body& body, int instance, size_t index) const
   Face& face = body.faces[index];
   if (!std::exchange(face.placed, true)) {
     const InstanceState& state = state_.instances[instance];
-    Polygon polygon;
-    for (const glm::dvec3& p : scene_.meshes[state.mesh].faces[index].corners) {
-      polygon.push_back(state.worldFromMesh.point(p));
-    }
-    if (std::isnormal(polygonArea(polygon))) {
-      face.occluder = flatOccluder(polygon, state.radius);
+    const std::vector<glm::dvec3>& corners = scene_.meshes[state.mesh].faces[index].corners;
+    Polygon polygon(corners.size());
+    std::ranges::transform(corners, polygon.begin(), [&](const auto& p) { return state.worldFromMesh.point(p); });
+    const glm::dvec3 area = newellVector(polygon);
+    if (std::isnormal(0.5 * glm::length(area))) {
+      face.occluder = flatOccluder(polygon, area, state.radius);
     }
   }
   return face;
@@ -200,25 +203,9 @@ bool Occlusion::Occluders::add(const Occluder& occluder, const glm::dvec3& eye, 
   return all;
 }
 
-// Keeps the order of `viewInstances_`.
-RecycledVector<int> Occlusion::largeInstances(const Prefilter& prefilter) {
-  RecycledVector<int> large;
-  for (const int i : viewInstances_) {
-    const InstanceState& instance = state_.instances[i];
-    const Shape& shape = shapeOf(instance.mesh);
-    const bool hasBody = !scene_.meshes[instance.mesh].convex.points.empty();
-    const double largest = hasBody ? instance.radius : instance.radius * shape.largest;
-    if (!shape.transparent && prefilter.looksLarge(instance.center, instance.radius, largest) &&
-        (hasBody || !looksNarrow(instance.center, instance.radius, instance.radius * shape.widest))) {
-      large.push_back(i);
-    }
-  }
-  return large;
-}
-
 // Finds the first occluder that hides all of the target, a part of `mirror`, or else the occluders that hide a part of
 // it.
-Occlusion::Occluders Occlusion::occludersOf(int mirror, const Prefilter& prefilter, std::span<const int> instances) {
+Occlusion::Occluders Occlusion::occludersOf(int mirror, const Prefilter& prefilter) {
   const glm::dvec3& eye = view_->eye;
   const std::span<const glm::dvec3> target = prefilter.target();
   Occluders found;
@@ -243,9 +230,10 @@ Occlusion::Occluders Occlusion::occludersOf(int mirror, const Prefilter& prefilt
       return found;
     }
   }
-  for (const int i : instances) {
+  for (const auto& [i, center, radius, largest] : viewInstances_) {
     const InstanceState& instance = state_.instances[i];
-    if (!boxVisible(prefilter.before(), instance.worldFromMesh, scene_.meshes[instance.mesh].halfExtent)) {
+    if (!prefilter.looksLarge(center, radius, largest) ||
+        !boundsVisible(prefilter.before(), instance, scene_.meshes[instance.mesh].halfExtent)) {
       continue;
     }
     Body& body = bodyOf(i);
@@ -256,8 +244,8 @@ Occlusion::Occluders Occlusion::occludersOf(int mirror, const Prefilter& prefilt
       }
     }
     for (size_t k = 0; k < body.bounds.size(); ++k) {
-      const auto& [center, radius, width] = body.bounds[k];
-      if (prefilter.looksLarge(center, radius, radius) && !looksNarrow(center, radius, width) &&
+      const FaceBounds& face = body.bounds[k];
+      if (prefilter.looksLarge(face.center, face.radius, face.radius) && !looksNarrow(face) &&
           addFace(faceOf(body, i, k), false, i)) {
         return found;
       }
@@ -287,7 +275,7 @@ void Occlusion::setView(const View& view, std::span<const int> instances, Recycl
   narrowest_ = narrowestFace(view, projection_);
   // Mirrors are drawn only where the view shows them, not in the margin that is read around it.
   viewMirrors_ = std::move(mirrors);
-  viewInstances_.assign(instances.begin(), instances.end());
+  viewInstances_.clear();
   if (mirrors_.empty() || !skips(view)) {
     return;
   }
@@ -306,8 +294,15 @@ void Occlusion::setView(const View& view, std::span<const int> instances, Recycl
   };
   keepLargest(viewMirrors_,
               [&](size_t i) { return std::pair(mirrors_[i].occluder.center, mirrors_[i].occluder.radius); });
-  keepLargest(viewInstances_,
-              [&](size_t i) { return std::pair(state_.instances[i].center, state_.instances[i].radius); });
+  RecycledVector<int> kept(instances.begin(), instances.end());
+  keepLargest(kept, [&](size_t i) { return std::pair(state_.instances[i].center, state_.instances[i].radius); });
+  for (const int i : kept) {
+    const InstanceState& instance = state_.instances[i];
+    const Shape& shape = shapeOf(instance.mesh);
+    if (!shape.transparent) {
+      viewInstances_.push_back({i, instance.center, instance.radius, instance.radius * shape.largest});
+    }
+  }
   for (const int i : viewMirrors_) {
     mirrors_[i].tested = viewNumber_;
   }
@@ -318,28 +313,22 @@ std::optional<RecycledString> Occlusion::hiddenBy(int mirror, std::span<const gl
     return std::nullopt;
   }
   Prefilter prefilter(view_->eye, polygon, mirrors_[mirror].occluder.plane);
-  const RecycledVector<int> instances = largeInstances(prefilter);
-  // A polygon is visible if one of its corners is. An occluder that hides all of it is the first one to hide a corner,
-  // or comes after that one. Both are found in less time than all occluders of the polygon.
+  // A polygon is visible if one of its points is. An occluder that hides all of it is the first one to hide a point, or
+  // comes after that one. Both are found in less time than all occluders of the polygon.
   const glm::dvec3 up = glm::transpose(view_->worldToView)[1];
-  const auto hides = [&](const Occluder& occluder, const glm::dvec3& p) { return occluder.hides(p - view_->eye); };
-  RecycledVector<Occluder> ofCorners;
-  for (const glm::dvec3& corner : polygon) {
-    if (std::ranges::any_of(ofCorners, [&](const Occluder& occluder) { return hides(occluder, corner); })) {
-      continue;
-    }
-    prefilter.aimAt(corner, up);
-    const std::optional<Occluder> first = occludersOf(mirror, prefilter, instances).whole;
+  for (size_t i = 0; i <= polygon.size(); ++i) {
+    const glm::dvec3 point = i == 0 ? vertexMean(polygon) : polygon[i - 1];
+    prefilter.aimAt(point, up);
+    const std::optional<Occluder> first = occludersOf(mirror, prefilter).whole;
     if (!first) {
       return std::nullopt;
     }
-    if (std::ranges::all_of(polygon, [&](const glm::dvec3& p) { return hides(*first, p); })) {
+    if (std::ranges::all_of(polygon, [&](const glm::dvec3& p) { return first->hides(p - view_->eye); })) {
       return nameOfOccluder(*first);
     }
-    ofCorners.push_back(*first);
   }
   prefilter.aimAt(polygon);
-  const Occluders found = occludersOf(mirror, prefilter, instances);
+  const Occluders found = occludersOf(mirror, prefilter);
   return found.whole ? nameOfOccluder(*found.whole) : hiddenTogether(found.parts, polygon);
 }
 

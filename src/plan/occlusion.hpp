@@ -68,25 +68,29 @@ class Occlusion {
     std::optional<Occluder> whole;  // an occluder that hides all of the polygon
     RecycledVector<Occluder> parts;
   };
+  struct Candidate {
+    int instance = 0;
+    glm::dvec3 center{0.0};
+    double radius = 0.0;
+    double largest = 0.0;  // radius of its largest occluder
+  };
   // Facts about a mesh, found on first use.
   struct Shape {
     bool known = false;
     bool transparent = false;  // its instances hide nothing
-    double largest = 0.0;      // radius of the largest face over the mesh's radius
-    double widest = 0.0;       // width of the widest face over the mesh's radius
+    double largest = 0.0;      // radius of the largest face, or of the whole body, over the mesh's radius
   };
   const Shape& shapeOf(int mesh);
   Body& bodyOf(int instance);
   Face& faceOf(Body& body, int instance, size_t index) const;
-  // Says whether a face of this width, within a sphere, is too narrow to hide anything.
-  bool looksNarrow(const glm::dvec3& center, double radius, double width) const {
-    return width < narrowest_ * (glm::dot(forward_, center - view_->eye) - radius);
+  // Says whether a face is too narrow in the view to hide anything.
+  bool looksNarrow(const FaceBounds& face) const {
+    return face.width < narrowest_ * (glm::dot(forward_, face.center - view_->eye) - face.radius);
   }
   const OccludedRegion* regionOf(Face& face) const;  // null: hides nothing
   const BodyRegion* regionOf(Body& body) const;
   class Prefilter;
-  RecycledVector<int> largeInstances(const Prefilter& prefilter);
-  Occluders occludersOf(int mirror, const Prefilter& prefilter, std::span<const int> instances);
+  Occluders occludersOf(int mirror, const Prefilter& prefilter);
   bool skips(const View& view) const;
   RecycledString nameOfOccluder(const Occluder& occluder) const;
   RecycledString namesOf(std::span<const Occluder* const> occluders) const;
@@ -99,8 +103,8 @@ class Occlusion {
   const Projection& projection_;
   const View* view_ = nullptr;
   const Bvh& hierarchy_;
-  RecycledVector<int> viewMirrors_;    // mirrors that are tested in the view, ascending
-  RecycledVector<int> viewInstances_;  // instances that are tested in the view, ascending
+  RecycledVector<int> viewMirrors_;          // mirrors that are tested in the view, ascending
+  RecycledVector<Candidate> viewInstances_;  // instances that are tested in the view, ascending
   int viewNumber_ = -1;
   glm::dvec3 forward_{0.0};       // axis of the view
   double narrowest_ = 0.0;        // narrowestFace() of the view

@@ -24,6 +24,7 @@ struct LocalPlane {
 RecycledVector<LocalPlane> cuttingPlanes(const View& view, const InstanceState& instance,
                                          const glm::dvec3& halfExtent) {
   RecycledVector<LocalPlane> planes;
+  planes.reserve(1 + view.cone.size());
   const auto add = [&](const glm::dvec3& normal, double distance) {
     const glm::dvec3 local = normal * instance.worldFromMesh.linear;
     const glm::dvec3 size = glm::abs(local);
@@ -114,7 +115,10 @@ RecycledVector<IndexRange> visibleRanges(const View& view, const InstanceState& 
       ranges.push_back({cluster.firstIndex, cluster.indexCount});
     }
   }
-  return indexCount(ranges) > (1.0 - leastSaved) * all.count ? RecycledVector<IndexRange>{all} : ranges;
+  if (indexCount(ranges) > (1.0 - leastSaved) * all.count) {
+    ranges.assign(1, all);
+  }
+  return ranges;
 }
 
 }  // namespace speculum

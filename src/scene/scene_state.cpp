@@ -286,7 +286,7 @@ glm::dvec3 MirrorOptics::reflectanceAt(double cosine) const {
 glm::dvec3 spunBy(const glm::dvec3& spin, double time) {
   glm::dvec3 angles;
   for (int i = 0; i < 3; ++i) {
-    angles[i] = productModulo(spin[i], time, 360.0);
+    angles[i] = spin[i] == 0.0 ? 0.0 : productModulo(spin[i], time, 360.0);
   }
   return angles;
 }
@@ -320,6 +320,7 @@ glm::dmat3 modelTransform(const Object& object, double time) {
 
 SceneState evaluate(const Scene& scene, double timeSeconds) {
   SceneState state{.time = timeSeconds, .camera = cameraPose(scene.camera, timeSeconds)};
+  state.instances.reserve(scene.objects.size());
   for (size_t i = 0; i < scene.objects.size(); ++i) {
     forEachDrawnMesh(scene, static_cast<int>(i),
                      [&](int mesh) { addInstances(scene, static_cast<int>(i), mesh, timeSeconds, state.instances); });

@@ -148,7 +148,12 @@ void FrameData::build(const FrameInfo& info) {
   instances_.clear();
   curvedMirrors_.clear();
   mirrorVertices_.clear();
-  passes_.assign(plan.passes.size(), {});
+  passes_.resize(plan.passes.size());
+  for (DrawList& list : passes_) {  // keeps the memory of its lists
+    list.batches.clear();
+    list.mirrors.clear();
+    list = {.batches = std::move(list.batches), .mirrors = std::move(list.mirrors)};
+  }
   addRepeating(info);
   clearances_ = clearancesOf(info.scene, info.state);
   shadowMaps_.assign(info.scene.lights.size(), gpu::noShadowMap);
@@ -274,7 +279,9 @@ void FrameData::addInstances(const FrameInfo& info, const Pass& pass, const glm:
   for (auto first = order.begin(); first != order.end();) {
     const int mesh = state.instances[*first].mesh;
     const auto last = std::find_if(first, order.end(), [&](int i) { return state.instances[i].mesh != mesh; });
-    std::stable_partition(first, last, [&](int i) { return !isCurved(i); });
+    if (std::any_of(first, last, isCurved)) {
+      std::stable_partition(first, last, [&](int i) { return !isCurved(i); });
+    }
     first = last;
   }
   for (const int i : order) {

@@ -150,6 +150,7 @@ gpu::InstanceData instanceData(const InstanceState& instance, const View& view, 
   const glm::dvec3 offset = instance.worldFromMesh.translation - view.eye;
   glm::dmat4 relativeFromMesh(linear);
   relativeFromMesh[3] = glm::dvec4(offset, 1.0);
+  const double reach = reachOf(instance, view.eye);
   const glm::dmat3 normals = unitNormalMatrix(linear);
   const glm::dvec4 plane = relativeClipPlane(view);
   const glm::dvec3 normal(plane);
@@ -158,7 +159,7 @@ gpu::InstanceData instanceData(const InstanceState& instance, const View& view, 
   data.clipFromMesh = glm::mat4(clipFromRelative * relativeFromMesh);
   for (int r = 0; r < 3; ++r) {
     data.relativeFromMesh[r] = row(linear, r, offset[r]);
-    data.normalFromMesh[r] = row(normals, r, reachOf(instance, view.eye));
+    data.normalFromMesh[r] = row(normals, r, reach);
   }
   data.clipPlane = glm::vec4(glm::dvec4(glm::transpose(linear) * normal, glm::dot(normal, offset) + plane.w));
   return data;

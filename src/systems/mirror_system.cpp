@@ -1,6 +1,7 @@
 #include "systems/mirror_system.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "systems/shadow_system.hpp"
 
@@ -179,11 +180,15 @@ void MirrorSystem::draw(const PassScope& scope, const FrameInfo& info, const Dra
   const Pipeline& pipeline = pipelines_.get(variant, [&] { return describe(variant, info); });
   const MirrorImage* image = imageOf(mirror, info);
   const bool reads = image && !identifies && variant.shading != Shading::base;
-  const VkDescriptorSet set = info.frame.descriptors->allocate(imageLayout_);
-  DescriptorWriter()
-      .image(0, reads ? image->descriptor : noImage_.descriptor(sampler_.get()))
-      .image(1, info.resources.image(mirror.map))
-      .update(device_, set);
+  const VkDescriptorImageInfo shown = reads ? image->descriptor : noImage_.descriptor(sampler_.get());
+  if (std::exchange(setsFrame_, info.frame.number) != info.frame.number) {
+    sets_.clear();
+  }
+  VkDescriptorSet& set = sets_[{shown.imageView, mirror.map}];
+  if (!set) {
+    set = info.frame.descriptors->allocate(imageLayout_);
+    DescriptorWriter().image(0, shown).image(1, info.resources.image(mirror.map)).update(device_, set);
+  }
   info.data.bind(pipeline, scope.commands(), pass, mirror.mirror);
   pipeline.bindSet(scope.commands(), 1, set);
   if (variant.shadowed) {

@@ -66,6 +66,8 @@ class MirrorSystem {
   SamplerHandle sampler_;
   Image noImage_;  // bound for a mirror without an image: every set that a shader names must be bound
   PipelineVariants<Variant> pipelines_;
+  std::map<std::pair<VkImageView, int>, VkDescriptorSet> sets_;  // of frame `setsFrame_`, by image and reflectance map
+  uint64_t setsFrame_ = 0;
 };
 
 // Keeps a pass from shading pixels that nothing reads. A mirror pass with a mask clears its depth to the nearest value,

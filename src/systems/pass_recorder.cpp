@@ -128,9 +128,11 @@ void PassRecorder::enterCosts(const FrameInfo& info) {
   EffectLedger& ledger = info.ledger;
   ledger[EffectKind::msaa].bytes = sampleBytes(info.plan, info.settings);
   for (const RecordedPass& pass : info.log.passes()) {
-    const bool main = pass.kind == PassKind::main;
-    const Pass* planned = main ? &info.plan.main() : mirrorPass(info.plan, pass.path);
-    ledger[EffectKind::msaa].draws += planned && planned->quality.samples > 1 ? pass.draws : 0;
+    if (ledger[EffectKind::msaa].bytes > 0) {  // else the search would take time in the square of the passes
+      const bool main = pass.kind == PassKind::main;
+      const Pass* planned = main ? &info.plan.main() : mirrorPass(info.plan, pass.path);
+      ledger[EffectKind::msaa].draws += planned && planned->quality.samples > 1 ? pass.draws : 0;
+    }
   }
   ledger[EffectKind::textures].bytes = ledger[EffectKind::textures].draws > 0 ? info.resources.textureBytes() : 0;
   for (const auto& [kind, traces] :

@@ -129,11 +129,11 @@ GraphicsPipelineDesc RenderSystem::objects(const Variant& variant, const FrameIn
   return variant.format.describe(desc);
 }
 
-std::vector<IndexRange> drawnRanges(const MeshPart& part, const Batch& batch) {
+RecycledVector<IndexRange> drawnRanges(const MeshPart& part, const Batch& batch) {
   if (batch.ranges.empty()) {
     return {{part.firstIndex, part.indexCount}};
   }
-  std::vector<IndexRange> drawn;
+  RecycledVector<IndexRange> drawn;
   for (const IndexRange& range : batch.ranges) {
     const uint32_t first = std::max(range.first, part.firstIndex);
     const uint32_t end = std::min(range.first + range.count, part.firstIndex + part.indexCount);

@@ -24,7 +24,7 @@ void addVertexColors(GraphicsPipelineDesc& desc, bool withAlpha);
 void bindColors(VkCommandBuffer commands, const FrameInfo& info, const Batch& batch);
 
 // Returns the indices of the part that the batch draws.
-std::vector<IndexRange> drawnRanges(const MeshPart& part, const Batch& batch);
+RecycledVector<IndexRange> drawnRanges(const MeshPart& part, const Batch& batch);
 // Makes the description that of a pipeline for materials with coverage, whose fragment shader is `frag` and whose
 // descriptor set 3 is the opacity texture.
 void addCoverage(GraphicsPipelineDesc& desc, const std::string& frag, VkDescriptorSetLayout textureLayout);

@@ -1,4 +1,7 @@
+#include <cmath>
 #include <ctime>
+#include <numbers>
+#include <ranges>
 
 #include "geometry/convex_mesh.hpp"
 #include "geometry/polygon.hpp"
@@ -45,6 +48,30 @@ TEST(ConvexFaces, BoxHasSixTheLargestFirst) {
   EXPECT_DOUBLE_EQ(polygonArea(faces[1]), 8.0);
   EXPECT_DOUBLE_EQ(totalArea(faces), 2 * 8.0 + 2 * 0.8 + 2 * 0.4);
   EXPECT_GT(newellVector(faces[0]).z * faces[0][0].z, 0.0) << "counter-clockwise from outside";
+}
+
+TEST(ConvexFace, LiesWithinItsSphereAndItsWidth) {
+  for (const int corners : {3, 4, 7, 64, 200}) {
+    for (const double flat : {1.0, 0.1, 0.01}) {
+      std::vector<glm::dvec3> ellipse;
+      for (int i = 0; i < corners; ++i) {
+        const double angle = 2.0 * std::numbers::pi * i / corners;
+        ellipse.emplace_back(5.0, std::cos(angle), flat * std::sin(angle));
+      }
+      const ConvexFace face(ellipse);
+      EXPECT_DOUBLE_EQ(farthestDistance(face.center, ellipse), face.radius);
+      double least = INFINITY;
+      for (int step = 0; step < 20000; ++step) {
+        const double angle = std::numbers::pi * step / 20000;
+        const glm::dvec3 across(0.0, std::cos(angle), std::sin(angle));
+        const auto at = [&](const glm::dvec3& p) { return glm::dot(across, p); };
+        least = std::min(least, std::ranges::max(ellipse | std::views::transform(at)) -
+                                    std::ranges::min(ellipse | std::views::transform(at)));
+      }
+      EXPECT_GT(face.width, 0.95 * least) << corners << ", " << flat;
+      EXPECT_LT(face.width, 1.05 * least) << corners << ", " << flat;
+    }
+  }
 }
 
 TEST(ConvexFaces, SubdividedWallIsOneFace) {

@@ -215,6 +215,36 @@ TEST_F(Occluders, RandomShapesHideNothingVisibleInMirrors) {
 }
 
 // Shapes that the eye does not see hide nothing from it, but do in mirrors; and the other way round.
+TEST_F(Occluders, NarrowFacesHideNothing) {
+  const Projection projection(1.0, static_cast<double>(width) / height, 0.001);
+  const CameraPose pose = lookAt({0, 0, 0}, {0, 0, -1}, {0, 1, 0}, 57.0, 0.001);
+  View view = mainView(pose, projection, width, height);
+  int narrow = 0;
+  int wide = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const glm::dvec3 center(uniform(-2, 2), uniform(-2, 2), uniform(-10, -0.5));
+    const glm::dmat3 turn = rotationFromDegrees({uniform(-90, 90), uniform(-180, 180), uniform(-180, 180)});
+    const glm::dvec3 x = std::exp(uniform(-3, 0)) * turn[0];
+    const glm::dvec3 y = std::exp(uniform(-9, -3)) * turn[1];
+    const ConvexFace face(
+        {center - x - y, center + x - 0.9 * y, center + 0.8 * x + y, center - x + uniform(0.3, 1) * y});
+    view.clip.reset();
+    if (uniform(0, 1) < 0.5) {
+      view.clip = Plane{center + 0.3 * x, rotationFromDegrees({uniform(0, 90), uniform(0, 180), 0})[2]};
+    }
+    const Polygon polygon(face.corners.begin(), face.corners.end());
+    const Plane plane{polygon[0], glm::normalize(newellVector(polygon))};
+    OccludedRegion region;
+    const bool hides = hiddenByFace({polygon, plane, 1e-5 * face.radius}, view, projection, region);
+    const bool isNarrow = face.width < narrowestFace(view, projection) * (-face.center.z - face.radius);
+    EXPECT_FALSE(hides && isNarrow) << i;
+    narrow += isNarrow;
+    wide += hides;
+  }
+  EXPECT_GT(narrow, 2000);
+  EXPECT_GT(wide, 500);
+}
+
 TEST_F(Occluders, UnseenObjectsHideNothing) {
   for (const Visibility visible : {Visibility::eye, Visibility::mirrors}) {
     visibility_ = visible;
