@@ -9,45 +9,60 @@ _speculum_settings() {
   "$1" --help 2>/dev/null | sed -n '/^Settings/,/^$/s/^  \([^ ]*\).*/\1/p'
 }
 
+# Offers the words of `$2` that begin with `$1`.
+_speculum_words() {
+  mapfile -t -O "${#COMPREPLY[@]}" COMPREPLY < <(compgen -W "$2" -- "$1")
+}
+
+# Offers what begins with `$1`: folders, and files with one of the other arguments at their end. bash then escapes
+# blanks, and ends a folder in a slash.
+_speculum_files() {
+  local word=$1 ending
+  shift
+  compopt -o filenames 2>/dev/null
+  mapfile -t -O "${#COMPREPLY[@]}" COMPREPLY < <(
+    { compgen -d -- "$word"; for ending in "${@:-}"; do compgen -f -X "!*$ending" -- "$word"; done; } | sort -u)
+}
+
 _speculum() {
-  local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]} ending
-  local commands="demo render reference compare accuracy regress bench info scenes" command="" scenes
+  local program=${COMP_WORDS[0]} word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]}
+  local commands="demo render reference compare accuracy regress bench info scenes" command=""
+  local scenes=(.toml .obj .gltf .glb)
   [[ " $commands " == *" ${COMP_WORDS[1]} "* ]] && [ "$COMP_CWORD" -gt 1 ] && command=${COMP_WORDS[1]}
   COMPREPLY=()
   case $before in
     --scene)
-      scenes=$("${COMP_WORDS[0]}" scenes 2>/dev/null | sed -n 's/^\([^ ]*\) .*/\1/p')
-      mapfile -t COMPREPLY < <(compgen -W "$scenes" -- "$word"; compgen -d -- "$word"
-        for ending in toml obj gltf glb; do compgen -f -X "!*.$ending" -- "$word"; done)
-      return
+      _speculum_words "$word" "$("$program" scenes 2>/dev/null | sed -n 's/^\([^ ]*\) .*/\1/p')"
+      _speculum_files "$word" "${scenes[@]}"
       ;;
     --set)
-      mapfile -t COMPREPLY < <(compgen -W "$(_speculum_settings "${COMP_WORDS[0]}")" -S = -- "$word")
+      mapfile -t COMPREPLY < <(compgen -W "$(_speculum_settings "$program")" -S = -- "$word")
       compopt -o nospace 2>/dev/null
-      return
       ;;
-    --render-path) mapfile -t COMPREPLY < <(compgen -W "auto dynamic renderpass" -- "$word") && return ;;
-    --present-mode) mapfile -t COMPREPLY < <(compgen -W "fifo mailbox immediate" -- "$word") && return ;;
-    --platform) mapfile -t COMPREPLY < <(compgen -W "x11 wayland" -- "$word") && return ;;
-    --log-level) mapfile -t COMPREPLY < <(compgen -W "trace debug info warn error off" -- "$word") && return ;;
-    --sweep) mapfile -t COMPREPLY < <(compgen -W "quick full motion" -- "$word"; compgen -f -X '!*.toml' -- "$word") && return ;;
-    --motion) mapfile -t COMPREPLY < <(compgen -W "scene" -- "$word"; compgen -f -X '!*.toml' -- "$word") && return ;;
-    --shader-dir) mapfile -t COMPREPLY < <(compgen -d -- "$word") && return ;;
-    --size | --time | --camera | --frames | --fps | --samples | --warmup | --gpu | --max-flip | --max-diff | --filter | --jobs | --repeat | --update) return ;;
-    --out | --stats | --json | --mask | --heatmap | --sweep-results | --junit | --capture)
-      mapfile -t COMPREPLY < <(compgen -f -- "$word")
-      return
+    --render-path) _speculum_words "$word" "auto dynamic renderpass" ;;
+    --present-mode) _speculum_words "$word" "fifo mailbox immediate" ;;
+    --platform) _speculum_words "$word" "x11 wayland" ;;
+    --log-level) _speculum_words "$word" "trace debug info warn error off" ;;
+    --sweep) _speculum_words "$word" "quick full motion" && _speculum_files "$word" .toml ;;
+    --motion) _speculum_words "$word" "scene" && _speculum_files "$word" .toml ;;
+    --shader-dir) compopt -o filenames 2>/dev/null; mapfile -t COMPREPLY < <(compgen -d -- "$word") ;;
+    --size | --time | --camera | --frames | --fps | --samples | --warmup | --gpu | --max-flip | --max-diff | --filter | --jobs | --repeat) ;;
+    --out | --stats | --json | --mask | --heatmap | --sweep-results | --junit | --capture) _speculum_files "$word" ;;
+    *)
+      if [[ $word == -* ]]; then
+        _speculum_words "$word" "$(_speculum_options "$program" "$command")"
+      elif [ "$COMP_CWORD" -eq 1 ]; then
+        _speculum_words "$word" "$commands"
+        [ -z "$word" ] || _speculum_files "$word" "${scenes[@]}"
+      elif [ "$COMP_CWORD" -eq 2 ] && [ "$command" = demo ]; then
+        _speculum_files "$word" "${scenes[@]}"
+      elif [ "$command" = compare ]; then
+        _speculum_files "$word"
+      elif [ "$command" = regress ]; then
+        _speculum_files "$word" .toml
+      fi
       ;;
   esac
-  if [[ $word == -* ]]; then
-    mapfile -t COMPREPLY < <(compgen -W "$(_speculum_options "${COMP_WORDS[0]}" "$command")" -- "$word")
-  elif [ "$COMP_CWORD" -eq 1 ]; then
-    mapfile -t COMPREPLY < <(compgen -W "$commands" -- "$word")
-  elif [ "$command" = compare ]; then
-    mapfile -t COMPREPLY < <(compgen -f -- "$word")
-  elif [ "$command" = regress ]; then
-    mapfile -t COMPREPLY < <(compgen -f -X '!*.toml' -- "$word"; compgen -d -- "$word")
-  fi
 }
 
 complete -F _speculum speculum

@@ -3,6 +3,7 @@
 #include "command_support.hpp"
 #include "picture_support.hpp"
 #include "settings/setting_fields.hpp"
+#include "temporary_folder.hpp"
 
 namespace speculum {
 namespace {
@@ -84,6 +85,40 @@ TEST(Completion, OffersTheScenesAndTheChoices) {
     for (const std::string& choice : choices) {
       EXPECT_NO_THROW(parseOptions(4, std::array{"speculum", "info", option, choice.c_str()}.data())) << choice;
     }
+  }
+}
+
+TEST(Completion, OffersFilesWithTheirFolders) {
+  const TemporaryFolder folder;
+  for (const char* file : {"house.toml", "my_room.obj", "notes.txt", "sub/inner.glb"}) {
+    folder.write(file, "");
+  }
+  std::filesystem::current_path(folder.path());
+  EXPECT_EQ(completions({program, "hou"}), Words{"house.toml"});
+  EXPECT_EQ(completions({program, "m"}), Words{"my_room.obj"});
+  EXPECT_EQ(completions({program, "demo", "hou"}), Words{"house.toml"});
+  EXPECT_EQ(completions({program, "notes"}), Words{});
+  EXPECT_EQ(completions({program, "--scene", "su"}), Words{"sub"});
+  EXPECT_EQ(completions({program, "--scene", "sub/"}), Words{"sub/inner.glb"});
+  EXPECT_EQ(completions({program, "regress", "--update", "h"}), Words{"house.toml"});
+  EXPECT_EQ(completions({program, "compare", "notes"}), Words{"notes.txt"});
+  std::filesystem::current_path(sourceFile("."));
+}
+
+// bash then ends folders in a slash, and escapes blanks.
+TEST(Completion, SaysThatFilesAreFiles) {
+  const auto options = [](const std::string& line) {
+    const std::string script = "source '" + sourceFile("scripts/speculum-completion.bash").string() +
+                               "'\ncompopt() { echo \"$@\"; }\nCOMP_WORDS=('" + program + "' " + line +
+                               ")\nCOMP_CWORD=$((${#COMP_WORDS[@]} - 1))\n_speculum";
+    return runProcess({"bash", "-c", script}).output;
+  };
+  for (const char* line : {"hou", "--scene su", "render --out su", "compare a su", "regress su", "--shader-dir su",
+                           "accuracy --sweep su", "accuracy --motion su"}) {
+    EXPECT_EQ(options(line), "-o filenames\n") << line;
+  }
+  for (const char* line : {"render --size 8", "render --st", "--render-path a"}) {
+    EXPECT_EQ(options(line), "") << line;
   }
 }
 
