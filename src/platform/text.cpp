@@ -34,32 +34,45 @@ bool isHidden(char32_t code) {
   return (std::ranges::upper_bound(bounds, code) - bounds.begin()) % 2 == 1 || (code & 0xfffeu) == 0xfffeu;
 }
 
-// Reads one element of a pattern, at `glob`, but no *. Returns its length, and whether it stands for the byte. A set
-// that does not end is a bracket.
-std::pair<size_t, bool> matchElement(std::string_view glob, char byte) {
+// Returns the first character and its length. A byte that is no character counts as one, with a code of its own.
+std::pair<char32_t, size_t> characterOf(std::string_view text) {
+  const auto [code, bytes] = firstCharacter(text);
+  return bytes > 0 ? std::pair(code, bytes) : std::pair<char32_t, size_t>(0x110000 + code, 1);
+}
+
+// Reads one element of a pattern, at `glob`, but no *. Returns its length, and whether it stands for the character. A
+// set that does not end is a bracket.
+std::pair<size_t, bool> matchElement(std::string_view glob, char32_t wanted) {
   if (glob[0] == '?') {
     return {1, true};
   }
+  size_t at = 0;  // in the pattern
+  const auto next = [&] {
+    at += glob[at] == '\\' && at + 1 < glob.size() ? 1 : 0;
+    const auto [code, bytes] = characterOf(glob.substr(at));
+    at += bytes;
+    return code;
+  };
   if (glob[0] == '[') {
     const bool negated = glob.size() > 1 && (glob[1] == '!' || glob[1] == '^');
     const size_t first = negated ? 2 : 1;
-    const auto code = [](char c) { return static_cast<unsigned char>(c); };
     bool found = false;
-    for (size_t i = first; i < glob.size(); ++i) {
-      if (glob[i] == ']' && i > first) {
-        return {i + 1, found != negated};
+    for (at = first; at < glob.size();) {
+      if (glob[at] == ']' && at > first) {
+        return {at + 1, found != negated};
       }
-      i += glob[i] == '\\' && i + 1 < glob.size();
-      const char low = glob[i];
-      if (i + 2 < glob.size() && glob[i + 1] == '-' && glob[i + 2] != ']') {
-        i += 2;
-        i += glob[i] == '\\' && i + 1 < glob.size();
+      const char32_t low = next();
+      char32_t high = low;
+      if (at + 1 < glob.size() && glob[at] == '-' && glob[at + 1] != ']') {
+        ++at;
+        high = next();
       }
-      found = found || (code(low) <= code(byte) && code(byte) <= code(glob[i]));
+      found = found || (low <= wanted && wanted <= high);
     }
+    at = 0;
   }
-  const size_t escape = glob[0] == '\\' && glob.size() > 1 ? 1 : 0;
-  return {escape + 1, glob[escape] == byte};
+  const bool matches = next() == wanted;
+  return {at, matches};
 }
 
 }  // namespace
@@ -78,7 +91,7 @@ std::string utf8(std::string_view text) {
 
 bool matchesGlob(std::string_view glob, std::string_view text) {
   size_t star = std::string_view::npos;  // after the last * so far
-  size_t tried = 0;                      // first byte of the text that this * does not stand for
+  size_t tried = 0;                      // first character of the text that this * does not stand for
   size_t g = 0;
   for (size_t t = 0; t < text.size() || g < glob.size();) {
     if (g < glob.size() && glob[g] == '*') {
@@ -86,14 +99,15 @@ bool matchesGlob(std::string_view glob, std::string_view text) {
       tried = t;
       continue;
     }
+    const auto [code, bytes] = t < text.size() ? characterOf(text.substr(t)) : std::pair<char32_t, size_t>();
     const auto [length, matches] =
-        g < glob.size() && t < text.size() ? matchElement(glob.substr(g), text[t]) : std::pair<size_t, bool>();
+        g < glob.size() && bytes > 0 ? matchElement(glob.substr(g), code) : std::pair<size_t, bool>();
     if (matches) {
       g += length;
-      ++t;
+      t += bytes;
     } else if (star != std::string_view::npos && tried < text.size()) {
       g = star;
-      t = ++tried;
+      t = tried += characterOf(text.substr(tried)).second;
     } else {
       return false;
     }

@@ -23,9 +23,9 @@ inline bool continuesCharacter(char byte) {
 // Latin-1, which old programs write.
 std::string utf8(std::string_view text);
 
-// Says whether the whole text matches the pattern: * stands for any bytes, ? for one, [a-z] and [!a-z] for one of a
-// set, and a backslash takes the special meaning from the next byte. Names of classes in a set, as [[:digit:]], are not
-// known.
+// Says whether the whole text matches the pattern, both in UTF-8: * stands for any characters, ? for one, [a-z] and
+// [!a-z] for one of a set, and a backslash takes the special meaning from the next one. Names of classes in a set, as
+// [[:digit:]], are not known.
 bool matchesGlob(std::string_view glob, std::string_view text);
 
 // Makes a text one line that does nothing to the terminal or CI runner that it is printed to, whatever names, keys and

@@ -1,10 +1,11 @@
 #include "regress/case_file.hpp"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <map>
-#include <set>
 #include <stdexcept>
 #include <string_view>
 #include <vector>
@@ -47,7 +48,7 @@ size_t bytesOf(const fs::path& path) {
 }
 
 size_t bytesOf(const RegressCase& subject) {
-  size_t bytes = sizeof subject + 2 * subject.name.size() + subject.camera.value_or("").size() +
+  size_t bytes = sizeof subject + 3 * subject.name.size() + subject.camera.value_or("").size() +
                  bytesOf(subject.scene) + bytesOf(subject.picture) + bytesOf(subject.mask.value_or(""));
   for (const Expectation& entry : subject.expect) {
     bytes += sizeof entry + entry.driver.size() + entry.version.value_or("").size() + entry.reason.size() +
@@ -112,6 +113,22 @@ std::vector<Expectation> readExpectations(const TableReader& table) {
     expectations.push_back(std::move(expectation));
   }
   return expectations;
+}
+
+// Returns a name for files made of a case's: all but letters, digits, ._=+-, and visible characters beyond ASCII
+// becomes an underscore.
+std::string nameOfFiles(std::string_view name) {
+  std::string files;
+  for (size_t at = 0, bytes = 0; at < name.size(); at += bytes) {
+    for (bytes = 1; at + bytes < name.size() && continuesCharacter(name[at + bytes]);) {
+      ++bytes;
+    }
+    const std::string_view character = name.substr(at, bytes);
+    const bool plain = std::isalnum(static_cast<unsigned char>(name[at])) != 0 ||
+                       std::string_view("._=+-,").find(name[at]) != std::string_view::npos;
+    files += plain || (bytes > 1 && oneLine(character) == character) ? character : "_";
+  }
+  return files;
 }
 
 // Reads the cases of one file.
@@ -231,13 +248,15 @@ class CaseReader {
     if (!draft.scene) {
       table.fail("scene", "is missing", "a scene file, or a name of speculum scenes, is needed");
     }
-    made.name = draft.name.value_or(fs::path(*draft.scene).stem().string()) + suffix;
-    for (char& c : made.name) {
-      const bool plain = std::isalnum(static_cast<unsigned char>(c)) != 0;
-      c = plain || std::string_view("._=+-,").find(c) != std::string_view::npos ? c : '_';
-    }
-    if (!names_.insert(made.name).second) {
-      table.fail("name", "'" + made.name + "' is already the name of an earlier case", "names must be unique");
+    const std::string written = draft.name.value_or(fs::path(*draft.scene).stem().string()) + suffix;
+    made.name = nameOfFiles(written);
+    if (const auto [earlier, isNew] = names_.try_emplace(made.name, written, made.line); !isNew) {
+      const auto& [name, line] = earlier->second;
+      table.fail(line == made.line && !draft.grid.empty() ? "grid" : "name",
+                 name == written ? fmt::format("'{}' is already the name of an earlier case", written)
+                                 : fmt::format("'{}' and an earlier case, '{}', would both have files called '{}'",
+                                               written, name, made.name),
+                 "names must be unique");
     }
     made.settings.assign(draft.settings.begin(), draft.settings.end());
     Settings settings;
@@ -258,6 +277,10 @@ class CaseReader {
       }
       if (path.size() > longestPath) {
         table.fail("picture", "has more than 65536 bytes with the case's name", "a shorter path is needed");
+      }
+      if (path.find_first_of("{}") != std::string::npos ||
+          lowerCase(fs::path(pattern).extension().string()) != ".png") {
+        table.fail("picture", fmt::format("is '{}'", pattern), "a PNG file is needed, such as \"{name}.png\"");
       }
       requireRoom(table, bytes += path.size() + static_cast<size_t>(std::ranges::count(path, '/')) * sizeof(fs::path));
       return beside(path);
@@ -280,8 +303,8 @@ class CaseReader {
   }
 
   const fs::path& file_;
-  std::set<std::string> names_;
-  size_t bytes_ = 0;  // of the cases
+  std::map<std::string, std::pair<std::string, int>> names_;  // by the name of files: as written, line of the table
+  size_t bytes_ = 0;                                          // of the cases
 };
 
 constexpr std::string_view digitsAndDots = "0123456789.";

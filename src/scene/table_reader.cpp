@@ -195,7 +195,9 @@ std::vector<TableReader> TableReader::tables(std::string_view key, std::span<con
   if (node == nullptr) {
     return readers;
   }
-  const std::string right = fmt::format("write [[{}]] above each", key);
+  // Headers have no index or name of the table around them: [[case.expect]] in case[0].
+  const std::string around = label_.substr(0, label_.find('['));
+  const std::string right = fmt::format("write [[{}{}{}]] above each", around, around.empty() ? "" : ".", key);
   const toml::array* array = node->as_array();
   expect(array != nullptr, *node, key, right);
   for (size_t i = 0; i < array->size(); ++i) {

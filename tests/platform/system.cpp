@@ -256,6 +256,14 @@ TEST(Text, GlobsMatchAsFnmatchSays) {
     std::ranges::generate(text, [&] { return bytes[random() % bytes.size()]; });
     return text;
   };
+  // Puts longer characters, in the same order, in the place of letters.
+  const auto wide = [](const std::string& text) {
+    std::string all;
+    for (const char c : text) {
+      all += c == 'b' ? "\u00e4" : c == 'c' ? "\u20ac" : std::string(1, c);
+    }
+    return all;
+  };
   int matches = 0;
   for (int i = 0; i < 200'000; ++i) {
     const std::string glob = anyOf("ab*?[]!-\\c^", 7);
@@ -263,10 +271,14 @@ TEST(Text, GlobsMatchAsFnmatchSays) {
     if (!glob.ends_with('-')) {
       const bool expected = ::fnmatch(glob.c_str(), text.c_str(), 0) == 0;
       ASSERT_EQ(matchesGlob(glob, text), expected) << "'" << glob << "' and '" << text << "'";
+      ASSERT_EQ(matchesGlob(wide(glob), wide(text)), expected) << "'" << wide(glob) << "' and '" << wide(text) << "'";
       matches += expected;
     }
   }
   EXPECT_GT(matches, 5'000);
+  EXPECT_TRUE(matchesGlob("[\xfc]?", "\xfc\xff"));  // bytes that are no characters
+  EXPECT_FALSE(matchesGlob("*\u00a4", "\u00e4"));   // the second byte of the text is the pattern's code
+  EXPECT_FALSE(matchesGlob("*??", "\u20ac"));
   EXPECT_FALSE(matchesGlob(std::string(60, '*') + "b", std::string(10'000, 'a')));  // in time that is linear in stars
 }
 

@@ -82,6 +82,16 @@ grid = { scene = ["room.toml", "hall.toml"], time = [0, 2.5], "reflection.max_de
   EXPECT_EQ(cases[7].settings, (decltype(cases[0].settings){{"reflection.max_depth", "4"}}));
 }
 
+TEST_F(CaseFile, NamesKeepWhatFilesCanBeCalled) {
+  const auto named = [&](const std::string& name) {
+    return read("[[case]]\nscene = 'room.toml'\nname = \"" + name + "\"\n")[0].name;
+  };
+  EXPECT_EQ(named("Büro-1,a=b+c.d_e"), "Büro-1,a=b+c.d_e");
+  EXPECT_EQ(named("комната 部屋 😀"), "комната_部屋_😀");
+  EXPECT_EQ(named("a/b\\\\c:d*e?f<g>h|i\\\"j"), "a_b_c_d_e_f_g_h_i_j");
+  EXPECT_EQ(named("a\\u001bb\\u0085c\\u202ed\\u2028e\\uffff"), "a_b_c_d_e_");
+}
+
 TEST_F(CaseFile, EveryNameInAPictureIsReplaced) {
   EXPECT_EQ(read("[[case]]\nscene = 'room.toml'\npicture = '{name}/{name}.png'\n")[0].picture,
             folder_ / "room/room.png");
@@ -128,7 +138,7 @@ TEST_F(CaseFile, PicturesAreBoundedBeforeTheyAreMade) {
         "picture = '" + repeated("a/", 40'000) + "'", "picture = '" + std::string(70'000, 'p') + "'"}) {
     EXPECT_TRUE(contains(mistake(text + more), "picture: has more than 65536 bytes")) << more.substr(0, 20);
   }
-  const std::string many = repeated("{ driver = '', picture = '{name}{name}' }, ", 20'000);  // 1.3 GB
+  const std::string many = repeated("{ driver = '', picture = '{name}{name}.png' }, ", 20'000);  // 1.3 GB
   EXPECT_TRUE(contains(mistake(text + longName + "expect = [" + many + "]"), "makes cases of more than 256 MiB"));
   // Names take twice the memory where paths have wide characters.
   const bool wide = sizeof(std::filesystem::path::value_type) > 1;
@@ -150,6 +160,21 @@ TEST_F(CaseFile, MistakesNameLineAndKey) {
   const std::string room = "[[case]]\nscene = 'room.toml'\n";
   EXPECT_EQ(mistake(room + room),
             "cases.toml:3: case[1].name: 'room' is already the name of an earlier case (names must be unique)");
+  EXPECT_EQ(mistake(room + "name = 'a b'\n" + room + "name = 'a_b'"),
+            "cases.toml:6: case[a_b].name: 'a_b' and an earlier case, 'a b', would both have files called 'a_b' (names "
+            "must be unique)");
+  EXPECT_EQ(mistake(room + "size = '8x8'\ngrid = { time = [1, 2, 1] }"),
+            "cases.toml:4: case[0].grid: 'room_time=1' is already the name of an earlier case (names must be unique)");
+  EXPECT_EQ(mistake(room + "expect = { driver = 'nvidia' }"),
+            "cases.toml:3: case[0].expect: is a table (write [[case.expect]] above each)");
+  for (const char* picture : {"{nam}.png", "{name}", "{name}.jpg", "{name}.png.exr", "{{name}.png", "{name}/.png"}) {
+    for (const std::string& keys :
+         {std::string("picture = '"), std::string("expect = [{ driver = 'nvidia', picture = '")}) {
+      EXPECT_TRUE(
+          contains(mistake(room + keys + picture + (keys[0] == 'p' ? "'" : "' }]")),
+                   std::string("picture: is '") + picture + "' (a PNG file is needed, such as \"{name}.png\")"));
+    }
+  }
   EXPECT_TRUE(startsWith(mistake(room + "size = '640'"), "cases.toml:3: case[0].size: is '640' ("));
   EXPECT_EQ(mistake(room + "size = [640, 360]"),
             "cases.toml:3: case[0].size: is an array (a string such as \"640x360\" is needed)");
