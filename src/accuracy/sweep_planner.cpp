@@ -6,6 +6,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "platform/files.hpp"
+#include "scene/input_error.hpp"
 #include "settings/setting_fields.hpp"
 
 namespace speculum {
@@ -387,7 +389,14 @@ SweepPlan sweepPlan(const std::string& wanted, const SweepContext& context) {
   if (wanted == "motion" && context.motion) {
     return motionSweep(context);
   }
-  return wanted == "quick" || wanted == "full" ? builtIn(wanted, context) : readSweepPlan(wanted, context);
+  if (wanted == "quick" || wanted == "full") {
+    return builtIn(wanted, context);
+  }
+  if (!wanted.ends_with(".toml") && !isFile(wanted)) {
+    throw InputError("--sweep: '" + wanted + "' is no file (quick, full" + (context.motion ? ", motion" : "") +
+                     ", or a TOML file)");
+  }
+  return readSweepPlan(wanted, context);
 }
 
 }  // namespace speculum

@@ -156,9 +156,6 @@ void printBench(const nlohmann::ordered_json& merged, int measured) {
 }  // namespace
 
 int runBench(const Options& options) {
-  if (options.bench.tracer && options.bench.prices) {
-    throw UsageError("--reference: measures alone (leave out --prices)");
-  }
   if (options.bench.tracer) {
     return benchReference(options);
   }

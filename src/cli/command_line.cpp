@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 
+#include "platform/files.hpp"
 #include "scene/camera_text.hpp"
 #include "scene/input_error.hpp"
 #include "scene/model_formats.hpp"
@@ -28,20 +29,21 @@ struct Raw {
   std::string presentMode = "fifo";
 };
 
+// Checks that a text names something; `what` says what it may name.
+auto named(const std::string& what) {
+  return [what](const std::string& text) { return text.empty() ? "an empty name, not " + what : std::string(); };
+}
+
 void addCommon(CLI::App& app, Options& options, Raw& raw) {
   app.add_option("--set", raw.settings, "key=value; any setting, repeatable")->take_all()->allow_extra_args(false);
-  app.add_option("--gpu", options.gpu, "index or part of the name, see `speculum info`");
+  app.add_option("--gpu", options.gpu, "index or part of the name, see `speculum info`")
+      ->check(named("an index or part of a GPU's name"));
   app.add_option("--render-path", raw.renderPath, "auto | dynamic | renderpass");
   app.add_flag("--validation", options.validation, "validation layer with synchronisation validation");
   app.add_option("--log-level", options.logLevel, "trace | debug | info | warn | error | off")
       ->check(CLI::IsMember({"trace", "debug", "info", "warn", "error", "off"}));
   app.add_option("--shader-dir", options.shaderDir, "GLSL to compile, and again whenever it changes")
       ->check(CLI::ExistingDirectory);
-}
-
-// Checks that a text names something; `what` says what it may name.
-auto named(const std::string& what) {
-  return [what](const std::string& text) { return text.empty() ? "an empty name (" + what + ")" : std::string(); };
 }
 
 void addScene(CLI::App& app, Options& options, Raw& raw, const std::string& usualSize = "1280x720") {
@@ -73,10 +75,10 @@ void addTime(CLI::App& app, Options& options) {
 void addView(CLI::App& app, Options& options, Raw& raw) {
   addScene(app, options, raw);
   addTime(app, options);
-  app.add_option(
-      "--camera", raw.camera,
-      "X,Y,Z:X,Y,Z[:X,Y,Z[:DEG]]: position, target, up and vertical field of view in the place of the scene's; or a "
-      "bookmark of the scene");
+  app.add_option("--camera", raw.camera,
+                 "X,Y,Z:X,Y,Z[:X,Y,Z[:DEG]]: position, target, up and vertical field of view in the place of the "
+                 "scene's; or a bookmark of the scene")
+      ->check(named("a camera or a bookmark"));
 }
 
 void addStrict(CLI::App& app, Options& options) {
@@ -141,7 +143,7 @@ void addCompare(CLI::App& app, Options& options) {
 }
 
 void addRegress(CLI::App& app, Options& options) {
-  app.add_option("cases", options.regress.cases, "TOML: scenes, times, cameras, settings, tolerances")->required();
+  app.add_option("cases", options.regress.cases, "TOML: scenes, times, cameras, settings, tolerances");
   app.add_option("--out", options.out, "folder of the report, regress-report unless given");
   app.add_option("--filter", options.regress.filter, "only cases with a name like this, such as 'gallery*'");
   app.add_option("--jobs", options.regress.jobs, "worker processes, up to 4 by the processor unless given")
@@ -153,12 +155,37 @@ void addRegress(CLI::App& app, Options& options) {
          },
          "take over the pictures of failed cases, all or those with a name like this")
       ->expected(0, 1)
+      ->allow_extra_args(false)  // else `--update GLOB cases.toml` takes both
       ->type_name("[GLOB]");
   addStrict(app, options);
   app.add_option("--junit", options.regress.junit, "write the results to F as JUnit XML");
   app.add_option("--repeat", options.regress.repeat, "draw each case so often; the pictures must be equal")
       ->check(CLI::Range(1, 1000000));
   app.add_flag("--worker", options.regress.worker)->group("");
+}
+
+// Refuses what `bench --reference` would not look at.
+void requireTracerAlone(const CLI::App& bench) {
+  for (const char* option :
+       {"--scene", "--size", "--time", "--camera", "--frames", "--warmup", "--sweep-results", "--prices"}) {
+    if (bench.count(option) > 0) {
+      throw UsageError(fmt::format("--reference: measures alone (leave out {})", option));
+    }
+  }
+}
+
+// Gives back the file of cases that --update took for its GLOB: `regress --update cases.toml`.
+void takeCases(RegressArguments& regress) {
+  if (!regress.cases.empty()) {
+    return;
+  }
+  const std::string taken = regress.update.value_or("*");
+  if (taken == "*" || !isFile(taken)) {
+    throw UsageError("cases is required" + (taken == "*" ? "" : ", and '" + taken + "' is no file") +
+                     " (see speculum regress --help)");
+  }
+  regress.cases = taken;
+  regress.update = "*";
 }
 
 std::vector<std::pair<std::string, std::string>> parseSettings(const std::string& option,
@@ -310,10 +337,12 @@ std::string unknownArgument(const CLI::App& app) {
          (meant.starts_with("did you mean") ? meant : "see " + help) + ")";
 }
 
-std::string withoutLineBreaks(std::string text) {
+// Returns CLI11's message on one line, in words of its users.
+std::string clearMessage(std::string text) {
   std::ranges::replace(text, '\n', ' ');
   text.erase(text.find_last_not_of(' ') + 1);
-  return text;
+  const size_t repeated = text.find(": At Most 1 required but received");
+  return repeated == std::string::npos ? text : text.substr(0, repeated) + ": is given more than once";
 }
 
 // Returns the arguments with --scene before a scene or model that stands alone: `speculum FILE`, `speculum demo FILE`.
@@ -381,15 +410,19 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
     }
     const std::string unknown = unknownArgument(app);
     const std::string chosen = app.get_subcommands().empty() ? "" : app.get_subcommands().front()->get_name() + " ";
-    throw UsageError(
-        withoutLineBreaks(unknown.empty() ? fmt::format("{} (see speculum {}--help)", error.what(), chosen) : unknown));
+    throw UsageError(unknown.empty() ? fmt::format("{} (see speculum {}--help)", clearMessage(error.what()), chosen)
+                                     : clearMessage(unknown));
   }
   if (!app.get_subcommands().empty()) {
     options.command = app.get_subcommands().front()->get_name();
   }
   applyRaw(raw, options);
-  if (options.command == "regress" && options.out.empty()) {
-    options.out = "regress-report";
+  if (options.bench.tracer) {
+    requireTracerAlone(*app.get_subcommand("bench"));
+  }
+  if (options.command == "regress") {
+    takeCases(options.regress);
+    options.out = options.out.empty() ? "regress-report" : options.out;
   }
   requireFilesOfTheirOwn(options);
   options.arguments.assign(arguments.begin() + 1, arguments.end());

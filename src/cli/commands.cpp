@@ -44,8 +44,16 @@ void setUpLog(const std::string& level) {
   spdlog::set_default_logger(logger);
 }
 
-int runInfo(const Options&) {
-  for (const DeviceInfo& info : Device::list()) {
+int runInfo(const Options& options) {
+  std::vector<DeviceInfo> devices = Device::list();
+  std::erase_if(devices, [&](const DeviceInfo& info) {
+    return options.gpu != std::to_string(info.index) &&
+           lowerCase(info.name).find(lowerCase(options.gpu)) == std::string::npos;
+  });
+  if (devices.empty() && !options.gpu.empty()) {
+    throw UsageError("--gpu: no GPU '" + options.gpu + "' (without --gpu, info lists all)");
+  }
+  for (const DeviceInfo& info : devices) {
     printLine(fmt::format("{}: {}", info.index, info.name));
     printLine(fmt::format("   driver {}, Vulkan {}, {:.0f} MiB, {}{}", info.driver, vulkanVersion(info.apiVersion),
                           static_cast<double>(info.memoryBytes) / (1024.0 * 1024.0),

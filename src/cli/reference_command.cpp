@@ -1,4 +1,7 @@
+#include <spdlog/spdlog.h>
+
 #include <cmath>
+#include <set>
 
 #include "cli/commands.hpp"
 #include "cli/progress.hpp"
@@ -23,6 +26,21 @@ TraceOptions traceOptions(const Options& options, const Settings& settings) {
           .clearColor = settings.view.clearColor};
 }
 
+// Says once which settings of the command line change nothing, because the tracer always draws the exact picture.
+void warnOfUnread(const Options& options) {
+  static const std::set<std::string> read{"reflection.max_depth", "reflection.min_throughput", "view.clear_color",
+                                          "view.exposure", "view.tone_map"};
+  std::set<std::string> unread;
+  for (const auto& [key, value] : options.settings) {
+    if (!read.contains(key)) {
+      unread.insert(key);
+    }
+  }
+  if (!unread.empty()) {
+    spdlog::warn("reference does not read {} (only {})", fmt::join(unread, ", "), fmt::join(read, ", "));
+  }
+}
+
 void checkSamples(int samples) {
   const int side = static_cast<int>(std::lround(std::sqrt(samples)));
   if (side * side != samples) {
@@ -34,6 +52,7 @@ void checkSamples(int samples) {
 
 int runReference(const Options& options) {
   checkSamples(options.referenceSamples);
+  warnOfUnread(options);
   const PictureSequence files(options.out, 0);
   const LoadedScene loaded = loadSceneWithSettings(options);
   SceneState state = evaluate(loaded.scene, options.time);

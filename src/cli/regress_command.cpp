@@ -288,7 +288,8 @@ int runRegress(const Options& options) {
   size_t withoutDevice = 0;
   std::vector<std::string> worker{executablePath().string()};
   worker.insert(worker.end(), options.arguments.begin(), options.arguments.end());
-  worker.push_back("--worker");
+  // Behind the command: at the end it might follow a `--`, after which nothing is an option.
+  worker.insert(std::ranges::find(worker, options.command) + 1, "--worker");
   const int workers = options.regress.jobs > 0
                           ? options.regress.jobs
                           : std::min(usualWorkers, static_cast<int>(std::thread::hardware_concurrency()));

@@ -91,7 +91,9 @@ std::optional<QualityChoice> chooseQuality(const Options& options, const std::fi
     const char* bounds = settings.quality.maxError <= 0.0   ? "GPU budget waits"
                          : settings.quality.budgetMs <= 0.0 ? "Max. mean FLIP waits"
                                                             : "GPU budget and Max. mean FLIP wait";
-    spdlog::warn("{} for a measurement (Accuracy > Measure this view)", bounds);
+    spdlog::warn("{} for a measurement ({})", bounds,
+                 options.command == "demo" ? "Accuracy > Measure this view"
+                                           : "render and bench take --sweep-results F, the results.json of accuracy");
     return std::nullopt;
   }
   const SweepResults results = readStillSweep(options.sweepResults);

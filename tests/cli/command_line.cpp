@@ -59,6 +59,15 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         UsageCase{{"paint"}, "paint"}, UsageCase{{"render"}, "--out"}, UsageCase{{"render", "--out"}, "--out"},
         UsageCase{{"regress"}, "cases is required (see speculum regress --help)"},
+        UsageCase{{"regress", "--update"}, "cases is required (see"},
+        UsageCase{{"regress", "--update=room"}, "cases is required, and 'room' is no file (see"},
+        UsageCase{{"regress", "--update", "a", "b.toml", "c.toml"}, "'c.toml' is not expected of regress"},
+        UsageCase{{"render", "--out", "x.png", "--out", "y.png"}, "--out: is given more than once (see"},
+        UsageCase{{"render", "--out", "x.png", "--camera", ""}, "--camera: an empty name"},
+        UsageCase{{"render", "--out", "x.png", "--gpu", ""}, "--gpu: an empty name"},
+        UsageCase{{"info", "--gpu", "No Such GPU"}, "--gpu: no GPU 'No Such GPU'"},
+        UsageCase{{"accuracy", "--out", "x", "--scene", "no_mirror", "--sweep", "fast"},
+                  "--sweep: 'fast' is no file (quick, full, or a TOML file)"},
         UsageCase{{"render", "--out", "x.jpg"}, "'x.jpg' has no known ending (.png or .exr)"},
         UsageCase{{"render", "--out", "x.png", "--frames", "2"}, "a pattern such as dir/%04d.png"},
         UsageCase{{"render", "--out", "x.png", "--size", "0x10"}, "--size: '0x10' is not a size"},
@@ -104,6 +113,7 @@ INSTANTIATE_TEST_SUITE_P(
         UsageCase{{"compare", "a.png", "b.png", "--max-flip", "-1"}, "-1 not in range 0.000000 to 1000000.000000 ("},
         UsageCase{{"bench", "--warmup", "-1"}, "--warmup"},
         UsageCase{{"bench", "--reference", "--prices"}, "--reference: measures alone"},
+        UsageCase{{"bench", "--reference", "--scene", "nosuch"}, "--reference: measures alone (leave out --scene)"},
         UsageCase{{"compare", "a.png", "b.png", "--heatmap", "error.exr"}, "'error.exr' must end in .png"},
         UsageCase{{"compare", "a.png", "b.png", "--heatmap", "error.jpg"}, "'error.jpg' must end in .png"}));
 
@@ -452,6 +462,7 @@ TEST_F(CommandLine, WhatNeedsNoDeviceWorksWithoutVulkan) {
 
 TEST_F(CommandLine, InfoAndScenesList) {
   EXPECT_TRUE(contains(succeed({"info"}), "llvmpipe"));
+  EXPECT_EQ(succeed({"info", "--gpu", "LLVM"}), succeed({"info"}));
   const std::string scenes = succeed({"scenes"});
   for (const char* name : {"gallery", "single_plane", "facing_mirrors", "many_mirrors", "mirror_maze", "no_mirror"}) {
     EXPECT_TRUE(contains(scenes, name)) << name;
@@ -632,6 +643,30 @@ TEST_F(CommandLine, CameraReplacesTheScenes) {
   succeed({"reference", "--scene", scene_, "--size", "64x36", "--samples", "1", "--camera", "1,2,4:0,1,0", "--out",
            out("traced.png")});
   expectAlike(other, readImage8(out("traced.png")), 2, "command_line_camera");
+}
+
+// A setting is named if, and only if, the tracer draws the same picture with any of its values.
+TEST_F(CommandLine, ReferenceNamesSettingsItDoesNotRead) {
+  const auto traced = [&](const std::string& setting, const std::string& name) {
+    return succeed(
+        {"reference", "--scene", scene_, "--size", "16x9", "--samples", "1", "--out", out(name), "--set", setting});
+  };
+  EXPECT_EQ(traced("view.exposure=1", "usual.png"), "");
+  for (const auto& [setting, read] :
+       {std::pair("effects.shadows=false", false), std::pair("reflection.scale=0.5", false),
+        std::pair("view.samples=1", false), std::pair("view.exposure=3", true), std::pair("view.tone_map=aces", true),
+        std::pair("view.clear_color=1,0,0", true), std::pair("reflection.max_depth=0", true)}) {
+    const std::string key = std::string(setting).substr(0, std::string_view(setting).find('='));
+    EXPECT_EQ(contains(traced(setting, "other.png"), "reference does not read " + key + " (only "), !read);
+    EXPECT_EQ(readText(out("other.png")) != readText(out("usual.png")), read) << setting;
+  }
+}
+
+TEST_F(CommandLine, BudgetOfASceneNamesTheOption) {
+  const std::string scene =
+      writeScene("budget", replaced(smallScene(), "[settings]", "[settings] \"quality.budget_ms\" = 5,"));
+  const std::string warning = succeed({"render", "--scene", scene, "--size", "8x8", "--out", out("b.png")});
+  EXPECT_TRUE(contains(warning, "GPU budget waits for a measurement (render and bench take --sweep-results F"));
 }
 
 TEST_F(CommandLine, BookmarkIsACamera) {

@@ -67,6 +67,52 @@ TEST_F(RegressCommand, GoesFromRedToGreen) {
   EXPECT_FALSE(contains(readText(folder_ / "out/index.html"), "data:image/png"));
 }
 
+// The words of --update stand anywhere, also for the workers.
+TEST_F(RegressCommand, UpdateStandsInAnyPlace) {
+  const std::string cases = (folder_ / "cases.toml").string();
+  const std::string other = (folder_ / "other.png").string();
+  writeCases(roomCase + "[[case]]\nname = 'other'\nscene = 'room.toml'\n");
+  const std::vector<std::vector<std::string>> ofAll{{"--update", cases, "--out", "O"},
+                                                    {"--out", "O", "--update", cases},
+                                                    {"--out", "O", "--update", "--", cases},
+                                                    {"--out", "O", cases, "--update"},
+                                                    {"--update", "", cases, "--out", "O"}};
+  const std::vector<std::vector<std::string>> ofOne{{"--update", "room", cases, "--out", "O"},
+                                                    {"--update=room", cases, "--out", "O"},
+                                                    {"--out", "O", "--update=room", "--", cases},
+                                                    {cases, "--out", "O", "--update", "room"}};
+  for (const bool all : {true, false}) {
+    for (std::vector<std::string> words : all ? ofAll : ofOne) {
+      std::ranges::replace(words, std::string("O"), (folder_ / "out").string());
+      words.insert(words.begin(), "regress");
+      std::filesystem::remove(folder_ / "room.png");
+      std::filesystem::remove(other);
+      const ProcessResult result = speculum(words);
+      EXPECT_EQ(result.exitCode, all ? 0 : 1) << testing::PrintToString(words) << result.output;
+      EXPECT_TRUE(contains(result.output, all ? "2 cases: 2 updated" : "1 updated")) << result.output;
+      EXPECT_TRUE(std::filesystem::exists(folder_ / "room.png"));
+      EXPECT_EQ(std::filesystem::exists(other), all);
+    }
+  }
+}
+
+TEST_F(RegressCommand, NamesOfAnyScriptNameFiles) {
+  for (const std::string name : {"Büro", "Bäro", "部屋 2"}) {
+    writeRoom(name + ".toml");
+  }
+  writeCases("[[case]]\ngrid = { scene = ['Büro.toml', 'Bäro.toml', '部屋 2.toml'] }\n");
+  const std::string junit = (folder_ / "junit.xml").string();
+  EXPECT_EQ(regress({"--update", "--junit", junit}).exitCode, 0);
+  const ProcessResult result = regress({"--filter", "B?ro", "--junit", junit});
+  EXPECT_EQ(result.exitCode, 0) << result.output;
+  EXPECT_TRUE(contains(result.output, "2 cases: 2 passed"));
+  for (const char* name : {"Büro", "Bäro"}) {
+    EXPECT_TRUE(contains(readText(junit), std::string("name=\"") + name + "\"")) << readText(junit);
+    EXPECT_TRUE(contains(readText(folder_ / "out/index.html"), std::string("\"name\":\"") + name + "\""));
+  }
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "部屋_2.png"));
+}
+
 TEST_F(RegressCommand, UpdateReplacesNoMask) {
   writePng(folder_ / "room.png", Image8(320, 180));
   writeCases("[[case]]\nscene = 'room.toml'\nmask = 'room.png'\n");
