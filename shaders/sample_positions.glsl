@@ -14,3 +14,12 @@ const vec2 samplePositions[] = {
 
 // Returns the position of sample `i` of `count` in a pixel.
 vec2 samplePosition(uint count, uint i) { return samplePositions[count - 1 + i]; }
+
+// Returns the mean position in a pixel of the samples in the bits of `mask`; without any, the centre.
+vec2 meanPosition(uint count, uint mask) {
+  vec2 sum = vec2(0.0);
+  for (uint i = 0; i < count; ++i) {
+    sum += (mask & 1 << i) != 0 ? samplePosition(count, i) : vec2(0.0);
+  }
+  return mask == 0 ? vec2(0.5) : sum / float(bitCount(mask));
+}

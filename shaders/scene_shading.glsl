@@ -51,19 +51,6 @@ layout(location = 0) out vec4 color;
 layout(constant_id = constantSamples) const uint samples = 1;
 #endif
 
-// Returns the mean position of the samples that the triangle covers, from the pixel's centre. Deferred shading computes
-// the light at the same place; drivers choose other places for `centroid`.
-vec2 coveredMean() {
-  vec2 sum = vec2(0.0);
-  float count = 0.0;
-  for (uint i = 0; i < samples; ++i) {
-    float covered = float(gl_SampleMaskIn[0] >> i & 1);
-    sum += covered * (samplePosition(samples, i) - 0.5);
-    count += covered;
-  }
-  return sum / max(count, 1.0);
-}
-
 #define SHADED(input) interpolateAtOffset(input, shadedAt)
 #else
 #define SHADED(input) input
@@ -124,7 +111,9 @@ int samplesOfBase() {
 
 void main() {
 #ifdef ASKS
-  shadedAt = coveredMean();
+  // Drivers choose places of their own for `centroid`. Deferred shading takes the mean of the samples, of those that
+  // nothing hides.
+  shadedAt = meanPosition(samples, uint(gl_SampleMaskIn[0])) - 0.5;
 #endif
   vec3 position = SHADED(relativePosition);
   vec3 normal = SHADED(relativeNormal);
@@ -176,6 +165,7 @@ void main() {
   color = asks ? encoded(Identifier(false, false, instanceIndex, draw.firstTriangle + uint(gl_PrimitiveID))) : color;
 #endif
 #ifdef COVERED
-  keepCovered(uvAt(textureUv, gl_FragCoord.xy), instances[instanceIndex].traceInstance, draw.firstTriangle + uint(gl_PrimitiveID));
+  keepCovered(uvAt(textureUv, gl_FragCoord.xy), instances[instanceIndex].traceInstance,
+              draw.firstTriangle + uint(gl_PrimitiveID));
 #endif
 }

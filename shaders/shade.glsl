@@ -23,15 +23,6 @@ layout(local_size_x = requestsPerGroup) in;
 
 layout(set = 1, binding = 3, std430) readonly buffer Mirrors { MirrorBlock mirrorBlocks[]; };
 
-// Returns the mean position of the samples in the bits of `seenBy`, in pixels of the target.
-vec2 positionOf(uvec2 pixel, uint seenBy) {
-  vec2 sum = vec2(0.0);
-  for (uint i = 0; i < samples; ++i) {
-    sum += (seenBy & 1 << i) != 0 ? samplePosition(samples, i) : vec2(0.0);
-  }
-  return vec2(area.corner + ivec2(pixel)) + sum / float(bitCount(seenBy));
-}
-
 // A triangle's vertices, relative.
 struct Corners {
   vec3 a;
@@ -57,11 +48,12 @@ vec3 normalOf(Corners corners) {
   return cross((corners.b - corners.a) * scale, (corners.c - corners.a) * scale);
 }
 
-// Returns a point on the line of sight that is near the triangle's plane, and not beyond the triangle.
-vec3 pointAhead(vec3 sight, Corners corners) {
+// Returns the point of the line of sight that is near the triangle's plane and not beyond the triangle. `known` is a
+// point of the plane; the nearer it is to the result, the more exact is that.
+vec3 pointAhead(vec3 sight, vec3 known, Corners corners) {
   vec3 normal = normalOf(corners);
   float farthest = sqrt(max(dot(corners.a, corners.a), max(dot(corners.b, corners.b), dot(corners.c, corners.c))));
-  float t = dot(normal, corners.a) / dot(normal, sight);
+  float t = dot(normal, known) / dot(normal, sight);
   return sight * (t >= 0.0 && t <= farthest ? t : farthest);
 }
 
@@ -87,14 +79,28 @@ vec3 onTriangle(vec3 weights) {
   return weights / (weights.x + weights.y + weights.z);
 }
 
-// Moves a point of the triangle's plane along the plane to the line of sight. Weights of a triangle that is much longer
-// than wide are so rounded that the point they give may lie metres beside it.
-vec3 backToSight(vec3 point, vec3 sight, Corners corners) {
+// Says whether a point that weights give lies so far beside the line of sight that rounding of the weights is the
+// reason, as in a triangle that is much longer than wide. A pixel may look past the triangle: then the point belongs
+// beside the line of sight.
+bool strays(vec3 point, vec3 sight, vec3 onPlane, Corners corners) {
   const float farBeside = 1e-5;  // of the distance; a pixel is some hundred times wider
+  float rounding = 1e-6 / max(length(normalOf(corners)), 1e-12);
   vec3 beside = point - sight * dot(sight, point);
-  vec3 normal = normalOf(corners);
-  float t = dot(normal, point) / dot(normal, sight);
-  return dot(beside, beside) > farBeside * farBeside * dot(point, point) && t > 0.0 ? sight * t : point;
+  return all(greaterThan(onPlane, vec3(-rounding))) &&
+         dot(beside, beside) > farBeside * farBeside * dot(point, point);
+}
+
+// Returns how the weights change if their point is moved along the triangle's longest edge.
+vec3 weightsOf(vec3 movement, Corners corners) {
+  vec3 ab = corners.b - corners.a;
+  vec3 bc = corners.c - corners.b;
+  vec3 ca = corners.a - corners.c;
+  vec3 squares = vec3(dot(ab, ab), dot(bc, bc), dot(ca, ca));
+  if (squares.x >= max(squares.y, squares.z)) {
+    return vec3(-1.0, 1.0, 0.0) * (dot(movement, ab) / squares.x);
+  }
+  return squares.y >= squares.z ? vec3(0.0, -1.0, 1.0) * (dot(movement, bc) / squares.y)
+                                : vec3(1.0, 0.0, -1.0) * (dot(movement, ca) / squares.z);
 }
 
 // A surface as a pixel sees it.
@@ -110,7 +116,7 @@ Seen seenObject(Identifier id, vec2 position) {
   Corners corners = Corners(relativeVertex(id.index, id.triangle, 0), relativeVertex(id.index, id.triangle, 1),
                             relativeVertex(id.index, id.triangle, 2));
   vec3 sight = safeNormalize(rayThrough(position));
-  vec3 point = pointAhead(sight, corners);
+  vec3 point = pointAhead(sight, corners.a, corners);
   vec3 onPlane = weightsAt(point, corners);
   vec3 w = onTriangle(onPlane);
   Weights weights = Weights(w, vec3(0.0), vec3(0.0));
@@ -120,7 +126,11 @@ Seen seenObject(Identifier id, vec2 position) {
     weights.down = weightsAt(ahead * safeNormalize(rayThrough(position + vec2(0.0, 1.0))), corners) - onPlane;
   }
   point += w.x * (corners.a - point) + w.y * (corners.b - point) + w.z * (corners.c - point);
-  point = all(greaterThanEqual(onPlane, vec3(0.0))) ? backToSight(point, sight, corners) : point;
+  if (strays(point, sight, onPlane, corners)) {
+    vec3 seen = pointAhead(sight, point, corners);
+    weights.here += weightsOf(seen - point, corners);
+    point = seen;
+  }
   vec3 direction = safeNormalize(point);
   Bounce bounce = objectBounce(instances[id.index].traceInstance, id.triangle, weights, point, direction,
                                view.traceOffset.xyz, sight);
@@ -160,7 +170,8 @@ void shade(uint pixel, uint seenBy) {
   uint first = uint(findLSB(seenBy));
   uvec2 bits = shaded[sampleNumber(pixel, first)];
   Identifier id = decoded(vec4(unpackHalf2x16(bits.x), unpackHalf2x16(bits.y)));
-  vec2 position = positionOf(uvec2(pixel % area.size.x, pixel / area.size.x), seenBy);
+  vec2 corner = vec2(area.corner + ivec2(pixel % area.size.x, pixel / area.size.x));
+  vec2 position = corner + meanPosition(samples, seenBy);
   Seen seen;
   if (id.mirror) {
     seen = seenMirror(id, position, first);

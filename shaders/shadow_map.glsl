@@ -32,7 +32,8 @@ bool hasPlane = true;  // the receiver's triangle has a plane
 #ifndef COMPUTE
 layout(constant_id = constantPerSample) const bool perSample = false;
 
-vec3 pixelAcross;  // from the receiver to where the next pixels see its plane
+vec3 pixelCenter;  // where the pixel's centre sees the receiver's plane, relative
+vec3 pixelAcross;  // from there to where the next pixels see it
 vec3 pixelDown;
 bool asks = false;  // light that would reach the surface is undecided
 #endif
@@ -48,8 +49,9 @@ void setReceiver(vec3 position, vec3 shadingNormal) {
 #ifdef ASKS
   bool found = abs(along - 1.0) < 2e-4;  // seen at grazing angle, the derived plane is too uncertain to decide
   hasPlane = found;
-  pixelAcross = along * dFdx(center);
-  pixelDown = along * dFdy(center);
+  pixelCenter = center;
+  pixelAcross = dFdx(center);
+  pixelDown = dFdy(center);
 #else
   bool found = along > 0.5 && along < 2.0;
 #endif
@@ -150,10 +152,10 @@ float shareAt(LightData light, vec3 p) {
 
 #ifndef COMPUTE
 float shadowShare(LightData light) {
-  vec3 p = receiver - light.position;
 #ifdef ASKS
   if (perSample) {
     // The samples lie within the square of the pixel.
+    vec3 p = pixelCenter - light.position;
     float a = shareAt(light, p - 0.5 * (pixelAcross + pixelDown));
     float b = shareAt(light, p + 0.5 * (pixelAcross - pixelDown));
     float c = shareAt(light, p - 0.5 * (pixelAcross - pixelDown));
@@ -161,7 +163,7 @@ float shadowShare(LightData light) {
     return a == b && a == c && a == d ? a : undecided;
   }
 #endif
-  return shareAt(light, p);
+  return shareAt(light, receiver - light.position);
 }
 
 // Returns the share of light `index` of the pass that reaches the receiver.

@@ -56,7 +56,7 @@ std::vector<DeviceInfo> Device::list() {
 
 Device::Device(const DeviceOptions& options) : instance_(options) {
   if (options.window) {
-    surface_ = {instance_.get(), options.window->createSurface(instance_.get())};
+    makeSurface(*options.window);
   }
   gpu_ = choose(physicalDevices(instance_, surface_.get()), options.gpu);
   choosePath(options.renderPath);
@@ -189,9 +189,14 @@ void Device::loadFunctions() {
   }
 }
 
+void Device::makeSurface(const Window& window) {
+  const std::shared_lock lock(loaderMutex());
+  surface_ = {instance_.get(), window.createSurface(instance_.get())};
+}
+
 void Device::renewSurface(const Window& window) {
   surface_.reset();
-  surface_ = {instance_.get(), window.createSurface(instance_.get())};
+  makeSurface(window);
   if (!presentsTo(gpu_.handle, gpu_.presentFamily, surface_.get())) {
     throw std::runtime_error(gpu_.info.name + " no longer presents to this window (choose another with --gpu)");
   }

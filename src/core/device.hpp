@@ -13,6 +13,7 @@
 #include "core/barriers.hpp"
 #include "core/device_memory.hpp"
 #include "core/handle.hpp"
+#include "core/loader.hpp"
 #include "core/physical_device.hpp"
 #include "core/spare_pipelines.hpp"
 #include "core/vulkan_result.hpp"
@@ -157,6 +158,7 @@ class Device {
     }
   };
 
+  void makeSurface(const Window& window);
   void choosePath(RenderPath wanted);
   std::vector<const char*> deviceExtensions(const DeviceOptions& options) const;
   void createDevice(const DeviceOptions& options);

@@ -1,6 +1,6 @@
 #include "core/handle.hpp"
 
-#include "core/vulkan_result.hpp"
+#include "core/loader.hpp"
 
 namespace speculum {
 

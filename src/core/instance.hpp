@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/handle.hpp"
-#include "core/vulkan_result.hpp"
+#include "core/loader.hpp"
 
 namespace speculum {
 

@@ -76,11 +76,6 @@ PFN_vkVoidFunction requireFunction(PFN_vkVoidFunction function, std::string_view
   return function;
 }
 
-std::shared_mutex& loaderMutex() {
-  static std::shared_mutex mutex;
-  return mutex;
-}
-
 void check(VkResult result, std::string_view what) {
   if (result != VK_SUCCESS) {
     throwVulkanError(result, what);

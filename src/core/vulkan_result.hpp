@@ -2,7 +2,6 @@
 
 #include <vulkan/vulkan.h>
 
-#include <shared_mutex>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -30,10 +29,6 @@ void check(VkResult result, std::string_view what);
 std::string resultName(VkResult result);
 // Returns `function`. Throws std::runtime_error with its name if it is null: the loader or the driver has no such one.
 PFN_vkVoidFunction requireFunction(PFN_vkVoidFunction function, std::string_view name);
-// The loader's list of instances and devices, which threads with devices of their own share. Lock it exclusively to
-// make or destroy one. Lock it shared to look up a function, to name an object and to make a swapchain: loaders (at
-// least 1.3.239) search the list for that while another thread may free what they look at.
-std::shared_mutex& loaderMutex();
 
 // Lists what Vulkan enumerates in two calls: query(first..., &count, nullptr) says how many, query(first..., &count,
 // data) which. Repeats both if the number grew in between.

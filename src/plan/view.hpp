@@ -46,7 +46,8 @@ void boundByRectangle(View& view, const Projection& projection);
 void widen(View& view, const Projection& projection, int pixels);
 
 // Returns the size of the drawn part of the projection plane, centred, in widths and heights of the picture: 1 where
-// `view.rect` lies within the picture, more where an image has a margin beyond the picture's border.
+// `view.rect` lies within the picture. More where an image has a margin beyond the picture's border, or reaches it with
+// a part of its last texel, because the picture is no whole number of texels.
 glm::dvec2 overscan(const View& view);
 
 // Returns inward unit normals of the planes through the eye and the edges of a convex polygon (world); skips edges that

@@ -98,15 +98,20 @@ TEST(Device, RenderPathNames) {
 TEST(Device, ThreadsHaveDevicesOfTheirOwn) {
   std::atomic<bool> done = false;
   const auto device = std::make_unique<Device>(validated());
-  std::jthread other([&done] {
-    for (int i = 0; i < 20; ++i) {
-      const Device device(validated());
-    }
+  std::string error;
+  std::jthread other([&] {
+    error = messageOf([] {
+      for (int i = 0; i < 20; ++i) {
+        const Device device(validated());
+      }
+    });
     done = true;
   });
   while (!done) {
     const FenceHandle fence = device->create(vkCreateFence, {.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO}, "named");
   }
+  other.join();
+  EXPECT_EQ(error, "nothing was thrown");
   EXPECT_EQ(device->validationMessages(), 0) << messagesOf(*device);
 }
 

@@ -238,8 +238,10 @@ TEST(ExactEffects, LongThinTrianglesEqualTheTracer) {
   for (int i = 0; i < 8; ++i) {
     const double length = std::pow(10.0, random.uniform(2.0, 5.0));
     std::ostringstream road;
-    road << "v -3 0 " << -length << "\nv 3 0 " << -length << "\nv 3 0 " << length << "\nv -3 0 " << length
-         << "\nf 4 3 2 1\n";
+    for (const auto& [x, z] : {std::pair{-3, -1}, {3, -1}, {3, 1}, {-3, 1}}) {
+      road << "v " << x << " 0 " << z * length << ' ' << 0.5 + 0.1 * x << ' ' << 0.5 - 0.4 * z << " 0.6\n";
+    }
+    road << "f 4 3 2 1\n";
     const std::string name = "road_" + std::to_string(i);
     writeModel(name + ".obj", road.str());
     const std::filesystem::path file = writeScene(

@@ -400,8 +400,6 @@ TEST(ViewScale, DrawsTheSmallerPictureEnlarged) {
   }
 }
 
-// Blurring reads the image beside the visible region, so that part must be drawn too. In a scene of one color the
-// mirror then has that color.
 // An image whose size is no whole number of texels is drawn up to its last texel, which ripples spread.
 TEST(MirrorPictures, ImagesOfAnySizeReachTheirBorder) {
   const std::filesystem::path file = writeScene("border", R"(
@@ -425,6 +423,8 @@ TEST(MirrorPictures, ImagesOfAnySizeReachTheirBorder) {
   }
 }
 
+// Blurring reads the image beside the visible region, so that part must be drawn too. In a scene of one color the
+// mirror then has that color.
 TEST(MirrorPictures, BlurredImagesAreDrawnBesideTheirMirror) {
   const std::filesystem::path file = writeScene("one_color", R"(
 [environment] sky = { zenith = [0.4, 0.5, 0.6], horizon = [0.4, 0.5, 0.6], ground = [0.4, 0.5, 0.6] }
