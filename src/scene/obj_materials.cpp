@@ -169,7 +169,7 @@ class ObjMaterials::MtlReader {
 
   bool readTexture(const char* key) {
     const auto [name, options] = namedTexture(line_);
-    if (name.empty()) {
+    if (materials_.isComment(file_, name)) {
       return false;
     }
     text_.append(key).append(" ").append(name).append("\n");
@@ -221,7 +221,8 @@ class ObjMaterials::MtlReader {
     material.clamps = entry_->textureOptions.clamps;
     entry_->diffuseTexture = from.diffuse_texname;
     entry_->emissionTexture = from.emissive_texname;
-    materials_.bareNames_.try_emplace(std::string(withoutComment(name_)), name_);
+    std::string& whole = materials_.bareNames_.try_emplace(std::string(withoutComment(name_)), name_).first->second;
+    whole = whole == name_ ? name_ : "";
     materials_.entries_.try_emplace(name_, std::move(*entry_));
     entry_.reset();
   }
@@ -240,6 +241,9 @@ void ObjMaterials::read(std::string_view names, int line) {
   if (names.find(' ') != std::string_view::npos && readIfThere(names, line)) {
     return;
   }
+  if (isComment(objFile_, names)) {
+    return;
+  }
   names = withoutComment(names).empty() ? names : withoutComment(names);
   std::string name;
   for (size_t i = 0; i <= names.size(); ++i) {
@@ -254,6 +258,10 @@ void ObjMaterials::read(std::string_view names, int line) {
       name += names[i];
     }
   }
+}
+
+bool ObjMaterials::isComment(const fs::path& file, std::string_view name) {
+  return withoutComment(name).empty() && !modelFiles_.find(file, name);
 }
 
 // Reads an MTL file. Returns false if there is no such file.
@@ -334,7 +342,8 @@ std::pair<std::string, const ObjMaterials::Entry*> ObjMaterials::entryOf(const s
     }
   }
   const auto commented = bareNames_.find(bare);
-  return {bare, commented == bareNames_.end() || bare.empty() ? nullptr : &entries_.at(commented->second)};
+  const bool isOne = commented != bareNames_.end() && !commented->second.empty() && !bare.empty();
+  return {bare, isOne ? &entries_.at(commented->second) : nullptr};
 }
 
 template <typename Read>
@@ -369,9 +378,9 @@ int ObjMaterials::opacityIndex(const Entry& entry, const fs::path& picture, cons
     }
     return colors.opacity.empty() ? -1 : material.diffuseTexture;
   }
-  const auto [known, isNew] = opacityIndices_.try_emplace(source, -1);
-  if (isNew) {
-    known->second = opacityTextureIndex(picture, textures).value_or(-1);
+  auto known = opacityIndices_.find(source);
+  if (known == opacityIndices_.end()) {
+    known = opacityIndices_.emplace(source, opacityTextureIndex(picture, textures).value_or(-1)).first;
   }
   if (known->second < 0) {
     filesRead_.insert(source);

@@ -76,6 +76,8 @@ class ObjMaterials {
   };
   class MtlReader;
 
+  // Says whether a name in the file is empty but for a comment, and names no file as a whole.
+  bool isComment(const std::filesystem::path& file, std::string_view name);
   bool readIfThere(std::string_view name, int line);
   std::pair<std::string, const Entry*> entryOf(const std::string& name) const;
   // Returns read(file) for the picture that a line of the entry's file names; nothing, with a defect, if it is not
@@ -92,7 +94,7 @@ class ObjMaterials {
   ModelDefects& defects_;
   ModelFiles modelFiles_;
   std::map<std::string, Entry> entries_;          // by name
-  std::map<std::string, std::string> bareNames_;  // names of entries by the same without a comment
+  std::map<std::string, std::string> bareNames_;  // names of entries by what is before a comment; empty: several
   std::vector<Use> uses_;
   std::map<std::string, int> useIndices_;  // by name
   std::set<std::filesystem::path> filesRead_;

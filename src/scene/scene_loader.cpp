@@ -243,7 +243,8 @@ void logExposure(const fs::path& file, const Model& model) {
   constexpr double most = 100.0;
   double irradiance = 0.0;
   for (const PointLight& light : model.lights) {
-    const double distance = std::max(glm::distance(light.position, model.mesh.center), light.radius);
+    const double distance =
+        std::max(glm::distance(light.position, model.mesh.center), model.mesh.radius * model.mesh.unit);
     irradiance += glm::compMax(light.color) * light.intensity / (distance * distance);
   }
   if (irradiance > most) {

@@ -125,14 +125,14 @@ std::optional<int> opacityTextureIndex(const fs::path& file, std::vector<Texture
     return static_cast<int>(known - textures.begin());
   }
   const Image8 image = readTexture(file);
-  Texture mask{.source = source, .width = image.width, .height = image.height, .isMask = true};
-  mask.opacity = opacityOf(image, image.hasAlpha ? 3 : 0);
-  if (mask.opacity.empty()) {
-    return std::nullopt;
-  }
-  if (image.hasAlpha) {
+  if (image.hasAlpha && !opacityOf(image, 3).empty()) {
     return indexOf(
         source, false, [&] { return image; }, textures);
+  }
+  Texture mask{.source = source, .width = image.width, .height = image.height, .isMask = true};
+  mask.opacity = opacityOf(image, 0);
+  if (mask.opacity.empty()) {
+    return std::nullopt;
   }
   mask.texels.assign(image.rgba.size() / 4, glm::vec3(1.0f));
   textures.push_back(bounded(std::move(mask), mostPixels(textures)));

@@ -13,8 +13,8 @@ namespace speculum {
 // Returns the index of the texture of a picture file. Appends it to `textures` unless it is there already; shrinks it
 // (Texture::shrinkage) if the textures before it fill the memory that a scene's may take. Throws FileError.
 int textureIndex(const std::filesystem::path& file, std::vector<Texture>& textures);
-// Does the same for a picture that gives opacities: by its alpha channel or, if the file has none, by its red, which
-// counts as a linear number. Returns nothing if it is opaque throughout.
+// Does the same for a picture that gives opacities: by its alpha channel or, if there is none or it is opaque
+// throughout, by its red, which counts as a linear number. Returns nothing if that is opaque throughout too.
 std::optional<int> opacityTextureIndex(const std::filesystem::path& file, std::vector<Texture>& textures);
 // Does the same as textureIndex() for the content of a picture that stands in another file; `source` names it.
 int textureIndex(const std::filesystem::path& source, const std::vector<uint8_t>& picture,

@@ -652,6 +652,15 @@ TEST_F(GltfLoader, LightsInRealUnitsNameTheirExposure) {
   }
 }
 
+TEST_F(GltfLoader, LampsWithinTheModelAreUsual) {
+  MadeGltf made;
+  made.add("nodes", {{"mesh", made.addTriangle()}});
+  made.add("nodes", {{"translation", {0.5, 0.5, 0.01}}, {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+  made.root["extensions"]["KHR_lights_punctual"]["lights"].push_back({{"type", "point"}, {"intensity", 10}});
+  loadScene(folder_.write("m.glb", made.binary()));
+  EXPECT_FALSE(contains(log_.text(), "view.exposure")) << log_.text();
+}
+
 TEST_F(GltfLoader, HiddenNodesAreNotDrawn) {
   MadeGltf made;
   const int mesh = made.addTriangle();

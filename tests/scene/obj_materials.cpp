@@ -182,9 +182,10 @@ TEST_F(MtlFile, OpaqueTexturesAreNoCoverage) {
   folder_.write("alpha.tga", testing_support::tgaFile(red, 32, 8));
   folder_.write("white.tga", testing_support::tgaFile(Image8(4, 4), 24, 0));
   for (const std::string picture : {"alpha.png", "alpha.tga", "white.tga"}) {
-    for (const std::string& keys : {"map_d " + picture, "map_Kd " + picture + "\nmap_d " + picture}) {
-      EXPECT_FALSE(materialOf("newmtl m\nNs 900\n" + keys + "\n").isTransparent()) << keys;
-    }
+    const std::string keys = "map_Kd " + picture + "\nmap_d " + picture;
+    EXPECT_FALSE(materialOf("newmtl m\nNs 900\n" + keys + "\n").isTransparent()) << keys;
+    const Material alone = materialOf("newmtl m\nmap_d " + picture + "\n");
+    EXPECT_EQ(alone.isTransparent(), picture != "white.tga") << "its red is meant: " << picture;
   }
   const Mesh two = load(squareText + "usemtl m\nf 1 2 3\nusemtl n\nf 1 3 4\n",
                         "newmtl m\nmap_d white.tga\nnewmtl n\nillum 3\nKs 1\nNs 900\nmap_d white.tga\n");
@@ -307,6 +308,14 @@ TEST_F(MtlFile, UnreadableTexturesAreLeftOut) {
     EXPECT_TRUE(contains(mesh.defects[0], problem)) << mesh.defects[0];
     EXPECT_TRUE(contains(mesh.defects[0], "the texture is left out"));
   }
+}
+
+TEST_F(MtlFile, DamagedMasksCountForEachMaterial) {
+  folder_.write("text.png", "no picture");
+  const Mesh mesh = load(squareText + "usemtl a\nf 1 2 3\nusemtl b\nf 1 3 4\n",
+                         "newmtl a\nmap_d text.png\nnewmtl b\nmap_d text.png\n");
+  ASSERT_EQ(mesh.defects.size(), 1u);
+  EXPECT_TRUE(contains(mesh.defects[0], "the texture is left out (and 1 more)")) << mesh.defects[0];
 }
 
 // 2x2 pictures: a red and a green pixel above a blue and a white one.
@@ -486,6 +495,12 @@ TEST_F(MtlFile, CommentsAreNoPartOfNames) {
   EXPECT_EQ(warnings(), "");
 }
 
+TEST_F(MtlFile, CommentsAloneNameNoFile) {
+  const Mesh mesh = load("mtllib # none\n" + squareText + "usemtl m\nf 1 2 3\n", "newmtl m\nmap_Kd # no texture\n");
+  EXPECT_EQ(mesh.parts.at(0).material.diffuse, glm::dvec3(0.8));
+  EXPECT_EQ(warnings(), "");
+}
+
 // 3ds Max names its materials so.
 TEST_F(MtlFile, NamesMayHoldNumberSigns) {
   const std::string names = "newmtl Material #25\nKd 1 0 0\nnewmtl Material #26\nKd 0 1 0\nnewmtl #FF0000\nKd 0 0 1\n";
@@ -497,6 +512,8 @@ TEST_F(MtlFile, NamesMayHoldNumberSigns) {
   EXPECT_EQ(colorOf("#FF0000"), glm::dvec3(0, 0, 1));
   EXPECT_EQ(colorOf("#FF0000 # red"), glm::dvec3(0.6)) << "a comment begins at the first one";
   EXPECT_TRUE(contains(warnings(), "there is no material '#FF0000 # red'"));
+  EXPECT_EQ(colorOf("Material #27"), glm::dvec3(0.6)) << "which of the two is meant is not known";
+  EXPECT_TRUE(contains(warnings(), "there is no material 'Material #27'"));
   for (const std::string name : {"wall #1.png", "#1.png", "deep #2/a b.png"}) {
     std::filesystem::create_directories((folder_ / name).parent_path());
     writePng(folder_ / name, Image8(1, 1));
