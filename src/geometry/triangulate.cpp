@@ -17,8 +17,8 @@ double longestSquared(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3
   return std::max({glm::length2(b - a), glm::length2(c - b), glm::length2(a - c)});
 }
 
-// Takes no ear that is a sliver, nor one beside whose new edge a vertex lies, as long as there is another. Vertices of
-// a straight edge, which rounding moves off it, would else make slivers.
+// Takes no ear that is a sliver, nor one beside whose new edge a vertex lies, until there is no other; from then on,
+// takes these too. Vertices of a straight edge, which rounding moves off it, would else make slivers.
 class EarClipper {
  public:
   explicit EarClipper(std::span<const glm::dvec3> polygon)

@@ -173,15 +173,15 @@ void MeshBuilder::addFace(std::span<const FaceCorner> corners, int line) {
     }
   }
   uvShift_ = uvShiftOf(corners);
-  // Cutting a face of more corners may make triangles without an area, which are no defect of the file.
+  // Only a whole face is a defect: of one with more corners, cutting may make slivers and triangles without an area.
   double quality = 0.0;
   for (const auto& [a, b, c] : triangulate(points_)) {
     quality = std::max(quality, addTriangle(corners[a], corners[b], corners[c]));
   }
   if (quality == 0.0) {
-    defects_.add(file_, line, faceKey_, "a triangle without an area is left out");
+    defects_.add(file_, line, faceKey_, "a face without an area is left out");
   } else if (quality < 1e-5) {
-    defects_.add(file_, line, faceKey_, "a triangle is a sliver, its normal is inexact");
+    defects_.add(file_, line, faceKey_, "a face is a sliver, its normal is inexact");
   }
 }
 
