@@ -47,7 +47,7 @@ struct TrianglePart {
 };
 
 // Says whether the triangle is shaded as a flat one: with one normal, nearly its own. Files round normals to 8 bits or
-// two decimals, which turns them by up to half a degree, but all that are equal by the same angle.
+// two decimals. That turns them by up to half a degree, but leaves equal ones equal.
 bool isFlat(const Mesh& mesh, const uint32_t* corners) {
   constexpr double one = 1.0 - 4e-6;       // cosines: of 0.16 degrees
   constexpr double nearly = 1.0 - 1.5e-4;  // of one degree
@@ -287,7 +287,7 @@ bool wantsMirrors(const Scene& scene, const Object& object) {
 }
 
 std::string nameOf(const Scene& scene, const Object& object) {
-  return (object.name.empty() ? scene.meshes[object.mesh].source.stem().string() : object.name) + " mirror";
+  return object.name.empty() ? scene.meshes[object.mesh].source.stem().string() : object.name;
 }
 
 }  // namespace
@@ -342,7 +342,7 @@ void placeMaterialMirrors(Scene& scene) {
       const FlatMirror& from = flat[k % flat.size()];
       const ObjectMirror optics = mirrorOf(object, from.material);
       const std::string number = count > 1 ? " " + std::to_string(k) : "";
-      scene.materialMirrors.push_back({.mirror = {.name = nameOf(scene, object) + number,
+      scene.materialMirrors.push_back({.mirror = {.name = nameOf(scene, object) + " mirror" + number,
                                                   .spin = object.spin,
                                                   .reflectance = optics.reflectance,
                                                   .baseColor = optics.baseColor,
@@ -357,28 +357,29 @@ void placeMaterialMirrors(Scene& scene) {
 void logMaterialMirrors(Scene& scene) {
   for (size_t i = 0; i < scene.meshes.size(); ++i) {
     Mesh& mesh = scene.meshes[i];
-    const auto warn = [&](std::string_view text) {
-      mesh.defects.push_back(oneLine(fmt::format("{}:1: materials: {}", mesh.source.string(), text)));
-      spdlog::warn("{}", mesh.defects.back());
-    };
-    size_t used = 0;
-    size_t unused = 0;
+    bool used = false;
     for (const Object& object : scene.objects) {
-      if (object.mesh == static_cast<int>(i) && wantsMirrors(scene, object)) {
-        ++(makesMirrors(scene, object) ? used : unused);
+      if (object.mesh != static_cast<int>(i) || !wantsMirrors(scene, object)) {
+        continue;
+      }
+      used = used || makesMirrors(scene, object);
+      if (!makesMirrors(scene, object)) {
+        spdlog::warn(oneLine(
+            fmt::format("{}: its materials make no mirrors of object '{}', which is too large, too small, too far away "
+                        "or copied too often (mirrors_from_materials = false, or fewer copies, are needed)",
+                        mesh.source.string(), nameOf(scene, object))));
       }
     }
-    if (used > 0) {
+    if (used) {
       spdlog::info(oneLine(
           fmt::format("{}: its materials make {} planar and {} curved mirrors (mirrors_from_materials = false: none)",
                       mesh.source.string(), mesh.mirrorParts->flat.size(), mesh.mirrorParts->curved.size())));
       const auto count = std::ranges::count_if(mesh.parts, saysMirror);
       if (count > static_cast<std::ptrdiff_t>(mostMaterials)) {
-        warn(fmt::format("{} say mirror, the first {} make mirrors", count, mostMaterials));
+        mesh.defects.push_back(oneLine(fmt::format("{}:1: materials: {} say mirror, the first {} make mirrors",
+                                                   mesh.source.string(), count, mostMaterials)));
+        spdlog::warn("{}", mesh.defects.back());
       }
-    }
-    if (unused > 0) {
-      warn("make no mirrors of objects that are too large, too small, too far away or copied too often");
     }
   }
 }

@@ -19,8 +19,8 @@ void cutMirrorParts(Scene& scene, size_t first);
 // an object is not visible everywhere, its flat parts become curved mirrors, which reflect the same.
 void placeMaterialMirrors(Scene& scene);
 
-// Logs a line for each model whose materials make mirrors of an object. Mirrors that a limit leaves out are warnings
-// and defects of the model.
+// Logs a line for each model whose materials make mirrors of an object. Materials beyond the limit are a warning
+// and a defect of the model; an object that is too large, too far away or copied too often is a warning only.
 void logMaterialMirrors(Scene& scene);
 
 // Says whether materials make mirrors of parts of the object.
