@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <unordered_map>
 
-#include "geometry/weld.hpp"
+#include "geometry/convex_mesh.hpp"
 
 namespace speculum::generator {
 namespace {

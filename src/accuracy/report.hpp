@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,5 +33,11 @@ std::vector<int> shownPoints(const SweepResults& results, int most);
 
 // Returns the page with its style sheet and scripts, and "@DATA@" where its JSON belongs. Written at build time.
 std::string_view reportPage();
+
+// Returns the bytes as base64 text: RFC 4648, with padding, without line breaks.
+std::string base64(std::span<const uint8_t> bytes);
+
+// Returns an HTML page with the data in the place of its "@DATA@", which stands in a script element.
+std::string pageWithData(std::string_view page, const nlohmann::ordered_json& data);
 
 }  // namespace speculum

@@ -2,7 +2,7 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include "cli/command_line.hpp"
+#include "cli/commands.hpp"
 #include "image/picture_files.hpp"
 #include "regress/picture_check.hpp"
 

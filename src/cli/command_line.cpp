@@ -1,4 +1,4 @@
-#include "cli/command_line.hpp"
+#include "cli/commands.hpp"
 
 #include <spdlog/fmt/fmt.h>
 #include <CLI/CLI.hpp>

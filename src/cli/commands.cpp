@@ -10,7 +10,6 @@
 #include <iostream>
 #include <map>
 
-#include "cli/command_line.hpp"
 #include "platform/folders.hpp"
 #include "platform/machine.hpp"
 #include "platform/process.hpp"
@@ -18,7 +17,6 @@
 #include "scene/input_error.hpp"
 #include "scene/scene_loader.hpp"
 #include "window/demo.hpp"
-#include "window/shown_device.hpp"
 
 namespace speculum {
 
@@ -55,7 +53,7 @@ int runInfo(const Options& options) {
   }
   for (const DeviceInfo& info : devices) {
     printLine(fmt::format("{}: {}", info.index, info.name));
-    printLine(fmt::format("   driver {}, Vulkan {}, {:.0f} MiB, {}{}", info.driver, vulkanVersion(info.apiVersion),
+    printLine(fmt::format("   driver {}, Vulkan {}, {:.0f} MiB, {}{}", info.driver, info.vulkanVersion(),
                           static_cast<double>(info.memoryBytes) / (1024.0 * 1024.0),
                           info.missing            ? "not usable: " + *info.missing
                           : info.dynamicRendering ? "dynamic rendering"

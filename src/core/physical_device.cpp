@@ -1,5 +1,7 @@
 #include "core/physical_device.hpp"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <algorithm>
 #include <charconv>
 #include <stdexcept>
@@ -215,6 +217,11 @@ const PhysicalDevice* best(const std::vector<PhysicalDevice>& devices) {
 }
 
 }  // namespace
+
+std::string DeviceInfo::vulkanVersion() const {
+  return fmt::format("{}.{}.{}", VK_API_VERSION_MAJOR(apiVersion), VK_API_VERSION_MINOR(apiVersion),
+                     VK_API_VERSION_PATCH(apiVersion));
+}
 
 bool PhysicalDevice::hasExtension(std::string_view name) const {
   return std::ranges::any_of(extensions, [&](const auto& extension) { return name == extension.extensionName; });

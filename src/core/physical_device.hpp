@@ -22,6 +22,7 @@ struct DeviceInfo {
   std::optional<std::string> missing;  // what the program needs and the GPU lacks; nothing if the GPU is usable
 
   bool isCpu() const { return type == VK_PHYSICAL_DEVICE_TYPE_CPU; }
+  std::string vulkanVersion() const;  // such as "1.3.0"
 };
 
 // Formats of depth, the best first. The last one is not as precise, but a device without D32F must have it.

@@ -6,8 +6,8 @@
 #include <optional>
 #include <span>
 
+#include "platform/bytes.hpp"
 #include "platform/files.hpp"
-#include "platform/fnv1a.hpp"
 
 namespace speculum {
 

@@ -7,8 +7,8 @@
 #include <span>
 #include <stdexcept>
 
+#include "platform/bytes.hpp"
 #include "platform/files.hpp"
-#include "platform/fnv1a.hpp"
 #include "platform/process.hpp"
 
 namespace speculum {

@@ -8,8 +8,8 @@
 #include <set>
 
 #include "edit/transform.hpp"
+#include "geometry/convex_mesh.hpp"
 #include "geometry/polygon.hpp"
-#include "geometry/weld.hpp"
 
 namespace speculum {
 

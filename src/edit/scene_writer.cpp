@@ -242,6 +242,21 @@ bool isBelow(const fs::path& file, const fs::path& folder) {
   return !relative.empty() && *relative.begin() != "..";
 }
 
+// Returns the meshes or textures that a node uses and whose files are not below the folder.
+template <typename Source, typename Node>
+std::vector<size_t> sourcesOutside(const std::vector<Source>& sources, const std::vector<Node>& nodes, int Node::*index,
+                                   const fs::path& folder) {
+  const fs::path inside = withoutLinks(folder);
+  std::vector<size_t> outside;
+  for (size_t i = 0; i < sources.size(); ++i) {
+    if (std::ranges::count(nodes, static_cast<int>(i), index) > 0 &&
+        !isBelow(withoutLinks(sources[i].source), inside)) {
+      outside.push_back(i);
+    }
+  }
+  return outside;
+}
+
 // Says whether `to` has the content of `from` or can be made.
 bool canCopy(const fs::path& from, const fs::path& to) {
   std::error_code error;
@@ -273,27 +288,11 @@ fs::path copyTogether(const std::vector<fs::path>& files, const fs::path& root, 
 }  // namespace
 
 std::vector<size_t> modelsOutside(const Scene& scene, const fs::path& folder) {
-  const fs::path inside = withoutLinks(folder);
-  std::vector<size_t> meshes;
-  for (size_t i = 0; i < scene.meshes.size(); ++i) {
-    if (std::ranges::count(scene.objects, static_cast<int>(i), &Object::mesh) > 0 &&
-        !isBelow(withoutLinks(scene.meshes[i].source), inside)) {
-      meshes.push_back(i);
-    }
-  }
-  return meshes;
+  return sourcesOutside(scene.meshes, scene.objects, &Object::mesh, folder);
 }
 
 std::vector<size_t> mapsOutside(const Scene& scene, const fs::path& folder) {
-  const fs::path inside = withoutLinks(folder);
-  std::vector<size_t> maps;
-  for (size_t i = 0; i < scene.textures.size(); ++i) {
-    if (std::ranges::count(scene.mirrors, static_cast<int>(i), &Mirror::map) > 0 &&
-        !isBelow(withoutLinks(scene.textures[i].source), inside)) {
-      maps.push_back(i);
-    }
-  }
-  return maps;
+  return sourcesOutside(scene.textures, scene.mirrors, &Mirror::map, folder);
 }
 
 SourceFiles copyModels(const Scene& scene, const fs::path& folder) try {

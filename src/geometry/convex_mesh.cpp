@@ -9,7 +9,6 @@
 
 #include "geometry/bvh.hpp"
 #include "geometry/polygon.hpp"
-#include "geometry/weld.hpp"
 
 namespace speculum {
 

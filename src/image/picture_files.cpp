@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "image/stb_decoder.hpp"
-#include "platform/byte_order.hpp"
+#include "platform/bytes.hpp"
 #include "platform/files.hpp"
 #include "platform/text.hpp"
 

@@ -3,8 +3,8 @@
 #include <atomic>
 #include <span>
 
+#include "platform/bytes.hpp"
 #include "platform/files.hpp"
-#include "platform/fnv1a.hpp"
 #include "platform/folders.hpp"
 #include "platform/process.hpp"
 #include "platform/system_files.hpp"

@@ -4,7 +4,7 @@
 
 #include "platform/files.hpp"
 #include "platform/process.hpp"
-#include "platform/system_folders.hpp"
+#include "platform/system_files.hpp"
 
 namespace speculum {
 

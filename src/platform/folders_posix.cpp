@@ -12,7 +12,7 @@
 #include "platform/files.hpp"
 #include "platform/folders.hpp"
 #include "platform/process.hpp"
-#include "platform/system_folders.hpp"
+#include "platform/system_files.hpp"
 
 namespace speculum {
 

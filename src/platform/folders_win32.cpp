@@ -1,6 +1,6 @@
 #include "platform/files.hpp"
 #include "platform/folders.hpp"
-#include "platform/system_folders.hpp"
+#include "platform/system_files.hpp"
 #include "platform/win32.hpp"
 
 #include <array>

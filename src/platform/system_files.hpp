@@ -5,17 +5,25 @@
 #include <span>
 #include <string>
 
-// What the halves of files.cpp share: files_posix.cpp and files_win32.cpp, of which CMake compiles one.
+// What files.cpp and folders.cpp share with their halves for a system, NAME_posix.cpp and NAME_win32.cpp, of which
+// CMake compiles one.
 namespace speculum {
 
-// The system's own half.
+// The system's own halves.
 
 // replaceFile() and storeFile(): `lasting` waits until the content is on the disk.
 void replace(const std::filesystem::path& file, std::span<const uint8_t> content, bool lasting);
 // Makes a folder that nobody else can write to. Throws std::runtime_error.
 std::filesystem::path newTemporaryFolder();
 
-// The common half. `file` is the path that the user gave, for messages; `target` is where its links lead.
+enum class UserFolder { cache, config, pictures, documents };
+
+// Returns the user's folder where no variable of XDG names one. If there is none, a path that cannot be created.
+std::filesystem::path systemFolder(UserFolder folder);
+
+extern const char* const homeVariable;  // environment variable that holds the home folder
+
+// The common half of files.cpp. `file` is the path that the user gave, for messages; `target` is where its links lead.
 
 std::filesystem::path folderOf(const std::filesystem::path& file);                            // "." if it names none
 [[noreturn]] void failToWrite(const std::filesystem::path& file, const std::string& reason);  // throws FileError

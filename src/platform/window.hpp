@@ -12,7 +12,6 @@
 #include <utility>
 #include <vector>
 
-#include "platform/gamepad.hpp"
 #include "platform/keys.hpp"
 
 struct GLFWwindow;

@@ -8,7 +8,7 @@
 #include <numeric>
 #include <optional>
 
-#include "accuracy/html_page.hpp"
+#include "accuracy/report.hpp"
 #include "image/picture_files.hpp"
 #include "platform/files.hpp"
 #include "platform/text.hpp"

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <type_traits>
 
-#include "platform/fnv1a.hpp"
+#include "platform/bytes.hpp"
 #include "scene/scene.hpp"
 
 namespace speculum {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "platform/files.hpp"
-#include "scene/metal_roughness.hpp"
+#include "scene/materials.hpp"
 
 namespace speculum {
 

@@ -6,7 +6,7 @@
 
 #include "geometry/mesh.hpp"
 #include "scene/gltf_file.hpp"
-#include "scene/textures.hpp"
+#include "scene/materials.hpp"
 #include "scene/value_range.hpp"
 
 namespace speculum {

@@ -13,9 +13,8 @@
 
 #include "platform/files.hpp"
 #include "platform/text.hpp"
-#include "scene/metal_roughness.hpp"
+#include "scene/materials.hpp"
 #include "scene/text_lines.hpp"
-#include "scene/textures.hpp"
 #include "scene/value_range.hpp"
 
 namespace speculum {

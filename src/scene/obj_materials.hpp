@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "geometry/mesh.hpp"
+#include "scene/materials.hpp"
 #include "scene/mesh_builder.hpp"
 #include "scene/model_files.hpp"
-#include "scene/textures.hpp"
 
 namespace speculum {
 

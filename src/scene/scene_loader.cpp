@@ -15,11 +15,11 @@
 #include "platform/text.hpp"
 #include "scene/input_error.hpp"
 #include "scene/material_mirrors.hpp"
+#include "scene/materials.hpp"
 #include "scene/model_files.hpp"
 #include "scene/model_formats.hpp"
 #include "scene/scene_sections.hpp"
 #include "scene/text_lines.hpp"
-#include "scene/textures.hpp"
 #include "scene/toml_file.hpp"
 #include "scene/toml_text.hpp"
 

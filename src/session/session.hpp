@@ -9,8 +9,8 @@
 #include "scene/scene_loader.hpp"
 #include "session/frame_planner.hpp"
 #include "session/options.hpp"
-#include "session/picture_sums.hpp"
 #include "session/quality.hpp"
+#include "systems/pass_log.hpp"
 #include "systems/scene_renderer.hpp"
 
 namespace speculum {

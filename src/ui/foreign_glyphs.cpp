@@ -8,7 +8,7 @@
 #include <iterator>
 #include <utility>
 
-#include "platform/byte_order.hpp"
+#include "platform/bytes.hpp"
 
 namespace speculum {
 

@@ -3,11 +3,14 @@
 #include <array>
 #include <functional>
 
+#include "image/image.hpp"
 #include "settings/setting_fields.hpp"
 #include "ui/panel_choices.hpp"
 #include "ui/panel_dock.hpp"
 #include "ui/shown.hpp"
-#include "ui/thumbnails.hpp"
+
+struct ImDrawList;
+struct ImFontAtlas;
 
 namespace speculum {
 
@@ -92,6 +95,22 @@ struct PanelContext {
   UiOutput output;
 
   void send(Command command) { output.commands.push_back(std::move(command)); }
+};
+
+// Small pictures within the font atlas, the one texture that ImGui's Vulkan backend draws.
+class Thumbnails {
+ public:
+  // A picture without pixels stands for a missing one.
+  explicit Thumbnails(std::vector<Image8> pictures = {}) : pictures_(std::move(pictures)) {}
+
+  // Packs the pictures with the fonts. Call it after the fonts are added and before the atlas is uploaded.
+  void addTo(ImFontAtlas& atlas);
+  // Draws a picture into a rectangle of the screen. Returns false if there is no such picture.
+  bool draw(ImDrawList& list, size_t picture, const glm::vec2& low, const glm::vec2& high) const;
+
+ private:
+  std::vector<Image8> pictures_;
+  std::vector<int> rects_;  // by picture: its rectangle in the atlas; -1: none
 };
 
 namespace panels {

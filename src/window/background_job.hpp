@@ -1,5 +1,7 @@
 #pragma once
 
+#include <tbb/task_arena.h>
+
 #include <algorithm>
 #include <atomic>
 #include <functional>
@@ -96,6 +98,8 @@ class BackgroundJob {
 };
 
 // Runs `work` with half of the processor's threads; the others remain for the window.
-void inBackground(const std::function<void()>& work);
+inline void inBackground(const std::function<void()>& work) {
+  tbb::task_arena(std::max(1, static_cast<int>(std::thread::hardware_concurrency()) / 2)).execute(work);
+}
 
 }  // namespace speculum

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "edit/selection.hpp"
-#include "platform/gamepad.hpp"
+#include "platform/keys.hpp"
 #include "scene/scene_state.hpp"
 #include "ui/shown.hpp"
 

@@ -13,7 +13,7 @@
 #include "platform/machine.hpp"
 #include "platform/process.hpp"
 #include "platform/text.hpp"
-#include "window/shown_device.hpp"
+#include "window/frame_report.hpp"
 
 namespace speculum {
 

@@ -2,7 +2,6 @@
 
 #include <chrono>
 
-#include "window/first_pictures.hpp"
 #include "window/frame_pacer.hpp"
 #include "window/picture_halves.hpp"
 #include "window/window_input.hpp"

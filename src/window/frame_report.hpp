@@ -2,7 +2,8 @@
 
 #include <deque>
 
-#include "session/picture_sums.hpp"
+#include "core/renderer.hpp"
+#include "systems/pass_log.hpp"
 #include "systems/scene_renderer.hpp"
 #include "ui/shown.hpp"
 
@@ -86,5 +87,8 @@ class FrameReport {
   RecycledVector<SkippedMirror> skipped_;
   TargetKind targetKind_ = TargetKind::color;  // of ShownFrame::target
 };
+
+// Describes the renderer's device for the device panel.
+ShownDevice shownDevice(const Renderer& renderer, const Device& device);
 
 }  // namespace speculum

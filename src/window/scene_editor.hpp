@@ -9,8 +9,8 @@
 #include "edit/outline.hpp"
 #include "edit/pick.hpp"
 #include "edit/scene_document.hpp"
+#include "edit/transform.hpp"
 #include "ui/shown.hpp"
-#include "window/node_drag.hpp"
 
 namespace speculum {
 

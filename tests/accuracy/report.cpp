@@ -1,6 +1,5 @@
 // The JSON of the accuracy report and its place in the page; report_page.py tests the page in a browser.
 #include "accuracy/report.hpp"
-#include "accuracy/html_page.hpp"
 
 #include <nlohmann/json.hpp>
 

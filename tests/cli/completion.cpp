@@ -1,5 +1,5 @@
 // scripts/speculum-completion.bash offers what the program takes, no more and no less.
-#include "cli/command_line.hpp"
+#include "cli/commands.hpp"
 #include "command_support.hpp"
 #include "picture_support.hpp"
 #include "settings/setting_fields.hpp"

@@ -6,7 +6,7 @@
 #include "image/image.hpp"
 #include "image/picture_files.hpp"
 #include "made_pictures.hpp"
-#include "scene/metal_roughness.hpp"
+#include "scene/materials.hpp"
 #include "scene/model_formats.hpp"
 #include "scene/obj_support.hpp"
 #include "test_headers.hpp"

@@ -4,7 +4,7 @@
 #include "plan/picture_tiles.hpp"
 #include "scene/scene_loader.hpp"
 #include "test_headers.hpp"
-#include "window/first_pictures.hpp"
+#include "window/frame_pacer.hpp"
 #include "window/pace.hpp"
 
 namespace speculum {

@@ -2,10 +2,10 @@
 #include <atomic>
 #include <thread>
 
-#include "cli/command_line.hpp"
+#include "cli/commands.hpp"
 #include "plan/picture_tiles.hpp"
 #include "plan_by_hand.hpp"
-#include "platform/gamepad.hpp"
+#include "platform/keys.hpp"
 #include "scene/scene_loader.hpp"
 #include "session/options.hpp"
 #include "settings/setting_fields.hpp"

@@ -1,4 +1,4 @@
-#include "session/picture_sums.hpp"
+#include "systems/pass_log.hpp"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "scene/textures.hpp"
+#include "scene/materials.hpp"
 
 #include <spdlog/spdlog.h>
 
@@ -11,6 +11,7 @@
 #include "image/picture_files.hpp"
 #include "platform/files.hpp"
 #include "platform/text.hpp"
+#include "scene/value_range.hpp"
 
 namespace speculum {
 
@@ -156,6 +157,23 @@ bool isCutOut(const Texture& texture) {
   const auto isClear = [](float opacity) { return opacity < 0.1f || opacity > 0.9f; };
   const auto clear = static_cast<double>(std::ranges::count_if(texture.opacity, isClear));
   return clear >= leastShare * static_cast<double>(texture.opacity.size());
+}
+
+void setMetalRoughness(Material& material, glm::dvec3 baseColor, double metal, double roughness,
+                       const glm::dvec3& texture) {
+  const double share = std::clamp(metal, 0.0, 1.0);
+  const double alpha = std::pow(std::clamp(roughness, 0.0, 1.0), 2.0);
+  material.diffuse = (1.0 - share) * baseColor;
+  material.specular = glm::mix(glm::dvec3(0.04), baseColor * texture, share);
+  material.mirror.reset();
+  if (share == 1.0 && roughness <= 0.05 + 1e-9) {  // tinyobjloader does not round to the nearest double
+    material.mirror = glm::clamp(material.specular, 0.0, 1.0);
+  }
+  material.shininess = std::clamp(2.0 / std::max(alpha * alpha, 1e-9) - 2.0, leastShininess, mostShininess);
+}
+
+double roughnessOf(double shininess) {
+  return std::pow(2.0 / (shininess + 2.0), 0.25);
 }
 
 }  // namespace speculum
