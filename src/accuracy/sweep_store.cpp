@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 
 #include "accuracy/sweep_json.hpp"
-#include "image/exr.hpp"
 #include "image/picture_files.hpp"
 #include "platform/files.hpp"
 

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "regress/case_file.hpp"
-#include "regress/outcome.hpp"
+#include "regress/picture_check.hpp"
 #include "session/session.hpp"
 
 namespace speculum {

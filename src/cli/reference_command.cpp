@@ -6,7 +6,6 @@
 #include "cli/commands.hpp"
 #include "cli/progress.hpp"
 #include "image/color.hpp"
-#include "image/exr.hpp"
 #include "image/picture_files.hpp"
 #include "platform/process.hpp"
 #include "reference/ray_tracer.hpp"

@@ -3,7 +3,6 @@
 #include "cli/commands.hpp"
 #include "cli/progress.hpp"
 #include "cli/stats.hpp"
-#include "image/exr.hpp"
 #include "image/picture_files.hpp"
 #include "platform/process.hpp"
 #include "platform/renderdoc_capture.hpp"

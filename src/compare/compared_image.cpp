@@ -7,7 +7,6 @@
 #include <stdexcept>
 
 #include "image/color.hpp"
-#include "image/exr.hpp"
 #include "image/picture_files.hpp"
 #include "platform/text.hpp"
 

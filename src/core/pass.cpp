@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/gpu_timer.hpp"
-#include "core/render_pass_cache.hpp"
+#include "core/pipeline.hpp"
 #include "core/retire_queue.hpp"
 
 namespace speculum {

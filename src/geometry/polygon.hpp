@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <glm/glm.hpp>
 #include <optional>
 #include <span>
@@ -72,5 +73,27 @@ std::vector<glm::dvec3> flattened(std::span<const glm::dvec3> polygon, const glm
 
 // Returns the part of a convex polygon with dot(normal, v - point) >= 0, by Sutherland-Hodgman (1974).
 Polygon clipPolygon(std::span<const glm::dvec3> polygon, const Plane& keep);
+
+// Splits a simple polygon, convex or not, into polygon.size() - 2 triangles of its vertices, wound like the polygon, by
+// ear clipping (Meisters 1975). Convex polygons become fans about their first vertex. A quad is cut along its shorter
+// diagonal inside, on a tie that from the second to the fourth vertex, as tinyobjloader does. A polygon without area or
+// crossing itself still gives that many triangles; some of them are then degenerate or overlap. Takes time in the
+// square of the number of vertices, but see isFan().
+std::vector<std::array<int, 3>> triangulate(std::span<const glm::dvec3> polygon);
+
+// Says whether the triangles between the first vertex and each edge cover the polygon once, as in a convex one. Then
+// triangulate() takes them, in time linear in the number of vertices, if there are more than 1000.
+bool isFan(std::span<const glm::dvec3> polygon);
+
+// Householder reflection I - 2 n n^T / (n.n): the linear part of the reflection about any plane with normal n. The
+// division makes it exact for normals that are not of unit length.
+inline glm::dmat3 reflectionLinear(const glm::dvec3& normal) {
+  return glm::dmat3(1.0) - (2.0 / glm::dot(normal, normal)) * glm::outerProduct(normal, normal);
+}
+
+// The point's mirror image: p - 2 (n.(p - q)) n / (n.n) for a plane through q.
+inline glm::dvec3 reflectPoint(const glm::dvec3& p, const Plane& plane) {
+  return p - (2.0 * plane.distance(p) / glm::dot(plane.normal, plane.normal)) * plane.normal;
+}
 
 }  // namespace speculum

@@ -1,4 +1,4 @@
-#include "image/exr.hpp"
+#include "image/picture_files.hpp"
 
 #include <tinyexr.h>
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "geometry/reflection.hpp"
+#include "geometry/polygon.hpp"
 #include "plan/frame_plan.hpp"
 #include "plan/scene_names.hpp"
 #include "scene/material_mirrors.hpp"

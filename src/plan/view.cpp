@@ -5,7 +5,7 @@
 #include <cmath>
 #include <glm/gtx/component_wise.hpp>
 
-#include "geometry/reflection.hpp"
+#include "geometry/polygon.hpp"
 
 namespace speculum {
 

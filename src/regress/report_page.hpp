@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "regress/case_file.hpp"
-#include "regress/outcome.hpp"
+#include "regress/picture_check.hpp"
 
 namespace speculum {
 

@@ -13,7 +13,6 @@
 
 #include "platform/files.hpp"
 #include "platform/text.hpp"
-#include "scene/gltf_repair.hpp"
 #include "scene/input_error.hpp"
 #include "scene/text_lines.hpp"
 

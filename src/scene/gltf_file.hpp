@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <deque>
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <set>
 #include <span>
@@ -96,5 +97,17 @@ class GltfFile {
 // Adds the file, and the files that its buffers and pictures name, as far as they exist. Throws nothing for damaged
 // files.
 void addFilesOfGltf(const std::filesystem::path& file, std::set<std::filesystem::path>& files);
+
+inline constexpr std::string_view validGltf = "a valid glTF 2.0 file is needed";  // remedy of an InputError
+
+// Attribute of a primitive in a repaired model that names the accessor of its indices. Primitive::indices is not set.
+inline constexpr const char* indicesAttribute = "indices";
+
+inline constexpr const char* noLight = "none";  // type of a light that could not be read
+
+// Reads the JSON of `file` by tinygltf. That library refuses a file for one object that it cannot read, and for indices
+// of a primitive that it cannot find. Here such an object costs only what uses it, and counts as a defect. `root` has
+// asset.version, and no buffers, images, skins and animations. Throws InputError if it cannot be read nevertheless.
+tinygltf::Model readRepaired(const std::filesystem::path& file, nlohmann::json root, ModelDefects& defects);
 
 }  // namespace speculum

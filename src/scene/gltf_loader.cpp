@@ -10,7 +10,6 @@
 
 #include "scene/gltf_file.hpp"
 #include "scene/gltf_materials.hpp"
-#include "scene/gltf_repair.hpp"
 #include "scene/input_error.hpp"
 #include "scene/mesh_builder.hpp"
 #include "scene/value_range.hpp"

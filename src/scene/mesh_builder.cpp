@@ -8,8 +8,8 @@
 
 #include "geometry/bvh.hpp"
 #include "geometry/convex_mesh.hpp"
+#include "geometry/polygon.hpp"
 #include "geometry/solid_mesh.hpp"
-#include "geometry/triangulate.hpp"
 
 namespace speculum {
 

@@ -5,7 +5,7 @@
 
 #include "plan/concurrent_passes.hpp"
 #include "systems/frame_data.hpp"
-#include "systems/image_pool.hpp"
+#include "systems/scene_targets.hpp"
 
 namespace speculum {
 

@@ -6,8 +6,8 @@
 
 #include "plan/shadow_map.hpp"
 #include "plan/target_memory.hpp"
-#include "systems/image_pool.hpp"
 #include "systems/render_system.hpp"
+#include "systems/scene_targets.hpp"
 
 namespace speculum {
 

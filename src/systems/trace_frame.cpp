@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "geometry/affine.hpp"
-#include "geometry/reflection.hpp"
+#include "geometry/polygon.hpp"
 #include "plan/cube_face.hpp"
 #include "plan/mirror_sight.hpp"
 #include "scene/material_mirrors.hpp"

@@ -10,7 +10,7 @@ void PointerController::cancel() {
 }
 
 bool PointerController::button(const MouseButtonEvent& event, bool overPanels, SceneEditor& editor,
-                               const CurrentScene& view) {
+                               const std::optional<PointedScene>& view) {
   // Ignores another button while one is held.
   if (pressed_ ? event.button != button_ : !event.pressed) {
     return false;
@@ -22,20 +22,17 @@ bool PointerController::button(const MouseButtonEvent& event, bool overPanels, S
       pressed_ = position_;
       button_ = event.button;
       shift_ = event.shift;
-      const std::optional<PointedScene> shown = left ? view() : std::nullopt;
-      holdsHandle_ = shown && editor.press(*shown, pixel_);
+      holdsHandle_ = left && view && editor.press(*view, pixel_);
     }
     return false;
   }
   bool clicked = false;
   if (left && editor.dragging() && dragging_) {
     editor.release();
-  } else if (left && pressed_ && !dragging_) {
-    if (const std::optional<PointedScene> shown = view()) {
-      editor.cancelDrag();
-      shift_ ? editor.clickAlso(*shown, pixel_) : editor.click(*shown, pixel_);
-      clicked = true;
-    }
+  } else if (left && pressed_ && !dragging_ && view) {
+    editor.cancelDrag();
+    shift_ ? editor.clickAlso(*view, pixel_) : editor.click(*view, pixel_);
+    clicked = true;
   }
   cancel();
   return clicked;

@@ -9,12 +9,10 @@ namespace speculum {
 // Turns the pointer's events over the picture into drags of handles or the camera, and clicks that select.
 class PointerController {
  public:
-  // Returns the scene as it is shown now, if the window has pixels.
-  using CurrentScene = std::function<std::optional<PointedScene>()>;
-
-  // Handles a press or release. `overPanels` says that the event belongs to the panels. Returns true if a click may
-  // have selected something.
-  bool button(const MouseButtonEvent& event, bool overPanels, SceneEditor& editor, const CurrentScene& view);
+  // Handles a press or release. `overPanels` says that the event belongs to the panels. `view` is the scene as it is
+  // shown now, if the window has pixels. Returns true if a click may have selected something.
+  bool button(const MouseButtonEvent& event, bool overPanels, SceneEditor& editor,
+              const std::optional<PointedScene>& view);
   // Handles a move to `position` (screen coordinates of the window). One screen coordinate is `pixelsPerUnit` pixels of
   // the picture; `height` is the window's, in screen coordinates. With `snap`, drags go in steps.
   void move(const glm::dvec2& position, const glm::dvec2& pixelsPerUnit, double height, bool snap, SceneEditor& editor,

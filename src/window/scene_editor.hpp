@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "edit/outline.hpp"
-#include "edit/pick.hpp"
+#include "edit/picture_view.hpp"
 #include "edit/scene_document.hpp"
 #include "edit/transform.hpp"
 #include "ui/shown.hpp"

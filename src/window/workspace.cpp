@@ -171,7 +171,7 @@ void Workspace::apply(const Command& command) {
 }
 
 void Workspace::pointerButton(const MouseButtonEvent& event, bool overPanels) {
-  const bool clicked = pointer_.button(event, overPanels, *editor_, [this] { return pointedScene(time()); });
+  const bool clicked = pointer_.button(event, overPanels, *editor_, pointedScene(time()));
   if (!clicked || !document_->selection()) {
     return;
   }

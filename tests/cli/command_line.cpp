@@ -7,7 +7,6 @@
 
 #include "command_support.hpp"
 #include "image/color.hpp"
-#include "image/exr.hpp"
 #include "image/image.hpp"
 #include "image/picture_files.hpp"
 #include "picture_support.hpp"

@@ -1,5 +1,5 @@
 // The node that a ray finds at a pixel, against the color that the rasteriser drew there.
-#include "edit/pick.hpp"
+#include "edit/picture_view.hpp"
 
 #include "random.hpp"
 #include "sampling.hpp"

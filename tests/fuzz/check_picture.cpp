@@ -1,5 +1,4 @@
 #include "fuzz_support.hpp"
-#include "image/exr.hpp"
 #include "image/picture_files.hpp"
 
 namespace speculum::fuzz {

@@ -4,7 +4,6 @@
 #include "accuracy/sweep_planner.hpp"
 #include "accuracy/sweep_store.hpp"
 #include "fuzz_support.hpp"
-#include "image/exr.hpp"
 #include "image/picture_files.hpp"
 
 namespace speculum::fuzz {

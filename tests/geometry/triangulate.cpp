@@ -1,4 +1,3 @@
-#include "geometry/triangulate.hpp"
 
 #include "geometry/polygon.hpp"
 #include "test_headers.hpp"

@@ -1,5 +1,5 @@
 // Hard cases of planes, rectangles and skipped mirrors, against rays cast at the polygon itself.
-#include "geometry/reflection.hpp"
+#include "geometry/polygon.hpp"
 #include "plan/skipped_mirrors.hpp"
 #include "systems/mirror_polygons.hpp"
 #include "test_headers.hpp"

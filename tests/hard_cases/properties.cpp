@@ -2,7 +2,7 @@
 // RC_PARAMS="seed=N" repeats a run.
 #include <rapidcheck.h>
 
-#include "geometry/reflection.hpp"
+#include "geometry/polygon.hpp"
 #include "test_headers.hpp"
 #include "transform_support.hpp"
 

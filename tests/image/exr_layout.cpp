@@ -2,8 +2,8 @@
 #include <climits>
 
 #include "error_message.hpp"
-#include "image/exr.hpp"
 #include "image/image.hpp"
+#include "image/picture_files.hpp"
 #include "platform/files.hpp"
 #include "temporary_folder.hpp"
 #include "test_headers.hpp"

@@ -4,7 +4,6 @@
 #include <ctime>
 
 #include "file_fault.hpp"
-#include "image/exr.hpp"
 #include "image/image.hpp"
 #include "image/picture_files.hpp"
 #include "made_pictures.hpp"

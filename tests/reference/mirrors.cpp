@@ -1,4 +1,4 @@
-#include "geometry/reflection.hpp"
+#include "geometry/polygon.hpp"
 #include "reference/ray_tracer.hpp"
 #include "reference/scenes.hpp"
 #include "test_headers.hpp"

@@ -2,7 +2,7 @@
 // radiance.
 #include "cli/commands.hpp"
 #include "image/color.hpp"
-#include "image/exr.hpp"
+#include "image/picture_files.hpp"
 #include "picture_support.hpp"
 #include "random.hpp"
 #include "sampling.hpp"

@@ -1,4 +1,4 @@
-#include "systems/image_pool.hpp"
+#include "systems/scene_targets.hpp"
 
 #include <gtest/gtest.h>
 
