@@ -88,15 +88,22 @@ std::optional<GroundTruth> traceGroundTruth(const Scene& scene, const SceneState
   return truth;
 }
 
-ErrorFigures errorsAgainst(const GroundTruth& truth, const Image8& picture, const Settings& settings, Plane2d* map,
+ComparedImage shownTruth(const GroundTruth& truth, const DisplayCurve& curve) {
+  return comparedImage(toDisplay(truth.image, curve), "the reference");
+}
+
+ErrorFigures errorsAgainst(const GroundTruth& truth, const ComparedImage& shown, const Image8& picture, Plane2d* map,
                            std::vector<glm::dvec3>* perceived) {
-  const ComparedImage reference = comparedImage(toDisplay(truth.image, settings.view.displayCurve()), "the reference");
-  const ComparedImage test = comparedImage(picture);
-  Comparison comparison = compareImages(reference, test, {.mask = &truth.mirrors, .perceived = perceived});
+  Comparison comparison =
+      compareImages(shown, comparedImage(picture), {.mask = &truth.mirrors, .perceived = perceived});
   if (map != nullptr) {
     *map = std::move(comparison.flip);
   }
   return {.whole = comparison.whole, .mirrors = comparison.masked};
+}
+
+ErrorFigures errorsAgainst(const GroundTruth& truth, const Image8& picture, const Settings& settings, Plane2d* map) {
+  return errorsAgainst(truth, shownTruth(truth, settings.view.displayCurve()), picture, map);
 }
 
 }  // namespace speculum

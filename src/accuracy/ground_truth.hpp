@@ -39,9 +39,13 @@ using FractionCallback = std::function<bool(double)>;
 std::optional<GroundTruth> traceGroundTruth(const Scene& scene, const SceneState& state, const TruthRequest& request,
                                             const FractionCallback& progress);
 
-// Compares a display picture with the truth under the same exposure and tone curve; `map` receives the FLIP map,
-// `perceived` what flipMap() perceives.
-ErrorFigures errorsAgainst(const GroundTruth& truth, const Image8& picture, const Settings& settings,
+// Returns the truth as the display shows it under exposure and tone curve.
+ComparedImage shownTruth(const GroundTruth& truth, const DisplayCurve& curve);
+// Compares a display picture with the truth under the same curve; `map` receives the FLIP map, `perceived` what
+// flipMap() perceives. `shown` is shownTruth(), which several pictures can share.
+ErrorFigures errorsAgainst(const GroundTruth& truth, const ComparedImage& shown, const Image8& picture,
                            Plane2d* map = nullptr, std::vector<glm::dvec3>* perceived = nullptr);
+ErrorFigures errorsAgainst(const GroundTruth& truth, const Image8& picture, const Settings& settings,
+                           Plane2d* map = nullptr);
 
 }  // namespace speculum

@@ -165,15 +165,16 @@ class Sweep {
 
   // Compares pictures that differ in the age of mirror images with the one reference, or frames each with its own.
   // `map` receives the FLIP map of the last.
-  ErrorFigures errorsOf(const std::vector<Image8>& pictures, const Settings& settings, Plane2d& map) const {
+  ErrorFigures errorsOf(const std::vector<Image8>& pictures, const Settings& settings, Plane2d& map) {
     std::vector<ImageMetrics> whole;
     std::vector<ImageMetrics> mirrors;
     std::vector<glm::dvec3> before;
     double flicker = 0.0;
     for (size_t i = 0; i < pictures.size(); ++i) {
       std::vector<glm::dvec3> perceived;
-      const ErrorFigures errors =
-          errorsAgainst(truths_[moves() ? i : 0], pictures[i], settings, &map, moves() ? &perceived : nullptr);
+      const size_t frame = moves() ? i : 0;
+      const ErrorFigures errors = errorsAgainst(truths_[frame], shown(frame, settings.view.displayCurve()), pictures[i],
+                                                &map, moves() ? &perceived : nullptr);
       whole.push_back(errors.whole);
       if (errors.mirrors) {
         mirrors.push_back(*errors.mirrors);
@@ -186,7 +187,15 @@ class Sweep {
             .flicker = moves() ? std::optional(flicker / (scene_.frames - 1)) : std::nullopt};
   }
 
-  ErrorFigures floor() const {
+  // Returns shownTruth() of a frame. It stays the same for most configurations of a still picture.
+  const ComparedImage& shown(size_t frame, const DisplayCurve& curve) {
+    if (std::exchange(shownAs_, std::pair(frame, curve)) != std::pair(frame, curve)) {
+      shown_ = shownTruth(truths_[frame], curve);
+    }
+    return shown_;
+  }
+
+  ErrorFigures floor() {
     if (!moves() || scene_.floorSamples == 0) {
       return truths_.back().floor;
     }
@@ -300,6 +309,8 @@ class Sweep {
   std::vector<size_t> kept_;         // configurations that are points
   std::vector<int> pointOf_;         // by configuration, index into kept_
   std::vector<GroundTruth> truths_;  // by frame
+  ComparedImage shown_;              // of a frame, under a curve
+  std::optional<std::pair<size_t, DisplayCurve>> shownAs_;
 };
 
 }  // namespace

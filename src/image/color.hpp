@@ -21,6 +21,8 @@ std::optional<uint8_t> srgbCode(float linear);
 struct DisplayCurve {
   double exposure = 1.0;
   ToneMap toneMap = ToneMap::clamp;
+
+  bool operator==(const DisplayCurve&) const = default;
 };
 
 // Applies exposure, tone curve and sRGB curve to one channel. Returns [0, 1]; 0 for what is no number.
