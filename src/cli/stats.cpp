@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
 
 #include "compare/statistics.hpp"
 #include "plan/depth_readout.hpp"

@@ -1,7 +1,6 @@
 #include "systems/scene_targets.hpp"
 
 #include <algorithm>
-#include <array>
 #include <utility>
 
 #include "plan/target_memory.hpp"

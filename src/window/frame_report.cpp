@@ -1,7 +1,5 @@
 #include "window/frame_report.hpp"
 
-#include <spdlog/fmt/fmt.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
