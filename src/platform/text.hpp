@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdio>
+#include <functional>
 #include <string>
 #include <string_view>
 
@@ -41,5 +42,13 @@ void printLine(std::string_view text, std::FILE* stream = stdout);
 // Returns the number with this many significant digits, but with all digits before the decimal point. Only numbers
 // below 1e-4 have an exponent.
 std::string significant(double value, int digits);
+
+// Returns `text` (UTF-8) or, if it is wider than `room`, as much of its start and end as fits with "..." between.
+// `widthOf` is in the units of `room`.
+std::string endsThatFit(const std::string& text, float room, const std::function<float(std::string_view)>& widthOf);
+
+// Returns `text` with line breaks in place of spaces, so that no line is wider than `room` unless one word is. A number
+// and its % are one word.
+std::string brokenAtSpaces(std::string text, float room, const std::function<float(std::string_view)>& widthOf);
 
 }  // namespace speculum

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "scene/model_files.hpp"
+#include "scene/scene.hpp"
 
 namespace speculum {
 
@@ -109,5 +110,11 @@ inline constexpr const char* noLight = "none";  // type of a light that could no
 // of a primitive that it cannot find. Here such an object costs only what uses it, and counts as a defect. `root` has
 // asset.version, and no buffers, images, skins and animations. Throws InputError if it cannot be read nevertheless.
 tinygltf::Model readRepaired(const std::filesystem::path& file, nlohmann::json root, ModelDefects& defects);
+
+// Reads a glTF 2.0 file (.gltf or .glb) by tinygltf: the triangles of its default scene as one mesh, its first
+// perspective camera, and its lights. Appends the textures of materials that are used to `textures`. A defect costs
+// only what it touches: Mesh::defects lists each kind of defect, which is logged as a warning. Throws InputError if
+// nothing is left to draw or the file cannot be read.
+Model loadGltf(const std::filesystem::path& file, std::vector<Texture>& textures, const LoadProgress& progress = {});
 
 }  // namespace speculum

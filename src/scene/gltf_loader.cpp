@@ -1,4 +1,3 @@
-#include "scene/gltf_loader.hpp"
 
 #include <algorithm>
 #include <array>

@@ -5,7 +5,6 @@
 
 #include "platform/text.hpp"
 #include "scene/gltf_file.hpp"
-#include "scene/gltf_loader.hpp"
 #include "scene/obj_loader.hpp"
 
 namespace speculum {

@@ -5,7 +5,6 @@
 
 #include "image/color.hpp"
 #include "image/image.hpp"
-#include "systems/effect_ledger.hpp"
 #include "systems/frame_data.hpp"
 #include "systems/pass_log.hpp"
 #include "systems/pipeline_variants.hpp"

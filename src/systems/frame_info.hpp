@@ -2,7 +2,6 @@
 
 #include "core/renderer.hpp"
 #include "plan/frame_plan.hpp"
-#include "systems/effect_ledger.hpp"
 #include "systems/frame_data.hpp"
 #include "systems/pass_log.hpp"
 #include "systems/scene_resources.hpp"

@@ -31,7 +31,6 @@ class MainPicture {
 
   OffScreen& drawn() { return *drawn_; }
   OffScreen& shown() { return earlier_ ? *earlier_ : *drawn_; }
-  Accumulation& mean() { return mean_; }
   const Accumulation& mean() const { return mean_; }
   bool unfinished() const { return unfinished_; }  // the last frame drew tiles, and not the last ones of its picture
 

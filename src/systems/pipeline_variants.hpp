@@ -7,7 +7,7 @@
 #include "core/pipeline.hpp"
 #include "settings/settings.hpp"
 #include "shaders/gpu_data.h"
-#include "systems/effect_ledger.hpp"
+#include "systems/pass_log.hpp"
 
 namespace speculum {
 

@@ -8,8 +8,8 @@
 #include <iterator>
 
 #include "image/color.hpp"
-#include "systems/effect_ledger.hpp"
 #include "systems/gpu_conversion.hpp"
+#include "systems/pass_log.hpp"
 #include "systems/trace_scene.hpp"
 
 namespace speculum {

@@ -5,8 +5,8 @@
 
 #include "core/renderer.hpp"
 #include "plan/traced_effects.hpp"
-#include "systems/effect_ledger.hpp"
 #include "systems/frame_buffers.hpp"
+#include "systems/pass_log.hpp"
 #include "systems/ray_structures.hpp"
 #include "systems/trace_scene.hpp"
 

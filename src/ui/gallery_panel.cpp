@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "ui/elide.hpp"
+#include "platform/text.hpp"
 #include "ui/panels.hpp"
 
 namespace speculum {

@@ -4,7 +4,7 @@
 
 #include <cfloat>
 
-#include "ui/elide.hpp"
+#include "platform/text.hpp"
 #include "ui/input_map.hpp"
 #include "ui/panels.hpp"
 

@@ -10,9 +10,9 @@
 #include <cmath>
 #include <tuple>
 
+#include "platform/text.hpp"
 #include "scene/model_formats.hpp"
 #include "settings/setting_fields.hpp"
-#include "ui/elide.hpp"
 
 namespace speculum::panels {
 

@@ -8,7 +8,6 @@
 #include <cmath>
 
 #include "platform/text.hpp"
-#include "ui/elide.hpp"
 #include "ui/panels.hpp"
 #include "ui/pass_tree.hpp"
 

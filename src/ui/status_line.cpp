@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ui/elide.hpp"
+#include "platform/text.hpp"
 #include "ui/panels.hpp"
 
 namespace speculum {

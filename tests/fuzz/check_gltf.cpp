@@ -1,7 +1,7 @@
 #include "fuzz_support.hpp"
 #include "image/image.hpp"
 #include "image/picture_files.hpp"
-#include "scene/gltf_loader.hpp"
+#include "scene/gltf_file.hpp"
 
 namespace speculum::fuzz {
 

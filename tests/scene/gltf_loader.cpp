@@ -1,4 +1,4 @@
-#include "scene/gltf_loader.hpp"
+#include "scene/gltf_file.hpp"
 
 #include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>

@@ -1,6 +1,6 @@
 // Parts of the panels that stand alone: shortened names, the histories of frames and log lines, the tree of passes.
+#include "platform/text.hpp"
 #include "test_headers.hpp"
-#include "ui/elide.hpp"
 #include "ui/frame_history.hpp"
 #include "ui/log_history.hpp"
 #include "ui/pass_tree.hpp"
