@@ -1,6 +1,7 @@
 #include "core/buffer.hpp"
 
 #include <algorithm>
+#include <cstring>
 #include <stdexcept>
 
 namespace speculum {

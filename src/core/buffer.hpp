@@ -1,6 +1,6 @@
 #pragma once
 
-#include <cstring>
+#include <numeric>
 #include <span>
 
 #include "core/device.hpp"
@@ -41,5 +41,10 @@ class Buffer {
   VkDeviceSize bytes_ = 0;
   VkDeviceAddress address_ = 0;
 };
+
+inline uint64_t bytesOf(std::span<const Buffer> buffers) {
+  return std::accumulate(buffers.begin(), buffers.end(), uint64_t{0},
+                         [](uint64_t sum, const Buffer& buffer) { return sum + buffer.bytes(); });
+}
 
 }  // namespace speculum

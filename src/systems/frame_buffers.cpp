@@ -32,14 +32,6 @@ void FrameBuffers::write(const Frame& frame, size_t kind, std::span<const std::b
   buffer.write(data);
 }
 
-uint64_t FrameBuffers::bytes() const {
-  uint64_t sum = 0;
-  for (const Buffer& buffer : buffers_) {
-    sum += buffer.bytes();
-  }
-  return sum;
-}
-
 void FrameBuffers::retire(RetireQueue& retired) {
   for (Buffer& buffer : buffers_) {
     retired.take(buffer);

@@ -26,7 +26,7 @@ class FrameBuffers {
     write(frame, kind, std::as_bytes(std::span(data)));
   }
   const Buffer& buffer(const Frame& frame, size_t kind) const { return buffers_[indexOf(frame, kind)]; }
-  uint64_t bytes() const;
+  uint64_t bytes() const { return bytesOf(buffers_); }
   void retire(RetireQueue& retired);
 
  private:

@@ -232,14 +232,6 @@ void TraceScene::writeTextures(Uploader& uploader, const Scene& scene) {
         [&](BufferWriter& writer) { writer.write(std::as_bytes(std::span(levels))); });
 }
 
-uint64_t TraceScene::bytes() const {
-  uint64_t sum = 0;
-  for (const Buffer& buffer : buffers_) {
-    sum += buffer.bytes();
-  }
-  return sum;
-}
-
 TraceGrid traceGrid(const Bounds& bounds) {
   TraceGrid grid;
   const glm::dvec3 size = bounds.high - bounds.low;

@@ -61,7 +61,7 @@ class TraceScene {
 
   const std::vector<MeshRange>& meshes() const { return meshes_; }
   const Buffer& buffer(Kind kind) const { return buffers_[kind]; }
-  uint64_t bytes() const;
+  uint64_t bytes() const { return bytesOf(buffers_); }
 
  private:
   // Uploads the bytes that `content` writes.

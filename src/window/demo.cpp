@@ -169,13 +169,13 @@ void Demo::updateUi(double seconds) {
     workspace_.apply(command);
   }
   workspace_.update();
-  workspace_.advance(seconds);
+  workspace_.view().playback.advance(seconds);
 }
 
 // Draws the panels alone before a scene's first picture, which may take long.
 void Demo::beginOpening() {
   if (first_.holds() && workspace_.split().on()) {
-    workspace_.releasePause();
+    workspace_.view().playback.playNext();
   } else if (first_.holds()) {
     apply(SetPaused{false});
   }

@@ -16,7 +16,7 @@ void WindowInput::take(const InputEvent& event) {
     const VkExtent2D size = window_.size();
     workspace_.pointerMoved({event.x, event.y}, {size.width, size.height}, controlHeld());
   } else if (event.kind == Kind::wheel && !overPanels()) {
-    workspace_.scrolled(event.y);
+    workspace_.view().camera.zoom(event.y);
   } else if (event.kind == Kind::drop) {
     workspace_.apply(OpenDropped{event.dropped});
   }
@@ -61,7 +61,7 @@ void WindowInput::takeGamepad(const GamepadState& gamepad) {
 
 void WindowInput::moveCamera(double seconds) {
   const bool sticks = !ui_.navigating() && !workspace_.prompting();
-  workspace_.moveCamera(direction(), sticks ? gamepad_ : GamepadState{}, seconds);
+  workspace_.view().camera.move(direction(), sticks ? gamepad_ : GamepadState{}, seconds);
 }
 
 bool WindowInput::controlHeld() const {

@@ -52,19 +52,14 @@ class Workspace {
   // Handle the pointer, in screen coordinates of the window. `overPanels` says that the event belongs to the panels.
   void pointerButton(const MouseButtonEvent& event, bool overPanels);
   void pointerMoved(const glm::dvec2& position, const glm::dvec2& windowSize, bool snap);
-  void scrolled(double notches) { view_.camera.zoom(notches); }
 
   // The stages of a frame, in this order. `seconds` since the last frame.
   double frameSeconds(double seconds) const;  // animation time of the frame: fixed while frames are recorded
-  void moveCamera(const glm::dvec3& direction, const GamepadState& pad, double seconds) {
-    view_.camera.move(direction, pad, seconds);
-  }
   // Prepares what shown() returns for the frame that is `seconds` from now. With `pointerOverPicture` the handle below
   // the pointer lights up.
   void prepareView(double seconds, bool pointerOverPicture);
   UiInput shown(const ShownDevice& device, const std::string& message) const;
   void update();  // after the frame's commands: takes finished background work
-  void advance(double seconds) { view_.playback.advance(seconds); }
   // Says whether the next frameDrawn() reads `radiance` for the scene's thumbnail.
   bool needsThumbnail() const { return needsThumbnail_ && options_.frames == 0; }
   // Call when the frame is drawn. `radiance` returns the pixels of its picture, without panels (display sRGB); it is
@@ -97,6 +92,7 @@ class Workspace {
   const SplitView& split() const { return settings_.split(); }
   AccuracyController& accuracy() { return settings_.accuracy(); }
   const AccuracyController& accuracy() const { return settings_.accuracy(); }
+  ViewController& view() { return view_; }
   double time() const { return view_.time(); }
   SceneState state(double time) { return view_.state(scene(), time); }
   WatchedState watchedState(const SceneState& shown) const { return view_.watchedState(scene(), shown); }
@@ -112,9 +108,6 @@ class Workspace {
   bool prompting() const { return saving_->prompting(); }
   const SceneDocument& document() const { return *document_; }
   const DocumentController& saving() const { return *saving_; }
-
-  // Call if the program has paused the animation of the scene that leaves: the next scene plays again.
-  void releasePause() { view_.playback.playNext(); }
 
  private:
   void showScene(std::unique_ptr<LoadedScene> scene);

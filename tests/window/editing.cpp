@@ -256,7 +256,7 @@ TEST_F(Editing, CameraIsEditedUndoneAndSaved) {
 }
 
 TEST_F(Editing, CameraTakesTheView) {
-  workspace_->moveCamera({1.0, 0.5, -0.25}, {}, 0.5);
+  workspace_->view().camera.move({1.0, 0.5, -0.25}, {}, 0.5);
   frame();
   const CameraPose moved = camera();
   ASSERT_NE(moved.eye, scene().camera.position);

@@ -83,7 +83,7 @@ class WorkspaceTest : public testing::Test {
   void frame(double seconds = 0.0) {
     workspace_->prepareView(seconds, true);
     workspace_->update();
-    workspace_->advance(seconds);
+    workspace_->view().playback.advance(seconds);
     workspace_->prepareView(0.0, true);
   }
   void send(const Command& command) {

@@ -132,7 +132,7 @@ TEST_F(WindowView, WheelNeverReachesTheTarget) {
   const glm::dvec3 looked = forward();
   for (const double notches : {1.0, -1.0}) {
     for (int i = 0; i < 1000; ++i) {
-      workspace_->scrolled(notches);
+      workspace_->view().camera.zoom(notches);
       ASSERT_NEAR(glm::distance(forward(), looked), 0.0, 1e-6) << i << " notches of " << notches;
     }
   }
@@ -140,19 +140,19 @@ TEST_F(WindowView, WheelNeverReachesTheTarget) {
 
 TEST_F(WindowView, SticksMoveAndTurn) {
   const glm::dvec3 before = eye();
-  workspace_->moveCamera({}, {.leftY = -1.0f}, 0.1);
+  workspace_->view().camera.move({}, {.leftY = -1.0f}, 0.1);
   EXPECT_LT(eye().z, before.z) << "forward";
   EXPECT_NEAR(eye().x, before.x, 1e-9);
-  workspace_->moveCamera({}, {.rightTrigger = 1.0f}, 0.1);
+  workspace_->view().camera.move({}, {.rightTrigger = 1.0f}, 0.1);
   EXPECT_GT(eye().y, before.y) << "up";
   send(ResetCamera{});
   EXPECT_EQ(eye(), before);
   send(ToggleCameraMode{});
   EXPECT_EQ(shown().camera.mode, CameraMode::fly);
-  workspace_->moveCamera({}, {.rightX = 1.0f}, 0.1);
+  workspace_->view().camera.move({}, {.rightX = 1.0f}, 0.1);
   EXPECT_GT(forward().x, 0.0) << "to the right";
   EXPECT_NEAR(glm::distance(eye(), before), 0.0, 1e-9);
-  workspace_->moveCamera({0.0, 0.0, -1.0}, {}, 0.1);
+  workspace_->view().camera.move({0.0, 0.0, -1.0}, {}, 0.1);
   EXPECT_GT(glm::distance(eye(), before), 0.01) << "keys as well";
 }
 
