@@ -26,7 +26,7 @@ class MainPicture {
   // Ends the drawing of a frame. Shows a picture whose last tile is drawn, and adds it to the mean, if there is one.
   void endFrame(const FrameInfo& info);
   void keep(const FrameInfo& info);      // lets the plan of the next frame reuse the picture
-  void restart() { reusable_.reset(); }  // keeps it from that
+  void restart() { reusable_.reset(); }  // no later frame reuses it
   const MainImage* reusable() const { return reusable_ ? &*reusable_ : nullptr; }
 
   OffScreen& drawn() { return *drawn_; }
