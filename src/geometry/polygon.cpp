@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtx/norm.hpp>
+#include <limits>
 #include <numeric>
 
 namespace speculum {
@@ -145,12 +146,13 @@ class EarClipper {
 
 // Returns the quality of the worse triangle; negative if their diagonal leaves the quad, which need not be convex.
 double qualityOf(std::span<const glm::dvec3> quad, const std::array<std::array<int, 3>, 2>& triangles) {
+  constexpr double smallest = std::numeric_limits<double>::min();  // corners may be one point
   const glm::dvec3 normal = newellVector(quad);
   const auto quality = [&](const std::array<int, 3>& t) {
     return glm::dot(normal, glm::cross(quad[t[1]] - quad[t[0]], quad[t[2]] - quad[t[0]])) /
-           longestSquared(quad[t[0]], quad[t[1]], quad[t[2]]);
+           std::max(longestSquared(quad[t[0]], quad[t[1]], quad[t[2]]), smallest);
   };
-  return std::min(quality(triangles[0]), quality(triangles[1])) / glm::length(normal);
+  return std::min(quality(triangles[0]), quality(triangles[1])) / std::max(glm::length(normal), smallest);
 }
 
 // Cuts along the shorter diagonal, unless only the other one leaves two good triangles.

@@ -9,6 +9,7 @@
 #include "image/color.hpp"
 #include "image/image.hpp"
 #include "image/picture_files.hpp"
+#include "instrumented.hpp"
 #include "picture_support.hpp"
 #include "scene_text.hpp"
 
@@ -192,6 +193,9 @@ TEST_F(CommandLine, TablesCanBeReadWhateverTheyName) {
 
 // Too little for a device, for its compiler, for the pictures, and enough.
 TEST_F(CommandLine, LimitedMemoryEndsInOneLine) {
+  if (instrumented > 1) {
+    GTEST_SKIP() << "sanitizers reserve terabytes of addresses";
+  }
   replaceFile(out("cases.toml"), "[[case]]\nscene = '" + scene_ + "'\nsize = '64x36'\n");
   const auto limited = [&](int mebibytes, const std::vector<std::string>& arguments) {
     std::vector<std::string> command{"sh", "-c", "ulimit -v $0 && exec \"$@\"", std::to_string(mebibytes << 10),

@@ -2,6 +2,7 @@
 // before the work.
 #include <ctime>
 
+#include "instrumented.hpp"
 #include "plan/frame_plan.hpp"
 #include "plan/scene_changes.hpp"
 #include "platform/machine.hpp"
@@ -32,21 +33,14 @@ FramePlan textPlan(const std::string& text, const std::function<void(Settings&)>
   return planFrame({scene, state, settings, {640, 360}, {.changes = &changes}});
 }
 
-// Sanitizers slow the program down and keep memory that was freed.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr int instrumented = 10;
-#else
-constexpr int instrumented = 1;
-#endif
-
 // docs/scene_format.md states the bounds, for a core of its own. One that shares its caches with busy neighbours was
 // seen to take three times as long for the same plans. `work`: the share of the largest work that the text asks for.
 void expectPlanned(const std::string& text, const std::string& kind, double work = 1.0) {
   ASSERT_LE(camera.size() + text.size(), 65'536u);
   const std::clock_t start = std::clock();  // other programs take none of it
   textPlan(text);
-  EXPECT_LT(std::clock() - start, instrumented * 30 * work * CLOCKS_PER_SEC) << kind;
-  EXPECT_LT(peakResidentBytes(), instrumented * (uint64_t{512} << 20)) << kind;
+  EXPECT_LT(std::clock() - start, testing_support::instrumented * 30 * work * CLOCKS_PER_SEC) << kind;
+  EXPECT_LT(peakResidentBytes(), testing_support::instrumented * (uint64_t{512} << 20)) << kind;
 }
 
 // Copies of an object, of which the full tests plan the most that there may be.

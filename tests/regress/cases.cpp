@@ -4,6 +4,7 @@
 
 #include "error_message.hpp"
 #include "image/picture_files.hpp"
+#include "instrumented.hpp"
 #include "made_pictures.hpp"
 #include "platform/machine.hpp"
 #include "platform/process.hpp"
@@ -142,7 +143,7 @@ TEST_F(CaseFile, PicturesAreBoundedBeforeTheyAreMade) {
   EXPECT_TRUE(contains(mistake(text + longName + "expect = [" + many + "]"), "makes cases of more than 256 MiB"));
   // Names take twice the memory where paths have wide characters.
   const bool wide = sizeof(std::filesystem::path::value_type) > 1;
-  EXPECT_LT(peakResidentBytes(), uint64_t{wide ? 1536u : 1024u} << 20);
+  EXPECT_LT(peakResidentBytes(), testing_support::instrumented * (uint64_t{wide ? 1536u : 1024u} << 20));
   const std::string deep = repeated("a/", 40'000);
   EXPECT_TRUE(contains(mistake("[[case]]\nscene = '" + deep + "'"), "scene: is 'a/a/"));
   EXPECT_TRUE(contains(mistake(text + "mask = '" + deep + "'"), "mask: is 'a/a/"));
