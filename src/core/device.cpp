@@ -179,9 +179,8 @@ void Device::loadFunctions() {
     functions_.setPolygonMode = function<PFN_vkCmdSetPolygonModeEXT>("vkCmdSetPolygonModeEXT");
   }
   if (instance_.hasDebugUtils()) {
-    const std::shared_lock lock(loaderMutex());
     const auto loadInstance = [this]<typename F>(F& function, const char* name) {
-      function = reinterpret_cast<F>(requireFunction(vkGetInstanceProcAddr(instance_.get(), name), name));
+      function = functionOf<F>(instance_.get(), name);
     };
     loadInstance(functions_.setName, "vkSetDebugUtilsObjectNameEXT");
     loadInstance(functions_.beginLabel, "vkCmdBeginDebugUtilsLabelEXT");

@@ -188,8 +188,7 @@ class Device {
   // Returns a function that the loader does not export. Throws std::runtime_error with its name if there is none.
   template <typename F>
   F function(const char* name) const {
-    const std::shared_lock lock(loaderMutex());
-    return reinterpret_cast<F>(requireFunction(vkGetDeviceProcAddr(get(), name), name));
+    return functionOf<F>(get(), name);
   }
 
  private:

@@ -6,19 +6,13 @@ namespace speculum {
 
 void destroyAccelerationStructure(VkDevice device, VkAccelerationStructureKHR structure,
                                   const VkAllocationCallbacks* allocator) {
-  const auto destroy = [device] {
-    const std::shared_lock lock(loaderMutex());
-    return reinterpret_cast<PFN_vkDestroyAccelerationStructureKHR>(
-        vkGetDeviceProcAddr(device, "vkDestroyAccelerationStructureKHR"));
-  }();
-  destroy(device, structure, allocator);
+  functionOf<PFN_vkDestroyAccelerationStructureKHR>(device, "vkDestroyAccelerationStructureKHR")(device, structure,
+                                                                                                 allocator);
 }
 
 void destroyMessenger(VkInstance instance, VkDebugUtilsMessengerEXT messenger, const VkAllocationCallbacks* allocator) {
-  const std::shared_lock lock(loaderMutex());
-  const auto destroy = reinterpret_cast<PFN_vkDestroyDebugUtilsMessengerEXT>(
-      vkGetInstanceProcAddr(instance, "vkDestroyDebugUtilsMessengerEXT"));
-  destroy(instance, messenger, allocator);
+  functionOf<PFN_vkDestroyDebugUtilsMessengerEXT>(instance, "vkDestroyDebugUtilsMessengerEXT")(instance, messenger,
+                                                                                               allocator);
 }
 
 std::map<std::string, int64_t> liveObjects() {

@@ -152,10 +152,7 @@ Instance::Instance(const DeviceOptions& options) : version_(usedVersion()) {
   }
   instance_.reset(instance);
   if (options.validation) {
-    const std::shared_lock lock(loaderMutex());
-    constexpr const char* name = "vkCreateDebugUtilsMessengerEXT";
-    const auto create = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(
-        requireFunction(vkGetInstanceProcAddr(instance, name), name));
+    const auto create = functionOf<PFN_vkCreateDebugUtilsMessengerEXT>(instance, "vkCreateDebugUtilsMessengerEXT");
     VkDebugUtilsMessengerEXT messenger = VK_NULL_HANDLE;
     check(create(instance, &messengerInfo, nullptr, &messenger), "create the debug messenger");
     messenger_ = {instance, messenger};

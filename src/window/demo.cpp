@@ -124,7 +124,7 @@ void Demo::drawFrame(double seconds) {
   if (!takeTurns()) {
     return;
   }
-  // Of A | B every second frame is saved, which shows both halves at the same time.
+  // While A | B is on, only the frame that draws the second half is saved: then both halves show the same time.
   saved_ = workspace_.capture().wanted() && (!workspace_.split().on() || halves_.index() == 1);
   bare_ = workspace_.capture().bare();
   const SceneState state = workspace_.state(workspace_.time());
