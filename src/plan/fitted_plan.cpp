@@ -56,7 +56,7 @@ bool isAutomatic(const Mirror& mirror, const Settings& settings) {
 }
 
 // Says whether a GPU draws the frame faster with rays in the place of mirror images: with one sample a pixel, once a
-// mirror covers much of the picture (docs/scaling.md). More samples were not measured. Only mirrors whose method is
+// mirror covers much of the picture (docs/performance.md). More samples were not measured. Only mirrors whose method is
 // automatic in `asked` count.
 bool raysAreFaster(const FramePlan& plan, const Scene& scene, const Settings& asked) {
   return asked.view.samples == 1 && std::ranges::any_of(plan.drawnMirrors(), [&](const Pass& pass) {

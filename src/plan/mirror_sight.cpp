@@ -7,7 +7,7 @@ namespace speculum {
 
 namespace {
 
-// Tracing this many samples takes about as long as rendering a pass on lavapipe (docs/scaling.md).
+// Tracing this many samples takes about as long as rendering a pass on lavapipe (docs/performance.md).
 constexpr double samplesOfAPass = 1500.0;
 
 // Returns the visible part of a polygon in a mirror's plane. If the polygon is so large that cuts near the eye would be
