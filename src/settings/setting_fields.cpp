@@ -87,8 +87,8 @@ double roughError(const Settings& settings, size_t) {
 constexpr SettingField fields[] = {
     setting(
         "reflection.method", choice<&R::method>(reflectionMethods), "Method",
-        "how mirrors are drawn (raster: a pass renders an image for each; rays: each pixel traces what it reflects; "
-        "auto: rays where those should be faster)",
+        "how mirrors are drawn; raster: a pass renders an image for each; rays: each pixel traces what it reflects; "
+        "auto: what should be faster",
         "A ray costs more than a texel, but no pass for each mirror."),
     setting("reflection.scale", NumberSetting{at<&R::scale>, imageScaleRange.low, imageScaleRange.high},
             "Mirror resolution", "resolution of mirror images relative to the main view",
@@ -156,7 +156,7 @@ constexpr SettingField fields[] = {
             "Time grows with it; from 16 on each has one sample.",
             {.unit = "pictures", .slider = SettingSlider{1, 1024, "%d"}, .swept = {"1 4 16 64"}}),
     setting("view.accumulate_error", NumberSetting{at<&V::accumulateError>, 0.0, 16.0}, "Error to stop at",
-            "parts of a mean whose estimated error is below so much of a step of 8 bits are not drawn again; 0: off",
+            "parts of a mean with a smaller estimated error, in steps of 8 bits, are not drawn again; 0: off",
             "Saves time where a picture is smooth.",
             {.unit = "steps", .changes = display, .swept = {"0.25 1", "0.25 0.5 1 2"}}),
     setting("view.exposure", NumberSetting{at<&V::exposure>, 0.0, 1e6}, "Exposure",
@@ -186,26 +186,24 @@ constexpr SettingField fields[] = {
             "Traces rays wherever lights reach."),
     setting("effects.shadow_lookup", choice<&E::shadowLookup>(shadowLookups), "Shadow lookup",
             "shadows by rays, from maps, or from maps with rays where these do not decide (hybrid); auto: traced or "
-            "hybrid, whichever should be faster",
-            "Maps render only what changed; hybrid adds rays along outlines.",
-            {.cheaper = higher, .swept = {"hybrid map"}}),
-    setting(
-        "effects.shadow_map_size", IntegerSetting{at<&E::shadowMapSize>, 64, 4096, true, true}, "Shadow map size",
-        "side of a shadow map's images; auto: for each image, texels about as large as the pixels that look them up",
-        "Memory grows with its square; edges get sharper.",
-        {.unit = "texels",
-         .needs = shadowMaps,
-         .cheaper = lower,
-         .error =
-             [](const Settings& s, size_t) {
-               const int size = s.effects.shadowMapSize == 0 ? 1024 : s.effects.shadowMapSize;
-               return s.effects.shadowLookup == ShadowLookup::map ? 15.0 / size : 0.0;
-             },
-         .swept = {"auto 256 1024", "auto 256 1024 4096"}}),
+            "hybrid, what should be faster",
+            "Maps render only what changed.", {.cheaper = higher, .swept = {"hybrid map"}}),
+    setting("effects.shadow_map_size", IntegerSetting{at<&E::shadowMapSize>, 64, 4096, true, true}, "Shadow map size",
+            "side of a shadow map's images; auto: texels about as large as the pixels that look them up",
+            "Memory grows with its square; edges get sharper.",
+            {.unit = "texels",
+             .needs = shadowMaps,
+             .cheaper = lower,
+             .error =
+                 [](const Settings& s, size_t) {
+                   const int size = s.effects.shadowMapSize == 0 ? 1024 : s.effects.shadowMapSize;
+                   return s.effects.shadowLookup == ShadowLookup::map ? 15.0 / size : 0.0;
+                 },
+             .swept = {"auto 256 1024", "auto 256 1024 4096"}}),
     setting("effects.roughness", BooleanSetting{at<&E::roughness>}, "Roughness", "blur of rough mirrors",
             "Traces rays there."),
     setting("effects.rough_samples", IntegerSetting{at<&E::roughSamples>, 1, 4096}, "Rough samples",
-            "rays or lookups a pixel of rough mirrors; its samples share the rays, at least one each",
+            "rays or lookups a pixel of rough mirrors, shared by its samples, at least one each",
             "Time grows with it, noise falls with its square root.",
             {.slider = SettingSlider{1, 256, "%d"},
              .cheaper = lower,
@@ -265,11 +263,10 @@ constexpr SettingField fields[] = {
     setting("quality.max_error", NumberSetting{at<&Q::maxError>, 0.0, 1.0}, "Max. mean FLIP",
             "chooses the fastest measured settings up to this mean FLIP, the perceived error; 0: off", "Costs nothing.",
             {.changes = none}),
-    setting(
-        "quality.motion_ms", AutomaticSetting{at<&Q::motionMs>, 0.0, 1e6}, "Full quality while moving",
-        "time of frames while anything moves, for which settings are lowered; auto: 50 ms on CPUs, elsewhere 0.8 of a "
-        "refresh; 0 (ticked in the panel): nothing is lowered",
-        "At 0 movement may stutter.", {.unit = "ms", .changes = none}),
+    setting("quality.motion_ms", AutomaticSetting{at<&Q::motionMs>, 0.0, 1e6}, "Full quality while moving",
+            "time of moving frames, for which settings are lowered; auto: 50 ms on CPUs, elsewhere 0.8 of a refresh; 0 "
+            "(ticked in the panel): nothing is lowered",
+            "At 0 movement may stutter.", {.unit = "ms", .changes = none}),
     setting("quality.still_pictures", IntegerSetting{at<&Q::stillPictures>, 1, 1024}, "Averaged when still",
             "pictures whose mean the window shows when nothing moves", "As many are drawn after each movement.",
             {.changes = none, .slider = SettingSlider{1, 1024, "%d"}}),
@@ -282,7 +279,7 @@ constexpr SettingField fields[] = {
     setting("debug.check_finite", BooleanSetting{at<&D::checkFinite>}, "Check that radiance is finite",
             "finds radiance that is NaN, infinite or negative", "Reads every sample once more.", {.changes = mainView}),
     setting("debug.skip_hidden", BooleanSetting{at<&D::skipHidden>}, "Skip hidden mirrors",
-            "mirrors hidden by occluders have no pass", "Saves passes.", {.changes = mainView}),
+            "hidden mirrors have no pass", "Saves passes.", {.changes = mainView}),
     setting("debug.cull_clusters", BooleanSetting{at<&D::cullClusters>}, "Cull clusters",
             "clusters outside a view and backs of solids are not drawn",
             "Saves vertices and shading; costs draw calls.", {.changes = mainView}),
