@@ -98,9 +98,8 @@ glm::dvec3 mapShare(const Scene& scene, const Mirror& mirror, const MirrorState&
     return glm::dvec3(1.0);
   }
   const Texture& map = scene.textures[mirror.map];
-  const MapBox box = mapBoxOf(state);
-  const glm::dvec3 local = position - state.origin;
-  const glm::dvec2 uv = (glm::dvec2(glm::dot(local, state.axisX), glm::dot(local, state.axisY)) - box.low) / box.size;
+  const MirrorBox box = boxOf(state, state.polygon);
+  const glm::dvec2 uv = (state.local(position) - box.low) / box.size;
   const glm::dvec2 edge = 0.5 / glm::dvec2(map.width, map.height);  // the outermost texels reach to the border
   return textureAt(map, glm::clamp(uv, edge, 1.0 - edge), false);
 }
@@ -112,10 +111,10 @@ glm::dvec3 mirrorNormal(const Mirror& mirror, const MirrorState& state, const gl
   const double k = 2.0 * pi / mirror.ripple->wavelength;
   const double slope = mirror.ripple->amplitude * k;
   const double shift = productModulo(mirror.ripple->speed, time, mirror.ripple->wavelength);
-  const double x = glm::dot(position - state.origin, state.axisX);
-  const double y = glm::dot(position - state.origin, state.axisY);
-  const glm::dvec3 first = slope * std::cos(k * (x + shift)) * state.axisX;
-  const glm::dvec3 second = slope * std::cos(k * (0.6 * x + 0.8 * y - shift)) * (0.6 * state.axisX + 0.8 * state.axisY);
+  const glm::dvec2 at = state.local(position);
+  const glm::dvec3 first = slope * std::cos(k * (at.x + shift)) * state.axisX;
+  const glm::dvec3 second =
+      slope * std::cos(k * (0.6 * at.x + 0.8 * at.y - shift)) * (0.6 * state.axisX + 0.8 * state.axisY);
   return glm::normalize(state.normal - first - second);
 }
 

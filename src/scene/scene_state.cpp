@@ -301,13 +301,12 @@ CameraPose lookAt(const glm::dvec3& eye, const glm::dvec3& target, const glm::dv
   return poseAlong(eye, forward, up, verticalFovDegrees, near);
 }
 
-MapBox mapBoxOf(const MirrorState& mirror) {
+MirrorBox boxOf(const MirrorState& mirror, std::span<const glm::dvec3> points) {
   glm::dvec2 low(std::numeric_limits<double>::infinity());
   glm::dvec2 high = -low;
-  for (const glm::dvec3& p : mirror.polygon) {
-    const glm::dvec2 local(glm::dot(p - mirror.origin, mirror.axisX), glm::dot(p - mirror.origin, mirror.axisY));
-    low = glm::min(low, local);
-    high = glm::max(high, local);
+  for (const glm::dvec3& p : points) {
+    low = glm::min(low, mirror.local(p));
+    high = glm::max(high, mirror.local(p));
   }
   return {low, high - low};
 }

@@ -73,14 +73,16 @@ struct MirrorState {
   // The convex polygons that make up the mirror, and their number.
   size_t pieceCount() const { return pieces.empty() ? 1 : pieces.size(); }
   const std::vector<glm::dvec3>& piece(size_t i) const { return pieces.empty() ? polygon : pieces[i]; }
+  // Returns a point's coordinates along the axes X and Y, metres from the origin.
+  glm::dvec2 local(const glm::dvec3& p) const { return {glm::dot(p - origin, axisX), glm::dot(p - origin, axisY)}; }
 };
 
-// Returns the box around the mirror along its axes X and Y, metres from its origin. A reflectance map covers it.
-struct MapBox {
+// Returns the box around points of the mirror in its local coordinates. A reflectance map covers that of its polygon.
+struct MirrorBox {
   glm::dvec2 low;
   glm::dvec2 size;
 };
-MapBox mapBoxOf(const MirrorState& mirror);
+MirrorBox boxOf(const MirrorState& mirror, std::span<const glm::dvec3> points);
 
 struct SceneState {
   double time = 0.0;  // seconds

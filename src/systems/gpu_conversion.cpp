@@ -254,7 +254,7 @@ gpu::MirrorData mirrorData(const MirrorDraw& draw, const MirrorOptics& optics, c
   }
   if (optics.map >= 0) {
     const MirrorState& placed = state.mirrors[draw.mirror];
-    const MapBox box = mapBoxOf(placed);
+    const MirrorBox box = boxOf(placed, placed.polygon);
     const auto coordinate = [&](const glm::dvec3& axis, double low, double size) {
       return glm::vec4(glm::dvec4(axis / size, (glm::dot(view.eye - placed.origin, axis) - low) / size));
     };

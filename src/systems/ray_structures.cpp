@@ -62,18 +62,12 @@ VkAccelerationStructureInstanceKHR instanceOf(const glm::dmat3& linear, const gl
 // Places the box from -1 to 1 about a polygon of the mirror, `pad` wider on each side.
 VkAccelerationStructureInstanceKHR mirrorInstance(const MirrorState& mirror, std::span<const glm::dvec3> polygon,
                                                   const glm::dvec3& eye, double pad, size_t index,
-                                                  VkDeviceAddress box) {
-  glm::dvec2 low(std::numeric_limits<double>::infinity());
-  glm::dvec2 high = -low;
-  for (const glm::dvec3& p : polygon) {
-    const glm::dvec2 local(glm::dot(p - mirror.origin, mirror.axisX), glm::dot(p - mirror.origin, mirror.axisY));
-    low = glm::min(low, local);
-    high = glm::max(high, local);
-  }
-  const glm::dvec2 middle = 0.5 * (low + high);
-  const glm::dvec2 half = 0.5 * (high - low) + pad;
+                                                  VkDeviceAddress structure) {
+  const MirrorBox box = boxOf(mirror, polygon);
+  const glm::dvec2 middle = box.low + 0.5 * box.size;
+  const glm::dvec2 half = 0.5 * box.size + pad;
   return instanceOf({half.x * mirror.axisX, half.y * mirror.axisY, pad * mirror.normal},
-                    mirror.origin - eye + middle.x * mirror.axisX + middle.y * mirror.axisY, index, box);
+                    mirror.origin - eye + middle.x * mirror.axisX + middle.y * mirror.axisY, index, structure);
 }
 
 // Returns an upper bound of the distance between the eye and anything that rays meet.

@@ -306,7 +306,7 @@ void TraceFrame::addMirrors(const SceneState& state, const Settings& settings) {
                           .layers = layersOf(placed)};
     data.map = optics.map < 0 ? gpu::noMap : static_cast<uint32_t>(optics.map);
     if (optics.map >= 0) {
-      const MapBox box = mapBoxOf(placed);
+      const MirrorBox box = boxOf(placed, placed.polygon);
       data.mapBox = glm::vec4(glm::dvec4(1.0 / box.size, -box.low / box.size));
     }
     if (optics.ripple) {
@@ -316,18 +316,14 @@ void TraceFrame::addMirrors(const SceneState& state, const Settings& settings) {
       data.rippleSlope = ripple.slope;
       data.ripplePhase = ripple.phase;
     }
-    const auto localOf = [&](const glm::dvec3& p) {
-      const glm::dvec3 local = p - placed.origin;
-      return glm::vec2(glm::dot(local, placed.axisX), glm::dot(local, placed.axisY));
-    };
     for (size_t k = 0; k < placed.pieceCount(); ++k) {
       const std::vector<glm::dvec3>& polygon = placed.piece(k);
       data.firstVertex = static_cast<uint32_t>(mirrorEdges_.size());
       data.vertexCount = static_cast<uint32_t>(polygon.size());
       mirrors_.push_back(data);
-      glm::vec2 from = localOf(polygon.back());
+      glm::vec2 from(placed.local(polygon.back()));
       for (const glm::dvec3& p : polygon) {
-        const glm::vec2 to = localOf(p);
+        const glm::vec2 to(placed.local(p));
         mirrorEdges_.emplace_back(from, to);
         from = to;
       }
