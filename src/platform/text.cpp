@@ -10,10 +10,6 @@
 
 namespace speculum {
 
-namespace {
-
-// Returns the first character of a text in UTF-8, and the number of its bytes. If the text does not begin with a
-// character, returns its first byte and 0.
 std::pair<char32_t, size_t> firstCharacter(std::string_view text) {
   static constexpr std::array<char32_t, 5> least{0, 0x110000, 0x80, 0x800, 0x10000};
   const auto lead = static_cast<uint8_t>(text[0]);
@@ -25,6 +21,8 @@ std::pair<char32_t, size_t> firstCharacter(std::string_view text) {
   const bool valid = ones < least.size() && code >= least[ones] && code < 0x110000 && code >> 11 != 0xd800 >> 11;
   return valid ? std::pair(code, std::max<size_t>(ones, 1)) : std::pair<char32_t, size_t>(lead, 0);
 }
+
+namespace {
 
 // Says whether a code is a control character, a mark that turns the direction of text, a line separator or no
 // character.

@@ -6,6 +6,7 @@
 #include <functional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace speculum {
 
@@ -19,6 +20,10 @@ inline std::string lowerCase(std::string text) {
 inline bool continuesCharacter(char byte) {
   return (static_cast<unsigned char>(byte) & 0xc0u) == 0x80u;
 }
+
+// Returns the first character of a text in UTF-8, and the number of its bytes. If the text does not begin with a
+// character, as some file names, returns its first byte and 0.
+std::pair<char32_t, size_t> firstCharacter(std::string_view text);
 
 // Returns the text in UTF-8: a byte that does not belong to a character of it becomes the character that it is in
 // Latin-1, which old programs write.

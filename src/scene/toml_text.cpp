@@ -7,26 +7,9 @@
 #include <charconv>
 #include <cmath>
 
+#include "platform/text.hpp"
+
 namespace speculum {
-
-namespace {
-
-// Returns the bytes of the non-ASCII character at the text's beginning; 0 if it is not UTF-8, as in some file names.
-size_t sequenceLength(std::string_view text) {
-  const auto byte = [&](size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
-  const unsigned lead = byte(0);
-  const size_t length = lead >= 0xf0 ? 4 : lead >= 0xe0 ? 3 : 2;
-  // Refuses encodings longer than needed, halves of UTF-16 pairs, and characters beyond U+10FFFF.
-  const unsigned low = lead == 0xe0 ? 0xa0 : lead == 0xf0 ? 0x90 : 0x80;
-  const unsigned high = lead == 0xed ? 0x9f : lead == 0xf4 ? 0x8f : 0xbf;
-  bool valid = lead >= 0xc2 && lead <= 0xf4 && byte(1) >= low && byte(1) <= high;
-  for (size_t i = 2; i < length; ++i) {
-    valid = valid && (byte(i) & 0xc0) == 0x80;
-  }
-  return valid ? length : 0;
-}
-
-}  // namespace
 
 std::string tomlText(double value) {
   const double size = std::abs(value);
@@ -81,9 +64,7 @@ std::string tomlText(std::string_view value) {
       text += "\\t";
     } else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
       text += fmt::format("\\u{:04X}", static_cast<unsigned>(c));
-    } else if (static_cast<unsigned char>(c) < 0x80) {
-      text += c;
-    } else if (const size_t length = sequenceLength(value.substr(i)); length > 0) {
+    } else if (const size_t length = firstCharacter(value.substr(i)).second; length > 0) {
       text += value.substr(i, length);
       i += length - 1;
     } else {
