@@ -76,4 +76,8 @@ bool boxVisible(const View& view, const Bounds& box);
 // Returns world positions in clip space. Subtracts the eye first.
 RecycledVector<glm::dvec4> toClip(const View& view, const Projection& projection, std::span<const glm::dvec3> polygon);
 
+// Sorts the instances that a view shows so that little is shaded and then hidden: nearer ones first, with the instances
+// of one mesh together. Instances at equal distances keep their order.
+std::vector<int> frontToBack(const View& view, std::span<const int> instances, const SceneState& state);
+
 }  // namespace speculum

@@ -5,7 +5,6 @@
 #include <numbers>
 #include <numeric>
 
-#include "plan/draw_order.hpp"
 #include "plan/pass_mask.hpp"
 #include "scene/material_mirrors.hpp"
 #include "scene/scene_state.hpp"

@@ -1,6 +1,5 @@
 // Hidden mirrors, masks of mirror passes and the order of draws, without a GPU.
 #include "geometry/affine.hpp"
-#include "plan/draw_order.hpp"
 #include "plan/frame_plan.hpp"
 #include "plan/pass_mask.hpp"
 #include "plan/support.hpp"
