@@ -1,5 +1,3 @@
-#include "plan/cube_reuse.hpp"
-
 #include <algorithm>
 #include <optional>
 #include <utility>

@@ -6,8 +6,8 @@
 #include <iterator>
 
 #include "plan/cube_face.hpp"
-#include "plan/cube_reuse.hpp"
 #include "plan/environment_map.hpp"
+#include "plan/image_reuse.hpp"
 #include "plan/mirror_search.hpp"
 #include "plan/picture_offset.hpp"
 #include "plan/scene_names.hpp"

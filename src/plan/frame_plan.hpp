@@ -267,7 +267,7 @@ const Pass* mirrorPass(const FramePlan& plan, std::span<const int> path);
 // as if every image were rendered, so that no image depends on which others are reused.
 //
 // Shadow and environment maps in `cache.cubes` are reused by reflection.skip_unchanged and effects.environment_interval
-// (cube_reuse.hpp). With reflection.skip_unchanged and without view.continuous, the main view in `cache.main` is reused
+// (cube_reuse.cpp). With reflection.skip_unchanged and without view.continuous, the main view in `cache.main` is reused
 // if it would be drawn exactly the same.
 //
 // A main view that is shown only is encoded early if it has one sample for each pixel of the display, none of its
