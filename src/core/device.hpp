@@ -2,9 +2,7 @@
 
 #include <vulkan/vulkan.h>
 
-#include <algorithm>
 #include <array>
-#include <deque>
 #include <map>
 #include <memory>
 #include <optional>
@@ -18,6 +16,7 @@
 #include "core/handle.hpp"
 #include "core/loader.hpp"
 #include "core/physical_device.hpp"
+#include "core/retire_queue.hpp"
 #include "core/vulkan_result.hpp"
 
 namespace speculum {
@@ -60,47 +59,6 @@ struct DeviceFunctions {
 
 // Layouts by the binding, type, count and stages of each of their bindings.
 using SetLayouts = std::map<std::vector<std::array<uint32_t, 4>>, DescriptorSetLayoutHandle>;
-
-// Pipelines that nobody uses at present. Drivers take milliseconds to seconds to make one, and the same one is often
-// wanted again: when a setting is changed back, or by the next scene.
-class SparePipelines {
- public:
-  struct Spare {
-    PipelineLayoutHandle layout;
-    PipelineHandle pipeline;
-  };
-
-  // Keeps at most so many from now on; none at first.
-  void keepAtMost(size_t most) {
-    most_ = most;
-    while (entries_.size() > most_) {
-      entries_.pop_front();
-    }
-  }
-  // Hands out the pipeline of this key; null handles if there is none.
-  Spare take(const std::string& key) {
-    const auto found = std::ranges::find(entries_, key, &Entry::key);
-    if (found == entries_.end()) {
-      return {};
-    }
-    Spare spare = std::move(found->spare);
-    entries_.erase(found);
-    return spare;
-  }
-  // Keeps a pipeline that no frame uses any more. The one that came first goes if there are too many.
-  void keep(std::string key, Spare spare) {
-    entries_.push_back({std::move(key), std::move(spare)});
-    keepAtMost(most_);
-  }
-
- private:
-  struct Entry {
-    std::string key;
-    Spare spare;
-  };
-  size_t most_ = 0;
-  std::deque<Entry> entries_;  // in the order in which they came
-};
 
 // Instance, the chosen GPU, logical device, its one queue and, where that queue cannot present, a second one that can.
 // Must outlive everything made from it.
