@@ -376,21 +376,9 @@ const FittedPlan& Demo::planFrame(Frame& frame, const SceneState& state) {
                                                .input = changes_,
                                                .target = missing});
   if (isShown()) {
-    workspace_.setPictureText(first_.covered() ? drawingText() : pictureText(settings));
+    workspace_.setPictureText(first_.covered() ? drawingText() : half.text(scene, settings, workspace_.animates()));
   }
   return fitted;
-}
-
-// Returns the pace's text and what the picture approximates, or would if the animation were paused.
-std::string Demo::pictureText(const Settings& chosen) const {
-  const Pace& pace = halves_.drawn().pace;
-  const std::string rest = stillText(workspace_.scene(), chosen);
-  if (!pace.text().empty() && workspace_.animates()) {
-    return pace.text() + ". Space: pause for the " + (rest.empty() ? "exact picture" : "whole picture (" + rest + ")");
-  }
-  return pace.lowers() || rest.empty()
-             ? pace.text()
-             : pace.text() + (pace.text().empty() ? "Approximate: " : "; approximate: ") + rest;
 }
 
 // Begins the frame, `seconds` after the last, for both halves. Returns whether its passes are timed one by one: only at
@@ -411,27 +399,8 @@ bool Demo::beginPace(const SceneState& state, double seconds) {
 }
 
 std::string Demo::message() {
-  if (!workspace_.problem().empty()) {
-    return workspace_.problem();
-  }
-  if (!renderer_.pipelines().errors().empty()) {
-    return renderer_.pipelines().errors();
-  }
-  const auto prefix = [this](const PictureHalf& half) {
-    return std::string(!halves_.split() ? "" : &half == &halves_.at(0) ? "A: " : "B: ");
-  };
-  for (const PictureHalf& half : halves_) {
-    const FiniteWatch& watch = half.renderer->finiteWatch();
-    if (watch.findingsFrame() > 0 && watch.findingsFrame() >= halves_.finishedFrame(half)) {
-      return prefix(half) + describe(watch.findings().front());
-    }
-  }
-  for (const PictureHalf& half : halves_) {
-    if (!half.planner.message().empty()) {
-      return prefix(half) + half.planner.message();
-    }
-  }
-  return "";
+  const std::string& shaders = renderer_.pipelines().errors();
+  return !workspace_.problem().empty() ? workspace_.problem() : !shaders.empty() ? shaders : halves_.problem();
 }
 
 // Sleeps while nothing changes. Returns true if a frame has to be drawn for something that changes slowly.

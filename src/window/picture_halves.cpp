@@ -26,6 +26,16 @@ Image8 PictureHalf::pixels() {
   return toDisplay(renderer->radiance(), pace.planned().settings.view.displayCurve());
 }
 
+std::string PictureHalf::text(const Scene& scene, const Settings& chosen, bool plays) const {
+  const std::string rest = stillText(scene, chosen);
+  if (!pace.text().empty() && plays) {
+    return pace.text() + ". Space: pause for the " + (rest.empty() ? "exact picture" : "whole picture (" + rest + ")");
+  }
+  return pace.lowers() || rest.empty()
+             ? pace.text()
+             : pace.text() + (pace.text().empty() ? "Approximate: " : "; approximate: ") + rest;
+}
+
 void PictureHalves::takeTurns(bool split, const Scene& scene) {
   if (!split) {
     return dropB();
@@ -78,6 +88,24 @@ uint64_t PictureHalves::nonFinite() const {
     sum += half.renderer ? half.renderer->finiteWatch().count() : 0;  // none if useScene() has failed
   }
   return sum;
+}
+
+std::string PictureHalves::problem() const {
+  const auto prefix = [this](const PictureHalf& half) {
+    return std::string(!split() ? "" : &half == &at(0) ? "A: " : "B: ");
+  };
+  for (const PictureHalf& half : halves_) {
+    const FiniteWatch& watch = half.renderer->finiteWatch();
+    if (watch.findingsFrame() > 0 && watch.findingsFrame() >= finishedFrame(half)) {
+      return prefix(half) + describe(watch.findings().front());
+    }
+  }
+  for (const PictureHalf& half : halves_) {
+    if (!half.planner.message().empty()) {
+      return prefix(half) + half.planner.message();
+    }
+  }
+  return "";
 }
 
 }  // namespace speculum

@@ -16,6 +16,9 @@ struct PictureHalf {
   // Plans a frame and uploads its textures, or leaves them out of the plan if there is no memory for them.
   const FittedPlan& plan(Frame& frame, const Pace::Request& request);
   Image8 pixels();  // of the last picture (display sRGB); waits for the GPU
+  // Returns the text of the pace and what the picture approximates with the settings `chosen`, or would if the
+  // animation, which `plays`, were paused.
+  std::string text(const Scene& scene, const Settings& chosen, bool plays) const;
 
   std::unique_ptr<SceneRenderer> renderer;
   FramePlanner planner;
@@ -44,12 +47,13 @@ class PictureHalves {
   auto end() { return halves_.end(); }
   auto end() const { return halves_.end(); }
 
-  const FrameTimings& timings() const;                    // of the last frame that drew this half and has finished
-  uint64_t finishedFrame(const PictureHalf& half) const;  // number of the last frame that drew it and has finished
-  uint64_t nonFinite() const;                             // samples that debug.check_finite found, of all scenes
+  const FrameTimings& timings() const;  // of the last frame that drew this half and has finished
+  uint64_t nonFinite() const;           // samples that debug.check_finite found, of all scenes
+  std::string problem() const;          // what it found, or what a plan had to lower; empty: nothing
 
  private:
   void dropB();
+  uint64_t finishedFrame(const PictureHalf& half) const;  // number of the last frame that drew it and has finished
 
   Renderer& renderer_;
   std::deque<PictureHalf> halves_;  // B only while there is A | B
