@@ -177,4 +177,12 @@ using Command =
                  ToggleRecording, CopyCommandLine, CopyText, SetPresentMode, ToggleFullScreen, TogglePanel, ToggleHelp,
                  ToggleInspector, Escape, DismissMessage, PauseHistory, ClearHistory, ClearLog>;
 
+// Functions for std::visit(), one for each type of command.
+template <typename... Functions>
+struct Overloaded : Functions... {
+  using Functions::operator()...;
+};
+template <typename... Functions>
+Overloaded(Functions...) -> Overloaded<Functions...>;  // clang before version 17 needs this guide
+
 }  // namespace speculum

@@ -30,12 +30,6 @@ constexpr double remembered = 0.9;
 // Frames of a slow picture, besides those of its maps, on a busy machine, where a frame takes long whatever it draws.
 constexpr size_t mostFrames = 128;
 
-Settings withPictures(Settings settings, int pictures) {
-  settings.view.accumulate = pictures;
-  settings.view.accumulateError = pictures > 1 ? stillError(settings) : 0.0;
-  return settings;
-}
-
 // Says whether tiles can draw the picture. debug.check_finite needs whole pictures.
 bool drawnInTiles(const FittedPlan& fitted) {
   return !fitted.plan.mainReused() && !fitted.settings.debug.checkFinite;
@@ -364,8 +358,11 @@ int stillPictures(const Settings& settings) {
   return std::max(settings.view.accumulate, settings.quality.stillPictures);
 }
 
-double stillError(const Settings& settings) {
-  return std::max(settings.view.accumulateError, settings.quality.stillError);
+Settings withPictures(Settings settings, int pictures) {
+  settings.view.accumulate = pictures;
+  settings.view.accumulateError =
+      pictures > 1 ? std::max(settings.view.accumulateError, settings.quality.stillError) : 0.0;
+  return settings;
 }
 
 double motionBudget(const Settings& settings, bool cpuDevice, double refreshHz) {

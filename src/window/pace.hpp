@@ -214,8 +214,8 @@ class Pace {
 
 // Returns the number of pictures in the mean of a still picture.
 int stillPictures(const Settings& settings);
-// Returns view.accumulate_error of that mean.
-double stillError(const Settings& settings);
+// Returns the settings for a mean of so many pictures, or for a single one.
+Settings withPictures(Settings settings, int pictures);
 
 // Returns the budget of a frame in milliseconds: quality.motion_ms or, if that is auto, 50 on a CPU device and 0.8 of
 // the monitor's refresh interval elsewhere.

@@ -307,7 +307,9 @@ void SceneEditor::addBookmark(Bookmark bookmark) {
 
 void SceneEditor::removeBookmark(size_t index) {
   release();
-  document_.removeBookmark(index);
+  if (index < document_.scene().bookmarks.size()) {
+    document_.removeBookmark(index);
+  }
 }
 
 // Nodes stay selected together, and in the mirror image that was clicked, as long as all of them keep their indices.

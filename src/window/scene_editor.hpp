@@ -61,7 +61,7 @@ class SceneEditor {
   void duplicate(const PointedScene& view, const PixelRect& free);  // `free`: where no panel covers the picture, pixels
   void remove();                                                    // the selected nodes
   void addBookmark(Bookmark bookmark);
-  void removeBookmark(size_t index);
+  void removeBookmark(size_t index);              // if there is one
   std::optional<SettingsStep> step(UndoWay way);  // undoes or redoes a step, see SceneDocument
 
   // Returns the file of an AddObject command's model. Throws InputError if it does not exist.

@@ -10,13 +10,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-template <typename... Functions>
-struct Overloaded : Functions... {
-  using Functions::operator()...;
-};
-template <typename... Functions>
-Overloaded(Functions...) -> Overloaded<Functions...>;  // clang before version 17 needs this guide
-
 std::string windowTitle(const ShownEdit& edit, bool recording) {
   return (recording ? "Recording, F10 stops - " : "") + edit.scene->file.stem().string() +
          (edit.unsaved ? "* - Speculum" : " - Speculum");
@@ -74,11 +67,7 @@ void Workspace::apply(const Command& command) {
                  },
                  [&](const GoToBookmark& c) { view_.camera.goToBookmark(c.index, scene()); },
                  [&](const GoToNextBookmark&) { view_.camera.goToNextBookmark(scene()); },
-                 [&](const RemoveBookmark& c) {
-                   if (c.index < scene().bookmarks.size()) {
-                     editor_->removeBookmark(c.index);
-                   }
-                 },
+                 [&](const RemoveBookmark& c) { editor_->removeBookmark(c.index); },
                  [&](const Seek& c) { view_.playback.seek(c.seconds); },
                  [&](const StepTime& c) { view_.playback.step(c.steps); },
                  [&](const SetPaused& c) { view_.playback.setPaused(c.paused); },
@@ -389,13 +378,9 @@ void Workspace::escape() {
   if (editor_->dragging()) {
     return editor_->cancelDrag();
   }
-  if (host_.closePopup()) {
-    return;
+  if (!host_.closePopup()) {
+    document_->selection() ? editor_->select({}) : split().on() ? settings_.endSplit() : dismissMessage();
   }
-  if (document_->selection()) {
-    return editor_->select({});
-  }
-  split().on() ? settings_.endSplit() : dismissMessage();
 }
 
 // Messages about shaders and memory stay until their cause is gone. The panels' button hides such a message, Escape
@@ -466,10 +451,8 @@ void Workspace::copyCommandLine() {
     if (view_.camera.moved()) {
       options.camera = view_.bookmark(scene());
     }
-    Settings settings = shownSettings(shownHalf());
-    settings.view.accumulate = stillPictures(settings);
-    settings.view.accumulateError = settings.view.accumulate > 1 ? stillError(settings) : 0.0;
-    const std::string command = viewCommand(options, file, scene(), settings);
+    const Settings shown = shownSettings(shownHalf());
+    const std::string command = viewCommand(options, file, scene(), withPictures(shown, stillPictures(shown)));
     host_.setClipboard(command);
     const bool copy = file != scene().file;
     status_.set("Copied: " + command + (copy ? "   (of a copy of the scene: it has unsaved changes)" : ""));
