@@ -33,7 +33,8 @@ HANDLE handleOf(intptr_t value) {
   return reinterpret_cast<HANDLE>(value);
 }
 
-// Returns the word as oneLine() prints it within a line, but with :: and ##, which shellWord() keeps from runners.
+// Returns the word as oneLine() prints it behind other text. Keeps its :: and ##, because runners find no command in
+// what shellWord() returns.
 std::string withoutHidden(const std::string& word) {
   std::string shown;
   for (size_t first = 0, end = 0; first < word.size(); first = end) {

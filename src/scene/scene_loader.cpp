@@ -378,8 +378,7 @@ bool isSceneFile(const fs::path& file) {
   return root.contains("camera") || root.contains("object") || root.contains("mirror");
 }
 
-std::optional<std::filesystem::path> shippedScene(const std::filesystem::path& wanted) {
-  namespace fs = std::filesystem;
+std::optional<fs::path> shippedScene(const fs::path& wanted) {
   if (wanted.is_relative()) {
     const fs::path scenes = dataDirectory("scenes");
     for (const fs::path& candidate : {scenes / wanted, scenes.parent_path() / wanted,

@@ -17,9 +17,9 @@ class MainPicture {
  public:
   explicit MainPicture(Renderer& renderer) : renderer_(renderer), mean_(renderer) {}
 
-  // Begins a picture of the plan. `displayed`: the display may show drawn(). If the plan has tiles, a complete picture
-  // in that target then stays shown() until endFrame(), and drawn() is another one. If the plan encodes the main view,
-  // drawn() has depth only.
+  // Begins a picture of the plan, for the target drawn(), which has depth only if the plan encodes the main view. If
+  // the plan has tiles and the display may show the last picture (`displayed`), that picture keeps its target, which is
+  // shown() until endFrame(), and drawn() is another target.
   void begin(const Settings& settings, const FramePlan& plan, bool displayed, RetireQueue& retired);
   // Begins a frame of the picture. `watched`: a TargetDisplay shows a target of it.
   void beginFrame(const FrameInfo& info, bool watched);

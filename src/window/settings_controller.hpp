@@ -13,7 +13,8 @@ class SettingsController {
  public:
   // Throws what AccuracyController throws.
   SettingsController(const Options& options, const LoadedScene& loaded);
-  // Call when another scene is shown, which was loaded with these settings. Keeps the reference.
+  // Call when another scene is shown. `loaded`: the settings that it was loaded with. The document must outlive this
+  // object, or the next call.
   void setDocument(SceneDocument& document, const Settings& loaded);
 
   const Settings& ofScene() const { return ofScene_; }  // also during A | B

@@ -59,7 +59,7 @@ struct ViewController {
   // Frames a node or, with none, the whole scene within `free`, the part of a picture of `size` pixels that no panel
   // covers.
   void frame(const Scene& scene, const Selection& node, const glm::ivec2& size, const PixelRect& free);
-  // As CameraController::lookFromMirror(). Returns what is seen, for the user.
+  // Looks out of the mirror that CameraController::lookFromMirror() finds. Returns what is seen then, as a sentence.
   std::string lookFromMirror(const Scene& scene, MirrorSide side, const Selection& selected,
                              std::span<const PassRow> passes, const glm::ivec2& size);
 };
