@@ -1,7 +1,7 @@
-// Searches an image of radiance and disparity for values that are not finite or not within 0 .. 65504. CHECKED_IMAGE is
-// the image's type. A first dispatch over all pixels finds the first such value and counts them all. A second dispatch
-// of one group, with LOOK_UP, reads the first value, because only after all invocations of the first dispatch is it
-// certain which value comes first.
+// Searches an image of radiance and disparity for values that are not finite or not within 0 .. 65504; a disparity may be
+// negative, down to -65504: MaskSystem::markOutside(). CHECKED_IMAGE is the image's type. A first dispatch over all
+// pixels finds the first such value and counts them all. A second dispatch of one group, with LOOK_UP, reads the first
+// value, because only after all invocations of the first dispatch is it certain which value comes first.
 #include "gpu_data.h"
 
 layout(local_size_x = 16, local_size_y = 8) in;
@@ -22,6 +22,7 @@ vec4 valueOf(sampler2DMS image, ivec2 texel, int i) { return texelFetch(image, t
 // 0.
 bool storable(vec4 value) {
   uvec4 bits = floatBitsToUint(value);
+  bits.w &= 0x7fffffffu;
   bvec4 zero = equal(bits, uvec4(0x80000000u));
   bvec4 inRange = lessThanEqual(bits, uvec4(floatBitsToUint(65504.0)));
   return all(bvec4(zero.x || inRange.x, zero.y || inRange.y, zero.z || inRange.z, zero.w || inRange.w));

@@ -39,47 +39,59 @@ vec4 reflected() {
   return valueAt(clamp(texel, ivec2(0), mirror.imageSize - 1));
 }
 #else
-vec4 valueAt(ivec2 texel) { return texelMean(reflection, texel); }
+vec4 valueAt(ivec2 texel) { return insideMean(reflection, texel); }
 
 vec2 valuePosition() { return vec2(0.5); }
 
-// Interpolates at `position` in texels, half a texel or more inside the used part of the image. Unlike a sampler, reads
-// no neighbour of weight 0: texels beside the used part were never written, and 0 x NaN is NaN.
-vec4 bilinear(vec2 position) {
-  vec2 corner = floor(position - 0.5);
-  vec2 weight = position - 0.5 - corner;
-  ivec2 low = ivec2(corner);
-  ivec2 high = ivec2(ceil(position - 0.5));
-  vec4 top = mix(texelMean(reflection, low), texelMean(reflection, ivec2(high.x, low.y)), weight.x);
-  vec4 bottom = mix(texelMean(reflection, ivec2(low.x, high.y)), texelMean(reflection, high), weight.x);
-  return mix(top, bottom, weight.y);
-}
-
+// Returns the mean of the values between two corners. Those outside the mirror count only if all are.
 vec4 boxFiltered(vec2 low, vec2 high, ivec2 last) {
+  vec4 value = vec4(0.0);
   vec4 sum = vec4(0.0);
   float area = 0.0;
   for (int y = int(floor(low.y)); y < int(ceil(high.y)); ++y) {
     for (int x = int(floor(low.x)); x < int(ceil(high.x)); ++x) {
       vec2 covered = min(vec2(x + 1, y + 1), high) - max(vec2(x, y), low);
-      float weight = max(covered.x, 0.0) * max(covered.y, 0.0);
-      sum += weight * texelMean(reflection, clamp(ivec2(x, y), ivec2(0), last));
+      value = valueAt(clamp(ivec2(x, y), ivec2(0), last));
+      float weight = isOutside(value) ? 0.0 : max(covered.x, 0.0) * max(covered.y, 0.0);
+      sum += weight * value;
       area += weight;
     }
   }
-  return sum / max(area, 1e-6);
+  return area > 0.0 ? sum / area : value;
 }
 
+// Interpolates at `position` in texels, half a texel or more inside the used part of the image. Unlike a sampler, reads
+// no neighbour of weight 0: texels beside the used part were never written, and 0 x NaN is NaN.
+vec4 bilinear(vec2 position, ivec2 last) {
+  vec2 corner = floor(position - 0.5);
+  vec2 weight = position - 0.5 - corner;
+  ivec2 low = ivec2(corner);
+  ivec2 high = ivec2(ceil(position - 0.5));
+  vec4 values[4] = vec4[](valueAt(low), valueAt(ivec2(high.x, low.y)), valueAt(ivec2(low.x, high.y)), valueAt(high));
+  if (isOutside(values[0]) || isOutside(values[1]) || isOutside(values[2]) || isOutside(values[3])) {
+    return boxFiltered(position - 0.5, position + 0.5, last);
+  }
+  return mix(mix(values[0], values[1], weight.x), mix(values[2], values[3], weight.x), weight.y);
+}
+
+// Where the texels of this pixel lie outside the mirror, those around them continue the image.
 vec4 reflected() {
   ivec2 last = mirror.imageSize - 1;
   vec2 texel = gl_FragCoord.xy * mirror.lookupScale + mirror.lookupOffset;
-  if (lookup == lookupFetch) {
-    return texelMean(reflection, clamp(ivec2(floor(texel)), ivec2(0), last));
-  }
+  vec4 value;
   if (lookup == lookupBilinear) {
-    return bilinear(clamp(texel, vec2(0.5), vec2(mirror.imageSize) - 0.5));
+    value = bilinear(clamp(texel, vec2(0.5), vec2(mirror.imageSize) - 0.5), last);
+  } else if (lookup == lookupBox) {
+    vec2 low = floor(gl_FragCoord.xy) * mirror.lookupScale + mirror.lookupOffset;
+    value = boxFiltered(low, low + mirror.lookupScale, last);
+  } else {
+    value = valueAt(clamp(ivec2(floor(texel)), ivec2(0), last));
   }
-  vec2 low = floor(gl_FragCoord.xy) * mirror.lookupScale + mirror.lookupOffset;
-  return boxFiltered(low, low + mirror.lookupScale, last);
+  if (lookup != lookupFetch && isOutside(value)) {
+    vec2 reach = max(mirror.lookupScale, vec2(1.0));
+    value = boxFiltered(texel - reach, texel + reach, last);
+  }
+  return vec4(value.rgb, max(value.a, 0.0));
 }
 #endif
 
@@ -153,18 +165,19 @@ vec4 reprojected(float nearest) {
   ivec2 high = clamp(ivec2(floor(position + reach)), ivec2(0), last);
   vec4 sum = vec4(0.0);
   float weights = 0.0;
-  vec4 farthest = vec4(0.0, 0.0, 0.0, halfMax);
+  vec4 farthest = valueAt(low);
   for (int y = low.y; y <= high.y; ++y) {
     for (int x = low.x; x <= high.x; ++x) {
       vec4 value = valueAt(ivec2(x, y));
       vec2 own = texelAt(r, disparityNow(r, value.a)) - valuePosition();
       vec2 weight = clamp(reach - abs(own - vec2(x, y)), 0.0, 1.0);
-      sum += weight.x * weight.y * value;
-      weights += weight.x * weight.y;
-      farthest = value.a <= farthest.a ? value : farthest;
+      float share = isOutside(value) ? 0.0 : weight.x * weight.y;
+      sum += share * value;
+      weights += share;
+      farthest = isOutside(farthest) || (value.a <= farthest.a && !isOutside(value)) ? value : farthest;
     }
   }
-  return weights > 0.05 ? sum / weights : farthest;
+  return weights > 0.05 ? sum / weights : vec4(farthest.rgb, max(farthest.a, 0.0));
 }
 
 #ifndef MIRROR_OWN_SAMPLE
@@ -197,7 +210,7 @@ vec3 imageAlong(vec3 direction, Origin origin) {
     if (!(all(greaterThanEqual(texel, vec2(0.0))) && all(lessThan(texel, vec2(mirror.imageSize))))) {
       return backgroundRadiance(direction);
     }
-    vec4 value = texelMean(reflection, ivec2(texel));
+    vec4 value = valueAt(ivec2(texel));
     found = value.rgb;
     vec3 shown = rayThrough(pixel) * (disparityLength / max(disparityOf(value.a), 1e-30));
     far = clamp(dot(shown - origin.position, behind), 0.0, origin.limit);
@@ -223,7 +236,7 @@ vec3 marchImage(vec3 direction, vec3 position) {
     float part = min(float(i) / float(marchSteps), 0.9999);
     float t = part * start / ((1.0 - part) * slope);
     vec2 texel = pixelOf(position + t * behind) * mirror.lookupScale + mirror.lookupOffset;
-    vec4 value = texelMean(reflection, ivec2(clamp(floor(texel), vec2(0.0), vec2(mirror.imageSize - 1))));
+    vec4 value = valueAt(ivec2(clamp(floor(texel), vec2(0.0), vec2(mirror.imageSize - 1))));
     float depth = start + t * slope;
     if (value.a * depth >= disparityLength && value.a * before <= disparityLength) {
       return value.rgb;

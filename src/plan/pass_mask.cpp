@@ -17,11 +17,12 @@ Polygon corners(const View& view) {
   return {{x0, y0, 0.0}, {x1, y0, 0.0}, {x1, y1, 0.0}, {x0, y1, 0.0}};
 }
 
+constexpr double shortest = 1.0 / 8.0;  // of edges, in pixels
+
 // Says whether the polygon's edges are long enough and its corners far enough from straight that no triangle of its fan
 // loses its area when the GPU snaps vertices to a grid of 1/256 of a pixel or coarser. If a draw has a triangle without
 // area, lavapipe leaves out the others too.
 bool isWellShaped(std::span<const glm::dvec3> polygon, const glm::dvec2& step) {
-  constexpr double shortest = 1.0 / 8.0;   // pixels
   constexpr double flattest = 1.0 / 32.0;  // pixels
   const size_t n = polygon.size();
   for (size_t i = 0; i < n; ++i) {
@@ -35,7 +36,27 @@ bool isWellShaped(std::span<const glm::dvec3> polygon, const glm::dvec2& step) {
   return n >= 3;
 }
 
+// A plane of the cone seen as a line on the screen, as in widen(): p lies inside where dot(line, p) + offset >= 0, in
+// device coordinates with z = 0. `perPixel` is by how much a step of one pixel along each axis changes that.
+struct Edge {
+  glm::dvec3 line{0.0};
+  double offset = 0.0;
+  glm::dvec2 perPixel{0.0};
+};
+
+Edge edgeOf(const glm::dvec3& planeNormal, const View& view, const Projection& projection) {
+  const glm::dvec2 perDevice(projection.aspect / projection.focal, 1.0 / projection.focal);
+  const glm::dvec3 n = view.worldToView * planeNormal;
+  const glm::dvec3 line(n.x * perDevice.x, -n.y * perDevice.y, 0.0);
+  return {line, -n.z - glm::dot(glm::dvec2(line), projection.offset),
+          glm::abs(2.0 / view.pictureSize * glm::dvec2(line))};
+}
+
 }  // namespace
+
+bool isReadByBoxes(const Pass& pass) {
+  return pass.quality.scale != 1.0 || pass.shownIn.scale != 1.0 || pass.quality.interval > 1;
+}
 
 double roundingOfCone(const View& view, const Projection& projection) {
   const double height = view.clip ? std::abs(view.clip->distance(view.eye)) : INFINITY;  // above 0, see heightAbove()
@@ -53,13 +74,14 @@ double seenBeyond(const View& view, const Projection& projection, const View& sh
 // a texel if that is wider, and half a texel more on each side for the samples.
 double lookupReach(const Pass& pass, const Settings& settings, bool standardLocations) {
   const ImageQuality& image = pass.quality;
-  if (image.scale != 1.0 || pass.shownIn.scale != 1.0 || image.interval > 1) {
+  if (isReadByBoxes(pass)) {
     return cachedLookupReach(image);
   }
   // Standard locations of 2, 4 and 8 samples, from the texel's middle.
   const auto farthest = [&](int samples) { return standardLocations ? 0.5 - 0.5 / std::min(samples, 8) : 0.5; };
   const int most = std::max({image.samples, pass.shownIn.samples, settings.view.samples});
-  return farthest(most) + farthest(image.samples);
+  const double beside = image.samples == pass.shownIn.samples ? 0.0 : 1.0;  // read in the place of texels outside
+  return farthest(most) + farthest(image.samples) + beside;
 }
 
 std::vector<double> lookupReaches(const FramePlan& plan, const Settings& settings, bool standardLocations) {
@@ -84,16 +106,11 @@ double cachedLookupReach(const ImageQuality& quality) {
 std::vector<glm::dvec2> passMask(const View& view, const Projection& projection, double reach) {
   constexpr double rounding = 0.1;  // pixels; bound of the rounding of float positions on the GPU
   const glm::dvec2 step = 2.0 / view.pictureSize;
-  const glm::dvec2 perDevice(projection.aspect / projection.focal, 1.0 / projection.focal);
   Polygon part = corners(view);
   bool cut = false;
   for (const glm::dvec3& normal : view.cone) {
-    // The plane's line on the screen, as in widen().
-    const glm::dvec3 n = view.worldToView * normal;
-    const glm::dvec3 line(n.x * perDevice.x, -n.y * perDevice.y, 0.0);
-    const glm::dvec2 perPixel = glm::abs(step * glm::dvec2(line));
-    const double offset = -n.z - glm::dot(glm::dvec2(line), projection.offset) + reach * (perPixel.x + perPixel.y) +
-                          rounding * glm::length(perPixel);
+    const auto [line, exact, perPixel] = edgeOf(normal, view, projection);
+    const double offset = exact + reach * (perPixel.x + perPixel.y) + rounding * glm::length(perPixel);
     const double length2 = glm::dot(line, line);
     if (length2 == 0.0) {
       continue;
@@ -123,6 +140,28 @@ std::vector<glm::dvec2> passMask(const View& view, const Projection& projection,
     mask.emplace_back(p);
   }
   return mask;
+}
+
+std::vector<std::vector<glm::dvec2>> outsideParts(const View& view, const Projection& projection) {
+  std::vector<std::vector<glm::dvec2>> parts;
+  const Polygon whole = corners(view);
+  for (const glm::dvec3& normal : view.cone) {
+    const auto [line, offset, perPixel] = edgeOf(normal, view, projection);
+    const double length2 = glm::dot(line, line);
+    if (length2 == 0.0) {
+      continue;
+    }
+    Polygon part = clipPolygon(whole, Plane{line * (-offset / length2), -line});
+    for (size_t i = part.size(); i-- > 0 && part.size() > 3;) {
+      if (glm::length(glm::dvec2(part[(i + 1) % part.size()] - part[i]) / (2.0 / view.pictureSize)) < shortest) {
+        part.erase(part.begin() + static_cast<std::ptrdiff_t>(i));
+      }
+    }
+    if (isWellShaped(part, 2.0 / view.pictureSize)) {
+      parts.emplace_back(part.begin(), part.end());
+    }
+  }
+  return parts;
 }
 
 std::vector<std::vector<PixelRect>> convergedParts(const FramePlan& plan) {

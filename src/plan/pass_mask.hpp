@@ -29,6 +29,12 @@ double cachedLookupReach(const ImageQuality& quality);
 // flat corners; empty if the mask is the view's whole rectangle.
 std::vector<glm::dvec2> passMask(const View& view, const Projection& projection, double reach);
 
+// Says whether a pixel reads a box of the pass's image, not one texel.
+bool isReadByBoxes(const Pass& pass);
+// Returns convex polygons that together cover what lies outside the view's cone, each bounded by one of its planes. In
+// the picture's device coordinates, as those of passMask(). A part without area on the GPU's grid is left out.
+std::vector<std::vector<glm::dvec2>> outsideParts(const View& view, const Projection& projection);
+
 // Returns for each pass the rectangles that it need not draw because no refined tile of the main view shows them, in
 // texels of the view's whole picture; none if plan.refined is null. Blurred and rippled images are read anywhere, so
 // they and all that is seen in them have none; other images are read at the pixel that shows them, or beside it if they

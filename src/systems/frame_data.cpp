@@ -165,6 +165,7 @@ void FrameData::build(const FrameInfo& info) {
   for (size_t i = 0; i < plan.passes.size(); ++i) {
     if (plan.passes[i].drawn()) {
       addPass(info, plan.passes[i], passes_[i]);
+      addOutside(info, plan.passes[i], passes_[i]);
       addMask(info, plan.passes[i], reaches[i], converged[i], passes_[i]);
     }
   }
@@ -397,6 +398,25 @@ void FrameData::addRepeating(const FrameInfo& info) {
       repeating_.push_back(repeatingTriangle(mesh, triangle, instance, info.plan.main().view.eye));
     }
   }
+}
+
+void FrameData::addOutside(const FrameInfo& info, const Pass& pass, DrawList& data) {
+  if (pass.view.path.empty() || (!isReadByBoxes(pass) && pass.quality.samples == pass.shownIn.samples)) {
+    return;
+  }
+  // Before everything, or before the background alone. At one resolution a lookup reads less than a texel outside the
+  // mirror, and what is drawn there usually continues the image better than the texels inside do.
+  const bool resized = pass.quality.scale != 1.0 || pass.shownIn.scale != 1.0;
+  const double depth = resized ? 1.0 - 0x1p-24 : 1e-30;
+  data.outsideFirstVertex = static_cast<uint32_t>(mirrorVertices_.size());
+  for (const std::vector<glm::dvec2>& part : outsideParts(pass.view, info.plan.projection)) {
+    ClipPolygon clip;
+    for (const glm::dvec2& p : part) {
+      clip.emplace_back(p / overscan(pass.view), depth, 1.0);
+    }
+    addFan(mirrorVertices_, clip);
+  }
+  data.outsideVertexCount = static_cast<uint32_t>(mirrorVertices_.size()) - data.outsideFirstVertex;
 }
 
 void FrameData::addMask(const FrameInfo& info, const Pass& pass, double reach, std::span<const PixelRect> converged,

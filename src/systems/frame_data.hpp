@@ -17,7 +17,12 @@ enum class MirrorShows : uint32_t {
   background = gpu::showsBackground,
   back = gpu::showsBack,
 };
-enum class Lookup : uint32_t { fetch = gpu::lookupFetch, bilinear = gpu::lookupBilinear, box = gpu::lookupBox };
+enum class Lookup : uint32_t {
+  fetch = gpu::lookupFetch,
+  inside = gpu::lookupInside,
+  bilinear = gpu::lookupBilinear,
+  box = gpu::lookupBox,
+};
 
 // A mirror image, for the pass that looks it up.
 struct MirrorImage {
@@ -72,7 +77,9 @@ struct DrawList {
   std::vector<MirrorRange> mirrors;
   uint32_t maskFirstVertex = 0;
   uint32_t maskVertexCount = 0;  // 0: the whole rectangle is drawn
-  bool maskOpens = false;        // the mask begins with the polygon that is drawn; else the whole rectangle is
+  uint32_t outsideFirstVertex = 0;
+  uint32_t outsideVertexCount = 0;  // polygons that cover the texels outside the mirror; 0: none is read
+  bool maskOpens = false;           // the mask begins with the polygon that is drawn; else the whole rectangle is
 };
 
 // The buffers that the passes of a frame read. Everything is composed in double relative to the eye of its view and
@@ -125,6 +132,7 @@ class FrameData {
   void addMirrors(const FrameInfo& info, const Pass& pass, const glm::dmat4& projection, DrawList& data);
   void addRepeating(const FrameInfo& info);
   // `converged`: parts of the pass that are not drawn.
+  void addOutside(const FrameInfo& info, const Pass& pass, DrawList& data);
   void addMask(const FrameInfo& info, const Pass& pass, double reach, std::span<const PixelRect> converged,
                DrawList& data);
 

@@ -168,6 +168,11 @@ uint32_t MirrorSystem::recordReflections(const PassScope& scope, const FrameInfo
 void MirrorSystem::draw(const PassScope& scope, const FrameInfo& info, const DrawList& pass, const MirrorRange& mirror,
                         Variant variant) {
   const bool identifies = variant.shading == Shading::identifier;
+  const MirrorImage* image = imageOf(mirror, info);
+  const bool looksUp = variant.shading == Shading::single || variant.shading == Shading::average;
+  if (looksUp && variant.lookup == Lookup::fetch && image && image->samples != scope.samples()) {
+    variant.lookup = Lookup::inside;
+  }
   variant.format = formatOf(scope.desc(), info.settings);
   variant.perSample = !identifies && info.trace.variant().perSample && (variant.blurs || variant.ripples);
   variant.clampDepth = !(pass.mirrorView && info.settings.reflection.clip == ClipMethod::oblique);
@@ -178,7 +183,6 @@ void MirrorSystem::draw(const PassScope& scope, const FrameInfo& info, const Dra
   variant.onlyShadowFace = variant.shadowed ? info.shadows.onlyFace() : gpu::anyShadowFace;
   variant.lightCount = variant.colored ? fixedLightCount(info.scene) : gpu::manyLights;
   const Pipeline& pipeline = pipelines_.get(variant, [&] { return describe(variant, info); });
-  const MirrorImage* image = imageOf(mirror, info);
   const bool reads = image && !identifies && variant.shading != Shading::base;
   const VkDescriptorImageInfo shown = reads ? image->descriptor : noImage_.descriptor(sampler_.get());
   if (std::exchange(setsFrame_, info.frame.number) != info.frame.number) {
@@ -218,6 +222,24 @@ uint32_t MaskSystem::record(const PassScope& scope, const FrameInfo& info, const
   });
   info.data.bind(pipeline, scope.commands(), pass);
   vkCmdDraw(scope.commands(), pass.maskVertexCount, 1, pass.maskFirstVertex, 0);
+  return 1;
+}
+
+uint32_t MaskSystem::markOutside(const PassScope& scope, const FrameInfo& info, const DrawList& pass) {
+  if (pass.outsideVertexCount == 0) {
+    return 0;
+  }
+  const PassFormat format = formatOf(scope.desc(), info.settings);
+  const Pipeline& pipeline = marking_.get(format, [&] {
+    return format.describe({.name = "outside",
+                            .vert = "mirror.vert",
+                            .frag = "outside.frag",
+                            .setLayouts = {frameLayout_},
+                            .depthWrite = false,
+                            .adds = true});
+  });
+  info.data.bind(pipeline, scope.commands(), pass);
+  vkCmdDraw(scope.commands(), pass.outsideVertexCount, 1, pass.outsideFirstVertex, 0);
   return 1;
 }
 

@@ -76,15 +76,20 @@ class MirrorSystem {
 class MaskSystem {
  public:
   MaskSystem(PipelineFactory& factory, VkDescriptorSetLayout frameLayout)
-      : frameLayout_(frameLayout), pipelines_(factory) {}
+      : frameLayout_(frameLayout), pipelines_(factory), marking_(factory) {}
 
   // Value that a pass clears its depth to.
   static float clearDepth(const DrawList& pass) { return pass.maskOpens ? 1.0f : 0.0f; }
   uint32_t record(const PassScope& scope, const FrameInfo& info, const DrawList& pass);
+  // Call it after all draws of the pass: makes the disparity of texels outside the mirror negative, so that lookups
+  // which mix texels leave them out. Otherwise what lies behind a wall or another mirror would show along the edge
+  // where it meets this one.
+  uint32_t markOutside(const PassScope& scope, const FrameInfo& info, const DrawList& pass);
 
  private:
   VkDescriptorSetLayout frameLayout_;
   PipelineVariants<VkSampleCountFlagBits> pipelines_;
+  PipelineVariants<PassFormat> marking_;
 };
 
 }  // namespace speculum

@@ -102,6 +102,7 @@ void PassRecorder::record(const FrameInfo& info, size_t index, const PassDesc& d
     draws += mirrorSystem_.recordReflections(scope, info, data);
     draws += renderSystem_.recordReflections(scope, info, data, deferredShading_);
   }
+  draws += maskSystem_.markOutside(scope, info, data);
   info.log.add({pass.id, desc.name, pass.depth, draws, areaPx});
 }
 

@@ -205,8 +205,11 @@ int darkPixels(Session& session, const std::string& samples, const std::string& 
 TEST(SeamsOfMirrorsAndBodies, NoPixelShowsTheBackground) {
   for (unsigned view = 0; view < 5; ++view) {
     QuietSession session(headless(seamScene(view), seamSize));
-    for (const char* samples : {"1", "4"}) {
-      EXPECT_EQ(darkPixels(session, samples, samples), 0) << samples << " samples, view " << view;
+    for (const std::string samples : {"1", "4"}) {
+      for (const std::string imageSamples : {"1", "4"}) {
+        EXPECT_LE(darkPixels(session, samples, imageSamples), samples == imageSamples ? 0 : 3)
+            << samples << " and " << imageSamples << " samples, view " << view;
+      }
     }
   }
 }
@@ -229,13 +232,6 @@ TEST(SeamsOfMirrorsAndBodies, OnlyRoundingGapsAreClosed) {
   const double pixel = 2.0 * std::tan(glm::radians(30.0)) / 360.0;
   EXPECT_EQ(darkPixelsBetween(pixel / 200), 0);
   EXPECT_GT(darkPixelsBetween(pixel), 300);
-}
-
-TEST(SeamsOfMirrorsAndBodies, AveragedImagesShowTheBackground) {
-  QuietSession session(headless(seamScene(0), seamSize));
-  const int dark = darkPixels(session, "4", "1");
-  EXPECT_GT(dark, 20) << "the naive way, samples that have no counterpart, should fail";
-  std::printf("%d pixels\n", dark);
 }
 
 }  // namespace

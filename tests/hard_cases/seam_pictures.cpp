@@ -1,4 +1,6 @@
-// Two mirrors that meet on a column of pixel centres: a tie there, which the traced picture cannot settle either.
+// Mirrors that meet each other and walls.
+#include "random.hpp"
+#include "sampling.hpp"
 #include "scene_text.hpp"
 #include "truth_support.hpp"
 
@@ -7,7 +9,8 @@ namespace {
 
 using namespace testing_support;
 
-// Walls that meet at the dihedral angle on x = 0, which a picture of odd width sees through the middle of its pixels.
+// On a column of pixel centres two mirrors that meet there tie, which the traced picture cannot settle either. The
+// walls meet at the dihedral angle on x = 0, which a picture of odd width sees through the middle of its pixels.
 TEST(SeamOnPixelCentres, ChangesNoOtherColumn) {
   constexpr PictureSize size{81, 61};
   std::optional<Studio> studio;
@@ -40,6 +43,45 @@ TEST(SeamOnPixelCentres, ChangesNoOtherColumn) {
         << degrees << " degrees, of " << size.width * size.height;
     // On that column either mirror may show its image, nothing else.
     EXPECT_LE(difference(picture, truth.tracing.nearest(picture), 2).over, 5) << degrees << " degrees";
+  }
+}
+
+// Two walls of a closed room are mirrors. Their images have nothing behind the other walls, where lookups that mix
+// texels would find the red background.
+TEST(SeamsOfCoarseImages, ShowNoBackground) {
+  constexpr PictureSize size{160, 100};
+  writeModel("shell.obj",
+             "v -2 -1 -2\nv 2 -1 -2\nv 2 -1 2\nv -2 -1 2\nv -2 2 -2\nv 2 2 -2\nv 2 2 2\nv -2 2 2\n"
+             "f 4 3 2 1\nf 5 6 7 8\nf 2 3 7 6\nf 3 4 8 7\n");
+  Random random(1);
+  std::optional<Studio> studio;
+  for (int i = 0; i < (fullTests() ? 40 : 6); ++i) {
+    const glm::dvec3 eye(random.uniform(-1, 1.5), random.uniform(-0.5, 1.5), random.uniform(-1, 1.5));
+    const std::string text =
+        "[environment]\nbackground = [9, 0, 0]\nambient = [1, 1, 1]\n" +
+        cameraText(eye, {-1.9, random.uniform(-0.5, 1.5), -1.9}, {random.uniform(-0.5, 0.5), 1, 0}) +
+        objectText("shell.obj", {0, 0, 0}, {0, 0, 0}, 1.0, {0.1, 0.5, 0.2}) + "[[mirror]]\n" +
+        polygonText({{-2, -1, 2}, {-2, -1, -2}, {-2, 2, -2}, {-2, 2, 2}}) + "[[mirror]]\n" +
+        polygonText({{-2, -1, -2}, {2, -1, -2}, {2, 2, -2}, {-2, 2, -2}});
+    const auto file = writeScene("room" + std::to_string(i), text);
+    if (!studio) {
+      studio.emplace(truthOptions(file, size, 3));
+    }
+    studio->show(loadScene(file));
+    for (const auto& [scale, samples, imageSamples] :
+         {std::tuple(0.5, 1, 1), std::tuple(0.3, 4, 4), std::tuple(0.77, 4, 1), std::tuple(1.7, 1, 1),
+          std::tuple(1.0, 4, 1), std::tuple(1.0, 1, 4)}) {
+      studio->settings.reflection.scale = scale;
+      studio->settings.view.samples = samples;
+      studio->settings.reflection.samples = imageSamples;
+      const Image8 picture = studio->fresh();
+      int red = 0;
+      for (size_t at = 0; at < picture.rgba.size(); at += 4) {
+        red += picture.rgba[at] > picture.rgba[at + 1] ? 1 : 0;
+      }
+      EXPECT_LE(red, size.width * size.height / 1000)
+          << "scale " << scale << ", samples " << samples << " and " << imageSamples << ", seed " << i;
+    }
   }
 }
 

@@ -309,9 +309,9 @@ TEST(PassMask, ReachesAsFarAsLookupsDo) {
   EXPECT_DOUBLE_EQ(lookupReach(pass, settings, true), 0.75) << "4 samples, 1/8 from the texel's border";
   EXPECT_DOUBLE_EQ(lookupReach(pass, settings, false), 1.0) << "a whole texel";
   pass.quality.samples = 1;
-  EXPECT_DOUBLE_EQ(lookupReach(pass, settings, true), 0.375);
+  EXPECT_DOUBLE_EQ(lookupReach(pass, settings, true), 1.375) << "and the texel beside it";
   settings.view.samples = 1;
-  EXPECT_DOUBLE_EQ(lookupReach(pass, settings, true), 0.375) << "what shows the image has 4";
+  EXPECT_DOUBLE_EQ(lookupReach(pass, settings, true), 1.375) << "what shows the image has 4";
   pass.shownIn.samples = 1;
   EXPECT_DOUBLE_EQ(lookupReach(pass, settings, true), 0.0);
   pass.shownIn.scale = 2.0;

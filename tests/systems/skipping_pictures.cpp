@@ -439,7 +439,9 @@ TEST(Skipping, MirrorPassesDrawOnlyWhatIsSeen) {
       ASSERT_TRUE(masked["samples_drawn"].is_number()) << "the device counts no samples";
       const double seen = masked["area_px"].get<double>() * samples;
       EXPECT_GT(seen, 20000.0 * samples);
-      EXPECT_LE(masked["samples_drawn"].get<double>(), 1.15 * seen) << closed << samples;
+      // Texels beside the mirror are drawn too where its image has other samples than the picture.
+      EXPECT_LE(masked["samples_drawn"].get<double>(), (samples == settings.view.samples ? 1.15 : 1.18) * seen)
+          << closed << samples;
       EXPECT_GE(masked["samples_drawn"].get<double>(), seen) << closed << samples;
       EXPECT_GT(whole["samples_drawn"].get<double>(), 1.4 * seen) << closed << samples;
     }
