@@ -79,15 +79,15 @@ template <>
 inline const auto fieldsOf<Sky> = std::tuple{
     field(&Sky::zenith, "zenith", "straight up", {.range = radianceRange, .required = true, .color = true}),
     field(&Sky::horizon, "horizon", "at the horizon", {.range = radianceRange, .required = true, .color = true}),
-    field(&Sky::ground, "ground", "below it", {.range = radianceRange, .required = true, .color = true})};
+    field(&Sky::ground, "ground", "below the horizon", {.range = radianceRange, .required = true, .color = true})};
 
 template <>
-inline const auto fieldsOf<Environment> =
-    std::tuple{field(&Environment::background, "background", "radiance of rays that hit nothing",
-                     {.range = radianceRange, .color = true}),
-               field(&Environment::sky, "sky", "replaces the background"),
-               field(&Environment::ambient, "ambient", "constant irradiance over pi, multiplied by the diffuse color",
-                     {.range = radianceRange, .color = true})};
+inline const auto fieldsOf<Environment> = std::tuple{
+    field(&Environment::background, "background", "radiance of rays that hit nothing",
+          {.range = radianceRange, .color = true}),
+    field(&Environment::sky, "sky", "replaces the background"),
+    field(&Environment::ambient, "ambient", "light from all sides: radiance of a surface with the diffuse color 1",
+          {.range = radianceRange, .color = true})};
 
 template <>
 inline const auto fieldsOf<CameraSpec> = std::tuple{
@@ -99,7 +99,7 @@ inline const auto fieldsOf<CameraSpec> = std::tuple{
           {.unit = "deg", .range = fieldOfViewRange}),
     field(&CameraSpec::near, "near", "depth precision only: nothing is cut there",
           {.unit = "m", .range = positiveRange}),
-    field(&CameraSpec::orbitSpeed, "orbit_speed", "around the target about up, by the right-hand rule",
+    field(&CameraSpec::orbitSpeed, "orbit_speed", "of the eye, around the target about `up`, by the right-hand rule",
           {.unit = "deg/s", .range = turnRange})};
 
 template <>
@@ -117,7 +117,7 @@ template <>
 inline const auto fieldsOf<ObjectMirror> =
     std::tuple{field(&ObjectMirror::reflectance, "reflectance", "share of light reflected, the tint",
                      {.label = "Reflectance (tint)", .range = unitRange, .alwaysSaved = true, .color = true}),
-               field(&ObjectMirror::fresnel, "fresnel", "schlick: more at grazing angles"),
+               field(&ObjectMirror::fresnel, "fresnel", "schlick: reflects more at grazing angles"),
                field(&ObjectMirror::baseColor, "base_color", "diffuse layer under the reflection",
                      {.label = "Diffuse color", .range = surfaceColorRange, .color = true})};
 
@@ -154,7 +154,7 @@ template <>
 inline const auto fieldsOf<Orbit> = std::tuple{
     field(&Orbit::center, "center", "point on the axis",
           {.unit = "m", .range = coordinateRange, .use = FieldUse::placement}),
-    field(&Orbit::axis, "axis", "direction; not zero",
+    field(&Orbit::axis, "axis", "direction of the axis, not zero",
           {.range = coordinateRange, .use = FieldUse::placement, .shown = [](const Orbit&) { return false; }}),
     field(&Orbit::speed, "speed", "by the right-hand rule",
           {.unit = "deg/s", .range = turnRange, .alwaysSaved = true, .use = FieldUse::placement, .step = 0.5})};
@@ -167,9 +167,10 @@ inline const auto fieldsOf<PointLight> = std::tuple{
     field(&PointLight::color, "color", "of light and sphere", {.range = radianceRange, .color = true}),
     field(&PointLight::intensity, "intensity", "irradiance at 1 m on a surface that faces the light",
           {.range = radianceRange, .step = 0.1}),
-    field(&PointLight::radius, "radius", "of the visible sphere, and the floor of the inverse square law",
+    field(&PointLight::radius, "radius", "of the visible sphere; nearer than this the light gets no brighter",
           {.unit = "m", .range = lengthRange, .step = 0.002}),
-    field(&PointLight::glow, "glow", "radiance of the sphere by its color; 0 draws none", {.range = radianceRange}),
+    field(&PointLight::glow, "glow", "radiance of the sphere is this times color; 0: no sphere",
+          {.range = radianceRange}),
     field(&PointLight::castsShadow, "casts_shadow", "objects and mirrors cast its shadows"),
     field(&PointLight::visible, "visible", "eye: its sphere is in no mirror; mirrors: only in mirrors"),
     field(&PointLight::orbit, "orbit", "circles around an axis", {.use = FieldUse::placement})};
@@ -206,7 +207,7 @@ inline const auto fieldsOf<Mirror> = std::tuple{
            .applies = [](const Mirror& mirror) { return !isRectangle(mirror); }}),
     field(&Mirror::position, "position", "of the centre of a rectangle",
           {.unit = "m", .range = coordinateRange, .use = FieldUse::placement, .applies = isRectangle}),
-    field(&Mirror::rotation, "rotation", "as of objects; unrotated it faces +Z",
+    field(&Mirror::rotation, "rotation", "as that of an object; without it the mirror faces +Z",
           {.unit = "deg", .range = coordinateRange, .use = FieldUse::placement, .step = 0.5, .applies = isRectangle}),
     field(&Mirror::size, "size", "width and height",
           {.unit = "m", .range = lengthRange, .required = true, .use = FieldUse::placement, .applies = isRectangle}),
@@ -214,7 +215,7 @@ inline const auto fieldsOf<Mirror> = std::tuple{
           {.unit = "deg/s", .range = turnRange, .use = FieldUse::placement, .step = 0.5, .applies = isRectangle}),
     field(&Mirror::reflectance, "reflectance", "share of light reflected, the tint; with Fresnel at normal incidence",
           {.label = "Reflectance (tint)", .range = unitRange, .color = true}),
-    field(&Mirror::fresnel, "fresnel", "schlick: more at grazing angles"),
+    field(&Mirror::fresnel, "fresnel", "schlick: reflects more at grazing angles"),
     field(&Mirror::reflectanceMap, "reflectance_map", "PNG over the mirror that multiplies the reflectance; not sRGB",
           {.shown = [](const Mirror&) { return false; }}),
     field(&Mirror::baseColor, "base_color", "diffuse layer under the reflection",
@@ -235,7 +236,7 @@ inline const auto fieldsOf<Mirror> = std::tuple{
 
 template <>
 inline const auto fieldsOf<Bookmark> = std::tuple{
-    field(&Bookmark::name, "name", "no other bookmark's", {.required = true, .use = FieldUse::label}),
+    field(&Bookmark::name, "name", "no other bookmark has it", {.required = true, .use = FieldUse::label}),
     field(&Bookmark::position, "position", "as the camera's",
           {.unit = "m", .range = coordinateRange, .required = true}),
     field(&Bookmark::target, "target", "as the camera's", {.unit = "m", .range = coordinateRange, .required = true}),

@@ -203,7 +203,7 @@ constexpr SettingField fields[] = {
     setting("effects.roughness", BooleanSetting{at<&E::roughness>}, "Roughness", "blur of rough mirrors",
             "Traces rays there."),
     setting("effects.rough_samples", IntegerSetting{at<&E::roughSamples>, 1, 4096}, "Rough samples",
-            "rays or lookups a pixel of rough mirrors, shared by its samples, at least one each",
+            "rays or lookups a pixel of rough mirrors; each of its samples takes at least one",
             "Time grows with it, noise falls with its square root.",
             {.slider = SettingSlider{1, 256, "%d"},
              .cheaper = lower,
@@ -288,11 +288,12 @@ constexpr SettingField fields[] = {
     setting("debug.mask_passes", BooleanSetting{at<&D::maskPasses>}, "Mask passes",
             "only visible regions of mirror images are shaded", "Saves shading.", {.changes = mainView}),
     setting("debug.encode_early", BooleanSetting{at<&D::encodeEarly>}, "Encode early",
-            "the main view is drawn into the display image if it has its pixels, one sample each, and no other reader",
+            "the main view is drawn into the display image at once if it has its size, one sample a pixel and no other "
+            "reader",
             "Saves the display pass.", {.changes = mainView}),
 
     setting("ui.scale", NumberSetting{at<&U::scale>, 0.5, 4.0}, "Size of panels",
-            "size of the window's panels and texts, beside the monitor's own and Window > Text size", "Costs nothing.",
+            "size of the window's panels and texts, times Window > Text size and the monitor's scale", "Costs nothing.",
             {.changes = none}),
 };
 
