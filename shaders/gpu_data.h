@@ -354,8 +354,9 @@ struct LightPath {
   uint castsShadow;
   vec3 light;   // position of the light itself
   uint mirror;  // index into traceMirrors
-  float side;  // of the mirror that reflects: 1 the front, -1 the back
-  uint padding[3];
+  float side;   // of the mirror that reflects: 1 the front, -1 the back
+  float moved;  // metres by which the light was moved off the mirror on which it lies
+  uint padding[2];
 };
 
 // Stands before the light paths in their buffer.

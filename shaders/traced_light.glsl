@@ -60,9 +60,12 @@ Incoming incomingLight(uint i, Surface surface, vec3 tracePosition, Skip self) {
   return incoming;
 }
 
-// End of a ray to a light, as a share of its length. Up to 1, rounding would decide whether the ray meets a surface on
-// which the light lies.
-const float lightEnd = 1.0 - 1.0 / 1048576.0;
+// Returns the end of a ray to a light, as a share of its length. At 1, rounding would decide whether the ray meets a
+// surface on which the light lies. A light that was moved off a mirror, by `moved` metres, must stay hidden behind it.
+float lightEnd(vec3 toLight, float moved) {
+  const float rounding = 1.0 / 1048576.0;
+  return 1.0 - (moved > 0.0 ? min(rounding, 0.25 * moved / max(length(toLight), 1e-30)) : rounding);
+}
 
 // Says whether nothing blocks the light on its way to the point. The light of an image comes by way of the image's
 // mirror.
@@ -72,7 +75,7 @@ bool unobstructed(uint i, Incoming incoming, vec3 tracePosition, Skip self, uint
   vec3 origin = tracePosition;
   vec3 direction = incoming.toLight + incoming.clearance;
   bool last = incoming.mirror == none;
-  float tMax = last ? lightEnd : incoming.crossing;
+  float tMax = last ? lightEnd(direction, length(incoming.clearance)) : incoming.crossing;
   bool hidden = false;
   for (;;) {
     Hit hit = traceRay(origin, direction, tMax, skip, true, mixedBits(seed + 2 * i + uint(last)));
@@ -83,8 +86,9 @@ bool unobstructed(uint i, Incoming incoming, vec3 tracePosition, Skip self, uint
       break;
     }
     origin += incoming.crossing * direction;
-    direction = lightPaths[i - view.lightCount].light - origin;
-    tMax = lightEnd;
+    LightPath path = lightPaths[i - view.lightCount];
+    direction = path.light - origin;
+    tMax = lightEnd(direction, path.moved);
     skip = Skip(none, none, skip.secondPlane, none, 0.0);
     last = true;
   }

@@ -348,7 +348,8 @@ std::vector<std::byte> TraceFrame::lightPathBytes(const SceneState& state, const
                      .castsShadow = light.castsShadow && settings.effects.shadows,
                      .light = glm::vec3(position - state.camera.eye),
                      .mirror = static_cast<uint32_t>(mirror.firstPiece),
-                     .side = glm::dot(mirror.normal, position - mirror.origin) > 0.0 ? 1.0f : -1.0f});
+                     .side = glm::dot(mirror.normal, position - mirror.origin) > 0.0 ? 1.0f : -1.0f,
+                     .moved = static_cast<float>(glm::distance(position, state.lights[bounced.light].position))});
   }
   std::vector<std::byte> bytes(sizeof header + paths.size() * sizeof(gpu::LightPath));
   std::memcpy(bytes.data(), &header, sizeof header);

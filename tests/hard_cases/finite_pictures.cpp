@@ -186,6 +186,27 @@ TEST(LightOnASurface, ShadowsOfLampsOnMirrorsMatchTracer) {
   expectTruths(files, {96, 54}, 1);
 }
 
+// The eye is near a lamp on a mirror, and what the mirror hides from the lamp is up to a hundred times as far away.
+TEST(LightOnASurface, LampsStayHiddenBehindTheirMirror) {
+  Random random(13);
+  for (int i = 0; i < 8; ++i) {
+    const double eyeDistance = random.uniform(0.2, 1.0);
+    const double hall = random.uniform(4.0, 30.0);
+    const std::string other =
+        i % 2 == 0 ? ""
+                   : "[[mirror]]\nposition = [0, 1, " + text(-0.7 * hall) + "]\nsize = [4, 2.4]\ncasts_light = true\n";
+    const auto file = writeScene(
+        "hidden_lamp" + std::to_string(i),
+        "[environment]\nambient = [0.1, 0.1, 0.1]\n" +
+            cameraText(glm::dvec3(0, 1, 0) + eyeDistance * glm::normalize(glm::dvec3(random.uniform(-1, 1), 0.3, -1)),
+                       {0, 0.9, -0.5 * hall}) +
+            objectText("MODELS/box.obj", {0, -0.4 * hall, 0}, {0, 0, 0}, 2.0 * hall, {0.6, 0.6, 0.6}) +
+            "[[light]]\nposition = [0, 1, 0]\ncasts_shadow = true\nintensity = " + text(hall * hall) +
+            "\n[[mirror]]\nposition = [0, 1, 0]\nsize = [4, 2.4]\n" + other);
+    expectTruth(file, {96, 54}, 1, trace(file, {96, 54}, 1));
+  }
+}
+
 // The eye is in a box that has a lamp on its wall, beside a ball. Where light arrives at a small angle, rounding still
 // moves the wall before the lamp: in up to 1.6 % of the pixels, against 47 % if rays end at the lamp.
 TEST(LightOnASurface, ShadowsOfLampsOnWallsMatchTracer) {
