@@ -12,8 +12,9 @@
 
 namespace speculum {
 
+// Lines have no mean of covered samples at which their shadows could be shaded: rays are traced for all of them.
 bool RenderSystem::asks(const FrameInfo& info, const Batch& batch) {
-  return info.plan.effects.hybridShadows && !batch.curved && !batch.environment;
+  return info.plan.effects.hybridShadows && !info.settings.view.wireframe && !batch.curved && !batch.environment;
 }
 
 // A curved mirror that looks up an environment map takes rays only for the light on its base, if the base is not black.

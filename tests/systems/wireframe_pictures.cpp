@@ -85,6 +85,21 @@ TEST(Wireframe, LinesAreAsWideAsAsked) {
   EXPECT_NEAR(litAt(5.0, 1.0, 0.5), wide, 0.4 * wide);
 }
 
+TEST(Wireframe, HybridShadowsAreThoseOfRays) {
+  const Options options = headless(writeScene("lit", R"(
+[camera] position = [0, 1, 4], target = [0, 0, 0]
+[[object]] model = "MODELS/block.obj", position = [0, -1, 0], scale = [4, 0.2, 4]
+[[object]] model = "MODELS/teapot.obj"
+[[light]] position = [1, 4, 2], intensity = 40, casts_shadow = true
+)"),
+                                   wireSize, {{"view.wireframe", "true"}, {"effects.shadow_lookup", "traced"}});
+  Options hybrid = options;
+  set(hybrid, {{"effects.shadow_lookup", "hybrid"}});
+  const Image8 traced = draw(options);
+  EXPECT_GT(lit(traced), 1000);
+  EXPECT_EQ(draw(hybrid).rgba, traced.rgba);
+}
+
 TEST(Wireframe, NeedsNoPipelinesWhereThePolygonModeIsDynamic) {
   Studio studio(headless(sceneFile("gallery"), wireSize, {{"debug.check_finite", "false"}}));
   const PipelineFactory& pipelines = Gpu::shared().renderer.pipelines();
