@@ -109,7 +109,7 @@ json parsedJson(const fs::path& file, std::string_view text, ModelDefects* defec
 void checkVersion(const fs::path& file, const json& root) {
   const json& version = member(member(root, "asset"), "version");
   if (!version.is_string()) {
-    throwInputError(file, 1, "asset.version", "is missing", validGltf);
+    throwInputError(file, 1, "asset.version", "is missing or not a text", validGltf);
   }
   if (const auto& text = version.get_ref<const std::string&>(); !text.starts_with("2.")) {
     throwInputError(file, 1, "asset.version", "is '" + text.substr(0, 20) + "'", validGltf);
@@ -198,7 +198,7 @@ bool isDataUri(std::string_view uri) {
 std::vector<uint8_t> dataOf(const std::string& uri) {
   const size_t comma = std::min(uri.find(','), uri.size() - 1);
   std::vector<uint8_t> data;
-  if (std::string_view(uri).substr(0, comma).ends_with(";base64")) {
+  if (lowerCase(uri.substr(0, comma)).ends_with(";base64")) {
     std::string type;
     tinygltf::DecodeDataURI(&data, type, "data:application/octet-stream;base64," + uri.substr(comma + 1), 0, false);
   } else {

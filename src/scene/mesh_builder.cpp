@@ -158,11 +158,12 @@ void MeshBuilder::addFace(std::span<const FaceCorner> corners, int line) {
   constexpr double farthest = 1e300;  // sums and lengths of positions have to be finite too
   points_.clear();
   for (const FaceCorner& corner : corners) {
-    if (!(glm::compMax(glm::abs(positions_[corner.position])) < farthest)) {
+    const glm::dvec3& position = positions_[corner.position];
+    if (!isFinite(position) || glm::compMax(glm::abs(position)) >= farthest) {
       defects_.add(file_, line, faceKey_, "has a vertex that is not finite or beyond 1e300, the face is left out");
       return;
     }
-    points_.push_back(positions_[corner.position]);
+    points_.push_back(position);
   }
   if (corners.size() > fewCorners && !isFan(points_)) {
     cornerPairs_ += static_cast<double>(corners.size()) * static_cast<double>(corners.size());

@@ -237,7 +237,8 @@ class ObjMaterials::MtlReader {
 };
 
 void ObjMaterials::read(std::string_view names, int line) {
-  if (names.find(' ') != std::string_view::npos && readIfThere(names, line)) {
+  constexpr std::string_view blanks = " \t";
+  if (names.find_first_of(blanks) != std::string_view::npos && readIfThere(names, line)) {
     return;
   }
   if (isComment(objFile_, names)) {
@@ -246,7 +247,7 @@ void ObjMaterials::read(std::string_view names, int line) {
   names = withoutComment(names).empty() ? names : withoutComment(names);
   std::string name;
   for (size_t i = 0; i <= names.size(); ++i) {
-    if (i == names.size() || names[i] == ' ') {
+    if (i == names.size() || blanks.find(names[i]) != std::string_view::npos) {
       if (!name.empty() && !readIfThere(name, line)) {
         defects_.add(objFile_, line, "mtllib", "there is no file '{}', its faces get the default material", name);
         missingFile_ = true;

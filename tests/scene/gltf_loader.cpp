@@ -283,8 +283,9 @@ TEST_F(GltfLoader, SeveralBuffersOfEveryKind) {
   json root = json::parse(made.text("whole.bin"));
   folder_.write("whole.bin", made.bytes);
   const std::string base64 = MadeGltf::base64(made.bytes);
-  for (const std::string& uri : {std::string("whole.bin"), "data:application/gltf-buffer;base64," + base64,
-                                 "data:;base64," + base64, "data:anything/at-all;charset=x;base64," + base64}) {
+  for (const std::string& uri :
+       {std::string("whole.bin"), "data:application/gltf-buffer;base64," + base64, "data:;base64," + base64,
+        "data:;BASE64," + base64, "data:anything/at-all;charset=x;base64," + base64}) {
     root["buffers"] = {{{"byteLength", 4}, {"uri", "data:,none"}}, {{"byteLength", made.bytes.size()}, {"uri", uri}}};
     root["bufferViews"][0]["buffer"] = 1;
     EXPECT_EQ(load(root.dump()).mesh.indices.size(), 3u) << uri;

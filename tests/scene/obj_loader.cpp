@@ -238,13 +238,13 @@ TEST_F(ObjLoader, BadNormalsBecomeTheFacesOwn) {
 
 TEST_F(ObjLoader, FacesWithNonFiniteVerticesAreDropped) {
   const Mesh mesh = load(
-      "v 0 0 0\nv 1 0 0\nv 0 1 0\nv nan 0 0\nv 0 inf 0\nv 0 0 1e999\n"
-      "f 1 2 3\nf 1 2 4\nf 1 2 5\nf 1 2 6 3\n");
+      "v 0 0 0\nv 1 0 0\nv 0 1 0\nv nan 0 0\nv 0 inf 0\nv 0 0 1e999\nv -1 nan 0\nv -1 0 nan\n"
+      "f 1 2 3\nf 1 2 4\nf 1 2 5\nf 1 2 6 3\nf 1 2 3 7\nf 1 2 3 8\n");
   EXPECT_EQ(mesh.indices.size(), 3u);
   EXPECT_EQ(
       warnings(),
-      "warning: m.obj:4: v: is not a point of three finite numbers, faces with it are left out (and 2 more)\n"
-      "warning: m.obj:8: f: has a vertex that is not finite or beyond 1e300, the face is left out (and 2 more)\n");
+      "warning: m.obj:4: v: is not a point of three finite numbers, faces with it are left out (and 4 more)\n"
+      "warning: m.obj:10: f: has a vertex that is not finite or beyond 1e300, the face is left out (and 4 more)\n");
 }
 
 TEST_F(ObjLoader, DegenerateTrianglesAreDropped) {

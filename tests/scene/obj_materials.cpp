@@ -454,7 +454,7 @@ TEST_F(MtlFile, FilesAreReadOnce) {
 
 TEST_F(MtlFile, EveryNamedFileIsRead) {
   folder_.write("my file.mtl", "newmtl a\nNs 7\nnewmtl b\nNs 8\n");
-  const Mesh mesh = load("mtllib none.mtl my\\ file.mtl m.mtl\n" + squareText +
+  const Mesh mesh = load("mtllib none.mtl my\\ file.mtl\tm.mtl\n" + squareText +
                              "usemtl a\nf 1 2 3\nusemtl b\nf 2 3 4\nusemtl c\nf 3 4 1\n",
                          "newmtl b\nNs 1\nnewmtl c\nNs 9\n");
   ASSERT_EQ(mesh.parts.size(), 3u);
