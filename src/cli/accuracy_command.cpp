@@ -85,7 +85,7 @@ int runAccuracy(const Options& options) {
     return progress->set(status.fraction);
   };
   if (!runSweep(plan, context.base, scene, subject, store, results, show)) {
-    printLine("interrupted; the same command goes on from here", stderr);
+    printLine("the same command goes on from here", stderr);
     return 1;
   }
   writeReport(options, results, folder);

@@ -111,6 +111,9 @@ int speculumMain(int argc, const char* const* argv) {
     if (const std::optional<Options> options = parseOptions(argc, argv)) {
       setUpLog(options->logLevel);
       result = runCommand(*options);
+      if (result == 1 && interruptRequested()) {
+        printLine("interrupted", stderr);
+      }
     }
     std::cout.flush();
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0 || !std::cout) {

@@ -7,6 +7,7 @@
 #include "cli/progress.hpp"
 #include "image/color.hpp"
 #include "image/picture_files.hpp"
+#include "platform/files.hpp"
 #include "platform/process.hpp"
 #include "reference/ray_tracer.hpp"
 #include "session/output_files.hpp"
@@ -53,6 +54,7 @@ int runReference(const Options& options) {
   checkSamples(options.referenceSamples);
   warnOfUnread(options);
   const PictureSequence files(options.out, 0);
+  requirePlaceFor(files.at(0));
   const LoadedScene loaded = loadSceneWithSettings(options);
   SceneState state = evaluate(loaded.scene, options.time);
   state.camera = cameraOf(options, loaded.scene).value_or(state.camera);

@@ -104,6 +104,7 @@ void captureWithRenderDoc(const fs::path& file, const std::function<void()>& dra
 int runRender(const Options& options) {
   const int count = std::max(1, options.frames);
   const PictureSequence files(options.out, options.frames > 0 ? count : 0);
+  requirePlaceFor(files.at(0));
   Session session(options);
   if (options.out.extension() != ".exr") {
     session.showOnly();

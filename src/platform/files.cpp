@@ -63,6 +63,10 @@ void requirePlaceFor(const fs::path& file, const fs::path& target) {
   }
 }
 
+void requirePlaceFor(const fs::path& file) {
+  requirePlaceFor(file, file);
+}
+
 fs::path partialName(const fs::path& target, int number) {
   // Leaves room for the ending, since a file system bounds names to 255 bytes.
   const std::string name = target.filename().string();

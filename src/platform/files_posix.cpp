@@ -67,7 +67,7 @@ int descriptorNamed(fs::path file) {
     const std::string name = file.filename().string();
     int number = -1;
     if (fs::weakly_canonical(folderOf(file), error) == descriptors &&
-        std::from_chars(name.data(), name.data() + name.size(), number).ec == std::errc()) {
+        std::from_chars(name.data(), name.data() + name.size(), number).ptr == name.data() + name.size()) {
       return number;
     }
     if (!fs::is_symlink(file, error)) {

@@ -30,6 +30,7 @@ using Key = std::string_view;
 constexpr size_t mostCases = 10000;
 constexpr size_t mostBytes = 256 << 20;  // memory of all cases
 constexpr size_t longestPath = 65536;    // bytes; no system opens a path that is nearly so long
+constexpr size_t longestName = 200;      // bytes of a case's name, which begins the names of files
 constexpr Range share{.low = 0.0, .high = 1.0};
 constexpr Range seconds{.low = 0.0, .high = 86400.0, .aboveLow = true};
 
@@ -250,6 +251,9 @@ class CaseReader {
     }
     const std::string written = draft.name.value_or(fs::path(*draft.scene).stem().string()) + suffix;
     made.name = nameOfFiles(written);
+    if (made.name.size() > longestName) {
+      table.fail(draft.grid.empty() ? "name" : "grid", "makes names of more than 200 bytes", "shorter ones are needed");
+    }
     if (const auto [earlier, isNew] = names_.try_emplace(made.name, written, made.line); !isNew) {
       const auto& [name, line] = earlier->second;
       table.fail(line == made.line && !draft.grid.empty() ? "grid" : "name",

@@ -120,6 +120,9 @@ toml::table readToml(const fs::path& file, std::string_view kind) {
 }
 
 toml::table parseToml(const fs::path& file, std::string_view text, std::string_view kind) {
+  if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff")) {
+    throwInputError(file, 1, "toml", "is UTF-16 text", "save it as UTF-8");
+  }
   if (const int line = lineOfTooDeepKey(text)) {
     throwInputError(file, line, "toml", "a key has too many parts",
                     fmt::format("no key of a {} has more than 3", kind));

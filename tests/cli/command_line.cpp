@@ -299,6 +299,14 @@ TEST_F(CommandLine, EveryOutputKeepsLinksAndPipes) {
   EXPECT_TRUE(contains(readJson(out("s.json"))["scene"].get<std::string>(), "\xef\xbf\xbd.toml"));
 }
 
+// Neither waits for a scene that could not be drawn either.
+TEST_F(CommandLine, PlacesOfPicturesAreCheckedFirst) {
+  for (const std::string command : {"render", "reference"}) {
+    EXPECT_TRUE(
+        contains(mistake({command, "--scene", "no-such-scene", "--out", out("none/a.png")}), "there is no folder"));
+  }
+}
+
 TEST_F(CommandLine, LinkLoopsAreNamedInOneLine) {
   const std::string loop = out("loop");
   std::filesystem::create_symlink("loop", loop);
@@ -357,6 +365,7 @@ TEST_F(CommandLine, InterruptEndsMeasurementOfPrices) {
   const ProcessResult result = interruptedBench("1", {"--scene", scene_, "--frames", "1", "--warmup", "0", "--prices",
                                                       "--set", "view.accumulate=1024", "--json", out("r.json")});
   EXPECT_EQ(result.exitCode, 1) << result.output;
+  EXPECT_TRUE(contains(result.output, "interrupted\n")) << result.output;
   EXPECT_FALSE(std::filesystem::exists(out("r.json")));
 }
 
@@ -678,6 +687,13 @@ TEST_F(CommandLine, BookmarkIsACamera) {
   EXPECT_NE(drawn("near, with a wide view"), drawn("0,1,2:0,1,0"));
   EXPECT_EQ(mistake({"render", "--scene", scene_, "--camera", "asid", "--out", out("b.png")}),
             "--camera: the scene has no bookmark 'asid' (did you mean 'aside'?)\n");
+  EXPECT_TRUE(contains(mistake({"render", "--scene", scene_, "--camera", "1st floor, hall", "--out", out("b.png")}),
+                       "the scene has no bookmark '1st floor, hall'"));
+}
+
+TEST_F(CommandLine, TextOfSixteenBitsIsNamed) {
+  replaceFile(out("utf16.toml"), std::string_view("\xff\xfe[\0c\0", 6));
+  EXPECT_TRUE(contains(mistake({"render", "--scene", out("utf16.toml"), "--out", out("b.png")}), "is UTF-16 text"));
 }
 
 TEST_F(CommandLine, ShippedScenesAreFoundFromAnyDirectory) {

@@ -171,6 +171,7 @@ TEST_F(Files, OpenDescriptorsAreWrittenTo) {
   const int appending = ::open(file_.c_str(), O_WRONLY | O_APPEND);
   ASSERT_GE(appending, 0);
   replaceFile("/dev/fd/" + std::to_string(appending), "second");
+  EXPECT_THROW(replaceFile("/dev/fd/" + std::to_string(appending) + "x", "lost"), FileError);
   ::close(appending);
   EXPECT_EQ(readText(file_), "first second");
   std::array<int, 2> ends{};
