@@ -69,6 +69,26 @@ vec3 filtered(vec2 uv) {
   return texture(diffuseTexture, place).rgb;
 }
 
+// Returns the mean of lookups along the longer side of the pixel's footprint, for devices whose samplers have no
+// anisotropic filter: Vulkan specification, "Texel Anisotropic Filtering".
+vec3 anisotropic(vec2 place) {
+  vec2 size = vec2(textureSize(diffuseTexture, 0));
+  // A longer step than the whole texture changes no mean. It need not be finite at a triangle's edge.
+  vec2 across = min(vec2(1.0), max(vec2(-1.0), dFdx(place)));
+  vec2 down = min(vec2(1.0), max(vec2(-1.0), dFdy(place)));
+  bool along = length(across * size) > length(down * size);
+  vec2 major = along ? across : down;
+  float texels = length(major * size);
+  float count = min(max(1.0, ceil(texels / max(1.0, length((along ? down : across) * size)))), float(mostAnisotropy));
+  vec2 edge = clamps ? min(0.5 * exp2(ceil(log2(max(1.0, texels / count)))) / size, 0.5) : vec2(0.0);  // as in filtered()
+  vec3 sum = vec3(0.0);
+  for (float i = 1.0; i <= count; i += 1.0) {
+    vec2 at = place + major * (i / (count + 1.0) - 0.5);
+    sum += textureGrad(diffuseTexture, clamps ? clamp(at, edge, 1.0 - edge) : at, major / count, vec2(0.0)).rgb;
+  }
+  return sum / count;
+}
+
 // Returns the texture coordinates where the line of sight through `pixel` meets the triangle, or `interpolated` ones.
 vec2 uvAt(vec2 interpolated, vec2 pixel) {
 #if defined(REPEATING) || defined(COVERED)
@@ -88,7 +108,10 @@ vec3 diffuseFactor(vec2 uv) {
   if (diffuseLookup == textureNearest) {
     return texelFetch(diffuseTexture, nearestTexel(uv, textureSize(diffuseTexture, 0), clamps), 0).rgb;
   }
-  return diffuseLookup == textureBilinear ? bilinearColor(diffuseTexture, uv, clamps) : filtered(uv);
+  if (diffuseLookup == textureBilinear) {
+    return bilinearColor(diffuseTexture, uv, clamps);
+  }
+  return diffuseLookup == textureAnisotropic ? anisotropic(vec2(uv.x, 1.0 - uv.y)) : filtered(uv);
 }
 
 #ifdef ENVIRONMENT

@@ -242,10 +242,7 @@ VkSampleCountFlagBits Device::sampleCount(int wanted) {
   return static_cast<VkSampleCountFlagBits>(count);
 }
 
-float Device::anisotropy(float wanted) {
-  if (!gpu_.caps.anisotropy && !std::exchange(reportedAnisotropy_, true)) {
-    spdlog::warn("{} has no anisotropic filter: textures are filtered trilinearly", gpu_.info.name);
-  }
+float Device::anisotropy(float wanted) const {
   return gpu_.caps.anisotropy ? std::min(wanted, limits().maxSamplerAnisotropy) : 1.0f;
 }
 

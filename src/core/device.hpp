@@ -92,9 +92,8 @@ class Device {
   // Returns the wanted number of samples a pixel, or the next lower one that the device has. Logs once for each wanted
   // number that the device lacks.
   VkSampleCountFlagBits sampleCount(int wanted);
-  // Returns the wanted anisotropy of a sampler, or the greatest that the device has; 1: none. Logs once if there is
-  // none.
-  float anisotropy(float wanted);
+  // Returns the wanted anisotropy of a sampler, or the greatest that the device has; 1: none.
+  float anisotropy(float wanted) const;
   // Returns the wanted width of lines (pixels, at least 1), or the widest that the device has. Logs once if it lacks
   // it.
   float lineWidth(float wanted);
@@ -179,7 +178,6 @@ class Device {
   MemoryBlocks memory_;
   VkSampleCountFlags reportedSampleCounts_ = 0;
   bool reportedLineWidth_ = false;
-  bool reportedAnisotropy_ = false;
   std::string stuck_;  // why the GPU is not waited for any more; empty as long as it is
 };
 

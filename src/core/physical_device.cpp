@@ -161,7 +161,9 @@ PhysicalDevice inspect(VkPhysicalDevice handle, int index, uint32_t instanceVers
   caps.primitiveId = device.features.geometryShader;
   caps.fillModeNonSolid = device.features.fillModeNonSolid;
   caps.wideLines = device.features.wideLines;
-  caps.anisotropy = device.features.samplerAnisotropy;
+  // lavapipe's takes time in proportion to the footprint: minutes where a texture repeats often.
+  const bool isCpu = device.properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
+  caps.anisotropy = device.features.samplerAnisotropy && !isCpu;
   caps.memoryBudget = device.hasExtension(VK_EXT_MEMORY_BUDGET_EXTENSION_NAME);
   device.info = {.index = index,
                  .name = device.properties.deviceName,

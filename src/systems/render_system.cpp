@@ -196,8 +196,9 @@ uint32_t RenderSystem::recordBatch(const PassScope& scope, const FrameInfo& info
     gpu::DrawConstants constants = drawConstants(material, info.scene.objects[batch.object], batch.handedness);
     constants.emission *= info.settings.view.radianceScale();
     if (!variant.deferred) {
-      variant.diffuseLookup =
-          textured && !batch.environment ? textureLookup(info.settings.view.textureFilter) : gpu::textureNone;
+      variant.diffuseLookup = textured && !batch.environment
+                                  ? info.resources.textureLookup(info.settings.view.textureFilter)
+                                  : gpu::textureNone;
       variant.glossy = constants.specular != glm::vec3(0.0f);
     }
     variant.covered = !batch.curved && isTransparent(material, info.settings.effects);

@@ -119,6 +119,11 @@ void SceneResources::upload(Frame& frame, const Settings& settings, bool drawn) 
   }
 }
 
+uint32_t SceneResources::textureLookup(TextureFilter filter) const {
+  const uint32_t lookup = speculum::textureLookup(filter);
+  return lookup == gpu::textureAnisotropic && device_.caps().anisotropy ? gpu::textureTrilinear : lookup;
+}
+
 void SceneResources::makeSampler(bool anisotropic) {
   sampler_ =
       createSampler(device_,

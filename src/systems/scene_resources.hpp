@@ -43,6 +43,9 @@ class SceneResources {
   VkDescriptorSet texture(const Material& material) const { return texture(material.diffuseTexture); }
   // Returns the texture of an index into Scene::textures; a white, opaque one for -1 and while none is uploaded.
   VkDescriptorSet texture(int index) const;
+  // Returns the constant of shaders/gpu_data.h for pictures that are drawn, where samplers of the device may do part of
+  // the filter's work.
+  uint32_t textureLookup(TextureFilter filter) const;
   // Returns the descriptor of such a texture.
   VkDescriptorImageInfo image(int texture) const;
   VkDescriptorSetLayout textureLayout() const { return textureLayout_; }

@@ -71,6 +71,22 @@ TEST_P(TextureFilters, AnisotropicIsSharperThanTrilinear) {
   EXPECT_GT(errorOf("nearest"), errorOf("bilinear"));
 }
 
+// Where a texture repeats within a pixel, every filter returns its mean, and soon.
+TEST_P(TextureFilters, AnisotropicEndsWhereTexturesRepeatOften) {
+  const Image8 texture =
+      madePicture(32, 32, [](int x, int) { return glm::ivec4(glm::ivec3(x % 16 < 8 ? 20 : 230), 255); });
+  const std::filesystem::path file =
+      squareWith("repeats", texture, 100'000,
+                 "[camera]\nposition = [0, 0.3, 1.6]\ntarget = [0, 0, 0]\n[environment]\n"
+                 "ambient = [1, 1, 1]\n[[object]]\nmodel = \"repeats.obj\"\nrotation = [-90, 0, 0]\n" +
+                     rest());
+  const auto drawn = [&](const char* filter) {
+    QuietSession session(headless(file, {64, 36}, {{"view.texture_filter", filter}}));
+    return drawRadiance(session);
+  };
+  EXPECT_LT(rootMeanSquare(drawn("anisotropic"), drawn("trilinear")), 0.01);
+}
+
 // A bumpy floor of 88 200 triangles, whose normals stand in the file or are left to the loader.
 std::string bumpyFloor(bool normals) {
   constexpr int side = 211;
