@@ -146,11 +146,11 @@ struct MirrorData {
   vec3 axisY;
   float rippleSlope;  // steepest; below 0 if waves rise against `normal`
   vec3 rippleOrigin;  // relative
-  float ripplePhase;  // radians
+  float firstPhase;   // of its two trains of waves at that point, radians
+  float secondPhase;
   uint index;         // of this mirror among the frame's mirrors
   uint showsRipples;  // 1: ripples displace its image
-  uint padding0;
-  uint padding1;
+  uint padding;
   // Coordinates of its reflectance map at the relative point p: (mapU.xyz.p + mapU.w, mapV.xyz.p + mapV.w).
   vec4 mapU;
   vec4 mapV;
@@ -321,7 +321,7 @@ const uint curvedSchlick = 2;
 
 // A convex piece of a planar mirror in trace space, read as texels of 16 bytes.
 struct TraceMirror {
-  vec3 origin;
+  vec3 origin;  // its point near the eye, from which local coordinates are measured
   uint firstVertex;
   vec3 normal;  // unit, to the front
   uint vertexCount;
@@ -335,13 +335,14 @@ struct TraceMirror {
   uint twoSided;
   vec3 backColor;
   float alpha;        // of GGX; 0: smooth
-  float ripplePhase;  // radians
+  float firstPhase;   // of its ripples' two trains of waves at the origin, radians
   uint hasRipple;
   uint plane;   // MirrorState::plane
   uint layers;  // MirrorState::frontLayer and, in the upper half, backLayer
   vec4 mapBox;  // of its reflectance map: 1 / size, -low / size, along the axes
   uint map;     // index into traceTextures; noMap: none
-  uint padding[3];
+  float secondPhase;
+  uint padding[2];
 };
 const uint traceMirrorTexelCount = 10;
 const uint noMap = 0xffffffffu;
@@ -458,7 +459,7 @@ static_assert(offsetof(TraceTriangle, c) == 32 && sizeof(TraceTriangle) == 48 &&
 static_assert(offsetof(TraceVertex, normal) == 16 && sizeof(TraceVertex) == 32);
 static_assert(offsetof(TraceInstance, gridScale) == 64 && offsetof(TraceInstance, change) == 128 &&
               offsetof(TraceInstance, firstTriangle) == 208 && sizeof(TraceInstance) == 16 * traceInstanceTexelCount);
-static_assert(offsetof(TraceMirror, reflectance) == 64 && offsetof(TraceMirror, ripplePhase) == 112 &&
+static_assert(offsetof(TraceMirror, reflectance) == 64 && offsetof(TraceMirror, firstPhase) == 112 &&
               sizeof(TraceMirror) == 16 * traceMirrorTexelCount);
 static_assert(offsetof(LightPath, light) == 32 && sizeof(LightPath) == 64 && sizeof(TraceCounts) == 16);
 static_assert(offsetof(CheckFound, sampleIndex) == 16 && sizeof(CheckFound) == 32);

@@ -278,7 +278,7 @@ vec3 mirrorNormal(vec3 position) {
     return mirror.normal;
   }
   return rippledNormal(mirror.normal, mirror.axisX, mirror.axisY, position - mirror.rippleOrigin, mirror.waveNumber,
-                       mirror.rippleSlope, mirror.ripplePhase);
+                       mirror.rippleSlope, vec2(mirror.firstPhase, mirror.secondPhase));
 }
 #endif
 

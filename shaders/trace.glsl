@@ -122,7 +122,7 @@ uvec4 mirrorBits(uint mirror, uint i) {
 
 vec4 mirrorTexel(uint mirror, uint i) { return uintBitsToFloat(mirrorBits(mirror, i)); }
 
-// Returns TraceMirror::ripplePhase, hasRipple, plane and layers.
+// Returns TraceMirror::firstPhase, hasRipple, plane and layers.
 uvec4 mirrorPlace(uint mirror) { return mirrorBits(mirror, 7); }
 
 uint planeOf(uint mirror) { return mirrorPlace(mirror).z; }

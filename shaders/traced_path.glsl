@@ -21,7 +21,8 @@ vec3 rippled(uint mirror, vec3 tracePosition) {
   }
   return rippledNormal(normal, traceMirrors[mirror].axisX, traceMirrors[mirror].axisY,
                        tracePosition - traceMirrors[mirror].origin, traceMirrors[mirror].waveNumber,
-                       traceMirrors[mirror].rippleSlope, traceMirrors[mirror].ripplePhase);
+                       traceMirrors[mirror].rippleSlope,
+                       vec2(traceMirrors[mirror].firstPhase, traceMirrors[mirror].secondPhase));
 }
 
 // Returns a planar mirror as it is seen along `direction`, from its front or its back, with its ripples or without.

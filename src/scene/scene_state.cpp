@@ -238,7 +238,12 @@ constexpr double farthest = 100.0;      // from the light, in distances from the
 // Returns by how many metres shaders may be wrong about the light's distance from the mirror's plane. Floats round by
 // 6e-8. Rays come from points up to about a hundred times as far from the eye as the light.
 double floatRounding(const glm::dvec3& light, const MirrorState& mirror, const glm::dvec3& eye) {
-  return 4e-6 * glm::length(light - eye) + 5e-7 * glm::length(light - mirror.origin);
+  return 4e-6 * glm::length(light - eye) + 5e-7 * glm::length(light - mirror.at(localNear(mirror, eye)));
+}
+
+// Returns an upper bound of floatRounding() that takes less time: the origin lies in the mirror's box.
+double mostRounding(const glm::dvec3& light, const MirrorState& mirror, const glm::dvec3& eye) {
+  return 5e-6 * glm::length(light - eye) + 5e-7 * glm::length(mirror.origin - eye);
 }
 
 }  // namespace
@@ -299,6 +304,11 @@ CameraPose lookAt(const glm::dvec3& eye, const glm::dvec3& target, const glm::dv
     throw std::invalid_argument("the camera's target is its position, or lies along its up vector");
   }
   return poseAlong(eye, forward, up, verticalFovDegrees, near);
+}
+
+glm::dvec2 localNear(const MirrorState& mirror, const glm::dvec3& eye) {
+  const MirrorBox box = boxOf(mirror, mirror.polygon);
+  return glm::clamp(mirror.local(eye), box.low, box.low + box.size);
 }
 
 MirrorBox boxOf(const MirrorState& mirror, std::span<const glm::dvec3> points) {
@@ -388,8 +398,12 @@ glm::dvec3 besideMirrors(const glm::dvec3& light, std::span<const MirrorState> m
   for (size_t i = 0; i < mirrors.size(); ++i) {
     const MirrorState& mirror = mirrors[i];
     const double height = glm::dot(mirror.normal, light - mirror.origin);
+    if (mirror.plane != static_cast<int>(i) ||
+        (eye && std::abs(height) > std::max(mirror.slack, mostRounding(light, mirror, *eye)))) {
+      continue;
+    }
     const double distance = std::max(mirror.slack, eye ? floatRounding(light, mirror, *eye) : 0.0);
-    if (mirror.plane == static_cast<int>(i) && std::abs(height) <= distance) {
+    if (std::abs(height) <= distance) {
       planes.push_back({mirror.origin, height < -mirror.slack ? -mirror.normal : mirror.normal});
       away = std::max(away, distance);
     }

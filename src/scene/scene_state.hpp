@@ -75,6 +75,7 @@ struct MirrorState {
   const std::vector<glm::dvec3>& piece(size_t i) const { return pieces.empty() ? polygon : pieces[i]; }
   // Returns a point's coordinates along the axes X and Y, metres from the origin.
   glm::dvec2 local(const glm::dvec3& p) const { return {glm::dot(p - origin, axisX), glm::dot(p - origin, axisY)}; }
+  glm::dvec3 at(const glm::dvec2& local) const { return origin + local.x * axisX + local.y * axisY; }
 };
 
 // Returns the box around points of the mirror in its local coordinates. A reflectance map covers that of its polygon.
@@ -83,6 +84,9 @@ struct MirrorBox {
   glm::dvec2 size;
 };
 MirrorBox boxOf(const MirrorState& mirror, std::span<const glm::dvec3> points);
+// Returns the point nearest to the eye of the box around the mirror's polygon, in local coordinates. Relative to it and
+// to the eye, floats hold what is near the eye, however large the mirror is.
+glm::dvec2 localNear(const MirrorState& mirror, const glm::dvec3& eye);
 
 struct SceneState {
   double time = 0.0;  // seconds

@@ -127,12 +127,14 @@ glm::dmat3 unitNormalMatrix(const glm::dmat3& linear) {
   return size > 0.0 ? normals * (1.0 / size) : normals;
 }
 
-RippleConstants rippleConstants(const Ripple& ripple, double time) {
+RippleConstants rippleConstants(const Ripple& ripple, double time, const glm::dvec2& point) {
   const double k = 2.0 * std::numbers::pi / ripple.wavelength;
   constexpr double steepest = 1e15;  // its square is a float, and steeper slopes look the same
-  // The phase is reduced in double: a float of the whole phase would have lost its fraction after hours.
+  // Phases are reduced in double: floats of whole phases would have lost their fraction after hours, or far away.
+  const double way = productModulo(ripple.speed, time, ripple.wavelength);
+  const glm::dvec2 ways(point.x + way, 0.6 * point.x + 0.8 * point.y - way);
   return {static_cast<float>(k), static_cast<float>(std::min(ripple.amplitude * k, steepest)),
-          static_cast<float>(k * productModulo(ripple.speed, time, ripple.wavelength))};
+          glm::vec2(k * glm::dvec2(std::fmod(ways.x, ripple.wavelength), std::fmod(ways.y, ripple.wavelength)))};
 }
 
 double reachOf(const InstanceState& instance, const glm::dvec3& eye) {
@@ -267,14 +269,16 @@ gpu::MirrorData mirrorData(const MirrorDraw& draw, const MirrorOptics& optics, c
   }
   if (draw.ripples) {
     const MirrorState& placed = state.mirrors[draw.mirror];
-    const RippleConstants ripple = rippleConstants(*optics.ripple, state.time);
+    const glm::dvec2 near = localNear(placed, view.eye);
+    const RippleConstants ripple = rippleConstants(*optics.ripple, state.time, near);
     const bool front = glm::dot(placed.normal, draw.plane.normal) > 0.0;
     data.axisX = glm::vec3(placed.axisX);
     data.axisY = glm::vec3(placed.axisY);
-    data.rippleOrigin = glm::vec3(placed.origin - view.eye);
+    data.rippleOrigin = glm::vec3(placed.at(near) - view.eye);
     data.waveNumber = ripple.waveNumber;
     data.rippleSlope = front ? ripple.slope : -ripple.slope;
-    data.ripplePhase = ripple.phase;
+    data.firstPhase = ripple.phases.x;
+    data.secondPhase = ripple.phases.y;
   }
   return data;
 }

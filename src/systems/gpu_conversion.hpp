@@ -42,10 +42,10 @@ glm::dmat3 unitNormalMatrix(const glm::dmat3& linear);
 struct RippleConstants {
   float waveNumber;  // 1/m
   float slope;       // of the steepest point of a wave
-  float phase;       // radians
+  glm::vec2 phases;  // of both trains of waves, radians
 };
-// Returns the constants of ripples at a time in seconds.
-RippleConstants rippleConstants(const Ripple& ripple, double time);
+// Returns the constants of ripples at a time in seconds, about a point in the mirror's local coordinates.
+RippleConstants rippleConstants(const Ripple& ripple, double time, const glm::dvec2& point);
 
 // Returns the distance from the eye to the far end of the instance, metres, at most 1e6.
 double reachOf(const InstanceState& instance, const glm::dvec3& eye);

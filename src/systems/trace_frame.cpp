@@ -292,7 +292,8 @@ void TraceFrame::addMirrors(const SceneState& state, const Settings& settings) {
   for (size_t i = 0; i < scene_.mirrorCount(); ++i) {
     const MirrorOptics optics = opticsOf(scene_.mirror(i), settings.effects);
     const MirrorState& placed = state.mirrors[i];
-    gpu::TraceMirror data{.origin = glm::vec3(placed.origin - state.camera.eye),
+    const glm::dvec2 near = localNear(placed, state.camera.eye);
+    gpu::TraceMirror data{.origin = glm::vec3(placed.at(near) - state.camera.eye),
                           .normal = glm::vec3(placed.normal),
                           .axisX = glm::vec3(placed.axisX),
                           .axisY = glm::vec3(placed.axisY),
@@ -307,23 +308,24 @@ void TraceFrame::addMirrors(const SceneState& state, const Settings& settings) {
     data.map = optics.map < 0 ? gpu::noMap : static_cast<uint32_t>(optics.map);
     if (optics.map >= 0) {
       const MirrorBox box = boxOf(placed, placed.polygon);
-      data.mapBox = glm::vec4(glm::dvec4(1.0 / box.size, -box.low / box.size));
+      data.mapBox = glm::vec4(glm::dvec4(1.0 / box.size, (near - box.low) / box.size));
     }
     if (optics.ripple) {
-      const RippleConstants ripple = rippleConstants(*optics.ripple, state.time);
+      const RippleConstants ripple = rippleConstants(*optics.ripple, state.time, near);
       data.hasRipple = 1;
       data.waveNumber = ripple.waveNumber;
       data.rippleSlope = ripple.slope;
-      data.ripplePhase = ripple.phase;
+      data.firstPhase = ripple.phases.x;
+      data.secondPhase = ripple.phases.y;
     }
     for (size_t k = 0; k < placed.pieceCount(); ++k) {
       const std::vector<glm::dvec3>& polygon = placed.piece(k);
       data.firstVertex = static_cast<uint32_t>(mirrorEdges_.size());
       data.vertexCount = static_cast<uint32_t>(polygon.size());
       mirrors_.push_back(data);
-      glm::vec2 from(placed.local(polygon.back()));
+      glm::vec2 from(placed.local(polygon.back()) - near);
       for (const glm::dvec3& p : polygon) {
-        const glm::vec2 to(placed.local(p));
+        const glm::vec2 to(placed.local(p) - near);
         mirrorEdges_.emplace_back(from, to);
         from = to;
       }

@@ -187,6 +187,31 @@ TEST(MirrorsInOnePlane, RaysMeetThePlaneOnce) {
   expectTruths(files, smallSize, 3);
 }
 
+// Ripples and a lamp a little above a lake whose first corner, and whose centre, are far away.
+TEST(LargeMirrors, AreExactNearTheEye) {
+  Random random(14);
+  for (const double size : {300.0, 1e4, 1e6}) {
+    const double wavelength = size == 300.0 ? 0.01 : 0.35;
+    const glm::dvec3 center(0.9 * size, 0, random.uniform(-0.9, 0.9) * size);
+    const glm::dvec3 side(size, 0, 0);
+    const glm::dvec3 depth(0, 0, size);
+    const std::string lake = "[[mirror]]\n" + polygonText({center - side + depth, center + side + depth,
+                                                           center + side - depth, center - side - depth});
+    const std::string rest =
+        "[environment]\nambient = [0.1, 0.1, 0.1]\nsky = { zenith = [0.1, 0.2, 0.6], horizon = "
+        "[0.8, 0.8, 0.8], ground = [0.1, 0.1, 0.1] }\n" +
+        objectText("MODELS/block.obj", {0, 0.02, 0}, {0, 0, 0}, 0.5, {0.6, 0.5, 0.4}) +
+        "[[light]]\nposition = [-0.4, 0.3, 0.3]\ncasts_shadow = true\n";
+    const std::string name = "lake" + text(size);
+    const PictureSize picture{96, 54};
+    for (const std::string& ripple : {std::string(), "ripple = { amplitude = " + text(0.01 * wavelength) +
+                                                         ", wavelength = " + text(wavelength) + ", speed = 0.2 }\n"}) {
+      const auto file = writeScene(name, cameraText({0.2, 0.9, 0.8}, {0, 0, 0}) + rest + lake + ripple);
+      expectTruth(file, picture, 1, trace(file, picture, 1));
+    }
+  }
+}
+
 // Five million waves later water looks as at first, to a billionth of a wave.
 TEST(LongTimes, RipplesComeBackAfterDays) {
   const auto file = writeScene(
