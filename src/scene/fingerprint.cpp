@@ -11,51 +11,16 @@ namespace {
 static_assert(sizeof(Vertex) == 8 * sizeof(double) && sizeof(glm::vec4) == 4 * sizeof(float),
               "padding would make equal content differ");
 
-void addValue(Fingerprint& fingerprint, const std::string& text) {
-  fingerprint.add(text);
-}
-
-template <int size>
-void addValue(Fingerprint& fingerprint, const glm::vec<size, double>& v) {
-  for (int i = 0; i < size; ++i) {
-    fingerprint.add(v[i]);
-  }
-}
-
+// Adds all numbers of a value; of a node, all that change the picture: not its name, and not the path of its model.
 template <typename T>
-requires std::is_arithmetic_v<T> || std::is_enum_v<T>
-void addValue(Fingerprint& fingerprint, T value) {
-  fingerprint.add(static_cast<double>(value));
-}
-
-template <typename T>
-void addValue(Fingerprint& fingerprint, const std::optional<T>& value);
-template <typename T>
-void addValue(Fingerprint& fingerprint, const std::vector<T>& values);
-
-// Adds all values of a node that change the picture: not its name, and not the path of its model.
-template <Described Node>
-void addValue(Fingerprint& fingerprint, const Node& node) {
-  forEachField<Node>([&](const auto& field) {
-    if (field.use != FieldUse::label && field.key != "model" && field.key != "reflectance_map") {
-      addValue(fingerprint, node.*field.member);
-    }
-  });
-}
-
-template <typename T>
-void addValue(Fingerprint& fingerprint, const std::optional<T>& value) {
-  fingerprint.add(value.has_value());
-  if (value) {
-    addValue(fingerprint, *value);
-  }
-}
-
-template <typename T>
-void addValue(Fingerprint& fingerprint, const std::vector<T>& values) {
-  fingerprint.add(values.size());
-  for (const T& value : values) {
-    addValue(fingerprint, value);
+void addValue(Fingerprint& fingerprint, const T& value) {
+  if constexpr (std::is_arithmetic_v<T> || std::is_enum_v<T>) {
+    fingerprint.add(static_cast<double>(value));
+  } else {
+    const auto counts = [](const auto& field) {
+      return field.use != FieldUse::label && field.key != "model" && field.key != "reflectance_map";
+    };
+    visitParts(value, counts, [&](const auto& part) { addValue(fingerprint, part); });
   }
 }
 

@@ -264,6 +264,33 @@ void forEachField(const Visitor& visit) {
   std::apply([&](const auto&... field) { (visit(field), ...); }, fieldsOf<Node>);
 }
 
+// Calls visit(part) with each part of a value: of a node, the fields for which counts(field) is true; of a list, its
+// length and its elements; of an optional value, whether there is one, and it; of a vector or matrix, its elements.
+template <typename Value, typename Counts, typename Visitor>
+void visitParts(const Value& value, const Counts& counts, const Visitor& visit) {
+  if constexpr (Described<Value>) {
+    forEachField<Value>([&](const auto& field) {
+      if (counts(field)) {
+        visit(value.*field.member);
+      }
+    });
+  } else if constexpr (IsOptional<Value>::value) {
+    visit(value.has_value());
+    if (value) {
+      visit(*value);
+    }
+  } else if constexpr (requires { value.begin(); }) {
+    visit(value.size());
+    for (const auto& element : value) {
+      visit(element);
+    }
+  } else {
+    for (int i = 0; i < value.length(); ++i) {
+      visit(value[i]);
+    }
+  }
+}
+
 // Return the names of an enumeration's values in scene files, in the order of the enumerators.
 constexpr auto choicesOf(Fresnel) {
   return std::array<std::string_view, 2>{"none", "schlick"};
