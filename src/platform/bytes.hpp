@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -17,7 +18,8 @@ constexpr uint64_t fnv1a(std::span<const std::byte> bytes, uint64_t hash = fnv1a
   return hash;
 }
 
-// Returns the number that at most four bytes of a file are, the most significant one first.
+// Return the number that bytes of a file are: of at most four, the most significant one first, and of four, that one
+// last.
 template <typename Bytes>
 uint32_t bigEndian(const Bytes& bytes) {
   uint32_t value = 0;
@@ -25,6 +27,10 @@ uint32_t bigEndian(const Bytes& bytes) {
     value = value << 8 | static_cast<uint8_t>(byte);
   }
   return value;
+}
+template <typename Bytes>
+uint32_t littleEndian(const Bytes& bytes) {
+  return bigEndian(std::array{bytes[3], bytes[2], bytes[1], bytes[0]});
 }
 
 }  // namespace speculum

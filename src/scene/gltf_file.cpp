@@ -11,6 +11,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "platform/bytes.hpp"
 #include "platform/files.hpp"
 #include "platform/text.hpp"
 #include "scene/input_error.hpp"
@@ -31,14 +32,6 @@ struct Parts {
   std::string_view json;
   std::string_view binary;
 };
-
-uint32_t littleEndian(std::string_view bytes) {
-  uint32_t value = 0;
-  for (int i = 3; i >= 0; --i) {
-    value = value * 256 + static_cast<unsigned char>(bytes[i]);
-  }
-  return value;
-}
 
 Parts partsOf(const fs::path& file, std::string_view text) {
   constexpr size_t header = 12;

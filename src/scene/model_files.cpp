@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "platform/bytes.hpp"
 #include "platform/files.hpp"
 #include "platform/text.hpp"
 #include "scene/model_formats.hpp"
@@ -142,14 +143,8 @@ std::optional<ForeignFile> foreignFile(std::string_view content) {
     return ForeignFile{"is a glTF file", "let its name end with .gltf"};
   }
   // A binary STL file has 80 bytes of any text, the number of its triangles, and 50 bytes for each.
-  if (content.size() >= 84) {
-    size_t triangles = 0;
-    for (int i = 3; i >= 0; --i) {
-      triangles = triangles * 256 + static_cast<unsigned char>(content[80 + i]);
-    }
-    if (content.size() == 84 + 50 * triangles) {
-      return ForeignFile{"is an STL file", asModel};
-    }
+  if (content.size() >= 84 && content.size() == 84 + 50 * size_t{littleEndian(content.substr(80))}) {
+    return ForeignFile{"is an STL file", asModel};
   }
   if (content.find('\0') != std::string_view::npos) {
     return ForeignFile{"is not a text file", "a " + modelFormatNames() + " file is needed"};
