@@ -8,8 +8,7 @@
 #include "made_pictures.hpp"
 #include "scene/materials.hpp"
 #include "scene/model_formats.hpp"
-#include "scene/support.hpp"
-#include "test_headers.hpp"
+#include "scene/obj_support.hpp"
 
 namespace speculum {
 namespace {
@@ -33,7 +32,7 @@ void expectNear(const std::vector<glm::dvec3>& actual, const std::vector<glm::dv
   }
 }
 
-class GltfLoader : public testing::Test {
+class GltfLoader : public ModelTest {
  protected:
   Model load(const std::string& content, const char* name = "m.gltf") {
     return loadModel(folder_.write(name, content), textures_);
@@ -42,18 +41,6 @@ class GltfLoader : public testing::Test {
   std::string faultOf(const std::string& content, const char* name = "m.gltf") {
     return withoutFolder(messageOf<InputError>([&] { load(content, name); }));
   }
-  std::string warnings() const { return withoutFolder(log_.text()); }
-  std::string withoutFolder(std::string text) const {
-    const std::string folder = folder_.path().string() + "/";
-    for (size_t i = text.find(folder); i != std::string::npos; i = text.find(folder)) {
-      text.erase(i, folder.size());
-    }
-    return text;
-  }
-
-  TemporaryFolder folder_;
-  std::vector<Texture> textures_;
-  LogCapture log_;
 };
 
 const std::vector<glm::dvec3> triangle{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
