@@ -21,6 +21,11 @@ class Devices : public FaultTest {
     EXPECT_EQ(run.exitCode, 0);
     EXPECT_EQ(run.output, "");
   }
+  static void expectLine(const Run& run, int exitCode, const std::string& says) {
+    EXPECT_EQ(run.exitCode, exitCode) << says;
+    EXPECT_EQ(run.lines, 1) << run.output;
+    EXPECT_TRUE(contains(run.output, says)) << run.output;
+  }
   TemporaryDirectory folder_;
 };
 
@@ -40,9 +45,7 @@ TEST_F(Devices, WithoutWhatIsOptionalDrawAll) {
 
 TEST_F(Devices, WithFewStorageBuffersLeaveRaysOut) {
   const Run few = run(render, {"SPECULUM_HIDE=storage_buffers=12"}, Place::inner);
-  EXPECT_EQ(few.exitCode, 0);
-  EXPECT_EQ(few.lines, 1) << few.output;
-  EXPECT_TRUE(contains(few.output, "effects.")) << few.output;
+  expectLine(few, 0, "effects.");
   EXPECT_TRUE(few.picture);
 }
 
@@ -104,9 +107,7 @@ TEST_F(Devices, TooLittleIsOneLine) {
         Case{render, "signals", "has not finished within a minute"},
         Case{render, "image_side=40", "the device takes at most 40 a side"}}) {
     const Run poor = run(kind, {"SPECULUM_HIDE=" + lacks}, Place::inner);
-    EXPECT_EQ(poor.exitCode, 2) << lacks;
-    EXPECT_EQ(poor.lines, 1) << poor.output;
-    EXPECT_TRUE(contains(poor.output, says));
+    expectLine(poor, 2, says);
     EXPECT_FALSE(poor.picture) << lacks;
   }
 }
@@ -114,9 +115,7 @@ TEST_F(Devices, TooLittleIsOneLine) {
 TEST_F(Devices, MissingFunctionsAreNamed) {
   for (const std::string function : {"vkCmdSetCullMode", "vkCmdBeginRendering"}) {
     const Run poor = run(render, {"SPECULUM_HIDE=" + function});
-    EXPECT_EQ(poor.exitCode, 2) << function;
-    EXPECT_EQ(poor.lines, 1) << poor.output;
-    EXPECT_TRUE(contains(poor.output, "does not return " + function)) << poor.output;
+    expectLine(poor, 2, "does not return " + function);
   }
 }
 
@@ -129,9 +128,7 @@ TEST_F(Devices, OtherDepthFormatsDraw) {
     expectQuiet(stencil);
     EXPECT_TRUE(stencil.picture == plain.picture) << path;
     const Run fixed = run(kind, {"SPECULUM_HIDE=D32 D32_S8"}, Place::inner);
-    EXPECT_EQ(fixed.exitCode, 0);
-    EXPECT_EQ(fixed.lines, 1) << fixed.output;
-    EXPECT_TRUE(contains(fixed.output, "has no 32 bit depth")) << fixed.output;
+    expectLine(fixed, 0, "has no 32 bit depth");
     ASSERT_TRUE(fixed.picture);
     const PictureAgreement agreement =
         difference(readTexture("fixed", *fixed.picture), readTexture("plain", plain.picture.value()), 2);
@@ -145,9 +142,7 @@ TEST_F(Devices, WithoutWideLinesSaySo) {
   };
   const Run thin = run(wire("1"), {});
   const Run poor = run(wire("5"), {"SPECULUM_HIDE=wide_lines"}, Place::inner);
-  EXPECT_EQ(poor.exitCode, 0);
-  EXPECT_EQ(poor.lines, 1) << poor.output;
-  EXPECT_TRUE(contains(poor.output, "has no lines 5 pixels wide: 1 is used")) << poor.output;
+  expectLine(poor, 0, "has no lines 5 pixels wide: 1 is used");
   EXPECT_TRUE(poor.picture == thin.picture);
   expectQuiet(run(wire("5"), {"SPECULUM_HIDE=VK_EXT_extended_dynamic_state3"}, Place::inner));
 }
@@ -163,9 +158,7 @@ TEST_F(Devices, WithoutAnisotropicFilterShadersMixLookups) {
 
 TEST_F(Devices, NoImageForAMinuteIsSaid) {
   const Run covered = run(window, {"SPECULUM_HIDE=images=70"}, Place::inner);
-  EXPECT_EQ(covered.exitCode, 0);
-  EXPECT_EQ(covered.lines, 1) << covered.output;
-  EXPECT_TRUE(contains(covered.output, "no image to draw into for a minute")) << covered.output;
+  expectLine(covered, 0, "no image to draw into for a minute");
 }
 
 TEST_F(Devices, EveryPipelineGoesThroughTheCache) {
