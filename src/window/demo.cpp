@@ -50,7 +50,6 @@ Demo::Demo(const Options& options)
       first_.uncover();
     }
   });
-  scenesListed();
 }
 
 bool Demo::step() {
@@ -162,6 +161,9 @@ void Demo::drawFrame(double seconds) {
 void Demo::updateUi(double seconds) {
   input_.moveCamera(seconds);
   workspace_.prepareView(seconds, !input_.overPanels());
+  if (workspace_.browser().takeListed()) {
+    ui_.setThumbnails(workspace_.browser().thumbnails());
+  }
   output_ = ui_.build(shown());
   workspace_.accuracy().show(output_.points, output_.errorGain);
   workspace_.setRefusedEdit(output_.refusedEdit);

@@ -45,7 +45,6 @@ class Demo : private WorkspaceHost {
   void dropCachedImages() override {
     std::ranges::for_each(halves_, [](const PictureHalf& half) { half.renderer->restart(); });
   }
-  void scenesListed() override { ui_.setThumbnails(workspace_.browser().thumbnails()); }
   glm::ivec2 pictureSize() const override;
   PixelRect freePicture() const override;
   double contentScale() const override { return ui_.scale(); }

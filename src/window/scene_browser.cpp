@@ -154,7 +154,7 @@ size_t SceneBrowser::add(const fs::path& file) {
   return known->second;
 }
 
-bool SceneBrowser::show(const fs::path& file, bool withFolder) {
+void SceneBrowser::show(const fs::path& file, bool withFolder) {
   remember(file);
   const bool leavesNew = isNew(shown_.scenes[shown_.shown].file) && !isNew(file);
   if (leavesNew) {
@@ -167,7 +167,7 @@ bool SceneBrowser::show(const fs::path& file, bool withFolder) {
   if (fresh && withFolder) {
     list(file);
   }
-  return fresh || leavesNew;
+  listed_ = listed_ || fresh || leavesNew;
 }
 
 std::vector<Image8> SceneBrowser::thumbnails() const {
@@ -188,19 +188,17 @@ std::vector<Image8> SceneBrowser::thumbnails() const {
   return pictures;
 }
 
-bool SceneBrowser::storeThumbnail(const std::function<Image8()>& picture) const {
+void SceneBrowser::storeThumbnail(const std::function<Image8()>& picture) {
   const fs::path& scene = shown_.scenes[shown_.shown].file;
   if (isNew(scene) || isFile(shippedThumbnail(scene))) {
-    return false;
+    return;
   }
   try {
     const fs::path file = storedThumbnail(scene);
-    const bool stored = storeFile(file, encodeJpeg(shrunk(picture()), 80));
+    listed_ = storeFile(file, encodeJpeg(shrunk(picture()), 80)) || listed_;
     keepNewest(file.parent_path(), mostThumbnails);
-    return stored;
   } catch (const OutOfMemoryError& error) {  // of the GPU, where the picture is read
     spdlog::info("no thumbnail of {}: {}", scene.string(), error.what());
-    return false;
   }
 }
 

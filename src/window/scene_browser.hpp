@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <map>
+#include <utility>
 
 #include "session/session.hpp"
 #include "ui/shown.hpp"
@@ -17,12 +18,13 @@ class SceneBrowser {
   // before; `file` is shown.
   void list(const std::filesystem::path& file);
   // Marks the file as shown. Adds a file from elsewhere at the end of the list or, with `withFolder`, lists the scenes
-  // of its folder too. A new scene is listed only while it is shown. Returns true if the list changed.
-  bool show(const std::filesystem::path& file, bool withFolder);
+  // of its folder too. A new scene is listed only while it is shown.
+  void show(const std::filesystem::path& file, bool withFolder);
   std::vector<Image8> thumbnails() const;  // of the list; without pixels for a scene that has none
-  // Stores a picture of the shown scene as its thumbnail, unless the scene comes with one. Returns true if it was
-  // stored.
-  bool storeThumbnail(const std::function<Image8()>& picture) const;
+  // Stores a picture of the shown scene as its thumbnail, unless the scene comes with one.
+  void storeThumbnail(const std::function<Image8()>& picture);
+  // Says whether the list or a thumbnail has changed since the last call. True at first.
+  bool takeListed() { return std::exchange(listed_, false); }
 
   // Loads a scene or a model on a thread of its own, and cancels one that is loading.
   void open(const std::filesystem::path& file, const Options& options);
@@ -52,6 +54,7 @@ class SceneBrowser {
   void addSaved(const std::vector<SceneEntry>& scenes);  // all but new scenes
 
   ShownScenes shown_;
+  bool listed_ = true;
   std::map<std::filesystem::path, size_t> indices_;  // into ShownScenes::scenes, by canonical path
   BackgroundJob<std::unique_ptr<LoadedScene>, Progress> load_;
 };

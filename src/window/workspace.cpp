@@ -277,9 +277,8 @@ void Workspace::frameDrawn(const ShownPicture& shown, const std::function<Image8
   if (half == shownHalf()) {
     accuracy().afterFrame(shown, watchedState(shown.state), radiance);
   }
-  if (radiance && needsThumbnail() && !split().on() && std::exchange(needsThumbnail_, false) &&
-      browser().storeThumbnail(radiance)) {
-    host_.scenesListed();
+  if (radiance && needsThumbnail() && !split().on() && std::exchange(needsThumbnail_, false)) {
+    browser().storeThumbnail(radiance);
   }
   tookBack_ = false;
 }
@@ -303,9 +302,7 @@ void Workspace::showScene(std::unique_ptr<LoadedScene> scene) {
   if (isModelFile(loaded_->scene.file)) {
     frame({.kind = Selection::Kind::object, .index = 0});
   }
-  if (browser().show(loaded_->scene.file, true)) {
-    host_.scenesListed();
-  }
+  browser().show(loaded_->scene.file, true);
   if (opener_.lesson()) {
     beginLesson(*opener_.lesson());
   }
@@ -364,9 +361,7 @@ void Workspace::resume(const std::optional<Command>& afterPrompt) {
     status_.set(saving_->note());
     opener_.forgetSaved();
     needsThumbnail_ = true;
-    if (browser().show(scene().file, false)) {
-      host_.scenesListed();
-    }
+    browser().show(scene().file, false);
   }
   if (afterPrompt) {
     apply(*afterPrompt);

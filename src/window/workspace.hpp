@@ -19,7 +19,6 @@ class WorkspaceHost {
   // old scene.
   virtual void useScene(const Scene& scene) = 0;
   virtual void dropCachedImages() = 0;
-  virtual void scenesListed() = 0;             // the list of scenes has changed
   virtual glm::ivec2 pictureSize() const = 0;  // pixels; 0 while the window has none
   virtual PixelRect freePicture() const = 0;   // part of the picture that no panel covers
   virtual double contentScale() const = 0;     // pixels for one at 96 dots an inch

@@ -32,7 +32,6 @@ class FakeHost : public WorkspaceHost {
     }
   }
   void dropCachedImages() override { ++drops; }
-  void scenesListed() override { ++lists; }
   glm::ivec2 pictureSize() const override { return size; }
   PixelRect freePicture() const override { return free.value_or(PixelRect{0, 0, size.x, size.y}); }
   double contentScale() const override { return 1.0; }
@@ -52,7 +51,6 @@ class FakeHost : public WorkspaceHost {
   int scenesUsed = 0;
   bool failsNext = false;
   int drops = 0;
-  int lists = 0;
   glm::ivec2 size{width, height};
   std::optional<PixelRect> free;
   std::string clipboard;

@@ -550,11 +550,12 @@ class Opening : public WindowView {
 
 TEST_F(Opening, ModelTakesThePlaceOfTheScene) {
   const size_t scenes = shown().browser.scenes.size();
+  workspace_->browser().takeListed();
   drop({"/notes.txt", model("queen.obj")});
   EXPECT_EQ(workspace_->problem(), "");
   EXPECT_EQ(shownScene(), "queen.obj");
   EXPECT_EQ(shown().browser.scenes.size(), scenes + 1);
-  EXPECT_EQ(host_.lists, 1);
+  EXPECT_TRUE(workspace_->browser().takeListed());
   drop({model("queen.obj")});
   EXPECT_EQ(shown().browser.scenes.size(), scenes + 1) << "the same file again";
   EXPECT_EQ(workspace_->time(), 0.0);
@@ -740,10 +741,11 @@ TEST_F(Opening, FirstPictureIsTheThumbnailOfForeignFiles) {
   }
   const auto expectThumbnail = [&](const char* of) {
     EXPECT_EQ(thumbnail().width, 0) << of;
-    const int lists = host_.lists;
+    workspace_->browser().takeListed();
     drawFrame(picture);
+    EXPECT_TRUE(workspace_->browser().takeListed());
     drawFrame(Image8(4, 4));
-    EXPECT_EQ(host_.lists, lists + 1) << "once";
+    EXPECT_FALSE(workspace_->browser().takeListed()) << "once";
     const Image8 small = thumbnail();
     ASSERT_EQ(small.width, 192) << of;
     EXPECT_LT(*small.at(90, 0), 215) << "the dark row";
