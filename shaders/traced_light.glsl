@@ -138,21 +138,17 @@ vec3 tracedSurfaceRadiance(Surface surface, vec3 toViewer, Skip self, uint seed,
   uint paths = view.lightCount + (castsLight ? traceCounts.lightPaths : 0);
   LightSum sum = LightSum(surface.emission + view.ambient * surface.diffuse, 0, none, vec3(0.0));
   uint group = 0;
-  uint end = 0;  // of the group of lights, or of the light paths, that `next` is in
+  uint end = asksGroups ? 0 : paths;  // of the group of lights, or of the light paths, that `next` is in
   for (;;) {
     sum.waiting = none;
     while (sum.next < paths && sum.waiting == none) {
-      if (!asksGroups) {
+      if (asksGroups && sum.next == end) {
+        bool direct = sum.next < view.lightCount;
+        end = direct ? min(sum.next + view.lightsPerGroup, view.lightCount) : paths;
+        sum.next = direct && liesBelow(lightGroups[group++], surface) ? end : sum.next;
+      }
+      while (sum.next < end && sum.waiting == none) {
         addNext(sum, surface, toViewer, tracePosition, self, isDrawn);
-      } else {
-        if (sum.next == end) {
-          bool direct = sum.next < view.lightCount;
-          end = direct ? min(sum.next + view.lightsPerGroup, view.lightCount) : paths;
-          sum.next = direct && liesBelow(lightGroups[group++], surface) ? end : sum.next;
-        }
-        while (sum.next < end && sum.waiting == none) {
-          addNext(sum, surface, toViewer, tracePosition, self, isDrawn);
-        }
       }
     }
     if (shadows && sum.waiting != none) {
