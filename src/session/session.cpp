@@ -19,10 +19,6 @@ double millisecondsSince(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-VkExtent2D rendererExtent(PictureSize size) {
-  return {static_cast<uint32_t>(size.width), static_cast<uint32_t>(size.height)};
-}
-
 const Bookmark& bookmarkNamed(const std::string& name, const Scene& scene) {
   std::vector<std::string_view> names;
   for (const Bookmark& bookmark : scene.bookmarks) {
@@ -122,7 +118,7 @@ DeviceOptions deviceOptions(const Options& options, Window* window) {
 
 RendererOptions rendererOptions(const Options& options, Window* window) {
   return {.window = window,
-          .extent = rendererExtent(options.size),
+          .extent = extentOf(options.size.width, options.size.height),
           .presentMode = options.window.presentMode,
           .shaderDir = options.shaderDir};
 }
@@ -241,7 +237,7 @@ void Session::collectFinished() {
 
 void Session::resize(PictureSize size) {
   size_ = size;
-  renderer_.resizeHeadless(rendererExtent(size));
+  renderer_.resizeHeadless(extentOf(size.width, size.height));
 }
 
 void Session::setSettings(const Settings& settings) {
