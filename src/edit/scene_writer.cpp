@@ -1,7 +1,9 @@
 #include "edit/scene_writer.hpp"
 
 #include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "edit/toml_editor.hpp"
 #include "platform/files.hpp"
@@ -257,29 +259,54 @@ std::vector<size_t> sourcesOutside(const std::vector<Source>& sources, const std
   return outside;
 }
 
-// Says whether `to` has the content of `from` or can be made.
-bool canCopy(const fs::path& from, const fs::path& to) {
+// Says whether the folder holds copies of exactly these files below `root`. Any other file there could be found in the
+// place of one that a model names.
+bool holdsCopies(const fs::path& folder, const std::set<fs::path>& files, const fs::path& root) {
   std::error_code error;
-  if (fs::exists(fs::symlink_status(to, error))) {
-    return isFile(to) && fs::file_size(from, error) == fs::file_size(to, error) && readFile(from) == readFile(to);
+  size_t count = 0;
+  fs::recursive_directory_iterator entry(folder, error);
+  for (; !error && entry != fs::recursive_directory_iterator(); entry.increment(error)) {
+    if (entry->symlink_status(error).type() == fs::file_type::directory) {
+      continue;
+    }
+    const fs::path from = root / entry->path().lexically_relative(folder);
+    if (!files.contains(from) || !isFile(*entry) || fs::file_size(from, error) != entry->file_size(error) ||
+        readFile(from) != readFile(*entry)) {
+      return false;
+    }
+    ++count;
   }
-  fs::create_directories(to.parent_path(), error);
-  return isFolder(to.parent_path());
+  return !error && count == files.size();
 }
 
-// Copies files below `root`, keeping their relative paths, by which they name each other. Returns the first copy.
-fs::path copyTogether(const std::vector<fs::path>& files, const fs::path& root, const fs::path& folder) {
+// Leaves no folder behind if a file cannot be copied.
+void makeCopies(const fs::path& folder, const std::set<fs::path>& files, const fs::path& root) {
+  std::error_code none;
+  try {
+    for (const fs::path& file : files) {
+      const fs::path copy = folder / file.lexically_relative(root);
+      fs::create_directories(copy.parent_path(), none);
+      replaceFile(copy, readFile(file));
+    }
+  } catch (const FileError&) {
+    fs::remove_all(folder, none);
+    throw;
+  }
+}
+
+// Copies files below `root`, keeping their relative paths, by which they name each other. Returns the copies' folder.
+fs::path copyTogether(const std::set<fs::path>& files, const fs::path& root, const fs::path& folder) {
   constexpr int mostFolders = 1000;
-  for (int number = 1; number <= mostFolders; ++number) {
+  bool exists = true;
+  for (int number = 1; exists && number <= mostFolders; ++number) {
     const fs::path target = folder / (number == 1 ? "models" : "models-" + std::to_string(number));
-    const auto copyOf = [&](const fs::path& file) { return target / file.lexically_relative(root); };
-    if (std::ranges::all_of(files, [&](const fs::path& file) { return canCopy(file, copyOf(file)); })) {
-      for (const fs::path& file : files) {
-        if (!isFile(copyOf(file))) {
-          replaceFile(copyOf(file), readFile(file));
-        }
-      }
-      return copyOf(files.front());
+    std::error_code none;
+    exists = fs::exists(fs::symlink_status(target, none));
+    if (!exists) {
+      makeCopies(target, files, root);
+    }
+    if (holdsCopies(target, files, root)) {
+      return target;
     }
   }
   throw FileError(folder, "has no place for copies of the models", "save into another folder");
@@ -297,23 +324,38 @@ std::vector<size_t> mapsOutside(const Scene& scene, const fs::path& folder) {
 
 SourceFiles copyModels(const Scene& scene, const fs::path& folder) try {
   SourceFiles copied;
-  std::vector<fs::path>& sources = copied.meshes;
-  std::ranges::transform(scene.meshes, std::back_inserter(sources), &Mesh::source);
+  std::ranges::transform(scene.meshes, std::back_inserter(copied.meshes), &Mesh::source);
   std::ranges::transform(scene.textures, std::back_inserter(copied.textures), &Texture::source);
-  for (const size_t i : modelsOutside(scene, folder)) {
-    std::vector<fs::path> files{wholePath(sources[i]).lexically_normal()};
-    fs::path root = files[0].parent_path();
-    for (const fs::path& named : scene.meshes[i].namedFiles) {
-      files.push_back((files[0].parent_path() / named).lexically_normal());
+  struct Together {
+    std::set<fs::path> files;
+    std::vector<fs::path*> sources;
+  };
+  std::map<fs::path, Together> roots;
+  const auto add = [&](fs::path& source, std::span<const fs::path> named) {
+    source = wholePath(source).lexically_normal();
+    std::vector<fs::path> files{source};
+    fs::path root = source.parent_path();
+    for (const fs::path& name : named) {
+      files.push_back((source.parent_path() / name).lexically_normal());
       while (!isBelow(files.back(), root)) {
         root = root.parent_path();
       }
     }
-    sources[i] = copyTogether(files, root, folder);
+    Together& together = roots[root];
+    together.files.insert(files.begin(), files.end());
+    together.sources.push_back(&source);
+  };
+  for (const size_t i : modelsOutside(scene, folder)) {
+    add(copied.meshes[i], scene.meshes[i].namedFiles);
   }
   for (const size_t i : mapsOutside(scene, folder)) {
-    const fs::path file = wholePath(copied.textures[i]).lexically_normal();
-    copied.textures[i] = withoutLinks(copyTogether({file}, file.parent_path(), folder));
+    add(copied.textures[i], {});
+  }
+  for (const auto& [root, together] : roots) {
+    const fs::path target = copyTogether(together.files, root, withoutLinks(folder));
+    for (fs::path* source : together.sources) {
+      *source = target / source->lexically_relative(root);
+    }
   }
   return copied;
 } catch (const FileError& error) {

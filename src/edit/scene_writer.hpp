@@ -39,9 +39,10 @@ struct SourceFiles {
   std::vector<std::filesystem::path> textures;
 };
 
-// Copies the models and maps that modelsOutside() and mapsOutside() find, models with the materials and textures that
-// they name by relative paths, to `models` in the folder. Overwrites nothing: a model that would need that goes to
-// `models-2` and so on. Returns the files of all meshes and textures. Throws SaveError.
+// Copies the models and maps that modelsOutside() and mapsOutside() find, models with their
+// Mesh::namedFiles, to `models` in the folder, those of other source folders to `models-2` and so on. Adds nothing to a
+// folder that is there, because models look for their files in it; uses one that holds the same copies. Returns the
+// files of all meshes and textures. Throws SaveError.
 SourceFiles copyModels(const Scene& scene, const std::filesystem::path& folder);
 
 // Replaces the file by `text`, whole or not at all. Throws SaveError if that fails or, without `overwrite`, if there is

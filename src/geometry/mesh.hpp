@@ -102,7 +102,7 @@ struct MirrorParts {
 struct Mesh {
   std::filesystem::path source;
   std::vector<std::filesystem::path> materialFiles;  // without symbolic links
-  std::vector<std::filesystem::path> namedFiles;     // materials and textures named by relative paths: from `source`
+  std::vector<std::filesystem::path> namedFiles;     // materials and textures not found by a whole path: from `source`
   std::vector<std::string> defects;                  // of its files, one line a kind: `FILE:LINE: key: what is wrong`
   double unit = 1.0;                                 // length in model space; a power of two
   glm::dvec3 center{0.0};                            // model space, of the bounding box

@@ -54,6 +54,11 @@ std::pair<std::string_view, TextureOptions> namedTexture(const LineReader& line)
   return {line.after(tokens[i - 1]), options};
 }
 
+// Says whether the name is a whole path that leads to the file from everywhere on this machine.
+bool isWholePathOf(const fs::path& file, const fs::path& name) {
+  return name.is_absolute() && name.lexically_normal() == file;
+}
+
 double numberOf(std::string_view token) {
   return parseNumber(token).value_or(std::numeric_limits<double>::quiet_NaN());
 }
@@ -270,7 +275,7 @@ bool ObjMaterials::readIfThere(std::string_view name, int line) {
   if (!file) {
     return false;
   }
-  if (!fs::path(trimmed(name)).is_absolute()) {
+  if (!isWholePathOf(*file, trimmed(name))) {
     namedFiles_.insert(*file);
   }
   if (!filesRead_.insert(withoutLinks(*file)).second) {
@@ -354,7 +359,7 @@ auto ObjMaterials::readPicture(const Entry& entry, int line, std::string_view ke
     defects_.add(entry.file, line, key, "there is no file '{}', the texture is left out", name);
     return std::nullopt;
   }
-  if (!fs::path(name).is_absolute() && namedFiles_.contains(entry.file)) {
+  if (!isWholePathOf(*picture, name) && namedFiles_.contains(entry.file)) {
     namedFiles_.insert(*picture);
   }
   try {

@@ -45,7 +45,7 @@ class ObjMaterials {
 
   // Returns the files that were read, with symbolic links resolved.
   const std::set<std::filesystem::path>& files() const { return filesRead_; }
-  // Returns the files that were read, and textures, if they were named by relative paths only; links are not resolved.
+  // Returns the files that were read, and textures, except those found by a whole path; links are not resolved.
   const std::set<std::filesystem::path>& namedFiles() const { return namedFiles_; }
 
  private:

@@ -904,6 +904,48 @@ TEST_F(ModelsBrought, EqualCopiesAreUsedAgain) {
   EXPECT_EQ(fs::last_write_time(to_ / "models" / "car.obj"), time);
 }
 
+// A texture that is not where the materials say is found in `textures`, unless a file of its name lies nearer.
+TEST_F(ModelsBrought, FilesFoundBySearchStayFound) {
+  make({{"chair/chair.obj", "chair.mtl", "color.png"}, {"table/table.obj", "table.mtl", "color.png"}});
+  const fs::path chair = home_.path() / "from" / "chair";
+  fs::create_directory(chair / "textures");
+  fs::rename(chair / "color.png", chair / "textures" / "color.png");
+  start();
+  setExposure(0.5);
+  brought();
+}
+
+TEST_F(ModelsBrought, FilesOfMissingWholePathsStayFound) {
+  make({{"chair.obj", "chair.mtl", "color.png"}});
+  std::ofstream(home_.path() / "from" / "chair.mtl") << "newmtl a\nmap_Kd /no/such/folder/color.png\n";
+  start();
+  setExposure(0.5);
+  brought();
+}
+
+TEST_F(ModelsBrought, EarlierScenesKeepTheirPictures) {
+  const fs::path from = home_.path() / "from";
+  make({{"chair.obj", "chair.mtl", "color.png"}});
+  fs::create_directory(from / "textures");
+  fs::rename(from / "color.png", from / "textures" / "color.png");
+  start();
+  const auto first = contentOf(scene());
+  setExposure(0.5);
+  send(SaveAs{to_ / "first.toml", true});
+  make({{"table.obj", "table.mtl", "color.png"}});
+  EXPECT_TRUE(startsWith(brought().objects[0].model, "models-2/"));
+  EXPECT_TRUE(contentOf(loadScene(to_ / "first.toml")) == first);
+}
+
+TEST_F(ModelsBrought, FailedCopyLeavesNothing) {
+  make({{"car.obj", "car.mtl", "wood.png"}, {"van.obj", "van.mtl", "wood.png"}});
+  fs::remove(home_.path() / "from" / "van.obj");
+  send(AskWhereToSave{});
+  send(SaveAs{to_ / "scene.toml", true});
+  EXPECT_EQ(edit().prompt, Prompt::saveAs);
+  EXPECT_TRUE(fs::is_empty(to_));
+}
+
 TEST_F(ModelsBrought, OnlyIfWanted) {
   make({{"car.obj", "car.mtl", "wood.png"}});
   send(SaveAs{to_ / "scene.toml", false});
