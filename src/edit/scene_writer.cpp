@@ -19,11 +19,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Returns a path as it stands in scene files: with '/', and absolute only if no relative path exists.
+// Returns a path as it stands in scene files: with '/', in UTF-8, and absolute only if no relative path exists.
 std::string pathFrom(const fs::path& folder, const fs::path& target) {
   const fs::path to = withoutLinks(target);
   const fs::path relative = to.lexically_relative(withoutLinks(folder.empty() ? fs::path(".") : folder));
-  return (relative.empty() ? to : relative).generic_string();
+  return utf8((relative.empty() ? to : relative).generic_string());
 }
 
 bool leadsTo(const fs::path& path, const fs::path& file) {
@@ -40,7 +40,7 @@ void nameModels(const Scene& loaded, std::span<const Mesh> meshes, const fs::pat
     const Object* before = origin < 0 ? nullptr : &loaded.objects.at(origin);
     const fs::path& source = meshes[object.mesh].source;
     if (before != nullptr && before->mesh == object.mesh && (!moved || fs::path(before->model).is_absolute()) &&
-        leadsTo(loaded.file.parent_path() / before->model, source)) {
+        leadsTo(fileNamedBy(loaded.file, before->model), source)) {
       object.model = before->model;
     } else {
       object.model = pathFrom(file.parent_path(), source);
@@ -56,8 +56,8 @@ void nameMaps(const Scene& loaded, std::span<const Texture> textures, const fs::
       continue;
     }
     const fs::path& source = textures[mirror.map].source;
-    const fs::path before = mirror.reflectanceMap;
-    if ((moved && !before.is_absolute()) || !leadsTo(loaded.file.parent_path() / before, source)) {
+    const std::string& before = mirror.reflectanceMap;
+    if ((moved && !fs::path(before).is_absolute()) || !leadsTo(fileNamedBy(loaded.file, before), source)) {
       mirror.reflectanceMap = pathFrom(file.parent_path(), source);
     }
   }
@@ -224,7 +224,7 @@ void check(const fs::path& file, const std::string& text, const SceneContent& co
   }
   const auto checkFound = [&](const std::string& kind, const fs::path& source, const std::string& name) {
     std::error_code error;
-    if (isFolder(wholePath(file).parent_path()) && !fs::equivalent(file.parent_path() / name, source, error)) {
+    if (isFolder(wholePath(file).parent_path()) && !fs::equivalent(fileNamedBy(file, name), source, error)) {
       refuse(file, "its " + kind + " " + source.string() + " would not be found as '" + name + "'",
              "put the " + kind + " back, or save into another folder");
     }

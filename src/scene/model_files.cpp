@@ -63,9 +63,13 @@ std::optional<fs::path> ModelFiles::follow(fs::path folder, const fs::path& path
     return std::nullopt;
   }
   for (const fs::path& name : below.parent_path()) {
+    if (name == "..") {
+      folder = (folder / "..").lexically_normal();
+      continue;
+    }
     const Listing& here = listing(folder);
     const auto found = here.folders.find(keyOf(name));
-    if (found == here.folders.end()) {  // as for "..": no search leaves the model's folders
+    if (found == here.folders.end()) {
       return std::nullopt;
     }
     folder = found->second;

@@ -50,6 +50,10 @@ class ModelFiles {
   // subfolders textures, tex and maps. Returns nothing if no such file exists.
   std::optional<std::filesystem::path> find(const std::filesystem::path& namingFile, std::string_view name);
 
+  // Follows a relative path from a folder, without regard to case and to being UTF-8 or Latin-1. Returns nothing if no
+  // file is there.
+  std::optional<std::filesystem::path> follow(std::filesystem::path folder, const std::filesystem::path& path);
+
  private:
   std::optional<std::filesystem::path> findWhole(const std::filesystem::path& namingFile, std::string_view name);
 
@@ -59,9 +63,6 @@ class ModelFiles {
     std::map<std::string, std::filesystem::path> folders;
   };
   const Listing& listing(const std::filesystem::path& folder);
-  // Follows a path below a folder without regard to case.
-  std::optional<std::filesystem::path> follow(std::filesystem::path folder, const std::filesystem::path& path);
-
   std::filesystem::path modelFolder_;
   std::map<std::filesystem::path, Listing> listings_;
 };

@@ -27,19 +27,18 @@ namespace speculum {
 
 namespace fs = std::filesystem;
 
-namespace {
-
-// Returns the file of a path in a scene file.
-fs::path modelFile(const fs::path& scene, const std::string& model) {
-  const fs::path named = scene.parent_path() / model;
+fs::path fileNamedBy(const fs::path& scene, const std::string& name) {
+  const fs::path named = scene.parent_path() / name;
   fs::path file = named.lexically_normal();
   std::error_code error;
   // The paths name different files if ".." follows a symbolic link to a folder.
   if (fs::exists(named, error) && !fs::equivalent(named, file, error)) {
     file = named;
   }
-  return file;
+  return fs::exists(file, error) ? file : ModelFiles(scene).follow(scene.parent_path(), name).value_or(file);
 }
+
+namespace {
 
 // Turns the progress of each model into the progress of all models, weighted by their bytes.
 class ModelProgress {
@@ -50,7 +49,7 @@ class ModelProgress {
     }
     std::set<fs::path> files;
     for (const Object& object : scene.objects) {
-      const fs::path file = modelFile(scene.file, object.model);
+      const fs::path file = fileNamedBy(scene.file, object.model);
       total_ += files.insert(file).second ? sizeOf(file) : 0.0;
     }
   }
@@ -80,7 +79,7 @@ class ModelProgress {
 // Returns the index of the object's mesh. `known` has the meshes by the paths of their files without symbolic links.
 int meshIndex(const TableReader& object, Scene& scene, std::map<std::string, int>& known, ModelProgress& progress) {
   const std::string model = object.text("model");
-  const fs::path file = modelFile(scene.file, model);
+  const fs::path file = fileNamedBy(scene.file, model);
   if (model.empty() || !isFile(file)) {
     object.fail("model", "there is no file '" + file.string() + "'",
                 "name a " + modelFormatNames() + " file, relative to the scene file");
@@ -100,7 +99,7 @@ void addMaps(const TableReader& reader, Scene& scene) {
     if (mirror.reflectanceMap.empty()) {
       continue;
     }
-    const fs::path file = modelFile(scene.file, mirror.reflectanceMap);
+    const fs::path file = fileNamedBy(scene.file, mirror.reflectanceMap);
     try {
       mirror.map = linearTextureIndex(file, scene.textures);
     } catch (const FileError& error) {
@@ -359,13 +358,13 @@ std::set<fs::path> filesNamedBy(const fs::path& file) {
   }
   const toml::table root = models.empty() ? tomlIfAny(file) : toml::table();
   for (size_t i = 0; root["object"][i]; ++i) {
-    models.insert(modelFile(file, root["object"][i]["model"].value_or(std::string())));
+    models.insert(fileNamedBy(file, root["object"][i]["model"].value_or(std::string())));
   }
   for (const fs::path& model : models) {
     addModelFiles(model, files);
   }
   for (size_t i = 0; root["mirror"][i]; ++i) {
-    const fs::path map = modelFile(file, root["mirror"][i]["reflectance_map"].value_or(std::string()));
+    const fs::path map = fileNamedBy(file, root["mirror"][i]["reflectance_map"].value_or(std::string()));
     if (isFile(map)) {
       files.insert(map);
     }

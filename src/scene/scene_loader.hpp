@@ -20,6 +20,10 @@ Scene loadScene(const std::filesystem::path& file, const LoadProgress& progress 
 // Reads `text` as the content of `file`, without the models: each Object::mesh is -1. Throws InputError.
 Scene parseScene(const std::filesystem::path& file, std::string text);
 
+// Returns the file of a model or map that a scene file names: relative to its folder; if there is no such file, one
+// whose path differs in case or is Latin-1 instead of UTF-8.
+std::filesystem::path fileNamedBy(const std::filesystem::path& scene, const std::string& name);
+
 // Returns why loadScene() would refuse a mirror with this polygon (world), as `polygon: what is wrong (what would be
 // right)`; nothing if the polygon is valid.
 std::optional<std::string> mirrorPolygonProblem(std::span<const glm::dvec3> polygon);

@@ -68,7 +68,7 @@ std::string tomlText(std::string_view value) {
       text += value.substr(i, length);
       i += length - 1;
     } else {
-      text += "\\uFFFD";
+      text += utf8(value.substr(i, 1));
     }
   }
   return text + "\"";

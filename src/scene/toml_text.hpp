@@ -15,7 +15,7 @@ std::string tomlText(const glm::dvec2& value);
 std::string tomlText(const glm::dvec3& value);
 std::string tomlText(const std::vector<glm::dvec3>& values);
 std::string tomlText(bool value);
-std::string tomlText(std::string_view value);  // in quotation marks
+std::string tomlText(std::string_view value);  // in quotation marks and UTF-8
 
 // Returns the key bare where TOML allows that, else in quotation marks.
 std::string tomlKey(std::string_view key);

@@ -183,6 +183,21 @@ TEST(SaveScene, AbsolutePathsStay) {
   EXPECT_EQ(readText(folder / "models/scene.toml"), readText(file));
 }
 
+TEST(SaveScene, NamesThatAreNotUtf8ReadBack) {
+  const TemporaryFolder folder;
+  fs::create_directory(folder / "lat\xfcn");
+  const fs::path model = folder.write("lat\xfcn/w\xff.obj", triangleObj);
+  Scene scene = loadScene(model);
+  SceneDocument document(scene);
+  for (const char* name : {"lat\xfcn/scene.toml", "scene.toml"}) {
+    document.save(folder / name, {});
+    EXPECT_TRUE(fs::equivalent(loadScene(folder / name).meshes.at(0).source, model)) << name;
+  }
+  folder.write("lat\xfcn/w\u00ff.obj", triangleObj);
+  const std::string message = messageOf<SaveError>([&] { document.save(folder / "other.toml", {}); });
+  EXPECT_TRUE(contains(message, "would not be found as 'lat\u00fcn/w\u00ff.obj'")) << message;
+}
+
 TEST(SaveScene, FileChangedMeanwhileIsNotOverwritten) {
   TextScene text(fileText);
   moveObject(text.document, 1);

@@ -366,6 +366,19 @@ TEST_F(MtlFile, FoldersHaveAnyCase) {
   EXPECT_EQ(warnings(), "");
 }
 
+TEST_F(MtlFile, FoldersAboveHaveAnyCase) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directories(folder / "Textures");
+  writePng(folder / "Textures/Wood.png", Image8(1, 1));
+  folder.write("Textures/M.mtl", "newmtl m\nmap_Kd ..\\textures\\wood.png\n");
+  folder.write("models/m.mtl", "newmtl m\n");
+  std::vector<Texture> textures;
+  const std::string obj = "mtllib ../textures/m.mtl\n" + squareText + "usemtl m\nf 1 2 3\n";
+  loadObj(folder.write("models/m.obj", obj), textures);
+  EXPECT_EQ(textures.size(), 1u);
+  EXPECT_EQ(warnings(), "");
+}
+
 TEST_F(MtlFile, NamesAreUtf8OrLatin1) {
   for (const std::string first : {"K\xf6ln", "K\xc3\xb6ln"}) {
     for (const std::string second : {"K\xf6ln", "K\xc3\xb6ln"}) {

@@ -946,6 +946,17 @@ TEST_F(ModelsBrought, FailedCopyLeavesNothing) {
   EXPECT_TRUE(fs::is_empty(to_));
 }
 
+// Scene files are UTF-8.
+TEST_F(ModelsBrought, CopiesFindLatin1Folders) {
+  make({{"car.obj", "car.mtl", "wood.png"}});
+  const fs::path folder = home_.path() / "lat\xfcn";
+  fs::rename(home_.path() / "from", folder);
+  options_.scene = (folder / "scene.toml").string();
+  start();
+  setExposure(0.25);
+  EXPECT_TRUE(fs::equivalent(loadScene(keptCopy()).meshes.at(0).source, folder / "car.obj"));
+}
+
 TEST_F(ModelsBrought, OnlyIfWanted) {
   make({{"car.obj", "car.mtl", "wood.png"}});
   send(SaveAs{to_ / "scene.toml", false});
