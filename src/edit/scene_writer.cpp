@@ -207,8 +207,9 @@ bool readsBack(const Scene& read, const SceneContent& content) {
          sameLists(read.mirrors, content.mirrors) && sameLists(read.bookmarks, content.bookmarks);
 }
 
+template <typename Error = SaveError>
 [[noreturn]] void refuse(const fs::path& file, const std::string& what, const std::string& remedy) {
-  throw SaveError(oneLine(file.string() + ": not saved: " + what + " (" + remedy + ")"));
+  throw Error(oneLine(file.string() + ": not saved: " + what + " (" + remedy + ")"));
 }
 
 void check(const fs::path& file, const std::string& text, const SceneContent& content, std::span<const Mesh> meshes,
@@ -395,8 +396,9 @@ void writeSceneFile(const fs::path& file, const std::string& text, const std::op
   try {
     std::error_code error;
     if (!overwrite && fs::exists(file, error) && (!expected || readText(file) != *expected)) {
-      refuse(file, expected ? "another program has changed the file since it was read" : "there is such a file already",
-             "save under another name, or overwrite it");
+      refuse<OverwriteError>(
+          file, expected ? "another program has changed the file since it was read" : "there is such a file already",
+          "save under another name, or overwrite it");
     }
     replaceFile(file, text);
   } catch (const SaveError&) {

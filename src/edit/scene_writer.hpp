@@ -16,6 +16,12 @@ class SaveError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+// Thrown when the file is not to be overwritten unasked.
+class OverwriteError : public SaveError {
+ public:
+  using SaveError::SaveError;
+};
+
 // Whether the text of a scene must read back as the scene. Only copies that Recovery keeps may be untested, because
 // otherwise the changes would be lost in a failure.
 enum class ReadBack { required, untested };

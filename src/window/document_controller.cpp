@@ -86,8 +86,7 @@ bool DocumentController::confirmDiscard(const Settings& settings, std::optional<
 std::optional<Command> DocumentController::save(const Settings& settings) {
   editor_.release();
   prompt_ = Prompt::none;
-  findSaveFile();
-  if (!saveFile_) {
+  if (isShipped(document_.usualFile())) {
     askWhere();
     return std::nullopt;
   }
@@ -144,7 +143,10 @@ bool DocumentController::saveTo(const fs::path& named, const Settings& settings,
     }
     requireFolder(file);
     if (isShipped(file) && file != refused_) {
-      throw SaveError(file.string() + ": not saved: it comes with the program");
+      throw OverwriteError(file.string() + ": not saved: it comes with the program");
+    }
+    if (isFile(file) && !isWritable(file)) {
+      throw SaveError(file.string() + ": not saved: it is read-only (save under another name)");
     }
     document_.save(file, settingChanges(settingsAtLoad_, settings), file == refused_, copyModels);
     note_ = "Saved " + wholePath(file).lexically_normal().string();
@@ -157,7 +159,8 @@ bool DocumentController::saveTo(const fs::path& named, const Settings& settings,
     }
     return true;
   } catch (const SaveError& error) {
-    const bool overwritable = file.extension() == ".toml" && isFile(file);
+    const bool refused = dynamic_cast<const OverwriteError*>(&error) != nullptr;
+    const bool overwritable = refused && file.extension() == ".toml" && isFile(file);
     note_ = error.what();
     note_ += overwritable ? "\nSave once more to overwrite it." : "";
     refused_ = overwritable ? std::optional(file) : std::nullopt;

@@ -957,6 +957,18 @@ TEST_F(ModelsBrought, CopiesFindLatin1Folders) {
   EXPECT_TRUE(fs::equivalent(loadScene(keptCopy()).meshes.at(0).source, folder / "car.obj"));
 }
 
+TEST_F(ModelsBrought, OtherFailuresOfferNoOverwriting) {
+  make({{"car.obj", "car.mtl", "wood.png"}});
+  fs::rename(home_.path() / "from", home_.path() / "gone");
+  std::ofstream(to_ / "scene.toml") << "somebody's";
+  send(SaveAs{to_ / "scene.toml", false});
+  EXPECT_TRUE(contains(edit().note, "would not be found")) << edit().note;
+  EXPECT_FALSE(contains(edit().note, "once more"));
+  send(Save{});
+  EXPECT_EQ(edit().prompt, Prompt::saveAs);
+  EXPECT_TRUE(contains(edit().note, "there is no folder")) << edit().note;
+}
+
 TEST_F(ModelsBrought, OnlyIfWanted) {
   make({{"car.obj", "car.mtl", "wood.png"}});
   send(SaveAs{to_ / "scene.toml", false});
