@@ -114,9 +114,6 @@ bool matchesGlob(std::string_view glob, std::string_view text) {
 }
 
 std::string oneLine(std::string_view text) {
-  constexpr size_t longest = 4000;
-  constexpr size_t lastKept = 1000;
-  constexpr std::string_view gap = " ... ";
   std::string line;
   bool begun = false;  // `line` has a visible character of ASCII
   for (size_t i = 0, bytes = 0; i < text.size(); i += std::max<size_t>(bytes, 1)) {
@@ -133,18 +130,7 @@ std::string oneLine(std::string_view text) {
     }
     begun = begun || (line.back() > 0x20 && line.back() < 0x7f);
   }
-  if (line.size() > longest) {
-    size_t begin = longest - lastKept - gap.size();
-    size_t end = line.size() - lastKept;
-    while (begin > 0 && continuesCharacter(line[begin])) {
-      --begin;
-    }
-    while (end < line.size() && continuesCharacter(line[end])) {
-      ++end;
-    }
-    line.replace(begin, end - begin, gap);
-  }
-  return line;
+  return shortened(line, 4000);
 }
 
 std::string indentedLines(std::string_view text) {
@@ -173,7 +159,9 @@ std::string endsThatFit(const std::string& text, float room, const std::function
   if (widthOf(text) <= room) {
     return text;
   }
-  for (size_t kept = text.size(); kept > 0; --kept) {
+  std::string longest = "...";
+  for (size_t fits = 0, most = text.size(); fits < most;) {
+    const size_t kept = (fits + most + 1) / 2;
     size_t end = (kept + 1) / 2;              // of the kept start
     size_t begin = text.size() - (kept / 2);  // of the kept end
     while (end > 0 && continuesCharacter(text[end])) {
@@ -184,10 +172,18 @@ std::string endsThatFit(const std::string& text, float room, const std::function
     }
     std::string both = text.substr(0, end) + "..." + text.substr(begin);
     if (widthOf(both) <= room) {
-      return both;
+      longest = std::move(both);
+      fits = kept;
+    } else {
+      most = kept - 1;
     }
   }
-  return "...";
+  return longest;
+}
+
+std::string shortened(const std::string& text, size_t most) {
+  const auto bytes = [](std::string_view part) { return static_cast<float>(part.size()); };
+  return endsThatFit(text, static_cast<float>(most), bytes);
 }
 
 std::string brokenAtSpaces(std::string text, float room, const std::function<float(std::string_view)>& widthOf) {

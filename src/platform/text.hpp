@@ -52,6 +52,9 @@ std::string significant(double value, int digits);
 // `widthOf` is in the units of `room`.
 std::string endsThatFit(const std::string& text, float room, const std::function<float(std::string_view)>& widthOf);
 
+// Returns `text` (UTF-8) or, if it has more bytes than `most`, as much of its start and end with "..." between.
+std::string shortened(const std::string& text, size_t most);
+
 // Returns `text` with line breaks in place of spaces, so that no line is wider than `room` unless one word is. A number
 // and its % are one word.
 std::string brokenAtSpaces(std::string text, float room, const std::function<float(std::string_view)>& widthOf);

@@ -160,7 +160,8 @@ void describe(PanelContext& ui, std::string_view key) {
   }
 }
 
-void showTip(const std::string& text) {
+void showTip(const std::string& about) {
+  const std::string text = shortened(about, 4000);  // Dear ImGui refuses what it cannot index by 16 bits
   const float em = ImGui::GetFontSize();
   const ImRect window = ImGui::GetCurrentWindow()->RootWindow->Rect();
   const ImRect item(ImGui::GetItemRectMin(), ImGui::GetItemRectMax());

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <string>
 
+#include "platform/text.hpp"
 #include "ui/shown.hpp"
 
 namespace speculum {
@@ -17,7 +18,7 @@ class StatusLine {
     show(text);
   }
   void show(const std::string& text) {
-    shown_.text = text;
+    shown_.text = shortened(text, 1000);  // names may be of any length
     since_ = Clock::now();
     isWarning_ = false;
   }

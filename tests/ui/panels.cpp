@@ -474,6 +474,14 @@ TEST_F(PanelTest, FilesAreChosenFromOwnList) {
   EXPECT_TRUE(std::filesystem::equivalent(only<OpenScene>().file, config_.path() / "models" / "a.obj"));
 }
 
+TEST_F(PanelTest, LongTextsHaveShortTips) {
+  windows_->toggleInspector();
+  edit_.undo = std::string(20'000, 'u');
+  hover("edit.undo");
+  run(60);
+  EXPECT_TRUE(tooltip());
+}
+
 TEST_F(PanelTest, EnterOnFoldersKeepsTheKeyboard) {
   const std::filesystem::path folder = std::filesystem::canonical(config_.path());
   std::filesystem::create_directories(folder / "outer" / "inner" / "empty");

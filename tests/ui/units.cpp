@@ -26,6 +26,14 @@ TEST(Elide, BothEndsStay) {
   EXPECT_EQ(endsThatFit("left", 0.0f, widthOf), "...");
 }
 
+TEST(Elide, LongTextsTakeFewMeasurements) {
+  int measured = 0;
+  const auto counted = [&](std::string_view text) { return ++measured, widthOf(text); };
+  EXPECT_EQ(endsThatFit(std::string(100'000, 'a'), 1000.0f, counted).size(), 100u);
+  EXPECT_LT(measured, 50);
+  EXPECT_EQ(shortened(std::string(100'000, 'a'), 100).size(), 100u);
+}
+
 TEST(Elide, CharactersAreNotCut) {
   EXPECT_EQ(endsThatFit("\u00e4\u00e4 > \u00e4\u00e4", 80.0f, widthOf), "\u00e4...\u00e4");
   EXPECT_EQ(endsThatFit("\u00e4\u00e4 > \u00e4\u00e4", 60.0f, widthOf), "\u00e4...");

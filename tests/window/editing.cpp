@@ -119,6 +119,15 @@ TEST_F(Editing, DraggedAxisFollowsThePixels) {
   EXPECT_EQ(status(), "Nothing to redo");
 }
 
+TEST_F(Editing, LongNamesLeaveShortTexts) {
+  Object named = scene().objects.at(0);
+  named.name = std::string(20'000, 'n');
+  send(EditNode{ball, named, false});
+  send(Undo{});
+  EXPECT_TRUE(startsWith(status(), "Undone: "));
+  EXPECT_LE(status().size(), 1000u);
+}
+
 TEST_F(Editing, RingsRotateAndSnap) {
   clickBall();
   send(NextGizmoMode{});
