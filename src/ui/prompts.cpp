@@ -1,15 +1,16 @@
 // The prompts about unsaved changes and for the file to save to.
 #include <imgui.h>
 #include <imgui_internal.h>
-#include <imgui_stdlib.h>
 #include <imgui_versions.hpp>
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "edit/scene_writer.hpp"
 #include "platform/files.hpp"
 #include "platform/folders.hpp"
+#include "platform/text.hpp"
 #include "scene/model_formats.hpp"
 #include "ui/panels.hpp"
 
@@ -96,15 +97,31 @@ void list(PanelState::Files& files, const std::filesystem::path& folder, bool mo
   });
 }
 
-std::filesystem::path named(const PanelState::Files& files) {
-  return files.folder / typedPath(files.typed);
+std::string textOf(const std::filesystem::path& file) {
+  return utf8(file.filename().string());
 }
 
-// Begins the state of a prompt: `typed` stands in the field and is relative to `folder`.
-void enter(PanelState::Files& files, const std::filesystem::path& folder, const std::string& typed) {
+// Returns the file that is named. The name of a listed one may not be UTF-8, as what stands in the field is.
+std::filesystem::path named(const PanelState::Files& files) {
+  const auto listed = std::ranges::find(files.entries, files.typed, &textOf);
+  return files.folder / (listed != files.entries.end() ? listed->path().filename() : typedPath(files.typed));
+}
+
+// Begins the state of a prompt: the name stands in the field and is relative to `folder`.
+void enter(PanelState::Files& files, const std::filesystem::path& folder, const std::filesystem::path& name = {}) {
   files = {};
   files.folder = withoutLinks(folder);
-  files.typed = typed;
+  files.typed = textOf(name);
+}
+
+// Draws the field, which takes no more than the longest path. Returns true if Enter was pressed in it.
+bool typedField(PanelState::Files& files, const char* id, const char* hint) {
+  std::array<char, 4096> text{};
+  files.typed.copy(text.data(), text.size() - 1);
+  const bool entered = ImGui::InputTextWithHint(
+      id, hint, text.data(), text.size(), ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
+  files.typed = text.data();
+  return entered;
 }
 
 // Gives the field the keyboard if that is due. Call it before the field is drawn.
@@ -121,7 +138,8 @@ std::optional<std::filesystem::path> fileList(PanelContext& ui, const std::files
                                               bool models, bool edited) {
   PanelState::Files& files = ui.state.files;
   std::error_code none;
-  const std::string begun = named(files).filename().string();
+  const std::filesystem::path shown = named(files);
+  const std::string begun = shown.filename().string();
   bool scrolls = edited && !begun.empty();
   if (folder != files.listed) {
     list(files, folder, models);
@@ -136,7 +154,7 @@ std::optional<std::filesystem::path> fileList(PanelContext& ui, const std::files
   const auto row = [&](const std::string& name, const std::string& label, const std::filesystem::path& file,
                        bool first) {
     constexpr auto rowFlags = ImGuiSelectableFlags_AllowDoubleClick | ImGuiSelectableFlags_DontClosePopups;
-    if (ImGui::Selectable(label.c_str(), file == named(files), rowFlags) ||
+    if (ImGui::Selectable(label.c_str(), file == shown, rowFlags) ||
         (ImGui::IsItemFocused() && enterPressed())) {
       chosen = file;
     }
@@ -165,11 +183,11 @@ void saveAs(PanelContext& ui) {
   ImGui::SetNextItemWidth(fieldWidth());
   if (ImGui::IsWindowAppearing()) {
     const std::filesystem::path& proposed = ui.input.edit.proposedFile;
-    enter(files, proposed.parent_path(), proposed.filename().string());
+    enter(files, proposed.parent_path(), proposed);
     files.folder = proposed.parent_path();  // with its links, because the suggested folder is known by that path
   }
   focusField(files);
-  ImGui::InputText("##file", &files.typed, ImGuiInputTextFlags_AutoSelectAll);
+  typedField(files, "##file", "");
   const bool edited = ImGui::IsItemEdited();
   recordWidget(ui, "edit.file");
   // The list's folder is where the file goes, so it is listed as empty until saving makes it.
@@ -177,7 +195,7 @@ void saveAs(PanelContext& ui) {
   const auto chosen = fileList(ui, folder, 12.0f * ImGui::GetFontSize(), false, edited);
   if (chosen) {
     const bool enters = *chosen == folder.parent_path() || isFolder(*chosen);
-    files.typed = (enters ? named(files) : *chosen).filename().string();
+    files.typed = textOf(enters ? named(files) : *chosen);
     files.folder = enters ? *chosen : folder;
     files.focus = enters && enterPressed() ? Focus::list : files.focus;
   }
@@ -199,7 +217,7 @@ void saveAs(PanelContext& ui) {
     return;
   }
   if (isFolder(named(files))) {
-    return enter(files, named(files), ui.input.edit.proposedFile.filename().string());
+    return enter(files, named(files), ui.input.edit.proposedFile);
   }
   ui.send(answer);
   ImGui::CloseCurrentPopup();  // if saving fails the prompt opens again, with the keyboard in the field
@@ -221,25 +239,28 @@ void recovery(PanelContext& ui) {
 void openFile(PanelContext& ui) {
   PanelState::Files& files = ui.state.files;
   if (ImGui::IsWindowAppearing()) {
-    enter(files, ui.input.edit.proposedFile, "");
+    enter(files, ui.input.edit.proposedFile);
   }
   focusField(files);
   ImGui::SetNextItemWidth(fieldWidth());
-  bool opens = ImGui::InputTextWithHint("##typed", "Scene or model", &files.typed,
-                                        ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
+  bool opens = typedField(files, "##typed", "Scene or model");
   const bool edited = ImGui::IsItemEdited();
   if (edited) {
     files.problem.clear();
   }
   recordWidget(ui, "open.typed");
-  std::filesystem::path folder = withoutLinks(named(files).parent_path());
-  while (folder.has_relative_path() && !isFolder(folder)) {
-    folder = folder.parent_path();
+  std::filesystem::path folder;
+  for (const std::filesystem::path& part : withoutLinks(named(files).parent_path())) {
+    if (!isFolder(folder / part)) {
+      break;
+    }
+    folder /= part;
   }
   const auto chosen = fileList(ui, folder, 20.0f * ImGui::GetFontSize(), true, edited);
   if (chosen) {
     const bool leaves = *chosen == files.listed.parent_path();
-    files.typed = files.listed == files.folder && !leaves ? chosen->filename().string() : chosen->string();
+    files.typed = leaves ? chosen->string() : textOf(*chosen);
+    files.folder = files.listed;
     files.problem.clear();
     opens = leaves || enterPressed() || ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left);
   }
@@ -255,7 +276,7 @@ void openFile(PanelContext& ui) {
     return;
   }
   if (isFolder(file)) {
-    enter(files, file, "");
+    enter(files, file);
     files.focus = chosen && enterPressed() ? Focus::list : files.focus;
     return;
   }

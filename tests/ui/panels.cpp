@@ -482,6 +482,36 @@ TEST_F(PanelTest, LongTextsHaveShortTips) {
   EXPECT_TRUE(tooltip());
 }
 
+TEST_F(PanelTest, FilesMayHaveNamesThatAreNotUtf8) {
+  const std::filesystem::path folder = std::filesystem::canonical(config_.path());
+  std::ofstream(folder / "w\xff.toml") << "";
+  ask(Prompt::saveAs, folder / "w\xff.toml");
+  EXPECT_EQ(windows_->state().files.typed, "w\u00ff.toml");
+  EXPECT_EQ(clickFor<SaveAs>("where.save").file, folder / "w\xff.toml");
+  ask(Prompt::none);
+  ask(Prompt::saveAs, folder / "w\xff.toml");
+  type("a");
+  EXPECT_EQ(windows_->state().files.typed, "a");
+  ask(Prompt::none);
+  ask(Prompt::open, folder);
+  click("open.w\xff.toml");
+  EXPECT_EQ(windows_->state().files.typed, "w\u00ff.toml");
+  EXPECT_EQ(clickFor<OpenScene>("open.open").file, folder / "w\xff.toml");
+}
+
+TEST_F(PanelTest, PathsHaveABoundedLength) {
+  std::string deep;
+  for (int i = 0; i < 10'000; ++i) {
+    deep += "a/";
+  }
+  for (const Prompt prompt : {Prompt::open, Prompt::saveAs}) {
+    ask(prompt, config_.path() / "");
+    type(deep);
+    EXPECT_LT(windows_->state().files.typed.size(), 4096u);
+    ask(Prompt::none);
+  }
+}
+
 TEST_F(PanelTest, EnterOnFoldersKeepsTheKeyboard) {
   const std::filesystem::path folder = std::filesystem::canonical(config_.path());
   std::filesystem::create_directories(folder / "outer" / "inner" / "empty");
