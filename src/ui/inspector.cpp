@@ -11,6 +11,7 @@
 #include <tuple>
 #include <utility>
 
+#include "platform/text.hpp"
 #include "edit/new_nodes.hpp"
 #include "scene/scene_loader.hpp"
 #include "ui/panels.hpp"
@@ -39,7 +40,7 @@ bool nodeList(PanelContext& ui) {
         std::ranges::any_of(edit.others, [&](const Selection& selection) { return sameNode(selection, node); });
     ImGui::PushID(row);
     const ImGuiIO& io = ImGui::GetIO();
-    const bool chosen = ImGui::Selectable(describe(*edit.scene, node).c_str(), selected || other);
+    const bool chosen = ImGui::Selectable(oneLine(describe(*edit.scene, node)).c_str(), selected || other);
     // Later versions of Dear ImGui press a row by Enter too.
     const bool entered = io.NavVisible && ImGui::IsItemFocused() && enterPressed();
     if (chosen || entered) {
@@ -127,7 +128,7 @@ void throughButtons(PanelContext& ui) {
   ImGui::TextUnformatted("Seen in:");
   for (size_t i = 0; i < ui.input.edit.through.size(); ++i) {
     const Selection mirror = mirrorNode(*ui.input.edit.scene, ui.input.edit.through[i]);
-    const std::string name = speculum::describe(*ui.input.edit.scene, mirror);
+    const std::string name = oneLine(speculum::describe(*ui.input.edit.scene, mirror));
     continueRow(name.c_str());
     ImGui::PushID(static_cast<int>(i));  // a mirror may come twice
     if (ImGui::SmallButton(name.c_str())) {

@@ -32,7 +32,7 @@ void fileMenu(PanelContext& ui) {
   if (menu(ui, "Open recent", !recent.empty())) {
     for (const std::filesystem::path& file : recent) {
       ImGui::PushID(file.string().c_str());  // cut names may repeat
-      item(ui, endsThatFit(file.string(), beside, textWidth).c_str(), OpenScene{file}, true, "");
+      item(ui, endsThatFit(oneLine(file.string()), beside, textWidth).c_str(), OpenScene{file}, true, "");
       ImGui::PopID();
       tip(file.string());
     }
@@ -54,7 +54,7 @@ void fileMenu(PanelContext& ui) {
 void editMenu(PanelContext& ui) {
   const ShownEdit& edit = ui.input.edit;
   const auto labelled = [](const char* verb, const std::string& step) {
-    return step.empty() ? std::string(verb) : std::string(verb) + " " + step + "###" + verb;
+    return step.empty() ? std::string(verb) : std::string(verb) + " " + oneLine(step) + "###" + verb;
   };
   item(ui, labelled("Undo", edit.undo).c_str(), Undo{}, !edit.undo.empty());
   item(ui, labelled("Redo", edit.redo).c_str(), Redo{}, !edit.redo.empty());
@@ -69,7 +69,7 @@ void editMenu(PanelContext& ui) {
   if (menu(ui, "Add object")) {
     for (const std::filesystem::path& model : edit.models) {
       ImGui::PushID(model.string().c_str());  // names may repeat
-      item(ui, model.stem().string().c_str(), AddObject{model}, true, "");
+      item(ui, oneLine(model.stem().string()).c_str(), AddObject{model}, true, "");
       ImGui::PopID();
     }
     ImGui::EndMenu();

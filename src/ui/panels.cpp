@@ -26,11 +26,11 @@ void bookmarks(PanelContext& ui) {
   const std::vector<Bookmark>& bookmarks = ui.input.edit.scene->bookmarks;
   const int shown = ui.input.camera.bookmark;
   ImGui::SetNextItemWidth(10.0f * ImGui::GetFontSize());
-  const bool open = ImGui::BeginCombo("##bookmarks", shown >= 0 ? bookmarks[shown].name.c_str() : "Bookmarks");
+  const bool open = ImGui::BeginCombo("##bookmarks", shown >= 0 ? oneLine(bookmarks[shown].name).c_str() : "Bookmarks");
   recordWidget(ui, "bookmarks");
   if (open) {
     for (size_t i = 0; i < bookmarks.size(); ++i) {
-      if (ImGui::Selectable(bookmarks[i].name.c_str(), static_cast<int>(i) == shown)) {
+      if (ImGui::Selectable(oneLine(bookmarks[i].name).c_str(), static_cast<int>(i) == shown)) {
         ui.send(GoToBookmark{i});
       }
       recordWidget(ui, "bookmark." + bookmarks[i].name);
@@ -49,16 +49,16 @@ void bookmarks(PanelContext& ui) {
 void sceneChoice(PanelContext& ui) {
   const ShownScenes& browser = ui.input.browser;
   const SceneEntry& shown = browser.scenes[browser.shown];
-  const std::string label =
-      labelFor("Scene", ImGui::CalcTextSize(shown.name.c_str()).x + 2.0f * ImGui::GetFrameHeight());
-  const bool open = ImGui::BeginCombo(label.c_str(), shown.name.c_str(), ImGuiComboFlags_HeightLargest);
+  const std::string name = oneLine(shown.name);
+  const std::string label = labelFor("Scene", textWidth(name) + 2.0f * ImGui::GetFrameHeight());
+  const bool open = ImGui::BeginCombo(label.c_str(), name.c_str(), ImGuiComboFlags_HeightLargest);
   recordWidget(ui, "scene");
   if (!open) {
     return tip(shown.file.string() + "\nWindow > Scenes shows pictures of all scenes.");
   }
   for (size_t i = 0; i < browser.scenes.size(); ++i) {
     ImGui::PushID(static_cast<int>(i));  // names may repeat
-    if (ImGui::Selectable(browser.scenes[i].name.c_str(), i == browser.shown) && i != browser.shown) {
+    if (ImGui::Selectable(oneLine(browser.scenes[i].name).c_str(), i == browser.shown) && i != browser.shown) {
       ui.send(OpenScene{browser.scenes[i].file});
     }
     ImGui::PopID();

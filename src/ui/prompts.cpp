@@ -154,7 +154,7 @@ std::optional<std::filesystem::path> fileList(PanelContext& ui, const std::files
   const auto row = [&](const std::string& name, const std::string& label, const std::filesystem::path& file,
                        bool first) {
     constexpr auto rowFlags = ImGuiSelectableFlags_AllowDoubleClick | ImGuiSelectableFlags_DontClosePopups;
-    if (ImGui::Selectable(label.c_str(), file == shown, rowFlags) ||
+    if (ImGui::Selectable(oneLine(label).c_str(), file == shown, rowFlags) ||
         (ImGui::IsItemFocused() && enterPressed())) {
       chosen = file;
     }

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "platform/text.hpp"
 #include "ui/panels.hpp"
 
 namespace speculum::panels {
@@ -50,12 +51,12 @@ void passChoice(PanelContext& ui, const PassRow* shown) {
   const float width = 10.0f * ImGui::GetFontSize();
   const float room = width - ImGui::GetFrameHeight() - 2.0f * ImGui::GetStyle().FramePadding.x;
   ImGui::SetNextItemWidth(width);
-  const std::string preview = shown ? thatFits(shown->name, room) : "";
+  const std::string preview = shown ? thatFits(oneLine(shown->name), room) : "";
   if (ImGui::BeginCombo("##pass", preview.c_str())) {
     for (size_t i = 0; i < ui.input.frame.passes.size(); ++i) {
       const PassRow& pass = ui.input.frame.passes[i];
       ImGui::PushID(static_cast<int>(i));  // names may repeat
-      if (hasTarget(pass) && ImGui::Selectable(pass.name.c_str(), &pass == shown)) {
+      if (hasTarget(pass) && ImGui::Selectable(oneLine(pass.name).c_str(), &pass == shown)) {
         ui.state.targets.path = pass.path;
       }
       ImGui::PopID();

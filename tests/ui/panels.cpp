@@ -512,6 +512,19 @@ TEST_F(PanelTest, PathsHaveABoundedLength) {
   }
 }
 
+TEST_F(PanelTest, ListsShowEveryCharacterOfNames) {
+  browser_.scenes[1].name = "wall##2";
+  scene_.mirrors[0].name = "##hidden\nbelow";
+  scene_.bookmarks = {{.name = "##view"}};
+  click("scene");
+  EXPECT_TRUE(shows("wall#\\x232"));
+  click("scene.wall##2");
+  windows_->toggleInspector();
+  EXPECT_TRUE(shows("'#\\x23hidden\\x0abelow'"));
+  camera_.bookmark = 0;
+  EXPECT_TRUE(shows("#\\x23view"));
+}
+
 TEST_F(PanelTest, EnterOnFoldersKeepsTheKeyboard) {
   const std::filesystem::path folder = std::filesystem::canonical(config_.path());
   std::filesystem::create_directories(folder / "outer" / "inner" / "empty");
