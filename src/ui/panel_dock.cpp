@@ -125,14 +125,17 @@ WindowRect PanelDock::freeRect() const {
   const glm::vec2 display = displaySize();
   float left = 0.0f;
   float right = display.x;
+  float top = top_;
   for (const Panel* panel : order_) {
-    if (panel->docked && panel->shown && !panel->collapsed) {
-      const WindowRect& place = panel->given;
+    const WindowRect& place = panel->given;
+    if (panel->docked && panel->shown && panel->collapsed) {
+      top = std::max(top, place.corner.y + place.size.y);
+    } else if (panel->docked && panel->shown) {
       columns_.edgeOf(*panel) == Edge::left ? void(left = std::max(left, place.corner.x + place.size.x))
                                             : void(right = std::min(right, place.corner.x));
     }
   }
-  return {{std::min(left, right), top_}, {std::max(right - left, 0.0f), display.y - top_}};
+  return {{std::min(left, right), top}, {std::max(right - left, 0.0f), std::max(display.y - top, 0.0f)}};
 }
 
 void PanelDock::reset() {

@@ -525,6 +525,18 @@ TEST_F(PanelTest, ListsShowEveryCharacterOfNames) {
   EXPECT_TRUE(shows("#\\x23view"));
 }
 
+TEST_F(PanelTest, FoldedPanelsAreNotCovered) {
+  const PixelRect first = widget("scene");
+  const float top = windows_->freeRect().corner.y;
+  const ImGuiWindow* panel = ImGui::FindWindowByName("Speculum");
+  moveTo(first.x + 4, panel->Pos.y + 8);  // the arrow of its title
+  press();
+  run(3);
+  EXPECT_FALSE(has("scene")) << "collapsed";
+  EXPECT_GE(windows_->freeRect().corner.y, panel->Pos.y + panel->Size.y);
+  EXPECT_GT(windows_->freeRect().corner.y, top);
+}
+
 TEST_F(PanelTest, EnterOnFoldersKeepsTheKeyboard) {
   const std::filesystem::path folder = std::filesystem::canonical(config_.path());
   std::filesystem::create_directories(folder / "outer" / "inner" / "empty");
