@@ -17,8 +17,10 @@ namespace panels {
 constexpr float lines = 2.0f;       // lines of text that are kept free
 constexpr float mostWidth = 0.75f;  // of the display
 constexpr const char* pictureHelp =
-    "What this picture leaves out until nothing moves and the whole one is drawn.\n"
-    "Estimated FLIP: how different from the whole picture it should look, 0 (not at all) to 1.";
+    "Moving, Draft: what is left out until nothing moves and the whole picture is drawn.\n"
+    "Averaged: how many of the pictures are drawn whose mean is shown.\n"
+    "Approximate: what the settings leave out of the whole picture too.\n"
+    "Estimated FLIP: how different it should look without that, 0 (not at all) to 1.";
 
 float statusHeight() {
   return std::floor(lines * ImGui::GetTextLineHeightWithSpacing() + 2.0f * ImGui::GetStyle().FramePadding.y);
