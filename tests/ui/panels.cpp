@@ -1460,7 +1460,7 @@ TEST_F(Inspector, ColorsHaveASwatch) {
   }
   EXPECT_TRUE(found);
   press();
-  EXPECT_TRUE(shows("As displayed (sRGB)"));
+  EXPECT_TRUE(shows("sRGB, before exposure and tone curve"));
 }
 
 // Says how often the panels show the text.
