@@ -76,6 +76,7 @@ struct KeepHalf {};  // the chosen half's settings become those of the scene, an
 // Files.
 struct NewScene {};
 struct AskWhatToOpen {};
+struct AskWhatToAdd {};  // asks for the model of an object
 struct OpenScene {
   std::filesystem::path file;
   std::optional<size_t> lesson = {};  // begins this one of ShownSplit::lessons, whose scene the file is
@@ -166,16 +167,16 @@ struct ClearHistory {};
 struct ClearLog {};
 
 // One action of the user. Panels, keys and the gamepad make commands; Workspace::apply carries them out.
-using Command =
-    std::variant<ResetCamera, ToggleCameraMode, SetCameraMode, FrameSelection, LookFromMirror, AddBookmark,
-                 GoToBookmark, GoToNextBookmark, RemoveBookmark, Seek, StepTime, SetPaused, TogglePaused, SetTimeSpeed,
-                 MultiplyTimeSpeed, SetSettings, ResetSettings, ToggleSplit, ChooseHalf, ChooseOtherHalf, MoveDivider,
-                 KeepHalf, NewScene, AskWhatToOpen, OpenScene, OpenDropped, CancelLoading, Save, AskWhereToSave, SaveAs,
-                 DiscardChanges, CancelPrompt, Quit, SelectNode, ToggleNode, SelectNext, SetGizmoMode, NextGizmoMode,
-                 EditNode, EditCamera, TakeView, EndEdit, AddMirror, AddLight, AddObject, DuplicateSelected,
-                 RemoveSelected, Undo, Redo, MeasureAccuracy, CancelMeasurement, ApplyPoint, TakeScreenshot,
-                 ToggleRecording, CopyCommandLine, CopyText, SetPresentMode, ToggleFullScreen, TogglePanel, ToggleHelp,
-                 ToggleInspector, Escape, DismissMessage, PauseHistory, ClearHistory, ClearLog>;
+using Command = std::variant<ResetCamera, ToggleCameraMode, SetCameraMode, FrameSelection, LookFromMirror, AddBookmark,
+                             GoToBookmark, GoToNextBookmark, RemoveBookmark, Seek, StepTime, SetPaused, TogglePaused,
+                             SetTimeSpeed, MultiplyTimeSpeed, SetSettings, ResetSettings, ToggleSplit, ChooseHalf,
+                             ChooseOtherHalf, MoveDivider, KeepHalf, NewScene, AskWhatToOpen, AskWhatToAdd, OpenScene,
+                             OpenDropped, CancelLoading, Save, AskWhereToSave, SaveAs, DiscardChanges, CancelPrompt,
+                             Quit, SelectNode, ToggleNode, SelectNext, SetGizmoMode, NextGizmoMode, EditNode,
+                             EditCamera, TakeView, EndEdit, AddMirror, AddLight, AddObject, DuplicateSelected,
+                             RemoveSelected, Undo, Redo, MeasureAccuracy, CancelMeasurement, ApplyPoint, TakeScreenshot,
+                             ToggleRecording, CopyCommandLine, CopyText, SetPresentMode, ToggleFullScreen, TogglePanel,
+                             ToggleHelp, ToggleInspector, Escape, DismissMessage, PauseHistory, ClearHistory, ClearLog>;
 
 // Functions for std::visit(), one for each type of command.
 template <typename... Functions>

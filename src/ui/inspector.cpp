@@ -1,7 +1,6 @@
 // The window that edits the scene.
 #include <imgui.h>
 #include <imgui_internal.h>
-#include <imgui_stdlib.h>
 #include <spdlog/fmt/fmt.h>
 #include <imgui_versions.hpp>
 
@@ -11,8 +10,8 @@
 #include <tuple>
 #include <utility>
 
-#include "platform/text.hpp"
 #include "edit/new_nodes.hpp"
+#include "platform/text.hpp"
 #include "scene/scene_loader.hpp"
 #include "ui/panels.hpp"
 #include "ui/pass_tree.hpp"
@@ -70,28 +69,25 @@ void modelChoice(PanelContext& ui) {
     const auto plain = std::ranges::find(models, "sphere", [](const std::filesystem::path& m) { return m.stem(); });
     chosen = models.empty() ? std::nullopt : std::optional(plain != models.end() ? *plain : models.front());
   }
-  constexpr const char* fileName = "File...";
   ImGui::SetNextItemWidth(-FLT_MIN);
-  const bool open =
-      ImGui::BeginCombo("##model", chosen ? chosen->stem().string().c_str() : fileName, ImGuiComboFlags_HeightLargest);
+  const std::string preview = chosen ? oneLine(chosen->stem().string()) : "";
+  const bool open = ImGui::BeginCombo("##model", preview.c_str(), ImGuiComboFlags_HeightLargest);
   recordWidget(ui, "edit.model");
   if (open) {
-    for (size_t i = 0; i <= models.size(); ++i) {
+    for (size_t i = 0; i < models.size(); ++i) {
       ImGui::PushID(static_cast<int>(i));  // models may have equal names
-      const auto model = i < models.size() ? std::optional(models[i]) : std::nullopt;
-      const std::string name = model ? model->stem().string() : fileName;
-      if (ImGui::Selectable(name.c_str(), model == chosen)) {
-        chosen = model;
+      const std::string name = oneLine(models[i].stem().string());
+      if (ImGui::Selectable(name.c_str(), models[i] == chosen)) {
+        chosen = models[i];
       }
-      recordWidget(ui, "edit.model." + (model ? name : "file"));
+      recordWidget(ui, "edit.model." + name);
       ImGui::PopID();
     }
+    if (ImGui::Selectable("File...")) {
+      ui.send(AskWhatToAdd{});
+    }
+    recordWidget(ui, "edit.model.file");
     ImGui::EndCombo();
-  }
-  if (!chosen) {
-    ImGui::SetNextItemWidth(-FLT_MIN);
-    ImGui::InputTextWithHint("##model file", "Model file", &ui.state.modelFile);
-    recordWidget(ui, "edit.model_file");
   }
 }
 
@@ -99,9 +95,8 @@ void addButtons(PanelContext& ui) {
   commandButton(ui, "Add mirror", "edit.add_mirror", "Adds a mirror in the middle of the view, facing it.",
                 AddMirror{});
   nextButton(ui, "Add light", "edit.add_light", "Adds a light in the middle of the view.", AddLight{});
-  const bool named = ui.state.model || !ui.state.modelFile.empty();
   commandButton(ui, "Add object", "edit.add_object", "Adds an object with the chosen model in the middle of the view.",
-                AddObject{ui.state.model.value_or(ui.state.modelFile)}, named);
+                AddObject{ui.state.model.value_or("")}, ui.state.model.has_value());
   ImGui::SameLine();
   modelChoice(ui);
 }

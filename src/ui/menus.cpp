@@ -72,6 +72,7 @@ void editMenu(PanelContext& ui) {
       item(ui, oneLine(model.stem().string()).c_str(), AddObject{model}, true, "");
       ImGui::PopID();
     }
+    item(ui, "File...", AskWhatToAdd{});
     ImGui::EndMenu();
   }
   ImGui::Separator();

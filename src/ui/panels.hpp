@@ -66,12 +66,11 @@ struct PanelState {
   std::optional<RefusedCamera> refusedCamera;
 
   const Scene* modelsOf = nullptr;             // scene that `model` was chosen for
-  std::optional<std::filesystem::path> model;  // model to add next; none: `modelFile`
-  std::string modelFile;                       // path that the user types
+  std::optional<std::filesystem::path> model;  // model to add next
 
   std::string dismissedMessage;  // message that the user dismissed
 
-  // State of Prompt::open and Prompt::saveAs.
+  // State of the prompts for a file.
   struct Files {
     enum class Focus { none, field, list } focus = Focus::field;  // part that takes the keyboard in the next frame
     std::filesystem::path folder;                                 // that typed names are relative to

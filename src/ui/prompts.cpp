@@ -78,15 +78,16 @@ void unsavedChanges(PanelContext& ui) {
   answerButton(ui, "Cancel", "ask.cancel", CancelPrompt{});
 }
 
-// Lists what can be chosen in a folder: folders, scenes and, with `models`, models.
-void list(PanelState::Files& files, const std::filesystem::path& folder, bool models) {
+// Lists what can be chosen in a folder: folders, and scenes or models or both.
+void list(PanelState::Files& files, const std::filesystem::path& folder, Prompt prompt) {
   std::error_code none;
   files.listed = folder;
   files.entries.clear();
   for (const auto& entry : std::filesystem::directory_iterator(folder, none)) {
     const std::filesystem::path& file = entry.path();
     const bool hidden = file.filename().string().starts_with('.');
-    const bool fits = file.extension() == ".toml" || (models && isModelFile(file));
+    const bool fits =
+        isModelFile(file) ? prompt != Prompt::saveAs : prompt != Prompt::addObject && file.extension() == ".toml";
     if (!hidden && (entry.is_directory(none) || fits)) {
       files.entries.push_back(entry);
     }
@@ -135,14 +136,14 @@ void focusField(PanelState::Files& files) {
 // Draws the list of a folder. If the name was `edited` in this frame, scrolls to the first entry that begins with it.
 // Returns an entry that was clicked, or on which Enter was pressed.
 std::optional<std::filesystem::path> fileList(PanelContext& ui, const std::filesystem::path& folder, float height,
-                                              bool models, bool edited) {
+                                              bool edited) {
   PanelState::Files& files = ui.state.files;
   std::error_code none;
   const std::filesystem::path shown = named(files);
   const std::string begun = shown.filename().string();
   bool scrolls = edited && !begun.empty();
   if (folder != files.listed) {
-    list(files, folder, models);
+    list(files, folder, ui.input.edit.prompt);
     files.modelsOutside =
         modelsOutside(*ui.input.edit.scene, folder).size() + mapsOutside(*ui.input.edit.scene, folder).size();
   }
@@ -192,7 +193,7 @@ void saveAs(PanelContext& ui) {
   recordWidget(ui, "edit.file");
   // The list's folder is where the file goes, so it is listed as empty until saving makes it.
   const std::filesystem::path folder = withoutLinks(named(files).parent_path());
-  const auto chosen = fileList(ui, folder, 12.0f * ImGui::GetFontSize(), false, edited);
+  const auto chosen = fileList(ui, folder, 12.0f * ImGui::GetFontSize(), edited);
   if (chosen) {
     const bool enters = *chosen == folder.parent_path() || isFolder(*chosen);
     files.typed = textOf(enters ? named(files) : *chosen);
@@ -238,12 +239,13 @@ void recovery(PanelContext& ui) {
 
 void openFile(PanelContext& ui) {
   PanelState::Files& files = ui.state.files;
+  const bool adds = ui.input.edit.prompt == Prompt::addObject;
   if (ImGui::IsWindowAppearing()) {
     enter(files, ui.input.edit.proposedFile);
   }
   focusField(files);
   ImGui::SetNextItemWidth(fieldWidth());
-  bool opens = typedField(files, "##typed", "Scene or model");
+  bool opens = typedField(files, "##typed", adds ? "Model" : "Scene or model");
   const bool edited = ImGui::IsItemEdited();
   if (edited) {
     files.problem.clear();
@@ -256,7 +258,7 @@ void openFile(PanelContext& ui) {
     }
     folder /= part;
   }
-  const auto chosen = fileList(ui, folder, 20.0f * ImGui::GetFontSize(), true, edited);
+  const auto chosen = fileList(ui, folder, 20.0f * ImGui::GetFontSize(), edited);
   if (chosen) {
     const bool leaves = *chosen == files.listed.parent_path();
     files.typed = leaves ? chosen->string() : textOf(*chosen);
@@ -267,7 +269,7 @@ void openFile(PanelContext& ui) {
   if (!files.problem.empty()) {
     coloredText(errorColor, files.problem);
   }
-  opens = button(ui, "Open", "open.open", "", !files.typed.empty()) || opens;
+  opens = button(ui, adds ? "Add" : "Open", "open.open", "", !files.typed.empty()) || opens;
   ImGui::SameLine();
   answerButton(ui, "Cancel", "open.cancel", CancelPrompt{});
   std::filesystem::path file = named(files);
@@ -282,7 +284,7 @@ void openFile(PanelContext& ui) {
   }
   std::filesystem::path scene = file;
   scene += ".toml";
-  if (!std::filesystem::exists(file, none) && std::filesystem::exists(scene, none) && !isFolder(scene)) {
+  if (!adds && !std::filesystem::exists(file, none) && std::filesystem::exists(scene, none) && !isFolder(scene)) {
     file = std::move(scene);
   }
   if (!std::filesystem::exists(file, none)) {
@@ -290,7 +292,7 @@ void openFile(PanelContext& ui) {
     files.focus = Focus::field;
     return;
   }
-  ui.send(OpenScene{file});
+  ui.send(adds ? Command(AddObject{file}) : Command(OpenScene{file}));
   ImGui::CloseCurrentPopup();
 }
 
@@ -303,6 +305,7 @@ void prompts(PanelContext& ui) {
   for (const auto& [prompt, title, content] :
        {std::tuple(Prompt::unsavedChanges, "Unsaved changes", &unsavedChanges),
         std::tuple(Prompt::saveAs, "Save as", &saveAs), std::tuple(Prompt::open, "Open", &openFile),
+        std::tuple(Prompt::addObject, "Add object", &openFile),
         std::tuple(Prompt::recovery, "Unsaved changes of the last session", &recovery)}) {
     const bool asked = ui.input.edit.prompt == prompt;
     if (asked && !ImGui::IsPopupOpen(title)) {

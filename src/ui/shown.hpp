@@ -131,7 +131,7 @@ struct ShownOverlay {
   glm::dvec2 labelAt{0.0};   // where the pointer is
 };
 
-enum class Prompt { none, unsavedChanges, saveAs, open, recovery };
+enum class Prompt { none, unsavedChanges, saveAs, open, addObject, recovery };
 
 // The scene as it is edited.
 struct ShownEdit {

@@ -33,7 +33,8 @@ class DocumentController {
   void askWhere();  // prompts for the file to save to
   // Shows a prompt that proposes a file, or a folder to open a file from.
   void ask(Prompt prompt, const std::filesystem::path& proposed);
-  void closeOpenPrompt() { prompt_ = prompt_ == Prompt::open || prompt_ == Prompt::recovery ? Prompt::none : prompt_; }
+  // Closes a prompt for a file to read.
+  void closeOpenPrompt() { prompt_ = prompt_ >= Prompt::open ? Prompt::none : prompt_; }
   void cancelPrompt();
 
   bool savedSinceLastCall() { return std::exchange(saved_, false); }

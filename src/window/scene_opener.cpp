@@ -38,8 +38,12 @@ fs::path SceneOpener::folderToOpen() const {
 
 void SceneOpener::ask() {
   if (!dialog_.open(folderToOpen(), {"Scenes and models", "*.toml " + modelPatterns()})) {
-    saving_->ask(Prompt::open, folderToOpen());
+    ask(Prompt::open);
   }
+}
+
+void SceneOpener::ask(Prompt prompt) {
+  saving_->ask(prompt, folderToOpen());
 }
 
 void SceneOpener::takeChosenFile() {
@@ -47,7 +51,7 @@ void SceneOpener::takeChosenFile() {
   if (answer && answer->file) {
     open({*answer->file});
   } else if (answer && answer->failed && !saving_->prompting()) {
-    saving_->ask(Prompt::open, folderToOpen());
+    ask(Prompt::open);
   }
 }
 

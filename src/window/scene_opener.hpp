@@ -24,6 +24,7 @@ class SceneOpener {
 
   // Asks for a file to open: by the desktop's dialog, if there is one that can be started, else by a prompt.
   void ask();
+  void ask(Prompt prompt);  // in the window itself
   void open(const OpenScene& wanted);
   void openDropped(const std::vector<std::filesystem::path>& files);
   void cancelLoading();

@@ -83,6 +83,7 @@ void Workspace::apply(const Command& command) {
                  [&](const KeepHalf&) { settings_.keepHalf(); },
                  [&](const NewScene&) { opener_.open({SceneBrowser::newScene()}); },
                  [&](const AskWhatToOpen&) { opener_.ask(); },
+                 [&](const AskWhatToAdd&) { opener_.ask(Prompt::addObject); },
                  [&](const OpenScene& c) { opener_.open(c); },
                  [&](const OpenDropped& c) { opener_.openDropped(c.files); },
                  [&](const CancelLoading&) { opener_.cancelLoading(); },
@@ -325,6 +326,7 @@ void Workspace::addObject(const fs::path& model) {
   const auto meshes = static_cast<std::ptrdiff_t>(scene.meshes.size());
   const auto textures = static_cast<std::ptrdiff_t>(scene.textures.size());
   const auto grown = [&] { return static_cast<std::ptrdiff_t>(scene.meshes.size()) > meshes; };
+  saving_->closeOpenPrompt();
   saving_->setNote("");
   try {
     const fs::path file = editor_->modelFile(model);

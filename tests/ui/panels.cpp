@@ -474,14 +474,6 @@ TEST_F(PanelTest, FilesAreChosenFromOwnList) {
   EXPECT_TRUE(std::filesystem::equivalent(only<OpenScene>().file, config_.path() / "models" / "a.obj"));
 }
 
-TEST_F(PanelTest, LongTextsHaveShortTips) {
-  windows_->toggleInspector();
-  edit_.undo = std::string(20'000, 'u');
-  hover("edit.undo");
-  run(60);
-  EXPECT_TRUE(tooltip());
-}
-
 TEST_F(PanelTest, FilesMayHaveNamesThatAreNotUtf8) {
   const std::filesystem::path folder = std::filesystem::canonical(config_.path());
   std::ofstream(folder / "w\xff.toml") << "";
@@ -523,6 +515,14 @@ TEST_F(PanelTest, ListsShowEveryCharacterOfNames) {
   EXPECT_TRUE(shows("'#\\x23hidden\\x0abelow'"));
   camera_.bookmark = 0;
   EXPECT_TRUE(shows("#\\x23view"));
+}
+
+TEST_F(PanelTest, LongTextsHaveShortTips) {
+  windows_->toggleInspector();
+  edit_.undo = std::string(20'000, 'u');
+  hover("edit.undo");
+  run(60);
+  EXPECT_TRUE(tooltip());
 }
 
 TEST_F(PanelTest, FoldedPanelsAreNotCovered) {
@@ -1355,12 +1355,20 @@ TEST_F(Inspector, NodesAreAddedOfTheChosenModel) {
   click("edit.model.vase");
   EXPECT_EQ(clickFor<AddObject>("edit.add_object").model, "/models/vase.obj");
   click("edit.model");
-  click("edit.model.file");
-  click("edit.add_object");
-  EXPECT_FALSE(sent<AddObject>()) << "no file is named";
-  click("edit.model_file");
-  type("own.obj");
-  EXPECT_EQ(clickFor<AddObject>("edit.add_object").model, "own.obj");
+  clickFor<AskWhatToAdd>("edit.model.file");
+}
+
+TEST_F(PanelTest, ObjectsAreAddedFromFiles) {
+  const std::filesystem::path folder = std::filesystem::canonical(config_.path());
+  std::ofstream(folder / "own.obj") << "";
+  std::ofstream(folder / "room.toml") << "";
+  click("menu.Edit");
+  click("menu.Add object");
+  clickFor<AskWhatToAdd>("menu.File...");
+  ask(Prompt::addObject, folder);
+  EXPECT_FALSE(has("open.room.toml"));
+  click("open.own.obj");
+  EXPECT_EQ(clickFor<AddObject>("open.open").model, folder / "own.obj");
 }
 
 TEST_F(Inspector, ModelsThatLieOnTheirBacksAreStoodUp) {

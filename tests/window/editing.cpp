@@ -518,7 +518,10 @@ TEST_F(Editing, ModelsAreAddedFromAnyFile) {
     return std::ranges::count_if(models, [&](const auto& model) { return model.stem() == name; });
   };
   EXPECT_EQ(count("sphere"), 1);
+  send(AskWhatToAdd{});
+  EXPECT_EQ(edit().prompt, Prompt::addObject);
   send(AddObject{dataDirectory("scenes").parent_path() / "models" / "vase.obj"});
+  EXPECT_EQ(edit().prompt, Prompt::none);
   ASSERT_EQ(edit().undo, "add object 'vase'") << edit().note;
   EXPECT_EQ(host_.scenesUsed, 1);
   const Object vase = object();
