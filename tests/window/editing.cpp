@@ -123,8 +123,10 @@ TEST_F(Editing, LongNamesLeaveShortTexts) {
   Object named = scene().objects.at(0);
   named.name = std::string(20'000, 'n');
   send(EditNode{ball, named, false});
+  send(SelectNode{ball});
+  send(RemoveSelected{});
   send(Undo{});
-  EXPECT_TRUE(startsWith(status(), "Undone: "));
+  EXPECT_TRUE(startsWith(status(), "Undone: remove object 'nnn")) << status();
   EXPECT_LE(status().size(), 1000u);
 }
 
