@@ -51,8 +51,8 @@ struct LightData {
   vec3 position;  // relative
   float radius;   // metres
   vec3 irradiance;  // at 1 m, facing the light
-  uint castsShadow;
-  vec3 glow;  // radiance of the glyph
+  float height;     // of the point that shadow rays lead to, from the nearest plane of a mirror; below 0: no shadow
+  vec3 glow;        // radiance of the glyph
   uint hasGlyph;  // for reflected rays
   vec3 clearance;  // from the light to the point that shadow rays lead to
   uint shadowMap;  // index into shadowMaps; noShadowMap: none
@@ -354,9 +354,9 @@ struct LightPath {
   vec3 irradiance;  // at 1 m, facing the light
   uint castsShadow;
   vec3 light;   // position of the light itself
-  uint mirror;  // index into traceMirrors
-  float side;   // of the mirror that reflects: 1 the front, -1 the back
-  float moved;  // metres by which the light was moved off the mirror on which it lies
+  uint mirror;   // index into traceMirrors
+  float side;    // of the mirror that reflects: 1 the front, -1 the back
+  float height;  // of the light from the nearest plane of a mirror
   uint padding[2];
 };
 

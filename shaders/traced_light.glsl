@@ -23,6 +23,7 @@ struct Incoming {
   bool arrives;
   vec3 toLight;    // from the point
   vec3 clearance;  // as LightData::clearance
+  float height;    // as LightData::height
   float radius;
   vec3 irradiance;  // at 1 m, with the mirror's reflectance
   bool castsShadow;
@@ -31,8 +32,8 @@ struct Incoming {
 };
 
 Incoming directLight(LightData light, vec3 position) {
-  return Incoming(true, light.position - position, light.clearance, light.radius, light.irradiance,
-                  light.castsShadow != 0, none, 1.0);
+  return Incoming(true, light.position - position, light.clearance, light.height, light.radius,
+                  light.irradiance, light.height >= 0.0, none, 1.0);
 }
 
 // Returns the light that a mirror casts onto a point. It arrives if the straight line to the light's image crosses the
@@ -46,7 +47,7 @@ Incoming bouncedLight(LightPath path, vec3 tracePosition, Skip self) {
   bool arrives = sameSide && self.plane != planeOf(mirror) && crossing > 0.0 && crossing < 1.0;
   vec3 reflectance = tracedMirrorReflectance(mirror, tracePosition + crossing * toLight,
                                              abs(dot(normal, safeNormalize(toLight))));
-  return Incoming(arrives, toLight, vec3(0.0), path.radius, path.irradiance * reflectance, path.castsShadow != 0, mirror,
+  return Incoming(arrives, toLight, vec3(0.0), path.height, path.radius, path.irradiance * reflectance, path.castsShadow != 0, mirror,
                   crossing);
 }
 
@@ -61,10 +62,10 @@ Incoming incomingLight(uint i, Surface surface, vec3 tracePosition, Skip self) {
 }
 
 // Returns the end of a ray to a light, as a share of its length. At 1, rounding would decide whether the ray meets a
-// surface on which the light lies. A light that was moved off a mirror, by `moved` metres, must stay hidden behind it.
-float lightEnd(vec3 toLight, float moved) {
-  const float rounding = 1.0 / 1048576.0;
-  return 1.0 - (moved > 0.0 ? min(rounding, 0.25 * moved / max(length(toLight), 1e-30)) : rounding);
+// surface on which the light lies. What a mirror near the light hides must stay hidden: `height` is the light's from
+// the nearest plane of a mirror.
+float lightEnd(vec3 toLight, float height) {
+  return 1.0 - min(1.0 / 1048576.0, 0.25 * height / max(length(toLight), 1e-30));
 }
 
 // Says whether nothing blocks the light on its way to the point. The light of an image comes by way of the image's
@@ -75,7 +76,7 @@ bool unobstructed(uint i, Incoming incoming, vec3 tracePosition, Skip self, uint
   vec3 origin = tracePosition;
   vec3 direction = incoming.toLight + incoming.clearance;
   bool last = incoming.mirror == none;
-  float tMax = last ? lightEnd(direction, length(incoming.clearance)) : incoming.crossing;
+  float tMax = last ? lightEnd(direction, incoming.height) : incoming.crossing;
   bool hidden = false;
   for (;;) {
     Hit hit = traceRay(origin, direction, tMax, skip, true, mixedBits(seed + 2 * i + uint(last)));
@@ -88,7 +89,7 @@ bool unobstructed(uint i, Incoming incoming, vec3 tracePosition, Skip self, uint
     origin += incoming.crossing * direction;
     LightPath path = lightPaths[i - view.lightCount];
     direction = path.light - origin;
-    tMax = lightEnd(direction, path.moved);
+    tMax = lightEnd(direction, path.height);
     skip = Skip(none, none, skip.secondPlane, none, 0.0);
     last = true;
   }

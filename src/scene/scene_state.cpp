@@ -436,4 +436,12 @@ glm::dvec3 besideMirrors(const glm::dvec3& light, std::span<const MirrorState> m
   return point;
 }
 
+double heightOverMirrors(const glm::dvec3& point, std::span<const MirrorState> mirrors) {
+  double height = 1e30;
+  for (const MirrorState& mirror : mirrors) {
+    height = std::min(height, std::abs(glm::dot(mirror.normal, point - mirror.origin)));
+  }
+  return height;
+}
+
 }  // namespace speculum

@@ -84,8 +84,8 @@ struct MirrorBox {
   glm::dvec2 size;
 };
 MirrorBox boxOf(const MirrorState& mirror, std::span<const glm::dvec3> points);
-// Returns the point nearest to the eye of the box around the mirror's polygon, in local coordinates. Relative to it and
-// to the eye, floats hold what is near the eye, however large the mirror is.
+// Returns the point nearest to the eye of the box around the mirror's polygon, in local coordinates. Floats of
+// positions relative to this point are exact near the eye, however large the mirror is.
 glm::dvec2 localNear(const MirrorState& mirror, const glm::dvec3& eye);
 
 struct SceneState {
@@ -125,5 +125,7 @@ bool moves(const Scene& scene);
 // mirror. With `eye` (world), the point is for shaders, whose positions are floats relative to that eye.
 glm::dvec3 besideMirrors(const glm::dvec3& light, std::span<const MirrorState> mirrors,
                          const std::optional<glm::dvec3>& eye = {});
+// Returns the distance, in metres, from the nearest plane of a mirror, at most 1e30.
+double heightOverMirrors(const glm::dvec3& point, std::span<const MirrorState> mirrors);
 
 }  // namespace speculum

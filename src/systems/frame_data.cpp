@@ -31,12 +31,13 @@ const View* imageView(const MirrorDraw& draw, const FramePlan& plan) {
   return draw.pass >= 0 ? &plan.passes[draw.pass].view : draw.cached ? &plan.cached[draw.cached->image].view : nullptr;
 }
 
-std::vector<glm::vec3> clearancesOf(const Scene& scene, const SceneState& state) {
-  std::vector<glm::vec3> clearances(scene.lights.size());
+std::vector<glm::vec4> clearancesOf(const Scene& scene, const SceneState& state) {
+  std::vector<glm::vec4> clearances(scene.lights.size(), glm::vec4(0.0f, 0.0f, 0.0f, -1.0f));
   for (size_t i = 0; i < clearances.size(); ++i) {
     const glm::dvec3& light = state.lights[i].position;
     if (scene.lights[i].castsShadow) {
-      clearances[i] = glm::vec3(besideMirrors(light, state.mirrors, state.camera.eye) - light);
+      const glm::dvec3 end = besideMirrors(light, state.mirrors, state.camera.eye);
+      clearances[i] = glm::vec4(end - light, heightOverMirrors(end, state.mirrors));
     }
   }
   return clearances;
@@ -251,10 +252,10 @@ void FrameData::addLights(const FrameInfo& info, const Pass& pass, DrawBlock& bl
     lights_.push_back({.position = glm::vec3(info.state.lights[i].position - pass.view.eye),
                        .radius = static_cast<float>(light.radius),
                        .irradiance = radiance(scale * light.color * light.intensity),
-                       .castsShadow = light.castsShadow,
+                       .height = clearances_[i].w,
                        .glow = radiance(scale * light.color * light.glow),
                        .hasGlyph = hasGlyph(light, info.settings.effects) && sees(Onlooker::mirror, light.visible),
-                       .clearance = clearances_[i],
+                       .clearance = glm::vec3(clearances_[i]),
                        .shadowMap = shadowMaps_[i]});
   }
   const std::span<const gpu::LightData> ordered = std::span(lights_).last(order.size());
@@ -406,7 +407,7 @@ void FrameData::addOutside(const FrameInfo& info, const Pass& pass, DrawList& da
   }
   // Before everything, or before the background alone. At one resolution a lookup reads less than a texel outside the
   // mirror, and what is drawn there usually continues the image better than the texels inside do.
-  const bool resized = pass.quality.scale != 1.0 || pass.shownIn.scale != 1.0;
+  const bool resized = pass.quality.scale != pass.shownIn.scale;
   const double depth = resized ? 1.0 - 0x1p-24 : 1e-30;
   data.outsideFirstVertex = static_cast<uint32_t>(mirrorVertices_.size());
   for (const std::vector<glm::dvec2>& part : outsideParts(pass.view, info.plan.projection)) {

@@ -131,8 +131,8 @@ class FrameData {
   void addEnvironment(const FrameInfo& info, const Pass& pass, int instance, Batch& batch);
   void addMirrors(const FrameInfo& info, const Pass& pass, const glm::dmat4& projection, DrawList& data);
   void addRepeating(const FrameInfo& info);
-  // `converged`: parts of the pass that are not drawn.
   void addOutside(const FrameInfo& info, const Pass& pass, DrawList& data);
+  // `converged`: parts of the pass that are not drawn.
   void addMask(const FrameInfo& info, const Pass& pass, double reach, std::span<const PixelRect> converged,
                DrawList& data);
 
@@ -143,7 +143,7 @@ class FrameData {
   std::vector<DrawBlock> passBlocks_;
   std::vector<gpu::MirrorBlock> mirrors_;
   std::vector<gpu::LightData> lights_;
-  std::vector<glm::vec3> clearances_;  // LightData::clearance of each light of the scene
+  std::vector<glm::vec4> clearances_;  // LightData::clearance and height of each light of the scene
   std::vector<uint32_t> shadowMaps_;   // LightData::shadowMap of each light of the scene
   std::vector<gpu::InstanceData> instances_;
   std::vector<gpu::CurvedMirrorData> curvedMirrors_;

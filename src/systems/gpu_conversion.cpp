@@ -131,10 +131,10 @@ RippleConstants rippleConstants(const Ripple& ripple, double time, const glm::dv
   const double k = 2.0 * std::numbers::pi / ripple.wavelength;
   constexpr double steepest = 1e15;  // its square is a float, and steeper slopes look the same
   // Phases are reduced in double: floats of whole phases would have lost their fraction after hours, or far away.
-  const double way = productModulo(ripple.speed, time, ripple.wavelength);
-  const glm::dvec2 ways(point.x + way, 0.6 * point.x + 0.8 * point.y - way);
+  const double shift = productModulo(ripple.speed, time, ripple.wavelength);
+  const glm::dvec2 shifts(point.x + shift, 0.6 * point.x + 0.8 * point.y - shift);
   return {static_cast<float>(k), static_cast<float>(std::min(ripple.amplitude * k, steepest)),
-          glm::vec2(k * glm::dvec2(std::fmod(ways.x, ripple.wavelength), std::fmod(ways.y, ripple.wavelength)))};
+          glm::vec2(k * glm::dvec2(std::fmod(shifts.x, ripple.wavelength), std::fmod(shifts.y, ripple.wavelength)))};
 }
 
 double reachOf(const InstanceState& instance, const glm::dvec3& eye) {

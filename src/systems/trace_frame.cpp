@@ -351,7 +351,7 @@ std::vector<std::byte> TraceFrame::lightPathBytes(const SceneState& state, const
                      .light = glm::vec3(position - state.camera.eye),
                      .mirror = static_cast<uint32_t>(mirror.firstPiece),
                      .side = glm::dot(mirror.normal, position - mirror.origin) > 0.0 ? 1.0f : -1.0f,
-                     .moved = static_cast<float>(glm::distance(position, state.lights[bounced.light].position))});
+                     .height = static_cast<float>(heightOverMirrors(position, state.mirrors))});
   }
   std::vector<std::byte> bytes(sizeof header + paths.size() * sizeof(gpu::LightPath));
   std::memcpy(bytes.data(), &header, sizeof header);
