@@ -11,6 +11,7 @@ layout(set = 0, binding = 1, std430) writeonly buffer Probed { ProbedTexel probe
 layout(push_constant) uniform Constants { ProbeConstants probe; };
 
 void main() {
-  probed.mean = texelMean(probedImage, probe.texel);
+  vec4 mean = insideMean(probedImage, probe.texel);
+  probed.mean = vec4(mean.rgb, max(mean.a, 0.0));
   probed.first = texelFetch(probedImage, probe.texel, 0);
 }

@@ -129,7 +129,8 @@ RecycledVector<uint64_t> imageContent(const ImageSurroundings& around, const Vie
   }
   uint64_t changed = all ? changes.anyChanged() : 0;
   for (const Pass* pass : passes) {
-    numbers.addAll(pass->view, pass->channels, pass->instances, pass->lights, pass->mirrors, pass->quality.samples);
+    numbers.addAll(pass->view, pass->channels, pass->instances, pass->lights, pass->mirrors, pass->quality.samples,
+                   pass->shownIn.samples);
     for (size_t i = 0; !all && i < pass->instances.size(); ++i) {
       changed = std::max(changed, changes.instanceChanged(pass->instances[i]));
     }

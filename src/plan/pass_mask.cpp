@@ -17,7 +17,7 @@ Polygon corners(const View& view) {
   return {{x0, y0, 0.0}, {x1, y0, 0.0}, {x1, y1, 0.0}, {x0, y1, 0.0}};
 }
 
-constexpr double shortest = 1.0 / 8.0;  // of edges, in pixels
+constexpr double shortestEdge = 1.0 / 8.0;  // pixels
 
 // Says whether the polygon's edges are long enough and its corners far enough from straight that no triangle of its fan
 // loses its area when the GPU snaps vertices to a grid of 1/256 of a pixel or coarser. If a draw has a triangle without
@@ -29,7 +29,7 @@ bool isWellShaped(std::span<const glm::dvec3> polygon, const glm::dvec2& step) {
     const glm::dvec2 before = glm::dvec2(polygon[(i + n - 1) % n] - polygon[i]) / step;
     const glm::dvec2 after = glm::dvec2(polygon[(i + 1) % n] - polygon[i]) / step;
     const double height = std::abs(before.x * after.y - before.y * after.x) / glm::length(after - before);
-    if (!(glm::length(after) >= shortest) || !(height >= flattest)) {
+    if (!(glm::length(after) >= shortestEdge) || !(height >= flattest)) {
       return false;
     }
   }
@@ -153,7 +153,7 @@ std::vector<std::vector<glm::dvec2>> outsideParts(const View& view, const Projec
     }
     Polygon part = clipPolygon(whole, Plane{line * (-offset / length2), -line});
     for (size_t i = part.size(); i-- > 0 && part.size() > 3;) {
-      if (glm::length(glm::dvec2(part[(i + 1) % part.size()] - part[i]) / (2.0 / view.pictureSize)) < shortest) {
+      if (glm::length(glm::dvec2(part[(i + 1) % part.size()] - part[i]) / (2.0 / view.pictureSize)) < shortestEdge) {
         part.erase(part.begin() + static_cast<std::ptrdiff_t>(i));
       }
     }
@@ -179,10 +179,11 @@ std::vector<std::vector<PixelRect>> convergedParts(const FramePlan& plan) {
     for (const MirrorDraw& draw : pass.mirrors) {
       if (draw.pass >= 0) {
         const ImageQuality& image = plan.passes[draw.pass].quality;
-        // A tile's edge may lie within a texel of an image of another size. That texel is drawn too.
+        // A tile's edge may lie within a texel of an image of another size. That texel is drawn too, and texels beside
+        // that stand in for those outside the mirror.
         const double reach = draw.blurs || draw.ripples ? everywhere
                              : image.scale == 1.0 && pass.quality.scale == 1.0
-                                 ? 0.0
+                                 ? (image.samples == pass.quality.samples ? 0.0 : 1.0)
                                  : (cachedLookupReach(image) + 1.0) / image.scale;
         margins[draw.pass] = std::max(margins[draw.pass], margins[i] + reach);
       }

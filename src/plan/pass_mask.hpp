@@ -31,8 +31,8 @@ std::vector<glm::dvec2> passMask(const View& view, const Projection& projection,
 
 // Says whether a pixel reads a box of the pass's image, not one texel.
 bool isReadByBoxes(const Pass& pass);
-// Returns convex polygons that together cover what lies outside the view's cone, each bounded by one of its planes. In
-// the picture's device coordinates, as those of passMask(). A part without area on the GPU's grid is left out.
+// Returns convex polygons that together cover what lies outside the view's cone; they overlap. In the picture's device
+// coordinates, as those of passMask(). A part without area on the GPU's grid is left out.
 std::vector<std::vector<glm::dvec2>> outsideParts(const View& view, const Projection& projection);
 
 // Returns for each pass the rectangles that it need not draw because no refined tile of the main view shows them, in

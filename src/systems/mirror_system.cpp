@@ -105,7 +105,8 @@ MirrorSystem::Shading MirrorSystem::shadingOf(const PassScope& scope, const Mirr
 }
 
 // Sets only what this shading's shader reads, so that mirrors that differ in other ways share a pipeline.
-MirrorSystem::Variant MirrorSystem::variantOf(const MirrorRange& mirror, Shading shading, bool added) {
+MirrorSystem::Variant MirrorSystem::variantOf(const MirrorRange& mirror, Shading shading, bool added,
+                                              bool otherSamples) {
   Variant variant{.shading = shading, .added = added};
   variant.mapped = mirror.map >= 0 && shading != Shading::identifier;
   switch (shading) {
@@ -116,8 +117,8 @@ MirrorSystem::Variant MirrorSystem::variantOf(const MirrorRange& mirror, Shading
       if (mirror.shows == MirrorShows::image) {
         variant.blurs = mirror.blurs;
         variant.ripples = mirror.ripples;
-        variant.lookup = mirror.lookup;
         variant.reprojected = mirror.reprojected;
+        variant.lookup = mirror.lookup == Lookup::fetch && otherSamples ? Lookup::inside : mirror.lookup;
       }
       break;
     case Shading::base:
@@ -138,15 +139,17 @@ MirrorSystem::Variant MirrorSystem::variantOf(const MirrorRange& mirror, Shading
 uint32_t MirrorSystem::record(const PassScope& scope, const FrameInfo& info, const DrawList& pass) {
   uint32_t draws = 0;
   for (const MirrorRange& mirror : pass.mirrors) {
-    const Shading shading = shadingOf(scope, mirror, imageOf(mirror, info));
+    const MirrorImage* image = imageOf(mirror, info);
+    const Shading shading = shadingOf(scope, mirror, image);
+    const bool otherSamples = image && image->samples != scope.samples();
     if (defers(info, mirror)) {
       draw(scope, info, pass, mirror, variantOf(mirror, Shading::identifier, false));
     } else if (shading == Shading::ownSample && mirror.base) {
       draw(scope, info, pass, mirror, variantOf(mirror, Shading::base, false));
-      draw(scope, info, pass, mirror, variantOf(mirror, shading, true));
+      draw(scope, info, pass, mirror, variantOf(mirror, shading, true, otherSamples));
       ++draws;
     } else {
-      draw(scope, info, pass, mirror, variantOf(mirror, shading, false));
+      draw(scope, info, pass, mirror, variantOf(mirror, shading, false, otherSamples));
     }
     ++draws;
   }
@@ -157,8 +160,9 @@ uint32_t MirrorSystem::recordReflections(const PassScope& scope, const FrameInfo
   uint32_t draws = 0;
   for (const MirrorRange& mirror : pass.mirrors) {
     if (defers(info, mirror) && !mirror.byRays && mirror.shows != MirrorShows::back) {
-      const Shading shading = shadingOf(scope, mirror, imageOf(mirror, info));
-      draw(scope, info, pass, mirror, variantOf(mirror, shading, true));
+      const MirrorImage* image = imageOf(mirror, info);
+      const bool otherSamples = image && image->samples != scope.samples();
+      draw(scope, info, pass, mirror, variantOf(mirror, shadingOf(scope, mirror, image), true, otherSamples));
       ++draws;
     }
   }
@@ -169,10 +173,6 @@ void MirrorSystem::draw(const PassScope& scope, const FrameInfo& info, const Dra
                         Variant variant) {
   const bool identifies = variant.shading == Shading::identifier;
   const MirrorImage* image = imageOf(mirror, info);
-  const bool looksUp = variant.shading == Shading::single || variant.shading == Shading::average;
-  if (looksUp && variant.lookup == Lookup::fetch && image && image->samples != scope.samples()) {
-    variant.lookup = Lookup::inside;
-  }
   variant.format = formatOf(scope.desc(), info.settings);
   variant.perSample = !identifies && info.trace.variant().perSample && (variant.blurs || variant.ripples);
   variant.clampDepth = !(pass.mirrorView && info.settings.reflection.clip == ClipMethod::oblique);
@@ -230,13 +230,10 @@ uint32_t MaskSystem::markOutside(const PassScope& scope, const FrameInfo& info, 
     return 0;
   }
   const PassFormat format = formatOf(scope.desc(), info.settings);
+  // Depth is written, so that a texel in two parts is marked once: two marks would leave the range of half floats.
   const Pipeline& pipeline = marking_.get(format, [&] {
-    return format.describe({.name = "outside",
-                            .vert = "mirror.vert",
-                            .frag = "outside.frag",
-                            .setLayouts = {frameLayout_},
-                            .depthWrite = false,
-                            .adds = true});
+    return format.describe(
+        {.name = "outside", .vert = "mirror.vert", .frag = "outside.frag", .setLayouts = {frameLayout_}, .adds = true});
   });
   info.data.bind(pipeline, scope.commands(), pass);
   vkCmdDraw(scope.commands(), pass.outsideVertexCount, 1, pass.outsideFirstVertex, 0);
