@@ -85,7 +85,7 @@ int runAccuracy(const Options& options) {
     return progress->set(status.fraction);
   };
   if (!runSweep(plan, context.base, scene, subject, store, results, show)) {
-    printLine("the same command goes on from here", stderr);
+    printLine("To go on, run the same command again.", stderr);
     return 1;
   }
   writeReport(options, results, folder);

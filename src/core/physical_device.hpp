@@ -40,7 +40,7 @@ struct DeviceCaps {
   bool depthClamp = false;
   bool fillModeNonSolid = false;
   bool wideLines = false;
-  bool anisotropy = false;          // of samplers
+  bool anisotropy = false;          // of samplers, where they take no unbounded time
   bool dynamicPolygonMode = false;  // pipelines may leave open whether they draw lines
   bool primitiveId = false;         // fragment shaders can read gl_PrimitiveID
   bool dynamicRendering = false;

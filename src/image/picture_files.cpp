@@ -82,8 +82,9 @@ void checkKind(const std::filesystem::path& file, const std::vector<uint8_t>& by
   const bool bmp = format == PictureFormat::bmp && byteAt(bytes, 14) >= 40;  // older headers have no compression
   const int compression = bmp ? byteAt(bytes, 30) : 0;
   const bool indexed = format == PictureFormat::tga && byteAt(bytes, 1) == 1;
-  constexpr std::array headers = {12, 40, 108, 124};  // sizes of a BMP's, as far as the decoder reads them
-  const char* kind = format == PictureFormat::bmp && std::ranges::find(headers, byteAt(bytes, 14)) == headers.end()
+  constexpr std::array headers = {12, 40, 56, 108, 124};  // sizes of a BMP's, as far as the decoder reads them
+  const char* kind = format == PictureFormat::bmp && (std::ranges::find(headers, byteAt(bytes, 14)) == headers.end() ||
+                                                      (byteAt(bytes, 14) == 56 && compression == 3))
                          ? "a BMP file with an unusual header"
                      : indexed && (byteAt(bytes, 3) | byteAt(bytes, 4)) != 0
                          ? "a TGA file whose palette does not begin at 0"

@@ -40,7 +40,9 @@ std::optional<std::vector<std::vector<double>>> parseLists(std::string_view text
 }  // namespace
 
 bool meansPoints(const std::string& text) {
-  return text.find(',') != std::string::npos && text.find_first_not_of("+-.,:0123456789eE \t") == std::string::npos;
+  const bool number = !text.empty() && std::string_view("+-.0123456789").find(text.front()) != std::string_view::npos;
+  return number && text.find(',') != std::string::npos &&
+         (text.find(':') != std::string::npos || text.find_first_not_of("+-.,0123456789eE \t") == std::string::npos);
 }
 
 Bookmark parseCamera(const std::string& text) {

@@ -88,7 +88,7 @@ constexpr SettingField fields[] = {
     setting(
         "reflection.method", choice<&R::method>(reflectionMethods), "Method",
         "how mirrors are drawn; raster: a pass renders an image for each; rays: each pixel traces what it reflects; "
-        "auto: what should be faster",
+        "auto: whichever should be faster",
         "A ray costs more than a texel, but no pass for each mirror."),
     setting("reflection.scale", NumberSetting{at<&R::scale>, imageScaleRange.low, imageScaleRange.high},
             "Mirror resolution", "resolution of mirror images relative to the main view",
@@ -186,7 +186,7 @@ constexpr SettingField fields[] = {
             "Traces rays wherever lights reach."),
     setting("effects.shadow_lookup", choice<&E::shadowLookup>(shadowLookups), "Shadow lookup",
             "shadows by rays, from maps, or from maps with rays where these do not decide (hybrid); auto: traced or "
-            "hybrid, what should be faster",
+            "hybrid, whichever should be faster",
             "Maps render only what changed.", {.cheaper = higher, .swept = {"hybrid map"}}),
     setting("effects.shadow_map_size", IntegerSetting{at<&E::shadowMapSize>, 64, 4096, true, true}, "Shadow map size",
             "side of a shadow map's images; auto: texels about as large as the pixels that look them up",

@@ -368,7 +368,7 @@ ShownDevice shownDevice(const Renderer& renderer, const Device& device) {
                    feature("depth clamp", caps.depthClamp, "the near plane cuts"),
                    feature("wireframe", caps.fillModeNonSolid, "no wireframe"),
                    feature("wide lines", caps.wideLines, "wireframe is one pixel wide"),
-                   feature("anisotropic filter", caps.anisotropy, "shaders mix its lookups"),
+                   feature("anisotropic filter", caps.anisotropy, "shaders filter instead"),
                    feature("dynamic polygon mode", caps.dynamicPolygonMode, "wireframe has pipelines of its own"),
                    feature("ray queries", caps.rayQueries, "shaders trace all rays"),
                    feature("memory budget", caps.memoryBudget, "the size of the heaps is used")};

@@ -299,7 +299,7 @@ TEST_F(CommandLine, EveryOutputKeepsLinksAndPipes) {
   EXPECT_TRUE(contains(readJson(out("s.json"))["scene"].get<std::string>(), "\xef\xbf\xbd.toml"));
 }
 
-// Neither waits for a scene that could not be drawn either.
+// The folder is checked before the scene is read.
 TEST_F(CommandLine, PlacesOfPicturesAreCheckedFirst) {
   for (const std::string command : {"render", "reference"}) {
     EXPECT_TRUE(

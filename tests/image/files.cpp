@@ -189,7 +189,7 @@ TEST(ImageFiles, KindsThatAreNotReadAreNamed) {
   };
   for (const auto& [name, bytes, kind] :
        {std::tuple("a.bmp", headerOf("BM", {{14, 40}, {30, 1}}), "is a compressed BMP file"),
-        std::tuple("v3.bmp", headerOf("BM", {{14, 56}}), "is a BMP file with an unusual header"),
+        std::tuple("v3.bmp", headerOf("BM", {{14, 56}, {30, 3}}), "is a BMP file with an unusual header"),
         std::tuple("shifted.tga", headerOf({}, {{1, 1}, {2, 1}, {3, 10}, {5, 16}, {7, 24}, {12, 2}, {14, 2}, {16, 8}}),
                    "is a TGA file whose palette does not begin at 0"),
         std::tuple("a.psb", psd(2, 8, 3, 0), "is a PSB file"),
