@@ -352,12 +352,11 @@ struct LightPath {
   vec3 image;
   float radius;
   vec3 irradiance;  // at 1 m, facing the light
-  uint castsShadow;
-  vec3 light;   // position of the light itself
-  uint mirror;   // index into traceMirrors
-  float side;    // of the mirror that reflects: 1 the front, -1 the back
-  float height;  // of the light from the nearest plane of a mirror
-  uint padding[2];
+  float height;     // as LightData::height
+  vec3 light;       // position of the light itself
+  uint mirror;      // index into traceMirrors
+  float side;       // of the mirror that reflects: 1 the front, -1 the back
+  uint padding[3];
 };
 
 // Stands before the light paths in their buffer.

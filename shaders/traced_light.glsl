@@ -26,14 +26,13 @@ struct Incoming {
   float height;    // as LightData::height
   float radius;
   vec3 irradiance;  // at 1 m, with the mirror's reflectance
-  bool castsShadow;
   uint mirror;     // `none`: the light itself
   float crossing;  // part of the way to the light's image that leads to the mirror; 1 without a mirror
 };
 
 Incoming directLight(LightData light, vec3 position) {
-  return Incoming(true, light.position - position, light.clearance, light.height, light.radius,
-                  light.irradiance, light.height >= 0.0, none, 1.0);
+  return Incoming(true, light.position - position, light.clearance, light.height, light.radius, light.irradiance, none,
+                  1.0);
 }
 
 // Returns the light that a mirror casts onto a point. It arrives if the straight line to the light's image crosses the
@@ -47,7 +46,7 @@ Incoming bouncedLight(LightPath path, vec3 tracePosition, Skip self) {
   bool arrives = sameSide && self.plane != planeOf(mirror) && crossing > 0.0 && crossing < 1.0;
   vec3 reflectance = tracedMirrorReflectance(mirror, tracePosition + crossing * toLight,
                                              abs(dot(normal, safeNormalize(toLight))));
-  return Incoming(arrives, toLight, vec3(0.0), path.height, path.radius, path.irradiance * reflectance, path.castsShadow != 0, mirror,
+  return Incoming(arrives, toLight, vec3(0.0), path.height, path.radius, path.irradiance * reflectance, mirror,
                   crossing);
 }
 
@@ -119,7 +118,7 @@ void addNext(inout LightSum sum, Surface surface, vec3 toViewer, vec3 tracePosit
   Incoming incoming = incomingLight(sum.next, surface, tracePosition, self);
   vec3 lit = lightRadiance(incoming.toLight, incoming.radius, incoming.irradiance, surface, toViewer);
   if (incoming.arrives && max(lit.r, max(lit.g, lit.b)) > 0.0) {
-    float share = shadows && incoming.castsShadow ? shareOf(sum.next, isDrawn) : 1.0;
+    float share = shadows && incoming.height >= 0.0 ? shareOf(sum.next, isDrawn) : 1.0;
     if (share < 0.0) {
       sum.waiting = sum.next;
       sum.arriving = lit;

@@ -347,11 +347,12 @@ std::vector<std::byte> TraceFrame::lightPathBytes(const SceneState& state, const
     paths.push_back({.image = glm::vec3(image - state.camera.eye),
                      .radius = static_cast<float>(light.radius),
                      .irradiance = radiance(settings.view.radianceScale() * light.color * light.intensity),
-                     .castsShadow = light.castsShadow && settings.effects.shadows,
+                     .height = light.castsShadow && settings.effects.shadows
+                                   ? static_cast<float>(heightOverMirrors(position, state.mirrors))
+                                   : -1.0f,
                      .light = glm::vec3(position - state.camera.eye),
                      .mirror = static_cast<uint32_t>(mirror.firstPiece),
-                     .side = glm::dot(mirror.normal, position - mirror.origin) > 0.0 ? 1.0f : -1.0f,
-                     .height = static_cast<float>(heightOverMirrors(position, state.mirrors))});
+                     .side = glm::dot(mirror.normal, position - mirror.origin) > 0.0 ? 1.0f : -1.0f});
   }
   std::vector<std::byte> bytes(sizeof header + paths.size() * sizeof(gpu::LightPath));
   std::memcpy(bytes.data(), &header, sizeof header);
