@@ -58,35 +58,36 @@ layout(constant_id = constantSamples) const uint samples = 1;
 
 vec2 shadedAt = vec2(0.0);  // point that is shaded, from the pixel's centre
 
-vec3 filtered(vec2 uv) {
-  vec2 place = vec2(uv.x, 1.0 - uv.y);
+// Returns the place within the texture if it does not repeat. The sampler repeats: half a texel of the coarser level
+// from the edge it reads no texel of the other edge.
+vec2 insideEdges(vec2 place, float level) {
+  vec2 edge = min(0.5 * exp2(ceil(max(level, 0.0))) / vec2(textureSize(diffuseTexture, 0)), 0.5);
+  return clamps ? clamp(place, edge, 1.0 - edge) : place;
+}
+
+vec3 filtered(vec2 place) {
   if (clamps) {
-    // The sampler repeats. Half a texel of the coarser level from the edge it reads no texel of the other edge.
-    float level = ceil(max(textureQueryLod(diffuseTexture, place).x, 0.0));
-    vec2 edge = min(0.5 * exp2(level) / vec2(textureSize(diffuseTexture, 0)), 0.5);
-    return textureGrad(diffuseTexture, clamp(place, edge, 1.0 - edge), dFdx(place), dFdy(place)).rgb;
+    vec2 inside = insideEdges(place, textureQueryLod(diffuseTexture, place).x);
+    return textureGrad(diffuseTexture, inside, dFdx(place), dFdy(place)).rgb;
   }
   return texture(diffuseTexture, place).rgb;
 }
 
-// Returns the mean of lookups along the longer side of the pixel's footprint, for devices whose samplers have no
-// anisotropic filter: Vulkan specification, "Texel Anisotropic Filtering".
+// Filters anisotropically for devices whose samplers do not.
 vec3 anisotropic(vec2 place) {
   vec2 size = vec2(textureSize(diffuseTexture, 0));
   // A longer step than the whole texture changes no mean. It need not be finite at a triangle's edge.
   vec2 across = min(vec2(1.0), max(vec2(-1.0), dFdx(place)));
   vec2 down = min(vec2(1.0), max(vec2(-1.0), dFdy(place)));
-  bool along = length(across * size) > length(down * size);
-  vec2 major = along ? across : down;
-  float texels = length(major * size);
-  float count = min(max(1.0, ceil(texels / max(1.0, length((along ? down : across) * size)))), float(mostAnisotropy));
-  vec2 edge = clamps ? min(0.5 * exp2(ceil(log2(max(1.0, texels / count)))) / size, 0.5) : vec2(0.0);  // as in filtered()
+  Footprint footprint = footprintOf(across, down, size);
+  vec2 step = footprint.major / footprint.count;
+  float level = log2(max(1.0, length(step * size)));
   vec3 sum = vec3(0.0);
-  for (float i = 1.0; i <= count; i += 1.0) {
-    vec2 at = place + major * (i / (count + 1.0) - 0.5);
-    sum += textureGrad(diffuseTexture, clamps ? clamp(at, edge, 1.0 - edge) : at, major / count, vec2(0.0)).rgb;
+  for (float i = 1.0; i <= footprint.count; i += 1.0) {
+    vec2 at = insideEdges(place + partOf(footprint, i), level);
+    sum += textureGrad(diffuseTexture, at, step, vec2(0.0)).rgb;
   }
-  return sum / count;
+  return sum / footprint.count;
 }
 
 // Returns the texture coordinates where the line of sight through `pixel` meets the triangle, or `interpolated` ones.
@@ -111,7 +112,8 @@ vec3 diffuseFactor(vec2 uv) {
   if (diffuseLookup == textureBilinear) {
     return bilinearColor(diffuseTexture, uv, clamps);
   }
-  return diffuseLookup == textureAnisotropic ? anisotropic(vec2(uv.x, 1.0 - uv.y)) : filtered(uv);
+  vec2 place = vec2(uv.x, 1.0 - uv.y);
+  return diffuseLookup == textureAnisotropic ? anisotropic(place) : filtered(place);
 }
 
 #ifdef ENVIRONMENT

@@ -46,6 +46,24 @@ vec3 timesPoint(vec4 rows[3], vec3 p) {
 }
 vec3 timesDirection(vec4 rows[3], vec3 d) { return vec3(dot(rows[0].xyz, d), dot(rows[1].xyz, d), dot(rows[2].xyz, d)); }
 
+// The lookups that anisotropic filtering averages, along the longer side of a pixel's footprint: Vulkan specification,
+// "Texel Anisotropic Filtering".
+struct Footprint {
+  vec2 major;   // the longer side, in texture coordinates
+  float count;  // of lookups
+};
+
+// `across` and `down` are the steps of texture coordinates from pixel to pixel, `size` the texture's in texels.
+Footprint footprintOf(vec2 across, vec2 down, vec2 size) {
+  bool along = length(across * size) > length(down * size);
+  vec2 major = along ? across : down;
+  float minor = length((along ? down : across) * size);
+  return Footprint(major, min(max(1.0, ceil(length(major * size) / max(1.0, minor))), float(mostAnisotropy)));
+}
+
+// Returns where lookup i = 1 .. count lies, from the footprint's middle.
+vec2 partOf(Footprint footprint, float i) { return footprint.major * (i / (footprint.count + 1.0) - 0.5); }
+
 // The four texels that a bilinear lookup mixes, in a texture that repeats or clamps, with v upwards. A sampler's weights may
 // have only 8 bits, which shows where texels differ much.
 struct BilinearTexels {

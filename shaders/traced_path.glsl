@@ -79,20 +79,13 @@ vec3 trilinearColor(TraceTexture source, vec2 uv, bool clamped, vec2 across, vec
   return source.width * source.height > 1 ? mix(fine, bilinearTraced(next, uv, clamped).rgb, fract(level)) : fine;
 }
 
-// Returns the mean of lookups along the longer side of the pixel's footprint: Vulkan specification, "Texel Anisotropic
-// Filtering".
 vec3 anisotropicColor(TraceTexture source, vec2 uv, bool clamped, vec2 across, vec2 down) {
-  vec2 size = vec2(source.width, source.height);
-  bool along = length(across * size) > length(down * size);
-  vec2 major = along ? across : down;
-  float texels = length(major * size);
-  int count = int(clamp(ceil(texels / max(length((along ? down : across) * size), 1.0)), 1.0, float(mostAnisotropy)));
+  Footprint footprint = footprintOf(across, down, vec2(source.width, source.height));
   vec3 sum = vec3(0.0);
-  for (int i = 1; i <= count; ++i) {
-    vec2 place = uv + major * (float(i) / float(count + 1) - 0.5);
-    sum += trilinearColor(source, place, clamped, major / float(count), vec2(0.0));
+  for (float i = 1.0; i <= footprint.count; i += 1.0) {
+    sum += trilinearColor(source, uv + partOf(footprint, i), clamped, footprint.major / footprint.count, vec2(0.0));
   }
-  return sum / float(count);
+  return sum / footprint.count;
 }
 
 vec3 normalFromMesh(uint instance, vec3 n) {
