@@ -31,6 +31,15 @@ const View* imageView(const MirrorDraw& draw, const FramePlan& plan) {
   return draw.pass >= 0 ? &plan.passes[draw.pass].view : draw.cached ? &plan.cached[draw.cached->image].view : nullptr;
 }
 
+// Returns a polygon of the picture's device coordinates at one depth. `drawn` is the view's overscan().
+ClipPolygon clipPolygonAt(double depth, std::span<const glm::dvec2> polygon, const glm::dvec2& drawn) {
+  ClipPolygon clip;
+  for (const glm::dvec2& p : polygon) {
+    clip.emplace_back(p / drawn, depth, 1.0);
+  }
+  return clip;
+}
+
 std::vector<glm::vec4> clearancesOf(const Scene& scene, const SceneState& state) {
   std::vector<glm::vec4> clearances(scene.lights.size(), glm::vec4(0.0f, 0.0f, 0.0f, -1.0f));
   for (size_t i = 0; i < clearances.size(); ++i) {
@@ -411,11 +420,7 @@ void FrameData::addOutside(const FrameInfo& info, const Pass& pass, DrawList& da
   const double depth = resized ? 1.0 - 0x1p-24 : 1e-30;
   data.outsideFirstVertex = static_cast<uint32_t>(mirrorVertices_.size());
   for (const std::vector<glm::dvec2>& part : outsideParts(pass.view, info.plan.projection)) {
-    ClipPolygon clip;
-    for (const glm::dvec2& p : part) {
-      clip.emplace_back(p / overscan(pass.view), depth, 1.0);
-    }
-    addFan(mirrorVertices_, clip);
+    addFan(mirrorVertices_, clipPolygonAt(depth, part, overscan(pass.view)));
   }
   data.outsideVertexCount = static_cast<uint32_t>(mirrorVertices_.size()) - data.outsideFirstVertex;
 }
@@ -431,17 +436,16 @@ void FrameData::addMask(const FrameInfo& info, const Pass& pass, double reach, s
     data.batches.clear();
     data.mirrors.clear();
     data.glyphCount = 0;
+    data.outsideVertexCount = 0;
     return;
   }
   const glm::dvec2 drawn = overscan(pass.view);
   data.maskFirstVertex = static_cast<uint32_t>(mirrorVertices_.size());
   if (!pass.view.path.empty()) {
-    ClipPolygon clip;
-    for (const glm::dvec2& p : passMask(pass.view, info.plan.projection, reach)) {
-      clip.emplace_back(p / drawn, 0.0, 1.0);  // infinitely far
-    }
-    addFan(mirrorVertices_, clip);
-    data.maskOpens = !clip.empty();
+    constexpr double infinitelyFar = 0.0;
+    const std::vector<glm::dvec2> mask = passMask(pass.view, info.plan.projection, reach);
+    addFan(mirrorVertices_, clipPolygonAt(infinitelyFar, mask, drawn));
+    data.maskOpens = !mask.empty();
   }
   for (const PixelRect& part : converged) {
     const glm::dvec2 step = 2.0 / (pass.view.pictureSize * drawn);
