@@ -1,5 +1,5 @@
-// Searches an image of radiance and disparity for values that are not finite or not within 0 .. 65504; a disparity may be
-// negative, down to -65504: MaskSystem::markOutside(). CHECKED_IMAGE is the image's type. A first dispatch over all
+// Searches an image of radiance and disparity for values that are not finite or not within 0 .. 65504; a disparity may
+// be negative, down to -65504: MaskSystem::markOutside(). CHECKED_IMAGE is the image's type. A first dispatch over all
 // pixels finds the first such value and counts them all. A second dispatch of one group, with LOOK_UP, reads the first
 // value, because only after all invocations of the first dispatch is it certain which value comes first.
 #include "gpu_data.h"

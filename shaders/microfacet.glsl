@@ -64,8 +64,8 @@ bool staysAbove(vec3 direction, vec3 m, vec3 planeNormal) {
   return dot(m, direction) < 0.0 && dot(direction - 2.0 * dot(direction, m) * m, planeNormal) > 0.0;
 }
 
-// Returns the normal of a mirror whose ripples rise along `normal`. `local` is relative to the point
-// at which the two trains of waves have these phases.
+// Returns the normal of a mirror whose ripples rise along `normal`. `local` is relative to the point at which the two
+// trains of waves have these phases.
 vec3 rippledNormal(vec3 normal, vec3 axisX, vec3 axisY, vec3 local, float waveNumber, float slope, vec2 phases) {
   float x = dot(local, axisX);
   float y = dot(local, axisY);
