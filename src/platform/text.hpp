@@ -21,6 +21,11 @@ inline bool continuesCharacter(char byte) {
   return (static_cast<unsigned char>(byte) & 0xc0u) == 0x80u;
 }
 
+// Says whether a file's content begins with the mark of UTF-16 text.
+inline bool isUtf16(std::string_view content) {
+  return content.starts_with("\xff\xfe") || content.starts_with("\xfe\xff");
+}
+
 // Returns the first character of a text in UTF-8, and the number of its bytes. If the text does not begin with a
 // character, as some file names, returns its first byte and 0.
 std::pair<char32_t, size_t> firstCharacter(std::string_view text);

@@ -283,7 +283,7 @@ bool ObjMaterials::readIfThere(std::string_view name, int line) {
   }
   try {
     const std::string text = readText(*file);
-    if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff")) {
+    if (isUtf16(text)) {
       throw FileError(*file, "is UTF-16 text", "save it as UTF-8");
     }
     MtlReader(*this, *file, text).read();

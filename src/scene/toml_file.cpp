@@ -120,7 +120,7 @@ toml::table readToml(const fs::path& file, std::string_view kind) {
 }
 
 toml::table parseToml(const fs::path& file, std::string_view text, std::string_view kind) {
-  if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff")) {
+  if (isUtf16(text)) {
     throwInputError(file, 1, "toml", "is UTF-16 text", "save it as UTF-8");
   }
   if (const int line = lineOfTooDeepKey(text)) {
