@@ -32,7 +32,8 @@ fuzz_packages=(clang-14 libclang-rt-14-dev)
 # For scripts/check_metrics only.
 metrics_packages=(python3-skimage)
 
-# Names on other systems: Debian's, Fedora's, Arch's and openSUSE's; commas join several, - is none that is needed.
+# Names on other systems: Debian's, Fedora's, Arch's and openSUSE's; commas join several, - is none that is needed or
+# packaged.
 other_names='
 build-essential         gcc-c++                    base-devel                        gcc-c++
 cmake                   cmake                      cmake                             cmake
@@ -43,27 +44,27 @@ pkg-config              pkgconf-pkg-config         pkgconf                      
 libvulkan-dev           vulkan-headers,vulkan-loader-devel vulkan-headers,vulkan-icd-loader vulkan-headers,vulkan-devel
 libglfw3-dev            glfw-devel                 glfw                              libglfw-devel
 libglm-dev              glm-devel                  glm                               glm-devel
-libimgui-dev            imgui-devel                imgui                             imgui-devel
+libimgui-dev            imgui-devel                -                                 imgui-devel
 libstb-dev              stb-devel                  stb                               stb-devel
 libfreetype-dev         freetype-devel             freetype2                         freetype2-devel
 glslang-tools           glslang                    glslang                           glslang-devel
 spirv-tools             spirv-tools                spirv-tools                       spirv-tools
-libtinyobjloader-dev    tinyobjloader-devel        tinyobjloader                     tinyobjloader-devel
-libtinyexr-dev          tinyexr-devel              tinyexr                           tinyexr-devel
+libtinyobjloader-dev    tinyobjloader-devel        -                                 tinyobjloader-devel
+libtinyexr-dev          tinyexr-devel              -                                 -
 libtomlplusplus-dev     tomlplusplus-devel         tomlplusplus                      tomlplusplus-devel
 nlohmann-json3-dev      json-devel                 nlohmann-json                     nlohmann_json-devel
 libcli11-dev            cli11-devel                cli11                             cli11-devel
 libspdlog-dev           spdlog-devel               spdlog                            spdlog-devel
 libfmt-dev              fmt-devel                  fmt                               fmt-devel
 libtbb-dev              tbb-devel                  onetbb                            tbb-devel
-libmeshoptimizer-dev    meshoptimizer-devel        meshoptimizer                     meshoptimizer-devel
-libtinygltf-dev         tinygltf-devel             tinygltf                          tinygltf-devel
+libmeshoptimizer-dev    meshoptimizer-devel        -                                 meshoptimizer-devel
+libtinygltf-dev         tinygltf-devel             -                                 -
 mesa-vulkan-drivers     mesa-vulkan-drivers        vulkan-swrast                     libvulkan_lvp
 fonts-dejavu-core       dejavu-sans-fonts          ttf-dejavu                        dejavu-fonts
 fontconfig              fontconfig                 fontconfig                        fontconfig
 vulkan-validationlayers vulkan-validation-layers   vulkan-validation-layers          vulkan-validationlayers
 libgtest-dev            gtest-devel                gtest                             gtest
-librapidcheck-dev       rapidcheck-devel           rapidcheck                        rapidcheck-devel
+librapidcheck-dev       rapidcheck-devel           rapidcheck                        -
 libembree-dev           embree-devel               embree                            embree-devel
 xvfb                    xorg-x11-server-Xvfb       xorg-server-xvfb                  xorg-x11-server-Xvfb
 x11-xkb-utils           xkbcomp                    xorg-xkbcomp                      xkbcomp
