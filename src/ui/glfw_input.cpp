@@ -116,15 +116,21 @@ std::vector<InputEvent> InputQueue::take() {
   bool keyReleased = false;
   bool buttonReleased = false;
   bool moved = false;
+  bool typed = false;
   while (!events_.empty()) {
     const InputEvent event = events_.front();
     // Letters also come as text, so a frame need not show that their keys are down.
     const bool pressed = event.down && (event.kind == Kind::button || (event.kind == Kind::key && event.command));
     const bool drops = moved && event.kind == Kind::button && !event.down;
-    if ((pressed && (keyReleased || buttonReleased)) || (event.kind == Kind::pointer && buttonReleased) || drops) {
+    // A text field ignores text of a frame in which Control is down.
+    const bool controls = typed && event.kind == Kind::key && event.down &&
+                          (event.code == GLFW_KEY_LEFT_CONTROL || event.code == GLFW_KEY_RIGHT_CONTROL);
+    if ((pressed && (keyReleased || buttonReleased)) || (event.kind == Kind::pointer && buttonReleased) || drops ||
+        controls) {
       break;
     }
     moved = moved || event.kind == Kind::pointer;
+    typed = typed || event.kind == Kind::text;
     taken.push_back(event);
     events_.pop_front();
     if (pressed) {

@@ -269,8 +269,12 @@ bool SimpleUI::navigating() const {
   return windows_.visible() && ImGui::GetIO().NavVisible;
 }
 
+bool SimpleUI::hasEvents() const {
+  return backend_->input.waiting();
+}
+
 bool SimpleUI::wantsFrames() const {
-  return wantsKeyboard() || ImGui::IsAnyMouseDown() || backend_->input.waiting();
+  return wantsKeyboard() || ImGui::IsAnyMouseDown() || hasEvents();
 }
 
 }  // namespace speculum

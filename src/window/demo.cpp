@@ -73,6 +73,7 @@ bool Demo::stepOnce() {
     renderer_.waitForFrame();  // first, so that the events of this frame are as new as possible
   }
   window_.pollEvents();
+  input_.takeWaiting();
   input_.takeGamepad(gamepadSource_().value_or(GamepadState{}));
   const Clock::time_point now = Clock::now();
   const double seconds = std::chrono::duration<double>(now - std::exchange(last_, now)).count();

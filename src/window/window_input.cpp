@@ -6,6 +6,17 @@
 
 namespace speculum {
 
+namespace {
+
+// Says whether a text field leaves the command's keys to the window.
+bool isOfFiles(const Command& command) {
+  return std::holds_alternative<Save>(command) || std::holds_alternative<AskWhereToSave>(command) ||
+         std::holds_alternative<AskWhatToOpen>(command) || std::holds_alternative<NewScene>(command) ||
+         std::holds_alternative<Quit>(command);
+}
+
+}  // namespace
+
 void WindowInput::take(const InputEvent& event) {
   using Kind = InputEvent::Kind;
   if (event.kind == Kind::key) {
@@ -37,10 +48,16 @@ void WindowInput::takeKey(const KeyEvent& event) {
   if (workspace_.prompting()) {
     return std::holds_alternative<Escape>(*command) ? workspace_.apply(CancelPrompt{}) : void();
   }
-  const bool typed = ui_.wantsKeyboard() && !std::holds_alternative<Quit>(*command);
-  const bool presses = ui_.navigating() && std::holds_alternative<TogglePaused>(*command);
-  if (!typed && !presses) {
+  if (ui_.wantsKeyboard()) {
+    afterField_ = isOfFiles(*command) ? command : afterField_;
+  } else if (!ui_.navigating() || !std::holds_alternative<TogglePaused>(*command)) {
     workspace_.apply(*command);
+  }
+}
+
+void WindowInput::takeWaiting() {
+  if (afterField_ && !ui_.hasEvents()) {
+    workspace_.apply(*std::exchange(afterField_, std::nullopt));
   }
 }
 

@@ -17,6 +17,7 @@ class WindowInput {
   WindowInput(Window& window, SimpleUI& ui, Workspace& workspace) : window_(window), ui_(ui), workspace_(workspace) {}
 
   void take(const InputEvent& event);             // of the window
+  void takeWaiting();                             // once a step
   void takeGamepad(const GamepadState& gamepad);  // once a step
   // Says whether frames are needed without an event: a key or stick is held, or a stick changed in the last step.
   bool held() const { return gamepadChanged_ || gamepad_.used() || direction() != glm::dvec3(0.0); }
@@ -31,6 +32,7 @@ class WindowInput {
   Window& window_;
   SimpleUI& ui_;
   Workspace& workspace_;
+  std::optional<Command> afterField_;  // waits until the text field has what was typed before
   GamepadState gamepad_;
   bool gamepadChanged_ = false;
 };

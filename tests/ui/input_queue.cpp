@@ -1,4 +1,6 @@
 // Input between two frames, and how the next frames receive it.
+#include <GLFW/glfw3.h>
+
 #include "test_headers.hpp"
 #include "ui/glfw_input.hpp"
 
@@ -67,6 +69,12 @@ TEST(InputQueue, TextAfterACommandWaits) {
   ASSERT_EQ(first.size(), 2u);
   EXPECT_EQ(first[0].code, 'a');
   EXPECT_TRUE(first[1].command);
+  EXPECT_EQ(queue.take().size(), 2u);
+}
+
+TEST(InputQueue, ControlAfterTextWaits) {
+  InputQueue queue = queueOf({text('a'), letter(GLFW_KEY_LEFT_CONTROL, true), command(1, true)});
+  EXPECT_EQ(queue.take().size(), 1u) << "text is ignored while it is down";
   EXPECT_EQ(queue.take().size(), 2u);
 }
 

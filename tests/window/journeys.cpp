@@ -95,6 +95,19 @@ TEST_F(EditJourney, HandlesAreDraggedInAMirrorImage) {
   EXPECT_TRUE(barePicture().rgba == before.rgba) << "undone to the pixel";
 }
 
+TEST_F(EditJourney, FieldsLeaveSavingToTheWindow) {
+  for (const char* key : {"n", "n", "shift+n"}) {  // the inspector that is open scrolls to the fields
+    press(key);
+  }
+  ASSERT_EQ(shown().edit.selected, (Selection{Selection::Kind::mirror, 0}));
+  ASSERT_LT(widget("edit.name").y, height - 20);
+  click("edit.name");
+  // Sends all keys before the next frame.
+  xdotool({"key", "--window", window_, "--delay", "1", "End", "a", "b", "ctrl+s"});
+  EXPECT_TRUE(waitFor([&] { return loadScene(options_.scene).mirrors.at(0).name == "aheadab"; }));
+  EXPECT_FALSE(shown().edit.unsaved);
+}
+
 // On a Dvorak keyboard the comma is where W is on an American one, so it flies.
 TEST_F(Journey, ShortcutsAvoidFlyKeysOnDvorak) {
   setKeyboard({"us", "-variant", "dvorak"});
