@@ -431,9 +431,10 @@ class ReportPage(Page):
             labels = self.js("return shortLabels(arguments[0])", names)
             self.assertEqual(len(set(labels)), len(names), labels)
             for name, label in zip(names, labels):
-                self.assertTrue(name.startswith(label.removesuffix("…")))
+                self.assertLessEqual(set(label.removesuffix(", …").split(", ")), set(name.split(", ")))
         self.assertEqual(self.js("return shortLabels(['base', ''])"), ["base", ""])
-        self.assertEqual(self.js("return shortLabels(['a'.repeat(40)])"), ["a" * 25 + "…"])
+        self.assertEqual(self.js("return shortLabels(['Samples 1, Max. depth 32', 'Samples 1, Max. depth 4'])"),
+                         ["Max. depth 32, …", "Max. depth 4, …"])
 
     def test_labels_without_room_are_left_out(self):
         self.open("empty")

@@ -85,12 +85,16 @@ function frontMark(point, key, measure, onFront) {
   };
 }
 
-// Names cut to 25 characters, or as many as tell each from the others.
+// The parts of each name that tell it from the others, the rarest first; "…" stands for the rest.
 function shortLabels(names) {
-  return names.map(name => {
-    let length = 25;
-    while (length < name.length && names.some(other => other !== name && other.startsWith(name.slice(0, length)))) length += 1;
-    return length + 1 < name.length ? `${name.slice(0, length)}…` : name;
+  const parts = names.map(name => name.split(', '));
+  const holders = part => parts.filter(other => other.includes(part)).length;
+  return names.map((name, i) => {
+    const rarest = [...parts[i]].sort((a, b) => holders(a) - holders(b));
+    const tell = shown => names.every((other, k) => other === name || !shown.every(part => parts[k].includes(part)));
+    let count = 1;
+    while (count < rarest.length && !tell(rarest.slice(0, count))) count += 1;
+    return count < rarest.length ? `${rarest.slice(0, count).join(', ')}, …` : name;
   });
 }
 
