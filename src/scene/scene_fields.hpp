@@ -92,14 +92,14 @@ inline const auto fieldsOf<Environment> = std::tuple{
 template <>
 inline const auto fieldsOf<CameraSpec> = std::tuple{
     field(&CameraSpec::position, "position", "the eye", {.unit = "m", .range = coordinateRange, .required = true}),
-    field(&CameraSpec::target, "target", "what it looks at; not the position",
+    field(&CameraSpec::target, "target", "what it looks at; differs from `position`",
           {.unit = "m", .range = coordinateRange, .required = true}),
-    field(&CameraSpec::up, "up", "not along the view direction", {.range = coordinateRange}),
+    field(&CameraSpec::up, "up", "what is up in the picture; not along the view direction", {.range = coordinateRange}),
     field(&CameraSpec::verticalFov, "vertical_fov", "vertical field of view",
           {.unit = "deg", .range = fieldOfViewRange}),
-    field(&CameraSpec::near, "near", "depth precision only: nothing is cut there",
+    field(&CameraSpec::near, "near", "sets the precision of depth alone; nothing is cut there",
           {.unit = "m", .range = positiveRange}),
-    field(&CameraSpec::orbitSpeed, "orbit_speed", "of the eye, around the target about `up`, by the right-hand rule",
+    field(&CameraSpec::orbitSpeed, "orbit_speed", "the eye circles the target about `up`, by the right-hand rule",
           {.unit = "deg/s", .range = turnRange})};
 
 template <>
@@ -135,7 +135,7 @@ inline const auto fieldsOf<Object> = std::tuple{
           {.uniform = true, .use = FieldUse::placement}),
     field(&Object::up, "up", "the model's axis that points up; z: it is turned by -90 degrees about X first",
           {.use = FieldUse::placement}),
-    field(&Object::spin, "spin", "added to the rotation",
+    field(&Object::spin, "spin", "added to the rotation each second",
           {.unit = "deg/s", .range = turnRange, .use = FieldUse::placement, .step = 0.5}),
     field(&Object::color, "color", "replaces the model's diffuse color (Kd); textures and vertex colors multiply it",
           {.range = surfaceColorRange, .color = true, .start = glm::dvec3(0.6)}),
@@ -211,12 +211,12 @@ inline const auto fieldsOf<Mirror> = std::tuple{
           {.unit = "deg", .range = coordinateRange, .use = FieldUse::placement, .step = 0.5, .applies = isRectangle}),
     field(&Mirror::size, "size", "width and height",
           {.unit = "m", .range = lengthRange, .required = true, .use = FieldUse::placement, .applies = isRectangle}),
-    field(&Mirror::spin, "spin", "added to the rotation",
+    field(&Mirror::spin, "spin", "added to the rotation each second",
           {.unit = "deg/s", .range = turnRange, .use = FieldUse::placement, .step = 0.5, .applies = isRectangle}),
     field(&Mirror::reflectance, "reflectance", "share of light reflected, the tint; with Fresnel at normal incidence",
           {.label = "Reflectance (tint)", .range = unitRange, .color = true}),
     field(&Mirror::fresnel, "fresnel", "schlick: reflects more at grazing angles"),
-    field(&Mirror::reflectanceMap, "reflectance_map", "PNG over the mirror that multiplies the reflectance; not sRGB",
+    field(&Mirror::reflectanceMap, "reflectance_map", "PNG over the mirror that multiplies the reflectance; linear",
           {.shown = [](const Mirror&) { return false; }}),
     field(&Mirror::baseColor, "base_color", "diffuse layer under the reflection",
           {.label = "Diffuse color", .range = surfaceColorRange, .color = true}),
@@ -231,12 +231,12 @@ inline const auto fieldsOf<Mirror> = std::tuple{
            .start = Ripple{.amplitude = 0.002}}),
     field(&Mirror::castsLight, "casts_light", "light bounced by the mirror reaches the scene"),
     // The inspector has rows of its own for the quality.
-    field(&Mirror::quality, "quality", "its own quality; the settings' where a key is missing",
+    field(&Mirror::quality, "quality", "replaces settings for this mirror",
           {.shown = [](const Mirror&) { return false; }})};
 
 template <>
 inline const auto fieldsOf<Bookmark> = std::tuple{
-    field(&Bookmark::name, "name", "no other bookmark has it", {.required = true, .use = FieldUse::label}),
+    field(&Bookmark::name, "name", "differs from other bookmarks' names", {.required = true, .use = FieldUse::label}),
     field(&Bookmark::position, "position", "as the camera's",
           {.unit = "m", .range = coordinateRange, .required = true}),
     field(&Bookmark::target, "target", "as the camera's", {.unit = "m", .range = coordinateRange, .required = true}),
