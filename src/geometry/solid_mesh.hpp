@@ -2,11 +2,11 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
-#include <span>
+#include <vector>
 
 namespace speculum {
 
-constexpr size_t mostSolidTriangles = 65536;
+constexpr size_t mostSolidTriangles = 1 << 18;
 
 // Says whether no view from outside the mesh's box can see the back of a triangle, so that backs need not be drawn.
 // True for meshes whose components (triangles joined by edges)
@@ -17,8 +17,9 @@ constexpr size_t mostSolidTriangles = 65536;
 // contain each other: winding numbers add up, and where a line of sight first meets a surface, the sum rises from 0.
 //
 // Vertices at equal positions are one. Parts nearer to each other than 1e-7 of the longest side of the box touch. A
-// mesh of more than `mostSolidTriangles` does not count as solid, nor does one where so many triangles lie close
-// together that more than 256 boxes and triangles were looked at for each.
-bool isSolid(std::span<const glm::dvec3> positions, std::span<const uint32_t> indices);
+// mesh of more than `mostSolidTriangles` does not count as solid, nor does one for which more than 256 boxes and
+// triangles were looked at for each triangle: many lie close together, or more than 65 536 follow each other in an
+// order that has nothing to do with their places.
+bool isSolid(std::vector<glm::dvec3> positions, std::vector<uint32_t> indices);
 
 }  // namespace speculum

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <future>
 #include <glm/gtx/component_wise.hpp>
 #include <tuple>
 
@@ -98,30 +99,48 @@ void rebase(Mesh& mesh) {
   }
 }
 
-// Finds the parts that may hide mirrors, flat faces and a convex mesh, and whether the mesh is solid. Objects that hide
-// mirrors, such as walls, doors and cupboards, have few triangles or a few large ones.
-void findShape(Mesh& mesh) {
-  constexpr size_t mostFaces = 32;
-  constexpr size_t mostTriangles = 4096;
-  if (mesh.indices.size() > 3 * std::max(mostTriangles, mostSolidTriangles)) {
-    return;
-  }
+std::vector<glm::dvec3> positionsOf(const Mesh& mesh) {
   std::vector<glm::dvec3> positions(mesh.vertices.size());
   std::ranges::transform(mesh.vertices, positions.begin(), &Vertex::position);
+  return positions;
+}
+
+// Finds the parts that may hide mirrors, flat faces and a convex mesh. Objects that hide mirrors, such as walls, doors
+// and cupboards, have few triangles or a few large ones.
+void findHiders(Mesh& mesh) {
+  constexpr size_t mostFaces = 32;
+  constexpr size_t mostTriangles = 4096;
+  if (mesh.indices.size() > 3 * mostTriangles) {
+    return;
+  }
+  const std::vector<glm::dvec3> positions = positionsOf(mesh);
   for (std::vector<glm::dvec3>& face : convexFaces(positions, mesh.indices, mostFaces, mostTriangles)) {
     mesh.faces.emplace_back(std::move(face));
   }
   mesh.convex = convexMesh(positions, mesh.indices, mostTriangles);
-  mesh.solid = isSolid(positions, mesh.indices);
+}
+
+// Another thread finds out about a large mesh, which takes as long as sorting it into clusters.
+std::future<bool> findSolid(const Mesh& mesh) {
+  constexpr size_t fewIndices = 3 * 4096;
+  if (mesh.indices.size() > 3 * mostSolidTriangles) {
+    return {};
+  }
+  return std::async(mesh.indices.size() > fewIndices ? std::launch::async : std::launch::deferred,
+                    [positions = positionsOf(mesh), indices = mesh.indices]() mutable {
+                      return isSolid(std::move(positions), std::move(indices));
+                    });
 }
 
 }  // namespace
 
 void finishShape(Mesh& mesh) {
-  findShape(mesh);
+  findHiders(mesh);
+  std::future<bool> solid = findSolid(mesh);
   sortIntoClusters(mesh);
   mesh.clusters = clustersOf(mesh);
   countFlat(mesh);
+  mesh.solid = solid.valid() && solid.get();
 }
 
 bool isFinite(const glm::dvec3& v) {

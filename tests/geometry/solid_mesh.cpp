@@ -311,6 +311,32 @@ TEST(SolidMesh, RefusesToTouchItself) {
   EXPECT_FALSE(solid(dented(2.5)));
 }
 
+// A torus of 200 000 triangles, whole, without one of them, and with a spike through its tube.
+TEST(SolidMesh, LargeMeshesAreExamined) {
+  constexpr int along = 1000;
+  constexpr int around = 100;
+  Triangles torus;
+  for (int i = 0; i < along * around; ++i) {
+    const double a = 2.0 * std::numbers::pi * (i / around) / along;
+    const double b = 2.0 * std::numbers::pi * (i % around) / around;
+    const double radius = 3.0 + std::cos(b);
+    torus.positions.emplace_back(radius * std::cos(a), std::sin(b), radius * std::sin(a));
+  }
+  for (int i = 0; i < along * around; ++i) {
+    const auto corner = [&](int ring, int k) {
+      return static_cast<uint32_t>((i / around + ring) % along * around + (i + k) % around);
+    };
+    torus.indices.insert(torus.indices.end(),
+                         {corner(0, 0), corner(0, 1), corner(1, 0), corner(1, 0), corner(0, 1), corner(1, 1)});
+  }
+  EXPECT_TRUE(solid(torus));
+  Triangles open = torus;
+  open.indices.resize(open.indices.size() - 3);
+  EXPECT_FALSE(solid(open));
+  torus.positions[12345] = {-3.0, 0.0, 0.0};
+  EXPECT_FALSE(solid(torus));
+}
+
 TEST(SolidMesh, TakesNoLongerThanLimited) {
   // Needles through one point: every pair of boxes overlaps.
   Triangles needles;
