@@ -51,7 +51,7 @@ VkExtent2D extentOf(int width, int height) {
 
 bool isCommand(int key, int modifiers) {
   const bool modifier = key >= GLFW_KEY_LEFT_SHIFT && key <= GLFW_KEY_RIGHT_SUPER;
-  const bool character = key >= GLFW_KEY_SPACE && key <= GLFW_KEY_WORLD_2;
+  const bool character = key > GLFW_KEY_SPACE && key <= GLFW_KEY_WORLD_2;  // Space presses widgets
   return !modifier && (!character || (modifiers & (GLFW_MOD_CONTROL | GLFW_MOD_ALT | GLFW_MOD_SUPER)) != 0);
 }
 
