@@ -105,6 +105,13 @@ std::string PanelDock::saved() const {
   return text;
 }
 
+bool PanelDock::fold(const char* name, bool folded) {
+  Panel& panel = panels_[name];
+  const bool before = panel.isTitle();
+  panel.putAway = folded;
+  return before;
+}
+
 bool PanelDock::wouldCover(const char* name, Edge edge, const glm::vec2& ems, const glm::vec2& place) const {
   const auto known = panels_.find(name);
   Panel panel = known != panels_.end() ? known->second : Panel();
@@ -128,7 +135,7 @@ WindowRect PanelDock::freeRect() const {
   float top = top_;
   for (const Panel* panel : order_) {
     const WindowRect& place = panel->given;
-    if (panel->docked && panel->shown && panel->collapsed) {
+    if (panel->docked && panel->shown && panel->isTitle()) {
       top = std::max(top, place.corner.y + place.size.y);
     } else if (panel->docked && panel->shown) {
       columns_.edgeOf(*panel) == Edge::left ? void(left = std::max(left, place.corner.x + place.size.x))
@@ -141,7 +148,7 @@ WindowRect PanelDock::freeRect() const {
 void PanelDock::reset() {
   for (auto& [name, panel] : panels_) {
     panel.docked = true;
-    panel.collapsed = false;
+    panel.collapsed = panel.putAway = false;
     panel.wish = {};
   }
   ImGui::MarkIniSettingsDirty();
@@ -220,7 +227,7 @@ void PanelDock::arrange(Edge edge, float width, float taken) {
   for (Panel* panel : order_) {
     if (panel->docked && columns_.edgeOf(*panel) == edge) {
       const float kept = panel->wish.size.y;
-      const float wished = panel->collapsed ? room.title : heightOf(*panel);
+      const float wished = panel->isTitle() ? room.title : heightOf(*panel);
       const float least = std::min(lowest * em, wished);
       const Length height{least, std::clamp(kept, least, wished), wished};
       panels.push_back(panel);
@@ -248,8 +255,9 @@ void PanelDock::follow(Panel& panel) {
     panel.display = displaySize();
     ImGui::MarkIniSettingsDirty();
   }
-  if ((panel.collapsed || panel.folded) != window->Collapsed) {
+  if ((panel.isTitle() || panel.folded) != window->Collapsed) {
     panel.collapsed = window->Collapsed;
+    panel.putAway = false;
     panel.rank = window->Collapsed ? panel.rank : ++lastRank_;
     ImGui::MarkIniSettingsDirty();
   }
@@ -272,7 +280,7 @@ bool PanelDock::begin(const char* name, bool* open, Edge edge, const glm::vec2& 
   const WindowRect free = reachableWindow(room ? wish : fitWindow(wish, displaySize()), displaySize(), top_, margin());
   const WindowRect place = panel.docked ? panel.place : free;
   panel.folded = panel.docked && panel.place.folded;
-  const bool collapsed = panel.collapsed || panel.folded;
+  const bool collapsed = panel.isTitle() || panel.folded;
   const bool held = ImGui::GetCurrentContext()->ActiveId != 0 && ImGui::IsMouseDown(ImGuiMouseButton_Left);
   if (place != panel.given && !(held && !panel.docked)) {
     ImGui::SetNextWindowPos({place.corner.x, place.corner.y});

@@ -28,8 +28,9 @@ class PanelDock {
   // Calls ImGui::Begin for a window whose size `ems` is in sizes of the font; a height of 0 reaches down to the
   // display's edge. Call ImGui::End whatever begin() returns.
   bool begin(const char* name, bool* open, Edge edge, const glm::vec2& ems, int windowFlags = 0);
-  // Folds a window to its title, or unfolds it. Returns whether it was folded.
-  bool fold(const char* name, bool folded) { return std::exchange(panels_[name].collapsed, folded); }
+  // Folds a window to its title until fold(name, false) or until the user unfolds it. The layout file does not list
+  // that. Returns whether it was folded.
+  bool fold(const char* name, bool folded);
   // Says whether a window that is closed would cover `place` (pixels of the display) when it opens.
   bool wouldCover(const char* name, Edge edge, const glm::vec2& ems, const glm::vec2& place) const;
   // Returns the part of the display that docked windows leave free, in pixels.
@@ -40,7 +41,8 @@ class PanelDock {
  private:
   struct Panel {
     bool docked = true;
-    bool collapsed = false;
+    bool collapsed = false;   // by the user
+    bool putAway = false;     // by fold()
     WindowRect wish;          // set by the user; of a docked window only the size, 0: none
     glm::vec2 display{0.0f};  // size of the display when the user put the window there
     WindowRect given;         // rectangle that the window was given last
@@ -50,6 +52,7 @@ class PanelDock {
     bool shown = false;   // in this frame or the last
     bool folded = false;  // to its title, for want of room
     int rank = 0;         // larger for a window that the user opened later
+    bool isTitle() const { return collapsed || putAway; }
   };
   static Length widthOf(const Panel& panel);
   // Returns the width in a column of width `most`: the column's, unless the user made the window narrower.

@@ -113,9 +113,9 @@ void PanelWindows::menuBar(PanelContext& ui) {
     ImGui::EndMenu();
   }
   if (panels::menu(ui, "Help")) {
-    ImGui::MenuItem("Keys", keysOf(ToggleHelp{}), &state_.help);
+    panels::menuSwitch("Keys", keysOf(ToggleHelp{}), state_.help);
     panels::lessonMenu(ui);
-    ImGui::MenuItem("Dear ImGui demo", nullptr, &state_.widgetDemo);
+    panels::menuSwitch("Dear ImGui demo", nullptr, state_.widgetDemo);
     panels::recordWidget(ui, "help.widgets");
     ImGui::EndMenu();
   }
@@ -126,13 +126,13 @@ void PanelWindows::menuBar(PanelContext& ui) {
 void PanelWindows::windowMenu(PanelContext& ui) {
   for (const PanelName& panel : panelNames) {
     const char* keys = panel.open == &PanelChoices::inspector ? keysOf(ToggleInspector{}) : nullptr;
-    ImGui::MenuItem(panel.name.data(), keys, &(state_.choices.*panel.open));
+    panels::menuSwitch(panel.name.data(), keys, state_.choices.*panel.open);
     panels::tip(panel.about);
   }
   ImGui::Separator();
   for (const auto& [name, place, theme] :
        {std::tuple("Dark theme", "theme.dark", Theme::dark), std::tuple("Light theme", "theme.light", Theme::light)}) {
-    if (ImGui::MenuItem(name, nullptr, state_.choices.theme == theme)) {
+    if (panels::menuItem(name, nullptr, state_.choices.theme == theme)) {
       state_.choices.theme = theme;
     }
     panels::recordWidget(ui, place);
@@ -145,7 +145,7 @@ void PanelWindows::windowMenu(PanelContext& ui) {
   ImGui::Separator();
   presentModes(ui);
   ImGui::Separator();
-  if (ImGui::MenuItem("Reset layout")) {
+  if (panels::menuItem("Reset layout")) {
     dock_.reset();
     state_.help = false;
     for (const PanelName& panel : rememberedPanels) {
@@ -153,7 +153,7 @@ void PanelWindows::windowMenu(PanelContext& ui) {
     }
   }
   panels::recordWidget(ui, "window.reset");
-  if (ImGui::MenuItem("Hide panels", keysOf(TogglePanel{}))) {
+  if (panels::menuItem("Hide panels", keysOf(TogglePanel{}))) {
     ui.send(TogglePanel{});
   }
 }
@@ -177,7 +177,7 @@ void PanelWindows::presentModes(PanelContext& ui) {
     const std::string label = name == "fifo"      ? "VSync (fifo)"
                               : name == "mailbox" ? "VSync, newest picture (mailbox)"
                                                   : "No VSync (" + name + ")";
-    if (ImGui::MenuItem(label.c_str(), nullptr, device.presentMode == i)) {
+    if (panels::menuItem(label.c_str(), nullptr, device.presentMode == i)) {
       ui.send(SetPresentMode{i});
     }
     panels::recordWidget(

@@ -81,11 +81,12 @@ void cameraMode(PanelContext& ui) {
 
 void timeControls(PanelContext& ui) {
   const ShownPlayback& playback = ui.input.playback;
-  // The slider's range doubles whenever the time reaches its end.
-  const double span = leastSpan * std::exp2(std::ceil(std::log2(std::max(1.0, playback.time / leastSpan))));
+  // The slider's range doubles whenever the time reaches its end. A time that is typed may lie beyond it.
+  const double spans = playback.time / leastSpan;
+  const double span = leastSpan * (spans < 1.0 ? 1.0 : std::exp2(std::floor(std::log2(spans)) + 1.0));
   float seconds = static_cast<float>(playback.time);
-  if (ImGui::SliderFloat("Time", &seconds, 0.0f, static_cast<float>(span), "%.3f s", ImGuiSliderFlags_AlwaysClamp)) {
-    ui.send(Seek{seconds});
+  if (ImGui::SliderFloat("Time", &seconds, 0.0f, static_cast<float>(span), "%.3f s")) {
+    ui.send(Seek{std::max(seconds, 0.0f)});
   }
   recordWidget(ui, "time", "Time of the animation. Drag, or Ctrl+click to type; Space pauses.");
   commandButton(ui, "<", "time.back", "Steps back by 1/60 s. Key: comma.", StepTime{-1});
@@ -174,6 +175,7 @@ void showTip(const std::string& about) {
     place = {window.Max.x <= room.x ? window.Max.x : window.Min.x - size.x, item.Min.y};
   }
   ImGui::SetNextWindowPos({std::max(std::min(place.x, room.x), 0.0f), std::max(std::min(place.y, room.y), 0.0f)});
+  ImGui::SetNextWindowSize(size);  // in its first frame too, and when the text changes
   ImGui::BeginTooltip();
   ImGui::PushTextWrapPos(padding.x + 30.0f * em);
   ImGui::TextUnformatted(text.c_str());
