@@ -269,6 +269,10 @@ bool SimpleUI::navigating() const {
   return windows_.visible() && ImGui::GetIO().NavVisible;
 }
 
+bool SimpleUI::menuOpen() const {
+  return !ImGui::GetCurrentContext()->OpenPopupStack.empty();
+}
+
 bool SimpleUI::hasEvents() const {
   return backend_->input.waiting();
 }

@@ -36,6 +36,7 @@ class SimpleUI {
   bool holdsWidget() const;    // a widget is being dragged, pressed or typed into
   bool wantsKeyboard() const;  // a text field is being edited
   bool navigating() const;     // a widget is chosen by keyboard or gamepad
+  bool menuOpen() const;       // a menu or list is open, which takes all keys
   bool hasEvents() const;      // events wait for the next build()
   bool wantsFrames() const;    // something changes by itself: a text cursor, a button that is held
 

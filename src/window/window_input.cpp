@@ -31,12 +31,15 @@ void WindowInput::take(const InputEvent& event) {
   } else if (event.kind == Kind::drop) {
     workspace_.apply(OpenDropped{event.dropped});
   }
-  ui_.push(event);
+  const bool presses = event.kind == Kind::wheel || (event.kind == Kind::button && event.down);
+  if (!presses || !workspace_.capture().hidesPanels()) {
+    ui_.push(event);
+  }
 }
 
 bool WindowInput::overPanels() const {
   const glm::dvec2& position = workspace_.pointer().position();
-  return ui_.takesPointer(position.x, position.y);
+  return !workspace_.capture().hidesPanels() && ui_.takesPointer(position.x, position.y);
 }
 
 // Applies the command of a key, unless a prompt or a text field has the keyboard.
@@ -47,6 +50,9 @@ void WindowInput::takeKey(const KeyEvent& event) {
   }
   if (workspace_.prompting()) {
     return std::holds_alternative<Escape>(*command) ? workspace_.apply(CancelPrompt{}) : void();
+  }
+  if (ui_.menuOpen()) {
+    return;
   }
   if (ui_.wantsKeyboard()) {
     afterField_ = isOfFiles(*command) ? command : afterField_;

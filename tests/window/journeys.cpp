@@ -108,6 +108,22 @@ TEST_F(EditJourney, FieldsLeaveSavingToTheWindow) {
   EXPECT_FALSE(shown().edit.unsaved);
 }
 
+TEST_F(EditJourney, OpenMenusTakeTheKeys) {
+  press("n");
+  const size_t mirrors = shown().edit.scene->mirrors.size();
+  click("menu.View");
+  press("Delete");
+  EXPECT_EQ(shown().edit.scene->mirrors.size(), mirrors);
+  press("Escape");
+  const bool help = demo_->panels().help;
+  click("menu.Help");
+  press("Down");
+  press("Up");
+  xdotool({"key", "--window", window_, "--delay", "1", "space"});  // down and up before the next frame
+  run(5);
+  EXPECT_NE(demo_->panels().help, help);
+}
+
 // On a Dvorak keyboard the comma is where W is on an American one, so it flies.
 TEST_F(Journey, ShortcutsAvoidFlyKeysOnDvorak) {
   setKeyboard({"us", "-variant", "dvorak"});
