@@ -322,6 +322,14 @@ void SceneDocument::save(const fs::path& file, std::span<const SettingChange> se
     throw SaveError(oneLine(file.string() + ": not saved: it is the name of a model (name a file such as " +
                             fs::path(file).replace_extension(".toml").filename().string() + ")"));
   }
+  const auto requireOwn = [&] {
+    if (!overwrite) {
+      requireOwnFile(file, withoutLinks(file) == withoutLinks(savedFile_) ? savedText_ : std::nullopt);
+    }
+  };
+  if (copiesModels) {
+    requireOwn();  // a file that is not written gets no copies
+  }
   SourceFiles sources = copiesModels ? copyModels(scene_, wholePath(file).parent_path()) : SourceFiles();
   const auto exchangeSources = [&] {
     for (size_t i = 0; i < sources.meshes.size(); ++i) {
@@ -335,8 +343,8 @@ void SceneDocument::save(const fs::path& file, std::span<const SettingChange> se
   exchangeSources();
   try {
     text = this->text(file, settings);
-    const bool known = withoutLinks(file) == withoutLinks(savedFile_);
-    writeSceneFile(file, text, known ? savedText_ : std::nullopt, overwrite);
+    requireOwn();
+    writeSceneFile(file, text);
   } catch (...) {
     exchangeSources();
     throw;

@@ -94,7 +94,7 @@ class SceneDocument {
   // Default file of save(): the scene's own, or a scene file beside a model.
   std::filesystem::path usualFile() const;
   // Writes the scene with the settings that changed since it was loaded (an empty value takes the key out), and makes
-  // the file the scene's. Throws SaveError; see writeSceneFile for `overwrite`, and copyModels() for `copiesModels`.
+  // the file the scene's. Throws SaveError; see requireOwnFile for `overwrite`, and copyModels() for `copiesModels`.
   void save(const std::filesystem::path& file, std::span<const SettingChange> settings, bool overwrite = false,
             bool copiesModels = false);
   // Returns the text that save() would write. Throws SaveError.

@@ -391,21 +391,21 @@ std::string editedText(const Scene& loaded, const SceneContent& edited, std::spa
   return text;
 }
 
-void writeSceneFile(const fs::path& file, const std::string& text, const std::optional<std::string>& expected,
-                    bool overwrite) {
-  try {
-    std::error_code error;
-    if (!overwrite && fs::exists(file, error) && (!expected || readText(file) != *expected)) {
-      refuse<OverwriteError>(
-          file, expected ? "another program has changed the file since it was read" : "there is such a file already",
-          "save under another name, or overwrite it");
-    }
-    replaceFile(file, text);
-  } catch (const SaveError&) {
-    throw;
-  } catch (const std::runtime_error& problem) {
-    throw SaveError(oneLine("not saved: " + std::string(problem.what())));
+void requireOwnFile(const fs::path& file, const std::optional<std::string>& expected) try {
+  std::error_code error;
+  if (fs::exists(file, error) && (!expected || readText(file) != *expected)) {
+    refuse<OverwriteError>(
+        file, expected ? "another program has changed the file since it was read" : "there is such a file already",
+        "save under another name, or overwrite it");
   }
+} catch (const FileError& problem) {
+  throw SaveError(oneLine("not saved: " + std::string(problem.what())));
+}
+
+void writeSceneFile(const fs::path& file, const std::string& text) try {
+  replaceFile(file, text);
+} catch (const FileError& problem) {
+  throw SaveError(oneLine("not saved: " + std::string(problem.what())));
 }
 
 fs::path sceneFileNamed(const fs::path& file) {

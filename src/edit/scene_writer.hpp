@@ -51,10 +51,11 @@ struct SourceFiles {
 // files of all meshes and textures. Throws SaveError.
 SourceFiles copyModels(const Scene& scene, const std::filesystem::path& folder);
 
-// Replaces the file by `text`, whole or not at all. Throws SaveError if that fails or, without `overwrite`, if there is
-// a file that does not hold `expected`; with no expected text, if there is any file.
-void writeSceneFile(const std::filesystem::path& file, const std::string& text,
-                    const std::optional<std::string>& expected, bool overwrite);
+// Throws SaveError if there is a file that does not hold `expected`; with no expected text, if there is any file.
+void requireOwnFile(const std::filesystem::path& file, const std::optional<std::string>& expected);
+
+// Replaces the file by `text`, whole or not at all. Throws SaveError if that fails.
+void writeSceneFile(const std::filesystem::path& file, const std::string& text);
 
 // Returns the scene file for a name that the user typed: ".toml" is added unless it is there. Names of models stay as
 // they are, and SceneDocument::save refuses them. Throws SaveError if there is no name.

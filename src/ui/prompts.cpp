@@ -203,7 +203,7 @@ void saveAs(PanelContext& ui) {
   if (!ui.input.edit.note.empty()) {
     coloredText(errorColor, ui.input.edit.note);
   }
-  const bool moves = files.modelsOutside > 0 && folder != withoutLinks(ui.input.edit.scene->file).parent_path();
+  const bool moves = files.modelsOutside > 0 && folder != withoutLinks(ui.input.edit.ownFile).parent_path();
   if (moves) {
     ImGui::Checkbox("Copy the models here too", &ui.state.copyModels);
     recordWidget(ui, "where.models", "With materials and textures, into 'models' beside the scene; else they stay.");
@@ -227,7 +227,9 @@ void saveAs(PanelContext& ui) {
 void recovery(PanelContext& ui) {
   ImGui::TextUnformatted("Speculum ended with unsaved changes. Open the copy that it kept?");
   const std::filesystem::path& copy = ui.input.edit.proposedFile;
-  ImGui::TextDisabled("%s, kept in %s", copy.filename().string().c_str(), copy.parent_path().string().c_str());
+  const std::filesystem::path& own = ui.input.edit.ownFile;
+  ImGui::TextDisabled("%s", (own.empty() ? copy.filename() : own).string().c_str());
+  ImGui::TextDisabled("kept in %s", copy.parent_path().string().c_str());
   ImGui::Spacing();
   answerButton(ui, "Open", "recovery.open", OpenScene{ui.input.edit.proposedFile});
   ImGui::SetItemDefaultFocus();

@@ -197,6 +197,9 @@ void DocumentController::fill(ShownEdit& view, const Settings& settings) const {
   view.prompt = prompt_;
   view.afterPrompt = waitingText_;
   view.proposedFile = proposed_;
+  view.ownFile = prompt_ == Prompt::recovery ? Recovery::originalOf(proposed_)
+                 : isCopy_                   ? originalFile()
+                                             : loaded_.scene.file;
   view.note = note_;
 }
 

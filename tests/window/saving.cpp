@@ -526,8 +526,10 @@ TEST_F(Kept, CopiesAreSavedToTheirOriginal) {
   step(1.0);
   step(2.0);
   const fs::path copy = offered();
+  EXPECT_EQ(edit().ownFile, original);
   send(OpenScene{copy});
   waitFor([&] { return scene().file == copy; });
+  EXPECT_EQ(edit().ownFile, original) << "whose models stay where they are";
   send(Save{});
   send(SaveAs{edit().proposedFile});
   EXPECT_EQ(edit().prompt, Prompt::saveAs) << "it may have changed since";
@@ -944,6 +946,15 @@ TEST_F(ModelsBrought, FailedCopyLeavesNothing) {
   send(SaveAs{to_ / "scene.toml", true});
   EXPECT_EQ(edit().prompt, Prompt::saveAs);
   EXPECT_TRUE(fs::is_empty(to_));
+}
+
+TEST_F(ModelsBrought, RefusedOverwritingCopiesNothing) {
+  make({{"car.obj", "car.mtl", "wood.png"}});
+  std::ofstream(to_ / "scene.toml") << "precious";
+  send(AskWhereToSave{});
+  send(SaveAs{to_ / "scene.toml", true});
+  EXPECT_EQ(edit().prompt, Prompt::saveAs);
+  EXPECT_FALSE(fs::exists(to_ / "models"));
 }
 
 // Scene files are UTF-8.
