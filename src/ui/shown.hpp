@@ -149,6 +149,7 @@ struct ShownEdit {
   Prompt prompt = Prompt::none;
   std::string afterPrompt;             // what the answer to unsavedChanges leads to, as in "quitting"
   std::filesystem::path proposedFile;  // for Prompt::saveAs and recovery; a folder for open
+  std::filesystem::path ownFile;       // the scene's, or what the copy is of that is shown or proposed; empty: unknown
   std::string note;                    // what was saved, or why it was not
   ShownOverlay overlay;
 
@@ -233,6 +234,7 @@ struct UiInput {
   const ShownStatus& status;
   const LogHistory& log;
   std::string message;  // an error to show until the next one, e.g. of a shader or a scene
+  bool recording = false;
 };
 
 // Request to draw a pass's target over the picture.

@@ -55,6 +55,8 @@ std::string Capture::record(const Image8& picture) {
     return "Recording: " + frames + ". F10 stops.";
   } catch (const std::exception& error) {
     recorded_ = "Recording ended after " + std::to_string(frames_) + " frames: " + error.what();
+    std::error_code none;
+    std::filesystem::remove(*folder_, none);  // if it is empty
     folder_.reset();
   }
   return recorded_;

@@ -22,7 +22,8 @@ class Capture {
 
   bool recording() const { return folder_.has_value(); }
   bool wanted() const { return recording() || screenshot_ != Screenshot::none; }  // the present frame is to be saved
-  bool bare() const { return screenshot_ == Screenshot::bare || (recording() && bare_); }  // without panels
+  bool hidesPanels() const { return recording() && bare_; }
+  bool bare() const { return screenshot_ == Screenshot::bare || hidesPanels(); }  // the present frame is without panels
 
   struct Saved {
     std::string message;

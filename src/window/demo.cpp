@@ -127,7 +127,11 @@ void Demo::drawFrame(double seconds) {
   // While A | B is on, only the frame that draws the second half is saved: then both halves show the same time.
   saved_ = workspace_.capture().wanted() && (!workspace_.split().on() || halves_.index() == 1);
   bare_ = workspace_.capture().bare();
-  const SceneState state = workspace_.state(workspace_.time());
+  SceneState state = workspace_.state(workspace_.time());
+  if (saved_ && halves_.index() == 1) {
+    state.camera = cameraOfA_;  // events between the two frames may have moved it
+  }
+  cameraOfA_ = state.camera;
   PictureHalf& half = halves_.drawn();
   const bool timed = beginPace(state, workspace_.frameSeconds(passed));
   const Clock::time_point waits = Clock::now();

@@ -77,8 +77,8 @@ void Workspace::apply(const Command& command) {
                  [&](const SetSettings& c) { settings_.set(c.settings, c.continued); },
                  [&](const ResetSettings&) { settings_.set(loaded_->settings); },
                  [&](const ToggleSplit& c) { toggleSplit(c.naive); },
-                 [&](const ChooseHalf& c) { settings_.chooseHalf(c.half); },
-                 [&](const ChooseOtherHalf&) { settings_.chooseHalf(1 - split().chosen()); },
+                 [&](const ChooseHalf& c) { chooseHalf(c.half); },
+                 [&](const ChooseOtherHalf&) { chooseHalf(1 - split().chosen()); },
                  [&](const MoveDivider& c) { split().moveDivider(c.share); },
                  [&](const KeepHalf&) { settings_.keepHalf(); },
                  [&](const NewScene&) { opener_.open({SceneBrowser::newScene()}); },
@@ -229,11 +229,15 @@ UiInput Workspace::shown(const ShownDevice& device, const std::string& message) 
           .split = settings_.split().shown(),
           .status = status_.shown(),
           .log = log_,
-          .message = message};
+          .message = message,
+          .recording = capture_.recording()};
 }
 
 void Workspace::update() {
   takeSceneChange();
+  if (prompting() && capture_.hidesPanels()) {
+    apply(ToggleRecording{});  // nobody would see the prompt
+  }
   if (std::unique_ptr<LoadedScene> loaded = opener_.update()) {
     showScene(std::move(loaded));
   }
@@ -393,7 +397,19 @@ void Workspace::toggleSplit(bool naive) {
   }
   settings_.beginSplit(naive, middleOfFreePicture());
   reports_[1] = {};
-  status_.set("A | B: the panel changes the settings of B. X changes to A, Esc ends it.");
+  tellHalf();
+}
+
+void Workspace::chooseHalf(int half) {
+  settings_.chooseHalf(half);
+  if (split().on()) {
+    tellHalf();
+  }
+}
+
+void Workspace::tellHalf() {
+  const auto [chosen, other] = split().chosen() == 0 ? std::pair('A', 'B') : std::pair('B', 'A');
+  status_.set(fmt::format("A | B: the panel changes the settings of {}. X changes to {}, Esc ends it.", chosen, other));
 }
 
 void Workspace::beginLesson(size_t index) {

@@ -119,6 +119,8 @@ class Workspace {
   void escape();
   void dismissMessage();
   void toggleSplit(bool naive);
+  void chooseHalf(int half);
+  void tellHalf();
   void beginLesson(size_t index);
   double middleOfFreePicture() const;  // share of the picture's width
   void step(UndoWay way);

@@ -189,6 +189,7 @@ TEST_F(FirstClick, LeavesMostOfTheWindowToTheScene) {
     EXPECT_LT(coveredShare(), 0.44);
     clickNode();
     EXPECT_LT(coveredShare(), width == 1280.0f ? 0.33 : 0.4) << "menu bar and titles included";
+    EXPECT_FALSE(contains(ImGui::SaveIniSettingsToMemory(), "Collapsed")) << "the user did not fold it";
     EXPECT_TRUE(has("edit.name")) << "the fields are in sight";
     windows_->toggleInspector();
     run(5);
@@ -400,6 +401,28 @@ TEST_F(PanelTest, SamplesAreThoseOfTheDevice) {
   EXPECT_EQ(settings_.view.samples, 4);
   choose(2);
   EXPECT_EQ(settings_.view.samples, 4) << "there are no more";
+}
+
+// The slider ends at 20 s at first.
+TEST_F(PanelTest, LaterTimesCanBeTyped) {
+  for (const double before : {0.0, 20.0, 45.0}) {
+    playback_.time = before;
+    holdControl(true);
+    click("time", 0.2);
+    holdControl(false);
+    type("70");
+    tap(ImGuiKey_Enter);
+    ASSERT_TRUE(sent<Seek>());
+    EXPECT_EQ(std::get<Seek>(commands_.back()).seconds, 70.0);
+  }
+}
+
+TEST_F(PanelTest, EnterChoosesMenuEntries) {
+  click("menu.File");
+  tap(ImGuiKey_DownArrow);
+  tap(ImGuiKey_Enter);
+  EXPECT_TRUE(sent<NewScene>() || sent<AskWhatToOpen>());
+  EXPECT_FALSE(has("menu.New")) << "the menu closes";
 }
 
 TEST_F(PanelTest, MenusSendTheirCommands) {
@@ -634,14 +657,14 @@ TEST_F(PanelTest, SavingListsFoldersAndScenes) {
 }
 
 TEST_F(PanelTest, SavingElsewhereOffersToCopyModels) {
-  scene_.file = config_.path() / "own" / "scene.toml";
+  edit_.ownFile = config_.path() / "own" / "scene.toml";
   ask(Prompt::saveAs, config_.path() / "new.toml");
   EXPECT_TRUE(clickFor<SaveAs>("where.save").copyModels) << "unless they are left where they are";
   ask(Prompt::saveAs, config_.path() / "new.toml");
   click("where.models", 0.05);
   EXPECT_FALSE(clickFor<SaveAs>("where.save").copyModels);
   ask(Prompt::none);
-  ask(Prompt::saveAs, scene_.file);
+  ask(Prompt::saveAs, edit_.ownFile);
   EXPECT_FALSE(has("where.models")) << "in its own folder everything stays";
   EXPECT_FALSE(clickFor<SaveAs>("where.save").copyModels);
 }

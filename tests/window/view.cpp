@@ -287,6 +287,17 @@ TEST_F(WindowView, RecordingsAreEvenSequences) {
   EXPECT_EQ(workspace_->frameSeconds(1.0), 1.0);
 }
 
+TEST_F(WindowView, PromptsEndRecordingsWithoutPanels) {
+  setExposure(2.0);
+  for (const bool withPanels : {false, true}) {
+    send(ToggleRecording{withPanels});
+    send(Quit{});
+    EXPECT_EQ(shown().edit.prompt, Prompt::unsavedChanges);
+    EXPECT_EQ(shown().recording, withPanels) << "else nobody would see the prompt";
+    send(CancelPrompt{});
+  }
+}
+
 // The window's title is in no recorded picture.
 TEST_F(WindowView, TitleSaysThatFramesAreRecorded) {
   for (const bool withPanels : {false, true}) {
