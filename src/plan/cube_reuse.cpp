@@ -106,8 +106,9 @@ void addShadowMaps(FramePlan& plan, PlannedCubes maps, std::span<const Cube> bef
   const bool compares = around.changes && instances <= mostCompared;
   // Draws the maps of a mean once, although its settings reuse no images: its pictures share scene and time.
   const bool skips = compares && (around.settings.reflection.skipUnchanged || plan.picture > 0);
-  const bool reuses = std::ranges::equal(
-      maps.cubes, before, [](const Cube& a, const Cube& b) { return a.light == b.light && a.size == b.size; });
+  const bool reuses = std::ranges::equal(maps.cubes, before, [](const Cube& a, const Cube& b) {
+    return a.light == b.light && a.size == b.size && a.places == b.places;
+  });
   const uint64_t next = largestSerial(before) + 1;
   for (size_t i = 0; i < maps.cubes.size(); ++i) {
     const Cube* old = reuses ? &before[i] : nullptr;

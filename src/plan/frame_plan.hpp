@@ -135,8 +135,10 @@ struct Cube {
   RecycledString name;  // of the light, or of the object and copy, for users
   int size = 0;         // texels of each side of a face; of the largest face of all maps if it is a shadow map's
   std::array<int, 6> faces{-1, -1, -1, -1, -1, -1};  // indices into FramePlan::passes, in the order of faceAxes()
-  glm::dvec3 center{0.0};                            // world, when it was rendered
-  glm::dvec3 low{0.0};                               // world, box of what surrounds the mirror in the present frame
+  // Of a shadow map: places of the faces in the target of all maps. Faces without casters have none, -1.
+  std::array<int, 6> places{-1, -1, -1, -1, -1, -1};
+  glm::dvec3 center{0.0};  // world, when it was rendered
+  glm::dvec3 low{0.0};     // world, box of what surrounds the mirror in the present frame
   glm::dvec3 high{0.0};
   Settings settings;    // when it was rendered
   uint64_t serial = 0;  // grows each time that any cube of its kind, or a face of a shadow map, is rendered

@@ -120,18 +120,18 @@ bool mayMeet(const View& a, std::span<const glm::dvec3> raysOfA, const View& b, 
   return !separates(a, b, raysOfB) && !separates(b, a, raysOfA);
 }
 
-// Returns columns and rows of the maps in their target, which makes the target about a square.
-glm::ivec2 gridOf(size_t maps) {
-  const int count = static_cast<int>(maps);
-  const int columns = static_cast<int>(std::ceil(std::sqrt(2.0 * count / 3.0)));
-  return {columns, (count + columns - 1) / columns};
+// Returns columns and rows of so many faces in their target, which makes the target about a square.
+glm::ivec2 gridOf(int faces) {
+  const int columns = static_cast<int>(std::ceil(std::sqrt(faces)));
+  return {columns, (faces + columns - 1) / std::max(columns, 1)};
 }
 
-// Returns the corner of a map's face in the target, in texels.
-glm::ivec2 shadowCorner(size_t maps, int size, size_t map, size_t face) {
-  const int columns = gridOf(maps).x;
-  const glm::ivec2 place(static_cast<int>(map) % columns, static_cast<int>(map) / columns);
-  return size * glm::ivec2(3, 2) * place + faceCorner(size, face);
+int placesOf(std::span<const Cube> maps) {
+  int places = 0;
+  for (const Cube& map : maps) {
+    places = std::max(places, std::ranges::max(map.places) + 1);
+  }
+  return places;
 }
 
 class FacePlanner {
@@ -278,10 +278,18 @@ PlannedCubes shadowMaps(const Scene& scene, const SceneState& state, const Setti
   const int size =
       std::max(std::accumulate(maps.faces.begin(), maps.faces.end(), settings.effects.shadowMapSize, largest),
                smallestAutomatic);
+  int places = 0;
   for (size_t i = 0; i < maps.faces.size(); ++i) {
-    const size_t map = i / maps.cubes[0].faces.size();
-    maps.cubes[map].size = size;
-    maps.faces[i].corner = shadowCorner(lights.size(), size, map, i % maps.cubes[0].faces.size());
+    Cube& map = maps.cubes[i / maps.cubes[0].faces.size()];
+    map.size = size;
+    map.places[i % map.faces.size()] = maps.faces[i].window.empty() ? -1 : places++;
+  }
+  const int columns = gridOf(places).x;
+  for (size_t i = 0; i < maps.faces.size(); ++i) {
+    const Cube& map = maps.cubes[i / maps.cubes[0].faces.size()];
+    if (const int place = map.places[i % map.faces.size()]; place >= 0) {
+      maps.faces[i].corner = size * glm::ivec2(place % columns, place / columns);
+    }
   }
   return maps;
 }
@@ -319,7 +327,7 @@ int shadowMapSize(const FramePlan& plan) {
 
 glm::ivec2 shadowExtent(const FramePlan& plan) {
   const std::span<const Cube> maps = cubesOf(plan.cubes, PassKind::shadow);
-  return maps.empty() ? glm::ivec2(0) : glm::ivec2(3, 2) * gridOf(maps.size()) * maps[0].size;
+  return maps.empty() ? glm::ivec2(0) : glm::max(gridOf(placesOf(maps)) * maps[0].size, 1);
 }
 
 }  // namespace speculum

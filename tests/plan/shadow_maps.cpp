@@ -339,5 +339,19 @@ TEST(ShadowMap, MemoryIncludesItAndLowersIt) {
   EXPECT_EQ(narrow.settings.effects.shadowMapSize, 512);
 }
 
+// A face that gets its first caster moves the faces behind it in the target, so none of these can be reused.
+TEST(ShadowMap, FacesWithoutCastersTakeNoRoom) {
+  ShadowFrames frames(lampRoom());
+  const uint64_t face = 1024ull * 1024 * (8 + 4);
+  frames.scene.lights[0].position = {0, 60, -5};
+  EXPECT_EQ(frames.rendered(), (std::vector<int>{3})) << "all casters are below the light";
+  EXPECT_EQ(shadowBytes(frames.plan), face);
+  EXPECT_TRUE(frames.rendered().empty());
+  frames.scene.objects.push_back(objectAt({20, 60, -5}));
+  frames.rendered();
+  EXPECT_EQ(shadowBytes(frames.plan), 2 * face);
+  EXPECT_TRUE(testing_support::faceOf(frames.plan, testing_support::shadowMapsOf(frames.plan)[0], 3).drawn());
+}
+
 }  // namespace
 }  // namespace speculum
