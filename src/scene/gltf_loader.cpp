@@ -5,6 +5,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/gtc/type_ptr.hpp>
+#include <map>
 #include <utility>
 
 #include "scene/gltf_file.hpp"
@@ -230,29 +231,62 @@ class GltfReader {
     const auto indexed = primitive.attributes.find(indicesAttribute);
     const bool hasIndices = indexed != primitive.attributes.end();
     const uint64_t corners = hasIndices ? content_.countOf(indexed->second) : count;
-    const uint64_t taken = count + (primitive.mode == TINYGLTF_MODE_TRIANGLES ? 1 : 3) * corners;
-    if (std::max({count, corners, taken}) > cornersLeft_) {
+    const uint64_t taken = (primitive.mode == TINYGLTF_MODE_TRIANGLES ? 1 : 3) * corners;
+    if (std::max(corners, taken) > cornersLeft_) {
       add("meshes", "mesh {} has, as often as it is drawn, too many vertices for a file of this size, it is left out",
           mesh);
       return;
     }
     cornersLeft_ -= taken;
-    const auto positions = content_.numbers(position->second, 3);
+    // Primitives often share their vertices, which are read once for those that follow each other.
+    if (positions_ != position->second) {
+      positions_ = position->second;
+      read_.clear();
+    }
+    const std::vector<double>* positions = numbers(positions_, 3);
     const auto indices = hasIndices ? content_.numbers(indexed->second, 1) : std::nullopt;
     if (positions && (indices || !hasIndices)) {
-      const FaceCorner first = addVertices(primitive, *positions, sceneFromNode);
-      addTriangles(primitive, mesh, first, glm::determinant(glm::dmat3(sceneFromNode)) < 0.0, indices, count);
+      placeOf_.resize(std::max<size_t>(placeOf_.size(), count), -1);
+      std::vector<size_t> named;
+      std::vector<int> places(corners, -1);  // among `named`; -1: not there
+      for (size_t i = 0; i < corners; ++i) {
+        const double vertex = indices ? (*indices)[i] : static_cast<double>(i);
+        if (vertex >= 0.0 && vertex < static_cast<double>(count)) {
+          places[i] = placeOf_[static_cast<size_t>(vertex)];
+          if (places[i] < 0) {
+            places[i] = placeOf_[static_cast<size_t>(vertex)] = static_cast<int>(named.size());
+            named.push_back(static_cast<size_t>(vertex));
+          }
+        }
+      }
+      std::ranges::for_each(named, [&](size_t vertex) { placeOf_[vertex] = -1; });
+      const FaceCorner first = addVertices(primitive, *positions, named, sceneFromNode);
+      addTriangles(primitive, mesh, first, glm::determinant(glm::dmat3(sceneFromNode)) < 0.0, places);
     }
   }
 
-  // Adds the vertices of a primitive. Returns the first of them.
+  // Returns the numbers of an accessor of vertices; null if it is not usable.
+  const std::vector<double>* numbers(int accessor, int components) {
+    const auto [known, isNew] = read_.try_emplace({accessor, components});
+    const uint64_t count = content_.countOf(accessor);
+    if (isNew && count > cornersLeft_) {
+      add("accessors", "{} has, as often as it is read, too many vertices for a file of this size, it is left out",
+          accessor);
+    } else if (isNew) {
+      cornersLeft_ -= count;
+      known->second = content_.numbers(accessor, components);
+    }
+    return known->second ? &*known->second : nullptr;
+  }
+
+  // Adds the named vertices of a primitive. Returns the first of them.
   FaceCorner addVertices(const tinygltf::Primitive& primitive, const std::vector<double>& positions,
-                         const glm::dmat4& sceneFromNode) {
+                         const std::vector<size_t>& named, const glm::dmat4& sceneFromNode) {
     const size_t count = positions.size() / 3;
     FaceCorner first{.position = static_cast<int>(builder_.positionCount())};
     const int channels = colorChannels(primitive);
-    const auto colors = attribute(primitive, colorName, channels, count);
-    for (size_t i = 0; i < count; ++i) {
+    const auto* colors = attribute(primitive, colorName, channels, count);
+    for (const size_t i : named) {
       std::optional<glm::vec4> color;
       if (colors) {
         const double* given = &(*colors)[channels * i];
@@ -260,36 +294,37 @@ class GltfReader {
         const glm::dvec3 rgb = glm::make_vec3(given);
         color = glm::vec4(isFinite(rgb) ? glm::clamp(rgb, 0.0, 1.0) : glm::dvec3(1.0), alpha);
       }
-      builder_.addPosition(glm::dvec3(sceneFromNode * glm::dvec4(glm::make_vec3(&positions[3 * i]), 1.0)), color);
+      const glm::dvec3 position = glm::make_vec3(&positions[3 * i]);
+      builder_.addPosition(glm::dvec3(sceneFromNode * glm::dvec4(position, 1.0)), color);
     }
-    if (const auto normals = attribute(primitive, "NORMAL", 3, count)) {
+    if (const auto* normals = attribute(primitive, "NORMAL", 3, count)) {
       first.normal = static_cast<int>(builder_.normalCount());
       // The inverse transpose but for its length, also where there is no inverse.
       const glm::dmat3 m(sceneFromNode);
       const double side = glm::determinant(m) < 0.0 ? -1.0 : 1.0;
       const glm::dmat3 turn(side * glm::cross(m[1], m[2]), side * glm::cross(m[2], m[0]),
                             side * glm::cross(m[0], m[1]));
-      for (size_t i = 0; i < count; ++i) {
+      for (const size_t i : named) {
         builder_.addNormal(turn * glm::make_vec3(&(*normals)[3 * i]));
       }
     }
     if (isIndex(primitive.material, content_.model().materials.size())) {
       addTexcoords(primitive, content_.model().materials[primitive.material].pbrMetallicRoughness.baseColorTexture,
-                   count, first);
+                   count, named, first);
     }
     return first;
   }
 
   void addTexcoords(const tinygltf::Primitive& primitive, const tinygltf::TextureInfo& texture, size_t count,
-                    FaceCorner& first) {
+                    const std::vector<size_t>& named, FaceCorner& first) {
     const TexturePlacement placement(texture);
-    const auto texcoords = texture.index == -1 ? std::nullopt : attribute(primitive, placement.texcoords, 2, count);
+    const auto* texcoords = texture.index == -1 ? nullptr : attribute(primitive, placement.texcoords, 2, count);
     if (!texcoords) {
       return;
     }
     first.texcoord = static_cast<int>(builder_.texcoordCount());
     bool leavesPicture = false;
-    for (size_t i = 0; i < count; ++i) {
+    for (const size_t i : named) {
       const glm::dvec2 uv = placement.apply(glm::make_vec2(&(*texcoords)[2 * i]));
       leavesPicture = leavesPicture || glm::distance(uv, glm::clamp(uv, 0.0, 1.0)) > 1e-3;
       builder_.addTexcoord(uv);
@@ -310,43 +345,39 @@ class GltfReader {
     return hasAlpha ? 4 : 3;
   }
 
-  // Returns the numbers of an attribute; nothing if it is missing or not usable.
-  std::optional<std::vector<double>> attribute(const tinygltf::Primitive& primitive, const std::string& name,
-                                               int components, size_t count) {
+  // Returns the numbers of an attribute; null if it is missing or not usable.
+  const std::vector<double>* attribute(const tinygltf::Primitive& primitive, const std::string& name, int components,
+                                       size_t count) {
     const auto found = primitive.attributes.find(name);
     if (found == primitive.attributes.end()) {
-      return std::nullopt;
+      return nullptr;
     }
     if (content_.countOf(found->second) != count) {
       add("accessors", "{} has not as many elements as POSITION, it counts as missing", found->second);
-      return std::nullopt;
+      return nullptr;
     }
-    return content_.numbers(found->second, components);
+    return numbers(found->second, components);
   }
 
   void addTriangles(const tinygltf::Primitive& primitive, int mesh, const FaceCorner& first, bool mirrored,
-                    const std::optional<std::vector<double>>& indices, size_t vertexCount) {
+                    const std::vector<int>& places) {
     builder_.setMaterial(isIndex(primitive.material, content_.model().materials.size()) ? primitive.material : -1);
     const auto cornerOf = [&](size_t i) {
-      const auto vertex = static_cast<int>(indices ? (*indices)[i] : static_cast<double>(i));
-      return FaceCorner{.position = first.position + vertex,
-                        .texcoord = first.texcoord < 0 ? -1 : first.texcoord + vertex,
-                        .normal = first.normal < 0 ? -1 : first.normal + vertex};
+      return FaceCorner{.position = first.position + places[i],
+                        .texcoord = first.texcoord < 0 ? -1 : first.texcoord + places[i],
+                        .normal = first.normal < 0 ? -1 : first.normal + places[i]};
     };
-    const auto isVertex = [&](size_t i) {
-      return !indices || ((*indices)[i] >= 0.0 && (*indices)[i] < static_cast<double>(vertexCount));
-    };
-    forEachTriangle(primitive.mode, indices ? indices->size() : vertexCount, [&](size_t a, size_t b, size_t c) {
-      if (!isVertex(a) || !isVertex(b) || !isVertex(c)) {
+    forEachTriangle(primitive.mode, places.size(), [&](size_t a, size_t b, size_t c) {
+      if (std::min({places[a], places[b], places[c]}) < 0) {
         add("meshes", "mesh {} has a triangle with a vertex that is not there, it is left out", mesh);
         return;
       }
-      const std::array<FaceCorner, 3> corners{cornerOf(a), cornerOf(mirrored ? c : b), cornerOf(mirrored ? b : c)};
+      const std::array<FaceCorner, 3> face{cornerOf(a), cornerOf(mirrored ? c : b), cornerOf(mirrored ? b : c)};
       // Strips repeat vertices where they turn.
       const bool turns = primitive.mode == TINYGLTF_MODE_TRIANGLE_STRIP &&
-                         (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0]);
+                         (face[0] == face[1] || face[1] == face[2] || face[2] == face[0]);
       if (!turns) {
-        builder_.addFace(corners, 1);
+        builder_.addFace(face, 1);
       }
     });
   }
@@ -413,6 +444,9 @@ class GltfReader {
   ModelDefects& defects_;
   MeshBuilder builder_;
   uint64_t cornersLeft_ = 0;
+  int positions_ = -1;  // accessor of the last primitive's positions
+  std::map<std::pair<int, int>, std::optional<std::vector<double>>> read_;  // with it, by accessor and components
+  std::vector<int> placeOf_;  // by vertex, among those that a primitive names; -1 between primitives
   bool hasLinesOrPoints_ = false;
   Placed camera_;
   std::vector<Placed> lights_;

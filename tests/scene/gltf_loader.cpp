@@ -2,6 +2,7 @@
 
 #include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/type_ptr.hpp>
 
 #include "image/picture_files.hpp"
 #include "made_gltf.hpp"
@@ -887,6 +888,44 @@ TEST_F(GltfLoader, SmallFilesDrawTheirMeshesNotWithoutEnd) {
   EXPECT_LT(drawn.indices.size(), 3'000'000u);
   EXPECT_TRUE(
       contains(drawn.defects.at(0), "mesh 0 has, as often as it is drawn, too many vertices for a file of this size"));
+}
+
+// Exporters put all vertices of a model into one buffer, of which each primitive names its own.
+TEST_F(GltfLoader, PrimitivesMayShareAllVertices) {
+  constexpr int count = 3000;
+  MadeGltf made;
+  std::vector<float> numbers;
+  std::vector<float> normals;
+  for (int i = 0; i < count; ++i) {
+    const auto x = static_cast<float>(i);
+    numbers.insert(numbers.end(), {x, 0, 0, x + 1, 0, 0, x, 1, 0});
+    normals.insert(normals.end(), {0, 0, 1, 0, 0, 1, 0, 0.6f, 0.8f});
+  }
+  const json attributes = {{"POSITION", made.addNumbers(numbers, "VEC3")},
+                           {"NORMAL", made.addNumbers(normals, "VEC3")}};
+  const int mesh = made.add("meshes", {{"primitives", json::array()}});
+  std::vector<glm::dvec3> expected;
+  for (uint32_t i = 0; i < count; ++i) {
+    const uint32_t first = 3 * (count - 1 - i);
+    made.root["meshes"][mesh]["primitives"].push_back(
+        {{"attributes", attributes}, {"indices", made.addNumbers<uint32_t>({first + 2, first, first + 1}, "SCALAR")}});
+    for (const uint32_t vertex : {first + 2, first, first + 1}) {
+      expected.emplace_back(glm::make_vec3(&numbers[size_t{3} * vertex]));
+    }
+  }
+  made.add("nodes", {{"mesh", mesh}});
+  const Mesh drawn = meshOf(made);
+  EXPECT_EQ(warnings(), "");
+  EXPECT_EQ(drawn.vertices.size(), expected.size());
+  std::vector<glm::dvec3> actual = cornersOf(drawn);
+  for (size_t i = 0; i < actual.size(); ++i) {
+    const glm::dvec3 normal = actual[i].y > 0.5 ? glm::dvec3(0, 0.6f, 0.8f) : glm::dvec3(0, 0, 1);
+    EXPECT_LE(glm::distance(drawn.vertices[drawn.indices[i]].normal, normal), 1e-6);
+  }
+  for (std::vector<glm::dvec3>* points : {&actual, &expected}) {  // triangles are sorted
+    std::ranges::sort(*points, {}, [](const glm::dvec3& p) { return std::pair(std::round(p.x), std::round(p.y)); });
+  }
+  expectNear(actual, expected);
 }
 
 TEST_F(GltfLoader, OtherFilesAreNamed) {
