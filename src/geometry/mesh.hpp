@@ -44,6 +44,7 @@ struct Material {
   int diffuseTexture = -1;           // index into Scene::textures, -1: none
   bool clamps = false;               // its textures clamp instead of repeating
   std::optional<glm::dvec3> mirror;  // reflectance, 0 .. 1, of a material that says mirror
+  bool twoSided = false;             // planar mirrors of the material reflect on their backs too
   // Coverage: the share of the surface that is there. The rest shows what is behind.
   double opacity = 1.0;      // 0 .. 1
   int opacityTexture = -1;   // index into Scene::textures, whose opacity multiplies `opacity`; -1: none

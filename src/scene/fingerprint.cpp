@@ -41,6 +41,9 @@ void addMesh(Fingerprint& fingerprint, const Mesh& mesh) {
     fingerprint.add(part.material.opacityTexture);
     fingerprint.add(part.material.cutoff);
     fingerprint.add(part.material.vertexAlpha);
+    if (part.material.mirror && part.material.twoSided) {  // others keep their fingerprint in stored results
+      fingerprint.add(true);
+    }
   }
 }
 

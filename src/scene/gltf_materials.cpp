@@ -61,6 +61,7 @@ Material GltfMaterials::material(int index, bool colored, bool withAlpha) {
   }
   material.diffuseTexture = known->second;
   material.clamps = wraps(content_.model(), surface.baseColorTexture.index, TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE);
+  material.twoSided = from.doubleSided;
   setSurface(material, surface);
   material.emission = emissionOf(from);
   if (from.alphaMode == "MASK" || from.alphaMode == "BLEND") {

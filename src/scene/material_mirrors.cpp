@@ -346,6 +346,7 @@ void placeMaterialMirrors(Scene& scene) {
                                                   .spin = object.spin,
                                                   .reflectance = optics.reflectance,
                                                   .baseColor = optics.baseColor,
+                                                  .twoSided = from.material.twoSided,
                                                   .backColor = optics.baseColor},
                                        .object = static_cast<int>(i),
                                        .copy = static_cast<int>(k / flat.size()),

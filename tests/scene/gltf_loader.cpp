@@ -7,6 +7,7 @@
 #include "image/picture_files.hpp"
 #include "made_gltf.hpp"
 #include "made_pictures.hpp"
+#include "scene/fingerprint.hpp"
 #include "scene/materials.hpp"
 #include "scene/model_formats.hpp"
 #include "scene/obj_support.hpp"
@@ -315,6 +316,23 @@ TEST_F(GltfLoader, VertexColorsOfEveryType) {
     EXPECT_LE(glm::distance(glm::vec3(mesh.colors[mesh.indices[0]]), glm::vec3(1, 0, 0.2f)), 1e-6f);
     EXPECT_LE(glm::distance(glm::vec3(mesh.colors[mesh.indices[2]]), glm::vec3(0, 1, 0.2f)), 1e-6f);
   }
+}
+
+TEST_F(GltfLoader, DoubleSidedMirrorsReflectOnBothSides) {
+  MadeGltf made;
+  made.addMesh({{"POSITION", made.addNumbers(triangleNumbers, "VEC3")}}, {{"material", 0}});
+  made.add("nodes", {{"mesh", 0}});
+  std::set<std::string> fingerprints;
+  for (const bool both : {false, true}) {
+    made.root["materials"] = {{{"pbrMetallicRoughness", {{"roughnessFactor", 0}}}, {"doubleSided", both}}};
+    const Scene scene = loadScene(folder_.write("m.glb", made.binary()));
+    ASSERT_EQ(scene.materialMirrors.size(), 1u);
+    EXPECT_EQ(scene.materialMirrors[0].mirror.twoSided, both);
+    Fingerprint fingerprint;
+    addScene(fingerprint, scene);
+    fingerprints.insert(fingerprint.hex());
+  }
+  EXPECT_EQ(fingerprints.size(), 2u);
 }
 
 TEST_F(GltfLoader, MetalAndRoughnessAreConverted) {
