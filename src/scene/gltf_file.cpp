@@ -24,9 +24,6 @@ using nlohmann::json;
 
 namespace {
 
-constexpr const char* specularGlossiness = "KHR_materials_pbrSpecularGlossiness";
-constexpr const char* unlit = "KHR_materials_unlit";
-
 // The two parts of a file; a text file has no binary part.
 struct Parts {
   std::string_view json;
@@ -112,22 +109,18 @@ void checkVersion(const fs::path& file, const json& root) {
 // Refuses a file that requires an extension that is not read, except those of materials and of formats of textures:
 // without these the model can still be drawn.
 void checkExtensions(const fs::path& file, const json& root, ModelDefects& defects) {
-  constexpr std::array<std::string_view, 7> known{"KHR_texture_transform",
-                                                  "KHR_mesh_quantization",
-                                                  "KHR_lights_punctual",
-                                                  "KHR_node_visibility",
-                                                  specularGlossiness,
-                                                  "KHR_materials_emissive_strength",
-                                                  unlit};
+  constexpr std::array<std::string_view, 4> known{"KHR_texture_transform", "KHR_mesh_quantization",
+                                                  "KHR_lights_punctual", "KHR_node_visibility"};
   constexpr std::array<std::string_view, 4> textures{"KHR_texture_basisu", "EXT_texture_webp", "EXT_texture_avif",
                                                      "MSFT_texture_dds"};
   std::vector<std::string> unknown;
   for (const json& name : member(root, "extensionsRequired")) {
-    if (!name.is_string() || std::ranges::find(known, name.get_ref<const std::string&>()) != known.end()) {
+    // Materials say themselves which extension of theirs is not read.
+    if (!name.is_string() || std::ranges::find(known, name.get_ref<const std::string&>()) != known.end() ||
+        name.get_ref<const std::string&>().starts_with("KHR_materials_")) {
       continue;
     }
-    if (const auto& text = name.get_ref<const std::string&>();
-        text.starts_with("KHR_materials_") || std::ranges::find(textures, text) != textures.end()) {
+    if (const auto& text = name.get_ref<const std::string&>(); std::ranges::find(textures, text) != textures.end()) {
       defects.add(file, 1, "extensionsRequired", "{} cannot be read, the model is drawn without it", text);
     } else {
       unknown.push_back(text);

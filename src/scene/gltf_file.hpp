@@ -2,6 +2,7 @@
 
 #include <tiny_gltf.h>
 
+#include <array>
 #include <cstdint>
 #include <deque>
 #include <filesystem>
@@ -103,6 +104,12 @@ inline constexpr std::string_view validGltf = "a valid glTF 2.0 file is needed";
 
 // Attribute of a primitive in a repaired model that names the accessor of its indices. Primitive::indices is not set.
 inline constexpr const char* indicesAttribute = "indices";
+
+inline constexpr const char* specularGlossiness = "KHR_materials_pbrSpecularGlossiness";
+inline constexpr const char* unlit = "KHR_materials_unlit";
+// Extensions of materials that are read, at least in part.
+inline constexpr std::array<std::string_view, 4> materialExtensions{
+    specularGlossiness, unlit, "KHR_materials_emissive_strength", "KHR_materials_transmission"};
 
 inline constexpr const char* noLight = "none";  // type of a light that could not be read
 

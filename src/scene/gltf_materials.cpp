@@ -64,9 +64,11 @@ Material GltfMaterials::material(int index, bool colored, bool withAlpha) {
   material.twoSided = from.doubleSided;
   setSurface(material, surface);
   material.emission = emissionOf(from);
-  if (from.alphaMode == "MASK" || from.alphaMode == "BLEND") {
-    material.vertexAlpha = withAlpha;
-    setCoverage(material, from);
+  setCoverage(material, from, withAlpha);
+  for (const auto& [name, content] : from.extensions) {
+    if (std::ranges::find(materialExtensions, name) == materialExtensions.end()) {
+      defects_.add(file_, 1, name, "is not read, '{}' is drawn without it", from.name);
+    }
   }
   if (from.normalTexture.index >= 0 || from.occlusionTexture.index >= 0) {
     add("'{}' has a normal or occlusion texture, it is left out", from.name);
@@ -88,14 +90,21 @@ void GltfMaterials::setSurface(Material& material, const tinygltf::PbrMetallicRo
   setMetalRoughness(material, base, metal, roughness, mean);
 }
 
-void GltfMaterials::setCoverage(Material& material, const tinygltf::Material& from) const {
-  const std::vector<double>& factor = from.pbrMetallicRoughness.baseColorFactor;
-  material.opacity = factor.size() == 4 && factor[3] >= 0.0 ? std::min(factor[3], 1.0) : 1.0;
-  if (material.diffuseTexture >= 0 && !textures_[material.diffuseTexture].opacity.empty()) {
-    material.opacityTexture = material.diffuseTexture;
+void GltfMaterials::setCoverage(Material& material, const tinygltf::Material& from, bool withAlpha) const {
+  if (from.alphaMode == "MASK" || from.alphaMode == "BLEND") {
+    const std::vector<double>& factor = from.pbrMetallicRoughness.baseColorFactor;
+    material.vertexAlpha = withAlpha;
+    material.opacity = factor.size() == 4 && factor[3] >= 0.0 ? std::min(factor[3], 1.0) : 1.0;
+    if (material.diffuseTexture >= 0 && !textures_[material.diffuseTexture].opacity.empty()) {
+      material.opacityTexture = material.diffuseTexture;
+    }
   }
   if (from.alphaMode == "MASK") {
     material.cutoff = std::isfinite(from.alphaCutoff) ? std::clamp(from.alphaCutoff, 0.0, 2.0) : 0.5;
+  } else {
+    const double passing =
+        numberOf(extensionMember(from.extensions, "KHR_materials_transmission", "transmissionFactor"), 0.0);
+    material.opacity *= 1.0 - std::clamp(passing, 0.0, 1.0);
   }
   if (material.isTransparent()) {
     material.mirror.reset();

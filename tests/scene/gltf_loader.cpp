@@ -449,7 +449,7 @@ TEST_F(GltfLoader, MaterialsOfExtensionsHaveTheirBaseColor) {
                          {"alphaMode", "BLEND"}});
   made.add("materials", {{"extensions", {{"KHR_materials_unlit", json::object()}}},
                          {"pbrMetallicRoughness", {{"baseColorFactor", {0.1, 0.9, 0.5, 1}}}}});
-  made.add("materials", {{"extensions", {{"KHR_materials_clearcoat", json::object()}}}});
+  made.add("materials", {{"name", "coat"}, {"extensions", {{"KHR_materials_clearcoat", json::object()}}}});
   made.add("materials", {{"extensions",
                           {{"KHR_materials_pbrSpecularGlossiness",
                             {{"diffuseFactor", {0, 0, 0, 1}}, {"specularFactor", {0.9, 0.9, 0.9}}}}}},
@@ -468,11 +468,25 @@ TEST_F(GltfLoader, MaterialsOfExtensionsHaveTheirBaseColor) {
   EXPECT_EQ(mesh.parts[0].material.opacity, 0.5);
   EXPECT_NEAR(mesh.parts[0].material.shininess, 2 / std::pow(0.75, 4) - 2, 1e-9);
   EXPECT_EQ(mesh.parts[1].material.diffuse, glm::dvec3(0.1, 0.9, 0.5));
-  ASSERT_FALSE(mesh.defects.empty());
-  EXPECT_TRUE(contains(mesh.defects.front(),
-                       "extensionsRequired: KHR_materials_clearcoat cannot be read, the model is drawn without it "
-                       "(and 1 more)"))
-      << mesh.defects.front();
+  ASSERT_GE(mesh.defects.size(), 3u);
+  EXPECT_TRUE(contains(mesh.defects[0], "extensionsRequired: KHR_texture_basisu cannot be read")) << mesh.defects[0];
+  EXPECT_TRUE(std::ranges::any_of(mesh.defects, [](const std::string& defect) {
+    return defect.ends_with(":1: KHR_materials_clearcoat: is not read, 'coat' is drawn without it");
+  })) << warnings();
+}
+
+TEST_F(GltfLoader, WhatMaterialsTransmitIsNotCovered) {
+  MadeGltf made;
+  made.addMesh({{"POSITION", made.addNumbers(triangleNumbers, "VEC3")}}, {{"material", 0}});
+  made.add("nodes", {{"mesh", 0}});
+  for (const auto& [mode, opacity] : {std::pair("OPAQUE", 0.25), std::pair("BLEND", 0.125), std::pair("MASK", 0.5)}) {
+    made.root["materials"] = {{{"alphaMode", mode},
+                               {"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1, 0.5}}}},
+                               {"extensions", {{"KHR_materials_transmission", {{"transmissionFactor", 0.75}}}}}}};
+    const Mesh mesh = meshOf(made);
+    EXPECT_EQ(mesh.parts.at(0).material.opacity, opacity) << mode;
+    EXPECT_TRUE(mesh.defects.empty());
+  }
 }
 
 TEST_F(GltfLoader, AlphaOfVertexColorsCountsUnlessOpaque) {
