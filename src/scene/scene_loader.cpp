@@ -259,8 +259,9 @@ std::string sceneText(const fs::path& file, const Model& model) {
   const Mesh& mesh = model.mesh;
   const double r = mesh.radius * mesh.unit;
   const glm::dvec3 center(0.0, mesh.halfExtent.y * mesh.unit + gap * r, 0.0);
-  std::string toml = fmt::format("# {} by itself, over a mirror of its size.\ntitle = {}\n\n",
-                                 tomlText(file.filename().string()), tomlText(file.stem().string()));
+  std::string toml =
+      fmt::format("# {} by itself, over a mirror of its size unless the camera is below it.\ntitle = {}\n\n",
+                  tomlText(file.filename().string()), tomlText(file.stem().string()));
   toml +=
       "[environment]\n"
       "sky     = { zenith = [0.1, 0.21, 0.45], horizon = [0.8, 0.8, 0.78], ground = [0.5, 0.5, 0.5] }\n"
@@ -278,10 +279,12 @@ std::string sceneText(const fs::path& file, const Model& model) {
         tomlText(light.name), tomlText(light.position), light.intensity, light.radius, tomlText(light.color),
         tomlText(light.castsShadow));
   }
-  toml += fmt::format(
-      "[[mirror]]\nname        = \"floor\"\npolygon     = {}\nreflectance = [0.34, 0.35, 0.36]\n"
-      "base_color  = [0.2, 0.2, 0.205]\ntwo_sided   = true\n",
-      disc(stage * r));
+  if (camera.position.y > 0.0) {  // the floor would hide the model from below
+    toml += fmt::format(
+        "[[mirror]]\nname        = \"floor\"\npolygon     = {}\nreflectance = [0.34, 0.35, 0.36]\n"
+        "base_color  = [0.2, 0.2, 0.205]\ntwo_sided   = true\n",
+        disc(stage * r));
+  }
   return toml;
 }
 

@@ -644,6 +644,17 @@ TEST_F(GltfLoader, CameraAndLightsBecomeThoseOfTheScene) {
   EXPECT_TRUE(other.lights.empty());
 }
 
+TEST_F(GltfLoader, CamerasBelowSeeNoFloor) {
+  MadeGltf made;
+  made.add("nodes", {{"mesh", made.addTriangle()}});
+  made.add("cameras", {{"type", "perspective"}, {"perspective", {{"yfov", 0.5}, {"znear", 0.1}}}});
+  made.add("nodes", {{"camera", 0}});
+  for (const double height : {0.5, -3.0}) {
+    made.root["nodes"][1]["translation"] = {0.5, height, 4};
+    EXPECT_EQ(loadScene(folder_.write("m.glb", made.binary())).mirrors.empty(), height < 0.0);
+  }
+}
+
 TEST_F(GltfLoader, EachLightIsRepairedAlone) {
   MadeGltf made;
   made.add("nodes", {{"mesh", made.addTriangle()}});
