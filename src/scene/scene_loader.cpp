@@ -235,11 +235,11 @@ std::vector<PointLight> lightsOf(const Model& model, const glm::dvec3& center) {
   return lights;
 }
 
-// Says which exposure suits lights that reach the model with far more than the usual irradiance, of about 4. glTF files
-// give intensities in candela, so that every lamp in real units is such a light.
-void logExposure(const fs::path& file, const Model& model) {
+// Dims lights that reach the model with far more than the usual irradiance, of about 4, to this. glTF files give
+// intensities in candela, so that every lamp in real units is such a light. The added sky keeps its brightness.
+void dimLights(const fs::path& file, Model& model) {
   constexpr double usual = 4.0;
-  constexpr double most = 100.0;
+  constexpr double most = 24.0;
   double irradiance = 0.0;
   for (const PointLight& light : model.lights) {
     const double distance =
@@ -247,9 +247,11 @@ void logExposure(const fs::path& file, const Model& model) {
     irradiance += glm::compMax(light.color) * light.intensity / (distance * distance);
   }
   if (irradiance > most) {
-    spdlog::warn(
-        oneLine(fmt::format("{}: its lights, as in real units, are very bright: --set view.exposure={:.2g} suits them",
-                            file.string(), usual / irradiance)));
+    for (PointLight& light : model.lights) {
+      light.intensity *= usual / irradiance;
+    }
+    spdlog::warn(oneLine(fmt::format("{}: its lights are very bright, their intensities are divided by {:.1f}",
+                                     file.string(), irradiance / usual)));
   }
 }
 
@@ -402,7 +404,7 @@ Scene modelScene(const fs::path& file, const LoadProgress& progress) {
     throwInputError(file, 1, "model", fmt::format("the model's bounding sphere has a radius of {} m", radius),
                     "1e-9 .. 1e12 is needed, or a scene that scales the model");
   }
-  logExposure(file, model);
+  dimLights(file, model);
   Scene scene = parseScene(file, sceneText(file, model));
   scene.objects[0].mesh = 0;
   scene.meshes.push_back(std::move(mesh));

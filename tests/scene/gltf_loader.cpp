@@ -670,17 +670,23 @@ TEST_F(GltfLoader, EachLightIsRepairedAlone) {
   EXPECT_TRUE(contains(warnings(), "cannot be read, what uses it is left out (and 2 more)"));
 }
 
-TEST_F(GltfLoader, LightsInRealUnitsNameTheirExposure) {
+TEST_F(GltfLoader, BrightLightsAreDimmedTogether) {
   MadeGltf made;
   made.add("nodes", {{"mesh", made.addTriangle()}});
-  made.add("nodes", {{"translation", {0.5, 0.5, 5}}, {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
-  json& light = made.root["extensions"]["KHR_lights_punctual"]["lights"][0];
-  for (const auto& [candela, exposure] :
-       {std::pair(50.0, ""), std::pair(50'000.0, "--set view.exposure=0.002 suits")}) {
-    light = {{"type", "point"}, {"intensity", candela}};
-    loadScene(folder_.write("m.glb", made.binary()));
-    EXPECT_EQ(contains(log_.text(), "view.exposure"), exposure[0] != 0);
-    EXPECT_TRUE(contains(log_.text(), exposure)) << log_.text();
+  json& lights = made.root["extensions"]["KHR_lights_punctual"]["lights"];
+  lights = {{{"type", "point"}}, {{"type", "point"}}};
+  for (int i = 0; i < 2; ++i) {
+    made.add("nodes", {{"translation", {0.5, 0.5, 5}}, {"extensions", {{"KHR_lights_punctual", {{"light", i}}}}}});
+  }
+  for (const double candela : {100.0, 50'000.0}) {
+    const bool bright = candela > 100.0;
+    lights[0]["intensity"] = candela;
+    lights[1]["intensity"] = 0.25 * candela;
+    const Scene scene = loadScene(folder_.write("m.glb", made.binary()));
+    EXPECT_NEAR(scene.lights.at(0).intensity, bright ? 80.0 : 100.0, 1e-9);
+    EXPECT_NEAR(scene.lights.at(1).intensity, bright ? 20.0 : 25.0, 1e-9);
+    EXPECT_EQ(contains(log_.text(), "its lights are very bright, their intensities are divided by 625.0"), bright)
+        << log_.text();
   }
 }
 
@@ -690,7 +696,7 @@ TEST_F(GltfLoader, LampsWithinTheModelAreUsual) {
   made.add("nodes", {{"translation", {0.5, 0.5, 0.01}}, {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
   made.root["extensions"]["KHR_lights_punctual"]["lights"].push_back({{"type", "point"}, {"intensity", 10}});
   loadScene(folder_.write("m.glb", made.binary()));
-  EXPECT_FALSE(contains(log_.text(), "view.exposure")) << log_.text();
+  EXPECT_FALSE(contains(log_.text(), "divided by")) << log_.text();
 }
 
 TEST_F(GltfLoader, HiddenNodesAreNotDrawn) {
