@@ -198,7 +198,8 @@ std::vector<uint8_t> dataOf(const std::string& uri) {
 std::optional<fs::path> findFile(ModelFiles& search, const fs::path& model, const std::string& uri) {
   std::string name = percentDecoded(uri);
   std::ranges::replace(name, '\\', '/');
-  const fs::path path = fs::path(name).lexically_normal();
+  const size_t first = std::min(name.find_first_not_of(" \t\n\v\f\r\"'"), name.size());  // the search may drop these
+  const fs::path path = fs::path(name.substr(first)).lexically_normal();
   const bool leadsOut = path.is_absolute() || (!path.empty() && *path.begin() == "..");
   return search.find(model, leadsOut ? path.filename().string() : name);
 }

@@ -25,13 +25,15 @@ std::string keyOf(const fs::path& name) {
 }  // namespace
 
 std::optional<fs::path> ModelFiles::find(const fs::path& namingFile, std::string_view name) {
-  const std::optional<fs::path> whole = findWhole(namingFile, name);
-  const std::string_view bare = withoutComment(name);
-  return whole || bare.size() == trimmed(name).size() ? whole : findWhole(namingFile, bare);
+  for (const std::string_view form : {name, trimmed(name), withoutComment(name)}) {
+    if (const auto found = findWhole(namingFile, form)) {
+      return found;
+    }
+  }
+  return std::nullopt;
 }
 
 std::optional<fs::path> ModelFiles::findWhole(const fs::path& namingFile, std::string_view name) {
-  name = trimmed(name);
   if (name.size() > 1 && (name.front() == '"' || name.front() == '\'') && name.back() == name.front()) {
     name = name.substr(1, name.size() - 2);
   }

@@ -261,7 +261,8 @@ TEST_F(GltfLoader, BuffersAreFoundLikeTexturesAndNeverOutside) {
   EXPECT_EQ(warnings(), "");
   for (const std::string& uri :
        {std::string("../secret.bin"), (folder_ / "secret.bin").string(), std::string("%2e%2e/secret.bin"),
-        std::string("x/../../secret.bin"), std::string("..\\\\secret.bin")}) {
+        std::string("x/../../secret.bin"), std::string("..\\\\secret.bin"), std::string(" ../secret.bin"),
+        "\"" + (folder_ / "secret.bin").string() + "\""}) {
     EXPECT_TRUE(contains(faultOf(made.text(uri), "model/m.gltf"), "buffers: there is no file '")) << uri;
   }
 }
@@ -393,18 +394,20 @@ class GltfTextures : public GltfLoader {
 TEST_F(GltfTextures, PicturesMayStandAnywhere) {
   const std::string png = picture();
   folder_.write("pictures/a b.png", png);
+  folder_.write(" first.png", png);
   MadeGltf embedded = made({{"mimeType", "image/png"}});
   embedded.root["images"][0]["bufferView"] = embedded.addView(png);
   int count = 0;
-  for (const MadeGltf& made : {made({{"uri", "t.png"}}), made({{"uri", "pictures/a%20b.png"}}), embedded,
-                               made({{"uri", "data:image/png;base64," + MadeGltf::base64(png)}})}) {
+  for (const MadeGltf& made :
+       {made({{"uri", "t.png"}}), made({{"uri", "pictures/a%20b.png"}}), embedded, made({{"uri", " first.png"}}),
+        made({{"uri", "data:image/png;base64," + MadeGltf::base64(png)}})}) {
     const Mesh mesh = meshOf(made);
     EXPECT_GE(mesh.parts.at(0).material.diffuseTexture, 0);
     EXPECT_EQ(textures_.back().width, 4);
     ++count;
   }
-  EXPECT_EQ(textures_.size(), 4u);
-  EXPECT_EQ(count, 4);
+  EXPECT_EQ(textures_.size(), 5u);
+  EXPECT_EQ(count, 5);
   EXPECT_EQ(warnings(), "");
 }
 
