@@ -243,6 +243,7 @@ class ObjMaterials::MtlReader {
 
 void ObjMaterials::read(std::string_view names, int line) {
   constexpr std::string_view blanks = " \t";
+  const auto isMtl = [](const std::string& name) { return lowerCase(name).ends_with(".mtl"); };
   if (names.find_first_of(blanks) != std::string_view::npos && readIfThere(names, line)) {
     return;
   }
@@ -250,17 +251,29 @@ void ObjMaterials::read(std::string_view names, int line) {
     return;
   }
   names = withoutComment(names).empty() ? names : withoutComment(names);
-  std::string name;
-  for (size_t i = 0; i <= names.size(); ++i) {
-    if (i == names.size() || blanks.find(names[i]) != std::string_view::npos) {
-      if (!name.empty() && !readIfThere(name, line)) {
-        defects_.add(objFile_, line, "mtllib", "there is no file '{}', its faces get the default material", name);
-        missingFile_ = true;
-      }
-      name.clear();
+  std::vector<std::string> words(1);
+  for (size_t i = 0; i < names.size(); ++i) {
+    if (blanks.find(names[i]) != std::string_view::npos) {
+      words.emplace_back();
     } else {
       i += names.substr(i).starts_with("\\ ");
-      name += names[i];
+      words.back() += names[i];
+    }
+  }
+  std::erase(words, "");
+  // A name has blanks up to the word that ends like a material file.
+  constexpr size_t mostWords = 8;
+  for (size_t first = 0, end = 0; first < words.size(); first = end) {
+    std::string name;
+    bool found = false;
+    for (end = first; end < std::min(words.size(), first + mostWords) && !found && !isMtl(name); ++end) {
+      name += (name.empty() ? "" : " ") + words[end];
+      found = readIfThere(name, line);
+    }
+    if (!found) {
+      end = first + 1;
+      defects_.add(objFile_, line, "mtllib", "there is no file '{}', its faces get the default material", words[first]);
+      missingFile_ = true;
     }
   }
 }

@@ -31,7 +31,7 @@ class ObjMaterials {
   ObjMaterials(const std::filesystem::path& objFile, ModelDefects& defects)
       : objFile_(objFile), defects_(defects), modelFiles_(objFile) {}
 
-  // Reads the files that a mtllib line of the OBJ file names: one name with blanks, or several names. A backslash
+  // Reads the files that a mtllib line of the OBJ file names: one or several, with blanks or without. A backslash
   // before a blank keeps the blank; any other backslash separates folders. A file that was read is not read again.
   void read(std::string_view names, int line);
 

@@ -629,6 +629,19 @@ TEST_F(MtlFile, LibrariesHaveBlanksAndBackslashes) {
   }
 }
 
+TEST_F(MtlFile, SeveralLibrariesMayHaveBlanks) {
+  folder_.write("box mtllib red.mtl", "newmtl a\nKd 0.125 0 0\n");
+  folder_.write("box mtllib green.MTL", "newmtl b\nKd 0.25 0 0\n");
+  folder_.write("in/c.mtl", "newmtl c\nKd 0.5 0 0\n");
+  const Mesh mesh = load("mtllib box mtllib red.mtl  box mtllib green.mtl none.mtl in/c.mtl\n" + squareText +
+                         "usemtl a\nf 1 2 3\nusemtl b\nf 1 2 3\nusemtl c\nf 1 2 3\n");
+  for (size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(mesh.parts.at(i).material.diffuse.x, 0.125 * (1 << i));
+  }
+  ASSERT_EQ(mesh.defects.size(), 1u);
+  EXPECT_TRUE(contains(mesh.defects[0], "there is no file 'none.mtl'")) << mesh.defects[0];
+}
+
 TEST_F(MtlFile, NumbersOfAnySizeAreFinite) {
   for (const std::string key : {"Kd", "Ks", "Ke", "Ns", "d", "Tr"}) {
     for (const std::string& value :
