@@ -454,8 +454,14 @@ class GltfReader {
 
 [[noreturn]] void throwNothingToDraw(const fs::path& file, bool hasLinesOrPoints,
                                      const std::vector<std::string>& defects) {
-  if (!hasLinesOrPoints && !defects.empty()) {
-    throw InputError(defects.front() + " (no triangle is left to draw)");
+  constexpr std::array<std::string_view, 7> keys{"scenes",    "nodes",       "meshes", "triangles",
+                                                 "accessors", "bufferViews", "buffers"};
+  const auto cost = std::ranges::find_if(defects, [&](const std::string& defect) {
+    return std::ranges::any_of(
+        keys, [&](std::string_view key) { return defect.find(fmt::format(":1: {}: ", key)) != std::string::npos; });
+  });
+  if (!hasLinesOrPoints && cost != defects.end()) {
+    throw InputError(*cost + " (no triangle is left to draw)");
   }
   throwInputError(file, 1, "meshes",
                   hasLinesOrPoints ? "the model has lines or points, but no triangle" : "the model has no triangle",
