@@ -323,15 +323,15 @@ class GltfReader {
       return;
     }
     first.texcoord = static_cast<int>(builder_.texcoordCount());
-    bool leavesPicture = false;
+    glm::bvec2 leavesPicture(false);
     for (const size_t i : named) {
       const glm::dvec2 uv = placement.apply(glm::make_vec2(&(*texcoords)[2 * i]));
-      leavesPicture = leavesPicture || glm::distance(uv, glm::clamp(uv, 0.0, 1.0)) > 1e-3;
+      leavesPicture = leavesPicture || glm::greaterThan(glm::abs(uv - 0.5), glm::dvec2(0.501));
       builder_.addTexcoord(uv);
     }
-    const tinygltf::Model& model = content_.model();
-    if (leavesPicture && !wraps(model, texture.index, TINYGLTF_TEXTURE_WRAP_REPEAT) &&
-        !wraps(model, texture.index, TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE)) {
+    const glm::ivec2 ways = waysToWrap(content_.model(), texture.index);
+    const glm::bvec2 repeats = glm::equal(ways, glm::ivec2(TINYGLTF_TEXTURE_WRAP_REPEAT));
+    if (ways != clampingWays && glm::any(leavesPicture && glm::not_(repeats))) {
       add("samplers", "texture {} is mirrored, or clamped in one direction, it is drawn repeated", texture.index);
     }
   }

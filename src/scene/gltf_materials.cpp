@@ -15,11 +15,11 @@ glm::dvec3 colorOf(const std::vector<double>& values, const Range& range) {
                            : glm::clamp(glm::dvec3(values[0], values[1], values[2]), range.low, range.high);
 }
 
-bool wraps(const tinygltf::Model& model, int texture, int way) {
+glm::ivec2 waysToWrap(const tinygltf::Model& model, int texture) {
   const int sampler = isIndex(texture, model.textures.size()) ? model.textures[texture].sampler : -1;
   return isIndex(sampler, model.samplers.size())
-             ? model.samplers[sampler].wrapS == way && model.samplers[sampler].wrapT == way
-             : way == TINYGLTF_TEXTURE_WRAP_REPEAT;
+             ? glm::ivec2(model.samplers[sampler].wrapS, model.samplers[sampler].wrapT)
+             : glm::ivec2(TINYGLTF_TEXTURE_WRAP_REPEAT);
 }
 
 template <typename Read>
@@ -60,7 +60,7 @@ Material GltfMaterials::material(int index, bool colored, bool withAlpha) {
     known->second = readPicture(surface.baseColorTexture.index, load).value_or(-1);
   }
   material.diffuseTexture = known->second;
-  material.clamps = wraps(content_.model(), surface.baseColorTexture.index, TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE);
+  material.clamps = waysToWrap(content_.model(), surface.baseColorTexture.index) == clampingWays;
   material.twoSided = from.doubleSided;
   setSurface(material, surface);
   material.emission = emissionOf(from);

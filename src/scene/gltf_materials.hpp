@@ -14,8 +14,9 @@ namespace speculum {
 // Returns a color within the range, or white if there are too few numbers.
 glm::dvec3 colorOf(const std::vector<double>& values, const Range& range);
 
-// Says whether a texture continues in this way (TINYGLTF_TEXTURE_WRAP_*) outside of its picture, in both directions.
-bool wraps(const tinygltf::Model& model, int texture, int way);
+// Returns how a texture continues outside of its picture, to the sides and up (TINYGLTF_TEXTURE_WRAP_*).
+glm::ivec2 waysToWrap(const tinygltf::Model& model, int texture);
+inline constexpr glm::ivec2 clampingWays(TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE);
 
 // Materials of a glTF file, as the mesh's parts need them.
 class GltfMaterials {
