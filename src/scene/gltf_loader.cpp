@@ -141,7 +141,7 @@ class GltfReader {
 
   Model finish(GltfMaterials& materials) {
     Model model{.mesh = builder_.finish([&](int index) {
-      return materials.material(index, builder_.hasColors(), builder_.hasAlpha(index));
+      return materials.material(index, builder_.hasColors(), builder_.hasAlpha(index), builder_.meanColor(index));
     })};
     if (!model.mesh.indices.empty()) {
       model.camera = cameraOf(model.mesh);

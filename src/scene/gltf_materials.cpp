@@ -47,7 +47,7 @@ auto GltfMaterials::readPicture(int texture, const Read& read) -> std::optional<
   }
 }
 
-Material GltfMaterials::material(int index, bool colored, bool withAlpha) {
+Material GltfMaterials::material(int index, bool colored, bool withAlpha, const glm::dvec3& meanColor) {
   if (!isIndex(index, content_.model().materials.size())) {
     return colored ? Material{.diffuse = glm::dvec3(1.0)} : Material();
   }
@@ -62,7 +62,7 @@ Material GltfMaterials::material(int index, bool colored, bool withAlpha) {
   material.diffuseTexture = known->second;
   material.clamps = waysToWrap(content_.model(), surface.baseColorTexture.index) == clampingWays;
   material.twoSided = from.doubleSided;
-  setSurface(material, surface);
+  setSurface(material, surface, meanColor);
   material.emission = emissionOf(from);
   setCoverage(material, from, withAlpha);
   for (const auto& [name, content] : from.extensions) {
@@ -76,7 +76,8 @@ Material GltfMaterials::material(int index, bool colored, bool withAlpha) {
   return material;
 }
 
-void GltfMaterials::setSurface(Material& material, const tinygltf::PbrMetallicRoughness& surface) {
+void GltfMaterials::setSurface(Material& material, const tinygltf::PbrMetallicRoughness& surface,
+                               const glm::dvec3& meanColor) {
   double metal = surface.metallicFactor;
   double roughness = surface.roughnessFactor;
   if (surface.metallicRoughnessTexture.index >= 0) {
@@ -87,7 +88,7 @@ void GltfMaterials::setSurface(Material& material, const tinygltf::PbrMetallicRo
   }
   const glm::dvec3 base = colorOf(surface.baseColorFactor, surfaceColorRange);
   const glm::dvec3 mean = material.diffuseTexture < 0 ? glm::dvec3(1.0) : textures_[material.diffuseTexture].mean;
-  setMetalRoughness(material, base, metal, roughness, mean);
+  setMetalRoughness(material, base, metal, roughness, mean * meanColor);
 }
 
 void GltfMaterials::setCoverage(Material& material, const tinygltf::Material& from, bool withAlpha) const {

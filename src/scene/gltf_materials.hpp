@@ -27,13 +27,13 @@ class GltfMaterials {
       : file_(file), content_(content), defects_(defects), textures_(textures) {}
 
   // Returns a material; for another index the default one, which is white for a mesh with colors. `withAlpha`: its
-  // vertices have colors with alpha below 1.
-  Material material(int index, bool colored, bool withAlpha);
+  // vertices have colors with alpha below 1. `meanColor`: of its vertices.
+  Material material(int index, bool colored, bool withAlpha, const glm::dvec3& meanColor);
 
  private:
   void add(std::string_view kind, std::string_view detail) { defects_.add(file_, 1, "materials", kind, detail); }
   // Set the colors and the coverage of a material whose texture is set.
-  void setSurface(Material& material, const tinygltf::PbrMetallicRoughness& surface);
+  void setSurface(Material& material, const tinygltf::PbrMetallicRoughness& surface, const glm::dvec3& meanColor);
   void setCoverage(Material& material, const tinygltf::Material& from, bool withAlpha) const;
   glm::dvec3 emissionOf(const tinygltf::Material& from);
   // Returns the means of a texture's pixels; 1 without a picture.

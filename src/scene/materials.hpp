@@ -47,7 +47,7 @@ class MeansOfPictures {
 
 // Sets Kd, Ks and Ns of `material` from the metal-roughness model of glTF 2.0 (appendix B): linear base color, metal
 // and roughness of 0 .. 1. Other values count as the nearest in range. `texture` is the mean color of the base color's
-// texture, white without one.
+// texture, times that of the vertices; white without either.
 //
 //     Kd = (1 - metal) base,   Ks = 0.04 + metal (base texture - 0.04),
 //     Ns = 2 / roughness^4 - 2, at least 1, at most 1e6

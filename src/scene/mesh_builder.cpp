@@ -387,6 +387,15 @@ bool MeshBuilder::hasAlpha(int material) const {
                                          [&](uint32_t vertex) { return vertexColors_[vertex].a < 1.0f; });
 }
 
+glm::dvec3 MeshBuilder::meanColor(int material) const {
+  const std::vector<uint32_t>& indices = materialIndices_.at(material);
+  glm::dvec3 sum(0.0);
+  for (const uint32_t vertex : indices) {
+    sum += colored_ ? glm::dvec3(vertexColors_[vertex]) : glm::dvec3(1.0);
+  }
+  return sum / static_cast<double>(indices.size());
+}
+
 Mesh MeshBuilder::finish(const std::function<PartMaterial(int)>& materialOf) {
   smoothNormals();
   colored_ = !vertexColors_.empty();

@@ -69,9 +69,10 @@ class MeshBuilder {
   size_t texcoordCount() const { return texcoords_.size(); }
   size_t normalCount() const { return normals_.size(); }
   // For the function that finish() calls: say whether a triangle has vertex colors, and whether one of this material
-  // has vertex colors with alpha below 1.
+  // has vertex colors with alpha below 1; return the mean color of this material's vertices, white without colors.
   bool hasColors() const { return colored_; }
   bool hasAlpha(int material) const;
+  glm::dvec3 meanColor(int material) const;
 
   // Returns the mesh: its triangles are grouped by material in the order of first use; it may have none. Call it once,
   // last.

@@ -593,6 +593,17 @@ TEST_F(GltfTextures, ClampingAndMirroringWarnWhereTheyCount) {
   EXPECT_TRUE(meshOf(made).defects.empty());
 }
 
+TEST_F(GltfLoader, VertexColorsTintMetals) {
+  MadeGltf made;
+  made.addMesh({{"POSITION", made.addNumbers(triangleNumbers, "VEC3")},
+                {"COLOR_0", made.addNumbers<float>({1, 0, 0, 1, 0.5f, 0, 1, 0.25f, 0.75f}, "VEC3")}},
+               {{"material", 0}});
+  made.add("nodes", {{"mesh", 0}});
+  made.add("materials", {{"pbrMetallicRoughness", {{"baseColorFactor", {0.5, 1, 1, 1}}, {"roughnessFactor", 0}}}});
+  const Material material = meshOf(made).parts.at(0).material;
+  EXPECT_LE(glm::distance(material.mirror.value(), {0.5, 0.25, 0.25}), 1e-7);
+}
+
 TEST_F(GltfTextures, FilesThatAreNamedAreListed) {
   picture();
   MadeGltf made = this->made({{"uri", "t.png"}});
