@@ -161,7 +161,7 @@ bool isCutOut(const Texture& texture) {
 
 void setMetalRoughness(Material& material, glm::dvec3 baseColor, double metal, double roughness,
                        const glm::dvec3& texture) {
-  const double share = std::clamp(metal, 0.0, 1.0);
+  const double share = std::clamp(metal, 0.0, 1.0) * (1.0 - glm::smoothstep(0.5, 1.0, roughness));
   const double alpha = std::pow(std::clamp(roughness, 0.0, 1.0), 2.0);
   material.diffuse = (1.0 - share) * baseColor;
   material.specular = glm::mix(glm::dvec3(0.04), baseColor * texture, share);

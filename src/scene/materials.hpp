@@ -49,9 +49,11 @@ class MeansOfPictures {
 // and roughness of 0 .. 1. Other values count as the nearest in range. `texture` is the mean color of the base color's
 // texture, times that of the vertices; white without either.
 //
-//     Kd = (1 - metal) base,   Ks = 0.04 + metal (base texture - 0.04),
+//     m = metal (1 - smoothstep(0.5, 1, roughness)),
+//     Kd = (1 - m) base,   Ks = 0.04 + m (base texture - 0.04),
 //     Ns = 2 / roughness^4 - 2, at least 1, at most 1e6
 //
+// A rough metal shows light from all sides, of which Ks shows nothing: so it fades to Kd.
 // Ns gives the lobe the width of a GGX lobe with alpha = roughness^2: Walter et al., "Microfacet Models for Refraction
 // through Rough Surfaces" (2007), section 5.2. Ks is the reflectance at normal incidence: it does not grow towards
 // grazing angles, and reflects lights alone. The texture itself multiplies Kd only, so the highlights of a textured

@@ -59,9 +59,15 @@ TEST(MetalRoughness, BecomesDiffuseAndSpecular) {
   EXPECT_EQ(material.diffuse, base);
   EXPECT_EQ(material.specular, glm::dvec3(0.04));
   EXPECT_DOUBLE_EQ(material.shininess, 30.0);
-  setMetalRoughness(material, base, 1.0, 1.0);
+  setMetalRoughness(material, base, 1.0, 0.5);
   EXPECT_EQ(material.diffuse, glm::dvec3(0.0));
   EXPECT_EQ(material.specular, base);
+  setMetalRoughness(material, base, 1.0, 0.75);
+  EXPECT_EQ(material.diffuse, 0.5 * base);
+  EXPECT_LE(glm::distance(material.specular, 0.5 * (base + 0.04)), 1e-15);
+  setMetalRoughness(material, base, 1.0, 1.0);
+  EXPECT_EQ(material.diffuse, base);
+  EXPECT_EQ(material.specular, glm::dvec3(0.04));
   EXPECT_EQ(material.shininess, 1.0);
   setMetalRoughness(material, base, 7.0, -1.0);
   EXPECT_EQ(material.specular, base);
@@ -80,14 +86,14 @@ TEST_F(MtlFile, MetalAndRoughnessReplaceColors) {
   EXPECT_EQ(materialOf("newmtl m\nPr what\n").specular, glm::dvec3(0.0));
   EXPECT_EQ(warnings(), "warning: m.mtl:2: Pr: is not a finite number, it is left out\n");
   EXPECT_NEAR(materialOf("newmtl m\nNs 30\nPm 0\nPr what\n").shininess, 30.0, 1e-9);
-  EXPECT_EQ(materialOf("newmtl m\nPm 7\n").diffuse, glm::dvec3(0.0));
+  EXPECT_EQ(materialOf("newmtl m\nPm 7\nPr 0.5\n").diffuse, glm::dvec3(0.0));
   EXPECT_TRUE(contains(warnings(), "m.mtl:2: Pm: is out of range, the nearest number in range counts"));
 }
 
 TEST_F(MtlFile, TexturedMetalsHaveHighlightsOfTheMeanColor) {
   writePng(folder_.path() / "t.png",
            testing_support::madePicture(2, 1, [](int x, int) { return glm::ivec4(255 * x, 0, 255, 255); }));
-  const Material metal = materialOf("newmtl m\nmap_Kd t.png\nKd 0.5 0.5 0.5\nPm 1\n");
+  const Material metal = materialOf("newmtl m\nmap_Kd t.png\nKd 0.5 0.5 0.5\nPm 1\nPr 0.5\n");
   EXPECT_EQ(metal.specular, glm::dvec3(0.25, 0.0, 0.5));
   EXPECT_EQ(metal.diffuseTexture, 0);
 }
