@@ -1,5 +1,5 @@
 // Keeps or discards the samples of surfaces with coverage. With VERTEX_COLORS the alpha of the vertices' colors counts
-// too. Needs interface.glsl and bilinearTexels() of shading.glsl.
+// too. Needs interface.glsl, object_values.glsl and bilinearTexels() of shading.glsl.
 #include "coverage.glsl"
 #include "sample_positions.glsl"
 
@@ -16,8 +16,7 @@ layout(set = 3, binding = 0) uniform sampler2D opacityTexture;
 
 #ifdef VERTEX_COLORS
 layout(constant_id = constantVertexAlpha) const bool hasVertexAlpha = false;
-layout(location = 6) centroid in float vertexAlpha;
-float alphaHere() { return hasVertexAlpha ? vertexAlpha : 1.0; }
+float alphaHere() { return hasVertexAlpha ? vertexColor.a : 1.0; }
 #else
 float alphaHere() { return 1.0; }
 #endif

@@ -8,7 +8,7 @@ layout(set = 0, binding = 0, std140) uniform Pass {
   LightData passLights[fixedLights];
   vec4 lightGroups[mostLightGroups];  // spheres around the lights of each group: center, relative, and radius
 };
-layout(set = 0, binding = 1, std140) uniform DrawnMirror { MirrorData mirror; };
+layout(set = 0, binding = 1, std140) uniform DrawnMirror { MirrorData drawnMirror; };
 layout(set = 0, binding = 2, std430) readonly buffer Lights { LightData lights[]; };  // of all passes
 layout(set = 0, binding = 3, std430) readonly buffer Instances { InstanceData instances[]; };
 layout(set = 0, binding = 4, std430) readonly buffer CurvedMirrors { CurvedMirrorData curvedMirrors[]; };

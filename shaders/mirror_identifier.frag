@@ -7,4 +7,4 @@ layout(constant_id = constantBaseOnly) const bool baseOnly = false;
 
 layout(location = 0) out vec4 color;
 
-void main() { color = encoded(Identifier(true, baseOnly, mirror.index, 0)); }
+void main() { color = encoded(Identifier(true, baseOnly, drawnMirror.index, 0)); }

@@ -1,6 +1,9 @@
 // The fragment shader of mirrors. MIRROR_IMAGE is the type of the image. With MIRROR_OWN_SAMPLE each invocation draws
 // one sample, reads the same sample of the image and gives the reflection's share only.
+#define HANDS_ON
+#define HANDED in
 #include "interface.glsl"
+#include "mirror_values.glsl"
 #include "shading.glsl"
 #include "texels.glsl"
 #include "microfacet.glsl"
@@ -25,6 +28,8 @@ layout(set = 1, binding = 0) uniform MIRROR_IMAGE reflection;
 layout(set = 1, binding = 1) uniform sampler2D reflectanceMap;
 
 layout(location = 0) out vec4 color;
+
+MirrorData mirror = drawnMirror;  // main() replaces what the vertex shader hands on
 
 #ifdef MIRROR_OWN_SAMPLE
 // All views share one projection and one set of sample positions: sample i of the parent's pixel and sample i of the
@@ -306,7 +311,16 @@ vec3 baseRadiance(vec3 position, vec3 normal) {
 // Stores the disparity of the reflected surface, so that the parent's image can be reprojected too. This disparity is
 // the same in the mirror's image and in its parent's, because views share one projection and reflection keeps lengths.
 void main() {
-  PlaneHit hit = planeHit(mirror.normal, mirror.eyeDistance, gl_FragCoord.xy);
+  mirror.normal = handedNormal.xyz;
+  mirror.eyeDistance = handedNormal.w;
+  mirror.reflectance = handedReflectance.rgb;
+  mirror.schlick = uint(handedReflectance.w);
+  mirror.baseColor = handedBaseColor;
+  mirror.lookupScale = handedLookup.xy;
+  mirror.lookupOffset = handedLookup.zw;
+  mirror.imageSize = ivec2(handedRayX.w, handedRayY.w);
+  vec3 ray = handedRayX.xyz * gl_FragCoord.x + handedRayY.xyz * gl_FragCoord.y + handedRayOrigin;
+  PlaneHit hit = planeHit(mirror.normal, mirror.eyeDistance, ray);
 #ifdef MIRROR_OWN_SAMPLE
   float cosine = -hit.inward * inversesqrt(max(dot(hit.ray, hit.ray), 1e-30));
   vec3 f = mapShare(hit.position) * reflectanceAt(mirror.reflectance, mirror.schlick, cosine);

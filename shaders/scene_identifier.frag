@@ -7,10 +7,10 @@ layout(constant_id = constantBaseOnly) const bool baseOnly = false;
 
 layout(push_constant) uniform Draw { DrawConstants draw; };
 
-layout(location = 3) flat in uint instanceIndex;
+layout(location = 2) flat in uvec2 indexAndReach;
 
 layout(location = 0) out vec4 color;
 
 void main() {
-  color = encoded(Identifier(false, baseOnly, instanceIndex, draw.firstTriangle + uint(gl_PrimitiveID)));
+  color = encoded(Identifier(false, baseOnly, indexAndReach.x, draw.firstTriangle + uint(gl_PrimitiveID)));
 }

@@ -1,8 +1,11 @@
 // The fragment shader of objects whose light takes no rays. ENVIRONMENT draws curved mirrors, which look up an
 // environment map; with REFLECTION_ONLY it draws no base, because shade.glsl has shaded the base. REPEATING draws
 // RepeatingTriangles, VERTEX_COLORS meshes with colors of their vertices, COVERED
-// materials with coverage. ASKS draws the identifiers of surfaces whose light shadow maps do not decide.
+// materials with coverage. ASKS draws the identifiers of surfaces whose light shadow maps do not decide. HANDS_ON takes
+// values from scene_handed.vert instead of uniform buffers.
+#define HANDED in
 #include "interface.glsl"
+#include "object_values.glsl"
 #include "shading.glsl"
 
 layout(constant_id = constantDiffuseLookup) const uint diffuseLookup = textureNone;
@@ -32,15 +35,6 @@ layout(constant_id = constantClamps) const bool clamps = false;
 #endif
 
 layout(set = 1, binding = 0) uniform sampler2D diffuseTexture;  // linear radiance factors; with ENVIRONMENT the map
-
-layout(location = 0) centroid in vec3 relativePosition;
-layout(location = 1) centroid in vec3 relativeNormal;
-layout(location = 2) centroid in vec2 textureUv;
-layout(location = 3) flat in uint instanceIndex;
-layout(location = 4) flat in float reach;
-#ifdef VERTEX_COLORS
-layout(location = 5) centroid in vec3 vertexColor;
-#endif
 
 layout(location = 0) out vec4 color;
 
@@ -98,7 +92,7 @@ vec2 uvAt(vec2 interpolated, vec2 pixel) {
     return interpolated;
   }
 #endif
-  uint index = instances[instanceIndex].repeats + draw.firstTriangle + uint(gl_PrimitiveID);
+  uint index = instances[indexAndReach.x].repeats + draw.firstTriangle + uint(gl_PrimitiveID);
   return repeatingUv(index, view.traceOffset.xyz, rayThrough(pixel));
 #else
   return interpolated;
@@ -123,7 +117,7 @@ vec3 diffuseFactor(vec2 uv) {
 #ifdef REFLECTION_ONLY
 // Returns the mask of the samples whose base was shaded for this triangle.
 int samplesOfBase() {
-  float mark = reflectionMark(Identifier(false, true, instanceIndex, draw.firstTriangle + uint(gl_PrimitiveID)));
+  float mark = reflectionMark(Identifier(false, true, indexAndReach.x, draw.firstTriangle + uint(gl_PrimitiveID)));
   uint pixel = pixelNumber(uvec2(ivec2(gl_FragCoord.xy) - area.corner));
   int mask = 0;
   for (uint i = 0; i < samples; ++i) {
@@ -140,20 +134,33 @@ void main() {
   // nothing hides.
   shadedAt = meanPosition(samples, uint(gl_SampleMaskIn[0])) - 0.5;
 #endif
-  vec3 position = SHADED(relativePosition);
-  vec3 normal = SHADED(relativeNormal);
+  vec4 positionU = SHADED(positionAndU);
+  vec4 normalV = SHADED(normalAndV);
+  vec3 position = positionU.xyz;
+  vec3 normal = normalV.xyz;
+  uint instanceIndex = indexAndReach.x;
+  float reach = uintBitsToFloat(indexAndReach.y);
+#ifdef HANDS_ON
+  Surface surface = Surface(position, normal, handedDiffuse.rgb, handedSpecular.rgb, handedEmission, handedDiffuse.w,
+                            glossy, reach);
+  float handedness = handedSpecular.w;
+#else
+  float handedness = draw.handedness;
+  Surface surface =
+      Surface(position, normal, draw.diffuse, draw.specular, draw.emission, draw.shininess, glossy, reach);
+#endif
+  surface.specular = glossy ? surface.specular : vec3(0.0);
   // The side that faces the viewer is lit, by the winding in the model file. gl_FrontFacing already follows the view's
   // handedness; the sign of the instance's determinant corrects it for mirrored instances.
-  bool front = gl_FrontFacing == (draw.handedness > 0.0);
-  Surface surface = Surface(position, safeNormalize(front ? normal : -normal), draw.diffuse,
-                            glossy ? draw.specular : vec3(0.0), draw.emission, draw.shininess, glossy, reach);
+  bool front = gl_FrontFacing == (handedness > 0.0);
+  surface.normal = safeNormalize(front ? normal : -normal);
 #ifndef ENVIRONMENT
   if (diffuseLookup != textureNone) {
-    surface.diffuse *= diffuseFactor(uvAt(SHADED(textureUv), gl_FragCoord.xy + shadedAt));
+    surface.diffuse *= diffuseFactor(uvAt(vec2(positionU.w, normalV.w), gl_FragCoord.xy + shadedAt));
   }
 #endif
 #ifdef VERTEX_COLORS
-  surface.diffuse *= SHADED(vertexColor);
+  surface.diffuse *= SHADED(vertexColor).rgb;
 #endif
 #ifdef SHADOW_MAPS
   setReceiver(position, surface.normal);
@@ -190,7 +197,7 @@ void main() {
   color = asks ? encoded(Identifier(false, false, instanceIndex, draw.firstTriangle + uint(gl_PrimitiveID))) : color;
 #endif
 #ifdef COVERED
-  keepCovered(uvAt(textureUv, gl_FragCoord.xy), instances[instanceIndex].traceInstance,
+  keepCovered(uvAt(vec2(positionAndU.w, normalAndV.w), gl_FragCoord.xy), instances[instanceIndex].traceInstance,
               draw.firstTriangle + uint(gl_PrimitiveID));
 #endif
 }

@@ -1,4 +1,7 @@
-// The vertex shader of objects. With VERTEX_COLORS it hands on the colors of vertices.
+// The vertex shader of objects. With VERTEX_COLORS it hands on the colors of vertices, with HANDS_ON values that the
+// fragment shader would read from uniform buffers.
+#define VERTEX
+#define HANDED out
 #include "interface.glsl"
 
 layout(constant_id = constantClipAtMirror) const bool clipAtMirror = false;
@@ -16,14 +19,9 @@ layout(location = 13) in vec4 clipPlane;           // in mesh space
 layout(location = 14) in vec4 color;  // alpha 1 unless the mesh's colors have it
 #endif
 
-layout(location = 0) centroid out vec3 relativePosition;
-layout(location = 1) centroid out vec3 relativeNormal;
-layout(location = 2) centroid out vec2 textureUv;
-layout(location = 3) flat out uint instanceIndex;
-layout(location = 4) flat out float reach;
-#ifdef VERTEX_COLORS
-layout(location = 5) centroid out vec3 vertexColor;
-layout(location = 6) centroid out float vertexAlpha;
+#include "object_values.glsl"
+#ifdef HANDS_ON
+layout(push_constant) uniform Draw { DrawConstants draw; };
 #endif
 
 out gl_PerVertex {
@@ -36,21 +34,25 @@ invariant gl_Position;
 
 void main() {
   vec4 p = vec4(position, 1.0);
-  instanceIndex = gl_InstanceIndex;
-  relativePosition = vec3(dot(relativeFromMesh[0], p), dot(relativeFromMesh[1], p), dot(relativeFromMesh[2], p));
+  vec3 relative = vec3(dot(relativeFromMesh[0], p), dot(relativeFromMesh[1], p), dot(relativeFromMesh[2], p));
+  positionAndU = vec4(relative, uv.x);
   // Not normalised here: interpolation has to be linear in the mesh's own normals.
-  relativeNormal =
-      vec3(dot(normalFromMesh[0].xyz, normal), dot(normalFromMesh[1].xyz, normal), dot(normalFromMesh[2].xyz, normal));
-  reach = normalFromMesh[0].w;
-  textureUv = uv;
+  normalAndV = vec4(dot(normalFromMesh[0].xyz, normal), dot(normalFromMesh[1].xyz, normal),
+                    dot(normalFromMesh[2].xyz, normal), uv.y);
+  indexAndReach = uvec2(gl_InstanceIndex, floatBitsToUint(normalFromMesh[0].w));
 #ifdef VERTEX_COLORS
-  vertexColor = color.rgb;
-  vertexAlpha = color.a;
+  vertexColor = color;
+#endif
+#ifdef HANDS_ON
+  handOnPass();
+  handedDiffuse = vec4(draw.diffuse, draw.shininess);
+  handedSpecular = vec4(draw.specular, draw.handedness);
+  handedEmission = draw.emission;
 #endif
   gl_Position = clipFromMesh * p;
   // A vertex nearer to the eye than its rounding error has no reliable direction; the triangle is clipped there.
   vec3 offset = vec3(relativeFromMesh[0].w, relativeFromMesh[1].w, relativeFromMesh[2].w);
   const float rounding2 = 5.7e-14;  // (2^-22)^2
-  bool atEye = dot(relativePosition, relativePosition) <= rounding2 * dot(offset, offset);
+  bool atEye = dot(relative, relative) <= rounding2 * dot(offset, offset);
   gl_ClipDistance[0] = atEye ? -1e30 : clipAtMirror ? dot(clipPlane, p) : 1.0;
 }

@@ -141,7 +141,7 @@ Seen seenObject(Identifier id, vec2 position) {
 
 Seen seenMirror(Identifier id, vec2 position, uint firstSample) {
   MirrorData mirror = mirrorBlocks[id.index].mirror;
-  PlaneHit hit = planeHit(mirror.normal, mirror.eyeDistance, position);
+  PlaneHit hit = planeHit(mirror.normal, mirror.eyeDistance, rayThrough(position));
   // The CPU turned the normal to the eye in double; near the horizon the ray does not determine the side in float.
   bool front = dot(traceMirrors[mirror.traceMirror].normal, mirror.normal) > 0.0;
   vec3 direction = safeNormalize(hit.ray);

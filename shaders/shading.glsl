@@ -9,6 +9,24 @@ layout(constant_id = constantLightCount) const uint lightCount = manyLights;
 // The device leaves out code that a branch passes over. lavapipe runs both sides of a branch.
 layout(constant_id = constantBranches) const bool branches = false;
 
+#ifdef HANDS_ON
+vec3 ambientRadiance() { return handedAmbient.rgb; }
+float exposure() { return handedAmbient.w; }
+LightData passLight(uint i) {
+  LightData light = passLights[i];
+  if (i < handedLights) {
+    light.position = handedPosition[i].xyz;
+    light.radius = handedPosition[i].w;
+    light.irradiance = handedIrradiance[i];
+  }
+  return light;
+}
+#else
+vec3 ambientRadiance() { return view.ambient; }
+float exposure() { return view.horizon.w; }
+LightData passLight(uint i) { return passLights[i]; }
+#endif
+
 const float pi = 3.14159265358979;
 const float halfMax = 65504.0;
 const float halfLeast = 6e-8;  // the least half float above 0
@@ -170,7 +188,7 @@ vec3 litBy(uint index, LightData light, Surface surface, vec3 toViewer) {
 
 vec3 surfaceRadiance(Surface surface) {
   vec3 toViewer = safeNormalize(-surface.position);
-  vec3 radiance = surface.emission + view.ambient * surface.diffuse;
+  vec3 radiance = surface.emission + ambientRadiance() * surface.diffuse;
   if (lightCount == manyLights) {
     uint count = countHere(view.lightCount);
     uint group = 0;
@@ -183,7 +201,7 @@ vec3 surfaceRadiance(Surface surface) {
     }
   } else {
     [[unroll]] for (uint i = 0; i < lightCount; ++i) {
-      radiance += litBy(i, passLights[i], surface, toViewer);
+      radiance += litBy(i, passLight(i), surface, toViewer);
     }
   }
   return bounded(radiance);
@@ -258,7 +276,7 @@ vec4 keepingNan(vec4 stored, vec3 radiance, float disparity) {
 // that it shows what the display pass would. It draws no mean, and debug.check_finite is off.
 vec4 storable(vec3 radiance, float disparity, vec2 pixel) {
   if (encoding != encodingNone) {
-    return displayColor(view.horizon.w * nearestHalf(inHalfRange(radiance, disparity), vec4(0.0)).rgb);
+    return displayColor(exposure() * nearestHalf(inHalfRange(radiance, disparity), vec4(0.0)).rgb);
   }
   float part = view.rayOrigin.w * storeNoise(pixel, view.rayY.w);
   vec4 stored = nearestHalf(inHalfRange(radiance, disparity), vec4(part, part, part, 0.0));

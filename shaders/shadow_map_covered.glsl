@@ -1,13 +1,13 @@
 // Surfaces with coverage in a shadow map. VERTEX_COLORS as in covered_draw.glsl.
+#define HANDED in
 #include "interface.glsl"
+#include "object_values.glsl"
 #include "shading.glsl"
 #include "covered_draw.glsl"
 #include "shadow_plane.glsl"
 
-layout(location = 2) centroid in vec2 textureUv;
-layout(location = 3) flat in uint instanceIndex;
 
 void main() {
   storePlane();
-  keepCovered(textureUv, instances[instanceIndex].traceInstance, draw.firstTriangle + uint(gl_PrimitiveID));
+  keepCovered(vec2(positionAndU.w, normalAndV.w), instances[indexAndReach.x].traceInstance, draw.firstTriangle + uint(gl_PrimitiveID));
 }

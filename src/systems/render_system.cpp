@@ -12,6 +12,22 @@
 
 namespace speculum {
 
+namespace {
+
+// Says whether vertex shaders hand on values of a draw: on a CPU that saves time for each fragment, and takes time and
+// half a kilobyte for each triangle of a pass. All objects of a scene share the choice, since a further pipeline takes
+// some megabytes there.
+bool handsOn(const FrameInfo& info) {
+  constexpr size_t fewIndices = 3 * 8192;
+  size_t indices = 0;
+  for (const InstanceState& instance : info.state.instances) {
+    indices += info.scene.meshes[instance.mesh].indices.size();
+  }
+  return !info.data.branches() && indices <= fewIndices;
+}
+
+}  // namespace
+
 // Lines have no mean of covered samples at which their shadows could be shaded: rays are traced for all of them.
 bool RenderSystem::asks(const FrameInfo& info, const Batch& batch) {
   return info.plan.effects.hybridShadows && !info.settings.view.wireframe && !batch.curved && !batch.environment;
@@ -79,7 +95,7 @@ void bindBatch(const PassScope& scope, const FrameInfo& info, const Batch& batch
 GraphicsPipelineDesc RenderSystem::objects(const Variant& variant, const FrameInfo& info,
                                            const DeferredShading* shading) const {
   GraphicsPipelineDesc desc{.name = "scene",
-                            .vert = "scene.vert",
+                            .vert = variant.handed ? "scene_handed.vert" : "scene.vert",
                             .frag = "scene.frag",
                             .constants = {{gpu::constantClipAtMirror, variant.clipDistance},
                                           {gpu::constantDiffuseLookup, variant.diffuseLookup},
@@ -103,7 +119,7 @@ GraphicsPipelineDesc RenderSystem::objects(const Variant& variant, const FrameIn
   if (variant.deferred) {
     desc.frag = "scene_identifier.frag";
   } else {
-    desc.frag = std::string("scene") + (variant.environment ? "_environment" : "") +
+    desc.frag = std::string("scene") + (variant.handed ? "_handed" : "") + (variant.environment ? "_environment" : "") +
                 (variant.vertexColors ? "_colored" : "") + (variant.repeating ? "_repeating" : "") + lookup + ".frag";
   }
   if (variant.added) {
@@ -173,6 +189,7 @@ uint32_t RenderSystem::recordBatch(const PassScope& scope, const FrameInfo& info
   variant.curved = batch.curved;
   variant.environment = batch.environment;
   variant.asks = !variant.deferred && asks(info, batch);
+  const bool mayHandOn = variant.handed && !variant.deferred && !variant.environment && !variant.asks;
   variant.trace = variant.deferred || variant.asks ? info.trace.variant() : TraceVariant{};
   variant.shadowed = !variant.deferred && !variant.added && info.shadows.set() != VK_NULL_HANDLE;
   variant.shadowedLights =
@@ -208,6 +225,7 @@ uint32_t RenderSystem::recordBatch(const PassScope& scope, const FrameInfo& info
                         !info.data.repeats().empty() &&
                         mesh.parts[p].firstIndex + 3 * mesh.repeats >= mesh.indices.size();
     variant.clamps = material.clamps && (variant.covered || variant.diffuseLookup != gpu::textureNone);
+    variant.handed = mayHandOn && !variant.covered && !variant.vertexColors && !variant.repeating;
     const VkDescriptorSet texture = batch.map >= 0 ? info.maps[batch.map] : info.resources.texture(material);
     if (!bound.pipeline || bound.variant != variant) {
       bound.pipeline = &objects_.get(variant, [&] { return objects(variant, info, shading); });
@@ -294,7 +312,8 @@ RenderSystem::Variant RenderSystem::variantOf(const PassScope& scope, const Fram
   return {.format = formatOf(scope.desc(), info.settings),
           .clipDistance = pass.mirrorView && clip == ClipMethod::clipDistance,
           .clampDepth = !(pass.mirrorView && clip == ClipMethod::oblique),
-          .wireframe = info.settings.view.wireframe && !scope.drawsEither()};
+          .wireframe = info.settings.view.wireframe && !scope.drawsEither(),
+          .handed = handsOn(info)};
 }
 
 uint32_t RenderSystem::record(const PassScope& scope, const FrameInfo& info, const DrawList& pass) {

@@ -72,6 +72,7 @@ class RenderSystem {
     bool vertexColors = false;    // the shader takes those of the mesh
     bool vertexAlpha = false;     // the mesh's colors have alpha
     bool covered = false;         // the material has coverage
+    bool handed = false;          // scene_handed.vert hands on values of the draw
     bool clamps = false;          // the material's textures do
     bool shadowed = false;        // looks shadows up in maps
     bool asks = false;            // and draws identifiers where these do not decide

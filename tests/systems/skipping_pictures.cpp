@@ -276,6 +276,36 @@ TEST(Skipping, BacksOfSolidsAreNotSeen) {
   }
 }
 
+// In scenes of many triangles the shaders of objects read uniform buffers; in others, vertex shaders hand the values
+// on. The scene of many triangles has them far away and too small to be seen.
+TEST(Skipping, FarTrianglesChangeNoBytesOfOthers) {
+  Random random(17);
+  for (int i = 0; i < 8; ++i) {
+    std::string toml =
+        "[environment]\nambient = " + random.vec(0.0, 0.5) +
+        "\n[settings]\neffects.shadows = false\n[camera]\nposition = [0, 1.5, 4]\ntarget = " + text(random.inBox(1.0)) +
+        "\n[[mirror]]\n" + rectangleText({0, 1, -2}, {0, 5, 0}, 4, 3) + "base_color = " + random.vec(0.0, 0.5) + "\n";
+    for (int light = 0; light < 1 + i % 4; ++light) {
+      toml += "[[light]]\nposition = " + text(3.0 * random.inBox(1.0)) + "\nintensity = 20\n";
+    }
+    for (const char* model : {"tile", "box", "torus_knot"}) {
+      toml += std::string("[[object]]\nmodel = \"MODELS/") + model + ".obj\"\nposition = " + text(random.inBox(1.0)) +
+              "\nrotation = " + text(random.inBox(180.0)) + "\ncolor = " + random.vec(0.2, 0.9) +
+              "\nspecular = " + random.vec(0.0, 0.9) + "\nemission = " + random.vec(0.0, 0.1) + "\n";
+    }
+    const std::string far =
+        "[[object]]\nmodel = \"MODELS/torus_knot.obj\"\nposition = [0, 1000, 0]\nscale = 0.001\n"
+        "copies = { count = 10, step = [1, 0, 0] }\n";
+    std::array<Image8, 2> pictures;
+    for (const bool isMany : {false, true}) {
+      Studio studio(headless(writeScene("few", toml + (isMany ? far : "")), size));
+      studio.settings.view.samples = studio.settings.reflection.samples = i % 2 == 0 ? 4 : 1;
+      pictures[isMany] = studio.fresh();
+    }
+    EXPECT_TRUE(pictures[0].rgba == pictures[1].rgba) << "scene " << i;
+  }
+}
+
 TEST(Skipping, SolidsShadeFewerFragments) {
   QuietSession session(headless(sceneFile("gallery"), size));
   const auto fragments = [&](bool culls) {
