@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <climits>
 #include <cmath>
 #include <glm/gtx/component_wise.hpp>
 #include <numeric>
@@ -142,6 +143,9 @@ class FacePlanner {
     for (const ShadowReader& reader : readers) {
       rays_.push_back(cornerRays(reader.readable, *reader.projection));
     }
+    if (settings.effects.shadowMapSize == 0) {
+      addPoints();
+    }
   }
 
   Pass plan(const glm::dvec3& center, const FaceAxes& axes) const {
@@ -164,10 +168,10 @@ class FacePlanner {
     face.projection = cube.projection;
     face.view = viewOf(cube);
     const std::array<glm::dvec3, 4> rays = cornerRays(face.view, cube.projection);
-    RecycledVector<const ShadowReader*> near;
+    RecycledVector<size_t> near;
     for (size_t i = 0; i < readers_.size(); ++i) {
       if (mayMeet(face.view, rays, readers_[i].readable, rays_[i])) {
-        near.push_back(&readers_[i]);
+        near.push_back(i);
       }
     }
     if (!near.empty()) {
@@ -175,7 +179,7 @@ class FacePlanner {
         cube = faceOf(center, axes, window, sizeFor(cube, window, near));
       }
       face = planFace(cube, Onlooker::light, scene_, state_, settings_.debug.cullClusters);
-      const bool read = std::ranges::any_of(near, [&](const auto* reader) { return hasReceiver(face, *reader->pass); });
+      const bool read = std::ranges::any_of(near, [&](size_t i) { return hasReceiver(face, *readers_[i].pass); });
       face.source = read ? PassSource::drawn : PassSource::unread;
     }
     face.window = window;
@@ -188,49 +192,82 @@ class FacePlanner {
     return {center, axes, projectionOf(window, size, nearOf(state_, Projection())), size};
   }
 
+  // A point of a surface that a reader may draw.
+  struct Point {
+    glm::dvec3 position;
+    double weight;          // pixels that it stands for, up to a factor that the reader's points share
+    double pixelsPerMetre;  // across the line of sight
+  };
+
+  // Makes the readers' points, which do not depend on the face. All faces visit them, so with more than enough, only
+  // each n-th is made.
+  void addPoints() {
+    constexpr size_t enough = 1 << 18;
+    size_t all = 0;
+    for (const ShadowReader& reader : readers_) {
+      for (const int i : reader.pass->instances) {
+        const glm::ivec3 count = pointsOf(boxes_[static_cast<size_t>(i)], reader.readable.eye);
+        all += static_cast<size_t>(count.x) * count.y * count.z;
+      }
+    }
+    // An odd step visits all places of a box's grid in turn.
+    const int step = static_cast<int>(std::min<size_t>(all / enough, INT_MAX / 2)) | 1;
+    int next = 0;
+    for (const ShadowReader& reader : readers_) {
+      RecycledVector<Point>& points = points_.emplace_back();
+      for (const int i : reader.pass->instances) {
+        addPoints(boxes_[static_cast<size_t>(i)], reader, step, next, points);
+      }
+    }
+  }
+
+  // Returns the points of the box's grid along each axis: more if the box is large as seen from the eye.
+  static glm::ivec3 pointsOf(const Bounds& box, const glm::dvec3& eye) {
+    const double distance = glm::length(glm::clamp(eye, box.low, box.high) - eye);
+    return glm::ivec3(glm::clamp(glm::ceil(2.0 * (box.high - box.low) / std::max(distance, 1e-9)), 1.0, 8.0));
+  }
+
+  // Adds each `step`-th point of the box, from `next` on, that is in the reader's view, with its share of the box's
+  // surface. Sets `next` for the box after it.
+  static void addPoints(const Bounds& box, const ShadowReader& reader, int step, int& next,
+                        RecycledVector<Point>& points) {
+    const View& view = reader.readable;
+    const double pixels = 0.5 * reader.projection->focal * view.pictureSize.y;  // in the plane at 1 m, a metre
+    const glm::ivec3 count = pointsOf(box, view.eye);
+    const int all = count.x * count.y * count.z;
+    const glm::dvec3 size = box.high - box.low;
+    const double area = 2.0 * (size.x * size.y + size.y * size.z + size.z * size.x) / all;
+    for (; next < all; next += step) {
+      const glm::ivec3 place(next / (count.y * count.z), next / count.z % count.y, next % count.z);
+      const glm::dvec3 p = box.low + size * (glm::dvec3(place) + 0.5) / glm::dvec3(count);
+      const double distance = glm::length(p - view.eye);
+      if (distance > 0.0 && std::ranges::all_of(view.cone, [&](const glm::dvec3& normal) {
+            return glm::dot(normal, p - view.eye) >= 0.0;
+          })) {
+        points.push_back({p, area / (distance * distance), pixels / distance});
+      }
+    }
+    next -= all;
+  }
+
   // Returns the size at which the face's texels are about as large as the pixels that look them up: on the mean over
-  // points of the boxes before the face and in a reader's view, weighted by the pixels that they stand for.
-  int sizeFor(const CubeFace& face, const FaceWindow& window, std::span<const ShadowReader* const> readers) const {
+  // the points of these readers before the face, by weight.
+  int sizeFor(const CubeFace& face, const FaceWindow& window, std::span<const size_t> readers) const {
     double weights = 0.0;
     double sum = 0.0;
-    for (const ShadowReader* reader : readers) {
-      const View& view = reader->readable;
-      const double pixels = 0.5 * reader->projection->focal * view.pictureSize.y;  // in the plane at 1 m, a metre
-      const auto add = [&](const glm::dvec3& p, double area) {
-        const double depth = glm::dot(p - face.center, face.axes.forward);
-        const double distance = glm::length(p - view.eye);
-        if (depth > 0.0 && distance > 0.0 && std::ranges::all_of(view.cone, [&](const glm::dvec3& normal) {
-              return glm::dot(normal, p - view.eye) >= 0.0;
-            })) {
-          const double weight = area / (distance * distance);
-          weights += weight;
-          sum += weight * pixels * depth / distance;
+    for (const size_t reader : readers) {
+      for (const Point& point : points_[reader]) {
+        const double depth = glm::dot(point.position - face.center, face.axes.forward);
+        if (depth > 0.0) {
+          weights += point.weight;
+          sum += point.weight * point.pixelsPerMetre * depth;
         }
-      };
-      for (const int i : reader->pass->instances) {
-        forEachPoint(boxes_[static_cast<size_t>(i)], view.eye, add);
       }
     }
     const glm::dvec2 width = window.high - window.low;
     const double texels = weights > 0.0 ? std::max(width.x, width.y) * sum / weights : 0.0;
     const double size = std::min(std::max<double>(smallestAutomatic, texels), 1.0 * largestAutomatic);  // not NaN
     return static_cast<int>(std::bit_ceil(static_cast<unsigned>(size)));
-  }
-
-  // Visits points of the box, more if it is large as seen from the eye, each with its share of the box's surface.
-  template <typename Visit>
-  static void forEachPoint(const Bounds& box, const glm::dvec3& eye, const Visit& visit) {
-    const glm::dvec3 size = box.high - box.low;
-    const double distance = glm::length(glm::clamp(eye, box.low, box.high) - eye);
-    const glm::ivec3 count(glm::clamp(glm::ceil(2.0 * size / std::max(distance, 1e-9)), 1.0, 8.0));
-    const double area = 2.0 * (size.x * size.y + size.y * size.z + size.z * size.x) / (count.x * count.y * count.z);
-    for (int x = 0; x < count.x; ++x) {
-      for (int y = 0; y < count.y; ++y) {
-        for (int z = 0; z < count.z; ++z) {
-          visit(box.low + size * (glm::dvec3(x, y, z) + 0.5) / glm::dvec3(count), area);
-        }
-      }
-    }
   }
 
   // Says whether the face contains something that the pass draws and that the light may fall on.
@@ -249,6 +286,7 @@ class FacePlanner {
   const Settings& settings_;
   std::span<const ShadowReader> readers_;
   RecycledVector<std::array<glm::dvec3, 4>> rays_;  // of the readers
+  RecycledVector<RecycledVector<Point>> points_;    // of the readers; none unless sizes are automatic
   RecycledVector<Bounds> boxes_;
 };
 

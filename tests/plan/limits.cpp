@@ -173,5 +173,26 @@ TEST(PlanLimits, ShadowMapsOfCopiesPlanWithinTheBounds) {
   expectPlanned(text, "shadow maps", shareOfCopies);
 }
 
+// Each mirror shows all the copies, which look large and stand before most faces of the maps.
+TEST(PlanLimits, AutomaticShadowMapSizesTakeShortTime) {
+  const TemporaryFolder folder;
+  const auto model = folder.write("t.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  std::string text =
+      "[settings]\nreflection.max_depth = 1\neffects = { shadow_lookup = 'map', shadow_map_size = 'auto' }\n"
+      "[[object]]\nmodel = '" +
+      model.string() +
+      "'\nscale = 40\nposition = [-15, -12, -10]\nrotation = [30, 35, 0]\n"
+      "copies = { count = 4000, step = [0.001, 0, 0] }\n";
+  for (int i = 0; i < 16; ++i) {
+    text += "[[light]]\nposition = [" + std::to_string(0.3 * i - 2) + ", 3, " + std::to_string(2 - 0.2 * i) +
+            "]\ncasts_shadow = true\n";
+  }
+  for (int i = 0; i < 64; ++i) {
+    text += "[[mirror]]\nsize = [0.05, 0.05]\nposition = [" + std::to_string(0.07 * (i % 8) - 0.25) + ", " +
+            std::to_string(0.07 * (i / 8) - 0.05) + ", -0.7]\n";
+  }
+  expectPlanned(text, "automatic sizes", 0.1);
+}
+
 }  // namespace
 }  // namespace speculum
