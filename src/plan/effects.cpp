@@ -162,7 +162,7 @@ std::vector<Effect> effectsOf(const Scene& scene, const SceneState& state, const
   const TracedEffects& traced = plan.effects;
   const bool aces = settings.view.toneMap == ToneMap::aces;
   const bool wire = settings.view.wireframe;
-  return {
+  std::vector<Effect> effects = {
       tracedEffect(EffectKind::shadows, "shadows", traced.shadows, "no light casts them on what is drawn"),
       tracedEffect(EffectKind::roughness, "roughness", traced.roughness, "no visible mirror is rough"),
       tracedEffect(EffectKind::ripple, "ripple", traced.ripple, "no visible mirror has ripples"),
@@ -175,6 +175,13 @@ std::vector<Effect> effectsOf(const Scene& scene, const SceneState& state, const
       glyphs(scene, visible),
       {EffectKind::wireframe, "wireframe", wire, wire ? "view.wireframe = true" : "view.wireframe = false"},
       tracedEffect(EffectKind::curved, "curved", traced.curved, "no visible object is a mirror")};
+  for (Effect& effect : effects) {
+    const std::string key = "effects." + effect.name;
+    if (settingValue(settings, key) == "false") {
+      effect.why = key + " = false";
+    }
+  }
+  return effects;
 }
 
 }  // namespace speculum

@@ -6,22 +6,19 @@ namespace speculum::panels {
 
 namespace {
 
-// Returns how to call for an effect, if the inspector or a setting does that.
-std::string howToAsk(EffectKind kind, const EffectSettings& settings) {
-  const auto text = [](bool on, const char* where) {
-    return on ? std::string(" (Inspector, ") + where + ")" : std::string(" (the setting is off)");
-  };
+// Returns how to call for an effect that is switched on, if the inspector does that.
+std::string howToAsk(EffectKind kind) {
   switch (kind) {
     case EffectKind::shadows:
-      return text(settings.shadows, "light: Casts shadow");
+      return " (Inspector, light: Casts shadow)";
     case EffectKind::roughness:
-      return text(settings.roughness, "mirror: Roughness");
+      return " (Inspector, mirror: Roughness)";
     case EffectKind::ripple:
-      return text(settings.ripple, "mirror: Ripple");
+      return " (Inspector, mirror: Ripple)";
     case EffectKind::castsLight:
-      return text(settings.castsLight, "mirror: Casts light");
+      return " (Inspector, mirror: Casts light)";
     case EffectKind::curved:
-      return text(settings.curved, "object: Mirror");
+      return " (Inspector, object: Mirror)";
     default:
       return "";
   }
@@ -58,7 +55,7 @@ void effects(PanelContext& ui) {
     const bool on = effect.calledFor;
     ImGui::TableNextRow();
     for (const std::string& text :
-         {effect.name, effect.why + (on ? "" : howToAsk(effect.kind, ui.settings.effects)),
+         {effect.name, effect.why + (on || effect.why.ends_with(" = false") ? "" : howToAsk(effect.kind)),
           on ? std::to_string(effect.draws) : std::string(), on ? mebibytes(effect.bytes) : std::string()}) {
       ImGui::TableNextColumn();
       if (!on) {

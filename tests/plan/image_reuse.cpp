@@ -231,6 +231,22 @@ TEST(Effects, SayWhatSmoothsEdges) {
   }
 }
 
+TEST(Effects, SayWhichSettingLeavesThemOut) {
+  PlanSequence frames(room());
+  frames.scene.lights[0].castsShadow = true;
+  for (const bool on : {true, false}) {
+    frames.settings.effects.shadows = frames.settings.effects.glyphs = on;
+    frames.next();
+    const std::vector<Effect> effects =
+        effectsOf(frames.scene, evaluate(frames.scene, 0.0), frames.settings, frames.plan);
+    const Effect& shadows = effects[static_cast<size_t>(EffectKind::shadows)];
+    EXPECT_EQ(shadows.calledFor, on);
+    EXPECT_EQ(shadows.why, on ? "light 0" : "effects.shadows = false");
+    EXPECT_EQ(effects[static_cast<size_t>(EffectKind::glyphs)].why == "effects.glyphs = false", !on);
+    EXPECT_EQ(effects[static_cast<size_t>(EffectKind::ripple)].why, "no visible mirror has ripples");
+  }
+}
+
 // The budget of passes is not spent on deeper reflections while images are reused, because those would flicker.
 TEST(Unchanged, BudgetIgnoresReuse) {
   for (const int interval : {1, 2}) {
