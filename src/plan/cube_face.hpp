@@ -16,6 +16,10 @@ struct FaceAxes {
 };
 std::span<const FaceAxes> faceAxes();
 
+// Largest product of the scene's instances and the faces of its shadow maps, or of its environment maps: bounds the
+// time and memory of planning.
+inline constexpr size_t mostFaceTests = 20'000'000;
+
 // Returns the upper left corner of a face where the six faces of a cube stand three to a row, texels.
 glm::ivec2 faceCorner(int size, size_t face);
 

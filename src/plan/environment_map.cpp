@@ -56,9 +56,6 @@ Pass faceOf(const Scene& scene, const SceneState& state, const Cube& map, const 
   return face;
 }
 
-// Largest product of the scene's instances and the maps' faces: bounds the time and memory of planning.
-constexpr size_t mostFaceTests = 20'000'000;
-
 // Returns the instances of curved mirrors that the passes draw, ascending.
 RecycledVector<int> drawnCurved(const Scene& scene, const SceneState& state, std::span<const Pass* const> passes) {
   RecycledVector<int> drawn;

@@ -97,8 +97,7 @@ void setAutomatic(Settings& settings, const Settings& asked, ReflectionMethod me
 
 void leaveOutRays(Settings& settings, const Scene& scene) {
   EffectSettings& effects = settings.effects;
-  effects.shadows =
-      effects.shadows && effects.shadowLookup != ShadowLookup::traced && shadowLights(scene).size() <= mostShadowMaps;
+  effects.shadows = effects.shadows && effects.shadowLookup != ShadowLookup::traced && fitsShadowMaps(scene);
   effects.shadowLookup = ShadowLookup::map;
   effects.roughness = effects.roughness && effects.roughLookup == ReflectionSource::image;
   effects.ripple = effects.ripple && effects.rippleLookup == ReflectionSource::image;

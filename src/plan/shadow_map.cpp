@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "plan/scene_names.hpp"
+#include "scene/material_mirrors.hpp"
 
 namespace speculum {
 
@@ -291,6 +292,16 @@ class FacePlanner {
 };
 
 }  // namespace
+
+bool fitsShadowMaps(const Scene& scene) {
+  const size_t lights = shadowLights(scene).size();
+  size_t instances = 0;
+  for (size_t i = 0; i < scene.objects.size(); ++i) {
+    const auto copies = static_cast<size_t>(scene.objects[i].copies.count);
+    forEachDrawnMesh(scene, static_cast<int>(i), [&](int /*mesh*/) { instances += copies; });
+  }
+  return lights <= mostShadowMaps && instances * lights * faceAxes().size() <= mostFaceTests;
+}
 
 PlannedCubes shadowMaps(const Scene& scene, const SceneState& state, const Settings& settings,
                         std::span<const ShadowReader> readers) {

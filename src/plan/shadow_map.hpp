@@ -10,6 +10,9 @@ namespace speculum {
 // Texels on each side of a face's window: a lookup reads one texel beyond its own, and rounding may move the lookup.
 inline constexpr int shadowBorder = 2;
 
+// Says whether the lights and objects are few enough for shadow maps; otherwise all shadows are traced.
+bool fitsShadowMaps(const Scene& scene);
+
 // A pass whose surfaces look shadows up. `readable` is its view, widened by what lookups read around its edge.
 struct ShadowReader {
   const Pass* pass = nullptr;

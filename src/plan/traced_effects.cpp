@@ -5,6 +5,7 @@
 #include "geometry/polygon.hpp"
 #include "plan/frame_plan.hpp"
 #include "plan/scene_names.hpp"
+#include "plan/shadow_map.hpp"
 #include "scene/material_mirrors.hpp"
 
 namespace speculum {
@@ -87,8 +88,12 @@ class Collector {
     }
     effects_.shadows = nameOf<RecycledString>("light", scene_.lights[lights.front()].name, lights.front());
     // Light that a mirror reflects is shadowed before and after the mirror, which no map of the light shows.
-    effects_.shadowMaps =
-        settings_.shadowLookup != ShadowLookup::traced && lights.size() <= mostShadowMaps && !effects_.castsLight;
+    const bool asksForMaps = settings_.shadowLookup != ShadowLookup::traced;
+    const bool fits = fitsShadowMaps(scene_);
+    if (asksForMaps && !fits) {
+      effects_.shadows->append("; traced: too many lights or objects for maps");
+    }
+    effects_.shadowMaps = asksForMaps && fits && !effects_.castsLight;
     effects_.hybridShadows = effects_.shadowMaps && settings_.shadowLookup != ShadowLookup::map;
     effects_.shadowRays = !effects_.shadowMaps || effects_.hybridShadows || effects_.reflects();
   }

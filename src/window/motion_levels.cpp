@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "plan/shadow_map.hpp"
 #include "plan/traced_effects.hpp"
 #include "settings/setting_fields.hpp"
 
@@ -198,8 +199,7 @@ std::string stillText(const Scene& scene, const Settings& settings) {
     text += applies ? (text.empty() ? "" : ", ") + words : "";
   };
   // A face is 90 degrees wide, so a texel is 2 / size of the distance.
-  add(asked.shadows && effects.shadowLookup == ShadowLookup::map && !asked.castsLight &&
-          shadowLights(scene).size() <= mostShadowMaps,
+  add(asked.shadows && effects.shadowLookup == ShadowLookup::map && !asked.castsLight && fitsShadowMaps(scene),
       effects.shadowMapSize == 0 ? "shadow outlines within about a pixel"
                                  : fmt::format("shadow outlines within a texel of the map, 1/{} of the distance from "
                                                "the light",

@@ -158,6 +158,22 @@ TEST(PlanLimits, MapsOfManyObjectsPlanWithinTheBounds) {
   expectPlanned(lights, "shadow maps", shareOfCopies);
 }
 
+TEST(PlanLimits, TooManyObjectsForMapsTraceShadows) {
+  const TemporaryFolder folder;
+  const auto model = folder.write("t.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  for (const int lights : {1, 16}) {
+    std::string text = "[settings]\neffects.shadow_lookup = 'map'\n[[object]]\nmodel = '" + model.string() +
+                       "'\ncopies = { count = 210000, step = [0.00001, 0.000004, -0.001] }\n";
+    for (int i = 0; i < lights; ++i) {
+      text += "[[light]]\nposition = [" + std::to_string(i - 8) + ", 3, " + std::to_string(2 - i) +
+              "]\ncasts_shadow = true\n";
+    }
+    const TracedEffects effects = textPlan(text).effects;
+    EXPECT_EQ(effects.shadowMaps, lights == 1);
+    EXPECT_EQ(effects.shadows, lights == 1 ? "light 0" : "light 0; traced: too many lights or objects for maps");
+  }
+}
+
 TEST(PlanLimits, ShadowMapsOfCopiesPlanWithinTheBounds) {
   const TemporaryFolder folder;
   const auto model = folder.write("t.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
