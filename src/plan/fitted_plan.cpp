@@ -95,14 +95,13 @@ void setAutomatic(Settings& settings, const Settings& asked, ReflectionMethod me
   }
 }
 
-void leaveOutRays(Settings& settings, const Scene& scene) {
+void replaceRays(Settings& settings, const Scene& scene) {
   EffectSettings& effects = settings.effects;
-  effects.shadows = effects.shadows && effects.shadowLookup != ShadowLookup::traced && fitsShadowMaps(scene);
+  effects.shadows = effects.shadows && fitsShadowMaps(scene);
   effects.shadowLookup = ShadowLookup::map;
-  effects.roughness = effects.roughness && effects.roughLookup == ReflectionSource::image;
-  effects.ripple = effects.ripple && effects.rippleLookup == ReflectionSource::image;
+  effects.roughLookup = effects.rippleLookup = ReflectionSource::image;
+  effects.curvedLookup = CurvedLookup::environment;
   effects.castsLight = false;
-  effects.curved = effects.curved && effects.curvedLookup == CurvedLookup::environment;
   settings.reflection.method = ReflectionMethod::raster;
   settings.limit.rays = false;
 }
@@ -131,8 +130,9 @@ class PlanFitter {
     }
     boundShadowMaps();
     fitMemory();
-    if (automaticShadows && fitted_.plan.effects.shadows) {
-      fitted_.plan.effects.shadows->append("; auto: ").append(settingValue(fitted_.settings, "effects.shadow_lookup"));
+    if ((automaticShadows || replacesRays_) && fitted_.plan.effects.shadows) {
+      fitted_.plan.effects.shadows->append(replacesRays_ ? "; without rays: " : "; auto: ")
+          .append(settingValue(fitted_.settings, "effects.shadow_lookup"));
     }
     return std::move(fitted_);
   }
@@ -164,7 +164,7 @@ class PlanFitter {
     const bool automatic = lookup() == ShadowLookup::automatic;
     lookup() = automatic ? ShadowLookup::hybrid : lookup();
     if (lookup() == ShadowLookup::hybrid && !limits_.hybridShadows) {
-      lookup() = limits_.tracesRays ? ShadowLookup::traced : ShadowLookup::map;
+      lookup() = tracesRays_ ? ShadowLookup::traced : ShadowLookup::map;
       if (!automatic) {
         say("effects.shadow_lookup=hybrid is replaced by " + settingValue(fitted_.settings, "effects.shadow_lookup") +
             ": the device draws no lines or has no sampleRateShading");
@@ -174,18 +174,20 @@ class PlanFitter {
 
   // Makes the first plan.
   void chooseReflections() {
-    if (!limits_.cpu || !limits_.tracesRays) {
+    if (!limits_.cpu || !tracesRays_) {
       setAutomatic(fitted_.settings, chosen_, ReflectionMethod::raster);
     }
     plan();
-    if (!limits_.cpu && limits_.tracesRays && raysAreFaster(fitted_.plan, asked_.scene, pictureSettings(chosen_))) {
+    if (!limits_.cpu && tracesRays_ && raysAreFaster(fitted_.plan, asked_.scene, pictureSettings(chosen_))) {
       setAutomatic(fitted_.settings, chosen_, ReflectionMethod::rays);
       plan();
     }
-    if (!limits_.tracesRays && fitted_.plan.effects.any()) {
-      leaveOutRays(fitted_.settings, asked_.scene);
-      say("effects.* that trace rays, and reflection.method=rays, are left out: the device lacks geometryShader, "
-          "storage buffers, or room in them for the scene");
+    if (!tracesRays_ && fitted_.plan.effects.any()) {
+      replacesRays_ = true;
+      replaceRays(fitted_.settings, asked_.scene);
+      say("effects.* show images and maps instead of rays, without light that mirrors cast and shadows of too many "
+          "lights or objects: " +
+          limits_.whyNoRays);
       plan();
     }
   }
@@ -237,6 +239,8 @@ class PlanFitter {
   }
 
   const TargetLimits& limits_;
+  const bool tracesRays_ = limits_.whyNoRays.empty();
+  bool replacesRays_ = false;
   FrameRequest asked_;      // of the last plan
   const Settings& chosen_;  // of the request
   FittedPlan fitted_;

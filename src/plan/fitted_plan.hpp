@@ -11,7 +11,7 @@ struct TargetLimits {
   uint64_t budgetBytes = 0;   // for all render targets together
   int largestSide = 0;        // largest width or height of a target, pixels
   bool keepsPicture = false;  // the last picture stays in memory while a still one is drawn, as in the window
-  bool tracesRays = true;     // the device has gl_PrimitiveID in fragment shaders, and the scene fits storage buffers
+  std::string whyNoRays;      // why the device cannot trace rays through the scene; empty: it can
   bool cpu = false;           // the device is a CPU
   bool hybridShadows = true;  // the device draws edges of triangles, and interpolates inputs at any place
 };
@@ -24,9 +24,10 @@ struct FittedPlan {
 
 // Plans with settings lowered until the targets fit the limits. First unchanged images are rendered instead of reused,
 // if that needs less memory. Then the following are halved step by step: samples of mirror images, samples of the main
-// view, resolution of mirror images and maps. A plan that still does not fit is returned as it is. Traced effects are
-// left out where the device cannot trace, and reflection.method and effects.shadow_lookup = auto become the faster
-// method. Before all this, the request's settings become pictureSettings().
+// view, resolution of mirror images and maps. A plan that still does not fit is returned as it is. Where
+// the device cannot trace, traced effects are looked up in images and maps, or left out if there are none; and
+// reflection.method and effects.shadow_lookup = auto become the faster method. Before all this, the request's settings
+// become pictureSettings().
 FittedPlan planWithin(const TargetLimits& limits, const FrameRequest& request);
 
 // Plans pictures within the limits of a device.

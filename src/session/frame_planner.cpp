@@ -23,7 +23,7 @@ FramePlanner::FramePlanner(const Device& device, bool keepsPicture) {
       device.caps().primitiveId && device.limits().maxPerStageDescriptorStorageBuffers >= TraceFrame::storageBuffers;
   limits_.hybridShadows = device.caps().fillModeNonSolid && device.caps().sampleRateShading;
   drawsCoverage_ = device.caps().primitiveId;
-  bufferLimits_ = traceBufferLimits(device.limits());
+  deviceLimits_ = device.limits();
 }
 
 void FramePlanner::begin(bool rendersMirrors, bool leavesOutTextures, unsigned planners) {
@@ -53,8 +53,8 @@ FittedPlan FramePlanner::plan(const FrameRequest& request) {
       std::ranges::any_of(request.scene.meshes, &Mesh::isTransparent) && !std::exchange(warnedOfCoverage_, true)) {
     spdlog::warn("transparent materials are drawn opaque, because the device has no geometry shaders");
   }
-  const TraceBufferBytes needed = largestTraceBuffers(request.scene, request.state.instances.size());
-  limits_.tracesRays = tracesRays_ && needed.texels <= bufferLimits_.texels && needed.storage <= bufferLimits_.storage;
+  limits_.whyNoRays = tracesRays_ ? traceRoomProblem(request.scene, request.state.instances.size(), deviceLimits_)
+                                  : "the device lacks geometryShader or 14 storage buffers a stage";
   FittedPlan fitted = planWithin(limits_, asked);
   if (!fitted.message.empty() && lowered_.empty()) {
     spdlog::warn("{}", fitted.message);

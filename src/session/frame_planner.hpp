@@ -40,7 +40,7 @@ class FramePlanner : public PicturePlanner {
   bool tracesRays_ = true;     // the device can trace rays, if its buffers can hold the scene
   bool drawsCoverage_ = true;  // else effects.transparency is left out
   bool warnedOfCoverage_ = false;
-  TraceBufferBytes bufferLimits_;
+  VkPhysicalDeviceLimits deviceLimits_;
   bool rendersMirrors_ = false;
   bool leavesOutTextures_ = false;
   Settings asked_;  // settings of the last plan, before any was lowered

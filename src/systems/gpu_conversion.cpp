@@ -71,9 +71,11 @@ void forLevels(const Texture& texture, const std::function<void(std::span<const 
   }
 }
 
-void appendLevels(const Texture& texture, std::vector<uint64_t>& texels) {
+void appendLevels(const Texture& texture, std::vector<uint64_t>& texels, uint64_t skipped) {
   forLevels(texture, [&](std::span<const glm::vec4> level) {
-    for (const glm::vec4& texel : level) {
+    const size_t first = std::min<size_t>(skipped, level.size());
+    skipped -= first;
+    for (const glm::vec4& texel : level.subspan(first)) {
       texels.push_back(glm::packHalf4x16(texel));
     }
   });

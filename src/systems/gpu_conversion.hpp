@@ -18,8 +18,8 @@ glm::vec3 radiance(const glm::dvec3& product);
 // Gives `take` the texels of each level in order, with color and opacity, from the first, in parts, down to one texel.
 // Halving an odd size leaves out the last row or column.
 void forLevels(const Texture& texture, const std::function<void(std::span<const glm::vec4>)>& take);
-// Appends all levels, RGBA as half floats.
-void appendLevels(const Texture& texture, std::vector<uint64_t>& texels);
+// Appends all levels but the first `skipped` texels, RGBA as half floats.
+void appendLevels(const Texture& texture, std::vector<uint64_t>& texels, uint64_t skipped = 0);
 // Returns the part of a step, 0 .. 1, by which the noise of nearestHalf() (shaders/shading.glsl) is moved in picture
 // `picture` of a mean, for views behind `depth` mirrors. Pictures differ, and so do views that show each other's
 // images.

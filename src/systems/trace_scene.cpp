@@ -1,9 +1,12 @@
 #include "systems/trace_scene.hpp"
 
+#include <spdlog/spdlog.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/gtx/component_wise.hpp>
 #include <stdexcept>
+#include <tuple>
 
 #include "core/acceleration_structure.hpp"
 #include "geometry/triangle_mesh.hpp"
@@ -77,18 +80,56 @@ uint32_t sideOf(double low, double high, bool falls) {
   return falls ? far | near << 16 : near | far << 16;
 }
 
-}  // namespace
+// The levels of a texture that rays read: those of at most `largest` texels a side.
+struct TraceLevels {
+  glm::uvec2 size{0};    // of the first one
+  uint64_t skipped = 0;  // texels of the levels before it
+  uint64_t texels = 0;   // of all that are read
+};
 
-TraceBufferBytes traceBufferLimits(const VkPhysicalDeviceLimits& limits) {
-  return {.texels = uint64_t{16} * limits.maxTexelBufferElements, .storage = limits.maxStorageBufferRange};
+TraceLevels traceLevels(const Texture& texture, uint32_t largest) {
+  glm::uvec2 size(texture.width, texture.height);
+  TraceLevels levels{size};
+  while (true) {
+    const bool isRead = glm::compMax(size) <= largest;
+    const uint64_t texels = uint64_t{size.x} * size.y;
+    (isRead ? levels.texels : levels.skipped) += texels;
+    if (texels == 1) {
+      return levels;
+    }
+    size = glm::max(size / 2u, 1u);
+    levels.size = isRead ? levels.size : size;
+  }
 }
 
-TraceBufferBytes largestTraceBuffers(const Scene& scene, size_t instances) {
-  const auto [triangles, vertices, colors] = totalsOf(scene);
-  uint64_t texels = 0;
-  for (const Texture& texture : scene.textures) {
-    texels += 2 * texture.texels.size();  // with the levels
+// Returns the largest power of two with which, as `largest`, all textures together have at most `most` texels.
+uint32_t largestTraceTexture(const Scene& scene, uint64_t most) {
+  uint32_t largest = 1u << 31;
+  const auto texels = [&] {
+    uint64_t sum = 0;
+    for (const Texture& texture : scene.textures) {
+      sum += traceLevels(texture, largest).texels;
+    }
+    return sum;
+  };
+  while (largest > 1 && texels() > most) {
+    largest /= 2;
   }
+  return largest;
+}
+
+uint64_t texelLimit(const VkPhysicalDeviceLimits& limits) {
+  return uint64_t{16} * limits.maxTexelBufferElements;
+}
+
+std::string roomProblem(uint64_t bytes, const char* name, uint64_t limit) {
+  return fmt::format("the scene has {} MiB of {}, the device takes {}", bytes >> 20, name, limit >> 20);
+}
+
+}  // namespace
+
+std::string traceRoomProblem(const Scene& scene, size_t instances, const VkPhysicalDeviceLimits& limits) {
+  const auto [triangles, vertices, colors] = totalsOf(scene);
   // A binary tree has fewer than twice as many nodes as leaves, and a leaf holds at least one triangle. The frame's
   // buffers are read as texels and as storage, so both limits apply to them.
   size_t pieces = scene.mirrors.size();
@@ -97,10 +138,19 @@ TraceBufferBytes largestTraceBuffers(const Scene& scene, size_t instances) {
   }
   const uint64_t ofFrame =
       std::max(instances * sizeof(gpu::TraceInstance), 16 * (instances + pieces) * sizeof(gpu::TraceTopNode));
-  return {
-      .texels = std::max({16 * triangles * sizeof(gpu::TraceNode), triangles * sizeof(gpu::TraceTriangle), ofFrame}),
-      .storage = std::max({(vertices + colors) * sizeof(gpu::TraceVertex), triangles * sizeof(gpu::TraceFace),
-                           texels * sizeof(uint64_t), ofFrame})};
+  const uint64_t asTexels = texelLimit(limits);
+  const uint64_t storage = limits.maxStorageBufferRange;
+  for (const auto& [bytes, name, limit] : std::initializer_list<std::tuple<uint64_t, const char*, uint64_t>>{
+           {16 * triangles * sizeof(gpu::TraceNode), "trace nodes", asTexels},
+           {triangles * sizeof(gpu::TraceTriangle), "trace triangles", asTexels},
+           {(vertices + colors) * sizeof(gpu::TraceVertex), "trace vertices", storage},
+           {triangles * sizeof(gpu::TraceFace), "trace faces", storage},
+           {ofFrame, "trace instances", std::min(asTexels, storage)}}) {
+    if (bytes > limit) {
+      return roomProblem(bytes, name, limit);
+    }
+  }
+  return {};
 }
 
 TraceScene::TraceScene(Uploader& uploader, const Scene& scene) {
@@ -113,11 +163,9 @@ void TraceScene::write(Uploader& uploader, Kind kind, uint64_t bytes, const char
                        const std::function<void(BufferWriter&)>& content) {
   const Device& device = uploader.device();
   const bool asTexels = kind == nodes || kind == triangles;
-  const TraceBufferBytes limits = traceBufferLimits(device.limits());
-  const uint64_t limit = asTexels ? limits.texels : limits.storage;
+  const uint64_t limit = asTexels ? texelLimit(device.limits()) : device.limits().maxStorageBufferRange;
   if (bytes > limit) {
-    throw std::runtime_error(std::string("the scene has ") + std::to_string(bytes >> 20) + " MiB of " + name +
-                             ", the device takes " + std::to_string(limit >> 20) +
+    throw std::runtime_error(roomProblem(bytes, name, limit) +
                              " (smaller models, or effects.* = false for what needs rays)");
   }
   const bool built = kind == triangles && device.caps().rayQueries;
@@ -219,12 +267,20 @@ void TraceScene::writeAttributes(Uploader& uploader, const Scene& scene) {
 }
 
 void TraceScene::writeTextures(Uploader& uploader, const Scene& scene) {
+  const uint64_t most = uploader.device().limits().maxStorageBufferRange / sizeof(uint64_t);
+  const uint32_t largest = largestTraceTexture(scene, most);
   std::vector<gpu::TraceTexture> first;
   std::vector<uint64_t> levels;
+  uint64_t skipped = 0;
   for (const Texture& texture : scene.textures) {
-    first.push_back({static_cast<uint32_t>(levels.size()), static_cast<uint32_t>(texture.width),
-                     static_cast<uint32_t>(texture.height)});
-    appendLevels(texture, levels);
+    const TraceLevels read = traceLevels(texture, largest);
+    first.push_back({static_cast<uint32_t>(levels.size()), read.size.x, read.size.y});
+    appendLevels(texture, levels, read.skipped);
+    skipped += read.skipped;
+  }
+  if (skipped > 0) {
+    spdlog::warn("rays see textures of at most {} texels a side: {}", largest,
+                 roomProblem((levels.size() + skipped) * sizeof(uint64_t), "trace texels", most * sizeof(uint64_t)));
   }
   write(uploader, textures, first.size() * sizeof(gpu::TraceTexture), "trace textures",
         [&](BufferWriter& writer) { writer.write(std::as_bytes(std::span(first))); });

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "core/uploader.hpp"
@@ -10,14 +11,8 @@
 
 namespace speculum {
 
-// Sizes of the largest buffers for rays: of those that shaders read as texels, and as storage.
-struct TraceBufferBytes {
-  uint64_t texels = 0;
-  uint64_t storage = 0;
-};
-TraceBufferBytes traceBufferLimits(const VkPhysicalDeviceLimits& limits);
-// Returns upper bounds for a scene. `instances` counts all copies.
-TraceBufferBytes largestTraceBuffers(const Scene& scene, size_t instances);
+// Says which buffer for rays may be too large for a device; empty: none. `instances` counts all copies.
+std::string traceRoomProblem(const Scene& scene, size_t instances, const VkPhysicalDeviceLimits& limits);
 
 // Hierarchies of boxes as shaders follow them, without a stack: gpu_data.h says how nodes are linked. Each has its
 // nodes once for each octant of directions; bit i of an octant: directions are negative along axis i.

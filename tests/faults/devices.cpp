@@ -43,9 +43,19 @@ TEST_F(Devices, WithoutWhatIsOptionalDrawAll) {
   EXPECT_TRUE(poor.picture == plain.picture);
 }
 
-TEST_F(Devices, WithFewStorageBuffersLeaveRaysOut) {
-  const Run few = run(render, {"SPECULUM_HIDE=storage_buffers=12"}, Place::inner);
-  expectLine(few, 0, "effects.");
+TEST_F(Devices, WithoutRoomForRaysDrawMaps) {
+  const Run maps = run(withSettings(render, {"effects.shadow_lookup=map"}), {});
+  for (const auto& [lacks, says] : {std::pair("storage_buffers=12", "lacks geometryShader or 14 storage buffers"),
+                                    std::pair("storage_range=40000", "MiB of trace vertices, the device takes")}) {
+    const Run few = run(render, {"SPECULUM_HIDE=" + std::string(lacks)}, Place::inner);
+    expectLine(few, 0, says);
+    EXPECT_TRUE(few.picture == maps.picture);
+  }
+}
+
+TEST_F(Devices, WithLittleRoomShrinkTexturesOfRays) {
+  const Run few = run(render, {"SPECULUM_HIDE=storage_range=500000"}, Place::inner);
+  expectLine(few, 0, "rays see textures of at most 128 texels a side");
   EXPECT_TRUE(few.picture);
 }
 

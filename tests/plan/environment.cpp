@@ -64,10 +64,14 @@ TEST(EnvironmentMap, NeedsNoRays) {
   const SceneState state = evaluate(frames.scene, 0.0);
   EXPECT_EQ(frames.plan.effects.curved, "object 'ball'");
   EXPECT_FALSE(frames.plan.effects.any());
-  const FittedPlan fitted = planWithin({.budgetBytes = 1ull << 40, .largestSide = 4096, .tracesRays = false},
+  const FittedPlan fitted = planWithin({.budgetBytes = 1ull << 40, .largestSide = 4096, .whyNoRays = "no room"},
                                        {frames.scene, state, frames.settings, {width, height}});
   EXPECT_EQ(fitted.plan.cubes.size(), 1u) << "a device that cannot trace rays draws it";
   EXPECT_TRUE(fitted.message.empty());
+  frames.settings.effects.curvedLookup = CurvedLookup::traced;
+  const FittedPlan traced = planWithin({.budgetBytes = 1ull << 40, .largestSide = 4096, .whyNoRays = "no room"},
+                                       {frames.scene, state, frames.settings, {width, height}});
+  EXPECT_EQ(traced.plan.cubes.size(), 1u) << "a map in the place of rays";
 }
 
 // Every direction lies in a face that draws what stands there. No face draws the mirror itself.

@@ -71,21 +71,30 @@ TEST(MemoryFit, MirrorImagesStayWithinTheLargestSide) {
   EXPECT_TRUE(contains(fitted.message, "lowered reflection.scale to 2.5"));
 }
 
-// Without rays, a rippled mirror is drawn as a smooth one and has a pass.
-TEST(MemoryFit, TracedEffectsNeedADeviceThatCan) {
+// Without rays, a rippled mirror looks its image up and has a pass.
+TEST(MemoryFit, MapsAndImagesReplaceRays) {
   Scene scene = wallScene();
   scene.mirrors[0].ripple = Ripple{.amplitude = 0.01};
-  const SceneState state = evaluate(scene, 0.0);
+  scene.meshes = {testing_support::cube(0.5, 0.9)};
+  scene.objects = {testing_support::objectAt({0, 0, -0.5})};
+  scene.lights.assign(mostShadowMaps, {.name = "lamp", .position = {0, 2, 0}, .castsShadow = true});
+  Settings settings;
+  settings.effects.shadowLookup = ShadowLookup::traced;
   const auto plan = [&](bool tracesRays) {
-    return planWithin({.budgetBytes = 1ull << 40, .largestSide = 4096, .tracesRays = tracesRays},
-                      {scene, state, {}, {100, 100}});
+    return planWithin({.budgetBytes = 1ull << 40, .largestSide = 4096, .whyNoRays = tracesRays ? "" : "no room"},
+                      {scene, evaluate(scene, 0.0), settings, {100, 100}});
   };
   EXPECT_TRUE(plan(true).message.empty());
   EXPECT_TRUE(plan(true).plan.drawnMirrors().empty());
   const FittedPlan without = plan(false);
-  EXPECT_TRUE(contains(without.message, "effects.*"));
-  EXPECT_FALSE(without.settings.effects.ripple);
+  EXPECT_TRUE(contains(without.message, "effects.* show images and maps instead of rays"));
+  EXPECT_TRUE(contains(without.message, ": no room"));
   EXPECT_EQ(without.plan.drawnMirrors().size(), 1u);
+  EXPECT_FALSE(without.plan.effects.any());
+  EXPECT_TRUE(without.plan.effects.ripple);
+  EXPECT_EQ(without.plan.effects.shadows, "light 'lamp'; without rays: map");
+  scene.lights.push_back(scene.lights[0]);
+  EXPECT_FALSE(plan(false).plan.effects.shadows) << "more lights than maps";
 }
 
 TEST(MemoryFit, RaysReplacePassesWhereTheyPay) {
@@ -99,12 +108,12 @@ TEST(MemoryFit, RaysReplacePassesWhereTheyPay) {
     return planWithin(limits, {scene, evaluate(scene, 0.0), settings, {2 * height, height}}).plan.drawnMirrors().size();
   };
   EXPECT_EQ(passes(ReflectionMethod::rays, {}), 0u);
-  EXPECT_EQ(passes(ReflectionMethod::rays, {.tracesRays = false}), 1u);
+  EXPECT_EQ(passes(ReflectionMethod::rays, {.whyNoRays = "no room"}), 1u);
   EXPECT_EQ(passes(ReflectionMethod::automatic, {}), 1u);
   EXPECT_EQ(passes(ReflectionMethod::automatic, {.cpu = true}), 0u);
   EXPECT_EQ(passes(ReflectionMethod::raster, {.cpu = true}), 1u);
   EXPECT_EQ(passes(ReflectionMethod::automatic, {}, 2000), 0u) << "a GPU, and a mirror that covers much";
-  EXPECT_EQ(passes(ReflectionMethod::automatic, {.tracesRays = false}, 2000), 1u);
+  EXPECT_EQ(passes(ReflectionMethod::automatic, {.whyNoRays = "no room"}, 2000), 1u);
   settings.view.samples = 4;
   EXPECT_EQ(passes(ReflectionMethod::automatic, {}, 2000), 1u);
 }

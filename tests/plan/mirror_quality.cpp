@@ -252,10 +252,10 @@ TEST(MirrorQuality, AutomaticMirrorsChooseByThemselves) {
   EXPECT_EQ(passes({}, 4000), other) << "rays are faster there";
   EXPECT_EQ(passes({}, 4000, 4), both);
   EXPECT_EQ(passes({.cpu = true}, 20), other);
-  EXPECT_EQ(passes({.tracesRays = false, .cpu = true}, 20), both);
+  EXPECT_EQ(passes({.whyNoRays = "no room", .cpu = true}, 20), both);
   scene.mirrors[0].quality.method = ReflectionMethod::rays;
   EXPECT_EQ(passes({}, 20), other);
-  EXPECT_EQ(passes({.tracesRays = false}, 20), both);
+  EXPECT_EQ(passes({.whyNoRays = "no room"}, 20), both);
   scene.mirrors[0].quality.method = ReflectionMethod::raster;
   EXPECT_EQ(passes({}, 4000), both);
 }

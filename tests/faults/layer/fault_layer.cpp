@@ -154,6 +154,7 @@ void hide(VkPhysicalDevice device, VkPhysicalDeviceProperties& properties) {
     properties.apiVersion = VK_MAKE_API_VERSION(0, 1, *minor, 0);
   }
   lower("storage_buffers", limits.maxPerStageDescriptorStorageBuffers);
+  lower("storage_range", limits.maxStorageBufferRange);
   lower("image_side", limits.maxImageDimension2D);
   lower("allocations", limits.maxMemoryAllocationCount);
   lower("color_samples", limits.framebufferColorSampleCounts);
