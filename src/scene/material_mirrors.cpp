@@ -369,6 +369,13 @@ void logMaterialMirrors(Scene& scene) {
             fmt::format("{}: its materials make no mirrors of object '{}', which is too large, too small, too far away "
                         "or copied too often (mirrors_from_materials = false, or fewer copies, are needed)",
                         mesh.source.string(), nameOf(scene, object))));
+      } else if (object.visible == Visibility::everywhere && !mesh.mirrorParts->flat.empty() &&
+                 !std::ranges::binary_search(scene.materialMirrors, static_cast<int>(&object - scene.objects.data()),
+                                             {}, &MaterialMirror::object)) {
+        spdlog::warn(oneLine(fmt::format(
+            "{}: its planar mirrors of object '{}' become curved, because the scene would get more than {} planar "
+            "mirrors from materials (mirrors_from_materials = false, or fewer copies, are needed of some objects)",
+            mesh.source.string(), nameOf(scene, object), mostPlanar)));
       }
     }
     if (used) {

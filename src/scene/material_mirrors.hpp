@@ -20,7 +20,8 @@ void cutMirrorParts(Scene& scene, size_t first);
 void placeMaterialMirrors(Scene& scene);
 
 // Logs a line for each model whose materials make mirrors of an object. Materials beyond the limit are a warning
-// and a defect of the model; an object that is too large, too far away or copied too often is a warning only.
+// and a defect of the model; an object that is too large, too far away or copied too often is a warning only, and so
+// are planar mirrors that became curved because the scene has too many. Call it after placeMaterialMirrors().
 void logMaterialMirrors(Scene& scene);
 
 // Says whether materials make mirrors of parts of the object.

@@ -183,6 +183,7 @@ TEST_F(MaterialMirrors, FlatPartsAreCurvedMirrorsWherePlanarOnesCannotBe) {
     const Scene scene = load(panesObj, mirrorMtl, keys);
     EXPECT_EQ(scene.mirrorCount(), 0u) << keys;
     EXPECT_TRUE(hasCurvedMirrors(scene)) << keys;
+    EXPECT_EQ(contains(log_.text(), "its planar mirrors of object 'hall' become curved"), keys[0] == 'c') << keys;
   }
   const Scene copies = load(panesObj, mirrorMtl, "copies = { count = 3, step = [0, 5, 0] }\nspin = [0, 90, 0]\n");
   EXPECT_EQ(copies.mirrorCount(), 3u);
