@@ -92,8 +92,9 @@ void addRender(CLI::App& app, Options& options, Raw& raw) {
   addSweepResults(app, options);
   app.add_option("--stats", options.render.stats, "JSON: passes, skipped mirrors, effects, totals");
   app.add_option("--capture", options.render.capture, "F.rdc: the first picture for RenderDoc, which must be loaded");
-  app.add_option("--frames", options.frames, "a sequence of so many pictures")->check(CLI::Range(1, 1000000));
-  app.add_option("--fps", options.fps, "pictures per second of animation")->check(CLI::Range(1e-6, 1e6));
+  CLI::Option* frames = app.add_option("--frames", options.frames, "a sequence of so many pictures");
+  frames->check(CLI::Range(1, 1000000));
+  app.add_option("--fps", options.fps, "pictures per second of animation")->check(CLI::Range(1e-6, 1e6))->needs(frames);
 }
 
 void addReference(CLI::App& app, Options& options, Raw& raw) {
@@ -166,8 +167,8 @@ void addRegress(CLI::App& app, Options& options) {
 
 // Refuses what `bench --reference` would not look at.
 void requireTracerAlone(const CLI::App& bench) {
-  for (const char* option :
-       {"--scene", "--size", "--time", "--camera", "--frames", "--warmup", "--sweep-results", "--prices"}) {
+  for (const char* option : {"--scene", "--size", "--time", "--camera", "--frames", "--warmup", "--sweep-results",
+                             "--prices", "--set", "--gpu", "--render-path", "--validation", "--shader-dir"}) {
     if (bench.count(option) > 0) {
       throw UsageError(fmt::format("--reference: measures alone (leave out {})", option));
     }

@@ -77,6 +77,10 @@ SweepResults readStillSweep(const std::filesystem::path& file) {
 std::optional<QualityChoice> chooseQuality(const Options& options, const std::filesystem::path& scene,
                                            Settings& settings) {
   if (!budgetOf(settings).bounds()) {
+    if (!options.sweepResults.empty() && options.command != "demo") {
+      throw UsageError(
+          "--sweep-results: chooses nothing without a bound (--set quality.budget_ms=MS or quality.max_error=FLIP)");
+    }
     return std::nullopt;
   }
   const auto keys = std::views::keys(options.settings);

@@ -114,6 +114,10 @@ INSTANTIATE_TEST_SUITE_P(
         UsageCase{{"bench", "--warmup", "-1"}, "--warmup"},
         UsageCase{{"bench", "--reference", "--prices"}, "--reference: measures alone"},
         UsageCase{{"bench", "--reference", "--scene", "nosuch"}, "--reference: measures alone (leave out --scene)"},
+        UsageCase{{"bench", "--reference", "--set", "view.samples=1"}, "--reference: measures alone (leave out --set)"},
+        UsageCase{{"render", "--out", "x.png", "--fps", "3"}, "--fps requires --frames"},
+        UsageCase{{"render", "--out", "x.png", "--scene", "no_mirror", "--sweep-results", "nosuch.json"},
+                  "--sweep-results: chooses nothing without a bound (--set quality.budget_ms=MS or"},
         UsageCase{{"compare", "a.png", "b.png", "--heatmap", "error.exr"}, "'error.exr' must end in .png"},
         UsageCase{{"compare", "a.png", "b.png", "--heatmap", "error.jpg"}, "'error.jpg' must end in .png"}));
 
