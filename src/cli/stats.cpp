@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "compare/statistics.hpp"
 #include "plan/depth_readout.hpp"
 #include "plan/skipped_mirrors.hpp"
 #include "platform/machine.hpp"
+#include "systems/pass_index.hpp"
 
 namespace speculum {
 
@@ -39,11 +41,9 @@ ordered_json metres(const std::optional<double>& value) {
   return value ? ordered_json(*value) : ordered_json(nullptr);
 }
 
-// Returns the depth resolution of the mirror pass with that path; null for other passes and where only the background
-// is seen.
-ordered_json depthJson(const Session& session, const MirrorPath& path) {
+// Returns the depth resolution of a mirror pass; null where only the background is seen.
+ordered_json depthJson(const Session& session, const Pass* pass) {
   const DrawnFrame& frame = session.lastFrame();
-  const Pass* pass = mirrorPass(frame.plan, path);
   if (!pass) {
     return nullptr;
   }
@@ -58,33 +58,48 @@ ordered_json depthJson(const Session& session, const MirrorPath& path) {
           {"none_m", metres(readout->plain)}};
 }
 
-// Returns the index of the pass that looks up the image of `pass`; null if none does.
+// Returns the index of each pass that draws a view of the picture, by its path.
 template <typename Passes>
-ordered_json parentJson(const Passes& passes, const PassId& pass) {
+std::map<MirrorPath, size_t> viewsOf(const Passes& passes) {
+  std::map<MirrorPath, size_t> views;
+  for (size_t i = 0; i < passes.size(); ++i) {
+    if (passes[i].kind == PassKind::mirror || passes[i].kind == PassKind::main) {
+      views.emplace(passes[i].path, i);
+    }
+  }
+  return views;
+}
+
+// Returns the index of the pass that looks up the image of `pass`; null if none does.
+ordered_json parentJson(const std::map<MirrorPath, size_t>& views, const PassId& pass) {
   if (pass.path.empty()) {
     return nullptr;
   }
-  const MirrorPath seenIn(pass.path.begin(), pass.path.end() - 1);
-  const auto parent = std::ranges::find_if(passes, [&](const PassId& other) {
-    return (other.kind == PassKind::mirror || other.kind == PassKind::main) && other.path == seenIn;
-  });
-  return parent == passes.end() ? ordered_json(nullptr) : ordered_json(parent - passes.begin());
+  const auto parent = views.find(MirrorPath(pass.path.begin(), pass.path.end() - 1));
+  return parent == views.end() ? ordered_json(nullptr) : ordered_json(parent->second);
 }
 
 ordered_json passesJson(Session& session) {
   ordered_json passes = ordered_json::array();
+  const FramePlan& plan = session.lastFrame().plan;
+  std::map<MirrorPath, const Pass*> mirrors;
+  for (const Pass& pass : plan.shownMirrors()) {
+    mirrors.emplace(pass.view.path, &pass);
+  }
   const std::vector<TimedPass>& all = session.lastFrame().passes();
+  const std::map<MirrorPath, size_t> views = viewsOf(all);
   for (const TimedPass& pass : all) {
     const PassTiming& timing = pass.timing;
     const bool mirror = pass.kind == PassKind::mirror;
-    const FramePlan& plan = session.lastFrame().plan;
-    const Pass* planned = pass.kind == PassKind::main ? &plan.main() : mirrorPass(plan, pass.path);
+    const auto shown = mirrors.find(pass.path);
+    const Pass* ofMirror = shown == mirrors.end() ? nullptr : shown->second;
+    const Pass* planned = pass.kind == PassKind::main ? &plan.main() : ofMirror;
     const PixelRect rect = planned ? planned->view.rect : PixelRect();
     const int samples = planned ? session.device().sampleCount(planned->quality.samples) : 0;
     passes.push_back({{"name", pass.name},
                       {"mirror", mirror ? mirrorJson(session.scene(), pass.path.back()) : ordered_json(nullptr)},
                       {"path", pathJson(session.scene(), pass.path)},
-                      {"parent", parentJson(all, pass)},
+                      {"parent", parentJson(views, pass)},
                       {"depth", mirror ? ordered_json(pass.depth) : ordered_json(nullptr)},
                       {"gpu_ms", timing.gpuMs},
                       {"draws", pass.draws},
@@ -94,7 +109,7 @@ ordered_json passesJson(Session& session) {
                       {"area_px", pass.areaPx},
                       {"size", planned ? ordered_json({rect.width, rect.height}) : ordered_json(nullptr)},
                       {"samples", planned ? ordered_json(samples) : ordered_json(nullptr)},
-                      {"depth_resolution", depthJson(session, pass.path)}});
+                      {"depth_resolution", depthJson(session, ofMirror)}});
   }
   return passes;
 }
@@ -168,21 +183,20 @@ struct GatheredPass : PassId {
 
 ordered_json mergePasses(const std::vector<ordered_json>& frames, const std::vector<std::vector<PassId>>& ids) {
   std::vector<GatheredPass> gathered;
+  PassIndex<GatheredPass> index(gathered);
   for (size_t f = 0; f < frames.size(); ++f) {
-    std::ptrdiff_t place = 0;  // index behind the pass before
+    size_t next = 0;  // index behind the pass before
     for (size_t i = 0; i < ids[f].size(); ++i) {
-      auto pass = std::ranges::find_if(gathered, [&](const PassId& id) { return id == ids[f][i]; });
-      if (pass == gathered.end()) {
-        pass = gathered.insert(gathered.begin() + place, GatheredPass{ids[f][i], {}});
-      }
-      pass->figures.push_back(&frames[f].at("passes").at(i));
-      place = pass - gathered.begin() + 1;
+      const size_t place = index.findOrInsert({ids[f][i], {}}, next);
+      gathered[place].figures.push_back(&frames[f].at("passes").at(i));
+      next = place + 1;
     }
   }
   ordered_json merged = ordered_json::array();
+  const std::map<MirrorPath, size_t> views = viewsOf(gathered);
   for (const GatheredPass& pass : gathered) {
     merged.push_back(mergeObjects(pass.figures));
-    merged.back()["parent"] = parentJson(gathered, pass);
+    merged.back()["parent"] = parentJson(views, pass);
     if (pass.figures.size() < frames.size()) {
       merged.back()["frames"] = pass.figures.size();
     }

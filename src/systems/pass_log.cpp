@@ -1,22 +1,21 @@
 #include "systems/pass_log.hpp"
 
-#include <algorithm>
+#include "systems/pass_index.hpp"
 
 namespace speculum {
 
 void PictureSums::add(std::span<const RecordedPass> passes, const FrameTimings& timings) {
+  PassIndex<TimedPass> index(passes_);
   for (size_t i = 0; i < passes.size(); ++i) {
-    const PassId& id = passes[i];
-    auto sum = std::ranges::find_if(passes_, [&](const PassId& pass) { return pass == id; });
-    if (sum == passes_.end()) {
-      sum = passes_.insert(passes_.begin() + static_cast<std::ptrdiff_t>(place_), TimedPass{passes[i], {}});
-    } else {
-      sum->draws += passes[i].draws;
-    }
+    TimedPass pass{passes[i], {}};
+    pass.draws = 0;
+    const size_t place = index.findOrInsert(pass, place_);
+    TimedPass& sum = passes_[place];
+    sum.draws += passes[i].draws;
     if (i < timings.passes.size()) {
-      sum->timing += timings.passes[i];
+      sum.timing += timings.passes[i];
     }
-    place_ = static_cast<size_t>(sum - passes_.begin()) + 1;
+    place_ = place + 1;
   }
 }
 
