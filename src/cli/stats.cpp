@@ -37,6 +37,11 @@ ordered_json pathJson(const Scene& scene, const MirrorPath& path) {
   return json;
 }
 
+// Tells mirrors of one name apart.
+ordered_json indicesJson(const MirrorPath& path) {
+  return ordered_json(std::vector<int>(path.begin(), path.end()));
+}
+
 ordered_json metres(const std::optional<double>& value) {
   return value ? ordered_json(*value) : ordered_json(nullptr);
 }
@@ -99,6 +104,7 @@ ordered_json passesJson(Session& session) {
     passes.push_back({{"name", pass.name},
                       {"mirror", mirror ? mirrorJson(session.scene(), pass.path.back()) : ordered_json(nullptr)},
                       {"path", pathJson(session.scene(), pass.path)},
+                      {"path_indices", indicesJson(pass.path)},
                       {"parent", parentJson(views, pass)},
                       {"depth", mirror ? ordered_json(pass.depth) : ordered_json(nullptr)},
                       {"gpu_ms", timing.gpuMs},
@@ -119,6 +125,7 @@ ordered_json skippedJson(const Scene& scene, const SceneState& state, const Fram
   for (const SkippedMirror& skip : skippedMirrors(scene, state, plan, mostListed)) {
     skipped.push_back({{"mirror", mirrorJson(scene, skip.mirror)},
                        {"path", pathJson(scene, skip.path)},
+                       {"path_indices", indicesJson(skip.path)},
                        {"depth", skip.depth},
                        {"reason", skipReasonName(skip.reason)},
                        {"detail", std::string_view(skip.detail)}});
@@ -128,6 +135,7 @@ ordered_json skippedJson(const Scene& scene, const SceneState& state, const Fram
       const SkipReason reason = pass.source == PassSource::reused ? SkipReason::unchanged : SkipReason::outside;
       skipped.push_back({{"mirror", nullptr},
                          {"path", ordered_json::array()},
+                         {"path_indices", ordered_json::array()},
                          {"depth", nullptr},
                          {"reason", skipReasonName(reason)},
                          {"detail", passName(scene, plan, pass)}});

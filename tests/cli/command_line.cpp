@@ -508,6 +508,7 @@ TEST_F(CommandLine, StatsFollowTheirContract) {
   const nlohmann::json& mirror = stats["passes"][0];
   EXPECT_EQ(mirror["mirror"], "wall");
   EXPECT_EQ(mirror["path"], nlohmann::json::array({"wall"}));
+  EXPECT_EQ(mirror["path_indices"], nlohmann::json::array({0}));
   EXPECT_EQ(mirror["depth"], 0);
   EXPECT_GT(mirror["gpu_ms"], 0.0);
   EXPECT_GT(mirror["draws"], 0);
@@ -534,6 +535,7 @@ TEST_F(CommandLine, StatsFollowTheirContract) {
   EXPECT_EQ(stats["skipped"][0]["depth"], 0);
   EXPECT_EQ(stats["skipped"][0]["reason"], "behind");
   EXPECT_EQ(stats["skipped"][1]["path"], nlohmann::json({"wall", 1}));
+  EXPECT_EQ(stats["skipped"][1]["path_indices"], nlohmann::json({0, 1}));
   EXPECT_EQ(stats["effects"].size(), 12u);
   for (const char* key : {"cpu_ms", "gpu_ms", "frame_ms", "device_bytes", "peak_rss_bytes", "pipelines"}) {
     EXPECT_GT(stats["totals"][key], 0) << key;
