@@ -261,7 +261,14 @@ void GltfFile::readJson(std::string_view text, std::vector<Source>& buffers) {
   checkVersion(file_, root);
   checkExtensions(file_, root, defects_);
   useMaterialExtensions(file_, root, defects_);
-  hasMotion_ = !member(root, "animations").empty() || !member(root, "skins").empty();
+  hasMotion_ = !member(root, "animations").empty();
+  const auto index = [](const json& value) { return value.is_number_integer() ? value.get<int>() : -1; };
+  for (const json& entry : member(root, "skins")) {
+    Skin& skin = skins_.emplace_back(Skin{.inverseBindMatrices = index(member(entry, "inverseBindMatrices"))});
+    for (const json& joint : member(entry, "joints")) {
+      skin.joints.push_back(index(joint));
+    }
+  }
   for (const auto& [key, sources] : {std::pair("buffers", &buffers), std::pair("images", &images_)}) {
     for (const json& entry : member(root, key)) {
       const json& uri = member(entry, "uri");

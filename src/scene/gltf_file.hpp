@@ -39,13 +39,20 @@ class GltfFile {
     std::optional<std::vector<uint8_t>> content;  // if it is no file of its own
   };
 
+  // Moves vertices with nodes.
+  struct Skin {
+    std::vector<int> joints;       // nodes; -1: not readable
+    int inverseBindMatrices = -1;  // accessor; -1: all are 1
+  };
+
   // Reads the file and its buffers. `file` and `defects` must outlive this object. Throws InputError if the file is no
   // glTF 2.0, is damaged, or requires an extension that is not read.
   GltfFile(const std::filesystem::path& file, ModelDefects& defects);
 
   const tinygltf::Model& model() const { return model_; }  // indices are the attribute indicesAttribute
-  bool hasMotion() const { return hasMotion_; }            // animations or skins
-  uint64_t byteCount() const { return byteCount_; }        // of the file and its buffers
+  const std::vector<Skin>& skins() const { return skins_; }
+  bool hasMotion() const { return hasMotion_; }      // animations
+  uint64_t byteCount() const { return byteCount_; }  // of the file and its buffers
   // Return the files that were read: of buffers, with symbolic links resolved; of buffers and pictures, as found.
   const std::set<std::filesystem::path>& bufferFiles() const { return bufferFiles_; }
   const std::set<std::filesystem::path>& namedFiles() const { return namedFiles_; }
@@ -86,6 +93,7 @@ class GltfFile {
   ModelDefects& defects_;
   ModelFiles modelFiles_;
   tinygltf::Model model_;
+  std::vector<Skin> skins_;
   bool hasMotion_ = false;
   uint64_t byteCount_ = 0;
   std::string text_;                               // content of the file

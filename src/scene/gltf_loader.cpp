@@ -6,6 +6,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/gtc/type_ptr.hpp>
 #include <map>
+#include <span>
 #include <utility>
 
 #include "scene/gltf_file.hpp"
@@ -110,17 +111,19 @@ class GltfReader {
     constexpr double readShare = 0.65;  // of the time that loading takes; the rest sorts the triangles
     const std::vector<tinygltf::Node>& nodes = content_.model().nodes;
     std::vector<Placed> open;
+    std::vector<Placed> visible;
     addRoots(open);
-    std::vector<bool> seen(nodes.size());
-    for (size_t done = 0; !open.empty(); ++done) {
+    sceneFromNode_.resize(nodes.size());
+    while (!open.empty()) {
       const Placed placed = open.back();
       open.pop_back();
-      if (!isIndex(placed.index, nodes.size()) || seen[placed.index]) {
+      if (!isIndex(placed.index, nodes.size()) || sceneFromNode_[placed.index]) {
         add("nodes", "node {} is not there, or has two parents, it is left out here", placed.index);
         continue;
       }
-      seen[placed.index] = true;
       const tinygltf::Node& node = nodes[placed.index];
+      const glm::dmat4 sceneFromNode = placed.transform * transformOf(node);
+      sceneFromNode_[placed.index] = sceneFromNode;
       if (const tinygltf::Value& visible = extensionMember(node.extensions, "KHR_node_visibility", "visible");
           visible.IsBool() && !visible.Get<bool>()) {
         continue;
@@ -128,13 +131,15 @@ class GltfReader {
       if (node.mesh != -1 && node.extensions.contains("EXT_mesh_gpu_instancing")) {
         add("nodes", "node {} has instances by EXT_mesh_gpu_instancing, it is drawn once", placed.index);
       }
-      const glm::dmat4 sceneFromNode = placed.transform * transformOf(node);
       for (auto child = node.children.rbegin(); child != node.children.rend(); ++child) {
         open.push_back({*child, sceneFromNode});
       }
-      addNode(node, sceneFromNode);
+      visible.push_back({placed.index, sceneFromNode});
+    }
+    for (size_t i = 0; i < visible.size(); ++i) {
+      addNode(nodes[visible[i].index], visible[i].transform);
       if (progress) {
-        progress(file_, readShare * std::min(static_cast<double>(done) / static_cast<double>(nodes.size()), 1.0));
+        progress(file_, readShare * static_cast<double>(i) / static_cast<double>(visible.size()));
       }
     }
   }
@@ -192,8 +197,13 @@ class GltfReader {
   void addNode(const tinygltf::Node& node, const glm::dmat4& sceneFromNode) {
     const tinygltf::Model& model = content_.model();
     if (isIndex(node.mesh, model.meshes.size())) {
+      const auto [known, isNew] = skins_.try_emplace(node.skin);
+      if (isNew) {
+        known->second = jointMatrices(node.skin);
+      }
+      skin_ = known->second;
       for (const tinygltf::Primitive& primitive : model.meshes[node.mesh].primitives) {
-        addPrimitive(primitive, node.mesh, sceneFromNode);
+        addPrimitive(primitive, node.mesh, skin_.empty() ? sceneFromNode : skin_[0]);
       }
     } else if (node.mesh != -1) {
       add("nodes", "there is no mesh {}, it is left out", node.mesh);
@@ -279,11 +289,43 @@ class GltfReader {
     return known->second ? &*known->second : nullptr;
   }
 
+  // Returns the transforms to the scene's space of what a skin's joints move, as the file places these; none for no
+  // skin.
+  std::vector<glm::dmat4> jointMatrices(int index) {
+    if (!isIndex(index, content_.skins().size())) {
+      return {};
+    }
+    const auto& [joints, accessor] = content_.skins()[index];
+    const bool given = accessor != -1 && content_.countOf(accessor) == joints.size();
+    const auto inverse = given ? content_.numbers(accessor, 16) : std::nullopt;
+    std::vector<glm::dmat4> matrices;
+    for (size_t i = 0; i < joints.size(); ++i) {
+      const bool placed = isIndex(joints[i], sceneFromNode_.size()) && sceneFromNode_[joints[i]];
+      matrices.push_back((placed ? *sceneFromNode_[joints[i]] : glm::dmat4(1.0)) *
+                         (inverse ? glm::make_mat4(&(*inverse)[16 * i]) : glm::dmat4(1.0)));
+    }
+    return matrices;
+  }
+
   // Adds the named vertices of a primitive. Returns the first of them.
   FaceCorner addVertices(const tinygltf::Primitive& primitive, const std::vector<double>& positions,
                          const std::vector<size_t>& named, const glm::dmat4& sceneFromNode) {
     const size_t count = positions.size() / 3;
     FaceCorner first{.position = static_cast<int>(builder_.positionCount())};
+    const auto* joints = skin_.empty() ? nullptr : attribute(primitive, "JOINTS_0", 4, count);
+    const auto* weights = skin_.empty() ? nullptr : attribute(primitive, "WEIGHTS_0", 4, count);
+    // A skin moves each vertex by a mean of matrices, and the node does not.
+    const auto matrixOf = [&](size_t i) {
+      glm::dmat4 sum(0.0);
+      double whole = 0.0;
+      for (size_t k = 4 * i; joints && weights && k < 4 * i + 4; ++k) {
+        if ((*weights)[k] > 0.0 && (*joints)[k] >= 0.0 && (*joints)[k] < static_cast<double>(skin_.size())) {
+          sum += (*weights)[k] * skin_[static_cast<size_t>((*joints)[k])];
+          whole += (*weights)[k];
+        }
+      }
+      return whole > 0.0 ? sum / whole : sceneFromNode;
+    };
     const int channels = colorChannels(primitive);
     const auto* colors = attribute(primitive, colorName, channels, count);
     for (const size_t i : named) {
@@ -295,16 +337,16 @@ class GltfReader {
         color = glm::vec4(isFinite(rgb) ? glm::clamp(rgb, 0.0, 1.0) : glm::dvec3(1.0), alpha);
       }
       const glm::dvec3 position = glm::make_vec3(&positions[3 * i]);
-      builder_.addPosition(glm::dvec3(sceneFromNode * glm::dvec4(position, 1.0)), color);
+      builder_.addPosition(glm::dvec3(matrixOf(i) * glm::dvec4(position, 1.0)), color);
     }
     if (const auto* normals = attribute(primitive, "NORMAL", 3, count)) {
       first.normal = static_cast<int>(builder_.normalCount());
-      // The inverse transpose but for its length, also where there is no inverse.
-      const glm::dmat3 m(sceneFromNode);
-      const double side = glm::determinant(m) < 0.0 ? -1.0 : 1.0;
-      const glm::dmat3 turn(side * glm::cross(m[1], m[2]), side * glm::cross(m[2], m[0]),
-                            side * glm::cross(m[0], m[1]));
       for (const size_t i : named) {
+        // The inverse transpose but for its length, also where there is no inverse.
+        const glm::dmat3 m(matrixOf(i));
+        const double side = glm::determinant(m) < 0.0 ? -1.0 : 1.0;
+        const glm::dmat3 turn(side * glm::cross(m[1], m[2]), side * glm::cross(m[2], m[0]),
+                              side * glm::cross(m[0], m[1]));
         builder_.addNormal(turn * glm::make_vec3(&(*normals)[3 * i]));
       }
     }
@@ -444,7 +486,10 @@ class GltfReader {
   ModelDefects& defects_;
   MeshBuilder builder_;
   uint64_t cornersLeft_ = 0;
-  int positions_ = -1;  // accessor of the last primitive's positions
+  std::vector<std::optional<glm::dmat4>> sceneFromNode_;  // by node; nothing: not in the scene
+  std::map<int, std::vector<glm::dmat4>> skins_;          // jointMatrices() by skin
+  std::span<const glm::dmat4> skin_;                      // of the present node; empty: it has none
+  int positions_ = -1;                                    // accessor of the last primitive's positions
   std::map<std::pair<int, int>, std::optional<std::vector<double>>> read_;  // with it, by accessor and components
   std::vector<int> placeOf_;  // by vertex, among those that a primitive names; -1 between primitives
   bool hasLinesOrPoints_ = false;
@@ -486,7 +531,7 @@ Model loadGltf(const fs::path& file, std::vector<Texture>& textures, const LoadP
     mesh.namedFiles.push_back(named.lexically_relative(file.lexically_normal().parent_path()));
   }
   if (content.hasMotion() && !mesh.indices.empty()) {
-    defects.add(file, 1, "animations", "skins and animations are left out, the model stands still");
+    defects.add(file, 1, "animations", "animations are left out, the model stands still");
   }
   mesh.defects = defects.report();
   if (mesh.indices.empty()) {

@@ -235,14 +235,36 @@ TEST_F(GltfLoader, MotionIsLeftOutWithOneWarning) {
   MadeGltf made;
   const int mesh = made.addMesh({{"POSITION", made.addNumbers(triangleNumbers, "VEC3")}});
   made.add("nodes", {{"mesh", mesh}, {"skin", 0}});
-  made.add("skins", {{"joints", {0}}});
+  made.add("skins", 7);
   made.add("animations", {{"channels", 7}});
   EXPECT_EQ(meshOf(made).indices.size(), 3u);
   made.root["meshes"][0]["primitives"][0]["targets"] = {{{"POSITION", 0}}, {{"POSITION", 0}}};
   EXPECT_EQ(meshOf(made).indices.size(), 3u);
-  const std::string motion =
-      "warning: m.glb:1: animations: skins and animations are left out, the model stands still\n";
+  const std::string motion = "warning: m.glb:1: animations: animations are left out, the model stands still\n";
   EXPECT_EQ(warnings(), motion + "warning: m.glb:1: meshes: mesh 0 has morph targets, they are left out\n" + motion);
+}
+
+TEST_F(GltfLoader, SkinsMoveVerticesByTheirJoints) {
+  MadeGltf made;
+  const int mesh =
+      made.addMesh({{"POSITION", made.addNumbers(triangleNumbers, "VEC3")},
+                    {"NORMAL", made.addNumbers<float>({0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3")},
+                    {"JOINTS_0", made.addNumbers<uint8_t>({0, 0, 0, 0, 1, 0, 0, 9, 0, 1, 0, 0}, "VEC4")},
+                    {"WEIGHTS_0", made.addNumbers<float>({1, 0, 0, 0, 2, 0, 0, 0, 0.5f, 0.5f, 0, 0}, "VEC4")}});
+  std::vector<float> inverse(32);
+  for (size_t i = 0; i < 32; ++i) {
+    inverse[i] = i % 16 % 5 == 0 ? 1.0f : 0.0f;
+  }
+  inverse[16 + 12] = -1.0f;  // the second joint is at x = 1 where it is bound
+  const int matrices = made.addNumbers(inverse, "MAT4");
+  made.add("skins", {{"joints", {1, 2}}, {"inverseBindMatrices", matrices}});
+  made.add("nodes", {{"mesh", mesh}, {"skin", 0}, {"translation", {50, 0, 0}}});
+  made.add("nodes", {{"translation", {0, 0, 3}}, {"children", {2}}});
+  made.add("nodes", {{"translation", {1, 0, 0}}, {"scale", {1, 2, 1}}});
+  made.add("scenes", {{"nodes", {0, 1}}});
+  const Mesh drawn = meshOf(made);
+  expectNear(cornersOf(drawn), {{0, 0, 3}, {1, 0, 3}, {0, 1.5, 3}});
+  EXPECT_EQ(warnings(), "");
 }
 
 TEST_F(GltfLoader, BuffersAreFoundLikeTexturesAndNeverOutside) {

@@ -30,7 +30,8 @@ struct MadeGltf {
   // Appends numbers as a view and an accessor; returns the accessor's index.
   template <typename T>
   int addNumbers(const std::vector<T>& numbers, const char* type, bool normalized = false) {
-    static const std::map<std::string, size_t> components{{"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}};
+    static const std::map<std::string, size_t> components{
+        {"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}, {"MAT4", 16}};
     return add("accessors", {{"bufferView", addView(bytesOf(numbers))},
                              {"componentType", componentType<T>()},
                              {"count", numbers.size() / components.at(type)},
