@@ -114,8 +114,10 @@ int runRender(const Options& options) {
   const int pictures = session.settings().view.accumulate;
   Progress progress("render", count * pictures);
   for (int i = 0; i < count; ++i) {
-    // A mean that has converged is complete before its last picture.
-    const auto advance = [&] { return progress.set(i * pictures + session.lastFrame().pictures); };
+    const auto advance = [&] {
+      const DrawnFrame& frame = session.lastFrame();
+      return progress.set(i * pictures + (frame.complete ? pictures : frame.pictures));
+    };
     const auto draw = [&] {
       session.draw(options.time + i / options.fps, true, advance);
       session.finish();
@@ -125,7 +127,7 @@ int runRender(const Options& options) {
     } else {
       draw();
     }
-    if (session.lastFrame().pictures < pictures) {
+    if (!session.lastFrame().complete) {
       return 1;  // interrupted
     }
     savePicture(session, files.at(i));

@@ -172,7 +172,7 @@ const DrawnFrame& Session::draw(double time, bool capture, const std::function<b
   frame_ = {.state = evaluate(loaded_.scene, time)};
   frame_.state.camera = camera_.value_or(frame_.state.camera);
   unfinished_.clear();
-  while (frame_.pictures < loaded_.settings.view.accumulate) {
+  while (!frame_.complete) {
     drawPicture(capture);
     if (afterPicture && !afterPicture()) {
       break;
@@ -189,18 +189,18 @@ void Session::drawPicture(bool capture) {
   frame.waitedMs += cache.waitedMs;
   const int all = loaded_.settings.view.accumulate;
   const bool converged = frame_.pictures > 0 && cache.refined && cache.refined->none();
-  frame_.pictures = converged ? all : frame_.pictures;  // shows the mean again
+  const int picture = converged ? all : frame_.pictures;  // `all` shows the mean again
   cache.main = nullptr;  // the main view is drawn in every frame, so that its pass is reported
   const FrameRequest asked{.scene = loaded_.scene,
                            .state = frame_.state,
                            .settings = loaded_.settings,
                            .size = {size_.width, size_.height},
                            .cache = cache,
-                           .picture = frame_.pictures,
+                           .picture = picture,
                            .shownOnly = shownOnly_};
   FittedPlan fitted = planning_ ? planning_(asked, planner_) : planner_.plan(asked);
   frame_.planMs += millisecondsSince(recording) - frame.waitedMs;
-  const bool last = frame_.pictures + 1 >= all;
+  const bool last = picture + 1 >= all;
   frame_.plan = std::move(fitted.plan);
   frame_.settings = fitted.settings;
   frame.capture = capture && last;
@@ -218,7 +218,8 @@ void Session::drawPicture(bool capture) {
   if (!frame_.plan.mainReused()) {  // else the ledger is still that of the picture before
     frame_.ledger.add(sceneRenderer_.ledger());
   }
-  frame_.pictures = std::min(frame_.pictures + 1, all);
+  frame_.pictures += converged ? 0 : 1;
+  frame_.complete = last;
 }
 
 void Session::collectFinished() {

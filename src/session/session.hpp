@@ -68,6 +68,7 @@ struct DrawnFrame {
   double frameMs = 0.0;  // from the start of Session::draw until the GPU has finished
   PictureSums sums;
   EffectLedger ledger;
+  bool complete = false;  // all pictures of the mean are drawn, or it has converged
 
   const std::vector<TimedPass>& passes() const { return sums.passes(); }
 };

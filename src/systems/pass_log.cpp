@@ -5,6 +5,9 @@
 namespace speculum {
 
 void PictureSums::add(std::span<const RecordedPass> passes, const FrameTimings& timings) {
+  if (!passes.empty() && passes[0].kind == PassKind::display) {
+    place_ = passes_.size();  // a frame that shows a mean again displays it and draws nothing
+  }
   PassIndex<TimedPass> index(passes_);
   for (size_t i = 0; i < passes.size(); ++i) {
     TimedPass pass{passes[i], {}};
