@@ -167,8 +167,8 @@ void addRegress(CLI::App& app, Options& options) {
 
 // Refuses what `bench --reference` would not look at.
 void requireTracerAlone(const CLI::App& bench) {
-  for (const char* option : {"--scene", "--size", "--time", "--camera", "--frames", "--warmup", "--sweep-results",
-                             "--prices", "--set", "--gpu", "--render-path", "--validation", "--shader-dir"}) {
+  for (const char* option :
+       {"--scene", "--size", "--time", "--camera", "--frames", "--warmup", "--sweep-results", "--prices"}) {
     if (bench.count(option) > 0) {
       throw UsageError(fmt::format("--reference: measures alone (leave out {})", option));
     }

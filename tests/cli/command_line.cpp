@@ -114,7 +114,6 @@ INSTANTIATE_TEST_SUITE_P(
         UsageCase{{"bench", "--warmup", "-1"}, "--warmup"},
         UsageCase{{"bench", "--reference", "--prices"}, "--reference: measures alone"},
         UsageCase{{"bench", "--reference", "--scene", "nosuch"}, "--reference: measures alone (leave out --scene)"},
-        UsageCase{{"bench", "--reference", "--set", "view.samples=1"}, "--reference: measures alone (leave out --set)"},
         UsageCase{{"render", "--out", "x.png", "--fps", "3"}, "--fps requires --frames"},
         UsageCase{{"render", "--out", "x.png", "--scene", "no_mirror", "--sweep-results", "nosuch.json"},
                   "--sweep-results: chooses nothing without a bound (--set quality.budget_ms=MS or"},
