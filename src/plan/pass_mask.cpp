@@ -28,8 +28,9 @@ bool isWellShaped(std::span<const glm::dvec3> polygon, const glm::dvec2& step) {
   for (size_t i = 0; i < n; ++i) {
     const glm::dvec2 before = glm::dvec2(polygon[(i + n - 1) % n] - polygon[i]) / step;
     const glm::dvec2 after = glm::dvec2(polygon[(i + 1) % n] - polygon[i]) / step;
-    const double height = std::abs(before.x * after.y - before.y * after.x) / glm::length(after - before);
-    if (!(glm::length(after) >= shortestEdge) || !(height >= flattest)) {
+    const double base = glm::length(after - before);
+    const double area = std::abs(before.x * after.y - before.y * after.x);  // twice the triangle's
+    if (!(glm::length(after) >= shortestEdge && base > 0.0 && area >= flattest * base)) {
       return false;
     }
   }
