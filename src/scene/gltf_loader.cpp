@@ -296,7 +296,7 @@ class GltfReader {
       return {};
     }
     const auto& [joints, accessor] = content_.skins()[index];
-    const bool given = accessor != -1 && content_.countOf(accessor) == joints.size();
+    const bool given = accessor != -1 && content_.countOf(accessor) >= joints.size();
     const auto inverse = given ? content_.numbers(accessor, 16) : std::nullopt;
     std::vector<glm::dmat4> matrices;
     for (size_t i = 0; i < joints.size(); ++i) {

@@ -91,7 +91,7 @@ void GltfMaterials::setSurface(Material& material, const tinygltf::PbrMetallicRo
   setMetalRoughness(material, base, metal, roughness, mean * meanColor);
 }
 
-void GltfMaterials::setCoverage(Material& material, const tinygltf::Material& from, bool withAlpha) const {
+void GltfMaterials::setCoverage(Material& material, const tinygltf::Material& from, bool withAlpha) {
   if (from.alphaMode == "MASK" || from.alphaMode == "BLEND") {
     const std::vector<double>& factor = from.pbrMetallicRoughness.baseColorFactor;
     material.vertexAlpha = withAlpha;
@@ -103,9 +103,18 @@ void GltfMaterials::setCoverage(Material& material, const tinygltf::Material& fr
   if (from.alphaMode == "MASK") {
     material.cutoff = std::isfinite(from.alphaCutoff) ? std::clamp(from.alphaCutoff, 0.0, 2.0) : 0.5;
   } else {
-    const double passing =
-        numberOf(extensionMember(from.extensions, "KHR_materials_transmission", "transmissionFactor"), 0.0);
-    material.opacity *= 1.0 - std::clamp(passing, 0.0, 1.0);
+    // Glass of which nothing were left could not be seen, so it keeps the share that it reflects. A texture says where
+    // the material transmits light, so its mean counts.
+    constexpr double reflected = 0.04;
+    constexpr const char* transmission = "KHR_materials_transmission";
+    double passing = std::clamp(numberOf(extensionMember(from.extensions, transmission, "transmissionFactor"), 0.0),
+                                0.0, 1.0 - reflected);
+    const tinygltf::Value& texture = extensionMember(from.extensions, transmission, "transmissionTexture");
+    if (passing > 0.0 && texture.IsObject() && texture.Get("index").IsInt()) {
+      add("'{}' has a texture of its transmission, its mean is drawn", from.name);
+      passing *= meansOf(texture.Get("index").GetNumberAsInt()).numbers.x;
+    }
+    material.opacity *= 1.0 - passing;
   }
   if (material.isTransparent()) {
     material.mirror.reset();

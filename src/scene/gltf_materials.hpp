@@ -34,7 +34,7 @@ class GltfMaterials {
   void add(std::string_view kind, std::string_view detail) { defects_.add(file_, 1, "materials", kind, detail); }
   // Set the colors and the coverage of a material whose texture is set.
   void setSurface(Material& material, const tinygltf::PbrMetallicRoughness& surface, const glm::dvec3& meanColor);
-  void setCoverage(Material& material, const tinygltf::Material& from, bool withAlpha) const;
+  void setCoverage(Material& material, const tinygltf::Material& from, bool withAlpha);
   glm::dvec3 emissionOf(const tinygltf::Material& from);
   // Returns the means of a texture's pixels; 1 without a picture.
   const PictureMeans& meansOf(int texture);

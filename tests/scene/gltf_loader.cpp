@@ -251,8 +251,8 @@ TEST_F(GltfLoader, SkinsMoveVerticesByTheirJoints) {
                     {"NORMAL", made.addNumbers<float>({0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3")},
                     {"JOINTS_0", made.addNumbers<uint8_t>({0, 0, 0, 0, 1, 0, 0, 9, 0, 1, 0, 0}, "VEC4")},
                     {"WEIGHTS_0", made.addNumbers<float>({1, 0, 0, 0, 2, 0, 0, 0, 0.5f, 0.5f, 0, 0}, "VEC4")}});
-  std::vector<float> inverse(32);
-  for (size_t i = 0; i < 32; ++i) {
+  std::vector<float> inverse(48);  // one more matrix than joints
+  for (size_t i = 0; i < inverse.size(); ++i) {
     inverse[i] = i % 16 % 5 == 0 ? 1.0f : 0.0f;
   }
   inverse[16 + 12] = -1.0f;  // the second joint is at x = 1 where it is bound
@@ -512,6 +512,19 @@ TEST_F(GltfLoader, WhatMaterialsTransmitIsNotCovered) {
     EXPECT_EQ(mesh.parts.at(0).material.opacity, opacity) << mode;
     EXPECT_TRUE(mesh.defects.empty());
   }
+  Image8 image(1, 1);
+  image.rgba = {51, 255, 255, 255};
+  writePng(folder_ / "clear.png", image);
+  made.add("textures", {{"source", 0}});
+  made.add("images", {{"uri", "clear.png"}});
+  json clear{{"transmissionFactor", 1}};
+  made.root["materials"] = {{{"extensions", {{"KHR_materials_transmission", clear}}}}};
+  EXPECT_NEAR(meshOf(made).parts.at(0).material.opacity, 0.04, 1e-12) << "clear glass is seen";
+  clear["transmissionTexture"] = {{"index", 0}};
+  made.root["materials"] = {{{"extensions", {{"KHR_materials_transmission", clear}}}}};
+  const Mesh mesh = meshOf(made);
+  EXPECT_NEAR(mesh.parts.at(0).material.opacity, 1.0 - 0.96 * 0.2, 1e-12);
+  EXPECT_TRUE(contains(mesh.defects.at(0), "has a texture of its transmission"));
 }
 
 TEST_F(GltfLoader, AlphaOfVertexColorsCountsUnlessOpaque) {
