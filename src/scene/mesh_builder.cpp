@@ -126,10 +126,11 @@ std::future<bool> findSolid(const Mesh& mesh) {
   if (mesh.indices.size() > 3 * mostSolidTriangles) {
     return {};
   }
-  return std::async(mesh.indices.size() > fewIndices ? std::launch::async : std::launch::deferred,
-                    [positions = positionsOf(mesh), indices = mesh.indices]() mutable {
-                      return isSolid(std::move(positions), std::move(indices));
-                    });
+  return std::async(
+      mesh.indices.size() > fewIndices ? std::launch::async | std::launch::deferred : std::launch::deferred,
+      [positions = positionsOf(mesh), indices = mesh.indices]() mutable {
+        return isSolid(std::move(positions), std::move(indices));
+      });
 }
 
 }  // namespace
