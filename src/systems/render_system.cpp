@@ -18,12 +18,15 @@ namespace {
 // half a kilobyte for each triangle of a pass. All objects of a scene share the choice, since a further pipeline takes
 // some megabytes there.
 bool handsOn(const FrameInfo& info) {
+  if (info.data.branches()) {
+    return false;
+  }
   constexpr size_t fewIndices = 3 * 8192;
   size_t indices = 0;
-  for (const InstanceState& instance : info.state.instances) {
+  return std::ranges::all_of(info.state.instances, [&](const InstanceState& instance) {
     indices += info.scene.meshes[instance.mesh].indices.size();
-  }
-  return !info.data.branches() && indices <= fewIndices;
+    return indices <= fewIndices;
+  });
 }
 
 }  // namespace
