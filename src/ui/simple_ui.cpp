@@ -270,7 +270,7 @@ bool SimpleUI::navigating() const {
 }
 
 bool SimpleUI::menuOpen() const {
-  return !ImGui::GetCurrentContext()->OpenPopupStack.empty();
+  return windows_.visible() && !ImGui::GetCurrentContext()->OpenPopupStack.empty();
 }
 
 bool SimpleUI::hasEvents() const {

@@ -31,7 +31,7 @@ void WindowInput::take(const InputEvent& event) {
   } else if (event.kind == Kind::drop) {
     workspace_.apply(OpenDropped{event.dropped});
   }
-  const bool presses = event.kind == Kind::wheel || (event.kind == Kind::button && event.down);
+  const bool presses = isAction(event) || event.kind == Kind::text;
   if (!presses || !workspace_.capture().hidesPanels()) {
     ui_.push(event);
   }
@@ -51,7 +51,7 @@ void WindowInput::takeKey(const KeyEvent& event) {
   if (workspace_.prompting()) {
     return std::holds_alternative<Escape>(*command) ? workspace_.apply(CancelPrompt{}) : void();
   }
-  if (ui_.menuOpen()) {
+  if (ui_.menuOpen() && !std::holds_alternative<Quit>(*command) && !std::holds_alternative<TakeScreenshot>(*command)) {
     return;
   }
   if (ui_.wantsKeyboard()) {
@@ -62,7 +62,9 @@ void WindowInput::takeKey(const KeyEvent& event) {
 }
 
 void WindowInput::takeWaiting() {
-  if (afterField_ && !ui_.hasEvents()) {
+  if (workspace_.prompting()) {
+    afterField_.reset();
+  } else if (afterField_ && !ui_.hasEvents()) {
     workspace_.apply(*std::exchange(afterField_, std::nullopt));
   }
 }
