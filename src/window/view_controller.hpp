@@ -1,5 +1,8 @@
 #pragma once
 
+#include <algorithm>
+
+#include "scene/value_range.hpp"
 #include "window/accuracy_controller.hpp"
 #include "window/camera_controller.hpp"
 
@@ -9,7 +12,7 @@ namespace speculum {
 class Playback {
  public:
   void seek(double seconds) {
-    shown_.time = std::max(0.0, seconds);
+    shown_.time = std::clamp(seconds, 0.0, timeRange.high);
     ++seeks_;
   }
   void step(int steps) {
