@@ -1,4 +1,4 @@
-// What the vertex shader of mirrors hands on, as handed_values.glsl does.
+// Values that the vertex shader of mirrors hands on, as handed_values.glsl does.
 #include "handed_values.glsl"
 layout(location = 0) flat HANDED vec4 handedNormal;       // of the mirror; w: eyeDistance
 layout(location = 1) flat HANDED vec4 handedReflectance;  // w: schlick

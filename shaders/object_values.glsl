@@ -1,4 +1,4 @@
-// What the vertex shader of objects hands on: HANDED is `out` there and `in` in fragment shaders. lavapipe of Mesa 22.3
+// Values that the vertex shader of objects hands on: HANDED is `out` there and `in` in fragment shaders. lavapipe of Mesa 22.3
 // stores all inputs of a fragment shader for each triangle, four components at a time, even if none is used.
 layout(location = 0) centroid HANDED vec4 positionAndU;  // relative
 layout(location = 1) centroid HANDED vec4 normalAndV;    // relative, of any length

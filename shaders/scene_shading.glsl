@@ -1,8 +1,8 @@
 // The fragment shader of objects whose light takes no rays. ENVIRONMENT draws curved mirrors, which look up an
 // environment map; with REFLECTION_ONLY it draws no base, because shade.glsl has shaded the base. REPEATING draws
-// RepeatingTriangles, VERTEX_COLORS meshes with colors of their vertices, COVERED
-// materials with coverage. ASKS draws the identifiers of surfaces whose light shadow maps do not decide. HANDS_ON takes
-// values from scene_handed.vert instead of uniform buffers.
+// RepeatingTriangles, VERTEX_COLORS meshes with colors of their vertices, COVERED materials with coverage. ASKS draws
+// the identifiers of surfaces whose light shadow maps do not decide. HANDS_ON takes values from scene_handed.vert
+// instead of uniform buffers.
 #define HANDED in
 #include "interface.glsl"
 #include "object_values.glsl"

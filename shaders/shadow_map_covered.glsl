@@ -6,7 +6,6 @@
 #include "covered_draw.glsl"
 #include "shadow_plane.glsl"
 
-
 void main() {
   storePlane();
   keepCovered(vec2(positionAndU.w, normalAndV.w), instances[indexAndReach.x].traceInstance, draw.firstTriangle + uint(gl_PrimitiveID));

@@ -51,7 +51,8 @@ struct SourceFiles {
 // files of all meshes and textures. Throws SaveError.
 SourceFiles copyModels(const Scene& scene, const std::filesystem::path& folder);
 
-// Throws SaveError if there is a file that does not hold `expected`; with no expected text, if there is any file.
+// Throws OverwriteError if there is a file that does not hold `expected`; with no expected text, if there is any file.
+// Throws SaveError if it cannot be read.
 void requireOwnFile(const std::filesystem::path& file, const std::optional<std::string>& expected);
 
 // Replaces the file by `text`, whole or not at all. Throws SaveError if that fails.

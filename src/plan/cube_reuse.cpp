@@ -107,7 +107,7 @@ void addShadowMaps(FramePlan& plan, PlannedCubes maps, std::span<const Cube> bef
   // Draws the maps of a mean once, although its settings reuse no images: its pictures share scene and time.
   const bool skips = compares && (around.settings.reflection.skipUnchanged || plan.picture > 0);
   const bool reuses = std::ranges::equal(maps.cubes, before, [](const Cube& a, const Cube& b) {
-    return a.light == b.light && a.size == b.size && a.places == b.places;
+    return a.light == b.light && a.size == b.size && a.slots == b.slots;
   });
   const uint64_t next = largestSerial(before) + 1;
   for (size_t i = 0; i < maps.cubes.size(); ++i) {

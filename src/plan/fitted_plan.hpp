@@ -24,10 +24,10 @@ struct FittedPlan {
 
 // Plans with settings lowered until the targets fit the limits. First unchanged images are rendered instead of reused,
 // if that needs less memory. Then the following are halved step by step: samples of mirror images, samples of the main
-// view, resolution of mirror images and maps. A plan that still does not fit is returned as it is. Where
-// the device cannot trace, traced effects are looked up in images and maps, or left out if there are none; and
-// reflection.method and effects.shadow_lookup = auto become the faster method. Before all this, the request's settings
-// become pictureSettings().
+// view, resolution of mirror images and maps. A plan that still does not fit is returned as it is. Where the device
+// cannot trace, traced effects are looked up in images and maps, or left out if there are none; and reflection.method
+// and effects.shadow_lookup = auto become the faster method. Before all this, the request's settings become
+// pictureSettings().
 FittedPlan planWithin(const TargetLimits& limits, const FrameRequest& request);
 
 // Plans pictures within the limits of a device.

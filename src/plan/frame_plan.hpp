@@ -122,9 +122,9 @@ struct Pass {
   bool isFace() const { return id.kind == PassKind::shadow || id.kind == PassKind::environment; }
 };
 
-// Six images about a point, side by side in one target, three to a row, whose faces are passes: the environment map of
-// a curved mirror (effects.curved_lookup = environment) or the shadow map of a light (effects.shadow_lookup = map).
-// docs/effects.md describes both.
+// Six images about a point, side by side in one target, whose faces are passes: the environment map of a curved mirror
+// (effects.curved_lookup = environment) or the shadow map of a light (effects.shadow_lookup = map). docs/effects.md
+// describes both.
 struct Cube {
   PassKind kind = PassKind::environment;
   int light = -1;       // of a shadow map, index into Scene::lights
@@ -135,8 +135,9 @@ struct Cube {
   RecycledString name;  // of the light, or of the object and copy, for users
   int size = 0;         // texels of each side of a face; of the largest face of all maps if it is a shadow map's
   std::array<int, 6> faces{-1, -1, -1, -1, -1, -1};  // indices into FramePlan::passes, in the order of faceAxes()
-  // Of a shadow map: places of the faces in the target of all maps. Faces without casters have none, -1.
-  std::array<int, 6> places{-1, -1, -1, -1, -1, -1};
+  // Of a shadow map: each face's number among those that have room in the target of all maps. A face without casters,
+  // or too narrow for hybrid shadows, has none, -1.
+  std::array<int, 6> slots{-1, -1, -1, -1, -1, -1};
   glm::dvec3 center{0.0};  // world, when it was rendered
   glm::dvec3 low{0.0};     // world, box of what surrounds the mirror in the present frame
   glm::dvec3 high{0.0};

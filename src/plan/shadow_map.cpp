@@ -128,12 +128,12 @@ glm::ivec2 gridOf(int faces) {
   return {columns, (faces + columns - 1) / std::max(columns, 1)};
 }
 
-int placesOf(std::span<const Cube> maps) {
-  int places = 0;
+int slotsOf(std::span<const Cube> maps) {
+  int slots = 0;
   for (const Cube& map : maps) {
-    places = std::max(places, std::ranges::max(map.places) + 1);
+    slots = std::max(slots, std::ranges::max(map.slots) + 1);
   }
-  return places;
+  return slots;
 }
 
 class FacePlanner {
@@ -211,7 +211,7 @@ class FacePlanner {
         all += static_cast<size_t>(count.x) * count.y * count.z;
       }
     }
-    // An odd step visits all places of a box's grid in turn.
+    // Most grids have an even number of points a row, so that an odd step does not stay in one column.
     const int step = static_cast<int>(std::min<size_t>(all / enough, INT_MAX / 2)) | 1;
     int next = 0;
     for (const ShadowReader& reader : readers_) {
@@ -327,17 +327,17 @@ PlannedCubes shadowMaps(const Scene& scene, const SceneState& state, const Setti
   const int size =
       std::max(std::accumulate(maps.faces.begin(), maps.faces.end(), settings.effects.shadowMapSize, largest),
                smallestAutomatic);
-  int places = 0;
+  int slots = 0;
   for (size_t i = 0; i < maps.faces.size(); ++i) {
     Cube& map = maps.cubes[i / maps.cubes[0].faces.size()];
     map.size = size;
-    map.places[i % map.faces.size()] = maps.faces[i].window.empty() ? -1 : places++;
+    map.slots[i % map.faces.size()] = maps.faces[i].window.empty() ? -1 : slots++;
   }
-  const int columns = gridOf(places).x;
+  const int columns = gridOf(slots).x;
   for (size_t i = 0; i < maps.faces.size(); ++i) {
     const Cube& map = maps.cubes[i / maps.cubes[0].faces.size()];
-    if (const int place = map.places[i % map.faces.size()]; place >= 0) {
-      maps.faces[i].corner = size * glm::ivec2(place % columns, place / columns);
+    if (const int slot = map.slots[i % map.faces.size()]; slot >= 0) {
+      maps.faces[i].corner = size * glm::ivec2(slot % columns, slot / columns);
     }
   }
   return maps;
@@ -376,7 +376,7 @@ int shadowMapSize(const FramePlan& plan) {
 
 glm::ivec2 shadowExtent(const FramePlan& plan) {
   const std::span<const Cube> maps = cubesOf(plan.cubes, PassKind::shadow);
-  return maps.empty() ? glm::ivec2(0) : glm::max(gridOf(placesOf(maps)) * maps[0].size, 1);
+  return maps.empty() ? glm::ivec2(0) : glm::max(gridOf(slotsOf(maps)) * maps[0].size, 1);
 }
 
 }  // namespace speculum

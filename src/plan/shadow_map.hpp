@@ -21,7 +21,7 @@ struct ShadowReader {
 };
 
 // Plans a shadow map for each light of shadowLights(). Faces that a reader looks up are to be drawn, the others are
-// unread. The window of a face is as small as the scene allows. Only faces with casters have a place in the target,
+// unread. The window of a face is as small as the scene allows. Only faces with casters have room in the target,
 // all of the size of the largest face.
 PlannedCubes shadowMaps(const Scene& scene, const SceneState& state, const Settings& settings,
                         std::span<const ShadowReader> readers);

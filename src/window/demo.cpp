@@ -129,9 +129,9 @@ void Demo::drawFrame(double seconds) {
   bare_ = workspace_.capture().bare();
   SceneState state = workspace_.state(workspace_.time());
   if (saved_ && halves_.index() == 1) {
-    state.camera = cameraOfA_;  // events between the two frames may have moved it
+    state.camera = previousCamera_;  // events between the two frames may have moved it
   }
-  cameraOfA_ = state.camera;
+  previousCamera_ = state.camera;
   PictureHalf& half = halves_.drawn();
   const bool timed = beginPace(state, workspace_.frameSeconds(passed));
   const Clock::time_point waits = Clock::now();

@@ -111,9 +111,9 @@ class Demo : private WorkspaceHost {
   Clock::time_point last_;    // when the last step began
   Clock::time_point opened_;  // when the scene was shown first
   bool capture_ = false;
-  bool saved_ = false;    // the frame that is drawn is saved by Capture
-  bool bare_ = false;     // and without panels
-  CameraPose cameraOfA_;  // of the frame before
+  bool saved_ = false;         // the frame that is drawn is saved by Capture
+  bool bare_ = false;          // and without panels
+  CameraPose previousCamera_;  // of the frame before
   int framesDrawn_ = 0;
 };
 
