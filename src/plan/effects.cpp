@@ -177,9 +177,8 @@ std::vector<Effect> effectsOf(const Scene& scene, const SceneState& state, const
       tracedEffect(EffectKind::curved, "curved", traced.curved, "no visible object is a mirror")};
   for (Effect& effect : effects) {
     const std::string key = "effects." + effect.name;
-    if (settingValue(settings, key) == "false") {
-      effect.why = key + " = false";
-    }
+    effect.switchedOff = settingValue(settings, key) == "false";
+    effect.why = effect.switchedOff ? key + " = false" : effect.why;
   }
   return effects;
 }

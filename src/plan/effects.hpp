@@ -31,6 +31,7 @@ struct Effect {
   std::string name;
   bool calledFor = false;
   std::string why;
+  bool switchedOff = false;  // by its setting
 };
 
 // Cost of an effect in the last recorded frame.

@@ -55,7 +55,7 @@ void effects(PanelContext& ui) {
     const bool on = effect.calledFor;
     ImGui::TableNextRow();
     for (const std::string& text :
-         {effect.name, effect.why + (on || effect.why.ends_with(" = false") ? "" : howToAsk(effect.kind)),
+         {effect.name, effect.why + (on || effect.switchedOff ? "" : howToAsk(effect.kind)),
           on ? std::to_string(effect.draws) : std::string(), on ? mebibytes(effect.bytes) : std::string()}) {
       ImGui::TableNextColumn();
       if (!on) {
