@@ -363,8 +363,9 @@ void logMaterialMirrors(Scene& scene) {
       if (object.mesh != static_cast<int>(i) || !wantsMirrors(scene, object)) {
         continue;
       }
-      used = used || makesMirrors(scene, object);
-      if (!makesMirrors(scene, object)) {
+      const bool makes = makesMirrors(scene, object);
+      used = used || makes;
+      if (!makes) {
         spdlog::warn(oneLine(
             fmt::format("{}: its materials make no mirrors of object '{}', which is too large, too small, too far away "
                         "or copied too often (mirrors_from_materials = false, or fewer copies, are needed)",

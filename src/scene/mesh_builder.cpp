@@ -389,10 +389,13 @@ bool MeshBuilder::hasAlpha(int material) const {
 }
 
 glm::dvec3 MeshBuilder::meanColor(int material) const {
+  if (!colored_) {
+    return glm::dvec3(1.0);
+  }
   const std::vector<uint32_t>& indices = materialIndices_.at(material);
   glm::dvec3 sum(0.0);
   for (const uint32_t vertex : indices) {
-    sum += colored_ ? glm::dvec3(vertexColors_[vertex]) : glm::dvec3(1.0);
+    sum += glm::dvec3(vertexColors_[vertex]);
   }
   return sum / static_cast<double>(indices.size());
 }

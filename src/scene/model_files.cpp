@@ -4,6 +4,7 @@
 #include <spdlog/spdlog.h>
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "platform/bytes.hpp"
 #include "platform/files.hpp"
@@ -25,12 +26,14 @@ std::string keyOf(const fs::path& name) {
 }  // namespace
 
 std::optional<fs::path> ModelFiles::find(const fs::path& namingFile, std::string_view name) {
+  std::string_view tried;
+  std::optional<fs::path> found;
   for (const std::string_view form : {name, trimmed(name), withoutComment(name)}) {
-    if (const auto found = findWhole(namingFile, form)) {
-      return found;
+    if (!found && form != std::exchange(tried, form)) {
+      found = findWhole(namingFile, form);
     }
   }
-  return std::nullopt;
+  return found;
 }
 
 std::optional<fs::path> ModelFiles::findWhole(const fs::path& namingFile, std::string_view name) {
