@@ -40,6 +40,15 @@ ClipPolygon clipPolygonAt(double depth, std::span<const glm::dvec2> polygon, con
   return clip;
 }
 
+bool hasFewTriangles(const FrameInfo& info) {
+  constexpr size_t fewIndices = 3 * 8192;
+  size_t indices = 0;
+  return std::ranges::all_of(info.state.instances, [&](const InstanceState& instance) {
+    indices += info.scene.meshes[instance.mesh].indices.size();
+    return indices <= fewIndices;
+  });
+}
+
 std::vector<glm::vec4> clearancesOf(const Scene& scene, const SceneState& state) {
   std::vector<glm::vec4> clearances(scene.lights.size(), glm::vec4(0.0f, 0.0f, 0.0f, -1.0f));
   for (size_t i = 0; i < clearances.size(); ++i) {
@@ -164,6 +173,7 @@ void FrameData::build(const FrameInfo& info) {
     list = {.batches = std::move(list.batches), .mirrors = std::move(list.mirrors)};
   }
   addRepeating(info);
+  handsOn_ = !branches() && hasFewTriangles(info);
   clearances_ = clearancesOf(info.scene, info.state);
   shadowMaps_.assign(info.scene.lights.size(), gpu::noShadowMap);
   const std::span<const Cube> maps = cubesOf(plan.cubes, PassKind::shadow);

@@ -100,6 +100,10 @@ class FrameData {
   const std::vector<DrawList>& passes() const { return passes_; }
   // Value of `branches` in shading.glsl.
   bool branches() const { return !device_.info().isCpu(); }
+  // Says whether vertex shaders of objects hand on values of the draw: on a CPU that saves time for each fragment, and
+  // takes time and half a kilobyte for each triangle of a pass. All objects of a scene share the choice, since a
+  // further pipeline takes some megabytes there.
+  bool handsOn() const { return handsOn_; }
   // InstanceData::repeats of each instance of the scene; empty without repeating triangles.
   std::span<const uint32_t> repeats() const { return repeats_; }
   // Binds the pipeline, and descriptor set 0 for draws of `pass`. `mirror` is MirrorRange::mirror, for draws of
@@ -144,7 +148,8 @@ class FrameData {
   std::vector<gpu::MirrorBlock> mirrors_;
   std::vector<gpu::LightData> lights_;
   std::vector<glm::vec4> clearances_;  // LightData::clearance and height of each light of the scene
-  std::vector<uint32_t> shadowMaps_;   // LightData::shadowMap of each light of the scene
+  bool handsOn_ = false;
+  std::vector<uint32_t> shadowMaps_;  // LightData::shadowMap of each light of the scene
   std::vector<gpu::InstanceData> instances_;
   std::vector<gpu::CurvedMirrorData> curvedMirrors_;
   std::vector<glm::vec4> mirrorVertices_;

@@ -12,25 +12,6 @@
 
 namespace speculum {
 
-namespace {
-
-// Says whether vertex shaders hand on values of a draw: on a CPU that saves time for each fragment, and takes time and
-// half a kilobyte for each triangle of a pass. All objects of a scene share the choice, since a further pipeline takes
-// some megabytes there.
-bool handsOn(const FrameInfo& info) {
-  if (info.data.branches()) {
-    return false;
-  }
-  constexpr size_t fewIndices = 3 * 8192;
-  size_t indices = 0;
-  return std::ranges::all_of(info.state.instances, [&](const InstanceState& instance) {
-    indices += info.scene.meshes[instance.mesh].indices.size();
-    return indices <= fewIndices;
-  });
-}
-
-}  // namespace
-
 // Lines have no mean of covered samples at which their shadows could be shaded: rays are traced for all of them.
 bool RenderSystem::asks(const FrameInfo& info, const Batch& batch) {
   return info.plan.effects.hybridShadows && !info.settings.view.wireframe && !batch.curved && !batch.environment;
@@ -316,7 +297,7 @@ RenderSystem::Variant RenderSystem::variantOf(const PassScope& scope, const Fram
           .clipDistance = pass.mirrorView && clip == ClipMethod::clipDistance,
           .clampDepth = !(pass.mirrorView && clip == ClipMethod::oblique),
           .wireframe = info.settings.view.wireframe && !scope.drawsEither(),
-          .handed = handsOn(info)};
+          .handed = info.data.handsOn()};
 }
 
 uint32_t RenderSystem::record(const PassScope& scope, const FrameInfo& info, const DrawList& pass) {
