@@ -45,10 +45,10 @@ struct SourceFiles {
   std::vector<std::filesystem::path> textures;
 };
 
-// Copies the models and maps that modelsOutside() and mapsOutside() find, models with their
-// Mesh::namedFiles, to `models` in the folder, those of other source folders to `models-2` and so on. Adds nothing to a
-// folder that is there, because models look for their files in it; uses one that holds the same copies. Returns the
-// files of all meshes and textures. Throws SaveError.
+// Copies the models and maps that modelsOutside() and mapsOutside() find, models with their Mesh::namedFiles, to
+// `models` in the folder, those of other source folders to `models-2` and so on. Adds nothing to a folder that is
+// there, because models look for their files in it; uses one that holds the same copies. Returns the files of all
+// meshes and textures. Throws SaveError.
 SourceFiles copyModels(const Scene& scene, const std::filesystem::path& folder);
 
 // Throws OverwriteError if there is a file that does not hold `expected`; with no expected text, if there is any file.

@@ -89,8 +89,8 @@ class Collector {
     effects_.shadows = nameOf<RecycledString>("light", scene_.lights[lights.front()].name, lights.front());
     // Light that a mirror reflects is shadowed before and after the mirror, which no map of the light shows.
     const bool asksForMaps = settings_.shadowLookup != ShadowLookup::traced;
-    const bool fits = fitsShadowMaps(scene_);
-    if (asksForMaps && !fits) {
+    const bool fits = !asksForMaps || fitsShadowMaps(scene_);
+    if (!fits) {
       effects_.shadows->append("; traced: too many lights or objects for maps");
     }
     effects_.shadowMaps = asksForMaps && fits && !effects_.castsLight;

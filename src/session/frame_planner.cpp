@@ -54,7 +54,8 @@ FittedPlan FramePlanner::plan(const FrameRequest& request) {
     spdlog::warn("transparent materials are drawn opaque, because the device has no geometry shaders");
   }
   limits_.whyNoRays = tracesRays_ ? traceRoomProblem(request.scene, request.state.instances.size(), deviceLimits_)
-                                  : "the device lacks geometryShader or 14 storage buffers a stage";
+                                  : fmt::format("the device lacks geometryShader or {} storage buffers a stage",
+                                                TraceFrame::storageBuffers);
   FittedPlan fitted = planWithin(limits_, asked);
   if (!fitted.message.empty() && lowered_.empty()) {
     spdlog::warn("{}", fitted.message);
