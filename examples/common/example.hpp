@@ -48,7 +48,7 @@ class Loop {
   int frames_ = 0;
 };
 
-// A linear color for clearing an OffScreen, and encoded as the window's images hold it.
+// Returns a clear color for an OffScreen, which holds linear light, or for the window's images, which hold sRGB.
 std::array<float, 4> radiance(const glm::vec3& linear);
 std::array<float, 4> displayed(const glm::vec3& linear);
 

@@ -7,9 +7,9 @@
 
 namespace speculum::examples {
 
-// Tells shaders about passes: binding 0 is a uniform buffer with a View, binding 1 an image that fragments look up. The
-// buffers belong to a frame in flight, because the GPU may still read those of the other one, and the sets live for one
-// frame.
+// Uniform buffers and descriptor sets of views: binding 0 is a buffer with a View, binding 1 an image that fragments
+// look up. Each frame in flight has buffers of its own, because the GPU may still read those of the other one. A set
+// lives for one frame.
 template <typename View>
 class ViewSets {
  public:

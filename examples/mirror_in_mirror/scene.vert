@@ -16,7 +16,7 @@ layout(location = 1) out vec3 worldNormal;
 void main() {
   vec4 world = object.worldFromModel * vec4(position, 1.0);
   worldPosition = world.xyz;
-  // Right for turns, even scaling and boxes; other scaling needs the cofactors (transformOf in src/geometry).
+  // Right for rotations, uniform scales and boxes; others need the inverse transpose (normalMatrix in src/geometry).
   worldNormal = mat3(object.worldFromModel) * normal;
   gl_Position = view.clipFromWorld * world;
   gl_ClipDistance[0] = dot(view.clipPlane, world);

@@ -4,7 +4,7 @@
 
 layout(location = 0) out vec2 disc;
 
-// Draws a square that faces the eye. On it the lamp's sphere covers the unit disc exactly.
+// Draws a square that faces the eye, so large that the lamp's sphere, as the eye sees it, covers the unit disc.
 void main() {
   const vec2 corners[6] = vec2[](vec2(-1, -1), vec2(1, -1), vec2(1, 1), vec2(-1, -1), vec2(1, 1), vec2(-1, 1));
   disc = corners[gl_VertexIndex];

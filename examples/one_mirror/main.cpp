@@ -49,7 +49,8 @@ glm::mat4 placed(const glm::vec3& position, const glm::vec3& scale, float yaw = 
   return glm::scale(glm::rotate(glm::translate(glm::mat4(1.0f), position), yaw, {0.0f, 1.0f, 0.0f}), scale);
 }
 
-// Vulkan's clip space has y down. Depth is reversed, 1 at the near plane and 0 infinitely far, which keeps it precise.
+// Vulkan's clip space has y down. Depth is near / distance: 1 at the near plane and 0 infinitely far, which keeps it
+// precise. Each pair of inner braces is a column.
 glm::mat4 projection(float verticalFov, float aspect) {
   const float focal = 1.0f / std::tan(verticalFov / 2.0f);
   constexpr float near = 0.01f;
@@ -64,6 +65,7 @@ glm::mat4 reflection(const glm::vec3& q, const glm::vec3& n) {
   return matrix;
 }
 
+// Makes a camera's view, and the lamp at a time. The camera is at `offset` from its target, turned about it by `turn`.
 View viewFrom(const glm::vec3& offset, double time, float aspect, float turn) {
   constexpr glm::vec3 target{0.1f, 0.85f, -0.4f};
   const glm::vec3 eye = target + glm::mat3(glm::rotate(glm::mat4(1.0f), turn, {0, 1, 0})) * offset;
@@ -75,14 +77,14 @@ View viewFrom(const glm::vec3& offset, double time, float aspect, float turn) {
           .ambient = glm::vec4(0.07f, 0.07f, 0.09f, 0.0f)};
 }
 
-// Makes the view of the reflected eye, which is what the mirror shows. It is the world that is reflected, because that
-// gives the same picture: first reflect, then go on as before, with the same camera.
+// Makes the view of the reflected eye, which is what the mirror shows. The matrix reflects the world and keeps the
+// camera where it is, because the picture is the same. Lighting takes place in the real world, so it needs that eye.
 View reflectedView(const View& seen, const Place& mirror) {
   const glm::mat4 reflect = reflection(mirror.center, mirror.normal);
   View view = seen;
   view.clipFromWorld = seen.clipFromWorld * reflect;
   view.eye = reflect * seen.eye;
-  // Between that eye and the mirror stands what is behind the mirror, which must not hide what is in front of it.
+  // Cuts away what is behind the mirror: it stands between the reflected eye and the mirror, and would hide the room.
   view.clipPlane = glm::vec4(mirror.normal, -glm::dot(mirror.normal, mirror.center));
   return view;
 }

@@ -31,13 +31,15 @@ glm::mat4 placed(const glm::vec3& position, const glm::vec3& scale, float yaw = 
   return glm::scale(glm::rotate(glm::translate(glm::mat4(1.0f), position), yaw, {0.0f, 1.0f, 0.0f}), scale);
 }
 
-// Vulkan's clip space has y down. Depth is reversed, 1 at the near plane and 0 infinitely far, which keeps it precise.
+// Vulkan's clip space has y down. Depth is near / distance: 1 at the near plane and 0 infinitely far, which keeps it
+// precise. Each pair of inner braces is a column.
 glm::mat4 projection(float verticalFov, float aspect) {
   const float focal = 1.0f / std::tan(verticalFov / 2.0f);
   constexpr float near = 0.01f;
   return {{focal / aspect, 0, 0, 0}, {0, -focal, 0, 0}, {0, 0, 0, -1}, {0, 0, near, 0}};
 }
 
+// Makes a camera's view, and the lamp at a time. The camera is at `offset` from its target, turned about it by `turn`.
 View viewFrom(const glm::vec3& offset, double time, float aspect, float turn) {
   constexpr glm::vec3 target{0.1f, 0.85f, -0.4f};
   const glm::vec3 eye = target + glm::mat3(glm::rotate(glm::mat4(1.0f), turn, {0, 1, 0})) * offset;
