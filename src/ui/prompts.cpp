@@ -1,10 +1,12 @@
 // The prompts about unsaved changes and for the file to save to.
 #include <imgui.h>
 #include <imgui_internal.h>
+#include <spdlog/fmt/fmt.h>
 #include <imgui_versions.hpp>
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <utility>
 
 #include "edit/scene_writer.hpp"
@@ -54,6 +56,14 @@ void answerButton(PanelContext& ui, const char* label, std::string_view key, Com
   }
 }
 
+// Gives the last item the keyboard when its prompt opens, and shows that it has it.
+void focusAnswer() {
+  ImGui::SetItemDefaultFocus();
+  if (ImGui::IsItemFocused()) {
+    imgui::showFocus();
+  }
+}
+
 void unsavedChanges(PanelContext& ui) {
   const ShownEdit& edit = ui.input.edit;
   const float before = ImGui::CalcTextSize("Save the changes before ?").x;
@@ -65,12 +75,12 @@ void unsavedChanges(PanelContext& ui) {
   ImGui::Spacing();
   if (edit.saveFile) {
     answerButton(ui, "Save", "ask.save", Save{});
-    ImGui::SetItemDefaultFocus();
+    focusAnswer();
     ImGui::SameLine();
   }
   answerButton(ui, "Save as...", "ask.save_as", AskWhereToSave{});
   if (!edit.saveFile) {
-    ImGui::SetItemDefaultFocus();
+    focusAnswer();
   }
   ImGui::SameLine();
   answerButton(ui, "Discard", "ask.discard", DiscardChanges{});
@@ -224,15 +234,32 @@ void saveAs(PanelContext& ui) {
   ImGui::CloseCurrentPopup();  // if saving fails the prompt opens again, with the keyboard in the field
 }
 
+// Says how long ago a file was written; empty if there is none.
+std::string ageOf(const std::filesystem::path& file) {
+  std::error_code none;
+  const auto age = std::filesystem::file_time_type::clock::now() - std::filesystem::last_write_time(file, none);
+  const auto minutes = std::chrono::duration_cast<std::chrono::minutes>(age).count();
+  if (none) {
+    return "";
+  }
+  if (minutes < 1) {
+    return "just now ";
+  }
+  const auto [count, unit] = minutes < 60     ? std::pair(minutes, "minute")
+                             : minutes < 1440 ? std::pair(minutes / 60, "hour")
+                                              : std::pair(minutes / 1440, "day");
+  return fmt::format("{} {}{} ago ", count, unit, count == 1 ? "" : "s");
+}
+
 void recovery(PanelContext& ui) {
   ImGui::TextUnformatted("Speculum ended with unsaved changes. Open the copy that it kept?");
   const std::filesystem::path& copy = ui.input.edit.proposedFile;
   const std::filesystem::path& own = ui.input.edit.ownFile;
   ImGui::TextDisabled("%s", (own.empty() ? copy.filename() : own).string().c_str());
-  ImGui::TextDisabled("kept in %s", copy.parent_path().string().c_str());
+  ImGui::TextDisabled("kept %sin %s", ageOf(copy).c_str(), copy.parent_path().string().c_str());
   ImGui::Spacing();
   answerButton(ui, "Open", "recovery.open", OpenScene{ui.input.edit.proposedFile});
-  ImGui::SetItemDefaultFocus();
+  focusAnswer();
   ImGui::SameLine();
   answerButton(ui, "Discard", "recovery.discard", DiscardChanges{});
   ImGui::SameLine();

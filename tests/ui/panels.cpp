@@ -669,6 +669,33 @@ TEST_F(PanelTest, SavingElsewhereOffersToCopyModels) {
   EXPECT_FALSE(clickFor<SaveAs>("where.save").copyModels);
 }
 
+TEST_F(PanelTest, KeptChangesSayTheirAge) {
+  using namespace std::chrono_literals;
+  const std::filesystem::path copy = config_.path() / "scene.toml";
+  std::ofstream(copy) << "#";
+  for (const auto& [age, text] :
+       {std::pair(5s, "kept just now in"), std::pair(65s, "kept 1 minute ago in"),
+        std::pair(10'805s, "kept 3 hours ago in"), std::pair(176'400s, "kept 2 days ago in")}) {
+    std::filesystem::last_write_time(copy, std::filesystem::file_time_type::clock::now() - age);
+    ask(Prompt::recovery, copy);
+    EXPECT_TRUE(shows(text)) << text;
+    ask(Prompt::none);
+  }
+}
+
+TEST_F(PanelTest, PromptsShowWhatEnterPresses) {
+  edit_.saveFile = "/home/scene.toml";
+  for (const Prompt prompt : {Prompt::unsavedChanges, Prompt::recovery}) {
+    ImGui::GetCurrentContext()->NavDisableHighlight = true;
+    ask(prompt, "/home/scene.toml");
+    run(2);
+    EXPECT_FALSE(ImGui::GetCurrentContext()->NavDisableHighlight);
+    tap(ImGuiKey_Enter);
+    ask(Prompt::none);
+  }
+  EXPECT_TRUE(sent<Save>() && sent<OpenScene>());
+}
+
 TEST_F(PanelTest, KeptChangesAreOpenedDiscardedOrLeft) {
   ask(Prompt::recovery, "/home/scene.toml");
   EXPECT_EQ(clickFor<OpenScene>("recovery.open").file, "/home/scene.toml");
