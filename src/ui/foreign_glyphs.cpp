@@ -26,8 +26,8 @@ bool isOwn(ImWchar character) {
   return false;
 }
 
-// Says whether the face has outlines that Dear ImGui reads: it asserts on files of other formats.
-bool isReadable(const FontFace& font) {
+// Returns the height of a line in ems; 0 without outlines that Dear ImGui reads: it asserts on files of other formats.
+float lineHeight(const FontFace& font) {
   std::ifstream file(font.file, std::ios::binary);
   const auto read = [&](uint32_t offset, size_t bytes) {
     std::string data(bytes, '\0');
@@ -43,15 +43,24 @@ bool isReadable(const FontFace& font) {
   }
   const std::string version = read(begin, 4);
   if (version != std::string("\0\1\0\0", 4) && version != "true" && version != "OTTO") {
-    return false;
+    return 0.0f;
   }
   const uint32_t tables = bigEndian(read(begin + 4, 2));
+  bool outlines = false;
+  float unitsPerEm = 0.0f, height = 0.0f;
   for (uint32_t i = 0; i < tables; ++i) {
-    if (const std::string name = read(begin + 12 + 16 * i, 4); name == "glyf" || name == "CFF ") {
-      return true;
+    const uint32_t entry = begin + 12 + 16 * i;
+    const std::string name = read(entry, 4);
+    const uint32_t table = bigEndian(read(entry + 8, 4));
+    outlines |= name == "glyf" || name == "CFF ";
+    if (name == "head") {
+      unitsPerEm = static_cast<float>(bigEndian(read(table + 18, 2)));
+    } else if (name == "hhea") {
+      const uint32_t metrics = bigEndian(read(table + 4, 4));  // above the baseline, and below it
+      height = static_cast<float>(static_cast<int16_t>(metrics >> 16) - static_cast<int16_t>(metrics));
     }
   }
-  return false;
+  return outlines && unitsPerEm > 0.0f ? std::clamp(height / unitsPerEm, 0.0f, 3.0f) : 0.0f;
 }
 
 }  // namespace
@@ -151,9 +160,12 @@ void ForeignGlyphs::addTo(ImFontAtlas& atlas, float pixels) {
   config.MergeMode = true;
   config.OversampleH = 1;
   for (const FontFace& font : fontsFor(shown)) {
-    if (isReadable(font)) {
+    // Dear ImGui scales a font by the height of its lines. Scripts with tall lines are to have letters of the same
+    // size.
+    constexpr float ownHeight = 1.164f;  // ems of DejaVu Sans
+    if (const float height = lineHeight(font); height > 0.0f) {
       config.FontNo = font.index;
-      atlas.AddFontFromFileTTF(font.file.string().c_str(), pixels, &config, ranges_.data());
+      atlas.AddFontFromFileTTF(font.file.string().c_str(), pixels * height / ownHeight, &config, ranges_.data());
     }
   }
 }

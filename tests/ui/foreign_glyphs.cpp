@@ -1,5 +1,10 @@
 #include "ui/foreign_glyphs.hpp"
 
+#include <fmt/format.h>
+
+#include "platform/bytes.hpp"
+#include "platform/files.hpp"
+#include "platform/folders.hpp"
 #include "temporary_folder.hpp"
 #include "test_headers.hpp"
 
@@ -30,6 +35,34 @@ TEST(ForeignGlyphs, FontsOfOtherFormatsAreLeftOut) {
   atlas.AddFontDefault();
   glyphs.addTo(atlas, 15.0f);
   EXPECT_TRUE(atlas.Build());
+}
+
+// Returns the width of a letter of DejaVu Sans, whose lines are made higher by the ascent in its table hhea.
+float widthOfLetter(uint8_t ascent) {
+  const TemporaryFolder folder;
+  std::string font = readText(systemFont());
+  const size_t entry = font.find("hhea");
+  font[bigEndian(font.substr(entry + 8, 4)) + 4] = static_cast<char>(ascent);
+  folder.write("font.ttf", font);
+  const auto fonts = folder.write(
+      "fonts.conf",
+      fmt::format("<fontconfig><dir>{0}</dir><cachedir>{0}</cachedir></fontconfig>", folder.path().string()));
+  ForeignGlyphs glyphs;
+  glyphs.note("\xe1\x83\x9b");  // U+10DB
+  ImFontAtlas atlas;
+  const ImFont* all = atlas.AddFontDefault();
+  ::setenv("FONTCONFIG_FILE", fonts.c_str(), 1);
+  glyphs.addTo(atlas, 60.0f);
+  ::unsetenv("FONTCONFIG_FILE");
+  EXPECT_TRUE(atlas.Build());
+  const ImFontGlyph* letter = all->FindGlyphNoFallback(0x10db);
+  return letter ? letter->X1 - letter->X0 : 0.0f;
+}
+
+TEST(ForeignGlyphs, FontsOfTallLinesHaveLettersAsLarge) {
+  const float width = widthOfLetter(7);
+  EXPECT_GT(width, 20.0f);
+  EXPECT_NEAR(widthOfLetter(14), width, 1.0f);
 }
 
 TEST(ForeignGlyphs, NamesOfAListedFolderAreRead) {
