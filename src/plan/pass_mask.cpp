@@ -120,7 +120,7 @@ std::vector<glm::dvec2> passMask(const View& view, const Projection& projection,
     // needed.
     for (const double outwards : {0.0, 0.25, 0.5, 1.0}) {
       const double moved = offset + outwards * glm::length(perPixel);
-      const auto inside = [&](const glm::dvec3& p) { return glm::dot(line, p) + moved >= 0.0; };
+      const auto inside = [&, &line = line](const glm::dvec3& p) { return glm::dot(line, p) + moved >= 0.0; };
       if (std::ranges::all_of(part, inside)) {
         break;
       }
