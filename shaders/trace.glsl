@@ -180,7 +180,27 @@ uvec4 instanceTexel(uint instance, uint i) {
   return texelFetch(traceInstanceTexels, int(traceInstanceTexelCount * instance + i));
 }
 
+vec4[3] meshRows(uint instance) {
+  return vec4[3](uintBitsToFloat(instanceTexel(instance, 0)), uintBitsToFloat(instanceTexel(instance, 1)),
+                 uintBitsToFloat(instanceTexel(instance, 2)));
+}
+
 uvec4 triangleTexel(uint slot, uint i) { return texelFetch(traceTriangles, int(3 * slot + i)); }
+
+// Says whether the end of the ray lies in the plane of the triangle that it meets, as far as rounding tells. Then
+// rounding decides whether the ray meets the triangle: a ray that is nearly parallel to it may do so far from its end.
+bool endsInPlane(Hit hit, vec3 origin, vec3 direction) {
+  vec4 rows[3] = meshRows(hit.instance);
+  vec3 a = uintBitsToFloat(triangleTexel(hit.slot, 0).xyz);
+  vec3 b = uintBitsToFloat(triangleTexel(hit.slot, 1).xyz) - a;
+  vec3 c = uintBitsToFloat(triangleTexel(hit.slot, 2).xyz) - a;
+  vec3 normal = cross(b / largestComponent(b), c / largestComponent(c));
+  vec3 start = timesPoint(rows, origin);
+  vec3 along = timesDirection(rows, direction);
+  vec3 center = vec3(rows[0].w, rows[1].w, rows[2].w);
+  float reach = length(start) + length(along) + length(a) + length(center);
+  return abs(dot(normal, start + along - a)) < leastHeight * reach * length(normal);
+}
 
 // Returns the texture coordinates of a point of a triangle, which a ray from `origin` along `direction` meets.
 vec2 uvOf(uint instance, uint triangle, vec3 w, vec3 origin, vec3 direction) {
@@ -245,11 +265,6 @@ bool meetsSurface(uint instance, uint slot, vec3 weights, vec3 origin, vec3 dire
 #ifdef RAY_QUERY
 #include "trace_ray_query.glsl"
 #else
-vec4[3] meshRows(uint instance) {
-  return vec4[3](uintBitsToFloat(instanceTexel(instance, 0)), uintBitsToFloat(instanceTexel(instance, 1)),
-                 uintBitsToFloat(instanceTexel(instance, 2)));
-}
-
 vec4 meetSlot(uint slot, LocalRay ray, out uint triangle) {
   uvec4 a = triangleTexel(slot, 0);
   triangle = a.w;

@@ -79,18 +79,24 @@ bool unobstructed(uint i, Incoming incoming, vec3 tracePosition, Skip self, uint
   bool hidden = false;
   for (;;) {
     Hit hit = traceRay(origin, direction, tMax, skip, true, mixedBits(seed + 2 * i + uint(last)));
-    if (hit.instance != none || hit.mirror != none) {
+    // What holds the light does not hide it. Something before it may.
+    bool holdsLight = last && hit.instance != none && endsInPlane(hit, origin, direction);
+    if ((hit.instance != none || hit.mirror != none) && !holdsLight) {
       hidden = true;
     }
-    if (hidden || last) {
+    if (hidden || (last && !holdsLight)) {
       break;
     }
-    origin += incoming.crossing * direction;
-    LightPath path = lightPaths[i - view.lightCount];
-    direction = path.light - origin;
-    tMax = lightEnd(direction, path.height);
-    skip = Skip(none, none, skip.secondPlane, none, 0.0);
-    last = true;
+    if (holdsLight) {
+      tMax = 0.99999 * hit.t;
+    } else {
+      origin += incoming.crossing * direction;
+      LightPath path = lightPaths[i - view.lightCount];
+      direction = path.light - origin;
+      tMax = lightEnd(direction, path.height);
+      skip = Skip(none, none, skip.secondPlane, none, 0.0);
+      last = true;
+    }
   }
   return !hidden;
 }

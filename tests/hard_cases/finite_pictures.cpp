@@ -279,6 +279,29 @@ TEST(LightOnASurface, InItsPlaneAddsNoHalo) {
   }
 }
 
+// A quad anywhere about a light in its plane, over a floor and beside a ball. Seen from points near that plane,
+// rounding decides where a ray to the light would meet the quad.
+TEST(LightOnASurface, HoldsBackNoLight) {
+  writeQuad();
+  Random random(9);
+  std::optional<Studio> studio;
+  for (int i = 0; i < (fullTests() ? 40 : 4); ++i) {
+    const glm::dvec3 light = {random.uniform(-1.2, 1.2), random.uniform(0.2, 1.0), random.uniform(-0.8, 0.8)};
+    const auto file =
+        writeScene("light_in_a_quad_" + std::to_string(i),
+                   "[environment]\nambient = [0.05, 0.05, 0.05]\nbackground = [0.2, 0.25, 0.3]\n" +
+                       cameraText({0, 2, 4}, {0, 0, 0}) +
+                       objectText("quad.obj", {0, -1.2, 0}, {-90, 0, 0}, 12.0, {0.7, 0.7, 0.7}) +
+                       objectText("quad.obj", light, random.inBox(180.0), random.uniform(1.0, 2.0), {0.3, 0.7, 0.3}) +
+                       objectText("MODELS/sphere.obj", {0.1, -0.4, 0}, {0, 0, 0}, 0.7, {0.7, 0.5, 0.4}) +
+                       "[[light]]\nposition = " + text(light) + "\nintensity = 40\nglow = 0\ncasts_shadow = true\n");
+    if (!studio) {
+      studio.emplace(truthOptions(file, {96, 54}, 1));
+    }
+    expectTruth(*studio, file, trace(file, {96, 54}, 1));
+  }
+}
+
 class AnySize : public testing::TestWithParam<PictureSize> {};
 
 // A mirror over all of the view shows the sky; a body would have edges, and a pixel here is metres wide.
