@@ -225,6 +225,7 @@ const uint constantClamps = 27;
 const uint constantBranches = 28;
 const uint constantLightGroups = 29;
 const uint constantVertexAlpha = 30;
+const uint constantWholePixel = 31;
 
 // Stored in the place of a plane's growth in a shadow map: a caster's edge is seen (shadow_edge.frag).
 const uint shadowEdge = 0xffffffffu;

@@ -30,7 +30,7 @@ const float undecided = -1.0;  // a share of light
 
 bool hasPlane = true;  // the receiver's triangle has a plane
 #ifndef COMPUTE
-layout(constant_id = constantPerSample) const bool perSample = false;
+layout(constant_id = constantWholePixel) const bool wholePixel = false;  // is decided at once, not a point of it
 
 vec3 pixelCenter;  // where the pixel's centre sees the receiver's plane, relative
 vec3 pixelAcross;  // from there to where the next pixels see it
@@ -152,18 +152,19 @@ float shareAt(LightData light, vec3 p) {
 
 #ifndef COMPUTE
 float shadowShare(LightData light) {
+  float share = shareAt(light, receiver - light.position);
 #ifdef ASKS
-  if (perSample) {
-    // The samples lie within the square of the pixel.
+  if (wholePixel) {
+    // Any of its samples may be seen: what is drawn later may hide the others.
     vec3 p = pixelCenter - light.position;
     float a = shareAt(light, p - 0.5 * (pixelAcross + pixelDown));
     float b = shareAt(light, p + 0.5 * (pixelAcross - pixelDown));
     float c = shareAt(light, p - 0.5 * (pixelAcross - pixelDown));
     float d = shareAt(light, p + 0.5 * (pixelAcross + pixelDown));
-    return a == b && a == c && a == d ? a : undecided;
+    return a == share && b == share && c == share && d == share ? share : undecided;
   }
 #endif
-  return shareAt(light, receiver - light.position);
+  return share;
 }
 
 // Returns the share of light `index` of the pass that reaches the receiver.

@@ -91,7 +91,7 @@ GraphicsPipelineDesc RenderSystem::objects(const Variant& variant, const FrameIn
                                           {gpu::constantBranches, info.data.branches()},
                                           {gpu::constantShadowedLights, variant.shadowedLights},
                                           {gpu::constantClamps, variant.clamps},
-                                          {gpu::constantPerSample, variant.trace.perSample},
+                                          {gpu::constantWholePixel, variant.format.samples > 1},
                                           {gpu::constantVertexAlpha, variant.vertexAlpha},
                                           {gpu::constantRepeating, variant.repeating}},
                             .setLayouts = {frameLayout_, textureLayout_},

@@ -263,10 +263,30 @@ TEST(HybridShadows, FindCastersThinnerThanATexel) {
   EXPECT_LT(wrongShare(200, 40, thinThings, "128"), 2e-4);
 }
 
+// Blocks and balls that stand on a floor, with the light behind them: where they touch it, pixels hold both, and the
+// floor's own part of such a pixel may be lit though the floor at the pixel's centre is hidden.
+std::filesystem::path feet(Random& random, unsigned seed) {
+  std::ostringstream out;
+  out << "[environment]\nambient = [0.1, 0.1, 0.1]\n"
+      << cameraText({random.uniform(-1, 1), random.uniform(0.8, 2), 2.5}, {0, 0.2, 0})
+      << "[[object]]\nmodel = \"MODELS/block.obj\"\nposition = [0, -0.2, 0]\nscale = [8, 0.2, 8]\n";
+  for (int i = 0; i < 10; ++i) {
+    const double size = random.uniform(0.1, 0.5);
+    out << "[[object]]\nmodel = \"MODELS/" << (random.chance(0.7) ? "block" : "sphere")
+        << ".obj\"\nposition = " << text(glm::dvec3(random.uniform(-1.5, 1.5), 0.0, random.uniform(-1.5, 1.0)))
+        << "\nrotation = [0, " << random.uniform(0, 90) << ", 0]\nscale = " << size << "\n";
+  }
+  out << "[[light]]\nposition = "
+      << text(glm::dvec3(random.uniform(-3, 3), random.uniform(1, 3), random.uniform(-3, 3)))
+      << "\nintensity = 30\nglow = 0\ncasts_shadow = true\n";
+  return writeScene("feet_" + std::to_string(seed), out.str());
+}
+
 TEST(HybridShadows, EqualTracedWithFourSamples) {
   const SettingList settings{{"view.samples", "4"}};
   EXPECT_LT(wrongShare(1000, 60, surfaceScene, "512", settings), 1e-4);
   EXPECT_LT(wrongShare(200, 30, thinThings, "128", settings), 2e-4);
+  EXPECT_LT(wrongShare(100, 30, feet, "512", settings), 1e-4);
 }
 
 // A sphere and a block over a floor, and a light that is up to 1e13 m away.
