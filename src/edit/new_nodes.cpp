@@ -105,10 +105,9 @@ Object newObject(const Scene& scene, int mesh, const glm::dvec3& position) {
 bool liesOnBack(const Scene& scene, const Object& object) {
   const Mesh& mesh = scene.meshes.at(object.mesh);
   const glm::dvec3 low = mesh.center - mesh.unit * mesh.halfExtent;
-  const glm::dvec3 high = mesh.center + mesh.unit * mesh.halfExtent;
   const double size = 2.0 * mesh.unit * glm::compMax(mesh.halfExtent);
   return object.up == UpAxis::y && object.rotation == glm::dvec3(0.0) && std::abs(low.z) < 0.01 * size &&
-         high.z > 0.05 * size && low.y < -0.05 * size && high.y > 0.05 * size;
+         std::abs(low.y) >= 0.01 * size && 2.0 * mesh.unit * mesh.halfExtent.z > 0.05 * size;
 }
 
 Object stoodUp(const Scene& scene, Object object) {

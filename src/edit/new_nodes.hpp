@@ -17,8 +17,8 @@ PointLight newLight(const glm::dvec3& position, const glm::dvec3& viewer);
 // middle.
 Object newObject(const Scene& scene, int mesh, const glm::dvec3& position);
 
-// Says whether an object seems to lie on its back: its model stands on z = 0 and reaches to both sides of y = 0, as
-// models do whose Z axis points up, and nobody has turned it.
+// Says whether an object seems to lie on its back: its model stands on z = 0 but not on y = 0, as models do whose Z
+// axis points up, and nobody has turned it.
 bool liesOnBack(const Scene& scene, const Object& object);
 // Returns the object with Z up. Its box stands on the same height, about the same vertical axis.
 Object stoodUp(const Scene& scene, Object object);

@@ -1,3 +1,4 @@
+#include "edit/new_nodes.hpp"
 #include "edit/support.hpp"
 
 namespace speculum {
@@ -270,6 +271,22 @@ TEST_F(SceneDocumentTest, StructureRevisionIgnoresValues) {
   EXPECT_TRUE(rises([&] { document.redo(); }));
   EXPECT_TRUE(rises([&] { document.remove({floorMirror}); }));
   EXPECT_FALSE(rises([&] { document.addBookmark({.position = {1, 1, 1}, .target = {0, 0, 0}}); }));
+}
+
+// The box of a model, and whether it is taken for one whose Z axis points up.
+TEST_F(SceneDocumentTest, ModelsWithZUpLieOnTheirBacks) {
+  const auto lies = [&](const glm::dvec3& low, const glm::dvec3& high) {
+    scene.meshes[0].unit = 1.0;
+    scene.meshes[0].center = (low + high) / 2.0;
+    scene.meshes[0].halfExtent = (high - low) / 2.0;
+    return liesOnBack(scene, Object{.mesh = 0});
+  };
+  EXPECT_TRUE(lies({-1, -1, 0}, {1, 1, 2})) << "origin in the middle of the floor";
+  EXPECT_TRUE(lies({-30, -0.96, -0.015}, {30, 59.9, 81.8})) << "origin at an edge";
+  EXPECT_TRUE(lies({0, -60, 0}, {30, 0, 80})) << "origin at the other edge";
+  EXPECT_FALSE(lies({-1, 0, 0}, {1, 2, 2})) << "stands on both planes";
+  EXPECT_FALSE(lies({-1, -1, -1}, {1, 1, 1})) << "stands on neither";
+  EXPECT_FALSE(lies({-1, -1, 0}, {1, 1, 0.05})) << "a picture on a wall";
 }
 
 TEST_F(SceneDocumentTest, AddedNodesFaceTheViewer) {
