@@ -10,6 +10,17 @@
 
 namespace speculum {
 
+bool isUtf16(std::string_view content) {
+  const std::string_view begin = content.substr(0, 4096);
+  std::array<size_t, 2> zeros{};
+  for (size_t i = 0; i < begin.size(); ++i) {
+    zeros[i % 2] += begin[i] == '\0';
+  }
+  const auto [least, most] = std::minmax(zeros[0], zeros[1]);
+  return content.starts_with("\xff\xfe") || content.starts_with("\xfe\xff") ||
+         (4 * most > begin.size() && 50 * least < most);
+}
+
 std::pair<char32_t, size_t> firstCharacter(std::string_view text) {
   static constexpr std::array<char32_t, 5> least{0, 0x110000, 0x80, 0x800, 0x10000};
   const auto lead = static_cast<uint8_t>(text[0]);

@@ -21,10 +21,9 @@ inline bool continuesCharacter(char byte) {
   return (static_cast<unsigned char>(byte) & 0xc0u) == 0x80u;
 }
 
-// Says whether a file's content begins with the mark of UTF-16 text.
-inline bool isUtf16(std::string_view content) {
-  return content.starts_with("\xff\xfe") || content.starts_with("\xfe\xff");
-}
+// Says whether a file's content is UTF-16 text: begins with its mark, or has the zeros of Latin letters at odd or at
+// even offsets alone.
+bool isUtf16(std::string_view content);
 
 // Returns the first character of a text in UTF-8, and the number of its bytes. If the text does not begin with a
 // character, as some file names, returns its first byte and 0.

@@ -115,8 +115,6 @@ std::optional<ForeignFile> foreignFile(std::string_view content) {
   static constexpr std::array beginnings{
       Beginning{"version https://git-lfs", "is a Git LFS pointer, not the model itself",
                 "fetch it with 'git lfs pull'"},
-      Beginning{"\xff\xfe", "is UTF-16 text", "save it as UTF-8"},
-      Beginning{"\xfe\xff", "is UTF-16 text", "save it as UTF-8"},
       Beginning{"solid", "is an STL file"},
       Beginning{"ply\n", "is a PLY file"},
       Beginning{"ply\r", "is a PLY file"},
@@ -131,29 +129,34 @@ std::optional<ForeignFile> foreignFile(std::string_view content) {
       Beginning{"MM", "is a 3DS file"},
       Beginning{"<?xml", "is an XML file"},
       Beginning{"<!DOCTYPE", "is a web page", "download the file itself"},
+      Beginning{"<!doctype", "is a web page", "download the file itself"},
       Beginning{"<html", "is a web page", "download the file itself"},
       Beginning{"ISO-10303", "is a STEP file"},
       Beginning{"#VRML", "is a VRML file"},
       Beginning{"#usda", "is a USD file"},
       Beginning{"PXR-USDC", "is a USD file"},
   };
-  if (trimmed(content).empty()) {
+  const std::string_view text = trimmed(content);
+  if (text.empty()) {
     return ForeignFile{"is empty", "a " + modelFormatNames() + " file is needed"};
   }
   const auto found =
-      std::ranges::find_if(beginnings, [&](const Beginning& beginning) { return content.starts_with(beginning.text); });
+      std::ranges::find_if(beginnings, [&](const Beginning& beginning) { return text.starts_with(beginning.text); });
   if (found != beginnings.end()) {
     return ForeignFile{found->wrong, found->right ? found->right : asModel};
   }
   if (content.starts_with("newmtl ") || content.find("\nnewmtl ") != std::string_view::npos) {
     return ForeignFile{"is a material file", "name the OBJ file that uses it"};
   }
-  if (trimmed(content).starts_with("{") && content.substr(0, 4096).find("\"asset\"") != std::string_view::npos) {
+  if (text.starts_with("{") && content.substr(0, 4096).find("\"asset\"") != std::string_view::npos) {
     return ForeignFile{"is a glTF file", "let its name end with .gltf"};
   }
   // A binary STL file has 80 bytes of any text, the number of its triangles, and 50 bytes for each.
   if (content.size() >= 84 && content.size() == 84 + 50 * size_t{littleEndian(content.substr(80))}) {
     return ForeignFile{"is an STL file", asModel};
+  }
+  if (isUtf16(content)) {
+    return ForeignFile{"is UTF-16 text", "save it as UTF-8"};
   }
   if (content.find('\0') != std::string_view::npos) {
     return ForeignFile{"is not a text file", "a " + modelFormatNames() + " file is needed"};

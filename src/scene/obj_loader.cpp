@@ -140,8 +140,11 @@ class ObjReader {
   }
 
   void noteContents() {
-    const std::string_view keyword = line_.keyword();
-    contents_.faces = contents_.faces || keyword == "f" || keyword == "F";
+    if (contents_.faces) {
+      return;
+    }
+    const std::string keyword = lowerCase(std::string(line_.keyword()));
+    contents_.faces = keyword == "f";
     contents_.linesOrPoints = contents_.linesOrPoints || keyword == "l" || keyword == "p";
     contents_.freeForm = contents_.freeForm || keyword == "curv" || keyword == "curv2" || keyword == "surf";
   }
