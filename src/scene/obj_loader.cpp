@@ -177,15 +177,16 @@ class ObjReader {
     mesh_.addPosition(position, vertexColor());
   }
 
-  // Three numbers behind the coordinates are a color; a single one would be a weight.
+  // Three numbers behind the coordinates are a color; a single one, or one before the color, is a weight.
   std::optional<glm::vec4> vertexColor() {
     if (line_.tokens().size() < 7) {
       return std::nullopt;
     }
-    const glm::dvec3 color(number(4), number(5), number(6));
+    const size_t first = line_.tokens().size() == 8 ? 5 : 4;
+    const glm::dvec3 color(number(first), number(first + 1), number(first + 2));
     if (!isFinite(color)) {
       add("v", "has a color that is not three finite numbers, it counts as white");
-      return std::nullopt;
+      return glm::vec4(1.0f);
     }
     if (color != glm::clamp(color, 0.0, 1.0)) {
       add("v", "has a color outside 0 .. 1, the nearest one is used");
@@ -285,6 +286,9 @@ class ObjReader {
   // Indices that are out of any range become `nowhere`. Returns false if the token is no integer.
   static bool readIndex(std::string_view token, size_t count, int& index) {
     long long value = 0;
+    if (token.starts_with('+') && !token.starts_with("+-")) {
+      token.remove_prefix(1);
+    }
     const auto [end, error] = std::from_chars(token.data(), token.data() + token.size(), value);
     if (token.empty() || end != token.data() + token.size() || error == std::errc::invalid_argument) {
       return false;

@@ -83,13 +83,14 @@ std::string_view LineReader::takeLine() {
 
 // A backslash that ends a comment is part of the comment.
 bool LineReader::continues(std::string_view line) const {
-  return continuation_ == Continuation::backslash && line.ends_with('\\') && line.find('#') == std::string_view::npos;
+  return continuation_ == Continuation::backslash && trimmed(line).ends_with('\\') &&
+         line.find('#') == std::string_view::npos;
 }
 
 void LineReader::joinContinuation() {
   joined_.clear();
   while (continues(line_)) {
-    joined_.append(line_.substr(0, line_.size() - 1)).push_back(' ');
+    joined_.append(line_.substr(0, line_.rfind('\\'))).push_back(' ');
     line_ = rest_.empty() ? std::string_view() : takeLine();
   }
   joined_.append(line_);

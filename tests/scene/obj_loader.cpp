@@ -152,7 +152,7 @@ TEST_F(ObjLoader, OppositeNormalsOfAGroupStayFlat) {
 }
 
 TEST_F(ObjLoader, VertexColorsAreRead) {
-  const Mesh mesh = load("v 0 0 0 1 0.5 0.25\nv 1 0 0 0.5\nv 0 1 0 0 0 1 0.5\nvt 0 0\nf 1 2 3\nf 1/1 2/1 3/1\n");
+  const Mesh mesh = load("v 0 0 0 1 0.5 0.25\nv 1 0 0 0.5\nv 0 1 0 0.5 0 0 1\nvt 0 0\nf 1 2 3\nf 1/1 2/1 3/1\n");
   ASSERT_EQ(mesh.colors.size(), mesh.vertices.size());
   for (size_t i = 0; i < mesh.indices.size(); i += 3) {
     EXPECT_EQ(mesh.colors[mesh.indices[i]], glm::vec4(1, 0.5, 0.25, 1));
@@ -172,6 +172,8 @@ TEST_F(ObjLoader, DamagedVertexColorsAreMended) {
   EXPECT_EQ(warnings(),
             "warning: m.obj:1: v: has a color outside 0 .. 1, the nearest one is used\n"
             "warning: m.obj:2: v: has a color that is not three finite numbers, it counts as white\n");
+  const Mesh white = load("v 0 0 0 nan nan nan\nv 1 0 0 nan nan nan\nv 0 1 0 nan nan nan\nf 1 2 3\n");
+  EXPECT_EQ(white.parts.at(0).material.diffuse, glm::dvec3(1.0)) << "no color is left";
 }
 
 TEST_F(ObjLoader, IsRebasedToItsBoxCentre) {
@@ -278,6 +280,8 @@ TEST_F(ObjLoader, LinesAndNumbersHaveManyForms) {
            {squareText + "f 1 2 \\\n3 \\\n4\n", 2},
            {squareText + "f 1 2 \\\r\n3 \\\r\n4\r\n", 2},
            {squareText + "f 1 2\\\n3\n", 1},
+           {squareText + "f 1 2 \\ \t\n3 4\n", 2},
+           {squareText + "f +1 +2 +3\nf +1//+1 +3//+1 -1\nvn 0 0 1\n", 2},
            {squareText + "f 1 2 3 \\", 1},
            {squareText + "# C:\\models\\\nf 1 2 3\nf 1 3 4 # half \\\nf 1 2 4\n", 3},
            {"\xef\xbb\xbfv 0 0 0 # first\nv 1 0 0\nv 0 1 0\nf 1 2 3 # 1 2 3\nf 3 2 1#x", 2},
