@@ -194,6 +194,11 @@ TEST_F(Files, StoreMakesTheFolder) {
   const fs::path pipe = folder_ / "pipe";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
   EXPECT_FALSE(storeFile(pipe, "a")) << "nobody reads it";
+  const fs::path link = folder_ / "deep" / "link";
+  fs::create_symlink(file, link);
+  EXPECT_TRUE(storeFile(link, "b"));
+  EXPECT_EQ(readText(link), "b");
+  EXPECT_EQ(readText(file), "a") << "which is not ours";
 }
 
 TEST_F(Files, FoldersDevicesAndHugeFilesAreRefused) {
