@@ -396,8 +396,10 @@ std::optional<std::vector<double>> GltfFile::numbers(int index, int components) 
 // Puts the numbers of a sparse accessor into the places that its indices name.
 bool GltfFile::readSparse(const tinygltf::Accessor& accessor, const ElementType& type,
                           std::vector<double>& values) const {
-  const auto& [count, isSparse, indices, numbers] = accessor.sparse;
-  if (count < 0 || static_cast<uint64_t>(count) > accessor.count || indices.byteOffset < 0 || numbers.byteOffset < 0) {
+  const int count = accessor.sparse.count;
+  const auto& indices = accessor.sparse.indices;
+  const auto& numbers = accessor.sparse.values;
+  if (count < 0 || static_cast<uint64_t>(count) > accessor.count) {
     return false;
   }
   std::vector<double> elements(count);

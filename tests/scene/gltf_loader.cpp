@@ -878,6 +878,14 @@ INSTANTIATE_TEST_SUITE_P(
                                                 {"values", {{"bufferView", 0}}}};
                },
                numbersMissing},
+        Damage{"SparseOfNegativeOffset",
+               [](json& r) {
+                 r["accessors"][1]["sparse"] = {
+                     {"count", 1},
+                     {"indices", {{"bufferView", 2}, {"byteOffset", -4}, {"componentType", 5123}}},
+                     {"values", {{"bufferView", 0}}}};
+               },
+               numbersMissing},
         Damage{"InfinitePositions",
                [](json& r) {
                  r["nodes"][1]["scale"] = {1e308, 1e308, 1e308};
