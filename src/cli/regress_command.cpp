@@ -322,6 +322,9 @@ int runRegress(const Options& options) {
   }
   printOutcomes(run, options.out / "index.html");
   writeReports(options, run);
+  if (run.count(Verdict::error) > 0) {
+    return 2;
+  }
   return run.passed() ? 0 : 1;
 }
 

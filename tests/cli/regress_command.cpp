@@ -131,7 +131,7 @@ TEST_F(RegressCommand, UpdateReplacesNoTexture) {
   writeCases("[[case]]\nname = 'other'\nscene = 'room.toml'\npicture = 'room.png'\n[[case]]\nscene = 'room.obj'\n");
   for (const char* name : {"*", "other"}) {
     const ProcessResult result = regress({"--update", name});
-    EXPECT_EQ(result.exitCode, 1);
+    EXPECT_EQ(result.exitCode, 2);
     EXPECT_TRUE(contains(result.output, "room.png is a file that case 'room' draws too")) << result.output;
     EXPECT_EQ(readImage8(folder_ / "room.png").width, 4) << name;
   }
@@ -143,7 +143,7 @@ TEST_F(RegressCommand, StrictCasesRefuseDefects) {
                                           std::pair("strict = true\n", std::vector<std::string>{})}) {
     writeCases(std::string("[[case]]\nscene = 'room.obj'\n[[case]]\nname = 'second'\nscene = 'room.obj'\n") + strict);
     const ProcessResult result = regress(arguments);
-    EXPECT_EQ(result.exitCode, 1);
+    EXPECT_EQ(result.exitCode, 2);
     EXPECT_TRUE(contains(result.output, "room.obj:5: f: has a vertex that is not there")) << result.output;
   }
 }
@@ -184,7 +184,7 @@ TEST_F(RegressCommand, UpdateReplacesNoFileOfAnyCase) {
   add("escaped.obj", "escaped.png");
   writeCases(cases);
   const ProcessResult result = regress({"--filter", "drawn*", "--update"});
-  EXPECT_EQ(result.exitCode, 1);
+  EXPECT_EQ(result.exitCode, 2);
   for (size_t i = 0; i < pictures.size(); ++i) {
     const std::string name = "drawn" + std::to_string(i);
     EXPECT_TRUE(
@@ -199,7 +199,7 @@ TEST_F(RegressCommand, UpdateRefusesWhatIsNoFile) {
   std::filesystem::create_symlink("/dev/null", folder_ / "device.png");
   writeCases("[[case]]\nname = 'pipe'\nscene = 'room.toml'\n[[case]]\nname = 'device'\nscene = 'room.toml'\n");
   const ProcessResult result = regress({"--update"});
-  EXPECT_EQ(result.exitCode, 1);
+  EXPECT_EQ(result.exitCode, 2);
   EXPECT_TRUE(contains(lineOf("pipe", result.output), "pipe.png: is a device or pipe (a file is needed)"));
   EXPECT_TRUE(contains(lineOf("device", result.output), "device.png: is a device or pipe (a file is needed)"));
   EXPECT_TRUE(contains(result.output, "2 cases: 2 error"));
@@ -377,7 +377,7 @@ TEST_F(RegressCommand, SceneFaultsAndTimeoutsLeaveTheRest) {
 [[case]] scene = 'room.toml'
 )");
   const ProcessResult result = regress({"--update"});
-  EXPECT_EQ(result.exitCode, 1);
+  EXPECT_EQ(result.exitCode, 2);
   EXPECT_TRUE(contains(lineOf("broken", result.output), "broken.toml:2: camera.position")) << result.output;
   EXPECT_EQ(lineOf("slow", result.output), "error   slow: no picture within 1 s");
   EXPECT_TRUE(contains(lineOf("typo", result.output), "typo: debug.omit_barrier: there is no barrier 'x'"))
