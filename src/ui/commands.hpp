@@ -25,6 +25,8 @@ struct SetCameraMode {
 struct FrameSelection {};  // looks at the selected node, or at the whole scene
 struct LookFromMirror {    // the selected mirror, or the one that fills most of the picture
   MirrorSide side = MirrorSide::back;
+
+  bool operator==(const LookFromMirror&) const = default;
 };
 struct AddBookmark {};
 struct GoToBookmark {
@@ -63,6 +65,8 @@ struct ResetSettings {};
 // A | B.
 struct ToggleSplit {   // begins with the present settings on the left, or ends
   bool naive = false;  // B begins with the settings of most mirror demos, else with the present ones
+
+  bool operator==(const ToggleSplit&) const = default;
 };
 struct ChooseHalf {  // whose settings SetSettings changes
   int half = 0;      // 0 is A, 1 is B
@@ -141,9 +145,13 @@ struct ApplyPoint {
 // Output.
 struct TakeScreenshot {
   bool withPanel = false;
+
+  bool operator==(const TakeScreenshot&) const = default;
 };
 struct ToggleRecording {
   bool withPanel = true;
+
+  bool operator==(const ToggleRecording&) const = default;
 };
 struct CopyCommandLine {};
 struct CopyText {

@@ -1,6 +1,7 @@
 #include "ui/input_map.hpp"
 
 #include <array>
+#include <concepts>
 #include <map>
 #include <string_view>
 #include <utility>
@@ -108,10 +109,27 @@ std::optional<Command> commandOf(const KeyEvent& event) {
   return found && (found->repeats || !event.repeat) ? found->command : std::nullopt;
 }
 
+namespace {
+
+// Says whether two commands are of one type and, where it compares them, have the same values.
+bool isSame(const Command& a, const Command& b) {
+  return a.index() == b.index() && std::visit(
+                                       [&]<typename Kind>(const Kind& one) {
+                                         if constexpr (std::equality_comparable<Kind>) {
+                                           return one == std::get<Kind>(b);
+                                         } else {
+                                           return true;
+                                         }
+                                       },
+                                       a);
+}
+
+}  // namespace
+
 const char* keysOf(const Command& command) {
   for (const ShortcutGroup& group : shortcutGroups()) {
     for (const Shortcut& shortcut : group.shortcuts) {
-      if (shortcut.command && shortcut.command->index() == command.index()) {
+      if (shortcut.command && isSame(*shortcut.command, command)) {
         return shortcut.keys;
       }
     }

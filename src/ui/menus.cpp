@@ -59,7 +59,7 @@ void fileMenu(PanelContext& ui) {
   item(ui, "Save as...", AskWhereToSave{});
   ImGui::Separator();
   item(ui, "Save picture", TakeScreenshot{false});
-  item(ui, "Save picture with panels", TakeScreenshot{true}, true, "Shift+F12");
+  item(ui, "Save picture with panels", TakeScreenshot{true});
   const bool records = ui.input.recording;
   item(ui, records ? "Stop recording" : "Record frames", ToggleRecording{false});
   item(ui, "Record frames with panels", ToggleRecording{true}, !records);
@@ -99,7 +99,7 @@ void editMenu(PanelContext& ui) {
 void viewMenu(PanelContext& ui) {
   item(ui, ui.input.edit.selected ? "Frame selection" : "Frame scene", FrameSelection{});
   item(ui, "Look from behind mirror", LookFromMirror{MirrorSide::back});
-  item(ui, "Look out of mirror", LookFromMirror{MirrorSide::front}, true, "Shift+B");
+  item(ui, "Look out of mirror", LookFromMirror{MirrorSide::front});
   item(ui, "Reset camera", ResetCamera{});
   ImGui::Separator();
   item(ui, "Bookmark view", AddBookmark{});
@@ -107,7 +107,7 @@ void viewMenu(PanelContext& ui) {
   ImGui::Separator();
   const ShownSplit& split = ui.input.split;
   item(ui, split.on ? "End A | B" : "Compare settings (A | B)", ToggleSplit{});
-  item(ui, "Compare with a simple mirror demo", ToggleSplit{true}, !split.on, "Shift+C");
+  item(ui, "Compare with a simple mirror demo", ToggleSplit{true}, !split.on);
   item(ui, "Edit the other half's settings", ChooseOtherHalf{}, split.on);
   ImGui::Separator();
   item(ui, ui.input.playback.paused ? "Play" : "Pause", TogglePaused{});

@@ -29,6 +29,15 @@ TEST(InputMap, KeysMeanTheirCommands) {
   EXPECT_TRUE(withPanel(true));
 }
 
+TEST(InputMap, MenusShowTheKeysOfTheirCommands) {
+  EXPECT_STREQ(keysOf(ToggleRecording{false}), "F10");
+  EXPECT_STREQ(keysOf(ToggleRecording{true}), "Shift+F10");
+  EXPECT_STREQ(keysOf(TakeScreenshot{true}), "Shift+F12");
+  EXPECT_STREQ(keysOf(LookFromMirror{MirrorSide::front}), "Shift+B");
+  EXPECT_STREQ(keysOf(ToggleSplit{true}), "Shift+C");
+  EXPECT_STREQ(keysOf(Redo{}), "Ctrl+Shift+Z") << "the first of two";
+}
+
 TEST(InputMap, PrintedLettersAreKnown) {
   for (const ShortcutGroup& group : shortcutGroups()) {
     for (const Shortcut& shortcut : group.shortcuts) {
