@@ -30,10 +30,15 @@ void SceneOpener::offerRecovery() {
   }
 }
 
-// Returns the folder of the scene's file; for a new scene the folder of the shipped scenes.
+// Returns the folder of the scene's file, or of the file that it is a copy of; for a new scene the folder of the
+// shipped scenes.
 fs::path SceneOpener::folderToOpen() const {
-  const fs::path folder = wholePath(shownFile()).parent_path();
-  return (SceneBrowser::isNew(shownFile()) ? folder.parent_path() : folder) / "";
+  fs::path file = shownFile();
+  if (Recovery::isCopy(file)) {
+    file = saving_->originalFile().empty() ? SceneBrowser::newScene() : saving_->originalFile();
+  }
+  const fs::path folder = wholePath(file).parent_path();
+  return (SceneBrowser::isNew(file) ? folder.parent_path() : folder) / "";
 }
 
 void SceneOpener::ask() {

@@ -530,6 +530,9 @@ TEST_F(Kept, CopiesAreSavedToTheirOriginal) {
   send(OpenScene{copy});
   waitFor([&] { return scene().file == copy; });
   EXPECT_EQ(edit().ownFile, original) << "whose models stay where they are";
+  send(AskWhatToAdd{});
+  EXPECT_EQ(edit().proposedFile, original.parent_path() / "") << "files are looked for beside it";
+  send(CancelPrompt{});
   send(Save{});
   send(SaveAs{edit().proposedFile});
   EXPECT_EQ(edit().prompt, Prompt::saveAs) << "it may have changed since";
