@@ -1,5 +1,6 @@
 // The tree of passes.
 #include <imgui.h>
+#include <imgui_internal.h>
 #include <spdlog/fmt/fmt.h>
 #include <spdlog/fmt/ranges.h>
 
@@ -28,7 +29,6 @@ std::string metres(const std::optional<double>& value) {
 }
 
 void depthResolution(const PassRow& pass, ClipMethod inUse) {
-  ImGui::TableNextColumn();
   figure(pass.resolution ? metres(gapWith(*pass.resolution, inUse)) : "");
   if (!pass.resolution) {
     return;
@@ -42,6 +42,12 @@ void depthResolution(const PassRow& pass, ClipMethod inUse) {
         std::string("\n") + name + ": " + metres(gapWith(*pass.resolution, clip)) + (clip == inUse ? "  (in use)" : "");
   }
   tip(text);
+}
+
+// Says whether the pointer is over the cell that is drawn. Nodes of trees span all columns in newer versions of ImGui.
+bool isCellHovered() {
+  const ImRect cell = ImGui::TableGetCellBgRect(ImGui::GetCurrentTable(), ImGui::TableGetColumnIndex());
+  return ImGui::IsWindowHovered() && ImGui::IsMouseHoveringRect(cell.Min, cell.Max);
 }
 
 // Draws text from the cell to the window's edge, over the empty cells to its right.
@@ -119,18 +125,17 @@ void passRow(PanelContext& ui, const TreeNode& node) {
   const std::string id = fmt::format("{} {} {} {} {}", static_cast<int>(pass.kind), fmt::join(pass.path, ">"),
                                      pass.instance, pass.light, pass.face);
   const bool open = ImGui::TreeNodeEx(id.c_str(), flags, "%s", name.c_str());
-  if (ImGui::IsItemHovered() || (ImGui::IsItemFocused() && ImGui::GetIO().NavVisible)) {
-    ui.output.hoveredPath = pass.path;
-  }
+  bool hovered = ImGui::IsItemHovered() || (ImGui::IsItemFocused() && ImGui::GetIO().NavVisible);
+  bool clicked = ImGui::IsItemClicked() && !ImGui::IsItemToggledOpen();
   recordWidget(ui, "pass." + pass.name);
   const char* selects = pass.path.empty() ? "" : ", and selects the mirror";
   tip(pass.name + (hasTarget(pass) ? fmt::format("\nA click shows what it drew{}.", selects) : ""));
-  if (hasTarget(pass) && ImGui::IsItemClicked() && !ImGui::IsItemToggledOpen()) {
-    target = shown ? std::nullopt : std::optional(pass.path);
-    ui.state.choices.targets = !shown;
-    selectMirror(ui, pass.path, false);  // the inspector would cover what it drew
-  }
+  const auto watchCell = [&] {
+    hovered = hovered || isCellHovered();
+    clicked = clicked || (isCellHovered() && ImGui::IsMouseClicked(ImGuiMouseButton_Left));
+  };
   ImGui::TableNextColumn();
+  watchCell();
   figure(milliseconds(pass.gpuMs), pass.reused || !pass.timed);
   if (pass.reused) {
     tip("The image of an earlier frame is reused. The time is that of rendering it.");
@@ -138,10 +143,22 @@ void passRow(PanelContext& ui, const TreeNode& node) {
     tip(std::isnan(pass.gpuMs) ? "Not timed yet." : "Time of an earlier frame.");
   }
   ImGui::TableNextColumn();
+  watchCell();
   figure(std::to_string(pass.draws));
   ImGui::TableNextColumn();
+  watchCell();
   figure(pass.areaPx > 0.0 ? fmt::format("{:.0f}", pass.areaPx) : "");
+  ImGui::TableNextColumn();
+  watchCell();
   depthResolution(pass, ui.settings.reflection.clip);
+  if (hovered) {
+    ui.output.hoveredPath = pass.path;
+  }
+  if (hasTarget(pass) && clicked) {
+    target = shown ? std::nullopt : std::optional(pass.path);
+    ui.state.choices.targets = !shown;
+    selectMirror(ui, pass.path, false);  // the inspector would cover what it drew
+  }
   if (!open) {
     return;
   }
