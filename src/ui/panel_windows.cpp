@@ -2,12 +2,14 @@
 
 #include <imgui.h>
 #include <imgui_internal.h>
+#include <spdlog/fmt/fmt.h>
 #include <imgui_versions.hpp>
 
 #include <algorithm>
 #include <tuple>
 #include <utility>
 
+#include "platform/text.hpp"
 #include "ui/input_map.hpp"
 
 namespace speculum {
@@ -70,15 +72,17 @@ UiOutput PanelWindows::build(const UiInput& input) {
     state_.editing = false;
     ui.send(EndEdit{});
   }
-  if (visible_ || !input.status.savesPicture) {
-    const WindowRect free = freeRect();
-    statusHeight_ =
-        panels::statusLine(input.status, visible_ ? std::max(statusWidth_, 18.0f * ImGui::GetFontSize()) : 0.0f,
-                           free.corner.x + free.size.x);
-  }
   ui.output.points = state_.choices.accuracy;
+  ShownStatus status = input.status;
   if ((state_.choices.accuracy || state_.choices.inspector) && state_.showDifference) {
     ui.output.errorGain = state_.errorGain;
+    status.picture += fmt::format("{}Error map, gain {}. A checkbox in Accuracy ends it.",
+                                  status.picture.empty() ? "" : "\n", significant(state_.errorGain, 3));
+  }
+  if (visible_ || !input.status.savesPicture) {
+    const WindowRect free = freeRect();
+    statusHeight_ = panels::statusLine(status, visible_ ? std::max(statusWidth_, 18.0f * ImGui::GetFontSize()) : 0.0f,
+                                       free.corner.x + free.size.x);
   }
   if (ui.settings != input.settings) {
     const bool continued = std::exchange(state_.setting, ImGui::IsAnyItemActive());

@@ -1893,8 +1893,13 @@ TEST_F(AccuracyWindow, MeasurementIsStartedAndCancelled) {
 TEST_F(AccuracyWindow, DifferenceEndsWithTheWindow) {
   click("accuracy.difference", 0.05);
   EXPECT_TRUE(run(2).errorGain && output_.points);
+  EXPECT_TRUE(shows("Error map, gain 1. A checkbox in Accuracy ends it."));
   toggle("Accuracy");
   EXPECT_FALSE(run(2).errorGain || output_.points);
+  EXPECT_FALSE(shows("Error map"));
+  edit_.selected = {};
+  toggle("Inspector");
+  EXPECT_TRUE(shows("Error map")) << "which the inspector shows too";
 }
 
 TEST_F(AccuracyWindow, GainIsInTheLegend) {
