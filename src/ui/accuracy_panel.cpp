@@ -320,8 +320,8 @@ void accuracy(PanelContext& ui) {
   }
   if (accuracy.points.empty() && accuracy.about.empty()) {
     wrappedText(
-        "Finds the settings that are the most accurate within a time: 1. traces how this view should look, 2. draws it "
-        "with each configuration and compares, 3. measures the times.");
+        "Finds the settings that are the most accurate within a time: traces how this view should look, draws it with "
+        "each configuration and compares, and measures the times. Of its 7 steps the first 4 give rough figures.");
   }
   if (!accuracy.about.empty()) {
     wrappedText(accuracy.about);

@@ -1826,14 +1826,14 @@ TEST_F(AccuracyWindow, SaysPurposeAndTimeOfMeasuring) {
   accuracy_.otherView = true;
   EXPECT_TRUE(shows("The view has changed since."));
   accuracy_ = {};
-  for (const char* step : {"Finds the settings that are the most accurate within a time", "1. traces", "2. draws",
-                           "3. measures the times"}) {
+  for (const char* step : {"Finds the settings that are the most accurate within a time", "traces", "draws",
+                           "measures the times", "Of its 7 steps the first 4 give rough figures"}) {
     EXPECT_TRUE(shows(step)) << step;
   }
   accuracy_.measuring = true;
-  accuracy_.stage = "Tracing the reference (1 of 3)";
+  accuracy_.stage = "Tracing the reference (1 of 7)";
   accuracy_.secondsLeft = 90.0;
-  EXPECT_TRUE(shows("Tracing the reference (1 of 3)"));
+  EXPECT_TRUE(shows("Tracing the reference (1 of 7)"));
   EXPECT_TRUE(shows("About 90 s left"));
   accuracy_.secondsLeft = 340.0;
   EXPECT_TRUE(shows("About 6 min left"));
