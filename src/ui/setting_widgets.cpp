@@ -160,7 +160,8 @@ bool colorEdit(const char* label, glm::dvec3& linear, double most) {
   }
   tip("Opens a picker. It shows display colors (sRGB); the numbers beside it are linear.");
   if (ImGui::BeginPopup("picker")) {
-    ImGui::TextUnformatted("sRGB, before exposure and tone curve");
+    // A color of at most 1 is a share of light, such as a reflectance.
+    ImGui::TextUnformatted(most > 1.0 ? "sRGB, before exposure and tone curve" : "sRGB");
     if (ImGui::ColorPicker3("##picker", &picked.x, ImGuiColorEditFlags_NoSidePreview | ImGuiColorEditFlags_Float)) {
       for (int i = 0; i < 3; ++i) {
         linear[i] = std::round(srgbDecode(picked[i]) * 1e4) / 1e4;
