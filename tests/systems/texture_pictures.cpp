@@ -12,10 +12,11 @@ using namespace testing_support;
 
 constexpr PictureSize floorSize{160, 90};
 
-// A square of two metres with a texture, repeated so many times; `rest` adds camera and lights.
-std::filesystem::path squareWith(const std::string& name, const Image8& texture, int repeats, const std::string& rest) {
+// A square of two metres with a texture, repeated so many times; `rest` adds camera and lights, `options` those of MTL.
+std::filesystem::path squareWith(const std::string& name, const Image8& texture, int repeats, const std::string& rest,
+                                 const std::string& options = "") {
   writePng(sceneDirectory() / (name + ".png"), texture);
-  writeModel(name + ".mtl", "newmtl m\nKd 1 1 1\nmap_Kd " + name + ".png\n");
+  writeModel(name + ".mtl", "newmtl m\nKd 1 1 1\nmap_Kd " + options + name + ".png\n");
   const std::string n = std::to_string(repeats);
   writeModel(name + ".obj", "mtllib " + name + ".mtl\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nvt 0 0\nvt " + n +
                                 " 0\nvt " + n + " " + n + "\nvt 0 " + n + "\nusemtl m\nf 1/1 2/2 3/3 4/4\n");
@@ -45,6 +46,30 @@ TEST_P(TextureFilters, NearestShowsTexels) {
       const uint8_t* expected = texture.at(x * 8 / 96, y * 4 / 96);
       for (int channel = 0; channel < 3; ++channel) {
         ASSERT_NEAR(picture.at(x, y)[channel], expected[channel], 1) << x << " " << y;
+      }
+    }
+  }
+}
+
+// Coordinates reach from 0 to 2, so that the texture fills the lower left quarter.
+TEST_P(TextureFilters, ClampedTexturesEndInTheirEdges) {
+  const Image8 texture = madePicture(8, 4, [](int x, int y) { return glm::ivec4(30 * x + 5, 60 * y + 9, 200, 255); });
+  const std::filesystem::path file = squareWith("clamped", texture, 2,
+                                                "[camera]\nposition = [0, 0, 1]\ntarget = [0, 0, 0]\n"
+                                                "vertical_fov = 90\n[environment]\nambient = [1, 1, 1]\n[[object]]\n"
+                                                "model = \"clamped.obj\"\n" +
+                                                    rest(),
+                                                "-clamp on ");
+  for (const char* filter : {"nearest", "bilinear", "trilinear", "anisotropic"}) {
+    Studio studio(headless(file, {96, 96}, {{"view.texture_filter", filter}, {"view.samples", "1"}}));
+    const Image8 picture = studio.fresh();
+    const bool nearest = filter == std::string("nearest");
+    for (int y = 0; y < (nearest ? 96 : 48); ++y) {
+      for (int x = nearest ? 0 : 48; x < 96; ++x) {
+        const uint8_t* expected = texture.at(std::min(x * 16 / 96, 7), std::max(y * 8 / 96 - 4, 0));
+        for (int channel = 0; channel < 3; ++channel) {
+          ASSERT_NEAR(picture.at(x, y)[channel], expected[channel], 1) << filter << " " << x << " " << y;
+        }
       }
     }
   }
