@@ -176,10 +176,15 @@ void Renderer::submitPart(Frame& frame) {
   frame.commands = next;
 }
 
+void Renderer::captureNow(Frame& frame) {
+  recordCapture(slots_[frame.index], frame);
+  frame.captured = true;
+}
+
 void Renderer::endFrame(Frame& frame) {
   Slot& slot = slots_[frame.index];
   slot.timer.finish(frame.commands);
-  if (frame.capture) {
+  if (frame.capture && !frame.captured) {
     recordCapture(slot, frame);
   }
   const bool presents = !headless() && (copiesDisplay() || !drawsAside(frame));

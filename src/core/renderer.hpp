@@ -43,6 +43,7 @@ struct Frame {
   DescriptorAllocator* descriptors = nullptr;  // sets from it live for this frame only
   RetireQueue* retired = nullptr;
   bool capture = false;   // set it before the display image is drawn to make Renderer::readback possible
+  bool captured = false;  // by Renderer::captureNow
   bool acquired = false;  // a swapchain image is acquired for this frame
   double waitedMs = 0.0;  // time spent waiting for the GPU within the frame
 };
@@ -70,6 +71,9 @@ class Renderer {
   // Submits the frame's commands so far, so that no submission takes long, and waits until the GPU has finished them,
   // which bounds the memory of many parts. Call it between two passes; `frame.commands` changes.
   void submitPart(Frame& frame);
+  // Captures the display image as it is. What is drawn over it later is shown, but readback() does not return it. Call
+  // it between two passes of a frame that has `capture` set.
+  void captureNow(Frame& frame);
   // Submits the frame's commands.
   void endFrame(Frame& frame);
   // Shows the frame submitted last. Mesa's drivers for CPUs draw it and send it to the window system within this call,

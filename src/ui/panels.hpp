@@ -116,6 +116,7 @@ namespace panels {
 
 inline constexpr const char* helpTitle = "Keys";
 inline constexpr const char* inspectorTitle = "Inspector";
+inline constexpr const char* statusTitle = "##status";
 inline constexpr const char* dividerTitle = "##divider";  // of the window that has the labels of A | B too
 // Returns a size in sizes of the font for a window that would be so large on a large display; on a small one it takes
 // no more of the width than necessary and a quarter of the display. A height of 0 stays.

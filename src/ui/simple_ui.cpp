@@ -219,11 +219,12 @@ bool SimpleUI::inRenderPass() const {
   return imgui::needsRenderPass || renderer_.device().renderPath() == RenderPath::renderPass;
 }
 
-void SimpleUI::record(Frame& frame, bool dividerOnly) {
+void SimpleUI::record(Frame& frame, Part part) {
   const PassScope scope = renderer_.beginOverlay(frame, inRenderPass());
   ImDrawData& data = *ImGui::GetDrawData();
-  for (int i = 0; dividerOnly && i < data.CmdListsCount; ++i) {
-    if (data.CmdLists[i]->_OwnerName != std::string_view(panels::dividerTitle)) {
+  const std::string_view shown = part == Part::divider ? panels::dividerTitle : panels::statusTitle;
+  for (int i = 0; part != Part::all && i < data.CmdListsCount; ++i) {
+    if (data.CmdLists[i]->_OwnerName != shown) {
       data.CmdLists[i]->CmdBuffer.resize(0);
     }
   }

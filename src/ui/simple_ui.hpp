@@ -20,8 +20,9 @@ class SimpleUI {
   void push(const InputEvent& event);  // call with each event of the window
   // Lays out this frame's panels. Call it once a frame, even if nothing is drawn.
   UiOutput build(const UiInput& input);
-  // Draws the panels of the last build() over the display image, or only the divider and the labels of A | B.
-  void record(Frame& frame, bool dividerOnly = false);
+  enum class Part { all, divider, status };  // divider: with the labels of A | B
+  // Draws the panels of the last build() over the display image, or a part of them. Call it once a frame.
+  void record(Frame& frame, Part part = Part::all);
   // Reads what only the window system knows, for the next build(). It may wait for an answer.
   void readWindow();
   void setThumbnails(std::vector<Image8> pictures);  // of ShownScenes::scenes, from the next frame on

@@ -52,7 +52,7 @@ float statusLine(const ShownStatus& status, float width, float right) {
   constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs |
                                      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing |
                                      ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoBringToFrontOnFocus;
-  if (ImGui::Begin("##status", nullptr, flags)) {
+  if (ImGui::Begin(statusTitle, nullptr, flags)) {
     ImGui::TextWrapped("%s", shown.c_str());
     const ImVec2 corner = ImGui::GetWindowPos();
     if (!picture.empty() && !ImGui::GetIO().WantCaptureMouse &&

@@ -145,7 +145,10 @@ void Demo::drawFrame(double seconds) {
     return;
   }
   if (!bare_ || workspace_.split().on()) {
-    ui_.record(*frame, bare_);
+    ui_.record(*frame, bare_ ? SimpleUI::Part::divider : SimpleUI::Part::all);
+  } else if (workspace_.capture().hidesPanels()) {
+    renderer_.captureNow(*frame);
+    ui_.record(*frame, SimpleUI::Part::status);  // a full screen has no title that says how to stop
   }
   const auto& [plan, settings, message] = half.pace.planned();
   const double cpuMs = milliseconds(Clock::now() - begins) - frame->waitedMs;

@@ -34,7 +34,7 @@ class StatusLine {
   }
   void setPicture(const std::string& text) { shown_.picture = text; }
   void clear() { shown_.text.clear(); }
-  // Once a frame. `savesPicture`: the window is being saved as a picture.
+  // Once a frame. `savesPicture`: the window is being saved as a picture, with the status line where it is shown.
   void update(bool savesPicture) {
     shown_.savesPicture = savesPicture;
     shown_.age = age();

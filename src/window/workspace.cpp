@@ -213,7 +213,7 @@ void Workspace::prepareView(double seconds, bool pointerOverPicture) {
     }
   }
   view_.camera.bookmarksChanged(scene());
-  status_.update(capture_.wanted());
+  status_.update(capture_.wanted() && !capture_.hidesPanels());
 }
 
 UiInput Workspace::shown(const ShownDevice& device, const std::string& message) const {

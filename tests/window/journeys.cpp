@@ -251,6 +251,13 @@ TEST_F(Journey, ScreenshotsIncludeOrOmitPanels) {
   EXPECT_TRUE(barePicture().rgba == bare.rgba);
   press("Tab");
   press("F10");
+  EXPECT_TRUE(contains(shown().status.text, "F10 stops."));
+  bool seen = false;
+  for (int i = 0; i < ImGui::GetDrawData()->CmdListsCount; ++i) {
+    const ImDrawList& list = *ImGui::GetDrawData()->CmdLists[i];
+    seen = seen || (list._OwnerName == std::string_view("##status") && list.CmdBuffer.Size > 0);
+  }
+  EXPECT_TRUE(seen) << "a full screen has no title";
   press("F10");
   EXPECT_TRUE(contains(shown().status.text, "Recorded "));
   // Pictures and recordings of one second share a name, so their order tells nothing.
