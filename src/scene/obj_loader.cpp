@@ -347,7 +347,7 @@ std::pair<Contents, std::optional<ForeignFile>> readObj(const std::filesystem::p
 }
 
 // Adds a model or material file and the files that its lines may name: by any word, or by a word and the rest of the
-// line, with or without options behind it.
+// line.
 void addFilesNamedIn(const std::filesystem::path& file, LineReader::Continuation continuation, ModelFiles& search,
                      std::set<std::filesystem::path>& files) {
   constexpr size_t longestPath = 4096;
@@ -359,8 +359,7 @@ void addFilesNamedIn(const std::filesystem::path& file, LineReader::Continuation
     const bool materials = keyword == "mtllib";
     // A '#' hides the tokens behind it.
     for (size_t i = 0; i < line.tokens().size() && (materials || keyword.starts_with("map_")); ++i) {
-      const std::string_view rest = line.after(line.tokens()[i]);
-      for (const std::string_view words : {rest, rest.substr(0, rest.find(" -")), line.tokens()[i]}) {
+      for (const std::string_view words : {line.after(line.tokens()[i]), line.tokens()[i]}) {
         std::string name(words.substr(0, longestPath));
         for (size_t at = 0; (at = name.find("\\ ", at)) != std::string::npos;) {
           name.erase(at, 1);

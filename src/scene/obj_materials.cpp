@@ -33,9 +33,12 @@ int wordsOf(std::string_view option) {
   return option == "-mm" ? 2 : std::ranges::find(one, option) != one.end() ? 1 : -1;
 }
 
-// Reads options of a texture from a token on, of which -s, -o and -clamp count. Returns the token behind them.
-size_t readOptions(const std::vector<std::string_view>& tokens, size_t i, TextureOptions& options) {
+// Reads the name, which may hold blanks, and those of the options before it that count: -s, -o and -clamp.
+std::pair<std::string_view, TextureOptions> namedTexture(const LineReader& line) {
   constexpr Range range{.low = -1e9, .high = 1e9};
+  const std::vector<std::string_view>& tokens = line.tokens();
+  TextureOptions options;
+  size_t i = 1;
   while (i < tokens.size() && wordsOf(tokens[i]) >= 0) {
     const std::string_view option = tokens[i];
     const int most = wordsOf(tokens[i++]);
@@ -48,23 +51,7 @@ size_t readOptions(const std::vector<std::string_view>& tokens, size_t i, Textur
       ++i;
     }
   }
-  return i;
-}
-
-// Reads the name, which may hold blanks, and the options before or behind it.
-std::pair<std::string_view, TextureOptions> namedTexture(const LineReader& line) {
-  const std::vector<std::string_view>& tokens = line.tokens();
-  TextureOptions options;
-  const size_t first = readOptions(tokens, 1, options);
-  const std::string_view name = line.after(tokens[first - 1]);
-  const auto behind = std::find_if(tokens.begin() + std::min(first + 1, tokens.size()), tokens.end(),
-                                   [](std::string_view token) { return wordsOf(token) >= 0; });
-  // Part of the name, unless nothing but options follows.
-  TextureOptions all = options;
-  if (behind != tokens.end() && readOptions(tokens, behind - tokens.begin(), all) == tokens.size()) {
-    return {trimmed(name.substr(0, behind->data() - name.data())), all};
-  }
-  return {name, options};
+  return {line.after(tokens[i - 1]), options};
 }
 
 // Says whether the name is a whole path that leads to the file from everywhere on this machine.

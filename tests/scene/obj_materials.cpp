@@ -261,17 +261,6 @@ TEST_F(MtlFile, TexturesMayBeMovedAndClamped) {
   EXPECT_EQ(clamped.repeats, 0u);
 }
 
-TEST_F(MtlFile, OptionsMayStandBehindTheName) {
-  writePng(folder_.path() / "a wall -s 2.png", Image8(1, 1));
-  const Material material = materialOf("newmtl m\nmap_Kd a wall -s 2.png\n");
-  EXPECT_EQ(material.diffuseTexture, 0) << "part of the name";
-  EXPECT_FALSE(material.clamps);
-  writePng(folder_.path() / "my wall.png", Image8(1, 1));
-  const Material clamped = materialOf("newmtl m\nmap_Kd -bm 1 my wall.png -o 1 -clamp on # comment\n");
-  EXPECT_EQ(clamped.diffuseTexture, 1);
-  EXPECT_TRUE(clamped.clamps);
-}
-
 TEST_F(MtlFile, TextureIsDecodedToLinear) {
   Image8 image(2, 1);
   image.at(1, 0)[0] = 0;
