@@ -30,12 +30,18 @@ inline bool isPressed(ImGuiKey key, bool repeat = true) {
 inline bool& focusIsHovered() {
   return ImGui::GetCurrentContext()->NavHighlightItemUnderNav;
 }
+inline bool focusIsShown() {
+  return ImGui::GetCurrentContext()->NavCursorVisible;
+}
 inline void showFocus() {
   ImGui::GetCurrentContext()->NavCursorVisible = true;
 }
 #else
 inline bool& focusIsHovered() {
   return ImGui::GetCurrentContext()->NavDisableMouseHover;
+}
+inline bool focusIsShown() {
+  return !ImGui::GetCurrentContext()->NavDisableHighlight;
 }
 inline void showFocus() {
   ImGui::GetCurrentContext()->NavDisableHighlight = false;

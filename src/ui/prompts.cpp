@@ -236,12 +236,13 @@ void saveAs(PanelContext& ui) {
 
 // Says how long ago a file was written; empty if there is none.
 std::string ageOf(const std::filesystem::path& file) {
-  std::error_code none;
-  const auto age = std::filesystem::file_time_type::clock::now() - std::filesystem::last_write_time(file, none);
-  const auto minutes = std::chrono::duration_cast<std::chrono::minutes>(age).count();
-  if (none) {
+  std::error_code error;
+  const auto written = std::filesystem::last_write_time(file, error);
+  if (error) {
     return "";
   }
+  const auto age = std::filesystem::file_time_type::clock::now() - written;
+  const auto minutes = std::chrono::duration_cast<std::chrono::minutes>(age).count();
   if (minutes < 1) {
     return "just now ";
   }
