@@ -198,7 +198,7 @@ bool endsInPlane(Hit hit, vec3 origin, vec3 direction) {
   vec3 start = timesPoint(rows, origin);
   vec3 along = timesDirection(rows, direction);
   vec3 center = vec3(rows[0].w, rows[1].w, rows[2].w);
-  float reach = length(start) + length(along) + length(a) + length(center);
+  float reach = largestComponent(start) + largestComponent(along) + largestComponent(a) + largestComponent(center);
   return abs(dot(normal, start + along - a)) < leastHeight * reach * length(normal);
 }
 

@@ -79,7 +79,8 @@ bool unobstructed(uint i, Incoming incoming, vec3 tracePosition, Skip self, uint
   bool hidden = false;
   for (;;) {
     Hit hit = traceRay(origin, direction, tMax, skip, true, mixedBits(seed + 2 * i + uint(last)));
-    // What holds the light does not hide it. Something before it may.
+    // What holds the light does not hide it. What lies nearer to the point may. Behind such a hit nothing is looked for,
+    // because it lies that near to the light unless the ray runs along the surface.
     bool holdsLight = last && hit.instance != none && endsInPlane(hit, origin, direction);
     if ((hit.instance != none || hit.mirror != none) && !holdsLight) {
       hidden = true;

@@ -302,6 +302,19 @@ TEST(LightOnASurface, HoldsBackNoLight) {
   }
 }
 
+// In the space of so small a body the square of the light's distance is no float.
+TEST(LightOnASurface, FarLightsLeaveShadowsOfSmallBodies) {
+  writeQuad();
+  const auto file = writeScene(
+      "small_body", "[environment]\nambient = [0.05, 0.05, 0.05]\n" + cameraText({0, 2e-5, 4e-5}, {0, 0, 0}) +
+                        objectText("quad.obj", {0, -1e-5, 0}, {-90, 0, 0}, 1e-4, {0.7, 0.7, 0.7}) +
+                        objectText("MODELS/sphere.obj", {0, 0, 0}, {0, 0, 0}, 5e-6, {0.7, 0.5, 0.4}) +
+                        "[[light]]\nposition = [2e14, 9e14, 1e14]\nintensity = 3e30\nglow = 0\ncasts_shadow = true\n");
+  const Truth truth = trace(file, {96, 54}, 1);
+  const Image8 picture = draw(truthOptions(file, {96, 54}, 1));
+  expectAlike(picture, truth.picture, 2, "small_body");
+}
+
 class AnySize : public testing::TestWithParam<PictureSize> {};
 
 // A mirror over all of the view shows the sky; a body would have edges, and a pixel here is metres wide.
