@@ -90,9 +90,13 @@ class Faults : public FaultTest {
     std::atomic<size_t> next = 0;
     const auto tryFaults = [&] {
       for (size_t i = next.fetch_add(stride); i < faults.size(); i = next.fetch_add(stride)) {
-        const End end = endOf(kind, faults[i]);
-        const std::lock_guard lock(counting);
-        ++ends[end];
+        try {
+          const End end = endOf(kind, faults[i]);
+          const std::lock_guard lock(counting);
+          ++ends[end];
+        } catch (const std::exception& error) {
+          ADD_FAILURE() << error.what();
+        }
       }
     };
     // Each fault has a process of its own. In the short suite other test programs use the other cores.
