@@ -111,10 +111,6 @@ bool storeFile(const fs::path& file, std::span<const uint8_t> content) {
   std::error_code ignored;
   fs::create_directories(folderOf(file), ignored);
   try {
-    // A link in a folder of ours may lead to a file that is not.
-    if (fs::is_symlink(file, ignored) && !fs::remove(file, ignored)) {
-      return false;
-    }
     replace(file, content, false);
     return true;
   } catch (const FileError&) {

@@ -41,8 +41,8 @@ void replaceFile(const std::filesystem::path& file, std::span<const uint8_t> con
 void replaceFile(const std::filesystem::path& file, std::string_view text);
 // Throws FileError if the folder of `file` is missing, or if `file` is a folder. Call it before work that takes long.
 void requirePlaceFor(const std::filesystem::path& file);
-// Writes a file whose loss does no harm: makes its folder, replaces a link, waits for no disk, returns false on
-// failure.
+// Writes a file whose loss does no harm, and creates its folder. Does not wait for the disk, and replaces a link, whose
+// target stays. Returns false on failure.
 bool storeFile(const std::filesystem::path& file, std::span<const uint8_t> content);
 bool storeFile(const std::filesystem::path& file, std::string_view text);
 

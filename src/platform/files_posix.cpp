@@ -85,10 +85,11 @@ void replace(const fs::path& file, std::span<const uint8_t> content, bool lastin
   if (const int own = descriptorNamed(file); own >= 0) {
     return writeAndClose(::dup(own), file, content, false);
   }
-  const fs::path target = behindLinks(file);
+  // A link in a folder of ours may lead to a file that is not.
+  const fs::path target = lasting ? behindLinks(file) : file;
   requirePlaceFor(file, target);
   struct stat old {};
-  const bool exists = ::stat(target.c_str(), &old) == 0;
+  const bool exists = ::lstat(target.c_str(), &old) == 0 && !S_ISLNK(old.st_mode);
   // Writes to a device or pipe directly: renaming a file over it would replace it.
   if (exists && !S_ISREG(old.st_mode)) {
     // Waits for a pipe's reader, which may come a little later, but not for a file whose loss does no harm.
