@@ -177,13 +177,12 @@ class ObjReader {
     mesh_.addPosition(position, vertexColor());
   }
 
-  // Three numbers behind the coordinates are a color; a single one, or one before the color, is a weight.
+  // Three numbers behind the coordinates are a color, with or without an opacity behind them; a single one is a weight.
   std::optional<glm::vec4> vertexColor() {
     if (line_.tokens().size() < 7) {
       return std::nullopt;
     }
-    const size_t first = line_.tokens().size() == 8 ? 5 : 4;
-    const glm::dvec3 color(number(first), number(first + 1), number(first + 2));
+    const glm::dvec3 color(number(4), number(5), number(6));
     if (!isFinite(color)) {
       add("v", "has a color that is not three finite numbers, it counts as white");
       return glm::vec4(1.0f);

@@ -152,7 +152,7 @@ TEST_F(ObjLoader, OppositeNormalsOfAGroupStayFlat) {
 }
 
 TEST_F(ObjLoader, VertexColorsAreRead) {
-  const Mesh mesh = load("v 0 0 0 1 0.5 0.25\nv 1 0 0 0.5\nv 0 1 0 0.5 0 0 1\nvt 0 0\nf 1 2 3\nf 1/1 2/1 3/1\n");
+  const Mesh mesh = load("v 0 0 0 1 0.5 0.25\nv 1 0 0 0.5\nv 0 1 0 0 0 1 0.5\nvt 0 0\nf 1 2 3\nf 1/1 2/1 3/1\n");
   ASSERT_EQ(mesh.colors.size(), mesh.vertices.size());
   for (size_t i = 0; i < mesh.indices.size(); i += 3) {
     EXPECT_EQ(mesh.colors[mesh.indices[i]], glm::vec4(1, 0.5, 0.25, 1));
@@ -474,6 +474,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Fault{"Gltf", "{ \"asset\": { \"version\": \"2.0\" } }", "1: file:", "is a glTF file"},
                     Fault{"Zip", "PK\x03\x04", "1: file:", "is a ZIP archive"},
                     Fault{"Page", "<!DOCTYPE html><html>", "1: file:", "is a web page"},
+                    Fault{"LoudPage", "<HTML><body>", "1: file:", "is a web page"},
+                    Fault{"MarkedPage", "\xef\xbb\xbf<!Doctype html><html>", "1: file:", "is a web page"},
                     Fault{"PageAfterABlankLine", "\r\n<!doctype html><html>", "1: file:", "is a web page"},
                     Fault{"Binary", std::string("\x7f\x45LF\0\0\1v 1\n", 10), "1: file:", "is not a text file"},
                     Fault{"Text", "once upon a time\nthere was no model\n", "1: f:", "has no face"}),
