@@ -128,15 +128,13 @@ std::optional<ForeignFile> foreignFile(std::string_view content) {
       Beginning{"\x1f\x8b", "is compressed with gzip", "unpack it"},
       Beginning{"MM", "is a 3DS file"},
       Beginning{"<?xml", "is an XML file"},
-      Beginning{"<!DOCTYPE", "is a web page", "download the file itself"},
-      Beginning{"<!doctype", "is a web page", "download the file itself"},
-      Beginning{"<html", "is a web page", "download the file itself"},
       Beginning{"ISO-10303", "is a STEP file"},
       Beginning{"#VRML", "is a VRML file"},
       Beginning{"#usda", "is a USD file"},
       Beginning{"PXR-USDC", "is a USD file"},
   };
-  const std::string_view text = trimmed(content);
+  constexpr std::string_view byteOrderMark = "\xef\xbb\xbf";
+  const std::string_view text = trimmed(content.substr(content.starts_with(byteOrderMark) ? byteOrderMark.size() : 0));
   if (text.empty()) {
     return ForeignFile{"is empty", "a " + modelFormatNames() + " file is needed"};
   }
@@ -144,6 +142,10 @@ std::optional<ForeignFile> foreignFile(std::string_view content) {
       std::ranges::find_if(beginnings, [&](const Beginning& beginning) { return text.starts_with(beginning.text); });
   if (found != beginnings.end()) {
     return ForeignFile{found->wrong, found->right ? found->right : asModel};
+  }
+  if (const std::string first = lowerCase(std::string(text.substr(0, 9)));
+      first == "<!doctype" || first.starts_with("<html")) {
+    return ForeignFile{"is a web page", "download the file itself"};
   }
   if (content.starts_with("newmtl ") || content.find("\nnewmtl ") != std::string_view::npos) {
     return ForeignFile{"is a material file", "name the OBJ file that uses it"};
