@@ -100,26 +100,26 @@ std::string readTextIfAny(const fs::path& file, uintmax_t most) {
 }
 
 void replaceFile(const fs::path& file, std::span<const uint8_t> content) {
-  replace(file, content, true);
+  replace(file, content, true, Links::follow);
 }
 
 void replaceFile(const fs::path& file, std::string_view text) {
-  replace(file, bytesOf(text), true);
+  replace(file, bytesOf(text), true, Links::follow);
 }
 
-bool storeFile(const fs::path& file, std::span<const uint8_t> content) {
+bool storeFile(const fs::path& file, std::span<const uint8_t> content, Links links) {
   std::error_code ignored;
   fs::create_directories(folderOf(file), ignored);
   try {
-    replace(file, content, false);
+    replace(file, content, false, links);
     return true;
   } catch (const FileError&) {
     return false;
   }
 }
 
-bool storeFile(const fs::path& file, std::string_view text) {
-  return storeFile(file, bytesOf(text));
+bool storeFile(const fs::path& file, std::string_view text, Links links) {
+  return storeFile(file, bytesOf(text), links);
 }
 
 void keepNewest(const fs::path& folder, size_t kept, const std::function<bool(const fs::path&)>& count) {

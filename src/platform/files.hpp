@@ -41,10 +41,13 @@ void replaceFile(const std::filesystem::path& file, std::span<const uint8_t> con
 void replaceFile(const std::filesystem::path& file, std::string_view text);
 // Throws FileError if the folder of `file` is missing, or if `file` is a folder. Call it before work that takes long.
 void requirePlaceFor(const std::filesystem::path& file);
-// Writes a file whose loss does no harm, and creates its folder. Does not wait for the disk, and replaces a link, whose
-// target stays. Returns false on failure.
-bool storeFile(const std::filesystem::path& file, std::span<const uint8_t> content);
-bool storeFile(const std::filesystem::path& file, std::string_view text);
+// What becomes of a symbolic link that has the name of a file that is written: its target is written, or it is
+// replaced.
+enum class Links { follow, replace };
+// Writes a file whose loss does no harm, and creates its folder. Does not wait for the disk. Returns false on failure.
+// Follow links where users may have put them, not in caches, where they may lead to files that are not ours.
+bool storeFile(const std::filesystem::path& file, std::span<const uint8_t> content, Links links = Links::replace);
+bool storeFile(const std::filesystem::path& file, std::string_view text, Links links = Links::replace);
 
 // Removes entries of a folder, with what is in them, except for the `kept` newest. Entries for which `count` is false
 // are not counted and stay.

@@ -80,13 +80,12 @@ int descriptorNamed(fs::path file) {
 
 }  // namespace
 
-void replace(const fs::path& file, std::span<const uint8_t> content, bool lasting) {
+void replace(const fs::path& file, std::span<const uint8_t> content, bool lasting, Links links) {
   std::error_code error;
   if (const int own = descriptorNamed(file); own >= 0) {
     return writeAndClose(::dup(own), file, content, false);
   }
-  // A link in a folder of ours may lead to a file that is not.
-  const fs::path target = lasting ? behindLinks(file) : file;
+  const fs::path target = links == Links::follow ? behindLinks(file) : file;
   requirePlaceFor(file, target);
   struct stat old {};
   const bool exists = ::lstat(target.c_str(), &old) == 0 && !S_ISLNK(old.st_mode);

@@ -79,9 +79,9 @@ void renameOver(const fs::path& partial, const fs::path& target, const fs::path&
 
 }  // namespace
 
-void replace(const fs::path& file, std::span<const uint8_t> content, bool lasting) {
+void replace(const fs::path& file, std::span<const uint8_t> content, bool lasting, Links links) {
   std::error_code error;
-  const fs::path target = lasting ? behindLinks(file) : file;  // see files_posix.cpp
+  const fs::path target = links == Links::follow ? behindLinks(file) : file;
   // Writes to a device or pipe, such as NUL or \\.\pipe\NAME, directly.
   if (Handle device = win32::own(::CreateFileW(target.c_str(), GENERIC_WRITE, FILE_SHARE_READ | FILE_SHARE_WRITE,
                                                nullptr, OPEN_EXISTING, 0, nullptr));

@@ -5,6 +5,8 @@
 #include <span>
 #include <string>
 
+#include "platform/files.hpp"
+
 // What files.cpp and folders.cpp share with their halves for a system, NAME_posix.cpp and NAME_win32.cpp, of which
 // CMake compiles one.
 namespace speculum {
@@ -12,7 +14,7 @@ namespace speculum {
 // The system's own halves.
 
 // replaceFile() and storeFile(): `lasting` waits until the content is on the disk.
-void replace(const std::filesystem::path& file, std::span<const uint8_t> content, bool lasting);
+void replace(const std::filesystem::path& file, std::span<const uint8_t> content, bool lasting, Links links);
 // Makes a folder that nobody else can write to. Throws std::runtime_error.
 std::filesystem::path newTemporaryFolder();
 

@@ -54,7 +54,7 @@ void savePanelChoices(const PanelChoices& choices) {
     const bool usual = open == PanelChoices().*panel.open;
     text += usual ? "" : fmt::format("{} {}\n", open ? openWord : closedWord, panel.name);
   }
-  if (!storeFile(choicesFile(), text)) {
+  if (!storeFile(choicesFile(), text, Links::follow)) {
     spdlog::warn("{} cannot be written: the choices of the panel are not remembered", choicesFile().string());
   }
 }

@@ -130,7 +130,7 @@ SimpleUI::~SimpleUI() {
 void SimpleUI::saveLayout() {
   size_t bytes = 0;
   const char* layout = ImGui::SaveIniSettingsToMemory(&bytes);
-  storeFile(layoutFile(), std::string_view(layout, bytes));
+  storeFile(layoutFile(), std::string_view(layout, bytes), Links::follow);
   ImGui::GetIO().WantSaveIniSettings = false;
 }
 

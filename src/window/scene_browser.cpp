@@ -116,7 +116,7 @@ void SceneBrowser::remember(const fs::path& file) {
   for (const fs::path& recent : shown_.recent) {
     text += recent.string() + "\n";
   }
-  storeFile(recentFile(), text);
+  storeFile(recentFile(), text, Links::follow);
 }
 
 void SceneBrowser::list(const fs::path& file) {
