@@ -30,7 +30,7 @@ const float undecided = -1.0;  // a share of light
 
 bool hasPlane = true;  // the receiver's triangle has a plane
 #ifndef COMPUTE
-layout(constant_id = constantWholePixel) const bool wholePixel = false;  // is decided at once, not a point of it
+layout(constant_id = constantWholePixel) const bool wholePixel = false;  // a share must hold in the whole pixel
 
 vec3 pixelCenter;  // where the pixel's centre sees the receiver's plane, relative
 vec3 pixelAcross;  // from there to where the next pixels see it

@@ -135,8 +135,8 @@ struct Cube {
   RecycledString name;  // of the light, or of the object and copy, for users
   int size = 0;         // texels of each side of a face; of the largest face of all maps if it is a shadow map's
   std::array<int, 6> faces{-1, -1, -1, -1, -1, -1};  // indices into FramePlan::passes, in the order of faceAxes()
-  // Of a shadow map: the slot of each face. The target of all shadow maps is a grid of slots, counted row by row. -1:
-  // the face has no slot, because it shows no caster or is too narrow for hybrid shadows.
+  // Only shadow maps have slots. All of them share one target, a grid of slots that are counted row by row. Each face
+  // takes one slot. A face has -1 if it shows no caster, or if it is too narrow for hybrid shadows.
   std::array<int, 6> slots{-1, -1, -1, -1, -1, -1};
   glm::dvec3 center{0.0};  // world, when it was rendered
   glm::dvec3 low{0.0};     // world, box of what surrounds the mirror in the present frame

@@ -111,7 +111,7 @@ std::optional<Command> commandOf(const KeyEvent& event) {
 
 namespace {
 
-// Says whether two commands are of one type and, where it compares them, have the same values.
+// Says whether two commands are of one type and have the same values. Values count only if the type can be compared.
 bool isSame(const Command& a, const Command& b) {
   return a.index() == b.index() && std::visit(
                                        [&]<typename Kind>(const Kind& one) {

@@ -131,8 +131,9 @@ void passRow(PanelContext& ui, const TreeNode& node) {
   const char* selects = pass.path.empty() ? "" : ", and selects the mirror";
   tip(pass.name + (hasTarget(pass) ? fmt::format("\nA click shows what it drew{}.", selects) : ""));
   const auto watchCell = [&] {
-    hovered = hovered || isCellHovered();
-    clicked = clicked || (isCellHovered() && ImGui::IsMouseClicked(ImGuiMouseButton_Left));
+    const bool over = isCellHovered();
+    hovered = hovered || over;
+    clicked = clicked || (over && ImGui::IsMouseClicked(ImGuiMouseButton_Left));
   };
   ImGui::TableNextColumn();
   watchCell();
