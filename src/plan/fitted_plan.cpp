@@ -65,14 +65,15 @@ bool raysAreFaster(const FramePlan& plan, const Scene& scene, const Settings& as
          });
 }
 
-// Says whether hybrid shadows should take less time on a CPU than traced ones, by the prices of session/frame_cost.cpp:
-// a ray costs as much as 125 texels of a map, and a pass as much as 300 rays. Counts all faces of maps that are read,
-// as if each frame drew them, and no layers, so that the answer does not depend on what earlier frames drew.
+// Says whether hybrid shadows should take less time on a CPU than traced ones. Besides their maps they took as long as
+// traced ones with one ray a pixel, in the gallery and in `shadows` with 1 and 4 samples. So they win only where traced
+// ones follow rays from several samples. A map's prices are those of session/frame_cost.cpp: a ray costs as much as 125
+// texels, and a pass as much as 300 rays. Counts all faces of maps that are read, as if each frame drew them, and no
+// layers, so that the answer does not depend on what earlier frames drew.
 bool mapsAreFaster(const FramePlan& plan, const Scene& scene, const Settings& settings) {
-  constexpr double asking = 0.1;  // share of the points that hybrid shadows trace rays from
   const double lights = static_cast<double>(shadowLights(scene).size());
-  double maps = 0.0;  // in rays
-  double rays = 0.0;
+  double maps = 0.0;   // in rays
+  double saved = 0.0;  // rays
   for (const Pass& pass : plan.passes) {
     if (pass.isLayer) {
       continue;
@@ -80,11 +81,11 @@ bool mapsAreFaster(const FramePlan& plan, const Scene& scene, const Settings& se
     const double texels = pass.id.kind == PassKind::mirror ? pass.areaPx : static_cast<double>(pass.view.rect.area());
     if (pass.id.kind == PassKind::shadow) {
       maps += pass.source == PassSource::unread ? 0.0 : texels / 125.0 + 300.0;
-    } else {
-      rays += texels * lights * (settings.effects.perSample ? pass.quality.samples : 1);
+    } else if (settings.effects.perSample) {
+      saved += texels * lights * (pass.quality.samples - 1);
     }
   }
-  return maps < (1.0 - asking) * rays;
+  return maps < saved;
 }
 
 // Sets the method by which automatic mirrors are drawn.
@@ -121,7 +122,6 @@ class PlanFitter {
     const bool automaticShadows = lookup() == ShadowLookup::automatic;
     chooseShadows();
     chooseReflections();
-    // On an H200 a frame with hybrid shadows takes 1.75 of the time with traced ones in `shadows`, 0.91 in the gallery.
     if (automaticShadows && lookup() == ShadowLookup::hybrid && fitted_.plan.effects.shadows &&
         !(limits_.cpu && fitted_.plan.effects.hybridShadows &&
           mapsAreFaster(fitted_.plan, asked_.scene, fitted_.settings))) {
