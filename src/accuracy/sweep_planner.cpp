@@ -87,7 +87,8 @@ void addViewScales(SweepPlanner& planner, const SweepContext& context, bool full
 // whatever view.samples says. No mean removes the error of shadow maps.
 void addMeans(SweepPlanner& planner, const SweepContext& context, bool full) {
   Changes exact = context.mirrors ? Changes{{"reflection.max_depth", greatestDepth}} : Changes{};
-  if (std::ranges::find(context.effects, "effects.shadows") != context.effects.end()) {
+  const bool shadows = std::ranges::find(context.effects, "effects.shadows") != context.effects.end();
+  if (shadows) {
     exact.push_back({"effects.shadow_lookup", "traced"});
   }
   planner.series({.key = "view.accumulate",
@@ -95,7 +96,15 @@ void addMeans(SweepPlanner& planner, const SweepContext& context, bool full) {
                   .note = "Edges N^-0.75, and texture, highlights and shading edges with them",
                   .theorySlope = -0.75},
                  swept("view.accumulate", true), joined(drawn(context, "1"), exact));
-  planner.add(joined(joined(drawn(context, "4"), exact), {{"view.accumulate", "4"}}));
+  // Few pictures of many samples lie between one picture and such means. Their shadows need not be exact.
+  const std::string most = std::to_string(context.sampleCounts.back());
+  for (const std::string pictures : {"2", "4"}) {
+    const Changes mean = joined(joined(drawn(context, most), exact), {{"view.accumulate", pictures}});
+    planner.add(mean);
+    for (const std::string& lookup : shadows ? swept("effects.shadow_lookup", full) : Values{}) {
+      planner.add(joined(mean, {{"effects.shadow_lookup", lookup}}));
+    }
+  }
   for (const std::string& error : swept("view.accumulate_error", full)) {
     planner.add(
         joined(joined(drawn(context, "1"), exact), {{"view.accumulate", "64"}, {"view.accumulate_error", error}}));
