@@ -1,6 +1,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "../common/display.glsl"
+#include "../common/naive.glsl"
 
 layout(set = 0, binding = 1) uniform sampler2D image;  // linear radiance
 
@@ -12,20 +13,10 @@ layout(push_constant) uniform Mirror {
 
 layout(location = 0) in vec2 uv;
 
-// Most demos stretch a picture over the mirror, flip it, and blur it a little.
-vec3 stretched() {
-  vec3 sum = vec3(0.0);
-  for (int i = 0; i < 9; ++i) {
-    vec2 offset = vec2(i % 3 - 1, i / 3 - 1) / vec2(textureSize(image, 0));
-    sum += texture(image, vec2(1.0 - uv.x, 1.0 - uv.y) + offset).rgb;
-  }
-  return sum / 9.0;
-}
-
 // A point of the mirror has the same pixel in both views, so the texel there is what the mirror shows at this point.
 void main() {
   // An image of one pixel is the background: every fragment fetches that pixel.
   ivec2 texel = min(ivec2(gl_FragCoord.xy), textureSize(image, 0) - 1);
-  vec3 reflected = mirror.naive != 0 ? stretched() : texelFetch(image, texel, 0).rgb;
+  vec3 reflected = mirror.naive != 0 ? stretched(image, uv) : texelFetch(image, texel, 0).rgb;
   show(mirror.reflectance.rgb * reflected);
 }

@@ -26,6 +26,10 @@ struct Object {
   glm::vec4 specular{0.04f, 0.04f, 0.04f, 60.0f};  // and the shininess
 };
 
+struct Mirror {
+  glm::mat4 worldFromMirror{1.0f};
+};
+
 constexpr glm::vec3 background{0.10f, 0.11f, 0.19f};
 constexpr glm::vec3 mirrorSize{1.95f, 1.3f, 1.0f};
 constexpr glm::vec3 mirrorCenter{0.0f, 1.0f, -1.4756f};
@@ -125,12 +129,12 @@ class PointLightSystem {
 class MirrorSystem {
  public:
   MirrorSystem(Core& core, VkDescriptorSetLayout views)
-      : shaders_(core.renderer, core.options, "mirror", {.setLayouts = {views}, .pushConstantBytes = sizeof(Object)}) {}
+      : shaders_(core.renderer, core.options, "mirror", {.setLayouts = {views}, .pushConstantBytes = sizeof(Mirror)}) {}
 
   void record(const PassScope& pass, VkDescriptorSet view) const {
     shaders_.bind(pass, view);
     pass.cull(VK_CULL_MODE_BACK_BIT);  // seen from behind, it is not drawn
-    shaders_.push(pass, Object{.worldFromModel = placed(mirrorCenter, mirrorSize)});
+    shaders_.push(pass, Mirror{.worldFromMirror = placed(mirrorCenter, mirrorSize)});
     vkCmdDraw(pass.commands(), 6, 1, 0, 0);
   }
 

@@ -76,7 +76,7 @@ class RenderSystem {
   void record(const PassScope& pass, VkDescriptorSet view, double time) const {
     const auto spin = static_cast<float>(glm::radians(30.0 * time));
     shaders_.bind(pass, view);
-    shaders_.push(pass, Object{.worldFromModel = placed(glm::vec3(0.0f), glm::vec3(1.0f), spin)});
+    shaders_.push(pass, Object{.worldFromModel = placed(glm::vec3(0.0f), glm::vec3(1.0f), spin + 0.6f)});
     vkCmdDraw(pass.commands(), 3, 1, 0, 0);
   }
 

@@ -138,6 +138,9 @@ TEST(Examples, StepsStayShort) {
     if (!before.empty()) {
       const std::string changes = runProcess({"diff", (sources / before / "main.cpp").string(), main.string()}).output;
       EXPECT_LE(std::ranges::count(changes, '\n'), 100) << before << " to " << name;
+      const std::string step =
+          runProcess({"diff", "-r", "-x", "*.toml", (sources / before).string(), (sources / name).string()}).output;
+      EXPECT_LE(std::ranges::count(step, '\n'), 130) << before << " to " << name << " with shaders";
     }
     before = name;
   }
