@@ -37,7 +37,7 @@ std::string settingsList(std::string_view group) {
                                          std::string(field.needs->key) + "=" + std::string(field.needs->value) + "`"
                                    : "";
       list += "- `" + std::string(field.key) + "` (" + settingValues(field) + "): " + std::string(field.text) + need +
-              ". " + std::string(field.cost) + "\n";
+              ". *" + std::string(field.cost) + "*\n";
     }
   }
   return list;
