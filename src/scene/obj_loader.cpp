@@ -357,16 +357,21 @@ void addFilesNamedIn(const std::filesystem::path& file, LineReader::Continuation
     const std::string keyword = lowerCase(std::string(line.keyword()));
     const bool materials = keyword == "mtllib";
     // A '#' hides the tokens behind it.
+    const auto add = [&, &line = line](std::string_view words) {
+      std::string name(words.substr(0, longestPath));
+      for (size_t at = 0; (at = name.find("\\ ", at)) != std::string::npos;) {
+        name.erase(at, 1);
+      }
+      const std::optional<std::filesystem::path> named = search.find(file, name);
+      if (named && files.insert(*named).second && materials) {
+        addFilesNamedIn(*named, LineReader::Continuation::none, search, files);
+      }
+    };
     for (size_t i = 0; i < line.tokens().size() && (materials || keyword.starts_with("map_")); ++i) {
-      for (const std::string_view words : {line.after(line.tokens()[i]), line.tokens()[i]}) {
-        std::string name(words.substr(0, longestPath));
-        for (size_t at = 0; (at = name.find("\\ ", at)) != std::string::npos;) {
-          name.erase(at, 1);
-        }
-        const std::optional<std::filesystem::path> named = search.find(file, name);
-        if (named && files.insert(*named).second && materials) {
-          addFilesNamedIn(*named, LineReader::Continuation::none, search, files);
-        }
+      add(line.after(line.tokens()[i]));
+      std::string words;
+      for (size_t k = i; k < std::min(line.tokens().size(), i + ObjMaterials::mostWords); ++k) {
+        add(words.append(words.empty() ? "" : " ").append(line.tokens()[k]));
       }
     }
   }

@@ -262,7 +262,6 @@ void ObjMaterials::read(std::string_view names, int line) {
   }
   std::erase(words, "");
   // A name has blanks up to the word that ends like a material file.
-  constexpr size_t mostWords = 8;
   for (size_t first = 0, end = 0; first < words.size(); first = end) {
     std::string name;
     bool found = false;

@@ -27,6 +27,8 @@ struct TextureOptions {
 // file is named.
 class ObjMaterials {
  public:
+  static constexpr size_t mostWords = 8;  // of a file's name in a mtllib line
+
   // `objFile` and `defects` must outlive this object. A defect names a line of the OBJ file or of an MTL file.
   ObjMaterials(const std::filesystem::path& objFile, ModelDefects& defects)
       : objFile_(objFile), defects_(defects), modelFiles_(objFile) {}
