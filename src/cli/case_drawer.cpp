@@ -87,11 +87,11 @@ bool CaseDrawer::drawAndJudge(const ExpectedCase& expected, Outcome& outcome) {
   }
   if (!picture || picture->width != actual.width || picture->height != actual.height) {
     outcome.verdict = Verdict::failed;
-    outcome.message =
-        !picture ? "there is no expected picture " + subject.picture.string() + " (--update writes it)"
-                 : fmt::format("{} is {}x{}, the picture {}x{} (--update replaces it)", subject.picture.string(),
-                               picture->width, picture->height, actual.width, actual.height);
-    outcome.replaceable = outcome.figures.empty();
+    outcome.replaceable = outcome.figures.empty() && expected.result == ExpectedResult::pass;
+    outcome.message = !picture ? "there is no expected picture " + subject.picture.string()
+                               : fmt::format("{} is {}x{}, the picture {}x{}", subject.picture.string(), picture->width,
+                                             picture->height, actual.width, actual.height);
+    outcome.message += !outcome.replaceable ? "" : !picture ? " (--update writes it)" : " (--update replaces it)";
     outcome.hasFiles = true;
     writePng(files.actual, actual);
     return false;

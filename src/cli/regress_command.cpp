@@ -119,7 +119,7 @@ void requireWriter(const std::vector<RegressCase>& cases, const RegressCase& sub
   const std::filesystem::path picture = withoutLinks(pictureOf(subject, outcome));
   const auto writer = std::ranges::find_if(cases, [&](const RegressCase& one) {
     const ExpectedCase expected = expectedOf(one, outcome.driver);
-    return expected.result != ExpectedResult::skip && withoutLinks(expected.subject.picture) == picture;
+    return expected.result == ExpectedResult::pass && withoutLinks(expected.subject.picture) == picture;
   });
   if (writer->name != subject.name) {
     outcome.replaceable = false;

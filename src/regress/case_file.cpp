@@ -89,6 +89,23 @@ Tolerance readTolerance(const TableReader& table) {
   return tolerance;
 }
 
+// Returns the name of expected pictures that a table gives, in which {name} stands for a case's.
+std::optional<std::string> pictureIn(const TableReader& table) {
+  const std::optional<std::string> pattern = textIn(table, "picture");
+  if (pattern && pattern->size() > longestPath) {
+    table.fail("picture", "has more than 65536 bytes", "a shorter path is needed");
+  }
+  std::string rest = pattern.value_or("");
+  for (size_t at = 0; (at = rest.find("{name}", at)) != std::string::npos;) {
+    rest.erase(at, std::string_view("{name}").size());
+  }
+  if (pattern &&
+      (rest.find_first_of("{}") != std::string::npos || lowerCase(fs::path(*pattern).extension().string()) != ".png")) {
+    table.fail("picture", fmt::format("is '{}'", *pattern), "a PNG file is needed, such as \"{name}.png\"");
+  }
+  return pattern;
+}
+
 std::vector<Expectation> readExpectations(const TableReader& table) {
   static constexpr std::array<Key, 6> keys{"driver", "version", "result", "reason", "picture", "tolerance"};
   static constexpr std::array<Key, 3> results{"pass", "fail", "skip"};
@@ -109,7 +126,7 @@ std::vector<Expectation> readExpectations(const TableReader& table) {
     if (expectation.result != ExpectedResult::pass && expectation.reason.empty()) {
       entry.fail("reason", "is missing", "a sentence that says why is needed");
     }
-    expectation.picture = textIn(entry, "picture");
+    expectation.picture = pictureIn(entry);
     expectation.tolerance = readTolerance(entry);
     expectations.push_back(std::move(expectation));
   }
@@ -158,7 +175,7 @@ class CaseReader {
         table.fail("mask", "is '" + *mask + "'", "a PNG file is needed");
       }
     }
-    draft.picture = textIn(table, "picture").value_or(draft.picture);
+    draft.picture = pictureIn(table).value_or(draft.picture);
     // settingsOf() knows what each setting takes; its error names file and line.
     Scene settings;
     settings.file = file_;
@@ -281,10 +298,6 @@ class CaseReader {
       }
       if (path.size() > longestPath) {
         table.fail("picture", "has more than 65536 bytes with the case's name", "a shorter path is needed");
-      }
-      if (path.find_first_of("{}") != std::string::npos ||
-          lowerCase(fs::path(pattern).extension().string()) != ".png") {
-        table.fail("picture", fmt::format("is '{}'", pattern), "a PNG file is needed, such as \"{name}.png\"");
       }
       requireRoom(table, bytes += path.size() + static_cast<size_t>(std::ranges::count(path, '/')) * sizeof(fs::path));
       return beside(path);

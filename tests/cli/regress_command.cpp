@@ -182,6 +182,9 @@ TEST_F(RegressCommand, UpdateReplacesNoFileOfAnyCase) {
   folder_.write("escaped.obj", "mtllib my\\ other.mtl\n" + corners);
   folder_.write("my other.mtl", "newmtl a\nmap_Kd escaped.png\n");
   add("escaped.obj", "escaped.png");
+  folder_.write("several.obj", "mtllib none.mtl my third one.mtl\n" + corners);
+  folder_.write("my third one.mtl", "newmtl a\nmap_Kd several.png\n");
+  add("several.obj", "several.png");
   writeCases(cases);
   const ProcessResult result = regress({"--filter", "drawn*", "--update"});
   EXPECT_EQ(result.exitCode, 2);
@@ -366,6 +369,22 @@ expect = [{ driver = '', result = 'fail', reason = 'bug 8' }]
   EXPECT_EQ(lineOf("skipped", result.output), "skipped skipped: too slow");
   EXPECT_EQ(lineOf("surprise", result.output), "failed  surprise: passes, but is expected to fail: bug 8");
   EXPECT_EQ(readImage8(folder_ / "wrong.png").rgba, Image8(320, 180).rgba) << "nothing of this may be updated";
+}
+
+TEST_F(RegressCommand, UpdateLeavesCasesExpectedToFail) {
+  const std::string fails = ", expect = [{ driver = '', result = 'fail', reason = 'bug 7' }]\n";
+  writePng(folder_ / "small.png", Image8(16, 9));
+  writeCases("[[case]] scene = 'room.toml', name = 'missing'" + fails +
+             "[[case]] scene = 'room.toml', name = 'resized', picture = 'small.png'" + fails +
+             "[[case]] scene = 'room.toml', name = 'shared', picture = 'both.png'" + fails +
+             "[[case]] scene = 'room.toml', name = 'writer', picture = 'both.png'\n");
+  const ProcessResult result = regress({"--update"});
+  EXPECT_EQ(result.exitCode, 1);
+  EXPECT_TRUE(
+      lineOf("missing", result.output).ends_with("there is no expected picture " + (folder_ / "missing.png").string()));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "missing.png"));
+  EXPECT_EQ(readImage8(folder_ / "small.png").width, 16);
+  EXPECT_TRUE(contains(lineOf("writer", result.output), "updated writer")) << "'shared' writes nothing";
 }
 
 TEST_F(RegressCommand, SceneFaultsAndTimeoutsLeaveTheRest) {

@@ -174,9 +174,9 @@ TEST_F(CaseFile, MistakesNameLineAndKey) {
   for (const char* picture : {"{nam}.png", "{name}", "{name}.jpg", "{name}.png.exr", "{{name}.png", "{name}/.png"}) {
     for (const std::string& keys :
          {std::string("picture = '"), std::string("expect = [{ driver = 'nvidia', picture = '")}) {
-      EXPECT_TRUE(
-          contains(mistake(room + keys + picture + (keys[0] == 'p' ? "'" : "' }]")),
-                   std::string("picture: is '") + picture + "' (a PNG file is needed, such as \"{name}.png\")"));
+      EXPECT_TRUE(contains(mistake(room + keys + picture + (keys[0] == 'p' ? "'" : "' }]")),
+                           std::string(keys[0] == 'p' ? "case[0]" : "case[0].expect[0]") + ".picture: is '" + picture +
+                               "' (a PNG file is needed, such as \"{name}.png\")"));
     }
   }
   EXPECT_TRUE(startsWith(mistake(room + "size = '640'"), "cases.toml:3: case[0].size: is '640' ("));
