@@ -65,19 +65,36 @@ const json& member(const json& object, const char* key) {
   return found == object.end() ? none : *found;
 }
 
+// Returns how many objects and arrays of JSON lie in one another.
+int levelsOf(std::string_view text) {
+  int level = 0;
+  int most = 0;
+  bool inText = false;
+  for (size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '"') {
+      inText = !inText;
+    } else if (inText) {
+      i += text[i] == '\\' ? 1 : 0;
+    } else if (text[i] == '{' || text[i] == '[') {
+      most = std::max(most, ++level);
+    } else if (text[i] == '}' || text[i] == ']') {
+      --level;
+    }
+  }
+  return most;
+}
+
 // Text that is not UTF-8 counts as Latin-1, with a defect if `defects` is given.
 json parsedJson(const fs::path& file, std::string_view text, ModelDefects* defects) {
-  // tinygltf and the writer of JSON call themselves for each level.
+  // tinygltf and the writer of JSON call themselves for each level. A callback of the parser could count them, but with
+  // one it takes a time as the square of an array's length.
   constexpr int mostLevels = 64;
   constexpr size_t mostShown = 200;
-  const auto checkDepth = [&](int depth, json::parse_event_t, json&) {
-    if (depth > mostLevels) {
-      throwInputError(file, 1, "json", "has more than 64 levels", validGltf);
-    }
-    return true;
-  };
+  if (levelsOf(text) > mostLevels) {
+    throwInputError(file, 1, "json", "has more than 64 levels", validGltf);
+  }
   try {
-    return json::parse(text.begin(), text.end(), checkDepth);
+    return json::parse(text.begin(), text.end());
   } catch (const json::parse_error& error) {
     if (const std::string whole = utf8(text); whole != text && trimmed(text).starts_with("{")) {
       if (defects != nullptr) {
@@ -184,11 +201,12 @@ bool isDataUri(std::string_view uri) {
 std::vector<uint8_t> dataOf(const std::string& uri) {
   const size_t comma = std::min(uri.find(','), uri.size() - 1);
   std::vector<uint8_t> data;
+  std::string text = percentDecoded(std::string_view(uri).substr(comma + 1));
   if (lowerCase(uri.substr(0, comma)).ends_with(";base64")) {
+    std::erase_if(text, [](char c) { return std::string_view(" \t\r\n").find(c) != std::string_view::npos; });
     std::string type;
-    tinygltf::DecodeDataURI(&data, type, "data:application/octet-stream;base64," + uri.substr(comma + 1), 0, false);
+    tinygltf::DecodeDataURI(&data, type, "data:application/octet-stream;base64," + text, 0, false);
   } else {
-    const std::string text = percentDecoded(std::string_view(uri).substr(comma + 1));
     data.assign(text.begin(), text.end());
   }
   return data;
@@ -431,7 +449,11 @@ std::optional<GltfFile::Picture> GltfFile::picture(int image) {
   } else if (const std::optional<fs::path> found = find(source.uri)) {
     return Picture{*found};
   }
-  defects_.add(file_, 1, "images", "there is no file '{}', the texture is left out", source.uri);
+  if (source.uri.empty()) {
+    defects_.add(file_, 1, "images", "image {} has no data, the texture is left out", std::to_string(image));
+  } else {
+    defects_.add(file_, 1, "images", "there is no file '{}', the texture is left out", source.uri);
+  }
   return std::nullopt;
 }
 

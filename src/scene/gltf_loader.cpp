@@ -293,6 +293,9 @@ class GltfReader {
   // skin.
   std::vector<glm::dmat4> jointMatrices(int index) {
     if (!isIndex(index, content_.skins().size())) {
+      if (index != -1) {
+        add("nodes", "there is no skin {}, the mesh stands where its node does", index);
+      }
       return {};
     }
     const auto& [joints, accessor] = content_.skins()[index];
@@ -362,6 +365,9 @@ class GltfReader {
     const TexturePlacement placement(texture);
     const auto* texcoords = texture.index == -1 ? nullptr : attribute(primitive, placement.texcoords, 2, count);
     if (!texcoords) {
+      if (texture.index != -1) {
+        add("textures", "texture {} is on a mesh without its texture coordinates, which count as 0", texture.index);
+      }
       return;
     }
     first.texcoord = static_cast<int>(builder_.texcoordCount());
@@ -403,7 +409,11 @@ class GltfReader {
 
   void addTriangles(const tinygltf::Primitive& primitive, int mesh, const FaceCorner& first, bool mirrored,
                     const std::vector<int>& places) {
-    builder_.setMaterial(isIndex(primitive.material, content_.model().materials.size()) ? primitive.material : -1);
+    const bool hasMaterial = isIndex(primitive.material, content_.model().materials.size());
+    if (!hasMaterial && primitive.material != -1) {
+      add("meshes", "there is no material {}, its triangles get the default one", primitive.material);
+    }
+    builder_.setMaterial(hasMaterial ? primitive.material : -1);
     const auto cornerOf = [&](size_t i) {
       return FaceCorner{.position = first.position + places[i],
                         .texcoord = first.texcoord < 0 ? -1 : first.texcoord + places[i],

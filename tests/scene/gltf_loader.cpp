@@ -433,6 +433,23 @@ TEST_F(GltfTextures, PicturesMayStandAnywhere) {
   EXPECT_EQ(warnings(), "");
 }
 
+TEST_F(GltfTextures, DataUrisMayBeBrokenOrEscaped) {
+  const std::string data = MadeGltf::base64(picture());
+  std::string lines;
+  std::string escaped;
+  for (size_t i = 0; i < data.size(); ++i) {
+    lines += (i % 20 == 0 ? "\r\n" : "") + data.substr(i, 1);
+    escaped += data[i] == '/' ? "%2F" : data[i] == '+' ? "%2b" : data.substr(i, 1);
+  }
+  EXPECT_NE(escaped, data);
+  for (const std::string& text : {lines, escaped}) {
+    textures_.clear();
+    EXPECT_EQ(meshOf(made({{"uri", "data:image/png;base64," + text}})).parts.at(0).material.diffuseTexture, 0);
+    EXPECT_EQ(textures_.at(0).width, 4);
+  }
+  EXPECT_EQ(warnings(), "");
+}
+
 // A small file may name one large picture any number of times.
 TEST_F(GltfTextures, EachPictureIsReadOnce) {
   const std::string png = picture();
@@ -571,7 +588,7 @@ TEST_F(GltfTextures, MissingOrUnreadablePicturesAreLeftOut) {
        {std::pair(json{{"uri", "none.png"}}, "images: there is no file 'none.png', the texture is left out"),
         std::pair(json{{"uri", "text.png"}}, "is not a picture that can be read"),
         std::pair(json{{"uri", "data:image/png;base64,AAAA"}}, "m.glb#images[0]: is not a picture that can be read"),
-        std::pair(json{{"bufferView", 99}}, "images: there is no file '', the texture is left out")}) {
+        std::pair(json{{"bufferView", 99}}, "images: image 0 has no data, the texture is left out")}) {
     const Mesh mesh = meshOf(made(image));
     EXPECT_EQ(mesh.parts.at(0).material.diffuseTexture, -1);
     ASSERT_EQ(mesh.defects.size(), 1u);
@@ -599,6 +616,10 @@ TEST_F(GltfTextures, CoordinatesAreThoseTheTextureAsksFor) {
   expectNear(uvs(), {{0, 1, 0}, {1, 1, 0}, {0, 0.75, 0}});
   textureOf(made)["texCoord"] = 1;
   expectNear(uvs(), {{0.5, 0.5, 0}, {0, 1, 0}, {0, 0, 0}});
+  EXPECT_EQ(warnings(), "");
+  textureOf(made)["texCoord"] = 2;
+  EXPECT_TRUE(contains(meshOf(made).defects.at(0),
+                       "textures: texture 0 is on a mesh without its texture coordinates, which count as 0"));
   // The example of the extension's text: the lower left quadrant, turned clockwise.
   textureOf(made) = {
       {"index", 0},
@@ -808,6 +829,22 @@ void PrintTo(const Damage& damage, std::ostream* stream) {
 
 class GltfDamage : public GltfLoader, public testing::WithParamInterface<Damage> {};
 
+TEST_F(GltfLoader, IndicesOfNothingWarnAndDraw) {
+  for (const auto& [damage, problem] :
+       {std::pair<void (*)(json&), const char*>([](json& r) { r["meshes"][0]["primitives"][0]["material"] = 7; },
+                                                "meshes: there is no material 7, its triangles get the default one"),
+        {[](json& r) { r["nodes"][0]["skin"] = 3; },
+         "nodes: there is no skin 3, the mesh stands where its node does"}}) {
+    MadeGltf made;
+    made.add("nodes", {{"mesh", made.addTriangle()}});
+    damage(made.root);
+    const Mesh mesh = meshOf(made);
+    EXPECT_EQ(mesh.indices.size(), 3u);
+    ASSERT_EQ(mesh.defects.size(), 1u);
+    EXPECT_TRUE(contains(mesh.defects[0], problem)) << mesh.defects[0];
+  }
+}
+
 // Two triangles, of which the damage may touch the second.
 TEST_P(GltfDamage, CostsWhatItTouches) {
   MadeGltf made;
@@ -972,7 +1009,13 @@ INSTANTIATE_TEST_SUITE_P(
                  }
                  r["extras"] = deep;
                },
-               "json: has more than 64 levels", true}),
+               "json: has more than 64 levels", true},
+        Damage{"LevelsWithinTexts",
+               [](json& r) {
+                 r["extras"] = std::string(70, '[') + '"' + std::string(70, '{');
+                 r["nodes"][0]["children"] = {7};
+               },
+               "node 7 is not there"}),
     [](const auto& info) { return info.param.name; });
 
 TEST_F(GltfLoader, NodesInACircleAreDrawnOnce) {
