@@ -94,7 +94,7 @@ class Collector {
       effects_.shadows->append("; traced: too many lights or objects for maps");
     }
     effects_.shadowMaps = asksForMaps && fits && !effects_.castsLight;
-    effects_.hybridShadows = effects_.shadowMaps && settings_.shadowLookup != ShadowLookup::map;
+    effects_.hybridShadows = effects_.shadowMaps && settings_.shadowLookup == ShadowLookup::hybrid;
     effects_.shadowRays = !effects_.shadowMaps || effects_.hybridShadows || effects_.reflects();
   }
 

@@ -295,23 +295,17 @@ TEST(ShadowMap, AutomaticLookupTakesTheFasterOne) {
   const SceneState state = evaluate(scene, 0.0);
   Settings settings;
   settings.effects.shadowLookup = ShadowLookup::automatic;
-  settings.effects.perSample = true;
-  settings.view.samples = 4;
-  const auto chosen = [&](const glm::ivec2& size, bool hybridShadows = true, bool cpu = true) {
+  const auto chosen = [&](const glm::ivec2& size, bool cpu = true) {
     const FittedPlan fitted =
-        planWithin({.budgetBytes = 1ull << 40, .largestSide = 16384, .cpu = cpu, .hybridShadows = hybridShadows},
-                   {scene, state, settings, size});
+        planWithin({.budgetBytes = 1ull << 40, .largestSide = 16384, .cpu = cpu}, {scene, state, settings, size});
     EXPECT_EQ(std::string(fitted.plan.effects.shadows.value_or("")),
               "light 0; auto: " + settingValue(fitted.settings, "effects.shadow_lookup"));
     EXPECT_TRUE(fitted.message.empty()) << fitted.message;
     return fitted.settings.effects.shadowLookup;
   };
-  EXPECT_EQ(chosen({1280, 720}), ShadowLookup::hybrid);
+  EXPECT_EQ(chosen({1280, 720}), ShadowLookup::map);
   EXPECT_EQ(chosen({64, 48}), ShadowLookup::traced) << "fewer rays than texels of the maps";
-  EXPECT_EQ(chosen({1280, 720}, false), ShadowLookup::traced);
-  EXPECT_EQ(chosen({1280, 720}, true, false), ShadowLookup::traced) << "GPUs trace";
-  settings.effects.perSample = false;
-  EXPECT_EQ(chosen({1280, 720}), ShadowLookup::traced) << "one ray a pixel";
+  EXPECT_EQ(chosen({1280, 720}, false), ShadowLookup::traced) << "GPUs trace";
   settings.effects.shadowLookup = ShadowLookup::hybrid;
   const FittedPlan without = planWithin({.budgetBytes = 1ull << 40, .largestSide = 16384, .hybridShadows = false},
                                         {scene, state, settings, {64, 48}});
