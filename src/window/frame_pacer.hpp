@@ -58,7 +58,7 @@ class FirstPictures {
 
  private:
   static constexpr int mostTries = 60;
-  static constexpr double longestCover = 5.0;  // seconds, after which a draft is shown
+  static constexpr double longestCover = 30.0;  // seconds, after which a draft is shown
 
   int triesLeft_ = 0;  // frames in which the cost of playing may become known
   bool covered_ = false;

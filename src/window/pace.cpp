@@ -29,6 +29,9 @@ constexpr double caution = 4.0;      // a tile that was never drawn may take so 
 constexpr double remembered = 0.9;
 // Frames of a slow picture, besides those of its maps, on a busy machine, where a frame takes long whatever it draws.
 constexpr size_t mostFrames = 128;
+// Frames of a slow picture after which more tiles are tried again: one measurement may be wrong where others take the
+// processor.
+constexpr int framesToAskAgain = 8;
 
 // Says whether tiles can draw the picture. debug.check_finite needs whole pictures.
 bool drawnInTiles(const FittedPlan& fitted) {
@@ -85,6 +88,10 @@ void SlowPicture::took(double ms) {
     // their number if they take none of it. The limit is halfway between.
     const double limit = 0.5 * lastTileMs_ * (1.0 + static_cast<double>(lastCount_) / static_cast<double>(count));
     pays_ = count > lastCount_ ? tileMs < limit : tileMs > limit;
+    framesAlike_ = 0;
+  } else if (++framesAlike_ == framesToAskAgain) {
+    pays_ = true;
+    framesAlike_ = 0;
   }
   lastCount_ = count;
   lastTileMs_ = tileMs;

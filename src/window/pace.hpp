@@ -37,6 +37,7 @@ class SlowPicture {
   std::vector<double> tileMs_;  // of each other tile, expected or measured
   TileRange tiles_;             // of the last next()
   bool pays_ = true;            // more tiles in a frame take less time each
+  int framesAlike_ = 0;         // frames since a number of tiles was compared with another
   size_t lastCount_ = 0;        // tiles of the last frame; 0: none of this picture
   double lastTileMs_ = 0.0;     // of each of these
   size_t measured_ = 0;         // the first tiles of tileMs_ whose times were measured

@@ -725,11 +725,11 @@ TEST(FirstPictures, StaysCoveredUntilThereIsAGoodPicture) {
   }
   EXPECT_FALSE(opening.covered());
   opening.begin(false, true);
-  for (const double seconds : {0.1, 1.0, 4.9}) {
+  for (const double seconds : {0.1, 5.0, 29.9}) {
     opening.drawn(std::nullopt, false, false, seconds);
     EXPECT_TRUE(opening.covered());
   }
-  opening.drawn(std::nullopt, false, false, 5.1);
+  opening.drawn(std::nullopt, false, false, 30.1);
   EXPECT_FALSE(opening.covered()) << "the first picture takes long, and a draft is there";
 }
 
@@ -971,6 +971,17 @@ TEST(SlowPicture, SlowFramesDrawManyTiles) {
     EXPECT_LE(frames, 3 + 128 + 10) << tiles;
     EXPECT_GE(frames, std::min<int>(static_cast<int>(tiles), 100)) << "each leaves time for input";
   }
+}
+
+TEST(SlowPicture, OneWrongMeasurementDoesNotLast) {
+  SlowPicture slow;
+  slow.begin(0, 20'000, 1e6);
+  int frames = 0;
+  for (; !slow.finished(); ++frames) {
+    slow.next(50.0);
+    slow.took(frames == 1 ? 3000.0 : 1000.0);  // as if two tiles took longer than twice one
+  }
+  EXPECT_LE(frames, 160);
 }
 
 TEST(SlowPicture, SlowTilesLeaveTimeForInput) {
