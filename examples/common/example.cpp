@@ -9,11 +9,9 @@
 #include <stdexcept>
 
 #include "compare/image_metrics.hpp"
-#include "image/color.hpp"
 #include "image/image.hpp"
 #include "image/picture_files.hpp"
 #include "platform/files.hpp"
-#include "platform/folders.hpp"
 #include "platform/process.hpp"
 #include "platform/text.hpp"
 #include "reference/ray_tracer.hpp"

@@ -1,6 +1,6 @@
 #include "shader_pair.hpp"
 
-#include "platform/folders.hpp"
+#include "platform/files.hpp"
 
 namespace speculum::examples {
 

@@ -5,7 +5,7 @@
 #include <chrono>
 #include <cmath>
 
-#include "image/color.hpp"
+#include "image/image.hpp"
 #include "reference/ray_tracer.hpp"
 
 namespace speculum {

@@ -6,8 +6,8 @@
 #include <map>
 
 #include "accuracy/pareto.hpp"
-#include "compare/flip.hpp"
-#include "compare/heat_map.hpp"
+#include "compare/image_metrics.hpp"
+#include "compare/picture_agreement.hpp"
 #include "scene/fingerprint.hpp"
 #include "settings/setting_fields.hpp"
 

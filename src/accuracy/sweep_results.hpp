@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "compare/image_metrics.hpp"
-#include "compare/statistics.hpp"
 #include "settings/settings.hpp"
 
 namespace speculum {

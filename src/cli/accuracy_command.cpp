@@ -6,11 +6,10 @@
 #include "accuracy/report.hpp"
 #include "accuracy/sweep_json.hpp"
 #include "cli/commands.hpp"
-#include "cli/progress.hpp"
 #include "cli/stats.hpp"
 #include "platform/process.hpp"
 #include "platform/text.hpp"
-#include "window/paced_subject.hpp"
+#include "window/pace.hpp"
 
 namespace speculum {
 

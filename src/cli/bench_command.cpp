@@ -13,14 +13,13 @@
 
 #include "accuracy/sweep_planner.hpp"
 #include "cli/commands.hpp"
-#include "cli/progress.hpp"
 #include "cli/stats.hpp"
 #include "geometry/triangle_mesh.hpp"
 #include "platform/files.hpp"
 #include "platform/process.hpp"
 #include "platform/text.hpp"
+#include "session/options.hpp"
 #include "session/session.hpp"
-#include "session/view_command.hpp"
 
 namespace speculum {
 

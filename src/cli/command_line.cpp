@@ -8,9 +8,9 @@
 #include <map>
 
 #include "platform/files.hpp"
-#include "scene/camera_text.hpp"
 #include "scene/input_error.hpp"
-#include "scene/model_formats.hpp"
+#include "scene/model_files.hpp"
+#include "scene/scene_loader.hpp"
 #include "scene/value_range.hpp"
 #include "session/output_files.hpp"
 #include "session/version.hpp"

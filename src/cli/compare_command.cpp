@@ -4,8 +4,8 @@
 #include "cli/commands.hpp"
 #include "cli/stats.hpp"
 #include "compare/compared_image.hpp"
-#include "compare/heat_map.hpp"
 #include "compare/image_metrics.hpp"
+#include "compare/picture_agreement.hpp"
 #include "image/picture_files.hpp"
 #include "platform/text.hpp"
 

@@ -4,8 +4,7 @@
 #include <set>
 
 #include "cli/commands.hpp"
-#include "cli/progress.hpp"
-#include "image/color.hpp"
+#include "image/image.hpp"
 #include "image/picture_files.hpp"
 #include "platform/files.hpp"
 #include "platform/process.hpp"

@@ -9,20 +9,18 @@
 
 #include "cli/case_drawer.hpp"
 #include "cli/commands.hpp"
-#include "cli/progress.hpp"
 #include "cli/stats.hpp"
 #include "platform/files.hpp"
-#include "platform/folders.hpp"
 #include "platform/process.hpp"
 #include "platform/text.hpp"
 #include "regress/picture_check.hpp"
 #include "regress/report_page.hpp"
 #include "regress/worker_pool.hpp"
 #include "scene/scene_loader.hpp"
+#include "session/options.hpp"
 #include "session/output_files.hpp"
 #include "session/session_subject.hpp"
 #include "session/version.hpp"
-#include "session/view_command.hpp"
 
 namespace speculum {
 

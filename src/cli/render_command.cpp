@@ -4,7 +4,6 @@
 #include <stdexcept>
 
 #include "cli/commands.hpp"
-#include "cli/progress.hpp"
 #include "cli/stats.hpp"
 #include "image/picture_files.hpp"
 #include "platform/files.hpp"

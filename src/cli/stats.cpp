@@ -4,11 +4,11 @@
 #include <cmath>
 #include <map>
 
-#include "compare/statistics.hpp"
+#include "compare/image_metrics.hpp"
 #include "plan/depth_readout.hpp"
-#include "plan/skipped_mirrors.hpp"
-#include "platform/machine.hpp"
-#include "systems/pass_index.hpp"
+#include "plan/mirror_sight.hpp"
+#include "platform/process.hpp"
+#include "systems/pass_log.hpp"
 
 namespace speculum {
 

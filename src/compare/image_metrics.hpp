@@ -1,14 +1,39 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/glm.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "compare/compared_image.hpp"
-#include "compare/plane.hpp"
 
 namespace speculum {
+
+// Repeated measurements of one quantity, in the unit of the values.
+struct Spread {
+  double median = 0.0;
+  double minimum = 0.0;
+  double lowerQuartile = 0.0;
+  double upperQuartile = 0.0;
+  int repeats = 0;
+};
+
+// Returns median, minimum and quartiles by linear interpolation between order statistics (type 7 of Hyndman and Fan,
+// "Sample Quantiles in Statistical Packages", 1996). All zero without values.
+Spread spreadOf(std::vector<double> values);
+
+// Returns the least value that `part` of the values, of which there is one at least, do not exceed (nearest rank).
+double nearestRank(std::vector<double> values, double part);
+
+// The line y = offset + slope * x.
+struct LineFit {
+  double slope = 0.0;
+  double offset = 0.0;
+};
+// Fits a line by least squares. Returns nothing without two different x.
+std::optional<LineFit> fitLine(std::span<const glm::dvec2> samples);
 
 struct ImageMetrics {
   double rmse = 0.0;          // root mean square over pixels and channels, linear [0, 1]
@@ -53,5 +78,21 @@ Plane2d ssimMap(const ComparedImage& reference, const ComparedImage& test);
 
 // Width in pixels of the border where windows reach beyond the picture; the border does not count in the mean.
 constexpr int ssimBorder = 5;
+
+// The display that the metric assumes: 0.7 m away, 3840 pixels on 0.7 m.
+constexpr double flipPixelsPerDegree = 67.0206;
+
+// Returns the FLIP error of every pixel, 0 (no visible difference) to 1, on display sRGB: Andersson et al., "FLIP: A
+// Difference Evaluator for Alternating Images" (2020), the variant for low dynamic range. Sizes must be equal.
+// `perceived` receives `test` minus `reference` of every pixel, in the colors that FLIP compares: filtered to the
+// detail that the eye resolves, as CIELAB with color weighted by lightness.
+Plane2d flipMap(const ComparedImage& reference, const ComparedImage& test,
+                std::vector<glm::dvec3>* perceived = nullptr);
+
+// Returns the flicker between two frames of a movement, 0 to 1, from what flipMap() perceives of them: the mean over
+// pixels of FLIP's error of color, taken of (now - before). That is how far the picture's change from frame to frame is
+// from the reference's: an error that stays counts nothing, and a pixel that is wrong in one of the frames counts as in
+// FLIP without the part for edges and points.
+double flickerOf(std::span<const glm::dvec3> before, std::span<const glm::dvec3> now);
 
 }  // namespace speculum

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "compare/compared_image.hpp"
 #include "geometry/projection.hpp"
 #include "image/image.hpp"
 
@@ -32,5 +33,19 @@ Image8 differencePicture(const Image8& a, const Image8& b, const PictureAgreemen
 
 // Returns the bounds of the largest group of near pixels over the tolerance; nothing if no pixel is over.
 std::optional<PixelRect> largestGroup(const PictureAgreement& agreement, int width);
+
+// Returns a color of the perceptual color map for t in [0, 1] (clamped): lightness rises evenly in Oklab (Ottosson
+// 2020) from near black to pale yellow while the hue turns from violet over red, so the map also reads in grey. Display
+// sRGB, 0 .. 1.
+glm::dvec3 heatColor(double t);
+
+// Draws the map in colors of heatColor(), with `top` (> 0) and above in the brightest one.
+Image8 heatColors(const Plane2d& map, double top = 1.0);
+
+// Returns the number of rows that a legend adds below a map of this width.
+int legendHeight(int width);
+
+// Draws heatColors() with a legend from 0 to `top` below it.
+Image8 heatMap(const Plane2d& map, double top = 1.0);
 
 }  // namespace speculum

@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "core/device.hpp"
-#include "platform/folders.hpp"
+#include "platform/files.hpp"
 #include "platform/process.hpp"
 #include "platform/window.hpp"
 

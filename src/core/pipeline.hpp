@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <map>
 #include <optional>
 #include <span>
@@ -9,11 +10,31 @@
 
 #include "core/device.hpp"
 #include "core/image.hpp"
-#include "core/pipeline_cache.hpp"
 #include "core/retire_queue.hpp"
 #include "core/shader_library.hpp"
 
 namespace speculum {
+
+// The driver's compiled pipelines on disk, one file per GPU and driver. Damaged and foreign files are ignored.
+class PipelineCache {
+ public:
+  // `directory` empty: nothing is read or written.
+  PipelineCache(Device& device, const std::filesystem::path& directory);
+  ~PipelineCache();  // saves
+  PipelineCache(const PipelineCache&) = delete;
+  PipelineCache& operator=(const PipelineCache&) = delete;
+
+  VkPipelineCache get() const { return cache_.get(); }
+  const std::filesystem::path& file() const { return file_; }
+  bool loaded() const { return loaded_; }  // whether a file was found and taken
+  bool save() const;                       // true if written, or nothing was to be written
+
+ private:
+  Device& device_;
+  std::filesystem::path file_;
+  bool loaded_ = false;
+  PipelineCacheHandle cache_;
+};
 
 // Properties in which the project's one-subpass render passes differ. Attachments: color, resolve, depth.
 struct RenderPassKey {

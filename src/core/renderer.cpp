@@ -4,7 +4,7 @@
 #include <chrono>
 #include <stdexcept>
 
-#include "platform/folders.hpp"
+#include "platform/files.hpp"
 
 namespace speculum {
 

@@ -1,6 +1,6 @@
 #include "core/vulkan_result.hpp"
 
-#include "platform/machine.hpp"
+#include "platform/process.hpp"
 
 namespace speculum {
 

@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "platform/files.hpp"
-#include "platform/folders.hpp"
 
 namespace speculum {
 

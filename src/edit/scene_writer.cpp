@@ -11,7 +11,7 @@
 #include "scene/input_error.hpp"
 #include "scene/scene_fields.hpp"
 #include "scene/scene_loader.hpp"
-#include "scene/toml_text.hpp"
+#include "scene/toml_file.hpp"
 
 namespace speculum {
 

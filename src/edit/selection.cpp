@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "plan/scene_names.hpp"
+#include "plan/view.hpp"
 
 namespace speculum {
 

@@ -1,4 +1,4 @@
-#include "geometry/solid_mesh.hpp"
+#include "geometry/mesh.hpp"
 
 #include <meshoptimizer.h>
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/depth_resolution.hpp"
+#include "geometry/projection.hpp"
 
 namespace speculum {
 

@@ -7,7 +7,7 @@
 namespace speculum {
 
 // Smallest gap between two parallel surfaces that the depth test keeps in order on every pixel, at the farthest point
-// that a pass sees, for each clip method. geometry/depth_resolution.hpp derives the gap.
+// that a pass sees, for each clip method. geometry/projection.hpp derives the gap.
 struct DepthReadout {
   double distance = 0.0;  // metres from the pass's eye, along the reflected path
   // Gaps in metres along the line of sight; empty if no gap is kept in order. `oblique` is empty also without a clip

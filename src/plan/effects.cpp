@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "plan/scene_names.hpp"
+#include "plan/view.hpp"
 #include "scene/material_mirrors.hpp"
 
 namespace speculum {

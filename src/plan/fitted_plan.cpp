@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "plan/image_reuse.hpp"
-#include "plan/picture_offset.hpp"
+#include "plan/refined_tiles.hpp"
 #include "plan/shadow_map.hpp"
 #include "plan/target_memory.hpp"
 

@@ -6,13 +6,12 @@
 #include <iterator>
 
 #include "plan/cube_face.hpp"
-#include "plan/environment_map.hpp"
 #include "plan/image_reuse.hpp"
 #include "plan/mirror_search.hpp"
-#include "plan/picture_offset.hpp"
-#include "plan/scene_names.hpp"
+#include "plan/mirror_sight.hpp"
+#include "plan/refined_tiles.hpp"
 #include "plan/shadow_map.hpp"
-#include "plan/skipped_mirrors.hpp"
+#include "plan/view.hpp"
 
 namespace speculum {
 

@@ -10,7 +10,6 @@
 
 #include "geometry/recycled_memory.hpp"
 #include "plan/cached_image.hpp"
-#include "plan/partial_instances.hpp"
 #include "plan/refined_tiles.hpp"
 #include "plan/traced_effects.hpp"
 #include "plan/view.hpp"
@@ -77,7 +76,7 @@ enum class PassSource {
   unread,  // a face of a shadow map that no drawn surface reads
 };
 
-// Tiles first .. end - 1 of a picture or of a pass (picture_tiles.hpp).
+// Tiles first .. end - 1 of a picture or of a pass (pass_mask.hpp).
 struct TileRange {
   size_t first = 0;
   size_t end = 0;
@@ -209,7 +208,7 @@ struct FramePlan {
   RecycledVector<SkippedMirror> skipped;  // mirrors that a view sees; skippedMirrors() adds the others
   RecycledVector<CachedImage> cached;     // images that this frame reuses or renders; the next frame may reuse them
   TracedEffects effects;                  // effects that the passes call for
-  // Tiles that this frame draws if several frames draw one picture (picture_tiles.hpp); none: the frame draws all
+  // Tiles that this frame draws if several frames draw one picture (pass_mask.hpp); none: the frame draws all
   // tiles.
   std::optional<TileRange> tiles;
   // The main view is drawn into the display image, in colors of the display. It has no target of radiance, and the
@@ -270,7 +269,7 @@ const Pass* mirrorPass(const FramePlan& plan, std::span<const int> path);
 // as if every image were rendered, so that no image depends on which others are reused.
 //
 // Shadow and environment maps in `cache.cubes` are reused by reflection.skip_unchanged and effects.environment_interval
-// (cube_reuse.cpp). With reflection.skip_unchanged and without view.continuous, the main view in `cache.main` is reused
+// (image_reuse.cpp). With reflection.skip_unchanged and without view.continuous, the main view in `cache.main` is reused
 // if it would be drawn exactly the same.
 //
 // A main view that is shown only is encoded early if it has one sample for each pixel of the display, none of its
@@ -281,5 +280,31 @@ const Pass* mirrorPass(const FramePlan& plan, std::span<const int> path);
 // the next one of `cache.accumulated`, it is drawn in the tiles `cache.refined` only. If `picture` is view.accumulate
 // or more, the mean is complete and is shown again: mainReused().
 FramePlan planFrame(const FrameRequest& request);
+
+enum class TargetKind { color, depth };
+
+// Says whether the pass with this path has this target in every frame: only the main view has, its colors.
+inline bool isAlwaysThere(const MirrorPath& path, TargetKind kind) {
+  return path.empty() && kind == TargetKind::color;
+}
+
+// A pass's target, shown over the picture in an area of the display image.
+struct TargetDisplay {
+  int pass = 0;    // index into FramePlan::passes
+  PixelRect area;  // pixels
+  TargetKind kind = TargetKind::color;
+  double zoom = 0.0;                // display pixels for each texel; 0 fits the image into the area's middle
+  glm::dvec2 origin{0.0};           // texel at the area's upper left corner; only if zoom > 0
+  double halfDistance = 1.0;        // metres from the eye that depth shows half bright
+  std::optional<glm::ivec2> probe;  // texel to read: see SceneRenderer::probed
+};
+
+// Value of a target at one texel.
+struct TexelValue {
+  glm::ivec2 texel{0};      // from the target's top left
+  bool depth = false;       // the target is a depth image; `value` is 0 then
+  glm::vec4 value{0.0f};    // linear radiance, disparity in 1/m; the mean of the texel's samples
+  float storedDepth = 0.0;  // of the first sample; near plane / metres along the view, 0: infinitely far
+};
 
 }  // namespace speculum

@@ -13,7 +13,6 @@
 #include "plan/mirror_sight.hpp"
 #include "plan/occlusion.hpp"
 #include "plan/pass_mask.hpp"
-#include "plan/skipped_mirrors.hpp"
 
 namespace speculum {
 

@@ -6,8 +6,7 @@
 #include <utility>
 
 #include "geometry/polygon.hpp"
-#include "plan/partial_instances.hpp"
-#include "plan/scene_names.hpp"
+#include "plan/view.hpp"
 
 namespace speculum {
 

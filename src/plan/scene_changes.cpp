@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <bit>
 
-#include "plan/content_numbers.hpp"
-
 namespace speculum {
 
 namespace {

@@ -8,7 +8,7 @@
 #include <glm/gtx/component_wise.hpp>
 #include <numeric>
 
-#include "plan/scene_names.hpp"
+#include "plan/view.hpp"
 #include "scene/material_mirrors.hpp"
 
 namespace speculum {

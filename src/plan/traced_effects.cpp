@@ -4,8 +4,8 @@
 
 #include "geometry/polygon.hpp"
 #include "plan/frame_plan.hpp"
-#include "plan/scene_names.hpp"
 #include "plan/shadow_map.hpp"
+#include "plan/view.hpp"
 #include "scene/material_mirrors.hpp"
 
 namespace speculum {

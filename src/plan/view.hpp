@@ -1,16 +1,48 @@
 #pragma once
 
+#include <cstdint>
 #include <glm/glm.hpp>
 #include <optional>
 #include <span>
+#include <string>
+#include <string_view>
 
 #include "geometry/bvh.hpp"
+#include "geometry/mesh.hpp"
 #include "geometry/polygon.hpp"
 #include "geometry/projection.hpp"
 #include "geometry/recycled_memory.hpp"
+#include "scene/scene.hpp"
 #include "scene/scene_state.hpp"
 
 namespace speculum {
+
+// Name of a node for users: "mirror 'floor'", or "mirror 2" if it has none.
+template <typename String = std::string>
+String nameOf(std::string_view kind, std::string_view name, int index) {
+  String text(kind);
+  if (name.empty()) {
+    text.append(" ").append(std::to_string(index));
+  } else {
+    text.append(" '").append(name).append("'");
+  }
+  return text;
+}
+
+// Name of a mirror for users: its `name`, or its index.
+inline std::string mirrorName(const Scene& scene, int mirror) {
+  const std::string& name = scene.mirror(mirror).name;
+  return name.empty() ? std::to_string(mirror) : name;
+}
+
+// Name of a path for users: "floor > wall", from the eye on.
+inline std::string mirrorPathName(const Scene& scene, std::span<const int> path) {
+  std::string text;
+  for (const int mirror : path) {
+    text += (text.empty() ? "" : " > ") + mirrorName(scene, mirror);
+  }
+  return text;
+}
 
 // Mirrors that reflect a view, from the camera's eye on, as indices into Scene::mirrors; empty for the main view.
 using MirrorPath = RecycledVector<int>;
@@ -79,5 +111,28 @@ RecycledVector<glm::dvec4> toClip(const View& view, const Projection& projection
 // Sorts the instances that a view shows so that little is shaded and then hidden: nearer ones first, with the instances
 // of one mesh together. Instances at equal distances keep their order.
 std::vector<int> frontToBack(const View& view, std::span<const int> instances, const SceneState& state);
+
+// An instance that a view sees only in part: some of its mesh's clusters.
+struct PartialInstance {
+  int instance = 0;                   // index into SceneState::instances
+  RecycledVector<IndexRange> ranges;  // indices that are drawn; ascending and disjoint
+};
+
+// Finds the instance in an ascending list; null if the list does not have it.
+const PartialInstance* partOf(const RecycledVector<PartialInstance>& partial, int instance);
+
+IndexRange allOf(const Mesh& mesh);
+
+// Says whether the view may see a part of the instance's bounding sphere and a part of its mesh's box, which reaches
+// `halfExtent` from the centre.
+bool boundsVisible(const View& view, const InstanceState& instance, const glm::dvec3& halfExtent);
+
+// Returns the index ranges of the clusters that the view may see: everything in one range unless leaving some out saves
+// more than the extra draw calls cost, empty if the view sees nothing. No visible triangle is left out.
+RecycledVector<IndexRange> visibleRanges(const View& view, const InstanceState& instance, const Mesh& mesh);
+// Says whether the view sees only front faces of the mesh if that is solid: the view's eye is outside the mesh's box,
+// and the box lies before the view's clip plane.
+bool seesOnlyFronts(const View& view, const InstanceState& instance, const glm::dvec3& halfExtent);
+uint32_t indexCount(std::span<const IndexRange> ranges);
 
 }  // namespace speculum

@@ -1,23 +1,28 @@
-#include "platform/system_files.hpp"
-
 #include <fcntl.h>
+#include <spdlog/fmt/fmt.h>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <cstdlib>
 #include <cstring>
+#include <fstream>
+#include <optional>
+#include <sstream>
+#include <utility>
 
 #include "platform/files.hpp"
-#include "platform/folders.hpp"
+#include "platform/process.hpp"
+#include "platform/system_files.hpp"
 
 namespace speculum {
 
-namespace fs = std::filesystem;
-
 namespace {
+
+namespace fs = std::filesystem;
 
 [[noreturn]] void fail(const fs::path& file, int error) {
   failToWrite(file, std::strerror(error));
@@ -76,6 +81,62 @@ int descriptorNamed(fs::path file) {
     file = file.parent_path() / fs::read_symlink(file, error);
   }
   return -1;
+}
+
+// Returns a folder below $TMPDIR that nobody else can write to; nothing if there can be none: other users may have put
+// a link or a folder of theirs in its place, or may be able to rename the folder, if $TMPDIR has no sticky bit.
+std::optional<fs::path> ownTemporaryFolder() {
+  const fs::path parent = temporaryFolder();
+  const fs::path folder = parent / ("speculum-" + std::to_string(::geteuid()));
+  struct stat around {};
+  struct stat own {};
+  ::mkdir(folder.c_str(), 0700);
+  const bool safe = ::stat(parent.c_str(), &around) == 0 && ::lstat(folder.c_str(), &own) == 0 &&
+                    ((around.st_mode & S_IWOTH) == 0 || (around.st_mode & S_ISVTX) != 0) &&
+                    (around.st_uid == 0 || around.st_uid == own.st_uid) && S_ISDIR(own.st_mode) &&
+                    own.st_uid == ::geteuid() && (own.st_mode & 077) == 0;
+  return safe ? std::optional(folder) : std::nullopt;
+}
+
+// Returns the folder that holds the user's other folders. Without $HOME, its content is lost when the machine starts
+// again. If there is no temporary folder either, it is a path that cannot be created, so that nothing is kept.
+fs::path homeFolder() {
+  const fs::path home = environment("HOME");
+  return home.is_absolute() ? home : ownTemporaryFolder().value_or("/proc/no-home");
+}
+
+// Returns the folder that the file of xdg-user-dirs names: XDG_PICTURES_DIR="$HOME/..." or an absolute path.
+fs::path configuredDir(const std::string& variable, const fs::path& home) {
+  std::ifstream file(userConfigDir().parent_path() / "user-dirs.dirs");
+  const std::string key = variable + "=\"";
+  for (std::string line; std::getline(file, line);) {
+    const size_t end = line.rfind('"');
+    if (!line.starts_with(key) || end < key.size()) {
+      continue;
+    }
+    const std::string value = line.substr(key.size(), end - key.size());
+    return value.starts_with("$HOME/") ? home / value.substr(6) : fs::path(value);
+  }
+  return {};
+}
+
+fs::path desktopDir(const std::string& variable, const char* fallback) {
+  const fs::path home = homeFolder();
+  const fs::path folder = configuredDir(variable, home);
+  return folder.is_absolute() ? folder : home / fallback;
+}
+
+// Returns the ranges of a set of characters as fontconfig prints it: "20-7e a0 1f600".
+std::vector<std::pair<char32_t, char32_t>> rangesIn(const std::string& charset) {
+  std::vector<std::pair<char32_t, char32_t>> ranges;
+  std::istringstream words(charset);
+  for (std::string word; words >> word;) {
+    char* end = nullptr;
+    const unsigned long first = std::strtoul(word.c_str(), &end, 16);
+    const unsigned long last = *end == '-' ? std::strtoul(end + 1, nullptr, 16) : first;
+    ranges.emplace_back(static_cast<char32_t>(first), static_cast<char32_t>(last));
+  }
+  return ranges;
 }
 
 }  // namespace
@@ -162,6 +223,78 @@ fs::path newTemporaryFolder() {
     throw std::runtime_error("no temporary directory could be made at " + name + " (name a writable folder in TMPDIR)");
   }
   return name;
+}
+
+const char* const homeVariable = "HOME";
+
+fs::path systemFolder(UserFolder folder) {
+  switch (folder) {
+    case UserFolder::cache:
+      return homeFolder() / ".cache";
+    case UserFolder::config:
+      return homeFolder() / ".config";
+    case UserFolder::pictures:
+      return desktopDir("XDG_PICTURES_DIR", "Pictures");
+    case UserFolder::documents:
+      break;
+  }
+  return desktopDir("XDG_DOCUMENTS_DIR", "Documents");
+}
+
+fs::path temporaryFolder() {
+  const fs::path folder = environment("TMPDIR");
+  return folder.empty() ? fs::path("/tmp") : folder;
+}
+
+fs::path executablePath() {
+  return fs::read_symlink("/proc/self/exe");
+}
+
+fs::path systemFont() {
+  for (const char* file : {"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf", "/usr/share/fonts/TTF/DejaVuSans.ttf",
+                           "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf",
+                           "/usr/share/fonts/truetype/roboto/unhinted/RobotoTTF/Roboto-Regular.ttf",
+                           "/usr/share/fonts/truetype/noto/NotoSans-Regular.ttf"}) {
+    if (isFile(file)) {
+      return file;
+    }
+  }
+  const ProcessResult found = runProcess({"fc-match", "-f", "%{file}", "sans-serif:fontformat=TrueType"});
+  return found.exitCode == 0 && isFile(found.output) ? fs::path(found.output) : fs::path();
+}
+
+// Fontconfig answers with the font that lacks the fewest of the characters, which may be all.
+std::vector<FontFace> fontsFor(std::u32string characters) {
+  std::vector<FontFace> fonts;
+  constexpr int most = 16;  // fonts that are asked for: each takes memory and time
+  for (int asked = 0; !characters.empty() && asked < most; ++asked) {
+    std::string pattern = "sans-serif:scalable=true:outline=true:color=false:charset=";
+    for (const char32_t character : characters) {
+      pattern += fmt::format("{:x} ", uint32_t{character});
+    }
+    const ProcessResult found =
+        runProcess({"fc-match", "-f", "\nfont\n%{file}\n%{index}\n%{outline}%{color}\n%{charset}", pattern});
+    std::istringstream lines(found.exitCode == 0 ? found.output : "");
+    std::string file, index, kind, charset;
+    while (std::getline(lines, file) && file != "font") {  // warnings may come before it
+    }
+    std::getline(lines, file) && std::getline(lines, index) && std::getline(lines, kind) &&
+        std::getline(lines, charset);
+    const auto ranges = rangesIn(charset);
+    const size_t helped = std::erase_if(characters, [&](char32_t character) {
+      return std::ranges::any_of(
+          ranges, [&](const auto& range) { return range.first <= character && character <= range.second; });
+    });
+    if (helped == 0) {
+      break;
+    }
+    if (!kind.starts_with("TrueFalse") || !isFile(file)) {
+      continue;
+    }
+    constexpr unsigned long faceBits = 0xffff;  // the others name a variant of the face
+    fonts.push_back({file, static_cast<int>(std::strtoul(index.c_str(), nullptr, 10) & faceBits)});
+  }
+  return fonts;
 }
 
 }  // namespace speculum

@@ -7,8 +7,7 @@
 
 #include "platform/files.hpp"
 
-// What files.cpp and folders.cpp share with their halves for a system, NAME_posix.cpp and NAME_win32.cpp, of which
-// CMake compiles one.
+// What files.cpp shares with its halves for a system, files_posix.cpp and files_win32.cpp, of which CMake compiles one.
 namespace speculum {
 
 // The system's own halves.

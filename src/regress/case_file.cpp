@@ -13,7 +13,6 @@
 #include "accuracy/sweep_planner.hpp"
 #include "platform/files.hpp"
 #include "platform/text.hpp"
-#include "scene/camera_text.hpp"
 #include "scene/scene_loader.hpp"
 #include "scene/scene_sections.hpp"
 #include "scene/text_lines.hpp"

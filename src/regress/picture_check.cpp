@@ -6,9 +6,8 @@
 #include <cmath>
 
 #include "compare/compared_image.hpp"
-#include "compare/flip.hpp"
-#include "compare/heat_map.hpp"
-#include "compare/statistics.hpp"
+#include "compare/image_metrics.hpp"
+#include "compare/picture_agreement.hpp"
 #include "image/picture_files.hpp"
 
 namespace speculum {

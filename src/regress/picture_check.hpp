@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "compare/compared_image.hpp"
 #include "compare/picture_agreement.hpp"
-#include "compare/plane.hpp"
 #include "regress/case_file.hpp"
 
 namespace speculum {

@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "scene/gltf_file.hpp"
-#include "scene/gltf_materials.hpp"
 #include "scene/input_error.hpp"
 #include "scene/mesh_builder.hpp"
 #include "scene/value_range.hpp"

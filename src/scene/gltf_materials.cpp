@@ -1,4 +1,4 @@
-#include "scene/gltf_materials.hpp"
+#include "scene/gltf_file.hpp"
 
 #include <algorithm>
 #include <cmath>

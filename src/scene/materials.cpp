@@ -7,7 +7,7 @@
 #include <functional>
 #include <span>
 
-#include "image/color.hpp"
+#include "image/image.hpp"
 #include "image/picture_files.hpp"
 #include "platform/files.hpp"
 #include "platform/text.hpp"

@@ -9,8 +9,8 @@
 
 #include "geometry/bvh.hpp"
 #include "geometry/convex_mesh.hpp"
+#include "geometry/mesh.hpp"
 #include "geometry/polygon.hpp"
-#include "geometry/solid_mesh.hpp"
 
 namespace speculum {
 

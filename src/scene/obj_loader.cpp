@@ -14,7 +14,6 @@
 #include "scene/input_error.hpp"
 #include "scene/mesh_builder.hpp"
 #include "scene/model_files.hpp"
-#include "scene/obj_materials.hpp"
 #include "scene/text_lines.hpp"
 
 namespace speculum {

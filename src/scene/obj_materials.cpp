@@ -1,4 +1,4 @@
-#include "scene/obj_materials.hpp"
+#include "scene/obj_loader.hpp"
 
 #include <spdlog/fmt/fmt.h>
 #include <tiny_obj_loader.h>

@@ -1,44 +1,37 @@
 #include "scene/scene_loader.hpp"
 
+#include <spdlog/fmt/fmt.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <glm/gtx/component_wise.hpp>
 #include <map>
 #include <set>
+#include <span>
+#include <stdexcept>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include "platform/files.hpp"
-#include "platform/folders.hpp"
 #include "platform/text.hpp"
 #include "scene/input_error.hpp"
 #include "scene/material_mirrors.hpp"
 #include "scene/materials.hpp"
 #include "scene/model_files.hpp"
-#include "scene/model_formats.hpp"
 #include "scene/scene_sections.hpp"
 #include "scene/text_lines.hpp"
 #include "scene/toml_file.hpp"
-#include "scene/toml_text.hpp"
+#include "scene/value_range.hpp"
 
 namespace speculum {
 
-namespace fs = std::filesystem;
-
-fs::path fileNamedBy(const fs::path& scene, const std::string& name) {
-  const fs::path named = scene.parent_path() / name;
-  fs::path file = named.lexically_normal();
-  std::error_code error;
-  // The paths name different files if ".." follows a symbolic link to a folder.
-  if (fs::exists(named, error) && !fs::equivalent(named, file, error)) {
-    file = named;
-  }
-  return fs::exists(file, error) ? file : ModelFiles(scene).follow(scene.parent_path(), name).value_or(file);
-}
-
 namespace {
+
+namespace fs = std::filesystem;
 
 // Turns the progress of each model into the progress of all models, weighted by their bytes.
 class ModelProgress {
@@ -290,7 +283,39 @@ std::string sceneText(const fs::path& file, const Model& model) {
   return toml;
 }
 
+// Parses lists of numbers. Commas separate numbers, colons separate lists. Returns nothing for any other text.
+std::optional<std::vector<std::vector<double>>> parseLists(std::string_view text) {
+  std::vector<std::vector<double>> lists(1);
+  const char* end = text.data() + text.size();
+  for (const char* at = text.data();;) {
+    double value = 0.0;
+    const auto [next, error] = std::from_chars(at, end, value);
+    if (error != std::errc() || !std::isfinite(value) || (next != end && *next != ',' && *next != ':')) {
+      return std::nullopt;
+    }
+    lists.back().push_back(value);
+    if (next == end) {
+      return lists;
+    }
+    if (*next == ':') {
+      lists.emplace_back();
+    }
+    at = next + 1;
+  }
+}
+
 }  // namespace
+
+fs::path fileNamedBy(const fs::path& scene, const std::string& name) {
+  const fs::path named = scene.parent_path() / name;
+  fs::path file = named.lexically_normal();
+  std::error_code error;
+  // The paths name different files if ".." follows a symbolic link to a folder.
+  if (fs::exists(named, error) && !fs::equivalent(named, file, error)) {
+    file = named;
+  }
+  return fs::exists(file, error) ? file : ModelFiles(scene).follow(scene.parent_path(), name).value_or(file);
+}
 
 Scene parseScene(const fs::path& file, std::string text) {
   const toml::table root = parseToml(file, text, "scene file");
@@ -411,6 +436,38 @@ Scene modelScene(const fs::path& file, const LoadProgress& progress) {
   scene.textures = std::move(textures);
   addMaterialMirrors(scene);
   return scene;
+}
+
+bool meansPoints(const std::string& text) {
+  const bool number = !text.empty() && std::string_view("+-.0123456789").find(text.front()) != std::string_view::npos;
+  return number && text.find(',') != std::string::npos &&
+         (text.find(':') != std::string::npos || text.find_first_not_of("+-.,0123456789eE \t") == std::string::npos);
+}
+
+Bookmark parseCamera(const std::string& text) {
+  const auto lists = parseLists(text).value_or(std::vector<std::vector<double>>());
+  const size_t count = lists.size();
+  const auto vectors = std::span(lists).first(std::min<size_t>(count, 3));
+  const bool points = std::ranges::all_of(vectors, [](const auto& list) { return list.size() == 3; });
+  const bool angle = count < 4 || (lists[3].size() == 1 && fieldOfViewRange.contains(lists[3][0]));
+  if (count < 2 || count > 4 || !points || !angle) {
+    throw std::invalid_argument(
+        "'" + text +
+        "' is not a camera (position:target, position:target:up or position:target:up:FOV with a vertical "
+        "field of view of 1 .. 170 degrees, such as 0,1,4:0,1,0)");
+  }
+  for (const std::vector<double>& vector : vectors) {
+    for (const double value : vector) {
+      if (!coordinateRange.contains(value)) {
+        throw std::invalid_argument(fmt::format("{} is out of range ({})", value, coordinateRange.text()));
+      }
+    }
+  }
+  const auto point = [&](size_t i) { return glm::dvec3(lists[i][0], lists[i][1], lists[i][2]); };
+  return {.position = point(0),
+          .target = point(1),
+          .up = count > 2 ? std::optional(point(2)) : std::nullopt,
+          .verticalFov = count > 3 ? std::optional(lists[3][0]) : std::nullopt};
 }
 
 }  // namespace speculum

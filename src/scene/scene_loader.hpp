@@ -7,7 +7,7 @@
 #include <string>
 
 #include "scene/input_error.hpp"
-#include "scene/model_formats.hpp"
+#include "scene/model_files.hpp"
 #include "scene/obj_loader.hpp"
 #include "scene/scene.hpp"
 
@@ -51,5 +51,13 @@ std::optional<std::filesystem::path> shippedScene(const std::filesystem::path& w
 // two lights leave no side of it dark. Throws InputError, also for a bounding sphere whose radius is not within 1e-9 ..
 // 1e12 m.
 Scene modelScene(const std::filesystem::path& file, const LoadProgress& progress = {});
+
+// Says whether a text that chooses a camera is for parseCamera(): it begins like a number. Any other text is the name
+// of a bookmark.
+bool meansPoints(const std::string& text);
+
+// Parses position:target[:up[:FOV]], such as "0,1,4:0,1,0", into a bookmark without a name. Throws
+// std::invalid_argument for any other text.
+Bookmark parseCamera(const std::string& text);
 
 }  // namespace speculum

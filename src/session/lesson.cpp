@@ -7,8 +7,6 @@
 #include <string_view>
 
 #include "platform/files.hpp"
-#include "platform/folders.hpp"
-#include "scene/camera_text.hpp"
 #include "scene/scene_loader.hpp"
 #include "scene/scene_sections.hpp"
 #include "scene/toml_file.hpp"

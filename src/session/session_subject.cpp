@@ -8,8 +8,7 @@
 #include <ctime>
 
 #include "plan/traced_effects.hpp"
-#include "platform/folders.hpp"
-#include "platform/machine.hpp"
+#include "platform/files.hpp"
 #include "platform/process.hpp"
 #include "scene/fingerprint.hpp"
 #include "scene/input_error.hpp"

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "image/color.hpp"
+#include "image/image.hpp"
 #include "scene/scene.hpp"
 #include "scene/value_range.hpp"
 

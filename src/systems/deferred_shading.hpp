@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include "systems/frame_info.hpp"
+#include "systems/frame_data.hpp"
 #include "systems/pipeline_variants.hpp"
 
 namespace speculum {

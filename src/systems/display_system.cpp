@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <glm/gtc/packing.hpp>
 
-#include "image/color.hpp"
+#include "image/image.hpp"
 #include "shaders/gpu_data.h"
 #include "systems/gpu_conversion.hpp"
 

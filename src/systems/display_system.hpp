@@ -3,7 +3,6 @@
 #include <optional>
 #include <span>
 
-#include "image/color.hpp"
 #include "image/image.hpp"
 #include "systems/frame_data.hpp"
 #include "systems/pass_log.hpp"

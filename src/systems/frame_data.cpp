@@ -8,9 +8,7 @@
 #include "plan/pass_mask.hpp"
 #include "scene/material_mirrors.hpp"
 #include "scene/scene_state.hpp"
-#include "systems/frame_info.hpp"
 #include "systems/gpu_conversion.hpp"
-#include "systems/mirror_polygons.hpp"
 
 namespace speculum {
 

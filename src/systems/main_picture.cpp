@@ -3,7 +3,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "plan/picture_tiles.hpp"
+#include "plan/pass_mask.hpp"
 #include "systems/scene_targets.hpp"
 
 namespace speculum {

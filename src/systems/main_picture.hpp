@@ -6,7 +6,7 @@
 #include "image/image.hpp"
 #include "systems/accumulation.hpp"
 #include "systems/display_system.hpp"
-#include "systems/frame_info.hpp"
+#include "systems/frame_data.hpp"
 
 namespace speculum {
 

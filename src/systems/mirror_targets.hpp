@@ -3,7 +3,7 @@
 #include <map>
 #include <optional>
 
-#include "plan/concurrent_passes.hpp"
+#include "plan/target_memory.hpp"
 #include "systems/frame_data.hpp"
 #include "systems/scene_targets.hpp"
 

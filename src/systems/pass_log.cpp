@@ -1,7 +1,5 @@
 #include "systems/pass_log.hpp"
 
-#include "systems/pass_index.hpp"
-
 namespace speculum {
 
 void PictureSums::add(std::span<const RecordedPass> passes, const FrameTimings& timings) {

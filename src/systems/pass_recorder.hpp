@@ -1,6 +1,6 @@
 #pragma once
 
-#include "plan/picture_tiles.hpp"
+#include "plan/pass_mask.hpp"
 #include "systems/deferred_shading.hpp"
 #include "systems/mirror_system.hpp"
 #include "systems/point_light_system.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "systems/frame_info.hpp"
+#include "systems/frame_data.hpp"
 #include "systems/pipeline_variants.hpp"
 
 namespace speculum {

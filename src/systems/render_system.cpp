@@ -5,7 +5,7 @@
 #include <bit>
 #include <utility>
 
-#include "plan/scene_names.hpp"
+#include "plan/view.hpp"
 #include "systems/deferred_shading.hpp"
 #include "systems/gpu_conversion.hpp"
 #include "systems/shadow_system.hpp"

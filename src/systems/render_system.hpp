@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <optional>
 
-#include "systems/frame_info.hpp"
+#include "systems/frame_data.hpp"
 #include "systems/pipeline_variants.hpp"
 
 namespace speculum {

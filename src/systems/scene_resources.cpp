@@ -7,7 +7,7 @@
 #include <cmath>
 #include <iterator>
 
-#include "image/color.hpp"
+#include "image/image.hpp"
 #include "systems/gpu_conversion.hpp"
 #include "systems/pass_log.hpp"
 #include "systems/trace_scene.hpp"

@@ -9,7 +9,7 @@
 
 #include "core/off_screen.hpp"
 #include "core/pass.hpp"
-#include "systems/frame_info.hpp"
+#include "systems/frame_data.hpp"
 
 namespace speculum {
 

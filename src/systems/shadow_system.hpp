@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "core/off_screen.hpp"
-#include "systems/frame_info.hpp"
+#include "systems/frame_data.hpp"
 #include "systems/pass_log.hpp"
 #include "systems/pipeline_variants.hpp"
 

@@ -13,7 +13,7 @@
 #include "plan/mirror_sight.hpp"
 #include "scene/material_mirrors.hpp"
 #include "scene/scene_state.hpp"
-#include "systems/frame_info.hpp"
+#include "systems/frame_data.hpp"
 #include "systems/gpu_conversion.hpp"
 
 namespace speculum {

@@ -4,7 +4,7 @@
 #include <cstring>
 #include <utility>
 
-#include "plan/picture_tiles.hpp"
+#include "plan/pass_mask.hpp"
 
 namespace speculum {
 

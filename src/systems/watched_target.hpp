@@ -7,7 +7,6 @@
 #include "core/renderer.hpp"
 #include "core/retire_queue.hpp"
 #include "plan/frame_plan.hpp"
-#include "plan/target_display.hpp"
 #include "shaders/gpu_data.h"
 #include "systems/pipeline_variants.hpp"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "platform/folders.hpp"
+#include "platform/files.hpp"
 #include "ui/panels.hpp"
 
 namespace speculum {

@@ -11,7 +11,7 @@
 #include <tuple>
 
 #include "platform/text.hpp"
-#include "scene/model_formats.hpp"
+#include "scene/model_files.hpp"
 #include "settings/setting_fields.hpp"
 
 namespace speculum::panels {

@@ -2,10 +2,11 @@
 
 #include <array>
 #include <functional>
+#include <span>
+#include <string_view>
 
 #include "image/image.hpp"
 #include "settings/setting_fields.hpp"
-#include "ui/panel_choices.hpp"
 #include "ui/panel_dock.hpp"
 #include "ui/shown.hpp"
 
@@ -13,6 +14,47 @@ struct ImDrawList;
 struct ImFontAtlas;
 
 namespace speculum {
+
+enum class Theme { dark, light };
+
+// Open windows and sections of the main panel, theme and size of the panels; saved beside the layout in
+// userConfigDir().
+struct PanelChoices {
+  bool inspector = false;
+  bool scenes = false;
+  bool performance = false;
+  bool targets = false;
+  bool device = false;
+  bool log = false;
+  bool accuracy = false;
+  bool passes = false;
+  bool viewSection = true;
+  bool reflectionsSection = true;
+  bool effectsSection = false;
+  Theme theme = Theme::dark;
+  int percent = 100;  // of the size for the monitor's scale, 50 .. 300
+
+  bool operator==(const PanelChoices&) const = default;
+};
+
+struct PanelName {
+  std::string_view name;  // in the file and on the screen
+  bool PanelChoices::*open;
+  const char* about = "";
+};
+inline constexpr std::array<PanelName, 11> rememberedPanels{
+    {{"Inspector", &PanelChoices::inspector, "Selects, moves, adds and deletes objects, lights and mirrors (F2)."},
+     {"Scenes", &PanelChoices::scenes, "Pictures of the scenes; a click opens one."},
+     {"Performance", &PanelChoices::performance, "Times of the last frames and their passes, as graphs."},
+     {"Targets", &PanelChoices::targets, "What each pass drew: color, depth and mask."},
+     {"Device", &PanelChoices::device, "The GPU, its features and its memory."},
+     {"Log", &PanelChoices::log, "Messages of the program and of the validation layer."},
+     {"Accuracy", &PanelChoices::accuracy, "Measures the time and the error of settings, and chooses the best."},
+     {"Passes", &PanelChoices::passes, "What each frame renders and what it costs, and why a mirror has no image."},
+     {"View", &PanelChoices::viewSection},
+     {"Reflections", &PanelChoices::reflectionsSection},
+     {"Effects", &PanelChoices::effectsSection}}};
+inline constexpr std::span<const PanelName> panelNames = std::span(rememberedPanels).first(8);  // windows
 
 // State that only the panels use.
 struct PanelState {
@@ -239,4 +281,5 @@ void nextButton(PanelContext& ui, const char* label, std::string_view key, const
                 bool enabled = true);
 
 }  // namespace panels
+
 }  // namespace speculum

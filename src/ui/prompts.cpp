@@ -11,9 +11,8 @@
 
 #include "edit/scene_writer.hpp"
 #include "platform/files.hpp"
-#include "platform/folders.hpp"
 #include "platform/text.hpp"
-#include "scene/model_formats.hpp"
+#include "scene/model_files.hpp"
 #include "ui/panels.hpp"
 
 namespace speculum::panels {

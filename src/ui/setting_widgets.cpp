@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "image/color.hpp"
+#include "image/image.hpp"
 #include "settings/setting_fields.hpp"
 #include "ui/panels.hpp"
 

@@ -10,7 +10,6 @@
 #include "plan/depth_readout.hpp"
 #include "plan/effects.hpp"
 #include "plan/frame_plan.hpp"
-#include "plan/target_display.hpp"
 #include "ui/commands.hpp"
 #include "ui/frame_history.hpp"
 #include "ui/log_history.hpp"

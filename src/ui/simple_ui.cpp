@@ -14,7 +14,6 @@
 #include <utility>
 
 #include "platform/files.hpp"
-#include "platform/folders.hpp"
 #include "platform/process.hpp"
 #include "ui/foreign_glyphs.hpp"
 #include "ui/glfw_input.hpp"

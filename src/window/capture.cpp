@@ -7,7 +7,6 @@
 
 #include "image/picture_files.hpp"
 #include "platform/files.hpp"
-#include "platform/folders.hpp"
 
 namespace speculum {
 

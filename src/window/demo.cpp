@@ -9,8 +9,7 @@
 #include <memory>
 #include <utility>
 
-#include "plan/picture_tiles.hpp"
-#include "platform/machine.hpp"
+#include "plan/pass_mask.hpp"
 #include "platform/process.hpp"
 #include "platform/text.hpp"
 #include "window/frame_report.hpp"

@@ -2,7 +2,7 @@
 
 #include <chrono>
 
-#include "window/frame_pacer.hpp"
+#include "window/pace.hpp"
 #include "window/picture_halves.hpp"
 #include "window/window_input.hpp"
 

@@ -5,7 +5,6 @@
 
 #include "edit/recovery.hpp"
 #include "platform/files.hpp"
-#include "platform/folders.hpp"
 #include "scene/fingerprint.hpp"
 #include "window/scene_browser.hpp"
 

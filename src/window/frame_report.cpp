@@ -7,10 +7,9 @@
 #include <utility>
 
 #include "edit/picture_view.hpp"
+#include "plan/mirror_sight.hpp"
 #include "plan/pass_mask.hpp"
-#include "plan/picture_tiles.hpp"
-#include "plan/scene_names.hpp"
-#include "plan/skipped_mirrors.hpp"
+#include "plan/view.hpp"
 #include "session/session_subject.hpp"
 #include "settings/setting_fields.hpp"
 

@@ -5,14 +5,28 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <utility>
 
-#include "plan/picture_offset.hpp"
-#include "plan/picture_tiles.hpp"
+#include "plan/pass_mask.hpp"
+#include "plan/refined_tiles.hpp"
 
 namespace speculum {
 
 namespace {
+
+// After a change panels need a frame to show it, another to settle, and two more because the figures in them are two
+// frames old.
+constexpr int framesAfterChange = 4;
+constexpr int longestInterval = 3600;  // frames: a map with a longer interval is meant to stay as it is
+
+// Returns the number of frames in which every cached image is rendered anew.
+int framesUntilFresh(const Settings& settings) {
+  const EffectSettings& effects = settings.effects;
+  const bool maps = effects.curved && effects.curvedLookup == CurvedLookup::environment;
+  return std::max(settings.reflection.updateInterval,
+                  maps ? std::min(effects.environmentInterval, longestInterval) : 0);
+}
 
 constexpr double cpuBudgetMs = 50.0;
 constexpr double refreshShare = 0.8;
@@ -39,6 +53,18 @@ bool drawnInTiles(const FittedPlan& fitted) {
 }
 
 }  // namespace
+
+void FramePacer::change(std::span<const Settings> halves) {
+  int fresh = 0;
+  for (const Settings& settings : halves) {
+    fresh = std::max(fresh, framesUntilFresh(settings));
+  }
+  due_ = static_cast<int>(halves.size()) * (framesAfterChange + fresh);
+}
+
+double FramePacer::beginFrame(double seconds) {
+  return std::exchange(idled_, false) ? std::numeric_limits<double>::quiet_NaN() : 1000.0 * seconds;
+}
 
 void SlowPicture::begin(size_t faces, size_t count, double ms) {
   tiles_ = {};
@@ -374,6 +400,50 @@ Settings withPictures(Settings settings, int pictures) {
 
 double motionBudget(const Settings& settings, bool cpuDevice, double refreshHz) {
   return settings.quality.motionMs.value_or(cpuDevice ? cpuBudgetMs : refreshShare * 1000.0 / refreshHz);
+}
+
+template <typename Measure>
+auto PacedSubject::paced(const Settings& settings, const Measure& measure) {
+  session_.renderer().setTimerDetail(TimerDetail::frame);
+  const double budgetMs = path_.frames > 1 ? settings.quality.motionMs.value_or(0.0) : 0.0;
+  if (budgetMs == 0.0) {
+    return measure(settings);
+  }
+  Settings moving = settings;
+  moving.view.accumulate = 1;
+  const auto [pace, isNew] = paces_.try_emplace(budgetMs, session_.device().info().isCpu(),
+                                                static_cast<unsigned>(session_.device().caps().sampleCounts));
+  pace_ = &pace->second;
+  const std::unique_ptr<PacedSubject, void (*)(PacedSubject*)> planning(this, [](PacedSubject* subject) {
+    subject->session_.setPlanning({});
+    subject->pace_ = nullptr;
+  });
+  session_.setPlanning([this, budgetMs](const FrameRequest& asked, PicturePlanner& planner) {
+    pace_->begin(asked.state.camera, true, 1.0 / path_.fps);
+    return pace_->plan({.frame = asked, .planner = planner, .shown = {}, .budgetMs = budgetMs, .front = {}});
+  });
+  if (isNew) {
+    follow(moving, false);
+  }
+  return measure(moving);
+}
+
+std::vector<Image8> PacedSubject::pictures(const Settings& settings) {
+  return paced(settings, [&](const Settings& used) { return SessionSubject::pictures(used); });
+}
+
+FrameCost PacedSubject::cost(const Settings& settings) {
+  return paced(settings, [&](const Settings& used) { return SessionSubject::cost(used); });
+}
+
+void PacedSubject::drawFrame(int frame, bool capture, bool whole) {
+  SessionSubject::drawFrame(frame, capture, whole);
+  if (pace_) {
+    const DrawnFrame& drawn = session_.lastFrame();
+    pace_->drawn(drawn.number, drawn.cpuMs, 0.0, true);
+    pace_->presented(0.0);
+    pace_->finished({.frame = drawn.number, .gpuMs = drawn.gpuMs});
+  }
 }
 
 }  // namespace speculum

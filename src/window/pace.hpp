@@ -1,16 +1,77 @@
 #pragma once
 
+#include <algorithm>
 #include <deque>
+#include <map>
 #include <optional>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "core/gpu_timer.hpp"
 #include "plan/fitted_plan.hpp"
 #include "plan/frame_plan.hpp"
-#include "plan/target_display.hpp"
+#include "session/session_subject.hpp"
+#include "settings/settings.hpp"
 #include "window/motion_controller.hpp"
 
 namespace speculum {
+
+// Says when a frame has to be drawn: after each change until everything shown is up to date, and never while the window
+// is idle.
+class FramePacer {
+ public:
+  // Call when something changed or is changing. `halves`: settings of the pictures that are drawn in turn.
+  void change(std::span<const Settings> halves);
+  void requestFrames(int frames) { due_ = std::max(due_, frames); }
+  bool due() const { return due_ > 0; }
+  void idle() { idled_ = true; }  // call when the window sleeps
+
+  // Begins a frame, `seconds` after the last step. Returns the milliseconds since the last frame, NaN if the window was
+  // idle.
+  double beginFrame(double seconds);
+  void frameDrawn() { due_ = std::max(0, due_ - 1); }
+
+ private:
+  int due_ = 0;        // frames to draw, although nothing changes any more
+  bool idled_ = true;  // the window slept before the frame that is drawn next
+};
+
+// How a scene is shown at first. An animated scene moves at once, but if that proves too slow it is paused until the
+// user plays it. On a CPU device the scene's thumbnail covers the first pictures.
+class FirstPictures {
+ public:
+  // Call when another scene is shown. `moves`: the scene moves by itself, and its frames have a time budget. `covered`:
+  // the thumbnail covers the picture until there is a good one, or for some seconds.
+  void begin(bool moves, bool covered) {
+    triesLeft_ = moves ? mostTries : 0;
+    covered_ = covered;
+    holds_ = false;
+  }
+  // Call after each frame: with Pace::playCost(), whether the scene moves by itself, whether the frame was a complete
+  // picture in full quality, and the seconds since begin(). Returns true if the scene is to go back to its start
+  // and to be paused.
+  bool drawn(const std::optional<std::string>& playCost, bool moves, bool complete, double seconds) {
+    const bool tried = triesLeft_ > 0;
+    triesLeft_ = moves && !playCost ? triesLeft_ - tried : 0;
+    const bool stands = tried && moves && !playCost.value_or("").empty();
+    holds_ = stands || (holds_ && !moves);
+    covered_ = covered_ && seconds < longestCover && (tried ? triesLeft_ > 0 || stands || !moves : !complete);
+    return stands;
+  }
+  void uncover() { covered_ = false; }  // the user acts
+
+  bool covered() const { return covered_; }  // the thumbnail covers the picture
+  bool holds() const { return holds_; }      // the scene was paused for being slow, and nobody has played it yet
+
+ private:
+  static constexpr int mostTries = 60;
+  static constexpr double longestCover = 30.0;  // seconds, after which a draft is shown
+
+  int triesLeft_ = 0;  // frames in which the cost of playing may become known
+  bool covered_ = false;
+  bool holds_ = false;
+};
 
 // A still picture that takes longer than a window may wait: several frames draw it, a few tiles each. Learns the time
 // of each tile, for the next pictures of the same view. Tiles that are faces of maps come first, in frames of their
@@ -221,5 +282,29 @@ Settings withPictures(Settings settings, int pictures);
 // Returns the budget of a frame in milliseconds: quality.motion_ms or, if that is auto, 50 on a CPU device and 0.8 of
 // the monitor's refresh interval elsewhere.
 double motionBudget(const Settings& settings, bool cpuDevice, double refreshHz);
+
+// A session's scene along a path, for a sweep to measure. If there are several frames and quality.motion_ms is a number
+// above 0, the window's Pace chooses the settings of each frame, with the times of this device. It goes on learning, so
+// the frames that are timed may have other settings than those whose error is measured.
+class PacedSubject : public SessionSubject {
+ public:
+  // Keeps a reference to the session.
+  using SessionSubject::SessionSubject;
+
+  std::vector<Image8> pictures(const Settings& settings) override;
+  FrameCost cost(const Settings& settings) override;
+
+ protected:
+  void drawFrame(int frame, bool capture, bool whole) override;
+
+ private:
+  // Calls `measure` with the settings of a moving window, and lets the settings' Pace plan meanwhile. A new Pace first
+  // follows the path once, to learn what frames cost.
+  template <typename Measure>
+  auto paced(const Settings& settings, const Measure& measure);
+
+  std::map<double, Pace> paces_;  // by budget, milliseconds
+  Pace* pace_ = nullptr;          // plans the frames; null: they have the settings
+};
 
 }  // namespace speculum

@@ -1,6 +1,6 @@
 #include "window/picture_halves.hpp"
 
-#include "image/color.hpp"
+#include "image/image.hpp"
 
 namespace speculum {
 

@@ -10,7 +10,6 @@
 #include "edit/recovery.hpp"
 #include "image/picture_files.hpp"
 #include "platform/files.hpp"
-#include "platform/folders.hpp"
 #include "scene/fingerprint.hpp"
 
 namespace speculum {

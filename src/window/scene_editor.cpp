@@ -4,12 +4,11 @@
 #include <array>
 #include <cmath>
 
-#include "edit/outline.hpp"
+#include "edit/picture_view.hpp"
 #include "platform/files.hpp"
-#include "platform/folders.hpp"
 #include "platform/text.hpp"
 #include "scene/input_error.hpp"
-#include "scene/model_formats.hpp"
+#include "scene/model_files.hpp"
 
 namespace speculum {
 

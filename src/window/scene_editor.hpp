@@ -6,7 +6,6 @@
 #include <optional>
 #include <utility>
 
-#include "edit/outline.hpp"
 #include "edit/picture_view.hpp"
 #include "edit/scene_document.hpp"
 #include "edit/transform.hpp"

@@ -5,7 +5,7 @@
 #include <ctime>
 
 #include "platform/files.hpp"
-#include "scene/model_formats.hpp"
+#include "scene/model_files.hpp"
 
 namespace speculum {
 

@@ -1,11 +1,77 @@
 #pragma once
 
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "accuracy/ground_truth.hpp"
 #include "edit/scene_document.hpp"
+#include "session/lesson.hpp"
 #include "session/session.hpp"
+#include "ui/shown.hpp"
 #include "window/accuracy_controller.hpp"
-#include "window/split_view.hpp"
+#include "window/background_job.hpp"
 
 namespace speculum {
+
+// Returns the settings with the quality of most mirror demos: one small image for each mirror, nothing in it
+// reflects, one sample a pixel, maps in the place of rays.
+Settings naiveSettings(const Settings& settings);
+
+// Frame of one half of A | B, as it was drawn.
+struct HalfFrame {
+  int half = 0;      // 0 is A, on the left, 1 is B
+  double gpuMs = 0;  // of the half's last frame that drew the scene
+  std::string text;  // what the picture gives up, or how far it has converged
+  // Number of the still picture that the frame completed, or shows again; none while it is not complete.
+  std::optional<uint64_t> still;
+};
+
+// A | B: the window's view with two sets of settings, side by side. Both are trials: the scene keeps its own settings.
+// Compares the halves' still pictures on another thread, with the reference if there is one, else with each other.
+class SplitView {
+ public:
+  using Truth = std::shared_ptr<const GroundTruth>;
+
+  explicit SplitView(std::vector<Lesson> lessons);
+
+  // Begin to show two sets of settings, and choose B. `divider`: share of the picture's width to the left of it.
+  void begin(const Settings& a, const Settings& b, double divider);
+  void beginLesson(size_t lesson, const Settings& ofScene, double divider);
+  void end();
+  bool on() const { return shown_.on; }
+
+  void choose(int half) { shown_.chosen = half; }  // the panels edit its settings
+  int chosen() const { return shown_.chosen; }
+  void moveDivider(double share);
+  double divider() const { return shown_.divider; }
+  int halfAt(double share) const { return share < shown_.divider ? 0 : 1; }  // share of the picture's width
+  Settings& settings(int half) { return settings_[static_cast<size_t>(half)]; }
+  const Settings& settings(int half) const { return settings_[static_cast<size_t>(half)]; }
+  const std::vector<Lesson>& lessons() const { return lessons_; }
+
+  // Call before a frame: takes finished comparisons and describes both halves.
+  void update();
+  // Call after each frame of a half. `picture` returns the pixels of a half's picture (display sRGB), and `drawn` the
+  // settings that it was drawn with; both are called only to compare. `truth` is the reference of the view, or null.
+  void frameDrawn(const HalfFrame& frame, const Truth& truth, const std::function<Image8(int half)>& picture,
+                  const std::function<Settings(int half)>& drawn);
+  void forgetPictures() { still_ = {}; }              // call when what drew the halves is gone
+  bool working() const { return comparing_.busy(); }  // update() has work left although nothing changes
+  const ShownSplit& shown() const { return shown_; }
+
+ private:
+  using Compared = std::pair<std::array<std::optional<uint64_t>, 2>, Truth>;
+
+  std::vector<Lesson> lessons_;
+  std::array<Settings, 2> settings_;
+  std::array<std::optional<uint64_t>, 2> still_;  // HalfFrame::still of both
+  std::optional<Compared> compared_;              // pictures and reference of the last comparison
+  BackgroundJob<std::array<double, 2>> comparing_;
+  ShownSplit shown_;
+};
 
 // The settings that the window draws with: the scene's or, of A | B, those of each half. Bounds of quality.* choose
 // measured points. Each change is a step of the document's undo.

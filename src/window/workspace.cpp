@@ -1,7 +1,7 @@
 #include "window/workspace.hpp"
 
-#include "scene/model_formats.hpp"
-#include "session/view_command.hpp"
+#include "scene/model_files.hpp"
+#include "session/options.hpp"
 #include "window/pace.hpp"
 
 namespace speculum {

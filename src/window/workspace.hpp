@@ -1,14 +1,64 @@
 #pragma once
 
+#include <spdlog/spdlog.h>
+
+#include <chrono>
+#include <string>
+
+#include "platform/text.hpp"
+#include "ui/shown.hpp"
+#include "window/camera_controller.hpp"
 #include "window/capture.hpp"
 #include "window/frame_report.hpp"
 #include "window/pointer_controller.hpp"
 #include "window/scene_opener.hpp"
 #include "window/settings_controller.hpp"
-#include "window/status_line.hpp"
-#include "window/view_controller.hpp"
 
 namespace speculum {
+
+// The result of the last action, shown for some seconds, and below it how the picture is drawn.
+class StatusLine {
+ public:
+  void set(const std::string& text) {  // shows the result and logs it
+    spdlog::info("{}", text);
+    show(text);
+  }
+  void show(const std::string& text) {
+    shown_.text = shortened(text, 1000);  // names may be of any length
+    since_ = Clock::now();
+    isWarning_ = false;
+  }
+  // Shows a warning. Another scene clears it, because it may be about what the last scene asks for.
+  void warn(const std::string& text) {
+    show(text);
+    isWarning_ = true;
+  }
+  void sceneChanged() {
+    if (isWarning_) {
+      clear();
+    }
+  }
+  void setPicture(const std::string& text) { shown_.picture = text; }
+  void clear() { shown_.text.clear(); }
+  // Once a frame. `savesPicture`: the window is being saved as a picture, with the status line where it is shown.
+  void update(bool savesPicture) {
+    shown_.savesPicture = savesPicture;
+    shown_.age = age();
+    if (statusAlpha(shown_.age) <= 0.0f) {
+      clear();
+    }
+  }
+  bool fades() const { return !shown_.text.empty() && statusAlpha(age()) < 1.0f; }
+  const ShownStatus& shown() const { return shown_; }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  double age() const { return std::chrono::duration<double>(Clock::now() - since_).count(); }
+
+  ShownStatus shown_;
+  bool isWarning_ = false;
+  Clock::time_point since_;
+};
 
 // The part of the window that a workspace uses.
 class WorkspaceHost {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "compare/heat_map.hpp"
+#include "compare/picture_agreement.hpp"
 #include "image/picture_files.hpp"
 #include "made_pictures.hpp"
 

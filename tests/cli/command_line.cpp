@@ -6,7 +6,6 @@
 #include <numbers>
 
 #include "command_support.hpp"
-#include "image/color.hpp"
 #include "image/image.hpp"
 #include "image/picture_files.hpp"
 #include "instrumented.hpp"

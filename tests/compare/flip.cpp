@@ -1,4 +1,4 @@
-#include "compare/flip.hpp"
+#include "compare/image_metrics.hpp"
 #include "made_pictures.hpp"
 #include "test_headers.hpp"
 

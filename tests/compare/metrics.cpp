@@ -3,7 +3,7 @@
 #include "accuracy/sweep_json.hpp"
 #include "compare/image_metrics.hpp"
 #include "error_message.hpp"
-#include "image/color.hpp"
+#include "image/image.hpp"
 #include "made_pictures.hpp"
 #include "test_headers.hpp"
 

@@ -1,5 +1,5 @@
-#include "compare/heat_map.hpp"
-#include "image/color.hpp"
+#include "compare/picture_agreement.hpp"
+#include "image/image.hpp"
 #include "test_headers.hpp"
 
 namespace speculum {

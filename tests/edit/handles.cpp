@@ -2,7 +2,7 @@
 #include <rapidcheck.h>
 
 #include "edit/gizmo.hpp"
-#include "edit/outline.hpp"
+#include "edit/picture_view.hpp"
 #include "edit/transform.hpp"
 #include "geometry/affine.hpp"
 #include "systems/triangles.hpp"

@@ -3,7 +3,7 @@
 
 #include "edit/support.hpp"
 #include "random.hpp"
-#include "scene/toml_text.hpp"
+#include "scene/toml_file.hpp"
 
 namespace speculum {
 namespace {

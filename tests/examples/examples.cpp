@@ -2,7 +2,7 @@
 #include <thread>
 
 #include "compare/picture_agreement.hpp"
-#include "image/color.hpp"
+#include "image/image.hpp"
 #include "image/picture_files.hpp"
 #include "platform/files.hpp"
 #include "platform/process.hpp"

@@ -1,4 +1,4 @@
-#include "geometry/depth_resolution.hpp"
+#include "geometry/projection.hpp"
 #include "random.hpp"
 #include "test_headers.hpp"
 

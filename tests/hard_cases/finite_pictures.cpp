@@ -3,7 +3,7 @@
 #include <thread>
 
 #include "geometry/affine.hpp"
-#include "image/color.hpp"
+#include "image/image.hpp"
 #include "random.hpp"
 #include "sampling.hpp"
 #include "scene_text.hpp"

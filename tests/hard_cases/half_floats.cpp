@@ -1,7 +1,7 @@
 // Errors due to 16-bit floats in targets: of radiance in steps of 8 bits, of disparity in pixels of reprojection.
 #include <glm/gtc/packing.hpp>
 
-#include "image/color.hpp"
+#include "image/image.hpp"
 #include "shaders/gpu_data.h"
 #include "systems/gpu_conversion.hpp"
 #include "test_headers.hpp"

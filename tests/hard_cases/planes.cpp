@@ -1,7 +1,7 @@
 // Hard cases of planes, rectangles and skipped mirrors, against rays cast at the polygon itself.
 #include "geometry/polygon.hpp"
-#include "plan/skipped_mirrors.hpp"
-#include "systems/mirror_polygons.hpp"
+#include "plan/mirror_sight.hpp"
+#include "systems/gpu_conversion.hpp"
 #include "test_headers.hpp"
 #include "transform_support.hpp"
 

@@ -1,7 +1,7 @@
 // Random scenes that join hard cases: the rasteriser against the tracer, and with each debug switch against itself.
 #include <gtest/gtest-spi.h>
 
-#include "image/color.hpp"
+#include "image/image.hpp"
 #include "random_scene.hpp"
 #include "reference/ray_tracer.hpp"
 #include "sampling.hpp"

@@ -1,6 +1,6 @@
 // Rounding to the 16-bit floats of targets: no mean of pictures is darker or brighter for it, whatever the device does
 // when it stores a float.
-#include "image/color.hpp"
+#include "image/image.hpp"
 #include "reference/ray_tracer.hpp"
 #include "sampling.hpp"
 #include "scene_text.hpp"

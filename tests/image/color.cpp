@@ -1,4 +1,3 @@
-#include "image/color.hpp"
 
 #include <cmath>
 #include <limits>

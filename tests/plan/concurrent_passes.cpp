@@ -1,4 +1,3 @@
-#include "plan/concurrent_passes.hpp"
 #include "plan/support.hpp"
 #include "plan/target_memory.hpp"
 #include "test_headers.hpp"

@@ -1,6 +1,6 @@
 // Environment maps: which curved mirrors have one, what is in it, when it is rendered. Without a GPU.
+#include "plan/cube_face.hpp"
 #include "plan/effects.hpp"
-#include "plan/environment_map.hpp"
 #include "plan/fitted_plan.hpp"
 #include "plan/support.hpp"
 #include "plan/target_memory.hpp"

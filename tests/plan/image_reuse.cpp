@@ -1,7 +1,7 @@
 // Which images are reused, by the planner alone: with reflection.skip_unchanged, then with an update_interval.
 #include "plan/image_reuse.hpp"
 #include "geometry/affine.hpp"
-#include "image/color.hpp"
+#include "image/image.hpp"
 #include "plan/effects.hpp"
 #include "plan/fitted_plan.hpp"
 #include "plan/support.hpp"

@@ -5,7 +5,7 @@
 #include "instrumented.hpp"
 #include "plan/frame_plan.hpp"
 #include "plan/scene_changes.hpp"
-#include "platform/machine.hpp"
+#include "platform/process.hpp"
 #include "random.hpp"
 #include "sampling.hpp"
 #include "scene/scene_loader.hpp"

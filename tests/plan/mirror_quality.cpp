@@ -1,7 +1,7 @@
 // Mirrors with a quality of their own: what each pass has, and how lowered settings lower it.
 #include "plan/fitted_plan.hpp"
 #include "plan/image_reuse.hpp"
-#include "plan/picture_offset.hpp"
+#include "plan/refined_tiles.hpp"
 #include "plan/support.hpp"
 #include "plan/target_memory.hpp"
 #include "support/random.hpp"

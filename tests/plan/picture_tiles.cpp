@@ -1,4 +1,4 @@
-#include "plan/picture_tiles.hpp"
+#include "plan/pass_mask.hpp"
 #include "plan_by_hand.hpp"
 #include "test_headers.hpp"
 

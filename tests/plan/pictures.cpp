@@ -1,4 +1,4 @@
-#include "plan/picture_offset.hpp"
+#include "plan/refined_tiles.hpp"
 #include "plan/support.hpp"
 #include "support/random.hpp"
 #include "test_headers.hpp"

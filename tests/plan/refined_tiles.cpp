@@ -6,7 +6,6 @@
 #include <random>
 
 #include "plan/pass_mask.hpp"
-#include "plan/picture_offset.hpp"
 #include "sampling.hpp"
 #include "support.hpp"
 #include "test_headers.hpp"

@@ -6,8 +6,8 @@
 
 #include "geometry/convex_mesh.hpp"
 #include "plan/frame_plan.hpp"
+#include "plan/mirror_sight.hpp"
 #include "plan/scene_changes.hpp"
-#include "plan/skipped_mirrors.hpp"
 
 namespace speculum::testing_support {
 

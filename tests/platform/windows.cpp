@@ -4,8 +4,6 @@
 #include <thread>
 
 #include "platform/files.hpp"
-#include "platform/folders.hpp"
-#include "platform/machine.hpp"
 #include "platform/process.hpp"
 #include "platform/win32.hpp"
 #include "temporary_folder.hpp"

@@ -6,7 +6,6 @@
 #include "image/picture_files.hpp"
 #include "instrumented.hpp"
 #include "made_pictures.hpp"
-#include "platform/machine.hpp"
 #include "platform/process.hpp"
 #include "regress/case_file.hpp"
 #include "regress/picture_check.hpp"

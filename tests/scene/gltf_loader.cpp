@@ -9,7 +9,7 @@
 #include "made_pictures.hpp"
 #include "scene/fingerprint.hpp"
 #include "scene/materials.hpp"
-#include "scene/model_formats.hpp"
+#include "scene/model_files.hpp"
 #include "scene/obj_support.hpp"
 
 namespace speculum {

@@ -1,13 +1,12 @@
-#include "scene/obj_materials.hpp"
+#include "scene/obj_loader.hpp"
 
 #include <ctime>
 
-#include "image/color.hpp"
 #include "image/image.hpp"
 #include "image/picture_files.hpp"
 #include "made_pictures.hpp"
 #include "scene/materials.hpp"
-#include "scene/model_formats.hpp"
+#include "scene/model_files.hpp"
 #include "scene/obj_support.hpp"
 #include "test_headers.hpp"
 

@@ -2,7 +2,7 @@
 // rewrites them.
 #include "platform/files.hpp"
 #include "scene/scene_fields.hpp"
-#include "scene/toml_text.hpp"
+#include "scene/toml_file.hpp"
 #include "settings/setting_fields.hpp"
 #include "test_headers.hpp"
 #include "test_paths.hpp"

@@ -1,6 +1,6 @@
 #include "truth_support.hpp"
 
-#include "image/color.hpp"
+#include "image/image.hpp"
 
 namespace speculum::testing_support {
 

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "platform/files.hpp"
-#include "platform/folders.hpp"
 #include "platform/process.hpp"
 
 namespace speculum::testing_support {

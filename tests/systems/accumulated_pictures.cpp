@@ -1,10 +1,10 @@
 // view.accumulate: means of pictures with sub-pixel offsets.
 #include "accuracy/ground_truth.hpp"
 #include "effect_scenes.hpp"
-#include "image/color.hpp"
+#include "image/image.hpp"
 #include "picture_support.hpp"
-#include "plan/picture_offset.hpp"
-#include "plan/picture_tiles.hpp"
+#include "plan/pass_mask.hpp"
+#include "plan/refined_tiles.hpp"
 #include "sampling.hpp"
 #include "scene_text.hpp"
 #include "test_headers.hpp"

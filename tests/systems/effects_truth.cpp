@@ -1,7 +1,7 @@
 // Traced effects against the ray tracer: exact ones pixel by pixel, approximate ones along their settings.
 #include "compare/image_metrics.hpp"
 #include "effect_scenes.hpp"
-#include "image/color.hpp"
+#include "image/image.hpp"
 #include "image/picture_files.hpp"
 #include "made_pictures.hpp"
 #include "plan/reuse_support.hpp"

@@ -1,7 +1,7 @@
 // Main views that are drawn into the display image have the bytes of the display pass, and nothing misses their
 // radiance.
 #include "cli/commands.hpp"
-#include "image/color.hpp"
+#include "image/image.hpp"
 #include "image/picture_files.hpp"
 #include "picture_support.hpp"
 #include "random.hpp"

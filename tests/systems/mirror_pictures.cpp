@@ -6,7 +6,6 @@
 #include <cstdio>
 #include <numbers>
 
-#include "image/color.hpp"
 #include "image/image.hpp"
 #include "picture_support.hpp"
 #include "random.hpp"

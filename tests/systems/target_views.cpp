@@ -1,6 +1,6 @@
 // The debug view and the texel probe: right values at the right pixels, and released afterwards.
 #include "picture_support.hpp"
-#include "plan/picture_tiles.hpp"
+#include "plan/pass_mask.hpp"
 #include "scene_text.hpp"
 #include "test_headers.hpp"
 

@@ -1,4 +1,4 @@
-#include "image/color.hpp"
+#include "image/image.hpp"
 #include "image/picture_files.hpp"
 #include "made_pictures.hpp"
 #include "picture_support.hpp"

@@ -1,6 +1,6 @@
 // The rasteriser against the ray tracer, which shares no drawing code with it: one sample each, every pixel that is not
 // background.
-#include "image/color.hpp"
+#include "image/image.hpp"
 #include "sampling.hpp"
 #include "scene_text.hpp"
 #include "shaders/gpu_data.h"

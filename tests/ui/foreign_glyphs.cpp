@@ -4,7 +4,6 @@
 
 #include "platform/bytes.hpp"
 #include "platform/files.hpp"
-#include "platform/folders.hpp"
 #include "temporary_folder.hpp"
 #include "test_headers.hpp"
 

@@ -1,6 +1,6 @@
 // Positions of the panel's windows.
-#include "ui/panel_layout.hpp"
 #include "test_headers.hpp"
+#include "ui/panel_dock.hpp"
 
 namespace speculum {
 namespace {

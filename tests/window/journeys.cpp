@@ -4,9 +4,9 @@
 #include <sys/stat.h>
 
 #include "core/handle.hpp"
-#include "image/color.hpp"
+#include "image/image.hpp"
 #include "image/picture_files.hpp"
-#include "platform/folders.hpp"
+#include "platform/files.hpp"
 #include "sampling.hpp"
 #include "scene/scene_loader.hpp"
 #include "test_paths.hpp"

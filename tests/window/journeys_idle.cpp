@@ -1,7 +1,7 @@
 // The window draws when something changes, and only then; what it measures meanwhile.
 #include <imgui_internal.h>
 
-#include "platform/folders.hpp"
+#include "platform/files.hpp"
 #include "platform/text.hpp"
 #include "test_paths.hpp"
 #include "window/journeys_support.hpp"

@@ -1,10 +1,9 @@
 #include <cstdio>
 
 #include "plan/frame_plan.hpp"
-#include "plan/picture_tiles.hpp"
+#include "plan/pass_mask.hpp"
 #include "scene/scene_loader.hpp"
 #include "test_headers.hpp"
-#include "window/frame_pacer.hpp"
 #include "window/pace.hpp"
 
 namespace speculum {

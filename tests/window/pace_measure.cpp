@@ -8,7 +8,7 @@
 #include <numeric>
 
 #include "compare/image_metrics.hpp"
-#include "platform/machine.hpp"
+#include "platform/process.hpp"
 #include "virtual_display.hpp"
 #include "window/demo.hpp"
 

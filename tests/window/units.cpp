@@ -3,7 +3,7 @@
 #include <thread>
 
 #include "cli/commands.hpp"
-#include "plan/picture_tiles.hpp"
+#include "plan/pass_mask.hpp"
 #include "plan_by_hand.hpp"
 #include "platform/keys.hpp"
 #include "scene/scene_loader.hpp"
@@ -14,8 +14,8 @@
 #include "window/background_job.hpp"
 #include "window/camera_controller.hpp"
 #include "window/difference_map.hpp"
-#include "window/frame_pacer.hpp"
 #include "window/frame_report.hpp"
+#include "window/pace.hpp"
 
 namespace speculum {
 namespace {

@@ -1,10 +1,9 @@
 // Camera, bookmarks, time, captures and files of the window, by commands.
 #include "accuracy/sweep_json.hpp"
-#include "compare/statistics.hpp"
+#include "compare/image_metrics.hpp"
 #include "image/picture_files.hpp"
 #include "window/accuracy_controller.hpp"
 #include "window/support.hpp"
-#include "window/view_sweep.hpp"
 
 namespace speculum {
 namespace {

@@ -1,9 +1,8 @@
-#include "session/view_command.hpp"
+#include "session/options.hpp"
 
 #include <spdlog/fmt/fmt.h>
 
 #include "platform/files.hpp"
-#include "platform/folders.hpp"
 #include "platform/process.hpp"
 
 namespace speculum {
