@@ -10,7 +10,7 @@
 #include "window/camera_controller.hpp"
 #include "window/capture.hpp"
 #include "window/frame_report.hpp"
-#include "window/pointer_controller.hpp"
+#include "window/scene_editor.hpp"
 #include "window/scene_opener.hpp"
 #include "window/settings_controller.hpp"
 
