@@ -3,3 +3,5 @@
 #include <stb_image.h>
 #define STB_IMAGE_WRITE_IMPLEMENTATION
 #include <stb_image_write.h>
+#define STB_TRUETYPE_IMPLEMENTATION
+#include <stb_truetype.h>

@@ -64,7 +64,7 @@ get_libraries() {
   for package in "${libraries[@]}" glfw3; do
     cp "$build/sources/$package/debian/copyright" "$deps/licences/$package.txt"
   done
-  cp -p "$build"/sources/{libstb/stb_image*,tinyobjloader/tiny_obj_loader,tinygltf/tiny_gltf}.h "$deps/include"
+  cp -p "$build"/sources/{libstb/stb_image*,libstb/stb_truetype,tinyobjloader/tiny_obj_loader,tinygltf/tiny_gltf}.h "$deps/include"
   build_library fmtlib -DFMT_TEST=OFF -DFMT_DOC=OFF
   build_library spdlog -DSPDLOG_FMT_EXTERNAL=ON -DSPDLOG_BUILD_EXAMPLE=OFF
   build_library glfw3 -DGLFW_BUILD_EXAMPLES=OFF -DGLFW_BUILD_TESTS=OFF -DGLFW_BUILD_DOCS=OFF

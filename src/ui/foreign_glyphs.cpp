@@ -2,13 +2,11 @@
 
 #include <imgui_internal.h>
 #include <spdlog/fmt/fmt.h>
+#include <stb_truetype.h>
 
 #include <algorithm>
-#include <fstream>
 #include <iterator>
 #include <utility>
-
-#include "platform/bytes.hpp"
 
 namespace speculum {
 
@@ -28,39 +26,16 @@ bool isOwn(ImWchar character) {
 
 // Returns the height of a line in ems; 0 without outlines that Dear ImGui reads: it asserts on files of other formats.
 float lineHeight(const FontFace& font) {
-  std::ifstream file(font.file, std::ios::binary);
-  const auto read = [&](uint32_t offset, size_t bytes) {
-    std::string data(bytes, '\0');
-    file.seekg(offset);
-    file.read(data.data(), static_cast<std::streamsize>(bytes));
-    return file ? data : std::string();
-  };
-  uint32_t begin = 0;
-  if (read(0, 4) == "ttcf") {
-    begin = static_cast<uint32_t>(font.index) < bigEndian(read(8, 4))
-                ? bigEndian(read(12 + 4 * static_cast<uint32_t>(font.index), 4))
-                : UINT32_MAX;
-  }
-  const std::string version = read(begin, 4);
-  if (version != std::string("\0\1\0\0", 4) && version != "true" && version != "OTTO") {
+  constexpr size_t header = 12;
+  const std::vector<uint8_t> file = readFileIfAny(font.file).value_or(std::vector<uint8_t>());
+  const int offset = file.size() < header ? -1 : stbtt_GetFontOffsetForIndex(file.data(), font.index);
+  stbtt_fontinfo info;
+  if (offset < 0 || stbtt_InitFont(&info, file.data(), offset) == 0) {
     return 0.0f;
   }
-  const uint32_t tables = bigEndian(read(begin + 4, 2));
-  bool outlines = false;
-  float unitsPerEm = 0.0f, height = 0.0f;
-  for (uint32_t i = 0; i < tables; ++i) {
-    const uint32_t entry = begin + 12 + 16 * i;
-    const std::string name = read(entry, 4);
-    const uint32_t table = bigEndian(read(entry + 8, 4));
-    outlines |= name == "glyf" || name == "CFF ";
-    if (name == "head") {
-      unitsPerEm = static_cast<float>(bigEndian(read(table + 18, 2)));
-    } else if (name == "hhea") {
-      const uint32_t metrics = bigEndian(read(table + 4, 4));  // above the baseline, and below it
-      height = static_cast<float>(static_cast<int16_t>(metrics >> 16) - static_cast<int16_t>(metrics));
-    }
-  }
-  return outlines && unitsPerEm > 0.0f ? std::clamp(height / unitsPerEm, 0.0f, 3.0f) : 0.0f;
+  int ascent = 0, descent = 0, gap = 0;
+  stbtt_GetFontVMetrics(&info, &ascent, &descent, &gap);
+  return std::clamp(stbtt_ScaleForMappingEmToPixels(&info, 1.0f) * static_cast<float>(ascent - descent), 0.0f, 3.0f);
 }
 
 }  // namespace
