@@ -105,8 +105,7 @@ MirrorSystem::Shading MirrorSystem::shadingOf(const PassScope& scope, const Mirr
 }
 
 // Sets only what this shading's shader reads, so that mirrors that differ in other ways share a pipeline.
-MirrorSystem::Variant MirrorSystem::variantOf(const MirrorRange& mirror, Shading shading, bool added,
-                                              bool otherSamples) {
+MirrorSystem::Variant MirrorSystem::variantOf(const MirrorRange& mirror, Shading shading, bool added) {
   Variant variant{.shading = shading, .added = added};
   variant.mapped = mirror.map >= 0 && shading != Shading::identifier;
   switch (shading) {
@@ -118,7 +117,7 @@ MirrorSystem::Variant MirrorSystem::variantOf(const MirrorRange& mirror, Shading
         variant.blurs = mirror.blurs;
         variant.ripples = mirror.ripples;
         variant.reprojected = mirror.reprojected;
-        variant.lookup = mirror.lookup == Lookup::fetch && otherSamples ? Lookup::inside : mirror.lookup;
+        variant.lookup = mirror.lookup;
       }
       break;
     case Shading::base:
@@ -139,17 +138,15 @@ MirrorSystem::Variant MirrorSystem::variantOf(const MirrorRange& mirror, Shading
 uint32_t MirrorSystem::record(const PassScope& scope, const FrameInfo& info, const DrawList& pass) {
   uint32_t draws = 0;
   for (const MirrorRange& mirror : pass.mirrors) {
-    const MirrorImage* image = imageOf(mirror, info);
-    const Shading shading = shadingOf(scope, mirror, image);
-    const bool otherSamples = image && image->samples != scope.samples();
+    const Shading shading = shadingOf(scope, mirror, imageOf(mirror, info));
     if (defers(info, mirror)) {
       draw(scope, info, pass, mirror, variantOf(mirror, Shading::identifier, false));
     } else if (shading == Shading::ownSample && mirror.base) {
       draw(scope, info, pass, mirror, variantOf(mirror, Shading::base, false));
-      draw(scope, info, pass, mirror, variantOf(mirror, shading, true, otherSamples));
+      draw(scope, info, pass, mirror, variantOf(mirror, shading, true));
       ++draws;
     } else {
-      draw(scope, info, pass, mirror, variantOf(mirror, shading, false, otherSamples));
+      draw(scope, info, pass, mirror, variantOf(mirror, shading, false));
     }
     ++draws;
   }
@@ -160,9 +157,7 @@ uint32_t MirrorSystem::recordReflections(const PassScope& scope, const FrameInfo
   uint32_t draws = 0;
   for (const MirrorRange& mirror : pass.mirrors) {
     if (defers(info, mirror) && !mirror.byRays && mirror.shows != MirrorShows::back) {
-      const MirrorImage* image = imageOf(mirror, info);
-      const bool otherSamples = image && image->samples != scope.samples();
-      draw(scope, info, pass, mirror, variantOf(mirror, shadingOf(scope, mirror, image), true, otherSamples));
+      draw(scope, info, pass, mirror, variantOf(mirror, shadingOf(scope, mirror, imageOf(mirror, info)), true));
       ++draws;
     }
   }
@@ -173,6 +168,10 @@ void MirrorSystem::draw(const PassScope& scope, const FrameInfo& info, const Dra
                         Variant variant) {
   const bool identifies = variant.shading == Shading::identifier;
   const MirrorImage* image = imageOf(mirror, info);
+  const bool reads = image && !identifies && variant.shading != Shading::base;
+  if (reads && image->samples != scope.samples() && variant.lookup == Lookup::fetch) {
+    variant.lookup = Lookup::inside;
+  }
   variant.format = formatOf(scope.desc(), info.settings);
   variant.perSample = !identifies && info.trace.variant().perSample && (variant.blurs || variant.ripples);
   variant.clampDepth = !(pass.mirrorView && info.settings.reflection.clip == ClipMethod::oblique);
@@ -183,7 +182,6 @@ void MirrorSystem::draw(const PassScope& scope, const FrameInfo& info, const Dra
   variant.onlyShadowFace = variant.shadowed ? info.shadows.onlyFace() : gpu::anyShadowFace;
   variant.lightCount = variant.colored ? fixedLightCount(info.scene) : gpu::manyLights;
   const Pipeline& pipeline = pipelines_.get(variant, [&] { return describe(variant, info); });
-  const bool reads = image && !identifies && variant.shading != Shading::base;
   const VkDescriptorImageInfo shown = reads ? image->descriptor : noImage_.descriptor(sampler_.get());
   if (std::exchange(setsFrame_, info.frame.number) != info.frame.number) {
     sets_.clear();

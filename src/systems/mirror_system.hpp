@@ -53,8 +53,7 @@ class MirrorSystem {
     auto operator<=>(const Variant&) const = default;
   };
   static bool defers(const FrameInfo& info, const MirrorRange& mirror);
-  // `otherSamples`: the image has another number of samples than the pass.
-  static Variant variantOf(const MirrorRange& mirror, Shading shading, bool added, bool otherSamples = false);
+  static Variant variantOf(const MirrorRange& mirror, Shading shading, bool added);
   GraphicsPipelineDesc describe(const Variant& variant, const FrameInfo& info) const;
   // Returns how a mirror is drawn if not as an identifier.
   Shading shadingOf(const PassScope& scope, const MirrorRange& mirror, const MirrorImage* image) const;
