@@ -66,7 +66,7 @@ struct PassId {
   int light = -1;     // of a shadow map, index into Scene::lights
   int face = -1;      // of an environment or shadow map, in the order of faceAxes()
 
-  bool operator==(const PassId&) const = default;
+  auto operator<=>(const PassId&) const = default;
 };
 
 // Where the image of a pass comes from in a frame.
@@ -269,8 +269,8 @@ const Pass* mirrorPass(const FramePlan& plan, std::span<const int> path);
 // as if every image were rendered, so that no image depends on which others are reused.
 //
 // Shadow and environment maps in `cache.cubes` are reused by reflection.skip_unchanged and effects.environment_interval
-// (image_reuse.cpp). With reflection.skip_unchanged and without view.continuous, the main view in `cache.main` is reused
-// if it would be drawn exactly the same.
+// (image_reuse.cpp). With reflection.skip_unchanged and without view.continuous, the main view in `cache.main` is
+// reused if it would be drawn exactly the same.
 //
 // A main view that is shown only is encoded early if it has one sample for each pixel of the display, none of its
 // surfaces are shaded after the pass, and the last frame did not draw the same. So a picture that stays is drawn twice

@@ -70,7 +70,7 @@ size_t tilesOf(const Pass& pass) {
 
 }  // namespace
 
-bool isReadByBoxes(const Pass& pass) {
+bool mixesTexels(const Pass& pass) {
   return pass.quality.scale != 1.0 || pass.shownIn.scale != 1.0 || pass.quality.interval > 1;
 }
 
@@ -90,7 +90,7 @@ double seenBeyond(const View& view, const Projection& projection, const View& sh
 // a texel if that is wider, and half a texel more on each side for the samples.
 double lookupReach(const Pass& pass, const Settings& settings, bool standardLocations) {
   const ImageQuality& image = pass.quality;
-  if (isReadByBoxes(pass)) {
+  if (mixesTexels(pass)) {
     return cachedLookupReach(image);
   }
   // Standard locations of 2, 4 and 8 samples, from the texel's middle.

@@ -31,7 +31,7 @@ double cachedLookupReach(const ImageQuality& quality);
 std::vector<glm::dvec2> passMask(const View& view, const Projection& projection, double reach);
 
 // Says whether a pixel reads a box of the pass's image, not one texel.
-bool isReadByBoxes(const Pass& pass);
+bool mixesTexels(const Pass& pass);
 // Returns convex polygons that together cover what lies outside the view's cone; they overlap. In the picture's device
 // coordinates, as those of passMask(). A part without area on the GPU's grid is left out.
 std::vector<std::vector<glm::dvec2>> outsideParts(const View& view, const Projection& projection);

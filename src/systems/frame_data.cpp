@@ -419,7 +419,7 @@ void FrameData::addRepeating(const FrameInfo& info) {
 }
 
 void FrameData::addOutside(const FrameInfo& info, const Pass& pass, DrawList& data) {
-  if (pass.view.path.empty() || (!isReadByBoxes(pass) && pass.quality.samples == pass.shownIn.samples)) {
+  if (pass.view.path.empty() || (!mixesTexels(pass) && pass.quality.samples == pass.shownIn.samples)) {
     return;
   }
   // Before everything, or before the background alone. At one resolution a lookup reads less than a texel outside the

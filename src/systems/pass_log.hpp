@@ -6,7 +6,6 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -134,11 +133,6 @@ class PassIndex {
   }
 
  private:
-  struct Less {
-    bool operator()(const PassId& a, const PassId& b) const { return key(a) < key(b); }
-    static auto key(const PassId& id) { return std::tie(id.kind, id.path, id.instance, id.light, id.face); }
-  };
-
   void number(size_t first) {
     for (size_t i = first; i < passes_.size(); ++i) {
       places_[passes_[i]] = i;
@@ -146,7 +140,7 @@ class PassIndex {
   }
 
   std::vector<T>& passes_;
-  std::map<PassId, size_t, Less> places_;
+  std::map<PassId, size_t> places_;
 };
 
 }  // namespace speculum
