@@ -136,15 +136,6 @@ ordered_json changedSettings(const SweepResults& results) {
   return changed;
 }
 
-// Returns JSON for an HTML script element: nothing in it can end the element or begin a comment.
-std::string escapedForScript(const nlohmann::ordered_json& json) {
-  std::string text;
-  for (const char c : json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace)) {
-    text += c == '<' ? std::string("\\u003c") : std::string(1, c);
-  }
-  return text;
-}
-
 }  // namespace
 
 std::vector<int> shownPoints(const SweepResults& results, int most) {
@@ -224,7 +215,18 @@ std::string base64(std::span<const uint8_t> bytes) {
 std::string pageWithData(std::string_view page, const nlohmann::ordered_json& data) {
   constexpr std::string_view placeholder = "@DATA@";
   const size_t at = page.find(placeholder);
-  return std::string(page.substr(0, at)) + escapedForScript(data) + std::string(page.substr(at + placeholder.size()));
+  const std::string json = data.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+  return std::string(page.substr(0, at)) + escaped(json, {{'<', "\\u003c"}}) +  // nothing can end a script element
+         std::string(page.substr(at + placeholder.size()));
+}
+
+std::string escaped(std::string_view text, const std::map<char, std::string_view>& escapes) {
+  std::string result;
+  for (const char c : text) {
+    const auto found = escapes.find(c);
+    result += found == escapes.end() ? std::string_view(&c, 1) : found->second;
+  }
+  return result;
 }
 
 }  // namespace speculum

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "accuracy/report.hpp"
 namespace speculum {
 
 namespace {
@@ -12,11 +13,7 @@ std::string csvField(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == std::string::npos) {
     return text;
   }
-  std::string quoted = "\"";
-  for (const char c : text) {
-    quoted += c == '"' ? "\"\"" : std::string(1, c);
-  }
-  return quoted + "\"";
+  return "\"" + escaped(text, {{'"', "\"\""}}) + "\"";
 }
 
 void appendMetrics(std::string& line, const std::optional<ImageMetrics>& metrics) {

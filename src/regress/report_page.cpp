@@ -3,7 +3,6 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <optional>
@@ -57,33 +56,21 @@ ordered_json picturesOf(const CaseFiles& files, double room) {
   return nullptr;
 }
 
-std::string escapedXml(std::string_view line) {
-  static const std::map<char, std::string> entities{{'<', "&lt;"}, {'>', "&gt;"}, {'&', "&amp;"}, {'"', "&quot;"}};
-  std::string escaped;
-  for (const char c : oneLine(line)) {  // without the characters that XML forbids
-    const auto entity = entities.find(c);
-    escaped += entity == entities.end() ? std::string(1, c) : entity->second;
-  }
-  return escaped;
+// A line has none of the characters that XML forbids.
+std::string escapedXml(std::string_view text) {
+  return escaped(oneLine(text), {{'<', "&lt;"}, {'>', "&gt;"}, {'&', "&amp;"}, {'"', "&quot;"}});
 }
 
-// Escapes text for GitHub's workflow commands: a property has no comma and no colon.
-std::string escapedCommand(std::string_view text, bool property) {
-  std::string escaped;
-  for (const char c : oneLine(text)) {
-    const bool special = c == '%' || (property && (c == ',' || c == ':'));
-    escaped += special ? fmt::format("%{:02X}", static_cast<int>(c)) : std::string(1, c);
-  }
-  return escaped;
+// Escape text for GitHub's workflow commands: a property has no comma and no colon.
+std::string escapedMessage(std::string_view text) {
+  return escaped(oneLine(text), {{'%', "%25"}});
+}
+std::string escapedProperty(std::string_view text) {
+  return escaped(oneLine(text), {{'%', "%25"}, {',', "%2C"}, {':', "%3A"}});
 }
 
 std::string escapedCell(std::string_view text) {
-  std::string escaped;
-  for (const char c : oneLine(text)) {
-    escaped += c == '|' || c == '<' || c == '\\' ? "\\" : "";
-    escaped += c;
-  }
-  return escaped;
+  return escaped(oneLine(text), {{'|', "\\|"}, {'<', "\\<"}, {'\\', "\\\\"}});
 }
 
 // Returns the order of the report: errors and failures first, each group in the order of the file.
@@ -181,12 +168,12 @@ std::string junitXml(const RegressRun& run) {
 std::string githubErrors(const RegressRun& run) {
   // GitHub takes a relative path as one of the repository, and the command may have been run in a folder of the
   // repository.
-  const std::string file = escapedCommand(wholePath(run.file).lexically_normal().string(), true);
+  const std::string file = escapedProperty(wholePath(run.file).lexically_normal().string());
   std::string text;
   for (size_t i = 0; i < run.cases.size(); ++i) {
     if (needsAttention(run.outcomes[i])) {
       text += fmt::format("::error file={},line={},title={}::{}\n", file, run.cases[i].line,
-                          escapedCommand(run.cases[i].name, true), escapedCommand(run.outcomes[i].message, false));
+                          escapedProperty(run.cases[i].name), escapedMessage(run.outcomes[i].message));
     }
   }
   return text;
