@@ -282,10 +282,14 @@ vec3 tracedRadiance(Bounce surface, vec3 direction, uint seed, Draws draws) {
       }
       m = bounce.surface.normal;
       if (rough && meets && bounce.alpha > 0.0 && bounce.reflects) {
-        // Each further bounce samples one microfacet; if it faces away, the mirror's own normal replaces it.
-        pathSeed = mixedBits(pathSeed + 0x9e3779b9u);
-        vec3 facet = microfacet(m, bounce.alpha, randomPair(pathSeed));
-        m = staysAbove(towards, facet, bounce.planeNormal) ? facet : m;
+        // Each further bounce samples one microfacet; if 20 of them do not stay above, the mirror's own normal.
+        bool found = false;
+        for (int i = 0; i < 20 && !found; ++i) {
+          pathSeed = mixedBits(pathSeed + 0x9e3779b9u);
+          vec3 facet = microfacet(bounce.surface.normal, bounce.alpha, randomPair(pathSeed));
+          found = staysAbove(towards, facet, bounce.planeNormal);
+          m = found ? facet : m;
+        }
       }
     }
     vec3 own = vec3(0.0);

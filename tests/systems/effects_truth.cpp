@@ -300,13 +300,14 @@ TEST(RoughFloor, MeetsAWallWithoutDarkPixels) {
   EXPECT_NEAR((*darkest)[0], 0.5 * 0.8 * 0.9, 0.001);
 }
 
-// Many microfacets of a steep view face away. Those that replace them must not change the mean direction.
+// Many microfacets of a steep view face away. Those that replace them must not change the mean direction, whether the
+// floor is seen directly or by rays in a mirror, which follow one microfacet each.
 TEST(RoughFloor, SteepViewKeepsTheMean) {
-  const std::filesystem::path file =
-      writeScene("steep_floor",
-                 "[environment]\nsky = { zenith = [1, 1, 1], horizon = [0, 0, 0], ground = [0, 0, 0] }\n[camera]\n"
-                 "position = [0, 1, 0]\ntarget = [0, 0.55, -1]\nvertical_fov = 20\n[[mirror]]\nsize = [2000, 2000]\n"
-                 "rotation = [-90, 0, 0]\nroughness = 0.7\nreflectance = [1, 1, 1]\n");
+  const std::string floor =
+      "[environment]\nsky = { zenith = [1, 1, 1], horizon = [0, 0, 0], ground = [0, 0, 0] }\n[camera]\n"
+      "position = [0, 1, 0]\ntarget = [0, 0.55, -1]\nvertical_fov = 20\n[[mirror]]\nsize = [2000, 2000]\n"
+      "rotation = [-90, 0, 0]\nroughness = 0.7\nreflectance = [1, 1, 1]\n";
+  const std::string smooth = "[[mirror]]\nposition = [0, 0, -1]\nsize = [20, 20]\nreflectance = [1, 1, 1]\n";
   const auto mean = [](const LinearImage& image) {
     double sum = 0.0;
     for (const auto& pixel : image.pixels) {
@@ -314,11 +315,16 @@ TEST(RoughFloor, SteepViewKeepsTheMean) {
     }
     return sum / static_cast<double>(image.pixels.size());
   };
-  QuietSession session(headless(file, small, {{"effects.rough_samples", "64"}}));
-  const double drawn = mean(drawRadiance(session));
-  const double traced = mean(traceSmall(file, {.samples = 4, .roughSamples = 64}).image);
-  std::printf("mean radiance %.5f, traced %.5f\n", drawn, traced);
-  EXPECT_NEAR(drawn, traced, 0.002 * traced);
+  for (const bool inAMirror : {false, true}) {
+    const std::filesystem::path file =
+        writeScene(inAMirror ? "steep_floor_in_a_mirror" : "steep_floor", floor + (inAMirror ? smooth + byRays : ""));
+    QuietSession session(
+        headless(file, small, {{"effects.rough_samples", "64"}, {"view.accumulate", inAMirror ? "64" : "1"}}));
+    const double drawn = mean(drawRadiance(session));
+    const double traced = mean(traceSmall(file, {.samples = 4, .roughSamples = 64}).image);
+    std::printf("mean radiance %.5f, traced %.5f\n", drawn, traced);
+    EXPECT_NEAR(drawn, traced, 0.002 * traced) << (inAMirror ? "in a mirror" : "directly");
+  }
 }
 
 // A green mirror lets no red light through.
