@@ -36,11 +36,14 @@ void keepCovered(vec2 uv, uint instance, uint triangle) {
   vec2 down = dFdy(uv);
   float alpha = alphaHere();
   vec2 growth = vec2(dFdx(alpha), dFdy(alpha));
+  // A mirror's image begins at the view's corner if the mirror covers it. With the depth, what shows through a surface
+  // there does not depend on what shows through its image.
+  uint seed = seedAt(gl_FragCoord.xy) + mixedBits(view.depth);
   int mask = 0;
   for (uint i = 0; i < samples; ++i) {
     vec2 offset = samplePosition(samples, i) - 0.5;
     float here = (alpha + dot(offset, growth)) * opacityAt(uv + offset.x * across + offset.y * down);
-    mask |= int(isThere(here, cutoff, view.picture * samples + i, seedAt(gl_FragCoord.xy), instance, triangle)) << i;
+    mask |= int(isThere(here, cutoff, view.picture * samples + i, seed, instance, triangle)) << i;
   }
   if (mask == 0) {
     discard;

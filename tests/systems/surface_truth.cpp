@@ -310,6 +310,29 @@ TEST(Coverage, IsTheShareOfTheSurface) {
   }
 }
 
+// A pane before a mirror, whose image covers the whole view, and another mirror behind the eye: what shows through the
+// pane and through its images must not depend on each other.
+TEST(Coverage, ShowsThroughItsOwnImages) {
+  std::ofstream(sceneDirectory() / "pane.mtl") << "newmtl m\nKd 1 0 0\nd 0.5\n";
+  writeModel("pane.obj", "mtllib pane.mtl\nusemtl m\nv -40 -40 0\nv 40 -40 0\nv 40 40 0\nv -40 40 0\nf 1 2 3 4\n");
+  const std::filesystem::path file = writeScene(
+      "pane",
+      "[environment] ambient = [1, 1, 1], background = [0, 1, 0]\n[camera] position = [0, 0, 3], target = [0, 0, 0]\n"
+      "[[object]] model = \"pane.obj\"\n[[mirror]] position = [0, 0, -1], size = [80, 80], reflectance = [1, 1, 1]\n"
+      "[[mirror]] position = [0, 0, 4], rotation = [0, 180, 0], size = [80, 80], reflectance = [1, 1, 1]\n");
+  const glm::vec3 traced = tracingOf(file, {8, 8}, 3).result().image.at(3, 3);
+  for (const char* method : {"raster", "rays"}) {
+    Options options = truthOptions(file, {8, 8}, 3);
+    set(options, {{"view.accumulate", "64"}, {"reflection.method", method}});
+    QuietSession session(options);
+    double mean = 0.0;
+    for (const glm::vec3& pixel : drawRadiance(session).pixels) {
+      mean += pixel.g / 64.0;
+    }
+    EXPECT_NEAR(mean, traced.g, 0.01) << method;
+  }
+}
+
 TEST(Coverage, CopiesInOnePlaceShowThroughEachOther) {
   std::ofstream(sceneDirectory() / "copied.mtl") << "newmtl m\nKd 1 0 0\nd 0.25\n";
   writeModel("copied.obj", "mtllib copied.mtl\nusemtl m\nv -4 -4 0\nv 5 -4 0\nv 4 4 0\nv -4 4 0\nf 1 2 3 4\n");
