@@ -239,9 +239,9 @@ double errorOfMean(const std::filesystem::path& file, PictureSize drawnSize, con
 }
 
 // Writes NAME.glb, a square of `columns` x `columns` fields in the plane z = 0 with the colors of their corners, row by
-// row. The picture veil.png lies on it if `textured`.
+// row. `picture` lies on it unless it is empty.
 std::string writePane(const std::string& name, int columns, float half, const std::vector<float>& colors, json material,
-                      bool textured) {
+                      const std::string& picture) {
   MadeGltf made;
   std::vector<float> positions;
   std::vector<float> texcoords;
@@ -259,8 +259,8 @@ std::string writePane(const std::string& name, int columns, float half, const st
   }
   json surface = material.value("pbrMetallicRoughness", json::object());
   surface["metallicFactor"] = 0;
-  if (textured) {
-    made.add("images", {{"uri", "veil.png"}});
+  if (!picture.empty()) {
+    made.add("images", {{"uri", picture}});
     made.add("textures", {{"source", 0}});
     surface["baseColorTexture"] = {{"index", 0}};
   }
@@ -285,7 +285,7 @@ TEST(Coverage, IsTheShareOfTheSurface) {
   }
   const std::string ofVertices =
       writePane("flat", 1, 4.0f, red,
-                {{"alphaMode", "BLEND"}, {"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1, 0.5}}}}}, false);
+                {{"alphaMode", "BLEND"}, {"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1, 0.5}}}}}, "");
   const std::filesystem::path file = writeScene(
       "panes",
       "[environment] ambient = [1, 1, 1]\n[camera] position = [0, 0, 3], target = [0, 0, 0]\n[[object]] model = "
@@ -352,6 +352,42 @@ TEST(Coverage, CopiesInOnePlaceShowThroughEachOther) {
   EXPECT_NEAR(mean, share, 0.01);
 }
 
+// Rounding of what is interpolated or stored must not take away a surface whose alpha is the cutoff.
+TEST(CutOuts, AreThereAtTheCutoff) {
+  struct Case {
+    float ofVertices;
+    double ofMaterial;
+    int ofTexture;
+    double cutoff;
+  };
+  const std::vector<Case> cases{{0.5f, 1.0, 255, 0.5},
+                                {0.3f, 1.0, 255, 0.3},
+                                {1.0f, 0.3, 255, 0.3},
+                                {1.0f, 1.0, 51, 0.2},
+                                {1.0f, 1.0, 128, 128.0 / 255.0}};
+  std::ostringstream out;
+  out << coverView;
+  for (size_t i = 0; i < cases.size(); ++i) {
+    const Case& c = cases[i];
+    const std::string name = "at_cutoff" + std::to_string(i);
+    writePng(sceneDirectory() / (name + ".png"),
+             madePicture(4, 4, [&](int, int) { return glm::ivec4(200, 200, 200, c.ofTexture); }));
+    std::vector<float> colors;
+    for (int corner = 0; corner < 16; ++corner) {
+      colors.insert(colors.end(), {0.9f, 0.5f, 0.3f, c.ofVertices});
+    }
+    const json material{{"alphaMode", "MASK"},
+                        {"alphaCutoff", c.cutoff},
+                        {"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1, c.ofMaterial}}}}};
+    out << "[[object]]\nmodel = \"" << writePane(name, 3, 0.3f, colors, material, name + ".png") << "\"\nposition = ["
+        << 0.7 * static_cast<double>(i) - 1.4 << ", 0.3, 0.4]\nrotation = [13, 17, 5]\n";
+  }
+  for (const std::string& light : {lamp, shadowLamp + ball}) {
+    const std::filesystem::path file = writeScene(light == lamp ? "cutoff" : "cutoff_rays", out.str() + light);
+    expectTruth(file, size, 3, trace(file, size, 3));
+  }
+}
+
 // Writes a square of 3 x 3 fields whose vertices have random colors and alpha.
 std::string randomPane(const std::string& name, Random& random, const char* mode) {
   constexpr int columns = 3;
@@ -365,7 +401,8 @@ std::string randomPane(const std::string& name, Random& random, const char* mode
   const auto half = static_cast<float>(random.uniform(0.4, 0.8));
   const double cutoff = random.uniform(0.2, 0.6);
   const bool textured = random.chance(0.5);
-  return writePane(name, columns, half, colors, {{"alphaMode", mode}, {"alphaCutoff", cutoff}}, textured);
+  return writePane(name, columns, half, colors, {{"alphaMode", mode}, {"alphaCutoff", cutoff}},
+                   textured ? "veil.png" : "");
 }
 
 std::filesystem::path randomPanes(unsigned seed, const char* mode) {
