@@ -489,7 +489,7 @@ TEST_P(RandomCoverage, AlphaOfVerticesCutsOut) {
   EXPECT_GT(difference(draw(options), drawn, 8).share(), 0.005) << "the scene shows no cut-out";
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, RandomCoverage, testing::ValuesIn(sampledSeeds(20, 5)),
+INSTANTIATE_TEST_SUITE_P(Seeds, RandomCoverage, testing::ValuesIn(sampledSeeds(20, 10)),
                          testing::PrintToStringParamName());
 
 // A closed box before a mirror hides it, unless it is glass.
