@@ -208,7 +208,6 @@ std::vector<std::string> ModelDefects::report() {
     if (entry.count > 1) {
       entry.text += fmt::format(" (and {} more)", entry.count - 1);
     }
-    spdlog::warn("{}", entry.text);
     texts.push_back(std::move(entry.text));
   }
   entries_.clear();
@@ -219,9 +218,16 @@ bool isModelFile(const std::filesystem::path& file) {
   return formatOf(file) != nullptr;
 }
 
-Model loadModel(const std::filesystem::path& file, std::vector<Texture>& textures, const LoadProgress& progress) {
+Model loadModel(const std::filesystem::path& file, std::vector<Texture>& textures, const LoadProgress& progress,
+                std::span<const Mesh> others) {
   const size_t known = textures.size();
   Model model = formatOrFirst(file).load(file, textures, progress);
+  for (const std::string& defect : model.mesh.defects) {
+    const auto hasIt = [&](const Mesh& mesh) { return std::ranges::find(mesh.defects, defect) != mesh.defects.end(); };
+    if (std::ranges::none_of(others, hasIt)) {
+      spdlog::warn("{}", defect);
+    }
+  }
   for (size_t i = known; i < textures.size(); ++i) {
     if (!textures[i].shrinkage.empty()) {
       model.mesh.defects.push_back(textures[i].shrinkage);

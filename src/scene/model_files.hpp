@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,8 +26,8 @@ class ModelDefects {
   void add(const std::filesystem::path& file, int line, std::string_view key, std::string_view kind,
            std::string_view detail = {});
 
-  // Logs one warning for each kind, `FILE:LINE: key: kind (and N more)` with the line of the kind's first defect, in
-  // the order of these first defects. Returns the warnings and forgets the defects.
+  // Returns one warning for each kind, `FILE:LINE: key: kind (and N more)` with the line of the kind's first defect, in
+  // the order of these first defects. Forgets the defects.
   std::vector<std::string> report();
 
  private:
@@ -93,8 +94,10 @@ struct ModelFormat {
 // Says whether the file's extension is that of a format, in upper or lower case.
 bool isModelFile(const std::filesystem::path& file);
 
-// Loads a model by its extension; a file with an unknown extension is read as the first format.
-Model loadModel(const std::filesystem::path& file, std::vector<Texture>& textures, const LoadProgress& progress = {});
+// Loads a model by its extension; a file with an unknown extension is read as the first format. Logs a warning for each
+// of its defects that none of the `others` has, which may share its material files.
+Model loadModel(const std::filesystem::path& file, std::vector<Texture>& textures, const LoadProgress& progress = {},
+                std::span<const Mesh> others = {});
 
 // Adds a model's file and the existing files that it names.
 void addModelFiles(const std::filesystem::path& model, std::set<std::filesystem::path>& files);

@@ -79,7 +79,7 @@ int meshIndex(const TableReader& object, Scene& scene, std::map<std::string, int
   }
   const auto [entry, isNew] = known.try_emplace(withoutLinks(file).string(), static_cast<int>(scene.meshes.size()));
   if (isNew) {
-    scene.meshes.push_back(loadModel(file, scene.textures, progress.ofOne(file)).mesh);
+    scene.meshes.push_back(loadModel(file, scene.textures, progress.ofOne(file), scene.meshes).mesh);
   }
   return entry->second;
 }
@@ -362,7 +362,7 @@ int addModel(Scene& scene, const fs::path& file, const LoadProgress& progress) {
   }
   const size_t textures = scene.textures.size();
   try {
-    Mesh mesh = loadModel(file, scene.textures, progress).mesh;
+    Mesh mesh = loadModel(file, scene.textures, progress, scene.meshes).mesh;
     if (const std::optional<std::string> remedy = extentRemedy({}, mesh)) {
       throwInputError(file, 1, "v", "makes the model too large", *remedy);
     }

@@ -122,6 +122,22 @@ TEST(SceneLoader, OneScaleStandsForThree) {
   EXPECT_EQ(load(usualCamera + "[[object]]\nmodel = 'triangle.obj'\nscale = -2\n").objects[0].scale, glm::dvec3(-2.0));
 }
 
+TEST(SceneLoader, SharedMaterialFilesWarnOnce) {
+  const TemporaryFolder folder;
+  const LogCapture log;
+  folder.write("shared.mtl", "newmtl a\nmap_Kd none.png\n");
+  std::string text = usualCamera;
+  for (const std::string name : {"a.obj", "b.obj", "c.obj"}) {
+    folder.write(name, "mtllib shared.mtl\nusemtl a\n" + std::string(triangleObj));
+    text += "[[object]]\nmodel = '" + name + "'\n";
+  }
+  const Scene scene = loadScene(folder.write("scene.toml", text));
+  EXPECT_EQ(occurrences(log.text(), "shared.mtl:2: map_Kd: there is no file"), 1) << log.text();
+  for (const Mesh& mesh : scene.meshes) {
+    EXPECT_EQ(mesh.defects.size(), 1u) << "each is refused by --strict";
+  }
+}
+
 TEST(SceneLoader, NamesMayRepeat) {
   const Scene scene =
       load(usualCamera + "[[mirror]]\nname = 'a'\nsize = [1, 1]\n[[mirror]]\nname = 'a'\nsize = [1, 1]\n");

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "scene/model_files.hpp"
 #include "scene/support.hpp"
 #include "test_headers.hpp"
 
@@ -31,7 +32,7 @@ class ModelTest : public testing::Test {
 // Loads models from the files m.obj and m.mtl.
 class ObjTest : public ModelTest {
  protected:
-  Mesh load(const std::string& obj) { return loadObj(folder_.write("m.obj", obj), textures_); }
+  Mesh load(const std::string& obj) { return loadModel(folder_.write("m.obj", obj), textures_).mesh; }
   // The first line of the OBJ file names the MTL file.
   Mesh load(const std::string& obj, const std::string& mtl) {
     folder_.write("m.mtl", mtl);
