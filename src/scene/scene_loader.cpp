@@ -74,7 +74,10 @@ int meshIndex(const TableReader& object, Scene& scene, std::map<std::string, int
   const std::string model = object.text("model");
   const fs::path file = fileNamedBy(scene.file, model);
   if (model.empty() || !isFile(file)) {
-    object.fail("model", "there is no file '" + file.string() + "'",
+    std::error_code none;
+    const bool isOther = !model.empty() && fs::exists(file, none) && !isFolder(file);
+    object.fail("model",
+                isOther ? "'" + file.string() + "' is a device or pipe" : "there is no file '" + file.string() + "'",
                 "name a " + modelFormatNames() + " file, relative to the scene file");
   }
   const auto [entry, isNew] = known.try_emplace(withoutLinks(file).string(), static_cast<int>(scene.meshes.size()));

@@ -167,6 +167,9 @@ TEST(SceneLimits, PipesDevicesAndHugeFilesAreRefused) {
             pipe.string() + ":1: file: is a device or pipe (a scene file is needed)");
   EXPECT_EQ(messageOf<InputError>([] { loadScene("/dev/zero"); }),
             "/dev/zero:1: file: is a device or pipe (a scene file is needed)");
+  EXPECT_EQ(sceneFaultOf(usualCamera + "[[object]]\nmodel = '" + pipe.string() + "'\n"),
+            "5: object[0].model: '" + pipe.string() +
+                "' is a device or pipe (name a Wavefront OBJ or glTF 2.0 file, relative to the scene file)");
   const std::filesystem::path huge = folder.write("huge.toml", usualCamera);
   std::filesystem::resize_file(huge, (16u << 20) + 1);
   EXPECT_EQ(messageOf<InputError>([&] { loadScene(huge); }),
