@@ -31,14 +31,13 @@ Polygon clippedPart(const View& view, std::span<const glm::dvec3> polygon) {
   if (!view.clip) {
     return {polygon.begin(), polygon.end()};
   }
-  double reach = 0.0;
-  double highest = -1e300;
-  for (const glm::dvec3& p : polygon) {
-    reach = std::max({reach, glm::length(p - view.clip->point), glm::length(p - polygon[0])});
-    highest = std::max(highest, view.clip->distance(p));
-  }
-  // A mirror in the plane of the mirror it would be seen in is not seen; rounding must not lift it off that plane.
-  if (highest <= 1e-12 * reach) {
+  // A mirror that ends at the plane of the mirror it would be seen in is not seen; rounding must not lift it off that
+  // plane. It counts along the normal alone: vertices of large mirrors are far away along their plane.
+  const auto rises = [&](const glm::dvec3& p) {
+    const double rounding = 1e-15 * glm::dot(glm::abs(view.clip->normal), glm::abs(p) + glm::abs(view.clip->point));
+    return view.clip->distance(p) > rounding;
+  };
+  if (std::ranges::none_of(polygon, rises)) {
     return {};
   }
   return clipPolygon(polygon, *view.clip);

@@ -107,6 +107,44 @@ TEST_P(SkippedMirrors, AreThoseOfALookAtEveryMirror) {
 INSTANTIATE_TEST_SUITE_P(Seeds, SkippedMirrors, testing::ValuesIn(sampledSeeds(300, 15)),
                          testing::PrintToStringParamName());
 
+// A mirror beside the eye is seen in the large one that the eye looks at, wherever that one has its corners and its
+// centre, up to the rounding of these. One that begins at the large mirror's plane and lies behind it is not seen.
+TEST(HugeMirrors, ShowMirrorsBeforeThemOnly) {
+  Random random(7);
+  for (int i = 0; i < 400; ++i) {
+    const double size = std::pow(10.0, random.uniform(6.0, 15.0));
+    const bool turned = random.chance(0.5);
+    const glm::dvec3 rotation = turned ? 180.0 * random.inBox(1.0) : glm::dvec3(0.0);
+    const glm::dmat3 axes = rotationFromDegrees(rotation);
+    const double distance = turned ? 1.0 + 2e-14 * size : random.uniform(0.01, 10.0);
+    const glm::dvec2 center = 0.4 * size * glm::dvec2(random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0));
+    Mirror huge{.position = axes * glm::dvec3(center, -distance), .rotation = rotation, .size = glm::dvec2(size)};
+    if (random.chance(0.5)) {
+      const MirrorState state = evaluate(testing_support::sceneWith({huge}), 0.0).mirrors[0];
+      huge = {.polygon = state.polygon};
+    }
+    Mirror beside;
+    beside.polygon = {axes * glm::dvec3(0.8, -0.3, -0.1) * distance, axes * glm::dvec3(0.5, -0.3, 0.3) * distance,
+                      axes * glm::dvec3(0.5, 0.3, 0.3) * distance, axes * glm::dvec3(0.8, 0.3, -0.1) * distance};
+    Mirror behind;
+    behind.polygon = {axes * glm::dvec3(0.5, -0.3, -1.0) * distance, axes * glm::dvec3(0.5, 0.3, -1.0) * distance,
+                      axes * glm::dvec3(0.8, 0.3, -2.0) * distance, axes * glm::dvec3(0.8, -0.3, -2.0) * distance};
+    beside.twoSided = behind.twoSided = true;
+    Scene scene = testing_support::sceneWith({huge, beside, behind});
+    scene.camera.target = axes * glm::dvec3(0.0, 0.0, -1.0);
+    scene.camera.up = axes * glm::dvec3(0.0, 1.0, 0.0);
+    const FramePlan plan = planOf(scene);
+    const auto seen = [&](int mirror) {
+      return std::ranges::any_of(plan.drawnMirrors(), [&](const Pass& pass) {
+        return pass.view.path == MirrorPath{0, mirror};
+      });
+    };
+    EXPECT_TRUE(seen(1)) << size << (turned ? " turned" : "") << " from " << distance;
+    const SkippedMirror* skip = skipOf(plan, {0, 2});
+    EXPECT_TRUE(skip && skip->reason != SkipReason::minPixels) << size << (turned ? " turned" : "");
+  }
+}
+
 TEST(SkippedMirrorList, IsOrderedByPathUpToTheLimit) {
   const Scene scene = corridor();
   const SceneState state = evaluate(scene, 0.0);
