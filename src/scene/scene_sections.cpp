@@ -236,13 +236,7 @@ std::vector<std::string> settingTexts(const TableReader& table, Key key, const t
   std::vector<std::string> texts;
   const toml::array* array = node.as_array();
   for (size_t i = 0; i < (array ? array->size() : 1); ++i) {
-    const toml::node& value = array ? (*array)[i] : node;
-    const std::optional<std::string> text = plainText(value);
-    if (!text) {
-      table.failAt(value, key, "is " + std::string(typeName(value)),
-                   "a number, true, false, a string or an array of those is needed");
-    }
-    texts.push_back(*text);
+    texts.push_back(settingText(table, array ? (*array)[i] : node, std::string(key)));
   }
   if (texts.empty()) {
     table.failAt(node, key, "is empty", "at least one value is needed");

@@ -106,7 +106,7 @@ struct Parser {
 
   Problem operator()(const ColorSetting& color) const {
     const std::optional<glm::dvec3> value = parseColor(text);
-    if (!value && !text.empty()) {
+    if (!value && !text.empty() && text != "[]") {
       return "'" + std::string(text) + "' is not a color (three linear values " + radianceRange.shortText() +
              ", such as 0.1,0.2,0.3)";
     }
@@ -154,7 +154,8 @@ std::string unknownKey(std::string_view key) {
 bool takesText(const SettingField& field) {
   const auto* integer = std::get_if<IntegerSetting>(&field.kind);
   return (integer && integer->automatic) || std::holds_alternative<ChoiceSetting>(field.kind) ||
-         std::holds_alternative<TextSetting>(field.kind) || std::holds_alternative<AutomaticSetting>(field.kind);
+         std::holds_alternative<TextSetting>(field.kind) || std::holds_alternative<AutomaticSetting>(field.kind) ||
+         std::holds_alternative<ColorSetting>(field.kind);
 }
 
 // Says whether all settings are equal that change the part `last` of a frame or an earlier part.

@@ -11,6 +11,7 @@
 #include "regress/picture_check.hpp"
 #include "regress/worker_pool.hpp"
 #include "scene/input_error.hpp"
+#include "settings/settings.hpp"
 #include "temporary_folder.hpp"
 #include "test_headers.hpp"
 
@@ -80,6 +81,34 @@ grid = { scene = ["room.toml", "hall.toml"], time = [0, 2.5], "reflection.max_de
   EXPECT_EQ(cases[7].name, "hall_reflection.max_depth=4_time=2.5");
   EXPECT_EQ(cases[7].time, 2.5);
   EXPECT_EQ(cases[7].settings, (decltype(cases[0].settings){{"reflection.max_depth", "4"}}));
+}
+
+TEST_F(CaseFile, ColorsHaveTheSameFormsEverywhere) {
+  const auto cases = read(R"(
+[defaults]
+scene = "room.toml"
+settings."view.clear_color" = [0, 0, 1]
+[[case]]
+grid."view.clear_color" = [[1, 0, 0], "0,1,0", [], ""]
+name = "grid"
+[[case]]
+settings."view.clear_color" = ""
+name = "sky"
+[[case]]
+settings."view.clear_color" = "0,1,0"
+name = "green"
+)");
+  std::vector<std::optional<glm::dvec3>> colors;
+  for (const RegressCase& one : cases) {
+    Settings settings;
+    for (const auto& [key, value] : one.settings) {
+      EXPECT_EQ(setSetting(settings, key, value), std::nullopt);
+    }
+    colors.push_back(settings.view.clearColor);
+  }
+  const std::optional<glm::dvec3> sky;
+  const glm::dvec3 green(0, 1, 0);
+  EXPECT_EQ(colors, (std::vector<std::optional<glm::dvec3>>{glm::dvec3(1, 0, 0), green, sky, sky, sky, green}));
 }
 
 TEST_F(CaseFile, NamesKeepWhatFilesCanBeCalled) {
