@@ -32,12 +32,14 @@ Polygon clippedPart(const View& view, std::span<const glm::dvec3> polygon) {
     return {polygon.begin(), polygon.end()};
   }
   // A mirror that ends at the plane of the mirror it would be seen in is not seen; rounding must not lift it off that
-  // plane. It counts along the normal alone: vertices of large mirrors are far away along their plane.
-  const auto rises = [&](const glm::dvec3& p) {
-    const double rounding = 1e-15 * glm::dot(glm::abs(view.clip->normal), glm::abs(p) + glm::abs(view.clip->point));
-    return view.clip->distance(p) > rounding;
-  };
-  if (std::ranges::none_of(polygon, rises)) {
+  // plane. It counts along the normal alone: vertices of large mirrors are far away along their plane. A vertex has the
+  // rounding of the others too, because it may be a difference of larger numbers.
+  glm::dvec3 reach(0.0);
+  for (const glm::dvec3& p : polygon) {
+    reach = glm::max(reach, glm::abs(p));
+  }
+  const double rounding = 1e-15 * glm::dot(glm::abs(view.clip->normal), reach + glm::abs(view.clip->point));
+  if (std::ranges::none_of(polygon, [&](const glm::dvec3& p) { return view.clip->distance(p) > rounding; })) {
     return {};
   }
   return clipPolygon(polygon, *view.clip);

@@ -145,6 +145,23 @@ TEST(HugeMirrors, ShowMirrorsBeforeThemOnly) {
   }
 }
 
+// An edge of the second mirror lies in the plane of the first but for the rounding of its rotation.
+TEST(SkippedMirrorList, RoundingLiftsNoEdgeOffAPlane) {
+  Mirror wall;
+  wall.polygon = {{0, -1, -2}, {0, -1, 2}, {0, 1, 2}, {0, 1, -2}};
+  wall.twoSided = true;
+  for (int degrees = 91; degrees < 180; ++degrees) {
+    Mirror behind{.rotation = {0, degrees, 0}, .size = {2, 1.5}};
+    behind.position = {std::cos(glm::radians(static_cast<double>(degrees))), 0, 0.1};
+    behind.twoSided = true;
+    Scene scene = testing_support::sceneWith({wall, behind});
+    scene.camera.position = {3, 0, 1};
+    scene.camera.target = {0, 0, 0};
+    const SkippedMirror* skip = skipOf(planOf(scene), {0, 1});
+    EXPECT_TRUE(skip && skip->reason == SkipReason::outside) << degrees;
+  }
+}
+
 TEST(SkippedMirrorList, IsOrderedByPathUpToTheLimit) {
   const Scene scene = corridor();
   const SceneState state = evaluate(scene, 0.0);
