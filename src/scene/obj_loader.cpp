@@ -355,7 +355,7 @@ void addFilesNamedIn(const std::filesystem::path& file, LineReader::Continuation
   while (line.next()) {
     const std::string keyword = lowerCase(std::string(line.keyword()));
     const bool materials = keyword == "mtllib";
-    // A '#' hides the tokens behind it.
+    // A '#' hides the tokens behind it. ObjMaterials joins words of a mtllib line as here.
     const auto add = [&, &line = line](std::string_view words) {
       std::string name(words.substr(0, longestPath));
       for (size_t at = 0; (at = name.find("\\ ", at)) != std::string::npos;) {
