@@ -72,8 +72,9 @@ struct ShadowPrices {
   double severalSamples;  // a ray where a pixel has several samples
 };
 
-// On a CPU those of session/frame_cost.cpp. On a GPU they fit an H200: in the gallery and in `shadows` at 1280x720,
-// with 1 and 4 samples and maps of 3 sizes, the way that they call faster was so in all 12 cases.
+// On a CPU those of session/frame_cost.cpp. On a GPU they fit an H200, which traces by shaders: in the gallery and in
+// `shadows` at 1280x720, with 1 and 4 samples and maps of 3 sizes, the way that they call faster was so in all 12
+// cases.
 constexpr ShadowPrices cpuPrices{1.0 / 125.0, 300.0, 1.0};
 constexpr ShadowPrices gpuPrices{1.0, 1e5, 5.0};
 
