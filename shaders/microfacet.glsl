@@ -49,14 +49,14 @@ vec2 latticePoint(Lattice lattice, int index) {
 }
 
 // Samples a normal of GGX with density D(m)(n.m) about n: Walter et al., "Microfacet Models for Refraction through
-// Rough Surfaces" (2007), equations 35 and 36.
+// Rough Surfaces" (2007), equations 35 and 36. Computed from the cosine, the sine would be lost below an alpha of 2e-4.
 vec3 microfacet(vec3 n, float alpha, vec2 u) {
-  float cosine2 = (1.0 - u.x) / (1.0 + (alpha * alpha - 1.0) * u.x);
-  float sine = sqrt(max(0.0, 1.0 - cosine2));
+  vec2 squares = vec2(1.0 - u.x, alpha * alpha * u.x);  // of cosine and sine, times their sum
+  vec2 turn = sqrt(squares / (squares.x + squares.y));
   float angle = 2.0 * pi * u.y;
   vec3 x = safeNormalize(cross(abs(n.x) < 0.5 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0), n));
   vec3 y = cross(n, x);
-  return sine * cos(angle) * x + sine * sin(angle) * y + sqrt(cosine2) * n;
+  return turn.y * (cos(angle) * x + sin(angle) * y) + turn.x * n;
 }
 
 // Says whether m faces the viewer, who looks along `direction`, and mirrors the direction to the plane's own side.

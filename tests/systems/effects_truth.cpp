@@ -427,6 +427,21 @@ TEST_F(RoughMirror, MoreRaysReduceError) {
   EXPECT_LT(most, sixteen / 1.8);
 }
 
+// A mirror whose microfacets turn by 1e-4, seen at an angle of view of 1 degree, blurs an edge over pixels.
+TEST(FaintRoughness, BlursWhatIsSeenFromFar) {
+  const std::filesystem::path file = writeScene(
+      "faint_roughness",
+      "[environment]\nbackground = [0.1, 0.1, 0.1]\nambient = [1, 1, 1]\n" + cameraText({0, 0, 0}, {0, 0, -10}) +
+          "vertical_fov = 1\n[[mirror]]\nposition = [0, 0, -10]\nsize = [4, 4]\nroughness = 0.0125\n" +
+          "[[object]]\nmodel = \"MODELS/block.obj\"\nposition = [0.5, -5, 10]\nrotation = [0, 0, 3]\n"
+          "scale = [1, 10, 1]\n");
+  QuietSession session(truthOptions(file, small, 3));
+  set(session, {{"effects.rough_samples", "256"}});
+  const double error = mirrorError(drawRadiance(session), traceSmall(file, {.samples = 1, .roughSamples = 1024}));
+  std::printf("RMSE %.5f\n", error);
+  EXPECT_LT(error, 0.004);
+}
+
 // A blurred image of the smooth mirror is far nearer to the truth than a smooth mirror. With as many lookups as rays
 // it is worse than tracing, because it lacks what the smooth mirror does not show.
 TEST_F(RoughMirror, ImageLookupLiesBetweenSmoothAndTraced) {
