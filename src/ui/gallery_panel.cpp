@@ -94,21 +94,22 @@ void tile(PanelContext& ui, const Thumbnails& thumbnails, size_t index, const Im
 
 }  // namespace
 
-// Draws the shown scene's thumbnail with its title where panels leave room, if there is one.
+// Draws the shown scene's thumbnail, if it has one, and its title where panels leave room.
 void poster(const PanelContext& ui, const Thumbnails& thumbnails, const WindowRect& picture) {
   constexpr float ems = 28.0f;
   const ShownScenes& browser = ui.input.browser;
+  if (!browser.poster) {
+    return;
+  }
   const float width = std::min(ems * ImGui::GetFontSize(), 0.9f * picture.size.x);
   const glm::vec2 size(width, width / tileAspect);
   const glm::vec2 low = glm::floor(picture.corner + 0.5f * (picture.size - size));
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
-  if (!browser.poster || !thumbnails.draw(list, browser.shown, low, low + size)) {
-    return;
-  }
   list.AddRectFilled({0.0f, 0.0f}, ImGui::GetIO().DisplaySize, IM_COL32(20, 20, 23, 255));
-  thumbnails.draw(list, browser.shown, low, low + size);
+  const bool drawn = thumbnails.draw(list, browser.shown, low, low + size);
   const std::string title = captionOf(browser.scenes, browser.scenes[browser.shown]);
-  list.AddText({low.x + 0.5f * (width - textWidth(title)), low.y + size.y + 0.5f * ImGui::GetFontSize()},
+  list.AddText({low.x + 0.5f * (width - textWidth(title)),
+                low.y + (drawn ? size.y + 0.5f * ImGui::GetFontSize() : 0.5f * size.y)},
                IM_COL32_WHITE, title.c_str());
 }
 
