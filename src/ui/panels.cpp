@@ -164,7 +164,8 @@ void describe(PanelContext& ui, std::string_view key) {
 void showTip(const std::string& about) {
   const std::string text = shortened(about, 4000);  // Dear ImGui refuses what it cannot index by 16 bits
   const float em = ImGui::GetFontSize();
-  const ImRect window = ImGui::GetCurrentWindow()->RootWindow->Rect();
+  ImRect window = ImGui::GetCurrentWindow()->RootWindow->Rect();
+  window.Expand(0.4f * em);
   const ImRect item(ImGui::GetItemRectMin(), ImGui::GetItemRectMax());
   const ImVec2 padding = ImGui::GetStyle().WindowPadding;
   const ImVec2 letters = ImGui::CalcTextSize(text.c_str(), nullptr, false, 30.0f * em);
