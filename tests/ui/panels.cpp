@@ -765,6 +765,22 @@ TEST_F(PanelTest, GalleryOpensScenes) {
   EXPECT_FALSE(sent<OpenScene>()) << "it is shown";
 }
 
+TEST_F(PanelTest, OpeningShowsTheTitleAlsoWithoutAThumbnail) {
+  const auto overlayText = [&] {
+    run(2);
+    std::string text;
+    for (const DrawnGlyph& glyph : glyphsOf(*ImGui::GetBackgroundDrawList())) {
+      text += glyph.letter;
+    }
+    return text;
+  };
+  EXPECT_EQ(overlayText(), "");
+  browser_.poster = true;
+  EXPECT_EQ(overlayText(), "One");
+  browser_.shown = 1;
+  EXPECT_EQ(overlayText(), "two.obj");
+}
+
 TEST_F(PanelTest, GalleryScrollsToTheShownScene) {
   browser_.scenes.resize(40, {"more", "", "/scenes/more.toml"});
   browser_.scenes.push_back({"saved", "", "/scenes/saved.toml"});
@@ -1083,6 +1099,17 @@ TEST_F(PanelTest, TooltipsLieOverNothingThatTheyExplain) {
     }
     EXPECT_GT(shown, 12) << width;
   }
+}
+
+TEST_F(PanelTest, TooltipsDoNotTouchTheirPanel) {
+  resize(1280, 720);
+  hover("view.exposure", 0.3);
+  ASSERT_TRUE(tooltip());
+  EXPECT_GE(tooltip()->Rect().Min.x, ImGui::FindWindowByName("Speculum")->Rect().Max.x + 4.0f);
+  toggle("Accuracy");
+  hover("accuracy.measure");
+  ASSERT_TRUE(tooltip());
+  EXPECT_LE(tooltip()->Rect().Max.x, ImGui::FindWindowByName("Accuracy")->Rect().Min.x - 4.0f);
 }
 
 // Every slider of a setting in the main panel.
