@@ -123,6 +123,16 @@ TEST(Settings, SceneErrorsNameFileAndLine) {
             "room.toml:7: reflection.scale: a string is the wrong type (0.125 .. 4)");
 }
 
+TEST(Settings, ColorsHaveTheSameFormsEverywhere) {
+  Scene scene;
+  for (const bool quoted : {true, false}) {
+    scene.settings = {{"view.clear_color", quoted ? "0.5, 0,1" : "[0.5,0.0,1.0]", 7, quoted}};
+    EXPECT_EQ(settingsOf(scene).view.clearColor, glm::dvec3(0.5, 0.0, 1.0));
+    scene.settings[0].value = quoted ? "" : "[]";
+    EXPECT_EQ(settingsOf(scene).view.clearColor, std::nullopt);
+  }
+}
+
 TEST(SettingHelp, NamesEffectRangeAndCost) {
   EXPECT_EQ(settingHelp("view.samples"),
             "Samples a pixel of the main view. Shading grows with it.\nview.samples: 1 2 4 8");
