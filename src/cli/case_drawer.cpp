@@ -32,6 +32,7 @@ Options caseOptions(const RegressCase& subject, const Options& common) {
   options.settings.insert(options.settings.end(), common.settings.begin(), common.settings.end());
   if (subject.camera) {
     setCamera(options, *subject.camera);
+    options.cameraPlace = subject.cameraPlace;
   }
   return options;
 }

@@ -49,7 +49,8 @@ size_t bytesOf(const fs::path& path) {
 
 size_t bytesOf(const RegressCase& subject) {
   size_t bytes = sizeof subject + 3 * subject.name.size() + subject.camera.value_or("").size() +
-                 bytesOf(subject.scene) + bytesOf(subject.picture) + bytesOf(subject.mask.value_or(""));
+                 subject.cameraPlace.size() + bytesOf(subject.scene) + bytesOf(subject.picture) +
+                 bytesOf(subject.mask.value_or(""));
   for (const Expectation& entry : subject.expect) {
     bytes += sizeof entry + entry.driver.size() + entry.version.value_or("").size() + entry.reason.size() +
              bytesOf(entry.picture.value_or(""));
@@ -238,6 +239,7 @@ class CaseReader {
         table.fail(key, error.what(), "as --camera takes it");
       }
       draft.common.camera = value;
+      draft.common.cameraPlace = table.place(table.has(key) ? key : "grid");
     } else if (key == "size") {
       const std::optional<PictureSize> size = pictureSize(value);
       if (!size) {

@@ -42,6 +42,7 @@ struct RegressCase {
   std::filesystem::path scene;
   double time = 0.0;                  // seconds
   std::optional<std::string> camera;  // as --camera takes it
+  std::string cameraPlace;            // where it stands, "FILE:LINE: key"
   PictureSize size;
   std::vector<std::pair<std::string, std::string>> settings;  // as --set takes them
   std::optional<std::filesystem::path> mask;

@@ -63,6 +63,10 @@ std::string TableReader::fullKey(std::string_view key) const {
   return label_.empty() ? std::string(key) : label_ + "." + std::string(key);
 }
 
+std::string TableReader::place(std::string_view key) const {
+  return fmt::format("{}:{}: {}", file_.string(), line(key), fullKey(key));
+}
+
 void TableReader::fail(std::string_view key, std::string_view wrong, std::string_view right) const {
   throwInputError(file_, line(key), fullKey(key), wrong, right);
 }

@@ -47,6 +47,9 @@ class TableReader {
   // Returns the [[key]] tables; the label of each has its `name` or, without one, its index.
   std::vector<TableReader> tables(std::string_view key, std::span<const std::string_view> known) const;
 
+  // Returns "FILE:LINE: key", with which errors about the key begin.
+  std::string place(std::string_view key) const;
+
   [[noreturn]] void fail(std::string_view key, std::string_view wrong, std::string_view right) const;
   [[noreturn]] void failAt(const toml::node& node, std::string_view key, std::string_view wrong,
                            std::string_view right) const;

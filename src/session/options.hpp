@@ -74,6 +74,8 @@ struct Options {
   std::filesystem::path out;           // empty: none
   std::filesystem::path json;          // empty: none
   std::filesystem::path sweepResults;  // results.json of an earlier sweep; empty: none
+  // Where camera and bookmark stand, for errors.
+  std::string cameraPlace = "--camera";
 
   WindowArguments window;  // of the command demo
   RenderArguments render;

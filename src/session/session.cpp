@@ -40,7 +40,8 @@ double millisecondsSince(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-const Bookmark& bookmarkNamed(const std::string& name, const Scene& scene) {
+const Bookmark& bookmarkOf(const Options& options, const Scene& scene) {
+  const std::string& name = options.bookmark;
   std::vector<std::string_view> names;
   for (const Bookmark& bookmark : scene.bookmarks) {
     if (bookmark.name == name) {
@@ -49,7 +50,7 @@ const Bookmark& bookmarkNamed(const std::string& name, const Scene& scene) {
     names.push_back(bookmark.name);
   }
   throw UsageError(oneLine(
-      "--camera: the scene has no bookmark '" + name + "' (" +
+      options.cameraPlace + ": the scene has no bookmark '" + name + "' (" +
       (names.empty() ? "it has none; position:target, such as 0,1,4:0,1,0, is needed" : nearestKeyAdvice(name, names)) +
       ")"));
 }
@@ -193,12 +194,11 @@ std::optional<CameraPose> cameraOf(const Options& options, const Scene& scene) {
   if (options.bookmark.empty() && !options.camera) {
     return std::nullopt;
   }
-  const CameraSpec camera =
-      cameraOf(options.camera ? *options.camera : bookmarkNamed(options.bookmark, scene), scene.camera);
+  const CameraSpec camera = cameraOf(options.camera ? *options.camera : bookmarkOf(options, scene), scene.camera);
   try {
     return lookAt(camera.position, camera.target, camera.up, camera.verticalFov, camera.near);
   } catch (const std::invalid_argument& error) {
-    throw UsageError("--camera: " + std::string(error.what()) + " (position:target:up, of which the three differ)");
+    throw UsageError(options.cameraPlace + ": " + error.what() + " (position:target:up, of which the three differ)");
   }
 }
 

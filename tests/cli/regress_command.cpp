@@ -393,6 +393,7 @@ TEST_F(RegressCommand, SceneFaultsAndTimeoutsLeaveTheRest) {
 [[case]] scene = 'broken.toml'
 [[case]] scene = 'room.toml', name = 'slow', size = '1920x1080', settings = { view.accumulate = 1024 }, timeout = 1
 [[case]] scene = 'room.toml', name = 'typo', settings = { debug.omit_barrier = 'x' }
+[[case]] scene = 'room.toml', name = 'view', camera = 'door'
 [[case]] scene = 'room.toml'
 )");
   const ProcessResult result = regress({"--update"});
@@ -401,6 +402,8 @@ TEST_F(RegressCommand, SceneFaultsAndTimeoutsLeaveTheRest) {
   EXPECT_EQ(lineOf("slow", result.output), "error   slow: no picture within 1 s");
   EXPECT_TRUE(contains(lineOf("typo", result.output), "typo: debug.omit_barrier: there is no barrier 'x'"))
       << "nobody typed --set: " << result.output;
+  EXPECT_TRUE(contains(lineOf("view", result.output), "case[view].camera: the scene has no bookmark 'door'"))
+      << result.output;
   EXPECT_TRUE(
       contains(readText(folder_ / "out/index.html"), R"("--set","view.accumulate=1024","--validation","--out")"))
       << "the command that draws it";
