@@ -166,7 +166,8 @@ Window::Library::Library() {
     }
   });
   if (!glfwInit()) {
-    fail("no window system", "is DISPLAY set? without a display use the render command");
+    fail("no window system",
+         "is DISPLAY set? without a display, `speculum render` and examples write a picture with --out F.png");
   }
 }
 
@@ -194,7 +195,8 @@ Window::Window(const WindowOptions& options) {
 #endif
   window_.reset(glfwCreateWindow(options.width, options.height, options.title.c_str(), nullptr, nullptr));
   if (!window_) {
-    fail("the window could not be opened", "without a display use the render command");
+    fail("the window could not be opened",
+         "without a display, `speculum render` and examples write a picture with --out F.png");
   }
   float unused = 1.0f;
   glfwGetWindowContentScale(window_.get(), &contentScale_, &unused);

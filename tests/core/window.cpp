@@ -320,7 +320,7 @@ TEST(WindowMonitors, FullScreenEndsWithItsMonitor) {
 TEST(WindowErrors, NoDisplaySaysWhatToDo) {
   unsetenv("DISPLAY");
   unsetenv("WAYLAND_DISPLAY");
-  EXPECT_TRUE(contains(messageOf([] { const Window window(WindowOptions{}); }), "render command"));
+  EXPECT_TRUE(contains(messageOf([] { const Window window(WindowOptions{}); }), "with --out F.png"));
 }
 
 }  // namespace
