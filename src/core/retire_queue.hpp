@@ -16,7 +16,7 @@ class RetireQueue {
  public:
   template <typename T>
   void retire(T object) {
-    entries_.push_back({frame_, std::make_shared<T>(std::move(object))});
+    entries_.push_back({frame_, {new T(std::move(object)), [](void* kept) { delete static_cast<T*>(kept); }}});
   }
   // Retires an object, if there is one, and leaves none in its place.
   template <typename T>
@@ -37,7 +37,7 @@ class RetireQueue {
  private:
   struct Entry {
     uint64_t frame;
-    std::shared_ptr<void> object;
+    std::unique_ptr<void, void (*)(void*)> object;
   };
   std::deque<Entry> entries_;
   uint64_t frame_ = 0;
