@@ -117,6 +117,23 @@ bool hasAlpha(const std::vector<uint8_t>& bytes, PictureFormat format, int chann
                                         : channels % 2 == 0;
 }
 
+// Says whether the pixels of a TGA have 15 bits of color and one of alpha, which the decoder drops.
+bool hasAlphaBit(const std::vector<uint8_t>& bytes) {
+  return (byteAt(bytes, 2) & 7) == 2 && byteAt(bytes, 16) == 16 && (byteAt(bytes, 17) & 0x0f) != 0;
+}
+
+// Returns such a TGA with pixels that are white where they are opaque, and otherwise black.
+std::vector<uint8_t> maskOfAlphaBits(std::vector<uint8_t> bytes) {
+  const bool runs = byteAt(bytes, 2) == 10;
+  for (size_t at = 18 + bytes[0]; at + 1 < bytes.size();) {
+    const int head = runs ? bytes[at++] : 0;
+    for (int left = head < 128 ? head + 1 : 1; left > 0 && at + 1 < bytes.size(); --left, at += 2) {
+      bytes[at] = bytes[at + 1] = bytes[at + 1] < 128 ? 0 : 255;
+    }
+  }
+  return bytes;
+}
+
 // Content of a JPEG's markers.
 struct JpegMarkers {
   int64_t scans = 0;
@@ -247,15 +264,26 @@ Image8 decoded(const std::filesystem::path& file, const std::vector<uint8_t>& by
   int width = 0;
   int height = 0;
   int channels = 0;
-  const auto pixels = decodePicture(bytes, width, height, channels);
-  if (!pixels) {
-    throwDamaged(file, decodeFailure());
-  }
+  const auto decode = [&](const std::vector<uint8_t>& content) {
+    auto pixels = decodePicture(content, width, height, channels);
+    if (!pixels) {
+      throwDamaged(file, decodeFailure());
+    }
+    return pixels;
+  };
+  const auto pixels = decode(bytes);
   Image8 image(width, height);
   std::copy_n(pixels.get(), image.rgba.size(), image.rgba.begin());
   image.hasAlpha = hasAlpha(bytes, format, channels, image);
   for (size_t i = 3; format == PictureFormat::tga && !image.hasAlpha && i < image.rgba.size(); i += 4) {
     image.rgba[i] = 255;
+  }
+  if (format == PictureFormat::tga && hasAlphaBit(bytes)) {
+    const auto mask = decode(maskOfAlphaBits(bytes));
+    for (size_t i = 3; i < image.rgba.size(); i += 4) {
+      image.rgba[i] = mask.get()[i - 1];
+    }
+    image.hasAlpha = true;
   }
   return image;
 }

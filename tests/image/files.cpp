@@ -218,6 +218,26 @@ TEST(ImageFiles, AlphaIsThatOfTheFile) {
   }
 }
 
+// Red and opaque, green and transparent, blue twice and opaque, without and with runs.
+TEST(ImageFiles, TgaOfSixteenBitsHasAlpha) {
+  const TemporaryFolder folder;
+  const std::string red("\0\xfc", 2);
+  const std::string green("\xe0\x03", 2);
+  const std::string blue("\x1f\x80", 2);
+  for (const auto& [kind, alphaBits, pixels] :
+       {std::tuple(2, 1, red + green + blue + blue), std::tuple(10, 1, '\1' + red + green + '\x81' + blue),
+        std::tuple(2, 0, red + green + blue + blue)}) {
+    const std::string name("name");  // stands before the pixels
+    const std::string header =
+        headerOf({}, {{0, 4}, {2, kind}, {12, 4}, {14, 1}, {16, 16}, {17, 0x20 | alphaBits}}).substr(0, 18);
+    const Image8 read = readTexture(folder.write("a.tga", header + name + pixels));
+    EXPECT_EQ(read.hasAlpha, alphaBits == 1) << kind;
+    const uint8_t clear = alphaBits == 1 ? 0 : 255;
+    EXPECT_EQ(read.rgba, (std::vector<uint8_t>{255, 0, 0, 255, 0, 255, 0, clear, 0, 0, 255, 255, 0, 0, 255, 255}))
+        << kind;
+  }
+}
+
 TEST(Jpeg, KeepsSizeAndColorAndDropsAlpha) {
   for (const auto& [width, height] : {std::pair{1, 1}, std::pair{37, 19}, std::pair{160, 90}, std::pair{300, 1}}) {
     const Image8 image = smoothPicture(width, height);
