@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "accuracy/report.hpp"
+
 namespace speculum {
 
 namespace {

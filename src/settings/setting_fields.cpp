@@ -197,7 +197,8 @@ constexpr SettingField fields[] = {
              .error =
                  [](const Settings& s, size_t) {
                    const int size = s.effects.shadowMapSize == 0 ? 1024 : s.effects.shadowMapSize;
-                   return s.effects.shadowLookup == ShadowLookup::map ? 15.0 / size : 0.0;
+                   const ShadowLookup lookup = s.effects.shadowLookup;
+                   return lookup == ShadowLookup::map || lookup == ShadowLookup::automatic ? 15.0 / size : 0.0;
                  },
              .swept = {"auto 256 1024", "auto 256 1024 4096"}}),
     setting("effects.roughness", BooleanSetting{at<&E::roughness>}, "Roughness", "blur of rough mirrors",

@@ -203,7 +203,7 @@ std::string motionText(const Settings& chosen, const MotionLevel& level) {
   return text.empty() ? "full quality" : text + fmt::format(" (estimated error {:.1g} FLIP)", level.error);
 }
 
-std::string stillText(const Scene& scene, const Settings& settings) {
+std::string stillText(const Scene& scene, const Settings& settings, ShadowLookup planned) {
   const EffectSettings& effects = settings.effects;
   const AskedEffects asked = askedEffects(scene, effects);
   std::string text;
@@ -211,7 +211,8 @@ std::string stillText(const Scene& scene, const Settings& settings) {
     text += applies ? (text.empty() ? "" : ", ") + words : "";
   };
   // A face is 90 degrees wide, so a texel is 2 / size of the distance.
-  add(asked.shadows && effects.shadowLookup == ShadowLookup::map && !asked.castsLight && fitsShadowMaps(scene),
+  const ShadowLookup lookup = effects.shadowLookup == ShadowLookup::automatic ? planned : effects.shadowLookup;
+  add(asked.shadows && lookup == ShadowLookup::map && !asked.castsLight && fitsShadowMaps(scene),
       effects.shadowMapSize == 0 ? "shadow outlines within about a pixel"
                                  : fmt::format("shadow outlines within a texel of the map, 1/{} of the distance from "
                                                "the light",

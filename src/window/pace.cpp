@@ -72,6 +72,7 @@ void SlowPicture::begin(size_t faces, size_t count, double ms) {
   faceMs_ = std::numeric_limits<double>::infinity();
   pays_ = true;
   lastCount_ = 0;
+  framesAlike_ = 0;
   totalMs_ = 0.0;
   const std::vector<double> before = std::exchange(tileMs_, std::vector<double>(count));
   if (before.empty()) {

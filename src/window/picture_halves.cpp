@@ -27,7 +27,7 @@ Image8 PictureHalf::pixels() {
 }
 
 std::string PictureHalf::text(const Scene& scene, const Settings& chosen, bool plays) const {
-  const std::string rest = stillText(scene, chosen);
+  const std::string rest = stillText(scene, chosen, pace.planned().settings.effects.shadowLookup);
   if (!pace.text().empty() && plays) {
     return pace.text() + ". Space: pause for the " + (rest.empty() ? "exact picture" : "whole picture (" + rest + ")");
   }
