@@ -42,7 +42,7 @@ struct Skip {
   uint triangle;
   uint plane;
   uint secondPlane;
-  float near;  // metres from the origin within which all objects are ignored
+  float near;  // metres from the origin within which triangles are ignored in whose plane the origin lies
 };
 
 // Returns Skip::near for a point. Where triangles meet or coincide, rounding may put the point behind another one: by
@@ -187,19 +187,27 @@ vec4[3] meshRows(uint instance) {
 
 uvec4 triangleTexel(uint slot, uint i) { return texelFetch(traceTriangles, int(3 * slot + i)); }
 
-// Says whether the end of the ray lies in the plane of the triangle that it meets, as far as rounding tells. Then
-// rounding decides whether the ray meets the triangle: a ray that is nearly parallel to it may do so far from its end.
+// Says whether a point in mesh space lies in a triangle's plane, as far as rounding tells. Then rounding decides whether
+// a ray that starts or ends there meets the triangle: if it is nearly parallel to it, it may do so far from the point.
+// `reach` is the sum of the lengths from which the point was computed.
+bool liesInPlane(vec3 point, float reach, uint slot) {
+  vec3 a = uintBitsToFloat(triangleTexel(slot, 0).xyz);
+  vec3 b = uintBitsToFloat(triangleTexel(slot, 1).xyz) - a;
+  vec3 c = uintBitsToFloat(triangleTexel(slot, 2).xyz) - a;
+  vec3 normal = cross(b / largestComponent(b), c / largestComponent(c));
+  return abs(dot(normal, point - a)) < leastHeight * (reach + largestComponent(a)) * length(normal);
+}
+
+// Returns the reach of a ray's origin in mesh space.
+float reachOf(vec3 origin, vec4 rows[3]) {
+  return largestComponent(origin) + largestComponent(vec3(rows[0].w, rows[1].w, rows[2].w));
+}
+
 bool endsInPlane(Hit hit, vec3 origin, vec3 direction) {
   vec4 rows[3] = meshRows(hit.instance);
-  vec3 a = uintBitsToFloat(triangleTexel(hit.slot, 0).xyz);
-  vec3 b = uintBitsToFloat(triangleTexel(hit.slot, 1).xyz) - a;
-  vec3 c = uintBitsToFloat(triangleTexel(hit.slot, 2).xyz) - a;
-  vec3 normal = cross(b / largestComponent(b), c / largestComponent(c));
   vec3 start = timesPoint(rows, origin);
   vec3 along = timesDirection(rows, direction);
-  vec3 center = vec3(rows[0].w, rows[1].w, rows[2].w);
-  float reach = largestComponent(start) + largestComponent(along) + largestComponent(a) + largestComponent(center);
-  return abs(dot(normal, start + along - a)) < leastHeight * reach * length(normal);
+  return liesInPlane(start + along, reachOf(start, rows) + largestComponent(along), hit.slot);
 }
 
 // Returns the texture coordinates of a point of a triangle, which a ray from `origin` along `direction` meets.
@@ -284,6 +292,7 @@ void traceMesh(uint instance, vec3 origin, vec3 direction, float near, Skip skip
   uvec4 scale = instanceTexel(instance, 4);
   vec3 gridScale = uintBitsToFloat(scale.xyz);
   LocalRay ray = localRay(meshOrigin, meshDirection);
+  float reach = reachOf(meshOrigin, rows);
   BoxRay boxes = boxRay((meshOrigin - uintBitsToFloat(low.xyz)) * gridScale, meshDirection * gridScale, 0.05);
   uint node = low.w + boxes.octant * scale.w;
   uint last = node + scale.w;
@@ -304,7 +313,8 @@ void traceMesh(uint instance, vec3 origin, vec3 direction, float near, Skip skip
     for (;;) {
       uint triangle;
       vec4 met = meetSlot(slot, ray, triangle);
-      bool own = met.w < near || (instance == skip.instance && triangle == skip.triangle);
+      bool own = (met.w < near && liesInPlane(meshOrigin, reach, slot)) ||
+                 (instance == skip.instance && triangle == skip.triangle);
       // Where surfaces coincide, the ray meets the instance that is listed first.
       bool first = met.w < hit.t || (met.w == hit.t && instance < hit.instance);
       bool meets = slot < end && met.w > 0.0 && first && !own;

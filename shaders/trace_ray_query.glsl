@@ -3,8 +3,15 @@
 
 layout(set = 2, binding = 13) uniform accelerationStructureEXT traceStructure;
 
-bool ignores(Skip skip, uint instance, uint slot, float t, float near) {
-  return t < near || (instance == skip.instance && triangleTexel(slot, 0).w == skip.triangle);
+bool ignores(Skip skip, uint instance, uint slot, float t, float near, vec3 origin) {
+  if (t < near) {
+    vec4 rows[3] = meshRows(instance);
+    vec3 start = timesPoint(rows, origin);
+    if (liesInPlane(start, reachOf(start, rows), slot)) {
+      return true;
+    }
+  }
+  return instance == skip.instance && triangleTexel(slot, 0).w == skip.triangle;
 }
 
 // Finds the first surface that a reflected ray in trace space meets before tMax; with `any`, one of those that a ray to
@@ -26,7 +33,7 @@ Hit traceRay(vec3 origin, vec3 direction, float tMax, Skip skip, bool any, uint 
     uint index = rayQueryGetIntersectionInstanceCustomIndexEXT(query, false);
     if (rayQueryGetIntersectionTypeEXT(query, false) == gl_RayQueryCandidateIntersectionTriangleEXT) {
       uint slot = traceInstances[index].firstTriangle + rayQueryGetIntersectionPrimitiveIndexEXT(query, false);
-      bool meets = !ignores(skip, index, slot, rayQueryGetIntersectionTEXT(query, false), near);
+      bool meets = !ignores(skip, index, slot, rayQueryGetIntersectionTEXT(query, false), near, origin);
       if (transparency && meets) {
         vec2 w = rayQueryGetIntersectionBarycentricsEXT(query, false);
         meets = meetsSurface(index, slot, vec3(1.0 - w.x - w.y, w), origin, direction, seed);

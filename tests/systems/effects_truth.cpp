@@ -255,6 +255,32 @@ TEST(ExactEffects, LongThinTrianglesEqualTheTracer) {
   }
 }
 
+// Smooth columns seen from 1 km, lit from behind: rays from facets that the light lies behind leave the column again
+// within centimetres, through the next facet.
+TEST(ExactEffects, EdgesSeenFromFarLeakNoLight) {
+  std::ostringstream prism;
+  for (int i = 0; i < 6; ++i) {
+    const double turn = glm::radians(60.0 * i);
+    prism << "v " << std::sin(turn) << " -40 " << std::cos(turn) << "\nv " << std::sin(turn) << " 40 " << std::cos(turn)
+          << "\n";
+  }
+  prism << "s 1\n";
+  for (int i = 0; i < 6; ++i) {
+    const int next = (i + 1) % 6;
+    prism << "f " << 2 * i + 1 << ' ' << 2 * next + 1 << ' ' << 2 * next + 2 << ' ' << 2 * i + 2 << "\n";
+  }
+  writeModel("prism.obj", prism.str());
+  std::string scene = "[environment]\nbackground = [0.3, 0.5, 0.8]\nambient = [0.1, 0.1, 0.1]\n" +
+                      cameraText({0, 0, 1000}, {0, 0, 0}) +
+                      "vertical_fov = 1\n[[light]]\nposition = [60, 0, -30]\nintensity = 6e4\ncasts_shadow = true\n";
+  for (int i = -1; i <= 1; ++i) {
+    scene += objectText("prism.obj", {0.85 * i, 0, 0}, {0, 8.0 * i - 17.0, 1}, 0.35, {0.8, 0.7, 0.6});
+  }
+  const std::filesystem::path file = writeScene("columns_from_far", scene);
+  constexpr PictureSize tall{60, 400};
+  expectTruth(file, tall, 1, trace(file, tall, 1));
+}
+
 // Rays at every sample smooth the edges of shadows and of what curved mirrors show, which lowers the mean error against
 // the tracer.
 TEST(ExactEffects, RaysAtEverySampleReduceError) {
