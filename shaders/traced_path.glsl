@@ -201,6 +201,9 @@ vec2 randomPoint(RandomPoints points, Draws draws, int drawn) {
                               : randomPair(mixedBits(points.seed + uint(drawn)));
 }
 
+// Returns how many microfacets are drawn at most to find so many that stay above.
+int mostMicrofacets(int wanted) { return 4 * wanted + 16; }
+
 // Draws microfacets of `bounce`, seen along `direction`, until one faces the viewer and mirrors the ray above the
 // plane. Returns false if `most` draws are used up without such a microfacet. A pixel that has not `taken` any by then
 // gets the surface's own normal.
@@ -225,7 +228,7 @@ bool nextMicrofacet(Bounce bounce, vec3 direction, RandomPoints points, Draws dr
 // ends at its head: lavapipe of Mesa 22.3 goes on computing for pixels that have left a loop, and variables keep their
 // values only from one iteration to the next.
 vec3 tracedRadiance(Bounce surface, vec3 direction, uint seed, Draws draws) {
-  int most = 4 * draws.wanted + 16;
+  int most = mostMicrofacets(draws.wanted);
   RandomPoints points = randomPoints(seed, draws);
   int drawn = 0;
   int taken = 0;
@@ -282,9 +285,9 @@ vec3 tracedRadiance(Bounce surface, vec3 direction, uint seed, Draws draws) {
       }
       m = bounce.surface.normal;
       if (rough && meets && bounce.alpha > 0.0 && bounce.reflects) {
-        // Each further bounce samples one microfacet; if 20 of them do not stay above, the mirror's own normal.
+        // Each further bounce follows one microfacet that stays above, or else the mirror's own normal.
         bool found = false;
-        for (int i = 0; i < 20 && !found; ++i) {
+        for (int i = 0; i < mostMicrofacets(1) && !found; ++i) {
           pathSeed = mixedBits(pathSeed + 0x9e3779b9u);
           vec3 facet = microfacet(bounce.surface.normal, bounce.alpha, randomPair(pathSeed));
           found = staysAbove(towards, facet, bounce.planeNormal);

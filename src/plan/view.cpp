@@ -38,8 +38,8 @@ Polygon clippedPart(const View& view, std::span<const glm::dvec3> polygon) {
   for (const glm::dvec3& p : polygon) {
     reach = glm::max(reach, glm::abs(p));
   }
-  const double rounding = 1e-15 * glm::dot(glm::abs(view.clip->normal), reach + glm::abs(view.clip->point));
-  if (std::ranges::none_of(polygon, [&](const glm::dvec3& p) { return view.clip->distance(p) > rounding; })) {
+  const double lift = 1e-15 * glm::dot(glm::abs(view.clip->normal), reach + glm::abs(view.clip->point));
+  if (std::ranges::none_of(polygon, [&](const glm::dvec3& p) { return view.clip->distance(p) > lift; })) {
     return {};
   }
   return clipPolygon(polygon, *view.clip);
