@@ -137,18 +137,16 @@ class PlanFitter {
     const bool automaticShadows = lookup() == ShadowLookup::automatic;
     chooseShadows();
     chooseReflections();
-    // Hybrid shadows took the least time nowhere.
-    if (automaticShadows && tracesRays_ && fitted_.plan.effects.shadows &&
-        !(fitted_.plan.effects.shadowMaps &&
-          mapsAreFaster(fitted_.plan, asked_.scene, fitted_.settings, limits_.cpu))) {
-      lookup() = ShadowLookup::traced;
-      plan();
+    if (automaticShadows && tracesRays_ && fitted_.plan.effects.shadows) {
+      chooseShadowsByPrice();
     }
     boundShadowMaps();
     fitMemory();
     if ((automaticShadows || replacesRays_) && fitted_.plan.effects.shadows) {
       fitted_.plan.effects.shadows->append(replacesRays_ ? "; without rays: " : "; auto: ")
-          .append(lookup() == ShadowLookup::map ? "map" : "traced");  // settingValue() allocates
+          .append(lookup() == ShadowLookup::map      ? "map"  // settingValue() allocates
+                  : lookup() == ShadowLookup::hybrid ? "hybrid"
+                                                     : "traced");
     }
     return std::move(fitted_);
   }
@@ -184,6 +182,17 @@ class PlanFitter {
       say("effects.shadow_lookup=hybrid is replaced by " + settingValue(fitted_.settings, "effects.shadow_lookup") +
           ": the device draws no lines or has no sampleRateShading");
     }
+  }
+
+  // Chooses the fastest lookup, or for a mean of pictures the fastest exact one: maps err alike in all of them.
+  void chooseShadowsByPrice() {
+    const bool maps =
+        fitted_.plan.effects.shadowMaps && mapsAreFaster(fitted_.plan, asked_.scene, fitted_.settings, limits_.cpu);
+    if (maps && chosen_.view.accumulate == 1) {
+      return;
+    }
+    lookup() = maps && limits_.cpu && limits_.hybridShadows ? ShadowLookup::hybrid : ShadowLookup::traced;
+    plan();
   }
 
   // Makes the first plan.

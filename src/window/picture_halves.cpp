@@ -27,7 +27,10 @@ Image8 PictureHalf::pixels() {
 }
 
 std::string PictureHalf::text(const Scene& scene, const Settings& chosen, bool plays) const {
-  const std::string rest = stillText(scene, chosen, pace.planned().settings.effects.shadowLookup);
+  const Settings& planned = pace.planned().settings;
+  // Pausing leads to a mean, for which `auto` chooses an exact lookup where there are rays.
+  const bool exact = plays && stillPictures(chosen) > 1 && planned.limit.rays;
+  const std::string rest = stillText(scene, chosen, exact ? ShadowLookup::hybrid : planned.effects.shadowLookup);
   if (!pace.text().empty() && plays) {
     return pace.text() + ". Space: pause for the " + (rest.empty() ? "exact picture" : "whole picture (" + rest + ")");
   }

@@ -309,6 +309,11 @@ TEST(ShadowMap, AutomaticLookupTakesTheFasterOne) {
   EXPECT_EQ(chosen({64, 48}), ShadowLookup::traced) << "fewer rays than texels of the maps";
   EXPECT_EQ(chosen({1280, 720}, false), ShadowLookup::traced);
   EXPECT_EQ(chosen({3840, 2160}, false), ShadowLookup::map);
+  settings.view.accumulate = 2;
+  EXPECT_EQ(chosen({1280, 720}), ShadowLookup::hybrid) << "maps err alike in all pictures of a mean";
+  EXPECT_EQ(chosen({64, 48}), ShadowLookup::traced);
+  EXPECT_EQ(chosen({3840, 2160}, false), ShadowLookup::traced);
+  settings.view.accumulate = 1;
   settings.effects.shadowLookup = ShadowLookup::hybrid;
   const FittedPlan without = planWithin({.budgetBytes = 1ull << 40, .largestSide = 16384, .hybridShadows = false},
                                         {scene, state, settings, {64, 48}});
