@@ -4,6 +4,8 @@
 #include <charconv>
 #include <cstdlib>
 
+#include "platform/text.hpp"
+
 namespace speculum {
 
 namespace {
@@ -83,8 +85,15 @@ std::string_view LineReader::takeLine() {
 
 // A backslash that ends a comment is part of the comment.
 bool LineReader::continues(std::string_view line) const {
-  return continuation_ == Continuation::backslash && trimmed(line).ends_with('\\') &&
-         line.find('#') == std::string_view::npos;
+  const std::string_view text = trimmed(line);
+  if (continuation_ == Continuation::none || !text.ends_with('\\') || text.find('#') != std::string_view::npos) {
+    return false;
+  }
+  const char before = text.size() > 1 ? text[text.size() - 2] : ' ';
+  const std::string keyword = lowerCase(std::string(text.substr(0, text.find_first_of(" \t"))));
+  const bool endsName =
+      static_cast<unsigned char>(before) >= 0x80 || keyword == "o" || keyword == "g" || keyword == "usemtl";
+  return isBlank(before) || !endsName;
 }
 
 void LineReader::joinContinuation() {

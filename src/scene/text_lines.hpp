@@ -22,7 +22,8 @@ std::optional<double> parseNumber(std::string_view token);
 // comments and lines without a token are skipped. The text must outlive the reader.
 class LineReader {
  public:
-  // A backslash at the end of a line, before any blanks, joins the next line to it, in OBJ but not in MTL files.
+  // A backslash at the end of a line, before any blanks, joins the next line to it, in OBJ but not in MTL files. It
+  // does not if it is part of a name: of o, g or usemtl, or the second byte of a character of Shift-JIS or Big5.
   enum class Continuation { backslash, none };
 
   LineReader(std::string_view text, Continuation continuation);

@@ -292,6 +292,19 @@ TEST_F(ObjLoader, LinesAndNumbersHaveManyForms) {
   EXPECT_EQ(warnings(), "");
 }
 
+// In Shift-JIS and Big5 the second byte of a character may be that of a backslash.
+TEST_F(ObjLoader, NamesEndWithTheirLines) {
+  for (const std::string line :
+       {"o \x95\x5c", "g a \xa5\x5c", "usemtl \x95\x5c", "mtllib \x95\x5c", "O C:\\a\\", "g a\\", "usemtl a\\"}) {
+    EXPECT_EQ(load(line + "\n" + squareText + "f 1 2 3 4\n").indices.size(), 6u) << line;
+  }
+  folder_.write("m.mtl", "newmtl \x95\x5c\nKd 1 0 0\nnewmtl b\n");
+  EXPECT_EQ(load("mtllib none.mtl \\\nm.mtl\n" + squareText + "usemtl \x95\x5c\nf 1 2 3\nusemtl b\n")
+                .parts[0]
+                .material.diffuse,
+            glm::dvec3(1, 0, 0));
+}
+
 TEST_F(ObjLoader, ArbitraryBytesAreRefused) {
   std::string bytes;
   for (int i = 0; i < 4096; ++i) {
