@@ -65,7 +65,10 @@ std::optional<fs::path> ModelFiles::findWhole(const fs::path& namingFile, std::s
   if (path.empty()) {
     return std::nullopt;
   }
-  const std::array<fs::path, 2> folders{namingFile.parent_path(), modelFolder_};
+  std::vector<fs::path> folders{namingFile.parent_path()};
+  if (folders[0].native() != modelFolder_.native()) {
+    folders.push_back(modelFolder_);
+  }
   for (const fs::path& folder : folders) {
     if (fs::path file = (folder / path).lexically_normal(); isFile(file)) {
       return file;

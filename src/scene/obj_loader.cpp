@@ -344,38 +344,6 @@ std::pair<Contents, std::optional<ForeignFile>> readObj(const std::filesystem::p
   return {ObjReader(file, text, builder, materials, defects).read(progress), foreignFile(text)};
 }
 
-// Adds a model or material file and the files that its lines may name: by any word, or by a word and the rest of the
-// line.
-void addFilesNamedIn(const std::filesystem::path& file, LineReader::Continuation continuation, ModelFiles& search,
-                     std::set<std::filesystem::path>& files) {
-  constexpr size_t longestPath = 4096;
-  files.insert(file);
-  const std::string text = readTextIfAny(file);
-  LineReader line(text, continuation);
-  while (line.next()) {
-    const std::string keyword = lowerCase(std::string(line.keyword()));
-    const bool materials = keyword == "mtllib";
-    // A '#' hides the tokens behind it. ObjMaterials joins words of a mtllib line as here.
-    const auto add = [&, &line = line](std::string_view words) {
-      std::string name(words.substr(0, longestPath));
-      for (size_t at = 0; (at = name.find("\\ ", at)) != std::string::npos;) {
-        name.erase(at, 1);
-      }
-      const std::optional<std::filesystem::path> named = search.find(file, name);
-      if (named && files.insert(*named).second && materials) {
-        addFilesNamedIn(*named, LineReader::Continuation::none, search, files);
-      }
-    };
-    for (size_t i = 0; i < line.tokens().size() && (materials || keyword.starts_with("map_")); ++i) {
-      add(line.after(line.tokens()[i]));
-      std::string words;
-      for (size_t k = i; k < std::min(line.tokens().size(), i + ObjMaterials::mostWords); ++k) {
-        add(words.append(words.empty() ? "" : " ").append(line.tokens()[k]));
-      }
-    }
-  }
-}
-
 }  // namespace
 
 Mesh loadObj(const std::filesystem::path& file, std::vector<Texture>& textures, const LoadProgress& progress) {
@@ -403,7 +371,16 @@ Mesh loadObj(const std::filesystem::path& file, std::vector<Texture>& textures, 
 
 void addFilesOfObj(const std::filesystem::path& file, std::set<std::filesystem::path>& files) {
   ModelFiles search(file);
-  addFilesNamedIn(file, LineReader::Continuation::backslash, search, files);
+  files.insert(file);
+  const std::string text = readTextIfAny(file);
+  for (LineReader line(text, LineReader::Continuation::backslash); line.next();) {
+    if (lowerCase(std::string(line.keyword())) == "mtllib") {
+      forEachLibrary(
+          search, file, line.argument(),
+          [&](const std::filesystem::path& named, std::string_view) { addFilesOfMtl(named, search, files); },
+          [](const std::string&) {});
+    }
+  }
 }
 
 }  // namespace speculum

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
@@ -24,6 +25,16 @@ Mesh loadObj(const std::filesystem::path& file, std::vector<Texture>& textures, 
 // than these lines, and throws nothing for damaged files.
 void addFilesOfObj(const std::filesystem::path& file, std::set<std::filesystem::path>& files);
 
+// Calls `found` for each file that a mtllib line of the OBJ file names, in their order, and `missing` for a name of one
+// word without a file. There are one or several names, with blanks or without. A backslash before a blank keeps the
+// blank; any other backslash separates folders.
+void forEachLibrary(ModelFiles& search, const std::filesystem::path& objFile, std::string_view names,
+                    const std::function<void(const std::filesystem::path& file, std::string_view name)>& found,
+                    const std::function<void(const std::string& name)>& missing);
+
+// Adds an MTL file and the pictures that its lines name, as far as they exist.
+void addFilesOfMtl(const std::filesystem::path& file, ModelFiles& search, std::set<std::filesystem::path>& files);
+
 // Options of a texture. Its coordinates are scale * (u, v) + offset.
 struct TextureOptions {
   glm::dvec2 scale{1.0};
@@ -36,14 +47,11 @@ struct TextureOptions {
 // file is named.
 class ObjMaterials {
  public:
-  static constexpr size_t mostWords = 8;  // of a file's name in a mtllib line
-
   // `objFile` and `defects` must outlive this object. A defect names a line of the OBJ file or of an MTL file.
   ObjMaterials(const std::filesystem::path& objFile, ModelDefects& defects)
       : objFile_(objFile), defects_(defects), modelFiles_(objFile) {}
 
-  // Reads the files that a mtllib line of the OBJ file names: one or several, with blanks or without. A backslash
-  // before a blank keeps the blank; any other backslash separates folders. A file that was read is not read again.
+  // Reads the files that a mtllib line of the OBJ file names. A file that was read is not read again.
   void read(std::string_view names, int line);
 
   // Returns the index of the material that a usemtl line names, for material().
@@ -89,7 +97,7 @@ class ObjMaterials {
 
   // Says whether a name in the file is empty but for a comment, and names no file as a whole.
   bool isComment(const std::filesystem::path& file, std::string_view name);
-  bool readIfThere(std::string_view name, int line);
+  void readLibrary(const std::filesystem::path& file, std::string_view name, int line);
   std::pair<std::string, const Entry*> entryOf(const std::string& name) const;
   // Returns read(file) for the picture that a line of the entry's file names; nothing, with a defect, if it is not
   // there or not readable.

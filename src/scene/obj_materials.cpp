@@ -241,16 +241,24 @@ class ObjMaterials::MtlReader {
   std::string text_;  // for tinyobjloader
 };
 
-void ObjMaterials::read(std::string_view names, int line) {
+void forEachLibrary(ModelFiles& search, const fs::path& objFile, std::string_view names,
+                    const std::function<void(const fs::path& file, std::string_view name)>& found,
+                    const std::function<void(const std::string& name)>& missing) {
+  constexpr size_t mostWords = 8;  // of a name
   constexpr std::string_view blanks = " \t";
   const auto isMtl = [](const std::string& name) { return lowerCase(name).ends_with(".mtl"); };
-  if (names.find_first_of(blanks) != std::string_view::npos && readIfThere(names, line)) {
+  const auto isThere = [&](std::string_view name) {
+    const std::optional<fs::path> file = search.find(objFile, name);
+    if (file) {
+      found(*file, name);
+    }
+    return file.has_value();
+  };
+  const std::string_view bare = withoutComment(names);
+  if ((bare.empty() || names.find_first_of(blanks) != std::string_view::npos) && isThere(names)) {
     return;
   }
-  if (isComment(objFile_, names)) {
-    return;
-  }
-  names = withoutComment(names).empty() ? names : withoutComment(names);
+  names = bare;
   std::vector<std::string> words(1);
   for (size_t i = 0; i < names.size(); ++i) {
     if (blanks.find(names[i]) != std::string_view::npos) {
@@ -261,49 +269,65 @@ void ObjMaterials::read(std::string_view names, int line) {
     }
   }
   std::erase(words, "");
-  // A name has blanks up to the word that ends like a material file.
+  // A name is one word, or has blanks up to a word that ends like a material file.
   for (size_t first = 0, end = 0; first < words.size(); first = end) {
     std::string name;
-    bool found = false;
-    for (end = first; end < std::min(words.size(), first + mostWords) && !found && !isMtl(name); ++end) {
+    bool named = false;
+    for (end = first; end < std::min(words.size(), first + mostWords) && !named && !isMtl(name); ++end) {
       name += (name.empty() ? "" : " ") + words[end];
-      found = readIfThere(name, line);
+      named = (end == first || isMtl(name)) && isThere(name);
     }
-    if (!found) {
+    if (!named) {
       end = first + 1;
-      defects_.add(objFile_, line, "mtllib", "there is no file '{}', its faces get the default material", words[first]);
-      missingFile_ = true;
+      missing(words[first]);
     }
   }
+}
+
+void addFilesOfMtl(const fs::path& file, ModelFiles& search, std::set<fs::path>& files) {
+  if (!files.insert(file).second) {
+    return;
+  }
+  const std::string text = readTextIfAny(file);
+  for (LineReader line(text, LineReader::Continuation::none); line.next();) {
+    if (lowerCase(std::string(line.keyword())).starts_with("map_")) {
+      if (const std::optional<fs::path> named = search.find(file, namedTexture(line).first)) {
+        files.insert(*named);
+      }
+    }
+  }
+}
+
+void ObjMaterials::read(std::string_view names, int line) {
+  forEachLibrary(
+      modelFiles_, objFile_, names, [&](const fs::path& file, std::string_view name) { readLibrary(file, name, line); },
+      [&](const std::string& name) {
+        defects_.add(objFile_, line, "mtllib", "there is no file '{}', its faces get the default material", name);
+        missingFile_ = true;
+      });
 }
 
 bool ObjMaterials::isComment(const fs::path& file, std::string_view name) {
   return withoutComment(name).empty() && !modelFiles_.find(file, name);
 }
 
-// Reads an MTL file. Returns false if there is no such file.
-bool ObjMaterials::readIfThere(std::string_view name, int line) {
-  const std::optional<fs::path> file = modelFiles_.find(objFile_, name);
-  if (!file) {
-    return false;
+void ObjMaterials::readLibrary(const fs::path& file, std::string_view name, int line) {
+  if (!isWholePathOf(file, trimmed(name))) {
+    namedFiles_.insert(file);
   }
-  if (!isWholePathOf(*file, trimmed(name))) {
-    namedFiles_.insert(*file);
-  }
-  if (!filesRead_.insert(withoutLinks(*file)).second) {
-    return true;
+  if (!filesRead_.insert(withoutLinks(file)).second) {
+    return;
   }
   try {
-    const std::string text = readText(*file);
+    const std::string text = readText(file);
     if (isUtf16(text)) {
-      throw FileError(*file, "is UTF-16 text", "save it as UTF-8");
+      throw FileError(file, "is UTF-16 text", "save it as UTF-8");
     }
-    MtlReader(*this, *file, text).read();
+    MtlReader(*this, file, text).read();
   } catch (const FileError& error) {
     defects_.add(objFile_, line, "mtllib", "{}, its faces get the default material", error.what());
     missingFile_ = true;
   }
-  return true;
 }
 
 int ObjMaterials::use(std::string_view name, int line) {

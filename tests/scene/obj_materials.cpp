@@ -647,6 +647,19 @@ TEST_F(MtlFile, SeveralLibrariesMayHaveBlanks) {
   EXPECT_TRUE(contains(mesh.defects[0], "there is no file 'none.mtl'")) << mesh.defects[0];
 }
 
+TEST_F(MtlFile, LibrariesOfALongLineAreFoundInTime) {
+  std::string names;
+  for (int i = 0; i < 32'000; ++i) {
+    names += " w" + std::to_string(i);
+  }
+  const std::clock_t start = std::clock();
+  load("mtllib" + names + " m.mtl\n" + squareText + "f 1 2 3\n", "newmtl a\n");
+  std::set<std::filesystem::path> files;
+  addFilesOfObj(folder_ / "m.obj", files);
+  EXPECT_TRUE(files.contains(folder_ / "m.mtl"));
+  EXPECT_LT(std::clock() - start, 4 * CLOCKS_PER_SEC);
+}
+
 TEST_F(MtlFile, NumbersOfAnySizeAreFinite) {
   for (const std::string key : {"Kd", "Ks", "Ke", "Ns", "d", "Tr"}) {
     for (const std::string& value :
