@@ -194,14 +194,13 @@ void MeshBuilder::addFace(std::span<const FaceCorner> corners, int line) {
     }
   }
   uvShift_ = uvShiftOf(corners);
-  // Only a whole face is a defect: of one with more corners, cutting may make slivers and triangles without an area.
+  // A face without an area draws nothing, and exporters write them at the poles of spheres. Of a face with more
+  // corners, cutting may make slivers.
   double quality = 0.0;
   for (const auto& [a, b, c] : triangulate(points_)) {
     quality = std::max(quality, addTriangle(corners[a], corners[b], corners[c]));
   }
-  if (quality == 0.0) {
-    defects_.add(file_, line, faceKey_, "a face without an area is left out");
-  } else if (quality < 1e-5) {
+  if (quality > 0.0 && quality < 1e-5) {
     defects_.add(file_, line, faceKey_, "a face is a sliver, its normal is inexact");
   }
 }

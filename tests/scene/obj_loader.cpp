@@ -253,7 +253,7 @@ TEST_F(ObjLoader, FacesWithNonFiniteVerticesAreDropped) {
 TEST_F(ObjLoader, DegenerateTrianglesAreDropped) {
   const Mesh mesh = load("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 2 0 0\nv 0.5 0.9e-10 0\nf 1 2 3\nf 1 2 4\nf 1 1 2\nf 1 2 5\n");
   EXPECT_EQ(mesh.indices.size(), 3u);
-  EXPECT_EQ(warnings(), "warning: m.obj:7: f: a face without an area is left out (and 2 more)\n");
+  EXPECT_EQ(warnings(), "") << "they draw nothing, and exporters write them at the poles of spheres";
 }
 
 // The second face has a vertex in the middle of an edge, the third repeats one: their corners are all drawn.
@@ -261,7 +261,7 @@ TEST_F(ObjLoader, CutsOfFacesAreNoDefects) {
   const Mesh mesh =
       load("v 0 0 0\nv 2 0 0\nv 0 2 0\nv 1 1 0\nv 1 0 0\nv 3 0 0\nf 1 2 3\nf 1 2 4 3\nf 1 1 2 3\nf 1 5 2 6\n");
   EXPECT_EQ(mesh.indices.size(), 3u + 6u + 3u);
-  EXPECT_EQ(warnings(), "warning: m.obj:10: f: a face without an area is left out\n");
+  EXPECT_EQ(warnings(), "");
 }
 
 TEST_F(ObjLoader, RepeatedTexturesShareVertices) {
@@ -470,7 +470,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Fault{"FreeForm", pointsText + "cstype bezier\nsurf 0 1 0 1 1 2 3\n",
                           "1: f:", "has free-form curves or surfaces"},
                     Fault{"OnlyDegenerateFaces", pointsText + "f 1 1 2\n",
-                          "4: f:", "a face without an area is left out (no triangle is left to draw)"},
+                          "1: f:", "no triangle is left to draw (at least one face with an area is needed)"},
                     Fault{"OnlyDamagedFaces", pointsText + "f 1 2 9\n", "4: f:", "has a vertex that is not there"},
                     Fault{"GitLfs", "version https://git-lfs.github.com/spec/v1\noid sha256:4d\nsize 12\n",
                           "1: file:", "is a Git LFS pointer"},
