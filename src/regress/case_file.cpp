@@ -272,12 +272,13 @@ class CaseReader {
     if (made.name.size() > longestName) {
       table.fail(draft.grid.empty() ? "name" : "grid", "makes names of more than 200 bytes", "shorter ones are needed");
     }
-    if (const auto [earlier, isNew] = names_.try_emplace(made.name, written, made.line); !isNew) {
+    if (const auto [earlier, isNew] = names_.try_emplace(lowerCase(made.name), written, made.line); !isNew) {
       const auto& [name, line] = earlier->second;
       table.fail(line == made.line && !draft.grid.empty() ? "grid" : "name",
-                 name == written ? fmt::format("'{}' is already the name of an earlier case", written)
-                                 : fmt::format("'{}' and an earlier case, '{}', would both have files called '{}'",
-                                               written, name, made.name),
+                 name == written
+                     ? fmt::format("'{}' is already the name of an earlier case", written)
+                     : fmt::format("'{}' and an earlier case, '{}', would both have files called '{}'{}", written, name,
+                                   made.name, nameOfFiles(name) == made.name ? "" : " where case does not count"),
                  "names must be unique");
     }
     made.settings.assign(draft.settings.begin(), draft.settings.end());
@@ -321,8 +322,9 @@ class CaseReader {
   }
 
   const fs::path& file_;
-  std::map<std::string, std::pair<std::string, int>> names_;  // by the name of files: as written, line of the table
-  size_t bytes_ = 0;                                          // of the cases
+  std::map<std::string, std::pair<std::string, int>>
+      names_;         // by the name of files in lower case: as written, line of the table
+  size_t bytes_ = 0;  // of the cases
 };
 
 constexpr std::string_view digitsAndDots = "0123456789.";

@@ -192,6 +192,9 @@ TEST_F(CaseFile, MistakesNameLineAndKey) {
   EXPECT_EQ(mistake(room + "name = 'a b'\n" + room + "name = 'a_b'"),
             "cases.toml:6: case[a_b].name: 'a_b' and an earlier case, 'a b', would both have files called 'a_b' (names "
             "must be unique)");
+  EXPECT_EQ(mistake(room + "name = 'a b'\n" + room + "name = 'A_b'"),
+            "cases.toml:6: case[A_b].name: 'A_b' and an earlier case, 'a b', would both have files called 'A_b' where "
+            "case does not count (names must be unique)");
   EXPECT_EQ(mistake(room + "name = '" + std::string(201, 'a') + "'"),
             "cases.toml:3: case[" + std::string(201, 'a') +
                 "].name: makes names of more than 200 bytes (shorter ones are needed)");
