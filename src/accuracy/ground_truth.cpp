@@ -14,25 +14,6 @@ namespace {
 
 constexpr int truthDepth = 64;
 
-// Returns the root mean square throughput beyond each depth. Assumes that each of a pixel's `count` bounces lets the
-// same share of its throughput through.
-std::vector<double> throughputBeyond(const TraceResult& trace) {
-  std::vector<double> squares;
-  double pixels = 0.0;
-  for (size_t i = 0; i < trace.mirrorDepth.size(); ++i) {
-    const int count = trace.mirrorDepth[i];
-    pixels += count > 0 ? 1.0 : 0.0;
-    squares.resize(std::max<size_t>(squares.size(), count), 0.0);
-    for (int depth = 0; depth < count; ++depth) {
-      squares[depth] += std::pow(trace.mirrorThroughput[i], 2.0 * (depth + 1) / count);
-    }
-  }
-  for (double& square : squares) {
-    square = std::sqrt(square / pixels);
-  }
-  return squares;
-}
-
 // Returns the mask without the pixels at a mirror's border, whose error comes from the main view.
 std::vector<uint8_t> interior(const std::vector<uint8_t>& mask, int width, int height) {
   std::vector<uint8_t> inner(mask.size(), 0);
@@ -69,7 +50,6 @@ std::optional<GroundTruth> traceGroundTruth(const Scene& scene, const SceneState
   }
   const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - start;
   GroundTruth truth{.ms = spent.count(), .threads = tbb::this_task_arena::max_concurrency()};
-  truth.throughputBeyond = throughputBeyond(*trace);
   truth.mirrors = {request.width, request.height, interior(trace->mirrorDepth, request.width, request.height)};
   truth.image = std::move(trace->image);
   if (request.floorSamples == 0) {

@@ -18,9 +18,6 @@ struct GroundTruth {
   Image8 second;       // a grid of TruthRequest::floorSamples, as the display shows it; empty without a noise floor
   double ms = 0.0;     // wall clock time of tracing `image`
   int threads = 0;
-  // Root mean square, over the mirrors' pixels, of the throughput beyond d + 1 mirrors in a row, by depth d; 0 in
-  // pixels with fewer mirrors in a row. Reflections cut at depth d are wrong in proportion to this throughput.
-  std::vector<double> throughputBeyond;
 };
 
 struct TruthRequest {

@@ -15,11 +15,6 @@ namespace speculum {
 
 namespace {
 
-// Least error of a point that a fit takes, in multiples of the noise floor and of the error left at the greatest depth:
-// below these bounds other errors dominate, and a difference of squares is noise.
-constexpr double leastFloors = 2.0;
-constexpr double leastRests = 1.02;
-
 std::string keyOf(std::initializer_list<std::string_view> parts) {
   Fingerprint fingerprint;
   for (const std::string_view part : parts) {
@@ -113,7 +108,6 @@ class Sweep {
     results.series = plan_.series;
     for (SweepSeries& series : results.series) {
       std::ranges::transform(series.points, series.points.begin(), [&](int i) { return pointOf_[i]; });
-      fit(series, results);
     }
     const auto shown = [&](const GroundTruth& truth) { return toDisplay(truth.image, base_.view.displayCurve()); };
     results.truthPicture = store_.keepPicture("truth.png", shown(truths_.back()));
@@ -266,34 +260,6 @@ class Sweep {
       }
     }
     return true;
-  }
-
-  // Fits natural logarithms over the points that stand clear of the noise floor. The error left at the greatest
-  // recursion depth comes from everything else; independent errors add as squares, so this rest is taken off as a
-  // square.
-  void fit(SweepSeries& series, const SweepResults& results) const {
-    const double floor = results.floor.mirrors ? results.floor.mirrors->rmse : results.floor.whole.rmse;
-    const double rest = series.theoryOfDepth ? seriesError(results.points[series.points.back()]) : 0.0;
-    const std::vector<double>& beyond = truths_.back().throughputBeyond;
-    std::vector<glm::dvec2> samples;
-    std::vector<glm::dvec2> expected;
-    for (size_t i = 0; i < series.points.size(); ++i) {
-      const double error = seriesError(results.points[series.points[i]]);
-      if (!(error > leastFloors * floor && error > leastRests * rest && series.x[i] <= series.fitUpTo)) {
-        continue;
-      }
-      const double x = series.axis == SweepSeries::Axis::linear ? series.x[i] : std::log(series.x[i]);
-      series.fitted.push_back(static_cast<int>(i));
-      samples.push_back({x, 0.5 * std::log(error * error - rest * rest)});
-      const auto depth = static_cast<size_t>(series.x[i]);
-      if (series.theoryOfDepth && depth < beyond.size() && beyond[depth] > 0.0) {
-        expected.push_back({x, std::log(beyond[depth])});
-      }
-    }
-    series.fit = fitLine(samples);
-    if (series.theoryOfDepth) {
-      series.theorySlope = fitLine(expected).value_or(LineFit{}).slope;
-    }
   }
 
   bool report(const char* stage, double fraction) const { return !progress_ || progress_({stage, fraction}); }

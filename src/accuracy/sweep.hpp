@@ -59,8 +59,8 @@ using SweepProgress = std::function<bool(const SweepStatus&)>;  // false cancels
 // Traces the reference of each frame, draws every configuration and compares it with the reference, leaves out
 // configurations that draw the pictures of an earlier one with the same work, then takes the times: in rounds through
 // all configurations, so that other load on the machine affects all alike. Measurements in `store` are used again; new
-// measurements are saved at once. Fills the truth, the points with their front and the series with their fits in
-// `results`. Blocks; calls `subject` on the caller's thread. Returns false if cancelled.
+// measurements are saved at once. Fills the truth, the points with their front and the series in `results`. Blocks;
+// calls `subject` on the caller's thread. Returns false if cancelled.
 bool runSweep(const SweepPlan& plan, const Settings& base, const SweepScene& scene, SweepSubject& subject,
               SweepStore& store, SweepResults& results, const SweepProgress& progress);
 

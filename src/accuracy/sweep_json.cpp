@@ -51,11 +51,6 @@ void members(auto&& json, Of<SweepMotion> auto& motion) {
   json.figure("fps", motion.fps);
 }
 
-void members(auto&& json, Of<LineFit> auto& fit) {
-  json("slope", fit.slope);
-  json("offset", fit.offset);
-}
-
 void members(auto&& json, Of<SweepSeries> auto& series) {
   json("key", series.key);
   json("name", series.name);
@@ -63,9 +58,6 @@ void members(auto&& json, Of<SweepSeries> auto& series) {
   json("x", series.x);
   json("points", series.points);
   json("note", series.note);
-  json("theory_slope", series.theorySlope);
-  json("fitted", series.fitted);
-  json("fit", series.fit);
 }
 
 void members(auto&& json, Of<SweepResults> auto& results) {
@@ -151,9 +143,6 @@ SweepResults readSweepResults(const std::filesystem::path& file) {
     const std::string path = "series[" + std::to_string(i) + "].";
     if (series.points.size() != series.x.size() || !std::ranges::all_of(series.points, below(results.points.size()))) {
       reader.fail(path + "points");
-    }
-    if (!std::ranges::all_of(series.fitted, below(series.points.size()))) {
-      reader.fail(path + "fitted");
     }
   }
   return results;

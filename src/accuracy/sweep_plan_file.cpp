@@ -50,7 +50,6 @@ void readSeries(const TableReader& table, SweepPlanner& planner) {
     series.axis = static_cast<SweepSeries::Axis>(table.choice("axis", axes));
   }
   series.note = table.text("note", "");
-  series.theorySlope = table.number("theory", 0.0, anyRange);
   const toml::node* values = table.table().get("values");
   if (values == nullptr || !values->is_array()) {
     table.fail("values", "is missing or no array", "numbers in ascending order are needed");
@@ -88,7 +87,7 @@ SweepPlan readSweepPlan(const std::filesystem::path& file, const SweepContext& c
   static constexpr std::array<Key, 4> keys{"repeats", "configuration", "grid", "series"};
   static constexpr std::array<Key, 2> configurationKeys{"name", "settings"};
   static constexpr std::array<Key, 1> gridKeys{"settings"};
-  static constexpr std::array<Key, 7> seriesKeys{"key", "name", "values", "axis", "theory", "note", "settings"};
+  static constexpr std::array<Key, 6> seriesKeys{"key", "name", "values", "axis", "note", "settings"};
   const toml::table root = readToml(file, "sweep file");
   const TableReader reader(file, "", root, 1, keys);
   SweepPlanner planner(file.filename().string(), context);

@@ -74,9 +74,7 @@ void addViewScales(SweepPlanner& planner, const SweepContext& context, bool full
   const Values scales = swept("view.scale", full);
   planner.series({.key = "view.scale",
                   .name = "Resolution of the main view and of mirror images",
-                  .note = "An edge is wrong over a width in proportion to the texel: squared error as 1/scale",
-                  .theorySlope = -0.5,
-                  .fitUpTo = 0.99},
+                  .note = "An edge is wrong over a width in proportion to the texel: squared error as 1/scale"},
                  scales, drawn(context, std::to_string(context.sampleCounts.back())));
   for (const std::string& scale : scales) {
     planner.add(joined({{"view.scale", scale}}, drawn(context, "1")));
@@ -93,8 +91,7 @@ void addMeans(SweepPlanner& planner, const SweepContext& context, bool full) {
   }
   planner.series({.key = "view.accumulate",
                   .name = "Pictures in a mean, one sample each",
-                  .note = "Edges N^-0.75, and texture, highlights and shading edges with them",
-                  .theorySlope = -0.75},
+                  .note = "Edges N^-0.75, and texture, highlights and shading edges with them"},
                  swept("view.accumulate", true), joined(drawn(context, "1"), exact));
   // Few pictures of many samples lie between one picture and such means. Their shadows need not be exact.
   const std::string most = std::to_string(context.sampleCounts.back());
@@ -115,15 +112,12 @@ void addScaleSeries(SweepPlanner& planner, const SweepContext& context, bool ful
   planner.series({.key = "reflection.scale",
                   .name = "Resolution of mirror images, up to the screen's",
                   .note = "An edge is wrong over a width in proportion to the texel: squared error as 1/scale. At 1 "
-                          "nothing is resampled, which is another law",
-                  .theorySlope = -0.5,
-                  .fitUpTo = 0.99},
+                          "nothing is resampled, which is another law"},
                  swept("reflection.scale", full), best(context));
   const Values fine = full ? Values{"1", "1.5", "2", "3", "4"} : Values{"1", "1.5", "2"};
   planner.series({.key = "reflection.scale",
                   .name = "Resolution above the screen's, one sample a texel",
-                  .note = "Regular N samples an edge of any slope: N^-0.75, with N = scale^2",
-                  .theorySlope = -1.5},
+                  .note = "Regular N samples an edge of any slope: N^-0.75, with N = scale^2"},
                  fine,
                  {{"reflection.samples", "1"},
                   {"view.samples", std::to_string(context.sampleCounts.back())},
@@ -140,8 +134,7 @@ void addRoughSeries(SweepPlanner& planner, const SweepContext& context, bool ful
   planner.series({.key = "effects.rough_samples",
                   .name = "Rays a pixel of rough mirrors",
                   .note = "Random rays err by N^-0.5; a shifted lattice does better where what is seen is "
-                          "smooth",
-                  .theorySlope = -0.5},
+                          "smooth"},
                  rays, best(context));
   if (context.mirrors) {
     planner.grid({{"effects.rough_lookup", swept("effects.rough_lookup", full)},
@@ -153,8 +146,7 @@ void addSeries(SweepPlanner& planner, const SweepContext& context, bool full) {
   const Values counts = texts(context.sampleCounts);
   SweepSeries msaa{.key = "view.samples",
                    .name = "Samples a pixel, of view and mirror images alike",
-                   .note = "Edges N^-0.75; texture, highlights and shading edges gain nothing",
-                   .theorySlope = -0.75};
+                   .note = "Edges N^-0.75; texture, highlights and shading edges gain nothing"};
   std::vector<Changes> each;
   for (const std::string& count : counts) {
     each.push_back(context.mirrors ? joined(samples(count), {{"reflection.max_depth", greatestDepth}})
@@ -173,9 +165,7 @@ void addSeries(SweepPlanner& planner, const SweepContext& context, bool full) {
   planner.series({.key = "reflection.max_depth",
                   .name = "Depth of mirrors in mirrors",
                   .axis = SweepSeries::Axis::linear,
-                  .note = "Root mean square throughput of the light beyond, from the mirrors in view; what is left at "
-                          "the greatest depth is taken off as a square",
-                  .theoryOfDepth = true},
+                  .note = "Falls as the throughput of the light beyond, down to what else is wrong"},
                  swept("reflection.max_depth", full), samples(std::to_string(context.sampleCounts.back())));
 }
 

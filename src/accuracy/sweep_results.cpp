@@ -40,10 +40,6 @@ std::string settingsText(const std::vector<SettingChange>& changes) {
   return text;
 }
 
-double seriesError(const SweepPoint& point) {
-  return point.mirrors ? point.mirrors->rmse : point.whole.rmse;
-}
-
 std::string sweepCsv(const SweepResults& results) {
   std::string text = "name,settings,on_front";
   for (const char* times : {"gpu_ms", "cpu_ms", "frame_ms"}) {

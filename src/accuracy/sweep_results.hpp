@@ -1,6 +1,5 @@
 #pragma once
 
-#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -29,7 +28,7 @@ struct SweepPoint {
   std::vector<std::string> frames{};  // PNGs of a movement's first frames, relative to the results' folder
 };
 
-// Points that differ in one setting, in ascending order of it, and the error that theory predicts.
+// Points that differ in one setting, in ascending order of it.
 struct SweepSeries {
   enum class Axis { logarithmic, linear };  // axis of the setting; the axis of the error is logarithmic
 
@@ -38,20 +37,8 @@ struct SweepSeries {
   Axis axis = Axis::logarithmic;
   std::vector<double> x;    // values of the setting
   std::vector<int> points;  // indices into SweepResults::points, one for each value
-  std::string note;         // where the theoretical slope comes from
-  // Slope of log(error) over log(x), or over x on a linear axis; 0 where theory gives none. Errors are RMSE over
-  // mirrors, or over the whole picture without mirrors in view.
-  double theorySlope = 0.0;
-  // Not in results.json: whether the theoretical slope is that of GroundTruth::throughputBeyond, and the greatest x
-  // that a fit takes, because another law holds beyond it.
-  bool theoryOfDepth = false;
-  double fitUpTo = std::numeric_limits<double>::infinity();
-  std::optional<LineFit> fit;  // natural logarithms, same axes, over the points of `fitted`
-  std::vector<int> fitted;     // indices into `points` that the fit takes: points above the floor of other errors
+  std::string note;         // shown with the plot
 };
-
-// Returns the error of a point in a series.
-double seriesError(const SweepPoint& point);
 
 // The movement of a sweep.
 struct SweepMotion {

@@ -62,7 +62,6 @@ void members(auto&& json, Of<GroundTruth> auto& truth) {
   json("floor", truth.floor);
   json("ms", truth.ms);
   json("threads", truth.threads);
-  json("throughput_beyond", truth.throughputBeyond);
 }
 
 SweepStore::SweepStore(fs::path folder) : folder_(std::move(folder)) {

@@ -330,26 +330,6 @@ double nearestRank(std::vector<double> values, double part) {
   return *at;
 }
 
-std::optional<LineFit> fitLine(std::span<const glm::dvec2> samples) {
-  const double count = static_cast<double>(samples.size());
-  double meanX = 0.0;
-  double meanY = 0.0;
-  for (const glm::dvec2& s : samples) {
-    meanX += s.x / count;
-    meanY += s.y / count;
-  }
-  double xx = 0.0;
-  double xy = 0.0;
-  for (const glm::dvec2& s : samples) {
-    xx += (s.x - meanX) * (s.x - meanX);
-    xy += (s.x - meanX) * (s.y - meanY);
-  }
-  if (!(xx > 0.0)) {
-    return std::nullopt;
-  }
-  return LineFit{.slope = xy / xx, .offset = meanY - xy / xx * meanX};
-}
-
 Comparison compareImages(const ComparedImage& reference, const ComparedImage& test, const CompareOptions& options) {
   requireSameSize(reference, test);
   const PixelMask* mask = options.mask;

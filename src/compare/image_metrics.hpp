@@ -27,14 +27,6 @@ Spread spreadOf(std::vector<double> values);
 // Returns the least value that `part` of the values, of which there is one at least, do not exceed (nearest rank).
 double nearestRank(std::vector<double> values, double part);
 
-// The line y = offset + slope * x.
-struct LineFit {
-  double slope = 0.0;
-  double offset = 0.0;
-};
-// Fits a line by least squares. Returns nothing without two different x.
-std::optional<LineFit> fitLine(std::span<const glm::dvec2> samples);
-
 struct ImageMetrics {
   double rmse = 0.0;          // root mean square over pixels and channels, linear [0, 1]
   double relativeRmse = 0.0;  // rmse / root mean square of the reference; infinite if only the reference is black

@@ -349,7 +349,6 @@ glm::dvec3 PathTracer::follow(Path path) {
 MirrorChain PathTracer::followMirrors(Ray ray) const {
   MirrorChain chain;
   Skip skip;
-  glm::dvec3 throughput(1.0);
   const int most = std::min(255, std::max(options_.maxDepth, 0) + 1);
   while (chain.count < most) {
     const auto hit = world_.closest(ray, skip, chain.count == 0 ? Onlooker::eye : Onlooker::mirror);
@@ -360,10 +359,8 @@ MirrorChain PathTracer::followMirrors(Ray ray) const {
     const Bounce bounce = bounceAt(ray, *hit);
     ray = reflectedRay(ray, bounce.base.position, bounce.base.normal, bounce.planeNormal, bounce.t);
     skip = bounce.base.self;
-    throughput *= bounce.reflectance;
     ++chain.count;
   }
-  chain.throughput = (throughput.r + throughput.g + throughput.b) / 3.0;
   return chain;
 }
 

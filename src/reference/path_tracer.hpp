@@ -55,7 +55,6 @@ class MicrofacetSampler {
 // Consecutive reflecting sides along a ray, including the one that maxDepth cuts off.
 struct MirrorChain {
   int count = 0;            // at most 255
-  double throughput = 1.0;  // product of the sides' reflectances, mean of the channels
   bool background = false;  // the ray meets nothing at all
 };
 

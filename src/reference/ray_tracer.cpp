@@ -71,7 +71,6 @@ void RayTracer::tile(const Environment& environment, const TraceOptions& options
       result.image.pixels[i] = glm::vec3(sum / static_cast<double>(options.samples));
       const MirrorChain chain = tracer.followMirrors(cameraRay(options, x + 0.5, y + 0.5));
       result.mirrorDepth[i] = static_cast<uint8_t>(chain.count);
-      result.mirrorThroughput[i] = chain.throughput;
       result.backgroundMask[i] = chain.background;
     }
   }
@@ -87,7 +86,7 @@ std::optional<TraceResult> RayTracer::render(const TraceOptions& options, const 
   const Environment environment = world_.scene().environment.cleared(options.clearColor);
   const size_t pixels = static_cast<size_t>(options.width) * options.height;
   TraceResult result{LinearImage(options.width, options.height), std::vector<uint8_t>(pixels),
-                     std::vector<uint8_t>(pixels), std::vector<double>(pixels)};
+                     std::vector<uint8_t>(pixels)};
   const int columns = (options.width + tileSize - 1) / tileSize;
   const int tiles = columns * ((options.height + tileSize - 1) / tileSize);
   std::atomic<bool> cancelled = false;

@@ -25,9 +25,8 @@ struct TraceOptions {
 struct TraceResult {
   LinearImage image;
   // Per pixel, row 0 at the top, for the ray through its centre:
-  std::vector<uint8_t> backgroundMask;   // 1: the ray meets nothing
-  std::vector<uint8_t> mirrorDepth;      // reflecting sides in a row, at most maxDepth + 1; roughness is ignored
-  std::vector<double> mirrorThroughput;  // product of the sides' reflectances, mean of the channels; 1 without any
+  std::vector<uint8_t> backgroundMask;  // 1: the ray meets nothing
+  std::vector<uint8_t> mirrorDepth;     // reflecting sides in a row, at most maxDepth + 1; roughness is ignored
 };
 
 // Ray tracer in double precision, whose pictures are the reference: each sample is the radiance that docs/picture.md

@@ -60,19 +60,13 @@ void addSeries(SweepResults& results) {
                             .name = "Resolution <of mirrors>",
                             .x = {0.125, 0.25, 0.5, 1.0, 2.0, 4.0},
                             .points = {1, 2, 3, 4, 5, 6},
-                            .note = "edges & texels",
-                            .theorySlope = -1.0,
-                            .fit = LineFit{-0.86, -4.4},
-                            .fitted = {0, 1, 2, 3}});
+                            .note = "edges & texels"});
   results.series.push_back({.key = "reflection.max_depth",
                             .name = "Depth",
                             .axis = SweepSeries::Axis::linear,
                             .x = {0, 1, 2, 3},
                             .points = {7, 8, 9, 10},
-                            .note = "a bounce each",
-                            .theorySlope = -1.0,
-                            .fit = LineFit{-1.0, -1.9},
-                            .fitted = {0, 1, 2}});
+                            .note = "a bounce each"});
   results.series.push_back({.key = "view.samples", .name = "Empty"});
 }
 
@@ -117,10 +111,8 @@ SweepResults oddResults() {
   results.points[5].gpuMs = spread(1e-300);
   results.points[6].gpuMs = spread(1e300);
   results.points[7].mirrors.reset();
-  results.series[0].fit = LineFit{infinity, std::numeric_limits<double>::quiet_NaN()};
   results.series[0].x[0] = 0.0;
   results.series[1].points[2] = 99;
-  results.series[1].fitted = {0, 7, -1};
   results.floor.whole = {};
   return results;
 }

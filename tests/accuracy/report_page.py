@@ -204,8 +204,7 @@ class ReportPage(Page):
             self.assertEqual(set(self.keys(plots.format(place, "front"))), set(map(str, fronts[measure])))
         self.assertEqual(len(self.find("#front-figures .floor")), 3)
         self.assertEqual(len(self.find("#front-figures path.stroke")), 3)
-        self.assertEqual(len(self.find("#series .fit path")), 2)
-        self.assertEqual(len(self.find("#series .theory path")), 2)
+        self.assertEqual(len(self.find("#series .mark.front[data-key]")), 10)
         self.assertEqual(self.keys("tbody tr.front"), list("1723456"))
 
     def test_movement_has_flicker_and_frames(self):

@@ -171,24 +171,6 @@ function frontFigures({ results, fronts }) {
   return figures;
 }
 
-// The lines of the fit and of theory over the marks that the fit takes.
-function addSlopes(plot, series) {
-  const logarithmic = series.axis === 'logarithmic';
-  const along = x => logarithmic ? Math.log(x) : x;
-  const fitted = plot.marks.filter(mark => mark.style === 'front' && mark.y > 0);
-  if (!fitted.length) return;
-  const ends = [Math.min(...fitted.map(mark => mark.x)), Math.max(...fitted.map(mark => mark.x))];
-  const add = (style, slope, offset) => {
-    if (!Number.isFinite(slope) || !Number.isFinite(offset)) return;
-    plot.lines.push({ style, points: ends.map(x => [x, Math.exp(offset + slope * along(x))]) });
-    plot.legend.push({ label: `${style}, slope ${numberText(slope)}`, style });
-  };
-  if (series.theory_slope) {
-    add('theory', series.theory_slope, Math.log(fitted[0].y) - series.theory_slope * along(fitted[0].x));
-  }
-  if (series.fit) add('fit', series.fit.slope ?? NaN, series.fit.offset ?? NaN);
-}
-
 function seriesFigure(results, series) {
   const points = series.points.map(index => results.points[index]);
   const mirrors = points.length > 0 && points.every(point => point?.error.mirrors);
@@ -196,18 +178,16 @@ function seriesFigure(results, series) {
   const floor = measure.of(results.ground_truth.noise_floor);
   const marks = points.map((point, i) => {
     const y = point ? measure.of(point.error) : null;
-    const fits = series.fitted.includes(i);
     return y === null ? null : {
-      x: series.x[i], y, key: String(series.points[i]), shape: y <= 0 ? 'triangle' : fits ? 'disc' : 'ring',
-      style: fits ? 'front' : 'dominated', tip: tipOf(point, measure.name, y),
+      x: series.x[i], y, key: String(series.points[i]), shape: y <= 0 ? 'triangle' : 'disc',
+      style: 'front', tip: tipOf(point, measure.name, y),
     };
   }).filter(Boolean);
   const plot = {
     x: { label: series.key, scale: series.axis, ticks: series.x }, y: { label: measure.name }, marks, lines: [],
-    rules: floor === null ? [] : [floorRule(floor)], legend: [],
+    rules: floor === null ? [] : [floorRule(floor)],
     description: `${measure.name} against ${series.key} at ${plural(points.length, 'setting')}.`,
   };
-  addSlopes(plot, series);
   return { style: 'half', title: series.name, text: series.note, plot, aspect: 0.75 };
 }
 
