@@ -32,8 +32,7 @@ std::optional<ordered_json> readJson(const fs::path& file) {
 
 // Says whether a path relative to the folder leads to a place in the folder, also when links are followed.
 bool isInside(const fs::path& folder, const fs::path& file) {
-  const fs::path relative = withoutLinks(folder / file).lexically_relative(withoutLinks(folder));
-  return !relative.empty() && *relative.begin() != "..";
+  return isBelow(withoutLinks(folder / file), withoutLinks(folder));
 }
 
 Image8 maskImage(const PixelMask& mask) {

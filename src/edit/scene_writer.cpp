@@ -240,11 +240,6 @@ void check(const fs::path& file, const std::string& text, const SceneContent& co
   }
 }
 
-bool isBelow(const fs::path& file, const fs::path& folder) {
-  const fs::path relative = file.lexically_relative(folder);
-  return !relative.empty() && *relative.begin() != "..";
-}
-
 // Returns the meshes or textures that a node uses and whose files are not below the folder.
 template <typename Source, typename Node>
 std::vector<size_t> sourcesOutside(const std::vector<Source>& sources, const std::vector<Node>& nodes, int Node::*index,

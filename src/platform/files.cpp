@@ -167,6 +167,11 @@ fs::path withoutLinks(const fs::path& path) {
   return error ? path : target;
 }
 
+bool isBelow(const fs::path& file, const fs::path& folder) {
+  const fs::path relative = file.lexically_relative(folder);
+  return !relative.empty() && *relative.begin() != "..";
+}
+
 std::string fileNameOf(const std::string& name, const std::string& ending) {
   constexpr size_t longest = 255;  // bytes, in usual file systems
   const size_t most = std::min(name.size(), longest - ending.size());

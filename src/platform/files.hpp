@@ -61,6 +61,8 @@ bool isFolder(const std::filesystem::path& path);
 std::filesystem::path wholePath(const std::filesystem::path& path);
 // Returns the whole path without symbolic links, or the path itself where they cannot be followed.
 std::filesystem::path withoutLinks(const std::filesystem::path& path);
+// Says whether the path of a file leads into a folder. Looks at the paths alone, so call withoutLinks() first.
+bool isBelow(const std::filesystem::path& file, const std::filesystem::path& folder);
 // Locks a folder while the result or a copy of it lives, and at most as long as this process, however it ends. Returns
 // null if the folder is locked already, or is none.
 std::shared_ptr<const void> lockFolder(const std::filesystem::path& folder);

@@ -25,8 +25,8 @@ std::string cameraText(const Bookmark& camera, const CameraSpec& usual) {
 // Returns the name of a scene that comes with the program, else the path.
 std::string sceneText(const std::filesystem::path& file) {
   const std::filesystem::path path = withoutLinks(file);
-  const std::filesystem::path name = path.lexically_relative(withoutLinks(dataDirectory("scenes")));
-  return name.empty() || *name.begin() == ".." ? path.string() : (name.parent_path() / name.stem()).generic_string();
+  const std::filesystem::path scenes = withoutLinks(dataDirectory("scenes"));
+  return isBelow(path, scenes) ? path.lexically_relative(scenes).replace_extension().generic_string() : path.string();
 }
 
 }  // namespace

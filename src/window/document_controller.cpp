@@ -25,11 +25,8 @@ fs::path viewsFolder() {
 bool isShipped(const fs::path& file) {
   const fs::path scenes = dataDirectory("scenes");
   const std::array folders{scenes, scenes.parent_path() / "models", viewsFolder()};
-  return Recovery::isCopy(file) || std::ranges::any_of(folders, [&](const fs::path& folder) {
-           std::error_code none;
-           const fs::path below = fs::relative(file, folder, none);
-           return !below.empty() && *below.begin() != "..";
-         });
+  const auto holds = [&](const fs::path& folder) { return isBelow(withoutLinks(file), withoutLinks(folder)); };
+  return Recovery::isCopy(file) || std::ranges::any_of(folders, holds);
 }
 
 // Returns the default folder for saved scenes; created on first use.
