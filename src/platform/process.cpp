@@ -1,5 +1,6 @@
 #include "platform/process.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace speculum {
@@ -11,6 +12,31 @@ ProcessResult ChildProcess::wait() {
     result_.exitCode = waitFor(std::exchange(child_, 0));
   }
   return result_;
+}
+
+std::optional<ProcessResult> ChildProcess::poll() {
+  while (child_ != 0 && readable(Clock::now())) {
+    if (!read()) {
+      return wait();
+    }
+  }
+  return child_ == 0 ? std::optional(result_) : std::nullopt;
+}
+
+std::optional<std::string> ChildProcess::readLine(double seconds) {
+  const std::chrono::duration<double> time(std::max(0.0, seconds));
+  const Clock::time_point end = Clock::now() + std::chrono::ceil<Clock::duration>(time);
+  for (;;) {
+    if (std::optional<std::string> line = takeLine()) {
+      return line;
+    }
+    const bool ready = child_ != 0 && readable(end);
+    if (ready && !read()) {
+      result_.exitCode = waitFor(std::exchange(child_, 0));
+    } else if (!ready && (child_ == 0 || Clock::now() >= end)) {
+      return std::nullopt;
+    }
+  }
 }
 
 std::optional<std::string> ChildProcess::takeLine() {

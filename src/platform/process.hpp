@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -59,6 +60,9 @@ class ChildProcess {
   void kill();  // ends the program at once
 
  private:
+  using Clock = std::chrono::steady_clock;
+
+  bool readable(Clock::time_point end);   // waits until then for output, or the end of it
   bool read();                            // false at the end of the output
   std::optional<std::string> takeLine();  // of the output that was read
   static int waitFor(intptr_t child);     // returns its exit code

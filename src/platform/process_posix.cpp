@@ -13,7 +13,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
-#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <ctime>
@@ -122,33 +121,10 @@ bool ChildProcess::read() {
   return count > 0;
 }
 
-std::optional<ProcessResult> ChildProcess::poll() {
+bool ChildProcess::readable(Clock::time_point end) {
+  const auto left = std::chrono::ceil<std::chrono::milliseconds>(end - Clock::now());
   pollfd output{.fd = static_cast<int>(descriptor_), .events = POLLIN};
-  while (child_ != 0 && ::poll(&output, 1, 0) > 0) {
-    if (!read()) {
-      return wait();
-    }
-  }
-  return child_ == 0 ? std::optional(result_) : std::nullopt;
-}
-
-std::optional<std::string> ChildProcess::readLine(double seconds) {
-  using Clock = std::chrono::steady_clock;
-  const Clock::time_point end =
-      Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(std::max(0.0, seconds)));
-  for (;;) {
-    if (std::optional<std::string> line = takeLine()) {
-      return line;
-    }
-    const auto left = std::chrono::ceil<std::chrono::milliseconds>(end - Clock::now());
-    pollfd output{.fd = static_cast<int>(descriptor_), .events = POLLIN};
-    if (child_ == 0 || left.count() < 0 || ::poll(&output, 1, static_cast<int>(left.count())) == 0) {
-      return std::nullopt;
-    }
-    if (output.revents != 0 && !read()) {
-      result_.exitCode = waitFor(std::exchange(child_, 0));
-    }
-  }
+  return ::poll(&output, 1, static_cast<int>(std::max<int64_t>(left.count(), 0))) > 0;
 }
 
 void ChildProcess::write(std::string_view text) {

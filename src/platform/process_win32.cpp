@@ -5,7 +5,6 @@
 #include <array>
 #include <atomic>
 #include <cctype>
-#include <chrono>
 #include <cmath>
 #include <csignal>
 #include <cstdio>
@@ -176,35 +175,16 @@ bool ChildProcess::read() {
   return more;
 }
 
-std::optional<ProcessResult> ChildProcess::poll() {
-  for (DWORD waiting = 1; child_ != 0 && waiting > 0;) {
-    if (!::PeekNamedPipe(handleOf(descriptor_), nullptr, 0, nullptr, &waiting, nullptr) || (waiting > 0 && !read())) {
-      return wait();
-    }
-  }
-  return child_ == 0 ? std::optional(result_) : std::nullopt;
-}
-
-std::optional<std::string> ChildProcess::readLine(double seconds) {
+bool ChildProcess::readable(Clock::time_point end) {
   constexpr DWORD pause = 2;  // milliseconds; nothing can wait for an anonymous pipe
-  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(std::max(0.0, seconds));
-  for (;;) {
-    if (std::optional<std::string> line = takeLine()) {
-      return line;
+  DWORD waiting = 0;
+  while (::PeekNamedPipe(handleOf(descriptor_), nullptr, 0, nullptr, &waiting, nullptr) && waiting == 0) {
+    if (Clock::now() >= end) {
+      return false;
     }
-    DWORD waiting = 0;
-    if (child_ == 0) {
-      return std::nullopt;
-    }
-    if (!::PeekNamedPipe(handleOf(descriptor_), nullptr, 0, nullptr, &waiting, nullptr) || (waiting > 0 && !read())) {
-      result_.exitCode = waitFor(std::exchange(child_, 0));
-    } else if (waiting == 0) {
-      if (std::chrono::steady_clock::now() > end) {
-        return std::nullopt;
-      }
-      ::Sleep(pause);
-    }
+    ::Sleep(pause);
   }
+  return true;
 }
 
 void ChildProcess::write(std::string_view text) {
