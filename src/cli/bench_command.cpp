@@ -88,9 +88,11 @@ int benchReference(const Options& options) {
   const double buildSeconds = start - buildStart;
   const double hitFraction = static_cast<double>(hits) / static_cast<double>(rays.size());
   const double raysPerSecond = static_cast<double>(rays.size()) / seconds;
-  printLine(fmt::format(
-      "{} triangles, {} random rays, {:.1f} % hit, one core: {:.3f} million rays per second (hierarchy: {:.2f} s)",
-      triangles, rays.size(), 100.0 * hitFraction, 1e-6 * raysPerSecond, buildSeconds));
+  printLine(
+      fmt::format(
+          "{} triangles, {} random rays, {:.1f} % hit, one core: {:.3f} million rays per second (hierarchy: {:.2f} s)",
+          triangles, rays.size(), 100.0 * hitFraction, 1e-6 * raysPerSecond, buildSeconds),
+      besideOutput(options.json));
   if (!options.json.empty()) {
     writeJson(options.json, {{"triangles", triangles},
                              {"rays", rays.size()},
@@ -183,29 +185,32 @@ std::optional<nlohmann::ordered_json> measureIntervals(Session& session, double 
 constexpr const char* benchRow = "{:<40} {:>6} {:>10} {:>10} {:>8} {:>10} {:>10}";
 
 // Prints a row of the merged stats; a dash stands for figures that the device does not count.
-void printRow(const nlohmann::ordered_json& row, const std::string& frames, const std::array<const char*, 3>& figures) {
+void printRow(std::FILE* to, const nlohmann::ordered_json& row, const std::string& frames,
+              const std::array<const char*, 3>& figures) {
   const nlohmann::ordered_json& gpu = row["gpu_ms"];
   const auto ms = [&](const char* key) { return gpu.is_null() ? "-" : fmt::format("{:.3f}", gpu[key].get<double>()); };
   const auto figure = [&](size_t i) { return row[figures[i]].is_null() ? "-" : row[figures[i]].dump(); };
   printLine(fmt::format(benchRow, row["name"].get<std::string>(), frames, ms("median"), ms("p95"), figure(0), figure(1),
-                        figure(2)));
+                        figure(2)),
+            to);
 }
 
-void printBench(const nlohmann::ordered_json& merged, int measured) {
-  printLine(fmt::format(benchRow, "pass", "frames", "median ms", "p95 ms", "draws", "triangles", "fragments"));
+void printBench(std::FILE* to, const nlohmann::ordered_json& merged, int measured) {
+  printLine(fmt::format(benchRow, "pass", "frames", "median ms", "p95 ms", "draws", "triangles", "fragments"), to);
   for (const auto& pass : merged["passes"]) {
-    printRow(pass, std::to_string(pass.value("frames", measured)), {"draws", "triangles", "fragments"});
+    printRow(to, pass, std::to_string(pass.value("frames", measured)), {"draws", "triangles", "fragments"});
   }
-  printLine(fmt::format(benchRow, "effect", "", "median ms", "p95 ms", "draws", "bytes", "pipelines"));
+  printLine(fmt::format(benchRow, "effect", "", "median ms", "p95 ms", "draws", "bytes", "pipelines"), to);
   for (const auto& effect : merged["effects"]) {
     if (effect["called_for"].get<bool>()) {
-      printRow(effect, "", {"draws", "bytes", "pipelines"});
+      printRow(to, effect, "", {"draws", "bytes", "pipelines"});
     }
   }
   for (const char* key : totals) {
     const auto& total = merged["totals"][key];
     printLine(fmt::format("{:<40} {:>6} {:>10.3f} {:>10.3f}", key, measured, total["median"].get<double>(),
-                          total["p95"].get<double>()));
+                          total["p95"].get<double>()),
+              to);
   }
 }
 
@@ -235,7 +240,7 @@ int runBench(const Options& options) {
   if (options.bench.prices && !addPrices(*merged, session, options.time, std::max(5, measured / 4))) {
     return 1;
   }
-  printBench(*merged, measured);
+  printBench(besideOutput(options.json), *merged, measured);
   if (!options.json.empty()) {
     writeJson(options.json, *merged);
   }

@@ -90,7 +90,8 @@ void addRender(CLI::App& app, Options& options, Raw& raw) {
   addStrict(app, options);
   app.add_option("--out", options.out, "F.png, F.exr, or a pattern such as dir/%04d.png with --frames")->required();
   addSweepResults(app, options);
-  app.add_option("--stats", options.render.stats, "JSON: passes, skipped mirrors, effects, totals");
+  app.add_option("--stats", options.render.stats,
+                 "JSON: passes, skipped mirrors, effects, totals; - is standard output");
   app.add_option("--capture", options.render.capture, "F.rdc: the first picture for RenderDoc, which must be loaded");
   CLI::Option* frames = app.add_option("--frames", options.frames, "a sequence of so many pictures");
   frames->check(CLI::Range(1, 1000000));
@@ -108,7 +109,7 @@ void addBench(CLI::App& app, Options& options, Raw& raw) {
   addView(app, options, raw);
   app.add_option("--frames", options.frames, "measured frames")->check(CLI::Range(1, 1000000));
   app.add_option("--warmup", options.bench.warmup, "frames before")->check(CLI::Range(0, 1000000));
-  app.add_option("--json", options.json, "write the figures to F");
+  app.add_option("--json", options.json, "write the figures to F; - is standard output");
   addSweepResults(app, options);
   app.add_flag("--prices", options.bench.prices, "GPU ms of each effect as well, by leaving it out in turn");
   app.add_flag("--reference", options.bench.tracer, "the ray tracer instead: rays per second and core");
@@ -137,7 +138,7 @@ void addCompare(CLI::App& app, Options& options) {
   app.add_option("test", options.compare.test, "PNG or EXR of the same size")->required();
   app.add_option("--mask", options.compare.mask, "PNG; figures again for its pixels of at least 128");
   app.add_option("--heatmap", options.compare.heatmap, "PNG of the FLIP error");
-  app.add_option("--json", options.json, "write the figures to F");
+  app.add_option("--json", options.json, "write the figures to F; - is standard output");
   app.add_option("--max-flip", options.compare.maxFlip, "exit 1 above this mean FLIP")->check(CLI::Range(0.0, 1e6));
   app.add_option("--max-diff", options.compare.maxDiff, "exit 1 if a channel differs by more than N/255")
       ->check(CLI::Range(0, 1'000'000));
@@ -159,7 +160,7 @@ void addRegress(CLI::App& app, Options& options) {
       ->allow_extra_args(false)  // else `--update GLOB cases.toml` takes both
       ->type_name("[GLOB]");
   addStrict(app, options);
-  app.add_option("--junit", options.regress.junit, "write the results to F as JUnit XML");
+  app.add_option("--junit", options.regress.junit, "write the results to F as JUnit XML; - is standard output");
   app.add_option("--repeat", options.regress.repeat, "draw each case so often; the pictures must be equal")
       ->check(CLI::Range(1, 1000000));
   app.add_flag("--worker", options.regress.worker)->group("");

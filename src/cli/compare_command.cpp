@@ -1,4 +1,3 @@
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "cli/commands.hpp"
@@ -42,7 +41,7 @@ int runCompare(const Options& options) {
   const double tolerance = options.compare.maxDiff.value_or(2);
   const Comparison comparison =
       compareImages(reference, test, {.tolerance = tolerance, .mask = mask ? &*mask : nullptr});
-  std::fputs(comparisonTable(comparison, tolerance).c_str(), stdout);
+  std::fputs(comparisonTable(comparison, tolerance).c_str(), besideOutput(options.json));
   if (!options.json.empty()) {
     writeJson(options.json, comparisonJson(comparison));
   }

@@ -155,7 +155,7 @@ void writeReports(const Options& options, const RegressRun& run) {
     writeText(options.regress.junit, junitXml(run));
   }
   if (environment("GITHUB_ACTIONS") == "true") {
-    std::fputs(githubErrors(run).c_str(), stdout);
+    std::fputs(githubErrors(run).c_str(), besideOutput(options.regress.junit));
   }
   if (const std::string file = environment("GITHUB_STEP_SUMMARY"); !file.empty()) {
     // Other steps add to this file as well, so it is not replaced.
@@ -169,14 +169,14 @@ void writeReports(const Options& options, const RegressRun& run) {
   }
 }
 
-void printOutcomes(const RegressRun& run, const std::filesystem::path& page) {
+void printOutcomes(std::FILE* to, const RegressRun& run, const std::filesystem::path& page) {
   for (size_t i = 0; i < run.cases.size(); ++i) {
     const Outcome& outcome = run.outcomes[i];
     if (!outcome.message.empty()) {
-      printLine(fmt::format("{:<7} {}: {}", verdictName(outcome.verdict), run.cases[i].name, outcome.message));
+      printLine(fmt::format("{:<7} {}: {}", verdictName(outcome.verdict), run.cases[i].name, outcome.message), to);
     }
   }
-  printLine(summary(run) + "; " + page.string());
+  printLine(summary(run) + "; " + page.string(), to);
 }
 
 // Returns the pictures that a case is compared with.
@@ -318,7 +318,7 @@ int runRegress(const Options& options) {
   if (options.regress.update) {
     acceptAll(options, files.drawn, run);
   }
-  printOutcomes(run, options.out / "index.html");
+  printOutcomes(besideOutput(options.regress.junit), run, options.out / "index.html");
   writeReports(options, run);
   if (run.count(Verdict::error) > 0) {
     return 2;

@@ -269,7 +269,15 @@ ordered_json mergeStats(const std::vector<ordered_json>& frames, const std::vect
   return merged;
 }
 
+std::FILE* besideOutput(const std::filesystem::path& file) {
+  return file == "-" ? stderr : stdout;
+}
+
 void writeText(const std::filesystem::path& file, const std::string& text) {
+  if (file == "-") {
+    std::fputs(text.c_str(), stdout);
+    return;
+  }
   std::error_code ignored;
   std::filesystem::create_directories(file.parent_path(), ignored);
   replaceFile(file, text);

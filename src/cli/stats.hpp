@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "session/session.hpp"
@@ -20,7 +21,9 @@ std::vector<PassId> passIds(Session& session);  // of the last frame
 // Returns { "median", "min", "p95", "max" } of at least one value.
 nlohmann::ordered_json summary(std::vector<double> values);
 
-// Write a file and create its folder. Throw FileError if that fails.
+// Returns where a command that writes `file` prints all else: a file called "-" is standard output.
+std::FILE* besideOutput(const std::filesystem::path& file);
+// Write a file and create its folder, or write to standard output. Throw FileError if that fails.
 void writeText(const std::filesystem::path& file, const std::string& text);
 void writeJson(const std::filesystem::path& file, const nlohmann::ordered_json& json);
 

@@ -432,6 +432,21 @@ TEST_F(CommandLine, NoOutputReplacesAnotherOptionsFile) {
   succeed({"compare", picture, picture, "--json", "/dev/null", "--heatmap", "/dev/null"});
 }
 
+TEST_F(CommandLine, DashIsStandardOutput) {
+  render("a.png");
+  const auto printed = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {"sh", "-c", R"(cd "$0" && "$@" 2>messages)", out_.path().string(), program});
+    return nlohmann::json::parse(runProcess(arguments).output, nullptr, false);
+  };
+  EXPECT_EQ(printed({"compare", "a.png", "a.png", "--json", "-"})["max_diff"], 0.0);
+  EXPECT_TRUE(contains(readText(out("messages")), "SSIM"));
+  EXPECT_EQ(printed({"render", "--scene", scene_, "--size", "64x36", "--out", "b.png", "--stats", "-"})["size"],
+            nlohmann::json({64, 36}));
+  EXPECT_EQ(printed({"bench", "--scene", scene_, "--size", "64x36", "--frames", "2", "--json", "-"})["frames"], 2);
+  EXPECT_TRUE(contains(readText(out("messages")), "interval_ms"));
+  EXPECT_FALSE(std::filesystem::exists(out("-")));
+}
+
 TEST_F(CommandLine, OutputThatCannotBeWrittenExitsTwo) {
   for (const char* arguments : {"--help", "scenes"}) {
     const ProcessResult result = runProcess({"sh", "-c", "\"$0\" $1 >/dev/full", program, arguments});

@@ -67,6 +67,15 @@ TEST_F(RegressCommand, GoesFromRedToGreen) {
   EXPECT_FALSE(contains(readText(folder_ / "out/index.html"), "data:image/png"));
 }
 
+TEST_F(RegressCommand, JunitMayBeStandardOutput) {
+  writeCases("[[case]]\nscene = 'room.toml'\n");
+  const ProcessResult result = runProcess({"sh", "-c", R"("$0" regress "$1" --out "$2" --update --junit - 2>/dev/null)",
+                                           program, (folder_ / "cases.toml").string(), (folder_ / "out").string()});
+  EXPECT_EQ(result.exitCode, 0);
+  EXPECT_EQ(result.output.rfind("<?xml", 0), 0u) << result.output;
+  EXPECT_FALSE(contains(result.output, "wrote ")) << result.output;
+}
+
 // The words of --update stand anywhere, also for the workers.
 TEST_F(RegressCommand, UpdateStandsInAnyPlace) {
   const std::string cases = (folder_ / "cases.toml").string();
