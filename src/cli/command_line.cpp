@@ -136,7 +136,8 @@ void addAccuracy(CLI::App& app, Options& options, Raw& raw) {
 void addCompare(CLI::App& app, Options& options) {
   app.add_option("reference", options.compare.reference, "PNG or EXR")->required();
   app.add_option("test", options.compare.test, "PNG or EXR of the same size")->required();
-  app.add_option("--mask", options.compare.mask, "PNG; figures again for its pixels of at least 128");
+  app.add_option("--mask", options.compare.mask,
+                 "PNG; figures again for its pixels of at least 128, which alone the limits then judge");
   app.add_option("--heatmap", options.compare.heatmap, "PNG of the FLIP error");
   app.add_option("--json", options.json, "write the figures to F; - is standard output");
   app.add_option("--max-flip", options.compare.maxFlip, "exit 1 above this mean FLIP")->check(CLI::Range(0.0, 1e6));

@@ -48,7 +48,7 @@ int runCompare(const Options& options) {
   if (!options.compare.heatmap.empty()) {
     writePng(options.compare.heatmap, heatMap(comparison.flip));
   }
-  const std::string problem = exceeded(comparison.whole, options);
+  const std::string problem = exceeded(comparison.masked.value_or(comparison.whole), options);
   if (!problem.empty()) {
     printLine(problem, stderr);
   }

@@ -661,6 +661,9 @@ TEST_F(CommandLine, CompareDistinguishesPictures) {
   }
   EXPECT_GT(json["pixels_over"], 0);
   EXPECT_TRUE(fs::exists(out("h.png")));
+  std::fill(black.at(0, 0), black.at(0, 9), uint8_t{255});
+  writePng(out("above.png"), black);
+  succeed({"compare", out("a.png"), out("b.png"), "--max-diff", "0", "--mask", out("above.png")});
   EXPECT_EQ(speculum({"compare", out("a.png"), out("small.png")}).exitCode, 2);
   EXPECT_EQ(speculum({"compare", out("a.png"), out("missing.png")}).exitCode, 2);
 }
