@@ -9,6 +9,7 @@
 #include "cli/stats.hpp"
 #include "platform/process.hpp"
 #include "platform/text.hpp"
+#include "session/output_files.hpp"
 #include "window/pace.hpp"
 
 namespace speculum {
@@ -54,6 +55,7 @@ int runAccuracy(const Options& options) {
   SweepContext context = sweepContext(session);
   context.motion = moving;
   const SweepPlan plan = sweepPlan(options.sweep, context);
+  const std::shared_ptr<const void> lock = claimFolder(options.out);
   const std::string folder = "measurements";
   SweepStore store(options.out / folder);
   PacedSubject subject(session, path);

@@ -265,11 +265,7 @@ int runRegress(const Options& options) {
     return runWorker(options, run.cases);
   }
   run.command.insert(run.command.end(), options.arguments.begin(), options.arguments.end());
-  std::error_code error;
-  std::filesystem::create_directories(options.out, error);
-  if (!isFolder(options.out)) {
-    throw UsageError("--out: " + options.out.string() + " cannot be made (a folder for the report)");
-  }
+  const std::shared_ptr<const void> lock = claimFolder(options.out);
   FilesOfCases files(options, cases);
   requireFilesOfItsOwn(options, run.cases, files);
   std::vector<WorkerJob> jobs;
@@ -279,7 +275,8 @@ int runRegress(const Options& options) {
                     fmt::format("{} {}x{}", subject.scene.string(), subject.size.width, subject.size.height),
                     subject.timeout * options.regress.repeat});
     for (const std::filesystem::path& file : CaseFiles(options.out, subject.name).all()) {
-      std::filesystem::remove(file, error);
+      std::error_code ignored;
+      std::filesystem::remove(file, ignored);
     }
   }
   run.outcomes.resize(run.cases.size());

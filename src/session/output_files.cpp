@@ -113,6 +113,19 @@ void requireFilesOfTheirOwn(const Options& options, const Scene& scene) {
   addOutputs(used, options);
 }
 
+std::shared_ptr<const void> claimFolder(const fs::path& out) {
+  std::error_code error;
+  fs::create_directories(out, error);
+  if (!isFolder(out)) {
+    throw UsageError("--out: " + out.string() + " cannot be made (a folder for the report)");
+  }
+  std::shared_ptr<const void> lock = lockFolder(withoutLinks(out));
+  if (!lock) {
+    throw UsageError("--out: " + out.string() + " is in use (another command writes there: choose another folder)");
+  }
+  return lock;
+}
+
 PictureSequence::PictureSequence(const std::filesystem::path& pattern, int count) {
   const std::string extension = pattern.extension().string();
   if (extension != ".png" && extension != ".exr") {

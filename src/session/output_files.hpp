@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -35,6 +36,10 @@ class UsedFiles {
 // named twice. Throw UsageError.
 void requireFilesOfTheirOwn(const Options& options);
 void requireFilesOfTheirOwn(const Options& options, const Scene& scene);
+
+// Makes the folder of --out, and keeps other commands out of it while the result lives. Throws UsageError if it cannot
+// be made or another command writes there.
+std::shared_ptr<const void> claimFolder(const std::filesystem::path& out);
 
 // Names the file of each picture of a sequence. The pattern has one %d or %0Nd, or none for a single picture; with a
 // `count` of 0 it is a file name as it stands. Throws UsageError for endings other than .png and .exr, and for a

@@ -120,6 +120,10 @@ TEST_F(AccuracyCommand, MistakesAreOneLineAndExitTwo) {
   EXPECT_TRUE(contains(mistake({"accuracy", "--scene", scene_, "--out", out("r"), "--sweep", out("bad.toml")}),
                        "did you mean 'reflection.scale'?"));
   EXPECT_FALSE(fs::exists(out("r"))) << "bad input leaves nothing behind";
+  fs::create_directory(out("busy"));
+  const auto lock = lockFolder(out("busy"));
+  EXPECT_TRUE(contains(mistake({"accuracy", "--scene", scene_, "--out", out("busy"), "--sweep", out("sweep.toml")}),
+                       "is in use (another command writes there"));
   std::ofstream(out("file")) << "x";
   mistake({"accuracy", "--scene", scene_, "--out", out("file"), "--sweep", out("sweep.toml")});
   EXPECT_TRUE(contains(mistake({"render", "--scene", scene_, "--out", out("p.png"), "--set", "quality.budget_ms=3"}),

@@ -5,6 +5,7 @@
 #include "image/picture_files.hpp"
 #include "made_pictures.hpp"
 #include "picture_support.hpp"
+#include "platform/files.hpp"
 #include "scene_text.hpp"
 #include "temporary_folder.hpp"
 
@@ -65,6 +66,15 @@ TEST_F(RegressCommand, GoesFromRedToGreen) {
   EXPECT_EQ(result.exitCode, 0) << result.output;
   EXPECT_TRUE(contains(readText(folder_ / "junit.xml"), "tests=\"2\" failures=\"0\""));
   EXPECT_FALSE(contains(readText(folder_ / "out/index.html"), "data:image/png"));
+}
+
+TEST_F(RegressCommand, FoldersOfOtherRunsAreRefused) {
+  writeCases("[[case]]\nscene = 'room.toml'\n");
+  std::filesystem::create_directory(folder_ / "out");
+  const auto lock = lockFolder(folder_ / "out");
+  const ProcessResult result = regress({"--update"});
+  EXPECT_EQ(result.exitCode, 2);
+  EXPECT_TRUE(contains(result.output, "is in use (another command writes there")) << result.output;
 }
 
 TEST_F(RegressCommand, JunitMayBeStandardOutput) {
