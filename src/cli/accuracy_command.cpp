@@ -34,15 +34,15 @@ void printFront(const SweepResults& results) {
   const auto flicker = [&](const std::optional<double>& value) {
     return results.motion ? fmt::format(" {:>10.5f}", value.value_or(0.0)) : "";
   };
-  printLine(fmt::format("{:<44} {:>10} {:>10} {:>10}{}", results.motion ? "cheapest first" : "on the front", "GPU ms",
-                        "mean FLIP", "RMSE", results.motion ? "    flicker" : ""));
+  printLine(fmt::format("{:>10} {:>10} {:>10}{}  {}", "GPU ms", "mean FLIP", "RMSE",
+                        results.motion ? "    flicker" : "", results.motion ? "cheapest first" : "on the front"));
   // A movement has two fronts, of error and of flicker. The list has all of its points, not those of one front.
   for (const int index : results.motion ? indicesByCost(results.points) : paretoFront(results.points)) {
     const SweepPoint& point = results.points[index];
-    printLine(fmt::format("{:<44} {:>10.3f} {:>10.5f} {:>10.5f}{}", point.name, costMs(point), point.whole.flip,
-                          point.whole.rmse, flicker(point.flicker)));
+    printLine(fmt::format("{:>10.3f} {:>10.5f} {:>10.5f}{}  {}", costMs(point), point.whole.flip, point.whole.rmse,
+                          flicker(point.flicker), point.name));
   }
-  printLine(fmt::format("{:<44} {:>10.0f} {:>10.5f} {:>10.5f}{}", "reference (and its noise floor)", results.truthMs,
+  printLine(fmt::format("{:>10.0f} {:>10.5f} {:>10.5f}{}  reference (and its noise floor)", results.truthMs,
                         results.floor.whole.flip, results.floor.whole.rmse, flicker(results.floor.flicker)));
 }
 
