@@ -92,7 +92,10 @@ bool CaseDrawer::drawAndJudge(const ExpectedCase& expected, Outcome& outcome) {
     outcome.message = !picture ? "there is no expected picture " + subject.picture.string()
                                : fmt::format("{} is {}x{}, the picture {}x{}", subject.picture.string(), picture->width,
                                              picture->height, actual.width, actual.height);
-    outcome.message += !outcome.replaceable ? "" : !picture ? " (--update writes it)" : " (--update replaces it)";
+    outcome.message += expected.result != ExpectedResult::pass ? " (make it where the case passes)"
+                       : !outcome.replaceable                  ? ""
+                       : !picture                              ? " (--update writes it)"
+                                                               : " (--update replaces it)";
     outcome.hasFiles = true;
     writePng(files.actual, actual);
     return false;

@@ -399,8 +399,9 @@ TEST_F(RegressCommand, UpdateLeavesCasesExpectedToFail) {
              "[[case]] scene = 'room.toml', name = 'writer', picture = 'both.png'\n");
   const ProcessResult result = regress({"--update"});
   EXPECT_EQ(result.exitCode, 1);
-  EXPECT_TRUE(
-      lineOf("missing", result.output).ends_with("there is no expected picture " + (folder_ / "missing.png").string()));
+  EXPECT_TRUE(lineOf("missing", result.output)
+                  .ends_with("there is no expected picture " + (folder_ / "missing.png").string() +
+                             " (make it where the case passes)"));
   EXPECT_FALSE(std::filesystem::exists(folder_ / "missing.png"));
   EXPECT_EQ(readImage8(folder_ / "small.png").width, 16);
   EXPECT_TRUE(contains(lineOf("writer", result.output), "updated writer")) << "'shared' writes nothing";
