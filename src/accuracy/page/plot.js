@@ -263,6 +263,10 @@ function drawPlot(spec, width, height) {
     .filter(placed => placed.x !== null && placed.y !== null);
   const under = [...drawAxes(plot), ...drawRules(plot), ...drawLines(plot)];
   occupied.push(...marks.map(placed => [placed.x - 6, placed.y - 6, placed.x + 6, placed.y + 6]));
+  for (const placed of marks) {
+    const ends = spreads(placed.mark).map(x.at).filter(end => end !== null);
+    occupied.push([Math.min(...ends), placed.y - 2, Math.max(...ends), placed.y + 2]);
+  }
   const labels = [...marks].reverse().filter(placed => placed.mark.label)
     .map(placed => drawLabel(placed.mark.label, placed.x, placed.y, frame, occupied));
   return makeSvg('svg', { class: 'plot', role: 'group', viewBox: `0 0 ${width} ${height}`, 'aria-label': spec.description },

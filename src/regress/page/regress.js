@@ -141,7 +141,7 @@ const needsAttention = ({ verdict }) => verdict === 'failed' || verdict === 'err
 function showRun(run) {
   const element = id => document.getElementById(id);
   const bad = run.cases.filter(needsAttention);
-  element('title').textContent = bad.length ? `${bad.length} of ${plural(run.cases.length, 'case')} failed`
+  element('title').textContent = bad.length ? `${bad.length} of ${plural(run.cases.length, 'case')} did not pass`
                                           : `${plural(run.cases.length, 'case')}, none failed`;
   document.title = `${element('title').textContent} – ${run.file}`;
   const drivers = [...new Set(run.cases.filter(one => one.driver).map(one => `${one.device}, ${one.driver}`))];
