@@ -9,12 +9,12 @@
 #include <iostream>
 #include <map>
 
+#include "core/device.hpp"
 #include "platform/files.hpp"
 #include "platform/process.hpp"
 #include "platform/text.hpp"
 #include "scene/input_error.hpp"
 #include "scene/scene_loader.hpp"
-#include "window/demo.hpp"
 
 namespace speculum {
 

@@ -16,6 +16,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv);
 
 // Each of these functions runs a command and returns the process's exit code: 0 success, 1 a failed comparison or
 // check. Bad usage and bad input throw UsageError or InputError, which are exit code 2.
+int runDemo(const Options& options);
 int runRender(const Options& options);
 int runBench(const Options& options);
 int runReference(const Options& options);

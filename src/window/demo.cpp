@@ -4,14 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
-#include <memory>
 #include <utility>
 
 #include "plan/pass_mask.hpp"
 #include "platform/process.hpp"
-#include "platform/text.hpp"
 #include "window/frame_report.hpp"
 
 namespace speculum {
@@ -471,37 +468,6 @@ PixelRect Demo::freePicture() const {
 void Demo::setPresentMode(size_t index) {
   deviceView_.presentMode = index;
   renderer_.setPresentMode(renderer_.presentModes().at(index));
-}
-
-namespace {
-
-Demo* shownDemo = nullptr;
-
-void endWithoutDisplay() {
-  if (shownDemo) {
-    shownDemo->keepUnsavedWork();
-  }
-  printLine("the window system has ended (start it again)", stderr);
-  std::_Exit(2);
-}
-
-}  // namespace
-
-int runDemo(const Options& options) {
-  chooseWindowPlatform(options.window.platform);
-  installInterruptHandler();
-  letBrokenPipesFail();
-  Demo demo(options);
-  const std::unique_ptr<Demo, void (*)(Demo*)> shown(shownDemo = &demo, [](Demo*) { shownDemo = nullptr; });
-  onDisplayLost(&endWithoutDisplay);
-  while (demo.step() && !interruptRequested() && (options.frames == 0 || demo.framesDrawn() < options.frames)) {
-  }
-  if (interruptRequested()) {
-    demo.keepUnsavedWork();
-  }
-  demo.renderer().waitIdle();
-  spdlog::info("{} frames", demo.framesDrawn());
-  return exitCodeOfChecks(demo.device().validationMessages(), demo.nonFinite());
 }
 
 }  // namespace speculum

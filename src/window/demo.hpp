@@ -117,8 +117,4 @@ class Demo : private WorkspaceHost {
   int framesDrawn_ = 0;
 };
 
-// Runs the window until it is closed or --frames are drawn. Returns the exit code: 1 if the validation layer or
-// debug.check_finite reported anything.
-int runDemo(const Options& options);
-
 }  // namespace speculum
