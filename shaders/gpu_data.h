@@ -58,6 +58,14 @@ struct LightData {
   uint shadowMap;  // index into shadowMaps; noShadowMap: none
 };
 
+// A box around the lights of a group.
+struct LightGroup {
+  vec3 center;  // relative
+  uint padding;
+  vec3 halfExtent;
+  uint padding2;
+};
+
 // Metres. The alpha of color targets is the disparity disparityLength / w, with w of clip space, 0 at infinity. A half
 // float then holds the disparity from 1 um on; beyond 1 km it has fewer digits than a reprojection needs.
 const float disparityLength = 0.0625;

@@ -6,7 +6,7 @@
 layout(set = 0, binding = 0, std140) uniform Pass {
   ViewData view;
   LightData passLights[fixedLights];
-  vec4 lightGroups[mostLightGroups];  // spheres around the lights of each group: center, relative, and radius
+  LightGroup lightGroups[mostLightGroups];
 };
 layout(set = 0, binding = 1, std140) uniform DrawnMirror { MirrorData drawnMirror; };
 layout(set = 0, binding = 2, std430) readonly buffer Lights { LightData lights[]; };  // of all passes

@@ -132,11 +132,12 @@ vec2 repeatingUv(uint index, vec3 origin, vec3 direction) {
   return vec2(dot(at.u, point), dot(at.v, point));
 }
 
-// Says whether lightRadiance() is 0 for all lights in a sphere (center, radius), because they lie below the surface's
-// plane. The last term is what rounding may take away from the sum; leastHeight makes up for that of the light's height.
-bool liesBelow(vec4 sphere, Surface surface) {
-  vec3 toCenter = sphere.xyz - surface.position;
-  return dot(surface.normal, toCenter) + sphere.w <= -1e-6 * dot(abs(toCenter), vec3(1.0));
+// Says whether lightRadiance() is 0 for all lights of a group, because they lie below the surface's plane. The last term
+// is what rounding may take away from the sum; leastHeight makes up for that of the light's height.
+bool liesBelow(LightGroup group, Surface surface) {
+  vec3 toCenter = group.center - surface.position;
+  float above = dot(abs(surface.normal), group.halfExtent);
+  return dot(surface.normal, toCenter) + above <= -1e-6 * dot(abs(toCenter), vec3(1.0));
 }
 
 // Returns the radiance due to a light at `toLight` from the surface; `irradiance` is at 1 m, facing the light.

@@ -72,6 +72,23 @@ double Bounds::halfArea() const {
   return e.x < 0.0 ? 0.0 : e.x * e.y + e.y * e.z + e.z * e.x;
 }
 
+void sortIntoRuns(std::span<int> indices, std::span<const glm::dvec3> points, size_t size) {
+  if (indices.size() <= size) {
+    return;
+  }
+  Bounds box;
+  for (const int i : indices) {
+    box.add(points[i]);
+  }
+  const glm::dvec3 extent = box.high - box.low;
+  const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
+  const size_t half = (indices.size() + size - 1) / size / 2 * size;
+  std::nth_element(indices.begin(), indices.begin() + static_cast<std::ptrdiff_t>(half), indices.end(),
+                   [&](int a, int b) { return points[a][axis] < points[b][axis]; });
+  sortIntoRuns(indices.first(half), points, size);
+  sortIntoRuns(indices.subspan(half), points, size);
+}
+
 BoxTester::BoxTester(const Ray& ray)
     : origin(ray.origin),
       inverse(safeInverse(ray.direction.x), safeInverse(ray.direction.y), safeInverse(ray.direction.z)) {}

@@ -65,6 +65,10 @@ struct BoxTester {
   static double larger(double x, double y) { return x > y ? x : y; }
 };
 
+// Sorts indices of points so that each run of `size` (at least 1) indices, from the first on, is of points that lie
+// close together.
+void sortIntoRuns(std::span<int> indices, std::span<const glm::dvec3> points, size_t size);
+
 // Bounding volume hierarchy over boxes: binary, binned surface area heuristic (Wald, "On fast Construction of SAH-based
 // Bounding Volume Hierarchies", 2007). The caller keeps the primitives in the order that `order()` gives.
 class Bvh {

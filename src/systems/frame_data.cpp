@@ -5,6 +5,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "geometry/bvh.hpp"
 #include "plan/pass_mask.hpp"
 #include "scene/material_mirrors.hpp"
 #include "scene/scene_state.hpp"
@@ -66,23 +67,29 @@ size_t lightsPerGroup(size_t lights) {
   return std::max({size_t{1}, root, (lights + gpu::mostLightGroups - 1) / gpu::mostLightGroups});
 }
 
-constexpr glm::vec4 everywhere{0.0f, 0.0f, 0.0f, 1e30f};  // a sphere that lies below no surface
+constexpr gpu::LightGroup everywhere{.center = {}, .padding = 0, .halfExtent = glm::vec3(1e30f), .padding2 = 0};
 
-// Returns center and radius of a sphere that holds the lights. The radius also makes up for normals that are a little
-// longer than 1.
-glm::vec4 sphereAround(std::span<const gpu::LightData> lights) {
-  glm::vec3 low = lights[0].position;
-  glm::vec3 high = low;
+// Returns a box that holds the lights, with room for the rounding of its own sums.
+gpu::LightGroup boxAround(std::span<const gpu::LightData> lights) {
+  Bounds box;
   for (const gpu::LightData& light : lights) {
-    low = glm::min(low, light.position);
-    high = glm::max(high, light.position);
+    box.add(light.position);
   }
-  const glm::vec3 center = 0.5f * low + 0.5f * high;
-  double radius = 0.0;
-  for (const gpu::LightData& light : lights) {
-    radius = std::max(radius, glm::distance(glm::dvec3(light.position), glm::dvec3(center)));
+  const glm::vec3 center(box.center());
+  const glm::dvec3 halfExtent = glm::max(box.high - glm::dvec3(center), glm::dvec3(center) - box.low);
+  return {.center = center, .padding = 0, .halfExtent = 1.000002 * halfExtent, .padding2 = 0};
+}
+
+// Returns the indices of the lights. Those of a group lie close together, so that fewer surfaces face some of them.
+std::vector<int> lightOrder(const SceneState& state) {
+  std::vector<int> order(state.lights.size());
+  std::iota(order.begin(), order.end(), 0);
+  if (order.size() > gpu::fixedLights) {
+    std::vector<glm::dvec3> positions(order.size());
+    std::ranges::transform(state.lights, positions.begin(), &LightState::position);
+    sortIntoRuns(order, positions, lightsPerGroup(order.size()));
   }
-  return {center, 1.000002 * radius};
+  return order;
 }
 
 bool sameColors(const Object& a, const Object& b) {
@@ -173,6 +180,7 @@ void FrameData::build(const FrameInfo& info) {
   addRepeating(info);
   handsOn_ = !branches() && hasFewTriangles(info);
   clearances_ = clearancesOf(info.scene, info.state);
+  lightOrder_ = lightOrder(info.state);
   shadowMaps_.assign(info.scene.lights.size(), gpu::noShadowMap);
   const std::span<const Cube> maps = cubesOf(plan.cubes, PassKind::shadow);
   for (size_t map = 0; map < maps.size(); ++map) {
@@ -258,8 +266,7 @@ void FrameData::addLights(const FrameInfo& info, const Pass& pass, DrawBlock& bl
   block.view.lightCount = static_cast<uint32_t>(scene.lights.size());
   const auto hasMap = [&](int i) { return shadowMaps_[i] != gpu::noShadowMap; };
   const auto isShown = [&](int i) { return std::binary_search(pass.lights.begin(), pass.lights.end(), i); };
-  std::vector<int> order(scene.lights.size());
-  std::iota(order.begin(), order.end(), 0);
+  std::vector<int> order = lightOrder_;
   const auto unmapped = std::stable_partition(order.begin(), order.end(), hasMap);
   const auto shown = std::stable_partition(order.begin(), unmapped, [&](int i) { return !isShown(i); });
   std::stable_partition(unmapped, order.end(), isShown);
@@ -281,7 +288,7 @@ void FrameData::addLights(const FrameInfo& info, const Pass& pass, DrawBlock& bl
   block.view.lightsPerGroup = static_cast<uint32_t>(perGroup);
   for (size_t first = 0; first < ordered.size(); first += perGroup) {
     const auto group = ordered.subspan(first, std::min(perGroup, ordered.size() - first));
-    block.lightGroups[first / perGroup] = info.settings.debug.skipLights ? sphereAround(group) : everywhere;
+    block.lightGroups[first / perGroup] = info.settings.debug.skipLights ? boxAround(group) : everywhere;
   }
 }
 

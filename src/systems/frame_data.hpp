@@ -125,7 +125,7 @@ class FrameData {
   struct alignas(256) DrawBlock {
     gpu::ViewData view;
     gpu::LightData lights[gpu::fixedLights];  // all lights, if there are no more than these
-    glm::vec4 lightGroups[gpu::mostLightGroups];
+    gpu::LightGroup lightGroups[gpu::mostLightGroups];
   };
 
   static VkDescriptorType typeOf(uint32_t kind);
@@ -150,6 +150,7 @@ class FrameData {
   std::vector<DrawBlock> passBlocks_;
   std::vector<gpu::MirrorBlock> mirrors_;
   std::vector<gpu::LightData> lights_;
+  std::vector<int> lightOrder_;        // the scene's lights, those of a group close together
   std::vector<glm::vec4> clearances_;  // LightData::clearance and height of each light of the scene
   bool handsOn_ = false;
   std::vector<uint32_t> shadowMaps_;  // LightData::shadowMap of each light of the scene

@@ -8,6 +8,8 @@
 #endif
 #include <gtest/gtest.h>
 
+#include <numeric>
+
 #include "geometry/triangle_mesh.hpp"
 #include "random.hpp"
 #include "reference/scenes.hpp"
@@ -184,6 +186,36 @@ TEST(ReferenceBvh, ManyIdenticalBoxesStillMakeATree) {
     return false;
   });
   EXPECT_EQ(visited, 1000);
+}
+
+// The boxes of runs of random points add up to much less than those of unsorted runs, also if points coincide.
+TEST(SortIntoRuns, PointsOfARunLieCloseTogether) {
+  Random random(5);
+  for (const size_t count : {1, 16, 17, 100, 256, 1000}) {
+    std::vector<glm::dvec3> points(count);
+    for (size_t i = 0; i < count; ++i) {
+      points[i] = i % 7 == 6 ? points[i - 1] : 10.0 * random.direction();
+    }
+    std::vector<int> order(count);
+    std::iota(order.begin(), order.end(), 0);
+    const auto area = [&] {
+      double sum = 0.0;
+      for (size_t first = 0; first < count; first += 16) {
+        Bounds box;
+        std::ranges::for_each(std::span(order).subspan(first, std::min<size_t>(16, count - first)),
+                              [&](int i) { box.add(points[i]); });
+        sum += box.halfArea();
+      }
+      return sum;
+    };
+    const double unsorted = area();
+    sortIntoRuns(order, points, 16);
+    EXPECT_LE(area(), count > 64 ? 0.4 * unsorted : unsorted) << count;
+    std::ranges::sort(order);
+    for (size_t i = 0; i < count; ++i) {
+      ASSERT_EQ(order[i], static_cast<int>(i));
+    }
+  }
 }
 
 }  // namespace
