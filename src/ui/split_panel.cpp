@@ -42,18 +42,18 @@ std::string labelOf(const ShownSplit& split, size_t half) {
   return label + (shown.picture.empty() ? "" : "\n" + shown.picture);
 }
 
-// Draws a half's label beside the divider, as wide as the half's part of the picture allows.
+// Draws a half's label at the left of its part of the picture, where numbers that grow move no text.
 void label(ImDrawList& list, const ShownSplit& split, size_t half, float x, const WindowRect& picture) {
   const float em = ImGui::GetFontSize();
   const float room = half == 0 ? x - picture.corner.x : picture.corner.x + picture.size.x - x;
-  const float width = std::min(room - 3.0f * em, 24.0f * em);
+  const float width = std::min(room - 3.0f * em, 32.0f * em);
   if (width < 1.5f * em) {
     return;
   }
   const bool narrow = width < 7.0f * em;
   const std::string text = narrow ? names[half] : labelOf(split, half);
   const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, width);
-  const ImVec2 low(half == 0 ? x - em - size.x : x + em, picture.corner.y + em);
+  const ImVec2 low((half == 0 ? picture.corner.x : x) + em, picture.corner.y + em);
   const ImVec2 reach(0.4f * em, 0.3f * em);
   list.AddRectFilled({low.x - reach.x, low.y - reach.y}, {low.x + size.x + reach.x, low.y + size.y + reach.y}, darkInk,
                      0.3f * em);

@@ -47,6 +47,30 @@ TEST_F(SplitPanels, DividerIsDraggedAndLabelled) {
   EXPECT_TRUE(shows("reflection.scale = 0.25")) << "without panels too";
 }
 
+TEST_F(SplitPanels, LabelsStayInPlaceWhileNumbersGrow) {
+  begin();
+  // Returns the place of the first letter and the number of lines of A's label.
+  const auto placeWith = [&](const std::string& picture) {
+    split_.halves[0].picture = picture;
+    run(2);
+    std::optional<glm::vec2> corner;
+    std::set<float> lines;
+    for (const ImDrawList* list : drawLists()) {
+      for (const DrawnGlyph& glyph : glyphsOf(*list)) {
+        const float x = list->VtxBuffer[glyph.vertex].pos.x;
+        if (std::string_view(list->_OwnerName) == panels::dividerTitle && x < 0.7f * ImGui::GetIO().DisplaySize.x) {
+          corner = corner.value_or(glm::vec2(x, glyph.lineTop));
+          lines.insert(glyph.lineTop);
+        }
+      }
+    }
+    return std::pair(corner, lines.size());
+  };
+  const auto before = placeWith("9 of 64 pictures averaged, next one 5 %");
+  ASSERT_TRUE(before.first);
+  EXPECT_EQ(placeWith("18 of 64 pictures averaged, next one 85 %"), before);
+}
+
 TEST_F(SplitPanels, HalfIsChosenKeptOrLeft) {
   begin();
   EXPECT_TRUE(shows("Settings of B, the right half"));
