@@ -105,22 +105,23 @@ double restOfPasses(const ShownFrame& frame) {
 std::string mirrorCost(const ShownFrame& frame, int mirror) {
   int passes = 0;
   double ms = 0.0;
+  double allMs = 0.0;
+  bool allTimed = true;
   double pixels = 0.0;
   bool reused = true;
   for (const PassRow& pass : frame.passes) {
+    const double passMs = pass.reused ? 0.0 : usualMs(frame, pass);
+    allMs += passMs;
+    allTimed = allTimed && (pass.reused || passMs > 0.0);
     if (pass.kind == PassKind::mirror && pass.path.back() == mirror) {
       ++passes;
-      ms += pass.reused ? 0.0 : usualMs(frame, pass);
+      ms += passMs;
       reused = reused && pass.reused;
       pixels += pass.areaPx;
     }
   }
   if (passes > 0) {
-    const bool inHistory = !frame.history.passNames().empty();  // drafts have no times of passes
-    const double median = inHistory ? percentile(frame.history.series(FrameHistory::Figure::gpu), 0.5) : std::nan("");
-    const double timed = frame.timedGpuMs > 0.0 ? frame.timedGpuMs : frame.gpuMs;
-    const double all = std::isnan(median) ? timed : median;
-    const std::string share = ms > 0.0 && all >= ms ? fmt::format(", {:.0f} % of the frame", 100.0 * ms / all) : "";
+    const std::string share = ms > 0.0 && allTimed ? fmt::format(", {:.0f} % of all passes", 100.0 * ms / allMs) : "";
     return fmt::format("{} {}, {:.0f} pixels", passes, passes == 1 ? "pass" : "passes", pixels) +
            (reused     ? ", reused"
             : ms > 0.0 ? ", " + panels::duration(ms) + " on the GPU" + share

@@ -241,7 +241,7 @@ TEST(MirrorCost, SumsPassesOrSaysWhyNone) {
     frame.passes.push_back(row);
   };
   pass({2}, 12.5, 4000.0);
-  EXPECT_EQ(mirrorCost(frame, 2), "1 pass, 4000 pixels, 12.5 ms on the GPU");
+  EXPECT_EQ(mirrorCost(frame, 2), "1 pass, 4000 pixels, 12.5 ms on the GPU, 100 % of all passes");
   pass({1, 2}, NAN, 300.0);
   pass({2, 1}, 7.0, 1.0);
   EXPECT_EQ(mirrorCost(frame, 2), "2 passes, 4300 pixels, 12.5 ms on the GPU");
@@ -259,28 +259,23 @@ TEST(MirrorCost, SumsPassesOrSaysWhyNone) {
 
 TEST(MirrorCost, TimeIsTheMedianOfTheLastFrames) {
   ShownFrame frame;
-  frame.passes.push_back({{.path = {0}}, "mirror wall"});
-  frame.passes[0].timed = true;
+  frame.passes = {{{.path = {0}}, "mirror wall"}, {{.kind = PassKind::main}, "main view"}};
+  frame.passes[0].timed = frame.passes[1].timed = true;
   for (const auto& [number, ms] : {std::pair(1, 10.0), std::pair(2, 12.0), std::pair(3, 50.0)}) {
     frame.history.add(number, 60.0, 1.0);
-    frame.history.addGpu(number, 55.0, std::vector{std::pair<std::string, double>("mirror wall", ms)});
+    frame.history.addGpu(number, 200.0,
+                         std::vector{std::pair<std::string, double>("mirror wall", ms), {"main view", 2.0 * ms}});
     frame.passes[0].gpuMs = ms;
+    frame.passes[1].gpuMs = 4.0 * ms;
   }
-  EXPECT_EQ(mirrorCost(frame, 0), "1 pass, 0 pixels, 12.0 ms on the GPU, 22 % of the frame");
+  EXPECT_EQ(mirrorCost(frame, 0), "1 pass, 0 pixels, 12.0 ms on the GPU, 33 % of all passes") << "waiting is no pass";
   frame.history.setPaused(true);
-  EXPECT_EQ(mirrorCost(frame, 0), "1 pass, 0 pixels, 50.0 ms on the GPU, 91 % of the frame")
+  EXPECT_EQ(mirrorCost(frame, 0), "1 pass, 0 pixels, 50.0 ms on the GPU, 20 % of all passes")
       << "the history may be of other frames";
-}
-
-TEST(MirrorCost, ShareIsThatOfTheTimedFrame) {
-  ShownFrame frame;
-  frame.passes.push_back({{.path = {0}}, "mirror wall"});
-  frame.passes[0].timed = true;
-  frame.passes[0].gpuMs = 50.0;
-  frame.timedGpuMs = 1000.0;
-  frame.history.add(1, 210.0, 1.0, true);
-  frame.history.addGpu(1, 200.0, {});
-  EXPECT_EQ(mirrorCost(frame, 0), "1 pass, 0 pixels, 50.0 ms on the GPU, 5 % of the frame") << "not of the draft's";
+  frame.passes[1].timed = false;
+  EXPECT_EQ(mirrorCost(frame, 0), "1 pass, 0 pixels, 50.0 ms on the GPU") << "the sum is not known";
+  frame.passes[1].reused = true;
+  EXPECT_EQ(mirrorCost(frame, 0), "1 pass, 0 pixels, 50.0 ms on the GPU, 100 % of all passes");
 }
 
 TEST(RestOfPasses, IsWhatTheFrameTookBesides) {
