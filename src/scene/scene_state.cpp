@@ -139,11 +139,14 @@ struct Placed {
   Bounds bounds;
 };
 
+bool areParallel(const glm::dvec3& a, const glm::dvec3& b) {
+  return std::abs(glm::dot(a, b)) > 1.0 - 1e-9;
+}
+
 bool inOnePlane(const Placed& a, const Placed& b) {
   const Plane plane{a.state->polygon[0], a.state->normal};
   const double slack = std::max(a.state->slack, b.state->slack);
-  const bool parallel = std::abs(glm::dot(a.state->normal, b.state->normal)) > 1.0 - 1e-9;
-  return parallel &&
+  return areParallel(a.state->normal, b.state->normal) &&
          std::ranges::all_of(b.state->polygon, [&](const auto& p) { return std::abs(plane.distance(p)) <= slack; });
 }
 
@@ -212,15 +215,21 @@ void setLayers(std::vector<Placed>& plane, const glm::dvec3& towardsEye) {
 // farther apart than rounding can put them.
 void findLayers(const Scene& scene, std::span<MirrorState> states) {
   std::vector<std::vector<Placed>> planes;
+  std::vector<glm::dvec3> normals;  // of the planes; lie side by side, since each mirror asks all of them
   for (size_t i = 0; i < states.size(); ++i) {
     states[i].plane = static_cast<int>(i);
     const Placed placed{i, scene.mirror(i).twoSided, &states[i], Bounds::around(states[i].polygon)};
-    const auto same = std::ranges::find_if(planes, [&](const auto& plane) { return inOnePlane(plane[0], placed); });
-    if (same == planes.end()) {
+    size_t same = 0;
+    while (same < planes.size() &&
+           !(areParallel(normals[same], states[i].normal) && inOnePlane(planes[same][0], placed))) {
+      ++same;
+    }
+    if (same == planes.size()) {
       planes.push_back({placed});
+      normals.push_back(states[i].normal);
     } else {
-      states[i].plane = static_cast<int>((*same)[0].index);
-      same->push_back(placed);
+      states[i].plane = static_cast<int>(planes[same][0].index);
+      planes[same].push_back(placed);
     }
   }
   for (std::vector<Placed>& plane : planes) {
