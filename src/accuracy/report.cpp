@@ -220,13 +220,4 @@ std::string pageWithData(std::string_view page, const nlohmann::ordered_json& da
          std::string(page.substr(at + placeholder.size()));
 }
 
-std::string escaped(std::string_view text, const std::map<char, std::string_view>& escapes) {
-  std::string result;
-  for (const char c : text) {
-    const auto found = escapes.find(c);
-    result += found == escapes.end() ? std::string_view(&c, 1) : found->second;
-  }
-  return result;
-}
-
 }  // namespace speculum

@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <span>
 #include <string>
@@ -37,9 +36,6 @@ std::string_view reportPage();
 
 // Returns the bytes as base64 text: RFC 4648, with padding, without line breaks.
 std::string base64(std::span<const uint8_t> bytes);
-
-// Returns the text with the escapes of characters in their places.
-std::string escaped(std::string_view text, const std::map<char, std::string_view>& escapes);
 
 // Returns an HTML page with the data in the place of its "@DATA@", which stands in a script element.
 std::string pageWithData(std::string_view page, const nlohmann::ordered_json& data);

@@ -2,20 +2,14 @@
 
 #include <nlohmann/json.hpp>
 
-#include "accuracy/report.hpp"
+#include "accuracy/sweep_json.hpp"
+#include "platform/text.hpp"
 
 namespace speculum {
 
 namespace {
 
 using nlohmann::ordered_json;
-
-std::string csvField(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) {
-    return text;
-  }
-  return "\"" + escaped(text, {{'"', "\"\""}}) + "\"";
-}
 
 void appendMetrics(std::string& line, const std::optional<ImageMetrics>& metrics) {
   const ordered_json json = metricsJson(metrics.value_or(ImageMetrics{}));

@@ -1,10 +1,11 @@
 #include "platform/text.hpp"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
-#include <cstdio>
 #include <tuple>
 #include <utility>
 
@@ -98,6 +99,19 @@ std::string utf8(std::string_view text) {
   return result;
 }
 
+std::string escaped(std::string_view text, const std::map<char, std::string_view>& escapes) {
+  std::string result;
+  for (const char c : text) {
+    const auto found = escapes.find(c);
+    result += found == escapes.end() ? std::string_view(&c, 1) : found->second;
+  }
+  return result;
+}
+
+std::string csvField(const std::string& text) {
+  return text.find_first_of(",\"\r\n") == std::string::npos ? text : "\"" + escaped(text, {{'"', "\"\""}}) + "\"";
+}
+
 bool matchesGlob(std::string_view glob, std::string_view text) {
   size_t star = std::string_view::npos;  // after the last * so far
   size_t tried = 0;                      // first character of the text that this * does not stand for
@@ -133,9 +147,7 @@ std::string oneLine(std::string_view text) {
     // Runners act on a line that begins with ::, and on ##[, ##vso[ or ##teamcity[ anywhere in it.
     const bool runs = code == '#' ? i > 0 && text[i - 1] == '#' : !begun && text.substr(i).starts_with("::");
     if (runs || bytes == 0 || isHidden(code)) {
-      std::array<char, 12> escaped{};
-      std::snprintf(escaped.data(), escaped.size(), bytes > 1 ? "\\u%04x" : "\\x%02x", static_cast<unsigned>(code));
-      line += escaped.data();
+      line += bytes > 1 ? fmt::format("\\u{:04x}", uint32_t{code}) : fmt::format("\\x{:02x}", uint32_t{code});
     } else {
       line += text.substr(i, bytes);
     }
@@ -160,10 +172,7 @@ void printLine(std::string_view text, std::FILE* stream) {
 
 std::string significant(double value, int digits) {
   const bool whole = std::abs(value) >= std::pow(10.0, digits) - 0.5;
-  std::array<char, 400> text;  // the largest double has 309 digits
-  const int length = whole ? std::snprintf(text.data(), text.size(), "%.0f", value)
-                           : std::snprintf(text.data(), text.size(), "%.*g", digits, value);
-  return {text.data(), static_cast<size_t>(length)};
+  return whole ? fmt::format("{:.0f}", value) : fmt::format("{:.{}g}", value, digits);
 }
 
 std::string endsThatFit(const std::string& text, float room, const std::function<float(std::string_view)>& widthOf) {

@@ -4,6 +4,7 @@
 #include <cctype>
 #include <cstdio>
 #include <functional>
+#include <map>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -32,6 +33,11 @@ std::pair<char32_t, size_t> firstCharacter(std::string_view text);
 // Returns the text in UTF-8: a byte that does not belong to a character of it becomes the character that it is in
 // Latin-1, which old programs write.
 std::string utf8(std::string_view text);
+
+// Returns the text with the escapes of characters in their places.
+std::string escaped(std::string_view text, const std::map<char, std::string_view>& escapes);
+// Returns the text as a field of CSV, in quotation marks where it needs them: RFC 4180.
+std::string csvField(const std::string& text);
 
 // Says whether the whole text matches the pattern, both in UTF-8: * stands for any characters, ? for one, [a-z] and
 // [!a-z] for one of a set, and a backslash takes the special meaning from the next one. Names of classes in a set, as

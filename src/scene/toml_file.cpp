@@ -74,15 +74,7 @@ std::string excerptOf(std::string_view toml, int line) {
   for (int before = 1; before < line && !toml.empty(); ++before) {
     toml.remove_prefix(std::min(toml.find('\n'), toml.size() - 1) + 1);
   }
-  toml = trimmed(toml.substr(0, toml.find('\n')));
-  if (toml.size() <= longest) {
-    return std::string(toml);
-  }
-  size_t end = longest;
-  while (end > 0 && continuesCharacter(toml[end])) {
-    --end;
-  }
-  return std::string(toml.substr(0, end)) + "...";
+  return shortened(std::string(trimmed(toml.substr(0, toml.find('\n')))), longest);
 }
 
 // Says how TOML writes what could not be parsed. `problem` is the library's message: what was being parsed, and what is

@@ -7,6 +7,8 @@
 #include <limits>
 #include <utility>
 
+#include "platform/text.hpp"
+
 namespace speculum {
 
 namespace {
@@ -15,14 +17,6 @@ constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 std::string field(double ms) {
   return std::isnan(ms) ? "" : fmt::format("{:.4f}", ms);
-}
-
-std::string quoted(const std::string& name) {
-  std::string text = "\"";
-  for (const char c : name) {
-    text += c == '"' ? "\"\"" : std::string(1, c);
-  }
-  return text + "\"";
 }
 
 double passOf(const std::vector<double>& passes, size_t name) {
@@ -125,7 +119,7 @@ std::vector<float> FrameHistory::filledSeries(const std::string& pass) const {
 std::string FrameHistory::csv() const {
   std::string text = "frame,frame ms,CPU ms,GPU ms";
   for (const std::string& name : names_) {
-    text += "," + quoted(name + " ms");
+    text += "," + csvField(name + " ms");
   }
   for (const Row& row : rows()) {
     text += fmt::format("\n{},{},{},{}", row.number, field(row.ms[0]), field(row.ms[1]), field(row.ms[2]));
