@@ -324,7 +324,7 @@ Spread spreadOf(std::vector<double> values) {
 }
 
 double nearestRank(std::vector<double> values, double part) {
-  const double rank = std::ceil(part * static_cast<double>(values.size()));
+  const double rank = std::max(std::ceil(part * static_cast<double>(values.size())), 1.0);
   const auto at = values.begin() + static_cast<std::ptrdiff_t>(rank) - 1;
   std::nth_element(values.begin(), at, values.end());
   return *at;

@@ -78,7 +78,7 @@ void drawText(Image8& image, int x, int y, const std::string& text, int scale) {
   }
 }
 
-void drawLegend(Image8& image, int top, double largest) {
+void drawLegend(Image8& image, int top) {
   const int scale = textScale(image.width);
   for (int y = top; y < image.height; ++y) {
     for (int x = 0; x < image.width; ++x) {
@@ -87,10 +87,10 @@ void drawLegend(Image8& image, int top, double largest) {
     }
   }
   // Draws the most labels that fit with a gap between them, at least both ends.
-  const int widest = textWidth(fmt::format("{:.3g}", largest * 0.25), scale) + 8 * scale;
+  const int widest = textWidth("0.25", scale) + 8 * scale;
   const int steps = image.width >= 5 * widest ? 4 : image.width >= 3 * widest ? 2 : 1;
   for (int i = 0; i <= steps; ++i) {
-    const std::string text = fmt::format("{:.3g}", largest * i / steps);
+    const std::string text = fmt::format("{:.3g}", 1.0 * i / steps);
     const int width = textWidth(text, scale);
     const int x = std::clamp((image.width - 1) * i / steps - width / 2, 1, std::max(1, image.width - 1 - width));
     drawText(image, x, top + margin + barHeight + margin, text, scale);
@@ -240,11 +240,11 @@ Image8 heatColors(const Plane2d& map, double top) {
   return image;
 }
 
-Image8 heatMap(const Plane2d& map, double top) {
+Image8 heatMap(const Plane2d& map) {
   Image8 image(map.width, map.height + legendHeight(map.width));
-  const Image8 colors = heatColors(map, top);
+  const Image8 colors = heatColors(map);
   std::ranges::copy(colors.rgba, image.rgba.begin());
-  drawLegend(image, map.height, top);
+  drawLegend(image, map.height);
   return image;
 }
 

@@ -45,7 +45,7 @@ Image8 heatColors(const Plane2d& map, double top = 1.0);
 // Returns the number of rows that a legend adds below a map of this width.
 int legendHeight(int width);
 
-// Draws heatColors() with a legend from 0 to `top` below it.
-Image8 heatMap(const Plane2d& map, double top = 1.0);
+// Draws heatColors() with a legend from 0 to 1 below it.
+Image8 heatMap(const Plane2d& map);
 
 }  // namespace speculum

@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "compare/image_metrics.hpp"
 #include "platform/text.hpp"
 
 namespace speculum {
@@ -131,15 +132,9 @@ std::string FrameHistory::csv() const {
 }
 
 double percentile(std::span<const float> values, double share) {
-  std::vector<float> known;
+  std::vector<double> known;
   std::ranges::copy_if(values, std::back_inserter(known), [](float v) { return !std::isnan(v); });
-  if (known.empty()) {
-    return unknown;
-  }
-  const double rank = std::ceil(share * static_cast<double>(known.size()));
-  const auto at = known.begin() + static_cast<std::ptrdiff_t>(std::max(rank, 1.0)) - 1;
-  std::nth_element(known.begin(), at, known.end());
-  return *at;
+  return known.empty() ? unknown : nearestRank(std::move(known), share);
 }
 
 }  // namespace speculum

@@ -24,8 +24,8 @@ TEST(HeatMap, ColorsRiseInLuminance) {
 
 TEST(HeatMap, ShowsTheMapAboveALegend) {
   Plane2d map(64, 20);
-  map.at(10, 5) = 0.5;
-  const Image8 image = heatMap(map, 0.5);
+  map.at(10, 5) = 1.0;
+  const Image8 image = heatMap(map);
   EXPECT_EQ(image.width, 64);
   EXPECT_EQ(image.height, 20 + legendHeight(64));
   const glm::dvec3 brightest = heatColor(1.0);
@@ -42,7 +42,7 @@ TEST(HeatMap, ShowsTheMapAboveALegend) {
       white += image.at(x, y)[0] == 255 && image.at(x, y)[2] == 255;
     }
   }
-  EXPECT_GT(white, 20) << "the legend's numbers";
+  EXPECT_GE(white, 20) << "the legend's numbers";
   EXPECT_NO_THROW(heatMap(Plane2d(1, 1)));
 }
 
