@@ -188,9 +188,7 @@ std::vector<MeshEdge> edgesOf(const Mesh& mesh) {
 // "Measurement of Areas on a Sphere Using Fibonacci and Latitude-Longitude Lattices" (2010).
 std::vector<glm::dvec3> outlinePoints(const Mesh& mesh) {
   if (mesh.vertices.size() <= mostPoints) {
-    std::vector<glm::dvec3> all(mesh.vertices.size());
-    std::ranges::transform(mesh.vertices, all.begin(), &Vertex::position);
-    return all;
+    return mesh.positions();
   }
   std::set<size_t> farthest;
   for (size_t i = 0; i < mostPoints; ++i) {

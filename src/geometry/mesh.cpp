@@ -206,6 +206,12 @@ bool Mesh::hasVertexAlpha() const {
   return std::ranges::any_of(parts, [](const MeshPart& part) { return part.material.vertexAlpha; });
 }
 
+std::vector<glm::dvec3> Mesh::positions() const {
+  std::vector<glm::dvec3> positions(vertices.size());
+  std::ranges::transform(vertices, positions.begin(), &Vertex::position);
+  return positions;
+}
+
 void countFlat(Mesh& mesh) {
   const auto isFlat = [](const Vertex& vertex) { return vertex.normal == glm::dvec3(0.0); };
   mesh.flatVertices = static_cast<uint32_t>(std::ranges::count_if(mesh.vertices, isFlat));

@@ -124,8 +124,9 @@ struct Mesh {
   bool curvedMirror = false;               // cut out of another mesh: a curved mirror by the material of its one part
   std::optional<MirrorParts> mirrorParts;  // of a mesh with materials that say mirror
 
-  bool isTransparent() const;   // some part is
-  bool hasVertexAlpha() const;  // some part has
+  bool isTransparent() const;                 // some part is
+  bool hasVertexAlpha() const;                // some part has
+  std::vector<glm::dvec3> positions() const;  // of the vertices
 };
 
 // Sets `flatVertices` and `flatCorners`.

@@ -255,8 +255,7 @@ Cut cutMesh(const Mesh& mesh) {
   Cut cut;
   std::vector<TrianglePart> rest;
   std::vector<MirrorTriangles> mirrors;
-  std::vector<glm::dvec3> positions(mesh.vertices.size());
-  std::ranges::transform(mesh.vertices, positions.begin(), &Vertex::position);
+  std::vector<glm::dvec3> positions = mesh.positions();
   const uint32_t usual = static_cast<uint32_t>(mesh.indices.size()) - 3 * mesh.repeats;
   uint32_t repeats = 0;
   for (const MeshPart& part : mesh.parts) {

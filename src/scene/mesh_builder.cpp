@@ -99,12 +99,6 @@ void rebase(Mesh& mesh) {
   }
 }
 
-std::vector<glm::dvec3> positionsOf(const Mesh& mesh) {
-  std::vector<glm::dvec3> positions(mesh.vertices.size());
-  std::ranges::transform(mesh.vertices, positions.begin(), &Vertex::position);
-  return positions;
-}
-
 // Finds the parts that may hide mirrors, flat faces and a convex mesh. Objects that hide mirrors, such as walls, doors
 // and cupboards, have few triangles or a few large ones.
 void findHiders(Mesh& mesh) {
@@ -113,7 +107,7 @@ void findHiders(Mesh& mesh) {
   if (mesh.indices.size() > 3 * mostTriangles) {
     return;
   }
-  const std::vector<glm::dvec3> positions = positionsOf(mesh);
+  const std::vector<glm::dvec3> positions = mesh.positions();
   for (std::vector<glm::dvec3>& face : convexFaces(positions, mesh.indices, mostFaces, mostTriangles)) {
     mesh.faces.emplace_back(std::move(face));
   }
@@ -128,7 +122,7 @@ std::future<bool> findSolid(const Mesh& mesh) {
   }
   return std::async(
       mesh.indices.size() > fewIndices ? std::launch::async | std::launch::deferred : std::launch::deferred,
-      [positions = positionsOf(mesh), indices = mesh.indices]() mutable {
+      [positions = mesh.positions(), indices = mesh.indices]() mutable {
         return isSolid(std::move(positions), std::move(indices));
       });
 }
