@@ -77,7 +77,7 @@ std::span<const ShortcutGroup> shortcutGroups() {
        {"Window",
         {key("F2", "Show or hide the inspector", ToggleInspector{}), key("F11", "Full screen", ToggleFullScreen{}),
          key("Tab", "Show or hide the panels", TogglePanel{}),
-         pointer("Ctrl+Tab", "Go to another window of the panels"),
+         pointer("Ctrl+Tab", "Go to another panel, or to the menus"),
          pointer("Arrows", "Walk through the panel's widgets; Space presses, Enter types"),
          key("F1", "Show or hide this list", ToggleHelp{}),
          key("Esc", "Cancel the drag, close a menu, deselect, end A | B", Escape{}), key("Ctrl+Q", "Quit", Quit{})}}}};
