@@ -121,7 +121,10 @@ std::string mirrorCost(const ShownFrame& frame, int mirror) {
     }
   }
   if (passes > 0) {
-    const std::string share = ms > 0.0 && allTimed ? fmt::format(", {:.0f} % of all passes", 100.0 * ms / allMs) : "";
+    const double percent = 100.0 * ms / allMs;
+    const std::string share =
+        ms > 0.0 && allTimed ? (percent < 1.0 ? ", under 1" : fmt::format(", {:.0f}", percent)) + " % of all passes"
+                             : "";
     return fmt::format("{} {}, {:.0f} pixels", passes, passes == 1 ? "pass" : "passes", pixels) +
            (reused     ? ", reused"
             : ms > 0.0 ? ", " + panels::duration(ms) + " on the GPU" + share

@@ -272,6 +272,8 @@ TEST(MirrorCost, TimeIsTheMedianOfTheLastFrames) {
   frame.history.setPaused(true);
   EXPECT_EQ(mirrorCost(frame, 0), "1 pass, 0 pixels, 50.0 ms on the GPU, 20 % of all passes")
       << "the history may be of other frames";
+  frame.passes[1].gpuMs = 1e5;
+  EXPECT_EQ(mirrorCost(frame, 0), "1 pass, 0 pixels, 50.0 ms on the GPU, under 1 % of all passes");
   frame.passes[1].timed = false;
   EXPECT_EQ(mirrorCost(frame, 0), "1 pass, 0 pixels, 50.0 ms on the GPU") << "the sum is not known";
   frame.passes[1].reused = true;
