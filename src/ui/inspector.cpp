@@ -48,7 +48,7 @@ bool nodeList(PanelContext& ui) {
       ui.state.focusFields = entered;
     }
     if (selected && std::exchange(*shown, row) != row) {
-      ImGui::SetScrollHereY();
+      ImGui::ScrollToBringRectIntoView(ImGui::GetCurrentWindow(), ImGui::GetCurrentContext()->LastItemData.Rect);
       if (io.NavVisible && ImGui::GetCurrentContext()->NavWindow == ImGui::GetCurrentWindow()) {
         focusItem();  // arrow keys and Enter go on from here
       }

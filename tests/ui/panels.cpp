@@ -1393,6 +1393,16 @@ TEST_F(Inspector, ClicksOnRowsLeaveTheKeyboardAlone) {
   EXPECT_FALSE(ImGui::GetIO().NavVisible) << "Space would press the row instead of pausing";
 }
 
+TEST_F(Inspector, ClickedRowsStayUnderThePointer) {
+  scene_.objects.resize(40);
+  for (const char* row : {"edit.node.1", "edit.node.4", "edit.node.2"}) {
+    const int top = widget(row).y;
+    edit_.selected = clickFor<SelectNode>(row).node;
+    run(2);
+    EXPECT_EQ(widget(row).y, top) << row;
+  }
+}
+
 TEST_F(Inspector, ListShowsWhatIsSelectedAgain) {
   scene_.objects.resize(40);
   selectMirror(0);
