@@ -74,6 +74,11 @@ void modelChoice(PanelContext& ui) {
   const bool open = ImGui::BeginCombo("##model", preview.c_str(), ImGuiComboFlags_HeightLargest);
   recordWidget(ui, "edit.model");
   if (open) {
+    if (ImGui::Selectable("File...")) {
+      ui.send(AskWhatToAdd{});
+    }
+    recordWidget(ui, "edit.model.file");
+    ImGui::Separator();
     for (size_t i = 0; i < models.size(); ++i) {
       ImGui::PushID(static_cast<int>(i));  // models may have equal names
       const std::string name = oneLine(models[i].stem().string());
@@ -83,10 +88,6 @@ void modelChoice(PanelContext& ui) {
       recordWidget(ui, "edit.model." + name);
       ImGui::PopID();
     }
-    if (ImGui::Selectable("File...")) {
-      ui.send(AskWhatToAdd{});
-    }
-    recordWidget(ui, "edit.model.file");
     ImGui::EndCombo();
   }
 }

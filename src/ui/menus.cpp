@@ -84,12 +84,13 @@ void editMenu(PanelContext& ui) {
   item(ui, "Add mirror", AddMirror{});
   item(ui, "Add light", AddLight{});
   if (menu(ui, "Add object")) {
+    item(ui, "File...", AskWhatToAdd{});  // first, because the list may be longer than the window
+    ImGui::Separator();
     for (const std::filesystem::path& model : edit.models) {
       ImGui::PushID(model.string().c_str());  // names may repeat
       item(ui, oneLine(model.stem().string()).c_str(), AddObject{model}, true, "");
       ImGui::PopID();
     }
-    item(ui, "File...", AskWhatToAdd{});
     ImGui::EndMenu();
   }
   ImGui::Separator();

@@ -1447,6 +1447,7 @@ TEST_F(Inspector, NodesAreAddedOfTheChosenModel) {
   click("edit.model.vase");
   EXPECT_EQ(clickFor<AddObject>("edit.add_object").model, "/models/vase.obj");
   click("edit.model");
+  EXPECT_LT(widget("edit.model.file").y, widget("edit.model.ball").y) << "in sight above a long list";
   clickFor<AskWhatToAdd>("edit.model.file");
 }
 
@@ -1456,6 +1457,7 @@ TEST_F(PanelTest, ObjectsAreAddedFromFiles) {
   std::ofstream(folder / "room.toml") << "";
   click("menu.Edit");
   click("menu.Add object");
+  EXPECT_LT(widget("menu.File...").y, widget("menu.ball").y);
   clickFor<AskWhatToAdd>("menu.File...");
   ask(Prompt::addObject, folder);
   EXPECT_FALSE(has("open.room.toml"));
