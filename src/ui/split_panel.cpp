@@ -51,7 +51,7 @@ void label(ImDrawList& list, const ShownSplit& split, size_t half, float x, cons
     return;
   }
   const bool narrow = width < 7.0f * em;
-  const std::string text = narrow ? names[half] : labelOf(split, half);
+  const std::string text = narrow ? names[half] : brokenAtSpaces(labelOf(split, half), width, textWidth);
   const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, width);
   const ImVec2 low((half == 0 ? picture.corner.x : x) + em, picture.corner.y + em);
   const ImVec2 reach(0.4f * em, 0.3f * em);

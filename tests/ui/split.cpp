@@ -71,6 +71,28 @@ TEST_F(SplitPanels, LabelsStayInPlaceWhileNumbersGrow) {
   EXPECT_EQ(placeWith("18 of 64 pictures averaged, next one 85 %"), before);
 }
 
+TEST_F(SplitPanels, LabelsBreakBetweenWordsOnly) {
+  resize(640, 480);
+  begin();
+  split_.halves[0].differs = split_.halves[1].differs = {{"reflection.scale", "1.0"}};
+  std::set<std::string> lines;
+  for (split_.divider = 0.5; split_.divider < 0.99; split_.divider += 0.01) {
+    run(2);
+    for (const ImDrawList* list : drawLists()) {
+      std::map<float, std::string> found;  // by the top of the line
+      for (const DrawnGlyph& glyph : glyphsOf(*list)) {
+        const bool ofB = list->VtxBuffer[glyph.vertex].pos.x > split_.divider * ImGui::GetIO().DisplaySize.x;
+        found[glyph.lineTop] += ofB && std::string_view(list->_OwnerName) == panels::dividerTitle ? glyph.letter : ' ';
+      }
+      for (const auto& [top, line] : found) {
+        lines.insert(line.substr(line.find_last_of(' ') + 1));
+      }
+    }
+  }
+  EXPECT_TRUE(lines.contains("1.0")) << "some label is narrow";
+  EXPECT_FALSE(lines.contains("0"));
+}
+
 TEST_F(SplitPanels, HalfIsChosenKeptOrLeft) {
   begin();
   EXPECT_TRUE(shows("Settings of B, the right half"));
