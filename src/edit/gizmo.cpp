@@ -13,13 +13,14 @@ namespace speculum {
 namespace {
 
 constexpr int ringSteps = 72;
-constexpr double axisStart = 0.14;  // share of the arm; keeps the middle free
-constexpr double planeNear = 0.32;  // share of the arm where a plane's square begins and ends
+// Shares of the arm.
+constexpr double axisStart = 0.14;  // keeps the middle free
+constexpr double planeNear = 0.32;  // where a plane's square begins and ends
 constexpr double planeFar = 0.56;
-constexpr double centerPixels = 7.0;  // radius of the handle of the view's plane
-constexpr double headPixels = 15.0;   // length of an arrow's head
-constexpr double boxPixels = 5.5;     // half a side of the head of a handle that scales
-constexpr double leastFactor = 0.01;  // of one drag
+constexpr double centerRadius = 0.076;  // of the handle of the view's plane
+constexpr double headLength = 0.163;    // of an arrow
+constexpr double boxHalf = 0.06;        // half a side of the head of a handle that scales
+constexpr double leastFactor = 0.01;    // of one drag
 // Sines of the angle between eye and axis, or eye and plane, below which a handle cannot be grabbed.
 constexpr double steepestAxis = 0.15;
 constexpr double flattestPlane = 0.12;
@@ -113,8 +114,8 @@ void addBox(Grip handle, const glm::dvec2& center, double half, std::vector<Gizm
                     .filled = true});
 }
 
-// Adds a line with a head: a box for scaling, else an arrow's.
-void addShaft(const PictureView& picture, const glm::dvec3& pivot, const glm::dvec3& arm, Grip handle,
+// Adds a line with a head: a box for scaling, else an arrow's. `pixels`: length of the arm as it faces the eye.
+void addShaft(const PictureView& picture, const glm::dvec3& pivot, const glm::dvec3& arm, double pixels, Grip handle,
               std::vector<GizmoShape>& shapes) {
   GizmoShape shaft{.handle = handle};
   addLine(shaft, picture.line(pivot + axisStart * arm, pivot + arm));
@@ -125,19 +126,19 @@ void addShaft(const PictureView& picture, const glm::dvec3& pivot, const glm::dv
     return;
   }
   if (modeOf(handle) == GizmoMode::scale) {
-    return addBox(handle, *tip, boxPixels, shapes);
+    return addBox(handle, *tip, boxHalf * pixels, shapes);
   }
   const glm::dvec2 along = glm::normalize(*tip - *tail);
-  const glm::dvec2 across = 0.36 * headPixels * glm::dvec2(-along.y, along.x);
-  const glm::dvec2 end = *tip + headPixels * along;
+  const glm::dvec2 across = 0.36 * headLength * pixels * glm::dvec2(-along.y, along.x);
+  const glm::dvec2 end = *tip + headLength * pixels * along;
   shapes.push_back({.handle = handle, .points = {end, *tip + across, *tip - across}, .filled = true});
 }
 
-void addCenter(const glm::dvec2& center, std::vector<GizmoShape>& shapes) {
+void addCenter(const glm::dvec2& center, double radius, std::vector<GizmoShape>& shapes) {
   GizmoShape circle{.handle = Grip::moveView, .filled = true};
   for (int i = 0; i < 20; ++i) {
     const double angle = 2.0 * std::numbers::pi * i / 20.0;
-    circle.points.push_back(center + centerPixels * glm::dvec2(std::cos(angle), std::sin(angle)));
+    circle.points.push_back(center + radius * glm::dvec2(std::cos(angle), std::sin(angle)));
   }
   shapes.push_back(std::move(circle));
 }
@@ -195,7 +196,7 @@ std::vector<GizmoShape> Gizmo::shapes(const PictureView& picture) const {
     }
     if (glm::length(glm::cross(sight, this->axis(axis))) > steepestAxis) {
       const Grip handle = (scales ? scaleAxes : moveAxes)[axis];
-      addShaft(picture, pivot_, length * this->axis(axis), handle, shapes);
+      addShaft(picture, pivot_, length * this->axis(axis), arm_, handle, shapes);
     }
     if (scales) {
       continue;
@@ -211,9 +212,9 @@ std::vector<GizmoShape> Gizmo::shapes(const PictureView& picture) const {
     }
   }
   if (mode_ == GizmoMode::move) {
-    addCenter(*center, shapes);
+    addCenter(*center, centerRadius * arm_, shapes);
   } else if (scales) {
-    addBox(Grip::scaleAll, *center, centerPixels, shapes);
+    addBox(Grip::scaleAll, *center, centerRadius * arm_, shapes);
   }
   return shapes;
 }

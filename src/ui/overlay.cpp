@@ -25,11 +25,14 @@ ImU32 withAlpha(ImU32 color, int alpha) {
 
 class Painter {
  public:
-  Painter() : list_(*ImGui::GetBackgroundDrawList()), pixels_(ImGui::GetIO().DisplayFramebufferScale) {}
+  Painter()
+      : list_(*ImGui::GetBackgroundDrawList()),
+        pixels_(ImGui::GetIO().DisplayFramebufferScale),
+        scale_(ImGui::GetFontSize() / 15.0f) {}
 
   void lines(std::span<const PixelLine> lines, ImU32 color, float width) {
     for (const PixelLine& line : lines) {
-      list_.AddLine(at(line.a), at(line.b), color, width);
+      list_.AddLine(at(line.a), at(line.b), color, scale_ * width);
     }
   }
   void shaded(std::span<const PixelLine> all, ImU32 color, float width) {
@@ -55,16 +58,16 @@ class Painter {
     const int count = static_cast<int>(points.size());
     list_.AddConvexPolyFilled(points.data(), count, isPlane(shape.handle) ? withAlpha(color, planeAlpha) : color);
     const ImU32 edge = isPlane(shape.handle) ? color : shade;
-    list_.AddPolyline(points.data(), count, edge, ImDrawFlags_Closed, 1.5f);
+    list_.AddPolyline(points.data(), count, edge, ImDrawFlags_Closed, 1.5f * scale_);
   }
   // Draws the label beside `where`, but within `room`.
   void label(const std::string& text, const glm::dvec2& where, const WindowRect& room) {
-    const glm::vec2 edge(6.0f, 4.0f);
+    const glm::vec2 edge = scale_ * glm::vec2(6.0f, 4.0f);
     const ImVec2 letters = ImGui::CalcTextSize(text.c_str());
     const glm::vec2 size = glm::vec2(letters.x, letters.y) + 2.0f * edge;
-    const glm::vec2 wish = glm::vec2(at(where).x, at(where).y) + glm::vec2(12.0f, 10.0f);
+    const glm::vec2 wish = glm::vec2(at(where).x, at(where).y) + 2.0f * edge;
     const glm::vec2 low = glm::max(glm::min(wish, room.corner + room.size - size), room.corner);
-    list_.AddRectFilled({low.x, low.y}, {low.x + size.x, low.y + size.y}, IM_COL32(0, 0, 0, 190), 4.0f);
+    list_.AddRectFilled({low.x, low.y}, {low.x + size.x, low.y + size.y}, IM_COL32(0, 0, 0, 190), edge.y);
     list_.AddText({low.x + edge.x, low.y + edge.y}, IM_COL32_WHITE, text.c_str());
   }
 
@@ -75,6 +78,7 @@ class Painter {
 
   ImDrawList& list_;
   ImVec2 pixels_;  // pixels of the picture in one unit of ImGui's coordinates
+  float scale_;    // of the panels' texts: widths are for 1
 };
 
 }  // namespace
@@ -84,10 +88,9 @@ void passOutline(const PanelContext& ui) {
   if (ui.output.hoveredPath.empty() || ui.output.hoveredPath != ui.input.frame.outlinedPath) {
     return;
   }
-  const float width = std::max(1.0f, 0.14f * ImGui::GetFontSize());
   Painter painter;
-  painter.lines(ui.input.frame.outline, IM_COL32(0, 0, 0, 190), 2.5f * width);
-  painter.lines(ui.input.frame.outline, IM_COL32(255, 196, 40, 255), width);
+  painter.lines(ui.input.frame.outline, IM_COL32(0, 0, 0, 190), 5.25f);
+  painter.lines(ui.input.frame.outline, IM_COL32(255, 196, 40, 255), 2.1f);
 }
 
 void editOverlay(const ShownOverlay& overlay, const WindowRect& picture) {

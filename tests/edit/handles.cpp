@@ -127,6 +127,20 @@ TEST(GizmoHandles, AreWholeBeyondTheirMirrorsEdge) {
   });
 }
 
+// On a monitor with small pixels all of a handle grows, not its arm alone.
+TEST(GizmoHandles, HeadsGrowWithTheArm) {
+  const PictureView picture = lookingAt({0, 0, 4}, {0, 0, 0});
+  for (const GizmoMode mode : {GizmoMode::move, GizmoMode::scale}) {
+    const std::vector<GizmoShape> small = Gizmo(mode, {0, 0, 0}, arm).shapes(picture);
+    const std::vector<GizmoShape> large = Gizmo(mode, {0, 0, 0}, 2.0 * arm).shapes(picture);
+    ASSERT_EQ(small.size(), large.size());
+    for (size_t i = 0; i < small.size(); ++i) {
+      const auto length = [](const GizmoShape& shape) { return glm::distance(shape.points[0], shape.points[1]); };
+      EXPECT_NEAR(length(large[i]), 2.0 * length(small[i]), 1e-6) << i;
+    }
+  }
+}
+
 TEST(GizmoHandles, HandlesTowardsTheEyeAreHidden) {
   const PictureView picture = lookingAt({0, 0, 4}, {0, 0, 0});
   for (const GizmoShape& shape : Gizmo(GizmoMode::move, {0, 0, 0}, arm).shapes(picture)) {
