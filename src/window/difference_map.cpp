@@ -115,6 +115,7 @@ bool DifferenceMap::update(const ShownPicture& shown, const std::function<Image8
                   .camera = shown.state.camera,
                   .clearColor = shown.settings.view.clearColor};
   if (view != view_) {
+    plays_ = view_ && view.time && view.time != view_->time;
     const bool cleared = reset();
     view_ = view;
     still_ = Clock::now();
@@ -151,7 +152,8 @@ std::string DifferenceMap::status() const {
   if (tracing_.busy() && !truth_) {
     return fmt::format("Tracing the reference: {:.0f} %", 100.0 * tracing_.progress().value_or(1.0));
   }
-  return truth_ ? "Comparing" : "Waiting for the view to stand still (pause the animation)";
+  return truth_ ? "Comparing"
+                : fmt::format("Waiting for the view to stand still{}", plays_ ? " (pause the animation)" : "");
 }
 
 }  // namespace speculum

@@ -62,6 +62,7 @@ class DifferenceMap {
   bool lacksReference() const;
 
   std::optional<View> view_;
+  bool plays_ = false;                // the last change of the view was one of the time
   std::optional<Settings> compared_;  // settings of the picture compared last
   Clock::time_point still_;           // since when the view has not changed
   BackgroundJob<Truth> tracing_;

@@ -53,6 +53,24 @@ TEST(DifferenceMap, ErrorsOfMirrorsAreWithinTheirOutlines) {
   EXPECT_TRUE(difference.mirrorErrors().empty());
 }
 
+TEST(DifferenceMap, OnlyAnimationsAreToBePaused) {
+  Scene scene;
+  scene.lights.resize(1);
+  scene.lights[0].orbit.emplace().speed = 90.0;
+  DifferenceMap difference;
+  const auto statusAt = [&](double time) {
+    const SceneState state = evaluate(scene, time);
+    difference.update(
+        {scene, state, Settings(), 96, 54}, [] { return Image8(96, 54); }, 4);
+    return difference.status();
+  };
+  EXPECT_EQ(statusAt(0.0), "Waiting for the view to stand still");
+  EXPECT_EQ(statusAt(0.1), "Waiting for the view to stand still (pause the animation)");
+  scene.camera.position.x += 1.0;
+  EXPECT_EQ(statusAt(0.1), "Waiting for the view to stand still") << "it is paused";
+  difference.stop();
+}
+
 TEST(BackgroundJob, ResultIsTakenOnce) {
   BackgroundJob<int> job;
   EXPECT_FALSE(job.busy());
