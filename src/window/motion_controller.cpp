@@ -222,6 +222,11 @@ std::string stillText(const Scene& scene, const Settings& settings, ShadowLookup
   add((asked.ripple && effects.rippleLookup == ReflectionSource::image) ||
           (asked.rough && effects.roughLookup == ReflectionSource::image),
       "ripples and blur only of what a smooth mirror shows");
+  const auto isGrainy = [&](const MeshPart& part) {
+    return isTransparent(part.material, effects) && part.material.cutoff < 0.0;
+  };
+  add(std::ranges::any_of(scene.meshes, [&](const Mesh& mesh) { return std::ranges::any_of(mesh.parts, isGrainy); }),
+      "grain of transparent materials");
   return text;
 }
 

@@ -471,6 +471,21 @@ TEST(StillText, SaysTheErrorOfTheSettingsInForce) {
   }
 }
 
+TEST(StillText, CoverageIsGrainyAndCutOutsAreExact) {
+  Scene scene;
+  scene.meshes.resize(1);
+  scene.meshes[0].parts.resize(1);
+  Material& material = scene.meshes[0].parts[0].material;
+  EXPECT_EQ(stillText(scene, {}, ShadowLookup::traced), "");
+  material.opacity = 0.5;
+  EXPECT_EQ(stillText(scene, {}, ShadowLookup::traced), "grain of transparent materials");
+  Settings opaque;
+  opaque.effects.transparency = false;
+  EXPECT_EQ(stillText(scene, opaque, ShadowLookup::traced), "");
+  material.cutoff = 0.5;
+  EXPECT_EQ(stillText(scene, {}, ShadowLookup::traced), "");
+}
+
 // The text names maps exactly where the plan of a random scene uses them.
 TEST(StillText, AgreesWithThePlan) {
   std::mt19937 random(3);
