@@ -27,6 +27,17 @@ bool sameStructure(const SceneContent& a, const SceneContent& b) {
          });
 }
 
+// Says whether both draw the same picture. Names of mirrors count, because their passes have them.
+bool samePicture(SceneContent a, SceneContent b) {
+  for (SceneContent* content : {&a, &b}) {
+    content->bookmarks.clear();
+    content->origins = {};
+    std::ranges::for_each(content->objects, [](Object& object) { object.name.clear(); });
+    std::ranges::for_each(content->lights, [](PointLight& light) { light.name.clear(); });
+  }
+  return a == b;
+}
+
 }  // namespace
 
 SceneDocument::SceneDocument(Scene& scene) : scene_(scene) {
@@ -86,6 +97,7 @@ std::string SceneDocument::labelOf(const Step& step) {
 void SceneDocument::recordChange(const SceneContent& before) {
   placeMaterialMirrors(scene_);
   ++revision_;
+  pictureRevision_ += samePicture(before, content()) ? 0 : 1;
   structureRevision_ += sameStructure(before, content()) ? 0 : 1;
 }
 

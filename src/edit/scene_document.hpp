@@ -88,6 +88,8 @@ class SceneDocument {
   bool modified() const;
   // Rises with every change of the scene, undo and redo included.
   uint64_t revision() const { return revision_; }
+  // Rises with every change that a picture may show, but not with names and bookmarks.
+  uint64_t pictureRevision() const { return pictureRevision_; }
   // Rises when nodes or copies are added, removed or reordered: indices and counts from before are then stale.
   uint64_t structureRevision() const { return structureRevision_; }
 
@@ -138,6 +140,7 @@ class SceneDocument {
   std::filesystem::path savedFile_;
   std::optional<std::string> savedText_;
   uint64_t revision_ = 0;
+  uint64_t pictureRevision_ = 0;
   uint64_t structureRevision_ = 0;
   mutable std::optional<std::pair<uint64_t, bool>> modified_;  // revision, and modified() at that revision
 };

@@ -373,7 +373,7 @@ const FittedPlan& Demo::planFrame(Frame& frame, const SceneState& state) {
                                                          .cache = cache,
                                                          .shownOnly = shownOnly},
                                                .planner = half.planner,
-                                               .shown = {.revision = workspace_.revision(),
+                                               .shown = {.revision = workspace_.pictureRevision(),
                                                          .shaders = renderer_.pipelines().revision(),
                                                          .time = contentTime(scene, state.time),
                                                          .size = pictureSize()},

@@ -221,7 +221,9 @@ void Pace::planStill(const Request& request) {
   // The mean begins anew when nothing moves any more, even if nothing else has changed.
   auto shown = moving() ? std::nullopt : std::optional(std::pair(request.frame.settings, request.shown));
   if (shown) {
-    shown->first.ui = {};  // panels of another size change no pixel of the picture
+    // These settings change no pixel of a still picture.
+    shown->first.ui = {};
+    shown->first.quality.motionMs.reset();
   }
   if (std::exchange(shown_, shown) != shown || moving()) {
     forgetStill();

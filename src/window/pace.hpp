@@ -179,7 +179,7 @@ class Pace {
 
   // Identifies what a still picture shows, besides the chosen settings.
   struct Shown {
-    uint64_t revision = 0;       // of the scene's document
+    uint64_t revision = 0;       // SceneDocument::pictureRevision()
     uint64_t shaders = 0;        // revision of the pipelines
     std::optional<double> time;  // of a scene that moves
     glm::ivec2 size{0};          // pixels of the picture

@@ -120,7 +120,7 @@ class Workspace {
   // Say whether frames are needed although nothing happens.
   bool animates() const { return !view_.playback.shown().paused && animated(); }
   bool working() const { return accuracy().working() || opener_.working() || split().working(); }
-  uint64_t revision() const { return document_->revision(); }
+  uint64_t pictureRevision() const { return document_->pictureRevision(); }
   bool dragging() const { return editor_->dragging(); }
   bool statusFades() const { return status_.fades(); }
 

@@ -119,6 +119,21 @@ TEST_F(Editing, DraggedAxisFollowsThePixels) {
   EXPECT_EQ(status(), "Nothing to redo");
 }
 
+// The mean of still pictures begins anew with each change of the picture.
+TEST_F(Editing, NamesAndBookmarksChangeNoPicture) {
+  const uint64_t revision = workspace_->pictureRevision();
+  Object object = scene().objects.at(0);
+  object.name = "renamed";
+  send(EditNode{ball, object, false});
+  send(AddBookmark{});
+  ASSERT_EQ(scene().objects.at(0).name, "renamed");
+  ASSERT_FALSE(scene().bookmarks.empty());
+  EXPECT_EQ(workspace_->pictureRevision(), revision);
+  object.position.x += 0.1;
+  send(EditNode{ball, object, false});
+  EXPECT_GT(workspace_->pictureRevision(), revision);
+}
+
 TEST_F(Editing, LongNamesLeaveShortTexts) {
   Object named = scene().objects.at(0);
   named.name = std::string(20'000, 'n');

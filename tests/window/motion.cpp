@@ -766,6 +766,8 @@ TEST_F(PacedScene, StillPicturesConvergeOnce) {
   EXPECT_EQ(pictureOf(), std::pair(3, 3)) << "the mean again";
   chosen_.ui.scale = 2.0;
   EXPECT_EQ(pictureOf(), std::pair(3, 3)) << "the size of panels changes no pixel";
+  chosen_.quality.motionMs = 0.0;
+  EXPECT_EQ(pictureOf(), std::pair(3, 3)) << "nor does what moves otherwise";
   revision_ = 2;
   EXPECT_EQ(pictureOf(), std::pair(1, 0)) << "something else is shown";
   revision_ = 3;
