@@ -63,7 +63,7 @@ struct SetSettings {
 struct ResetSettings {};
 
 // A | B.
-struct ToggleSplit {   // begins with the present settings on the left, or ends
+struct ToggleSplit {   // begins with the present settings on the left; ends, unless B is to be naive
   bool naive = false;  // B begins with the settings of most mirror demos, else with the present ones
 
   bool operator==(const ToggleSplit&) const = default;

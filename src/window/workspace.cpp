@@ -393,7 +393,10 @@ void Workspace::dismissMessage() {
 
 void Workspace::toggleSplit(bool naive) {
   if (split().on()) {
-    return settings_.endSplit();
+    settings_.endSplit();
+    if (!naive) {
+      return;
+    }
   }
   settings_.beginSplit(naive, middleOfFreePicture());
   reports_[1] = {};

@@ -45,6 +45,17 @@ TEST_F(Split, PanelsChangeTheChosenHalf) {
   EXPECT_TRUE(edit().redo.empty());
 }
 
+TEST_F(Split, NaiveBBeginsAnewWhileComparing) {
+  send(ToggleSplit{});
+  setExposure(2.0);
+  send(ToggleSplit{true});
+  EXPECT_TRUE(split().on);
+  EXPECT_EQ(workspace_->shownSettings(1).reflection.maxDepth, 1);
+  EXPECT_EQ(exposure(1), 1.0);
+  send(ToggleSplit{});
+  EXPECT_FALSE(split().on);
+}
+
 TEST_F(Split, KeepTakesTheHalfAsOneStep) {
   const Settings before = shown().settings;
   send(ToggleSplit{true});
