@@ -186,7 +186,7 @@ void Demo::beginOpening() {
     apply(SetPaused{false});
   }
   const bool paced = options_.frames == 0 && budgetMs() > 0.0;
-  first_.begin(paced && workspace_.animates(), paced && device_.info().isCpu());
+  first_.begin(paced && workspace_.animates(), paced && device_.info().isCpu() && workspace_.browser().hasThumbnail());
   opened_ = Clock::now();
   workspace_.setPlayCost("");
   workspace_.browser().showPoster(true);

@@ -54,6 +54,12 @@ fs::path storedThumbnail(const fs::path& scene) {
   return userCacheDir() / "thumbnails" / (path.hex() + ".jpg");
 }
 
+// Returns where the scene's thumbnail is, or would be stored.
+fs::path thumbnailOf(const fs::path& scene) {
+  const fs::path shipped = shippedThumbnail(scene);
+  return isFile(shipped) ? shipped : storedThumbnail(scene);
+}
+
 // Returns the middle of the picture, shrunk by averages of its 8-bit codes.
 Image8 shrunk(const Image8& picture) {
   const glm::dvec2 size(picture.width, picture.height);
@@ -172,8 +178,7 @@ void SceneBrowser::show(const fs::path& file, bool withFolder) {
 std::vector<Image8> SceneBrowser::thumbnails() const {
   std::vector<Image8> pictures;
   for (const SceneEntry& entry : shown_.scenes) {
-    const fs::path shipped = shippedThumbnail(entry.file);
-    const fs::path file = isFile(shipped) ? shipped : storedThumbnail(entry.file);
+    const fs::path file = thumbnailOf(entry.file);
     Image8 picture;
     try {
       picture = isFile(file) ? readImage8(file) : Image8();
@@ -185,6 +190,10 @@ std::vector<Image8> SceneBrowser::thumbnails() const {
     pictures.push_back(fits ? std::move(picture) : Image8());
   }
   return pictures;
+}
+
+bool SceneBrowser::hasThumbnail() const {
+  return isFile(thumbnailOf(shown_.scenes[shown_.shown].file));
 }
 
 void SceneBrowser::storeThumbnail(const std::function<Image8()>& picture) {

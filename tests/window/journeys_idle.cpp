@@ -246,6 +246,15 @@ TEST_F(PacedWindow, SlowScenesOpenStillBelowTheirThumbnail) {
   EXPECT_GT(shown().playback.time, 0.0);
 }
 
+TEST_F(PacedWindow, NothingCoversScenesWithoutThumbnails) {
+  const std::filesystem::path file = home_.path() / "bare.toml";
+  std::filesystem::copy_file(options_.scene, file);
+  demo_->apply(OpenScene{file});
+  ASSERT_TRUE(waitFor([&] { return shownScene().name == "bare"; }));
+  run(2);
+  EXPECT_FALSE(shown().browser.poster) << "a draft is more than a title";
+}
+
 class FastWindow : public PacedWindow {
  protected:
   FastWindow() : PacedWindow("100000") {}

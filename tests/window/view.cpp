@@ -753,6 +753,7 @@ TEST_F(Opening, FirstPictureIsTheThumbnailOfForeignFiles) {
   }
   const auto expectThumbnail = [&](const char* of) {
     EXPECT_EQ(thumbnail().width, 0) << of;
+    EXPECT_FALSE(workspace_->browser().hasThumbnail()) << of;
     workspace_->browser().takeListed();
     drawFrame(picture);
     EXPECT_TRUE(workspace_->browser().takeListed());
@@ -760,6 +761,7 @@ TEST_F(Opening, FirstPictureIsTheThumbnailOfForeignFiles) {
     EXPECT_FALSE(workspace_->browser().takeListed()) << "once";
     const Image8 small = thumbnail();
     ASSERT_EQ(small.width, 192) << of;
+    EXPECT_TRUE(workspace_->browser().hasThumbnail()) << of;
     EXPECT_LT(*small.at(90, 0), 215) << "the dark row";
     EXPECT_GT(*small.at(90, 50), 245);
   };
@@ -776,6 +778,7 @@ TEST_F(Opening, FirstPictureIsTheThumbnailOfForeignFiles) {
   };
   frameDrawn([]() -> Image8 { throw OutOfMemoryError("no memory"); });
   drop({sceneFile("no_mirror")});
+  EXPECT_TRUE(workspace_->browser().hasThumbnail());
   frameDrawn([&] {
     ADD_FAILURE() << "a scene that comes with a thumbnail needs no picture";
     return picture;
