@@ -187,6 +187,7 @@ void Demo::beginOpening() {
   }
   const bool paced = options_.frames == 0 && budgetMs() > 0.0;
   first_.begin(paced && workspace_.animates(), paced && device_.info().isCpu() && workspace_.browser().hasThumbnail());
+  halves_.drawn().pace.forgetPlayCost();
   opened_ = Clock::now();
   workspace_.setPlayCost("");
   workspace_.browser().showPoster(true);

@@ -157,8 +157,8 @@ class Pace {
     shown_.reset();
     drawn_.clear();
     learned_ = 0;
-    playCost_.reset();
   }
+  void forgetPlayCost() { playCost_.reset(); }  // another scene is shown
   bool moving() const { return movement_.moving(); }
   // Says whether another frame is needed although nothing happens.
   bool wantsFrame() const { return movement_.ending() || (!moving() && (!isComplete() || !slow_.finished())); }

@@ -717,6 +717,16 @@ TEST_F(OpenedScene, MovesUnaskedWhereTheDeviceCanMoveIt) {
   }
 }
 
+TEST_F(OpenedScene, EditsKeepTheOfferToPlay) {
+  open(1600.0);
+  ASSERT_TRUE(startsWith(pace_.playCost().value_or(""), "Play"));
+  pace_.sceneChanged();
+  draw(1600.0);
+  EXPECT_TRUE(startsWith(pace_.playCost().value_or(""), "Play"));
+  pace_.forgetPlayCost();
+  EXPECT_FALSE(pace_.playCost());
+}
+
 TEST(FirstPictures, StaysCoveredUntilThereIsAGoodPicture) {
   FirstPictures opening;
   opening.begin(true, true);
