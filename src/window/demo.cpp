@@ -175,7 +175,7 @@ void Demo::updateUi(double seconds) {
     workspace_.apply(command);
   }
   workspace_.update();
-  workspace_.view().playback.advance(seconds);
+  workspace_.view().playback.advance(workspace_.animates() ? seconds : 0.0);
 }
 
 // Draws the panels alone before a scene's first picture, which may take long.

@@ -268,6 +268,12 @@ TEST_F(Journey, ScreenshotsIncludeOrOmitPanels) {
   EXPECT_TRUE(readImage8(*recording / "00001.png").rgba == bare.rgba) << "the message is in no picture";
 }
 
+TEST_F(Journey, TimeStandsWhereNothingMoves) {
+  run(10);
+  EXPECT_FALSE(shown().playback.paused);
+  EXPECT_EQ(shown().playback.time, 0.0);
+}
+
 TEST_F(Journey, TimesOfFramesAreComplete) {
   click("panel.Performance");
   run(40);
