@@ -184,7 +184,7 @@ void SimpleUI::initVulkan() {
   info.PipelineCache = renderer_.pipelineCache().get();
   info.DescriptorPool = pool_.get();
   info.MinImageCount = 2;
-  info.ImageCount = std::max(renderer_.displayImageCount(), 3u);
+  info.ImageCount = std::max(renderer_.displayImageCount(), 2 * framesInFlight);  // a frame may record two parts
   info.CheckVkResultFn = [](VkResult result) { check(result, "the panel's drawing"); };
   const VkRenderPass renderPass = inRenderPass() ? renderer_.overlayRenderPass() : VK_NULL_HANDLE;
   backend_->vulkan = true;  // from here on there is something to shut down, even if ImGui_ImplVulkan_Init() fails
@@ -222,9 +222,10 @@ void SimpleUI::record(Frame& frame, Part part) {
   const PassScope scope = renderer_.beginOverlay(frame, inRenderPass());
   ImDrawData& data = *ImGui::GetDrawData();
   const std::string_view shown = part == Part::divider ? panels::dividerTitle : panels::statusTitle;
+  std::vector<std::pair<ImDrawList*, ImVector<ImDrawCmd>>> leftOut;
   for (int i = 0; part != Part::all && i < data.CmdListsCount; ++i) {
     if (data.CmdLists[i]->_OwnerName != shown) {
-      data.CmdLists[i]->CmdBuffer.resize(0);
+      leftOut.emplace_back(data.CmdLists[i], ImVector<ImDrawCmd>()).second.swap(data.CmdLists[i]->CmdBuffer);
     }
   }
   // The backend sizes its buffers by these totals. It destroys a buffer that is too small before it makes a larger one,
@@ -232,6 +233,9 @@ void SimpleUI::record(Frame& frame, Part part) {
   data.TotalVtxCount = std::max(data.TotalVtxCount, 100'000);
   data.TotalIdxCount = std::max(data.TotalIdxCount, 200'000);
   ImGui_ImplVulkan_RenderDrawData(&data, scope.commands());
+  for (auto& [list, commands] : leftOut) {
+    list->CmdBuffer.swap(commands);
+  }
 }
 
 void SimpleUI::readWindow() {

@@ -142,8 +142,11 @@ void Demo::drawFrame(double seconds) {
   }
   if (!bare_ || workspace_.split().on()) {
     ui_.record(*frame, bare_ ? SimpleUI::Part::divider : SimpleUI::Part::all);
-  } else if (workspace_.capture().hidesPanels()) {
-    renderer_.captureNow(*frame);
+  }
+  if (workspace_.capture().hidesPanels()) {
+    if (saved_) {
+      renderer_.captureNow(*frame);
+    }
     ui_.record(*frame, SimpleUI::Part::status);  // a full screen has no title that says how to stop
   }
   const auto& [plan, settings, message] = half.pace.planned();

@@ -118,5 +118,25 @@ TEST_F(SplitJourney, HalvesMoveTogetherAndAreRecorded) {
   EXPECT_FALSE(split().on);
 }
 
+TEST_F(SplitJourney, RecordingInFullScreenSaysHowToStop) {
+  press("space");
+  begin();
+  demo_->apply(TogglePanel{});
+  demo_->apply(DismissMessage{});
+  run(4);
+  const Image8 before = picture();
+  demo_->apply(ToggleRecording{false});
+  run(5);
+  const auto message = [&](const Image8& image) {
+    return differing(image, before, 0, dividerX() - 12) + differing(image, before, dividerX() + 12, width);
+  };
+  // What the test reads of a frame that is recorded is the recorded picture.
+  const int one = message(picture());
+  run(1);
+  const int other = message(picture());
+  EXPECT_EQ(std::min(one, other), 0) << "the message is in no picture";
+  EXPECT_GT(std::max(one, other), 500);
+}
+
 }  // namespace
 }  // namespace speculum
