@@ -13,7 +13,6 @@ namespace speculum {
 
 namespace {
 
-constexpr int firstDecision = 8;         // pictures
 constexpr int around = refinedSide / 2;  // texels beside a tile that count
 constexpr size_t shortestRun = 2;        // tiles of a row: shorter ones would make more rectangles than they save
 
@@ -44,8 +43,11 @@ bool startsHalf(int pictures) {
 }
 
 bool decidesTiles(int pictures) {
+  // Each 8 pictures hit all eighths of a texel's width and height once. With halves that do not, an edge that all rows
+  // of texels see at the same place would look converged before it is.
+  constexpr int evenHalves = 16;
   const auto n = static_cast<unsigned>(std::max(pictures, 0));
-  return pictures >= firstDecision && (std::has_single_bit(n) || (n % 3 == 0 && std::has_single_bit(n / 3)));
+  return n % evenHalves == 0 && (std::has_single_bit(n) || (n % 3 == 0 && std::has_single_bit(n / 3)));
 }
 
 RefinedTiles refineTiles(const PictureSum& half, const PictureSum& whole, const glm::ivec2& texels,

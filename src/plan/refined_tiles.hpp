@@ -25,8 +25,8 @@ struct RefinedTiles {
   bool none() const { return share() == 0.0; }
 };
 
-// Says whether tiles are decided after so many pictures: after 8, 12, 16, 24, 32, 48, 64, 96 and so on, where the mean
-// of the first half can be compared with that of the second, and both are spread evenly over the pixel.
+// Says whether tiles are decided after so many pictures: after 16, 32, 48, 64, 96 and so on, where the mean of the
+// first half can be compared with that of the second, and both are spread evenly over the pixel.
 bool decidesTiles(int pictures);
 // Says whether the sum of so many pictures is needed to decide later: it is the first half of a decision.
 bool startsHalf(int pictures);

@@ -317,7 +317,7 @@ struct RefinedScene {
 class RefinedMeans : public testing::TestWithParam<RefinedScene> {};
 
 TEST_P(RefinedMeans, AreWholeMeansUpToWhereTheyStopped) {
-  const int all = fullTests() ? 24 : 13;
+  const int all = fullTests() ? 33 : 17;
   Options options = inTiles(GetParam().name);
   options.size = fullTests() ? options.size : PictureSize{90, 50};
   set(options, {{"view.accumulate", std::to_string(all)}});
@@ -338,7 +338,7 @@ TEST_P(RefinedMeans, AreWholeMeansUpToWhereTheyStopped) {
     return sum;
   };
   const double wholeSamples = samples();
-  set(session, {{"view.accumulate_error", "2"}});
+  set(session, {{"view.accumulate_error", "0.5"}});
   std::map<int, std::shared_ptr<const RefinedTiles>> decisions;
   session.draw(0.0, true, [&] {
     if (const auto& refined = session.lastFrame().plan.refined) {
@@ -370,7 +370,7 @@ TEST_P(RefinedMeans, AreWholeMeansUpToWhereTheyStopped) {
   EXPECT_EQ(draw(session).rgba, picture.rgba);
   if (fullTests() || std::string_view(GetParam().name) == "shadows") {
     options.renderPath = RenderPath::renderPass;
-    set(options, {{"view.accumulate_error", "2"}});
+    set(options, {{"view.accumulate_error", "0.5"}});
     QuietSession other(options);
     EXPECT_EQ(draw(other).rgba, picture.rgba) << "the same on both render paths";
   }
@@ -400,9 +400,9 @@ TEST(Accumulation, EndsWhereEverythingHasConverged) {
       size, {{"view.accumulate", "64"}, {"view.accumulate_error", "0.25"}}));
   int frames = 0;
   session.draw(0.0, true, [&] { return ++frames > 0; });
-  EXPECT_EQ(frames, 9) << "eight pictures, and the mean again";
+  EXPECT_EQ(frames, 17) << "sixteen pictures, and the mean again";
   session.finish();
-  EXPECT_EQ(session.lastFrame().pictures, 8);
+  EXPECT_EQ(session.lastFrame().pictures, 16);
   EXPECT_EQ(session.lastFrame().passes().back().kind, PassKind::display);
   const Image8 picture = session.picture();
   set(session, {{"view.accumulate_error", "0"}});
