@@ -63,8 +63,11 @@ SkippedMirror unseenMirror(const Scene& scene, const SceneState& state, const Vi
 }  // namespace
 
 double heightAbove(const MirrorState& mirror, const glm::dvec3& eye) {
-  const double height = glm::dot(mirror.normal, eye - mirror.origin);
-  return std::abs(height) > 1e-15 * (glm::length(eye) + glm::length(mirror.origin)) ? height : 0.0;
+  const glm::dvec3 from = eye - mirror.origin;
+  const double height = glm::dot(mirror.normal, from);
+  // Rounding of coordinates counts along the normal, that of the normal along the plane.
+  const double ofCoordinates = 1e-15 * glm::dot(glm::abs(mirror.normal), glm::abs(eye) + glm::abs(mirror.origin));
+  return std::abs(height) > ofCoordinates + 4e-16 * glm::length(from) ? height : 0.0;
 }
 
 bool isBehindEye(const View& view, std::span<const glm::dvec3> polygon) {

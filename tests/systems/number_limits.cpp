@@ -179,6 +179,7 @@ TEST(LargeMirrors, ReachTheHorizon) {
     add(rectangleText({0, 0, 0}, {-90, 0, 0}, metres, metres));
     add(rectangleText({0, 0, 0}, {-89, 0.5, 0.3}, metres, 0.7 * metres));
     add(polygonText({{-metres, 0, 0.5 * metres}, {metres, 0, metres}, {0.3 * metres, 0, -metres}}), metres < 1e12);
+    add(polygonText({{-metres, 0, metres}, {metres, 0, metres}, {0, 0, -metres}}), metres < 1e12);
     add(polygonText({{-3, 0, 3}, {3, 0, 3}, {0.5 * metres, 0, -metres}, {-0.5 * metres, 0, -metres}}));
   }
   expectTruths(files, {96, 54}, 2);
