@@ -20,9 +20,8 @@ float thresholdAt(uint index, uint seed) {
   return (float(bits >> 8) + 0.5) * (1.0 / 16777216.0);
 }
 
-// Says whether a surface with the cutoff of Material is there. `seed` is that of the ray or pixel. The opacity may fall
-// below a cutoff that it equals: by 5e-4 of it in a texture of half floats.
+// Says whether a surface is there. `cutoff` is Material::leastOpacity(), `seed` that of the ray or pixel.
 bool isThere(float opacity, float cutoff, uint index, uint seed, uint instance, uint triangle) {
   float random = thresholdAt(index, mixedBits(seed + mixedBits(instance * 0x9e3779b9u + triangle)));
-  return opacity >= (cutoff < 0.0 ? random : 0.999 * cutoff);
+  return opacity >= (cutoff < 0.0 ? random : cutoff);
 }

@@ -98,7 +98,7 @@ struct MaterialData {
   uint clamps;  // its textures do, instead of repeating
   uint firstColor;  // number of the color of its mesh's first vertex, see TraceScene::firstColorsOf(); noColors: none
   float opacity;
-  float cutoff;         // as Material::cutoff
+  float cutoff;         // Material::leastOpacity()
   uint opacityTexture;  // as `texture`
 };
 
@@ -198,7 +198,7 @@ struct DrawConstants {
 struct CoverageConstants {
   DrawConstants draw;
   float opacity;
-  float cutoff;  // as Material::cutoff
+  float cutoff;  // Material::leastOpacity()
 };
 
 // Numbers of specialisation constants. Each has one meaning, in whatever shader it stands.

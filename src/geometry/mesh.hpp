@@ -51,6 +51,8 @@ struct Material {
   double cutoff = -1.0;      // least product that counts as 1, any other as 0; below 0: products count as they are
   bool vertexAlpha = false;  // the alpha of Mesh::colors multiplies `opacity` too, and is somewhere below 1
 
+  // Returns the cutoff, less what a product that equals it may lose: 5e-4 of it in a texture of half floats.
+  double leastOpacity() const { return 0.999 * cutoff; }
   bool isTransparent() const { return opacity < 1.0 || opacityTexture >= 0 || cutoff > 1.0 || vertexAlpha; }
 };
 

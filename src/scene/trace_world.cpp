@@ -271,9 +271,7 @@ double TraceWorld::coverageOf(const SceneHit& objectHit) const {
     }
     opacity *= textureAt(scene_->textures[material.opacityTexture], uv, material.clamps).a;
   }
-  // What the files' numbers lose in floats must not make holes where alpha equals the cutoff: isThere() in
-  // shaders/coverage.glsl.
-  return material.cutoff < 0.0 ? opacity : opacity >= 0.999 * material.cutoff ? 1.0 : 0.0;
+  return material.cutoff < 0.0 ? opacity : opacity >= material.leastOpacity() ? 1.0 : 0.0;
 }
 
 uint32_t TraceWorld::partOf(const SceneHit& objectHit) const {

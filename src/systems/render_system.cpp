@@ -157,7 +157,7 @@ void bindOpacity(const Pipeline& pipeline, VkCommandBuffer commands, const Frame
 }
 
 gpu::CoverageConstants coverageConstants(const gpu::DrawConstants& draw, const Material& material) {
-  return {draw, static_cast<float>(material.opacity), static_cast<float>(material.cutoff)};
+  return {draw, static_cast<float>(material.opacity), static_cast<float>(material.leastOpacity())};
 }
 
 void RenderSystem::countDraw(EffectLedger& ledger, const Variant& variant) {

@@ -62,7 +62,7 @@ gpu::MaterialData materialData(const Material& material, const EffectSettings& e
           .clamps = material.clamps,
           .firstColor = firstColor,
           .opacity = effects.transparency ? static_cast<float>(material.opacity) : 1.0f,
-          .cutoff = static_cast<float>(material.cutoff),
+          .cutoff = static_cast<float>(material.leastOpacity()),
           .opacityTexture = textureOf(material.opacityTexture, effects.transparency)};
 }
 
