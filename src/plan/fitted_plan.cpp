@@ -130,7 +130,10 @@ std::string mebibytes(uint64_t bytes) {
 class PlanFitter {
  public:
   PlanFitter(const TargetLimits& limits, const FrameRequest& request)
-      : limits_(limits), asked_(request), chosen_(request.settings), fitted_{{}, pictureSettings(chosen_), {}} {}
+      : limits_(limits),
+        asked_(request),
+        chosen_(request.settings),
+        fitted_{{}, pictureSettings(chosen_), {}, limits.whyNoRays.empty()} {}
 
   FittedPlan fit() {
     boundImages();

@@ -20,6 +20,7 @@ struct FittedPlan {
   FramePlan plan;
   Settings settings;    // as requested, or lowered
   std::string message;  // what was lowered and why; empty if nothing was
+  bool traces = true;   // the device can trace rays through the scene
 };
 
 // Plans with settings lowered until the targets fit the limits. First unchanged images are rendered instead of reused,

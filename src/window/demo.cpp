@@ -149,7 +149,7 @@ void Demo::drawFrame(double seconds) {
     }
     ui_.record(*frame, SimpleUI::Part::status);  // a full screen has no title that says how to stop
   }
-  const auto& [plan, settings, message] = half.pace.planned();
+  const auto& [plan, settings, message, traces] = half.pace.planned();
   const double cpuMs = milliseconds(Clock::now() - begins) - frame->waitedMs;
   const size_t pipelines = std::exchange(pipelines_, renderer_.pipelines().count());
   const bool compiles = pipelines_ != pipelines;
@@ -254,7 +254,7 @@ bool Demo::takeTurns() {
 bool Demo::recordPicture(Frame& frame, const SceneState& state) {
   frame.capture = capture_ || saved_;
   try {
-    const auto& [plan, settings, message] = planFrame(frame, state);
+    const auto& [plan, settings, message, traces] = planFrame(frame, state);
     const std::optional<TargetDisplay> target = shownTarget();
     std::optional<SplitDisplay> split;
     if (const int index = halves_.index(); halves_.split()) {

@@ -279,8 +279,8 @@ void Pace::planFirst(const Request& request) {
     text_ = pictures_ == 1 ? "" : meanText(0);
     return;
   }
-  const FrameWork work = scaledWork(work_, whole, pictureSettings(withPictures(whole, pictures_)));
-  if (controller_.predict(work) <= longestWait * request.budgetMs) {
+  planWith(request, withPictures(request.frame.settings, pictures_), 0);
+  if (controller_.predict(work_) <= longestWait * request.budgetMs) {
     return planPicture(request, State::mean);
   }
   state_ = State::draft;

@@ -27,10 +27,11 @@ Image8 PictureHalf::pixels() {
 }
 
 std::string PictureHalf::text(const Scene& scene, const Settings& chosen, bool plays) const {
-  const Settings& planned = pace.planned().settings;
+  const FittedPlan& planned = pace.planned();
   // Pausing leads to a mean, for which `auto` chooses an exact lookup where there are rays.
-  const bool exact = plays && stillPictures(chosen) > 1 && planned.limit.rays;
-  const std::string rest = stillText(scene, chosen, exact ? ShadowLookup::hybrid : planned.effects.shadowLookup);
+  const bool exact = plays && stillPictures(chosen) > 1 && planned.traces;
+  const ShadowLookup lookup = exact ? ShadowLookup::hybrid : planned.settings.effects.shadowLookup;
+  const std::string rest = stillText(scene, chosen, lookup);
   if (!pace.text().empty() && plays) {
     return pace.text() + ". Space: pause for the " + (rest.empty() ? "exact picture" : "whole picture (" + rest + ")");
   }
