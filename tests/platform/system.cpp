@@ -362,6 +362,7 @@ TEST(Text, NothingPrintsButPrintLine) {
       {"cli/commands.cpp", 5},            // flushes the stream of --help, and shows the progress
       {"cli/compare_command.cpp", 1},     // a table of numbers
       {"cli/regress_command.cpp", 2},     // the worker's reply, and GitHub's commands
+      {"cli/stats.cpp", 1},               // JSON, which escapes what is foreign, or CSV
       {"platform/process_posix.cpp", 1},  // a constant line, where memory is short
       {"platform/text.cpp", 1}};
   const std::regex call(R"((^|[^a-z])([fd]?printf|f?puts|putchar|fputc|fwrite)\(|std::(cout|cerr|clog))");
