@@ -143,11 +143,11 @@ bool areParallel(const glm::dvec3& a, const glm::dvec3& b) {
   return std::abs(glm::dot(a, b)) > 1.0 - 1e-9;
 }
 
+// Says whether parallel mirrors lie in one plane.
 bool inOnePlane(const Placed& a, const Placed& b) {
   const Plane plane{a.state->polygon[0], a.state->normal};
   const double slack = std::max(a.state->slack, b.state->slack);
-  return areParallel(a.state->normal, b.state->normal) &&
-         std::ranges::all_of(b.state->polygon, [&](const auto& p) { return std::abs(plane.distance(p)) <= slack; });
+  return std::ranges::all_of(b.state->polygon, [&](const auto& p) { return std::abs(plane.distance(p)) <= slack; });
 }
 
 // Says whether the line through an edge of `a` separates `b` from `a`, except for `slack` metres.

@@ -46,8 +46,8 @@ class FrameHistory {
   // As passSeries(), but repeats each value until the next one, because few frames have their passes timed.
   std::vector<float> filledSeries(const std::string& pass) const;
 
-  // Returns a line of names with units, then one for each frame, oldest first; missing figures are empty: RFC
-  // 4180.
+  // Returns CSV by RFC 4180: a line of names with units, then one for each frame, oldest first. Missing figures are
+  // empty.
   std::string csv() const;
 
  private:
