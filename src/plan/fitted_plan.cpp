@@ -140,7 +140,7 @@ class PlanFitter {
     const bool automaticShadows = lookup() == ShadowLookup::automatic;
     chooseShadows();
     chooseReflections();
-    if (automaticShadows && tracesRays_ && fitted_.plan.effects.shadows) {
+    if (automaticShadows && fitted_.traces && fitted_.plan.effects.shadows) {
       chooseShadowsByPrice();
     }
     boundShadowMaps();
@@ -181,7 +181,7 @@ class PlanFitter {
     if (lookup() == ShadowLookup::automatic) {
       lookup() = ShadowLookup::map;
     } else if (lookup() == ShadowLookup::hybrid && !limits_.hybridShadows) {
-      lookup() = tracesRays_ ? ShadowLookup::traced : ShadowLookup::map;
+      lookup() = fitted_.traces ? ShadowLookup::traced : ShadowLookup::map;
       say("effects.shadow_lookup=hybrid is replaced by " + settingValue(fitted_.settings, "effects.shadow_lookup") +
           ": the device draws no lines or has no sampleRateShading");
     }
@@ -200,15 +200,15 @@ class PlanFitter {
 
   // Makes the first plan.
   void chooseReflections() {
-    if (!limits_.cpu || !tracesRays_) {
+    if (!limits_.cpu || !fitted_.traces) {
       setAutomatic(fitted_.settings, chosen_, ReflectionMethod::raster);
     }
     plan();
-    if (!limits_.cpu && tracesRays_ && raysAreFaster(fitted_.plan, asked_.scene, pictureSettings(chosen_))) {
+    if (!limits_.cpu && fitted_.traces && raysAreFaster(fitted_.plan, asked_.scene, pictureSettings(chosen_))) {
       setAutomatic(fitted_.settings, chosen_, ReflectionMethod::rays);
       plan();
     }
-    if (!tracesRays_ && fitted_.plan.effects.any()) {
+    if (!fitted_.traces && fitted_.plan.effects.any()) {
       replacesRays_ = true;
       replaceRays(fitted_.settings, asked_.scene);
       say("effects.* show images and maps instead of rays, without light that mirrors cast and shadows of too many "
@@ -265,7 +265,6 @@ class PlanFitter {
   }
 
   const TargetLimits& limits_;
-  const bool tracesRays_ = limits_.whyNoRays.empty();
   bool replacesRays_ = false;
   FrameRequest asked_;      // of the last plan
   const Settings& chosen_;  // of the request

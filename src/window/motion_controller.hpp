@@ -28,8 +28,7 @@ std::vector<MotionLevel> motionLevels(const Scene& scene, const Settings& chosen
 std::string motionText(const Settings& chosen, const MotionLevel& level);
 
 // Describes what a still picture of a scene approximates with these settings, and how closely; empty if it is exact as
-// docs/picture.md defines it. Roughness is exact if its mean is. `planned`: what an automatic shadow lookup
-// became.
+// docs/picture.md defines it. Roughness is exact if its mean is. `planned`: what an automatic shadow lookup became.
 std::string stillText(const Scene& scene, const Settings& settings, ShadowLookup planned);
 
 // Keeps the time of a moving picture's frames near a budget by choosing a level for each. The first level has the
