@@ -647,7 +647,7 @@ TEST_F(MtlFile, SeveralLibrariesMayHaveBlanks) {
   EXPECT_TRUE(contains(mesh.defects[0], "there is no file 'none.mtl'")) << mesh.defects[0];
 }
 
-TEST_F(MtlFile, LibrariesOfALongLineAreFoundInTime) {
+TEST_F(MtlFile, LibrariesOfLongLinesAreFoundInTime) {
   std::string names;
   for (int i = 0; i < 32'000; ++i) {
     names += " w" + std::to_string(i);

@@ -811,9 +811,7 @@ class ModelsBrought : public Saving {
     std::vector<std::pair<std::vector<glm::dvec3>, std::vector<glm::vec3>>> content;
     for (const Object& object : scene.objects) {
       const Mesh& mesh = scene.meshes.at(object.mesh);
-      auto& [corners, texels] = content.emplace_back();
-      std::ranges::transform(mesh.vertices, std::back_inserter(corners), &Vertex::position);
-      texels = scene.textures.at(mesh.parts.at(0).material.diffuseTexture).texels;
+      content.emplace_back(mesh.positions(), scene.textures.at(mesh.parts.at(0).material.diffuseTexture).texels);
     }
     return content;
   }
