@@ -151,17 +151,20 @@ glm::dvec2 pictureOffset(int index, const Settings& settings) {
   if (index == 0) {
     return glm::dvec2(0.0);
   }
-  // Leading bits of Sobol's first two dimensions by bit of the index. The centre is a corner of the first cell.
-  constexpr std::array<glm::ivec2, 6> directions = {{{4, 4}, {2, 6}, {1, 5}, {0, 7}, {0, 4}, {0, 6}}};
-  glm::ivec2 cell(4, 4);
-  for (size_t bit = 0; bit < directions.size(); ++bit) {
-    cell ^= (index >> bit & 1) * directions[bit];
-  }
+  // Column and row of each cell, in octal. Each eight cells hit all columns and all rows. The order was found by a
+  // search for slopes that are ratios of small numbers, where all texels along an edge or a thin line see it in the
+  // same few ways: both halves of a decision shall differ wherever their mean is wrong. The centre is a corner of the
+  // first cell.
+  constexpr std::array<uint8_t, 64> cells = {
+      044, 013, 067, 030, 052, 026, 075, 001, 070, 061, 054, 043, 035, 022, 016, 007, 077, 063, 050, 046, 032, 021,
+      015, 004, 073, 065, 056, 041, 037, 024, 010, 002, 071, 064, 055, 042, 036, 020, 017, 003, 076, 062, 057, 040,
+      034, 023, 011, 005, 072, 060, 051, 045, 033, 027, 014, 006, 074, 066, 053, 047, 031, 025, 012, 000};
+  const int cell = cells[static_cast<size_t>(index % 64)];
   // Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences" (2018).
   constexpr glm::dvec2 plastic(0.7548776662466927, 0.5698402909980532);
   const glm::dvec2 withinCell = glm::fract(0.5 + static_cast<double>(index / 64) * plastic);
   const double open = std::pow(std::min(settings.view.samples, settings.reflection.samples), -0.75);
-  return open * ((glm::dvec2(cell) + withinCell) / 8.0 - 0.5);
+  return open * ((glm::dvec2(cell / 8, cell % 8) + withinCell) / 8.0 - 0.5);
 }
 
 }  // namespace speculum

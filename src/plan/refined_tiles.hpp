@@ -64,8 +64,8 @@ inline constexpr int singleSamplePictures = 16;
 Settings pictureSettings(const Settings& settings);
 
 // Returns the offset from the pixel's centre at which picture `index` of a mean is sampled, in pixels; `settings` are
-// pictureSettings(). The first 64 offsets, from 0 on, fill the 8x8 grid of `speculum reference` in the order of Sobol's
-// sequence, so that any number of them is spread evenly. Each further 64 fill the same grid, moved within its cells. At
+// pictureSettings(). The first 64 offsets, from 0 on, fill the 8x8 grid of `speculum reference` in an order in
+// which any number of them is spread evenly. Each further 64 fill the same grid, moved within its cells. At
 // one sample a pixel the grid spans the whole pixel, at S samples S^-3/4 of its side, which errs least at edges.
 glm::dvec2 pictureOffset(int index, const Settings& settings);
 

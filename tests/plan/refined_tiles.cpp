@@ -148,6 +148,14 @@ Signal along(std::mt19937& random) {
   return make(random, direction);
 }
 
+// At most so many degrees from a slope that is a ratio of numbers up to 4.
+template <Signal (*make)(std::mt19937&, std::optional<double>), int degrees>
+Signal nearRatio(std::mt19937& random) {
+  const double slope = std::floor(uniform(random, 1.0, 5.0)) / std::floor(uniform(random, 1.0, 5.0));
+  const double angle = std::atan(slope) + uniform(random, -degrees, degrees) * std::numbers::pi / 180.0;
+  return make(random, random() % 2 == 0 ? angle : -angle);
+}
+
 template <Signal (*make)(std::mt19937&, std::optional<double>)>
 Signal anyhow(std::mt19937& random) {
   return make(random, {});
@@ -181,14 +189,18 @@ Signal coverage(std::mt19937& random) {
 constexpr SignalClass classes[] = {
     {"flat", flat, 0.0},
     {"shaded", shaded, 0.0},
-    {"edge", anyhow<edgeAt>, 0.002},
+    {"edge", anyhow<edgeAt>, 0.0005},
     {"uprightEdge", along<edgeAt, upright>, 0.0},
     {"levelEdge", along<edgeAt, level>, 0.0},
-    {"diagonalEdge", along<edgeAt, diagonal>, 0.08},
-    {"wire", anyhow<wireAt>, 0.002},
+    {"diagonalEdge", along<edgeAt, diagonal>, 0.01},
+    {"ratioEdge", nearRatio<edgeAt, 0>, 0.002},
+    {"nearRatioEdge", nearRatio<edgeAt, 2>, 0.0005},
+    {"wire", anyhow<wireAt>, 0.0015},
     {"uprightWire", along<wireAt, upright>, 0.0},
     {"levelWire", along<wireAt, level>, 0.0},
-    {"diagonalWire", along<wireAt, diagonal>, 0.35},
+    {"diagonalWire", along<wireAt, diagonal>, 0.18},
+    {"ratioWire", nearRatio<wireAt, 0>, 0.04},
+    {"nearRatioWire", nearRatio<wireAt, 2>, 0.004},
     {"highlight", highlight, 0.003},
     {"texture", texture, 0.0},
     {"coverage", coverage, 0.0005},
