@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/gtx/component_wise.hpp>
 #include <limits>
+#include <map>
 #include <stdexcept>
 #include <vector>
 
@@ -139,6 +140,8 @@ struct Placed {
   Bounds bounds;
 };
 
+constexpr double largestTurn = 5e-5;  // more than the length by which unit normals of parallel mirrors differ
+
 bool areParallel(const glm::dvec3& a, const glm::dvec3& b) {
   return std::abs(glm::dot(a, b)) > 1.0 - 1e-9;
 }
@@ -190,10 +193,9 @@ void setLayers(std::vector<Placed>& plane, const glm::dvec3& towardsEye) {
   // The deepest mirror among those before that overlap the next one decides its layer. Where many overlap, it is among
   // the deepest of all; elsewhere the hierarchy finds it.
   constexpr size_t few = 64;
-  std::vector<const Placed*> before;  // the deepest first
+  std::vector<const Placed*> deepest;  // of those before; the deepest first
   for (uint32_t i = 0; i < plane.size(); ++i) {
     const Placed& placed = plane[i];
-    const std::span<const Placed*> deepest(before.data(), std::min(before.size(), few));
     const auto covering = std::ranges::find_if(deepest, [&](const Placed* other) { return overlap(*other, placed); });
     if (covering != deepest.end()) {
       layer(placed) = layer(**covering) + 1;
@@ -206,27 +208,42 @@ void setLayers(std::vector<Placed>& plane, const glm::dvec3& towardsEye) {
                       });
     }
     const auto shallower =
-        std::ranges::partition_point(before, [&](const Placed* other) { return layer(*other) > layer(placed); });
-    before.insert(shallower, &placed);
+        std::ranges::partition_point(deepest, [&](const Placed* other) { return layer(*other) > layer(placed); });
+    deepest.insert(shallower, &placed);
+    deepest.resize(std::min(deepest.size(), few));
   }
 }
 
 // Sets plane and layers of all mirrors; the layers must be 0 before. Mirrors count as lying in one plane if they are no
 // farther apart than rounding can put them.
 void findLayers(const Scene& scene, std::span<MirrorState> states) {
+  Bounds box;
+  double slack = 0.0;
+  for (const MirrorState& state : states) {
+    box.add(Bounds::around(state.polygon));
+    slack = std::max(slack, state.slack);
+  }
+  // Lies outside of the box, in a direction that planes of mirrors are unlikely to be symmetric about.
+  const glm::dvec3 point = box.low - glm::length(box.high - box.low) * glm::dvec3(0.83, 0.59, 0.37);
   std::vector<std::vector<Placed>> planes;
-  std::vector<glm::dvec3> normals;  // of the planes; lie side by side, since each mirror asks all of them
+  std::multimap<double, size_t> planeAt;  // indices of the planes by their distance from `point`
   for (size_t i = 0; i < states.size(); ++i) {
     states[i].plane = static_cast<int>(i);
     const Placed placed{i, scene.mirror(i).twoSided, &states[i], Bounds::around(states[i].polygon)};
-    size_t same = 0;
-    while (same < planes.size() &&
-           !(areParallel(normals[same], states[i].normal) && inOnePlane(planes[same][0], placed))) {
-      ++same;
+    const glm::dvec3 arm = states[i].polygon[0] - point;
+    const double distance = std::abs(glm::dot(states[i].normal, arm));
+    const double reach = slack + largestTurn * glm::length(arm);
+    size_t same = planes.size();
+    for (auto near = planeAt.lower_bound(distance - reach); near != planeAt.end() && near->first <= distance + reach;
+         ++near) {
+      const Placed& first = planes[near->second][0];
+      if (near->second < same && areParallel(first.state->normal, states[i].normal) && inOnePlane(first, placed)) {
+        same = near->second;
+      }
     }
     if (same == planes.size()) {
       planes.push_back({placed});
-      normals.push_back(states[i].normal);
+      planeAt.emplace(distance, same);
     } else {
       states[i].plane = static_cast<int>(planes[same][0].index);
       planes[same].push_back(placed);

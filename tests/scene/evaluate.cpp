@@ -290,6 +290,43 @@ TEST(Layers, AreThoseOfALookAtEveryPair) {
   EXPECT_GT(deepest, 5);
 }
 
+// Mirrors on both sides of some planes, most of them small and turned by less than their plane's slack shows.
+TEST(MirrorPlanes, AreThoseOfALookAtEveryPair) {
+  Random random(29);
+  int shared = 0;
+  for (int round = 0; round < 40; ++round) {
+    Scene scene = sceneWithCamera();
+    const glm::dvec3 far = random.inBox(round % 2 * 1e4);
+    for (int i = 0; i < 120; ++i) {
+      const glm::dvec3 turned(30.0 * static_cast<int>(random.uniform(0, 3)), 0, 0);
+      const glm::dmat3 axes = rotationFromDegrees(turned);
+      const double offset = 0.01 * static_cast<int>(random.uniform(0, 4));
+      const glm::dvec3 turn(random.uniform(-2.5e-3, 2.5e-3), random.chance(0.5) ? 180 : 0, 0);
+      scene.mirrors.push_back(
+          {.position = far + axes * glm::dvec3(random.uniform(-50, 50), random.uniform(-50, 50), offset),
+           .rotation = random.chance(0.2) ? turned : turned + turn,
+           .size = glm::dvec2(random.chance(0.2) ? 100.0 : 1e-4)});
+    }
+    const std::vector<MirrorState> states = evaluate(scene, 0.0).mirrors;
+    for (int i = 0; i < static_cast<int>(states.size()); ++i) {
+      const auto holds = [&](const MirrorState& first) {
+        const double slack = std::max(first.slack, states[i].slack);
+        return std::abs(glm::dot(first.normal, states[i].normal)) > 1.0 - 1e-9 &&
+               std::ranges::all_of(states[i].polygon, [&](const glm::dvec3& p) {
+                 return std::abs(glm::dot(first.normal, p - first.polygon[0])) <= slack;
+               });
+      };
+      int plane = 0;
+      while (plane < i && !(states[plane].plane == plane && holds(states[plane]))) {
+        ++plane;
+      }
+      ASSERT_EQ(states[i].plane, plane) << "round " << round << ", mirror " << i;
+      shared += plane < i;
+    }
+  }
+  EXPECT_GT(shared, 700);
+}
+
 TEST(Environment, BackgroundWithoutSky) {
   const Environment environment{.background = {1, 2, 3}};
   EXPECT_EQ(environment.radiance({0, 1, 0}), glm::dvec3(1, 2, 3));
