@@ -80,14 +80,27 @@ gpu::LightGroup boxAround(std::span<const gpu::LightData> lights) {
   return {.center = center, .padding = 0, .halfExtent = 1.000002 * halfExtent, .padding2 = 0};
 }
 
-// Returns the indices of the lights. Those of a group lie close together, so that fewer surfaces face some of them.
-std::vector<int> lightOrder(const SceneState& state) {
+// Returns the indices of the lights, those with a shadow map first, so that passes share pipelines. Those of a group
+// lie close together, so that fewer surfaces face some of them.
+std::vector<int> lightOrder(const SceneState& state, std::span<const uint32_t> shadowMaps) {
   std::vector<int> order(state.lights.size());
   std::iota(order.begin(), order.end(), 0);
+  const auto unmapped =
+      std::stable_partition(order.begin(), order.end(), [&](int i) { return shadowMaps[i] != gpu::noShadowMap; });
   if (order.size() > gpu::fixedLights) {
     std::vector<glm::dvec3> positions(order.size());
     std::ranges::transform(state.lights, positions.begin(), &LightState::position);
-    sortIntoRuns(order, positions, lightsPerGroup(order.size()));
+    const size_t perGroup = lightsPerGroup(order.size());
+    sortIntoRuns({order.begin(), unmapped}, positions, perGroup);
+    // The nearest lights without a map fill the last group of those with one.
+    const auto mapped = static_cast<size_t>(unmapped - order.begin());
+    const size_t aligned = std::min((mapped + perGroup - 1) / perGroup * perGroup, order.size());
+    const auto others = order.begin() + static_cast<std::ptrdiff_t>(aligned);
+    std::nth_element(unmapped, others, order.end(), [&](int a, int b) {
+      const glm::dvec3& last = positions[*(unmapped - 1)];
+      return glm::distance(positions[a], last) < glm::distance(positions[b], last);
+    });
+    sortIntoRuns({others, order.end()}, positions, perGroup);
   }
   return order;
 }
@@ -174,18 +187,19 @@ void FrameData::build(const FrameInfo& info) {
   passes_.resize(plan.passes.size());
   for (DrawList& list : passes_) {  // keeps the memory of its lists
     list.batches.clear();
+    list.glyphs.clear();
     list.mirrors.clear();
-    list = {.batches = std::move(list.batches), .mirrors = std::move(list.mirrors)};
+    list = {.batches = std::move(list.batches), .glyphs = std::move(list.glyphs), .mirrors = std::move(list.mirrors)};
   }
   addRepeating(info);
   handsOn_ = !branches() && hasFewTriangles(info);
   clearances_ = clearancesOf(info.scene, info.state);
-  lightOrder_ = lightOrder(info.state);
   shadowMaps_.assign(info.scene.lights.size(), gpu::noShadowMap);
   const std::span<const Cube> maps = cubesOf(plan.cubes, PassKind::shadow);
   for (size_t map = 0; map < maps.size(); ++map) {
     shadowMaps_[maps[map].light] = static_cast<uint32_t>(map);
   }
+  lightOrder_ = lightOrder(info.state, shadowMaps_);
   const std::vector<double> reaches = lookupReaches(plan, info.settings, device_.limits().standardSampleLocations);
   const std::vector<std::vector<PixelRect>> converged = convergedParts(plan);
   for (size_t i = 0; i < plan.passes.size(); ++i) {
@@ -252,27 +266,24 @@ void FrameData::addPass(const FrameInfo& info, const Pass& pass, DrawList& data)
   view.rayOrigin.w = plan.picture > 0 ? 1.0f : 0.0f;
   view.maxDepth = static_cast<uint32_t>(settings.reflection.maxDepth);
   addLights(info, pass, passBlocks_.back(), data);
-  data.glyphCount = static_cast<uint32_t>(pass.lights.size());
   addInstances(info, pass, clipFromRelative, data);
   addMirrors(info, pass, projection, data);
 }
 
-// Lights with a shadow map come first, so that passes share pipelines. In both groups, lights whose glyphs are visible
-// stand where the groups meet, so that one instanced draw covers them.
 void FrameData::addLights(const FrameInfo& info, const Pass& pass, DrawBlock& block, DrawList& data) {
   const Scene& scene = info.scene;
   const double scale = info.settings.view.radianceScale();
   block.view.firstLight = static_cast<uint32_t>(lights_.size());
   block.view.lightCount = static_cast<uint32_t>(scene.lights.size());
-  const auto hasMap = [&](int i) { return shadowMaps_[i] != gpu::noShadowMap; };
-  const auto isShown = [&](int i) { return std::binary_search(pass.lights.begin(), pass.lights.end(), i); };
-  std::vector<int> order = lightOrder_;
-  const auto unmapped = std::stable_partition(order.begin(), order.end(), hasMap);
-  const auto shown = std::stable_partition(order.begin(), unmapped, [&](int i) { return !isShown(i); });
-  std::stable_partition(unmapped, order.end(), isShown);
-  data.firstGlyph = static_cast<uint32_t>(shown - order.begin());
-  for (const int i : order) {
+  for (const int i : lightOrder_) {
     const PointLight& light = scene.lights[i];
+    if (std::binary_search(pass.lights.begin(), pass.lights.end(), i)) {
+      const auto index = static_cast<uint32_t>(lights_.size()) - block.view.firstLight;
+      if (data.glyphs.empty() || data.glyphs.back().first + data.glyphs.back().count < index) {
+        data.glyphs.push_back({index, 0});
+      }
+      ++data.glyphs.back().count;
+    }
     lights_.push_back({.position = glm::vec3(info.state.lights[i].position - pass.view.eye),
                        .radius = static_cast<float>(light.radius),
                        .irradiance = radiance(scale * light.color * light.intensity),
@@ -282,7 +293,7 @@ void FrameData::addLights(const FrameInfo& info, const Pass& pass, DrawBlock& bl
                        .clearance = glm::vec3(clearances_[i]),
                        .shadowMap = shadowMaps_[i]});
   }
-  const std::span<const gpu::LightData> ordered = std::span(lights_).last(order.size());
+  const std::span<const gpu::LightData> ordered = std::span(lights_).last(lightOrder_.size());
   std::ranges::copy(ordered.first(std::min<size_t>(ordered.size(), gpu::fixedLights)), block.lights);
   const size_t perGroup = lightsPerGroup(ordered.size());
   block.view.lightsPerGroup = static_cast<uint32_t>(perGroup);
@@ -450,7 +461,7 @@ void FrameData::addMask(const FrameInfo& info, const Pass& pass, double reach, s
   if (left == 0.0) {
     data.batches.clear();
     data.mirrors.clear();
-    data.glyphCount = 0;
+    data.glyphs.clear();
     data.outsideVertexCount = 0;
     return;
   }

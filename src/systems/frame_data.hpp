@@ -75,8 +75,7 @@ struct DrawList {
   bool mirrorView = false;  // the view is that of a mirror
   float lineWidth = 1.0f;   // of wireframe, texels
   std::vector<Batch> batches;
-  uint32_t firstGlyph = 0;  // index into the lights of the pass of the first one whose glyph is drawn
-  uint32_t glyphCount = 0;
+  std::vector<IndexRange> glyphs;  // of the lights of the pass whose glyphs are drawn
   std::vector<MirrorRange> mirrors;
   uint32_t maskFirstVertex = 0;
   uint32_t maskVertexCount = 0;  // 0: the whole rectangle is drawn
@@ -150,7 +149,7 @@ class FrameData {
   std::vector<DrawBlock> passBlocks_;
   std::vector<gpu::MirrorBlock> mirrors_;
   std::vector<gpu::LightData> lights_;
-  std::vector<int> lightOrder_;        // the scene's lights, those of a group close together
+  std::vector<int> lightOrder_;        // the scene's lights in the order in which each pass has them
   std::vector<glm::vec4> clearances_;  // LightData::clearance and height of each light of the scene
   bool handsOn_ = false;
   std::vector<uint32_t> shadowMaps_;  // LightData::shadowMap of each light of the scene

@@ -3,7 +3,7 @@
 namespace speculum {
 
 uint32_t PointLightSystem::record(const PassScope& scope, const FrameInfo& info, const DrawList& pass) {
-  if (pass.glyphCount == 0) {
+  if (pass.glyphs.empty()) {
     return 0;
   }
   const PassFormat format = formatOf(scope.desc(), info.settings);
@@ -16,10 +16,12 @@ uint32_t PointLightSystem::record(const PassScope& scope, const FrameInfo& info,
   });
   info.data.bind(pipeline, scope.commands(), pass);
   scope.cull(VK_CULL_MODE_FRONT_BIT);
-  vkCmdDraw(scope.commands(), 36, pass.glyphCount, 0, pass.firstGlyph);
+  for (const IndexRange& range : pass.glyphs) {
+    vkCmdDraw(scope.commands(), 36, range.count, 0, range.first);
+    info.ledger.draw(EffectKind::glyphs);
+  }
   scope.cull(VK_CULL_MODE_NONE);
-  info.ledger.draw(EffectKind::glyphs);
-  return 1;
+  return static_cast<uint32_t>(pass.glyphs.size());
 }
 
 }  // namespace speculum

@@ -419,17 +419,17 @@ void writeCountingShaders(const std::filesystem::path& directory) {
 }
 
 // 144 dark lights, in turn behind a wall and before it: half of the groups are behind it, in whatever order the lights
-// are listed.
+// are listed, and whichever of them have glyphs within the view.
 TEST(Skipping, LightsBelowSurfacesAreNotAsked) {
   writeQuad();
   std::ostringstream scene;
   scene << "[environment]\nambient = [0, 0, 0]\n"
-        << cameraText({0, 0, 1}, {0, 0, 0}) << objectText("quad.obj", {0, 0, 0}, {0, 0, 0}, 20.0, {0.5, 0.5, 0.5})
+        << cameraText({0, 0, -1}, {0, 0, 0}) << objectText("quad.obj", {0, 0, 0}, {0, 180, 0}, 20.0, {0.5, 0.5, 0.5})
         << "[[mirror]]\n"
-        << rectangleText({0.5, 0, 0.1}, {0, 0, 0}, 0.2, 0.2);
+        << rectangleText({-0.5, 0, -0.1}, {0, 180, 0}, 0.2, 0.2);
   for (int i = 0; i < 144; ++i) {
-    scene << "[[light]]\nposition = [" << i % 12 - 5 << ", " << i / 12 - 5 << ", " << (i % 2 == 0 ? -8 : 8)
-          << "]\nintensity = 1e-6\nglow = 0\n";
+    scene << "[[light]]\nposition = [" << i % 12 - 5 << ", " << i / 12 - 5 << ", " << (i % 2 == 0 ? 8 : -8)
+          << "]\nintensity = 1e-6\nglow = " << (i % 10 == 0 ? 1 : 0) << "\n";
   }
   TemporaryDirectory shaders;
   writeCountingShaders(shaders.path());
