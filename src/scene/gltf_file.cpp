@@ -113,13 +113,16 @@ json parsedJson(const fs::path& file, std::string_view text, ModelDefects* defec
   }
 }
 
-void checkVersion(const fs::path& file, const json& root) {
+void checkVersion(const fs::path& file, const json& root, ModelDefects& defects) {
   const json& version = member(member(root, "asset"), "version");
   if (!version.is_string()) {
     throwInputError(file, 1, "asset.version", "is missing or not a text", validGltf);
   }
   if (const auto& text = version.get_ref<const std::string&>(); !text.starts_with("2.")) {
     throwInputError(file, 1, "asset.version", "is '" + text.substr(0, 20) + "'", validGltf);
+  }
+  if (const json& least = member(member(root, "asset"), "minVersion"); !least.is_null() && least != "2.0") {
+    defects.add(file, 1, "asset.minVersion", "is not 2.0, the file is read as one of 2.0 nevertheless");
   }
 }
 
@@ -276,7 +279,7 @@ GltfFile::GltfFile(const fs::path& file, ModelDefects& defects) : file_(file), d
 
 void GltfFile::readJson(std::string_view text, std::vector<Source>& buffers) {
   json root = parsedJson(file_, text, &defects_);
-  checkVersion(file_, root);
+  checkVersion(file_, root, defects_);
   checkExtensions(file_, root, defects_);
   useMaterialExtensions(file_, root, defects_);
   hasMotion_ = !member(root, "animations").empty();

@@ -126,7 +126,8 @@ inline constexpr std::array<std::string_view, 4> materialExtensions{
 inline constexpr const char* noLight = "none";  // type of a light that could not be read
 
 // Reads the JSON of `file` by tinygltf. That library refuses a file for one object that it cannot read, and for indices
-// of a primitive that it cannot find. Here such an object costs only what uses it, and counts as a defect. `root` has
+// of a primitive that it cannot find. Here such an object costs only what uses it, and counts as a defect. Factors,
+// transforms and lights get the nearest numbers that they may have, or the usual ones, which counts too. `root` has
 // asset.version, and no buffers, images, skins and animations. Throws InputError if it cannot be read nevertheless.
 tinygltf::Model readRepaired(const std::filesystem::path& file, nlohmann::json root, ModelDefects& defects);
 
@@ -136,8 +137,8 @@ tinygltf::Model readRepaired(const std::filesystem::path& file, nlohmann::json r
 // nothing is left to draw or the file cannot be read.
 Model loadGltf(const std::filesystem::path& file, std::vector<Texture>& textures, const LoadProgress& progress = {});
 
-// Returns a color within the range, or white if there are too few numbers.
-glm::dvec3 colorOf(const std::vector<double>& values, const Range& range);
+// Returns a color of a repaired model: white if the file has none.
+glm::dvec3 colorOf(const std::vector<double>& values);
 
 // Returns how a texture continues outside of its picture, to the sides and up (TINYGLTF_TEXTURE_WRAP_*).
 glm::ivec2 waysToWrap(const tinygltf::Model& model, int texture);

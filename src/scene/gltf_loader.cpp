@@ -171,8 +171,7 @@ class GltfReader {
   void addRoots(std::vector<Placed>& roots) const {
     const tinygltf::Model& model = content_.model();
     if (!model.scenes.empty()) {
-      for (const int node :
-           model.scenes[isIndex(model.defaultScene, model.scenes.size()) ? model.defaultScene : 0].nodes) {
+      for (const int node : model.scenes[std::max(model.defaultScene, 0)].nodes) {
         roots.push_back({node});
       }
     } else {
@@ -468,7 +467,7 @@ class GltfReader {
     }
     PointLight light{.name = from.name,
                      .position = glm::dvec3(transform[3]),
-                     .color = colorOf(from.color, radianceRange),
+                     .color = colorOf(from.color),
                      .intensity = from.intensity,
                      .radius = 0.01 * radius,
                      .glow = 0.0,

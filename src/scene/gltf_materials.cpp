@@ -10,9 +10,8 @@ namespace speculum {
 
 namespace fs = std::filesystem;
 
-glm::dvec3 colorOf(const std::vector<double>& values, const Range& range) {
-  return values.size() < 3 ? glm::dvec3(1.0)
-                           : glm::clamp(glm::dvec3(values[0], values[1], values[2]), range.low, range.high);
+glm::dvec3 colorOf(const std::vector<double>& values) {
+  return values.size() < 3 ? glm::dvec3(1.0) : glm::dvec3(values[0], values[1], values[2]);
 }
 
 glm::ivec2 waysToWrap(const tinygltf::Model& model, int texture) {
@@ -86,7 +85,7 @@ void GltfMaterials::setSurface(Material& material, const tinygltf::PbrMetallicRo
     roughness *= mean.y;
     metal *= mean.z;
   }
-  const glm::dvec3 base = colorOf(surface.baseColorFactor, surfaceColorRange);
+  const glm::dvec3 base = colorOf(surface.baseColorFactor);
   const glm::dvec3 mean = material.diffuseTexture < 0 ? glm::dvec3(1.0) : textures_[material.diffuseTexture].mean;
   setMetalRoughness(material, base, metal, roughness, mean * meanColor);
 }
@@ -95,20 +94,20 @@ void GltfMaterials::setCoverage(Material& material, const tinygltf::Material& fr
   if (from.alphaMode == "MASK" || from.alphaMode == "BLEND") {
     const std::vector<double>& factor = from.pbrMetallicRoughness.baseColorFactor;
     material.vertexAlpha = withAlpha;
-    material.opacity = factor.size() == 4 && factor[3] >= 0.0 ? std::min(factor[3], 1.0) : 1.0;
+    material.opacity = factor.size() == 4 ? factor[3] : 1.0;
     if (material.diffuseTexture >= 0 && !textures_[material.diffuseTexture].opacity.empty()) {
       material.opacityTexture = material.diffuseTexture;
     }
   }
   if (from.alphaMode == "MASK") {
-    material.cutoff = std::isfinite(from.alphaCutoff) ? std::clamp(from.alphaCutoff, 0.0, 2.0) : 0.5;
+    material.cutoff = std::min(from.alphaCutoff, 2.0);
   } else {
     // Glass of which nothing were left could not be seen, so it keeps the share that it reflects. A texture says where
     // the material transmits light, so its mean counts.
     constexpr double reflected = 0.04;
     constexpr const char* transmission = "KHR_materials_transmission";
-    double passing = std::clamp(numberOf(extensionMember(from.extensions, transmission, "transmissionFactor"), 0.0),
-                                0.0, 1.0 - reflected);
+    double passing =
+        std::min(numberOf(extensionMember(from.extensions, transmission, "transmissionFactor"), 0.0), 1.0 - reflected);
     const tinygltf::Value& texture = extensionMember(from.extensions, transmission, "transmissionTexture");
     if (passing > 0.0 && texture.IsObject() && texture.Get("index").IsInt()) {
       add("'{}' has a texture of its transmission, its mean is drawn", from.name);
@@ -124,7 +123,7 @@ void GltfMaterials::setCoverage(Material& material, const tinygltf::Material& fr
 glm::dvec3 GltfMaterials::emissionOf(const tinygltf::Material& from) {
   const double strength =
       numberOf(extensionMember(from.extensions, "KHR_materials_emissive_strength", "emissiveStrength"), 1.0);
-  glm::dvec3 emission = strength * colorOf(from.emissiveFactor, radianceRange);
+  glm::dvec3 emission = strength * colorOf(from.emissiveFactor);
   if (emission != glm::dvec3(0.0) && from.emissiveTexture.index >= 0) {
     add("'{}' has an emissive texture, its mean is drawn", from.name);
     emission *= meansOf(from.emissiveTexture.index).colors;

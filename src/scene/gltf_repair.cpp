@@ -2,11 +2,15 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <span>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include "scene/input_error.hpp"
+#include "scene/value_range.hpp"
 
 namespace speculum {
 
@@ -38,6 +42,112 @@ std::string faultOf(const json& root, tinygltf::Model& model) {
     errors = error.what();
   }
   return errors.substr(0, std::min({errors.find('\n'), errors.size(), mostShown}));
+}
+
+// Numbers of an object: the place of one, or of an array, below the object.
+struct Numbers {
+  const char* kind;  // where such objects are listed
+  const char* place;
+  std::vector<double> usual;  // as many as there must be
+  Range range{.low = -INFINITY, .high = INFINITY};
+  bool isWhole = false;  // a part of them means nothing
+};
+
+// What is read of a file and has bounds, or would be left out with more than itself.
+const std::vector<Numbers>& knownNumbers() {
+  constexpr Range share{.low = 0.0, .high = 1.0};
+  constexpr const char* surface = "/materials";
+  constexpr const char* lights = "/extensions/KHR_lights_punctual/lights";
+  static const std::vector<Numbers> numbers{
+      {surface, "/pbrMetallicRoughness/baseColorFactor", {1, 1, 1, 1}, surfaceColorRange},
+      {surface, "/pbrMetallicRoughness/baseColorFactor/3", {1}, share},
+      {surface, "/pbrMetallicRoughness/metallicFactor", {1}, share},
+      {surface, "/pbrMetallicRoughness/roughnessFactor", {1}, share},
+      {surface, "/pbrMetallicRoughness/baseColorTexture/extensions/KHR_texture_transform/offset", {0, 0}},
+      {surface, "/pbrMetallicRoughness/baseColorTexture/extensions/KHR_texture_transform/scale", {1, 1}},
+      {surface, "/pbrMetallicRoughness/baseColorTexture/extensions/KHR_texture_transform/rotation", {0}},
+      {surface, "/emissiveFactor", {0, 0, 0}, radianceRange},
+      {surface, "/extensions/KHR_materials_emissive_strength/emissiveStrength", {1}, radianceRange},
+      {surface, "/extensions/KHR_materials_transmission/transmissionFactor", {0}, share},
+      {surface, "/alphaCutoff", {0.5}, surfaceColorRange},
+      {"/nodes", "/translation", {0, 0, 0}},
+      {"/nodes", "/rotation", {0, 0, 0, 1}, {.low = -INFINITY, .high = INFINITY}, true},
+      {"/nodes", "/scale", {1, 1, 1}},
+      {"/nodes",
+       "/matrix",
+       {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1},
+       {.low = -INFINITY, .high = INFINITY},
+       true},
+      {"/cameras", "/perspective/yfov", {0.8}, {.low = 0.01, .high = 3.14}},
+      {lights, "/color", {1, 1, 1}, radianceRange},
+      {lights, "/intensity", {1}, radianceRange}};
+  return numbers;
+}
+
+// Returns the numbers that count for `value`: the nearest ones in the range, or the usual ones where there are none.
+json mended(const json& value, const Numbers& numbers) {
+  const size_t count = numbers.usual.size();
+  std::vector<double> read = numbers.usual;
+  bool isRight = count == 1 || value.size() == count;
+  bool isZero = true;
+  for (size_t i = 0; i < count; ++i) {
+    const json number = count == 1 ? value : value.is_array() && i < value.size() ? value[i] : json();
+    if (!number.is_number()) {
+      isRight = false;
+      continue;
+    }
+    read[i] = std::clamp(number.get<double>(), numbers.range.low, numbers.range.high);
+    isRight = isRight && read[i] == number.get<double>();
+    isZero = isZero && read[i] == 0.0;
+  }
+  if (isRight && !(numbers.isWhole && isZero)) {
+    return value;
+  }
+  return count == 1 ? json(read[0]) : json(numbers.isWhole ? numbers.usual : read);
+}
+
+// Mends what is read of a file piece by piece, so that a wrong number does not cost the object.
+void mendValues(const fs::path& file, json& root, ModelDefects& defects) {
+  const auto listed = [&](const char* kind) {
+    const json::json_pointer list(kind);
+    return root.contains(list) ? elementsOf(root[list.parent_pointer()], list.back().c_str()) : std::span<json>();
+  };
+  for (const Numbers& numbers : knownNumbers()) {
+    const json::json_pointer list(numbers.kind);
+    const json::json_pointer place(numbers.place);
+    const std::span<json> elements = listed(numbers.kind);
+    for (size_t i = 0; i < elements.size(); ++i) {
+      if (!elements[i].contains(place)) {
+        continue;
+      }
+      json& value = elements[i][place];
+      if (json right = mended(value, numbers); right != value) {
+        defects.add(file, 1, list.back(), "{} is wrong, the nearest or the usual numbers count",
+                    fmt::format("{} of {}", numbers.place + 1, i));
+        value = std::move(right);
+      }
+    }
+  }
+  for (const json& node : elementsOf(root, "nodes")) {
+    if (node.contains("matrix") &&
+        (node.contains("translation") || node.contains("rotation") || node.contains("scale"))) {
+      defects.add(file, 1, "nodes", "have a matrix and another transform, the matrix counts");
+    }
+  }
+  for (json& material : elementsOf(root, "materials")) {
+    constexpr std::array<std::string_view, 3> modes{"OPAQUE", "MASK", "BLEND"};
+    if (material.contains("alphaMode") && std::ranges::find(modes, material["alphaMode"]) == modes.end()) {
+      defects.add(file, 1, "materials", "have an alphaMode that is none of OPAQUE, MASK and BLEND, they are opaque");
+      material.erase("alphaMode");
+    }
+  }
+  if (root.contains("scene") && !root["scene"].is_null()) {
+    const json& scene = root["scene"];
+    if (!scene.is_number_unsigned() || scene.get<size_t>() >= elementsOf(root, "scenes").size()) {
+      defects.add(file, 1, "scene", "is not there, the first one is drawn");
+      root.erase("scene");
+    }
+  }
 }
 
 // Brings the primitives into a form that the library reads, whatever they say.
@@ -107,6 +217,7 @@ void leaveOutDamaged(const fs::path& file, json& root, ModelDefects& defects) {
 tinygltf::Model readRepaired(const fs::path& file, json root, ModelDefects& defects) {
   tinygltf::Model model;
   prepareMeshes(root);
+  mendValues(file, root, defects);
   if (!faultOf(root, model).empty()) {
     leaveOutDamaged(file, root, defects);
     if (const std::string fault = faultOf(root, model); !fault.empty()) {

@@ -814,6 +814,96 @@ TEST_F(GltfLoader, CamerasWithoutAUsablePlaceAreLeftOut) {
   }
 }
 
+// Each number of a file, wrong in several ways, costs one warning. What it belongs to is drawn.
+TEST_F(GltfLoader, WrongNumbersWarnAndDraw) {
+  writePng(folder_ / "t.png", testing_support::greyPicture(4, 2, 255));
+  struct Place {
+    const char* list;
+    const char* numbers;
+    size_t count;
+  };
+  for (const auto& [list, numbers, count] : std::vector<Place>{
+           {"/materials", "/pbrMetallicRoughness/baseColorFactor", 4},
+           {"/materials", "/pbrMetallicRoughness/metallicFactor", 1},
+           {"/materials", "/pbrMetallicRoughness/roughnessFactor", 1},
+           {"/materials", "/pbrMetallicRoughness/baseColorTexture/extensions/KHR_texture_transform/offset", 2},
+           {"/materials", "/pbrMetallicRoughness/baseColorTexture/extensions/KHR_texture_transform/rotation", 1},
+           {"/materials", "/emissiveFactor", 3},
+           {"/materials", "/extensions/KHR_materials_emissive_strength/emissiveStrength", 1},
+           {"/materials", "/alphaCutoff", 1},
+           {"/nodes", "/translation", 3},
+           {"/nodes", "/rotation", 4},
+           {"/nodes", "/scale", 3},
+           {"/nodes", "/matrix", 16},
+           {"/cameras", "/perspective/yfov", 1},
+           {"/extensions/KHR_lights_punctual/lights", "/color", 3},
+           {"/extensions/KHR_lights_punctual/lights", "/intensity", 1}}) {
+    const bool bounded = list != std::string("/nodes") && !contains(numbers, "KHR_texture_transform");
+    std::vector<json> wrong{"text", nullptr, json::object()};
+    if (count > 1) {
+      wrong.insert(wrong.end(), {1.0, std::vector(count - 1, 0.5), std::vector(count + 1, 0.5)});
+      wrong.push_back(std::vector(count, 0.5));
+      wrong.back().back() = "text";
+    }
+    if (bounded) {
+      wrong.push_back(count == 1 ? json(-4) : json(std::vector(count, -4.0)));
+    }
+    for (const json& value : wrong) {
+      MadeGltf made;
+      made.add("images", {{"uri", "t.png"}});
+      made.add("textures", {{"source", 0}});
+      made.addMesh({{"POSITION", made.addNumbers(triangleNumbers, "VEC3")},
+                    {"TEXCOORD_0", made.addNumbers<float>({0, 0, 1, 0, 0, 1}, "VEC2")}},
+                   {{"material", 0}});
+      made.add("materials", {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}});
+      made.add("nodes", {{"mesh", 0}, {"camera", 0}, {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+      made.add("cameras", {{"type", "perspective"}, {"perspective", {{"yfov", 0.5}, {"znear", 0.1}}}});
+      made.root["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}}};
+      made.root[json::json_pointer(list)][0][json::json_pointer(numbers)] = value;
+      const Mesh mesh = meshOf(made);
+      EXPECT_EQ(mesh.indices.size(), 3u) << numbers << " " << value;
+      const std::string last = std::string(numbers + 1) + " of 0 is wrong, the nearest or the usual numbers count";
+      ASSERT_EQ(mesh.defects.size(), 1u) << numbers << " " << value;
+      EXPECT_TRUE(contains(mesh.defects[0], last)) << mesh.defects[0];
+    }
+  }
+}
+
+TEST_F(GltfLoader, NearestNumbersCount) {
+  MadeGltf made;
+  made.addMesh({{"POSITION", made.addNumbers(triangleNumbers, "VEC3")}}, {{"material", 0}});
+  made.add("nodes", {{"mesh", 0}, {"rotation", {0, 0, 0, 0}}, {"scale", {2, 2}}});
+  made.add("materials", {{"alphaMode", "BLEND"},
+                         {"pbrMetallicRoughness", {{"baseColorFactor", {0, 0.5, -1, 7}}, {"metallicFactor", 0}}}});
+  Model model = load(made.binary(), "m.glb");
+  EXPECT_EQ(model.mesh.parts.at(0).material.diffuse, glm::dvec3(0, 0.5, 0));
+  EXPECT_EQ(model.mesh.parts.at(0).material.opacity, 1.0);
+  expectNear(cornersOf(model.mesh), {{0, 0, 0}, {2, 0, 0}, {0, 2, 0}});
+  made.root["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"] = {0, 0.5, 0};
+  EXPECT_EQ(meshOf(made).parts.at(0).material.diffuse, glm::dvec3(0, 0.5, 0)) << "without alpha";
+}
+
+TEST_F(GltfLoader, ContradictionsWarnAndDraw) {
+  for (const auto& [damage, problem] :
+       {std::pair<void (*)(json&), const char*>([](json& r) { r["scene"] = 9; }, "scene: is not there"),
+        {[](json& r) {
+           r["nodes"][0]["matrix"] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1},
+           r["nodes"][0]["scale"] = {2, 2, 2};
+         },
+         "nodes: have a matrix and another transform"},
+        {[](json& r) { r["materials"][0]["alphaMode"] = "FOO"; }, "materials: have an alphaMode"},
+        {[](json& r) { r["asset"]["minVersion"] = "2.9"; }, "asset.minVersion: is not 2.0"}}) {
+    MadeGltf made;
+    made.add("nodes", {{"mesh", made.addTriangle()}});
+    made.add("materials", json::object());
+    damage(made.root);
+    const Mesh mesh = meshOf(made);
+    EXPECT_EQ(mesh.indices.size(), 3u);
+    ASSERT_EQ(mesh.defects.size(), 1u);
+    EXPECT_TRUE(contains(mesh.defects[0], problem)) << mesh.defects[0];
+  }
+}
+
 // What is wrong with a file, and what it costs.
 struct Damage {
   const char* name;
