@@ -344,17 +344,31 @@ std::string unknownArgument(const CLI::App& app) {
 std::string clearMessage(std::string text) {
   std::ranges::replace(text, '\n', ' ');
   text.erase(text.find_last_not_of(' ') + 1);
-  const size_t repeated = text.find(": At Most 1 required but received");
-  return repeated == std::string::npos ? text : text.substr(0, repeated) + ": is given more than once";
+  const size_t colon = std::min(text.find(": "), text.size());
+  const std::string option = text.substr(0, colon);
+  const std::string_view problem = std::string_view(text).substr(std::min(colon + 2, text.size()));
+  constexpr std::string_view unreadable = "Failed parsing ";
+  if (problem.starts_with("At Most 1 required but received")) {
+    return option + ": is given more than once";
+  }
+  if (problem.starts_with("1 required ") && problem.ends_with(" missing")) {
+    return option + ": needs a value";
+  }
+  if (problem.starts_with(unreadable)) {
+    const std::string_view rest = problem.substr(unreadable.size());
+    return fmt::format("{}: '{}' is not a number", option, rest.substr(0, rest.rfind(" as a")));
+  }
+  return text;
 }
 
 // Returns the arguments with --scene before a scene or model that stands alone: `speculum FILE`, `speculum demo FILE`.
+// A shipped scene may be given by its name.
 std::vector<const char*> withSceneOption(int argc, const char* const* argv) {
   std::vector<const char*> arguments(argv, argv + argc);
   const size_t place = argc > 1 && argv[1] == std::string_view("demo") ? 2 : 1;
   if (place < arguments.size()) {
     const std::filesystem::path file = arguments[place];
-    if (file.extension() == ".toml" || isModelFile(file)) {
+    if (file.extension() == ".toml" || isModelFile(file) || shippedScene(file)) {
       arguments.insert(arguments.begin() + static_cast<std::ptrdiff_t>(place), "--scene");
     }
   }
@@ -402,8 +416,9 @@ std::optional<Options> parseOptions(int argc, const char* const* argv) {
   addBench(*command("bench", "measure frames"), options, raw);
   command("info", "GPUs, drivers, features");
   command("scenes", "scenes that come with the program");
-  app.footer("`speculum FILE` opens a scene or model in the window.\n\n" + settingsText() + "\n" +
-             examplesText("demo") + examplesText("render").substr(std::string("Examples:\n").size()));
+  app.footer(
+      "`speculum FILE` opens a scene or model in the window, `speculum NAME` a scene that comes with the program.\n\n" +
+      settingsText() + "\n" + examplesText("demo") + examplesText("render").substr(std::string("Examples:\n").size()));
   try {
     app.parse(static_cast<int>(arguments.size()), arguments.data());
   } catch (const CLI::ParseError& error) {

@@ -284,7 +284,9 @@ void writeText(const std::filesystem::path& file, const std::string& text) {
 }
 
 void writeJson(const std::filesystem::path& file, const ordered_json& json) {
-  writeText(file, json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n");
+  // Names of a scene may hold what moves a terminal's cursor or turns its text around.
+  const bool printed = file == "-";
+  writeText(file, json.dump(2, ' ', printed, ordered_json::error_handler_t::replace) + "\n");
 }
 
 }  // namespace speculum

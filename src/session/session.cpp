@@ -150,8 +150,9 @@ std::filesystem::path findScene(const std::string& wanted) {
   if (const std::optional<fs::path> shipped = shippedScene(path)) {
     return *shipped;
   }
-  throw UsageError("--scene: there is no file '" + wanted +
-                   "' (a scene file, a model, or a name from speculum scenes)");
+  const bool folder = type == fs::file_type::directory;
+  throw UsageError(fmt::format("--scene: {}'{}'{} (a scene file, a model, or a name from speculum scenes)",
+                               folder ? "" : "there is no file ", wanted, folder ? " is a folder" : ""));
 }
 
 Settings settingsOf(const Scene& scene, const Options& options) {

@@ -73,7 +73,9 @@ INSTANTIATE_TEST_SUITE_P(
         UsageCase{{"render", "--out", "x.png", "--size", "640"}, "--size: '640' is not a size"},
         UsageCase{{"render", "--out", "x.png", "--size", "640x-3"}, "--size: '640x-3' is not a size"},
         UsageCase{{"render", "--out", "x.png", "--size", "99999x9"}, "--size: '99999x9' is not a size"},
-        UsageCase{{"render", "--out", "x.png", "--time", "soon"}, "--time"},
+        UsageCase{{"render", "--out", "x.png", "--time", "soon"}, "--time: 'soon' is not a number (see"},
+        UsageCase{{"render", "--scene", "gallery", "--out"}, "--out: needs a value (see"},
+        UsageCase{{"render", "--out", "/tmp"}, "'/tmp' is a folder (a file"},
         UsageCase{{"render", "--out", "x.png", "--time", "nan"}, "--time"},
         UsageCase{{"render", "--out", "x.png", "--time", "1e300"}, "--time: 1e+300 is out of range (-1e15 .. 1e15"},
         UsageCase{{"render", "--out", "x.png", "--camera", "0,1,4"}, "--camera: '0,1,4' is not a camera"},
@@ -89,6 +91,7 @@ INSTANTIATE_TEST_SUITE_P(
         UsageCase{{"reference", "--out", "x.png", "--samples", "5"}, "square"},
         UsageCase{{"render", "--out", "x.png", "--scene", ""}, "--scene: an empty name"},
         UsageCase{{"render", "--out", "x.png", "--scene", "nowhere.toml"}, "there is no file 'nowhere.toml'"},
+        UsageCase{{"render", "--out", "x.png", "--scene", "/"}, "--scene: '/' is a folder (a scene file"},
         UsageCase{{"render", "--out", "x.png", "--set", "view.exposure"}, "has no value (key=value)"},
         UsageCase{{"render", "--out", "x.png", "--set", "view.exposre=1"}, "did you mean 'view.exposure'?"},
         UsageCase{{"render", "--out", "x.png", "--set", "reflection.scale=9"}, "(0.125 .. 4)"},
@@ -442,6 +445,11 @@ TEST_F(CommandLine, DashIsStandardOutput) {
   EXPECT_TRUE(contains(readText(out("messages")), "SSIM"));
   EXPECT_EQ(printed({"render", "--scene", scene_, "--size", "64x36", "--out", "b.png", "--stats", "-"})["size"],
             nlohmann::json({64, 36}));
+  replaceFile(out("turned.toml"), readText(scene_) + "[[mirror]]\nname = \"\u009b\u202e\"\nsize = [1, 1]\n");
+  const std::string stats = runProcess({program, "render", "--scene", out("turned.toml"), "--size", "64x36", "--out",
+                                        out("c.png"), "--stats", "-", "--log-level", "error"})
+                                .output;
+  EXPECT_TRUE(contains(stats, "\\u009b\\u202e")) << "no control characters";
   EXPECT_EQ(printed({"bench", "--scene", scene_, "--size", "64x36", "--frames", "2", "--json", "-"})["frames"], 2);
   EXPECT_TRUE(contains(readText(out("messages")), "interval_ms"));
   EXPECT_FALSE(std::filesystem::exists(out("-")));

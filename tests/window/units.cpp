@@ -453,6 +453,8 @@ TEST(Options, FileAloneIsTheScene) {
   };
   EXPECT_EQ(scene({"speculum", "rooms/hall.toml", "--frames", "3"}), "rooms/hall.toml");
   EXPECT_EQ(scene({"speculum", "demo", "thing.obj"}), "thing.obj");
+  EXPECT_EQ(scene({"speculum", "pool"}), "pool");
+  EXPECT_EQ(scene({"speculum", "demo", "pool"}), "pool");
   EXPECT_EQ(scene({"speculum", "--scene", "pool"}), "pool");
   EXPECT_THROW(scene({"speculum", "rnder"}), UsageError);
 }
