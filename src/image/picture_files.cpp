@@ -54,7 +54,8 @@ PictureFormat formatOf(const std::filesystem::path& file, const std::vector<uint
                        : startsWith(bytes, "\xabKTX")                                                ? "a KTX file"
                        : startsWith(bytes, "v/1\x01")                                                ? "an EXR file"
                        : startsWith(bytes, "#?RADIANCE")                                             ? "an HDR file"
-                       : startsWith(bytes, "ftypavif", 4)                                            ? "an AVIF file"
+                       : startsWith(bytes, "jP  ", 4)                 ? "a JPEG 2000 file"
+                       : startsWith(bytes, "ftypavif", 4)             ? "an AVIF file"
                        : startsWith(bytes, "version https://git-lfs") ? "a Git LFS pointer"
                                                                       : "not a picture that can be read";
   throw FileError(file, std::string("is ") + format, "a PNG or JPEG file is needed");

@@ -453,9 +453,8 @@ void ObjMaterials::addOpacity(const Entry& entry, Material& material, std::vecto
 void ObjMaterials::applyEmissionTexture(const Entry& entry, Material& material) {
   const auto mean =
       readPicture(entry, entry.emissionLine, "map_Ke", entry.emissionTexture, [&](const fs::path& picture) {
-        const fs::path source = withoutLinks(picture);
-        filesRead_.insert(source);
-        return means_.of(source).colors;
+        filesRead_.insert(withoutLinks(picture));
+        return means_.of(picture).colors;
       });
   if (mean) {
     material.emission = *mean * (material.emission == glm::dvec3(0.0) ? glm::dvec3(1.0) : material.emission);
