@@ -168,9 +168,13 @@ std::vector<std::vector<glm::dvec2>> outsideParts(const View& view, const Projec
       continue;
     }
     Polygon part = clipPolygon(whole, Plane{line * (-offset / length2), -line});
+    // Of a short edge the corner of the rectangle goes, near which there is no texel's centre. Without the other one
+    // the line would turn.
+    const auto beyond = [&](size_t corner) { return -glm::dot(line, part[corner]) - offset; };
     for (size_t i = part.size(); i-- > 0 && part.size() > 3;) {
-      if (glm::length(glm::dvec2(part[(i + 1) % part.size()] - part[i]) / (2.0 / view.pictureSize)) < shortestEdge) {
-        part.erase(part.begin() + static_cast<std::ptrdiff_t>(i));
+      const size_t next = (i + 1) % part.size();
+      if (glm::length(glm::dvec2(part[next] - part[i]) / (2.0 / view.pictureSize)) < shortestEdge) {
+        part.erase(part.begin() + static_cast<std::ptrdiff_t>(beyond(i) > beyond(next) ? i : next));
       }
     }
     if (isWellShaped(part, 2.0 / view.pictureSize)) {

@@ -273,6 +273,51 @@ TEST(PassMask, HasNoTriangleWithoutArea) {
   EXPECT_GT(masks, 5000);
 }
 
+// The mirror's edges pass near the corners of its rectangle.
+TEST(OutsideParts, HoldEachTexelBesideTheMirror) {
+  Random random(5);
+  int outside = 0;
+  for (int round = 0; round < 300; ++round) {
+    Mirror mirror =
+        wall({random.uniform(-1, 1), random.uniform(-1, 1), -5}, 0, {random.uniform(0.5, 3), random.uniform(0.5, 3)});
+    mirror.rotation = glm::dvec3(random.uniform(-50, 50), random.uniform(-50, 50), random.uniform(-180, 180));
+    Settings settings;
+    settings.reflection.scale = random.uniform(0.02, 0.3);
+    const Scene scene = sceneWith({mirror}, {});
+    const FramePlan p = planOf(scene, settings);
+    if (p.drawnMirrors().empty()) {
+      continue;
+    }
+    const View& view = p.drawnMirrors()[0].view;
+    std::vector<glm::dvec2> outline;
+    for (const glm::dvec4& v : toClip(p.main().view, p.projection, evaluate(scene, 0.0).mirrors[0].polygon)) {
+      outline.push_back((glm::dvec2(v) / v.w * 0.5 + 0.5) * view.pictureSize);
+    }
+    const std::vector<std::vector<glm::dvec2>> parts = outsideParts(view, p.projection);
+    for (int y = view.rect.y; y < view.rect.y + view.rect.height; ++y) {
+      for (int x = view.rect.x; x < view.rect.x + view.rect.width; ++x) {
+        const glm::dvec2 center(x + 0.5, y + 0.5);
+        double inside = INFINITY;  // texels from the nearest edge, below 0 outside
+        double winding = 0.0;
+        for (size_t i = 0; i < outline.size(); ++i) {
+          const glm::dvec2 edge = outline[(i + 1) % outline.size()] - outline[i];
+          const glm::dvec2 to = outline[(i + 2) % outline.size()] - outline[i];
+          winding = edge.x * to.y - edge.y * to.x > 0.0 ? 1.0 : -1.0;
+          const glm::dvec2 at = center - outline[i];
+          inside = std::min(inside, winding * (edge.x * at.y - edge.y * at.x) / glm::length(edge));
+        }
+        if (std::abs(inside) > 0.01) {
+          const glm::dvec2 device = center / view.pictureSize * 2.0 - 1.0;
+          const bool marked = std::ranges::any_of(parts, [&](const auto& part) { return holds(part, device); });
+          ASSERT_EQ(marked, inside < 0.0) << "round " << round << ", " << inside << " texels inside";
+          outside += marked;
+        }
+      }
+    }
+  }
+  EXPECT_GT(outside, 1000);
+}
+
 // A mirror that is cut for drawing reaches beyond all that is read of its image, at any angle and resolution.
 TEST(MirrorPolygons, ReachAsFarAsImagesAreRead) {
   for (const double fov : {20.0, 90.0, 160.0}) {
