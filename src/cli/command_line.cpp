@@ -368,7 +368,8 @@ std::vector<const char*> withSceneOption(int argc, const char* const* argv) {
   const size_t place = argc > 1 && argv[1] == std::string_view("demo") ? 2 : 1;
   if (place < arguments.size()) {
     const std::filesystem::path file = arguments[place];
-    if (file.extension() == ".toml" || isModelFile(file) || shippedScene(file)) {
+    const std::optional<std::filesystem::path> shipped = shippedScene(file);
+    if (file.extension() == ".toml" || isModelFile(file) || (shipped && shipped->extension() == ".toml")) {
       arguments.insert(arguments.begin() + static_cast<std::ptrdiff_t>(place), "--scene");
     }
   }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -48,7 +49,7 @@ std::string faultOf(const json& root, tinygltf::Model& model) {
 struct Numbers {
   const char* kind;  // where such objects are listed
   const char* place;
-  std::vector<double> usual;  // as many as there must be
+  std::vector<double> usual;  // as many as there must be; the fourth is an alpha if the range begins at 0
   Range range{.low = -INFINITY, .high = INFINITY};
   bool isWhole = false;  // a part of them means nothing
 };
@@ -60,7 +61,6 @@ const std::vector<Numbers>& knownNumbers() {
   constexpr const char* lights = "/extensions/KHR_lights_punctual/lights";
   static const std::vector<Numbers> numbers{
       {surface, "/pbrMetallicRoughness/baseColorFactor", {1, 1, 1, 1}, surfaceColorRange},
-      {surface, "/pbrMetallicRoughness/baseColorFactor/3", {1}, share},
       {surface, "/pbrMetallicRoughness/metallicFactor", {1}, share},
       {surface, "/pbrMetallicRoughness/roughnessFactor", {1}, share},
       {surface, "/pbrMetallicRoughness/baseColorTexture/extensions/KHR_texture_transform/offset", {0, 0}},
@@ -78,7 +78,7 @@ const std::vector<Numbers>& knownNumbers() {
        {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1},
        {.low = -INFINITY, .high = INFINITY},
        true},
-      {"/cameras", "/perspective/yfov", {0.8}, {.low = 0.01, .high = 3.14}},
+      {"/cameras", "/perspective/yfov", {0.8}, {.low = 1e-6, .high = std::numbers::pi}},
       {lights, "/color", {1, 1, 1}, radianceRange},
       {lights, "/intensity", {1}, radianceRange}};
   return numbers;
@@ -96,7 +96,8 @@ json mended(const json& value, const Numbers& numbers) {
       isRight = false;
       continue;
     }
-    read[i] = std::clamp(number.get<double>(), numbers.range.low, numbers.range.high);
+    const double high = i == 3 && numbers.range.low == 0.0 ? 1.0 : numbers.range.high;
+    read[i] = std::clamp(number.get<double>(), numbers.range.low, high);
     isRight = isRight && read[i] == number.get<double>();
     isZero = isZero && read[i] == 0.0;
   }
@@ -112,6 +113,19 @@ void mendValues(const fs::path& file, json& root, ModelDefects& defects) {
     const json::json_pointer list(kind);
     return root.contains(list) ? elementsOf(root[list.parent_pointer()], list.back().c_str()) : std::span<json>();
   };
+  for (json& node : elementsOf(root, "nodes")) {
+    if (node.contains("matrix") &&
+        (node.contains("translation") || node.contains("rotation") || node.contains("scale"))) {
+      const json& matrix = node["matrix"];
+      const bool usable = matrix.is_array() && matrix.size() == 16 &&
+                          std::ranges::all_of(matrix, [](const json& number) { return number.is_number(); });
+      defects.add(file, 1, "nodes", "have a matrix and another transform, {} counts",
+                  usable ? "the matrix" : "the other");
+      if (!usable) {
+        node.erase("matrix");
+      }
+    }
+  }
   for (const Numbers& numbers : knownNumbers()) {
     const json::json_pointer list(numbers.kind);
     const json::json_pointer place(numbers.place);
@@ -128,12 +142,6 @@ void mendValues(const fs::path& file, json& root, ModelDefects& defects) {
       }
     }
   }
-  for (const json& node : elementsOf(root, "nodes")) {
-    if (node.contains("matrix") &&
-        (node.contains("translation") || node.contains("rotation") || node.contains("scale"))) {
-      defects.add(file, 1, "nodes", "have a matrix and another transform, the matrix counts");
-    }
-  }
   for (json& material : elementsOf(root, "materials")) {
     constexpr std::array<std::string_view, 3> modes{"OPAQUE", "MASK", "BLEND"};
     if (material.contains("alphaMode") && std::ranges::find(modes, material["alphaMode"]) == modes.end()) {
@@ -144,7 +152,7 @@ void mendValues(const fs::path& file, json& root, ModelDefects& defects) {
   if (root.contains("scene") && !root["scene"].is_null()) {
     const json& scene = root["scene"];
     if (!scene.is_number_unsigned() || scene.get<size_t>() >= elementsOf(root, "scenes").size()) {
-      defects.add(file, 1, "scene", "is not there, the first one is drawn");
+      defects.add(file, 1, "scene", "is not there, the usual one is drawn");
       root.erase("scene");
     }
   }

@@ -128,7 +128,7 @@ std::shared_ptr<const void> claimFolder(const fs::path& out) {
 
 PictureSequence::PictureSequence(const std::filesystem::path& pattern, int count) {
   if (isFolder(pattern)) {
-    throw UsageError("--out: '" + pattern.string() + "' is a folder (a file that ends with .png or .exr)");
+    throw UsageError("--out: '" + pattern.string() + "' is a folder (name a file that ends with .png or .exr)");
   }
   const std::string extension = pattern.extension().string();
   if (extension != ".png" && extension != ".exr") {

@@ -96,10 +96,12 @@ std::vector<int> lightOrder(const SceneState& state, std::span<const uint32_t> s
     const auto mapped = static_cast<size_t>(unmapped - order.begin());
     const size_t aligned = std::min((mapped + perGroup - 1) / perGroup * perGroup, order.size());
     const auto others = order.begin() + static_cast<std::ptrdiff_t>(aligned);
-    std::nth_element(unmapped, others, order.end(), [&](int a, int b) {
-      const glm::dvec3& last = positions[*(unmapped - 1)];
-      return glm::distance(positions[a], last) < glm::distance(positions[b], last);
-    });
+    if (mapped > 0) {
+      const glm::dvec3& last = positions[order[mapped - 1]];
+      std::nth_element(unmapped, others, order.end(), [&](int a, int b) {
+        return glm::distance(positions[a], last) < glm::distance(positions[b], last);
+      });
+    }
     sortIntoRuns({others, order.end()}, positions, perGroup);
   }
   return order;

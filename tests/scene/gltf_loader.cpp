@@ -864,9 +864,24 @@ TEST_F(GltfLoader, WrongNumbersWarnAndDraw) {
       EXPECT_EQ(mesh.indices.size(), 3u) << numbers << " " << value;
       const std::string last = std::string(numbers + 1) + " of 0 is wrong, the nearest or the usual numbers count";
       ASSERT_EQ(mesh.defects.size(), 1u) << numbers << " " << value;
-      EXPECT_TRUE(contains(mesh.defects[0], last)) << mesh.defects[0];
+      EXPECT_TRUE(mesh.defects[0].ends_with(last)) << mesh.defects[0];
     }
   }
+}
+
+TEST_F(GltfLoader, ExtremeNumbersAreNoDefects) {
+  MadeGltf made;
+  made.addMesh({{"POSITION", made.addNumbers(triangleNumbers, "VEC3")}}, {{"material", 0}});
+  made.add("nodes", {{"mesh", 0}, {"rotation", {0, 0, 0, 3}}, {"camera", 0}});
+  made.add("nodes", {{"mesh", 0}, {"scale", {-1, 0, 1e30}}, {"translation", {-1e3, 0, 1e3}}});
+  made.add("cameras", {{"type", "perspective"}, {"perspective", {{"yfov", 0.005}, {"znear", 0.1}}}});
+  made.add("materials", {{"alphaMode", "MASK"},
+                         {"alphaCutoff", 1.5},
+                         {"emissiveFactor", {1, 0, 1}},
+                         {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", 1e6}}}}},
+                         {"pbrMetallicRoughness", {{"baseColorFactor", {0, 1, 0, 0}}, {"roughnessFactor", 0}}}});
+  made.root["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}, {"intensity", 1e9}}};
+  EXPECT_EQ(meshOf(made).defects, std::vector<std::string>());
 }
 
 TEST_F(GltfLoader, NearestNumbersCount) {
@@ -876,6 +891,8 @@ TEST_F(GltfLoader, NearestNumbersCount) {
   made.add("materials", {{"alphaMode", "BLEND"},
                          {"pbrMetallicRoughness", {{"baseColorFactor", {0, 0.5, -1, 7}}, {"metallicFactor", 0}}}});
   Model model = load(made.binary(), "m.glb");
+  ASSERT_EQ(model.mesh.defects.size(), 2u);
+  EXPECT_TRUE(model.mesh.defects[0].ends_with("count")) << model.mesh.defects[0];
   EXPECT_EQ(model.mesh.parts.at(0).material.diffuse, glm::dvec3(0, 0.5, 0));
   EXPECT_EQ(model.mesh.parts.at(0).material.opacity, 1.0);
   expectNear(cornersOf(model.mesh), {{0, 0, 0}, {2, 0, 0}, {0, 2, 0}});
@@ -891,6 +908,10 @@ TEST_F(GltfLoader, ContradictionsWarnAndDraw) {
            r["nodes"][0]["scale"] = {2, 2, 2};
          },
          "nodes: have a matrix and another transform"},
+        {[](json& r) {
+           r["nodes"][0]["matrix"] = nullptr, r["nodes"][0]["scale"] = {2, 2, 2};
+         },
+         "nodes: have a matrix and another transform, the other counts"},
         {[](json& r) { r["materials"][0]["alphaMode"] = "FOO"; }, "materials: have an alphaMode"},
         {[](json& r) { r["asset"]["minVersion"] = "2.9"; }, "asset.minVersion: is not 2.0"}}) {
     MadeGltf made;

@@ -301,9 +301,13 @@ TEST(Coverage, IsTheShareOfTheSurface) {
     QuietSession session(options);
     const LinearImage drawn = drawRadiance(session);
     glm::dvec3 mean(0.0);
-    for (const glm::vec3& pixel : drawn.pixels) {
+    for (int i = 0; i < 64; ++i) {
+      const glm::vec3& pixel = drawn.pixels[i];
       mean += glm::dvec3(pixel) / 64.0;
-      EXPECT_NEAR(pixel.r, traced.r, 0.1) << samples;
+      // On a diagonal of the panes two triangles share the pixel. Each has random numbers of its own, of which the
+      // pictures then use a part that is not spread evenly.
+      const bool shared = i % 8 == i / 8 || i % 8 == 7 - i / 8;
+      EXPECT_NEAR(pixel.r, traced.r, shared ? 0.2 : 0.1) << samples << " samples, pixel " << i;
     }
     EXPECT_NEAR(mean.r, traced.r, 0.01) << samples;
     EXPECT_NEAR(mean.g, traced.g, 0.01) << samples;
