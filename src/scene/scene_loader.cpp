@@ -178,7 +178,7 @@ toml::table tomlIfAny(const fs::path& file) {
 
 constexpr double smallest = 1e-9;  // metres, of the bounding sphere's radius
 constexpr double largest = 1e12;
-constexpr double gap = 0.03;   // space between the model and the mirror below it, in radii of the model
+constexpr double gap = 0.003;  // space between the model and the mirror below it, in radii of the model
 constexpr double stage = 3.6;  // radius of the mirror, in radii of the model
 constexpr double modelFieldOfView = 36.0;
 

@@ -44,11 +44,14 @@ TEST(ModelScene, StandsOverItsMirrorWithinThePicture) {
     const SceneState state = evaluate(scene, 0.0);
     ASSERT_EQ(state.instances.size(), 1u);
     const Mesh& mesh = scene.meshes[0];
+    double lowest = INFINITY;
     for (const Vertex& vertex : mesh.vertices) {
       const glm::dvec3 p = state.instances[0].worldFromMesh.point(vertex.position);
+      lowest = std::min(lowest, p.y);
       EXPECT_GT(p.y, 0.0) << "the mirror lies at 0";
       EXPECT_LT(p.y, 2.1 + 1.0) << "and the model right above it";
     }
+    EXPECT_LT(lowest, 0.005 * mesh.radius) << "it seems to stand on it";
     EXPECT_EQ(state.mirrors[0].normal, glm::dvec3(0.0, 1.0, 0.0));
     // The bounding sphere within the cone of the vertical field of view.
     const glm::dvec3 seen = state.camera.worldToView * (state.instances[0].center - state.camera.eye);
