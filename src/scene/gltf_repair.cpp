@@ -20,11 +20,17 @@ using nlohmann::json;
 
 namespace {
 
+constexpr const char* lightsList = "/extensions/KHR_lights_punctual/lights";
+
 // Returns the elements of an object's array; none if there is no such array.
 std::span<json> elementsOf(json& object, const char* key) {
   const auto found = object.find(key);
   auto* array = found == object.end() ? nullptr : found->get_ptr<json::array_t*>();
   return array ? std::span(*array) : std::span<json>();
+}
+
+std::span<json> elementsOf(json& root, const json::json_pointer& list) {
+  return root.contains(list) ? elementsOf(root[list.parent_pointer()], list.back().c_str()) : std::span<json>();
 }
 
 // Reads a model by the library. Returns what it says against it, in one line; nothing if it is read.
@@ -47,20 +53,26 @@ std::string faultOf(const json& root, tinygltf::Model& model) {
 
 // Numbers of an object: the place of one, or of an array, below the object.
 struct Numbers {
-  const char* kind;  // where such objects are listed
+  enum class Kind {
+    parts,      // each counts for itself
+    withAlpha,  // likewise, and the last one is at most 1
+    whole,      // a part of them means nothing, and neither do zeros
+  };
+
+  const char* list;  // of such objects
   const char* place;
-  std::vector<double> usual;  // as many as there must be; the fourth is an alpha if the range begins at 0
+  std::vector<double> usual;  // as many as there must be
   Range range{.low = -INFINITY, .high = INFINITY};
-  bool isWhole = false;  // a part of them means nothing
+  Kind kind = Kind::parts;
 };
 
 // What is read of a file and has bounds, or would be left out with more than itself.
 const std::vector<Numbers>& knownNumbers() {
+  constexpr Range any{.low = -INFINITY, .high = INFINITY};
   constexpr Range share{.low = 0.0, .high = 1.0};
   constexpr const char* surface = "/materials";
-  constexpr const char* lights = "/extensions/KHR_lights_punctual/lights";
   static const std::vector<Numbers> numbers{
-      {surface, "/pbrMetallicRoughness/baseColorFactor", {1, 1, 1, 1}, surfaceColorRange},
+      {surface, "/pbrMetallicRoughness/baseColorFactor", {1, 1, 1, 1}, surfaceColorRange, Numbers::Kind::withAlpha},
       {surface, "/pbrMetallicRoughness/metallicFactor", {1}, share},
       {surface, "/pbrMetallicRoughness/roughnessFactor", {1}, share},
       {surface, "/pbrMetallicRoughness/baseColorTexture/extensions/KHR_texture_transform/offset", {0, 0}},
@@ -71,16 +83,12 @@ const std::vector<Numbers>& knownNumbers() {
       {surface, "/extensions/KHR_materials_transmission/transmissionFactor", {0}, share},
       {surface, "/alphaCutoff", {0.5}, surfaceColorRange},
       {"/nodes", "/translation", {0, 0, 0}},
-      {"/nodes", "/rotation", {0, 0, 0, 1}, {.low = -INFINITY, .high = INFINITY}, true},
+      {"/nodes", "/rotation", {0, 0, 0, 1}, any, Numbers::Kind::whole},
       {"/nodes", "/scale", {1, 1, 1}},
-      {"/nodes",
-       "/matrix",
-       {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1},
-       {.low = -INFINITY, .high = INFINITY},
-       true},
+      {"/nodes", "/matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}, any, Numbers::Kind::whole},
       {"/cameras", "/perspective/yfov", {0.8}, {.low = 1e-6, .high = std::numbers::pi}},
-      {lights, "/color", {1, 1, 1}, radianceRange},
-      {lights, "/intensity", {1}, radianceRange}};
+      {lightsList, "/color", {1, 1, 1}, radianceRange},
+      {lightsList, "/intensity", {1}, radianceRange}};
   return numbers;
 }
 
@@ -96,23 +104,40 @@ json mended(const json& value, const Numbers& numbers) {
       isRight = false;
       continue;
     }
-    const double high = i == 3 && numbers.range.low == 0.0 ? 1.0 : numbers.range.high;
+    const bool isAlpha = numbers.kind == Numbers::Kind::withAlpha && i + 1 == count;
+    const double high = isAlpha ? 1.0 : numbers.range.high;
     read[i] = std::clamp(number.get<double>(), numbers.range.low, high);
     isRight = isRight && read[i] == number.get<double>();
     isZero = isZero && read[i] == 0.0;
   }
-  if (isRight && !(numbers.isWhole && isZero)) {
+  const bool isWhole = numbers.kind == Numbers::Kind::whole;
+  if (isRight && !(isWhole && isZero)) {
     return value;
   }
-  return count == 1 ? json(read[0]) : json(numbers.isWhole ? numbers.usual : read);
+  return count == 1 ? json(read[0]) : json(isWhole ? numbers.usual : read);
 }
 
-// Mends what is read of a file piece by piece, so that a wrong number does not cost the object.
+void mendNumbers(const fs::path& file, json& root, ModelDefects& defects) {
+  for (const Numbers& numbers : knownNumbers()) {
+    const json::json_pointer list(numbers.list);
+    const json::json_pointer place(numbers.place);
+    const std::span<json> elements = elementsOf(root, list);
+    for (size_t i = 0; i < elements.size(); ++i) {
+      if (!elements[i].contains(place)) {
+        continue;
+      }
+      json& value = elements[i][place];
+      if (json right = mended(value, numbers); right != value) {
+        defects.add(file, 1, list.back(), "{} is wrong, the nearest or the usual numbers count",
+                    fmt::format("{} of {}", numbers.place + 1, i));
+        value = std::move(right);
+      }
+    }
+  }
+}
+
+// Mends what is read of a file piece by piece, so that a wrong value does not cost the object.
 void mendValues(const fs::path& file, json& root, ModelDefects& defects) {
-  const auto listed = [&](const char* kind) {
-    const json::json_pointer list(kind);
-    return root.contains(list) ? elementsOf(root[list.parent_pointer()], list.back().c_str()) : std::span<json>();
-  };
   for (json& node : elementsOf(root, "nodes")) {
     if (node.contains("matrix") &&
         (node.contains("translation") || node.contains("rotation") || node.contains("scale"))) {
@@ -126,22 +151,7 @@ void mendValues(const fs::path& file, json& root, ModelDefects& defects) {
       }
     }
   }
-  for (const Numbers& numbers : knownNumbers()) {
-    const json::json_pointer list(numbers.kind);
-    const json::json_pointer place(numbers.place);
-    const std::span<json> elements = listed(numbers.kind);
-    for (size_t i = 0; i < elements.size(); ++i) {
-      if (!elements[i].contains(place)) {
-        continue;
-      }
-      json& value = elements[i][place];
-      if (json right = mended(value, numbers); right != value) {
-        defects.add(file, 1, list.back(), "{} is wrong, the nearest or the usual numbers count",
-                    fmt::format("{} of {}", numbers.place + 1, i));
-        value = std::move(right);
-      }
-    }
-  }
+  mendNumbers(file, root, defects);
   for (json& material : elementsOf(root, "materials")) {
     constexpr std::array<std::string_view, 3> modes{"OPAQUE", "MASK", "BLEND"};
     if (material.contains("alphaMode") && std::ranges::find(modes, material["alphaMode"]) == modes.end()) {
@@ -208,12 +218,9 @@ void leaveOutDamaged(const fs::path& file, json& root, ModelDefects& defects) {
   for (const auto& [key, empty] : usual) {
     repair(key, elementsOf(root, key), empty, [&, name = key](const json& one) { return faultOfPart(name, one); });
   }
-  const json::json_pointer lights("/extensions/KHR_lights_punctual/lights");
-  if (root.contains(lights)) {
-    repair("lights", elementsOf(root[lights.parent_pointer()], "lights"), {{"type", noLight}}, [&](const json& one) {
-      return faultOfPart("extensions", {{"KHR_lights_punctual", {{"lights", one}}}});
-    });
-  }
+  repair("lights", elementsOf(root, json::json_pointer(lightsList)), {{"type", noLight}}, [&](const json& one) {
+    return faultOfPart("extensions", {{"KHR_lights_punctual", {{"lights", one}}}});
+  });
   if (const std::string fault = faultOfPart("extensions", root.value("extensions", json())); !fault.empty()) {
     defects.add(file, 1, "extensions", "cannot be read ({}), lights are left out", fault);
     root.erase("extensions");
