@@ -279,10 +279,11 @@ void Pace::planFirst(const Request& request) {
     text_ = pictures_ == 1 ? "" : meanText(0);
     return;
   }
-  planWith(request, withPictures(request.frame.settings, pictures_), 0);
+  planPicture(request, State::mean);
   if (controller_.predict(work_) <= longestWait * request.budgetMs) {
-    return planPicture(request, State::mean);
+    return;
   }
+  picture_ = 0;
   state_ = State::draft;
   planWithinBudget(request);
   draft_ = text_ = "Draft: " + text_;
