@@ -286,11 +286,13 @@ TEST(Coverage, IsTheShareOfTheSurface) {
   const std::string ofVertices =
       writePane("flat", 1, 4.0f, red,
                 {{"alphaMode", "BLEND"}, {"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1, 0.5}}}}}, "");
+  // The panes lie so that no diagonal of theirs is seen. Triangles have random numbers of their own, of which the
+  // pictures would use a part where two share a pixel, and that part is not spread evenly.
   const std::filesystem::path file = writeScene(
       "panes",
       "[environment] ambient = [1, 1, 1]\n[camera] position = [0, 0, 3], target = [0, 0, 0]\n[[object]] model = "
-      "\"flat.obj\", position = [0, 0, 0]\n[[object]] model = \"" +
-          ofVertices + "\", position = [0, 0, 0.2]\n[[object]] model = \"" + wall + "\", position = [0, 0, -1]\n");
+      "\"flat.obj\", position = [1.9, -1.9, 0]\n[[object]] model = \"" +
+          ofVertices + "\", position = [1.9, -1.9, 0.2]\n[[object]] model = \"" + wall + "\", position = [0, 0, -1]\n");
   const Tracing tracing = tracingOf(file, {8, 8}, 3);
   const glm::vec3 traced = tracing.result().image.at(3, 3);
   EXPECT_NEAR(traced.r, 0.25 + 0.75 * 0.25, 1e-6);
@@ -301,13 +303,9 @@ TEST(Coverage, IsTheShareOfTheSurface) {
     QuietSession session(options);
     const LinearImage drawn = drawRadiance(session);
     glm::dvec3 mean(0.0);
-    for (int i = 0; i < 64; ++i) {
-      const glm::vec3& pixel = drawn.pixels[i];
+    for (const glm::vec3& pixel : drawn.pixels) {
       mean += glm::dvec3(pixel) / 64.0;
-      // On a diagonal of the panes two triangles share the pixel. Each has random numbers of its own, of which the
-      // pictures then use a part that is not spread evenly.
-      const bool shared = i % 8 == i / 8 || i % 8 == 7 - i / 8;
-      EXPECT_NEAR(pixel.r, traced.r, shared ? 0.2 : 0.1) << samples << " samples, pixel " << i;
+      EXPECT_NEAR(pixel.r, traced.r, 0.1) << samples;
     }
     EXPECT_NEAR(mean.r, traced.r, 0.01) << samples;
     EXPECT_NEAR(mean.g, traced.g, 0.01) << samples;
