@@ -168,8 +168,8 @@ std::vector<std::vector<glm::dvec2>> outsideParts(const View& view, const Projec
       continue;
     }
     Polygon part = clipPolygon(whole, Plane{line * (-offset / length2), -line});
-    // Of a short edge the corner of the rectangle goes, near which there is no texel's centre. Without the other one
-    // the line would turn.
+    // A short edge loses its end at the rectangle's corner, where no texel's centre is near. Its other end lies on the
+    // mirror's edge, and without that end the part would have another edge than the mirror.
     const auto beyond = [&](size_t corner) { return -glm::dot(line, part[corner]) - offset; };
     for (size_t i = part.size(); i-- > 0 && part.size() > 3;) {
       const size_t next = (i + 1) % part.size();
