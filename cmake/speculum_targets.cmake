@@ -102,8 +102,12 @@ function(speculum_page target)
   target_sources(${target} PRIVATE ${output})
 endfunction()
 
-find_program(GLSLANG_VALIDATOR glslangValidator REQUIRED)
-find_program(SPIRV_VAL spirv-val REQUIRED)
+find_program(GLSLANG_VALIDATOR glslangValidator)
+find_program(SPIRV_VAL spirv-val)
+if(NOT GLSLANG_VALIDATOR OR NOT SPIRV_VAL)
+  message(FATAL_ERROR " glslangValidator or spirv-val is missing: install glslang-tools and spirv-tools (Debian, Ubuntu), "
+                      "glslang and spirv-tools (Fedora, Arch) or glslang[tools] and spirv-tools[tools] (vcpkg)")
+endif()
 
 # speculum_shaders(TARGET OUTPUT dir SOURCES file... [ALL]): GLSL to dir/FILE.spv, each module checked by spirv-val.
 function(speculum_shaders target)
