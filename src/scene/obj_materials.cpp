@@ -129,6 +129,28 @@ class ObjMaterials::MtlReader {
       if (readTexture("map_d")) {
         entry_->opacityLine = line_.number();
       }
+    } else {
+      addLeftOut(key);
+    }
+  }
+
+  // Counts a key that is not read, unless it changes nothing: a number of 0, or a texture without a name.
+  void addLeftOut(const std::string& key) {
+    constexpr std::array<std::string_view, 3> numbers{"ps", "pc", "aniso"};
+    constexpr std::array<std::string_view, 12> textures{"map_ks",   "map_ns", "map_pr", "map_pm", "map_ps", "map_pc",
+                                                        "map_bump", "bump",   "norm",   "disp",   "decal",  "refl"};
+    constexpr std::array<std::string_view, 8> withoutPart{"ka",  "map_ka", "ni",        "tf",
+                                                          "pcr", "anisor", "sharpness", "map_aat"};
+    const auto isOf = [&](const auto& keys) { return std::ranges::find(keys, key) != keys.end(); };
+    const bool isNumber = isOf(numbers);
+    if (isNumber || isOf(textures)) {
+      const bool isEmpty = isNumber ? line_.tokens().size() > 1 && numberOf(line_.tokens()[1]) == 0.0
+                                    : materials_.isComment(file_, namedTexture(line_).first);
+      if (!isEmpty) {
+        add(line_.keyword(), "is not read, the material is drawn without it");
+      }
+    } else if (!isOf(withoutPart)) {
+      add("newmtl", "'{}' is no known key, it is left out", line_.keyword());
     }
   }
 

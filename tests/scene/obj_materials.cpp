@@ -315,6 +315,28 @@ TEST_F(MtlFile, UnreadableTexturesAreLeftOut) {
   }
 }
 
+TEST_F(MtlFile, KeysThatAreNotReadAreNamedOnce) {
+  load(squareText + "usemtl m\nf 1 2 3\n",
+       "newmtl m\nmap_Pr r.png\nmap_Bump -bm 0.5 b.png\nPc 1\nillumination 2\nNORM n.png\nrefl -type sphere c.mpc\n"
+       "newmtl n\nmap_Pr s.png\nKx 1\nps 0.5\nmap_Pm m.png\nmap_ks k.png\naniso 0.5\ndisp d.png\nmap_Bump b.png\n");
+  const std::string left = " is not read, the material is drawn without it";
+  EXPECT_EQ(warnings(), "warning: m.mtl:2: map_Pr:" + left + " (and 1 more)\n" + "warning: m.mtl:3: map_Bump:" + left +
+                            " (and 1 more)\n" + "warning: m.mtl:4: Pc:" + left + "\n" +
+                            "warning: m.mtl:5: newmtl: 'illumination' is no known key, it is left out (and 1 more)\n" +
+                            "warning: m.mtl:6: NORM:" + left + "\n" + "warning: m.mtl:7: refl:" + left + "\n" +
+                            "warning: m.mtl:11: ps:" + left + "\n" + "warning: m.mtl:12: map_Pm:" + left + "\n" +
+                            "warning: m.mtl:13: map_ks:" + left + "\n" + "warning: m.mtl:14: aniso:" + left + "\n" +
+                            "warning: m.mtl:15: disp:" + left + "\n");
+}
+
+// Exporters write these for every material.
+TEST_F(MtlFile, KeysThatChangeNothingAreNoDefects) {
+  materialOf(
+      "newmtl m\nKa 1 1 1\nNi 1.5\nTf 1 1 1\nsharpness 60\nmap_Ka none.png\nmap_aat on\nPs 0\nPc 0.0\nPcr 0.03\n"
+      "aniso 0\nanisor 0\nbump\nmap_Bump -bm 1\nnorm # none\n");
+  EXPECT_EQ(warnings(), "");
+}
+
 TEST_F(MtlFile, DamagedMasksCountForEachMaterial) {
   folder_.write("text.png", "no picture");
   const Mesh mesh = load(squareText + "usemtl a\nf 1 2 3\nusemtl b\nf 1 3 4\n",
