@@ -48,17 +48,30 @@ PictureFormat formatOf(const std::filesystem::path& file, const std::vector<uint
 }
 
 [[noreturn]] void throwUnknown(const std::filesystem::path& file, const std::vector<uint8_t>& bytes) {
-  const char* format = startsWith(bytes, "WEBP", 8)                                                  ? "a WebP file"
-                       : startsWith(bytes, "II*") || startsWith(bytes, std::string_view("MM\0*", 4)) ? "a TIFF file"
-                       : startsWith(bytes, "DDS ")                                                   ? "a DDS file"
-                       : startsWith(bytes, "\xabKTX")                                                ? "a KTX file"
-                       : startsWith(bytes, "v/1\x01")                                                ? "an EXR file"
-                       : startsWith(bytes, "#?RADIANCE")                                             ? "an HDR file"
-                       : startsWith(bytes, "jP  ", 4)                 ? "a JPEG 2000 file"
-                       : startsWith(bytes, "ftypavif", 4)             ? "an AVIF file"
-                       : startsWith(bytes, "version https://git-lfs") ? "a Git LFS pointer"
-                                                                      : "not a picture that can be read";
-  throw FileError(file, std::string("is ") + format, "a PNG or JPEG file is needed");
+  struct Signature {
+    std::string_view text;
+    const char* format;
+    size_t at = 0;
+  };
+  static constexpr std::array signatures{Signature{"WEBP", "a WebP file", 8},
+                                         Signature{"II*", "a TIFF file"},
+                                         Signature{{"MM\0*", 4}, "a TIFF file"},
+                                         Signature{"DDS ", "a DDS file"},
+                                         Signature{"\xabKTX", "a KTX file"},
+                                         Signature{"v/1\x01", "an EXR file"},
+                                         Signature{"#?R", "an HDR file"},
+                                         Signature{"jP  ", "a JPEG 2000 file", 4},
+                                         Signature{"\xff\x4f\xff\x51", "a JPEG 2000 file"},
+                                         Signature{"JXL ", "a JPEG XL file", 4},
+                                         Signature{"ftypavif", "an AVIF file", 4},
+                                         Signature{"ftyphei", "a HEIC file", 4},
+                                         Signature{"<svg", "an SVG file"},
+                                         Signature{"<?xml", "an SVG or another XML file"},
+                                         Signature{"version https://git-lfs", "a Git LFS pointer"}};
+  const auto known = std::ranges::find_if(
+      signatures, [&](const Signature& signature) { return startsWith(bytes, signature.text, signature.at); });
+  const std::string format = known == signatures.end() ? "not a picture that can be read" : known->format;
+  throw FileError(file, "is " + format, "a PNG or JPEG file is needed");
 }
 
 // Returns a byte; 0 behind the end.

@@ -157,7 +157,9 @@ class GltfMaterials {
   Material material(int index, bool colored, bool withAlpha, const glm::dvec3& meanColor);
 
  private:
-  void add(std::string_view kind, std::string_view detail) { defects_.add(file_, 1, "materials", kind, detail); }
+  void add(std::string_view kind, std::string_view detail, std::string_view reason = {}) {
+    defects_.add(file_, 1, "materials", kind, detail, reason);
+  }
   // Set the colors and the coverage of a material whose texture is set.
   void setSurface(Material& material, const tinygltf::PbrMetallicRoughness& surface, const glm::dvec3& meanColor);
   void setCoverage(Material& material, const tinygltf::Material& from, bool withAlpha);

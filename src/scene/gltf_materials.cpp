@@ -31,7 +31,8 @@ auto GltfMaterials::readPicture(int texture, const Read& read) -> std::optional<
   }
   const tinygltf::Texture& from = content_.model().textures[texture];
   if (from.source == -1 && !from.extensions.empty()) {
-    add("a texture has no picture but that of {}, it is left out", from.extensions.begin()->first);
+    const std::string& extension = from.extensions.begin()->first;
+    add("a texture has no picture but that of {}, it is left out", extension, extension);
     return std::nullopt;
   }
   const std::optional<GltfFile::Picture> picture = content_.picture(from.source);
@@ -41,7 +42,7 @@ auto GltfMaterials::readPicture(int texture, const Read& read) -> std::optional<
   try {
     return picture->content ? read(picture->name, *picture->content) : read(picture->name);
   } catch (const FileError& error) {
-    add("{}, the texture is left out", error.what());
+    add("{}, the texture is left out", error.what(), error.problem());
     return std::nullopt;
   }
 }

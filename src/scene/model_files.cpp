@@ -190,9 +190,9 @@ std::optional<ForeignFile> foreignFile(std::string_view content) {
 }
 
 void ModelDefects::add(const std::filesystem::path& file, int line, std::string_view key, std::string_view kind,
-                       std::string_view detail) {
+                       std::string_view detail, std::string_view reason) {
   const auto known = std::ranges::find_if(entries_, [&](const Entry& entry) {
-    return entry.kind == kind && entry.key == key && entry.file.native() == file.native();
+    return entry.kind == kind && entry.key == key && entry.reason == reason && entry.file.native() == file.native();
   });
   if (known != entries_.end()) {
     ++known->count;
@@ -202,7 +202,7 @@ void ModelDefects::add(const std::filesystem::path& file, int line, std::string_
   constexpr size_t most = 200;
   std::string text = fmt::format("{}:{}: {}: ", file.string(), line, key);
   text += fmt::format(fmt::runtime(kind), std::string(detail.substr(0, most)) + (detail.size() > most ? "..." : ""));
-  entries_.push_back({file, std::string(key), kind, oneLine(std::move(text))});
+  entries_.push_back({file, std::string(key), kind, std::string(reason), oneLine(std::move(text))});
 }
 
 std::vector<std::string> ModelDefects::report() {

@@ -22,9 +22,9 @@ using LoadProgress = std::function<void(const std::filesystem::path& file, doubl
 class ModelDefects {
  public:
   // Counts a defect in a line of a file, from 1. `kind` is a text that outlives this object; its {} stands for
-  // `detail`.
+  // `detail`. Defects with different texts in `reason` are of different kinds.
   void add(const std::filesystem::path& file, int line, std::string_view key, std::string_view kind,
-           std::string_view detail = {});
+           std::string_view detail = {}, std::string_view reason = {});
 
   // Returns one warning for each kind, `FILE:LINE: key: kind (and N more)` with the line of the kind's first defect, in
   // the order of these first defects. Forgets the defects.
@@ -35,6 +35,7 @@ class ModelDefects {
     std::filesystem::path file;
     std::string key;
     std::string_view kind;
+    std::string reason;
     std::string text;  // about the first defect of the kind
     size_t count = 1;
   };

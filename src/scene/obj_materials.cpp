@@ -423,7 +423,7 @@ auto ObjMaterials::readPicture(const Entry& entry, int line, std::string_view ke
   try {
     return read(*picture);
   } catch (const FileError& error) {
-    defects_.add(entry.file, line, key, "{}, the texture is left out", error.what());
+    defects_.add(entry.file, line, key, "{}, the texture is left out", error.what(), error.problem());
     return std::nullopt;
   }
 }

@@ -315,6 +315,49 @@ TEST_F(MtlFile, UnreadableTexturesAreLeftOut) {
   }
 }
 
+// One model may name pictures of several formats.
+TEST_F(MtlFile, EachFormatOfPicturesIsNamedOnce) {
+  using namespace std::string_literals;
+  std::string obj = squareText;
+  std::string mtl;
+  std::string expected;
+  int line = 0;
+  for (const auto& [name, content, format] :
+       {std::tuple("a.webp", "RIFF....WEBPVP8 "s, "a WebP"), std::tuple("b.webp", "RIFF....WEBPVP8L"s, ""),
+        std::tuple("a.tif", "II*."s, "a TIFF"), std::tuple("b.tif", "MM\0*"s, ""),
+        std::tuple("a.dds", "DDS |"s, "a DDS"), std::tuple("a.ktx", "\xabKTX 11"s, "a KTX"),
+        std::tuple("b.ktx2", "\xabKTX 20"s, ""), std::tuple("a.exr", "v/1\x01"s, "an EXR"),
+        std::tuple("a.hdr", "#?RADIANCE\n"s, "an HDR"), std::tuple("b.hdr", "#?RGBE\n"s, ""),
+        std::tuple("a.jp2", "\0\0\0\x0cjP  \r\n"s, "a JPEG 2000"), std::tuple("b.j2k", "\xff\x4f\xff\x51"s, ""),
+        std::tuple("a.jxl", "\0\0\0\x0cJXL \r\n"s, "a JPEG XL"), std::tuple("a.avif", "\0\0\0 ftypavif"s, "an AVIF"),
+        std::tuple("a.heic", "\0\0\0 ftypheic"s, "a HEIC"), std::tuple("a.svg", "<svg xmlns='"s, "an SVG"),
+        std::tuple("b.svg", "<?xml version"s, "an SVG or another XML")}) {
+    folder_.write(name, content);
+    obj += fmt::format("usemtl {}\nf 1 2 3\n", name);
+    mtl += fmt::format("newmtl {}\nmap_Kd {}\n", name, name);
+    line += 2;
+    if (*format != '\0') {
+      expected += fmt::format(
+          "warning: m.mtl:{}: map_Kd: {}: is {} file (a PNG or JPEG file is needed), the texture is "
+          "left out\n",
+          line, name, format);
+    } else {
+      expected.insert(expected.size() - 1, " (and 1 more)");
+    }
+  }
+  load(obj, mtl);
+  EXPECT_EQ(warnings(), expected);
+}
+
+TEST_F(MtlFile, WarningsNamePicturesAsTheirMaterialsDo) {
+  folder_.write("real.ktx2", "\xabKTX 20");
+  std::filesystem::create_symlink("real.ktx2", folder_ / "link.ktx2");
+  for (const std::string key : {"map_Kd", "map_Ke", "map_d"}) {
+    const Mesh mesh = load(squareText + "usemtl m\nf 1 2 3\n", "newmtl m\n" + key + " link.ktx2\n");
+    EXPECT_TRUE(contains(withoutFolder(mesh.defects.at(0)), "m.mtl:2: " + key + ": link.ktx2: is a KTX file"));
+  }
+}
+
 TEST_F(MtlFile, KeysThatAreNotReadAreNamedOnce) {
   load(squareText + "usemtl m\nf 1 2 3\n",
        "newmtl m\nmap_Pr r.png\nmap_Bump -bm 0.5 b.png\nPc 1\nillumination 2\nNORM n.png\nrefl -type sphere c.mpc\n"
