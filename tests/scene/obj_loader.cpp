@@ -597,6 +597,50 @@ TEST_F(ObjLoader, ModelsOfAnySizeKeepTheirShape) {
   }
 }
 
+// Programs compute spheres as floats or doubles, and write some of the digits.
+TEST_F(ObjLoader, PolesOfSpheresAreNoSlivers) {
+  constexpr int rings = 12;
+  constexpr int segments = 24;
+  const auto coordinates = [](auto radius, auto pi, bool sums) {
+    using T = decltype(radius);
+    std::vector<std::array<double, 3>> points;
+    T polar = 0;
+    for (int ring = 0; ring <= rings; ++ring) {
+      for (int i = 0; i <= segments; ++i) {
+        const T turn = 2 * pi * static_cast<T>(i) / segments;
+        points.push_back({radius * std::cos(turn) * std::sin(polar), radius * std::cos(polar),
+                          radius * std::sin(turn) * std::sin(polar)});
+      }
+      polar = sums ? polar + pi / rings : pi * static_cast<T>(ring + 1) / rings;
+    }
+    return points;
+  };
+  for (const double radius : {0.01, 1.0, 7.0, 250.0}) {
+    for (const bool sums : {false, true}) {
+      for (const auto& points : {coordinates(static_cast<float>(radius), std::numbers::pi_v<float>, sums),
+                                 coordinates(radius, std::numbers::pi, sums)}) {
+        for (const char* format : {"{:.4f}", "{:.6f}", "{:.6g}", "{:.8f}", "{:.9g}", "{}"}) {
+          for (const double height : {0.0, radius, 12.345}) {
+            std::string obj;
+            for (const auto& [x, y, z] : points) {
+              const auto written = [&](double number) { return " " + fmt::format(fmt::runtime(format), number); };
+              obj += "v" + written(x) + written(y + height) + written(z + 0.3 * height) + "\n";
+            }
+            for (int ring = 0; ring < rings; ++ring) {
+              for (int i = 1; i <= segments; ++i) {
+                const int a = ring * (segments + 1) + i;
+                const int b = a + segments + 1;
+                obj += fmt::format("f {} {} {}\nf {} {} {}\n", a, a + 1, b, a + 1, b + 1, b);
+              }
+            }
+            EXPECT_EQ(load(obj).defects, std::vector<std::string>()) << radius << sums << format << height;
+          }
+        }
+      }
+    }
+  }
+}
+
 // Floats hold the place in a texture whichever of its repetitions is named.
 TEST_F(ObjLoader, TextureCoordinatesKeepTheirFraction) {
   for (const double far : {0.0, 20.0, 1e4, -1e6, 1e9, -1e12, 1e300}) {
