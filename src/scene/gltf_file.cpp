@@ -22,6 +22,12 @@ namespace speculum {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
+const json& member(const json& object, const char* key) {
+  static const json none;
+  const auto found = object.find(key);
+  return found == object.end() ? none : *found;
+}
+
 namespace {
 
 // The two parts of a file; a text file has no binary part.
@@ -56,13 +62,6 @@ Parts partsOf(const fs::path& file, std::string_view text) {
     at += chunkHeader + size;
   }
   return parts;
-}
-
-// Returns a member of an object; null if there is none.
-const json& member(const json& object, const char* key) {
-  static const json none;
-  const auto found = object.find(key);
-  return found == object.end() ? none : *found;
 }
 
 // Returns how many objects and arrays of JSON lie in one another.
@@ -149,36 +148,6 @@ void checkExtensions(const fs::path& file, const json& root, ModelDefects& defec
   if (!unknown.empty()) {
     throwInputError(file, 1, "extensionsRequired", fmt::format("{} cannot be read", fmt::join(unknown, ", ")),
                     "export the model without them");
-  }
-}
-
-// Writes what extensions say of a material into its own keys, as far as these can say it: color, metal and roughness.
-void useMaterialExtensions(const fs::path& file, json& root, ModelDefects& defects) {
-  if (!member(root, "materials").is_array()) {
-    return;
-  }
-  for (json& material : root["materials"]) {
-    const json& extensions = member(material, "extensions");
-    const json& glossy = member(extensions, specularGlossiness);
-    json surface = member(material, "pbrMetallicRoughness");
-    if (glossy.is_object() && surface.is_null()) {  // else the file has a description for readers like this one
-      if (glossy.contains("specularFactor") || glossy.contains("specularGlossinessTexture")) {
-        defects.add(file, 1, "materials", "specular colors and textures of {} are left out", specularGlossiness);
-      }
-      const json& gloss = member(glossy, "glossinessFactor");
-      surface = {{"metallicFactor", 0}, {"roughnessFactor", gloss.is_number() ? 1.0 - gloss.get<double>() : 0.0}};
-      for (const auto& [key, usual] :
-           {std::pair("diffuseFactor", "baseColorFactor"), std::pair("diffuseTexture", "baseColorTexture")}) {
-        if (glossy.contains(key)) {
-          surface[usual] = glossy[key];
-        }
-      }
-    } else if (member(extensions, unlit).is_object() && (surface.is_object() || surface.is_null())) {
-      surface["metallicFactor"] = 0;  // draws the color, which is lit
-    } else {
-      continue;
-    }
-    material["pbrMetallicRoughness"] = surface;
   }
 }
 
@@ -281,7 +250,6 @@ void GltfFile::readJson(std::string_view text, std::vector<Source>& buffers) {
   json root = parsedJson(file_, text, &defects_);
   checkVersion(file_, root, defects_);
   checkExtensions(file_, root, defects_);
-  useMaterialExtensions(file_, root, defects_);
   hasMotion_ = !member(root, "animations").empty();
   const auto index = [](const json& value) { return value.is_number_integer() ? value.get<int>() : -1; };
   for (const json& entry : member(root, "skins")) {

@@ -60,7 +60,7 @@ struct Numbers {
   };
 
   const char* list;  // of such objects
-  const char* place;
+  std::string place;
   std::vector<double> usual;  // as many as there must be
   Range range{.low = -INFINITY, .high = INFINITY};
   Kind kind = Kind::parts;
@@ -71,13 +71,21 @@ const std::vector<Numbers>& knownNumbers() {
   constexpr Range any{.low = -INFINITY, .high = INFINITY};
   constexpr Range share{.low = 0.0, .high = 1.0};
   constexpr const char* surface = "/materials";
+  const std::string base = "/pbrMetallicRoughness/baseColor";
+  const std::string glossy = std::string("/extensions/") + specularGlossiness + "/";
+  const std::string transform = "/extensions/KHR_texture_transform/";
   static const std::vector<Numbers> numbers{
-      {surface, "/pbrMetallicRoughness/baseColorFactor", {1, 1, 1, 1}, surfaceColorRange, Numbers::Kind::withAlpha},
+      {surface, base + "Factor", {1, 1, 1, 1}, surfaceColorRange, Numbers::Kind::withAlpha},
+      {surface, base + "Texture" + transform + "offset", {0, 0}},
+      {surface, base + "Texture" + transform + "scale", {1, 1}},
+      {surface, base + "Texture" + transform + "rotation", {0}},
       {surface, "/pbrMetallicRoughness/metallicFactor", {1}, share},
       {surface, "/pbrMetallicRoughness/roughnessFactor", {1}, share},
-      {surface, "/pbrMetallicRoughness/baseColorTexture/extensions/KHR_texture_transform/offset", {0, 0}},
-      {surface, "/pbrMetallicRoughness/baseColorTexture/extensions/KHR_texture_transform/scale", {1, 1}},
-      {surface, "/pbrMetallicRoughness/baseColorTexture/extensions/KHR_texture_transform/rotation", {0}},
+      {surface, glossy + "diffuseFactor", {1, 1, 1, 1}, surfaceColorRange, Numbers::Kind::withAlpha},
+      {surface, glossy + "diffuseTexture" + transform + "offset", {0, 0}},
+      {surface, glossy + "diffuseTexture" + transform + "scale", {1, 1}},
+      {surface, glossy + "diffuseTexture" + transform + "rotation", {0}},
+      {surface, glossy + "glossinessFactor", {1}, share},
       {surface, "/emissiveFactor", {0, 0, 0}, radianceRange},
       {surface, "/extensions/KHR_materials_emissive_strength/emissiveStrength", {1}, radianceRange},
       {surface, "/extensions/KHR_materials_transmission/transmissionFactor", {0}, share},
@@ -129,10 +137,37 @@ void mendNumbers(const fs::path& file, json& root, ModelDefects& defects) {
       json& value = elements[i][place];
       if (json right = mended(value, numbers); right != value) {
         defects.add(file, 1, list.back(), "{} is wrong, the nearest or the usual numbers count",
-                    fmt::format("{} of {}", numbers.place + 1, i));
+                    fmt::format("{} of {}", numbers.place.substr(1), i));
         value = std::move(right);
       }
     }
+  }
+}
+
+// Writes what extensions say of a material into its own keys, as far as these can say it: color, metal and roughness.
+// Numbers are mended before.
+void useMaterialExtensions(const fs::path& file, json& root, ModelDefects& defects) {
+  for (json& material : elementsOf(root, "materials")) {
+    const json& extensions = member(material, "extensions");
+    const json& glossy = member(extensions, specularGlossiness);
+    json surface = member(material, "pbrMetallicRoughness");
+    if (glossy.is_object() && surface.is_null()) {  // else the file has a description for readers like this one
+      if (glossy.contains("specularFactor") || glossy.contains("specularGlossinessTexture")) {
+        defects.add(file, 1, "materials", "specular colors and textures of {} are left out", specularGlossiness);
+      }
+      surface = {{"metallicFactor", 0}, {"roughnessFactor", 1.0 - glossy.value("glossinessFactor", 1.0)}};
+      for (const auto& [key, usual] :
+           {std::pair("diffuseFactor", "baseColorFactor"), std::pair("diffuseTexture", "baseColorTexture")}) {
+        if (glossy.contains(key)) {
+          surface[usual] = glossy[key];
+        }
+      }
+    } else if (member(extensions, unlit).is_object() && (surface.is_object() || surface.is_null())) {
+      surface["metallicFactor"] = 0;  // draws the color, which is lit
+    } else {
+      continue;
+    }
+    material["pbrMetallicRoughness"] = surface;
   }
 }
 
@@ -152,6 +187,7 @@ void mendValues(const fs::path& file, json& root, ModelDefects& defects) {
     }
   }
   mendNumbers(file, root, defects);
+  useMaterialExtensions(file, root, defects);
   for (json& material : elementsOf(root, "materials")) {
     constexpr std::array<std::string_view, 3> modes{"OPAQUE", "MASK", "BLEND"};
     if (material.contains("alphaMode") && std::ranges::find(modes, material["alphaMode"]) == modes.end()) {

@@ -819,15 +819,23 @@ TEST_F(GltfLoader, WrongNumbersWarnAndDraw) {
   writePng(folder_ / "t.png", testing_support::greyPicture(4, 2, 255));
   struct Place {
     const char* list;
-    const char* numbers;
+    std::string numbers;
     size_t count;
   };
+  const std::string glossy = "/extensions/KHR_materials_pbrSpecularGlossiness/";
   for (const auto& [list, numbers, count] : std::vector<Place>{
            {"/materials", "/pbrMetallicRoughness/baseColorFactor", 4},
            {"/materials", "/pbrMetallicRoughness/metallicFactor", 1},
            {"/materials", "/pbrMetallicRoughness/roughnessFactor", 1},
            {"/materials", "/pbrMetallicRoughness/baseColorTexture/extensions/KHR_texture_transform/offset", 2},
+           {"/materials", "/pbrMetallicRoughness/baseColorTexture/extensions/KHR_texture_transform/scale", 2},
            {"/materials", "/pbrMetallicRoughness/baseColorTexture/extensions/KHR_texture_transform/rotation", 1},
+           {"/materials", glossy + "diffuseFactor", 4},
+           {"/materials", glossy + "glossinessFactor", 1},
+           {"/materials", glossy + "diffuseTexture/extensions/KHR_texture_transform/offset", 2},
+           {"/materials", glossy + "diffuseTexture/extensions/KHR_texture_transform/scale", 2},
+           {"/materials", glossy + "diffuseTexture/extensions/KHR_texture_transform/rotation", 1},
+           {"/materials", "/extensions/KHR_materials_transmission/transmissionFactor", 1},
            {"/materials", "/emissiveFactor", 3},
            {"/materials", "/extensions/KHR_materials_emissive_strength/emissiveStrength", 1},
            {"/materials", "/alphaCutoff", 1},
@@ -855,14 +863,19 @@ TEST_F(GltfLoader, WrongNumbersWarnAndDraw) {
       made.addMesh({{"POSITION", made.addNumbers(triangleNumbers, "VEC3")},
                     {"TEXCOORD_0", made.addNumbers<float>({0, 0, 1, 0, 0, 1}, "VEC2")}},
                    {{"material", 0}});
-      made.add("materials", {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}});
+      if (contains(numbers, glossy)) {
+        made.add("materials",
+                 {{"extensions", {{"KHR_materials_pbrSpecularGlossiness", {{"diffuseTexture", {{"index", 0}}}}}}}});
+      } else {
+        made.add("materials", {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}});
+      }
       made.add("nodes", {{"mesh", 0}, {"camera", 0}, {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
       made.add("cameras", {{"type", "perspective"}, {"perspective", {{"yfov", 0.5}, {"znear", 0.1}}}});
       made.root["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}}};
       made.root[json::json_pointer(list)][0][json::json_pointer(numbers)] = value;
       const Mesh mesh = meshOf(made);
       EXPECT_EQ(mesh.indices.size(), 3u) << numbers << " " << value;
-      const std::string last = std::string(numbers + 1) + " of 0 is wrong, the nearest or the usual numbers count";
+      const std::string last = numbers.substr(1) + " of 0 is wrong, the nearest or the usual numbers count";
       ASSERT_EQ(mesh.defects.size(), 1u) << numbers << " " << value;
       EXPECT_TRUE(mesh.defects[0].ends_with(last)) << mesh.defects[0];
     }
