@@ -89,6 +89,9 @@ json parsedJson(const fs::path& file, std::string_view text, ModelDefects* defec
   // one it takes a time as the square of an array's length.
   constexpr int mostLevels = 64;
   constexpr size_t mostShown = 200;
+  if (const auto foreign = foreignFile(text, ".gltf")) {
+    throwInputError(file, 1, "file", foreign->wrong, foreign->right);
+  }
   if (levelsOf(text) > mostLevels) {
     throwInputError(file, 1, "json", "has more than 64 levels", validGltf);
   }
@@ -102,9 +105,6 @@ json parsedJson(const fs::path& file, std::string_view text, ModelDefects* defec
       return parsedJson(file, whole, nullptr);
     }
     const auto line = std::count(text.begin(), text.begin() + std::min(error.byte, text.size()), '\n');
-    if (const auto foreign = trimmed(text).starts_with("{") ? std::nullopt : foreignFile(text)) {
-      throwInputError(file, 1, "file", foreign->wrong, foreign->right);
-    }
     throwInputError(file, static_cast<int>(line) + 1, "json", std::string(error.what()).substr(0, mostShown),
                     validGltf);
   } catch (const json::exception& error) {  // such as a number that is out of range

@@ -38,6 +38,14 @@ const ModelFormat* formatOf(const std::filesystem::path& file) {
   return found == formats.end() ? nullptr : &*found;
 }
 
+// Says whether the first line that is no comment is one of an OBJ file.
+bool isObj(std::string_view text) {
+  constexpr std::array<std::string_view, 9> keywords{"mtllib", "usemtl", "o", "g", "s", "v", "vt", "vn", "f"};
+  LineReader line(text, LineReader::Continuation::none);
+  return line.next() && line.tokens().size() > 1 && line.tokens()[1] != "=" &&
+         std::ranges::find(keywords, line.keyword()) != keywords.end();
+}
+
 const ModelFormat& formatOrFirst(const std::filesystem::path& file) {
   const ModelFormat* format = formatOf(file);
   return format == nullptr ? formats.front() : *format;
@@ -128,7 +136,7 @@ const ModelFiles::Listing& ModelFiles::listing(const fs::path& folder) {
   return listing;
 }
 
-std::optional<ForeignFile> foreignFile(std::string_view content) {
+std::optional<ForeignFile> foreignFile(std::string_view content, std::string_view readAs) {
   struct Beginning {
     std::string_view text;
     const char* wrong;
@@ -148,7 +156,10 @@ std::optional<ForeignFile> foreignFile(std::string_view content) {
       Beginning{"; FBX", "is an FBX file"},
       Beginning{"BLENDER", "is a Blender file"},
       Beginning{"PK\x03\x04", "is a ZIP archive", "unpack it"},
-      Beginning{"\x1f\x8b", "is compressed with gzip", "unpack it"},
+      Beginning{"\x1f\x8b", "is compressed with gzip, as Blender files may be", "unpack it"},
+      Beginning{"\x28\xb5\x2f\xfd", "is compressed with Zstandard, as Blender files are", "unpack it"},
+      Beginning{"7z\xbc\xaf", "is a 7z archive", "unpack it"},
+      Beginning{"Rar!", "is a RAR archive", "unpack it"},
       Beginning{"MM", "is a 3DS file"},
       Beginning{"<?xml", "is an XML file"},
       Beginning{"ISO-10303", "is a STEP file"},
@@ -160,6 +171,12 @@ std::optional<ForeignFile> foreignFile(std::string_view content) {
   const std::string_view text = trimmed(content.substr(content.starts_with(byteOrderMark) ? byteOrderMark.size() : 0));
   if (text.empty()) {
     return ForeignFile{"is empty", "a " + modelFormatNames() + " file is needed"};
+  }
+  if (readAs == ".gltf" && text.starts_with("{")) {
+    return std::nullopt;
+  }
+  if (text.starts_with("<") && text.substr(0, 4096).find("<COLLADA") != std::string_view::npos) {
+    return ForeignFile{"is a COLLADA file", asModel};
   }
   const auto found =
       std::ranges::find_if(beginnings, [&](const Beginning& beginning) { return text.starts_with(beginning.text); });
@@ -175,6 +192,9 @@ std::optional<ForeignFile> foreignFile(std::string_view content) {
   }
   if (text.starts_with("{") && content.substr(0, 4096).find("\"asset\"") != std::string_view::npos) {
     return ForeignFile{"is a glTF file", "let its name end with .gltf"};
+  }
+  if (readAs != ".obj" && isObj(text)) {
+    return ForeignFile{"is a Wavefront OBJ file", "let its name end with .obj"};
   }
   // A binary STL file has 80 bytes of any text, the number of its triangles, and 50 bytes for each.
   if (content.size() >= 84 && content.size() == 84 + 50 * size_t{littleEndian(content.substr(80))}) {

@@ -77,9 +77,9 @@ struct ForeignFile {
   std::string right;
 };
 
-// Returns what a file is and what is needed instead, if its content begins like a known format other
-// than OBJ.
-std::optional<ForeignFile> foreignFile(std::string_view content);
+// Returns what a file is and what is needed instead, if its content begins like that of a known format. `readAs`: the
+// extension of the format as which it was read, ".obj" or ".gltf", which does not count; empty: neither.
+std::optional<ForeignFile> foreignFile(std::string_view content, std::string_view readAs);
 
 // A format of models. To add a format, write a loader and a row in the table of model_files.cpp.
 struct ModelFormat {

@@ -25,7 +25,7 @@ constexpr double readShare = 0.65;
 
 // What a file holds, so that an error can say what a file without faces is.
 struct Contents {
-  bool faces = false;
+  int firstFace = 0;  // its line; 0: there is none
   bool linesOrPoints = false;
   bool freeForm = false;  // curves and surfaces
 };
@@ -139,11 +139,11 @@ class ObjReader {
   }
 
   void noteContents() {
-    if (contents_.faces) {
+    if (contents_.firstFace != 0) {
       return;
     }
     const std::string keyword = lowerCase(std::string(line_.keyword()));
-    contents_.faces = keyword == "f";
+    contents_.firstFace = keyword == "f" ? line_.number() : 0;
     contents_.linesOrPoints = contents_.linesOrPoints || keyword == "l" || keyword == "p";
     contents_.freeForm = contents_.freeForm || keyword == "curv" || keyword == "curv2" || keyword == "surf";
   }
@@ -317,16 +317,17 @@ class ObjReader {
 [[noreturn]] void throwNothingToDraw(const std::filesystem::path& file, const std::optional<ForeignFile>& foreign,
                                      const Contents& contents, const std::vector<std::string>& defects) {
   const std::string right = "at least one face with an area is needed";
-  if (contents.faces) {
-    const auto first =
-        std::ranges::find_if(defects, [](const std::string& text) { return text.find(": f: ") != std::string::npos; });
+  if (foreign) {
+    throwInputError(file, 1, "file", foreign->wrong, foreign->right);
+  }
+  if (contents.firstFace != 0) {
+    const auto first = std::ranges::find_if(defects, [](const std::string& text) {
+      return text.find(": f: ") != std::string::npos || text.find(": v: is ") != std::string::npos;
+    });
     if (first != defects.end()) {
       throw InputError(*first + " (no triangle is left to draw)");
     }
-    throwInputError(file, 1, "f", "no triangle is left to draw", right);
-  }
-  if (foreign) {
-    throwInputError(file, 1, "file", foreign->wrong, foreign->right);
+    throwInputError(file, contents.firstFace, "f", "has no area, like every other face", right);
   }
   if (contents.freeForm) {
     throwInputError(file, 1, "f", "the model has free-form curves or surfaces, but no face", "export it as triangles");
@@ -341,7 +342,7 @@ std::pair<Contents, std::optional<ForeignFile>> readObj(const std::filesystem::p
                                                         ObjMaterials& materials, ModelDefects& defects,
                                                         const LoadProgress& progress) {
   const std::string text = readInputText(file, "a Wavefront OBJ file is needed");
-  return {ObjReader(file, text, builder, materials, defects).read(progress), foreignFile(text)};
+  return {ObjReader(file, text, builder, materials, defects).read(progress), foreignFile(text, ".obj")};
 }
 
 }  // namespace

@@ -331,7 +331,7 @@ Scene loadScene(const fs::path& file, const LoadProgress& progress) {
   }
   if (lowerCase(file.extension().string()) != ".toml") {
     const std::string content = readInputText(file, "a scene file is needed");
-    if (const auto foreign = content.empty() ? std::nullopt : foreignFile(content)) {
+    if (const auto foreign = content.empty() ? std::nullopt : foreignFile(content, "")) {
       throwInputError(file, 1, "file", foreign->wrong, foreign->right);
     }
   }

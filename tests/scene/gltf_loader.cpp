@@ -1218,7 +1218,14 @@ TEST_F(GltfLoader, OtherFilesAreNamed) {
   EXPECT_TRUE(
       contains(faultOf("glTF" + MadeGltf::bytesOf<uint32_t>({1, 20, 0, 0}), "m.glb"), "m.glb:1: version: is 1"));
   EXPECT_TRUE(contains(faultOf("glTF", "m.glb"), "m.glb:1: file: ends within its header"));
-  EXPECT_TRUE(contains(faultOf(triangleObj), "m.gltf:1: json: "));
+  EXPECT_TRUE(contains(faultOf(std::string(200, '[')), "m.gltf:1: json: has more than 64 levels"));
+  EXPECT_TRUE(contains(faultOf("PK\x03\x04" + std::string(200, '[')), "m.gltf:1: file: is a ZIP archive"));
+  for (const std::string name : {"m.gltf", "m.glb"}) {
+    for (const std::string before : {"", "# Blender\n\n", "mtllib a b.mtl\no Cube\n", "\xef\xbb\xbf"}) {
+      EXPECT_TRUE(contains(faultOf(before + std::string(triangleObj), name.c_str()),
+                           name + ":1: file: is a Wavefront OBJ file (let its name end with .obj)"));
+    }
+  }
   MadeGltf made;
   made.add("nodes", {{"mesh", made.addTriangle()}});
   EXPECT_TRUE(contains(messageOf<InputError>([&] { loadObj(folder_.write("m.obj", made.binary()), textures_); }),

@@ -186,7 +186,10 @@ TEST(SceneFaults, ModelsOfOtherFormatsAreNamed) {
   const TemporaryFolder folder;
   for (const auto& [name, content, kind] :
        {std::tuple("a.stl", "solid a\n", "is an STL file (save it as a "),
-        std::tuple("a.ply", "ply\nformat", "is a PLY file"), std::tuple("a.dae", "<?xml version", "is an XML file"),
+        std::tuple("a.ply", "ply\nformat", "is a PLY file"), std::tuple("a.x3d", "<?xml version", "is an XML file"),
+        std::tuple("a.dae", "<?xml version='1.0'?>\n<COLLADA>", "is a COLLADA file"),
+        std::tuple("a.txt", "# a cube\nmtllib a.mtl\n", "is a Wavefront OBJ file (let its name end with .obj)"),
+        std::tuple("b.txt", "v 0 0 0\nv 1 0 0\n", "is a Wavefront OBJ file"),
         std::tuple("a.fbx", "Kaydara FBX Binary", "is an FBX file"),
         std::tuple("a.usdz", "PK\x03\x04", "is a ZIP archive (unpack it)"),
         std::tuple("a.mtl", "# made by hand\nnewmtl m\n", "is a material file (name the OBJ file that uses it)")}) {
