@@ -289,7 +289,13 @@ void GltfFile::readBuffers(const std::vector<Source>& sources, std::string_view 
       buffers_.emplace_back(reinterpret_cast<const uint8_t*>(binary.data()), binary.size());
       continue;
     }
-    const std::optional<fs::path> found = source.uri.empty() ? std::nullopt : find(source.uri);
+    if (source.uri.empty()) {
+      defects_.add(file_, 1, "buffers", "{} has no data, as with EXT_meshopt_compression, what uses it is left out",
+                   std::to_string(buffers_.size()));
+      buffers_.emplace_back();
+      continue;
+    }
+    const std::optional<fs::path> found = find(source.uri);
     if (!found) {
       defects_.add(file_, 1, "buffers", "there is no file '{}', what uses it is left out", source.uri);
       buffers_.emplace_back();

@@ -239,6 +239,9 @@ class GltfReader {
     const auto indexed = primitive.attributes.find(indicesAttribute);
     const bool hasIndices = indexed != primitive.attributes.end();
     const uint64_t corners = hasIndices ? content_.countOf(indexed->second) : count;
+    if (primitive.mode == TINYGLTF_MODE_TRIANGLES && corners % 3 != 0) {
+      add("meshes", "mesh {} has a last triangle of fewer than three vertices, it is left out", mesh);
+    }
     const uint64_t taken = (primitive.mode == TINYGLTF_MODE_TRIANGLES ? 1 : 3) * corners;
     if (std::max(corners, taken) > cornersLeft_) {
       add("meshes", "mesh {} has, as often as it is drawn, too many vertices for a file of this size, it is left out",

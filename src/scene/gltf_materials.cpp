@@ -30,6 +30,9 @@ auto GltfMaterials::readPicture(int texture, const Read& read) -> std::optional<
     return std::nullopt;
   }
   const tinygltf::Texture& from = content_.model().textures[texture];
+  if (from.sampler != -1 && !isIndex(from.sampler, content_.model().samplers.size())) {
+    add("there is no sampler {}, the texture repeats", std::to_string(from.sampler));
+  }
   if (from.source == -1 && !from.extensions.empty()) {
     const std::string& extension = from.extensions.begin()->first;
     add("a texture has no picture but that of {}, it is left out", extension, extension);

@@ -597,6 +597,9 @@ TEST_F(GltfTextures, MissingOrUnreadablePicturesAreLeftOut) {
   MadeGltf made = this->made({{"uri", "none.png"}});
   made.root["textures"][0] = json::object();
   EXPECT_TRUE(contains(meshOf(made).defects.at(0), "there is no image -1"));
+  made.root["textures"][0]["sampler"] = 3;
+  EXPECT_TRUE(contains(meshOf(made).defects.at(0), "there is no sampler 3, the texture repeats"));
+  made.root["textures"][0].erase("sampler");
   made.root["textures"][0]["extensions"]["EXT_texture_webp"] = {{"source", 0}};
   EXPECT_TRUE(contains(meshOf(made).defects.at(0), "has no picture but that of EXT_texture_webp, it is left out"));
   textureOf(made)["index"] = 5;
@@ -999,6 +1002,14 @@ const char* const numbersMissing = "does not hold what is needed of it, what use
 INSTANTIATE_TEST_SUITE_P(
     All, GltfDamage,
     testing::Values(
+        Damage{"TwoIndices", [](json& r) { r["accessors"][2]["count"] = 2; },
+               "mesh 1 has a last triangle of fewer than three vertices, it is left out"},
+        Damage{"BufferWithoutData",
+               [](json& r) {
+                 r["buffers"].push_back({{"byteLength", 36}});
+                 r["bufferViews"][1]["buffer"] = 1;
+               },
+               "buffers: 1 has no data, as with EXT_meshopt_compression, what uses it is left out", false, 2},
         Damage{"IndexOfAVertex", [](json& r) { r["accessors"][2]["count"] = 3, r["accessors"][1]["count"] = 2; },
                "mesh 1 has a triangle with a vertex that is not there"},
         Damage{"AccessorBeyondItsView", [](json& r) { r["accessors"][1]["count"] = 4; }, numbersMissing},
