@@ -167,14 +167,15 @@ std::vector<std::vector<glm::dvec2>> outsideParts(const View& view, const Projec
     if (length2 == 0.0) {
       continue;
     }
-    Polygon part = clipPolygon(whole, Plane{line * (-offset / length2), -line});
+    const Plane edge{line * (-offset / length2), -line};
+    Polygon part = clipPolygon(whole, edge);
     // A short edge loses its end at the rectangle's corner, where no texel's centre is near. Its other end lies on the
     // mirror's edge, and without that end the part would have another edge than the mirror.
-    const auto beyond = [&](size_t corner) { return -glm::dot(line, part[corner]) - offset; };
     for (size_t i = part.size(); i-- > 0 && part.size() > 3;) {
       const size_t next = (i + 1) % part.size();
       if (glm::length(glm::dvec2(part[next] - part[i]) / (2.0 / view.pictureSize)) < shortestEdge) {
-        part.erase(part.begin() + static_cast<std::ptrdiff_t>(beyond(i) > beyond(next) ? i : next));
+        part.erase(part.begin() +
+                   static_cast<std::ptrdiff_t>(edge.distance(part[i]) > edge.distance(part[next]) ? i : next));
       }
     }
     if (isWellShaped(part, 2.0 / view.pictureSize)) {
