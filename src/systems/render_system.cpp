@@ -55,18 +55,17 @@ void addVertexColors(GraphicsPipelineDesc& desc, bool withAlpha) {
 }
 
 void bindColors(VkCommandBuffer commands, const FrameInfo& info, const Batch& batch) {
-  const VkBuffer colors = info.resources.meshes()[batch.mesh].colors.get();
-  constexpr VkDeviceSize offset = 0;
-  vkCmdBindVertexBuffers(commands, 2, 1, &colors, &offset);
+  const SceneResources::GpuMesh& mesh = info.resources.meshes()[batch.mesh];
+  vkCmdBindVertexBuffers(commands, 2, 1, &mesh.buffer, &mesh.colors);
 }
 
 void bindBatch(const PassScope& scope, const FrameInfo& info, const Batch& batch, const Batch* before) {
-  if (!before || before->mesh != batch.mesh) {
-    const SceneResources::GpuMesh& mesh = info.resources.meshes()[batch.mesh];
-    const std::array buffers{mesh.vertices.get(), info.data.instanceBuffer()};
+  const VkBuffer buffer = info.resources.meshes()[batch.mesh].buffer;
+  if (!before || info.resources.meshes()[before->mesh].buffer != buffer) {
+    const std::array buffers{buffer, info.data.instanceBuffer()};
     constexpr std::array<VkDeviceSize, 2> offsets{};
     vkCmdBindVertexBuffers(scope.commands(), 0, buffers.size(), buffers.data(), offsets.data());
-    vkCmdBindIndexBuffer(scope.commands(), mesh.indices.get(), 0, VK_INDEX_TYPE_UINT32);
+    vkCmdBindIndexBuffer(scope.commands(), buffer, 0, VK_INDEX_TYPE_UINT32);
   }
   const auto culled = [](const Batch& of) -> VkCullModeFlags {
     return !of.cullsBacks ? VK_CULL_MODE_NONE : of.handedness > 0.0f ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_FRONT_BIT;
@@ -128,6 +127,12 @@ GraphicsPipelineDesc RenderSystem::objects(const Variant& variant, const FrameIn
     addVertexColors(desc, variant.vertexAlpha);
   }
   return variant.format.describe(desc);
+}
+
+void drawBatch(VkCommandBuffer commands, const FrameInfo& info, const Batch& batch, const IndexRange& range) {
+  const SceneResources::GpuMesh& mesh = info.resources.meshes()[batch.mesh];
+  vkCmdDrawIndexed(commands, range.count, batch.count, mesh.firstIndex + range.first, mesh.firstVertex,
+                   batch.firstInstance);
 }
 
 RecycledVector<IndexRange> drawnRanges(const MeshPart& part, const Batch& batch) {
@@ -244,7 +249,7 @@ uint32_t RenderSystem::recordBatch(const PassScope& scope, const FrameInfo& info
         pipeline.push(commands, constants);
         bound.constants = bytes;
       }
-      vkCmdDrawIndexed(commands, range.count, batch.count, range.first, 0, batch.firstInstance);
+      drawBatch(commands, info, batch, range);
       ++draws;
       countDraw(info.ledger, variant);
       info.ledger.draw(EffectKind::textures, textured);

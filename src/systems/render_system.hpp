@@ -23,6 +23,8 @@ void addVertexColors(GraphicsPipelineDesc& desc, bool withAlpha);
 // Binds the colors of the batch's mesh for it.
 void bindColors(VkCommandBuffer commands, const FrameInfo& info, const Batch& batch);
 
+// Draws these indices of the batch's mesh, which is bound.
+void drawBatch(VkCommandBuffer commands, const FrameInfo& info, const Batch& batch, const IndexRange& range);
 // Returns the indices of the part that the batch draws.
 RecycledVector<IndexRange> drawnRanges(const MeshPart& part, const Batch& batch);
 // Makes the description that of a pipeline for materials with coverage, whose fragment shader is `frag` and whose

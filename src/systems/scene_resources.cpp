@@ -66,21 +66,39 @@ gpu::MaterialData materialData(const Material& material, const EffectSettings& e
           .opacityTexture = textureOf(material.opacityTexture, effects.transparency)};
 }
 
-Buffer uploadVertices(Uploader& uploader, const ShadedVertices& vertices, size_t count, const std::string& name) {
-  BufferWriter writer(uploader, count * sizeof(GpuVertex), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, name);
+// Meshes share buffers of up to this size, so that a pass binds few.
+constexpr VkDeviceSize sharedBytes = VkDeviceSize{64} << 20;
+
+size_t bytesOfColor(const Mesh& mesh) {
+  return mesh.colors.empty() ? 0 : mesh.hasVertexAlpha() ? sizeof(glm::vec4) : sizeof(glm::vec3);
+}
+
+// Returns the bytes of vertices, indices and colors, rounded up to whole vertices.
+VkDeviceSize bytesOf(const Mesh& mesh) {
+  const VkDeviceSize colorsAndIndices =
+      ShadedVertices::countOf(mesh) * bytesOfColor(mesh) + mesh.indices.size() * sizeof(uint32_t);
+  const VkDeviceSize whole = (colorsAndIndices + sizeof(GpuVertex) - 1) / sizeof(GpuVertex);
+  return (ShadedVertices::countOf(mesh) + whole) * sizeof(GpuVertex);
+}
+
+// Writes bytesOf() bytes. `offset` is that of the mesh in its buffer, a multiple of the size of a vertex.
+SceneResources::GpuMesh writeMesh(BufferWriter& writer, const Mesh& mesh, VkDeviceSize offset) {
+  const ShadedVertices vertices(mesh);
+  const VkDeviceSize first = offset / sizeof(GpuVertex);
+  const VkDeviceSize colors = offset + ShadedVertices::countOf(mesh) * sizeof(GpuVertex);
+  const VkDeviceSize indices = colors + ShadedVertices::countOf(mesh) * bytesOfColor(mesh);
   vertices.forEach([&](const Vertex& vertex, uint32_t) {
     writer.add(GpuVertex{glm::vec3(vertex.position), glm::vec3(vertex.normal), glm::vec2(vertex.uv)});
   });
-  return writer.finish();
-}
-
-Buffer uploadColors(Uploader& uploader, const std::vector<glm::vec4>& colors, bool withAlpha, const std::string& name) {
-  if (withAlpha) {
-    return uploader.buffer(colors, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, name);
+  for (const glm::vec4& color : vertices.colors()) {
+    writer.write(std::as_bytes(std::span(&color, 1)).first(bytesOfColor(mesh)));
   }
-  BufferWriter writer(uploader, colors.size() * sizeof(glm::vec3), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, name);
-  std::ranges::for_each(colors, [&](const glm::vec4& color) { writer.add(glm::vec3(color)); });
-  return writer.finish();
+  writer.write(std::as_bytes(vertices.indices()));
+  constexpr std::array<std::byte, sizeof(GpuVertex)> padding{};
+  writer.write(std::span(padding).first(offset + bytesOf(mesh) - indices - vertices.indices().size_bytes()));
+  return {.firstVertex = static_cast<int32_t>(first),
+          .firstIndex = static_cast<uint32_t>(indices / sizeof(uint32_t)),
+          .colors = colors - first * bytesOfColor(mesh)};
 }
 
 }  // namespace
@@ -190,15 +208,23 @@ void SceneResources::writeTextureSets() {
 
 void SceneResources::createMeshes() {
   uploader_.together([&] {
-    for (const Mesh& mesh : scene_.meshes) {
-      const std::string name = mesh.source.filename().string();
-      GpuMesh& gpu = meshes_.emplace_back();
-      const ShadedVertices vertices(mesh);
-      gpu.vertices = uploadVertices(uploader_, vertices, ShadedVertices::countOf(mesh), name + " vertices");
-      if (!mesh.colors.empty()) {
-        gpu.colors = uploadColors(uploader_, vertices.colors(), mesh.hasVertexAlpha(), name + " colors");
+    while (meshes_.size() < scene_.meshes.size()) {
+      const std::span<const Mesh> left = std::span(scene_.meshes).subspan(meshes_.size());
+      VkDeviceSize bytes = bytesOf(left[0]);
+      size_t count = 1;
+      while (count < left.size() && bytes + bytesOf(left[count]) <= sharedBytes) {
+        bytes += bytesOf(left[count++]);
       }
-      gpu.indices = uploader_.buffer(vertices.indices(), VK_BUFFER_USAGE_INDEX_BUFFER_BIT, name + " indices");
+      BufferWriter writer(uploader_, bytes, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_INDEX_BUFFER_BIT,
+                          left[0].source.filename().string() + (count > 1 ? " and others" : ""));
+      VkDeviceSize offset = 0;
+      for (const Mesh& mesh : left.first(count)) {
+        meshes_.push_back(writeMesh(writer, mesh, offset));
+        offset += bytesOf(mesh);
+      }
+      meshBuffers_.push_back(writer.finish());
+      const auto written = std::span(meshes_).last(count);
+      std::ranges::for_each(written, [&](GpuMesh& mesh) { mesh.buffer = meshBuffers_.back().get(); });
     }
   });
 }

@@ -22,10 +22,14 @@ struct GpuVertex {
 // texture is drawn.
 class SceneResources {
  public:
+  // Place of a mesh in a buffer of vertices (GpuVertex), indices (uint32) and colors, which meshes share.
   struct GpuMesh {
-    Buffer vertices;
-    Buffer colors;   // vec3 of each vertex, vec4 if Mesh::hasVertexAlpha(); none: the mesh has no colors
-    Buffer indices;  // uint32
+    VkBuffer buffer = VK_NULL_HANDLE;
+    int32_t firstVertex = 0;
+    uint32_t firstIndex = 0;
+    // Offset at which the colors are bound, bytes: that of a color of vertex 0 of the buffer. Colors are vec3 of each
+    // vertex, vec4 if Mesh::hasVertexAlpha(), if the mesh has any.
+    VkDeviceSize colors = 0;
   };
 
   SceneResources(Device& device, Uploader& uploader, const Scene& scene);
@@ -74,6 +78,7 @@ class SceneResources {
   bool textured_ = false;       // whether materials_ refer to textures
   bool transparent_ = false;    // whether materials_ have coverage
   double radianceScale_ = 1.0;  // of emission in materials_
+  std::vector<Buffer> meshBuffers_;
   std::vector<GpuMesh> meshes_;
 };
 

@@ -161,7 +161,7 @@ uint32_t ShadowSystem::draw(const PassScope& scope, const FrameInfo& info, size_
     }
     const RecycledVector<IndexRange> all{allOf(info.scene.meshes[batch.mesh])};
     for (const IndexRange& range : batch.ranges.empty() ? all : batch.ranges) {
-      vkCmdDrawIndexed(commands, range.count, batch.count, range.first, 0, batch.firstInstance);
+      drawBatch(commands, info, batch, range);
       ++draws;
     }
   }
@@ -185,8 +185,7 @@ uint32_t ShadowSystem::drawEdges(const PassScope& scope, const FrameInfo& info, 
     const VkCullModeFlags fronts = batch.handedness > 0.0f ? VK_CULL_MODE_FRONT_BIT : VK_CULL_MODE_BACK_BIT;
     scope.cull(batch.cullsBacks ? fronts : VkCullModeFlags{VK_CULL_MODE_NONE});
     info.data.bind(pipelineFor({Drawn::edges}, info), commands, data);
-    const IndexRange all = allOf(info.scene.meshes[batch.mesh]);
-    vkCmdDrawIndexed(commands, all.count, batch.count, all.first, 0, batch.firstInstance);
+    drawBatch(commands, info, batch, allOf(info.scene.meshes[batch.mesh]));
     ++draws;
   }
   scope.cull(VK_CULL_MODE_NONE);
@@ -223,7 +222,7 @@ uint32_t ShadowSystem::drawParts(const PassScope& scope, const FrameInfo& info, 
       if (covered && !asks) {
         pipeline.push(commands, coverageConstants({.firstTriangle = range.first / 3}, part.material));
       }
-      vkCmdDrawIndexed(commands, range.count, batch.count, range.first, 0, batch.firstInstance);
+      drawBatch(commands, info, batch, range);
       info.ledger.draw(EffectKind::transparency, covered);
       ++draws;
     }
