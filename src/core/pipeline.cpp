@@ -374,10 +374,10 @@ VkPipelineBindPoint Pipeline::bindPoint() const {
                                                             : VK_PIPELINE_BIND_POINT_GRAPHICS;
 }
 
-void Pipeline::bindSet(VkCommandBuffer commands, uint32_t index, VkDescriptorSet set,
-                       std::span<const uint32_t> offsets) const {
-  vkCmdBindDescriptorSets(commands, bindPoint(), layout_.get(), index, 1, &set, static_cast<uint32_t>(offsets.size()),
-                          offsets.data());
+void Pipeline::bindSets(VkCommandBuffer commands, uint32_t index, std::span<const VkDescriptorSet> sets,
+                        std::span<const uint32_t> offsets) const {
+  vkCmdBindDescriptorSets(commands, bindPoint(), layout_.get(), index, static_cast<uint32_t>(sets.size()), sets.data(),
+                          static_cast<uint32_t>(offsets.size()), offsets.data());
 }
 
 void Pipeline::pushBytes(VkCommandBuffer commands, const void* data, uint32_t bytes) const {

@@ -151,9 +151,13 @@ class Pipeline {
   Pipeline& operator=(const Pipeline&) = delete;
 
   void bind(VkCommandBuffer commands) const { vkCmdBindPipeline(commands, bindPoint(), pipeline_.get()); }
-  // Binds a descriptor set. `offsets` are those of its dynamic buffers, in bytes, in the order of bindings.
-  void bindSet(VkCommandBuffer commands, uint32_t index, VkDescriptorSet set,
-               std::span<const uint32_t> offsets = {}) const;
+  // Binds descriptor sets from `index` on. `offsets` are those of their dynamic buffers, in bytes, in the order of
+  // bindings.
+  void bindSets(VkCommandBuffer commands, uint32_t index, std::span<const VkDescriptorSet> sets,
+                std::span<const uint32_t> offsets = {}) const;
+  void bindSet(VkCommandBuffer commands, uint32_t index, VkDescriptorSet set) const {
+    bindSets(commands, index, {&set, 1});
+  }
   template <typename T>
   void push(VkCommandBuffer commands, const T& constants) const {
     pushBytes(commands, &constants, sizeof constants);

@@ -131,12 +131,7 @@ void DeferredShading::shade(const PassScope& scope, const FrameInfo& info, const
         .pushConstantBytes = sizeof(gpu::ShadeConstants)};
   });
   const VkCommandBuffer commands = scope.commands();
-  info.data.bind(pipeline, commands, pass);
-  pipeline.bindSet(commands, 1, set_);
-  pipeline.bindSet(commands, 2, info.trace.set());
-  if (trace.asks) {
-    pipeline.bindSet(commands, 3, info.shadows.set());
-  }
+  info.data.bind(pipeline, commands, pass, {set_, info.trace.set(), trace.asks ? info.shadows.set() : VK_NULL_HANDLE});
   pipeline.push(commands, areaOf(scope.desc()));
   vkCmdDispatchIndirect(commands, requests_.get(), 0);
   scope.endLabel();

@@ -208,7 +208,8 @@ void FrameData::build(const FrameInfo& info) {
     if (plan.passes[i].drawn()) {
       addPass(info, plan.passes[i], passes_[i]);
       addOutside(info, plan.passes[i], passes_[i]);
-      addMask(info, plan.passes[i], reaches[i], converged[i], passes_[i]);
+      addMask(info, plan.passes[i], reaches[i], converged.empty() ? std::span<const PixelRect>() : converged[i],
+              passes_[i]);
     }
   }
 
@@ -234,11 +235,14 @@ void FrameData::build(const FrameInfo& info) {
   writer.update(device_, set_);
 }
 
-void FrameData::bind(const Pipeline& pipeline, VkCommandBuffer commands, const DrawList& pass, uint32_t mirror) const {
+void FrameData::bind(const Pipeline& pipeline, VkCommandBuffer commands, const DrawList& pass,
+                     const std::array<VkDescriptorSet, 3>& others, uint32_t mirror) const {
   const std::array offsets{pass.pass * static_cast<uint32_t>(sizeof(DrawBlock)),
                            mirror * static_cast<uint32_t>(sizeof(gpu::MirrorBlock))};
+  const std::array sets{set_, others[0], others[1], others[2]};
+  const auto end = std::ranges::find(sets, VkDescriptorSet{VK_NULL_HANDLE});
   pipeline.bind(commands);
-  pipeline.bindSet(commands, 0, set_, offsets);
+  pipeline.bindSets(commands, 0, {sets.begin(), end}, offsets);
 }
 
 void FrameData::addPass(const FrameInfo& info, const Pass& pass, DrawList& data) {

@@ -108,9 +108,10 @@ class FrameData {
   bool handsOn() const { return handsOn_; }
   // InstanceData::repeats of each instance of the scene; empty without repeating triangles.
   std::span<const uint32_t> repeats() const { return repeats_; }
-  // Binds the pipeline, and descriptor set 0 for draws of `pass`. `mirror` is MirrorRange::mirror, for draws of
-  // mirrors.
-  void bind(const Pipeline& pipeline, VkCommandBuffer commands, const DrawList& pass, uint32_t mirror = 0) const;
+  // Binds the pipeline, descriptor set 0 for draws of `pass`, and `others` as the sets from 1 on, up to the first that
+  // is null. `mirror` is MirrorRange::mirror, for draws of mirrors.
+  void bind(const Pipeline& pipeline, VkCommandBuffer commands, const DrawList& pass,
+            const std::array<VkDescriptorSet, 3>& others = {}, uint32_t mirror = 0) const;
   // MirrorData by MirrorData::index, each at a multiple of 256 bytes.
   VkDescriptorBufferInfo mirrorBuffer(const Frame& frame) const { return buffers_.buffer(frame, mirrors).descriptor(); }
   // InstanceData by instance, as vertex attributes: the same buffer that the set has.

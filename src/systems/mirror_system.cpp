@@ -191,11 +191,8 @@ void MirrorSystem::draw(const PassScope& scope, const FrameInfo& info, const Dra
     set = info.frame.descriptors->allocate(imageLayout_);
     DescriptorWriter().image(0, shown).image(1, info.resources.image(mirror.map)).update(device_, set);
   }
-  info.data.bind(pipeline, scope.commands(), pass, mirror.mirror);
-  pipeline.bindSet(scope.commands(), 1, set);
-  if (variant.shadowed) {
-    pipeline.bindSet(scope.commands(), 2, info.shadows.set());
-  }
+  info.data.bind(pipeline, scope.commands(), pass, {set, variant.shadowed ? info.shadows.set() : VK_NULL_HANDLE},
+                 mirror.mirror);
   scope.beginLabel(variant.byRays ? "traced mirror" : "mirror");
   vkCmdDraw(scope.commands(), mirror.vertexCount, 1, mirror.firstVertex, 0);
   scope.endLabel();

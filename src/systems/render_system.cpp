@@ -194,7 +194,7 @@ uint32_t RenderSystem::recordBatch(const PassScope& scope, const FrameInfo& info
   }
   uint32_t draws = 0;
   if (scope.hasLabels()) {
-    scope.beginLabel(nameOf("object", info.scene.objects[batch.object].name, batch.object));
+    scope.beginLabel(nameOf<RecycledString>("object", info.scene.objects[batch.object].name, batch.object));
   }
   for (size_t p = 0; p < mesh.parts.size(); ++p) {
     const Material& material = mesh.parts[p].material;
@@ -217,17 +217,19 @@ uint32_t RenderSystem::recordBatch(const PassScope& scope, const FrameInfo& info
     variant.handed = mayHandOn && !variant.covered && !variant.vertexColors && !variant.repeating;
     const VkDescriptorSet texture = batch.map >= 0 ? info.maps[batch.map] : info.resources.texture(material);
     if (!bound.pipeline || bound.variant != variant) {
+      // Pipelines of equal layouts leave each other's sets, constants and lines bound.
+      const bool sameLayout =
+          bound.pipeline && bound.variant.covered == variant.covered && bound.variant.shadowed == variant.shadowed;
       bound.pipeline = &objects_.get(variant, [&] { return objects(variant, info, shading); });
       bound.variant = variant;
-      bound.texture = texture;
-      bound.constants.reset();
-      info.data.bind(*bound.pipeline, commands, pass);
-      bound.pipeline->bindSet(commands, 1, texture);
-      scope.drawLines(info.settings.view.wireframe, pass.lineWidth);
-      if (variant.shadowed) {
-        bound.pipeline->bindSet(commands, 2, info.shadows.set());
-      } else if (variant.added) {
-        bound.pipeline->bindSet(commands, 2, shading->set());
+      if (sameLayout) {
+        bound.pipeline->bind(commands);
+      } else {
+        const VkDescriptorSet looksUp = variant.shadowed ? info.shadows.set() : VK_NULL_HANDLE;
+        info.data.bind(*bound.pipeline, commands, pass, {texture, variant.added ? shading->set() : looksUp});
+        scope.drawLines(info.settings.view.wireframe, pass.lineWidth);
+        bound.texture = texture;
+        bound.constants.reset();
       }
     }
     const Pipeline& pipeline = *bound.pipeline;

@@ -142,8 +142,7 @@ uint32_t ShadowSystem::draw(const PassScope& scope, const FrameInfo& info, size_
   uint32_t draws = 0;
   if (overLayer) {
     const Pipeline& pipeline = pipelineFor({Drawn::layer}, info);
-    info.data.bind(pipeline, commands, data);
-    pipeline.bindSet(commands, 1, layerSet_);
+    info.data.bind(pipeline, commands, data, {layerSet_});
     vkCmdDraw(commands, 3, 1, 0, 0);
     ++draws;
   }
@@ -167,7 +166,7 @@ uint32_t ShadowSystem::draw(const PassScope& scope, const FrameInfo& info, size_
   }
   scope.cull(VK_CULL_MODE_NONE);
   for (const MirrorRange& mirror : data.mirrors) {
-    info.data.bind(pipelineFor({Drawn::mirrors}, info), commands, data, mirror.mirror);
+    info.data.bind(pipelineFor({Drawn::mirrors}, info), commands, data, {}, mirror.mirror);
     vkCmdDraw(commands, mirror.vertexCount, 1, mirror.firstVertex, 0);
     ++draws;
   }
@@ -190,7 +189,7 @@ uint32_t ShadowSystem::drawEdges(const PassScope& scope, const FrameInfo& info, 
   }
   scope.cull(VK_CULL_MODE_NONE);
   for (const MirrorRange& mirror : data.mirrors) {
-    info.data.bind(pipelineFor({Drawn::mirrorEdges}, info), commands, data, mirror.mirror);
+    info.data.bind(pipelineFor({Drawn::mirrorEdges}, info), commands, data, {}, mirror.mirror);
     vkCmdDraw(commands, mirror.vertexCount, 1, mirror.firstVertex, 0);
     ++draws;
   }
