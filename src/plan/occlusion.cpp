@@ -145,14 +145,14 @@ Occlusion::Body& Occlusion::bodyOf(int instance) {
     for (const ConvexFace& face : mesh.faces) {
       body.bounds.push_back({state.worldFromMesh.point(face.center), scale * face.radius, scale * face.width});
     }
-    body.faces.resize(mesh.faces.size());
   }
   return body;
 }
 
-Occlusion::Face& Occlusion::faceOf(Body& body, int instance, size_t index) const {
-  Face& face = body.faces[index];
-  if (!std::exchange(face.placed, true)) {
+Occlusion::Face& Occlusion::faceOf(FaceBounds& bounds, int instance, size_t index) {
+  if (!bounds.face) {
+    Face& face = faces_.emplace_back();
+    bounds.face = &face;
     const InstanceState& state = state_.instances[instance];
     const std::vector<glm::dvec3>& corners = scene_.meshes[state.mesh].faces[index].corners;
     Polygon polygon(corners.size());
@@ -162,7 +162,7 @@ Occlusion::Face& Occlusion::faceOf(Body& body, int instance, size_t index) const
       face.occluder = flatOccluder(polygon, area, state.radius);
     }
   }
-  return face;
+  return *bounds.face;
 }
 
 const OccludedRegion* Occlusion::regionOf(Face& face) const {
@@ -243,9 +243,9 @@ Occlusion::Occluders Occlusion::occludersOf(int mirror, const Prefilter& prefilt
       }
     }
     for (size_t k = 0; k < body.bounds.size(); ++k) {
-      const FaceBounds& face = body.bounds[k];
+      FaceBounds& face = body.bounds[k];
       if (prefilter.looksLarge(face.center, face.radius, face.radius) && !looksNarrow(face) &&
-          addFace(faceOf(body, i, k), false, i)) {
+          addFace(faceOf(face, i, k), false, i)) {
         return found;
       }
     }

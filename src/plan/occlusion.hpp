@@ -1,5 +1,6 @@
 #pragma once
 
+#include <deque>
 #include <functional>
 #include <optional>
 #include <span>
@@ -35,7 +36,6 @@ class Occlusion {
   // The region that an occluder hides is found when a view first needs it.
   struct Face {
     FlatOccluder occluder;  // without a polygon: hides nothing
-    bool placed = false;    // a face of an object is placed on first use
     int view = -1;          // number of the view that `region` is for; -1: none yet
     bool hides = false;     // else `region` has no meaning
     int tested = -1;        // number of the last view in which the face, of a mirror, is tested
@@ -46,10 +46,10 @@ class Occlusion {
     glm::dvec3 center{0.0};  // world, of a sphere
     double radius = 0.0;     // metres
     double width = 0.0;      // metres, see ConvexFace::width
+    Face* face = nullptr;    // one of faces_, made on first use, because most faces are too small to be looked at
   };
   struct Body {
     RecycledVector<FaceBounds> bounds;  // of each face
-    RecycledVector<Face> faces;
     BodyOccluder whole;
     int view = -1;  // as Face::view
     std::optional<BodyRegion> region;
@@ -82,7 +82,7 @@ class Occlusion {
   };
   const Shape& shapeOf(int mesh);
   Body& bodyOf(int instance);
-  Face& faceOf(Body& body, int instance, size_t index) const;
+  Face& faceOf(FaceBounds& bounds, int instance, size_t index);
   // Says whether a face is too narrow in the view to hide anything.
   bool looksNarrow(const FaceBounds& face) const {
     return face.width < narrowest_ * (glm::dot(forward_, face.center - view_->eye) - face.radius);
@@ -111,7 +111,8 @@ class Occlusion {
   RecycledVector<Face> mirrors_;  // parallel to SceneState::mirrors
   RecycledVector<Shape> shapes_;  // by mesh
   std::unordered_map<int, Body, std::hash<int>, std::equal_to<>, RecyclingAllocator<std::pair<const int, Body>>>
-      bodies_;  // by index into SceneState::instances; made on first use
+      bodies_;                                        // by index into SceneState::instances; made on first use
+  std::deque<Face, RecyclingAllocator<Face>> faces_;  // of objects
 };
 
 }  // namespace speculum
