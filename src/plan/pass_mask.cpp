@@ -186,10 +186,10 @@ std::vector<std::vector<glm::dvec2>> outsideParts(const View& view, const Projec
 }
 
 std::vector<std::vector<PixelRect>> convergedParts(const FramePlan& plan) {
-  std::vector<std::vector<PixelRect>> parts(plan.passes.size());
   if (!plan.refined) {
-    return parts;
+    return {};
   }
+  std::vector<std::vector<PixelRect>> parts(plan.passes.size());
   constexpr double everywhere = INFINITY;
   std::vector<double> margins(plan.passes.size(), 0.0);  // texels of the main view from refined tiles to what is read
   for (size_t i = plan.passes.size(); i-- > 0;) {

@@ -37,9 +37,9 @@ bool mixesTexels(const Pass& pass);
 std::vector<std::vector<glm::dvec2>> outsideParts(const View& view, const Projection& projection);
 
 // Returns for each pass the rectangles that it need not draw because no refined tile of the main view shows them, in
-// texels of the view's whole picture; none if plan.refined is null. Blurred and rippled images are read anywhere, so
-// they and all that is seen in them have none; other images are read at the pixel that shows them, or beside it if they
-// have another resolution.
+// texels of the view's whole picture; an empty list if plan.refined is null. Blurred and rippled images are read
+// anywhere, so they and all that is seen in them have none; other images are read at the pixel that shows them, or
+// beside it if they have another resolution.
 std::vector<std::vector<PixelRect>> convergedParts(const FramePlan& plan);
 
 // Side in texels of the tiles of a picture that several frames or submissions draw. A multiple of 4, the side of
