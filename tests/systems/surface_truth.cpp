@@ -76,6 +76,16 @@ TEST(SmoothedAndColored, ShadowMapsKeepTheColors) {
   }
 }
 
+TEST(SmoothedAndColored, FollowsAnotherMesh) {
+  columnScene("column_second", 2, lamp);
+  const std::filesystem::path file = writeScene("second", R"([environment] ambient = [0.3, 0.3, 0.3]
+[camera] position = [0.3, 0.6, 3], target = [0, 0.2, 0]
+[[object]] model = "MODELS/sphere.obj", position = [-1.1, 0.3, 0.4], scale = 0.5
+[[object]] model = "column_second.obj"
+)" + lamp);
+  expectTruth(file, size, 3, trace(file, size, 3));
+}
+
 // A panel with a ring, two squares and a triangle as mirrors, and a smooth ball, turned about and inside out.
 std::filesystem::path dressingTable(const std::string& name, const std::string& keys, const std::string& rest) {
   std::ofstream(sceneDirectory() / "dressing.mtl")
