@@ -9,6 +9,7 @@
 
 #include "platform/process.hpp"
 #include "platform/text.hpp"
+#include "vulkan_loader.hpp"
 
 namespace speculum {
 
@@ -102,6 +103,10 @@ GLFWmonitor* monitorUnder(const ScreenRect& window) {
   throw std::runtime_error(what + (description ? std::string(": ") + description : "") + " (" + remedy + ")");
 }
 
+[[noreturn]] void failAtSurface(const std::string& what) {
+  fail(what, "install the driver of the graphics card, or Mesa's: mesa-vulkan-drivers");
+}
+
 constexpr int grip = 48;  // width and height in pixels of a window's visible part by which a user can move it
 
 int overlap(int a, int aSize, int b, int bSize) {
@@ -180,9 +185,9 @@ void Window::Destroy::operator()(GLFWwindow* window) const {
 }
 
 Window::Window(const WindowOptions& options) {
+  findVulkanFunction("vkGetInstanceProcAddr");  // throws, with what to install, if there is no loader
   if (!glfwVulkanSupported()) {
-    fail("the window system offers no Vulkan surface",
-         "install the driver of the graphics card, or Mesa's: mesa-vulkan-drivers");
+    failAtSurface("the window system offers no Vulkan surface");
   }
   glfwDefaultWindowHints();
   glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
@@ -441,8 +446,7 @@ std::vector<const char*> Window::requiredInstanceExtensions() const {
   uint32_t count = 0;
   const char** names = glfwGetRequiredInstanceExtensions(&count);
   if (!names) {
-    fail("the window system offers no Vulkan surface",
-         "install the driver of the graphics card, or Mesa's: mesa-vulkan-drivers");
+    failAtSurface("the window system offers no Vulkan surface");
   }
   return {names, names + count};
 }
@@ -450,8 +454,7 @@ std::vector<const char*> Window::requiredInstanceExtensions() const {
 VkSurfaceKHR Window::createSurface(VkInstance instance) const {
   VkSurfaceKHR surface = VK_NULL_HANDLE;
   if (glfwCreateWindowSurface(instance, window_.get(), nullptr, &surface) != VK_SUCCESS) {
-    fail("the window's Vulkan surface could not be made",
-         "install the driver of the graphics card, or Mesa's: mesa-vulkan-drivers");
+    failAtSurface("the window's Vulkan surface could not be made");
   }
   return surface;
 }

@@ -625,5 +625,18 @@ TEST(EndedWindow, NeedsNoReaderOfItsOutput) {
   EXPECT_EQ(readText(code), "0\n");
 }
 
+// An empty file hides the system's Vulkan loader.
+TEST(EndedWindow, MissingLoaderIsNamed) {
+  const UserFolders home{"XDG_CONFIG_HOME", "XDG_CACHE_HOME"};
+  const test::VirtualDisplay display;
+  replaceFile(home.path() / "libvulkan.so.1", std::string_view());
+  const ProcessResult result = runProcess({"timeout", "60", "env", "LD_LIBRARY_PATH=" + home.path().string(),
+                                           (binaryDir() / "speculum").string(), "--frames", "1"});
+  EXPECT_EQ(result.exitCode, 2) << result.output;
+  EXPECT_TRUE(startsWith(result.output, "Vulkan is missing: ")) << result.output;
+  EXPECT_TRUE(contains(result.output, "install libvulkan1")) << result.output;
+  EXPECT_EQ(std::ranges::count(result.output, '\n'), 1) << result.output;
+}
+
 }  // namespace
 }  // namespace speculum
