@@ -119,8 +119,9 @@ struct PanelState {
     std::filesystem::path listed;                                 // folder whose entries are listed
     std::vector<std::filesystem::directory_entry> entries;        // of `listed`: folders, scenes and models
     std::string typed;
-    std::string problem;       // why the typed file cannot be opened
-    size_t modelsOutside = 0;  // number of the scene's models that are neither in the listed folder nor below
+    std::filesystem::path marked;  // row that was clicked last
+    std::string problem;           // why the typed file cannot be opened
+    size_t modelsOutside = 0;      // number of the scene's models that are neither in the listed folder nor below
   } files;
   bool copyModels = true;         // when the scene is saved into another folder
   glm::vec2 promptDisplay{0.0f};  // size of the display that a prompt was centered in

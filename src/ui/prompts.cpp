@@ -142,10 +142,14 @@ void focusField(PanelState::Files& files) {
   }
 }
 
+struct ChosenRow {
+  std::filesystem::path file;
+  bool folder = false;
+  bool opens = false;  // by a double click or Enter, else it was clicked once
+};
+
 // Draws the list of a folder. If the name was `edited` in this frame, scrolls to the first entry that begins with it.
-// Returns an entry that was clicked, or on which Enter was pressed.
-std::optional<std::filesystem::path> fileList(PanelContext& ui, const std::filesystem::path& folder, float height,
-                                              bool edited) {
+std::optional<ChosenRow> fileList(PanelContext& ui, const std::filesystem::path& folder, float height, bool edited) {
   PanelState::Files& files = ui.state.files;
   std::error_code none;
   const std::filesystem::path shown = named(files);
@@ -158,15 +162,19 @@ std::optional<std::filesystem::path> fileList(PanelContext& ui, const std::files
   }
   const float width = fieldWidth();
   ImGui::TextDisabled("%s", files.listed.string().c_str());
-  std::optional<std::filesystem::path> chosen;
+  std::optional<ChosenRow> chosen;
+  if (edited) {
+    files.marked.clear();
+  }
   const float others = 8.0f * ImGui::GetFrameHeightWithSpacing();  // height of the menus and of the other rows
   imgui::beginList("files", {width, std::min(height, ImGui::GetIO().DisplaySize.y - others)});
   const auto row = [&](const std::string& name, const std::string& label, const std::filesystem::path& file,
-                       bool first) {
+                       bool isFolder, bool first) {
     constexpr auto rowFlags = ImGuiSelectableFlags_AllowDoubleClick | ImGuiSelectableFlags_DontClosePopups;
-    if (ImGui::Selectable(oneLine(label).c_str(), file == shown, rowFlags) ||
+    if (ImGui::Selectable(oneLine(label).c_str(), file == shown || file == files.marked, rowFlags) ||
         (ImGui::IsItemFocused() && enterPressed())) {
-      chosen = file;
+      files.marked = file;
+      chosen = {file, isFolder, enterPressed() || ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)};
     }
     if (first && files.focus == Focus::list) {
       files.focus = Focus::none;
@@ -174,11 +182,12 @@ std::optional<std::filesystem::path> fileList(PanelContext& ui, const std::files
     }
     recordWidget(ui, "open." + name);
   };
-  row("..", "..", files.listed.parent_path(), files.entries.empty());
+  row("..", "..", files.listed.parent_path(), true, files.entries.empty());
   for (size_t i = 0; i < files.entries.size(); ++i) {
     const std::filesystem::path& file = files.entries[i].path();
     const std::string name = file.filename().string();
-    row(name, name + (files.entries[i].is_directory(none) ? "/" : ""), file, i == 0);
+    const bool isFolder = files.entries[i].is_directory(none);
+    row(name, name + (isFolder ? "/" : ""), file, isFolder, i == 0);
     if (scrolls && name.starts_with(begun)) {
       ImGui::SetScrollHereY();
       scrolls = false;
@@ -203,11 +212,10 @@ void saveAs(PanelContext& ui) {
   // The list's folder is where the file goes, so it is listed as empty until saving makes it.
   const std::filesystem::path folder = withoutLinks(named(files).parent_path());
   const auto chosen = fileList(ui, folder, 12.0f * ImGui::GetFontSize(), edited);
-  if (chosen) {
-    const bool enters = *chosen == folder.parent_path() || isFolder(*chosen);
-    files.typed = textOf(enters ? named(files) : *chosen);
-    files.folder = enters ? *chosen : folder;
-    files.focus = enters && enterPressed() ? Focus::list : files.focus;
+  if (chosen && (chosen->opens || !chosen->folder)) {
+    files.typed = textOf(chosen->folder ? named(files) : chosen->file);
+    files.folder = chosen->folder ? chosen->file : folder;
+    files.focus = chosen->folder && enterPressed() ? Focus::list : files.focus;
   }
   if (!ui.input.edit.note.empty()) {
     coloredText(errorColor, ui.input.edit.note);
@@ -289,11 +297,10 @@ void openFile(PanelContext& ui) {
   }
   const auto chosen = fileList(ui, folder, 20.0f * ImGui::GetFontSize(), edited);
   if (chosen) {
-    const bool leaves = *chosen == files.listed.parent_path();
-    files.typed = leaves ? chosen->string() : textOf(*chosen);
+    files.typed = chosen->file == files.listed.parent_path() ? ".." : textOf(chosen->file);
     files.folder = files.listed;
     files.problem.clear();
-    opens = leaves || enterPressed() || ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left);
+    opens = chosen->opens;
   }
   if (!files.problem.empty()) {
     coloredText(errorColor, files.problem);

@@ -501,6 +501,27 @@ TEST_F(PanelTest, FilesAreChosenFromOwnList) {
   EXPECT_TRUE(std::filesystem::equivalent(only<OpenScene>().file, config_.path() / "models" / "a.obj"));
 }
 
+TEST_F(PanelTest, DoubleClicksEnterFolders) {
+  const std::filesystem::path folder = std::filesystem::canonical(config_.path());
+  std::filesystem::create_directories(folder / "a" / "b");
+  std::ofstream(folder / "a" / "x.toml") << "";
+  for (const Prompt prompt : {Prompt::open, Prompt::saveAs}) {
+    const std::string name = prompt == Prompt::open ? "" : "new.toml";
+    ask(prompt, folder / name);
+    click("open.a");
+    EXPECT_FALSE(has("open.x.toml")) << "one click only selects";
+    press();
+    EXPECT_TRUE(has("open.x.toml"));
+    EXPECT_EQ(windows_->state().files.typed, name) << "the second click chooses nothing in the new folder";
+    click("open...");
+    EXPECT_TRUE(has("open.x.toml")) << "one click only selects";
+    press();
+    EXPECT_TRUE(has("open.a")) << "up by one folder";
+    EXPECT_EQ(windows_->state().files.typed, name);
+    ask(Prompt::none);
+  }
+}
+
 TEST_F(PanelTest, FilesMayHaveNamesThatAreNotUtf8) {
   const std::filesystem::path folder = std::filesystem::canonical(config_.path());
   std::ofstream(folder / "w\xff.toml") << "";
@@ -652,7 +673,7 @@ TEST_F(PanelTest, SavingListsFoldersAndScenes) {
   std::ofstream(config_.path() / "mine" / "ring.obj") << "";
   ask(Prompt::saveAs, config_.path() / "new.toml");
   click("open.mine");
-  run(2);
+  press();
   EXPECT_EQ(windows_->state().files.typed, "new.toml");
   EXPECT_FALSE(has("open.ring.obj"));
   click("open.old.toml");
@@ -722,6 +743,7 @@ TEST_F(PanelTest, SavingShowsItsFolderOnce) {
   EXPECT_EQ(text.find(config_.path().string(), first + 1), std::string::npos) << "no other folder";
   EXPECT_FALSE(has("open.mine")) << "the folder of the file, which saving makes";
   click("open...");
+  press();
   EXPECT_TRUE(has("open.mine"));
   EXPECT_EQ(clickFor<SaveAs>("where.save").file, config_.path() / "new.toml");
 }
