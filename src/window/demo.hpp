@@ -54,7 +54,8 @@ class Demo : private WorkspaceHost {
   void close() override;
   void toggleFullScreen() override { window_.setFullScreen(!window_.fullScreen()); }
   void setPresentMode(size_t index) override;
-  bool togglePanels() override { return ui_.windows().toggleVisible(); }
+  void togglePanels() override { ui_.windows().toggleVisible(); }
+  bool showsPanels() const override { return ui_.windows().visible(); }
   void toggleHelp() override { ui_.windows().toggleHelp(); }
   void toggleInspector() override { ui_.windows().toggleInspector(); }
   void openInspector() override { ui_.windows().openInspector(); }

@@ -145,8 +145,9 @@ void Workspace::apply(const Command& command) {
                  [&](const SetPresentMode& c) { host_.setPresentMode(c.index); },
                  [&](const ToggleFullScreen&) { host_.toggleFullScreen(); },
                  [&](const TogglePanel&) {
-                   if (!host_.togglePanels()) {
-                     status_.show("Panels hidden. Tab shows them again.");
+                   host_.togglePanels();
+                   if (!host_.showsPanels()) {
+                     status_.show("Panels hidden. Tab shows them again.", [this] { return !host_.showsPanels(); });
                    }
                  },
                  [&](const ToggleHelp&) { host_.toggleHelp(); },
@@ -412,7 +413,8 @@ void Workspace::chooseHalf(int half) {
 
 void Workspace::tellHalf() {
   const auto [chosen, other] = split().chosen() == 0 ? std::pair('A', 'B') : std::pair('B', 'A');
-  status_.set(fmt::format("A | B: the panel changes the settings of {}. X changes to {}, Esc ends it.", chosen, other));
+  status_.set(fmt::format("A | B: the panel changes the settings of {}. X changes to {}, Esc ends it.", chosen, other),
+              [this] { return split().on(); });
 }
 
 void Workspace::beginLesson(size_t index) {

@@ -3,7 +3,9 @@
 #include <spdlog/spdlog.h>
 
 #include <chrono>
+#include <functional>
 #include <string>
+#include <utility>
 
 #include "platform/text.hpp"
 #include "ui/shown.hpp"
@@ -19,11 +21,13 @@ namespace speculum {
 // The result of the last action, shown for some seconds, and below it how the picture is drawn.
 class StatusLine {
  public:
-  void set(const std::string& text) {  // shows the result and logs it
+  // Shows the result and logs it. `holds`: says whether the state that the text is about lasts; the text ends with it.
+  void set(const std::string& text, std::function<bool()> holds = {}) {
     spdlog::info("{}", text);
-    show(text);
+    show(text, std::move(holds));
   }
-  void show(const std::string& text) {
+  void show(const std::string& text, std::function<bool()> holds = {}) {
+    holds_ = std::move(holds);
     shown_.text = shortened(text, 1000);  // names may be of any length
     since_ = Clock::now();
     isWarning_ = false;
@@ -44,7 +48,7 @@ class StatusLine {
   void update(bool savesPicture) {
     shown_.savesPicture = savesPicture;
     shown_.age = age();
-    if (statusAlpha(shown_.age) <= 0.0f) {
+    if (statusAlpha(shown_.age) <= 0.0f || (holds_ && !holds_())) {
       clear();
     }
   }
@@ -56,6 +60,7 @@ class StatusLine {
   double age() const { return std::chrono::duration<double>(Clock::now() - since_).count(); }
 
   ShownStatus shown_;
+  std::function<bool()> holds_;
   bool isWarning_ = false;
   Clock::time_point since_;
 };
@@ -78,7 +83,8 @@ class WorkspaceHost {
   virtual void close() = 0;
   virtual void toggleFullScreen() = 0;
   virtual void setPresentMode(size_t index) = 0;
-  virtual bool togglePanels() = 0;  // returns whether they are shown then
+  virtual void togglePanels() = 0;
+  virtual bool showsPanels() const = 0;
   virtual void toggleHelp() = 0;
   virtual void toggleInspector() = 0;
   virtual void openInspector() = 0;

@@ -125,6 +125,13 @@ TEST_F(Split, FailedFrameEndsIt) {
   EXPECT_TRUE(contains(workspace_->problem(), "no memory"));
 }
 
+TEST_F(Split, MessageEndsWithIt) {
+  send(ToggleSplit{});
+  EXPECT_TRUE(startsWith(status(), "A | B: the panel changes the settings of B"));
+  send(Escape{});
+  EXPECT_EQ(status(), "");
+}
+
 TEST_F(Split, LessonsOpenTheirSceneWithBothSettings) {
   ASSERT_EQ(split().lessons.size(), 10u);
   const Lesson& lesson = workspace_->split().lessons()[0];

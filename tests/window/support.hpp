@@ -41,7 +41,8 @@ class FakeHost : public WorkspaceHost {
   void close() override { closed = true; }
   void toggleFullScreen() override {}
   void setPresentMode(size_t) override {}
-  bool togglePanels() override { return panels = !panels; }
+  void togglePanels() override { panels = !panels; }
+  bool showsPanels() const override { return panels; }
   void toggleHelp() override {}
   void toggleInspector() override { inspector = !inspector; }
   void openInspector() override { inspector = true; }

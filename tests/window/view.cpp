@@ -530,6 +530,8 @@ TEST_F(WindowView, TitleNamesTheSceneAndItsState) {
 TEST_F(WindowView, HiddenPanelsSayHowTheyReturn) {
   send(TogglePanel{});
   EXPECT_EQ(status(), "Panels hidden. Tab shows them again.");
+  send(TogglePanel{});
+  EXPECT_EQ(status(), "") << "it is no longer true";
 }
 
 TEST(StatusLine, FadesInItsLastSecond) {
