@@ -305,6 +305,12 @@ void PanelWindows::openInspector() {
   }
 }
 
+void PanelWindows::closeSidePanels() {
+  for (const PanelName& panel : panelNames) {
+    state_.choices.*panel.open = false;
+  }
+}
+
 bool PanelWindows::inspectorCovers(const glm::vec2& place) const {
   return visible_ && !state_.choices.inspector &&
          dock_.wouldCover(panels::inspectorTitle, PanelDock::Edge::right, panels::modestEms(panels::inspectorEms),

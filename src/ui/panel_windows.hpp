@@ -25,6 +25,7 @@ class PanelWindows {
   void toggleHelp();
   void toggleInspector();
   void openInspector();
+  void closeSidePanels();                              // those at the right
   bool inspectorCovers(const glm::vec2& place) const;  // the inspector is closed and would open there
   // Returns the part of the display that panels leave free, in screen coordinates.
   WindowRect freeRect() const;

@@ -134,19 +134,19 @@ void lessonMenu(PanelContext& ui) {
 void lesson(PanelContext& ui) {
   const std::vector<ShownSplit::LessonEntry>& lessons = ui.input.split.lessons;
   const size_t shown = *ui.input.split.lesson;
-  coloredText(warningColor, fmt::format("{} of {}: {}", shown + 1, lessons.size(), lessons[shown].title));
-  wrappedText(lessons[shown].text);
-  ImGui::Spacing();
-  wrappedText("Look for: " + lessons[shown].lookFor);
-  ImGui::Spacing();
   const auto step = [&](const char* label, const char* key, size_t to) {
     const bool exists = to < lessons.size();
     commandButton(ui, label, key, exists ? lessons[to].title : "",
                   OpenScene{exists ? lessons[to].scene : std::filesystem::path(), to}, exists);
   };
+  // Above the texts, so that the buttons stay in their places.
   step("Previous lesson", "lesson.previous", shown - 1);
   continueRow("Next lesson");
   step("Next lesson", "lesson.next", shown + 1);
+  coloredText(warningColor, fmt::format("{} of {}: {}", shown + 1, lessons.size(), lessons[shown].title));
+  wrappedText(lessons[shown].text);
+  ImGui::Spacing();
+  wrappedText("Look for: " + lessons[shown].lookFor);
 }
 
 }  // namespace speculum::panels

@@ -55,6 +55,7 @@ class Demo : private WorkspaceHost {
   void toggleFullScreen() override { window_.setFullScreen(!window_.fullScreen()); }
   void setPresentMode(size_t index) override;
   void togglePanels() override { ui_.windows().toggleVisible(); }
+  void closeSidePanels() override { ui_.windows().closeSidePanels(); }
   bool showsPanels() const override { return ui_.windows().visible(); }
   void toggleHelp() override { ui_.windows().toggleHelp(); }
   void toggleInspector() override { ui_.windows().toggleInspector(); }

@@ -424,7 +424,10 @@ void Workspace::beginLesson(size_t index) {
   }
   view_.playback.seek(lesson.time);
   view_.playback.hold();
-  settings_.beginLesson(index, loaded_->settings, middleOfFreePicture());
+  host_.closeSidePanels();
+  // Until the next frame freePicture() lacks the room of these panels.
+  const double left = static_cast<double>(host_.freePicture().x) / std::max(host_.pictureSize().x, 1);
+  settings_.beginLesson(index, loaded_->settings, 0.5 * (left + 1.0));
   reports_[1] = {};
 }
 

@@ -85,6 +85,7 @@ class WorkspaceHost {
   virtual void setPresentMode(size_t index) = 0;
   virtual void togglePanels() = 0;
   virtual bool showsPanels() const = 0;
+  virtual void closeSidePanels() = 0;  // those at the right
   virtual void toggleHelp() = 0;
   virtual void toggleInspector() = 0;
   virtual void openInspector() = 0;

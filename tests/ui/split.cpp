@@ -120,6 +120,17 @@ TEST_F(SplitPanels, LessonsAreOpenedAndWalkedThrough) {
   run(5);
   EXPECT_EQ(windows_->freeRect().corner.x, free.corner.x) << "both halves stay in sight";
   EXPECT_EQ(windows_->freeRect().size.x, free.size.x);
+  const PixelRect next = widget("lesson.next");
+  split_.lessons[1].text = std::string(400, 'w');
+  EXPECT_TRUE(shows("ww"));
+  EXPECT_EQ(widget("lesson.next").y, next.y) << "whatever the text's length";
+  split_.lessons[1].text = "Text two.";
+  toggle("Performance");
+  toggle("Device");
+  EXPECT_LT(windows_->freeRect().size.x, free.size.x);
+  windows_->closeSidePanels();
+  run(3);
+  EXPECT_EQ(windows_->freeRect().size.x, free.size.x);
   EXPECT_TRUE(shows("2 of 2: Second"));
   EXPECT_TRUE(shows("Text two."));
   EXPECT_TRUE(shows("Look for: that."));

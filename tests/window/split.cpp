@@ -137,11 +137,14 @@ TEST_F(Split, LessonsOpenTheirSceneWithBothSettings) {
   const Lesson& lesson = workspace_->split().lessons()[0];
   send(SelectNode{ball});
   send(RemoveSelected{});
+  host_.free = PixelRect{300, 0, 200, height};
   send(OpenScene{lesson.scene, 0});
   EXPECT_EQ(edit().prompt, Prompt::unsavedChanges);
   send(DiscardChanges{});
   waitFor([&] { return split().lesson.has_value(); });
   EXPECT_EQ(*split().lesson, 0u);
+  EXPECT_FALSE(host_.sidePanels);
+  EXPECT_DOUBLE_EQ(split().divider, 600.0 / width) << "in the middle, once the panels at the right are closed";
   EXPECT_EQ(shownScene(), "gallery");
   EXPECT_TRUE(shown().playback.paused);
   EXPECT_EQ(eye(), lesson.camera->position);

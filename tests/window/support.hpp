@@ -42,6 +42,7 @@ class FakeHost : public WorkspaceHost {
   void toggleFullScreen() override {}
   void setPresentMode(size_t) override {}
   void togglePanels() override { panels = !panels; }
+  void closeSidePanels() override { sidePanels = false; }
   bool showsPanels() const override { return panels; }
   void toggleHelp() override {}
   void toggleInspector() override { inspector = !inspector; }
@@ -57,6 +58,7 @@ class FakeHost : public WorkspaceHost {
   std::string clipboard;
   std::string title;
   bool panels = true;
+  bool sidePanels = true;
   bool closed = false;
   bool inspector = false;
   bool popup = false;
