@@ -7,6 +7,8 @@
 
 #include <algorithm>
 
+#include "image/image.hpp"
+
 namespace speculum::examples {
 
 namespace {
@@ -63,7 +65,15 @@ void SimpleUI::build(UiState& state) {
   ImGui::Begin("Frame", nullptr, ImGuiWindowFlags_AlwaysAutoResize);
   ImGui::Text("%.2f ms, %.0f frames per second", 1000.0f / io.Framerate, io.Framerate);
   ImGui::Text("%.2f ms on the GPU", renderer_.timings().gpuMs);
-  ImGui::ColorEdit3("Clear color", &state.clearColor.x, ImGuiColorEditFlags_Float | ImGuiColorEditFlags_NoInputs);
+  glm::vec3 shown;  // sRGB, so that the picker shows the color that is drawn
+  for (int i = 0; i < 3; ++i) {
+    shown[i] = static_cast<float>(srgbEncode(state.clearColor[i]));
+  }
+  if (ImGui::ColorEdit3("Clear color", &shown.x, ImGuiColorEditFlags_NoInputs)) {
+    for (int i = 0; i < 3; ++i) {
+      state.clearColor[i] = static_cast<float>(srgbDecode(shown[i]));
+    }
+  }
   ImGui::Checkbox("Settings", &state.settings);
   if (state.settings && state.naive) {
     ImGui::Checkbox("Naive mirror", state.naive);
