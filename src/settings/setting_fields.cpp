@@ -186,7 +186,7 @@ constexpr SettingField fields[] = {
             "Traces rays wherever lights reach."),
     setting("effects.shadow_lookup", choice<&E::shadowLookup>(shadowLookups), "Shadow lookup",
             "how shadows are found; traced: by rays; map: in shadow maps; hybrid: in maps, and by rays where a map is "
-            "not sure; auto: the way that should be fastest, in a mean of pictures traced or hybrid",
+            "not sure; auto: the way that should be fastest, in a mean of pictures no map if rays can be traced",
             "Maps render only what changed.", {.cheaper = higher, .swept = {"traced hybrid map"}}),
     setting("effects.shadow_map_size", IntegerSetting{at<&E::shadowMapSize>, 64, 4096, true, true}, "Shadow map size",
             "side of a shadow map's images; auto: texels about as large as the pixels that look them up",
