@@ -658,6 +658,17 @@ TEST_F(ObjLoader, TextureCoordinatesKeepTheirFraction) {
     std::string obj = squareText;
     for (const double u : {0.25, 1.25, 1.75, 0.5}) {
       obj += fmt::format("vt {} {}\n", far + u, 0.5 * u - far);
+TEST_F(ObjLoader, CornersThatDifferAreSlivers) {
+  const auto defectsOf = [&](double apart, double size) {
+    return load(fmt::format("v 0 0 0\nv {} 0 0\nv {} {} 0\nf 1 2 3\n", size, size, apart)).defects.size();
+  };
+  for (const double size : {1e-3, 1.0, 2.0, 700.0}) {
+    EXPECT_EQ(defectsOf(1.52e-6 * size, size), 1u);
+    EXPECT_EQ(defectsOf(1.48e-6 * size, size), 0u);
+  }
+  EXPECT_EQ(defectsOf(4e-6, 2.0), 1u);
+}
+
     }
     const Mesh mesh = load(obj + "vn 0 0 1\nf 1/1/1 2/2/1 3/3/1 4/4/1\n");
     for (const Vertex& vertex : mesh.vertices) {
