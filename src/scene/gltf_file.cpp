@@ -289,16 +289,18 @@ void GltfFile::readBuffers(const std::vector<Source>& sources, std::string_view 
       buffers_.emplace_back(reinterpret_cast<const uint8_t*>(binary.data()), binary.size());
       continue;
     }
-    if (source.uri.empty()) {
-      defects_.add(file_, 1, "buffers", "{} has no data, as with EXT_meshopt_compression, what uses it is left out",
-                   std::to_string(buffers_.size()));
+    const auto leaveOut = [&](std::string_view kind, const std::string& detail) {
+      defects_.add(file_, 1, "buffers", kind, detail).costsTriangles = true;
       buffers_.emplace_back();
       continue;
     }
     const std::optional<fs::path> found = find(source.uri);
     if (!found) {
-      defects_.add(file_, 1, "buffers", "there is no file '{}', what uses it is left out", source.uri);
-      buffers_.emplace_back();
+      leaveOut("there is no file '{}', what uses it is left out", source.uri);
+    };
+    if (source.uri.empty()) {
+      leaveOut("{} has no data, as with EXT_meshopt_compression, what uses it is left out",
+               std::to_string(buffers_.size()));
       continue;
     }
     const auto [known, isNew] = files.try_emplace(withoutLinks(*found));
@@ -311,8 +313,7 @@ void GltfFile::readBuffers(const std::vector<Source>& sources, std::string_view 
         buffers_.push_back(known->second);
       }
     } catch (const FileError& error) {
-      defects_.add(file_, 1, "buffers", "{}, what uses it is left out", error.what());
-      buffers_.emplace_back();
+      leaveOut("{}, what uses it is left out", error.what());
     }
   }
   byteCount_ += bytes;
@@ -366,7 +367,7 @@ uint64_t GltfFile::countOf(int accessor) const {
   return isIndex(accessor, model_.accessors.size()) ? model_.accessors[accessor].count : 0;
 }
 
-std::optional<std::vector<double>> GltfFile::numbers(int index, int components) {
+std::optional<std::vector<double>> GltfFile::numbers(int index, int components, bool ofTriangles) {
   if (isIndex(index, model_.accessors.size())) {
     const tinygltf::Accessor& accessor = model_.accessors[index];
     const ElementType type{accessor.componentType, components, accessor.normalized};
@@ -383,8 +384,10 @@ std::optional<std::vector<double>> GltfFile::numbers(int index, int components) 
       }
     }
   }
-  defects_.add(file_, 1, "accessors", "{} does not hold what is needed of it, what uses it is left out",
-               std::to_string(index));
+  defects_
+      .add(file_, 1, "accessors", "{} does not hold what is needed of it, what uses it is left out",
+           std::to_string(index))
+      .costsTriangles |= ofTriangles;
   return std::nullopt;
 }
 

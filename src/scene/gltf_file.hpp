@@ -66,9 +66,9 @@ class GltfFile {
   // Returns the number of an accessor's elements, 0 if there is no such accessor. Damaged files may claim any number.
   uint64_t countOf(int accessor) const;
   // Returns the numbers of an accessor with `components` for each element; normalized integers become 0 .. 1 or -1 ..
-  // 1. Counts a defect and returns nothing if the accessor has another type, or elements outside of its data. Check the
-  // number of elements first.
-  std::optional<std::vector<double>> numbers(int accessor, int components);
+  // 1. Counts a defect and returns nothing if the accessor has another type, or elements outside of its data:
+  // `ofTriangles` says that this costs triangles. Check the number of elements first.
+  std::optional<std::vector<double>> numbers(int accessor, int components, bool ofTriangles = false);
 
   // Finds the picture of an image. Counts a defect and returns nothing if there is none.
   std::optional<Picture> picture(int image);

@@ -117,7 +117,8 @@ class GltfReader {
       const Placed placed = open.back();
       open.pop_back();
       if (!isIndex(placed.index, nodes.size()) || sceneFromNode_[placed.index]) {
-        add("nodes", "node {} is not there, or has two parents, it is left out here", placed.index);
+        add("nodes", "node {} is not there, or has two parents, it is left out here", placed.index).costsTriangles =
+            true;
         continue;
       }
       const tinygltf::Node& node = nodes[placed.index];
@@ -163,10 +164,11 @@ class GltfReader {
     glm::dmat4 transform{1.0};
   };
 
-  void add(std::string_view key, std::string_view kind, int index) {
-    defects_.add(file_, 1, key, kind, std::to_string(index));
+  ModelDefects::Kind& add(std::string_view key, std::string_view kind, int index) {
+    return defects_.add(file_, 1, key, kind, std::to_string(index));
   }
 
+    const auto leaveOut = [&](std::string_view kind) { add("meshes", kind, mesh).costsTriangles = true; };
   // Lists the roots of the default scene, the last first. A file without scenes has those that are no children.
   void addRoots(std::vector<Placed>& roots) const {
     const tinygltf::Model& model = content_.model();
@@ -204,7 +206,7 @@ class GltfReader {
         addPrimitive(primitive, node.mesh, skin_.empty() ? sceneFromNode : skin_[0]);
       }
     } else if (node.mesh != -1) {
-      add("nodes", "there is no mesh {}, it is left out", node.mesh);
+      add("nodes", "there is no mesh {}, it is left out", node.mesh).costsTriangles = true;
     }
     if (camera_.index == -1 && isIndex(node.camera, model.cameras.size()) &&
         model.cameras[node.camera].type == "perspective") {
@@ -223,13 +225,13 @@ class GltfReader {
     }
     const auto position = primitive.attributes.find("POSITION");
     if (primitive.mode < 0 || primitive.mode > TINYGLTF_MODE_TRIANGLE_FAN || position == primitive.attributes.end()) {
-      add("meshes", "mesh {} has a primitive of an unknown mode or without POSITION, it is left out", mesh);
+      leaveOut("mesh {} has a primitive of an unknown mode or without POSITION, it is left out");
       return;
     }
     const std::vector<tinygltf::Accessor>& accessors = content_.model().accessors;
     if (primitive.extensions.contains("KHR_draco_mesh_compression") && isIndex(position->second, accessors.size()) &&
         accessors[position->second].bufferView == -1) {
-      add("meshes", "mesh {} is compressed by KHR_draco_mesh_compression, it is left out", mesh);
+      leaveOut("mesh {} is compressed by KHR_draco_mesh_compression, it is left out");
       return;
     }
     if (!primitive.targets.empty()) {
@@ -240,12 +242,11 @@ class GltfReader {
     const bool hasIndices = indexed != primitive.attributes.end();
     const uint64_t corners = hasIndices ? content_.countOf(indexed->second) : count;
     if (primitive.mode == TINYGLTF_MODE_TRIANGLES && corners % 3 != 0) {
-      add("meshes", "mesh {} has a last triangle of fewer than three vertices, it is left out", mesh);
+      leaveOut("mesh {} has a last triangle of fewer than three vertices, it is left out");
     }
     const uint64_t taken = (primitive.mode == TINYGLTF_MODE_TRIANGLES ? 1 : 3) * corners;
     if (std::max(corners, taken) > cornersLeft_) {
-      add("meshes", "mesh {} has, as often as it is drawn, too many vertices for a file of this size, it is left out",
-          mesh);
+      leaveOut("mesh {} has, as often as it is drawn, too many vertices for a file of this size, it is left out");
       return;
     }
     cornersLeft_ -= taken;
@@ -254,8 +255,8 @@ class GltfReader {
       positions_ = position->second;
       read_.clear();
     }
-    const std::vector<double>* positions = numbers(positions_, 3);
-    const auto indices = hasIndices ? content_.numbers(indexed->second, 1) : std::nullopt;
+    const std::vector<double>* positions = numbers(positions_, 3, true);
+    const auto indices = hasIndices ? content_.numbers(indexed->second, 1, true) : std::nullopt;
     if (positions && (indices || !hasIndices)) {
       placeOf_.resize(std::max<size_t>(placeOf_.size(), count), -1);
       std::vector<size_t> named;
@@ -277,15 +278,16 @@ class GltfReader {
   }
 
   // Returns the numbers of an accessor of vertices; null if it is not usable.
-  const std::vector<double>* numbers(int accessor, int components) {
+  const std::vector<double>* numbers(int accessor, int components, bool ofTriangles = false) {
     const auto [known, isNew] = read_.try_emplace({accessor, components});
     const uint64_t count = content_.countOf(accessor);
     if (isNew && count > cornersLeft_) {
       add("accessors", "{} has, as often as it is read, too many vertices for a file of this size, it is left out",
-          accessor);
+          accessor)
+          .costsTriangles |= ofTriangles;
     } else if (isNew) {
       cornersLeft_ -= count;
-      known->second = content_.numbers(accessor, components);
+      known->second = content_.numbers(accessor, components, ofTriangles);
     }
     return known->second ? &*known->second : nullptr;
   }
@@ -422,7 +424,8 @@ class GltfReader {
     };
     forEachTriangle(primitive.mode, places.size(), [&](size_t a, size_t b, size_t c) {
       if (std::min({places[a], places[b], places[c]}) < 0) {
-        add("meshes", "mesh {} has a triangle with a vertex that is not there, it is left out", mesh);
+        add("meshes", "mesh {} has a triangle with a vertex that is not there, it is left out", mesh).costsTriangles =
+            true;
         return;
       }
       const std::array<FaceCorner, 3> face{cornerOf(a), cornerOf(mirrored ? c : b), cornerOf(mirrored ? b : c)};
@@ -508,16 +511,9 @@ class GltfReader {
   std::vector<Placed> lights_;
 };
 
-[[noreturn]] void throwNothingToDraw(const fs::path& file, bool hasLinesOrPoints,
-                                     const std::vector<std::string>& defects) {
-  constexpr std::array<std::string_view, 7> keys{"scenes",    "nodes",       "meshes", "triangles",
-                                                 "accessors", "bufferViews", "buffers"};
-  const auto cost = std::ranges::find_if(defects, [&](const std::string& defect) {
-    return std::ranges::any_of(
-        keys, [&](std::string_view key) { return defect.find(fmt::format(":1: {}: ", key)) != std::string::npos; });
-  });
-  if (!hasLinesOrPoints && cost != defects.end()) {
-    throw InputError(*cost + " (no triangle is left to draw)");
+[[noreturn]] void throwNothingToDraw(const fs::path& file, bool hasLinesOrPoints, const ModelDefects& defects) {
+  if (const auto lost = defects.lostTriangles(); lost && !hasLinesOrPoints) {
+    throw InputError(*lost + " (no triangle is left to draw)");
   }
   throwInputError(file, 1, "meshes",
                   hasLinesOrPoints ? "the model has lines or points, but no triangle" : "the model has no triangle",
@@ -546,7 +542,7 @@ Model loadGltf(const fs::path& file, std::vector<Texture>& textures, const LoadP
   }
   mesh.defects = defects.report();
   if (mesh.indices.empty()) {
-    throwNothingToDraw(file, reader.hasLinesOrPoints(), mesh.defects);
+    throwNothingToDraw(file, reader.hasLinesOrPoints(), defects);
   }
   return model;
 }

@@ -246,7 +246,8 @@ void leaveOutDamaged(const fs::path& file, json& root, ModelDefects& defects) {
   const auto repair = [&](const char* kind, std::span<json> elements, const json& empty, const auto& faultOfOne) {
     for (size_t i = 0; i < elements.size(); ++i) {
       if (const std::string fault = faultOfOne(json::array({elements[i]})); !fault.empty()) {
-        defects.add(file, 1, kind, "{} cannot be read, what uses it is left out", fmt::format("{} ({})", i, fault));
+        defects.add(file, 1, kind, "{} cannot be read, what uses it is left out", fmt::format("{} ({})", i, fault))
+            .costsTriangles = std::ranges::find(ofTriangles, kind) != ofTriangles.end();
         elements[i] = empty;
       }
     }
@@ -266,6 +267,7 @@ void leaveOutDamaged(const fs::path& file, json& root, ModelDefects& defects) {
 }  // namespace
 
 tinygltf::Model readRepaired(const fs::path& file, json root, ModelDefects& defects) {
+  constexpr std::array<std::string_view, 5> ofTriangles{"bufferViews", "accessors", "meshes", "nodes", "scenes"};
   tinygltf::Model model;
   prepareMeshes(root);
   mendValues(file, root, defects);

@@ -191,7 +191,8 @@ void MeshBuilder::addFace(std::span<const FaceCorner> corners, int line) {
   for (const FaceCorner& corner : corners) {
     const glm::dvec3& position = positions_[corner.position];
     if (!isFinite(position) || glm::compMax(glm::abs(position)) >= farthest) {
-      defects_.add(file_, line, faceKey_, "has a vertex that is not finite or beyond 1e300, the face is left out");
+      defects_.add(file_, line, faceKey_, "has a vertex that is not finite or beyond 1e300, the face is left out")
+          .costsTriangles = true;
       return;
     }
     points_.push_back(position);
@@ -199,8 +200,10 @@ void MeshBuilder::addFace(std::span<const FaceCorner> corners, int line) {
   if (corners.size() > fewCorners && !isFan(points_)) {
     cornerPairs_ += static_cast<double>(corners.size()) * static_cast<double>(corners.size());
     if (cornerPairs_ > mostPairs) {
-      defects_.add(file_, line, faceKey_,
-                   "has too many corners for a face that is no fan about its first, the face is left out");
+      defects_
+          .add(file_, line, faceKey_,
+               "has too many corners for a face that is no fan about its first, the face is left out")
+          .costsTriangles = true;
       return;
     }
   }

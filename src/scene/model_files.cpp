@@ -38,9 +38,8 @@ const ModelFormat* formatOf(const std::filesystem::path& file) {
   return found == formats.end() ? nullptr : &*found;
 }
 
-// Says whether the first line that is no comment is one of an OBJ file.
-bool isObj(std::string_view text) {
-  constexpr std::array<std::string_view, 9> keywords{"mtllib", "usemtl", "o", "g", "s", "v", "vt", "vn", "f"};
+// Says whether the first line that is no comment begins with one of the keywords.
+bool beginsWith(std::string_view text, std::span<const std::string_view> keywords) {
   LineReader line(text, LineReader::Continuation::none);
   return line.next() && line.tokens().size() > 1 && line.tokens()[1] != "=" &&
          std::ranges::find(keywords, line.keyword()) != keywords.end();
@@ -187,13 +186,15 @@ std::optional<ForeignFile> foreignFile(std::string_view content, std::string_vie
       first == "<!doctype" || first.starts_with("<html")) {
     return ForeignFile{"is a web page", "download the file itself"};
   }
-  if (content.starts_with("newmtl ") || content.find("\nnewmtl ") != std::string_view::npos) {
+  constexpr std::array<std::string_view, 1> ofMtl{"newmtl"};
+  if (beginsWith(text, ofMtl)) {
     return ForeignFile{"is a material file", "name the OBJ file that uses it"};
   }
   if (text.starts_with("{") && content.substr(0, 4096).find("\"asset\"") != std::string_view::npos) {
     return ForeignFile{"is a glTF file", "let its name end with .gltf"};
   }
-  if (readAs != ".obj" && isObj(text)) {
+  constexpr std::array<std::string_view, 9> ofObj{"mtllib", "usemtl", "o", "g", "s", "v", "vt", "vn", "f"};
+  if (readAs != ".obj" && beginsWith(text, ofObj)) {
     return ForeignFile{"is a Wavefront OBJ file", "let its name end with .obj"};
   }
   // A binary STL file has 80 bytes of any text, the number of its triangles, and 50 bytes for each.
@@ -204,37 +205,49 @@ std::optional<ForeignFile> foreignFile(std::string_view content, std::string_vie
     return ForeignFile{"is UTF-16 text", "save it as UTF-8"};
   }
   if (content.find('\0') != std::string_view::npos) {
-    return ForeignFile{"is not a text file", "a " + modelFormatNames() + " file is needed"};
+    return ForeignFile{"is not a text file", "a " + modelFormatNames() + " file is needed", false};
   }
   return std::nullopt;
 }
 
-void ModelDefects::add(const std::filesystem::path& file, int line, std::string_view key, std::string_view kind,
-                       std::string_view detail, std::string_view reason) {
-  const auto known = std::ranges::find_if(entries_, [&](const Entry& entry) {
-    return entry.kind == kind && entry.key == key && entry.reason == reason && entry.file.native() == file.native();
+ModelDefects::Kind& ModelDefects::add(const fs::path& file, int line, std::string_view key, std::string_view kind,
+                                      std::string_view detail, std::string_view reason) {
+  constexpr size_t mostKinds = 50;   // a file may give any number of reasons
+  constexpr size_t mostShown = 200;  // a damaged file may have tokens of any length
+  auto known = std::ranges::find_if(kinds_, [&](const Kind& other) {
+    return other.kind == kind && other.key == key && other.reason == reason && other.file.native() == file.native();
   });
-  if (known != entries_.end()) {
-    ++known->count;
-    return;
+  if (known == kinds_.end() && kinds_.size() > mostKinds) {
+    known = kinds_.end() - 1;
+  } else if (known == kinds_.end()) {
+    kind = kinds_.size() == mostKinds ? "has a defect of one more kind, such ones are not told apart" : kind;
+    std::string text = fmt::format("{}:{}: {}: ", file.string(), line, key);
+    text += fmt::format(fmt::runtime(kind),
+                        std::string(detail.substr(0, mostShown)) + (detail.size() > mostShown ? "..." : ""));
+    kinds_.push_back({file, std::string(key), kind, std::string(reason), oneLine(std::move(text))});
+    known = kinds_.end() - 1;
   }
-  // A damaged file may have tokens of any length.
-  constexpr size_t most = 200;
-  std::string text = fmt::format("{}:{}: {}: ", file.string(), line, key);
-  text += fmt::format(fmt::runtime(kind), std::string(detail.substr(0, most)) + (detail.size() > most ? "..." : ""));
-  entries_.push_back({file, std::string(key), kind, std::string(reason), oneLine(std::move(text))});
+  ++known->count;
+  return *known;
 }
 
-std::vector<std::string> ModelDefects::report() {
+namespace {
+
+std::string warningOf(const ModelDefects::Kind& kind) {
+  return kind.count > 1 ? fmt::format("{} (and {} more)", kind.text, kind.count - 1) : kind.text;
+}
+
+}  // namespace
+
+std::vector<std::string> ModelDefects::report() const {
   std::vector<std::string> texts;
-  for (Entry& entry : entries_) {
-    if (entry.count > 1) {
-      entry.text += fmt::format(" (and {} more)", entry.count - 1);
-    }
-    texts.push_back(std::move(entry.text));
-  }
-  entries_.clear();
+  std::ranges::transform(kinds_, std::back_inserter(texts), warningOf);
   return texts;
+}
+
+std::optional<std::string> ModelDefects::lostTriangles() const {
+  const auto found = std::ranges::find_if(kinds_, &Kind::costsTriangles);
+  return found == kinds_.end() ? std::nullopt : std::optional(warningOf(*found));
 }
 
 bool isModelFile(const std::filesystem::path& file) {

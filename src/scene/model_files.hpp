@@ -21,26 +21,30 @@ using LoadProgress = std::function<void(const std::filesystem::path& file, doubl
 // Counts the defects of a model and of the files that it names, so that each kind of a file is one warning.
 class ModelDefects {
  public:
-  // Counts a defect in a line of a file, from 1. `kind` is a text that outlives this object; its {} stands for
-  // `detail`. Defects with different texts in `reason` are of different kinds.
-  void add(const std::filesystem::path& file, int line, std::string_view key, std::string_view kind,
-           std::string_view detail = {}, std::string_view reason = {});
-
-  // Returns one warning for each kind, `FILE:LINE: key: kind (and N more)` with the line of the kind's first defect, in
-  // the order of these first defects. Forgets the defects.
-  std::vector<std::string> report();
-
- private:
-  struct Entry {
+  struct Kind {
     std::filesystem::path file;
     std::string key;
     std::string_view kind;
     std::string reason;
     std::string text;  // about the first defect of the kind
-    size_t count = 1;
+    size_t count = 0;
+    bool costsTriangles = false;  // set this for a defect that leaves triangles out
   };
 
-  std::vector<Entry> entries_;
+  // Counts a defect in a line of a file, from 1. `kind` is a text that outlives this object; its {} stands for
+  // `detail`. Defects with different texts in `reason` are of different kinds. Those beyond the first 50 kinds count as
+  // one kind. Returns the kind, which is valid until the next call.
+  Kind& add(const std::filesystem::path& file, int line, std::string_view key, std::string_view kind,
+            std::string_view detail = {}, std::string_view reason = {});
+
+  // Returns one warning for each kind, `FILE:LINE: key: kind (and N more)` with the line of the kind's first defect, in
+  // the order of these first defects.
+  std::vector<std::string> report() const;
+  // Returns the first of these warnings that is about triangles which are left out.
+  std::optional<std::string> lostTriangles() const;
+
+ private:
+  std::vector<Kind> kinds_;
 };
 
 // Finds the files that a model names. Models come from other machines, so names may be in quotes, have backslashes,
@@ -75,10 +79,11 @@ class ModelFiles {
 struct ForeignFile {
   std::string wrong;  // "is a PLY file"
   std::string right;
+  bool isKnown = true;  // by its beginning; else bytes anywhere in it are no text
 };
 
-// Returns what a file is and what is needed instead, if its content begins like that of a known format. `readAs`: the
-// extension of the format as which it was read, ".obj" or ".gltf", which does not count; empty: neither.
+// Returns what a file is and what is needed instead, if its content begins like that of a known format or is no text.
+// `readAs`: the extension of the format as which it was read, ".obj" or ".gltf", which does not count; empty: neither.
 std::optional<ForeignFile> foreignFile(std::string_view content, std::string_view readAs);
 
 // A format of models. To add a format, write a loader and a row in the table of model_files.cpp.

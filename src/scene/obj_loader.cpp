@@ -163,15 +163,15 @@ class ObjReader {
     return token < line_.tokens().size() ? parseNumber(line_.tokens()[token]).value_or(none) : none;
   }
 
-  void add(std::string_view key, std::string_view kind, std::string_view detail = {}) {
-    defects_.add(file_, line_.number(), key, kind, detail);
+  ModelDefects::Kind& add(std::string_view key, std::string_view kind, std::string_view detail = {}) {
+    return defects_.add(file_, line_.number(), key, kind, detail);
   }
 
   // A damaged element is added too, so that the indices of later elements stay right.
   void addPosition() {
     const glm::dvec3 position(number(1), number(2), number(3));
     if (!isFinite(position)) {
-      add("v", "is not a point of three finite numbers, faces with it are left out");
+      add("v", "is not a point of three finite numbers, faces with it are left out").costsTriangles = true;
     }
     mesh_.addPosition(position, vertexColor());
   }
@@ -218,12 +218,13 @@ class ObjReader {
     corners_.clear();
     for (size_t i = 1; i < tokens.size(); ++i) {
       if (!addCorner(tokens[i])) {
-        add("f", "'{}' is no corner (v, v/vt, v//vn or v/vt/vn), the face is left out", tokens[i]);
+        add("f", "'{}' is no corner (v, v/vt, v//vn or v/vt/vn), the face is left out", tokens[i]).costsTriangles =
+            true;
         return;
       }
     }
     if (corners_.size() < 3) {
-      add("f", "has fewer than three corners, the face is left out");
+      add("f", "has fewer than three corners, the face is left out").costsTriangles = true;
     } else if (std::ranges::any_of(corners_, [&](const FaceCorner& corner) { return isLater(corner); })) {
       later_.push_back({laterCorners_.size(), corners_.size(), material_, smoothing_, line_.number()});
       laterCorners_.insert(laterCorners_.end(), corners_.begin(), corners_.end());
@@ -250,7 +251,7 @@ class ObjReader {
   void addFace(std::span<FaceCorner> corners, int line) {
     for (FaceCorner& corner : corners) {
       if (!isInRange(corner.position, mesh_.positionCount())) {
-        defects_.add(file_, line, "f", "has a vertex that is not there, the face is left out");
+        defects_.add(file_, line, "f", "has a vertex that is not there, the face is left out").costsTriangles = true;
         return;
       }
       if (corner.texcoord != noIndex && !isInRange(corner.texcoord, mesh_.texcoordCount())) {
@@ -315,18 +316,15 @@ class ObjReader {
 };
 
 [[noreturn]] void throwNothingToDraw(const std::filesystem::path& file, const std::optional<ForeignFile>& foreign,
-                                     const Contents& contents, const std::vector<std::string>& defects) {
+                                     const Contents& contents, const ModelDefects& defects) {
   const std::string right = "at least one face with an area is needed";
-  if (foreign) {
+  if (foreign && (foreign->isKnown || contents.firstFace == 0)) {
     throwInputError(file, 1, "file", foreign->wrong, foreign->right);
   }
+  if (const auto lost = defects.lostTriangles(); lost && contents.firstFace != 0) {
+    throw InputError(*lost + " (no triangle is left to draw)");
+  }
   if (contents.firstFace != 0) {
-    const auto first = std::ranges::find_if(defects, [](const std::string& text) {
-      return text.find(": f: ") != std::string::npos || text.find(": v: is ") != std::string::npos;
-    });
-    if (first != defects.end()) {
-      throw InputError(*first + " (no triangle is left to draw)");
-    }
     throwInputError(file, contents.firstFace, "f", "has no area, like every other face", right);
   }
   if (contents.freeForm) {
@@ -365,7 +363,7 @@ Mesh loadObj(const std::filesystem::path& file, std::vector<Texture>& textures, 
   }
   mesh.defects = defects.report();
   if (mesh.indices.empty()) {
-    throwNothingToDraw(file, foreign, contents, mesh.defects);
+    throwNothingToDraw(file, foreign, contents, defects);
   }
   return mesh;
 }

@@ -463,46 +463,52 @@ const std::string pointsText = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 
 INSTANTIATE_TEST_SUITE_P(
     Files, ObjRefusals,
-    testing::Values(Fault{"Empty", "", "1: file:", "is empty"}, Fault{"Blank", " \n\n", "1: file:", "is empty"},
-                    Fault{"OnlyVertices", pointsText, "1: f:", "has no face"},
-                    Fault{"Lines", pointsText + "l 1 2 3\n", "1: f:", "has lines or points, but no face"},
-                    Fault{"Points", pointsText + "p 1 2 3\n", "1: f:", "has lines or points, but no face"},
-                    Fault{"FreeForm", pointsText + "cstype bezier\nsurf 0 1 0 1 1 2 3\n",
-                          "1: f:", "has free-form curves or surfaces"},
-                    Fault{"OnlyDegenerateFaces", pointsText + "f 1 1 2\n",
-                          "4: f:", "has no area, like every other face (at least one face with an area"},
-                    Fault{"DecimalCommas", "v 0,5 0 0\nv 1,5 0 0\nv 0,5 1,5 0\nf 1 2 3\n",
-                          "1: v:", "is not a point of three finite numbers"},
-                    Fault{"OnlyDamagedFaces", pointsText + "f 1 2 9\n", "4: f:", "has a vertex that is not there"},
-                    Fault{"GitLfs", "version https://git-lfs.github.com/spec/v1\noid sha256:4d\nsize 12\n",
-                          "1: file:", "is a Git LFS pointer"},
-                    Fault{"FreeFormInCapitals", pointsText + "SURF 0 1 0 1 1 2 3\n",
-                          "1: f:", "has free-form curves or surfaces"},
-                    Fault{"LinesInCapitals", pointsText + "L 1 2 3\n", "1: f:", "has lines or points, but no face"},
-                    Fault{"Utf16LowFirst", std::string("v\0 \0001\0\n\0", 8), "1: file:", "is UTF-16 text"},
-                    Fault{"Utf16HighFirst", std::string("\0v\0 \0001\0\n", 8), "1: file:", "is UTF-16 text"},
-                    Fault{"Utf16", std::string("\xff\xfev\0 \0", 6), "1: file:", "is UTF-16 text"},
-                    Fault{"Stl", "solid cube\nfacet normal 0 0 1\n", "1: file:", "is an STL file"},
-                    Fault{"BinaryStl", std::string(80, 'x') + std::string("\1\0\0\0", 4) + std::string(50, '\1'),
-                          "1: file:", "is an STL file"},
-                    Fault{"Ply", "ply\nformat ascii 1.0\n", "1: file:", "is a PLY file"},
-                    Fault{"Gltf", "{ \"asset\": { \"version\": \"2.0\" } }", "1: file:", "is a glTF file"},
-                    Fault{"BinaryGltf", "glTF\x02", "1: file:", "is a glTF file (let its name end with .glb)"},
-                    Fault{"PlyWithAFace", "ply\nend_header\nf 1 2 3\n", "1: file:", "is a PLY file"},
-                    Fault{"Fbx", "Kaydara FBX Binary  \x1a", "1: file:", "is an FBX file"},
-                    Fault{"Max", "MM\x4d", "1: file:", "is a 3DS file"},
-                    Fault{"Collada", "<?xml version='1.0'?>\n<COLLADA>", "1: file:", "is a COLLADA file"},
-                    Fault{"Usd", "#usda 1.0\n", "1: file:", "is a USD file"},
-                    Fault{"Blender", "BLENDER-v402", "1: file:", "is a Blender file"},
-                    Fault{"NewBlender", "\x28\xb5\x2f\xfd v", "1: file:", "as Blender files are (unpack it)"},
-                    Fault{"Zip", "PK\x03\x04", "1: file:", "is a ZIP archive"},
-                    Fault{"Archive", "7z\xbc\xaf", "1: file:", "is a 7z archive (unpack it)"},
-                    Fault{"Page", "<!DOCTYPE html><html>", "1: file:", "is a web page"},
-                    Fault{"LoudPage", "<HTML><body>", "1: file:", "is a web page"},
-                    Fault{"MarkedPage", "\xef\xbb\xbf<!Doctype html><html>", "1: file:", "is a web page"},
-                    Fault{"PageAfterABlankLine", "\r\n<!doctype html><html>", "1: file:", "is a web page"},
-                    Fault{"Binary", std::string("\x7f\x45LF\0\0\1v 1\n", 10), "1: file:", "is not a text file"},
-                    Fault{"Text", "once upon a time\nthere was no model\n", "1: f:", "has no face"}),
+    testing::Values(
+        Fault{"Empty", "", "1: file:", "is empty"}, Fault{"Blank", " \n\n", "1: file:", "is empty"},
+        Fault{"OnlyVertices", pointsText, "1: f:", "has no face"},
+        Fault{"Lines", pointsText + "l 1 2 3\n", "1: f:", "has lines or points, but no face"},
+        Fault{"Points", pointsText + "p 1 2 3\n", "1: f:", "has lines or points, but no face"},
+        Fault{"FreeForm", pointsText + "cstype bezier\nsurf 0 1 0 1 1 2 3\n",
+              "1: f:", "has free-form curves or surfaces"},
+        Fault{"OnlyDegenerateFaces", pointsText + "f 1 1 2\n",
+              "4: f:", "has no area, like every other face (at least one face with an area"},
+        Fault{"DecimalCommas", "v 0,5 0 0\nv 1,5 0 0\nv 0,5 1,5 0\nf 1 2 3\n",
+              "1: v:", "is not a point of three finite numbers"},
+        Fault{"OnlyDamagedFaces", pointsText + "f 1 2 9\n", "4: f:", "has a vertex that is not there"},
+        Fault{"GitLfs", "version https://git-lfs.github.com/spec/v1\noid sha256:4d\nsize 12\n",
+              "1: file:", "is a Git LFS pointer"},
+        Fault{"FreeFormInCapitals", pointsText + "SURF 0 1 0 1 1 2 3\n", "1: f:", "has free-form curves or surfaces"},
+        Fault{"LinesInCapitals", pointsText + "L 1 2 3\n", "1: f:", "has lines or points, but no face"},
+        Fault{"Utf16LowFirst", std::string("v\0 \0001\0\n\0", 8), "1: file:", "is UTF-16 text"},
+        Fault{"Utf16HighFirst", std::string("\0v\0 \0001\0\n", 8), "1: file:", "is UTF-16 text"},
+        Fault{"Utf16", std::string("\xff\xfev\0 \0", 6), "1: file:", "is UTF-16 text"},
+        Fault{"Stl", "solid cube\nfacet normal 0 0 1\n", "1: file:", "is an STL file"},
+        Fault{"BinaryStl", std::string(80, 'x') + std::string("\1\0\0\0", 4) + std::string(50, '\1'),
+              "1: file:", "is an STL file"},
+        Fault{"Ply", "ply\nformat ascii 1.0\n", "1: file:", "is a PLY file"},
+        Fault{"Gltf", "{ \"asset\": { \"version\": \"2.0\" } }", "1: file:", "is a glTF file"},
+        Fault{"BinaryGltf", "glTF\x02", "1: file:", "is a glTF file (let its name end with .glb)"},
+        Fault{"PlyWithAFace", "ply\nend_header\nf 1 2 3\n", "1: file:", "is a PLY file"},
+        Fault{"Fbx", "Kaydara FBX Binary  \x1a", "1: file:", "is an FBX file"},
+        Fault{"Max", "MM\x4d", "1: file:", "is a 3DS file"},
+        Fault{"Collada", "<?xml version='1.0'?>\n<COLLADA>", "1: file:", "is a COLLADA file"},
+        Fault{"Usd", "#usda 1.0\n", "1: file:", "is a USD file"},
+        Fault{"Blender", "BLENDER-v402", "1: file:", "is a Blender file"},
+        Fault{"NewBlender", "\x28\xb5\x2f\xfd v", "1: file:", "as Blender files are (unpack it)"},
+        Fault{"Zip", "PK\x03\x04", "1: file:", "is a ZIP archive"},
+        Fault{"Archive", "7z\xbc\xaf", "1: file:", "is a 7z archive (unpack it)"},
+        Fault{"Page", "<!DOCTYPE html><html>", "1: file:", "is a web page"},
+        Fault{"LoudPage", "<HTML><body>", "1: file:", "is a web page"},
+        Fault{"MarkedPage", "\xef\xbb\xbf<!Doctype html><html>", "1: file:", "is a web page"},
+        Fault{"PageAfterABlankLine", "\r\n<!doctype html><html>", "1: file:", "is a web page"},
+        Fault{"Binary", std::string("\x7f\x45LF\0\0\1v 1\n", 10), "1: file:", "is not a text file"},
+        Fault{"Materials", "# Blender\n\nnewmtl m\nKd 1 1 1\n", "1: file:", "is a material file"},
+        Fault{"MaterialBehindAFace", pointsText + "f 1 2 9\nnewmtl m\n", "4: f:", "has a vertex that is not there"},
+        Fault{"ZerosBehindAFace", pointsText + "f 1 2 9\n" + std::string(7, '\0'),
+              "4: f:", "has a vertex that is not there"},
+        Fault{"DegenerateFacesWithoutNormals", pointsText + "f 1//3 1//3 2//3\n",
+              "4: f:", "has no area, like every other face"},
+        Fault{"Text", "once upon a time\nthere was no model\n", "1: f:", "has no face"}),
     [](const auto& info) { return std::string(info.param.name); });
 
 TEST_F(ObjLoader, FacesMayStandBeforeTheirVertices) {
@@ -652,12 +658,6 @@ TEST_F(ObjLoader, PolesOfSpheresAreNoSlivers) {
   }
 }
 
-// Floats hold the place in a texture whichever of its repetitions is named.
-TEST_F(ObjLoader, TextureCoordinatesKeepTheirFraction) {
-  for (const double far : {0.0, 20.0, 1e4, -1e6, 1e9, -1e12, 1e300}) {
-    std::string obj = squareText;
-    for (const double u : {0.25, 1.25, 1.75, 0.5}) {
-      obj += fmt::format("vt {} {}\n", far + u, 0.5 * u - far);
 TEST_F(ObjLoader, CornersThatDifferAreSlivers) {
   const auto defectsOf = [&](double apart, double size) {
     return load(fmt::format("v 0 0 0\nv {} 0 0\nv {} {} 0\nf 1 2 3\n", size, size, apart)).defects.size();
@@ -669,6 +669,12 @@ TEST_F(ObjLoader, CornersThatDifferAreSlivers) {
   EXPECT_EQ(defectsOf(4e-6, 2.0), 1u);
 }
 
+// Floats hold the place in a texture whichever of its repetitions is named.
+TEST_F(ObjLoader, TextureCoordinatesKeepTheirFraction) {
+  for (const double far : {0.0, 20.0, 1e4, -1e6, 1e9, -1e12, 1e300}) {
+    std::string obj = squareText;
+    for (const double u : {0.25, 1.25, 1.75, 0.5}) {
+      obj += fmt::format("vt {} {}\n", far + u, 0.5 * u - far);
     }
     const Mesh mesh = load(obj + "vn 0 0 1\nf 1/1/1 2/2/1 3/3/1 4/4/1\n");
     for (const Vertex& vertex : mesh.vertices) {

@@ -349,6 +349,29 @@ TEST_F(MtlFile, EachFormatOfPicturesIsNamedOnce) {
   EXPECT_EQ(warnings(), expected);
 }
 
+TEST_F(MtlFile, ManyReasonsAreCountedTogether) {
+  using namespace std::string_literals;
+  constexpr int count = 200;
+  std::string obj = squareText;
+  std::string mtl;
+  for (int i = 0; i < count; ++i) {
+    const std::string name = std::to_string(i);
+    std::string header = "\x89PNG\r\n\x1a\n\0\0\0\x0dIHDR\0\0\x40\0\0\0\x40\0\x08\0\0\0\0"s;
+    header[23] = static_cast<char>(i);  // last byte of the height
+    folder_.write(name + ".png", header);
+    obj += fmt::format("usemtl {}\nf 1 2 3\n", name);
+    mtl += fmt::format("newmtl {}\nmap_Kd {}.png\n", name, name);
+  }
+  const std::vector<std::string> defects = load(obj + "f 1 2 9\n", mtl).defects;
+  ASSERT_EQ(defects.size(), 51u);
+  EXPECT_TRUE(contains(defects[0], "has a vertex that is not there"));
+  EXPECT_TRUE(contains(defects[49], "48.png: the picture has 16384x16432 pixels"));
+  EXPECT_TRUE(
+      defects[50].ends_with("m.mtl:100: map_Kd: has a defect of one more kind, such ones are not told apart "
+                            "(and 150 more)"))
+      << defects[50];
+}
+
 TEST_F(MtlFile, WarningsNamePicturesAsTheirMaterialsDo) {
   folder_.write("real.ktx2", "\xabKTX 20");
   std::filesystem::create_symlink("real.ktx2", folder_ / "link.ktx2");
