@@ -146,6 +146,32 @@ glm::dvec3 colorOf(const std::vector<double>& values);
 glm::ivec2 waysToWrap(const tinygltf::Model& model, int texture);
 inline constexpr glm::ivec2 clampingWays(TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE);
 
+// Where the base color's texture lies on a surface.
+class TexturePlacement {
+ public:
+  explicit TexturePlacement(const tinygltf::TextureInfo& texture);
+  const std::string& texcoords() const { return texcoords_; }  // name of the attribute
+  // Returns the texture coordinate, v up, of the attribute's, v down.
+  glm::dvec2 apply(const glm::dvec2& uv) const;
+
+ private:
+  std::string texcoords_;
+  glm::dvec2 offset_{0.0};
+  glm::dvec2 scale_{1.0};
+  double rotation_ = 0.0;  // radians
+};
+
+// A node, camera or light, and the transform to the scene's space of its own or its parent's.
+struct GltfPlaced {
+  int index = -1;
+  glm::dmat4 transform{1.0};
+};
+
+// Adds the camera, unless its index is -1, and lights of a repaired file to a model that has its mesh. The camera looks
+// at the point before it that is nearest to the mesh's centre.
+void addView(const std::filesystem::path& file, const tinygltf::Model& content, const GltfPlaced& camera,
+             std::span<const GltfPlaced> lights, Model& model, ModelDefects& defects);
+
 // Materials of a glTF file, as the mesh's parts need them.
 class GltfMaterials {
  public:

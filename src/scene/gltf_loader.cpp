@@ -20,23 +20,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-glm::dvec2 pairOf(const tinygltf::Value& value, double usual) {
-  return value.ArrayLen() == 2 ? glm::dvec2(numberOf(value.Get(0), usual), numberOf(value.Get(1), usual))
-                               : glm::dvec2(usual);
-}
-
-// Returns the unit vector along v; zero for zero.
-glm::dvec3 direction(const glm::dvec3& v) {
-  const double length = glm::length(v);
-  return length > 0.0 ? v / length : glm::dvec3(0.0);
-}
-
-// Says whether rounding leaves a camera or light at `v` its place relative to the mesh, wherever the model is moved.
-bool isPlace(const glm::dvec3& v, const Mesh& mesh) {
-  const double radius = mesh.radius * mesh.unit;
-  return glm::distance(v, mesh.center) <= 1e6 * radius && glm::length(v) <= std::min(1e10 * radius, 1e14);
-}
-
 glm::dmat4 transformOf(const tinygltf::Node& node) {
   if (node.matrix.size() == 16) {
     return glm::make_mat4(node.matrix.data());
@@ -54,31 +37,6 @@ glm::dmat4 transformOf(const tinygltf::Node& node) {
   }
   return transform;
 }
-
-// Where the base color's texture lies on a surface.
-struct TexturePlacement {
-  std::string texcoords;  // name of the attribute
-  glm::dvec2 offset{0.0};
-  glm::dvec2 scale{1.0};
-  double rotation = 0.0;  // radians
-
-  explicit TexturePlacement(const tinygltf::TextureInfo& texture) {
-    constexpr const char* extension = "KHR_texture_transform";
-    const tinygltf::Value& set = extensionMember(texture.extensions, extension, "texCoord");
-    texcoords = "TEXCOORD_" + std::to_string(set.IsInt() ? set.GetNumberAsInt() : texture.texCoord);
-    offset = pairOf(extensionMember(texture.extensions, extension, "offset"), 0.0);
-    scale = pairOf(extensionMember(texture.extensions, extension, "scale"), 1.0);
-    rotation = numberOf(extensionMember(texture.extensions, extension, "rotation"), 0.0);
-  }
-
-  // Returns the texture coordinate, v up, of the attribute's, v down.
-  glm::dvec2 apply(const glm::dvec2& uv) const {
-    const glm::dvec2 scaled = scale * uv;
-    const glm::dvec2 turned(std::cos(rotation) * scaled.x + std::sin(rotation) * scaled.y,
-                            std::cos(rotation) * scaled.y - std::sin(rotation) * scaled.x);
-    return {turned.x + offset.x, 1.0 - (turned.y + offset.y)};
-  }
-};
 
 // Calls add(a, b, c) with the places of each triangle's corners among `count` vertices.
 template <typename Add>
@@ -109,12 +67,12 @@ class GltfReader {
   void read(const LoadProgress& progress) {
     constexpr double readShare = 0.65;  // of the time that loading takes; the rest sorts the triangles
     const std::vector<tinygltf::Node>& nodes = content_.model().nodes;
-    std::vector<Placed> open;
-    std::vector<Placed> visible;
+    std::vector<GltfPlaced> open;
+    std::vector<GltfPlaced> visible;
     addRoots(open);
     sceneFromNode_.resize(nodes.size());
     while (!open.empty()) {
-      const Placed placed = open.back();
+      const GltfPlaced placed = open.back();
       open.pop_back();
       if (!isIndex(placed.index, nodes.size()) || sceneFromNode_[placed.index]) {
         add("nodes", "node {} is not there, or has two parents, it is left out here", placed.index).costsTriangles =
@@ -149,8 +107,7 @@ class GltfReader {
       return materials.material(index, builder_.hasColors(), builder_.hasAlpha(index), builder_.meanColor(index));
     })};
     if (!model.mesh.indices.empty()) {
-      model.camera = cameraOf(model.mesh);
-      std::ranges::for_each(lights_, [&](const Placed& light) { addLight(light, model); });
+      addView(file_, content_.model(), camera_, lights_, model, defects_);
     }
     return model;
   }
@@ -158,19 +115,12 @@ class GltfReader {
   bool hasLinesOrPoints() const { return hasLinesOrPoints_; }
 
  private:
-  // A node, camera or light, and the transform to the scene's space of its own or its parent's.
-  struct Placed {
-    int index = -1;
-    glm::dmat4 transform{1.0};
-  };
-
   ModelDefects::Kind& add(std::string_view key, std::string_view kind, int index) {
     return defects_.add(file_, 1, key, kind, std::to_string(index));
   }
 
-    const auto leaveOut = [&](std::string_view kind) { add("meshes", kind, mesh).costsTriangles = true; };
   // Lists the roots of the default scene, the last first. A file without scenes has those that are no children.
-  void addRoots(std::vector<Placed>& roots) const {
+  void addRoots(std::vector<GltfPlaced>& roots) const {
     const tinygltf::Model& model = content_.model();
     if (!model.scenes.empty()) {
       for (const int node : model.scenes[std::max(model.defaultScene, 0)].nodes) {
@@ -218,6 +168,7 @@ class GltfReader {
   }
 
   void addPrimitive(const tinygltf::Primitive& primitive, int mesh, const glm::dmat4& sceneFromNode) {
+    const auto leaveOut = [&](std::string_view kind) { add("meshes", kind, mesh).costsTriangles = true; };
     if (primitive.mode >= TINYGLTF_MODE_POINTS && primitive.mode <= TINYGLTF_MODE_LINE_STRIP) {
       hasLinesOrPoints_ = true;
       add("meshes", "mesh {} has lines or points, they are left out", mesh);
@@ -366,7 +317,7 @@ class GltfReader {
   void addTexcoords(const tinygltf::Primitive& primitive, const tinygltf::TextureInfo& texture, size_t count,
                     const std::vector<size_t>& named, FaceCorner& first) {
     const TexturePlacement placement(texture);
-    const auto* texcoords = texture.index == -1 ? nullptr : attribute(primitive, placement.texcoords, 2, count);
+    const auto* texcoords = texture.index == -1 ? nullptr : attribute(primitive, placement.texcoords(), 2, count);
     if (!texcoords) {
       if (texture.index != -1) {
         add("textures", "texture {} is on a mesh without its texture coordinates, which count as 0", texture.index);
@@ -438,60 +389,6 @@ class GltfReader {
     });
   }
 
-  // Returns the file's camera, which looks at the point before it that is nearest to the mesh's centre.
-  std::optional<CameraSpec> cameraOf(const Mesh& mesh) {
-    if (camera_.index == -1) {
-      return std::nullopt;
-    }
-    const double radius = mesh.radius * mesh.unit;
-    CameraSpec camera{.position = glm::dvec3(camera_.transform[3]), .up = direction(glm::dvec3(camera_.transform[1]))};
-    const glm::dvec3 forward = -direction(glm::dvec3(camera_.transform[2]));
-    const double distance = glm::dot(mesh.center - camera.position, forward);
-    camera.target = camera.position + (distance > 0.01 * radius ? distance : radius) * forward;
-    camera.verticalFov = std::clamp(glm::degrees(content_.model().cameras[camera_.index].perspective.yfov),
-                                    fieldOfViewRange.low, fieldOfViewRange.high);
-    if (!isPlace(camera.position, mesh) || !(glm::length(glm::cross(forward, camera.up)) > 1e-3)) {
-      add("cameras", "camera {} has no usable place, it is left out", camera_.index);
-      return std::nullopt;
-    }
-    return camera;
-  }
-
-  void addLight(const Placed& placed, Model& model) {
-    constexpr size_t mostLights = 32;
-    constexpr size_t mostWithShadows = 4;
-    constexpr double farOff = 100.0;  // distance that stands for infinity, in radii of the model
-    const double radius = model.mesh.radius * model.mesh.unit;
-    const glm::dmat4& transform = placed.transform;
-    if (!isIndex(placed.index, content_.model().lights.size()) || model.lights.size() == mostLights) {
-      add("lights", "light {} is not there, or comes after 32 others, it is left out", placed.index);
-      return;
-    }
-    const tinygltf::Light& from = content_.model().lights[placed.index];
-    if (from.type == noLight) {
-      return;
-    }
-    PointLight light{.name = from.name,
-                     .position = glm::dvec3(transform[3]),
-                     .color = colorOf(from.color),
-                     .intensity = from.intensity,
-                     .radius = 0.01 * radius,
-                     .glow = 0.0,
-                     .castsShadow = model.lights.size() < mostWithShadows};
-    if (from.type == "directional") {
-      light.position = model.mesh.center + farOff * radius * direction(glm::dvec3(transform[2]));
-      light.intensity *= farOff * radius * farOff * radius;
-    } else if (from.type == "spot") {
-      add("lights", "light {} is a spot, it shines to all sides", placed.index);
-    }
-    light.intensity = std::clamp(light.intensity, radianceRange.low, radianceRange.high);
-    if (isPlace(light.position, model.mesh)) {
-      model.lights.push_back(std::move(light));
-    } else {
-      add("lights", "light {} has no usable place, it is left out", placed.index);
-    }
-  }
-
   static constexpr const char* lightsExtension = "KHR_lights_punctual";
   static constexpr const char* colorName = "COLOR_0";
 
@@ -507,8 +404,8 @@ class GltfReader {
   std::map<std::pair<int, int>, std::optional<std::vector<double>>> read_;  // with it, by accessor and components
   std::vector<int> placeOf_;  // by vertex, among those that a primitive names; -1 between primitives
   bool hasLinesOrPoints_ = false;
-  Placed camera_;
-  std::vector<Placed> lights_;
+  GltfPlaced camera_;
+  std::vector<GltfPlaced> lights_;
 };
 
 [[noreturn]] void throwNothingToDraw(const fs::path& file, bool hasLinesOrPoints, const ModelDefects& defects) {

@@ -21,6 +21,28 @@ glm::ivec2 waysToWrap(const tinygltf::Model& model, int texture) {
              : glm::ivec2(TINYGLTF_TEXTURE_WRAP_REPEAT);
 }
 
+TexturePlacement::TexturePlacement(const tinygltf::TextureInfo& texture) {
+  const auto transform = [&](const char* key) -> const tinygltf::Value& {
+    return extensionMember(texture.extensions, "KHR_texture_transform", key);
+  };
+  const auto pairOf = [](const tinygltf::Value& value, double usual) {
+    return value.ArrayLen() == 2 ? glm::dvec2(numberOf(value.Get(0), usual), numberOf(value.Get(1), usual))
+                                 : glm::dvec2(usual);
+  };
+  const tinygltf::Value& set = transform("texCoord");
+  texcoords_ = "TEXCOORD_" + std::to_string(set.IsInt() ? set.GetNumberAsInt() : texture.texCoord);
+  offset_ = pairOf(transform("offset"), 0.0);
+  scale_ = pairOf(transform("scale"), 1.0);
+  rotation_ = numberOf(transform("rotation"), 0.0);
+}
+
+glm::dvec2 TexturePlacement::apply(const glm::dvec2& uv) const {
+  const glm::dvec2 scaled = scale_ * uv;
+  const glm::dvec2 turned(std::cos(rotation_) * scaled.x + std::sin(rotation_) * scaled.y,
+                          std::cos(rotation_) * scaled.y - std::sin(rotation_) * scaled.x);
+  return {turned.x + offset_.x, 1.0 - (turned.y + offset_.y)};
+}
+
 template <typename Read>
 auto GltfMaterials::readPicture(int texture, const Read& read) -> std::optional<decltype(read(fs::path()))> {
   if (!isIndex(texture, content_.model().textures.size())) {
