@@ -34,6 +34,7 @@ namespace {
 struct Parts {
   std::string_view json;
   std::string_view binary;
+  bool isWhole = true;  // the file has the length that it says, and so have its parts
 };
 
 Parts partsOf(const fs::path& file, std::string_view text) {
@@ -50,9 +51,11 @@ Parts partsOf(const fs::path& file, std::string_view text) {
   if (const uint32_t version = littleEndian(text.substr(4)); version != 2) {
     throwInputError(file, 1, "version", fmt::format("is {}", version), validGltf);
   }
-  Parts parts;
+  Parts parts{.isWhole = littleEndian(text.substr(8)) == text.size()};
   for (size_t at = header; text.size() - at >= chunkHeader;) {
-    const size_t size = std::min<size_t>(littleEndian(text.substr(at)), text.size() - at - chunkHeader);
+    const size_t named = littleEndian(text.substr(at));
+    const size_t size = std::min(named, text.size() - at - chunkHeader);
+    parts.isWhole = parts.isWhole && size == named;
     const uint32_t type = littleEndian(text.substr(at + 4));
     if (type == jsonChunk && parts.json.empty()) {
       parts.json = text.substr(at + chunkHeader, size);
@@ -243,6 +246,9 @@ GltfFile::GltfFile(const fs::path& file, ModelDefects& defects) : file_(file), d
   const Parts parts = partsOf(file, text_);
   std::vector<Source> buffers;
   readJson(parts.json, buffers);
+  if (!parts.isWhole) {
+    defects_.add(file_, 1, "file", "has not the length that it says, what is there of it is read");
+  }
   readBuffers(buffers, parts.binary);
 }
 
@@ -292,15 +298,15 @@ void GltfFile::readBuffers(const std::vector<Source>& sources, std::string_view 
     const auto leaveOut = [&](std::string_view kind, const std::string& detail) {
       defects_.add(file_, 1, "buffers", kind, detail).costsTriangles = true;
       buffers_.emplace_back();
+    };
+    if (source.uri.empty()) {
+      leaveOut("{} has no data, as with EXT_meshopt_compression, what uses it is left out",
+               std::to_string(buffers_.size()));
       continue;
     }
     const std::optional<fs::path> found = find(source.uri);
     if (!found) {
       leaveOut("there is no file '{}', what uses it is left out", source.uri);
-    };
-    if (source.uri.empty()) {
-      leaveOut("{} has no data, as with EXT_meshopt_compression, what uses it is left out",
-               std::to_string(buffers_.size()));
       continue;
     }
     const auto [known, isNew] = files.try_emplace(withoutLinks(*found));

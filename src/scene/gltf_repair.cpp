@@ -57,6 +57,7 @@ struct Numbers {
     parts,      // each counts for itself
     withAlpha,  // likewise, and the last one is at most 1
     whole,      // a part of them means nothing, and neither do zeros
+    index,      // an integer
   };
 
   const char* list;  // of such objects
@@ -66,42 +67,61 @@ struct Numbers {
   Kind kind = Kind::parts;
 };
 
-// What is read of a file and has bounds, or would be left out with more than itself.
-const std::vector<Numbers>& knownNumbers() {
+// What is read of a file and has bounds, or would be left out with more than itself, or without a word.
+std::vector<Numbers> listNumbers() {
+  using enum Numbers::Kind;
   constexpr Range any{.low = -INFINITY, .high = INFINITY};
-  constexpr Range share{.low = 0.0, .high = 1.0};
   constexpr const char* surface = "/materials";
-  const std::string base = "/pbrMetallicRoughness/baseColor";
-  const std::string glossy = std::string("/extensions/") + specularGlossiness + "/";
-  const std::string transform = "/extensions/KHR_texture_transform/";
-  static const std::vector<Numbers> numbers{
-      {surface, base + "Factor", {1, 1, 1, 1}, surfaceColorRange, Numbers::Kind::withAlpha},
-      {surface, base + "Texture" + transform + "offset", {0, 0}},
-      {surface, base + "Texture" + transform + "scale", {1, 1}},
-      {surface, base + "Texture" + transform + "rotation", {0}},
-      {surface, "/pbrMetallicRoughness/metallicFactor", {1}, share},
-      {surface, "/pbrMetallicRoughness/roughnessFactor", {1}, share},
-      {surface, glossy + "diffuseFactor", {1, 1, 1, 1}, surfaceColorRange, Numbers::Kind::withAlpha},
-      {surface, glossy + "diffuseTexture" + transform + "offset", {0, 0}},
-      {surface, glossy + "diffuseTexture" + transform + "scale", {1, 1}},
-      {surface, glossy + "diffuseTexture" + transform + "rotation", {0}},
-      {surface, glossy + "glossinessFactor", {1}, share},
+  const std::string pbr = "/pbrMetallicRoughness/";
+  const std::string extensions = "/extensions/";
+  const std::string glossy = extensions + specularGlossiness + "/";
+  std::vector<Numbers> numbers{
+      {surface, pbr + "baseColorFactor", {1, 1, 1, 1}, surfaceColorRange, withAlpha},
+      {surface, pbr + "metallicFactor", {1}, unitRange},
+      {surface, pbr + "roughnessFactor", {1}, unitRange},
+      {surface, glossy + "diffuseFactor", {1, 1, 1, 1}, surfaceColorRange, withAlpha},
+      {surface, glossy + "glossinessFactor", {1}, unitRange},
       {surface, "/emissiveFactor", {0, 0, 0}, radianceRange},
-      {surface, "/extensions/KHR_materials_emissive_strength/emissiveStrength", {1}, radianceRange},
-      {surface, "/extensions/KHR_materials_transmission/transmissionFactor", {0}, share},
+      {surface, extensions + "KHR_materials_emissive_strength/emissiveStrength", {1}, radianceRange},
+      {surface, extensions + "KHR_materials_transmission/transmissionFactor", {0}, unitRange},
       {surface, "/alphaCutoff", {0.5}, surfaceColorRange},
+      {"/bufferViews", "/byteOffset", {0}, any, index},
+      {"/bufferViews", "/byteStride", {0}, any, index},
+      {"/accessors", "/byteOffset", {0}, any, index},
+      {"/textures", "/source", {-1}, any, index},
+      {"/textures", "/sampler", {-1}, any, index},
+      {"/nodes", "/mesh", {-1}, any, index},
+      {"/nodes", "/skin", {-1}, any, index},
+      {"/nodes", "/camera", {-1}, any, index},
+      {"/nodes", extensions + "KHR_lights_punctual/light", {-1}, any, index},
       {"/nodes", "/translation", {0, 0, 0}},
-      {"/nodes", "/rotation", {0, 0, 0, 1}, any, Numbers::Kind::whole},
+      {"/nodes", "/rotation", {0, 0, 0, 1}, any, whole},
       {"/nodes", "/scale", {1, 1, 1}},
-      {"/nodes", "/matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}, any, Numbers::Kind::whole},
+      {"/nodes", "/matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}, any, whole},
       {"/cameras", "/perspective/yfov", {0.8}, {.low = 1e-6, .high = std::numbers::pi}},
       {lightsList, "/color", {1, 1, 1}, radianceRange},
       {lightsList, "/intensity", {1}, radianceRange}};
+  for (const std::string& texture : {pbr + "baseColorTexture", glossy + "diffuseTexture"}) {
+    const std::string transform = texture + "/extensions/KHR_texture_transform/";
+    numbers.push_back({surface, transform + "offset", {0, 0}});
+    numbers.push_back({surface, transform + "scale", {1, 1}});
+    numbers.push_back({surface, transform + "rotation", {0}});
+    numbers.push_back({surface, transform + "texCoord", {0}, any, index});
+    numbers.push_back({surface, texture + "/texCoord", {0}, any, index});
+    numbers.push_back({surface, texture + "/index", {-1}, any, index});
+  }
+  for (const std::string& texture : {pbr + "metallicRoughnessTexture", std::string("/emissiveTexture"),
+                                     extensions + "KHR_materials_transmission/transmissionTexture"}) {
+    numbers.push_back({surface, texture + "/index", {-1}, any, index});
+  }
   return numbers;
 }
 
 // Returns the numbers that count for `value`: the nearest ones in the range, or the usual ones where there are none.
 json mended(const json& value, const Numbers& numbers) {
+  if (numbers.kind == Numbers::Kind::index) {
+    return value.is_number_integer() ? value : json(static_cast<int>(numbers.usual[0]));
+  }
   const size_t count = numbers.usual.size();
   std::vector<double> read = numbers.usual;
   bool isRight = count == 1 || value.size() == count;
@@ -126,18 +146,30 @@ json mended(const json& value, const Numbers& numbers) {
 }
 
 void mendNumbers(const fs::path& file, json& root, ModelDefects& defects) {
-  for (const Numbers& numbers : knownNumbers()) {
+  static const std::vector<Numbers> known = listNumbers();
+  for (const Numbers& numbers : known) {
     const json::json_pointer list(numbers.list);
     const json::json_pointer place(numbers.place);
     const std::span<json> elements = elementsOf(root, list);
     for (size_t i = 0; i < elements.size(); ++i) {
+      const auto addWrong = [&](const json::json_pointer& wrong) {
+        defects
+            .add(file, 1, list.back(), "{} is wrong, the nearest or the usual numbers count",
+                 fmt::format("{} of {}", wrong.to_string().substr(1), i))
+            .costsTriangles |= numbers.place == "/mesh";
+      };
+      for (auto above = place.parent_pointer(); !above.empty(); above = above.parent_pointer()) {
+        if (elements[i].contains(above) && !elements[i][above].is_object()) {
+          addWrong(above);
+          elements[i][above.parent_pointer()].erase(above.back());
+        }
+      }
       if (!elements[i].contains(place)) {
         continue;
       }
       json& value = elements[i][place];
       if (json right = mended(value, numbers); right != value) {
-        defects.add(file, 1, list.back(), "{} is wrong, the nearest or the usual numbers count",
-                    fmt::format("{} of {}", numbers.place.substr(1), i));
+        addWrong(place);
         value = std::move(right);
       }
     }
@@ -205,7 +237,7 @@ void mendValues(const fs::path& file, json& root, ModelDefects& defects) {
 }
 
 // Brings the primitives into a form that the library reads, whatever they say.
-void prepareMeshes(json& root) {
+void prepareMeshes(const fs::path& file, json& root, ModelDefects& defects) {
   for (json& mesh : elementsOf(root, "meshes")) {
     for (json& primitive : elementsOf(mesh, "primitives")) {
       if (!primitive.is_object()) {
@@ -222,12 +254,19 @@ void prepareMeshes(json& root) {
         primitive.erase(indices);
       }
       primitive["attributes"] = std::move(attributes);
+      for (const char* key : {"material", "mode"}) {
+        if (primitive.contains(key) && !primitive[key].is_number_integer()) {
+          defects.add(file, 1, "meshes", "have a {} that is no integer, the usual one counts", key);
+          primitive.erase(key);
+        }
+      }
     }
   }
 }
 
 // Replaces objects that the library cannot read by empty ones, of which nothing is drawn.
 void leaveOutDamaged(const fs::path& file, json& root, ModelDefects& defects) {
+  constexpr std::array<std::string_view, 5> ofTriangles{"bufferViews", "accessors", "meshes", "nodes", "scenes"};
   const std::array<std::pair<const char*, json>, 9> usual{
       {{"bufferViews", {{"buffer", -1}, {"byteLength", 1}}},
        {"accessors", {{"componentType", TINYGLTF_COMPONENT_TYPE_FLOAT}, {"count", 1}, {"type", "MAT4"}}},
@@ -267,9 +306,8 @@ void leaveOutDamaged(const fs::path& file, json& root, ModelDefects& defects) {
 }  // namespace
 
 tinygltf::Model readRepaired(const fs::path& file, json root, ModelDefects& defects) {
-  constexpr std::array<std::string_view, 5> ofTriangles{"bufferViews", "accessors", "meshes", "nodes", "scenes"};
   tinygltf::Model model;
-  prepareMeshes(root);
+  prepareMeshes(file, root, defects);
   mendValues(file, root, defects);
   if (!faultOf(root, model).empty()) {
     leaveOutDamaged(file, root, defects);

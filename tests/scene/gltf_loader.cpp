@@ -885,6 +885,53 @@ TEST_F(GltfLoader, WrongNumbersWarnAndDraw) {
   }
 }
 
+// The library takes an index of a wrong type for a missing one.
+TEST_F(GltfLoader, WrongIndicesWarnAndDraw) {
+  writePng(folder_ / "t.png", testing_support::greyPicture(4, 2, 255));
+  const std::string base = "/materials/0/pbrMetallicRoughness/baseColorTexture";
+  for (const std::string& place :
+       std::vector<std::string>{base + "/index",
+                                base + "/texCoord",
+                                base + "/extensions/KHR_texture_transform/texCoord",
+                                base,
+                                base + "/extensions/KHR_texture_transform",
+                                "/materials/0/pbrMetallicRoughness",
+                                "/materials/0/emissiveTexture/index",
+                                "/materials/0/pbrMetallicRoughness/metallicRoughnessTexture/index",
+                                "/materials/0/extensions/KHR_materials_transmission/transmissionTexture/index",
+                                "/textures/0/source",
+                                "/textures/0/sampler",
+                                "/nodes/1/mesh",
+                                "/nodes/0/skin",
+                                "/nodes/0/camera",
+                                "/nodes/0/extensions/KHR_lights_punctual/light",
+                                "/accessors/0/byteOffset",
+                                "/bufferViews/0/byteOffset",
+                                "/bufferViews/0/byteStride",
+                                "/meshes/0/primitives/0/material",
+                                "/meshes/0/primitives/0/mode"}) {
+    for (const json& value : {json("0"), json(0.5), json::array({0})}) {
+      MadeGltf made;
+      made.add("images", {{"uri", "t.png"}});
+      made.add("textures", {{"source", 0}});
+      made.addMesh({{"POSITION", made.addNumbers(triangleNumbers, "VEC3")},
+                    {"TEXCOORD_0", made.addNumbers<float>({0, 0, 1, 0, 0, 1}, "VEC2")}},
+                   {{"material", 0}});
+      made.add("materials", {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}});
+      made.add("nodes", {{"mesh", 0}});
+      made.add("nodes", json::object());
+      made.root[json::json_pointer(place)] = value;
+      const Mesh mesh = meshOf(made);
+      EXPECT_EQ(mesh.indices.size(), 3u) << place << value;
+      ASSERT_GE(mesh.defects.size(), 1u) << place << value;
+      EXPECT_TRUE(mesh.defects[0].ends_with(contains(place, "primitives")
+                                                ? "that is no integer, the usual one counts"
+                                                : "is wrong, the nearest or the usual numbers count"))
+          << mesh.defects[0];
+    }
+  }
+}
+
 TEST_F(GltfLoader, ExtremeNumbersAreNoDefects) {
   MadeGltf made;
   made.addMesh({{"POSITION", made.addNumbers(triangleNumbers, "VEC3")}}, {{"material", 0}});
@@ -1243,6 +1290,34 @@ TEST_F(GltfLoader, OtherFilesAreNamed) {
                        "is a glTF file (let its name end with .glb)"));
   EXPECT_TRUE(contains(messageOf<InputError>([&] { loadObj(folder_.write("m.obj", made.text()), textures_); }),
                        "is a glTF file (let its name end with .gltf)"));
+}
+
+TEST_F(GltfLoader, LengthsThatAreWrongWarnAndDraw) {
+  MadeGltf made;
+  made.add("nodes", {{"mesh", made.addTriangle()}});
+  const std::string right = made.binary();
+  for (const auto& [content, isWhole] :
+       {std::pair(right, true), std::pair(std::string(right).replace(8, 1, 1, '\1'), false),
+        std::pair(right + std::string(4, '\0'), false), std::pair(right.substr(0, right.size() - 4), false),
+        std::pair(std::string(right).replace(right.size() - 41, 1, 1, '\1'), false)}) {
+    ModelDefects defects;
+    const fs::path file = folder_.write("m.glb", content);
+    GltfFile read(file, defects);
+    EXPECT_EQ(defects.report().size(), isWhole ? 0u : 1u);
+    if (!isWhole) {
+      EXPECT_TRUE(contains(defects.report().at(0), "m.glb:1: file: has not the length that it says"));
+    }
+  }
+}
+
+TEST_F(GltfLoader, RefusalsBlameWhatLeavesTrianglesOut) {
+  MadeGltf made;
+  const int none = made.addNumbers<float>({0, 0, 0, 0, 0, 0, 0, 0, 0}, "VEC3");
+  made.addMesh({{"POSITION", none}, {"NORMAL", made.addNumbers<float>({0, 0, 1, 0, 0, 1}, "VEC2")}});
+  made.add("nodes", {{"mesh", 0}});
+  EXPECT_TRUE(contains(faultOf(made.text()), "m.gltf:1: meshes: the model has no triangle"));
+  made.root["nodes"][0]["mesh"] = "0";
+  EXPECT_TRUE(contains(faultOf(made.text()), "m.gltf:1: nodes: mesh of 0 is wrong"));
 }
 
 // Bytes of files with everything are changed, cut or repeated: the file is drawn, or refused in one line.
