@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <filesystem>
 #include <mutex>
 #include <utility>
@@ -222,10 +223,13 @@ void SimpleUI::record(Frame& frame, Part part) {
   const PassScope scope = renderer_.beginOverlay(frame, inRenderPass());
   ImDrawData& data = *ImGui::GetDrawData();
   const std::string_view shown = part == Part::divider ? panels::dividerTitle : panels::statusTitle;
-  std::vector<std::pair<ImDrawList*, ImVector<ImDrawCmd>>> leftOut;
+  // Dear ImGui's vectors may not be copied while they are empty, so this container must not move its elements.
+  std::deque<std::pair<ImDrawList*, ImVector<ImDrawCmd>>> leftOut;
   for (int i = 0; part != Part::all && i < data.CmdListsCount; ++i) {
     if (data.CmdLists[i]->_OwnerName != shown) {
-      leftOut.emplace_back(data.CmdLists[i], ImVector<ImDrawCmd>()).second.swap(data.CmdLists[i]->CmdBuffer);
+      auto& [list, commands] = leftOut.emplace_back();
+      list = data.CmdLists[i];
+      list->CmdBuffer.swap(commands);
     }
   }
   // The backend sizes its buffers by these totals. It destroys a buffer that is too small before it makes a larger one,

@@ -157,7 +157,8 @@ TEST(SkippedMirrorList, RoundingLiftsNoEdgeOffAPlane) {
     Scene scene = testing_support::sceneWith({wall, behind});
     scene.camera.position = {3, 0, 1};
     scene.camera.target = {0, 0, 0};
-    const SkippedMirror* skip = skipOf(planOf(scene), {0, 1});
+    const FramePlan plan = planOf(scene);
+    const SkippedMirror* skip = skipOf(plan, {0, 1});
     EXPECT_TRUE(skip && skip->reason == SkipReason::outside) << degrees;
   }
 }

@@ -55,6 +55,7 @@ TEST(DifferenceMap, ErrorsOfMirrorsAreWithinTheirOutlines) {
 
 TEST(DifferenceMap, OnlyAnimationsAreToBePaused) {
   Scene scene;
+  scene.camera.target = {0.0, 0.0, -1.0};
   scene.lights.resize(1);
   scene.lights[0].orbit.emplace().speed = 90.0;
   DifferenceMap difference;
