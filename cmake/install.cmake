@@ -84,6 +84,11 @@ string(REGEX REPLACE "\n$" "" license "${license}")
 string(REPLACE "\n" "\n " EXPAT " ${license}")
 configure_file(${package}/copyright.in ${written}/copyright @ONLY)
 install(FILES ${written}/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR})
+# Code of these libraries is in the program; the others are packages that it depends on.
+foreach(library libimgui-dev libglm-dev nlohmann-json3-dev libcli11-dev)
+  install(FILES /usr/share/doc/${library}/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR}/libraries
+          RENAME ${library}.txt OPTIONAL)
+endforeach()
 find_program(GZIP gzip)
 if(GZIP)
   file(WRITE ${written}/changelog "speculum (${PROJECT_VERSION}) stable; urgency=medium\n\n  * See docs/changelog.md of the sources.\n\n -- ${CPACK_PACKAGE_CONTACT}  Sun, 22 Nov 2026 00:00:00 +0000\n")
