@@ -63,7 +63,7 @@ bool Demo::step() {
 }
 
 bool Demo::stepOnce() {
-  if (halves_.drawn().pace.drawsTiles()) {
+  if (halves_.drawn().pace.drawsLong()) {
     renderer_.waitIdle();
   } else if (pacer_.due()) {
     renderer_.waitForFrame();  // first, so that the events of this frame are as new as possible
@@ -153,8 +153,9 @@ void Demo::drawFrame(double seconds) {
   const double cpuMs = milliseconds(Clock::now() - begins) - frame->waitedMs;
   const size_t pipelines = std::exchange(pipelines_, renderer_.pipelines().count());
   const bool compiles = pipelines_ != pipelines;
-  half.pace.drawn(frame->number, milliseconds(waits - last_) + cpuMs, frame->waitedMs,
-                  !timed && !compiles && !plan.mainReused() && !plan.tiles && !plan.showsNothing());
+  half.pace.drawn(
+      frame->number, milliseconds(waits - last_) + cpuMs, frame->waitedMs,
+      (!timed || half.pace.drawsSlowly()) && !compiles && !plan.mainReused() && !plan.tiles && !plan.showsNothing());
   endFrame(*frame);
   const bool compiled = countFrame(compiles);
   report({workspace_.scene(), state, settings, plan, frame->number, cpuMs, sinceLastMs, half.pace.lowers(), compiled,

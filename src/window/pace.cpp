@@ -30,14 +30,16 @@ int framesUntilFresh(const Settings& settings) {
 
 constexpr double cpuBudgetMs = 50.0;
 constexpr double refreshShare = 0.8;
-constexpr double longestWait = 3.0;  // budgets: slower still pictures come after a draft, tile by tile
-constexpr double tilesShare = 2.0;   // budgets for a frame with tiles and without input
-constexpr double leastShare = 0.1;   // least share of the time of a frame with tiles that counts as time of its tiles
-constexpr size_t mostDrawn = 4;      // frames whose times have not arrived
-constexpr size_t sentFrames = 8;     // at least one of so many frames does not wait for the monitor
-constexpr int framesToKnow = 5;      // timed moving frames after which it is known what playing costs
-constexpr double leastMoved = 0.5;   // least share of the resolution at which a scene is worth moving unasked
-constexpr double caution = 4.0;      // a tile that was never drawn may take so many times as long as expected
+constexpr double longestWait = 3.0;       // budgets: slower still pictures come after a draft, tile by tile
+constexpr double tilesShare = 2.0;        // budgets for a frame with tiles and without input
+constexpr double untouchedWait = 6.0;     // budgets instead of these two for a view that nobody touches
+constexpr double untouchedSeconds = 0.5;  // without input, after which nobody does
+constexpr double leastShare = 0.1;  // least share of the time of a frame with tiles that counts as time of its tiles
+constexpr size_t mostDrawn = 4;     // frames whose times have not arrived
+constexpr size_t sentFrames = 8;    // at least one of so many frames does not wait for the monitor
+constexpr int framesToKnow = 5;     // timed moving frames after which it is known what playing costs
+constexpr double leastMoved = 0.5;  // least share of the resolution at which a scene is worth moving unasked
+constexpr double caution = 4.0;     // a tile that was never drawn may take so many times as long as expected
 // Share of the dearest tile's time that still counts a frame later. One frame may be slow for another reason, such as
 // another program that takes the processor.
 constexpr double remembered = 0.9;
@@ -131,6 +133,7 @@ void SlowPicture::took(double ms) {
 void Pace::begin(const CameraPose& camera, bool contentMoves, double seconds) {
   movement_.update(camera, contentMoves, seconds);
   seconds_ = seconds;
+  untouched_ += seconds;
   begun_ = Clock::now();
   if (!drawn_.empty() && drawn_.back().frameMs == 0.0) {
     drawn_.back().frameMs = std::chrono::duration<double, std::milli>(begun_ - drawn_.back().begun).count();
@@ -141,13 +144,19 @@ const FittedPlan& Pace::plan(const Request& request) {
   fitted_.plan.tiles.reset();
   level_ = 0;
   text_.clear();
+  untouched_ = request.input ? 0.0 : untouched_;
   if (moving() && request.budgetMs > 0.0) {
     planMoving(request);
   } else {
     controller_.setStill();
     planStill(request);
   }
+  long_ = !moving() && request.budgetMs > 0.0 && controller_.predict(work_) > request.budgetMs;
   return fitted_;
+}
+
+double Pace::longestFrame(double touched) const {
+  return untouched_ >= untouchedSeconds ? untouchedWait : touched;
 }
 
 // Plans a picture, or number `picture` of a mean, with these settings.
@@ -272,7 +281,7 @@ Pace::State Pace::stateAfter(const Request& request) {
 void Pace::planFirst(const Request& request) {
   const Settings whole = withPictures(request.frame.settings, 1);
   planWith(request, whole, 0);
-  const double most = (pictures_ == 1 ? longestWait : 1.0) * request.budgetMs;
+  const double most = (pictures_ == 1 ? longestFrame(longestWait) : 1.0) * request.budgetMs;
   if (request.budgetMs <= 0.0 || controller_.predict(work_) <= most) {
     state_ = State::whole;
     picture_ = pictures_ == 1 ? 1 : 0;
@@ -280,7 +289,7 @@ void Pace::planFirst(const Request& request) {
     return;
   }
   planPicture(request, State::mean);
-  if (controller_.predict(work_) <= longestWait * request.budgetMs) {
+  if (controller_.predict(work_) <= longestFrame(longestWait) * request.budgetMs) {
     return;
   }
   picture_ = 0;
@@ -303,7 +312,7 @@ void Pace::planPicture(const Request& request, State state) {
     planWith(request, withPictures(request.frame.settings, pictures_), pictures_ == 1 ? 0 : next);
     const bool covers = request.budgetMs > 0.0 && (picture_ > 0 || !draft_.empty());
     const double ms = controller_.predict(work_);
-    if (covers && ms > longestWait * request.budgetMs && drawnInTiles(fitted_)) {
+    if (covers && ms > longestFrame(longestWait) * request.budgetMs && drawnInTiles(fitted_)) {
       const size_t faces = faceCount(fitted_.plan);
       slow_.begin(faces, tileCount(fitted_.plan) - faces, ms);
       slowWork_ = work_;
@@ -324,8 +333,8 @@ void Pace::planPicture(const Request& request, State state) {
 
 void Pace::planTiles(const Request& request) {
   const double pixels = static_cast<double>(request.shown.size.x) * request.shown.size.y;
-  besidesMs_ = cpuMs_ + controller_.predict({.displayTexels = pixels});
-  const double most = (request.input ? 1.0 : tilesShare) * request.budgetMs;
+  besidesMs_ = cpuMs_ + panelsMs_ + sendMs() + controller_.predict({.displayTexels = pixels});
+  const double most = (request.input ? 1.0 : longestFrame(tilesShare)) * request.budgetMs;
   // At least half of the time goes to the tiles, whatever the rest of a frame takes.
   fitted_.plan.tiles = slow_.next(std::max(most - besidesMs_, besidesMs_), request.input);
 }
@@ -360,6 +369,11 @@ void Pace::drawn(uint64_t number, double cpuMs, double waitedMs, bool learns) {
   }
 }
 
+// Returns the least time of sending a picture, which the cores of a CPU device then do not draw.
+double Pace::sendMs() const {
+  return cpuDevice_ && !sendMs_.empty() ? std::ranges::min(sendMs_) : 0.0;
+}
+
 // Learns the time of a frame. On a CPU device, drawing, the program and sending the picture to the window system share
 // the cores, so a frame takes the sum of their times, or less where they overlap. On a GPU it takes the longer time of
 // drawing and program, unless the program waits for tiles or parts. Waiting for the monitor does not count.
@@ -372,19 +386,26 @@ void Pace::finished(const FrameTimings& timings) {
   if (sendMs_.size() > sentFrames) {
     sendMs_.pop_front();
   }
-  const double sum = found->cpuMs + timings.gpuMs + (cpuDevice_ ? std::ranges::min(sendMs_) : 0.0);
+  double tilesMs = 0.0;
+  for (const PassTiming& pass : timings.passes) {
+    tilesMs += pass.gpuMs;
+  }
+  if (!timings.passes.empty()) {
+    panelsMs_ = std::max(timings.gpuMs - tilesMs, 0.0);
+  }
+  const double sum = found->cpuMs + timings.gpuMs + sendMs();
   const bool overlaps = !cpuDevice_ && !drawsTiles() && found->waitedMs == 0.0;
   const double ms = overlaps              ? std::max(found->cpuMs, timings.gpuMs)
                     : found->frameMs == 0 ? sum
                                           : std::min(found->frameMs, sum);
   if (drawsTiles() && found + 1 == drawn_.end()) {
-    slow_.took(std::max(ms - besidesMs_, leastShare * ms));
+    slow_.took(tilesMs > 0.0 ? tilesMs : std::max(ms - besidesMs_, leastShare * ms));
     // The frames with tiles took longer than a single frame would have, so their time is learned only if even that was
     // less than predicted.
     if (slow_.finished() && !fitted_.plan.refined && slow_.totalMs() < controller_.predict(slowWork_)) {
       controller_.learn(slowWork_, slow_.totalMs());
     }
-  } else if (found->work && timings.passes.empty()) {
+  } else if (found->work) {
     controller_.learn(*found->work, ms);
     learned_ += moving();
   }

@@ -162,9 +162,12 @@ class Pace {
   bool moving() const { return movement_.moving(); }
   // Says whether another frame is needed although nothing happens.
   bool wantsFrame() const { return movement_.ending() || (!moving() && (!isComplete() || !slow_.finished())); }
-  // Says whether the last frame drew tiles of a picture. If so, wait for that frame before you handle events:
-  // finished() learns from its time, and no second frame delays the events.
+  // Says whether the last frame drew tiles of a picture. finished() learns from their time if that frame has ended
+  // when the next one begins.
   bool drawsTiles() const { return fitted_.plan.tiles.has_value(); }
+  // Says whether the last frame was a still picture, or tiles of one, that takes longer than the budget. If so, wait
+  // for that frame before you handle events: no second frame then delays them.
+  bool drawsLong() const { return drawsTiles() || long_; }
   // Says whether the planned frame has a lower quality than the chosen settings.
   bool lowers() const { return level_ > 0; }
   // Returns a number that each still picture has of its own, once it is complete.
@@ -194,7 +197,7 @@ class Pace {
     Shown shown;
     double budgetMs = 0.0;               // 0: nothing is lowered
     std::span<const MotionLevel> front;  // of the scene's sweep, see motionLevels()
-    bool input = false;                  // there is input, which a frame with tiles must not hold up
+    bool input = false;                  // there is input, which a long frame must not hold up
     std::optional<Target> target;        // target that the panels show and that is not there yet
   };
   // Plans the frame. The plan is valid until the next frame's.
@@ -227,6 +230,9 @@ class Pace {
   void planFirst(const Request& request);
   void planPicture(const Request& request, State state);
   void planTiles(const Request& request);
+  // Returns the longest time of a frame, in budgets: `touched`, or more after a while without input.
+  double longestFrame(double touched) const;
+  double sendMs() const;
   bool isComplete() const { return picture_ == pictures_ && state_ != State::changed && state_ != State::moving; }
   State stateAfter(const Request& request);
   void forgetStill();
@@ -249,7 +255,8 @@ class Pace {
   unsigned sampleCounts_;
   Movement movement_;
   MotionController controller_;
-  double seconds_ = 0.0;  // since the last frame
+  double seconds_ = 0.0;    // since the last frame
+  double untouched_ = 0.0;  // seconds since the last input
   Clock::time_point begun_;
   std::deque<Drawn> drawn_;  // frames whose GPU times are awaited
   int learned_ = 0;          // moving frames of this scene that were timed
@@ -270,8 +277,11 @@ class Pace {
   std::string draft_;              // what the draft gives up; empty: none was needed
   std::optional<double> refined_;  // share of the mean's tiles that its next picture is drawn for; none: not decided
   std::string text_;
-  double cpuMs_ = 0.0;      // of the last frame
-  double besidesMs_ = 0.0;  // expected milliseconds of a frame besides its tiles: the program and the display pass
+  bool long_ = false;      // the planned frame is a still picture that takes longer than the budget
+  double cpuMs_ = 0.0;     // of the last frame
+  double panelsMs_ = 0.0;  // the GPU's, of the last frame whose passes were timed: without these
+  // Expected milliseconds of a frame besides its tiles: the program, the display pass, panels, and sending the picture.
+  double besidesMs_ = 0.0;
 };
 
 // Returns the number of pictures in the mean of a still picture.

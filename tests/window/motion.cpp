@@ -1,4 +1,5 @@
 #include <cstdio>
+#include <numeric>
 
 #include "plan/frame_plan.hpp"
 #include "plan/pass_mask.hpp"
@@ -870,15 +871,19 @@ TEST_F(PacedScene, PictureWithoutBudgetIsNoRepeatBeforeItIsComplete) {
   EXPECT_TRUE(pace_.repeats());
 }
 
-// Pictures that take several budgets. The device reports the time of a frame when the next one begins.
+// Pictures that take several budgets, soon after input. The device reports the time of a frame when the next one
+// begins.
 class SlowPictures : public PacedScene {
  protected:
   SlowPictures() {
     budgetMs_ = budget;
     side_ = 3200;
+    seconds_ = 0.0;
   }
   FittedPlan draw() {
-    pace_.finished({.frame = number_, .gpuMs = ms_});
+    pace_.finished(panelsMs_ > 0.0
+                       ? FrameTimings{.frame = number_, .gpuMs = ms_ + panelsMs_, .passes = {{.gpuMs = ms_}}}
+                       : FrameTimings{.frame = number_, .gpuMs = ms_});
     const FittedPlan fitted = frame();
     const TileRange tiles = tilesOfPasses(fitted.plan)[0];
     ms_ = 0.0;
@@ -910,7 +915,77 @@ class SlowPictures : public PacedScene {
   const size_t count_ = 40000;  // tiles
   double ms_ = 0.0;             // of the last frame's tiles
   double besidesMs_ = 0.0;
+  double panelsMs_ = 0.0;  // the GPU's, of each frame
 };
+
+TEST_F(SlowPictures, UntouchedOnesTakeFewFrames) {
+  chosen_.quality.stillPictures = 16;
+  draw();
+  for (int picture = 0; picture < 3; ++picture) {
+    drawPicture();
+  }
+  const size_t frames = drawPicture().size();
+  seconds_ = 0.1;
+  drawPicture();
+  const std::vector<double> times = drawPicture();
+  EXPECT_LE(std::ranges::max(times), 9.0 * budget) << "an input waits for one frame";
+  EXPECT_LE(2 * times.size(), frames);
+  EXPECT_TRUE(pace_.drawsLong());
+  const auto tilesMs = [&] {
+    draw();
+    return ms_;
+  };
+  EXPECT_GE(tilesMs(), 4.0 * budget);
+  input_ = true;
+  EXPECT_LE(tilesMs(), 1.3 * budget) << "at once";
+  input_ = false;
+  seconds_ = 0.02;
+  EXPECT_LE(tilesMs(), 2.6 * budget) << "more input may follow";
+}
+
+TEST_F(SlowPictures, PanelsAreNoTimeOfTiles) {
+  chosen_.quality.stillPictures = 16;
+  panelsMs_ = 2.0 * budget;
+  draw();
+  for (int picture = 0; picture < 3; ++picture) {
+    drawPicture();
+  }
+  const std::vector<double> times = drawPicture();
+  EXPECT_GE(std::accumulate(times.begin(), times.end(), 0.0), 0.6 * panelsMs_ * static_cast<double>(times.size()));
+}
+
+TEST_F(PacedScene, UntouchedPicturesOfSomeBudgetsAreWhole) {
+  chosen_.quality.stillPictures = 8;
+  budgetMs_ = budget;
+  side_ = 960;
+  const auto draw = [&] {
+    FittedPlan fitted = frame();
+    pace_.drawn(++number_, 1.0, 0.0, true);
+    const double ms = 5.0 * budget * planned_.view.scale * planned_.view.scale;
+    pace_.finished({.frame = number_, .gpuMs = ms, .passes = {{.gpuMs = ms}}});
+    return fitted;
+  };
+  const auto drawTiles = [&] {
+    bool tiles = false;
+    for (int i = 0; i < 6; ++i) {
+      tiles = draw().plan.tiles || tiles;
+    }
+    return tiles;
+  };
+  drawTiles();
+  seconds_ = 0.0;
+  input_ = true;
+  revision_ = 2;
+  draw();
+  expectText("Draft: ");
+  EXPECT_TRUE(drawTiles()) << "there is input";
+  input_ = false;
+  seconds_ = 1.0;
+  revision_ = 3;
+  EXPECT_FALSE(drawTiles());
+  EXPECT_EQ(planned_.view.scale, 1.0);
+  EXPECT_TRUE(pace_.drawsLong()) << "and waited for, so that input does not wait for two";
+}
 
 TEST_F(SlowPictures, AreDrawnTileByTile) {
   chosen_.quality.stillPictures = 16;
