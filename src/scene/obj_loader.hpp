@@ -69,13 +69,10 @@ class ObjMaterials {
 
  private:
   struct Entry {
-    Material material;        // without its textures
-    bool hasDiffuse = false;  // Kd is given; likewise below
-    bool hasRoughness = false;
-    bool hasOpacity = false;
-    bool hasIllum = false;
-    bool metalRoughness = false;  // Pr or Pm is given
-    bool opaque = false;          // d or Tr, and illum, say so
+    Material material;                      // without its textures
+    std::map<std::string_view, int> lines;  // by key that is given
+    bool has(std::string_view key) const { return lines.contains(key); }
+    bool opaque = false;  // d or Tr, and illum, say so
     double metal = 0.0;
     double roughness = 0.0;
     std::string diffuseTexture;
@@ -84,10 +81,7 @@ class ObjMaterials {
     TextureOptions textureOptions;  // of map_Kd, or else of map_d
     TextureOptions opacityOptions;  // of map_d
     std::filesystem::path file;
-    int line = 0;          // line of newmtl
-    int textureLine = 0;   // line of map_Kd
-    int emissionLine = 0;  // line of map_Ke
-    int opacityLine = 0;   // line of map_d
+    int line = 0;  // line of newmtl
   };
   struct Use {
     std::string name;
@@ -98,6 +92,7 @@ class ObjMaterials {
   // Says whether a name in the file is empty but for a comment, and names no file as a whole.
   bool isComment(const std::filesystem::path& file, std::string_view name);
   void readLibrary(const std::filesystem::path& file, std::string_view name, int line);
+  void readMtl(const std::filesystem::path& file, std::string_view text);
   std::pair<std::string, const Entry*> entryOf(const std::string& name) const;
   // Returns read(file) for the picture that a line of the entry's file names; nothing, with a defect, if it is not
   // there or not readable.
