@@ -11,7 +11,7 @@
 #include "core/renderer.hpp"
 #include "platform/window.hpp"
 
-// What every example needs and nobody has to read for the mirrors: arguments, the window's loop, the finished picture.
+// Arguments, the window's loop and the finished picture. Every example needs them; the mirrors are clear without them.
 namespace speculum::examples {
 
 struct Options {

@@ -1,4 +1,4 @@
-// What most demos do: stretch a picture over the mirror, flip it, and blur it a little.
+// Does what most demos do: stretches a picture over the mirror, flips it, and blurs it a little.
 vec3 stretched(sampler2D image, vec2 uv) {
   vec3 sum = vec3(0.0);
   for (int i = 0; i < 9; ++i) {

@@ -79,8 +79,8 @@ View viewFrom(const glm::vec3& offset, double time, float aspect, float turn) {
           .ambient = glm::vec4(0.07f, 0.07f, 0.09f, 0.0f)};
 }
 
-// Makes the view of the reflected eye, which is what the mirror shows. The matrix reflects the world and keeps the
-// camera where it is, because the picture is the same. Lighting takes place in the real world, so it needs that eye.
+// Makes the view that the mirror shows, that of the reflected eye. The matrix reflects the world and leaves the camera
+// where it is, which gives the same picture. Highlights are computed in the real world, so they need the reflected eye.
 View reflectedView(const View& seen, const Place& mirror) {
   const glm::mat4 reflect = reflection(mirror.center, mirror.normal);
   View view = seen;
@@ -91,7 +91,7 @@ View reflectedView(const View& seen, const Place& mirror) {
   return view;
 }
 
-// Says whether a view sees the mirror's front. It sees nothing of it if all corners lie beyond one side of the picture.
+// Says whether a view sees the mirror's front. None of it is seen if all corners lie beyond one side of the picture.
 bool isSeen(const Place& mirror, const View& view) {
   glm::bvec4 beyond(true);  // right, above, left, below
   for (const glm::vec2& corner : {glm::vec2(-0.5f, -0.5f), {0.5f, -0.5f}, {0.5f, 0.5f}, {-0.5f, 0.5f}}) {
@@ -109,7 +109,7 @@ struct Core {
   Renderer renderer;
   SharedDepth depth;  // of all passes, one after the other
   OffScreen noImage;  // one pixel of the background, which mirrors show that have no pass in the list
-  std::map<std::pair<int, size_t>, OffScreen> offScreens;  // by depth and mirror: no two such are needed at a time
+  std::map<std::pair<int, size_t>, OffScreen> offScreens;  // by depth and mirror; fetched before it is drawn again
 
   explicit Core(const Options& asked)
       : options(asked),
@@ -272,7 +272,7 @@ Drawn run(const Options& options) {
     }
     {
       PassDesc desc = fullPass("window", core.renderer.displayTargets(*frame));
-      desc.targets.depth = core.depth.image();
+      desc.targets.depth = core.depth.image();  // displayTargets() has none
       desc.clearColor = displayed(state.clearColor);
       const PassScope pass = core.renderer.beginPass(*frame, desc);
       const VkDescriptorSet view = views.write(*frame, eye);

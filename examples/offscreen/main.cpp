@@ -177,7 +177,7 @@ Drawn run(const Options& options) {
     }
     {
       PassDesc desc = fullPass("window", core.renderer.displayTargets(*frame));
-      desc.targets.depth = core.depth.image();
+      desc.targets.depth = core.depth.image();  // displayTargets() has none
       desc.clearColor = displayed(state.clearColor);
       const PassScope pass = core.renderer.beginPass(*frame, desc);
       const VkDescriptorSet view = views.write(*frame, eye);

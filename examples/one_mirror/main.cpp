@@ -77,8 +77,8 @@ View viewFrom(const glm::vec3& offset, double time, float aspect, float turn) {
           .ambient = glm::vec4(0.07f, 0.07f, 0.09f, 0.0f)};
 }
 
-// Makes the view of the reflected eye, which is what the mirror shows. The matrix reflects the world and keeps the
-// camera where it is, because the picture is the same. Lighting takes place in the real world, so it needs that eye.
+// Makes the view that the mirror shows, that of the reflected eye. The matrix reflects the world and leaves the camera
+// where it is, which gives the same picture. Highlights are computed in the real world, so they need the reflected eye.
 View reflectedView(const View& seen, const Place& mirror) {
   const glm::mat4 reflect = reflection(mirror.center, mirror.normal);
   View view = seen;
@@ -220,7 +220,7 @@ Drawn run(const Options& options) {
     }
     {
       PassDesc desc = fullPass("window", core.renderer.displayTargets(*frame));
-      desc.targets.depth = core.depth.image();
+      desc.targets.depth = core.depth.image();  // displayTargets() has none
       desc.clearColor = displayed(state.clearColor);
       const PassScope pass = core.renderer.beginPass(*frame, desc);
       const VkDescriptorSet view = views.write(*frame, eye);

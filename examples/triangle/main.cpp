@@ -106,7 +106,7 @@ Drawn run(const Options& options) {
     const View eye = viewFrom({1.5f, 0.65f, 2.7f}, loop.time(), aspect, ui ? ui->turn() : 0.0f);
     {
       PassDesc desc = fullPass("window", core.renderer.displayTargets(*frame));
-      desc.targets.depth = core.depth.image();
+      desc.targets.depth = core.depth.image();  // displayTargets() has none
       desc.clearColor = displayed(state.clearColor);
       const PassScope pass = core.renderer.beginPass(*frame, desc);
       const VkDescriptorSet view = views.write(*frame, eye);
