@@ -216,9 +216,10 @@ TEST_P(WindowStep, ResizesAndMinimises) {
 
 // Different names, so that no window of the run before is found.
 INSTANTIATE_TEST_SUITE_P(Examples, WindowStep,
-                         testing::Values(WindowRun{"one_mirror", "dynamic"},
+                         testing::Values(WindowRun{"triangle", "dynamic"}, WindowRun{"offscreen", "renderpass"},
+                                         WindowRun{"one_mirror", "dynamic"},
                                          WindowRun{"mirror_in_mirror", "renderpass"}),
-                         [](const auto& info) { return info.param.second; });
+                         [](const auto& info) { return info.param.first; });
 
 TEST(Examples, WindowEndsAfterItsFrames) {
   const test::VirtualDisplay display;
