@@ -112,7 +112,7 @@ class PassScope {
   // render area.
   void resume(PassDesc desc);
   // Counts the samples that pass the depth test from here to the pass's end or pause. Call it at most once a pass; does
-  // nothing without PassDesc::collectStatistics.
+  // nothing without PassDesc::collectStatistics. lavapipe compiles each shader once more for draws that are counted.
   void countSamples();
 
  private:
