@@ -28,6 +28,12 @@ const json& member(const json& object, const char* key) {
   return found == object.end() ? none : *found;
 }
 
+std::string jsonFault(const std::exception& error) {
+  constexpr size_t mostShown = 200;
+  const std::string text = error.what();
+  return text.substr(text.find("] ") + 2, mostShown);
+}
+
 namespace {
 
 // The two parts of a file; a text file has no binary part.
@@ -91,7 +97,6 @@ json parsedJson(const fs::path& file, std::string_view text, ModelDefects* defec
   // tinygltf and the writer of JSON call themselves for each level. A callback of the parser could count them, but with
   // one it takes a time as the square of an array's length.
   constexpr int mostLevels = 64;
-  constexpr size_t mostShown = 200;
   if (const auto foreign = foreignFile(text, ".gltf")) {
     throwInputError(file, 1, "file", foreign->wrong, foreign->right);
   }
@@ -108,10 +113,9 @@ json parsedJson(const fs::path& file, std::string_view text, ModelDefects* defec
       return parsedJson(file, whole, nullptr);
     }
     const auto line = std::count(text.begin(), text.begin() + std::min(error.byte, text.size()), '\n');
-    throwInputError(file, static_cast<int>(line) + 1, "json", std::string(error.what()).substr(0, mostShown),
-                    validGltf);
+    throwInputError(file, static_cast<int>(line) + 1, "json", jsonFault(error), validGltf);
   } catch (const json::exception& error) {  // such as a number that is out of range
-    throwInputError(file, 1, "json", std::string(error.what()).substr(0, mostShown), validGltf);
+    throwInputError(file, 1, "json", jsonFault(error), validGltf);
   }
 }
 

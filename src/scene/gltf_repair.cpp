@@ -46,7 +46,7 @@ std::string faultOf(const json& root, tinygltf::Model& model) {
       return {};
     }
   } catch (const json::exception& error) {  // some values of a wrong type
-    errors = error.what();
+    errors = jsonFault(error);
   }
   return errors.substr(0, std::min({errors.find('\n'), errors.size(), mostShown}));
 }
