@@ -41,10 +41,10 @@ Demo::Demo(const Options& options)
   device_.sparePipelines().keepAtMost(32);
   shownFile_ = workspace_.scene().file;
   window_.setListener([this](const InputEvent& event) {
-    input_.take(event);
-    if (isAction(event)) {
+    if (isAction(event) && event.kind != InputEvent::Kind::key && !input_.overPanels()) {
       first_.uncover();
     }
+    input_.take(event);
   });
 }
 
@@ -128,6 +128,11 @@ void Demo::drawFrame(double seconds) {
     state.camera = previousCamera_;  // events between the two frames may have moved it
   }
   previousCamera_ = state.camera;
+  first_.shows({.settings = imageSettings(workspace_.shownSettings(halves_.index())),
+                .revision = workspace_.pictureRevision(),
+                .time = state.time,
+                .camera = state.camera},
+               workspace_.split().on());
   PictureHalf& half = halves_.drawn();
   const bool timed = beginPace(state, workspace_.frameSeconds(passed));
   const Clock::time_point waits = Clock::now();
@@ -190,11 +195,13 @@ void Demo::beginOpening() {
     apply(SetPaused{false});
   }
   const bool paced = options_.frames == 0 && budgetMs() > 0.0;
-  first_.begin(paced && workspace_.animates(), paced && device_.info().isCpu() && workspace_.browser().hasThumbnail());
+  const bool split = workspace_.split().on();
+  first_.begin(paced && workspace_.animates(),
+               paced && !split && device_.info().isCpu() && workspace_.browser().hasThumbnail());
   halves_.drawn().pace.forgetPlayCost();
   opened_ = Clock::now();
   workspace_.setPlayCost("");
-  workspace_.browser().showPoster(true);
+  workspace_.browser().showPoster(!split);
   workspace_.setPictureText(drawingText());
   updateUi(0.0);
   if (std::optional<Frame> frame = renderer_.beginFrame()) {

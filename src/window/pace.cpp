@@ -228,12 +228,8 @@ void Pace::forgetStill() {
 
 void Pace::planStill(const Request& request) {
   // The mean begins anew when nothing moves any more, even if nothing else has changed.
-  auto shown = moving() ? std::nullopt : std::optional(std::pair(request.frame.settings, request.shown));
-  if (shown) {
-    // These settings change no pixel of a still picture.
-    shown->first.ui = {};
-    shown->first.quality.motionMs.reset();
-  }
+  const auto shown =
+      moving() ? std::nullopt : std::optional(std::pair(imageSettings(request.frame.settings), request.shown));
   if (std::exchange(shown_, shown) != shown || moving()) {
     forgetStill();
   }
@@ -414,6 +410,12 @@ void Pace::finished(const FrameTimings& timings) {
 
 int stillPictures(const Settings& settings) {
   return std::max(settings.view.accumulate, settings.quality.stillPictures);
+}
+
+Settings imageSettings(Settings settings) {
+  settings.ui = {};
+  settings.quality.motionMs.reset();
+  return settings;
 }
 
 Settings withPictures(Settings settings, int pictures) {

@@ -41,12 +41,32 @@ class FramePacer {
 // user plays it. On a CPU device the scene's thumbnail covers the first pictures.
 class FirstPictures {
  public:
+  // What the picture shows. Another content ends the cover, but panels may be used below it.
+  struct Content {
+    Settings settings;      // those of imageSettings()
+    uint64_t revision = 0;  // SceneDocument::pictureRevision()
+    double time = 0.0;      // seconds of the animation
+    CameraPose camera;
+
+    bool operator==(const Content&) const = default;
+  };
+
   // Call when another scene is shown. `moves`: the scene moves by itself, and its frames have a time budget. `covered`:
   // the thumbnail covers the picture until there is a good one, or for some seconds.
   void begin(bool moves, bool covered) {
     triesLeft_ = moves ? mostTries : 0;
     covered_ = covered;
     holds_ = false;
+    content_.reset();
+  }
+  // Call before each frame with what it shows. `split`: A | B is on, which compares drafts and not the thumbnail.
+  void shows(const Content& content, bool split) {
+    if (content_ && triesLeft_ > 0) {
+      content_->time = content.time;
+      content_->camera = content.camera;  // it may go along a path
+    }
+    covered_ = covered_ && !split && (!content_ || *content_ == content);
+    content_ = content;
   }
   // Call after each frame: with Pace::playCost(), whether the scene moves by itself, whether the frame was a complete
   // picture in full quality, and the seconds since begin(). Returns true if the scene is to go back to its start
@@ -56,10 +76,11 @@ class FirstPictures {
     triesLeft_ = moves && !playCost ? triesLeft_ - tried : 0;
     const bool stands = tried && moves && !playCost.value_or("").empty();
     holds_ = stands || (holds_ && !moves);
+    content_ = stands ? std::nullopt : content_;  // it goes back to the start
     covered_ = covered_ && seconds < longestCover && (tried ? triesLeft_ > 0 || stands || !moves : !complete);
     return stands;
   }
-  void uncover() { covered_ = false; }  // the user acts
+  void uncover() { covered_ = false; }  // the user acts in the picture
 
   bool covered() const { return covered_; }  // the thumbnail covers the picture
   bool holds() const { return holds_; }      // the scene was paused for being slow, and nobody has played it yet
@@ -71,6 +92,7 @@ class FirstPictures {
   int triesLeft_ = 0;  // frames in which the cost of playing may become known
   bool covered_ = false;
   bool holds_ = false;
+  std::optional<Content> content_;  // of the last frame; none: the next one may show anything
 };
 
 // A still picture that takes longer than a window may wait: several frames draw it, a few tiles each. Learns the time
@@ -286,6 +308,8 @@ class Pace {
 
 // Returns the number of pictures in the mean of a still picture.
 int stillPictures(const Settings& settings);
+// Returns the settings without those that change no pixel of a still picture.
+Settings imageSettings(Settings settings);
 // Returns the settings for a mean of so many pictures, or for a single one.
 Settings withPictures(Settings settings, int pictures);
 

@@ -246,6 +246,29 @@ TEST_F(PacedWindow, SlowScenesOpenStillBelowTheirThumbnail) {
   EXPECT_GT(shown().playback.time, 0.0);
 }
 
+TEST_F(PacedWindow, PanelsMayBeUsedBelowTheThumbnail) {
+  demo_->apply(OpenScene{sceneFile("no_mirror")});
+  ASSERT_TRUE(waitFor([&] { return shownScene().name == "no_mirror" && shown().playback.paused; }));
+  ASSERT_TRUE(shown().browser.poster);
+  click("panel.Targets");
+  EXPECT_TRUE(shown().browser.poster);
+  click("panel.Targets");
+  EXPECT_TRUE(shown().browser.poster);
+  clickAt(width - 100, 80);
+  EXPECT_FALSE(shown().browser.poster) << "the picture is clicked";
+}
+
+TEST_F(PacedWindow, NothingCoversLessons) {
+  const std::vector<ShownSplit::LessonEntry> lessons = shown().split.lessons;
+  demo_->apply(OpenScene{.file = lessons.at(0).scene, .lesson = 0});
+  int frames = 0;
+  ASSERT_TRUE(waitFor([&] {
+    EXPECT_FALSE(shown().split.on && shown().browser.poster);
+    frames += shown().split.on;
+    return frames >= 6;
+  }));
+}
+
 TEST_F(PacedWindow, NothingCoversScenesWithoutThumbnails) {
   const std::filesystem::path file = home_.path() / "bare.toml";
   std::filesystem::copy_file(options_.scene, file);

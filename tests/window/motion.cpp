@@ -763,6 +763,44 @@ TEST(FirstPictures, StaysCoveredUntilThereIsAGoodPicture) {
   EXPECT_FALSE(opening.covered()) << "the first picture takes long, and a draft is there";
 }
 
+TEST(FirstPictures, OnlyAnotherContentUncovers) {
+  FirstPictures opening;
+  FirstPictures::Content content;
+  opening.begin(false, true);
+  for (int i = 0; i < 3; ++i) {
+    opening.shows(content, false);
+    EXPECT_TRUE(opening.covered());
+  }
+  const auto uncovers = [&](const auto& change) {
+    opening.begin(false, true);
+    opening.shows(content, false);
+    change();
+    opening.shows(content, false);
+    return !opening.covered();
+  };
+  EXPECT_TRUE(uncovers([&] { content.settings.view.exposure = 2.0; }));
+  EXPECT_TRUE(uncovers([&] { ++content.revision; }));
+  EXPECT_TRUE(uncovers([&] { content.time = 1.0; }));
+  EXPECT_TRUE(uncovers([&] { content.camera.eye.x = 1.0; }));
+  opening.begin(true, true);
+  for (int i = 0; i < 3; ++i) {
+    content.time += 0.1;
+    opening.shows(content, false);
+    EXPECT_TRUE(opening.covered()) << "it moves by itself";
+    opening.drawn(std::nullopt, true, true, 0.0);
+  }
+  EXPECT_TRUE(opening.drawn("Play", true, false, 0.0));
+  content.time = 0.0;
+  opening.shows(content, false);
+  EXPECT_TRUE(opening.covered()) << "back at its start";
+  content.time = 0.1;
+  opening.shows(content, false);
+  EXPECT_FALSE(opening.covered()) << "the user plays it";
+  opening.begin(false, true);
+  opening.shows(content, true);
+  EXPECT_FALSE(opening.covered()) << "two halves are compared";
+}
+
 TEST_F(PacedScene, StillPicturesConvergeOnce) {
   chosen_.quality.stillPictures = 3;
   EXPECT_EQ(pictureOf(), std::pair(1, 0)) << "full quality first";
