@@ -43,6 +43,7 @@ struct EffectRow : Effect, EffectCost {};
 struct ShownTarget {
   MirrorPath path;                              // of the pass
   bool complete = false;                        // the target has been drawn
+  double share = 0.0;                           // of the picture that is being drawn
   glm::ivec2 size{0};                           // texels
   std::vector<glm::vec2> mask;                  // polygon around the texels that the pass shades
   std::vector<std::vector<glm::vec2>> mirrors;  // visible regions of the mirrors seen in it, texels

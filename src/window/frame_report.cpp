@@ -133,6 +133,8 @@ void FrameReport::addFrame(const RecordedFrame& frame, const FrameTimings& timin
 void FrameReport::updateTimes(const RecordedFrame& frame, const FrameTimings& timings,
                               std::span<const RecordedPass> timed) {
   addFrame(frame, timings, timed);
+  const std::optional<TileRange>& tiles = frame.plan.tiles;
+  shown_.target.share = tiles ? static_cast<double>(tiles->end) / static_cast<double>(tileCount(frame.plan)) : 0.0;
   const bool drawsScene = !frame.plan.mainReused() && !frame.repeats;
   shown_.still = !drawsScene || frame.plan.tiles;
   const bool drewScene = endsPicture(frame.plan) && !std::exchange(panelsOnly_, !drawsScene) && !drawn_.empty();

@@ -222,6 +222,7 @@ TEST_F(Report, TilesOfAPictureAreOneFrame) {
       report.updateTimes(frameOf(number + 1, 2.0, 30.0), {.frame = number, .gpuMs = 25.0});
       ++number;
       EXPECT_TRUE(view.still) << "no picture follows another at once";
+      EXPECT_EQ(view.target.share, static_cast<double>(tile + 1) / 4.0);
       EXPECT_EQ(view.frameMs, picture == 0 ? 1.0 + 25.0 : 4 * 27.0) << "of the last complete picture";
     }
     if (picture == 0) {
