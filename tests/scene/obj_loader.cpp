@@ -351,8 +351,10 @@ TEST_F(ObjLoader, FacesOfAnyNumberOfCornersAreCovered) {
 }
 
 TEST_F(ObjLoader, LargeStarsAreLeftOutInTime) {
+  // AddressSanitizer reads a line to its end for each number in it.
+  const int corners = testing_support::instrumented > 1 ? 40'000 : 100'000;
   const std::clock_t start = std::clock();
-  EXPECT_EQ(load(roundFace(100'000, true) + "v 0 0 1\nv 1 0 1\nv 1 1 1\nf -1 -2 -3\n").indices.size(), 3u);
+  EXPECT_EQ(load(roundFace(corners, true) + "v 0 0 1\nv 1 0 1\nv 1 1 1\nf -1 -2 -3\n").indices.size(), 3u);
   EXPECT_LT(std::clock() - start, testing_support::instrumented * 5 * CLOCKS_PER_SEC);
   EXPECT_TRUE(contains(warnings(), "f: has too many corners for a face that is no fan about its first"));
 }
