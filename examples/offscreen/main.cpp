@@ -1,4 +1,4 @@
-// Offscreen. What a second camera sees is drawn into an OffScreen, and a screen in the window samples that.
+// Offscreen. What a second camera sees is drawn into an OffScreen, and a canvas in the window samples that.
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -125,7 +125,7 @@ class PointLightSystem {
   ShaderPair shaders_;
 };
 
-// Draws a screen that shows the OffScreen.
+// Draws a canvas that shows the OffScreen.
 class MirrorSystem {
  public:
   MirrorSystem(Core& core, VkDescriptorSetLayout views)
@@ -164,7 +164,7 @@ Drawn run(const Options& options) {
     core.depth.require(frame->extent, core.renderer.retired());  // retired() frees the old one when no frame uses it
     const float aspect = static_cast<float>(frame->extent.width) / static_cast<float>(frame->extent.height);
     const View eye = viewFrom({1.5f, 0.65f, 2.7f}, loop.time(), aspect, ui ? ui->turn() : 0.0f);
-    const View other = viewFrom({-1.5f, 1.0f, 2.5f}, loop.time(), 1.5f, 0.0f);  // 1.5: width to height of the screen
+    const View other = viewFrom({-1.5f, 1.0f, 2.5f}, loop.time(), 1.5f, 0.0f);  // 1.5: width to height of the canvas
     {
       core.offScreen.resize({512, 512}, core.renderer.retired());
       PassDesc desc = fullPass("offscreen", core.offScreen.targets());
