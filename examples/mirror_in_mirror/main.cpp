@@ -130,14 +130,14 @@ struct ImagePass {
 };
 
 // Lists the passes for all mirrors that a view sees, each after those that it needs. Returns what the mirrors show.
-// `from` has been reflected `depth` times, and no image is reflected more than `most` times.
-Images listPasses(Core& core, const View& from, int depth, int most, bool naive, std::vector<ImagePass>& passes) {
+// `from` has been reflected `depth` times, and no image is reflected more than `maxDepth` times.
+Images listPasses(Core& core, const View& from, int depth, int maxDepth, bool naive, std::vector<ImagePass>& passes) {
   Images images;
   images.fill(&core.noImage);
   for (size_t m = 0; m < places.size(); ++m) {
-    if (depth < most && isSeen(places[m], from)) {
+    if (depth < maxDepth && isSeen(places[m], from)) {
       const View view = naive ? from : reflectedView(from, places[m]);
-      const Images nested = listPasses(core, view, depth + 1, naive ? 0 : most, naive, passes);  // naive: no nesting
+      const Images nested = listPasses(core, view, depth + 1, naive ? 0 : maxDepth, naive, passes);  // naive: depth 1
       const OffScreenDesc desc{.name = "offscreen", .shared = &core.depth};
       images[m] = &core.offScreens.try_emplace({depth, m}, core.device, desc, core.renderer.retired()).first->second;
       passes.push_back({view, images[m], nested, !naive && (depth + 1) % 2 == 1});
@@ -234,8 +234,8 @@ Drawn run(const Options& options) {
   const MirrorSystem mirrorSystem(core, views.layout());
   const std::unique_ptr<SimpleUI> ui = SimpleUI::forWindow(core.renderer, core.window.get());
   bool naive = options.naive;
-  int bounces = 8;
-  UiState state{.clearColor = background, .naive = &naive, .depth = &bounces, .mostDepth = 16};
+  int maxDepth = 8;
+  UiState state{.clearColor = background, .naive = &naive, .depth = &maxDepth, .mostDepth = 16};
   const IdleGuard idle(core.device);  // waits for the GPU before what is above is destroyed
 
   for (Loop loop(options, core.window.get()); loop.next();) {
@@ -251,7 +251,7 @@ Drawn run(const Options& options) {
     const float aspect = static_cast<float>(frame->extent.width) / static_cast<float>(frame->extent.height);
     const View eye = viewFrom({1.5f, 0.65f, 2.7f}, loop.time(), aspect, ui ? ui->turn() : 0.0f);
     std::vector<ImagePass> passes;
-    const Images images = listPasses(core, eye, 0, bounces, naive, passes);
+    const Images images = listPasses(core, eye, 0, maxDepth, naive, passes);
     PassDesc clear = fullPass("background", core.noImage.targets());
     clear.clearColor = radiance(state.clearColor);
     core.renderer.beginPass(*frame, clear);  // ends at once, with the statement
