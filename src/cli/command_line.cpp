@@ -277,8 +277,9 @@ std::vector<std::string> commandNames(const CLI::App& app) {
   return names;
 }
 
-std::string advice(const std::string& argument, const std::vector<std::string>& known) {
-  return nearestKeyAdvice(argument, std::vector<std::string_view>(known.begin(), known.end()));
+std::string advice(const std::string& argument, const std::vector<std::string>& known,
+                   std::string_view otherwise = {}) {
+  return nearestKeyAdvice(argument, std::vector<std::string_view>(known.begin(), known.end()), otherwise);
 }
 
 // Returns the end of a command's --help: examples of useful calls, a line each.
@@ -329,15 +330,14 @@ std::string unknownArgument(const CLI::App& app) {
   const CLI::App& used = commanded ? *app.get_subcommands().front() : app;
   // Takes the first word for a misspelt command, and the following ones for its arguments.
   if (!commanded && !isOption(left.front())) {
-    return "'" + left.front() + "' is not a command (" + advice(left.front(), commandNames(app)) + ")";
+    return "'" + left.front() + "' is not a command (" +
+           advice(left.front(), shippedSceneNames(), advice(left.front(), commandNames(app))) + ")";
   }
   const auto option = std::ranges::find_if(left, isOption);
   const std::string name = option == left.end() ? left.front() : option->substr(0, option->find('='));
   const std::string help = commanded ? "speculum " + used.get_name() + " --help" : "speculum --help";
-  const std::string meant = advice(name, optionNames(used));
   return "'" + name + "' is not " + (option == left.end() ? "expected" : "an option") + " of " +
-         (commanded ? used.get_name() : "speculum") + " (" +
-         (meant.starts_with("did you mean") ? meant : "see " + help) + ")";
+         (commanded ? used.get_name() : "speculum") + " (" + advice(name, optionNames(used), "see " + help) + ")";
 }
 
 // Returns CLI11's message on one line, in words of its users.

@@ -62,17 +62,10 @@ int runInfo(const Options& options) {
 }
 
 int runScenes(const Options&) {
-  std::map<std::string, std::string> titles;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(dataDirectory("scenes"))) {
-    if (entry.path().extension() == ".toml") {
-      titles[entry.path().string()] = loadScene(entry.path()).title;
-    }
-  }
-  for (const auto& [file, title] : titles) {
-    // Names scenes as --scene takes them: hard/corner for a scene in a folder.
-    const std::filesystem::path name = std::filesystem::path(file).lexically_relative(dataDirectory("scenes"));
-    printLine(fmt::format("{:<24} {}", std::filesystem::path(name).replace_extension().generic_string(), title));
-    printLine(fmt::format("{:25}{}", "", file));
+  for (const std::string& name : shippedSceneNames()) {
+    const std::filesystem::path file = dataDirectory("scenes") / (name + ".toml");
+    printLine(fmt::format("{:<24} {}", name, loadScene(file).title));
+    printLine(fmt::format("{:25}{}", "", file.string()));
   }
   return 0;
 }

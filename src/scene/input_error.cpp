@@ -44,7 +44,8 @@ std::string readInputText(const std::filesystem::path& file, std::string_view ri
   }
 }
 
-std::string nearestKeyAdvice(std::string_view key, std::span<const std::string_view> known) {
+std::string nearestKeyAdvice(std::string_view key, std::span<const std::string_view> known,
+                             std::string_view otherwise) {
   // A file may have keys of any length; no known key is near one longer than this.
   constexpr size_t longest = 64;
   size_t least = key.size() > longest ? 0 : std::max<size_t>(1, key.size() * 2 / 5) + 1;
@@ -59,7 +60,7 @@ std::string nearestKeyAdvice(std::string_view key, std::span<const std::string_v
   if (!nearest.empty()) {
     return "did you mean '" + std::string(nearest) + "'?";
   }
-  return fmt::format("one of: {}", fmt::join(known, " "));
+  return otherwise.empty() ? fmt::format("one of: {}", fmt::join(known, " ")) : std::string(otherwise);
 }
 
 }  // namespace speculum

@@ -24,7 +24,9 @@ class InputError : public std::runtime_error {
 std::string readInputText(const std::filesystem::path& file, std::string_view right, uintmax_t most = 1u << 30);
 
 // Returns the advice of an error about an unknown key: "did you mean 'x'?" for the known key with the least edit
-// distance (Levenshtein 1966) when that is at most two fifths of the key's length, or 1, else the list of known keys.
-std::string nearestKeyAdvice(std::string_view key, std::span<const std::string_view> known);
+// distance (Levenshtein 1966) when that is at most two fifths of the key's length, or 1, else `otherwise`, or the list
+// of known keys where that is empty.
+std::string nearestKeyAdvice(std::string_view key, std::span<const std::string_view> known,
+                             std::string_view otherwise = {});
 
 }  // namespace speculum

@@ -423,6 +423,19 @@ std::optional<fs::path> shippedScene(const fs::path& wanted) {
   return std::nullopt;
 }
 
+std::vector<std::string> shippedSceneNames() {
+  const fs::path folder = dataDirectory("scenes");
+  std::vector<std::string> names;
+  std::error_code none;  // an installation without scenes has no names
+  for (const auto& entry : fs::recursive_directory_iterator(folder, none)) {
+    if (entry.path().extension() == ".toml") {
+      names.push_back(entry.path().lexically_relative(folder).replace_extension().generic_string());
+    }
+  }
+  std::ranges::sort(names);
+  return names;
+}
+
 Scene modelScene(const fs::path& file, const LoadProgress& progress) {
   std::vector<Texture> textures;
   Model model = loadModel(file, textures, progress);

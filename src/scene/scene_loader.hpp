@@ -5,6 +5,7 @@
 #include <set>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "scene/input_error.hpp"
 #include "scene/model_files.hpp"
@@ -46,6 +47,9 @@ bool isSceneFile(const std::filesystem::path& file);
 // Finds a scene or model that comes with the program: by its name, such as "gallery", or by its path within the
 // program's data. Returns nothing if there is no such file.
 std::optional<std::filesystem::path> shippedScene(const std::filesystem::path& wanted);
+
+// Returns the names of the shipped scenes as --scene takes them, such as hard/corner, sorted.
+std::vector<std::string> shippedSceneNames();
 
 // Makes a scene that shows a model of any size by itself: the model stands still over a round mirror, below a sky, and
 // two lights leave no side of it dark. Throws InputError, also for a bounding sphere whose radius is not within 1e-9 ..

@@ -151,8 +151,11 @@ std::filesystem::path findScene(const std::string& wanted) {
     return *shipped;
   }
   const bool folder = type == fs::file_type::directory;
-  throw UsageError(fmt::format("--scene: {}'{}'{} (a scene file, a model, or a name from speculum scenes)",
-                               folder ? "" : "there is no file ", wanted, folder ? " is a folder" : ""));
+  const std::vector<std::string> shipped = shippedSceneNames();
+  throw UsageError(fmt::format("--scene: {}'{}'{} ({})", folder ? "" : "there is no file ", wanted,
+                               folder ? " is a folder" : "",
+                               nearestKeyAdvice(wanted, std::vector<std::string_view>(shipped.begin(), shipped.end()),
+                                                "a scene file, a model, or a name from speculum scenes")));
 }
 
 Settings settingsOf(const Scene& scene, const Options& options) {

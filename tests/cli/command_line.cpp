@@ -107,6 +107,8 @@ INSTANTIATE_TEST_SUITE_P(
         UsageCase{{"--secne", "gallery"}, "'--secne' is not an option of speculum (did you mean '--scene'?)"},
         UsageCase{{"rendr", "--out", "x.png"}, "'rendr' is not a command (did you mean 'render'?)"},
         UsageCase{{"LICENSE"}, "'LICENSE' is not a command (one of"},
+        UsageCase{{"galery"}, "'galery' is not a command (did you mean 'gallery'?)"},
+        UsageCase{{"render", "--scene", "galery", "--out", "x.png"}, "no file 'galery' (did you mean 'gallery'?)"},
         UsageCase{{"frobnicate"}, "'frobnicate' is not a command (one of: demo render"},
         UsageCase{{"render", "--out", "/nowhere/at/all.png", "--size", "8x8", "--scene", "no_mirror"},
                   "/nowhere/at/all.png"},
