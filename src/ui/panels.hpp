@@ -68,7 +68,7 @@ struct PanelState {
   bool editing = false;               // a continued EditNode has not ended
   bool setting = false;               // the widget of the last SetSettings is held
   bool showDifference = false;
-  float errorGain = 1.0f;  // factor on the errors of the difference map
+  float errorGain = 10.0f;  // factor on the errors of the difference map, of which most are small
 
   struct Targets {
     std::optional<MirrorPath> path;  // mirrors from the eye of the pass that is shown

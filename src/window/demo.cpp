@@ -328,7 +328,10 @@ void Demo::report(const RecordedFrame& frame) {
   const auto pixels = [this](int of) { return halves_.at(of).pixels(); };
   const auto picture = std::function([&] { return pixels(index); });
   const std::optional<Image8> captured = saved_ ? std::optional(pictureOf(renderer_.readback())) : std::nullopt;
-  workspace_.frameDrawn({frame.scene, frame.state, frame.settings, frame.plan.width, frame.plan.height},
+  // A mean may be complete with fewer pictures, where it has converged.
+  const int pictures =
+      half.pace.completeStill() ? frame.settings.view.accumulate : std::max(half.renderer->accumulated(), 1);
+  workspace_.frameDrawn({frame.scene, frame.state, frame.settings, frame.plan.width, frame.plan.height, pictures},
                         endsPicture(frame.plan) && !frame.plan.encodes ? picture : nullptr,
                         captured ? &*captured : nullptr, index);
   if (halves_.split()) {

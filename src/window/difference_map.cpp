@@ -48,8 +48,7 @@ bool DifferenceMap::reset() {
   view_.reset();
   compared_.reset();
   problem_.clear();
-  mirrorErrors_.clear();
-  return std::exchange(map_, Plane2d()).width > 0;
+  return std::exchange(result_, {}).map.width > 0;
 }
 
 void DifferenceMap::stop() {
@@ -70,25 +69,22 @@ void DifferenceMap::startTracing(const ShownPicture& shown) {
 }
 
 void DifferenceMap::startComparing(const ShownPicture& shown, Image8 image) {
-  comparing_.start(0.0, [truth = truth_, drawn = std::move(image), settings = shown.settings,
-                         state = shown.state](const auto&) {
-    Plane2d map;
-    ErrorFigures errors;
-    inBackground([&] { errors = errorsAgainst(*truth, drawn, settings, &map); });
-    std::vector<double> mirrorErrors = errorsOfMirrors(map, PictureView(state.camera, map.width, map.height), state);
-    return Compared{settings, std::move(map), errors.whole, std::move(mirrorErrors)};
+  comparing_.start(0.0, [truth = truth_, drawn = std::move(image), settings = shown.settings, state = shown.state,
+                         pictures = shown.pictures](const auto&) {
+    Compared result{.pictures = pictures, .wanted = settings.view.accumulate};
+    Plane2d& map = result.map;
+    inBackground([&] { result.metrics = errorsAgainst(*truth, drawn, settings, &map).whole; });
+    result.mirrorErrors = errorsOfMirrors(map, PictureView(state.camera, map.width, map.height), state);
+    return result;
   });
 }
 
-// Takes finished work. Returns true for a new heat map; drops a map whose settings have changed meanwhile.
+// Takes finished work. Returns true for a new heat map.
 bool DifferenceMap::collect() {
-  bool fresh = false;
-  if (std::optional<Compared> result = comparing_.takeResult(); result && result->settings == compared_) {
-    map_ = std::move(result->map);
-    metrics_ = result->metrics;
-    pictures_ = result->settings.view.accumulate;
-    mirrorErrors_ = std::move(result->mirrorErrors);
-    fresh = true;
+  std::optional<Compared> result = comparing_.takeResult();
+  const bool fresh = result.has_value();
+  if (fresh) {
+    result_ = std::move(*result);
   }
   // A finer reference waits until the comparison with the last one ends.
   if (tracing_.hasResult() && !comparing_.busy()) {
@@ -128,8 +124,9 @@ bool DifferenceMap::update(const ShownPicture& shown, const std::function<Image8
   if (lacksReference() && !tracing_.busy() && Clock::now() - still_ > stillFor) {
     startTracing(shown);
   }
-  if (truth_ && shown.settings != compared_ && !comparing_.busy()) {
-    compared_ = shown.settings;
+  if (const std::pair picture(shown.settings, shown.pictures >= shown.settings.view.accumulate);
+      truth_ && picture != compared_ && !comparing_.busy()) {
+    compared_ = picture;
     startComparing(shown, image());
   }
   return fresh;
@@ -143,10 +140,12 @@ std::string DifferenceMap::status() const {
   if (!problem_.empty()) {
     return problem_;
   }
-  if (map_.width > 0) {
-    const std::string shown = pictures_ == 1 ? "one picture" : fmt::format("the mean of {} pictures", pictures_);
+  const auto& [pictures, wanted, map, metrics, mirrorErrors] = result_;
+  if (map.width > 0) {
+    const std::string count = pictures < wanted ? fmt::format("{} of {}", pictures, wanted) : fmt::format("{}", wanted);
+    const std::string shown = wanted == 1 ? "one picture" : fmt::format("the mean of {} pictures", count);
     return fmt::format("Mean FLIP of {}: {}. RMSE {:.4f}, largest difference {:.0f}/255{}", shown,
-                       significant(metrics_.flip, 3), metrics_.rmse, metrics_.maxDiff,
+                       significant(metrics.flip, 3), metrics.rmse, metrics.maxDiff,
                        tracing_.busy() || comparing_.busy() ? " (a finer reference is on its way)" : "");
   }
   if (tracing_.busy() && !truth_) {

@@ -14,10 +14,11 @@ struct ShownPicture {
   const Settings& settings;
   int width = 0;  // pixels
   int height = 0;
+  int pictures = 1;  // in the mean that is shown, of settings.view.accumulate
 };
 
 // Heat map of the FLIP error of a still picture of the window against the ray-traced reference. Tracing and comparing
-// run on other threads; any motion restarts them.
+// run on other threads; any motion restarts them. A mean of pictures is compared again once it is complete.
 class DifferenceMap {
  public:
   // Call once a frame, after it is drawn. `image` returns the pixels of its picture (display sRGB) and is called only
@@ -27,17 +28,18 @@ class DifferenceMap {
   bool reset();
   void stop();  // as reset(), but waits for running work
 
-  const Plane2d& map() const { return map_; }  // FLIP error by pixel; without pixels until there is a result
+  const Plane2d& map() const { return result_.map; }  // FLIP error by pixel; without pixels until there is a result
   const std::shared_ptr<const GroundTruth>& reference() const { return truth_; }  // of the view; null: not traced yet
   // By mirror: the mean error within its outline, NaN if the eye does not see it; empty without map().
-  const std::vector<double>& mirrorErrors() const { return mirrorErrors_; }
+  const std::vector<double>& mirrorErrors() const { return result_.mirrorErrors; }
   bool working() const;        // update() has work left although nothing changes
   std::string status() const;  // text for the user: the error, or the work that is running
 
  private:
   using Clock = std::chrono::steady_clock;
   struct Compared {
-    Settings settings;
+    int pictures = 1;  // in the mean that was compared
+    int wanted = 1;    // in the complete mean
     Plane2d map;
     ImageMetrics metrics;
     std::vector<double> mirrorErrors;
@@ -62,17 +64,14 @@ class DifferenceMap {
   bool lacksReference() const;
 
   std::optional<View> view_;
-  bool plays_ = false;                // the last change of the view was one of the time
-  std::optional<Settings> compared_;  // settings of the picture compared last
-  Clock::time_point still_;           // since when the view has not changed
+  bool plays_ = false;                                 // the last change of the view was one of the time
+  std::optional<std::pair<Settings, bool>> compared_;  // of the picture compared last; whether its mean was complete
+  Clock::time_point still_;                            // since when the view has not changed
   BackgroundJob<Truth> tracing_;
   BackgroundJob<Compared> comparing_;
   size_t traced_ = 0;  // number of references that are finished
   Truth truth_;
-  Plane2d map_;
-  ImageMetrics metrics_;
-  int pictures_ = 1;  // number of pictures in the mean that was compared
-  std::vector<double> mirrorErrors_;
+  Compared result_;
   std::string problem_;  // error that ended the work
 };
 

@@ -1959,7 +1959,7 @@ TEST_F(AccuracyWindow, MeasurementIsStartedAndCancelled) {
 TEST_F(AccuracyWindow, DifferenceEndsWithTheWindow) {
   click("accuracy.difference", 0.05);
   EXPECT_TRUE(run(2).errorGain && output_.points);
-  EXPECT_TRUE(shows("Error map, gain 1. A checkbox in Accuracy ends it."));
+  EXPECT_TRUE(shows("Error map, gain 10. A checkbox in Accuracy ends it."));
   toggle("Accuracy");
   EXPECT_FALSE(run(2).errorGain || output_.points);
   EXPECT_FALSE(shows("Error map"));
@@ -1971,7 +1971,7 @@ TEST_F(AccuracyWindow, DifferenceEndsWithTheWindow) {
 TEST_F(AccuracyWindow, GainIsInTheLegend) {
   resize(900, 1000);
   click("accuracy.difference", 0.05);
-  EXPECT_TRUE(shows("FLIP from 0, left, to 1 (gain 1)"));
+  EXPECT_TRUE(shows("FLIP from 0, left, to 0.1 and more (gain 10)"));
   for (const double by : {30.0, 60.0}) {
     drag("accuracy.gain", 0.05, by);
     const double gain = run(2).errorGain.value();

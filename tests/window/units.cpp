@@ -53,6 +53,38 @@ TEST(DifferenceMap, ErrorsOfMirrorsAreWithinTheirOutlines) {
   EXPECT_TRUE(difference.mirrorErrors().empty());
 }
 
+TEST(DifferenceMap, CompleteMeanIsComparedAgain) {
+  Scene scene;
+  scene.environment.background = glm::dvec3(1.0);
+  scene.camera.target = {0, 0, -1};
+  const SceneState state = evaluate(scene, 0.0);
+  Settings settings;
+  settings.view.accumulate = 64;
+  ShownPicture shown{scene, state, settings, 96, 54, 2};
+  DifferenceMap difference;
+  const auto statusWith = [&](uint8_t code) {
+    Image8 picture(96, 54);
+    std::ranges::fill(picture.rgba, code);
+    bool fresh = false;
+    EXPECT_TRUE(waitFor([&] {
+      fresh = fresh || difference.update(
+                           shown, [&] { return picture; }, 4);
+      return fresh;
+    }));
+    return difference.status();
+  };
+  const std::string partial = statusWith(0);
+  EXPECT_TRUE(startsWith(partial, "Mean FLIP of the mean of 2 of 64 pictures: 0.967. RMSE 1.0000")) << partial;
+  shown.pictures = 3;
+  difference.update(
+      shown, [] { return Image8(96, 54); }, 4);
+  EXPECT_FALSE(difference.working()) << "nothing to compare until it is complete";
+  shown.pictures = 64;
+  const std::string complete = statusWith(255);
+  EXPECT_TRUE(startsWith(complete, "Mean FLIP of the mean of 64 pictures: 0. RMSE 0.0000")) << complete;
+  difference.stop();
+}
+
 TEST(DifferenceMap, OnlyAnimationsAreToBePaused) {
   Scene scene;
   scene.camera.target = {0.0, 0.0, -1.0};
