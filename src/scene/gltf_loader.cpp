@@ -112,8 +112,6 @@ class GltfReader {
     return model;
   }
 
-  bool hasLinesOrPoints() const { return hasLinesOrPoints_; }
-
  private:
   ModelDefects::Kind& add(std::string_view key, std::string_view kind, int index) {
     return defects_.add(file_, 1, key, kind, std::to_string(index));
@@ -170,8 +168,7 @@ class GltfReader {
   void addPrimitive(const tinygltf::Primitive& primitive, int mesh, const glm::dmat4& sceneFromNode) {
     const auto leaveOut = [&](std::string_view kind) { add("meshes", kind, mesh).costsTriangles = true; };
     if (primitive.mode >= TINYGLTF_MODE_POINTS && primitive.mode <= TINYGLTF_MODE_LINE_STRIP) {
-      hasLinesOrPoints_ = true;
-      add("meshes", "mesh {} has lines or points, they are left out", mesh);
+      leaveOut("mesh {} has lines or points, they are left out");
       return;
     }
     const auto position = primitive.attributes.find("POSITION");
@@ -403,19 +400,9 @@ class GltfReader {
   int positions_ = -1;                                    // accessor of the last primitive's positions
   std::map<std::pair<int, int>, std::optional<std::vector<double>>> read_;  // with it, by accessor and components
   std::vector<int> placeOf_;  // by vertex, among those that a primitive names; -1 between primitives
-  bool hasLinesOrPoints_ = false;
   GltfPlaced camera_;
   std::vector<GltfPlaced> lights_;
 };
-
-[[noreturn]] void throwNothingToDraw(const fs::path& file, bool hasLinesOrPoints, const ModelDefects& defects) {
-  if (const auto lost = defects.lostTriangles(); lost && !hasLinesOrPoints) {
-    throw InputError(*lost + " (no triangle is left to draw)");
-  }
-  throwInputError(file, 1, "meshes",
-                  hasLinesOrPoints ? "the model has lines or points, but no triangle" : "the model has no triangle",
-                  "at least one triangle with an area is needed");
-}
 
 }  // namespace
 
@@ -439,7 +426,10 @@ Model loadGltf(const fs::path& file, std::vector<Texture>& textures, const LoadP
   }
   mesh.defects = defects.report();
   if (mesh.indices.empty()) {
-    throwNothingToDraw(file, reader.hasLinesOrPoints(), defects);
+    if (const auto lost = defects.lostTriangles()) {
+      throw InputError(*lost + " (no triangle is left to draw)");
+    }
+    throwInputError(file, 1, "meshes", "the model has no triangle", "at least one triangle with an area is needed");
   }
   return model;
 }

@@ -222,8 +222,7 @@ TEST_F(GltfLoader, LinesAndPointsAreLeftOut) {
   made.add("nodes", {{"mesh", 0}});
   made.addMesh({{"POSITION", positions}}, {{"mode", 1}});
   EXPECT_EQ(faultOf(made.text()),
-            "m.gltf:1: meshes: the model has lines or points, but no triangle (at least one triangle "
-            "with an area is needed)");
+            "m.gltf:1: meshes: mesh 0 has lines or points, they are left out (no triangle is left to draw)");
   made.root["meshes"][0]["primitives"].push_back({{"attributes", {{"POSITION", positions}}}});
   made.root["meshes"][0]["primitives"].push_back({{"attributes", {{"POSITION", positions}}}, {"mode", 0}});
   EXPECT_EQ(meshOf(made).defects,
