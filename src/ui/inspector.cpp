@@ -153,25 +153,28 @@ void gizmoMode(PanelContext& ui) {
   ImGui::NewLine();
 }
 
-// Draws a row for a key of a mirror's own quality: a box, then the setting's widget, which shows the settings' value
-// while the box is not checked. Returns true if the user changed anything.
+// Draws a row for a key of a mirror's own quality: a box, then the setting's widget, which shows the settings' value in
+// grey while the box is not checked. A change of the value checks it. Returns true if the user changed anything.
 template <typename T>
 bool qualityRow(PanelContext& ui, const std::string& name, std::optional<T>& own, T ReflectionSettings::*member) {
   const std::string key = "reflection." + name;
   const std::optional<T> before = own;
-  Settings shown = ui.settings;
-  shown.reflection.*member = own.value_or(shown.reflection.*member);
   bool on = own.has_value();
   ImGui::PushID(name.c_str());
   ImGui::Checkbox("##own", &on);
   recordWidget(ui, "edit.quality." + name, "Checked: this mirror's own value. Else that of the settings.");
   ImGui::SameLine();
-  ImGui::BeginDisabled(!on);
+  Settings shown = ui.settings;
+  T& value = shown.reflection.*member;
+  value = on ? own.value_or(value) : value;
+  const ImGuiStyle& style = ImGui::GetStyle();
+  ImGui::PushStyleVar(ImGuiStyleVar_Alpha, style.Alpha * (on ? 1.0f : style.DisabledAlpha));
   settingWidget(ui, *findSettingField(key), shown);
-  ImGui::EndDisabled();
+  ImGui::PopStyleVar();
+  on = on || value != ui.settings.reflection.*member;
   recordWidget(ui, "edit.quality." + name + ".value", settingHelp(key));
   ImGui::PopID();
-  own = on ? std::optional(shown.reflection.*member) : std::nullopt;
+  own = on ? std::optional(value) : std::nullopt;
   return own != before;
 }
 

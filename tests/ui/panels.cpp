@@ -1681,6 +1681,19 @@ TEST_F(Inspector, MirrorsHaveAQualityOfTheirOwn) {
   EXPECT_EQ(settings_.reflection.scale, 0.75) << "the settings stay";
 }
 
+TEST_F(Inspector, DraggedQualityBecomesItsOwn) {
+  appliesEdits_ = true;
+  selectMirror(0);
+  click("edit.quality", 0.1);
+  run(3);
+  const PixelRect slider = widget("edit.quality.scale.value");
+  dragFrom(slider.x + 0.3 * slider.width, slider.y + 0.5 * slider.height, -0.2 * slider.width);
+  EXPECT_LT(scene_.mirrors[0].quality.scale.value_or(1.0), 1.0);
+  EXPECT_EQ(settings_.reflection.scale, sceneSettings_.reflection.scale) << "the settings stay";
+  click("edit.quality.scale", 0.5);
+  EXPECT_FALSE(scene_.mirrors[0].quality.scale);
+}
+
 TEST_F(Inspector, MirrorsShowTheirError) {
   selectMirror(1);
   EXPECT_FALSE(output_.errorGain);
