@@ -196,11 +196,12 @@ TEST_P(WindowStep, ResizesAndMinimises) {
   window = window.substr(0, window.find('\n'));
   const auto frames = [] { std::this_thread::sleep_for(std::chrono::milliseconds(150)); };
   for (const std::vector<std::string>& action :
-       std::vector<std::vector<std::string>>{{"windowsize", window, "417", "261"},
+       std::vector<std::vector<std::string>>{{"windowsize", window, "211", "130"},
                                              {"windowminimize", window},
                                              {"windowmap", window},
                                              {"windowsize", window, "1", "130"},
-                                             {"windowsize", window, "211", "130"}}) {
+                                             // larger than before, and than the OffScreen of `offscreen`
+                                             {"windowsize", window, "613", "261"}}) {
     frames();
     const ProcessResult done = xdotool(action);
     ASSERT_EQ(done.exitCode, 0) << action.front() << ": " << done.output;
