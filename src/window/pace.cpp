@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <string_view>
 #include <utility>
 
 #include "plan/pass_mask.hpp"
@@ -35,6 +37,8 @@ constexpr double tilesShare = 2.0;        // budgets for a frame with tiles and 
 constexpr double untouchedWait = 6.0;     // budgets instead of these two for a view that nobody touches
 constexpr double untouchedSeconds = 0.5;  // without input, after which nobody does
 constexpr double leastShare = 0.1;  // least share of the time of a frame with tiles that counts as time of its tiles
+// Passes that each frame has, however few tiles it draws.
+constexpr std::array<std::string_view, 3> besideTiles = {"display", "debug view", "overlay"};
 constexpr size_t mostDrawn = 4;     // frames whose times have not arrived
 constexpr size_t sentFrames = 8;    // at least one of so many frames does not wait for the monitor
 constexpr int framesToKnow = 5;     // timed moving frames after which it is known what playing costs
@@ -329,7 +333,7 @@ void Pace::planPicture(const Request& request, State state) {
 
 void Pace::planTiles(const Request& request) {
   const double pixels = static_cast<double>(request.shown.size.x) * request.shown.size.y;
-  besidesMs_ = cpuMs_ + panelsMs_ + sendMs() + controller_.predict({.displayTexels = pixels});
+  besidesMs_ = cpuMs_ + sendMs() + shownMs_.value_or(controller_.predict({.displayTexels = pixels}));
   const double most = (request.input ? 1.0 : longestFrame(tilesShare)) * request.budgetMs;
   // At least half of the time goes to the tiles, whatever the rest of a frame takes.
   fitted_.plan.tiles = slow_.next(std::max(most - besidesMs_, besidesMs_), request.input);
@@ -384,10 +388,10 @@ void Pace::finished(const FrameTimings& timings) {
   }
   double tilesMs = 0.0;
   for (const PassTiming& pass : timings.passes) {
-    tilesMs += pass.gpuMs;
+    tilesMs += std::ranges::find(besideTiles, pass.name) != besideTiles.end() ? 0.0 : pass.gpuMs;
   }
   if (!timings.passes.empty()) {
-    panelsMs_ = std::max(timings.gpuMs - tilesMs, 0.0);
+    shownMs_ = std::max(timings.gpuMs - tilesMs, 0.0);
   }
   const double sum = found->cpuMs + timings.gpuMs + sendMs();
   const bool overlaps = !cpuDevice_ && !drawsTiles() && found->waitedMs == 0.0;

@@ -299,9 +299,9 @@ class Pace {
   std::string draft_;              // what the draft gives up; empty: none was needed
   std::optional<double> refined_;  // share of the mean's tiles that its next picture is drawn for; none: not decided
   std::string text_;
-  bool long_ = false;      // the planned frame is a still picture that takes longer than the budget
-  double cpuMs_ = 0.0;     // of the last frame
-  double panelsMs_ = 0.0;  // the GPU's, of the last frame whose passes were timed: without these
+  bool long_ = false;              // the planned frame is a still picture that takes longer than the budget
+  double cpuMs_ = 0.0;             // of the last frame
+  std::optional<double> shownMs_;  // the GPU's for picture and panels, of the last frame whose passes were timed
   // Expected milliseconds of a frame besides its tiles: the program, the display pass, panels, and sending the picture.
   double besidesMs_ = 0.0;
 };

@@ -919,9 +919,11 @@ class SlowPictures : public PacedScene {
     seconds_ = 0.0;
   }
   FittedPlan draw() {
-    pace_.finished(panelsMs_ > 0.0
-                       ? FrameTimings{.frame = number_, .gpuMs = ms_ + panelsMs_, .passes = {{.gpuMs = ms_}}}
-                       : FrameTimings{.frame = number_, .gpuMs = ms_});
+    FrameTimings timings{.frame = number_, .gpuMs = ms_ + panelsMs_};
+    if (panelsMs_ > 0.0) {
+      timings.passes = {{.name = "main view", .gpuMs = ms_}, {.name = "overlay", .gpuMs = panelsMs_}};
+    }
+    pace_.finished(timings);
     const FittedPlan fitted = frame();
     const TileRange tiles = tilesOfPasses(fitted.plan)[0];
     ms_ = 0.0;
