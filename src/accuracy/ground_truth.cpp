@@ -3,7 +3,6 @@
 #include <tbb/task_arena.h>
 
 #include <chrono>
-#include <cmath>
 
 #include "image/image.hpp"
 #include "reference/ray_tracer.hpp"

@@ -8,6 +8,7 @@
 #include "accuracy/pareto.hpp"
 #include "accuracy/sweep_json.hpp"
 #include "image/picture_files.hpp"
+#include "platform/text.hpp"
 
 namespace speculum {
 

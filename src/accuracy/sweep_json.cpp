@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "platform/files.hpp"
-#include "scene/scene_loader.hpp"
+#include "scene/input_error.hpp"
 
 namespace speculum {
 

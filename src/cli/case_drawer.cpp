@@ -4,7 +4,6 @@
 
 #include "cli/commands.hpp"
 #include "image/picture_files.hpp"
-#include "regress/picture_check.hpp"
 
 namespace speculum {
 

@@ -1,5 +1,6 @@
 #include <nlohmann/json.hpp>
 
+#include "accuracy/sweep_json.hpp"
 #include "cli/commands.hpp"
 #include "cli/stats.hpp"
 #include "compare/compared_image.hpp"

@@ -8,7 +8,6 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "image/image.hpp"
 #include "image/picture_files.hpp"
 #include "platform/text.hpp"
 

@@ -13,8 +13,6 @@
 #include <string_view>
 #include <utility>
 
-#include "image/image.hpp"
-
 namespace speculum {
 
 namespace {

@@ -5,12 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
-#include <optional>
-#include <span>
-#include <string>
 #include <type_traits>
 #include <utility>
-#include <vector>
 
 #include "platform/bytes.hpp"
 #include "platform/files.hpp"

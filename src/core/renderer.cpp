@@ -1,6 +1,5 @@
 #include "core/renderer.hpp"
 
-#include <algorithm>
 #include <chrono>
 #include <stdexcept>
 

@@ -8,7 +8,6 @@
 #include <stdexcept>
 
 #include "platform/bytes.hpp"
-#include "platform/files.hpp"
 #include "platform/process.hpp"
 
 namespace speculum {

@@ -1,10 +1,8 @@
 #include "geometry/convex_mesh.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <glm/gtx/component_wise.hpp>
-#include <map>
 #include <optional>
 
 #include "geometry/bvh.hpp"

@@ -2,7 +2,6 @@
 
 #include <meshoptimizer.h>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 

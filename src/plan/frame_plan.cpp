@@ -1,17 +1,13 @@
 #include "plan/frame_plan.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <iterator>
 
 #include "plan/cube_face.hpp"
 #include "plan/image_reuse.hpp"
 #include "plan/mirror_search.hpp"
 #include "plan/mirror_sight.hpp"
-#include "plan/refined_tiles.hpp"
 #include "plan/shadow_map.hpp"
-#include "plan/view.hpp"
 
 namespace speculum {
 

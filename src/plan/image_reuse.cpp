@@ -2,9 +2,6 @@
 
 #include <algorithm>
 #include <optional>
-#include <utility>
-
-#include "plan/scene_changes.hpp"
 
 namespace speculum {
 

@@ -3,10 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <utility>
 
 #include "geometry/polygon.hpp"
-#include "plan/view.hpp"
 
 namespace speculum {
 

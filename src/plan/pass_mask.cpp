@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "plan/mirror_sight.hpp"
-
 namespace speculum {
 
 namespace {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <glm/glm.hpp>
-#include <optional>
 #include <vector>
 
 #include "plan/frame_plan.hpp"

@@ -1,7 +1,6 @@
 #include "plan/scene_changes.hpp"
 
 #include <algorithm>
-#include <bit>
 
 namespace speculum {
 

@@ -6,8 +6,6 @@
 #include <glm/gtx/component_wise.hpp>
 #include <tuple>
 
-#include "geometry/polygon.hpp"
-
 namespace speculum {
 
 namespace {

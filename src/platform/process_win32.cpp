@@ -5,7 +5,6 @@
 #include <array>
 #include <atomic>
 #include <cctype>
-#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>

@@ -2,12 +2,10 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
 #include <tuple>
-#include <utility>
 
 namespace speculum {
 

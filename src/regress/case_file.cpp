@@ -8,7 +8,6 @@
 #include <map>
 #include <stdexcept>
 #include <string_view>
-#include <vector>
 
 #include "accuracy/sweep_planner.hpp"
 #include "platform/files.hpp"

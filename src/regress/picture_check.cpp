@@ -5,9 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "compare/compared_image.hpp"
 #include "compare/image_metrics.hpp"
-#include "compare/picture_agreement.hpp"
 #include "image/picture_files.hpp"
 
 namespace speculum {

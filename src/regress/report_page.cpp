@@ -11,7 +11,6 @@
 #include "image/picture_files.hpp"
 #include "platform/files.hpp"
 #include "platform/text.hpp"
-#include "regress/picture_check.hpp"
 
 namespace speculum {
 

@@ -9,8 +9,6 @@
 #include <cmath>
 #include <glm/gtx/component_wise.hpp>
 #include <map>
-#include <set>
-#include <span>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
@@ -18,10 +16,8 @@
 
 #include "platform/files.hpp"
 #include "platform/text.hpp"
-#include "scene/input_error.hpp"
 #include "scene/material_mirrors.hpp"
 #include "scene/materials.hpp"
-#include "scene/model_files.hpp"
 #include "scene/scene_sections.hpp"
 #include "scene/text_lines.hpp"
 #include "scene/toml_file.hpp"

@@ -6,7 +6,6 @@
 #include <limits>
 #include <map>
 #include <stdexcept>
-#include <vector>
 
 #include "geometry/bvh.hpp"
 #include "geometry/polygon.hpp"

@@ -5,7 +5,6 @@
 #include <numbers>
 #include <numeric>
 
-#include "plan/mirror_sight.hpp"
 #include "scene/material_mirrors.hpp"
 
 namespace speculum {

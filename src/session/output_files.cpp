@@ -2,8 +2,6 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include <vector>
-
 #include "platform/files.hpp"
 
 namespace speculum {

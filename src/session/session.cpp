@@ -10,7 +10,6 @@
 #include "platform/process.hpp"
 #include "platform/text.hpp"
 #include "scene/input_error.hpp"
-#include "scene/scene_loader.hpp"
 #include "session/output_files.hpp"
 #include "settings/setting_fields.hpp"
 

@@ -9,7 +9,6 @@
 #include <string>
 
 #include "accuracy/pareto.hpp"
-#include "plan/effects.hpp"
 #include "scene/scene_loader.hpp"
 #include "session/frame_planner.hpp"
 #include "session/options.hpp"

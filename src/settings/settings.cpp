@@ -8,7 +8,6 @@
 #include "platform/text.hpp"
 #include "scene/input_error.hpp"
 #include "scene/text_lines.hpp"
-#include "scene/value_range.hpp"
 #include "settings/setting_fields.hpp"
 
 namespace speculum {

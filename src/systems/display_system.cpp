@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <glm/gtc/packing.hpp>
 
-#include "image/image.hpp"
 #include "shaders/gpu_data.h"
 #include "systems/gpu_conversion.hpp"
 

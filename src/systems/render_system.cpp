@@ -1,7 +1,6 @@
 #include "systems/render_system.hpp"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <utility>
 

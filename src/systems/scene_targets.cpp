@@ -1,7 +1,6 @@
 #include "systems/scene_targets.hpp"
 
 #include <algorithm>
-#include <utility>
 
 #include "plan/target_memory.hpp"
 #include "scene/scene.hpp"

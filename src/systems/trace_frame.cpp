@@ -10,7 +10,6 @@
 #include "geometry/affine.hpp"
 #include "geometry/polygon.hpp"
 #include "plan/cube_face.hpp"
-#include "plan/mirror_sight.hpp"
 #include "scene/material_mirrors.hpp"
 #include "scene/scene_state.hpp"
 #include "systems/frame_data.hpp"
