@@ -31,11 +31,10 @@ std::vector<Share> sharesOf(int texel, int count, int size) {
 constexpr uint32_t clusterIndices = 3 * 64;
 constexpr size_t fewestClusters = 8;
 
-MeshCluster clusterOf(std::span<const Vertex> vertices, std::span<const uint32_t> indices, uint32_t first,
-                      uint32_t count) {
+MeshCluster clusterOf(const Mesh& mesh, uint32_t first, uint32_t count) {
   Bounds box;
   for (uint32_t i = first; i < first + count; ++i) {
-    box.add(vertices[indices[i]].position);
+    box.add(mesh.vertices[mesh.indices[i]].position);
   }
   return {first, count, box.center(), 0.5 * (box.high - box.low)};
 }
@@ -273,26 +272,13 @@ void sortIntoClusters(Mesh& mesh) {
 }
 
 std::vector<MeshCluster> clustersOf(const Mesh& mesh) {
-  std::vector<IndexRange> parts;
-  for (const MeshPart& part : mesh.parts) {
-    parts.push_back({part.firstIndex, part.indexCount});
-  }
-  return clustersOf(mesh.vertices, mesh.indices, parts);
-}
-
-std::vector<MeshCluster> clustersOf(std::span<const Vertex> vertices, std::span<const uint32_t> indices,
-                                    std::span<const IndexRange> parts) {
   std::vector<MeshCluster> clusters;
-  uint32_t count = 0;
-  for (const IndexRange& part : parts) {
-    count += part.count;
-  }
-  if (count < fewestClusters * clusterIndices) {
+  if (mesh.indices.size() < fewestClusters * clusterIndices) {
     return clusters;
   }
-  for (const IndexRange& part : parts) {
-    for (uint32_t done = 0; done < part.count; done += clusterIndices) {
-      clusters.push_back(clusterOf(vertices, indices, part.first + done, std::min(clusterIndices, part.count - done)));
+  for (const MeshPart& part : mesh.parts) {
+    for (uint32_t done = 0; done < part.indexCount; done += clusterIndices) {
+      clusters.push_back(clusterOf(mesh, part.firstIndex + done, std::min(clusterIndices, part.indexCount - done)));
     }
   }
   return clusters;

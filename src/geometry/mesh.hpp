@@ -180,9 +180,6 @@ void sortIntoClusters(Mesh& mesh);
 // Cuts the mesh's triangles in their order into clusters of 64. Returns none for a mesh that is too small to gain by
 // clusters.
 std::vector<MeshCluster> clustersOf(const Mesh& mesh);
-// Cuts triangles that are not a Mesh into clusters in the same way; `parts` are ranges of `indices`.
-std::vector<MeshCluster> clustersOf(std::span<const Vertex> vertices, std::span<const uint32_t> indices,
-                                    std::span<const IndexRange> parts);
 
 constexpr size_t mostSolidTriangles = 1 << 18;
 

@@ -110,10 +110,7 @@ glm::dvec3 reflectanceBound(const MirrorOptics& optics, const Plane& plane, cons
   if (optics.fresnel == Fresnel::none) {
     return optics.reflectance;
   }
-  double farthest = 0.0;
-  for (const glm::dvec3& p : visible) {
-    farthest = std::max(farthest, glm::length(p - eye));
-  }
+  const double farthest = farthestDistance(eye, visible);
   return optics.reflectanceAt(farthest > 0.0 ? plane.distance(eye) / farthest : 1.0);
 }
 

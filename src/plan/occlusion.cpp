@@ -106,10 +106,7 @@ Occlusion::Occlusion(const Scene& scene, const SceneState& state, const Settings
                      const Projection& projection, const Bvh& mirrors)
     : scene_(scene), state_(state), settings_(settings), projection_(projection), hierarchy_(mirrors) {
   for (const MirrorState& mirror : state.mirrors) {
-    double size = 0.0;
-    for (const glm::dvec3& p : mirror.polygon) {
-      size = std::max(size, glm::length(p - mirror.polygon[0]));
-    }
+    const double size = farthestDistance(mirror.polygon[0], mirror.polygon);
     const std::vector<glm::dvec3>& piece = mirror.piece(0);
     mirrors_.push_back({.occluder = flatOccluder(piece, newellVector(piece), size)});
   }
