@@ -1,11 +1,12 @@
 #include "scene/toml_file.hpp"
 
-#include <spdlog/fmt/fmt.h>
+#include <spdlog/fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <ranges>
 
 #include "platform/text.hpp"
 #include "scene/input_error.hpp"
@@ -184,11 +185,8 @@ std::string tomlText(const glm::dvec3& value) {
 }
 
 std::string tomlText(const std::vector<glm::dvec3>& values) {
-  std::string text;
-  for (const glm::dvec3& value : values) {
-    text += (text.empty() ? "" : ", ") + tomlText(value);
-  }
-  return "[" + text + "]";
+  const auto text = [](const glm::dvec3& value) { return tomlText(value); };
+  return fmt::format("[{}]", fmt::join(values | std::views::transform(text), ", "));
 }
 
 std::string tomlText(bool value) {

@@ -1,6 +1,8 @@
 #include "session/options.hpp"
 
-#include <spdlog/fmt/fmt.h>
+#include <spdlog/fmt/ranges.h>
+
+#include <ranges>
 
 #include "platform/files.hpp"
 #include "platform/process.hpp"
@@ -66,11 +68,7 @@ std::string viewCommand(const Options& options, const std::filesystem::path& fil
   }
   addDevice(options, arguments);
   arguments.insert(arguments.end(), {"--out", scene.file.stem().string() + ".view.png"});
-  std::string text;
-  for (const std::string& argument : arguments) {
-    text += (text.empty() ? "" : " ") + shellWord(argument);
-  }
-  return text;
+  return fmt::format("{}", fmt::join(arguments | std::views::transform(shellWord), " "));
 }
 
 }  // namespace speculum

@@ -1,5 +1,6 @@
 #include "session/session.hpp"
 
+#include <spdlog/fmt/ranges.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
@@ -231,11 +232,8 @@ void applyDebugSettings(const Settings& settings, Device& device) {
   const std::string& name = settings.debug.omitBarrier;
   const std::optional<BarrierKind> kind = barrierFromName(name);
   if (!name.empty() && !kind) {
-    std::string names;
-    for (const BarrierKind known : allBarrierKinds()) {
-      names += (names.empty() ? "" : ", ") + std::string(barrierName(known));
-    }
-    throw UsageError("debug.omit_barrier: there is no barrier '" + name + "' (" + names + ")");
+    throw UsageError(fmt::format("debug.omit_barrier: there is no barrier '{}' ({})", name,
+                                 fmt::join(allBarrierKinds() | std::views::transform(barrierName), ", ")));
   }
   device.barriers().omit(kind);
 }
