@@ -309,6 +309,18 @@ Features featuresOf(Plane2d luminance) {
                   filterColumns(smoothRows, second, border))};
 }
 
+// Returns the structural similarity of every pixel, mean over RGB, on display values with data range 1: Wang, Bovik,
+// Sheikh, Simoncelli, "Image Quality Assessment: From Error Visibility to Structural Similarity" (2004), Gaussian
+// window with sigma 1.5 and 11 taps, population covariance, K1 = 0.01, K2 = 0.03. Sizes must be equal.
+Plane2d ssimMap(const ComparedImage& reference, const ComparedImage& test) {
+  requireSameSize(reference, test);
+  Plane2d sum(reference.width, reference.height);
+  for (int c = 0; c < 3; ++c) {
+    addChannel(channelOf(reference, c), channelOf(test, c), sum);
+  }
+  return sum;
+}
+
 }  // namespace
 
 Spread spreadOf(std::vector<double> values) {
@@ -362,15 +374,6 @@ std::string comparisonTable(const Comparison& comparison, double tolerance) {
          line("PSNR (dB)", "{:.3f}", &M::psnr) + line("SSIM", "{:.6f}", &M::ssim) + line("FLIP", "{:.6f}", &M::flip) +
          line("largest (1/255)", "{:.4g}", &M::maxDiff) + line("99th perc. (1/255)", "{:.4g}", &M::p99Diff) +
          line(fmt::format("pixels over {:g}/255", tolerance), "{}", &M::pixelsOver);
-}
-
-Plane2d ssimMap(const ComparedImage& reference, const ComparedImage& test) {
-  requireSameSize(reference, test);
-  Plane2d sum(reference.width, reference.height);
-  for (int c = 0; c < 3; ++c) {
-    addChannel(channelOf(reference, c), channelOf(test, c), sum);
-  }
-  return sum;
 }
 
 Plane2d flipMap(const ComparedImage& reference, const ComparedImage& test, std::vector<glm::dvec3>* perceived) {

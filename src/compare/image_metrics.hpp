@@ -31,7 +31,7 @@ struct ImageMetrics {
   double rmse = 0.0;          // root mean square over pixels and channels, linear [0, 1]
   double relativeRmse = 0.0;  // rmse / root mean square of the reference; infinite if only the reference is black
   double psnr = 0.0;          // dB, display sRGB [0, 1]; infinite for equal pictures
-  double ssim = 0.0;          // mean of ssimMap() without its border of ssimBorder pixels
+  double ssim = 0.0;          // mean structural similarity, without a border of ssimBorder pixels
   double flip = 0.0;          // mean of flipMap()
   double maxDiff = 0.0;       // 1/255, of the channel that differs most
   double p99Diff = 0.0;       // 1/255; 99 % of the pixels differ by no more (nearest rank)
@@ -62,11 +62,6 @@ Comparison compareImages(const ComparedImage& reference, const ComparedImage& te
 
 // Returns a table for the terminal: a line per metric, a column for the whole picture and one for the mask.
 std::string comparisonTable(const Comparison& comparison, double tolerance);
-
-// Returns the structural similarity of every pixel, mean over RGB, on display values with data range 1: Wang, Bovik,
-// Sheikh, Simoncelli, "Image Quality Assessment: From Error Visibility to Structural Similarity" (2004), Gaussian
-// window with sigma 1.5 and 11 taps, population covariance, K1 = 0.01, K2 = 0.03. Sizes must be equal.
-Plane2d ssimMap(const ComparedImage& reference, const ComparedImage& test);
 
 // Width in pixels of the border where windows reach beyond the picture; the border does not count in the mean.
 constexpr int ssimBorder = 5;

@@ -98,11 +98,12 @@ std::vector<std::string_view> elementsOf(std::string_view value) {
   return elements;
 }
 
-}  // namespace
-
+// Says whether the node stands after an = or in brackets; other tables are made by headers and dotted keys.
 bool isValue(const toml::node& node) {
   return node.is_table() ? isInBraces(node) : !isArrayOfHeaders(node);
 }
+
+}  // namespace
 
 TomlLayout::TomlLayout(std::string text) : text_(std::move(text)) {
   const size_t first = text_.find('\n');

@@ -23,9 +23,6 @@ void forEachChild(const toml::node& node, const Visitor& visit) {
   }
 }
 
-// Says whether the node stands after an = or in brackets; other tables are made by headers and dotted keys.
-bool isValue(const toml::node& node);
-
 // Says where a TOML file's text has the nodes of its tree. Positions are bytes of the text.
 class TomlLayout {
  public:

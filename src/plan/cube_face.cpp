@@ -53,7 +53,7 @@ Pass faceOf(const Scene& scene, const SceneState& state, const Cube& map, const 
   Pass face = planFace({map.center, faceAxes()[index], projection, map.size}, Onlooker::mirror, scene, state, false,
                        map.instance);
   face.id = {.kind = PassKind::environment, .instance = map.instance, .face = static_cast<int>(index)};
-  face.corner = faceCorner(map.size, index);
+  face.corner = map.size * glm::ivec2(index % 3, index / 3);  // three faces to a row
   addVisibleLights(face.view, Onlooker::mirror, scene, state, map.settings.effects, face);
   return face;
 }
@@ -154,10 +154,6 @@ void addVisibleLights(const View& view, Onlooker onlooker, const Scene& scene, c
       pass.lights.push_back(static_cast<int>(i));
     }
   }
-}
-
-glm::ivec2 faceCorner(int size, size_t face) {
-  return size * glm::ivec2(face % 3, face / 3);
 }
 
 View viewOf(const CubeFace& face) {

@@ -20,9 +20,6 @@ std::span<const FaceAxes> faceAxes();
 // time and memory of planning.
 inline constexpr size_t mostFaceTests = 20'000'000;
 
-// Returns the upper left corner of a face where the six faces of a cube stand three to a row, texels.
-glm::ivec2 faceCorner(int size, size_t face);
-
 // Returns axis-aligned bounding boxes in world space relative to `origin`: one per instance, then one per mirror, in
 // the order of `state`.
 RecycledVector<Bounds> boxesOf(const Scene& scene, const SceneState& state, const glm::dvec3& origin = glm::dvec3(0.0));

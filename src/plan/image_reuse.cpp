@@ -100,12 +100,52 @@ std::optional<Pass> divided(Pass& face, const ImageSurroundings& around) {
   return layer;
 }
 
+// Says whether settings draw the same image bit for bit. debug.* counts too, which sameMirrorImages leaves out.
+bool sameDrawing(const Settings& a, const Settings& b) {
+  return sameMirrorImages(a, b) && a.debug == b.debug;
+}
+
 // Says whether settings make the same environment maps. reflection.* does not count, because mirrors in maps show the
 // background.
 bool sameMaps(const Settings& a, Settings b) {
   b.reflection = a.reflection;
   b.view.scale = a.view.scale;
   return sameDrawing(a, b);
+}
+
+// Returns, as numbers, everything but settings, meshes and textures that the image of a mirror depends on: views, the
+// nodes in them, and when any of these nodes last changed. Images with equal content, under settings that
+// sameMirrorImages() calls equal, are the same bit for bit. `passes` are the pass of the mirror and the passes of all
+// mirrors seen in it. If the frame traces rays or looks up environment maps, the image depends on the whole scene, and
+// on the time if rays may meet ripples. `around.changes` must not be null.
+RecycledVector<uint64_t> imageContent(const ImageSurroundings& around, const View& main,
+                                      std::span<const Pass* const> passes) {
+  ContentNumbers numbers;
+  numbers.add(around.scene.environment.cleared(around.settings.view.clearColor));
+  numbers.addAll(around.projection.focal, around.projection.aspect, around.projection.near, around.projection.offset);
+  addEffects(around, main, numbers);
+  const SceneChanges& changes = *around.changes;
+  const bool all = around.effects.any() || !around.maps.empty();
+  numbers.addCount(around.shadowSerial);
+  for (const auto& [instance, serial] : around.maps) {
+    numbers.add(instance);
+    numbers.addCount(serial);
+  }
+  uint64_t changed = all ? changes.anyChanged() : 0;
+  for (const Pass* pass : passes) {
+    numbers.addAll(pass->view, pass->channels, pass->instances, pass->lights, pass->mirrors, pass->quality.samples,
+                   pass->shownIn.samples);
+    for (size_t i = 0; !all && i < pass->instances.size(); ++i) {
+      changed = std::max(changed, changes.instanceChanged(pass->instances[i]));
+    }
+    for (const MirrorDraw& draw : pass->mirrors) {
+      changed = std::max(changed, changes.mirrorChanged(draw.mirror));
+    }
+  }
+  numbers.addCount(all);
+  numbers.addCount(changed);
+  numbers.addCount(changes.lightsChanged());
+  return numbers.take();
 }
 
 // Reuses the map that the frame before had of the same mirror, if possible, and says whether it did.
@@ -140,11 +180,33 @@ bool reuseMap(Cube& map, std::span<const Pass> faces, std::span<const Cube> maps
   return true;
 }
 
-}  // namespace
-
-bool sameDrawing(const Settings& a, const Settings& b) {
-  return sameMirrorImages(a, b) && a.debug == b.debug;
+// Returns, as numbers, everything that the texels of a shadow map's face depend on if `casters` are drawn into it.
+// `picture`: index in a mean of pictures, on which the coverage of casters depends. `around.changes` is not null.
+RecycledVector<uint64_t> shadowContent(const ImageSurroundings& around, int picture, const Pass& face,
+                                       const Pass& casters) {
+  const SceneChanges& changes = *around.changes;
+  const EffectSettings& effects = around.settings.effects;
+  const bool covered = std::ranges::any_of(casters.instances, [&](int i) {
+    return isTransparent(around.scene.meshes[around.state.instances[i].mesh], effects);
+  });
+  ContentNumbers numbers;
+  // Marks of edges show neither opacity nor its thresholds.
+  const bool thresholds = covered && !around.effects.hybridShadows;
+  numbers.addCount(thresholds ? 2 * static_cast<uint64_t>(picture) + (effects.textures ? 2 : 1) : covered);
+  numbers.addAll(around.effects.hybridShadows, casters.view, face.window.low, face.window.high, face.projection.near,
+                 casters.instances);
+  uint64_t changed = 0;
+  for (const int i : casters.instances) {
+    changed = std::max(changed, changes.placeChanged(i));
+  }
+  for (const MirrorDraw& draw : casters.mirrors) {
+    numbers.addAll(draw.mirror, draw.polygon);
+  }
+  numbers.addCount(changed);
+  return numbers.take();
 }
+
+}  // namespace
 
 ImageChoice chooseImage(std::span<const CachedImage> images, const ReuseRequest& request) {
   const auto before = imageOf(images, request.view.path.back());
@@ -198,60 +260,6 @@ bool reuseMain(FramePlan& plan, const MainImage* before, const ImageSurroundings
   const bool same = before && before->content == plan.mainContent && sameMainView(before->settings, around.settings);
   plan.main().source = same && !before->encoded ? PassSource::reused : PassSource::drawn;
   return same;
-}
-
-RecycledVector<uint64_t> imageContent(const ImageSurroundings& around, const View& main,
-                                      std::span<const Pass* const> passes) {
-  ContentNumbers numbers;
-  numbers.add(around.scene.environment.cleared(around.settings.view.clearColor));
-  numbers.addAll(around.projection.focal, around.projection.aspect, around.projection.near, around.projection.offset);
-  addEffects(around, main, numbers);
-  const SceneChanges& changes = *around.changes;
-  const bool all = around.effects.any() || !around.maps.empty();
-  numbers.addCount(around.shadowSerial);
-  for (const auto& [instance, serial] : around.maps) {
-    numbers.add(instance);
-    numbers.addCount(serial);
-  }
-  uint64_t changed = all ? changes.anyChanged() : 0;
-  for (const Pass* pass : passes) {
-    numbers.addAll(pass->view, pass->channels, pass->instances, pass->lights, pass->mirrors, pass->quality.samples,
-                   pass->shownIn.samples);
-    for (size_t i = 0; !all && i < pass->instances.size(); ++i) {
-      changed = std::max(changed, changes.instanceChanged(pass->instances[i]));
-    }
-    for (const MirrorDraw& draw : pass->mirrors) {
-      changed = std::max(changed, changes.mirrorChanged(draw.mirror));
-    }
-  }
-  numbers.addCount(all);
-  numbers.addCount(changed);
-  numbers.addCount(changes.lightsChanged());
-  return numbers.take();
-}
-
-RecycledVector<uint64_t> shadowContent(const ImageSurroundings& around, int picture, const Pass& face,
-                                       const Pass& casters) {
-  const SceneChanges& changes = *around.changes;
-  const EffectSettings& effects = around.settings.effects;
-  const bool covered = std::ranges::any_of(casters.instances, [&](int i) {
-    return isTransparent(around.scene.meshes[around.state.instances[i].mesh], effects);
-  });
-  ContentNumbers numbers;
-  // Marks of edges show neither opacity nor its thresholds.
-  const bool thresholds = covered && !around.effects.hybridShadows;
-  numbers.addCount(thresholds ? 2 * static_cast<uint64_t>(picture) + (effects.textures ? 2 : 1) : covered);
-  numbers.addAll(around.effects.hybridShadows, casters.view, face.window.low, face.window.high, face.projection.near,
-                 casters.instances);
-  uint64_t changed = 0;
-  for (const int i : casters.instances) {
-    changed = std::max(changed, changes.placeChanged(i));
-  }
-  for (const MirrorDraw& draw : casters.mirrors) {
-    numbers.addAll(draw.mirror, draw.polygon);
-  }
-  numbers.addCount(changed);
-  return numbers.take();
 }
 
 void addShadowMaps(FramePlan& plan, PlannedCubes maps, std::span<const Cube> before, const ImageSurroundings& around) {

@@ -48,30 +48,14 @@ struct ImageSurroundings {
   uint64_t shadowSerial = 0;                      // largest Cube::serial of a shadow map
 };
 
-// Returns, as numbers, everything but settings, meshes and textures that the image of a mirror depends on: views, the
-// nodes in them, and when any of these nodes last changed. Images with equal content, under settings that
-// sameMirrorImages() calls equal, are the same bit for bit. `passes` are the pass of the mirror and the passes of all
-// mirrors seen in it. If the frame traces rays or looks up environment maps, the image depends on the whole scene, and
-// on the time if rays may meet ripples. `around.changes` must not be null.
-RecycledVector<uint64_t> imageContent(const ImageSurroundings& around, const View& main,
-                                      std::span<const Pass* const> passes);
-
-// Returns, as numbers, everything that the texels of a shadow map's face depend on if `casters` are drawn into it.
-// `picture`: index in a mean of pictures, on which the coverage of casters depends. `around.changes` is not null.
-RecycledVector<uint64_t> shadowContent(const ImageSurroundings& around, int picture, const Pass& face,
-                                       const Pass& casters);
-
 // Reuses the cached image of the same mirror if `image`, which this frame would render, is the same bit for bit. `main`
-// is the view in which the mirror is seen; `passes` are as for imageContent().
+// is the view in which the mirror is seen; `passes` are its own and those of all mirrors seen in it.
 void reuseIfUnchanged(CachedImage& image, std::span<const CachedImage> images, const ImageSurroundings& around,
                       const View& main, std::span<const Pass* const> passes);
 
 // Says whether the plan, whose passes must be complete, would draw the same main view with the same images as `before`,
 // that of the last frame (null: none). If so, reuses it, unless it was encoded.
 bool reuseMain(FramePlan& plan, const MainImage* before, const ImageSurroundings& around);
-
-// Says whether settings draw the same image bit for bit. debug.* counts too, which sameMirrorImages leaves out.
-bool sameDrawing(const Settings& a, const Settings& b);
 
 // Finds the faces of shadow maps that must be drawn: faces that are read and whose content differs from `before`, the
 // maps of the frame before. Without reflection.skip_unchanged or `around.changes`, all faces that are read are drawn;

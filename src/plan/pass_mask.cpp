@@ -66,16 +66,19 @@ size_t tilesOf(const Pass& pass) {
   return !pass.drawn() || pass.isLayer ? 0 : pass.isFace() ? 1 : tilesIn(pass.view.rect);
 }
 
-}  // namespace
-
-bool mixesTexels(const Pass& pass) {
-  return pass.quality.scale != 1.0 || pass.shownIn.scale != 1.0 || pass.quality.interval > 1;
-}
-
+// Returns by how many pixels rounding may turn the planes of a mirror image's cone. Near a mirror its corners are
+// rounded as the eye's position is: by more than a pixel if the eye is far from the origin and micrometres from the
+// mirror.
 double roundingOfCone(const View& view, const Projection& projection) {
   const double height = view.clip ? std::abs(view.clip->distance(view.eye)) : INFINITY;  // above 0, see heightAbove()
   const double pixel = 2.0 * height / (projection.focal * view.pictureSize.y);
   return pixel > 0.0 ? 1e-15 * glm::length(view.eye) / pixel : 0.0;
+}
+
+}  // namespace
+
+bool mixesTexels(const Pass& pass) {
+  return pass.quality.scale != 1.0 || pass.shownIn.scale != 1.0 || pass.quality.interval > 1;
 }
 
 double seenBeyond(const View& view, const Projection& projection, const View& shownIn, double reach) {

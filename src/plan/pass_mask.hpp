@@ -14,12 +14,9 @@ double lookupReach(const Pass& pass, const Settings& settings, bool standardLoca
 // Returns for each pass how far its image is read beyond the view's cone, in its texels: lookupReach() and
 // seenBeyond().
 std::vector<double> lookupReaches(const FramePlan& plan, const Settings& settings, bool standardLocations);
-// Returns by how many pixels rounding may turn the planes of a mirror image's cone. Near a mirror its corners are
-// rounded as the eye's position is: by more than a pixel if the eye is far from the origin and micrometres from the
-// mirror.
-double roundingOfCone(const View& view, const Projection& projection);
 // Returns how many texels beyond its cone the view is seen, lookups apart, if the view that shows it is read `reach`
-// texels beyond its own: by as much, where it shows more of the mirror than the cone bounds, and by roundingOfCone().
+// texels beyond its own: by as much, where it shows more of the mirror than the cone bounds, and by the rounding of
+// that cone.
 double seenBeyond(const View& view, const Projection& projection, const View& shownIn, double reach);
 // Returns lookupReach() for an image that is cached, or has another resolution than the pass that shows it.
 double cachedLookupReach(const ImageQuality& quality);

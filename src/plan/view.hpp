@@ -29,17 +29,12 @@ String nameOf(std::string_view kind, std::string_view name, int index) {
   return text;
 }
 
-// Name of a mirror for users: its `name`, or its index.
-inline std::string mirrorName(const Scene& scene, int mirror) {
-  const std::string& name = scene.mirror(mirror).name;
-  return name.empty() ? std::to_string(mirror) : name;
-}
-
-// Name of a path for users: "floor > wall", from the eye on.
+// Name of a path for users, from the eye on: "floor > 3" if the second mirror, number 3, has no name.
 inline std::string mirrorPathName(const Scene& scene, std::span<const int> path) {
   std::string text;
   for (const int mirror : path) {
-    text += (text.empty() ? "" : " > ") + mirrorName(scene, mirror);
+    const std::string& name = scene.mirror(mirror).name;
+    text += (text.empty() ? "" : " > ") + (name.empty() ? std::to_string(mirror) : name);
   }
   return text;
 }

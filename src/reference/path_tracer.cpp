@@ -39,6 +39,19 @@ double lightStart(const ShadingPoint& point, const glm::dvec3& toLight) {
   return 1e-9 * glm::length(point.position) / glm::length(toLight);
 }
 
+// Returns the share by which the mirror's map multiplies its reflectance at a position relative to the eye; 1 without a
+// map.
+glm::dvec3 mapShare(const Scene& scene, const Mirror& mirror, const MirrorState& state, const glm::dvec3& position) {
+  if (mirror.map < 0) {
+    return glm::dvec3(1.0);
+  }
+  const Texture& map = scene.textures[mirror.map];
+  const MirrorBox box = boxOf(state, state.polygon);
+  const glm::dvec2 uv = (state.local(position) - box.low) / box.size;
+  const glm::dvec2 edge = 0.5 / glm::dvec2(map.width, map.height);  // the outermost texels reach to the border
+  return textureAt(map, glm::clamp(uv, edge, 1.0 - edge), false);
+}
+
 // Returns the radiance due to a light by way of one mirror: along the straight line from the point to the light's image
 // behind the mirror.
 glm::dvec3 bouncedLight(const TraceWorld& world, const ShadingPoint& point, int light, int mirror) {
@@ -133,19 +146,8 @@ glm::dvec3 microfacet(const glm::dvec3& n, double alpha, const glm::dvec2& u) {
   return sine * std::cos(angle) * x + sine * std::sin(angle) * y + std::sqrt(cosine2) * n;
 }
 
-}  // namespace
-
-glm::dvec3 mapShare(const Scene& scene, const Mirror& mirror, const MirrorState& state, const glm::dvec3& position) {
-  if (mirror.map < 0) {
-    return glm::dvec3(1.0);
-  }
-  const Texture& map = scene.textures[mirror.map];
-  const MirrorBox box = boxOf(state, state.polygon);
-  const glm::dvec2 uv = (state.local(position) - box.low) / box.size;
-  const glm::dvec2 edge = 0.5 / glm::dvec2(map.width, map.height);  // the outermost texels reach to the border
-  return textureAt(map, glm::clamp(uv, edge, 1.0 - edge), false);
-}
-
+// Returns the mirror's front normal at a world position relative to the eye: the normal of its plane or, with ripples,
+// of the height field, which is the same from both sides.
 glm::dvec3 mirrorNormal(const Mirror& mirror, const MirrorState& state, const glm::dvec3& position, double time) {
   if (!mirror.ripple || mirror.ripple->amplitude == 0.0) {
     return state.normal;
@@ -160,6 +162,8 @@ glm::dvec3 mirrorNormal(const Mirror& mirror, const MirrorState& state, const gl
   return glm::normalize(state.normal - first - second);
 }
 
+// Returns the point at which `ray` met an object. The shading normal is negated when the triangle's geometric normal,
+// by the winding in the model file, faces away from the viewer.
 ShadingPoint objectPoint(const TraceWorld& world, const Ray& ray, const SceneHit& hit) {
   const InstanceState& instance = world.instances()[hit.index];
   const Mesh& mesh = world.scene().meshes[instance.mesh];
@@ -191,6 +195,8 @@ ShadingPoint objectPoint(const TraceWorld& world, const Ray& ray, const SceneHit
   return point;
 }
 
+// Returns the sum of emission, ambient light, and Phong-Blinn from every light and its images in mirrors that cast
+// light, with shadows.
 glm::dvec3 surfaceRadiance(const TraceWorld& world, const ShadingPoint& point) {
   const Scene& scene = world.scene();
   glm::dvec3 radiance = point.emission + scene.environment.ambient * point.diffuse;
@@ -207,6 +213,8 @@ glm::dvec3 surfaceRadiance(const TraceWorld& world, const ShadingPoint& point) {
   }
   return radiance;
 }
+
+}  // namespace
 
 MicrofacetSampler::MicrofacetSampler(uint32_t x, uint32_t y) : state_((uint64_t{y} << 32) | x) {
   shift_.x = unitInterval(splitMix(state_));

@@ -22,22 +22,6 @@ struct ShadingPoint {
   Skip self;
 };
 
-// Returns the point at which `ray` met an object. The shading normal is negated when the triangle's geometric normal,
-// by the winding in the model file, faces away from the viewer.
-ShadingPoint objectPoint(const TraceWorld& world, const Ray& ray, const SceneHit& hit);
-
-// Returns the sum of emission, ambient light, and Phong-Blinn from every light and its images in mirrors that cast
-// light, with shadows.
-glm::dvec3 surfaceRadiance(const TraceWorld& world, const ShadingPoint& point);
-
-// Returns the share by which the mirror's map multiplies its reflectance at a position relative to the eye; 1 without a
-// map.
-glm::dvec3 mapShare(const Scene& scene, const Mirror& mirror, const MirrorState& state, const glm::dvec3& position);
-
-// Returns the mirror's front normal at a world position relative to the eye: the normal of its plane or, with ripples,
-// of the height field, which is the same from both sides.
-glm::dvec3 mirrorNormal(const Mirror& mirror, const MirrorState& state, const glm::dvec3& position, double time);
-
 // Samples of the unit square for microfacets. For the first rough bounce of a path (level 0) they come from an additive
 // recurrence with the plastic number (Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018),
 // shifted per pixel; for later rough bounces they come from a hash, so that levels are independent of each other.

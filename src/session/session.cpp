@@ -55,6 +55,49 @@ const Bookmark& bookmarkOf(const Options& options, const Scene& scene) {
       ")"));
 }
 
+// Chooses a point from the file of --sweep-results by quality.budget_ms and quality.max_error, sets `settings` to it,
+// except for keys of --set, and prints the choice on stderr. Warns if the sweep is of another scene or size. Returns
+// nothing without bounds, or without a sweep after a warning. Throws UsageError for bounds of --set without a sweep
+// (the command demo only warns), InputError for a file that is not a sweep's.
+std::optional<QualityChoice> chooseQuality(const Options& options, const std::filesystem::path& scene,
+                                           Settings& settings) {
+  if (!budgetOf(settings).bounds()) {
+    if (!options.sweepResults.empty() && options.command != "demo") {
+      throw UsageError(
+          "--sweep-results: chooses nothing without a bound (--set quality.budget_ms=MS or quality.max_error=FLIP)");
+    }
+    return std::nullopt;
+  }
+  const auto keys = std::views::keys(options.settings);
+  const std::set<std::string> kept(keys.begin(), keys.end());
+  if (options.sweepResults.empty()) {
+    const bool byHand = kept.contains("quality.budget_ms") || kept.contains("quality.max_error");
+    if (byHand && options.command != "demo") {
+      throw UsageError(
+          "quality.budget_ms and quality.max_error choose from a sweep "
+          "(--sweep-results F, the results.json of speculum accuracy)");
+    }
+    const char* bounds = settings.quality.maxError <= 0.0   ? "GPU budget waits"
+                         : settings.quality.budgetMs <= 0.0 ? "Max. mean FLIP waits"
+                                                            : "GPU budget and Max. mean FLIP wait";
+    spdlog::warn("{} for a measurement ({})", bounds,
+                 options.command == "demo" ? "Accuracy > Measure this view"
+                                           : "render and bench take --sweep-results F, the results.json of accuracy");
+    return std::nullopt;
+  }
+  const SweepResults results = readStillSweep(options.sweepResults);
+  const std::optional<BudgetChoice> choice = chooseForBudget(results, budgetOf(settings));
+  if (!choice) {
+    throw InputError(options.sweepResults.string() + ": points: none (a sweep with at least one point is needed)");
+  }
+  warnOfDifferences(results, options, scene);
+  applyPoint(results, choice->point, kept, settings);
+  printLine(fmt::format("quality: {} (measured on {}, {} at {}x{})", choice->why, results.device, results.scene,
+                        results.width, results.height),
+            stderr);
+  return QualityChoice{results.points[choice->point], choice->met, choice->why};
+}
+
 }  // namespace
 
 std::vector<SettingChange> settingsOfPoint(const SweepResults& results, int point) {
@@ -96,45 +139,6 @@ SweepResults readStillSweep(const std::filesystem::path& file) {
     throw InputError(file.string() + ": motion: measured in motion (results of accuracy without --motion are needed)");
   }
   return results;
-}
-
-std::optional<QualityChoice> chooseQuality(const Options& options, const std::filesystem::path& scene,
-                                           Settings& settings) {
-  if (!budgetOf(settings).bounds()) {
-    if (!options.sweepResults.empty() && options.command != "demo") {
-      throw UsageError(
-          "--sweep-results: chooses nothing without a bound (--set quality.budget_ms=MS or quality.max_error=FLIP)");
-    }
-    return std::nullopt;
-  }
-  const auto keys = std::views::keys(options.settings);
-  const std::set<std::string> kept(keys.begin(), keys.end());
-  if (options.sweepResults.empty()) {
-    const bool byHand = kept.contains("quality.budget_ms") || kept.contains("quality.max_error");
-    if (byHand && options.command != "demo") {
-      throw UsageError(
-          "quality.budget_ms and quality.max_error choose from a sweep "
-          "(--sweep-results F, the results.json of speculum accuracy)");
-    }
-    const char* bounds = settings.quality.maxError <= 0.0   ? "GPU budget waits"
-                         : settings.quality.budgetMs <= 0.0 ? "Max. mean FLIP waits"
-                                                            : "GPU budget and Max. mean FLIP wait";
-    spdlog::warn("{} for a measurement ({})", bounds,
-                 options.command == "demo" ? "Accuracy > Measure this view"
-                                           : "render and bench take --sweep-results F, the results.json of accuracy");
-    return std::nullopt;
-  }
-  const SweepResults results = readStillSweep(options.sweepResults);
-  const std::optional<BudgetChoice> choice = chooseForBudget(results, budgetOf(settings));
-  if (!choice) {
-    throw InputError(options.sweepResults.string() + ": points: none (a sweep with at least one point is needed)");
-  }
-  warnOfDifferences(results, options, scene);
-  applyPoint(results, choice->point, kept, settings);
-  printLine(fmt::format("quality: {} (measured on {}, {} at {}x{})", choice->why, results.device, results.scene,
-                        results.width, results.height),
-            stderr);
-  return QualityChoice{results.points[choice->point], choice->met, choice->why};
 }
 
 std::filesystem::path findScene(const std::string& wanted) {

@@ -33,13 +33,6 @@ struct QualityChoice {
 // points may not name the settings that its frames had.
 SweepResults readStillSweep(const std::filesystem::path& file);
 
-// Chooses a point from the file of --sweep-results by quality.budget_ms and quality.max_error, sets `settings` to it,
-// except for keys of --set, and prints the choice on stderr. Warns if the sweep is of another scene or size. Returns
-// nothing without bounds, or without a sweep after a warning. Throws UsageError for bounds of --set without a sweep
-// (the command demo only warns), InputError for a file that is not a sweep's.
-std::optional<QualityChoice> chooseQuality(const Options& options, const std::filesystem::path& scene,
-                                           Settings& settings);
-
 // Returns every setting that a point's figures depend on, with its value at the point.
 std::vector<SettingChange> settingsOfPoint(const SweepResults& results, int point);
 bool isAtPoint(const Settings& settings, const std::vector<SettingChange>& point);

@@ -126,6 +126,38 @@ std::string roomProblem(uint64_t bytes, const char* name, uint64_t limit) {
   return fmt::format("the scene has {} MiB of {}, the device takes {}", bytes >> 20, name, limit >> 20);
 }
 
+TraceGrid traceGrid(const Bounds& bounds) {
+  TraceGrid grid;
+  const glm::dvec3 size = bounds.high - bounds.low;
+  const double largest = std::max(glm::compMax(size), 1e-30);
+  for (int axis = 0; axis < 3; ++axis) {
+    // A margin for rounding to float; axes along which a mesh is flat get steps no finer than floats.
+    const double width = std::max(size[axis], 1e-3 * largest);
+    grid.low[axis] = static_cast<float>(bounds.low[axis] - 1e-3 * width);
+    grid.scale[axis] = static_cast<float>(steps / (1.002 * width));
+  }
+  return grid;
+}
+
+// Calls `visit` with the nodes of a mesh for all octants in the order of the buffer, `hierarchy.nodes().size()` for
+// each octant. The first one has index `firstNode` in the buffer. Boxes only grow by rounding.
+void visitMeshNodes(const Bvh& hierarchy, const TraceGrid& grid, uint32_t firstTriangle, uint32_t firstNode,
+                    const std::function<void(const gpu::TraceNode&)>& visit) {
+  for (int octant = 0; octant < traceOctants; ++octant) {
+    const uint32_t first = firstNode + static_cast<uint32_t>(static_cast<size_t>(octant) * hierarchy.nodes().size());
+    visitInOrder(hierarchy, octant, [&](const Bvh::Node& node, uint32_t next) {
+      const glm::dvec3 low = (node.box.low - glm::dvec3(grid.low)) * glm::dvec3(grid.scale);
+      const glm::dvec3 high = (node.box.high - glm::dvec3(grid.low)) * glm::dvec3(grid.scale);
+      gpu::TraceNode made;
+      for (int axis = 0; axis < 3; ++axis) {
+        made.sides[axis] = sideOf(low[axis], high[axis], (octant >> axis & 1) != 0);
+      }
+      made.link = node.count > 0 ? gpu::traceLeaf | (firstTriangle + node.first) << 3 | node.count : first + next;
+      visit(made);
+    });
+  }
+}
+
 }  // namespace
 
 std::string traceRoomProblem(const Scene& scene, size_t instances, const VkPhysicalDeviceLimits& limits) {
@@ -286,36 +318,6 @@ void TraceScene::writeTextures(Uploader& uploader, const Scene& scene) {
         [&](BufferWriter& writer) { writer.write(std::as_bytes(std::span(first))); });
   write(uploader, texels, levels.size() * sizeof(uint64_t), "trace texels",
         [&](BufferWriter& writer) { writer.write(std::as_bytes(std::span(levels))); });
-}
-
-TraceGrid traceGrid(const Bounds& bounds) {
-  TraceGrid grid;
-  const glm::dvec3 size = bounds.high - bounds.low;
-  const double largest = std::max(glm::compMax(size), 1e-30);
-  for (int axis = 0; axis < 3; ++axis) {
-    // A margin for rounding to float; axes along which a mesh is flat get steps no finer than floats.
-    const double width = std::max(size[axis], 1e-3 * largest);
-    grid.low[axis] = static_cast<float>(bounds.low[axis] - 1e-3 * width);
-    grid.scale[axis] = static_cast<float>(steps / (1.002 * width));
-  }
-  return grid;
-}
-
-void visitMeshNodes(const Bvh& hierarchy, const TraceGrid& grid, uint32_t firstTriangle, uint32_t firstNode,
-                    const std::function<void(const gpu::TraceNode&)>& visit) {
-  for (int octant = 0; octant < traceOctants; ++octant) {
-    const uint32_t first = firstNode + static_cast<uint32_t>(static_cast<size_t>(octant) * hierarchy.nodes().size());
-    visitInOrder(hierarchy, octant, [&](const Bvh::Node& node, uint32_t next) {
-      const glm::dvec3 low = (node.box.low - glm::dvec3(grid.low)) * glm::dvec3(grid.scale);
-      const glm::dvec3 high = (node.box.high - glm::dvec3(grid.low)) * glm::dvec3(grid.scale);
-      gpu::TraceNode made;
-      for (int axis = 0; axis < 3; ++axis) {
-        made.sides[axis] = sideOf(low[axis], high[axis], (octant >> axis & 1) != 0);
-      }
-      made.link = node.count > 0 ? gpu::traceLeaf | (firstTriangle + node.first) << 3 | node.count : first + next;
-      visit(made);
-    });
-  }
 }
 
 void appendTopNodes(const Bvh& hierarchy, std::span<const uint32_t> links, std::vector<gpu::TraceTopNode>& nodes) {
