@@ -2,7 +2,9 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
 #include <limits>
+#include <numeric>
 
 #include "platform/text.hpp"
 
@@ -22,14 +24,24 @@ std::string comparison(const SweepPoint& chosen, const SweepPoint& best) {
   return fmt::format("the most accurate is '{}' with {:.3g} in {}", best.name, best.whole.flip, timeText(costMs(best)));
 }
 
-// Returns one candidate for each error, by ascending error: the first, unless a later one is cheaper beyond the spread.
-std::vector<int> onePerError(const std::vector<FrontCandidate>& candidates) {
+// Returns the indices 0 .. count - 1 by ascending rank(index); equal ranks keep their order.
+template <typename Rank>
+std::vector<int> indicesBy(size_t count, const Rank& rank) {
+  std::vector<int> indices(count);
+  std::iota(indices.begin(), indices.end(), 0);
+  std::ranges::stable_sort(indices, {}, rank);
+  return indices;
+}
+
+// Returns one point for each error, by ascending error: the first, unless a later one is cheaper beyond the spread.
+std::vector<int> onePerError(const std::vector<SweepPoint>& points, const ErrorOf& errorOf) {
+  const auto rank = [&](int i) { return std::pair(errorOf(points[i]), points[i].changes.size()); };
   std::vector<int> chosen;
-  for (const int index : indicesBy(candidates.size(), [&](int i) { return candidates[i].error; })) {
-    const FrontCandidate& candidate = candidates[index];
-    if (chosen.empty() || candidates[chosen.back()].error != candidate.error) {
+  for (const int index : indicesBy(points.size(), rank)) {
+    const std::optional<double> error = errorOf(points[index]);
+    if (error && (chosen.empty() || errorOf(points[chosen.back()]) != error)) {
       chosen.push_back(index);
-    } else if (candidate.cost.upperQuartile < candidates[chosen.back()].cost.lowerQuartile) {
+    } else if (error && costSpread(points[index]).upperQuartile < costSpread(points[chosen.back()]).lowerQuartile) {
       chosen.back() = index;
     }
   }
@@ -38,12 +50,12 @@ std::vector<int> onePerError(const std::vector<FrontCandidate>& candidates) {
 
 }  // namespace
 
-std::vector<int> paretoFront(const std::vector<FrontCandidate>& candidates) {
+std::vector<int> paretoFront(const std::vector<SweepPoint>& points, const ErrorOf& errorOf) {
   std::vector<int> front;
   double cheapestMedian = std::numeric_limits<double>::infinity();
   double cheapestQuartile = std::numeric_limits<double>::infinity();
-  for (const int index : onePerError(candidates)) {
-    const Spread& spread = candidates[index].cost;
+  for (const int index : onePerError(points, errorOf)) {
+    const Spread& spread = costSpread(points[index]);
     if (spread.median < cheapestMedian && spread.upperQuartile < cheapestQuartile) {
       front.push_back(index);
       cheapestQuartile = spread.lowerQuartile;
@@ -52,11 +64,6 @@ std::vector<int> paretoFront(const std::vector<FrontCandidate>& candidates) {
   }
   std::ranges::reverse(front);
   return front;
-}
-
-std::vector<int> paretoFront(const std::vector<SweepPoint>& points) {
-  return paretoFront(points, indicesBy(points.size(), [&](int i) { return points[i].changes.size(); }),
-                     [](const SweepPoint& point) { return point.whole.flip; });
 }
 
 const Spread& costSpread(const SweepPoint& point) {

@@ -116,15 +116,13 @@ std::vector<int> flipFront(const SweepResults& results) {
 
 ordered_json frontsJson(const SweepResults& results) {
   const std::vector<SweepPoint>& points = results.points;
-  const std::vector<int> all = indicesBy(points.size(), [](int i) { return i; });
-  std::vector<int> withMirrors = all;
-  std::erase_if(withMirrors, [&](int i) { return !points[i].mirrors; });
-  std::vector<int> inMotion = all;
-  std::erase_if(inMotion, [&](int i) { return !points[i].flicker; });
+  const auto ofMirrors = [](const SweepPoint& point) {
+    return point.mirrors ? std::optional(point.mirrors->rmse) : std::nullopt;
+  };
   return {{"flip", flipFront(results)},
-          {"rmse", paretoFront(points, all, [](const SweepPoint& point) { return point.whole.rmse; })},
-          {"mirrors", paretoFront(points, withMirrors, [](const SweepPoint& point) { return point.mirrors->rmse; })},
-          {"flicker", paretoFront(points, inMotion, [](const SweepPoint& point) { return *point.flicker; })}};
+          {"rmse", paretoFront(points, [](const SweepPoint& point) { return point.whole.rmse; })},
+          {"mirrors", paretoFront(points, ofMirrors)},
+          {"flicker", paretoFront(points, &SweepPoint::flicker)}};
 }
 
 ordered_json changedSettings(const SweepResults& results) {

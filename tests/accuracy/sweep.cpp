@@ -34,15 +34,18 @@ TEST(Statistics, QuartilesInterpolateBetweenOrderStatistics) {
   EXPECT_EQ(spreadOf({}).repeats, 0);
 }
 
-FrontCandidate candidate(double error, double ms, double spread) {
-  return {error, {.median = ms, .minimum = ms - spread, .lowerQuartile = ms - spread, .upperQuartile = ms + spread}};
+SweepPoint candidate(double error, double ms, double spread) {
+  SweepPoint point;
+  point.whole.flip = error;
+  point.frameMs = {.median = ms, .minimum = ms - spread, .lowerQuartile = ms - spread, .upperQuartile = ms + spread};
+  return point;
 }
 
 TEST(ParetoFront, HoldsUndominatedPoints) {
   EXPECT_EQ(
       paretoFront(std::vector{candidate(0.3, 1, 0), candidate(0.2, 2, 0), candidate(0.25, 3, 0), candidate(0.1, 4, 0)}),
       (std::vector{0, 1, 3}));
-  EXPECT_TRUE(paretoFront(std::vector<FrontCandidate>{}).empty());
+  EXPECT_TRUE(paretoFront({}).empty());
 }
 
 TEST(ParetoFront, CheaperMeansBeyondTheSpread) {
@@ -57,6 +60,18 @@ TEST(ParetoFront, FirstOfEqualsStaysUnlessClearlyDearer) {
   EXPECT_EQ(paretoFront(std::vector{candidate(0.1, 4, 0.6), candidate(0.1, 3, 0.6), candidate(0.2, 3.2, 0.1)}),
             (std::vector{2, 0}))
       << "what chance makes cheaper does not keep others out";
+}
+
+TEST(ParetoFront, FewestChangesStandForEqualErrors) {
+  SweepPoint changed = candidate(0.1, 4, 0.6);
+  changed.changes = {{"view.samples", "4"}};
+  EXPECT_EQ(paretoFront({changed, candidate(0.1, 4, 0.6)}), (std::vector{1}));
+}
+
+TEST(ParetoFront, LeavesOutPointsWithoutTheError) {
+  std::vector points{candidate(0.1, 4, 0.6), candidate(0.2, 1, 0.1)};
+  points[0].flicker = 0.5;
+  EXPECT_EQ(paretoFront(points, &SweepPoint::flicker), (std::vector{0}));
 }
 
 SweepPoint point(const std::string& name, double flip, double ms) {
