@@ -166,19 +166,8 @@ std::string fileName(const VkPhysicalDeviceProperties& properties) {
   return name + "_" + std::to_string(properties.driverVersion) + ".bin";
 }
 
-bool madeBy(const VkPhysicalDeviceProperties& properties, std::span<const uint8_t> data) {
-  VkPipelineCacheHeaderVersionOne header{};
-  if (data.size() < sizeof header) {
-    return false;
-  }
-  std::memcpy(&header, data.data(), sizeof header);
-  return header.headerSize == sizeof header && header.headerVersion == VK_PIPELINE_CACHE_HEADER_VERSION_ONE &&
-         header.vendorID == properties.vendorID && header.deviceID == properties.deviceID &&
-         std::memcmp(header.pipelineCacheUUID, properties.pipelineCacheUUID, VK_UUID_SIZE) == 0;
-}
-
-// Returns the driver's part of a whole and undamaged file of this GPU; empty otherwise.
-std::span<const uint8_t> payload(const VkPhysicalDeviceProperties& properties, std::span<const uint8_t> file) {
+// Returns the driver's part of a whole and undamaged file; empty otherwise.
+std::span<const uint8_t> payload(std::span<const uint8_t> file) {
   FileHeader header;
   const FileHeader expected;
   if (file.size() < sizeof header) {
@@ -188,7 +177,7 @@ std::span<const uint8_t> payload(const VkPhysicalDeviceProperties& properties, s
   const std::span<const uint8_t> data = file.subspan(sizeof header);
   const bool whole = std::memcmp(header.magic, expected.magic, sizeof header.magic) == 0 &&
                      header.bytes == data.size() && header.hash == fnv1a(std::as_bytes(data));
-  return whole && madeBy(properties, data) ? data : std::span<const uint8_t>{};
+  return whole ? data : std::span<const uint8_t>{};
 }
 
 }  // namespace
@@ -387,10 +376,10 @@ PipelineCache::PipelineCache(Device& device, const std::filesystem::path& direct
     file_ = directory / fileName(device.properties());
     if (std::optional<std::vector<uint8_t>> found = readFileIfAny(file_)) {
       content = std::move(*found);
-      data = payload(device.properties(), content);
+      data = payload(content);
       loaded_ = !data.empty();
       if (!loaded_) {
-        spdlog::info("pipeline cache {} is damaged or of another GPU and is not used", file_.string());
+        spdlog::info("pipeline cache {} is damaged and is not used", file_.string());
       }
     }
   }
