@@ -138,7 +138,7 @@ FrameTimings GpuTimer::read() const {
     const uint32_t bits = device_.caps().timestampValidBits;
     const uint64_t mask = bits >= 64 ? ~uint64_t{0} : (uint64_t{1} << bits) - 1;
     const auto milliseconds = [&](uint64_t from, uint64_t to) {
-      return static_cast<double>((to - from) & mask) * device_.caps().timestampPeriod * 1e-6;
+      return static_cast<double>((to - from) & mask) * device_.limits().timestampPeriod * 1e-6;
     };
     for (uint32_t i = 0; i < count; ++i) {
       timings.passes[i].gpuMs = milliseconds(ticks[2 * i], ticks[2 * i + 1]);

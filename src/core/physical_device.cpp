@@ -153,7 +153,6 @@ PhysicalDevice inspect(VkPhysicalDevice handle, int index, uint32_t instanceVers
           : sampleCounts(handle, colorFormat, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT) &
                 depthCounts(*depth) & device.properties.limits.framebufferColorSampleCounts &
                 device.properties.limits.framebufferDepthSampleCounts;
-  caps.timestampPeriod = device.properties.limits.timestampPeriod;
   caps.pipelineStatistics = device.features.pipelineStatisticsQuery;
   caps.countsSamples = device.features.occlusionQueryPrecise;
   caps.sampleRateShading = device.features.sampleRateShading;

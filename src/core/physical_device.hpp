@@ -32,7 +32,6 @@ inline constexpr std::array depthFormats{VK_FORMAT_D32_SFLOAT, VK_FORMAT_D32_SFL
 struct DeviceCaps {
   VkFormat depthFormat = VK_FORMAT_UNDEFINED;               // the first of depthFormats that the device has
   VkSampleCountFlags sampleCounts = VK_SAMPLE_COUNT_1_BIT;  // for RGBA16F color and that depth alike
-  double timestampPeriod = 0.0;                             // nanoseconds per tick
   uint32_t timestampValidBits = 0;                          // 0: no timestamps
   bool pipelineStatistics = false;
   bool countsSamples = false;  // occlusion queries count samples exactly
