@@ -251,7 +251,7 @@ GltfFile::GltfFile(const fs::path& file, ModelDefects& defects) : file_(file), d
   std::vector<Source> buffers;
   readJson(parts.json, buffers);
   if (!parts.isWhole) {
-    defects_.add(file_, 1, "file", "has not the length that it says, what is there of it is read");
+    defects_.add(file_, 1, "file", "is not as long as it says, what is there is read");
   }
   readBuffers(buffers, parts.binary);
 }

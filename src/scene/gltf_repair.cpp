@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <span>
@@ -57,7 +58,8 @@ struct Numbers {
     parts,      // each counts for itself
     withAlpha,  // likewise, and the last one is at most 1
     whole,      // a part of them means nothing, and neither do zeros
-    index,      // an integer
+    index,      // an int
+    bytes,      // an integer from 0
   };
 
   const char* list;  // of such objects
@@ -67,7 +69,8 @@ struct Numbers {
   Kind kind = Kind::parts;
 };
 
-// What is read of a file and has bounds, or would be left out with more than itself, or without a word.
+// Numbers that are read: those with a range, those whose fault would cost the whole object, and those that the library
+// takes for missing without saying so.
 std::vector<Numbers> listNumbers() {
   using enum Numbers::Kind;
   constexpr Range any{.low = -INFINITY, .high = INFINITY};
@@ -85,9 +88,10 @@ std::vector<Numbers> listNumbers() {
       {surface, extensions + "KHR_materials_emissive_strength/emissiveStrength", {1}, radianceRange},
       {surface, extensions + "KHR_materials_transmission/transmissionFactor", {0}, unitRange},
       {surface, "/alphaCutoff", {0.5}, surfaceColorRange},
-      {"/bufferViews", "/byteOffset", {0}, any, index},
-      {"/bufferViews", "/byteStride", {0}, any, index},
-      {"/accessors", "/byteOffset", {0}, any, index},
+      {"/bufferViews", "/byteOffset", {0}, any, bytes},
+      {"/bufferViews", "/byteStride", {0}, any, bytes},
+      {"/accessors", "/byteOffset", {0}, any, bytes},
+      {"/accessors", "/bufferView", {-2}, any, index},  // there is none, and -1 would be one of zeros
       {"/textures", "/source", {-1}, any, index},
       {"/textures", "/sampler", {-1}, any, index},
       {"/nodes", "/mesh", {-1}, any, index},
@@ -119,8 +123,12 @@ std::vector<Numbers> listNumbers() {
 
 // Returns the numbers that count for `value`: the nearest ones in the range, or the usual ones where there are none.
 json mended(const json& value, const Numbers& numbers) {
-  if (numbers.kind == Numbers::Kind::index) {
-    return value.is_number_integer() ? value : json(static_cast<int>(numbers.usual[0]));
+  if (numbers.kind == Numbers::Kind::index || numbers.kind == Numbers::Kind::bytes) {
+    using Limits = std::numeric_limits<int>;
+    const bool isRight = numbers.kind == Numbers::Kind::bytes
+                             ? value.is_number_unsigned()
+                             : value.is_number_integer() && value >= Limits::min() && value <= Limits::max();
+    return isRight ? value : json(static_cast<int>(numbers.usual[0]));
   }
   const size_t count = numbers.usual.size();
   std::vector<double> read = numbers.usual;
@@ -154,7 +162,7 @@ void mendNumbers(const fs::path& file, json& root, ModelDefects& defects) {
     for (size_t i = 0; i < elements.size(); ++i) {
       const auto addWrong = [&](const json::json_pointer& wrong) {
         defects
-            .add(file, 1, list.back(), "{} is wrong, the nearest or the usual numbers count",
+            .add(file, 1, list.back(), "{} is wrong, the nearest or the usual value counts",
                  fmt::format("{} of {}", wrong.to_string().substr(1), i))
             .costsTriangles |= numbers.place == "/mesh";
       };
@@ -171,6 +179,25 @@ void mendNumbers(const fs::path& file, json& root, ModelDefects& defects) {
       if (json right = mended(value, numbers); right != value) {
         addWrong(place);
         value = std::move(right);
+      }
+    }
+  }
+}
+
+// Takes what is no index out of lists of nodes, which the library would leave out whole.
+void mendLists(const fs::path& file, json& root, ModelDefects& defects) {
+  for (const auto& [list, key] : {std::pair("nodes", "children"), std::pair("scenes", "nodes")}) {
+    for (json& element : elementsOf(root, list)) {
+      if (!element.contains(key)) {
+        continue;
+      }
+      auto* nodes = element[key].get_ptr<json::array_t*>();
+      if (nodes && std::erase_if(*nodes, [](const json& node) { return !node.is_number_integer(); }) == 0) {
+        continue;
+      }
+      defects.add(file, 1, list, "have {} that are no indices, these are left out", key).costsTriangles = true;
+      if (!nodes) {
+        element.erase(key);
       }
     }
   }
@@ -219,6 +246,7 @@ void mendValues(const fs::path& file, json& root, ModelDefects& defects) {
     }
   }
   mendNumbers(file, root, defects);
+  mendLists(file, root, defects);
   useMaterialExtensions(file, root, defects);
   for (json& material : elementsOf(root, "materials")) {
     constexpr std::array<std::string_view, 3> modes{"OPAQUE", "MASK", "BLEND"};
@@ -239,6 +267,9 @@ void mendValues(const fs::path& file, json& root, ModelDefects& defects) {
 // Brings the primitives into a form that the library reads, whatever they say.
 void prepareMeshes(const fs::path& file, json& root, ModelDefects& defects) {
   for (json& mesh : elementsOf(root, "meshes")) {
+    if (const json& primitives = member(mesh, "primitives"); !primitives.is_null() && !primitives.is_array()) {
+      defects.add(file, 1, "meshes", "have primitives that are no list, they are left out").costsTriangles = true;
+    }
     for (json& primitive : elementsOf(mesh, "primitives")) {
       if (!primitive.is_object()) {
         primitive = json::object();
@@ -286,7 +317,7 @@ void leaveOutDamaged(const fs::path& file, json& root, ModelDefects& defects) {
     for (size_t i = 0; i < elements.size(); ++i) {
       if (const std::string fault = faultOfOne(json::array({elements[i]})); !fault.empty()) {
         defects.add(file, 1, kind, "{} cannot be read, what uses it is left out", fmt::format("{} ({})", i, fault))
-            .costsTriangles = std::ranges::find(ofTriangles, kind) != ofTriangles.end();
+            .costsTriangles |= std::ranges::find(ofTriangles, kind) != ofTriangles.end();
         elements[i] = empty;
       }
     }

@@ -220,7 +220,7 @@ ModelDefects::Kind& ModelDefects::add(const fs::path& file, int line, std::strin
   if (known == kinds_.end() && kinds_.size() > mostKinds) {
     known = kinds_.end() - 1;
   } else if (known == kinds_.end()) {
-    kind = kinds_.size() == mostKinds ? "has a defect of one more kind, such ones are not told apart" : kind;
+    kind = kinds_.size() == mostKinds ? "has more kinds of defects, which are counted here" : kind;
     std::string text = fmt::format("{}:{}: {}: ", file.string(), line, key);
     text += fmt::format(fmt::runtime(kind),
                         std::string(detail.substr(0, mostShown)) + (detail.size() > mostShown ? "..." : ""));

@@ -877,7 +877,7 @@ TEST_F(GltfLoader, WrongNumbersWarnAndDraw) {
       made.root[json::json_pointer(list)][0][json::json_pointer(numbers)] = value;
       const Mesh mesh = meshOf(made);
       EXPECT_EQ(mesh.indices.size(), 3u) << numbers << " " << value;
-      const std::string last = numbers.substr(1) + " of 0 is wrong, the nearest or the usual numbers count";
+      const std::string last = numbers.substr(1) + " of 0 is wrong, the nearest or the usual value counts";
       ASSERT_EQ(mesh.defects.size(), 1u) << numbers << " " << value;
       EXPECT_TRUE(mesh.defects[0].ends_with(last)) << mesh.defects[0];
     }
@@ -905,6 +905,7 @@ TEST_F(GltfLoader, WrongIndicesWarnAndDraw) {
                                 "/nodes/0/camera",
                                 "/nodes/0/extensions/KHR_lights_punctual/light",
                                 "/accessors/0/byteOffset",
+                                "/accessors/1/bufferView",
                                 "/bufferViews/0/byteOffset",
                                 "/bufferViews/0/byteStride",
                                 "/meshes/0/primitives/0/material",
@@ -925,9 +926,40 @@ TEST_F(GltfLoader, WrongIndicesWarnAndDraw) {
       ASSERT_GE(mesh.defects.size(), 1u) << place << value;
       EXPECT_TRUE(mesh.defects[0].ends_with(contains(place, "primitives")
                                                 ? "that is no integer, the usual one counts"
-                                                : "is wrong, the nearest or the usual numbers count"))
+                                                : "is wrong, the nearest or the usual value counts"))
           << mesh.defects[0];
     }
+  }
+}
+
+// The library reads these as other numbers, or leaves a list out for one of its members.
+TEST_F(GltfLoader, WrongNumbersOfAnyKindWarn) {
+  struct Wrong {
+    const char* place;
+    json value;
+    const char* defect;
+  };
+  const std::vector<Wrong> values{
+      {"/nodes/1/mesh", 4294967296, "nodes: mesh of 1 is wrong"},
+      {"/bufferViews/0/byteOffset", -36, "bufferViews: byteOffset of 0 is wrong"},
+      {"/bufferViews/0/byteStride", -4, "bufferViews: byteStride of 0 is wrong"},
+      {"/nodes/1/children", "1", "nodes: have children that are no indices, these are left out"},
+      {"/nodes/1/children", json::array({"1", 2}), "nodes: have children that are no indices, these are left out"},
+      {"/scenes/0/nodes", json::array({0, "1"}), "scenes: have nodes that are no indices, these are left out"},
+      {"/meshes/1/primitives", json::object(), "meshes: have primitives that are no list, they are left out"}};
+  for (const auto& [place, value, defect] : values) {
+    MadeGltf made;
+    made.addMesh({{"POSITION", made.addNumbers(triangleNumbers, "VEC3")}});
+    made.add("meshes", {{"primitives", json::array()}});
+    made.add("nodes", {{"mesh", 0}});
+    made.add("nodes", json::object());
+    made.add("nodes", json::object());
+    made.add("scenes", {{"nodes", {0, 1}}});
+    made.root[json::json_pointer(place)] = value;
+    const Mesh mesh = meshOf(made);
+    EXPECT_EQ(mesh.indices.size(), 3u) << place << value;
+    ASSERT_GE(mesh.defects.size(), 1u) << place << value;
+    EXPECT_TRUE(contains(mesh.defects[0], defect)) << mesh.defects[0];
   }
 }
 
@@ -954,7 +986,7 @@ TEST_F(GltfLoader, NearestNumbersCount) {
                          {"pbrMetallicRoughness", {{"baseColorFactor", {0, 0.5, -1, 7}}, {"metallicFactor", 0}}}});
   Model model = load(made.binary(), "m.glb");
   ASSERT_EQ(model.mesh.defects.size(), 2u);
-  EXPECT_TRUE(model.mesh.defects[0].ends_with("count")) << model.mesh.defects[0];
+  EXPECT_TRUE(model.mesh.defects[0].ends_with("counts")) << model.mesh.defects[0];
   EXPECT_EQ(model.mesh.parts.at(0).material.diffuse, glm::dvec3(0, 0.5, 0));
   EXPECT_EQ(model.mesh.parts.at(0).material.opacity, 1.0);
   expectNear(cornersOf(model.mesh), {{0, 0, 0}, {2, 0, 0}, {0, 2, 0}});
@@ -1304,7 +1336,7 @@ TEST_F(GltfLoader, LengthsThatAreWrongWarnAndDraw) {
     GltfFile read(file, defects);
     EXPECT_EQ(defects.report().size(), isWhole ? 0u : 1u);
     if (!isWhole) {
-      EXPECT_TRUE(contains(defects.report().at(0), "m.glb:1: file: has not the length that it says"));
+      EXPECT_TRUE(contains(defects.report().at(0), "m.glb:1: file: is not as long as it says"));
     }
   }
 }

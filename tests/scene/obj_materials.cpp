@@ -367,7 +367,7 @@ TEST_F(MtlFile, ManyReasonsAreCountedTogether) {
   EXPECT_TRUE(contains(defects[0], "has a vertex that is not there"));
   EXPECT_TRUE(contains(defects[49], "48.png: the picture has 16384x16432 pixels"));
   EXPECT_TRUE(
-      defects[50].ends_with("m.mtl:100: map_Kd: has a defect of one more kind, such ones are not told apart "
+      defects[50].ends_with("m.mtl:100: map_Kd: has more kinds of defects, which are counted here "
                             "(and 150 more)"))
       << defects[50];
 }
