@@ -145,25 +145,34 @@ float SimpleUI::scale() const {
   return std::min(window_.contentScale() * chosen, largest);
 }
 
+// Returns the pixels of a screen coordinate. Under Wayland these are the monitor's scale.
+float SimpleUI::density() const {
+  const auto size = static_cast<float>(std::max(window_.size().width, 1u));
+  return std::max(static_cast<float>(window_.framebufferExtent().width), 1.0f) / size;
+}
+
 // Call between frames, because a frame that is laid out keeps its sizes and colors.
 void SimpleUI::prepareTheme() {
-  const float scale = this->scale();
+  const float pixels = std::floor(fontPixels * scale());
+  const float scale = this->scale() / density();
   const Theme theme = windows_.state().choices.theme;
   const bool newGlyphs = glyphs_->takeNew();
-  if (scale == scale_ && theme == theme_ && !newGlyphs) {
+  if (scale == scale_ && pixels == letters_ && theme == theme_ && !newGlyphs) {
     return;
   }
   theme_ = theme;
   applyTheme(theme, scale);
-  if (std::exchange(scale_, scale) == scale && !newGlyphs) {
+  const bool sameScale = std::exchange(scale_, scale) == scale;
+  if (std::exchange(letters_, pixels) == pixels && sameScale && !newGlyphs) {
     return;
   }
   renderer_.waitIdle();
   backend_->shutdownVulkan();
   ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
   atlas.Clear();
-  addFont(atlas, std::floor(fontPixels * scale_));
-  glyphs_->addTo(atlas, std::floor(fontPixels * scale_));
+  addFont(atlas, pixels);
+  glyphs_->addTo(atlas, pixels);
+  ImGui::GetIO().FontGlobalScale = 1.0f / density();
   windows_.thumbnails().addTo(atlas);
   initVulkan();
 }

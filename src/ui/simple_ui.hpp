@@ -32,7 +32,7 @@ class SimpleUI {
   // Says whether a pointer at this point, in screen coordinates of the window, belongs to the panels: it is over one of
   // their windows, or they hold a widget.
   bool takesPointer(double x, double y) const;
-  float scale() const;         // of texts and handles: the monitor's, Window > Text size and ui.scale, multiplied
+  float scale() const;         // of texts and handles, in pixels: the monitor's, Text size and ui.scale, multiplied
   bool holdsEscape() const;    // ImGui handles Esc itself: it closes or releases something
   bool holdsWidget() const;    // a widget is being dragged, pressed or typed into
   bool wantsKeyboard() const;  // a text field is being edited
@@ -47,6 +47,7 @@ class SimpleUI {
   void saveLayout();
   void noteGlyphs(const UiInput& input);
   void prepareTheme();
+  float density() const;
 
   struct Context {
     Context();
@@ -61,7 +62,8 @@ class SimpleUI {
   Theme theme_ = Theme::dark;
   std::unique_ptr<ForeignGlyphs> glyphs_;
   float settingScale_ = 1.0f;  // ui.scale
-  float scale_ = 0.0f;         // of fonts and sizes, see scale(); 0: nothing is made yet
+  float scale_ = 0.0f;         // of sizes, in screen coordinates; 0: nothing is made yet
+  float letters_ = 0.0f;       // size of the font, pixels
   DescriptorPoolHandle pool_;
   std::unique_ptr<Backend> backend_;
   IdleGuard idle_;

@@ -12,6 +12,16 @@
 #include "test_paths.hpp"
 #include "window/journeys_support.hpp"
 
+// GLFW's function, called through here. A divisor of 2 stands for Wayland at a scale of 2, where a screen coordinate is
+// two pixels.
+static int sizeDivisor = 1;
+extern "C" void __real_glfwGetWindowSize(GLFWwindow* window, int* width, int* height);
+extern "C" void __wrap_glfwGetWindowSize(GLFWwindow* window, int* width, int* height) {
+  __real_glfwGetWindowSize(window, width, height);
+  *width /= sizeDivisor;
+  *height /= sizeDivisor;
+}
+
 namespace speculum {
 namespace {
 
@@ -541,6 +551,13 @@ TEST_F(Journey, SizesFollowTheScaleOfTheMonitor) {
   setSetting("ui.scale", "1");
   run(3);
   EXPECT_EQ(widget("time").height, before.height);
+  demo_.reset();
+  sizeDivisor = 2;
+  start();
+  sizeDivisor = 1;
+  ASSERT_EQ(ImGui::GetIO().DisplaySize.x * 2.0f, width);
+  EXPECT_NEAR(widget("time").height, before.height, 1) << "the monitor's scale is in the screen coordinates";
+  EXPECT_EQ(ImGui::GetFont()->FontSize, 30.0f) << "sharp letters";
   runProcess({"xprop", "-root", "-remove", "RESOURCE_MANAGER"});
   EXPECT_TRUE(std::filesystem::exists(home_.path() / "XDG_CONFIG_HOME" / "speculum" / "layout.ini"));
   EXPECT_FALSE(std::filesystem::exists("imgui.ini"));
