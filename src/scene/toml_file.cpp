@@ -1,12 +1,11 @@
 #include "scene/toml_file.hpp"
 
-#include <spdlog/fmt/ranges.h>
+#include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <ranges>
 
 #include "platform/text.hpp"
 #include "scene/input_error.hpp"
@@ -185,8 +184,11 @@ std::string tomlText(const glm::dvec3& value) {
 }
 
 std::string tomlText(const std::vector<glm::dvec3>& values) {
-  const auto text = [](const glm::dvec3& value) { return tomlText(value); };
-  return fmt::format("[{}]", fmt::join(values | std::views::transform(text), ", "));
+  std::string text;
+  for (const glm::dvec3& value : values) {
+    text += (text.empty() ? "" : ", ") + tomlText(value);
+  }
+  return "[" + text + "]";
 }
 
 std::string tomlText(bool value) {
