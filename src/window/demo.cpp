@@ -131,7 +131,7 @@ void Demo::drawFrame(double seconds) {
   first_.shows({.settings = imageSettings(workspace_.shownSettings(halves_.index())),
                 .revision = workspace_.pictureRevision(),
                 .time = state.time,
-                .camera = state.camera},
+                .camera = workspace_.view().camera.moved() ? std::optional(state.camera) : std::nullopt},
                workspace_.split().on());
   PictureHalf& half = halves_.drawn();
   const bool timed = beginPace(state, workspace_.frameSeconds(passed));

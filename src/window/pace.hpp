@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/gpu_timer.hpp"
@@ -43,10 +44,10 @@ class FirstPictures {
  public:
   // What the picture shows. Another content ends the cover, but panels may be used below it.
   struct Content {
-    Settings settings;      // those of imageSettings()
-    uint64_t revision = 0;  // SceneDocument::pictureRevision()
-    double time = 0.0;      // seconds of the animation
-    CameraPose camera;
+    Settings settings;                 // those of imageSettings()
+    uint64_t revision = 0;             // SceneDocument::pictureRevision()
+    double time = 0.0;                 // seconds of the animation
+    std::optional<CameraPose> camera;  // to which the user moved it; none: the scene's own, which may move by itself
 
     bool operator==(const Content&) const = default;
   };
@@ -56,14 +57,13 @@ class FirstPictures {
   void begin(bool moves, bool covered) {
     triesLeft_ = moves ? mostTries : 0;
     covered_ = covered;
-    holds_ = false;
+    holds_ = returns_ = false;
     content_.reset();
   }
   // Call before each frame with what it shows. `split`: A | B is on, which compares drafts and not the thumbnail.
   void shows(const Content& content, bool split) {
-    if (content_ && triesLeft_ > 0) {
+    if (content_ && (triesLeft_ > 0 || std::exchange(returns_, false))) {
       content_->time = content.time;
-      content_->camera = content.camera;  // it may go along a path
     }
     covered_ = covered_ && !split && (!content_ || *content_ == content);
     content_ = content;
@@ -76,8 +76,8 @@ class FirstPictures {
     triesLeft_ = moves && !playCost ? triesLeft_ - tried : 0;
     const bool stands = tried && moves && !playCost.value_or("").empty();
     holds_ = stands || (holds_ && !moves);
-    content_ = stands ? std::nullopt : content_;  // it goes back to the start
-    covered_ = covered_ && seconds < longestCover && (tried ? triesLeft_ > 0 || stands || !moves : !complete);
+    returns_ = stands;
+    covered_ = covered_ && seconds < longestCover && (tried ? triesLeft_ > 0 || stands : !complete);
     return stands;
   }
   void uncover() { covered_ = false; }  // the user acts in the picture
@@ -92,7 +92,8 @@ class FirstPictures {
   int triesLeft_ = 0;  // frames in which the cost of playing may become known
   bool covered_ = false;
   bool holds_ = false;
-  std::optional<Content> content_;  // of the last frame; none: the next one may show anything
+  bool returns_ = false;            // the next frame shows the start of the scene
+  std::optional<Content> content_;  // of the last frame; none: there was none
 };
 
 // A still picture that takes longer than a window may wait: several frames draw it, a few tiles each. Learns the time

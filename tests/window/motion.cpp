@@ -781,7 +781,7 @@ TEST(FirstPictures, OnlyAnotherContentUncovers) {
   EXPECT_TRUE(uncovers([&] { content.settings.view.exposure = 2.0; }));
   EXPECT_TRUE(uncovers([&] { ++content.revision; }));
   EXPECT_TRUE(uncovers([&] { content.time = 1.0; }));
-  EXPECT_TRUE(uncovers([&] { content.camera.eye.x = 1.0; }));
+  EXPECT_TRUE(uncovers([&] { content.camera = CameraPose{}; }));
   opening.begin(true, true);
   for (int i = 0; i < 3; ++i) {
     content.time += 0.1;
@@ -796,6 +796,15 @@ TEST(FirstPictures, OnlyAnotherContentUncovers) {
   content.time = 0.1;
   opening.shows(content, false);
   EXPECT_FALSE(opening.covered()) << "the user plays it";
+  opening.begin(true, true);
+  opening.shows(content, false);
+  content.camera->eye.x = 2.0;
+  opening.shows(content, false);
+  EXPECT_FALSE(opening.covered()) << "the user moves the camera while the scene moves";
+  opening.begin(true, true);
+  opening.shows(content, false);
+  opening.drawn(std::nullopt, false, false, 0.0);
+  EXPECT_FALSE(opening.covered()) << "the user pauses it where it is";
   opening.begin(false, true);
   opening.shows(content, true);
   EXPECT_FALSE(opening.covered()) << "two halves are compared";
