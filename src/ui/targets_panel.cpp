@@ -218,7 +218,8 @@ void caption(PanelContext& ui, const ImRect& canvas, bool hovered, const glm::dv
   Targets& targets = ui.state.targets;
   ImGui::SetCursorScreenPos({canvas.Min.x, canvas.Min.y - ImGui::GetTextLineHeightWithSpacing()});
   if (!target.complete && targets.kind != Targets::Kind::mask) {
-    ImGui::TextDisabled("Drawing with the next picture, %.0f %%", std::floor(100.0 * target.share));
+    const std::string share = target.share > 0.0 ? fmt::format(": {} %", static_cast<int>(100.0 * target.share)) : "";
+    ImGui::TextDisabled("Being drawn with the next picture%s", share.c_str());
   } else if (hovered && texel.x >= 0 && texel.y >= 0 && texel.x < target.size.x && texel.y < target.size.y) {
     targets.pointed = glm::ivec2(texel);
     ImGui::Text("%d, %d  %s", targets.pointed->x, targets.pointed->y, valueText(targets, target).c_str());

@@ -2092,11 +2092,11 @@ TEST_F(TargetsWindow, IncompleteTargetsAreAnnounced) {
   frame_.target.share = 0.459;
   toggle("Targets");
   hover("targets.canvas");
-  EXPECT_TRUE(shows("Drawing with the next picture, 45 %"));
+  EXPECT_TRUE(shows("Being drawn with the next picture: 45 %"));
   ASSERT_TRUE(target() && target()->drawn);
   EXPECT_FALSE(target()->display.probe);
   frame_.target.complete = true;
-  EXPECT_FALSE(has("Drawing with the next picture, 45 %"));
+  EXPECT_FALSE(shows("Being drawn with the next picture"));
   EXPECT_TRUE(target()->display.probe);
 }
 
