@@ -422,8 +422,7 @@ std::optional<fs::path> shippedScene(const fs::path& wanted) {
 std::vector<std::string> shippedSceneNames() {
   const fs::path folder = dataDirectory("scenes");
   std::vector<std::string> names;
-  std::error_code none;  // an installation without scenes has no names
-  for (const auto& entry : fs::recursive_directory_iterator(folder, none)) {
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
     if (entry.path().extension() == ".toml") {
       names.push_back(entry.path().lexically_relative(folder).replace_extension().generic_string());
     }

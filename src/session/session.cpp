@@ -158,7 +158,8 @@ std::filesystem::path findScene(const std::string& wanted) {
   const std::vector<std::string> shipped = shippedSceneNames();
   throw UsageError(fmt::format("--scene: {}'{}'{} ({})", folder ? "" : "there is no file ", wanted,
                                folder ? " is a folder" : "",
-                               nearestKeyAdvice(wanted, std::vector<std::string_view>(shipped.begin(), shipped.end()),
+                               nearestKeyAdvice(path.extension() == ".toml" ? path.stem().string() : wanted,
+                                                std::vector<std::string_view>(shipped.begin(), shipped.end()),
                                                 "a scene file, a model, or a name from speculum scenes")));
 }
 

@@ -109,6 +109,7 @@ INSTANTIATE_TEST_SUITE_P(
         UsageCase{{"LICENSE"}, "'LICENSE' is not a command (one of"},
         UsageCase{{"galery"}, "'galery' is not a command (did you mean 'gallery'?)"},
         UsageCase{{"render", "--scene", "galery", "--out", "x.png"}, "no file 'galery' (did you mean 'gallery'?)"},
+        UsageCase{{"render", "--scene", "galery.toml", "--out", "x.png"}, "(did you mean 'gallery'?)"},
         UsageCase{{"frobnicate"}, "'frobnicate' is not a command (one of: demo render"},
         UsageCase{{"render", "--out", "/nowhere/at/all.png", "--size", "8x8", "--scene", "no_mirror"},
                   "/nowhere/at/all.png"},
