@@ -53,7 +53,7 @@ void addFont(ImFontAtlas& atlas, float pixels) {
   atlas.AddFontDefault(&builtIn);
 }
 
-// Sets colors and sizes. `scale`: 1 for 96 dots an inch.
+// Sets colors and sizes. `scale`: screen coordinates that stand for one at 96 dots an inch.
 void applyTheme(Theme theme, float scale) {
   ImGuiStyle style;
   theme == Theme::light ? ImGui::StyleColorsLight(&style) : ImGui::StyleColorsDark(&style);
@@ -145,10 +145,12 @@ float SimpleUI::scale() const {
   return std::min(window_.contentScale() * chosen, largest);
 }
 
-// Returns the pixels of a screen coordinate. Under Wayland these are the monitor's scale.
+// Returns the pixels of a screen coordinate, in eighths. Under Wayland it is the monitor's scale, elsewhere 1. The exact
+// quotient changes while a window is resized, and another scale means other letters.
 float SimpleUI::density() const {
   const auto size = static_cast<float>(std::max(window_.size().width, 1u));
-  return std::max(static_cast<float>(window_.framebufferExtent().width), 1.0f) / size;
+  const float quotient = static_cast<float>(window_.framebufferExtent().width) / size;
+  return std::max(std::round(8.0f * quotient) / 8.0f, 1.0f);
 }
 
 // Call between frames, because a frame that is laid out keeps its sizes and colors.
