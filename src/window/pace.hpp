@@ -309,7 +309,7 @@ class Pace {
 
 // Returns the number of pictures in the mean of a still picture.
 int stillPictures(const Settings& settings);
-// Returns the settings without those that change no pixel of a still picture.
+// Resets what changes no pixel of a still picture: ui.* and quality.motion_ms.
 Settings imageSettings(Settings settings);
 // Returns the settings for a mean of so many pictures, or for a single one.
 Settings withPictures(Settings settings, int pictures);
