@@ -240,6 +240,10 @@ const tinygltf::Value& extensionMember(const tinygltf::ExtensionMap& extensions,
   return found == extensions.end() || !found->second.IsObject() ? none : found->second.Get(key);
 }
 
+bool isIndexNumber(const json& value) {
+  return value.is_number_unsigned() && value.get<uint64_t>() <= uint64_t{std::numeric_limits<int>::max()};
+}
+
 double numberOf(const tinygltf::Value& value, double usual) {
   return value.IsNumber() ? value.GetNumberAsDouble() : usual;
 }
@@ -261,7 +265,7 @@ void GltfFile::readJson(std::string_view text, std::vector<Source>& buffers) {
   checkVersion(file_, root, defects_);
   checkExtensions(file_, root, defects_);
   hasMotion_ = !member(root, "animations").empty();
-  const auto index = [](const json& value) { return value.is_number_integer() ? value.get<int>() : -1; };
+  const auto index = [](const json& value) { return isIndexNumber(value) ? value.get<int>() : -1; };
   for (const json& entry : member(root, "skins")) {
     Skin& skin = skins_.emplace_back(Skin{.inverseBindMatrices = index(member(entry, "inverseBindMatrices"))});
     for (const json& joint : member(entry, "joints")) {
@@ -271,9 +275,7 @@ void GltfFile::readJson(std::string_view text, std::vector<Source>& buffers) {
   for (const auto& [key, sources] : {std::pair("buffers", &buffers), std::pair("images", &images_)}) {
     for (const json& entry : member(root, key)) {
       const json& uri = member(entry, "uri");
-      const json& view = member(entry, "bufferView");
-      sources->push_back(
-          {uri.is_string() ? uri.get<std::string>() : "", view.is_number_integer() ? view.get<int>() : -1});
+      sources->push_back({uri.is_string() ? uri.get<std::string>() : "", index(member(entry, "bufferView"))});
     }
   }
   for (const char* key : {"animations", "skins", "buffers", "images"}) {
@@ -381,8 +383,8 @@ std::optional<std::vector<double>> GltfFile::numbers(int index, int components, 
   if (isIndex(index, model_.accessors.size())) {
     const tinygltf::Accessor& accessor = model_.accessors[index];
     const ElementType type{accessor.componentType, components, accessor.normalized};
-    // Without a view, a small file may ask for any number of zeros.
-    const bool bounded = accessor.bufferView != -1 || accessor.count <= (1u << 16) + byteCount() / 12;
+    // With a view, each element has a byte of its own. Without, a small file may ask for any number of zeros.
+    const bool bounded = accessor.count <= (accessor.bufferView == -1 ? (1u << 16) + byteCount() / 12 : byteCount());
     if (bounded && tinygltf::GetNumComponentsInType(static_cast<uint32_t>(accessor.type)) == components) {
       std::vector<double> values(accessor.count * components);
       // Without a view, the numbers are zero.

@@ -29,6 +29,8 @@ inline bool isIndex(int index, size_t count) {
 
 // Returns a member of an object; null if there is none.
 const nlohmann::json& member(const nlohmann::json& object, const char* key);
+// Says whether a value can be an index: an integer from 0 that an int holds, as the library keeps it.
+bool isIndexNumber(const nlohmann::json& value);
 // Returns what is wrong with JSON, without the library's name of the exception.
 std::string jsonFault(const std::exception& error);
 // Returns a member of an extension; a null value if there is none.

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <span>
@@ -58,7 +57,7 @@ struct Numbers {
     parts,      // each counts for itself
     withAlpha,  // likewise, and the last one is at most 1
     whole,      // a part of them means nothing, and neither do zeros
-    index,      // an int
+    index,      // an integer from 0 that fits an int; the library would cut others
     bytes,      // an integer from 0
   };
 
@@ -124,10 +123,7 @@ std::vector<Numbers> listNumbers() {
 // Returns the numbers that count for `value`: the nearest ones in the range, or the usual ones where there are none.
 json mended(const json& value, const Numbers& numbers) {
   if (numbers.kind == Numbers::Kind::index || numbers.kind == Numbers::Kind::bytes) {
-    using Limits = std::numeric_limits<int>;
-    const bool isRight = numbers.kind == Numbers::Kind::bytes
-                             ? value.is_number_unsigned()
-                             : value.is_number_integer() && value >= Limits::min() && value <= Limits::max();
+    const bool isRight = numbers.kind == Numbers::Kind::bytes ? value.is_number_unsigned() : isIndexNumber(value);
     return isRight ? value : json(static_cast<int>(numbers.usual[0]));
   }
   const size_t count = numbers.usual.size();
@@ -192,7 +188,7 @@ void mendLists(const fs::path& file, json& root, ModelDefects& defects) {
         continue;
       }
       auto* nodes = element[key].get_ptr<json::array_t*>();
-      if (nodes && std::erase_if(*nodes, [](const json& node) { return !node.is_number_integer(); }) == 0) {
+      if (nodes && std::erase_if(*nodes, [](const json& node) { return !isIndexNumber(node); }) == 0) {
         continue;
       }
       defects.add(file, 1, list, "have {} that are no indices, these are left out", key).costsTriangles = true;
@@ -277,17 +273,17 @@ void prepareMeshes(const fs::path& file, json& root, ModelDefects& defects) {
       json attributes = json::object();
       const json named = primitive.value("attributes", json());
       for (const auto& [name, accessor] : named.items()) {
-        attributes[name] = accessor.is_number_integer() ? accessor : json(-1);
+        attributes[name] = isIndexNumber(accessor) ? accessor : json(-1);
       }
       attributes.erase(indicesAttribute);
       if (const auto indices = primitive.find("indices"); indices != primitive.end()) {
-        attributes[indicesAttribute] = indices->is_number_integer() ? *indices : json(-1);
+        attributes[indicesAttribute] = isIndexNumber(*indices) ? *indices : json(-1);
         primitive.erase(indices);
       }
       primitive["attributes"] = std::move(attributes);
       for (const char* key : {"material", "mode"}) {
-        if (primitive.contains(key) && !primitive[key].is_number_integer()) {
-          defects.add(file, 1, "meshes", "have a {} that is no integer, the usual one counts", key);
+        if (primitive.contains(key) && !isIndexNumber(primitive[key])) {
+          defects.add(file, 1, "meshes", "have a {} that is no integer from 0, the usual one counts", key);
           primitive.erase(key);
         }
       }

@@ -925,11 +925,22 @@ TEST_F(GltfLoader, WrongIndicesWarnAndDraw) {
       EXPECT_EQ(mesh.indices.size(), 3u) << place << value;
       ASSERT_GE(mesh.defects.size(), 1u) << place << value;
       EXPECT_TRUE(mesh.defects[0].ends_with(contains(place, "primitives")
-                                                ? "that is no integer, the usual one counts"
+                                                ? "that is no integer from 0, the usual one counts"
                                                 : "is wrong, the nearest or the usual value counts"))
           << mesh.defects[0];
     }
   }
+}
+
+TEST_F(GltfLoader, MatricesTakeMemoryForTheirBytesOnly) {
+  MadeGltf made;
+  made.addTriangle();
+  made.add("nodes", {{"mesh", 0}, {"skin", 0}});
+  made.add("accessors", {{"bufferView", 0}, {"componentType", 5126}, {"type", "MAT4"}, {"count", 1 << 30}});
+  made.add("skins", {{"joints", {0}}, {"inverseBindMatrices", 1}});
+  const Mesh mesh = meshOf(made);
+  EXPECT_EQ(mesh.indices.size(), 3u);
+  EXPECT_TRUE(contains(mesh.defects.at(0), "accessors: 1 does not hold what is needed of it"));
 }
 
 // The library reads these as other numbers, or leaves a list out for one of its members.
@@ -941,6 +952,9 @@ TEST_F(GltfLoader, WrongNumbersOfAnyKindWarn) {
   };
   const std::vector<Wrong> values{
       {"/nodes/1/mesh", 4294967296, "nodes: mesh of 1 is wrong"},
+      {"/accessors/1/bufferView", -1, "accessors: bufferView of 1 is wrong"},
+      {"/accessors/1/bufferView", UINT64_MAX, "accessors: bufferView of 1 is wrong"},
+      {"/nodes/1/children", json::array({4294967298}), "nodes: have children that are no indices"},
       {"/bufferViews/0/byteOffset", -36, "bufferViews: byteOffset of 0 is wrong"},
       {"/bufferViews/0/byteStride", -4, "bufferViews: byteStride of 0 is wrong"},
       {"/nodes/1/children", "1", "nodes: have children that are no indices, these are left out"},
@@ -949,7 +963,8 @@ TEST_F(GltfLoader, WrongNumbersOfAnyKindWarn) {
       {"/meshes/1/primitives", json::object(), "meshes: have primitives that are no list, they are left out"}};
   for (const auto& [place, value, defect] : values) {
     MadeGltf made;
-    made.addMesh({{"POSITION", made.addNumbers(triangleNumbers, "VEC3")}});
+    made.addMesh({{"POSITION", made.addNumbers(triangleNumbers, "VEC3")},
+                  {"TEXCOORD_0", made.addNumbers<float>({0, 0, 1, 0, 0, 1}, "VEC2")}});
     made.add("meshes", {{"primitives", json::array()}});
     made.add("nodes", {{"mesh", 0}});
     made.add("nodes", json::object());
