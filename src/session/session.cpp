@@ -156,11 +156,11 @@ std::filesystem::path findScene(const std::string& wanted) {
   }
   const bool folder = type == fs::file_type::directory;
   const std::vector<std::string> shipped = shippedSceneNames();
-  throw UsageError(fmt::format("--scene: {}'{}'{} ({})", folder ? "" : "there is no file ", wanted,
-                               folder ? " is a folder" : "",
-                               nearestKeyAdvice(path.extension() == ".toml" ? path.stem().string() : wanted,
-                                                std::vector<std::string_view>(shipped.begin(), shipped.end()),
-                                                "a scene file, a model, or a name from speculum scenes")));
+  throw UsageError(fmt::format(
+      "--scene: {}'{}'{} ({})", folder ? "" : "there is no file ", wanted, folder ? " is a folder" : "",
+      nearestKeyAdvice(path.extension() == ".toml" ? fs::path(path).replace_extension().generic_string() : wanted,
+                       std::vector<std::string_view>(shipped.begin(), shipped.end()),
+                       "a scene file, a model, or a name from speculum scenes")));
 }
 
 Settings settingsOf(const Scene& scene, const Options& options) {
