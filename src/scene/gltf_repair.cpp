@@ -282,7 +282,7 @@ void prepareMeshes(const fs::path& file, json& root, ModelDefects& defects) {
       }
       primitive["attributes"] = std::move(attributes);
       for (const char* key : {"material", "mode"}) {
-        if (primitive.contains(key) && !isIndexNumber(primitive[key])) {
+        if (primitive.contains(key) && !isIndexNumber(primitive[key]) && primitive[key] != -1) {
           defects.add(file, 1, "meshes", "have a {} that is no integer from 0, the usual one counts", key);
           primitive.erase(key);
         }
