@@ -145,8 +145,8 @@ float SimpleUI::scale() const {
   return std::min(window_.contentScale() * chosen, largest);
 }
 
-// Returns the pixels of a screen coordinate, in eighths. Under Wayland it is the monitor's scale, elsewhere 1. The exact
-// quotient changes while a window is resized, and another scale means other letters.
+// Returns the pixels of a screen coordinate, in eighths. Under Wayland it is the monitor's scale, elsewhere 1. The
+// exact quotient changes while a window is resized, and another scale means other letters.
 float SimpleUI::density() const {
   const auto size = static_cast<float>(std::max(window_.size().width, 1u));
   const float quotient = static_cast<float>(window_.framebufferExtent().width) / size;
