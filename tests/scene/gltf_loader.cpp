@@ -49,6 +49,17 @@ const std::vector<glm::dvec3> triangle{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
 const std::vector<float> triangleNumbers{0, 0, 0, 1, 0, 0, 0, 1, 0};
 const std::vector<float> squareNumbers{0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0};
 
+// Returns a triangle with material 0, which is still to be added, and the picture t.png as texture 0.
+MadeGltf texturedTriangle() {
+  MadeGltf made;
+  made.add("images", {{"uri", "t.png"}});
+  made.add("textures", {{"source", 0}});
+  made.addMesh({{"POSITION", made.addNumbers(triangleNumbers, "VEC3")},
+                {"TEXCOORD_0", made.addNumbers<float>({0, 0, 1, 0, 0, 1}, "VEC2")}},
+               {{"material", 0}});
+  return made;
+}
+
 TEST_F(GltfLoader, TriangleWithoutNormalsIsFlat) {
   MadeGltf made;
   made.add("nodes", {{"mesh", made.addTriangle()}});
@@ -859,12 +870,7 @@ TEST_F(GltfLoader, WrongNumbersWarnAndDraw) {
       wrong.push_back(count == 1 ? json(-4) : json(std::vector(count, -4.0)));
     }
     for (const json& value : wrong) {
-      MadeGltf made;
-      made.add("images", {{"uri", "t.png"}});
-      made.add("textures", {{"source", 0}});
-      made.addMesh({{"POSITION", made.addNumbers(triangleNumbers, "VEC3")},
-                    {"TEXCOORD_0", made.addNumbers<float>({0, 0, 1, 0, 0, 1}, "VEC2")}},
-                   {{"material", 0}});
+      MadeGltf made = texturedTriangle();
       if (contains(numbers, glossy)) {
         made.add("materials",
                  {{"extensions", {{"KHR_materials_pbrSpecularGlossiness", {{"diffuseTexture", {{"index", 0}}}}}}}});
@@ -911,12 +917,7 @@ TEST_F(GltfLoader, WrongIndicesWarnAndDraw) {
                                 "/meshes/0/primitives/0/material",
                                 "/meshes/0/primitives/0/mode"}) {
     for (const json& value : {json("0"), json(0.5), json::array({0})}) {
-      MadeGltf made;
-      made.add("images", {{"uri", "t.png"}});
-      made.add("textures", {{"source", 0}});
-      made.addMesh({{"POSITION", made.addNumbers(triangleNumbers, "VEC3")},
-                    {"TEXCOORD_0", made.addNumbers<float>({0, 0, 1, 0, 0, 1}, "VEC2")}},
-                   {{"material", 0}});
+      MadeGltf made = texturedTriangle();
       made.add("materials", {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}});
       made.add("nodes", {{"mesh", 0}});
       made.add("nodes", json::object());
