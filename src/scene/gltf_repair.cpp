@@ -87,6 +87,7 @@ std::vector<Numbers> listNumbers() {
       {surface, extensions + "KHR_materials_emissive_strength/emissiveStrength", {1}, radianceRange},
       {surface, extensions + "KHR_materials_transmission/transmissionFactor", {0}, unitRange},
       {surface, "/alphaCutoff", {0.5}, surfaceColorRange},
+      {"/bufferViews", "/buffer", {-1}, any, index},
       {"/bufferViews", "/byteOffset", {0}, any, bytes},
       {"/bufferViews", "/byteStride", {0}, any, bytes},
       {"/accessors", "/byteOffset", {0}, any, bytes},
@@ -104,6 +105,10 @@ std::vector<Numbers> listNumbers() {
       {"/cameras", "/perspective/yfov", {0.8}, {.low = 1e-6, .high = std::numbers::pi}},
       {lightsList, "/color", {1, 1, 1}, radianceRange},
       {lightsList, "/intensity", {1}, radianceRange}};
+  for (const std::string part : {"/sparse/indices/", "/sparse/values/"}) {
+    numbers.push_back({"/accessors", part + "bufferView", {-1}, any, index});
+    numbers.push_back({"/accessors", part + "byteOffset", {0}, any, bytes});
+  }
   for (const std::string& texture : {pbr + "baseColorTexture", glossy + "diffuseTexture"}) {
     const std::string transform = texture + "/extensions/KHR_texture_transform/";
     numbers.push_back({surface, transform + "offset", {0, 0}});

@@ -958,6 +958,8 @@ TEST_F(GltfLoader, WrongNumbersOfAnyKindWarn) {
       {"/nodes/1/children", json::array({4294967298}), "nodes: have children that are no indices"},
       {"/bufferViews/0/byteOffset", -36, "bufferViews: byteOffset of 0 is wrong"},
       {"/bufferViews/0/byteStride", -4, "bufferViews: byteStride of 0 is wrong"},
+      {"/accessors/0/sparse/indices/byteOffset", -4, "accessors: sparse/indices/byteOffset of 0 is wrong"},
+      {"/accessors/0/sparse/values/byteOffset", "4", "accessors: sparse/values/byteOffset of 0 is wrong"},
       {"/nodes/1/children", "1", "nodes: have children that are no indices, these are left out"},
       {"/nodes/1/children", json::array({"1", 2}), "nodes: have children that are no indices, these are left out"},
       {"/scenes/0/nodes", json::array({0, "1"}), "scenes: have nodes that are no indices, these are left out"},
@@ -971,6 +973,8 @@ TEST_F(GltfLoader, WrongNumbersOfAnyKindWarn) {
     made.add("nodes", json::object());
     made.add("nodes", json::object());
     made.add("scenes", {{"nodes", {0, 1}}});
+    made.root["accessors"][0]["sparse"] = {
+        {"count", 1}, {"indices", {{"bufferView", 0}, {"componentType", 5121}}}, {"values", {{"bufferView", 0}}}};
     made.root[json::json_pointer(place)] = value;
     const Mesh mesh = meshOf(made);
     EXPECT_EQ(mesh.indices.size(), 3u) << place << value;
@@ -1115,7 +1119,7 @@ INSTANTIATE_TEST_SUITE_P(
         Damage{"ViewBeyondItsBuffer", [](json& r) { r["bufferViews"][1]["byteLength"] = 1000; }, numbersMissing},
         Damage{"HugeViewOffset", [](json& r) { r["bufferViews"][1]["byteOffset"] = ~0ull - 3; }, numbersMissing},
         Damage{"MissingView", [](json& r) { r["accessors"][1]["bufferView"] = 9; }, numbersMissing},
-        Damage{"MissingBuffer", [](json& r) { r["bufferViews"][1]["buffer"] = -7; }, numbersMissing},
+        Damage{"MissingBuffer", [](json& r) { r["bufferViews"][1]["buffer"] = 99; }, numbersMissing},
         Damage{"UnknownComponents", [](json& r) { r["accessors"][1]["componentType"] = 5127; }, numbersMissing},
         Damage{"WrongType", [](json& r) { r["accessors"][1]["type"] = "VEC2"; }, numbersMissing},
         Damage{"MissingAccessor", [](json& r) { r["meshes"][1]["primitives"][0]["attributes"]["POSITION"] = 99; },
@@ -1144,14 +1148,15 @@ INSTANTIATE_TEST_SUITE_P(
                                                 {"values", {{"bufferView", 0}}}};
                },
                numbersMissing},
-        Damage{"SparseOfNegativeOffset",
+        Damage{"SparseOfAViewThatIsNoIndex",
                [](json& r) {
-                 r["accessors"][1]["sparse"] = {
-                     {"count", 1},
-                     {"indices", {{"bufferView", 2}, {"byteOffset", -4}, {"componentType", 5123}}},
-                     {"values", {{"bufferView", 0}}}};
+                 r["accessors"][1]["sparse"] = {{"count", 1},
+                                                {"indices", {{"bufferView", 4294967298}, {"componentType", 5123}}},
+                                                {"values", {{"bufferView", 0}}}};
                },
-               numbersMissing},
+               "accessors: sparse/indices/bufferView of 1 is wrong", false, 2},
+        Damage{"ViewOfABufferThatIsNoIndex", [](json& r) { r["bufferViews"][1]["buffer"] = 4294967296; },
+               "bufferViews: buffer of 1 is wrong", false, 2},
         Damage{"InfinitePositions",
                [](json& r) {
                  r["nodes"][1]["scale"] = {1e308, 1e308, 1e308};
