@@ -27,7 +27,7 @@ std::string settingValues(const SettingField& field) {
   return usual + (usual.empty() ? "" : ", ") + settingRangeWithUnit(field);
 }
 
-// Returns the list of a group's settings, without measured costs, which only docs/performance.md has.
+// Returns the list of a group's settings. What each costs is told by its tooltip.
 std::string settingsList(std::string_view group) {
   std::string list;
   for (const SettingField& field : settingFields()) {
@@ -36,8 +36,8 @@ std::string settingsList(std::string_view group) {
                                    ? std::string(field.needs->isOther ? ", without `" : ", with `") +
                                          std::string(field.needs->key) + "=" + std::string(field.needs->value) + "`"
                                    : "";
-      list += "- `" + std::string(field.key) + "` (" + settingValues(field) + "): " + std::string(field.text) + need +
-              ". *" + std::string(field.cost) + "*\n";
+      list +=
+          "- `" + std::string(field.key) + "` (" + settingValues(field) + "): " + std::string(field.text) + need + "\n";
     }
   }
   return list;
