@@ -10,7 +10,7 @@
 #include "platform/process.hpp"
 #include "platform/text.hpp"
 #include "session/output_files.hpp"
-#include "window/pace.hpp"
+#include "window/paced_subject.hpp"
 
 namespace speculum {
 

@@ -7,7 +7,7 @@
 #include "scene/input_error.hpp"
 #include "scene/scene_loader.hpp"
 #include "scene_text.hpp"
-#include "window/pace.hpp"
+#include "window/paced_subject.hpp"
 
 namespace speculum {
 namespace {
