@@ -224,7 +224,7 @@ void Pace::planMoving(const Request& request) {
 void Pace::forgetStill() {
   ++still_;
   state_ = State::changed;
-  picture_ = 0;
+  picture_ = converged_ = 0;
   target_.reset();
   slow_ = {};
   draft_.clear();
@@ -304,6 +304,7 @@ void Pace::planPicture(const Request& request, State state) {
   const FrameCache& cache = request.frame.cache;
   if (state == State::mean && slow_.finished() && picture_ > 0 && cache.refined && cache.refined->none()) {
     picture_ = pictures_;  // the mean has converged and is shown again
+    converged_ = cache.accumulated;
   }
   const int next = state != State::redraw ? picture_ : (cache.accumulated > 0 ? cache.accumulated : pictures_) - 1;
   refined_ =
@@ -351,6 +352,9 @@ std::string Pace::tilesText(int complete) const {
 }
 
 std::string Pace::meanText(int complete) const {
+  if (converged_ > 0) {
+    return fmt::format("{} of {} pictures averaged: converged", converged_, pictures_);
+  }
   const std::string averaged = fmt::format("{} of {} pictures averaged", complete, pictures_);
   return !refined_ || complete == pictures_
              ? averaged
@@ -418,6 +422,7 @@ int stillPictures(const Settings& settings) {
 
 Settings imageSettings(Settings settings) {
   settings.ui = {};
+  settings.view.continuous = false;
   settings.quality.motionMs.reset();
   return settings;
 }

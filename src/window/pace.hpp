@@ -293,6 +293,7 @@ class Pace {
   uint64_t still_ = 0;             // still views begun so far
   int picture_ = 0;                // complete pictures of the mean
   int pictures_ = 0;               // in the mean; 1: a single picture instead
+  int converged_ = 0;              // pictures after which the mean has converged; 0: it has not
   std::optional<Target> target_;   // of the latest redraw
   SlowPicture slow_;               // picture that is drawn in tiles while another picture or a draft is shown
   FrameWork slowWork_;             // of the whole slow_
@@ -308,7 +309,7 @@ class Pace {
 
 // Returns the number of pictures in the mean of a still picture.
 int stillPictures(const Settings& settings);
-// Resets what changes no pixel of a still picture: ui.* and quality.motion_ms.
+// Resets what changes no pixel of a still picture: ui.*, view.continuous and quality.motion_ms.
 Settings imageSettings(Settings settings);
 // Returns the settings for a mean of so many pictures, or for a single one.
 Settings withPictures(Settings settings, int pictures);

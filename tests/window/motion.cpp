@@ -826,6 +826,8 @@ TEST_F(PacedScene, StillPicturesConvergeOnce) {
   EXPECT_EQ(pictureOf(), std::pair(3, 3)) << "the size of panels changes no pixel";
   chosen_.quality.motionMs = 0.0;
   EXPECT_EQ(pictureOf(), std::pair(3, 3)) << "nor does what moves otherwise";
+  chosen_.view.continuous = true;
+  EXPECT_EQ(pictureOf(), std::pair(3, 3)) << "nor how often the window draws";
   revision_ = 2;
   EXPECT_EQ(pictureOf(), std::pair(1, 0)) << "something else is shown";
   revision_ = 3;
@@ -871,10 +873,11 @@ TEST_F(PacedScene, MeansEndWhereTheyHaveConverged) {
   }
   refined_ = std::make_shared<RefinedTiles>(RefinedTiles{12, {32, 8}, {0, 0, 0, 0}});
   EXPECT_EQ(pictureOf(), std::pair(64, 64)) << "the mean again";
-  EXPECT_EQ(pace_.text(), "64 of 64 pictures averaged");
+  EXPECT_EQ(pace_.text(), "12 of 64 pictures averaged: converged");
   EXPECT_FALSE(pace_.wantsFrame());
   target_.emplace(MirrorPath{0}, TargetKind::color);
   EXPECT_EQ(pictureOf(), std::pair(64, 11)) << "the last picture that was drawn";
+  EXPECT_EQ(pace_.text(), "12 of 64 pictures averaged: converged");
   chosen_.view.accumulateError = 1.0;
   frame();
   EXPECT_EQ(pictureOf(), std::pair(64, 0));
