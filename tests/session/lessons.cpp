@@ -15,6 +15,20 @@ int lessonFiles() {
   return static_cast<int>(std::distance(std::filesystem::directory_iterator(sourceFile("lessons")), {}));
 }
 
+// Returns the number of pixels that differ in a part of the width.
+int differing(const std::array<Image8, 2>& pictures, double from, double to) {
+  const Image8& a = pictures[0];
+  int count = 0;
+  for (int y = 0; y < a.height; ++y) {
+    for (int x = static_cast<int>(from * a.width); x < static_cast<int>(to * a.width); ++x) {
+      const uint8_t* code = a.at(x, y);
+      const uint8_t* other = pictures[1].at(x, y);
+      count += std::max({std::abs(code[0] - other[0]), std::abs(code[1] - other[1]), std::abs(code[2] - other[2])}) > 8;
+    }
+  }
+  return count;
+}
+
 class LessonPictures : public testing::TestWithParam<int> {};
 
 TEST_P(LessonPictures, RightHalfIsNearerToTheReference) {
@@ -49,6 +63,13 @@ TEST_P(LessonPictures, RightHalfIsNearerToTheReference) {
   }
   EXPECT_GT(difference(pictures[0], pictures[1], 8).over, 20) << lesson.title;
   EXPECT_LT(errors[1], 0.9 * errors[0]) << lesson.title;
+  // A window of 1280x720 has its panels on the left third and the divider in the middle of the rest.
+  constexpr double panels = 0.35;
+  constexpr double divider = 0.5 * (panels + 1.0);
+  const int left = differing(pictures, panels, divider);
+  const int right = differing(pictures, divider, 1.0);
+  EXPECT_GT(std::min(left, right), 0.15 * std::max(left, right))
+      << lesson.title << ": the divider is beside what is to be seen, " << left << " and " << right;
 }
 
 INSTANTIATE_TEST_SUITE_P(Shipped, LessonPictures, testing::Range(0, lessonFiles()));
