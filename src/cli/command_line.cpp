@@ -336,6 +336,14 @@ std::string unknownArgument(const CLI::App& app) {
   const auto option = std::ranges::find_if(left, isOption);
   const std::string name = option == left.end() ? left.front() : option->substr(0, option->find('='));
   const std::string help = commanded ? "speculum " + used.get_name() + " --help" : "speculum --help";
+  if (option == left.end() && used.get_name() == "demo") {
+    return "'" + name + "' is neither a scene nor a file (" +
+           advice(name, shippedSceneNames(), "speculum scenes lists scenes") + ")";
+  }
+  const bool takesScene = used.get_option_no_throw("--scene") != nullptr;
+  if (option == left.end() && takesScene && (shippedScene(name) || std::filesystem::exists(name))) {
+    return "'" + name + "' is not expected of " + used.get_name() + " (did you mean '--scene " + name + "'?)";
+  }
   return "'" + name + "' is not " + (option == left.end() ? "expected" : "an option") + " of " +
          (commanded ? used.get_name() : "speculum") + " (" + advice(name, optionNames(used), "see " + help) + ")";
 }
