@@ -177,7 +177,8 @@ class ReportPage(Page):
         self.assertIn("--set 'view.clear_color=1, 0, 0' --set view.samples=1", self.text("#table"))
         self.assertEqual(self.text("[data-fill=sweepCommand]"),
                          "speculum accuracy --scene 'scenes/room & co.toml' --size 64x36 --time 1.25 --sweep quick"
-                         " --set view.samples=8 --out FOLDER")
+                         " --set view.samples=8 --gpu 'A device' --out FOLDER")
+        self.assertIn(" --set view.samples=8 --gpu 'A device' --out ", self.text("[data-fill=pictureCommand]"))
         self.assertIn("reflection.scale = 1.0", self.text("#base"))
 
     def test_page_sums_up_the_findings(self):

@@ -326,6 +326,8 @@ function texts({ results, changed }) {
   const repeats = Math.max(0, ...points.map(point => costOf(point).repeats));
   const scene = `--scene ${shellWord(results.scene)} --size ${results.size.join('x')} --time ${results.time}`;
   const base = Object.keys(changed).length ? ` ${setOptions(changed)}` : '';
+  // A part of the name is enough; llvmpipe's ends with the width of vectors, which another run may choose.
+  const device = results.device ? ` --gpu ${shellWord(results.device.split(' (')[0])}` : '';
   const motion = results.motion
     ? ` --motion ${shellWord(results.motion.path)} --frames ${results.motion.frames} --fps ${results.motion.fps}` : '';
   return {
@@ -337,8 +339,8 @@ function texts({ results, changed }) {
     clock: timedOnGpu(results)
       ? 'GPU times come from the device’s timestamps; CPU times are the processor’s share of a frame.'
       : 'The device has no timestamps, so the time of the whole frame stands in for the GPU’s.',
-    sweepCommand: `speculum accuracy ${scene}${motion} --sweep ${shellWord(results.sweep)}${base} --out FOLDER`,
-    pictureCommand: `speculum render ${scene}${base} --out FOLDER/picture.png --set …`,
+    sweepCommand: `speculum accuracy ${scene}${motion} --sweep ${shellWord(results.sweep)}${base}${device} --out FOLDER`,
+    pictureCommand: `speculum render ${scene}${base}${device} --out FOLDER/picture.png --set …`,
     baseSettings: Object.entries(results.settings).map(([key, value]) => `${key} = ${value || '(the scene’s)'}\n`).join(''),
     made: `Made by Speculum ${results.version} from results.json${results.date ? `, ${results.date}` : ''}.`,
   };
