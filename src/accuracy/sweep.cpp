@@ -31,8 +31,8 @@ std::string truthKey(const SweepScene& scene, const Settings& settings, int fram
       shown += ";" + settingValue(settings, field.key);
     }
   }
-  return keyOf({scene.identity, shown, std::to_string(scene.truthSamples), scene.lattice ? "lattice" : "",
-                std::to_string(scene.floorSamples), "truth", std::to_string(frame)});
+  return keyOf({scene.identity, shown, std::to_string(scene.truth.samples), scene.truth.lattice ? "lattice" : "",
+                std::to_string(scene.truth.floorSamples), "truth", std::to_string(frame)});
 }
 
 // Returns the mean over the phases of an update interval or over frames. Averages roots of mean squares as squares.
@@ -70,14 +70,14 @@ class Sweep {
   bool run() { return trace() && compare() && time(); }
 
   void fill(SweepResults& results) {
-    results.width = scene_.width;
-    results.height = scene_.height;
+    results.width = scene_.truth.width;
+    results.height = scene_.truth.height;
     results.truthMs = 0.0;
     for (const GroundTruth& truth : truths_) {
       results.truthMs += truth.ms / static_cast<double>(truths_.size());
     }
     results.truthThreads = truths_.back().threads;
-    results.truthSamples = scene_.truthSamples;
+    results.truthSamples = scene_.truth.samples;
     results.floor = floor();
     results.points.clear();
     results.leftOut = std::ssize(keys_) - std::ssize(kept_);
@@ -120,12 +120,8 @@ class Sweep {
 
  private:
   bool trace() {
-    const TruthRequest request{.width = scene_.width,
-                               .height = scene_.height,
-                               .samples = scene_.truthSamples,
-                               .lattice = scene_.lattice,
-                               .floorSamples = scene_.floorSamples,
-                               .settings = base_};
+    TruthRequest request = scene_.truth;
+    request.settings = base_;
     for (int frame = 0; frame < scene_.frames; ++frame) {
       const auto progress = [&](double part) { return report("reference", (frame + part) / scene_.frames); };
       const std::string key = truthKey(scene_, base_, frame);
@@ -190,7 +186,7 @@ class Sweep {
   }
 
   ErrorFigures floor() {
-    if (!moves() || scene_.floorSamples == 0) {
+    if (!moves() || scene_.truth.floorSamples == 0) {
       return truths_.back().floor;
     }
     std::vector<Image8> seconds;

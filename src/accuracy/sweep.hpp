@@ -38,13 +38,8 @@ struct SweepScene {
   const Scene& scene;
   std::function<SceneState(int)> stateOf;  // of frame 0 .. frames - 1
   int frames = 1;                          // of a movement; 1: a still picture
-  int width = 0;                           // pixels
-  int height = 0;
+  TruthRequest truth;                      // for the reference of each frame; runSweep() sets its settings
   std::string identity;  // fingerprint of all that results depend on but settings: program, device, scene, time
-  // As in TruthRequest.
-  int truthSamples = 256;
-  bool lattice = false;
-  int floorSamples = 225;
 };
 
 // Frames of a movement whose pictures are kept: the first ones, since those that follow each other show flicker.

@@ -62,13 +62,12 @@ int runAccuracy(const Options& options) {
   SweepScene scene{.scene = session.scene(),
                    .stateOf = [&](int frame) { return stateOf(session.scene(), path, frame); },
                    .frames = path.frames,
-                   .width = options.size.width,
-                   .height = options.size.height,
+                   .truth = {.width = options.size.width, .height = options.size.height},
                    .identity = sweepIdentity(session, options)};
   if (options.sweep == "quick" || moving) {
-    scene.truthSamples = 64;
-    scene.lattice = true;
-    scene.floorSamples = 81;
+    scene.truth.samples = 64;
+    scene.truth.lattice = true;
+    scene.truth.floorSamples = 81;
   }
   SweepResults results = describeSweep(session, plan, options.time);
   if (moving) {

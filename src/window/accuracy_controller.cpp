@@ -127,11 +127,11 @@ SweepResults ViewMeasurement::measure(PictureSize size, const Effort& effort, co
   SweepStore store(storeFolder(session_, request_));
   const SweepScene scene{.scene = session_.scene(),
                          .stateOf = [&](int) { return state; },
-                         .width = size.width,
-                         .height = size.height,
-                         .truthSamples = effort.samples,
-                         .lattice = true,
-                         .floorSamples = effort.floorSamples};
+                         .truth = {.width = size.width,
+                                   .height = size.height,
+                                   .samples = effort.samples,
+                                   .lattice = true,
+                                   .floorSamples = effort.floorSamples}};
   SweepResults results = describeSweep(session_, plan, request_.options.time);
   bool finished = false;
   inBackground([&] { finished = runSweep(plan, base_, scene, subject, store, results, progress); });

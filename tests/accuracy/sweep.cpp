@@ -293,11 +293,8 @@ reflectance = [0.8, 0.8, 0.8]
     SweepStore store(folder);
     const SweepScene scene{.scene = scene_,
                            .stateOf = [&](int) { return state_; },
-                           .width = 48,
-                           .height = 27,
-                           .identity = identity,
-                           .truthSamples = 16,
-                           .floorSamples = 25};
+                           .truth = {.width = 48, .height = 27, .samples = 16, .floorSamples = 25},
+                           .identity = identity};
     Run result;
     result.finished = runSweep(plan_, Settings(), scene, subject, store, result.results, progress);
     result.drawn = subject.drawn;
@@ -369,11 +366,8 @@ class SmallMotion : public SmallSweep {
                                  return state;
                                },
                            .frames = 6,
-                           .width = 48,
-                           .height = 27,
-                           .identity = std::to_string(step),
-                           .truthSamples = 16,
-                           .floorSamples = 25};
+                           .truth = {.width = 48, .height = 27, .samples = 16, .floorSamples = 25},
+                           .identity = std::to_string(step)};
     MovingSubject subject(scene);
     subject.most = most;
     SweepStore store(folder_ / "motion");

@@ -177,10 +177,7 @@ TEST(LeftOutConfigurations, DrawTheBytesOfOneThatIsKept) {
     SweepStore store(folder.path());
     const SweepScene scene{.scene = session.scene(),
                            .stateOf = [&](int) { return state; },
-                           .width = 64,
-                           .height = 36,
-                           .truthSamples = 1,
-                           .floorSamples = 0};
+                           .truth = {.width = 64, .height = 36, .samples = 1, .floorSamples = 0}};
     SweepResults results;
     ASSERT_TRUE(runSweep(plan, base, scene, subject, store, results, {}));
     std::set<std::vector<uint8_t>> kept;
