@@ -18,11 +18,8 @@ namespace {
 constexpr std::array frameBufferNames = {
     "passes", "mirrors", "lights", "instances", "curved mirrors", "mirror vertices", "repeating triangles"};
 
-Lookup lookupFor(const glm::dvec2& ratio) {
-  if (ratio == glm::dvec2(1.0)) {
-    return Lookup::fetch;
-  }
-  return ratio.x < 1.0 ? Lookup::bilinear : Lookup::box;
+uint32_t lookupFor(const glm::dvec2& ratio) {
+  return ratio == glm::dvec2(1.0) ? gpu::lookupFetch : ratio.x < 1.0 ? gpu::lookupBilinear : gpu::lookupBox;
 }
 
 // Returns the view that the cached or rendered image was drawn with; null without an image.
@@ -409,9 +406,9 @@ void FrameData::addMirrors(const FrameInfo& info, const Pass& pass, const glm::d
                       .fresnel = !draw.back && optics.fresnel == Fresnel::schlick,
                       .map = draw.back ? -1 : optics.map,
                       .base = optics.baseColor != glm::dvec3(0.0)};
-    range.shows = draw.back ? MirrorShows::back : image ? MirrorShows::image : MirrorShows::background;
+    range.shows = draw.back ? gpu::showsBack : image ? gpu::showsImage : gpu::showsBackground;
     range.colored = draw.back ? optics.backColor != glm::dvec3(0.0) : range.base;
-    range.lookup = image ? lookupFor(image->pictureSize / pass.view.pictureSize) : Lookup::fetch;
+    range.lookup = image ? lookupFor(image->pictureSize / pass.view.pictureSize) : gpu::lookupFetch;
     mirrors_.push_back({.mirror = mirrorData(draw, optics, info.state, effects, pass.view, image)});
     mirrors_.back().mirror.index = range.mirror;
     mirrors_.back().mirror.showsRipples = ripples;

@@ -14,19 +14,6 @@ namespace speculum {
 
 struct FrameInfo;
 
-// What a mirror shows, and how its image is looked up: values of specialisation constants of mirror_shading.glsl.
-enum class MirrorShows : uint32_t {
-  image = gpu::showsImage,
-  background = gpu::showsBackground,
-  back = gpu::showsBack,
-};
-enum class Lookup : uint32_t {
-  fetch = gpu::lookupFetch,
-  inside = gpu::lookupInside,
-  bilinear = gpu::lookupBilinear,
-  box = gpu::lookupBox,
-};
-
 // A mirror image, for the pass that looks it up.
 struct MirrorImage {
   VkDescriptorImageInfo descriptor{};
@@ -56,17 +43,18 @@ struct MirrorRange {
   int pass = -1;    // index into FramePlan::passes of the pass that rendered its image in this frame; -1: none
   int cached = -1;  // index into FramePlan::cached; -1: none
   bool reprojected = false;
-  MirrorShows shows = MirrorShows::background;
-  Lookup lookup = Lookup::fetch;  // of its image
-  bool blurs = false;             // it is rough and shown by blurring its image
-  bool ripples = false;           // it is rippled and shown by displacing its image
-  bool byRays = false;            // its reflection is traced
-  bool rippled = false;           // it shows ripples, by displacing its image or by rays
-  bool rough = false;             // it shows roughness, by blurring its image or by rays
-  bool fresnel = false;           // its reflectance depends on the angle of incidence
-  int map = -1;                   // index into Scene::textures of its reflectance map; -1: none
-  bool base = false;              // its base is not black
-  bool colored = false;           // the base, or the back if that is seen, is not black
+  // Values of specialisation constants of mirror_shading.glsl.
+  uint32_t shows = gpu::showsBackground;
+  uint32_t lookup = gpu::lookupFetch;  // of its image
+  bool blurs = false;                  // it is rough and shown by blurring its image
+  bool ripples = false;                // it is rippled and shown by displacing its image
+  bool byRays = false;                 // its reflection is traced
+  bool rippled = false;                // it shows ripples, by displacing its image or by rays
+  bool rough = false;                  // it shows roughness, by blurring its image or by rays
+  bool fresnel = false;                // its reflectance depends on the angle of incidence
+  int map = -1;                        // index into Scene::textures of its reflectance map; -1: none
+  bool base = false;                   // its base is not black
+  bool colored = false;                // the base, or the back if that is seen, is not black
 };
 
 // Draws of one pass: indices into the buffers of FrameData.

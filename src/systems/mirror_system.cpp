@@ -43,8 +43,8 @@ GraphicsPipelineDesc MirrorSystem::describe(const Variant& variant, const FrameI
                                           {gpu::constantAdded, variant.added},
                                           {gpu::constantBlurs, variant.blurs},
                                           {gpu::constantRipples, variant.ripples},
-                                          {gpu::constantShows, static_cast<uint32_t>(variant.shows)},
-                                          {gpu::constantLookup, static_cast<uint32_t>(variant.lookup)},
+                                          {gpu::constantShows, variant.shows},
+                                          {gpu::constantLookup, variant.lookup},
                                           {gpu::constantColored, variant.colored},
                                           {gpu::constantMapped, variant.mapped},
                                           {gpu::constantOnlyShadowFace, variant.onlyShadowFace},
@@ -100,7 +100,7 @@ MirrorSystem::Shading MirrorSystem::shadingOf(const PassScope& scope, const Mirr
     return Shading::single;
   }
   const bool averages = mirror.blurs || mirror.ripples || image->samples != scope.samples() ||
-                        mirror.lookup != Lookup::fetch || !device_.caps().sampleRateShading;
+                        mirror.lookup != gpu::lookupFetch || !device_.caps().sampleRateShading;
   return averages ? Shading::average : Shading::ownSample;
 }
 
@@ -113,7 +113,7 @@ MirrorSystem::Variant MirrorSystem::variantOf(const MirrorRange& mirror, Shading
     case Shading::average:
       variant.shows = mirror.shows;
       variant.colored = mirror.colored && !added;
-      if (mirror.shows == MirrorShows::image) {
+      if (mirror.shows == gpu::showsImage) {
         variant.blurs = mirror.blurs;
         variant.ripples = mirror.ripples;
         variant.reprojected = mirror.reprojected;
@@ -156,7 +156,7 @@ uint32_t MirrorSystem::record(const PassScope& scope, const FrameInfo& info, con
 uint32_t MirrorSystem::recordReflections(const PassScope& scope, const FrameInfo& info, const DrawList& pass) {
   uint32_t draws = 0;
   for (const MirrorRange& mirror : pass.mirrors) {
-    if (defers(info, mirror) && !mirror.byRays && mirror.shows != MirrorShows::back) {
+    if (defers(info, mirror) && !mirror.byRays && mirror.shows != gpu::showsBack) {
       draw(scope, info, pass, mirror, variantOf(mirror, shadingOf(scope, mirror, imageOf(mirror, info)), true));
       ++draws;
     }
@@ -169,8 +169,8 @@ void MirrorSystem::draw(const PassScope& scope, const FrameInfo& info, const Dra
   const bool identifies = variant.shading == Shading::identifier;
   const MirrorImage* image = imageOf(mirror, info);
   const bool reads = image && !identifies && variant.shading != Shading::base;
-  if (reads && image->samples != scope.samples() && variant.lookup == Lookup::fetch) {
-    variant.lookup = Lookup::inside;
+  if (reads && image->samples != scope.samples() && variant.lookup == gpu::lookupFetch) {
+    variant.lookup = gpu::lookupInside;
   }
   variant.format = formatOf(scope.desc(), info.settings);
   variant.perSample = !identifies && info.trace.variant().perSample && (variant.blurs || variant.ripples);

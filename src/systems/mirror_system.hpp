@@ -41,8 +41,8 @@ class MirrorSystem {
     bool reprojected = false;
     bool blurs = false;
     bool ripples = false;
-    MirrorShows shows = MirrorShows::image;
-    Lookup lookup = Lookup::fetch;
+    uint32_t shows = gpu::showsImage;
+    uint32_t lookup = gpu::lookupFetch;
     bool colored = false;
     bool mapped = false;
     uint32_t lightCount = gpu::manyLights;
