@@ -115,7 +115,6 @@ class Device {
 
   // Warnings and errors of the validation layer since the start; 0 is the only good figure.
   int validationMessages() const { return instance_.messages().count(); }
-  std::vector<std::string> lastValidationMessages() const { return instance_.messages().latest(); }  // 32, oldest first
 
   MemoryBlocks& memory() { return memory_; }
   uint64_t allocatedBytes() const { return memory_.usedBytes(); }  // of live buffers and images

@@ -83,16 +83,6 @@ VkDebugUtilsMessengerCreateInfoEXT DebugMessages::createInfo() {
           .pUserData = this};
 }
 
-int DebugMessages::count() const {
-  const std::lock_guard lock(mutex_);
-  return count_;
-}
-
-std::vector<std::string> DebugMessages::latest() const {
-  const std::lock_guard lock(mutex_);
-  return {latest_.begin(), latest_.end()};
-}
-
 VkBool32 DebugMessages::receive(VkDebugUtilsMessageSeverityFlagBitsEXT severity, VkDebugUtilsMessageTypeFlagsEXT,
                                 const VkDebugUtilsMessengerCallbackDataEXT* data, void* self) {
   const bool error = severity & VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
@@ -101,18 +91,9 @@ VkBool32 DebugMessages::receive(VkDebugUtilsMessageSeverityFlagBitsEXT severity,
   if (data->pMessageIdName && text.find(data->pMessageIdName) == std::string::npos) {
     text = std::string(data->pMessageIdName) + ": " + text;
   }
-  static_cast<DebugMessages*>(self)->add(error, text);
-  return VK_FALSE;
-}
-
-void DebugMessages::add(bool error, const std::string& text) {
   spdlog::log(error ? spdlog::level::err : spdlog::level::warn, "validation: {}", text);
-  const std::lock_guard lock(mutex_);
-  ++count_;
-  latest_.push_back(text);
-  if (latest_.size() > kept) {
-    latest_.pop_front();
-  }
+  ++static_cast<DebugMessages*>(self)->count_;
+  return VK_FALSE;
 }
 
 Instance::Instance(const DeviceOptions& options) : version_(usedVersion()) {

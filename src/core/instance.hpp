@@ -1,6 +1,6 @@
 #pragma once
 
-#include <deque>
+#include <atomic>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -13,26 +13,20 @@ namespace speculum {
 
 struct DeviceOptions;
 
-// Receives the messages of the validation layer, logs them and keeps the latest for tests.
+// Receives the messages of the validation layer, logs and counts them.
 class DebugMessages {
  public:
   // Points to this object. In the chain of the instance's create info it covers the instance's creation, too.
   VkDebugUtilsMessengerCreateInfoEXT createInfo();
 
-  int count() const;                        // since the start
-  std::vector<std::string> latest() const;  // at most 32, oldest first
+  int count() const { return count_; }  // since the start
 
  private:
   static VKAPI_ATTR VkBool32 VKAPI_CALL receive(VkDebugUtilsMessageSeverityFlagBitsEXT severity,
                                                 VkDebugUtilsMessageTypeFlagsEXT types,
                                                 const VkDebugUtilsMessengerCallbackDataEXT* data, void* self);
-  void add(bool error, const std::string& text);
 
-  static constexpr size_t kept = 32;
-
-  mutable std::mutex mutex_;
-  std::deque<std::string> latest_;
-  int count_ = 0;
+  std::atomic<int> count_{0};
 };
 
 // The Vulkan instance, with validation if the options ask for it, and with the extensions that their window needs.

@@ -42,14 +42,6 @@ RendererOptions headless(VkExtent2D extent) {
           .pipelineCacheDir = std::filesystem::path()};
 }
 
-std::string messagesOf(const Device& device) {
-  std::string text;
-  for (const std::string& message : device.lastValidationMessages()) {
-    text += message + "\n";
-  }
-  return text;
-}
-
 VkDescriptorSetLayout oneBinding(Device& device, VkDescriptorType type, uint32_t count) {
   const DescriptorBinding binding{
       .type = type, .count = count, .stages = VK_SHADER_STAGE_FRAGMENT_BIT | VK_SHADER_STAGE_COMPUTE_BIT};

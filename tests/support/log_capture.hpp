@@ -3,6 +3,7 @@
 #include <spdlog/sinks/ostream_sink.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <memory>
 #include <sstream>
 #include <string>
@@ -23,6 +24,13 @@ class LogCapture {
   LogCapture& operator=(const LogCapture&) = delete;
 
   std::string text() const { return stream_.str(); }
+
+  // Returns the first message of the validation layer; empty if there is none.
+  std::string validationMessage() const {
+    const std::string all = text();
+    const size_t begin = std::min(all.find("validation: "), all.size());
+    return all.substr(begin, all.find('\n', begin) - begin);
+  }
 
  private:
   std::ostringstream stream_;
