@@ -4,7 +4,6 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <cctype>
 #include <utility>
 
 #include "platform/text.hpp"
@@ -12,13 +11,6 @@
 namespace speculum {
 
 namespace {
-
-bool contains(const std::string& text, std::string_view part) {
-  const auto same = [](char a, char b) {
-    return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
-  };
-  return std::search(text.begin(), text.end(), part.begin(), part.end(), same) != text.end() || part.empty();
-}
 
 class HistorySink : public spdlog::sinks::base_sink<std::mutex> {
  public:
@@ -57,10 +49,13 @@ void LogHistory::clear() {
 }
 
 std::vector<LogLine> LogHistory::lines(LogLevel least, std::string_view part) const {
+  const std::string wanted = lowerCase(std::string(part));
+  const auto isChosen = [&](const LogLine& line) {
+    return line.level >= least && lowerCase(line.text).find(wanted) != std::string::npos;
+  };
   const std::lock_guard lock(mutex_);
   std::vector<LogLine> chosen;
-  std::ranges::copy_if(lines_, std::back_inserter(chosen),
-                       [&](const LogLine& line) { return line.level >= least && contains(line.text, part); });
+  std::ranges::copy_if(lines_, std::back_inserter(chosen), isChosen);
   return chosen;
 }
 
