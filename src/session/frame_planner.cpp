@@ -10,7 +10,7 @@
 
 namespace speculum {
 
-FramePlanner::FramePlanner(const Device& device, bool keepsPicture) {
+FramePlanner::FramePlanner(const Device& device, bool keepsPicture) : device_(device) {
   // Leaves a quarter for meshes, textures and other programs. Reads the budget only once, so that plans of equal frames
   // are equal.
   budgetBytes_ = limits_.budgetBytes = device.memoryBudget().budgetBytes / 4 * 3;
@@ -19,11 +19,7 @@ FramePlanner::FramePlanner(const Device& device, bool keepsPicture) {
                                  device.limits().maxViewportDimensions[1]}));
   limits_.cpu = device.info().isCpu();
   limits_.keepsPicture = keepsPicture;
-  tracesRays_ =
-      device.caps().primitiveId && device.limits().maxPerStageDescriptorStorageBuffers >= TraceFrame::storageBuffers;
   limits_.hybridShadows = device.caps().fillModeNonSolid && device.caps().sampleRateShading;
-  drawsCoverage_ = device.caps().primitiveId;
-  deviceLimits_ = device.limits();
 }
 
 void FramePlanner::begin(bool rendersMirrors, bool leavesOutTextures, unsigned planners) {
@@ -49,13 +45,15 @@ FittedPlan FramePlanner::plan(const FrameRequest& request) {
     refused_.reset();
   }
   asked.settings.effects.textures = asked_.effects.textures && !refused_;
-  if (!drawsCoverage_ && std::exchange(asked.settings.effects.transparency, false) &&
+  if (!device_.caps().primitiveId && std::exchange(asked.settings.effects.transparency, false) &&
       std::ranges::any_of(request.scene.meshes, &Mesh::isTransparent) && !std::exchange(warnedOfCoverage_, true)) {
     spdlog::warn("transparent materials are drawn opaque, because the device has no geometry shaders");
   }
-  limits_.whyNoRays = tracesRays_ ? traceRoomProblem(request.scene, request.state.instances.size(), deviceLimits_)
-                                  : fmt::format("the device lacks geometryShader or {} storage buffers a stage",
-                                                TraceFrame::storageBuffers);
+  const bool tracesRays =
+      device_.caps().primitiveId && device_.limits().maxPerStageDescriptorStorageBuffers >= TraceFrame::storageBuffers;
+  limits_.whyNoRays = tracesRays ? traceRoomProblem(request.scene, request.state.instances.size(), device_.limits())
+                                 : fmt::format("the device lacks geometryShader or {} storage buffers a stage",
+                                               TraceFrame::storageBuffers);
   FittedPlan fitted = planWithin(limits_, asked);
   if (!fitted.message.empty() && lowered_.empty()) {
     spdlog::warn("{}", fitted.message);

@@ -35,12 +35,10 @@ class FramePlanner : public PicturePlanner {
     std::string problem;
   };
 
+  const Device& device_;
   TargetLimits limits_;
-  uint64_t budgetBytes_ = 0;   // for the targets of all planners
-  bool tracesRays_ = true;     // the device can trace rays, if its buffers can hold the scene
-  bool drawsCoverage_ = true;  // else effects.transparency is left out
+  uint64_t budgetBytes_ = 0;  // for the targets of all planners
   bool warnedOfCoverage_ = false;
-  VkPhysicalDeviceLimits deviceLimits_;
   bool rendersMirrors_ = false;
   bool leavesOutTextures_ = false;
   Settings asked_;  // settings of the last plan, before any was lowered
