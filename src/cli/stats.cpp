@@ -106,7 +106,7 @@ ordered_json passesJson(Session& session) {
                       {"path", pathJson(session.scene(), pass.path)},
                       {"path_indices", indicesJson(pass.path)},
                       {"parent", parentJson(views, pass)},
-                      {"depth", mirror ? ordered_json(pass.depth) : ordered_json(nullptr)},
+                      {"depth", mirror ? ordered_json(depthOf(pass.path)) : ordered_json(nullptr)},
                       {"gpu_ms", timing.gpuMs},
                       {"draws", pass.draws},
                       {"triangles", timing.hasStatistics ? ordered_json(timing.triangles) : ordered_json(nullptr)},
@@ -123,10 +123,10 @@ ordered_json passesJson(Session& session) {
 ordered_json skippedJson(const Scene& scene, const SceneState& state, const FramePlan& plan) {
   ordered_json skipped = ordered_json::array();
   for (const SkippedMirror& skip : skippedMirrors(scene, state, plan, mostListed)) {
-    skipped.push_back({{"mirror", mirrorJson(scene, skip.mirror)},
+    skipped.push_back({{"mirror", mirrorJson(scene, skip.path.back())},
                        {"path", pathJson(scene, skip.path)},
                        {"path_indices", indicesJson(skip.path)},
-                       {"depth", skip.depth},
+                       {"depth", depthOf(skip.path)},
                        {"reason", skipReasonName(skip.reason)},
                        {"detail", std::string_view(skip.detail)}});
   }

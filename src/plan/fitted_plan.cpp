@@ -60,7 +60,7 @@ bool isAutomatic(const Mirror& mirror, const Settings& settings) {
 // automatic in `asked` count.
 bool raysAreFaster(const FramePlan& plan, const Scene& scene, const Settings& asked) {
   return asked.view.samples == 1 && std::ranges::any_of(plan.drawnMirrors(), [&](const Pass& pass) {
-           return pass.depth == 0 && pass.areaPx >= pixelsForRays &&
+           return depthOf(pass.view.path) == 0 && pass.areaPx >= pixelsForRays &&
                   isAutomatic(scene.mirror(pass.view.path[0]), asked);
          });
 }

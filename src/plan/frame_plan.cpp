@@ -244,8 +244,9 @@ void Planner::dropSkipsInReused() {
   for (const CachedImage& image : plan_.cached) {
     reused[image.mirror] = image.cacheIndex >= 0;
   }
-  std::erase_if(plan_.skipped,
-                [&](const SkippedMirror& skipped) { return skipped.depth > 0 && reused[skipped.path.front()]; });
+  std::erase_if(plan_.skipped, [&](const SkippedMirror& skipped) {
+    return depthOf(skipped.path) > 0 && reused[skipped.path.front()];
+  });
 }
 
 }  // namespace

@@ -107,10 +107,8 @@ struct Pass {
   ImageQuality quality;
   ImageQuality shownIn;           // quality of the pass that shows the image
   double shownBeyond = 0.0;       // texels beyond the view's cone at which the image may be shown, lookups apart
-  int depth = -1;                 // recursion depth of its mirror: 0 seen directly, 1 in a mirror; -1 for other passes
   double areaPx = 0.0;            // area of the mirror's visible region, in texels of its image
-  double throughput = 1.0;        // upper bound over the visible region, largest channel, including this mirror
-  glm::dvec3 channels{1.0};       // upper bound of the throughput of each channel
+  glm::dvec3 channels{1.0};       // upper bound of each channel's throughput over the visible region, with this mirror
   RecycledVector<int> instances;  // visible ones, indices into SceneState::instances, ascending
   RecycledVector<PartialInstance> partial;  // instances that are seen in part, ascending
   RecycledVector<int> lights;               // lights whose glyphs are visible, indices into Scene::lights
@@ -153,9 +151,7 @@ struct Cube {
 
 // A mirror in a view that has no pass.
 struct SkippedMirror {
-  int mirror = 0;
-  MirrorPath path;  // ends with `mirror`
-  int depth = 0;
+  MirrorPath path;  // ends with the mirror
   SkipReason reason = SkipReason::outside;
   RecycledString detail;
 };

@@ -260,15 +260,13 @@ void MirrorSearch::expand(const Candidate& candidate) {
   if (displacesLookup) {
     boundByRectangle(node.pass.view, plan_.projection);
   }
-  node.pass.depth = static_cast<int>(parent.path.size());
   node.pass.areaPx = candidate.areaPx * (picture.x / plan_.width) * (picture.y / plan_.height);
-  node.pass.throughput = glm::compMax(candidate.throughput);
   node.pass.channels = candidate.throughput;
   node.pass.shownBeyond = shownBeyond(nodes_[candidate.parent].pass, node.pass.view);
   node.draw = candidate.draw;
   // An image that is read beside a pixel's own texel cannot be reprojected.
   const int interval = displacesLookup ? 1 : node.pass.quality.interval;
-  if (node.pass.depth == 0 && (interval > 1 || settings_.skipUnchanged)) {
+  if (parent.path.empty() && (interval > 1 || settings_.skipUnchanged)) {
     const ReuseRequest request{node.pass.view, plan_.projection,          candidate.visible,
                                allSettings_,   node.pass.quality.samples, interval,
                                candidate.order};

@@ -134,7 +134,7 @@ std::string_view whyRays(const MirrorQuality& own, const MirrorOptics& optics, c
 }
 
 SkippedMirror skippedMirror(const View& view, int mirror, SkipReason reason, RecycledString detail) {
-  SkippedMirror skipped{mirror, view.path, static_cast<int>(view.path.size()), reason, std::move(detail)};
+  SkippedMirror skipped{view.path, reason, std::move(detail)};
   skipped.path.push_back(mirror);
   return skipped;
 }

@@ -42,6 +42,11 @@ inline std::string mirrorPathName(const Scene& scene, std::span<const int> path)
 // Mirrors that reflect a view, from the camera's eye on, as indices into Scene::mirrors; empty for the main view.
 using MirrorPath = RecycledVector<int>;
 
+// Returns the recursion depth of the mirror at the end of a path: 0 for one seen directly, -1 without a mirror.
+inline int depthOf(const MirrorPath& path) {
+  return static_cast<int>(path.size()) - 1;
+}
+
 // The camera, or the camera reflected in a chain of mirrors. All views of a frame share one projection, so that a
 // mirror image lines up with the view it is seen from, pixel by pixel.
 struct View {

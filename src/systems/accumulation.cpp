@@ -77,7 +77,7 @@ RecordedPass Accumulation::add(Frame& frame, const VkDescriptorImageInfo& radian
   const auto columns = refined ? static_cast<uint32_t>(refined->grid().x) : 0;
   pipeline.bind(scope.commands(), set, gpu::AccumulateConstants{picture == 0, columns, refinedSide});
   vkCmdDraw(scope.commands(), 3, 1, 0, 0);
-  return {{.kind = PassKind::accumulation}, desc.name, -1, 1};
+  return {{.kind = PassKind::accumulation}, desc.name, 1};
 }
 
 std::shared_ptr<const RefinedTiles> Accumulation::refined(const DisplayCurve& curve, const ViewSettings& settings,

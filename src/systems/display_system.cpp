@@ -129,7 +129,7 @@ RecordedPass DisplaySystem::record(Frame& frame, std::span<const DisplayedPictur
                                static_cast<float>(picture.curve.exposure)});
     ++draws;
   }
-  return {{.kind = PassKind::display}, desc.name, -1, draws};
+  return {{.kind = PassKind::display}, desc.name, draws};
 }
 
 // A depth image is not filtered where it is shrunk, because depth has no mean where surfaces meet.
@@ -155,7 +155,7 @@ std::optional<RecordedPass> DisplaySystem::recordTarget(Frame& frame, const Watc
     draw(frame, scope, variant, image.descriptor,
          gpu::DisplayConstants{lookup, target.size, static_cast<float>(curve.exposure)});
   }
-  return RecordedPass{{.kind = PassKind::targetDisplay}, desc.name, -1, 1};
+  return RecordedPass{{.kind = PassKind::targetDisplay}, desc.name, 1};
 }
 
 std::optional<RecordedPass> DisplaySystem::recordMean(Frame& frame, OffScreen& target, int picture) {
@@ -168,7 +168,7 @@ std::optional<RecordedPass> DisplaySystem::recordMean(Frame& frame, OffScreen& t
   const PassDesc desc = fullPass(target.desc().name, mean);
   draw(frame, renderer_.beginPass(frame, desc), {.mean = true}, target.samplesDescriptor(),
        gpu::MeanConstants{halfTurn(beyondMirrors, picture), picture > 0 ? 1.0f : 0.0f});
-  return RecordedPass{{.kind = PassKind::main}, desc.name, -1, 1};
+  return RecordedPass{{.kind = PassKind::main}, desc.name, 1};
 }
 
 void DisplaySystem::releaseView() {

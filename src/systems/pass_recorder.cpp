@@ -103,7 +103,7 @@ void PassRecorder::record(const FrameInfo& info, size_t index, const PassDesc& d
     draws += renderSystem_.recordReflections(scope, info, data, deferredShading_);
   }
   draws += maskSystem_.markOutside(scope, info, data);
-  info.log.add({pass.id, desc.name, pass.depth, draws, areaPx});
+  info.log.add({pass.id, desc.name, draws, areaPx});
 }
 
 void PassRecorder::endPicture(const FrameInfo& info) {

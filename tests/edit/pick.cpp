@@ -217,9 +217,9 @@ TEST_F(Corridor, FollowsMirrorsAsDeepAsDrawn) {
   EXPECT_EQ(at({0.6, 1.0, -7.5}, {.maxDepth = 1})[0].what, behind) << "it shows the background";
   EXPECT_EQ(at({0.6, 1.0, -7.5}, {.maxDepth = 0})[0].what, ahead);
   EXPECT_EQ(at({0.6, 1.0, -7.5}, {.minThroughput = 0.93})[0].what, behind) << "0.95 squared is below";
-  const RecycledVector<SkippedMirror> skipped{{1, {0, 1}, 1, SkipReason::maxPasses, ""}};
+  const RecycledVector<SkippedMirror> skipped{{{0, 1}, SkipReason::maxPasses, ""}};
   EXPECT_EQ(at({0.6, 1.0, -7.5}, {.skipped = skipped})[0].what, behind);
-  const RecycledVector<SkippedMirror> held{{1, {0, 1}, 1, SkipReason::unchanged, ""}};
+  const RecycledVector<SkippedMirror> held{{{0, 1}, SkipReason::unchanged, ""}};
   EXPECT_EQ(at({0.6, 1.0, -7.5}, {.skipped = held})[0].what, ball);
 }
 

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <glm/gtx/component_wise.hpp>
 
 #include "edit/scene_document.hpp"
 #include "fuzz_support.hpp"
@@ -53,7 +54,7 @@ void checkPlan(const FramePlan& plan, const Settings& settings, size_t mirrorCou
   checkView(plan.main().view);
   for (const Pass& pass : plan.drawnMirrors()) {
     checkView(pass.view);
-    require(!pass.view.rect.empty() && std::isfinite(pass.areaPx) && std::isfinite(pass.throughput),
+    require(!pass.view.rect.empty() && std::isfinite(pass.areaPx) && std::isfinite(glm::compMax(pass.channels)),
             "a pass has pixels");
     require(pass.view.path.size() <= static_cast<size_t>(settings.reflection.maxDepth), "passes keep to the depth");
     for (const MirrorDraw& draw : pass.mirrors) {

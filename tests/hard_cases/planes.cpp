@@ -212,7 +212,7 @@ TEST(CornersThatDivide180Degrees, ImagesFillTheViewOnce) {
       const FramePlan plan = planOf(scene, columns, rows, 32);
       std::map<int, double> areas;
       for (const Pass& pass : plan.drawnMirrors()) {
-        areas[pass.depth] += pass.areaPx;
+        areas[depthOf(pass.view.path)] += pass.areaPx;
       }
       EXPECT_LE(plan.drawnMirrors().size(), 2u * n) << n;
       EXPECT_LE(static_cast<int>(areas.size()), n) << n;

@@ -77,7 +77,8 @@ TEST(DepthReadout, MirrorsAndGlyphsCount) {
   scene.mirrors[1].rotation = {0, 180, 0};
   const SceneState state = evaluate(scene, 0.0);
   const FramePlan plan = depthPlan(scene, state);
-  const auto direct = std::ranges::find(plan.drawnMirrors(), 0, &Pass::depth);
+  const auto direct =
+      std::ranges::find(plan.drawnMirrors(), 0, [](const Pass& pass) { return depthOf(pass.view.path); });
   const auto readout = depthReadout(*direct, plan.projection, scene, state);
   ASSERT_TRUE(readout);
   EXPECT_GE(readout->distance, 9.0);

@@ -66,7 +66,7 @@ TEST(MirrorQuality, EachPassHasWhatItsMirrorAsksFor) {
       const Pass& seenIn = viewOf(plan, std::span(pass.view.path).first(pass.view.path.size() - 1));
       double scale = own.scale.value_or(usual.scale);
       int samples = own.samples.value_or(usual.samples);
-      if (pass.depth > 0) {
+      if (depthOf(pass.view.path) > 0) {
         scale = std::min(scale, seenIn.quality.scale);
         samples = std::min(samples, seenIn.quality.samples);
       }

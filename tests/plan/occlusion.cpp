@@ -134,13 +134,13 @@ class Occluders : public ::testing::Test {
     checkDrawn(scene, state, plan, what);
     int hidden = 0;
     for (const SkippedMirror& skipped : plan.skipped) {
-      if (skipped.reason != SkipReason::hidden || skipped.depth != depth) {
+      if (skipped.reason != SkipReason::hidden || depthOf(skipped.path) != depth) {
         continue;
       }
       ++hidden;
       together_ += skipped.detail.find(" and ") != std::string::npos;
       const View& view = viewOf(plan, skipped);
-      for (const glm::dvec3& p : pointsOf(visiblePart(view, state.mirrors[skipped.mirror].polygon))) {
+      for (const glm::dvec3& p : pointsOf(visiblePart(view, state.mirrors[skipped.path.back()].polygon))) {
         glm::dvec3 begin = view.eye;  // of the ray: in the mirror that shows it
         if (view.clip) {
           const double above = glm::dot(view.clip->normal, p - view.clip->point);

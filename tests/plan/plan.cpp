@@ -1,5 +1,7 @@
 #include "plan/frame_plan.hpp"
 
+#include <glm/gtx/component_wise.hpp>
+
 #include "plan/mirror_sight.hpp"
 #include "plan/support.hpp"
 #include "support/random.hpp"
@@ -39,7 +41,6 @@ TEST(FramePlan, FacingMirrorNeedsOnePass) {
   const FramePlan p = planOf(sceneWith({wall({0, 0, -5}, 0)}));
   ASSERT_EQ(p.drawnMirrors().size(), 1u);
   const Pass& pass = p.drawnMirrors()[0];
-  EXPECT_EQ(pass.depth, 0);
   EXPECT_EQ(pass.view.path, MirrorPath{0});
   // 2 m at 5 m: 2/5 / (2 tan 30) of the height.
   const double side = 0.4 / (2.0 * std::tan(glm::radians(30.0))) * height;
@@ -120,9 +121,10 @@ TEST(FramePlan, FacingMirrorsRecurseDeepestFirst) {
   const FramePlan p = planOf(corridor(), settings);
   ASSERT_EQ(p.drawnMirrors().size(), 6u);
   for (size_t i = 0; i < p.drawnMirrors().size(); ++i) {
-    EXPECT_EQ(p.drawnMirrors()[i].depth, 5 - static_cast<int>(i));
+    const MirrorPath& path = p.drawnMirrors()[i].view.path;
+    EXPECT_EQ(depthOf(path), 5 - static_cast<int>(i));
     EXPECT_EQ(p.passes[i + 1].mirrors[0].pass, static_cast<int>(i)) << "shown in the next one";
-    EXPECT_EQ(p.drawnMirrors()[i].view.mirrored(), p.drawnMirrors()[i].depth % 2 == 0);
+    EXPECT_EQ(p.drawnMirrors()[i].view.mirrored(), depthOf(path) % 2 == 0);
     if (i > 0) {
       EXPECT_LT(p.drawnMirrors()[i - 1].areaPx, p.drawnMirrors()[i].areaPx);
     }
@@ -137,9 +139,9 @@ TEST(FramePlan, ThroughputIsTheProductOfReflectances) {
   scene.mirrors[0].reflectance = {0.5, 0.1, 0.1};
   scene.mirrors[1].reflectance = {0.1, 0.4, 0.1};
   const FramePlan p = planOf(scene);
-  const auto second = std::ranges::find(p.drawnMirrors(), 1, &Pass::depth);
+  const auto second = std::ranges::find(p.drawnMirrors(), 1, [](const Pass& pass) { return depthOf(pass.view.path); });
   ASSERT_NE(second, p.drawnMirrors().end());
-  EXPECT_NEAR(second->throughput, 0.05, 1e-15);
+  EXPECT_NEAR(glm::compMax(second->channels), 0.05, 1e-15);
 }
 
 TEST(FramePlan, SchlickBoundUsesTheFarthestPoint) {
@@ -149,7 +151,7 @@ TEST(FramePlan, SchlickBoundUsesTheFarthestPoint) {
   const FramePlan p = planOf(scene);
   ASSERT_EQ(p.drawnMirrors().size(), 1u);
   const double cosine = 5.0 / std::sqrt(27.0);
-  EXPECT_NEAR(p.drawnMirrors()[0].throughput, 0.04 + 0.96 * std::pow(1.0 - cosine, 5.0), 1e-12);
+  EXPECT_NEAR(glm::compMax(p.drawnMirrors()[0].channels), 0.04 + 0.96 * std::pow(1.0 - cosine, 5.0), 1e-12);
 }
 
 TEST(FramePlan, CoplanarNeighboursDoNotReflectEachOther) {

@@ -28,7 +28,8 @@ inline std::filesystem::path roomScene(bool turning = true) {
 }
 
 inline int mirrorPasses(const SceneRenderer& renderer) {
-  return static_cast<int>(std::ranges::count_if(renderer.passes(), [](const auto& pass) { return pass.depth >= 0; }));
+  return static_cast<int>(
+      std::ranges::count_if(renderer.passes(), [](const auto& pass) { return depthOf(pass.path) >= 0; }));
 }
 
 // Draws a frame and returns the names of its passes that begin with `beginning`. Expects that these passes belong to no

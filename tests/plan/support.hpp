@@ -139,7 +139,7 @@ class PlanSequence {
     std::set<int> mirrors;
     for (const SkippedMirror& skip : plan.skipped) {
       if (skip.reason == SkipReason::unchanged) {
-        mirrors.insert(skip.mirror);
+        mirrors.insert(skip.path.back());
       }
     }
     return mirrors;

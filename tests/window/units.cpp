@@ -434,8 +434,7 @@ TEST_F(Report, FramesThatCompileAreNoHistory) {
 }
 
 TEST_F(Report, MirrorsSeenInReusedImagesStayListed) {
-  plan.skipped = {{.mirror = 1, .path = {0, 1}, .reason = SkipReason::hidden},
-                  {.mirror = 1, .path = {2, 1}, .reason = SkipReason::hidden}};
+  plan.skipped = {{.path = {0, 1}, .reason = SkipReason::hidden}, {.path = {2, 1}, .reason = SkipReason::hidden}};
   const RecordedFrame frame = frameOf(1, 1.0, 1.0);
   report.updateSkipped(frame);
   EXPECT_EQ(view.skipped.size(), 2u);
