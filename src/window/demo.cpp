@@ -328,12 +328,11 @@ void Demo::report(const RecordedFrame& frame) {
   const auto pixels = [this](int of) { return halves_.at(of).pixels(); };
   const auto picture = std::function([&] { return pixels(index); });
   const std::optional<Image8> captured = saved_ ? std::optional(pictureOf(renderer_.readback())) : std::nullopt;
-  // A mean may be complete with fewer pictures, where it has converged.
-  const int pictures =
-      half.pace.completeStill() ? frame.settings.view.accumulate : std::max(half.renderer->accumulated(), 1);
-  workspace_.frameDrawn({frame.scene, frame.state, frame.settings, frame.plan.width, frame.plan.height, pictures},
-                        endsPicture(frame.plan) && !frame.plan.encodes ? picture : nullptr,
-                        captured ? &*captured : nullptr, index);
+  const int pictures = std::max(half.renderer->accumulated(), 1);
+  const bool complete = half.pace.completeStill() || pictures >= frame.settings.view.accumulate;
+  workspace_.frameDrawn(
+      {frame.scene, frame.state, frame.settings, frame.plan.width, frame.plan.height, pictures, complete},
+      endsPicture(frame.plan) && !frame.plan.encodes ? picture : nullptr, captured ? &*captured : nullptr, index);
   if (halves_.split()) {
     workspace_.split().frameDrawn({.half = index,
                                    .gpuMs = workspace_.report(index).shown().gpuMs,

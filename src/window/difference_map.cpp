@@ -70,8 +70,8 @@ void DifferenceMap::startTracing(const ShownPicture& shown) {
 
 void DifferenceMap::startComparing(const ShownPicture& shown, Image8 image) {
   comparing_.start(0.0, [truth = truth_, drawn = std::move(image), settings = shown.settings, state = shown.state,
-                         pictures = shown.pictures](const auto&) {
-    Compared result{.pictures = pictures, .wanted = settings.view.accumulate};
+                         pictures = shown.pictures, complete = shown.complete](const auto&) {
+    Compared result{.pictures = pictures, .wanted = complete ? pictures : settings.view.accumulate};
     Plane2d& map = result.map;
     inBackground([&] { result.metrics = errorsAgainst(*truth, drawn, settings, &map).whole; });
     result.mirrorErrors = errorsOfMirrors(map, PictureView(state.camera, map.width, map.height), state);
@@ -124,8 +124,7 @@ bool DifferenceMap::update(const ShownPicture& shown, const std::function<Image8
   if (lacksReference() && !tracing_.busy() && Clock::now() - still_ > stillFor) {
     startTracing(shown);
   }
-  if (const std::pair picture(shown.settings, shown.pictures >= shown.settings.view.accumulate);
-      truth_ && picture != compared_ && !comparing_.busy()) {
+  if (const std::pair picture(shown.settings, shown.complete); truth_ && picture != compared_ && !comparing_.busy()) {
     compared_ = picture;
     startComparing(shown, image());
   }

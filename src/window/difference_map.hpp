@@ -14,7 +14,8 @@ struct ShownPicture {
   const Settings& settings;
   int width = 0;  // pixels
   int height = 0;
-  int pictures = 1;  // in the mean that is shown, of settings.view.accumulate
+  int pictures = 1;      // in the mean that is shown, of settings.view.accumulate
+  bool complete = true;  // the mean gets no further picture: it may have converged before
 };
 
 // Heat map of the FLIP error of a still picture of the window against the ray-traced reference. Tracing and comparing
@@ -39,7 +40,7 @@ class DifferenceMap {
   using Clock = std::chrono::steady_clock;
   struct Compared {
     int pictures = 1;  // in the mean that was compared
-    int wanted = 1;    // in the complete mean
+    int wanted = 1;    // in the mean at most; `pictures` if it was complete
     Plane2d map;
     ImageMetrics metrics;
     std::vector<double> mirrorErrors;

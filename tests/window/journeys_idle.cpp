@@ -367,7 +367,7 @@ TEST_F(AccuracyJourney, MeasuresTheViewAndShowsTheDifference) {
   // The plot and the map show one error of one point.
   setSetting("quality.still_error", "16");  // the mean has converged at 8 pictures
   setSetting("quality.still_pictures", "12");
-  EXPECT_TRUE(waitFor([&] { return contains(measured.difference, "Mean FLIP of the mean of 12 pictures: "); }))
+  EXPECT_TRUE(waitFor([&] { return contains(measured.difference, "Mean FLIP of the mean of 8 pictures: "); }))
       << measured.difference;
   click("accuracy.point " + measured.points[static_cast<size_t>(best)].name);
   const std::string error = significant(measured.points[static_cast<size_t>(best)].error, 3);
