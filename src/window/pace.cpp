@@ -36,6 +36,8 @@ constexpr double longestWait = 3.0;       // budgets: slower still pictures come
 constexpr double tilesShare = 2.0;        // budgets for a frame with tiles and without input
 constexpr double untouchedWait = 6.0;     // budgets instead of these two for a view that nobody touches
 constexpr double untouchedSeconds = 0.5;  // without input, after which nobody does
+constexpr double coveredWait = 20.0;      // budgets for a draft that is waited for
+constexpr int framesToAnswer = 2;         // that show the first input after that: a new panel is laid out in the first
 constexpr double leastShare = 0.1;  // least share of the time of a frame with tiles that counts as time of its tiles
 // Passes that each frame has, however few tiles it draws.
 constexpr std::array<std::string_view, 3> besideTiles = {"display", "debug view", "overlay"};
@@ -148,6 +150,7 @@ const FittedPlan& Pace::plan(const Request& request) {
   fitted_.plan.tiles.reset();
   level_ = 0;
   text_.clear();
+  answers_ = request.input && untouched_ >= untouchedSeconds ? framesToAnswer : std::max(answers_ - 1, 0);
   untouched_ = request.input ? 0.0 : untouched_;
   if (moving() && request.budgetMs > 0.0) {
     planMoving(request);
@@ -336,8 +339,10 @@ void Pace::planTiles(const Request& request) {
   const double pixels = static_cast<double>(request.shown.size.x) * request.shown.size.y;
   besidesMs_ = cpuMs_ + sendMs() + shownMs_.value_or(controller_.predict({.displayTexels = pixels}));
   const double most = (request.input ? 1.0 : longestFrame(tilesShare)) * request.budgetMs;
-  // At least half of the time goes to the tiles, whatever the rest of a frame takes.
-  fitted_.plan.tiles = slow_.next(std::max(most - besidesMs_, besidesMs_), request.input);
+  // At least half of the time goes to the tiles, whatever the rest of a frame takes. A frame that answers input has
+  // waited for a long one and takes no more than a tile.
+  fitted_.plan.tiles =
+      answers_ > 0 ? slow_.next(0.0, true) : slow_.next(std::max(most - besidesMs_, besidesMs_), request.input);
 }
 
 std::string Pace::tilesText(int complete) const {

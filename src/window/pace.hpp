@@ -279,6 +279,7 @@ class Pace {
   MotionController controller_;
   double seconds_ = 0.0;    // since the last frame
   double untouched_ = 0.0;  // seconds since the last input
+  int answers_ = 0;         // frames, with this one, that are to show input soon
   Clock::time_point begun_;
   std::deque<Drawn> drawn_;  // frames whose GPU times are awaited
   int learned_ = 0;          // moving frames of this scene that were timed
