@@ -6,40 +6,59 @@
 #include <cmath>
 #include <utility>
 
+#include "image/smooth_enlargement.hpp"
 #include "platform/text.hpp"
 #include "ui/panels.hpp"
 
 namespace speculum {
 
-void Thumbnails::addTo(ImFontAtlas& atlas) {
-  rects_.assign(pictures_.size(), -1);
-  for (size_t i = 0; i < pictures_.size(); ++i) {
-    if (pictures_[i].width > 0) {
-      rects_[i] = imgui::reserveInAtlas(atlas, pictures_[i].width, pictures_[i].height);
-    }
-  }
-  for (size_t i = 0; i < pictures_.size(); ++i) {
-    if (rects_[i] < 0) {
-      continue;
-    }
-    for (int y = 0; y < pictures_[i].height; ++y) {
-      const uint8_t* row = pictures_[i].at(0, y);
-      std::copy(row, row + static_cast<size_t>(4) * pictures_[i].width, imgui::atlasTexels(atlas, rects_[i], y));
-    }
-  }
-}
+namespace {
 
-bool Thumbnails::draw(ImDrawList& list, size_t picture, const glm::vec2& low, const glm::vec2& high) const {
-  if (picture >= rects_.size() || rects_[picture] < 0) {
+// The poster's size. Its texels are enlarged once more, linearly, where that is no longer seen. The atlas may be no
+// wider than 512 texels.
+constexpr glm::ivec2 posterSize(480, 270);
+
+bool drawRect(ImDrawList& list, int rect, const glm::vec2& low, const glm::vec2& high, float rounding) {
+  if (rect < 0) {
     return false;
   }
   const ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
   ImVec2 first;
   ImVec2 last;
-  imgui::atlasCorners(atlas, rects_[picture], first, last);
+  imgui::atlasCorners(atlas, rect, first, last);
   list.AddImageRounded(imgui::atlasTexture(atlas), {low.x, low.y}, {high.x, high.y}, first, last, IM_COL32_WHITE,
-                       ImGui::GetStyle().FrameRounding);
+                       rounding);
   return true;
+}
+
+}  // namespace
+
+void Thumbnails::setPoster(const Image8& picture) {
+  poster_ = picture.width > 0 ? smoothlyEnlarged(picture, posterSize.x, posterSize.y) : Image8();
+}
+
+void Thumbnails::addTo(ImFontAtlas& atlas) {
+  const auto picture = [this](size_t i) -> const Image8& { return i < pictures_.size() ? pictures_[i] : poster_; };
+  rects_.assign(pictures_.size() + 1, -1);
+  for (size_t i = 0; i < rects_.size(); ++i) {
+    if (picture(i).width > 0) {
+      rects_[i] = imgui::reserveInAtlas(atlas, picture(i).width, picture(i).height);
+    }
+  }
+  for (size_t i = 0; i < rects_.size(); ++i) {
+    for (int y = 0; rects_[i] >= 0 && y < picture(i).height; ++y) {
+      const uint8_t* row = picture(i).at(0, y);
+      std::copy(row, row + static_cast<size_t>(4) * picture(i).width, imgui::atlasTexels(atlas, rects_[i], y));
+    }
+  }
+}
+
+bool Thumbnails::draw(ImDrawList& list, size_t picture, const glm::vec2& low, const glm::vec2& high) const {
+  return picture + 1 < rects_.size() && drawRect(list, rects_[picture], low, high, ImGui::GetStyle().FrameRounding);
+}
+
+bool Thumbnails::drawPoster(ImDrawList& list, const glm::vec2& low, const glm::vec2& high) const {
+  return !rects_.empty() && drawRect(list, rects_.back(), low, high, 0.0f);
 }
 
 namespace panels {
@@ -94,23 +113,22 @@ void tile(PanelContext& ui, const Thumbnails& thumbnails, size_t index, const Im
 
 }  // namespace
 
-// Draws the shown scene's thumbnail, if it has one, and its title where panels leave room.
-void poster(const PanelContext& ui, const Thumbnails& thumbnails, const WindowRect& picture) {
-  constexpr float ems = 28.0f;
+// Fills the display with the shown scene's thumbnail or, if it has none, draws its title into the free part.
+void poster(const PanelContext& ui, const Thumbnails& thumbnails, const WindowRect& free) {
   const ShownScenes& browser = ui.input.browser;
   if (!browser.poster) {
     return;
   }
-  const float width = std::min(ems * ImGui::GetFontSize(), 0.9f * picture.size.x);
-  const glm::vec2 size(width, width / tileAspect);
-  const glm::vec2 low = glm::floor(picture.corner + 0.5f * (picture.size - size));
+  const glm::vec2 display(ImGui::GetIO().DisplaySize.x, ImGui::GetIO().DisplaySize.y);
+  const glm::vec2 size = std::max(display.x / tileAspect, display.y) * glm::vec2(tileAspect, 1.0f);
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
-  list.AddRectFilled({0.0f, 0.0f}, ImGui::GetIO().DisplaySize, IM_COL32(20, 20, 23, 255));
-  const bool drawn = thumbnails.draw(list, browser.shown, low, low + size);
+  if (thumbnails.drawPoster(list, 0.5f * (display - size), 0.5f * (display + size))) {
+    return;
+  }
+  list.AddRectFilled({0.0f, 0.0f}, {display.x, display.y}, IM_COL32(20, 20, 23, 255));
   const std::string title = captionOf(browser.scenes, browser.scenes[browser.shown]);
-  list.AddText({low.x + 0.5f * (width - textWidth(title)),
-                low.y + (drawn ? size.y + 0.5f * ImGui::GetFontSize() : 0.5f * size.y)},
-               IM_COL32_WHITE, title.c_str());
+  const glm::vec2 middle = free.corner + 0.5f * free.size;
+  list.AddText({middle.x - 0.5f * textWidth(title), middle.y}, IM_COL32_WHITE, title.c_str());
 }
 
 void gallery(PanelContext& ui, const Thumbnails& thumbnails) {

@@ -16,7 +16,6 @@ class PanelWindows {
   void rememberLayout() { dock_.remember(); }
   // Lays out everything between ImGui::NewFrame and ImGui::Render.
   UiOutput build(const UiInput& input);
-  void setThumbnails(std::vector<Image8> pictures) { thumbnails_ = Thumbnails(std::move(pictures)); }
   Thumbnails& thumbnails() { return thumbnails_; }
 
   const PanelState& state() const { return state_; }

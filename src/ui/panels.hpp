@@ -142,17 +142,21 @@ struct PanelContext {
 // Small pictures within the font atlas, the one texture that ImGui's Vulkan backend draws.
 class Thumbnails {
  public:
-  // A picture without pixels stands for a missing one.
-  explicit Thumbnails(std::vector<Image8> pictures = {}) : pictures_(std::move(pictures)) {}
+  // Pictures without pixels stand for missing ones.
+  void setPictures(std::vector<Image8> pictures) { pictures_ = std::move(pictures); }
+  // Sets the thumbnail that stands in the picture's place, and enlarges it.
+  void setPoster(const Image8& picture);
 
   // Packs the pictures with the fonts. Call it after the fonts are added and before the atlas is uploaded.
   void addTo(ImFontAtlas& atlas);
-  // Draws a picture into a rectangle of the screen. Returns false if there is no such picture.
+  // Draw a picture into a rectangle of the screen. Return false if there is no such picture.
   bool draw(ImDrawList& list, size_t picture, const glm::vec2& low, const glm::vec2& high) const;
+  bool drawPoster(ImDrawList& list, const glm::vec2& low, const glm::vec2& high) const;
 
  private:
   std::vector<Image8> pictures_;
-  std::vector<int> rects_;  // by picture: its rectangle in the atlas; -1: none
+  Image8 poster_;
+  std::vector<int> rects_;  // by picture, then of the poster: its rectangle in the atlas; -1: none
 };
 
 namespace panels {
@@ -205,7 +209,7 @@ void prompts(PanelContext& ui);  // over all others, while a prompt is open
 void divider(PanelContext& ui, const WindowRect& picture);
 
 // Drawn over the picture, behind all windows.
-void poster(const PanelContext& ui, const Thumbnails& thumbnails, const WindowRect& picture);  // instead of the picture
+void poster(const PanelContext& ui, const Thumbnails& thumbnails, const WindowRect& free);  // instead of the picture
 void passOutline(const PanelContext& ui);  // around the mirror whose row is under the pointer
 // Call while the pointer is on a row of a mirror, which `path` leads to: outlines the mirror, and a click selects it.
 void mirrorRow(PanelContext& ui, const MirrorPath& path);

@@ -135,7 +135,12 @@ void SimpleUI::saveLayout() {
 }
 
 void SimpleUI::setThumbnails(std::vector<Image8> pictures) {
-  windows_.setThumbnails(std::move(pictures));
+  windows_.thumbnails().setPictures(std::move(pictures));
+  scale_ = 0.0f;
+}
+
+void SimpleUI::setPoster(const Image8& picture) {
+  windows_.thumbnails().setPoster(picture);
   scale_ = 0.0f;
 }
 

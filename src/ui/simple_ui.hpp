@@ -26,6 +26,7 @@ class SimpleUI {
   // Reads what only the window system knows, for the next build(). It may wait for an answer.
   void readWindow();
   void setThumbnails(std::vector<Image8> pictures);  // of ShownScenes::scenes, from the next frame on
+  void setPoster(const Image8& picture);             // thumbnail that ShownScenes::poster shows, from the next frame on
   PanelWindows& windows() { return windows_; }
   const PanelWindows& windows() const { return windows_; }
 

@@ -196,13 +196,14 @@ void Demo::beginOpening() {
   }
   const bool paced = options_.frames == 0 && budgetMs() > 0.0;
   const bool split = workspace_.split().on();
-  first_.begin(paced && workspace_.animates(),
-               paced && !split && device_.info().isCpu() && workspace_.browser().hasThumbnail());
+  const Image8 thumbnail = workspace_.browser().thumbnail();
+  ui_.setPoster(thumbnail);
+  first_.begin(paced && workspace_.animates(), paced && !split && device_.info().isCpu() && thumbnail.width > 0);
   halves_.drawn().pace.forgetPlayCost();
   opened_ = Clock::now();
   workspace_.setPlayCost("");
   workspace_.browser().showPoster(!split);
-  workspace_.setPictureText(drawingText());
+  workspace_.setPictureText(FirstPictures::text({}));
   updateUi(0.0);
   if (std::optional<Frame> frame = renderer_.beginFrame()) {
     endWithPanels(*frame);
@@ -396,7 +397,8 @@ const FittedPlan& Demo::planFrame(Frame& frame, const SceneState& state) {
                                                .input = changes_,
                                                .target = missing});
   if (isShown()) {
-    workspace_.setPictureText(first_.covered() ? drawingText() : half.text(scene, settings, workspace_.animates()));
+    workspace_.setPictureText(first_.covered() ? FirstPictures::text(half.pace.firstShare())
+                                               : half.text(scene, settings, workspace_.animates()));
   }
   return fitted;
 }

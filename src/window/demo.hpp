@@ -81,7 +81,6 @@ class Demo : private WorkspaceHost {
   std::optional<TargetDisplay> shownTarget();
   bool countFrame(bool compiles);
   void report(const RecordedFrame& frame);
-  std::string drawingText() const { return "Drawing " + workspace_.scene().file.filename().string() + "..."; }
   double budgetMs() const;
   std::string message();
 

@@ -74,6 +74,11 @@ double FramePacer::beginFrame(double seconds) {
   return std::exchange(idled_, false) ? std::numeric_limits<double>::quiet_NaN() : 1000.0 * seconds;
 }
 
+std::string FirstPictures::text(const std::optional<double>& share) {
+  return share ? fmt::format("Preview. Drawing the first picture: {:.0f} %", std::floor(100.0 * *share))
+               : "Preview. Compiling shaders for the first picture";
+}
+
 void SlowPicture::begin(size_t faces, size_t count, double ms) {
   tiles_ = {};
   faces_ = faces;

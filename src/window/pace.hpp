@@ -82,7 +82,9 @@ class FirstPictures {
   void uncover() { covered_ = false; }  // the user acts in the picture
 
   bool covered() const { return covered_; }  // the thumbnail covers the picture
-  bool holds() const { return holds_; }      // the scene was paused for being slow, and nobody has played it yet
+  // Says what is prepared below the thumbnail. `share`: of the first whole picture, if several frames draw it.
+  static std::string text(const std::optional<double>& share);
+  bool holds() const { return holds_; }  // the scene was paused for being slow, and nobody has played it yet
 
  private:
   static constexpr int mostTries = 60;
@@ -190,6 +192,10 @@ class Pace {
   // Says whether the last frame was a still picture, or tiles of one, that takes longer than the budget. If so, wait
   // for that frame before you handle events: no second frame then delays them.
   bool drawsLong() const { return drawsTiles() || long_; }
+  // Returns the share of the first whole picture that is drawn, if several frames draw it; else nothing.
+  std::optional<double> firstShare() const {
+    return picture_ == 0 && !slow_.finished() ? std::optional(slow_.share()) : std::nullopt;
+  }
   // Says whether the planned frame has a lower quality than the chosen settings.
   bool lowers() const { return level_ > 0; }
   // Returns a number that each still picture has of its own, once it is complete.

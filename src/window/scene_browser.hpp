@@ -21,7 +21,7 @@ class SceneBrowser {
   // of its folder too. A new scene is listed only while it is shown.
   void show(const std::filesystem::path& file, bool withFolder);
   std::vector<Image8> thumbnails() const;  // of the list; without pixels for a scene that has none
-  bool hasThumbnail() const;               // the shown scene has one
+  Image8 thumbnail() const;                // of the shown scene; without pixels if it has none
   // Stores a picture of the shown scene as its thumbnail, unless the scene comes with one.
   void storeThumbnail(const std::function<Image8()>& picture);
   // Says whether the list or a thumbnail has changed since the last call. True at first.

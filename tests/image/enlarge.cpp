@@ -1,4 +1,5 @@
 #include "image/image.hpp"
+#include "image/smooth_enlargement.hpp"
 #include "test_headers.hpp"
 
 namespace speculum {
@@ -46,6 +47,48 @@ TEST(Enlarge, RampsStayStraight) {
   const LinearImage large = enlarged(ramp, 20, 3);
   for (int x = 5; x < 15; ++x) {
     EXPECT_NEAR(large.at(x, 1).r, (x + 0.5) * 8 / 20 - 0.5, 1e-5);
+  }
+}
+
+// Returns a row of gray texels.
+Image8 rowOf(const std::vector<uint8_t>& codes) {
+  Image8 row(static_cast<int>(codes.size()), 1);
+  for (size_t x = 0; x < codes.size(); ++x) {
+    std::fill_n(row.at(static_cast<int>(x), 0), 3, codes[x]);
+  }
+  return row;
+}
+
+TEST(SmoothEnlargement, KeepsFlatPartsAndRamps) {
+  const Image8 flat =
+      smoothlyEnlarged(rowOf({0, 0, 0, 0, 0, 77, 77, 77, 77, 77, 77, 255, 255, 255, 255, 255}), 160, 30);
+  for (const auto& [x, code] : {std::pair(20, 0), std::pair(85, 77), std::pair(140, 255)}) {
+    for (const int y : {0, 15, 29}) {
+      EXPECT_EQ(flat.at(x, y)[1], code);
+      EXPECT_EQ(flat.at(x, y)[3], 255);
+    }
+  }
+  const Image8 ramp = smoothlyEnlarged(rowOf({0, 20, 40, 60, 80, 100, 120, 140, 160}), 90, 1);
+  for (int x = 20; x < 70; ++x) {
+    EXPECT_NEAR(ramp.at(x, 0)[0], 20.0 * ((x + 0.5) / 10.0 - 0.5), 0.51);
+  }
+}
+
+TEST(SmoothEnlargement, EdgesHaveNoCorners) {
+  const std::vector<uint8_t> step{40, 40, 40, 40, 200, 200, 200, 200};
+  const Image8 large = smoothlyEnlarged(rowOf(step), 160, 1);
+  int most = 0;  // change of the slope, which bilinear interpolation has in one pixel: 160 / 20 codes
+  for (int x = 1; x < 159; ++x) {
+    most = std::max(most, std::abs(large.at(x - 1, 0)[0] - 2 * large.at(x, 0)[0] + large.at(x + 1, 0)[0]));
+  }
+  EXPECT_LE(most, 2);
+  EXPECT_NEAR(large.at(79, 0)[0] + large.at(80, 0)[0], 240, 1) << "the edge stays where it is";
+}
+
+TEST(SmoothEnlargement, OvershootsDoNotWrap) {
+  const Image8 large = smoothlyEnlarged(rowOf({0, 0, 0, 255, 255, 255}), 60, 1);
+  for (int x = 0; x < 60; ++x) {
+    EXPECT_TRUE(x < 30 ? large.at(x, 0)[0] < 128 : large.at(x, 0)[0] > 127) << x;
   }
 }
 

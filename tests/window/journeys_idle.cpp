@@ -226,11 +226,14 @@ TEST_F(PacedWindow, SlowScenesOpenStillBelowTheirThumbnail) {
   int covered = 0;
   EXPECT_TRUE(waitFor([&] {
     if (shown().browser.poster && ++covered == 3) {
-      const float left = ImGui::FindWindowByName("Speculum")->Rect().Max.x;
-      const float scale = std::min(28.0f * ImGui::GetFontSize(), 0.9f * (width - left)) / 192.0f;
-      const glm::ivec2 middle(0.5f * (left + width), 0.5f * (ImGui::GetFrameHeight() + height));
-      const glm::dvec3 shown = meanOf(picture(), middle, static_cast<int>(20 * scale));
-      EXPECT_LT(glm::distance(shown, meanOf(thumbnail, {96, 54}, 20)), 8.0);
+      EXPECT_TRUE(startsWith(shown().status.picture, "Preview. ")) << shown().status.picture;
+      const double scale = std::max(width / 192.0, height / 108.0);
+      const Image8 window = picture();
+      for (const glm::ivec2 at : {glm::ivec2(130, 54), glm::ivec2(170, 20), glm::ivec2(170, 90)}) {
+        const glm::dvec2 middle = 0.5 * glm::dvec2(width, height) + scale * glm::dvec2(at - glm::ivec2(96, 54));
+        const glm::dvec3 shown = meanOf(window, glm::ivec2(middle), static_cast<int>(10 * scale));
+        EXPECT_LT(glm::distance(shown, meanOf(thumbnail, at, 10)), 8.0) << at.x << " " << at.y;
+      }
     }
     return shown().playback.paused;
   }));

@@ -763,6 +763,11 @@ TEST(FirstPictures, StaysCoveredUntilThereIsAGoodPicture) {
   EXPECT_FALSE(opening.covered()) << "the first picture takes long, and a draft is there";
 }
 
+TEST(FirstPictures, CoverSaysWhatIsPrepared) {
+  EXPECT_EQ(FirstPictures::text(std::nullopt), "Preview. Compiling shaders for the first picture");
+  EXPECT_EQ(FirstPictures::text(0.379), "Preview. Drawing the first picture: 37 %");
+}
+
 TEST(FirstPictures, OnlyAnotherContentUncovers) {
   FirstPictures opening;
   FirstPictures::Content content;
@@ -1062,11 +1067,14 @@ TEST_F(SlowPictures, AreDrawnTileByTile) {
   input_ = false;
   draw();
   expectText("6 of 16 pictures averaged, next one ");
+  EXPECT_FALSE(pace_.firstShare());
   revision_ = 2;
   EXPECT_FALSE(draw().plan.tiles) << "another picture is asked for";
   expectText("Draft: ");
   EXPECT_EQ(draw().plan.tiles->first, 0u);
   EXPECT_TRUE(contains(pace_.text(), "; first picture ")) << "the draft is still shown";
+  EXPECT_TRUE(pace_.firstShare());
+  EXPECT_LT(pace_.firstShare().value_or(1.0), 0.5);
   besidesMs_ = 3.0 * budget;
   while (draw().plan.tiles.value_or(TileRange{0, count_}).end < count_) {
   }

@@ -755,7 +755,7 @@ TEST_F(Opening, FirstPictureIsTheThumbnailOfForeignFiles) {
   }
   const auto expectThumbnail = [&](const char* of) {
     EXPECT_EQ(thumbnail().width, 0) << of;
-    EXPECT_FALSE(workspace_->browser().hasThumbnail()) << of;
+    EXPECT_EQ(workspace_->browser().thumbnail().width, 0) << of;
     workspace_->browser().takeListed();
     drawFrame(picture);
     EXPECT_TRUE(workspace_->browser().takeListed());
@@ -763,7 +763,7 @@ TEST_F(Opening, FirstPictureIsTheThumbnailOfForeignFiles) {
     EXPECT_FALSE(workspace_->browser().takeListed()) << "once";
     const Image8 small = thumbnail();
     ASSERT_EQ(small.width, 192) << of;
-    EXPECT_TRUE(workspace_->browser().hasThumbnail()) << of;
+    EXPECT_EQ(workspace_->browser().thumbnail().width, 192) << of;
     EXPECT_LT(*small.at(90, 0), 215) << "the dark row";
     EXPECT_GT(*small.at(90, 50), 245);
   };
@@ -780,7 +780,7 @@ TEST_F(Opening, FirstPictureIsTheThumbnailOfForeignFiles) {
   };
   frameDrawn([]() -> Image8 { throw OutOfMemoryError("no memory"); });
   drop({sceneFile("no_mirror")});
-  EXPECT_TRUE(workspace_->browser().hasThumbnail());
+  EXPECT_EQ(workspace_->browser().thumbnail().width, 192);
   frameDrawn([&] {
     ADD_FAILURE() << "a scene that comes with a thumbnail needs no picture";
     return picture;
