@@ -217,7 +217,7 @@ void Demo::beginOpening() {
 void Demo::continueOpening(const FramePlan& plan) {
   const double seconds = std::chrono::duration<double>(Clock::now() - opened_).count();
   const Pace& pace = halves_.drawn().pace;
-  if (first_.drawn(pace.playCost(), workspace_.animates(), endsPicture(plan) && !pace.lowers(), seconds)) {
+  if (first_.drawn(pace.playCost(), workspace_.animates(), endsPicture(plan) && !pace.coarse(), seconds)) {
     apply(SetPaused{true});
     apply(Seek{0.0});
   }
@@ -381,21 +381,25 @@ const FittedPlan& Demo::planFrame(Frame& frame, const SceneState& state) {
   const bool shownOnly =
       half.pace.moving() && !halves_.split() && !output_.target && !output_.errorGain && !workspace_.needsThumbnail();
   const Scene& scene = workspace_.scene();
-  const FittedPlan& fitted = half.plan(frame, {.frame = {.scene = scene,
-                                                         .state = state,
-                                                         .settings = settings,
-                                                         .size = glm::ivec2(frame.extent.width, frame.extent.height),
-                                                         .cache = cache,
-                                                         .shownOnly = shownOnly},
-                                               .planner = half.planner,
-                                               .shown = {.revision = workspace_.pictureRevision(),
-                                                         .shaders = renderer_.pipelines().revision(),
-                                                         .time = contentTime(scene, state.time),
-                                                         .size = pictureSize()},
-                                               .budgetMs = recorded ? 0.0 : budgetMs(),
-                                               .front = workspace_.accuracy().front(),
-                                               .input = changes_,
-                                               .target = missing});
+  const Pace::Shown content{.revision = workspace_.pictureRevision(),
+                            .shaders = renderer_.pipelines().revision(),
+                            .time = contentTime(scene, state.time),
+                            .size = pictureSize()};
+  const double budget = recorded ? 0.0 : budgetMs();
+  Pace::Request request{.frame = {.scene = scene,
+                                  .state = state,
+                                  .settings = settings,
+                                  .size = glm::ivec2(frame.extent.width, frame.extent.height),
+                                  .cache = cache,
+                                  .shownOnly = shownOnly},
+                        .planner = half.planner,
+                        .shown = content,
+                        .budgetMs = budget,
+                        .front = workspace_.accuracy().front(),
+                        .input = changes_,
+                        .covered = first_.covered()};
+  request.target = missing;
+  const FittedPlan& fitted = half.plan(frame, request);
   if (isShown()) {
     workspace_.setPictureText(first_.covered() ? FirstPictures::text(half.pace.firstShare())
                                                : half.text(scene, settings, workspace_.animates()));

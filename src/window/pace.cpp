@@ -154,6 +154,7 @@ void Pace::begin(const CameraPose& camera, bool contentMoves, double seconds) {
 const FittedPlan& Pace::plan(const Request& request) {
   fitted_.plan.tiles.reset();
   level_ = 0;
+  sharpDraft_ = false;
   text_.clear();
   answers_ = request.input && untouched_ >= untouchedSeconds ? framesToAnswer : std::max(answers_ - 1, 0);
   untouched_ = request.input ? 0.0 : untouched_;
@@ -193,7 +194,9 @@ void Pace::planWithinBudget(const Request& request) {
   if (learned_ >= framesToKnow) {
     findPlayCost(levels, request);
   }
+  sharpDraft_ = !moving() && request.covered && sharpens(levels[level_].settings, request);
   MotionLevel shown = levels[level_];
+  shown.settings.view.scale = sharpDraft_ ? chosen.view.scale : shown.settings.view.scale;
   // A limit that leaves no image out costs no quality. Images that the chosen limit leaves out count too.
   const auto skips = [&](SkipReason reason) {
     return std::ranges::count(fitted_.plan.skipped, reason, &SkippedMirror::reason) > 0;
@@ -205,6 +208,18 @@ void Pace::planWithinBudget(const Request& request) {
     shown.settings.reflection.minPixels = chosen.reflection.minPixels;
   }
   text_ = motionText(chosen, shown);
+}
+
+// Plans the frame with these settings in the chosen resolution, unless that takes too long: it needs no pipelines that
+// the coarse frame does not need, and those of the whole picture take long to compile.
+bool Pace::sharpens(Settings settings, const Request& request) {
+  const Settings coarse = settings;
+  settings.view.scale = request.frame.settings.view.scale;
+  if (controller_.predict(scaledWork(work_, coarse, settings)) > coveredWait * request.budgetMs) {
+    return false;
+  }
+  planWith(request, settings, 0);
+  return true;
 }
 
 // Finds what playing costs, at the best level that should fit: the controller rises to that level by and by.

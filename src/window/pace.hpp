@@ -68,7 +68,7 @@ class FirstPictures {
     content_ = content;
   }
   // Call after each frame: with Pace::playCost(), whether the scene moves by itself, whether the frame was a complete
-  // picture in full quality, and the seconds since begin(). Returns true if the scene is to go back to its start
+  // picture and not coarse, and the seconds since begin(). Returns true if the scene is to go back to its start
   // and to be paused.
   bool drawn(const std::optional<std::string>& playCost, bool moves, bool complete, double seconds) {
     const bool tried = triesLeft_ > 0;
@@ -198,6 +198,7 @@ class Pace {
   }
   // Says whether the planned frame has a lower quality than the chosen settings.
   bool lowers() const { return level_ > 0; }
+  bool coarse() const { return lowers() && !sharpDraft_; }  // its resolution is lower too, or may be
   // Returns a number that each still picture has of its own, once it is complete.
   std::optional<uint64_t> completeStill() const {
     return !moving() && isComplete() && slow_.finished() ? std::optional(still_) : std::nullopt;
@@ -226,6 +227,7 @@ class Pace {
     double budgetMs = 0.0;               // 0: nothing is lowered
     std::span<const MotionLevel> front;  // of the scene's sweep, see motionLevels()
     bool input = false;                  // there is input, which a long frame must not hold up
+    bool covered = false;                // something else is shown until there is a picture that is not coarse
     std::optional<Target> target;        // target that the panels show and that is not there yet
   };
   // Plans the frame. The plan is valid until the next frame's.
@@ -264,6 +266,7 @@ class Pace {
   bool isComplete() const { return picture_ == pictures_ && state_ != State::changed && state_ != State::moving; }
   State stateAfter(const Request& request);
   void forgetStill();
+  bool sharpens(Settings settings, const Request& request);
   void findPlayCost(std::span<const MotionLevel> levels, const Request& request);
   std::string tilesText(int complete) const;
   std::string meanText(int complete) const;
@@ -294,6 +297,7 @@ class Pace {
   FittedPlan fitted_;          // of the frame that was planned last
   FrameWork work_;             // of fitted_
   size_t level_ = 0;           // of fitted_; 0: the chosen settings
+  bool sharpDraft_ = false;    // fitted_ has the chosen resolution, whatever level_ is
   State state_ = State::changed;
   // Settings and content of the still pictures; nothing while the picture moves.
   std::optional<std::pair<Settings, Shown>> shown_;

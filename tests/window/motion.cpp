@@ -547,6 +547,7 @@ class PacedScene : public testing::Test, private PicturePlanner {
                        .shown = {.revision = revision_},
                        .budgetMs = budgetMs_,
                        .input = input_,
+                       .covered = covered_,
                        .target = target_});
   }
   // Plans a frame and returns the pictures of its mean and the one that is drawn.
@@ -581,6 +582,7 @@ class PacedScene : public testing::Test, private PicturePlanner {
   int accumulated_ = 0;                 // pictures in the renderer's mean
   std::optional<Pace::Target> target_;  // not kept yet
   bool input_ = false;
+  bool covered_ = false;
   bool leavesOut_ = false;  // reflection.max_passes leaves mirrors without a pass
   int side_ = 0;            // of the main view, pixels
   uint64_t number_ = 0;     // of the last frame
@@ -665,7 +667,7 @@ class OpenedScene : public PacedScene {
     side_ = 960;
     pace_ = Pace(true, 1 + 4);
     opening_.begin(true, true);
-    moves_ = true;
+    covered_ = moves_ = true;
     number_ = 0;
     for (int i = 0; i < 40 || (i < 2000 && opening_.covered()); ++i) {
       draw(fullMs);
@@ -681,15 +683,17 @@ class OpenedScene : public PacedScene {
       ms *= static_cast<double>(tiles->end - tiles->first) / static_cast<double>(tileCount(fitted.plan));
     }
     pace_.finished({.frame = number_, .gpuMs = ms});
-    if (opening_.drawn(pace_.playCost(), moves_, endsPicture(fitted.plan) && !pace_.lowers(), 0.0)) {
+    if (opening_.drawn(pace_.playCost(), moves_, endsPicture(fitted.plan) && !pace_.coarse(), 0.0)) {
       moves_ = false;
       stoodAt_ = number_;
     }
+    uncoveredBy_ = std::exchange(covered_, opening_.covered()) && !covered_ ? planned_ : uncoveredBy_;
   }
 
   FirstPictures opening_;
   bool moves_ = true;
   uint64_t stoodAt_ = 0;
+  Settings uncoveredBy_;  // of the picture that was seen first
 };
 
 TEST_F(OpenedScene, MovesUnaskedWhereTheDeviceCanMoveIt) {
@@ -716,6 +720,18 @@ TEST_F(OpenedScene, MovesUnaskedWhereTheDeviceCanMoveIt) {
       EXPECT_NEAR(1000.0 / rate, 4.0 * scale * scale * sixteenth, 0.3 * 1000.0 / rate);
     }
   }
+}
+
+TEST_F(OpenedScene, FirstPictureIsCheapButNotCoarse) {
+  for (const double budgets : {10.0, 100.0}) {  // of a picture with one sample
+    open(4.0 * budgets * budget);
+    EXPECT_EQ(uncoveredBy_.view.scale, 1.0);
+    EXPECT_EQ(uncoveredBy_.view.samples, budgets < 20.0 ? 1 : 4) << "else the whole picture follows the coarse draft";
+  }
+  covered_ = false;
+  ++revision_;
+  draw(40.0 * budget);
+  EXPECT_LT(planned_.view.scale, 1.0) << "a draft that is seen at once";
 }
 
 TEST_F(OpenedScene, EditsKeepTheOfferToPlay) {
