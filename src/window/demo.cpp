@@ -131,6 +131,7 @@ void Demo::drawFrame(double seconds) {
   first_.shows({.settings = imageSettings(workspace_.shownSettings(halves_.index())),
                 .revision = workspace_.pictureRevision(),
                 .time = state.time,
+                .seeks = workspace_.view().playback.seeks(),
                 .camera = workspace_.view().camera.moved() ? std::optional(state.camera) : std::nullopt},
                workspace_.split().on());
   PictureHalf& half = halves_.drawn();

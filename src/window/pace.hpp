@@ -46,6 +46,7 @@ class FirstPictures {
     Settings settings;                 // those of imageSettings()
     uint64_t revision = 0;             // SceneDocument::pictureRevision()
     double time = 0.0;                 // seconds of the animation
+    int seeks = 0;                     // how often the time was set
     std::optional<CameraPose> camera;  // to which the user moved it; none: the scene's own, which may move by itself
 
     bool operator==(const Content&) const = default;
@@ -61,8 +62,10 @@ class FirstPictures {
   }
   // Call before each frame with what it shows. `split`: A | B is on, which compares drafts and not the thumbnail.
   void shows(const Content& content, bool split) {
-    if (content_ && (triesLeft_ > 0 || std::exchange(returns_, false))) {
+    const bool returns = std::exchange(returns_, false);
+    if (content_ && (triesLeft_ > 0 || returns)) {
       content_->time = content.time;
+      content_->seeks = returns ? content.seeks : content_->seeks;
     }
     covered_ = covered_ && !split && (!content_ || *content_ == content);
     content_ = content;

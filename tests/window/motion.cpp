@@ -812,6 +812,7 @@ TEST(FirstPictures, OnlyAnotherContentUncovers) {
   }
   EXPECT_TRUE(opening.drawn("Play", true, false, 0.0));
   content.time = 0.0;
+  ++content.seeks;
   opening.shows(content, false);
   EXPECT_TRUE(opening.covered()) << "back at its start";
   content.time = 0.1;
@@ -822,6 +823,12 @@ TEST(FirstPictures, OnlyAnotherContentUncovers) {
   content.camera->eye.x = 2.0;
   opening.shows(content, false);
   EXPECT_FALSE(opening.covered()) << "the user moves the camera while the scene moves";
+  opening.begin(true, true);
+  opening.shows(content, false);
+  ++content.seeks;
+  content.time = 4.0;
+  opening.shows(content, false);
+  EXPECT_FALSE(opening.covered()) << "the user sets the time while the scene moves";
   opening.begin(true, true);
   opening.shows(content, false);
   opening.drawn(std::nullopt, false, false, 0.0);
