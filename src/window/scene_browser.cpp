@@ -115,9 +115,15 @@ bool SceneBrowser::isNew(const fs::path& scene) {
 }
 
 SceneBrowser::SceneBrowser() {
+  readRecent();
+}
+
+// Reads what this window and others have stored, without files that are gone.
+void SceneBrowser::readRecent() {
+  shown_.recent.clear();
   std::istringstream lines(readTextIfAny(recentFile(), 1u << 16));
   for (std::string line; std::getline(lines, line) && shown_.recent.size() < mostRecent;) {
-    if (isFile(line)) {
+    if (isFile(line) && std::ranges::count(shown_.recent, fs::path(line)) == 0) {
       shown_.recent.emplace_back(line);
     }
   }
@@ -127,8 +133,9 @@ void SceneBrowser::remember(const fs::path& file) {
   if (isNew(file) || Recovery::isCopy(file)) {
     return;
   }
+  readRecent();
   const fs::path whole = wholePath(file).lexically_normal();
-  std::erase(shown_.recent, whole);
+  std::erase_if(shown_.recent, [&](const fs::path& one) { return withoutLinks(one) == withoutLinks(whole); });
   shown_.recent.insert(shown_.recent.begin(), whole);
   shown_.recent.resize(std::min(shown_.recent.size(), mostRecent));
   std::string text;

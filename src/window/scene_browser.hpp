@@ -27,6 +27,9 @@ class SceneBrowser {
   // Says whether the list or a thumbnail has changed since the last call. True at first.
   bool takeListed() { return std::exchange(listed_, false); }
 
+  void remember(const std::filesystem::path& file);  // lists the file among the recent ones, for later sessions too
+  void forgetRecent(const std::filesystem::path& file) { std::erase(shown_.recent, file); }  // it is gone
+
   // Loads a scene or a model on a thread of its own, and cancels one that is loading.
   void open(const std::filesystem::path& file, const Options& options);
   static std::vector<std::filesystem::path> shippedModels();  // that come with the program
@@ -50,7 +53,7 @@ class SceneBrowser {
     double done = 0.0;           // share, 0 .. 1
   };
 
-  void remember(const std::filesystem::path& file);      // lists the file among the recent ones, for later sessions too
+  void readRecent();
   size_t add(const std::filesystem::path& file);         // lists the file, and returns its index
   void addSaved(const std::vector<SceneEntry>& scenes);  // all but new scenes
 

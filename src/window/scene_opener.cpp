@@ -24,7 +24,10 @@ void SceneOpener::setDocument(const SceneDocument& document, DocumentController&
   }
 }
 
-void SceneOpener::offerRecovery() {
+void SceneOpener::beginSession() {
+  if (!options_.scene.empty()) {
+    browser_.remember(shownFile());
+  }
   if (const fs::path copy = recovery_.findNewest(); !copy.empty()) {
     saving_->ask(Prompt::recovery, copy);
   }
@@ -70,6 +73,7 @@ void SceneOpener::setProblem(const std::string& problem) {
 void SceneOpener::open(const OpenScene& wanted) {
   std::error_code none;
   if (!fs::exists(wanted.file, none)) {
+    browser_.forgetRecent(wanted.file);
     return setProblem(wanted.file.string() + ": there is no such file");
   }
   saving_->closeOpenPrompt();

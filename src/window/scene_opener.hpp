@@ -20,7 +20,9 @@ class SceneOpener {
   SceneOpener(const Options& options, const Settings& settings);
 
   void setDocument(const SceneDocument& document, DocumentController& saving);  // call when another scene is shown
-  void offerRecovery();  // prompts for the newest copy of unsaved changes, if there is one
+  // Lists the scene of the command line among the recent ones, and prompts for the newest copy of unsaved changes, if
+  // there is one.
+  void beginSession();
 
   // Asks for a file to open: by the desktop's dialog, if there is one that can be started, else by a prompt.
   void ask();

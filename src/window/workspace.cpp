@@ -28,7 +28,7 @@ Workspace::Workspace(const Options& options, WorkspaceHost& host)
   browser().list(loaded_->scene.file);
   startDocument();
   if (options.frames == 0) {
-    opener_.offerRecovery();
+    opener_.beginSession();
   }
 }
 

@@ -206,7 +206,7 @@ TEST_F(Saving, NewSceneAsksFirstAndSavesElsewhere) {
   EXPECT_FALSE(edit().unsaved);
   EXPECT_TRUE(edit().isNew && edit().canSave());
   EXPECT_EQ(edit().undo, "");
-  EXPECT_TRUE(shown().browser.recent.empty());
+  EXPECT_EQ(shown().browser.recent, std::vector{fs::path(options_.scene)}) << "no new scene";
   send(AddLight{});
   send(Save{});
   ASSERT_EQ(edit().prompt, Prompt::saveAs);

@@ -673,8 +673,47 @@ TEST_F(Opening, WithoutADialogTheWindowAsks) {
   EXPECT_EQ(edit().prompt, Prompt::none);
   waitFor([&] { return shownScene() == "sphere.obj"; });
   EXPECT_EQ(shown().browser.recent.at(0).filename(), "sphere.obj");
+  options_.scene.clear();
   start();
   EXPECT_EQ(shown().browser.recent.at(0).filename(), "sphere.obj") << "in the next session";
+}
+
+TEST_F(Opening, RecentFilesAreThereOnceAndOpenable) {
+  const auto recent = [&] {
+    std::vector<std::string> names;
+    for (const fs::path& file : shown().browser.recent) {
+      names.push_back(file.filename().string());
+    }
+    return names;
+  };
+  using Names = std::vector<std::string>;
+  EXPECT_EQ(recent(), Names{"workspace.toml"}) << "the file that the program was started with";
+  const fs::path own = home_.path() / "own.toml";
+  fs::copy_file(options_.scene, own);
+  const fs::path link = home_.path() / "link.toml";
+  fs::create_symlink(own, link);
+  const auto open = [&](const fs::path& file) {
+    send(OpenScene{file});
+    waitFor([&] { return scene().file == file && !workspace_->working(); });
+  };
+  open(own);
+  open(options_.scene);
+  open(link);
+  EXPECT_EQ(recent(), (Names{"link.toml", "workspace.toml"})) << "the last one first, each once";
+  FakeHost host;
+  Workspace other(options_, host);
+  other.apply(OpenScene{sourceFile("models/sphere.obj")});
+  for (int i = 0; i < 6000 && other.scene().file.extension() != ".obj"; ++i) {
+    other.update();
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  open(options_.scene);
+  EXPECT_EQ(recent(), (Names{"workspace.toml", "sphere.obj", "link.toml"})) << "with those of another window";
+  fs::remove(own);
+  fs::remove(link);
+  send(OpenScene{link});
+  EXPECT_TRUE(contains(workspace_->problem(), "there is no such file"));
+  EXPECT_EQ(recent(), (Names{"workspace.toml", "sphere.obj"})) << "it is gone";
 }
 
 class Dialogs : public Opening {
