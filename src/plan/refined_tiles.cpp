@@ -156,7 +156,7 @@ glm::dvec2 pictureOffset(int index, const Settings& settings) {
   // same few ways: both halves of a decision shall differ wherever their mean is wrong. The centre is a corner of the
   // first cell.
   constexpr std::array<uint8_t, 64> cells = {
-      044, 013, 067, 030, 052, 026, 075, 001, 070, 061, 054, 043, 035, 022, 016, 007, 077, 063, 050, 046, 032, 021,
+      044, 026, 030, 075, 013, 052, 067, 001, 070, 061, 054, 043, 035, 022, 016, 007, 077, 063, 050, 046, 032, 021,
       015, 004, 073, 065, 056, 041, 037, 024, 010, 002, 071, 064, 055, 042, 036, 020, 017, 003, 076, 062, 057, 040,
       034, 023, 011, 005, 072, 060, 051, 045, 033, 027, 014, 006, 074, 066, 053, 047, 031, 025, 012, 000};
   const int cell = cells[static_cast<size_t>(index % 64)];
