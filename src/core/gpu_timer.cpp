@@ -45,25 +45,34 @@ GpuTimer::GpuTimer(Device& device, const std::string& name) : device_(device) {
   }
 }
 
-void GpuTimer::reset(VkCommandBuffer commands, uint64_t frame, TimerDetail detail) {
+void GpuTimer::reset(uint64_t frame, TimerDetail detail) {
   frame_ = frame;
   detail_ = detail;
   earlier_ = {};
-  resetQueries(commands);
+  forgetPasses();
 }
 
-void GpuTimer::resume(VkCommandBuffer commands) {
+void GpuTimer::resume() {
   earlier_ = read();
-  resetQueries(commands);
+  forgetPasses();
 }
 
-void GpuTimer::resetQueries(VkCommandBuffer commands) {
+void GpuTimer::forgetPasses() {
   stamped_ = 0;
   passes_.clear();
-  for (const auto& [pool, queries] :
-       {std::pair(&stamps_, 2 * maxPasses), std::pair(&statistics_, maxPasses), std::pair(&samples_, maxPasses)}) {
+}
+
+// Resets queries in batches, each before the first pass that uses it. The validation layer follows every query that a
+// command buffer resets: all of them would take it longer than the rest of a small frame.
+void GpuTimer::resetQueries(VkCommandBuffer commands, uint32_t slot) {
+  constexpr uint32_t batch = 16;
+  static_assert(maxPasses % batch == 0);
+  if (slot % batch != 0) {
+    return;
+  }
+  for (const auto& [pool, queries] : {std::pair(&stamps_, 2u), std::pair(&statistics_, 1u), std::pair(&samples_, 1u)}) {
     if (*pool) {
-      vkCmdResetQueryPool(commands, pool->get(), 0, queries);
+      vkCmdResetQueryPool(commands, pool->get(), queries * slot, queries * batch);
     }
   }
 }
@@ -84,6 +93,7 @@ void GpuTimer::finish(VkCommandBuffer commands) {
 int GpuTimer::begin(VkCommandBuffer commands, const std::string& pass, bool statistics) {
   if (detail_ == TimerDetail::frame) {
     if (stamped_ == 0) {
+      resetQueries(commands, 0);
       stamp(commands, 0);
     }
     return -1;
@@ -93,6 +103,7 @@ int GpuTimer::begin(VkCommandBuffer commands, const std::string& pass, bool stat
   if (slot >= maxPasses) {
     return -1;
   }
+  resetQueries(commands, slot);
   stamp(commands, 2 * slot);
   if (passes_.back().hasStatistics) {
     vkCmdBeginQuery(commands, statistics_.get(), slot, 0);

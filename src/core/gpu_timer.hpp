@@ -38,9 +38,9 @@ class GpuTimer {
  public:
   explicit GpuTimer(Device& device, const std::string& name);
 
-  void reset(VkCommandBuffer commands, uint64_t frame, TimerDetail detail);  // at the start of the frame's commands
+  void reset(uint64_t frame, TimerDetail detail);  // at the start of the frame
   // Begins the next part of the frame, between two passes. The GPU has finished the part before.
-  void resume(VkCommandBuffer commands);
+  void resume();
   void finish(VkCommandBuffer commands);  // after the last pass of the frame or of its part
   // Begins a pass. Returns its slot for the functions below, negative if the pass is not measured.
   int begin(VkCommandBuffer commands, const std::string& pass, bool statistics);
@@ -56,7 +56,8 @@ class GpuTimer {
  private:
   static constexpr uint32_t maxPasses = 512;
 
-  void resetQueries(VkCommandBuffer commands);
+  void forgetPasses();
+  void resetQueries(VkCommandBuffer commands, uint32_t slot);
   void stamp(VkCommandBuffer commands, uint32_t query);
 
   Device& device_;

@@ -111,7 +111,7 @@ std::optional<Frame> Renderer::beginFrame() {
   retired_.setFrame(frameNumber_);
   slot.descriptors.reset();
   const VkCommandBuffer commands = slot.pool.begin();
-  slot.timer.reset(commands, frameNumber_, timerDetail_);
+  slot.timer.reset(frameNumber_, timerDetail_);
   return Frame{.commands = commands,
                .index = index,
                .imageIndex = *image,
@@ -137,7 +137,7 @@ bool Renderer::roundsSumsDown() {
     desc.clearColor.fill(1.0f);
     GpuTimer timer(device_, desc.name);
     uploader_.run([&](VkCommandBuffer commands) {
-      timer.reset(commands, 0, timerDetail_);
+      timer.reset(0, timerDetail_);
       const PassScope scope(device_, renderPasses_, retired_, timer, commands, desc);
       pipeline.bind(commands);
       vkCmdDraw(commands, 3, 1, 0, 0);
@@ -171,7 +171,7 @@ void Renderer::submitPart(Frame& frame) {
   device_.await(slot.finished.get(), "wait for a part of a frame");
   frame.waitedMs += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   const VkCommandBuffer next = slot.pool.begin();
-  slot.timer.resume(next);
+  slot.timer.resume();
   frame.commands = next;
 }
 
