@@ -278,7 +278,8 @@ TEST_F(PacedWindow, NothingCoversScenesWithoutThumbnails) {
   std::filesystem::copy_file(options_.scene, file);
   demo_->apply(OpenScene{file});
   ASSERT_TRUE(waitFor([&] { return shownScene().name == "bare"; }));
-  run(2);
+  const int drawn = demo_->framesDrawn();
+  ASSERT_TRUE(waitFor([&] { return demo_->framesDrawn() >= drawn + 2; }));
   EXPECT_FALSE(shown().browser.poster) << "a draft is more than a title";
 }
 
