@@ -4,6 +4,7 @@
 
 #include "image/image.hpp"
 #include "image/picture_files.hpp"
+#include "instrumented.hpp"
 #include "made_pictures.hpp"
 #include "scene/materials.hpp"
 #include "scene/model_files.hpp"
