@@ -328,20 +328,26 @@ std::string unknownArgument(const CLI::App& app) {
   }
   const bool commanded = !app.get_subcommands().empty();
   const CLI::App& used = commanded ? *app.get_subcommands().front() : app;
+  const std::vector<std::string> scenes = shippedSceneNames();
+  if (!commanded && std::ranges::count(scenes, left.front()) > 0) {
+    return "'" + left.front() + "' is not expected there (did you mean '--scene " + left.front() + "'?)";
+  }
   // Takes the first word for a misspelt command, and the following ones for its arguments.
   if (!commanded && !isOption(left.front())) {
     return "'" + left.front() + "' is not a command (" +
-           advice(left.front(), shippedSceneNames(), advice(left.front(), commandNames(app))) + ")";
+           advice(left.front(), scenes, advice(left.front(), commandNames(app))) + ")";
   }
   const auto option = std::ranges::find_if(left, isOption);
   const std::string name = option == left.end() ? left.front() : option->substr(0, option->find('='));
   const std::string help = commanded ? "speculum " + used.get_name() + " --help" : "speculum --help";
-  if (option == left.end() && used.get_name() == "demo") {
-    return "'" + name + "' is neither a scene nor a file (" +
-           advice(name, shippedSceneNames(), "speculum scenes lists scenes") + ")";
+  std::error_code tooLong;
+  const bool isThere = shippedScene(name) || std::filesystem::exists(name, tooLong);
+  if (option == left.end() && used.get_name() == "demo" && !isThere) {
+    return "'" + name + "' is neither a scene nor a file (" + advice(name, scenes, "speculum scenes lists scenes") +
+           ")";
   }
   const bool takesScene = used.get_option_no_throw("--scene") != nullptr;
-  if (option == left.end() && takesScene && (shippedScene(name) || std::filesystem::exists(name))) {
+  if (option == left.end() && takesScene && isThere) {
     return "'" + name + "' is not expected of " + used.get_name() + " (did you mean '--scene " + name + "'?)";
   }
   return "'" + name + "' is not " + (option == left.end() ? "expected" : "an option") + " of " +
