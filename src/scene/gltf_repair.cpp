@@ -107,8 +107,9 @@ std::vector<Numbers> listNumbers() {
       {lightsList, "/intensity", {1}, radianceRange}};
   for (const std::string part : {"/sparse/indices/", "/sparse/values/"}) {
     numbers.push_back({"/accessors", part + "bufferView", {-1}, any, index});
-    numbers.push_back({"/accessors", part + "byteOffset", {0}, any, bytes});
+    numbers.push_back({"/accessors", part + "byteOffset", {0}, any, index});  // the library cuts it to an int
   }
+  numbers.push_back({"/accessors", "/sparse/count", {-1}, any, index});
   for (const std::string& texture : {pbr + "baseColorTexture", glossy + "diffuseTexture"}) {
     const std::string transform = texture + "/extensions/KHR_texture_transform/";
     numbers.push_back({surface, transform + "offset", {0, 0}});

@@ -959,6 +959,7 @@ TEST_F(GltfLoader, WrongNumbersOfAnyKindWarn) {
       {"/bufferViews/0/byteOffset", -36, "bufferViews: byteOffset of 0 is wrong"},
       {"/bufferViews/0/byteStride", -4, "bufferViews: byteStride of 0 is wrong"},
       {"/accessors/0/sparse/indices/byteOffset", -4, "accessors: sparse/indices/byteOffset of 0 is wrong"},
+      {"/accessors/0/sparse/indices/byteOffset", 4294967296, "accessors: sparse/indices/byteOffset of 0 is wrong"},
       {"/accessors/0/sparse/values/byteOffset", "4", "accessors: sparse/values/byteOffset of 0 is wrong"},
       {"/nodes/1/children", "1", "nodes: have children that are no indices, these are left out"},
       {"/nodes/1/children", json::array({"1", 2}), "nodes: have children that are no indices, these are left out"},
