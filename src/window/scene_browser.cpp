@@ -133,7 +133,14 @@ void SceneBrowser::remember(const fs::path& file) {
   if (isNew(file) || Recovery::isCopy(file)) {
     return;
   }
+  // Where nothing can be stored, what this window opened before is known to it alone.
+  const std::vector<fs::path> before = shown_.recent;
   readRecent();
+  for (const fs::path& one : before) {
+    if (std::ranges::count(shown_.recent, one) == 0 && isFile(one)) {
+      shown_.recent.push_back(one);
+    }
+  }
   const fs::path whole = wholePath(file).lexically_normal();
   std::erase_if(shown_.recent, [&](const fs::path& one) { return withoutLinks(one) == withoutLinks(whole); });
   shown_.recent.insert(shown_.recent.begin(), whole);
