@@ -33,8 +33,12 @@ bool drawRect(ImDrawList& list, int rect, const glm::vec2& low, const glm::vec2&
 
 }  // namespace
 
-void Thumbnails::setPoster(const Image8& picture) {
+bool Thumbnails::setPoster(const Image8& picture) {
+  if (picture.width == 0 && poster_.width == 0) {
+    return false;
+  }
   poster_ = picture.width > 0 ? smoothlyEnlarged(picture, posterSize.x, posterSize.y) : Image8();
+  return true;
 }
 
 void Thumbnails::addTo(ImFontAtlas& atlas) {

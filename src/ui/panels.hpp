@@ -144,8 +144,9 @@ class Thumbnails {
  public:
   // Pictures without pixels stand for missing ones.
   void setPictures(std::vector<Image8> pictures) { pictures_ = std::move(pictures); }
-  // Sets the thumbnail that stands in the picture's place, and enlarges it.
-  void setPoster(const Image8& picture);
+  // Sets the thumbnail that stands in the picture's place, and enlarges it. Returns false if there was none and is
+  // none.
+  bool setPoster(const Image8& picture);
 
   // Packs the pictures with the fonts. Call it after the fonts are added and before the atlas is uploaded.
   void addTo(ImFontAtlas& atlas);

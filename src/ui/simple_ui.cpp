@@ -140,8 +140,9 @@ void SimpleUI::setThumbnails(std::vector<Image8> pictures) {
 }
 
 void SimpleUI::setPoster(const Image8& picture) {
-  windows_.thumbnails().setPoster(picture);
-  scale_ = 0.0f;
+  if (windows_.thumbnails().setPoster(picture)) {
+    scale_ = 0.0f;
+  }
 }
 
 float SimpleUI::scale() const {

@@ -204,7 +204,7 @@ void Demo::beginOpening() {
   opened_ = Clock::now();
   workspace_.setPlayCost("");
   workspace_.browser().showPoster(!split);
-  workspace_.setPictureText(FirstPictures::text({}));
+  workspace_.setPictureText(FirstPictures::text(!split && thumbnail.width > 0, {}));
   updateUi(0.0);
   if (std::optional<Frame> frame = renderer_.beginFrame()) {
     endWithPanels(*frame);
@@ -382,27 +382,24 @@ const FittedPlan& Demo::planFrame(Frame& frame, const SceneState& state) {
   const bool shownOnly =
       half.pace.moving() && !halves_.split() && !output_.target && !output_.errorGain && !workspace_.needsThumbnail();
   const Scene& scene = workspace_.scene();
-  const Pace::Shown content{.revision = workspace_.pictureRevision(),
-                            .shaders = renderer_.pipelines().revision(),
-                            .time = contentTime(scene, state.time),
-                            .size = pictureSize()};
-  const double budget = recorded ? 0.0 : budgetMs();
-  Pace::Request request{.frame = {.scene = scene,
-                                  .state = state,
-                                  .settings = settings,
-                                  .size = glm::ivec2(frame.extent.width, frame.extent.height),
-                                  .cache = cache,
-                                  .shownOnly = shownOnly},
-                        .planner = half.planner,
-                        .shown = content,
-                        .budgetMs = budget,
-                        .front = workspace_.accuracy().front(),
-                        .input = changes_,
-                        .covered = first_.covered()};
-  request.target = missing;
-  const FittedPlan& fitted = half.plan(frame, request);
+  const FittedPlan& fitted = half.plan(frame, {.frame = {.scene = scene,
+                                                         .state = state,
+                                                         .settings = settings,
+                                                         .size = glm::ivec2(frame.extent.width, frame.extent.height),
+                                                         .cache = cache,
+                                                         .shownOnly = shownOnly},
+                                               .planner = half.planner,
+                                               .shown = {.revision = workspace_.pictureRevision(),
+                                                         .shaders = renderer_.pipelines().revision(),
+                                                         .time = contentTime(scene, state.time),
+                                                         .size = pictureSize()},
+                                               .budgetMs = recorded ? 0.0 : budgetMs(),
+                                               .front = workspace_.accuracy().front(),
+                                               .input = changes_,
+                                               .covered = first_.covered(),
+                                               .target = missing});
   if (isShown()) {
-    workspace_.setPictureText(first_.covered() ? FirstPictures::text(half.pace.firstShare())
+    workspace_.setPictureText(first_.covered() ? FirstPictures::text(true, half.pace.firstShare())
                                                : half.text(scene, settings, workspace_.animates()));
   }
   return fitted;

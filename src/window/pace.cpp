@@ -73,9 +73,10 @@ double FramePacer::beginFrame(double seconds) {
   return std::exchange(idled_, false) ? std::numeric_limits<double>::quiet_NaN() : 1000.0 * seconds;
 }
 
-std::string FirstPictures::text(const std::optional<double>& share) {
-  return share ? fmt::format("Preview. Drawing the first picture: {:.0f} %", std::floor(100.0 * *share))
-               : "Preview. Compiling shaders for the first picture";
+std::string FirstPictures::text(bool preview, const std::optional<double>& share) {
+  return (preview ? "Preview. " : "") +
+         (share ? fmt::format("Drawing the first picture: {:.0f} %", std::floor(100.0 * *share))
+                : "Compiling shaders for the first picture");
 }
 
 void SlowPicture::begin(size_t faces, size_t count, double ms) {
@@ -193,9 +194,11 @@ void Pace::planWithinBudget(const Request& request) {
   if (learned_ >= framesToKnow) {
     findPlayCost(levels, request);
   }
-  sharpDraft_ = !moving() && request.covered && sharpens(levels[level_].settings, request);
+  sharpDraft_ = !moving() && request.covered && lowers() && sharpens(levels[level_].settings, request);
   MotionLevel shown = levels[level_];
-  shown.settings.view.scale = sharpDraft_ ? chosen.view.scale : shown.settings.view.scale;
+  if (sharpDraft_) {
+    shown.settings.view.scale = chosen.view.scale;
+  }
   // A limit that leaves no image out costs no quality. Images that the chosen limit leaves out count too.
   const auto skips = [&](SkipReason reason) {
     return std::ranges::count(fitted_.plan.skipped, reason, &SkippedMirror::reason) > 0;

@@ -85,8 +85,9 @@ class FirstPictures {
   void uncover() { covered_ = false; }  // the user acts in the picture
 
   bool covered() const { return covered_; }  // the thumbnail covers the picture
-  // Says what is prepared below the thumbnail. `share`: of the first whole picture, if several frames draw it.
-  static std::string text(const std::optional<double>& share);
+  // Says what is prepared, below the thumbnail if there is a `preview`. `share`: of the first whole picture, if several
+  // frames draw it.
+  static std::string text(bool preview, const std::optional<double>& share);
   bool holds() const { return holds_; }  // the scene was paused for being slow, and nobody has played it yet
 
  private:

@@ -780,8 +780,9 @@ TEST(FirstPictures, StaysCoveredUntilThereIsAGoodPicture) {
 }
 
 TEST(FirstPictures, CoverSaysWhatIsPrepared) {
-  EXPECT_EQ(FirstPictures::text(std::nullopt), "Preview. Compiling shaders for the first picture");
-  EXPECT_EQ(FirstPictures::text(0.379), "Preview. Drawing the first picture: 37 %");
+  EXPECT_EQ(FirstPictures::text(true, std::nullopt), "Preview. Compiling shaders for the first picture");
+  EXPECT_EQ(FirstPictures::text(true, 0.379), "Preview. Drawing the first picture: 37 %");
+  EXPECT_EQ(FirstPictures::text(false, std::nullopt), "Compiling shaders for the first picture");
 }
 
 TEST(FirstPictures, OnlyAnotherContentUncovers) {
