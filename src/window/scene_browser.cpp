@@ -118,29 +118,27 @@ SceneBrowser::SceneBrowser() {
   readRecent();
 }
 
-// Reads what this window and others have stored, without files that are gone.
+// Reads what this window and others have stored, without files that are gone. Where nothing can be stored, what this
+// window opened before is known to it alone, and stays behind the others.
 void SceneBrowser::readRecent() {
-  shown_.recent.clear();
-  std::istringstream lines(readTextIfAny(recentFile(), 1u << 16));
-  for (std::string line; std::getline(lines, line) && shown_.recent.size() < mostRecent;) {
-    if (isFile(line) && std::ranges::count(shown_.recent, fs::path(line)) == 0) {
-      shown_.recent.emplace_back(line);
+  const std::vector<fs::path> before = std::exchange(shown_.recent, {});
+  const auto add = [&](const fs::path& file) {
+    if (shown_.recent.size() < mostRecent && isFile(file) && std::ranges::count(shown_.recent, file) == 0) {
+      shown_.recent.push_back(file);
     }
+  };
+  std::istringstream lines(readTextIfAny(recentFile(), 1u << 16));
+  for (std::string line; std::getline(lines, line);) {
+    add(line);
   }
+  std::ranges::for_each(before, add);
 }
 
 void SceneBrowser::remember(const fs::path& file) {
   if (isNew(file) || Recovery::isCopy(file)) {
     return;
   }
-  // Where nothing can be stored, what this window opened before is known to it alone.
-  const std::vector<fs::path> before = shown_.recent;
   readRecent();
-  for (const fs::path& one : before) {
-    if (std::ranges::count(shown_.recent, one) == 0 && isFile(one)) {
-      shown_.recent.push_back(one);
-    }
-  }
   const fs::path whole = wholePath(file).lexically_normal();
   std::erase_if(shown_.recent, [&](const fs::path& one) { return withoutLinks(one) == withoutLinks(whole); });
   shown_.recent.insert(shown_.recent.begin(), whole);
