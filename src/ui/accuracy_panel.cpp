@@ -207,11 +207,10 @@ void frontSlider(PanelContext& ui) {
   }
   recordWidget(ui, "accuracy.slider");
   // Below the slider, which is too narrow for most names.
-  ImGui::BeginDisabled(!accuracy.own || accuracy.own == ui.settings);
   commandButton(ui, "Back", "accuracy.back", "Returns to your settings, from before a point was picked.",
-                SetSettings{accuracy.own.value_or(ui.settings)});
-  ImGui::EndDisabled();
-  ImGui::SameLine();
+                SetSettings{accuracy.own.value_or(ui.settings)}, accuracy.own && accuracy.own != ui.settings);
+  nextButton(ui, "Compare (A | B)", "accuracy.compare", "Shows your settings on the left, and the point on the right.",
+             ToggleSplit{SplitStart::point}, comparesPoint(ui));
   wrappedText(accuracy.current >= 0 ? accuracy.points[accuracy.current].name : "Other settings");
   dimmedText(accuracy.alone ? "Shown as measured, as one picture: mean FLIP " +
                                   significant(accuracy.points[accuracy.current].error, 3)
@@ -303,6 +302,11 @@ std::string timeLeft(double seconds) {
 }
 
 }  // namespace
+
+bool comparesPoint(const PanelContext& ui) {
+  const ShownAccuracy& accuracy = ui.input.accuracy;
+  return !ui.input.split.on && accuracy.current >= 0 && accuracy.own && accuracy.own != ui.settings;
+}
 
 void accuracy(PanelContext& ui) {
   const ShownAccuracy& accuracy = ui.input.accuracy;

@@ -63,8 +63,13 @@ struct SetSettings {
 struct ResetSettings {};
 
 // A | B.
-struct ToggleSplit {   // begins with the present settings on the left; ends, unless B is to be naive
-  bool naive = false;  // B begins with the settings of most mirror demos, else with the present ones
+enum class SplitStart {
+  current,  // A and B begin with the settings in use
+  naive,    // B begins with the settings of most mirror demos
+  point     // B begins with the picked point, A with the settings from before, which are ShownAccuracy::own
+};
+struct ToggleSplit {  // begins A | B, or ends it with SplitStart::current
+  SplitStart start = SplitStart::current;
 
   bool operator==(const ToggleSplit&) const = default;
 };

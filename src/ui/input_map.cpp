@@ -52,7 +52,7 @@ std::span<const ShortcutGroup> shortcutGroups() {
          key("M", "Bookmark the view (saved with the scene)", AddBookmark{}),
          key("Shift+M", "Go to the next bookmark", GoToNextBookmark{}),
          key("C", "Compare two sets of settings (A | B), or end it", ToggleSplit{}),
-         key("Shift+C", "Compare with the settings of most mirror demos", ToggleSplit{true}),
+         key("Shift+C", "Compare with the settings of most mirror demos", ToggleSplit{SplitStart::naive}),
          key("X", "Edit the settings of the other half", ChooseOtherHalf{})}},
        {"Time",
         {key("Space", "Pause or play", TogglePaused{}), repeated(".", "Step forward by 1/60 s", StepTime{1}),

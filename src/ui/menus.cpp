@@ -108,7 +108,8 @@ void viewMenu(PanelContext& ui) {
   ImGui::Separator();
   const ShownSplit& split = ui.input.split;
   item(ui, split.on ? "End A | B" : "Compare settings (A | B)", ToggleSplit{});
-  item(ui, "Compare with a simple mirror demo", ToggleSplit{true});
+  item(ui, "Compare with a simple mirror demo", ToggleSplit{SplitStart::naive});
+  item(ui, "Compare with the picked point", ToggleSplit{SplitStart::point}, comparesPoint(ui));
   item(ui, "Edit the other half's settings", ChooseOtherHalf{}, split.on);
   ImGui::Separator();
   item(ui, ui.input.playback.paused ? "Play" : "Pause", TogglePaused{});

@@ -193,6 +193,7 @@ void performance(PanelContext& ui);
 void device(PanelContext& ui);
 void log(PanelContext& ui);
 void accuracy(PanelContext& ui);
+bool comparesPoint(const PanelContext& ui);  // A | B can begin with the picked point
 // Leaves its lower part transparent, because the renderer draws the target there.
 void targets(PanelContext& ui);
 bool hasTarget(const PassRow& pass);  // the Targets window can show its target

@@ -136,8 +136,17 @@ void SettingsController::applyPoint(int point) {
   accuracy_.pick(before, settings);
 }
 
-void SettingsController::beginSplit(bool naive, double divider) {
-  split_.begin(ofScene_, naive ? naiveSettings(ofScene_) : ofScene_, divider);
+void SettingsController::beginSplit(SplitStart start, double divider) {
+  Settings a = ofScene_, b = ofScene_;
+  if (start == SplitStart::naive) {
+    b = naiveSettings(a);
+  } else if (start == SplitStart::point) {
+    a = accuracy_.shown().own.value_or(a);
+    b.quality.stillPictures = 1;  // as it was measured
+    accuracy_.forgetPick();
+    accuracy_.pick(a, b);
+  }
+  split_.begin(a, b, divider);
   chooseHalf(split_.chosen());
 }
 

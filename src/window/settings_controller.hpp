@@ -93,7 +93,7 @@ class SettingsController {
   void set(const Settings& settings, bool continued = false);  // the chosen ones; `continued` as of SetSettings
   void applyPoint(int point);
   // Begin A | B with the divider at this share of the picture's width.
-  void beginSplit(bool naive, double divider);
+  void beginSplit(SplitStart start, double divider);
   void beginLesson(size_t index, const Settings& loaded, double divider);
   void chooseHalf(int half);
   void keepHalf();  // ends A | B with the chosen half's settings

@@ -76,7 +76,7 @@ void Workspace::apply(const Command& command) {
                  [&](const MultiplyTimeSpeed& c) { view_.playback.setSpeed(c.factor * view_.playback.shown().speed); },
                  [&](const SetSettings& c) { settings_.set(c.settings, c.continued); },
                  [&](const ResetSettings&) { settings_.set(loaded_->settings); },
-                 [&](const ToggleSplit& c) { toggleSplit(c.naive); },
+                 [&](const ToggleSplit& c) { toggleSplit(c.start); },
                  [&](const ChooseHalf& c) { chooseHalf(c.half); },
                  [&](const ChooseOtherHalf&) { chooseHalf(1 - split().chosen()); },
                  [&](const MoveDivider& c) { split().moveDivider(c.share); },
@@ -392,14 +392,14 @@ void Workspace::dismissMessage() {
   status_.clear();
 }
 
-void Workspace::toggleSplit(bool naive) {
+void Workspace::toggleSplit(SplitStart start) {
   if (split().on()) {
     settings_.endSplit();
-    if (!naive) {
+    if (start == SplitStart::current) {
       return;
     }
   }
-  settings_.beginSplit(naive, middleOfFreePicture());
+  settings_.beginSplit(start, middleOfFreePicture());
   reports_[1] = {};
   tellHalf();
 }

@@ -175,7 +175,7 @@ class Workspace {
   void resume(const std::optional<Command>& afterPrompt);
   void escape();
   void dismissMessage();
-  void toggleSplit(bool naive);
+  void toggleSplit(SplitStart start);
   void chooseHalf(int half);
   void tellHalf();
   void beginLesson(size_t index);

@@ -34,7 +34,7 @@ TEST(InputMap, MenusShowTheKeysOfTheirCommands) {
   EXPECT_STREQ(keysOf(ToggleRecording{true}), "Shift+F10");
   EXPECT_STREQ(keysOf(TakeScreenshot{true}), "Shift+F12");
   EXPECT_STREQ(keysOf(LookFromMirror{MirrorSide::front}), "Shift+B");
-  EXPECT_STREQ(keysOf(ToggleSplit{true}), "Shift+C");
+  EXPECT_STREQ(keysOf(ToggleSplit{SplitStart::naive}), "Shift+C");
   EXPECT_STREQ(keysOf(Redo{}), "Ctrl+Shift+Z") << "the first of two";
 }
 

@@ -1850,6 +1850,32 @@ TEST_F(AccuracyWindow, OwnSettingsComeBack) {
   EXPECT_FALSE(sent<SetSettings>()) << "they are there";
 }
 
+TEST_F(AccuracyWindow, PickedPointIsComparedWithOwnSettings) {
+  const auto compares = [&](const std::string& place) {
+    commands_.clear();
+    if (startsWith(place, "menu.")) {
+      click("menu.View");
+    }
+    click(place, 0.3);
+    tap(ImGuiKey_Escape);
+    const auto* sent = commands_.empty() ? nullptr : std::get_if<ToggleSplit>(&commands_.front());
+    return sent && sent->start == SplitStart::point;
+  };
+  for (const std::string place : {"accuracy.compare", "menu.Compare with the picked point"}) {
+    accuracy_.current = 1;
+    accuracy_.own.reset();
+    split_.on = false;
+    EXPECT_FALSE(compares(place)) << place << ", no point was picked";
+    accuracy_.own.emplace().view.exposure = 2.0;
+    EXPECT_TRUE(compares(place)) << place;
+    accuracy_.current = -1;
+    EXPECT_FALSE(compares(place)) << place << ", the settings were changed since";
+    accuracy_.current = 1;
+    split_.on = true;
+    EXPECT_FALSE(compares(place)) << place << ", A | B is on";
+  }
+}
+
 TEST_F(AccuracyWindow, SliderNamesPointsOffTheFront) {
   EXPECT_TRUE(shows("off the front"));
   accuracy_.current = 2;

@@ -48,7 +48,7 @@ TEST_F(Split, PanelsChangeTheChosenHalf) {
 TEST_F(Split, NaiveBBeginsAnewWhileComparing) {
   send(ToggleSplit{});
   setExposure(2.0);
-  send(ToggleSplit{true});
+  send(ToggleSplit{SplitStart::naive});
   EXPECT_TRUE(split().on);
   EXPECT_EQ(workspace_->shownSettings(1).reflection.maxDepth, 1);
   EXPECT_EQ(exposure(1), 1.0);
@@ -58,7 +58,7 @@ TEST_F(Split, NaiveBBeginsAnewWhileComparing) {
 
 TEST_F(Split, KeepTakesTheHalfAsOneStep) {
   const Settings before = shown().settings;
-  send(ToggleSplit{true});
+  send(ToggleSplit{SplitStart::naive});
   EXPECT_EQ(workspace_->shownSettings(1).reflection.maxDepth, 1);
   EXPECT_EQ(workspace_->shownSettings(1).quality.stillPictures, 1);
   EXPECT_TRUE(workspace_->shownSettings(0) == before);

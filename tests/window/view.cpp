@@ -461,6 +461,28 @@ TEST_F(BudgetView, PickedPointsAreShownAlone) {
   EXPECT_EQ(pictures(), mean) << "a bound chose, nobody picked";
 }
 
+TEST_F(BudgetView, PickedPointIsComparedWithTheSettingsBefore) {
+  workspace_->accuracy().show(true, {});
+  const Settings before = workspace_->settings();
+  send(ApplyPoint{1});
+  send(ApplyPoint{0});
+  const Settings point = workspace_->settings();
+  send(ToggleSplit{SplitStart::point});
+  ASSERT_TRUE(workspace_->split().on());
+  EXPECT_TRUE(workspace_->shownSettings(0) == before) << "from before both points";
+  EXPECT_EQ(workspace_->shownSettings(1).view.samples, 1);
+  EXPECT_EQ(workspace_->shownSettings(1).quality.stillPictures, 1) << "as it was measured";
+  EXPECT_EQ(shown().accuracy.current, 0);
+  EXPECT_TRUE(shown().accuracy.alone);
+  send(ApplyPoint{1});
+  EXPECT_EQ(workspace_->shownSettings(1).view.samples, 4) << "another point becomes B";
+  EXPECT_TRUE(workspace_->shownSettings(0) == before);
+  send(Escape{});
+  EXPECT_FALSE(workspace_->split().on());
+  EXPECT_TRUE(workspace_->settings() == point) << "as before A | B";
+  EXPECT_FALSE(shown().accuracy.own) << "pick of a half";
+}
+
 TEST_F(BudgetView, ChangedScenesSayThatTheResultIsGone) {
   send(AddLight{});
   EXPECT_TRUE(shown().accuracy.points.empty());
