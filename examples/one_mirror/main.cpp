@@ -57,7 +57,7 @@ glm::mat4 projection(float verticalFov, float aspect) {
   return {{focal / aspect, 0, 0, 0}, {0, -focal, 0, 0}, {0, 0, 0, -1}, {0, 0, near, 0}};
 }
 
-// Takes every point x to the other side of the plane: x - 2 n (n . (x - q)).
+// Takes every point x to the other side of the plane: x - 2 n (n . (x - q)), which is (1 - 2 n n^T) x + 2 (n . q) n.
 glm::mat4 reflection(const glm::vec3& q, const glm::vec3& n) {
   const glm::mat3 linear = glm::mat3(1.0f) - 2.0f * glm::outerProduct(n, n);
   glm::mat4 matrix(linear);

@@ -61,6 +61,12 @@ TEST_P(Step, ShaderObjectsDrawTheSameBytes) {
   }
   ASSERT_EQ(result.exitCode, 0) << result.output;
   const Image8 drawn = readImage8(file);
+  objects.emplace_back("--validation");
+  const ProcessResult validated = example(GetParam(), objects);
+  if (validated.exitCode != 0) {
+    EXPECT_TRUE(contains(validated.output, "the validation layer is older than")) << validated.output;
+    EXPECT_EQ(validated.exitCode, 2);
+  }
   ASSERT_EQ(example(GetParam(), size).exitCode, 0);
   EXPECT_EQ(readImage8(file).rgba, drawn.rgba);
 }
