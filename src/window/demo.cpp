@@ -117,7 +117,7 @@ void Demo::drawFrame(double seconds) {
   // Both halves of A | B show the same time, so it stands still in every second frame.
   const bool endsPair = workspace_.split().on() && halves_.split() && halves_.index() == 0;
   updateUi(endsPair ? 0.0 : workspace_.frameSeconds(std::exchange(heldSeconds_, 0.0)));
-  if (!takeTurns()) {
+  if (sceneIsNew_ || !takeTurns()) {  // beginOpening() covers the first frame of a new scene
     return;
   }
   // While A | B is on, only the frame that draws the second half is saved: then both halves show the same time.

@@ -283,6 +283,17 @@ TEST_F(PacedWindow, NothingCoversScenesWithoutThumbnails) {
   EXPECT_FALSE(shown().browser.poster) << "a draft is more than a title";
 }
 
+TEST_F(PacedWindow, NewScenesAreCoveredFromTheirFirstFrame) {
+  demo_->apply(OpenScene{sceneFile("no_mirror")});
+  int drawn = demo_->framesDrawn();
+  ASSERT_TRUE(waitFor([&] {
+    const bool isNew = shownScene().name == "no_mirror";
+    drawn = isNew ? drawn : demo_->framesDrawn();
+    return isNew;
+  }));
+  EXPECT_TRUE(shown().browser.poster || demo_->framesDrawn() == drawn);
+}
+
 class FastWindow : public PacedWindow {
  protected:
   FastWindow() : PacedWindow("100000") {}
