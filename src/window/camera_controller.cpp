@@ -16,6 +16,7 @@ constexpr double zoomPerNotch = 0.88;
 constexpr double lean = 0.15;        // tangent of the angle between the view out of a floor or ceiling and its normal
 constexpr double steepest = 0.995;   // largest cosine of the angle between view direction and up
 constexpr double leastLight = 0.25;  // least radius of the sphere around a light, metres
+constexpr double roomAround = 1.1;   // radius that is framed, over the object's
 constexpr double turnSpeed = 90.0;   // degrees a second, of a stick
 
 Sphere boundsOfAll(const SceneState& state) {
@@ -208,7 +209,7 @@ void CameraController::frame(const Sphere& sphere, double aspect, const Part& pa
   takeOver();
   const glm::dvec2 slope = std::tan(0.5 * glm::radians(spec_.verticalFov)) * glm::dvec2(aspect, 1.0);
   const double narrowest = std::atan(std::min(slope.x * part.half.x, slope.y * part.half.y));
-  const double distance = std::max(sphere.radius, 10.0 * std::min(spec_.near, 1.0)) / std::sin(narrowest);
+  const double distance = std::max(roomAround * sphere.radius, 10.0 * std::min(spec_.near, 1.0)) / std::sin(narrowest);
   const glm::dmat3 axes = glm::transpose(last_.worldToView);
   target_ = sphere.center - axes * glm::dvec3(part.center * slope * distance, 0.0);
   eye_ = target_ + axes[2] * distance;
