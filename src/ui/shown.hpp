@@ -194,7 +194,8 @@ struct ShownSplit {
   double divider = 0.5;  // share of the picture's width to its left
   struct Half {
     std::vector<SettingChange> differs;  // its values of the settings that differ from the other half's
-    double gpuMs = 0.0;                  // of its last frame that drew the scene; 0: not known
+    double gpuMs = 0.0;                  // of its last picture of the scene; 0: not known
+    int pictures = 1;                    // in its mean, each of which takes gpuMs
     std::optional<double> error;         // mean FLIP; none until both still pictures are complete and compared
     bool ofReference = false;            // `error` is against the reference, else against the other half
     std::string picture;                 // what it gives up, or how far it has converged

@@ -34,7 +34,10 @@ std::string labelOf(const ShownSplit& split, size_t half) {
     label += fmt::format("\nand {} more", shown.differs.size() - mostDiffering);
   }
   label += shown.differs.empty() ? "\nsame settings" : "";
-  label += shown.gpuMs > 0.0 ? "\nGPU " + duration(shown.gpuMs) : "";
+  if (shown.gpuMs > 0.0) {
+    label += "\nGPU " + duration(shown.gpuMs);
+    label += shown.pictures > 1 ? fmt::format(" for each of {} pictures", shown.pictures) : "";
+  }
   if (shown.error) {
     label += fmt::format("\nFLIP {} against {}", significant(*shown.error, 3),
                          shown.ofReference ? "the reference" : names[1 - half]);

@@ -338,6 +338,7 @@ void Demo::report(const RecordedFrame& frame) {
   if (halves_.split()) {
     workspace_.split().frameDrawn({.half = index,
                                    .gpuMs = workspace_.report(index).shown().gpuMs,
+                                   .pictures = half.pace.pictures(),
                                    .text = half.pace.text(),
                                    .still = half.pace.completeStill()},
                                   workspace_.accuracy().reference(), pixels,

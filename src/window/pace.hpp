@@ -190,6 +190,7 @@ class Pace {
   bool moving() const { return movement_.moving(); }
   // Says whether another frame is needed although nothing happens.
   bool wantsFrame() const { return movement_.ending() || (!moving() && (!isComplete() || !slow_.finished())); }
+  int pictures() const { return pictures_; }  // in the mean of the planned still picture; 1 while something moves
   // Says whether the last frame drew tiles of a picture. finished() learns from their time if that frame has ended
   // when the next one begins.
   bool drawsTiles() const { return fitted_.plan.tiles.has_value(); }

@@ -80,6 +80,7 @@ void SplitView::frameDrawn(const HalfFrame& frame, const Truth& truth, const std
                            const std::function<Settings(int)>& drawn) {
   ShownSplit::Half& shown = shown_.halves[static_cast<size_t>(frame.half)];
   shown.gpuMs = frame.gpuMs;
+  shown.pictures = frame.pictures;
   shown.picture = frame.text;
   still_[static_cast<size_t>(frame.half)] = frame.still;
   const Compared now{still_, truth};

@@ -23,7 +23,8 @@ Settings naiveSettings(const Settings& settings);
 // Frame of one half of A | B, as it was drawn.
 struct HalfFrame {
   int half = 0;      // 0 is A, on the left, 1 is B
-  double gpuMs = 0;  // of the half's last frame that drew the scene
+  double gpuMs = 0;  // of the half's last picture of the scene
+  int pictures = 1;  // in the half's mean
   std::string text;  // what the picture gives up, or how far it has converged
   // Number of the still picture that the frame completed, or shows again; none while it is not complete.
   std::optional<uint64_t> still;

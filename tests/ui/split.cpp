@@ -32,6 +32,9 @@ TEST_F(SplitPanels, DividerIsDraggedAndLabelled) {
   split_.halves[0].error = 0.0312;
   split_.halves[0].picture = "Draft";
   EXPECT_TRUE(shows("GPU 3.21 ms"));
+  EXPECT_FALSE(shows("for each of"));
+  split_.halves[0].pictures = 64;
+  EXPECT_TRUE(shows("GPU 3.21 ms for each of 64 pictures"));
   EXPECT_TRUE(shows("FLIP 0.0312 against B"));
   EXPECT_TRUE(shows("Draft"));
   split_.halves[0].ofReference = true;

@@ -68,6 +68,7 @@ TEST_F(SplitJourney, HalvesAreThePicturesOfTheirSettings) {
   EXPECT_GT(*split().halves[0].error, 0.01);
   EXPECT_GT(split().halves[0].gpuMs, 0.0);
   EXPECT_GT(split().halves[1].gpuMs, 0.0);
+  EXPECT_EQ(split().halves[1].pictures, shown().settings.quality.stillPictures);
   press("x");
   EXPECT_EQ(shown().settings.reflection.scale, 1.0) << "of A";
   press("F12");

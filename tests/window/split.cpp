@@ -163,7 +163,7 @@ class Comparing : public testing::Test {
   void SetUp() override { view_.begin({}, {}, 0.5); }
   void drawn(int half, std::optional<uint64_t> still, const SplitView::Truth& truth = nullptr) {
     view_.frameDrawn(
-        {.half = half, .gpuMs = 1.0 + half, .text = "text", .still = still}, truth,
+        {.half = half, .gpuMs = 1.0 + half, .pictures = 1 + 63 * half, .text = "text", .still = still}, truth,
         [this](int of) { return pictures_[static_cast<size_t>(of)]; }, [](int) { return Settings(); });
   }
   void wait() {
@@ -188,6 +188,7 @@ TEST_F(Comparing, CompleteStillPicturesAreCompared) {
   drawn(1, std::nullopt);
   EXPECT_FALSE(view_.working()) << "B is not complete";
   EXPECT_EQ(half(1).gpuMs, 2.0);
+  EXPECT_EQ(half(1).pictures, 64);
   EXPECT_EQ(half(1).picture, "text");
   drawn(1, 7);
   EXPECT_TRUE(view_.working());
