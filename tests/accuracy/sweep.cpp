@@ -198,14 +198,19 @@ TEST(SweepPlans, BuiltInPlansFitDeviceAndScene) {
   EXPECT_GT(full.configurations.size(), quick.configurations.size());
   EXPECT_GE(quick.repeats, 15);
   bool interval = false;
+  std::set<std::string> filters;
   for (const SweepConfiguration& configuration : full.configurations) {
     for (const SettingChange& change : configuration.changes) {
       interval = interval || change.key == "reflection.update_interval";
+      if (change.key == "view.texture_filter") {
+        filters.insert(change.value);
+      }
       EXPECT_FALSE(change.key.ends_with("samples") && (change.value == "2" || change.value == "8"))
           << configuration.name;
     }
   }
   EXPECT_TRUE(interval);
+  EXPECT_EQ(filters, (std::set<std::string>{"nearest", "trilinear", "anisotropic"})) << "bilinear is in use";
   for (const SweepSeries& series : full.series) {
     for (size_t i = 0; i < series.x.size(); ++i) {
       const Settings settings = settingsWith(context.base, full.configurations[series.points[i]].changes);
