@@ -278,6 +278,8 @@ void Workspace::frameDrawn(const ShownPicture& shown, const std::function<Image8
     Capture::Saved saved = capture_.save(scene().file.stem().string(), *captured);
     const std::string& picture = status_.shown().picture;
     saved.message += saved.logged && !picture.empty() ? ", " + picture : "";
+    const bool waits = !saved.logged && capture_.recording() && animated() && !animates();
+    saved.message += waits ? " Space plays the animation." : "";
     saved.logged ? status_.set(saved.message) : status_.show(saved.message);
   }
   if (half == shownHalf()) {

@@ -421,6 +421,15 @@ TEST_F(SpinningBall, MovedCameraMakesAnotherView) {
   EXPECT_FALSE(otherView());
 }
 
+TEST_F(SpinningBall, RecordingsOfAPausedSceneSaySo) {
+  send(ToggleRecording{});
+  drawFrame();
+  EXPECT_FALSE(contains(status(), "Space")) << status();
+  send(SetPaused{true});
+  drawFrame();
+  EXPECT_TRUE(contains(status(), "F10 stops. Space plays")) << status();
+}
+
 TEST_F(BudgetView, PlotKnowsThePointThatABoundChose) {
   EXPECT_EQ(shown().accuracy.chosen, -1);
   setBudget(2.0);
