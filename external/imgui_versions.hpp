@@ -48,6 +48,17 @@ inline void showFocus() {
 }
 #endif
 
+// Enter presses the focused widget, as the space bar does; later versions do so themselves. Texts and numbers are edited
+// instead. Prompts decide themselves what Enter does. Call it between ImGui::NewFrame() and the first widget.
+template <typename Context>
+void pressByEnter(Context& context) {
+  if constexpr (requires { context.NavActivateInputId; }) {
+    if (context.NavActivateInputId != 0 && context.ActiveId == 0 && !ImGui::GetTopMostPopupModal()) {
+      context.NavActivateId = context.NavActivateDownId = context.NavActivateInputId;
+    }
+  }
+}
+
 // What the backend's descriptor pool, which must allow freeing, has to hold at least. Newer backends keep pictures and
 // samplers apart.
 inline constexpr std::array poolSizes{VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 16},

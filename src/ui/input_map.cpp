@@ -76,9 +76,9 @@ std::span<const ShortcutGroup> shortcutGroups() {
          key("Ctrl+Shift+S", "Save as", AskWhereToSave{})}},
        {"Window",
         {key("F2", "Show or hide the inspector", ToggleInspector{}), key("F11", "Full screen", ToggleFullScreen{}),
-         key("Tab", "Show or hide the panels", TogglePanel{}),
-         pointer("Ctrl+Tab", "Go to another panel, or to the menus"),
-         pointer("Arrows", "Walk through the panel's widgets; Space presses, Enter types"),
+         key("Tab", "Show or hide the panels", TogglePanel{}), pointer("Alt", "Go to the menus"),
+         pointer("Ctrl+Tab", "Go to another panel"),
+         pointer("Arrows", "Walk through the panel's widgets; Enter presses or types"),
          key("F1", "Show or hide this list", ToggleHelp{}),
          key("Esc", "Cancel the drag, close a menu, deselect, end A | B", Escape{}), key("Ctrl+Q", "Quit", Quit{})}}}};
   return groups;

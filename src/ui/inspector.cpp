@@ -39,10 +39,8 @@ bool nodeList(PanelContext& ui) {
         std::ranges::any_of(edit.others, [&](const Selection& selection) { return sameNode(selection, node); });
     ImGui::PushID(row);
     const ImGuiIO& io = ImGui::GetIO();
-    const bool chosen = ImGui::Selectable(oneLine(describe(*edit.scene, node)).c_str(), selected || other);
-    // Later versions of Dear ImGui press a row by Enter too.
-    const bool entered = io.NavVisible && ImGui::IsItemFocused() && enterPressed();
-    if (chosen || entered) {
+    if (ImGui::Selectable(oneLine(describe(*edit.scene, node)).c_str(), selected || other)) {
+      const bool entered = io.NavVisible && enterPressed();
       const bool toggles = !entered && (io.KeyShift || io.KeyCtrl);
       ui.send(toggles ? Command(ToggleNode{node}) : Command(SelectNode{node}));
       ui.state.focusFields = entered;

@@ -1,6 +1,5 @@
 // The menus at the window's top, except the one that opens panels.
 #include <imgui.h>
-#include <imgui_internal.h>
 #include <spdlog/fmt/fmt.h>
 
 #include <cfloat>
@@ -11,25 +10,11 @@
 
 namespace speculum::panels {
 
-bool menuItem(const char* label, const char* keys, bool marked, bool enabled) {
-  // Dear ImGui presses the focused entry with the space bar only; this adds Enter.
-  const bool pressed = ImGui::MenuItem(label, keys, marked, enabled);
-  const bool entered = !pressed && enabled && ImGui::IsItemFocused() && enterPressed();
-  if (entered) {
-    ImGui::ClosePopupsOverWindow(nullptr, true);
-  }
-  return pressed || entered;
-}
-
-void menuSwitch(const char* label, const char* keys, bool& on) {
-  on = menuItem(label, keys, on) != on;
-}
-
 namespace {
 
 void item(PanelContext& ui, const char* label, Command command, bool enabled = true, const char* keys = nullptr) {
   const char* shortcut = keys ? keys : keysOf(command);
-  if (menuItem(label, shortcut, false, enabled)) {
+  if (ImGui::MenuItem(label, shortcut, false, enabled)) {
     ui.send(std::move(command));
   }
   recordWidget(ui, std::string("menu.") + label);

@@ -87,6 +87,7 @@ void PanelWindows::quietAfterDrag() {
 
 UiOutput PanelWindows::build(const UiInput& input) {
   quietAfterDrag();
+  imgui::pressByEnter(*ImGui::GetCurrentContext());
   PanelContext ui{.input = input, .state = state_, .settings = input.settings, .output = {}};
   state_.widgets.clear();
   state_.targets.pointed.reset();
@@ -171,9 +172,9 @@ void PanelWindows::menuBar(PanelContext& ui) {
     ImGui::EndMenu();
   }
   if (panels::menu(ui, "Help")) {
-    panels::menuSwitch("Keys", keysOf(ToggleHelp{}), state_.help);
+    ImGui::MenuItem("Keys", keysOf(ToggleHelp{}), &state_.help);
     panels::lessonMenu(ui);
-    panels::menuSwitch("Dear ImGui demo", nullptr, state_.widgetDemo);
+    ImGui::MenuItem("Dear ImGui demo", nullptr, &state_.widgetDemo);
     panels::recordWidget(ui, "help.widgets");
     ImGui::EndMenu();
   }
@@ -184,13 +185,13 @@ void PanelWindows::menuBar(PanelContext& ui) {
 void PanelWindows::windowMenu(PanelContext& ui) {
   for (const PanelName& panel : panelNames) {
     const char* keys = panel.open == &PanelChoices::inspector ? keysOf(ToggleInspector{}) : nullptr;
-    panels::menuSwitch(panel.name.data(), keys, state_.choices.*panel.open);
+    ImGui::MenuItem(panel.name.data(), keys, &(state_.choices.*panel.open));
     panels::tip(panel.about);
   }
   ImGui::Separator();
   for (const auto& [name, place, theme] :
        {std::tuple("Dark theme", "theme.dark", Theme::dark), std::tuple("Light theme", "theme.light", Theme::light)}) {
-    if (panels::menuItem(name, nullptr, state_.choices.theme == theme)) {
+    if (ImGui::MenuItem(name, nullptr, state_.choices.theme == theme)) {
       state_.choices.theme = theme;
     }
     panels::recordWidget(ui, place);
@@ -203,7 +204,7 @@ void PanelWindows::windowMenu(PanelContext& ui) {
   ImGui::Separator();
   presentModes(ui);
   ImGui::Separator();
-  if (panels::menuItem("Reset layout")) {
+  if (ImGui::MenuItem("Reset layout")) {
     dock_.reset();
     state_.help = false;
     for (const PanelName& panel : rememberedPanels) {
@@ -211,7 +212,7 @@ void PanelWindows::windowMenu(PanelContext& ui) {
     }
   }
   panels::recordWidget(ui, "window.reset");
-  if (panels::menuItem("Hide panels", keysOf(TogglePanel{}))) {
+  if (ImGui::MenuItem("Hide panels", keysOf(TogglePanel{}))) {
     ui.send(TogglePanel{});
   }
 }
@@ -235,7 +236,7 @@ void PanelWindows::presentModes(PanelContext& ui) {
     const std::string label = name == "fifo"      ? "VSync (fifo)"
                               : name == "mailbox" ? "VSync, newest picture (mailbox)"
                                                   : "No VSync (" + name + ")";
-    if (panels::menuItem(label.c_str(), nullptr, device.presentMode == i)) {
+    if (ImGui::MenuItem(label.c_str(), nullptr, device.presentMode == i)) {
       ui.send(SetPresentMode{i});
     }
     panels::recordWidget(

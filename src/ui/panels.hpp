@@ -176,9 +176,6 @@ void menus(PanelContext& ui);            // File, Edit and View
 void frameTime(const PanelContext& ui);  // of the last frame that drew the scene
 // Calls ImGui::BeginMenu, and records the menu as "menu." and the label, as menu entries are recorded.
 bool menu(PanelContext& ui, const char* label, bool enabled = true);
-// Calls ImGui::MenuItem. Returns whether the entry was clicked or chosen by Space or Enter.
-bool menuItem(const char* label, const char* keys = nullptr, bool marked = false, bool enabled = true);
-void menuSwitch(const char* label, const char* keys, bool& on);
 
 // Sections of the main panel and contents of the windows beside it, each within the current ImGui window.
 void scene(PanelContext& ui);

@@ -126,7 +126,7 @@ void lessonMenu(PanelContext& ui) {
     return;
   }
   for (size_t i = 0; i < lessons.size(); ++i) {
-    if (menuItem(lessons[i].title.c_str(), nullptr, ui.input.split.lesson == i)) {
+    if (ImGui::MenuItem(lessons[i].title.c_str(), nullptr, ui.input.split.lesson == i)) {
       ui.send(OpenScene{lessons[i].scene, i});
     }
     recordWidget(ui, fmt::format("lesson.{}", i), lessons[i].text);

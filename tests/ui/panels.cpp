@@ -429,6 +429,32 @@ TEST_F(PanelTest, EnterChoosesMenuEntries) {
   EXPECT_FALSE(has("menu.New")) << "the menu closes";
 }
 
+TEST_F(PanelTest, EnterPressesWidgets) {
+  drag("view.exposure", 0.2, 60);  // leaves the keyboard there
+  tap(ImGuiKey_DownArrow);
+  const ToneMap before = settings_.view.toneMap;
+  tap(ImGuiKey_Enter);
+  tap(ImGuiKey_DownArrow);
+  tap(ImGuiKey_Enter);
+  EXPECT_NE(settings_.view.toneMap, before) << "the list opens, and the entry is chosen";
+  click("view.wireframe");
+  EXPECT_TRUE(settings_.view.wireframe);
+  tap(ImGuiKey_UpArrow);
+  tap(ImGuiKey_DownArrow);
+  tap(ImGuiKey_Enter);
+  EXPECT_FALSE(settings_.view.wireframe);
+}
+
+TEST_F(PanelTest, EnterTypesIntoSliders) {
+  drag("view.exposure", 0.2, 60);
+  tap(ImGuiKey_UpArrow);
+  tap(ImGuiKey_DownArrow);
+  tap(ImGuiKey_Enter);
+  type("2.5");
+  tap(ImGuiKey_Enter);
+  EXPECT_EQ(settings_.view.exposure, 2.5);
+}
+
 TEST_F(PanelTest, MenusSendTheirCommands) {
   browser_.recent = {"/scenes/two.obj"};
   edit_.undo = "change Exposure";
