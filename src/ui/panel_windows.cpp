@@ -85,8 +85,22 @@ void PanelWindows::quietAfterDrag() {
   }
 }
 
+// Alt alone goes to the menus, as in other programs. Dear ImGui has just gone to the title of the panel instead.
+void PanelWindows::goToMenusByAlt() {
+  ImGuiContext& context = *ImGui::GetCurrentContext();
+  const bool released = std::exchange(alt_, ImGui::GetIO().KeyAlt) && !alt_;
+  ImGuiWindow* const bar = ImGui::FindWindowByName("##MainMenuBar");
+  if (released && context.NavWindow && context.NavWindow != bar && context.NavLayer == ImGuiNavLayer_Menu && bar &&
+      bar->WasActive) {
+    ImGui::FocusWindow(bar);
+    context.NavLayer = ImGuiNavLayer_Menu;
+    ImGui::NavInitWindow(bar, true);
+  }
+}
+
 UiOutput PanelWindows::build(const UiInput& input) {
   quietAfterDrag();
+  goToMenusByAlt();
   imgui::pressByEnter(*ImGui::GetCurrentContext());
   PanelContext ui{.input = input, .state = state_, .settings = input.settings, .output = {}};
   state_.widgets.clear();

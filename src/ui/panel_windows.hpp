@@ -33,6 +33,7 @@ class PanelWindows {
 
  private:
   static void quietAfterDrag();
+  void goToMenusByAlt();
   void mainPanel(PanelContext& ui);
   void windowChoices(PanelContext& ui);
   void menuBar(PanelContext& ui);
@@ -49,6 +50,7 @@ class PanelWindows {
   float statusHeight_ = 0.0f;
   bool visible_ = true;
   bool foldedMain_ = false;  // the inspector folded the main panel when it opened
+  bool alt_ = false;         // Alt was down in the last frame
 };
 
 }  // namespace speculum

@@ -273,12 +273,19 @@ class PanelTest : public testing::Test {
   static void holdControl(bool down) {
     ImGui::GetIO().KeyCtrl = down;
   }
+  static void holdAlt(bool down) {
+    ImGui::GetIO().KeyAlt = down;
+  }
 #else
   static void holdShift(bool down) {
     ImGui::GetIO().AddKeyEvent(ImGuiMod_Shift, down);
   }
   static void holdControl(bool down) {
     ImGui::GetIO().AddKeyEvent(ImGuiMod_Ctrl, down);
+  }
+  static void holdAlt(bool down) {
+    ImGui::GetIO().AddKeyEvent(ImGuiMod_Alt, down);
+    ImGui::GetIO().AddKeyEvent(ImGuiKey_LeftAlt, down);
   }
 #endif
   void tap(ImGuiKey key) {

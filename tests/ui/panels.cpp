@@ -455,6 +455,25 @@ TEST_F(PanelTest, EnterTypesIntoSliders) {
   EXPECT_EQ(settings_.view.exposure, 2.5);
 }
 
+TEST_F(PanelTest, AltGoesToTheMenus) {
+  const auto tapAlt = [&] {
+    for (const bool down : {true, false}) {
+      holdAlt(down);
+      run(2);
+    }
+  };
+  tapAlt();
+  tap(ImGuiKey_DownArrow);
+  EXPECT_TRUE(has("menu.New"));
+  tap(ImGuiKey_Escape);
+  click("panel.Log");
+  holdControl(true);
+  tapAlt();
+  holdControl(false);
+  tap(ImGuiKey_DownArrow);
+  EXPECT_FALSE(has("menu.New")) << "Alt alone";
+}
+
 TEST_F(PanelTest, MenusSendTheirCommands) {
   browser_.recent = {"/scenes/two.obj"};
   edit_.undo = "change Exposure";
