@@ -98,6 +98,20 @@ void PanelWindows::goToMenusByAlt() {
   }
 }
 
+// Forgets the focused widget if its panel has it no more, so that arrow keys begin with the panel's first one: from the
+// place of a lost one, Dear ImGui may find nothing. Call it after the last widget. Widgets that were just clicked are
+// found in the next frame only.
+void PanelWindows::forgetLostWidget() {
+  ImGuiContext& context = *ImGui::GetCurrentContext();
+  ImGuiWindow* const window = context.NavWindow;
+  const bool drawn = window && window->Active && !window->SkipItems && context.NavLayer == ImGuiNavLayer_Main;
+  const ImGuiID lost = drawn && !context.NavIdIsAlive ? context.NavId : 0;
+  if (lost != 0 && lost == lost_) {
+    context.NavId = window->NavLastIds[ImGuiNavLayer_Main] = 0;
+  }
+  lost_ = lost;
+}
+
 UiOutput PanelWindows::build(const UiInput& input) {
   quietAfterDrag();
   goToMenusByAlt();
@@ -137,6 +151,7 @@ UiOutput PanelWindows::build(const UiInput& input) {
   }
   panels::message(ui, freeRect());
   panels::prompts(ui);
+  forgetLostWidget();
   if (state_.editing && !ImGui::IsAnyItemActive()) {
     state_.editing = false;
     ui.send(EndEdit{});

@@ -34,6 +34,7 @@ class PanelWindows {
  private:
   static void quietAfterDrag();
   void goToMenusByAlt();
+  void forgetLostWidget();
   void mainPanel(PanelContext& ui);
   void windowChoices(PanelContext& ui);
   void menuBar(PanelContext& ui);
@@ -51,6 +52,7 @@ class PanelWindows {
   bool visible_ = true;
   bool foldedMain_ = false;  // the inspector folded the main panel when it opened
   bool alt_ = false;         // Alt was down in the last frame
+  unsigned lost_ = 0;        // identifier of the focused widget if the last frame did not draw it
 };
 
 }  // namespace speculum

@@ -1437,6 +1437,16 @@ TEST_F(Inspector, ArrowsLeaveTheList) {
   EXPECT_TRUE(sent<AddMirror>()) << "the button below the list";
 }
 
+TEST_F(Inspector, ArrowsGoOnAfterTheFocusedFieldIsGone) {
+  selectMirror(0);
+  click("edit.two_sided");
+  select({});
+  tap(ImGuiKey_DownArrow);
+  tap(ImGuiKey_Space);
+  EXPECT_TRUE(ImGui::GetCurrentContext()->NavIdIsAlive) << "a widget that is drawn";
+  EXPECT_TRUE(imgui::focusIsShown());
+}
+
 TEST_F(Inspector, EnterOnARowGoesToItsFields) {
   tap(ImGuiKey_DownArrow);
   selectMirror(1);  // by N
