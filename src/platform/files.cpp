@@ -58,8 +58,9 @@ fs::path folderOf(const fs::path& file) {
   return file.has_parent_path() ? file.parent_path() : fs::path(".");
 }
 
-void failToWrite(const fs::path& file, const std::string& reason) {
-  throw FileError(file, "cannot be written: " + reason, "check the folder's permissions and free space");
+void failToWrite(const fs::path& file, int error) {
+  throw FileError(file, "cannot be written: " + std::system_category().message(error),
+                  "check the folder's permissions and free space");
 }
 
 void requirePlaceFor(const fs::path& file, const fs::path& target) {

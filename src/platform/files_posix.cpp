@@ -8,7 +8,6 @@
 #include <cerrno>
 #include <charconv>
 #include <cstdlib>
-#include <cstring>
 #include <fstream>
 #include <optional>
 #include <sstream>
@@ -23,10 +22,6 @@ namespace speculum {
 namespace {
 
 namespace fs = std::filesystem;
-
-[[noreturn]] void fail(const fs::path& file, int error) {
-  failToWrite(file, std::strerror(error));
-}
 
 // Writes and closes the descriptor; with `lasting` waits until the content has reached the disk. `file` is for
 // messages.
@@ -47,7 +42,7 @@ void writeAndClose(int descriptor, const fs::path& file, std::span<const uint8_t
     error = errno;
   }
   if (error != 0) {
-    fail(file, error);
+    failToWrite(file, error);
   }
 }
 
@@ -58,7 +53,7 @@ fs::path behindLinks(fs::path file) {
     file = file.parent_path() / fs::read_symlink(file, error);
   }
   if (fs::is_symlink(file, error)) {
-    fail(file, ELOOP);
+    failToWrite(file, ELOOP);
   }
   return file;
 }
@@ -157,7 +152,7 @@ void replace(const fs::path& file, std::span<const uint8_t> content, bool lastin
     for (int tries = lasting ? 40 : 1; descriptor < 0 && tries > 0; --tries) {
       descriptor = ::open(target.c_str(), O_WRONLY | O_CLOEXEC | O_NONBLOCK);
       if (descriptor < 0 && errno != ENXIO) {
-        fail(file, errno);
+        failToWrite(file, errno);
       }
       ::usleep(descriptor < 0 ? 50'000 : 0);
     }
@@ -175,7 +170,7 @@ void replace(const fs::path& file, std::span<const uint8_t> content, bool lastin
     partial = partialName(target, number);
     descriptor = ::open(partial.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (descriptor < 0 && errno != EEXIST) {
-      fail(file, errno);
+      failToWrite(file, errno);
     }
   }
   try {
@@ -186,7 +181,7 @@ void replace(const fs::path& file, std::span<const uint8_t> content, bool lastin
     }
     writeAndClose(descriptor, file, content, lasting);
     if (::rename(partial.c_str(), target.c_str()) != 0) {
-      fail(file, errno);
+      failToWrite(file, errno);
     }
     if (lasting) {
       const int names = ::open(folderOf(target).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);

@@ -21,12 +21,12 @@ void write(HANDLE handle, const fs::path& file, std::span<const uint8_t> content
     constexpr size_t most = 1u << 30;  // bytes that one call can write
     DWORD count = 0;
     if (!::WriteFile(handle, content.data(), static_cast<DWORD>(std::min(content.size(), most)), &count, nullptr)) {
-      failToWrite(file, win32::messageOf(::GetLastError()));
+      failToWrite(file, ::GetLastError());
     }
     content = content.subspan(count);
   }
   if (lasting && !::FlushFileBuffers(handle)) {
-    failToWrite(file, win32::messageOf(::GetLastError()));
+    failToWrite(file, ::GetLastError());
   }
 }
 
@@ -71,7 +71,7 @@ void renameOver(const fs::path& partial, const fs::path& target, const fs::path&
     const DWORD error = ::GetLastError();
     const bool passes = error == ERROR_SHARING_VIOLATION || error == ERROR_ACCESS_DENIED;
     if (!passes || tries == 0 || !isWritable(target)) {
-      failToWrite(file, win32::messageOf(error));
+      failToWrite(file, error);
     }
     ::Sleep(25);
   }
@@ -105,7 +105,7 @@ void replace(const fs::path& file, std::span<const uint8_t> content, bool lastin
     handle = win32::own(
         ::CreateFileW(partial.c_str(), GENERIC_WRITE, 0, nullptr, CREATE_NEW, FILE_ATTRIBUTE_NORMAL, nullptr));
     if (const DWORD reason = ::GetLastError(); !handle && reason != ERROR_FILE_EXISTS) {
-      failToWrite(file, win32::messageOf(reason));
+      failToWrite(file, reason);
     }
   }
   try {

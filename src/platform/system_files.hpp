@@ -26,8 +26,8 @@ extern const char* const homeVariable;  // environment variable that holds the h
 
 // The common half of files.cpp. `file` is the path that the user gave, for messages; `target` is where its links lead.
 
-std::filesystem::path folderOf(const std::filesystem::path& file);                            // "." if it names none
-[[noreturn]] void failToWrite(const std::filesystem::path& file, const std::string& reason);  // throws FileError
+std::filesystem::path folderOf(const std::filesystem::path& file);            // "." if it names none
+[[noreturn]] void failToWrite(const std::filesystem::path& file, int error);  // of the system; throws FileError
 // Throws FileError if the folder of `target` is missing, or if `target` is a folder.
 void requirePlaceFor(const std::filesystem::path& file, const std::filesystem::path& target);
 // Returns a name beside `target` for what is written before it takes its place.

@@ -11,6 +11,7 @@
 #include <shellapi.h>
 #include <shlobj.h>
 
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -27,8 +28,11 @@ inline Handle own(HANDLE handle) {
   return Handle(handle == INVALID_HANDLE_VALUE ? nullptr : handle);
 }
 
-std::wstring wide(std::string_view text);  // of UTF-8
-std::string utf8(std::wstring_view text);
-std::string messageOf(DWORD error);  // the system's text for an error, without a line break
+inline std::wstring wide(std::string_view utf8) {
+  return std::filesystem::path(utf8).wstring();
+}
+inline std::string utf8(std::wstring_view wide) {
+  return std::filesystem::path(wide).string();
+}
 
 }  // namespace speculum::win32
