@@ -5,6 +5,16 @@
 
 namespace speculum {
 
+namespace {
+
+const auto started = std::chrono::steady_clock::now();
+
+}  // namespace
+
+double millisecondsSinceStart() {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - started).count();
+}
+
 ProcessResult ChildProcess::wait() {
   if (child_ != 0) {
     while (read()) {

@@ -90,7 +90,7 @@ void letBrokenPipesFail();
 
 std::string machineDescription();  // processor, its threads, operating system
 uint64_t peakResidentBytes();      // of this process
-double millisecondsSinceStart();   // of this process, to 10 ms; 0 if the system does not say
+double millisecondsSinceStart();   // of the program's code: without the time to load its libraries
 
 // Keeps up to 64 MiB of freed memory a thread in the process. A Vulkan driver that draws on the CPU (lavapipe)
 // allocates and frees the vertices of every draw; the C library would hand them back to the system each time and fault

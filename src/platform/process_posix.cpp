@@ -15,11 +15,9 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
-#include <ctime>
 #include <exception>
 #include <fstream>
 #include <new>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -269,25 +267,6 @@ uint64_t peakResidentBytes() {
   rusage usage{};
   ::getrusage(RUSAGE_SELF, &usage);
   return static_cast<uint64_t>(usage.ru_maxrss) * 1024;
-}
-
-double millisecondsSinceStart() {
-  // proc(5): the 22nd field of stat, in clock ticks since the machine started. The 2nd, in brackets, may hold blanks.
-  std::ifstream file("/proc/self/stat");
-  std::string stat;
-  std::getline(file, stat);
-  std::istringstream fields(stat.substr(std::min(stat.rfind(')') + 1, stat.size())));
-  std::string field;
-  for (int i = 3; i < 22; ++i) {
-    fields >> field;
-  }
-  double ticks = 0.0;
-  timespec now{};
-  if (!(fields >> ticks) || ::clock_gettime(CLOCK_BOOTTIME, &now) != 0) {
-    return 0.0;
-  }
-  const double started = 1e3 * ticks / static_cast<double>(::sysconf(_SC_CLK_TCK));
-  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec) - started;
 }
 
 void keepFreedMemory() {

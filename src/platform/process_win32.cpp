@@ -109,10 +109,6 @@ std::string registryText(const wchar_t* key, const wchar_t* value) {
              : "unknown";
 }
 
-uint64_t ticksOf(FILETIME time) {
-  return static_cast<uint64_t>(time.dwHighDateTime) << 32 | time.dwLowDateTime;
-}
-
 struct NoMemory : std::bad_alloc {
   const char* what() const noexcept override {
     return "there is not enough memory (use smaller models, fewer or smaller textures, or a smaller --size)";
@@ -334,15 +330,6 @@ uint64_t peakResidentBytes() {
   PROCESS_MEMORY_COUNTERS counters{};
   ::GetProcessMemoryInfo(::GetCurrentProcess(), &counters, sizeof counters);
   return counters.PeakWorkingSetSize;
-}
-
-double millisecondsSinceStart() {
-  FILETIME started{};
-  FILETIME unused{};
-  FILETIME now{};
-  ::GetSystemTimePreciseAsFileTime(&now);
-  const bool known = ::GetProcessTimes(::GetCurrentProcess(), &started, &unused, &unused, &unused) != 0;
-  return known ? 1e-4 * static_cast<double>(ticksOf(now) - ticksOf(started)) : 0.0;  // ticks of 100 ns
 }
 
 // The heap of Windows keeps what is freed by itself.
