@@ -15,21 +15,22 @@ bool FileDialog::open(const std::filesystem::path& folder, const Filter& filter)
   if (shown_) {
     return true;
   }
-  std::vector<std::string> command;
-  if (const std::filesystem::path zenity = findProgram("zenity"); !zenity.empty()) {
-    command = {zenity,
-               "--file-selection",
-               "--title=Open",
-               "--filename=" + folder.string(),
-               "--file-filter=" + filter.name + " | " + filter.patterns,
-               "--file-filter=All files | *"};
-  } else if (const std::filesystem::path kdialog = findProgram("kdialog"); !kdialog.empty()) {
-    command = {kdialog, "--title", "Open", "--getopenfilename", folder, filter.name + " (" + filter.patterns + ")"};
-  } else {
-    return false;
+  const std::vector<std::string> zenity{"zenity",
+                                        "--file-selection",
+                                        "--title=Open",
+                                        "--filename=" + folder.string(),
+                                        "--file-filter=" + filter.name + " | " + filter.patterns,
+                                        "--file-filter=All files | *"};
+  const std::vector<std::string> kdialog{
+      "kdialog", "--title", "Open", "--getopenfilename", folder.string(), filter.name + " (" + filter.patterns + ")"};
+  for (const auto& command : {zenity, kdialog}) {
+    auto started = std::make_unique<Shown>(command);
+    if (started->process.running()) {
+      shown_ = std::move(started);
+      return true;
+    }
   }
-  shown_ = std::make_unique<Shown>(command);
-  return true;
+  return false;
 }
 
 // The dialog may write warnings too; the file is the last line.

@@ -2,7 +2,6 @@
 
 #include <chrono>
 #include <cstdint>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -21,8 +20,6 @@ ProcessResult runProcess(const std::vector<std::string>& arguments);
 // cmd.exe. Control characters and marks of direction are escaped, since a terminal acts on them when they are pasted;
 // cmd.exe has no notation for these, and takes the escapes as they stand.
 std::string shellWord(const std::string& argument);
-
-std::filesystem::path findProgram(const std::string& name);  // in PATH; empty if it is not there
 
 // Call it first in a program. Returns the arguments in UTF-8, which live as long as the process. On Windows, also makes
 // the console take UTF-8, and leaves a console that was opened for this program alone, by a double click.

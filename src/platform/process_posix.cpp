@@ -165,17 +165,6 @@ std::string shellWord(const std::string& argument) {
   return text + "'";
 }
 
-std::filesystem::path findProgram(const std::string& name) {
-  std::istringstream folders(environment("PATH"));
-  for (std::string folder; std::getline(folders, folder, ':');) {
-    const std::filesystem::path file = std::filesystem::path(folder) / name;
-    if (!folder.empty() && ::access(file.c_str(), X_OK) == 0) {
-      return file;
-    }
-  }
-  return {};
-}
-
 std::vector<const char*> prepareProcess(int argc, const char* const* argv) {
   return {argv, argv + argc};
 }

@@ -56,6 +56,18 @@ void appendQuoted(std::string& line, const std::string& argument) {
   line.append(slashes, '\\') += '"';
 }
 
+// Looks at the folders of PATH only: the system's own search begins in the working folder, which may hold anything.
+std::filesystem::path findProgram(const std::string& name) {
+  std::istringstream folders(environment("PATH"));
+  for (std::string folder; std::getline(folders, folder, ';');) {
+    const std::filesystem::path file = std::filesystem::path(folder) / (name + ".exe");
+    if (!folder.empty() && isFile(file)) {
+      return file;
+    }
+  }
+  return {};
+}
+
 // A pipe of which the process that is started may inherit one end.
 struct Pipe {
   Handle theirs;
@@ -227,18 +239,6 @@ std::string shellWord(const std::string& argument) {
     }
   }
   return word.append(slashes, '\\') + '"';
-}
-
-// Looks at the folders of PATH only: the system's own search begins in the working folder, which may hold anything.
-std::filesystem::path findProgram(const std::string& name) {
-  std::istringstream folders(environment("PATH"));
-  for (std::string folder; std::getline(folders, folder, ';');) {
-    const std::filesystem::path file = std::filesystem::path(folder) / (name + ".exe");
-    if (!folder.empty() && isFile(file)) {
-      return file;
-    }
-  }
-  return {};
 }
 
 std::vector<const char*> prepareProcess(int, const char* const*) {

@@ -163,7 +163,7 @@ TEST(WindowsProcess, GivesOutputAndExitCode) {
   EXPECT_EQ(result.exitCode, 3);
   EXPECT_EQ(result.output, "out\nerr\n");
   EXPECT_EQ(runProcess({"a-program-that-does-not-exist"}).exitCode, 127);
-  EXPECT_EQ(findProgram("cmd").filename(), "cmd.exe");
+  EXPECT_EQ(runProcess({"hostname"}).exitCode, 0) << "a program in PATH";
 }
 
 TEST(WindowsProcess, ArgumentsArriveAsTheyAre) {
