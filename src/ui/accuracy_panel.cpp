@@ -209,8 +209,9 @@ void frontSlider(PanelContext& ui) {
   // Below the slider, which is too narrow for most names.
   commandButton(ui, "Back", "accuracy.back", "Returns to your settings, from before a point was picked.",
                 SetSettings{accuracy.own.value_or(ui.settings)}, accuracy.own && accuracy.own != ui.settings);
-  nextButton(ui, "Compare (A | B)", "accuracy.compare", "Shows your settings on the left, and the point on the right.",
+  nextButton(ui, "Compare", "accuracy.compare", "A | B: shows your settings on the left, and the point on the right.",
              ToggleSplit{SplitStart::point}, comparesPoint(ui));
+  ImGui::SameLine();
   wrappedText(accuracy.current >= 0 ? accuracy.points[accuracy.current].name : "Other settings");
   dimmedText(accuracy.alone ? "Shown as measured, as one picture: mean FLIP " +
                                   significant(accuracy.points[accuracy.current].error, 3)
