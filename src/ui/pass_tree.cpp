@@ -121,10 +121,11 @@ std::string mirrorCost(const ShownFrame& frame, int mirror) {
     }
   }
   if (passes > 0) {
-    const double percent = 100.0 * ms / allMs;
-    const std::string share =
-        ms > 0.0 && allTimed ? (percent < 1.0 ? ", under 1" : fmt::format(", {:.0f}", percent)) + " % of all passes"
-                             : "";
+    std::string share;
+    if (ms > 0.0 && allTimed) {
+      const double percent = 100.0 * ms / allMs;
+      share = (percent < 1.0 ? ", under 1" : fmt::format(", {:.0f}", percent)) + " % of all passes";
+    }
     return fmt::format("{} {}, {:.0f} pixels", passes, passes == 1 ? "pass" : "passes", pixels) +
            (reused     ? ", reused"
             : ms > 0.0 ? ", " + panels::duration(ms) + " on the GPU" + share
