@@ -31,8 +31,15 @@ inline Handle own(HANDLE handle) {
 inline std::wstring wide(std::string_view utf8) {
   return std::filesystem::path(utf8).wstring();
 }
+// Unlike path, does not throw if a name is no UTF-16: Windows allows such names. Half a pair becomes U+FFFD.
 inline std::string utf8(std::wstring_view wide) {
-  return std::filesystem::path(wide).string();
+  const int units = static_cast<int>(wide.size());
+  const auto convert = [&](char* text, int bytes) {
+    return ::WideCharToMultiByte(CP_UTF8, 0, wide.data(), units, text, bytes, nullptr, nullptr);
+  };
+  std::string text(static_cast<size_t>(convert(nullptr, 0)), '\0');
+  convert(text.data(), static_cast<int>(text.size()));
+  return text;
 }
 
 }  // namespace speculum::win32

@@ -166,6 +166,12 @@ TEST(WindowsProcess, GivesOutputAndExitCode) {
   EXPECT_EQ(runProcess({"hostname"}).exitCode, 0) << "a program in PATH";
 }
 
+TEST(WindowsProcess, NamesThatAreNoUtf16AreRead) {
+  EXPECT_EQ(win32::utf8(L"\xe4 \x93e1"), "\xc3\xa4 \xe9\x8f\xa1");
+  EXPECT_EQ(win32::utf8(L"a\xd800z"), "a\xef\xbf\xbdz");
+  EXPECT_EQ(win32::utf8(L""), "");
+}
+
 TEST(WindowsProcess, ArgumentsArriveAsTheyAre) {
   const std::vector<std::string> odd{"", "a b", "\"", "\\\"", "a\\\\", "tail\\", "\xc3\xa4 \xe9\x8f\xa1"};
   std::vector<std::string> command{executablePath().string(), "--print-arguments"};
