@@ -116,6 +116,7 @@ SettingsController::SettingsController(const Options& options, const LoadedScene
 void SettingsController::setDocument(SceneDocument& document, const Settings& loaded) {
   document_ = &document;
   accuracy_.forgetPick();
+  beforePoint_.reset();
   split_.end();
   ofScene_ = loaded;
 }
@@ -144,6 +145,7 @@ void SettingsController::beginSplit(SplitStart start, double divider) {
   } else if (start == SplitStart::point) {
     a = accuracy_.shown().own.value_or(a);
     b.quality.stillPictures = 1;  // as it was measured
+    beforePoint_ = a;
     accuracy_.forgetPick();
     accuracy_.pick(a, b);
   }
@@ -180,6 +182,9 @@ void SettingsController::keepHalf() {
 void SettingsController::endSplit() {
   split_.end();
   accuracy_.forgetPick();
+  if (const std::optional<Settings> before = std::exchange(beforePoint_, {})) {
+    accuracy_.pick(*before, ofScene_);
+  }
   document_->forgetHalves();
   accuracy_.acceptBudget(ofScene_);
   accuracy_.showAgain();

@@ -112,6 +112,7 @@ class SettingsController {
   Settings& edited() { return split_.on() ? split_.settings(split_.chosen()) : ofScene_; }
 
   Settings ofScene_;
+  std::optional<Settings> beforePoint_;  // from before the picked point with which A | B began
   SplitView split_{shippedLessons()};
   AccuracyController accuracy_;
   SceneDocument* document_ = nullptr;
