@@ -1,5 +1,6 @@
 // Mirror in mirror. A mirror's image needs the images of the mirrors that are seen in it. So the passes are a list,
 // deepest first, and each fetches pixels from images that earlier ones have drawn.
+// Read run(), at the end, first.
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <map>
@@ -23,31 +24,33 @@ struct View {
   glm::vec4 ambient{0.0f};
 };
 
+// Push constants. The shaders declare the same members.
 struct Object {
   glm::mat4 worldFromModel{1.0f};
   glm::vec4 diffuse{1.0f};
   glm::vec4 specular{0.04f, 0.04f, 0.04f, 60.0f};  // and the shininess
 };
 
-struct Mirror {
+struct MirrorPush {
   glm::mat4 worldFromMirror{1.0f};
   glm::vec4 reflectance{0.92f, 0.93f, 0.94f, 1.0f};
   uint32_t naive = 0;
 };
 
-constexpr glm::vec3 background{0.10f, 0.11f, 0.19f};
+constexpr glm::vec3 background{0.10f, 0.11f, 0.19f};  // linear; the clear color until the panel changes it
 constexpr glm::vec3 mirrorSize{1.95f, 1.3f, 1.0f};
 
-// Where a mirror hangs; scene.toml has the same values.
-struct Place {
+// A mirror: a rectangle of mirrorSize. scene.toml has the same values.
+struct Mirror {
   glm::vec3 center;
-  glm::vec3 normal;
-  float yaw;  // radians
+  glm::vec3 normal;  // of its front; length 1
+  float yaw;         // radians about y from +z to the normal
 };
-constexpr std::array places{Place{{0.0f, 1.0f, -1.4756f}, {0.0f, 0.0f, 1.0f}, 0.0f},
-                            Place{{0.0f, 1.0f, 2.9756f}, {0.0f, 0.0f, -1.0f}, glm::pi<float>()}};
+constexpr std::array mirrors{Mirror{{0.0f, 1.0f, -1.4756f}, {0.0f, 0.0f, 1.0f}, 0.0f},
+                             Mirror{{0.0f, 1.0f, 2.9756f}, {0.0f, 0.0f, -1.0f}, glm::pi<float>()}};
 
-glm::mat4 placed(const glm::vec3& position, const glm::vec3& scale, float yaw = 0.0f) {
+// Makes the matrix that scales a model, turns it about y by `yaw`, and moves it to `position`.
+glm::mat4 place(const glm::vec3& position, const glm::vec3& scale, float yaw = 0.0f) {
   return glm::scale(glm::rotate(glm::translate(glm::mat4(1.0f), position), yaw, {0.0f, 1.0f, 0.0f}), scale);
 }
 
@@ -67,7 +70,8 @@ glm::mat4 reflection(const glm::vec3& q, const glm::vec3& n) {
   return matrix;
 }
 
-// Makes a camera's view, and the lamp at a time. The camera is at `offset` from its target, turned about it by `turn`.
+// Makes a camera's view of the scene, whose lamp moves with `time`. The camera stands at `offset` from its target,
+// turned about it by `turn`.
 View viewFrom(const glm::vec3& offset, double time, float aspect, float turn) {
   constexpr glm::vec3 target{0.1f, 0.85f, -0.4f};
   const glm::vec3 eye = target + glm::mat3(glm::rotate(glm::mat4(1.0f), turn, {0, 1, 0})) * offset;
@@ -79,23 +83,24 @@ View viewFrom(const glm::vec3& offset, double time, float aspect, float turn) {
           .ambient = glm::vec4(0.07f, 0.07f, 0.09f, 0.0f)};
 }
 
-// Makes the view that the mirror shows, that of the reflected eye. The matrix reflects the world and leaves the camera
-// where it is, which gives the same picture. Highlights are computed in the real world, so they need the reflected eye.
-View reflectedView(const View& seen, const Place& mirror) {
+// Makes the view that `mirror` shows in `view`, that of the reflected eye. The matrix reflects the world in place of
+// the eye, which gives the same picture. Highlights are computed in the real world, so they need the reflected eye.
+View reflectedView(const View& view, const Mirror& mirror) {
   const glm::mat4 reflect = reflection(mirror.center, mirror.normal);
-  View view = seen;
-  view.clipFromWorld = seen.clipFromWorld * reflect;
-  view.eye = reflect * seen.eye;
+  View reflected = view;
+  reflected.clipFromWorld = view.clipFromWorld * reflect;
+  reflected.eye = reflect * view.eye;
   // Cuts away what is behind the mirror: it stands between the reflected eye and the mirror, and would hide the room.
-  view.clipPlane = glm::vec4(mirror.normal, -glm::dot(mirror.normal, mirror.center));
-  return view;
+  reflected.clipPlane = glm::vec4(mirror.normal, -glm::dot(mirror.normal, mirror.center));
+  return reflected;
 }
 
-// Says whether a view sees the mirror's front. None of it is seen if all corners lie beyond one side of the picture.
-bool isSeen(const Place& mirror, const View& view) {
+// Says whether a view may see the mirror's front: the eye is before the mirror, and not all corners lie beyond one side
+// of the picture. A mirror that is hidden by something else gets a pass in vain.
+bool maySee(const View& view, const Mirror& mirror) {
   glm::bvec4 beyond(true);  // right, above, left, below
   for (const glm::vec2& corner : {glm::vec2(-0.5f, -0.5f), {0.5f, -0.5f}, {0.5f, 0.5f}, {-0.5f, 0.5f}}) {
-    const glm::vec4 p = view.clipFromWorld * placed(mirror.center, mirrorSize, mirror.yaw) * glm::vec4(corner, 0, 1);
+    const glm::vec4 p = view.clipFromWorld * place(mirror.center, mirrorSize, mirror.yaw) * glm::vec4(corner, 0, 1);
     beyond = beyond && glm::greaterThan(glm::vec4(p.x, -p.y, -p.x, p.y), glm::vec4(p.w));
   }
   return glm::dot(mirror.normal, glm::vec3(view.eye) - mirror.center) > 0.0f && !glm::any(beyond);
@@ -107,9 +112,9 @@ struct Core {
   std::unique_ptr<Window> window;
   Device device;
   Renderer renderer;
-  SharedDepth depth;  // of all passes, one after the other
-  OffScreen noImage;  // one pixel of the background, which mirrors show that have no pass in the list
-  std::map<std::pair<int, size_t>, OffScreen> offScreens;  // by depth and mirror; fetched before it is drawn again
+  SharedDepth depth;  // the depth image, which all passes use in turn
+  OffScreen noImage;  // one pixel of the background, shown by mirrors that have no pass
+  std::map<std::pair<int, size_t>, OffScreen> offScreens;  // by depth and mirror; drawn anew only once fetched
 
   explicit Core(const Options& asked)
       : options(asked),
@@ -120,27 +125,27 @@ struct Core {
         noImage(device, {.name = "background", .depth = false}, renderer.retired()) {}
 };
 
-using Images = std::array<OffScreen*, places.size()>;  // what each mirror shows in a view
+using Images = std::array<OffScreen*, mirrors.size()>;  // for each mirror, what it shows in a view
 
 struct ImagePass {
   View reflected;
   OffScreen* target;
   Images shown;  // what the mirrors in it show
-  bool flipped;  // by an odd number of reflections
+  bool flipped;  // reflected an odd number of times
 };
 
-// Lists the passes for all mirrors that a view sees, each after those that it needs. Returns what the mirrors show.
-// `from` has been reflected `depth` times, and no image is reflected more than `maxDepth` times.
-Images listPasses(Core& core, const View& from, int depth, int maxDepth, bool naive, std::vector<ImagePass>& passes) {
+// Adds a pass for each mirror that `view` may see to the list, after the passes whose images it fetches. Returns what
+// the mirrors show. `view` has been reflected `depth` times, and no image is reflected more than `maxDepth` times.
+Images listPasses(Core& core, const View& view, int depth, int maxDepth, bool naive, std::vector<ImagePass>& passes) {
   Images images;
   images.fill(&core.noImage);
-  for (size_t m = 0; m < places.size(); ++m) {
-    if (depth < maxDepth && isSeen(places[m], from)) {
-      const View view = naive ? from : reflectedView(from, places[m]);
-      const Images nested = listPasses(core, view, depth + 1, naive ? 0 : maxDepth, naive, passes);  // naive: depth 1
+  for (size_t m = 0; m < mirrors.size(); ++m) {
+    if (depth < maxDepth && maySee(view, mirrors[m])) {
+      const View reflected = naive ? view : reflectedView(view, mirrors[m]);
+      const Images nested = listPasses(core, reflected, depth + 1, maxDepth, naive, passes);
       const OffScreenDesc desc{.name = "offscreen", .shared = &core.depth};
       images[m] = &core.offScreens.try_emplace({depth, m}, core.device, desc, core.renderer.retired()).first->second;
-      passes.push_back({view, images[m], nested, !naive && (depth + 1) % 2 == 1});
+      passes.push_back({reflected, images[m], nested, !naive && (depth + 1) % 2 == 1});
     }
   }
   return images;
@@ -160,24 +165,24 @@ class RenderSystem {
                   .vertexBindings = Mesh::bindings(),
                   .vertexAttributes = Mesh::attributes()}) {}
 
-  void record(const PassScope& pass, VkDescriptorSet view, double time) const {
+  void record(const PassScope& pass, VkDescriptorSet viewSet, double time) const {
     const auto spin = static_cast<float>(glm::radians(30.0 * time));
     const std::pair<const Mesh*, Object> objects[] = {
-        {&cube_, {placed({0, -0.05f, 0}, {8, 0.1f, 6}), {0.26f, 0.15f, 0.09f, 1}, {0.05f, 0.05f, 0.05f, 40}}},
-        {&cube_, {placed({0, 1.5f, -1.55f}, {8, 3.0f, 0.1f}), {0.07f, 0.19f, 0.22f, 1}}},
-        {&frame_, {placed({0, 1.0f, -1.5f}, glm::vec3(0.65f)), {0.42f, 0.26f, 0.075f, 1}, {0.55f, 0.38f, 0.13f, 48}}},
-        {&cube_, {placed({0, 1.5f, 3.05f}, {8, 3.0f, 0.1f}), {0.30f, 0.12f, 0.10f, 1}}},
+        {&cube_, {place({0, -0.05f, 0}, {8, 0.1f, 6}), {0.26f, 0.15f, 0.09f, 1}, {0.05f, 0.05f, 0.05f, 40}}},
+        {&cube_, {place({0, 1.5f, -1.55f}, {8, 3.0f, 0.1f}), {0.07f, 0.19f, 0.22f, 1}}},
+        {&frame_, {place({0, 1.0f, -1.5f}, glm::vec3(0.65f)), {0.42f, 0.26f, 0.075f, 1}, {0.55f, 0.38f, 0.13f, 48}}},
+        {&cube_, {place({0, 1.5f, 3.05f}, {8, 3.0f, 0.1f}), {0.30f, 0.12f, 0.10f, 1}}},
         {&frame_,
-         {placed({0, 1.0f, 3.0f}, glm::vec3(0.65f), glm::pi<float>()),
+         {place({0, 1.0f, 3.0f}, glm::vec3(0.65f), glm::pi<float>()),
           {0.42f, 0.26f, 0.075f, 1},
           {0.55f, 0.38f, 0.13f, 48}}},
-        {&cube_, {placed({0, 0.25f, 0}, {0.62f, 0.5f, 0.62f}), {0.6f, 0.56f, 0.48f, 1}}},
-        {&knot_, {placed({0, 0.5f, 0}, glm::vec3(0.9f), spin), {0.5f, 0.09f, 0.04f, 1}, {0.3f, 0.28f, 0.25f, 70}}},
+        {&cube_, {place({0, 0.25f, 0}, {0.62f, 0.5f, 0.62f}), {0.6f, 0.56f, 0.48f, 1}}},
+        {&knot_, {place({0, 0.5f, 0}, glm::vec3(0.9f), spin), {0.5f, 0.09f, 0.04f, 1}, {0.3f, 0.28f, 0.25f, 70}}},
         {&sphere_,
-         {placed({-0.85f, 0.27f, -0.6f}, glm::vec3(0.54f)), {0.05f, 0.13f, 0.42f, 1}, {0.1f, 0.1f, 0.1f, 200}}},
-        {&sphere_, {placed({0.85f, 0.2f, -0.85f}, glm::vec3(0.4f)), {0.5f, 0.4f, 0.12f, 1}, {0.1f, 0.1f, 0.1f, 200}}},
+         {place({-0.85f, 0.27f, -0.6f}, glm::vec3(0.54f)), {0.05f, 0.13f, 0.42f, 1}, {0.1f, 0.1f, 0.1f, 200}}},
+        {&sphere_, {place({0.85f, 0.2f, -0.85f}, glm::vec3(0.4f)), {0.5f, 0.4f, 0.12f, 1}, {0.1f, 0.1f, 0.1f, 200}}},
     };
-    shaders_.bind(pass, view);
+    shaders_.bind(pass, viewSet);
     pass.cull(VK_CULL_MODE_BACK_BIT);
     for (const auto& [mesh, object] : objects) {
       shaders_.push(pass, object);
@@ -199,8 +204,8 @@ class PointLightSystem {
   PointLightSystem(Core& core, VkDescriptorSetLayout views)
       : shaders_(core.renderer, core.options, "light", {.setLayouts = {views}}) {}
 
-  void record(const PassScope& pass, VkDescriptorSet view) const {
-    shaders_.bind(pass, view);
+  void record(const PassScope& pass, VkDescriptorSet viewSet) const {
+    shaders_.bind(pass, viewSet);
     pass.cull(VK_CULL_MODE_NONE);
     vkCmdDraw(pass.commands(), 6, 1, 0, 0);
   }
@@ -209,16 +214,17 @@ class PointLightSystem {
   ShaderPair shaders_;
 };
 
-// Draws a mirror, which fetches its pixels from the OffScreen in the set `view`.
+// Draws a mirror, which fetches its pixels from the OffScreen in `viewSet`.
 class MirrorSystem {
  public:
   MirrorSystem(Core& core, VkDescriptorSetLayout views)
-      : shaders_(core.renderer, core.options, "mirror", {.setLayouts = {views}, .pushConstantBytes = sizeof(Mirror)}) {}
+      : shaders_(core.renderer, core.options, "mirror",
+                 {.setLayouts = {views}, .pushConstantBytes = sizeof(MirrorPush)}) {}
 
-  void record(const PassScope& pass, VkDescriptorSet view, const Place& at, bool naive) const {
-    shaders_.bind(pass, view);
+  void record(const PassScope& pass, VkDescriptorSet viewSet, const Mirror& mirror, bool naive) const {
+    shaders_.bind(pass, viewSet);
     pass.cull(VK_CULL_MODE_BACK_BIT);  // seen from behind, it is not drawn
-    shaders_.push(pass, Mirror{.worldFromMirror = placed(at.center, mirrorSize, at.yaw), .naive = naive});
+    shaders_.push(pass, MirrorPush{.worldFromMirror = place(mirror.center, mirrorSize, mirror.yaw), .naive = naive});
     vkCmdDraw(pass.commands(), 6, 1, 0, 0);
   }
 
@@ -234,7 +240,7 @@ Drawn run(const Options& options) {
   const MirrorSystem mirrorSystem(core, views.layout());
   const std::unique_ptr<SimpleUI> ui = SimpleUI::forWindow(core.renderer, core.window.get());
   bool naive = options.naive;
-  int maxDepth = 8;
+  int maxDepth = 8;  // reflections of an image, at most
   UiState state{.clearColor = background, .naive = &naive, .depth = &maxDepth, .mostDepth = 16};
   const IdleGuard idle(core.device);  // waits for the GPU before what is above is destroyed
 
@@ -247,11 +253,11 @@ Drawn run(const Options& options) {
     if (ui) {
       ui->build(state);
     }
-    core.depth.require(frame->extent, core.renderer.retired());  // retired() frees the old one when no frame uses it
+    core.depth.require(frame->extent, core.renderer.retired());  // grows; retired() frees the old one when unused
     const float aspect = static_cast<float>(frame->extent.width) / static_cast<float>(frame->extent.height);
-    const View eye = viewFrom({1.5f, 0.65f, 2.7f}, loop.time(), aspect, ui ? ui->turn() : 0.0f);
+    const View camera = viewFrom({1.5f, 0.65f, 2.7f}, loop.time(), aspect, ui ? ui->turn() : 0.0f);
     std::vector<ImagePass> passes;
-    const Images images = listPasses(core, eye, 0, maxDepth, naive, passes);
+    const Images images = listPasses(core, camera, 0, naive ? 1 : maxDepth, naive, passes);
     PassDesc clear = fullPass("background", core.noImage.targets());
     clear.clearColor = radiance(state.clearColor);
     core.renderer.beginPass(*frame, clear);  // ends at once, with the statement
@@ -261,26 +267,27 @@ Drawn run(const Options& options) {
       desc.clearColor = radiance(state.clearColor);
       // A reflection turns left into right, so corners that ran counter-clockwise run clockwise.
       desc.frontFace = flipped ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE;
-      // Its beginning waits for what still reads the OffScreen. Its end, at the brace, makes the OffScreen readable.
+      // The pass begins with the barrier offscreenBeforeWrite, which waits for shaders that still read the OffScreen.
+      // It ends at the brace with offscreenToSample, so that shaders of later passes read what it has drawn.
       const PassScope pass = core.renderer.beginPass(*frame, desc);
-      const VkDescriptorSet view = views.write(*frame, reflected);
-      renderSystem.record(pass, view, loop.time());
-      for (size_t m = 0; m < places.size(); ++m) {
-        mirrorSystem.record(pass, views.write(*frame, reflected, shown[m]), places[m], naive);
+      const VkDescriptorSet viewSet = views.write(*frame, reflected);
+      renderSystem.record(pass, viewSet, loop.time());
+      for (size_t m = 0; m < mirrors.size(); ++m) {
+        mirrorSystem.record(pass, views.write(*frame, reflected, shown[m]), mirrors[m], naive);
       }
-      pointLightSystem.record(pass, view);
+      pointLightSystem.record(pass, viewSet);
     }
     {
       PassDesc desc = fullPass("window", core.renderer.displayTargets(*frame));
       desc.targets.depth = core.depth.image();  // displayTargets() has none
       desc.clearColor = displayed(state.clearColor);
       const PassScope pass = core.renderer.beginPass(*frame, desc);
-      const VkDescriptorSet view = views.write(*frame, eye);
-      renderSystem.record(pass, view, loop.time());
-      for (size_t m = 0; m < places.size(); ++m) {
-        mirrorSystem.record(pass, views.write(*frame, eye, images[m]), places[m], naive);
+      const VkDescriptorSet viewSet = views.write(*frame, camera);
+      renderSystem.record(pass, viewSet, loop.time());
+      for (size_t m = 0; m < mirrors.size(); ++m) {
+        mirrorSystem.record(pass, views.write(*frame, camera, images[m]), mirrors[m], naive);
       }
-      pointLightSystem.record(pass, view);
+      pointLightSystem.record(pass, viewSet);
     }
     if (ui) {
       ui->record(*frame);

@@ -1,4 +1,5 @@
 // Offscreen. What a second camera sees is drawn into an OffScreen, and a canvas in the window samples that.
+// Read run(), at the end, first.
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -20,21 +21,23 @@ struct View {
   glm::vec4 ambient{0.0f};
 };
 
+// Push constants. The shaders declare the same members.
 struct Object {
   glm::mat4 worldFromModel{1.0f};
   glm::vec4 diffuse{1.0f};
   glm::vec4 specular{0.04f, 0.04f, 0.04f, 60.0f};  // and the shininess
 };
 
-struct Mirror {
+struct MirrorPush {
   glm::mat4 worldFromMirror{1.0f};
 };
 
-constexpr glm::vec3 background{0.10f, 0.11f, 0.19f};
+constexpr glm::vec3 background{0.10f, 0.11f, 0.19f};  // linear; the clear color until the panel changes it
 constexpr glm::vec3 mirrorSize{1.95f, 1.3f, 1.0f};
 constexpr glm::vec3 mirrorCenter{0.0f, 1.0f, -1.4756f};
 
-glm::mat4 placed(const glm::vec3& position, const glm::vec3& scale, float yaw = 0.0f) {
+// Makes the matrix that scales a model, turns it about y by `yaw`, and moves it to `position`.
+glm::mat4 place(const glm::vec3& position, const glm::vec3& scale, float yaw = 0.0f) {
   return glm::scale(glm::rotate(glm::translate(glm::mat4(1.0f), position), yaw, {0.0f, 1.0f, 0.0f}), scale);
 }
 
@@ -46,7 +49,8 @@ glm::mat4 projection(float verticalFov, float aspect) {
   return {{focal / aspect, 0, 0, 0}, {0, -focal, 0, 0}, {0, 0, 0, -1}, {0, 0, near, 0}};
 }
 
-// Makes a camera's view, and the lamp at a time. The camera is at `offset` from its target, turned about it by `turn`.
+// Makes a camera's view of the scene, whose lamp moves with `time`. The camera stands at `offset` from its target,
+// turned about it by `turn`.
 View viewFrom(const glm::vec3& offset, double time, float aspect, float turn) {
   constexpr glm::vec3 target{0.1f, 0.85f, -0.4f};
   const glm::vec3 eye = target + glm::mat3(glm::rotate(glm::mat4(1.0f), turn, {0, 1, 0})) * offset;
@@ -64,7 +68,7 @@ struct Core {
   std::unique_ptr<Window> window;
   Device device;
   Renderer renderer;
-  SharedDepth depth;  // of all passes, one after the other
+  SharedDepth depth;  // the depth image, which all passes use in turn
   OffScreen offScreen;
 
   explicit Core(const Options& asked)
@@ -73,7 +77,7 @@ struct Core {
         device(options.device(window.get())),
         renderer(device, options.renderer(window.get())),
         depth(device, VK_SAMPLE_COUNT_1_BIT, "shared"),
-        offScreen(device, {.name = "offscreen", .shared = &depth}, renderer.retired()) {}
+        offScreen(device, {.name = "offscreen", .extent = {512, 512}, .shared = &depth}, renderer.retired()) {}
 };
 
 // Draws the objects.
@@ -88,14 +92,14 @@ class RenderSystem {
                   .vertexBindings = Mesh::bindings(),
                   .vertexAttributes = Mesh::attributes()}) {}
 
-  void record(const PassScope& pass, VkDescriptorSet view, double time) const {
+  void record(const PassScope& pass, VkDescriptorSet viewSet, double time) const {
     const auto spin = static_cast<float>(glm::radians(30.0 * time));
     const std::pair<const Mesh*, Object> objects[] = {
-        {&cube_, {placed({0, -0.05f, 0}, {8, 0.1f, 6}), {0.26f, 0.15f, 0.09f, 1}, {0.05f, 0.05f, 0.05f, 40}}},
-        {&cube_, {placed({0, 0.25f, 0}, {0.62f, 0.5f, 0.62f}), {0.6f, 0.56f, 0.48f, 1}}},
-        {&knot_, {placed({0, 0.5f, 0}, glm::vec3(0.9f), spin), {0.5f, 0.09f, 0.04f, 1}, {0.3f, 0.28f, 0.25f, 70}}},
+        {&cube_, {place({0, -0.05f, 0}, {8, 0.1f, 6}), {0.26f, 0.15f, 0.09f, 1}, {0.05f, 0.05f, 0.05f, 40}}},
+        {&cube_, {place({0, 0.25f, 0}, {0.62f, 0.5f, 0.62f}), {0.6f, 0.56f, 0.48f, 1}}},
+        {&knot_, {place({0, 0.5f, 0}, glm::vec3(0.9f), spin), {0.5f, 0.09f, 0.04f, 1}, {0.3f, 0.28f, 0.25f, 70}}},
     };
-    shaders_.bind(pass, view);
+    shaders_.bind(pass, viewSet);
     pass.cull(VK_CULL_MODE_BACK_BIT);
     for (const auto& [mesh, object] : objects) {
       shaders_.push(pass, object);
@@ -115,8 +119,8 @@ class PointLightSystem {
   PointLightSystem(Core& core, VkDescriptorSetLayout views)
       : shaders_(core.renderer, core.options, "light", {.setLayouts = {views}}) {}
 
-  void record(const PassScope& pass, VkDescriptorSet view) const {
-    shaders_.bind(pass, view);
+  void record(const PassScope& pass, VkDescriptorSet viewSet) const {
+    shaders_.bind(pass, viewSet);
     pass.cull(VK_CULL_MODE_NONE);
     vkCmdDraw(pass.commands(), 6, 1, 0, 0);
   }
@@ -129,12 +133,13 @@ class PointLightSystem {
 class MirrorSystem {
  public:
   MirrorSystem(Core& core, VkDescriptorSetLayout views)
-      : shaders_(core.renderer, core.options, "mirror", {.setLayouts = {views}, .pushConstantBytes = sizeof(Mirror)}) {}
+      : shaders_(core.renderer, core.options, "mirror",
+                 {.setLayouts = {views}, .pushConstantBytes = sizeof(MirrorPush)}) {}
 
-  void record(const PassScope& pass, VkDescriptorSet view) const {
-    shaders_.bind(pass, view);
+  void record(const PassScope& pass, VkDescriptorSet viewSet) const {
+    shaders_.bind(pass, viewSet);
     pass.cull(VK_CULL_MODE_BACK_BIT);  // seen from behind, it is not drawn
-    shaders_.push(pass, Mirror{.worldFromMirror = placed(mirrorCenter, mirrorSize)});
+    shaders_.push(pass, MirrorPush{.worldFromMirror = place(mirrorCenter, mirrorSize)});
     vkCmdDraw(pass.commands(), 6, 1, 0, 0);
   }
 
@@ -161,29 +166,29 @@ Drawn run(const Options& options) {
     if (ui) {
       ui->build(state);
     }
-    core.depth.require(frame->extent, core.renderer.retired());  // retired() frees the old one when no frame uses it
+    core.depth.require(frame->extent, core.renderer.retired());  // grows; retired() frees the old one when unused
     const float aspect = static_cast<float>(frame->extent.width) / static_cast<float>(frame->extent.height);
-    const View eye = viewFrom({1.5f, 0.65f, 2.7f}, loop.time(), aspect, ui ? ui->turn() : 0.0f);
-    const View other = viewFrom({-1.5f, 1.0f, 2.5f}, loop.time(), 1.5f, 0.0f);  // 1.5: width to height of the canvas
+    const View camera = viewFrom({1.5f, 0.65f, 2.7f}, loop.time(), aspect, ui ? ui->turn() : 0.0f);
+    const View secondCamera = viewFrom({-1.5f, 1.0f, 2.5f}, loop.time(), 1.5f, 0.0f);  // 1.5: aspect of the canvas
     {
-      core.offScreen.resize({512, 512}, core.renderer.retired());
       PassDesc desc = fullPass("offscreen", core.offScreen.targets());
       desc.clearColor = radiance(state.clearColor);
-      // Its beginning waits for what still reads the OffScreen. Its end, at the brace, makes the OffScreen readable.
+      // The pass begins with the barrier offscreenBeforeWrite, which waits for shaders that still read the OffScreen.
+      // It ends at the brace with offscreenToSample, so that shaders of later passes read what it has drawn.
       const PassScope pass = core.renderer.beginPass(*frame, desc);
-      const VkDescriptorSet view = views.write(*frame, other);
-      renderSystem.record(pass, view, loop.time());
-      pointLightSystem.record(pass, view);
+      const VkDescriptorSet viewSet = views.write(*frame, secondCamera);
+      renderSystem.record(pass, viewSet, loop.time());
+      pointLightSystem.record(pass, viewSet);
     }
     {
       PassDesc desc = fullPass("window", core.renderer.displayTargets(*frame));
       desc.targets.depth = core.depth.image();  // displayTargets() has none
       desc.clearColor = displayed(state.clearColor);
       const PassScope pass = core.renderer.beginPass(*frame, desc);
-      const VkDescriptorSet view = views.write(*frame, eye);
-      renderSystem.record(pass, view, loop.time());
-      mirrorSystem.record(pass, views.write(*frame, eye, &core.offScreen));
-      pointLightSystem.record(pass, view);
+      const VkDescriptorSet viewSet = views.write(*frame, camera);
+      renderSystem.record(pass, viewSet, loop.time());
+      mirrorSystem.record(pass, views.write(*frame, camera, &core.offScreen));
+      pointLightSystem.record(pass, viewSet);
     }
     if (ui) {
       ui->record(*frame);

@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "view.glsl"
 
-layout(push_constant) uniform Mirror { mat4 worldFromMirror; } mirror;
+layout(push_constant) uniform MirrorPush { mat4 worldFromMirror; } mirror;
 
 layout(location = 0) out vec2 uv;
 

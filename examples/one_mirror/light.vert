@@ -4,7 +4,8 @@
 
 layout(location = 0) out vec2 disc;
 
-// Draws a square that faces the eye, so large that the lamp's sphere, as the eye sees it, covers the unit disc.
+// Draws a square around the lamp that faces the eye. The disc in it is the sphere's outline. The disc is larger than
+// the sphere, because rays from the eye that touch the sphere pass its center at more than its radius.
 void main() {
   const vec2 corners[6] = vec2[](vec2(-1, -1), vec2(1, -1), vec2(1, 1), vec2(-1, -1), vec2(1, 1), vec2(-1, 1));
   disc = corners[gl_VertexIndex];

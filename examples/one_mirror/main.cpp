@@ -1,5 +1,6 @@
 // One mirror. What the mirror shows is drawn first, into an OffScreen, from the reflected eye; then the window's image
 // is drawn, and the mirror in it fetches its own pixels from the OffScreen.
+// Read run(), at the end, first.
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -22,30 +23,32 @@ struct View {
   glm::vec4 ambient{0.0f};
 };
 
+// Push constants. The shaders declare the same members.
 struct Object {
   glm::mat4 worldFromModel{1.0f};
   glm::vec4 diffuse{1.0f};
   glm::vec4 specular{0.04f, 0.04f, 0.04f, 60.0f};  // and the shininess
 };
 
-struct Mirror {
+struct MirrorPush {
   glm::mat4 worldFromMirror{1.0f};
   glm::vec4 reflectance{0.92f, 0.93f, 0.94f, 1.0f};
   uint32_t naive = 0;
 };
 
-constexpr glm::vec3 background{0.10f, 0.11f, 0.19f};
+constexpr glm::vec3 background{0.10f, 0.11f, 0.19f};  // linear; the clear color until the panel changes it
 constexpr glm::vec3 mirrorSize{1.95f, 1.3f, 1.0f};
 
-// Where a mirror hangs; scene.toml has the same values.
-struct Place {
+// A mirror: a rectangle of mirrorSize. scene.toml has the same values.
+struct Mirror {
   glm::vec3 center;
-  glm::vec3 normal;
-  float yaw;  // radians
+  glm::vec3 normal;  // of its front; length 1
+  float yaw;         // radians about y from +z to the normal
 };
-constexpr Place place{{0.0f, 1.0f, -1.4756f}, {0.0f, 0.0f, 1.0f}, 0.0f};
+constexpr Mirror wallMirror{{0.0f, 1.0f, -1.4756f}, {0.0f, 0.0f, 1.0f}, 0.0f};
 
-glm::mat4 placed(const glm::vec3& position, const glm::vec3& scale, float yaw = 0.0f) {
+// Makes the matrix that scales a model, turns it about y by `yaw`, and moves it to `position`.
+glm::mat4 place(const glm::vec3& position, const glm::vec3& scale, float yaw = 0.0f) {
   return glm::scale(glm::rotate(glm::translate(glm::mat4(1.0f), position), yaw, {0.0f, 1.0f, 0.0f}), scale);
 }
 
@@ -65,7 +68,8 @@ glm::mat4 reflection(const glm::vec3& q, const glm::vec3& n) {
   return matrix;
 }
 
-// Makes a camera's view, and the lamp at a time. The camera is at `offset` from its target, turned about it by `turn`.
+// Makes a camera's view of the scene, whose lamp moves with `time`. The camera stands at `offset` from its target,
+// turned about it by `turn`.
 View viewFrom(const glm::vec3& offset, double time, float aspect, float turn) {
   constexpr glm::vec3 target{0.1f, 0.85f, -0.4f};
   const glm::vec3 eye = target + glm::mat3(glm::rotate(glm::mat4(1.0f), turn, {0, 1, 0})) * offset;
@@ -77,16 +81,16 @@ View viewFrom(const glm::vec3& offset, double time, float aspect, float turn) {
           .ambient = glm::vec4(0.07f, 0.07f, 0.09f, 0.0f)};
 }
 
-// Makes the view that the mirror shows, that of the reflected eye. The matrix reflects the world and leaves the camera
-// where it is, which gives the same picture. Highlights are computed in the real world, so they need the reflected eye.
-View reflectedView(const View& seen, const Place& mirror) {
+// Makes the view that `mirror` shows in `view`, that of the reflected eye. The matrix reflects the world in place of
+// the eye, which gives the same picture. Highlights are computed in the real world, so they need the reflected eye.
+View reflectedView(const View& view, const Mirror& mirror) {
   const glm::mat4 reflect = reflection(mirror.center, mirror.normal);
-  View view = seen;
-  view.clipFromWorld = seen.clipFromWorld * reflect;
-  view.eye = reflect * seen.eye;
+  View reflected = view;
+  reflected.clipFromWorld = view.clipFromWorld * reflect;
+  reflected.eye = reflect * view.eye;
   // Cuts away what is behind the mirror: it stands between the reflected eye and the mirror, and would hide the room.
-  view.clipPlane = glm::vec4(mirror.normal, -glm::dot(mirror.normal, mirror.center));
-  return view;
+  reflected.clipPlane = glm::vec4(mirror.normal, -glm::dot(mirror.normal, mirror.center));
+  return reflected;
 }
 
 // The GPU, the frames in flight with their SwapChain, and the images that passes draw into.
@@ -95,7 +99,7 @@ struct Core {
   std::unique_ptr<Window> window;
   Device device;
   Renderer renderer;
-  SharedDepth depth;  // of all passes, one after the other
+  SharedDepth depth;  // the depth image, which all passes use in turn
   OffScreen offScreen;
 
   explicit Core(const Options& asked)
@@ -121,19 +125,19 @@ class RenderSystem {
                   .vertexBindings = Mesh::bindings(),
                   .vertexAttributes = Mesh::attributes()}) {}
 
-  void record(const PassScope& pass, VkDescriptorSet view, double time) const {
+  void record(const PassScope& pass, VkDescriptorSet viewSet, double time) const {
     const auto spin = static_cast<float>(glm::radians(30.0 * time));
     const std::pair<const Mesh*, Object> objects[] = {
-        {&cube_, {placed({0, -0.05f, 0}, {8, 0.1f, 6}), {0.26f, 0.15f, 0.09f, 1}, {0.05f, 0.05f, 0.05f, 40}}},
-        {&cube_, {placed({0, 1.5f, -1.55f}, {8, 3.0f, 0.1f}), {0.07f, 0.19f, 0.22f, 1}}},
-        {&frame_, {placed({0, 1.0f, -1.5f}, glm::vec3(0.65f)), {0.42f, 0.26f, 0.075f, 1}, {0.55f, 0.38f, 0.13f, 48}}},
-        {&cube_, {placed({0, 0.25f, 0}, {0.62f, 0.5f, 0.62f}), {0.6f, 0.56f, 0.48f, 1}}},
-        {&knot_, {placed({0, 0.5f, 0}, glm::vec3(0.9f), spin), {0.5f, 0.09f, 0.04f, 1}, {0.3f, 0.28f, 0.25f, 70}}},
+        {&cube_, {place({0, -0.05f, 0}, {8, 0.1f, 6}), {0.26f, 0.15f, 0.09f, 1}, {0.05f, 0.05f, 0.05f, 40}}},
+        {&cube_, {place({0, 1.5f, -1.55f}, {8, 3.0f, 0.1f}), {0.07f, 0.19f, 0.22f, 1}}},
+        {&frame_, {place({0, 1.0f, -1.5f}, glm::vec3(0.65f)), {0.42f, 0.26f, 0.075f, 1}, {0.55f, 0.38f, 0.13f, 48}}},
+        {&cube_, {place({0, 0.25f, 0}, {0.62f, 0.5f, 0.62f}), {0.6f, 0.56f, 0.48f, 1}}},
+        {&knot_, {place({0, 0.5f, 0}, glm::vec3(0.9f), spin), {0.5f, 0.09f, 0.04f, 1}, {0.3f, 0.28f, 0.25f, 70}}},
         {&sphere_,
-         {placed({-0.85f, 0.27f, -0.6f}, glm::vec3(0.54f)), {0.05f, 0.13f, 0.42f, 1}, {0.1f, 0.1f, 0.1f, 200}}},
-        {&sphere_, {placed({0.85f, 0.2f, -0.85f}, glm::vec3(0.4f)), {0.5f, 0.4f, 0.12f, 1}, {0.1f, 0.1f, 0.1f, 200}}},
+         {place({-0.85f, 0.27f, -0.6f}, glm::vec3(0.54f)), {0.05f, 0.13f, 0.42f, 1}, {0.1f, 0.1f, 0.1f, 200}}},
+        {&sphere_, {place({0.85f, 0.2f, -0.85f}, glm::vec3(0.4f)), {0.5f, 0.4f, 0.12f, 1}, {0.1f, 0.1f, 0.1f, 200}}},
     };
-    shaders_.bind(pass, view);
+    shaders_.bind(pass, viewSet);
     pass.cull(VK_CULL_MODE_BACK_BIT);
     for (const auto& [mesh, object] : objects) {
       shaders_.push(pass, object);
@@ -155,8 +159,8 @@ class PointLightSystem {
   PointLightSystem(Core& core, VkDescriptorSetLayout views)
       : shaders_(core.renderer, core.options, "light", {.setLayouts = {views}}) {}
 
-  void record(const PassScope& pass, VkDescriptorSet view) const {
-    shaders_.bind(pass, view);
+  void record(const PassScope& pass, VkDescriptorSet viewSet) const {
+    shaders_.bind(pass, viewSet);
     pass.cull(VK_CULL_MODE_NONE);
     vkCmdDraw(pass.commands(), 6, 1, 0, 0);
   }
@@ -165,16 +169,17 @@ class PointLightSystem {
   ShaderPair shaders_;
 };
 
-// Draws a mirror, which fetches its pixels from the OffScreen in the set `view`.
+// Draws a mirror, which fetches its pixels from the OffScreen in `viewSet`.
 class MirrorSystem {
  public:
   MirrorSystem(Core& core, VkDescriptorSetLayout views)
-      : shaders_(core.renderer, core.options, "mirror", {.setLayouts = {views}, .pushConstantBytes = sizeof(Mirror)}) {}
+      : shaders_(core.renderer, core.options, "mirror",
+                 {.setLayouts = {views}, .pushConstantBytes = sizeof(MirrorPush)}) {}
 
-  void record(const PassScope& pass, VkDescriptorSet view, const Place& at, bool naive) const {
-    shaders_.bind(pass, view);
+  void record(const PassScope& pass, VkDescriptorSet viewSet, const Mirror& mirror, bool naive) const {
+    shaders_.bind(pass, viewSet);
     pass.cull(VK_CULL_MODE_BACK_BIT);  // seen from behind, it is not drawn
-    shaders_.push(pass, Mirror{.worldFromMirror = placed(at.center, mirrorSize, at.yaw), .naive = naive});
+    shaders_.push(pass, MirrorPush{.worldFromMirror = place(mirror.center, mirrorSize, mirror.yaw), .naive = naive});
     vkCmdDraw(pass.commands(), 6, 1, 0, 0);
   }
 
@@ -202,31 +207,32 @@ Drawn run(const Options& options) {
     if (ui) {
       ui->build(state);
     }
-    core.depth.require(frame->extent, core.renderer.retired());  // retired() frees the old one when no frame uses it
+    core.depth.require(frame->extent, core.renderer.retired());  // grows; retired() frees the old one when unused
     const float aspect = static_cast<float>(frame->extent.width) / static_cast<float>(frame->extent.height);
-    const View eye = viewFrom({1.5f, 0.65f, 2.7f}, loop.time(), aspect, ui ? ui->turn() : 0.0f);
-    const View reflected = naive ? eye : reflectedView(eye, place);
+    const View camera = viewFrom({1.5f, 0.65f, 2.7f}, loop.time(), aspect, ui ? ui->turn() : 0.0f);
+    const View reflected = naive ? camera : reflectedView(camera, wallMirror);
     {
       core.offScreen.resize(naive ? VkExtent2D{512, 512} : frame->extent, core.renderer.retired());
       PassDesc desc = fullPass("offscreen", core.offScreen.targets());
       desc.clearColor = radiance(state.clearColor);
       // A reflection turns left into right, so corners that ran counter-clockwise run clockwise.
       desc.frontFace = naive ? VK_FRONT_FACE_COUNTER_CLOCKWISE : VK_FRONT_FACE_CLOCKWISE;
-      // Its beginning waits for what still reads the OffScreen. Its end, at the brace, makes the OffScreen readable.
+      // The pass begins with the barrier offscreenBeforeWrite, which waits for shaders that still read the OffScreen.
+      // It ends at the brace with offscreenToSample, so that shaders of later passes read what it has drawn.
       const PassScope pass = core.renderer.beginPass(*frame, desc);
-      const VkDescriptorSet view = views.write(*frame, reflected);
-      renderSystem.record(pass, view, loop.time());
-      pointLightSystem.record(pass, view);
+      const VkDescriptorSet viewSet = views.write(*frame, reflected);
+      renderSystem.record(pass, viewSet, loop.time());
+      pointLightSystem.record(pass, viewSet);
     }
     {
       PassDesc desc = fullPass("window", core.renderer.displayTargets(*frame));
       desc.targets.depth = core.depth.image();  // displayTargets() has none
       desc.clearColor = displayed(state.clearColor);
       const PassScope pass = core.renderer.beginPass(*frame, desc);
-      const VkDescriptorSet view = views.write(*frame, eye);
-      renderSystem.record(pass, view, loop.time());
-      mirrorSystem.record(pass, views.write(*frame, eye, &core.offScreen), place, naive);
-      pointLightSystem.record(pass, view);
+      const VkDescriptorSet viewSet = views.write(*frame, camera);
+      renderSystem.record(pass, viewSet, loop.time());
+      mirrorSystem.record(pass, views.write(*frame, camera, &core.offScreen), wallMirror, naive);
+      pointLightSystem.record(pass, viewSet);
     }
     if (ui) {
       ui->record(*frame);

@@ -5,7 +5,7 @@
 
 layout(set = 0, binding = 1) uniform sampler2D image;  // linear radiance
 
-layout(push_constant) uniform Mirror {
+layout(push_constant) uniform MirrorPush {
   mat4 worldFromMirror;
   vec4 reflectance;
   uint naive;

@@ -1,4 +1,5 @@
 // A triangle. A GPU, a window with its swapchain, and one draw a frame.
+// Read run(), at the end, first.
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -19,15 +20,17 @@ struct View {
   glm::vec4 ambient{0.0f};
 };
 
+// Push constants. The shaders declare the same members.
 struct Object {
   glm::mat4 worldFromModel{1.0f};
   glm::vec4 diffuse{1.0f};
   glm::vec4 specular{0.04f, 0.04f, 0.04f, 60.0f};  // and the shininess
 };
 
-constexpr glm::vec3 background{0.10f, 0.11f, 0.19f};
+constexpr glm::vec3 background{0.10f, 0.11f, 0.19f};  // linear; the clear color until the panel changes it
 
-glm::mat4 placed(const glm::vec3& position, const glm::vec3& scale, float yaw = 0.0f) {
+// Makes the matrix that scales a model, turns it about y by `yaw`, and moves it to `position`.
+glm::mat4 place(const glm::vec3& position, const glm::vec3& scale, float yaw = 0.0f) {
   return glm::scale(glm::rotate(glm::translate(glm::mat4(1.0f), position), yaw, {0.0f, 1.0f, 0.0f}), scale);
 }
 
@@ -39,7 +42,8 @@ glm::mat4 projection(float verticalFov, float aspect) {
   return {{focal / aspect, 0, 0, 0}, {0, -focal, 0, 0}, {0, 0, 0, -1}, {0, 0, near, 0}};
 }
 
-// Makes a camera's view, and the lamp at a time. The camera is at `offset` from its target, turned about it by `turn`.
+// Makes a camera's view of the scene, whose lamp moves with `time`. The camera stands at `offset` from its target,
+// turned about it by `turn`.
 View viewFrom(const glm::vec3& offset, double time, float aspect, float turn) {
   constexpr glm::vec3 target{0.1f, 0.85f, -0.4f};
   const glm::vec3 eye = target + glm::mat3(glm::rotate(glm::mat4(1.0f), turn, {0, 1, 0})) * offset;
@@ -57,7 +61,7 @@ struct Core {
   std::unique_ptr<Window> window;
   Device device;
   Renderer renderer;
-  SharedDepth depth;  // of all passes, one after the other
+  SharedDepth depth;  // the depth image, which all passes use in turn
 
   explicit Core(const Options& asked)
       : options(asked),
@@ -73,10 +77,10 @@ class RenderSystem {
   RenderSystem(Core& core, VkDescriptorSetLayout views)
       : shaders_(core.renderer, core.options, "scene", {.setLayouts = {views}, .pushConstantBytes = sizeof(Object)}) {}
 
-  void record(const PassScope& pass, VkDescriptorSet view, double time) const {
+  void record(const PassScope& pass, VkDescriptorSet viewSet, double time) const {
     const auto spin = static_cast<float>(glm::radians(30.0 * time));
-    shaders_.bind(pass, view);
-    shaders_.push(pass, Object{.worldFromModel = placed(glm::vec3(0.0f), glm::vec3(1.0f), spin + 0.6f)});
+    shaders_.bind(pass, viewSet);
+    shaders_.push(pass, Object{.worldFromModel = place(glm::vec3(0.0f), glm::vec3(1.0f), spin + 0.6f)});
     vkCmdDraw(pass.commands(), 3, 1, 0, 0);
   }
 
@@ -101,16 +105,16 @@ Drawn run(const Options& options) {
     if (ui) {
       ui->build(state);
     }
-    core.depth.require(frame->extent, core.renderer.retired());  // retired() frees the old one when no frame uses it
+    core.depth.require(frame->extent, core.renderer.retired());  // grows; retired() frees the old one when unused
     const float aspect = static_cast<float>(frame->extent.width) / static_cast<float>(frame->extent.height);
-    const View eye = viewFrom({1.5f, 0.65f, 2.7f}, loop.time(), aspect, ui ? ui->turn() : 0.0f);
+    const View camera = viewFrom({1.5f, 0.65f, 2.7f}, loop.time(), aspect, ui ? ui->turn() : 0.0f);
     {
       PassDesc desc = fullPass("window", core.renderer.displayTargets(*frame));
       desc.targets.depth = core.depth.image();  // displayTargets() has none
       desc.clearColor = displayed(state.clearColor);
       const PassScope pass = core.renderer.beginPass(*frame, desc);
-      const VkDescriptorSet view = views.write(*frame, eye);
-      renderSystem.record(pass, view, loop.time());
+      const VkDescriptorSet viewSet = views.write(*frame, camera);
+      renderSystem.record(pass, viewSet, loop.time());
     }
     if (ui) {
       ui->record(*frame);
