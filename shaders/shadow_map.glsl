@@ -77,6 +77,8 @@ struct SeenPlanes {
   vec4 x;  // texels, from the point to the texels' centres
   vec4 y;
   vec4 disparity;  // at the texels' centres; 0: nothing is there
+  vec4 riseX;      // growth of the disparity from texel to texel
+  vec4 riseY;
   vec4 rise;       // growth of the disparity from the point to the texels' centres
 #ifdef ASKS
   vec4 edge;       // 1: an edge is seen, and the disparity is that of a point of it within the texel
@@ -97,7 +99,9 @@ SeenPlanes planesAbout(vec2 at) {
   seen.edge = vec4(edge);
   slopes = mix(slopes, uvec4(0), edge);
 #endif
-  seen.rise = uintBitsToFloat(slopes & 0xffff0000u) * seen.x + uintBitsToFloat(slopes << 16) * seen.y;
+  seen.riseX = uintBitsToFloat(slopes & 0xffff0000u);
+  seen.riseY = uintBitsToFloat(slopes << 16);
+  seen.rise = seen.riseX * seen.x + seen.riseY * seen.y;
   return seen;
 }
 
@@ -119,16 +123,27 @@ float shareAt(LightData light, vec3 p) {
 
   vec4 nearerAtTexel = seen.disparity - disparity - rise;
   vec4 nearerHere = seen.disparity - disparity - seen.rise;
+#ifndef ASKS
+  // Where the plane of the next texel passes through what a texel shows, two surfaces meet there, and rounding decides
+  // which of them the texel shows. The one that is nearer at the receiver counts.
+  vec4 besideX = seen.disparity.yxwz + vec4(-1.0, 1.0, 1.0, -1.0) * seen.riseX.yxwz;
+  vec4 besideY = seen.disparity.wzyx + vec4(1.0, 1.0, -1.0, -1.0) * seen.riseY.wzyx;
+  vec4 marginX = 1e-6 * disparity + abs(seen.riseX.yxwz - seen.riseX) / 128.0;
+  vec4 marginY = 1e-6 * disparity + abs(seen.riseY.wzyx - seen.riseY) / 128.0;
+  nearerHere += vec4(lessThan(abs(besideX - seen.disparity), marginX)) * max(nearerHere.yxwz - nearerHere, vec4(0.0));
+  nearerHere += vec4(lessThan(abs(besideY - seen.disparity), marginY)) * max(nearerHere.wzyx - nearerHere, vec4(0.0));
+#endif
   vec4 rounding = 1e-6 * disparity + slopeError * abs(seen.rise);
   vec4 error = disparity * shadowBias / min(window.x, window.y) + slopeError * (abs(seen.rise) + abs(rise));
   vec4 covers = vec4(greaterThan(nearerHere, rounding));
   vec4 hides = covers * vec4(greaterThan(nearerAtTexel, error));
   vec4 tells = vec4(greaterThan(max(nearerHere, nearerAtTexel), -error)) * vec4(greaterThan(seen.disparity, vec4(0.0)));
-#ifdef ASKS
-  // Dark and lit are decided only where all four texels agree, and none sees an edge before the receiver's plane. Neither
-  // is decided where a plane may lie before the receiver's, but by less than the margin.
+  // A plane may lie before the receiver's, but by less than the margin.
   vec4 least = disparity * slopeError / min(window.x, window.y) + slopeError * (abs(seen.rise) + abs(rise));
   vec4 close = covers * vec4(greaterThan(nearerAtTexel, least));
+#ifdef ASKS
+  // Dark and lit are decided only where all four texels agree, none sees an edge before the receiver's plane, and no
+  // plane is close.
   vec4 reach = error + abs(slope.x) + abs(slope.y);  // an edge's point lies up to a texel from the centre
   vec4 unclear = mix(close - hides, vec4(greaterThan(nearerAtTexel, reach)), seen.edge);
   hides *= 1.0 - seen.edge;
@@ -137,15 +152,19 @@ float shareAt(LightData light, vec3 p) {
   return !decided ? undecided : dot(hides, vec4(1.0)) == 4.0 ? 0.0 : open && facesLight ? 1.0 : undecided;
 #else
   // A plane that also hides the receiver from another texel crosses the receiver's plane and does not end there.
-  vec4 hiding = hides * nearerHere;
+  vec4 hiding = close * nearerHere;
   float nearest = max(max(hiding.x, hiding.y), max(hiding.z, hiding.w));
   tells *= 1.0 - (covers - hides) * vec4(lessThan(abs(nearerHere - nearest), error));
+  // A plane that is close decides only where no other texel tells anything: the receiver then is a wall's part behind
+  // the edge at which it meets the plane, and light would leak along the edge.
+  tells *= 1.0 - (close - hides);
 
   vec4 weights = (1.0 - abs(seen.x)) * (1.0 - abs(seen.y)) * tells;
   float sum = dot(weights, vec4(1.0));
   // Without any texel that tells something, a surface that faces away from the light lies behind its own body's
   // outline.
-  float share = sum > 0.0 ? 1.0 - dot(weights, hides) / sum : facesLight ? 1.0 : 0.0;
+  bool isOpen = facesLight && dot(close, vec4(1.0)) == 0.0;
+  float share = sum > 0.0 ? 1.0 - dot(weights, hides) / sum : isOpen ? 1.0 : 0.0;
   return window.x > 0.0 ? share : 1.0;  // nothing casts a shadow in an empty face
 #endif
 }
