@@ -39,83 +39,6 @@ MeshCluster clusterOf(const Mesh& mesh, uint32_t first, uint32_t count) {
   return {first, count, box.center(), 0.5 * (box.high - box.low)};
 }
 
-// The vertices of a part, numbered from 0. A vertex of many triangles gets another number after every 256 of them,
-// since the time of sorting grows with the triangles around a vertex.
-struct PartVertices {
-  std::vector<uint32_t> indices;     // numbers of vertices: indices into the lists below
-  std::vector<uint32_t> ofMesh;      // vertex of the mesh
-  std::vector<glm::vec3> positions;  // scaled to about unit size, so that floats can hold them
-
-  // The number of a vertex of the mesh within the part, and how many more triangles may use that number.
-  struct Last {
-    uint32_t index = 0;
-    uint32_t trianglesLeft = 0;
-  };
-
-  // `last` has an entry for each vertex of the mesh, whose `trianglesLeft` is 0 before and after.
-  PartVertices(const Mesh& mesh, std::span<const uint32_t> all, std::span<Last> last) {
-    constexpr uint32_t mostTriangles = 256;
-    indices.reserve(all.size());
-    for (const uint32_t vertex : all) {
-      Last& found = last[vertex];
-      if (found.trianglesLeft == 0) {
-        found = {static_cast<uint32_t>(ofMesh.size()), mostTriangles};
-        ofMesh.push_back(vertex);
-        positions.emplace_back(mesh.vertices[vertex].position / mesh.radius);
-      }
-      --found.trianglesLeft;
-      indices.push_back(found.index);
-    }
-    for (const uint32_t vertex : all) {
-      last[vertex].trianglesLeft = 0;
-    }
-  }
-};
-
-// Says whether many triangles lie in one place, going by some of them. Sorting compares each of these with all others.
-bool coincide(const PartVertices& part) {
-  constexpr size_t samples = 4096;
-  constexpr ptrdiff_t most = samples / 64;
-  const size_t triangles = part.indices.size() / 3;
-  std::vector<std::array<float, 3>> places;
-  for (size_t i = 0; i < samples && triangles >= samples; ++i) {
-    const uint32_t* triangle = &part.indices[i * triangles / samples * 3];
-    const glm::vec3 place = part.positions[triangle[0]] + part.positions[triangle[1]] + part.positions[triangle[2]];
-    places.push_back({place.x, place.y, place.z});
-  }
-  std::ranges::sort(places);
-  for (auto first = places.begin(); first != places.end();) {
-    const auto next = std::upper_bound(first, places.end(), *first);
-    if (next - first > most) {
-      return true;
-    }
-    first = next;
-  }
-  return false;
-}
-
-void sortTriangles(const Mesh& mesh, std::span<uint32_t> indices, std::span<PartVertices::Last> last) {
-  constexpr size_t triangles = clusterIndices / 3;
-  constexpr size_t vertices = 64;
-  const PartVertices part(mesh, indices, last);
-  if (coincide(part)) {
-    return;
-  }
-  const size_t most = meshopt_buildMeshletsBound(indices.size(), vertices, triangles);
-  std::vector<meshopt_Meshlet> meshlets(most);
-  std::vector<uint32_t> meshletVertices(most * vertices);
-  std::vector<uint8_t> corners(most * clusterIndices);
-  meshlets.resize(meshopt_buildMeshlets(meshlets.data(), meshletVertices.data(), corners.data(), part.indices.data(),
-                                        part.indices.size(), &part.positions[0].x, part.positions.size(),
-                                        sizeof(glm::vec3), vertices, triangles, 0.0f));
-  size_t next = 0;
-  for (const meshopt_Meshlet& meshlet : meshlets) {
-    for (uint32_t i = 0; i < 3 * meshlet.triangle_count; ++i) {
-      indices[next++] = part.ofMesh[meshletVertices[meshlet.vertex_offset + corners[meshlet.triangle_offset + i]]];
-    }
-  }
-}
-
 // Sorts the vertices in place by their first use, and drops those without a use.
 void sortVertices(Mesh& mesh) {
   std::vector<uint32_t> places(mesh.vertices.size());
@@ -263,11 +186,15 @@ void sortIntoClusters(Mesh& mesh) {
   if (mesh.indices.size() < fewestClusters * clusterIndices) {
     return;
   }
-  std::vector<PartVertices::Last> last(mesh.vertices.size());
+  std::vector<glm::vec3> positions(mesh.vertices.size());  // of about unit size, so that floats can hold them
+  std::ranges::transform(mesh.vertices, positions.begin(), [&](const Vertex& v) { return v.position / mesh.radius; });
+  std::vector<uint32_t> sorted(mesh.indices.size());
   for (const MeshPart& part : mesh.parts) {
-    sortTriangles(mesh, std::span(mesh.indices).subspan(part.firstIndex, part.indexCount), last);
+    meshopt_spatialSortTriangles(&sorted[part.firstIndex], &mesh.indices[part.firstIndex], part.indexCount,
+                                 &positions[0].x, positions.size(), sizeof(glm::vec3));
   }
-  last = {};
+  positions = {};
+  mesh.indices = std::move(sorted);
   sortVertices(mesh);
 }
 

@@ -172,9 +172,9 @@ class ShadedVertices {
   std::vector<uint32_t> indices_;  // of a mesh with flat vertices
 };
 
-// Reorders the triangles of each part so that consecutive ones lie close together on the surface, by meshoptimizer's
-// meshlets, and the vertices by their first use: clusters become small, and fewer vertices are shaded twice. A mesh
-// that is too small for clusters, or has many triangles in one place, stays as it is.
+// Reorders the triangles of each part along a space-filling curve, by meshoptimizer, so that consecutive ones lie close
+// together, and the vertices by their first use: clusters become small, and fewer vertices are shaded twice. A mesh
+// that is too small for clusters stays as it is.
 void sortIntoClusters(Mesh& mesh);
 
 // Cuts the mesh's triangles in their order into clusters of 64. Returns none for a mesh that is too small to gain by

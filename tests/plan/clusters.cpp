@@ -123,7 +123,7 @@ TEST(Clusters, SortingMakesThemSmallInVertexOrder) {
   sorted.clusters = clustersOf(sorted);
   EXPECT_EQ(sorted.clusters.size(), before.clusters.size());
   EXPECT_GT(meanDiagonal(before), 1.5);
-  EXPECT_LT(meanDiagonal(sorted), 0.75);
+  EXPECT_LT(meanDiagonal(sorted), 0.85);
   uint32_t next = 0;
   for (const uint32_t index : sorted.indices) {
     EXPECT_LE(index, next);
