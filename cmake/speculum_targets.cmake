@@ -17,6 +17,10 @@ if(WIN32)
   target_compile_options(speculum_flags INTERFACE
     "$<$<OR:$<BOOL:${CMAKE_DISABLE_PRECOMPILE_HEADERS}>,$<STREQUAL:${precompiled},>>:SHELL:$<IF:$<BOOL:${MSVC}>,/FI,-include> ${names}>")
 endif()
+# GCC's garbage collector takes a sixth of the time of large sources of tests, unless it begins at 2 GB.
+if(SPECULUM_BUILD_TESTS)
+  target_compile_options(speculum_flags INTERFACE $<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=2000000>)
+endif()
 if(SPECULUM_WARNINGS_AS_ERRORS)
   target_compile_options(speculum_flags INTERFACE -Werror)
 endif()

@@ -9,7 +9,6 @@
 #include <numbers>
 #include <optional>
 #include <random>
-#include <ranges>
 
 #include "accuracy/sweep_planner.hpp"
 #include "cli/commands.hpp"
@@ -223,7 +222,8 @@ int runBench(const Options& options) {
   const int measured = options.frames > 0 ? options.frames : 60;
   Session session(options);
   session.showOnly();
-  if (std::ranges::count(std::views::keys(options.settings), "reflection.skip_unchanged") == 0) {
+  const auto asked = &std::pair<std::string, std::string>::first;
+  if (std::ranges::count(options.settings, "reflection.skip_unchanged", asked) == 0) {
     // All frames have the same time, so with reuse only the first would render mirror images.
     Settings settings = session.settings();
     settings.reflection.skipUnchanged = false;

@@ -2,8 +2,6 @@
 
 #include <spdlog/fmt/ranges.h>
 
-#include <ranges>
-
 #include "platform/files.hpp"
 #include "platform/process.hpp"
 
@@ -68,7 +66,8 @@ std::string viewCommand(const Options& options, const std::filesystem::path& fil
   }
   addDevice(options, arguments);
   arguments.insert(arguments.end(), {"--out", scene.file.stem().string() + ".view.png"});
-  return fmt::format("{}", fmt::join(arguments | std::views::transform(shellWord), " "));
+  std::ranges::transform(arguments, arguments.begin(), shellWord);
+  return fmt::format("{}", fmt::join(arguments, " "));
 }
 
 }  // namespace speculum

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <map>
-#include <ranges>
 
 #include "accuracy/sweep_json.hpp"
 #include "platform/process.hpp"
@@ -68,8 +67,10 @@ std::optional<QualityChoice> chooseQuality(const Options& options, const std::fi
     }
     return std::nullopt;
   }
-  const auto keys = std::views::keys(options.settings);
-  const std::set<std::string> kept(keys.begin(), keys.end());
+  std::set<std::string> kept;
+  for (const auto& setting : options.settings) {
+    kept.insert(setting.first);
+  }
   if (options.sweepResults.empty()) {
     const bool byHand = kept.contains("quality.budget_ms") || kept.contains("quality.max_error");
     if (byHand && options.command != "demo") {
@@ -245,8 +246,9 @@ void applyDebugSettings(const Settings& settings, Device& device) {
   const std::string& name = settings.debug.omitBarrier;
   const std::optional<BarrierKind> kind = barrierFromName(name);
   if (!name.empty() && !kind) {
-    throw UsageError(fmt::format("debug.omit_barrier: there is no barrier '{}' ({})", name,
-                                 fmt::join(allBarrierKinds() | std::views::transform(barrierName), ", ")));
+    std::vector<std::string_view> names;
+    std::ranges::transform(allBarrierKinds(), std::back_inserter(names), barrierName);
+    throw UsageError(fmt::format("debug.omit_barrier: there is no barrier '{}' ({})", name, fmt::join(names, ", ")));
   }
   device.barriers().omit(kind);
 }

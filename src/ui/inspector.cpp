@@ -206,10 +206,10 @@ bool mirrorQuality(PanelContext& ui, MirrorQuality& quality) {
     return false;
   }
   ImGui::PushItemWidth(-10.5f * ImGui::GetFontSize());
-  const bool edited = qualityRow(ui, "scale", quality.scale, &R::scale) |
-                      qualityRow(ui, "samples", quality.samples, &R::samples) |
-                      qualityRow(ui, "update_interval", quality.updateInterval, &R::updateInterval) |
-                      qualityRow(ui, "method", quality.method, &R::method);
+  bool edited = qualityRow(ui, "scale", quality.scale, &R::scale);
+  edited |= qualityRow(ui, "samples", quality.samples, &R::samples);
+  edited |= qualityRow(ui, "update_interval", quality.updateInterval, &R::updateInterval);
+  edited |= qualityRow(ui, "method", quality.method, &R::method);
   ImGui::PopItemWidth();
   return edited;
 }

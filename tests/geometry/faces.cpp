@@ -1,7 +1,6 @@
 #include <cmath>
 #include <ctime>
 #include <numbers>
-#include <ranges>
 
 #include "geometry/convex_mesh.hpp"
 #include "geometry/polygon.hpp"
@@ -65,8 +64,9 @@ TEST(ConvexFace, LiesWithinItsSphereAndItsWidth) {
         const double angle = std::numbers::pi * step / 20000;
         const glm::dvec3 across(0.0, std::cos(angle), std::sin(angle));
         const auto at = [&](const glm::dvec3& p) { return glm::dot(across, p); };
-        least = std::min(least, std::ranges::max(ellipse | std::views::transform(at)) -
-                                    std::ranges::min(ellipse | std::views::transform(at)));
+        std::vector<double> along;
+        std::ranges::transform(ellipse, std::back_inserter(along), at);
+        least = std::min(least, std::ranges::max(along) - std::ranges::min(along));
       }
       EXPECT_GT(face.width, 0.95 * least) << corners << ", " << flat;
       EXPECT_LT(face.width, 1.05 * least) << corners << ", " << flat;

@@ -143,7 +143,7 @@ constexpr double upright = 0.0;
 constexpr double level = std::numbers::pi / 2.0;
 constexpr double diagonal = std::numbers::pi / 4.0;
 
-template <Signal (*make)(std::mt19937&, std::optional<double>), double direction>
+template <Signal (*make)(std::mt19937&, std::optional<double>), const double& direction>
 Signal along(std::mt19937& random) {
   return make(random, direction);
 }

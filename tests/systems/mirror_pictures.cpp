@@ -141,7 +141,7 @@ std::vector<glm::dvec3> withNeedlessVertices(const std::vector<glm::dvec3>& poly
       more.push_back(polygon[i] + place * edge);
     }
   }
-  std::ranges::rotate(more, more.begin() + static_cast<std::ptrdiff_t>(random.index(more.size())));
+  std::rotate(more.begin(), more.begin() + static_cast<std::ptrdiff_t>(random.index(more.size())), more.end());
   return more;
 }
 
