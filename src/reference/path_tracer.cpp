@@ -77,8 +77,8 @@ glm::dvec3 bouncedLight(const TraceWorld& world, const ShadingPoint& point, int 
     first.secondMirror = mirror;
     const glm::dvec3 bounce = leg.at(*crossing);
     const Skip second{.mirror = mirror};
-    passes = world.transmittance({point.position, toImage, lightStart(point, toImage), *crossing}, first);
-    passes *= passes > 0.0 ? world.transmittance({bounce, position - bounce, 0.0, lightEnd}, second) : 0.0;
+    passes = world.transmittance({point.position, toImage, lightStart(point, toImage), *crossing}, first, false);
+    passes *= passes > 0.0 ? world.transmittance({bounce, position - bounce, 0.0, lightEnd}, second, true) : 0.0;
   }
   const double cosine = std::abs(glm::dot(plane.normal, safeNormalize(toImage)));
   return passes * mapShare(world.scene(), material, plane, leg.at(*crossing)) *
@@ -92,7 +92,8 @@ glm::dvec3 directLight(const TraceWorld& world, const ShadingPoint& point, int l
   if (glm::dot(point.normal, toLight) <= 0.0) {
     return glm::dvec3(0.0);
   }
-  return (source.castsShadow ? world.transmittance(ray, point.self) : 1.0) * lightRadiance(point, toLight, source);
+  return (source.castsShadow ? world.transmittance(ray, point.self, true) : 1.0) *
+         lightRadiance(point, toLight, source);
 }
 
 void applyMaterial(const Scene& scene, const Object& object, const Material& material, const glm::dvec2& uv,

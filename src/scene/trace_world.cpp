@@ -40,7 +40,7 @@ TraceWorld::TraceWorld(const Scene& scene) : scene_(&scene), meshes_(scene.meshe
 }
 
 void TraceWorld::place(const SceneState& state) {
-  const glm::dvec3& eye = state.camera.eye;
+  const glm::dvec3& eye = eye_ = state.camera.eye;
   instances_ = state.instances;
   mirrors_ = state.mirrors;
   lights_ = state.lights;
@@ -216,14 +216,20 @@ std::optional<SceneHit> TraceWorld::closest(const Ray& ray, const Skip& skip, On
   return best;
 }
 
-double TraceWorld::transmittance(const Ray& ray, const Skip& skip) const {
+double TraceWorld::transmittance(const Ray& ray, const Skip& skip, bool endsAtLight) const {
   const ShearedRay sheared(ray);
   double passes = 1.0;
   bvh_.traverse(ray, [&](uint32_t first, uint32_t count, double&) {
     for (uint32_t i = first; i < first + count && passes > 0.0; ++i) {
       const auto& [kind, index] = items_[i];
       if (kind == HitKind::object) {
-        passes *= transmittance(ray, index, skip.instance == index ? int64_t{skip.triangle} : TriangleMesh::noTriangle);
+        const int64_t own = skip.instance == index ? int64_t{skip.triangle} : TriangleMesh::noTriangle;
+        const Ray local = toMesh(ray, index, ray.tMax);
+        meshes_[instances_[index].mesh].visit(local, own, [&](const TriangleHit& met) {
+          const SceneHit hit{.kind = kind, .index = index, .triangle = met.triangle, .weights = met.weights};
+          passes *= endsAtLight && liesInPlane(ray.at(1.0), hit) ? 1.0 : 1.0 - coverageOf(hit);
+          return passes == 0.0;
+        });
       } else if (kind == HitKind::mirror && !skipsMirror(skip, index)) {
         passes *= meetPolygon(ray, sheared, index, ray.tMax) ? 0.0 : 1.0;
       }
@@ -233,18 +239,16 @@ double TraceWorld::transmittance(const Ray& ray, const Skip& skip) const {
   return passes;
 }
 
-double TraceWorld::transmittance(const Ray& ray, int instance, int64_t own) const {
-  const InstanceState& state = instances_[instance];
-  const Ray local = toMesh(ray, instance, ray.tMax);
-  if (!transparent_[state.mesh] || scene_->objects[state.object].mirror) {
-    return meshes_[state.mesh].occluded(local, own) ? 0.0 : 1.0;
-  }
-  double passes = 1.0;
-  meshes_[state.mesh].visit(local, own, [&](const TriangleHit& hit) {
-    passes *= 1.0 - coverageOf({.index = instance, .triangle = hit.triangle, .weights = hit.weights});
-    return passes == 0.0;
-  });
-  return passes;
+bool TraceWorld::liesInPlane(const glm::dvec3& point, const SceneHit& objectHit) const {
+  constexpr double rounding = 4e-15;  // of some sums and products
+  const InstanceState& state = instances_[objectHit.index];
+  const Mesh& mesh = scene_->meshes[state.mesh];
+  const uint32_t* corners = &mesh.indices[size_t{objectHit.triangle} * 3];
+  const glm::dvec3 a = state.worldFromMesh.point(mesh.vertices[corners[0]].position);
+  const glm::dvec3 b = state.worldFromMesh.point(mesh.vertices[corners[1]].position);
+  const glm::dvec3 c = state.worldFromMesh.point(mesh.vertices[corners[2]].position);
+  const glm::dvec3 normal = glm::normalize(glm::cross(b - a, c - a));
+  return std::abs(glm::dot(normal, point - a)) <= rounding * (glm::length(eye_) + glm::length(point) + glm::length(a));
 }
 
 double TraceWorld::coverageOf(const SceneHit& objectHit) const {

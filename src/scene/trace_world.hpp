@@ -45,8 +45,8 @@ class TraceWorld {
   // Returns the first surface or glyph on the ray that the onlooker sees.
   std::optional<SceneHit> closest(const Ray& ray, const Skip& skip, Onlooker onlooker = Onlooker::eye) const;
   // Returns the share of light that passes the objects and mirrors, from either side, on the ray. Glyphs cast no
-  // shadow.
-  double transmittance(const Ray& ray, const Skip& skip) const;
+  // shadow. No triangle hides a light, at t = 1, that lies in the triangle's plane.
+  double transmittance(const Ray& ray, const Skip& skip, bool endsAtLight) const;
   // Returns the share of the surface that is there at a point of an object, 0 .. 1: the material's coverage. Curved
   // mirrors are there wholly.
   double coverageOf(const SceneHit& objectHit) const;
@@ -82,9 +82,12 @@ class TraceWorld {
   std::optional<double> meetPolygon(const Ray& ray, const ShearedRay& sheared, int mirror, double tMax) const;
   std::optional<double> meetGlyph(const Ray& ray, int light, double tMax) const;
 
-  double transmittance(const Ray& ray, int instance, int64_t own) const;
+  // Says whether a point lies in the plane of the triangle that was hit, as far as the rounding of world coordinates
+  // tells.
+  bool liesInPlane(const glm::dvec3& point, const SceneHit& objectHit) const;
 
   const Scene* scene_;
+  glm::dvec3 eye_{0.0};               // in the world; points are relative to it
   std::vector<TriangleMesh> meshes_;  // parallel to Scene::meshes
   std::vector<bool> transparent_;     // by mesh: some material is
   std::vector<InstanceState> instances_;
