@@ -1,5 +1,15 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#define HANDED in
+#define OBJECT
+#include "interface.glsl"
+#include "object_values.glsl"
+#include "shading.glsl"
 #include "shadow_plane.glsl"
 
-void main() { storePlane(); }
+void main() {
+  storePlane();
+  if (holdsLight()) {
+    discard;
+  }
+}

@@ -1,5 +1,6 @@
 // Surfaces with coverage in a shadow map. VERTEX_COLORS as in covered_draw.glsl.
 #define HANDED in
+#define OBJECT
 #include "interface.glsl"
 #include "object_values.glsl"
 #include "shading.glsl"
@@ -8,5 +9,8 @@
 
 void main() {
   storePlane();
+  if (holdsLight()) {
+    discard;
+  }
   keepCovered(vec2(positionAndU.w, normalAndV.w), instances[indexAndReach.x].traceInstance, draw.firstTriangle + uint(gl_PrimitiveID));
 }

@@ -109,7 +109,7 @@ const Pipeline& ShadowSystem::pipelineFor(const Variant& variant, const FrameInf
   return pipelines_.get(variant, [&] {
     GraphicsPipelineDesc desc{.name = "shadow map",
                               .vert = "mirror.vert",
-                              .frag = "shadow_map.frag",
+                              .frag = "shadow_map_mirror.frag",
                               .setLayouts = {frameLayout_},
                               .color = planeFormat};
     desc.lines = drawn == Drawn::edges || drawn == Drawn::mirrorEdges;
@@ -119,7 +119,9 @@ const Pipeline& ShadowSystem::pipelineFor(const Variant& variant, const FrameInf
     if (drawn == Drawn::objects || drawn == Drawn::edges || drawn == Drawn::coveredEdges || drawn == Drawn::covered) {
       desc.vert = "scene.vert";
       addVertexInput(desc);
-      if (drawn == Drawn::covered) {
+      if (drawn == Drawn::objects) {
+        desc.frag = "shadow_map.frag";
+      } else if (drawn == Drawn::covered) {
         addCoverage(desc, variant.vertexAlpha ? "shadow_map_covered_colored.frag" : "shadow_map_covered.frag",
                     info.resources.textureLayout());
         desc.constants = {{gpu::constantClamps, variant.clamps}, {gpu::constantVertexAlpha, variant.vertexAlpha}};

@@ -2,10 +2,12 @@
 #include <numbers>
 #include <sstream>
 
+#include "geometry/affine.hpp"
 #include "random.hpp"
 #include "sampling.hpp"
 #include "scene_text.hpp"
 #include "studio.hpp"
+#include "truth_support.hpp"
 
 namespace speculum::shadow_truth {
 namespace {
@@ -314,6 +316,58 @@ std::filesystem::path farLight(Random& random, unsigned seed) {
 
 TEST(HybridShadows, EqualTracedUnderFarLights) {
   EXPECT_LT(wrongShare(200, 30, farLight, "256"), 5e-5);
+}
+
+// A light that lies in a face of a turned block or quad, or in the face's plane beside it, over a floor.
+std::filesystem::path lightInFace(Random& random, unsigned seed) {
+  const bool isQuad = random.chance(0.3);
+  const glm::dvec3 origin =
+      random.chance(0.7) ? glm::dvec3(0.0) : std::pow(10.0, random.uniform(1, 7)) * random.direction();
+  const glm::dvec3 angles = random.chance(0.4) ? glm::dvec3(90.0 * std::floor(random.uniform(0, 4)), 0, 0)
+                                               : glm::dvec3(random.uniform(-180, 180), random.uniform(-180, 180), 0);
+  const glm::dvec3 scale(random.uniform(0.3, 1.5), random.uniform(0.3, 1.5), random.uniform(0.3, 1.5));
+  const glm::dvec3 position = origin + random.inBox(0.5);
+  const double beside = random.chance(0.5) ? 1.0 : 3.0;
+  const glm::dvec2 at(beside * random.uniform(-0.45, 0.45), beside * random.uniform(-0.45, 0.45));
+  const glm::dvec3 local =
+      isQuad ? glm::dvec3(2.0 * at, 0.0) : glm::dvec3(random.chance(0.5) ? 0.5 : -0.5, 0.5 + at.x, at.y);
+  const glm::dvec3 light = position + rotationFromDegrees(angles) * (scale * local);
+  std::ostringstream out;
+  out << "[environment]\nambient = [0.1, 0.1, 0.1]\n"
+      << cameraText(origin + 3.5 * glm::normalize(random.direction() + glm::dvec3(0, 1.2, 0)), origin)
+      << "[[object]]\nmodel = \"MODELS/block.obj\"\nposition = " << text(origin - glm::dvec3(0, 1.5, 0))
+      << "\nscale = [8, 0.2, 8]\n"
+      << "[[object]]\nmodel = \"" << (isQuad ? "quad.obj" : "MODELS/block.obj") << "\"\nposition = " << text(position)
+      << "\nrotation = " << text(angles) << "\nscale = " << text(scale) << "\n"
+      << "[[object]]\nmodel = \"MODELS/sphere.obj\"\nposition = " << text(origin + random.inBox(1.2))
+      << "\nscale = 0.2\n"
+      << "[[light]]\nposition = " << text(light) << "\nintensity = 30\nglow = 0\ncasts_shadow = true\n";
+  return writeScene("light_in_face_" + std::to_string(seed), out.str());
+}
+
+// Against the tracer, whose lights are in the face as well.
+TEST(HybridShadows, LightsAreNotHiddenByFacesTheyLieIn) {
+  writeQuad();
+  std::vector<unsigned> seeds = sampledSeeds(200, 20);
+  seeds.insert(seeds.end(), {22, 133});  // far from the origin; its face is nearer than the light's rounding
+  for (const unsigned seed : seeds) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    const std::filesystem::path file = lightInFace(random, seed);
+    const Image8 expected = trace(file, size, 0).picture;
+    Options options = truthOptions(file, size, 0);
+    set(options, {{"effects.shadow_map_size", "512"}});
+    Studio studio(options);
+    EXPECT_LE(difference(studio.draw(), expected, 8).over, 12) << "traced";
+    studio.settings.effects.shadowLookup = ShadowLookup::hybrid;
+    EXPECT_LE(difference(studio.draw(), expected, 8).over, 12) << "hybrid";
+    studio.settings.effects.shadowLookup = ShadowLookup::map;
+    const Image8 mapped = studio.draw();
+    studio.settings.effects.shadows = false;
+    std::vector<bool> counts = nearOutline(difference(expected, studio.draw(), 8).isOver, 2);
+    counts.flip();
+    EXPECT_LE(difference(mapped, expected, 8, counts).over, 12) << "map";
+  }
 }
 
 // Where a map decides, a surface is shaded once a pixel. Shadows that cross a pixel between its corners are missed, and
