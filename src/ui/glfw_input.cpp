@@ -18,6 +18,10 @@ glm::vec2 vectorOf(VkExtent2D extent) {
   return {static_cast<float>(extent.width), static_cast<float>(extent.height)};
 }
 
+bool isKey(const InputEvent& event, std::initializer_list<int> codes) {
+  return event.kind == InputEvent::Kind::key && std::ranges::find(codes, event.code) != codes.end();
+}
+
 }  // namespace
 
 // Tells ImGui of focus at once; other events wait for a frame. Leaves out repeated keys, because the panels repeat by
@@ -117,18 +121,20 @@ std::vector<InputEvent> InputQueue::take() {
   bool buttonReleased = false;
   bool moved = false;
   bool typed = false;
+  bool alt = false;
   while (!events_.empty()) {
     const InputEvent event = events_.front();
     // Letters also come as text, so a frame need not show that their keys are down.
     const bool pressed = event.down && (event.kind == Kind::button || (event.kind == Kind::key && event.command));
     const bool drops = moved && event.kind == Kind::button && !event.down;
     // A text field ignores text of a frame in which Control is down.
-    const bool controls = typed && event.kind == Kind::key && event.down &&
-                          (event.code == GLFW_KEY_LEFT_CONTROL || event.code == GLFW_KEY_RIGHT_CONTROL);
+    const bool controls = typed && event.down && isKey(event, {GLFW_KEY_LEFT_CONTROL, GLFW_KEY_RIGHT_CONTROL});
+    const bool isAlt = isKey(event, {GLFW_KEY_LEFT_ALT, GLFW_KEY_RIGHT_ALT});
     if ((pressed && (keyReleased || buttonReleased)) || (event.kind == Kind::pointer && buttonReleased) || drops ||
-        controls) {
+        controls || (isAlt && alt)) {
       break;
     }
+    alt = alt || isAlt;
     moved = moved || event.kind == Kind::pointer;
     typed = typed || event.kind == Kind::text;
     taken.push_back(event);

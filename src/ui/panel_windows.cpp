@@ -85,16 +85,22 @@ void PanelWindows::quietAfterDrag() {
   }
 }
 
-// Alt alone goes to the menus, as in other programs. Dear ImGui has just gone to the title of the panel instead.
+// Alt alone goes to the menus, as in other programs. Dear ImGui goes to the title of the focused panel instead, and
+// nowhere if no panel is focused.
 void PanelWindows::goToMenusByAlt() {
   ImGuiContext& context = *ImGui::GetCurrentContext();
-  const bool released = std::exchange(alt_, ImGui::GetIO().KeyAlt) && !alt_;
+  const ImGuiIO& io = ImGui::GetIO();
+  context.NavWindowingToggleLayer = context.NavWindowingToggleLayer && !ImGui::IsAnyMouseDown();
+  const bool leftWindow = ImGui::IsMousePosValid(&io.MousePos) != ImGui::IsMousePosValid(&io.MousePosPrev);
+  const bool tapped = std::exchange(alt_, context.NavWindowingToggleLayer) && !io.KeyAlt && !io.KeyCtrl &&
+                      !io.KeyShift && io.InputQueueCharacters.empty() && !leftWindow;
   ImGuiWindow* const bar = ImGui::FindWindowByName("##MainMenuBar");
-  if (released && context.NavWindow && context.NavWindow != bar && context.NavLayer == ImGuiNavLayer_Menu && bar &&
-      bar->WasActive) {
+  const bool free = context.ActiveId == 0 && context.OpenPopupStack.empty() && context.NavWindow != bar;
+  if (tapped && free && bar && bar->WasActive) {
     ImGui::FocusWindow(bar);
     context.NavLayer = ImGuiNavLayer_Menu;
     ImGui::NavInitWindow(bar, true);
+    imgui::showFocus();
   }
 }
 

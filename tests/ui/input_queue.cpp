@@ -52,6 +52,20 @@ TEST(InputQueue, TapsLastOneFrame) {
   EXPECT_TRUE(queue.take().empty());
 }
 
+TEST(InputQueue, TapOfAltLastsOneFrame) {
+  InputQueue queue;
+  for (int tap = 0; tap < 2; ++tap) {
+    queue.push(letter(GLFW_KEY_LEFT_ALT, true));
+    queue.push(letter(GLFW_KEY_LEFT_ALT, false));
+  }
+  for (const bool down : {true, false, true, false}) {
+    const std::vector<InputEvent> taken = queue.take();
+    ASSERT_EQ(taken.size(), 1u);
+    EXPECT_EQ(taken[0].down, down);
+  }
+  EXPECT_TRUE(queue.empty());
+}
+
 TEST(InputQueue, TypedTextTakesOneFrame) {
   InputQueue queue;
   for (const int c : {'a', 'b', 'c'}) {

@@ -456,22 +456,49 @@ TEST_F(PanelTest, EnterTypesIntoSliders) {
 }
 
 TEST_F(PanelTest, AltGoesToTheMenus) {
-  const auto tapAlt = [&] {
-    for (const bool down : {true, false}) {
-      holdAlt(down);
-      run(2);
-    }
+  const auto tapAlt = [&](const auto& meanwhile) {
+    holdAlt(true);
+    run();
+    meanwhile();
+    holdAlt(false);
+    run();
   };
-  tapAlt();
+  const auto clickPicture = [&] {
+    moveTo(450, 600);
+    press();
+  };
+  const auto opensMenu = [&] {
+    tap(ImGuiKey_DownArrow);
+    const bool open = has("menu.New");
+    tap(ImGuiKey_Escape);
+    tap(ImGuiKey_Escape);
+    return open;
+  };
+  const auto nothing = [] {};
+  tapAlt(nothing);
+  EXPECT_TRUE(opensMenu()) << "of a panel";
+  clickPicture();
+  ASSERT_FALSE(ImGui::GetCurrentContext()->NavWindow);
+  tapAlt(nothing);
+  EXPECT_TRUE(opensMenu()) << "of the picture";
+  for (const bool panel : {true, false}) {
+    panel ? void(click("panel.Log")) : clickPicture();
+    tapAlt([&] {
+      holdControl(true);
+      run();
+      holdControl(false);
+    });
+    EXPECT_FALSE(opensMenu()) << "Alt alone";
+    tapAlt([&] { type("f"); });
+    EXPECT_FALSE(opensMenu()) << "not a key with Alt";
+    tapAlt(clickPicture);
+    EXPECT_FALSE(opensMenu()) << "not a drag with Alt";
+  }
+  ask(Prompt::unsavedChanges);
+  tapAlt(nothing);
   tap(ImGuiKey_DownArrow);
-  EXPECT_TRUE(has("menu.New"));
-  tap(ImGuiKey_Escape);
-  click("panel.Log");
-  holdControl(true);
-  tapAlt();
-  holdControl(false);
-  tap(ImGuiKey_DownArrow);
-  EXPECT_FALSE(has("menu.New")) << "Alt alone";
+  EXPECT_FALSE(has("menu.New")) << "a prompt is open";
+  EXPECT_TRUE(ImGui::GetTopMostPopupModal());
 }
 
 TEST_F(PanelTest, MenusSendTheirCommands) {
