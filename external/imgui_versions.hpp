@@ -49,11 +49,11 @@ inline void showFocus() {
 #endif
 
 // Enter presses the focused widget, as the space bar does; later versions do so themselves. Texts and numbers are edited
-// instead. Prompts decide themselves what Enter does. Call it between ImGui::NewFrame() and the first widget.
+// instead. Call it between ImGui::NewFrame() and the first widget.
 template <typename Context>
 void pressByEnter(Context& context) {
   if constexpr (requires { context.NavActivateInputId; }) {
-    if (context.NavActivateInputId != 0 && context.ActiveId == 0 && !ImGui::GetTopMostPopupModal()) {
+    if (context.NavActivateInputId != 0 && context.ActiveId == 0) {
       context.NavActivateId = context.NavActivateDownId = context.NavActivateInputId;
     }
   }

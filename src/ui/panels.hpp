@@ -121,6 +121,7 @@ struct PanelState {
     std::string typed;
     std::filesystem::path marked;  // row that was clicked last
     std::string problem;           // why the typed file cannot be opened
+    std::string note;              // why the last file was not saved
     size_t modelsOutside = 0;      // number of the scene's models that are neither in the listed folder nor below
   } files;
   bool copyModels = true;         // when the scene is saved into another folder

@@ -46,13 +46,10 @@ bool beginPrompt(const char* title, bool recenter) {
 }
 
 void answerButton(PanelContext& ui, const char* label, std::string_view key, Command command) {
-  // Dear ImGui presses the focused button with the space bar only; this adds Enter.
-  const bool pressed = ImGui::Button(label);
-  recordWidget(ui, key);
-  if (pressed || (ImGui::IsItemFocused() && enterPressed())) {
+  if (ImGui::Button(label)) {
     ui.send(std::move(command));
-    ImGui::CloseCurrentPopup();
   }
+  recordWidget(ui, key);
 }
 
 // Gives the last item the keyboard when its prompt opens, and shows that it has it.
@@ -142,14 +139,23 @@ void focusField(PanelState::Files& files) {
   }
 }
 
+// Height that the list leaves to a message below it, so that the prompt keeps its size and its place.
+float messageHeight(const std::string& message) {
+  return message.empty()
+             ? 0.0f
+             : ImGui::CalcTextSize(message.c_str(), nullptr, false, fieldWidth()).y + ImGui::GetStyle().ItemSpacing.y;
+}
+
 struct ChosenRow {
   std::filesystem::path file;
   bool folder = false;
   bool opens = false;  // by a double click or Enter, else it was clicked once
 };
 
-// Draws the list of a folder. If the name was `edited` in this frame, scrolls to the first entry that begins with it.
-std::optional<ChosenRow> fileList(PanelContext& ui, const std::filesystem::path& folder, float height, bool edited) {
+// Draws the list of a folder, above the message. If the name was `edited` in this frame, scrolls to the first entry
+// that begins with it.
+std::optional<ChosenRow> fileList(PanelContext& ui, const std::filesystem::path& folder, float height, bool edited,
+                                  const std::string& message) {
   PanelState::Files& files = ui.state.files;
   std::error_code none;
   const std::filesystem::path shown = named(files);
@@ -167,7 +173,8 @@ std::optional<ChosenRow> fileList(PanelContext& ui, const std::filesystem::path&
     files.marked.clear();
   }
   const float others = 8.0f * ImGui::GetFrameHeightWithSpacing();  // height of the menus and of the other rows
-  imgui::beginList("files", {width, std::min(height, ImGui::GetIO().DisplaySize.y - others)});
+  const float most = std::min(height, ImGui::GetIO().DisplaySize.y - others);
+  imgui::beginList("files", {width, std::max(most - messageHeight(message), ImGui::GetFrameHeight())});
   const auto row = [&](const std::string& name, const std::string& label, const std::filesystem::path& file,
                        bool isFolder, bool first) {
     constexpr auto rowFlags = ImGuiSelectableFlags_AllowDoubleClick | ImGuiSelectableFlags_DontClosePopups;
@@ -205,20 +212,22 @@ void saveAs(PanelContext& ui) {
     enter(files, proposed.parent_path(), proposed);
     files.folder = proposed.parent_path();  // with its links, because the suggested folder is known by that path
   }
+  const std::string& note = ui.input.edit.note;
+  files.focus = !note.empty() && std::exchange(files.note, note) != note ? Focus::field : files.focus;
   focusField(files);
   typedField(files, "##file", "");
   const bool edited = ImGui::IsItemEdited();
   recordWidget(ui, "edit.file");
   // The list's folder is where the file goes, so it is listed as empty until saving makes it.
   const std::filesystem::path folder = withoutLinks(named(files).parent_path());
-  const auto chosen = fileList(ui, folder, 12.0f * ImGui::GetFontSize(), edited);
+  const auto chosen = fileList(ui, folder, 12.0f * ImGui::GetFontSize(), edited, note);
   if (chosen && (chosen->opens || !chosen->folder)) {
     files.typed = textOf(chosen->folder ? named(files) : chosen->file);
     files.folder = chosen->folder ? chosen->file : folder;
     files.focus = chosen->folder && enterPressed() ? Focus::list : files.focus;
   }
-  if (!ui.input.edit.note.empty()) {
-    coloredText(errorColor, ui.input.edit.note);
+  if (!note.empty()) {
+    coloredText(errorColor, note);
   }
   const bool moves = files.modelsOutside > 0 && folder != withoutLinks(ui.input.edit.ownFile).parent_path();
   if (moves) {
@@ -226,19 +235,15 @@ void saveAs(PanelContext& ui) {
     recordWidget(ui, "where.models", "With materials and textures, into 'models' beside the scene; else they stay.");
   }
   ImGui::TextDisabled("Opens with the scene's own camera. M keeps a view as a bookmark.");
-  const size_t commands = ui.output.commands.size();
   const SaveAs answer{named(files), moves && ui.state.copyModels};
   answerButton(ui, "Save", "where.save", answer);
   ImGui::SameLine();
   answerButton(ui, "Cancel", "where.cancel", CancelPrompt{});
-  if (chosen || ui.output.commands.size() != commands || !enterPressed()) {
+  const bool pressesWidget = ImGui::GetCurrentContext()->NavActivateId != 0;
+  if (chosen || pressesWidget || !enterPressed()) {
     return;
   }
-  if (isFolder(named(files))) {
-    return enter(files, named(files), ui.input.edit.proposedFile);
-  }
-  ui.send(answer);
-  ImGui::CloseCurrentPopup();  // if saving fails the prompt opens again, with the keyboard in the field
+  isFolder(named(files)) ? enter(files, named(files), ui.input.edit.proposedFile) : ui.send(answer);
 }
 
 // Says how long ago a file was written; empty if there is none.
@@ -295,7 +300,7 @@ void openFile(PanelContext& ui) {
     }
     folder /= part;
   }
-  const auto chosen = fileList(ui, folder, 20.0f * ImGui::GetFontSize(), edited);
+  const auto chosen = fileList(ui, folder, 20.0f * ImGui::GetFontSize(), edited, files.problem);
   if (chosen) {
     files.typed = chosen->file == files.listed.parent_path() ? ".." : textOf(chosen->file);
     files.folder = files.listed;
@@ -329,7 +334,6 @@ void openFile(PanelContext& ui) {
     return;
   }
   ui.send(adds ? Command(AddObject{file}) : Command(OpenScene{file}));
-  ImGui::CloseCurrentPopup();
 }
 
 }  // namespace
@@ -346,10 +350,12 @@ void prompts(PanelContext& ui) {
     const bool asked = ui.input.edit.prompt == prompt;
     if (asked && !ImGui::IsPopupOpen(title)) {
       ImGui::OpenPopup(title);
+    } else if (!asked && ImGui::IsPopupOpen(title)) {
+      ImGui::ClosePopupToLevel(0, true);
     }
     if (beginPrompt(title, resized)) {
       ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + fieldWidth());
-      asked ? content(ui) : ImGui::CloseCurrentPopup();
+      content(ui);
       ImGui::PopTextWrapPos();
       ImGui::EndPopup();
     }

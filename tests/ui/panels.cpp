@@ -724,6 +724,63 @@ TEST_F(PanelTest, MistypedNamesAreTypedAgain) {
   EXPECT_EQ(only<OpenScene>().file.filename(), "room.toml") << "scenes are opened by their names";
 }
 
+TEST_F(PanelTest, RefusedFilesMoveNoPrompt) {
+  const auto expectStays = [&](const char* title, const auto& refuse) {
+    const ImGuiWindow& prompt = *ImGui::FindWindowByName(title);
+    const ImVec2 corner = prompt.Pos, size = prompt.Size;
+    refuse();
+    for (int i = 0; i < 4; ++i) {
+      run();
+      EXPECT_TRUE(prompt.Active && !prompt.Hidden) << title << ", frame " << i;
+      EXPECT_EQ(glm::vec4(prompt.Pos.x, prompt.Pos.y, prompt.Size.x, prompt.Size.y),
+                glm::vec4(corner.x, corner.y, size.x, size.y))
+          << title << ", frame " << i;
+    }
+    EXPECT_TRUE(ImGui::GetIO().WantTextInput) << title << ": another name is typed";
+  };
+  ask(Prompt::saveAs, config_.path() / "room.toml");
+  for (const char* why : {"it comes with the program", "it has three lines\nof which each\nis shown"}) {
+    click("where.save");
+    expectStays("Save as", [&] { edit_.note = (config_.path() / "room.toml").string() + ": not saved: " + why; });
+    EXPECT_TRUE(shows("not saved"));
+  }
+  ask(Prompt::none);
+  ask(Prompt::open, config_.path() / "");
+  type("roof.toml");
+  hover("open.open");
+  expectStays("Open", [&] { press(); });
+  EXPECT_TRUE(shows("There is no file"));
+}
+
+TEST_F(PanelTest, AnsweredPromptsCloseAtOnce) {
+  ask(Prompt::recovery, "/home/scene.toml");
+  edit_.prompt = Prompt::saveAs;
+  run();
+  EXPECT_FALSE(ImGui::FindWindowByName("Unsaved changes of the last session")->Active);
+  EXPECT_TRUE(ImGui::FindWindowByName("Save as")->Active);
+  edit_.prompt = Prompt::none;
+  run();
+  EXPECT_FALSE(ImGui::FindWindowByName("Save as")->Active);
+  EXPECT_FALSE(ImGui::GetTopMostPopupModal());
+}
+
+TEST_F(PanelTest, EnterPressesWidgetsOfPrompts) {
+  edit_.ownFile = config_.path() / "own" / "scene.toml";
+  ask(Prompt::saveAs, config_.path() / "new.toml");
+  click("where.models", 0.05);
+  ASSERT_FALSE(windows_->state().copyModels);
+  tap(ImGuiKey_UpArrow);
+  tap(ImGuiKey_DownArrow);
+  commands_.clear();
+  tap(ImGuiKey_Enter);
+  EXPECT_TRUE(windows_->state().copyModels);
+  EXPECT_TRUE(commands_.empty()) << "nothing is saved";
+  tap(ImGuiKey_DownArrow);
+  tap(ImGuiKey_RightArrow);
+  tap(ImGuiKey_Enter);
+  EXPECT_TRUE(sent<CancelPrompt>() && !sent<SaveAs>());
+}
+
 TEST_F(PanelTest, ListScrollsToTypedNames) {
   for (int i = 0; i < 60; ++i) {
     std::ofstream(config_.path() / ("room " + std::to_string(i) + ".toml")) << "";
