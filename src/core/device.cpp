@@ -8,7 +8,10 @@
 #include <ctime>
 #include <set>
 #include <stdexcept>
+#include <system_error>
+#include <thread>
 
+#include "platform/process.hpp"
 #include "platform/text.hpp"
 #include "platform/window.hpp"
 
@@ -28,6 +31,16 @@ VkPhysicalDeviceFeatures usedFeatures(const VkPhysicalDeviceFeatures& available)
       .pipelineStatisticsQuery = available.pipelineStatisticsQuery,
       .shaderClipDistance = VK_TRUE,
   };
+}
+
+// Throws if no further thread can be started. lavapipe 22.3 may then have fewer than one a core, and would wait for the
+// missing ones for ever, in the first draw.
+void requireThreads(const std::string& gpu) {
+  try {
+    std::thread([] {}).join();
+  } catch (const std::system_error& error) {
+    throw std::runtime_error("start the threads of " + gpu + ": " + error.code().message() + memoryLimitAdvice());
+  }
 }
 
 constexpr std::array<std::string_view, 3> renderPathNames{"auto", "dynamic", "renderpass"};
@@ -160,6 +173,9 @@ void Device::createDevice(const DeviceOptions& options) {
     check(vkCreateDevice(gpu_.handle, &info, nullptr, &device), "create the logical device of " + gpu_.info.name);
   }
   device_.reset(device);
+  if (this->info().isCpu()) {
+    requireThreads(this->info().name);
+  }
   vkGetDeviceQueue(device, gpu_.queueFamily, 0, &queue_);
   vkGetDeviceQueue(device, gpu_.presentFamily, 0, &presentQueue_);
 }
@@ -213,7 +229,8 @@ void Device::await(VkFence fence, std::string_view what) {
   for (int waited = 0; result == VK_TIMEOUT; ++waited) {
     if (waited == patience) {
       stuck_ = std::string(what) + ": " + info().name +
-               " has not finished within a minute (see the kernel's log, or choose another GPU with --gpu)";
+               " has not finished within a minute (see the kernel's log, or choose another GPU with --gpu)" +
+               (info().isCpu() ? memoryLimitAdvice() : "");
       throw std::runtime_error(stuck_);
     }
     const std::clock_t before = std::clock();  // of all threads, among them those of a driver for CPUs

@@ -247,6 +247,24 @@ TEST_F(CommandLine, LimitedMemoryEndsInOneLine) {
   EXPECT_EQ(occurrences(reference.output, "\n"), 1) << reference.output;
 }
 
+// The threads' stacks of 64 MiB do not fit, as smaller ones on a machine of many cores. Without the last one, lavapipe
+// would never finish a draw.
+TEST_F(CommandLine, LimitedMemoryForThreadsIsSaidAtOnce) {
+  if (instrumented > 1) {
+    GTEST_SKIP() << "sanitizers reserve terabytes of addresses";
+  }
+  for (const int mebibytes : {700, 1000}) {
+    const ProcessResult result =
+        runProcess({"sh", "-c", "ulimit -s 65536 && ulimit -v $0 && LP_NUM_THREADS=16 exec \"$@\"",
+                    std::to_string(mebibytes << 10), program, "render", "--scene", scene_, "--size", "64x36", "--out",
+                    out("x.png")});
+    EXPECT_EQ(result.exitCode, 2);
+    EXPECT_EQ(occurrences(result.output, "\n"), 1) << result.output;
+    EXPECT_TRUE(contains(result.output, std::to_string(mebibytes) + " MiB of address space: raise ulimit -v"))
+        << result.output;
+  }
+}
+
 // Beyond the user's limit of file sizes a signal would end the program.
 TEST_F(CommandLine, FileSizeLimitKeepsTheOldFiles) {
   replaceFile(out("x.png"), "old");

@@ -1,6 +1,7 @@
 // Devices that lack what others have: hidden by fault_layer/fault_layer.cpp.
 #include "faults/support.hpp"
 #include "image/picture_files.hpp"
+#include "instrumented.hpp"
 
 namespace speculum {
 namespace {
@@ -120,6 +121,14 @@ TEST_F(Devices, TooLittleIsOneLine) {
     expectLine(poor, 2, says);
     EXPECT_FALSE(poor.picture) << lacks;
   }
+}
+
+TEST_F(Devices, StuckDriverForCpusNamesTheMemoryLimit) {
+  if (instrumented > 1) {
+    GTEST_SKIP() << "sanitizers reserve terabytes of addresses";
+  }
+  const Run stuck = run(render, {"SPECULUM_HIDE=signals", "prlimit", "--as=34359738368"}, Place::inner);
+  expectLine(stuck, 2, "32768 MiB of address space: raise ulimit -v");
 }
 
 TEST_F(Devices, MissingFunctionsAreNamed) {
