@@ -60,20 +60,6 @@ fs::path thumbnailOf(const fs::path& scene) {
   return isFile(shipped) ? shipped : storedThumbnail(scene);
 }
 
-// Returns a picture without pixels for a scene that has no thumbnail.
-Image8 readThumbnail(const fs::path& scene) {
-  const fs::path file = thumbnailOf(scene);
-  Image8 picture;
-  try {
-    picture = isFile(file) ? readImage8(file) : Image8();
-  } catch (const std::runtime_error& error) {
-    spdlog::warn("{}", error.what());
-  }
-  // Drops a large picture, which would leave too little of the shared texture for the fonts.
-  const bool fits = picture.width <= thumbnailSize.x && picture.height <= thumbnailSize.y;
-  return fits ? picture : Image8();
-}
-
 // Returns the middle of the picture, shrunk by averages of its 8-bit codes.
 Image8 shrunk(const Image8& picture) {
   const glm::dvec2 size(picture.width, picture.height);
@@ -201,7 +187,7 @@ void SceneBrowser::show(const fs::path& file, bool withFolder) {
   listed_ = listed_ || fresh || leavesNew;
 }
 
-std::vector<Image8> SceneBrowser::thumbnails() const {
+std::vector<Image8> SceneBrowser::thumbnails() {
   std::vector<Image8> pictures;
   for (const SceneEntry& entry : shown_.scenes) {
     pictures.push_back(readThumbnail(entry.file));
@@ -209,8 +195,19 @@ std::vector<Image8> SceneBrowser::thumbnails() const {
   return pictures;
 }
 
-Image8 SceneBrowser::thumbnail() const {
-  return readThumbnail(shown_.scenes[shown_.shown].file);
+Image8 SceneBrowser::readThumbnail(const fs::path& scene) {
+  const fs::path file = thumbnailOf(scene);
+  Image8 picture;
+  try {
+    picture = isFile(file) ? readImage8(file) : Image8();
+  } catch (const std::runtime_error& error) {
+    if (broken_.insert(file).second) {
+      spdlog::warn("{}", error.what());
+    }
+  }
+  // Drops a large picture, which would leave too little of the shared texture for the fonts.
+  const bool fits = picture.width <= thumbnailSize.x && picture.height <= thumbnailSize.y;
+  return fits ? picture : Image8();
 }
 
 void SceneBrowser::storeThumbnail(const std::function<Image8()>& picture) {

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "session/session.hpp"
@@ -20,8 +21,9 @@ class SceneBrowser {
   // Marks the file as shown. Adds a file from elsewhere at the end of the list or, with `withFolder`, lists the scenes
   // of its folder too. A new scene is listed only while it is shown.
   void show(const std::filesystem::path& file, bool withFolder);
-  std::vector<Image8> thumbnails() const;  // of the list; without pixels for a scene that has none
-  Image8 thumbnail() const;                // of the shown scene; without pixels if it has none
+  // Pictures of the list and of the shown scene, without pixels for a scene that has none.
+  std::vector<Image8> thumbnails();
+  Image8 thumbnail() { return readThumbnail(shown_.scenes[shown_.shown].file); }
   // Stores a picture of the shown scene as its thumbnail, unless the scene comes with one.
   void storeThumbnail(const std::function<Image8()>& picture);
   // Says whether the list or a thumbnail has changed since the last call. True at first.
@@ -53,12 +55,14 @@ class SceneBrowser {
     double done = 0.0;           // share, 0 .. 1
   };
 
+  Image8 readThumbnail(const std::filesystem::path& scene);
   void readRecent();
   size_t add(const std::filesystem::path& file);         // lists the file, and returns its index
   void addSaved(const std::vector<SceneEntry>& scenes);  // all but new scenes
 
   ShownScenes shown_;
   bool listed_ = true;
+  std::set<std::filesystem::path> broken_;           // thumbnails that were warned of
   std::map<std::filesystem::path, size_t> indices_;  // into ShownScenes::scenes, by canonical path
   BackgroundJob<std::unique_ptr<LoadedScene>, Progress> load_;
 };

@@ -857,6 +857,20 @@ TEST_F(Opening, FirstPictureIsTheThumbnailOfForeignFiles) {
   });
 }
 
+TEST_F(Opening, BrokenThumbnailsAreWarnedOfOnce) {
+  fs::create_directories(home_.path() / "thumbnails");
+  fs::copy_file(options_.scene, home_.path() / "own.toml");
+  std::ofstream(home_.path() / "thumbnails" / "own.jpg") << "no picture";
+  options_.scene = (home_.path() / "own.toml").string();
+  start();
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_EQ(workspace_->browser().thumbnail().width, 0);
+    EXPECT_EQ(workspace_->browser().thumbnails().at(shown().browser.shown).width, 0);
+  }
+  EXPECT_EQ(std::ranges::count_if(shown().log.lines(), [](const auto& line) { return contains(line.text, "own.jpg"); }),
+            1);
+}
+
 TEST_F(Opening, ThumbnailsFollowTheList) {
   const std::vector<Image8> pictures = workspace_->browser().thumbnails();
   const ShownScenes& browser = shown().browser;
