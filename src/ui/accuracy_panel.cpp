@@ -191,6 +191,11 @@ void plot(PanelContext& ui) {
       "still window shows the mean of several, with less error, unless a point was picked.");
 }
 
+// Says whether the settings are others than the user's own, from before a point was picked.
+bool differsFromOwn(const PanelContext& ui) {
+  return ui.input.accuracy.own && ui.input.accuracy.own != ui.settings;
+}
+
 void frontSlider(PanelContext& ui) {
   const ShownAccuracy& accuracy = ui.input.accuracy;
   const int last = static_cast<int>(accuracy.front.size()) - 1;
@@ -208,7 +213,7 @@ void frontSlider(PanelContext& ui) {
   recordWidget(ui, "accuracy.slider");
   // Below the slider, which is too narrow for most names.
   commandButton(ui, "Back", "accuracy.back", "Returns to your settings, from before a point was picked.",
-                SetSettings{accuracy.own.value_or(ui.settings)}, accuracy.own && accuracy.own != ui.settings);
+                SetSettings{accuracy.own.value_or(ui.settings)}, differsFromOwn(ui));
   nextButton(ui, "Compare", "accuracy.compare", "A | B: shows your settings on the left, and the point on the right.",
              ToggleSplit{SplitStart::point}, comparesPoint(ui));
   ImGui::SameLine();
@@ -305,8 +310,7 @@ std::string timeLeft(double seconds) {
 }  // namespace
 
 bool comparesPoint(const PanelContext& ui) {
-  const ShownAccuracy& accuracy = ui.input.accuracy;
-  return !ui.input.split.on && accuracy.current >= 0 && accuracy.own && accuracy.own != ui.settings;
+  return !ui.input.split.on && ui.input.accuracy.current >= 0 && differsFromOwn(ui);
 }
 
 void accuracy(PanelContext& ui) {

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <map>
+#include <tuple>
 
 #include "accuracy/pareto.hpp"
 #include "accuracy/sweep.hpp"
@@ -98,13 +99,14 @@ class AccuracyController {
   // Call with the settings of a point that the user picked. While these are in use, shown() returns them without the
   // mean of still pictures, which hides how points differ.
   void pick(const Settings& before, const Settings& settings) {
-    shown_.own = picked_ == before ? shown_.own : before;
-    picked_ = settings;
+    setPick({picked_ == before ? shown_.own : before, settings});
   }
-  void forgetPick() {  // call when another scene is shown
-    shown_.own.reset();
-    picked_.reset();
-  }
+  struct Pick {
+    std::optional<Settings> own;     // as in ShownAccuracy
+    std::optional<Settings> picked;  // of the point; none: no point was picked
+  };
+  Pick pick() const { return {shown_.own, picked_}; }
+  void setPick(const Pick& pick) { std::tie(shown_.own, picked_) = std::tie(pick.own, pick.picked); }
   Settings shown(Settings settings) const;
 
   // Call before a frame. Takes finished results; if `settings` have a budget, it then chooses a point of them, which is

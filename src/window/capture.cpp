@@ -61,10 +61,11 @@ std::string Capture::record(const Image8& picture) {
   return recorded_;
 }
 
-Capture::Saved Capture::save(const std::string& scene, const Image8& picture) {
+Capture::Saved Capture::save(const std::string& scene, const Image8& picture, const std::string& progress, bool waits) {
   Saved saved;
   if (recording()) {
     saved.message = record(picture);
+    saved.message += recording() && waits ? " Space plays the animation." : "";
   }
   if (std::exchange(screenshot_, Screenshot::none) == Screenshot::none) {
     return saved;
@@ -72,7 +73,7 @@ Capture::Saved Capture::save(const std::string& scene, const Image8& picture) {
   try {
     const std::filesystem::path file = newPath(scene, ".png");
     writePng(file, picture);
-    return {"Saved " + file.string(), true};
+    return {"Saved " + file.string() + (progress.empty() ? "" : ", " + progress), true};
   } catch (const std::exception& error) {
     return {"Not saved: " + std::string(error.what()), true};
   }

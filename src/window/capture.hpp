@@ -29,8 +29,9 @@ class Capture {
     std::string message;
     bool logged = false;  // the message goes to the log too
   };
-  // Saves the frame; call it if wanted(). A recorded picture that cannot be written ends the recording.
-  Saved save(const std::string& scene, const Image8& picture);
+  // Saves the frame; call it if wanted(). A recorded picture that cannot be written ends the recording. `progress`:
+  // whether the picture is finished; may be empty. `waits`: the scene moves, but is paused.
+  Saved save(const std::string& scene, const Image8& picture, const std::string& progress, bool waits);
 
  private:
   enum class Screenshot { none, window, bare };

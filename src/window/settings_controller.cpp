@@ -1,5 +1,7 @@
 #include "window/settings_controller.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -110,13 +112,14 @@ void SplitView::frameDrawn(const HalfFrame& frame, const Truth& truth, const std
   });
 }
 
-SettingsController::SettingsController(const Options& options, const LoadedScene& loaded)
-    : ofScene_(loaded.settings), accuracy_(options, loaded.settings, loaded.quality ? loaded.quality->why : "") {}
+SettingsController::SettingsController(const Options& options, const LoadedScene& loaded, StatusLine& status)
+    : ofScene_(loaded.settings),
+      accuracy_(options, loaded.settings, loaded.quality ? loaded.quality->why : ""),
+      status_(status) {}
 
 void SettingsController::setDocument(SceneDocument& document, const Settings& loaded) {
   document_ = &document;
-  accuracy_.forgetPick();
-  beforePoint_.reset();
+  accuracy_.setPick({});
   split_.end();
   ofScene_ = loaded;
 }
@@ -138,35 +141,57 @@ void SettingsController::applyPoint(int point) {
   accuracy_.pick(before, settings);
 }
 
-void SettingsController::beginSplit(SplitStart start, double divider) {
-  Settings a = ofScene_, b = ofScene_;
-  if (start == SplitStart::naive) {
-    b = naiveSettings(a);
-  } else if (start == SplitStart::point) {
-    a = accuracy_.shown().own.value_or(a);
-    b.quality.stillPictures = 1;  // as it was measured
-    beforePoint_ = a;
-    accuracy_.forgetPick();
+bool SettingsController::toggleSplit(SplitStart start, double divider) {
+  if (split_.on()) {
+    endSplit();
+    if (start == SplitStart::current) {
+      return false;
+    }
+  }
+  const bool point = start == SplitStart::point;
+  const Settings a = point ? accuracy_.shown().own.value_or(ofScene_) : ofScene_;
+  Settings b = start == SplitStart::naive ? naiveSettings(ofScene_) : ofScene_;
+  b.quality.stillPictures = point ? 1 : b.quality.stillPictures;  // as it was measured
+  split_.begin(a, b, divider);
+  splitBegan();
+  if (point) {
     accuracy_.pick(a, b);
   }
-  split_.begin(a, b, divider);
-  chooseHalf(split_.chosen());
+  tellHalf();
+  return true;
 }
 
 void SettingsController::beginLesson(size_t index, const Settings& loaded, double divider) {
   split_.beginLesson(index, loaded, divider);
-  chooseHalf(split_.chosen());
+  splitBegan();
+}
+
+void SettingsController::splitBegan() {
+  pickOfScene_ = accuracy_.pick();
+  accuracy_.setPick({});
+  edit(split_.chosen());
 }
 
 void SettingsController::chooseHalf(int half) {
   if (split_.on()) {
-    if (half != split_.chosen()) {
-      accuracy_.forgetPick();  // it was one of the other half
-    }
-    split_.choose(half);
-    accuracy_.acceptBudget(chosen());
-    accuracy_.showAgain();
+    edit(half);
+    tellHalf();
   }
+}
+
+void SettingsController::edit(int half) {
+  if (half != split_.chosen()) {
+    accuracy_.setPick({});  // it was one of the other half
+  }
+  split_.choose(half);
+  accuracy_.acceptBudget(chosen());
+  accuracy_.showAgain();
+}
+
+void SettingsController::tellHalf() {
+  const auto [chosen, other] = split_.chosen() == 0 ? std::pair('A', 'B') : std::pair('B', 'A');
+  status_.set(fmt::format("A | B: the panel changes the settings of {}. X changes to {}, Esc ends it.", chosen, other),
+              [this] { return split_.on(); });
 }
 
 void SettingsController::keepHalf() {
@@ -181,10 +206,7 @@ void SettingsController::keepHalf() {
 
 void SettingsController::endSplit() {
   split_.end();
-  accuracy_.forgetPick();
-  if (const std::optional<Settings> before = std::exchange(beforePoint_, {})) {
-    accuracy_.pick(*before, ofScene_);
-  }
+  accuracy_.setPick(pickOfScene_);
   document_->forgetHalves();
   accuracy_.acceptBudget(ofScene_);
   accuracy_.showAgain();
@@ -192,8 +214,8 @@ void SettingsController::endSplit() {
 
 bool SettingsController::follow(const std::optional<SettingsStep>& step, bool back) {
   if (step) {
-    if (step->half >= 0) {
-      chooseHalf(step->half);
+    if (step->half >= 0 && split_.on()) {
+      edit(step->half);
     }
     // Copies only the settings that the step changed, because a measurement may have chosen others since.
     Settings& settings = step->half >= 0 ? edited() : ofScene_;

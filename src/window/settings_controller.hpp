@@ -13,6 +13,7 @@
 #include "ui/shown.hpp"
 #include "window/accuracy_controller.hpp"
 #include "window/background_job.hpp"
+#include "window/status_line.hpp"
 
 namespace speculum {
 
@@ -78,8 +79,8 @@ class SplitView {
 // measured points. Each change is a step of the document's undo.
 class SettingsController {
  public:
-  // Throws what AccuracyController throws.
-  SettingsController(const Options& options, const LoadedScene& loaded);
+  // Throws what AccuracyController throws. The status line, which tells which half is edited, must outlive this object.
+  SettingsController(const Options& options, const LoadedScene& loaded, StatusLine& status);
   // Call when another scene is shown. `loaded`: the settings that it was loaded with. The document must outlive this
   // object, or the next call.
   void setDocument(SceneDocument& document, const Settings& loaded);
@@ -93,8 +94,9 @@ class SettingsController {
 
   void set(const Settings& settings, bool continued = false);  // the chosen ones; `continued` as of SetSettings
   void applyPoint(int point);
-  // Begin A | B with the divider at this share of the picture's width.
-  void beginSplit(SplitStart start, double divider);
+  // Begin A | B with the divider at this share of the picture's width. If it is on, toggleSplit() ends it first, and
+  // begins it anew unless `start` is SplitStart::current. Returns whether it began.
+  bool toggleSplit(SplitStart start, double divider);
   void beginLesson(size_t index, const Settings& loaded, double divider);
   void chooseHalf(int half);
   void keepHalf();  // ends A | B with the chosen half's settings
@@ -109,12 +111,16 @@ class SettingsController {
   const AccuracyController& accuracy() const { return accuracy_; }
 
  private:
+  void splitBegan();
+  void edit(int half);
+  void tellHalf();
   Settings& edited() { return split_.on() ? split_.settings(split_.chosen()) : ofScene_; }
 
   Settings ofScene_;
-  std::optional<Settings> beforePoint_;  // from before the picked point with which A | B began
   SplitView split_{shippedLessons()};
   AccuracyController accuracy_;
+  AccuracyController::Pick pickOfScene_;  // during A | B, whose halves have picks of their own
+  StatusLine& status_;
   SceneDocument* document_ = nullptr;
 };
 

@@ -23,7 +23,7 @@ Workspace::Workspace(const Options& options, WorkspaceHost& host)
       logCapture_(captureLog(log_)),
       loaded_(std::make_unique<LoadedScene>(loadSceneWithSettings(options))),
       shippedModels_(SceneBrowser::shippedModels()),
-      settings_(options, *loaded_),
+      settings_(options, *loaded_, status_),
       opener_(options, settings_.ofScene()) {
   browser().list(loaded_->scene.file);
   startDocument();
@@ -77,8 +77,8 @@ void Workspace::apply(const Command& command) {
                  [&](const SetSettings& c) { settings_.set(c.settings, c.continued); },
                  [&](const ResetSettings&) { settings_.set(loaded_->settings); },
                  [&](const ToggleSplit& c) { toggleSplit(c.start); },
-                 [&](const ChooseHalf& c) { chooseHalf(c.half); },
-                 [&](const ChooseOtherHalf&) { chooseHalf(1 - split().chosen()); },
+                 [&](const ChooseHalf& c) { settings_.chooseHalf(c.half); },
+                 [&](const ChooseOtherHalf&) { settings_.chooseHalf(1 - split().chosen()); },
                  [&](const MoveDivider& c) { split().moveDivider(c.share); },
                  [&](const KeepHalf&) { settings_.keepHalf(); },
                  [&](const NewScene&) { opener_.open({SceneBrowser::newScene()}); },
@@ -275,12 +275,9 @@ void Workspace::takeSceneChange() {
 void Workspace::frameDrawn(const ShownPicture& shown, const std::function<Image8()>& radiance, const Image8* captured,
                            int half) {
   if (captured) {
-    Capture::Saved saved = capture_.save(scene().file.stem().string(), *captured);
-    const std::string& picture = status_.shown().picture;
-    saved.message += saved.logged && !picture.empty() ? ", " + picture : "";
-    const bool waits = !saved.logged && capture_.recording() && animated() && !animates();
-    saved.message += waits ? " Space plays the animation." : "";
-    saved.logged ? status_.set(saved.message) : status_.show(saved.message);
+    const bool waits = animated() && !animates();
+    const auto [text, logged] = capture_.save(scene().file.stem().string(), *captured, status_.shown().picture, waits);
+    logged ? status_.set(text) : status_.show(text);
   }
   if (half == shownHalf()) {
     accuracy().afterFrame(shown, watchedState(shown.state), radiance);
@@ -395,28 +392,9 @@ void Workspace::dismissMessage() {
 }
 
 void Workspace::toggleSplit(SplitStart start) {
-  if (split().on()) {
-    settings_.endSplit();
-    if (start == SplitStart::current) {
-      return;
-    }
+  if (settings_.toggleSplit(start, middleOfFreePicture())) {
+    reports_[1] = {};
   }
-  settings_.beginSplit(start, middleOfFreePicture());
-  reports_[1] = {};
-  tellHalf();
-}
-
-void Workspace::chooseHalf(int half) {
-  settings_.chooseHalf(half);
-  if (split().on()) {
-    tellHalf();
-  }
-}
-
-void Workspace::tellHalf() {
-  const auto [chosen, other] = split().chosen() == 0 ? std::pair('A', 'B') : std::pair('B', 'A');
-  status_.set(fmt::format("A | B: the panel changes the settings of {}. X changes to {}, Esc ends it.", chosen, other),
-              [this] { return split().on(); });
 }
 
 void Workspace::beginLesson(size_t index) {

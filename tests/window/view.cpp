@@ -492,6 +492,45 @@ TEST_F(BudgetView, PickedPointIsComparedWithTheSettingsBefore) {
   EXPECT_TRUE(shown().accuracy.own == before) << "Back still leads there";
 }
 
+TEST_F(BudgetView, PickedPointOutlastsSplits) {
+  workspace_->accuracy().show(true, {});
+  const Settings before = workspace_->settings();
+  send(ApplyPoint{1});
+  for (const SplitStart start : {SplitStart::current, SplitStart::naive, SplitStart::point}) {
+    send(ToggleSplit{start});
+    EXPECT_EQ(shown().accuracy.alone, start == SplitStart::point) << "else both halves show a mean";
+    send(ApplyPoint{0});
+    send(ChooseOtherHalf{});
+    send(Escape{});
+    EXPECT_TRUE(shown().accuracy.own == before) << "Back still leads there";
+    EXPECT_TRUE(shown().accuracy.alone) << "as before A | B";
+  }
+}
+
+TEST_F(BudgetView, SettingsOfSplitsAreNotPicked) {
+  workspace_->accuracy().show(true, {});
+  const Settings before = workspace_->settings();
+  send(ApplyPoint{1});
+  const Settings picked = workspace_->settings();
+  ASSERT_FALSE(picked == before);
+  send(ToggleSplit{SplitStart::point});
+  send(Undo{});  // of the pick: the halves have no steps
+  ASSERT_TRUE(workspace_->split().on());
+  send(Escape{});
+  EXPECT_TRUE(workspace_->settings() == before);
+  EXPECT_FALSE(shown().accuracy.alone) << "what undo led back to was not picked";
+  send(Redo{});
+  ASSERT_TRUE(workspace_->settings() == picked);
+  EXPECT_TRUE(shown().accuracy.alone);
+  send(ToggleSplit{});
+  changeSettings([](Settings& settings) { settings.view.exposure = 3.0; });
+  send(KeepHalf{});
+  const Settings kept = workspace_->settings();
+  EXPECT_FALSE(shown().accuracy.alone) << "changed by hand";
+  send(ApplyPoint{0});
+  EXPECT_TRUE(shown().accuracy.own == kept) << "Back leads to what the last pick replaced";
+}
+
 TEST_F(BudgetView, ChangedScenesSayThatTheResultIsGone) {
   send(AddLight{});
   EXPECT_TRUE(shown().accuracy.points.empty());
