@@ -209,6 +209,9 @@ void Demo::beginOpening() {
   if (std::optional<Frame> frame = renderer_.beginFrame()) {
     endWithPanels(*frame);
     workspace_.browser().showPoster(first_.covered());
+    if (!first_.covered()) {
+      workspace_.setPictureText("");  // the next frame shows a picture
+    }
     if (framesDrawn_ == 0) {
       spdlog::info("panels shown {:.0f} ms after the start", millisecondsSinceStart());
     }
@@ -324,6 +327,9 @@ void Demo::report(const RecordedFrame& frame) {
   const int index = halves_.index();
   if (isShown()) {
     continueOpening(frame.plan);
+    first_.covered()
+        ? workspace_.setPictureText(FirstPictures::text(true, half.pace.firstShare()), "not finished: a preview")
+        : workspace_.setPictureText(half.text(frame.scene, frame.chosen, workspace_.animates()), half.pace.progress());
   }
   workspace_.report(index).update(frame, halves_.timings(), device_, *half.renderer, output_.hoveredPath);
   half.frame = frame.number;
@@ -383,27 +389,22 @@ const FittedPlan& Demo::planFrame(Frame& frame, const SceneState& state) {
   const bool shownOnly =
       half.pace.moving() && !halves_.split() && !output_.target && !output_.errorGain && !workspace_.needsThumbnail();
   const Scene& scene = workspace_.scene();
-  const FittedPlan& fitted = half.plan(frame, {.frame = {.scene = scene,
-                                                         .state = state,
-                                                         .settings = settings,
-                                                         .size = glm::ivec2(frame.extent.width, frame.extent.height),
-                                                         .cache = cache,
-                                                         .shownOnly = shownOnly},
-                                               .planner = half.planner,
-                                               .shown = {.revision = workspace_.pictureRevision(),
-                                                         .shaders = renderer_.pipelines().revision(),
-                                                         .time = contentTime(scene, state.time),
-                                                         .size = pictureSize()},
-                                               .budgetMs = recorded ? 0.0 : budgetMs(),
-                                               .front = workspace_.accuracy().front(),
-                                               .input = changes_,
-                                               .covered = first_.covered(),
-                                               .target = missing});
-  if (isShown()) {
-    workspace_.setPictureText(first_.covered() ? FirstPictures::text(true, half.pace.firstShare())
-                                               : half.text(scene, settings, workspace_.animates()));
-  }
-  return fitted;
+  return half.plan(frame, {.frame = {.scene = scene,
+                                     .state = state,
+                                     .settings = settings,
+                                     .size = glm::ivec2(frame.extent.width, frame.extent.height),
+                                     .cache = cache,
+                                     .shownOnly = shownOnly},
+                           .planner = half.planner,
+                           .shown = {.revision = workspace_.pictureRevision(),
+                                     .shaders = renderer_.pipelines().revision(),
+                                     .time = contentTime(scene, state.time),
+                                     .size = pictureSize()},
+                           .budgetMs = recorded ? 0.0 : budgetMs(),
+                           .front = workspace_.accuracy().front(),
+                           .input = changes_,
+                           .covered = first_.covered(),
+                           .target = missing});
 }
 
 // Begins the frame, `seconds` after the last, for both halves. Returns whether its passes are timed one by one: only at

@@ -388,6 +388,18 @@ std::string Pace::meanText(int complete) const {
              : fmt::format("{}, refining {:.0f} %", averaged, std::ceil(100.0 * *refined_));
 }
 
+std::string Pace::progress() const {
+  if (moving()) {
+    return lowers() ? "in lower quality, because it moves" : "";
+  }
+  if (picture_ == 0 && !draft_.empty()) {
+    return "not finished: a draft";
+  }
+  return pictures_ < 2   ? ""
+         : !isComplete() ? fmt::format("not finished: {} of {} pictures averaged", std::max(picture_, 1), pictures_)
+                         : fmt::format("finished: {} pictures averaged", converged_ > 0 ? converged_ : pictures_);
+}
+
 void Pace::drawn(uint64_t number, double cpuMs, double waitedMs, bool learns) {
   cpuMs_ = cpuMs;
   drawn_.push_back({.number = number,

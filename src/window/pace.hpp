@@ -254,6 +254,9 @@ class Pace {
 
   // Text for the user: what the picture gives up for its pace, or how far it has converged; empty if neither applies.
   const std::string& text() const { return text_; }
+  // Says whether the picture that is shown is finished, and if not why, to be read at a glance; empty for a picture
+  // that one frame has drawn as it was chosen.
+  std::string progress() const;
 
  private:
   // Plan a frame: set fitted_, work_, level_ and text_.

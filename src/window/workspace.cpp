@@ -276,7 +276,7 @@ void Workspace::frameDrawn(const ShownPicture& shown, const std::function<Image8
                            int half) {
   if (captured) {
     const bool waits = animated() && !animates();
-    const auto [text, logged] = capture_.save(scene().file.stem().string(), *captured, status_.shown().picture, waits);
+    const auto [text, logged] = capture_.save(scene().file.stem().string(), *captured, progress_, waits);
     logged ? status_.set(text) : status_.show(text);
   }
   if (half == shownHalf()) {

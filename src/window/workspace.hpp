@@ -104,7 +104,11 @@ class Workspace {
   const std::string& problem() const { return opener_.problem(); }
   SceneBrowser& browser() { return opener_.browser(); }
   const Capture& capture() const { return capture_; }
-  void setPictureText(const std::string& text) { status_.setPicture(text); }
+  // Says how the picture is drawn, and how far it is in the words of Pace::progress().
+  void setPictureText(const std::string& text, const std::string& progress = {}) {
+    status_.setPicture(text);
+    progress_ = progress;
+  }
   void setPlayCost(const std::string& cost) { view_.playback.setCost(animated() ? cost : ""); }
   void setRefusedEdit(bool refused) { saving_->setRefusedEdit(refused); }  // as in DocumentController
   FrameReport& report(int half) { return reports_[static_cast<size_t>(half)]; }
@@ -154,6 +158,7 @@ class Workspace {
   std::array<FrameReport, 2> reports_;  // of the picture or, of A | B, of both halves
   ShownEdit edit_;
   std::string title_;            // of the window
+  std::string progress_;         // of the picture
   uint64_t shownStructure_ = 0;  // structureRevision() of the scene in the last frame
   bool tookBack_ = false;        // undoFailedChange() undid a step, and no frame was drawn since
   bool needsThumbnail_ = true;   // the scene was opened or saved since the last picture

@@ -4,6 +4,7 @@
 #include "platform/files.hpp"
 #include "platform/text.hpp"
 #include "test_paths.hpp"
+#include "ui/panel_support.hpp"
 #include "window/journeys_support.hpp"
 
 namespace speculum {
@@ -260,6 +261,31 @@ TEST_F(PacedWindow, PanelsMayBeUsedBelowTheThumbnail) {
   EXPECT_TRUE(noDraftIsSeen()) << "the whole picture alone may end the cover";
   clickAt(width - 100, 80);
   EXPECT_FALSE(shown().browser.poster) << "the picture is clicked";
+}
+
+struct DrawnPanels : PanelTest {
+  using PanelTest::shownText;
+};
+
+TEST_F(PacedWindow, CompilingIsNotSaidBesideAPicture) {
+  std::filesystem::copy_file(options_.scene, home_.path() / "bare.toml");
+  for (const std::filesystem::path& scene : {sceneFile("no_mirror"), home_.path() / "bare.toml"}) {
+    demo_->apply(OpenScene{scene});
+    int drawn = demo_->framesDrawn();
+    int uncovered = 0;
+    bool poster = false;
+    bool said = false;
+    ASSERT_TRUE(waitFor([&] {
+      const bool covered = std::exchange(poster, shown().browser.poster) || poster;
+      const bool draws = std::exchange(drawn, demo_->framesDrawn()) != drawn && shownScene().file == scene;
+      const bool says = contains(DrawnPanels::shownText(), "Compiling");
+      said = said || says;
+      EXPECT_FALSE(draws && says && !covered) << scene;
+      uncovered += draws && !covered;
+      return uncovered > 3;
+    }));
+    EXPECT_EQ(said, scene.stem() == "no_mirror") << "below the thumbnail";
+  }
 }
 
 TEST_F(PacedWindow, NothingCoversLessons) {

@@ -844,10 +844,12 @@ TEST_F(PacedScene, StillPicturesConvergeOnce) {
   EXPECT_EQ(pictureOf(), std::pair(1, 0)) << "full quality first";
   for (int picture = 0; picture < 3; ++picture) {
     EXPECT_EQ(pace_.text(), std::to_string(picture) + " of 3 pictures averaged");
+    EXPECT_EQ(pace_.progress(), "not finished: " + std::to_string(std::max(picture, 1)) + " of 3 pictures averaged");
     EXPECT_TRUE(pace_.wantsFrame());
     EXPECT_EQ(pictureOf(), std::pair(3, picture));
   }
   EXPECT_EQ(pace_.text(), "3 of 3 pictures averaged");
+  EXPECT_EQ(pace_.progress(), "finished: 3 pictures averaged");
   EXPECT_FALSE(pace_.wantsFrame());
   EXPECT_FALSE(pace_.drawsSlowly()) << "each took one frame";
   EXPECT_EQ(pictureOf(), std::pair(3, 3)) << "the mean again";
@@ -863,6 +865,7 @@ TEST_F(PacedScene, StillPicturesConvergeOnce) {
   budgetMs_ = 1e-9;
   EXPECT_EQ(pictureOf(), std::pair(1, 0)) << "full quality would take too long";
   expectText("Draft: 0.2");
+  EXPECT_EQ(pace_.progress(), "not finished: a draft");
   EXPECT_EQ(pictureOf(), std::pair(3, 0));
 }
 
@@ -903,6 +906,7 @@ TEST_F(PacedScene, MeansEndWhereTheyHaveConverged) {
   refined_ = std::make_shared<RefinedTiles>(RefinedTiles{12, {32, 8}, {0, 0, 0, 0}});
   EXPECT_EQ(pictureOf(), std::pair(64, 64)) << "the mean again";
   EXPECT_EQ(pace_.text(), "12 of 64 pictures averaged: converged");
+  EXPECT_EQ(pace_.progress(), "finished: 12 pictures averaged");
   EXPECT_FALSE(pace_.wantsFrame());
   target_.emplace(MirrorPath{0}, TargetKind::color);
   EXPECT_EQ(pictureOf(), std::pair(64, 11)) << "the last picture that was drawn";

@@ -263,12 +263,12 @@ TEST_F(WindowView, ScreenshotsAreSavedAndReported) {
 
 TEST_F(WindowView, SavedPicturesSayHowFarTheyAre) {
   for (const bool withPanel : {false, true}) {
-    for (const std::string picture : {"17 of 64 pictures averaged", "Draft: 0.5 of the resolution", ""}) {
-      workspace_->setPictureText(picture);
+    for (const std::string progress : {"not finished: 17 of 64 pictures averaged", ""}) {
+      workspace_->setPictureText("17 of 64 pictures averaged, next one 52 %", progress);
       send(TakeScreenshot{withPanel});
       EXPECT_EQ(workspace_->capture().bare(), !withPanel);
       drawFrame(Image8(5, 3));
-      EXPECT_TRUE(status().ends_with(picture.empty() ? ".png" : ".png, " + picture)) << status();
+      EXPECT_TRUE(status().ends_with(progress.empty() ? ".png" : ".png, " + progress)) << status();
     }
   }
 }
