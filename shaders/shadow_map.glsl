@@ -151,6 +151,9 @@ float shareAt(LightData light, vec3 p) {
   bool decided = hasPlane && window.x > 0.0 && light.clearance == vec3(0.0);
   return !decided ? undecided : dot(hides, vec4(1.0)) == 4.0 ? 0.0 : open && facesLight ? 1.0 : undecided;
 #else
+  // A plane that is close and runs along the receiver's is the receiver's own, moved by rounding. Others meet the
+  // receiver's plane within a texel.
+  close = max(hides, close * vec4(lessThan(nearerAtTexel, abs(seen.riseX - slope.x) + abs(seen.riseY - slope.y))));
   // A plane that also hides the receiver from another texel crosses the receiver's plane and does not end there.
   vec4 hiding = close * nearerHere;
   float nearest = max(max(hiding.x, hiding.y), max(hiding.z, hiding.w));
