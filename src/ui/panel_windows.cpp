@@ -86,14 +86,17 @@ void PanelWindows::quietAfterDrag() {
 }
 
 // Alt alone goes to the menus, as in other programs. Dear ImGui goes to the title of the focused panel instead, and
-// nowhere if no panel is focused.
+// nowhere if no panel is focused: from 1.91.7 on it then does not even watch Alt.
 void PanelWindows::goToMenusByAlt() {
   ImGuiContext& context = *ImGui::GetCurrentContext();
   const ImGuiIO& io = ImGui::GetIO();
-  context.NavWindowingToggleLayer = context.NavWindowingToggleLayer && !ImGui::IsAnyMouseDown();
   const bool leftWindow = ImGui::IsMousePosValid(&io.MousePos) != ImGui::IsMousePosValid(&io.MousePosPrev);
-  const bool tapped = std::exchange(alt_, context.NavWindowingToggleLayer) && !io.KeyAlt && !io.KeyCtrl &&
-                      !io.KeyShift && io.InputQueueCharacters.empty() && !leftWindow;
+  const bool alone = !io.KeyCtrl && !io.KeyShift && !io.KeySuper && io.InputQueueCharacters.empty() &&
+                     !ImGui::IsAnyMouseDown() && !leftWindow;
+  const bool wasDown = std::exchange(altDown_, io.KeyAlt);
+  const bool tapped = alt_ && alone && !io.KeyAlt;
+  alt_ = alone && io.KeyAlt && (alt_ || !wasDown);
+  context.NavWindowingToggleLayer = context.NavWindowingToggleLayer && !ImGui::IsAnyMouseDown();
   ImGuiWindow* const bar = ImGui::FindWindowByName("##MainMenuBar");
   const bool free = context.ActiveId == 0 && context.OpenPopupStack.empty() && context.NavWindow != bar;
   if (tapped && free && bar && bar->WasActive) {

@@ -51,7 +51,8 @@ class PanelWindows {
   float statusHeight_ = 0.0f;
   bool visible_ = true;
   bool foldedMain_ = false;  // the inspector folded the main panel when it opened
-  bool alt_ = false;         // Alt was down in the last frame, with nothing else
+  bool altDown_ = false;     // in the last frame
+  bool alt_ = false;         // the same, and nothing else was pressed since Alt was
   unsigned lost_ = 0;        // identifier of the focused widget if the last frame did not draw it
 };
 

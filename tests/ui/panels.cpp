@@ -501,6 +501,27 @@ TEST_F(PanelTest, AltGoesToTheMenus) {
   EXPECT_TRUE(ImGui::GetTopMostPopupModal());
 }
 
+// Dear ImGui takes a button of the gamepad for Alt.
+TEST_F(PanelTest, GamepadsDoNotGoToTheMenus) {
+  ImGuiIO& io = ImGui::GetIO();
+  io.ConfigFlags |= ImGuiConfigFlags_NavEnableGamepad;
+  io.BackendFlags |= ImGuiBackendFlags_HasGamepad;
+  moveTo(450, 600);
+  press();
+  for (const bool down : {true, false}) {
+#if IMGUI_VERSION_NUM < 18700
+    io.NavInputs[ImGuiNavInput_Menu] = down ? 1.0f : 0.0f;
+#else
+    io.AddKeyEvent(ImGuiKey_GamepadFaceLeft, down);
+#endif
+    for (int i = 0; i < 3; ++i) {
+      run();
+      const ImGuiWindow* focused = ImGui::GetCurrentContext()->NavWindow;
+      EXPECT_NE(focused ? std::string(focused->Name) : "", "##MainMenuBar") << down << ", frame " << i;
+    }
+  }
+}
+
 TEST_F(PanelTest, MenusSendTheirCommands) {
   browser_.recent = {"/scenes/two.obj"};
   edit_.undo = "change Exposure";
