@@ -215,7 +215,7 @@ void saveAs(PanelContext& ui) {
   const std::string& note = ui.input.edit.note;
   files.focus = !note.empty() && std::exchange(files.note, note) != note ? Focus::field : files.focus;
   focusField(files);
-  typedField(files, "##file", "");
+  const bool entered = typedField(files, "##file", "");
   const bool edited = ImGui::IsItemEdited();
   recordWidget(ui, "edit.file");
   // The list's folder is where the file goes, so it is listed as empty until saving makes it.
@@ -239,7 +239,8 @@ void saveAs(PanelContext& ui) {
   answerButton(ui, "Save", "where.save", answer);
   ImGui::SameLine();
   answerButton(ui, "Cancel", "where.cancel", CancelPrompt{});
-  const bool pressesWidget = ImGui::GetCurrentContext()->NavActivateId != 0;
+  // Dear ImGui 1.89.4 to 1.90.4 count the field in which Enter was pressed as such a widget.
+  const bool pressesWidget = ImGui::GetCurrentContext()->NavActivateId != 0 && !entered;
   if (chosen || pressesWidget || !enterPressed()) {
     return;
   }
