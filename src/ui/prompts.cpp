@@ -239,7 +239,7 @@ void saveAs(PanelContext& ui) {
   answerButton(ui, "Save", "where.save", answer);
   ImGui::SameLine();
   answerButton(ui, "Cancel", "where.cancel", CancelPrompt{});
-  // Dear ImGui 1.89.4 to 1.90.4 count the field in which Enter was pressed as such a widget.
+  // Dear ImGui 1.89.4 to 1.90.1 count the field in which Enter was pressed as such a widget.
   const bool pressesWidget = ImGui::GetCurrentContext()->NavActivateId != 0 && !entered;
   if (chosen || pressesWidget || !enterPressed()) {
     return;
