@@ -100,12 +100,6 @@ std::optional<TriangleHit> TriangleMesh::closest(const Ray& ray, int64_t skip) c
   return best;
 }
 
-bool TriangleMesh::occluded(const Ray& ray, int64_t skip) const {
-  bool found = false;
-  visit(ray, skip, [&](const TriangleHit&) { return found = true; });
-  return found;
-}
-
 void TriangleMesh::visit(const Ray& ray, int64_t skip, const std::function<bool(const TriangleHit&)>& meet) const {
   const ShearedRay sheared(ray);
   bool ends = false;

@@ -51,8 +51,6 @@ class TriangleMesh {
   Bounds bounds() const { return bvh_.bounds(); }
   // Returns the nearest hit with ray.tMin < t < ray.tMax on any triangle but `skip` and those with the same corners.
   std::optional<TriangleHit> closest(const Ray& ray, int64_t skip = noTriangle) const;
-  // Says whether closest() would find a hit.
-  bool occluded(const Ray& ray, int64_t skip = noTriangle) const;
   // Calls `meet` with all hits that closest() chooses from, in any order, until it returns true.
   void visit(const Ray& ray, int64_t skip, const std::function<bool(const TriangleHit&)>& meet) const;
   uint32_t partOf(uint32_t triangle) const { return parts_[triangle]; }
