@@ -45,11 +45,14 @@ bool beginPrompt(const char* title, bool recenter) {
   return ImGui::BeginPopupModal(title, nullptr, flags);
 }
 
-void answerButton(PanelContext& ui, const char* label, std::string_view key, Command command) {
-  if (ImGui::Button(label)) {
+// Returns whether it was pressed.
+bool answerButton(PanelContext& ui, const char* label, std::string_view key, Command command) {
+  const bool pressed = ImGui::Button(label);
+  if (pressed) {
     ui.send(std::move(command));
   }
   recordWidget(ui, key);
+  return pressed;
 }
 
 // Gives the last item the keyboard when its prompt opens, and shows that it has it.
@@ -236,15 +239,21 @@ void saveAs(PanelContext& ui) {
   }
   ImGui::TextDisabled("Opens with the scene's own camera. M keeps a view as a bookmark.");
   const SaveAs answer{named(files), moves && ui.state.copyModels};
-  answerButton(ui, "Save", "where.save", answer);
+  bool sent = answerButton(ui, "Save", "where.save", answer);
   ImGui::SameLine();
   answerButton(ui, "Cancel", "where.cancel", CancelPrompt{});
   // Dear ImGui 1.89.4 to 1.90.1 count the field in which Enter was pressed as such a widget.
   const bool pressesWidget = ImGui::GetCurrentContext()->NavActivateId != 0 && !entered;
-  if (chosen || pressesWidget || !enterPressed()) {
-    return;
+  const bool enters = !chosen && !pressesWidget && enterPressed();
+  if (enters && isFolder(named(files))) {
+    enter(files, named(files), ui.input.edit.proposedFile);
+  } else if (enters) {
+    ui.send(answer);
+    sent = true;
   }
-  isFolder(named(files)) ? enter(files, named(files), ui.input.edit.proposedFile) : ui.send(answer);
+  if (sent) {
+    files.note.clear();  // a further refusal gives the field the keyboard again, whatever its text
+  }
 }
 
 // Says how long ago a file was written; empty if there is none.

@@ -761,9 +761,14 @@ TEST_F(PanelTest, RefusedFilesMoveNoPrompt) {
   };
   ask(Prompt::saveAs, config_.path() / "room.toml");
   for (const char* why : {"it comes with the program", "it has three lines\nof which each\nis shown"}) {
+    const auto refuse = [&] { edit_.note = (config_.path() / "room.toml").string() + ": not saved: " + why; };
     click("where.save");
-    expectStays("Save as", [&] { edit_.note = (config_.path() / "room.toml").string() + ": not saved: " + why; });
+    expectStays("Save as", refuse);
     EXPECT_TRUE(shows("not saved"));
+    click("where.save");
+    expectStays("Save as", refuse);
+    tap(ImGuiKey_Enter);
+    expectStays("Save as", refuse);
   }
   ask(Prompt::none);
   ask(Prompt::open, config_.path() / "");
