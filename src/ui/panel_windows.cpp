@@ -91,7 +91,7 @@ void PanelWindows::goToMenusByAlt() {
   ImGuiContext& context = *ImGui::GetCurrentContext();
   const ImGuiIO& io = ImGui::GetIO();
   const bool leftWindow = ImGui::IsMousePosValid(&io.MousePos) != ImGui::IsMousePosValid(&io.MousePosPrev);
-  const bool alone = !io.KeyCtrl && !io.KeyShift && !io.KeySuper && io.InputQueueCharacters.empty() &&
+  const bool alone = focused_ && !io.KeyCtrl && !io.KeyShift && !io.KeySuper && io.InputQueueCharacters.empty() &&
                      !ImGui::IsAnyMouseDown() && !leftWindow;
   const bool wasDown = std::exchange(altDown_, io.KeyAlt);
   const bool tapped = alt_ && alone && !io.KeyAlt;
@@ -319,6 +319,11 @@ void PanelWindows::sideWindows(PanelContext& ui) {
     state_.targets.path.reset();
     ui.output.target.reset();
   }
+}
+
+void PanelWindows::setFocused(bool focused) {
+  focused_ = focused;
+  alt_ = false;
 }
 
 void PanelWindows::toggleHelp() {

@@ -28,6 +28,8 @@ class PanelWindows {
   bool inspectorCovers(const glm::vec2& place) const;  // the inspector is closed and would open there
   // Returns the part of the display that panels leave free, in screen coordinates.
   WindowRect freeRect() const;
+  // Call when the window gets or loses the keyboard's focus. A loss releases all keys, and Alt+Tab is no tap of Alt.
+  void setFocused(bool focused);
   // Closes the list of keys. Returns false if it was not open.
   bool closeHelp() { return visible_ && std::exchange(state_.help, false); }
 
@@ -53,6 +55,7 @@ class PanelWindows {
   bool foldedMain_ = false;  // the inspector folded the main panel when it opened
   bool altDown_ = false;     // in the last frame
   bool alt_ = false;         // the same, and nothing else was pressed since Alt was
+  bool focused_ = true;      // the window has the keyboard's focus
   unsigned lost_ = 0;        // identifier of the focused widget if the last frame did not draw it
 };
 

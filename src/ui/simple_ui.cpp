@@ -213,6 +213,8 @@ void SimpleUI::initVulkan() {
 void SimpleUI::push(const InputEvent& event) {
   if (event.kind == InputEvent::Kind::text && event.code <= IM_UNICODE_CODEPOINT_MAX) {
     glyphs_->note(static_cast<ImWchar>(event.code));
+  } else if (event.kind == InputEvent::Kind::focus) {
+    windows_.setFocused(event.down);
   }
   backend_->input.push(event);
 }

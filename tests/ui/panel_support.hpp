@@ -288,6 +288,11 @@ class PanelTest : public testing::Test {
     ImGui::GetIO().AddKeyEvent(ImGuiKey_LeftAlt, down);
   }
 #endif
+  void setFocused(bool focused) {
+    windows_->setFocused(focused);
+    ImGui::GetIO().AddFocusEvent(focused);
+    run();
+  }
   void tap(ImGuiKey key) {
     for (const bool down : {true, false}) {
 #if IMGUI_VERSION_NUM < 18700

@@ -489,6 +489,13 @@ TEST_F(PanelTest, AltGoesToTheMenus) {
       holdControl(false);
     });
     EXPECT_FALSE(opensMenu()) << "Alt alone";
+    holdControl(true);
+    run();
+    tapAlt([&] { holdControl(false); });
+    EXPECT_FALSE(opensMenu()) << "Control was held before";
+    tapAlt([&] { setFocused(false); });
+    setFocused(true);
+    EXPECT_FALSE(opensMenu()) << "Alt+Tab leaves the window";
     tapAlt([&] { type("f"); });
     EXPECT_FALSE(opensMenu()) << "not a key with Alt";
     tapAlt(clickPicture);
