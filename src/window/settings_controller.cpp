@@ -153,20 +153,20 @@ bool SettingsController::toggleSplit(SplitStart start, double divider) {
   Settings b = start == SplitStart::naive ? naiveSettings(ofScene_) : ofScene_;
   b.quality.stillPictures = point ? 1 : b.quality.stillPictures;  // as it was measured
   split_.begin(a, b, divider);
-  splitBegan();
+  startEditing();
   if (point) {
     accuracy_.pick(a, b);
   }
-  tellHalf();
+  setHalfStatus();
   return true;
 }
 
 void SettingsController::beginLesson(size_t index, const Settings& loaded, double divider) {
   split_.beginLesson(index, loaded, divider);
-  splitBegan();
+  startEditing();
 }
 
-void SettingsController::splitBegan() {
+void SettingsController::startEditing() {
   pickOfScene_ = accuracy_.pick();
   accuracy_.setPick({});
   edit(split_.chosen());
@@ -175,7 +175,7 @@ void SettingsController::splitBegan() {
 void SettingsController::chooseHalf(int half) {
   if (split_.on()) {
     edit(half);
-    tellHalf();
+    setHalfStatus();
   }
 }
 
@@ -188,7 +188,7 @@ void SettingsController::edit(int half) {
   accuracy_.showAgain();
 }
 
-void SettingsController::tellHalf() {
+void SettingsController::setHalfStatus() {
   const auto [chosen, other] = split_.chosen() == 0 ? std::pair('A', 'B') : std::pair('B', 'A');
   status_.set(fmt::format("A | B: the panel changes the settings of {}. X changes to {}, Esc ends it.", chosen, other),
               [this] { return split_.on(); });

@@ -111,9 +111,9 @@ class SettingsController {
   const AccuracyController& accuracy() const { return accuracy_; }
 
  private:
-  void splitBegan();
-  void edit(int half);
-  void tellHalf();
+  void startEditing();   // call once A | B has begun: keeps the scene's pick, and edits the chosen half
+  void edit(int half);   // lets the panels change this half, and drops a point that was picked for the other
+  void setHalfStatus();  // says in the status line which half is edited
   Settings& edited() { return split_.on() ? split_.settings(split_.chosen()) : ofScene_; }
 
   Settings ofScene_;
