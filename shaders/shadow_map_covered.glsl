@@ -9,8 +9,9 @@
 
 void main() {
   storePlane();
-  if (holdsLight()) {
+  bool hidesNothing = holdsLight();
+  keepCovered(vec2(positionAndU.w, normalAndV.w), instances[indexAndReach.x].traceInstance, draw.firstTriangle + uint(gl_PrimitiveID));
+  if (hidesNothing) {
     discard;
   }
-  keepCovered(vec2(positionAndU.w, normalAndV.w), instances[indexAndReach.x].traceInstance, draw.firstTriangle + uint(gl_PrimitiveID));
 }
