@@ -13,7 +13,7 @@ layout(constant_id = constantOnlyShadowFace) const uint onlyShadowFace = anyShad
 // Number of lights with a shadow map. They are the first lights of each pass.
 layout(constant_id = constantShadowedLights) const uint shadowedLights = 0;
 
-layout(set = SHADOW_SET, binding = 0) uniform usampler2D shadowTexels;  // what shadow_map.frag stores; 0: nothing is there
+layout(set = SHADOW_SET, binding = 0) uniform usampler2D shadowTexels;  // of storePlane(); 0: nothing is there
 layout(set = SHADOW_SET, binding = 1, std140) uniform ShadowMaps { ShadowMapData shadowMaps[mostShadowMaps]; };
 
 const float leastShadowCosine = 1e-6;  // steeper slopes count as this one

@@ -107,32 +107,40 @@ PassTargets ShadowSystem::layerTargets() {
 const Pipeline& ShadowSystem::pipelineFor(const Variant& variant, const FrameInfo& info) {
   const Drawn drawn = variant.drawn;
   return pipelines_.get(variant, [&] {
+    const bool ofMirror = drawn == Drawn::mirrors || drawn == Drawn::mirrorEdges;
     GraphicsPipelineDesc desc{.name = "shadow map",
-                              .vert = "mirror.vert",
-                              .frag = "shadow_map_mirror.frag",
+                              .vert = ofMirror ? "mirror.vert" : "scene.vert",
                               .setLayouts = {frameLayout_},
-                              .color = planeFormat};
-    desc.lines = drawn == Drawn::edges || drawn == Drawn::mirrorEdges;
-    if (desc.lines || drawn == Drawn::coveredEdges) {
-      desc.frag = "shadow_edge.frag";
-    }
-    if (drawn == Drawn::objects || drawn == Drawn::edges || drawn == Drawn::coveredEdges || drawn == Drawn::covered) {
-      desc.vert = "scene.vert";
-      addVertexInput(desc);
-      if (drawn == Drawn::objects) {
+                              .color = planeFormat,
+                              .lines = drawn == Drawn::edges || drawn == Drawn::mirrorEdges};
+    switch (drawn) {
+      case Drawn::objects:
         desc.frag = "shadow_map.frag";
-      } else if (drawn == Drawn::covered) {
+        break;
+      case Drawn::mirrors:
+        desc.frag = "shadow_map_mirror.frag";
+        break;
+      case Drawn::covered:
         addCoverage(desc, variant.vertexAlpha ? "shadow_map_covered_colored.frag" : "shadow_map_covered.frag",
                     info.resources.textureLayout());
         desc.constants = {{gpu::constantClamps, variant.clamps}, {gpu::constantVertexAlpha, variant.vertexAlpha}};
-        if (variant.vertexAlpha) {
-          addVertexColors(desc, true);
-        }
-      }
-    } else if (drawn == Drawn::layer) {
-      desc.vert = "full_screen.vert";
-      desc.frag = "shadow_layer.frag";
-      desc.setLayouts.push_back(layout_);
+        break;
+      case Drawn::edges:
+      case Drawn::coveredEdges:
+      case Drawn::mirrorEdges:
+        desc.frag = "shadow_edge.frag";
+        break;
+      case Drawn::layer:
+        desc.vert = "full_screen.vert";
+        desc.frag = "shadow_layer.frag";
+        desc.setLayouts.push_back(layout_);
+        return desc;
+    }
+    if (!ofMirror) {
+      addVertexInput(desc);
+    }
+    if (variant.vertexAlpha) {
+      addVertexColors(desc, true);
     }
     return desc;
   });
