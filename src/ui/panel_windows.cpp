@@ -75,9 +75,13 @@ PanelWindows::PanelWindows()
     : state_{.choices = savedPanelChoices()}, savedChoices_(state_.choices), pendingPercent_(state_.choices.percent) {}
 
 // Opens no tooltip over the widget where a drag of the picture ended, until the pointer moves or a button is pressed.
-// After a key, ImGui opens none either.
-void PanelWindows::quietAfterDrag() {
+// After a key, ImGui opens none either. Escape counts as a key that moves the focus: else a submenu that it closes
+// would open again, because the pointer rests on its entry.
+void PanelWindows::ignoreRestingPointer() {
   const ImGuiIO& io = ImGui::GetIO();
+  if (imgui::isPressed(ImGuiKey_Escape)) {
+    imgui::focusIsHovered() = true;
+  }
   for (int button = 0; button < ImGuiMouseButton_COUNT; ++button) {
     if (ImGui::IsMouseReleased(button) && !io.MouseDownOwned[button]) {
       imgui::focusIsHovered() = true;
@@ -122,7 +126,7 @@ void PanelWindows::forgetLostWidget() {
 }
 
 UiOutput PanelWindows::build(const UiInput& input) {
-  quietAfterDrag();
+  ignoreRestingPointer();
   goToMenusByAlt();
   imgui::pressByEnter(*ImGui::GetCurrentContext());
   PanelContext ui{.input = input, .state = state_, .settings = input.settings, .output = {}};
@@ -306,7 +310,7 @@ void PanelWindows::sideWindows(PanelContext& ui) {
   window("Scenes", choices.scenes, {24.2f, 46.5f}, [&] { panels::gallery(ui, thumbnails_); });
   window("Performance", choices.performance, {27.0f, 30.0f}, [&] { panels::performance(ui); });
   window("Accuracy", choices.accuracy, {27.0f, 40.0f}, [&] { panels::accuracy(ui); });
-  window("Passes", choices.passes, {27.0f, 30.0f}, [&] { panels::passes(ui); });
+  window("Passes", choices.passes, {29.0f, 30.0f}, [&] { panels::passes(ui); });
   window("Device", choices.device, {27.0f, 30.0f}, [&] { panels::device(ui); });
   window("Log", choices.log, {27.0f, 14.0f}, [&] { panels::log(ui); });
   // Without a background, because the renderer draws the target below it: this version of ImGui's Vulkan backend draws

@@ -34,7 +34,7 @@ class PanelWindows {
   bool closeHelp() { return visible_ && std::exchange(state_.help, false); }
 
  private:
-  static void quietAfterDrag();
+  static void ignoreRestingPointer();
   void goToMenusByAlt();
   void forgetLostWidget();
   void mainPanel(PanelContext& ui);

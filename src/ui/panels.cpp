@@ -164,7 +164,11 @@ void describe(PanelContext& ui, std::string_view key) {
 void showTip(const std::string& about) {
   const std::string text = shortened(about, 4000);  // Dear ImGui refuses what it cannot index by 16 bits
   const float em = ImGui::GetFontSize();
-  ImRect window = ImGui::GetCurrentWindow()->RootWindow->Rect();
+  const ImGuiWindow* owner = ImGui::GetCurrentWindow();
+  while ((owner->Flags & ImGuiWindowFlags_ChildWindow) && !(owner->Flags & ImGuiWindowFlags_ChildMenu)) {
+    owner = owner->ParentWindow;
+  }
+  ImRect window = owner->Rect();
   window.Expand(0.4f * em);
   const ImRect item(ImGui::GetItemRectMin(), ImGui::GetItemRectMax());
   const ImVec2 padding = ImGui::GetStyle().WindowPadding;

@@ -570,6 +570,21 @@ TEST_F(PanelTest, LongPathsLeaveTheFileMenuFree) {
   }
 }
 
+TEST_F(PanelTest, EscapeClosesTheSubmenuUnderWhoseEntryThePointerRests) {
+  click("menu.Edit");
+  hover("menu.Add object", 0.3);
+  run(60);
+  const ImVector<ImGuiPopupData>& open = ImGui::GetCurrentContext()->OpenPopupStack;
+  ASSERT_EQ(open.Size, 2);
+  for (const int left : {1, 0}) {
+    tap(ImGuiKey_Escape);
+    run(60);
+    EXPECT_EQ(open.Size, left);
+  }
+  click("menu.Edit");
+  EXPECT_EQ(open.Size, 1) << "the pointer moved";
+}
+
 TEST_F(PanelTest, HelpShowsTheDemoOfTheWidgets) {
   click("menu.Help");
   click("help.widgets", 0.1);
@@ -1239,6 +1254,15 @@ TEST_F(ManyPasses, HeadFitsAtTwiceTheTextSize) {
           << column << " at " << textSize;
     }
   }
+}
+
+TEST_F(PanelTest, PassesShowNamesOfTwoWordsInFull) {
+  frame_.passes = {{{.kind = PassKind::main}, "main view"},
+                   {{.path = {0}}, "mirror floor"},
+                   {{.path = {0, 1}}, "mirror floor > wall mirror"}};
+  resize(1280, 720);
+  toggle("Passes");
+  EXPECT_TRUE(shows("wall mirror"));
 }
 
 TEST_F(PanelTest, PerformanceRowsSelectTheirMirrors) {

@@ -113,6 +113,12 @@ TEST_F(SplitPanels, HalfIsChosenKeptOrLeft) {
 TEST_F(SplitPanels, LessonsAreOpenedAndWalkedThrough) {
   click("menu.Help");
   click("menu.Lessons");
+  hover("lesson.0");
+  run(3);
+  ASSERT_TRUE(tooltip());
+  for (const char* menu : {"##Menu_00", "##Menu_01"}) {
+    EXPECT_FALSE(tooltip()->Rect().Overlaps(ImGui::FindWindowByName(menu)->Rect())) << menu;
+  }
   const OpenScene opened = clickFor<OpenScene>("lesson.1");
   EXPECT_EQ(opened.file, "/scenes/two.toml");
   EXPECT_EQ(opened.lesson, 1u);
