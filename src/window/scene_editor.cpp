@@ -288,15 +288,17 @@ void SceneEditor::duplicate(const PointedScene& view, const PixelRect& free) {
   others_.assign(copies.begin() + 1, copies.end());
 }
 
-void SceneEditor::remove() {
+std::string SceneEditor::remove() {
   const std::vector<Selection> nodes = selected();
   if (nodes.empty()) {
-    return;
+    return "";
   }
+  std::string removed = describe(document_.scene(), nodes);
   beginChange();
   others_.clear();
   document_.remove(nodes);
   forgetPath();
+  return removed;
 }
 
 void SceneEditor::addBookmark(Bookmark bookmark) {

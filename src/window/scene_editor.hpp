@@ -43,8 +43,9 @@ class SceneEditor {
   // Adds the node that is seen directly at the pixel to the selection, or removes it.
   void clickAlso(const PointedScene& view, const glm::dvec2& pixel);
   void toggle(const Selection& node);
-  void select(const Selection& node);  // alone
-  void selectNext(int step);           // in the order of allNodes(); after the last one comes the first
+  void select(const Selection& node);       // alone
+  void selectNext(int step);                // in the order of allNodes(); after the last one comes the first
+  std::vector<Selection> selected() const;  // the document's selection first, then others_
   bool selectedInMirror() const { return !path_.empty(); }  // the selected node was picked through a mirror
   void setMode(GizmoMode mode) { mode_ = mode; }
   void nextMode() { mode_ = static_cast<GizmoMode>((static_cast<int>(mode_) + 1) % 3); }
@@ -60,7 +61,7 @@ class SceneEditor {
   void addLight(const PointedScene& view);
   void addObject(const PointedScene& view, int mesh);
   void duplicate(const PointedScene& view, const PixelRect& free);  // `free`: where no panel covers the picture, pixels
-  void remove();                                                    // the selected nodes
+  std::string remove();  // deletes the selected nodes, and describes them; empty: there were none
   void addBookmark(Bookmark bookmark);
   void removeBookmark(size_t index);              // if there is one
   std::optional<SettingsStep> step(UndoWay way);  // undoes or redoes a step, see SceneDocument
@@ -85,7 +86,6 @@ class SceneEditor {
 
   void replace(const std::string& verb, std::span<const PlacedNode> nodes);
   void beginChange();
-  std::vector<Selection> selected() const;  // the document's selection first, then others_
   void forgetPath();
   PictureView clickedImage(const PointedScene& view) const;
   Gizmo gizmo(const PointedScene& view) const;

@@ -8,15 +8,6 @@ namespace speculum {
 
 namespace fs = std::filesystem;
 
-namespace {
-
-std::string windowTitle(const ShownEdit& edit, bool recording) {
-  return (recording ? "Recording, F10 stops - " : "") + edit.scene->file.stem().string() +
-         (edit.unsaved ? "* - Speculum" : " - Speculum");
-}
-
-}  // namespace
-
 Workspace::Workspace(const Options& options, WorkspaceHost& host)
     : options_(options),
       host_(host),
@@ -121,11 +112,16 @@ void Workspace::apply(const Command& command) {
                  [&](const AddLight&) { addNode(&SceneEditor::addLight); },
                  [&](const AddObject& c) { addObject(c.model); },
                  [&](const DuplicateSelected&) {
-                   if (const auto view = pointedScene(time())) {
+                   if (const auto view = pointedScene(time()); view && document_->selection()) {
                      editor_->duplicate(*view, host_.freePicture());
+                     reportAdded();
                    }
                  },
-                 [&](const RemoveSelected&) { editor_->remove(); },
+                 [&](const RemoveSelected&) {
+                   if (const std::string removed = editor_->remove(); !removed.empty()) {
+                     status_.set("Deleted " + removed + ". Ctrl+Z takes this back.");
+                   }
+                 },
                  [&](const Undo&) { step(UndoWay::back); },
                  [&](const Redo&) { step(UndoWay::forward); },
                  [&](const MeasureAccuracy&) { measureAccuracy(); },
@@ -167,9 +163,11 @@ void Workspace::pointerButton(const MouseButtonEvent& event, bool overPanels) {
     return;
   }
   const bool covers = host_.inspectorCovers(pointer_.position());
-  status_.set("Selected " + describe(scene(), document_->selection()) + ". Drag its handles (G: move, rotate, scale)." +
-              (editor_->selectedInMirror() ? " A click at the same place selects the mirror that shows it." : "") +
-              (covers ? " F2 opens the inspector." : ""));
+  const Selection node = document_->selection();
+  status_.set("Selected " + describe(scene(), node) + ". Drag its handles (G: move, rotate, scale)." +
+                  (editor_->selectedInMirror() ? " A click at the same place selects the mirror that shows it." : "") +
+                  (covers ? " F2 opens the inspector." : ""),
+              [this, node] { return sameNode(document_->selection(), node); });
   if (!covers) {
     host_.openInspector();
   }
@@ -203,7 +201,9 @@ std::optional<PointedScene> Workspace::pointedScene(double time) {
 
 void Workspace::prepareView(double seconds, bool pointerOverPicture) {
   saving_->fill(edit_, settings_.ofScene());
-  if (const std::string title = windowTitle(edit_, capture_.recording()); title_ != title) {
+  const std::string title = (capture_.recording() ? "Recording, F10 stops - " : "") + scene().file.stem().string() +
+                            (edit_.unsaved ? "* - Speculum" : " - Speculum");
+  if (title_ != title) {
     host_.setTitle(title_ = title);
   }
   edit_.overlay = {};
@@ -260,14 +260,13 @@ void Workspace::takeSceneChange() {
   if (!editor_->dragging()) {
     std::ranges::for_each(reports_, [](FrameReport& report) { report.history().restart(); });
   }
-  bool interval = false;
-  for (const int half : {0, 1}) {
+  const auto interval = [this](int half) {
     const Settings shown = shownSettings(half);
-    interval = interval || mostAsked(scene(), shown).updateInterval > 1 || shown.effects.environmentInterval > 1;
-  }
+    return mostAsked(scene(), shown).updateInterval > 1 || shown.effects.environmentInterval > 1;
+  };
   const uint64_t structure = document_->structureRevision();
   const bool restructured = std::exchange(shownStructure_, structure) != structure;
-  if (restructured || interval) {
+  if (restructured || interval(0) || interval(1)) {
     host_.dropCachedImages();
   }
 }
@@ -353,7 +352,7 @@ void Workspace::addObject(const fs::path& model) {
 }
 
 void Workspace::reportAdded() {
-  status_.set("Added " + describe(scene(), document_->selection()) + ". The inspector (F2) changes it.");
+  status_.set("Added " + describe(scene(), editor_->selected()) + ". The inspector (F2) changes it.");
 }
 
 void Workspace::useModels() {

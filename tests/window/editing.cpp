@@ -54,6 +54,9 @@ TEST_F(Editing, InspectorNeverCoversWhatWasClicked) {
   EXPECT_EQ(edit().selected, ball);
   EXPECT_FALSE(host_.inspector);
   EXPECT_EQ(status(), "Selected object 'ball'. Drag its handles (G: move, rotate, scale). F2 opens the inspector.");
+  send(Escape{});
+  EXPECT_EQ(status(), "") << "it is no longer selected";
+  clickBall();
   click(lampAt_);
   EXPECT_TRUE(host_.inspector);
 }
@@ -509,6 +512,7 @@ TEST_F(Editing, SelectedNodesAreCopiedAndDeletedTogether) {
   send(ToggleNode{ahead});
   send(DuplicateSelected{});
   EXPECT_TRUE(startsWith(edit().undo, "duplicate 3 "));
+  EXPECT_EQ(status(), "Added 3 nodes. The inspector (F2) changes it.");
   EXPECT_EQ(edit().selected, (Selection{Selection::Kind::mirror, 2}));
   EXPECT_EQ(edit().others, (std::vector<Selection>{{Selection::Kind::object, 1}, {Selection::Kind::mirror, 3}}));
   EXPECT_EQ(saved().mirrors.size(), 4u);
@@ -518,6 +522,7 @@ TEST_F(Editing, SelectedNodesAreCopiedAndDeletedTogether) {
   EXPECT_GT(host_.drops, drops) << "cached images are of other mirrors now";
   EXPECT_FALSE(edit().selected);
   EXPECT_TRUE(startsWith(edit().undo, "remove 3 "));
+  EXPECT_EQ(status(), "Deleted 3 nodes. Ctrl+Z takes this back.");
   EXPECT_EQ(saved().mirrors.size(), 2u);
   send(Undo{});
   send(Undo{});
