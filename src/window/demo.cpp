@@ -204,7 +204,7 @@ void Demo::beginOpening() {
   opened_ = Clock::now();
   workspace_.setPlayCost("");
   workspace_.browser().showPoster(!split);
-  workspace_.setPictureText(FirstPictures::text(!split && thumbnail.width > 0, {}));
+  workspace_.setPictureText(first_.text(!split && thumbnail.width > 0, {}));
   updateUi(0.0);
   if (std::optional<Frame> frame = renderer_.beginFrame()) {
     endWithPanels(*frame);
@@ -328,7 +328,7 @@ void Demo::report(const RecordedFrame& frame) {
   if (isShown()) {
     continueOpening(frame.plan);
     first_.covered()
-        ? workspace_.setPictureText(FirstPictures::text(true, half.pace.firstShare()), "not finished: a preview")
+        ? workspace_.setPictureText(first_.text(true, half.pace.firstShare()), "not finished: a preview")
         : workspace_.setPictureText(half.text(frame.scene, frame.chosen, workspace_.animates()), half.pace.progress());
   }
   workspace_.report(index).update(frame, halves_.timings(), device_, *half.renderer, output_.hoveredPath);

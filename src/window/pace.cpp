@@ -73,10 +73,12 @@ double FramePacer::beginFrame(double seconds) {
   return std::exchange(idled_, false) ? std::numeric_limits<double>::quiet_NaN() : 1000.0 * seconds;
 }
 
-std::string FirstPictures::text(bool preview, const std::optional<double>& share) {
+std::string FirstPictures::text(bool preview, const std::optional<double>& share) const {
+  const bool tries = triesLeft_ > 0 && content_;  // the first frame compiles
   return (preview ? "Preview. " : "") +
-         (share ? fmt::format("Drawing the first picture: {:.0f} %", std::floor(100.0 * *share))
-                : "Compiling shaders for the first picture");
+         (share   ? fmt::format("Drawing the first picture: {:.0f} %", std::floor(100.0 * *share))
+          : tries ? "Measuring how fast the scene plays"
+                  : "Compiling shaders for the first picture");
 }
 
 void SlowPicture::begin(size_t faces, size_t count, double ms) {

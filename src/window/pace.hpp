@@ -87,7 +87,7 @@ class FirstPictures {
   bool covered() const { return covered_; }  // the thumbnail covers the picture
   // Says what is prepared, below the thumbnail if there is a `preview`. `share`: of the first whole picture, if several
   // frames draw it.
-  static std::string text(bool preview, const std::optional<double>& share);
+  std::string text(bool preview, const std::optional<double>& share) const;
   bool holds() const { return holds_; }  // the scene was paused for being slow, and nobody has played it yet
 
  private:

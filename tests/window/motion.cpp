@@ -780,9 +780,16 @@ TEST(FirstPictures, StaysCoveredUntilThereIsAGoodPicture) {
 }
 
 TEST(FirstPictures, CoverSaysWhatIsPrepared) {
-  EXPECT_EQ(FirstPictures::text(true, std::nullopt), "Preview. Compiling shaders for the first picture");
-  EXPECT_EQ(FirstPictures::text(true, 0.379), "Preview. Drawing the first picture: 37 %");
-  EXPECT_EQ(FirstPictures::text(false, std::nullopt), "Compiling shaders for the first picture");
+  FirstPictures opening;
+  opening.begin(true, true);
+  EXPECT_EQ(opening.text(true, std::nullopt), "Preview. Compiling shaders for the first picture");
+  EXPECT_EQ(opening.text(false, std::nullopt), "Compiling shaders for the first picture");
+  opening.shows({}, false);
+  opening.drawn(std::nullopt, true, false, 1.0);
+  EXPECT_EQ(opening.text(true, std::nullopt), "Preview. Measuring how fast the scene plays");
+  opening.drawn("slow", true, false, 1.0);
+  EXPECT_EQ(opening.text(true, std::nullopt), "Preview. Compiling shaders for the first picture");
+  EXPECT_EQ(opening.text(true, 0.379), "Preview. Drawing the first picture: 37 %");
 }
 
 TEST(FirstPictures, OnlyAnotherContentUncovers) {
