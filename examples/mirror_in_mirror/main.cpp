@@ -240,8 +240,8 @@ Drawn run(const Options& options) {
   const MirrorSystem mirrorSystem(core, views.layout());
   const std::unique_ptr<SimpleUI> ui = SimpleUI::forWindow(core.renderer, core.window.get());
   bool naive = options.naive;
-  int maxDepth = 8;  // reflections of an image, at most
-  UiState state{.clearColor = background, .naive = &naive, .depth = &maxDepth, .mostDepth = 16};
+  int maxDepth = mirrors.size() < 3 ? 8 : 4;  // reflections of an image, at most; each may show all other mirrors
+  UiState state{.clearColor = background, .naive = &naive, .depth = &maxDepth, .mostDepth = 2 * maxDepth};
   const IdleGuard idle(core.device);  // waits for the GPU before what is above is destroyed
 
   for (Loop loop(options, core.window.get()); loop.next();) {
