@@ -4,7 +4,6 @@
 #include <cmath>
 #include <glm/gtx/norm.hpp>
 #include <limits>
-#include <numeric>
 
 namespace speculum {
 
@@ -47,39 +46,63 @@ double longestSquared(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3
 }
 
 // Takes no ear that is a sliver, nor one beside whose new edge a vertex lies, until there is no other; from then on,
-// takes these too. Vertices of a straight edge, which rounding moves off it, would else make slivers.
+// takes these too. Vertices of a straight edge, which rounding moves off it, would else make slivers. Spikes, which
+// have no area, go first: they are no ears, but the corners beside them are once the spike is gone.
 class EarClipper {
  public:
   explicit EarClipper(std::span<const glm::dvec3> polygon)
       : points_(polygon),
         normal_(newellVector(polygon)),
         normalLength_(glm::length(normal_)),
-        left_(polygon.size()),
-        isLeft_(polygon.size(), true),
+        left_(static_cast<int>(polygon.size())),
+        before_(polygon.size()),
+        after_(polygon.size()),
         searches_(polygon.size()) {
-    std::iota(left_.begin(), left_.end(), 0);
+    for (int i = 0; i < left_; ++i) {
+      before_[i] = i == 0 ? left_ - 1 : i - 1;
+      after_[i] = i + 1 == left_ ? 0 : i + 1;
+    }
   }
 
   std::vector<std::array<int, 3>> run() {
-    std::vector<std::array<int, 3>> triangles;
-    while (left_.size() >= 3) {
-      const size_t ear = findEar();
-      const size_t n = left_.size();
-      triangles.push_back({left_[(ear + n - 1) % n], left_[ear], left_[(ear + 1) % n]});
-      isLeft_[left_[ear]] = false;
-      left_.erase(left_.begin() + static_cast<std::ptrdiff_t>(ear));
+    for (int i = 0; i < static_cast<int>(points_.size()) && left_ >= 3; ++i) {
+      if (isLeft(i) && isSpike(i)) {
+        cut(i);
+      }
     }
-    return triangles;
+    while (left_ >= 3) {
+      cut(findEar());
+    }
+    return std::move(triangles_);
   }
 
  private:
-  // Progress of a vertex's search for others inside the triangle of it and its neighbours. Vertices found outside stay
-  // outside until a neighbour changes, so repeated searches test each other vertex once.
+  // Progress of a vertex's search for others that stand in the triangle of it and its neighbours. Vertices found
+  // outside stay outside until a neighbour changes, so repeated searches test each other vertex once.
   struct Search {
     int before = -1;
     int after = -1;
     int next = -1;  // vertex to test; `before` when all are outside
   };
+
+  static constexpr int taken = -1;
+
+  bool isLeft(int vertex) const { return before_[vertex] != taken; }
+
+  // Makes a triangle of the vertex and its neighbours, and then of the spikes that this leaves.
+  void cut(int vertex) {
+    do {
+      const int a = before_[vertex];
+      const int c = after_[vertex];
+      triangles_.push_back({a, vertex, c});
+      before_[vertex] = taken;
+      after_[a] = c;
+      before_[c] = a;
+      first_ = vertex == first_ ? c : first_;
+      --left_;
+      vertex = isSpike(a) ? a : c;
+    } while (left_ >= 3 && isSpike(vertex));
+  }
 
   // Positive when a, b, c turn left seen against the polygon's normal.
   double turn(int a, int b, int c) const {
@@ -89,46 +112,70 @@ class EarClipper {
   // Twice the area, times the length of the normal, of a sliver with this longest edge.
   double sliverTurn(double squaredEdge) const { return leastQuality_ * squaredEdge * normalLength_; }
 
+  // Says whether the outline goes straight back at the vertex, as far as rounding allows, or stays where it is.
+  bool isSpike(int vertex) const {
+    const glm::dvec3& a = points_[before_[vertex]];
+    const glm::dvec3& b = points_[vertex];
+    const glm::dvec3& c = points_[after_[vertex]];
+    return b == c || (glm::dot(b - a, c - b) < 0.0 && std::abs(turn(before_[vertex], vertex, after_[vertex])) <=
+                                                          leastGoodQuality * longestSquared(a, b, c) * normalLength_);
+  }
+
+  // Says whether the outline that touches the ear's corner `at`, which lies between `from` and `to`, enters the ear.
+  bool enters(int p, int from, int at, int to) const {
+    const auto isBetween = [&](int q) {
+      const glm::dvec3 edge = points_[q] - points_[p];
+      const auto isLeftOf = [&](const glm::dvec3& u, const glm::dvec3& v) {
+        return glm::dot(normal_, glm::cross(u, v)) > sliverTurn(std::max(glm::length2(u), glm::length2(v)));
+      };
+      return isLeftOf(points_[to] - points_[at], edge) && isLeftOf(edge, points_[from] - points_[at]);
+    };
+    return isBetween(before_[p]) || isBetween(after_[p]);
+  }
+
   bool inside(int p, int a, int b, int c) const {
-    if (points_[p] == points_[a] || points_[p] == points_[b] || points_[p] == points_[c]) {
-      return false;
+    if (points_[p] == points_[a]) {
+      return enters(p, c, a, b);
+    }
+    if (points_[p] == points_[b]) {
+      return enters(p, a, b, c);
+    }
+    if (points_[p] == points_[c]) {
+      return enters(p, b, c, a);
     }
     return turn(a, b, p) >= 0.0 && turn(b, c, p) >= 0.0 &&
            turn(c, a, p) >= -sliverTurn(glm::length2(points_[a] - points_[c]));
   }
 
-  bool isEar(size_t i) {
-    const size_t n = left_.size();
-    const int a = left_[(i + n - 1) % n];
-    const int b = left_[i];
-    const int c = left_[(i + 1) % n];
+  bool isEar(int b) {
+    const int a = before_[b];
+    const int c = after_[b];
     const double area = turn(a, b, c);
     if (area <= 0.0 || area < sliverTurn(longestSquared(points_[a], points_[b], points_[c]))) {
       return false;
     }
     Search& search = searches_[b];
     if (search.before != a || search.after != c) {
-      search = {a, c, follower(c)};
+      search = {a, c, after_[c]};
     }
-    while (search.next != a && !(isLeft_[search.next] && inside(search.next, a, b, c))) {
-      search.next = follower(search.next);
+    while (search.next != a && !(isLeft(search.next) && inside(search.next, a, b, c))) {
+      search.next = after_[search.next];
     }
     return search.next == a;
   }
 
-  int follower(int vertex) const { return vertex + 1 == static_cast<int>(points_.size()) ? 0 : vertex + 1; }
-
   // Starts at the second vertex, which makes fans of convex polygons. If there is no ear, takes slivers from then on,
   // and if there is none of these, the second vertex.
-  size_t findEar() {
-    for (size_t k = 0; k < left_.size(); ++k) {
-      const size_t i = (k + 1) % left_.size();
-      if (isEar(i)) {
-        return i;
+  int findEar() {
+    int vertex = first_;
+    for (int k = 0; k < left_; ++k) {
+      vertex = after_[vertex];
+      if (isEar(vertex)) {
+        return vertex;
       }
     }
     if (leastQuality_ == 0.0) {
-      return 1;
+      return after_[first_];
     }
     leastQuality_ = 0.0;
     searches_.assign(searches_.size(), {});
@@ -139,9 +186,12 @@ class EarClipper {
   glm::dvec3 normal_;
   double normalLength_ = 0.0;
   double leastQuality_ = leastGoodQuality;
-  std::vector<int> left_;
-  std::vector<bool> isLeft_;
+  int left_ = 0;             // vertices that are left, as a ring
+  int first_ = 0;            // the lowest of them
+  std::vector<int> before_;  // `taken` for a vertex that is not left
+  std::vector<int> after_;
   std::vector<Search> searches_;
+  std::vector<std::array<int, 3>> triangles_;
 };
 
 // Returns the quality of the worse triangle; negative if their diagonal leaves the quad, which need not be convex.

@@ -74,11 +74,12 @@ std::vector<glm::dvec3> flattened(std::span<const glm::dvec3> polygon, const glm
 // Returns the part of a convex polygon with dot(normal, v - point) >= 0, by Sutherland-Hodgman (1974).
 Polygon clipPolygon(std::span<const glm::dvec3> polygon, const Plane& keep);
 
-// Splits a simple polygon, convex or not, into polygon.size() - 2 triangles of its vertices, wound like the polygon, by
-// ear clipping (Meisters 1975). Convex polygons become fans about their first vertex. A quad is cut along its shorter
-// diagonal inside, on a tie that from the second to the fourth vertex, as tinyobjloader does. A polygon without area or
-// crossing itself still gives that many triangles; some of them are then degenerate or overlap. Takes time in the
-// square of the number of vertices, but see isFan().
+// Splits a polygon, convex or not, into polygon.size() - 2 triangles of its vertices, wound like the polygon, by ear
+// clipping (Meisters 1975). Its outline may touch itself, repeat vertices and run back along its own edges. Convex
+// polygons become fans about their first vertex. A quad is cut along its shorter diagonal inside, on a tie that from
+// the second to the fourth vertex, as tinyobjloader does. A polygon without area or crossing itself still gives that
+// many triangles; some of them are then degenerate or overlap. Takes time in the square of the number of vertices, but
+// see isFan().
 std::vector<std::array<int, 3>> triangulate(std::span<const glm::dvec3> polygon);
 
 // Says whether the triangles between the first vertex and each edge cover the polygon once, as in a convex one. Then
