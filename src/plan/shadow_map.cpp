@@ -309,7 +309,10 @@ PlannedCubes shadowMaps(const Scene& scene, const SceneState& state, const Setti
   const RecycledVector<int> lights = shadowLights(scene);
   PlannedCubes maps;
   for (const int light : lights) {
-    const glm::dvec3& center = state.lights[static_cast<size_t>(light)].position;
+    // The same point as for rays. From a light in a mirror's plane, rounding would leave gaps in the mirror along the
+    // edges of faces, through which light leaks.
+    const glm::dvec3 center =
+        besideMirrors(state.lights[static_cast<size_t>(light)].position, state.mirrors, state.camera.eye);
     const Cube& map = maps.cubes.emplace_back(
         Cube{.kind = PassKind::shadow,
              .light = light,

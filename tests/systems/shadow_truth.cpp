@@ -345,15 +345,35 @@ std::filesystem::path lightInFace(Random& random, unsigned seed) {
   return writeScene("light_in_face_" + std::to_string(seed), out.str());
 }
 
-// Against the tracer, whose lights are in the face as well.
-TEST(HybridShadows, LightsAreNotHiddenByFacesTheyLieIn) {
-  writeQuad();
-  std::vector<unsigned> seeds = sampledSeeds(200, 20);
-  seeds.insert(seeds.end(), {22, 133});  // far from the origin; its face is nearer than the light's rounding
+// A light that lies on a turned mirror, or in the mirror's plane beside it, over a floor and up to 1e7 m from the
+// origin.
+std::filesystem::path lightInMirror(Random& random, unsigned seed) {
+  const glm::dvec3 origin = std::pow(10.0, random.uniform(1, 7)) * random.direction();
+  const glm::dvec3 angles = random.chance(0.3) ? glm::dvec3(0.0) : random.inBox(180.0);
+  const glm::dvec3 position = origin + random.inBox(0.5);
+  const double beside = random.chance(0.5) ? 1.0 : 3.0;
+  const glm::dvec3 local(beside * random.uniform(-0.6, 0.6), beside * random.uniform(-0.45, 0.45), 0.0);
+  const glm::dvec3 light = position + rotationFromDegrees(angles) * local;
+  std::ostringstream out;
+  out << "[environment]\nambient = [0.1, 0.1, 0.1]\n"
+      << cameraText(origin + 3.5 * glm::normalize(random.direction() + glm::dvec3(0, 1.2, 0)), origin)
+      << "[[object]]\nmodel = \"MODELS/block.obj\"\nposition = " << text(origin - glm::dvec3(0, 1.5, 0))
+      << "\nscale = [8, 0.2, 8]\n"
+      << "[[mirror]]\n"
+      << rectangleText(position, angles, 1.5, 1.1)
+      << "casts_light = false\ntwo_sided = " << (random.chance(0.4) ? "true\n" : "false\n")
+      << objectText("MODELS/sphere.obj", origin + random.inBox(1.2), {0, 0, 0}, 0.2, {0.7, 0.7, 0.7})
+      << "[[light]]\nposition = " << text(light) << "\nintensity = 30\nglow = 0\ncasts_shadow = true\n";
+  return writeScene("light_in_mirror_" + std::to_string(seed), out.str());
+}
+
+// Against the tracer, whose lights are in the surface as well.
+template <typename MakeScene>
+void expectTracedShadows(const std::vector<unsigned>& seeds, const MakeScene& scene) {
   for (const unsigned seed : seeds) {
     SCOPED_TRACE(seed);
     Random random(seed);
-    const std::filesystem::path file = lightInFace(random, seed);
+    const std::filesystem::path file = scene(random, seed);
     const Image8 expected = trace(file, size, 0).picture;
     Options options = truthOptions(file, size, 0);
     set(options, {{"effects.shadow_map_size", "512"}});
@@ -368,6 +388,17 @@ TEST(HybridShadows, LightsAreNotHiddenByFacesTheyLieIn) {
     counts.flip();
     EXPECT_LE(difference(mapped, expected, 8, counts).over, 12) << "map";
   }
+}
+
+TEST(HybridShadows, LightsAreNotHiddenByFacesTheyLieIn) {
+  writeQuad();
+  std::vector<unsigned> seeds = sampledSeeds(200, 20);
+  seeds.insert(seeds.end(), {22, 133});  // far from the origin; its face is nearer than the light's rounding
+  expectTracedShadows(seeds, lightInFace);
+}
+
+TEST(HybridShadows, LightsInTheirMirrorsShineToOneSideOnly) {
+  expectTracedShadows(sampledSeeds(200, 20), lightInMirror);
 }
 
 // Where a map decides, a surface is shaded once a pixel. Shadows that cross a pixel between its corners are missed, and
