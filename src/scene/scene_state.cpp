@@ -192,7 +192,7 @@ void setLayers(std::vector<Placed>& plane, const glm::dvec3& towardsEye) {
   // The deepest mirror among those before that overlap the next one decides its layer. Where many overlap, it is among
   // the deepest of all; elsewhere the hierarchy finds it.
   constexpr size_t few = 64;
-  std::vector<const Placed*> deepest;  // of those before; the deepest first
+  std::vector<const Placed*> deepest;  // of those before that lie on others; the deepest first
   for (uint32_t i = 0; i < plane.size(); ++i) {
     const Placed& placed = plane[i];
     const auto covering = std::ranges::find_if(deepest, [&](const Placed* other) { return overlap(*other, placed); });
@@ -206,10 +206,12 @@ void setLayers(std::vector<Placed>& plane, const glm::dvec3& towardsEye) {
                         }
                       });
     }
-    const auto shallower =
-        std::ranges::partition_point(deepest, [&](const Placed* other) { return layer(*other) > layer(placed); });
-    deepest.insert(shallower, &placed);
-    deepest.resize(std::min(deepest.size(), few));
+    if (layer(placed) > 0) {
+      const auto shallower =
+          std::ranges::partition_point(deepest, [&](const Placed* other) { return layer(*other) > layer(placed); });
+      deepest.insert(shallower, &placed);
+      deepest.resize(std::min(deepest.size(), few));
+    }
   }
 }
 

@@ -1,6 +1,7 @@
 #include "systems/scene_targets.hpp"
 
 #include <algorithm>
+#include <climits>
 
 #include "plan/target_memory.hpp"
 #include "scene/scene.hpp"
@@ -23,59 +24,52 @@ uint32_t roundedUp(uint32_t size) {
 
 uint64_t ImagePool::bytes() const {
   uint64_t sum = 0;
-  for (const Entry& entry : entries_) {
-    sum += entry.target->bytes();
-  }
+  std::ranges::for_each(free_, [&](const auto& entry) { sum += entry.second.target->bytes(); });
+  std::ranges::for_each(taken_, [&](const auto& entry) { sum += entry.second.target->bytes(); });
   return sum;
 }
 
 OffScreen& ImagePool::acquire(VkExtent2D extent, RetireQueue& retired) {
-  Entry* best = nullptr;
   const VkExtent2D rounded{roundedUp(extent.width), roundedUp(extent.height)};
-  for (Entry& entry : entries_) {
-    const VkExtent2D has = entry.target->extent();
-    if (!entry.taken && has.width >= extent.width && has.height >= extent.height &&
-        areaOf(has) <= wasteAllowed * areaOf(rounded) && (!best || areaOf(has) < areaOf(best->target->extent()))) {
-      best = &entry;
-    }
+  const auto end = free_.upper_bound({wasteAllowed * areaOf(rounded), INT_MAX});
+  const auto found = std::find_if(free_.lower_bound({areaOf(extent), 0}), end, [&](const auto& entry) {
+    const VkExtent2D has = entry.second.target->extent();
+    return has.width >= extent.width && has.height >= extent.height;
+  });
+  if (found != end) {
+    OffScreen& target = *found->second.target;
+    taken_[&target] = std::move(found->second);
+    free_.erase(found);
+    return target;
   }
-  if (!best) {
-    best = &entries_.emplace_back();
-    const OffScreenDesc desc{.name = name_ + " " + std::to_string(made_++),
-                             .extent = rounded,
-                             .multisampledOutput = true,
-                             .shared = &depth_};
-    best->target = std::make_unique<OffScreen>(device_, desc, retired);
-  }
-  best->taken = true;
-  best->idleFrames = 0;
-  return *best->target;
-}
-
-std::vector<ImagePool::Entry>::iterator ImagePool::entryOf(const OffScreen& target) {
-  return std::ranges::find(entries_, &target, [](const Entry& entry) { return entry.target.get(); });
+  const OffScreenDesc desc{
+      .name = name_ + " " + std::to_string(made_), .extent = rounded, .multisampledOutput = true, .shared = &depth_};
+  auto made = std::make_unique<OffScreen>(device_, desc, retired);
+  OffScreen& target = *made;
+  taken_[&target] = {std::move(made), made_++};
+  return target;
 }
 
 void ImagePool::release(const OffScreen& target) {
-  if (const auto entry = entryOf(target); entry != entries_.end()) {
-    entry->taken = false;
+  if (const auto taken = taken_.find(&target); taken != taken_.end()) {
+    Entry& place = free_[{areaOf(target.extent()), taken->second.number}];
+    place = {std::move(taken->second.target), taken->second.number};
+    taken_.erase(taken);
   }
 }
 
 std::unique_ptr<OffScreen> ImagePool::remove(const OffScreen& target) {
-  const auto entry = entryOf(target);
-  std::unique_ptr<OffScreen> removed = std::move(entry->target);
-  entries_.erase(entry);
-  return removed;
+  return std::move(taken_.extract(&target).mapped().target);
 }
 
 void ImagePool::endFrame(RetireQueue& retired) {
-  for (Entry& entry : entries_) {
-    if (!entry.taken && ++entry.idleFrames > framesKept) {
-      retired.take(entry.target);
+  for (auto entry = free_.begin(); entry != free_.end();) {
+    const auto here = entry++;
+    if (++here->second.idleFrames > framesKept) {
+      retired.take(here->second.target);
+      free_.erase(here);
     }
   }
-  std::erase_if(entries_, [](const Entry& entry) { return !entry.target; });
 }
 
 static_assert(bytesOfTexel(colorFormat) == colorBytes && bytesOfTexel(depthFormat) == depthBytes);

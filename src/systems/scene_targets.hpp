@@ -1,9 +1,11 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <span>
 #include <string>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -45,22 +47,22 @@ class ImagePool {
     return reused;
   }
   void endFrame(RetireQueue& retired);
-  bool empty() const { return entries_.empty(); }
+  bool empty() const { return free_.empty() && taken_.empty(); }
   uint64_t bytes() const;  // of all targets, without the shared depth
 
  private:
   struct Entry {
     std::unique_ptr<OffScreen> target;
-    bool taken = false;
+    int number = 0;  // of targets made before it
     int idleFrames = 0;
   };
-
-  std::vector<Entry>::iterator entryOf(const OffScreen& target);
+  using Order = std::pair<uint64_t, int>;  // area and number: the smallest target is taken first
 
   Device& device_;
   SharedDepth& depth_;
   std::string name_;
-  std::vector<Entry> entries_;
+  std::map<Order, Entry> free_;
+  std::unordered_map<const OffScreen*, Entry> taken_;
   int made_ = 0;
 };
 
