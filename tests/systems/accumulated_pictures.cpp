@@ -315,12 +315,13 @@ struct RefinedScene {
   // Steps. A rough mirror is noisy, and scenes with detail everywhere have an error above 0.5 steps in nearly all tiles
   // after 32 pictures, measured against the mean of 256.
   const char* limit = "0.5";
+  int pictures = 33;  // of the whole mean, in full tests
 };
 
 class RefinedMeans : public testing::TestWithParam<RefinedScene> {};
 
 TEST_P(RefinedMeans, AreWholeMeansUpToWhereTheyStopped) {
-  const int all = fullTests() ? 33 : 17;
+  const int all = fullTests() ? GetParam().pictures : 17;
   Options options = inTiles(GetParam().name);
   options.size = fullTests() ? options.size : PictureSize{90, 50};
   set(options, {{"view.accumulate", std::to_string(all)}});
@@ -387,6 +388,7 @@ std::vector<RefinedScene> refinedScenes() {
   if (fullTests()) {
     scenes.insert(scenes.end(), {{"gallery", {}, "2"},
                                  {"mirror_ball", {}, "2"},
+                                 {"gallery", {}, "0.5", 65},
                                  {"facing_mirrors", {{"reflection.scale", "2"}, {"reflection.max_depth", "6"}}},
                                  {"pool", {{"effects.ripple_lookup", "image"}}}});
   }
