@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <cstring>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -92,6 +93,21 @@ int levelsOf(std::string_view text) {
   return most;
 }
 
+// Turns whole numbers that are written as floats, such as 4.0, into integers. Where floats stand, both mean the same.
+json withIntegers(json value) {
+  constexpr double most = 9007199254740992.0;  // 2^53
+  if (value.is_structured()) {
+    for (json& part : value) {
+      part = withIntegers(std::move(part));
+    }
+  } else if (value.is_number_float()) {
+    const double number = value.get<double>();
+    value = !std::signbit(number) && number < most && number == std::floor(number) ? json(static_cast<uint64_t>(number))
+                                                                                   : std::move(value);
+  }
+  return value;
+}
+
 // Text that is not UTF-8 counts as Latin-1, with a defect if `defects` is given.
 json parsedJson(const fs::path& file, std::string_view text, ModelDefects* defects) {
   // tinygltf and the writer of JSON call themselves for each level. A callback of the parser could count them, but with
@@ -104,7 +120,7 @@ json parsedJson(const fs::path& file, std::string_view text, ModelDefects* defec
     throwInputError(file, 1, "json", "has more than 64 levels", validGltf);
   }
   try {
-    return json::parse(text.begin(), text.end());
+    return withIntegers(json::parse(text.begin(), text.end()));
   } catch (const json::parse_error& error) {
     if (const std::string whole = utf8(text); whole != text && trimmed(text).starts_with("{")) {
       if (defects != nullptr) {
@@ -174,7 +190,7 @@ std::string percentDecoded(std::string_view text) {
 }
 
 bool isDataUri(std::string_view uri) {
-  return uri.starts_with("data:");
+  return lowerCase(std::string(uri.substr(0, 5))) == "data:";
 }
 
 std::vector<uint8_t> dataOf(const std::string& uri) {
@@ -183,6 +199,8 @@ std::vector<uint8_t> dataOf(const std::string& uri) {
   std::string text = percentDecoded(std::string_view(uri).substr(comma + 1));
   if (lowerCase(uri.substr(0, comma)).ends_with(";base64")) {
     std::erase_if(text, [](char c) { return std::string_view(" \t\r\n").find(c) != std::string_view::npos; });
+    std::ranges::replace(text, '-', '+');  // the alphabet for URLs
+    std::ranges::replace(text, '_', '/');
     std::string type;
     tinygltf::DecodeDataURI(&data, type, "data:application/octet-stream;base64," + text, 0, false);
   } else {
@@ -191,14 +209,17 @@ std::vector<uint8_t> dataOf(const std::string& uri) {
   return data;
 }
 
-// Finds the file of a URI below the folder of the model. A path that leads out of it counts for its file name alone.
+// Finds the file of a URI below the folder of the model. A path that leads out of it counts for its file name alone. If
+// there is no such file, a query or fragment behind the name does not count.
 std::optional<fs::path> findFile(ModelFiles& search, const fs::path& model, const std::string& uri) {
   std::string name = percentDecoded(uri);
   std::ranges::replace(name, '\\', '/');
   const size_t first = std::min(name.find_first_not_of(" \t\n\v\f\r\"'"), name.size());  // the search may drop these
   const fs::path path = fs::path(name.substr(first)).lexically_normal();
   const bool leadsOut = path.is_absolute() || (!path.empty() && *path.begin() == "..");
-  return search.find(model, leadsOut ? path.filename().string() : name);
+  const std::optional<fs::path> found = search.find(model, leadsOut ? path.filename().string() : name);
+  const size_t query = uri.find_first_of("?#");
+  return found || query == std::string::npos ? found : findFile(search, model, uri.substr(0, query));
 }
 
 template <typename T>

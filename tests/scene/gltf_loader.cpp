@@ -1,5 +1,6 @@
 #include "scene/gltf_file.hpp"
 
+#include <bit>
 #include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/type_ptr.hpp>
@@ -283,8 +284,9 @@ TEST_F(GltfLoader, BuffersAreFoundLikeTexturesAndNeverOutside) {
   folder_.write("model/my data.bin", made.bytes + "and more");
   folder_.write("model/textures/Below.BIN", made.bytes);
   folder_.write("secret.bin", made.bytes);
-  for (const std::string uri : {"my%20data.bin", "my data.bin", "./x/../my%20data.bin", "C:\\\\work\\\\my data.bin",
-                                "../elsewhere/below.bin", "/home/me/textures/below.bin"}) {
+  for (const std::string uri :
+       {"my%20data.bin", "my data.bin", "./x/../my%20data.bin", "C:\\\\work\\\\my data.bin", "../elsewhere/below.bin",
+        "/home/me/textures/below.bin", "my%20data.bin?v=1", "my data.bin#a?b"}) {
     const Mesh mesh = load(made.text(uri), "model/m.gltf").mesh;
     EXPECT_EQ(mesh.indices.size(), 3u) << uri;
     ASSERT_EQ(mesh.namedFiles.size(), 1u) << uri;
@@ -294,9 +296,49 @@ TEST_F(GltfLoader, BuffersAreFoundLikeTexturesAndNeverOutside) {
   for (const std::string& uri :
        {std::string("../secret.bin"), (folder_ / "secret.bin").string(), std::string("%2e%2e/secret.bin"),
         std::string("x/../../secret.bin"), std::string("..\\\\secret.bin"), std::string(" ../secret.bin"),
+        std::string("../secret.bin?v=1"), std::string("x?/../../secret.bin"), std::string("my data.bin%3Fv=1"),
         "\"" + (folder_ / "secret.bin").string() + "\""}) {
     EXPECT_TRUE(contains(faultOf(made.text(uri), "model/m.gltf"), "buffers: there is no file '")) << uri;
   }
+}
+
+// Numbers whose bytes need the characters 62 and 63 of the alphabet.
+TEST_F(GltfLoader, Base64OfUrlsIsRead) {
+  const float number = std::bit_cast<float>(0x3fffbfffu);
+  const std::vector<float> numbers{0, 0, 0, number, number, 0, 0, number, 0};
+  MadeGltf made;
+  made.add("nodes", {{"mesh", made.addMesh({{"POSITION", made.addNumbers(numbers, "VEC3")}})}});
+  std::string base64 = MadeGltf::base64(made.bytes);
+  ASSERT_NE(base64.find_first_of("+"), std::string::npos);
+  ASSERT_NE(base64.find_first_of("/"), std::string::npos);
+  std::ranges::replace(base64, '+', '-');
+  std::ranges::replace(base64, '/', '_');
+  expectNear(cornersOf(load(made.text("data:;base64," + base64)).mesh),
+             {{0, 0, 0}, {number, number, 0}, {0, number, 0}});
+  EXPECT_EQ(warnings(), "");
+}
+
+// Some writers know no integers.
+TEST_F(GltfLoader, WholeFloatsAreIntegers) {
+  MadeGltf made;
+  made.add("nodes", {{"mesh", made.addTriangle()}});
+  made.add("scenes", {{"nodes", {0}}});
+  made.root["scene"] = 0;
+  json root = json::parse(made.text("whole.bin"));
+  folder_.write("whole.bin", made.bytes);
+  const std::function<void(json&)> toFloats = [&](json& value) {
+    if (value.is_structured()) {
+      std::ranges::for_each(value, toFloats);
+    } else if (value.is_number_integer()) {
+      value = value.get<double>();
+    }
+  };
+  toFloats(root);
+  ASSERT_TRUE(contains(root.dump(), "\"mesh\":0.0"));
+  expectNear(cornersOf(load(root.dump()).mesh), triangle);
+  EXPECT_EQ(warnings(), "");
+  root["nodes"][0]["mesh"] = 0.5;
+  EXPECT_TRUE(contains(faultOf(root.dump()), "nodes: mesh of 0 is wrong"));
 }
 
 TEST_F(GltfLoader, SeveralBuffersOfEveryKind) {
@@ -307,7 +349,7 @@ TEST_F(GltfLoader, SeveralBuffersOfEveryKind) {
   const std::string base64 = MadeGltf::base64(made.bytes);
   for (const std::string& uri :
        {std::string("whole.bin"), "data:application/gltf-buffer;base64," + base64, "data:;base64," + base64,
-        "data:;BASE64," + base64, "data:anything/at-all;charset=x;base64," + base64}) {
+        "data:;BASE64," + base64, "DATA:;base64," + base64, "data:anything/at-all;charset=x;base64," + base64}) {
     root["buffers"] = {{{"byteLength", 4}, {"uri", "data:,none"}}, {{"byteLength", made.bytes.size()}, {"uri", uri}}};
     root["bufferViews"][0]["buffer"] = 1;
     EXPECT_EQ(load(root.dump()).mesh.indices.size(), 3u) << uri;
