@@ -64,10 +64,7 @@ std::optional<fs::path> ModelFiles::find(const fs::path& namingFile, std::string
 }
 
 std::optional<fs::path> ModelFiles::findWhole(const fs::path& namingFile, std::string_view name) {
-  if (name.size() > 1 && (name.front() == '"' || name.front() == '\'') && name.back() == name.front()) {
-    name = name.substr(1, name.size() - 2);
-  }
-  std::string path(name);
+  std::string path(withoutQuotes(name));
   std::ranges::replace(path, '\\', '/');
   if (path.empty()) {
     return std::nullopt;

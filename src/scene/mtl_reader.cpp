@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <glm/gtx/component_wise.hpp>
 #include <limits>
 #include <sstream>
@@ -44,35 +45,102 @@ constexpr std::array mtlKeys{MtlKey{"Kd", MtlKey::color, surfaceColorRange, usua
                              MtlKey{"map_Ke", MtlKey::texture},
                              MtlKey{"map_d", MtlKey::texture}};
 
-// Returns the number of words after an option of a texture, at most 3 for -o, -s and -t; -1 if the word is no option.
-int wordsOf(std::string_view option) {
-  constexpr std::array<std::string_view, 10> one{"-blendu", "-blendv", "-cc",      "-clamp", "-boost",
-                                                 "-bm",     "-texres", "-imfchan", "-type",  "-colorspace"};
-  if (option == "-o" || option == "-s" || option == "-t") {
-    return 3;
-  }
-  return option == "-mm" ? 2 : std::ranges::find(one, option) != one.end() ? 1 : -1;
+bool isSwitch(std::string_view word) {
+  return word == "on" || word == "off";
 }
 
-// Reads the name, which may hold blanks, and those of the options before it that count: -s, -o and -clamp.
-std::pair<std::string_view, TextureOptions> namedTexture(const LineReader& line) {
+bool isNumber(std::string_view word) {
+  return parseNumber(word).has_value();
+}
+
+// Options of a texture. The words behind one, `most` at most, are its own as far as they have its form.
+struct TextureOption {
+  std::string_view names;  // between blanks
+  int most;
+  bool (*fits)(std::string_view word);  // in lower case
+};
+
+constexpr std::array textureOptions{
+    TextureOption{" -s -o -t ", 3, isNumber},
+    TextureOption{" -mm ", 2, isNumber},
+    TextureOption{" -bm -boost -texres ", 1, isNumber},
+    TextureOption{" -clamp -cc -blendu -blendv ", 1, isSwitch},
+    TextureOption{" -imfchan ", 1,
+                  [](std::string_view word) {
+                    return word.size() == 1 && std::string_view("rgbmlz").find(word) != std::string_view::npos;
+                  }},
+    TextureOption{" -type ", 1, [](std::string_view word) { return word == "sphere" || word.starts_with("cube_"); }},
+    TextureOption{" -colorspace ", 1,
+                  [](std::string_view word) { return word[0] != '-' && word.find('.') == std::string_view::npos; }}};
+
+const TextureOption* optionOf(std::string_view token) {
+  const std::string word = " " + lowerCase(std::string(token)) + " ";
+  const auto found = std::ranges::find_if(
+      textureOptions, [&](const TextureOption& option) { return option.names.find(word) != std::string_view::npos; });
+  return found == textureOptions.end() ? nullptr : &*found;
+}
+
+// Reads options from tokens[i] on, of which -s, -o and -clamp count. Returns the index of the token behind them.
+size_t readOptions(const std::vector<std::string_view>& tokens, size_t i, TextureOptions& options) {
   constexpr Range range{.low = -1e9, .high = 1e9};
-  const std::vector<std::string_view>& tokens = line.tokens();
-  TextureOptions options;
-  size_t i = 1;
-  while (i < tokens.size() && wordsOf(tokens[i]) >= 0) {
-    const std::string_view option = tokens[i];
-    const int most = wordsOf(tokens[i++]);
-    for (int word = 0; word < most && i < tokens.size() && (most < 3 || parseNumber(tokens[i])); ++word) {
-      const double value = parseNumber(tokens[i]).value_or(0.0);
-      if (word < 2 && range.contains(value) && (option == "-s" || option == "-o")) {
-        (option == "-s" ? options.scale : options.offset)[word] = value;
+  while (i < tokens.size()) {
+    const TextureOption* option = optionOf(tokens[i]);
+    if (option == nullptr) {
+      break;
+    }
+    const std::string name = lowerCase(std::string(tokens[i++]));
+    for (int word = 0; word < option->most && i < tokens.size(); ++word, ++i) {
+      const std::string text = lowerCase(std::string(tokens[i]));
+      if (!option->fits(text)) {
+        break;
       }
-      options.clamps = option == "-clamp" ? tokens[i] == "on" : options.clamps;
-      ++i;
+      const double value = parseNumber(text).value_or(0.0);
+      if (word < 2 && range.contains(value) && (name == "-s" || name == "-o")) {
+        (name == "-s" ? options.scale : options.offset)[word] = value;
+      }
+      options.clamps = name == "-clamp" ? text == "on" : options.clamps;
     }
   }
-  return {line.after(tokens[i - 1]), options};
+  return i;
+}
+
+struct NamedTexture {
+  std::string_view name;
+  TextureOptions options;
+  std::string_view unknown;  // an option before the name that is not known
+};
+
+// Reads the name, which may hold blanks, and the options before it. If there is no such file, takes a word with a dash
+// in front for an unknown option, and options behind the name for what they are, if that leaves the name of a file.
+NamedTexture namedTexture(const LineReader& line, const std::function<bool(std::string_view)>& isFile) {
+  constexpr size_t mostWords = 4;  // of an unknown option
+  const std::vector<std::string_view>& tokens = line.tokens();
+  NamedTexture usual;
+  const size_t first = readOptions(tokens, 1, usual.options);
+  usual.name = line.after(tokens[first - 1]);
+  const auto behind = std::find_if(tokens.begin() + static_cast<std::ptrdiff_t>(std::min(first + 1, tokens.size())),
+                                   tokens.end(), [](std::string_view token) { return optionOf(token) != nullptr; });
+  const bool dashed = first < tokens.size() && tokens[first].starts_with('-');
+  if ((!dashed && behind == tokens.end()) || isFile(usual.name)) {
+    return usual;
+  }
+  NamedTexture other = usual;
+  if (behind != tokens.end()) {
+    other.name = trimmed(usual.name.substr(0, behind->data() - usual.name.data()));
+    const size_t end = readOptions(tokens, static_cast<size_t>(behind - tokens.begin()), other.options);
+    if ((end == tokens.size() || tokens[end].starts_with('#')) && isFile(other.name)) {
+      return other;
+    }
+  }
+  for (size_t i = first + 1; dashed && i < tokens.size() && i <= first + mostWords; ++i) {
+    other = usual;
+    other.unknown = tokens[first];
+    other.name = line.after(tokens[readOptions(tokens, i, other.options) - 1]);
+    if (isFile(other.name)) {
+      return other;
+    }
+  }
+  return usual;
 }
 
 double numberOf(std::string_view token) {
@@ -139,7 +207,7 @@ class ObjMaterials::MtlReader {
     const bool isNumber = isOf(numbers);
     if (isNumber || isOf(textures)) {
       const bool isEmpty = isNumber ? line_.tokens().size() > 1 && numberOf(line_.tokens()[1]) == 0.0
-                                    : materials_.isComment(file_, namedTexture(line_).first);
+                                    : materials_.isComment(file_, textureOfLine().name);
       if (!isEmpty) {
         add(line_.keyword(), "is not read, the material is drawn without it");
       }
@@ -185,10 +253,21 @@ class ObjMaterials::MtlReader {
     return true;
   }
 
+  NamedTexture textureOfLine() {
+    return namedTexture(line_,
+                        [&](std::string_view name) { return materials_.modelFiles_.find(file_, name).has_value(); });
+  }
+
   bool readTexture(const MtlKey& key) {
-    const auto [name, options] = namedTexture(line_);
+    const auto [name, options, unknown] = textureOfLine();
     if (materials_.isComment(file_, name)) {
+      if (!withoutComment(line_.argument()).empty()) {
+        add(key.name, "has options but names no file, it is left out");
+      }
       return false;
+    }
+    if (!unknown.empty()) {
+      add(key.name, "'{}' is no known option, it is left out", unknown);
     }
     text_.append(key.name).append(" ").append(name).append("\n");
     if (key.name != "map_Ke") {
@@ -240,7 +319,8 @@ class ObjMaterials::MtlReader {
     material.clamps = entry_->textureOptions.clamps;
     entry_->diffuseTexture = from.diffuse_texname;
     entry_->emissionTexture = from.emissive_texname;
-    std::string& whole = materials_.bareNames_.try_emplace(std::string(withoutComment(name_)), name_).first->second;
+    std::string& whole =
+        materials_.bareNames_.try_emplace(std::string(withoutQuotes(withoutComment(name_))), name_).first->second;
     whole = whole == name_ ? name_ : "";
     materials_.entries_.try_emplace(name_, std::move(*entry_));
     entry_.reset();
@@ -265,7 +345,8 @@ void addFilesOfMtl(const fs::path& file, ModelFiles& search, std::set<fs::path>&
   const std::string text = readTextIfAny(file);
   for (LineReader line(text, LineReader::Continuation::none); line.next();) {
     if (lowerCase(std::string(line.keyword())).starts_with("map_")) {
-      if (const std::optional<fs::path> named = search.find(file, namedTexture(line).first)) {
+      const auto find = [&](std::string_view name) { return search.find(file, name); };
+      if (const auto named = find(namedTexture(line, [&](auto name) { return find(name).has_value(); }).name)) {
         files.insert(*named);
       }
     }

@@ -30,6 +30,12 @@ struct Contents {
   bool freeForm = false;  // curves and surfaces
 };
 
+// Returns the keyword in lower case; `fo` is an old one for `f`.
+std::string keywordOf(const LineReader& line) {
+  const std::string keyword = lowerCase(std::string(line.keyword()));
+  return keyword == "fo" ? "f" : keyword;
+}
+
 // Hands tinyobjloader one line at a time, so that the callbacks know which line they are called for. Lines are joined
 // after a backslash, which the library does not do, keywords are in lower case, and a line of nothing but its keyword
 // gets an argument, because the library would skip it, and with it the number of a vertex.
@@ -44,9 +50,7 @@ class LineStream : public std::streambuf {
     }
     onLine_();
     const std::vector<std::string_view>& tokens = line_.tokens();
-    text_.assign(tokens[0]);
-    std::ranges::transform(text_, text_.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    text_ += ' ';
+    text_ = keywordOf(line_) + ' ';
     if (tokens.size() > 1) {
       text_.append(tokens[1].data(), tokens.back().data() + tokens.back().size());
     } else {
@@ -142,7 +146,7 @@ class ObjReader {
     if (contents_.firstFace != 0) {
       return;
     }
-    const std::string keyword = lowerCase(std::string(line_.keyword()));
+    const std::string keyword = keywordOf(line_);
     contents_.firstFace = keyword == "f" ? line_.number() : 0;
     contents_.linesOrPoints = contents_.linesOrPoints || keyword == "l" || keyword == "p";
     contents_.freeForm = contents_.freeForm || keyword == "curv" || keyword == "curv2" || keyword == "surf";

@@ -141,9 +141,10 @@ PartMaterial ObjMaterials::material(int index, bool colored, std::vector<Texture
   return {material, entry.textureOptions.scale, entry.textureOptions.offset};
 }
 
-// Finds a material by a whole name, or by the name before a comment in either line. Returns the name that is common.
+// Finds a material by a whole name, or by the name before a comment and within quotes in either line. Returns the name
+// that is common.
 std::pair<std::string, const ObjMaterials::Entry*> ObjMaterials::entryOf(const std::string& name) const {
-  const std::string bare(withoutComment(name));
+  const std::string bare(withoutQuotes(withoutComment(name)));
   for (const std::string& known : {name, bare}) {
     if (const auto entry = entries_.find(known); entry != entries_.end()) {
       return {known, &entry->second};

@@ -35,6 +35,11 @@ std::string_view withoutComment(std::string_view name) {
   return trimmed(name);
 }
 
+std::string_view withoutQuotes(std::string_view text) {
+  const bool quoted = text.size() > 1 && (text.front() == '"' || text.front() == '\'') && text.back() == text.front();
+  return quoted ? text.substr(1, text.size() - 2) : text;
+}
+
 std::optional<double> parseNumber(std::string_view token) {
   if (token.starts_with('+')) {
     token.remove_prefix(1);

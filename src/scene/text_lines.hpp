@@ -14,6 +14,9 @@ std::string_view trimmed(std::string_view text);
 // may be part of the name as well, so the whole name comes first wherever names are looked up.
 std::string_view withoutComment(std::string_view name);
 
+// Returns a text without the quotes around it.
+std::string_view withoutQuotes(std::string_view text);
+
 // Reads the whole of `token` as a number. Infinite and NaN values, written or from overflow, are numbers. Returns
 // nothing for any other text.
 std::optional<double> parseNumber(std::string_view token);

@@ -671,6 +671,11 @@ TEST_F(ObjLoader, CornersThatDifferAreSlivers) {
   EXPECT_EQ(defectsOf(4e-6, 2.0), 1u);
 }
 
+TEST_F(ObjLoader, FacesByTheirOldKeywordAreRead) {
+  EXPECT_EQ(load(squareText + "fo 1 2 3\nFO 1 3 4\n").indices.size(), 6u);
+  EXPECT_TRUE(contains(faultOf(std::string("v 0 0 0\nfo 1 1 1\n")), "m.obj:2: f: has no area"));
+}
+
 // Floats hold the place in a texture whichever of its repetitions is named.
 TEST_F(ObjLoader, TextureCoordinatesKeepTheirFraction) {
   for (const double far : {0.0, 20.0, 1e4, -1e6, 1e9, -1e12, 1e300}) {

@@ -294,6 +294,83 @@ TEST_F(MtlFile, TextureOptionsAreNotItsName) {
   EXPECT_EQ(textures_.size(), 1u);
 }
 
+// Every option with each of its words, too few of them, and none, in any case, before the names of files.
+TEST_F(MtlFile, TextureOptionsLeaveTheNameAlone) {
+  const std::vector<std::pair<std::string, std::vector<std::string>>> options{{"-s", {"2", "2 3", "2 3 4"}},
+                                                                              {"-o", {"0.5", "0.5 1", "0 0 0"}},
+                                                                              {"-t", {"0", "0 0 0"}},
+                                                                              {"-mm", {"0", "0 1"}},
+                                                                              {"-bm", {"0.5"}},
+                                                                              {"-boost", {"3"}},
+                                                                              {"-texres", {"512"}},
+                                                                              {"-clamp", {"on", "off", "ON"}},
+                                                                              {"-cc", {"on", "Off"}},
+                                                                              {"-blendu", {"on"}},
+                                                                              {"-blendv", {"off"}},
+                                                                              {"-imfchan", {"l", "R"}},
+                                                                              {"-type", {"sphere", "cube_top"}},
+                                                                              {"-colorspace", {"sRGB", "linear"}}};
+  for (const std::string name : {"check.png", "a wall.png", "-o.png"}) {
+    writePng(folder_ / name, Image8(1, 1));
+    for (const auto& [option, words] : options) {
+      std::vector<std::string> all = words;
+      all.emplace_back();
+      for (const std::string& word : all) {
+        if (option == "-colorspace" && word.empty() && name[0] == 'a') {
+          continue;  // its first word may be a color space
+        }
+        std::string upper = option;
+        std::ranges::transform(upper, upper.begin(), [](unsigned char c) { return std::toupper(c); });
+        for (const std::string& written : {option, upper}) {
+          const std::string before = written + " " + word + " ";
+          const std::string more = " " + written + " " + word;
+          for (const std::string& line : {before + name, before + "-bm 1 " + name, name + more}) {
+            textures_.clear();
+            materialOf("newmtl m\nmap_Kd " + line + "\n");
+            ASSERT_EQ(textures_.size(), 1u) << line;
+            EXPECT_EQ(textures_[0].source.filename(), name) << line;
+            ASSERT_EQ(warnings(), "") << line;
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST_F(MtlFile, TextureOptionsCountInAnyCaseAndPlace) {
+  writePng(folder_ / "t.png", Image8(1, 1));
+  const std::string obj = squareText + "vt 1 2\nvt 3 0\nvt 0 0\nusemtl m\nf 1/1 2/2 3/3\n";
+  for (const std::string line : {"-S 2 2 -Clamp ON t.png", "t.png -s 2 2 -clamp on", "t.png -clamp On -s 2 2 2 # big",
+                                 "-clamp on t.png -s 2", "-blenu on -s 2 -clamp on t.png"}) {
+    const Mesh mesh = load(obj, "newmtl m\nmap_Kd " + line + "\n");
+    EXPECT_EQ(mesh.vertices[mesh.indices[1]].uv.x, 6.0) << line;
+    EXPECT_TRUE(mesh.parts.at(0).material.clamps) << line;
+  }
+  EXPECT_EQ(warnings(), "warning: m.mtl:2: map_Kd: '-blenu' is no known option, it is left out\n");
+  std::set<std::filesystem::path> files;
+  folder_.write("m.mtl", "newmtl m\nmap_Kd -blenu on t.png\n");
+  addFilesOfObj(folder_.write("m.obj", "mtllib m.mtl\n"), files);
+  EXPECT_TRUE(files.contains(folder_ / "t.png"));
+}
+
+TEST_F(MtlFile, TextureOptionsWithoutANameAreADefect) {
+  for (const std::string line : {"-bm 1", "-s 1 1 1", "-clamp # on"}) {
+    const Mesh mesh = load(squareText + "usemtl m\nf 1 2 3\n", "newmtl m\nmap_Kd " + line + "\n");
+    ASSERT_EQ(mesh.defects.size(), 1u) << line;
+    EXPECT_EQ(withoutFolder(mesh.defects[0]), "m.mtl:2: map_Kd: has options but names no file, it is left out") << line;
+  }
+}
+
+TEST_F(MtlFile, MaterialNamesMayBeInQuotes) {
+  for (const std::string used : {"a b", "\"a b\"", "'a b' # c"}) {
+    for (const std::string named : {"a b", "\"a b\""}) {
+      const Mesh mesh = load(squareText + "usemtl " + used + "\nf 1 2 3\n", "newmtl " + named + "\nKd 0 1 0\n");
+      EXPECT_EQ(mesh.parts.at(0).material.diffuse, glm::dvec3(0, 1, 0)) << used << ", " << named;
+    }
+  }
+  EXPECT_EQ(warnings(), "");
+}
+
 TEST_F(MtlFile, UnreadableTexturesAreLeftOut) {
   folder_.write("text.png", "no picture");
   folder_.write("photo.webp", "RIFF....WEBPVP8 ");
