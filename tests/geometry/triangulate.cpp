@@ -314,7 +314,7 @@ TEST(Triangulate, OutlinesThatTouchThemselvesAreTiled) {
       for (size_t first = 0; first < polygon.size() && !::testing::Test::HasFailure(); ++first) {
         SCOPED_TRACE(testing::Message() << "kind " << static_cast<int>(kind) << ", member " << member << ", first "
                                         << first);
-        std::ranges::rotate(polygon, polygon.begin() + 1);
+        std::rotate(polygon.begin(), polygon.begin() + 1, polygon.end());
         expectTiles(polygon, 1e-5);
       }
     }
