@@ -94,16 +94,18 @@ int levelsOf(std::string_view text) {
 }
 
 // Turns whole numbers that are written as floats, such as 4.0, into integers. Where floats stand, both mean the same.
+// Numbers beyond an int stay as they are: tinygltf would cut off those of extensions.
 json withIntegers(json value) {
-  constexpr double most = 9007199254740992.0;  // 2^53
+  constexpr double most = std::numeric_limits<int>::max();
   if (value.is_structured()) {
     for (json& part : value) {
       part = withIntegers(std::move(part));
     }
   } else if (value.is_number_float()) {
     const double number = value.get<double>();
-    value = !std::signbit(number) && number < most && number == std::floor(number) ? json(static_cast<uint64_t>(number))
-                                                                                   : std::move(value);
+    value = !std::signbit(number) && number <= most && number == std::floor(number)
+                ? json(static_cast<uint64_t>(number))
+                : std::move(value);
   }
   return value;
 }

@@ -341,6 +341,17 @@ TEST_F(GltfLoader, WholeFloatsAreIntegers) {
   EXPECT_TRUE(contains(faultOf(root.dump()), "nodes: mesh of 0 is wrong"));
 }
 
+TEST_F(GltfLoader, LargeNumbersOfExtensionsAreRead) {
+  for (const double strength : {2147483647.0, 2147483648.0, 5e9}) {
+    MadeGltf made;
+    made.add("nodes",
+             {{"mesh", made.addMesh({{"POSITION", made.addNumbers(triangleNumbers, "VEC3")}}, {{"material", 0}})}});
+    made.add("materials", {{"emissiveFactor", {1, 1, 1}},
+                           {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", strength}}}}}});
+    EXPECT_EQ(meshOf(made).parts.at(0).material.emission, glm::dvec3(strength));
+  }
+}
+
 TEST_F(GltfLoader, SeveralBuffersOfEveryKind) {
   MadeGltf made;
   made.add("nodes", {{"mesh", made.addTriangle()}});
