@@ -128,7 +128,7 @@ NamedTexture namedTexture(const LineReader& line, const std::function<bool(std::
   if (behind != tokens.end()) {
     other.name = trimmed(usual.name.substr(0, behind->data() - usual.name.data()));
     const size_t end = readOptions(tokens, static_cast<size_t>(behind - tokens.begin()), other.options);
-    if ((end == tokens.size() || tokens[end].starts_with('#')) && isFile(other.name)) {
+    if (end == tokens.size() && isFile(other.name)) {
       return other;
     }
   }
