@@ -74,12 +74,14 @@ void savePanelChoices(const PanelChoices& choices) {
 PanelWindows::PanelWindows()
     : state_{.choices = savedPanelChoices()}, savedChoices_(state_.choices), pendingPercent_(state_.choices.percent) {}
 
-// Opens no tooltip over the widget where a drag of the picture ended, until the pointer moves or a button is pressed.
-// After a key, ImGui opens none either. Escape counts as a key that moves the focus: else a submenu that it closes
-// would open again, because the pointer rests on its entry.
+// Opens no tooltip over the widget where a drag of the picture ended or that lies below a closed menu, until the
+// pointer moves or a button is pressed. After a key, ImGui opens none either. Escape counts as a key that moves the
+// focus: else a submenu that it closes would open again, because the pointer rests on its entry.
 void PanelWindows::ignoreRestingPointer() {
   const ImGuiIO& io = ImGui::GetIO();
-  if (imgui::isPressed(ImGuiKey_Escape)) {
+  const bool open = !ImGui::GetCurrentContext()->OpenPopupStack.empty();
+  const bool closed = std::exchange(popupOpen_, open) && !open;
+  if (closed || imgui::isPressed(ImGuiKey_Escape)) {
     imgui::focusIsHovered() = true;
   }
   for (int button = 0; button < ImGuiMouseButton_COUNT; ++button) {

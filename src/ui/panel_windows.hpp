@@ -34,7 +34,7 @@ class PanelWindows {
   bool closeHelp() { return visible_ && std::exchange(state_.help, false); }
 
  private:
-  static void ignoreRestingPointer();
+  void ignoreRestingPointer();
   void goToMenusByAlt();
   void forgetLostWidget();
   void mainPanel(PanelContext& ui);
@@ -54,6 +54,7 @@ class PanelWindows {
   bool visible_ = true;
   bool foldedMain_ = false;  // the inspector folded the main panel when it opened
   bool altDown_ = false;     // in the last frame
+  bool popupOpen_ = false;   // in the last frame
   bool alt_ = false;         // the same, without text, button or other modifier since Alt was pressed
   bool focused_ = true;      // the window has the keyboard's focus
   unsigned lost_ = 0;        // identifier of the focused widget if the last frame did not draw it

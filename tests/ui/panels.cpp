@@ -1375,6 +1375,25 @@ TEST_F(PanelTest, TooltipsAreThePointersOnly) {
   EXPECT_FALSE(tooltip()) << "it would cover the next rows";
 }
 
+TEST_F(PanelTest, TooltipsStayClosedWhereAMenuWas) {
+  click("menu.View");
+  hover("menu.Reset camera", 0.2);
+  const ImVec2 pointer = ImGui::GetIO().MousePos;
+  const auto covers = [&](const PixelRect& rect) {
+    return rect.contains(static_cast<int>(pointer.x), static_cast<int>(pointer.y));
+  };
+  moveTo(pointer.x, pointer.y);
+  press();
+  EXPECT_TRUE(sent<ResetCamera>());
+  run(30);
+  EXPECT_FALSE(tooltip());
+  bool below = false;  // a widget with a tooltip is there
+  for (const auto& [name, rect] : windows_->state().widgets) {
+    below = below || covers(rect);
+  }
+  EXPECT_TRUE(below);
+}
+
 TEST_F(PanelTest, TooltipsSayWhatWasMeasuredHere) {
   resize(900, 800);
   hover("reflection.scale", 0.3);
