@@ -95,19 +95,16 @@ int levelsOf(std::string_view text) {
 
 // Turns whole numbers that are written as floats, such as 4.0, into integers. Where floats stand, both mean the same.
 // Numbers beyond an int stay as they are: tinygltf would cut off those of extensions.
-json withIntegers(json value) {
+void makeIntegers(json& value) {
   constexpr double most = std::numeric_limits<int>::max();
   if (value.is_structured()) {
-    for (json& part : value) {
-      part = withIntegers(std::move(part));
-    }
+    std::ranges::for_each(value, makeIntegers);
   } else if (value.is_number_float()) {
     const double number = value.get<double>();
-    value = !std::signbit(number) && number <= most && number == std::floor(number)
-                ? json(static_cast<uint64_t>(number))
-                : std::move(value);
+    if (!std::signbit(number) && number <= most && number == std::floor(number)) {
+      value = static_cast<uint64_t>(number);
+    }
   }
-  return value;
 }
 
 // Text that is not UTF-8 counts as Latin-1, with a defect if `defects` is given.
@@ -122,7 +119,9 @@ json parsedJson(const fs::path& file, std::string_view text, ModelDefects* defec
     throwInputError(file, 1, "json", "has more than 64 levels", validGltf);
   }
   try {
-    return withIntegers(json::parse(text.begin(), text.end()));
+    json parsed = json::parse(text.begin(), text.end());
+    makeIntegers(parsed);
+    return parsed;
   } catch (const json::parse_error& error) {
     if (const std::string whole = utf8(text); whole != text && trimmed(text).starts_with("{")) {
       if (defects != nullptr) {
