@@ -204,10 +204,10 @@ class ObjMaterials::MtlReader {
     constexpr std::array<std::string_view, 8> withoutPart{"ka",  "map_ka", "ni",        "tf",
                                                           "pcr", "anisor", "sharpness", "map_aat"};
     const auto isOf = [&](const auto& keys) { return std::ranges::find(keys, key) != keys.end(); };
-    const bool isNumber = isOf(numbers);
-    if (isNumber || isOf(textures)) {
-      const bool isEmpty = isNumber ? line_.tokens().size() > 1 && numberOf(line_.tokens()[1]) == 0.0
-                                    : materials_.isComment(file_, textureOfLine().name);
+    const bool isOfNumbers = isOf(numbers);
+    if (isOfNumbers || isOf(textures)) {
+      const bool isEmpty = isOfNumbers ? line_.tokens().size() > 1 && numberOf(line_.tokens()[1]) == 0.0
+                                       : materials_.isComment(file_, textureOfLine().name);
       if (!isEmpty) {
         add(line_.keyword(), "is not read, the material is drawn without it");
       }
